@@ -18,7 +18,7 @@
 #     make lint             the rules of the source, and the tools that check C and shell
 #     make fuzz             each fuzz target for FUZZ_SECONDS
 #     make mutants          whether the tests notice COUNT faults, drawn by SEED, planted in MODULE
-#     make bench            the timed comparisons of bench/cases.txt; bench-smoke, -long, -native
+#     make bench            the timed comparisons of bench/cases.txt; bench-page, -tolerances, ...
 #     make gallery          the pictures of the README and of docs/
 #     make references       the parts of docs/ that the program prints; CHOOSING=1: and its study's tables
 #     make docs             build/site: docs/ and the reference of the public headers as web pages
@@ -136,18 +136,19 @@ $(BUILD)/cli/run/manifest.o: ALL += -DCLI_FLAGS='"$(strip $(EXACT) $(CFLAGS))"'
 $(PROGRAM): $(CLI_OBJ) $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) -o $@
 
-# Studies on the processes of a cluster, by Open MPI: everything of the program but its main.
+# Studies and ensembles on the processes of a cluster, by Open MPI: everything of the program but its main.
 MPI_PROGRAM = $(BUILD)/dalembert-mpi
+MPI_OBJ     = $(patsubst %.c,$(BUILD)/%.o,$(wildcard cli/mpi/*.c))
 MPICC      ?= mpicc
 MPI_CFLAGS  = $(patsubst -I%,-isystem%,$(shell $(MPICC) --showme:compile))
 mpi: $(MPI_PROGRAM)
-$(BUILD)/cli/mpi/dalembert_mpi.o: ALL += $(MPI_CFLAGS)
-$(MPI_PROGRAM): $(BUILD)/cli/mpi/dalembert_mpi.o $(filter-out %/commands/main.o,$(CLI_OBJ)) $(STATIC)
+$(MPI_OBJ): ALL += $(MPI_CFLAGS)
+$(MPI_PROGRAM): $(MPI_OBJ) $(filter-out %/commands/main.o,$(CLI_OBJ)) $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) \
 	    $(shell $(MPICC) --showme:link) -o $@
 
 # The program knows the library by its public headers alone.
-$(CLI_OBJ) $(BUILD)/cli/mpi/dalembert_mpi.o: PLACE = -Icli
+$(CLI_OBJ) $(MPI_OBJ): PLACE = -Icli
 
 # ---- generated texts -------------------------------------------------------------------------
 
@@ -245,7 +246,7 @@ $(BUILD)/locale:
 RUN_SUITE = LOCPATH=$(BUILD)/locale
 
 HAS_MPI = $(shell command -v $(MPICC) >/dev/null && echo $(MPI_PROGRAM))
-check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/tests/read_json $(BUILD)/locale
+check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/tests/read_json $(BUILD)/bench/page $(BUILD)/locale
 	@sh tests/cli/run.sh $(PROGRAM)
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
 	@sh tests/browser/run.sh $(PROGRAM)
@@ -255,7 +256,7 @@ check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/tests/read_json $(BUILD)/loc
 check-python: all
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/python.sh "$(MAKE)" $(BUILD)
 
-check-browser: all
+check-browser: all $(BUILD)/bench/page
 	@sh tests/browser/run.sh $(PROGRAM)
 
 CHECKED = -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all
@@ -353,4 +354,4 @@ FORCE:
 .PHONY: all help check check-bits check-browser check-dist check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers gallery references lint mutants install uninstall clean FORCE mpi
 .SECONDARY:
 
--include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(BUILD)/cli/mpi/dalembert_mpi.d $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)
+-include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

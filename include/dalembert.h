@@ -67,16 +67,17 @@ enum {
 
 /* What an integrator needs of the system or, a modifier, of the method inside. */
 enum {
-    DAL_NEEDS_FIELD = 1 << 0,      /* F, on the lifted space with its adjoint */
-    DAL_NEEDS_CONSTRAINT = 1 << 1, /* D, A, W^-1 A^T */
-    DAL_NEEDS_SYMMETRIC = 1 << 2,  /* a symmetric method inside */
-    DAL_NEEDS_ORDER_2 = 1 << 3,    /* a method of order 2 inside */
-    DAL_NEEDS_BLOCKS = 1 << 4,     /* D, A, R, a, c; acts on p = pi = 0 only */
-    DAL_NEEDS_POTENTIAL = 1 << 5,  /* U, and a constant W */
-    DAL_NEEDS_ISOKINETIC = 1 << 6, /* DAL_D_ISOKINETIC */
-    DAL_NEEDS_ENERGY = 1 << 7,     /* an energy that is conserved, and its gradient */
-    DAL_NEEDS_JACOBIAN = 1 << 8,   /* F_q and F_v, on the lifted space */
-    DAL_NEEDS_RUNGE_KUTTA = 1 << 9 /* an explicit method that calls dal_field alone */
+    DAL_NEEDS_FIELD = 1 << 0,       /* F, on the lifted space with its adjoint */
+    DAL_NEEDS_CONSTRAINT = 1 << 1,  /* D, A, W^-1 A^T */
+    DAL_NEEDS_SYMMETRIC = 1 << 2,   /* a symmetric method inside */
+    DAL_NEEDS_ORDER_2 = 1 << 3,     /* a method of order 2 inside */
+    DAL_NEEDS_BLOCKS = 1 << 4,      /* D, A, R, a, c; acts on p = pi = 0 only */
+    DAL_NEEDS_POTENTIAL = 1 << 5,   /* U, and a constant W */
+    DAL_NEEDS_ISOKINETIC = 1 << 6,  /* DAL_D_ISOKINETIC */
+    DAL_NEEDS_ENERGY = 1 << 7,      /* an energy that is conserved, and its gradient */
+    DAL_NEEDS_JACOBIAN = 1 << 8,    /* F_q and F_v, on the lifted space */
+    DAL_NEEDS_RUNGE_KUTTA = 1 << 9, /* an explicit method that calls dal_field alone */
+    DAL_NEEDS_SERIES = 1 << 10      /* Taylor coefficients of F, of a model with smooth formulas */
 };
 
 struct dal_step;
@@ -130,7 +131,7 @@ typedef enum dal_space {
 } dal_space;
 /* How implicit equations are solved. */
 typedef enum dal_solver {
-    DAL_SOLVER_AUTO, /* fixed point; Newton where that fails and there is a jacobian */
+    DAL_SOLVER_AUTO, /* fixed point; Newton where it costs less and there is a jacobian */
     DAL_FIXED_POINT, /* fixed-point iteration */
     DAL_NEWTON       /* simplified Newton iteration */
 } dal_solver;
@@ -164,7 +165,7 @@ typedef int dal_choice;
     OPTION(dal_choice, consistent, "consistent", 0, 0, 1, "off|on",                                \
            "moves the velocities of the start to D = 0, by the least change in the mass metric")   \
     OPTION(double, tolerance, "tolerance", 0, 0.0, 1.0, "TOLERANCE",                               \
-           "estimated error, absolute and relative, of the substeps of dop853; 0: no substeps")    \
+           "estimated error, absolute and relative, of substeps, dop853 and taylor; 0: none")      \
     OPTION(double, solver_tolerance, "solver-tolerance", 0, 0.0, 1.0, "CHANGE",                    \
            "relative change at which an implicit equation counts as solved; 0: rounding level")    \
     OPTION(int, extra_iterations, "extra-iterations", 0, 0, 1000, "N",                             \
@@ -309,13 +310,15 @@ typedef struct dal_observer {
 
 /* Advances the run to time T and samples rows first_row..samples, T0 = start_time, at t = T0 +
  * row*(T - T0)/samples, the last at T exactly.  The trajectory consists of steps h, which must lead
- * to T; a row between two is an intermediate step.  After an interruption between rows pass the
- * first row not sampled.  observer may be NULL.
+ * to T; dal_run_intermediate gives a row between two of them.  After an interruption between rows
+ * pass the first row not sampled.  observer may be NULL.
  * Errors: those of a step; DAL_ARGUMENT; what a callback returns. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 /* Takes a step of size h from the present state, calls observe there, and restores the run to the
- * bit.  observe must not move the run.  Errors: those of a step, the run being unchanged;
+ * bit.  Under a tolerance, and with h less than the step of the run, the state is one within the
+ * next step: that of the polynomial of the substep that contains it, if the method has dense
+ * output.  observe must not move the run.  Errors: those of a step, the run being unchanged;
  * DAL_ARGUMENT; what observe returns. */
 dal_status dal_run_intermediate(dal_run *run, double h,
                                 dal_status (*observe)(void *user, dal_run *run), void *user,
@@ -350,10 +353,14 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
 /* Frees a batch. */
 void dal_batch_free(dal_batch *batch);
 /* Sets parameters[parameter_count] and start[start_count] of one lane, which replace those of the
- * spec, at its start.  Errors: those of dal_run_init; DAL_ARGUMENT (lane, or after a step). */
+ * spec, at its start.  Errors: those of dal_run_init; DAL_ARGUMENT (lane, or after a step, unless
+ * dal_batch_clear was called). */
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
                            dal_error *error);
+/* Takes all lanes out of the batch, which keeps its memory and its compiled steps: only lanes that
+ * dal_batch_start starts again, from the start_time, are then stepped. */
+dal_status dal_batch_clear(dal_batch *batch);
 /* dal_run_set_parameter for one lane.  Errors: also DAL_ARGUMENT (lane), the status of a lane that
  * has failed. */
 dal_status dal_batch_set_parameter(dal_batch *batch, int lane, const char *name, double value,
@@ -371,6 +378,90 @@ double dal_batch_time(const dal_batch *batch, int lane);
 void dal_batch_state(const dal_batch *batch, int lane, double *state);
 /* Copies the states of all lanes, one after the other, to states[count*dimension]. */
 void dal_batch_states(const dal_batch *batch, double *states);
+
+/* ---- ensembles ----------------------------------------------------------------------------- */
+
+/* Distributions: DISTRIBUTION(code, word).  uniform(low, high); normal(mean, standard deviation);
+ * lognormal: exp of a normal one of that mean and deviation. */
+#define DAL_DISTRIBUTION_LIST(DISTRIBUTION)                                                        \
+    DISTRIBUTION(UNIFORM, "uniform")                                                               \
+    DISTRIBUTION(NORMAL, "normal")                                                                 \
+    DISTRIBUTION(LOGNORMAL, "lognormal")
+
+/* A distribution of two numbers. */
+typedef enum dal_distribution {
+#define DISTRIBUTION_CODE(code, word) DAL_##code,
+    DAL_DISTRIBUTION_LIST(DISTRIBUTION_CODE)
+#undef DISTRIBUTION_CODE
+} dal_distribution;
+
+enum { DAL_VARIATION_NAME = 64 /* bytes of the name of a variation */ };
+
+/* What is added to a number of the start, x, x', e, p_x, .., or to a parameter of each member of an
+ * ensemble. */
+typedef struct dal_variation {
+    char name[DAL_VARIATION_NAME]; /* of what it is added to */
+    dal_distribution distribution; /* of the numbers that are drawn */
+    double first, second;          /* the two numbers of the distribution */
+} dal_variation;
+
+/* Parses "x'=normal(0,0.1)".  Errors: DAL_SYNTAX, DAL_NAME (of a distribution, with the nearest),
+ * DAL_ARGUMENT (low not below high, a negative deviation), DAL_TOO_LARGE. */
+dal_status dal_variation_parse(dal_variation *variation, const char *text, dal_error *error);
+/* What a member, from 0, draws: a function of distribution, name, seed and member alone; see
+ * lib/run/ensemble.c. */
+double dal_variation_draw(const dal_variation *variation, unsigned long long seed,
+                          unsigned long long member);
+/* 64 random bits of a name and a seed, from which the draws are made. */
+unsigned long long dal_random_key(const char *name, unsigned long long seed);
+
+/* Members of an ensemble, any number of which are stepped by one batch, one chunk after the other:
+ *
+ *     for (first = 0; first < members; first += lanes) {
+ *         dal_ensemble_start(ensemble, first, lanes);
+ *         dal_batch_advance(dal_ensemble_batch(ensemble), steps);
+ *         dal_ensemble_states(ensemble, states);
+ *     } */
+typedef struct dal_ensemble dal_ensemble;
+/* Makes an ensemble of a spec, whose numbers vary by variations[count], with a batch of that number
+ * of lanes.  [alloc]  Errors: those of dal_batch_create; DAL_NAME (nothing has that name, with the
+ * nearest), DAL_ARGUMENT (a name twice, or as dal_variation_parse). */
+dal_status dal_ensemble_create(dal_ensemble **ensemble, const dal_run_spec *spec,
+                               const dal_variation *variations, int count, unsigned long long seed,
+                               int lanes, dal_error *error);
+/* Frees an ensemble and its batch. */
+void dal_ensemble_free(dal_ensemble *ensemble);
+/* Starts members first, .., first + count - 1 in the first lanes.  With the option consistent their
+ * velocities are moved to D = 0.  A lane without a start is not stepped; dal_batch_status has the
+ * reason.  Errors: DAL_ARGUMENT (count). */
+dal_status dal_ensemble_start(dal_ensemble *ensemble, unsigned long long first, int count);
+/* The batch of an ensemble, to be stepped and compiled. */
+dal_batch *dal_ensemble_batch(dal_ensemble *ensemble);
+/* What the members in the lanes have drawn, draws[started*variations], one member after the
+ * other. */
+void dal_ensemble_draws(const dal_ensemble *ensemble, double *draws);
+/* Their present states, states[started*dimension]; NaN of those that have failed. */
+void dal_ensemble_states(const dal_ensemble *ensemble, double *states);
+
+/* The values of one quantity in the members of an ensemble. */
+typedef struct dal_spread {
+    long long count;        /* how many there are */
+    double mean, deviation; /* the mean; the standard deviation, of count - 1 degrees of freedom */
+    double min, max;        /* the extreme values */
+} dal_spread;
+
+/* The spread of values[count], finite ones; NaN where too few are there. */
+void dal_measure_spread(const double *values, long long count, dal_spread *spread);
+/* Quantiles of values[count], which are reordered: quantile[i] for p[i] in 0..1, i < quantiles.
+ * Between two values it is linear (Hyndman, Fan 1996, type 7, DOI 10.1080/00031305.1996.10473566).
+ * NaN without values. */
+void dal_measure_quantiles(double *values, long long count, const double *p, int quantiles,
+                           double *quantile);
+/* Adds (x_i - mean_i) (x_j - mean_j) of each row x[columns] of rows[count*columns] to
+ * sums[columns*columns], which begin with 0; rows with a number that is not finite are left
+ * out.  Returns how many were added. */
+long long dal_add_products(int columns, const double *mean, const double *rows, long long count,
+                           double *sums);
 
 #ifdef __cplusplus
 }

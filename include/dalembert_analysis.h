@@ -189,8 +189,9 @@ const dal_system *dal_evaluator_system(const dal_evaluator *evaluator);
 dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
                               const double *q, const double *v, const double *pi, double *out);
 /* The start: out[2n + multipliers + 1] = q, v, g, e, with x, x', g1 and e replaced by
- * start[start_count].  It need not satisfy the constraints.  Errors: DAL_NAME, those of the system.
- */
+ * start[start_count], and then the velocities that it solves by those from D = 0 at t = 0.  It need
+ * not satisfy the other constraints.  Errors: DAL_NAME, those of the system; of velocities that are
+ * solved DAL_RANK, DAL_INCONSISTENT. */
 dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
                                double *out, dal_error *error);
 
@@ -380,7 +381,12 @@ dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double
  * at every moment, and so for the rates of lines of least squares: these shares add up to 1.
  * Coefficients of a method stay doubles in quad precision; their part does not fall with the step
  * as truncation does.  The effect of projection is that of leaving it out, or of adding it; it is
- * no part of the sum. */
+ * no part of the sum.
+ *
+ * A change along the exact motion is no error.  That motion is computed by taylor with a tolerance
+ * of 1e-16, where the equations have a Taylor series; else what quad precision leaves counts as the
+ * motion if it does not fall with the step.  Under a tolerance, half the step is the tolerance
+ * divided by 2^p, p being the order of the method. */
 
 /* Comparison runs: RUN(code, word, text).  Those in quad precision cover the first quad_steps
  * steps, the others all. */
@@ -390,6 +396,7 @@ dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double
     RUN(TIGHTER, "tighter", "equations solved further, by two iterations")                         \
     RUN(SUMS, "sums", "plain sums, or compensated ones")                                           \
     RUN(PROJECTION, "projection", "with +project, or without")                                     \
+    RUN(EXACT, "exact-motion", "the exact motion, by taylor")                                      \
     RUN(QUAD, "quad", "quad precision, solved further")                                            \
     RUN(QUAD_HALVED, "quad-half-step", "quad precision, solved further, half the step")
 
@@ -434,7 +441,7 @@ typedef struct dal_shares {
                           or else by max deviations */
     int whole_by_rate; /* the same for the whole run */
     int vanishes_in_quad;      /* quad precision leaves nothing of the drift */
-    int is_motion;             /* what it leaves does not fall with the step: the motion itself */
+    int is_motion;             /* the exact motion changes it, at least half as much */
     int solver_is_significant; /* whether the solver's part is well above rounding */
     double order; /* log2 of what halving the step divides the drift by: in quad precision, or
                      without it along the whole run; NaN: nothing to divide */
@@ -575,10 +582,10 @@ typedef struct dal_crossings {
 } dal_crossings;
 
 /* Advances the run to time T, a whole number of its steps, and reports every crossing.  Where g
- * changes sign within a step, a shorter step of the same method from the beginning of that step
- * ends on g = 0 to rounding (compare Henon 1982, DOI 10.1016/0167-2789(82)90034-3); the
- * trajectory itself does not change.  A pair of crossings within one step is found where g has an
- * extremum between them.  A start with g = 0 is no crossing. [alloc]
+ * changes sign within a step, dal_run_intermediate from the beginning of that step finds the state
+ * with g = 0, to rounding (compare Henon 1982, DOI 10.1016/0167-2789(82)90034-3); the trajectory
+ * itself does not change.  A pair of crossings within one step is found where g has an extremum
+ * between them.  A start with g = 0 is no crossing. [alloc]
  * Errors: those of the steps and of the callback; DAL_ARGUMENT. */
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error);

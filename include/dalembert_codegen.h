@@ -18,7 +18,7 @@ extern "C" {
  * from the library.  Parameters and start of the spec are the defaults of the file; solver and
  * iterations are fixed in it, the step size is not.  prefix begins every public name (NULL:
  * SYSTEM_METHOD). [alloc]  Errors: as dal_run_create, DAL_ARGUMENT (lanes, prefix),
- * DAL_UNSUPPORTED, DAL_TOO_LARGE (for straight-line code). */
+ * DAL_UNSUPPORTED, DAL_TOO_LARGE (Newton's matrices). */
 dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
                         dal_error *error);
 
@@ -46,8 +46,7 @@ dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_e
 int dal_run_is_native(const dal_run *run);
 
 /* Compiles the observables for dal_observer.values: many states at a time, with the same bits.
- * Independent of dal_run_native.  [alloc]  Errors: as there; DAL_TOO_LARGE where straight-line code
- * would be too long. */
+ * Independent of dal_run_native.  [alloc]  Errors: as there. */
 dal_status dal_run_native_observables(dal_run *run, const dal_native_options *options,
                                       dal_error *error);
 

@@ -17,15 +17,19 @@
  *     num.h               num dal_mask dal_num dal_all dal_select dal_any dal_less dal_equal
  *                         dal_max dal_min dal_abs dal_sqrt dal_fma dal_max_norm
  *     elementary.h        dal_sin dal_cos
- *     step.h              dal_step dal_failed dal_field dal_force dal_eval dal_add dal_update
- *                         dal_add_multiple dal_update_multiple dal_inner dal_clear_momenta
+ *     step.h              dal_step dal_failed dal_field dal_force dal_eval
+ *                         dal_add dal_add_multiple dal_update dal_update_multiple
+ *                         dal_update_lanes dal_inner dal_clear_momenta
  *     algebra.h           dal_multiply dal_gram dal_invert
+ *     eigensystem.h       dal_eigensystem
  *     solve.h             dal_block DAL_BLOCK dal_equation dal_iteration_map dal_matrix dal_solve
  *     symplectic_euler.h  dal_polarisation dal_symplectic_euler
  *     tableau.h           dal_tableau
  *     collocation.h       dal_collocation
  *     composition.h       dal_composition dal_substeps
- *     adaptive.h          dal_trial dal_attempt dal_control
+ *     adaptive.h          dal_control dal_control_begin dal_control_next dal_control_end
+ *                         dal_control_status dal_dense dal_dense_rate dal_field_at
+ *     taylor.h            dal_taylor_order dal_expand_order dal_evaluate_polynomial
  *     blocks.h            dal_eval_blocks
  *     constrained.h       dal_positional dal_velocity_equation dal_enforce
  *     spark.h             dal_spark dal_spark_advance
@@ -39,9 +43,11 @@
 #include "../lib/kernel/adaptive.h"
 #include "../lib/kernel/algebra.h"
 #include "../lib/kernel/blocks.h"
+#include "../lib/kernel/choice.h"
 #include "../lib/kernel/collocation.h"
 #include "../lib/kernel/composition.h"
 #include "../lib/kernel/constrained.h"
+#include "../lib/kernel/eigensystem.h"
 #include "../lib/kernel/elementary.h"
 #include "../lib/kernel/num.h"
 #include "../lib/kernel/parts.h"
@@ -50,6 +56,7 @@
 #include "../lib/kernel/step.h"
 #include "../lib/kernel/symplectic_euler.h"
 #include "../lib/kernel/tableau.h"
+#include "../lib/kernel/taylor.h"
 #include "dalembert.h"
 
 #ifndef DAL_VARIANT_NAME

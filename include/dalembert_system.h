@@ -71,17 +71,18 @@ typedef struct dal_system dal_system;
  * rest of its system->workspace doubles are the system's own (filled by prepare) and scratch.
  * Functions with a memory of their own, as those of a dal_evaluator, read t, q and v alone. */
 typedef struct dal_point {
-    double t;         /* time */
-    const double *q;  /* [n] coordinates */
-    const double *v;  /* [n] velocities, then [multipliers] vakonomic multipliers g */
-    const double *pi; /* [n] momenta of the velocities; adjoint only */
-    double *work;     /* [workspace] */
+    double t;            /* time */
+    const double *q;     /* [n] coordinates */
+    const double *v;     /* [n] velocities, then [multipliers] vakonomic multipliers g */
+    const double *pi;    /* [n] momenta of the velocities, of adjoint; of projection, velocities */
+    double *work;        /* [workspace] */
+    const double *times; /* [lanes] the times in a wide set, where they differ; else NULL */
 } dal_point;
 
 /* A formula of a system: a pure function of *at (work beyond the parameters is scratch) that writes
  * out; the member that points to it says what.  In the wide sets each array is interleaved,
- * x[component*lanes + lane], and aligned to its lanes; t is common.  A callback that fails returns
- * a status, or leaves NaN in the lanes that failed. */
+ * x[component*lanes + lane], and aligned to its lanes; t is common unless there are times.  A
+ * callback that fails returns a status, or leaves NaN in the lanes that failed. */
 typedef dal_status dal_callback(const dal_system *system, const dal_point *at, double *out);
 
 /* The callbacks of a step: code, member, what each reads of its point, the numbers of its output,
@@ -108,6 +109,24 @@ typedef struct dal_callbacks {
 #undef MEMBER
 } dal_callbacks;
 
+/* Taylor coefficients of F along a motion, for integrators with DAL_NEEDS_SERIES; made by a model.
+ * From coefficient k of
+ *     in[1 + 2n + multipliers]       t, q, v, g; on the lifted space then pi[n]
+ * and the lower ones in memory[size[lifted]*stride], k < stride, follows coefficient k of
+ *     out[n + multipliers]           F, dg/dt
+ *     out[3n + 1]                    F, F_q^T pi, F_v^T pi, mu_e, on the lifted space
+ * All arrays are interleaved by lanes as those of a callback; work is that of a dal_point. */
+typedef dal_status dal_series_callback(const dal_system *system, int lifted, int k, int stride,
+                                       const double *in, double *work, double *memory, double *out);
+/* Those callbacks of a system. */
+typedef struct dal_series {
+    const char *refused;        /* what in F has no Taylor series, "abs"; NULL: nothing */
+    size_t size[2];             /* series in memory, on the physical and on the lifted space */
+    dal_series_callback *call;  /* one lane */
+    dal_series_callback *wide4; /* of 4 lanes; may be NULL */
+    dal_series_callback *wide8; /* of 8 lanes; may be NULL */
+} dal_series;
+
 /* What is known of the constraints and of the energy; set by a model, or by hand. */
 enum {
     DAL_D_LINEAR = 1 << 0,       /* every D linear or affine in v */
@@ -122,7 +141,8 @@ enum {
     DAL_VAKONOMIC = 1 << 9,      /* vakonomic equations, with multipliers g */
     DAL_SERVO = 1 << 10,         /* reactions along directions B of their own, not along A^T */
     DAL_BLOCKS_POSITIONAL = 1 << 11, /* every D linear, W^-1 b and A without v */
-    DAL_D_ISOKINETIC = 1 << 12       /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
+    DAL_D_ISOKINETIC = 1 << 12,      /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
+    DAL_WIDE_TIMES = 1 << 13         /* the wide sets read dal_point.times, or no time at all */
 };
 
 /* ---- events -------------------------------------------------------------------------------- */
@@ -141,6 +161,12 @@ typedef struct dal_event {
     unsigned actions; /* DAL_EVENT_SETS | ... */
 } dal_event;
 
+/* A velocity that a start solves from D = 0, and where a file names it, for messages. */
+typedef struct dal_solved {
+    int velocity;     /* its number, from 0 */
+    int line, column; /* from 1, or 0 */
+} dal_solved;
+
 /* A second-order system with constraints, as a plain struct: filled by a model or by hand with
  * designated initialisers; what is not named may stay zero. */
 struct dal_system {
@@ -150,6 +176,7 @@ struct dal_system {
     int m;                         /* constraints */
     int multipliers;               /* first-order variables beside v (vakonomic g); 0 or m */
     int parameters, invariants, guards, tags, tables; /* how many there are */
+    int observed; /* of the invariants, the last: formulas that dal_model_observe has added */
     unsigned properties;           /* DAL_D_LINEAR | ...: what is known of D and E */
     const char *const *coordinate; /* [n] names; NULL: q1, q2, ... */
     const char *const *parameter;  /* [parameters] names */
@@ -166,24 +193,32 @@ struct dal_system {
     const dal_callbacks *wide4, *wide8; /* of 4 and of 8 lanes, interleaved; may be NULL */
     dal_callback *prepare; /* completes work after a change of parameters; out unused */
     dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at the start; NULL: 0, e = 1 */
+    int solved_velocities; /* how many a start solves from D = 0, the other velocities being
+                                kept; `start` has first guesses.  Needs call.constraint */
+    const dal_solved *solved;       /* [solved_velocities] */
     dal_callback *constraints;      /* out[m]: D alone; NULL: D is not observed */
     dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants]; NULL: no invariants */
     dal_callback *reactions;        /* out[m + m*n]: h, B of the force B^T h in F; NULL: unknown */
-    dal_callback *exact;         /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
-    int events;                  /* how many there are, in the order in which they act */
-    const dal_event *event;      /* [events] */
-    dal_callback *event_values;  /* out[events]: when; this and the next three need events */
-    dal_callback *event_rates;   /* out[events]: d(when)/dt along the motion */
-    dal_callback *event_states;  /* out[2n*events]: q, v as each sets them; NULL: none does */
+    dal_callback *projection;   /* out[m + 2*m*n]: D, A, W(q,u)^-1 A^T, u being at->pi; NULL: W does
+                                 not depend on v, call.constraint gives the same */
+    dal_callback *exact;        /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
+    int events;                 /* how many there are, in the order in which they act */
+    const dal_event *event;     /* [events] */
+    dal_callback *event_values; /* out[events]: when; this and the next three need events */
+    dal_callback *event_rates;  /* out[events]: d(when)/dt along the motion */
+    dal_callback *event_states; /* out[2n*events]: q, v as each sets them; NULL: none does */
     dal_callback *event_normals; /* out[(1 + 2n)*events]: restitution, when_q, W^-1 when_q */
     dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
                                number of the constraint (from 1), DAL_SINGULAR_MASS, DAL_NOT_FINITE
                                with that of a table read outside its points, or DAL_OK */
     const dal_system *extended; /* F continued off D = 0 so that E is exact, for extend-energy */
     const dal_system *quad;     /* work in quad precision, for precision; these two may be NULL */
-    const struct dal_picture *picture; /* how it is drawn; NULL: not at all */
-    void *data;                        /* of the owner, for callbacks */
+    const dal_series *series;   /* Taylor coefficients of F; NULL: none */
+    const struct dal_picture *picture;         /* how it is drawn; NULL: not at all */
+    void *data;                                /* of the owner, for callbacks */
+    int field_operations, jacobian_operations; /* arithmetic operations of these callbacks, which
+                                                  the solver auto weighs; 0: unknown */
 };
 
 /* ---- pictures ------------------------------------------------------------------------------ */
@@ -244,7 +279,7 @@ typedef struct dal_model dal_model;
     SECTION(REACTIONS, "reactions")   /* constraint.coordinate, as 2.x: formula; see below */      \
     SECTION(MECHANICS, "mechanics")   /* lagrange-d'alembert (default) or vakonomic */             \
     SECTION(GAUGE, "gauge")           /* e or mu_e, formula in t and parameters */                 \
-    SECTION(START, "start")           /* name, formula */                                          \
+    SECTION(START, "start")           /* name, formula; solve.x' and any text: x' from D = 0 */    \
     SECTION(INVARIANTS, "invariants") /* name, formula */                                          \
     SECTION(EVENTS, "events")         /* event.key, as 1.when, 1.set.x': formula or word */        \
     SECTION(EXACT, "exact")           /* coordinate, formula in t and parameters */                \
@@ -271,6 +306,13 @@ void dal_model_free(dal_model *model);
  * line and column (from 1 or 0) are its place. [alloc]  Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL. */
 dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
                          int line, int column, dal_error *error);
+/* Adds a formula that runs observe, after all other entries: it may contain what an invariant may,
+ * is the last of the system's invariants, has its own text as name and need not be conserved.  No
+ * other equation changes.  [alloc]  Errors: DAL_NAME (a name alone, which as a formula is written
+ * (x)), DAL_SYNTAX (no text, line breaks, quotes, blanks at an end), DAL_TOO_LARGE (more than 100
+ * characters), DAL_MODEL (given twice). */
+dal_status dal_model_observe(dal_model *model, const char *formula, int line, int column,
+                             dal_error *error);
 /* Between two points a table is a straight line, or the natural cubic spline: smooth up to its
  * second derivative, which is 0 at both ends. */
 typedef enum dal_interpolation { DAL_LINEAR, DAL_CUBIC } dal_interpolation;

@@ -5,7 +5,7 @@
  * Dormand, Prince; Hairer, Norsett, Wanner, Solving ODEs I (1993), II.5, II.10.  Digits as in
  * Hairer's dop853.f and Williams' dop853 (BSD).  Order 8, explicit, twelve evaluations; preserves D
  * with constant coefficients, no other.  With a tolerance the sizes of substeps follow the two
- * estimates of the error in dop853.f. */
+ * estimates of the error in dop853.f; below FINE_853 only the rounding of F is left. */
 #include <dalembert_kernel.h>
 
 /* clang-format off */
@@ -45,9 +45,39 @@ static const double a853[] = {5.26001519587677318785587544488e-2,
     2.79488845294199600508499808837e+1, -2.85899827713502369474065508674,
     -8.87285693353062954433549289258, 1.23605671757943030647266201528e+1,
     6.43392746015763530355970484046e-1};
+/* The digits of a and b behind the doubles above. */
+static const double a853_low[] = {2.2355514829149388e-18, -8.9639166988370505e-19,
+    -2.6891750096511152e-18, -1.3445875048255075e-18, 0.0, 2.9051313894306059e-18,
+    -6.6241522039166237e-18, 0.0, 7.0162460965731243e-18, 1.0537371249772312e-17,
+    2.0559685641206232e-18, 0.0, 0.0, 8.1758839498647832e-18, 8.2718645631002021e-18, 0.0, 0.0, 0.0,
+    -8.1395100623673049e-18, 1.2006161584603762e-18, 0.0, 3.4253328451425882e-18, 0.0, 0.0,
+    1.2967148331612122e-17, 4.7723852093991612e-18, 2.8475137341766893e-19, -3.6605551308348141e-19,
+    2.4926899156305619e-17, 0.0, 0.0, 1.5456576283941173e-16, -3.7185825878657269e-17,
+    -1.2881343059163701e-15, -4.8006427756016935e-16, 1.9413089553812176e-15,
+    2.5724262912655348e-17, 0.0, 0.0, 7.6163776605513614e-17, -2.1870450269554425e-17,
+    1.1824507909843185e-15, 1.6175344620758999e-16, 3.9439004961642045e-16, 7.6610554757644648e-19,
+    -2.6601638178283549e-17, 0.0, 0.0, -8.9425755404092932e-17, 7.2072955853961408e-17,
+    6.7126068494857363e-16, -7.7984639844695159e-16, -8.7961322180750331e-16,
+    5.2481978128364214e-17, 1.3907396197551354e-16, 1.7007512072370059e-16, 0.0, 0.0,
+    -7.4007338806086403e-16, -2.8231311099795352e-17, 3.8189608367611925e-16,
+    1.1856623515433554e-16, -1.7007630722635992e-16, -2.2457366408213776e-16,
+    -1.3158566470097505e-16, -4.2130919159141169e-17};
+static const double b853_low[] = {-2.5645259176078281e-18, 0.0, 0.0, 0.0, 0.0,
+    -2.7370927755819091e-16, 6.5811224992604841e-17, 1.3317442893008373e-16,
+    -1.0104455449341739e-17, 8.7766964518480750e-18, 6.1225721600276097e-18,
+    3.1043973515105385e-18};
 /* clang-format on */
 
 enum { STAGES_853 = 12 };
+
+/* Below this tolerance the rounding of coefficients and of y counts: stages begin from y + r, and
+ * coefficients have the digits of two doubles.  What is left then is the rounding of F. */
+#if DAL_WITH_CONTROL
+#define FINE_853       1e-14
+#define IS_FINE_853(s) (DAL_CONTROLLED(s) && DAL_TOLERANCE(s) < FINE_853)
+#else
+#define IS_FINE_853(s) 0
+#endif
 
 /* out += sum_(j < count) weight_j k_j */
 DAL_INLINE void add_derivatives(int dim, int count, const double *weight, const num *k,
@@ -59,23 +89,34 @@ DAL_INLINE void add_derivatives(int dim, int count, const double *weight, const 
     }
 }
 
-/* k_i of a step of size h, from the first on that is not known yet, and the sum of b_i k_i. */
-DAL_INLINE void derivatives(dal_step *s, double size, int first, num *k, num *sum)
+/* sum = sum_(j < count) weight_j k_j, the small parts of the weights first. */
+DAL_INLINE void combine(int dim, int count, const double *weight, const double *low, int is_fine,
+                        const num *k, num *DAL_RESTRICT sum)
 {
-    const int dim = DAL_DIM(s);
-    const num h = dal_num(size);
-    DAL_EACH(stage, STAGES_853) {
-        if (stage < first) continue;
-        DAL_EACH(i, dim) sum[i] = dal_num(0.0);
-        add_derivatives(dim, stage, a853 + stage * (stage - 1) / 2, k, sum);
-        DAL_EACH(i, dim) sum[i] = dal_fma(h, sum[i], s->y[i]);
-        dal_field(s, s->t + c853[stage] * size, sum, k + stage * dim);
-    }
     DAL_EACH(i, dim) sum[i] = dal_num(0.0);
-    add_derivatives(dim, STAGES_853, b853, k, sum);
+    if (is_fine) add_derivatives(dim, count, low, k, sum);
+    add_derivatives(dim, count, weight, k, sum);
 }
 
-#ifdef DAL_CONTROLLED
+/* k_i of a step from t, from the first on that is not known yet, and the sum of b_i k_i. */
+DAL_INLINE void derivatives(dal_step *s, dal_times t, dal_times size, int first, num *k, num *sum)
+{
+    const int dim = DAL_DIM(s), is_fine = IS_FINE_853(s);
+    const num h = size;
+    DAL_EACH(stage, STAGES_853) {
+        if (stage < first) continue;
+        const int row = stage * (stage - 1) / 2;
+        combine(dim, stage, a853 + row, a853_low + row, is_fine, k, sum);
+        if (is_fine)
+            DAL_EACH(i, dim) sum[i] = s->y[i] + dal_fma(h, sum[i], s->r[i]);
+        else
+            DAL_EACH(i, dim) sum[i] = dal_fma(h, sum[i], s->y[i]);
+        dal_field_at(s, t + c853[stage] * size, sum, k + stage * dim);
+    }
+    combine(dim, STAGES_853, b853, b853_low, is_fine, k, sum);
+}
+
+#if DAL_WITH_CONTROL
 /* clang-format off */
 /* The weights of the method of order 3 inside, bhh; and those of order 8 less those of order 5, er:
  * what they sum to vanishes up to h^3, h^5. */
@@ -90,38 +131,188 @@ static const double fifth853[] = {0.1312004499419488073250102996e-1, 0.0, 0.0, 0
 
 /* error / tolerance over count components from first on:
  *     |h| |e5|^2 / sqrt(count (|e5|^2 + |e3|^2/100)),   e_i in units of tolerance (1 + |y_i|) */
-static double error853(const dal_step *s, const dal_trial *k, const num *e3, const num *e5,
-                       int first, int count)
+DAL_INLINE dal_times error853(const dal_step *s, dal_times h, const num *derivative, const num *e3,
+                              const num *e5, int first, int count)
 {
-    double square3 = 0.0, square5 = 0.0;
-    for (int i = first; i < first + count; i++) {
-        const double size = dal_max(dal_abs(s->y[i]), dal_abs(s->y[i] + k->h * k->derivative[i]));
-        const double unit = s->tolerance + s->tolerance * size;
+    const double tolerance = DAL_TOLERANCE(s);
+    dal_times square3 = h - h, square5 = h - h;
+    DAL_EACH(j, count) {
+        const int i = first + j;
+        const num size = dal_max(dal_abs(s->y[i]), dal_abs(s->y[i] + h * derivative[i]));
+        const num unit = tolerance + tolerance * size;
         square3 += e3[i] / unit * (e3[i] / unit);
         square5 += e5[i] / unit * (e5[i] / unit);
     }
-    const double both = square5 + 0.01 * square3;
-    return both == 0.0 ? 0.0 : fabs(k->h) * square5 / sqrt(count * both);
+    const num both = square5 + 0.01 * square3, zero = dal_num(0.0);
+    const num error = dal_abs(h) * square5 / dal_sqrt(count * both);
+    return (dal_times)dal_select(dal_equal(both, zero), zero, error);
 }
 
-/* The error of (q,v) and that of (p,pi) each by itself, and none of e and pi_e, so that the
- * substeps of (q,v) on the surface know neither the space nor the gauge. */
-static void attempt853(dal_step *s, dal_trial *k)
+/* r of a trial of size h: the error of (q,v) and that of (p,pi) each by itself, and none of e and
+ * pi_e, so that the substeps of (q,v) on the surface know neither the space nor the gauge. */
+DAL_INLINE dal_times ratio853(dal_step *s, dal_times h, const num *k, const num *derivative)
 {
     const int dim = DAL_DIM(s), n = DAL_N(s);
+    DAL__MARK(s);
     DAL_VECTOR(s, e3, DAL_DIM(s));
     DAL_VECTOR(s, e5, DAL_DIM(s));
-    derivatives(s, k->h, k->again ? 1 : 0, k->derivatives, k->derivative);
-    DAL_EACH(i, dim) e3[i] = -k->derivative[i];
-    DAL_EACH(i, dim) e5[i] = 0.0;
-    add_derivatives(dim, STAGES_853, third853, k->derivatives, e3);
-    add_derivatives(dim, STAGES_853, fifth853, k->derivatives, e5);
-    double error = error853(s, k, e3, e5, 0, n + DAL_NW(s));
+    DAL_EACH(i, dim) e3[i] = -derivative[i];
+    DAL_EACH(i, dim) e5[i] = dal_num(0.0);
+    add_derivatives(dim, STAGES_853, third853, k, e3);
+    add_derivatives(dim, STAGES_853, fifth853, k, e5);
+    num error = error853(s, h, derivative, e3, e5, 0, n + DAL_NW(s));
     if (DAL_LIFTED(s)) {
-        const double momenta = error853(s, k, e3, e5, dal_at_p(s), 2 * n);
-        if (momenta > error || isnan(momenta)) error = momenta;
+        const num momenta = error853(s, h, derivative, e3, e5, dal_at_p(s), 2 * n);
+        const dal_mask larger = dal_less(error, momenta) | ~dal_equal(momenta, momenta);
+        error = dal_select(larger, momenta, error);
     }
-    k->ratio = sqrt(sqrt(sqrt(error)));
+    DAL__RELEASE(s);
+    return (dal_times)dal_sqrt(dal_sqrt(dal_sqrt(error)));
+}
+
+/* ---- dense output: a substep between its ends ----
+ *
+ * With k_13 = f(t + h, y1) and three more stages, i = 14, 15, 16, at c_i = 0.1, 0.2, 7/9,
+ *
+ *     y(t + s h) = y0 + s (r2 + z (r3 + s (r4 + z (r5 + s (r6 + z (r7 + s r8)))))),   z = 1 - s
+ *     r2 = y1 - y0,   r3 = h k_1 - r2,   r4 = r2 - h k_13 - r3,   r_(d+1) = h sum_j d_dj k_j
+ *
+ * of order 7 at each s, order 8 at s = 1, and once continuously differentiable from one substep to
+ * the next.  Hairer, Norsett, Wanner, II.6; digits as in dop853.f. */
+#ifndef DAL_SPECIALISED
+enum {
+    EXTENSION_FIRST_853 = 13, /* stages so far, that of the end included */
+    EXTENSION_ALL_853 = 16,
+    EXTENSION_TERMS_853 = 7 /* r2..r8 */
+};
+
+/* clang-format off */
+/* A(i, j, a_ij) of stages 14..16, D(d, j, d_dj) of r_(d+1), indices from 1; the others are 0. */
+#define EXTENSION_STAGES_853(A) \
+    A(14, 1, 5.61675022830479523392909219681e-2) A(14, 7, 2.53500210216624811088794765333e-1) \
+    A(14, 8, -2.46239037470802489917441475441e-1) \
+    A(14, 9, -1.24191423263816360469010140626e-1) \
+    A(14, 10, 1.5329179827876569731206322685e-1) \
+    A(14, 11, 8.20105229563468988491666602057e-3) \
+    A(14, 12, 7.56789766054569976138603589584e-3) A(14, 13, -8.298e-3) \
+    A(15, 1, 3.18346481635021405060768473261e-2) A(15, 6, 2.83009096723667755288322961402e-2) \
+    A(15, 7, 5.35419883074385676223797384372e-2) \
+    A(15, 8, -5.49237485713909884646569340306e-2) \
+    A(15, 11, -1.08347328697249322858509316994e-4) \
+    A(15, 12, 3.82571090835658412954920192323e-4) \
+    A(15, 13, -3.40465008687404560802977114492e-4) \
+    A(15, 14, 1.41312443674632500278074618366e-1) \
+    A(16, 1, -4.28896301583791923408573538692e-1) A(16, 6, -4.69762141536116384314449447206) \
+    A(16, 7, 7.68342119606259904184240953878) A(16, 8, 4.06898981839711007970213554331) \
+    A(16, 9, 3.56727187455281109270669543021e-1) \
+    A(16, 13, -1.39902416515901462129418009734e-3) A(16, 14, 2.9475147891527723389556272149) \
+    A(16, 15, -9.15095847217987001081870187138)
+#define EXTENSION_WEIGHTS_853(D) \
+    D(4, 1, -0.84289382761090128651353491142e1) D(4, 6, 0.5667149535193777696253178359) \
+    D(4, 7, -0.30689499459498916912797304727e1) D(4, 8, 0.2384667656512069828772814968e1) \
+    D(4, 9, 0.21170345824450282767155149946e1) D(4, 10, -0.8713915837779729920678990749) \
+    D(4, 11, 0.2240437430260788275854177165e1) D(4, 12, 0.6315787787694688181557024929) \
+    D(4, 13, -0.889903364513333108206981174e-1) D(4, 14, 0.18148505520854727256656404962e2) \
+    D(4, 15, -0.91946323924783554000451984436e1) D(4, 16, -0.44360363875948939664310572e1) \
+    D(5, 1, 0.10427508642579134603413151009e2) D(5, 6, 0.24228349177525818288430175319e3) \
+    D(5, 7, 0.16520045171727028198505394887e3) D(5, 8, -0.37454675472269020279518312152e3) \
+    D(5, 9, -0.22113666853125306036270938578e2) D(5, 10, 0.77334326684722638389603898808e1) \
+    D(5, 11, -0.30674084731089398182061213626e2) D(5, 12, -0.93321305264302278729567221706e1) \
+    D(5, 13, 0.15697238121770843886131091075e2) D(5, 14, -0.31139403219565177677282850411e2) \
+    D(5, 15, -0.93529243588444783865713862664e1) D(5, 16, 0.3581684148639408375246589854e2) \
+    D(6, 1, 0.19985053242002433820987653617e2) D(6, 6, -0.38703730874935176555105901742e3) \
+    D(6, 7, -0.18917813819516756882830838328e3) D(6, 8, 0.52780815920542364900561016686e3) \
+    D(6, 9, -0.11573902539959630126141871134e2) D(6, 10, 0.68812326946963000169666922661e1) \
+    D(6, 11, -0.1000605096691083840318386098e1) D(6, 12, 0.7777137798053443209286926574) \
+    D(6, 13, -0.27782057523535084065932004339e1) D(6, 14, -0.60196695231264120758267380846e2) \
+    D(6, 15, 0.84320405506677161018159903784e2) D(6, 16, 0.1199229113618278932803513003e2) \
+    D(7, 1, -0.25693933462703749003312586129e2) D(7, 6, -0.15418974869023643374053993627e3) \
+    D(7, 7, -0.23152937917604549567536039109e3) D(7, 8, 0.3576391179106141237828534991e3) \
+    D(7, 9, 0.93405324183624310003907691704e2) D(7, 10, -0.37458323136451633156875139351e2) \
+    D(7, 11, 0.10409964950896230045147246184e3) D(7, 12, 0.29840293426660503123344363579e2) \
+    D(7, 13, -0.43533456590011143754432175058e2) D(7, 14, 0.963245539591882829483949506e2) \
+    D(7, 15, -0.39177261675615439165231486172e2) D(7, 16, -0.14972683625798562581422125276e3)
+/* clang-format on */
+
+static const double c853_extension[] = {0.1, 0.2, 0.777777777777777777777777777778};
+
+/* sum[dim] = sum_j a_ij k_j over the stages before stage i, which here counts from 0: 13..15. */
+DAL_INLINE void extension_stage(int dim, int i, const num *k, num *DAL_RESTRICT sum)
+{
+    DAL_EACH(l, dim) sum[l] = dal_num(0.0);
+#define ADD_STAGE(row, j, weight)                                                                  \
+    if (i == (row)-1)                                                                              \
+        DAL_EACH(l, dim) sum[l] = dal_fma(dal_num(weight), k[((j)-1) * dim + l], sum[l]);
+    EXTENSION_STAGES_853(ADD_STAGE)
+#undef ADD_STAGE
+}
+
+/* r[7*dim] = r2/h, .., r8/h from the mean rate (y1 - y0)/h and k[16*dim]. */
+DAL_INLINE void extension_terms(int dim, const num *mean, const num *k, num *DAL_RESTRICT r)
+{
+    DAL_EACH(l, dim) {
+        r[l] = mean[l];
+        r[dim + l] = k[l] - mean[l];
+        r[2 * dim + l] = mean[l] - k[(EXTENSION_FIRST_853 - 1) * dim + l] - r[dim + l];
+    }
+    DAL_EACH(l, 4 * dim) r[3 * dim + l] = dal_num(0.0);
+#define ADD_TERM(d, j, weight)                                                                     \
+    DAL_EACH(l, dim)                                                                               \
+        r[((d)-1) * dim + l] = dal_fma(dal_num(weight), k[((j)-1) * dim + l], r[((d)-1) * dim + l]);
+    EXTENSION_WEIGHTS_853(ADD_TERM)
+#undef ADD_TERM
+}
+
+/* Replaces r2, .., r8 by the coefficients of s^0, .., s^6 in r2 + z (r3 + s (r4 + z ..)), from the
+ * innermost bracket outwards.  A pass makes r_i + z P = r_i + P - s P of r_i and the coefficients
+ * of P = r_(i+1) + s (..), which already stand behind it. */
+DAL_INLINE void expand_extension(int dim, num *r)
+{
+    const int last = (EXTENSION_TERMS_853 - 1) * dim;
+    for (int i = last - 2 * dim; i >= 0; i -= 2 * dim) {
+        DAL_EACH(l, dim) r[i + l] += r[i + dim + l];
+        for (int j = i + dim; j < last; j++) r[j] = r[j + dim] - r[j];
+        DAL_EACH(l, dim) r[last + l] = -r[last + l];
+    }
+}
+
+/* Leaves the polynomial of a trial, of degree 7, from its stages, `known`, and its mean rate, in
+ * four more evaluations. */
+DAL_INLINE void extend(dal_step *s, const dal_control *c, const num *known, const num *mean)
+{
+    const int dim = DAL_DIM(s);
+    DAL__MARK(s);
+    DAL_VECTOR(s, k, EXTENSION_ALL_853 * DAL_DIM(s));
+    DAL_VECTOR(s, y, DAL_DIM(s));
+    DAL_EACH(i, STAGES_853 * dim) k[i] = known[i];
+    DAL_EACH(i, dim) y[i] = mean[i];
+    for (int stage = STAGES_853; stage < EXTENSION_ALL_853; stage++) {
+        const double at = stage == STAGES_853 ? 1.0 : c853_extension[stage - EXTENSION_FIRST_853];
+        if (stage > STAGES_853) extension_stage(dim, stage, k, y);
+        DAL_EACH(i, dim) y[i] = s->y[i] + dal_fma(c->h, y[i], s->r[i]);
+        dal_field_at(s, c->t + at * c->h, y, k + stage * dim);
+    }
+    extension_terms(dim, mean, k, s->dense->rate);
+    expand_extension(dim, s->dense->rate);
+    s->dense->terms = EXTENSION_TERMS_853;
+    DAL__RELEASE(s);
+}
+#endif
+
+/* Steps by s->h in substeps. */
+DAL_INLINE dal_status divided(dal_step *s, num *k, num *sum)
+{
+    dal_control c = dal_control_begin(s);
+    while (dal_control_next(s, &c)) {
+        const int first = dal_any(c.active & ~c.again) ? 0 : 1;
+        derivatives(s, c.t, c.h, first, k, sum);
+        const dal_times ratio = ratio853(s, c.h, k, sum);
+#ifndef DAL_SPECIALISED
+        if (DAL_RARELY(s->dense != NULL)) extend(s, &c, k, sum);
+#endif
+        dal_control_end(s, &c, ratio, sum);
+    }
+    return dal_control_status(s, &c);
 }
 #endif
 
@@ -129,15 +320,15 @@ DAL_INLINE dal_status step(dal_step *s)
 {
     DAL_VECTOR(s, k, STAGES_853 * DAL_DIM(s));
     DAL_VECTOR(s, sum, DAL_DIM(s));
-#ifdef DAL_CONTROLLED
-    if (DAL_CONTROLLED(s))
-        return dal_control(s, attempt853, &(dal_trial){.derivatives = k, .derivative = sum});
+#if DAL_WITH_CONTROL
+    if (DAL_CONTROLLED(s)) return divided(s, k, sum);
 #endif
-    derivatives(s, s->h, 0, k, sum);
+    const num t = dal_num(s->t), h = dal_num(s->h);
+    derivatives(s, (dal_times)t, (dal_times)h, 0, k, sum);
     return dal_update_multiple(s, s->h, s->h, sum);
 }
 
 DAL_INTEGRATOR(dop853, step, .name = "dop853", .summary = "Dormand-Prince, 12 stages",
                .reference = "Hairer, Norsett, Wanner 1993, II.5", .order = 8, .stages = 2,
                .properties = DAL_EXPLICIT | DAL_COMPONENTWISE | DAL_ADAPTIVE,
-               .needs = DAL_NEEDS_FIELD);
+               .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_CONTROL);

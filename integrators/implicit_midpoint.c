@@ -8,7 +8,7 @@
 
 static const double half[] = {0.5}, one[] = {1.0};
 
-static const dal_tableau tableau = {1, half, one, NULL, half, NULL, one, half, NULL};
+static const dal_tableau tableau = {1, half, one, NULL, half, NULL, one, half, NULL, NULL};
 
 DAL_INLINE dal_status step(dal_step *s) { return dal_collocation(s, &tableau); }
 

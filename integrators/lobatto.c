@@ -106,7 +106,7 @@ static const double e5[] = {0.0, 0.0, 0.0, 0.0, 1.00000000000000000000e+0,
 /* The method with s stages under its name. */
 #define LOBATTO(s, order_, name_)                                                                  \
     static const dal_tableau tableau##s = {                                                        \
-        s, c##s, b##s, b##s##_tail, a##s, a##s##_tail, e##s, p##s, p##s##_tail,                    \
+        s, c##s, b##s, b##s##_tail, a##s, a##s##_tail, e##s, p##s, p##s##_tail, NULL,              \
     };                                                                                             \
     DAL_INLINE dal_status step##s(dal_step *step) { return dal_collocation(step, &tableau##s); }   \
     DAL_INTEGRATOR(                                                                                \

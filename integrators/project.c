@@ -58,7 +58,7 @@ DAL_INLINE dal_status project_velocity(dal_step *s)
     DAL_VECTOR(s, shift, DAL_M(s));
     DAL_BLOCK(s, change, DAL_N(s), 0);
     projection p = {s->y + n, v, out, directions, inverse, shift};
-    dal_equation eq = {{change}, 1, &p, {dal_all()}};
+    DAL_EQUATION(eq, 1, &p, change);
     eq.block[0].scale[0] = dal_max_norm(s->y + n, n);
     DAL_EACH(i, n) eq.block[0].u[i] = dal_num(0.0);
     DAL_EACH(i, n) v[i] = s->y[n + i];

@@ -125,7 +125,7 @@ DAL_INLINE dal_status to_level(dal_step *s)
     DAL_VECTOR(s, shift, LEVELS(s));
     DAL_BLOCK(s, change, 2 * DAL_N(s), 0); /* of v and of q/h */
     level k = {q0, v0, q, v, constraint, energy, directions, normal, inverse, missing, shift};
-    dal_equation eq = {{change}, 1, &k, {dal_all()}};
+    DAL_EQUATION(eq, 1, &k, change);
     freeze_directions(s, &k, &eq);
     if (dal_failed(dal_solve(s, &eq, level_map, NULL))) return DAL_NOT_CONVERGED;
     DAL_EACH(i, DAL_N(s)) q[i] = s->h * eq.block[0].u[DAL_N(s) + i];

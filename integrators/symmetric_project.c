@@ -97,7 +97,7 @@ DAL_INLINE dal_status reflect(dal_step *s)
     DAL_BLOCK(s, mu, DAL_M(s), 0);
     DAL_BLOCK(s, v1, DAL_N(s), 0);
     reflection k = {s->t, y0, r0, method_state0, B0, inverse, out, push, shift, ~dal_all(), DAL_OK};
-    dal_equation eq = {{mu, v1}, 2, &k, {dal_all()}};
+    DAL_EQUATION(eq, 2, &k, mu, v1);
     begin_reflection(s, &k, &eq);
     const dal_status status = dal_solve(s, &eq, reflection_map, NULL);
     return k.status == DAL_OK ? status : k.status;

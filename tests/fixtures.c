@@ -130,6 +130,7 @@ bool fixture_accepts(const dal_method *method, const dal_system *system, dal_spa
     if (needs & DAL_NEEDS_POTENTIAL && !(system->properties & DAL_MASS_CONSTANT)) return false;
     if (needs & DAL_NEEDS_ENERGY && !(system->properties & (DAL_E_EXACT | DAL_E_ON_D)))
         return false;
+    if (needs & DAL_NEEDS_SERIES && (!system->series || system->series->refused)) return false;
     return !(needs & DAL_NEEDS_ISOKINETIC) || system->properties & DAL_D_ISOKINETIC;
 }
 
@@ -146,6 +147,46 @@ dal_run *fixture_stepped(const dal_run_spec *spec, long long steps)
     dal_run *run = fixture_run(spec);
     CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_OK);
     return run;
+}
+
+void fixture_lanes(dal_run_spec spec, int lanes, long long steps, const char *name, double from,
+                   double by)
+{
+    dal_batch *batch = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, lanes, 0, NULL), DAL_OK);
+    for (int i = 0; i < lanes; i++) {
+        const dal_setting start = {name, from + i * by};
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, NULL, 0, &start, 1, NULL), DAL_OK);
+    }
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, steps), DAL_OK);
+    for (int i = 0; i < lanes; i++) {
+        const dal_setting start = {name, from + i * by};
+        double state[64];
+        spec.start = &start;
+        spec.start_count = 1;
+        dal_run *run = fixture_stepped(&spec, steps);
+        const size_t bytes = (size_t)dal_run_dimension(run) * sizeof *state;
+        CU_ASSERT_FATAL(bytes <= sizeof state);
+        dal_batch_state(batch, i, state);
+        CU_ASSERT_EQUAL(memcmp(state, dal_run_state(run), bytes), 0);
+        dal_run_free(run);
+    }
+    dal_batch_free(batch);
+}
+
+dal_status fixture_failed_step(const dal_run_spec *spec, dal_error *error)
+{
+    dal_run *run = fixture_run(spec);
+    size_t count;
+    double before[256];
+    const double *memory = dal_run_save(run, &count);
+    CU_ASSERT_FATAL(count <= sizeof before / sizeof *before);
+    memcpy(before, memory, count * sizeof *before);
+    const dal_status status = dal_run_step(run, error);
+    CU_ASSERT_NOT_EQUAL(status, DAL_OK);
+    CU_ASSERT_EQUAL(memcmp(before, memory, count * sizeof *before), 0);
+    dal_run_free(run);
+    return status;
 }
 
 double fixture_symplectic_defect(const dal_run_spec *spec)

@@ -31,6 +31,12 @@ dal_run *fixture_run(const dal_run_spec *spec);
 
 /* The same after some steps. */
 dal_run *fixture_stepped(const dal_run_spec *spec, long long steps);
+/* Each lane of a batch has after some steps the bits of a run by itself; lane i starts at
+ * name = from + i*by. */
+void fixture_lanes(dal_run_spec spec, int lanes, long long steps, const char *name, double from,
+                   double by);
+/* The status of the first step of a run, which fails and leaves everything as it was. */
+dal_status fixture_failed_step(const dal_run_spec *spec, dal_error *error);
 /* How far a step from a perturbed lifted state is from symplectic. */
 double fixture_symplectic_defect(const dal_run_spec *spec);
 /* An evaluator with the system's own parameters. */

@@ -43,6 +43,37 @@ static inline dal_status open_spec(dal_model **model, dal_run_spec *spec)
     return status == DAL_OK ? dal_method_parse(&spec->method, "rk4", NULL) : status;
 }
 
+/* The same with a run and a batch; 0, or what CUnit takes for a failure. */
+static inline int open_runs(dal_model **model, dal_run_spec *spec, dal_run **run, dal_batch **batch)
+{
+    return open_spec(model, spec) != DAL_OK || dal_run_create(run, spec, NULL) != DAL_OK ||
+           dal_batch_create(batch, spec, 3, 0, NULL) != DAL_OK;
+}
+
+static inline int close_runs(dal_model *model, dal_run *run, dal_batch *batch)
+{
+    dal_batch_free(batch);
+    dal_run_free(run);
+    dal_model_free(model);
+    return 0;
+}
+
+/* Specs that no function may take, and none at all. */
+enum { BAD_SPECS = 8 };
+static inline const dal_run_spec *spoil_spec(const dal_run_spec *spec, int i)
+{
+    static dal_run_spec bad;
+    bad = *spec;
+    if (i == 1) bad.system = NULL;
+    if (i == 2) bad.parameter_count = -1;
+    if (i == 3) bad.parameter_count = 2;
+    if (i == 4) bad.parameters = nameless, bad.parameter_count = 1;
+    if (i == 5) bad.start_count = -1;
+    if (i == 6) bad.start_count = 2;
+    if (i == 7) bad.start = nameless, bad.start_count = 1;
+    return i == 0 ? NULL : &bad;
+}
+
 #define DECLARE_NULL_TEST(name) static void null_##name(void);
 #define ADD_NULL_TEST(name)     CU_add_test(suite, #name, null_##name);
 

@@ -4,7 +4,6 @@
 #include "quick.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
-#include <string.h>
 
 static const char free_motion[] = "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 0.1}\n";
 static const char oscillator[] =
@@ -116,29 +115,11 @@ static void test_tighter(void)
 /* Every lane has the bits of a run of its own. */
 static void test_lanes(void)
 {
-    enum { COUNT = 5, STEPS = 50, STATE = 6 };
     dal_run_spec spec = fixture_spec(fixture_system(oscillator), "gauss6", DAL_LIFTED, 0.4);
-    dal_batch *batch = NULL;
     spec.options.solver_tolerance = 1e-6;
     spec.options.extra_iterations = 1;
     spec.options.sums = DAL_SUMS_PLAIN;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, COUNT, 0, NULL), DAL_OK);
-    for (int lane = 0; lane < COUNT; lane++) {
-        const dal_setting start = {"x", 0.3 * lane * lane};
-        CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, &start, 1, NULL), DAL_OK);
-    }
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, STEPS), DAL_OK);
-    for (int lane = 0; lane < COUNT; lane++) {
-        const dal_setting start = {"x", 0.3 * lane * lane};
-        double state[STATE];
-        spec.start = &start;
-        spec.start_count = 1;
-        dal_run *run = fixture_stepped(&spec, STEPS);
-        dal_batch_state(batch, lane, state);
-        CU_ASSERT_EQUAL(memcmp(state, dal_run_state(run), sizeof state), 0);
-        dal_run_free(run);
-    }
-    dal_batch_free(batch);
+    fixture_lanes(spec, 5, 50, "x", 0.0, 1.2);
 }
 
 static void test_refused(void)

@@ -1,5 +1,6 @@
 /* test_adaptive.c - steps divided under a tolerance: the error follows the tolerance, the work the
  * motion; bits where they are promised; what is refused, and what a step says that fails. */
+#include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
@@ -103,6 +104,39 @@ static void test_error(void)
     }
 }
 
+/* The largest error of (q,v) at T, relative to the largest number. */
+static double error_at(const char *text, double T, double tolerance, const double *exact)
+{
+    const dal_run_spec spec = spec_of(fixture_system(text), DAL_PHYSICAL, T, tolerance);
+    dal_run *run = fixture_stepped(&spec, 1);
+    double error = 0.0, size = 0.0;
+    for (int i = 0; i < dal_run_dimension(run); i++) {
+        error = fmax(error, fabs(dal_run_state(run)[i] - exact[i]));
+        size = fmax(size, fabs(exact[i]));
+    }
+    dal_run_free(run);
+    return error / size;
+}
+
+/* With a small tolerance nothing grows but the rounding of F: not the phase of an
+ * oscillator, which the doubles nearest to the coefficients shift by 7e-17 in a unit of time.  The
+ * end of the sleigh is that of Gragg's extrapolation of order 28 in quad precision, with 1000
+ * steps as with 500. */
+static void test_fine(void)
+{
+    static const char swing[] = "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x': 1}\n";
+    static const char sleigh[] =
+        "coordinates: [y1, y2, phi]\nparameters: {G: 0.3, K: 0.7}\n"
+        "lagrangian: (y1'^2 + y2'^2 + phi'^2)/2 - G*y1 - K*(1 - cos(phi))\n"
+        "constraints: [y1'*sin(phi) - y2'*cos(phi)]\nstart: {y1': 1, phi': 1}\n";
+    static const double end[] = {-518.08265246974633225,  25.809874007261836947,
+                                 -0.33242973412678152580, -16.692458020079117117,
+                                 5.7629364676130301005,   0.96091263844096878127};
+    CU_ASSERT(error_at(swing, 20.0, 1e-17, (double[]){sin(20.0), cos(20.0)}) <= 1e-15);
+    CU_ASSERT(error_at(swing, 200.0, 1e-17, (double[]){sin(200.0), cos(200.0)}) <= 4e-15);
+    CU_ASSERT(error_at(sleigh, 100.0, 1e-17, end) <= 1e-15);
+}
+
 /* Times go with r^(3/2), 83 times longer at the far end than at the near one; a step is a 20th of
  * the period and sees some of that.  Free motion needs no division. */
 static void test_work(void)
@@ -132,6 +166,12 @@ static void test_work(void)
 static void same_state(const dal_run *a, const dal_run *b, int count)
 {
     CU_ASSERT_EQUAL(memcmp(dal_run_state(a), dal_run_state(b), (size_t)count * sizeof(double)), 0);
+}
+
+static void same_state_as(const dal_run *run, const double *state)
+{
+    const size_t bytes = (size_t)dal_run_dimension(run) * sizeof *state;
+    CU_ASSERT_EQUAL(memcmp(dal_run_state(run), state, bytes), 0);
 }
 
 /* Where the error of h is below the tolerance the divided step is the fixed one. */
@@ -193,26 +233,8 @@ static void test_load(void)
 /* Each lane of a batch has the substeps, and the bits, of a run by itself. */
 static void test_batch(void)
 {
-    enum { LANES = 9, STEPS = 7 };
-    dal_run_spec spec = spec_of(fixture_system(kepler), DAL_PHYSICAL, PERIOD / 20, 1e-9);
-    dal_batch *batch = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, LANES, 0, NULL), DAL_OK);
-    for (int lane = 0; lane < LANES; lane++) {
-        const dal_setting x = {"x", 0.1 + 0.05 * lane};
-        CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, &x, 1, NULL), DAL_OK);
-    }
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, STEPS), DAL_OK);
-    for (int lane = 0; lane < LANES; lane++) {
-        const dal_setting x = {"x", 0.1 + 0.05 * lane};
-        double state[4];
-        spec.start = &x;
-        spec.start_count = 1;
-        dal_run *run = fixture_stepped(&spec, STEPS);
-        dal_batch_state(batch, lane, state);
-        CU_ASSERT_EQUAL(memcmp(state, dal_run_state(run), sizeof state), 0);
-        dal_run_free(run);
-    }
-    dal_batch_free(batch);
+    fixture_lanes(spec_of(fixture_system(kepler), DAL_PHYSICAL, PERIOD / 20, 1e-9), 9, 7, "x", 0.1,
+                  0.05);
 }
 
 /* ---- projections ---- */
@@ -285,43 +307,98 @@ static void test_momenta_alone(void)
     }
 }
 
-static void test_not_generated(void)
+/* ---- compiled steps ---- */
+
+/* Compiled from the middle on. */
+static void test_native(void)
 {
-    const dal_run_spec spec =
-        spec_of(fixture_system("contact-oscillator"), DAL_PHYSICAL, 0.1, 1e-6);
-    dal_error error = {0};
-    char *text = NULL;
-    CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_UNSUPPORTED);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "tolerance"));
-    CU_ASSERT(error.line == 0 && error.column == 0);
-    CU_ASSERT_PTR_NULL(text);
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_native(run, NULL, &error), DAL_UNSUPPORTED);
-    CU_ASSERT_FALSE(dal_run_is_native(run));
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
-    dal_run_free(run);
+    const struct {
+        const char *text, *method;
+        dal_space space;
+        double step, tolerance;
+    } cases[] = {{kepler, "dop853", DAL_PHYSICAL, PERIOD / 5, 1e-9},
+                 {fixture_full, "dop853", DAL_LIFTED, 0.7, 1e-16},
+                 {fixture_full, "dop853", DAL_LIFTED, 0.7, 1e-9},
+                 {"knife-edge", "dop853+project", DAL_PHYSICAL, 5.0, 1e-9}};
+    for (size_t i = 0; compiler_works && i < sizeof cases / sizeof *cases; i++) {
+        dal_run_spec spec = fixture_spec(fixture_system(cases[i].text), cases[i].method,
+                                         cases[i].space, cases[i].step);
+        spec.options.tolerance = cases[i].tolerance;
+        dal_run *tape = fixture_run(&spec), *native = fixture_run(&spec);
+        size_t count;
+        dal_error error = {0};
+        CU_ASSERT_EQUAL(dal_run_advance(tape, 4, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(native, 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_native(native, &compiler_options, &error), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(native, 3, NULL), DAL_OK);
+        CU_ASSERT(dal_run_evaluations(tape) > 2 * 4 * STAGES);
+        const double *memory = dal_run_save(tape, &count);
+        CU_ASSERT_EQUAL(memcmp(memory, dal_run_save(native, &count), count * sizeof *memory), 0);
+        dal_run_free(tape);
+        dal_run_free(native);
+    }
+}
+
+/* A batch where neighbours need other substeps, one lane fails, and the force depends on t: bits,
+ * times and reasons of single runs, interpreted and compiled. */
+static void same_lanes(const dal_run_spec *of, int width, bool native)
+{
+    enum { LANES = 11, STEPS = 4 };
+    dal_run_spec spec = *of;
+    dal_batch *batch = NULL;
+    dal_error reason = {0}, error = {0};
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, LANES, width, NULL), DAL_OK);
+    dal_setting x[LANES];
+    for (int lane = 0; lane < LANES; lane++) {
+        x[lane] = (dal_setting){"x", lane == 6 ? 4.3 : 0.1 + 0.09 * lane};
+        CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, &x[lane], 1, NULL), DAL_OK);
+    }
+    if (native) CU_ASSERT_EQUAL(dal_batch_native(batch, &compiler_options, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, STEPS), DAL_OK);
+    for (int lane = 0; lane < LANES; lane++) {
+        double state[8];
+        spec.start = &x[lane];
+        spec.start_count = 1;
+        dal_run *run = fixture_run(&spec);
+        CU_ASSERT_FATAL(dal_run_dimension(run) <= 8);
+        const dal_status status = dal_run_advance(run, STEPS, &reason);
+        dal_batch_state(batch, lane, state);
+        CU_ASSERT_EQUAL(status == DAL_OK, lane != 6);
+        CU_ASSERT_EQUAL(dal_batch_status(batch, lane, &error), status);
+        if (status != DAL_OK) CU_ASSERT_STRING_EQUAL(error.message, reason.message);
+        CU_ASSERT_EQUAL(dal_batch_time(batch, lane), dal_run_time(run));
+        same_state_as(run, state);
+        dal_run_free(run);
+    }
+    dal_batch_free(batch);
+}
+
+static void test_lanes(void)
+{
+    static const char swing[] =
+        "coordinates: [x, y]\n"
+        "accelerations: {x: -sin(x + t) + 1e-30*sqrt(4.6 - x), y: x*cos(t)}\n"
+        "start: {x': 1, y: 0.3}\n";
+    static const int widths[] = {0, 1, 4, 8};
+    dal_run_spec spec = spec_of(fixture_system(swing), DAL_PHYSICAL, 0.7, 1e-10);
+    for (int i = 0; i < 4; i++) same_lanes(&spec, widths[i], false);
+    if (compiler_works) same_lanes(&spec, 0, true);
+    spec.options.tolerance = 1e-16;
+    same_lanes(&spec, 0, false);
 }
 
 /* A step that fails says how, and leaves everything as it was. */
 static void fails(const char *text, double step, const char *reason, double reached)
 {
     const dal_run_spec spec = spec_of(fixture_system(text), DAL_PHYSICAL, step, 1e-10);
-    dal_run *run = fixture_run(&spec);
     dal_error error = {0};
-    double before[64];
-    size_t count;
-    const double *memory = dal_run_save(run, &count);
-    CU_ASSERT_FATAL(count <= 64);
-    memcpy(before, memory, count * sizeof *memory);
-    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_NOT_CONVERGED);
+    CU_ASSERT_EQUAL(fixture_failed_step(&spec, &error), DAL_NOT_CONVERGED);
     if (!strstr(error.message, reason)) printf("\n  %s\n", error.message);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, reason));
     CU_ASSERT(error.line == 0 && error.column == 0);
     const char *where = strstr(error.message, "at t = ");
     CU_ASSERT_PTR_NOT_NULL_FATAL(where);
     if (reached > 0.0) CU_ASSERT(fabs(strtod(where + strlen("at t = "), NULL) - reached) <= 1e-6);
-    CU_ASSERT_EQUAL(memcmp(before, memory, count * sizeof *memory), 0);
-    dal_run_free(run);
 }
 
 /* x = 1/(1 - t) ends at 1, and its scale goes with it; sqrt(1 - t) has no value behind 1; 160000
@@ -338,8 +415,9 @@ static void test_failures(void)
 
 void suite_adaptive(void)
 {
-    CU_pSuite suite = CU_add_suite("adaptive", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("adaptive", compiler_set_up, compiler_tear_down);
     CU_add_test(suite, "the error follows the tolerance", test_error);
+    CU_add_test(suite, "down to rounding", test_fine);
     CU_add_test(suite, "the work follows the motion", test_work);
     CU_add_test(suite, "an undivided step is the fixed one", test_whole);
     CU_add_test(suite, "the surface, whatever the space and the gauge", test_surface);
@@ -347,7 +425,8 @@ void suite_adaptive(void)
     CU_add_test(suite, "lanes of a batch", test_batch);
     CU_add_test(suite, "inside projections", test_projected);
     CU_add_test(suite, "who takes a tolerance", test_claims);
-    CU_add_test(suite, "not generated", test_not_generated);
+    CU_add_test(suite, "compiled", test_native);
+    CU_add_test(suite, "lanes with their own substeps", test_lanes);
     CU_add_test(suite, "momenta alone divide a step", test_momenta_alone);
     CU_add_test(suite, "steps that fail", test_failures);
 }

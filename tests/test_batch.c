@@ -320,6 +320,34 @@ static void test_uneven_sweeps(void)
     for (int i = 0; i < 7; i++) uneven_sweeps(fixture_system(disk), methods[i]);
 }
 
+/* A batch that was cleared steps the lanes that are started again as a new one does, those that had
+ * failed among them, and leaves the others alone. */
+static void test_cleared(void)
+{
+    const dal_system system = {.name = "breaks", .n = 1, .call.field = breaks};
+    const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.25);
+    const dal_setting bad = {"q1", 2.0}, again[] = {{"q1", 5.0}, {"q1'", 1.0}};
+    dal_batch *batch = NULL;
+    double state[2];
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 11, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 1, NULL, 0, &bad, 1, NULL), DAL_OK);
+    broken = true;
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_OK);
+    broken = false;
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, NULL, 0, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_batch_clear(batch), DAL_OK);
+    for (int i = 0; i < 9; i++)
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, NULL, 0, again, 2, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 8), DAL_OK);
+    for (int i = 0; i < 11; i++) {
+        dal_batch_state(batch, i, state);
+        CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_time(batch, i), i < 9 ? 2.0 : 1.0);
+        CU_ASSERT_EQUAL(state[0], i < 9 ? 7.0 : 0.0);
+    }
+    dal_batch_free(batch);
+}
+
 static void test_out_of_memory(void)
 {
     const dal_run_spec spec = fixture_spec(fixture_system(disk), "gauss4", DAL_PHYSICAL, 0.1);
@@ -345,6 +373,7 @@ void suite_batch(void)
     CU_add_test(suite, "a failed lane stays where it is", test_failed_lane_stays);
     CU_add_test(suite, "a lane whose constraint turns singular", test_singular_lane);
     CU_add_test(suite, "arguments", test_arguments);
+    CU_add_test(suite, "lanes started again", test_cleared);
     CU_add_test(suite, "out of memory", test_out_of_memory);
     CU_add_test(suite, "lanes that need different numbers of sweeps", test_uneven_sweeps);
 }

@@ -79,6 +79,20 @@ static void test_truncation(void)
     dal_error_budget_free(e);
 }
 
+/* Substeps half as long: the tolerance falls by 2^8, and so does the error, about. */
+static void test_tolerance(void)
+{
+    dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "dop853", DAL_PHYSICAL, 3.0);
+    spec.options.tolerance = 1e-8;
+    dal_error_budget *e = explained(&spec, 40, 40);
+    const dal_shares *d = of(e, "D1");
+    CU_ASSERT(fabs(d->share[DAL_SOURCE_TRUNCATION] - 1.0) < 0.1);
+    CU_ASSERT(fabs(d->order - 8.0) < 0.5);
+    CU_ASSERT(!d->is_motion && d->comparison[DAL_COMPARISON_EXACT].deviation < 1e-13);
+    dal_error_budget_free(e);
+}
+
 /* On a constraint nonlinear in v, whose forces do work: E changes by the motion itself. */
 static void test_nonlinear(void)
 {
@@ -90,6 +104,8 @@ static void test_nonlinear(void)
     CU_ASSERT(energy->is_motion);
     CU_ASSERT(isnan(energy->share[DAL_SOURCE_TRUNCATION]));
     CU_ASSERT(says(e, "E", DAL_SOURCE_TRUNCATION, "the motion itself"));
+    CU_ASSERT(says(e, "E", DAL_SOURCE_TRUNCATION, "along the exact motion the drift is 1 times"));
+    CU_ASSERT(e->ran[DAL_COMPARISON_EXACT]);
     dal_error_budget_free(e);
 }
 
@@ -200,6 +216,8 @@ static void test_by_hand(void)
     CU_ASSERT_EQUAL(e->quad_steps, 0);
     CU_ASSERT_PTR_NOT_NULL(strstr(e->reason[DAL_COMPARISON_QUAD], "spring has no form in it"));
     CU_ASSERT_PTR_NOT_NULL(strstr(e->reason[DAL_COMPARISON_PROJECTION], "no constraint"));
+    CU_ASSERT(!e->ran[DAL_COMPARISON_EXACT]);
+    CU_ASSERT_PTR_NOT_NULL(strstr(e->reason[DAL_COMPARISON_EXACT], "taylor"));
     CU_ASSERT(fabs(loss->order - 5.0) < 0.05);
     CU_ASSERT(isnan(loss->share[DAL_SOURCE_ROUNDING]));
     CU_ASSERT(isnan(loss->share[DAL_SOURCE_COEFFICIENTS]));
@@ -234,7 +252,7 @@ static void test_observer(void)
     watch w = {.max_calls = 1 << 30};
     const dal_error_budget_observer observer = {&w, step, begin};
     CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, &observer, &e, &error), DAL_OK);
-    CU_ASSERT_EQUAL(w.runs, 8); /* the run, five comparisons, and the beginning in doubles */
+    CU_ASSERT_EQUAL(w.runs, 9); /* the run, six comparisons, and the beginning in doubles */
     CU_ASSERT(w.done > 0.99);
     dal_error_budget_free(e);
     const int all = w.calls;
@@ -272,6 +290,7 @@ void suite_error_budget(void)
 {
     CU_pSuite suite = CU_add_suite("error budget", NULL, NULL);
     CU_add_test(suite, "truncation", test_truncation);
+    CU_add_test(suite, "a tolerance", test_tolerance);
     CU_add_test(suite, "a nonlinear constraint", test_nonlinear);
     CU_add_test(suite, "rounding", test_rounding);
     CU_add_test(suite, "the solver", test_solver);

@@ -35,6 +35,7 @@ static made_up make(const dal_system *system, const char *method)
     m.a.comparison[DAL_COMPARISON_QUAD] = drift(0.08, 0.8, 0.002);
     m.a.comparison[DAL_COMPARISON_QUAD_HALVED] = drift(0.08 / 16.0, 0.05, 0.001);
     m.a.comparison[DAL_COMPARISON_PROJECTION] = drift(0.025, 0.3, 0.001);
+    m.a.comparison[DAL_COMPARISON_EXACT] = drift(0.0, 1e-15, 1e-16);
     m.a.rounding = drift(0.02, 0.2, 0.004);
     m.a.solver_and_rounding = drift(0.02, 0.2, 0.004);
     m.a.solver = drift(0.0, 0.0, 0.0);
@@ -141,9 +142,10 @@ static void test_quad_precision(void)
         m.a.comparison[DAL_COMPARISON_QUAD].deviation = (k ? 2.1 : 1.9) * DBL_EPSILON * 1e6;
         CU_ASSERT_EQUAL(shares_of(&m)->vanishes_in_quad, !k);
     }
-    /* What falls by less than 2^(1/2) is the motion's own. */
+    /* Without the exact motion what falls by less than 2^(1/2) is the motion's own. */
     for (int k = 0; k < 2; k++) {
         made_up m = make(system, "gauss4");
+        m.e.ran[DAL_COMPARISON_EXACT] = 0;
         m.a.comparison[DAL_COMPARISON_QUAD_HALVED].rate = 0.08 / exp2(k ? 0.51 : 0.49);
         CU_ASSERT_EQUAL(shares_of(&m)->is_motion, !k);
         CU_ASSERT_EQUAL(isnan(m.a.share[DAL_SOURCE_TRUNCATION]), !k);
@@ -163,6 +165,28 @@ static void test_quad_precision(void)
             coefficients ? DAL_SOURCE_TRUNCATION : DAL_SOURCE_COEFFICIENTS;
         CU_ASSERT_DOUBLE_EQUAL(shares_of(&m)->share[source], 0.5, 1e-12);
         CU_ASSERT(m.a.share[other] == 0.0 && !m.a.is_motion);
+    }
+}
+
+/* The motion is what the exact one changes, by half at least and by more than its roundings; where
+ * there is none, how the drift falls with the step decides. */
+static void test_motion_of(void)
+{
+    const dal_system *system = fixture_system("chaplygin-sleigh");
+    for (int k = 0; k < 4; k++) {
+        made_up m = make(system, "gauss4");
+        m.e.quad_steps = k & 2 ? 0 : 1000;
+        m.a.comparison[DAL_COMPARISON_HALVED] = drift(0.1 / 16.0, 0.05, 0.001);
+        m.a.comparison[DAL_COMPARISON_EXACT] = drift(k & 1 ? 0.051 : 0.049, 1.0, 0.001);
+        CU_ASSERT_EQUAL(shares_of(&m)->is_motion, k & 1);
+        CU_ASSERT_EQUAL(isnan(m.a.share[DAL_SOURCE_TRUNCATION]) != 0, k & 1);
+    }
+    for (int k = 0; k < 3; k++) {
+        made_up m = make(system, "gauss4");
+        m.a.comparison[DAL_COMPARISON_QUAD_HALVED] = m.a.comparison[DAL_COMPARISON_QUAD];
+        m.e.ran[DAL_COMPARISON_EXACT] = k < 2;
+        if (k == 1) m.a.whole = m.a.comparison[DAL_COMPARISON_EXACT];
+        CU_ASSERT_EQUAL(shares_of(&m)->is_motion, k == 2);
     }
 }
 
@@ -215,6 +239,7 @@ void suite_error_shares(void)
     CU_add_test(suite, "rates or deviations", test_by_rate);
     CU_add_test(suite, "the solver", test_solver);
     CU_add_test(suite, "what quad precision leaves", test_quad_precision);
+    CU_add_test(suite, "the motion itself", test_motion_of);
     CU_add_test(suite, "halving alone", test_halving);
     CU_add_test(suite, "projection", test_projection);
 }

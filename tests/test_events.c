@@ -223,6 +223,28 @@ static void test_projection(void)
     CU_ASSERT_DOUBLE_EQUAL(v[2], 0.7, 1e-15);
 }
 
+/* x is held where a wall arrives; there are no velocities where x is set to 3. */
+static void test_unprojectable(void)
+{
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [x']\n"
+         "events: [{when: 1 - t - x, restitution: 1}]\n",
+         "event 1 (1 - t - x) at t = 1 changes no velocity that the constraints leave free"},
+        {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+         "constraints: [x'^2 + y'^2 + x - 2]\nstart: {x': 1, y': 1}\n"
+         "events: [{when: y - 0.5, set: {x: 3}}]\n",
+         "near those of event 1 (y - 0.5) at t = 0.53589838"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        dal_error error = {0};
+        events_of(cases[k].text, "rk4", DAL_PHYSICAL, 0.1, 2.0, DAL_EVENT, &error);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.message, cases[k].message));
+        if (!strstr(error.message, cases[k].message)) printf("\n  %s\n", error.message);
+    }
+}
+
 /* A wall that moves with the speed u: in its frame the ball is turned, v+ = 2 u - v-. */
 static void test_moving_wall(void)
 {
@@ -304,10 +326,18 @@ static void test_wall_before_a_pole(void)
     const char *text = "coordinates: [y]\naccelerations: {y: 1e-9*sqrt(y)}\n"
                        "start: {y: 1, y': -3}\n"
                        "events: [{when: y - 0.05, direction: down, restitution: 1}]\n";
-    const record r = events_of(text, "rk4", DAL_PHYSICAL, 0.2, 0.6, DAL_OK, NULL);
+    record r = events_of(text, "rk4", DAL_PHYSICAL, 0.2, 0.6, DAL_OK, NULL);
     CU_ASSERT_EQUAL_FATAL(r.count, 1);
     CU_ASSERT_DOUBLE_EQUAL(r.t[0], 0.95 / 3.0, 1e-8);
     CU_ASSERT_DOUBLE_EQUAL(r.after[0][1], 3.0, 1e-8);
+    /* The formula of the event has no value there; the message of the longer step is not left. */
+    dal_error error = {0};
+    r = events_of("coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\n"
+                  "events: [{when: sqrt(0.53 - x) - 0.1, set: {x': -1}}]\n",
+                  "rk4", DAL_PHYSICAL, 0.2, 0.8, DAL_OK, &error);
+    CU_ASSERT_EQUAL_FATAL(r.count, 1);
+    CU_ASSERT_DOUBLE_EQUAL(r.t[0], 0.52, 1e-14);
+    CU_ASSERT_STRING_EQUAL(error.message, "");
 }
 
 /* ---- what cannot be passed ---- */
@@ -344,6 +374,12 @@ static void test_outward(void)
     CU_ASSERT_EQUAL(r.count, 1);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "event 1 (y - r) at t = 0.4515"));
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "still lead out"));
+    /* One at rest upon a wall. */
+    const char *rest = "coordinates: [y]\nlagrangian: y'^2/2 - y\n"
+                       "events: [{when: y, direction: down, restitution: 0.5}]\n";
+    events_of(rest, "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_EVENT, &error);
+    CU_ASSERT_PTR_NOT_NULL(
+        strstr(error.message, "event 1 (y) happens infinitely often from t = 0"));
     /* A set that gives no velocity is no wall, and neither is one of both directions. */
     CU_ASSERT(events_of(BALL("set: {y: y}"), "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_OK, NULL).count ==
               1);
@@ -476,11 +512,13 @@ static void test_refuses(void)
     char *text;
     spec.start = &start;
     spec.start_count = 1;
+    fixture_refused(&spec, DAL_UNSUPPORTED, "events act on p = pi = 0 only");
+    spec.start_count = 0;
     dal_run *run = fixture_run(&spec);
+    fixture_perturb(run, 1.0);
     CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "events act on p = pi = 0 only"));
     dal_run_free(run);
-    spec.start_count = 0;
     CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 4, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "has events: batches would pass over them"));
     CU_ASSERT_EQUAL(dal_generate(&spec, 1, "ball", &text, &error), DAL_UNSUPPORTED);
@@ -497,6 +535,7 @@ void suite_events(void)
     CU_add_test(suite, "a sliding block", test_block);
     CU_add_test(suite, "impacts with constraints", test_impact);
     CU_add_test(suite, "what is set is moved to D = 0", test_projection);
+    CU_add_test(suite, "what cannot be moved to D = 0", test_unprojectable);
     CU_add_test(suite, "a moving wall", test_moving_wall);
     CU_add_test(suite, "directions", test_directions);
     CU_add_test(suite, "pairs in a step", test_pair);

@@ -217,6 +217,35 @@ static void test_car(void)
     compare_ends("two-trailer-car.yaml", 0.01, T, end);
 }
 
+/* The same start with x' = 1 kept and the other velocities solved from the constraints. */
+static void test_solved_car(void)
+{
+    static const char end[] = "f': -0.25}";
+    static const double heading[3] = {0.3, -0.2, 0.5};
+    const double u = 1.0 / cos(heading[0]);
+    const car_rates r = find_rates(heading, 0.4);
+    const double expected[6] = {1.0,           u * sin(heading[0]), u * r.turn[0],
+                                steering_rate, u * r.turn[1],       u * r.turn[2]};
+    char text[4096];
+    dal_model *given = NULL, *model = NULL;
+    const dal_system *system = open_system(&given, "two-trailer-car.yaml");
+    size_t length;
+    const char *source = dal_model_source(given, &length);
+    const char *place = strstr(source, end);
+    CU_ASSERT_FATAL(place != NULL && length + 64 < sizeof text);
+    snprintf(text, sizeof text, "%.*sf': -0.25, solve: [y', a', b1', b2']}%s",
+             (int)(place - source), source, place + strlen(end));
+    CU_ASSERT_FATAL(dal_model_read(&model, NULL, text, strlen(text), NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_model_system(model, &system, NULL) == DAL_OK);
+    dal_run *run = create_run(system, 0, 0.01);
+    CU_ASSERT_FATAL(run != NULL);
+    for (int i = 0; i < 6; i++)
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[6 + i], expected[i], 1e-14);
+    dal_run_free(run);
+    dal_model_free(model);
+    dal_model_free(given);
+}
+
 void suite_example_systems(void)
 {
     CU_pSuite suite = CU_add_suite("System files of the examples", NULL, NULL);
@@ -224,4 +253,5 @@ void suite_example_systems(void)
     CU_add_test(suite, "a ball in a rotating bowl", test_rotating_bowl);
     CU_add_test(suite, "a chain with a thermostat", test_thermostat);
     CU_add_test(suite, "a car with two trailers", test_car);
+    CU_add_test(suite, "a car with two trailers, solved", test_solved_car);
 }

@@ -123,33 +123,6 @@ static void test_unusual_names(void)
     }
 }
 
-/* Terms of a force, each of other frequency: more than straight-line code can be made of. */
-static void test_too_large(void)
-{
-    enum { TERMS = 4000, TERM_SIZE = 32 };
-    char *formula = malloc(TERMS * TERM_SIZE), *end = formula;
-    dal_model *large = dal_model_create("large");
-    dal_run_spec of = {.options = dal_options_default()};
-    dal_run *run = NULL;
-    dal_error error;
-    for (int i = 0; i < TERMS; i++) end += snprintf(end, TERM_SIZE, "+ sin(%d*x)", i + 2);
-    dal_model_add(large, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, &error);
-    dal_model_add(large, DAL_SECTION_LAGRANGIAN, NULL, "x'^2/2", 0, 0, &error);
-    dal_model_add(large, DAL_SECTION_FORCES, "x", formula + 1, 0, 0, &error);
-    CU_ASSERT_EQUAL_FATAL(dal_model_system(large, &of.system, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_method_parse(&of.method, "rk4", &error), DAL_OK);
-    CU_ASSERT_EQUAL(generate(&of, 1, NULL, &error), DAL_TOO_LARGE);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'large' is too large for straight-line code"));
-    CU_ASSERT(error.line == 0 && error.column == 0);
-    CU_ASSERT_EQUAL_FATAL(dal_run_create(&run, &of, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_native(run, &(dal_native_options){.cache = "/nowhere"}, &error),
-                    DAL_TOO_LARGE);
-    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_OK);
-    dal_run_free(run);
-    dal_model_free(large);
-    free(formula);
-}
-
 static void test_memory(void)
 {
     dal_error error;
@@ -184,7 +157,6 @@ void suite_generate(void)
     CU_add_test(suite, "every integrator", test_every_method);
     CU_add_test(suite, "a file has what it needs", test_length);
     CU_add_test(suite, "systems with unusual names", test_unusual_names);
-    CU_add_test(suite, "a system too large", test_too_large);
     CU_add_test(suite, "memory runs out", test_memory);
     CU_add_test(suite, "numbers keep their bits", test_numbers);
 }

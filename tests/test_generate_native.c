@@ -70,6 +70,51 @@ static void same_run(const dal_run_spec *of)
     dal_run_free(loaded);
 }
 
+/* The same steps by the tape and compiled, without optimisation, which takes less time. */
+static void same_steps(const dal_system *system, const char *method)
+{
+    const dal_native_options plain = {.cache = "cache", .compiler = "./fake"};
+    dal_run_spec spec = fixture_spec(system, method, DAL_LIFTED, 0.01);
+    spec.options.solver = DAL_NEWTON;
+    dal_run *const tape = fixture_run(&spec), *const native = fixture_run(&spec);
+    compiler_fake("exec cc \"$@\" -O0");
+    CU_ASSERT_EQUAL(dal_run_native(native, &plain, NULL), compiles ? DAL_OK : DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_run_advance(tape, 10, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(native, 10, NULL), DAL_OK);
+    same_memory(native, tape);
+    dal_run_free(tape);
+    dal_run_free(native);
+}
+
+/* Programs of tens of thousands of operations, which are many functions: terms of a force, each of
+ * other frequency, which later ones read, too. */
+static void test_long(void)
+{
+    enum { TERMS = 2000, TERM_SIZE = 32 };
+    static char formula[2 * TERMS * TERM_SIZE];
+    char *end = formula;
+    dal_model *model = dal_model_create("long");
+    const dal_system *system;
+    for (int i = 0; i < TERMS; i++) end += snprintf(end, TERM_SIZE, "+ sin(%d*x)", i + 2);
+    for (int i = 0; i < TERMS; i++) end += snprintf(end, TERM_SIZE, "- cos(%d*x)^2/9", i + 2);
+    dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, NULL);
+    dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "x'^2/2", 0, 0, NULL);
+    dal_model_add(model, DAL_SECTION_FORCES, "x", formula + 1, 0, 0, NULL);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_OK);
+    same_steps(system, "rk4");
+    dal_model_free(model);
+}
+
+/* Most of the matrix of derivatives of F is zero. */
+static void test_sparse(void)
+{
+    same_steps(fixture_system("sizes: {N: 12}\ncoordinates: [\"x[1..N]\"]\n"
+                              "lagrangian: sum(i, 1, N, x[i]'^2)/2\n"
+                              "  - sum(i, 1, N - 1, sin(x[i+1] - x[i])^2)\n"
+                              "start: {\"x[i]\": {for: i = 1..N, is: cos(pi*i/N)}}\n"),
+               "gauss4");
+}
+
 static void test_runs(void)
 {
     const dal_setting slow = {"omega", 0.25};
@@ -85,6 +130,17 @@ static void test_runs(void)
     spec.options.solver_tolerance = 1e-7;
     spec.options.extra_iterations = 2;
     spec.options.sums = DAL_SUMS_PLAIN;
+    same_run(&spec);
+}
+
+/* Friction with which auto tries Newton's method and takes it. */
+static void test_solver(void)
+{
+    const dal_setting strong = {"k", 30.0};
+    dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh-friction"),
+                                     "implicit-midpoint", DAL_PHYSICAL, 0.02);
+    spec.parameters = &strong;
+    spec.parameter_count = 1;
     same_run(&spec);
 }
 
@@ -484,6 +540,9 @@ void suite_generate_native(void)
 {
     CU_pSuite suite = CU_add_suite("generate_native", set_up, tear_down);
     CU_add_test(suite, "runs: same bits", test_runs);
+    CU_add_test(suite, "The solver auto, changing over", test_solver);
+    CU_add_test(suite, "programs of many functions", test_long);
+    CU_add_test(suite, "matrices of zeros", test_sparse);
     CU_add_test(suite, "batches: same bits, same failures", test_batches);
     CU_add_test(suite, "batches: starts after the change", test_batch_start);
     CU_add_test(suite, "memory runs out", test_memory);

@@ -46,6 +46,8 @@ static bool accepts_with(int number, unsigned parts, int lanes, dal_space space)
     if (integrator->needs & (DAL_NEEDS_BLOCKS | DAL_NEEDS_ISOKINETIC)) space = DAL_PHYSICAL;
     dal_run_spec spec =
         fixture_spec(system, fixture_method(number, name, sizeof name), space, 0.01);
+    if (integrator->properties & DAL_ADAPTIVE && !(integrator->properties & DAL_MODIFIER))
+        spec.options.tolerance = 1e-9;
     dal__generation g = {.spec = &spec, .lanes = lanes, .product = DAL__LANES};
     CU_ASSERT_EQUAL_FATAL(dal__generation_check(&g, "steps", NULL), DAL_OK);
     if (integrator->properties & DAL_MODIFIER) {

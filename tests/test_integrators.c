@@ -35,7 +35,7 @@ typedef struct window {
 static const window windows[] = {
     {1, fixture_full, 1.0, 200, 400},   {2, fixture_full, 1.0, 40, 80},
     {4, fixture_full, 1.0, 40, 80},     {6, fixture_full, 3.0, 54, 82},
-    {8, fixture_gentle, 20.0, 46, 82},  {10, fixture_gentle, 20.0, 25, 46},
+    {8, fixture_gentle, 20.0, 46, 82},  {10, fixture_gentle, 10.0, 14, 25},
     {12, fixture_gentle, 20.0, 16, 25},
 };
 

@@ -54,7 +54,7 @@ static double chain_difference(const dal_point *at, double *x)
 static void test_chain_adjoint(void)
 {
     double q[CHAIN_N], v[CHAIN_N], pi[CHAIN_N], eps = 0.3, adjoint[3 * CHAIN_N], F[CHAIN_N];
-    const dal_point at = {0.0, q, v, pi, &eps};
+    const dal_point at = {0.0, q, v, pi, &eps, NULL};
     chain_point(q, v, pi);
     chain_field(&chain_system, &at, F);
     chain_adjoint(&chain_system, &at, adjoint);
@@ -69,7 +69,7 @@ static void test_chain_adjoint(void)
 static void test_chain_constraint(void)
 {
     double q[CHAIN_N], v[CHAIN_N], pi[CHAIN_N], eps = 0.3, c[1 + 2 * CHAIN_N], F[CHAIN_N], D;
-    const dal_point at = {0.0, q, v, pi, &eps};
+    const dal_point at = {0.0, q, v, pi, &eps, NULL};
     chain_point(q, v, pi);
     chain_field(&chain_system, &at, F);
     chain_constraint(&chain_system, &at, c);
@@ -91,7 +91,7 @@ static double *fluid_point(double *qv)
     double start[2 * FLUID_N + 1];
     CU_ASSERT_PTR_NOT_NULL_FATAL(work);
     memcpy(work, fluid_value, sizeof fluid_value);
-    const dal_point at = {0.0, start, start + FLUID_N, NULL, work};
+    const dal_point at = {0.0, start, start + FLUID_N, NULL, work, NULL};
     fluid_start(&fluid_system, &at, start);
     memcpy(qv, start, 2 * FLUID_N * sizeof *qv);
     for (int i = 0; i < FLUID_N; i++) qv[i] += 0.1 * sin(7.0 * i) - (i % 5 == 0) * work[FLUID_SIDE];
@@ -103,7 +103,7 @@ static void test_fluid_forces(void)
 {
     double qv[2 * FLUID_N], f[FLUID_N], F[FLUID_N], above, below;
     double *work = fluid_point(qv);
-    const dal_point at = {0.0, qv, qv + FLUID_N, NULL, work};
+    const dal_point at = {0.0, qv, qv + FLUID_N, NULL, work, NULL};
     CU_ASSERT_EQUAL_FATAL(fluid_forces(&at, f), DAL_OK);
     CU_ASSERT_EQUAL(fluid_field(&fluid_system, &at, F), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(dot(F, qv + FLUID_N, FLUID_N), 0.0, 1e-10);
@@ -125,7 +125,7 @@ static void test_fluid_list(void)
 {
     double qv[2 * FLUID_N], old[FLUID_N], new[FLUID_N];
     double *work = fluid_point(qv);
-    const dal_point at = {0.0, qv, qv + FLUID_N, NULL, work};
+    const dal_point at = {0.0, qv, qv + FLUID_N, NULL, work, NULL};
     CU_ASSERT_EQUAL_FATAL(fluid_forces(&at, old), DAL_OK);
     for (int i = 0; i < FLUID_N; i++) qv[i] += 0.08 * cos(11.0 * i);
     CU_ASSERT_EQUAL(fluid_forces(&at, old), DAL_OK);

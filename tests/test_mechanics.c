@@ -333,7 +333,7 @@ static void check_lanes(const lanes_case *c)
     reference_scatter(c->lanes, REFERENCE_MAX, v0, pi);
     for (int i = 0; i < workspace; i++)
         for (int l = 0; l < c->lanes; l++) c->b->work[i * c->lanes + l] = prepared[i];
-    dal_point at = {t0, q, v, pi, c->b->work};
+    dal_point at = {t0, q, v, pi, c->b->work, NULL};
     CU_ASSERT(c->wide(c->b->system, &at, out) == DAL_OK);
     memcpy(c->b->work, prepared, (size_t)workspace * sizeof *prepared);
     for (int l = 0; l < c->lanes; l++) {
@@ -343,7 +343,7 @@ static void check_lanes(const lanes_case *c)
         reference_gather(c->lanes, l, REFERENCE_MAX, v, v1);
         reference_gather(c->lanes, l, REFERENCE_MAX, pi, pi1);
         reference_gather(c->lanes, l, c->outputs, out, lane);
-        dal_point point = {t0, q1, v1, pi1, c->b->work};
+        dal_point point = {t0, q1, v1, pi1, c->b->work, NULL};
         CU_ASSERT(c->single(c->b->system, &point, one) == DAL_OK);
         CU_ASSERT(memcmp(one, lane, (size_t)c->outputs * sizeof *one) == 0);
     }

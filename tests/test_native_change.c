@@ -343,26 +343,33 @@ static void test_failures(void)
     dal_run_free(run);
 }
 
-/* Freed, it ends the compiler with what that started, which holds a FIFO open, and leaves no
- * file. */
+/* Freed, it ends the compiler with what that started, which holds a FIFO open, and leaves no file,
+ * not even a temporary one of the compiler. */
 static void test_ended(void)
 {
     dal_run *run = falling_run("rk4", 0.02);
     dal_native *native = NULL;
-    char byte;
+    char byte, made[512] = "";
     const int kept = (mkdir("gated", 0700), folder_files("gated"));
     CU_ASSERT_EQUAL(mkfifo("held", 0600), 0);
-    compiler_fake("sleep 60 >held & wait");
+    compiler_fake("mktemp >made; sleep 60 >held & wait");
     CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &gated, NULL), DAL_OK);
     const int held = open("held", O_RDONLY);
     CU_ASSERT_EQUAL(folder_files("gated"), kept + 1);
+    FILE *const file = fopen("made", "r");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
+    CU_ASSERT_EQUAL(fscanf(file, "%511s", made), 1);
+    fclose(file);
+    CU_ASSERT_EQUAL(access(made, F_OK), 0);
     const time_t begin = time(NULL);
     dal_native_free(native);
+    CU_ASSERT_NOT_EQUAL(access(made, F_OK), 0);
     CU_ASSERT_EQUAL(read(held, &byte, 1), 0);
     CU_ASSERT(difftime(time(NULL), begin) < 50.0);
     CU_ASSERT_EQUAL(folder_files("gated"), kept);
     close(held);
     unlink("held");
+    unlink("made");
     dal_run_free(run);
 }
 

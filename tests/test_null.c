@@ -1,12 +1,10 @@
-/* test_null.c - NULL, nameless settings and negative counts, given to systems, methods, runs,
- * batches and generated code. */
-#include "dalembert_codegen.h"
+/* test_null.c - NULL, nameless settings and negative counts, given to systems, methods, runs and
+ * batches. */
 #include "null.h"
 #include <stdlib.h>
 #include <string.h>
 
 FUNCTIONS_dalembert(DECLARE_NULL_TEST) FUNCTIONS_dalembert_system(DECLARE_NULL_TEST)
-    FUNCTIONS_dalembert_codegen(DECLARE_NULL_TEST)
 
     /* ---- what the functions are given where they are given anything ---- */
 
@@ -20,35 +18,12 @@ static double numbers[64];
 
 static int open_objects(void)
 {
-    const dal_status opened = open_spec(&model, &spec);
+    const int failed = open_runs(&model, &spec, &run, &batch);
     method = spec.method;
-    return opened != DAL_OK || dal_run_create(&run, &spec, NULL) != DAL_OK ||
-           dal_batch_create(&batch, &spec, 3, 0, NULL) != DAL_OK;
+    return failed;
 }
 
-static int close_objects(void)
-{
-    dal_batch_free(batch);
-    dal_run_free(run);
-    dal_model_free(model);
-    return 0;
-}
-
-/* Specs that no function may take, and none at all. */
-enum { BAD_SPECS = 8 };
-static const dal_run_spec *bad_spec(int i)
-{
-    static dal_run_spec bad;
-    bad = spec;
-    if (i == 1) bad.system = NULL;
-    if (i == 2) bad.parameter_count = -1;
-    if (i == 3) bad.parameter_count = 2;
-    if (i == 4) bad.parameters = nameless, bad.parameter_count = 1;
-    if (i == 5) bad.start_count = -1;
-    if (i == 6) bad.start_count = 2;
-    if (i == 7) bad.start = nameless, bad.start_count = 1;
-    return i == 0 ? NULL : &bad;
-}
+static int close_objects(void) { return close_runs(model, run, batch); }
 
 /* ---- statuses and numbers ---- */
 
@@ -85,7 +60,7 @@ static void null_dal_options_set(void)
 static void null_dal_run_size(void)
 {
     CU_ASSERT(dal_run_size(&spec) > 0);
-    for (int i = 0; i < BAD_SPECS; i++) CU_ASSERT_EQUAL(dal_run_size(bad_spec(i)), 0);
+    for (int i = 0; i < BAD_SPECS; i++) CU_ASSERT_EQUAL(dal_run_size(spoil_spec(&spec, i)), 0);
 }
 
 static void null_dal_run_init(void)
@@ -97,7 +72,7 @@ static void null_dal_run_init(void)
     REFUSED(dal_run_init(&made, NULL, bytes, &spec, error));
     CU_ASSERT_PTR_NULL(made);
     for (int i = 0; i < BAD_SPECS; i++)
-        REFUSED(dal_run_init(&made, memory, bytes, bad_spec(i), error));
+        REFUSED(dal_run_init(&made, memory, bytes, spoil_spec(&spec, i), error));
     free(memory);
 }
 
@@ -105,7 +80,7 @@ static void null_dal_run_create(void)
 {
     dal_run *made = run;
     REFUSED(dal_run_create(NULL, &spec, error));
-    for (int i = 0; i < BAD_SPECS; i++) REFUSED(dal_run_create(&made, bad_spec(i), error));
+    for (int i = 0; i < BAD_SPECS; i++) REFUSED(dal_run_create(&made, spoil_spec(&spec, i), error));
     CU_ASSERT_PTR_NULL(made);
 }
 
@@ -233,7 +208,8 @@ static void null_dal_batch_create(void)
 {
     dal_batch *made = batch;
     REFUSED(dal_batch_create(NULL, &spec, 3, 0, error));
-    for (int i = 0; i < BAD_SPECS; i++) REFUSED(dal_batch_create(&made, bad_spec(i), 3, 0, error));
+    for (int i = 0; i < BAD_SPECS; i++)
+        REFUSED(dal_batch_create(&made, spoil_spec(&spec, i), 3, 0, error));
     REFUSED(dal_batch_create(&made, &spec, -1, 0, error));
     REFUSED(dal_batch_create(&made, &spec, 3, -1, error));
     CU_ASSERT_PTR_NULL(made);
@@ -292,6 +268,63 @@ static void null_dal_batch_state(void)
     CU_ASSERT_EQUAL(numbers[0], 7.0);
 }
 
+static void null_dal_variation_parse(void)
+{
+    dal_variation v;
+    REFUSED(dal_variation_parse(NULL, "x=normal(0,1)", error));
+    REFUSED(dal_variation_parse(&v, NULL, error));
+}
+static void null_dal_variation_draw(void) { CU_ASSERT(isnan(dal_variation_draw(NULL, 1, 1))); }
+static void null_dal_random_key(void)
+{
+    CU_ASSERT_EQUAL(dal_random_key(NULL, 3), dal_random_key("", 3));
+}
+
+static void null_dal_ensemble_create(void)
+{
+    dal_ensemble *made;
+    REFUSED(dal_ensemble_create(NULL, &spec, NULL, 0, 1, 8, error));
+    REFUSED(dal_ensemble_create(&made, NULL, NULL, 0, 1, 8, error));
+    REFUSED(dal_ensemble_create(&made, &spec, NULL, 1, 1, 8, error));
+    REFUSED(dal_ensemble_create(&made, &spec, NULL, -1, 1, 8, error));
+}
+static void null_dal_ensemble_free(void) { dal_ensemble_free(NULL); }
+static void null_dal_ensemble_start(void)
+{
+    CU_ASSERT_EQUAL(dal_ensemble_start(NULL, 0, 1), DAL_ARGUMENT);
+}
+static void null_dal_ensemble_batch(void) { CU_ASSERT_PTR_NULL(dal_ensemble_batch(NULL)); }
+static void null_dal_ensemble_draws(void) { dal_ensemble_draws(NULL, numbers); }
+static void null_dal_ensemble_states(void) { dal_ensemble_states(NULL, numbers); }
+
+static void null_dal_measure_spread(void)
+{
+    dal_spread spread;
+    dal_measure_spread(NULL, 1, &spread);
+    CU_ASSERT(spread.count == 0 && isnan(spread.mean));
+    dal_measure_spread(numbers, -1, &spread);
+    CU_ASSERT(spread.count == 0 && isnan(spread.max));
+    dal_measure_spread(numbers, 1, NULL);
+}
+
+static void null_dal_measure_quantiles(void)
+{
+    double q = 0.0;
+    dal_measure_quantiles(NULL, 1, numbers, 1, &q);
+    CU_ASSERT(isnan(q));
+    dal_measure_quantiles(numbers, 1, NULL, 1, &q);
+    dal_measure_quantiles(numbers, 1, numbers, 1, NULL);
+}
+
+static void null_dal_add_products(void)
+{
+    CU_ASSERT_EQUAL(dal_add_products(1, NULL, numbers, 1, numbers), 0);
+    CU_ASSERT_EQUAL(dal_add_products(1, numbers, NULL, 1, numbers), 0);
+    CU_ASSERT_EQUAL(dal_add_products(1, numbers, numbers, 1, NULL), 0);
+    CU_ASSERT_EQUAL(dal_add_products(1, numbers, numbers, -1, numbers), 0);
+}
+
+static void null_dal_batch_clear(void) { CU_ASSERT_EQUAL(dal_batch_clear(NULL), DAL_ARGUMENT); }
 static void null_dal_batch_states(void)
 {
     numbers[0] = 7.0;
@@ -358,6 +391,20 @@ static void null_dal_model_add_table(void)
     REFUSED(dal_model_add_table(made, "g", &table, 0, 0, error));
     table.points = 0;
     CU_ASSERT_EQUAL(dal_model_add_table(made, "g", &table, 0, 0, NULL), DAL_MODEL);
+    dal_model_free(made);
+}
+
+static void null_dal_model_observe(void)
+{
+    static const char *const bad[] = {"x", "x'", " x+1", "x\n+1", "x+\"1\"", ""};
+    dal_model *made = dal_model_create("made");
+    REFUSED(dal_model_observe(NULL, "x + 1", 0, 0, error));
+    REFUSED(dal_model_observe(made, NULL, 0, 0, error));
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        CU_ASSERT_NOT_EQUAL(dal_model_observe(made, bad[i], 0, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_observe(made, "x + 1", 0, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_observe(made, "x + 1", 0, 0, NULL), DAL_MODEL);
+    REFUSED(dal_model_add(made, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, error));
     dal_model_free(made);
 }
 
@@ -470,97 +517,8 @@ static void null_dal_model_growth(void)
     REFUSED(dal_model_growth(model, &(dal_setting){NULL, 1.0}, 1, &growth, error));
 }
 
-/* ---- compiled steps ---- */
-
-static void null_dal_generate(void)
-{
-    char *text = buffer;
-    REFUSED(dal_generate(&spec, 1, NULL, NULL, error));
-    for (int i = 0; i < BAD_SPECS; i++) REFUSED(dal_generate(bad_spec(i), 1, NULL, &text, error));
-    REFUSED(dal_generate(&spec, -1, NULL, &text, error));
-    CU_ASSERT_PTR_NULL(text);
-}
-
-static const dal_native_options nowhere = {.cache = NULL};
-
-static void null_dal_run_native(void)
-{
-    REFUSED(dal_run_native(NULL, &nowhere, error));
-    REFUSED(dal_run_native(run, NULL, error));
-    REFUSED(dal_run_native(run, &nowhere, error));
-}
-
-static void null_dal_run_is_native(void) { CU_ASSERT_EQUAL(dal_run_is_native(NULL), 0); }
-
-static void null_dal_run_native_observables(void)
-{
-    REFUSED(dal_run_native_observables(NULL, &nowhere, error));
-    REFUSED(dal_run_native_observables(run, NULL, error));
-    REFUSED(dal_run_native_observables(run, &nowhere, error));
-}
-
-static void null_dal_batch_native(void)
-{
-    REFUSED(dal_batch_native(NULL, &nowhere, error));
-    REFUSED(dal_batch_native(batch, NULL, error));
-    REFUSED(dal_batch_native(batch, &nowhere, error));
-}
-
-static void null_dal_batch_is_native(void) { CU_ASSERT_EQUAL(dal_batch_is_native(NULL), 0); }
-
-typedef dal_status native_begin(dal_native **native, const dal_run *run,
-                                const dal_native_options *options, dal_error *error);
-
-static void refuse_begin(native_begin *begin)
-{
-    dal_native *native = (dal_native *)(void *)buffer;
-    REFUSED(begin(NULL, run, &nowhere, error));
-    REFUSED(begin(&native, NULL, &nowhere, error));
-    REFUSED(begin(&native, run, NULL, error));
-    REFUSED(begin(&native, run, &nowhere, error));
-    CU_ASSERT_PTR_NULL(native);
-}
-
-static void null_dal_native_begin(void) { refuse_begin(dal_native_begin); }
-
-static void null_dal_native_begin_observables(void) { refuse_begin(dal_native_begin_observables); }
-
-static void null_dal_native_begin_batch(void)
-{
-    dal_native *native = (dal_native *)(void *)buffer;
-    REFUSED(dal_native_begin_batch(NULL, batch, &nowhere, error));
-    REFUSED(dal_native_begin_batch(&native, NULL, &nowhere, error));
-    REFUSED(dal_native_begin_batch(&native, batch, NULL, error));
-    CU_ASSERT_PTR_NULL(native);
-}
-
-static void null_dal_native_poll(void)
-{
-    dal_error why = {0};
-    CU_ASSERT_EQUAL(dal_native_poll(NULL, NULL), DAL_NATIVE_FAILED);
-    CU_ASSERT_EQUAL(dal_native_poll(NULL, &why), DAL_NATIVE_FAILED);
-    CU_ASSERT_EQUAL(why.status, DAL_ARGUMENT);
-}
-
-static void null_dal_native_fits(void) { CU_ASSERT_EQUAL(dal_native_fits(NULL, run), 0); }
-
-static void null_dal_run_use_native(void)
-{
-    REFUSED(dal_run_use_native(NULL, NULL, error));
-    REFUSED(dal_run_use_native(run, NULL, error));
-}
-
-static void null_dal_batch_use_native(void)
-{
-    REFUSED(dal_batch_use_native(NULL, NULL, error));
-    REFUSED(dal_batch_use_native(batch, NULL, error));
-}
-
-static void null_dal_native_free(void) { dal_native_free(NULL); }
-
 void suite_null(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and negative counts", open_objects, close_objects);
     FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_system(ADD_NULL_TEST)
-        FUNCTIONS_dalembert_codegen(ADD_NULL_TEST)
 }

@@ -3,27 +3,11 @@
 #include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
-#include "folder.h"
 #include <CUnit/CUnit.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { MAX_SAMPLES = 1200, MAX_OBSERVABLES = 16, STEPS = 701 };
-
-static char place[] = "/tmp/dal-follow-XXXXXX";
-static bool compiles;
-
-static int set_up(void)
-{
-    compiles = compiler_there();
-    return !mkdtemp(place);
-}
-
-static int tear_down(void)
-{
-    folder_remove(place);
-    return 0;
-}
 
 /* ---- systems ---- */
 
@@ -116,10 +100,10 @@ static dal_status sample(dal_run *run, series *s, bool many, long long every, lo
 
 static void compile(dal_run *run, bool steps, bool observables)
 {
-    const dal_native_options options = {.cache = place};
-    if (steps && compiles) CU_ASSERT_EQUAL(dal_run_native(run, &options, NULL), DAL_OK);
-    if (observables && compiles)
-        CU_ASSERT_EQUAL(dal_run_native_observables(run, &options, NULL), DAL_OK);
+    if (steps && compiler_works)
+        CU_ASSERT_EQUAL(dal_run_native(run, &compiler_options, NULL), DAL_OK);
+    if (observables && compiler_works)
+        CU_ASSERT_EQUAL(dal_run_native_observables(run, &compiler_options, NULL), DAL_OK);
 }
 
 /* ---- the same bits ---- */
@@ -139,7 +123,7 @@ static void same_series(const subject *of, const dal_system *system, int way)
     CU_ASSERT_EQUAL(memcmp(one.t, many.t, sizeof one.t), 0);
     CU_ASSERT_EQUAL(memcmp(one.x, many.x, sizeof one.x), 0);
     CU_ASSERT_EQUAL(memcmp(one.statistics, many.statistics, sizeof one.statistics), 0);
-    if (compiles && way == 3) CU_ASSERT(many.max_at_once > 100);
+    if (compiler_works && way == 3) CU_ASSERT(many.max_at_once > 100);
     dal_run_free(plain);
     dal_run_free(run);
 }
@@ -247,7 +231,8 @@ static void test_lift(void)
 
 void suite_observables(void)
 {
-    CU_pSuite suite = CU_add_suite("observables of many steps", set_up, tear_down);
+    CU_pSuite suite =
+        CU_add_suite("observables of many steps", compiler_set_up, compiler_tear_down);
     CU_add_test(suite, "the same bits", test_bits);
     CU_add_test(suite, "in pieces", test_pieces);
     CU_add_test(suite, "a step fails", test_failure);

@@ -3,7 +3,6 @@
 #include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
-#include "folder.h"
 #include "model/programs.h"
 #include "run/run.h"
 #include <CUnit/CUnit.h>
@@ -13,22 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-static char place[] = "/tmp/dal-bits-XXXXXX";
-static bool compiles;
-static const dal_native_options options = {.cache = place};
-
-static int set_up(void)
-{
-    compiles = compiler_there();
-    return !mkdtemp(place);
-}
-
-static int tear_down(void)
-{
-    folder_remove(place);
-    return 0;
-}
 
 static const char driven[] = "coordinates: [x, y, phi]\n"
                              "parameters: {m: 1, I: 0.5, k: 2, u: 0.1}\n"
@@ -89,7 +72,7 @@ static void same_batch(const dal_run_spec *spec, int width, bool native, dal_run
         const dal_setting start = start_of(lane);
         CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, &start, 1, NULL), DAL_OK);
     }
-    if (native) CU_ASSERT_EQUAL(dal_batch_native(batch, &options, NULL), DAL_OK);
+    if (native) CU_ASSERT_EQUAL(dal_batch_native(batch, &compiler_options, NULL), DAL_OK);
     drive_batch(batch);
     for (int lane = 0; lane < LANES; lane++) {
         dal_batch_state(batch, lane, state);
@@ -104,7 +87,7 @@ static void same_native(const dal_run_spec *spec, const dal_run *run)
 {
     dal_run *native = run_of(*spec, 0);
     size_t m, n;
-    CU_ASSERT_EQUAL(dal_run_native(native, &options, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_native(native, &compiler_options, NULL), DAL_OK);
     drive_run(native, 0);
     const double *x = dal_run_save(native, &m), *y = dal_run_save(run, &n);
     CU_ASSERT_EQUAL_FATAL(m, n);
@@ -134,8 +117,8 @@ static object load(const dal_run_spec *spec, const dal_run *run, int lanes)
 {
     object o = {.lanes = lanes};
     char source[64], path[64], command[256], *text = NULL;
-    snprintf(source, sizeof source, "%s/g.c", place);
-    snprintf(path, sizeof path, "%s/g%d.so", place, lanes);
+    snprintf(source, sizeof source, "%s/g.c", compiler_folder);
+    snprintf(path, sizeof path, "%s/g%d.so", compiler_folder, lanes);
     snprintf(command, sizeof command,
              "cc -std=c11 -O0 -Wall -Wextra -Wno-psabi -Werror -shared -fPIC -o %s %s -lm", path,
              source);
@@ -225,8 +208,8 @@ static void every_way(const char *method, dal_space space, bool compiled)
 
 static void test_bits(void)
 {
-    every_way("rk4", DAL_LIFTED, compiles);
-    every_way("gauss4+project", DAL_PHYSICAL, compiles);
+    every_way("rk4", DAL_LIFTED, compiler_works);
+    every_way("gauss4+project", DAL_PHYSICAL, compiler_works);
     every_way("gauss6", DAL_LIFTED, false);
     every_way("implicit-midpoint+symmetric-project", DAL_PHYSICAL, false);
     every_way("dla", DAL_PHYSICAL, false);
@@ -244,7 +227,7 @@ static void test_generated_error(void)
     dal_run_spec spec = fixture_spec(fixture_system(oscillator), "rk4", DAL_PHYSICAL, 0.01);
     dal_run *run = fixture_run(&spec);
     double seen[2 * 2];
-    if (compiles) {
+    if (compiler_works) {
         object o = load(&spec, run, 2);
         o.advance(o.y, 0.01, 10);
         set_generated(&o, run, 1, "k", 4.0);
@@ -263,7 +246,7 @@ static void test_generated_error(void)
 void suite_parameter_bits(void);
 void suite_parameter_bits(void)
 {
-    CU_pSuite suite = CU_add_suite("parameter bits", set_up, tear_down);
+    CU_pSuite suite = CU_add_suite("parameter bits", compiler_set_up, compiler_tear_down);
     CU_add_test(suite, "the same bits in every way", test_bits);
     CU_add_test(suite, "no exact solution in a generated file", test_generated_error);
 }

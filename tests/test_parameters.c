@@ -3,7 +3,6 @@
 #include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
-#include "folder.h"
 #include "run/run.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -11,22 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-static char place[] = "/tmp/dal-parameters-XXXXXX";
-static bool compiles;
-static const dal_native_options options = {.cache = place};
-
-static int set_up(void)
-{
-    compiles = compiler_there();
-    return !mkdtemp(place);
-}
-
-static int tear_down(void)
-{
-    folder_remove(place);
-    return 0;
-}
 
 /* ---- names ---- */
 
@@ -160,11 +143,12 @@ static double sampled_error(dal_run *run)
 
 static void test_error(void)
 {
-    for (int native = 0; native <= (int)compiles; native++) {
+    for (int native = 0; native <= (int)compiler_works; native++) {
         dal_run *run = spring_run("gauss8", DAL_DOUBLE);
         double seen[2];
-        if (native) CU_ASSERT_EQUAL(dal_run_native(run, &options, NULL), DAL_OK);
-        if (native) CU_ASSERT_EQUAL(dal_run_native_observables(run, &options, NULL), DAL_OK);
+        if (native) CU_ASSERT_EQUAL(dal_run_native(run, &compiler_options, NULL), DAL_OK);
+        if (native)
+            CU_ASSERT_EQUAL(dal_run_native_observables(run, &compiler_options, NULL), DAL_OK);
         CU_ASSERT(sampled_error(run) < 1e-13);
         CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 5.0, NULL), DAL_OK);
         CU_ASSERT(isnan(sampled_error(run)));
@@ -457,7 +441,7 @@ static void test_lanes(void)
 void suite_parameters(void);
 void suite_parameters(void)
 {
-    CU_pSuite suite = CU_add_suite("parameters", set_up, tear_down);
+    CU_pSuite suite = CU_add_suite("parameters", compiler_set_up, compiler_tear_down);
     CU_add_test(suite, "names of the state", test_names);
     CU_add_test(suite, "the motion", test_motion);
     CU_add_test(suite, "a first step again", test_warm_start);

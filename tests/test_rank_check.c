@@ -113,6 +113,34 @@ static void test_builtins(void)
 
 /* ---- when the check is made ---- */
 
+/* In the first, x' and y' have constant coefficients each in one constraint alone, so that the rank
+ * of A is 2 everywhere, and W is positive definite: A W^-1 A^T is regular.  Each other lacks one of
+ * these: x' has a coefficient that vanishes, y' stands in both constraints, W is indefinite, and
+ * vakonomic motion has other equations. */
+static void test_regular(void)
+{
+    static const struct {
+        const char *lagrangian, *first, *rest;
+        bool is_checked;
+    } list[] = {
+        {"(x'^2 + y'^2 + z'^2 + u'^2)/2", "2*x' - cos(z)*u'", "", false},
+        {"(x'^2 + y'^2 + z'^2 + u'^2)/2", "cos(x)*x' - cos(z)*u'", "", true},
+        {"(x'^2 + y'^2 + z'^2 + u'^2)/2", "2*x' + cos(z)*y' - u'", "", true},
+        {"(x'^2 - y'^2 + z'^2 + u'^2)/2", "2*x' - cos(z)*u'", "", true},
+        {"(x'^2 + y'^2 + z'^2 + u'^2)/2", "2*x' - cos(z)*u'", "mechanics: vakonomic\n", true},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        char text[256];
+        snprintf(text, sizeof text,
+                 "coordinates: [x, y, z, u]\nlagrangian: %s\n"
+                 "constraints: [\"%s\", \"y' - sin(z)*u'\"]\n%s",
+                 list[i].lagrangian, list[i].first, list[i].rest);
+        const dal_system *system = fixture_system(text);
+        CU_ASSERT_FATAL(system != NULL);
+        CU_ASSERT(!(system->properties & DAL_D_RANK_CHECKED) == !list[i].is_checked);
+    }
+}
+
 static dal_callback *constraint;
 static int evaluations;
 
@@ -208,6 +236,7 @@ void suite_rank_check(void)
     CU_pSuite suite = CU_add_suite("rank check", NULL, NULL);
     CU_add_test(suite, "singularities are found in the same steps", test_singularities);
     CU_add_test(suite, "systems of the library", test_builtins);
+    CU_add_test(suite, "not made where the rank cannot fall", test_regular);
     CU_add_test(suite, "made where pivots change", test_spared);
     CU_add_test(suite, "lanes", test_lanes);
     CU_add_test(suite, "compiled steps", test_compiled);

@@ -2,6 +2,7 @@
  * constraints may be, how far from an exact solution it may begin.  Each from both sides. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -180,28 +181,235 @@ static void test_nonlinear(void)
     CU_ASSERT_DOUBLE_EQUAL((z[2] - 0.7) * 4.0 * z[3] - (z[3] - 0.5) * z[2], 0.0, 1e-14);
 }
 
+/* The metric is that of the velocities given.  W = diag(1 + x'^2, 1), diag(5, 1) at (2, 1/2), and
+ * A = (1, 1): v - v0 = -(1/5, 1) (x' + y' - 1)/(6/5). */
+static void test_metric(void)
+{
+    double z[4];
+    const bool made = make_consistent("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + x'^4/12\n"
+                                      "constraints: [x' + y' - 1]\nstart: {x': 2, y': 0.5}\n",
+                                      DAL_OK, "", z);
+    CU_ASSERT_FATAL(made);
+    CU_ASSERT_DOUBLE_EQUAL(z[2], 1.75, 1e-15);
+    CU_ASSERT_DOUBLE_EQUAL(z[3], -0.75, 1e-15);
+}
+
+/* d/ds of d.W d/2 with v = (cos s, sin s/2) on the ellipse, d = v - v0, and the W at v0 of
+ * L = (x'^2 + y'^2)/2 + x'^2 y'^2/2, which is (1 + y'^2, 2 x' y'; 2 x' y', 1 + x'^2). */
+static double slope(double s, double vx, double vy)
+{
+    const double dx = cos(s) - vx, dy = 0.5 * sin(s) - vy;
+    const double px = (1.0 + vy * vy) * dx + 2.0 * vx * vy * dy;
+    const double py = 2.0 * vx * vy * dx + (1.0 + vx * vx) * dy;
+    return -px * sin(s) + 0.5 * py * cos(s);
+}
+
+/* The nearest point of the ellipse x'^2 + 4 y'^2 = 1 in that metric, by bisection; also from far
+ * outside, where steps that are not damped alternate between both sides of it. */
+static void test_curved(void)
+{
+    static const double start[][2] = {{0.4, 0.3}, {-0.3, 0.5}, {2.0, 0.4}, {0.5, 1.5}};
+    char text[256];
+    double z[4];
+    for (size_t k = 0; k < sizeof start / sizeof *start; k++) {
+        const double vx = start[k][0], vy = start[k][1], middle = atan2(2.0 * vy, vx);
+        double low = middle - 1.0, high = middle + 1.0;
+        CU_ASSERT_FATAL(slope(low, vx, vy) < 0.0 && slope(high, vx, vy) > 0.0);
+        for (int i = 0; i < 60; i++) {
+            const double half = 0.5 * (low + high);
+            *(slope(half, vx, vy) < 0.0 ? &low : &high) = half;
+        }
+        snprintf(text, sizeof text,
+                 "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + x'^2*y'^2/2\n"
+                 "constraints: [(x'^2 + 4*y'^2 - 1)/2]\nstart: {x': %g, y': %g}\n",
+                 vx, vy);
+        const bool made = make_consistent(text, DAL_OK, "", z);
+        CU_ASSERT_FATAL(made);
+        CU_ASSERT_DOUBLE_EQUAL(z[2], cos(low), 1e-13);
+        CU_ASSERT_DOUBLE_EQUAL(z[3], 0.5 * sin(low), 1e-13);
+    }
+}
+
+/* ---- velocities that are solved ---- */
+
+#define PLANE "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+#define SPACE "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+static const char circle[] = PLANE "constraints: [(x'^2 + y'^2 - 25)/2]\n"
+                                   "start: {x': 3, y': -1, solve: [y']}\n";
+
+/* x' + 2 y' - z' = 1 and y' - z' = x at x = 3, x' = 2: y' = -4, z' = -7, of the run and of the
+ * evaluator; the name in D1 alone may be solved alone where D2 = 0. */
+static void test_solved_linear(void)
+{
+    static const char text[] = SPACE "constraints: [x' + 2*y' - z' - 1, 1e-6*(y' - z' - x)]\n"
+                                     "start: {x: 3, x': 2, y': 11, solve: [z', y']}\n";
+    static const char alone[] = SPACE "constraints: [x' + y' - 1, z' - 2]\n"
+                                      "start: {x': 3, z': 2, solve: [y']}\n";
+    static const double expected[] = {2.0, -4.0, -7.0};
+    dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run *run = fixture_run(&spec);
+    dal_evaluator *evaluator = fixture_evaluator(fixture_system(text));
+    double start[7];
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, start, NULL), DAL_OK);
+    for (int i = 0; i < 3; i++) {
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[3 + i], expected[i], 1e-14);
+        CU_ASSERT_EQUAL(dal_run_state(run)[3 + i], start[3 + i]);
+    }
+    dal_evaluator_free(evaluator);
+    dal_run_free(run);
+    spec = fixture_spec(fixture_system(alone), "rk4", DAL_PHYSICAL, 0.1);
+    run = fixture_run(&spec);
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[4], -2.0, 1e-15);
+    const dal_setting off = {"z'", 2.5};
+    spec.start = &off;
+    spec.start_count = 1;
+    fixture_refused(&spec, DAL_INCONSISTENT,
+                    "violates constraint 2: D2 = 0.5; solve under start can name one more "
+                    "velocity, as z'");
+    dal_run_free(run);
+}
+
+/* The first guess chooses the root of x'^2 + y'^2 = 25; a lane has the start of the run. */
+static void test_solved_roots(void)
+{
+    dal_run_spec spec = fixture_spec(fixture_system(circle), "rk4", DAL_PHYSICAL, 0.1);
+    fixture_lanes(spec, 2, 0, "y'", -0.5, 1.0);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const dal_setting guess = {"y'", 0.5 * sign};
+        spec.start = &guess;
+        spec.start_count = 1;
+        dal_run *run = fixture_run(&spec);
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[3], 4.0 * sign, 1e-14);
+        dal_run_free(run);
+    }
+}
+
+/* Both options, the second of which moves the rest. */
+static void test_solved_and_moved(void)
+{
+    double z[6];
+    const bool made = make_consistent(SPACE "constraints: [x' + y' - 1, z' - 2]\n"
+                                            "start: {x': 3, z': 2.5, solve: [y']}\n",
+                                      DAL_OK, "", z);
+    CU_ASSERT_FATAL(made);
+    CU_ASSERT_DOUBLE_EQUAL(z[3], 3.0, 1e-15);
+    CU_ASSERT_DOUBLE_EQUAL(z[4], -2.0, 1e-15);
+    CU_ASSERT_DOUBLE_EQUAL(z[5], 2.0, 1e-15);
+}
+
+static void test_not_solved(void)
+{
+    static const struct {
+        const char *text, *message;
+        dal_status status;
+        int column;
+    } cases[] = {
+        {PLANE "constraints: [(x'^2 + y'^2 - 25)/2]\nstart: {x': 6, y': 1, solve: [y']}\n",
+         "cannot be solved for y': no root of constraint 1 was found", DAL_INCONSISTENT, 31},
+        {PLANE "constraints: [(x'^2 + y'^2 - 25)/2]\nstart: {x': 3, solve: [y']}\n",
+         "for y': no constraint restricts it at the first guess 0; give another one", DAL_RANK, 24},
+        {PLANE "constraints: [log(x' + y')]\nstart: {x': -3, solve: [y']}\n",
+         "no root of constraint 1 was found from these first guesses, D1 = ", DAL_NOT_FINITE, 25},
+        {SPACE "constraints: [x' + y' - 1, z' - 2]\nstart: {z': 2, solve: [x', y']}\n",
+         "for both x' and y', which constraint 1 restricts", DAL_RANK, 28},
+        {SPACE "constraints: [z' - 2, x' + y' - 1]\nstart: {solve: [y', z']}\n", "", DAL_OK, 0},
+        {SPACE "constraints: [x' - 2]\nstart: {x': 2, solve: [y']}\n",
+         "for y': no constraint restricts it", DAL_RANK, 24},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const dal_run_spec spec =
+            fixture_spec(fixture_system(cases[k].text), "rk4", DAL_PHYSICAL, 0.1);
+        dal_evaluator *evaluator = fixture_evaluator(spec.system);
+        for (int by_evaluator = 0; by_evaluator <= 1; by_evaluator++) {
+            double start[7];
+            dal_error error = {0};
+            dal_run *run = NULL;
+            CU_ASSERT_EQUAL(by_evaluator ? dal_evaluator_start(evaluator, NULL, 0, start, &error)
+                                         : dal_run_create(&run, &spec, &error),
+                            cases[k].status);
+            CU_ASSERT_PTR_NOT_NULL(strstr(error.message, cases[k].message));
+            if (!strstr(error.message, cases[k].message)) printf("\n  '%s'\n", error.message);
+            CU_ASSERT_EQUAL(error.line, cases[k].column ? 4 : 0);
+            CU_ASSERT_EQUAL(error.column, cases[k].column);
+            dal_run_free(run);
+        }
+        dal_evaluator_free(evaluator);
+    }
+}
+
+/* What is wrong in the file itself. */
+static void test_solve_misspelt(void)
+{
+    static const struct {
+        const char *start, *message;
+        int column;
+    } cases[] = {
+        {"{solve: y'}", "solve must be a list of velocities, as [x', y']", 16},
+        {"{solve: {y': 1}}", "solve must be a list of velocities, as [x', y']", 16},
+        {"{solve: [y]}", "unknown velocity in solve 'y'; did you mean 'y''?", 17},
+        {"{solve: [y', y']}", "duplicate 'y'' in solve", 21},
+        {"{solve: [y', x']}", "for x': there is 1 constraint, and as many velocities before it",
+         21},
+        {"{y': 1, x: y', solve: [y']}", "the velocity of 'y' may not stand here", 19},
+        {"{solve: ['x y']}", "'x y' in start is not a name", 17},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[256];
+        dal_model *model = NULL;
+        const dal_system *system;
+        dal_error error = {0};
+        snprintf(text, sizeof text, PLANE "constraints: [x' + y']\nstart: %s\n", cases[k].start);
+        if (dal_model_read(&model, NULL, text, strlen(text), &error) == DAL_OK)
+            dal_model_system(model, &system, &error);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.message, cases[k].message));
+        if (!strstr(error.message, cases[k].message)) printf("\n  '%s'\n", error.message);
+        CU_ASSERT_EQUAL(error.line, 4);
+        CU_ASSERT_EQUAL(error.column, cases[k].column);
+        dal_model_free(model);
+    }
+}
+
+/* Without a file: the names are added to a model, or the system is filled by hand. */
+static void test_solved_by_hand(void)
+{
+    static const dal_solved y = {.velocity = 1};
+    dal_model *model = NULL;
+    const dal_system *system = NULL;
+    const char text[] = PLANE "constraints: [x' + 2*y' - 4]\nstart: {x': 2}\n";
+    CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, NULL, text, strlen(text), NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_add(model, DAL_SECTION_START, "solve.y'", "", 0, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(system->solved_velocities, 1);
+    CU_ASSERT_EQUAL(system->solved[0].velocity, 1);
+    dal_system by_hand = *fixture_system(text);
+    by_hand.solved_velocities = 1;
+    by_hand.solved = &y;
+    for (int k = 0; k < 2; k++) {
+        const dal_run_spec spec = fixture_spec(k ? &by_hand : system, "rk4", DAL_PHYSICAL, 0.1);
+        dal_run *run = fixture_run(&spec);
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[3], 1.0, 1e-15);
+        dal_run_free(run);
+    }
+    const dal_solved none = {.velocity = 2}, both[] = {{.velocity = 0}, {.velocity = 1}};
+    const dal_run_spec spec = fixture_spec(&by_hand, "rk4", DAL_PHYSICAL, 0.1);
+    by_hand.solved = &none;
+    fixture_refused(&spec, DAL_ARGUMENT,
+                    "1 velocities to be solved from 1 constraints, of 2 velocities");
+    by_hand.solved = both;
+    by_hand.solved_velocities = 2;
+    fixture_refused(&spec, DAL_ARGUMENT, "2 velocities to be solved from 1 constraints");
+    dal_model_free(model);
+}
+
 /* A lane has the start of the run; without the option the message names it. */
 static void test_lanes(void)
 {
     static const char text[] = "coordinates: [x, y]\nlagrangian: x'^2 + y'^2/2\n"
                                "constraints: [x' + x*y' - 1]\nstart: {x: 5, x': 2, y': 0.5}\n";
-    const dal_setting place = {"x", -0.5};
     dal_run_spec spec = fixture_spec(fixture_system(text), "gauss4", DAL_LIFTED, 0.1);
     fixture_refused(&spec, DAL_INCONSISTENT, "the option consistent moves its velocities to D = 0");
     spec.options.consistent = 1;
-    dal_batch *batch = NULL;
-    double state[10];
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 5, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 4, NULL, 0, &place, 1, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 10), DAL_OK);
-    spec.start = &place;
-    spec.start_count = 1;
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
-    dal_batch_state(batch, 4, state);
-    CU_ASSERT_EQUAL(memcmp(state, dal_run_state(run), sizeof state), 0);
-    dal_run_free(run);
-    dal_batch_free(batch);
+    fixture_lanes(spec, 5, 10, "x", -0.5, 0.25);
 }
 
 static void test_unsolvable(void)
@@ -212,18 +420,69 @@ static void test_unsolvable(void)
                     DAL_INCONSISTENT, "satisfy constraint 1: D1 = ", z);
     make_consistent("coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
                     "constraints: [x' - y', (z'^2 - 1)/2]\nstart: {x': 1}\n",
-                    DAL_RANK, "constraint 2 restricts no velocity", z);
+                    DAL_RANK, "constraint 2 restricts no velocity at the start", z);
+    dal_run_spec spec =
+        fixture_spec(fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                    "constraints: [y' - sqrt(x')]\nstart: {x': 0}\n"),
+                     "rk4", DAL_PHYSICAL, 0.1);
+    for (spec.options.consistent = 0; spec.options.consistent <= 1; spec.options.consistent++)
+        fixture_refused(&spec, DAL_RANK, "constraint 1 has infinite derivatives");
+    make_consistent("coordinates: [x, y]\nlagrangian: (x'^2 - y'^2)/2\nstart: {x': 1}\n"
+                    "constraints: [x' - (1 + x)*y']\n",
+                    DAL_RANK, "constraint 1 has 0 on the diagonal of G", z);
+}
+
+/* The pivots of G = A A^T are 1 + k^2 and s^2 (k - l)^2/(1 + k^2). */
+static void test_dependent(void)
+{
+    static const char text[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                               "parameters: {k: 1, l: 2, s: 1}\n"
+                               "constraints: [x' + k*y', s*(x' + l*y')]\n";
+    static const char few[] =
+        "constraint 2 restricts, but for rounding, only velocities that those "
+        "before it restrict at the start";
+    static const char scaled[] = "constraint 2 is badly scaled: its derivatives by the velocities "
+                                 "reach ";
+    const struct {
+        double k, l, s;
+        const char *message;
+    } cases[] = {{1.0, 1.0, 1.0, few},
+                 {1e-9, 2e-9, 1.0, few},
+                 {0.5, 0.5, 1e6, few},
+                 {0.0, 2.0, 1e-200, scaled},
+                 {0.0, 2.0, 1e200, scaled},
+                 {0.0, 0.0, -1e-170, scaled},
+                 {0.0, 2.0, 0.0, "constraint 2 restricts no velocity at the start"}};
+    const dal_system *system = fixture_system(text);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const dal_setting set[] = {{"k", cases[i].k}, {"l", cases[i].l}, {"s", cases[i].s}};
+        dal_run_spec spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
+        spec.parameters = set;
+        spec.parameter_count = 3;
+        fixture_refused(&spec, DAL_RANK, cases[i].message);
+        spec.options.consistent = 1;
+        fixture_refused(&spec, DAL_RANK, cases[i].message);
+    }
 }
 
 void suite_start(void)
 {
     CU_pSuite suite = CU_add_suite("start", NULL, NULL);
+    CU_add_test(suite, "constraints that depend on others", test_dependent);
     CU_add_test(suite, "constraints are violated by 1e-10 at most", test_consistent);
     CU_add_test(suite, "an infinite start", test_not_finite);
     CU_add_test(suite, "formulas in what is given before", test_formulas);
     CU_add_test(suite, "made consistent, linear D", test_linear);
     CU_add_test(suite, "made consistent, nonlinear D", test_nonlinear);
+    CU_add_test(suite, "made consistent, metric of the velocities given", test_metric);
+    CU_add_test(suite, "made consistent, nearest point of an ellipse", test_curved);
     CU_add_test(suite, "made consistent, lanes", test_lanes);
+    CU_add_test(suite, "solved, linear D", test_solved_linear);
+    CU_add_test(suite, "solved, two roots", test_solved_roots);
+    CU_add_test(suite, "solved, then made consistent", test_solved_and_moved);
+    CU_add_test(suite, "solved, none or many solutions", test_not_solved);
+    CU_add_test(suite, "solved, by hand", test_solved_by_hand);
+    CU_add_test(suite, "what is no list of velocities", test_solve_misspelt);
     CU_add_test(suite, "what cannot be made consistent", test_unsolvable);
     CU_add_test(suite, "pivots are 1e-12 at least", test_rank);
     CU_add_test(suite, "an exact solution begins there within 1e-10", test_exact);

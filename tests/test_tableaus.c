@@ -140,9 +140,47 @@ static void test_symplectic_condition(void)
     }
 }
 
+/* A w = lambda w for each eigenvalue of the upper half plane, l^T w = 1 and l^T w' = 0 for the
+ * others (l_i = b_i w_(s+1-i)), so that they make up A. */
+static void check_eigenvector(const dal_tableau *t, int e)
+{
+    const int s = t->stages;
+    const double *value = t->eigensystem->value + 2 * e, *vector = t->eigensystem->vector;
+    const double *re = vector + 2 * e * s, *im = re + s;
+    for (int i = 0; i < s; i++) {
+        real x = value[1] * (real)im[i] - value[0] * (real)re[i];
+        real y = -value[0] * (real)im[i] - value[1] * (real)re[i];
+        for (int j = 0; j < s; j++) {
+            x += ((real)t->a[i * s + j] + t->a_tail[i * s + j]) * re[j];
+            y += ((real)t->a[i * s + j] + t->a_tail[i * s + j]) * im[j];
+        }
+        close_to(s, "A w, real", x, 0.0L, 32.0L * DBL_EPSILON);
+        close_to(s, "A w, imaginary", y, 0.0L, 32.0L * DBL_EPSILON);
+    }
+    CU_ASSERT(value[1] > 0.0 || (s % 2 == 1 && e == s / 2));
+    for (int f = 0; f <= e; f++) {
+        const double *other = vector + 2 * f * s, *other_im = other + s;
+        real x = 0.0L, y = 0.0L;
+        for (int i = 0; i < s; i++) {
+            const real b = (real)t->b[i] + t->b_tail[i];
+            x += b * ((real)re[i] * other[s - 1 - i] - (real)im[i] * other_im[s - 1 - i]);
+            y += b * ((real)re[i] * other_im[s - 1 - i] + (real)im[i] * other[s - 1 - i]);
+        }
+        close_to(s, "l w, real", x, f == e, 1024.0L * DBL_EPSILON);
+        close_to(s, "l w, imaginary", y, 0.0L, 1024.0L * DBL_EPSILON);
+    }
+}
+
+static void test_eigensystems(void)
+{
+    for (int k = 0; k < 5; k++)
+        for (int e = 0; e < (tableaus[k]->stages + 1) / 2; e++) check_eigenvector(tableaus[k], e);
+}
+
 void suite_tableaus(void)
 {
     CU_pSuite suite = CU_add_suite("tableaus", NULL, NULL);
     CU_add_test(suite, "Gauss: nodes, weights, coefficients", test_gauss);
     CU_add_test(suite, "Gauss: symplectic condition", test_symplectic_condition);
+    CU_add_test(suite, "Gauss: eigenvectors", test_eigensystems);
 }

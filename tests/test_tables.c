@@ -35,7 +35,7 @@ static double value_at(const dal_table *table, double u, double *slope)
     CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, &error), DAL_OK);
     double *work = calloc(system->workspace + 1, sizeof *work);
     double q[2] = {0.0, u}, v[2] = {0.0}, pi[2] = {0.0, 1.0}, F[2], adjoint[6];
-    const dal_point at = {u, q, v, pi, work};
+    const dal_point at = {u, q, v, pi, work, NULL};
     CU_ASSERT_EQUAL(system->prepare(system, &at, NULL), DAL_OK);
     CU_ASSERT_EQUAL(system->call.field(system, &at, F), DAL_OK);
     CU_ASSERT_EQUAL(system->call.adjoint(system, &at, adjoint), DAL_OK);
@@ -239,7 +239,7 @@ static void test_source(void)
         CU_ASSERT_STRING_EQUAL(dal_model_source(copy, NULL), source);
         CU_ASSERT_EQUAL(dal_model_system(copy, &system, NULL), DAL_OK);
         double F[1], q[1] = {0.0}, work[64] = {0.0};
-        const dal_point at = {2.5, q, q, NULL, work};
+        const dal_point at = {2.5, q, q, NULL, work, NULL};
         CU_ASSERT_FATAL(system->workspace <= 64);
         CU_ASSERT_EQUAL(system->prepare(system, &at, NULL), DAL_OK);
         CU_ASSERT_EQUAL(system->call.field(system, &at, F), DAL_OK);

@@ -128,7 +128,8 @@ static int prepare_check(check *c)
     c->values = c->start + size + 1 + points;
     status = dal_evaluator_start(c->evaluator, request->start.item, request->start.count, c->start,
                                  &error);
-    if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
+    if (status != DAL_OK)
+        return cli_error(cli_input_exit(status), error.line ? request->system_name : NULL, &error);
     c->origin = (dal_point){.t = 0.0, .q = c->start, .v = c->start + n};
     c->is_regular = is_field_finite(c, &c->origin);
     choose_points(c, c->start + size + 1);

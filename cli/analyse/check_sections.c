@@ -107,6 +107,11 @@ static void check_start(check *c)
     const double defect = c->system->call.constraint ? start_defect(c) : 0.0;
     if (isnan(defect))
         check_item(c, CHECK_UNMEASURED, "|D| at the start", "D or its derivative is not finite");
+    else if (defect > consistent)
+        check_number(c, CHECK_FAIL, "|D| at the start", defect, -INFINITY, consistent,
+                     "%.2g  (at most %.0e): --consistent moves velocities to D = 0, and 'solve: "
+                     "[..]' under start solves those it names",
+                     defect, consistent);
     else if (c->system->call.constraint)
         check_bound(c, "|D| at the start", defect, consistent);
     int rank = 0;

@@ -57,6 +57,8 @@ static void print_run(const char *label, const dal_trend *f, double whole)
 
 static const char *comparison_text(const dal_error_budget *e, int comparison)
 {
+    if (comparison == DAL_COMPARISON_HALVED && e->spec.options.tolerance > 0.0)
+        return "substeps half as long";
     if (comparison == DAL_COMPARISON_PROJECTION)
         return e->has_projection ? "without projection" : "with +project";
     if (comparison != DAL_COMPARISON_SUMS)
@@ -100,17 +102,33 @@ static void print_observable(const dal_error_budget *e, int i)
     putchar('\n');
 }
 
+/* Where the exact motion comes from, or why it is estimated. */
+static void print_reference(const dal_error_budget *e)
+{
+    char *text =
+        e->ran[DAL_COMPARISON_EXACT]
+            ? cli_strdup("reference: the exact motion, by taylor with tolerance 1e-16")
+            : cli_format("reference: %s: %s",
+                         e->quad_steps > 0 ? "quad precision and half the step" : "half the step",
+                         e->reason[DAL_COMPARISON_EXACT]);
+    cli_wrap(stdout, text, 0, 4);
+    free(text);
+}
+
 static void print_budget(const explain_settings *s, const dal_error_budget *e)
 {
     char method[128];
     const run_request *request = &s->request;
     const char *separator = "exact: ";
-    printf("%s, %s, %s, h = %g: %lld steps", request->system_name,
+    printf("%s, %s, %s, h = %g", request->system_name,
            dal_method_name(&request->method, method, sizeof method),
-           request->options.space == DAL_LIFTED ? "lifted" : "physical", request->options.step,
-           e->steps);
+           request->options.space == DAL_LIFTED ? "lifted" : "physical", request->options.step);
+    if (request->options.tolerance > 0.0) printf(", tolerance %g", request->options.tolerance);
+    printf(": %lld steps", e->steps);
     if (e->quad_steps > 0) printf(", the first %lld in quad precision too", e->quad_steps);
-    fputs("\n\n", stdout);
+    putchar('\n');
+    print_reference(e);
+    putchar('\n');
     for (int i = 0; i < e->observables; i++)
         if (e->shares[i].whole.deviation > 0.0) print_observable(e, i);
     for (int i = 0; i < e->observables; i++) {
@@ -120,7 +138,7 @@ static void print_budget(const explain_settings *s, const dal_error_budget *e)
     }
     if (*separator == ',') putchar('\n');
     for (int k = 0; k < DAL_COMPARISONS; k++) {
-        if (e->ran[k] || !*e->reason[k]) continue;
+        if (e->ran[k] || !*e->reason[k] || k == DAL_COMPARISON_EXACT) continue;
         char *text = cli_format("not run: %s: %s", comparison_text(e, k), e->reason[k]);
         cli_wrap(stdout, text, 0, 4);
         free(text);
@@ -262,6 +280,7 @@ int explain_run(explain_settings *s)
     dal_error_budget *e = NULL;
     dal_error error = {0};
     int status = analysis_check_output(s->output, s->json);
+    request_choose_step(&s->request);
     if (status == CLI_DONE) status = request_create_run(&s->request);
     if (status == CLI_DONE) status = request_make_spec(&s->request, &spec);
     if (status != CLI_DONE) return status;

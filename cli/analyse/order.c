@@ -1,4 +1,4 @@
-/* order.c - the error of many methods against step and against work.
+/* order.c - the error of many methods against step, or tolerance, and against work.
  *
  * First a reference; then every method at every step, on threads; then a table or JSON, a CSV file
  * and two diagrams. */
@@ -22,8 +22,13 @@
  * signals. */
 static const double short_time = 0.01;
 enum { MAX_REPEATS = 3, CHUNK = 1000, MAX_NAME = 128 };
+/* A step to T that takes more substeps than a step may have is divided into 16 parts, then into 16
+ * times as many, up to MAX_PARTS. */
+enum { DIVISION = 16, MAX_PARTS = 1 << 20 };
 /* The smallest error that is claimed of a reference. */
 static const double rounding = 1e-16;
+/* The tolerances of the two references, as parts of the smallest one. */
+static const double first_reference = 0.1, second_reference = 0.01;
 
 /* The result of a method.  code, word */
 #define ORDER_STATE_LIST(STATE)                                                                    \
@@ -53,15 +58,16 @@ typedef struct order_method {
 typedef struct order_study {
     order_settings *set;
     run_request *request;
-    dal_run_spec spec; /* but for method and step */
-    double step[DAL_ORDER_LEVELS];
+    dal_run_spec spec;                                          /* but for method and step */
+    double step[DAL_ORDER_LEVELS], tolerance[DAL_ORDER_LEVELS]; /* tolerance: 0 unless it falls */
     int levels;
+    bool divides; /* the step was not given, and is the whole time */
     order_method *methods;
     int method_count;
     int numbers;                  /* that are compared: q, v and vakonomic g */
     double *reference;            /* [numbers] at T, and room for as many */
     const char *reference_method; /* NULL: the exact solution */
-    double reference_step;
+    double reference_step, reference_tolerance;
     double noise; /* the error of the reference; 0 where it is not known */
 } order_study;
 
@@ -87,20 +93,37 @@ static int add_methods(order_study *s, const char *name)
     int status = CLI_DONE;
     if (strcmp(name, "all") != 0) return add_method(s, name);
     for (int i = 0; status == CLI_DONE && (k = dal_integrator_at(i)); i++)
-        if (!(k->properties & DAL_MODIFIER)) status = add_method(s, k->name);
+        if (!(k->properties & DAL_MODIFIER) &&
+            (!s->set->tolerances || k->properties & DAL_ADAPTIVE))
+            status = add_method(s, k->name);
     return status;
+}
+
+/* The next of the numbers of an option, which fall. */
+static int add_level(order_study *s, const char *option, const char *text, double *levels)
+{
+    double x;
+    if (s->levels == DAL_ORDER_LEVELS)
+        return cli_fail(CLI_USAGE, "%s: more than %d", option, DAL_ORDER_LEVELS);
+    if (cli_number(option, text, &x) != CLI_DONE) return CLI_USAGE;
+    if (!(x > 0.0) || (s->levels > 0 && !(x < levels[s->levels - 1])))
+        return cli_fail(CLI_USAGE, "%s: %s is not positive and below the one before", option, text);
+    levels[s->levels++] = x;
+    return CLI_DONE;
 }
 
 static int add_step(order_study *s, const char *text)
 {
-    double h;
-    if (s->levels == DAL_ORDER_LEVELS)
-        return cli_fail(CLI_USAGE, "--steps: more than %d", DAL_ORDER_LEVELS);
-    if (cli_number("--steps", text, &h) != CLI_DONE) return CLI_USAGE;
-    if (!(h > 0.0) || (s->levels > 0 && !(h < s->step[s->levels - 1])))
-        return cli_fail(CLI_USAGE, "--steps: %s is not positive and below the one before", text);
-    s->step[s->levels++] = h;
-    return CLI_DONE;
+    return add_level(s, "--steps", text, s->step);
+}
+
+/* The step is one and the same; where it is not given it is the whole time. */
+static int add_tolerance(order_study *s, const char *text)
+{
+    const run_request *r = s->request;
+    s->divides = !r->text[REQUEST_step];
+    s->step[s->levels] = s->divides ? r->time - r->from : r->options.step;
+    return add_level(s, "--tolerances", text, s->tolerance);
 }
 
 /* Adds each item of a list between commas. */
@@ -123,12 +146,21 @@ static int add_items(order_study *s, const char *list, const char *option,
 static int list_steps(order_study *s)
 {
     const double T = s->request->time;
-    int status = s->set->steps ? add_items(s, s->set->steps, "--steps", add_step) : CLI_DONE;
+    const order_settings *set = s->set;
+    const char *levels = set->tolerances ? "tolerances" : "steps";
+    int status = CLI_DONE;
+    if (set->tolerances && (set->steps || request_has(s->request, REQUEST_tolerance)))
+        return cli_fail(CLI_USAGE, "--tolerances excludes --steps and --tolerance");
+    if (set->tolerances) status = add_items(s, set->tolerances, "--tolerances", add_tolerance);
+    if (set->steps) status = add_items(s, set->steps, "--steps", add_step);
     if (status != CLI_DONE) return status;
-    for (int i = 0; !s->set->steps && i < s->set->level_count; i++)
+    for (int i = 0; !set->steps && !set->tolerances && i < set->level_count; i++)
         s->step[s->levels++] = ldexp(s->request->options.step, -i);
     if (!(s->step[0] > 0.0)) return cli_fail(CLI_USAGE, "--step: it must be positive");
-    if (s->levels < 2) return cli_fail(CLI_USAGE, "--steps: a slope needs two steps at least");
+    if (s->tolerance[0] > 1.0)
+        return cli_fail(CLI_USAGE, "--tolerances: %g is larger than 1", s->tolerance[0]);
+    if (s->levels < 2)
+        return cli_fail(CLI_USAGE, "--%s: a slope needs two %s at least", levels, levels);
     for (int i = 0; i < s->levels; i++)
         if (dal_whole_steps(s->request->from, T, s->step[i]) == 0)
             return cli_fail(CLI_USAGE, "the time %g is not a whole number of steps of %.9g", T,
@@ -156,14 +188,46 @@ static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, dou
     dal_status status = dal_run_create(&run, spec, error);
     if (status != DAL_OK) return status;
     const double begin = cli_thread_seconds();
+    /* A step under a tolerance may take long. */
+    const long long chunk = spec->options.tolerance > 0.0 ? 1 : CHUNK;
     for (long long left = count_steps(s, spec->options.step); left > 0 && status == DAL_OK;
-         left -= CHUNK)
+         left -= chunk)
         status = cli_interrupted() ? DAL_INTERRUPTED
-                                   : dal_run_advance(run, left < CHUNK ? left : CHUNK, error);
+                                   : dal_run_advance(run, left < chunk ? left : chunk, error);
     *cost = (run_cost){dal_run_evaluations(run), cli_thread_seconds() - begin};
     memcpy(end, dal_run_state(run), (size_t)s->numbers * sizeof *end);
     dal_run_free(run);
     return status;
+}
+
+/* The same; where the step is the whole time, in as few parts as the number of substeps in a part
+ * allows. */
+static dal_status run_divided(const order_study *s, const dal_run_spec *spec, double *end,
+                              run_cost *cost, dal_error *error)
+{
+    dal_run_spec part = *spec;
+    dal_status status;
+    for (int parts = 1;; parts *= DIVISION) {
+        *error = (dal_error){.status = DAL_OK};
+        part.options.step = spec->options.step / parts;
+        status = run_to_end(s, &part, end, cost, error);
+        if (!s->divides || status != DAL_NOT_CONVERGED || parts == MAX_PARTS) return status;
+    }
+}
+
+/* The start of all runs: at its time, with velocities that are solved or moved to D = 0. */
+static bool find_start(const order_study *s, double *start)
+{
+    dal_run *run;
+    dal_run_spec spec = s->spec;
+    spec.options.space = DAL_PHYSICAL;
+    spec.options.step = s->step[0];
+    if (!cli_is_ok(dal_method_parse(&spec.method, "gauss12", NULL)) ||
+        !cli_is_ok(dal_run_create(&run, &spec, NULL)))
+        return false;
+    memcpy(start, dal_run_state(run), (size_t)s->numbers * sizeof *start);
+    dal_run_free(run);
+    return true;
 }
 
 /* The exact solution, where the system has one that begins at this start. */
@@ -173,13 +237,11 @@ static bool use_exact_solution(order_study *s)
     const run_request *request = s->request;
     double *start = s->reference + s->numbers;
     dal_evaluator *evaluator;
-    if (!system->exact || system->multipliers ||
+    if (!system->exact || system->multipliers || !find_start(s, start) ||
         !cli_is_ok(
             dal_evaluator_create(&evaluator, system, request->set.item, request->set.count, NULL)))
         return false;
-    const bool found = dal_evaluator_start(evaluator, request->start.item, request->start.count,
-                                           start, NULL) == DAL_OK &&
-                       dal_evaluator_call(evaluator, system->exact, request->from, start, start,
+    const bool found = dal_evaluator_call(evaluator, system->exact, request->from, start, start,
                                           NULL, s->reference) == DAL_OK &&
                        analysis_distance(start, s->reference, s->numbers) <= 1e-10 &&
                        dal_evaluator_call(evaluator, system->exact, request->time, start, start,
@@ -189,24 +251,30 @@ static bool use_exact_solution(order_study *s)
     return found;
 }
 
-/* Two runs of an accurate method: that of the smaller step is the reference, their distance its
- * error. */
+/* Two runs of an accurate method: that of the smaller step, or tolerance, is the reference, their
+ * distance its error. */
 static dal_status use_method(order_study *s, const char *name, dal_error *error)
 {
-    const double h = s->step[s->levels - 1];
+    const bool is_controlled = s->set->tolerances != NULL;
+    const double h = s->step[s->levels - 1], fine = is_controlled ? h : 0.5 * h;
+    const double tolerance = s->tolerance[s->levels - 1];
     double *coarse = s->reference + s->numbers;
     run_cost cost;
     dal_run_spec spec = s->spec;
     dal_status status = dal_method_parse(&spec.method, name, error);
     spec.options.space = DAL_PHYSICAL;
     spec.options.step = h;
-    if (status == DAL_OK) status = run_to_end(s, &spec, coarse, &cost, error);
-    spec.options.step = 0.5 * h;
-    if (status == DAL_OK) status = run_to_end(s, &spec, s->reference, &cost, error);
+    spec.options.tolerance =
+        is_controlled ? first_reference * tolerance : s->spec.options.tolerance;
+    if (status == DAL_OK) status = run_divided(s, &spec, coarse, &cost, error);
+    spec.options.step = fine;
+    if (is_controlled) spec.options.tolerance = second_reference * tolerance;
+    if (status == DAL_OK) status = run_divided(s, &spec, s->reference, &cost, error);
     if (status != DAL_OK) return status;
     s->noise = fmax(analysis_distance(coarse, s->reference, s->numbers), rounding);
     s->reference_method = name;
-    s->reference_step = 0.5 * h;
+    s->reference_step = fine;
+    s->reference_tolerance = is_controlled ? spec.options.tolerance : 0.0;
     return DAL_OK;
 }
 
@@ -216,8 +284,9 @@ static int make_reference(order_study *s)
     s->numbers = 2 * s->spec.system->n + s->spec.system->multipliers;
     s->reference = cli_calloc(2 * (size_t)s->numbers + 1, sizeof *s->reference);
     if (use_exact_solution(s)) return CLI_DONE;
-    dal_status status = use_method(s, "gauss12", &error);
-    if (status == DAL_NOT_CONVERGED) status = use_method(s, "dop853", &error);
+    dal_status status = use_method(s, s->set->tolerances ? "taylor" : "gauss12", &error);
+    if (status == DAL_NOT_CONVERGED || (s->set->tolerances && status == DAL_UNSUPPORTED))
+        status = use_method(s, "dop853", &error);
     if (status == DAL_OK) return CLI_DONE;
     return status == DAL_INTERRUPTED ? cli_fail(CLI_SIGNAL, "interrupted")
                                      : cli_error(cli_exit(status), "reference", &error);
@@ -232,17 +301,18 @@ static void run_level(void *user, int i)
     dal_run_spec spec = s->spec;
     spec.method = m->method;
     spec.options.step = s->step[level];
+    if (s->set->tolerances) spec.options.tolerance = s->tolerance[level];
     double *end = cli_calloc((size_t)s->numbers + 1, sizeof *end);
     dal_error *failure = &m->failure[level];
     run_cost cost = {0};
     m->seconds[level] = INFINITY;
     failure->status = DAL_OK;
     for (int k = 0; k < MAX_REPEATS && failure->status == DAL_OK; k++) {
-        failure->status = run_to_end(s, &spec, end, &cost, failure);
+        failure->status = run_divided(s, &spec, end, &cost, failure);
         m->seconds[level] = fmin(m->seconds[level], cost.seconds);
         if (cost.seconds > short_time) break;
     }
-    m->order.step[level] = s->step[level];
+    m->order.step[level] = s->set->tolerances ? s->tolerance[level] : s->step[level];
     m->order.evaluations[level] = cost.evaluations;
     m->order.error[level] =
         cli_is_ok(failure->status) ? analysis_distance(end, s->reference, s->numbers) : NAN;
@@ -256,6 +326,7 @@ static int run_methods(order_study *s, int threads)
     for (order_method *m = s->methods; m < s->methods + s->method_count; m++) {
         m->order.levels = s->levels;
         dal_order_slopes(&m->order, s->noise);
+        if (s->set->tolerances) m->order.order = NAN;
         for (int i = 0; i < s->levels; i++) {
             dal_error *failure = &m->failure[i];
             if (failure->status == DAL_OK) continue;
@@ -290,18 +361,21 @@ static void print_orders(const order_study *s)
 {
     const int last = s->levels - 1;
     const double steps = (double)count_steps(s, s->step[last]);
+    const bool is_controlled = s->set->tolerances != NULL;
     bool any_without_order = false;
     printf("%s, error of (q,v) at t = %g, %s\nagainst ", s->request->system_name, s->request->time,
            s->spec.options.space == DAL_LIFTED ? "lifted" : "physical");
     if (s->reference_method)
-        printf("%s with h = %g, itself within %.0e\n\n", s->reference_method, s->reference_step,
-               s->noise);
+        printf("%s with %s = %g, itself within %.0e\n\n", s->reference_method,
+               is_controlled ? "tolerance" : "h",
+               is_controlled ? s->reference_tolerance : s->reference_step, s->noise);
     else
         fputs("the exact solution\n\n", stdout);
     printf("%-21s %13s  %-*s %15s\n", "", "order", 8 * s->levels - 1,
-           "error at h =", "cost of a step");
+           is_controlled ? "error at tolerance =" : "error at h =", "cost of a step");
     printf("%-21s %6s %6s", "integrator", "stated", "found");
-    for (int i = 0; i < s->levels; i++) print_cell("%.3g", 7, s->step[i]);
+    for (int i = 0; i < s->levels; i++)
+        print_cell("%.3g", 7, is_controlled ? s->tolerance[i] : s->step[i]);
     printf(" %7s %7s\n", "F", "us");
     for (const order_method *m = s->methods; m < s->methods + s->method_count; m++) {
         if (m->state == ORDER_REFUSED) continue;
@@ -314,7 +388,7 @@ static void print_orders(const order_study *s)
         print_cell("%.2f", 7, succeeded ? 1e6 * m->seconds[last] / steps : NAN);
         putchar('\n');
     }
-    if (any_without_order)
+    if (any_without_order && !is_controlled)
         fputs("\nno order found (-): the last two slopes do not agree, since the steps are too "
               "large,\nor fewer than three errors lie between rounding and half the solution\n",
               stdout);
@@ -331,6 +405,7 @@ static void put_level(json_writer *w, const order_study *s, const order_method *
     const bool succeeded = m->failure[level].status == DAL_OK;
     json_open(w, NULL, JSON_ON_ONE_LINE);
     json_put_number(w, "step", s->step[level]);
+    if (s->set->tolerances) json_put_number(w, "tolerance", s->tolerance[level]);
     json_put_integer(w, "steps", count_steps(s, s->step[level]));
     json_put_number(w, "error", m->order.error[level]);
     json_put_number(w, "slope", m->order.slope[level]);
@@ -358,11 +433,16 @@ static void put_method(json_writer *w, const order_study *s, const order_method 
 static void put_reference(json_writer *w, const void *results)
 {
     const order_study *s = results;
-    request_open_json(w, s->request, ORDER_WITHOUT | REQUEST_OPTION(step));
+    const bool is_controlled = s->set->tolerances != NULL;
+    request_open_json(w, s->request,
+                      ORDER_WITHOUT | REQUEST_OPTION(step) |
+                          (is_controlled ? REQUEST_OPTION(tolerance) : 0));
     json_close(w);
     json_open(w, "reference", JSON_ON_ONE_LINE);
     json_put_text(w, "integrator", s->reference_method);
     json_put_number(w, "step", s->reference_method ? s->reference_step : NAN);
+    if (is_controlled)
+        json_put_number(w, "tolerance", s->reference_method ? s->reference_tolerance : NAN);
     json_put_number(w, "error", s->reference_method ? s->noise : NAN);
     json_close(w);
 }
@@ -384,17 +464,16 @@ static void write_level(FILE *out, const order_study *s, const order_method *m, 
 {
     const bool has_run = level >= 0, succeeded = has_run && m->failure[level].status == DAL_OK;
     const double h = has_run ? s->step[level] : NAN;
-    const double cells[] = {m->order.order,
-                            h,
-                            has_run ? (double)count_steps(s, h) : NAN,
-                            has_run ? m->order.error[level] : NAN,
-                            has_run ? m->order.slope[level] : NAN,
-                            succeeded ? (double)m->order.evaluations[level] : NAN,
-                            succeeded ? m->seconds[level] : NAN};
+    const double first[] = {m->order.order, h, has_run ? s->tolerance[level] : NAN};
+    const double cells[] = {
+        has_run ? (double)count_steps(s, h) : NAN, has_run ? m->order.error[level] : NAN,
+        has_run ? m->order.slope[level] : NAN,
+        succeeded ? (double)m->order.evaluations[level] : NAN, succeeded ? m->seconds[level] : NAN};
     cli_put_text(out, s->request->system_name);
     fputc(',', out);
     cli_put_text(out, m->name);
     fprintf(out, ",%d", dal_method_order(&m->method));
+    analysis_put_cells(out, first, s->set->tolerances ? 3 : 2);
     analysis_put_cells(out, cells, sizeof cells / sizeof *cells);
     fprintf(out, ",%s,", state_words[succeeded ? ORDER_DONE : has_run ? ORDER_FAILED : m->state]);
     cli_put_text(out, has_run ? m->failure[level].message : failure_message(s, m));
@@ -405,9 +484,10 @@ static int write_orders(const order_study *s, const char *path)
 {
     FILE *out = fopen(path, "w");
     if (!out) return cli_io("write", path);
-    fputs("label,integrator,stated_order,observed_order,step,steps,error,slope,evaluations,seconds,"
-          "state,message\n",
-          out);
+    fprintf(out,
+            "label,integrator,stated_order,observed_order,step%s,steps,error,slope,evaluations,"
+            "seconds,state,message\n",
+            s->set->tolerances ? ",tolerance" : "");
     for (const order_method *m = s->methods; m < s->methods + s->method_count; m++) {
         if (m->state == ORDER_REFUSED) write_level(out, s, m, -1);
         for (int k = 0; m->state != ORDER_REFUSED && k < s->levels; k++) write_level(out, s, m, k);

@@ -1,4 +1,4 @@
-/* order.h - the error of many methods against step and against work. */
+/* order.h - the error of many methods against step, or tolerance, and against work. */
 #ifndef DAL_CLI_ORDER_H
 #define DAL_CLI_ORDER_H
 
@@ -12,6 +12,7 @@
 typedef struct order_settings {
     run_request request;
     const char *integrators, *steps; /* lists between commas; steps NULL: step and level_count */
+    const char *tolerances;          /* a list; NULL: none, else the step stays the same */
     const char *output;
     long long level_count, threads;
     bool json;       /* to stdout, instead of a table */

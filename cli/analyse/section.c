@@ -76,6 +76,9 @@ static int load_section(section *s)
     run_request *request = s->request;
     char name[MAX_NAME] = "section_1";
     const char *equals = strchr(s->set->on, '=');
+    if (request->system->events > 0)
+        return cli_fail(CLI_USAGE, "%s: %s has events: sections would pass over them",
+                        request->system_name, request->system->name);
     /* The system has been loaded without the section: any error is one of the section. */
     for (int k = 2; is_name_used(request->system, name); k++)
         snprintf(name, sizeof name, "section_%d", k);
@@ -298,7 +301,9 @@ int section_find(section_settings *settings)
     section s = {.set = settings, .request = &settings->request};
     analysis_output output = {0};
     int status = load_section(&s);
-    if (status == CLI_DONE) status = request_create_run(s.request);
+    if (status != CLI_DONE) return status;
+    request_choose_step(s.request);
+    status = request_create_run(s.request);
     if (status != CLI_DONE) return status;
     name_row(&s);
     status = find_axes(&s);

@@ -25,11 +25,11 @@ static const cli_option options[] = {
 };
 
 /* The options of a run that a generated file needs. */
-static const uint64_t taken = REQUEST_OPTION(integrator) | REQUEST_OPTION(from) |
-                              REQUEST_OPTION(space) | REQUEST_OPTION(solver) |
-                              REQUEST_OPTION(iterations) | REQUEST_OPTION(extend_energy) |
-                              REQUEST_OPTION(reactions) | REQUEST_OPTION(consistent) |
-                              REQUEST_OPTION(set) | REQUEST_OPTION(start) | REQUEST_OPTION(system);
+static const uint64_t taken =
+    REQUEST_OPTION(integrator) | REQUEST_OPTION(from) | REQUEST_OPTION(space) |
+    REQUEST_OPTION(solver) | REQUEST_OPTION(iterations) | REQUEST_OPTION(extend_energy) |
+    REQUEST_OPTION(reactions) | REQUEST_OPTION(consistent) | REQUEST_OPTION(tolerance) |
+    REQUEST_OPTION(set) | REQUEST_OPTION(start) | REQUEST_OPTION(system);
 
 static int generate_text(settings *s)
 {
@@ -70,6 +70,6 @@ const cli_command command_generate = {
     .notes = "The file is C11 and C++17, needs libm alone, and computes the same bits as "
              "'dalembert run'; its first comment says how to call it.  --set, --start and --from "
              "become its defaults, velocities that --consistent has moved, too; the step is given "
-             "to each call.\n",
+             "to each call.  With --tolerance each lane divides it by itself.\n",
     .run = generate,
 };

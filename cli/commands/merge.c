@@ -1,4 +1,7 @@
-/* merge.c - `dalembert merge`: makes the shards of a study one. */
+/* merge.c - `dalembert merge`: makes the shards of a study or of an ensemble one. */
+#include "ensemble/ensemble_directory.h"
+#include "ensemble/ensemble_merge.h"
+#include "report/report_ensemble.h"
 #include "report/report_study.h"
 #include "run/pool.h"
 #include "study/study_merge.h"
@@ -37,16 +40,27 @@ static const cli_option options[] = {
     REPORT_NO_PAGE_OPTION(settings),
     {"force", NULL, NULL, "overwrites what the directory holds, unless it is one of those",
      CLI_FLAG(settings, force)},
-    {NULL, "DIR...", CLI_REQUIRED, "what 'dalembert study --shard K/N --output DIR' wrote",
+    {NULL, "DIR...", CLI_REQUIRED, "what 'study' or 'ensemble' wrote with --shard K/N --output DIR",
      .parse = parse_source},
 };
+
+static int merge_ensemble(const settings *s)
+{
+    const char **paths = cli_calloc((size_t)s->sources, sizeof *paths);
+    for (int i = 0; i < s->sources; i++) paths[i] = s->source[i].path;
+    const int status = ensemble_merge(paths, s->sources, s->output, (int)s->threads, s->force);
+    free(paths);
+    return s->no_page ? status : report_after_ensemble(s->output, status);
+}
 
 static int merge(int argc, char **argv)
 {
     settings s = {.source = cli_calloc(MAX_SOURCES, sizeof *s.source), .threads = pool_threads()};
     const cli_group group = CLI_GROUP(options, &s);
     int status = cli_read_arguments(&command_merge, argc, argv, &group, 1);
-    if (status == CLI_GO_ON) {
+    if (status == CLI_GO_ON && ensemble_directory_has_ensemble(s.source[0].path)) {
+        status = merge_ensemble(&s);
+    } else if (status == CLI_GO_ON) {
         status = study_merge(s.source, s.sources, s.output, (int)s.threads, s.force);
         if (!s.no_page) status = report_after_study(s.output, status, true);
     }
@@ -58,8 +72,8 @@ static int merge(int argc, char **argv)
 const cli_command command_merge = {
     .name = "merge",
     .synopsis = "dalembert merge DIR... --output DIR [OPTION]...",
-    .about = "joins the shards of a study",
+    .about = "joins the shards of a study or of an ensemble",
     .notes = "Shards may share a directory.  Tables and files are, but for times, the bytes of the "
-             "study that was not divided.\n",
+             "study or ensemble that was not divided.\n",
     .run = merge,
 };

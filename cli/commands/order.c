@@ -10,7 +10,8 @@
 
 #include <string.h>
 
-static int parse_steps(void *user, const cli_option *option, const char *text)
+/* --steps or --tolerances. */
+static int parse_levels(void *user, const cli_option *option, const char *text)
 {
     order_settings *s = user;
     s->request.typed |= REQUEST_OPTION(step); /* no default for it is needed */
@@ -22,7 +23,10 @@ static const cli_option options[] = {
      "integrators, with modifiers or not: rk4,gauss4+project (all)",
      CLI_TEXT(order_settings, integrators)},
     {"steps", "H1,H2,..", NULL, "step sizes, falling, at most 8; replaces --step and --levels",
-     .parse = parse_steps, .offset = offsetof(order_settings, steps)},
+     .parse = parse_levels, .offset = offsetof(order_settings, steps)},
+    {"tolerances", "E1,E2,..", NULL,
+     "tolerances, falling, at most 8, instead of step sizes; --step is then the largest step (T)",
+     .parse = parse_levels, .offset = offsetof(order_settings, tolerances)},
     {"levels", "K", "4", "number of step sizes, each half the one before it",
      CLI_INTEGER(order_settings, level_count, 2, DAL_ORDER_LEVELS)},
     POOL_THREADS_OPTION(order_settings, "runs at a time; results do not depend on it"),
@@ -68,6 +72,12 @@ const cli_command command_order = {
         "that the next term of the error changes it by 0.1 at most; '-' means that none is "
         "found.  Methods that do not apply to the system are listed with the reason.  The exit "
         "status is 3 when a run failed.\n"
+        "\n"
+        "With --tolerances the adaptive methods are compared at each tolerance, which divides the "
+        "step; the reference is taylor, or dop853 where the equations have no Taylor series, at a "
+        "hundredth of the smallest, and the slope is that of the error over the tolerance.  "
+        "Without --step the step is T, or a part of it where T takes more substeps than a step may "
+        "have.\n"
         "\n"
         "DIR gets order.csv, order.json (the request and the reference) and, by gnuplot, the page "
         "of 'dalembert report': error against step, evaluations of F and processor time.  Only the "

@@ -1,5 +1,6 @@
 /* report.c - `dalembert report DIR`: a page with figures by gnuplot. */
 #include "io/file.h"
+#include "report/report_ensemble.h"
 #include "report/report_order.h"
 #include "report/report_run.h"
 #include "report/report_section.h"
@@ -19,6 +20,7 @@ static const struct {
     int (*write)(report *r);
 } kinds[] = {{"cells.csv", report_study},
              {"trajectory.npy", report_run},
+             {"statistics.csv", report_ensemble},
              {"order.csv", report_order},
              {"section.csv", report_section}};
 
@@ -42,7 +44,8 @@ static int parse_format(void *user, const cli_option *option, const char *text)
 static const cli_option options[] = {
     {"format", "svg|png", "svg", "format of the figures", .parse = parse_format,
      .offset = offsetof(report, format)},
-    {NULL, "DIR", CLI_REQUIRED, "what 'study', 'run', 'order' or 'section' wrote with --output DIR",
+    {NULL, "DIR", CLI_REQUIRED,
+     "what 'study', 'run', 'ensemble', 'order' or 'section' wrote with --output DIR",
      CLI_TEXT(report, directory)},
 };
 
@@ -56,10 +59,11 @@ static int write_report(report *r)
                         "'dalembert merge' merges shards",
                         r->directory);
     if (kind == KINDS)
-        return cli_fail(CLI_USAGE,
-                        "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy) nor "
-                        "orders (order.csv) nor a section (section.csv)",
-                        r->directory);
+        return cli_fail(
+            CLI_USAGE,
+            "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy) nor "
+            "an ensemble (statistics.csv) nor orders (order.csv) nor a section (section.csv)",
+            r->directory);
     const int status = report_make(r, kinds[kind].write);
     if (status == CLI_DONE) printf("%s\n", r->page_path);
     free(r->place);
@@ -78,7 +82,7 @@ static int run_report(int argc, char **argv)
 const cli_command command_report = {
     .name = "report",
     .synopsis = "dalembert report DIR [OPTION]...",
-    .about = "makes a page with figures of a run, a study, orders or a section",
+    .about = "makes a page with figures of a run, a study, an ensemble, orders or a section",
     .notes = "The command writes DIR/report/index.html, one page with everything in it; the "
              "figures, and the gnuplot scripts that draw them, stand beside it.  Without gnuplot "
              "the page "

@@ -1,4 +1,6 @@
-/* resume.c - `dalembert resume`: continues the run or the study of a directory. */
+/* resume.c - `dalembert resume`: continues the run, the study or the ensemble of a directory. */
+#include "ensemble/ensemble_run.h"
+#include "report/report_ensemble.h"
 #include "report/report_study.h"
 #include "run/manifest.h"
 #include "run/pool.h"
@@ -30,10 +32,9 @@ typedef struct settings {
 } settings;
 
 static const cli_option options[] = {
-    POOL_THREADS_OPTION(settings, "cells of a study at a time"),
+    POOL_THREADS_OPTION(settings, "cells of a study, or chunks of an ensemble, at a time"),
     REPORT_NO_PAGE_OPTION(settings),
-    {NULL, "DIR", CLI_REQUIRED,
-     "what 'dalembert run --output DIR' or 'dalembert study --output DIR' wrote",
+    {NULL, "DIR", CLI_REQUIRED, "what 'run', 'study' or 'ensemble' wrote with --output DIR",
      CLI_TEXT(settings, directory)},
 };
 
@@ -46,6 +47,12 @@ static int resume(int argc, char **argv)
     };
     const int status = cli_read_arguments(&command_resume, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;
+    if (ensemble_directory_has_ensemble(s.directory)) {
+        const ensemble_run_options how = {(int)s.threads, s.run.interval, s.run.native,
+                                          s.run.progress};
+        const int ended = ensemble_resume(s.directory, &how);
+        return s.no_page ? ended : report_after_ensemble(s.directory, ended);
+    }
     study_directory dir;
     study_directory_open(&dir, s.directory);
     const bool is_study = study_directory_has_study(&dir);
@@ -59,11 +66,11 @@ static int resume(int argc, char **argv)
 const cli_command command_resume = {
     .name = "resume",
     .synopsis = "dalembert resume DIR [OPTION]...",
-    .about = "continues a run or a study that was interrupted",
+    .about = "continues a run, a study or an ensemble that was interrupted",
     .notes = "The rows are, byte for byte, those of a run of the same version that was never "
              "interrupted.  A finished run is left alone.  Of a study, the unfinished runs are "
              "continued and the tables and the page made; of shards, those that were begun in DIR. "
              " --threads is for "
-             "studies, --summary and --progress are for runs.\n",
+             "studies and ensembles, --summary is for runs, --progress for runs and ensembles.\n",
     .run = resume,
 };

@@ -29,10 +29,12 @@ static int run(int argc, char **argv)
 {
     run_request request = request_default();
     run_settings settings = {0};
+    request.chooses_step = true;
     const cli_group groups[] = {request_group(&request, request_options, 0),
                                 run_group(&settings, 0)};
     int status = cli_read_arguments(&command_run, argc, argv, groups, 2);
     if (status == CLI_GO_ON) {
+        request_choose_step(&request);
         status = request_create_run(&request);
         if (status == CLI_DONE)
             status = cli_is_directory(settings.output) ? run_in_directory(&request, &settings)
@@ -54,8 +56,9 @@ const cli_command command_run = {
         "Rows are CSV with 17 digits: t, the coordinates, the velocities, the multipliers g1.. of "
         "a vakonomic system, on the lifted space e, p_*, pi_*, pi_e, then D1.., E, H, the "
         "invariants and error; N+1 rows, from t = 0 to exactly T.  Where a row falls between two "
-        "steps, a shorter step gives the row and does not affect the trajectory.  FILE.npy has the "
-        "same as an array of numpy with the names of the columns.\n"
+        "steps, a shorter step, or under a tolerance a polynomial, gives the row and does not "
+        "affect the trajectory.  FILE.npy has the same as an array of numpy with the names of the "
+        "columns.\n"
         "\n"
         "A directory gets\n"
         "  manifest.json   the options of the run, version, machine and progress\n"
@@ -83,9 +86,11 @@ const cli_command command_run = {
         "\n"
         "E has neither size nor trend where the motion does not conserve it.\n"
         "\n"
+        "With --tolerance H is the largest step, a hundredth of the time where it is left out.\n"
+        "\n"
         "Compiled steps are cached in $XDG_CACHE_HOME/dalembert or ~/.cache/dalembert, which may "
         "be removed at any time.  Where compiling fails, a line says so and the steps are "
-        "interpreted.  Steps with --precision quad or --tolerance are always interpreted.  With "
-        "quad precision, coefficients, constants, parameters, times and all output stay doubles.\n",
+        "interpreted.  Steps with --precision quad are always interpreted.  With quad precision, "
+        "coefficients, constants, parameters, times and all output stay doubles.\n",
     .run = run,
 };

@@ -27,6 +27,7 @@ static const cli_option options[] = {
 static int section(int argc, char **argv)
 {
     section_settings s = {.request = request_default()};
+    s.request.chooses_step = true;
     const cli_group groups[] = {CLI_GROUP(options, &s),
                                 request_group(&s.request, request_options, SECTION_WITHOUT)};
     int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
@@ -42,22 +43,20 @@ const cli_command command_section = {
     .name = "section",
     .synopsis = "dalembert section SYSTEM --on FORMULA [OPTION]...",
     .about = "finds where a motion crosses a surface",
-    .notes = "The formula may name "
-             "coordinates, velocities, parameters, what the system file defines under let, and t.\n"
-             "\n"
-             "A crossing lies where the formula changes its sign within a step.  A step of another "
-             "size of "
-             "the same method, from the beginning of that step, meets it to rounding, so that the "
-             "trajectory "
-             "is that of 'dalembert run'.  Pairs of crossings within one step are found too; of "
-             "more than "
-             "two some may be missed.  A touch is no crossing and is counted apart; a start on the "
-             "surface "
-             "is none.\n"
-             "\n"
-             "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the "
-             "state as in "
-             "'dalembert run'.  A directory gets section.csv, section.json (the request) and, by "
-             "gnuplot, the page of 'dalembert report'.\n",
+    .notes =
+        "The formula may name "
+        "coordinates, velocities, parameters, what the system file defines under let, and t.\n"
+        "\n"
+        "A crossing lies where the formula changes its sign within a step.  A step of another "
+        "size of the same method, from the beginning of that step, or under a tolerance a "
+        "polynomial, meets it to rounding, so that the trajectory is that of 'dalembert run'.  "
+        "Pairs of crossings within one step are found too; of more than two some may be "
+        "missed.  A touch is no crossing and is counted apart; a start on the surface is none.  "
+        "With --tolerance, --step may be left out: it is a hundredth of the time.\n"
+        "\n"
+        "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the "
+        "state as in "
+        "'dalembert run'.  A directory gets section.csv, section.json (the request) and, by "
+        "gnuplot, the page of 'dalembert report'.\n",
     .run = section,
 };

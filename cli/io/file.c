@@ -62,6 +62,13 @@ bool file_is_copy(const char *path, const char *other)
     return same;
 }
 
+bool file_is_same(const char *path, const char *other)
+{
+    struct stat x, y;
+    return stat(path, &x) == 0 && stat(other, &y) == 0 && x.st_dev == y.st_dev &&
+           x.st_ino == y.st_ino;
+}
+
 static int write_all(int descriptor, const void *bytes, size_t length, int sync)
 {
     const char *from = bytes;

@@ -15,6 +15,8 @@ bool file_exists(const char *path);
 /* Whether a file has exactly these bytes, or those of another. */
 bool file_equals(const char *path, const void *bytes, size_t length);
 bool file_is_copy(const char *path, const char *other);
+/* Whether two paths lead to one file or directory. */
+bool file_is_same(const char *path, const char *other);
 /* Writes a file; renames one.  With sync they wait until that is on the disk, so that it outlives
  * a power cut and not only the process. */
 int file_write(const char *path, const void *bytes, size_t length, int sync);

@@ -75,22 +75,28 @@ static void add_words(row_sum *sum, long long before, const unsigned char *bytes
 
 /* ---- the header of .npy -------------------------------------------------------------------- */
 
-/* Writes the number of rows into the last line. */
-static void set_rows(trajectory_writer *writer, long long rows)
+/* Writes the last line. */
+static void set_shape(char *line, const char *shape)
 {
-    char *line = writer->header + writer->header_length - NPY_LINE;
-    const int n = snprintf(line, NPY_LINE, "'shape': (%lld,), }", rows);
+    const int n = snprintf(line, NPY_LINE, "'shape': %s, }", shape);
     memset(line + n, ' ', (size_t)(NPY_LINE - n));
     line[NPY_LINE - 1] = '\n';
 }
 
-static void make_header(trajectory_writer *writer, char *const *names)
+static void set_rows(trajectory_writer *writer, long long rows)
+{
+    char shape[32];
+    snprintf(shape, sizeof shape, "(%lld,)", rows);
+    set_shape(writer->header + writer->header_length - NPY_LINE, shape);
+}
+
+char *npy_make_header(char *const *names, int columns, const char *shape, size_t *size)
 {
     char *text;
     size_t length, prefix = PREFIX_1;
     FILE *out = cli_memstream_open(&text, &length);
     fputs("{'descr': [", out);
-    for (int i = 0; i < writer->columns; i++) {
+    for (int i = 0; i < columns; i++) {
         const char quote = strchr(names[i], '\'') ? '"' : '\'';
         fprintf(out, "%s(%c%s%c, '<f8')", i ? ", " : "", quote, names[i], quote);
     }
@@ -98,18 +104,23 @@ static void make_header(trajectory_writer *writer, char *const *names)
     cli_memstream_close(out);
     if ((prefix + length + 2 * NPY_LINE - 1) / NPY_LINE * NPY_LINE - prefix > MAX_LENGTH_1)
         prefix = PREFIX_2;
-    const size_t size = (prefix + length + 2 * NPY_LINE - 1) / NPY_LINE * NPY_LINE;
-    char *header = writer->header = cli_malloc(size);
-    writer->header_length = size;
-    memset(header, ' ', size);
+    *size = (prefix + length + 2 * NPY_LINE - 1) / NPY_LINE * NPY_LINE;
+    char *header = cli_malloc(*size);
+    memset(header, ' ', *size);
     memcpy(header, magic, MAGIC);
     header[MAGIC] = prefix == PREFIX_1 ? 1 : 2;
     header[MAGIC + 1] = 0;
     for (size_t i = MAGIC + 2; i < prefix; i++)
-        header[i] = (char)((size - prefix) >> 8 * (i - MAGIC - 2) & 0xff);
+        header[i] = (char)((*size - prefix) >> 8 * (i - MAGIC - 2) & 0xff);
     memcpy(header + prefix, text, length);
-    set_rows(writer, 0);
+    set_shape(header + *size - NPY_LINE, shape);
     free(text);
+    return header;
+}
+
+static void make_header(trajectory_writer *writer, char *const *names)
+{
+    writer->header = npy_make_header(names, writer->columns, "(0,)", &writer->header_length);
 }
 
 /* Reads the text of the header, allocated, and where the rows begin; NULL unless the file is long

@@ -24,6 +24,9 @@ typedef struct trajectory_writer {
     row_sum sum;                 /* of those */
 } trajectory_writer;
 
+/* The header of a structured array in a .npy file, allocated; shape: "(3,)", "(2, 3)". */
+char *npy_make_header(char *const *names, int columns, const char *shape, size_t *size);
+
 /* Creates the file, "-" being stdout, and writes the names of the columns; a path that ends in .npy
  * gets a structured array.  All functions return CLI_DONE, or print and return CLI_IO. */
 int writer_create(trajectory_writer *writer, const char *path, char *const *names, int columns);

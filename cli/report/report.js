@@ -194,7 +194,7 @@ class Matrix {
 
     addUnfold(row, cell, head) {
         const system = systems.find(s => s.label === head.dataset.label);
-        const step = system ? system.steps.findIndex(s => s.h === Number(head.dataset.step)) : -1;
+        const step = system ? system.steps.findIndex(s => s.h === head.dataset.step || s.h === Number(head.dataset.step)) : -1;
         const found = system && system.find(row.method, step);
         if (!found) return;
         const words = [...cell.td.childNodes].map(n => n.textContent).join(' ');

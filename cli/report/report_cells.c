@@ -1,7 +1,24 @@
 /* report_cells.c - the cells of a study, and the quantities that its tables and figures show. */
 #include "report_cells.h"
 
-#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+double step_tolerance(const char *step)
+{
+    char *end;
+    strtod(step, &end);
+    return strtod(end, NULL);
+}
+
+const char *step_title(char title[STEP_TITLE], const char *step)
+{
+    const double tolerance = step_tolerance(step);
+    const int length = snprintf(title, STEP_TITLE, "h = %g", strtod(step, NULL));
+    if (tolerance > 0.0)
+        snprintf(title + length, STEP_TITLE - (size_t)length, ", tolerance %g", tolerance);
+    return title;
+}
 
 const char *get_cell(const study_page *s, int row, const char *head)
 {

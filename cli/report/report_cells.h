@@ -14,6 +14,12 @@ typedef struct study_page {
     char *title[REPORT_WORDS]; /* of the system of each label, or the label */
 } study_page;
 
+/* A step and its tolerance are one text on the page, as report_csv_append makes it: "h = 0.1", or
+ * "h = 0.1, tolerance 1e-06"; its tolerance, 0 for none. */
+enum { STEP_TITLE = 80 };
+const char *step_title(char title[STEP_TITLE], const char *step);
+double step_tolerance(const char *step);
+
 /* The text of a cell under a head of cells.csv; whether it is another one. */
 const char *get_cell(const study_page *s, int row, const char *head);
 bool is_cell(const study_page *s, int row, const char *head, const char *text);

@@ -61,6 +61,7 @@ void report_csv_free(report_csv *csv)
 {
     free(csv->text);
     free(csv->cell);
+    free(csv->appended);
     *csv = (report_csv){0};
 }
 
@@ -69,6 +70,25 @@ const char *report_csv_get(const report_csv *csv, int row, const char *head)
     for (int column = 0; column < csv->columns; column++)
         if (strcmp(csv->cell[column], head) == 0) return csv->cell[row * csv->columns + column];
     return "";
+}
+
+void report_csv_append(report_csv *csv, const char *head, const char *other)
+{
+    size_t size = 1;
+    int column = 0;
+    while (column < csv->columns && strcmp(csv->cell[column], head) != 0) column++;
+    if (column == csv->columns) return;
+    for (int row = 1; row < csv->rows; row++)
+        size +=
+            strlen(report_csv_get(csv, row, head)) + strlen(report_csv_get(csv, row, other)) + 2;
+    char *next = csv->appended = cli_calloc(size, 1);
+    for (int row = 1; row < csv->rows; row++) {
+        const char *text = report_csv_get(csv, row, head);
+        if (!(report_csv_number(csv, row, other) > 0.0)) continue;
+        const int length = sprintf(next, "%s %s", text, report_csv_get(csv, row, other));
+        csv->cell[row * csv->columns + column] = next;
+        next += length + 1;
+    }
 }
 
 int report_csv_require(const report_csv *csv, const char *path, const char *head)

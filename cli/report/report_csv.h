@@ -7,12 +7,16 @@
 /* cell[row * columns + column], row 0 being the heads. */
 typedef struct report_csv {
     char *text, **cell;
+    char *appended; /* texts of report_csv_append */
     int rows, columns;
 } report_csv;
 
 /* Returns CLI_DONE or prints and returns an exit status; free it in any case. */
 int report_csv_read(report_csv *csv, const char *path);
 void report_csv_free(report_csv *csv);
+/* Appends to each text under a head that under another one, after a space, where that is a positive
+ * number. */
+void report_csv_append(report_csv *csv, const char *head, const char *other);
 /* Whether it has a column: CLI_DONE, or CLI_USAGE and a message. */
 int report_csv_require(const report_csv *csv, const char *path, const char *head);
 /* The cell of a row under a head; "" where there is none.  Its number, NaN for no text.  Whether it

@@ -151,10 +151,16 @@ static void write_times(FILE *page, const report_csv *series, const cell_rows *l
                         const report_words *steps)
 {
     int chosen[MAX_TIMES];
+    char title[STEP_TITLE];
     fputs(",\"steps\":[", page);
     for (int h = 0; h < steps->count; h++) {
         const int count = choose_times(longest[h].count, chosen);
-        fprintf(page, "%s{\"h\":%.9g,\"t\":[", h ? "," : "", strtod(steps->word[h], NULL));
+        fputs(h ? ",{\"h\":" : "{\"h\":", page);
+        if (step_tolerance(steps->word[h]) > 0.0)
+            data_write_string(page, step_title(title, steps->word[h]) + 4); /* without "h = " */
+        else
+            fprintf(page, "%.9g", strtod(steps->word[h], NULL));
+        fputs(",\"t\":[", page);
         for (int i = 0; i < count; i++)
             fprintf(page, "%s%.6g", i ? "," : "",
                     report_csv_number(series, longest[h].first + chosen[i] - 1, "until"));

@@ -77,6 +77,7 @@ static const char *get_title(const study_page *s, const char *label)
 static void write_matrix(const study_page *s, const table_columns *all, const quantity *t)
 {
     FILE *page = s->r->page;
+    char title[STEP_TITLE];
     table_columns shown = {.count = 0};
     if (!t->heading) return;
     for (int i = 0; i < all->count; i++)
@@ -89,12 +90,15 @@ static void write_matrix(const study_page *s, const table_columns *all, const qu
     for (int i = 0; i < shown.count; i++) {
         fputs("<th scope=\"col\" data-label=\"", page);
         report_text(page, shown.at[i].label);
-        fprintf(page, "\" data-step=\"%.9g\" title=\"", strtod(shown.at[i].step, NULL));
+        if (step_tolerance(shown.at[i].step) > 0.0)
+            fprintf(page, "\" data-step=\"%s\" title=\"", step_title(title, shown.at[i].step) + 4);
+        else
+            fprintf(page, "\" data-step=\"%.9g\" title=\"", strtod(shown.at[i].step, NULL));
         report_text(page, get_title(s, shown.at[i].label));
         fputs("\">", page);
         report_text(page, shown.at[i].label);
         if (!shown.at[i].is_alone)
-            fprintf(page, "<br><small>h = %g</small>", strtod(shown.at[i].step, NULL));
+            fprintf(page, "<br><small>%s</small>", step_title(title, shown.at[i].step));
         fputs("</th>", page);
     }
     fputs(REPORT_ROWS, page);

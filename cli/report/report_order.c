@@ -3,6 +3,7 @@
 #include "report_order.h"
 
 #include "io/file.h"
+#include "report_cells.h"
 #include "report_csv.h"
 #include "report_family.h"
 #include "report_plot.h"
@@ -38,6 +39,7 @@ static void write_head(const order_page *o)
     FILE *page = o->r->page;
     const char *method = results_text(&o->results, "reference", "integrator");
     const char *time = results_text(&o->results, "request", "time");
+    const char *tolerance = results_text(&o->results, "reference", "tolerance");
     results_begin_facts(page, &o->results);
     if (!o->results.root) {
         const double steps = report_csv_number(&o->csv, 1, "steps");
@@ -49,9 +51,11 @@ static void write_head(const order_page *o)
         fputs(method[0] ? " from " : " from the exact solution", page);
         report_text(page, method);
         if (method[0])
-            fprintf(page, " with h = %.6g, itself within %.0e",
-                    strtod(results_text(&o->results, "reference", "step"), NULL),
-                    strtod(results_text(&o->results, "reference", "error"), NULL));
+            fprintf(
+                page, " with %s = %.6g, itself within %.0e", tolerance[0] ? "tolerance" : "h",
+                strtod(tolerance[0] ? tolerance : results_text(&o->results, "reference", "step"),
+                       NULL),
+                strtod(results_text(&o->results, "reference", "error"), NULL));
         fputs("</dd>\n", page);
     }
     fputs(REPORT_FACTS_END, page);
@@ -62,10 +66,11 @@ static void write_head(const order_page *o)
 static void write_orders_table(const order_page *o)
 {
     FILE *page = o->r->page;
+    char title[STEP_TITLE];
     int failures = 0;
     fputs(REPORT_TABLE "<td></td><th>order, stated</th><th>order, found</th>", page);
     for (int h = 0; h < o->steps.count; h++)
-        fprintf(page, "<th>h = %g</th>", strtod(o->steps.word[h], NULL));
+        report_element(page, "th", step_title(title, o->steps.word[h]));
     fputs("<th>evalu&shy;ations of F a step</th><th>µs a step</th>" REPORT_ROWS, page);
     for (int m = 0; m < o->methods.count; m++) {
         const int first = find_row(o, o->methods.word[m], NULL);
@@ -110,8 +115,13 @@ static int draw_errors(const order_page *o, int figure, const report_words *meth
          "Lower left is better: less error for less work."},
         {"seconds", "time", "Time and precision", "seconds of processor time",
          "Lower left is better: less error in less time."},
+        {"tolerance", "tolerance", "Tolerance", "tolerance",
+         "An error that follows the tolerance is a line of slope 1."},
     };
+    enum { FIGURES = sizeof figures / sizeof figures[0] };
+    const bool is_controlled = step_tolerance(o->steps.word[0]) > 0.0;
     char name[PLOT_NAME];
+    if (figure == 0 && is_controlled) figure = FIGURES - 1;
     report_plot plot = {.name = name,
                         .title = figures[figure].title,
                         .xlabel = figures[figure].xlabel,
@@ -185,6 +195,7 @@ int report_order(report *r)
     o->r = r;
     int status = results_read(&o->results, r->directory, "order");
     if (status == CLI_DONE) status = report_csv_read(&o->csv, path);
+    report_csv_append(&o->csv, "step", "tolerance");
     if (status == CLI_DONE && o->csv.rows < 2)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
     for (int row = 1; status == CLI_DONE && row < o->csv.rows; row++) {

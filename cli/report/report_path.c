@@ -8,6 +8,7 @@
 #include "report_plot.h"
 #include "report_pose.h"
 #include "report_rows.h"
+#include "run/event_log.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -106,6 +107,24 @@ static void break_path(const body_path *p, plot_curve *curve)
     curve->count = kept;
 }
 
+/* Rings where the events happened, the first of them. */
+static void draw_events(body_path *p, report_plot *plot)
+{
+    double pose[DAL_PICTURE_COUNT];
+    const int n = p->poses.request.system->n;
+    event_reader events;
+    event_reader_open(&events, p->poses.dir.events, 2 * n);
+    plot_curve *curve = report_curve(plot, "events");
+    curve->has_rings = true;
+    curve->colour = 1;
+    while (curve->count < MAX_DOTS && event_reader_next(&events)) {
+        pose_of(&p->poses, events.t, events.state, events.state + n, pose);
+        report_point(plot, curve, pose[DAL_PICTURE_X], pose[DAL_PICTURE_Y]);
+    }
+    event_reader_close(&events);
+    if (curve->count == 0) plot->count--;
+}
+
 static int draw_path(body_path *p, report *r, const char *name, const char *caption)
 {
     const dal_body body = p->poses.body;
@@ -123,6 +142,7 @@ static int draw_path(body_path *p, report *r, const char *name, const char *capt
     if (more < 0) status = CLI_IO;
     break_path(p, curve);
     draw_bodies(p, &plot);
+    draw_events(p, &plot);
     if (p->instants > 0 && body != DAL_BODY_POINT)
         snprintf(text, sizeof text, "The %s, not to scale, at %d of the rows.", body_name[body],
                  p->instants);

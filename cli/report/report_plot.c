@@ -50,7 +50,7 @@ void report_point(const report_plot *plot, plot_curve *curve, double x, double y
     if (!isfinite(x) || !isfinite(y) || (plot->log_x && x <= 0.0) || (plot->log_y && y <= 0.0))
         return;
     append_point(curve, x, y, y);
-    if (plot->has_marks || curve->has_dots || curve->count < 3) return;
+    if (plot->has_marks || curve->has_dots || curve->has_rings || curve->count < 3) return;
     /* A point on the level line between its neighbours is redundant. */
     double(*at)[3] = curve->at + curve->count - 3;
     if (at[0][1] != at[1][1] || at[1][1] != at[2][1]) return;
@@ -166,6 +166,30 @@ static int figure_height(const report_plot *plot)
     return FRAME + (int)height + KEY_ROW * key_rows(plot);
 }
 
+/* Vertical lines at the marks between the ends of the curves, no closer than they can be seen;
+ * where they are many they are short. */
+static void write_marks(FILE *s, const report_plot *plot)
+{
+    enum { MAX_LINES = 30, PLACES = 250 };
+    double low, high, shown[PLACES + 1];
+    int count = 0, last = -1;
+    find_range(plot, 0, &low, &high);
+    const double width = plot->log_x ? log(high / low) : high - low;
+    for (int i = 0; i < plot->marks && width > 0.0; i++) {
+        const double x = plot->mark[i];
+        if (!(x >= low && x <= high)) continue;
+        const int place = (int)(PLACES * (plot->log_x ? log(x / low) : x - low) / width);
+        if (place == last || count > PLACES) continue;
+        shown[count++] = x;
+        last = place;
+    }
+    for (int i = 0; i < count; i++)
+        fprintf(s,
+                "set arrow from first %.9g, graph %g to first %.9g, graph 1 nohead back "
+                "lw 0.7 lc rgb '#808080'\n",
+                shown[i], count > MAX_LINES ? 0.95 : 0.0, shown[i]);
+}
+
 static void write_axes(FILE *s, const report_plot *plot)
 {
     const double height = figure_height(plot), key = KEY_ROW * key_rows(plot);
@@ -173,6 +197,7 @@ static void write_axes(FILE *s, const report_plot *plot)
     gnuplot_set(s, "xlabel offset 0,0.4", plot->xlabel);
     write_axis(s, "x", plot, 0, plot->log_x);
     write_axis(s, "y", plot, 1, plot->log_y);
+    write_marks(s, plot);
     /* Dots on the frame would not be seen. */
     if (has_dots(plot)) fputs("set offsets 0, 0, graph 0.04, graph 0.04\n", s);
     if (plot->is_to_scale) {
@@ -246,12 +271,14 @@ static void write_curve(FILE *s, const report_plot *plot, int i)
     const char *line = plot->has_marks ? "linespoints" : "lines";
     if (curve->count)
         fprintf(s, "  $curve%d using 1:2 with %s ", i + 1,
-                curve->has_dots ? "points pt 7 ps 0.3" : line);
+                curve->has_dots    ? "points pt 7 ps 0.3"
+                : curve->has_rings ? "points pt 6 ps 0.8 lw 1.5"
+                                   : line);
     else
         fprintf(s, "  keyentry with %s ", line);
     if (curve->is_black)
         fputs("lw 1.2 lc rgb 'black'", s);
-    else if (curve->has_dots)
+    else if (curve->has_dots || curve->has_rings)
         fprintf(s, "lc rgb '%s'", gnuplot_colour(curve->colour));
     else {
         fputs("lw 1.8 ", s);

@@ -12,6 +12,7 @@ typedef struct plot_curve {
     int colour;             /* its number, 0 for the first curve unless the caller changes it */
     bool is_black;
     bool has_dots;   /* points without lines */
+    bool has_rings;  /* rings without lines */
     bool is_band;    /* between two values at each x */
     int values;      /* points so far, those left out included, */
     double max_abs;  /* and max |y| of them; NaN once y was none */
@@ -27,6 +28,8 @@ typedef struct report_plot {
     bool is_to_scale; /* one scale on both axes */
     plot_curve curve[PLOT_CURVES + 2];
     int count;
+    const double *mark; /* [marks] abscissas in their order, the caller's; vertical lines there */
+    int marks;
 } report_plot;
 
 /* Begins the next curve. */

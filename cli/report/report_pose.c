@@ -82,18 +82,23 @@ int pose_open(pose_reader *p, const char *run)
     return CLI_DONE;
 }
 
+void pose_of(pose_reader *p, double t, const double *q, const double *v, double *pose)
+{
+    const dal_system *system = p->request.system;
+    for (int i = 0; i < DAL_PICTURE_COUNT; i++) pose[i] = 0.0;
+    if (!system->picture)
+        for (int k = 0; k < 2; k++) pose[k] = q[p->pair[k]];
+    else if (dal_evaluator_call(p->evaluator, system->picture->evaluate, t, q, v, NULL, pose))
+        pose[DAL_PICTURE_X] = NAN;
+}
+
 /* The pose a while after the present row, while q changes by v alone. */
 static void find_pose(pose_reader *p, double after, double *pose)
 {
-    const dal_system *system = p->request.system;
-    const double *q = p->rows.row + 1, *v = q + system->n;
-    for (int i = 0; i < system->n; i++) p->q[i] = q[i] + after * v[i];
-    for (int i = 0; i < DAL_PICTURE_COUNT; i++) pose[i] = 0.0;
-    if (!system->picture)
-        for (int k = 0; k < 2; k++) pose[k] = p->q[p->pair[k]];
-    else if (dal_evaluator_call(p->evaluator, system->picture->evaluate, p->t + after, p->q, v,
-                                NULL, pose))
-        pose[DAL_PICTURE_X] = NAN;
+    const int n = p->request.system->n;
+    const double *q = p->rows.row + 1, *v = q + n;
+    for (int i = 0; i < n; i++) p->q[i] = q[i] + after * v[i];
+    pose_of(p, p->t + after, p->q, v, pose);
 }
 
 int pose_next(pose_reader *p)

@@ -33,6 +33,8 @@ int pose_open(pose_reader *p, const char *run);
 /* Reads a row: 1, or 0 behind the last one, or -1 after a failure and its message.  What a picture
  * does not define there is NaN. */
 int pose_next(pose_reader *p);
+/* The pose of another state q, v, which need not be that of a row. */
+void pose_of(pose_reader *p, double t, const double *q, const double *v, double *pose);
 void pose_close(pose_reader *p);
 
 #endif

@@ -10,6 +10,7 @@
 #include "io/trajectory.h"
 #include "report_csv.h"
 #include "report_data.h"
+#include "report_events.h"
 #include "report_path.h"
 #include "report_plot.h"
 #include "report_rows.h"
@@ -27,14 +28,21 @@
 /* An envelope has a point wherever t has grown by a factor. */
 static const double envelope_factor = 1.05;
 
-/* The figures over t.  code, file name, title, label of the axis, what
- * the page says instead when all values at all rows are 0 */
+static const char event_caption[] = "Vertical lines mark events.";
+static const char event_drift_caption[] =
+    "Vertical lines mark events; what these change at once is left out.";
+
+/* The figures over t; columns of those before the invariants are known by their names alone.
+ * code, file name, title, label of the axis, what the page says instead when all values at all rows
+ * are 0 */
 #define GROUP_LIST(GROUP)                                                                          \
     GROUP(COORDINATES, "coordinates", "Coordinates", "q", NULL)                                    \
     GROUP(ANGLES, "angles", "Angles", "q in radians", NULL)                                        \
     GROUP(D, "D", "Constraints", "D", "D is 0 at all rows.")                                       \
     GROUP(E, "E", "Energy", "E - E(0)", "E is the same at all rows.")                              \
     GROUP(H, "H", "H of the lift", "H - H(0)", "H is the same at all rows.")                       \
+    GROUP(OBSERVED, "observed", "Observed formulas", "value",                                      \
+          "The observed formulas are 0 at all rows.")                                              \
     GROUP(INVARIANTS, "I", "Invariants", "I - I(0)", "The invariants are the same at all rows.")   \
     GROUP(REACTIONS, "R", "Reactions", "h, R", "The reactions are 0 at all rows.")                 \
     GROUP(ERROR, "error", "Error", "max |q - exact|", "The error is 0 at all rows.")
@@ -56,6 +64,8 @@ typedef struct run_column {
     bool is_conserved;            /* it should not change */
     double first, max_abs;        /* at the first row; of all rows so far, but for E, H and the
                                      invariants less first */
+    double last, jumped, drift;   /* at the last row; what events have added; max |x - first| of
+                                     all rows so far without that */
 } run_column;
 
 typedef struct run_page {
@@ -65,8 +75,11 @@ typedef struct run_page {
     report_csv summary;       /* no rows unless the run is over */
     const dal_system *system; /* where the run has not all columns; otherwise NULL */
     run_column *column;       /* [columns of the reader] */
-    double envelope_time;     /* since the start, of the last point of the envelopes */
+    report_events events;
+    int passed_events;    /* those up to the present row */
+    double envelope_time; /* since the start, of the last point of the envelopes */
     report_plot plot[GROUPS], drift;
+    char *drift_caption;
 } run_page;
 
 /* ---- columns ------------------------------------------------------------------------------- */
@@ -78,6 +91,7 @@ static bool is_angle(const run_page *run, const char *name)
 
 static int observable_group(const run_page *run, const char *name)
 {
+    if (request_observes(run->request, name)) return GROUP_OBSERVED;
     if (run->system && columns_need_reactions(run->system, name)) return GROUP_REACTIONS;
     if (name[0] == 'D' && name[1] && name[1 + strspn(name + 1, "0123456789")] == '\0')
         return GROUP_D;
@@ -117,8 +131,8 @@ static bool is_rest_of_state(const run_page *run, const char *name)
 }
 
 /* Gives each column its curves.  The columns are t, q, q', the rest of the state, then D1.., E, H,
- * invariants, error.  A coordinate may have the name D1 or E; only after the velocities is a column
- * an observable. */
+ * invariants, observed formulas, error.  A coordinate may have the name D1 or E; only after the
+ * velocities is a column an observable. */
 static void place_columns(run_page *run)
 {
     const trajectory_reader *t = &run->reader;
@@ -126,7 +140,8 @@ static void place_columns(run_page *run)
     while (1 + n < t->columns && !columns_is_velocity(run->request, t->name[1 + n], t->name[1]))
         n++;
     int observables = 1 + 2 * n;
-    while (observables < t->columns && observable_group(run, t->name[observables]) > GROUP_H)
+    while (observables < t->columns &&
+           observable_group(run, t->name[observables]) >= GROUP_INVARIANTS)
         observables++;
     if (run->system) {
         for (n = 0; 1 + n < t->columns && is_coordinate(run->system, t->name[1 + n]);) n++;
@@ -148,7 +163,8 @@ static void place_columns(run_page *run)
         for (int row = 1; row < run->summary.rows; row++)
             has_trend |= report_csv_is(&run->summary, row, "observable", name) &&
                          !report_csv_is(&run->summary, row, "trend", "");
-        c->is_conserved = i >= observables && has_trend && c->group != GROUP_REACTIONS;
+        c->is_conserved = i >= observables && has_trend && c->group != GROUP_OBSERVED &&
+                          c->group != GROUP_REACTIONS;
         if (c->group != NO_GROUP) c->curve = add_curve(&run->plot[c->group], name);
         if (c->curve) c->series = cli_calloc(1, sizeof *c->series);
         if (c->is_conserved) c->envelope = add_curve(&run->drift, name);
@@ -160,10 +176,21 @@ static void place_columns(run_page *run)
 static void name_plots(run_page *run)
 {
     const bool from_0 = run->request->from == 0.0 && run->request->time >= 0.0;
+    const bool has_events = run->events.count > 0;
+    const char *caption = has_events ? event_caption : "";
 #define NAME_PLOT(code, file, text, label, zero)                                                   \
-    run->plot[GROUP_##code] = (report_plot){file, text, "t", label, "", .zero_text = zero};
+    run->plot[GROUP_##code] = (report_plot){file,                                                  \
+                                            text,                                                  \
+                                            "t",                                                   \
+                                            label,                                                 \
+                                            caption,                                               \
+                                            .zero_text = zero,                                     \
+                                            .mark = run->events.t,                                 \
+                                            .marks = run->events.count};
     GROUP_LIST(NAME_PLOT)
 #undef NAME_PLOT
+    run->drift_caption = cli_format("%s%s%s", report_envelope_caption, has_events ? " " : "",
+                                    has_events ? event_drift_caption : "");
     run->drift = (report_plot){.name = "drift",
                                .title = "Drift of what should not change",
                                .xlabel = from_0 ? "t" : "|t - t(0)|",
@@ -171,10 +198,13 @@ static void name_plots(run_page *run)
                                .log_x = true,
                                .log_y = true,
                                .zero_text = "Nothing that should not change does so at any row.",
-                               .caption = report_envelope_caption};
+                               .caption = run->drift_caption,
+                               .mark = run->events.passed,
+                               .marks = run->events.count};
 }
 
-/* The present row, number k. */
+/* The present row, number k.  Between two rows with an event between them, E and the invariants
+ * change by what it adds. */
 static void add_row(run_page *run, long long k)
 {
     const trajectory_reader *reader = &run->reader;
@@ -182,17 +212,24 @@ static void add_row(run_page *run, long long k)
     const bool is_last = k == reader->count - 1;
     const double passed = fabs(t - run->request->from);
     const bool has_envelope = passed >= envelope_factor * run->envelope_time || is_last;
+    const int before = run->passed_events;
+    while (run->passed_events < run->events.count &&
+           run->events.passed[run->passed_events] <= passed)
+        run->passed_events++;
     for (int i = 1; i < reader->columns; i++) {
         run_column *c = &run->column[i];
+        const bool jumps = c->group == GROUP_E || c->group == GROUP_INVARIANTS;
         double x = reader->row[i];
-        if (k == 0) c->first = x;
+        if (k == 0) c->first = c->last = x;
         if (c->group == NO_GROUP) continue;
-        if (c->group == GROUP_E || c->group == GROUP_H || c->group == GROUP_INVARIANTS)
-            x -= c->first;
+        if (jumps && run->passed_events > before) c->jumped += x - c->last;
+        c->last = x;
+        if (jumps || c->group == GROUP_H) x -= c->first;
         if (c->series) row_series_add(c->series, t, x);
         if (c->velocity > 0) row_distance_add(&c->distance, t, x, reader->row[c->velocity]);
         if (!(fabs(x) <= c->max_abs)) c->max_abs = fabs(x);
-        if (has_envelope && c->envelope) report_point(&run->drift, c->envelope, passed, c->max_abs);
+        if (!(fabs(x - c->jumped) <= c->drift)) c->drift = fabs(x - c->jumped);
+        if (has_envelope && c->envelope) report_point(&run->drift, c->envelope, passed, c->drift);
     }
     if (has_envelope) run->envelope_time = passed;
 }
@@ -214,7 +251,7 @@ static int draw_figures(run_page *run)
         if (c->envelope) report_title_envelope(c->envelope);
         /* A sentence about all values needs all columns and all rows; figures leave some out. */
         if (c->group != NO_GROUP && c->max_abs != 0.0) run->plot[c->group].zero_text = NULL;
-        if (c->is_conserved && c->max_abs != 0.0) run->drift.zero_text = NULL;
+        if (c->is_conserved && c->drift != 0.0) run->drift.zero_text = NULL;
     }
     int drawn = report_draw(run->r, &run->drift);
     for (int g = 0; g < GROUPS; g++) {
@@ -321,7 +358,10 @@ static void write_head(const run_page *run, const char *manifest)
     report_system(page, request->model, request);
     report_method(page, request);
     fputs(REPORT_FACTS_END, page);
-    if (state && strcmp(state, "done") != 0) {
+    if (state && message && strcmp(state, "done") == 0) {
+        report_element(page, "p", message);
+        fputc('\n', page);
+    } else if (state && strcmp(state, "done") != 0) {
         fprintf(page, "<p><strong>The run %s",
                 strcmp(state, "failed") == 0        ? "failed"
                 : strcmp(state, "interrupted") == 0 ? "was interrupted"
@@ -350,9 +390,12 @@ int report_run(report *r)
         status = manifest_read(&dir, &request);
     if (status == CLI_DONE && request.system_name)
         status = cli_read(request.system_name, &request.model);
-    if (status == CLI_DONE && request.columns)
+    const bool has_events =
+        request.model && dal_model_text(request.model, DAL_SECTION_EVENTS, 0, NULL, NULL, NULL);
+    if (status == CLI_DONE && (request.columns || has_events))
         status = cli_make(request.system_name, &request.model, &request.system);
-    run->system = request.system;
+    run->system = request.columns ? request.system : NULL;
+    report_events_read(&run->events, dir.events, has_events ? request.system : NULL, request.from);
     run->request = &request;
     if (status == CLI_DONE && access(summary, F_OK) == 0)
         status = report_csv_read(&run->summary, summary);
@@ -363,6 +406,7 @@ int report_run(report *r)
         if (request.model) write_head(run, dir.manifest);
         write_summary(run, fabs(request.time - request.from));
         if (request.system_name) status = data_write_run(r);
+        report_events_write(r->page, &run->events);
         fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
         if (run->reader.count < 2)
             fputs("<p>The run has one row, too few for figures.</p>\n", r->page);
@@ -375,6 +419,8 @@ int report_run(report *r)
     }
     if (is_open) reader_close(&run->reader);
     report_csv_free(&run->summary);
+    report_events_free(&run->events);
+    free(run->drift_caption);
     free(run->column);
     free(run);
     free(summary);

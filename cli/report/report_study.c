@@ -41,10 +41,12 @@ static void write_expectations(FILE *page, const report_csv *csv, bool only_unme
     for (int row = 1; row < csv->rows; row++) {
         const bool is_met = report_csv_is(csv, row, "met", "yes");
         if (only_unmet && is_met) continue;
+        char title[STEP_TITLE];
+        const char *step = report_csv_get(csv, row, "step");
         report_row(page, report_csv_get(csv, row, "label"));
         for (size_t k = 0; k < sizeof heads / sizeof heads[0]; k++)
             if (strcmp(heads[k], "step") == 0)
-                report_number(page, "%g", report_csv_number(csv, row, "step"));
+                report_element(page, "td", step[0] ? step_title(title, step) + 4 : "–");
             else
                 report_element(page, "td", report_csv_get(csv, row, heads[k]));
         fprintf(page, "<td class=\"%s\">%s</td></tr>\n", is_met ? "kept" : "drift",
@@ -61,6 +63,7 @@ static int report_expectations(report *r)
     char *path = cli_join(r->directory, "expectations.csv");
     const int status = access(path, F_OK) == 0 ? report_csv_read(&csv, path) : CLI_DONE;
     int met = 0;
+    report_csv_append(&csv, "step", "tolerance");
     for (int row = 1; row < csv.rows; row++) met += report_csv_is(&csv, row, "met", "yes");
     if (csv.rows > 1) {
         fprintf(r->page, "<h2>Expectations</h2>\n<p>%d of %d are met.</p>\n", met, csv.rows - 1);
@@ -152,7 +155,7 @@ static void add_envelope(const label_figures *f, report_plot *plot, const char *
 static int draw_quantity(const label_figures *f, const quantity *t, int step)
 {
     const char *h = f->steps.word[step];
-    char name[PLOT_NAME], heading[PLOT_NAME], text[PLOT_METHODS * PLOT_TITLE];
+    char name[PLOT_NAME], heading[PLOT_NAME], division[STEP_TITLE], text[PLOT_METHODS * PLOT_TITLE];
     report_plot plot = {.name = name_plot(name, f, t->name, step),
                         .title = heading,
                         .xlabel = "time since the start",
@@ -160,7 +163,7 @@ static int draw_quantity(const label_figures *f, const quantity *t, int step)
                         .caption = report_envelope_caption,
                         .log_x = true,
                         .log_y = true};
-    snprintf(heading, sizeof heading, "%s, h = %g", t->title, strtod(h, NULL));
+    snprintf(heading, sizeof heading, "%s, %s", t->title, step_title(division, h));
     /* "max |D| is 0 at all rows with A, B, C." */
     size_t n = (size_t)snprintf(text, sizeof text, "%s is 0 at all rows with", plot.ylabel);
     for (int m = 0; m < f->methods.count && n < sizeof text; m++) {
@@ -175,19 +178,28 @@ static int draw_quantity(const label_figures *f, const quantity *t, int step)
     return report_draw(f->s->r, &plot);
 }
 
-/* The errors of some methods over the work, or over the step. */
-static int draw_errors(const label_figures *f, bool over_work)
+/* What errors are drawn over. */
+typedef enum error_axis { OVER_WORK, OVER_STEP, OVER_TOLERANCE } error_axis;
+
+/* The errors of some methods. */
+static int draw_errors(const label_figures *f, error_axis axis)
 {
+    static const struct {
+        const char *name, *title, *xlabel, *caption;
+    } figures[] = {{"work", "Work and precision", "evaluations of F per unit of t",
+                    "Lower left is better: less error for less work."},
+                   {"order", "Order", "step h", "A method of order p is a line of slope p."},
+                   {"tolerance", "Tolerance", "tolerance",
+                    "An error that follows the tolerance is a line of slope 1."}};
     const report_csv *cells = &f->s->cells;
     char name[PLOT_NAME];
-    report_plot plot = {.name = name_plot(name, f, over_work ? "work" : "order", 0),
-                        .title = over_work ? "Work and precision" : "Order",
-                        .xlabel = over_work ? "evaluations of F per unit of t" : "step h",
+    report_plot plot = {.name = name_plot(name, f, figures[axis].name, 0),
+                        .title = figures[axis].title,
+                        .xlabel = figures[axis].xlabel,
                         .ylabel = strcmp(f->accuracy, "error_max") == 0     ? "max error"
                                   : strcmp(f->accuracy, "E_deviation") == 0 ? "max |E - E(0)|"
                                                                             : "max |I - I(0)|",
-                        .caption = over_work ? "Lower left is better: less error for less work."
-                                             : "A method of order p is a line of slope p.",
+                        .caption = figures[axis].caption,
                         .log_x = true,
                         .log_y = true,
                         .has_marks = true};
@@ -198,10 +210,14 @@ static int draw_errors(const label_figures *f, bool over_work)
             const char *step = f->steps.word[h];
             const int row = find_cell(f->s, f->label, method, step, false);
             if (row == 0 || !is_cell(f->s, row, "state", "done")) continue;
-            const double size = fabs(strtod(step, NULL));
+            const double size = fabs(strtod(step, NULL)), tolerance = step_tolerance(step);
+            if (axis != OVER_WORK && (tolerance > 0.0) != (axis == OVER_TOLERANCE)) continue;
             const double work = report_csv_number(cells, row, "evaluations") /
                                 (report_csv_number(cells, row, "steps") * size);
-            report_point(&plot, curve, over_work ? work : size,
+            report_point(&plot, curve,
+                         axis == OVER_WORK   ? work
+                         : axis == OVER_STEP ? size
+                                             : tolerance,
                          report_csv_number(cells, row, f->accuracy));
         }
     }
@@ -235,10 +251,10 @@ static int draw_best_path(const label_figures *f)
     const study_page *s = f->s;
     const int best = find_best(f);
     if (best == 0) return CLI_DONE;
-    char name[PLOT_NAME], caption[2 * PLOT_NAME];
+    char name[PLOT_NAME], caption[2 * PLOT_NAME], division[STEP_TITLE];
     snprintf(name, sizeof name, "%.120s-path", f->label);
-    snprintf(caption, sizeof caption, "The path by %.80s with h = %g.",
-             get_cell(s, best, "integrator"), report_csv_number(&s->cells, best, "step"));
+    snprintf(caption, sizeof caption, "The path by %.80s with %s.", get_cell(s, best, "integrator"),
+             step_title(division, get_cell(s, best, "step")));
     char *run = cli_join(s->r->directory, get_cell(s, best, "run"));
     const int status = report_path(s->r, run, name, caption);
     free(run);
@@ -308,8 +324,12 @@ static int draw_label(const label_figures *f)
     int status = draw_best_path(f);
     for (int i = 0; i < f->steps.count * QUANTITIES && status == CLI_DONE; i++)
         status = draw_quantity(f, &quantities[i % QUANTITIES], i / QUANTITIES);
-    if (status == CLI_DONE && f->accuracy) status = draw_errors(f, true);
-    if (status == CLI_DONE && f->accuracy && f->steps.count > 1) status = draw_errors(f, false);
+    int levels[] = {2, 0, 0}; /* the work is drawn of one step, too */
+    for (int i = 0; i < f->steps.count; i++)
+        levels[step_tolerance(f->steps.word[i]) > 0.0 ? OVER_TOLERANCE : OVER_STEP]++;
+    for (int axis = OVER_WORK; axis <= OVER_TOLERANCE; axis++)
+        if (status == CLI_DONE && f->accuracy && levels[axis] > 1)
+            status = draw_errors(f, (error_axis)axis);
     fputs("</div>\n", page);
     return status;
 }
@@ -349,6 +369,7 @@ static int report_label(const study_page *s, const char *label)
         fputs("<p>The runs keep no rows, so there is nothing to draw over time.</p>\n", s->r->page);
     } else {
         status = report_csv_read(&f->series, path);
+        report_csv_append(&f->series, "step", "tolerance");
         if (status == CLI_DONE) status = write_data(f);
         if (status == CLI_DONE) status = draw_label(f);
     }
@@ -503,6 +524,7 @@ int report_study(report *r)
     char *path = cli_join(r->directory, "cells.csv");
     s->r = r;
     int status = report_csv_read(&s->cells, path);
+    report_csv_append(&s->cells, "step", "tolerance");
     for (int row = 1; status == CLI_DONE && row < s->cells.rows; row++) {
         report_add_word(&s->labels, get_cell(s, row, "label"));
         report_add_word(&s->methods, get_cell(s, row, "integrator"));

@@ -53,6 +53,7 @@ static bool is_number(const char *text, double x)
 static void write_settings(FILE *page, const dal_model *model, dal_section section,
                            const char *heading, const request_settings *settings)
 {
+    static const char solve[] = "solve."; /* velocities that a start solves, without a text */
     const char *text, *name;
     int count = 0;
     for (int i = 0; (text = dal_model_text(model, section, i, &name, NULL, NULL)) != NULL; i++) {
@@ -60,8 +61,10 @@ static void write_settings(FILE *page, const dal_model *model, dal_section secti
         if (given && is_number(text, given->value)) given = NULL;
         if (count++ == 0) report_element(page, "dt", heading);
         fputs(count > 1 ? ", <code>" : "<dd><code>", page);
-        report_text(page, name);
-        fputs(" = ", page);
+        const bool is_solved =
+            section == DAL_SECTION_START && strncmp(name, solve, sizeof solve - 1) == 0;
+        report_text(page, is_solved ? name + sizeof solve - 1 : name);
+        fputs(is_solved ? " from D = 0" : " = ", page);
         if (given) fprintf(page, "%.12g</code> instead of <code>", given->value);
         report_text(page, text);
         fputs("</code>", page);

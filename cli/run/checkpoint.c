@@ -2,7 +2,7 @@
  *
  * Little-endian words of 64 bits, doubles by their bits:
  *
- *     header      the word DALCHK04, then as in the struct below
+ *     header      the word DALCHK05, then as in the struct below
  *     state       [state] all that the run carries from step to step, and its parameters
  *     statistics  [statistics * words] those of each observable, in a layout that has a number
  *     sum         FNV-1a of all before
@@ -10,8 +10,9 @@
  * The file is written under another name, brought to the disk and renamed, and the previous one is
  * kept: where the newer one is damaged, or the rows are not those it was written with, the run
  * resumes from the older.  Nothing in it is ever executed or followed.  A later format raises the
- * number and reads this one, too.  In DALCHK03 the state ends before the parameters, which no
- * command changes. */
+ * number and reads this one, too.  In DALCHK04 the state has no numbers of the choice of a solver,
+ * which stand before the last one and the parameters; in DALCHK03 it ends before them.  Those of
+ * systems with events or compared pivots are refused: what they have of these differs. */
 #include "checkpoint.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -40,7 +41,8 @@ enum {
     STATISTICS_WORDS = sizeof(dal_statistics) / WORD, /* each member is one of 64 bits */
 };
 
-static const uint64_t magic = UINT64_C(0x34304b48434c4144);    /* "DALCHK04" */
+static const uint64_t magic = UINT64_C(0x35304b48434c4144);    /* "DALCHK05" */
+static const uint64_t magic_04 = UINT64_C(0x34304b48434c4144); /* "DALCHK04" */
 static const uint64_t magic_03 = UINT64_C(0x33304b48434c4144); /* "DALCHK03" */
 
 /* From memory to the bytes of a file, or back: where that exchanges bytes, both do alike. */
@@ -107,7 +109,8 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
         return damaged(path, "it is too short");
     copy_words(h, bytes, HEADER_WORDS);
     copy_words(&sum, bytes + words * WORD, 1);
-    if (h->magic != magic && h->magic != magic_03) return damaged(path, "it does not begin as one");
+    if (h->magic != magic && h->magic != magic_04 && h->magic != magic_03)
+        return damaged(path, "it does not begin as one");
     if (sum != file_hash(FILE_HASH_START, bytes, words * WORD))
         return damaged(path, "its check sum is wrong");
     if (h->fingerprint != fingerprint)
@@ -124,17 +127,44 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
                     path, (unsigned long long)h->layout, DAL_STATISTICS_LAYOUT);
 }
 
+/* Completes the state of an earlier format by that of the start, state[count]; a number of the run
+ * is one double or, in quad precision, two.  False: it does not have what this run needs. */
+static bool read_earlier(const checkpoint_header *header, const unsigned char *body,
+                         const dal_run *run, size_t count, double *state)
+{
+    enum { CHOICE = 3 }; /* numbers of the choice of a solver */
+    const dal_system *system = dal_run_system(run);
+    const bool pivots = system->pivots > 0 && system->properties & DAL_D_RANK_CHECKED;
+    const size_t parameters = (size_t)system->parameters;
+    const size_t present = header->state, missing = count - present;
+    const size_t absent = header->magic == magic_04 ? CHOICE : CHOICE + 1 + parameters;
+    if (pivots || system->events > 0 || present >= count) return false;
+    if (missing != absent && missing != 2 * absent) return false;
+    const size_t behind = (1 + parameters) * (missing / absent);
+    const size_t before = header->magic == magic_04 ? present - behind : present;
+    copy_words(state, body, before);
+    copy_words(state + before + missing, body + before * WORD, present - before);
+    return true;
+}
+
 static int restore(const char *path, const checkpoint_header *header, const unsigned char *body,
                    run_position *position, dal_run *run, dal_statistics *statistics)
 {
     dal_error error = {0};
     size_t count;
     const double *begun = dal_run_save(run, &count);
-    const bool older = header->magic == magic_03 && header->state < count;
+    const bool earlier = header->magic != magic;
     double *state = cli_malloc((header->state + count) * sizeof *state);
     memcpy(state, begun, count * sizeof *state);
-    copy_words(state, body, header->state);
-    const dal_status loaded = dal_run_restore(run, state, older ? count : header->state, &error);
+    if (!earlier) copy_words(state, body, header->state);
+    if (earlier && !read_earlier(header, body, run, count, state)) {
+        free(state);
+        return cli_fail(CLI_USAGE,
+                        "%s: has an earlier format, which lacks numbers that this system needs "
+                        "now; resume with the version that manifest.json names",
+                        path);
+    }
+    const dal_status loaded = dal_run_restore(run, state, earlier ? count : header->state, &error);
     free(state);
     if (loaded != DAL_OK) return cli_error(CLI_USAGE, path, &error);
     *position = (run_position){header->row, header->sum, header->seconds};

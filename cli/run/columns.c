@@ -17,6 +17,7 @@
     GROUP(D, "D") \
     GROUP(E, "E") \
     GROUP(INVARIANTS, "invariants") \
+    GROUP(OBSERVED, "observed") \
     GROUP(H, "h") \
     GROUP(R, "R") \
     GROUP(LAMBDA, "lambda")
@@ -40,7 +41,8 @@ enum { NAME_SIZE = 256, LIFT_OBSERVABLES = 4 };
 static bool is_hidden(const char *name) { return name[0] == '|'; }
 
 /* Value i is t, q, v, g or the lift, then D1.., E, H and the norms, the invariants, h1.., R_x..,
- * lambda1.., error.  An invariant may be called E or H. */
+ * lambda1.., error.  Formulas that are observed are the last of the invariants.  An
+ * invariant may be called E or H. */
 static column_group group_of(const run_columns *c, const run_request *request, int i)
 {
     const dal_system *system = request->system;
@@ -52,12 +54,14 @@ static column_group group_of(const run_columns *c, const run_request *request, i
     const struct {
         column_group group;
         int count;
-    } groups[] = {{COLUMNS_D, system->constraints ? system->m : 0},
-                  {COLUMNS_E, system->energy != NULL},
-                  {COLUMNS_LIFT, is_lifted ? LIFT_OBSERVABLES : 0},
-                  {COLUMNS_INVARIANTS, system->invariant_values ? system->invariants : 0},
-                  {COLUMNS_H, request->options.reactions ? system->m : 0},
-                  {COLUMNS_R, request->options.reactions ? system->n : 0}};
+    } groups[] = {
+        {COLUMNS_D, system->constraints ? system->m : 0},
+        {COLUMNS_E, system->energy != NULL},
+        {COLUMNS_LIFT, is_lifted ? LIFT_OBSERVABLES : 0},
+        {COLUMNS_INVARIANTS, system->invariant_values ? system->invariants - system->observed : 0},
+        {COLUMNS_OBSERVED, system->observed},
+        {COLUMNS_H, request->options.reactions ? system->m : 0},
+        {COLUMNS_R, request->options.reactions ? system->n : 0}};
     int end = 0;
     for (size_t k = 0; k < sizeof groups / sizeof *groups; k++)
         if (observable < (end += groups[k].count)) return groups[k].group;
@@ -196,10 +200,11 @@ bool columns_is_velocity(const run_request *request, const char *name, const cha
     return strncmp(name, coordinate, length) == 0 && strcmp(name + length, "'") == 0;
 }
 
-/* vx may be a coordinate, an invariant or any other column. */
+/* vx may be a coordinate, an invariant or any other column.  A formula keeps its text. */
 static int rename_all(run_columns *c, const run_request *request)
 {
     for (int i = 0; i < c->values; i++) {
+        if (group_of(c, request, i) == COLUMNS_OBSERVED) continue;
         const bool is_velocity = strchr(c->name[i], '\'') != NULL;
         columns_rename(request, c->name[i]);
         for (int k = 0; is_velocity && k < c->values; k++)

@@ -1,6 +1,7 @@
-/* event_log.c - the events of a run as CSV. */
+/* event_log.c - the events of a run as CSV, written and read. */
 #include "event_log.h"
 #include "columns.h"
+#include "ui/memory.h"
 #include "ui/message.h"
 
 #include "io/file.h"
@@ -103,4 +104,47 @@ int event_log_close(event_log *log)
     const bool closed = fclose(log->file) == 0;
     log->file = NULL;
     return failed || !closed ? cli_io("write", log->path) : CLI_DONE;
+}
+
+/* ---- reading ------------------------------------------------------------------------------- */
+
+void event_reader_open(event_reader *r, const char *path, int dimension)
+{
+    size_t length;
+    *r = (event_reader){.dimension = dimension};
+    r->state = cli_calloc((size_t)dimension, sizeof *r->state);
+    r->text = file_exists(path) ? file_read(path, &length) : NULL;
+    if (r->text) r->at = strchr(r->text, '\n');
+}
+
+/* Reads the cell behind a place, where `before` stands, and moves the place to its end. */
+static bool read_cell(const char **at, char before, double *x)
+{
+    char *end;
+    if (**at != before) return false;
+    *x = strtod(*at + 1, &end);
+    const bool is_cell = end != *at + 1 && (*end == ',' || *end == '\n');
+    *at = end;
+    return is_cell;
+}
+
+bool event_reader_next(event_reader *r)
+{
+    const char *end = r->at ? strchr(r->at + 1, '\n') : NULL;
+    double number;
+    if (!end) return false;
+    bool is_event =
+        read_cell(&r->at, '\n', &r->t) && read_cell(&r->at, ',', &number) && number >= 1.0;
+    for (int i = 0; is_event && i < r->dimension; i++)
+        is_event = read_cell(&r->at, ',', &r->state[i]);
+    if (is_event) r->event = (int)number - 1;
+    r->at = is_event ? end : NULL;
+    return is_event;
+}
+
+void event_reader_close(event_reader *r)
+{
+    free(r->text);
+    free(r->state);
+    *r = (event_reader){.text = NULL};
 }

@@ -1,9 +1,11 @@
-/* event_log.h - the events of a run as CSV: t, the number of the event, the state after it. */
+/* event_log.h - the events of a run as CSV, written and read: t, the number of the event, the state
+ * after it. */
 #ifndef DAL_CLI_EVENT_LOG_H
 #define DAL_CLI_EVENT_LOG_H
 
 #include "request.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 typedef struct event_log {
@@ -20,5 +22,22 @@ int event_log_add(event_log *log, const dal_occurrence *event);
 /* Brings what is written to the file; with sync to the disk. */
 int event_log_flush(event_log *log, int sync);
 int event_log_close(event_log *log);
+
+/* The events of a file, one after the other. */
+typedef struct event_reader {
+    char *text;     /* of the file; NULL: there is none */
+    const char *at; /* the end of the line before the next event */
+    double t;
+    int event; /* its number in the system, from 0 */
+    int dimension;
+    double *state; /* [dimension] the first components of the state after it */
+} event_reader;
+
+/* Opens a file, which may be missing: then there are no events. */
+void event_reader_open(event_reader *r, const char *path, int dimension);
+/* Reads an event; false behind the last one, and behind the last whole line of a file that a killed
+ * run has left. */
+bool event_reader_next(event_reader *r);
+void event_reader_close(event_reader *r);
 
 #endif

@@ -99,8 +99,7 @@ bool manifest_has_ended(const char *path)
 
 /* ---- the request --------------------------------------------------------------------------- */
 
-/* "input" of a request, allocated, as it stands one level deep. */
-static char *request_text(const run_request *request)
+char *manifest_input(const run_request *request)
 {
     char *text;
     size_t length;
@@ -154,7 +153,7 @@ int manifest_begin(run_directory *dir, const run_request *request)
                      ? cli_copy_system(request->system_name, request->model, dir->system, dir->sync)
                      : file_remove(dir->system);
     if (status != CLI_DONE) return status;
-    dir->input = request_text(request);
+    dir->input = manifest_input(request);
     status = find_fingerprint(dir, is_path ? NULL : dal_builtin_text(request->system_name));
     const run_position start = {.row = 0};
     return status == CLI_DONE ? manifest_write(dir, request, &start, "running", "") : status;
@@ -162,7 +161,7 @@ int manifest_begin(run_directory *dir, const run_request *request)
 
 int manifest_compare(const run_directory *dir, const run_request *held, const run_request *request)
 {
-    char *one = request_text(held), *other = request_text(request);
+    char *one = manifest_input(held), *other = manifest_input(request);
     const int is_same = strcmp(one, other) == 0;
     free(one);
     free(other);
@@ -171,34 +170,6 @@ int manifest_compare(const run_directory *dir, const run_request *held, const ru
 }
 
 /* ---- reading ------------------------------------------------------------------------------- */
-
-static int read_settings(request_settings *settings, const document *doc,
-                         const document_pair *member)
-{
-    document_pair pair;
-    int status = document_check_mapping(doc, member->value, member->name, "names and values");
-    for (int i = 0; status == CLI_DONE && document_get_pair(doc, member->value, i, &pair); i++) {
-        const char *text = document_scalar(doc, pair.value, pair.name);
-        status = text ? request_parse_setting(settings, pair.name, pair.name, text) : CLI_USAGE;
-    }
-    return status;
-}
-
-static int read_member(const run_directory *dir, run_request *request, const document_pair *member)
-{
-    const int option = request_find_option(member->name);
-    const int is_system = strcmp(member->name, "system") == 0;
-    if (option == REQUEST_set) return read_settings(&request->set, dir->doc, member);
-    if (option == REQUEST_start) return read_settings(&request->start, dir->doc, member);
-    if (option < 0 && !is_system)
-        return document_fail(dir->doc, member->value, "unknown option '%s' of a run", member->name);
-    const char *text = document_scalar(dir->doc, member->value, member->name);
-    if (!text) return CLI_USAGE;
-    if (!is_system) return request_parse_option(request, option, text);
-    /* The system of a file is the copy in the directory, wherever the program is started. */
-    request->system_name = strcmp(text, copy_name) == 0 ? dir->system : text;
-    return CLI_DONE;
-}
 
 /* 1002003 for 1.2.3. */
 static int version_number(const char *version)
@@ -226,6 +197,49 @@ static int check_version(const document *doc, const yaml_node_t *root)
     return CLI_DONE;
 }
 
+static int read_settings(request_settings *settings, const document *doc,
+                         const document_pair *member)
+{
+    document_pair pair;
+    int status = document_check_mapping(doc, member->value, member->name, "names and values");
+    for (int i = 0; status == CLI_DONE && document_get_pair(doc, member->value, i, &pair); i++) {
+        const char *text = document_scalar(doc, pair.value, pair.name);
+        status = text ? request_parse_setting(settings, pair.name, pair.name, text) : CLI_USAGE;
+    }
+    return status;
+}
+
+static int read_member(run_request *request, const document *doc, const document_pair *member,
+                       const char *copy)
+{
+    const int option = request_find_option(member->name);
+    const int is_system = strcmp(member->name, "system") == 0;
+    if (option == REQUEST_set) return read_settings(&request->set, doc, member);
+    if (option == REQUEST_start) return read_settings(&request->start, doc, member);
+    if (option < 0 && !is_system)
+        return document_fail(doc, member->value, "unknown option '%s' of a run", member->name);
+    const char *text = document_scalar(doc, member->value, member->name);
+    if (!text) return CLI_USAGE;
+    if (!is_system) return request_parse_option(request, option, text);
+    /* The system of a file is the copy in the directory, wherever the program is started. */
+    request->system_name = strcmp(text, copy_name) == 0 ? copy : text;
+    return CLI_DONE;
+}
+
+int manifest_read_input(run_request *request, const document *doc, const yaml_node_t *root,
+                        const char *copy)
+{
+    const yaml_node_t *input = document_value(doc, root, "input");
+    if (!input || input->type != YAML_MAPPING_NODE)
+        return document_fail(doc, root, "there is no input of a run");
+    int status = check_version(doc, root);
+    document_pair member;
+    for (int i = 0; status == CLI_DONE && document_get_pair(doc, input, i, &member); i++)
+        status = read_member(request, doc, &member, copy);
+    if (status != CLI_DONE || request->system_name) return status;
+    return document_fail(doc, input, "the system is missing");
+}
+
 static int parse_manifest(run_directory *dir, run_request *request, const char *bytes,
                           size_t length)
 {
@@ -233,17 +247,9 @@ static int parse_manifest(run_directory *dir, run_request *request, const char *
     int status = json_parse(doc, dir->manifest, bytes, length);
     if (status != CLI_DONE) return status;
     const yaml_node_t *root = yaml_document_get_root_node(&doc->yaml);
-    const yaml_node_t *input = document_value(doc, root, "input");
-    if (!input || input->type != YAML_MAPPING_NODE)
-        return document_fail(doc, root, "there is no input of a run");
-    status = check_version(doc, root);
-    if (status != CLI_DONE) return status;
-    dir->input = json_source(bytes, input);
-    document_pair member;
-    for (int i = 0; status == CLI_DONE && document_get_pair(doc, input, i, &member); i++)
-        status = read_member(dir, request, &member);
-    if (status != CLI_DONE || request->system_name) return status;
-    return document_fail(doc, input, "the system is missing");
+    status = manifest_read_input(request, doc, root, dir->system);
+    if (status == CLI_DONE) dir->input = json_source(bytes, document_value(doc, root, "input"));
+    return status;
 }
 
 int manifest_read(run_directory *dir, run_request *request)

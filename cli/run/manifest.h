@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-/* All functions but the last two return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
+/* All functions but three return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
 
 /* Writes the manifest of a new run and the copy of its system, and removes the files of an older
  * run. */
@@ -20,6 +20,11 @@ int manifest_compare(const run_directory *dir, const run_request *held, const ru
 /* Writes how far the run is.  state: running, done, failed, interrupted; message: why, or "". */
 int manifest_write(const run_directory *dir, const run_request *request,
                    const run_position *position, const char *state, const char *message);
+/* "input" of a request, allocated, as it stands one level deep in a manifest; and read from one,
+ * the copy being the path of its system where that is a file. */
+char *manifest_input(const run_request *request);
+int manifest_read_input(run_request *request, const document *doc, const yaml_node_t *root,
+                        const char *copy);
 /* Whether a manifest states that its run is done or has failed. */
 bool manifest_has_ended(const char *path);
 /* Writes the member "machine". */

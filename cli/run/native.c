@@ -1,8 +1,8 @@
 /* native.c - compiled steps for a run: when they pay, and where they are cached.
  *
  * The code of all runs of the program is in one list, so that runs of the same system and method
- * share it.  A compiler is started when a run has shown, by its clock, that it takes longer than
- * starting one, and one at a time: whatever it costs, the steps go on beside it. */
+ * share it.  A compiler is started when a run has shown, by its clock, that it takes about as long
+ * as compiling, and one at a time: whatever it costs, the steps go on beside it. */
 #include "native.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
@@ -19,10 +19,12 @@
 #include <sys/stat.h>
 #include <time.h>
 
-/* Seconds of the processor: a run is measured for the first; a compiler is started where more than
- * the second are left, or, of the cells of a study, which keep all processors busy, than the
- * third. */
-static const double measured = 0.02, left_alone = 0.1, left_together = 10.0;
+/* Seconds of the processor: a run is measured for the first, which estimates the rest to a tenth,
+ * since caches are warm by then; a compiler is started where more than the second are left, or, of
+ * the cells of a study, which keep all processors busy, than the third.  Compiling takes as long as
+ * 200,000 to 750,000 interpreted steps, of small systems a quarter of a second to two: where less
+ * is left nothing is to be gained by it. */
+static const double measured = 0.002, left_alone = 0.5, left_together = 10.0;
 
 /* A compiler beside a run has a lower priority, and more time than one that is waited for. */
 enum { NICE = 10, PATIENCE = 600 /* seconds */ };
@@ -46,8 +48,8 @@ static native_code *codes;
 static bool has_ended; /* no more compilers are started */
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 
-/* $XDG_CACHE_HOME/dalembert or ~/.cache/dalembert, allocated; the library creates the last part. */
-static char *cache_directory(void)
+/* The library creates the last part. */
+char *native_cache(void)
 {
     const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
     char *own = NULL;
@@ -129,7 +131,7 @@ static native_code *start_compiler(const native_run *n, bool is_awaited)
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     dal_error error = {.message = "no directory to keep compiled ones in"};
     native_code *const memory = cli_calloc(1, sizeof *memory);
-    char *directory = cache_directory();
+    char *directory = native_cache();
     const dal_native_options options = {.cache = directory,
                                         .patience = is_awaited ? 0 : PATIENCE,
                                         .nice = is_awaited || n->alike > 1.0 ? 0 : NICE};

@@ -15,7 +15,8 @@ typedef enum native_mode { NATIVE_AUTO, NATIVE_ON, NATIVE_OFF } native_mode;
 #define NATIVE_OPTION(settings)                                                                    \
     {                                                                                              \
         "native", "auto|on|off", "auto",                                                           \
-            "compiles the steps, which changes no bit; auto: while they are interpreted",          \
+            "compiles the steps, which changes no bit; auto: beside the run; on: before it, in "   \
+            "at most 60 s; off: never",                                                            \
             .parse = cli_parse_word, .offset = offsetof(settings, native)                          \
     }
 
@@ -33,6 +34,9 @@ typedef struct native_run {
     struct native_code *code; /* of the part, or NULL */
 } native_run;
 
+/* Where compiled code is cached, $XDG_CACHE_HOME/dalembert or ~/.cache/dalembert, allocated; NULL
+ * where there is no such place. */
+char *native_cache(void);
 /* Begins for a run to some time, whose observables are evaluated that often (0: by other means).
  * `on` compiles now, off never. */
 native_run native_begin(dal_run *run, double end, double samples, double alike, native_mode mode);

@@ -226,14 +226,17 @@ static dal_status library_status(run_recorder *r, int exit_status)
     return exit_status == CLI_DONE ? DAL_OK : DAL_IO;
 }
 
-/* E and the invariants without what events have added to them: what is left over shows whether the
- * motion between events conserves them.  With events observations come one by one. */
-static dal_status add_shifted(run_recorder *r, double t, const double *values, size_t stride)
+void recorder_add_values(dal_statistics *statistics, const dal_run *run, int count, const double *t,
+                         const double *values, size_t stride, double *shifted)
 {
-    for (int i = 0; i < r->observables; i++)
-        r->shifted[i] = values[(size_t)i * stride] - dal_run_jump(r->request->run, i);
-    dal_statistics_add(r->statistics, r->observables, t, r->shifted);
-    return DAL_OK;
+    const int observables = dal_run_observables(run);
+    if (dal_run_system(run)->events == 0) {
+        dal_statistics_add_many(statistics, observables, count, t, values, stride);
+        return;
+    }
+    for (int i = 0; i < observables; i++) /* with events there is one observation */
+        shifted[i] = values[(size_t)i * stride] - dal_run_jump(run, i);
+    dal_statistics_add(statistics, observables, t[0], shifted);
 }
 
 static dal_status add_event(void *user, dal_run *run, const dal_occurrence *event)
@@ -247,8 +250,7 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
                              const double *values, size_t stride)
 {
     run_recorder *r = user;
-    if (dal_run_system(run)->events > 0) return add_shifted(r, t[0], values, stride);
-    dal_statistics_add_many(r->statistics, r->observables, count, t, values, stride);
+    recorder_add_values(r->statistics, run, count, t, values, stride, r->shifted);
     return DAL_OK;
 }
 

@@ -15,6 +15,14 @@
 /* The words of --progress, "auto|json|off". */
 typedef enum progress_mode { PROGRESS_AUTO, PROGRESS_JSON, PROGRESS_OFF } progress_mode;
 
+/* The row of --progress in a table of options. */
+#define PROGRESS_OPTION(settings)                                                                  \
+    {                                                                                              \
+        "progress", "auto|json|off", "auto",                                                       \
+            "shows a line on a terminal, lines of JSON on stderr, or nothing",                     \
+            .parse = cli_parse_word, .offset = offsetof(settings, progress)                        \
+    }
+
 typedef struct run_recorder {
     const run_request *request;
     run_directory *dir; /* NULL: rows go to a file or to stdout, and nothing else is written */
@@ -44,6 +52,12 @@ typedef struct run_recorder {
     int shows_rows; /* on a terminal, where they would follow a line of progress */
     int failure;    /* exit status of a failure of the program's own, already printed */
 } run_recorder;
+
+/* Adds observations of a run, as dal_observer.values has them, to statistics[observables], but E
+ * and the invariants without what events have added to them: what is left over shows whether the
+ * motion between events conserves them.  shifted[observables] is scratch. */
+void recorder_add_values(dal_statistics *statistics, const dal_run *run, int count, const double *t,
+                         const double *values, size_t stride, double *shifted);
 
 /* Opens the writer: output is a file or "-"; in a directory trajectory.npy, with the run standing
  * where the checkpoint says.  Call recorder_close in any case. */

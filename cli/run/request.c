@@ -86,10 +86,14 @@ const cli_option request_options[REQUEST_OPTIONS] = {
     {"statistics", "K", "1", "the summary observes every K-th step", .parse = cli_parse_integer,
      .offset = FIELD(statistics), .min = 1, .max = max_count},
     {"columns", "LIST", NULL,
-     "columns beside t: names, q, v, lift, D, E, invariants, h, R, lambda, patterns: x,x',D,p_*",
+     "columns beside t: names, q, v, lift, D, E, invariants, observed, h, R, lambda, patterns: "
+     "x,x',D,p_*",
      .parse = cli_parse_text, .offset = FIELD(columns)},
     {"names", "system|plain", "system", "names of columns; plain: vx for x', for pandas and Julia",
      .parse = cli_parse_word, .offset = FIELD(names)},
+    {"observe", "FORMULAS", NULL,
+     "observes formulas as invariants, with semicolons between them: \"abs(h1) - 0.3*m; x^2\"",
+     .parse = cli_parse_text, .offset = FIELD(observe)},
     {"set", "PARAMETER=V", NULL, "sets a parameter; may be repeated", .parse = parse_setting,
      .offset = FIELD(set)},
     {"start", "NAME=V", NULL,
@@ -114,6 +118,13 @@ static bool gives_end(const run_request *request)
     return request_has(request, REQUEST_times) || request_has(request, REQUEST_steps);
 }
 
+/* Whether a step may be left out: under a tolerance, where neither rows nor the end count steps. */
+static bool needs_no_step(const run_request *request)
+{
+    return request->chooses_step && request->options.tolerance > 0.0 &&
+           !request_has(request, REQUEST_steps) && request->sampling == REQUEST_SAMPLING_LINEAR;
+}
+
 /* A command that does not take --from goes from t = 0 forwards. */
 static int check_forward(const cli_group *group)
 {
@@ -126,13 +137,52 @@ static int check_forward(const cli_group *group)
     return CLI_DONE;
 }
 
+/* The length of the formula that begins a list of --observe, without the blanks around it; the next
+ * one is behind *end. */
+static size_t find_formula(const char **list, const char **end)
+{
+    *list += strspn(*list, " ");
+    size_t length = strcspn(*list, ";");
+    *end = *list + length;
+    while (length > 0 && (*list)[length - 1] == ' ') length--;
+    return length;
+}
+
+bool request_observes(const run_request *request, const char *name)
+{
+    for (const char *at = request->observe, *end; at; at = *end ? end + 1 : NULL) {
+        const size_t length = find_formula(&at, &end);
+        if (strlen(name) == length && strncmp(at, name, length) == 0) return true;
+    }
+    return false;
+}
+
+/* The system, with the formulas of --observe. */
+static int load_system(run_request *request)
+{
+    const char *list = request->observe;
+    cli_formula *formula = NULL;
+    int count = 0;
+    if (!list) return cli_load(request->system_name, &request->model, &request->system);
+    for (const char *at = list, *end; at; at = *end ? end + 1 : NULL) {
+        const size_t length = find_formula(&at, &end);
+        formula = cli_realloc(formula, ((size_t)count + 1) * sizeof *formula);
+        formula[count++] = (cli_formula){cli_strndup(at, length), 1, (int)(at - list) + 1};
+    }
+    const int status = cli_observe(request->system_name, "--observe", formula, count,
+                                   &request->model, &request->system);
+    for (int i = 0; i < count; i++) free((char *)formula[i].text);
+    free(formula);
+    return status;
+}
+
 /* Takes those that the command needs and does not have; a line says which. */
 static int take_defaults(const cli_group *group, int status)
 {
     run_request *request = group->settings;
     char taken[512] = "";
     if (!request->system_name) return CLI_DONE;
-    int found = cli_load(request->system_name, &request->model, &request->system);
+    int found = load_system(request);
     if (found != CLI_DONE) return found;
     for (int i = 0; i < REQUEST_DEFAULTS; i++) {
         const int k = default_options[i];
@@ -141,6 +191,7 @@ static int take_defaults(const cli_group *group, int status)
         const size_t length = strlen(taken);
         if (group->without >> k & 1 || request_has(request, k)) continue;
         if (k == REQUEST_time && gives_end(request)) continue;
+        if (k == REQUEST_step && needs_no_step(request)) continue;
         if (!text && !option->initial)
             found = cli_fail(CLI_USAGE, "--%s is missing, and %s has no default for it",
                              option->name, request->system_name);
@@ -240,9 +291,7 @@ int request_parse_setting(request_settings *settings, const char *what, const ch
 
 int request_make_spec(run_request *request, dal_run_spec *spec)
 {
-    int status = request->system
-                     ? CLI_DONE
-                     : cli_load(request->system_name, &request->model, &request->system);
+    const int status = request->system ? CLI_DONE : load_system(request);
     if (status != CLI_DONE) return status;
     /* Where the system or the method has no lift there is one space alone; only an explicit
      * --space=lifted is an error. */
@@ -261,6 +310,16 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
     return CLI_DONE;
 }
 
+void request_choose_step(run_request *request)
+{
+    const bool has_time = request_has(request, REQUEST_time), is_listed = request->times > 0;
+    if (request_has(request, REQUEST_step) || !needs_no_step(request)) return;
+    if (!has_time && !is_listed) return;
+    const double end = has_time ? request->time : request->row_time[request->times - 1];
+    request->options.step = (end - request->from) / REQUEST_CHOSEN_STEPS;
+    request->typed |= REQUEST_OPTION(step);
+}
+
 int request_complete(run_request *request, dal_run_spec *spec)
 {
     if (!request->system_name) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
@@ -269,6 +328,9 @@ int request_complete(run_request *request, dal_run_spec *spec)
     if (!request_has(request, REQUEST_step)) return cli_fail(CLI_USAGE, "--step is missing");
     if (!request_has(request, REQUEST_time) && !gives_end(request))
         return cli_fail(CLI_USAGE, "--time is missing");
+    if (request->options.step == 0.0 && !request->text[REQUEST_step])
+        return cli_fail(CLI_USAGE, "--%s: the run ends where it begins, at t = %.15g",
+                        request_has(request, REQUEST_time) ? "time" : "times", request->from);
     if (request->options.step == 0.0) return cli_fail(CLI_USAGE, "--step: it must not be 0");
     const int status = row_times_fill(request);
     return status == CLI_DONE ? request_make_spec(request, spec) : status;

@@ -19,6 +19,7 @@
     OPTION(statistics)                                                                             \
     OPTION(columns)                                                                                \
     OPTION(names)                                                                                  \
+    OPTION(observe)                                                                                \
     OPTION(set)                                                                                    \
     OPTION(start)
 
@@ -52,8 +53,10 @@ typedef enum request_names { REQUEST_NAMES_SYSTEM, REQUEST_NAMES_PLAIN } request
 typedef struct run_request {
     const char *system_name; /* a built-in name or a path; the caller's, as all texts here */
     const char *columns;     /* --columns; NULL: all */
+    const char *observe;     /* --observe, formulas between semicolons; NULL: none */
     const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given as a text */
-    uint64_t typed; /* set of options whose values below were given without a text */
+    uint64_t typed;    /* set of options whose values below were given without a text */
+    bool chooses_step; /* under a tolerance the step may be left out; set beforehand */
     double from, time;
     long long steps, samples, statistics; /* steps: 0: not given */
     request_sampling sampling;
@@ -81,7 +84,7 @@ void request_free(run_request *request);
 #define REQUEST_ROW_OPTIONS                                                                        \
     (REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) | REQUEST_OPTION(times) |                  \
      REQUEST_OPTION(statistics) | REQUEST_OPTION(columns) | REQUEST_OPTION(names) |                \
-     REQUEST_OPTION(reactions))
+     REQUEST_OPTION(observe) | REQUEST_OPTION(reactions))
 #define REQUEST_TIME_OPTIONS (REQUEST_OPTION(from) | REQUEST_OPTION(steps))
 /* All options; and as a group for a command, which may change their defaults and help in options,
  * and does not take some.  A command that has read its arguments has loaded the system. */
@@ -90,6 +93,8 @@ cli_group request_group(run_request *request, const cli_option *options, uint64_
 /* Whether an option was given; and whether it has a number as its value. */
 bool request_has(const run_request *request, int option);
 bool request_option_is_number(int option);
+/* Whether a column is a formula of --observe. */
+bool request_observes(const run_request *request, const char *name);
 /* The number of an option by its name, -1 for none. */
 int request_find_option(const char *name);
 /* Adds a setting to those of a parameter or a start, or replaces that of the same name. */
@@ -106,6 +111,9 @@ int request_parse_setting(request_settings *settings, const char *what, const ch
                           const char *text);
 /* Loads the system, chooses the space and makes the spec of the run. */
 int request_make_spec(run_request *request, dal_run_spec *spec);
+/* Under a tolerance a step that is missing becomes a hundredth of the time. */
+enum { REQUEST_CHOSEN_STEPS = 100 };
+void request_choose_step(run_request *request);
 /* After the last option: checks that none is missing and makes the spec; and the run as well. */
 int request_complete(run_request *request, dal_run_spec *spec);
 int request_create_run(run_request *request);

@@ -136,6 +136,9 @@ static int finish_list(run_request *request)
     if (direction * (request->row_time[0] - from) < 0.0)
         return cli_fail(CLI_USAGE, "--times: %.17g lies before the start at t = %g",
                         request->row_time[0], from);
+    if (direction * (last - request->row_time[0]) < 0.0 && !request->text[REQUEST_step])
+        return cli_fail(CLI_USAGE, "--times: from t = %.17g, %.17g does not come after %.17g", from,
+                        last, request->row_time[0]);
     if (direction * (last - request->row_time[0]) < 0.0)
         return cli_fail(CLI_USAGE, "--times: a step of %g does not lead from %.17g to %.17g",
                         request->options.step, request->row_time[0], last);
@@ -188,7 +191,11 @@ static int check_end(const run_request *request)
     const double h = request->options.step, whole = request->time - request->from;
     if (copysign(1.0, h) * whole > 0.0 && isfinite(whole))
         return row_times_check_step(request, whole);
-    return cli_fail(CLI_USAGE, "--time: a step of %g does not lead from t = %g to t = %g", h,
+    if (request->steps > 0)
+        return cli_fail(CLI_USAGE,
+                        "--steps: %lld steps of %g from t = %.15g lead to no other finite time",
+                        request->steps, h, request->from);
+    return cli_fail(CLI_USAGE, "--time: a step of %g does not lead from t = %.15g to t = %.15g", h,
                     request->from, request->time);
 }
 

@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 static const cli_option options[RUN_OPTIONS] = {
@@ -26,9 +27,7 @@ static const cli_option options[RUN_OPTIONS] = {
     [RUN_summary] = {"summary", NULL, NULL,
                      "prints the summary on stderr even where it is no terminal",
                      .parse = cli_parse_flag, .offset = offsetof(run_settings, summary)},
-    [RUN_progress] = {"progress", "auto|json|off", "auto",
-                      "shows a line on a terminal, lines of JSON on stderr, or nothing",
-                      .parse = cli_parse_word, .offset = offsetof(run_settings, progress)},
+    [RUN_progress] = PROGRESS_OPTION(run_settings),
     [RUN_native] = NATIVE_OPTION(run_settings),
     [RUN_force] = {"force", NULL, NULL, "overwrites what the directory holds",
                    .parse = cli_parse_flag, .offset = offsetof(run_settings, force)},
@@ -58,6 +57,10 @@ static int open_events(run_recorder *recorder, const run_request *request, const
     if (!settings->events) return CLI_DONE;
     if (request->system->events == 0)
         return cli_fail(CLI_USAGE, "--events: %s has no events", request->system_name);
+    const char *reason = strcmp(settings->events, "-") == 0 ? "standard output has the rows"
+                         : strcmp(settings->events, settings->output) == 0 ? "the rows go there"
+                                                                           : NULL;
+    if (reason) return cli_fail(CLI_USAGE, "--events %s: %s", settings->events, reason);
     return dir ? CLI_DONE : event_log_open(&recorder->events, request, settings->events);
 }
 

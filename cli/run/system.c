@@ -75,8 +75,22 @@ static void print_warnings(const char *place, const dal_model *model)
         cli_note("%s:%d:%d: warning: %s", place, line, column, text);
 }
 
-int cli_make(const char *place, dal_model **model, const dal_system **made)
+/* Frees a model that cannot be used. */
+static int refuse(dal_model **model, const dal_system **made, dal_status reason, const char *place,
+                  const dal_error *error)
 {
+    dal_model_free(*model);
+    *model = NULL;
+    *made = NULL;
+    return cli_error(cli_input_exit(reason), place, error);
+}
+
+/* Makes the system of a model; an error of a formula that it observes names another place. */
+static int make_system(const char *system, const char *formulas, bool is_known, dal_model **model,
+                       const dal_system **made)
+{
+    static const char prefix[] = "observed: ";
+    const size_t length = sizeof prefix - 1;
     dal_error error = {0};
     dal_method method;
     int line, column;
@@ -87,14 +101,37 @@ int cli_make(const char *place, dal_model **model, const dal_system **made)
         error.line = line;
         error.column = column;
     }
-    if (make == DAL_OK) return print_warnings(place, *model), CLI_DONE;
-    dal_model_free(*model);
-    *model = NULL;
-    return cli_error(cli_input_exit(make), place, &error);
+    if (make == DAL_OK && !is_known) print_warnings(system, *model);
+    if (make == DAL_OK) return CLI_DONE;
+    const bool is_formula = strncmp(error.message, prefix, length) == 0;
+    if (is_formula)
+        memmove(error.message, error.message + length, strlen(error.message + length) + 1);
+    return refuse(model, made, make, is_formula ? formulas : system, &error);
+}
+
+int cli_make(const char *place, dal_model **model, const dal_system **made)
+{
+    return make_system(place, place, false, model, made);
 }
 
 int cli_load(const char *system, dal_model **model, const dal_system **made)
 {
     const int status = cli_read(system, model);
     return status == CLI_DONE ? cli_make(system, model, made) : status;
+}
+
+int cli_observe(const char *system, const char *place, const cli_formula *formulas, int count,
+                dal_model **model, const dal_system **made)
+{
+    dal_error error = {0};
+    const bool is_known = *model != NULL;
+    dal_model_free(*model);
+    const int status = cli_read(system, model);
+    if (status != CLI_DONE) return status;
+    for (int i = 0; i < count; i++) {
+        const cli_formula *f = &formulas[i];
+        const dal_status added = dal_model_observe(*model, f->text, f->line, f->column, &error);
+        if (added != DAL_OK) return refuse(model, made, added, place, &error);
+    }
+    return make_system(system, place, is_known, model, made);
 }

@@ -16,6 +16,16 @@ int cli_load(const char *system, dal_model **model, const dal_system **made);
  * failure; place is what the message names. */
 int cli_read(const char *system, dal_model **model);
 int cli_make(const char *place, dal_model **model, const dal_system **made);
+/* A formula that runs observe, and its place in a file or an option. */
+typedef struct cli_formula {
+    const char *text;
+    int line, column;
+} cli_formula;
+/* Reads SYSTEM and makes its system with formulas[count] that runs observe; place is what a message
+ * about one of them names.  A model that is not NULL is replaced, and then no warnings are printed.
+ * Returns as cli_load does. */
+int cli_observe(const char *system, const char *place, const cli_formula *formulas, int count,
+                dal_model **model, const dal_system **made);
 /* Writes a copy of a system file, with the files of its tables in it; where model is not NULL, as
  * it was read.  Returns CLI_DONE, or prints and returns CLI_IO. */
 int cli_copy_system(const char *system, const dal_model *model, const char *to, int sync);

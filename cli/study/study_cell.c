@@ -36,22 +36,40 @@ void study_cell_free(study_cell *cell)
     *cell = (study_cell){.of_case = cell->of_case,
                          .method = cell->method,
                          .step = cell->step,
+                         .tolerance = cell->tolerance,
                          .start = cell->start,
                          .name = cell->name,
                          .other_shard = cell->other_shard};
 }
 
-/* LABEL_INTEGRATOR_START_STEP, the step with as few digits as read back; no two cells share one. */
+/* A number with as few digits as read back. */
+static const char *print_shortest(char text[32], double x)
+{
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(text, 32, "%.*g", digits, x);
+        if (strtod(text, NULL) == x) break;
+    }
+    return text;
+}
+
+/* LABEL_INTEGRATOR_START_STEP, and _tolerance=TOLERANCE; no two cells share one. */
 char *study_cell_name(const study_cell *c)
 {
-    char method[STUDY_NAME], step[32];
-    for (int digits = 1; digits <= 17; digits++) {
-        snprintf(step, sizeof step, "%.*g", digits, c->step);
-        if (strtod(step, NULL) == c->step) break;
-    }
-    return cli_format("%s_%s_%s_%s", c->of_case->label,
+    char method[STUDY_NAME], step[32], tolerance[32];
+    const bool has_tolerance = c->tolerance > 0.0;
+    return cli_format("%s_%s_%s_%s%s%s", c->of_case->label,
                       dal_method_name(c->method, method, sizeof method),
-                      study_start_words[c->start], step);
+                      study_start_words[c->start], print_shortest(step, c->step),
+                      has_tolerance ? "_tolerance=" : "",
+                      has_tolerance ? print_shortest(tolerance, c->tolerance) : "");
+}
+
+const char *study_division(char text[STUDY_DIVISION], double step, double tolerance)
+{
+    const int length = snprintf(text, STUDY_DIVISION, "h = %g", step);
+    if (tolerance > 0.0)
+        snprintf(text + length, STUDY_DIVISION - (size_t)length, ", tolerance %g", tolerance);
+    return text;
 }
 
 const dal_trend *study_cell_trend(const study_cell *cell, const char *name)
@@ -80,7 +98,7 @@ study_quantities study_cell_quantities(const study_cell *c)
                           .pi_e = study_cell_trend(c, "|pi_e|"),
                           .error = study_cell_trend(c, "error"),
                           .invariant_name = ""};
-    for (int i = 0; i < s->invariants; i++) {
+    for (int i = 0; i < s->invariants - s->observed; i++) {
         const dal_trend *trend = study_cell_trend(c, s->invariant[i]);
         if (!trend || (q.invariant && trend->deviation <= q.invariant->deviation)) continue;
         q.invariant = trend;
@@ -94,8 +112,9 @@ const study_cell *study_cell_physical(const study_plan *plan, const study_cell *
     const study_case *e = cell->of_case;
     for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
         const study_cell *c = &plan->cells[i];
-        if (c->method == cell->method && c->step == cell->step && c->start == STUDY_PHYSICAL &&
-            c->state == STUDY_FINISHED && cell->start == STUDY_SURFACE)
+        if (c->method == cell->method && c->step == cell->step && c->tolerance == cell->tolerance &&
+            c->start == STUDY_PHYSICAL && c->state == STUDY_FINISHED &&
+            cell->start == STUDY_SURFACE)
             return c;
     }
     return NULL;
@@ -104,6 +123,18 @@ const study_cell *study_cell_physical(const study_plan *plan, const study_cell *
 double study_cell_length(const study_cell *c)
 {
     return (study_case_end(c->of_case, c->step) - c->of_case->from) / c->step;
+}
+
+double *study_cell_method_steps(const study_cell *c)
+{
+    const study_case *e = c->of_case;
+    return &e->method_steps[c->method - e->methods][c->start != STUDY_PHYSICAL];
+}
+
+/* The cells of a study that take the steps of this one, in units of its own steps. */
+static double cells_alike(const study_cell *c)
+{
+    return *study_cell_method_steps(c) / study_cell_length(c);
 }
 
 typedef struct cell_run {
@@ -166,6 +197,11 @@ static void make_request(cell_run *r)
                      (e->run_steps > 0 ? REQUEST_OPTION(steps) : REQUEST_OPTION(time)) |
                      (e->from != 0.0 ? REQUEST_OPTION(from) : 0);
     memcpy(request->text, e->option, sizeof request->text);
+    if (c->tolerance > 0.0) {
+        request->options.tolerance = c->tolerance;
+        request->typed |= REQUEST_OPTION(tolerance);
+    }
+    request->observe = request->text[REQUEST_observe] = e->observe;
     add_settings(&request->set, &e->set, 1.0);
     add_settings(&request->start, &e->start, 1.0);
     if (c->start == STUDY_DISPLACED) add_displacement(r);
@@ -224,7 +260,7 @@ typedef struct tracked_column {
 } tracked_column;
 
 /* The columns of p and pi, and those of observables, which come last and without |p|, |pi|,
- * |pi_e|. */
+ * |pi_e|.  Reactions and formulas that are observed need not be conserved. */
 static void choose_tracks(const study_cell *c, int columns, tracked_column *column)
 {
     const dal_system *s = c->of_case->system;
@@ -239,7 +275,7 @@ static void choose_tracks(const study_cell *c, int columns, tracked_column *colu
     for (int i = 0; i < c->observables; i++) {
         const char *name = c->names[i];
         if (name[0] == '|') continue;
-        if (i >= reactions && i < error) {
+        if (i >= reactions - s->observed && i < error) {
             *next++ = (tracked_column){NOT_TRACKED, 0, 0.0};
             continue;
         }
@@ -333,19 +369,6 @@ static int open_recorder(cell_run *r)
     return status == CLI_DONE ? recorder_open(&r->recorder, &r->request, dir, dir->path) : status;
 }
 
-/* The cells of a study that take the steps of this one, in units of its own steps. */
-static double cells_alike(const study_plan *plan, const study_cell *cell)
-{
-    double steps = 0.0;
-    for (int i = 0; i < plan->cell_count; i++) {
-        const study_cell *c = &plan->cells[i];
-        if (c->method == cell->method && !c->other_shard &&
-            (c->start == STUDY_PHYSICAL) == (cell->start == STUDY_PHYSICAL))
-            steps += study_cell_length(c);
-    }
-    return steps / study_cell_length(cell);
-}
-
 static int run_in_directory(cell_run *r, const study_stop_check *check)
 {
     run_recorder *recorder = &r->recorder;
@@ -358,8 +381,8 @@ static int run_in_directory(cell_run *r, const study_stop_check *check)
         }
         recorder->interval = r->plan->interval;
         recorder->progress = PROGRESS_OFF;
-        recorder->native = native_begin(r->request.run, r->request.time, 0.0,
-                                        cells_alike(r->plan, r->cell), r->plan->native);
+        recorder->native = native_begin(r->request.run, r->request.time, 0.0, cells_alike(r->cell),
+                                        r->plan->native);
         ended = recorder_run(recorder, &error);
     }
     return ended == CLI_DONE || ended == CLI_FAILED ? take_results(r, &error, ended) : ended;
@@ -372,8 +395,8 @@ enum { POLLING = 124 /* steps */ };
 typedef struct short_run {
     cell_run *of_cell;
     const study_stop_check *check;
-    int observables;
     dal_statistics *statistics; /* [observables] */
+    double *shifted;            /* [observables] scratch */
     native_run native;
 } short_run;
 
@@ -399,8 +422,7 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
                              const double *values, size_t stride)
 {
     const short_run *s = user;
-    (void)run;
-    dal_statistics_add_many(s->statistics, s->observables, count, t, values, stride);
+    recorder_add_values(s->statistics, run, count, t, values, stride, s->shifted);
     return DAL_OK;
 }
 
@@ -425,15 +447,16 @@ static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
                                    .every = request->statistics,
                                    .row_time = request->row_time ? end_time : NULL,
                                    .polling = POLLING};
-    const double alike = cells_alike(r->plan, c), steps = request->time / c->step,
+    const double alike = cells_alike(c), steps = request->time / c->step,
                  start = cli_thread_seconds();
     s->native = native_begin(request->run, request->time,
                              alike * steps / (double)request->statistics, alike, r->plan->native);
     c->bits = FILE_HASH_START;
     const dal_status status = dal_run_sample(request->run, request->time, 1, 0, &observer, error);
-    dal_run_classify(request->run, s->statistics, status != DAL_OK, c->trend);
+    const bool has_ended = status == DAL_OK || status == DAL_STOPPED;
+    dal_run_classify(request->run, s->statistics, !has_ended, c->trend);
     c->seconds = cli_thread_seconds() - start;
-    return status;
+    return has_ended ? DAL_OK : status;
 }
 
 static int run_without_rows(cell_run *r, const study_stop_check *check)
@@ -445,11 +468,13 @@ static int run_without_rows(cell_run *r, const study_stop_check *check)
     const size_t count = (size_t)c->observables;
     c->trend = cli_calloc(count, sizeof *c->trend);
     if (study_results_get(r->plan->results, number, c)) return CLI_DONE;
-    short_run s = {.of_cell = r, .check = check, .observables = c->observables};
+    short_run s = {.of_cell = r, .check = check};
     s.statistics = cli_calloc(count, sizeof *s.statistics);
+    s.shifted = cli_calloc(count, sizeof *s.shifted);
     dal_statistics_start(s.statistics, c->observables);
     const dal_status status = integrate(r, &s, &error);
     free(s.statistics);
+    free(s.shifted);
     if (status == DAL_INTERRUPTED) return CLI_SIGNAL;
     take_end(r, &error, status != DAL_OK);
     return study_results_add(r->plan->results, number, c, r->plan->interval);

@@ -41,7 +41,7 @@ enum {
         STUDY_TRACKS
 };
 
-enum { STUDY_WINDOWS = 100, STUDY_NAME = 80 };
+enum { STUDY_WINDOWS = 100, STUDY_NAME = 128 };
 
 /* Whether a cell has been run, and how that ended. */
 #define STUDY_STATE_LIST(STATE)                                                                    \
@@ -61,7 +61,7 @@ extern const char *const study_state_words[STUDY_STATES];
 typedef struct study_cell {
     const struct study_case *of_case;
     const dal_method *method;
-    double step;
+    double step, tolerance; /* tolerance: of the key; 0: as the options say */
     int start;
     char *name;      /* that of its directory, too */
     int other_shard; /* it belongs to another shard */
@@ -82,6 +82,9 @@ typedef struct study_cell {
 void study_cell_free(study_cell *cell);
 /* The name of a cell, allocated. */
 char *study_cell_name(const study_cell *cell);
+/* "h = 0.1", or "h = 0.1, tolerance 1e-06", for tables. */
+enum { STUDY_DIVISION = 64 };
+const char *study_division(char text[STUDY_DIVISION], double step, double tolerance);
 /* The trend of an observable by name, NULL for none; of the constraint with the largest D. */
 const dal_trend *study_cell_trend(const study_cell *cell, const char *name);
 const dal_trend *study_cell_constraint(const study_cell *cell);
@@ -94,7 +97,10 @@ typedef struct study_quantities {
 study_quantities study_cell_quantities(const study_cell *cell);
 /* The time of its run in steps. */
 double study_cell_length(const study_cell *cell);
-/* The finished cell in (q,v) with the same method and step as one on the surface, or NULL. */
+/* Those of all cells that take the same steps, kept by the case. */
+double *study_cell_method_steps(const study_cell *cell);
+/* The finished cell in (q,v) with the same method, step and tolerance as one on the surface, or
+ * NULL. */
 const study_cell *study_cell_physical(const struct study_plan *plan, const study_cell *cell);
 
 /* Called now and then while a run goes: whether to stop it, with a checkpoint. */

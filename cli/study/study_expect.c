@@ -11,9 +11,9 @@
  *           QUANTITY: [{step: 0.1, ..}, {step: 0.05, start: surface, ..}]   of these cells alone
  *           state: failed                   of the run: done, failed, refused
  *
- * A quantity is one of quantities.csv, or D, the constraint with the largest max |D|.  An
- * expectation about something that the study does not contain is an error, and so is a size or a
- * trend of E where no system of the label conserves it. */
+ * A quantity is one of quantities.csv, D, the constraint with the largest max |D|, or a formula,
+ * see study_observe.c.  An expectation about something that the study does not contain is an error,
+ * and so is a size or a trend of E where no system of the label conserves it. */
 #include "study_expect.h"
 
 #include "io/file.h"
@@ -48,7 +48,7 @@ enum {
 /* One of some words, or a number within bounds. */
 typedef struct study_expectation {
     const char *label, *method, *quantity; /* as they are written */
-    double step;                           /* of these cells alone; 0: of all */
+    double step, tolerance;                /* of these cells alone; 0: of all */
     int start;                             /* of these cells alone; -1: of all */
     size_t line;
     unsigned words;  /* bit k: size k, bit DAL_SIZE_COUNT + k: trend k, any of which will do; of
@@ -76,7 +76,7 @@ static int add(expect_reader *r, const yaml_node_t *node)
 /* ---- what an expectation is about ---- */
 
 /* Whether a label means a case: its own, its group's, its system's, or all. */
-static bool is_case(const study_case *e, const char *label)
+bool study_label_means(const study_case *e, const char *label)
 {
     return strcmp(label, e->label) == 0 || strcmp(label, e->group) == 0 ||
            strcmp(label, e->name) == 0 || strcmp(label, "all") == 0;
@@ -95,8 +95,9 @@ static bool is_method(const dal_method *method, const char *name)
 static bool covers(const study_expectation *x, const study_cell *c)
 {
     if (x->step > 0.0 && x->step != c->step) return 0;
+    if (x->tolerance > 0.0 && x->tolerance != c->tolerance) return 0;
     if (x->start >= 0 && x->start != c->start) return 0;
-    return is_case(c->of_case, x->label) && is_method(c->method, x->method);
+    return study_label_means(c->of_case, x->label) && is_method(c->method, x->method);
 }
 
 static bool is_state(const study_expectation *x) { return strcmp(x->quantity, "state") == 0; }
@@ -145,7 +146,8 @@ static bool is_energy_conserved(const expect_reader *r)
 {
     for (int i = 0; i < r->plan->case_count; i++) {
         const study_case *e = &r->plan->cases[i];
-        if (is_case(e, r->expectation.label) && e->system->properties & (DAL_E_EXACT | DAL_E_ON_D))
+        if (study_label_means(e, r->expectation.label) &&
+            e->system->properties & (DAL_E_EXACT | DAL_E_ON_D))
             return 1;
     }
     return 0;
@@ -185,6 +187,7 @@ static const document_key bound_keys[] = {
     {"at most", document_read_number, offsetof(expect_reader, expectation.max)},
     {"at least", document_read_number, offsetof(expect_reader, expectation.min)},
     {.name = "step"},
+    {.name = "tolerance"},
     {.name = "start"}};
 
 static int add_bounds(expect_reader *r, int field, yaml_node_t *node, int keys)
@@ -209,27 +212,32 @@ static int read_field(void *user, const document *doc, yaml_node_t *value, const
 
 /* ---- mappings ---- */
 
-/* step and start hold for the other keys, wherever they stand, and are read before them. */
+/* step, tolerance and start hold for the other keys, wherever they stand, and are read before
+ * them. */
 static int read_cells(expect_reader *r, yaml_node_t *node)
 {
-    static const document_key step_key = {"step", document_read_number,
-                                          offsetof(expect_reader, expectation.step)};
-    yaml_node_t *step = document_value(r->doc, node, "step");
+    static const document_key number_keys[] = {
+        {"step", document_read_number, offsetof(expect_reader, expectation.step)},
+        {"tolerance", document_read_number, offsetof(expect_reader, expectation.tolerance)}};
     yaml_node_t *start = document_value(r->doc, node, "start");
     study_expectation *x = &r->expectation;
-    if (step && document_read_number(r, r->doc, step, &step_key) != CLI_DONE) return CLI_USAGE;
+    for (int i = 0; i < 2; i++) {
+        yaml_node_t *number = document_value(r->doc, node, number_keys[i].name);
+        if (number && document_read_number(r, r->doc, number, &number_keys[i]) != CLI_DONE)
+            return CLI_USAGE;
+    }
     if (start) x->start = document_word(r->doc, start, "start", study_start_words, STUDY_STARTS);
     if (start && x->start < 0) return CLI_USAGE;
     for (int i = 0; i < r->plan->cell_count; i++)
         if (covers(x, &r->plan->cells[i])) return CLI_DONE;
-    return document_fail(r->doc, node, "expect: the study has no such step and start");
+    return document_fail(r->doc, node, "expect: the study has no such step%s and start",
+                         r->plan->has_tolerances ? ", tolerance" : "");
 }
 
 static int add_mapping(expect_reader *r, yaml_node_t *node)
 {
-    static const document_key keys[] = {{"size", read_words, 0},
-                                        {"trend", read_words, 1},
-                                        {.name = "step"},
+    static const document_key keys[] = {{"size", read_words, 0},    {"trend", read_words, 1},
+                                        {.name = "step"},           {.name = "tolerance"},
                                         {.name = "start"},
 #define FIELD_KEY(name, member) {#name, read_field, STUDY_FIELD_##name},
                                         STUDY_FIELD_LIST(FIELD_KEY)
@@ -246,12 +254,12 @@ static int add_mapping(expect_reader *r, yaml_node_t *node)
     /* Bounds beside the cells are of the size that the tables show. */
     const int is_max =
         quantity[0] == '|' || strcmp(quantity, "error") == 0 || is_constraint(quantity);
-    return add_bounds(r, is_max ? STUDY_FIELD_max : STUDY_FIELD_deviation, node, 4);
+    return add_bounds(r, is_max ? STUDY_FIELD_max : STUDY_FIELD_deviation, node, 5);
 }
 
 /* ---- what the study contains ---- */
 
-static bool has_quantity(const study_case *e, const char *name)
+bool study_has_quantity(const study_case *e, const char *name)
 {
     static const char *const lifted_names[] = {"H", "|p|", "|pi|", "|pi_e|"};
     const dal_system *s = e->system;
@@ -272,8 +280,8 @@ static bool is_in_study(const expect_reader *r, const char *method, const char *
 {
     for (int i = 0; i < r->plan->case_count; i++) {
         const study_case *e = &r->plan->cases[i];
-        if (!is_case(e, r->expectation.label)) continue;
-        if (quantity && !has_quantity(e, quantity)) continue;
+        if (!study_label_means(e, r->expectation.label)) continue;
+        if (quantity && !study_has_quantity(e, quantity)) continue;
         for (int k = 0; k < e->method_count; k++)
             if (!method || is_method(&e->methods[k], method)) return true;
     }
@@ -440,15 +448,15 @@ static void put_found(FILE *out, const study_expectation *x, const study_cell *c
 
 void study_print_comparison(FILE *out, const study_comparison *comparison, bool in_columns)
 {
-    char name[STUDY_NAME];
+    char name[STUDY_NAME], division[STUDY_DIVISION];
     const int width = in_columns ? 24 : 0;
     const study_expectation *x = comparison->expectation;
     const study_cell *c = comparison->cell;
     fprintf(out, "  %-*s %-*s ", width, c ? c->of_case->label : x->label, width,
             c ? dal_method_name(c->method, name, sizeof name) : x->method);
     if (c)
-        fprintf(out, "%-*s h = %-*g ", in_columns ? 9 : 0, study_start_words[c->start],
-                in_columns ? 8 : 0, c->step);
+        fprintf(out, "%-*s %-*s ", in_columns ? 9 : 0, study_start_words[c->start],
+                in_columns ? 12 : 0, study_division(division, c->step, c->tolerance));
     fprintf(out, "%s: expected ", x->quantity);
     put_expected(out, x);
     fputs(", found ", out);
@@ -456,7 +464,7 @@ void study_print_comparison(FILE *out, const study_comparison *comparison, bool 
     fprintf(out, " (line %zu)\n", x->line);
 }
 
-static void write_row(FILE *out, const study_comparison *comparison)
+static void write_row(FILE *out, const study_plan *plan, const study_comparison *comparison)
 {
     char name[STUDY_NAME];
     const study_expectation *x = comparison->expectation;
@@ -466,6 +474,8 @@ static void write_row(FILE *out, const study_comparison *comparison)
     cli_put_text(out, c ? dal_method_name(c->method, name, sizeof name) : x->method);
     fprintf(out, ",%s,", c ? study_start_words[c->start] : "");
     if (c) cli_put(out, c->step);
+    if (plan->has_tolerances) fputc(',', out);
+    if (plan->has_tolerances && c) cli_put(out, c->tolerance);
     fputc(',', out);
     cli_put_text(out, x->quantity);
     fputs(",\"", out);
@@ -537,8 +547,9 @@ int study_write_expectations(const study_plan *plan, const char *path)
     if (plan->expectation_count == 0) return file_remove(path);
     const study_comparisons all = study_compare(plan);
     FILE *out = cli_memstream_open(&text, &length);
-    fputs("label,integrator,start,step,quantity,expected,found,met\n", out);
-    for (int i = 0; i < all.count; i++) write_row(out, &all.item[i]);
+    fprintf(out, "label,integrator,start,step%s,quantity,expected,found,met\n",
+            plan->has_tolerances ? ",tolerance" : "");
+    for (int i = 0; i < all.count; i++) write_row(out, plan, &all.item[i]);
     cli_memstream_close(out);
     const int status = file_replace(path, text, length, 1);
     free(text);

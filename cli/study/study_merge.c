@@ -18,7 +18,6 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct merge {
     study_directory *source;
@@ -30,12 +29,6 @@ typedef struct merge {
 } merge;
 
 /* ---- the sources ---- */
-
-static bool is_same_place(const char *a, const char *b)
-{
-    struct stat x, y;
-    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
-}
 
 /* Compares a file of source i with that of the first. */
 static int compare_files(const merge *m, int i, const char *path, const char *first)
@@ -51,7 +44,7 @@ static int check_source(const merge *m, int i)
     if (!study_directory_has_study(s))
         return cli_fail(CLI_USAGE, "'%s' holds no study: there is no %s", s->path, s->study);
     for (int k = 0; k < i; k++)
-        if (is_same_place(s->path, m->source[k].path))
+        if (file_is_same(s->path, m->source[k].path))
             return cli_fail(CLI_USAGE, "'%s' is given twice", s->path);
     int status = compare_files(m, i, s->study, m->source[0].study);
     for (int k = 0; k < m->plan.case_count && status == CLI_DONE; k++) {
@@ -160,7 +153,7 @@ static int copy_runs(const merge *m)
     for (int i = 0; i < m->plan.cell_count && status == CLI_DONE; i++) {
         const study_cell *c = &m->plan.cells[i];
         const int from = m->from[i];
-        if (from < 0 || is_same_place(m->source[from].path, m->target.path)) continue;
+        if (from < 0 || file_is_same(m->source[from].path, m->target.path)) continue;
         status = c->of_case->rows == STUDY_ROWS_KEPT
                      ? copy_directory(m, from, c->name)
                      : study_results_copy(m->plan.results, m->results[from], i);
@@ -182,7 +175,7 @@ static int begin_target(merge *m, int force)
 {
     const study_shard whole = {0};
     for (int i = 0; i < m->sources; i++) {
-        if (!is_same_place(m->source[i].path, m->target.path)) continue;
+        if (!file_is_same(m->source[i].path, m->target.path)) continue;
         m->plan.runs = m->target.runs;
         return read_results(m, &m->target, &m->plan.results);
     }

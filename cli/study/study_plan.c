@@ -8,6 +8,7 @@
 #include "run/row_times.h"
 #include "run/system.h"
 #include "study_expect.h"
+#include "study_observe.h"
 #include "study_results.h"
 #include "study_values.h"
 #include "ui/memory.h"
@@ -53,6 +54,38 @@ static int read_step(void *user, const document *doc, yaml_node_t *value, const 
     study_values values;
     int status = study_values_read(&values, doc, value, key->name);
     if (status == CLI_DONE) status = set_steps(&((parsed_study *)user)->item, doc, value, &values);
+    study_values_free(&values);
+    return status;
+}
+
+static int set_tolerances(study_case *e, const document *doc, const yaml_node_t *node,
+                          const study_values *values)
+{
+    if (values->is_drawn) return document_fail(doc, node, "tolerance: it must not be random");
+    if (values->count > STUDY_TOLERANCES)
+        return document_fail(doc, node, "tolerance: %d values, not 1..%d", values->count,
+                             STUDY_TOLERANCES);
+    const bool is_none = values->count == 1 && values->value[0] == 0.0;
+    e->tolerances = is_none ? 0 : values->count;
+    for (int i = 0; i < e->tolerances; i++) {
+        e->tolerance[i] = values->value[i];
+        if (!(e->tolerance[i] > 0.0 && e->tolerance[i] <= 1.0))
+            return document_fail(doc, node, "tolerance: %g is not above 0 and at most 1",
+                                 e->tolerance[i]);
+        for (int k = 0; k < i; k++)
+            if (e->tolerance[k] == e->tolerance[i])
+                return document_fail(doc, node, "tolerance: %g comes twice", e->tolerance[i]);
+    }
+    return CLI_DONE;
+}
+
+static int read_tolerance(void *user, const document *doc, yaml_node_t *value,
+                          const document_key *key)
+{
+    study_values values;
+    int status = study_values_read(&values, doc, value, key->name);
+    if (status == CLI_DONE)
+        status = set_tolerances(&((parsed_study *)user)->item, doc, value, &values);
     study_values_free(&values);
     return status;
 }
@@ -161,6 +194,7 @@ typedef struct group_reader {
     const document *doc;
     yaml_node_t *node; /* of the system */
     parsed_study parsed;
+    bool chooses_step; /* none is given: it is chosen */
     study_variants *variants;
     study_case *item; /* the present case */
 } group_reader;
@@ -271,11 +305,30 @@ static int check_names(const group_reader *g, const yaml_node_t *node, const cha
     return document_fail(g->doc, node, "%s: %s", what, error.message);
 }
 
+static bool is_adaptive(const dal_method *method)
+{
+    return (dal_method_properties(method) & DAL_ADAPTIVE) != 0;
+}
+
+/* Under a tolerance a step may be missing, as in a run, where all methods have one. */
+static int check_chosen_step(const group_reader *g, const study_case *e)
+{
+    char name[STUDY_NAME];
+    for (int i = 0; g->chooses_step && i < e->method_count; i++)
+        if (!is_adaptive(&e->methods[i]))
+            return document_fail(g->doc, g->node,
+                                 "%s: the step is missing, and %s takes no tolerance", e->name,
+                                 dal_method_name(&e->methods[i], name, sizeof name));
+    return CLI_DONE;
+}
+
 /* The first case of a group reads what the others share. */
 static int read_first_case(const group_reader *g, study_case *e)
 {
     const parsed_study *p = &g->parsed;
     int status = read_methods(e, g->doc, p->integrators);
+    e->method_steps = cli_calloc((size_t)e->method_count + 1, sizeof *e->method_steps);
+    if (status == CLI_DONE) status = check_chosen_step(g, e);
     if (status == CLI_DONE) status = load_system(g, e);
     if (status == CLI_DONE) status = check_names(g, p->set, "set", &(request_settings){0});
     if (status == CLI_DONE) status = check_names(g, p->start, "start", &e->start);
@@ -290,6 +343,16 @@ double study_case_end(const study_case *e, double step)
     return e->run_steps > 0 ? e->from + (double)e->run_steps * step : e->time;
 }
 
+static void choose_step(group_reader *g)
+{
+    study_case *e = &g->parsed.item;
+    g->chooses_step =
+        e->steps == 0 && !isnan(e->time) && (e->tolerances > 0 || e->options.tolerance > 0.0);
+    if (!g->chooses_step) return;
+    e->step[0] = (e->time - e->from) / REQUEST_CHOSEN_STEPS;
+    e->steps = 1;
+}
+
 static int check_case(const group_reader *g)
 {
     const document *doc = g->doc;
@@ -299,6 +362,9 @@ static int check_case(const group_reader *g)
     if (!g->parsed.integrators)
         return document_fail(doc, node, "%s: the integrators are missing", e->name);
     if (e->steps == 0) return document_fail(doc, node, "%s: the step is missing", e->name);
+    if (e->tolerances > 0 && e->option[REQUEST_tolerance])
+        return document_fail(doc, node, "%s: the tolerance is given as a key and among the options",
+                             e->name);
     if (isnan(e->time) && e->run_steps == 0)
         return document_fail(doc, node, "%s: the time is missing", e->name);
     for (int i = 0; i < e->steps; i++) {
@@ -337,6 +403,7 @@ static int add_case(group_reader *g, int i, const study_case *first)
         e->copy = first->copy;
         e->methods = first->methods;
         e->method_count = first->method_count;
+        e->method_steps = first->method_steps;
     }
     return status == CLI_DONE ? study_variants_project_start(g->variants, e) : status;
 }
@@ -347,6 +414,7 @@ static int add_group(study_plan *plan, yaml_node_t *node, const parsed_study *ba
     group_reader g = {.plan = plan, .doc = plan->doc, .node = node, .parsed = *base};
     study_case *e = &g.parsed.item;
     int count = 0, status = read_system(&g.parsed, g.doc, node);
+    choose_step(&g);
     if (status == CLI_DONE) status = check_case(&g);
     if (status != CLI_DONE) return status;
     const char *slash = strrchr(e->name, '/');
@@ -398,20 +466,29 @@ static int read_representatives(study_plan *plan, yaml_node_t *node)
 
 /* ---- cells ---- */
 
-/* Every cell has a directory of its own, whose name must fit. */
+/* Every cell has a directory of its own, whose name must fit.  The starts change fastest, then
+ * tolerances. */
 static int add_cells(study_plan *plan, study_case *e)
 {
     enum { MAX_NAME = 255 };
-    const int per_method = e->steps * STUDY_STARTS, max = e->method_count * per_method;
+    const int tolerances = e->tolerances > 0 ? e->tolerances : 1;
+    const int per_step = tolerances * STUDY_STARTS, per_method = e->steps * per_step;
+    const int max = e->method_count * per_method;
     const size_t capacity = (size_t)plan->cell_count + (size_t)max;
     plan->cells = cli_realloc(plan->cells, capacity * sizeof *plan->cells);
     e->first_cell = plan->cell_count;
+    plan->has_tolerances |= e->tolerances > 0;
     for (int i = 0; i < max; i++) {
         study_cell cell = {.of_case = e,
                            .method = &e->methods[i / per_method],
-                           .step = e->step[i % per_method / STUDY_STARTS],
+                           .step = e->step[i % per_method / per_step],
                            .start = i % STUDY_STARTS};
+        const int level = i % per_step / STUDY_STARTS;
         if (!(e->starts & 1 << cell.start)) continue;
+        if (e->tolerances > 0 && is_adaptive(cell.method))
+            cell.tolerance = e->tolerance[level];
+        else if (level > 0)
+            continue;
         cell.name = study_cell_name(&cell);
         plan->cells[plan->cell_count++] = cell;
         if (strlen(cell.name) > MAX_NAME)
@@ -422,6 +499,17 @@ static int add_cells(study_plan *plan, study_case *e)
     }
     e->cells = plan->cell_count - e->first_cell;
     return CLI_DONE;
+}
+
+void study_plan_add_steps(study_plan *plan)
+{
+    for (int i = 0; i < plan->case_count; i++)
+        for (int k = 0; k < plan->cases[i].method_count; k++)
+            for (int space = 0; space < 2; space++) plan->cases[i].method_steps[k][space] = 0.0;
+    for (int i = 0; i < plan->cell_count; i++) {
+        const study_cell *c = &plan->cells[i];
+        if (!c->other_shard) *study_cell_method_steps(c) += study_cell_length(c);
+    }
 }
 
 /* ---- the plan ---- */
@@ -443,6 +531,7 @@ int study_plan_read(study_plan *plan, const char *place, const char *bytes, size
     status = read_study(&base, doc, root);
     plan->title = base.title ? base.title : "A study";
     if (status == CLI_DONE) status = read_systems(plan, root, &base);
+    if (status == CLI_DONE) status = study_observe(plan, base.expect);
     if (status == CLI_DONE) status = read_representatives(plan, base.representatives);
     for (int i = 0; i < plan->case_count && status == CLI_DONE; i++)
         status = add_cells(plan, &plan->cases[i]);
@@ -460,7 +549,9 @@ void study_plan_free(study_plan *plan)
         if (e->is_first) {
             dal_model_free(e->model);
             free(e->copy);
+            free(e->observe);
             free(e->methods);
+            free(e->method_steps);
         }
         free(e->label);
         request_free_settings(&e->set);

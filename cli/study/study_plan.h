@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-enum { STUDY_STEPS = 16, STUDY_REPRESENTATIVES = 16 };
+enum { STUDY_STEPS = 16, STUDY_TOLERANCES = 16, STUDY_REPRESENTATIVES = 16 };
 
 /* What is kept of runs: a directory with rows for each, or the results alone, for many short runs.
  */
@@ -25,18 +25,21 @@ typedef struct study_case {
     int is_first;      /* of its group */
     dal_model *model;
     const dal_system *system;
-    char *copy; /* of the system file, in the directory of the study; NULL: a built-in system */
+    char *observe; /* formulas that the runs of the group observe, as in --observe; NULL: none */
+    char *copy;    /* of the system file, in the directory of the study; NULL: a built-in system */
     double step[STUDY_STEPS], from, time, displacement; /* time: NaN: not given, but: */
-    long long run_steps; /* steps of each run; 0: not given, but time */
-    int rows;            /* a study_rows */
-    int steps, starts;   /* starts: bit STUDY_x set */
+    double tolerance[STUDY_TOLERANCES]; /* positive; of the methods that control their error */
+    long long run_steps;                /* steps of each run; 0: not given, but time */
+    int rows;                           /* a study_rows */
+    int steps, tolerances, starts;      /* tolerances: 0: the options; starts: bit STUDY_x set */
     long long samples, statistics;
     dal_options options;                   /* but step and space, and as they were given: */
     const char *option[REQUEST_OPTIONS];   /* NULL: not given */
     request_settings set, start, displace; /* displace: in units of displacement */
     dal_method *methods;
     int method_count;
-    int first_cell, cells; /* its cells stand together */
+    double (*method_steps)[2]; /* [method_count] that the cells of the group take, on each space */
+    int first_cell, cells;     /* its cells stand together */
 } study_case;
 
 typedef struct study_plan {
@@ -55,7 +58,8 @@ typedef struct study_plan {
     int expectation_count;
     dal_method representative[STUDY_REPRESENTATIVES];
     int representatives;
-    double seconds; /* that the runs have taken */
+    double seconds;      /* that the runs have taken */
+    bool has_tolerances; /* a case has the key tolerance: files have that column */
     bool shows_tables;
 } study_plan;
 
@@ -65,6 +69,8 @@ typedef struct study_plan {
 int study_plan_read(study_plan *plan, const char *place, const char *text, size_t length,
                     const char *copies);
 void study_plan_free(study_plan *plan);
+/* Adds up the steps of the methods, of the cells that are not of another shard. */
+void study_plan_add_steps(study_plan *plan);
 /* Where the runs of a step end, in t. */
 double study_case_end(const study_case *item, double step);
 /* DIRECTORY/LABEL.yaml, the copy of a system file; allocated. */
@@ -78,12 +84,14 @@ char *study_plan_copy_path(const char *directory, const study_case *item);
     KEY(systems, "study", document_read_node, systems,                                             \
         "list of names, paths, or mappings of the keys below")                                     \
     KEY(expect, "study", document_read_node, expect,                                               \
-        "label: {integrator: {quantity: expected result}}; see below")                             \
+        "label: {integrator: {quantity or formula: expected result}}; see below")                  \
     KEY(representatives, "study", document_read_node, representatives,                             \
         "at most 16 of the integrators, for the screen (the first of each family)")                \
     KEY(integrators, "both", document_read_node, integrators,                                      \
         "list of names, with modifiers or not; all or all+project: every integrator")              \
     KEY(step, "both", read_step, item, "one step, or at most 16; negative: backwards")             \
+    KEY(tolerance, "both", read_tolerance, item,                                                   \
+        "of adaptive methods, at most 16; the step may be missing then")                           \
     KEY(time, "both", read_end, item.time, "integrate to this, in whole steps")                    \
     KEY(steps, "both", read_end, item.run_steps, "or take this number of steps; excludes time")    \
     KEY(from, "both", document_read_number, item.from, "the time of the start (0)")                \

@@ -104,6 +104,7 @@ static void run_cell(void *user, int i)
 int study_pool_run(study_plan *plan, int threads)
 {
     pool_state p = {.plan = plan, .order = study_sort_cells(plan), .start = cli_seconds()};
+    study_plan_add_steps(plan);
     for (int i = 0; i < plan->cell_count; i++) p.count += !plan->cells[i].other_shard;
     pool_run(plan->cell_count, threads, run_cell, &p);
     native_end();

@@ -198,7 +198,8 @@ static void choose_cells(screen *s)
         for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
             const study_cell *c = &s->plan->cells[i];
             const int row = find_row(s, s->of_cell[i]);
-            if (row >= 0 && c->start == first_start(e) && c->step == e->step[0])
+            if (row >= 0 && c->start == first_start(e) && c->step == e->step[0] &&
+                (c->tolerance == 0.0 || c->tolerance == e->tolerance[0]))
                 s->cell[row][k] = c;
         }
     }

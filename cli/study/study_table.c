@@ -118,16 +118,22 @@ static void put_state(FILE *out, const study_cell *c)
 
 /* ---- tables -------------------------------------------------------------------------------- */
 
+static bool is_in_table(const study_cell *c, double step, double tolerance, int start)
+{
+    return c->step == step && c->tolerance == tolerance && c->start == start;
+}
+
 static void print_table(FILE *out, const study_plan *plan, const study_case *e, double step,
-                        int start)
+                        double tolerance, int start)
 {
 #define START_TITLE(code, word, space, about) about,
     static const char *const titles[] = {STUDY_START_LIST(START_TITLE)};
 #undef START_TITLE
     void (*const put_line)(FILE *, int, const table_row *) =
         start == STUDY_DISPLACED ? put_lift : put_motion;
-    fprintf(out, "\n %s%s, h = %g, T = %g\n", start == STUDY_PHYSICAL ? "in " : "", titles[start],
-            step, study_case_end(e, step));
+    char division[STUDY_DIVISION];
+    fprintf(out, "\n %s%s, %s, T = %g\n", start == STUDY_PHYSICAL ? "in " : "", titles[start],
+            study_division(division, step, tolerance), study_case_end(e, step));
     for (int line = 0; line < 2; line++) {
         fprintf(out, "  %-*s", METHOD, line == 0 ? "integrator" : "");
         put_line(out, line, NULL);
@@ -136,7 +142,7 @@ static void print_table(FILE *out, const study_plan *plan, const study_case *e, 
     for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
         const study_cell *c = &plan->cells[i];
         char name[STUDY_NAME];
-        if (c->other_shard || c->step != step || c->start != start) continue;
+        if (c->other_shard || !is_in_table(c, step, tolerance, start)) continue;
         fprintf(out, "  %-*s", METHOD, dal_method_name(c->method, name, sizeof name));
         /* A method without lifted form has its numbers in (q,v), where those on the surface would
          * be the same. */
@@ -152,6 +158,20 @@ static void print_table(FILE *out, const study_plan *plan, const study_case *e, 
     }
 }
 
+/* One of the methods without a tolerance, and one for each tolerance. */
+static void print_tables(FILE *out, const study_plan *plan, const study_case *e, double step,
+                         int start)
+{
+    for (int k = -1; k < e->tolerances; k++) {
+        const double tolerance = k < 0 ? 0.0 : e->tolerance[k];
+        int i = e->first_cell;
+        while (i < e->first_cell + e->cells &&
+               !is_in_table(&plan->cells[i], step, tolerance, start))
+            i++;
+        if (i < e->first_cell + e->cells) print_table(out, plan, e, step, tolerance, start);
+    }
+}
+
 void study_print_case(FILE *out, const study_plan *plan, const study_case *e)
 {
     fprintf(out, "\n%s%s%s\n", e->label, e->system->title ? ": " : "",
@@ -160,7 +180,7 @@ void study_print_case(FILE *out, const study_plan *plan, const study_case *e)
         for (int start = 0; start < STUDY_STARTS; start++) {
             /* The numbers on the surface are those of (q,v); the files hold both. */
             int repeats = start == STUDY_PHYSICAL && e->starts & 1 << STUDY_SURFACE;
-            if (e->starts & 1 << start && !repeats) print_table(out, plan, e, e->step[h], start);
+            if (e->starts & 1 << start && !repeats) print_tables(out, plan, e, e->step[h], start);
         }
 }
 
@@ -224,6 +244,15 @@ static void put_run(FILE *out, const csv_row *r)
     free(run);
 }
 
+/* Studies that have the key tolerance have a column of it behind that of the step. */
+static void put_step(FILE *out, const csv_row *r)
+{
+    cli_put(out, r->cell->step);
+    if (!r->plan->has_tolerances) return;
+    fputc(',', out);
+    cli_put(out, r->cell->tolerance);
+}
+
 /* A cell is empty where there is no such quantity, or no run. */
 #define NUMBER(quantity, member)                                                                   \
     (r->q.quantity && r->q.quantity->count > 0 ? cli_put(out, r->q.quantity->member) : (void)0)
@@ -232,12 +261,13 @@ static void put_run(FILE *out, const csv_row *r)
     (r->q.quantity && r->q.quantity->count > 0 ? (void)fputs(word(r->q.quantity), out) : (void)0)
 
 /* column, how it is written */
-#define COLUMN_LIST(COLUMN)                                                                        \
+#define CELL_LIST(COLUMN)                                                                          \
     COLUMN(label, cli_put_text(out, r->of_case->label))                                            \
     COLUMN(system, cli_put_text(out, r->of_case->name))                                            \
     COLUMN(integrator, cli_put_text(out, r->method))                                               \
     COLUMN(start, fputs(study_start_words[r->cell->start], out))                                   \
-    COLUMN(step, cli_put(out, r->cell->step))                                                      \
+    COLUMN(step, put_step(out, r))
+#define RESULT_LIST(COLUMN)                                                                        \
     COLUMN(time, cli_put(out, study_case_end(r->of_case, r->cell->step)))                          \
     COLUMN(state, fputs(study_state_words[r->cell->state], out))                                   \
     COLUMN(status, fputs(dal_status_name(r->cell->error.status), out))                             \
@@ -280,7 +310,8 @@ static void put_cell(FILE *out, const csv_row *r)
     fputs(comma, out);                                                                             \
     how;                                                                                           \
     comma = ",";
-    COLUMN_LIST(COLUMN_CELL)
+    CELL_LIST(COLUMN_CELL)
+    RESULT_LIST(COLUMN_CELL)
 #undef COLUMN_CELL
     fputc('\n', out);
 }
@@ -293,7 +324,7 @@ static void put_key(FILE *out, const csv_row *r)
     fputc(',', out);
     cli_put_text(out, r->method);
     fprintf(out, ",%s,", study_start_words[r->cell->start]);
-    cli_put(out, r->cell->step);
+    put_step(out, r);
     fputc(',', out);
 }
 
@@ -355,24 +386,29 @@ int study_write_csv(const study_plan *plan, const char *directory)
 {
 #define COLUMN_HEAD(name, how)   "," #name
 #define TRACK_HEAD(code, column) "," column
-    static const char cell_heads[] = COLUMN_LIST(COLUMN_HEAD);
-    static const char series_heads[] =
-        "label,integrator,start,step,until" STUDY_TRACK_LIST(TRACK_HEAD);
-    char *heads = cli_format("label,integrator,start,step,quantity,first,last,max,deviation,%s",
-                             cli_trend_heads);
+    static const char cell_heads[] = CELL_LIST(COLUMN_HEAD);
+    static const char result_heads[] = RESULT_LIST(COLUMN_HEAD);
+    static const char key_heads[] = "label,integrator,start,step";
+    const char *tolerance = plan->has_tolerances ? ",tolerance" : "";
+    char *cells = cli_format("%s%s%s", cell_heads + 1, tolerance, result_heads);
+    char *quantities = cli_format("%s%s,quantity,first,last,max,deviation,%s", key_heads, tolerance,
+                                  cli_trend_heads);
+    char *windows = cli_format("%s%s,until%s", key_heads, tolerance, STUDY_TRACK_LIST(TRACK_HEAD));
     char *series = cli_join(directory, "series");
     int status = cli_directory(series);
     if (status == CLI_DONE)
-        status = write_file(plan, NULL, directory, "cells.csv", cell_heads + 1, put_cell);
+        status = write_file(plan, NULL, directory, "cells.csv", cells, put_cell);
     if (status == CLI_DONE)
-        status = write_file(plan, NULL, directory, "quantities.csv", heads, put_quantities);
+        status = write_file(plan, NULL, directory, "quantities.csv", quantities, put_quantities);
     for (int i = 0; i < plan->case_count && status == CLI_DONE; i++) {
         if (plan->cases[i].rows == STUDY_ROWS_NONE) continue;
         char *name = cli_format("%s.csv", plan->cases[i].label);
-        status = write_file(plan, &plan->cases[i], series, name, series_heads, put_series);
+        status = write_file(plan, &plan->cases[i], series, name, windows, put_series);
         free(name);
     }
-    free(heads);
+    free(cells);
+    free(quantities);
+    free(windows);
     free(series);
     return status;
 }

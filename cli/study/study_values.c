@@ -3,10 +3,9 @@
  * Value k of a range {from: a, to: b, count: n} is a + k (b - a)/(n - 1), the last exactly b; of
  * {from: a, to: b, by: d} it is a + k d, as long as that is not beyond b by more than d/1e9.
  *
- * A draw needs no state: SplitMix64 (Steele, Lea, Flood 2014, doi 10.1145/2660193.2660195) mixes
- *     z = FNV-1a(name) + seed 0x9e3779b97f4a7c15    (mod 2^64)
- * and the upper 53 bits u of the result give low + (high - low) u/2^53.  So what is drawn for one
- * name does not depend on what else is drawn.
+ * A draw needs no state: the upper 53 bits u of the key of name and seed (dal_random_key, of which
+ * ensembles draw as well) give low + (high - low) u/2^53.  So what is drawn for one name does not
+ * depend on what else is drawn.
  *
  * A system of a study with `set: {a: [1, 2], b: {from: 0, to: 1, count: 3}}` is six cases, called
  * LABEL_a=1_b=0 and so on; where something is drawn there is one for each of the seeds, called
@@ -118,12 +117,7 @@ void study_values_free(study_values *values)
 /* The draw of a name ("set:mass") for a seed, uniform in [low, high). */
 static double draw(const char *name, uint64_t seed, double low, double high)
 {
-    uint64_t z = file_hash(FILE_HASH_START, name, strlen(name));
-    z += seed * UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    z ^= z >> 31;
-    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
+    return low + (high - low) * ((double)(dal_random_key(name, seed) >> 11) * 0x1p-53);
 }
 
 typedef struct variant_setting {

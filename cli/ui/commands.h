@@ -17,6 +17,7 @@
     COMMAND(run)                                                                                   \
     COMMAND(resume)                                                                                \
     COMMAND(study)                                                                                 \
+    COMMAND(ensemble)                                                                              \
     COMMAND(merge)                                                                                 \
     COMMAND(order)                                                                                 \
     COMMAND(section)                                                                               \

@@ -17,6 +17,7 @@
 enum { SAMPLES = 1 << 15, QUAD_COST = 100 /* times that of a double step, for progress */ };
 
 static const double looser = 1e-10, looser_by = 1e3;
+static const double exact_tolerance = 1e-16;
 enum { FURTHER = 2 }; /* iterations */
 
 typedef struct comparisons {
@@ -80,10 +81,19 @@ static const char *change_projection(dal_run_spec *spec)
     return NULL;
 }
 
+/* Under a tolerance, substeps become half as long where it is divided by 2^p. */
+static void halve(dal_run_spec *spec)
+{
+    dal_options *o = &spec->options;
+    o->step *= 0.5;
+    o->tolerance = ldexp(o->tolerance, -dal_method_order(&spec->method));
+}
+
 /* Makes the spec of a run that of a comparison; NULL, or the reason why there is none. */
 static const char *change_spec(dal_run_spec *spec, dal_comparison_run comparison)
 {
-    static const char nothing[] = "the method solves no equations";
+    static const char nothing[] = "the method solves no equations", no_taylor[] = "no taylor";
+    const dal_options plain = dal_options_default();
     dal_options *o = &spec->options;
     switch (comparison) {
     case DAL_COMPARISON_LOOSER:
@@ -95,15 +105,21 @@ static const char *change_spec(dal_run_spec *spec, dal_comparison_run comparison
         return NULL;
     case DAL_COMPARISON_PROJECTION:
         return change_projection(spec);
+    case DAL_COMPARISON_EXACT:
+        o->solver_tolerance = plain.solver_tolerance;
+        o->extra_iterations = plain.extra_iterations;
+        o->sums = plain.sums;
+        o->tolerance = exact_tolerance;
+        return dal_method_parse(&spec->method, "taylor", NULL) == DAL_OK ? NULL : no_taylor;
     case DAL_COMPARISON_QUAD:
         o->precision = DAL_QUAD;
         break;
     case DAL_COMPARISON_QUAD_HALVED:
         o->precision = DAL_QUAD;
-        o->step *= 0.5;
+        halve(spec);
         break;
     case DAL_COMPARISON_HALVED:
-        o->step *= 0.5;
+        halve(spec);
         return NULL;
     default:
         break;

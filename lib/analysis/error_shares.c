@@ -17,6 +17,8 @@ static const double small = 0.1, nothing = 1e-12;
 /* The effect of coefficients in each step, in roundings of the scale, at most. */
 static const double coefficient_roundings = 16.0;
 static const double half_an_order = 0.5;
+/* A change of an observable is the motion's if the exact motion has at least this part of it. */
+static const double part_of_motion = 0.5;
 
 const char *dal_error_source_name(dal_error_source source)
 {
@@ -71,7 +73,7 @@ static void weigh_quad(const dal_error_budget *e, dal_shares *a)
     if (!a->vanishes_in_quad)
         a->order = order_of(quad, &a->comparison[DAL_COMPARISON_QUAD_HALVED], a->by_rate);
     const int coefficients = is_of_coefficients(e, a);
-    a->is_motion = !coefficients && a->order < half_an_order;
+    if (!e->ran[DAL_COMPARISON_EXACT]) a->is_motion = !coefficients && a->order < half_an_order;
     set_share(a, coefficients ? DAL_SOURCE_COEFFICIENTS : DAL_SOURCE_TRUNCATION, quad);
     a->share[coefficients ? DAL_SOURCE_TRUNCATION : DAL_SOURCE_COEFFICIENTS] = 0.0;
     if (a->is_motion) a->share[DAL_SOURCE_TRUNCATION] = a->margin[DAL_SOURCE_TRUNCATION] = NAN;
@@ -103,7 +105,7 @@ static void share_by_halving(const dal_error_budget *e, dal_shares *a)
     const dal_trend *half = &a->comparison[DAL_COMPARISON_HALVED];
     a->order = order_of(&a->whole, half, a->whole_by_rate);
     const double divisor = exp2(dal_method_order(&e->spec.method));
-    if (fabs(a->order - dal_method_order(&e->spec.method)) < half_an_order)
+    if (!a->is_motion && fabs(a->order - dal_method_order(&e->spec.method)) < half_an_order)
         a->share[DAL_SOURCE_TRUNCATION] =
             (whole - size_of(half, a->whole_by_rate)) / whole * divisor / (divisor - 1.0);
 }
@@ -114,6 +116,13 @@ void dal__find_shares(const dal_error_budget *e, dal_shares *a)
     a->order = NAN;
     if (!isfinite(a->whole.deviation)) return;
     a->whole_by_rate = drifts(&a->whole, (double)e->steps * e->spec.options.step);
+    /* What rounding alone may change along the exact motion. */
+    const dal_trend *exact = &a->comparison[DAL_COMPARISON_EXACT];
+    const double roundings =
+        coefficient_roundings * DBL_EPSILON * fmax(1.0, exact->max_abs) * (double)e->steps;
+    a->is_motion =
+        e->ran[DAL_COMPARISON_EXACT] && exact->deviation > roundings &&
+        size_of(exact, a->whole_by_rate) > part_of_motion * size_of(&a->whole, a->whole_by_rate);
     if (e->quad_steps > 0)
         share_beginning(e, a);
     else
@@ -154,7 +163,12 @@ static void describe_order(const description *s, const char *before)
 
 static void describe_truncation(const description *s)
 {
-    if (s->e->quad_steps == 0)
+    if (s->a->is_motion && s->e->ran[DAL_COMPARISON_EXACT])
+        snprintf(
+            s->text, s->size,
+            "the motion itself changes it: along the exact motion the drift is %.3g times this",
+            drift_ratio(s, DAL_COMPARISON_EXACT));
+    else if (s->e->quad_steps == 0)
         describe_order(s, isnan(s->a->share[DAL_SOURCE_TRUNCATION])
                               ? "halving alone, without quad precision, is not conclusive:"
                               : "by halving alone:");

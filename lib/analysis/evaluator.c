@@ -1,5 +1,6 @@
 /* evaluator.c - a system with its parameters in force and memory to evaluate it in. */
 #include "core/error.h"
+#include "core/solved.h"
 #include "dalembert_analysis.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,7 +52,7 @@ dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, 
     DAL_REQUIRE(evaluator && q && v && out, NULL);
     if (callback == NULL) return DAL_UNSUPPORTED;
     if (callback == evaluator->system->call.adjoint) DAL_REQUIRE(pi, NULL);
-    return callback(evaluator->system, &(dal_point){t, q, v, pi, evaluator->work}, out);
+    return callback(evaluator->system, &(dal_point){t, q, v, pi, evaluator->work, NULL}, out);
 }
 
 /* ---- the start ---- */
@@ -102,10 +103,15 @@ dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *star
     int count = 2 * s->n + s->multipliers + 1;
     for (int i = 0; i < count; i++) out[i] = i == count - 1 ? 1.0 : 0.0;
     if (s->start != NULL) {
-        dal_status status = s->start(s, &(dal_point){.work = evaluator->work}, out);
+        dal_status status = s->start(s, &(dal_point){.work = evaluator->work, NULL}, out);
         if (status != DAL_OK)
             return dal__fail(error, status, "%s: no start: %s", s->name, dal_status_text(status));
     }
     for (int i = 0; i < start_count; i++) DAL_TRY(set_start(s, &start[i], out, error));
-    return DAL_OK;
+    double *memory = calloc(dal__solve_size(s) + 1, sizeof *memory);
+    if (memory == NULL) return dal__fail(error, DAL_MEMORY, "%s: out of memory", s->name);
+    const dal_status solved =
+        dal__solve_velocities(s, 0.0, out, out + s->n, evaluator->work, memory, error);
+    free(memory);
+    return solved;
 }

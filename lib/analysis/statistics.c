@@ -24,7 +24,8 @@ static void halve(dal_statistics *s)
     for (int i = 0; i < DAL_STATISTICS_BLOCKS / 2; i++) {
         const dal_statistics_block *a = &s->block[2 * i], *b = a + 1;
         s->block[i] = (dal_statistics_block){0.5 * (a->t + b->t), 0.5 * (a->x + b->x),
-                                             fmin(a->min, b->min), fmax(a->max, b->max)};
+                                             b->min < a->min ? b->min : a->min,
+                                             b->max > a->max ? b->max : a->max};
     }
     s->blocks = DAL_STATISTICS_BLOCKS / 2;
     s->length *= 2;
@@ -67,8 +68,8 @@ static void close_block(dal_statistics *s, double t)
 {
     s->block[s->blocks++] = (dal_statistics_block){
         0.5 * (s->open_t + t), open_sum(s) / (double)s->length, s->open_min, s->open_max};
-    s->min = fmin(s->min, s->open_min);
-    s->max = fmax(s->max, s->open_max);
+    s->min = s->open_min < s->min ? s->open_min : s->min;
+    s->max = s->open_max > s->max ? s->open_max : s->max;
     s->open_count = 0;
     raise_rough_unit(s);
     if (s->blocks == DAL_STATISTICS_BLOCKS) halve(s);
@@ -99,7 +100,7 @@ static double rough_square(const dal_statistics *s, double x, double from)
 {
     const double unit = per_rough_unit(s);
     const double d = s->factor < 1.0 ? x * unit - from * unit : (x - from) * unit;
-    return fmin(d * d, DAL__ROUGH_LIMIT);
+    return d * d < DAL__ROUGH_LIMIT ? d * d : DAL__ROUGH_LIMIT;
 }
 
 /* Blocks too short for a cycle: the first thousand values. */

@@ -64,12 +64,19 @@ static void weigh_noises(const dal__bins *b, double white_odds, noise_state *s, 
 /* sum_j X_j Y_j/v_j of all shapes. */
 static void correlate(const dal__bins *b, const dal__noise *n, double *restrict sum)
 {
+    enum { TOGETHER = 4 }; /* waves: a sum is loaded and stored once for them */
+    double y[DAL__WAVES];
+    for (int j = 0; j < DAL__WAVES; j++) y[j] = n->precision[j] * b->wave[j];
     memset(sum, 0, DAL__SHAPES * sizeof *sum);
-    for (int j = 0; j < DAL__WAVES; j++) {
-        const double y = n->precision[j] * b->wave[j];
-        const double *restrict const x = dal__shape_wave[j];
-        for (int i = 0; i < DAL__SHAPES; i++) sum[i] += y * x[i];
+    int j = 0;
+    for (; j + TOGETHER <= DAL__WAVES; j += TOGETHER) {
+        const double(*restrict const x)[DAL__SHAPES] = &dal__shape_wave[j];
+        const double y0 = y[j], y1 = y[j + 1], y2 = y[j + 2], y3 = y[j + 3];
+        for (int i = 0; i < DAL__SHAPES; i++)
+            sum[i] = sum[i] + y0 * x[0][i] + y1 * x[1][i] + y2 * x[2][i] + y3 * x[3][i];
     }
+    for (; j < DAL__WAVES; j++)
+        for (int i = 0; i < DAL__SHAPES; i++) sum[i] += y[j] * dal__shape_wave[j][i];
 }
 
 /* What the prior of a shape's size costs. */
@@ -114,10 +121,44 @@ static void weigh_line(const dal__bins *b, int k, const noise_state *s, double x
 }
 
 /* A shape within the deviation of a random walk is none; one slightly above it is undecided. */
-static dal__meaning meaning_of(const dal__shape *shape, const dal__noise *noise, double deviations)
+static dal__meaning meaning_under_walk(const dal__shape *shape, double deviations)
 {
-    if (noise->meaning != DAL__MEANS_WALK || deviations >= clear) return shape->meaning;
+    if (deviations >= clear) return shape->meaning;
     return deviations < hidden ? DAL__MEANS_WALK : DAL__MEANS_OTHER;
+}
+
+/* Shapes of one column, step by step for all of them: a processor divides several at a time. */
+static void weigh_plain_shapes(const dal__bins *b, int k, const noise_state *s, const double *xy,
+                               dal__evidence *e)
+{
+    enum { SHAPES = DAL__PLAIN_SHAPES };
+    const double *const xx = dal__shape_square[k];
+    const double outer = s->weight * dal__noise_list[k].shape_weight;
+    const double per_freedom = 1.0 / (b->freedom - 1.0), square = s->square, width = b->half_range;
+    double size[SHAPES], rest[SHAPES], deviation[SHAPES], price[SHAPES], base[SHAPES],
+        power[SHAPES];
+    for (int i = 0; i < SHAPES; i++) {
+        size[i] = xy[i] / xx[i];
+        rest[i] = square - size[i] * xy[i];
+        deviation[i] = sqrt(rest[i] * per_freedom / xx[i]);
+        price[i] = occam(size[i], deviation[i], width);
+        base[i] = square / rest[i];
+        power[i] = 1.0;
+    }
+    price[DAL__LINEAR_SHAPE] = line_price(b, size[DAL__LINEAR_SHAPE], deviation[DAL__LINEAR_SHAPE]);
+    for (int n = tempered_power(b); n > 0; n >>= 1) {
+        if (n & 1)
+            for (int i = 0; i < SHAPES; i++) power[i] *= base[i];
+        for (int i = 0; i < SHAPES; i++) base[i] *= base[i];
+    }
+    for (int i = 0; k == 0 && i < DAL__POWER_SHAPES; i++) e->power_rest[i] = rest[i];
+    const bool is_walk = dal__noise_list[k].meaning == DAL__MEANS_WALK;
+    for (int i = 0; i < SHAPES; i++) {
+        const dal__shape *const shape = &dal__shape_list[i];
+        const dal__meaning meaning =
+            is_walk ? meaning_under_walk(shape, fabs(size[i]) / deviation[i]) : shape->meaning;
+        add_weight(e, meaning, i, outer * shape->weight * price[i] * power[i]);
+    }
 }
 
 static void weigh_shapes(const dal__bins *b, int k, const noise_state *s, dal__evidence *e)
@@ -125,19 +166,10 @@ static void weigh_shapes(const dal__bins *b, int k, const noise_state *s, dal__e
     const dal__noise *const n = &dal__noise_list[k];
     const double *const xx = dal__shape_square[k];
     const int power = tempered_power(b);
-    const double outer = s->weight * n->shape_weight, per_freedom = 1.0 / (b->freedom - 1.0);
+    const double outer = s->weight * n->shape_weight;
     double xy[DAL__SHAPES];
     correlate(b, n, xy);
-    for (int i = 0; i < DAL__PLAIN_SHAPES; i++) {
-        const dal__shape *const shape = &dal__shape_list[i];
-        const double size = xy[i] / xx[i], rest = s->square - size * xy[i];
-        const double deviation = sqrt(rest * per_freedom / xx[i]);
-        if (k == 0 && i < DAL__POWER_SHAPES) e->power_rest[i] = rest;
-        const double price = i == DAL__LINEAR_SHAPE ? line_price(b, size, deviation)
-                                                    : occam(size, deviation, b->half_range);
-        const double weight = outer * shape->weight * price * power_of(s->square / rest, power);
-        add_weight(e, meaning_of(shape, n, fabs(size) / deviation), i, weight);
-    }
+    weigh_plain_shapes(b, k, s, xy, e);
     for (int w = 0; w < DAL__SLOW_WAVES; w++) {
         const int i = DAL__PLAIN_SHAPES + 2 * w;
         const double cross = dal__slow_product[k][w], det = xx[i] * xx[i + 1] - cross * cross;
@@ -241,12 +273,12 @@ static double quantile(const mixture *m, double p)
         a = fmin(a, m->at[k] - 12.0 * m->deviation[k]);
         b = fmax(b, m->at[k] + 12.0 * m->deviation[k]);
     }
-    const double width = 1e-4 * (b - a);
+    const double width = 1e-4 * (b - a), near = 1e-3 * fmin(p, 1.0 - p);
     double fa = -p, fb = 1.0 - p;
     for (int i = 0; i < HALVINGS && fa != fb; i++) {
         const double c = i % 3 == 2 ? 0.5 * (a + b) : b - fb * (b - a) / (fb - fa);
         const double fc = probability(m, c) - p;
-        if (fabs(fc) < 1e-3 * fmin(p, 1.0 - p)) return c;
+        if (fabs(fc) < near) return c;
         if (fc < 0.0) {
             a = c, fa = fc, fb *= 0.5;
         } else {

@@ -1,13 +1,15 @@
 /* emit_callbacks.c - the programs of a system as C: dal_eval, the start, the observables. */
 #include "codegen/emit_callbacks.h"
+#include "expr/taylor_emit.h"
 #include "run/run.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* A longer program is a function that is not inlined; implicit methods evaluate one at many
- * places. */
-enum { MAX_INLINED = 600, MAX_INLINED_IMPLICIT = 120 };
+ * places.  A compiler takes more than twice as long for a function of twice the length: one longer
+ * still is split into functions of PART operations. */
+enum { MAX_INLINED = 600, MAX_INLINED_IMPLICIT = 120, MAX_WHOLE = 1000, PART = 500 };
 
 /* ---- inputs ---- */
 
@@ -48,13 +50,30 @@ static void write_program(dal__generation *g, dal__program_code code, const char
     if (!dal__wants(g, code)) return;
     const bool is_cold = code == DAL__PROGRAM_JACOBIAN;
     const int length = g->programs->tapes->tape[g->programs->program[code].tape].length;
-    if (is_cold && length > MAX_INLINED) dal__buffer_append(&g->text, unordered);
-    dal__buffer_print(&g->text, "%s void dal__%s(DAL__ARGUMENTS)\n{\n",
-                      is_inlined(g, code) ? "DAL_INLINE"
-                      : is_cold           ? "DAL_COLD"
-                                          : "static DAL_UNUSED __attribute__((noinline))",
-                      name);
-    dal__tape_write(g->programs->tapes, g->programs->program[code].tape, g->input, &g->text);
+    const char *const kind = is_inlined(g, code) ? "DAL_INLINE"
+                             : is_cold           ? "DAL_COLD"
+                                                 : "static DAL_UNUSED __attribute__((noinline))";
+    const int tape = g->programs->program[code].tape;
+    const int most = length > MAX_WHOLE ? PART : MAX_WHOLE;
+    dal__tape_writer *writer =
+        dal__tape_writer_create(g->programs->tapes, tape, g->input, &g->text);
+    int parts = 0;
+    for (bool more = writer; more;) {
+        if (is_cold && length > MAX_INLINED) dal__buffer_append(&g->text, unordered);
+        if (length > most)
+            dal__buffer_print(&g->text, "%s void dal__%s_%d(DAL__ARGUMENTS, num *passed)\n{\n",
+                              kind, name, ++parts);
+        else
+            dal__buffer_print(&g->text, "%s void dal__%s(DAL__ARGUMENTS)\n{\n", kind, name);
+        more = dal__tape_write_part(writer, most);
+        dal__buffer_append(&g->text, "}\n");
+    }
+    dal__tape_writer_free(writer);
+    if (parts == 0) return;
+    dal__buffer_print(&g->text, "%s void dal__%s(DAL__ARGUMENTS)\n{\n    num passed[%d];\n", kind,
+                      name, dal__tapes_passed(g->programs->tapes));
+    for (int i = 1; i <= parts; i++)
+        dal__buffer_print(&g->text, "    dal__%s_%d(w, t, q, v, pi, out, passed);\n", name, i);
     dal__buffer_append(&g->text, "}\n");
 }
 
@@ -139,6 +158,68 @@ static void write_dispatch(dal__generation *g)
     dal__buffer_append(&g->text, "    default: break;\n    }\n}\n");
 }
 
+/* ---- Taylor series ---- */
+
+/* The body of the recurrences for order 0, with all outputs, or for an order k, without those that
+ * are needed by their values alone: pivots. */
+static void write_orders(dal__generation *g, bool first, int outputs, int behind)
+{
+    const dal__taylor *taylor = g->programs->taylor[g->layout.lifted];
+    dal__buffer *text = &g->text;
+    dal__buffer_print(text,
+                      "static DAL_UNUSED __attribute__((noinline)) void dal__series_%s("
+                      "const dal_stored *w, int k,\n    num (*DAL_RESTRICT c)"
+                      "[DAL_FIXED_TAYLOR_ORDER + 1], num *DAL_RESTRICT l, num *out)\n{\n",
+                      first ? "first" : "next");
+    dal__taylor_write(taylor, g->programs->tapes, first, g->lanes == 1, text);
+    for (int i = 0; i < taylor->outputs; i++) {
+        if (!first && i >= outputs && i < behind) continue;
+        dal__buffer_print(text, "    out[%d] = ", i);
+        dal__taylor_write_output(taylor, g->programs->tapes, i, first, text);
+        dal__buffer_append(text, ";\n");
+    }
+    dal__buffer_append(text, "}\n");
+}
+
+/* dal_eval_series; what dal__series in model/programs_wide.c does. */
+static void write_series(dal__generation *g)
+{
+    if (!(g->kernel & DAL_KERNEL_SERIES)) return;
+    const bool lifted = g->layout.lifted;
+    const dal__taylor *taylor = g->programs->taylor[lifted];
+    const dal__program *p =
+        &g->programs->program[lifted ? DAL__PROGRAM_ADJOINT : DAL__PROGRAM_FIELD];
+    const int outputs = p->outputs, left = outputs + 2 * p->checked, behind = left + p->left;
+    dal__buffer *text = &g->text;
+    write_orders(g, true, outputs, behind);
+    write_orders(g, false, outputs, behind);
+    dal__buffer_print(text,
+                      "DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num "
+                      "*in, num *memory, num *out)\n{\n"
+                      "    num (*const c)[DAL_FIXED_TAYLOR_ORDER + 1] =\n        (num "
+                      "(*)[DAL_FIXED_TAYLOR_ORDER + 1])memory;\n"
+                      "    num *const packed = (num *)(((size_t)(c + %d) + 63) / 64 * 64);\n"
+                      "    num all[%d];\n    DAL_EACH(i, %d) c[i][k] = in[i];\n"
+                      "    if (k == 0) dal__series_first(s->work, k, c, packed, all);\n"
+                      "    else dal__series_next(s->work, k, c, packed, all);\n"
+                      "    DAL_EACH(i, %d) out[i] = all[i];\n",
+                      taylor->slots, taylor->outputs, taylor->inputs, outputs);
+    if (lifted && taylor->outputs > behind)
+        dal__buffer_print(text, "    out[%d] = all[%d];\n", outputs, behind);
+    else if (lifted)
+        dal__buffer_print(text, "    out[%d] = dal_num(0.0);\n", outputs);
+    if (p->checked > 0)
+        dal__buffer_print(text, "    if (k == 0) dal__mask_singular(all, %d, %d, out);\n", outputs,
+                          p->checked);
+    if (p->left > 0 && g->layout.pivots > 0)
+        dal__buffer_print(text,
+                          "    if (!s->pivots_known[0]) {\n"
+                          "        DAL_EACH(i, %d) s->pivots[i] = all[%d + i];\n"
+                          "        s->pivots_known[0] = 1;\n    }\n",
+                          p->left, left);
+    dal__buffer_append(text, "}\n");
+}
+
 /* ---- parameters and start ---- */
 
 void dal__write_start(dal__generation *g)
@@ -154,21 +235,23 @@ void dal__write_start(dal__generation *g)
     dal__tapes_write_hoisted(g->programs->tapes, is_written, &g->text);
     dal__buffer_append(&g->text, "}\nstatic const double dal__start_time = ");
     dal__buffer_number(&g->text, k->start_time);
-    dal__buffer_print(&g->text,
-                      ";\n"
-                      "static void dal__start(const dal_stored *work, num *y)\n{\n"
-                      "    num out[%d];\n"
-                      "    dal__start_values(work, dal__start_time, NULL, NULL, NULL, out);\n"
-                      "    for (int i = 0; i < DAL_FIXED_DIM; i++) y[i] = i < %d ? out[i] : "
-                      "dal_num(0.0);\n",
-                      first + 1, first + (k->lifted ? 1 : 0));
+    dal__buffer_print(
+        &g->text,
+        ";\n"
+        "static void dal__start(const dal_stored *work, num *y)\n{\n"
+        "    num out[%d];\n"
+        "    dal__start_values(work, DAL_TIME(dal__start_time), NULL, NULL, NULL, out);\n"
+        "    for (int i = 0; i < DAL_FIXED_DIM; i++) y[i] = i < %d ? out[i] : "
+        "dal_num(0.0);\n",
+        first + 1, first + (k->lifted ? 1 : 0));
     for (int i = 0; i < g->spec->start_count; i++) {
         dal__buffer_print(&g->text, "    y[%d] = dal_num(",
                           dal_run_index(g->run, g->spec->start[i].name));
         dal__buffer_number(&g->text, g->spec->start[i].value);
         dal__buffer_append(&g->text, ");\n");
     }
-    for (int i = k->n; k->options.consistent && i < 2 * k->n; i++) {
+    const bool is_moved = k->options.consistent || k->system->solved_velocities > 0;
+    for (int i = k->n; is_moved && i < 2 * k->n; i++) {
         dal__buffer_print(&g->text, "    y[%d] = dal_num(", i);
         dal__buffer_number(&g->text, dal_run_state(g->run)[i]);
         dal__buffer_append(&g->text, ");\n");
@@ -181,11 +264,13 @@ void dal__emit_callbacks(dal__generation *g)
     name_inputs(g);
     if (!g->input) return;
     dal__buffer_append(&g->text,
-                       g->product == DAL__OBSERVE
+                       dal__has_times(g)
                            ? "/* Each lane has its time. */\n"
                              "typedef num dal_time;\n#define DAL_NUM_TIME(t) (t)\n"
+                             "#define DAL_TIME(t) dal_num(t)\n"
                            : "/* All lanes have one time. */\n"
-                             "typedef double dal_time;\n#define DAL_NUM_TIME(t) dal_num(t)\n");
+                             "typedef double dal_time;\n#define DAL_NUM_TIME(t) dal_num(t)\n"
+                             "#define DAL_TIME(t) (t)\n");
     dal__buffer_append(&g->text, "/* ---- the system ---- */\n"
                                  "#define DAL__ARGUMENTS const dal_stored *w, dal_time t, const "
                                  "num *q, const num *v, \\\n    const num *pi, num *out\n");
@@ -203,6 +288,7 @@ void dal__emit_callbacks(dal__generation *g)
     }
     free(g->input);
     write_dispatch(g);
+    write_series(g);
 }
 
 /* ---- observables ---- */

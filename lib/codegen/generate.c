@@ -5,13 +5,14 @@
 #include "codegen/parts.h"
 #include "core/error.h"
 #include "dalembert_codegen.h"
+#include "expr/taylor_emit.h"
 #include "run/run.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Longer straight-line code takes a compiler too long; Newton's matrices are on the stack. */
-enum { MAX_INSTRUCTIONS = 20000, MAX_STACK = 1 << 22 };
+/* Newton's matrices, and Taylor series, are on the stack. */
+enum { MAX_STACK = 1 << 22 };
 /* Loops over components are unrolled for steps up to this size. */
 enum { MAX_UNROLLED = 256, MAX_UNROLLED_DIM = 64 };
 
@@ -72,6 +73,7 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
         return g->layout.options.reactions;
     case DAL__PROGRAM_DIAGNOSE:
     case DAL__PROGRAM_PICTURE:
+    case DAL__PROGRAM_PROJECTION:
     case DAL__PROGRAM_EVENT_VALUES:
     case DAL__PROGRAM_EVENT_RATES:
     case DAL__PROGRAM_EVENT_STATES:
@@ -108,33 +110,35 @@ static dal_status check_method(dal__generation *g, dal_error *error)
     return DAL_OK;
 }
 
+/* Series in the memory of a step; packed ones stand behind the others, and one more is for their
+ * alignment. */
+static int count_series(const dal__generation *g)
+{
+    const dal__taylor *taylor = g->programs->taylor[g->layout.lifted];
+    if (g->product == DAL__OBSERVE || !(g->kernel & DAL_KERNEL_SERIES)) return 0;
+    return taylor->slots + (g->lanes == 1 ? dal__taylor_packed(taylor) + 1 : 0);
+}
+
 static dal_status check_size(const dal__generation *g, dal_error *error)
 {
-    double length = 0.0;
+    const double series = 8.0 * g->lanes * count_series(g) * (g->layout.taylor_order + 1.0);
     const double width = (double)g->layout.stages * g->layout.nw;
     const bool newton = g->product != DAL__OBSERVE && dal__uses_newton(g);
     const double stack = newton ? 4.0 * 8.0 * g->lanes * width * width : 0.0;
-    for (int code = 0; code < DAL__PROGRAM_COUNT; code++)
-        if (dal__wants(g, (dal__program_code)code))
-            length += g->programs->tapes->tape[g->programs->program[code].tape].length;
-    if (length > MAX_INSTRUCTIONS)
-        return dal__fail(
-            error, DAL_TOO_LARGE,
-            "'%.80s' is too large for straight-line code: %.0f operations (%d at most)",
-            g->layout.system->name, length, MAX_INSTRUCTIONS);
     if (stack > MAX_STACK)
         return dal__fail(error, DAL_TOO_LARGE,
                          "Newton's matrices of '%.80s' take %.0f bytes of stack (%d at most); "
                          "solver fixed-point needs none",
                          g->layout.system->name, stack, MAX_STACK);
+    if (series > MAX_STACK)
+        return dal__fail(error, DAL_TOO_LARGE,
+                         "the Taylor series of '%.80s' take %.0f bytes of stack (%d at most)",
+                         g->layout.system->name, series, MAX_STACK);
     return DAL_OK;
 }
 
 static dal_status check_steps(dal__generation *g, dal_error *error)
 {
-    if (g->spec->options.tolerance > 0.0)
-        return dal__fail(error, DAL_UNSUPPORTED,
-                         "steps under a tolerance are not generated: each lane has its own");
     if (g->spec->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_UNSUPPORTED, "steps in quad precision are not generated");
     g->kernel = dal__kernel_of(&g->spec->method);
@@ -171,13 +175,22 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
 
 /* ---- constants and conditions ---- */
 
+/* Whether steps are divided into substeps. */
+static bool is_controlled(const dal__generation *g) { return g->layout.options.tolerance > 0.0; }
+
+/* Whether lanes have times of their own. */
+bool dal__has_times(const dal__generation *g)
+{
+    return g->product == DAL__OBSERVE || (g->lanes > 1 && is_controlled(g));
+}
+
 /* Whether all groups of lanes are stepped as one larger system: where registers hold what a step
  * needs of two groups. */
 static bool steps_together(const dal__generation *g)
 {
     const dal_integrator *method = g->layout.method.layer[0];
     const bool few_stages = method->properties & DAL_EXTRAPOLATES_STAGES && method->stages <= 2;
-    return g->lanes > 1 && g->layout.depth == 1 && !g->layout.lifted &&
+    return g->lanes > 1 && g->layout.depth == 1 && !g->layout.lifted && !is_controlled(g) &&
            (method->properties & DAL_COMPONENTWISE || few_stages);
 }
 
@@ -202,7 +215,6 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_SPECIALISED", true},
         {"DAL_NUM_QUAD", false},
         {"DAL_LINKED", false},
-        {"DAL_CONTROLLED", false},
         {"DAL_PACKS", false},
         {"DAL_SCALAR", g->lanes == 1},
         {"DAL_WITH_SINCOS", calls & (DAL__CALLS_SIN | DAL__CALLS_SINCOS)},
@@ -224,6 +236,9 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_REACTIONS", g->layout.options.reactions},
         {"DAL_WITH_EVAL_GROUP", guards || rank || kernel & DAL_KERNEL_SOLVE},
         {"DAL_WITH_GROUPS", steps_together(g)},
+        {"DAL_WITH_SERIES", kernel & DAL_KERNEL_SERIES},
+        {"DAL_WITH_CONTROL", is_controlled(g)},
+        {"DAL_WITH_TIMES", dal__has_times(g)},
         {"DAL_WITH_TRACE", g->product == DAL__TRACE},
     };
     g->conditions = sizeof list / sizeof *list;
@@ -263,11 +278,23 @@ static void write_lanes(dal__generation *g)
         steps_together(g) ? "DAL_GROUPS" : "1");
 }
 
+static void write_number(dal__generation *g, const char *name, double value)
+{
+    dal__buffer_print(&g->text, "#define %s ", name);
+    dal__buffer_number(&g->text, value);
+    dal__buffer_append(&g->text, "\n");
+}
+
 static void write_constants(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
     const bool solves = g->kernel & (DAL_KERNEL_COLLOCATION | DAL_KERNEL_EULER);
-    const bool is_explicit = dal_method_properties(&g->spec->method) & DAL_EXPLICIT;
+    const bool is_explicit =
+        dal_method_properties(&g->spec->method) & DAL_EXPLICIT && !is_controlled(g);
+    /* A single lane is stepped only while it is alive; an explicit step of several may include
+     * lanes that are not. */
+    const bool all_alive =
+        g->lanes == 1 || (is_explicit && k->depth == 1 && !(solves && k->lifted));
     const struct {
         const char *name;
         int value;
@@ -281,7 +308,7 @@ static void write_constants(dal__generation *g)
         {"PLAIN", k->options.sums == DAL_SUMS_PLAIN, false},
         {"MULTIPLIER", k->multiplier, false},
         {"TANGENT", dal__follows_tangents(g), false},
-        {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted), false},
+        {"ALL_ALIVE", all_alive, false},
         {"GUARDS", k->system->guards, false},
         {"RANK_CHECKED", dal__checks_rank(g->layout.system), false},
         {"STAGES", g->spec->method.layer[0]->stages, true},
@@ -291,6 +318,8 @@ static void write_constants(dal__generation *g)
         {"EXTRA_ITERATIONS", k->options.extra_iterations, true},
         {"PROPERTIES", (int)k->system->properties, true},
         {"NEWTON", dal__uses_newton(g), true},
+        {"FIELD_OPERATIONS", k->field_operations, true},
+        {"JACOBIAN_OPERATIONS", k->jacobian_operations, true},
     };
     enum { COUNT = sizeof list / sizeof *list };
     write_lanes(g);
@@ -307,16 +336,22 @@ static void write_constants(dal__generation *g)
     for (int i = 0; i < COUNT; i++)
         if (list[i].solver && g->kernel & DAL_KERNEL_SOLVE)
             dal__buffer_print(&g->text, "#define DAL_FIXED_%s %d\n", list[i].name, list[i].value);
-    if (!(g->kernel & DAL_KERNEL_SOLVE)) return;
-    dal__buffer_append(&g->text, "#define DAL_FIXED_SOLVER_TOLERANCE ");
-    dal__buffer_number(&g->text, k->options.solver_tolerance);
-    dal__buffer_append(&g->text, "\n");
+    if (is_controlled(g)) write_number(g, "DAL_FIXED_TOLERANCE", k->options.tolerance);
+    if (g->kernel & DAL_KERNEL_SERIES) {
+        dal__buffer_print(&g->text, "#define DAL_FIXED_SERIES %d\n", count_series(g));
+        dal__buffer_print(&g->text, "#define DAL_FIXED_TAYLOR_ORDER %d\n", k->taylor_order);
+        write_number(g, "DAL_FIXED_TOLERANCE_ROOT", k->tolerance_root);
+    }
+    if (g->kernel & DAL_KERNEL_SOLVE)
+        write_number(g, "DAL_FIXED_SOLVER_TOLERANCE", k->options.solver_tolerance);
 }
 
 /* ---- the file ---- */
 
 /* Functions that are inlined one into the other GCC optimises at each level; that takes it twice as
- * long as inlining all of them at once, into those with the attribute flatten. */
+ * long as inlining all of them at once, into those with the attribute flatten.  Instructions are
+ * scheduled before registers are allocated; doing so again, and allocating by regions, takes a
+ * tenth of the compiler's time and gains nothing. */
 static const char compiler[] =
     "#ifdef __FAST_MATH__\n"
     "#error \"the bits of a trajectory are promised: compile without -ffast-math\"\n"
@@ -328,7 +363,7 @@ static const char compiler[] =
     "#else\n"
     "#pragma GCC push_options\n"
     "#pragma GCC optimize(\"fp-contract=off\", \"no-math-errno\", \"no-tree-slp-vectorize\", \\\n"
-    "    \"schedule-insns\", \"sched-pressure\")\n"
+    "    \"schedule-insns\", \"sched-pressure\", \"no-schedule-insns2\", \"ira-region=one\")\n"
     "#define DAL_INLINE static inline DAL_UNUSED\n"
     "#endif\n"
     "#pragma GCC diagnostic push\n"
@@ -337,11 +372,11 @@ static const char compiler[] =
 void dal__write_compiler(dal__generation *g)
 {
     dal__buffer_append(&g->text, compiler);
-    if (g->lanes == 1 && !(g->kernel & DAL_KERNEL_SOLVE)) return;
+    if (g->lanes == 1 && !(g->kernel & DAL_KERNEL_SOLVE) && !is_controlled(g)) return;
     dal__buffer_append(
         &g->text,
         "#pragma GCC diagnostic ignored \"-Wpsabi\"\n"
-        "#ifndef __clang__ /* lanes one by one; stages that no iteration was made for */\n"
+        "#ifndef __clang__ /* lanes one by one; stages of the last trial or iteration */\n"
         "#pragma GCC diagnostic ignored \"-Wmaybe-uninitialized\"\n#endif\n");
 }
 

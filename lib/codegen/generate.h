@@ -51,6 +51,8 @@ typedef struct dal__generation {
 /* Decides what lines #if of the sources depend on; adds the parts of the kernel that the system
  * needs. */
 void dal__decide_conditions(dal__generation *g);
+/* Whether evaluations have a time for each lane. */
+bool dal__has_times(const dal__generation *g);
 bool dal__uses_newton(const dal__generation *g);
 bool dal__follows_tangents(const dal__generation *g);
 /* Whether the kernel, or the method, evaluates a callback. */

@@ -19,6 +19,14 @@ double dal__max_abs(const double *x, size_t count)
     return max;
 }
 
+int dal__find_max_abs(const double *x, int count)
+{
+    int max = 0;
+    for (int i = 1; i < count && !isnan(x[max]); i++)
+        if (!(fabs(x[i]) <= fabs(x[max]))) max = i;
+    return max;
+}
+
 double dal__distance(const double *a, const double *b, size_t count)
 {
     double max = 0.0;
@@ -27,6 +35,12 @@ double dal__distance(const double *a, const double *b, size_t count)
         if (!(d <= max)) max = isnan(d) ? INFINITY : d;
     }
     return max;
+}
+
+bool dal__is_converged(double change, double before, double size)
+{
+    const double resolution = DBL_EPSILON * size;
+    return change <= resolution || (change >= before && change <= 64.0 * resolution);
 }
 
 double dal__uniform(dal__random *random)

@@ -21,8 +21,13 @@ static inline double dal__dot_product(int n, const double *a, const double *b)
 }
 
 double dal__max_abs(const double *x, size_t count); /* max |x|; infinite if one is NaN */
+int dal__find_max_abs(const double *x, int count);  /* where that is, the first of NaNs */
 /* max_i |a - b| / max(1, |a|); infinite if one is NaN. */
 double dal__distance(const double *a, const double *b, size_t count);
+
+/* Whether an iteration for numbers of this size has converged, by its last change and the one
+ * before: it is within rounding, or within 64 times that and no longer falls. */
+bool dal__is_converged(double change, double before, double size);
 
 /* x loses its part along the unit vector. */
 void dal__remove_part(double *x, const double *unit, int count);

@@ -311,8 +311,10 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
     DAL_TRY(dal__refuse_events(spec.system, "tangent vectors", error));
     DAL_TRY(dal_run_create(&s->run, &spec, error));
     const dal_system *system = dal_run_system(s->run);
-    /* A step that is made of values of F alone moves a tangent vector by its own derivative. */
-    const unsigned of_field = DAL_NEEDS_FIELD | DAL_NEEDS_SYMMETRIC | DAL_NEEDS_ORDER_2;
+    /* A step that is made of values, or Taylor coefficients, of F alone moves a tangent vector by
+     * its own derivative. */
+    const unsigned of_field =
+        DAL_NEEDS_FIELD | DAL_NEEDS_SERIES | DAL_NEEDS_SYMMETRIC | DAL_NEEDS_ORDER_2;
     s->exact = tangent != NULL && !spec.options.extend_energy &&
                !(dal_method_needs(&spec.method) & ~of_field);
     if (s->exact) spec.system = tangent, spec.start_count = 0;

@@ -5,7 +5,8 @@
  *     g(s) = g(step(z, s), t + s),   0 <= s <= h,
  *
  * smooth, and meeting the values of g at both ends: its root is the crossing, without interpolation
- * (Henon 1982, DOI 10.1016/0167-2789(82)90034-3, turns the equations round to the same end).
+ * (Henon 1982, DOI 10.1016/0167-2789(82)90034-3, turns the equations round to the same end).  Under
+ * a tolerance step(z, s) is the dense output of step(z, h).
  *
  * A pair of crossings within a step has an extremum of g between them.  Where |g| at a step is not
  * above its neighbours', the rate of g at the ends of the two steps there shows which holds the

@@ -1,4 +1,4 @@
-/* arithmetic.h - what each operation computes from a (and b), over num.
+/* arithmetic.h - what each operation computes from a, b and c, over num.
  *
  * The one list behind constant folding, dal__evaluate and the tapes, so that they agree in every
  * bit.  The library is compiled without contraction: fused operations are the last three,
@@ -8,7 +8,7 @@
 
 #include "kernel/elementary.h"
 
-#define DAL__UNARY_LIST(OP)                                                                        \
+#define DAL__OPERATION_LIST(OP)                                                                    \
     OP(NEG, -a)                                                                                    \
     OP(SQRT, dal_sqrt(a))                                                                          \
     OP(EXP, dal_exp(a))                                                                            \
@@ -25,9 +25,7 @@
     OP(ASINH, dal_asinh(a))                                                                        \
     OP(ABS, dal_abs(a))                                                                            \
     OP(SIGN, dal_sign(a))                                                                          \
-    OP(FLOOR, dal_floor(a))
-
-#define DAL__BINARY_LIST(OP)                                                                       \
+    OP(FLOOR, dal_floor(a))                                                                        \
     OP(ADD, a + b)                                                                                 \
     OP(SUB, a - b)                                                                                 \
     OP(MUL, a *b)                                                                                  \
@@ -39,10 +37,8 @@
     OP(HYPOT, dal_hypot(a, b))                                                                     \
     OP(LESS, dal_truth(dal_less(a, b)))                                                            \
     OP(LESS_EQUAL, dal_truth(dal_less_equal(a, b)))                                                \
-    OP(EQUAL, dal_truth(dal_equal(a, b)))
-
-/* A choice; and a sum and a product, with one rounding. */
-#define DAL__TERNARY_LIST(OP)                                                                      \
+    OP(EQUAL, dal_truth(dal_equal(a, b)))                                                          \
+    /* a choice; and a sum and a product, with one rounding */                                     \
     OP(IF, dal_if(a, b, c))                                                                        \
     OP(MUL_ADD, dal_fma(a, b, c))                                                                  \
     OP(MUL_SUB, dal_fma(a, b, -c))                                                                 \

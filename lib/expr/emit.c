@@ -1,25 +1,33 @@
 /* emit.c - programs as straight-line C over num: the arithmetic of the tape, written out.
  *
  * Every result is a constant x1, x2, ... of its own; parameters and hoisted nodes are
- * DAL_WORK(place), with their places in work. */
+ * DAL_WORK(place), with their places in work.  Between parts a result is passed by the place that
+ * it has among the temporaries in work: no other gets it before the last that reads it. */
 #include "expr/emit.h"
 #include "expr/arithmetic.h"
 #include "expr/table.h"
 #include "expr/traversal.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct writer {
+typedef struct dal__tape_writer {
     const dal__tapes *tapes;
+    const dal__tape *tape;
     const dal__input_name *input;
-    uint32_t *result; /* [workspace] the number of the result that a place holds */
+    int next, end;    /* the next instruction, and the end of the part */
+    uint32_t *result; /* [workspace] the number of the result that a place holds; 0: of no result
+                         of this part */
     uint32_t results;
+    int *maker; /* [workspace] the last result that a place gets: 2 i, 2 i + 1 of instruction i */
+    int *last;  /* [2 length] the instruction that reads a result last */
+    int zeros;  /* outputs */
     dal__buffer *text;
 } writer;
 
 static const char *const expressions[] = {
 #define EXPRESSION(code, expression) [DAL__##code] = #expression,
-    DAL__UNARY_LIST(EXPRESSION) DAL__BINARY_LIST(EXPRESSION) DAL__TERNARY_LIST(EXPRESSION)
+    DAL__OPERATION_LIST(EXPRESSION)
 #undef EXPRESSION
 };
 
@@ -29,16 +37,23 @@ static bool is_number(const dal__tapes *tapes, uint32_t place)
            place < (uint32_t)(tapes->parameters + tapes->numbers);
 }
 
+void dal__constant_write(const dal__tapes *tapes, uint32_t place, bool bare, dal__buffer *text)
+{
+    if (!is_number(tapes, place)) {
+        dal__buffer_print(text, "DAL_WORK(%u)", place);
+        return;
+    }
+    if (!bare) dal__buffer_append(text, "dal_num(");
+    dal__buffer_number(text, tapes->number[place - (uint32_t)tapes->parameters]);
+    if (!bare) dal__buffer_append(text, ")");
+}
+
 /* bare: a number may stay a double. */
 static void write_operand(const writer *w, uint32_t place, bool bare)
 {
     const dal__tapes *tapes = w->tapes;
-    if (is_number(tapes, place)) {
-        if (!bare) dal__buffer_append(w->text, "dal_num(");
-        dal__buffer_number(w->text, tapes->number[place - (uint32_t)tapes->parameters]);
-        if (!bare) dal__buffer_append(w->text, ")");
-    } else if (place < tapes->first_input) {
-        dal__buffer_print(w->text, "DAL_WORK(%u)", place);
+    if (place < tapes->first_input) {
+        dal__constant_write(tapes, place, bare, w->text);
     } else if (place < tapes->temporaries) {
         dal__buffer_append(w->text, w->input[place - tapes->first_input].text);
     } else {
@@ -48,7 +63,31 @@ static void write_operand(const writer *w, uint32_t place, bool bare)
 
 static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
 
-/* The expression of an operation with its operands in the places of the lone letters a, b, c. */
+void dal__expression_write(int op, dal__operand_writer *write, const void *user, dal__buffer *text)
+{
+    const char *at = expressions[op];
+    for (char before = ' '; *at; before = *at++) {
+        const bool alone = !is_letter(before) && !is_letter(at[1]);
+        if (alone && *at >= 'a' && *at <= 'c')
+            write(user, *at - 'a');
+        else
+            dal__buffer_append(text, *at == '*' && at[1] != ' ' ? "* " : (char[]){*at, '\0'});
+    }
+}
+
+/* The operands of an instruction. */
+typedef struct operands {
+    const writer *w;
+    uint32_t place[3];
+    bool bare;
+} operands;
+
+static void write_place(const void *user, int operand)
+{
+    const operands *o = user;
+    write_operand(o->w, o->place[operand], o->bare);
+}
+
 static void write_expression(const writer *w, const dal__instruction *i)
 {
     if (i->op == DAL__TABLE) {
@@ -62,14 +101,8 @@ static void write_expression(const writer *w, const dal__instruction *i)
     /* Operators take a double beside a num; functions, and two doubles, need a num. */
     const bool numbers = is_number(w->tapes, i->a) && is_number(w->tapes, i->b);
     const bool bare = !numbers && !strstr(expressions[i->op], "dal_") && i->op != DAL__NEG;
-    const char *at = expressions[i->op];
-    for (char before = ' '; *at; before = *at++) {
-        const bool alone = !is_letter(before) && !is_letter(at[1]);
-        if (alone && *at >= 'a' && *at <= 'c')
-            write_operand(w, *at == 'a' ? i->a : *at == 'b' ? i->b : i->c, bare);
-        else
-            dal__buffer_append(w->text, *at == '*' && at[1] != ' ' ? "* " : (char[]){*at, '\0'});
-    }
+    const operands o = {w, {i->a, i->b, i->c}, bare};
+    dal__expression_write((int)i->op, write_place, &o, w->text);
 }
 
 static void write_instruction(writer *w, const dal__instruction *i)
@@ -89,27 +122,129 @@ static void write_instruction(writer *w, const dal__instruction *i)
     w->result[i->d] = ++w->results;
 }
 
-void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name *input,
-                     dal__buffer *text)
+/* ---- parts ---- */
+
+/* The operands of an instruction, as places. */
+static int find_operands(const dal__instruction *i, uint32_t *place)
+{
+    int count = 0;
+    place[count++] = i->a;
+    place[count++] = i->c;
+    if (i->op != DAL__TABLE && i->op != DAL__SINCOS) place[count++] = i->b;
+    return count;
+}
+
+static void find_readers(writer *w)
+{
+    uint32_t place[3];
+    for (int i = 0; i < w->tape->length; i++) {
+        const dal__instruction *code = &w->tape->code[i];
+        for (int k = find_operands(code, place); k-- > 0;)
+            if (place[k] >= w->tapes->temporaries) w->last[w->maker[place[k]]] = i;
+        w->maker[code->d] = 2 * i;
+        if (code->op == DAL__SINCOS) w->maker[code->b] = 2 * i + 1;
+    }
+}
+
+/* Takes the operands that earlier parts have passed. */
+static void write_taken(writer *w, const dal__instruction *i)
+{
+    uint32_t place[3];
+    for (int k = find_operands(i, place); k-- > 0;) {
+        if (place[k] < w->tapes->temporaries || w->result[place[k]] > 0) continue;
+        w->result[place[k]] = ++w->results;
+        dal__buffer_print(w->text, "    const num x%u = passed[%zu];\n", w->results,
+                          place[k] - w->tapes->temporaries);
+    }
+}
+
+/* Passes a result on where a later part reads it. */
+static void write_given(const writer *w, int result, uint32_t place)
+{
+    if (w->last[result] >= w->end)
+        dal__buffer_print(w->text, "    passed[%zu] = x%u;\n", place - w->tapes->temporaries,
+                          w->result[place]);
+}
+
+static bool is_zero_number(const dal__tapes *tapes, uint32_t place)
+{
+    if (!is_number(tapes, place)) return false;
+    const double x = tapes->number[place - (uint32_t)tapes->parameters];
+    return x == 0.0 && !signbit(x);
+}
+
+/* Outputs of a sparse matrix that are zero: from this number on a loop sets them. */
+enum { MANY_ZEROS = 64 };
+
+dal__tape_writer *dal__tape_writer_create(const dal__tapes *tapes, int program,
+                                          const dal__input_name *input, dal__buffer *text)
 {
     const dal__tape *tape = &tapes->tape[program];
-    writer w = {tapes, input, calloc(tapes->workspace + 1, sizeof *w.result), 0, text};
-    text->out_of_memory |= !w.result;
-    if (!w.result) return;
-    for (int i = 0; i < tape->length; i++) write_instruction(&w, &tape->code[i]);
-    for (int k = 0; k < tape->outputs; k++) {
-        dal__buffer_print(text, "    out[%d] = ", k);
-        write_operand(&w, tape->place[k], false);
-        dal__buffer_append(text, ";\n");
+    writer *w = calloc(1, sizeof *w);
+    if (w) {
+        *w = (writer){.tapes = tapes, .tape = tape, .input = input, .text = text};
+        w->result = calloc(tapes->workspace + 1, sizeof *w->result);
+        w->maker = calloc(tapes->workspace + 1, sizeof *w->maker);
+        w->last = calloc(2 * (size_t)tape->length + 1, sizeof *w->last);
     }
-    free(w.result);
+    for (int k = 0; w && k < tape->outputs; k++) w->zeros += is_zero_number(tapes, tape->place[k]);
+    if (w && w->result && w->maker && w->last) return find_readers(w), w;
+    text->out_of_memory = true;
+    return dal__tape_writer_free(w), NULL;
 }
+
+void dal__tape_writer_free(writer *w)
+{
+    if (!w) return;
+    free(w->result);
+    free(w->maker);
+    free(w->last);
+    free(w);
+}
+
+bool dal__tape_write_part(writer *w, int instructions)
+{
+    const dal__tape *tape = w->tape;
+    const int first = w->next, left = tape->length - first;
+    w->end = first + (left < instructions ? left : instructions);
+    memset(w->result, 0, w->tapes->workspace * sizeof *w->result);
+    w->results = 0;
+    if (w->zeros >= MANY_ZEROS && first == 0)
+        dal__buffer_print(w->text, "    for (int i = 0; i < %d; i++) out[i] = dal_num(0.0);\n",
+                          tape->outputs);
+    for (; w->next < w->end; w->next++) {
+        const dal__instruction *code = &tape->code[w->next];
+        write_taken(w, code);
+        write_instruction(w, code);
+        write_given(w, 2 * w->next, code->d);
+        if (code->op == DAL__SINCOS) write_given(w, 2 * w->next + 1, code->b);
+    }
+    const bool is_last = w->end == tape->length;
+    for (int k = 0; k < tape->outputs; k++) {
+        const uint32_t place = tape->place[k];
+        const bool is_made = place >= w->tapes->temporaries;
+        if (is_made ? w->maker[place] < 2 * first || w->maker[place] >= 2 * w->end : !is_last)
+            continue;
+        if (w->zeros >= MANY_ZEROS && is_zero_number(w->tapes, place)) continue;
+        dal__buffer_print(w->text, "    out[%d] = ", k);
+        write_operand(w, place, false);
+        dal__buffer_append(w->text, ";\n");
+    }
+    return !is_last;
+}
+
+int dal__tapes_passed(const dal__tapes *tapes)
+{
+    return (int)(tapes->workspace - tapes->temporaries);
+}
+
+/* ---- what is constant along a run ---- */
 
 /* Marks the places that an instruction reads. */
 static void mark_operands(const dal__instruction *i, bool *is_read)
 {
-    is_read[i->a] = is_read[i->c] = true;
-    if (i->op != DAL__TABLE) is_read[i->b] = true;
+    uint32_t place[3];
+    for (int k = find_operands(i, place); k-- > 0;) is_read[place[k]] = true;
 }
 
 void dal__tapes_write_hoisted(const dal__tapes *tapes, const bool *is_written, dal__buffer *text)

@@ -10,15 +10,30 @@ typedef struct dal__input_name {
     char text[16];
 } dal__input_name;
 
-/* Writes a program as C statements over num that set out[0], out[1], ...: its instructions one by
- * one, so that it computes the same bits.  Input number i is called input[i].text; parameters and
- * hoisted nodes are DAL_WORK(place), with their places in work.  The second writes, of
- * what dal__tapes_prepare_x1 computes, what the programs with is_written[count] read. */
-void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name *input,
-                     dal__buffer *text);
+/* A program as C statements over num that set out[0], out[1], ...: its instructions one by one, so
+ * that it computes the same bits.  Input number i is called input[i].text; parameters and hoisted
+ * nodes are DAL_WORK(place), with their places in work.  A long program is written in parts, each
+ * the body of a function; num passed[passed] holds what one computes and a later one reads. */
+typedef struct dal__tape_writer dal__tape_writer;
+/* NULL: out of memory, noted in text. [alloc] */
+dal__tape_writer *dal__tape_writer_create(const dal__tapes *tapes, int program,
+                                          const dal__input_name *input, dal__buffer *text);
+void dal__tape_writer_free(dal__tape_writer *writer);
+/* Writes the next part, of this number of instructions at most; returns whether some are left. */
+bool dal__tape_write_part(dal__tape_writer *writer, int instructions);
+/* The numbers that parts of a program pass. */
+int dal__tapes_passed(const dal__tapes *tapes);
+
+/* Writes, of what dal__tapes_prepare_x1 computes, what the programs with is_written[count] read. */
 void dal__tapes_write_hoisted(const dal__tapes *tapes, const bool *is_written, dal__buffer *text);
 /* Writes the data of the tables, as arrays that the statements name. */
 void dal__tapes_write_tables(const dal__tapes *tapes, dal__buffer *text);
+
+/* Writes what is constant along a run, by its place in work; bare: a number may stay a double. */
+void dal__constant_write(const dal__tapes *tapes, uint32_t place, bool bare, dal__buffer *text);
+/* Writes the expression of an operation; write writes operand 0, 1 or 2 of it. */
+typedef void dal__operand_writer(const void *user, int operand);
+void dal__expression_write(int op, dal__operand_writer *write, const void *user, dal__buffer *text);
 
 /* The kinds of elementary functions that a tape calls. */
 enum {

@@ -269,3 +269,15 @@ dal_status dal__tapes_finish(dal__tapes *tapes)
     free(s.use);
     return status;
 }
+
+int dal__tape_operations(const dal__tape *tape)
+{
+    enum { FUNCTION = 10 }; /* operations of an elementary function, about */
+    int operations = tape->length;
+    for (int i = 0; i < tape->length; i++) {
+        const uint32_t op = tape->code[i].op;
+        const bool function = op >= DAL__EXP && op <= DAL__ASINH;
+        if (function || op == DAL__POW || op == DAL__SINCOS) operations += FUNCTION - 1;
+    }
+    return operations;
+}

@@ -50,6 +50,9 @@ int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count);
  * DAL_TOO_LARGE, DAL_ARGUMENT (an output is no node, or has a symbol that is neither). */
 dal_status dal__tapes_finish(dal__tapes *tapes);
 
+/* Arithmetic operations of a program; an elementary function counts as several. */
+int dal__tape_operations(const dal__tape *tape);
+
 /* After the parameters in work have been set: one lane (a batch copies the result to all), and one
  * of quad precision. */
 void dal__tapes_prepare_x1(const dal__tapes *tapes, double *work);

@@ -17,9 +17,7 @@ static __attribute__((flatten, noinline)) void execute(const dal__tape *tape,
         w[i.d] = expression;                                                                       \
         (void)b, (void)c;                                                                          \
     } break;
-            DAL__UNARY_LIST(CASE)
-            DAL__BINARY_LIST(CASE)
-            DAL__TERNARY_LIST(CASE)
+            DAL__OPERATION_LIST(CASE)
 #undef CASE
         case DAL__SINCOS:
             dal_sincos(w[i.a], &w[i.d], &w[i.b]);

@@ -74,9 +74,7 @@ double dal__operate(int op, double a, double b, double c)
 #define CASE(code, expression)                                                                     \
     case DAL__##code:                                                                              \
         return expression;
-        DAL__UNARY_LIST(CASE)
-        DAL__BINARY_LIST(CASE)
-        DAL__TERNARY_LIST(CASE)
+        DAL__OPERATION_LIST(CASE)
 #undef CASE
     default:
         return NAN;

@@ -2,10 +2,11 @@
  *
  * The name of an object is a hash of its text and of the command that compiles it.  A hash of its
  * own bytes follows at its end, where loaders do not read, so that a truncated or changed object is
- * compiled again.  It is written under a temporary name and renamed, so that no process sees a part
- * of it. */
+ * compiled again.  It is written elsewhere and renamed, so that no process sees a part of it: in a
+ * folder of its compilation alone, where a compiler that is killed leaves its temporary files. */
 #include "jit/cache.h"
 #include "core/machine.h"
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -126,22 +127,32 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Starts a command without input and output, as leader of a process group; returns 0 or an
- * errno. */
-static int start_process(const command *c, pid_t *process)
+/* Starts a command without input and output, as leader of a process group, with its temporary files
+ * in a folder; returns 0 or an errno. */
+static int start_process(const command *c, const char *folder, pid_t *process)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
-    if (posix_spawn_file_actions_init(&actions) != 0) return ENOMEM;
-    int refused = posix_spawnattr_init(&attributes);
+    char variable[DAL__OBJECT_PATH + 60];
+    size_t count = 0, kept = 0;
+    while (environ && environ[count]) count++;
+    char **const environment = calloc(count + 2, sizeof *environment);
+    int refused = environment ? posix_spawn_file_actions_init(&actions) : ENOMEM;
+    if (refused) return free(environment), refused;
+    for (size_t i = 0; i < count; i++)
+        if (strncmp(environ[i], "TMPDIR=", 7) != 0) environment[kept++] = environ[i];
+    snprintf(variable, sizeof variable, "TMPDIR=%s", folder);
+    environment[kept] = variable;
+    refused = posix_spawnattr_init(&attributes);
     if (!refused) {
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
         for (int file = 0; file < 3; file++)
             posix_spawn_file_actions_addopen(&actions, file, "/dev/null", O_RDWR, 0);
-        refused = posix_spawnp(process, c->word[0], &actions, &attributes, c->word, environ);
+        refused = posix_spawnp(process, c->word[0], &actions, &attributes, c->word, environment);
         posix_spawnattr_destroy(&attributes);
     }
     posix_spawn_file_actions_destroy(&actions);
+    free(environment);
     return refused;
 }
 
@@ -151,7 +162,7 @@ static dal_status start_compiler(dal__compilation *c, dal_error *error)
     command full = begin_command(c->compiler);
     pid_t process = 0;
     add_words(&full, files);
-    const int refused = start_process(&full, &process);
+    const int refused = start_process(&full, c->folder, &process);
     if (refused)
         return dal__fail(error, DAL_UNSUPPORTED, "no compiler '%.200s': %s", c->compiler,
                          strerror(refused));
@@ -214,11 +225,19 @@ static dal_status name_object(const command *c, const char *directory, const cha
 
 /* ---- compilations ---- */
 
-/* Removes the temporary files. */
+/* Removes the folder with all files in it.  opendir, which allocates, is called only where the
+ * compiler has left files of its own. */
 static void clean_up(const dal__compilation *c)
 {
     unlink(c->source);
     unlink(c->object);
+    if (rmdir(c->folder) == 0) return;
+    DIR *folder = opendir(c->folder);
+    for (const struct dirent *entry; folder && (entry = readdir(folder));)
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0)
+            unlinkat(dirfd(folder), entry->d_name, 0);
+    if (folder) closedir(folder);
+    rmdir(c->folder);
 }
 
 static dal_status name_files(dal__compilation *c, const char *directory, const char *text,
@@ -227,8 +246,9 @@ static dal_status name_files(dal__compilation *c, const char *directory, const c
     const command words = begin_command(c->compiler);
     const void *mine = c; /* differs between compilations of a process */
     DAL_TRY(name_object(&words, directory, text, c->path, DAL__OBJECT_PATH, error));
-    snprintf(c->source, sizeof c->source, "%s.%ld.%p.c", c->path, (long)getpid(), mine);
-    snprintf(c->object, sizeof c->object, "%s.%ld.%p.so", c->path, (long)getpid(), mine);
+    snprintf(c->folder, sizeof c->folder, "%s.%ld.%p", c->path, (long)getpid(), mine);
+    snprintf(c->source, sizeof c->source, "%s/code.c", c->folder);
+    snprintf(c->object, sizeof c->object, "%s/code.so", c->folder);
     return DAL_OK;
 }
 
@@ -237,7 +257,8 @@ static dal_status start(dal__compilation *c, const char *text, dal_error *error)
     struct stat s;
     if (lstat(c->path, &s) == 0 && S_ISDIR(s.st_mode)) /* a rename replaces all else */
         return dal__fail(error, DAL_IO, "'%.200s' is in the way: it is a directory", c->path);
-    unlink(c->object);
+    clean_up(c); /* an ended process with this id may have left that folder */
+    if (mkdir(c->folder, 0700) != 0) return failed(error, "make the directory", c->folder);
     dal_status status =
         write_bytes(c->source, O_CREAT | O_EXCL, "write", text, strlen(text), error);
     if (status == DAL_OK) status = start_compiler(c, error);

@@ -10,7 +10,9 @@ enum { DAL__OBJECT_PATH = 1024 };
 /* The way from a text to a shared object compiled for this machine. */
 typedef struct dal__compilation {
     char path[DAL__OBJECT_PATH]; /* of the object, once no compiler runs */
-    char source[DAL__OBJECT_PATH + 40], object[DAL__OBJECT_PATH + 40]; /* while one runs */
+    /* While a compiler runs: a folder for it alone, with source, object and temporary files. */
+    char folder[DAL__OBJECT_PATH + 40];
+    char source[DAL__OBJECT_PATH + 60], object[DAL__OBJECT_PATH + 60];
     char compiler[DAL__OBJECT_PATH];
     int patience, nice;
     double last;  /* when the compiler is ended, by the clock */
@@ -27,7 +29,7 @@ dal_status dal__compilation_repeat(dal__compilation *c, const char *text, dal_er
 /* DAL_OK with c->process == 0: the object is there; with another: the compiler runs.  Errors:
  * DAL_UNSUPPORTED (the compiler failed or hung), DAL_IO (cache). */
 dal_status dal__compilation_poll(dal__compilation *c, dal_error *error);
-/* Ends a compiler that runs, with all that it started, and removes its files. */
+/* Ends a compiler that runs, with all that it started, and removes its folder. */
 void dal__compilation_end(dal__compilation *c);
 /* Waits for a millisecond. */
 void dal__compilation_pause(void);

@@ -7,16 +7,41 @@
  * error.  Substeps are whole multiples of the last place of 4h, so that they add up to h exactly;
  * where the next one would be 0 the step fails.
  *
- * The size planned last persists to the next step.  Here alone the code branches on the error of a
- * lane: steps under control have one lane, and only variants of one lane compile this. */
+ * Each lane has a time and a size of its own, and the substeps of a run by itself; all reach the
+ * end of the step, where those that are there already wait unchanged.  A method divides its step by
+ *
+ *     dal_control c = dal_control_begin(s);
+ *     while (dal_control_next(s, &c)) {
+ *         a trial of size c.h from c.t and s->y, which stay; r in each lane
+ *         dal_control_end(s, &c, r, derivative);
+ *     }
+ *     return dal_control_status(s, &c);
+ *
+ * One that knows its size beforehand stores it in c.planned, before dal_control_next, and gives an
+ * r of 1.  The size planned last persists to the next step.
+ *
+ * Dense output: where dal_step.dense is set, by the engine of a single run, a method stores in it,
+ * before dal_control_end, the polynomial of the motion within the trial.  The control then ends the
+ * step after one substep, and the next call continues it.  Generated files have no dense output. */
 #ifndef DAL_KERNEL_ADAPTIVE_H
 #define DAL_KERNEL_ADAPTIVE_H
 
 #include "step.h"
 
-#if DAL_LANES == 1 && !defined DAL_SPECIALISED
-#define DAL_CONTROLLED(s) ((s)->tolerance > 0.0)
+/* dal_field at a time of each lane. */
+DAL_INLINE void dal_field_at(dal_step *s, dal_times t, const num *y, num *DAL_RESTRICT dy)
+{
+#if DAL_WITH_TIMES
+    s->times = t;
+    s->has_times = 1;
+    dal_field(s, s->t, y, dy);
+    s->has_times = 0;
+#else
+    dal_field(s, dal_lane(t, 0), y, dy);
+#endif
+}
 
+#if DAL_WITH_CONTROL
 #define DAL__SAFE    0.9
 #define DAL__FASTEST 6.0
 #define DAL__SLOWEST (1.0 / 0.333)
@@ -25,72 +50,140 @@
 
 enum { DAL__MAX_TRIALS = 100000 };
 
-/* A substep that is tried. */
-typedef struct dal_trial {
-    double h;         /* its size */
-    int again;        /* 1: it begins where the last one did */
-    num *derivatives; /* [stages*dim] of the method, from trial to trial */
-    num *derivative;  /* [dim] of the whole substep */
-    double ratio;     /* r: by how much h is too large */
-} dal_trial;
+/* The division of a step. */
+typedef struct dal_control {
+    dal_times t, h;    /* where the trial begins, and its size; h = 0 in lanes at the end */
+    dal_times planned; /* size of the next trial */
+    dal_mask again;    /* lanes whose trial begins where the last one did */
+    dal_mask active;   /* lanes that have not reached the end */
+    dal_mask alive;    /* lanes that began */
+    dal_times left;    /* of the step */
+    double start;      /* t of the step */
+    double whole;      /* its size, positive */
+    double direction;  /* 1, or -1 backwards in t */
+    int trials;        /* so far, failed ones included */
+} dal_control;
 
-/* Tries a substep of size trial->h from s->t, s->y, which stay as they are. */
-typedef void dal_attempt(dal_step *s, dal_trial *trial);
+#ifndef DAL_SPECIALISED
+enum { DAL_DENSE_TERMS = 40 };
 
-DAL_INLINE double dal__substep(double whole, double left, double planned)
+/* The motion within a substep of size h from t:
+ *
+ *     y(t + u h) = y + u h (a_1 + u (a_2 + ... + u a_terms)),     0 <= u <= 1 */
+typedef struct dal_dense {
+    num *y, *r;          /* [dim] at t */
+    num *rate;           /* [terms*dim] a_1, a_2, ... */
+    int terms;           /* at most DAL_DENSE_TERMS; 0: the method leaves none */
+    double from, size;   /* |t - start of the step| and |h|; 0 before the first substep */
+    dal_control control; /* of the step, after this substep */
+} dal_dense;
+
+/* The mean rate of change from t to t + u h, rate[dim]. */
+DAL_INLINE void dal_dense_rate(const dal_dense *d, int dim, num u, num *DAL_RESTRICT rate)
 {
-    const double coarse = 4.0 * whole;
-    return left <= DAL__STRETCH * planned ? left : (planned + coarse) - coarse;
+    DAL_EACH(i, dim) rate[i] = dal_num(0.0);
+    for (int k = d->terms - 1; k >= 0; k--)
+        DAL_EACH(i, dim) rate[i] = dal_fma(u, rate[i], d->rate[k * dim + i]);
+}
+#endif
+
+/* Begins to divide a step. */
+DAL_INLINE dal_control dal_control_begin(const dal_step *s)
+{
+#ifndef DAL_SPECIALISED
+    if (s->dense && s->dense->size > 0.0) return s->dense->control;
+#endif
+    dal_control c;
+    c.start = s->t;
+    c.whole = fabs(s->h);
+    c.direction = s->h < 0.0 ? -1.0 : 1.0;
+    const num before = *s->substep, whole = dal_num(c.whole);
+    c.planned = (dal_times)dal_select(dal_less(dal_num(0.0), before), before, whole);
+    c.left = (dal_times)whole;
+    c.t = c.h = c.left;
+    c.trials = 0;
+    c.again = ~dal_all();
+    c.active = c.alive = s->alive[0];
+    return c;
+}
+
+/* Ends some lanes, which fail at the time that they have reached. */
+DAL_INLINE void dal__control_fail(dal_step *s, dal_control *c, dal_mask lanes)
+{
+    s->unconverged[0] |= lanes;
+    c->active &= ~lanes;
+}
+
+/* Sets time and size of the next trial; 0: no lane needs one. */
+DAL_INLINE int dal_control_next(dal_step *s, dal_control *c)
+{
+    const double coarse = 4.0 * c->whole;
+    const num left = c->left, planned = c->planned, rounded = (c->planned + coarse) - coarse;
+    const num size = dal_select(dal_less_equal(left, DAL__STRETCH * planned), left, rounded);
+    const dal_mask stuck = c->active & ~dal_less(dal_num(0.0), size);
+    if (DAL_RARELY(dal_any(stuck))) {
+        *s->substep = dal_select(stuck, dal_num(0.0), *s->substep);
+        dal__control_fail(s, c, stuck);
+    }
+    if (c->trials++ == DAL__MAX_TRIALS) dal__control_fail(s, c, c->active);
+    c->h = c->direction * (dal_times)dal_select(c->active, size, dal_num(0.0));
+    c->t = c->start + c->direction * (c->whole - c->left);
+    return dal_any(c->active);
 }
 
 /* The size after a trial; a ratio of NaN counts as large. */
-DAL_INLINE double dal__next_size(double size, double ratio)
+DAL_INLINE num dal__next_size(num size, num ratio)
 {
-    const double slower = ratio / DAL__SAFE;
-    if (!(slower < DAL__SLOWEST)) return size / DAL__SLOWEST;
-    return slower < 1.0 / DAL__FASTEST ? size * DAL__FASTEST : size / slower;
+    const num slower = ratio / DAL__SAFE;
+    const dal_mask much = ~dal_less(slower, dal_num(DAL__SLOWEST));
+    const dal_mask little = dal_less(slower, dal_num(1.0 / DAL__FASTEST));
+    const num next = dal_select(little, size * DAL__FASTEST, size / slower);
+    return dal_select(much, size / DAL__SLOWEST, next);
 }
 
-/* The size planned after a trial.  The last substep of a step does not shorten the plan, one after
- * a rejected trial does not lengthen it. */
-DAL_INLINE double dal__plan(const dal_trial *trial, double size, double planned)
+/* Accepts the trial where ratio <= 1: y + r += h*derivative, derivative[dim].  The last substep of
+ * a step does not shorten the plan, one after a rejected trial does not lengthen it. */
+DAL_INLINE void dal_control_end(dal_step *s, dal_control *c, dal_times ratio, const num *derivative)
 {
-    const double next = dal__next_size(size, trial->ratio);
-    if (!(trial->ratio <= 1.0) || trial->again) return next < size ? next : size;
-    return size < planned && next < planned ? planned : next;
-}
-
-/* Steps by s->h.  On failure s->t is the time reached, s->substep the size planned last, 0 if below
- * the last place. */
-DAL_INLINE dal_status dal_control(dal_step *s, dal_attempt *attempt, dal_trial *trial)
-{
-    const double t = s->t, whole = fabs(s->h), direction = s->h < 0.0 ? -1.0 : 1.0;
-    double left = whole, planned = dal_lane(*s->substep, 0);
-    if (!(planned > 0.0)) planned = whole;
-    trial->again = 0;
-    for (int count = 0; count < DAL__MAX_TRIALS; count++) {
-        const double size = dal__substep(whole, left, planned);
-        if (!(size > 0.0)) {
-            *s->substep = dal_num(0.0);
-            break;
-        }
-        trial->h = direction * size;
-        DAL__MARK(s);
-        attempt(s, trial);
-        DAL__RELEASE(s);
-        planned = dal__plan(trial, size, planned);
-        *s->substep = dal_num(planned);
-        trial->again = !(trial->ratio <= 1.0);
-        if (trial->again) continue;
-        dal_update_multiple(s, trial->h, trial->h, trial->derivative);
-        left -= size;
-        s->t = t + direction * (whole - left);
-        if (left == 0.0) return DAL_OK;
+    const num size = c->direction * c->h, planned = c->planned;
+    const num next = dal__next_size(size, ratio), shorter = dal_min(size, next);
+    const dal_mask good = dal_less_equal(ratio, dal_num(1.0)), accepted = c->active & good;
+    const dal_mask keeps = dal_less(size, planned) & dal_less(next, planned);
+    const num plan = dal_select(good & ~c->again, dal_select(keeps, planned, next), shorter);
+    c->planned = (dal_times)dal_select(c->active, plan, planned);
+    *s->substep = dal_select(c->active, plan, *s->substep);
+    c->again = c->active & ~good;
+    s->alive[0] = accepted;
+    dal_update_lanes(s, c->h, derivative);
+    s->alive[0] = c->alive;
+#ifndef DAL_SPECIALISED
+    const double from = c->whole - dal_lane(c->left, 0);
+#endif
+    c->left = (dal_times)dal_select(accepted, c->left - size, c->left);
+    c->active &= dal_less(dal_num(0.0), c->left);
+#ifndef DAL_SPECIALISED
+    if (DAL_RARELY(s->dense != NULL) && dal_any(accepted)) {
+        s->dense->from = from;
+        s->dense->size = dal_lane(size, 0);
+        s->dense->control = *c;
+        c->active = ~dal_all(); /* of this call */
     }
-    s->unconverged[0] = dal_all();
+#endif
+}
+
+/* Ends the step.  On failure of all lanes s->t is the time that the first has reached, s->substep
+ * the size planned last, 0 if below the last place. */
+DAL_INLINE dal_status dal_control_status(dal_step *s, const dal_control *c)
+{
+    const dal_mask failed = c->alive & s->unconverged[0];
+    const double left = dal_lane(c->left, 0);
+    if (dal_any(c->alive & ~failed) || !dal_any(failed)) {
+        s->t = c->start + c->direction * c->whole;
+        return DAL_OK;
+    }
+    s->t = c->start + c->direction * (c->whole - left);
     return DAL_NOT_CONVERGED;
 }
-
 #endif
 
 #endif

@@ -4,6 +4,14 @@
 
 #include "num.h"
 
+/* In a generated file a function that is not inlined, so that its callers stay small.  It is
+ * compiled for speed, also where they are compiled for size. */
+#ifdef DAL_SPECIALISED
+#define DAL_SEPARATE static DAL_UNUSED __attribute__((noinline, hot))
+#else
+#define DAL_SEPARATE static inline DAL_UNUSED
+#endif
+
 /* y[rows] = M x, M[rows*columns] */
 DAL_INLINE void dal_multiply(const num *m, int rows, int columns, const num *x, num *y)
 {
@@ -20,6 +28,9 @@ enum { DAL__SPARSE = 16 };
 
 /* Whether x is 0 in all lanes. */
 DAL_INLINE int dal__is_zero(num x) { return !dal_any(~dal_equal(x, dal_num(0.0))); }
+
+/* Numbers of G. */
+#define DAL_SQUARE_M(s) (DAL_M(s) * DAL_M(s))
 
 /* g[m*m] = A B, the matrix G of m constraints: A[m*n], B[n*m]. */
 DAL_INLINE void dal_gram(const num *a, const num *b, int m, int n, num *DAL_RESTRICT g)
@@ -84,7 +95,7 @@ DAL_INLINE void dal__subtract_row(num *m, int n, int i, int k, num factor)
 /* inverse[n*n] of m[n*n], which is destroyed: Gauss-Jordan with partial pivoting in each lane.
  * A singular matrix leaves infinities or NaN.  The callers iterate a residual to stagnation, so
  * the inverse affects the rate of convergence, not the result. */
-DAL_COLD void dal_invert(num *m, num *inverse, int n)
+DAL_SEPARATE void dal_invert(num *m, num *inverse, int n)
 {
     for (int i = 0; i < n * n; i++) inverse[i] = dal_num(i % (n + 1) == 0);
     for (int k = 0; k < n; k++) {

@@ -26,6 +26,8 @@
 #include "solve.h"
 #include "tableau.h"
 
+enum { DAL__DIFFERENCES = 4 }; /* of the predictor's errors, stored beside the derivatives */
+
 /* One step of size s->h from the present state and time; leaves the time advanced. */
 #define dal_collocation DAL_WIDE(dal_collocation)
 DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method);
@@ -40,6 +42,12 @@ typedef struct dal_stages {
     num *mu;         /* [s] */
     int stride;      /* of f */
 } dal_stages;
+
+/* The eigensystem that splits Newton's matrix, NULL: it stays whole, as that of a single stage. */
+DAL_INLINE const dal_eigensystem *dal__eigensystem(const dal_tableau *method)
+{
+    return DAL_STAGES(method) > 1 ? method->eigensystem : NULL;
+}
 
 /* sum b x for count components. */
 DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int count, num *out)
@@ -125,6 +133,17 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     dal__momentum_derivatives(s, k, eq->block[1].image);
 }
 
+/* The point where Newton's matrix is evaluated: about the middle of the step, by the acceleration
+ * at the end of the last one (0 before a first step).  The predictor can be far off there. */
+DAL_INLINE void dal__guess_middle(const dal_step *s, const dal_stages *k, num *q, num *v)
+{
+    const int n = DAL_N(s), nw = DAL_NW(s);
+    const num half = dal_num(DAL_STAGE_DERIVATIVES(s) ? 0.5 * k->h : 0.0), quarter = 0.5 * half;
+    const num *K = s->derivatives + (DAL_STAGES(k->method) - 1) * nw;
+    DAL_EACH(i, n) q[i] = dal_fma(half, dal_fma(quarter, K[i], s->y[n + i]), s->y[i]);
+    DAL_EACH(i, nw) v[i] = dal_fma(half, K[i], s->y[n + i]);
+}
+
 DAL_INLINE void dal__collocation_matrix(dal_step *s, dal_equation *eq)
 {
     enum { MAX = DAL_MAX_STAGES * DAL_MAX_STAGES };
@@ -132,17 +151,24 @@ DAL_INLINE void dal__collocation_matrix(dal_step *s, dal_equation *eq)
     const dal_tableau *method = k->method;
     const int stages = DAL_STAGES(method);
     double a[MAX], b[MAX], ab[MAX], ba[MAX];
+    DAL_VECTOR(s, q, DAL_N(s));
+    DAL_VECTOR(s, v, DAL_NW(s));
     DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)) / DAL_STEP_GROUPS);
     DAL_VECTOR(s, m,
                DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s) /
                    DAL_STEP_GROUPS);
-    dal__rounded(stages * stages, method->a, method->a_tail, a);
-    dal__rounded(stages * stages, method->partner, method->partner_tail, b);
-    dal__product(stages, a, b, ab);
-    dal__product(stages, b, a, ba);
-    const dal_stage_matrix x = {stages, k->h, b, ab, 0}, p = {stages, -k->h, a, ba, 1};
+    const dal_eigensystem *eigensystem = dal__eigensystem(method);
+    if (!eigensystem) {
+        dal__rounded(stages * stages, method->a, method->a_tail, a);
+        dal__rounded(stages * stages, method->partner, method->partner_tail, b);
+        dal__product(stages, a, b, ab);
+        dal__product(stages, b, a, ba);
+    }
+    const dal_stage_matrix x = {stages, k->h, b, ab, 0, eigensystem};
+    const dal_stage_matrix p = {stages, -k->h, a, ba, 1, eigensystem};
+    dal__guess_middle(s, k, q, v);
     for (int j = 0; j < DAL_STEP_GROUPS; j++) {
-        dal_jacobian(s, j, s->t + 0.5 * k->h, s->y, s->y + DAL_N(s), jacobian);
+        dal_jacobian(s, j, s->t + 0.5 * k->h, q, v, jacobian);
         dal_stage_inverse(s, &x, jacobian, m, &eq->block[0], j);
         if (DAL_LIFTED(s)) dal_stage_inverse(s, &p, jacobian, m, &eq->block[1], j);
     }
@@ -274,6 +300,14 @@ DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_eq
     return dal__any_group(s->alive) ? DAL_OK : status;
 }
 
+/* Chooses the solver of the next step where the number of iterations matters for that. */
+DAL_INLINE void dal__choose_after_fixed_point(dal_step *s, const dal_equation *eq)
+{
+    DAL_EACH(j, DAL_STEP_GROUPS)
+        if (DAL_RARELY(dal_any(s->alive[j] & dal__counts(s, &eq->cost, j, eq->taken[j]))))
+            dal__choose(s, &eq->cost, j, s->alive[j], ~dal_all(), eq->taken[j]);
+}
+
 /* The same where the fixed point from the predictor suffices in all lanes; else DAL_NOT_CONVERGED,
  * and nothing has changed. */
 DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal_equation *eq)
@@ -283,7 +317,10 @@ DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal
         return DAL_NOT_CONVERGED;
     DAL_EACH(j, DAL_STEP_GROUPS) {
         left[j] = s->alive[j] & ~dal_equal(s->derivatives_h[j], dal_num(k->h));
-        if (DAL_MAY_NEWTON(s)) left[j] |= s->alive[j] & dal_less(dal_num(0.5), s->uses_newton[j]);
+        if (DAL_MAY_NEWTON(s))
+            left[j] |=
+                s->alive[j] & (dal_less(dal_num(0.5), s->uses_newton[j]) | dal__trial_is_due(s, j));
+        if (DAL_MAY_NEWTON(s)) eq->limit[j] = dal__fixed_point_limit(s, &eq->cost, j, ~dal_all());
         solved[j] = s->alive[j];
     }
     if (DAL_RARELY(dal__any_group(left))) return DAL_NOT_CONVERGED;
@@ -292,6 +329,7 @@ DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal
     dal__iterate(s, eq, dal__collocation_map, solved, 0, DAL_MAY_NEWTON(s));
     DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
     if (DAL_RARELY(dal__any_group(left))) return DAL_NOT_CONVERGED;
+    if (DAL_MAY_NEWTON(s)) dal__choose_after_fixed_point(s, eq);
     dal__record_predictor_errors(s, k, eq, solved, solved);
     return DAL_OK;
 }
@@ -365,7 +403,9 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
     DAL_BLOCK(s, momenta, DAL_LIFTED(s) * DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
     dal_stages k = {method, s->h,  v, q,  pi,
                     f,      force, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
-    dal_equation eq = {{derivatives, momenta}, 1 + DAL_LIFTED(s), &k, {dal_all()}};
+    DAL_EQUATION(eq, 1 + DAL_LIFTED(s), &k, derivatives, momenta);
+    eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_NW(s) / DAL_STEP_GROUPS,
+                                 dal__eigensystem(method) != NULL);
     eq.block[0].weight = eq.block[1].weight = fabs(s->h);
     DAL_EACH(j, DAL_STEP_GROUPS) eq.block[0].scale[j] = dal_velocity_scale(s, s->h, j);
     if (DAL_LIFTED(s)) {

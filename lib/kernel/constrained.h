@@ -85,7 +85,7 @@ typedef struct dal_elimination {
     DAL_VECTOR(step, name##_rhs, DAL_M(step));                                                     \
     DAL_VECTOR(step, name##_fresh, DAL_M(step));                                                   \
     DAL_EACH(i, DAL_M(step)) name##_mu[i] = dal_num(0.0);                                          \
-    dal_elimination name = {{1, (z), &name##_one, &name##_a2, 0},                                  \
+    dal_elimination name = {{1, (z), &name##_one, &name##_a2, 0, NULL},                            \
                             name##_free,                                                           \
                             name##_directions,                                                     \
                             name##_mu,                                                             \
@@ -182,7 +182,8 @@ DAL_INLINE int dal_positional(const dal_step *s)
 /* An equation for the increment w of v, started from w = 0. */
 DAL_INLINE dal_equation dal_velocity_equation(const dal_step *s, dal_block block, void *context)
 {
-    dal_equation eq = {{block}, 1, context, {dal_all()}};
+    DAL_EQUATION(eq, 1, context, block);
+    eq.cost = dal_cost_of_newton(s, 1, DAL_N(s), 0);
     eq.block[0].scale[0] = dal_velocity_scale(s, s->h, 0);
     DAL_EACH(i, block.size) eq.block[0].u[i] = dal_num(0.0);
     return eq;

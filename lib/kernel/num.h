@@ -42,6 +42,9 @@
 #define DAL_WITH_REACTIONS    1 /* observed reactions */
 #define DAL_WITH_GROUPS       0 /* of lanes, stepped as one larger system */
 #define DAL_WITH_EVAL_GROUP   1
+#define DAL_WITH_SERIES       1           /* Taylor coefficients of F */
+#define DAL_WITH_CONTROL      1           /* substeps under a tolerance */
+#define DAL_WITH_TIMES        !DAL_SCALAR /* lanes with times of their own */
 #ifdef DAL_NUM_QUAD
 #define DAL_PACKS 0
 #else
@@ -109,6 +112,8 @@ typedef double num;
 #define DAL_ULP_RATIO 1.0
 #endif
 typedef double dal_stored;
+/* A time or the size of a step: a double, or one for each lane. */
+typedef double dal_times;
 /* A choice of lanes, with & | ~. */
 typedef int64_t dal_mask;
 
@@ -130,6 +135,7 @@ typedef double num __attribute__((vector_size(8 * DAL_LANES), may_alias));
 typedef int64_t dal_mask __attribute__((vector_size(8 * DAL_LANES), may_alias));
 /* A num in memory of doubles that need not be aligned to its lanes. */
 typedef double dal_stored __attribute__((vector_size(8 * DAL_LANES), may_alias, aligned(8)));
+typedef num dal_times;
 
 DAL_INLINE num dal_num(double x)
 {

@@ -17,18 +17,17 @@
  * Groups of lanes that are stepped as one system (DAL_STEP_GROUPS) have norms and masks of their
  * own.
  *
- * With the solver "auto" a lane whose fixed point contracts more slowly than DAL__SLOW, or not at
- * all, switches to Newton's method for the rest of the run (step->uses_newton). */
+ * With the solver "auto" each lane chooses between the two by what they cost, see choice.h. */
 #ifndef DAL_KERNEL_SOLVE_H
 #define DAL_KERNEL_SOLVE_H
 
-#include "algebra.h"
-#include "step.h"
+#include "choice.h"
+#include "eigensystem.h"
 
 enum { DAL_MAX_STAGES = 16 };
 
-/* Newton pays from this rate on: a fixed point needs 36/log2(1/rate) iterations. */
-#define DAL__SLOW 0.3
+/* A fixed point whose third increment is not below this share of the second is given up. */
+#define DAL__SLOW 0.9
 /* Increments relative to the state: rounding, stagnation, too small to measure a rate. */
 #define DAL__ROUNDING (1.4e-14 * DAL_ULP_RATIO)
 #define DAL__SMALL    (1e-12 * DAL_ULP_RATIO)
@@ -45,13 +44,16 @@ enum { DAL_MAX_STAGES = 16 };
 typedef struct dal_block {
     num scale[DAL_STEP_GROUPS];                        /* size of the state it moves */
     num now[DAL_STEP_GROUPS], before[DAL_STEP_GROUPS]; /* norms of the last two increments */
-    num stagnations[DAL_STEP_GROUPS]; /* successive iterations without decrease of the norm */
-    num best[2][DAL_STEP_GROUPS];     /* the min norm, and the iterations since then */
-    double weight;                    /* a change of u by d moves the state by weight*d */
-    int size;                         /* unknowns */
-    num *u, *image;                   /* the unknowns; what map made of them */
-    num *start;                       /* [size] a copy of the first guess, for a second attempt */
-    num *inverse;                     /* [size*size] M^-1 (of each group), Newton only */
+    num stagnations[DAL_STEP_GROUPS];   /* successive iterations without decrease of the norm */
+    num best[2][DAL_STEP_GROUPS];       /* the min norm, and the iterations since then */
+    double weight;                      /* a change of u by d moves the state by weight*d */
+    int size;                           /* unknowns */
+    num *u, *image;                     /* the unknowns; what map made of them */
+    num *start;                         /* [size] a copy of the first guess, for a second attempt */
+    num *inverse;                       /* [size*size] M^-1 (of each group), Newton only */
+    num *scratch;                       /* [3*size], Newton only */
+    const dal_eigensystem *eigensystem; /* inverse holds those of N_e; NULL: M^-1 */
+    int stages;                         /* with an eigensystem */
 } dal_block;
 
 /* An implicit equation u = map(u), of one or two blocks. */
@@ -60,6 +62,10 @@ typedef struct dal_equation {
     int blocks;                       /* 1 or 2 */
     void *context;                    /* of the map */
     dal_mask active[DAL_STEP_GROUPS]; /* the lanes that still iterate */
+    num taken[DAL_STEP_GROUPS];       /* with the solver auto: iterations of each lane, */
+    num limit[DAL_STEP_GROUPS];       /* and how many the fixed point may take; */
+    dal_newton_cost cost;             /* and of Newton's method */
+    int follows; /* 1: takes the method that other equations of the step chose */
 } dal_equation;
 
 /* A map may store values for the end of the step: those of a lane's own last iteration, which
@@ -90,9 +96,26 @@ typedef void dal_matrix(dal_step *step, dal_equation *equation);
     DAL_VECTOR(step, name##_image, count);                                                         \
     DAL_VECTOR(step, name##_start, count);                                                         \
     DAL_VECTOR(step, name##_inverse, (newton) ? (count) * (count) / DAL_STEP_GROUPS : 0);          \
-    dal_block name = {                                                                             \
-        {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, {{dal_num(0.0)}}, 1.0,     \
-        (count),        name##_u,       name##_image,   name##_start,   name##_inverse}
+    DAL_VECTOR(step, name##_scratch, (newton) ? 3 * (count) : 0);                                  \
+    dal_block name = {{dal_num(0.0)},                                                              \
+                      {dal_num(0.0)},                                                              \
+                      {dal_num(0.0)},                                                              \
+                      {dal_num(0.0)},                                                              \
+                      {{dal_num(0.0)}},                                                            \
+                      1.0,                                                                         \
+                      (count),                                                                     \
+                      name##_u,                                                                    \
+                      name##_image,                                                                \
+                      name##_start,                                                                \
+                      name##_inverse,                                                              \
+                      name##_scratch,                                                              \
+                      NULL,                                                                        \
+                      1}
+
+/* Declares an equation of `count` blocks; where Newton's method may solve it, its cost is set. */
+#define DAL_EQUATION(name, count, context, ...)                                                    \
+    dal_equation name = {{__VA_ARGS__},  (count),        (context),  {dal_all()},                  \
+                         {dal_num(0.0)}, {dal_num(0.0)}, {0.0, 0.0}, 0}
 
 DAL_INLINE int dal__any_group(const dal_mask *lanes)
 {
@@ -148,28 +171,40 @@ DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num 
 #define dal__advance_packs(u, image, count, norm, nonfinite) 0
 #endif
 
-/* Row i of M^-1 image. */
-DAL_INLINE num dal__newton(const dal_block *b, int i)
+/* image <- M^-1 image, in group j. */
+DAL_INLINE void dal__apply_inverse(const dal_step *s, dal_block *b, int j)
 {
-    const int rows = DAL_SIZE(b) / DAL_STEP_GROUPS, group = i % DAL_STEP_GROUPS;
-    const num *row = b->inverse + (group * rows + i / DAL_STEP_GROUPS) * rows;
-    num sum = dal_num(0.0);
-    DAL_EACH(k, rows) sum = dal_fma(row[k], b->image[k * DAL_STEP_GROUPS + group], sum);
-    return sum;
+    const int rows = DAL_SIZE(b) / DAL_STEP_GROUPS;
+    const num *inverse = b->inverse + j * rows * rows;
+    num *const image = b->image + j;
+    if (b->eigensystem) {
+        dal_apply_eigensystem(b->eigensystem, DAL_STAGES(b), DAL_NW(s) / DAL_STEP_GROUPS, inverse,
+                              image, DAL_STEP_GROUPS, b->scratch);
+        return;
+    }
+    for (int i = 0; i < rows; i++) {
+        num sum = dal_num(0.0);
+        for (int k = 0; k < rows; k++)
+            sum = dal_fma(inverse[i * rows + k], image[k * DAL_STEP_GROUPS], sum);
+        b->scratch[i] = sum;
+    }
+    for (int i = 0; i < rows; i++) image[i * DAL_STEP_GROUPS] = b->scratch[i];
 }
 
 /* u += d (or M^-1 d) in the active lanes; b->now: the norm of the increment, NaN if not finite.
  * Packs exist for one lane only, which is then active. */
-DAL_INLINE void dal__advance(dal_block *b, const dal_mask *active, int newton)
+DAL_INLINE void dal__advance(const dal_step *s, dal_block *b, const dal_mask *active, int newton)
 {
     num norm[DAL_STEP_GROUPS], nonfinite[DAL_STEP_GROUPS];
     DAL_EACH(j, DAL_STEP_GROUPS) norm[j] = nonfinite[j] = dal_num(0.0);
     const int seen = newton ? 0 : dal__advance_packs(b->u, b->image, DAL_SIZE(b), norm, nonfinite);
     num *u = b->u + seen, *image = b->image + seen;
     DAL_EACH(i, DAL_SIZE(b) - seen) image[i] -= u[i];
+    if (newton)
+        DAL_EACH(j, DAL_STEP_GROUPS) dal__apply_inverse(s, b, j);
     DAL_EACH(i, DAL_SIZE(b) - seen) {
         const int j = i % DAL_STEP_GROUPS;
-        const num d = newton ? dal__newton(b, i) : image[i];
+        const num d = image[i];
         norm[j] = dal_max(norm[j], dal_abs(d));
         nonfinite[j] += d - d;
         u[i] = dal_select(active[j], u[i] + d, u[i]);
@@ -201,10 +236,18 @@ DAL_INLINE dal_mask dal__negligible(dal_block *b, int j, int k, num now, num siz
 }
 
 /* Lanes of a group where the increment of iteration k is zero, stagnates, or is below the
- * tolerance. */
+ * tolerance.  A single lane with its smallest increment yet, the usual case, is decided first:
+ * the size of the state is not needed there. */
 DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k)
 {
-    const num now = b->now[j], size = dal__size(b, j);
+    const num now = b->now[j];
+    if (DAL_LANES == 1 && k < DAL__PATIENT && !(DAL_SOLVER_TOLERANCE(s) > 0.0) &&
+        dal_any(dal_less(dal_num(0.0), now)) && dal_any(dal_less(now, b->best[0][j]))) {
+        b->best[0][j] = now;
+        b->best[1][j] = b->stagnations[j] = dal_num(0.0);
+        return ~dal_all();
+    }
+    const num size = dal__size(b, j);
     b->stagnations[j] =
         dal_select(dal_less_equal(b->before[j], now), b->stagnations[j] + 1.0, dal_num(0.0));
     const dal_mask once = dal_less(dal_num(0.5), b->stagnations[j]),
@@ -219,8 +262,9 @@ DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k
 
 DAL_INLINE dal_mask dal__slow(const dal_block *b, int j)
 {
-    return dal_less(DAL__SLOW * b->before[j], b->now[j]) &
-           dal_less(DAL__NOISE * dal__size(b, j), b->now[j]);
+    const dal_mask slow = dal_less(DAL__SLOW * b->before[j], b->now[j]);
+    if (!dal_any(slow)) return slow;
+    return slow & dal_less(DAL__NOISE * dal__size(b, j), b->now[j]);
 }
 
 DAL_INLINE void dal__begin_block(dal_block *b)
@@ -236,44 +280,47 @@ DAL_INLINE_EARLY void dal__iterate_once(dal_step *s, dal_equation *eq, dal_itera
                                         int newton)
 {
     map(s, eq);
-    dal__advance(&eq->block[0], eq->active, newton);
-    if (eq->blocks > 1) dal__advance(&eq->block[1], eq->active, newton);
+    dal__advance(s, &eq->block[0], eq->active, newton);
+    if (eq->blocks > 1) dal__advance(s, &eq->block[1], eq->active, newton);
 }
 
-/* After iteration k: removes the lanes of a group that have failed from `lanes`, and those and the
- * converged ones from the active lanes. */
+/* Lanes in which the fixed point is given up after iteration k. */
+DAL_INLINE dal_mask dal__gives_up(const dal_equation *eq, int j, int k)
+{
+    dal_mask reasons = dal_less(eq->limit[j], eq->taken[j] + 0.5);
+    if (k == 2) reasons |= dal__slow(&eq->block[0], j);
+    return reasons;
+}
+
+/* After iteration k: removes the lanes of a group that have failed, or in which the fixed point is
+ * given up, from `lanes`, and those and the converged ones from the active lanes. */
 DAL_INLINE void dal__update_active(dal_step *s, dal_equation *eq, int j, int may_give_up, int k,
-                                   dal_mask *lanes, dal_mask *slow)
+                                   dal_mask *lanes)
 {
     const dal_mask active = eq->active[j];
     dal_mask converged = dal__converged(s, &eq->block[0], j, k),
-             finite = dal_finite(eq->block[0].now[j]);
+             going = dal_finite(eq->block[0].now[j]);
     if (eq->blocks > 1) {
         converged &= dal__converged(s, &eq->block[1], j, k);
-        finite &= dal_finite(eq->block[1].now[j]);
+        going &= dal_finite(eq->block[1].now[j]);
     }
-    if (may_give_up && (k == 1 || k == 2)) {
-        *slow |= active & dal__slow(&eq->block[0], j);
-        finite &= ~*slow;
-    }
-    *lanes &= finite | ~active;
-    eq->active[j] = active & finite & ~converged;
+    eq->taken[j] = dal_select(active, dal_num(k + 1), eq->taken[j]);
+    if (may_give_up) going &= converged | ~dal__gives_up(eq, j, k);
+    *lanes &= going | ~active;
+    eq->active[j] = active & going & ~converged;
 }
 
-/* Iterates in the given lanes and leaves those that converged in `lanes`.  may_give_up: lanes that
- * contract slowly are given up after the third iteration. */
+/* Iterates in the given lanes and leaves those that converged in `lanes`.  may_give_up: the fixed
+ * point need not be iterated to its end. */
 DAL_INLINE_EARLY void dal__iterate(dal_step *s, dal_equation *eq, dal_iteration_map *map,
                                    dal_mask *lanes, int newton, int may_give_up)
 {
-    dal_mask slow[DAL_STEP_GROUPS];
     dal__begin_block(&eq->block[0]);
     if (eq->blocks > 1) dal__begin_block(&eq->block[1]);
-    DAL_EACH(j, DAL_STEP_GROUPS) slow[j] = ~dal_all();
     DAL_EACH(j, DAL_STEP_GROUPS) eq->active[j] = lanes[j];
     for (int k = 0; k < DAL_ITERATIONS(s) && dal__any_group(eq->active); k++) {
         dal__iterate_once(s, eq, map, newton);
-        DAL_EACH(j, DAL_STEP_GROUPS)
-            dal__update_active(s, eq, j, may_give_up, k, &lanes[j], &slow[j]);
+        DAL_EACH(j, DAL_STEP_GROUPS) dal__update_active(s, eq, j, may_give_up, k, &lanes[j]);
     }
     DAL_EACH(j, DAL_STEP_GROUPS) lanes[j] &= ~eq->active[j];
     DAL_EACH(j, DAL_STEP_GROUPS) eq->active[j] = lanes[j];
@@ -294,17 +341,47 @@ DAL_INLINE void dal__restore_block(dal_block *b, const dal_mask *lanes)
     DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_select(lanes[i % DAL_STEP_GROUPS], b->start[i], b->u[i]);
 }
 
-/* Newton's method from the first guess in the lanes left; leaves those that converged, which use
- * Newton's method from now on. */
-DAL_INLINE_EARLY void dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_iteration_map *map,
-                                           dal_matrix *matrix, dal_mask *left)
+/* Iterates again from the first guess in the lanes left, and leaves those that converged. */
+DAL_INLINE_EARLY void dal__solve_again(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                       dal_matrix *matrix, dal_mask *left)
 {
     dal__restore_block(&eq->block[0], left);
     if (eq->blocks > 1) dal__restore_block(&eq->block[1], left);
-    matrix(s, eq);
-    dal__iterate(s, eq, map, left, 1, 0);
+    if (matrix) matrix(s, eq);
+    dal__iterate(s, eq, map, left, matrix != NULL, 0);
+}
+
+/* Lanes of group j that are solved by Newton's method at first. */
+DAL_INLINE dal_mask dal__begins_with_newton(const dal_step *s, const dal_equation *eq, int j)
+{
+    const dal_mask newton = dal_less(dal_num(0.5), s->uses_newton[j]);
+    if (DAL_SOLVER(s) == DAL_NEWTON) return s->alive[j];
+    if (eq->follows) return s->alive[j] & newton;
+    return s->alive[j] & (newton ^ dal__trial_is_due(s, j));
+}
+
+/* Solves with Newton's method the lanes that the fixed point did not, `solved`; then by the fixed
+ * point after all those in which Newton's method was only tried. */
+DAL_INLINE_EARLY void dal__solve_rest(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                      dal_matrix *matrix, dal_mask *solved)
+{
+    dal_mask left[DAL_STEP_GROUPS], by_newton[DAL_STEP_GROUPS];
+    DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) by_newton[j] = left[j];
+    if (dal__any_group(left)) dal__solve_again(s, eq, map, matrix, by_newton);
+    DAL_EACH(j, DAL_STEP_GROUPS) solved[j] |= by_newton[j];
+    if (DAL_SOLVER(s) == DAL_NEWTON) return;
     DAL_EACH(j, DAL_STEP_GROUPS)
-        s->uses_newton[j] = dal_select(left[j], dal_num(1.0), s->uses_newton[j]);
+        left[j] = s->alive[j] & ~solved[j] & dal__begins_with_newton(s, eq, j) &
+                  ~dal_less(dal_num(0.5), s->uses_newton[j]);
+    if (dal__any_group(left)) dal__solve_again(s, eq, map, NULL, left);
+    DAL_EACH(j, DAL_STEP_GROUPS) solved[j] |= left[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) {
+        if (eq->follows)
+            s->uses_newton[j] = dal_select(by_newton[j], dal_num(1.0), s->uses_newton[j]);
+        else
+            dal__choose(s, &eq->cost, j, s->alive[j] & solved[j], by_newton[j], eq->taken[j]);
+    }
 }
 
 /* Solves the equation from the guess in u; lanes that fail are marked unconverged and no longer
@@ -313,19 +390,16 @@ DAL_SHARED_EARLY dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iterati
                                       dal_matrix *matrix)
 {
     const int may_newton = matrix && DAL_MAY_NEWTON(s);
-    dal_mask solved[DAL_STEP_GROUPS], left[DAL_STEP_GROUPS];
+    dal_mask solved[DAL_STEP_GROUPS];
     DAL_EACH(j, DAL_STEP_GROUPS) {
+        const dal_mask newton = dal_less(dal_num(0.5), s->uses_newton[j]);
         solved[j] = s->alive[j];
-        if (may_newton) solved[j] &= ~dal_less(dal_num(0.5), s->uses_newton[j]);
-        if (may_newton && DAL_SOLVER(s) == DAL_NEWTON) solved[j] = ~dal_all();
+        if (may_newton) solved[j] &= ~dal__begins_with_newton(s, eq, j);
+        eq->limit[j] = may_newton ? dal__fixed_point_limit(s, &eq->cost, j, newton) : dal_num(0.0);
     }
     dal__save_guess(eq);
     dal__iterate(s, eq, map, solved, 0, may_newton);
-    DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
-    if (may_newton && dal__any_group(left)) {
-        dal__solve_by_newton(s, eq, map, matrix, left);
-        DAL_EACH(j, DAL_STEP_GROUPS) solved[j] |= left[j];
-    }
+    if (may_newton) dal__solve_rest(s, eq, map, matrix, solved);
     DAL_EACH(j, DAL_STEP_GROUPS) {
         s->unconverged[j] |= s->alive[j] & ~solved[j];
         s->alive[j] &= solved[j];
@@ -337,12 +411,14 @@ DAL_SHARED_EARLY dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iterati
 /* The matrix of stage equations for frozen F_q, F_v (jacobian as dal_callbacks):
  *     M_ij = delta_ij 1 - z a_ij F_v - z^2 a2_ij [F_q 0]           i, j = 1..stages
  * and its inverse, [size*size] with size = stages*width; transposed: F_q^T, F_v^T, n*n each.
- * a2 is a squared (q moves with v), or 0 where q does not. */
+ * a2 is a squared (q moves with v), or 0 where q does not.  With the eigensystem of a the inverse
+ * is made of those of the N_e, see eigensystem.h. */
 typedef struct dal_stage_matrix {
     int stages;
     double z;
     const double *a, *a2; /* [stages*stages] */
     int transposed;
+    const dal_eigensystem *eigensystem; /* NULL: none */
 } dal_stage_matrix;
 
 #define dal_stage_inverse DAL_WIDE(dal_stage_inverse)
@@ -350,16 +426,40 @@ DAL_SHARED void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const 
                                   num *m, dal_block *block, int group);
 
 #ifndef DAL_LINKED
-/* Entry (i, j) of F_q padded with zeros, and of F_(v,g); or of their transposes. */
-DAL_INLINE num dal__fq(const dal_step *s, const num *jacobian, int i, int j)
-{
-    const int n = DAL_N(s) / DAL_STEP_GROUPS;
-    return j < n ? jacobian[i * n + j] : dal_num(0.0);
-}
-DAL_INLINE num dal__fv(const dal_step *s, const num *jacobian, int i, int j)
+/* Entry (i, j) of diagonal - x F_(v,g) - y [F_q 0], or of its transpose. */
+DAL_INLINE num dal__newton_entry(const dal_step *s, const dal_stage_matrix *k, const num *jacobian,
+                                 int i, int j, double diagonal, double x, double y)
 {
     const int n = DAL_N(s) / DAL_STEP_GROUPS, nw = DAL_NW(s) / DAL_STEP_GROUPS;
-    return jacobian[nw * n + i * nw + j];
+    const int row = k->transposed ? j : i, column = k->transposed ? i : j;
+    const num fq = column < n ? jacobian[row * n + column] : dal_num(0.0);
+    return diagonal - x * jacobian[nw * n + row * nw + column] - y * fq;
+}
+
+/* The inverses for dal_apply_eigensystem; m is scratch. */
+DAL_INLINE void dal__eigen_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
+                                   num *m, num *inverse)
+{
+    const int width = DAL_NW(s) / DAL_STEP_GROUPS;
+    for (int e = 0; e < (DAL_STAGES(k) + 1) / 2; e++) {
+        const double *value = k->eigensystem->value + 2 * e;
+        const double re = k->z * value[0], im = k->z * value[1];
+        const int real = value[1] == 0.0, row = real ? width : 4 * width;
+        num *const from = inverse + 2 * e * width * width;
+        for (int place = 0; place < width * width; place++) {
+            const int i = place / width, j = place % width;
+            num *const x = m + i * row, *const y = x + 2 * width;
+            x[j] = dal__newton_entry(s, k, jacobian, i, j, i == j, re, re * re - im * im);
+            if (real) continue;
+            y[j] = dal__newton_entry(s, k, jacobian, i, j, 0.0, im, 2.0 * re * im);
+            x[width + j] = dal_num(i == j);
+            y[width + j] = dal_num(0.0);
+        }
+        if (real)
+            dal_invert(m, from, width);
+        else
+            dal_invert_complex(m, from, width);
+    }
 }
 
 /* Fills block->inverse for a group; m is scratch, of the same size. */
@@ -367,17 +467,22 @@ DAL_SHARED void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const 
                                   num *m, dal_block *block, int group)
 {
     const int size = DAL_SIZE(block) / DAL_STEP_GROUPS, width = size / k->stages;
+    num *const inverse = block->inverse + group * size * size;
+    block->eigensystem = k->eigensystem;
+    block->stages = k->stages;
+    if (k->eigensystem) {
+        dal__eigen_inverse(s, k, jacobian, m, inverse);
+        return;
+    }
     for (int row = 0; row < size; row++) {
         for (int column = 0; column < size; column++) {
-            const int i = row % width, j = column % width;
-            const int x = k->transposed ? j : i, y = k->transposed ? i : j;
             const int stage = row / width * k->stages + column / width;
-            m[row * size + column] = (row == column) -
-                                     k->z * k->a[stage] * dal__fv(s, jacobian, x, y) -
-                                     k->z * k->z * k->a2[stage] * dal__fq(s, jacobian, x, y);
+            m[row * size + column] =
+                dal__newton_entry(s, k, jacobian, row % width, column % width, row == column,
+                                  k->z * k->a[stage], k->z * k->z * k->a2[stage]);
         }
     }
-    dal_invert(m, block->inverse + group * size * size, size);
+    dal_invert(m, inverse, size);
 }
 #endif
 

@@ -211,7 +211,7 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
     DAL_VECTOR(s, rhs, DAL_STAGES(method) * DAL_M(s));
     DAL_VECTOR(s, L, DAL_STAGES(method) * DAL_M(s));
     DAL_BLOCK(s, block, DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
-    dal_spark_step k = {{DAL_STAGES(method), s->h, method->ahat, product, 0},
+    dal_spark_step k = {{DAL_STAGES(method), s->h, method->ahat, product, 0, NULL},
                         method,
                         V,
                         blocks,
@@ -225,7 +225,8 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
                         inverse,
                         rhs,
                         L};
-    dal_equation eq = {{block}, 1, &k, {dal_all()}};
+    DAL_EQUATION(eq, 1, &k, block);
+    eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_N(s), 0);
     eq.block[0].weight = fabs(s->h);
     eq.block[0].scale[0] = dal_velocity_scale(s, s->h, 0);
     dal__product(DAL_STAGES(method), method->a, method->ahat, product);

@@ -42,6 +42,8 @@ typedef enum dal_callback_code {
 #define DAL_SOLVER_TOLERANCE(s)       DAL_FIXED_SOLVER_TOLERANCE
 #define DAL_EXTRA_ITERATIONS(s)       DAL_FIXED_EXTRA_ITERATIONS
 #define DAL_MAY_NEWTON(s)             DAL_FIXED_NEWTON
+#define DAL_FIELD_OPERATIONS(s)       DAL_FIXED_FIELD_OPERATIONS
+#define DAL_JACOBIAN_OPERATIONS(s)    DAL_FIXED_JACOBIAN_OPERATIONS
 #define DAL_STAGES(t)                 DAL_FIXED_STAGES
 #define DAL_PROPERTIES(s)             DAL_FIXED_PROPERTIES
 #define DAL_PERSISTENT_MULTIPLIERS(s) DAL_FIXED_MULTIPLIER        /* m, or 0 */
@@ -57,11 +59,21 @@ typedef enum dal_callback_code {
 #if DAL_WITH_PIVOTS
 #define DAL_PIVOTS(s) (DAL__COUNT_PIVOTS - 1)
 #endif
+#if DAL_WITH_CONTROL
+#define DAL_CONTROLLED(s) 1
+#define DAL_TOLERANCE(s)  DAL_FIXED_TOLERANCE
+#endif
+#if DAL_WITH_SERIES
+#define DAL_SERIES(s)         DAL_FIXED_SERIES
+#define DAL_TAYLOR_ORDER(s)   DAL_FIXED_TAYLOR_ORDER
+#define DAL_TOLERANCE_ROOT(s) DAL_FIXED_TOLERANCE_ROOT
+#endif
 #define DAL_PLAIN(s)             DAL_FIXED_PLAIN
 #define DAL_TANGENT(s)           DAL_FIXED_TANGENT
 #define DAL__AT_LEAST_ONE(count) ((count) > 0 ? (count) : 1)
 #define DAL__COUNT_ONE           1
 #define DAL__COUNT_TWO           2
+#define DAL__COUNT_THREE         3
 #define DAL__COUNT_MULTIPLIER    DAL_FIXED_MULTIPLIER
 
 #define DAL_VECTOR(step, name, count) num name[DAL__AT_LEAST_ONE(count)]
@@ -75,6 +87,10 @@ struct dal_step {
     DAL__METHOD_STATE_LIST(MEMBER)
 #undef MEMBER
     dal_mask alive[DAL_STEP_GROUPS], unconverged[DAL_STEP_GROUPS];
+#if DAL_WITH_TIMES
+    int has_times;
+    dal_times times;
+#endif
 #if DAL_WITH_PIVOTS
     num pivots[(DAL__COUNT_PIVOTS - 1) * DAL_STEP_GROUPS];
     int pivots_known[DAL_STEP_GROUPS];
@@ -118,6 +134,11 @@ DAL_INLINE void dal_eval(dal_step *s, dal_callback_code code, double t, const nu
 DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, double t,
                                const num *q, const num *v, num *out);
 #endif
+#if DAL_WITH_SERIES
+/* Coefficient k of F and its like from in, see dal_series. */
+DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num *in, num *memory,
+                                num *out);
+#endif
 
 #else
 
@@ -132,9 +153,13 @@ enum { DAL_STEP_GROUPS = 1 };
 #define DAL_ITERATIONS(s)             ((s)->iterations)
 #define DAL_SOLVER_TOLERANCE(s)       ((s)->solver_tolerance)
 #define DAL_EXTRA_ITERATIONS(s)       ((s)->extra_iterations)
+#define DAL_CONTROLLED(s)             ((s)->tolerance > 0.0)
+#define DAL_TOLERANCE(s)              ((s)->tolerance)
 #define DAL_PLAIN(s)                  ((s)->plain)
 #define DAL_TANGENT(s)                ((s)->tangent)
 #define DAL_MAY_NEWTON(s)             ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
+#define DAL_FIELD_OPERATIONS(s)       ((s)->field_operations)
+#define DAL_JACOBIAN_OPERATIONS(s)    ((s)->jacobian_operations)
 #define DAL_PROPERTIES(s)             ((s)->properties)
 #define DAL_GUARDS(s)                 ((s)->guards)
 #define DAL_RANK_CHECKED(s)           ((s)->rank_checked)
@@ -142,6 +167,9 @@ enum { DAL_STEP_GROUPS = 1 };
 #define DAL_PERSISTENT_MULTIPLIERS(s) ((s)->m)
 #define DAL_STAGE_DERIVATIVES(s)      ((s)->derivatives_kept)
 #define DAL_STAGES(t)                 ((t)->stages) /* of a tableau */
+#define DAL_SERIES(s)                 ((s)->series_count)
+#define DAL_TAYLOR_ORDER(s)           ((s)->taylor_order)
+#define DAL_TOLERANCE_ROOT(s)         ((s)->tolerance_root)
 
 struct dal_step {
     double t, h; /* start and size of the step; dal_update advances t */
@@ -160,16 +188,21 @@ struct dal_step {
 
     dal_mask alive[DAL_STEP_GROUPS];       /* lanes that have not failed */
     dal_mask unconverged[DAL_STEP_GROUPS]; /* lanes whose implicit equations failed */
-    int solver;                            /* dal_solver */
-    int iterations;                        /* max iterations */
-    double solver_tolerance;               /* relative change; 0: rounding level */
-    int extra_iterations;                  /* after convergence */
-    int plain;                             /* 1: sums without compensation, r stays 0 */
+#if DAL_WITH_TIMES
+    int has_times; /* 1: callbacks are evaluated at these times, not at a common one */
+    dal_times times;
+#endif
+    int solver;              /* dal_solver */
+    int iterations;          /* max iterations */
+    double solver_tolerance; /* relative change; 0: rounding level */
+    int extra_iterations;    /* after convergence */
+    int plain;               /* 1: sums without compensation, r stays 0 */
     int has_jacobian;
-    unsigned properties; /* of the system */
-    int guards;          /* of the system */
-    int rank_checked;    /* 1: steps are subject to the rank check */
-    double tolerance;    /* of substeps, 0: no substeps */
+    int field_operations, jacobian_operations; /* of the callbacks */
+    unsigned properties;                       /* of the system */
+    int guards;                                /* of the system */
+    int rank_checked;                          /* 1: steps are subject to the rank check */
+    double tolerance;                          /* of substeps, 0: no substeps */
 
     int pivot_count; /* that the rank check compares, see acceptance.h */
     num *pivots;     /* [pivot_count] those of the first evaluation of F in the step */
@@ -184,8 +217,13 @@ struct dal_step {
 
     void (*eval)(dal_step *step, dal_callback_code code, double t, const num *q, const num *v,
                  const num *pi, num *out);
-    void *owner;           /* of eval */
-    long long evaluations; /* of the field or the lifted field */
+    void (*series)(dal_step *step, int k, int stride, const num *in, num *memory, num *out);
+    int series_count;        /* in memory */
+    int taylor_order;        /* for the tolerance */
+    double tolerance_root;   /* tolerance^(1/taylor_order) */
+    struct dal_dense *dense; /* where to store the polynomial of a substep; NULL: nowhere */
+    void *owner;             /* of eval and series */
+    long long evaluations;   /* of the field or the lifted field */
 };
 
 static DAL_UNUSED __attribute__((noinline, cold)) num *dal__exhausted(dal_step *s, int count)
@@ -235,6 +273,11 @@ DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, d
     (void)group;
     dal_eval(s, code, t, q, v, NULL, out);
 }
+DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num *in, num *memory,
+                                num *out)
+{
+    s->series(s, k, stride, in, memory, out);
+}
 
 #endif
 
@@ -264,9 +307,8 @@ DAL_INLINE void dal_set_tangent(dal_step *s, int on)
 }
 #endif
 
-/* The output of DAL_EVAL_CONSTRAINT for a group: D, A, B.  The size of G. */
+/* The output of DAL_EVAL_CONSTRAINT for a group: D, A, B. */
 #define DAL_CONSTRAINT_SIZE(s) (DAL_M(s) + 2 * DAL_M(s) * (DAL_N(s) / DAL_STEP_GROUPS))
-#define DAL_SQUARE_M(s)        (DAL_M(s) * DAL_M(s))
 
 /* Places of e, p, pi, pi_e in a state. */
 DAL_INLINE int dal_at_e(const dal_step *s) { return 2 * DAL_N(s); }
@@ -373,21 +415,26 @@ DAL_INLINE void dal_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT
 /* y + r += factor*d for count components, compensated; lanes that are not alive stay unchanged.  r
  * is factor*d less the change of y: exact where |y| >= |d|, product included, else within the
  * rounding of d.  A sum is -0 only if both terms are, and y is not. */
-DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double factor, const num *d)
+DAL_INLINE void dal_add_lanes(dal_step *s, int first, int count, num factor, const num *d)
 {
     num *const DAL_RESTRICT y = s->y + first, *const DAL_RESTRICT r = s->r + first;
-    const num f = dal_num(factor);
     dal_mask alive[DAL_STEP_GROUPS];
     DAL_EACH(j, DAL_STEP_GROUPS) alive[j] = s->alive[j];
     DAL_EACH(i, count) {
         const dal_mask lanes = alive[i % DAL_STEP_GROUPS];
         const num a = y[i], b = d[i], before = r[i];
-        const num sum = a + dal_fma(f, b, before);
+        const num sum = a + dal_fma(factor, b, before);
         y[i] = dal_select(lanes, sum, a);
-        r[i] = dal_select(lanes, dal_fma(f, b, a - sum) + before, before);
+        r[i] = dal_select(lanes, dal_fma(factor, b, a - sum) + before, before);
     }
     if (DAL_RARELY(DAL_PLAIN(s)))
         DAL_EACH(i, count) r[i] = dal_select(alive[i % DAL_STEP_GROUPS], dal_num(0.0), r[i]);
+}
+
+/* The same with one factor for all lanes. */
+DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double factor, const num *d)
+{
+    dal_add_lanes(s, first, count, dal_num(factor), d);
 }
 
 /* y + r += d for count components from `first` on. */
@@ -396,14 +443,20 @@ DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)
     dal_add_multiple(s, first, count, 1.0, d);
 }
 
-/* Ends a (sub)step of size h: y + r += factor*d, d[dim], and t += h. */
-DAL_INLINE dal_status dal_update_multiple(dal_step *s, double h, double factor, const num *d)
+/* y + r += factor*d, d[dim]. */
+DAL_INLINE void dal_update_lanes(dal_step *s, num factor, const num *d)
 {
-    dal_add_multiple(s, 0, DAL_DIM(s), factor, d);
+    dal_add_lanes(s, 0, DAL_DIM(s), factor, d);
     if (DAL_LIFTED(s)) { /* an infinite e has no rounding error */
         num *error = s->r + dal_at_e(s);
         *error = dal_select(dal_finite(*error), *error, dal_num(0.0));
     }
+}
+
+/* Ends a (sub)step of size h: y + r += factor*d, d[dim], and t += h. */
+DAL_INLINE dal_status dal_update_multiple(dal_step *s, double h, double factor, const num *d)
+{
+    dal_update_lanes(s, dal_num(factor), d);
     s->t += h;
     return DAL_OK;
 }

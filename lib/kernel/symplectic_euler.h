@@ -106,8 +106,8 @@ DAL_INLINE void dal__euler_matrix(dal_step *s, dal_equation *eq)
     DAL_VECTOR(s, m, DAL_NW(s) * DAL_NW(s));
     dal_jacobian(s, 0, k->t, k->q, k->v, jacobian);
     const int q_moves = k->at.v == k->at.q;
-    const dal_stage_matrix matrix = {1, k->at.v ? k->h : -k->h, &one, q_moves ? &one : &zero,
-                                     !k->at.v};
+    const dal_stage_matrix matrix = {
+        1, k->at.v ? k->h : -k->h, &one, q_moves ? &one : &zero, !k->at.v, NULL};
     dal_stage_inverse(s, &matrix, jacobian, m, &eq->block[0], 0);
 }
 
@@ -116,7 +116,8 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
 {
     const int n = DAL_N(s), nw = DAL_NW(s), pi = dal_at_pi(s);
     DAL_BLOCK(s, block, DAL_NW(s), DAL_MAY_NEWTON(s));
-    dal_equation eq = {{block}, 1, k, {dal_all()}};
+    DAL_EQUATION(eq, 1, k, block);
+    eq.cost = dal_cost_of_newton(s, 1, DAL_NW(s), 0);
     if (k->at.v) {
         eq.block[0].scale[0] = dal_velocity_scale(s, k->h, 0);
         DAL_EACH(i, nw) eq.block[0].u[i] = s->y[n + i];
@@ -124,6 +125,7 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
             return DAL_NOT_CONVERGED;
         DAL_EACH(i, nw) k->v[i] = eq.block[0].u[i];
     } else {
+        eq.follows = 1; /* there is no such equation on the physical space */
         eq.block[0].size = n;
         eq.block[0].scale[0] = dal_momentum_scale(s, k->h, 0);
         DAL_EACH(i, n) eq.block[0].u[i] = s->y[pi + i];

@@ -6,7 +6,7 @@
 #ifndef DAL_KERNEL_TABLEAU_H
 #define DAL_KERNEL_TABLEAU_H
 
-#include "num.h"
+#include "eigensystem.h"
 
 /* The coefficients of a method with s stages; tails may be NULL. */
 typedef struct dal_tableau {
@@ -16,6 +16,7 @@ typedef struct dal_tableau {
     const double *a, *a_tail;             /* [s*s] */
     const double *extrapolation;          /* [s*s] Lagrange basis l_j(1 + c_i) on the nodes */
     const double *partner, *partner_tail; /* [s*s] of w and p, where a is that of q, e and pi */
+    const dal_eigensystem *eigensystem;   /* of a = partner; NULL: none */
 } dal_tableau;
 
 DAL_INLINE const double *dal__tail(const double *tail, int first)

@@ -224,7 +224,8 @@ static dal_status read_entry(reader *r, dal__entry entry)
 {
     const dal__model_section *section = &dal__sections[entry.section];
     const bool may_range =
-        section->label && (section->form == DAL__LIST || section->form == DAL__MAPPING);
+        section->label &&
+        (section->form == DAL__LIST || section->form == DAL__MAPPING || dal__set_name(&entry));
     if (r->event.type == YAML_MAPPING_START_EVENT && may_range) return read_range(r, entry);
     const bool is_table = entry.section == DAL_SECTION_TABLES;
     if (is_table && r->event.type == YAML_MAPPING_START_EVENT) return read_table(r, entry);
@@ -240,13 +241,24 @@ static dal_status read_entry(reader *r, dal__entry entry)
     return dal__model_insert(r->model, entry, r->error);
 }
 
-static dal_status read_list(reader *r, dal_section section)
+/* What a start solves is a list within its mapping: names that get a prefix, without texts. */
+static dal_status read_list(reader *r, dal_section section, const char *prefix)
 {
+    if (r->event.type != YAML_SEQUENCE_START_EVENT && *prefix)
+        return HERE(r, DAL_SYNTAX, "solve must be a list of velocities, as [x', y']");
     if (r->event.type != YAML_SEQUENCE_START_EVENT) return wrong_form(r, section);
     for (;;) {
+        dal__entry entry = {.section = section, .text = ""};
         DAL_TRY(next(r));
         if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_OK;
-        DAL_TRY(read_entry(r, (dal__entry){.section = section}));
+        if (!*prefix) {
+            DAL_TRY(read_entry(r, entry));
+            continue;
+        }
+        DAL_TRY(read_key(r, &entry));
+        entry.name = dal__model_print(r->model, "%s%s", prefix, entry.name);
+        if (!entry.name) return dal__memory_error(r->error);
+        DAL_TRY(dal__model_insert(r->model, entry, r->error));
     }
 }
 
@@ -264,10 +276,16 @@ static dal_status read_mapping(reader *r, dal_section section, int item, const c
         if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
         DAL_TRY(read_key(r, &entry));
         const bool is_set = section == DAL_SECTION_EVENTS && strcmp(entry.name, "set") == 0;
+        const bool is_solve = section == DAL_SECTION_START && strcmp(entry.name, "solve") == 0;
         if (*prefix) entry.name = dal__model_print(r->model, "%s%s", prefix, entry.name);
         if (!entry.name) return dal__memory_error(r->error);
         DAL_TRY(next(r));
-        DAL_TRY(is_set && !*prefix ? read_mapping(r, section, item, "set.") : read_entry(r, entry));
+        if (is_set && !*prefix)
+            DAL_TRY(read_mapping(r, section, item, dal__set_prefix));
+        else if (is_solve && r->event.type != YAML_SCALAR_EVENT)
+            DAL_TRY(read_list(r, section, dal__solve_prefix));
+        else
+            DAL_TRY(read_entry(r, entry));
     }
 }
 
@@ -287,7 +305,7 @@ static dal_status read_section(reader *r, dal_section section)
 {
     switch (dal__sections[section].form) {
     case DAL__LIST:
-        return read_list(r, section);
+        return read_list(r, section, "");
     case DAL__MAPPING:
         return read_mapping(r, section, 0, "");
     case DAL__MAPPINGS:

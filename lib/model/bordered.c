@@ -392,6 +392,8 @@ dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, bool collecte
 
 bool dal__bordered_is_reduced(const dal__bordered *s) { return s->solved > 0; }
 
+bool dal__bordered_keeps_rank(const dal__bordered *s) { return s->lefts == 0; }
+
 dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int way,
                                 dal__bordered **bordered, int *singular)
 {

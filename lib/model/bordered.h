@@ -18,6 +18,9 @@ dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int 
                                 dal__bordered **bordered, int *singular);
 /* Whether any constraint is solved for a coordinate first. */
 bool dal__bordered_is_reduced(const dal__bordered *bordered);
+/* Whether all are: their coefficients of these coordinates are a diagonal of constants, so that the
+ * rank of A cannot fall. */
+bool dal__bordered_keeps_rank(const dal__bordered *bordered);
 /* Replaces the pivots of the equations by those of W and of this system. */
 void dal__bordered_record_pivots(dal__equations *equations, const dal__bordered *bordered,
                                  const dal__factors *mass);

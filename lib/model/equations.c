@@ -79,7 +79,7 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     dal__factors f;
     derive_lagrangian(e, e->lagrangian);
     /* W^-1 A^T of L alone, for projections.  A singular W means that there are none: U stays 0. */
-    dal_status status = dal__solve_mass(model, &f);
+    dal_status status = dal__solve_mass(model);
     if (status != DAL_OK && status != DAL_SINGULAR) return exhausted(model, error);
     dal__node L = e->lagrangian;
     for (int a = 0; a < e->m; a++) {
@@ -114,16 +114,24 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     return status == DAL_OK ? DAL_OK : exhausted(model, error);
 }
 
-/* ---- the reactions in invariants ---- */
+/* ---- the reactions in invariants and events ---- */
 
-/* Replaces h and R = B^T h by their formulas.  Their nodes are made where they are used alone. */
-static dal_status insert_reactions(dal_model *model)
+dal_status dal__insert_reactions(dal_model *model)
 {
     dal__equations *e = &model->equations;
     const int n = e->n, m = e->m, count = m + n;
+    const struct {
+        dal__node *list;
+        int count;
+    } parts[] = {{e->invariant, e->invariants},
+                 {e->event_value, e->events},
+                 {e->event_state, 2 * n * e->events},
+                 {e->event_normal, (1 + 2 * n) * e->events}};
+    enum { PARTS = sizeof parts / sizeof *parts };
     bool used = false;
-    for (int k = 0; k < e->invariants; k++)
-        used |= dal__depends(e->graph, e->invariant[k], e->reaction, e->reaction + count);
+    for (int k = 0; k < PARTS; k++)
+        for (int i = 0; i < parts[k].count; i++)
+            used |= dal__depends(e->graph, parts[k].list[i], e->reaction, e->reaction + count);
     if (!used) return e->graph->status;
     dal__node *by = dal__model_nodes(model, count, dal__number(e->graph, 0.0));
     int *symbol = dal__model_allocate(model, (size_t)count, sizeof *symbol);
@@ -135,8 +143,9 @@ static dal_status insert_reactions(dal_model *model)
             by[m + i] = dal__node_add(e->graph, by[m + i],
                                       dal__node_mul(e->graph, e->B[a * n + i], e->h[a]));
     }
-    for (int k = 0; k < e->invariants; k++)
-        e->invariant[k] = dal__substitute(e->graph, e->invariant[k], symbol, count, by);
+    for (int k = 0; k < PARTS; k++)
+        if (parts[k].count > 0)
+            dal__substitute_all(e->graph, parts[k].count, parts[k].list, symbol, count, by);
     return e->graph->status;
 }
 
@@ -187,5 +196,5 @@ dal_status dal__equations_derive(dal_model *model, dal_error *error)
         if (expand_angles(model) != DAL_OK) return exhausted(model, error);
         DAL_TRY(dal__motion_derive(model, error));
     }
-    return insert_reactions(model) == DAL_OK ? DAL_OK : exhausted(model, error);
+    return dal__insert_reactions(model) == DAL_OK ? DAL_OK : exhausted(model, error);
 }

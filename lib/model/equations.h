@@ -18,13 +18,14 @@ typedef struct dal__pivot {
  * exact (no solution given), otherwise the number 0. */
 typedef struct dal__equations {
     dal__graph *graph;
+    int observed; /* of the invariants, the last: formulas that come after all equations */
     int parameters, n, m, multipliers, invariants, lets, functions, guards, pivots;
     bool vakonomic, accelerations, servo, pictured;
     bool mass_positive; /* W is positive definite at the default start */
     unsigned properties;
     /* First symbols of the inputs.  Twice the numbers of q, v and pi: the tangent system has 2n. */
     int t, q, v, pi, g, symbols;
-    int reaction; /* first symbol of h, R_x in invariants, which stand for their formulas */
+    int reaction; /* first symbol of h, R_x in invariants and events: they stand for formulas */
     /* Formulas as given. */
     int sizes;
     const char **size_name; /* [sizes] */
@@ -35,6 +36,8 @@ typedef struct dal__equations {
     dal__node *force;      /* [n]: Q, or the accelerations */
     dal__node *constraint; /* [m]: D */
     dal__node *start;      /* [2n + multipliers + 1] */
+    int solved_velocities; /* that the start solves from D = 0 */
+    dal_solved *solved;    /* [solved_velocities] */
     dal__node *invariant;  /* [invariants] */
     dal__node *exact;      /* [2n] or all 0 */
     dal__node mu;          /* mu_e, or 0 */
@@ -66,6 +69,7 @@ typedef struct dal__equations {
     int lookups, *lookup;           /* [lookups] the tables that are read in the diagnosis */
     int mass_guard;                 /* which of them is det W, from 1; 0: none */
     dal__pivot *pivot;              /* [pivots], of at most 2 (n + m) */
+    struct dal__factors *mass;      /* of W */
     struct dal__bordered *bordered; /* solves for F and h; NULL for vakonomic motion */
     double *value;                  /* [symbols]: default parameters, default start */
     int *symbol;                    /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
@@ -79,6 +83,9 @@ typedef struct dal__equations {
 /* Derives everything but the given formulas.  Errors: DAL_RANK, DAL_SINGULAR_MASS, DAL_MEMORY,
  * DAL_TOO_LARGE. */
 dal_status dal__equations_derive(dal_model *model, dal_error *error);
+/* Replaces h and R = B^T h in invariants and events by their formulas, whose nodes are made where
+ * they are used alone.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__insert_reactions(dal_model *model);
 /* sum_i a[i] b[i] of count nodes. */
 dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b);
 /* d/dt along v without accelerations: f_q v + f_t. */

@@ -16,7 +16,8 @@ enum { IN_MESSAGES = 60 /* characters of a formula */ };
 
 #define KEY_LIST(KEY)                                                                              \
     KEY(WHEN, "when")                                                                              \
-    KEY(DIRECTION, "direction") KEY(SET, "set") KEY(RESTITUTION, "restitution") KEY(STOP, "stop")
+    KEY(DIRECTION, "direction")                                                                    \
+    KEY(SET, "set") KEY(RESTITUTION, "restitution") KEY(STOP, "stop") KEY(FOR, "for")
 enum {
 #define CODE(code, word) KEY_##code,
     KEY_LIST(CODE) KEYS
@@ -26,7 +27,7 @@ enum {
 /* What the formulas of events may contain. */
 static dal__scope everything(const dal__equations *e)
 {
-    return dal__scope_of(e, DAL__MAY_T | DAL__MAY_STATE);
+    return dal__scope_of(e, DAL__MAY_T | DAL__MAY_STATE | DAL__MAY_REACTIONS);
 }
 
 static dal_status parse_entry(dal_model *model, const dal__entry *entry, unsigned *seen,
@@ -41,7 +42,8 @@ static dal_status parse_entry(dal_model *model, const dal__entry *entry, unsigne
     const int number = entry->item - 1;
     dal_event *event = &e->event[number];
     int key = KEY_SET, i = 0;
-    if (!dal__is_set(entry))
+    const char *const name = dal__set_name(entry);
+    if (!name)
         DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "key of an event", keys, KEYS,
                                &key, error));
     seen[number] |= 1u << key;
@@ -62,11 +64,12 @@ static dal_status parse_entry(dal_model *model, const dal__entry *entry, unsigne
                                error));
         if (i) event->actions |= DAL_EVENT_STOPS;
         return DAL_OK;
+    case KEY_FOR: /* expand.c has made the events of it */
+        return DAL_OK;
     default:
-        if (!dal__is_set(entry))
+        if (!name)
             return dal__fail_at(error, DAL_SYNTAX, DAL__AT_NAME(entry),
                                 "set is given by coordinate, as %d.set.x", entry->item);
-        const char *name = dal__set_name(entry);
         const size_t length = strlen(name);
         const bool velocity = length > 0 && name[length - 1] == '\'';
         i = dal__index_of(name, length - velocity, e->coordinate, e->n);
@@ -102,11 +105,12 @@ static dal_status check_event(dal_model *model, int number, unsigned seen, dal_e
     if (seen & 1u << KEY_SET && seen & 1u << KEY_RESTITUTION)
         return dal__fail_at(error, DAL_MODEL, line, column,
                             "event %d has both 'set' and 'restitution'", number + 1);
-    if (!dal__depends(e->graph, e->event_value[number], e->parameters, e->symbols))
-        return dal__fail_at(error, DAL_MODEL, DAL__AT_TEXT(when),
-                            "event %d, when: it does not change along a run", number + 1);
-    char *name = dal__model_print(model, "event %d (%.*s%s)", number + 1, (int)IN_MESSAGES,
-                                  when->text, strlen(when->text) > IN_MESSAGES ? "..." : "");
+    const char *dots = strlen(when->text) > IN_MESSAGES ? "..." : "";
+    char *name = when->index
+                     ? dal__model_print(model, "event %d (%.*s%s, %s = %d)", number + 1,
+                                        (int)IN_MESSAGES, when->text, dots, when->index, when->at)
+                     : dal__model_print(model, "event %d (%.*s%s)", number + 1, (int)IN_MESSAGES,
+                                        when->text, dots);
     if (!name) return dal__memory_error(error);
     for (char *c = name; *c; c++)
         if ((unsigned char)*c < ' ') *c = ' ';
@@ -149,13 +153,17 @@ dal_status dal__derive_events(dal_model *model, dal_error *error)
     dal__equations *e = &model->equations;
     for (int k = 0; k < e->events; k++) {
         const dal__node f = e->event_value[k];
+        const dal__entry *entry = find_entry(model, k + 1, "when");
+        if (!dal__depends(e->graph, f, e->parameters, e->symbols))
+            return dal__fail_at(error, DAL_MODEL, DAL__AT_TEXT(entry),
+                                "event %d, when: it does not change along a run", k + 1);
         dal__node *normal = e->event_normal + (size_t)k * (1 + 2 * (size_t)e->n) + 1;
         dal__node rate = dal__time_derivative(e, f);
         const dal__node along = dal__tangent(e->graph, f, e->symbol + e->v, e->n, e->F);
         e->event_rate[k] = dal__node_add(e->graph, rate, along);
         dal__gradient(e->graph, f, e->symbol + e->q, e->n, normal);
         if (!(e->event[k].actions & DAL_EVENT_IMPACT)) continue;
-        const dal__entry *entry = find_entry(model, k + 1, "restitution");
+        entry = find_entry(model, k + 1, "restitution");
         bool moves = false, is_steady = true;
         for (int i = 0; i < e->n; i++)
             moves = moves || dal__depends(e->graph, f, e->q + i, e->q + i + 1);

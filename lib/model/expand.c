@@ -176,6 +176,7 @@ static dal_status expand_entry(dal_model *model, const dal__entry *given, dal_er
     const size_t length = open ? strcspn(open, "]") + 1 : 0;
     range r = {.last = 0};
     dal__entry entry = *given;
+    if (given->observed) return append(model, entry, error); /* the name is a formula */
     if (skip) DAL_TRY(read_for(model, given, &r, error));
     entry.text += skip;
     if (skip && !given->apart) entry.column += (int)skip;
@@ -198,6 +199,74 @@ static dal_status expand_entry(dal_model *model, const dal__entry *given, dal_er
     return DAL_OK;
 }
 
+/* ---- events ---- */
+
+/* An event as it is given: the events that it stands for, from number `first` on. */
+typedef struct event_range {
+    range r;
+    bool is_many; /* it has a range */
+    int first, count;
+} event_range;
+
+static bool is_event_range(const dal__entry *entry)
+{
+    return entry->section == DAL_SECTION_EVENTS && strcmp(entry->name, "for") == 0;
+}
+
+/* Reads the ranges of events[items]. */
+static dal_status read_event_ranges(dal_model *model, event_range *events, int items,
+                                    dal_error *error)
+{
+    int next = 1;
+    for (int k = 0; k < items; k++) events[k].count = 1;
+    for (int k = 0; k < model->given_count; k++) {
+        dal__entry entry = model->given[k];
+        event_range *event = entry.item > 0 ? &events[entry.item - 1] : NULL;
+        if (!is_event_range(&entry)) continue;
+        entry.text = dal__model_print(model, "for %s:", entry.text);
+        if (!entry.text) return dal__memory_error(error);
+        if (!dal__range_length(entry.text))
+            return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(&entry),
+                                "the range of an event is written i = 1..N");
+        DAL_TRY(read_for(model, &entry, &event->r, error));
+        event->is_many = true;
+        event->count = event->r.last < event->r.first ? 0 : event->r.last - event->r.first + 1;
+        if (event->count > DAL__MAX_EVENTS)
+            return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_TEXT(&entry),
+                                "%d events; at most %d are possible", event->count,
+                                (int)DAL__MAX_EVENTS);
+    }
+    for (int k = 0; k < items; k++) {
+        events[k].first = next;
+        next += events[k].count;
+    }
+    return DAL_OK;
+}
+
+/* An entry of an event for each number of its range. */
+static dal_status expand_event(dal_model *model, const dal__entry *given, const event_range *event,
+                               dal_error *error)
+{
+    if (is_event_range(given)) return DAL_OK;
+    if (event->is_many && dal__range_length(given->text) > 0)
+        return dal__fail_at(error, DAL_SYNTAX, DAL__AT_NAME(given),
+                            "the event has a range, and '%.80s' another one", given->name);
+    for (int i = 0; i < event->count; i++) {
+        dal__entry made = *given;
+        made.item = event->first + i;
+        if (event->is_many) {
+            made.text = dal__model_print(model, "for %s = %d..%d: %s", event->r.index,
+                                         event->r.first + i, event->r.first + i, given->text);
+            made.apart = true;
+        }
+        if (!made.text) return dal__memory_error(error);
+        DAL_TRY(expand_entry(model, &made, error));
+    }
+    return DAL_OK;
+}
+
+/* ---- all ---- */
+
 /* Two entries of one name may come from one range each. */
 static dal_status check_duplicates(const dal_model *model, dal_error *error)
 {
@@ -209,9 +278,7 @@ static dal_status check_duplicates(const dal_model *model, dal_error *error)
             const dal__entry *other = &model->expanded[k];
             if (other->section != entry->section || other->item != entry->item) continue;
             if (strcmp(is_name ? other->text : other->name, name) == 0)
-                return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
-                                    "duplicate '%.80s' in %s", name,
-                                    dal__section_name(entry->section));
+                return dal__duplicate(entry, error);
         }
     }
     return DAL_OK;
@@ -223,21 +290,33 @@ static bool is_compact(const dal__entry *entry)
     const bool formula = dal__sections[entry->section].label != NULL;
     const bool is_name = entry->section == DAL_SECTION_COORDINATES;
     const char *name = is_name ? entry->text : formula ? entry->name : NULL;
-    return (name && strchr(name, '[')) || (formula && dal__range_length(entry->text) > 0);
+    return (name && strchr(name, '[')) || (formula && dal__range_length(entry->text) > 0) ||
+           is_event_range(entry);
 }
 
 dal_status dal__expand(dal_model *model, dal_error *error)
 {
     bool compact = false;
+    int items = 0;
     model->entries = model->given;
     model->count = model->given_count;
     DAL_TRY(read_sizes(model, error));
-    for (int i = 0; i < model->given_count; i++) compact |= is_compact(&model->given[i]);
+    for (int i = 0; i < model->given_count; i++) {
+        compact |= is_compact(&model->given[i]);
+        items = items < model->given[i].item ? model->given[i].item : items;
+    }
     if (!compact) return DAL_OK;
+    event_range *events = dal__model_allocate(model, (size_t)items, sizeof *events);
+    if (!events) return dal__memory_error(error);
+    DAL_TRY(read_event_ranges(model, events, items, error));
     model->expanded_count = 0;
-    for (int i = 0; i < model->given_count; i++)
-        DAL_TRY(is_compact(&model->given[i]) ? expand_entry(model, &model->given[i], error)
-                                             : append(model, model->given[i], error));
+    for (int i = 0; i < model->given_count; i++) {
+        const dal__entry *given = &model->given[i];
+        DAL_TRY(given->section == DAL_SECTION_EVENTS
+                    ? expand_event(model, given, &events[given->item - 1], error)
+                : is_compact(given) ? expand_entry(model, given, error)
+                                    : append(model, *given, error));
+    }
     DAL_TRY(check_duplicates(model, error));
     model->entries = model->expanded;
     model->count = model->expanded_count;

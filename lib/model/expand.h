@@ -10,6 +10,7 @@
  *     x[1..N]                          x1, x2, ...
  *     x[i] with "for i = 1..N: ..."    an entry for each i, i being known in its formula
  *     x[N]                             one name
+ *     an event with for: i = 1..N      an event for each i, i being known in its formulas
  *
  * Errors: DAL_SYNTAX and DAL_NAME with place, DAL_MODEL, DAL_TOO_LARGE, DAL_MEMORY. */
 dal_status dal__expand(dal_model *model, dal_error *error);

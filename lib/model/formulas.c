@@ -5,6 +5,7 @@
  * where dq, dv, dpi have a meaning in the tangent system only, and h, R, the reactions, until their
  * formulas are known (equations.c). */
 #include "model/formulas.h"
+#include "core/solved.h"
 #include "expr/derivative.h"
 #include "expr/parser.h"
 #include "expr/simplify.h"
@@ -22,7 +23,7 @@
 
 void dal__entry_title(const dal_model *model, const dal__entry *entry, char *title, size_t size)
 {
-    const char *label = dal__sections[entry->section].label;
+    const char *label = entry->observed ? "observed" : dal__sections[entry->section].label;
     int number = 1;
     for (const dal__entry *other = model->entries; other < entry; other++)
         number += other->section == entry->section;
@@ -30,7 +31,7 @@ void dal__entry_title(const dal_model *model, const dal__entry *entry, char *tit
         snprintf(title, size,
                  entry->section == DAL_SECTION_EVENTS ? "%s %d, %.80s" : "%s %d on %.80s", label,
                  entry->item, entry->name);
-    else if (entry->name)
+    else if (entry->name && !entry->observed)
         snprintf(title, size, "%s %.80s", label, entry->name);
     else if (dal__sections[entry->section].form == DAL__LIST)
         snprintf(title, size, "%s %d", label, number);
@@ -70,7 +71,10 @@ dal_status dal__not_finite(const dal_model *model, const dal__entry *entry, dal_
     return status != DAL_OK ? dal__size_error(status, error) : locate(model, entry, error, &inner);
 }
 
-enum { MAY_ALL = DAL__MAY_T | DAL__MAY_STATE };
+enum {
+    MAY_ALL = DAL__MAY_T | DAL__MAY_STATE,
+    OF_INVARIANTS = DAL__MAY_MULTIPLIERS | DAL__MAY_REACTIONS
+};
 
 dal__scope dal__scope_of(const dal__equations *e, unsigned may)
 {
@@ -171,8 +175,19 @@ static dal_status parse_dynamics(dal_model *model, dal_error *error)
     DAL_TRY(by_coordinate(model, DAL_SECTION_FORCES, all, e->force, error));
     DAL_TRY(parse_each(model, DAL_SECTION_CONSTRAINTS, all, e->m, e->constraint, error));
     DAL_TRY(by_coordinate(model, DAL_SECTION_REACTIONS, all, e->B, error));
-    all.may |= DAL__MAY_MULTIPLIERS;
-    return parse_each(model, DAL_SECTION_INVARIANTS, all, e->invariants, e->invariant, error);
+    all.may |= OF_INVARIANTS;
+    return parse_each(model, DAL_SECTION_INVARIANTS, all, e->invariants - e->observed, e->invariant,
+                      error);
+}
+
+dal_status dal__parse_observed(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    const dal__scope scope = dal__scope_of(e, MAY_ALL | OF_INVARIANTS);
+    for (int i = e->invariants - e->observed; i < e->invariants; i++)
+        DAL_TRY(dal__parse_entry(model, dal__model_entry(model, DAL_SECTION_INVARIANTS, i), scope,
+                                 &e->invariant[i], error));
+    return DAL_OK;
 }
 
 /* ---- gauge, start, exact ---- */
@@ -193,6 +208,25 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
+/* Adds what an entry of a start names to the velocities that are solved, unless it names none. */
+static dal_status add_solved(dal_model *model, const dal__entry *entry, const char *const *names,
+                             dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    const char *name = dal__solved_name(entry);
+    dal_solved solved = {.line = entry->name_line, .column = entry->name_column};
+    if (!name) return DAL_OK;
+    DAL_TRY(dal__find_word(name, DAL__AT_NAME(entry), "velocity in solve", names, e->n,
+                           &solved.velocity, error));
+    if (e->solved_velocities == e->m)
+        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
+                            "the start cannot be solved for %s: there %s %d constraint%s, and as "
+                            "many velocities before it",
+                            name, e->m == 1 ? "is" : "are", e->m, e->m == 1 ? "" : "s");
+    e->solved[e->solved_velocities++] = solved;
+    return DAL_OK;
+}
+
 static dal_status parse_start(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
@@ -202,7 +236,8 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     dal__scope scope = dal__scope_of(e, 0);
     const dal__entry *entry;
     scope.given = given;
-    if (!names || !given) return dal__memory_error(error);
+    e->solved = dal__model_allocate(model, (size_t)e->m, sizeof *e->solved);
+    if (!names || !given || !e->solved) return dal__memory_error(error);
     for (int i = 0; i < e->n; i++) {
         names[i] = e->coordinate[i];
         names[e->n + i] = dal__model_print(model, "%s'", e->coordinate[i]);
@@ -210,14 +245,21 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     for (int i = 2 * e->n; i < count; i++)
         names[i] = dal__model_print(model, "g%d", i - 2 * e->n + 1);
     if (model->out_of_memory) return dal__memory_error(error);
+    for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++)
+        DAL_TRY(add_solved(model, entry, names + e->n, error));
     for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++) {
+        if (dal__solved_name(entry)) continue;
+        if (strcmp(entry->name, "solve") == 0 && dal__index_of("solve", 5, names, count) < 0)
+            return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(entry),
+                                "solve must be a list of velocities, as [x', y']");
         if (strcmp(entry->name, "e") == 0)
             return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                                 "the start of e belongs under gauge, as 'gauge: {e: 1}'");
         DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "name in start", names, count, &i,
                                error));
         DAL_TRY(dal__parse_entry(model, entry, scope, &e->start[i], error));
-        given[i] = e->start[i];
+        const bool is_guess = dal__is_solved(e->solved, e->solved_velocities, i - e->n);
+        if (!is_guess) given[i] = e->start[i];
         if (!isfinite(dal__evaluate(e->graph, e->start[i], e->value)))
             return dal__not_finite(model, entry, error);
     }

@@ -9,6 +9,9 @@
  * DAL_SYNTAX, DAL_NAME, DAL_MODEL, DAL_RANK (more constraints than coordinates), DAL_MEMORY,
  * DAL_TOO_LARGE. */
 dal_status dal__parse_model(dal_model *model, dal_error *error);
+/* Parses the formulas that are observed alone, once all else has its nodes: operands are ordered by
+ * the numbers of nodes, and so the bits of a trajectory stay. */
+dal_status dal__parse_observed(dal_model *model, dal_error *error);
 /* How messages call the formula of an entry: "force on x", "constraint 2". */
 void dal__entry_title(const dal_model *model, const dal__entry *entry, char *title, size_t size);
 

@@ -43,15 +43,25 @@ const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
     [DAL_SECTION_DEFAULTS] = {DAL__MAPPING, NULL},
 };
 
-static const char set_prefix[] = "set.";
+const char dal__set_prefix[] = "set.", dal__solve_prefix[] = "solve.";
 
-bool dal__is_set(const dal__entry *entry)
+static const char *behind(const char *prefix, const dal__entry *entry, dal_section section)
 {
-    return entry->section == DAL_SECTION_EVENTS && entry->name &&
-           strncmp(entry->name, set_prefix, sizeof set_prefix - 1) == 0;
+    const size_t length = strlen(prefix);
+    const bool begins =
+        entry->section == section && entry->name && strncmp(entry->name, prefix, length) == 0;
+    return begins ? entry->name + length : NULL;
 }
 
-const char *dal__set_name(const dal__entry *entry) { return entry->name + sizeof set_prefix - 1; }
+const char *dal__set_name(const dal__entry *entry)
+{
+    return behind(dal__set_prefix, entry, DAL_SECTION_EVENTS);
+}
+
+const char *dal__solved_name(const dal__entry *entry)
+{
+    return behind(dal__solve_prefix, entry, DAL_SECTION_START);
+}
 
 bool dal__section_named(dal_section section) { return dal__sections[section].form >= DAL__MAPPING; }
 
@@ -135,9 +145,9 @@ dal_model *dal_model_create(const char *name)
 void dal_model_free(dal_model *model)
 {
     if (!model) return;
-    dal__tapes_free(model->programs.tapes);
-    dal__tapes_free(model->tangent_programs.tapes);
-    dal__tapes_free(model->extended_programs.tapes);
+    dal__programs_free(&model->programs);
+    dal__programs_free(&model->tangent_programs);
+    dal__programs_free(&model->extended_programs);
     dal__graph_free(model->equations.graph);
     for (dal__allocation *block = model->blocks, *next; block; block = next) {
         next = block->next;
@@ -176,17 +186,43 @@ const char *dal_model_text(const dal_model *model, dal_section section, int i, c
     return entry->text;
 }
 
+/* The name of a column of its own, which is one line of a table. */
+static dal_status check_observed(const dal__entry *entry, dal_error *error)
+{
+    const char *text = entry->text;
+    const size_t length = strlen(text), letters = dal__name_length(text, length);
+    const bool is_name = letters > 0 && letters + (text[letters] == '\'') == length;
+    if (length > DAL__MAX_LETTERS)
+        return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_TEXT(entry),
+                            "'%.40s...' has more than %d characters: an invariant of the system "
+                            "file may be longer",
+                            text, (int)DAL__MAX_LETTERS);
+    if (length == 0)
+        return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(entry),
+                            "a formula to observe is missing");
+    if (text[0] == ' ' || text[length - 1] == ' ' || strcspn(text, "\n\r\t;\"") < length)
+        return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(entry),
+                            "a formula to observe is one line, without quotes or semicolons, and "
+                            "without blanks at its ends");
+    if (is_name)
+        return dal__fail_at(error, DAL_NAME, DAL__AT_TEXT(entry),
+                            "'%s' is a name; as a formula to observe it is written (%s)", text,
+                            text);
+    return DAL_OK;
+}
+
 /* Checks the name of an entry, or the text of a coordinate.  A start, or what an event sets, may be
  * that of a velocity, x'. */
 static dal_status check_name(const dal__entry *entry, dal_error *error)
 {
     const char *name = entry->section == DAL_SECTION_COORDINATES ? entry->text : entry->name;
+    if (entry->observed) return check_observed(entry, error);
     if (!name || entry->section == DAL_SECTION_FILES) return DAL_OK;
-    const bool is_set = dal__is_set(entry);
-    if (is_set) name = dal__set_name(entry);
+    const char *set = dal__set_name(entry), *solved = dal__solved_name(entry);
+    if (set || solved) name = set ? set : solved;
     size_t length = strlen(name);
     if (entry->section == DAL_SECTION_FUNCTIONS) length = dal__name_length(name, length);
-    const bool velocity = entry->section == DAL_SECTION_START || is_set;
+    const bool velocity = entry->section == DAL_SECTION_START || set;
     if (velocity && length && name[length - 1] == '\'') length--;
     if (length > DAL__MAX_LETTERS && entry->section != DAL_SECTION_START)
         return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_NAME(entry),
@@ -203,20 +239,28 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
                         dal__section_name(entry->section));
 }
 
+dal_status dal__duplicate(const dal__entry *entry, dal_error *error)
+{
+    const char *section = entry->observed ? "what is observed" : dal__section_name(entry->section);
+    const char *solved = dal__solved_name(entry);
+    const char *name = entry->name ? entry->name : entry->text;
+    if (dal__sections[entry->section].form == DAL__SCALAR)
+        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate %s", section);
+    return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate '%.80s' in %s",
+                        solved ? solved : name, solved ? "solve" : section);
+}
+
 static dal_status check_duplicate(const dal_model *model, const dal__entry *entry, dal_error *error)
 {
     bool named = dal__section_named(entry->section);
     const char *name = named ? entry->name : entry->text;
-    const char *section = dal__section_name(entry->section);
     if (entry->section == DAL_SECTION_CONSTRAINTS) return DAL_OK;
     for (int k = 0; k < model->given_count; k++) {
         const dal__entry *other = &model->given[k];
         if (other->section != entry->section || other->item != entry->item) continue;
-        if (dal__sections[entry->section].form == DAL__SCALAR)
-            return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate %s", section);
-        if (strcmp(named ? other->name : other->text, name) == 0)
-            return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate '%.80s' in %s",
-                                name, section);
+        if (dal__sections[entry->section].form == DAL__SCALAR ||
+            strcmp(named ? other->name : other->text, name) == 0)
+            return dal__duplicate(entry, error);
     }
     return DAL_OK;
 }
@@ -230,6 +274,9 @@ dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *erro
     if (model->made)
         return dal__fail_at(error, DAL_ARGUMENT, line, column,
                             "'%.80s' already has its system: nothing can be added", model->name);
+    if (model->given_count && model->given[model->given_count - 1].observed && !entry.observed)
+        return dal__fail_at(error, DAL_ARGUMENT, line, column,
+                            "formulas to observe come after all other entries");
     if (model->given_count == DAL__MAX_ENTRIES)
         return dal__fail_at(error, DAL_TOO_LARGE, line, column, "more than %d entries",
                             (int)DAL__MAX_ENTRIES);
@@ -278,4 +325,21 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
         entry.name = c + 1;
     }
     return dal__model_insert(model, entry, error);
+}
+
+dal_status dal_model_observe(dal_model *model, const char *formula, int line, int column,
+                             dal_error *error)
+{
+    DAL_REQUIRE(model, error);
+    DAL_REQUIRE(formula, error);
+    return dal__model_insert(model,
+                             (dal__entry){.section = DAL_SECTION_INVARIANTS,
+                                          .name = formula,
+                                          .text = formula,
+                                          .line = line,
+                                          .column = column,
+                                          .name_line = line,
+                                          .name_column = column,
+                                          .observed = true},
+                             error);
 }

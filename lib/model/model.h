@@ -38,6 +38,7 @@ typedef struct dal__entry {
     const char *text;
     int line, column, name_line, name_column;
     int item;          /* in a list of mappings: which, from 1; otherwise 0 */
+    bool observed;     /* an invariant by dal_model_observe */
     bool apart;        /* of "for i = 1..N: formula": the place is that of the formula */
     const char *index; /* a name that is the number at in the formula; NULL: none */
     int at;
@@ -45,9 +46,11 @@ typedef struct dal__entry {
 #define DAL__AT_NAME(entry) (entry)->name_line, (entry)->name_column
 #define DAL__AT_TEXT(entry) (entry)->line, (entry)->column
 
-/* Whether an entry says what an event sets, its name being "set.x'"; and that name, "x'". */
-bool dal__is_set(const dal__entry *entry);
+/* What the entries of a list or mapping within a section are called: what an event sets, "set.x'",
+ * and what a start solves, "solve.x'".  The name behind that, "x'"; NULL: the entry is no such. */
+extern const char dal__set_prefix[], dal__solve_prefix[];
 const char *dal__set_name(const dal__entry *entry);
+const char *dal__solved_name(const dal__entry *entry);
 
 /* A warning and its place. */
 typedef struct dal__warning {
@@ -87,6 +90,8 @@ void dal__model_warn(dal_model *model, const dal__entry *entry, const char *text
 /* The errors DAL_MEMORY, and DAL_MEMORY or DAL_TOO_LARGE of a graph. */
 dal_status dal__memory_error(dal_error *error);
 dal_status dal__size_error(dal_status status, dal_error *error);
+/* The error that an entry is given twice. */
+dal_status dal__duplicate(const dal__entry *entry, dal_error *error);
 /* Adds a copy of the entry. */
 dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *error);
 /* Entry number i of a section, or NULL past the last; and how many there are. */

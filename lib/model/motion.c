@@ -9,6 +9,7 @@
  * so each costs a solution by the same factors. */
 #include "model/motion.h"
 #include "core/error.h"
+#include "core/vectors.h"
 #include "expr/collect.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
@@ -31,9 +32,11 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
         e->coordinate[row]);
 }
 
-/* Lists the constraints whose rows of A combine to that of one, ", 1, 2", at an irregular point:
- * rows[m*(n+m)] are A and, behind it, what each is made of. */
-static void list_dependence(const dal__equations *e, int row, double *rows, char *list, size_t size)
+/* Lists the constraints whose rows of A combine to that of one, ", 1, 2", at an irregular point;
+ * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: those of A, each
+ * scaled to a largest entry of 1, and behind each how it is combined of them. */
+static double list_dependence(const dal__equations *e, int row, double *rows, char *list,
+                              size_t size)
 {
     const double golden = 0.6180339887498949, rounding = 1e-9;
     const int n = e->n, m = e->m, width = n + m;
@@ -44,6 +47,8 @@ static void list_dependence(const dal__equations *e, int row, double *rows, char
         double *w = rows + a * width; /* row comes last */
         const int number = a == m - 1 ? row : a + (a >= row);
         for (int i = 0; i < n; i++) w[i] = dal__evaluate(e->graph, e->A[number * n + i], point);
+        const double largest = dal__max_abs(w, (size_t)n);
+        for (int i = 0; i < n && largest > 0.0; i++) w[i] /= largest;
         w[n + number] = 1.0;
         for (int b = 0; b < a; b++) {
             const double *other = rows + b * width;
@@ -57,7 +62,11 @@ static void list_dependence(const dal__equations *e, int row, double *rows, char
     for (int a = 0, length = 0; a < m && length < (int)size; a++)
         if (a != row && fabs(made[a]) > rounding)
             length += snprintf(list + length, size - (size_t)length, ", %d", a + 1);
+    return dal__max_abs(made - n, (size_t)n);
 }
+
+/* Rounding leaves no more of a row that depends on others. */
+static const double nothing_left = 1e-13;
 
 dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *error)
 {
@@ -70,7 +79,12 @@ dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *erro
         return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
                             "constraint %d is not held by the reactions: A W^-1 B^T is singular",
                             row + 1);
-    if (rows) list_dependence(e, row, rows, list, sizeof list);
+    const double left = rows ? list_dependence(e, row, rows, list, sizeof list) : 0.0;
+    if (left > nothing_left && isfinite(left))
+        return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
+                            "constraint %d nearly depends on %s: they differ by %.1g of its "
+                            "coefficients, and A W^-1 A^T is singular in double precision",
+                            row + 1, list + 2, left);
     return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
                         "constraint %d is redundant, it depends on %s: A W^-1 A^T is singular",
                         row + 1, list + 2);
@@ -99,13 +113,14 @@ dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, c
     return dal__solve(model, &f, false, 1, rhs, x);
 }
 
-dal_status dal__solve_mass(dal_model *model, dal__factors *mass)
+dal_status dal__solve_mass(dal_model *model)
 {
     dal__equations *e = &model->equations;
     const int n = e->n, m = e->m, columns = 1 + m + (e->servo ? m : 0);
+    dal__factors *mass = e->mass = dal__model_allocate(model, 1, sizeof *mass);
     dal__node *rhs = dal__model_nodes(model, columns * n, 0);
     dal__node *x = dal__model_nodes(model, columns * n, 0);
-    if (!dal__factors_allocate(model, mass, n, NULL)) return DAL_MEMORY;
+    if (!mass || !dal__factors_allocate(model, mass, n, NULL)) return DAL_MEMORY;
     for (int i = 0; i < n * n; i++) mass->matrix[i] = e->W[i];
     for (int i = 0; i < n; i++) rhs[i] = e->b[i];
     for (int i = 0; i < m * n; i++) rhs[n + i] = e->A[i];
@@ -120,6 +135,27 @@ dal_status dal__solve_mass(dal_model *model, dal__factors *mass)
             e->R[i * m + a] = x[(columns - m + a) * n + i];
         }
     }
+    return DAL_OK;
+}
+
+dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m;
+    dal__factors mass = *e->mass;
+    int *v = dal__model_allocate(model, (size_t)n, sizeof *v);
+    dal__node *u = dal__model_nodes(model, n, 0), *x = dal__model_nodes(model, n * m, 0);
+    mass.matrix = dal__model_nodes(model, n * n, 0);
+    if (model->out_of_memory) return DAL_MEMORY;
+    for (int i = 0; i < n * n; i++) mass.matrix[i] = e->mass->matrix[i];
+    for (int i = 0; i < n; i++) {
+        v[i] = e->v + i;
+        u[i] = dal__symbol(e->graph, e->pi + i);
+    }
+    dal__substitute_all(e->graph, n * n, mass.matrix, v, n, u);
+    DAL_TRY(dal__solve(model, &mass, false, m, e->A, x));
+    for (int i = 0; i < n; i++)
+        for (int a = 0; a < m; a++) U[i * m + a] = x[a * n + i];
     return DAL_OK;
 }
 
@@ -177,12 +213,12 @@ static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, in
 
 dal_status dal__motion_derive(dal_model *model, dal_error *error)
 {
-    dal__factors mass;
+    const dal__equations *e = &model->equations;
     int singular;
-    dal_status status = dal__solve_mass(model, &mass);
-    if (status == DAL_SINGULAR) return dal__singular_mass(model, mass.singular, error);
+    dal_status status = dal__solve_mass(model);
+    if (status == DAL_SINGULAR) return dal__singular_mass(model, e->mass->singular, error);
     if (status != DAL_OK) return unsolved(model, status, "the mass matrix", error);
-    status = derive_cheapest(model, &mass, &singular);
+    status = derive_cheapest(model, e->mass, &singular);
     if (status == DAL_SINGULAR) return dal__dependent_constraints(model, singular, error);
     return status == DAL_OK ? DAL_OK : unsolved(model, status, "A W^-1 A^T", error);
 }

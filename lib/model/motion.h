@@ -9,9 +9,11 @@
  * DAL_TOO_LARGE. */
 dal_status dal__motion_derive(dal_model *model, dal_error *error);
 
-/* The first part of it: the factors of W, a = W^-1 b, U = W^-1 A^T, R = W^-1 B^T.  Errors:
+/* The first part of it: mass, the factors of W, a = W^-1 b, U = W^-1 A^T, R = W^-1 B^T.  Errors:
  * DAL_SINGULAR, DAL_MEMORY, DAL_TOO_LARGE. */
-dal_status dal__solve_mass(dal_model *model, dal__factors *mass);
+dal_status dal__solve_mass(dal_model *model);
+/* W(q,u)^-1 A^T [n*m], u being the symbols of pi.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U);
 
 /* matrix x = rhs for one right-hand side, without a record of the pivots.  Errors: those above. */
 dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, const dal__node *rhs,

@@ -13,10 +13,17 @@
 #include "model/motion.h"
 #include <math.h>
 
+void dal__programs_free(dal__programs *programs)
+{
+    dal__tapes_free(programs->tapes);
+    dal__taylor_free(programs->taylor[0]);
+    dal__taylor_free(programs->taylor[1]);
+}
+
 dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
                                int multipliers)
 {
-    dal__tapes_free(programs->tapes);
+    dal__programs_free(programs);
     *programs = (dal__programs){.equations = e, .n = n, .multipliers = multipliers};
     programs->tapes = dal__tapes_create(e->graph, e->parameters, e->symbols - e->parameters);
     return programs->tapes ? DAL_OK : DAL_MEMORY;
@@ -200,6 +207,57 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
     return DAL_OK;
 }
 
+/* ---- Taylor coefficients ---- */
+
+/* Adds a program to the series of the physical or the lifted space; places as dal__taylor_add. */
+static dal_status add_series(dal__programs *programs, int lifted, dal__program_code code,
+                             const uint32_t *places)
+{
+    const dal__program *program = &programs->program[code];
+    if (!program->present) return DAL_OK;
+    return dal__taylor_add(programs->taylor[lifted], programs->tapes, program->tape,
+                           program->outputs, places);
+}
+
+/* Series of F, and of its lift where there is one; inputs are t, q, v, g, pi. */
+static dal_status make_series(dal_model *model, dal__programs *programs)
+{
+    const int n = programs->n, inputs = 1 + 2 * n + programs->multipliers;
+    uint32_t *places = dal__model_allocate(model, (size_t)(inputs + n), sizeof *places);
+    if (!places) return DAL_MEMORY;
+    places[0] = (uint32_t)programs->t;
+    for (int i = 0; i < n; i++) {
+        places[1 + i] = (uint32_t)(programs->q + i);
+        places[1 + n + i] = (uint32_t)(programs->v + i);
+        places[inputs + i] = (uint32_t)(programs->pi + i);
+    }
+    for (int i = 0; i < programs->multipliers; i++)
+        places[1 + 2 * n + i] = (uint32_t)(programs->g + i);
+    for (int lifted = 0; lifted < 2; lifted++) {
+        programs->taylor[lifted] = dal__taylor_create(inputs + lifted * n, n);
+        if (!programs->taylor[lifted]) return DAL_MEMORY;
+    }
+    DAL_TRY(add_series(programs, 0, DAL__PROGRAM_FIELD, places));
+    DAL_TRY(add_series(programs, 1, DAL__PROGRAM_ADJOINT, places));
+    return add_series(programs, 1, DAL__PROGRAM_GAUGE, places);
+}
+
+static void point_to_series(dal__programs *programs)
+{
+    dal_series *series = &programs->series;
+    *series = (dal_series){.call = dal__series_x1};
+    for (int lifted = 0; lifted < 2; lifted++) {
+        const dal__taylor *taylor = programs->taylor[lifted];
+        series->size[lifted] = (size_t)taylor->slots;
+        if (!series->refused) series->refused = taylor->refused;
+    }
+#define CALLBACK(name, variant, lanes, set)                                                        \
+    if (dal__machine_has(DAL__##set)) *at[lanes == 4 ? 1 : lanes == 8 ? 2 : 0] = name##_##variant;
+    dal_series_callback **const at[] = {&series->call, &series->wide4, &series->wide8};
+    DAL__VARIANT_LIST(CALLBACK, dal__series)
+#undef CALLBACK
+}
+
 /* ---- the whole ---- */
 
 /* Numbers behind scratch: the most that a program with pivots, or the diagnosis, writes. */
@@ -240,8 +298,10 @@ static dal_status make_quad(dal_model *model, const dal__programs *programs, dal
     if (!k) return DAL_MEMORY;
     k->programs = *programs;
     k->programs.run = dal__fill_callbacks_x1_QUAD(&k->programs, &k->programs.wide1);
+    k->programs.series.call = dal__series_x1_QUAD;
     k->system = *system;
     k->system.data = &k->programs;
+    k->system.series = &k->programs.series;
     k->system.prepare = prepare_quad;
     k->system.call = k->programs.wide1;
     k->system.wide4 = k->system.wide8 = NULL;
@@ -252,6 +312,13 @@ static dal_status make_quad(dal_model *model, const dal__programs *programs, dal
 const dal__programs *dal__programs_of(const dal_system *system)
 {
     return system->prepare == prepare ? system->data : NULL;
+}
+
+/* Operations of a program; 0 where there is none. */
+static int operations(const dal__programs *programs, dal__program_code code)
+{
+    const dal__program *program = &programs->program[code];
+    return program->present ? dal__tape_operations(&programs->tapes->tape[program->tape]) : 0;
 }
 
 /* The callbacks, if this machine has a variant of that width. */
@@ -285,6 +352,8 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     DAL__VARIANT_LIST(CALLBACKS, dal__fill_callbacks)
 #undef CALLBACKS
     system->call = programs->wide1;
+    system->field_operations = operations(programs, DAL__PROGRAM_FIELD);
+    system->jacobian_operations = operations(programs, DAL__PROGRAM_JACOBIAN);
 #define SET(code, name, reads)                                                                     \
     system->name = programs->program[DAL__PROGRAM_##code].present ? name : NULL;
     DAL__SINGLE_LIST(SET)
@@ -292,6 +361,10 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     programs->picture = (dal_picture){picture, e->body};
     system->picture = programs->program[DAL__PROGRAM_PICTURE].present ? &programs->picture : NULL;
     system->diagnose = programs->program[DAL__PROGRAM_DIAGNOSE].present ? diagnose : NULL;
+    system->properties |= DAL_WIDE_TIMES;
+    DAL_TRY(make_series(model, programs));
+    point_to_series(programs);
+    system->series = &programs->series;
     system->wide4 = if_filled(&programs->wide4);
     system->wide8 = if_filled(&programs->wide8);
     return make_quad(model, programs, system);

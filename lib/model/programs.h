@@ -2,7 +2,7 @@
 #ifndef DAL_MODEL_PROGRAMS_H
 #define DAL_MODEL_PROGRAMS_H
 
-#include "expr/tape.h"
+#include "expr/taylor.h"
 #include "model/equations.h"
 
 /* The programs of a system besides those of its callbacks (DAL_CALLBACK_LIST): code, name, and the
@@ -14,6 +14,7 @@ enum { DAL__READS_none, DAL__READS_t, DAL__READS_tqv, DAL__READS_tqvpi };
     PROGRAM(ENERGY, energy, tqv)                                                                   \
     PROGRAM(INVARIANTS, invariant_values, tqv)                                                     \
     PROGRAM(REACTIONS, reactions, tqv)                                                             \
+    PROGRAM(PROJECTION, projection, tqvpi)                                                         \
     PROGRAM(EXACT, exact, t)                                                                       \
     PROGRAM(EVENT_VALUES, event_values, tqv)                                                       \
     PROGRAM(EVENT_RATES, event_rates, tqv)                                                         \
@@ -52,6 +53,8 @@ typedef struct dal__programs {
     int pivots;         /* how many these are */
     dal__program program[DAL__PROGRAM_COUNT];
     dal_callbacks wide1, wide4, wide8;
+    dal__taylor *taylor[2]; /* F in t, q, v, g; and the lift, in pi too; NULL: not made */
+    dal_series series;
     dal_picture picture;
     dal__run_program *run; /* a program of one lane */
 } dal__programs;
@@ -66,6 +69,8 @@ typedef struct dal__quad_system {
  * of the subtraction, so that three digits of it are true. */
 #define DAL__PIVOT_LEAST 1e-13
 
+/* Frees tapes and series. */
+void dal__programs_free(dal__programs *programs);
 /* Begins the programs of a system whose coordinates and velocities have n symbols each; pivots are
  * left for the rank check once dal__programs_leave_pivots was called. */
 dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
@@ -90,7 +95,10 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
 /* Sets *call to the callbacks of a variant; what runs its programs. */
 #define DAL__CALLBACKS(name, variant, lanes, set)                                                  \
     dal__run_program *name##_##variant(const dal__programs *programs, dal_callbacks *call);
+#define DAL__SERIES(name, variant, lanes, set) extern dal_series_callback name##_##variant;
 DAL__CALLBACKS(dal__fill_callbacks, x1, 1, BASE)
 DAL__VARIANT_LIST(DAL__CALLBACKS, dal__fill_callbacks)
+DAL__SERIES(dal__series, x1, 1, BASE)
+DAL__VARIANT_LIST(DAL__SERIES, dal__series)
 
 #endif

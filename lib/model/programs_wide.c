@@ -24,6 +24,15 @@ static dal_mask pivots_hold(const num *checked, int pivots)
     return ok;
 }
 
+/* Leaves pivots for the rank check; they stand behind those that were checked. */
+static void leave_pivots(const dal__programs *p, const dal__program *program, const num *checked,
+                         double *work)
+{
+    const num *left = checked + 2 * program->checked;
+    num *pivots = (num *)(work + p->pivots_left * WIDTH);
+    for (int i = 0; i < program->left; i++) pivots[i] = left[i];
+}
+
 /* Leaves NaN in the lanes where a pivot has vanished, and pivots for the rank check. */
 static dal_status run_program(const dal_system *system, const dal_point *at, double *out,
                               dal__program_code code, int reads)
@@ -31,7 +40,7 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     const dal__programs *p = system->data;
     const dal__program *program = &p->program[code];
     num *t = (num *)(at->work + (size_t)p->t * WIDTH);
-    if (reads >= DAL__READS_t) *t = dal_num(at->t);
+    if (reads >= DAL__READS_t) *t = at->times ? *(const num *)at->times : dal_num(at->t);
     if (reads >= DAL__READS_tqv) {
         load_lanes(at->work, p->q, at->q, p->n);
         load_lanes(at->work, p->v, at->v, p->n);
@@ -48,9 +57,7 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     num *to = (num *)out;
     const dal_mask ok = pivots_hold(all + program->outputs, program->checked);
     for (int i = 0; i < program->outputs; i++) to[i] = dal_select(ok, all[i], dal_num(NAN));
-    const num *left = all + program->outputs + 2 * program->checked;
-    num *pivots = (num *)(at->work + p->pivots_left * WIDTH);
-    for (int i = 0; i < program->left; i++) pivots[i] = left[i];
+    leave_pivots(p, program, all + program->outputs, at->work);
     return DAL_OK;
 }
 
@@ -61,6 +68,31 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     }
 DAL_CALLBACK_LIST(CALLBACK)
 #undef CALLBACK
+
+/* Coefficient k of F and its like; at order 0 also what run_program leaves. */
+dal_status DAL_WIDE(dal__series)(const dal_system *system, int lifted, int k, int stride,
+                                 const double *in, double *work, double *memory, double *out)
+{
+    const dal__programs *p = system->data;
+    const dal__taylor *taylor = p->taylor[lifted];
+    const dal__program *program = &p->program[lifted ? DAL__PROGRAM_ADJOINT : DAL__PROGRAM_FIELD];
+    const int outputs = program->outputs, checked = 2 * program->checked;
+    const int behind = outputs + checked + program->left; /* place of mu_e */
+    double *scratch = work + p->scratch * WIDTH;
+    num *to = (num *)out;
+    DAL_WIDE(dal__taylor_run)(taylor, k, stride, in, work, memory);
+    DAL_WIDE(dal__taylor_read)(taylor, 0, outputs, k, stride, work, memory, out);
+    if (lifted) to[outputs] = dal_num(0.0);
+    if (taylor->outputs > behind) DAL_WIDE(dal__taylor_read)
+    (taylor, behind, 1, k, stride, work, memory, (double *)(to + outputs));
+    if (k > 0 || behind == outputs) return DAL_OK;
+    DAL_WIDE(dal__taylor_read)
+    (taylor, outputs, behind - outputs, k, stride, work, memory, scratch);
+    leave_pivots(p, program, (const num *)scratch, work);
+    const dal_mask ok = pivots_hold((const num *)scratch, program->checked);
+    for (int i = 0; i < outputs; i++) to[i] = dal_select(ok, to[i], dal_num(NAN));
+    return DAL_OK;
+}
 
 dal__run_program *DAL_WIDE(dal__fill_callbacks)(const dal__programs *programs, dal_callbacks *call)
 {

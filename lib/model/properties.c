@@ -5,6 +5,7 @@
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
+#include "model/bordered.h"
 #include "model/energy.h"
 #include "model/model.h"
 #include <stdlib.h>
@@ -119,8 +120,11 @@ dal_status dal__properties(dal_model *model)
         e->properties &= constraint_class(e, e->constraint[a], first, second);
     /* The rank of A is to be checked where it can fall and no formula shows it: that of nonlinear
      * constraints, and of several that vary and may become parallel (a snakeboard with its axles
-     * across). */
-    if (e->m && !(e->properties & (e->m > 1 ? DAL_D_CONSTANT : DAL_D_LINEAR)))
+     * across).  A W^-1 A^T vanishes with the rank of A alone where W is positive definite, which
+     * its guard det W keeps it. */
+    const bool keeps_rank =
+        e->bordered && dal__bordered_keeps_rank(e->bordered) && e->mass_positive && !e->vakonomic;
+    if (e->m && !keeps_rank && !(e->properties & (e->m > 1 ? DAL_D_CONSTANT : DAL_D_LINEAR)))
         e->properties |= DAL_D_RANK_CHECKED;
     e->properties |= (autonomous ? DAL_AUTONOMOUS : 0u) | (constant ? DAL_MASS_CONSTANT : 0u) |
                      (e->vakonomic ? DAL_VAKONOMIC : 0u) | (e->servo ? DAL_SERVO : 0u);

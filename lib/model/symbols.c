@@ -126,10 +126,11 @@ dal_status dal__collect_names(dal_model *model, dal_error *error)
     e->let_name = collect(model, DAL_SECTION_LET, &e->lets);
     e->invariant_name = collect(model, DAL_SECTION_INVARIANTS, &e->invariants);
     e->tag = collect(model, DAL_SECTION_TAGS, &e->tags);
+    for (int i = 0; i < model->count; i++) e->observed += model->entries[i].observed;
     if (model->out_of_memory) return dal__memory_error(error);
     for (int k = 0; k < KINDS; k++)
         for (int i = 0; i < model->count; i++)
-            if (model->entries[i].section == kinds[k].section)
+            if (model->entries[i].section == kinds[k].section && !model->entries[i].observed)
                 DAL_TRY(check_clash(model, k, &model->entries[i], error));
     return DAL_OK;
 }
@@ -187,14 +188,6 @@ static dal__node let_at_start(const dal__scope *scope, dal__node let)
     return dal__substitute(e->graph, let, symbols, count, by);
 }
 
-static bool let_allowed(const dal__scope *scope, dal__node let)
-{
-    const dal__equations *e = &scope->model->equations;
-    if (!(scope->may & DAL__MAY_STATE) && dal__depends(e->graph, let, e->q, e->symbols))
-        return false;
-    return scope->may & DAL__MAY_T || !dal__depends(e->graph, let, e->t, e->t + 1);
-}
-
 /* h1, .., hm, R_x, ..: the number of a reaction, -1: none */
 static int reaction_index(const dal__equations *e, const char *name)
 {
@@ -214,8 +207,9 @@ static dal__node reaction(const dal__scope *scope, const char *name, int i, dal_
     if (e->vakonomic)
         dal__fail(error, DAL_NAME,
                   "vakonomic motion has no reaction '%.80s'; its multipliers are g1, g2, ..", name);
-    else if (!(scope->may & DAL__MAY_MULTIPLIERS))
-        dal__fail(error, DAL_NAME, "the reaction '%.80s' may stand in invariants only", name);
+    else if (!(scope->may & DAL__MAY_REACTIONS))
+        dal__fail(error, DAL_NAME, "the reaction '%.80s' may stand in invariants and events only",
+                  name);
     else
         return dal__symbol(e->graph, e->reaction + i);
     return 0;
@@ -238,7 +232,11 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
         return dal__symbol(e->graph, i);
     if ((i = dal__index_of(name, length, e->let_name, scope->lets)) >= 0) {
         const dal__node let = scope->given ? let_at_start(scope, e->let[i]) : e->let[i];
-        return let_allowed(scope, let) ? let : misplaced(scope, "let", name, error);
+        const bool has_state = dal__depends(e->graph, let, e->q, e->symbols);
+        const bool has_t = dal__depends(e->graph, let, e->t, e->t + 1);
+        const bool is_allowed =
+            (!has_state || scope->may & DAL__MAY_STATE) && (!has_t || scope->may & DAL__MAY_T);
+        return is_allowed ? let : misplaced(scope, "let", name, error);
     }
     if (strcmp(name, "e") == 0) {
         dal__fail(error, DAL_NAME, "e is the gauge variable; exp(1) is Euler's number");

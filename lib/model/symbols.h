@@ -9,8 +9,8 @@ dal_status dal__collect_names(dal_model *model, dal_error *error);
 /* The index of name in names, or -1. */
 int dal__index_of(const char *name, size_t length, const char *const *names, int count);
 
-/* What a formula may contain; MULTIPLIERS: of vakonomic motion, and reactions. */
-enum { DAL__MAY_T = 1, DAL__MAY_STATE = 2, DAL__MAY_MULTIPLIERS = 4 };
+/* What a formula may contain; MULTIPLIERS: of vakonomic motion. */
+enum { DAL__MAY_T = 1, DAL__MAY_STATE = 2, DAL__MAY_MULTIPLIERS = 4, DAL__MAY_REACTIONS = 8 };
 typedef struct dal__scope {
     const dal_model *model;
     unsigned may;

@@ -1,10 +1,12 @@
 /* system.c - the dal_system of a model, and that of its tangent map. */
 #include "expr/derivative.h"
 #include "expr/simplify.h"
+#include "expr/traversal.h"
 #include "model/energy.h"
 #include "model/events.h"
 #include "model/formulas.h"
 #include "model/model.h"
+#include "model/motion.h"
 #include "model/properties.h"
 
 /* ---- programs ---- */
@@ -19,6 +21,23 @@ static dal_status add_constraint(dal_model *model, dal__programs *programs)
     DAL_TRY(dal__programs_add(model, programs, DAL__PROGRAM_CONSTRAINTS, e->constraint, m));
     if (!e->U[0]) return DAL_OK;
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_CONSTRAINT, lists, 3);
+}
+
+/* D, A, W(q,u)^-1 A^T; nothing where W does not depend on v, or has no inverse. */
+static dal_status add_projection(dal_model *model, dal__programs *programs)
+{
+    const dal__equations *e = &model->equations;
+    const int m = e->m, n = e->n;
+    bool depends = false;
+    if (m == 0 || !e->U[0]) return DAL_OK;
+    for (int i = 0; i < n * n && !depends; i++)
+        depends = dal__depends(e->graph, e->mass->given[i], e->v, e->v + n);
+    if (!depends) return DAL_OK;
+    dal__node *U = dal__model_nodes(model, m * n, 0);
+    const dal__nodes lists[] = {{e->constraint, m}, {e->A, m * n}, {U, m * n}};
+    if (!U) return DAL_MEMORY;
+    DAL_TRY(dal__solve_mass_at_pi(model, U));
+    return dal__programs_add_lists(model, programs, DAL__PROGRAM_PROJECTION, lists, 3);
 }
 
 /* h, B; nothing for vakonomic systems. */
@@ -93,6 +112,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     dal__programs_leave_pivots(e, p);
     DAL_TRY(dal__programs_add_motion(model, p, F));
     DAL_TRY(add_constraint(model, p));
+    DAL_TRY(add_projection(model, p));
     DAL_TRY(add_blocks(model, p));
     DAL_TRY(add_if(model, p, e->potential, DAL__PROGRAM_POTENTIAL, e->potential, 3 * e->n));
     DAL_TRY(add_diagnosis(model, p));
@@ -101,7 +121,6 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     DAL_TRY(add_if(model, p, e->guards, DAL__PROGRAM_GUARDS, e->guard, e->guards));
     DAL_TRY(dal__programs_add(model, p, DAL__PROGRAM_START, e->start, start));
     DAL_TRY(add_if(model, p, e->energy, DAL__PROGRAM_ENERGY, &e->energy, 1));
-    DAL_TRY(add_if(model, p, e->invariants, DAL__PROGRAM_INVARIANTS, e->invariant, e->invariants));
     DAL_TRY(add_if(model, p, e->picture, DAL__PROGRAM_PICTURE, e->picture, DAL_PICTURE_COUNT));
     const int events = e->events;
     bool sets = false;
@@ -134,6 +153,7 @@ static void describe(dal_model *model)
         .multipliers = e->multipliers,
         .parameters = e->parameters,
         .invariants = e->invariants,
+        .observed = e->observed,
         .guards = e->guards,
         .mass_guard = e->mass_guard,
         .tags = e->tags,
@@ -145,10 +165,23 @@ static void describe(dal_model *model)
         .invariant = e->invariant_name,
         .guard = e->guard_name,
         .tag = e->tag,
+        .solved_velocities = e->solved_velocities,
+        .solved = e->solved,
         .events = e->events,
         .event = e->event,
         .table = e->table_name,
     };
+}
+
+/* The last program of the system and of the extended one. */
+static dal_status add_invariants(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    dal__programs *const programs[] = {&model->programs, &model->extended_programs};
+    for (int k = 0; k < (e->extended ? 2 : 1); k++)
+        DAL_TRY(add_if(model, programs[k], e->invariants, DAL__PROGRAM_INVARIANTS, e->invariant,
+                       e->invariants));
+    return e->graph->status;
 }
 
 /* The same system with its energy exact: itself, another one, or none. */
@@ -159,7 +192,6 @@ static dal_status make_extended(dal_model *model)
     if (!e->extended) return DAL_OK;
     model->extended = model->system;
     model->extended.properties ^= DAL_E_ON_D | DAL_E_EXACT;
-    DAL_TRY(add_programs(model, &model->extended_programs, e->extended));
     DAL_TRY(dal__programs_finish(model, &model->extended_programs, &model->extended));
     model->system.extended = model->extended.extended = &model->extended;
     return DAL_OK;
@@ -182,7 +214,11 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_OK) describe(model);
     if (status == DAL_OK) status = add_programs(model, &model->programs, model->equations.F);
     if (status == DAL_OK) status = add_reactions(model, &model->programs);
-    if (status == DAL_OK) status = model->equations.graph->status;
+    if (status == DAL_OK && model->equations.extended)
+        status = add_programs(model, &model->extended_programs, model->equations.extended);
+    if (status == DAL_OK) DAL_TRY(dal__parse_observed(model, error));
+    if (status == DAL_OK) status = dal__insert_reactions(model);
+    if (status == DAL_OK) status = add_invariants(model);
     if (status == DAL_OK) status = dal__programs_finish(model, &model->programs, &model->system);
     if (status == DAL_OK) status = make_extended(model);
     if (status != DAL_OK) return dal__size_error(status, error);

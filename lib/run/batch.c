@@ -2,7 +2,13 @@
  *
  * A scalar run makes the starts and explains failures.  Groups of lanes are stepped together: as
  * many of the widest engine as the count fills, then narrower ones.  Where a system or an
- * integrator has no wide variants a group has one lane; the bits are the same. */
+ * integrator has no wide variants a group has one lane; the bits are the same.
+ *
+ * A group has the numbers that pass from one step to the next, and no more.  Interpreted, they are
+ * copied to the one engine of their width, which has the scratch, and back after a block of steps;
+ * compiled steps change them in place:
+ *
+ *     engines   one of each width | groups   persistent state | workspace, interleaved by lanes */
 #include "run/batch.h"
 #include "dalembert_codegen.h"
 #include "run/failure.h"
@@ -19,10 +25,16 @@ typedef struct engine_choice {
     int count;
 } engine_choice;
 
+/* The engine of all groups of one width. */
+typedef struct lane_engine {
+    void *engine;
+    double *persistent; /* its own, and behind it the workspace */
+} lane_engine;
+
 typedef struct group {
     const dal__engine_kind *kind;
+    lane_engine *engine;
     int first; /* lane 0 of the group is this lane of the batch */
-    void *engine;
     double *persistent, *work;
     dal__lanes alive;
 } group;
@@ -33,7 +45,8 @@ struct dal_batch {
     bool stepped;     /* lanes share their time: none may be started again */
     group *group;     /* [groups] */
     dal_error *error; /* [count] */
-    void *memory;     /* of the engines */
+    void *memory;     /* of the engines and the groups */
+    lane_engine engine[WIDTHS];
     dal__native_code native;
 };
 
@@ -50,12 +63,13 @@ static engine_choice choose(const dal__layout *k, int width)
     return made;
 }
 
-/* The engine of the next group: the widest that the remaining lanes fill by more than half. */
-static const dal__engine_kind *next_kind(const engine_choice *from, int remaining)
+/* The number of the engine of the next group: the widest that the remaining lanes fill by more than
+ * half. */
+static int next_kind(const engine_choice *from, int remaining)
 {
     int i = 0;
     while (i < from->count - 1 && remaining <= from->kind[i]->width / 2) i++;
-    return from->kind[i];
+    return i;
 }
 
 /* Groups before that of a lane are at most as many as the widest would be. */
@@ -95,49 +109,77 @@ static void gather_lane(dal_batch *batch, const group *b, int lane)
 
 enum { ALIGNMENT = DAL__MAX_LANES * sizeof(double) };
 
-/* Lanes past the count are copies of the start. */
-static void place_group(dal_batch *batch, group *b, const dal__engine_kind *kind, int first,
-                        void *memory)
+static size_t group_numbers(const dal__layout *k, const dal__engine_kind *kind)
 {
-    *b = (group){.kind = kind, .first = first};
-    b->engine = kind->engine->place(&batch->scalar->layout, memory, &b->persistent, &b->work, NULL);
-    for (int lane = 0; lane < kind->width; lane++) {
-        scatter_lane(batch, b, lane);
-        if (first + lane < batch->count) b->alive |= (dal__lanes)1 << lane;
-    }
+    return (k->persistent + k->workspace) * (size_t)kind->width;
 }
 
-/* Counts groups and bytes of their engines, and places them unless memory is NULL; false: too many
+/* All lanes of a group begin as copies of the start. */
+static void place_group(dal_batch *batch, group *b, int lanes, double *memory)
+{
+    const dal__layout *k = &batch->scalar->layout;
+    const size_t width = (size_t)b->kind->width;
+    b->persistent = memory;
+    b->work = memory + k->persistent * width;
+    b->alive = ((dal__lanes)1 << lanes) - 1;
+    for (size_t i = 0; i < k->persistent * width; i++)
+        b->persistent[i] = batch->scalar->persistent[i / width];
+    for (size_t i = 0; i < k->workspace * width; i++) b->work[i] = batch->scalar->work[i / width];
+}
+
+/* Places the engines in memory and counts their bytes; NULL: counts them alone. */
+static size_t place_engines(dal_batch *batch, const engine_choice *from, char *memory)
+{
+    const dal__layout *k = &batch->scalar->layout;
+    size_t bytes = 0;
+    double *work;
+    for (int i = 0; i < from->count; i++) {
+        const dal__engine *engine = from->kind[i]->engine;
+        lane_engine *e = &batch->engine[i];
+        if (memory) e->engine = engine->place(k, memory + bytes, &e->persistent, &work, NULL);
+        bytes += dal__align(engine->bytes(k));
+    }
+    return bytes;
+}
+
+/* Counts groups and bytes of their numbers, and places them unless memory is NULL; false: too many
  * bytes. */
 static bool place_groups(dal_batch *batch, const engine_choice *from, char *memory, size_t *bytes)
 {
     *bytes = 0;
     batch->groups = 0;
     for (int left = batch->count; left > 0; batch->groups++) {
-        const dal__engine_kind *kind = next_kind(from, left);
-        const size_t more = dal__align(kind->engine->bytes(&batch->scalar->layout));
-        if (more > SIZE_MAX / 2 - *bytes) return false;
-        if (memory)
-            place_group(batch, &batch->group[batch->groups], kind, batch->count - left,
-                        memory + *bytes);
+        const int choice = next_kind(from, left), width = from->kind[choice]->width;
+        const size_t more =
+            dal__align(sizeof(double) * group_numbers(&batch->scalar->layout, from->kind[choice]));
+        if (more > SIZE_MAX / 4 - *bytes) return false;
+        if (memory) {
+            group *b = &batch->group[batch->groups];
+            *b = (group){.kind = from->kind[choice],
+                         .engine = &batch->engine[choice],
+                         .first = batch->count - left};
+            place_group(batch, b, left < width ? left : width, (double *)(void *)(memory + *bytes));
+        }
         *bytes += more;
-        left -= kind->width;
+        left -= width;
     }
     return true;
 }
 
 static dal_status allocate(dal_batch *batch, const engine_choice *from, dal_error *error)
 {
+    const size_t engines = place_engines(batch, from, NULL);
     size_t bytes;
     if (place_groups(batch, from, NULL, &bytes)) {
         batch->group = calloc((size_t)batch->groups, sizeof *batch->group);
         batch->error = calloc((size_t)batch->count, sizeof *batch->error);
-        batch->memory = malloc(bytes + ALIGNMENT);
+        batch->memory = malloc(engines + bytes + ALIGNMENT);
     }
     if (!batch->group || !batch->error || !batch->memory)
         return dal__fail(error, DAL_MEMORY, "no memory for a batch of %d", batch->count);
     char *aligned = (char *)batch->memory + (ALIGNMENT - (uintptr_t)batch->memory % ALIGNMENT);
-    place_groups(batch, from, aligned, &bytes);
+    place_engines(batch, from, aligned);
+    place_groups(batch, from, aligned + engines, &bytes);
     return DAL_OK;
 }
 
@@ -199,6 +241,7 @@ void dal_batch_free(dal_batch *batch)
 /* ---- compiled steps ---- */
 
 const dal__layout *dal__batch_layout(const dal_batch *batch) { return &batch->scalar->layout; }
+const dal_run *dal__batch_scalar(const dal_batch *batch) { return batch->scalar; }
 
 /* A full register, or less for few lanes: surplus lanes cost almost nothing, and code for other
  * numbers of lanes would have to be compiled as well. */
@@ -209,16 +252,28 @@ int dal__batch_native_lanes(const dal_batch *batch)
     return batch->count > 4 && dal__engine_best(k, 8) ? 8 : 4;
 }
 
-/* Copies the lanes of a batch to the groups of another. */
+static bool is_alive(const group *b, int lane) { return b->alive >> (lane - b->first) & 1; }
+
+/* Copies the lanes of a batch to the groups of another, which takes over their errors. */
 static void move_lanes(dal_batch *from, dal_batch *to)
 {
     for (int lane = 0; lane < from->count; lane++) {
         group *a = group_of(from, lane), *b = group_of(to, lane);
         gather_lane(from, a, lane - a->first);
         scatter_lane(to, b, lane - b->first);
-        to->error[lane] = from->error[lane];
-        if (to->error[lane].status != DAL_OK) b->alive &= ~((dal__lanes)1 << (lane - b->first));
+        if (!is_alive(a, lane)) b->alive &= ~((dal__lanes)1 << (lane - b->first));
     }
+    dal_error *const errors = to->error;
+    to->error = from->error;
+    from->error = errors;
+}
+
+/* Whether all groups are of a kind that steps that number of lanes. */
+static bool has_width(const dal_batch *batch, int lanes)
+{
+    for (int i = 0; i < batch->groups; i++)
+        if (batch->group[i].kind->width != lanes) return false;
+    return true;
 }
 
 dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native_code *native,
@@ -226,14 +281,17 @@ dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native_cod
 {
     const engine_choice one = {{dal__engine_best(&batch->scalar->layout, lanes)}, 1};
     dal_batch made = {.scalar = batch->scalar, .count = batch->count, .stepped = batch->stepped};
-    const dal_status status = allocate(&made, &one, error);
-    if (status != DAL_OK) {
-        free_groups(&made);
-        return status;
+    if (!has_width(batch, lanes)) {
+        const dal_status status = allocate(&made, &one, error);
+        if (status != DAL_OK) {
+            free_groups(&made);
+            return status;
+        }
+        move_lanes(batch, &made);
+        free_groups(batch);
+        *batch = made;
+        for (int i = 0; i < batch->groups; i++) batch->group[i].engine = batch->engine;
     }
-    move_lanes(batch, &made);
-    free_groups(batch);
-    *batch = made;
     batch->native = *native;
     return DAL_OK;
 }
@@ -247,16 +305,41 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
                            dal_error *error)
 {
     DAL_REQUIRE(batch, error);
+    DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
+    DAL_TRY(dal__check_settings(start, start_count, "start values", error));
+    return dal__batch_start(batch, lane, parameters, parameter_count, start, start_count, NULL,
+                            error);
+}
+
+dal_status dal__batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
+                            int parameter_count, const dal_setting *start, int start_count,
+                            const double *added, dal_error *error)
+{
     if (lane < 0 || lane >= batch->count)
         return dal__fail(error, DAL_ARGUMENT, "lane %d of %d does not exist", lane, batch->count);
     if (batch->stepped)
         return dal__fail(error, DAL_ARGUMENT,
                          "lane %d cannot be started again: its batch has been stepped", lane);
-    DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
-    DAL_TRY(dal__check_settings(start, start_count, "start values", error));
-    DAL_TRY(dal__run_start(batch->scalar, parameters, parameter_count, start, start_count, error));
-    const group *b = group_of(batch, lane);
+    DAL_TRY(dal__run_start(batch->scalar, parameters, parameter_count, start, start_count, added,
+                           error));
+    group *b = group_of(batch, lane);
     scatter_lane(batch, b, lane - b->first);
+    b->alive |= (dal__lanes)1 << (lane - b->first);
+    return DAL_OK;
+}
+
+void dal__batch_refuse(dal_batch *batch, int lane, const dal_error *reason)
+{
+    batch->error[lane] = *reason;
+}
+
+dal_status dal_batch_clear(dal_batch *batch)
+{
+    DAL_REQUIRE(batch, NULL);
+    for (int i = 0; i < batch->groups; i++) batch->group[i].alive = 0;
+    for (int lane = 0; lane < batch->count; lane++)
+        if (batch->error[lane].status != DAL_OK) batch->error[lane] = (dal_error){.status = DAL_OK};
+    batch->stepped = false;
     return DAL_OK;
 }
 
@@ -298,9 +381,13 @@ static long long step_group(dal_batch *batch, group *b, double h, long long coun
         *failed = lanes;
         return count;
     }
-    for (long long step = 1; step <= count; step++)
-        if ((*failed = b->kind->engine->step(b->engine, h, b->alive, reason)) != 0) return step;
-    return count;
+    const size_t bytes = sizeof(double) * group_numbers(&batch->scalar->layout, b->kind);
+    long long step = 0;
+    memcpy(b->engine->persistent, b->persistent, bytes);
+    for (*failed = 0; step < count && *failed == 0; step++)
+        *failed = b->kind->engine->step(b->engine->engine, h, b->alive, reason);
+    memcpy(b->persistent, b->engine->persistent, bytes);
+    return step;
 }
 
 dal_status dal_batch_advance(dal_batch *batch, long long count)

@@ -1,4 +1,4 @@
-/* batch.h - batches for compiled code, and batches of one variant for tests. */
+/* batch.h - batches for compiled code and ensembles, and batches of one variant for tests. */
 #ifndef DAL_BATCH_H
 #define DAL_BATCH_H
 
@@ -8,6 +8,16 @@
  * Errors: also DAL_UNSUPPORTED, when machine, system or integrator lack the variant. */
 dal_status dal__batch_of_variant(dal_batch **batch, const dal_run_spec *spec, int count, int width,
                                  dal__variant only, dal_error *error);
+
+/* As dal_batch_start, for a lane whose start is that of the settings and numbers added to it,
+ * [dimension] or NULL; and what its status is where it has no start. */
+dal_status dal__batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
+                            int parameter_count, const dal_setting *start, int start_count,
+                            const double *added, dal_error *error);
+void dal__batch_refuse(dal_batch *batch, int lane, const dal_error *reason);
+
+/* The run that makes the starts. */
+const dal_run *dal__batch_scalar(const dal_batch *batch);
 
 /* The layout of the batch; how many of its lanes compiled code should step together. */
 const dal__layout *dal__batch_layout(const dal_batch *batch);

@@ -1,106 +1,173 @@
 /* consistent.c - velocities on D = 0 by the least change in the mass metric.
  *
- * At v, with A = D_v there, the nearest point to u of the linearised constraints is
+ * At v, with A = D_v there and W that at the velocities u given, the nearest point to u of the
+ * linearised constraints is
  *
  *     v' = u + W^-1 A^T x,    A W^-1 A^T x = -(D + A (u - v)),
  *
- * whose fixed point has W (v - u) = A^T x and D = 0 with A at the solution.  A condition is one
- * more row of A. */
+ * whose fixed point has W (v - u) = A^T x and D = 0 with A at the solution.  Steps that grow, since
+ * D = 0 curves away from u, are damped: along D = 0 the error is multiplied by a number below 1
+ * where v is nearest, but that may be below -1.  A condition is one more row of A. */
 #include "run/consistent.h"
+#include "core/vectors.h"
 #include <dalembert_kernel.h>
 #include <float.h>
 
 /* A pivot of G below this part of its diagonal entry means that rows are dependent. */
 static const double independent = 1e-12;
+/* The least part of a step that is taken. */
+static const double min_damping = 1.0 / 16.0;
 
-enum { MAX_MOVES = 200 };
+enum { MAX_MOVES = 1000 };
 
-/* The rows and their values at the present state, in the scratch of the run: m of D, then that of
- * the condition. */
-typedef struct linearised {
-    int n, rows;
-    double *values; /* [rows] */
-    double *A, *B;  /* [rows*n], [n*rows] W^-1 A^T */
-    double *G, *x;  /* [rows*rows], [rows] */
-    double *given;  /* [n] */
-} linearised;
-
-/* Replaces v by v', *change is max |v' - v|; or finds that rows are dependent.  G x = x is solved
- * without exchanges of rows. */
-static dal_status move(dal_run *run, const linearised *k, double *change, const char *where,
-                       dal_error *error)
+dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition, const char *place)
 {
-    const int n = k->n, rows = k->rows;
-    double *v = run->persistent + n, *G = k->G, *x = k->x;
-    dal_gram(k->A, k->B, rows, n, G);
-    for (int a = 0; a < rows; a++) {
-        x[a] = -k->values[a];
-        for (int i = 0; i < n; i++) x[a] -= k->A[a * n + i] * (k->given[i] - v[i]);
+    const dal_system *system = run->layout.system;
+    const int n = system->n, rows = system->m + (condition != NULL);
+    dal__linearised k = {.system = system,
+                         .at = dal__here(run),
+                         .v = run->persistent + n,
+                         .condition = condition,
+                         .place = place,
+                         .rows = rows,
+                         .D = run->scratch};
+    k.A = k.D + rows;
+    k.B = k.A + rows * n;
+    k.G = k.B + rows * n;
+    k.x = k.G + rows * rows;
+    k.given = k.x + rows;
+    k.out = k.given + n;
+    return k;
+}
+
+dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error)
+{
+    const dal_system *s = k->system;
+    const int m = s->m, n = s->n, rows = k->rows;
+    const dal__condition *last = k->condition;
+    dal_callback *const callback = u && s->projection ? s->projection : s->call.constraint;
+    k->at.pi = u;
+    const dal_status status = m > 0 ? callback(s, &k->at, k->out) : DAL_OK;
+    if (status != DAL_OK)
+        return dal__fail(error, status, "the constraints cannot be evaluated at %s", k->place);
+    memcpy(k->D, k->out, (size_t)m * sizeof *k->D);
+    memcpy(k->A, k->out + m, (size_t)(m * n) * sizeof *k->A);
+    if (last) k->D[m] = -last->value;
+    for (int i = 0; i < n; i++) {
+        for (int a = 0; a < m; a++) k->B[i * rows + a] = k->out[m + m * n + i * m + a];
+        if (!last) continue;
+        k->A[m * n + i] = last->normal[i];
+        k->B[i * rows + m] = last->lifted[i];
+        k->D[m] += last->normal[i] * k->v[i];
     }
+    return DAL_OK;
+}
+
+/* The error that row a of G has no pivot; k->out[a] was its entry on the diagonal. */
+static dal_status dependent(const dal__linearised *k, int a, double pivot, dal_error *error)
+{
+    const dal_system *system = k->system;
+    const double size = dal__max_abs(k->A + a * system->n, (size_t)system->n);
+    double number = 0.0;
+    if (system->diagnose && system->diagnose(system, &k->at, &number) == DAL_SINGULAR_MASS)
+        return dal__fail(error, DAL_SINGULAR_MASS, "the mass matrix is singular at %s", k->place);
+    if (a == system->m)
+        return dal__fail(error, DAL_RANK,
+                         "%s changes no velocity that the constraints leave free (pivot %g of G)",
+                         k->place, pivot);
+    if (size == 0.0)
+        return dal__fail(error, DAL_RANK,
+                         "constraint %d restricts no velocity at %s: its derivatives by the "
+                         "velocities are 0",
+                         a + 1, k->place);
+    if (isinf(size))
+        return dal__fail(error, DAL_RANK,
+                         "constraint %d has infinite derivatives by the velocities at %s", a + 1,
+                         k->place);
+    if (size * size < DBL_MIN || isinf(size * size))
+        return dal__fail(error, DAL_RANK,
+                         "constraint %d is badly scaled: its derivatives by the velocities reach "
+                         "%g at %s, and G = A W^-1 A^T has their squares; multiply it by a number",
+                         a + 1, size, k->place);
+    if (!(k->out[a] > 0.0) || a == 0)
+        return dal__fail(error, DAL_RANK,
+                         "constraint %d has %g on the diagonal of G = A W^-1 A^T at %s", a + 1,
+                         k->out[a], k->place);
+    return dal__fail(error, DAL_RANK,
+                     "constraint %d restricts, but for rounding, only velocities that those before "
+                     "it restrict at %s: of its %g on the diagonal of G they leave %.2g",
+                     a + 1, k->place, k->out[a], pivot);
+}
+
+/* Solves G x = x without exchanges of rows. */
+static dal_status solve(dal__linearised *k, dal_error *error)
+{
+    const int rows = k->rows;
+    double *G = k->G, *x = k->x, *diagonal = k->out;
+    dal_gram(k->A, k->B, rows, k->system->n, G);
+    for (int a = 0; a < rows; a++) diagonal[a] = fabs(G[a * rows + a]);
     for (int a = 0; a < rows; a++) {
-        double whole = 0.0;
-        for (int i = 0; i < n; i++) whole += fabs(k->A[a * n + i] * k->B[i * rows + a]);
-        if (!(fabs(G[a * rows + a]) > independent * whole))
-            return dal__fail(error, DAL_RANK,
-                             "condition %d of the velocities at %s depends on those before it",
-                             a + 1, where);
-        for (int b = a + 1; b < rows; b++) x[b] -= G[b * rows + a] / G[a * rows + a] * x[a];
+        const double pivot = G[a * rows + a];
+        if (!(fabs(pivot) > independent * diagonal[a] && isfinite(pivot)))
+            return dependent(k, a, pivot, error);
+        for (int b = a + 1; b < rows; b++) x[b] -= G[b * rows + a] / pivot * x[a];
         dal_eliminate(G, rows, a);
     }
     for (int a = rows - 1; a >= 0; a--) {
         for (int b = a + 1; b < rows; b++) x[a] -= G[a * rows + b] * x[b];
         x[a] /= G[a * rows + a];
     }
+    return DAL_OK;
+}
+
+dal_status dal__check_rank(dal__linearised *k, dal_error *error)
+{
+    memset(k->x, 0, (size_t)k->rows * sizeof *k->x);
+    return solve(k, error);
+}
+
+/* Moves v by the given part of v' - v; *change is max |v' - v|. */
+static dal_status move(dal__linearised *k, double part, double *change, dal_error *error)
+{
+    const int n = k->system->n, rows = k->rows;
+    double *v = k->v, *x = k->x;
+    for (int a = 0; a < rows; a++) {
+        x[a] = -k->D[a];
+        for (int i = 0; i < n; i++) x[a] -= k->A[a * n + i] * (k->given[i] - v[i]);
+    }
+    DAL_TRY(solve(k, error));
     *change = 0.0;
     for (int i = 0; i < n; i++) {
         double moved = k->given[i];
         for (int a = 0; a < rows; a++) moved += k->B[i * rows + a] * x[a];
         *change = fmax(*change, fabs(moved - v[i]));
+        if (part < 1.0) moved = v[i] + part * (moved - v[i]);
         v[i] = moved + 0.0; /* no -0: see lib/kernel/step.h */
     }
     return DAL_OK;
 }
 
-dal_status dal__make_consistent(dal_run *run, const dal__condition *condition, const char *where,
-                                dal_error *error)
+dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
 {
-    const int n = run->layout.n, m = run->layout.m;
-    const double *v = run->persistent + n;
-    double *out = run->scratch, change = INFINITY, before;
-    const int rows = m + (condition != NULL);
-    linearised k = {.n = n, .rows = rows, .values = out + m + 2 * m * n};
-    k.A = k.values + rows;
-    k.B = k.A + rows * n;
-    k.G = k.B + rows * n;
-    k.x = k.G + rows * rows;
-    k.given = k.x + rows;
-    if (k.rows == 0) return DAL_OK;
-    if (m > 0 && !run->layout.system->call.constraint)
+    const int n = k->system->n, m = k->system->m;
+    double change = INFINITY, before, part = 1.0;
+    int max = 0;
+    if (k->rows == 0) return DAL_OK;
+    if (m > 0 && !k->system->call.constraint)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "velocities cannot be moved to D = 0: the mass matrix has no inverse");
-    memcpy(k.given, v, (size_t)n * sizeof *v);
+    memcpy(k->given, k->v, (size_t)n * sizeof *k->v);
     for (int i = 0; i < MAX_MOVES; i++) {
-        const dal_point at = dal__here(run);
-        const dal_status status =
-            m > 0 ? run->layout.system->call.constraint(run->layout.system, &at, out) : DAL_OK;
-        if (status != DAL_OK)
-            return dal__fail(error, status, "the constraints cannot be evaluated at %s", where);
-        memcpy(k.values, out, (size_t)m * sizeof *out);
-        memcpy(k.A, out + m, (size_t)(m * n) * sizeof *out);
-        if (condition) k.values[m] = -condition->value;
-        for (int j = 0; j < n; j++) {
-            for (int a = 0; a < m; a++) k.B[j * rows + a] = out[m + m * n + j * m + a];
-            if (!condition) continue;
-            k.A[m * n + j] = condition->normal[j];
-            k.B[j * rows + m] = condition->lifted[j];
-            k.values[m] += condition->normal[j] * v[j];
-        }
+        DAL_TRY(dal__linearise(k, k->given, error));
+        max = dal__find_max_abs(k->D, m);
+        if (m > 0 && !isfinite(k->D[max])) break;
         before = change;
-        DAL_TRY(move(run, &k, &change, where, error));
-        const double resolution = DBL_EPSILON * dal_max_norm(v, n);
-        if (change <= resolution || (change >= before && change <= 64.0 * resolution))
-            return DAL_OK;
+        DAL_TRY(move(k, part, &change, error));
+        if (dal__is_converged(change, before, dal_max_norm(k->v, n))) return DAL_OK;
+        if (change > before) part = fmax(0.5 * part, min_damping);
     }
-    return dal__fail(error, DAL_INCONSISTENT,
-                     "no velocities near those of %s satisfy the constraints", where);
+    return dal__fail(error, isfinite(k->D[max]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
+                     "no velocities near those of %s were found that satisfy constraint %d: "
+                     "D%d = %.6g",
+                     k->place, max + 1, max + 1, k->D[max]);
 }

@@ -1,4 +1,4 @@
-/* consistent.h - velocities on D = 0 by the least change in the mass metric. */
+/* consistent.h - velocities on D = 0, and the independence of the constraints there. */
 #ifndef DAL_RUN_CONSISTENT_H
 #define DAL_RUN_CONSISTENT_H
 
@@ -10,12 +10,36 @@ typedef struct dal__condition {
     double value;
 } dal__condition;
 
-/* Replaces the velocities u of the present state by those, v, on D(q,v,t) = 0 and, unless it is
- * NULL, the condition, for which (v - u).W (v - u) is stationary: Newton's method, of one step
- * where D is linear.  place: that state in messages.  Errors, and then v is not defined:
- * DAL_RANK, DAL_INCONSISTENT (no such v is found near u), DAL_UNSUPPORTED (W has no inverse), those
+/* A state, and its constraints linearised in the velocities, D + A (v' - v), with a condition as
+ * the last row where there is one.  The numbers lie in the scratch of a run. */
+typedef struct dal__linearised {
+    const dal_system *system;
+    dal_point at;
+    double *v;                       /* [n] velocities of the state */
+    const dal__condition *condition; /* or NULL */
+    const char *place;               /* the state in messages: "the start" */
+    int rows;                        /* m, and 1 of a condition */
+    double *D, *A, *B;               /* [rows], [rows*n], [n*rows]: W^-1 A^T */
+    double *G, *x;                   /* [rows*rows], [rows] */
+    double *given, *out;             /* [n], [m + 2*m*n + 1] */
+} dal__linearised;
+
+/* The present state of a run, its constraints not yet evaluated. */
+dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition,
+                                   const char *place);
+
+/* Evaluates D, A and B at the state, with W at the velocities u; NULL: at its own.  Errors: those
  * of the constraints. */
-dal_status dal__make_consistent(dal_run *run, const dal__condition *condition, const char *place,
-                                dal_error *error);
+dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error);
+
+/* Whether the rows are independent: no pivot of G = A B is below 1e-12 of its diagonal entry,
+ * without exchanges of rows.  Errors: DAL_RANK, DAL_SINGULAR_MASS. */
+dal_status dal__check_rank(dal__linearised *k, dal_error *error);
+
+/* Replaces the velocities u of the state by those, v, on D(q,v,t) = 0 and the condition for which
+ * (v - u).W(q,u) (v - u) is stationary: in one step where D is linear.  Errors, and then v is not
+ * defined: DAL_RANK, DAL_SINGULAR_MASS, DAL_INCONSISTENT (no such v is found near u),
+ * DAL_UNSUPPORTED (W has no inverse), those of the constraints. */
+dal_status dal__make_consistent(dal__linearised *k, dal_error *error);
 
 #endif

@@ -12,8 +12,12 @@ bool dal__engine_can(const dal__layout *k, dal__variant variant)
     const int width = dal__engine_kinds[variant].width;
     const dal_system *s = k->system;
     if (variant == DAL__VARIANT_x1) return true;
-    if (width > 1 && k->options.tolerance > 0.0) return false; /* each lane has its own substeps */
+    const bool has_times = k->options.tolerance > 0.0; /* each lane its own */
+    if (width > 1 && dal_method_needs(&k->method) & DAL_NEEDS_SERIES &&
+        !(width == 4 ? s->series->wide4 : s->series->wide8))
+        return false;
     if (width > 1 && !(width == 4 ? s->wide4 : s->wide8)) return false;
+    if (width > 1 && has_times && !(s->properties & DAL_WIDE_TIMES)) return false;
     for (int i = 0; i < k->depth; i++)
         if (!dal__integrator_wide(k->method.layer[i], variant)) return false;
     return dal__machine_has(dal__engine_kinds[variant].set);

@@ -38,6 +38,10 @@ typedef struct dal__engine {
     /* Advances the alive lanes by h.  Returns those that failed, which are unchanged, and sets
      * their reason[lane]. */
     dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *reason);
+    /* Advances a single run by `part` of its step of size h: to the state that the polynomial of
+     * the substep there gives.  Without a tolerance, or where the method leaves no polynomial, it
+     * is a step of size `part`.  NULL for several lanes. */
+    dal__lanes (*step_part)(void *engine, double h, double part, dal_status *reason);
     /* Evaluates a callback (dal_callback_code) at a state, with its own pi. */
     dal_status (*eval)(void *engine, int code, double t, const double *state, double *out);
     /* The observables of the present state; exact_known as in dal__observable_count.  NULL for

@@ -36,6 +36,12 @@ typedef struct engine {
     num *persistent, *backup, *work;
     const num *left_pivots; /* in work, by the last evaluation of F */
     dal__failure *failure;
+    /* Dense output, where a tolerance is given. */
+    const dal_integrator *dense_layer[DAL_LAYERS]; /* the innermost evaluates the polynomial */
+    dal_dense dense;
+    double dense_h;             /* size of the step that was divided last */
+    num *dense_from, *dense_to; /* what a checkpoint holds, before that step and after its last
+                                   substep so far */
 } engine;
 
 static size_t bytes_of(size_t numbers) { return dal__align(numbers * sizeof(num)); }
@@ -72,6 +78,14 @@ static void fill(const engine *e, dal_callback_code code, double value, num *out
     for (int i = 0; i < size; i++) out[i] = dal_num(value);
 }
 
+/* Copies the pivots of the first evaluation of F in a step. */
+static void keep_pivots(engine *e)
+{
+    dal_step *s = &e->step;
+    memcpy(s->pivots, e->left_pivots, (size_t)s->pivot_count * sizeof(num));
+    s->pivots_known[0] = 1;
+}
+
 static void eval_callback(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
                           const num *pi, num *out)
 {
@@ -81,21 +95,52 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
         fill(e, code, 0.0, out);
         return;
     }
-    const dal_point at = {t, (const double *)q, (const double *)v, (const double *)pi,
-                          (double *)e->work};
+    const dal_point at = {
+        .t = t,
+        .q = (const double *)q,
+        .v = (const double *)v,
+        .pi = (const double *)pi,
+        .work = (double *)e->work,
+#if DAL_WITH_TIMES
+        .times = s->has_times ? (const double *)&s->times : NULL
+#endif
+    };
     const dal_status status = call(e->layout.system, &at, (double *)out);
     if (status != DAL_OK) fill(e, code, NAN, out);
     if (DAL_LANES == 1 && e->failure) trace(e, code, &at, status, (const double *)out);
-    if (DAL_RARELY(!s->pivots_known[0]) && dal_leaves_pivots(code)) {
-        memcpy(s->pivots, e->left_pivots, (size_t)s->pivot_count * sizeof(num));
-        s->pivots_known[0] = 1;
-    }
+    if (DAL_RARELY(!s->pivots_known[0]) && dal_leaves_pivots(code)) keep_pivots(e);
 }
+
+static void eval_series(dal_step *s, int k, int stride, const num *in, num *memory, num *out)
+{
+    engine *e = s->owner;
+    const dal__layout *layout = &e->layout;
+    const dal_series *series = layout->system->series;
+    dal_series_callback *const call = DAL_LANES == 4   ? series->wide4
+                                      : DAL_LANES == 8 ? series->wide8
+                                                       : series->call;
+    const dal_status status = call(layout->system, layout->lifted, k, stride, (const double *)in,
+                                   (double *)e->work, (double *)memory, (double *)out);
+    if (status != DAL_OK) fill(e, DAL_EVAL_FIELD, NAN, out);
+    if (DAL_RARELY(!s->pivots_known[0])) keep_pivots(e);
+    if (DAL_LANES > 1 || k > 0 || !e->failure) return;
+    const double *first = (const double *)in;
+    const dal_point at = {
+        .t = first[0], .q = first + 1, .v = first + 1 + layout->n, .work = (double *)e->work};
+    trace(e, DAL_EVAL_FIELD, &at, status, (const double *)out);
+}
+
+static bool has_dense(const dal__layout *k) { return DAL_LANES == 1 && k->options.tolerance > 0.0; }
+
+/* y, r, rate of a dal_dense. */
+static size_t dense_count(const dal__layout *k) { return (2 + DAL_DENSE_TERMS) * (size_t)k->dim; }
 
 static size_t engine_bytes(const dal__layout *k)
 {
+    const size_t dense = 2 * bytes_of(dal__saved_count(k)) + bytes_of(dense_count(k));
     return dal__align(sizeof(engine)) + bytes_of(k->persistent + k->workspace) +
-           bytes_of(k->persistent) + bytes_of((size_t)k->pivots) + bytes_of(k->scratch);
+           bytes_of(k->persistent) + bytes_of((size_t)k->pivots) + (has_dense(k) ? dense : 0) +
+           bytes_of(k->scratch);
 }
 
 static num *allocate(char **at, size_t count)
@@ -138,6 +183,8 @@ static void prepare_step(engine *e)
     s->extra_iterations = k->options.extra_iterations;
     s->plain = k->options.sums == DAL_SUMS_PLAIN;
     s->has_jacobian = k->system->call.jacobian != NULL;
+    s->field_operations = k->field_operations;
+    s->jacobian_operations = k->jacobian_operations;
     s->properties = k->system->properties;
     s->guards = k->system->guards;
     s->rank_checked = dal__checks_rank(k->system);
@@ -147,7 +194,39 @@ static void prepare_step(engine *e)
     place_method_state(e);
     s->layer = e->layer;
     s->eval = eval_callback;
+    s->series = eval_series;
+    s->series_count = k->system->series ? (int)k->system->series->size[k->lifted] : 0;
+    s->taylor_order = k->taylor_order;
+    s->tolerance_root = k->tolerance_root;
     s->owner = e;
+}
+
+/* In place of the innermost method: the state after s->h by the polynomial of its substep. */
+static dal_status evaluate_polynomial(dal_step *s)
+{
+    const engine *e = s->owner;
+    const dal_dense *d = &e->dense;
+    const num size = dal_num(fabs(s->h)) - d->from;
+    DAL_VECTOR(s, rate, DAL_DIM(s));
+    dal_dense_rate(d, s->dim, size / d->size, rate);
+    DAL_EACH(i, s->dim) s->y[i] = d->y[i];
+    DAL_EACH(i, s->dim) s->r[i] = d->r[i];
+    dal_update_lanes(s, s->h < 0.0 ? -size : size, rate);
+    s->t += s->h;
+    return DAL_OK;
+}
+static const dal_integrator polynomial = {.step = evaluate_polynomial};
+
+static void place_dense(engine *e, char **at)
+{
+    const size_t dim = (size_t)e->layout.dim;
+    e->dense_from = allocate(at, dal__saved_count(&e->layout));
+    e->dense_to = allocate(at, dal__saved_count(&e->layout));
+    e->dense.y = allocate(at, dense_count(&e->layout));
+    e->dense.r = e->dense.y + dim;
+    e->dense.rate = e->dense.r + dim;
+    memcpy(e->dense_layer, e->layer, sizeof e->layer);
+    e->dense_layer[0] = &polynomial;
 }
 
 static void *place_engine(const dal__layout *k, void *memory, double **persistent, double **work,
@@ -173,6 +252,7 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
     e->backup = allocate(&at, k->persistent);
     prepare_step(e);
     e->step.pivots = allocate(&at, (size_t)k->pivots);
+    if (has_dense(k)) place_dense(e, &at);
     e->step.scratch = allocate(&at, k->scratch);
     *persistent = (double *)e->persistent;
     *work = (double *)e->work;
@@ -190,8 +270,11 @@ static dal_status eval_engine(void *engine_, int code, double t, const double *s
     engine *e = engine_;
     const int n = e->layout.n, width = (int)(sizeof(num) / sizeof(double));
     if (!e->call[code]) return DAL_UNSUPPORTED;
-    const dal_point at = {t, state, state + n * width, state + (3 * n + 1) * width,
-                          (double *)e->work};
+    const dal_point at = {.t = t,
+                          .q = state,
+                          .v = state + n * width,
+                          .pi = state + (3 * n + 1) * width,
+                          .work = (double *)e->work};
     return e->call[code](e->layout.system, &at, out);
 }
 
@@ -224,8 +307,10 @@ static dal_status observe_engine(void *engine_, bool exact_known, double *out)
     const num *q = e->persistent;
     const bool changed = e->persistent[dal__at_changed(&e->layout)] != 0.0;
     num *const scratch = e->step.scratch;
-    const dal_point at = {(double)*persistent_at(e, DAL__TIME), (const double *)q,
-                          (const double *)(q + e->layout.n), NULL, (double *)e->work};
+    const dal_point at = {.t = (double)*persistent_at(e, DAL__TIME),
+                          .q = (const double *)q,
+                          .v = (const double *)(q + e->layout.n),
+                          .work = (double *)e->work};
     dal_callback *const formulas[] = {[DAL__OBSERVE_D] = system->constraints,
                                       [DAL__OBSERVE_E] = system->energy,
                                       [DAL__OBSERVE_INVARIANTS] = system->invariant_values,
@@ -315,7 +400,7 @@ static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_sta
     engine *e = engine_;
     dal_mask moved = mask_of(alive);
     begin_step(e, h, alive, moved);
-    dal_status status = e->layer[e->step.depth]->step(&e->step);
+    dal_status status = e->step.layer[e->step.depth]->step(&e->step);
     if (e->step.exhausted) status = DAL_MEMORY;
     if (e->failure) {
         e->failure->reached = e->step.t;
@@ -328,9 +413,59 @@ static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_sta
     return failed;
 }
 
+#if DAL_LANES == 1
+/* Divides a step of size h up to the substep that contains `part`, for its polynomial; continues
+ * from the substep found last where that belongs to the same step and does not lie behind. */
+static dal_status find_substep(engine *e, double h, double part)
+{
+    dal_step *s = &e->step;
+    dal_dense *d = &e->dense;
+    const size_t bytes = dal__saved_count(&e->layout) * sizeof(num);
+    const size_t half = (size_t)s->dim * sizeof(num);
+    dal_status status = DAL_OK;
+    if (e->dense_h != h || !(part > d->from) || memcmp(e->dense_from, e->persistent, bytes) != 0) {
+        memcpy(e->dense_from, e->persistent, bytes);
+        memcpy(e->dense_to, e->persistent, bytes);
+        e->dense_h = h;
+        d->from = d->size = 0.0;
+    }
+    begin_step(e, h, 1u, dal_all());
+    memcpy(e->persistent, e->dense_to, bytes);
+    s->depth = 0;
+    s->dense = d;
+    while (status == DAL_OK && part > d->from + d->size) {
+        memcpy(d->y, s->y, half);
+        memcpy(d->r, s->r, half);
+        d->terms = 0;
+        s->used = 0;
+        status = e->layer[0]->step(s);
+        if (d->terms == 0 || s->exhausted) status = DAL_UNSUPPORTED;
+    }
+    s->dense = NULL;
+    if (status != DAL_OK) e->dense_h = 0.0;
+    memcpy(e->dense_to, e->persistent, bytes);
+    memcpy(e->persistent, e->dense_from, bytes);
+    return status;
+}
+
+static dal__lanes part_engine(void *engine_, double h, double part, dal_status *reason)
+{
+    engine *e = engine_;
+    if (has_dense(&e->layout) && part / h > 0.0 && part / h < 1.0 &&
+        find_substep(e, h, fabs(part)) == DAL_OK)
+        e->step.layer = e->dense_layer;
+    const dal__lanes failed = step_engine(e, part, 1u, reason);
+    e->step.layer = e->layer;
+    return failed;
+}
+#else
+#define part_engine NULL
+#endif
+
 const dal__engine DAL_WIDE(dal__engine) = {.bytes = engine_bytes,
                                            .place = place_engine,
                                            .step = step_engine,
+                                           .step_part = part_engine,
                                            .eval = eval_engine,
                                            .observe = observe_engine,
                                            .trace = trace_engine};

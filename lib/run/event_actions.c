@@ -10,6 +10,7 @@
 #include "run/consistent.h"
 #include "run/quad.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { MAX_ROUNDS = 100 };
@@ -44,9 +45,14 @@ static dal_status change(const dal__event_search *w, int k)
                                  dal__event_name(w, k), at.t);
         memcpy(run->persistent, set, 2 * n * sizeof *set);
     }
-    if (actions & (DAL_EVENT_SETS | DAL_EVENT_IMPACT))
-        DAL_TRY(dal__make_consistent(run, is_impact ? &condition : NULL, dal__event_name(w, k),
-                                     w->error));
+    if (actions & (DAL_EVENT_SETS | DAL_EVENT_IMPACT)) {
+        char place[128];
+        snprintf(place, sizeof place, "%.80s at t = %.17g", dal__event_name(w, k), at.t);
+        dal__linearised D = dal__linearised_of(run, is_impact ? &condition : NULL, place);
+        const dal_status status = dal__make_consistent(&D, w->error);
+        if (status != DAL_OK && w->error) w->error->status = DAL_EVENT;
+        if (status != DAL_OK) return DAL_EVENT;
+    }
     for (size_t i = 0; i < 2 * n; i++) {
         run->persistent[i] += 0.0; /* no -0: see lib/kernel/step.h */
         if (run->persistent[i] == w->m.before[i]) continue;

@@ -4,11 +4,11 @@
  *
  *     f(s) = f(step(z, s), t + s),   0 <= s <= h,
  *
- * and its root is the event (core/root.h).  f has a root where its sign at the end of the step is
- * not that at the beginning, and a pair of them where d|f|/dt is negative at the beginning and
- * positive at the end, and f has the other sign where it is 0 between.  Where an event has just
- * left f = 0, f(0) is only rounding; the step is halved then until f has the sign of the side that
- * it left to. */
+ * and its root is the event (core/root.h); under a tolerance step(z, s) is the dense output of
+ * step(z, h).  f has a root where its sign at the end of the step is not that at the beginning, and
+ * a pair of them where d|f|/dt is negative at the beginning and positive at the end, and f has the
+ * other sign where it is 0 between.  Where an event has just left f = 0, f(0) is only rounding; the
+ * step is halved then until f has the sign of the side that it left to. */
 #include "run/event_search.h"
 #include "core/root.h"
 #include "run/events.h"
@@ -111,7 +111,7 @@ static dal_status value_at(void *user, double s, double *value)
     if (s == 0.0)
         DAL_TRY(evaluate_there(w, w->run));
     else
-        DAL_TRY(dal_run_intermediate(w->run, s, evaluate_there, w, w->error));
+        DAL_TRY(dal__observe_part(w->run, w->h, s, evaluate_there, w, w->error));
     *value = w->m.there[w->event];
     return DAL_OK;
 }
@@ -166,10 +166,15 @@ bool dal__is_event_from(const dal__event_search *w, int k, double side)
 
 dal_status dal__events_endless(const dal__event_search *w, int k)
 {
+    const char *name = dal__event_name(w, k);
+    const double t = dal_run_time(w->run);
+    if (w->m.count[k] == 0.0)
+        return dal__fail(w->error, DAL_EVENT, "%s happens infinitely often from t = %.17g on", name,
+                         t);
     return dal__fail(w->error, DAL_EVENT,
                      "%s happens infinitely often: number %lld is at t = %.17g, and the next ones "
                      "follow closer than can be resolved",
-                     dal__event_name(w, k), (long long)w->m.count[k], dal_run_time(w->run));
+                     name, (long long)w->m.count[k], t);
 }
 
 /* The size of the step to event k, which search_within has marked: between 0 and the end; of a
@@ -249,7 +254,7 @@ static dal_status search_within(dal__event_search *w, double *distance)
 dal_status dal__search_events(dal__event_search *w, double *distance)
 {
     const double h = w->h;
-    dal_error reason = {0}, *const error = w->error;
+    dal_error reason = {0}, ignored = {0}, *const error = w->error;
     DAL_TRY(dal__evaluate_events_and_rates(w, w->m.f0, w->m.r0));
     /* The sides.  Where f is 0 at the start of a run, an event of one direction happens at once if
      * f leads that way. */
@@ -262,18 +267,21 @@ dal_status dal__search_events(dal__event_search *w, double *distance)
                                       : 2.0 * (rate != 0.0 ? rate : -direction);
         w->m.now[k] = w->m.side[k] != 0.0 ? w->m.side[k] : begun;
     }
-    const dal_status status = search_within(w, distance);
-    if (status == DAL_OK || status == DAL_EVENT) return status;
     w->error = &reason;
+    const dal_status status = search_within(w, distance);
+    w->error = &ignored;
     double low = 0.0, high = h;
-    for (int i = 0; i < MAX_HALVES; i++) {
+    bool found = status == DAL_OK;
+    for (int i = 0; i < MAX_HALVES && !found && status != DAL_EVENT; i++) {
         w->h = 0.5 * (low + high);
         const dal_status shorter = search_within(w, distance);
-        if (shorter == DAL_OK && isfinite(*distance)) return DAL_OK;
-        if (shorter == DAL_OK) dal__run_revert(w->run);
+        found = shorter == DAL_OK && isfinite(*distance);
+        if (shorter == DAL_OK && !found) dal__run_revert(w->run);
         *(shorter == DAL_OK ? &low : &high) = w->h;
     }
     w->error = error;
-    const bool is_explained = error && error->status == status;
-    return is_explained ? status : dal__failure_reason(w->run, h, status, error);
+    if (found) return DAL_OK;
+    if (reason.status != status) return dal__failure_reason(w->run, h, status, error);
+    if (error) *error = reason;
+    return status;
 }

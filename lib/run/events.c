@@ -9,7 +9,8 @@
 
 enum { MAX_STALLED = 1000 };
 
-/* Adds factor times E and the invariants of the present state to what events have changed. */
+/* Adds factor times E and the invariants of the present state to what events have changed; formulas
+ * that are observed alone need not be conserved between events. */
 static dal_status add_jump(const dal__event_search *w, double factor)
 {
     const dal__layout *k = &w->run->layout;
@@ -23,7 +24,8 @@ static dal_status add_jump(const dal__event_search *w, double factor)
         const bool jumps = group == DAL__OBSERVE_E || group == DAL__OBSERVE_INVARIANTS;
         const int end = i + dal__observable_count(k, group, w->run->exact);
         for (; i < end; i++)
-            if (jumps) w->m.jump[i] += factor * values[i];
+            if (jumps && !(group == DAL__OBSERVE_INVARIANTS && i >= end - k->system->observed))
+                w->m.jump[i] += factor * values[i];
     }
     return DAL_OK;
 }
@@ -79,7 +81,7 @@ static dal_status take_events(const dal__event_search *w, double distance,
         if (w->m.s[k] <= distance && is_endless) return dal__events_endless(w, k);
     }
     if (distance > 0.0) {
-        const dal_status status = dal__step_run(w->run, s, 1);
+        const dal_status status = dal__step_part(w->run, w->h, s);
         if (status != DAL_OK) return dal__failure_reason(w->run, s, status, w->error);
     }
     *w->m.stalled = is_stalled ? *w->m.stalled + 1.0 : 0.0;
@@ -137,6 +139,18 @@ double dal__next_event(dal_run *run)
     if (dal__search_events(&w, &distance) != DAL_OK) return INFINITY;
     if (!isfinite(distance)) dal__run_revert(run);
     return distance;
+}
+
+void dal__change_sides(dal_run *run)
+{
+    const dal__event_search w = dal__event_search_begin(run, NULL);
+    if (w.system->events == 0 || evaluate_all(&w) != DAL_OK) return;
+    for (int k = 0; k < w.system->events; k++) {
+        const bool is_off = fabs(w.m.f1[k]) > dal__event_rounding(&w, k);
+        if (is_off && w.m.side[k] != 0.0) w.m.side[k] = dal__sign(w.m.f1[k]);
+    }
+    *w.m.stalled = 0.0;
+    dal__commit_events(&w);
 }
 
 /* ---- what has happened ---- */

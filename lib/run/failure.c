@@ -16,7 +16,7 @@ static bool is_far_away(const dal_run *run, const dal__failure *failure)
 static dal_status diagnose(dal_run *run, const dal__failure *failure, dal_error *error)
 {
     const dal_system *system = run->layout.system;
-    const dal_point at = {failure->t, failure->q, failure->v, NULL, run->work};
+    const dal_point at = {.t = failure->t, .q = failure->q, .v = failure->v, .work = run->work};
     double number = 0.0;
     if (!system->diagnose || is_far_away(run, failure)) return DAL_OK;
     const dal_status status = system->diagnose(system, &at, &number);

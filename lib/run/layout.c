@@ -60,6 +60,8 @@ static const char *misfit(const dal__layout *k)
         return "the system has no constant mass matrix";
     if (needs & DAL_NEEDS_POTENTIAL && !call->potential)
         return "the system has no potential (its accelerations are given, not a Lagrangian)";
+    if (needs & DAL_NEEDS_SERIES && !s->series)
+        return "the system has no Taylor series, not being made from a model";
     if (needs & DAL_NEEDS_ISOKINETIC && !(s->properties & DAL_D_ISOKINETIC))
         return "the system has no isokinetic constraint v.Wv/2 - K with constant W and forces of q "
                "and t";
@@ -164,7 +166,7 @@ static dal_status check_control(const dal__layout *k, dal_error *error)
     if (k->options.tolerance == 0.0 || dal_method_properties(&k->method) & DAL_ADAPTIVE)
         return DAL_OK;
     return dal__fail(error, DAL_UNSUPPORTED,
-                     "%s has no control of its step size: a tolerance cannot be kept, take 0",
+                     "%s has no control of its step size: the tolerance must be 0",
                      dal_method_name(&k->method, name, sizeof name));
 }
 
@@ -266,6 +268,20 @@ int dal__max_observables(const dal__layout *k)
     return count;
 }
 
+/* Functions without a Taylor series are refused by name. */
+static dal_status check_series(const dal__layout *k, dal_error *error)
+{
+    const dal_series *series = k->system->series;
+    const char *name = k->system->name;
+    char method[128];
+    if (!(dal_method_needs(&k->method) & DAL_NEEDS_SERIES) || !series->refused) return DAL_OK;
+    return dal__fail(error, DAL_UNSUPPORTED,
+                     "%s cannot act on %s: the equations contain %s, which has no Taylor series at "
+                     "its jump or kink",
+                     dal_method_name(&k->method, method, sizeof method),
+                     name ? name : "this system", series->refused);
+}
+
 /* Sizes, in floating point first so that nothing overflows. */
 static dal_status measure(dal__layout *k, dal_error *error)
 {
@@ -276,8 +292,15 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const double equations = (stages + 1) * m;
     const double parts =
         enforces ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) + 4 * equations * equations : 0;
+    const bool expands = dal_method_needs(&k->method) & DAL_NEEDS_SERIES;
+    k->taylor_order = dal_taylor_order(k->options.tolerance);
+    k->tolerance_root = pow(k->options.tolerance, 1.0 / k->taylor_order);
+    const double series =
+        expands ? (1 + k->taylor_order) * ((double)k->system->series->size[k->lifted] + dim + 4)
+                : 0;
     const double scratch = (16 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
-                           parts + 2.0 * k->system->guards + k->system->invariants + 16 * n + 64;
+                           parts + 2.0 * k->system->guards + k->system->invariants + 16 * n + 64 +
+                           series;
     if (scratch > MAX_NUMBERS || k->stages > 1000)
         return dal__fail(error, DAL_TOO_LARGE, "a run with n = %d, m = %d needs %g numbers", k->n,
                          k->m, scratch);
@@ -296,6 +319,16 @@ static dal_status measure(dal__layout *k, dal_error *error)
     k->event_memory = dal__event_memory(k);
     k->persistent += k->event_memory;
     return DAL_OK;
+}
+
+/* Operations of callbacks that say nothing of them: F has some ten a component. */
+static void guess_operations(dal__layout *k)
+{
+    const double field = 10.0 * k->nw, jacobian = field * k->nw, most = 1e9;
+    k->field_operations = k->system->field_operations;
+    k->jacobian_operations = k->system->jacobian_operations;
+    if (k->field_operations <= 0) k->field_operations = (int)field;
+    if (k->jacobian_operations <= 0) k->jacobian_operations = (int)fmin(jacobian, most);
 }
 
 dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error *error)
@@ -318,9 +351,11 @@ dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error 
     if (k->n > 100000 || k->m > k->n)
         return dal__fail(error, DAL_TOO_LARGE, "%d coordinates, %d constraints", k->n, k->m);
     k->dim = k->lifted ? 4 * k->n + 2 : k->n + k->nw;
+    guess_operations(k);
     DAL_TRY(check_layers(k, error));
     DAL_TRY(check_control(k, error));
     DAL_TRY(check_needs(k, error));
+    DAL_TRY(check_series(k, error));
     DAL_TRY(check_reactions(k, error));
     if (k->options.precision == DAL_QUAD) DAL_TRY(dal__quad_check(k, error));
     return measure(k, error);

@@ -14,13 +14,17 @@ typedef struct dal__layout {
     dal_options options;
     double start_time;
     int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier, pivots;
-    size_t workspace, persistent, scratch; /* numbers */
+    int field_operations, jacobian_operations; /* as of the system, or guessed */
+    int taylor_order;                          /* of Taylor series, for the tolerance */
+    double tolerance_root;                     /* tolerance^(1/taylor_order) */
+    size_t workspace, persistent, scratch;     /* numbers */
     size_t event_memory; /* numbers of the persistent state that events need, see events.h */
 } dal__layout;
 
 /* Sizes for DAL__METHOD_STATE_LIST. */
 #define DAL__COUNT_ONE(layout)         1
 #define DAL__COUNT_TWO(layout)         2
+#define DAL__COUNT_THREE(layout)       3
 #define DAL__COUNT_DERIVATIVES(layout) ((layout)->derivatives)
 #define DAL__COUNT_MULTIPLIER(layout)  ((layout)->multiplier)
 #define DAL__COUNT_PIVOTS(layout)      ((layout)->pivots > 0 ? 1 + (layout)->pivots : 0)

@@ -86,7 +86,8 @@ dal_status dal__quad_prepare(dal_run *run)
     const dal__quad_run *k = &run->quad;
     const dal_system *system = k->layout.system;
     const size_t at_v = (size_t)run->layout.n * dal__quad_width();
-    const dal_point at = {dal_run_time(run), k->persistent, k->persistent + at_v, NULL, k->work};
+    const dal_point at = {
+        .t = dal_run_time(run), .q = k->persistent, .v = k->persistent + at_v, .work = k->work};
     return system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
 }
 
@@ -94,6 +95,12 @@ dal_status dal__quad_step(dal_run *run, double h)
 {
     dal_status reason = DAL_OK;
     return kind()->engine->step(run->quad.engine, h, 1u, &reason) ? reason : DAL_OK;
+}
+
+dal_status dal__quad_step_part(dal_run *run, double h, double part)
+{
+    dal_status reason = DAL_OK;
+    return kind()->engine->step_part(run->quad.engine, h, part, &reason) ? reason : DAL_OK;
 }
 
 dal_status dal__quad_observe(dal_run *run, double *out)

@@ -20,6 +20,7 @@ void dal__quad_pull(dal_run *run);
 /* Completes work from the parameters. */
 dal_status dal__quad_prepare(dal_run *run);
 dal_status dal__quad_step(dal_run *run, double h);
+dal_status dal__quad_step_part(dal_run *run, double h, double part);
 /* As dal_run_observe. */
 dal_status dal__quad_observe(dal_run *run, double *out);
 /* Number i of stored quad numbers, rounded. */

@@ -77,8 +77,9 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
                          total_bytes(&layout), bytes);
     dal_run *made = place(&layout, memory);
     DAL_TRY(dal__run_start(made, spec->parameters, spec->parameter_count, spec->start,
-                           spec->start_count, error));
+                           spec->start_count, NULL, error));
     if (made->quad.engine) dal__quad_push(made, 0);
+    DAL_TRY(dal__check_events(made, error));
     *run = made;
     return DAL_OK;
 }
@@ -126,6 +127,31 @@ dal_status dal__step_run(dal_run *run, double h, long long count)
     for (long long i = 0; i < count; i++)
         if (run->kind->engine->step(run->engine, h, 1u, &status)) return status;
     return DAL_OK;
+}
+
+dal_status dal__step_part(dal_run *run, double h, double part)
+{
+    dal_status status = DAL_OK;
+    if (run->layout.options.tolerance == 0.0 || part == h) return dal__step_run(run, part, 1);
+    if (!run->quad.engine) {
+        run->kind->engine->step_part(run->engine, h, part, &status);
+        return status;
+    }
+    status = dal__quad_step_part(run, h, part);
+    dal__quad_pull(run);
+    return status;
+}
+
+dal_status dal__observe_part(dal_run *run, double h, double part,
+                             dal_status (*observe)(void *user, dal_run *run), void *user,
+                             dal_error *error)
+{
+    dal__run_back_up(run);
+    dal_status status = dal__step_part(run, h, part);
+    if (status != DAL_OK) return dal__failure_reason(run, part, status, error);
+    status = observe(user, run);
+    dal__run_revert(run);
+    return status;
 }
 
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)

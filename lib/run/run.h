@@ -63,6 +63,12 @@ struct dal_run {
 
 /* Takes count steps of size h, until one fails; does not explain a failure. */
 dal_status dal__step_run(dal_run *run, double h, long long count);
+/* Advances an interpreted run by a part of a step of size h, see dal__engine.step_part; the same as
+ * dal_run_intermediate does, with an observer and then back. */
+dal_status dal__step_part(dal_run *run, double h, double part);
+dal_status dal__observe_part(dal_run *run, double h, double part,
+                             dal_status (*observe)(void *user, dal_run *run), void *user,
+                             dal_error *error);
 
 enum { DAL__NAME_SIZE = 128 /* bytes of the name of a state component */ };
 
@@ -79,8 +85,12 @@ static inline void dal__native_free(dal__native_code *native)
 static inline dal_point dal__here(const dal_run *run)
 {
     const dal__layout *k = &run->layout;
-    return (dal_point){run->persistent[dal__at(k, DAL__TIME)], run->persistent,
-                       run->persistent + k->n, NULL, run->work};
+    return (dal_point){run->persistent[dal__at(k, DAL__TIME)],
+                       run->persistent,
+                       run->persistent + k->n,
+                       NULL,
+                       run->work,
+                       NULL};
 }
 
 #endif

@@ -1,7 +1,7 @@
 /* sample.c - a run observed: rows at equal distances in t, and observations every so often.
  *
  * The trajectory consists of steps h.  A row counts as reached when its time is nearer than ALIGNED
- * steps, or than the rounding of the clock, to that of a step; otherwise an intermediate step gives
+ * steps, or than the rounding of the clock, to that of a step; otherwise dal_run_intermediate gives
  * the row.  Times are compared in the direction of the run, the sign of h.
  *
  * dal_observer.values receives observations in batches.  With compiled observables the states are
@@ -172,12 +172,8 @@ dal_status dal_run_intermediate(dal_run *run, double h,
     DAL_REQUIRE(observe, error);
     if (!isfinite(h))
         return dal__fail(error, DAL_ARGUMENT, "an intermediate step must be finite; it is %g", h);
-    dal__run_back_up(run);
-    dal_status status = dal__step_run(run, h, 1);
-    if (status != DAL_OK) return dal__failure_reason(run, h, status, error);
-    status = observe(user, run);
-    dal__run_revert(run);
-    return status;
+    const double step = run->layout.options.step, part = h / step;
+    return dal__observe_part(run, part > 0.0 && part < 1.0 ? step : h, h, observe, user, error);
 }
 
 /* Steps and rows between polls: 992 / 2^i, so that polls coincide with ends of batches. */

@@ -1,16 +1,18 @@
 /* start.c - parameters and start of a run: set by name, completed by the system, checked; and a
  * parameter set between steps.
  *
- * A start is consistent when |D_a| <= 1e-10 |A_a| |v| (1-norm times max norm), and the constraints
- * are independent when no pivot of G is below 1e-12 of its diagonal entry. */
+ * A start is consistent when |D_a| <= 1e-10 |A_a| |v| (1-norm times max norm), and its constraints
+ * are independent (run/consistent.h). */
 #include "run/start.h"
 #include "core/error.h"
+#include "core/solved.h"
+#include "run/consistent.h"
+#include "run/events.h"
 #include "run/quad.h"
 #include <dalembert_kernel.h>
-#include <float.h>
+#include <stdio.h>
 
-#define CONSISTENT  1e-10
-#define INDEPENDENT 1e-12
+#define CONSISTENT 1e-10
 
 dal_status dal__run_prepare(dal_run *run)
 {
@@ -91,131 +93,52 @@ static dal_status check_finite(dal_run *run, dal_error *error)
     return DAL_OK;
 }
 
-/* D, A, W^-1 A^T of the present state, and behind them the numbers for G and its diagonal.  place:
- * that state in messages.  before: D of the parameters before a change; NULL at the start. */
-typedef struct constraint_values {
-    const double *D, *A, *B, *before;
-    double *G;
-    const char *place, *hint; /* hint: what may help, or NULL */
-} constraint_values;
-
-static dal_status eval_constraints(dal_run *run, constraint_values *c, dal_error *error)
+/* What helps a start that violates constraint a: names the velocity that it restricts most, of
+ * those that are not solved; "" where all are. */
+static const char *suggest(const dal__linearised *k, const dal_run *run, int a, char *hint,
+                           size_t size)
 {
-    const dal_system *system = run->layout.system;
-    const int m = system->m, n = system->n;
-    const dal_point at = dal__here(run);
-    const dal_status status = system->call.constraint(system, &at, run->scratch);
-    c->D = run->scratch;
-    c->A = c->D + m;
-    c->B = c->A + m * n;
-    c->G = run->scratch + m + 2 * m * n;
-    if (status == DAL_OK) return DAL_OK;
-    return dal__fail(error, status, "the constraints cannot be evaluated at %s", c->place);
+    const int n = k->system->n, count = k->system->solved_velocities;
+    char name[DAL__NAME_SIZE];
+    double max = 0.0;
+    int best = -1;
+    for (int i = 0; i < n; i++) {
+        if (dal__is_solved(k->system->solved, count, i) || !(fabs(k->A[a * n + i]) > max)) continue;
+        max = fabs(k->A[a * n + i]);
+        best = i;
+    }
+    *hint = 0;
+    if (best < 0) return hint;
+    dal_run_name(run, n + best, name, sizeof name);
+    if (count > 0)
+        snprintf(hint, size, "; solve under start can name one more velocity, as %.60s", name);
+    else
+        snprintf(hint, size,
+                 "; the option consistent moves its velocities to D = 0, and 'solve: [%.60s]' "
+                 "under start solves those it names",
+                 name);
+    return hint;
 }
 
-static dal_status check_consistent(const dal_run *run, const constraint_values *c, dal_error *error)
+/* run: whose start it is, or NULL; before: D of the parameters before a change, or NULL. */
+static dal_status check_consistent(const dal__linearised *k, const double *before,
+                                   const dal_run *run, dal_error *error)
 {
-    const dal__layout *k = &run->layout;
-    const double speed = dal_max_norm(run->persistent + k->n, k->n);
-    for (int i = 0; i < k->m; i++) {
+    char hint[256] = "";
+    const int n = k->system->n;
+    const double speed = dal_max_norm(k->v, n);
+    for (int i = 0; i < k->rows; i++) {
         double scale = 0.0;
-        for (int j = 0; j < k->n; j++) scale += fabs(c->A[i * k->n + j]);
+        for (int j = 0; j < n; j++) scale += fabs(k->A[i * n + j]);
         const double small = CONSISTENT * scale * speed;
-        if (fabs(c->D[i]) <= small) continue;
-        if (c->before && fabs(c->D[i] - c->before[i]) <= small) continue; /* the drift of a run */
-        return dal__fail(error, isfinite(c->D[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
-                         "%s violates constraint %d: D%d = %.6g%s", c->place, i + 1, i + 1, c->D[i],
-                         c->hint ? c->hint : "");
+        if (fabs(k->D[i]) <= small) continue;
+        if (isfinite(k->D[i]) && !isfinite(scale)) continue;        /* dal__check_rank says so */
+        if (before && fabs(k->D[i] - before[i]) <= small) continue; /* the drift of a run */
+        return dal__fail(error, isfinite(k->D[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
+                         "%s violates constraint %d: D%d = %.6g%s", k->place, i + 1, i + 1, k->D[i],
+                         run ? suggest(k, run, i, hint, sizeof hint) : hint);
     }
     return DAL_OK;
-}
-
-/* Pivots of G = A B, each against its diagonal entry before elimination, constraint by constraint.
- * Without a pivot W itself may be singular. */
-static dal_status check_rank(dal_run *run, const constraint_values *c, dal_error *error)
-{
-    const dal_system *system = run->layout.system;
-    const int m = run->layout.m, n = run->layout.n;
-    double *diagonal = c->G + m * m, rest = 0.0, number = 0.0;
-    int k = 0;
-    dal_gram(c->A, c->B, m, n, c->G);
-    for (int i = 0; i < m; i++) diagonal[i] = fabs(c->G[i * m + i]);
-    for (; k < m; k++) {
-        rest = dal_eliminate(c->G, m, k);
-        if (!(fabs(rest) > INDEPENDENT * diagonal[k] && isfinite(rest))) break;
-    }
-    if (k == m) return DAL_OK;
-    const dal_point at = dal__here(run);
-    if (system->diagnose && system->diagnose(system, &at, &number) == DAL_SINGULAR_MASS)
-        return dal__fail(error, DAL_SINGULAR_MASS, "the mass matrix is singular at %s", c->place);
-    return dal__fail(error, DAL_RANK,
-                     "constraint %d restricts no velocity at %s, or none that those before it "
-                     "leave free (pivot %g of G)",
-                     k + 1, c->place, rest);
-}
-
-/* ---- a consistent start ---- */
-
-/* Replaces v by the point nearest to given[n] of D + A (v' - v) = 0, the linearisation at v:
- *
- *     v' = given + W^-1 A^T x,    A W^-1 A^T x = -(D + A (given - v))
- *
- * without pivoting: check_rank has found the pivots.  Returns max |v' - v|. */
-static double move_to_linear(dal_run *run, const constraint_values *c, const double *given)
-{
-    const int m = run->layout.m, n = run->layout.n;
-    double *v = run->persistent + n, *G = c->G, *x = G + m * m, change = 0.0;
-    dal_gram(c->A, c->B, m, n, G);
-    for (int a = 0; a < m; a++) {
-        x[a] = -c->D[a];
-        for (int i = 0; i < n; i++) x[a] -= c->A[a * n + i] * (given[i] - v[i]);
-        for (int k = 0; k < a; k++) {
-            const double factor = G[a * m + k] / G[k * m + k];
-            for (int j = k; j < m; j++) G[a * m + j] -= factor * G[k * m + j];
-            x[a] -= factor * x[k];
-        }
-    }
-    for (int k = m - 1; k >= 0; k--) {
-        for (int j = k + 1; j < m; j++) x[k] -= G[k * m + j] * x[j];
-        x[k] /= G[k * m + k];
-    }
-    for (int i = 0; i < n; i++) {
-        double moved = given[i];
-        for (int a = 0; a < m; a++) moved += c->B[i * m + a] * x[a];
-        change = fmax(change, fabs(moved - v[i]));
-        v[i] = moved + 0.0; /* no -0: see lib/kernel/step.h */
-    }
-    return change;
-}
-
-enum { MAX_MOVES = 1000 };
-
-/* Least change of the velocities: (v - given).W (v - given) is stationary on D = 0, with A at the
- * solution, which is the fixed point of move_to_linear; linear D need one move. */
-static dal_status make_consistent(dal_run *run, dal_error *error)
-{
-    const int n = run->layout.n;
-    const double *v = run->persistent + n;
-    double *given = run->point, change = INFINITY, before;
-    constraint_values c = {.place = "the start"};
-    memcpy(given, v, (size_t)n * sizeof *given);
-    for (int k = 0; k < MAX_MOVES; k++) {
-        DAL_TRY(eval_constraints(run, &c, error));
-        DAL_TRY(check_rank(run, &c, error));
-        before = change;
-        change = move_to_linear(run, &c, given);
-        const double resolution = DBL_EPSILON * dal_max_norm(v, n);
-        if (change <= resolution || (change >= before && change <= 64.0 * resolution))
-            return DAL_OK;
-    }
-    DAL_TRY(eval_constraints(run, &c, error));
-    int k = 0; /* violated most */
-    for (int a = 1; a < run->layout.m; a++)
-        if (!(fabs(c.D[a]) <= fabs(c.D[k]))) k = a;
-    return dal__fail(error, DAL_INCONSISTENT,
-                     "no velocities near those of the start were found that satisfy constraint %d: "
-                     "D%d = %.6g; give others",
-                     k + 1, k + 1, c.D[k]);
 }
 
 static bool has_constraints(const dal_run *run)
@@ -225,12 +148,15 @@ static bool has_constraints(const dal_run *run)
 
 static dal_status check_constraints(dal_run *run, dal_error *error)
 {
-    constraint_values c = {.place = "the start",
-                           .hint = "; the option consistent moves its velocities to D = 0"};
-    if (!has_constraints(run)) return DAL_OK;
-    DAL_TRY(eval_constraints(run, &c, error));
-    DAL_TRY(check_consistent(run, &c, error));
-    return check_rank(run, &c, error);
+    dal__linearised k = dal__linearised_of(run, NULL, "the start");
+    const bool is_solved_for = run->layout.system->solved_velocities != 0;
+    if (!has_constraints(run) && !is_solved_for) return DAL_OK;
+    DAL_TRY(dal__solve_velocities(run->layout.system, k.at.t, k.at.q, k.v, run->work, run->scratch,
+                                  error));
+    if (run->layout.options.consistent) DAL_TRY(dal__make_consistent(&k, error));
+    DAL_TRY(dal__linearise(&k, NULL, error));
+    DAL_TRY(check_consistent(&k, NULL, run, error));
+    return dal__check_rank(&k, error);
 }
 
 /* Whether the exact solution has the start of this run. */
@@ -246,16 +172,16 @@ static bool exact_agrees(dal_run *run)
 }
 
 dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int parameter_count,
-                          const dal_setting *start, int start_count, dal_error *error)
+                          const dal_setting *start, int start_count, const double *added,
+                          dal_error *error)
 {
     DAL_TRY(dal__set_parameters(run->layout.system, parameters, parameter_count, DAL_ARGUMENT,
                                 run->work, error));
     DAL_TRY(prepare(run, error));
     DAL_TRY(default_start(run, error));
     DAL_TRY(override(run, start, start_count, error));
+    for (int i = 0; added && i < run->layout.dim; i++) run->persistent[i] += added[i];
     DAL_TRY(check_finite(run, error));
-    if (run->layout.options.consistent && has_constraints(run))
-        DAL_TRY(make_consistent(run, error));
     DAL_TRY(check_constraints(run, error));
     run->exact = exact_agrees(run);
     return DAL_OK;
@@ -291,21 +217,21 @@ static dal_status check_field(dal_run *run, dal_error *error)
 /* Stores D of the present state; NaN where it cannot be evaluated. */
 static void note_constraints(dal_run *run, double *D)
 {
-    constraint_values c;
-    const bool known = has_constraints(run) && eval_constraints(run, &c, NULL) == DAL_OK;
-    for (int i = 0; i < run->layout.m; i++) D[i] = known ? c.D[i] : NAN;
+    dal__linearised k = dal__linearised_of(run, NULL, "the present state");
+    const bool known = has_constraints(run) && dal__linearise(&k, NULL, NULL) == DAL_OK;
+    for (int i = 0; i < run->layout.m; i++) D[i] = known ? k.D[i] : NAN;
 }
 
 /* DAL_INCONSISTENT: the parameters can be used, but D, which was `before`, is not 0 with them. */
 static dal_status check_parameters(dal_run *run, const double *before, dal_error *error)
 {
-    constraint_values c = {.place = "the present state", .before = before};
+    dal__linearised k = dal__linearised_of(run, NULL, "the present state");
     DAL_TRY(prepare(run, error));
     DAL_TRY(check_field(run, error));
     if (!has_constraints(run)) return DAL_OK;
-    DAL_TRY(eval_constraints(run, &c, error));
-    DAL_TRY(check_rank(run, &c, error));
-    return check_consistent(run, &c, error);
+    DAL_TRY(dal__linearise(&k, NULL, error));
+    DAL_TRY(dal__check_rank(&k, error));
+    return check_consistent(&k, before, NULL, error);
 }
 
 void dal__restart_method(dal_run *run)
@@ -339,6 +265,7 @@ dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, d
     const dal_status status = check_parameters(run, run->point, &reason);
     if (status == DAL_OK || status == DAL_INCONSISTENT) {
         begin_again(run);
+        dal__change_sides(run);
     } else {
         run->work[i] = before;
         dal__run_prepare(run);

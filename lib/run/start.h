@@ -8,8 +8,10 @@
 dal_status dal__run_prepare(dal_run *run);
 /* Lets the next step be the method's first. */
 void dal__restart_method(dal_run *run);
-/* Sets parameters and the start at its time and checks them. */
+/* Sets parameters and the start at its time, adds numbers to that, added[dim] or NULL, and checks
+ * them. */
 dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int parameter_count,
-                          const dal_setting *start, int start_count, dal_error *error);
+                          const dal_setting *start, int start_count, const double *added,
+                          dal_error *error);
 
 #endif

@@ -12,6 +12,8 @@ run="./skew.yaml --integrator rk4 --step 0.1 --time 1 --samples 1"
 case_is "a start off D = 0"
 try 2 run $run
 says "^dalembert: ./skew.yaml: the start violates constraint 1: D1 = 1.5; the option consistent moves"
+try 1 check ./skew.yaml
+prints "FAIL  0.6  .at most 1e-10.: --consistent"
 try 0 run $run --consistent --columns "x',y',D1"
 holds "another start" [ "$(sed -n 2p out)" = "0,1.5,-0.5,0" ]
 for way in "--consistent on" --consistent=on; do
@@ -67,3 +69,82 @@ END
 try 0 study study.yaml --output there --no-page --force
 holds "a cell fails" [ "$(column state there/cells.csv | sort -u)" = done ]
 holds "D moved" awk -F, '$3 != "displaced" && $5 == "D1" && ($8 > 1e-14 || $8 < -1e-14) { exit 1 }' there/quantities.csv
+
+# ---- velocities that a start solves ----
+
+cat >circle.yaml <<'EOF'
+coordinates: [x, y]
+lagrangian: (x'^2 + y'^2)/2
+constraints: [(x'^2 + y'^2 - 25)/2]
+start: {x': 3, y': 1, solve: [y']}
+defaults: {integrator: gauss4, step: 0.1, time: 1}
+EOF
+cat >screw.yaml <<'EOF'
+coordinates: [x, y, z]
+lagrangian: (x'^2 + y'^2 + z'^2)/2 - z
+constraints:
+  - x' + 2*y' - z' - x
+  - y' - z'*cos(x)
+start:
+  x: 1
+  x': 0.3
+  solve:
+    - y'
+    - z'
+EOF
+solved="./screw.yaml --integrator gauss4 --step 0.01 --time 1 --samples 101"
+
+case_is "solve: a first guess chooses the root"
+try 0 run ./circle.yaml --samples 1 --columns "x',y'"
+holds "another root" [ "$(sed -n 2p out)" = "0,3,4" ]
+try 0 run ./circle.yaml --samples 1 --columns "x',y'" --start "y'=-2" --start "x'=4"
+holds "another root" [ "$(sed -n 2p out)" = "0,4,-3" ]
+
+case_is "solve: no root, or no unique one"
+try 2 run ./circle.yaml --start "x'=6"
+says "^dalembert: ./circle.yaml:4:31: the start cannot be solved for y': no root of constraint 1 was found"
+try 2 run ./circle.yaml --start "y'=0"
+says "^dalembert: ./circle.yaml:4:31: .* no constraint restricts it at the first guess 0; give another one"
+try 2 check ./circle.yaml --start "y'=0"
+says "^dalembert: ./circle.yaml:4:31: the start cannot be solved for y'"
+
+case_is "solve: check begins with the velocities solved"
+try 0 check ./screw.yaml
+prints '[|]D[|] at the start  *ok'
+
+case_is "solve: other commands"
+try 0 order ./screw.yaml --step 0.05 --time 1 --integrators rk4
+try 0 lyapunov ./circle.yaml --exponents 1
+
+if raises; then
+    case_is "solve: killed and resumed"
+    try 0 run $solved --output whole
+    cut_off 137 9 6 run $solved --checkpoint 0 --output killed
+    try 0 resume killed
+    holds "not the rows of a run never interrupted" cmp killed/trajectory.npy whole/trajectory.npy
+fi
+
+if there gcc; then
+    case_is "solve: compiled and generated, the same bytes"
+    try 0 run $solved --native off --output interpreted.csv
+    try 0 run $solved --native on --output native.csv
+    holds "other bytes" cmp -s native.csv interpreted.csv
+    try 0 generate ./screw.yaml --integrator gauss4 --space physical --prefix g -o g.c
+    holds "it does not compile" gcc -std=c11 -O1 main.c -o main -lm
+    ./main >generated.csv
+    try 0 run ./screw.yaml --integrator gauss4 --step 0.1 --time 1 --samples 1 --space physical \
+        --columns x,y
+    sed -n 3p out >interpreted.csv
+    holds "other digits" cmp -s generated.csv interpreted.csv
+fi
+
+case_is "solve: random starts of studies"
+cat >study.yaml <<'EOF'
+integrators: [gauss4]
+step: 0.1
+time: 1
+systems:
+  - {system: ./screw.yaml, label: drawn, seeds: [1, 2], start: {"x'": {between: [0, 1]}}}
+EOF
+try 0 study study.yaml --output solved --no-page
+holds "a cell fails" [ "$(column state solved/cells.csv | sort -u)" = done ]

@@ -31,6 +31,10 @@ try 2 run $run --step -0.125 --from 2 --steps 8 --time 1
 says '--steps excludes --time'
 try 2 run $run --step 0.125 --steps 0
 says '--steps: 0 is not in 1\.\.'
+try 2 run $run --step 0.125 --from 1e17 --steps 2
+says '^dalembert: --steps: 2 steps of 0.125 from t = 1e\+17 lead to no other finite time$'
+try 2 run $run --step 1e300 --steps 1000000000
+says '^dalembert: --steps: 1000000000 steps of 1e\+300 from t = 0 lead to no other finite time$'
 printf '%s\n' "defaults: {integrator: gauss8, step: 0.125, time: 100}" >>forced.yaml
 try 0 run ./forced.yaml --steps 2 --samples 1
 holds "not the time of the file" [ "$(rows_at)" = "t 0 0.25 " ]
@@ -53,6 +57,8 @@ try 2 run $run --step -0.125 --from 2 --times 1.5,0.5 --time 1
 says '--times: 0.5 is later than T = 1'
 
 case_is "a sign that does not lead there"
+try 2 run $run --step 0.125 --from 1.0000000001 --time 1
+says '^dalembert: --time: a step of 0.125 does not lead from t = 1.0000000001 to t = 1$'
 try 2 run $run --step 0.125 --from 2 --time 1
 says '--time: a step of 0.125 does not lead from t = 2 to t = 1'
 try 2 run $run --step -0.125 --from 2 --time 3

@@ -31,6 +31,10 @@ holds "its head" grep -qx "t,event,y,vy" log.csv
 holds "not the closed form" bounces log.csv 6
 try 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --events none.csv
 says '^dalembert: --events: line.yaml has no events$'
+for file in - both.csv; do
+    try 2 run $ball --time 3 --output both.csv --events $file
+    says "dalembert: --events $file: .*the rows"
+done
 try 4 run $ball --time 3 --events none/log.csv
 says 'none/log.csv'
 
@@ -60,6 +64,10 @@ case_is "velocities that lead out"
 sed "s|restitution: c|set: {y': y'/2}|" ball.yaml >out.yaml
 try 3 run out.yaml --integrator gauss4 --step 0.01 --time 3
 says 'event 1 \(y - r\) at t = 0.45152.*still lead out'
+printf "coordinates: [x]\nlagrangian: x'^2/2\nconstraints: [x' - 1]\nstart: {x': 1}
+events: [{when: x - 0.5, restitution: 1}]\n" >held.yaml
+try 3 run held.yaml --integrator rk4 --step 0.1 --time 1
+says 'event 1 \(x - 0.5\) at t = 0.5 changes no velocity that the constraints leave free'
 
 case_is "killed between events"
 long="ball.yaml --integrator gauss8 --step 0.001 --time 4 --samples 4001 --set c=0.9"
@@ -90,11 +98,35 @@ for command in "lyapunov $ball --time 1" "section $ball --time 1 --on y" "explai
     "generate ball.yaml --integrator gauss4" "volume $ball --time 1"; do
     try 2 $command
     says 'ball has events: .* would pass over them'
+    empty
 done
 try 2 order ball.yaml --integrators gauss4 --step 0.1 --time 1
 says 'ball.yaml has events'
 try 0 check ball.yaml
 prints ' 0 failed'
+
+case_is "studies with events"
+cat >study.yaml <<'END'
+integrators: [rk4, gauss4]
+step: 0.01
+time: 2
+systems:
+  - ball.yaml
+  - {system: stop.yaml, label: stopped}
+expect:
+  all: {gauss4: {E: rounding}}
+  stopped: {all: {state: [done, refused]}}
+END
+try 0 study study.yaml --output rows
+holds "not its own events" bounces rows/runs/ball.yaml_gauss4_surface_0.01/events.csv 3
+# A displaced lift has no events: it is refused, and nothing fails.
+holds "not refused" test "$(column state rows/cells.csv | sort | uniq -c | tr -s ' \n' ' ')" = " 8 done 4 refused "
+holds "no reason" grep -q 'events act on p = pi = 0 only' rows/cells.csv
+sed 's/^time: 2/&\nrows: none/' study.yaml >none.yaml
+try 0 study none.yaml --output none
+for column in state status message reached steps E_deviation E_size; do
+    holds "rows: none: other $column" [ "$(column $column none/cells.csv)" = "$(column $column rows/cells.csv)" ]
+done
 
 # E falls by m ((c v)^2 - v^2)/2 with the velocity v across the slope; the part along it is untouched.
 case_is "a ball on a slope"

@@ -95,6 +95,16 @@ if there cc; then
     holds "not the steps of two methods on two spaces" test "$(wc -l <gate/begun)" -eq 4
     cmp -s native-study/quantities.csv tape-study/quantities.csv || fail "other bytes"
 
+    case_is "native: nothing is compiled again for other parameters and starts"
+    sed "s/systems:.*/systems: [{system: chaplygin-sleigh, set: {m: [0.5, 2, 3]}, start: {phi': [1, 2]}}]/" \
+        native.yaml >grid.yaml
+    rm -rf cache gate/begun native-study tape-study
+    PATH=$PWD/gate:$PATH try 0 study grid.yaml --output native-study --native on --threads 4
+    silent
+    holds "not the steps of two methods on two spaces" test "$(wc -l <gate/begun)" -eq 4
+    try 0 study grid.yaml --output tape-study --native off
+    cmp -s native-study/quantities.csv tape-study/quantities.csv || fail "other bytes"
+
     case_is "native: changed over to while the run goes on"
     size() { wc -c <"$1"; }
     # first FILE COUNT: the first numbers of a trajectory, behind its header.
@@ -112,8 +122,8 @@ if there cc; then
     PATH=$PWD/gate:$PATH "$program" resume changed 2>err &
     reaches $! test -s gate/begun
     rm gate/closed
-    # The source is there while its compiler runs; the run takes note of both before a signal.
-    compiled() { ls cache/dalembert/*.so && ! ls cache/dalembert/*.c; }
+    # A folder is there while a compiler runs; the run takes note of its end before a signal.
+    compiled() { ls cache/dalembert/*.so && ! ls -d cache/dalembert/*/; }
     reaches $! compiled
     ends_by TERM 130 $!
     holds "not native" grep -q '"native": true' changed/manifest.json

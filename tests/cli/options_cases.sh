@@ -86,11 +86,72 @@ done
 holds "errors $(error_at_end 1e-5.csv), $(error_at_end 1e-10.csv)" \
     awk "BEGIN { exit !($(error_at_end 1e-10.csv) < 1e-3 * $(error_at_end 1e-5.csv)) }"
 
-case_is "tolerance: interpreted, with one line that says so, and the same bytes"
+case_is "tolerance: Taylor series"
+for tolerance in 1e-5 1e-10 1e-18; do
+    try 0 run knife-edge --integrator taylor --step 5 --time 10 --samples 1 \
+        --tolerance $tolerance --output series.csv
+    holds "error beyond ten times $tolerance" awk -F, -v max=$tolerance \
+        'END { if (max < 1e-14) max = 1e-14; exit !($NF < 10*max) }' series.csv
+done
+printf '%s\n' 'coordinates: [x]' 'accelerations: {x: -abs(x)}' 'start: {x: 1}' >kinked.yaml
+try 2 run kinked.yaml --integrator taylor --step 0.1 --time 1
+says "the equations contain abs, which has no Taylor series at its jump or kink"
+try 2 run knife-edge --integrator taylor+lift --step 0.1 --time 1
+# F = 0 all along, but the second step begins where the mass matrix has a pivot of 1e-14.
+printf '%s\n' 'coordinates: [x, y, z]' "lagrangian: (x'^2 + y'^2 + z'^2)/2 + cos(z)*x'*y'" \
+    "start: {z: 2^(-23) - 0.5, z': 1}" >vanishing.yaml
+for native in off on; do
+    try 3 run vanishing.yaml --integrator taylor --step 0.5 --time 2 --native $native
+    says "the mass matrix became singular near t = 0.5"
+done
+
+case_is "tolerance: compiled, the same bytes"
 try 0 run knife-edge --integrator dop853 --step 5 --time 10 --samples 1 \
     --tolerance 1e-10 --native on --output native.csv
-says "steps are interpreted: steps under a tolerance are not generated"
+silent
 holds "other bytes" cmp -s 1e-10.csv native.csv
+
+case_is "tolerance: without a step, which is a hundredth of the time then"
+motion="knife-edge --integrator dop853 --tolerance 1e-9 --from 10 --time 3 --samples 9"
+try 0 run $motion --output chosen
+try 0 run $motion --step -0.07 --output given.npy
+holds "other bytes" cmp -s chosen/trajectory.npy given.npy
+holds "not in the manifest" grep -Eq '^    "step": -0.070*[0-9]?,$' chosen/manifest.json
+try 0 resume chosen
+printf 'coordinates: [x]\nlagrangian: x'"'"'^2/2\n' >free.yaml
+try 2 run ./free.yaml --integrator dop853 --time 3
+says "^dalembert: --step is missing"
+for end in '--time 3' '--times 3'; do
+    try 2 run ./free.yaml --integrator dop853 --tolerance 1e-9 --from 3 $end
+    says "^dalembert: ${end% 3}: the run ends where it begins, at t = 3$"
+done
+try 2 run ./free.yaml --integrator dop853 --tolerance 1e-9 --times 5,3
+says "^dalembert: --times: from t = 0, 3 does not come after 5$"
+try 2 run ./free.yaml --integrator dop853 --tolerance 1e-9 --steps 9
+says "^dalembert: --step is missing"
+try 0 run ./free.yaml --integrator dop853 --tolerance 1e-9 --times 1,1.7,2 --output listed
+holds "not a hundredth" grep -q '^    "step": 0.02,$' listed/manifest.json
+
+# phi = 0.2 + t passes through 2 pi, ...
+case_is "tolerance: a section without a step"
+try 0 section knife-edge --on "sin(phi)" --direction up --integrator taylor --tolerance 1e-12 --time 20
+holds "other times" awk -F, 'NR > 1 && !(($2 + 0.2 - (NR - 1)*8*atan2(1, 1))^2 < 1e-26) { exit 1 }
+    END { exit NR != 4 }' out
+
+# The closed form of the knife edge is far from its rows by no more than the bound of the manual.
+case_is "tolerance: rows within a step, which they do not change"
+for integrator in dop853 taylor; do
+    motion="knife-edge --integrator $integrator --tolerance 1e-9 --step 10 --time 20"
+    for native in off on; do
+        try 0 run $motion --samples 200 --native $native --output within-$native.csv
+        silent
+    done
+    holds "other bytes compiled" cmp -s within-off.csv within-on.csv
+    holds "rows beyond their bound" awk -F, 'NR > 1 && !($NF < 2e-8 * (1 + $1)) { exit 1 }' within-on.csv
+    try 0 run $motion --samples 2 --output alone.csv
+    sed -n '1p; 2p; 102p; 202p' within-on.csv >ends.csv
+    holds "rows change the trajectory" cmp -s ends.csv alone.csv
+done
 
 case_is "tolerance: resumed"
 motion="knife-edge --integrator dop853 --tolerance 1e-9 --step 0.7 --time 10 --samples 9"

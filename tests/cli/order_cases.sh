@@ -62,6 +62,53 @@ done
 prints '^symplectic-euler-01 +1 +- +[0-9]'
 prints '^no order found'
 
+# y begins at the value of its exact solution at t = 1, with the velocity that D has then.
+case_is "orders from a later time, with velocities solved from D(q,v,t) = 0"
+cat >driven.yaml <<'END'
+coordinates: [x, y]
+lagrangian: (x'^2 + y'^2)/2
+constraints: ["y' - sin(t)"]
+start: {x: 1, x': 1, y: 0.45969769413186023, solve: [y']}
+exact: {x: t, y: 1 - cos(t)}
+END
+try 0 order driven.yaml --integrators rk4 --from 1 --time 3 --json
+prints '"reference": \{"integrator": null'
+prints '"observed_order": (4\.0|3\.9)'
+try 0 order driven.yaml --integrators rk4 --time 3 --json
+prints '"reference": \{"integrator": "gauss12"'
+prints '"observed_order": (4\.0|3\.9)'
+
+case_is "errors by tolerance"
+try 0 order knife-edge --time 10 --tolerances 1e-4,1e-8 --output controlled.csv
+prints '^against the exact solution$'
+prints '^dop853 +8 +- '
+holds "not the adaptive methods alone" test "$(column integrator controlled.csv | sort -u | tr '\n' ' ')" = \
+    "dop853 taylor "
+holds "not one step" test "$(column step controlled.csv | sort -u)" = 10
+holds "errors far from the tolerance" awk -F, 'NR > 1 && !($8 > 1e-2*$6 && $8 < 1e2*$6) { exit 1 }' \
+    controlled.csv
+# The reference is another method, where there is no exact solution.
+try 0 order falling-disk --integrators dop853,rk4 --time 10 --tolerances 1e-6,1e-9 --step 5 --json
+prints '"reference": \{"integrator": "taylor", "step": 5, "tolerance": 1\.?0*1?e-11, "error": '
+prints '"step": 5, "tolerance": 1e-09, "steps": 2, '
+prints 'rk4 has no control of its step size'
+# An oscillator for 5,000 periods: more substeps than a step may have.
+printf 'coordinates: [x]\nlagrangian: (x'"'"'^2 - x^2)/2\nstart: {x: 1}\nexact: {x: cos(t)}\n' >oscillator.yaml
+try 0 order oscillator.yaml --integrators dop853 --time 31415 --tolerances 1e-8,1e-12 --output periods.csv
+holds "a failure of what succeeded" test "$(column message periods.csv | tr -d '\n')" = ""
+holds "T in parts" test "$(column steps periods.csv | sort -u)" = 1
+holds "no error of T" awk -F, 'NR > 1 && !($8 < 31415*1e-8 && $10 > 1e5) { exit 1 }' periods.csv
+try 3 order oscillator.yaml --integrators dop853 --time 31415 --tolerances 1e-8,1e-12 --step 31415
+prints '^dop853: failed: too many substeps'
+try 2 order knife-edge --tolerances 1e-4
+says 'tolerances: a slope needs two tolerances'
+try 2 order knife-edge --tolerances 1e-4,1e-3
+says 'tolerances: 1e-3 is not positive and below the one before'
+try 2 order knife-edge --tolerances 1e-4,1e-6 --steps 0.1,0.05
+says 'tolerances excludes --steps and --tolerance'
+try 2 order knife-edge --tolerances 10,1e-6
+says 'tolerances: 10 is larger than 1'
+
 case_is "diagrams"
 if command -v gnuplot >/dev/null 2>&1; then
     try 0 order line.yaml --integrators rk4,gauss4 --time 1 --output orders
@@ -69,6 +116,10 @@ if command -v gnuplot >/dev/null 2>&1; then
         holds "no $name.svg" grep -q '<svg' orders/report/$name.svg
         holds "rk4 is not in $name.svg" grep -q 'rk4' orders/report/$name.svg
     done
+    try 0 order knife-edge --time 10 --tolerances 1e-4,1e-8 --output by-tolerance
+    holds "no tolerance.svg" grep -q '<svg' by-tolerance/report/tolerance.svg
+    holds "an order without steps" test ! -e by-tolerance/report/order.svg
+    holds "no tolerances" grep -q '<th>h = 10, tolerance 1e-08</th>' by-tolerance/report/index.html
     holds "diagrams that are drawn twice" test -z "$(find orders -maxdepth 1 -name '*.svg')"
 fi
 

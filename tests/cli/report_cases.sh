@@ -5,7 +5,7 @@ try 2 report
 says 'the DIR is missing'
 mkdir -p hollow
 try 2 report hollow
-says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\) nor orders \(order.csv\) nor a section \(section.csv\)"
+says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\) nor an ensemble \(statistics.csv\) nor orders \(order.csv\) nor a section \(section.csv\)"
 try 2 report nowhere
 says "'nowhere' holds neither"
 mkdir -p begun && touch begun/study.yaml
@@ -162,6 +162,67 @@ END_OF_SYSTEM
         "<dt>time T</dt><dd>2</dd>"; do
         holds "it lacks $fact" grep -q "$fact" pulled/report/index.html
     done
+
+    # x = cos t; nothing else of this system is observed.
+    case_is "observed formulas on the page of a run"
+    printf 'coordinates: [x]\naccelerations: {x: -x}\nstart: {x: 1}\n' >swing.yaml
+    try 0 run swing.yaml --integrator gauss8 --step 0.05 --time 3 --samples 30 --output swing \
+        --observe "x^2 + 3; 2 - hypot(x, x')"
+    try 0 report swing
+    holds "no values" sh -c "sed -n '/curve1 <</,/^END/p' swing/report/observed.gp |
+        awk -F, 'NF == 2 { n++; bad += (\$2 - 3 - cos(\$1)^2)^2 > 1e-14 } END { exit bad || n != 31 }'"
+    holds "no values" sh -c "sed -n '/curve2 <</,/^END/p' swing/report/observed.gp |
+        awk -F, 'NF == 2 { n++; bad += (\$2 - 1)^2 > 1e-14 } END { exit bad || n != 31 }'"
+    holds "no figure" grep -q '<img alt="Observed formulas: value over t' swing/report/index.html
+    holds "formulas are conserved" [ ! -e swing/report/drift.gp -a ! -e swing/report/I.gp ]
+
+    # Bounces at t_1 (1 + 2 c (1 - c^k)/(1 - c)), t_1 = sqrt(2/g), of a ball that moves along x with u.
+    case_is "events on the page of a run"
+    cat >bounces.yaml <<'END_OF_SYSTEM'
+coordinates: [x, y]
+parameters: {g: 9.81, c: 0.8, u: 0.5}
+lagrangian: (x'^2 + y'^2)/2 - g*y
+start: {y: 1, x': u}
+events:
+  - {when: y, direction: down, restitution: c}
+  - {when: x - 1.25, stop: true}
+  - {when: x - 9, direction: up, set: {x: 0}}
+END_OF_SYSTEM
+    times='function bounce(k) { return sqrt(2/9.81)*(1 + 2*0.8*(1 - 0.8^k)/0.2) }'
+    for sign in "" -; do
+        rm -rf bounces
+        try 0 run bounces.yaml --integrator gauss4 --step ${sign}0.01 --time ${sign}3 --set u=${sign}0.5 --output bounces
+        try 0 report bounces
+        for figure in coordinates E drift; do
+            holds "$figure: other lines${sign:+, backwards}" awk "$times"'
+                /^set arrow/ { t = $5 + 0; d = $5 < 0 ? -t : t; end += (d - 2.5)^2 < 1e-14
+                    for (k = 0; k < 5; k++) met += (d - bounce(k))^2 < 1e-14; lines++ }
+                END { exit lines != 5 || met != 4 || end != 1 }' bounces/report/$figure.gp
+        done
+        holds "other rings${sign:+, backwards}" sh -c "sed -n '/curve3 <</,/^END/p' bounces/report/path.gp | awk -F, '$times
+            NF == 2 { if ((\$1 - 0.5*bounce(rings++))^2 < 1e-14 && \$2^2 < 1e-14) met++ } END { exit rings != 5 || met != 4 }'"
+        holds "what events change is drift${sign:+, backwards}" sh -c "sed -n '/curve1 <</,/^END/p' bounces/report/drift.gp |
+            awk -F, 'NF == 2 { n++; if (\$2 > 1e-11) bad++ } END { exit bad || n < 1 }'"
+        holds "E does not jump${sign:+, backwards}" sh -c "sed -n '/curve1 <</,/^END/p' bounces/report/E.gp |
+            awk -F, 'NF == 2 { E = \$2 } END { exit (E - 9.81*(0.8^8 - 1))^2 > 1e-16 }'"
+    done
+    for fact in '<th scope="row">event 1 (y)</th><td>impact</td><td>4</td>' \
+        '<th scope="row">event 2 (x - 1.25)</th><td>stops the run</td><td>1</td><td>-2.5</td><td>-2.5</td>' \
+        '<th scope="row">event 3 (x - 9)</th><td>sets values</td><td>0</td><td>–</td><td>–</td>' \
+        '<p>event 2 (x - 1.25) stopped the run at t = -2.5</p>' 'Vertical lines mark events\.'; do
+        holds "it lacks $fact" grep -q "$fact" bounces/report/index.html
+    done
+    printf '2,1,0' >>bounces/events.csv
+    try 0 report bounces
+    holds "half a line is an event" grep -q '<td>impact</td><td>4</td>' bounces/report/index.html
+    try 0 run bounces.yaml --integrator gauss4 --step 0.01 --time 2 --columns x,E --output bounces --force
+    try 0 report bounces
+    holds "no events of a run with few columns" grep -q '<td>impact</td><td>3</td>' bounces/report/index.html
+    sed 's/restitution: c/restitution: 1/' bounces.yaml >endless.yaml
+    try 0 run endless.yaml --integrator gauss4 --step 0.01 --time 200 --set u=0 --output many-bounces
+    try 0 report many-bounces
+    holds "long lines at many events" sh -c "! grep -q 'graph 0 to' many-bounces/report/E.gp"
+    holds "too many lines" test "$(grep -c '^set arrow.*graph 0.95 to' many-bounces/report/E.gp)" -le 251
 
     case_is "the page of a run that failed"
     try 3 run pursuit --integrator rk4 --step 0.01 --time 10 --output aborted

@@ -120,6 +120,23 @@ cut_off() {
     ended $? "$@"
 }
 
+# Whether there are dalembert-mpi, which `make mpi` makes, and Open MPI's mpirun.
+mpi_program=$(dirname "$program")/dalembert-mpi
+has_mpi() {
+    [ -x "$mpi_program" ] && there mpirun && return
+    echo "cli: $label: skipped: no $mpi_program (make mpi), or no mpirun"
+    false
+}
+# by_mpi STATUS OPTION... PROGRAM ARGUMENT...: like try, by mpirun.
+by_mpi() {
+    expected=$1
+    shift
+    # Leaks are Open MPI's own; another object may be loaded first.
+    ASAN_OPTIONS=detect_leaks=0:verify_asan_link_order=0 timeout $patience mpirun --allow-run-as-root --oversubscribe \
+        --mca mpi_yield_when_idle 1 "$@" >out 2>err
+    ended $? "$@"
+}
+
 # The cells of a column by its head.
 column() { awk -F, -v head="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == head) k = i; next }
                                  { print $k }' "$2"; }

@@ -245,3 +245,59 @@ bad "integrators: rk4\nstep: [0.1, 0.1]\ntime: 1\nsystems: [line.yaml]\n" \
 bad "${common}systems: [knife-egde]\n" "bad.yaml:5:11: unknown system 'knife-egde'; did you mean 'knife-edge'"
 bad "${common}samples: 0.5\nsystems: [line.yaml]\n" 'bad.yaml:5:10: samples: 0.5 is not an integer'
 bad "${common}statistics: 0\nsystems: [line.yaml]\n" 'bad.yaml:5:13: statistics: 0 is not in 1'
+
+case_is "tolerances are an axis"
+cat >tolerances.yaml <<'END'
+integrators: [dop853, rk4]
+step: [1, 0.5]
+tolerance: [1e-6, 1e-10]
+time: 10
+starts: [physical, surface]
+systems: [knife-edge]
+expect:
+  knife-edge:
+    dop853:
+      error: [{tolerance: 1e-6, at least: 1e-8}, {tolerance: 1e-10, step: 1, at most: 1e-8}]
+END
+try 0 study tolerances.yaml --output controlled --tables
+silent
+prints '^ lifted, on p = pi = 0, h = 0.5, T = 10$'
+prints '^ lifted, on p = pi = 0, h = 0.5, tolerance 1e-10, T = 10$'
+# 2 steps x 2 starts x (2 tolerances of dop853 + 1 of rk4, which takes none)
+holds "not 12 cells" test "$(column state controlled/cells.csv | grep -c '^done$')" -eq 12
+holds "tolerances of rk4" test "$(awk -F, '$3 == "rk4" { print $6 }' controlled/cells.csv | sort -u)" = 0
+holds "(q,v) and the surface differ" test -z "$(column same_as_physical controlled/cells.csv | grep no)"
+# 4 cells of dop853 of the one, 2 of the other
+holds "other cells compared" test "$(column tolerance controlled/expectations.csv | sort -g | uniq -c |
+    awk '{ print $1 }' | tr '\n' ' ')" = "2 4 "
+for file in quantities.csv series/knife-edge.csv; do
+    holds "$file: other cells" test "$(awk -F, 'NR > 1 { print $2, $3, $4, $5 }' controlled/$file |
+        sort -u | wc -l)" -eq 12
+done
+try 0 run knife-edge --integrator dop853 --step 0.5 --tolerance 1e-10 --time 10 --samples 400 \
+    --sampling steps --output alone.npy --space physical
+holds "not the run of that tolerance" cmp -s alone.npy \
+    controlled/runs/knife-edge_dop853_physical_0.5_tolerance=1e-10/trajectory.npy
+
+case_is "tolerances without a step"
+sed -e '1i integrators: dop853' -e '/^step\|rk4/d; /^expect/,$d' tolerances.yaml >chosen.yaml
+echo 'samples: 16' >>chosen.yaml
+try 0 study chosen.yaml --output chosen
+holds "the step is not a hundredth of the time" test "$(column step chosen/cells.csv | sort -u)" = 0.10000000000000001
+sed 's/integrators: .*/integrators: [dop853, rk4]/' chosen.yaml >fixed.yaml
+try 2 study fixed.yaml --output bad
+says "^dalembert: fixed.yaml:[0-9]+:[0-9]+: knife-edge: the step is missing, and rk4 takes no tolerance"
+
+case_is "tolerances: bad ones"
+for bad in '[1e-6, 0]:tolerance: 0 is not above 0 and at most 1' '2:tolerance: 2 is not above 0' \
+    '[0.1, 0.1]:tolerance: 0.1 comes twice' '{between: [0.1, 1]}:tolerance: it must not be random'; do
+    sed "s/^tolerance: .*/tolerance: ${bad%%:tolerance*}/" tolerances.yaml >bad.yaml
+    try 2 study bad.yaml --output bad
+    says "bad.yaml:[0-9]+:[0-9]+: tolerance: ${bad##*:tolerance: }"
+done
+sed 's/^time/options: {tolerance: 1e-3}\n&/' tolerances.yaml >bad.yaml
+try 2 study bad.yaml --output bad
+says "knife-edge: the tolerance is given as a key and among the options"
+sed 's/{tolerance: 1e-6,/{tolerance: 1e-7,/' tolerances.yaml >bad.yaml
+try 2 study bad.yaml --output bad
+says "expect: the study has no such step, tolerance and start"

@@ -159,18 +159,8 @@ for shard in 0/2 3/2 2 1/x x/2 1/; do
 done
 holds "something was made" test ! -e incomplete
 
-# By Open MPI, where `make mpi` has made the program and there is mpirun.
-mpi_program=$(dirname "$program")/dalembert-mpi
-by_mpi() {
-    expected=$1
-    shift
-    # Leaks are Open MPI's own.
-    ASAN_OPTIONS=detect_leaks=0 timeout $patience mpirun --allow-run-as-root --oversubscribe \
-        --mca mpi_yield_when_idle 1 "$@" >out 2>err
-    ended $? "$@"
-}
-if [ -x "$mpi_program" ] && command -v mpirun >/dev/null; then
-    case_is "a study by MPI"
+case_is "a study by MPI"
+if has_mpi; then
     by_mpi 0 -n 2 "$mpi_program" pieces.yaml --output by-mpi
     prints '^Expectations: 6 of 6 are met\.$'
     holds "other bytes" same_study whole-study by-mpi
@@ -185,6 +175,4 @@ if [ -x "$mpi_program" ] && command -v mpirun >/dev/null; then
     says '--output is missing'
     by_mpi 0 -n 2 "$mpi_program" --help
     prints '^usage: mpirun dalembert-mpi'
-else
-    echo "cli: a study by MPI: skipped: no $mpi_program (make mpi), or no mpirun"
 fi

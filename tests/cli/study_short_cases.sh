@@ -123,14 +123,9 @@ case_is "short runs: bad values"
 bad 'integrators: [rk4]\nstep: 1\ntime: 1\nrows: some\nsystems: [plane.yaml]\n' \
     "bad.yaml:4:7: unknown rows 'some'; did you mean 'none'"
 
-if [ -x "$(dirname "$program")/dalembert-mpi" ] && command -v mpirun >/dev/null; then
-    case_is "short runs by MPI"
-    ASAN_OPTIONS=detect_leaks=0 timeout $patience mpirun --allow-run-as-root --oversubscribe \
-        --mca mpi_yield_when_idle 1 -n 3 "$(dirname "$program")/dalembert-mpi" bare.yaml \
-        --output bare-mpi >out 2>err
-    status=$?
-    expected=0
-    ended $status "by MPI"
+case_is "short runs by MPI"
+if has_mpi; then
+    by_mpi 0 -n 3 "$mpi_program" bare.yaml --output bare-mpi
     untimed_cells bare-mpi >two.cells
     holds "other bytes" cmp one.cells two.cells
 fi

@@ -159,7 +159,7 @@ def kernel_part(source, names):
     for name in names:
         forms = (r'^#define %s\b(?:.*\\\n)*.*', r'^typedef [^;{}()]*\b%s(?=[ ;(])[^;{}]*;',
                  r'^typedef struct %s \{(?:.*\n)*?\}[^;]*;',
-                 r'^DAL_(?:INLINE|SHARED|COLD)(?:_EARLY)? [^;{}=]*\b%s\([^)]*\)')
+                 r'^DAL_(?:INLINE|SHARED|COLD|SEPARATE)(?:_EARLY)? [^;{}=]*\b%s\([^)]*\)')
         found = []
         for form in forms:
             for match in re.finditer(form % name, source, re.M):
@@ -174,7 +174,7 @@ def kernel_part(source, names):
         if not found:
             sys.exit('%s lists %s, which lib/kernel does not declare' % (KERNEL, name))
         comment, text = max(reversed(found), key=lambda item: item[0])[1:]
-        out.append('%s\n%s\n' % (comment, re.sub(r'^DAL_(INLINE|SHARED|COLD)(_EARLY)? ', '', text)))
+        out.append('%s\n%s\n' % (comment, re.sub(r'^DAL_(INLINE|SHARED|COLD|SEPARATE)(_EARLY)? ', '', text)))
     return '\n'.join(out)
 
 

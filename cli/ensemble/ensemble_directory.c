@@ -1,0 +1,447 @@
+/* ensemble_directory.c - an ensemble in a directory: begun, read, marked. */
+#include "ensemble_directory.h"
+#include "io/endian.h"
+#include "io/file.h"
+#include "io/json.h"
+#include "run/manifest.h"
+#include "run/system.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+void ensemble_directory_open(ensemble_directory *dir, const char *path)
+{
+    *dir = (ensemble_directory){.path = path, .marks = -1, .descriptor = -1};
+    dir->members.descriptor = dir->final.descriptor = dir->rows.descriptor = -1;
+#define MAKE_PATH(name, file) dir->name = cli_join(path, file);
+    ENSEMBLE_FILE_LIST(MAKE_PATH)
+#undef MAKE_PATH
+}
+
+static void detach(ensemble_directory *dir)
+{
+    npy_table_close(&dir->members);
+    npy_table_close(&dir->final);
+    npy_table_close(&dir->rows);
+    if (dir->marks >= 0) close(dir->marks);
+    free(dir->marks_path);
+    free(dir->done);
+    dir->marks = -1;
+    dir->marks_path = NULL;
+    dir->done = NULL;
+}
+
+static void unlock(ensemble_directory *dir)
+{
+    if (dir->descriptor >= 0) close(dir->descriptor);
+    dir->descriptor = -1;
+}
+
+void ensemble_directory_close(ensemble_directory *dir)
+{
+    detach(dir);
+    unlock(dir);
+#define FREE_PATH(name, file) free(dir->name);
+    ENSEMBLE_FILE_LIST(FREE_PATH)
+#undef FREE_PATH
+    if (dir->doc) yaml_document_delete(&dir->doc->yaml);
+    free(dir->doc);
+    *dir = (ensemble_directory){.marks = -1, .descriptor = -1};
+}
+
+/* ---- the manifest -------------------------------------------------------------------------- */
+
+/* What an ensemble adds to the request of a run, as a member of the manifest. */
+static void put_ensemble(json_writer *w, const ensemble *e)
+{
+    json_open(w, "ensemble", JSON_LINES);
+    json_put_integer(w, "members", e->members);
+    json_put_integer(w, "seed", e->seed);
+    json_open_list(w, "vary", JSON_ON_ONE_LINE);
+    for (int i = 0; i < e->variations; i++) json_put_text(w, NULL, e->vary_text[i]);
+    json_close(w);
+    json_open_list(w, "quantiles", JSON_ON_ONE_LINE);
+    for (int i = 0; i < e->quantiles; i++) json_put_number(w, NULL, e->quantile[i]);
+    json_close(w);
+    json_put_text(w, "axes", e->axes);
+    json_close(w);
+}
+
+int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensemble *e,
+                                      const char *state)
+{
+    char *text, method[256], *input = manifest_input(&e->request);
+    size_t length;
+    json_writer w = {.out = cli_memstream_open(&text, &length)};
+    json_open(&w, NULL, JSON_LINES);
+    json_put_text(&w, "dalembert", DAL_VERSION);
+    json_put_source(&w, "input", input);
+    put_ensemble(&w, e);
+    manifest_put_machine(&w);
+    json_put_text(&w, "method", dal_method_name(&e->request.method, method, sizeof method));
+    json_put_text(&w, "status", state);
+    json_close(&w);
+    fputc('\n', w.out);
+    cli_memstream_close(w.out);
+    const int status = file_replace(dir->manifest, text, length, 1);
+    free(input);
+    free(text);
+    return status;
+}
+
+static const yaml_node_t *find_ensemble(const document *doc)
+{
+    const yaml_node_t *root = document_node(doc, 1);
+    const yaml_node_t *node = root ? document_value(doc, root, "ensemble") : NULL;
+    return node && node->type == YAML_MAPPING_NODE ? node : NULL;
+}
+
+bool ensemble_directory_has_ensemble(const char *path)
+{
+    size_t length;
+    char *manifest = cli_join(path, "manifest.json");
+    char *bytes = file_exists(manifest) ? file_read(manifest, &length) : NULL;
+    const bool found = bytes && strstr(bytes, "\n  \"ensemble\": {") != NULL;
+    free(bytes);
+    free(manifest);
+    return found;
+}
+
+static int read_vary(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+{
+    int status = CLI_DONE;
+    for (int i = 0; i < document_count(value) && status == CLI_DONE; i++) {
+        const char *text = document_scalar(doc, document_item(doc, value, i), key->name);
+        status = text ? ensemble_parse_vary(user, NULL, text) : CLI_USAGE;
+    }
+    return status;
+}
+
+static int read_quantiles(void *user, const document *doc, yaml_node_t *value,
+                          const document_key *key)
+{
+    ensemble *e = user;
+    int status = CLI_DONE;
+    const int count = document_count(value);
+    if (count > ENSEMBLE_QUANTILES) return document_fail(doc, value, "too many quantiles");
+    for (e->quantiles = 0; e->quantiles < count && status == CLI_DONE; e->quantiles++)
+        status = document_number(doc, document_item(doc, value, e->quantiles), key->name,
+                                 &e->quantile[e->quantiles]);
+    return status;
+}
+
+static int read_integer(void *user, const document *doc, yaml_node_t *value,
+                        const document_key *key)
+{
+    double x;
+    const int status = document_number(doc, value, key->name, &x);
+    if (status != CLI_DONE) return status;
+    if (!(x >= 0.0 && x <= 0x1p53))
+        return document_fail(doc, value, "%s: %g is out of range", key->name, x);
+    *(long long *)(void *)((char *)user + key->offset) = (long long)x;
+    return CLI_DONE;
+}
+
+static int read_axes(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+{
+    ensemble *e = user;
+    const char *text = document_scalar(doc, value, key->name);
+    e->axes = text && strcmp(text, "null") != 0 ? text : NULL;
+    return text ? CLI_DONE : CLI_USAGE;
+}
+
+static const document_key keys[] = {{"members", read_integer, offsetof(ensemble, members)},
+                                    {"seed", read_integer, offsetof(ensemble, seed)},
+                                    {"vary", read_vary, 0},
+                                    {"quantiles", read_quantiles, 0},
+                                    {"axes", read_axes, 0}};
+
+int ensemble_directory_read(ensemble_directory *dir, ensemble *e)
+{
+    size_t length;
+    if (!ensemble_directory_has_ensemble(dir->path))
+        return cli_fail(CLI_USAGE, "'%s' holds no ensemble", dir->path);
+    char *bytes = file_read(dir->manifest, &length);
+    if (!bytes) return CLI_IO;
+    document *doc = dir->doc = cli_calloc(1, sizeof *doc);
+    int status = json_parse(doc, dir->manifest, bytes, length);
+    free(bytes);
+    if (status != CLI_DONE) return status;
+    const yaml_node_t *root = document_node(doc, 1), *node = find_ensemble(doc);
+    if (!node) return document_fail(doc, root, "there is no ensemble");
+    status = manifest_read_input(&e->request, doc, root, dir->system);
+    if (status == CLI_DONE)
+        status = document_read_mapping(doc, node, "ensemble", keys, sizeof keys / sizeof *keys, e);
+    if (status == CLI_DONE && !(e->members >= 1 && e->members <= ENSEMBLE_MAX_MEMBERS))
+        status = document_fail(doc, node, "%lld members", e->members);
+    return status == CLI_DONE ? ensemble_complete(e) : status;
+}
+
+/* Of what the members depend on: request, variations, system. */
+static int find_fingerprint(ensemble_directory *dir, const ensemble *e)
+{
+    char *input = manifest_input(&e->request), *copy = NULL;
+    const char *builtin = dal_builtin_text(e->request.system_name);
+    size_t length = builtin ? strlen(builtin) : 0;
+    const int64_t counts[] = {e->members, e->seed};
+    uint64_t hash = file_hash(FILE_HASH_START, input, strlen(input));
+    hash = file_hash(hash, counts, sizeof counts);
+    for (int i = 0; i < e->variations; i++)
+        hash = file_hash(hash, e->vary_text[i], strlen(e->vary_text[i]) + 1);
+    free(input);
+    if (!builtin && !(copy = file_read(dir->system, &length))) return CLI_IO;
+    dir->fingerprint = file_hash(hash, builtin ? builtin : copy, length);
+    free(copy);
+    return CLI_DONE;
+}
+
+/* ---- messages ------------------------------------------------------------------------------ */
+
+int ensemble_directory_write_messages(const ensemble_directory *dir, int chunk, const char *text)
+{
+    char *path = cli_format("%s/%d", dir->messages, chunk);
+    int status = cli_directory(dir->messages);
+    if (status == CLI_DONE) status = file_replace(path, text, strlen(text), 1);
+    free(path);
+    return status;
+}
+
+char *ensemble_directory_read_messages(const ensemble_directory *dir, int chunk)
+{
+    size_t length;
+    char *path = cli_format("%s/%d", dir->messages, chunk);
+    char *text = file_exists(path) ? file_read(path, &length) : NULL;
+    free(path);
+    return text;
+}
+
+static int remove_messages(const ensemble_directory *dir)
+{
+    int status = CLI_DONE;
+    DIR *directory = opendir(dir->messages);
+    for (struct dirent *entry; directory && (entry = readdir(directory)) && status == CLI_DONE;) {
+        char *path = cli_join(dir->messages, entry->d_name);
+        if (entry->d_name[0] != '.') status = file_remove(path);
+        free(path);
+    }
+    if (directory) closedir(directory);
+    rmdir(dir->messages);
+    return status;
+}
+
+/* ---- marks --------------------------------------------------------------------------------- */
+
+static char *marks_path(const ensemble_directory *dir, ensemble_shard shard)
+{
+    if (shard.count == 0) return cli_join(dir->path, "chunks");
+    return cli_format("%s/chunks-%lld-of-%lld", dir->path, shard.number, shard.count);
+}
+
+int ensemble_directory_shards(const ensemble_directory *dir, ensemble_shard **shards, int *count)
+{
+    DIR *directory = opendir(dir->path);
+    *shards = NULL;
+    *count = 0;
+    if (!directory) return cli_io("read", dir->path);
+    for (struct dirent *entry; (entry = readdir(directory));) {
+        ensemble_shard shard = {0};
+        int end = 0;
+        sscanf(entry->d_name, "chunks-%lld-of-%lld%n", &shard.number, &shard.count, &end);
+        const bool is_shard =
+            end > 0 && !entry->d_name[end] && shard.number >= 1 && shard.number <= shard.count;
+        if (!is_shard && strcmp(entry->d_name, "chunks") != 0) continue;
+        if (!is_shard) shard = (ensemble_shard){0};
+        *shards = cli_realloc(*shards, ((size_t)*count + 1) * sizeof **shards);
+        (*shards)[(*count)++] = shard;
+    }
+    closedir(directory);
+    return CLI_DONE;
+}
+
+/* Adds the chunks that one shard has done. */
+static int read_marks(ensemble_directory *dir, const ensemble *e, ensemble_shard shard)
+{
+    size_t length;
+    const size_t chunks = (size_t)ensemble_chunks(e);
+    char *path = marks_path(dir, shard), *bytes = file_read(path, &length);
+    int status = bytes ? CLI_DONE : CLI_IO;
+    /* A process that was killed before it wrote the word has done nothing. */
+    const bool is_new = bytes && length < WORD;
+    if (bytes && !is_new &&
+        (length != WORD + chunks || read_le64((unsigned char *)bytes) != dir->fingerprint))
+        status = cli_fail(CLI_USAGE, "'%s' belongs to another ensemble", path);
+    for (size_t i = 0; status == CLI_DONE && !is_new && i < chunks; i++)
+        dir->done[i] |= bytes[WORD + i] == 1;
+    free(bytes);
+    free(path);
+    return status;
+}
+
+int ensemble_directory_update(ensemble_directory *dir, const ensemble *e, bool *is_complete)
+{
+    ensemble_shard *shards;
+    int count, status = ensemble_directory_shards(dir, &shards, &count);
+    for (int i = 0; i < count && status == CLI_DONE; i++) status = read_marks(dir, e, shards[i]);
+    *is_complete = status == CLI_DONE;
+    for (int i = 0; i < ensemble_chunks(e); i++) *is_complete &= dir->done[i] == 1;
+    free(shards);
+    return status;
+}
+
+static bool write_marks(const ensemble_directory *dir, const ensemble *e)
+{
+    const size_t length = WORD + (size_t)ensemble_chunks(e);
+    unsigned char *bytes = cli_malloc(length);
+    write_le64(bytes, dir->fingerprint);
+    memcpy(bytes + WORD, dir->done, length - WORD);
+    size_t written = 0;
+    while (written < length) {
+        const ssize_t n = pwrite(dir->marks, bytes + written, length - written, (off_t)written);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) break;
+        written += (size_t)n;
+    }
+    free(bytes);
+    return written == length;
+}
+
+int ensemble_directory_save(const ensemble_directory *dir, const ensemble *e)
+{
+    int status = npy_table_sync(&dir->members);
+    if (status == CLI_DONE) status = npy_table_sync(&dir->final);
+    if (status == CLI_DONE && dir->has_rows) status = npy_table_sync(&dir->rows);
+    if (status == CLI_DONE && !write_marks(dir, e)) status = cli_io("write", dir->marks_path);
+    return status;
+}
+
+static int lock(int descriptor, const char *path, bool waits)
+{
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    int result;
+    do result = fcntl(descriptor, waits ? F_SETLKW : F_SETLK, &whole);
+    while (result != 0 && errno == EINTR);
+    if (result == 0) return CLI_DONE;
+    /* Some network file systems have no locks; there the user must take care. */
+    if (errno != EACCES && errno != EAGAIN) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "'%s': another process is writing to it", path);
+}
+
+int ensemble_directory_lock(ensemble_directory *dir)
+{
+    if (dir->descriptor < 0) dir->descriptor = open(dir->lock, O_RDWR | O_CREAT, 0666);
+    if (dir->descriptor < 0) return cli_io("write", dir->lock);
+    return lock(dir->descriptor, dir->lock, true);
+}
+
+/* ---- tables -------------------------------------------------------------------------------- */
+
+static int open_tables(ensemble_directory *dir, const ensemble *e, bool is_new)
+{
+    const int columns = MEMBER_DRAWN + e->variations;
+    char **names = cli_calloc((size_t)columns, sizeof *names);
+    char first[MEMBER_DRAWN][8] = {"status", "t"};
+    for (int i = 0; i < columns; i++)
+        names[i] = i < MEMBER_DRAWN ? first[i] : e->vary[i - MEMBER_DRAWN].name;
+    dir->has_rows = e->request.times > 0;
+    int status = npy_table_open(&dir->members, cli_join(dir->path, "members.npy"), names, columns,
+                                0, e->members, is_new);
+    free(names);
+    if (status == CLI_DONE)
+        status = npy_table_open(&dir->final, cli_join(dir->path, "final.npy"), e->column,
+                                e->columns, 0, e->members, is_new);
+    if (status == CLI_DONE && dir->has_rows)
+        status = npy_table_open(&dir->rows, cli_join(dir->path, "rows.npy"), e->column, e->columns,
+                                e->times, e->members, is_new);
+    return status;
+}
+
+int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, ensemble_shard shard)
+{
+    bool is_complete;
+    detach(dir);
+    dir->shard = shard;
+    int status = find_fingerprint(dir, e);
+    if (status == CLI_DONE) status = open_tables(dir, e, false);
+    if (status != CLI_DONE) return status;
+    dir->done = cli_calloc((size_t)ensemble_chunks(e), 1);
+    if (shard.count < 0) return ensemble_directory_update(dir, e, &is_complete);
+    dir->marks_path = marks_path(dir, shard);
+    dir->marks = open(dir->marks_path, O_RDWR | O_CREAT, 0666);
+    if (dir->marks < 0) return cli_io("write", dir->marks_path);
+    /* A lock is lost where the process closes any descriptor of the file, as reading it does. */
+    status = ensemble_directory_update(dir, e, &is_complete);
+    return status == CLI_DONE ? lock(dir->marks, dir->marks_path, false) : status;
+}
+
+/* ---- beginning ----------------------------------------------------------------------------- */
+
+static int remove_marks(const ensemble_directory *dir)
+{
+    ensemble_shard *shards;
+    int count, status = ensemble_directory_shards(dir, &shards, &count);
+    for (int i = 0; i < count && status == CLI_DONE; i++) {
+        char *path = marks_path(dir, shards[i]);
+        status = file_remove(path);
+        free(path);
+    }
+    free(shards);
+    return status;
+}
+
+/* The manifest is written last, when all else is there. */
+static int begin_new(ensemble_directory *dir, const ensemble *e)
+{
+    int status = remove_marks(dir);
+    if (status == CLI_DONE) status = remove_messages(dir);
+    char *rows = cli_join(dir->path, "rows.npy");
+#define REMOVE(name, file)                                                                         \
+    if (status == CLI_DONE && dir->name != dir->lock && dir->name != dir->system &&                \
+        dir->name != dir->messages)                                                                \
+        status = file_remove(dir->name);
+    ENSEMBLE_FILE_LIST(REMOVE)
+#undef REMOVE
+    if (status == CLI_DONE) status = file_remove(rows);
+    free(rows);
+    const char *system = e->request.system_name;
+    if (status == CLI_DONE)
+        status = cli_is_path(system) ? cli_copy_system(system, e->request.model, dir->system, 1)
+                                     : file_remove(dir->system);
+    if (status == CLI_DONE) status = open_tables(dir, e, true);
+    detach(dir);
+    return status == CLI_DONE ? ensemble_directory_write_manifest(dir, e, "running") : status;
+}
+
+/* A shard joins an ensemble that is there; that it is the same one, its marks show. */
+static int begin_or_join(ensemble_directory *dir, const ensemble *e, ensemble_shard shard,
+                         bool force)
+{
+    const bool is_there = ensemble_directory_has_ensemble(dir->path);
+    if (!is_there && file_exists(dir->manifest))
+        return cli_fail(CLI_USAGE, "'%s' holds something else: '%s' is not of an ensemble",
+                        dir->path, dir->manifest);
+    if (is_there && shard.count > 0 && !force) return CLI_DONE;
+    if (is_there && !force)
+        return cli_fail(CLI_USAGE,
+                        "'%s' holds an ensemble: 'dalembert resume %s' continues it, --force "
+                        "overwrites it",
+                        dir->path, dir->path);
+    return begin_new(dir, e);
+}
+
+int ensemble_directory_begin(ensemble_directory *dir, const ensemble *e, ensemble_shard shard,
+                             bool force)
+{
+    int status = cli_directory(dir->path);
+    if (status == CLI_DONE) status = ensemble_directory_lock(dir);
+    if (status == CLI_DONE) status = begin_or_join(dir, e, shard, force);
+    if (status == CLI_DONE) status = ensemble_directory_attach(dir, e, shard);
+    unlock(dir);
+    return status;
+}

@@ -1,0 +1,94 @@
+/* ensemble_directory.h - an ensemble in a directory, which can be resumed after any interruption.
+ *
+ *     DIR/manifest.json    the request, what varies, the machine, and whether it is done
+ *     DIR/system.yaml      copy of the system file; absent for a built-in system
+ *     DIR/members.npy      [members] status (0: done), t that was reached, what was drawn
+ *     DIR/final.npy        [members] the states at the end, NaN of members that failed
+ *     DIR/rows.npy         [times, members] the same at --times
+ *     DIR/chunks           which chunks of members are done; or, of shards,
+ *     DIR/chunks-K-of-N    the same of each of them
+ *     DIR/messages/K       why members of chunk K failed, a line for each; absent where none did
+ *     DIR/lock             empty; locked while a shard begins
+ *
+ * and, when all members are done, what ensemble_statistics.h makes of them.
+ *
+ * A file of chunks has a word of 64 bits, a hash of the request, and a byte for each chunk: 1 where
+ * its rows are on the disk, 0 where they are to be made again. */
+#ifndef DAL_CLI_ENSEMBLE_DIRECTORY_H
+#define DAL_CLI_ENSEMBLE_DIRECTORY_H
+
+#include "ensemble.h"
+#include "io/document.h"
+#include "io/npy_table.h"
+
+/* member of ensemble_directory, file */
+#define ENSEMBLE_FILE_LIST(PATH)                                                                   \
+    PATH(manifest, "manifest.json")                                                                \
+    PATH(system, "system.yaml")                                                                    \
+    PATH(messages, "messages")                                                                     \
+    PATH(lock, "lock")                                                                             \
+    PATH(statistics, "statistics.csv")                                                             \
+    PATH(covariance, "covariance.csv")                                                             \
+    PATH(failures, "failures.csv")                                                                 \
+    PATH(histograms, "histograms.csv")                                                             \
+    PATH(cloud, "cloud.csv")
+
+/* The columns of members.npy before what was drawn. */
+enum { MEMBER_STATUS, MEMBER_TIME, MEMBER_DRAWN };
+
+/* Chunks k - 1, k - 1 + n, k - 1 + 2n, .. of n shards; count 0: all. */
+typedef struct ensemble_shard {
+    long long number, count;
+} ensemble_shard;
+
+/* All that is there is read, and nothing marked. */
+#define ENSEMBLE_NO_SHARD ((ensemble_shard){0, -1})
+
+typedef struct ensemble_directory {
+    const char *path; /* the caller's */
+#define PATH_MEMBER(name, file) char *name;
+    ENSEMBLE_FILE_LIST(PATH_MEMBER)
+#undef PATH_MEMBER
+    document *doc; /* manifest.json as it was read */
+    npy_table members, final, rows;
+    bool has_rows;
+    uint64_t fingerprint;
+    ensemble_shard shard;
+    int marks;      /* descriptor of the file of chunks, locked; -1: not open */
+    int descriptor; /* of the lock of the directory; -1: not held */
+    char *marks_path;
+    unsigned char *done; /* [chunks] of all shards */
+} ensemble_directory;
+
+void ensemble_directory_open(ensemble_directory *dir, const char *path);
+void ensemble_directory_close(ensemble_directory *dir);
+/* Whether a directory holds an ensemble. */
+bool ensemble_directory_has_ensemble(const char *path);
+
+/* All below return CLI_DONE, or print and return an exit status. */
+
+/* Begins a new ensemble, or a shard of one that is there.  What is there is overwritten with force
+ * alone. */
+int ensemble_directory_begin(ensemble_directory *dir, const ensemble *e, ensemble_shard shard,
+                             bool force);
+/* Reads the ensemble of a directory, and completes it. */
+int ensemble_directory_read(ensemble_directory *dir, ensemble *e);
+/* Opens the tables and the marks of a shard that was begun, for this process alone. */
+int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, ensemble_shard shard);
+/* The shards that were begun in a directory, allocated; one of count 0 where it is not divided. */
+int ensemble_directory_shards(const ensemble_directory *dir, ensemble_shard **shards, int *count);
+/* Waits until no other shard begins or ends, and keeps others waiting until dir is closed. */
+int ensemble_directory_lock(ensemble_directory *dir);
+/* Brings to the disk why members of a chunk failed; reads that, allocated, NULL where there is
+ * none. */
+int ensemble_directory_write_messages(const ensemble_directory *dir, int chunk, const char *text);
+char *ensemble_directory_read_messages(const ensemble_directory *dir, int chunk);
+/* Brings all rows to the disk, and then which chunks are done. */
+int ensemble_directory_save(const ensemble_directory *dir, const ensemble *e);
+/* Reads which chunks other processes have done; whether all are. */
+int ensemble_directory_update(ensemble_directory *dir, const ensemble *e, bool *is_complete);
+/* state: running, interrupted, failed, done. */
+int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensemble *e,
+                                      const char *state);
+
+#endif

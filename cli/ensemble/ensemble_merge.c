@@ -1,0 +1,100 @@
+/* ensemble_merge.c - the shards of an ensemble, from wherever they were run, made one.
+ *
+ * Each chunk must be done in one of the directories.  Its rows are copied, and the ensemble is then
+ * finished as if it had been run in one piece. */
+#include "ensemble_merge.h"
+#include "ensemble_directory.h"
+#include "ensemble_statistics.h"
+#include "io/file.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+
+#include <stdlib.h>
+
+typedef struct merge {
+    ensemble e;
+    ensemble_directory *source; /* [sources] */
+    int sources;
+    ensemble_directory target;
+    double *rows; /* of one chunk */
+} merge;
+
+/* Begins the target, or continues one that is among the sources. */
+static int begin_target(merge *m, bool force)
+{
+    const ensemble_shard whole = {0};
+    for (int i = 0; i < m->sources; i++)
+        if (file_is_same(m->source[i].path, m->target.path))
+            return ensemble_directory_attach(&m->target, &m->e, whole);
+    return ensemble_directory_begin(&m->target, &m->e, whole, force);
+}
+
+static int copy_rows(const merge *m, const npy_table *from, const npy_table *to, long long first,
+                     int count)
+{
+    const int status = npy_table_read(from, first, count, m->rows);
+    return status == CLI_DONE ? npy_table_write(to, first, count, m->rows) : status;
+}
+
+static int copy_chunk(const merge *m, const ensemble_directory *from, int chunk)
+{
+    const ensemble_directory *to = &m->target;
+    const long long first = (long long)chunk * ENSEMBLE_CHUNK;
+    const int count = ensemble_chunk_members(&m->e, chunk);
+    int status = copy_rows(m, &from->members, &to->members, first, count);
+    if (status == CLI_DONE) status = copy_rows(m, &from->final, &to->final, first, count);
+    for (int t = 0; to->has_rows && t < m->e.times && status == CLI_DONE; t++)
+        status = copy_rows(m, &from->rows, &to->rows, t * m->e.members + first, count);
+    char *messages = ensemble_directory_read_messages(from, chunk);
+    if (status == CLI_DONE && messages)
+        status = ensemble_directory_write_messages(to, chunk, messages);
+    free(messages);
+    return status;
+}
+
+static int merge_chunk(merge *m, int chunk)
+{
+    int i = 0;
+    if (m->target.done[chunk]) return CLI_DONE;
+    while (i < m->sources && !m->source[i].done[chunk]) i++;
+    if (i == m->sources)
+        return cli_fail(CLI_USAGE,
+                        "member %lld is done in none of the directories: a shard is missing or "
+                        "not finished",
+                        (long long)chunk * ENSEMBLE_CHUNK);
+    const int status = copy_chunk(m, &m->source[i], chunk);
+    m->target.done[chunk] = status == CLI_DONE;
+    return status;
+}
+
+static int merge_all(merge *m, int threads, bool force)
+{
+    int status = ensemble_directory_read(&m->source[0], &m->e);
+    for (int i = 0; i < m->sources && status == CLI_DONE; i++)
+        status = ensemble_directory_attach(&m->source[i], &m->e, ENSEMBLE_NO_SHARD);
+    if (status == CLI_DONE) status = begin_target(m, force);
+    if (status != CLI_DONE) return status;
+    const int drawn = MEMBER_DRAWN + m->e.variations;
+    m->rows = cli_calloc(ENSEMBLE_CHUNK * (size_t)(drawn > m->e.columns ? drawn : m->e.columns),
+                         sizeof *m->rows);
+    for (int i = 0; i < ensemble_chunks(&m->e) && status == CLI_DONE; i++)
+        status = merge_chunk(m, i);
+    if (status == CLI_DONE) status = ensemble_directory_save(&m->target, &m->e);
+    return status == CLI_DONE ? ensemble_finish(&m->e, &m->target, threads) : status;
+}
+
+int ensemble_merge(const char *const *sources, int count, const char *output, int threads,
+                   bool force)
+{
+    merge m = {.e = ensemble_default(), .sources = count};
+    m.source = cli_calloc((size_t)count, sizeof *m.source);
+    for (int i = 0; i < count; i++) ensemble_directory_open(&m.source[i], sources[i]);
+    ensemble_directory_open(&m.target, output);
+    const int status = merge_all(&m, threads, force);
+    for (int i = 0; i < count; i++) ensemble_directory_close(&m.source[i]);
+    ensemble_directory_close(&m.target);
+    ensemble_free(&m.e);
+    free(m.source);
+    free(m.rows);
+    return status;
+}

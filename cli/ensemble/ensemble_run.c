@@ -1,0 +1,350 @@
+/* ensemble_run.c - the members of an ensemble on several threads.
+ *
+ * A chunk of members is one task: a batch is started with them, stepped to each time, and its
+ * states are written.  Each thread uses one batch again and again, so that memory does not grow
+ * with the number of members; no number depends on which thread takes a chunk, or when. */
+#include "ensemble_run.h"
+#include "dalembert_codegen.h"
+#include "ensemble_statistics.h"
+#include "io/json.h"
+#include "run/native.h"
+#include "run/pool.h"
+#include "ui/clock.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/signals.h"
+
+#include <stdlib.h>
+#include <time.h>
+
+/* Steps of a batch between two checks for signals; seconds between two lines of progress. */
+enum { SLICE = 256 };
+static const double line_interval = 0.2, json_interval = 1.0;
+
+/* Stages times coordinates, of all steps, from which on steps are compiled: interpreted, each takes
+ * some 10 ns, and all together about as long as a compiler. */
+static const double worth_compiling = 1e8;
+
+/* What a thread needs for a chunk. */
+typedef struct worker {
+    dal_ensemble *ensemble;
+    double *rows; /* [ENSEMBLE_CHUNK * max(columns, columns of members.npy)] */
+    struct worker *next;
+} worker;
+
+typedef struct pool_state {
+    const ensemble *e;
+    ensemble_directory *dir;
+    dal_native *native; /* NULL: interpreted */
+    worker *idle;
+    int status;              /* CLI_DONE, or that of the first failure of the program's own */
+    long long done, members; /* members of this shard that are done, and all of them */
+    long long begun;         /* those that were done before */
+    double start, shown, saved, interval;
+    progress_mode progress;
+} pool_state;
+
+/* ---- workers ---- */
+
+static worker *make_worker(const ensemble *e, dal_ensemble *lanes)
+{
+    const int drawn = MEMBER_DRAWN + e->variations;
+    worker *w = cli_calloc(1, sizeof *w);
+    w->ensemble = lanes;
+    w->rows = cli_calloc(ENSEMBLE_CHUNK * (size_t)(e->columns > drawn ? e->columns : drawn),
+                         sizeof *w->rows);
+    return w;
+}
+
+/* The compiled steps are used as soon as they are there; a failure is printed once. */
+static void use_native(pool_state *p, worker *w)
+{
+    dal_error error = {0};
+    dal_batch *batch = dal_ensemble_batch(w->ensemble);
+    if (!p->native || dal_batch_is_native(batch)) return;
+    const dal_native_state state = dal_native_poll(p->native, &error);
+    if (state == DAL_NATIVE_READY) dal_batch_use_native(batch, p->native, &error);
+    if (error.status == DAL_OK) return;
+    cli_note("steps are interpreted: %s", error.message);
+    dal_native_free(p->native);
+    p->native = NULL;
+}
+
+typedef struct worker_request {
+    pool_state *pool;
+    worker *worker; /* NULL: there is none, and nothing is left to do where status is set */
+} worker_request;
+
+static void take_worker(void *user)
+{
+    worker_request *r = user;
+    pool_state *p = r->pool;
+    dal_error error = {0};
+    dal_ensemble *made;
+    if (p->status != CLI_DONE) return;
+    if (p->idle) {
+        r->worker = p->idle;
+        p->idle = r->worker->next;
+    } else if (cli_is_ok(dal_ensemble_create(&made, &p->e->spec, p->e->vary, p->e->variations,
+                                             (unsigned long long)p->e->seed, ENSEMBLE_CHUNK,
+                                             &error))) {
+        r->worker = make_worker(p->e, made);
+    } else {
+        p->status = cli_error(CLI_USAGE, p->e->request.system_name, &error);
+        return;
+    }
+    use_native(p, r->worker);
+}
+
+/* The line of a terminal, or JSON for scripts, which always has the end. */
+static void show_members(pool_state *p, bool at_the_end)
+{
+    const bool is_json = p->progress == PROGRESS_JSON;
+    const double now = cli_seconds(), seconds = now - p->start;
+    const double left = (double)(p->members - p->done);
+    if (p->progress == PROGRESS_OFF || (at_the_end && !is_json)) return;
+    if (!at_the_end && now - p->shown <= (is_json ? json_interval : line_interval)) return;
+    p->shown = now;
+    if (!is_json) {
+        cli_progress("ensemble: %lld of %lld members, %.0f s", p->done, p->members, seconds);
+        return;
+    }
+    json_writer w = {.out = stderr};
+    json_open(&w, NULL, JSON_ON_ONE_LINE);
+    json_put_integer(&w, "done", p->done);
+    json_put_integer(&w, "members", p->members);
+    json_put_number(&w, "seconds", seconds);
+    json_put_number(&w, "remaining",
+                    left > 0 ? seconds * left / (double)(p->done - p->begun) : 0.0);
+    json_close(&w);
+    fputc('\n', w.out);
+}
+
+typedef struct chunk_end {
+    pool_state *pool;
+    worker *worker;
+    int chunk, status;
+} chunk_end;
+
+static void add_end(void *user)
+{
+    const chunk_end *end = user;
+    pool_state *p = end->pool;
+    end->worker->next = p->idle;
+    p->idle = end->worker;
+    if (end->status != CLI_DONE) {
+        if (p->status == CLI_DONE) p->status = end->status;
+        return;
+    }
+    p->dir->done[end->chunk] = 1;
+    p->done += ensemble_chunk_members(p->e, end->chunk);
+    show_members(p, false);
+    if (cli_seconds() - p->saved < p->interval) return;
+    const int saved = ensemble_directory_save(p->dir, p->e);
+    if (p->status == CLI_DONE) p->status = saved;
+    p->saved = cli_seconds();
+}
+
+/* ---- chunks ---- */
+
+static int advance(dal_batch *batch, long long steps)
+{
+    for (; steps > 0; steps -= SLICE) {
+        if (cli_interrupted()) return CLI_SIGNAL;
+        dal_batch_advance(batch, steps < SLICE ? steps : SLICE);
+    }
+    return CLI_DONE;
+}
+
+/* status, t, what was drawn; the first count numbers of started say which lanes had a start. */
+static int write_members(const pool_state *p, const worker *w, const bool *started, long long first,
+                         int count)
+{
+    const int drawn = p->e->variations, columns = MEMBER_DRAWN + drawn;
+    dal_batch *batch = dal_ensemble_batch(w->ensemble);
+    double *draws = cli_calloc((size_t)(count * drawn), sizeof *draws);
+    dal_ensemble_draws(w->ensemble, draws);
+    for (int i = 0; i < count; i++) {
+        double *row = w->rows + i * columns;
+        row[MEMBER_STATUS] = dal_batch_status(batch, i, NULL);
+        row[MEMBER_TIME] = started[i] ? dal_batch_time(batch, i) : p->e->spec.start_time;
+        for (int k = 0; k < drawn; k++) row[MEMBER_DRAWN + k] = draws[i * drawn + k];
+    }
+    free(draws);
+    return npy_table_write(&p->dir->members, first, count, w->rows);
+}
+
+/* Why members failed, where any did. */
+static int write_messages(const pool_state *p, const worker *w, int chunk, int count)
+{
+    dal_batch *batch = dal_ensemble_batch(w->ensemble);
+    dal_error error = {0};
+    char *text;
+    size_t length;
+    FILE *out = cli_memstream_open(&text, &length);
+    for (int i = 0; i < count; i++)
+        if (dal_batch_status(batch, i, &error) != DAL_OK) fprintf(out, "%s\n", error.message);
+    cli_memstream_close(out);
+    const int status =
+        length > 0 ? ensemble_directory_write_messages(p->dir, chunk, text) : CLI_DONE;
+    free(text);
+    return status;
+}
+
+static int run_chunk(const pool_state *p, const worker *w, int chunk)
+{
+    const ensemble *e = p->e;
+    const long long first = (long long)chunk * ENSEMBLE_CHUNK;
+    const int count = ensemble_chunk_members(e, chunk);
+    dal_batch *batch = dal_ensemble_batch(w->ensemble);
+    bool started[ENSEMBLE_CHUNK];
+    long long step = 0;
+    int status = CLI_DONE;
+    dal_ensemble_start(w->ensemble, (unsigned long long)first, count);
+    for (int i = 0; i < count; i++) started[i] = dal_batch_status(batch, i, NULL) == DAL_OK;
+    for (int t = 0; t < e->times && status == CLI_DONE; t++) {
+        status = advance(batch, e->steps[t] - step);
+        step = e->steps[t];
+        dal_ensemble_states(w->ensemble, w->rows);
+        if (status == CLI_DONE && p->dir->has_rows)
+            status = npy_table_write(&p->dir->rows, t * e->members + first, count, w->rows);
+    }
+    if (status == CLI_DONE) status = npy_table_write(&p->dir->final, first, count, w->rows);
+    if (status == CLI_DONE) status = write_members(p, w, started, first, count);
+    return status == CLI_DONE ? write_messages(p, w, chunk, count) : status;
+}
+
+static bool is_of_shard(ensemble_shard shard, int chunk)
+{
+    return shard.count == 0 || chunk % shard.count == shard.number - 1;
+}
+
+static void run_task(void *user, int chunk)
+{
+    pool_state *p = user;
+    if (!is_of_shard(p->dir->shard, chunk) || p->dir->done[chunk] || cli_interrupted()) return;
+    worker_request request = {.pool = p};
+    pool_exclude(take_worker, &request);
+    if (!request.worker) return;
+    chunk_end end = {p, request.worker, chunk, run_chunk(p, request.worker, chunk)};
+    pool_exclude(add_end, &end);
+}
+
+/* ---- all ---- */
+
+/* Begins to compile the steps, and with NATIVE_ON waits for them. */
+static void begin_native(pool_state *p, native_mode mode)
+{
+    const ensemble *e = p->e;
+    const struct timespec pause = {0, 1000000};
+    dal_error error = {0};
+    const dal_integrator *inner = e->request.method.layer[0];
+    const double stages = inner->stages > 0 ? inner->stages : 1;
+    const double cost = (double)(p->members - p->done) * (double)e->steps[e->times - 1] * stages *
+                        e->spec.system->n;
+    if (mode == NATIVE_OFF || (mode == NATIVE_AUTO && cost < worth_compiling)) return;
+    char *cache = native_cache();
+    const dal_native_options options = {.cache = cache};
+    if (dal_native_begin_batch(&p->native, dal_ensemble_batch(e->first), &options, &error) !=
+        DAL_OK) {
+        p->native = NULL;
+        cli_note("steps are interpreted: %s", error.message);
+    }
+    free(cache);
+    while (mode == NATIVE_ON && p->native && !cli_interrupted() &&
+           dal_native_poll(p->native, NULL) == DAL_NATIVE_PENDING)
+        nanosleep(&pause, NULL);
+}
+
+static void count_members(pool_state *p)
+{
+    for (int i = 0; i < ensemble_chunks(p->e); i++) {
+        if (!is_of_shard(p->dir->shard, i)) continue;
+        p->members += ensemble_chunk_members(p->e, i);
+        if (p->dir->done[i]) p->done += ensemble_chunk_members(p->e, i);
+    }
+    p->begun = p->done;
+}
+
+static void free_workers(pool_state *p)
+{
+    while (p->idle) {
+        worker *w = p->idle;
+        p->idle = w->next;
+        dal_ensemble_free(w->ensemble);
+        free(w->rows);
+        free(w);
+    }
+    dal_native_free(p->native);
+}
+
+int ensemble_run(ensemble *e, ensemble_directory *dir, const ensemble_run_options *options)
+{
+    pool_state p = {.e = e,
+                    .dir = dir,
+                    .start = cli_seconds(),
+                    .saved = cli_seconds(),
+                    .interval = options->interval,
+                    .progress = options->progress};
+    cli_catch_signals();
+    count_members(&p);
+    if (p.done < p.members) {
+        begin_native(&p, options->native);
+        p.idle = make_worker(e, e->first);
+        e->first = NULL;
+        pool_run(ensemble_chunks(e), options->threads, run_task, &p);
+    }
+    cli_progress_end();
+    show_members(&p, true);
+    free_workers(&p);
+    const int saved = ensemble_directory_save(dir, e);
+    if (p.status != CLI_DONE && p.status != CLI_SIGNAL) return p.status;
+    return saved == CLI_DONE && cli_interrupted() ? CLI_SIGNAL : saved;
+}
+
+int ensemble_end(const ensemble *e, ensemble_directory *dir, int status, int threads)
+{
+    bool is_complete;
+    if (status == CLI_SIGNAL) {
+        ensemble_directory_write_manifest(dir, e, "interrupted");
+        return cli_fail(status, "interrupted; resume with: dalembert resume %s", dir->path);
+    }
+    /* Of shards that end together one after the other finds all done and writes the same bytes. */
+    if (status == CLI_DONE) status = ensemble_directory_lock(dir);
+    if (status == CLI_DONE) status = ensemble_directory_update(dir, e, &is_complete);
+    if (status != CLI_DONE) return status;
+    if (is_complete) return ensemble_finish(e, dir, threads);
+    cli_note(
+        "'%s': other shards are not done; 'dalembert merge' joins those of several directories",
+        dir->path);
+    return CLI_DONE;
+}
+
+int ensemble_resume(const char *path, const ensemble_run_options *options)
+{
+    ensemble e = ensemble_default();
+    ensemble_directory dir;
+    ensemble_shard *shards = NULL;
+    int count = 0;
+    ensemble_directory_open(&dir, path);
+    int status = ensemble_directory_read(&dir, &e);
+    if (status == CLI_DONE) status = ensemble_directory_shards(&dir, &shards, &count);
+    if (status == CLI_DONE && count == 0) { /* it was killed before its first mark */
+        shards = cli_calloc(count = 1, sizeof *shards);
+    }
+    for (int i = 0; i < count && status == CLI_DONE; i++) {
+        if (i > 0) {
+            ensemble_free(&e);
+            ensemble_directory_close(&dir);
+            ensemble_directory_open(&dir, path);
+            status = ensemble_directory_read(&dir, &e);
+        }
+        if (status == CLI_DONE) status = ensemble_directory_attach(&dir, &e, shards[i]);
+        if (status == CLI_DONE) status = ensemble_run(&e, &dir, options);
+    }
+    status = ensemble_end(&e, &dir, status, options->threads);
+    free(shards);
+    ensemble_free(&e);
+    ensemble_directory_close(&dir);
+    return status;
+}

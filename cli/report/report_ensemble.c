@@ -1,0 +1,270 @@
+/* report_ensemble.c - the page of an ensemble: what varies, histograms of each component of the
+ * state that does, its quantiles along t, and the cloud of members in a plane at each time. */
+#include "report_ensemble.h"
+
+#include "io/file.h"
+#include "io/json.h"
+#include "report_csv.h"
+#include "report_plot.h"
+#include "report_system.h"
+#include "run/manifest.h"
+#include "run/system.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Histograms in one figure, at times that are as far apart as can be; figures of clouds. */
+enum { HISTOGRAMS = 4, CLOUDS = 12 };
+
+typedef struct ensemble_page {
+    report *r;
+    report_csv statistics, histograms, cloud;
+    report_words times, columns; /* as they stand in the files */
+} ensemble_page;
+
+/* Number k of at most `most` of the times, the first and the last among them. */
+static int chosen_time(const ensemble_page *p, int k, int most)
+{
+    const int count = p->times.count;
+    if (count <= most) return k;
+    return most == 1 ? count - 1 : (int)((long long)k * (count - 1) / (most - 1));
+}
+
+static int chosen_times(const ensemble_page *p, int most)
+{
+    return p->times.count < most ? p->times.count : most;
+}
+
+/* Whether the members differ in a column at any time. */
+static bool varies(const ensemble_page *p, int column)
+{
+    const report_csv *csv = &p->statistics;
+    for (int row = 1; row < csv->rows; row++)
+        if (report_csv_is(csv, row, "column", p->columns.word[column]) &&
+            report_csv_number(csv, row, "min") < report_csv_number(csv, row, "max"))
+            return true;
+    return false;
+}
+
+static int draw_histogram(const ensemble_page *p, int column)
+{
+    const report_csv *csv = &p->histograms;
+    char name[PLOT_NAME], *ylabel = cli_strdup("members");
+    snprintf(name, sizeof name, "histogram-%d", column + 1);
+    report_plot plot = {.name = name,
+                        .title = p->columns.word[column],
+                        .xlabel = p->columns.word[column],
+                        .ylabel = ylabel,
+                        .caption = ""};
+    for (int k = 0; k < chosen_times(p, HISTOGRAMS); k++) {
+        const char *t = p->times.word[chosen_time(p, k, HISTOGRAMS)];
+        char title[PLOT_TITLE];
+        snprintf(title, sizeof title, "t = %.6g", strtod(t, NULL));
+        plot_curve *curve = report_curve(&plot, title);
+        for (int row = 1; row < csv->rows; row++) {
+            if (!report_csv_is(csv, row, "t", t) ||
+                !report_csv_is(csv, row, "column", p->columns.word[column]))
+                continue;
+            const double count = report_csv_number(csv, row, "count");
+            report_point(&plot, curve, report_csv_number(csv, row, "low"), count);
+            report_point(&plot, curve, report_csv_number(csv, row, "high"), count);
+        }
+    }
+    const int status = report_draw(p->r, &plot);
+    free(ylabel);
+    return status;
+}
+
+/* The first and the last quantile as a band, the mean as a line. */
+static int draw_band(const ensemble_page *p, int column)
+{
+    const report_csv *csv = &p->statistics;
+    const int first = 6, last = csv->columns - 2; /* between min and max */
+    char name[PLOT_NAME], caption[96];
+    snprintf(name, sizeof name, "band-%d", column + 1);
+    snprintf(caption, sizeof caption, "Mean, and between the quantiles %s and %s.",
+             csv->cell[first] + 1, csv->cell[last] + 1);
+    report_plot plot = {.name = name,
+                        .title = p->columns.word[column],
+                        .xlabel = "t",
+                        .ylabel = p->columns.word[column],
+                        .caption = caption};
+    plot_curve *band = report_curve(&plot, "");
+    plot_curve *mean = report_curve(&plot, "mean");
+    band->is_band = true;
+    for (int row = 1; row < csv->rows; row++) {
+        if (!report_csv_is(csv, row, "column", p->columns.word[column])) continue;
+        const double t = report_csv_number(csv, row, "t");
+        report_band(&plot, band, t, report_csv_number(csv, row, csv->cell[first]),
+                    report_csv_number(csv, row, csv->cell[last]));
+        report_point(&plot, mean, t, report_csv_number(csv, row, "mean"));
+    }
+    return report_draw(p->r, &plot);
+}
+
+static int draw_cloud(const ensemble_page *p, int number)
+{
+    const report_csv *csv = &p->cloud;
+    const char *t = p->times.word[chosen_time(p, number, CLOUDS)];
+    char name[PLOT_NAME], title[PLOT_TITLE];
+    snprintf(name, sizeof name, "cloud-%d", number + 1);
+    snprintf(title, sizeof title, "t = %.6g", strtod(t, NULL));
+    report_plot plot = {.name = name,
+                        .title = title,
+                        .xlabel = csv->cell[2],
+                        .ylabel = csv->cell[3],
+                        .caption = ""};
+    plot_curve *curve = report_curve(&plot, "");
+    curve->has_dots = true;
+    for (int row = 1; row < csv->rows; row++)
+        if (report_csv_is(csv, row, "t", t))
+            report_point(&plot, curve, report_csv_number(csv, row, csv->cell[2]),
+                         report_csv_number(csv, row, csv->cell[3]));
+    return report_draw(p->r, &plot);
+}
+
+static void begin_section(FILE *page, const char *title, const char *text)
+{
+    report_element(page, "h2", title);
+    report_element(page, "p", text);
+    fputs("<div class=\"figures\">\n", page);
+}
+
+static int draw_clouds(const ensemble_page *p)
+{
+    int status = CLI_DONE;
+    begin_section(p->r->page, "Clouds", "The first members in the plane of two components.");
+    for (int i = 0; i < chosen_times(p, CLOUDS) && status == CLI_DONE; i++)
+        status = draw_cloud(p, i);
+    fputs("</div>\n", p->r->page);
+    return status;
+}
+
+/* A section with a figure for each component in which the members differ. */
+static int draw_components(const ensemble_page *p, const char *title, const char *text,
+                           int (*draw)(const ensemble_page *p, int column))
+{
+    int status = CLI_DONE;
+    begin_section(p->r->page, title, text);
+    for (int i = 0; i < p->columns.count && status == CLI_DONE; i++)
+        if (varies(p, i)) status = draw(p, i);
+    fputs("</div>\n", p->r->page);
+    return status;
+}
+
+/* What moves and how, how many members there are, and in what they differ. */
+static void write_facts(const ensemble_page *p, const run_request *request, const document *doc)
+{
+    FILE *page = p->r->page;
+    const yaml_node_t *e = document_value(doc, document_node(doc, 1), "ensemble");
+    yaml_node_t *vary = document_value(doc, e, "vary");
+    report_title(p->r, report_model_title(request->model, "An ensemble"));
+    fputs(REPORT_FACTS, page);
+    report_fact(page, "system", request->system_name);
+    report_system(page, request->model, request);
+    report_method(page, request);
+    report_fact(page, "members", document_scalar(doc, document_value(doc, e, "members"), ""));
+    report_fact(page, "seed", document_scalar(doc, document_value(doc, e, "seed"), ""));
+    for (int i = 0; i < document_count(vary); i++)
+        report_fact(page, i == 0 ? "added to each" : "",
+                    document_scalar(doc, document_item(doc, vary, i), ""));
+    fputs(REPORT_FACTS_END, page);
+}
+
+static int describe_ensemble(const ensemble_page *p)
+{
+    size_t length;
+    document doc = {0};
+    run_request request = request_default();
+    char *place = cli_join(p->r->directory, "manifest.json");
+    char *copy = cli_join(p->r->directory, "system.yaml"), *bytes = file_read(place, &length);
+    int status = bytes ? json_parse(&doc, place, bytes, length) : CLI_IO;
+    free(bytes);
+    if (status == CLI_DONE)
+        status = manifest_read_input(&request, &doc, document_node(&doc, 1), copy);
+    if (status == CLI_DONE) status = cli_read(request.system_name, &request.model);
+    if (status == CLI_DONE) write_facts(p, &request, &doc);
+    request_free(&request);
+    yaml_document_delete(&doc.yaml);
+    free(copy);
+    free(place);
+    return status;
+}
+
+static void write_statistics(const ensemble_page *p)
+{
+    const report_csv *csv = &p->statistics;
+    FILE *page = p->r->page;
+    char *title =
+        cli_format("Statistics at t = %.6g", strtod(p->times.word[p->times.count - 1], NULL));
+    report_element(page, "h2", title);
+    free(title);
+    fputs(REPORT_TABLE, page);
+    for (int k = 1; k < csv->columns; k++) report_element(page, "th", csv->cell[k]);
+    fputs(REPORT_ROWS, page);
+    for (int row = csv->rows - p->columns.count; row < csv->rows; row++) {
+        report_row(page, csv->cell[row * csv->columns + 1]);
+        for (int k = 2; k < csv->columns; k++)
+            report_number(page, "%.6g", report_csv_number(csv, row, csv->cell[k]));
+        fputs("</tr>\n", page);
+    }
+    fputs(REPORT_TABLE_END, page);
+}
+
+static int write_page(ensemble_page *p)
+{
+    int status = describe_ensemble(p);
+    if (status != CLI_DONE) return status;
+    write_statistics(p);
+    status = draw_clouds(p);
+    if (status == CLI_DONE)
+        status = draw_components(p, "Histograms", "Members in 40 intervals between the extremes.",
+                                 draw_histogram);
+    if (status == CLI_DONE && p->times.count > 2 && p->statistics.columns > 8)
+        status =
+            draw_components(p, "Along t", "Each component at the times of observation.", draw_band);
+    report_file(p->r, "failures.csv", "members that failed: failures.csv");
+    report_file(p->r, "manifest.json", "what it was made with: manifest.json");
+    return status;
+}
+
+static int read_table(const ensemble_page *p, report_csv *csv, const char *name, const char *head)
+{
+    char *path = cli_join(p->r->directory, name);
+    int status = report_csv_read(csv, path);
+    if (status == CLI_DONE) status = report_csv_require(csv, path, head);
+    free(path);
+    return status;
+}
+
+int report_ensemble(report *r)
+{
+    ensemble_page *p = cli_calloc(1, sizeof *p);
+    p->r = r;
+    int status = read_table(p, &p->statistics, "statistics.csv", "deviation");
+    if (status == CLI_DONE) status = read_table(p, &p->histograms, "histograms.csv", "count");
+    if (status == CLI_DONE) status = read_table(p, &p->cloud, "cloud.csv", "member");
+    for (int row = 1; status == CLI_DONE && row < p->statistics.rows; row++) {
+        report_add_word(&p->times, report_csv_get(&p->statistics, row, "t"));
+        report_add_word(&p->columns, report_csv_get(&p->statistics, row, "column"));
+    }
+    if (status == CLI_DONE && (p->times.count == 0 || p->cloud.columns != 4))
+        status = cli_fail(CLI_USAGE, "'%s' has no statistics of an ensemble", r->directory);
+    if (status == CLI_DONE) status = write_page(p);
+    report_csv_free(&p->statistics);
+    report_csv_free(&p->histograms);
+    report_csv_free(&p->cloud);
+    free(p);
+    return status;
+}
+
+int report_after_ensemble(const char *directory, int status)
+{
+    char *statistics = cli_join(directory, "statistics.csv");
+    const bool is_done = (status == CLI_DONE || status == CLI_FAILED) && file_exists(statistics);
+    free(statistics);
+    return is_done ? report_after(directory, status, report_ensemble) : status;
+}

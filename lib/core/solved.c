@@ -1,0 +1,177 @@
+/* solved.c - velocities of a start that are solved from D(q,v,t) = 0.
+ *
+ * Newton's method for the velocities named, u, the others being kept:
+ *
+ *     D_u (u' - u) = -D,
+ *
+ * with as many columns as names, by elimination with pivots from all rows, each relative to its
+ * largest entry.  Where D is linear one step solves it.  Rows are left where the velocities named
+ * are fewer than the constraints. */
+#include "core/solved.h"
+#include "core/vectors.h"
+#include <math.h>
+#include <stdio.h>
+
+/* A pivot below this part of the largest entry of its column means that columns are dependent. */
+static const double independent = 1e-12;
+
+enum { MAX_STEPS = 200, NAME_SIZE = 128 };
+
+/* The linear equations of a step.  A row is as many entries as names, the right-hand side, and the
+ * number of its constraint. */
+typedef struct newton {
+    const dal_system *system;
+    dal_point at;
+    double *v;
+    double *D, *A;  /* [m], [m*n] */
+    double *matrix; /* [m*width] */
+    int columns, width;
+} newton;
+
+bool dal__is_solved(const dal_solved *solved, int count, int velocity)
+{
+    for (int k = 0; k < count; k++)
+        if (solved[k].velocity == velocity) return true;
+    return false;
+}
+
+size_t dal__solve_size(const dal_system *s)
+{
+    const size_t m = (size_t)s->m, n = (size_t)s->n;
+    return m + 2 * m * n + m * ((size_t)s->solved_velocities + 2);
+}
+
+static const char *name_of(const newton *k, int column, char *buffer)
+{
+    const int i = k->system->solved[column].velocity;
+    if (k->system->coordinate)
+        snprintf(buffer, NAME_SIZE, "%s'", k->system->coordinate[i]);
+    else
+        snprintf(buffer, NAME_SIZE, "q%d'", i + 1);
+    return buffer;
+}
+
+/* Column k of the equations, which are triangular before it, has no pivot. */
+static dal_status undetermined(const newton *k, int column, dal_error *error)
+{
+    const dal_solved *place = &k->system->solved[column];
+    char name[NAME_SIZE], other[NAME_SIZE];
+    int row = 0;
+    name_of(k, column, name);
+    for (int a = 1; a < column; a++)
+        if (fabs(k->matrix[a * k->width + column]) > fabs(k->matrix[row * k->width + column]))
+            row = a;
+    if (column > 0 && k->matrix[row * k->width + column] != 0.0)
+        return dal__fail_at(error, DAL_RANK, place->line, place->column,
+                            "the start cannot be solved for both %s and %s, which constraint %d "
+                            "restricts: name fewer velocities",
+                            name_of(k, row, other), name,
+                            (int)k->matrix[row * k->width + k->columns + 1] + 1);
+    if (k->system->properties & DAL_D_LINEAR)
+        return dal__fail_at(error, DAL_RANK, place->line, place->column,
+                            "the start cannot be solved for %s: no constraint restricts it", name);
+    return dal__fail_at(error, DAL_RANK, place->line, place->column,
+                        "the start cannot be solved for %s: no constraint restricts it at the "
+                        "first guess %g; give another one",
+                        name, k->v[place->velocity]);
+}
+
+/* Fills the matrix and makes it triangular. */
+static dal_status eliminate(newton *k, dal_error *error)
+{
+    const int m = k->system->m, n = k->system->n, width = k->width;
+    double *M = k->matrix;
+    for (int a = 0; a < m; a++) {
+        double scale = 0.0;
+        for (int j = 0; j < k->columns; j++)
+            scale = fmax(scale, fabs(k->A[a * n + k->system->solved[j].velocity]));
+        if (scale == 0.0) scale = 1.0;
+        for (int j = 0; j < k->columns; j++)
+            M[a * width + j] = k->A[a * n + k->system->solved[j].velocity] / scale;
+        M[a * width + k->columns] = -k->D[a] / scale;
+        M[a * width + k->columns + 1] = a;
+    }
+    for (int j = 0; j < k->columns; j++) {
+        double size = 0.0;
+        int pivot = j;
+        for (int a = 0; a < m; a++) size = fmax(size, fabs(M[a * width + j]));
+        for (int a = j; a < m; a++)
+            if (fabs(M[a * width + j]) > fabs(M[pivot * width + j])) pivot = a;
+        if (j == m || !(fabs(M[pivot * width + j]) > independent * size))
+            return undetermined(k, j, error);
+        for (int i = 0; i < width; i++) {
+            const double other = M[j * width + i];
+            M[j * width + i] = M[pivot * width + i];
+            M[pivot * width + i] = other;
+        }
+        for (int a = j + 1; a < m; a++) {
+            const double factor = M[a * width + j] / M[j * width + j];
+            for (int i = j; i <= k->columns; i++) M[a * width + i] -= factor * M[j * width + i];
+        }
+    }
+    return DAL_OK;
+}
+
+/* max |u' - u| of one step. */
+static dal_status take_step(newton *k, double *change, dal_error *error)
+{
+    const int width = k->width, last = k->columns;
+    double *M = k->matrix;
+    DAL_TRY(eliminate(k, error));
+    *change = 0.0;
+    for (int j = last - 1; j >= 0; j--) {
+        double *x = &M[j * width + last], *v = &k->v[k->system->solved[j].velocity];
+        for (int i = j + 1; i < last; i++) *x -= M[j * width + i] * M[i * width + last];
+        *x /= M[j * width + j];
+        *change = fmax(*change, fabs(*x));
+        *v = *v + *x + 0.0; /* no -0: see lib/kernel/step.h */
+    }
+    return DAL_OK;
+}
+
+dal_status dal__solve_velocities(const dal_system *s, double t, const double *q, double *v,
+                                 double *work, double *memory, dal_error *error)
+{
+    const int m = s->m, n = s->n;
+    newton k = {.system = s,
+                .at = {.t = t, .q = q, .v = v, .work = work},
+                .v = v,
+                .D = memory,
+                .A = memory + m};
+    double change = INFINITY, before;
+    char name[NAME_SIZE];
+    int max = 0;
+    bool is_usable = s->solved_velocities > 0 && s->solved_velocities <= m && s->solved;
+    for (int j = 0; is_usable && j < s->solved_velocities; j++)
+        is_usable = s->solved[j].velocity >= 0 && s->solved[j].velocity < n;
+    if (s->solved_velocities == 0) return DAL_OK;
+    if (!is_usable)
+        return dal__fail(error, DAL_ARGUMENT,
+                         "%d velocities to be solved from %d constraints, of %d velocities",
+                         s->solved_velocities, m, n);
+    if (!s->call.constraint)
+        return dal__fail_at(error, DAL_UNSUPPORTED, s->solved[0].line, s->solved[0].column,
+                            "the start cannot be solved for velocities: the mass matrix has no "
+                            "inverse");
+    k.matrix = k.A + 2 * m * n;
+    k.columns = s->solved_velocities;
+    k.width = k.columns + 2;
+    for (int i = 0; i < MAX_STEPS; i++) {
+        double size = 0.0;
+        const dal_status status = s->call.constraint(s, &k.at, memory);
+        if (status != DAL_OK)
+            return dal__fail(error, status, "the constraints cannot be evaluated at the start");
+        max = dal__find_max_abs(k.D, m);
+        if (!isfinite(k.D[max])) break;
+        before = change;
+        DAL_TRY(take_step(&k, &change, error));
+        for (int j = 0; j < n; j++) size = fmax(size, fabs(v[j]));
+        if (dal__is_converged(change, before, size)) return DAL_OK;
+    }
+    return dal__fail_at(error, isfinite(k.D[max]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
+                        s->solved[0].line, s->solved[0].column,
+                        "the start cannot be solved for %s%s: no root of constraint %d was found "
+                        "from these first guesses, D%d = %.6g",
+                        name_of(&k, 0, name), k.columns > 1 ? " and others" : "", max + 1, max + 1,
+                        k.D[max]);
+}

@@ -1,0 +1,286 @@
+/* taylor.c - series programs from tapes: every result of a tape becomes a series of its own. */
+#include "expr/taylor.h"
+#include "expr/operations.h"
+#include "expr/traversal.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* What one operation of a tape adds at most. */
+enum { MAX_OPERATIONS = 5, MAX_SLOTS = 8, MAX_SUMS = 5 };
+
+dal__taylor *dal__taylor_create(int inputs, int coordinates)
+{
+    dal__taylor *taylor = calloc(1, sizeof *taylor);
+    if (!taylor) return NULL;
+    taylor->inputs = taylor->slots = inputs;
+    taylor->coordinates = coordinates;
+    return taylor;
+}
+
+void dal__taylor_free(dal__taylor *taylor)
+{
+    if (!taylor) return;
+    free(taylor->code);
+    free(taylor->sum);
+    free(taylor->output);
+    free(taylor);
+}
+
+static bool is_constant(uint32_t a) { return (a & DAL__TAYLOR_CONSTANT) != 0; }
+
+/* What has no Taylor series where it jumps or has a kink, by its name in a formula; else NULL.
+ * (hypot has none at 0 alone, where coefficients are not finite; if has one where its condition is
+ * constant along a run.) */
+static const char *refused_name(const dal__taylor_operation *i)
+{
+    const uint32_t op = i->op;
+    int arity;
+    if (op == DAL__LESS || op == DAL__LESS_EQUAL || op == DAL__EQUAL) return "a comparison";
+    if (op == DAL__IF && is_constant(i->a)) return NULL;
+    if (op == DAL__TABLE) return "a table";
+    if (op == DAL__HYPOT || op >= DAL__OP_COUNT) return NULL;
+    if (!((DAL__ROUGH) >> op & 1)) return NULL;
+    return dal__function_name((dal__op)op, &arity);
+}
+
+/* Operations whose recurrence needs a second series, and those that divide. */
+#define PAIRED                                                                                     \
+    (DAL__OP_BIT(SIN) | DAL__OP_BIT(COS) | DAL__OP_BIT(TAN) | DAL__OP_BIT(SINH) |                  \
+     DAL__OP_BIT(COSH) | DAL__OP_BIT(TANH) | DAL__OP_BIT(ASIN) | DAL__OP_BIT(ACOS) |               \
+     DAL__OP_BIT(ATAN) | DAL__OP_BIT(ATAN2) | DAL__OP_BIT(ASINH) | DAL__OP_BIT(SINCOS))
+#define DIVIDING                                                                                   \
+    (DAL__OP_BIT(DIV) | DAL__OP_BIT(SQRT) | DAL__OP_BIT(HYPOT) | DAL__OP_BIT(POW) |                \
+     DAL__OP_BIT(LOG) | DAL__OP_BIT(ASIN) | DAL__OP_BIT(ACOS) | DAL__OP_BIT(ATAN) |                \
+     DAL__OP_BIT(ATAN2) | DAL__OP_BIT(ASINH))
+
+static bool is_one_of(uint32_t op, uint64_t set) { return op < 64 && set >> op & 1; }
+
+/* What is known while a tape is converted. */
+typedef struct conversion {
+    dal__taylor *taylor;
+    int first;       /* operation of the tape */
+    uint32_t *slot;  /* [workspace] the operand that stands in a place of work now */
+    uint32_t *depth; /* [slots] operations of the same order that must precede the series' own */
+    uint32_t *turn;  /* [slots] 1 + number of the operation that turns, of its sine and cosine */
+} conversion;
+
+static dal__taylor_operation *append_operation(const conversion *c, dal__taylor_operation own)
+{
+    dal__taylor *taylor = c->taylor;
+    const uint32_t operand[] = {own.a, own.b, own.c};
+    uint32_t depth = 0;
+    own.d = own.e = own.reciprocal = (uint32_t)taylor->slots++;
+    if (is_one_of(own.op, PAIRED)) own.e = (uint32_t)taylor->slots++;
+    if (is_one_of(own.op, DIVIDING)) own.reciprocal = (uint32_t)taylor->slots++;
+    for (int i = 0; i < 3; i++)
+        if (!is_constant(operand[i]) && c->depth[operand[i]] >= depth)
+            depth = c->depth[operand[i]] + 1;
+    c->depth[own.d] = c->depth[own.e] = own.turns ? 0 : depth;
+    taylor->code[taylor->length] = own;
+    return &taylor->code[taylor->length++];
+}
+
+/* The slot of j a_j. */
+static uint32_t slope(const conversion *c, uint32_t a)
+{
+    const dal__taylor *taylor = c->taylor;
+    for (int k = c->first; k < taylor->length; k++)
+        if (taylor->code[k].op == DAL__SLOPE && taylor->code[k].a == a) return taylor->code[k].d;
+    return append_operation(c, (dal__taylor_operation){.op = DAL__SLOPE, .a = a})->d;
+}
+
+/* The number of the inner sum of a and b; DAL__TAYLOR_CONSTANT where one of them is constant along
+ * a run, so that no sum is needed. */
+static uint32_t find_sum(dal__taylor *taylor, uint32_t a, uint32_t b)
+{
+    if (is_constant(a) || is_constant(b)) return DAL__TAYLOR_CONSTANT;
+    for (int k = 0; k < taylor->sums; k++) {
+        const dal__taylor_sum *sum = &taylor->sum[k];
+        if ((sum->a == a && sum->b == b) || (sum->a == b && sum->b == a)) return (uint32_t)k;
+    }
+    taylor->sum[taylor->sums] = (dal__taylor_sum){.a = a, .b = b};
+    return (uint32_t)taylor->sums++;
+}
+
+/* Series of an operation: operands and results, or their slopes. */
+enum { NONE, A, B, C, D, E, SLOPES, SLOPE_A = SLOPES + A, SLOPE_B, SLOPE_C, SLOPE_D };
+
+/* The pairs of series whose inner sums the recurrences need; see taylor_wide.c. */
+static const struct {
+    uint32_t op;
+    uint8_t pair[DAL__TAYLOR_SUMS][2];
+} list_sums[] = {
+    {DAL__MUL, {{A, B}}},
+    {DAL__MUL_ADD, {{A, B}}},
+    {DAL__MUL_SUB, {{A, B}}},
+    {DAL__SUB_MUL, {{A, B}}},
+    {DAL__DIV, {{B, D}}},
+    {DAL__SQRT, {{D, D}}},
+    {DAL__HYPOT, {{D, D}, {A, A}, {B, B}}},
+    {DAL__EXP, {{SLOPE_A, D}}},
+    {DAL__POW_MOVING, {{SLOPE_C, D}}},
+    {DAL__POW, {{SLOPE_A, D}, {SLOPE_D, A}}},
+    {DAL__LOG, {{SLOPE_D, A}}},
+    {DAL__SIN, {{SLOPE_A, D}, {SLOPE_A, E}}},
+    {DAL__COS, {{SLOPE_A, D}, {SLOPE_A, E}}},
+    {DAL__SINCOS, {{SLOPE_A, D}, {SLOPE_A, E}}},
+    {DAL__SINH, {{SLOPE_A, D}, {SLOPE_A, E}}},
+    {DAL__COSH, {{SLOPE_A, D}, {SLOPE_A, E}}},
+    {DAL__TAN, {{SLOPE_A, E}, {D, D}}},
+    {DAL__TANH, {{SLOPE_A, E}, {D, D}}},
+    {DAL__ASIN, {{SLOPE_D, E}, {SLOPE_D, A}}},
+    {DAL__ACOS, {{SLOPE_D, E}, {SLOPE_D, A}}},
+    {DAL__ASINH, {{SLOPE_D, E}, {SLOPE_D, A}}},
+    {DAL__ATAN, {{SLOPE_D, E}, {A, A}}},
+    {DAL__ATAN2, {{SLOPE_D, E}, {A, A}, {B, B}, {SLOPE_A, B}, {SLOPE_B, A}}},
+};
+
+/* One of the series of an operation, or a constant: for NONE, and for the slope of a constant. */
+static uint32_t series_of(const conversion *c, const dal__taylor_operation *i, int which)
+{
+    const uint32_t of[] = {DAL__TAYLOR_CONSTANT, i->a, i->b, i->c, i->d, i->e};
+    const uint32_t slot = of[which % SLOPES];
+    return which < SLOPES || is_constant(slot) ? slot : slope(c, slot);
+}
+
+/* Appends an operation and the sums that it needs; slopes of operands stand before it, those of its
+ * results behind it. */
+static dal__taylor_operation *append_recurrence(const conversion *c, dal__taylor_operation own)
+{
+    const size_t count = sizeof list_sums / sizeof *list_sums;
+    size_t k = 0;
+    while (k < count && list_sums[k].op != own.op) k++;
+    if (k == count || own.turns) return append_operation(c, own);
+    for (int j = 0; j < DAL__TAYLOR_SUMS; j++)
+        if (list_sums[k].pair[j][0] < SLOPE_D) series_of(c, &own, list_sums[k].pair[j][0]);
+    dal__taylor_operation *i = append_operation(c, own);
+    for (int j = 0; j < DAL__TAYLOR_SUMS && list_sums[k].pair[j][0]; j++)
+        i->sum[i->sums++] = find_sum(c->taylor, series_of(c, i, list_sums[k].pair[j][0]),
+                                     series_of(c, i, list_sums[k].pair[j][1]));
+    return i;
+}
+
+/* Sine and cosine of a coordinate, whose derivative is an input: s' = c a', c' = -s a'. */
+static dal__taylor_operation *append_turn(const conversion *c, dal__taylor_operation own)
+{
+    const uint32_t rate = own.a + (uint32_t)c->taylor->coordinates;
+    own.turns = true;
+    dal__taylor_operation *i = append_operation(c, own);
+    const uint32_t sine = i->op == DAL__COS ? i->e : i->d, cosine = i->op == DAL__COS ? i->d : i->e;
+    c->turn[sine] = c->turn[cosine] = (uint32_t)c->taylor->length;
+    i->b = append_recurrence(c, (dal__taylor_operation){DAL__MUL, .a = rate, .b = cosine})->d;
+    i->c = append_recurrence(c, (dal__taylor_operation){DAL__MUL, .a = rate, .b = sine})->d;
+    return i;
+}
+
+/* Whether append_turn has made a b, a sine or cosine of a coordinate times its derivative; *product
+ * is the slot. */
+static bool find_turn(const conversion *c, uint32_t a, uint32_t b, uint32_t *product)
+{
+    const uint32_t turn = is_constant(a) ? 0 : c->turn[a];
+    if (turn == 0) return false;
+    const dal__taylor_operation *i = &c->taylor->code[turn - 1];
+    if (b != i->a + (uint32_t)c->taylor->coordinates) return false;
+    *product = (a == i->d) == (i->op == DAL__COS) ? i->b : i->c;
+    return true;
+}
+
+/* Converts one instruction.  That operand of a product which is known later becomes the second,
+ * whose coefficient k the recurrence uses last. */
+static void convert(const conversion *c, const dal__instruction *i)
+{
+    uint32_t *slot = c->slot, a = slot[i->a], b = slot[i->b];
+    dal__taylor_operation own = {.op = i->op, .a = a, .b = b, .c = slot[i->c]};
+    const bool product = i->op == DAL__MUL || i->op == DAL__MUL_ADD || i->op == DAL__MUL_SUB ||
+                         i->op == DAL__SUB_MUL;
+    const bool angle = i->op == DAL__SIN || i->op == DAL__COS || i->op == DAL__SINCOS;
+    if (i->op == DAL__MUL && (find_turn(c, a, b, &slot[i->d]) || find_turn(c, b, a, &slot[i->d])))
+        return;
+    if (product && !is_constant(a) && !is_constant(b) && c->depth[a] > c->depth[b])
+        own.a = b, own.b = a;
+    if (i->op == DAL__POW && !is_constant(b)) {
+        const uint32_t log =
+            append_recurrence(c, (dal__taylor_operation){.op = DAL__LOG, .a = a})->d;
+        own.c = append_recurrence(c, (dal__taylor_operation){DAL__MUL, .a = b, .b = log})->d;
+        own.op = DAL__POW_MOVING;
+    }
+    if (i->op == DAL__SINCOS) own.b = a; /* it was the place of the cosine */
+    const bool turns = angle && a >= 1 && a <= (uint32_t)c->taylor->coordinates;
+    const dal__taylor_operation *last = turns ? append_turn(c, own) : append_recurrence(c, own);
+    slot[i->d] = last->d;
+    if (i->op == DAL__SINCOS) slot[i->b] = last->e;
+}
+
+/* Finds whether an operation is needed beyond order 0, and with it operands and sums;
+ * needed[slots]. */
+static void find_orders(dal__taylor *taylor, dal__taylor_operation *i, bool *needed)
+{
+    const uint32_t operand[] = {i->a, i->b, i->c};
+    i->once = !needed[i->d] && !needed[i->e];
+    if (i->once) return;
+    const char *name = refused_name(i);
+    if (name && !taylor->refused) taylor->refused = name;
+    for (int j = 0; j < 3; j++)
+        if (!is_constant(operand[j])) needed[operand[j]] = true;
+    for (int j = 0; j < i->sums; j++) {
+        if (is_constant(i->sum[j])) continue;
+        dal__taylor_sum *sum = &taylor->sum[i->sum[j]];
+        sum->needed = needed[sum->a] = needed[sum->b] = true;
+    }
+}
+
+static bool reserve(dal__taylor *taylor, const dal__tape *tape)
+{
+    const size_t operations = MAX_OPERATIONS * (size_t)tape->length + 1;
+    const size_t outputs = (size_t)taylor->outputs + (size_t)tape->outputs + 1;
+    dal__taylor_operation *code =
+        realloc(taylor->code, ((size_t)taylor->length + operations) * sizeof *code);
+    if (code) taylor->code = code;
+    dal__taylor_sum *sum = realloc(
+        taylor->sum, ((size_t)taylor->sums + MAX_SUMS * (size_t)tape->length + 1) * sizeof *sum);
+    if (sum) taylor->sum = sum;
+    uint32_t *output = realloc(taylor->output, outputs * sizeof *output);
+    if (output) taylor->output = output;
+    return code && sum && output;
+}
+
+/* Converts a tape; needed[slots] is false everywhere. */
+static void convert_tape(const conversion *c, const dal__tape *tape, int count, bool *needed)
+{
+    dal__taylor *taylor = c->taylor;
+    for (int k = 0; k < tape->length; k++) convert(c, &tape->code[k]);
+    for (int k = 0; k < tape->outputs; k++) {
+        const uint32_t output = c->slot[tape->place[k]];
+        if (k < count && !is_constant(output)) needed[output] = true;
+        taylor->output[taylor->outputs++] = output;
+    }
+    /* Some operations need slopes or products that stand behind them, found in the second pass. */
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = taylor->length - 1; k >= c->first; k--)
+            find_orders(taylor, &taylor->code[k], needed);
+}
+
+dal_status dal__taylor_add(dal__taylor *taylor, const dal__tapes *tapes, int program, int count,
+                           const uint32_t *places)
+{
+    const dal__tape *tape = &tapes->tape[program];
+    const size_t slots = (size_t)taylor->slots + MAX_SLOTS * (size_t)tape->length + 1;
+    const conversion c = {.taylor = taylor,
+                          .first = taylor->length,
+                          .slot = calloc(tapes->workspace + 1, sizeof *c.slot),
+                          .depth = calloc(slots, sizeof *c.depth),
+                          .turn = calloc(slots, sizeof *c.turn)};
+    bool *needed = calloc(slots, sizeof *needed);
+    const bool good = c.slot && c.depth && c.turn && needed && reserve(taylor, tape);
+    if (good) {
+        for (size_t i = 0; i < tapes->first_input; i++)
+            c.slot[i] = DAL__TAYLOR_CONSTANT | (uint32_t)i;
+        for (int i = 0; i < taylor->inputs; i++) c.slot[places[i]] = (uint32_t)i;
+        convert_tape(&c, tape, count, needed);
+    }
+    free(c.slot);
+    free(c.depth);
+    free(c.turn);
+    free(needed);
+    return good ? DAL_OK : DAL_MEMORY;
+}

@@ -1,0 +1,86 @@
+/* taylor.h - the Taylor coefficients of expressions along a motion, order by order.
+ *
+ *     inputs x(t) = x_0 + x_1 t + x_2 t^2 + ..   ->   outputs f(x(t)) = f_0 + f_1 t + f_2 t^2 + ..
+ *
+ * One recurrence per operation (taylor_wide.c) gives coefficient k of its result from coefficients
+ * 0..k of its operands and 0..k-1 of itself.  A series program is made from tapes that are
+ * finished: each result of a tape becomes a series, a slot, with a place of its own, since all its
+ * coefficients are needed until the step ends; what is constant along a run stays in work.
+ *
+ *     memory[slots][stride]     coefficients, stride of them for each slot; inputs come first
+ *
+ * What a recurrence adds up over lower orders are inner sums of two slots (kernel/series.h).  All
+ * those of a program stand in one list, each once.  For the sums of terms j a_j b_(k-j) there are
+ * slots with coefficients j a_j.
+ *
+ * Order 0 computes with the operations of the tape: f_0 has the bits of the tape's outputs.  Sums
+ * have one order, so single runs and lanes agree in every bit.
+ *
+ * A. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99; F. Biscani, D. Izzo, MNRAS 504 (2021)
+ * 2614. */
+#ifndef DAL_EXPR_TAYLOR_H
+#define DAL_EXPR_TAYLOR_H
+
+#include "expr/tape.h"
+
+/* An operand is a slot, or with this bit the place in work of what is constant along a run. */
+#define DAL__TAYLOR_CONSTANT (UINT32_C(1) << 31)
+
+/* Operations that tapes do not have. */
+enum {
+    DAL__POW_MOVING = 64, /* a power whose exponent moves: a^b = exp(c), c = b log a */
+    DAL__SLOPE            /* coefficients j a_j */
+};
+
+enum { DAL__TAYLOR_SUMS = 5 };
+
+/* An operation.  d: slot of its result; e: of a second series, the cosine of a sine; reciprocal: of
+ * what its recurrence multiplies by, in order 0 alone; the latter are d where there is none.
+ * a, b, c: operands; sum[sums]: numbers of the inner sums, in the order of list_sums. */
+typedef struct dal__taylor_operation {
+    uint32_t op, d, e, reciprocal, a, b, c;
+    uint32_t sum[DAL__TAYLOR_SUMS];
+    int sums;
+    bool turns; /* sine or cosine of a coordinate a: b and c are cos(a) a' and sin(a) a' */
+    bool once;  /* order 0 alone is needed */
+} dal__taylor_operation;
+
+/* sum_(j=1..k-1) a_j b_(k-j) of two slots. */
+typedef struct dal__taylor_sum {
+    uint32_t a, b;
+    bool needed; /* beyond order 0 */
+} dal__taylor_sum;
+
+typedef struct dal__taylor {
+    dal__taylor_operation *code; /* [length] */
+    dal__taylor_sum *sum;        /* [sums] */
+    uint32_t *output;            /* [outputs] operands */
+    int length, sums, outputs, slots, inputs, coordinates;
+    const char *refused; /* what has no Taylor series: "abs"; NULL: nothing */
+} dal__taylor;
+
+/* A program without outputs.  Inputs 1 + coordinates + i are the derivatives of 1 + i for
+ * i < coordinates.  NULL: out of memory. [alloc] */
+dal__taylor *dal__taylor_create(int inputs, int coordinates);
+void dal__taylor_free(dal__taylor *taylor);
+/* Adds the outputs of a finished tape, count of them with all orders and the others by their values
+ * alone; places[inputs] are those of the inputs in work.  An operation without a recurrence that
+ * one of those count needs leaves its name in refused.  Errors: DAL_MEMORY. [alloc] */
+dal_status dal__taylor_add(dal__taylor *taylor, const dal__tapes *tapes, int program, int count,
+                           const uint32_t *places);
+
+/* Coefficient k of all series, from that of the inputs, in[inputs], and from the lower ones in
+ * memory; k < stride.  Coefficient k of outputs first.. first + count - 1.  All arrays are
+ * interleaved by lanes. */
+#define DAL__TAYLOR_RUN(name, variant, lanes, set)                                                 \
+    void name##_##variant(const dal__taylor *taylor, int k, int stride, const double *in,          \
+                          const double *work, double *memory);
+#define DAL__TAYLOR_READ(name, variant, lanes, set)                                                \
+    void name##_##variant(const dal__taylor *taylor, int first, int count, int k, int stride,      \
+                          const double *work, const double *memory, double *out);
+DAL__TAYLOR_RUN(dal__taylor_run, x1, 1, BASE)
+DAL__TAYLOR_READ(dal__taylor_read, x1, 1, BASE)
+DAL__VARIANT_LIST(DAL__TAYLOR_RUN, dal__taylor_run)
+DAL__VARIANT_LIST(DAL__TAYLOR_READ, dal__taylor_read)
+
+#endif

@@ -1,0 +1,104 @@
+/* choice.h - the solver "auto": fixed point or Newton's method, whichever costs less.
+ *
+ * Costs are counted in operations, those of F and of its derivatives as the system states them, and
+ * in the iterations that each lane needed; no clock is read.  In units of an iteration of the fixed
+ * point, k of which solve an equation, Newton's method costs
+ *
+ *     matrix + iteration * k',      matrix: the inverse;   iteration >= 1: with the product by it
+ *
+ * Each lane begins with the fixed point.  Where that needs more iterations than Newton's method
+ * with three would cost, or where Newton's method is in use, the other method is tried after
+ * DAL__FIRST_TRIAL equations and used from then on if it costs less; else it is tried again after
+ * twice as many, at most DAL__LAST_TRIAL.  A fixed point that hardly contracts, or that takes more
+ * iterations than it may, is given up for Newton's method at once.
+ *
+ * All that is decided stands in the persistent state: uses_newton, and choice, the iterations of
+ * the last equation, the equations until the next trial, and those between it and the last one. */
+#ifndef DAL_KERNEL_CHOICE_H
+#define DAL_KERNEL_CHOICE_H
+
+#include "step.h"
+
+enum { DAL__FIRST_TRIAL = 8, DAL__LAST_TRIAL = 512 };
+/* The time of an operation of Newton's method, that of the fixed point being 1.  It is longer in
+ * compiled steps than in interpreted ones; both must choose alike, and take the mean. */
+#define DAL__CHARGE 1.4
+/* The iterations of Newton's method: as few as can be hoped for, and as expected where it is not
+ * known; the fixed point may cost PATIENCE times as much before it is given up. */
+#define DAL__FEW      3.0
+#define DAL__EXPECTED 6.0
+#define DAL__PATIENCE 4.0
+
+/* Of an equation, in iterations of the fixed point. */
+typedef struct dal_newton_cost {
+    double matrix, iteration;
+} dal_newton_cost;
+
+/* The cost for stages of `width` unknowns each; split: the matrix is inverted by eigenvalues
+ * (eigensystem.h).  The terms are counts of multiplications, but for those of lower order, which
+ * stand for the rest and were fitted to timings.  It is that of (q, v) on both spaces, so that a
+ * motion has the same bits there. */
+DAL_INLINE dal_newton_cost dal_cost_of_newton(const dal_step *s, int stages, int width, int split)
+{
+    const double w = width, size = (double)stages * w, pairs = 0.5 * (stages + 1);
+    const double map = stages * (DAL_FIELD_OPERATIONS(s) + (4.0 * stages + 8.0) * w);
+    const double matrix = DAL_JACOBIAN_OPERATIONS(s) + 32.0 * w;
+    const double inverse = split ? pairs * (w + 8.0) * w * w : (2.0 * size + 4.0) * size * size;
+    const double product = split ? 2.5 * pairs * (stages + w) * w : size * size;
+    const dal_newton_cost cost = {DAL__CHARGE * (matrix + inverse) / map,
+                                  DAL__CHARGE * (1.0 + product / map)};
+    return cost;
+}
+
+/* Lanes of group j in which the method not in use is tried. */
+DAL_INLINE dal_mask dal__trial_is_due(const dal_step *s, int j)
+{
+    const num *rest = s->choice + DAL_STEP_GROUPS, *first = rest + DAL_STEP_GROUPS;
+    return dal_less(dal_num(0.5), first[j]) & dal_less(rest[j], dal_num(0.5));
+}
+
+/* The iterations that the fixed point may take; in the lanes `newton`, where Newton's method is in
+ * use, only as many as cost no more than that. */
+DAL_INLINE num dal__fixed_point_limit(const dal_step *s, const dal_newton_cost *cost, int j,
+                                      dal_mask newton)
+{
+    const double expected = cost->matrix + cost->iteration * DAL__EXPECTED;
+    const num present = cost->matrix + cost->iteration * s->choice[j];
+    return dal_select(newton, present, dal_num(DAL__PATIENCE * expected));
+}
+
+/* Lanes whose number of iterations matters for a choice. */
+DAL_INLINE dal_mask dal__counts(const dal_step *s, const dal_newton_cost *cost, int j, num taken)
+{
+    return dal_less(dal_num(0.5), s->uses_newton[j]) |
+           dal_less(dal_num(cost->matrix + cost->iteration * DAL__FEW), taken);
+}
+
+/* Chooses in the solved lanes of group j, `by_newton` some of them, what the next equation is
+ * solved by; taken: the iterations. */
+DAL_INLINE void dal__choose(dal_step *s, const dal_newton_cost *cost, int j, dal_mask solved,
+                            dal_mask by_newton, num taken)
+{
+    num *const last = s->choice + j, *const rest = last + DAL_STEP_GROUPS,
+               *const first = rest + DAL_STEP_GROUPS;
+    const dal_mask newton = dal_less(dal_num(0.5), s->uses_newton[j]);
+    const dal_mask due = dal__trial_is_due(s, j), other = by_newton ^ newton;
+    const num before = dal_select(newton, cost->matrix + cost->iteration * *last, *last);
+    const num now = dal_select(by_newton, cost->matrix + cost->iteration * taken, taken);
+    const dal_mask given_up = other & ~due;
+    const dal_mask better = other & due & dal_less(now, before);
+    const dal_mask later = solved & (given_up | (due & ~better));
+    const dal_mask counts = solved & ~due & ~other & dal__counts(s, cost, j, taken);
+    const dal_mask begins = (solved & better) | (counts & dal_less(*first, dal_num(0.5)));
+    const dal_mask changes = solved & (given_up | better);
+    *first = dal_select(
+        later, dal_max(dal_min(2.0 * *first, dal_num(DAL__LAST_TRIAL)), dal_num(DAL__FIRST_TRIAL)),
+        *first);
+    *first = dal_select(begins, dal_num(DAL__FIRST_TRIAL), *first);
+    *rest = dal_select(counts, dal_max(*rest - 1.0, dal_num(0.0)), *rest);
+    *rest = dal_select(later | begins, *first, *rest);
+    *last = dal_select(changes | counts, taken, *last);
+    s->uses_newton[j] = dal_select(changes, 1.0 - s->uses_newton[j], s->uses_newton[j]);
+}
+
+#endif

@@ -1,0 +1,130 @@
+/* taylor.h - the Taylor polynomial of the motion at the present state.
+ *
+ *     x(t + s) = x_0 + x_1 s + .. + x_p s^p,     x_(k+1) = f_k/(k+1)
+ *
+ * with f_k coefficient k of the field along the motion, from x_0 .. x_k: dal_step.series has the
+ * recurrences of F, the canonical variables follow here.  With w = 1/e, as series:
+ *
+ *     q' = v   v' = F + pi w   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi
+ *     pi_e' = (pi pi)(w w)/2,   w_k = -w_0 sum_(j=1..k) e_j w_(k-j)
+ *
+ * Order for a tolerance: the error of a step of size h is about (h/R)^p where R is the radius of
+ * convergence, the work about p^2 for a length h; it is least for h = R/e^2 and
+ * p = 1 - log(tolerance)/2 (Jorba and Zou 2005).  The work is measured to be nearer to p than to
+ * p^2, and some of it is that of a step of any order, which favours FURTHER orders. */
+#ifndef DAL_KERNEL_TAYLOR_H
+#define DAL_KERNEL_TAYLOR_H
+
+#include "series.h"
+#include "step.h"
+
+#ifndef DAL_SPECIALISED
+enum { DAL__TAYLOR_FURTHER = 6, DAL__TAYLOR_MAX_ORDER = 40, DAL__TAYLOR_FIXED_ORDER = 10 };
+
+/* The order for a tolerance; for 0, that of steps of a fixed size. */
+DAL_INLINE int dal_taylor_order(double tolerance)
+{
+    if (tolerance == 0.0) return DAL__TAYLOR_FIXED_ORDER;
+    const double order = ceil(1.0 - 0.5 * log(tolerance)) + DAL__TAYLOR_FURTHER;
+    return order < DAL__TAYLOR_MAX_ORDER ? (int)order : DAL__TAYLOR_MAX_ORDER;
+}
+
+#endif
+
+/* What an expansion needs besides x. */
+typedef struct dal_expansion {
+    num *memory;          /* [DAL_SERIES][order + 1] series of the system */
+    num *in, *f;          /* [1 + 2n + nw], [3n + 1] their inputs and outputs */
+    num *w, *ww, *square; /* [order + 1] coefficients of w = 1/e, w^2 and pi.pi */
+} dal_expansion;
+
+/* Declares an expansion `name` in the scratch of a step. */
+#define DAL_EXPANSION(s, name)                                                                     \
+    DAL_VECTOR(s, memory, DAL_SERIES(s) * (DAL_TAYLOR_ORDER(s) + 1));                              \
+    DAL_VECTOR(s, in, 1 + 2 * DAL_N(s) + DAL_NW(s));                                               \
+    DAL_VECTOR(s, f, 3 * DAL_N(s) + 1);                                                            \
+    DAL_VECTOR(s, gauge, 3 * (DAL_TAYLOR_ORDER(s) + 1));                                           \
+    const dal_expansion name = {memory,                                                            \
+                                in,                                                                \
+                                f,                                                                 \
+                                gauge,                                                             \
+                                gauge + DAL_TAYLOR_ORDER(s) + 1,                                   \
+                                gauge + 2 * (DAL_TAYLOR_ORDER(s) + 1)}
+
+#if DAL_WITH_LIFT
+/* sum a_j b_(k-j) over j = first..k; coefficients of a, of b, are `a_stride`, `b_stride` apart. */
+DAL_INLINE num dal__convolve(const num *a, int a_stride, const num *b, int b_stride, int first,
+                             int k)
+{
+    num sum = dal_num(0.0);
+    for (int j = first; j <= k; j++) sum = dal_fma(a[j * a_stride], b[(k - j) * b_stride], sum);
+    return sum;
+}
+
+/* Coefficient k of the canonical variables' field, from x_0 .. x_k; f holds that of F, F_q^T pi,
+ * F_v^T pi, mu_e. */
+DAL_INLINE void dal__lifted_series(const dal_step *s, int k, const num *x, const num *f,
+                                   const dal_expansion *g, num *dx)
+{
+    const int n = DAL_N(s), dim = DAL_DIM(s), p = dal_at_p(s);
+    const num *e = x + dal_at_e(s), *pi = x + dal_at_pi(s);
+    g->w[k] = k == 0 ? 1.0 / e[0] : -g->w[0] * dal__convolve(e, dim, g->w, 1, 1, k);
+    g->ww[k] = dal__convolve(g->w, 1, g->w, 1, 0, k);
+    g->square[k] = dal_num(0.0);
+    DAL_EACH(i, n) {
+        g->square[k] += dal__convolve(pi + i, dim, pi + i, dim, 0, k);
+        dx[n + i] = f[i] + dal__convolve(pi + i, dim, g->w, 1, 0, k);
+        dx[p + i] = -f[n + i];
+        dx[dal_at_pi(s) + i] = -x[k * dim + p + i] - f[2 * n + i];
+    }
+    dx[dal_at_e(s)] = f[3 * n];
+    dx[dal_at_pi_e(s)] = 0.5 * dal__convolve(g->square, 1, g->ww, 1, 0, k);
+}
+#endif
+
+/* Coefficient k + 1 of the motion at t from those before, x[(order + 1)*dim], coefficient k from
+ * number k*dim on. */
+DAL_INLINE void dal_expand_order(dal_step *s, dal_times t, int k, num *x, const dal_expansion *e)
+{
+    const int n = DAL_N(s), nw = DAL_NW(s), dim = DAL_DIM(s);
+    const num inverse = dal_inverse(k + 1);
+    const num *now = x + k * dim;
+    num *next = x + (k + 1) * dim;
+    e->in[0] = dal_num(k == 1 ? 1.0 : 0.0);
+    if (k == 0) e->in[0] = t;
+    DAL_EACH(i, n + nw) e->in[1 + i] = now[i];
+    if (DAL_LIFTED(s))
+        DAL_EACH(i, n) e->in[1 + n + nw + i] = now[dal_at_pi(s) + i];
+    s->evaluations++;
+    dal_eval_series(s, k, DAL_TAYLOR_ORDER(s) + 1, e->in, e->memory, e->f);
+    DAL_EACH(i, n) next[i] = inverse * now[n + i];
+    if (!DAL_LIFTED(s))
+        DAL_EACH(i, nw) next[n + i] = inverse * e->f[i];
+#if DAL_WITH_LIFT
+    if (DAL_LIFTED(s)) {
+        dal__lifted_series(s, k, x, e->f, e, next);
+        DAL_EACH(i, dim - n) next[n + i] = inverse * next[n + i];
+    }
+#endif
+}
+
+/* By Horner's rule, rate = sum_(k=1..order) x_k h^(k-1), the mean rate of change over h, and the
+ * derivative at its end, sum k x_k h^(k-1).  x, rate[dim] and derivative[dim] must have DAL__PACK
+ * more numbers, since whole registers are read and written. */
+DAL_INLINE void dal_evaluate_polynomial(const dal_step *s, dal_times h, const num *x,
+                                        num *DAL_RESTRICT rate, num *DAL_RESTRICT derivative)
+{
+    const int dim = DAL_DIM(s);
+    const dal__terms zero = {0}, size = (num)h - zero;
+    for (int i = 0; i < dim; i += DAL__TERMS) {
+        dal__terms sum = zero, slope = zero;
+        for (int k = DAL_TAYLOR_ORDER(s); k > 0; k--) {
+            slope = DAL__FUSE_TERMS(size, slope, sum);
+            sum = DAL__FUSE_TERMS(size, sum, *(const dal__terms *)(x + k * dim + i));
+        }
+        *(dal__terms *)(rate + i) = sum;
+        *(dal__terms *)(derivative + i) = DAL__FUSE_TERMS(size, slope, sum);
+    }
+}
+
+#endif

@@ -1,0 +1,314 @@
+# Ensembles: the files of a directory against what is computed from the members, and the same bytes
+# whatever the threads, shards and interruptions.
+
+members=1000
+begin="ensemble chaplygin-sleigh --space physical --integrator rk4 --step 0.01 --times 0.5,1,2 --members $members
+    --seed 3 --vary y1'=normal(0,0.1) --vary m=uniform(0,1) --vary phi'=lognormal(0,0.2) --no-page"
+# All files but those of the interruption.
+same_ensemble() { ! diff -rq "$1" "$2" | grep -v ': chunks\|: lock\|: report\|: manifest'; }
+# The members of a .npy file as texts, $2 numbers in a line, $3 lines at its end.
+numbers_of() { tail -c $((8 * $2 * $3)) "$1" | od -An -v -tf8 -w$((8 * $2)); }
+
+case_is "an ensemble"
+try 0 $begin --output whole --threads 1
+prints "^t = 2, $members members$"
+silent
+holds "final.npy" has_rows whole/final.npy $members
+holds "members.npy" has_rows whole/members.npy $members
+holds "members.npy has other columns" test "$(columns_of whole/members.npy)" -eq 5
+holds "statistics of other times" test "$(column t whole/statistics.csv | sort -u | tr '\n' ' ')" = "0.5 1 2 "
+holds "members failed" test "$(wc -l <whole/failures.csv)" -eq 1
+holds "rows.npy does not end in final.npy" test "$(numbers_of whole/rows.npy 6 $members | cksum)" = \
+    "$(numbers_of whole/final.npy 6 $members | cksum)"
+
+case_is "an ensemble under a tolerance, without a step"
+controlled="ensemble knife-edge --integrator dop853 --tolerance 1e-9 --time 2 --members 300 --seed 3
+    --vary x'=normal(0,0.1) --no-page"
+try 0 $controlled --output chosen
+try 0 $controlled --step 0.02 --output given
+holds "other members" cmp -s chosen/final.npy given/final.npy
+holds "not in the manifest" grep -q '"step": 0.02' chosen/manifest.json
+try 0 resume chosen
+printf 'coordinates: [x]\nlagrangian: x'"'"'^2/2\n' >free.yaml
+try 0 ensemble ./free.yaml --integrator dop853 --tolerance 1e-9 --times 1,2 --members 9 --seed 3 \
+    --vary "x'=normal(0,1)" --output listed --no-page
+holds "not a hundredth" grep -q '"step": 0.02' listed/manifest.json
+try 2 ensemble ./free.yaml --integrator dop853 --tolerance 1e-9 --times 0.3,1.7 --members 9 --seed 3 \
+    --vary "x'=normal(0,1)" --output bad
+says "^dalembert: --times: 0.3 is not a whole number of steps of 0.017 from t = 0"
+
+# The definitions, on sorted numbers; type 7 of Hyndman and Fan.
+case_is "statistics of an ensemble"
+numbers_of whole/final.npy 6 $members >final.txt
+k=0
+for name in y1 y2 phi "y1'" "y2'" "phi'"; do
+    k=$((k + 1))
+    awk -v k=$k '{ print $k }' final.txt | sort -g | awk '
+        { x[NR - 1] = $1; sum += $1 }
+        function quantile(p,  at, low) {
+            at = p * (NR - 1); low = int(at)
+            return x[low] + (at - low) * (x[low + 1 < NR ? low + 1 : low] - x[low])
+        }
+        END {
+            mean = sum / NR
+            for (i = 0; i < NR; i++) squares += (x[i] - mean)^2
+            printf "%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", NR, mean,
+                sqrt(squares / (NR - 1)), x[0], quantile(0.05), quantile(0.25), quantile(0.5),
+                quantile(0.75), quantile(0.95), x[NR - 1]
+        }' >expected.txt
+    awk -F, -v name="$name" '$1 == 2 && $2 == name { for (i = 3; i <= NF; i++) printf "%s ", $i }' \
+        whole/statistics.csv | cat - expected.txt | tr '\n' ' ' >both.txt
+    holds "$name: other statistics" awk 'NF != 20 { exit 1 }
+        { for (i = 1; i <= 10; i++) { d = $i - $(i + 10); if (d > 1e-12 || d < -1e-12) exit 1 } }' both.txt
+done
+awk '{ a += $1; b += $4; s += $1 * $4 } END { printf "%.17g", (s - a * b / NR) / (NR - 1) }' final.txt >expected.txt
+awk -F, '$1 == 2 && $2 == "y1" { print $6 }' whole/covariance.csv | cat - expected.txt | tr '\n' ' ' >both.txt
+holds "another covariance" awk '{ exit !(NF == 2 && ($1 - $2)^2 < 1e-20) }' both.txt
+holds "histograms lack members" awk -F, -v n=$members 'NR > 1 { sum[$1 "," $2] += $5 }
+    END { for (i in sum) { kinds++; if (sum[i] != n) exit 1 } exit kinds != 18 }' whole/histograms.csv
+
+case_is "members are those of single runs"
+numbers_of whole/members.npy 5 $members | sed -n 700p >drawn.txt
+read -r status t drawn_v drawn_m drawn_w <drawn.txt
+try 0 show chaplygin-sleigh
+m=$(awk -v x="$drawn_m" 'BEGIN { printf "%.17g", 1 + x }')
+v=$(awk -v x="$drawn_v" 'BEGIN { printf "%.17g", 1 + x }')
+w=$(awk -v x="$drawn_w" 'BEGIN { printf "%.17g", 1 + x }')
+try 0 run chaplygin-sleigh --space physical --integrator rk4 --step 0.01 --time 2 --samples 1 --set "m=$m" \
+    --start "y1'=$v" --start "phi'=$w" --consistent --columns "q,v" --output single.csv
+tail -n 1 single.csv | cut -d, -f 2- | tr ',' ' ' >single.txt
+sed -n 700p final.txt | cat - single.txt | tr '\n' ' ' >both.txt
+holds "member 699 is another motion" awk '{ if (NF != 12) exit 1
+    for (i = 1; i <= 6; i++) if (($i - $(i + 6))^2 > 1e-24) exit 1 }' both.txt
+
+case_is "progress of an ensemble"
+try 0 $begin --output shown --progress json
+holds "no last line" grep -q "^{\"done\": $members, \"members\": $members, \"seconds\": [^ ]*, \"remaining\": 0}$" err
+holds "other lines" test "$(grep -cv '^{"done": ' err)" -eq 0
+holds "other bytes" same_ensemble whole shown
+try 0 $begin --output shown --shard 2/2 --progress json --force
+says '^\{"done": 488, "members": 488, '
+try 0 resume shown --progress json --no-page
+says '^\{"done": 488, "members": 488, "seconds": [^ ]*, "remaining": 0\}$'
+try 0 $begin --output shown --progress off --force
+silent
+
+case_is "threads, native, checkpoints change no byte"
+try 0 $begin --output other --threads 2 --native off --checkpoint 0
+holds "other bytes" same_ensemble whole other
+if there "${CC:-cc}"; then
+    try 0 $begin --output native --native on
+    holds "other bytes by compiled steps" same_ensemble whole native
+fi
+
+case_is "shards of an ensemble"
+try 0 $begin --output third-1 --shard 1/3
+says "other shards are not done"
+holds "statistics of a shard" test ! -e third-1/statistics.csv
+try 2 merge third-1 --output merged
+says "is done in none of the directories"
+try 0 $begin --output third-2 --shard 2/3
+try 0 $begin --output third-2 --shard 3/3
+try 0 merge third-1 third-2 --output merged --force --no-page
+holds "other bytes of shards" same_ensemble whole merged
+try 0 $begin --output third-2 --shard 1/3
+holds "other bytes of shards in one directory" same_ensemble whole third-2
+try 0 $(echo "$begin" | sed 's/--seed 3/--seed 4/') --output seed-4 --shard 1/3
+try 2 merge seed-4 third-2 --output merged --force
+says "belongs to another ensemble"
+try 2 $(echo "$begin" | sed 's/--seed 3/--seed 4/') --output third-1 --shard 2/3
+says "belongs to another ensemble"
+
+case_is "shards side by side in one directory"
+pids=
+for k in 1 2 3; do
+    timeout $patience "$program" $begin --output beside --shard $k/3 --threads 1 >out.$k 2>err.$k &
+    pids="$pids $!"
+done
+for pid in $pids; do
+    ends=0
+    wait "$pid" || ends=$?
+    cat err.[123] >err
+    holds "a shard failed" test $ends -eq 0
+done
+holds "other bytes of shards side by side" same_ensemble whole beside
+holds "no shard has written the statistics" grep -q "^t = 2" out.1 out.2 out.3
+
+case_is "an ensemble by MPI"
+# mpi_ensemble STATUS RANKS "OPTION.." ARGUMENT...: mpirun's own options in one word.
+mpi_ensemble() {
+    status=$1 ranks=$2 options=$3
+    shift 3
+    by_mpi $status -n $ranks $options "$mpi_program" "$@"
+}
+if has_mpi; then
+    words=${begin%--no-page}
+    mpi_ensemble 0 3 "" $words --output by-mpi
+    prints "^t = 2, $members members$"
+    silent
+    holds "other bytes by MPI" same_ensemble whole by-mpi
+    mpi_ensemble 2 2 "" $words --output by-mpi
+    says "'by-mpi' holds an ensemble: 'dalembert resume by-mpi' continues it, --force overwrites it"
+    mpi_ensemble 0 9 "" $words --output by-mpi --force
+    holds "other bytes of more processes than chunks" same_ensemble whole by-mpi
+    mpi_ensemble 2 2 "" $words
+    says "^dalembert: --output is missing; usage: mpirun dalembert-mpi ensemble SYSTEM"
+    mpi_ensemble 2 2 "" $words --output unmade --vary "k=normal(0,1)"
+    says "^dalembert: --vary: unknown start value or parameter 'k'"
+    mpi_ensemble 2 2 "" --resume --output unmade
+    holds "something was made" test ! -e unmade
+    mpi_ensemble 0 1 "" ensemble --help
+    prints '^usage: mpirun dalembert-mpi ensemble SYSTEM'
+    silent
+    # Rank 0 in its second chunk; rank 1 ends by itself.
+    for killed_by in 9:137 2:130; do
+        rm -rf stopped
+        mpi_ensemble ${killed_by#*:} 2 "-x LD_PRELOAD=$top/raise_signal.so -x RAISE=${killed_by%:*} -x RAISE_AT=12
+            -x RAISE_WRITE=1" $words --output stopped --checkpoint 0
+        holds "it is finished" test ! -e stopped/statistics.csv
+        holds "no chunk is done" grep -qa "$(printf '\001')" stopped/chunks-1-of-2
+        cp -r stopped stopped-too
+        mpi_ensemble 0 3 "" --resume --output stopped
+        holds "other bytes, resumed by MPI" same_ensemble whole stopped
+        try 0 resume stopped-too --no-page
+        holds "statistics more than once" test "$(grep -c '^t = 2' out)" -eq 1
+        holds "other bytes, resumed" same_ensemble whole stopped-too
+        rm -r stopped-too
+    done
+fi
+
+case_is "two processes on one ensemble"
+"$program" ensemble line.yaml --integrator rk4 --step 1e-6 --time 1e6 --native off --threads 1 --members 300 --seed 1 \
+    --vary "k=normal(0,0.1)" --output busy >out 2>err &
+other=$!
+holds "no directory" reaches $other test -e busy/chunks
+holds "no signals are caught" ready $other
+try 2 resume busy
+says "'busy/chunks': another process is writing to it"
+ends_by KILL 137 $other
+
+case_is "an ensemble is resumed"
+try 2 $begin --output whole
+says "dalembert: 'whole' holds an ensemble: 'dalembert resume whole' continues it, --force overwrites it"
+try 0 resume whole
+holds "other bytes after a second end" same_ensemble whole other
+try 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --output whole
+if raises; then
+    RAISE_WRITE=1
+    export RAISE_WRITE
+    for call in 1 4 5 9 13 17 22; do
+        rm -rf killed
+        cut_off 137 9 $call $begin --output killed --threads 1 --checkpoint 0
+        again=$begin
+        [ -e killed/manifest.json ] && again="resume killed"
+        cut_off 137 9 3 $again $([ "$again" = "$begin" ] && echo --output killed) --threads 2
+        unset RAISE_WRITE
+        [ -e killed/manifest.json ] && again="resume killed --no-page"
+        try 0 $again $([ "$again" = "$begin" ] && echo --output killed)
+        holds "killed at $call: other bytes" same_ensemble whole killed
+        RAISE_WRITE=1
+        export RAISE_WRITE
+    done
+    cut_off 130 2 7 $begin --output interrupted --checkpoint 0 --threads 1
+    says "interrupted; resume with: dalembert resume interrupted"
+    unset RAISE_WRITE
+    try 0 resume interrupted --no-page
+    holds "interrupted: other bytes" same_ensemble whole interrupted
+fi
+rm killed/final.npy
+try 2 resume killed
+says "'killed/final.npy' is missing: the ensemble cannot be continued"
+printf x >killed/final.npy
+try 2 resume killed
+says "'killed/final.npy' is not the file that was begun"
+
+case_is "an ensemble on a full disk"
+expected=4
+(ulimit -f 100 && exec timeout $patience "$program" $begin --output full) >out 2>err
+ended $? ensemble
+[ -s err ] && says "cannot write 'full/.*.npy': File too large"
+
+case_is "members that fail"
+cat >root.yaml <<'END'
+coordinates: [x]
+parameters: {s: 1}
+lagrangian: x'^2/2
+forces: {x: -s*sqrt(x)}
+start: {x: 1}
+END
+try 0 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --space physical --members 300 --seed 1 \
+    --vary "s=uniform(0,20)" --output failing --no-page
+lost=$(($(wc -l <failing/failures.csv) - 1))
+says "^dalembert: $lost of 300 members failed:$"
+says "^dalembert: $lost: "
+holds "$lost failed" test $lost -gt 100 -a $lost -lt 299
+holds "failed members are counted" test "$(column count failing/statistics.csv | sort -u)" -eq $((300 - lost))
+holds "failed members have states" test \
+    "$(numbers_of failing/final.npy 2 300 | grep -c nan)" -eq $lost
+# Member and t are those of the message: a = sqrt(x) is not defined in the step from there.
+holds "failures without their messages" awk -F, '
+    NR == 1 { if ($5 != "message") exit 1; next }
+    { t = $NF; sub(/.* t = /, "", t); if ($NF !~ /^"?a value is not finite in the step of 0.01 from/ || t != $2) exit 1 }
+    END { exit NR < 100 }' failing/failures.csv
+for k in 1 2; do
+    try 0 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --space physical --members 300 --seed 1 \
+        --vary "s=uniform(0,20)" --output failing-$k --no-page --shard $k/2 --native off
+done
+try 0 merge failing-1 failing-2 --output failing-both --no-page
+holds "other failures, merged" same_ensemble failing failing-both
+try 0 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --space physical --members 9 --seed 1 \
+    --vary "s=uniform(0,1)" --output failing-both --force --no-page
+holds "messages of an ensemble before" test ! -e failing-both/messages
+holds "failures without their draws" awk -F, 'NR > 1 && !($4 > 0 && $2 < 1) { exit 1 }' failing/failures.csv
+try 3 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --members 9 --seed 1 --vary "s=uniform(50,60)" \
+    --output lost --no-page
+says "9 of 9 members failed"
+try 3 ensemble chaplygin-sleigh --integrator rk4 --step 0.01 --time 1 --members 9 --seed 1 --consistent off \
+    --vary "y2'=uniform(1,2)" --output off --no-page
+says "9 of 9 members failed"
+
+case_is "wrong ensembles"
+wrong() {
+    message=$1
+    shift
+    try 2 ensemble line.yaml --integrator rk4 --step 0.1 --time 1 --output wrong "$@"
+    says "$message"
+    empty
+}
+one="--members 10 --seed 1"
+wrong "--vary: unknown start value or parameter 'k2'; did you mean 'k'\?" $one --vary "k2=normal(0,1)"
+wrong "--vary: k: the standard deviation -1 is negative" $one --vary "k=normal(0,-1)"
+wrong "--vary: k: uniform needs LOW < HIGH" $one --vary "k=uniform(1,0)"
+wrong "--vary: unknown distribution 'gauss'" $one --vary "k=gauss(1,0)"
+wrong "--vary: 'k' is not NAME=DISTRIBUTION" $one --vary k
+wrong "--vary: k is varied twice" $one --vary "k=normal(0,1)" --vary "k=uniform(0,1)"
+wrong "--members: 0 is not in 1..1000000000" --members 0 --seed 1 --vary "k=normal(0,1)"
+wrong "--members: 1e12 is not in 1..1000000000" --members 1e12 --seed 1 --vary "k=normal(0,1)"
+wrong "--seed: -1 is not in 0\.\." --members 10 --seed -1 --vary "k=normal(0,1)"
+wrong "--seed is missing" --members 10 --vary "k=normal(0,1)"
+wrong "--vary is missing" $one
+wrong "--times: 0.25 is not a whole number of steps of 0.1" $one --vary "k=normal(0,1)" --times 0.25,1
+wrong "--quantiles: 2 is not from 0 to 1" $one --vary "k=normal(0,1)" --quantiles 0.5,2
+wrong "--axes: 'x' is not two columns" $one --vary "k=normal(0,1)" --axes x
+wrong "unknown column 'y'" $one --vary "k=normal(0,1)" --axes "x,y"
+wrong "--shard: '3/2' is not K/N" $one --vary "k=normal(0,1)" --shard 3/2
+holds "a directory was made" test ! -e wrong
+mkdir wrong
+printf x >wrong/manifest.json
+wrong "'wrong' holds something else" $one --vary "k=normal(0,1)"
+
+case_is "the page of an ensemble"
+if there gnuplot; then
+    try 0 report whole
+    for figure in cloud-1 cloud-3 histogram-1 histogram-6 band-2; do
+        holds "no $figure" grep -q '</svg>' whole/report/$figure.svg
+    done
+    holds "no table" grep -q 'Statistics at t = 2' whole/report/index.html
+    holds "nothing about the system" grep -q "<h1>Chaplygin.*s symmetric sleigh, linear" whole/report/index.html
+    holds "nothing about what varies" grep -q '<dt>added to each</dt>' whole/report/index.html
+    # Moved along y1 the members have the same phi, which has no figure.
+    try 0 ensemble chaplygin-sleigh --members 20 --seed 3 --vary "y1=uniform(0,1)" --time 1 --space physical \
+        --output shifted
+    holds "no figure of what varies" test -e shifted/report/histogram-1.svg
+    holds "a figure of what does not" test ! -e shifted/report/histogram-3.svg
+fi
