@@ -23,11 +23,13 @@ STATIC = 'libdalembert.a'
 # What observers.c adds, and free for texts that the library allocates.
 ADDED = '''
 extern "Python" dal_status python_poll(void *user, dal_run *run);
+extern "Python" dal_status python_event(void *user, dal_run *run, const dal_occurrence *event);
 extern "Python" dal_status python_cross(void *user, dal_run *run, const dal_crossing *crossing);
 extern "Python" dal_status python_progress(void *user, double done);
 extern "Python" int python_stop(void *user);
 dal_status python_rows(dal_run *run, long long count, const double *times, double *rows,
                        long long *made, dal_error *error);
+dal_status python_events(dal_run *run, double T, void *user, dal_error *error);
 dal_status python_follow(dal_run *run, double T, long long every, dal_statistics *statistics,
                          dal_error *error);
 void free(void *text);

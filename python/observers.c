@@ -1,11 +1,12 @@
-/* observers.c - observers of runs in C, so that neither rows nor steps call Python; only the polls
- * do, which let it handle signals. */
+/* observers.c - observers of runs in C, so that neither rows nor steps call Python; only events and
+ * the polls do, which let it handle signals. */
 #include <dalembert_analysis.h>
 #include <dalembert_codegen.h>
 #include <stdlib.h>
 #include <string.h>
 
 static dal_status python_poll(void *user, dal_run *run);
+static dal_status python_event(void *user, dal_run *run, const dal_occurrence *event);
 
 /* ---- rows at times that are given ---------------------------------------------------------- */
 
@@ -43,19 +44,35 @@ static dal_status python_rows(dal_run *run, long long count, const double *times
     return status;
 }
 
+/* ---- events -------------------------------------------------------------------------------- */
+
+/* Advances a run to time T and calls python_event with `user` after each event. */
+static dal_status python_events(dal_run *run, double T, void *user, dal_error *error)
+{
+    const dal_observer observer = {.user = user, .event = python_event, .poll = python_poll};
+    return dal_run_sample(run, T, 1, 1, &observer, error);
+}
+
 /* ---- statistics of all observables --------------------------------------------------------- */
 
 typedef struct followed {
     dal_statistics *statistics;
     int observables;
+    double *shifted; /* [observables] */
 } followed;
 
 static dal_status add_values(void *user, dal_run *run, int count, const double *t,
                              const double *values, size_t stride)
 {
     const followed *f = user;
-    (void)run;
-    dal_statistics_add_many(f->statistics, f->observables, count, t, values, stride);
+    if (dal_run_system(run)->events == 0) {
+        dal_statistics_add_many(f->statistics, f->observables, count, t, values, stride);
+        return DAL_OK;
+    }
+    /* With events values come one by one; what events add is no drift. */
+    for (int i = 0; i < f->observables; i++)
+        f->shifted[i] = values[(size_t)i * stride] - dal_run_jump(run, i);
+    dal_statistics_add(f->statistics, f->observables, t[0], f->shifted);
     return DAL_OK;
 }
 
@@ -64,9 +81,13 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
 static dal_status python_follow(dal_run *run, double T, long long every, dal_statistics *statistics,
                                 dal_error *error)
 {
-    followed f = {statistics, dal_run_observables(run)};
+    followed f = {statistics, dal_run_observables(run), NULL};
     const dal_observer observer = {
         .user = &f, .values = add_values, .every = every, .poll = python_poll};
+    f.shifted = malloc((size_t)f.observables * sizeof *f.shifted);
+    if (!f.shifted) return DAL_MEMORY;
     dal_statistics_start(statistics, f.observables);
-    return dal_run_sample(run, T, 1, 0, &observer, error);
+    const dal_status status = dal_run_sample(run, T, 1, 0, &observer, error);
+    free(f.shifted);
+    return status;
 }

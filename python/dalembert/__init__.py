@@ -7,18 +7,20 @@
 10.0
 
 Systems come from YAML text (`System`), files and the library; a `Run` steps one motion, a `Batch`
-many; `trend`, `order`, `lyapunov`, `section` and `explain` measure them; `generate` writes C.
+many, `ensemble` many with drawn starts; `trend`, `order`, `lyapunov`, `section` and `explain` measure
+them; `generate` writes C.
 """
 from ._library import lib
 from .analysis import (Average, Lyapunov, Order, Section, Shares, Trend, explain, generate, lyapunov,
                        order, section, trend)
 from .errors import Error, InputError, StepError
-from .run import Batch, Run
+from .members import Ensemble, ensemble
+from .run import Batch, Event, Run
 from .spec import integrators
 from .system import System, builtin_systems
 
 __version__ = f'{lib.DAL_VERSION_MAJOR}.{lib.DAL_VERSION_MINOR}.{lib.DAL_VERSION_PATCH}'
 
-__all__ = ['Average', 'Batch', 'Error', 'InputError', 'Lyapunov', 'Order', 'Run', 'Section', 'Shares',
-           'StepError', 'System', 'Trend', 'builtin_systems', 'explain', 'generate', 'integrators',
-           'lyapunov', 'order', 'section', 'trend']
+__all__ = ['Average', 'Batch', 'Ensemble', 'Error', 'Event', 'InputError', 'Lyapunov', 'Order', 'Run',
+           'Section', 'Shares', 'StepError', 'System', 'Trend', 'builtin_systems', 'ensemble', 'explain',
+           'generate', 'integrators', 'lyapunov', 'order', 'section', 'trend']

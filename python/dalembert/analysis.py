@@ -94,7 +94,8 @@ def trend(system: SystemLike, integrator: str | None = None, time: float | None 
     Returns
     -------
     dict of str to Trend
-        By the names of the observables: ``'D1'``, ``'E'``, ``'H'``, invariants, ``'error'``.
+        By the names of the observables: ``'D1'``, ``'E'``, ``'H'``, invariants, ``'error'``; without
+        what events add to E and to the invariants.
 
     Raises
     ------
@@ -108,10 +109,11 @@ def trend(system: SystemLike, integrator: str | None = None, time: float | None 
     statistics, trends = ffi.new('dal_statistics[]', len(names)), ffi.new('dal_trend[]', len(names))
     record = ffi.new('dal_error *')
     status = lib.python_follow(run, spec.time(time), every, statistics, record)
-    lib.dal_run_classify(run, statistics, status != lib.DAL_OK, trends)
+    has_ended = status in (lib.DAL_OK, lib.DAL_STOPPED)
+    lib.dal_run_classify(run, statistics, not has_ended, trends)
     found = {name: make_trend(trends[i]) for i, name in enumerate(names)}
     try:
-        check(status, record, stepping=True)
+        check(lib.DAL_OK if has_ended else status, record, stepping=True)
     except Error as error:
         error.partial = found
         raise

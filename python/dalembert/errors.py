@@ -36,10 +36,11 @@ class InputError(Error, ValueError):
 
 
 class StepError(Error, ArithmeticError):
-    """A step failed; the run is as it was before it."""
+    """A step failed, or an event cannot be passed; the run is as it was before it."""
 
 
-STEP = {lib.DAL_SINGULAR, lib.DAL_SINGULAR_MASS, lib.DAL_NOT_FINITE, lib.DAL_NOT_CONVERGED, lib.DAL_GAUGE}
+STEP = {lib.DAL_SINGULAR, lib.DAL_SINGULAR_MASS, lib.DAL_NOT_FINITE, lib.DAL_NOT_CONVERGED, lib.DAL_GAUGE,
+        lib.DAL_RANK, lib.DAL_INCONSISTENT, lib.DAL_EVENT, lib.DAL_STOPPED}
 OTHER = {lib.DAL_IO, lib.DAL_INTERRUPTED}
 
 # The exception that ended a callback, to be raised when the library has returned.

@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from typing import Any, Mapping, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib
-from .errors import Error, InputError, call, call_steps, check, make_error
+from .errors import Error, InputError, call, call_steps, check, keep_exception, make_error
 from .spec import Settings, Spec, SystemLike, chunks, make_settings
 
 Array = npt.NDArray[np.float64]
@@ -38,6 +39,45 @@ def is_consistent(status: int, record: Any) -> bool:
     if status != lib.DAL_INCONSISTENT:
         check(status, record)
     return status != lib.DAL_INCONSISTENT
+
+
+@dataclass(frozen=True)
+class Event:
+    """An event of a run.
+
+    Attributes
+    ----------
+    event : int
+        Its place in ``System.events``.
+    name : str
+        ``'event 1 (y - r)'``.
+    t : float
+    direction : int
+        1: its formula increased along the run, -1: it decreased.
+    before, state : ndarray
+        The state before and after it, [dimension].
+    """
+
+    event: int
+    name: str
+    t: float
+    direction: int
+    before: Array
+    state: Array
+
+
+def state_at(numbers: Any, dimension: int) -> Array:
+    """A copy of a state."""
+    return np.frombuffer(ffi.buffer(numbers, 8 * dimension), dtype=np.float64).copy()
+
+
+@ffi.def_extern(error=lib.DAL_INTERRUPTED, onerror=keep_exception)
+def python_event(user: Any, run: Any, event: Any) -> int:
+    """Adds an event to the list behind user."""
+    found, names, dimension = ffi.from_handle(user)
+    found.append(Event(event.event, names[event.event], event.t, event.direction,
+                       state_at(event.before, dimension), state_at(lib.dal_run_state(run), dimension)))
+    return lib.DAL_OK
 
 
 class Run:
@@ -106,8 +146,7 @@ class Run:
     @property
     def state(self) -> Array:
         """A copy of the present state, [dimension], ordered as `names`."""
-        state = ffi.buffer(lib.dal_run_state(self._run), 8 * self.dimension)
-        return np.frombuffer(state, dtype=np.float64).copy()
+        return state_at(lib.dal_run_state(self._run), self.dimension)
 
     def set_state(self, state: npt.ArrayLike, time: float | None = None) -> None:
         """Replaces the state and, where it is given, the time; clears all other memory of steps."""
@@ -118,7 +157,7 @@ class Run:
 
     @property
     def observables(self) -> Array:
-        """D1, .., E, H, norms, invariants and the error, ordered as `observable_names`."""
+        """D1, .., E, H, norms, invariants, what is observed and the error, ordered as `observable_names`."""
         values = np.empty(len(self.observable_names))
         check(lib.dal_run_observe(self._run, doubles(values)), ffi.new('dal_error *'), stepping=True)
         return values
@@ -155,6 +194,8 @@ class Run:
     def advance(self, steps: int = 1) -> None:
         """Takes a number of steps, or those before the first that fails.
 
+        An event that stops the run ends the call; see `stopped`.
+
         Raises
         ------
         StepError
@@ -163,7 +204,52 @@ class Run:
         if steps < 0:
             raise InputError('DAL_ARGUMENT', f'{steps} steps cannot be taken')
         for count in chunks(steps, CHUNK):
-            call_steps(lib.dal_run_advance, self._run, count)
+            self._call(lib.dal_run_advance, self._run, count)
+            if self.stopped is not None:
+                return
+
+    def _call(self, function: Any, *arguments: Any) -> None:
+        """Calls a function that takes steps, unless an event has stopped the run; one may."""
+        was_stopped = self.stopped is not None
+        try:
+            call_steps(function, *arguments)
+        except Error as error:
+            if error.status != 'DAL_STOPPED' or was_stopped:
+                raise
+
+    def events(self, time: float) -> list[Event]:
+        """Advances the run to a time and gives the events on the way.
+
+        An event that stops the run is the last one.
+
+        Raises
+        ------
+        StepError
+            Its ``partial`` has the events before the failure, as of a ball that comes to rest.
+        """
+        found: list[Event] = []
+        handle = ffi.new_handle((found, self.system.events, self.dimension))
+        try:
+            self._call(lib.python_events, self._run, float(time), handle)
+        except Error as error:
+            error.partial = found
+            raise
+        return found
+
+    @property
+    def event_counts(self) -> tuple[int, ...]:
+        """How often each event of the system has happened."""
+        return tuple(lib.dal_run_event_count(self._run, i) for i in range(len(self.system.events)))
+
+    @property
+    def stopped(self) -> int | None:
+        """The event that stopped the run, by its place in ``System.events``; None: none did."""
+        return lib.dal_run_stopped(self._run) - 1 if lib.dal_run_stopped(self._run) else None
+
+    @property
+    def jumps(self) -> Array:
+        """What events have added to E and to the invariants, 0 elsewhere; ordered as `observables`."""
+        return np.array([lib.dal_run_jump(self._run, i) for i in range(len(self.observable_names))])
 
     def trajectory(self, times: npt.ArrayLike) -> npt.NDArray[np.void]:
         """Advances the run and gives a row at each time.
@@ -180,6 +266,7 @@ class Run:
         -------
         numpy structured array
             With the columns of ``dalembert run``: ``rows['t']``, ``rows["x'"]``, ``rows['D1']``.
+            Where an event stops the run, its row is the last.
 
         Raises
         ------
@@ -201,11 +288,11 @@ class Run:
                             'offsets': [8 * i for i in kept], 'itemsize': 8 * len(names)})
         rows = table.view(columns)[:, 0]
         try:
-            call_steps(lib.python_rows, self._run, len(when), doubles(when), doubles(table), made)
+            self._call(lib.python_rows, self._run, len(when), doubles(when), doubles(table), made)
         except Error as error:
             error.partial = rows[:made[0]]
             raise
-        return rows
+        return rows[:made[0]]
 
     def save(self) -> bytes:
         """All that passes from one step to the next."""

@@ -48,7 +48,8 @@ class System:
     name, title, reference, text : str
     n, m : int
         Coordinates; constraints.
-    coordinates, invariants, tags : tuple of str
+    coordinates, invariants, observed, tags, events : tuple of str
+        An event is named ``'event 1 (y - r)'``; what is observed, by its formula.
     parameters : dict of str to float
         Default values.
     properties : frozenset of str
@@ -58,15 +59,21 @@ class System:
     """
 
     def __init__(self, text: str, name: str = 'system'):
-        self.name, self.text = name, text
+        self._make(text, name, ())
+
+    def _make(self, text: str, name: str, observed: tuple[str, ...]) -> None:
+        self.name, self.text, self.observed = name, text, observed
         self._model = self._read()
+        for number, formula in enumerate(observed, 1):
+            call(lib.dal_model_observe, self._model, formula.encode(), number, 1)
         self._system = self._derive(self._model)
         s = self._system
         self.title, self.reference = text_of(s.title), text_of(s.reference)
         self.n, self.m = s.n, s.m
         self.coordinates = tuple(text_of(s.coordinate[i]) for i in range(s.n))
-        self.invariants = tuple(text_of(s.invariant[i]) for i in range(s.invariants))
+        self.invariants = tuple(text_of(s.invariant[i]) for i in range(s.invariants - s.observed))
         self.tags = tuple(text_of(s.tag[i]) for i in range(s.tags))
+        self.events = tuple(text_of(s.event[i].name) for i in range(s.events))
         self.parameters = {text_of(s.parameter[i]): s.value[i] for i in range(s.parameters)}
         self.properties = frozenset(name[4:] for name in PROPERTIES if s.properties & getattr(lib, name))
         self.defaults = self._read_defaults()
@@ -85,6 +92,34 @@ class System:
         """The system of a file."""
         with open(path, encoding='utf-8') as file:
             return cls(file.read(), os.fspath(path))
+
+    def observe(self, *formulas: str) -> System:
+        """The same system with formulas that its runs observe, too.
+
+        Parameters
+        ----------
+        *formulas : str
+            ``'abs(h1) - 0.3*m'``, with the names that an invariant may use.  Their values need not
+            be conserved; their columns are named by their texts.
+
+        Returns
+        -------
+        System
+            Its runs have the bits of those of this system.
+
+        Raises
+        ------
+        InputError
+            With the number of the formula as the line, and the column in it.
+        TypeError
+            A formula is not a str.
+        """
+        for formula in formulas:
+            if not isinstance(formula, str):
+                raise TypeError(f'a formula to observe is a str, not {formula!r}')
+        other = object.__new__(System)
+        other._make(self.text, self.name, self.observed + formulas)
+        return other
 
     def _read(self) -> Any:
         model, text = ffi.new('dal_model **'), self.text.encode()

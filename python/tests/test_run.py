@@ -39,6 +39,46 @@ def test_rows_of_the_program(program):
         assert np.array_equal(rows[name], expected[other]), name
 
 
+def test_observed(program):
+    """The lateral force on a sleigh that runs at v and turns at omega is m v omega."""
+    parameters = {'m': 2, 'v0': 3, 'omega': 1}
+    sleigh = dalembert.System.builtin(SLEIGH)
+    seen = sleigh.observe('abs(h1) - 0.3*m').observe("y1'^2 + y2'^2")
+    assert sleigh.observed == () and seen.invariants == sleigh.invariants
+    assert seen.observed == ('abs(h1) - 0.3*m', "y1'^2 + y2'^2")
+    rows = dalembert.Run(seen, 'gauss8', step=0.05, parameters=parameters).trajectory([0, 1.03, 2])
+    assert np.allclose(rows[seen.observed[0]], 2 * 3 * 1 - 0.3 * 2, atol=1e-12, rtol=0)
+    assert np.allclose(rows[seen.observed[1]], 3**2, atol=1e-12, rtol=0)
+    bare = dalembert.Run(sleigh, 'gauss8', step=0.05, parameters=parameters).trajectory([0, 1.03, 2])
+    for name in bare.dtype.names:
+        assert np.array_equal(rows[name], bare[name]), name
+    text = program('run', SLEIGH, '--integrator', 'gauss8', '--step', '0.05', '--times', '0,1.03,2',
+                   '--set', 'm=2', '--set', 'v0=3', '--observe', '; '.join(seen.observed))
+    assert tuple(text.split('\n')[0].split(',')) == rows.dtype.names
+    assert np.array_equal(np.array(text.split('\n')[2].split(','), dtype=float), list(rows[1]))
+
+
+def test_observed_elsewhere():
+    """Batches and measurements take a system that observes."""
+    seen = dalembert.System.builtin(SLEIGH).observe('h1 + m')
+    batch = dalembert.Batch(seen, 'rk4', 3, step=0.1)
+    batch.advance(10)
+    run = dalembert.Run(SLEIGH, 'rk4', step=0.1)
+    run.advance(10)
+    assert np.array_equal(batch.state()[2], run.state)
+    assert 'h1 + m' in dalembert.trend(seen, 'rk4', 10, step=0.1)
+    assert dalembert.section(seen, 'y1 = 0', 'gauss8', 10, step=0.1).up == 1
+
+
+def test_wrong_formula():
+    for formulas, place in (('y1 + 1', 'h1 + kk'), (2, 6)), (("y1'",), (1, 1)), (('y1^2', 'y1^2'), (2, 1)):
+        with pytest.raises(dalembert.InputError) as caught:
+            dalembert.System.builtin(SLEIGH).observe(*formulas)
+        assert (caught.value.line, caught.value.column) == place
+    with pytest.raises(TypeError, match="not \\['y1 \\+ 1'\\]"):
+        dalembert.System.builtin(SLEIGH).observe(['y1 + 1'])
+
+
 @pytest.mark.parametrize('step', [0.05, -0.05])
 def test_start_time(step):
     """x'' = cos t from any time, either way."""
@@ -208,6 +248,7 @@ class Alarm(Exception):
 @pytest.mark.parametrize('endless', [
     lambda run: run.advance(2 ** 50),
     lambda run: run.trajectory([0, 1e12]),
+    lambda run: run.events(1e12),
     lambda run: dalembert.trend(run.system, 'rk4', 1e12),
     lambda run: dalembert.section(run.system, 'x', 'rk4', 1e12),
     lambda run: dalembert.lyapunov(run.system, 'rk4', 1e12),
@@ -245,3 +286,26 @@ def test_other_threads_run():
         os._exit(0)
     """)
     assert subprocess.run([sys.executable, '-c', script], timeout=600).returncode == 0
+
+
+def test_solved_start():
+    """x' = 1 gives y' = tan a and a' = tan(f)/(l cos a); a first guess chooses the root of a circle."""
+    car = dalembert.System("""
+coordinates: [x, y, a]
+parameters: {l: 1.2, f: 0.4}
+lagrangian: (x'^2 + y'^2 + a'^2)/2
+constraints: [x'*sin(a) - y'*cos(a), x'*cos(a) + y'*sin(a) - l*a'/tan(f)]
+start: {a: 0.3, x': 1, solve: [y', a']}
+""")
+    state = dalembert.Run(car, 'rk4', step=0.1).state
+    assert state[3:6] == pytest.approx([1, np.tan(0.3), np.tan(0.4) / 1.2 / np.cos(0.3)], abs=1e-14)
+    circle = dalembert.System("""
+coordinates: [x, y]
+lagrangian: (x'^2 + y'^2)/2
+constraints: [x'^2 + y'^2 - 25]
+start: {x': 3, solve: [y']}
+""")
+    assert dalembert.Run(circle, 'rk4', step=0.1, start={"y'": -1}).state[3] == pytest.approx(-4)
+    with pytest.raises(dalembert.InputError, match='first guess 0; give another one') as failure:
+        dalembert.Run(circle, 'rk4', step=0.1)
+    assert (failure.value.line, failure.value.column) == (5, 24)
