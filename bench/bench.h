@@ -38,27 +38,48 @@ static inline double bench_now(void)
     return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
 }
 
-/* The state is that of the first round. */
-static inline int bench_measure(const bench_contender *contender)
+/* Nanoseconds of `repeats` calls of work, each after one of begin, unless it is NULL, that is not
+ * counted; negative: one failed. */
+static inline double bench_time(const bench_contender *contender, int (*begin)(void *self),
+                                long repeats, double *end)
+{
+    double taken = 0.0, since = bench_now();
+    for (long i = 0; i < repeats; i++) {
+        if (begin) {
+            taken += bench_now() - since;
+            if (begin(contender->self)) return -1.0;
+            since = bench_now();
+        }
+        if (contender->work(contender->self, end)) return -1.0;
+    }
+    return taken + (bench_now() - since);
+}
+
+/* The state is that of the first round.  begin brings the contender to its start where its work
+ * does not do so. */
+static inline int bench_measure_from(const bench_contender *contender, int (*begin)(void *self))
 {
     static double end[BENCH_MAX_SIZE], later[BENCH_MAX_SIZE];
     const char *ms = getenv("BENCH_MS");
     const double wanted = 1e6 * (ms ? atof(ms) : 20.0);
     double best = INFINITY;
-    if (contender->work(contender->self, end)) return 1;
-    double begin = bench_now();
-    if (contender->work(contender->self, later)) return 1;
-    const long repeats = 1 + (long)(wanted / (bench_now() - begin));
-    for (int round = 0; round < BENCH_ROUNDS; round++) {
-        begin = bench_now();
-        for (long i = 0; i < repeats; i++)
-            if (contender->work(contender->self, later)) return 1;
-        best = fmin(best, (bench_now() - begin) / ((double)repeats * contender->steps));
+    if (bench_time(contender, begin, 1, end) < 0.0) return 1;
+    const double once = bench_time(contender, begin, 1, later);
+    const long repeats = 1 + (long)(wanted / once);
+    for (int round = 0; round < BENCH_ROUNDS && once >= 0.0; round++) {
+        const double taken = bench_time(contender, begin, repeats, later);
+        if (taken < 0.0) return 1;
+        best = fmin(best, taken / ((double)repeats * contender->steps));
     }
     printf("%.5g", best);
     for (int i = 0; i < contender->size; i++) printf(" %.17g", end[i]);
     putchar('\n');
-    return 0;
+    return once < 0.0;
+}
+
+static inline int bench_measure(const bench_contender *contender)
+{
+    return bench_measure_from(contender, NULL);
 }
 
 static inline int bench_unknown(int argc, char **argv)

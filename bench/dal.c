@@ -2,26 +2,28 @@
  *
  *     dal ENGINE METHOD SPACE SYSTEM
  *
- *     ENGINE   tape: formulas, interpreted; unchecked: without the rank check; callback: the field
- *              as a C callback, written by hand; batchN: formulas, N trajectories at once
+ *     ENGINE   tape: formulas, interpreted; unchecked: without the rank check; native: compiled, in
+ *              the cache build/bench/cache; callback: the field as a C callback, written by hand;
+ *              batchN: formulas, N trajectories at once; compiledN: the same, compiled
  *     METHOD   as dal_method_parse reads it          SPACE   physical, lifted
- *     SYSTEM   A, B3 (bench/systems), B101, C (examples); C0: the fluid without pair forces, all
- *              that is left of C being the integrator and the thermostat; RN: N coordinates, N/4
- *              constraints whose Jacobian varies */
+ *     SYSTEM   a built-in one, or A, B3, ... (bench/systems), B101, C (examples); C0: the fluid
+ *              without pair forces, all that is left of C being the integrator and the thermostat;
+ *              RN: N coordinates, N/4 constraints whose Jacobian varies */
 #define _POSIX_C_SOURCE 200809L
 #include "../examples/contact_chain.h"
 #include "../examples/isokinetic_fluid.h"
 #include "bench.h"
+#include "model.h"
+#include <dalembert_codegen.h>
 
-typedef double real;
-static inline void real_sincos(real x, real *s, real *c)
-{
-    *s = sin(x);
-    *c = cos(x);
-}
+#include "real.inc"
+
 #include "fields.inc"
 
 #define FLUID_STEP 0.002
+#define CACHE      "build/bench/cache"
+
+enum { MAX_COMPILE_SECONDS = 120 };
 
 typedef struct contender {
     dal_run_spec spec;
@@ -94,7 +96,13 @@ static dal_status make_chain(dal_model **model, int n, dal_error *error)
     return dal_model_read(model, "chain", text, (size_t)(end - text), error);
 }
 
-/* The system of a name; formulas stand in bench/systems. */
+/* A model by its formulas: of a chain, or by its name. */
+static dal_status make_model(dal_model **model, const char *name, dal_error *error)
+{
+    if (name[0] == 'R') return make_chain(model, atoi(name + 1), error);
+    return bench_model(model, name, error);
+}
+
 static const dal_system *find_system(const char *engine, const char *name, dal_error *error)
 {
     static dal_system fluid, unchecked;
@@ -105,11 +113,7 @@ static const dal_system *find_system(const char *engine, const char *name, dal_e
     if (strcmp(name, "C") == 0 || strcmp(name, "C0") == 0) return &fluid;
     if (strcmp(name, "B101") == 0) return &chain_system;
     if (strcmp(engine, "callback") == 0) return strcmp(name, "A") == 0 ? &sleigh_by_hand : NULL;
-    char path[64];
-    snprintf(path, sizeof path, "bench/systems/%.20s.yaml", name);
-    const dal_status status = name[0] == 'R' ? make_chain(&model, atoi(name + 1), error)
-                                             : dal_model_read_file(&model, path, error);
-    if (status == DAL_OK) dal_model_system(model, &system, error);
+    if (make_model(&model, name, error) == DAL_OK) dal_model_system(model, &system, error);
     if (!system || strcmp(engine, "unchecked") != 0) return system;
     unchecked = *system;
     unchecked.properties &= ~(unsigned)DAL_D_RANK_CHECKED;
@@ -170,7 +174,11 @@ static int make(contender *j, char **argv, dal_error *error)
     if (dal_method_parse(&j->spec.method, argv[2], error)) return 1;
     if (dal_run_create(&j->run, &j->spec, error)) return 1;
     memcpy(j->start, dal_run_state(j->run), (size_t)dal_run_dimension(j->run) * sizeof *j->start);
-    return strncmp(argv[1], "batch", 5) == 0 ? make_batch(j, atoi(argv[1] + 5), error) : 0;
+    const dal_native_options native = {.cache = CACHE, .patience = MAX_COMPILE_SECONDS};
+    if (strcmp(argv[1], "native") == 0) return dal_run_native(j->run, &native, error) != DAL_OK;
+    if (strncmp(argv[1], "batch", 5) == 0) return make_batch(j, atoi(argv[1] + 5), error);
+    if (strncmp(argv[1], "compiled", 8) != 0) return 0;
+    return make_batch(j, atoi(argv[1] + 8), error) || dal_batch_native(j->batch, &native, error);
 }
 
 int main(int argc, char **argv)

@@ -14,12 +14,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-typedef double real;
-static inline void real_sincos(real x, real *s, real *c)
-{
-    *s = sin(x);
-    *c = cos(x);
-}
+#include "real.inc"
+
 #include "fields.inc"
 
 enum { STEPS = 1000 };

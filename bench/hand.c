@@ -7,18 +7,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "../examples/contact_chain.h"
 #include "bench.h"
+#include "real.inc"
 
-typedef double real;
-#ifdef HAND_OWN_SINCOS
-#include "kernel/elementary.h"
-static inline void real_sincos(real x, real *s, real *c) { dal_sincos(x, s, c); }
-#else
-static inline void real_sincos(real x, real *s, real *c)
-{
-    *s = sin(x);
-    *c = cos(x);
-}
-#endif
 #include "fields.inc"
 
 enum { SMALL_STEPS = 1000, LARGE_STEPS = 200, LARGE_DIM = 2 * CHAIN_N };

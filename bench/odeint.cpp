@@ -16,12 +16,8 @@ namespace odeint = boost::numeric::odeint;
 
 namespace scalar
 {
-typedef double real;
-static inline void real_sincos(real x, real *s, real *c)
-{
-    *s = sin(x);
-    *c = cos(x);
-}
+#include "real.inc"
+
 #include "fields.inc"
 } // namespace scalar
 

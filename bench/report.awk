@@ -1,4 +1,4 @@
-# report.awk - the log of run.sh, then the case table; see there.
+# report.awk - the log of run.sh (of=log), then the case table; see there.  Appends to output.
 
 function trim(s) { gsub(/^ +| +$/, "", s); return s }
 function abs(x) { return x < 0 ? -x : x }
@@ -33,15 +33,14 @@ function show(m, lo, hi, note,   ok, number) {
     ok = note == "" ? met(goal, m) : "null"
     number = "null,\"min\":null,\"max\":null"
     if (note == "") number = sprintf("%.4g,\"min\":%.4g,\"max\":%.4g", m, lo, hi)
-    printf "{\"case\":\"%s\",\"what\":\"%s\",\"median\":%s,\"goal\":%s,\"met\":%s}\n", name, what,
-        number, goal == "-" ? "null" : "\"" goal "\"", ok >output
+    printf "{\"case\":\"%s\",\"what\":\"%s\",\"a\":\"%s\",\"b\":\"%s\",\"median\":%s,\"goal\":%s,\"met\":%s}\n",
+        name, what, A, B, number, goal == "-" ? "null" : "\"" goal "\"", ok >>output
     if (note != "") printf "%-16s %-52s %s\n", name, what, note
     else printf "%-16s %-52s %8.4g  (%.4g to %.4g)  %-9s %-4s %s\n", name, what, m, lo, hi,
         goal, ok == "null" ? "" : ok == "true" ? "met" : "MISS", same
 }
 
-FNR == 1 { file++ }
-file == 1 {
+of == "log" {
     if ($2 == "skip") { missing[$1] = 1; next }
     if ($2 == "fail") { failed[$1] = 1; next }
     k = ++count[$1]
@@ -50,13 +49,28 @@ file == 1 {
     if (k == 1) state[$1] = at ? substr($2, at + 1) : ""
     next
 }
+/^## / {
+    heading = substr($0, 4)
+    unit = NF > 1 ? trim($2) : "time of one side / time of the other"
+    figure = NF > 2 ? trim($3) : "ratios"
+    sub(/ *\|.*/, "", heading)
+    text = ""
+    next
+}
+heading != "" && /^# / { text = text (text == "" ? "" : " ") substr($0, 3); next }
+heading != "" {
+    printf "{\"section\":\"%s\",\"unit\":\"%s\",\"figure\":\"%s\",\"text\":\"%s\"}\n", heading,
+        unit, figure, text >>output
+    heading = ""
+}
 /^ *(#|$)/ { next }
-FNR != 1 && !headed++ {
+!headed++ {
     printf "%-16s %-52s %8s  %s\n", "case", "what", "median", "(spread)  goal, end states"
 }
 {
     name = trim($1); what = trim($2); A = trim($3); B = trim($4)
     factor = $5 + 0; goal = trim($6); tolerance = trim($7); same = ""
+    if (A == "") { show(0, 0, 0, "not reached"); next }
     if (A in missing) { show(0, 0, 0, "skipped: no program for " A); next }
     if (B in missing) { show(0, 0, 0, "skipped: no program for " B); next }
     if (A in failed || B in failed) {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh CASES PROGRAMS OUTPUT - runs every contender of the case table in fresh processes, one
 # after the other, RUNS times (7); verifies that both sides of a case reach the same end state;
-# prints the median of each ratio with its spread as a table, and as JSON lines to OUTPUT.
+# prints the median of each ratio with its spread as a table, and as JSON lines to OUTPUT, for page.c.
 #
 # Each process gets a copy of its program, made for it: where the pages of a file happen to lie can cost
 # a few percent, and stays so as long as the file does.
@@ -13,13 +13,14 @@ cases=$1 programs=$2 output=$3
 runs=${RUNS:-7}
 here=$(dirname "$0")
 log=$(mktemp) || exit 1
-trap 'rm -f "$log" "$programs"/copy.*' EXIT
+trap 'rm -rf "$log" "$programs"/copy.*' EXIT
 
 contenders() {
     awk -F '|' '/^ *(#|$)/ { next } { for (i = 3; i <= 4; i++) {
         gsub(/^ +| +$/, "", $i); if ($i != "" && !seen[$i]++) print $i } }' "$cases"
 }
 
+machine=$(sh "$here/machine.sh" "$runs") || exit 1
 round=1
 while [ "$round" -le "$runs" ]; do
     contenders | while read -r name; do
@@ -35,4 +36,5 @@ while [ "$round" -le "$runs" ]; do
 done
 printf 'load %s, %s processes each, %s\n' "$(cut -d ' ' -f 1-3 /proc/loadavg)" "$runs" \
     "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)"
-awk -F '\t' -v output="$output" -f "$here/report.awk" "$log" FS='|' "$cases"
+printf '%s\n' "$machine" >"$output" || exit 1
+awk -F '\t' -v output="$output" -f "$here/report.awk" of=log "$log" of=cases FS='|' "$cases"

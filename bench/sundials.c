@@ -16,12 +16,8 @@
 #include <sundials/sundials_types.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-typedef double real;
-static inline void real_sincos(real x, real *s, real *c)
-{
-    *s = sin(x);
-    *c = cos(x);
-}
+#include "real.inc"
+
 #include "fields.inc"
 
 /* The iteration ends when the weighted norm of an increment is below 1e-4 of TOLERANCE |y|: at

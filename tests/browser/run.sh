@@ -1,6 +1,7 @@
 #!/bin/sh
-# run.sh PROGRAM - the pages of `dalembert report` in headless Chromium: in light and dark, 1280 and
-# 400 pixels wide, nothing is cut off, covered or too faint; page.js examines each page from inside.
+# run.sh PROGRAM - the pages of `dalembert report` and of the bench in headless Chromium: in light
+# and dark, 1280 and 400 pixels wide, nothing is cut off, covered or too faint; page.js examines each
+# page from inside.
 # script.py then uses them: keys, clicks and the pointer.
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
 here=$(cd "$(dirname "$0")" && pwd)
@@ -38,9 +39,12 @@ END_OF_STUDY
     "$program" report failed
     "$program" run pendulum-cvt --integrator gni --step 0.1 --time 2000 --samples 5000 --output bands
     "$program" report bands
+    "$program" run "$here/../../examples/ball-on-incline.yaml" --output bounces
+    "$program" report bounces
+    "${program%/*}/bench/page" bench "$here/bench.jsonl"
 } >log 2>&1 || { cat log; exit 1; }
 
-pages='study run orders cut failed bands'
+pages='study run orders cut failed bands bounces bench'
 # Each page with the script in it, in a frame of each width; the frames send home what they find.
 for page in $pages; do
     { cat $page/report/index.html; echo '<script>'; cat "$here/page.js"; echo '</script>'; } >$page.html
@@ -69,8 +73,8 @@ for scheme in light dark; do
     examined=$(grep -c "^examined: $scheme," dom)
     faults=$(grep -c '^fault:' dom)
     grep '^fault:' dom | head -20
-    [ "$examined" -eq 12 ] || { echo "browser: $examined of 12 pages were examined"; head -5 messages; }
-    [ "$examined" -eq 12 ] && [ "$faults" -eq 0 ] || failed=1
+    [ "$examined" -eq 16 ] || { echo "browser: $examined of 16 pages were examined"; head -5 messages; }
+    [ "$examined" -eq 16 ] && [ "$faults" -eq 0 ] || failed=1
     sed -n "s/^examined: /browser: /p" dom
 done
 if command -v python3 >/dev/null 2>&1; then

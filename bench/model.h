@@ -1,0 +1,17 @@
+/* model.h - the systems of the bench by their names. */
+#ifndef BENCH_MODEL_H
+#define BENCH_MODEL_H
+
+#include <dalembert.h>
+#include <stdio.h>
+
+/* A built-in system, or bench/systems/NAME.yaml. */
+static dal_status bench_model(dal_model **model, const char *name, dal_error *error)
+{
+    char path[64];
+    snprintf(path, sizeof path, "bench/systems/%.40s.yaml", name);
+    if (dal_model_builtin(model, name, NULL) == DAL_OK) return DAL_OK;
+    return dal_model_read_file(model, path, error);
+}
+
+#endif

@@ -1,0 +1,465 @@
+/* page.c - the page of the bench, made of its results.
+ *
+ *     page DIR RESULTS...       DIR/report/index.html, with figures by gnuplot
+ *
+ * RESULTS are JSON lines, as run.sh and native_auto.py write them:
+ *
+ *     {"processor": ...}   the machine; begins each file
+ *     {"section": ...}     a heading and a text; "figure" is what the results behind it are:
+ *     {"case": ...}        of "ratios" a ratio, of "sizes" the time of a step on a chain
+ *     {"system": ...}      of "runs" the seconds that a run takes in each mode
+ *
+ * The page is one of those of `dalembert report` (cli/report/report_page.h). */
+#define _POSIX_C_SOURCE 200809L
+#include "io/file.h"
+#include "io/gnuplot.h"
+#include "io/json.h"
+#include "report/report_plot.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_LINES = 4096, MAX_WORD = 32 };
+
+/* The lines of all files; those of a section stand together. */
+typedef struct results {
+    document line[MAX_LINES];
+    char *place[MAX_LINES]; /* of messages */
+    int count;
+} results;
+
+/* ---- results ------------------------------------------------------------------------------- */
+
+/* A value as it is written; NULL: the line has none of this name, or null. */
+static const char *get(const results *all, int i, const char *name)
+{
+    const document *line = &all->line[i];
+    const yaml_node_t *value = document_value(line, document_node(line, 1), name);
+    if (!value || value->type != YAML_SCALAR_NODE) return NULL;
+    const char *text = (const char *)value->data.scalar.value;
+    const bool is_plain = value->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    return is_plain && strcmp(text, "null") == 0 ? NULL : text;
+}
+
+static const char *get_text(const results *all, int i, const char *name)
+{
+    const char *text = get(all, i, name);
+    return text ? text : "";
+}
+
+static double get_number(const results *all, int i, const char *name)
+{
+    const char *text = get(all, i, name);
+    return text ? strtod(text, NULL) : NAN;
+}
+
+static int read_results(results *all, const char *path)
+{
+    size_t length = 0;
+    char *bytes = file_read(path, &length);
+    char *line = bytes;
+    int status = bytes ? CLI_DONE : CLI_IO;
+    for (int number = 1; status == CLI_DONE && line && *line; number++) {
+        char *next = strchr(line, '\n');
+        if (next) *next++ = '\0';
+        if (all->count == MAX_LINES) {
+            status = cli_fail(CLI_USAGE, "'%s': more than %d lines", path, MAX_LINES);
+        } else {
+            const int k = all->count++;
+            all->place[k] = cli_format("line %d of %s", number, path);
+            status = json_parse(&all->line[k], all->place[k], line, strlen(line));
+        }
+        line = next;
+    }
+    free(bytes);
+    return status;
+}
+
+/* The line behind the last one from i on that has the name. */
+static int find_end(const results *all, int i, const char *name)
+{
+    while (i < all->count && get(all, i, name)) i++;
+    return i;
+}
+
+/* ---- ratios -------------------------------------------------------------------------------- */
+
+enum { FIGURE_WIDTH = 360, ROW_HEIGHT = 20, FIGURE_FRAME = 100 };
+
+/* A row each: the place of the goal is empty where there is none.  Returns whether there is one. */
+static bool write_ratio_data(FILE *s, const results *all, int begin, int end)
+{
+    bool has_goals = false;
+    fputs("$results << END\n", s);
+    for (int i = begin; i < end; i++) {
+        const char *goal = get(all, i, "goal");
+        if (!get(all, i, "median")) continue;
+        has_goals |= goal != NULL;
+        fprintf(s, "%d,%s,%s,%s,%s\n", i - begin + 1, get_text(all, i, "median"),
+                get_text(all, i, "min"), get_text(all, i, "max"),
+                goal ? goal + strcspn(goal, "0123456789") : "");
+    }
+    fputs("END\n", s);
+    return has_goals;
+}
+
+/* 1, 2 or 5 times a power of ten, at least x. */
+static double round_up(double x)
+{
+    const double power = pow(10.0, floor(log10(x)));
+    return power * (x <= power ? 1.0 : x <= 2.0 * power ? 2.0 : x <= 5.0 * power ? 5.0 : 10.0);
+}
+
+/* A scale that shows two labels at least: linear within a factor of 4, logarithmic beyond. */
+static void write_ratio_axis(FILE *s, const results *all, int begin, int end)
+{
+    static const char *const keys[] = {"min", "max", "goal"};
+    double min = INFINITY, max = 0.0;
+    for (int i = begin; i < end; i++)
+        for (int k = 0; k < 3; k++) {
+            const char *text = get_text(all, i, keys[k]);
+            const double x = strtod(text + strcspn(text, "0123456789"), NULL);
+            if (x > 0.0) min = fmin(min, x);
+            if (x > 0.0) max = fmax(max, x);
+        }
+    fputs("set format x '%g'\nset grid xtics\nset offsets graph 0.03, graph 0.03, 0, 0\n", s);
+    if (max > 4.0 * min)
+        fputs("set logscale x\nlog_x = 1\n", s);
+    else if (max > min)
+        fprintf(s, "set xtics %.9g\n", round_up((max - min) / 4.0));
+    else
+        fprintf(s, "set xrange [%.9g:%.9g]\n", 0.9 * min, 1.1 * max);
+    if (max > 4.0 * min && max <= 60.0 * min)
+        fputs("set xtics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, "
+              "1000, 2000, 5000, 10000)\n",
+              s);
+}
+
+/* One row a case: the median, a line from the smallest to the largest, and the goal. */
+static int draw_ratios(report *r, const results *all, int section, int begin, int end)
+{
+    char name[MAX_WORD], *path;
+    const double height = FIGURE_FRAME + ROW_HEIGHT * (end - begin + 1);
+    snprintf(name, sizeof name, "ratios-%d", section);
+    FILE *s = gnuplot_open(r->place, name, r->format, FIGURE_WIDTH, (int)height, &path);
+    if (!s) return CLI_IO;
+    const bool has_goals = write_ratio_data(s, all, begin, end);
+    write_ratio_axis(s, all, begin, end);
+    gnuplot_set(s, "xlabel offset 0,0.4", get_text(all, section, "unit"));
+    fprintf(s,
+            "set yrange [%d.5:0.5]\nset lmargin at screen 0.36\nset rmargin at screen 0.95\n"
+            "set tmargin at screen %.4f\nset bmargin at screen %.4f\n"
+            "set key at screen 0.02, screen %.4f left top Left reverse maxrows 2 "
+            "samplen 2 font ',11.5'\nset ytics (",
+            end - begin, 1.0 - 8.0 / height, (FIGURE_FRAME - 12.0) / height, 42.0 / height);
+    for (int i = begin; i < end; i++) {
+        gnuplot_quote(s, get_text(all, i, "case"));
+        fprintf(s, " %d%s", i - begin + 1, i + 1 < end ? ", " : ")\n");
+    }
+    fprintf(s,
+            "plot $results using 2:1:3:4 with xerrorbars pt 7 ps 0.6 lw 1.5 lc rgb '%s' "
+            "title 'median and spread'",
+            gnuplot_colour(1));
+    if (has_goals)
+        fprintf(s,
+                ", \\\n  $results using 5:1 with points pt 2 ps 0.9 lw 1.8 lc rgb '%s' "
+                "title 'goal'",
+                gnuplot_colour(0));
+    fputc('\n', s);
+    bool missing = false;
+    int status = gnuplot_draw(r->place, s, path, &missing);
+    free(path);
+    if (missing) return CLI_DONE;
+    char *alt =
+        cli_format("%s: %s", get_text(all, section, "section"), get_text(all, section, "unit"));
+    if (status == CLI_DONE) status = report_embed(r, name, alt, "");
+    free(alt);
+    return status;
+}
+
+static void write_ratios(FILE *page, const results *all, int begin, int end)
+{
+    fputs(REPORT_TABLE "<th>case</th><th>what</th><th>median</th><th>spread</th><th>goal</th>"
+                       "<th></th>" REPORT_ROWS,
+          page);
+    for (int i = begin; i < end; i++) {
+        char spread[64] = "–";
+        const char *goal = get_text(all, i, "goal"), *met = get_text(all, i, "met");
+        const char *a = get(all, i, "a");
+        const bool is_met = strcmp(met, "true") == 0;
+        if (get(all, i, "median"))
+            snprintf(spread, sizeof spread, "%.4g to %.4g", get_number(all, i, "min"),
+                     get_number(all, i, "max"));
+        report_row(page, get_text(all, i, "case"));
+        report_element(page, "td style=\"text-align: left; white-space: normal; min-width: 12rem\"",
+                       get_text(all, i, "what"));
+        report_number(page, "%.4g", get_number(all, i, "median"));
+        report_element(page, "td", spread);
+        fputs("<td>", page);
+        if (strlen(goal) > 2) fprintf(page, "%s%s", goal[0] == '<' ? "≤" : "≥", goal + 2);
+        fprintf(page, "</td><td%s>%s</td></tr>\n",
+                !*met    ? ""
+                : is_met ? " class=\"kept\""
+                         : " class=\"drift\"",
+                a && !*a                 ? "not reached"
+                : !get(all, i, "median") ? "not measured"
+                : !*met                  ? ""
+                : is_met                 ? "met"
+                                         : "missed");
+    }
+    fputs(REPORT_TABLE_END, page);
+}
+
+/* ---- sizes --------------------------------------------------------------------------------- */
+
+/* What a contender is: dal ENGINE METHOD SPACE RN. */
+typedef struct sized {
+    char engine[MAX_WORD], method[MAX_WORD];
+    int n;
+} sized;
+
+static sized parse_sized(const results *all, int i)
+{
+    sized s = {.n = 0};
+    if (sscanf(get_text(all, i, "a"), "%*s %31s %31s %*s R%d", s.engine, s.method, &s.n) != 3)
+        s.n = 0;
+    return s;
+}
+
+/* The median of an engine and a method at a size. */
+static double find_time(const results *all, int begin, int end, sized wanted)
+{
+    for (int i = begin; i < end; i++) {
+        const sized s = parse_sized(all, i);
+        if (s.n == wanted.n && strcmp(s.engine, wanted.engine) == 0 &&
+            strcmp(s.method, wanted.method) == 0)
+            return get_number(all, i, "median");
+    }
+    return NAN;
+}
+
+static const char *const engines[2][2] = {{"tape", "interpreted"}, {"native", "compiled"}};
+
+/* Whether no case before i has its method, or its size. */
+static bool is_new(const results *all, int begin, int i, bool by_size)
+{
+    const sized s = parse_sized(all, i);
+    for (int j = begin; j < i; j++) {
+        const sized other = parse_sized(all, j);
+        if (by_size ? other.n == s.n : strcmp(other.method, s.method) == 0) return false;
+    }
+    return s.n > 0;
+}
+
+static int draw_sizes(report *r, const results *all, int begin, int end, const char *method)
+{
+    char name[2 * MAX_WORD];
+    report_plot plot = {.name = name,
+                        .title = method,
+                        .xlabel = "n",
+                        .ylabel = "µs a step",
+                        .caption = "",
+                        .log_x = true,
+                        .log_y = true,
+                        .has_marks = true};
+    snprintf(name, sizeof name, "sizes-%s", method);
+    for (int e = 0; e < 2; e++) {
+        plot_curve *curve = report_curve(&plot, engines[e][1]);
+        for (int i = begin; i < end; i++) {
+            const sized s = parse_sized(all, i);
+            if (strcmp(s.method, method) == 0 && strcmp(s.engine, engines[e][0]) == 0)
+                report_point(&plot, curve, s.n, get_number(all, i, "median"));
+        }
+    }
+    return report_draw(r, &plot);
+}
+
+/* The row of a method and an engine, with a cell for each size. */
+static void write_times(FILE *page, const results *all, int begin, int end, const char *method,
+                        int e)
+{
+    sized wanted = {.n = 0};
+    snprintf(wanted.engine, sizeof wanted.engine, "%s", engines[e][0]);
+    snprintf(wanted.method, sizeof wanted.method, "%s", method);
+    report_row(page, method);
+    report_element(page, "td", engines[e][1]);
+    for (int i = begin; i < end; i++) {
+        if (!is_new(all, begin, i, true)) continue;
+        wanted.n = parse_sized(all, i).n;
+        report_number(page, "%.3g", find_time(all, begin, end, wanted));
+    }
+    fputs("</tr>\n", page);
+}
+
+/* A figure of each method; then the same as a table, a column for each size. */
+static int write_sizes(report *r, const results *all, int begin, int end)
+{
+    int status = CLI_DONE;
+    fputs("<div class=\"figures\">\n", r->page);
+    for (int i = begin; i < end && status == CLI_DONE; i++)
+        if (is_new(all, begin, i, false))
+            status = draw_sizes(r, all, begin, end, parse_sized(all, i).method);
+    fputs("</div>\n" REPORT_TABLE "<th>method</th><th></th>", r->page);
+    for (int i = begin; i < end; i++)
+        if (is_new(all, begin, i, true)) fprintf(r->page, "<th>n = %d</th>", parse_sized(all, i).n);
+    fputs(REPORT_ROWS, r->page);
+    for (int i = begin; i < end; i++) {
+        if (!is_new(all, begin, i, false)) continue;
+        for (int e = 0; e < 2; e++)
+            write_times(r->page, all, begin, end, parse_sized(all, i).method, e);
+    }
+    fputs(REPORT_TABLE_END, r->page);
+    return status;
+}
+
+/* ---- runs ---------------------------------------------------------------------------------- */
+
+static const struct {
+    const char *name, *title;
+} modes[] = {{"off", "off"},
+             {"on", "on, empty cache"},
+             {"warm", "on, full cache"},
+             {"auto", "auto, empty cache"},
+             {"auto_warm", "auto, full cache"}};
+
+enum { MODES = sizeof modes / sizeof modes[0] };
+
+static int draw_runs(report *r, const results *all, int begin, int end, int first)
+{
+    char name[MAX_WORD];
+    const char *system = get_text(all, first, "system"), *method = get_text(all, first, "method");
+    const char *slash = strrchr(system, '/');
+    char *title = cli_format("%s, %s", slash ? slash + 1 : system, method);
+    report_plot plot = {.name = name,
+                        .title = title,
+                        .xlabel = "seconds with --native off",
+                        .ylabel = "seconds",
+                        .caption = "",
+                        .log_x = true,
+                        .log_y = true,
+                        .has_marks = true};
+    snprintf(name, sizeof name, "runs-%d", first);
+    for (int mode = 0; mode < MODES; mode++) {
+        plot_curve *curve = report_curve(&plot, modes[mode].title);
+        for (int i = begin; i < end; i++)
+            if (strcmp(get_text(all, i, "system"), system) == 0 &&
+                strcmp(get_text(all, i, "method"), method) == 0)
+                report_point(&plot, curve, get_number(all, i, "off"),
+                             get_number(all, i, modes[mode].name));
+    }
+    const int status = report_draw(r, &plot);
+    free(title);
+    return status;
+}
+
+static int write_runs(report *r, const results *all, int begin, int end)
+{
+    int status = CLI_DONE;
+    fputs("<div class=\"figures\">\n", r->page);
+    for (int i = begin; i < end && status == CLI_DONE; i++)
+        if (i == begin || strcmp(get_text(all, i, "system"), get_text(all, i - 1, "system")) != 0 ||
+            strcmp(get_text(all, i, "method"), get_text(all, i - 1, "method")) != 0)
+            status = draw_runs(r, all, begin, end, i);
+    fputs("</div>\n" REPORT_TABLE "<th>system</th><th>method</th><th>steps</th>", r->page);
+    for (int mode = 0; mode < MODES; mode++) report_element(r->page, "th", modes[mode].title);
+    fputs(REPORT_ROWS, r->page);
+    for (int i = begin; i < end; i++) {
+        report_row(r->page, get_text(all, i, "system"));
+        report_element(r->page, "td", get_text(all, i, "method"));
+        report_element(r->page, "td", get_text(all, i, "steps"));
+        for (int mode = 0; mode < MODES; mode++)
+            report_number(r->page, "%.3g s", get_number(all, i, modes[mode].name));
+        fputs("</tr>\n", r->page);
+    }
+    fputs(REPORT_TABLE_END, r->page);
+    return status;
+}
+
+/* ---- the page ------------------------------------------------------------------------------ */
+
+static void write_facts(FILE *page, const results *all, int i)
+{
+    static const char *const facts[][2] = {{"processor", "processor"},
+                                           {"processors", "processors"},
+                                           {"load", "load before"},
+                                           {"system", "system"},
+                                           {"compiler", "compiler"},
+                                           {"measured", "measured"},
+                                           {"processes", "processes of each side"}};
+    fputs("<dl class=\"facts\">\n", page);
+    for (size_t k = 0; k < sizeof facts / sizeof facts[0]; k++) {
+        if (!get(all, i, facts[k][0])) continue;
+        report_element(page, "dt", facts[k][1]);
+        report_element(page, "dd", get_text(all, i, facts[k][0]));
+    }
+    fputs("</dl>\n", page);
+}
+
+/* Writes a section; *i becomes the line behind it. */
+static int write_section(report *r, const results *all, int *i)
+{
+    const int section = *i, begin = section + 1;
+    const char *figure = get_text(all, section, "figure");
+    const bool has_runs = strcmp(figure, "runs") == 0;
+    const int end = find_end(all, begin, has_runs ? "method" : "case");
+    *i = end;
+    report_element(r->page, "h2", get_text(all, section, "section"));
+    report_element(r->page, "p", get_text(all, section, "text"));
+    fputc('\n', r->page);
+    if (end == begin) return CLI_DONE;
+    if (has_runs) return write_runs(r, all, begin, end);
+    if (strcmp(figure, "sizes") == 0) return write_sizes(r, all, begin, end);
+    int status = CLI_DONE, first = begin;
+    while (first < end && !get(all, first, "median")) first++;
+    fputs("<div class=\"figures\">\n", r->page);
+    if (first < end) status = draw_ratios(r, all, section, begin, end);
+    fputs("</div>\n", r->page);
+    write_ratios(r->page, all, begin, end);
+    return status;
+}
+
+static int write_page(report *r, const results *all)
+{
+    int status = report_open(r);
+    if (status != CLI_DONE) return status;
+    report_title(r, "The bench of dalembert");
+    fputs(
+        "<p>What a step costs, compared side by side: each side is a program with its best flags, "
+        "run "
+        "alternately with the other in fresh processes, and both reach the same end state. A "
+        "number is the "
+        "median over these processes, its spread the smallest and the largest. Time is that of the "
+        "processor in the process, unless a text says otherwise.</p>\n",
+        r->page);
+    for (int i = 0; i < all->count && status == CLI_DONE;) {
+        if (get(all, i, "section"))
+            status = write_section(r, all, &i);
+        else if (get(all, i, "processor"))
+            write_facts(r->page, all, i++);
+        else
+            status = cli_fail(CLI_USAGE, "%s: it is no result of a section", all->place[i]);
+    }
+    const int closed = report_close(r);
+    return status == CLI_DONE ? closed : status;
+}
+
+int main(int argc, char **argv)
+{
+    static results all;
+    report r = {.directory = argv[1], .format = "svg"};
+    if (argc < 3) return cli_fail(CLI_USAGE, "page: DIR and RESULTS are required");
+    int status = cli_directory(argv[1]);
+    for (int i = 2; i < argc && status == CLI_DONE; i++) status = read_results(&all, argv[i]);
+    if (status == CLI_DONE) status = write_page(&r, &all);
+    if (status == CLI_DONE) printf("%s\n", r.page_path);
+    for (int i = 0; i < all.count; i++) {
+        yaml_document_delete(&all.line[i].yaml);
+        free(all.place[i]);
+    }
+    free(r.place);
+    free(r.page_path);
+    return status;
+}
