@@ -66,7 +66,7 @@ static int create_spectrum(tangent_study *s)
     int status = request_create_run(request);
     if (status == CLI_DONE) status = request_make_spec(request, &spec);
     if (status == CLI_DONE)
-        status = row_times_check_step(request, s->set->transient + request->time);
+        status = row_times_check_step(request, 0.0, s->set->transient + request->time);
     if (status != CLI_DONE) return status;
     /* A vakonomic system has no tangent system; its derivatives are differences. */
     dal_status made = dal_model_tangent(request->model, &tangent, &error);

@@ -13,6 +13,7 @@
 #include "io/file.h"
 #include "ui/options.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -156,9 +157,11 @@ static int finish_list(run_request *request)
 
 /* ---- all ----------------------------------------------------------------------------------- */
 
-const char *step_error(double step, double time, char text[STEP_ERROR_SIZE])
+const char *step_error(double step, double from, double end, char text[STEP_ERROR_SIZE])
 {
-    if (fabs(step) > fabs(time))
+    const double time = end - from;
+    /* from + h is rounded, so that one step may be longer than the time by that much. */
+    if (fabs(step) - fabs(time) > DBL_EPSILON * fmax(fabs(from), fabs(end)))
         snprintf(text, STEP_ERROR_SIZE, "%.15g is larger than the time %g", step, time);
     else if (time / step > 0x1p53)
         snprintf(text, STEP_ERROR_SIZE,
@@ -169,10 +172,10 @@ const char *step_error(double step, double time, char text[STEP_ERROR_SIZE])
     return text;
 }
 
-int row_times_check_step(const run_request *request, double time)
+int row_times_check_step(const run_request *request, double from, double end)
 {
     char text[STEP_ERROR_SIZE];
-    const char *error = step_error(request->options.step, time, text);
+    const char *error = step_error(request->options.step, from, end, text);
     return error ? cli_fail(CLI_USAGE, "--step: %s", error) : CLI_DONE;
 }
 
@@ -190,7 +193,7 @@ static int check_end(const run_request *request)
 {
     const double h = request->options.step, whole = request->time - request->from;
     if (copysign(1.0, h) * whole > 0.0 && isfinite(whole))
-        return row_times_check_step(request, whole);
+        return row_times_check_step(request, request->from, request->time);
     if (request->steps > 0)
         return cli_fail(CLI_USAGE,
                         "--steps: %lld steps of %g from t = %.15g lead to no other finite time",

@@ -10,11 +10,11 @@ enum { ROW_TIMES_MAX = 100000000, STEP_ERROR_SIZE = 128 };
 
 /* All functions but the first return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
 
-/* Why a time cannot be divided into such steps: there is none in it, or more than a double counts;
- * NULL where it can. */
-const char *step_error(double step, double time, char text[STEP_ERROR_SIZE]);
+/* Why the time between two cannot be divided into such steps: there is none in it, or more than a
+ * double counts; NULL where it can. */
+const char *step_error(double step, double from, double end, char text[STEP_ERROR_SIZE]);
 /* Checks --step of a request by it. */
-int row_times_check_step(const run_request *request, double time);
+int row_times_check_step(const run_request *request, double from, double end);
 /* Parses the value of --times, a list or a file with one, for a request. */
 int row_times_parse(void *request, const cli_option *option, const char *given);
 /* Fills row_time of a request that has all its options, and checks the step. */

@@ -373,7 +373,7 @@ static int check_case(const group_reader *g)
         if (!(copysign(1.0, e->step[i]) * (end - e->from) > 0.0))
             return document_fail(doc, node, "%s: a step of %g does not lead from t = %g to t = %g",
                                  e->name, e->step[i], e->from, end);
-        const char *error = step_error(e->step[i], end - e->from, text);
+        const char *error = step_error(e->step[i], e->from, end, text);
         if (error) return document_fail(doc, node, "%s: step %s", e->name, error);
     }
     return CLI_DONE;

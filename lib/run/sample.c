@@ -252,7 +252,7 @@ static dal_status check_arguments(const dal_run *run, const dal_observer *observ
     if (!(whole * copysign(1.0, h) > 0.0))
         return dal__fail(error, DAL_ARGUMENT, "a step of %g does not lead from t = %g to %g", h,
                          from, T);
-    if (fabs(h) > fabs(whole))
+    if (fabs(h) - fabs(whole) > DBL_EPSILON * fmax(fabs(from), fabs(T)))
         return dal__fail(error, DAL_ARGUMENT, "the step %g is larger than the time %g", h, whole);
     if (whole / h > MAX_STEPS)
         return dal__fail(error, DAL_ARGUMENT, "%g steps of %g are more than can be counted (2^53)",

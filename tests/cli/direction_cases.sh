@@ -27,6 +27,9 @@ holds "another motion before 0" exact 0
 case_is "a number of steps"
 try 0 run $run --step -0.125 --from 2 --steps 8 --samples 2
 holds "eight steps" [ "$(rows_at)" = "t 2 1.5 1 " ]
+try 0 run $run --step 0.1 --from 4 --steps 1 --samples 1
+holds "one step, though 4.1 - 4 < 0.1" [ "$(rows_at)" = "t 4 4.0999999999999996 " ]
+holds "another motion" exact 4
 try 2 run $run --step -0.125 --from 2 --steps 8 --time 1
 says '--steps excludes --time'
 try 2 run $run --step 0.125 --steps 0
