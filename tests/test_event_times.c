@@ -92,6 +92,31 @@ static void test_within_a_step(void)
     dal_run_free(run);
 }
 
+/* Under a tolerance, many in one step: x = sin t against a wall at 1/2, which it leaves and meets
+ * again after 4 pi/3; and passing through 0.8, from below at asin 0.8 + 2 pi k. */
+static void test_within_substeps(void)
+{
+    static const char *const methods[] = {"dop853", "taylor"};
+    static const char *const actions[] = {"when: x - 0.5, restitution: 1",
+                                          "when: x - 0.8, direction: up"};
+    const double pi = acos(-1.0), first[] = {pi / 6.0, asin(0.8)}, then[] = {4.0 / 3.0, 2.0};
+    for (int i = 0; i < 4; i++) {
+        char text[256];
+        snprintf(text, sizeof text,
+                 "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x': 1}\nevents: [{%s}]\n",
+                 actions[i / 2]);
+        dal_run_spec spec = fixture_spec(fixture_system(text), methods[i % 2], DAL_PHYSICAL, 50.0);
+        spec.options.tolerance = 1e-14;
+        dal_run *run = fixture_run(&spec);
+        record r = {0};
+        CU_ASSERT_EQUAL(dal_run_events(run, 50.0, note, &r, NULL), DAL_OK);
+        dal_run_free(run);
+        CU_ASSERT_EQUAL_FATAL(r.count, i < 2 ? 12 : 8);
+        for (int k = 0; k < r.count; k++)
+            CU_ASSERT_DOUBLE_EQUAL(r.t[k], first[i / 2] + then[i / 2] * pi * k, 1e-11);
+    }
+}
+
 /* An impact where D is not linear: the speed stays 1, its part across the wall becomes -c times
  * what it was, and the part along it keeps its sign. */
 static void test_nonlinear(void)
@@ -279,6 +304,7 @@ void suite_event_times(void)
     CU_pSuite suite = CU_add_suite("event times", NULL, NULL);
     CU_add_test(suite, "at one time", test_simultaneous);
     CU_add_test(suite, "within a step", test_within_a_step);
+    CU_add_test(suite, "within a step of many substeps", test_within_substeps);
     CU_add_test(suite, "with a nonlinear constraint", test_nonlinear);
     CU_add_test(suite, "of velocities", test_velocity);
     CU_add_test(suite, "where a blade slips", test_grip);

@@ -119,16 +119,13 @@ dal_status dal__leave_event(const dal__event_search *w, int k)
                      dal__event_name(w, k), dal_run_time(w->run), w->m.r1[k]);
 }
 
-void dal__pass_event(const dal__event_search *w, int k, const double *before)
+double dal__side_after(const dal__event_search *w, int k, const double *before)
 {
     const double side = w->m.now[k], f = w->m.f1[k], end = dal__sign(f);
     const bool is_small = fabs(f) <= 1e-9 * fabs(w->h * w->m.r0[k]);
     const bool is_set = before && f != before[k] && fabs(f) > dal__event_rounding(w, k);
     const bool is_same = end == 0.0 || end == dal__sign(side);
-    if (is_set)
-        w->m.side[k] = end;
-    else if (!is_same && fabs(side) == 2.0 && (is_small || dal__is_event_from(w, k, side)))
-        w->m.side[k] = side;
-    else
-        w->m.side[k] = is_same || dal__is_event_from(w, k, side) ? dal__sign(side) : end;
+    if (is_set) return end;
+    if (!is_same && fabs(side) == 2.0 && (is_small || dal__is_event_from(w, k, side))) return side;
+    return is_same || dal__is_event_from(w, k, side) ? dal__sign(side) : end;
 }

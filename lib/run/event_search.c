@@ -8,9 +8,13 @@
  * step(z, h).  f has a root where its sign at the end of the step is not that at the beginning, and
  * a pair of them where d|f|/dt is negative at the beginning and positive at the end, and f has the
  * other sign where it is 0 between.  Where an event has just left f = 0, f(0) is only rounding; the
- * step is halved then until f has the sign of the side that it left to. */
+ * step is halved then until f has the sign of the side that it left to.
+ *
+ * A step that was divided under a tolerance may be long beside the motion: it is searched in parts,
+ * about one for each substep. */
 #include "run/event_search.h"
 #include "core/root.h"
+#include "run/event_actions.h"
 #include "run/events.h"
 #include "run/failure.h"
 #include <float.h>
@@ -19,7 +23,9 @@
  * rate is. */
 static const double value_factor = 16.0, rate_factor = 64.0;
 
-enum { MAX_HALVES = 12 };
+/* An upper bound of the parts, and about the evaluations of F in a substep: 12 of dop853, the order
+ * of taylor. */
+enum { MAX_HALVES = 12, MAX_PARTS = 10000, SUBSTEP_EVALUATIONS = 12 };
 
 /* ---- memory ---- */
 
@@ -177,22 +183,23 @@ dal_status dal__events_endless(const dal__event_search *w, int k)
                      name, (long long)w->m.count[k], t);
 }
 
-/* The size of the step to event k, which search_within has marked: between 0 and the end; of a
- * pair of roots about the least |f|, the first or the second; where an event has just left f = 0,
+/* The size of the step to event k, which mark_events has marked: between both ends of the part; of
+ * a pair of roots about the least |f|, the first or the second; where an event has just left f = 0,
  * behind the place where it is on its side again. */
 static dal_status locate(dal__event_search *w, int k)
 {
     const double side = dal__sign(w->m.now[k]), mark = w->m.s[k];
     const bool has_left = mark == 1.0 && fabs(w->m.now[k]) == 2.0;
-    dal__value_at begin = {0.0, w->m.f0[k]}, end = {w->h, w->m.f1[k]}, middle = end;
-    double root = mark == 1.0 && !has_left && side * begin.f <= 0.0 ? 0.0 : INFINITY;
+    const bool is_at_begin = mark == 1.0 && !has_left && side * w->m.f0[k] <= 0.0;
+    dal__value_at begin = {w->from, w->m.f0[k]}, end = {w->to, w->m.f1[k]}, middle = end;
+    double root;
     w->event = k;
-    w->m.s[k] = root;
-    if (mark == 0.0 || root == 0.0) return DAL_OK;
+    w->m.s[k] = is_at_begin ? fabs(w->from) : INFINITY;
+    if (mark == 0.0 || is_at_begin) return DAL_OK;
     if (mark == 2.0) {
         w->rate = true;
-        const dal_status status = dal__find_root(value_at, w, (dal__value_at){0.0, w->m.r0[k]},
-                                                 (dal__value_at){w->h, w->m.r1[k]}, &middle.s);
+        const dal_status status = dal__find_root(value_at, w, (dal__value_at){begin.s, w->m.r0[k]},
+                                                 (dal__value_at){end.s, w->m.r1[k]}, &middle.s);
         w->rate = false;
         DAL_TRY(status);
         DAL_TRY(value_at(w, middle.s, &middle.f));
@@ -201,8 +208,9 @@ static dal_status locate(dal__event_search *w, int k)
     }
     while (has_left && side * middle.f <= 0.0) {
         end = middle;
-        middle.s = 0.5 * end.s;
-        if (fabs(middle.s) <= dal__event_time_rounding(w)) return dal__events_endless(w, k);
+        middle.s = w->from + 0.5 * (end.s - w->from);
+        if (fabs(middle.s - w->from) <= dal__event_time_rounding(w))
+            return dal__events_endless(w, k);
         DAL_TRY(value_at(w, middle.s, &middle.f));
         begin = middle;
     }
@@ -211,53 +219,52 @@ static dal_status locate(dal__event_search *w, int k)
     return DAL_OK;
 }
 
-/* Takes a step and finds the first event in it, at a distance.  The step is taken back unless it
- * has no events.  Those that it may have are marked first: 1 a root, 2 a pair of roots, which needs
- * that the tangents at both ends meet beyond 0.  Where an event has just left f = 0, an |f| that is
- * only rounding is none. */
-static dal_status search_within(dal__event_search *w, double *distance)
+/* Marks the events that a part of a step may have, at whose end the run is: 1 a root, 2 a pair of
+ * roots, which needs that the tangents at both ends meet beyond 0.  Where an event has just left
+ * f = 0, an |f| that is only rounding is none. */
+static dal_status mark_events(void *user, dal_run *run)
 {
-    bool any = false;
-    *distance = INFINITY;
-    dal__run_back_up(w->run);
-    DAL_TRY(dal__step_run(w->run, w->h, 1));
-    dal_status status = dal__evaluate_events_and_rates(w, w->m.f1, w->m.r1);
-    for (int k = 0; k < w->system->events && status == DAL_OK; k++) {
+    dal__event_search *w = user;
+    const double size = fabs(w->to - w->from);
+    (void)run;
+    w->any = false;
+    DAL_TRY(dal__evaluate_events_and_rates(w, w->m.f1, w->m.r1));
+    for (int k = 0; k < w->system->events; k++) {
         const double side = w->m.now[k], end = dal__sign(side) * w->m.f1[k];
         const bool is_beyond = end < 0.0 && dal__is_event_from(w, k, side);
         double zero = 0.0;
         if (is_beyond && fabs(side) == 2.0) {
-            status = dal__evaluate_event_normals(w);
-            zero = dal__event_rounding(w, k) + fabs(w->h) * dal__event_rate_rounding(w, k);
+            DAL_TRY(dal__evaluate_event_normals(w));
+            zero = dal__event_rounding(w, k) + size * dal__event_rate_rounding(w, k);
         }
         w->m.s[k] = 0.0;
         if (is_beyond && -end > 4.0 * zero) w->m.s[k] = 1.0;
         const double begin = dal__sign(side) * w->m.f0[k], toward = dal__sign(side) * w->toward;
         const double r0 = toward * w->m.r0[k], r1 = toward * w->m.r1[k];
         const bool turns = fabs(side) == 1.0 && begin >= 0.0 && end > 0.0 && r0 < 0.0 && r1 > 0.0;
-        const double meeting = (end - begin - fabs(w->h) * r1) / (r0 - r1);
+        const double meeting = (end - begin - size * r1) / (r0 - r1);
         if (turns && begin + meeting * r0 <= 0.0) w->m.s[k] = 2.0;
-        any = any || w->m.s[k] != 0.0;
+        w->any = w->any || w->m.s[k] != 0.0;
     }
-    if (status == DAL_OK && !any) return DAL_OK;
-    dal__run_revert(w->run);
-    DAL_TRY(status);
+    return DAL_OK;
+}
+
+/* The distance of the first event of those that are marked; the run is where the step begins. */
+static dal_status locate_first(dal__event_search *w, double *distance)
+{
     DAL_TRY(dal__evaluate_event_normals(w));
     for (int k = 0; k < w->system->events; k++) {
         DAL_TRY(locate(w, k));
         *distance = fmin(*distance, w->m.s[k]);
     }
-    return isfinite(*distance) ? DAL_OK : dal__step_run(w->run, w->h, 1); /* as before */
+    return DAL_OK;
 }
 
-/* The same of the next step.  Where it fails, as beyond a wall, a shorter one may have an event. */
-dal_status dal__search_events(dal__event_search *w, double *distance)
+/* The sides where the run is.  Where f is 0 at the start of a run, an event of one direction
+ * happens at once if f leads that way. */
+static dal_status begin_search(dal__event_search *w)
 {
-    const double h = w->h;
-    dal_error reason = {0}, ignored = {0}, *const error = w->error;
     DAL_TRY(dal__evaluate_events_and_rates(w, w->m.f0, w->m.r0));
-    /* The sides.  Where f is 0 at the start of a run, an event of one direction happens at once if
-     * f leads that way. */
     for (int k = 0; k < w->system->events; k++) {
         const double direction = w->system->event[k].direction;
         const double rate = dal__sign(w->toward * w->m.r0[k]), f = dal__sign(w->m.f0[k]);
@@ -267,6 +274,57 @@ dal_status dal__search_events(dal__event_search *w, double *distance)
                                       : 2.0 * (rate != 0.0 ? rate : -direction);
         w->m.now[k] = w->m.side[k] != 0.0 ? w->m.side[k] : begun;
     }
+    return DAL_OK;
+}
+
+/* Searches a step from its begin, where the run is, in parts. */
+static dal_status search_parts(dal__event_search *w, long long parts, double *distance)
+{
+    for (long long i = 1; i <= parts; i++) {
+        w->from = w->to;
+        w->to = i < parts ? w->h * ((double)i / (double)parts) : w->h;
+        DAL_TRY(dal__observe_part(w->run, w->h, w->to, mark_events, w, w->error));
+        if (w->any) DAL_TRY(locate_first(w, distance));
+        if (isfinite(*distance) || i == parts) break;
+        for (int k = 0; k < w->system->events; k++) {
+            w->m.now[k] = dal__side_after(w, k, NULL);
+            w->m.f0[k] = w->m.f1[k];
+            w->m.r0[k] = w->m.r1[k];
+        }
+    }
+    return DAL_OK;
+}
+
+/* Takes a step and finds the first event in it, at a distance.  The step is taken back unless it
+ * has no events. */
+static dal_status search_within(dal__event_search *w, double *distance)
+{
+    const long long evaluations = dal_run_evaluations(w->run);
+    long long parts = 1;
+    *distance = INFINITY;
+    DAL_TRY(begin_search(w));
+    dal__run_back_up(w->run);
+    DAL_TRY(dal__step_run(w->run, w->h, 1));
+    if (w->run->layout.options.tolerance > 0.0)
+        parts = (dal_run_evaluations(w->run) - evaluations) / SUBSTEP_EVALUATIONS;
+    w->from = 0.0;
+    w->to = parts > 1 ? 0.0 : w->h;
+    const dal_status status = parts > 1 ? DAL_OK : mark_events(w, w->run);
+    if (status == DAL_OK && parts <= 1 && !w->any) return DAL_OK;
+    dal__run_revert(w->run);
+    DAL_TRY(status);
+    if (parts > 1)
+        DAL_TRY(search_parts(w, parts < MAX_PARTS ? parts : MAX_PARTS, distance));
+    else
+        DAL_TRY(locate_first(w, distance));
+    return isfinite(*distance) ? DAL_OK : dal__step_run(w->run, w->h, 1); /* as before */
+}
+
+/* The same of the next step.  Where it fails, as beyond a wall, a shorter one may have an event. */
+dal_status dal__search_events(dal__event_search *w, double *distance)
+{
+    const double h = w->h;
+    dal_error reason = {0}, ignored = {0}, *const error = w->error;
     w->error = &reason;
     const dal_status status = search_within(w, distance);
     w->error = &ignored;

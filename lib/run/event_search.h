@@ -24,6 +24,8 @@ typedef struct dal__event_search {
     const dal_system *system;
     dal__event_places m;
     double h, toward; /* the step, and its sign */
+    double from, to;  /* the part of it that is searched */
+    bool any;         /* whether that may have events */
     int event;        /* the one that is located */
     bool rate;        /* by its rate, or by its value */
 } dal__event_search;
@@ -36,8 +38,9 @@ dal__event_places dal__event_places_of(const dal_run *run);
 dal__event_search dal__event_search_begin(dal_run *run, dal_error *error);
 
 /* Takes a step and finds the first event in it: s of each, and the distance of the first, infinite
- * where there is none; only then the step is not taken back.  f0, r0 and now are those of its
- * begin, f1 and r1 those of its end.  Errors: those of a step, DAL_NOT_FINITE, DAL_EVENT. */
+ * where there is none; only then the step is not taken back.  f0, r0 and now are those of the begin
+ * of the part that was searched last, f1 and r1 those of its end.  Errors: those of a step,
+ * DAL_NOT_FINITE, DAL_EVENT. */
 dal_status dal__search_events(dal__event_search *w, double *distance);
 
 /* Values of event_values or event_rates at the present state; both; and the normals. */

@@ -61,7 +61,7 @@ static dal_status act(const dal__event_search *w, double distance,
         if (w->m.s[k] <= last)
             left = dal__leave_event(w, k);
         else
-            dal__pass_event(w, k, w->m.there);
+            w->m.side[k] = dal__side_after(w, k, w->m.there);
     }
     return left;
 }
@@ -125,7 +125,7 @@ dal_status dal__advance_events(dal_run *run, long long count, const dal__event_l
             DAL_TRY(dal__check_events(run, error));
             continue;
         }
-        for (int k = 0; k < w.system->events; k++) dal__pass_event(&w, k, NULL);
+        for (int k = 0; k < w.system->events; k++) w.m.side[k] = dal__side_after(&w, k, NULL);
         *w.m.stalled = 0.0;
         dal__commit_events(&w);
     }
