@@ -235,6 +235,8 @@ const dal_system *dal_run_system(const dal_run *run);
 double dal_run_time(const dal_run *run);
 /* The step size h, in units of t; negative: backwards. */
 double dal_run_step_size(const dal_run *run);
+/* The tolerance under which that is divided; 0: it is not. */
+double dal_run_tolerance(const dal_run *run);
 /* Steps since the start, those before a restore included. */
 long long dal_run_steps(const dal_run *run);
 /* Evaluations of the field, or of the lifted field, since the start. */

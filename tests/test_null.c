@@ -98,6 +98,7 @@ static void null_dal_run_advance(void)
 static void null_dal_run_system(void) { CU_ASSERT_PTR_NULL(dal_run_system(NULL)); }
 static void null_dal_run_time(void) { CU_ASSERT(isnan(dal_run_time(NULL))); }
 static void null_dal_run_step_size(void) { CU_ASSERT(isnan(dal_run_step_size(NULL))); }
+static void null_dal_run_tolerance(void) { CU_ASSERT(isnan(dal_run_tolerance(NULL))); }
 static void null_dal_run_steps(void) { CU_ASSERT_EQUAL(dal_run_steps(NULL), 0); }
 static void null_dal_run_evaluations(void) { CU_ASSERT_EQUAL(dal_run_evaluations(NULL), 0); }
 static void null_dal_run_dimension(void) { CU_ASSERT_EQUAL(dal_run_dimension(NULL), 0); }

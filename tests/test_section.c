@@ -162,6 +162,27 @@ static void test_pairs_in_a_step(void)
         CU_ASSERT_DOUBLE_EQUAL(r.t[k], 2.0 * pi * ((k + 1) / 2) + (k % 2 ? -a : a), 2e-12);
 }
 
+/* Under a tolerance, crossings and pairs in one step of many substeps: x = 1/2, and x = 0.999. */
+static void test_within_substeps(void)
+{
+    static const char *const methods[] = {"dop853", "taylor"};
+    for (int i = 0; i < 4; i++) {
+        const char *text = i < 2 ? OSCILLATOR("x - 0.5") : OSCILLATOR("x - 0.999");
+        const double a = acos(i < 2 ? 0.5 : 0.999);
+        dal_run_spec spec = fixture_spec(fixture_system(text), methods[i % 2], DAL_PHYSICAL, 20.0);
+        spec.options.tolerance = 1e-14;
+        dal_run *run = fixture_run(&spec);
+        dal_crossings found;
+        record r = {0};
+        CU_ASSERT_EQUAL(cross(run, 20.0, 0, &r, &found, NULL), DAL_OK);
+        dal_run_free(run);
+        CU_ASSERT_EQUAL_FATAL(r.count, 7);
+        CU_ASSERT(found.down == 4 && found.up == 3 && found.touches == 0);
+        for (int k = 0; k < 7; k++)
+            CU_ASSERT_DOUBLE_EQUAL(r.t[k], 2.0 * pi * ((k + 1) / 2) + (k % 2 ? -a : a), 1e-11);
+    }
+}
+
 /* (t - a)^2 = 0.02^2 at a - 0.02 and a + 0.02: within the first step or the last one, with |g|
  * falling towards either end of the run, alone or as the only step. */
 static void test_pairs_at_the_ends(void)
@@ -411,6 +432,7 @@ void suite_section(void)
     CU_add_test(suite, "directions", test_directions);
     CU_add_test(suite, "a section in time", test_in_time);
     CU_add_test(suite, "pairs within a step", test_pairs_in_a_step);
+    CU_add_test(suite, "within a step of many substeps", test_within_substeps);
     CU_add_test(suite, "pairs in the first and the last step", test_pairs_at_the_ends);
     CU_add_test(suite, "from the surface", test_from_the_surface);
     CU_add_test(suite, "no rate at an end", test_no_rate_at_an_end);

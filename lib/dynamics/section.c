@@ -11,7 +11,10 @@
  * A pair of crossings within a step has an extremum of g between them.  Where |g| at a step is not
  * above its neighbours', the rate of g at the ends of the two steps there shows which holds the
  * extremum, and its place is the root of that rate.  The first and the last step lack a neighbour;
- * there the rates at both ends decide alone. */
+ * there the rates at both ends decide alone.
+ *
+ * A step that was divided under a tolerance may be long beside the motion: it is searched in parts,
+ * about one for each substep, the rates at both ends of a part deciding alone. */
 #include "core/error.h"
 #include "core/root.h"
 #include "core/vectors.h"
@@ -24,7 +27,9 @@
 /* A minimum of |g| below this part of max |g| is a touch; rounding errors are far smaller. */
 static const double touching = 1e-12;
 
-enum { POLL = 1000 };
+/* An upper bound of the parts, and the evaluations of F in each: a substep has 12 with dop853, with
+ * taylor as many as its order. */
+enum { POLL = 1000, MAX_PARTS = 10000, PART_EVALUATIONS = 4 };
 
 typedef struct mark {
     double *memory; /* all of the run's persistent state */
@@ -123,15 +128,15 @@ static dal_status rate_at(search *w, const mark *place, double *rate)
     return status;
 }
 
-/* An extremum between two marks, the rates there being of different signs. */
-static dal_status search_extremum(search *w, const mark *from, double rate, const mark *to,
-                                  double rate_to)
+/* An extremum between two places in the step from here, the rates there being of different
+ * signs. */
+static dal_status search_between(search *w, dal__value_at from, double rate, dal__value_at to,
+                                 double rate_to)
 {
     double s, g;
-    DAL_TRY(return_to(w, from));
     w->rate = 1;
-    const dal_status status =
-        dal__find_root(value_at, w, (dal__value_at){0.0, rate}, (dal__value_at){w->h, rate_to}, &s);
+    const dal_status status = dal__find_root(value_at, w, (dal__value_at){from.s, rate},
+                                             (dal__value_at){to.s, rate_to}, &s);
     w->rate = 0;
     DAL_TRY(status);
     DAL_TRY(value_at(w, s, &g));
@@ -140,11 +145,20 @@ static dal_status search_extremum(search *w, const mark *from, double rate, cons
         if (w->is_leaving)
             w->side = -w->side;
         else
-            DAL_TRY(cross(w, (dal__value_at){0.0, from->g}, (dal__value_at){s, g}));
-        return cross(w, (dal__value_at){s, g}, (dal__value_at){w->h, to->g});
+            DAL_TRY(cross(w, from, (dal__value_at){s, g}));
+        return cross(w, (dal__value_at){s, g}, to);
     }
     if (!w->is_leaving && fabs(g) <= touching * w->max_g) w->found->touches++;
     return DAL_OK;
+}
+
+/* The same between two marks. */
+static dal_status search_extremum(search *w, const mark *from, double rate, const mark *to,
+                                  double rate_to)
+{
+    DAL_TRY(return_to(w, from));
+    return search_between(w, (dal__value_at){0.0, from->g}, rate, (dal__value_at){w->h, to->g},
+                          rate_to);
 }
 
 /* |g| has a minimum about the last mark, which may hide a pair of crossings. */
@@ -180,6 +194,43 @@ static dal_status search_end(search *w, long long step)
     return search_extremum(w, &w->last, first, &w->now, last);
 }
 
+/* ---- parts of a step ---- */
+
+/* The rate of g a step of size s from here; NaN where it has none. */
+static dal_status rate_within(search *w, double s, double *rate)
+{
+    w->rate = 1;
+    const dal_status status = value_at(w, s, rate);
+    w->rate = 0;
+    if (status != DAL_NOT_FINITE) return status;
+    if (w->error) *w->error = (dal_error){0};
+    *rate = NAN;
+    return DAL_OK;
+}
+
+/* The step from the last mark, in parts. */
+static dal_status search_parts(search *w, long long parts)
+{
+    dal__value_at from = {0.0, w->last.g}, to;
+    double rate, rate_to;
+    DAL_TRY(return_to(w, &w->last));
+    DAL_TRY(rate_within(w, 0.0, &rate));
+    for (long long i = 1; i <= parts; i++, from = to, rate = rate_to) {
+        to.s = i < parts ? w->h * ((double)i / (double)parts) : w->h;
+        DAL_TRY(value_at(w, to.s, &to.f));
+        DAL_TRY(rate_within(w, to.s, &rate_to));
+        w->max_g = fmax(w->max_g, fabs(to.f));
+        w->is_leaving = w->side == 0;
+        if (w->is_leaving) w->side = sign(to.f);
+        if (sign(to.f) == -w->side && w->side != 0)
+            DAL_TRY(cross(w, from, to));
+        else if (w->side * rate < 0.0 && w->side * rate_to > 0.0)
+            DAL_TRY(search_between(w, from, rate, to, rate_to));
+    }
+    w->is_leaving = false;
+    return DAL_OK;
+}
+
 /* ---- the run ---- */
 
 static dal_status take_mark(search *w)
@@ -194,14 +245,21 @@ static dal_status take_mark(search *w)
 static dal_status search_step(search *w, long long step, bool is_end)
 {
     const mark oldest = w->before;
+    const long long evaluations = dal_run_evaluations(w->run);
+    long long parts = 1;
     w->before = w->last;
     w->last = w->now;
     w->now = oldest;
     DAL_TRY(dal_run_step(w->run, w->error));
+    if (dal_run_tolerance(w->run) > 0.0)
+        parts = (dal_run_evaluations(w->run) - evaluations) / PART_EVALUATIONS;
     DAL_TRY(take_mark(w));
     const int side = sign(w->now.g);
     const double g0 = w->side * w->before.g, g1 = w->side * w->last.g, g2 = w->side * w->now.g;
-    if (w->side == 0) {
+    if (parts > 1) {
+        w->searched = step;
+        DAL_TRY(search_parts(w, parts < MAX_PARTS ? parts : MAX_PARTS));
+    } else if (w->side == 0) {
         w->side = side;
         w->is_leaving = true;
         if (side != 0) DAL_TRY(search_end(w, step));

@@ -11,7 +11,7 @@
  * step is halved then until f has the sign of the side that it left to.
  *
  * A step that was divided under a tolerance may be long beside the motion: it is searched in parts,
- * about one for each substep. */
+ * some for each substep. */
 #include "run/event_search.h"
 #include "core/root.h"
 #include "run/event_actions.h"
@@ -23,9 +23,9 @@
  * rate is. */
 static const double value_factor = 16.0, rate_factor = 64.0;
 
-/* An upper bound of the parts, and about the evaluations of F in a substep: 12 of dop853, the order
- * of taylor. */
-enum { MAX_HALVES = 12, MAX_PARTS = 10000, SUBSTEP_EVALUATIONS = 12 };
+/* An upper bound of the parts, and the evaluations of F in each: a substep has 12 with dop853, with
+ * taylor as many as its order. */
+enum { MAX_HALVES = 12, MAX_PARTS = 10000, PART_EVALUATIONS = 4 };
 
 /* ---- memory ---- */
 
@@ -306,7 +306,7 @@ static dal_status search_within(dal__event_search *w, double *distance)
     dal__run_back_up(w->run);
     DAL_TRY(dal__step_run(w->run, w->h, 1));
     if (w->run->layout.options.tolerance > 0.0)
-        parts = (dal_run_evaluations(w->run) - evaluations) / SUBSTEP_EVALUATIONS;
+        parts = (dal_run_evaluations(w->run) - evaluations) / PART_EVALUATIONS;
     w->from = 0.0;
     w->to = parts > 1 ? 0.0 : w->h;
     const dal_status status = parts > 1 ? DAL_OK : mark_events(w, w->run);

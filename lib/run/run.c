@@ -178,6 +178,8 @@ double dal_run_time(const dal_run *run)
 
 double dal_run_step_size(const dal_run *run) { return run ? run->layout.options.step : NAN; }
 
+double dal_run_tolerance(const dal_run *run) { return run ? run->layout.options.tolerance : NAN; }
+
 long long dal_run_steps(const dal_run *run)
 {
     return run ? (long long)run->persistent[dal__at(&run->layout, DAL__STEPS)] : 0;
