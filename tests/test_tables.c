@@ -183,6 +183,8 @@ static void test_errors(void)
          "f.csv:1:1: a table needs two points or more, not 0", 4, 20},
         {SYSTEM TABLE "files: {f.csv: \"time,M\\n0,1\\n1,1\"}\n", "unknown column of 'f.csv' 't'",
          4, 31},
+        {SYSTEM TABLE "files: {f.csv: \"t,M,M\\n0,1,2\\n1,1,2\"}\n",
+         "f.csv:1:5: another column is called 'M', too", 4, 20},
         {SYSTEM TABLE "files: {f.csv: \"t,M\\n0,1\\n1, 2x\\n\"}\n",
          "f.csv:3:4: '2x' is not a number", 4, 20},
         {SYSTEM TABLE "files: {f.csv: \"t,M\\n0,1\\n\\n1\\n\"}\n",

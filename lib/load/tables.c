@@ -140,15 +140,21 @@ static dal_status find_column(const cursor *first, const dal__entry *key, int *c
     const char *known[MAX_NAMES];
     cursor c = *first;
     int count = 0;
-    for (*column = 0; !at_line_end(&c); ++*column) {
+    *column = -1;
+    for (int i = 0; !at_line_end(&c); i++) {
         size_t length;
         const char *name = next_field(&c, &length);
-        if (strlen(key->text) == length && memcmp(key->text, name, length) == 0) return DAL_OK;
+        if (strlen(key->text) == length && memcmp(key->text, name, length) == 0) {
+            if (*column >= 0)
+                return CSV_ERROR(&c, name, "another column is called '%.60s', too", key->text);
+            *column = i;
+        }
         if (count == MAX_NAMES) continue;
         snprintf(names[count], sizeof names[count], "%.*s", length < 100 ? (int)length : 100, name);
         known[count] = names[count];
         count++;
     }
+    if (*column >= 0) return DAL_OK;
     char what[200];
     snprintf(what, sizeof what, "column of '%.80s'", first->name->text);
     return dal__unknown_at(first->loader->error, DAL__AT_TEXT(key), what, key->text, known, count);
