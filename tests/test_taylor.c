@@ -489,6 +489,22 @@ static void test_gaps(void)
     dal_run_free(run);
 }
 
+/* A circle about a centre that attracts with the potential r^3: r = 1 at the rate sqrt(3); in both
+ * spaces, whose second derivatives are branches at r = 0, too. */
+static void test_hypot(void)
+{
+    static const char text[] = "coordinates: [x, y]\n"
+                               "lagrangian: (x'^2 + y'^2)/2 - hypot(x, y)^3\n"
+                               "start: {x: 1, y': sqrt(3)}\n";
+    for (int i = 0; i < 2; i++) {
+        const dal_run_spec spec = spec_of(text, i ? DAL_LIFTED : DAL_PHYSICAL, 2.0, 1e-14);
+        dal_run *run = fixture_stepped(&spec, 1);
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], cos(2.0 * sqrt(3.0)), 1e-13);
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[1], sin(2.0 * sqrt(3.0)), 1e-13);
+        dal_run_free(run);
+    }
+}
+
 static void test_refused(void)
 {
     static const char kinked[] = "coordinates: [x]\naccelerations: {x: -abs(x)}\nstart: {x: 1}\n";
@@ -532,6 +548,7 @@ void suite_taylor(void)
     CU_add_test(suite, "a moving gauge", test_gauge);
     CU_add_test(suite, "lanes of a batch", test_lanes);
     CU_add_test(suite, "vanishing coefficients", test_gaps);
+    CU_add_test(suite, "along a circle by hypot", test_hypot);
     CU_add_test(suite, "what is refused", test_refused);
     CU_add_test(suite, "steps that fail", test_failures);
 }

@@ -185,6 +185,23 @@ static bool find_turn(const conversion *c, uint32_t a, uint32_t b, uint32_t *pro
     return true;
 }
 
+/* Whether if(a, b, ..) is a derivative of r = hypot, as if(r == 0, 0, x/r), of which x/r has a
+ * series where r has. */
+static bool is_slope_of_hypot(const conversion *c, uint32_t a, uint32_t b)
+{
+    const dal__taylor_operation *code = c->taylor->code, *equal = NULL;
+    bool root = false, divides = false;
+    for (int k = c->first; k < c->taylor->length; k++)
+        if (code[k].op == DAL__EQUAL && code[k].d == a) equal = &code[k];
+    for (int k = c->first; k < c->taylor->length && equal; k++) {
+        const uint32_t r = code[k].op == DAL__HYPOT ? code[k].d : code[k].b;
+        if (r != equal->a && r != equal->b) continue;
+        root = root || code[k].op == DAL__HYPOT;
+        divides = divides || code[k].op == DAL__DIV;
+    }
+    return is_constant(b) && root && divides;
+}
+
 /* Converts one instruction.  That operand of a product which is known later becomes the second,
  * whose coefficient k the recurrence uses last. */
 static void convert(const conversion *c, const dal__instruction *i)
@@ -196,6 +213,10 @@ static void convert(const conversion *c, const dal__instruction *i)
     const bool angle = i->op == DAL__SIN || i->op == DAL__COS || i->op == DAL__SINCOS;
     if (i->op == DAL__MUL && (find_turn(c, a, b, &slot[i->d]) || find_turn(c, b, a, &slot[i->d])))
         return;
+    if (i->op == DAL__IF && is_slope_of_hypot(c, a, b)) {
+        slot[i->d] = own.c;
+        return;
+    }
     if (product && !is_constant(a) && !is_constant(b) && c->depth[a] > c->depth[b])
         own.a = b, own.b = a;
     if (i->op == DAL__POW && !is_constant(b)) {
