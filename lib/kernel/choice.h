@@ -8,26 +8,30 @@
  *
  * Each lane begins with the fixed point.  Where that needs more iterations than Newton's method
  * with three would cost, or where Newton's method is in use, the other method is tried after
- * DAL__FIRST_TRIAL equations and used from then on if it costs less; else it is tried again after
- * twice as many, at most DAL__LAST_TRIAL.  A fixed point that hardly contracts, or that takes more
- * iterations than it may, is given up for Newton's method at once.
+ * DAL__MIN_INTERVAL equations and used from then on if it costs less; else it is tried again after
+ * twice as many, at most DAL__MAX_INTERVAL.  A fixed point that hardly contracts, or that takes
+ * more iterations than it may, is given up for Newton's method at once.
  *
- * All that is decided stands in the persistent state: uses_newton, and choice, the iterations of
- * the last equation, the equations until the next trial, and those between it and the last one. */
+ * The decision stands in the persistent state: uses_newton, and choice[3][DAL_STEP_GROUPS]:
+ *
+ *     last        iterations of the last equation that counted
+ *     remaining   equations until the next trial
+ *     interval    equations from one trial to the next; 0: none is planned */
 #ifndef DAL_KERNEL_CHOICE_H
 #define DAL_KERNEL_CHOICE_H
 
 #include "step.h"
 
-enum { DAL__FIRST_TRIAL = 8, DAL__LAST_TRIAL = 512 };
+/* Equations from one trial of the other method to the next. */
+enum { DAL__MIN_INTERVAL = 8, DAL__MAX_INTERVAL = 512 };
 /* The time of an operation of Newton's method, that of the fixed point being 1.  It is longer in
  * compiled steps than in interpreted ones; both must choose alike, and take the mean. */
-#define DAL__CHARGE 1.4
-/* The iterations of Newton's method: as few as can be hoped for, and as expected where it is not
- * known; the fixed point may cost PATIENCE times as much before it is given up. */
-#define DAL__FEW      3.0
-#define DAL__EXPECTED 6.0
-#define DAL__PATIENCE 4.0
+#define DAL__NEWTON_WEIGHT 1.4
+/* Iterations of Newton's method, at best and as expected, where it has not been tried; the fixed
+ * point may cost PATIENCE times as much before it is given up. */
+#define DAL__NEWTON_MIN           3.0
+#define DAL__NEWTON_EXPECTED      6.0
+#define DAL__FIXED_POINT_PATIENCE 4.0
 
 /* Of an equation, in iterations of the fixed point. */
 typedef struct dal_newton_cost {
@@ -45,16 +49,16 @@ DAL_INLINE dal_newton_cost dal_cost_of_newton(const dal_step *s, int stages, int
     const double matrix = DAL_JACOBIAN_OPERATIONS(s) + 32.0 * w;
     const double inverse = split ? pairs * (w + 8.0) * w * w : (2.0 * size + 4.0) * size * size;
     const double product = split ? 2.5 * pairs * (stages + w) * w : size * size;
-    const dal_newton_cost cost = {DAL__CHARGE * (matrix + inverse) / map,
-                                  DAL__CHARGE * (1.0 + product / map)};
+    const dal_newton_cost cost = {DAL__NEWTON_WEIGHT * (matrix + inverse) / map,
+                                  DAL__NEWTON_WEIGHT * (1.0 + product / map)};
     return cost;
 }
 
 /* Lanes of group j in which the method not in use is tried. */
 DAL_INLINE dal_mask dal__trial_is_due(const dal_step *s, int j)
 {
-    const num *rest = s->choice + DAL_STEP_GROUPS, *first = rest + DAL_STEP_GROUPS;
-    return dal_less(dal_num(0.5), first[j]) & dal_less(rest[j], dal_num(0.5));
+    const num *remaining = s->choice + DAL_STEP_GROUPS, *interval = remaining + DAL_STEP_GROUPS;
+    return dal_less(dal_num(0.5), interval[j]) & dal_less(remaining[j], dal_num(0.5));
 }
 
 /* The iterations that the fixed point may take; in the lanes `newton`, where Newton's method is in
@@ -62,16 +66,18 @@ DAL_INLINE dal_mask dal__trial_is_due(const dal_step *s, int j)
 DAL_INLINE num dal__fixed_point_limit(const dal_step *s, const dal_newton_cost *cost, int j,
                                       dal_mask newton)
 {
-    const double expected = cost->matrix + cost->iteration * DAL__EXPECTED;
+    const double expected = cost->matrix + cost->iteration * DAL__NEWTON_EXPECTED;
     const num present = cost->matrix + cost->iteration * s->choice[j];
-    return dal_select(newton, present, dal_num(DAL__PATIENCE * expected));
+    return dal_select(newton, present, dal_num(DAL__FIXED_POINT_PATIENCE * expected));
 }
 
-/* Lanes whose number of iterations matters for a choice. */
-DAL_INLINE dal_mask dal__counts(const dal_step *s, const dal_newton_cost *cost, int j, num taken)
+/* Lanes whose equations count until a trial: Newton's method is in use, or could cost less than the
+ * iterations taken. */
+DAL_INLINE dal_mask dal__counts_until_trial(const dal_step *s, const dal_newton_cost *cost, int j,
+                                            num taken)
 {
     return dal_less(dal_num(0.5), s->uses_newton[j]) |
-           dal_less(dal_num(cost->matrix + cost->iteration * DAL__FEW), taken);
+           dal_less(dal_num(cost->matrix + cost->iteration * DAL__NEWTON_MIN), taken);
 }
 
 /* Chooses in the solved lanes of group j, `by_newton` some of them, what the next equation is
@@ -79,8 +85,8 @@ DAL_INLINE dal_mask dal__counts(const dal_step *s, const dal_newton_cost *cost, 
 DAL_INLINE void dal__choose(dal_step *s, const dal_newton_cost *cost, int j, dal_mask solved,
                             dal_mask by_newton, num taken)
 {
-    num *const last = s->choice + j, *const rest = last + DAL_STEP_GROUPS,
-               *const first = rest + DAL_STEP_GROUPS;
+    num *const last = s->choice + j, *const remaining = last + DAL_STEP_GROUPS,
+               *const interval = remaining + DAL_STEP_GROUPS;
     const dal_mask newton = dal_less(dal_num(0.5), s->uses_newton[j]);
     const dal_mask due = dal__trial_is_due(s, j), other = by_newton ^ newton;
     const num before = dal_select(newton, cost->matrix + cost->iteration * *last, *last);
@@ -88,15 +94,16 @@ DAL_INLINE void dal__choose(dal_step *s, const dal_newton_cost *cost, int j, dal
     const dal_mask given_up = other & ~due;
     const dal_mask better = other & due & dal_less(now, before);
     const dal_mask later = solved & (given_up | (due & ~better));
-    const dal_mask counts = solved & ~due & ~other & dal__counts(s, cost, j, taken);
-    const dal_mask begins = (solved & better) | (counts & dal_less(*first, dal_num(0.5)));
+    const dal_mask counts = solved & ~due & ~other & dal__counts_until_trial(s, cost, j, taken);
+    const dal_mask begins = (solved & better) | (counts & dal_less(*interval, dal_num(0.5)));
     const dal_mask changes = solved & (given_up | better);
-    *first = dal_select(
-        later, dal_max(dal_min(2.0 * *first, dal_num(DAL__LAST_TRIAL)), dal_num(DAL__FIRST_TRIAL)),
-        *first);
-    *first = dal_select(begins, dal_num(DAL__FIRST_TRIAL), *first);
-    *rest = dal_select(counts, dal_max(*rest - 1.0, dal_num(0.0)), *rest);
-    *rest = dal_select(later | begins, *first, *rest);
+    *interval = dal_select(
+        later,
+        dal_max(dal_min(2.0 * *interval, dal_num(DAL__MAX_INTERVAL)), dal_num(DAL__MIN_INTERVAL)),
+        *interval);
+    *interval = dal_select(begins, dal_num(DAL__MIN_INTERVAL), *interval);
+    *remaining = dal_select(counts, dal_max(*remaining - 1.0, dal_num(0.0)), *remaining);
+    *remaining = dal_select(later | begins, *interval, *remaining);
     *last = dal_select(changes | counts, taken, *last);
     s->uses_newton[j] = dal_select(changes, 1.0 - s->uses_newton[j], s->uses_newton[j]);
 }

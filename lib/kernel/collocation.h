@@ -303,9 +303,11 @@ DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_eq
 /* Chooses the solver of the next step where the number of iterations matters for that. */
 DAL_INLINE void dal__choose_after_fixed_point(dal_step *s, const dal_equation *eq)
 {
-    DAL_EACH(j, DAL_STEP_GROUPS)
-        if (DAL_RARELY(dal_any(s->alive[j] & dal__counts(s, &eq->cost, j, eq->taken[j]))))
+    DAL_EACH(j, DAL_STEP_GROUPS) {
+        const dal_mask counts = dal__counts_until_trial(s, &eq->cost, j, eq->taken[j]);
+        if (DAL_RARELY(dal_any(s->alive[j] & counts)))
             dal__choose(s, &eq->cost, j, s->alive[j], ~dal_all(), eq->taken[j]);
+    }
 }
 
 /* The same where the fixed point from the predictor suffices in all lanes; else DAL_NOT_CONVERGED,

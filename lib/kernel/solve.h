@@ -27,18 +27,18 @@
 enum { DAL_MAX_STAGES = 16 };
 
 /* A fixed point whose third increment is not below this share of the second is given up. */
-#define DAL__SLOW 0.9
+#define DAL__SLOW_CONTRACTION 0.9
 /* Increments relative to the state: rounding, stagnation, too small to measure a rate. */
 #define DAL__ROUNDING (1.4e-14 * DAL_ULP_RATIO)
 #define DAL__SMALL    (1e-12 * DAL_ULP_RATIO)
 #define DAL__NOISE    (1e-12 * DAL_ULP_RATIO)
-/* From iteration PATIENT on NOTHING is enough, from twice that on LITTLE, and CYCLING where the
- * last CYCLE iterations have brought no smaller increment. */
-#define DAL__PATIENT 8
-#define DAL__NOTHING (1e-17 * DAL_ULP_RATIO)
-#define DAL__LITTLE  (1e-16 * DAL_ULP_RATIO)
-#define DAL__CYCLE   6
-#define DAL__CYCLING (1e-10 * DAL_ULP_RATIO)
+/* From iteration MANY on an increment below FAINT is enough, from twice that on one below
+ * LATE_FAINT; so is one below CYCLE_SIZE after CYCLE_LENGTH iterations without a smaller one. */
+#define DAL__MANY_ITERATIONS 8
+#define DAL__FAINT           (1e-17 * DAL_ULP_RATIO)
+#define DAL__LATE_FAINT      (1e-16 * DAL_ULP_RATIO)
+#define DAL__CYCLE_LENGTH    6
+#define DAL__CYCLE_SIZE      (1e-10 * DAL_ULP_RATIO)
 
 /* One block of unknowns, [size]. */
 typedef struct dal_block {
@@ -90,7 +90,8 @@ typedef void dal_matrix(dal_step *step, dal_equation *equation);
 #define DAL_SIZE(b) ((b)->size)
 #endif
 
-/* Declares a block of count unknowns with its memory; newton: with an inverse. */
+/* Declares a block of count unknowns with its memory; newton: with an inverse.  Its members have no
+ * names here, since generated files are C++17, too. */
 #define DAL_BLOCK(step, name, count, newton)                                                       \
     DAL_VECTOR(step, name##_u, count);                                                             \
     DAL_VECTOR(step, name##_image, count);                                                         \
@@ -223,16 +224,16 @@ DAL_INLINE num dal__size(const dal_block *b, int j)
 /* Lanes where an increment is zero, or small enough after several iterations. */
 DAL_INLINE dal_mask dal__negligible(dal_block *b, int j, int k, num now, num size)
 {
-    const double nothing = k < DAL__PATIENT       ? 0.0
-                           : k < 2 * DAL__PATIENT ? DAL__NOTHING
-                                                  : DAL__LITTLE;
-    const double cycling = k < DAL__PATIENT ? 0.0 : DAL__CYCLING;
+    const double faint = k < DAL__MANY_ITERATIONS       ? 0.0
+                         : k < 2 * DAL__MANY_ITERATIONS ? DAL__FAINT
+                                                        : DAL__LATE_FAINT;
+    const double cycle = k < DAL__MANY_ITERATIONS ? 0.0 : DAL__CYCLE_SIZE;
     num *min = &b->best[0][j], *since = &b->best[1][j];
     const dal_mask less = dal_less(now, *min);
     *min = dal_select(less, now, *min);
     *since = dal_select(less, dal_num(0.0), *since + 1.0);
-    return dal_less_equal(now, nothing * size) |
-           (dal_less_equal(now, cycling * size) & dal_less(dal_num(DAL__CYCLE - 0.5), *since));
+    return dal_less_equal(now, faint * size) |
+           (dal_less_equal(now, cycle * size) & dal_less(dal_num(DAL__CYCLE_LENGTH - 0.5), *since));
 }
 
 /* Lanes of a group where the increment of iteration k is zero, stagnates, or is below the
@@ -241,7 +242,7 @@ DAL_INLINE dal_mask dal__negligible(dal_block *b, int j, int k, num now, num siz
 DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k)
 {
     const num now = b->now[j];
-    if (DAL_LANES == 1 && k < DAL__PATIENT && !(DAL_SOLVER_TOLERANCE(s) > 0.0) &&
+    if (DAL_LANES == 1 && k < DAL__MANY_ITERATIONS && !(DAL_SOLVER_TOLERANCE(s) > 0.0) &&
         dal_any(dal_less(dal_num(0.0), now)) && dal_any(dal_less(now, b->best[0][j]))) {
         b->best[0][j] = now;
         b->best[1][j] = b->stagnations[j] = dal_num(0.0);
@@ -262,7 +263,7 @@ DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k
 
 DAL_INLINE dal_mask dal__slow(const dal_block *b, int j)
 {
-    const dal_mask slow = dal_less(DAL__SLOW * b->before[j], b->now[j]);
+    const dal_mask slow = dal_less(DAL__SLOW_CONTRACTION * b->before[j], b->now[j]);
     if (!dal_any(slow)) return slow;
     return slow & dal_less(DAL__NOISE * dal__size(b, j), b->now[j]);
 }
