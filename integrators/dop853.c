@@ -19,7 +19,7 @@ static const double b853[] = {5.42937341165687622380535766363e-2, 0.0, 0.0, 0.0,
     -5.8012039600105847814672114227, 3.1116436695781989440891606237e-1,
     -1.52160949662516078556178806805e-1, 2.01365400804030348374776537501e-1,
     4.47106157277725905176885569043e-2};
-/* Row i, below the diagonal, begins at i(i-1)/2, rows from 0. */
+/* a_i1, .., a_i(i-1) begin at number (i-1)(i-2)/2. */
 static const double a853[] = {5.26001519587677318785587544488e-2,
     1.97250569845378994544595329183e-2, 5.91751709536136983633785987549e-2,
     2.95875854768068491816892993775e-2, 0.0, 8.87627564304205475450678981324e-2,
@@ -70,6 +70,10 @@ static const double b853_low[] = {-2.5645259176078281e-18, 0.0, 0.0, 0.0, 0.0,
 
 enum { STAGES_853 = 12 };
 
+/* Stages are numbered as in the formula, from 1. */
+#define ROW_853(i)       (((i)-1) * ((i)-2) / 2)
+#define K_853(k, dim, i) ((k) + ((i)-1) * (dim))
+
 /* Below this tolerance the rounding of coefficients and of y counts: stages begin from y + r, and
  * coefficients have the digits of two doubles.  What is left then is the rounding of F. */
 #if DAL_WITH_CONTROL
@@ -79,47 +83,47 @@ enum { STAGES_853 = 12 };
 #define IS_FINE_853(s) 0
 #endif
 
-/* out += sum_(j < count) weight_j k_j */
+/* out += weight_1 k_1 + .. + weight_count k_count */
 DAL_INLINE void add_derivatives(int dim, int count, const double *weight, const num *k,
                                 num *DAL_RESTRICT out)
 {
     DAL_EACH(j, count) {
         if (weight[j] == 0.0) continue;
-        DAL_EACH(i, dim) out[i] = dal_fma(dal_num(weight[j]), k[j * dim + i], out[i]);
+        DAL_EACH(l, dim) out[l] = dal_fma(dal_num(weight[j]), k[j * dim + l], out[l]);
     }
 }
 
-/* sum = sum_(j < count) weight_j k_j, the small parts of the weights first. */
+/* sum = weight_1 k_1 + .. + weight_count k_count, the digits behind the doubles first. */
 DAL_INLINE void combine(int dim, int count, const double *weight, const double *low, int is_fine,
                         const num *k, num *DAL_RESTRICT sum)
 {
-    DAL_EACH(i, dim) sum[i] = dal_num(0.0);
+    DAL_EACH(l, dim) sum[l] = dal_num(0.0);
     if (is_fine) add_derivatives(dim, count, low, k, sum);
     add_derivatives(dim, count, weight, k, sum);
 }
 
-/* k_i of a step from t, from the first on that is not known yet, and the sum of b_i k_i. */
-DAL_INLINE void derivatives(dal_step *s, dal_times t, dal_times size, int first, num *k, num *sum)
+/* All k_i of a step from t but the first ones that are `known`, and the sum of b_i k_i. */
+DAL_INLINE void derivatives(dal_step *s, dal_times t, dal_times size, int known, num *k, num *sum)
 {
     const int dim = DAL_DIM(s), is_fine = IS_FINE_853(s);
     const num h = size;
-    DAL_EACH(stage, STAGES_853) {
-        if (stage < first) continue;
-        const int row = stage * (stage - 1) / 2;
-        combine(dim, stage, a853 + row, a853_low + row, is_fine, k, sum);
+    DAL_EACH(before, STAGES_853) {
+        if (before < known) continue;
+        const int i = before + 1;
+        combine(dim, before, a853 + ROW_853(i), a853_low + ROW_853(i), is_fine, k, sum);
         if (is_fine)
-            DAL_EACH(i, dim) sum[i] = s->y[i] + dal_fma(h, sum[i], s->r[i]);
+            DAL_EACH(l, dim) sum[l] = s->y[l] + dal_fma(h, sum[l], s->r[l]);
         else
-            DAL_EACH(i, dim) sum[i] = dal_fma(h, sum[i], s->y[i]);
-        dal_field_at(s, t + c853[stage] * size, sum, k + stage * dim);
+            DAL_EACH(l, dim) sum[l] = dal_fma(h, sum[l], s->y[l]);
+        dal_field_at(s, t + c853[i - 1] * size, sum, K_853(k, dim, i));
     }
     combine(dim, STAGES_853, b853, b853_low, is_fine, k, sum);
 }
 
 #if DAL_WITH_CONTROL
 /* clang-format off */
-/* The weights of the method of order 3 inside, bhh; and those of order 8 less those of order 5, er:
- * what they sum to vanishes up to h^3, h^5. */
+/* The weights of the embedded method of order 3 (bhh in dop853.f), and those of order 8 less those
+ * of order 5 (er); their differences from order 8 vanish up to h^3 and h^5. */
 static const double third853[] = {0.244094488188976377952755905512, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
     0.0, 0.733846688281611857341361741547, 0.0, 0.0, 0.220588235294117647058823529412e-1};
 static const double fifth853[] = {0.1312004499419488073250102996e-1, 0.0, 0.0, 0.0, 0.0,
@@ -130,18 +134,19 @@ static const double fifth853[] = {0.1312004499419488073250102996e-1, 0.0, 0.0, 0
 /* clang-format on */
 
 /* error / tolerance over count components from first on:
- *     |h| |e5|^2 / sqrt(count (|e5|^2 + |e3|^2/100)),   e_i in units of tolerance (1 + |y_i|) */
+ *     |h| |e5|^2 / sqrt(count (|e5|^2 + |e3|^2/100))
+ * where the components l of e3 and e5 are in units of tolerance (1 + |y_l|). */
 DAL_INLINE dal_times error853(const dal_step *s, dal_times h, const num *derivative, const num *e3,
                               const num *e5, int first, int count)
 {
     const double tolerance = DAL_TOLERANCE(s);
     dal_times square3 = h - h, square5 = h - h;
-    DAL_EACH(j, count) {
-        const int i = first + j;
-        const num size = dal_max(dal_abs(s->y[i]), dal_abs(s->y[i] + h * derivative[i]));
+    DAL_EACH(place, count) {
+        const int l = first + place;
+        const num size = dal_max(dal_abs(s->y[l]), dal_abs(s->y[l] + h * derivative[l]));
         const num unit = tolerance + tolerance * size;
-        square3 += e3[i] / unit * (e3[i] / unit);
-        square5 += e5[i] / unit * (e5[i] / unit);
+        square3 += e3[l] / unit * (e3[l] / unit);
+        square5 += e5[l] / unit * (e5[l] / unit);
     }
     const num both = square5 + 0.01 * square3, zero = dal_num(0.0);
     const num error = dal_abs(h) * square5 / dal_sqrt(count * both);
@@ -156,8 +161,8 @@ DAL_INLINE dal_times ratio853(dal_step *s, dal_times h, const num *k, const num 
     DAL__MARK(s);
     DAL_VECTOR(s, e3, DAL_DIM(s));
     DAL_VECTOR(s, e5, DAL_DIM(s));
-    DAL_EACH(i, dim) e3[i] = -derivative[i];
-    DAL_EACH(i, dim) e5[i] = dal_num(0.0);
+    DAL_EACH(l, dim) e3[l] = -derivative[l];
+    DAL_EACH(l, dim) e5[l] = dal_num(0.0);
     add_derivatives(dim, STAGES_853, third853, k, e3);
     add_derivatives(dim, STAGES_853, fifth853, k, e5);
     num error = error853(s, h, derivative, e3, e5, 0, n + DAL_NW(s));
@@ -181,13 +186,13 @@ DAL_INLINE dal_times ratio853(dal_step *s, dal_times h, const num *k, const num 
  * the next.  Hairer, Norsett, Wanner, II.6; digits as in dop853.f. */
 #ifndef DAL_SPECIALISED
 enum {
-    EXTENSION_FIRST_853 = 13, /* stages so far, that of the end included */
-    EXTENSION_ALL_853 = 16,
-    EXTENSION_TERMS_853 = 7 /* r2..r8 */
+    END_853 = 13,            /* the stage at t + h */
+    EXTENSION_LAST_853 = 16, /* the last stage */
+    EXTENSION_TERMS_853 = 7  /* r2..r8 */
 };
 
 /* clang-format off */
-/* A(i, j, a_ij) of stages 14..16, D(d, j, d_dj) of r_(d+1), indices from 1; the others are 0. */
+/* A(i, j, a_ij) of stages 14..16, D(d, j, d_dj) of r_(d+1); the others are 0. */
 #define EXTENSION_STAGES_853(A) \
     A(14, 1, 5.61675022830479523392909219681e-2) A(14, 7, 2.53500210216624811088794765333e-1) \
     A(14, 8, -2.46239037470802489917441475441e-1) \
@@ -234,15 +239,16 @@ enum {
     D(7, 15, -0.39177261675615439165231486172e2) D(7, 16, -0.14972683625798562581422125276e3)
 /* clang-format on */
 
-static const double c853_extension[] = {0.1, 0.2, 0.777777777777777777777777777778};
+/* c_13, .., c_16 */
+static const double c853_extension[] = {1.0, 0.1, 0.2, 0.777777777777777777777777777778};
 
-/* sum[dim] = sum_j a_ij k_j over the stages before stage i, which here counts from 0: 13..15. */
+/* sum[dim] = sum_(j<i) a_ij k_j, i = 14..16. */
 DAL_INLINE void extension_stage(int dim, int i, const num *k, num *DAL_RESTRICT sum)
 {
     DAL_EACH(l, dim) sum[l] = dal_num(0.0);
 #define ADD_STAGE(row, j, weight)                                                                  \
-    if (i == (row)-1)                                                                              \
-        DAL_EACH(l, dim) sum[l] = dal_fma(dal_num(weight), k[((j)-1) * dim + l], sum[l]);
+    if (i == (row))                                                                                \
+        DAL_EACH(l, dim) sum[l] = dal_fma(dal_num(weight), K_853(k, dim, j)[l], sum[l]);
     EXTENSION_STAGES_853(ADD_STAGE)
 #undef ADD_STAGE
 }
@@ -252,20 +258,20 @@ DAL_INLINE void extension_terms(int dim, const num *mean, const num *k, num *DAL
 {
     DAL_EACH(l, dim) {
         r[l] = mean[l];
-        r[dim + l] = k[l] - mean[l];
-        r[2 * dim + l] = mean[l] - k[(EXTENSION_FIRST_853 - 1) * dim + l] - r[dim + l];
+        r[dim + l] = K_853(k, dim, 1)[l] - mean[l];
+        r[2 * dim + l] = mean[l] - K_853(k, dim, END_853)[l] - r[dim + l];
     }
     DAL_EACH(l, 4 * dim) r[3 * dim + l] = dal_num(0.0);
 #define ADD_TERM(d, j, weight)                                                                     \
     DAL_EACH(l, dim)                                                                               \
-        r[((d)-1) * dim + l] = dal_fma(dal_num(weight), k[((j)-1) * dim + l], r[((d)-1) * dim + l]);
+        r[((d)-1) * dim + l] = dal_fma(dal_num(weight), K_853(k, dim, j)[l], r[((d)-1) * dim + l]);
     EXTENSION_WEIGHTS_853(ADD_TERM)
 #undef ADD_TERM
 }
 
 /* Replaces r2, .., r8 by the coefficients of s^0, .., s^6 in r2 + z (r3 + s (r4 + z ..)), from the
- * innermost bracket outwards.  A pass makes r_i + z P = r_i + P - s P of r_i and the coefficients
- * of P = r_(i+1) + s (..), which already stand behind it. */
+ * innermost bracket outwards.  A pass makes r_d + z P = r_d + P - s P of r_d and the coefficients
+ * of P = r_(d+1) + s (..), which already stand behind it. */
 DAL_INLINE void expand_extension(int dim, num *r)
 {
     const int last = (EXTENSION_TERMS_853 - 1) * dim;
@@ -282,15 +288,14 @@ DAL_INLINE void extend(dal_step *s, const dal_control *c, const num *known, cons
 {
     const int dim = DAL_DIM(s);
     DAL__MARK(s);
-    DAL_VECTOR(s, k, EXTENSION_ALL_853 * DAL_DIM(s));
+    DAL_VECTOR(s, k, EXTENSION_LAST_853 * DAL_DIM(s));
     DAL_VECTOR(s, y, DAL_DIM(s));
-    DAL_EACH(i, STAGES_853 * dim) k[i] = known[i];
-    DAL_EACH(i, dim) y[i] = mean[i];
-    for (int stage = STAGES_853; stage < EXTENSION_ALL_853; stage++) {
-        const double at = stage == STAGES_853 ? 1.0 : c853_extension[stage - EXTENSION_FIRST_853];
-        if (stage > STAGES_853) extension_stage(dim, stage, k, y);
-        DAL_EACH(i, dim) y[i] = s->y[i] + dal_fma(c->h, y[i], s->r[i]);
-        dal_field_at(s, c->t + at * c->h, y, k + stage * dim);
+    DAL_EACH(l, STAGES_853 * dim) k[l] = known[l];
+    DAL_EACH(l, dim) y[l] = mean[l];
+    for (int i = END_853; i <= EXTENSION_LAST_853; i++) {
+        if (i > END_853) extension_stage(dim, i, k, y);
+        DAL_EACH(l, dim) y[l] = s->y[l] + dal_fma(c->h, y[l], s->r[l]);
+        dal_field_at(s, c->t + c853_extension[i - END_853] * c->h, y, K_853(k, dim, i));
     }
     extension_terms(dim, mean, k, s->dense->rate);
     expand_extension(dim, s->dense->rate);
@@ -304,8 +309,9 @@ DAL_INLINE dal_status divided(dal_step *s, num *k, num *sum)
 {
     dal_control c = dal_control_begin(s);
     while (dal_control_next(s, &c)) {
-        const int first = dal_any(c.active & ~c.again) ? 0 : 1;
-        derivatives(s, c.t, c.h, first, k, sum);
+        /* A trial that is repeated begins with the same k_1. */
+        const int known = dal_any(c.active & ~c.again) ? 0 : 1;
+        derivatives(s, c.t, c.h, known, k, sum);
         const dal_times ratio = ratio853(s, c.h, k, sum);
 #ifndef DAL_SPECIALISED
         if (DAL_RARELY(s->dense != NULL)) extend(s, &c, k, sum);

@@ -17,7 +17,7 @@
 
 typedef long double real;
 
-enum { ALL = EXTENSION_ALL_853, MAX_ORDER = 8 };
+enum { ALL = EXTENSION_LAST_853, MAX_ORDER = 8 };
 
 /* Weights up to 530 with 30 digits enter sums of terms below 1. */
 static const real rounding = 1e4L * LDBL_EPSILON;
@@ -138,9 +138,9 @@ static double max_error(double t, double h)
     }
     for (int j = 0; j < STAGES_853; j++) mean += b853[j] * k[j];
     k[STAGES_853] = rate(t + h, y0 + h * mean);
-    for (int i = EXTENSION_FIRST_853; i < ALL; i++) {
+    for (int i = END_853 + 1; i <= ALL; i++) {
         extension_stage(1, i, k, &y);
-        k[i] = rate(t + c853_extension[i - EXTENSION_FIRST_853] * h, y0 + h * y);
+        k[i - 1] = rate(t + c853_extension[i - END_853] * h, y0 + h * y);
     }
     extension_terms(1, &mean, k, terms);
     expand_extension(1, terms);
