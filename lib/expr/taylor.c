@@ -28,9 +28,9 @@ void dal__taylor_free(dal__taylor *taylor)
 
 static bool is_constant(uint32_t a) { return (a & DAL__TAYLOR_CONSTANT) != 0; }
 
-/* What has no Taylor series where it jumps or has a kink, by its name in a formula; else NULL.
- * (hypot has none at 0 alone, where coefficients are not finite; if has one where its condition is
- * constant along a run.) */
+/* The name in a formula of an operation that has no Taylor series where it jumps or has a kink;
+ * else NULL.  (hypot has none at 0 alone, where coefficients are not finite; if has one where its
+ * condition is constant along a run.) */
 static const char *refused_name(const dal__taylor_operation *i)
 {
     const uint32_t op = i->op;
@@ -58,10 +58,10 @@ static bool is_one_of(uint32_t op, uint64_t set) { return op < 64 && set >> op &
 /* What is known while a tape is converted. */
 typedef struct conversion {
     dal__taylor *taylor;
-    int first;       /* operation of the tape */
+    int first;       /* number of the first operation of this tape */
     uint32_t *slot;  /* [workspace] the operand that stands in a place of work now */
     uint32_t *depth; /* [slots] operations of the same order that must precede the series' own */
-    uint32_t *turn;  /* [slots] 1 + number of the operation that turns, of its sine and cosine */
+    uint32_t *turn;  /* [slots] of a coordinate's sine or cosine: 1 + number of its operation */
 } conversion;
 
 static dal__taylor_operation *append_operation(const conversion *c, dal__taylor_operation own)
@@ -109,7 +109,7 @@ enum { NONE, A, B, C, D, E, SLOPES, SLOPE_A = SLOPES + A, SLOPE_B, SLOPE_C, SLOP
 static const struct {
     uint32_t op;
     uint8_t pair[DAL__TAYLOR_SUMS][2];
-} list_sums[] = {
+} inner_sums[] = {
     {DAL__MUL, {{A, B}}},
     {DAL__MUL_ADD, {{A, B}}},
     {DAL__MUL_SUB, {{A, B}}},
@@ -147,16 +147,17 @@ static uint32_t series_of(const conversion *c, const dal__taylor_operation *i, i
  * results behind it. */
 static dal__taylor_operation *append_recurrence(const conversion *c, dal__taylor_operation own)
 {
-    const size_t count = sizeof list_sums / sizeof *list_sums;
+    const size_t count = sizeof inner_sums / sizeof *inner_sums;
     size_t k = 0;
-    while (k < count && list_sums[k].op != own.op) k++;
+    while (k < count && inner_sums[k].op != own.op) k++;
     if (k == count || own.turns) return append_operation(c, own);
+    const uint8_t(*pair)[2] = inner_sums[k].pair;
     for (int j = 0; j < DAL__TAYLOR_SUMS; j++)
-        if (list_sums[k].pair[j][0] < SLOPE_D) series_of(c, &own, list_sums[k].pair[j][0]);
+        if (pair[j][0] < SLOPE_D) series_of(c, &own, pair[j][0]);
     dal__taylor_operation *i = append_operation(c, own);
-    for (int j = 0; j < DAL__TAYLOR_SUMS && list_sums[k].pair[j][0]; j++)
-        i->sum[i->sums++] = find_sum(c->taylor, series_of(c, i, list_sums[k].pair[j][0]),
-                                     series_of(c, i, list_sums[k].pair[j][1]));
+    for (int j = 0; j < DAL__TAYLOR_SUMS && pair[j][0]; j++)
+        i->sum[i->sums++] =
+            find_sum(c->taylor, series_of(c, i, pair[j][0]), series_of(c, i, pair[j][1]));
     return i;
 }
 
@@ -202,6 +203,17 @@ static bool is_slope_of_hypot(const conversion *c, uint32_t a, uint32_t b)
     return is_constant(b) && root && divides;
 }
 
+/* a^b = exp(b log a), of an exponent that moves. */
+static dal__taylor_operation make_moving_power(const conversion *c, dal__taylor_operation own)
+{
+    const dal__taylor_operation log = {.op = DAL__LOG, .a = own.a};
+    const dal__taylor_operation exponent = {
+        .op = DAL__MUL, .a = own.b, .b = append_recurrence(c, log)->d};
+    own.c = append_recurrence(c, exponent)->d;
+    own.op = DAL__POW_MOVING;
+    return own;
+}
+
 /* Converts one instruction.  That operand of a product which is known later becomes the second,
  * whose coefficient k the recurrence uses last. */
 static void convert(const conversion *c, const dal__instruction *i)
@@ -219,13 +231,8 @@ static void convert(const conversion *c, const dal__instruction *i)
     }
     if (product && !is_constant(a) && !is_constant(b) && c->depth[a] > c->depth[b])
         own.a = b, own.b = a;
-    if (i->op == DAL__POW && !is_constant(b)) {
-        const uint32_t log =
-            append_recurrence(c, (dal__taylor_operation){.op = DAL__LOG, .a = a})->d;
-        own.c = append_recurrence(c, (dal__taylor_operation){DAL__MUL, .a = b, .b = log})->d;
-        own.op = DAL__POW_MOVING;
-    }
-    if (i->op == DAL__SINCOS) own.b = a; /* it was the place of the cosine */
+    if (i->op == DAL__POW && !is_constant(b)) own = make_moving_power(c, own);
+    if (i->op == DAL__SINCOS) own.b = a; /* where the tape has the place of the cosine */
     const bool turns = angle && a >= 1 && a <= (uint32_t)c->taylor->coordinates;
     const dal__taylor_operation *last = turns ? append_turn(c, own) : append_recurrence(c, own);
     slot[i->d] = last->d;

@@ -36,7 +36,7 @@ enum { DAL__TAYLOR_SUMS = 5 };
 
 /* An operation.  d: slot of its result; e: of a second series, the cosine of a sine; reciprocal: of
  * what its recurrence multiplies by, in order 0 alone; the latter are d where there is none.
- * a, b, c: operands; sum[sums]: numbers of the inner sums, in the order of list_sums. */
+ * a, b, c: operands; sum[sums]: numbers of the inner sums, in the order of inner_sums. */
 typedef struct dal__taylor_operation {
     uint32_t op, d, e, reciprocal, a, b, c;
     uint32_t sum[DAL__TAYLOR_SUMS];

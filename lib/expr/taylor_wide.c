@@ -174,7 +174,7 @@ static void rotate(const expansion *x, const dal__taylor_operation *i, uint32_t 
 }
 
 /* Coefficient k of u where u' w = g', whose inner sum is the first. */
-static num inverse(const expansion *x, const dal__taylor_operation *i, num g)
+static num quotient(const expansion *x, const dal__taylor_operation *i, num g)
 {
     return (g - x->inverse * inner(x, i, 0)) * *series(x, i->reciprocal);
 }
@@ -208,15 +208,15 @@ static void next_pair(const expansion *x, const dal__taylor_operation *i)
         *w = product(x, i, 1, i->d, i->d);
         return;
     case DAL__ATAN2:
-        *u = inverse(x, i, integral(x, i, 3, i->a, i->b) - integral(x, i, 4, i->b, i->a));
+        *u = quotient(x, i, integral(x, i, 3, i->a, i->b) - integral(x, i, 4, i->b, i->a));
         *w = product(x, i, 1, i->a, i->a) + product(x, i, 2, i->b, i->b);
         return;
     case DAL__ATAN:
-        *u = inverse(x, i, a);
+        *u = quotient(x, i, a);
         *w = product(x, i, 1, i->a, i->a);
         return;
     default: /* asin, acos, asinh */
-        *u = inverse(x, i, i->op == DAL__ACOS ? -a : a);
+        *u = quotient(x, i, i->op == DAL__ACOS ? -a : a);
         *w = integral(x, i, 1, i->d, i->a);
         if (i->op == DAL__ASIN) *w = -*w;
     }
@@ -273,7 +273,7 @@ static num next_coefficient(const expansion *x, const dal__taylor_operation *i)
         return power(x, i, a);
     case DAL__LOG:
         if (i->a & DAL__TAYLOR_CONSTANT) return dal_num(0.0);
-        return (a - x->inverse * inner(x, i, 0)) * reciprocal;
+        return quotient(x, i, a);
     case DAL__IF: /* whose condition is constant */
         return dal_if(coefficient(x, i->a, 0), b, coefficient(x, i->c, x->k));
     default: /* refused */
