@@ -17,8 +17,8 @@ static const double independent = 1e-12;
 
 enum { MAX_STEPS = 200, NAME_SIZE = 128 };
 
-/* The linear equations of a step.  A row is as many entries as names, the right-hand side, and the
- * number of its constraint. */
+/* The linear equations of a step, a row for each constraint: [columns] entries, one for each
+ * velocity, the right-hand side, and the number of the constraint. */
 typedef struct newton {
     const dal_system *system;
     dal_point at;
@@ -51,7 +51,7 @@ static const char *name_of(const newton *k, int column, char *buffer)
     return buffer;
 }
 
-/* Column k of the equations, which are triangular before it, has no pivot. */
+/* Reports that a column, before which the equations are triangular, has no pivot. */
 static dal_status undetermined(const newton *k, int column, dal_error *error)
 {
     const dal_solved *place = &k->system->solved[column];
@@ -76,29 +76,43 @@ static dal_status undetermined(const newton *k, int column, dal_error *error)
                         name, k->v[place->velocity]);
 }
 
-/* Fills the matrix and makes it triangular. */
-static dal_status eliminate(newton *k, dal_error *error)
+/* Fills the rows, each relative to its largest entry. */
+static void fill_matrix(const newton *k)
 {
-    const int m = k->system->m, n = k->system->n, width = k->width;
-    double *M = k->matrix;
-    for (int a = 0; a < m; a++) {
-        double scale = 0.0;
+    const int n = k->system->n;
+    for (int a = 0; a < k->system->m; a++) {
+        double scale = 0.0, *row = &k->matrix[a * k->width];
         for (int j = 0; j < k->columns; j++)
             scale = fmax(scale, fabs(k->A[a * n + k->system->solved[j].velocity]));
         if (scale == 0.0) scale = 1.0;
         for (int j = 0; j < k->columns; j++)
-            M[a * width + j] = k->A[a * n + k->system->solved[j].velocity] / scale;
-        M[a * width + k->columns] = -k->D[a] / scale;
-        M[a * width + k->columns + 1] = a;
+            row[j] = k->A[a * n + k->system->solved[j].velocity] / scale;
+        row[k->columns] = -k->D[a] / scale;
+        row[k->columns + 1] = a;
     }
+}
+
+/* The row from number j on with the largest entry of column j; -1: they are negligible. */
+static int find_pivot(const newton *k, int j)
+{
+    const int m = k->system->m, width = k->width;
+    double size = 0.0;
+    int pivot = j;
+    if (j == m) return -1;
+    for (int a = 0; a < m; a++) size = fmax(size, fabs(k->matrix[a * width + j]));
+    for (int a = j; a < m; a++)
+        if (fabs(k->matrix[a * width + j]) > fabs(k->matrix[pivot * width + j])) pivot = a;
+    return fabs(k->matrix[pivot * width + j]) > independent * size ? pivot : -1;
+}
+
+/* Makes the matrix triangular. */
+static dal_status eliminate(const newton *k, dal_error *error)
+{
+    const int m = k->system->m, width = k->width;
+    double *M = k->matrix;
     for (int j = 0; j < k->columns; j++) {
-        double size = 0.0;
-        int pivot = j;
-        for (int a = 0; a < m; a++) size = fmax(size, fabs(M[a * width + j]));
-        for (int a = j; a < m; a++)
-            if (fabs(M[a * width + j]) > fabs(M[pivot * width + j])) pivot = a;
-        if (j == m || !(fabs(M[pivot * width + j]) > independent * size))
-            return undetermined(k, j, error);
+        const int pivot = find_pivot(k, j);
+        if (pivot < 0) return undetermined(k, j, error);
         for (int i = 0; i < width; i++) {
             const double other = M[j * width + i];
             M[j * width + i] = M[pivot * width + i];
@@ -117,6 +131,7 @@ static dal_status take_step(newton *k, double *change, dal_error *error)
 {
     const int width = k->width, last = k->columns;
     double *M = k->matrix;
+    fill_matrix(k);
     DAL_TRY(eliminate(k, error));
     *change = 0.0;
     for (int j = last - 1; j >= 0; j--) {
@@ -127,6 +142,22 @@ static dal_status take_step(newton *k, double *change, dal_error *error)
         *v = *v + *x + 0.0; /* no -0: see lib/kernel/step.h */
     }
     return DAL_OK;
+}
+
+/* Whether the system can be solved for the velocities it names. */
+static dal_status check_solved(const dal_system *s, dal_error *error)
+{
+    bool is_usable = s->solved_velocities > 0 && s->solved_velocities <= s->m && s->solved;
+    for (int j = 0; is_usable && j < s->solved_velocities; j++)
+        is_usable = s->solved[j].velocity >= 0 && s->solved[j].velocity < s->n;
+    if (!is_usable)
+        return dal__fail(error, DAL_ARGUMENT,
+                         "%d velocities to be solved from %d constraints, of %d velocities",
+                         s->solved_velocities, s->m, s->n);
+    if (s->call.constraint) return DAL_OK;
+    return dal__fail_at(error, DAL_UNSUPPORTED, s->solved[0].line, s->solved[0].column,
+                        "the start cannot be solved for velocities: the mass matrix has no "
+                        "inverse");
 }
 
 dal_status dal__solve_velocities(const dal_system *s, double t, const double *q, double *v,
@@ -141,18 +172,8 @@ dal_status dal__solve_velocities(const dal_system *s, double t, const double *q,
     double change = INFINITY, before;
     char name[NAME_SIZE];
     int max = 0;
-    bool is_usable = s->solved_velocities > 0 && s->solved_velocities <= m && s->solved;
-    for (int j = 0; is_usable && j < s->solved_velocities; j++)
-        is_usable = s->solved[j].velocity >= 0 && s->solved[j].velocity < n;
     if (s->solved_velocities == 0) return DAL_OK;
-    if (!is_usable)
-        return dal__fail(error, DAL_ARGUMENT,
-                         "%d velocities to be solved from %d constraints, of %d velocities",
-                         s->solved_velocities, m, n);
-    if (!s->call.constraint)
-        return dal__fail_at(error, DAL_UNSUPPORTED, s->solved[0].line, s->solved[0].column,
-                            "the start cannot be solved for velocities: the mass matrix has no "
-                            "inverse");
+    DAL_TRY(check_solved(s, error));
     k.matrix = k.A + 2 * m * n;
     k.columns = s->solved_velocities;
     k.width = k.columns + 2;
