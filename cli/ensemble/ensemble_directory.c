@@ -56,6 +56,15 @@ void ensemble_directory_close(ensemble_directory *dir)
     *dir = (ensemble_directory){.marks = -1, .descriptor = -1};
 }
 
+int ensemble_member_columns(const ensemble *e) { return MEMBER_DRAWN + e->variations; }
+
+double *ensemble_allocate_rows(const ensemble *e)
+{
+    const int columns = ensemble_member_columns(e);
+    return cli_calloc(ENSEMBLE_CHUNK * (size_t)(columns > e->columns ? columns : e->columns),
+                      sizeof(double));
+}
+
 /* ---- the manifest -------------------------------------------------------------------------- */
 
 /* What an ensemble adds to the request of a run, as a member of the manifest. */
@@ -344,7 +353,7 @@ int ensemble_directory_lock(ensemble_directory *dir)
 
 static int open_tables(ensemble_directory *dir, const ensemble *e, bool is_new)
 {
-    const int columns = MEMBER_DRAWN + e->variations;
+    const int columns = ensemble_member_columns(e);
     char **names = cli_calloc((size_t)columns, sizeof *names);
     char first[MEMBER_DRAWN][8] = {"status", "t"};
     for (int i = 0; i < columns; i++)
@@ -402,10 +411,8 @@ static int begin_new(ensemble_directory *dir, const ensemble *e)
     if (status == CLI_DONE) status = remove_messages(dir);
     char *rows = cli_join(dir->path, "rows.npy");
 #define REMOVE(name, file)                                                                         \
-    if (status == CLI_DONE && dir->name != dir->lock && dir->name != dir->system &&                \
-        dir->name != dir->messages)                                                                \
-        status = file_remove(dir->name);
-    ENSEMBLE_FILE_LIST(REMOVE)
+    if (status == CLI_DONE) status = file_remove(dir->name);
+    ENSEMBLE_RESULT_LIST(REMOVE)
 #undef REMOVE
     if (status == CLI_DONE) status = file_remove(rows);
     free(rows);

@@ -21,17 +21,20 @@
 #include "io/document.h"
 #include "io/npy_table.h"
 
-/* member of ensemble_directory, file */
-#define ENSEMBLE_FILE_LIST(PATH)                                                                   \
+/* member of ensemble_directory, file: those that say what was done, which a new ensemble removes;
+ * and all. */
+#define ENSEMBLE_RESULT_LIST(PATH)                                                                 \
     PATH(manifest, "manifest.json")                                                                \
-    PATH(system, "system.yaml")                                                                    \
-    PATH(messages, "messages")                                                                     \
-    PATH(lock, "lock")                                                                             \
     PATH(statistics, "statistics.csv")                                                             \
     PATH(covariance, "covariance.csv")                                                             \
     PATH(failures, "failures.csv")                                                                 \
     PATH(histograms, "histograms.csv")                                                             \
     PATH(cloud, "cloud.csv")
+#define ENSEMBLE_FILE_LIST(PATH)                                                                   \
+    ENSEMBLE_RESULT_LIST(PATH)                                                                     \
+    PATH(system, "system.yaml")                                                                    \
+    PATH(messages, "messages")                                                                     \
+    PATH(lock, "lock")
 
 /* The columns of members.npy before what was drawn. */
 enum { MEMBER_STATUS, MEMBER_TIME, MEMBER_DRAWN };
@@ -62,6 +65,10 @@ typedef struct ensemble_directory {
 
 void ensemble_directory_open(ensemble_directory *dir, const char *path);
 void ensemble_directory_close(ensemble_directory *dir);
+/* Columns of members.npy. */
+int ensemble_member_columns(const ensemble *e);
+/* Memory for the rows of a chunk in any of the tables, zeroed; the caller frees it. */
+double *ensemble_allocate_rows(const ensemble *e);
 /* Whether a directory holds an ensemble. */
 bool ensemble_directory_has_ensemble(const char *path);
 

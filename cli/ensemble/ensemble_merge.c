@@ -74,9 +74,7 @@ static int merge_all(merge *m, int threads, bool force)
         status = ensemble_directory_attach(&m->source[i], &m->e, ENSEMBLE_NO_SHARD);
     if (status == CLI_DONE) status = begin_target(m, force);
     if (status != CLI_DONE) return status;
-    const int drawn = MEMBER_DRAWN + m->e.variations;
-    m->rows = cli_calloc(ENSEMBLE_CHUNK * (size_t)(drawn > m->e.columns ? drawn : m->e.columns),
-                         sizeof *m->rows);
+    m->rows = ensemble_allocate_rows(&m->e);
     for (int i = 0; i < ensemble_chunks(&m->e) && status == CLI_DONE; i++)
         status = merge_chunk(m, i);
     if (status == CLI_DONE) status = ensemble_directory_save(&m->target, &m->e);

@@ -28,7 +28,7 @@ static const double worth_compiling = 1e8;
 /* What a thread needs for a chunk. */
 typedef struct worker {
     dal_ensemble *ensemble;
-    double *rows; /* [ENSEMBLE_CHUNK * max(columns, columns of members.npy)] */
+    double *rows; /* see ensemble_allocate_rows */
     struct worker *next;
 } worker;
 
@@ -48,11 +48,9 @@ typedef struct pool_state {
 
 static worker *make_worker(const ensemble *e, dal_ensemble *lanes)
 {
-    const int drawn = MEMBER_DRAWN + e->variations;
     worker *w = cli_calloc(1, sizeof *w);
     w->ensemble = lanes;
-    w->rows = cli_calloc(ENSEMBLE_CHUNK * (size_t)(e->columns > drawn ? e->columns : drawn),
-                         sizeof *w->rows);
+    w->rows = ensemble_allocate_rows(e);
     return w;
 }
 
@@ -96,19 +94,9 @@ static void take_worker(void *user)
     use_native(p, r->worker);
 }
 
-/* The line of a terminal, or JSON for scripts, which always has the end. */
-static void show_members(pool_state *p, bool at_the_end)
+static void write_json_progress(const pool_state *p, double seconds)
 {
-    const bool is_json = p->progress == PROGRESS_JSON;
-    const double now = cli_seconds(), seconds = now - p->start;
     const double left = (double)(p->members - p->done);
-    if (p->progress == PROGRESS_OFF || (at_the_end && !is_json)) return;
-    if (!at_the_end && now - p->shown <= (is_json ? json_interval : line_interval)) return;
-    p->shown = now;
-    if (!is_json) {
-        cli_progress("ensemble: %lld of %lld members, %.0f s", p->done, p->members, seconds);
-        return;
-    }
     json_writer w = {.out = stderr};
     json_open(&w, NULL, JSON_ON_ONE_LINE);
     json_put_integer(&w, "done", p->done);
@@ -118,6 +106,20 @@ static void show_members(pool_state *p, bool at_the_end)
                     left > 0 ? seconds * left / (double)(p->done - p->begun) : 0.0);
     json_close(&w);
     fputc('\n', w.out);
+}
+
+/* The line of a terminal, or JSON for scripts, which always has the end. */
+static void show_members(pool_state *p, bool at_the_end)
+{
+    const bool is_json = p->progress == PROGRESS_JSON;
+    const double now = cli_seconds();
+    if (p->progress == PROGRESS_OFF || (at_the_end && !is_json)) return;
+    if (!at_the_end && now - p->shown <= (is_json ? json_interval : line_interval)) return;
+    p->shown = now;
+    if (is_json)
+        write_json_progress(p, now - p->start);
+    else
+        cli_progress("ensemble: %lld of %lld members, %.0f s", p->done, p->members, now - p->start);
 }
 
 typedef struct chunk_end {
@@ -156,11 +158,11 @@ static int advance(dal_batch *batch, long long steps)
     return CLI_DONE;
 }
 
-/* status, t, what was drawn; the first count numbers of started say which lanes had a start. */
+/* Writes status, t and what was drawn; started[count]: whether a member had a start. */
 static int write_members(const pool_state *p, const worker *w, const bool *started, long long first,
                          int count)
 {
-    const int drawn = p->e->variations, columns = MEMBER_DRAWN + drawn;
+    const int drawn = p->e->variations, columns = ensemble_member_columns(p->e);
     dal_batch *batch = dal_ensemble_batch(w->ensemble);
     double *draws = cli_calloc((size_t)(count * drawn), sizeof *draws);
     dal_ensemble_draws(w->ensemble, draws);
@@ -320,6 +322,22 @@ int ensemble_end(const ensemble *e, ensemble_directory *dir, int status, int thr
     return CLI_DONE;
 }
 
+/* Runs what is left of a shard. */
+static int resume_shard(ensemble *e, ensemble_directory *dir, ensemble_shard shard,
+                        const ensemble_run_options *options)
+{
+    const char *path = dir->path;
+    int status = CLI_DONE;
+    if (!e->first) { /* the run of another shard has used it */
+        ensemble_free(e);
+        ensemble_directory_close(dir);
+        ensemble_directory_open(dir, path);
+        status = ensemble_directory_read(dir, e);
+    }
+    if (status == CLI_DONE) status = ensemble_directory_attach(dir, e, shard);
+    return status == CLI_DONE ? ensemble_run(e, dir, options) : status;
+}
+
 int ensemble_resume(const char *path, const ensemble_run_options *options)
 {
     ensemble e = ensemble_default();
@@ -329,19 +347,11 @@ int ensemble_resume(const char *path, const ensemble_run_options *options)
     ensemble_directory_open(&dir, path);
     int status = ensemble_directory_read(&dir, &e);
     if (status == CLI_DONE) status = ensemble_directory_shards(&dir, &shards, &count);
-    if (status == CLI_DONE && count == 0) { /* it was killed before its first mark */
-        shards = cli_calloc(count = 1, sizeof *shards);
-    }
-    for (int i = 0; i < count && status == CLI_DONE; i++) {
-        if (i > 0) {
-            ensemble_free(&e);
-            ensemble_directory_close(&dir);
-            ensemble_directory_open(&dir, path);
-            status = ensemble_directory_read(&dir, &e);
-        }
-        if (status == CLI_DONE) status = ensemble_directory_attach(&dir, &e, shards[i]);
-        if (status == CLI_DONE) status = ensemble_run(&e, &dir, options);
-    }
+    /* One that was killed before its first mark has no shard. */
+    if (status == CLI_DONE && count == 0)
+        status = resume_shard(&e, &dir, (ensemble_shard){0}, options);
+    for (int i = 0; i < count && status == CLI_DONE; i++)
+        status = resume_shard(&e, &dir, shards[i], options);
     status = ensemble_end(&e, &dir, status, options->threads);
     free(shards);
     ensemble_free(&e);

@@ -237,35 +237,41 @@ static int put_cloud(FILE *out, const statistics *s)
 
 /* ---- failures ---- */
 
-/* Writes the members of a chunk that failed; counts them by their status. */
+/* A line of failures.csv; row: the member's in members.npy. */
+static void put_failure(FILE *out, const ensemble *e, long long member, const double *row,
+                        const char *message)
+{
+    fprintf(out, "%lld,", member);
+    cli_put(out, row[MEMBER_TIME]);
+    fputc(',', out);
+    cli_put_text(out, dal_status_text((dal_status)row[MEMBER_STATUS]));
+    for (int k = MEMBER_DRAWN; k < ensemble_member_columns(e); k++) {
+        fputc(',', out);
+        cli_put(out, row[k]);
+    }
+    fputc(',', out);
+    cli_put_text(out, message);
+    fputc('\n', out);
+}
+
+/* Writes the members of a chunk that failed, each with its line of the messages; counts them by
+ * their status. */
 static int write_chunk_failures(const statistics *s, int chunk, double *rows, FILE *out,
                                 long long *counts)
 {
     const ensemble *e = s->e;
-    const int columns = MEMBER_DRAWN + e->variations, count = ensemble_chunk_members(e, chunk);
+    const int columns = ensemble_member_columns(e), count = ensemble_chunk_members(e, chunk);
     const long long first = (long long)chunk * ENSEMBLE_CHUNK;
     const int status = npy_table_read(&s->dir->members, first, count, rows);
-    char *messages = NULL, *message = NULL, *next;
+    char *messages = NULL, *message = NULL;
     for (int i = 0; i < count && status == CLI_DONE; i++) {
-        const double *row = rows + i * columns;
-        const double code = row[MEMBER_STATUS];
+        const double *row = rows + i * columns, code = row[MEMBER_STATUS];
         if (!(code > 0.0 && code < DAL_STATUS_COUNT)) continue;
-        const dal_status reason = (dal_status)code;
-        counts[reason]++;
+        counts[(int)code]++;
         if (!messages) message = messages = ensemble_directory_read_messages(s->dir, chunk);
-        fprintf(out, "%lld,", first + i);
-        cli_put(out, row[MEMBER_TIME]);
-        fputc(',', out);
-        cli_put_text(out, dal_status_text(reason));
-        for (int k = MEMBER_DRAWN; k < columns; k++) {
-            fputc(',', out);
-            cli_put(out, row[k]);
-        }
-        next = message ? strchr(message, '\n') : NULL;
+        char *next = message ? strchr(message, '\n') : NULL;
         if (next) *next++ = '\0';
-        fputc(',', out);
-        cli_put_text(out, message ? message : "");
-        fputc('\n', out);
+        put_failure(out, e, first + i, row, message ? message : "");
         message = next;
     }
     free(messages);
@@ -277,8 +283,7 @@ static int write_failures(const statistics *s, long long *counts)
     const ensemble *e = s->e;
     FILE *out = fopen(s->dir->failures, "w");
     if (!out) return cli_io("write", s->dir->failures);
-    double *rows =
-        cli_calloc(ENSEMBLE_CHUNK * (size_t)(MEMBER_DRAWN + e->variations), sizeof *rows);
+    double *rows = ensemble_allocate_rows(e);
     int status = CLI_DONE;
     fputs("member,t,reason", out);
     for (int k = 0; k < e->variations; k++) fprintf(out, ",%s", e->vary[k].name);
