@@ -5,7 +5,7 @@
  *     rows write
  *
  * Both make a new file in /tmp each time, of 21 columns as the sleigh has them on the canonical
- * space.  Prints nanoseconds per row and, for the bytes are to be the same, numbers read back. */
+ * space.  Prints nanoseconds per row and numbers read back, since the bytes must be the same. */
 #define _DEFAULT_SOURCE
 #include "bench.h"
 #include "io/trajectory.h"
@@ -61,9 +61,9 @@ static int by_write(void *self, double *end)
 static int read_file(bytes *b)
 {
     FILE *file = fopen(place, "rb");
-    const size_t room = (size_t)ROWS * COLUMNS * 8 + 4096;
-    b->text = malloc(room);
-    b->length = file && b->text ? fread(b->text, 1, room, file) : 0;
+    const size_t capacity = (size_t)ROWS * COLUMNS * 8 + 4096;
+    b->text = malloc(capacity);
+    b->length = file && b->text ? fread(b->text, 1, capacity, file) : 0;
     if (file) fclose(file);
     return b->length == 0;
 }

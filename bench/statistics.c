@@ -1,11 +1,11 @@
-/* statistics.c - what it costs to follow every observable at every step, with compiled steps.
+/* statistics.c - what it costs to evaluate every observable at every step, with compiled steps.
  *
  *     statistics METHOD SPACE SYSTEM         SYSTEM: a built-in name
  *
- * A run is made again and again, followed and bare alternately.  Prints the median of followed by
- * bare time over neighbours, so that a processor that changes its pace counts on both sides, and
- * the state reached; with BENCH_NS in the environment the least nanoseconds of a step, bare and
- * followed, too. */
+ * A run is repeated, observed and bare alternately.  Prints the median ratio of the times of two
+ * that follow each other, so that a change of the processor's speed counts on both sides, and the
+ * state reached; with BENCH_NS in the environment also the least nanoseconds of a step, bare and
+ * observed. */
 #define _POSIX_C_SOURCE 200809L
 #include "bench.h"
 #include <dalembert.h>
@@ -19,12 +19,12 @@ typedef struct contender {
     dal_run *run;
     dal_statistics statistics[MAX_OBSERVABLES];
     int observables;
-    double *start; /* what the run carries there */
+    double *start; /* [numbers] the persistent state there */
     size_t numbers;
 } contender;
 
-static dal_status follow(void *user, dal_run *run, int count, const double *t, const double *values,
-                         size_t stride)
+static dal_status observe(void *user, dal_run *run, int count, const double *t,
+                          const double *values, size_t stride)
 {
     contender *j = user;
     (void)run;
@@ -33,9 +33,9 @@ static dal_status follow(void *user, dal_run *run, int count, const double *t, c
 }
 
 /* The time of a step of a run, in ns; negative where it failed. */
-static double time_step(contender *j, long long steps, int followed)
+static double time_step(contender *j, long long steps, int observed)
 {
-    const dal_observer observer = {.user = j, .values = followed ? follow : NULL, .every = 1};
+    const dal_observer observer = {.user = j, .values = observed ? observe : NULL, .every = 1};
     if (dal_run_restore(j->run, j->start, j->numbers, NULL) != DAL_OK) return -1.0;
     dal_statistics_start(j->statistics, j->observables);
     const double begin = bench_now();
@@ -88,9 +88,9 @@ static int make(contender *j, char **argv, const char *cache, dal_error *error)
         dal_run_native_observables(j->run, &native, error))
         return 1;
     j->observables = dal_run_observables(j->run);
-    const double *const carried = dal_run_save(j->run, &j->numbers);
-    if (!(j->start = malloc(j->numbers * sizeof *carried))) return 1;
-    memcpy(j->start, carried, j->numbers * sizeof *carried);
+    const double *const saved = dal_run_save(j->run, &j->numbers);
+    if (!(j->start = malloc(j->numbers * sizeof *saved))) return 1;
+    memcpy(j->start, saved, j->numbers * sizeof *saved);
     return j->observables > MAX_OBSERVABLES;
 }
 
