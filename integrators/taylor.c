@@ -80,14 +80,14 @@ DAL_INLINE num radius(const dal_step *s, const num *x, int first, int count)
     const dal_mask unit = larger(bits_of(dal_num(1.0)), max_bits(x + first, count));
     const dal_times log_unit = logarithm(unit);
     dal_mask largest = unit;
-    num least = dal_num(900.0); /* in the range of power_of_2 */
+    num log_size = dal_num(900.0); /* in the range of power_of_2 */
     for (int m = order - ESTIMATES + 1; m <= order; m++) {
         const dal_mask last = max_bits(x + m * DAL_DIM(s) + first, count);
-        least = dal_min(least, (num)((log_unit - logarithm(last)) * (1.0 / m)));
+        log_size = dal_min(log_size, (num)((log_unit - logarithm(last)) * (1.0 / m)));
         largest = larger(largest, last);
     }
     const dal_mask finite = DAL__COMPARE(largest, <, bits_of(dal_num(INFINITY)));
-    return dal_select(finite, (num)power_of_2((dal_times)least), dal_num(0.0));
+    return dal_select(finite, (num)power_of_2((dal_times)log_size), dal_num(0.0));
 }
 
 /* The size of the next substep.  The error of (q,v) and of (p,pi) is controlled, each by itself,
@@ -128,7 +128,7 @@ DAL_INLINE dal_mask is_accepted(const dal_step *s, dal_times h, const num *z, co
 
 #ifndef DAL_SPECIALISED
 /* Stores the polynomial of a trial for dense output. */
-DAL_INLINE void leave_series(const dal_step *s, num h, const num *x)
+DAL_INLINE void store_series(const dal_step *s, num h, const num *x)
 {
     const int dim = DAL_DIM(s);
     num power = dal_num(1.0);
@@ -168,7 +168,7 @@ DAL_INLINE dal_status divided(dal_step *s, num *x, num *rate, const dal_expansio
         const dal_mask good = is_accepted(s, c.h, z, derivative);
         known = !dal_any(c.active & ~good);
 #ifndef DAL_SPECIALISED
-        if (DAL_RARELY(s->dense != NULL)) leave_series(s, c.h, x);
+        if (DAL_RARELY(s->dense != NULL)) store_series(s, c.h, x);
 #endif
         dal_control_end(s, &c, (dal_times)dal_select(good, keeps, halves), rate);
     }

@@ -1,7 +1,7 @@
 /* spread.c - statistics of the members of an ensemble: moments, quantiles, covariance.
  *
  * The mean of a first sum is corrected by the mean of the differences from it, so that its error is
- * a few roundings whatever the count. */
+ * a few roundings whatever the count (Neely 1966, DOI 10.1145/365719.365958). */
 #include "dalembert.h"
 #include <math.h>
 #include <stdbool.h>
@@ -11,16 +11,16 @@ void dal_measure_spread(const double *values, long long count, dal_spread *sprea
     if (!spread) return;
     *spread = (dal_spread){0, NAN, NAN, NAN, NAN};
     if (!values || count < 1) return;
-    double sum = 0.0, rest = 0.0, squares = 0.0;
+    double sum = 0.0, differences = 0.0, squares = 0.0;
     double min = values[0], max = values[0];
     for (long long i = 0; i < count; i++) {
         sum += values[i];
         min = values[i] < min ? values[i] : min;
         max = values[i] > max ? values[i] : max;
     }
-    const double rough = sum / (double)count;
-    for (long long i = 0; i < count; i++) rest += values[i] - rough;
-    const double mean = rough + rest / (double)count;
+    const double first_mean = sum / (double)count;
+    for (long long i = 0; i < count; i++) differences += values[i] - first_mean;
+    const double mean = first_mean + differences / (double)count;
     for (long long i = 0; i < count; i++) squares += (values[i] - mean) * (values[i] - mean);
     *spread =
         (dal_spread){count, mean, count > 1 ? sqrt(squares / (double)(count - 1)) : NAN, min, max};

@@ -64,12 +64,12 @@ double dal_variation_draw(const dal_variation *variation, unsigned long long see
 
 /* ---- variations as texts ---- */
 
-static const char *const words[] = {
+static const char *const distribution_word[] = {
 #define WORD(code, word) word,
     DAL_DISTRIBUTION_LIST(WORD)
 #undef WORD
 };
-enum { DISTRIBUTIONS = sizeof words / sizeof *words };
+enum { DISTRIBUTIONS = sizeof distribution_word / sizeof *distribution_word };
 
 /* A piece of the text without the blanks around it. */
 typedef struct piece {
@@ -97,9 +97,9 @@ static dal_status parse_distribution(dal_variation *v, piece word, dal_error *er
     snprintf(name, sizeof name, "%.*s", (int)word.length, word.at);
     for (int i = 0; i < DISTRIBUTIONS; i++) {
         v->distribution = (dal_distribution)i;
-        if (strcmp(words[i], name) == 0) return DAL_OK;
+        if (strcmp(distribution_word[i], name) == 0) return DAL_OK;
     }
-    return dal__unknown(error, "distribution", name, words, DISTRIBUTIONS);
+    return dal__unknown(error, "distribution", name, distribution_word, DISTRIBUTIONS);
 }
 
 static dal_status check_variation(const dal_variation *v, dal_error *error)
@@ -141,7 +141,7 @@ dal_status dal_variation_parse(dal_variation *variation, const char *text, dal_e
 
 /* A variation with its place: of a parameter, or (parameter < 0) of a number of the state. */
 typedef struct varied {
-    dal_variation is;
+    dal_variation variation;
     uint64_t key;
     int parameter, state;
 } varied;
@@ -164,16 +164,17 @@ static dal_status find_varied(dal_ensemble *e, const dal_run *run, varied *v, da
     const dal_system *system = run->layout.system;
     char name[DAL__NAME_SIZE];
     v->parameter = -1;
-    v->state = dal_run_index(run, v->is.name);
+    v->state = dal_run_index(run, v->variation.name);
     if (v->state >= 0) return DAL_OK;
-    if (dal__find_parameter(system, v->is.name, &v->parameter, NULL) == DAL_OK) {
+    if (dal__find_parameter(system, v->variation.name, &v->parameter, NULL) == DAL_OK) {
         e->parameters[e->parameter_count++].name = system->parameter[v->parameter];
         return DAL_OK;
     }
-    const char *nearest = dal_nearest(v->is.name, system->parameter, system->parameters);
+    const char *nearest = dal_nearest(v->variation.name, system->parameter, system->parameters);
     for (int i = 0; !nearest && dal_run_name(run, i, name, sizeof name); i++)
-        nearest = dal_nearest(v->is.name, (const char *const[]){name}, 1);
-    return dal__unknown(error, "start value or parameter", v->is.name, &nearest, nearest != NULL);
+        nearest = dal_nearest(v->variation.name, (const char *const[]){name}, 1);
+    return dal__unknown(error, "start value or parameter", v->variation.name, &nearest,
+                        nearest != NULL);
 }
 
 static dal_status add_variations(dal_ensemble *e, const dal_variation *variations,
@@ -181,14 +182,14 @@ static dal_status add_variations(dal_ensemble *e, const dal_variation *variation
 {
     for (int i = 0; i < e->variations; i++) {
         varied *v = &e->varied[i];
-        v->is = variations[i];
-        v->is.name[sizeof v->is.name - 1] = '\0';
-        DAL_TRY(check_variation(&v->is, error));
+        v->variation = variations[i];
+        v->variation.name[sizeof v->variation.name - 1] = '\0';
+        DAL_TRY(check_variation(&v->variation, error));
         for (int k = 0; k < i; k++)
-            if (strcmp(e->varied[k].is.name, v->is.name) == 0)
-                return dal__fail(error, DAL_ARGUMENT, "%s is varied twice", v->is.name);
+            if (strcmp(e->varied[k].variation.name, v->variation.name) == 0)
+                return dal__fail(error, DAL_ARGUMENT, "%s is varied twice", v->variation.name);
         DAL_TRY(find_varied(e, dal__batch_scalar(e->batch), v, error));
-        v->key = dal_random_key(v->is.name, seed);
+        v->key = dal_random_key(v->variation.name, seed);
     }
     return DAL_OK;
 }
@@ -281,7 +282,7 @@ static dal_status start_lane(dal_ensemble *e, int lane, dal_error *error)
     dal_setting *parameter = e->parameters + e->spec_parameters;
     for (int i = 0; i < e->variations; i++) {
         const varied *v = &e->varied[i];
-        const double amount = draw(&v->is, v->key, e->first + (uint64_t)lane);
+        const double amount = draw(&v->variation, v->key, e->first + (uint64_t)lane);
         if (v->parameter < 0)
             e->added[v->state] = amount;
         else
@@ -312,7 +313,7 @@ void dal_ensemble_draws(const dal_ensemble *ensemble, double *draws)
 {
     for (int lane = 0; ensemble && draws && lane < ensemble->started; lane++)
         for (int i = 0; i < ensemble->variations; i++)
-            *draws++ = draw(&ensemble->varied[i].is, ensemble->varied[i].key,
+            *draws++ = draw(&ensemble->varied[i].variation, ensemble->varied[i].key,
                             ensemble->first + (uint64_t)lane);
 }
 
