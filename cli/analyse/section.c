@@ -231,7 +231,7 @@ static int find_column(const section *s, const char *name)
 {
     for (int i = 1; i < s->columns; i++)
         if (strcmp(s->names[i], name) == 0) return i;
-    cli_unknown("column", name, (const char *const *)s->names, s->columns);
+    cli_unknown("column of --axes", name, (const char *const *)s->names, s->columns);
     return -1;
 }
 

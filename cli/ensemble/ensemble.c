@@ -2,6 +2,7 @@
  * observed. */
 #include "ensemble.h"
 #include "dalembert_analysis.h"
+#include "io/file.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -84,7 +85,8 @@ static const cli_option options[] = {
      .parse = ensemble_parse_quantiles},
     {"axes", "X,Y", NULL, "the plane of the clouds (the first two coordinates)",
      CLI_TEXT(ensemble_settings, ensemble.axes)},
-    {"output", "DIR", CLI_REQUIRED, "writes the files there", CLI_TEXT(ensemble_settings, output)},
+    {"output", "DIR", CLI_REQUIRED, "writes the files there",
+     CLI_ROW(cli_parse_output, ensemble_settings, output)},
     {"checkpoint", "SECONDS", "5", "marks on the disk what is done, every SECONDS",
      CLI_NUMBER(ensemble_settings, interval, 0.0, INFINITY)},
     NATIVE_OPTION(ensemble_settings),
@@ -128,7 +130,7 @@ static int find_column(const ensemble *e, const char *name)
 {
     for (int i = 0; i < e->columns; i++)
         if (strcmp(e->column[i], name) == 0) return i;
-    cli_unknown("column", name, (const char *const *)e->column, e->columns);
+    cli_unknown("column of --axes", name, (const char *const *)e->column, e->columns);
     return -1;
 }
 

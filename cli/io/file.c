@@ -230,6 +230,12 @@ int cli_parse_output(void *settings, const cli_option *option, const char *text)
     const bool has_directory = strstr(option->value, "DIR") != NULL;
     const bool has_npy = strstr(option->value, "FILE.csv") == NULL;
     const bool exists = stat(text, &status) == 0;
+    if (!strchr(option->value, '|')) { /* only a directory */
+        if (strcmp(text, "-") != 0 && (!ending_of(text) || (exists && S_ISDIR(status.st_mode))))
+            return cli_parse_text(settings, option, text);
+        return cli_fail(CLI_USAGE, "--%s: '%s' is no directory, which has no ending", option->name,
+                        text);
+    }
     const bool is_fine =
         strcmp(text, "-") == 0 || cli_ends_in(text, ".csv") ||
         (has_npy && cli_ends_in(text, ".npy")) || (has_directory && !ending_of(text)) ||

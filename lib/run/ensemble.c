@@ -99,7 +99,10 @@ static dal_status parse_distribution(dal_variation *v, piece word, dal_error *er
         v->distribution = (dal_distribution)i;
         if (strcmp(distribution_word[i], name) == 0) return DAL_OK;
     }
-    return dal__unknown(error, "distribution", name, distribution_word, DISTRIBUTIONS);
+#define LISTED(code, word) " " word
+    return dal__fail(error, DAL_NAME,
+                     "unknown distribution '%s', not one of" DAL_DISTRIBUTION_LIST(LISTED), name);
+#undef LISTED
 }
 
 static dal_status check_variation(const dal_variation *v, dal_error *error)

@@ -279,7 +279,7 @@ one="--members 10 --seed 1"
 wrong "--vary: unknown start value or parameter 'k2'; did you mean 'k'\?" $one --vary "k2=normal(0,1)"
 wrong "--vary: k: the standard deviation -1 is negative" $one --vary "k=normal(0,-1)"
 wrong "--vary: k: uniform needs LOW < HIGH" $one --vary "k=uniform(1,0)"
-wrong "--vary: unknown distribution 'gauss'" $one --vary "k=gauss(1,0)"
+wrong "--vary: unknown distribution 'gauss', not one of uniform normal lognormal" $one --vary "k=gauss(1,0)"
 wrong "--vary: 'k' is not NAME=DISTRIBUTION" $one --vary k
 wrong "--vary: k is varied twice" $one --vary "k=normal(0,1)" --vary "k=uniform(0,1)"
 wrong "--members: 0 is not in 1..1000000000" --members 0 --seed 1 --vary "k=normal(0,1)"
@@ -290,8 +290,12 @@ wrong "--vary is missing" $one
 wrong "--times: 0.25 is not a whole number of steps of 0.1" $one --vary "k=normal(0,1)" --times 0.25,1
 wrong "--quantiles: 2 is not from 0 to 1" $one --vary "k=normal(0,1)" --quantiles 0.5,2
 wrong "--axes: 'x' is not two columns" $one --vary "k=normal(0,1)" --axes x
-wrong "unknown column 'y'" $one --vary "k=normal(0,1)" --axes "x,y"
+wrong "unknown column of --axes 'y'" $one --vary "k=normal(0,1)" --axes "x,y"
 wrong "--shard: '3/2' is not K/N" $one --vary "k=normal(0,1)" --shard 3/2
+for output in x.csv x.npy x.h5 -; do
+    wrong "--output: '$output' is no directory" $one --vary "k=normal(0,1)" --output $output
+    holds "$output was made" test ! -e ./$output
+done
 holds "a directory was made" test ! -e wrong
 mkdir wrong
 printf x >wrong/manifest.json

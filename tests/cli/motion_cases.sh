@@ -100,7 +100,7 @@ says "--on:1:1: .*'levl'.*did you mean 'level'"
 try 2 section osc.yaml --on x $fine --direction sideways
 says "'sideways' is not one of down.both.up"
 try 2 section osc.yaml --on x $fine --axes "x,y"
-says "unknown column 'y'"
+says "unknown column of --axes 'y'"
 try 2 section osc.yaml --on x $fine --axes x
 says "'x' is not two columns"
 try 2 section osc.yaml --on x --integrator rk4 --step 0.3 --time 20
