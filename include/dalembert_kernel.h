@@ -29,7 +29,8 @@
  *     composition.h       dal_composition dal_substeps
  *     adaptive.h          dal_control dal_control_begin dal_control_next dal_control_end
  *                         dal_control_status dal_dense dal_dense_rate dal_field_at
- *     taylor.h            dal_taylor_order dal_expand_order dal_evaluate_polynomial
+ *     taylor.h            dal_taylor_order dal_expand_first dal_expand_rest
+ *                         dal_evaluate_polynomial
  *     blocks.h            dal_eval_blocks
  *     constrained.h       dal_positional dal_velocity_equation dal_enforce
  *     spark.h             dal_spark dal_spark_advance

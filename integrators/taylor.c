@@ -138,39 +138,50 @@ DAL_INLINE void store_series(const dal_step *s, num h, const num *x)
 }
 #endif
 
-/* Steps by s->h in substeps; a trial that is not accepted is halved.  The rate of change at the end
- * of an accepted one begins the next expansion. */
+/* Steps by s->h in substeps; a trial that is not accepted is halved.  The coefficients of order 0
+ * at the end of a trial that all lanes accept begin the next expansion: they are formed in one
+ * place, so that compilers have the body for them once. */
 DAL_INLINE dal_status divided(dal_step *s, num *x, num *rate, const dal_expansion *e)
 {
-    const int dim = DAL_DIM(s), order = DAL_TAYLOR_ORDER(s);
+    const int dim = DAL_DIM(s);
     const num halves = dal_num(2.0 * DAL__SAFE), keeps = dal_num(1.0);
     DAL_VECTOR(s, derivative, DAL_DIM(s) + DAL__PACK);
     DAL_VECTOR(s, z, 2 * DAL_DIM(s));
     dal_control c = dal_control_begin(s);
-    int known = 0; /* whether z has that rate, in all lanes */
+    int is_trial = 0; /* whether z is the end of a trial: else the state */
+    dal_times left = c.left;
+    DAL_EACH(i, dim) z[i] = s->y[i];
     for (;;) {
-        const num whole = dal_num(c.whole);
+        const dal_times t = c.start + c.direction * (c.whole - left);
+        dal_expand_first(s, t, z, e);
+        if (is_trial) {
+            const dal_mask good = is_accepted(s, c.h, z, derivative);
+            const int differ = dal_any(c.active & ~good);
+#ifndef DAL_SPECIALISED
+            if (DAL_RARELY(s->dense != NULL)) store_series(s, c.h, x);
+#endif
+            dal_control_end(s, &c, (dal_times)dal_select(good, keeps, halves), rate);
+            if (differ && dal_any(c.active & ~c.again)) {
+                DAL_EACH(i, dim) z[i] = s->y[i];
+                left = c.left;
+                is_trial = 0;
+                continue;
+            }
+        }
         if (dal_any(c.active & ~c.again)) {
-            const dal_times t = c.start + c.direction * (c.whole - c.left);
+            const num whole = dal_num(c.whole);
             DAL_EACH(i, dim) x[i] = s->y[i];
-            if (known)
-                DAL_EACH(i, dim) x[dim + i] = z[dim + i];
-            for (int k = known; k < order; k++) dal_expand_order(s, t, k, x, e);
+            DAL_EACH(i, dim) x[dim + i] = z[dim + i];
+            dal_expand_rest(s, x, e);
             const num size = next_size(s, x);
             const num planned = dal_select(dal_less(size, whole), size, whole);
             c.planned = (dal_times)dal_select(c.again, c.planned, planned);
         }
         if (!dal_control_next(s, &c)) return dal_control_status(s, &c);
-        const dal_times left = c.left - c.direction * c.h;
+        left = c.left - c.direction * c.h;
         dal_evaluate_polynomial(s, c.h, x, rate, derivative);
         DAL_EACH(i, dim) z[i] = s->y[i] + dal_fma(c.h, rate[i], s->r[i]);
-        dal_expand_order(s, c.start + c.direction * (c.whole - left), 0, z, e);
-        const dal_mask good = is_accepted(s, c.h, z, derivative);
-        known = !dal_any(c.active & ~good);
-#ifndef DAL_SPECIALISED
-        if (DAL_RARELY(s->dense != NULL)) store_series(s, c.h, x);
-#endif
-        dal_control_end(s, &c, (dal_times)dal_select(good, keeps, halves), rate);
+        is_trial = 1;
     }
 }
 #endif
@@ -185,7 +196,8 @@ DAL_INLINE dal_status step(dal_step *s)
     if (DAL_CONTROLLED(s)) return divided(s, x, rate, &e);
 #endif
     DAL_EACH(i, DAL_DIM(s)) x[i] = s->y[i];
-    for (int k = 0; k < DAL_TAYLOR_ORDER(s); k++) dal_expand_order(s, (dal_times)t, k, x, &e);
+    dal_expand_first(s, (dal_times)t, x, &e);
+    dal_expand_rest(s, x, &e);
     dal_evaluate_polynomial(s, (dal_times)h, x, rate, rate + DAL_DIM(s) + DAL__PACK);
     return dal_update_multiple(s, s->h, s->h, rate);
 }

@@ -460,9 +460,12 @@ static void test_gauge(void)
     dal_run_free(run);
 }
 
-/* Lanes have the bits of single runs, with steps of one size and with their own. */
+/* Lanes have the bits of single runs, with steps of one size and with their own.  Of t^50 - 400 x
+ * the lane that begins at 0 rejects substeps while others accept theirs. */
 static void test_lanes(void)
 {
+    static const char forced[] = "coordinates: [x]\naccelerations: {x: t^50 - 400*x}\n";
+    fixture_lanes(spec_of(forced, DAL_PHYSICAL, 1.2, 1e-10), 5, 2, "x", 0.0, 0.5);
     for (int k = 0; k < 2; k++)
         fixture_lanes(spec_of(kepler, DAL_LIFTED, PERIOD / 100, k == 0 ? 0.0 : 1e-11), 13, 5, "x",
                       0.3, 0.05);

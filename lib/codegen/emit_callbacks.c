@@ -161,15 +161,17 @@ static void write_dispatch(dal__generation *g)
 /* ---- Taylor series ---- */
 
 /* The body of the recurrences for order 0, with all outputs, or for an order k, without those that
- * are needed by their values alone: pivots. */
+ * are needed by their values alone: pivots.  That for k is inlined into the loop over orders; for 0
+ * it would take compilers more time than it saves. */
 static void write_orders(dal__generation *g, bool first, int outputs, int behind)
 {
     const dal__taylor *taylor = g->programs->taylor[g->layout.lifted];
     dal__buffer *text = &g->text;
     dal__buffer_print(text,
-                      "static DAL_UNUSED __attribute__((noinline)) void dal__series_%s("
-                      "const dal_stored *w, int k,\n    num (*DAL_RESTRICT c)"
-                      "[DAL_FIXED_TAYLOR_ORDER + 1], num *DAL_RESTRICT l, num *out)\n{\n",
+                      "%s void dal__series_%s(const dal_stored *w, int k,\n    num "
+                      "(*DAL_RESTRICT c)[DAL_FIXED_TAYLOR_ORDER + 1], num *DAL_RESTRICT l, num "
+                      "*out)\n{\n",
+                      first ? "static DAL_UNUSED __attribute__((noinline))" : "DAL_INLINE",
                       first ? "first" : "next");
     dal__taylor_write(taylor, g->programs->tapes, first, g->lanes == 1, text);
     for (int i = 0; i < taylor->outputs; i++) {
@@ -213,7 +215,7 @@ static void write_series(dal__generation *g)
                           p->checked);
     if (p->left > 0 && g->layout.pivots > 0)
         dal__buffer_print(text,
-                          "    if (!s->pivots_known[0]) {\n"
+                          "    if (k == 0 && !s->pivots_known[0]) {\n"
                           "        DAL_EACH(i, %d) s->pivots[i] = all[%d + i];\n"
                           "        s->pivots_known[0] = 1;\n    }\n",
                           p->left, left);

@@ -34,21 +34,14 @@ DAL_INLINE int dal_taylor_order(double tolerance)
 /* What an expansion needs besides x. */
 typedef struct dal_expansion {
     num *memory;          /* [DAL_SERIES][order + 1] series of the system */
-    num *in, *f;          /* [1 + 2n + nw], [3n + 1] their inputs and outputs */
     num *w, *ww, *square; /* [order + 1] coefficients of w = 1/e, w^2 and pi.pi */
 } dal_expansion;
 
 /* Declares an expansion `name` in the scratch of a step. */
 #define DAL_EXPANSION(s, name)                                                                     \
     DAL_VECTOR(s, memory, DAL_SERIES(s) * (DAL_TAYLOR_ORDER(s) + 1));                              \
-    DAL_VECTOR(s, in, 1 + 2 * DAL_N(s) + DAL_NW(s));                                               \
-    DAL_VECTOR(s, f, 3 * DAL_N(s) + 1);                                                            \
     DAL_VECTOR(s, gauge, 3 * (DAL_TAYLOR_ORDER(s) + 1));                                           \
-    const dal_expansion name = {memory,                                                            \
-                                in,                                                                \
-                                f,                                                                 \
-                                gauge,                                                             \
-                                gauge + DAL_TAYLOR_ORDER(s) + 1,                                   \
+    const dal_expansion name = {memory, gauge, gauge + DAL_TAYLOR_ORDER(s) + 1,                    \
                                 gauge + 2 * (DAL_TAYLOR_ORDER(s) + 1)}
 
 #if DAL_WITH_LIFT
@@ -82,30 +75,55 @@ DAL_INLINE void dal__lifted_series(const dal_step *s, int k, const num *x, const
 }
 #endif
 
-/* Coefficient k + 1 of the motion at t from those before, x[(order + 1)*dim], coefficient k from
- * number k*dim on. */
-DAL_INLINE void dal_expand_order(dal_step *s, dal_times t, int k, num *x, const dal_expansion *e)
+/* Coefficient k + 1 of the motion from those before, x[(order + 1)*dim], coefficient k from number
+ * k*dim on, and coefficient k of t. */
+DAL_INLINE void dal__expand_order(dal_step *s, num t, int k, num *x, const dal_expansion *e)
 {
     const int n = DAL_N(s), nw = DAL_NW(s), dim = DAL_DIM(s);
     const num inverse = dal_inverse(k + 1);
     const num *now = x + k * dim;
     num *next = x + (k + 1) * dim;
-    e->in[0] = dal_num(k == 1 ? 1.0 : 0.0);
-    if (k == 0) e->in[0] = t;
-    DAL_EACH(i, n + nw) e->in[1 + i] = now[i];
+    DAL__MARK(s);
+    DAL_VECTOR(s, in, 1 + 2 * DAL_N(s) + DAL_NW(s));
+    DAL_VECTOR(s, f, 3 * DAL_N(s) + 1);
+    in[0] = t;
+    DAL_EACH(i, n + nw) in[1 + i] = now[i];
     if (DAL_LIFTED(s))
-        DAL_EACH(i, n) e->in[1 + n + nw + i] = now[dal_at_pi(s) + i];
-    s->evaluations++;
-    dal_eval_series(s, k, DAL_TAYLOR_ORDER(s) + 1, e->in, e->memory, e->f);
+        DAL_EACH(i, n) in[1 + n + nw + i] = now[dal_at_pi(s) + i];
+    dal_eval_series(s, k, DAL_TAYLOR_ORDER(s) + 1, in, e->memory, f);
     DAL_EACH(i, n) next[i] = inverse * now[n + i];
     if (!DAL_LIFTED(s))
-        DAL_EACH(i, nw) next[n + i] = inverse * e->f[i];
+        DAL_EACH(i, nw) next[n + i] = inverse * f[i];
 #if DAL_WITH_LIFT
     if (DAL_LIFTED(s)) {
-        dal__lifted_series(s, k, x, e->f, e, next);
+        dal__lifted_series(s, k, x, f, e, next);
         DAL_EACH(i, dim - n) next[n + i] = inverse * next[n + i];
     }
 #endif
+    DAL__RELEASE(s);
+}
+
+/* Coefficient 1 of the motion from x, its state at t. */
+DAL_INLINE void dal_expand_first(dal_step *s, dal_times t, num *x, const dal_expansion *e)
+{
+    s->evaluations++;
+    dal__expand_order(s, t, 0, x, e);
+}
+
+/* Coefficients 2 .. order.  The body of a compiled step is too large for compilers to do well with
+ * that of this loop in it, too; nothing but x and the series is written here. */
+static DAL_UNUSED __attribute__((noinline)) void
+dal__expand_orders(dal_step *s, num *DAL_RESTRICT x, const dal_expansion *e)
+{
+    for (int k = 1; k < DAL_TAYLOR_ORDER(s); k++)
+        dal__expand_order(s, dal_num(k == 1 ? 1.0 : 0.0), k, x, e);
+}
+
+/* The same, after dal_expand_first. */
+DAL_INLINE void dal_expand_rest(dal_step *s, num *x, const dal_expansion *e)
+{
+    s->evaluations += DAL_TAYLOR_ORDER(s) - 1;
+    dal__expand_orders(s, x, e);
 }
 
 /* By Horner's rule, rate = sum_(k=1..order) x_k h^(k-1), the mean rate of change over h, and the
