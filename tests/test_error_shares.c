@@ -181,6 +181,14 @@ static void test_motion_of(void)
         CU_ASSERT_EQUAL(shares_of(&m)->is_motion, k & 1);
         CU_ASSERT_EQUAL(isnan(m.a.share[DAL_SOURCE_TRUNCATION]) != 0, k & 1);
     }
+    /* Where quad precision leaves less than a tenth, rounding errors have grown in both. */
+    for (int k = 0; k < 2; k++) {
+        made_up m = make(system, "gauss4");
+        m.a.comparison[DAL_COMPARISON_EXACT] = m.a.whole;
+        m.a.comparison[DAL_COMPARISON_QUAD] = drift(k ? 0.0101 : 0.0099, 0.1, 0.0);
+        CU_ASSERT_EQUAL(shares_of(&m)->is_motion, k);
+        CU_ASSERT_EQUAL(isnan(m.a.share[DAL_SOURCE_TRUNCATION]) != 0, k);
+    }
     for (int k = 0; k < 3; k++) {
         made_up m = make(system, "gauss4");
         m.a.comparison[DAL_COMPARISON_QUAD_HALVED] = m.a.comparison[DAL_COMPARISON_QUAD];
@@ -216,6 +224,34 @@ static void test_halving(void)
     CU_ASSERT(isnan(m.a.share[DAL_SOURCE_PROJECTION]));
 }
 
+static int says(made_up *m, dal_error_source source, const char *part)
+{
+    char words[DAL_MESSAGE_SIZE];
+    shares_of(m);
+    m->e.shares = &m->a;
+    dal_error_budget_describe(&m->e, 0, source, words, sizeof words);
+    return strstr(words, part) != NULL;
+}
+
+static void test_words(void)
+{
+    const dal_system *system = fixture_system("chaplygin-sleigh");
+    made_up m = make(system, "gauss4");
+    CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "in quad precision the rate falls by 16 = 2^4.00"));
+    CU_ASSERT(says(&m, DAL_SOURCE_COEFFICIENTS, "leaves is truncation, or nothing"));
+    m.a.comparison[DAL_COMPARISON_QUAD_HALVED] = drift(0.32, 3.2, 0.0);
+    CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "in quad precision the rate grows by 4 = 2^2.00"));
+    m.a.comparison[DAL_COMPARISON_EXACT] = m.a.whole;
+    CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "the motion itself changes it: along"));
+    CU_ASSERT(says(&m, DAL_SOURCE_COEFFICIENTS, "leaves is the motion itself, or truncation"));
+    m.e.quad_steps = 0;
+    CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "changes it, or lets rounding errors grow: along"));
+    m.a.comparison[DAL_COMPARISON_EXACT] = drift(0.0, 0.0, 0.0);
+    m.e.ran[DAL_COMPARISON_HALVED] = 0;
+    strcpy(m.e.reason[DAL_COMPARISON_HALVED], "it left the domain");
+    CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "with half the step: it left the domain"));
+}
+
 /* Projection: what goes without it, never less than nothing; nothing of what never moved. */
 static void test_projection(void)
 {
@@ -242,4 +278,5 @@ void suite_error_shares(void)
     CU_add_test(suite, "the motion itself", test_motion_of);
     CU_add_test(suite, "halving alone", test_halving);
     CU_add_test(suite, "projection", test_projection);
+    CU_add_test(suite, "in words", test_words);
 }

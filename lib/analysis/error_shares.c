@@ -63,7 +63,8 @@ static int is_of_coefficients(const dal_error_budget *e, const dal_shares *a)
 }
 
 /* What quad precision leaves is truncation, an error of coefficients, or the motion itself, which
- * does not fall with the step at all. */
+ * does not fall with the step at all.  Where it leaves next to nothing, rounding errors have grown
+ * with the motion: those of the exact motion in doubles do, too. */
 static void weigh_quad(const dal_error_budget *e, dal_shares *a)
 {
     const dal_trend *quad = &a->comparison[DAL_COMPARISON_QUAD];
@@ -73,7 +74,10 @@ static void weigh_quad(const dal_error_budget *e, dal_shares *a)
     if (!a->vanishes_in_quad)
         a->order = order_of(quad, &a->comparison[DAL_COMPARISON_QUAD_HALVED], a->by_rate);
     const int coefficients = is_of_coefficients(e, a);
-    if (!e->ran[DAL_COMPARISON_EXACT]) a->is_motion = !coefficients && a->order < half_an_order;
+    if (!e->ran[DAL_COMPARISON_EXACT])
+        a->is_motion = !coefficients && a->order < half_an_order;
+    else if (size_of(quad, a->by_rate) < small * whole)
+        a->is_motion = 0;
     set_share(a, coefficients ? DAL_SOURCE_COEFFICIENTS : DAL_SOURCE_TRUNCATION, quad);
     a->share[coefficients ? DAL_SOURCE_TRUNCATION : DAL_SOURCE_COEFFICIENTS] = 0.0;
     if (a->is_motion) a->share[DAL_SOURCE_TRUNCATION] = a->margin[DAL_SOURCE_TRUNCATION] = NAN;
@@ -152,22 +156,26 @@ static double drift_ratio(const description *s, dal_comparison_run comparison)
 static void describe_order(const description *s, const char *before)
 {
     const int by_rate = s->e->quad_steps > 0 ? s->a->by_rate : s->a->whole_by_rate;
-    if (isnan(s->a->order))
+    if (s->e->quad_steps == 0 && !s->e->ran[DAL_COMPARISON_HALVED])
+        snprintf(s->text, s->size, "neither quad precision nor a run with half the step: %s",
+                 s->e->reason[DAL_COMPARISON_HALVED]);
+    else if (isnan(s->a->order))
         snprintf(s->text, s->size, "%s %s", before,
                  s->a->vanishes_in_quad ? "nothing of it is left"
                                         : "nothing of it is left when the step is halved");
     else
-        snprintf(s->text, s->size, "%s %s falls by %.3g = 2^%.2f when the step is halved", before,
-                 by_rate ? "the rate" : "the deviation", exp2(s->a->order), s->a->order);
+        snprintf(s->text, s->size, "%s %s %s by %.3g = 2^%.2f when the step is halved", before,
+                 by_rate ? "the rate" : "the deviation", s->a->order < 0.0 ? "grows" : "falls",
+                 exp2(fabs(s->a->order)), fabs(s->a->order));
 }
 
 static void describe_truncation(const description *s)
 {
     if (s->a->is_motion && s->e->ran[DAL_COMPARISON_EXACT])
-        snprintf(
-            s->text, s->size,
-            "the motion itself changes it: along the exact motion the drift is %.3g times this",
-            drift_ratio(s, DAL_COMPARISON_EXACT));
+        snprintf(s->text, s->size,
+                 "the motion itself %s: along the exact motion the drift is %.3g times this",
+                 s->e->quad_steps > 0 ? "changes it" : "changes it, or lets rounding errors grow",
+                 drift_ratio(s, DAL_COMPARISON_EXACT));
     else if (s->e->quad_steps == 0)
         describe_order(s, isnan(s->a->share[DAL_SOURCE_TRUNCATION])
                               ? "halving alone, without quad precision, is not conclusive:"
@@ -187,7 +195,8 @@ static void describe_coefficients(const description *s)
         snprintf(s->text, s->size,
                  "without quad precision they cannot be distinguished from truncation");
     else if (s->a->share[DAL_SOURCE_COEFFICIENTS] == 0.0)
-        snprintf(s->text, s->size, "what quad precision leaves is truncation, or nothing");
+        snprintf(s->text, s->size, "what quad precision leaves is %s",
+                 s->a->is_motion ? "the motion itself, or truncation" : "truncation, or nothing");
     else
         snprintf(s->text, s->size,
                  "what quad precision leaves falls by %.3g = 2^%.2f when the step is halved, not "
