@@ -30,6 +30,13 @@ typedef struct bench_contender {
     void *self;
 } bench_contender;
 
+/* For qsort: numbers in rising order. */
+static inline int bench_ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
 /* In nanoseconds. */
 static inline double bench_now(void)
 {

@@ -37,14 +37,6 @@ static int fail(const dal_error *error)
     return 1;
 }
 
-static const dal_system *find_system(const char *name, dal_error *error)
-{
-    const dal_system *system = NULL;
-    dal_model *model;
-    if (bench_model(&model, name, error) == DAL_OK) dal_model_system(model, &system, error);
-    return system;
-}
-
 /* Nanoseconds of a step from the start; infinite where one fails. */
 static double time_run(dal_run *run, const double *start)
 {
@@ -81,16 +73,10 @@ static double measure(const dal_run_spec *spec, const char *method, int native, 
     return ratio;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void summarise(double *ratio, int count)
 {
     int above = 0;
-    qsort(ratio, (size_t)count, sizeof *ratio, compare);
+    qsort(ratio, (size_t)count, sizeof *ratio, bench_ascending);
     for (int i = 0; i < count; i++) above += !(ratio[i] <= LIMIT);
     printf("auto / better: %d of %d above %g, median %.2f, max %.2f\n", above, count, LIMIT,
            ratio[count / 2], ratio[count - 1]);
@@ -107,7 +93,7 @@ int main(int argc, char **argv)
            "ratio");
     for (int i = 0; i < CASES; i++) {
         const int method = i / 3 % 4, system = i / 12;
-        dal_run_spec spec = {.system = find_system(systems[system].name, &error),
+        dal_run_spec spec = {.system = bench_system(systems[system].name, &error),
                              .options = dal_options_default(),
                              .parameters = &systems[system].parameter,
                              .parameter_count = systems[system].parameter.name != NULL};

@@ -44,12 +44,6 @@ static double time_step(contender *j, long long steps, int observed)
     return status == DAL_OK ? (bench_now() - begin) / (double)steps : -1.0;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static int measure(contender *j)
 {
     const char *ms = getenv("BENCH_MS");
@@ -66,7 +60,7 @@ static int measure(contender *j)
         }
         ratio[i] = time[1] / time[0];
     }
-    qsort(ratio, PAIRS, sizeof *ratio, ascending);
+    qsort(ratio, PAIRS, sizeof *ratio, bench_ascending);
     printf("%.5g", ratio[PAIRS / 2]);
     if (getenv("BENCH_NS")) printf(" (%.5g, %.5g)", min[0], min[1]);
     for (int i = 0; i < 2 * j->spec.system->n; i++) printf(" %.17g", dal_run_state(j->run)[i]);

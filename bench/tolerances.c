@@ -61,17 +61,9 @@ static int fail(const dal_error *error)
     return 1;
 }
 
-static const dal_system *find_system(const char *name, dal_error *error)
-{
-    const dal_system *system = NULL;
-    dal_model *model;
-    if (bench_model(&model, name, error) == DAL_OK) dal_model_system(model, &system, error);
-    return system;
-}
-
 static int make_members(contender *j, dal_error *error)
 {
-    const dal_system *system = find_system(j->motion->name, error);
+    const dal_system *system = bench_system(j->motion->name, error);
     dal_method method;
     if (!system || dal_method_parse(&method, j->method, error)) return 1;
     for (int i = 0; i < BENCH_LANES; i++) {
