@@ -160,7 +160,7 @@ manual=$prefix/share/man/man1/dalembert.1
 grep -q '^\.SS run$' "$manual" && grep -q '^\.SH EXAMPLES$' "$manual" || fail "no man page of all commands"
 ! grep -q '@' "$manual" || fail "a part of the man page is not filled in"
 bash -n "$prefix/share/bash-completion/completions/dalembert.bash" || fail "no completion for bash"
-# Before 1.0 the soname has the minor version: libdalembert.so.0.4 of 0.4.0.
+# Before 1.0 the soname has the minor version: libdalembert.so.0.5 of 0.5.0.
 soname=libdalembert.so.$("$prefix/bin/dalembert" --version | sed 's/.* //; s/\.[0-9]*$//')
 [ "$(readlink "$lib/libdalembert.so")" = "$soname" ] || fail "no link to $soname"
 objdump -p "$lib/$soname" | grep -q "SONAME *$soname\$" || fail "the soname is not $soname"
