@@ -22,7 +22,7 @@ enum { DAL_PARTIAL_SUMS = 8 /* sums that a block is added up in */ };
 
 /* The version of dal_statistics: it changes whenever the members or their meaning do, and is saved
  * with them in files.  Each member has 64 bits and none is a pointer. */
-enum { DAL_STATISTICS_LAYOUT = 3 };
+enum { DAL_STATISTICS_LAYOUT = 4 };
 
 /* A block of successive values of x. */
 typedef struct dal_statistics_block {
@@ -48,6 +48,7 @@ typedef struct dal_statistics {
     /* Sums and means are those of factor * (x - first): 1, or less after a value near the largest
      * double. */
     double factor;
+    double scale; /* the largest by dal_statistics_add_scales; 0: none */
     /* Sums of squared differences, in units of rough_unit, a power of two (0: all values were 0):
      * rough_steps of successive values while blocks are short; then rough[] of values
      * DAL_PARTIAL_SUMS apart, one pair in four, by partial sum; held[] is the first of a pair. */
@@ -66,6 +67,10 @@ void dal_statistics_add(dal_statistics *statistics, int count, double t, const d
  * faster. */
 void dal_statistics_add_many(dal_statistics *statistics, int count, int samples, const double *t,
                              const double *values, size_t stride);
+
+/* Adds the scales of the quantities where they have just been observed, scales[count]: the largest so
+ * far is the scale of dal_run_classify.  An observer's scales are such. */
+void dal_statistics_add_scales(dal_statistics *statistics, int count, const double *scales);
 
 /* max |x|; infinite when a value was lost. */
 double dal_statistics_max_abs(const dal_statistics *statistics);
@@ -141,6 +146,7 @@ const char *dal_conservation_text(dal_conservation conservation);
 typedef struct dal_trend {
     long long count;            /* values */
     double first, last;         /* x at the first and at the last */
+    double scale;               /* of the terms that x is made of, see dal_run_classify */
     double max_abs, deviation;  /* max |x|, max |x - first| */
     double amplitude;           /* half the range of x about the fitted line */
     double rate;                /* slope of the line, per unit of time passed, |t - first t| */
@@ -156,17 +162,18 @@ typedef struct dal_trend {
 } dal_trend;
 
 /* Classifies a quantity by the evidence for each shape (Kass, Raftery 1995, DOI
- * 10.1080/01621459.1995.10476572).  scale is its natural size, in its unit; roundings are measured
- * by it.  aborted: the run ended before its time.  More values may be added afterwards. */
+ * 10.1080/01621459.1995.10476572).  scale is the size of the terms that it is made of, in its unit, by
+ * which roundings are measured; where it or a value is not finite, no change is a rounding.  aborted: the run ended before its time.  More values may be added afterwards. */
 void dal_statistics_classify(const dal_statistics *statistics, double scale, int aborted,
                              dal_trend *trend);
 
 /* Classifies all observables of a run: statistics[count] and trend[count] in the order of
- * dal_run_observe.  The scale of H is its own size, which the start sets; that of all others is
- * max(1, max |x|).  E is DAL_CONSERVED where the motion conserves it on every level of D, or on
+ * dal_run_observe.  Their scales are those that dal_statistics_add_scales has added, or, where it has
+ * added none, those of the present state; of norms (|p|, |pi|, |pi_e|) the largest value.  E is
+ * DAL_CONSERVED where the motion conserves it on every level of D, or on
  * D = 0 while max |D| is rounding-sized, and not where pi/e acts; H where F does not depend on t or
  * pi is 0; all else always is. */
-void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int aborted,
+void dal_run_classify(dal_run *run, const dal_statistics *statistics, int aborted,
                       dal_trend *trend);
 
 /* ---- evaluation and checks of a system ----------------------------------------------------- */

@@ -85,6 +85,13 @@ typedef struct dal_point {
  * callback that fails returns a status, or leaves NaN in the lanes that failed. */
 typedef dal_status dal_callback(const dal_system *system, const dal_point *at, double *out);
 
+/* The scale of each of some formulas f at a point: the largest |df/dx x| over its variables x and the
+ * terms that it is made of, |f| among them.  eps times it is what one rounding can do; it changes with
+ * the units as f does, and is 0 only where every term is.  memory[scale_memory] belongs to the
+ * caller. */
+typedef dal_status dal_scale_callback(const dal_system *system, const dal_point *at, double *memory,
+                                      double *out);
+
 /* The callbacks of a step: code, member, what each reads of its point, the numbers of its output,
  * with nw = n + multipliers, and what they are.  All but field may be NULL, which excludes what is
  * in parentheses.  guards keep their signs; blocks is of F = a + R h, B = A by Chetaev's rule;
@@ -200,6 +207,10 @@ struct dal_system {
     dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants]; NULL: no invariants */
     dal_callback *reactions;        /* out[m + m*n]: h, B of the force B^T h in F; NULL: unknown */
+    dal_scale_callback *scales;     /* out[m + 1 + invariants]: of D, E and the invariants; NULL:
+                                   estimated, see dal_run_scales */
+    dal_scale_callback *reaction_scales; /* out[m + n]: of h and R = B^T h; NULL: likewise */
+    size_t scale_memory;                 /* doubles that these two need */
     dal_callback *projection;   /* out[m + 2*m*n]: D, A, W(q,u)^-1 A^T, u being at->pi; NULL: W does
                                  not depend on v, call.constraint gives the same */
     dal_callback *exact;        /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */

@@ -76,6 +76,14 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
     return DAL_OK;
 }
 
+static dal_status add_scales(void *user, dal_run *run, const double *scales)
+{
+    const followed *f = user;
+    (void)run;
+    dal_statistics_add_scales(f->statistics, f->observables, scales);
+    return DAL_OK;
+}
+
 /* Advances a run to time T and fills statistics[observables] with the values at the start, and then
  * with those of one step in `every`. */
 static dal_status python_follow(dal_run *run, double T, long long every, dal_statistics *statistics,
@@ -83,7 +91,7 @@ static dal_status python_follow(dal_run *run, double T, long long every, dal_sta
 {
     followed f = {statistics, dal_run_observables(run), NULL};
     const dal_observer observer = {
-        .user = &f, .values = add_values, .every = every, .poll = python_poll};
+        .user = &f, .values = add_values, .scales = add_scales, .every = every, .poll = python_poll};
     f.shifted = malloc((size_t)f.observables * sizeof *f.shifted);
     if (!f.shifted) return DAL_MEMORY;
     dal_statistics_start(statistics, f.observables);

@@ -18,6 +18,7 @@ static dal_trend drift(double rate, double deviation, double margin)
     return (dal_trend){.count = 1001,
                        .rate = rate,
                        .deviation = deviation,
+                       .scale = 1.0,
                        .max_abs = deviation,
                        .rate_low = rate - margin,
                        .rate_high = rate + margin};

@@ -161,6 +161,8 @@ static void null_dal_run_observe(void)
     REFUSED_STATUS(dal_run_observe(run, NULL));
 }
 
+static void null_dal_run_scales(void) { CU_ASSERT_PTR_NULL(dal_run_scales(NULL)); }
+
 static void null_dal_run_sample(void)
 {
     REFUSED(dal_run_sample(NULL, 1.0, 1, 0, NULL, error));

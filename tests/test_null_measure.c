@@ -356,6 +356,17 @@ static void null_dal_conservation_text(void)
     CU_ASSERT_STRING_EQUAL(dal_conservation_text((dal_conservation)-1), "?");
 }
 
+static void null_dal_statistics_add_scales(void)
+{
+    dal_statistics s;
+    const double scale = 2.0;
+    dal_statistics_start(&s, 1);
+    dal_statistics_add_scales(NULL, 1, &scale);
+    dal_statistics_add_scales(&s, 1, NULL);
+    dal_statistics_add_scales(&s, -1, &scale);
+    CU_ASSERT_EQUAL(s.scale, 0.0);
+}
+
 static void null_dal_run_classify(void)
 {
     dal_statistics statistics[16];

@@ -254,6 +254,14 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
     return DAL_OK;
 }
 
+static dal_status add_scales(void *user, dal_run *run, const double *scales)
+{
+    run_recorder *r = user;
+    (void)run;
+    dal_statistics_add_scales(r->statistics, r->observables, scales);
+    return DAL_OK;
+}
+
 static dal_status add_row(void *user, dal_run *run, long long row, double t)
 {
     run_recorder *r = user;
@@ -368,6 +376,7 @@ int recorder_run(run_recorder *r, dal_error *error)
                                  .sample = add_row,
                                  .poll = poll,
                                  .values = add_values,
+                                 .scales = add_scales,
                                  .event = add_event,
                                  .every = request->statistics,
                                  .row_time = request->row_time ? row_time : NULL,

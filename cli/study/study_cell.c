@@ -426,6 +426,13 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
     return DAL_OK;
 }
 
+static dal_status add_scales(void *user, dal_run *run, const double *scales)
+{
+    const short_run *s = user;
+    dal_statistics_add_scales(s->statistics, dal_run_observables(run), scales);
+    return DAL_OK;
+}
+
 static dal_status poll_short_run(void *user, dal_run *run)
 {
     short_run *s = user;
@@ -444,6 +451,7 @@ static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
                                    .sample = add_end,
                                    .poll = poll_short_run,
                                    .values = add_values,
+                                   .scales = add_scales,
                                    .every = request->statistics,
                                    .row_time = request->row_time ? end_time : NULL,
                                    .polling = POLLING};

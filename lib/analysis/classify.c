@@ -8,9 +8,10 @@
 #include "dalembert_analysis.h"
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
-/* Roundings of a start that was projected to D = 0. */
+/* Roundings of a start that was projected to D = 0, in units of the scale of D. */
 static const double start_roundings = 4096 * DBL_EPSILON;
 
 /* Places among the observables of a run; -1: it has none. */
@@ -32,7 +33,8 @@ static dal_conservation conservation_of_energy(const dal_run *run, const places 
     if (max_pi(at, trend) > 0.0 && isfinite(dal_run_state(run)[2 * s->n])) return DAL_MOVED_BY_PI;
     if (s->properties & DAL_E_EXACT) return DAL_CONSERVED;
     for (int a = 0; a < at->constraints; a++)
-        if (trend[a].size == DAL_SIZE_LARGER || !(fabs(trend[a].first) <= start_roundings))
+        if (trend[a].size == DAL_SIZE_LARGER ||
+            !(fabs(trend[a].first) <= start_roundings * trend[a].scale))
             return DAL_OFF_SURFACE;
     return DAL_CONSERVED;
 }
@@ -55,20 +57,32 @@ static void mark_reactions(const dal_run *run, int invariants, dal_trend *trend)
             trend[i].conservation = DAL_NOT_CONSERVED;
 }
 
-void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int aborted,
-                      dal_trend *trend)
+/* Whether any of the statistics has a scale. */
+static bool has_scales(const dal_statistics *statistics, int count)
+{
+    bool any = false;
+    for (int i = 0; i < count; i++) any = any || statistics[i].scale > 0.0;
+    return any;
+}
+
+void dal_run_classify(dal_run *run, const dal_statistics *statistics, int aborted, dal_trend *trend)
 {
     if (!run || !statistics || !trend) return;
     const dal_system *s = dal_run_system(run);
     const int m = s->constraints ? s->m : 0, has_energy = s->energy != NULL;
     const int is_lifted = dal_run_dimension(run) == 4 * s->n + 2;
+    const int count = dal_run_observables(run);
     const places at = {.constraints = m,
                        .energy = has_energy ? m : -1,
                        .hamiltonian = is_lifted ? m + has_energy : -1,
                        .pi = is_lifted ? m + has_energy + 2 : -1};
-    for (int i = 0; i < dal_run_observables(run); i++) {
-        const double own = dal_statistics_max_abs(&statistics[i]);
-        const double scale = i == at.hamiltonian ? own : fmax(1.0, own);
+    const double *present = has_scales(statistics, count) ? NULL : dal_run_scales(run);
+    for (int i = 0; i < count; i++) {
+        const bool is_norm =
+            is_lifted && i > at.hamiltonian && i < at.hamiltonian + LIFT_OBSERVABLES;
+        const double scale = is_norm   ? dal_statistics_max_abs(&statistics[i])
+                             : present ? present[i]
+                                       : statistics[i].scale;
         dal_statistics_classify(&statistics[i], scale, aborted, &trend[i]);
     }
     mark_reactions(run, m + has_energy + (is_lifted ? LIFT_OBSERVABLES : 0), trend);

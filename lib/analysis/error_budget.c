@@ -172,6 +172,7 @@ static dal_status sample_run(comparisons *w, dal_run *run, int which, int per, d
         DAL_TRY(dal_run_observe(run, w->values));
         dal_statistics_add(series(w, which), count, (double)at * w->of->spec.options.step,
                            w->values);
+        dal_statistics_add_scales(series(w, which), count, dal_run_scales(run));
         if (report_progress(w, (double)(stride * per)) != DAL_OK) return DAL_INTERRUPTED;
     }
     return DAL_OK;
@@ -215,6 +216,11 @@ static dal_status run_comparison(comparisons *w, dal_comparison_run comparison)
 /* The run; solved further; in quad precision; the same with half the step. */
 enum { RUN, TIGHT, QUAD, HALF, TOGETHER };
 
+/* The series of the beginning. */
+static const int parts[] = {DAL__FIRST_RUN,          DAL__FIRST_ROUNDING,
+                            DAL__FIRST_SOLVER,       DAL__FIRST_SOLVER_AND_ROUNDING,
+                            1 + DAL_COMPARISON_QUAD, 1 + DAL_COMPARISON_QUAD_HALVED};
+
 static void add_beginning(comparisons *w, double t)
 {
     const int count = w->of->observables;
@@ -233,6 +239,13 @@ static void add_beginning(comparisons *w, double t)
     dal_statistics_add(series(w, DAL__FIRST_SOLVER_AND_ROUNDING), count, t, quad);
 }
 
+/* Differences of a quantity have its scale. */
+static void add_beginning_scales(comparisons *w, const double *scales)
+{
+    for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++)
+        dal_statistics_add_scales(series(w, parts[k]), w->of->observables, scales);
+}
+
 static dal_status sample_beginning(comparisons *w, dal_run **run, dal_error *error)
 {
     const long long steps = w->of->quad_steps, stride = stride_of(steps);
@@ -242,6 +255,7 @@ static dal_status sample_beginning(comparisons *w, dal_run **run, dal_error *err
             DAL_TRY(dal_run_observe(run[k], w->values + k * w->of->observables));
         }
         add_beginning(w, (double)at * w->of->spec.options.step);
+        add_beginning_scales(w, dal_run_scales(run[RUN]));
         if (report_progress(w, 3.0 * QUAD_COST * (double)stride) != DAL_OK) return DAL_INTERRUPTED;
     }
     return DAL_OK;
@@ -273,11 +287,8 @@ static dal_status run_beginning(comparisons *w)
 
 /* ---- the whole ---- */
 
-static void find_shares(comparisons *w, const dal_run *run)
+static void find_shares(comparisons *w, dal_run *run)
 {
-    static const int parts[] = {DAL__FIRST_RUN,          DAL__FIRST_ROUNDING,
-                                DAL__FIRST_SOLVER,       DAL__FIRST_SOLVER_AND_ROUNDING,
-                                1 + DAL_COMPARISON_QUAD, 1 + DAL_COMPARISON_QUAD_HALVED};
     for (int which = 0; which < DAL__SERIES; which++)
         if (w->of->observables > 0 && series(w, which)->count > 0)
             dal_run_classify(run, series(w, which), 0, trends(w, which));

@@ -55,8 +55,8 @@ static void set_share(dal_shares *a, dal_error_source source, const dal_trend *p
  * the step as the order of the method says. */
 static int is_of_coefficients(const dal_error_budget *e, const dal_shares *a)
 {
-    const double scale = fmax(1.0, a->beginning.max_abs);
-    const double max = coefficient_roundings * DBL_EPSILON * scale * (double)e->quad_steps;
+    const double max =
+        coefficient_roundings * DBL_EPSILON * a->beginning.scale * (double)e->quad_steps;
     const int order = dal_method_order(&e->spec.method);
     return a->comparison[DAL_COMPARISON_QUAD].deviation <= max && !isnan(a->order) &&
            a->order < order - half_an_order;
@@ -122,8 +122,7 @@ void dal__find_shares(const dal_error_budget *e, dal_shares *a)
     a->whole_by_rate = drifts(&a->whole, (double)e->steps * e->spec.options.step);
     /* What rounding alone may change along the exact motion. */
     const dal_trend *exact = &a->comparison[DAL_COMPARISON_EXACT];
-    const double roundings =
-        coefficient_roundings * DBL_EPSILON * fmax(1.0, exact->max_abs) * (double)e->steps;
+    const double roundings = coefficient_roundings * DBL_EPSILON * exact->scale * (double)e->steps;
     a->is_motion =
         e->ran[DAL_COMPARISON_EXACT] && exact->deviation > roundings &&
         size_of(exact, a->whole_by_rate) > part_of_motion * size_of(&a->whole, a->whole_by_rate);

@@ -142,6 +142,12 @@ void dal_statistics_add(dal_statistics *s, int count, double t, const double *va
     for (int i = 0; s && values && i < count; i++) add_one(&s[i], t, values[i]);
 }
 
+void dal_statistics_add_scales(dal_statistics *s, int count, const double *scales)
+{
+    for (int i = 0; s && scales && i < count; i++)
+        if (!(scales[i] <= s[i].scale)) s[i].scale = isnan(scales[i]) ? INFINITY : scales[i];
+}
+
 /* ---- many values ---- */
 
 typedef bool tally_packs(dal__tally *tally, double first, int phase, int packs,

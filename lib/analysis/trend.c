@@ -332,14 +332,15 @@ static decision decide(const description *p)
  *                the roughness sqrt(sum of squared steps), which a sum of independent errors
  *                passes once in 10^6 and a smooth change at once.  Where the trend is linear, a
  *                bias, the roughness does not count: its steps are alike;
- *     larger     else. */
+ *     larger     else, or where a value was not finite. */
 static const double few_roundings = 64.0, per_root_step = 16.0, largest_step = 128.0;
 static const double smoothness = 5.0; /* deviations in units of the roughness */
 
 static dal_size_class size_of(const dal_statistics *s, double scale, const dal_trend *trend)
 {
     const double eps = DBL_EPSILON * scale, steps = (double)s->count - 1.0;
-    if (!(trend->deviation > 0.0)) return DAL_SIZE_EXACT;
+    if (s->lost || !isfinite(scale)) return DAL_SIZE_LARGER;
+    if (trend->deviation == 0.0) return DAL_SIZE_EXACT;
     if (trend->deviation <= few_roundings * eps) return DAL_SIZE_ROUNDING;
     const double roughness = dal__roughness(s) / s->factor;
     const double by_steps = per_root_step * eps * sqrt(steps);
@@ -385,6 +386,7 @@ void dal_statistics_classify(const dal_statistics *s, double scale, int aborted,
     *trend = (dal_trend){.count = s->count,
                          .first = s->first,
                          .last = s->last,
+                         .scale = scale,
                          .max_abs = dal_statistics_max_abs(s),
                          .deviation = dal_statistics_deviation(s)};
     decision d = classify(s, trend);

@@ -12,6 +12,7 @@
  *     y = if(a, b, c):   dy/dx = if(a, db/dx, dc/dx),   df/dx += ybar dy/dx
  */
 #include "expr/derivative.h"
+#include "expr/partials.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include <stdlib.h>
@@ -26,35 +27,12 @@ static dal__node number(dal__graph *graph, double value) { return dal__number(gr
 #define RATIO(x, y)      dal__node_div(g, x, y)
 #define MINUS(x)         dal__node_neg(g, x)
 #define SQUARE(x)        dal__node_mul(g, x, x)
+#define NUMBER(x)        number(g, x)
+#define POWER(x, y)      dal__apply(g, DAL__POW, x, y)
+#define DIRECTION(x, r)  direction(g, x, r)
+#define ROOT(c, sign, x) root(g, c, sign, x)
+#define TABLE_SLOPE(x)   dal__node_table(g, g->node[y].symbol + 1, x)
 #define OF(function, x)  dal__apply(g, DAL__##function, x, 0)
-
-/* k dy/da and k dy/db of y = a op b; of abs it is sign, and that of sign is 0. */
-#define DERIVATIVE_LIST(OF_BOTH, OF_ONE)                                                           \
-    OF_BOTH(ADD, k, k)                                                                             \
-    OF_BOTH(SUB, k, MINUS(k))                                                                      \
-    OF_BOTH(MUL, PRODUCT(k, b), PRODUCT(k, a))                                                     \
-    OF_BOTH(DIV, RATIO(k, b), MINUS(RATIO(PRODUCT(k, y), b)))                                      \
-    OF_BOTH(POW, PRODUCT(k, PRODUCT(b, dal__apply(g, DAL__POW, a, DIFFERENCE(b, one)))),           \
-            PRODUCT(k, PRODUCT(y, OF(LOG, a))))                                                    \
-    OF_BOTH(ATAN2, RATIO(PRODUCT(k, b), SUM(SQUARE(a), SQUARE(b))),                                \
-            MINUS(RATIO(PRODUCT(k, a), SUM(SQUARE(a), SQUARE(b)))))                                \
-    OF_BOTH(HYPOT, PRODUCT(k, direction(g, a, y)), PRODUCT(k, direction(g, b, y)))                 \
-    OF_ONE(TABLE, PRODUCT(k, dal__node_table(g, g->node[y].symbol + 1, a)))                        \
-    OF_ONE(NEG, MINUS(k))                                                                          \
-    OF_ONE(SQRT, RATIO(k, PRODUCT(number(g, 2.0), y)))                                             \
-    OF_ONE(EXP, PRODUCT(k, y))                                                                     \
-    OF_ONE(LOG, RATIO(k, a))                                                                       \
-    OF_ONE(SIN, PRODUCT(k, OF(COS, a)))                                                            \
-    OF_ONE(COS, MINUS(PRODUCT(k, OF(SIN, a))))                                                     \
-    OF_ONE(TAN, PRODUCT(k, SUM(one, SQUARE(y))))                                                   \
-    OF_ONE(ASIN, RATIO(k, root(g, 1.0, -1.0, a)))                                                  \
-    OF_ONE(ACOS, MINUS(RATIO(k, root(g, 1.0, -1.0, a))))                                           \
-    OF_ONE(ATAN, RATIO(k, SUM(one, SQUARE(a))))                                                    \
-    OF_ONE(SINH, PRODUCT(k, OF(COSH, a)))                                                          \
-    OF_ONE(COSH, PRODUCT(k, OF(SINH, a)))                                                          \
-    OF_ONE(TANH, PRODUCT(k, DIFFERENCE(one, SQUARE(y))))                                           \
-    OF_ONE(ASINH, RATIO(k, root(g, 1.0, 1.0, a)))                                                  \
-    OF_ONE(ABS, PRODUCT(k, OF(SIGN, a)))
 
 /* sqrt(c + sign x^2) */
 static dal__node root(dal__graph *g, double c, double sign, dal__node x)
@@ -73,7 +51,7 @@ static dal__node direction(dal__graph *g, dal__node x, dal__node r)
 /* k times the derivative of node y by its operand (0 the first, 1 the second). */
 static dal__node partial(dal__graph *g, dal__node y, int operand, dal__node k)
 {
-    const dal__node a = g->node[y].a, b = g->node[y].b, one = number(g, 1.0);
+    const dal__node a = g->node[y].a, b = g->node[y].b;
     switch ((dal__op)g->node[y].op) {
 #define OF_BOTH(code, first, second)                                                               \
     case DAL__##code:                                                                              \
@@ -81,7 +59,7 @@ static dal__node partial(dal__graph *g, dal__node y, int operand, dal__node k)
 #define OF_ONE(code, derivative)                                                                   \
     case DAL__##code:                                                                              \
         return derivative;
-        DERIVATIVE_LIST(OF_BOTH, OF_ONE)
+        DAL__PARTIAL_LIST(OF_BOTH, OF_ONE)
 #undef OF_BOTH
 #undef OF_ONE
     default:

@@ -148,6 +148,8 @@ void dal_model_free(dal_model *model)
     dal__programs_free(&model->programs);
     dal__programs_free(&model->tangent_programs);
     dal__programs_free(&model->extended_programs);
+    dal__terms_free(model->terms);
+    dal__terms_free(model->reaction_terms);
     dal__graph_free(model->equations.graph);
     for (dal__allocation *block = model->blocks, *next; block; block = next) {
         next = block->next;

@@ -77,6 +77,7 @@ struct dal_model {
     dal__equations equations;
     bool made, tangent_made;
     dal__programs programs, tangent_programs, extended_programs;
+    dal__terms *terms, *reaction_terms; /* of D, E, invariants; of h, R; NULL: not made */
     dal_system system, tangent, extended;
 };
 

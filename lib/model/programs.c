@@ -12,6 +12,7 @@
 #include "model/model.h"
 #include "model/motion.h"
 #include <math.h>
+#include <string.h>
 
 void dal__programs_free(dal__programs *programs)
 {
@@ -171,6 +172,49 @@ dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, c
 DAL__SINGLE_LIST(CALLBACK)
 CALLBACK(PICTURE, picture, tqv)
 #undef CALLBACK
+
+/* ---- sizes of terms ---- */
+
+/* The values of the symbols as the graph numbers them, and behind them memory of the terms. */
+static dal_status scale(const dal_system *system, const dal__terms *terms, const dal_point *at,
+                        double *memory, double *out)
+{
+    const dal__programs *p = system->data;
+    const dal__equations *e = p->equations;
+    memcpy(memory, at->work, (size_t)e->parameters * sizeof *memory);
+    memory[e->t] = at->t;
+    memcpy(memory + e->q, at->q, (size_t)e->n * sizeof *memory);
+    memcpy(memory + e->v, at->v, (size_t)e->n * sizeof *memory);
+    memcpy(memory + e->g, at->v + e->n, (size_t)e->multipliers * sizeof *memory);
+    dal__terms_scales(terms, memory, memory + e->symbols, out);
+    return DAL_OK;
+}
+
+static dal_status scales(const dal_system *system, const dal_point *at, double *memory, double *out)
+{
+    const dal__programs *p = system->data;
+    return scale(system, p->terms, at, memory, out);
+}
+
+static dal_status reaction_scales(const dal_system *system, const dal_point *at, double *memory,
+                                  double *out)
+{
+    const dal__programs *p = system->data;
+    return scale(system, p->reaction_terms, at, memory, out);
+}
+
+static void point_to_scales(const dal__programs *programs, dal_system *system)
+{
+    const dal__terms *terms = programs->terms, *reactions = programs->reaction_terms;
+    if (!terms) return;
+    const size_t size = dal__terms_memory(terms),
+                 other = reactions ? dal__terms_memory(reactions) : 0;
+    system->scales = scales;
+    system->reaction_scales = reactions ? reaction_scales : NULL;
+    system->scale_memory = (size_t)programs->equations->symbols + (size > other ? size : other);
+}
+
+/* ---- where a program divides ---- */
 
 static bool vanished(const double *pivot)
 {
@@ -361,6 +405,7 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     programs->picture = (dal_picture){picture, e->body};
     system->picture = programs->program[DAL__PROGRAM_PICTURE].present ? &programs->picture : NULL;
     system->diagnose = programs->program[DAL__PROGRAM_DIAGNOSE].present ? diagnose : NULL;
+    point_to_scales(programs, system);
     system->properties |= DAL_WIDE_TIMES;
     DAL_TRY(make_series(model, programs));
     point_to_series(programs);

@@ -3,6 +3,7 @@
 #define DAL_MODEL_PROGRAMS_H
 
 #include "expr/taylor.h"
+#include "expr/terms.h"
 #include "model/equations.h"
 
 /* The programs of a system besides those of its callbacks (DAL_CALLBACK_LIST): code, name, and the
@@ -55,6 +56,8 @@ typedef struct dal__programs {
     dal_callbacks wide1, wide4, wide8;
     dal__taylor *taylor[2]; /* F in t, q, v, g; and the lift, in pi too; NULL: not made */
     dal_series series;
+    const dal__terms *terms;          /* of D, E, invariants; the model's, as the next */
+    const dal__terms *reaction_terms; /* of h, R; NULL: not made */
     dal_picture picture;
     dal__run_program *run; /* a program of one lane */
 } dal__programs;

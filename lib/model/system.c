@@ -184,6 +184,38 @@ static dal_status add_invariants(dal_model *model)
     return e->graph->status;
 }
 
+/* What the scales of D, E, invariants, h and R = B^T h are made from.  Nodes are made after all
+ * programs, so that those do not depend on it. */
+static dal_status add_terms(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m, count = m + 1 + e->invariants;
+    dal__node *formula = dal__model_nodes(model, count, dal__number(e->graph, 0.0));
+    dal__node *reaction = dal__model_nodes(model, m + n, dal__number(e->graph, 0.0));
+    if (model->out_of_memory) return DAL_MEMORY;
+    dal__terms_free(model->terms);
+    dal__terms_free(model->reaction_terms);
+    model->reaction_terms = NULL;
+    for (int a = 0; a < m; a++) formula[a] = e->constraint[a];
+    if (e->energy) formula[m] = e->energy;
+    for (int i = 0; i < e->invariants; i++) formula[m + 1 + i] = e->invariant[i];
+    model->terms = dal__terms_create(e->graph, formula, count);
+    if (!model->terms) return DAL_MEMORY;
+    if (m > 0 && !e->vakonomic) {
+        for (int a = 0; a < m; a++) reaction[a] = e->h[a];
+        for (int i = 0; i < n; i++)
+            for (int a = 0; a < m; a++)
+                reaction[m + i] = dal__node_add(e->graph, reaction[m + i],
+                                                dal__node_mul(e->graph, e->B[a * n + i], e->h[a]));
+        model->reaction_terms = dal__terms_create(e->graph, reaction, m + n);
+        if (!model->reaction_terms) return DAL_MEMORY;
+    }
+    model->programs.terms = model->extended_programs.terms = model->terms;
+    model->programs.reaction_terms = model->extended_programs.reaction_terms =
+        model->reaction_terms;
+    return e->graph->status;
+}
+
 /* The same system with its energy exact: itself, another one, or none. */
 static dal_status make_extended(dal_model *model)
 {
@@ -219,6 +251,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_OK) DAL_TRY(dal__parse_observed(model, error));
     if (status == DAL_OK) status = dal__insert_reactions(model);
     if (status == DAL_OK) status = add_invariants(model);
+    if (status == DAL_OK) status = add_terms(model);
     if (status == DAL_OK) status = dal__programs_finish(model, &model->programs, &model->system);
     if (status == DAL_OK) status = make_extended(model);
     if (status != DAL_OK) return dal__size_error(status, error);

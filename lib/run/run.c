@@ -4,6 +4,7 @@
 #include "run/events.h"
 #include "run/failure.h"
 #include "run/quad.h"
+#include "run/scales.h"
 #include "run/start.h"
 #include <dalembert_kernel.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ static size_t own_numbers(const dal__layout *k)
     const size_t time_and_observables = 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
     const size_t reactions = k->options.reactions ? (size_t)(k->n + 2 * k->m) : 0;
     return stored_count(k) + (size_t)(k->n + k->nw) + dal__event_scratch(k) + time_and_observables +
-           reactions;
+           reactions + dal__scale_numbers(k);
 }
 
 static size_t quad_bytes(const dal__layout *k)
@@ -50,7 +51,8 @@ static dal_run *place(const dal__layout *layout, void *memory)
     run->shadow = (double *)(void *)at;
     run->point = run->shadow + stored_count(layout);
     run->event_scratch = run->point + layout->n + layout->nw;
-    run->observations.times = run->event_scratch + dal__event_scratch(layout);
+    run->scales = run->event_scratch + dal__event_scratch(layout);
+    run->observations.times = run->scales + dal__scale_numbers(layout);
     run->observations.values = run->observations.times + 1;
     run->observations.capacity = 1;
     at += dal__align(own_numbers(layout) * sizeof(double));

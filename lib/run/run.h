@@ -55,6 +55,7 @@ struct dal_run {
     double *scratch;       /* of the engine, for outputs of callbacks */
     double *point;         /* [n + nw] where a step failed; D before a change of parameters */
     double *event_scratch; /* see events.c */
+    double *scales;        /* see scales.c */
     bool exact;            /* the exact solution agrees with the start */
     void *owned;           /* memory to free, or NULL */
     dal__native_code native;

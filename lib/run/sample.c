@@ -13,6 +13,7 @@
 #include "run/events.h"
 #include "run/failure.h"
 #include "run/run.h"
+#include "run/scales.h"
 #include <float.h>
 #include <math.h>
 
@@ -59,10 +60,26 @@ static void evaluate_states(const dal_run *run, int count)
     for (int i = 0; i < count && run->exact && changed; i++) error[i] = NAN;
 }
 
+/* The scales at those of the last count observations where they are due. */
+static dal_status deliver_scales(const sampling *k, int count)
+{
+    dal_run *run = k->run;
+    const long long before = dal_run_steps(run) / k->observer->every + 1 - count;
+    for (int i = 0; i < count; i++) {
+        dal_status status = DAL_OK;
+        if (!dal__scales_due(before + i + 1)) continue;
+        const double *scales = dal__scales_observed(run, i, &status);
+        if (scales) status = k->observer->scales(k->observer->user, run, scales);
+        DAL_TRY(observed(k, status));
+    }
+    return DAL_OK;
+}
+
 static dal_status deliver(const sampling *k, int count)
 {
     const dal__observations *o = &k->run->observations;
     if (count == 0) return DAL_OK;
+    if (k->observer->scales) DAL_TRY(deliver_scales(k, count));
     if (o->states) evaluate_states(k->run, count);
     return observed(k, k->observer->values(k->observer->user, k->run, count, o->times, o->values,
                                            (size_t)o->capacity));

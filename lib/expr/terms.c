@@ -1,0 +1,185 @@
+/* terms.c - the size of the terms that a formula adds up.
+ *
+ * The scale of a formula f at a point is the largest product
+ *
+ *     S(f) = max |df/dn n|       over the nodes n of f that vary along a run, and f itself
+ *
+ * with values in one forward sweep and df/dn in one reverse sweep, both in numbers.  It contains |f|,
+ * every |x df/dx| and every intermediate term, so that eps S is what one rounding can do.  It is 0
+ * only where every term is, and changes with the units as f does: exactly by a power of two.
+ *
+ * A node of a branch that is not taken has df/dn = 0 and counts for nothing, whatever its value;
+ * neither does one that is 0.  A term that is not finite makes S infinite. */
+#include "expr/terms.h"
+#include "expr/partials.h"
+#include "expr/table.h"
+#include "expr/traversal.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The nodes of one formula, itself the last: the operands of each are places before it, and place 0
+ * is no node. */
+typedef struct terms_formula {
+    dal__record *place; /* [places] */
+    int places;
+} terms_formula;
+
+struct dal__terms {
+    const struct dal__table *tables;
+    terms_formula *formula; /* [formulas] */
+    int formulas, max_places;
+};
+
+void dal__terms_free(dal__terms *t)
+{
+    for (int k = 0; t && k < t->formulas; k++) free(t->formula[k].place);
+    if (t) free(t->formula);
+    free(t);
+}
+
+/* Copies the marked nodes in their order; image[node] is where each went. */
+static void copy_nodes(terms_formula *f, const dal__graph *graph, dal__node last,
+                       const uint8_t *mark, int *image)
+{
+    f->places = 1;
+    for (dal__node i = 1; i <= last; i++) {
+        dal__record r = dal__inspect(graph, i);
+        if (!mark[i]) continue;
+        r.a = image[r.a];
+        r.b = image[r.b];
+        r.c = image[r.c];
+        image[i] = f->places;
+        f->place[f->places++] = r;
+    }
+}
+
+static bool copy_formula(terms_formula *f, dal__graph *graph, dal__node node)
+{
+    uint8_t *mark = dal__reach(graph, node);
+    int *image = dal__per_node(graph, node, sizeof *image);
+    size_t count = 1;
+    for (dal__node i = 1; mark && i <= node; i++) count += mark[i] != 0;
+    f->place = calloc(count, sizeof *f->place);
+    const bool made = mark && image && f->place;
+    if (made) copy_nodes(f, graph, node, mark, image);
+    free(mark);
+    free(image);
+    return made;
+}
+
+dal__terms *dal__terms_create(dal__graph *graph, const dal__node *formula, int count)
+{
+    dal__terms *t = calloc(1, sizeof *t);
+    if (t) t->formula = calloc(count > 0 ? (size_t)count : 1, sizeof *t->formula);
+    bool made = t && t->formula;
+    if (made) t->tables = graph->tables;
+    for (int k = 0; k < count && made; k++) {
+        made = copy_formula(&t->formula[k], graph, formula[k]);
+        t->formulas++;
+        const int places = t->formula[k].places;
+        t->max_places = places > t->max_places ? places : t->max_places;
+    }
+    if (made) return t;
+    dal__terms_free(t);
+    return NULL;
+}
+
+size_t dal__terms_memory(const dal__terms *t) { return 2 * (size_t)t->max_places; }
+
+/* ---- the derivatives of one operation ---- */
+
+static double root(double c, double sign, double x) { return sqrt(c + sign * x * x); }
+
+#define SUM(x, y)        ((x) + (y))
+#define DIFFERENCE(x, y) ((x) - (y))
+#define PRODUCT(x, y)    ((x) * (y))
+#define RATIO(x, y)      ((x) / (y))
+#define MINUS(x)         (-(x))
+#define SQUARE(x)        ((x) * (x))
+#define NUMBER(x)        (x)
+#define POWER(x, y)      dal__operate(DAL__POW, x, y, 0.0)
+#define DIRECTION(x, r)  ((r) == 0.0 ? 0.0 : (x) / (r))
+#define ROOT(c, sign, x) root(c, sign, x)
+#define TABLE_SLOPE(x)   dal__table_value(tables, r->symbol + 1, x)
+#define OF(function, x)  dal__operate(DAL__##function, x, 0.0, 0.0)
+
+/* Adds k times the derivatives of a node, whose value is y, to the adjoints of its operands. */
+static void add_partials(const struct dal__table *tables, const dal__record *r, double y, double k,
+                         const double *value, double *adjoint)
+{
+    const double a = value[r->a], b = value[r->b];
+    double *const to_a = &adjoint[r->a], *const to_b = &adjoint[r->b];
+    switch ((dal__op)r->op) {
+#define OF_BOTH(code, first, second)                                                               \
+    case DAL__##code:                                                                              \
+        *to_a += first;                                                                            \
+        *to_b += second;                                                                           \
+        break;
+#define OF_ONE(code, derivative)                                                                   \
+    case DAL__##code:                                                                              \
+        *to_a += derivative;                                                                       \
+        break;
+        DAL__PARTIAL_LIST(OF_BOTH, OF_ONE)
+#undef OF_BOTH
+#undef OF_ONE
+    case DAL__IF:
+        adjoint[a != 0.0 ? r->b : r->c] += k;
+        break;
+    case DAL__MIN:
+        *(b < a ? to_b : to_a) += k;
+        break;
+    case DAL__MAX:
+        *(a < b ? to_b : to_a) += k;
+        break;
+    default: /* a step, which has no derivative */
+        break;
+    }
+}
+
+/* ---- both sweeps ---- */
+
+static void forward(const struct dal__table *tables, const terms_formula *f, const double *symbol,
+                    double *value)
+{
+    value[0] = NAN;
+    for (int i = 1; i < f->places; i++) {
+        const dal__record *r = &f->place[i];
+        value[i] = r->op == DAL__NUMBER   ? r->value
+                   : r->op == DAL__SYMBOL ? symbol[r->symbol]
+                   : r->op == DAL__TABLE
+                       ? dal__table_value(tables, r->symbol, value[r->a])
+                       : dal__operate(r->op, value[r->a], value[r->b], value[r->c]);
+    }
+}
+
+/* Where x is 0 and the derivative infinite, as of sqrt(x), neither x nor what it is made of counts. */
+static bool counts(double adjoint, double x)
+{
+    return adjoint != 0.0 && (x != 0.0 || isfinite(adjoint));
+}
+
+static double reverse(const struct dal__table *tables, const terms_formula *f, const double *value,
+                      double *adjoint)
+{
+    const int last = f->places - 1;
+    double scale = fabs(value[last]);
+    memset(adjoint, 0, (size_t)f->places * sizeof *adjoint);
+    adjoint[last] = 1.0;
+    for (int i = last; i > 0; i--) {
+        if (f->place[i].fixed || !counts(adjoint[i], value[i])) continue;
+        const double term = fabs(adjoint[i] * value[i]);
+        if (!(term <= scale)) scale = term;
+        add_partials(tables, &f->place[i], value[i], adjoint[i], value, adjoint);
+    }
+    return isnan(scale) ? INFINITY : scale;
+}
+
+void dal__terms_scales(const dal__terms *t, const double *symbol, double *memory, double *out)
+{
+    double *const value = memory, *const adjoint = memory + t->max_places;
+    for (int k = 0; k < t->formulas; k++) {
+        forward(t->tables, &t->formula[k], symbol, value);
+        out[k] = reverse(t->tables, &t->formula[k], value, adjoint);
+    }
+}

@@ -1,0 +1,214 @@
+/* scales.c - the sizes of the terms that observables are made of, S(f) of expr/terms.c.
+ *
+ * A system made of formulas has S of D, E, invariants and reactions.  What a system written in C
+ * gives instead is the largest that its callbacks show:
+ *
+ *     D_a   sum_i |A_ai v_i| + |D_a|              E    sum |E_q q| + sum |E_v v| + |E|
+ *     I     |I|                                   h_a  |h_a|,   R_i   sum_a |B_ai h_a|
+ *
+ * H is the sum of pi_i^2/(2e), pi_i F_i and p_i v_i, of which the largest counts; it is 0, and H
+ * exactly 0, where p = pi = 0. */
+#include "run/scales.h"
+#include <math.h>
+#include <string.h>
+
+/* Where a run keeps its scales: the results [observables]; those of D, E, invariants; of h, R; of H
+ * and the norms of the lift [4]; a state [dimension]; F or the exact solution; memory of the
+ * system. */
+typedef struct places {
+    double *out, *formulas, *reactions, *lift, *state, *vector, *memory;
+} places;
+
+enum { POINTS = 32 }; /* between these and half as many, at equal distances */
+
+static size_t take(size_t *used, size_t count)
+{
+    const size_t at = *used;
+    *used += count;
+    return at;
+}
+
+/* Places from `memory` on, or none where that is NULL; how many numbers they are. */
+static size_t lay_out(const dal__layout *k, double *memory, places *p)
+{
+    const dal_system *s = k->system;
+    size_t used = 0;
+    const size_t at[] = {take(&used, (size_t)dal__max_observables(k)),
+                         take(&used, (size_t)(s->m + 1 + s->invariants)),
+                         take(&used, (size_t)(s->m + s->n)),
+                         take(&used, 4),
+                         take(&used, (size_t)k->dim),
+                         take(&used, (size_t)(2 * s->n + s->multipliers)),
+                         take(&used, s->scale_memory)};
+    if (p)
+        *p = (places){memory + at[0], memory + at[1], memory + at[2], memory + at[3],
+                      memory + at[4], memory + at[5], memory + at[6]};
+    return used;
+}
+
+size_t dal__scale_numbers(const dal__layout *k) { return lay_out(k, NULL, NULL); }
+
+bool dal__scales_due(long long observations)
+{
+    long long distance = 1;
+    while (observations > POINTS * distance) distance *= 2;
+    return observations % distance == 0;
+}
+
+static double sum_of_products(int n, const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (int i = 0; i < n; i++) sum += fabs(a[i] * b[i]);
+    return sum;
+}
+
+/* ---- systems without scales ---- */
+
+static dal_status estimate_constraints(const dal_run *run, const dal_point *at, double *out)
+{
+    const dal_system *s = run->layout.system;
+    const double *D = run->scratch, *A = D + s->m;
+    if (!s->call.constraint) return s->constraints(s, at, out);
+    DAL_TRY(s->call.constraint(s, at, run->scratch));
+    for (int a = 0; a < s->m; a++) out[a] = fabs(D[a]) + sum_of_products(s->n, A + a * s->n, at->v);
+    return DAL_OK;
+}
+
+static dal_status estimate_energy(const dal_run *run, const dal_point *at, double *out)
+{
+    const dal_system *s = run->layout.system;
+    const double *E = run->scratch, *E_q = E + 1, *E_v = E_q + s->n;
+    if (!s->call.energy_normal) return s->energy(s, at, out);
+    DAL_TRY(s->call.energy_normal(s, at, run->scratch));
+    *out = fabs(*E) + sum_of_products(s->n, E_q, at->q) + sum_of_products(s->n, E_v, at->v);
+    return DAL_OK;
+}
+
+static dal_status estimate_formulas(const dal_run *run, const dal_point *at, double *out)
+{
+    const dal_system *s = run->layout.system;
+    if (s->constraints) DAL_TRY(estimate_constraints(run, at, out));
+    if (s->energy) DAL_TRY(estimate_energy(run, at, out + s->m));
+    if (s->invariant_values) DAL_TRY(s->invariant_values(s, at, out + s->m + 1));
+    return DAL_OK;
+}
+
+static dal_status estimate_reactions(const dal_run *run, const dal_point *at, double *out)
+{
+    const dal_system *s = run->layout.system;
+    const double *h = run->scratch, *B = h + s->m;
+    DAL_TRY(s->reactions(s, at, run->scratch));
+    for (int a = 0; a < s->m; a++) out[a] = h[a];
+    for (int i = 0; i < s->n; i++) {
+        out[s->m + i] = 0.0;
+        for (int a = 0; a < s->m; a++) out[s->m + i] += fabs(B[a * s->n + i] * h[a]);
+    }
+    return DAL_OK;
+}
+
+/* ---- one group of observables ---- */
+
+static dal_status scale_formulas(const dal_run *run, const dal_point *at, const places *p)
+{
+    const dal_system *s = run->layout.system;
+    return s->scales ? s->scales(s, at, p->memory, p->formulas)
+                     : estimate_formulas(run, at, p->formulas);
+}
+
+static dal_status scale_reactions(const dal_run *run, const dal_point *at, const places *p)
+{
+    const dal_system *s = run->layout.system;
+    if (!run->layout.options.reactions) return DAL_OK;
+    return s->reaction_scales ? s->reaction_scales(s, at, p->memory, p->reactions)
+                              : estimate_reactions(run, at, p->reactions);
+}
+
+/* H, |p|, |pi|, |pi_e|, out[4]. */
+static dal_status scale_lift(const dal_run *run, const dal_point *at, double *F, double *out)
+{
+    const int n = run->layout.n;
+    const double *y = at->q, *e = y + 2 * n, *p = e + 1, *pi = p + n;
+    memset(out, 0, 4 * sizeof *out);
+    for (int i = 0; i < n; i++) {
+        out[1] = fmax(out[1], fabs(p[i]));
+        out[2] = fmax(out[2], fabs(pi[i]));
+        out[0] = fmax(out[0], fmax(fabs(p[i] * at->v[i]), 0.5 * pi[i] * pi[i] / fabs(*e)));
+    }
+    out[3] = fabs(y[4 * n + 1]);
+    if (out[2] == 0.0) return DAL_OK;
+    DAL_TRY(run->layout.system->call.field(run->layout.system, at, F));
+    for (int i = 0; i < n; i++) out[0] = fmax(out[0], fabs(pi[i] * F[i]));
+    return DAL_OK;
+}
+
+/* |q_i| of the exact solution where the error is largest. */
+static dal_status scale_error(const dal_run *run, const dal_point *at, double *exact, double *out)
+{
+    const dal_system *s = run->layout.system;
+    int largest = 0;
+    DAL_TRY(s->exact(s, at, exact));
+    for (int i = 1; i < s->n; i++)
+        if (fabs(exact[i] - at->q[i]) > fabs(exact[largest] - at->q[largest])) largest = i;
+    *out = fabs(exact[largest]);
+    return DAL_OK;
+}
+
+/* ---- all of them ---- */
+
+/* Where the scales of a group are, after those of the formulas were made. */
+static const double *group_scales(const dal_run *run, const places *p, const dal_point *at,
+                                  int group, dal_status *status)
+{
+    const dal_system *s = run->layout.system;
+    switch (group) {
+    case DAL__OBSERVE_D:
+        return p->formulas;
+    case DAL__OBSERVE_E:
+        return p->formulas + s->m;
+    case DAL__OBSERVE_INVARIANTS:
+        return p->formulas + s->m + 1;
+    case DAL__OBSERVE_LIFT:
+        *status = scale_lift(run, at, p->vector, p->lift);
+        return p->lift;
+    case DAL__OBSERVE_ERROR:
+        *status = scale_error(run, at, p->vector, p->lift);
+        return p->lift;
+    default: /* the multipliers of a method are those of F, nearly */
+        return p->reactions;
+    }
+}
+
+static const double *scales_at(const dal_run *run, const places *p, double t, const double *state,
+                               dal_status *status)
+{
+    const dal_point at = {.t = t, .q = state, .v = state + run->layout.n, .work = run->work};
+    double *out = p->out;
+    *status = scale_formulas(run, &at, p);
+    if (*status == DAL_OK) *status = scale_reactions(run, &at, p);
+    for (int group = 0; group < DAL__OBSERVABLE_GROUPS && *status == DAL_OK; group++) {
+        const int count = dal__observable_count(&run->layout, group, run->exact);
+        const double *scales = count > 0 ? group_scales(run, p, &at, group, status) : NULL;
+        for (int i = 0; i < count; i++) *out++ = fabs(scales[i]);
+    }
+    return *status == DAL_OK ? p->out : NULL;
+}
+
+const double *dal__scales_observed(dal_run *run, int i, dal_status *status)
+{
+    const dal__observations *o = &run->observations;
+    places p;
+    lay_out(&run->layout, run->scales, &p);
+    if (!o->states) return scales_at(run, &p, o->times[i], run->persistent, status);
+    for (int c = 0; c < run->layout.dim; c++)
+        p.state[c] = o->states[(size_t)c * (size_t)o->capacity + (size_t)i];
+    return scales_at(run, &p, o->times[i], p.state, status);
+}
+
+const double *dal_run_scales(dal_run *run)
+{
+    dal_status status;
+    places p;
+    if (!run) return NULL;
+    lay_out(&run->layout, run->scales, &p);
+    return scales_at(run, &p, dal_run_time(run), run->persistent, &status);
+}
