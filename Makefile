@@ -238,6 +238,10 @@ $(BUILD)/tests/suite: $(TEST_OBJ) $(BUILD)/tests/program.a $(STATIC)
 $(BUILD)/tests/read_json: tests/cli/read_json.c $(BUILD)/tests/program.a $(STATIC)
 	$(call SAY,cc)$(CC) $(ALL) -Icli $(LDFLAGS) $^ $(LIBS) -o $@
 
+# Built-in systems in other units, as files.
+$(BUILD)/tests/change_units: tests/cli/change_units.c $(STATIC)
+	$(call SAY,cc)$(CC) $(ALL) $(LDFLAGS) $^ $(LIBS) -o $@
+
 # A locale with a decimal comma; where there is none the tests that want one say so.  (Not under
 # the leak checkers: with LOCPATH the C library's newlocale leaks.)
 $(BUILD)/locale:
@@ -246,7 +250,8 @@ $(BUILD)/locale:
 RUN_SUITE = LOCPATH=$(BUILD)/locale
 
 HAS_MPI = $(shell command -v $(MPICC) >/dev/null && echo $(MPI_PROGRAM))
-check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/tests/read_json $(BUILD)/bench/page $(BUILD)/locale
+check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/tests/read_json \
+       $(BUILD)/tests/change_units $(BUILD)/bench/page $(BUILD)/locale
 	@sh tests/cli/run.sh $(PROGRAM)
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
 	@sh tests/browser/run.sh $(PROGRAM)

@@ -392,10 +392,12 @@ typedef struct dal_growth {
     int rank[DAL_GROWTH_LEVELS]; /* [levels] */
 } dal_growth;
 /* Finds the growth vector of a model whose system is made, by exact brackets at points near the
- * start, with parameters[parameter_count].  [alloc]  Errors: DAL_UNSUPPORTED (no constraints, or
- * one that is not linear in v), DAL_NAME, DAL_SINGULAR, DAL_NOT_FINITE, DAL_TOO_LARGE. */
+ * start, with parameters[parameter_count].  units[1 + n] of t and q, those of dal_scaled_units, say
+ * how far the points are and what components are compared with; NULL: 1.  [alloc]  Errors:
+ * DAL_UNSUPPORTED (no constraints, or one that is not linear in v), DAL_NAME, DAL_SINGULAR,
+ * DAL_NOT_FINITE, DAL_TOO_LARGE. */
 dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,
-                            dal_growth *out, dal_error *error);
+                            const double *units, dal_growth *out, dal_error *error);
 
 #ifdef __cplusplus
 }

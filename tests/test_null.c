@@ -513,11 +513,11 @@ static void null_dal_model_tangent(void)
 static void null_dal_model_growth(void)
 {
     dal_growth growth;
-    REFUSED(dal_model_growth(NULL, NULL, 0, &growth, error));
-    REFUSED(dal_model_growth(model, NULL, 0, NULL, error));
-    REFUSED(dal_model_growth(model, NULL, 1, &growth, error));
-    REFUSED(dal_model_growth(model, NULL, -1, &growth, error));
-    REFUSED(dal_model_growth(model, &(dal_setting){NULL, 1.0}, 1, &growth, error));
+    REFUSED(dal_model_growth(NULL, NULL, 0, NULL, &growth, error));
+    REFUSED(dal_model_growth(model, NULL, 0, NULL, NULL, error));
+    REFUSED(dal_model_growth(model, NULL, 1, NULL, &growth, error));
+    REFUSED(dal_model_growth(model, NULL, -1, NULL, &growth, error));
+    REFUSED(dal_model_growth(model, &(dal_setting){NULL, 1.0}, 1, NULL, &growth, error));
 }
 
 void suite_null(void)

@@ -367,6 +367,28 @@ static void null_dal_statistics_add_scales(void)
     CU_ASSERT_EQUAL(s.scale, 0.0);
 }
 
+static void null_dal_evaluator_scales(void)
+{
+    const double x[8] = {0.0};
+    double out[8];
+    CU_ASSERT_EQUAL(dal_evaluator_scales(NULL, 0.0, x, x, out), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_evaluator_scales(evaluator, 0.0, NULL, x, out), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_evaluator_scales(evaluator, 0.0, x, NULL, out), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_evaluator_scales(evaluator, 0.0, x, x, NULL), DAL_ARGUMENT);
+}
+
+static void null_dal_scaled_create(void)
+{
+    dal_scaled *scaled;
+    CU_ASSERT_EQUAL(dal_scaled_create(NULL, &(dal_run_spec){0}, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_scaled_create(&scaled, NULL, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_scaled_create(&scaled, &(dal_run_spec){0}, NULL), DAL_ARGUMENT);
+}
+
+static void null_dal_scaled_free(void) { dal_scaled_free(NULL); }
+static void null_dal_scaled_system(void) { CU_ASSERT_PTR_NULL(dal_scaled_system(NULL)); }
+static void null_dal_scaled_units(void) { CU_ASSERT_PTR_NULL(dal_scaled_units(NULL)); }
+
 static void null_dal_run_classify(void)
 {
     dal_statistics statistics[16];

@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points lie this far from the start, relative to max(1, |x|). */
+/* Points are this far from the start, in units of the system. */
 static const double neighbourhood = 0.1;
 enum { MAX_ATTEMPTS = 20 * CHECK_POINTS, VALUE_COLUMN = 44 };
 
@@ -92,8 +92,7 @@ static void choose_points(check *c, double *memory)
     for (int k = 0; k < MAX_ATTEMPTS && c->near_count < CHECK_POINTS; k++) {
         double *x = memory + c->near_count * c->size;
         for (int i = 0; i < c->size; i++) {
-            const double radius = neighbourhood * fmax(1.0, fabs(c->start[i]));
-            x[i] = c->start[i] + radius * random_number(&random);
+            x[i] = c->start[i] + neighbourhood * random_number(&random);
         }
         c->near[c->near_count] =
             (dal_point){.t = fabs(random_number(&random)), .q = x, .v = x + c->n};
@@ -111,8 +110,25 @@ static void choose_points(check *c, double *memory)
 
 /* ---- all ---- */
 
+static int scale_system(check *c)
+{
+    const run_request *request = c->request;
+    const dal_run_spec spec = {.system = request->system,
+                               .parameters = request->set.item,
+                               .parameter_count = request->set.count,
+                               .start = request->start.item,
+                               .start_count = request->start.count};
+    dal_error error = {0};
+    const dal_status status = dal_scaled_create(&c->scaled, &spec, &error);
+    c->system = dal_scaled_system(c->scaled);
+    if (status == DAL_OK) return CLI_DONE;
+    return cli_error(cli_input_exit(status), error.line ? request->system_name : NULL, &error);
+}
+
 static int prepare_check(check *c)
 {
+    const int scaled = scale_system(c);
+    if (scaled != CLI_DONE) return scaled;
     const dal_system *s = c->system;
     const run_request *request = c->request;
     dal_error error = {0};
@@ -123,13 +139,10 @@ static int prepare_check(check *c)
     const size_t values = nw * size + m * (1 + 2 * n) + 3 * n + (size_t)s->invariants + 8 * size;
     dal_status status =
         dal_evaluator_create(&c->evaluator, s, request->set.item, request->set.count, &error);
-    if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
+    if (!cli_is_ok(status)) return cli_error(cli_input_exit(status), NULL, &error);
     c->start = cli_calloc(size + 1 + points + values, sizeof *c->start);
     c->values = c->start + size + 1 + points;
-    status = dal_evaluator_start(c->evaluator, request->start.item, request->start.count, c->start,
-                                 &error);
-    if (status != DAL_OK)
-        return cli_error(cli_input_exit(status), error.line ? request->system_name : NULL, &error);
+    cli_is_ok(dal_evaluator_start(c->evaluator, NULL, 0, c->start, &error));
     c->origin = (dal_point){.t = 0.0, .q = c->start, .v = c->start + n};
     c->is_regular = is_field_finite(c, &c->origin);
     choose_points(c, c->start + size + 1);
@@ -254,12 +267,13 @@ static void free_check(check *c)
     free(c->entry);
     free(c->start);
     dal_evaluator_free(c->evaluator);
+    dal_scaled_free(c->scaled);
 }
 
 int check_system(check_settings *settings)
 {
     run_request *request = &settings->request;
-    check c = {.request = request, .system = request->system, .preservers = -1};
+    check c = {.request = request, .preservers = -1};
     int status = prepare_check(&c);
     if (status == CLI_DONE) {
         examine(&c);

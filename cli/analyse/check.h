@@ -56,6 +56,7 @@ typedef struct check_method {
 } check_method;
 
 typedef struct check {
+    dal_scaled *scaled; /* the system of the request in units of its own: */
     const dal_system *system;
     run_request *request; /* the arguments, its system made */
     dal_evaluator *evaluator;

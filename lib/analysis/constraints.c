@@ -17,7 +17,7 @@
 #include <string.h>
 
 enum { TRIALS = 24 };
-/* How far from the given point the lines pass and reach, relative to max(1, |x|). */
+/* How far from the given point the lines pass and reach, in units of the system. */
 static const double neighbourhood = 0.3;
 /* A difference of values near 1 over steps near 0.3 carries a few 1e-16; anything of this size is
  * not rounding. */
@@ -47,7 +47,7 @@ static void draw_base(survey *w)
 {
     for (int i = 0; i < w->n + w->nw; i++) {
         double x = i < w->n ? w->at.q[i] : w->at.v[i - w->n];
-        w->x[i] = x + neighbourhood * fmax(1.0, fabs(x)) * dal__uniform(&w->random);
+        w->x[i] = x + neighbourhood * dal__uniform(&w->random);
     }
     w->t = w->at.t + dal__uniform(&w->random);
 }

@@ -2,12 +2,14 @@
 #include "core/error.h"
 #include "core/solved.h"
 #include "dalembert_analysis.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct dal_evaluator {
     const dal_system *system;
+    double *scale_memory; /* behind work */
     double work[];
 };
 
@@ -21,9 +23,11 @@ dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *sys
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
     const size_t values = (size_t)system->parameters;
     const size_t size = system->workspace > values ? system->workspace : values;
-    dal_evaluator *made = calloc(1, sizeof *made + size * sizeof *made->work);
+    dal_evaluator *made =
+        calloc(1, sizeof *made + (size + system->scale_memory) * sizeof *made->work);
     if (made == NULL) return dal__fail(error, DAL_MEMORY, "%s: out of memory", system->name);
     made->system = system;
+    made->scale_memory = made->work + size;
     dal_status status =
         dal__set_parameters(system, parameters, parameter_count, DAL_NOT_FINITE, made->work, error);
     if (status == DAL_OK && system->prepare != NULL) {
@@ -53,6 +57,21 @@ dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, 
     if (callback == NULL) return DAL_UNSUPPORTED;
     if (callback == evaluator->system->call.adjoint) DAL_REQUIRE(pi, NULL);
     return callback(evaluator->system, &(dal_point){t, q, v, pi, evaluator->work, NULL}, out);
+}
+
+dal_status dal_evaluator_scales(dal_evaluator *evaluator, double t, const double *q,
+                                const double *v, double *out)
+{
+    DAL_REQUIRE(evaluator && q && v && out, NULL);
+    const dal_system *s = evaluator->system;
+    const dal_point at = {.t = t, .q = q, .v = v, .work = evaluator->work};
+    if (s->scales) return s->scales(s, &at, evaluator->scale_memory, out);
+    for (int i = 0; i < s->m + 1 + s->invariants; i++) out[i] = 0.0;
+    if (s->constraints) DAL_TRY(s->constraints(s, &at, out));
+    if (s->energy) DAL_TRY(s->energy(s, &at, out + s->m));
+    if (s->invariant_values) DAL_TRY(s->invariant_values(s, &at, out + s->m + 1));
+    for (int i = 0; i < s->m + 1 + s->invariants; i++) out[i] = fabs(out[i]);
+    return DAL_OK;
 }
 
 /* ---- the start ---- */

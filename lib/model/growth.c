@@ -23,16 +23,18 @@
 enum { POINTS = 3, MAX_NODES = 400000 };
 /* Nodes passed over by derivatives: the brackets of a large system are not all followed. */
 #define MAX_WORK 4e9
-/* Components of fields below this are rounding; every X_i has a component 1. */
+/* Components of fields below this are rounding; every X_i has a component 1 in the units given. */
 #define ROUNDING 1e-9
 
 typedef struct distribution {
     dal_model *model;
-    int dim, fixed;    /* coordinates: of q, or of t and q; fixed: 1 where the first one is t */
-    const int *symbol; /* [dim] of them */
-    dal__node *field;  /* [POINTS*dim*dim] the fields so far, [dim] each */
-    int fields, first; /* how many; how many of them are X_i */
-    double *point;     /* [POINTS*symbols] */
+    int dim, fixed;     /* coordinates: of q, or of t and q; fixed: 1 where the first one is t */
+    const int *symbol;  /* [dim] of them */
+    const double *unit; /* [dim] of them */
+    dal__node *field;   /* [POINTS*dim*dim] the fields so far, [dim] each */
+    double *weight;     /* [POINTS*dim + 1] by which they are multiplied */
+    int fields, first;  /* how many; how many of them are X_i */
+    double *point;      /* [POINTS*symbols] */
     int points;
     double *basis; /* [POINTS*dim*dim] orthonormal, of the fields at each point */
     int rank[POINTS];
@@ -63,7 +65,7 @@ static bool extend_basis(distribution *d, int point, double *x)
 }
 
 /* Adds the field behind the others where it is independent of them at a point. */
-static void add_field(distribution *d, double *x)
+static void add_field(distribution *d, double weight, double *x)
 {
     dal__graph *graph = d->model->equations.graph;
     const dal__node *field = d->field + d->fields * d->dim;
@@ -72,9 +74,12 @@ static void add_field(distribution *d, double *x)
     for (int k = 0; k < d->points && !is_zero; k++) {
         const double *at = d->point + k * d->model->equations.symbols;
         for (int j = 0; j < d->dim; j++)
-            x[j] = dal__is_number(graph, field[j], 0.0) ? 0.0 : dal__evaluate(graph, field[j], at);
+            x[j] = dal__is_number(graph, field[j], 0.0)
+                       ? 0.0
+                       : dal__evaluate(graph, field[j], at) * weight / d->unit[j];
         is_new |= extend_basis(d, k, x);
     }
+    d->weight[d->fields] = weight;
     d->fields += is_new;
 }
 
@@ -88,6 +93,14 @@ static int max_rank(const distribution *d)
 
 /* ---- the fields X_i ---- */
 
+/* To a largest component of 1. */
+static void normalise(double *row, int count)
+{
+    double size = 0.0;
+    for (int j = 0; j < count; j++) size = fmax(size, fabs(row[j]));
+    for (int j = 0; j < count && size > 0.0; j++) row[j] /= size;
+}
+
 /* X_c for each column c that is no pivot: 1 there, and -A_p^-1 A_c in the pivots p.  Pivots are
  * chosen by elimination at the first point; t is none. */
 static dal_status make_fields(distribution *d, const dal__node *A, double *x)
@@ -98,7 +111,9 @@ static dal_status make_fields(distribution *d, const dal__node *A, double *x)
     dal__node *matrix = dal__model_nodes(d->model, m * m, 0);
     dal__node *side = dal__model_nodes(d->model, 2 * m, 0), *solution = side + m;
     if (d->model->out_of_memory) return DAL_MEMORY;
-    for (int i = 0; i < m * dim; i++) x[i] = dal__evaluate(e->graph, A[i], d->point);
+    for (int i = 0; i < m * dim; i++)
+        x[i] = dal__evaluate(e->graph, A[i], d->point) * d->unit[i % dim];
+    for (int a = 0; a < m; a++) normalise(x + a * dim, dim);
     for (int a = 0; a < m; a++) {
         const double *row = x + a * dim;
         int best = d->fixed;
@@ -123,7 +138,7 @@ static dal_status make_fields(distribution *d, const dal__node *A, double *x)
         DAL_TRY(dal__solve_vector(d->model, m, matrix, side, solution));
         for (int j = 0, p = 0; j < dim; j++)
             field[j] = pivot[j] ? solution[p++] : dal__number(e->graph, j == c ? 1.0 : 0.0);
-        add_field(d, x);
+        add_field(d, d->unit[c], x);
     }
     d->first = d->fields;
     return e->graph->status;
@@ -154,7 +169,7 @@ static bool add_level(distribution *d, int begin, double *x)
             if (graph->count > MAX_NODES || d->work > MAX_WORK) return false;
             for (int j = 0; j < d->dim; j++)
                 out[j] = dal__node_sub(graph, along(d, Y[j], X), along(d, X[j], Y));
-            add_field(d, x);
+            add_field(d, d->weight[i] * d->weight[k], x);
         }
     return true;
 }
@@ -169,7 +184,8 @@ static dal__node at_rest(const dal__equations *e, dal__node D, const dal__node *
 
 /* A[m*dim] of a distribution, behind it n zeros, the first column for t; and irregular points about
  * the start, value[symbols], at which it is finite. */
-static dal_status make_matrix(distribution *d, dal__node *A, const double *value, dal_error *error)
+static dal_status make_matrix(distribution *d, dal__node *A, const double *value,
+                              const double *units, dal_error *error)
 {
     const double golden = 0.6180339887498949;
     const dal__equations *e = &d->model->equations;
@@ -186,15 +202,16 @@ static dal_status make_matrix(distribution *d, dal__node *A, const double *value
     d->fixed = has_t;
     d->dim = e->n + has_t;
     d->symbol = e->symbol + (has_t ? e->t : e->q);
+    d->unit = units + !has_t;
     for (int a = 0; a < e->m; a++) {
         if (has_t) A[a * d->dim] = at_rest(e, e->constraint[a], zeros);
         memcpy(A + a * d->dim + has_t, e->A + a * e->n, (size_t)e->n * sizeof *A);
     }
     for (int try = 0; try < 8 * POINTS && d->points < POINTS; try++) {
         double *x = d->point + d->points * e->symbols, sum = 0.0;
-        for (int i = 0; i < e->symbols; i++)
-            x[i] = value[i] +
-                   (i < e->parameters ? 0.0 : fmod((try * e->symbols + i + 1) * golden, 1.0) - 0.5);
+        memcpy(x, value, (size_t)e->symbols * sizeof *x);
+        for (int i = 0; i <= e->n; i++)
+            x[e->t + i] += units[i] * (fmod((try * e->symbols + e->t + i + 1) * golden, 1.0) - 0.5);
         for (int i = 0; i < e->m * d->dim; i++) sum += dal__evaluate(e->graph, A[i], x);
         d->points += isfinite(sum);
     }
@@ -204,7 +221,7 @@ static dal_status make_matrix(distribution *d, dal__node *A, const double *value
 }
 
 dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,
-                            dal_growth *out, dal_error *error)
+                            const double *units, dal_growth *out, dal_error *error)
 {
     DAL_REQUIRE(model, error);
     DAL_REQUIRE(out, error);
@@ -219,15 +236,18 @@ dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int
         dal__model_nodes(model, (int)((size_t)e->m * dim) + e->n, dal__number(e->graph, 0.0));
     double *value = dal__model_allocate(model, symbols, sizeof *value);
     double *x = dal__model_allocate(model, (size_t)e->m * dim, sizeof *x);
+    double *ones = dal__model_allocate(model, dim, sizeof *ones);
     if (model->out_of_memory) return DAL_MEMORY;
+    for (size_t i = 0; i < dim; i++) ones[i] = 1.0;
     memcpy(value, e->value, symbols * sizeof *value);
     DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_NOT_FINITE, value,
                                 error));
     d.field = dal__model_nodes(model, (int)((POINTS * dim + 1) * dim), 0);
+    d.weight = dal__model_allocate(model, POINTS * dim + 1, sizeof *d.weight);
     d.basis = dal__model_allocate(model, POINTS * dim * dim, sizeof *d.basis);
     d.point = dal__model_allocate(model, POINTS * symbols, sizeof *d.point);
     if (model->out_of_memory) return DAL_MEMORY;
-    DAL_TRY(make_matrix(&d, A, value, error));
+    DAL_TRY(make_matrix(&d, A, value, units ? units : ones, error));
     const dal_status status = make_fields(&d, A, x);
     if (status == DAL_SINGULAR)
         return dal__fail(error, status, "the constraints are dependent about the start");

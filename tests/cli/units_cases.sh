@@ -1,0 +1,102 @@
+# What the program states does not depend on the units of the user: built-in systems, each coordinate,
+# the time, the Lagrangian, the constraints and the invariants multiplied by powers of two.
+units=${program%/*}/tests/change_units
+
+# The words: numbers are replaced.  Only a 0 is sometimes a rounding.
+words() { sed -E 's/[-+]?[0-9]+(\.[0-9]+)?e[-+][0-9]+|[0-9]+\.[0-9]+/#/g; s/(ok|info) +0( |$)/\1 #/; s/(ok|info) +# */\1 # /' "$1"; }
+# The size and the trend of each observable but the error, which is a length.
+sizes() {
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) head[$i] = i; next }
+        $1 != "error" { print $1, $head["size"], $head["trend"] }' "$1"
+}
+
+case_is "units of built-in systems"
+if [ -x "$units" ]; then
+    "$program" list systems --markdown | sed -n 's/^| `\([a-z-]*\)` .*/\1/p' >systems
+    changed=0
+    while read -r system; do
+        mkdir -p one other
+        "$units" "$system" 0 >one/system.yaml 2>err
+        [ $? -eq 3 ] && continue # it has events, reactions or functions of its own
+        "$units" "$system" 1 >other/system.yaml 2>err || fail "$system: no other units"
+        changed=$((changed + 1))
+        for place in one other; do
+            (cd $place && "$program" check system.yaml >check 2>err
+                echo "exit $?" >>check
+                words check >words
+                "$program" run system.yaml --integrator rk4 --output run >out 2>>err
+                echo "exit $?" >sizes
+                sizes run/summary.csv >>sizes 2>&1)
+        done
+        holds "$system: check differs in other units: $(diff one/words other/words | head -4)" \
+            cmp one/words other/words
+        holds "$system: sizes differ in other units: $(diff one/sizes other/sizes | head -4)" \
+            cmp one/sizes other/sizes
+        holds "$system: no sizes" test "$(wc -l <one/sizes)" -ge 2
+        rm -rf one other
+    done <systems
+    holds "only $changed systems" test $changed -ge 33
+else
+    echo "cli: units: skipped: no $units (make check builds it)"
+fi
+
+case_is "an oscillator at x = 1000, and its exact solution"
+cat >far.yaml <<'END'
+coordinates: [x]
+lagrangian: (x'^2 - x^2)/2
+start: {x: 1000}
+exact: {x: 1000*cos(t)}
+END
+try 0 check far.yaml
+prints '^  energy E +ok +conserved on every level of D'
+prints "^  residual of q' = v, v' = F +ok "
+
+case_is "a satellite in metres"
+cat >satellite.yaml <<'END'
+coordinates: [x, y]
+parameters: {GM: 3.986e14}
+lagrangian: (x'^2 + y'^2)/2 + GM/sqrt(x^2 + y^2)
+start: {x: 7e6, y': 7546}
+invariants: {moment: x*y' - y*x'}
+END
+try 0 check satellite.yaml
+prints '^  energy E +ok +conserved on every level of D'
+prints '^  invariant moment +ok '
+
+case_is "a bead of 5e-16 kg with friction does not keep its energy"
+cat >bead.yaml <<'END'
+coordinates: [x]
+parameters: {m: 5e-16, r: 1e-9}
+lagrangian: m/2*x'^2
+forces: {x: -r*x'}
+start: {x': 1e-3}
+invariants: {energy: m*x'^2}
+END
+try 1 check bead.yaml
+prints '^  energy E +ok +not conserved'
+prints '^  invariant energy +FAIL '
+
+case_is "a small fault is one in all units"
+for by in 1 1e-20 1e20; do
+    cat >fault.yaml <<END
+coordinates: [x]
+lagrangian: $by*(x'^2 - x^2)/2
+start: {x: 1}
+invariants: {wrong: "$by*(x'^2 + 1.001*x^2)"}
+exact: {x: cos(1.001*t)}
+END
+    try 1 check fault.yaml
+    prints '^  invariant wrong +FAIL '
+    prints "^  residual of q' = v, v' = F +FAIL "
+done
+
+case_is "an atom that loses 87 % of its energy"
+cat >atom.yaml <<'END'
+coordinates: [x]
+parameters: {m: 1.67e-27, k: 500}
+lagrangian: m/2*x'^2 - k/2*x^2
+start: {x: 1e-11}
+END
+try 0 run atom.yaml --integrator rk4 --step 2e-15 --time 2e-13 --output atom
+sizes atom/summary.csv >sizes
+holds "E is rounding: $(grep '^E ' sizes)" grep -q '^E larger ' sizes
