@@ -277,11 +277,12 @@ int dal_run_observables(const dal_run *run);
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size);
 /* Writes the observables of the present state to out.  Errors: those of the callbacks. */
 dal_status dal_run_observe(dal_run *run, double *out);
-/* The scales of the observables at the present state, [observables] in memory of the run until it is
- * used again; NULL where a callback fails: the largest of the terms that each is made of, see dal_scale_callback, by which roundings are measured.  Where a system has no
- * scales they are sum_i |A_ai v_i| + |D_a|, sum |E_q q| + sum |E_v v| + |E| (|E| without
- * energy_normal), |I|, |h_a| and sum_a |B_ai h_a|; of H the largest |pi_i^2/2e|, |pi_i F_i|,
- * |p_i v_i|; of error |q_i| where it is largest; of the other norms their own values. */
+/* The scales of the observables at the present state, [observables] in memory of the run until it
+ * is used again; NULL where a callback fails: the largest of the terms that each is made of, see
+ * dal_scale_callback, by which roundings are measured.  Where a system has no scales they are
+ * sum_i |A_ai v_i| + |D_a|, sum |E_q q| + sum |E_v v| + |E| (|E| without energy_normal), |I|, |h_a|
+ * and sum_a |B_ai h_a|; of H the largest |pi_i^2/2e|, |pi_i F_i|, |p_i v_i|; of error |q_i| where
+ * it is largest; of the other norms their own values. */
 const double *dal_run_scales(dal_run *run);
 
 /* An event as it has just happened. */

@@ -9,7 +9,7 @@
 #ifndef DALEMBERT_ANALYSIS_H
 #define DALEMBERT_ANALYSIS_H
 
-#include "dalembert.h"
+#include "dalembert_evaluator.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -68,8 +68,8 @@ void dal_statistics_add(dal_statistics *statistics, int count, double t, const d
 void dal_statistics_add_many(dal_statistics *statistics, int count, int samples, const double *t,
                              const double *values, size_t stride);
 
-/* Adds the scales of the quantities where they have just been observed, scales[count]: the largest so
- * far is the scale of dal_run_classify.  An observer's scales are such. */
+/* Adds the scales of the quantities where they have just been observed, scales[count]: the largest
+ * so far is the scale of dal_run_classify.  An observer's scales are such. */
 void dal_statistics_add_scales(dal_statistics *statistics, int count, const double *scales);
 
 /* max |x|; infinite when a value was lost. */
@@ -162,65 +162,22 @@ typedef struct dal_trend {
 } dal_trend;
 
 /* Classifies a quantity by the evidence for each shape (Kass, Raftery 1995, DOI
- * 10.1080/01621459.1995.10476572).  scale is the size of the terms that it is made of, in its unit, by
- * which roundings are measured; where it or a value is not finite, no change is a rounding.  aborted: the run ended before its time.  More values may be added afterwards. */
+ * 10.1080/01621459.1995.10476572).  scale is the size of the terms that it is made of, in its unit,
+ * by which roundings are measured; where it or a value is not finite, no change is a rounding.
+ * aborted: the run ended before its time.  More values may be added afterwards. */
 void dal_statistics_classify(const dal_statistics *statistics, double scale, int aborted,
                              dal_trend *trend);
 
 /* Classifies all observables of a run: statistics[count] and trend[count] in the order of
- * dal_run_observe.  Their scales are those that dal_statistics_add_scales has added, or, where it has
- * added none, those of the present state; of norms (|p|, |pi|, |pi_e|) the largest value.  E is
+ * dal_run_observe.  Their scales are those that dal_statistics_add_scales has added, or, where it
+ * has added none, those of the present state; of norms (|p|, |pi|, |pi_e|) the largest value.  E is
  * DAL_CONSERVED where the motion conserves it on every level of D, or on
  * D = 0 while max |D| is rounding-sized, and not where pi/e acts; H where F does not depend on t or
  * pi is 0; all else always is. */
 void dal_run_classify(dal_run *run, const dal_statistics *statistics, int aborted,
                       dal_trend *trend);
 
-/* ---- evaluation and checks of a system ----------------------------------------------------- */
-
-/* A system with parameter values and the memory to evaluate it, for one thread. */
-typedef struct dal_evaluator dal_evaluator;
-
-/* Makes an evaluator with parameters[parameter_count]; the others have the system's values.  The
- * system must outlive it. [alloc]  Errors: DAL_NAME with the nearest name, DAL_NOT_FINITE, those of
- * prepare. */
-dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *system,
-                                const dal_setting *parameters, int parameter_count,
-                                dal_error *error);
-/* Frees an evaluator. */
-void dal_evaluator_free(dal_evaluator *evaluator);
-/* The system that is evaluated. */
-const dal_system *dal_evaluator_system(const dal_evaluator *evaluator);
-/* Calls a callback of the system at t, q[n], v[n + multipliers]; pi[n] is read by the adjoint alone
- * and may else be NULL.  Errors: DAL_UNSUPPORTED (callback is NULL), those of the callback. */
-dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
-                              const double *q, const double *v, const double *pi, double *out);
-/* The scales of D, E and the invariants at a point, out[m + 1 + invariants], see
- * dal_scale_callback; their absolute values where the system has no scales. */
-dal_status dal_evaluator_scales(dal_evaluator *evaluator, double t, const double *q,
-                                const double *v, double *out);
-/* The start: out[2n + multipliers + 1] = q, v, g, e, with x, x', g1 and e replaced by
- * start[start_count], and then the velocities that it solves by those from D = 0 at t = 0.  It need
- * not satisfy the other constraints.  Errors: DAL_NAME, those of the system; of velocities that are
- * solved DAL_RANK, DAL_INCONSISTENT. */
-dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
-                               double *out, dal_error *error);
-
-/* A system in units of its own: lengths, a time and units of energy, constraints and invariants, in
- * which the numbers of its motion near the start are about 1.  All are powers of two, so that no
- * digit changes, and change with the units of the user as the quantities do.  The functions below
- * compare numbers with 1: of the scaled system they find the same in all units. */
-typedef struct dal_scaled dal_scaled;
-/* Finds the units of spec->system by its motion from spec->start at start_time; a step, where one is
- * given, says the time where the motion does not.  The system must outlive it. [alloc]  Errors:
- * those of the parameters and of the start; DAL_MEMORY. */
-dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_error *error);
-/* Frees it and its system. */
-void dal_scaled_free(dal_scaled *scaled);
-/* The system in those units, with one lane, without series, quad precision and events. */
-const dal_system *dal_scaled_system(const dal_scaled *scaled);
-/* The units of time and of the coordinates, [1 + n]; those of velocities are their quotients. */
-const double *dal_scaled_units(const dal_scaled *scaled);
+/* ---- checks of a system ---- */
 
 /* d/dt of the count values of a callback along the motion, that is the derivative along
  * (v, F, dg/dt, 1): out[count].  For D it must vanish on every level of D. [alloc]

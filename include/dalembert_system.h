@@ -85,10 +85,10 @@ typedef struct dal_point {
  * callback that fails returns a status, or leaves NaN in the lanes that failed. */
 typedef dal_status dal_callback(const dal_system *system, const dal_point *at, double *out);
 
-/* The scale of each of some formulas f at a point: the largest |df/dx x| over its variables x and the
- * terms that it is made of, |f| among them.  eps times it is what one rounding can do; it changes with
- * the units as f does, and is 0 only where every term is.  memory[scale_memory] belongs to the
- * caller. */
+/* The scale of each of some formulas f at a point: the largest |df/dx x| over its variables x and
+ * the terms that it is made of, |f| among them.  eps times it is what one rounding can do; it
+ * changes with the units as f does, and is 0 only where every term is.  memory[scale_memory]
+ * belongs to the caller. */
 typedef dal_status dal_scale_callback(const dal_system *system, const dal_point *at, double *memory,
                                       double *out);
 

@@ -17,7 +17,8 @@ import sys
 import cffi
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-HEADERS = ('dalembert_system.h', 'dalembert.h', 'dalembert_analysis.h', 'dalembert_codegen.h')
+HEADERS = ('dalembert_system.h', 'dalembert.h', 'dalembert_evaluator.h', 'dalembert_analysis.h',
+           'dalembert_codegen.h')
 STATIC = 'libdalembert.a'
 
 # What observers.c adds, and free for texts that the library allocates.

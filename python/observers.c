@@ -90,8 +90,11 @@ static dal_status python_follow(dal_run *run, double T, long long every, dal_sta
                                 dal_error *error)
 {
     followed f = {statistics, dal_run_observables(run), NULL};
-    const dal_observer observer = {
-        .user = &f, .values = add_values, .scales = add_scales, .every = every, .poll = python_poll};
+    const dal_observer observer = {.user = &f,
+                                   .values = add_values,
+                                   .scales = add_scales,
+                                   .every = every,
+                                   .poll = python_poll};
     f.shifted = malloc((size_t)f.observables * sizeof *f.shifted);
     if (!f.shifted) return DAL_MEMORY;
     dal_statistics_start(statistics, f.observables);

@@ -2,7 +2,7 @@
 #include "dalembert_analysis.h"
 #include "null.h"
 
-FUNCTIONS_dalembert_analysis(DECLARE_NULL_TEST)
+FUNCTIONS_dalembert_analysis(DECLARE_NULL_TEST) FUNCTIONS_dalembert_evaluator(DECLARE_NULL_TEST)
 
     /* ---- what the functions are given where they are given anything ---- */
 
@@ -491,5 +491,5 @@ void suite_null_measure(void)
 {
     CU_pSuite suite =
         CU_add_suite("NULL and negative counts: measures", open_objects, close_objects);
-    FUNCTIONS_dalembert_analysis(ADD_NULL_TEST)
+    FUNCTIONS_dalembert_analysis(ADD_NULL_TEST) FUNCTIONS_dalembert_evaluator(ADD_NULL_TEST)
 }

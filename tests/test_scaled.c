@@ -98,8 +98,8 @@ static void test_derivatives(void)
     }
 }
 
-/* What is solved with W is: E_v = W v of a natural system gives A_a at v = W^-1 A_a^T, and E_q at v =
- * W^-1 E_q. */
+/* What is solved with W is: E_v = W v of a natural system gives A_a at v = W^-1 A_a^T, and E_q at
+ * v = W^-1 E_q. */
 static void test_mass(void)
 {
     enum { MAX = 256 };

@@ -1,5 +1,5 @@
-/* test_scales.c - the sizes of the terms that quantities are made of: S(f) by hand, in other units, of
- * systems written in C, along runs, and what sizes of drifts are stated by it. */
+/* test_scales.c - the sizes of the terms that quantities are made of: S(f) by hand, in other units,
+ * of systems written in C, along runs, and what sizes of drifts are stated by it. */
 #include "expr/terms.h"
 #include "fixtures.h"
 #include "formula.h"
@@ -303,8 +303,9 @@ static void test_lift(void)
     dal_run_free(run);
 }
 
-/* A knife edge at phi = 0 with speed 2 and turning rate 3: h = -(x' cos(phi) + y' sin(phi)) phi', so
- * S = |h|; R_y = -h cos(phi) has the square of cos(phi), and the derivative by it counts twice. */
+/* A knife edge at phi = 0 with speed 2 and turning rate 3: h = -(x' cos(phi) + y' sin(phi)) phi',
+ * so S = |h|; R_y = -h cos(phi) has the square of cos(phi), and the derivative by it counts
+ * twice. */
 static void test_reactions(void)
 {
     dal_run_spec spec = fixture_spec(fixture_system("coordinates: [x, y, phi]\n"

@@ -75,7 +75,7 @@ template "$LIBDIR/cmake/dalembert" dalembert-config.cmake
 template "$LIBDIR/cmake/dalembert" dalembert-config-version.cmake
 
 files 644 "$INCLUDEDIR" include/dalembert.h include/dalembert_system.h \
-    include/dalembert_analysis.h include/dalembert_codegen.h "$BUILD/generated/dalembert_kernel.h"
+    include/dalembert_evaluator.h include/dalembert_analysis.h include/dalembert_codegen.h "$BUILD/generated/dalembert_kernel.h"
 files 644 "$MANDIR/man1" "$BUILD/dalembert.1"
 files 644 "$DATADIR/bash-completion/completions" "$BUILD/dalembert.bash"
 files 644 "$DATADIR/dalembert/systems" systems/*.yaml

@@ -2,16 +2,16 @@
  *
  *     q_i = l_i Q_i,   t = tau T,   v_i = u_i V_i,   u_i = l_i/tau,   L = c L',   D_a = d_a D'_a
  *
- *     F'_i = tau^2/l_i F_i       dF'_i/dQ_j = tau^2 l_j/l_i dF_i/dq_j   dF'_i/dV_j = tau l_j/l_i dF_i/dv_j
- *     A'_ai = u_i/d_a A_ai       W'_ij = u_i u_j/c W_ij                 h'_a = tau d_a/c h_a
- *     E' = E/c                   I'_k = I_k/g_k                         multipliers g'_a = d_a/c g_a
+ *     F'_i = tau^2/l_i F_i     A'_ai = u_i/d_a A_ai     W'_ij = u_i u_j/c W_ij
+ *     dF'_i/dQ_j = tau^2 l_j/l_i dF_i/dq_j              dF'_i/dV_j = tau l_j/l_i dF_i/dv_j
+ *     h'_a = tau d_a/c h_a     E' = E/c     I'_k = I_k/g_k     multipliers g'_a = d_a/c g_a
  *
- * All units are powers of two, so that no digit changes, and change with the units of the user as the
- * quantities do: whatever is found of the scaled system does not depend on those.
+ * All units are powers of two, so that no digit changes, and change with the units of the user as
+ * the quantities do: whatever is found of the scaled system does not depend on those.
  *
- * 1/tau is the spectral radius of J = (0 1; F_q F_v) at the start, by power iteration after balancing
- * (Osborne 1960, DOI 10.1145/321043.321048); l_i the largest tau |v_i| or tau^2 |F_i| along the
- * beginning of the motion, or the length of equal kinetic energy, |q_i|, 1, the first that is
+ * 1/tau is the spectral radius of J = (0 1; F_q F_v) at the start, by power iteration after
+ * balancing (Osborne 1960, DOI 10.1145/321043.321048); l_i the largest tau |v_i| or tau^2 |F_i| at
+ * the beginning of the motion, or the length of equal kinetic energy, |q_i|, 1, the first that is
  * not 0.  d_a, c and g_k are the largest scales of D_a, E and I_k at points l_i, u_i about the
  * start. */
 #include "core/error.h"
@@ -88,21 +88,18 @@ static void scale_jacobian(const dal_scaled *s, double *out)
     multiply(out, 1.0, s->nw, s->field, s->nw, s->speed);
 }
 
-/* D, A, and W^-1 A^T or W^-1 B^T; the place behind. */
-static double *scale_three_blocks(const dal_scaled *s, double *out)
+/* D, A, and W^-1 A^T or W^-1 B^T. */
+static void scale_three_blocks(const dal_scaled *s, double *out)
 {
     out = multiply(out, 1.0, 1, NULL, s->m, s->per_constraint);
     out = multiply(out, 1.0, s->m, s->per_constraint, s->n, s->speed);
-    return multiply(out, s->energy, s->n, s->per_speed, s->m, s->per_constraint);
+    multiply(out, s->energy, s->n, s->per_speed, s->m, s->per_constraint);
 }
-
-static void scale_constraint(const dal_scaled *s, double *out) { scale_three_blocks(s, out); }
-static void scale_projection(const dal_scaled *s, double *out) { scale_three_blocks(s, out); }
 
 static void scale_blocks(const dal_scaled *s, double *out)
 {
-    out = scale_three_blocks(s, out);
-    out = multiply(out, 1.0, 1, NULL, s->n, s->field);
+    scale_three_blocks(s, out);
+    out = multiply(out + s->m * (1 + 2 * s->n), 1.0, 1, NULL, s->n, s->field);
     multiply(out, s->time, 1, NULL, s->m, s->per_constraint);
 }
 
@@ -116,11 +113,6 @@ static void scale_energy_normal(const dal_scaled *s, double *out)
 }
 
 static void scale_gauge(const dal_scaled *s, double *out) { *out *= s->time; }
-
-static void scale_guards(const dal_scaled *s, double *out) /* their signs alone count */
-{
-    (void)s, (void)out;
-}
 
 static void scale_potential(const dal_scaled *s, double *out)
 {
@@ -137,7 +129,7 @@ static void scale_constraints(const dal_scaled *s, double *out)
 
 static void scale_energy(const dal_scaled *s, double *out) { *out /= s->energy; }
 
-static void scale_invariant_values(const dal_scaled *s, double *out)
+static void scale_invariants(const dal_scaled *s, double *out)
 {
     for (int k = 0; k < s->system.invariants; k++) out[k] /= s->invariant[k];
 }
@@ -154,37 +146,35 @@ static void scale_exact(const dal_scaled *s, double *out)
     multiply(out, 1.0, 1, NULL, s->n, s->per_speed);
 }
 
-static void scale_diagnose(const dal_scaled *s, double *out) /* the number of a constraint */
-{
-    (void)s, (void)out;
-}
+/* Signs of guards and numbers of constraints have no unit. */
+static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
 
-/* A callback of the scaled system: code, member of the plain one, units of pi. */
+/* A callback of the scaled system, member of the plain one, units of pi, what scales its output. */
 #define SCALED_LIST(SCALED)                                                                        \
-    SCALED(field, call.field, NULL)                                                                \
-    SCALED(adjoint, call.adjoint, s->field)                                                        \
-    SCALED(jacobian, call.jacobian, NULL)                                                          \
-    SCALED(constraint, call.constraint, NULL)                                                      \
-    SCALED(energy_normal, call.energy_normal, NULL)                                                \
-    SCALED(gauge, call.gauge, NULL)                                                                \
-    SCALED(guards, call.guards, NULL)                                                              \
-    SCALED(blocks, call.blocks, NULL)                                                              \
-    SCALED(potential, call.potential, NULL)                                                        \
-    SCALED(constraints, constraints, NULL)                                                         \
-    SCALED(energy, energy, NULL)                                                                   \
-    SCALED(invariant_values, invariant_values, NULL)                                               \
-    SCALED(reactions, reactions, NULL)                                                             \
-    SCALED(projection, projection, s->speed)                                                       \
-    SCALED(exact, exact, NULL)                                                                     \
-    SCALED(diagnose, diagnose, NULL)
+    SCALED(field, call.field, NULL, scale_field)                                                   \
+    SCALED(adjoint, call.adjoint, s->field, scale_adjoint)                                         \
+    SCALED(jacobian, call.jacobian, NULL, scale_jacobian)                                          \
+    SCALED(constraint, call.constraint, NULL, scale_three_blocks)                                  \
+    SCALED(energy_normal, call.energy_normal, NULL, scale_energy_normal)                           \
+    SCALED(gauge, call.gauge, NULL, scale_gauge)                                                   \
+    SCALED(guards, call.guards, NULL, keep)                                                        \
+    SCALED(blocks, call.blocks, NULL, scale_blocks)                                                \
+    SCALED(potential, call.potential, NULL, scale_potential)                                       \
+    SCALED(constraints, constraints, NULL, scale_constraints)                                      \
+    SCALED(energy, energy, NULL, scale_energy)                                                     \
+    SCALED(invariant_values, invariant_values, NULL, scale_invariants)                             \
+    SCALED(reactions, reactions, NULL, scale_reactions)                                            \
+    SCALED(projection, projection, s->speed, scale_three_blocks)                                   \
+    SCALED(exact, exact, NULL, scale_exact)                                                        \
+    SCALED(diagnose, diagnose, NULL, keep)
 
-#define CALLBACK(name, member, pi_units)                                                           \
+#define CALLBACK(name, member, pi_units, scale)                                                    \
     static dal_status name(const dal_system *system, const dal_point *at, double *out)             \
     {                                                                                              \
         const dal_scaled *s = system->data;                                                        \
         const dal_point point = to_user(s, at, pi_units);                                          \
         const dal_status status = s->plain->member(s->plain, &point, out);                         \
-        if (status == DAL_OK) scale_##name(s, out);                                                \
+        if (status == DAL_OK) scale(s, out);                                                       \
         return status;                                                                             \
     }
 SCALED_LIST(CALLBACK)
@@ -199,7 +189,7 @@ static dal_status start(const dal_system *system, const dal_point *at, double *o
     return DAL_OK;
 }
 
-static dal_status prepare(const dal_system *system, const dal_point *at, double *out)
+static dal_status prepare_plain(const dal_system *system, const dal_point *at, double *out)
 {
     const dal_scaled *s = system->data;
     return s->plain->prepare(s->plain, at, out);
@@ -220,8 +210,8 @@ static void make_system(dal_scaled *s)
     s->system.solved_velocities = 0;
     s->system.start = start;
     s->system.scales = s->system.reaction_scales = NULL;
-    s->system.prepare = p->prepare ? prepare : NULL;
-#define SET(name, member, pi_units) s->system.member = p->member ? name : NULL;
+    s->system.prepare = p->prepare ? prepare_plain : NULL;
+#define SET(name, member, ...) s->system.member = p->member ? name : NULL;
     SCALED_LIST(SET)
 #undef SET
 }
@@ -237,8 +227,8 @@ typedef struct survey {
     double *work;     /* as long as the longest output of a callback */
 } survey;
 
-/* A power of two near x; 0, or 1 for what is not finite.  Numbers that are usual, as 1, sqrt(2) and 2,
- * are far from where it changes. */
+/* A power of two near x; 0, or 1 for what is not finite.  Numbers that are usual, as 1, sqrt(2) and
+ * 2, are far from where it changes. */
 static double power_of_two(double x)
 {
     static const double off_centre = 1.23;
@@ -274,23 +264,29 @@ static double kinetic_mass(const survey *w, int i)
     return 0.0;
 }
 
+/* The sums of |J_ij| and of |J_ji| over j != i. */
+static void off_diagonal_sums(const double *J, int size, int i, double *row, double *column)
+{
+    *row = *column = -fabs(J[i * size + i]);
+    for (int j = 0; j < size; j++) {
+        *row += fabs(J[i * size + j]);
+        *column += fabs(J[j * size + i]);
+    }
+}
+
 /* Scales J so that row i and column i are of one size, as far as they are coupled. */
 static void balance(double *J, int size)
 {
     enum { SWEEPS = 40 };
-    for (int sweep = 0; sweep < SWEEPS; sweep++)
-        for (int i = 0; i < size; i++) {
-            double row = 0.0, column = 0.0;
-            for (int j = 0; j < size; j++) {
-                if (j == i) continue;
-                row += fabs(J[i * size + j]);
-                column += fabs(J[j * size + i]);
-            }
-            const double factor = sqrt(column / row);
-            if (!(row > 0.0 && column > 0.0) || !isfinite(factor)) continue;
-            for (int j = 0; j < size; j++) J[i * size + j] *= factor;
-            for (int j = 0; j < size; j++) J[j * size + i] /= factor;
-        }
+    for (int k = 0; k < SWEEPS * size; k++) {
+        const int i = k % size;
+        double row, column;
+        off_diagonal_sums(J, size, i, &row, &column);
+        const double factor = sqrt(column / row);
+        if (!(row > 0.0 && column > 0.0) || !isfinite(factor)) continue;
+        for (int j = 0; j < size; j++) J[i * size + j] *= factor;
+        for (int j = 0; j < size; j++) J[j * size + i] /= factor;
+    }
 }
 
 /* By power iteration: the mean growth of a vector, after it has found its directions. */
@@ -344,8 +340,8 @@ static double rate_of_motion(const survey *w)
     return v > 0.0 ? sqrt(F / v) : 0.0;
 }
 
-/* A spectral radius so far below the rate of the motion consists of roundings; near rest the rate of
- * the motion is no measure of time. */
+/* A spectral radius so far below the rate of the motion consists of roundings; near rest the rate
+ * of the motion is no measure of time. */
 static const double negligible = 1e-6, near_rest = 4.0;
 
 static double time_unit(const survey *w)

@@ -1,5 +1,5 @@
-/* partials.h - the partial derivatives of each operation, once for nodes (derivative.c) and once for
- * numbers (terms.c).
+/* partials.h - the partial derivatives of each operation, for nodes (derivative.c) and for numbers
+ * (terms.c).
  *
  * k dy/da and k dy/db of y = a op b.  What includes this defines SUM, DIFFERENCE, PRODUCT, RATIO,
  * MINUS, SQUARE, NUMBER, POWER and OF (an operation of one operand) over nodes or numbers, and

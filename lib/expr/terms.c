@@ -4,9 +4,9 @@
  *
  *     S(f) = max |df/dn n|       over the nodes n of f that vary along a run, and f itself
  *
- * with values in one forward sweep and df/dn in one reverse sweep, both in numbers.  It contains |f|,
- * every |x df/dx| and every intermediate term, so that eps S is what one rounding can do.  It is 0
- * only where every term is, and changes with the units as f does: exactly by a power of two.
+ * with values in one forward sweep and df/dn in one reverse sweep, both in numbers.  It contains
+ * |f|, every |x df/dx| and every intermediate term, so that eps S is what one rounding can do.  It
+ * is 0 only where every term is, and changes with the units as f does: exactly by a power of two.
  *
  * A node of a branch that is not taken has df/dn = 0 and counts for nothing, whatever its value;
  * neither does one that is 0.  A term that is not finite makes S infinite. */
@@ -153,7 +153,8 @@ static void forward(const struct dal__table *tables, const terms_formula *f, con
     }
 }
 
-/* Where x is 0 and the derivative infinite, as of sqrt(x), neither x nor what it is made of counts. */
+/* Where x is 0 and the derivative infinite, as of sqrt(x), neither x nor what it is made of
+ * counts. */
 static bool counts(double adjoint, double x)
 {
     return adjoint != 0.0 && (x != 0.0 || isfinite(adjoint));

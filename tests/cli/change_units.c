@@ -3,9 +3,9 @@
  *     q_i = s_i Q_i,   t = tau T,   L' = c L,   D'_a = d D_a,   invariants times g
  *
  * with powers of two between 2^-30 and 2^30, drawn by SEED; with 0 all are 1.  The texts of the
- * formulas are changed, nothing else: each coordinate x becomes (s*x), each x' (s/tau*x'), t (tau*t).
+ * formulas are changed, nothing else: each coordinate x becomes (s*x), each x' (s/tau*x'), t
+ * (tau*t).
  * The first line is a comment with tau, c, d and the s_i. */
-#include <ctype.h>
 #include <dalembert.h>
 #include <math.h>
 #include <stdbool.h>
@@ -20,6 +20,13 @@ typedef struct units {
     const char *name[MAX_COORDINATES];
     double s[MAX_COORDINATES], tau, c, d, g;
 } units;
+
+static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+static bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+static bool is_name(char c) { return is_letter(c) || is_digit(c); }
 
 /* A power of two by a small generator, the same on every machine. */
 static double draw(unsigned long long *state)
@@ -39,7 +46,7 @@ static int find(const units *u, const char *name, size_t length)
 static double factor(const units *u, const char *name, size_t length, bool is_prime)
 {
     const int i = find(u, name, length);
-    const bool is_number = length > 1 && isdigit((unsigned char)name[1]) && name[1] != '0';
+    const bool is_number = length > 1 && is_digit(name[1]) && name[1] != '0';
     if (i >= 0) return is_prime ? u->s[i] / u->tau : u->s[i];
     if (length == 1 && *name == 't') return u->tau;
     if (is_number && *name == 'h') return u->d / (u->c * u->tau);
@@ -63,8 +70,8 @@ static void convert(const units *u, double by, const char *text, char *out)
     snprintf(out, TEXT, "%.17g*(", by);
     while (*text) {
         size_t length = 1;
-        if (isalpha((unsigned char)*text) || *text == '_') {
-            while (isalnum((unsigned char)text[length]) || text[length] == '_') length++;
+        if (is_letter(*text)) {
+            while (is_name(text[length])) length++;
             const bool is_prime = text[length] == '\'';
             const double k = factor(u, text, length, is_prime);
             char number[64];
@@ -74,9 +81,7 @@ static void convert(const units *u, double by, const char *text, char *out)
             append(out, text, length);
             append(out, ")", k != 1.0);
         } else {
-            while (isdigit((unsigned char)*text) &&
-                   (isalnum((unsigned char)text[length]) || text[length] == '.'))
-                length++;
+            while (is_digit(*text) && (is_name(text[length]) || text[length] == '.')) length++;
             append(out, text, length);
         }
         text += length;
