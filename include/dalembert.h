@@ -316,7 +316,9 @@ typedef struct dal_observer {
  * row*(T - T0)/samples, the last at T exactly.  The trajectory consists of steps h, which must lead
  * to T; dal_run_intermediate gives a row between two of them.  After an interruption between rows
  * pass the first row not sampled.  observer may be NULL.
- * Errors: those of a step; DAL_ARGUMENT; what a callback returns. */
+ * Errors: those of a step; DAL_ARGUMENT, before anything is done, also where a row's time is not
+ * finite or before that of the row before it, or every or polling is negative; what a callback
+ * returns. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 /* Takes a step of size h from the present state, calls observe there, and restores the run to the

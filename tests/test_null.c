@@ -167,7 +167,8 @@ static void null_dal_run_sample(void)
     REFUSED(dal_run_sample(run, 1.0, -1, 0, NULL, error));
     REFUSED(dal_run_sample(run, 1.0, 1, -1, NULL, error));
     CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 1, 0, NULL, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 2.0, 1, 1, &(dal_observer){.every = -1}, NULL), DAL_OK);
+    REFUSED(dal_run_sample(run, 2.0, 1, 1, &(dal_observer){.every = -1}, error));
+    REFUSED(dal_run_sample(run, 2.0, 1, 1, &(dal_observer){.polling = -1}, error));
 }
 
 static dal_status see(void *user, dal_run *seen) { return user || !seen ? DAL_IO : DAL_OK; }
