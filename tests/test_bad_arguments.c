@@ -59,6 +59,22 @@ static void test_options(void)
     fixture_refused(&spec, DAL_ARGUMENT, "option solver: -1 is not from 0 to 2");
 }
 
+/* A double has 53 binary digits, and sums 12 more that count; a quad number has 113. */
+static void test_tolerances(void)
+{
+    dal_run_spec spec = fixture_spec(fixture_system("vertical-disk"), "dop853", DAL_PHYSICAL, 0.1);
+    for (int quad = 0; quad < 2; quad++) {
+        spec.options.precision = quad ? DAL_QUAD : DAL_DOUBLE;
+        const double min = ldexp(1.0, quad ? -112 - 12 : -52 - 12);
+        CU_ASSERT_EQUAL(dal_min_tolerance(&spec.options), min);
+        spec.options.tolerance = min;
+        dal_run_free(fixture_run(&spec));
+        spec.options.tolerance = 0.999 * min;
+        fixture_refused(&spec, DAL_ARGUMENT, "option tolerance: ");
+    }
+    CU_ASSERT(isnan(dal_min_tolerance(NULL)));
+}
+
 static void test_no_text(void)
 {
     dal_model *model;
@@ -195,6 +211,7 @@ void suite_bad_arguments(void)
     CU_add_test(suite, "systems by hand with bad members", test_systems);
     CU_add_test(suite, "starts where something is infinite", test_starts);
     CU_add_test(suite, "options that no text gives", test_options);
+    CU_add_test(suite, "tolerances", test_tolerances);
     CU_add_test(suite, "observers", test_observers);
     CU_add_test(suite, "a text that is none", test_no_text);
     CU_add_test(suite, "long names", test_long_names);

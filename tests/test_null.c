@@ -47,6 +47,7 @@ static void null_dal_parse_number(void)
 
 static void null_dal_options_default(void) { CU_ASSERT(dal_options_default().step > 0.0); }
 
+static void null_dal_min_tolerance(void) { CU_ASSERT(isnan(dal_min_tolerance(NULL))); }
 static void null_dal_options_set(void)
 {
     dal_options options = dal_options_default();

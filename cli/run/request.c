@@ -293,6 +293,10 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
 {
     const int status = request->system ? CLI_DONE : load_system(request);
     if (status != CLI_DONE) return status;
+    const double min = dal_min_tolerance(&request->options);
+    if (request->options.tolerance > 0.0 && request->options.tolerance < min)
+        return cli_fail(CLI_USAGE, "--tolerance: %g is below %.2g, the smallest in this precision",
+                        request->options.tolerance, min);
     /* Where the system or the method has no lift there is one space alone; only an explicit
      * --space=lifted is an error. */
     const int has_lift =

@@ -105,6 +105,21 @@ for native in off on; do
     says "the mass matrix became singular near t = 0.5"
 done
 
+case_is "tolerance: no smaller than what the precision can hold"
+printf "coordinates: [x]\nparameters: {m: 1}\nlagrangian: m*x'^2/2\n" >heavy.yaml
+for precision in double quad; do
+    [ $precision = double ] && min=5.4e-20 || min=4.7e-38
+    try 2 run ./heavy.yaml --integrator taylor --tolerance 1e-40 --precision $precision --step 1 --time 2
+    says "^dalembert: --tolerance: 1e-40 is below $min, the smallest in this precision$"
+    try 2 order ./heavy.yaml --tolerances 1e-5,1e-40 --precision $precision --time 2
+    says "^dalembert: --tolerances: 1e-40 is below $min, the smallest in this precision$"
+done
+for key in 'tolerance: [1e-5, 1e-40]' 'options: {tolerance: 1e-40}'; do
+    printf 'integrators: taylor\nstep: 1\ntime: 2\n%s\nsystems: [./heavy.yaml]\n' "$key" >tiny.yaml
+    try 2 study tiny.yaml --output tiny
+    says 'tiny.yaml:5:11: ./heavy.yaml: tolerance: 1e-40 is below 5.4e-20, the smallest in this precision$'
+done
+
 case_is "tolerance: compiled, the same bytes"
 try 0 run knife-edge --integrator dop853 --step 5 --time 10 --samples 1 \
     --tolerance 1e-10 --native on --output native.csv
