@@ -291,7 +291,7 @@ static const bad_file indices[] = {
     {DAL_TOO_LARGE, "lagrangian: sums of more than 4000000 terms in a formula",
      MANY "lagrangian: sum(i, 1, 10000, @sum(j, 1, 10000, 1))\n"},
     {DAL_TOO_LARGE, "lagrangian: sums of more than 4000000 terms in a formula",
-     MANY "lagrangian: sum(i, 1, 1000, sum(j, i, 1000, @sum(k, j, 1000, x1)))\n"},
+     MANY "lagrangian: sum(i, 1, 1000, sum(j, i, 1000, @sum(k, j, 1000, x1^2*i*j*k)))\n"},
     {DAL_SYNTAX, "lagrangian: an index is beyond 1000000",
      MANY "lagrangian: x1 + @sum(i, 1, 1e9, x1)\n"},
     {DAL_MODEL, "duplicate key 'is'",
