@@ -294,17 +294,10 @@ long long dal_whole_steps(double from, double to, double step);
 dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
                              dal_order *order, dal_error *error);
-/* What to call during a measurement of the order: poll every few hundred steps, with the run that
- * takes them; another status than DAL_OK ends the measurement with it. */
-typedef struct dal_order_observer {
-    dal_status (*poll)(void *user, dal_run *run); /* NULL: nothing */
-    void *user;                                   /* for poll */
-} dal_order_observer;
-/* The same with an observer, NULL: none. [alloc]  Errors: those, and what poll returns. */
+/* The same, which calls the observer's poll (NULL: nothing) every few hundred steps of a run. */
 dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
-                             const dal_order_observer *observer, dal_order *order,
-                             dal_error *error);
+                             const dal_observer *observer, dal_order *order, dal_error *error);
 
 /* The maximum entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
  * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e).  Lifted space only:

@@ -176,7 +176,7 @@ static void null_dal_observe_order(void)
 {
     dal_order order;
     int polls = 0;
-    const dal_order_observer observer = {interrupts, &polls}, nobody = {NULL, NULL};
+    const dal_observer observer = {.user = &polls, .poll = interrupts}, nobody = {.poll = NULL};
     REFUSED_SPECS(bad, dal_observe_order(bad, 1.0, 2, NULL, NULL, &nobody, &order, error));
     REFUSED(dal_observe_order(&spec, 1.0, 2, NULL, NULL, &nobody, NULL, error));
     CU_ASSERT_EQUAL(dal_observe_order(&spec, 1.0, 2, NULL, NULL, &nobody, &order, NULL), DAL_OK);

@@ -43,16 +43,16 @@ long long dal_whole_steps(double from, double to, double step)
 /* A measurement: where the states are compared, and who observes the runs. */
 typedef struct measurement {
     double T;
-    const dal_order_observer *observer;
+    const dal_observer *observer;
     dal_error *error;
 } measurement;
 
 /* Steps between polls. */
 enum { POLL = 200 };
 
-static dal_status advance(const measurement *m, dal_run *run, long long steps)
+static dal_status advance_polled(const measurement *m, dal_run *run, long long steps)
 {
-    const dal_order_observer *o = m->observer;
+    const dal_observer *o = m->observer;
     if (!o || !o->poll) return dal_run_advance(run, steps, m->error);
     for (; steps > 0; steps -= POLL) {
         DAL_TRY(dal_run_advance(run, steps < POLL ? steps : POLL, m->error));
@@ -77,7 +77,7 @@ static dal_status state_at(const measurement *m, const dal_run_spec *spec, doubl
                          spec->options.step);
     DAL_TRY(dal__refuse_events(spec->system, "tables of the order", error));
     DAL_TRY(dal_run_create(&run, spec, error));
-    const dal_status status = advance(m, run, steps);
+    const dal_status status = advance_polled(m, run, steps);
     size_t count = (size_t)dal_run_dimension(run);
     if (status == DAL_OK) memcpy(out, dal_run_state(run), count * sizeof(double));
     *evaluations = dal_run_evaluations(run);
@@ -121,7 +121,7 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
 
 dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
-                             const dal_order_observer *observer, dal_order *order, dal_error *error)
+                             const dal_observer *observer, dal_order *order, dal_error *error)
 {
     const measurement m = {T, observer, error};
     DAL_REQUIRE(order, error);

@@ -310,8 +310,8 @@ static dal_status too_many_terms(const parser *p, const frame *f)
                         "sums of more than %d terms in a formula", (int)MAX_TERMS);
 }
 
-/* Whether the first terms of nested sums show that all of them are too many.  The range of a sum may
- * depend on the index around it, as j = i..N: k sums then have N^k/k! terms. */
+/* Whether the first terms of nested sums show that all of them are too many.  The range of a sum
+ * may depend on the index around it, as j = i..N: k sums then have N^k/k! terms. */
 static bool has_too_many_terms(const parser *p)
 {
     double terms = 1.0;

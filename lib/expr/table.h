@@ -19,8 +19,8 @@ typedef struct dal__table {
  * dal_table otherwise. */
 size_t dal__table_size(int knots);
 void dal__table_fill(const dal_table *table, double *data);
-/* Whether the numbers that were filled in, and the values between the points, are finite: points may
- * be too large, or too close. */
+/* Whether the numbers that were filled in, and the values between the points, are finite: points
+ * may be too large, or too close. */
 bool dal__table_is_finite(const dal_table *table, const double *data);
 /* Piece number k, from 0 before the first point to the number of points behind the last one: its
  * origin and its coefficients c[4]. */

@@ -5,8 +5,8 @@
  * compiled again; so is one that is no regular file, or that another user owns or may write.
  *
  * An object is written elsewhere and renamed, so that no process sees a part of it: in a folder of
- * its compilation alone, OBJECT.so.XXXXXX, with the compiler's temporary files.  The source there is
- * locked as long as the compiler or the process that waits for it lives.  A folder whose source
+ * its compilation alone, OBJECT.so.XXXXXX, with the compiler's temporary files.  The source there
+ * is locked as long as the compiler or the process that waits for it lives.  A folder whose source
  * nobody has locked was left by processes that were killed; the next compilation removes it. */
 #include "jit/cache.h"
 #include "core/machine.h"
@@ -95,20 +95,15 @@ static int open_file(const char *path)
     return open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
 }
 
-/* Whether only this user can have written it; s is its record then. */
-static bool is_own_file(int file, struct stat *s)
-{
-    return fstat(file, s) == 0 && S_ISREG(s->st_mode) && s->st_uid == geteuid() &&
-           (s->st_mode & (S_IWGRP | S_IWOTH)) == 0;
-}
-
-/* Reads such a file. */
+/* Reads a regular file that this user alone can have written. */
 static char *read_all(int file, size_t *length)
 {
     struct stat s;
     char *bytes = NULL;
     *length = 0;
-    if (is_own_file(file, &s)) bytes = malloc((size_t)s.st_size + 1);
+    if (fstat(file, &s) == 0 && S_ISREG(s.st_mode) && s.st_uid == geteuid() &&
+        (s.st_mode & (S_IWGRP | S_IWOTH)) == 0)
+        bytes = malloc((size_t)s.st_size + 1);
     while (bytes && *length < (size_t)s.st_size) {
         const ssize_t got = read(file, bytes + *length, (size_t)s.st_size - *length);
         if (got <= 0) break;
@@ -305,20 +300,14 @@ static void remove_abandoned(const char *folder)
     if (lock >= 0) close(lock);
 }
 
-/* Whether a name in the cache is that of a compilation's folder: a hash, ".so." and more. */
-static bool is_folder_name(const char *name)
-{
-    static const char letters[] = "0123456789abcdef";
-    return strspn(name, letters) == 32 && strncmp(name + 32, ".so.", 4) == 0;
-}
-
-/* Removes the folders that processes left which were killed. */
+/* Removes the folders that processes left which were killed, named by a hash, ".so." and more. */
 static void remove_all_abandoned(const char *directory)
 {
     char path[DAL__OBJECT_PATH + 40];
     DIR *cache = opendir(directory);
     for (const struct dirent *entry; cache && (entry = readdir(cache));) {
-        if (!is_folder_name(entry->d_name)) continue;
+        const size_t hash_length = strspn(entry->d_name, "0123456789abcdef");
+        if (hash_length != 32 || strncmp(entry->d_name + 32, ".so.", 4) != 0) continue;
         const int length = snprintf(path, sizeof path, "%s/%s", directory, entry->d_name);
         if (length > 0 && (size_t)length < sizeof path) remove_abandoned(path);
     }

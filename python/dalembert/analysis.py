@@ -172,7 +172,7 @@ def order(system: SystemLike, integrator: str | None = None, time: float | None 
         if values.shape != (dimension,):
             raise InputError('DAL_ARGUMENT', f'a state has shape ({dimension},), not {values.shape}')
         exact = doubles(values)
-    observer = ffi.new('dal_order_observer *', {'poll': lib.python_poll})
+    observer = ffi.new('dal_observer *', {'poll': lib.python_poll})
     call_steps(lib.dal_observe_order, spec.c, spec.time(time), levels, method, exact, observer, found)
     columns = {name: np.array(list(getattr(found, name)[0:levels]))
                for name in ('step', 'error', 'evaluations', 'slope')}
