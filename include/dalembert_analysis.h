@@ -278,6 +278,10 @@ long long dal_whole_steps(double from, double to, double step);
 dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
                              dal_order *order, dal_error *error);
+/* The same, which calls the observer's poll (NULL: nothing) every few hundred steps of a run. */
+dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
+                             const dal_method *reference_method, const double *reference,
+                             const dal_observer *observer, dal_order *order, dal_error *error);
 
 /* The maximum entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
  * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e).  Lifted space only:

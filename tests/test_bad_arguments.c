@@ -2,6 +2,7 @@
  * model would put there.  Each returns a status. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -58,6 +59,22 @@ static void test_options(void)
     fixture_refused(&spec, DAL_ARGUMENT, "option solver: -1 is not from 0 to 2");
 }
 
+/* A double has 53 binary digits, and sums 12 more that count; a quad number has 113. */
+static void test_tolerances(void)
+{
+    dal_run_spec spec = fixture_spec(fixture_system("vertical-disk"), "dop853", DAL_PHYSICAL, 0.1);
+    for (int quad = 0; quad < 2; quad++) {
+        spec.options.precision = quad ? DAL_QUAD : DAL_DOUBLE;
+        const double min = ldexp(1.0, quad ? -112 - 12 : -52 - 12);
+        CU_ASSERT_EQUAL(dal_min_tolerance(&spec.options), min);
+        spec.options.tolerance = min;
+        dal_run_free(fixture_run(&spec));
+        spec.options.tolerance = 0.999 * min;
+        fixture_refused(&spec, DAL_ARGUMENT, "option tolerance: ");
+    }
+    CU_ASSERT(isnan(dal_min_tolerance(NULL)));
+}
+
 static void test_no_text(void)
 {
     dal_model *model;
@@ -102,6 +119,42 @@ static void test_long_names(void)
 }
 
 /* ---- runs that cannot do what is requested ---- */
+
+static double time_of_row(void *user, long long row) { return ((const double *)user)[row]; }
+
+static dal_status count_row(void *user, dal_run *run, long long row, double t)
+{
+    (void)user, (void)run, (void)row;
+    CU_ASSERT(isfinite(t));
+    return DAL_OK;
+}
+
+/* Nothing is done where the rows or counts of an observer cannot be. */
+static void test_observers(void)
+{
+    static double times[][3] = {{0.1, NAN, 0.3},
+                                {0.2, 0.1, 0.3},
+                                {0.1, INFINITY, 0.3},
+                                {0.1, 0.35, 0.3}, /* after the last */
+                                {NAN, 0.1, 0.3}};
+    static double repeated[] = {0.1, 0.1, 0.3};
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("vertical-disk"), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run *run = fixture_run(&spec);
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
+        dal_error error = {0};
+        const dal_observer rows = {.user = times[i], .row_time = time_of_row, .sample = count_row};
+        CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 2, 0, &rows, &error), DAL_ARGUMENT);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "is at t = "));
+    }
+    const dal_observer counts[] = {{.every = -1}, {.every = INT64_MAX}, {.polling = -2}};
+    for (int i = 0; i < 3; i++)
+        CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 2, 0, &counts[i], NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_steps(run), 0);
+    const dal_observer good = {.user = repeated, .row_time = time_of_row, .sample = count_row};
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 2, 0, &good, NULL), DAL_OK);
+    dal_run_free(run);
+}
 
 static dal_status interrupts(const dal_system *system, const dal_point *at, double *out)
 {
@@ -158,6 +211,8 @@ void suite_bad_arguments(void)
     CU_add_test(suite, "systems by hand with bad members", test_systems);
     CU_add_test(suite, "starts where something is infinite", test_starts);
     CU_add_test(suite, "options that no text gives", test_options);
+    CU_add_test(suite, "tolerances", test_tolerances);
+    CU_add_test(suite, "observers", test_observers);
     CU_add_test(suite, "a text that is none", test_no_text);
     CU_add_test(suite, "long names", test_long_names);
     CU_add_test(suite, "arguments of runs", test_run_arguments);

@@ -1,6 +1,9 @@
 /* test_checkpoints.c - the state that a run saves and restores, and memory of the caller. */
 #include "fixtures.h"
+#include "run/events.h"
+#include "run/run.h"
 #include <CUnit/CUnit.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,9 +48,183 @@ static void test_own_memory(void)
     free(memory);
 }
 
+/* ---- numbers that no run has ---- */
+
+/* A ball above a floor; a clock that stops the run. */
+static const char ball[] = "coordinates: [y]\nparameters: {g: 9.81, c: 0.8}\n"
+                           "lagrangian: y'^2/2 - g*y\nstart: {y: 1}\nevents:\n"
+                           "  - {when: y, direction: down, restitution: c}\n"
+                           "  - {when: t - 9, stop: true}\n";
+
+static dal_run_spec spec_of(const char *system, const char *method, dal_space space,
+                            double tolerance)
+{
+    dal_run_spec spec = fixture_spec(fixture_system(system), method, space, 0.05);
+    spec.options.tolerance = tolerance;
+    return spec;
+}
+
+/* A run of ball after its first impact, at t = 0.45. */
+static dal_run *bounced(dal_space space)
+{
+    const dal_run_spec spec = spec_of(ball, "gauss4", space, 0.0);
+    return fixture_stepped(&spec, 11);
+}
+
+static double *saved_copy(const dal_run *run, size_t *count)
+{
+    const double *saved = dal_run_save(run, count);
+    double *copy = malloc(*count * sizeof *copy);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(copy);
+    return memcpy(copy, saved, *count * sizeof *copy);
+}
+
+/* Numbers of a checkpoint, from the first after y and r, or from the first that events have. */
+typedef struct impossible {
+    bool is_of_events;
+    size_t at;
+    double x;
+    const char *name;
+} impossible;
+
+/* The persistent state of the ball in the physical space: y, y', r[2], the clock, the state of the
+ * method; of its events: side[2], count[2], stopped, stalled, jump[1]. */
+static void test_impossible(void)
+{
+    static const impossible list[] = {
+        {false, 2, 1.5, "number of steps"},
+        {false, 2, -1.0, "number of steps"},
+        {false, 2, 0x1p60, "number of steps"},
+        {false, 3, -8.0, "number of evaluations"},
+        {false, 4, 2.0, "uses_newton"},
+        {false, 6, 0.5, "has_multiplier"},
+        {false, 7, -0.1, "size of a substep"},
+        {true, 0, 3.0, "side of an event"},
+        {true, 1, 0.5, "side of an event"},
+        {true, 2, 0.5, "times that an event happened"},
+        {true, 3, -1.0, "times that an event happened"},
+        {true, 3, 1e300, "times that an event happened"},
+        {true, 4, 1.0, "stopped the run"}, /* it stops no run */
+        {true, 4, 2.0, "stopped the run"}, /* it has not happened */
+        {true, 4, 3.0, "stopped the run"}, /* there is none */
+        {true, 4, -1.0, "stopped the run"},
+        {true, 4, 1e18, "stopped the run"},
+        {true, 5, 1e9, "events at one time"},
+        {true, 5, -1.0, "events at one time"},
+    };
+    dal_run *run = bounced(DAL_PHYSICAL);
+    const dal__layout *k = &run->layout;
+    size_t count;
+    double *good = saved_copy(run, &count), *bad = saved_copy(run, &count);
+    CU_ASSERT_EQUAL(dal_run_event_count(run, 0), 1);
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        dal_error error = {0};
+        const size_t first = list[i].is_of_events ? dal__at_events(k) : dal__at(k, DAL__TIME);
+        memcpy(bad, good, count * sizeof *bad);
+        bad[first + list[i].at] = list[i].x;
+        CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, &error), DAL_ARGUMENT);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.message, list[i].name));
+        CU_ASSERT_EQUAL(memcmp(dal_run_save(run, &count), good, count * sizeof *good), 0);
+    }
+    dal_run_free(run);
+    free(good);
+    free(bad);
+}
+
+/* Only what events change has a jump, and only after one. */
+static void test_impossible_jumps(void)
+{
+    dal_run *run = bounced(DAL_LIFTED);
+    size_t count;
+    double *bad = saved_copy(run, &count);
+    const size_t jumps = dal__at_events(&run->layout) + 6;
+    dal_error error = {0};
+    CU_ASSERT(bad[jumps] < 0.0); /* of E */
+    bad[jumps] = 0.25;
+    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_jump(run, 0), 0.25);
+    bad[jumps + 1] = 0.25; /* of H */
+    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, &error), DAL_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "jump of an observable"));
+    bad[jumps + 1] = 0.0;
+    bad[jumps - 4] = 0.0; /* no event has happened */
+    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, NULL), DAL_ARGUMENT);
+    bad[jumps] = 0.0;
+    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, NULL), DAL_OK);
+    dal_run_free(run);
+    free(bad);
+}
+
+/* A run takes what it can from a changed checkpoint, whatever its steps then return; one that it
+ * refuses leaves it as it was. */
+static void restore_changed(dal_run *run, const double *bad, const double *good, size_t count)
+{
+    dal_error error = {0};
+    const dal_status status = dal_run_restore(run, bad, count, &error);
+    if (status != DAL_OK) {
+        CU_ASSERT(error.message[0] != '\0');
+        CU_ASSERT_EQUAL(memcmp(dal_run_save(run, &count), good, count * sizeof *good), 0);
+        return;
+    }
+    for (int i = 0; i < 2; i++) dal_run_step(run, NULL);
+    CU_ASSERT(dal_run_steps(run) >= 0 && dal_run_evaluations(run) >= 0);
+    CU_ASSERT(dal_run_stopped(run) >= 0 && dal_run_stopped(run) <= 2);
+    CU_ASSERT(dal_run_event_count(run, 0) >= -1 && dal_run_jump(run, -1) == 0.0);
+    CU_ASSERT_EQUAL(dal_run_restore(run, good, count, NULL), DAL_OK);
+}
+
+/* Every word of a checkpoint takes values that doubles may have, and every byte is changed. */
+static void change_everything(const dal_run_spec *spec, long long steps)
+{
+    static const double values[] = {NAN, INFINITY, -1.0,   0.0,     0.5,    1.0,      2.0,
+                                    3.0, 1e18,     0x1p54, -1e-300, 1e-300, -1.7e308, 1.7e308};
+    dal_run *run = fixture_stepped(spec, steps);
+    size_t count;
+    double *good = saved_copy(run, &count), *bad = saved_copy(run, &count);
+    for (size_t i = 0; i < count; i++) {
+        for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
+            bad[i] = values[k];
+            restore_changed(run, bad, good, count);
+        }
+        for (size_t byte = 0; byte < sizeof *bad; byte++)
+            for (int k = 0; k < 3; k++) {
+                memcpy(bad, good, count * sizeof *bad);
+                ((unsigned char *)(bad + i))[byte] ^= (unsigned char[]){0xff, 0x80, 0x01}[k];
+                restore_changed(run, bad, good, count);
+            }
+        bad[i] = good[i];
+    }
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    dal_run *other = fixture_stepped(spec, steps + 1);
+    CU_ASSERT_EQUAL(
+        memcmp(dal_run_save(run, &count), dal_run_save(other, &count), count * sizeof *good), 0);
+    dal_run_free(run);
+    dal_run_free(other);
+    free(good);
+    free(bad);
+}
+
+static void test_changed(void)
+{
+    dal_run_spec specs[] = {
+        spec_of(ball, "gauss4", DAL_LIFTED, 0.0),
+        spec_of(ball, "dop853", DAL_PHYSICAL, 1e-9),
+        spec_of("chaplygin-sleigh", "gauss6+project", DAL_LIFTED, 0.0),
+        spec_of("vertical-disk", "rk4+project-energy", DAL_PHYSICAL, 0.0),
+        spec_of("chaplygin-sleigh", "taylor", DAL_PHYSICAL, 1e-12),
+        spec_of(ball, "gauss4", DAL_PHYSICAL, 0.0),
+    };
+    enum { COUNT = sizeof specs / sizeof *specs };
+    specs[COUNT - 1].options.precision = DAL_QUAD;
+    for (int i = 0; i < COUNT; i++) change_everything(&specs[i], 11);
+}
+
 void suite_checkpoints(void)
 {
     CU_pSuite suite = CU_add_suite("checkpoints", NULL, NULL);
     CU_add_test(suite, "checkpoint", test_checkpoint);
     CU_add_test(suite, "the caller's memory", test_own_memory);
+    CU_add_test(suite, "impossible numbers", test_impossible);
+    CU_add_test(suite, "impossible jumps", test_impossible_jumps);
+    CU_add_test(suite, "every number and byte changed", test_changed);
 }

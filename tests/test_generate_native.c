@@ -6,7 +6,6 @@
 #include "fixtures.h"
 #include "folder.h"
 #include <CUnit/CUnit.h>
-#include <dirent.h>
 #include <fcntl.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -428,113 +427,6 @@ static void test_foreign_object(void)
     dal_run_free(run);
 }
 
-/* ---- an object is taken from the cache while it is as it was written ---- */
-
-static const char kept[] = "kept"; /* a cache with one object, the only file in it */
-
-static char *only_object(char *path, size_t size)
-{
-    DIR *folder = opendir(kept);
-    CU_ASSERT_PTR_NOT_NULL_FATAL(folder);
-    path[0] = '\0';
-    for (const struct dirent *entry; (entry = readdir(folder));)
-        if (entry->d_name[0] != '.') snprintf(path, size, "%s/%s", kept, entry->d_name);
-    closedir(folder);
-    return path;
-}
-
-static char *content(const char *path, long *length)
-{
-    FILE *file = fopen(path, "rb");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
-    fseek(file, 0, SEEK_END);
-    *length = ftell(file);
-    rewind(file);
-    char *bytes = malloc((size_t)*length);
-    CU_ASSERT_EQUAL(fread(bytes, 1, (size_t)*length, file), (size_t)*length);
-    fclose(file);
-    return bytes;
-}
-
-static void put_content(const char *path, const char *bytes, long length)
-{
-    FILE *file = fopen(path, "wb");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
-    CU_ASSERT_EQUAL(fwrite(bytes, 1, (size_t)length, file), (size_t)length);
-    fclose(file);
-}
-
-/* How often the compiler has been called, which leaves a letter each time. */
-static long compilations(void)
-{
-    struct stat s;
-    return stat("called", &s) == 0 ? (long)s.st_size : 0;
-}
-
-static void use_cache(const char *model)
-{
-    dal_run *run = new_run(model);
-    const dal_native_options counted = {.cache = kept, .compiler = "./fake"};
-    CU_ASSERT_EQUAL(dal_run_native(run, &counted, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
-    dal_run_free(run);
-    CU_ASSERT_EQUAL(folder_files(kept), 1);
-}
-
-/* Any byte of it, of what the loader never reads too; cut short, or longer, or empty. */
-static void test_changed_object(void)
-{
-    const char *const model = falling;
-    char path[512];
-    long length, again;
-    compiler_fake("printf x >>called; exec cc \"$@\"");
-    use_cache(model);
-    use_cache(model);
-    CU_ASSERT_EQUAL(compilations(), 1);
-    char *bytes = content(only_object(path, sizeof path), &length);
-    for (int damage = 0; damage < 6; damage++) {
-        const long at[] = {length - 1, length - 8, length - 9, 4};
-        char *other = malloc((size_t)length + 1);
-        memcpy(other, bytes, (size_t)length);
-        other[length] = 'x';
-        if (damage < 4) other[at[damage]] ^= 1;
-        put_content(path, other, damage < 4 ? length : damage == 4 ? length + 1 : length - 1);
-        free(other);
-        use_cache(model);
-        CU_ASSERT_EQUAL(compilations(), damage + 2);
-        other = content(path, &again);
-        CU_ASSERT(again == length && memcmp(other, bytes, (size_t)length) == 0);
-        free(other);
-    }
-    put_content(path, "", 0);
-    use_cache(model);
-    CU_ASSERT_EQUAL(compilations(), 8);
-    free(bytes);
-    unlink("called");
-    unlink("fake");
-    folder_remove(kept);
-}
-
-/* Another text, and another command, has an object of its own. */
-static void test_objects_apart(void)
-{
-    const char *const compilers[] = {"./fake", "./same"};
-    compiler_fake("exec cc \"$@\"");
-    CU_ASSERT_EQUAL(symlink("fake", "same"), 0);
-    for (int i = 0; i < 4; i++) {
-        const dal_native_options with = {.cache = kept, .compiler = compilers[i % 2]};
-        const dal_run_spec spec = fixture_spec(fixture_system(falling),
-                                               i < 2 ? "rk4" : "stormer-verlet", DAL_PHYSICAL, 0.1);
-        dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_native(run, &with, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(folder_files(kept), i + 1);
-        dal_run_free(run);
-    }
-    unlink("fake");
-    unlink("same");
-    folder_remove(kept);
-}
-
 void suite_generate_native(void);
 void suite_generate_native(void)
 {
@@ -553,7 +445,4 @@ void suite_generate_native(void)
     CU_add_test(suite, "a compiler that hangs", test_compiler_hangs);
     CU_add_test(suite, "a compiler that is stopped", test_compiler_stopped);
     CU_add_test(suite, "an object of somebody else's", test_foreign_object);
-    if (system("cc --version >/dev/null 2>&1") != 0) return;
-    CU_add_test(suite, "an object that was changed", test_changed_object);
-    CU_add_test(suite, "objects of other texts and commands", test_objects_apart);
 }

@@ -47,6 +47,7 @@ static void null_dal_parse_number(void)
 
 static void null_dal_options_default(void) { CU_ASSERT(dal_options_default().step > 0.0); }
 
+static void null_dal_min_tolerance(void) { CU_ASSERT(isnan(dal_min_tolerance(NULL))); }
 static void null_dal_options_set(void)
 {
     dal_options options = dal_options_default();
@@ -169,7 +170,8 @@ static void null_dal_run_sample(void)
     REFUSED(dal_run_sample(run, 1.0, -1, 0, NULL, error));
     REFUSED(dal_run_sample(run, 1.0, 1, -1, NULL, error));
     CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 1, 0, NULL, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 2.0, 1, 1, &(dal_observer){.every = -1}, NULL), DAL_OK);
+    REFUSED(dal_run_sample(run, 2.0, 1, 1, &(dal_observer){.every = -1}, error));
+    REFUSED(dal_run_sample(run, 2.0, 1, 1, &(dal_observer){.polling = -1}, error));
 }
 
 static dal_status see(void *user, dal_run *seen) { return user || !seen ? DAL_IO : DAL_OK; }

@@ -167,6 +167,24 @@ static void null_dal_whole_steps(void)
     CU_ASSERT_EQUAL(dal_whole_steps(0.0, 1.0, NAN), 0);
 }
 
+static dal_status interrupts(void *user, dal_run *stepped)
+{
+    return dal_run_steps(stepped) > 0 && ++*(int *)user > 2 ? DAL_INTERRUPTED : DAL_OK;
+}
+
+static void null_dal_observe_order(void)
+{
+    dal_order order;
+    int polls = 0;
+    const dal_observer observer = {.user = &polls, .poll = interrupts}, nobody = {.poll = NULL};
+    REFUSED_SPECS(bad, dal_observe_order(bad, 1.0, 2, NULL, NULL, &nobody, &order, error));
+    REFUSED(dal_observe_order(&spec, 1.0, 2, NULL, NULL, &nobody, NULL, error));
+    CU_ASSERT_EQUAL(dal_observe_order(&spec, 1.0, 2, NULL, NULL, &nobody, &order, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_observe_order(&spec, 100.0, 2, NULL, NULL, &observer, &order, NULL),
+                    DAL_INTERRUPTED);
+    CU_ASSERT_EQUAL(polls, 3);
+}
+
 static void null_dal_measure_order(void)
 {
     dal_order order;

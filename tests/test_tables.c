@@ -199,6 +199,11 @@ static void test_errors(void)
          "table f has no 'value'; it needs file, at and value", 4, 13},
         {SYSTEM "tables: {f: {file: f.csv, at: t, value: M, interpolation: cubi}}\n",
          "unknown interpolation 'cubi'; did you mean 'cubic'?", 4, 59},
+        {SYSTEM "tables: {f: {file: f.csv, at: t, value: M, interpolation: cubic}}\n"
+                "files: {f.csv: \"t,M\\n0,1e308\\n1,-1e308\\n2,1e308\"}\n",
+         "table f: its cubic spline overflows: points are too large, or too close", 4, 13},
+        {SYSTEM TABLE "files: {f.csv: \"t,M\\n0,0\\n1e-300,1e10\"}\n",
+         "table f: its slope overflows: points are too large, or too close", 4, 13},
         {SYSTEM "tables: {f: data.csv}\n", "a table is {file: data.csv, at: column, value: column}",
          4, 13},
     };

@@ -6,6 +6,7 @@
 #include "formula.h"
 #include <CUnit/CUnit.h>
 #include <dlfcn.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -492,6 +493,24 @@ static void test_gaps(void)
     dal_run_free(run);
 }
 
+/* An oscillator with steps that are long beside its motion keeps its amplitude but for roundings,
+ * which differ from step to step: after n steps sqrt(n) of them are left.  Coefficients that are
+ * rounded alike in each step leave n. */
+static void test_long_steps(void)
+{
+    static const char text[] = "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\n";
+    enum { STEPS = 10000 };
+    static const double step[] = {1.0, 2.0, 2.5};
+    for (int i = 0; i < 3; i++)
+        for (dal_space space = DAL_LIFTED; space <= DAL_PHYSICAL; space++) {
+            const dal_run_spec spec = spec_of(text, space, step[i], 1e-17);
+            dal_run *run = fixture_stepped(&spec, STEPS);
+            const double amplitude = hypot(dal_run_state(run)[0], dal_run_state(run)[1]);
+            CU_ASSERT_DOUBLE_EQUAL(amplitude, 1.0, DBL_EPSILON * sqrt(STEPS) * step[i]);
+            dal_run_free(run);
+        }
+}
+
 /* A circle about a centre that attracts with the potential r^3: r = 1 at the rate sqrt(3); in both
  * spaces, whose second derivatives are branches at r = 0, too. */
 static void test_hypot(void)
@@ -551,6 +570,7 @@ void suite_taylor(void)
     CU_add_test(suite, "a moving gauge", test_gauge);
     CU_add_test(suite, "lanes of a batch", test_lanes);
     CU_add_test(suite, "vanishing coefficients", test_gaps);
+    CU_add_test(suite, "long steps of an oscillator", test_long_steps);
     CU_add_test(suite, "along a circle by hypot", test_hypot);
     CU_add_test(suite, "what is refused", test_refused);
     CU_add_test(suite, "steps that fail", test_failures);

@@ -159,6 +159,10 @@ static int list_steps(order_study *s)
     if (!(s->step[0] > 0.0)) return cli_fail(CLI_USAGE, "--step: it must be positive");
     if (s->tolerance[0] > 1.0)
         return cli_fail(CLI_USAGE, "--tolerances: %g is larger than 1", s->tolerance[0]);
+    const double min = dal_min_tolerance(&s->request->options);
+    if (set->tolerances && s->levels > 0 && s->tolerance[s->levels - 1] < min)
+        return cli_fail(CLI_USAGE, "--tolerances: %g is below %.2g, the smallest in this precision",
+                        s->tolerance[s->levels - 1], min);
     if (s->levels < 2)
         return cli_fail(CLI_USAGE, "--%s: a slope needs two %s at least", levels, levels);
     for (int i = 0; i < s->levels; i++)
@@ -265,10 +269,13 @@ static dal_status use_method(order_study *s, const char *name, dal_error *error)
     spec.options.space = DAL_PHYSICAL;
     spec.options.step = h;
     spec.options.tolerance =
-        is_controlled ? first_reference * tolerance : s->spec.options.tolerance;
+        is_controlled ? fmax(first_reference * tolerance, dal_min_tolerance(&spec.options))
+                      : s->spec.options.tolerance;
     if (status == DAL_OK) status = run_divided(s, &spec, coarse, &cost, error);
     spec.options.step = fine;
-    if (is_controlled) spec.options.tolerance = second_reference * tolerance;
+    if (is_controlled)
+        spec.options.tolerance =
+            fmax(second_reference * tolerance, dal_min_tolerance(&spec.options));
     if (status == DAL_OK) status = run_divided(s, &spec, s->reference, &cost, error);
     if (status != DAL_OK) return status;
     s->noise = fmax(analysis_distance(coarse, s->reference, s->numbers), rounding);

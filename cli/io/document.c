@@ -193,14 +193,27 @@ bool document_get_pair(const document *doc, const yaml_node_t *node, int i, docu
     return true;
 }
 
+/* Whether pair i of a mapping of texts has the key of one before it. */
+static bool is_repeated(const document *doc, const yaml_node_t *node, int i)
+{
+    document_pair pair, before;
+    document_get_pair(doc, node, i, &pair);
+    for (int k = 0; k < i && document_get_pair(doc, node, k, &before); k++)
+        if (strcmp(before.name, pair.name) == 0) return true;
+    return false;
+}
+
 int document_check_mapping(const document *doc, const yaml_node_t *node, const char *what,
                            const char *contents)
 {
     document_pair pair;
     if (node->type != YAML_MAPPING_NODE)
         return document_fail(doc, node, "%s: %s are required", what, contents);
-    for (int i = 0; document_get_pair(doc, node, i, &pair); i++)
+    for (int i = 0; document_get_pair(doc, node, i, &pair); i++) {
         if (!document_scalar(doc, pair.key, what)) return CLI_USAGE;
+        if (is_repeated(doc, node, i))
+            return document_fail(doc, pair.key, "the key '%s' comes twice", pair.name);
+    }
     return CLI_DONE;
 }
 
@@ -230,8 +243,6 @@ int document_read_mapping(const document *doc, const yaml_node_t *node, const ch
     int status = document_check_mapping(doc, node, what, "keys and values");
     document_pair pair;
     for (int i = 0; status == CLI_DONE && document_get_pair(doc, node, i, &pair); i++) {
-        if (document_value(doc, node, pair.name) != pair.value)
-            return document_fail(doc, pair.key, "the key '%s' comes twice", pair.name);
         status = read_pair(doc, &pair, keys, count, user);
     }
     return status;

@@ -21,6 +21,7 @@
 #include "io/file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -117,6 +118,7 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
         return cli_fail(CLI_USAGE,
                         "%s: belongs to another run: its description or the system was changed",
                         path);
+    if (!(h->seconds >= 0.0 && isfinite(h->seconds))) return damaged(path, "its time is wrong");
     if (h->row < 0 || h->state > body || h->words >= too_many || h->statistics != (uint64_t)count ||
         body - h->state != h->statistics * h->words)
         return damaged(path, "its size is wrong");
@@ -147,8 +149,35 @@ static bool read_earlier(const checkpoint_header *header, const unsigned char *b
     return true;
 }
 
+/* Whether the counters agree, and all else is a number. */
+static bool can_be_statistics(const dal_statistics *s)
+{
+    const long long max = 1LL << 53;
+    const double *numbers = &s->first, *end = (const double *)(s + 1);
+    if (s->length < 1 || s->length > max || (s->length & (s->length - 1)) != 0) return false;
+    if (s->count < 0 || s->count > max || (s->lost != 0 && s->lost != 1)) return false;
+    if (s->blocks != s->count / s->length || s->blocks >= DAL_STATISTICS_BLOCKS) return false;
+    if (s->open_count != s->count % s->length || !(s->factor > 0.0 && s->factor <= 1.0))
+        return false;
+    for (; numbers < end; numbers++)
+        if (!isfinite(*numbers)) return false;
+    return true;
+}
+
+static int read_statistics(const char *path, const unsigned char *bytes, int count,
+                           dal_statistics *statistics)
+{
+    for (int i = 0; i < count; i++) {
+        dal_statistics s;
+        copy_words(&s, bytes + (size_t)i * sizeof s, STATISTICS_WORDS);
+        if (!can_be_statistics(&s)) return damaged(path, "its statistics cannot be");
+        statistics[i] = s;
+    }
+    return CLI_DONE;
+}
+
 static int restore(const char *path, const checkpoint_header *header, const unsigned char *body,
-                   run_position *position, dal_run *run, dal_statistics *statistics)
+                   run_position *position, dal_run *run)
 {
     dal_error error = {0};
     size_t count;
@@ -166,9 +195,8 @@ static int restore(const char *path, const checkpoint_header *header, const unsi
     }
     const dal_status loaded = dal_run_restore(run, state, earlier ? count : header->state, &error);
     free(state);
-    if (loaded != DAL_OK) return cli_error(CLI_USAGE, path, &error);
+    if (loaded != DAL_OK) return damaged(path, error.message);
     *position = (run_position){header->row, header->sum, header->seconds};
-    copy_words(statistics, body + header->state * WORD, header->statistics * STATISTICS_WORDS);
     return CLI_DONE;
 }
 
@@ -182,7 +210,10 @@ static int load_file(const run_directory *dir, const char *path, const trajector
     int status = check_bytes(path, bytes, length, dir->fingerprint, count, &header);
     if (status == CLI_DONE) status = writer_verify(writer, header.row, &header.sum);
     if (status == CLI_DONE)
-        status = restore(path, &header, bytes + HEADER_WORDS * WORD, position, run, statistics);
+        status =
+            read_statistics(path, bytes + (HEADER_WORDS + header.state) * WORD, count, statistics);
+    if (status == CLI_DONE)
+        status = restore(path, &header, bytes + HEADER_WORDS * WORD, position, run);
     free(bytes);
     return status;
 }

@@ -49,14 +49,23 @@ static int parse_run_option(void *user, const cli_option *option, const char *te
     return cli_fail(CLI_USAGE, "--%s", error.message + sizeof begin - 1);
 }
 
+static bool has_setting(const request_settings *settings, const char *name)
+{
+    for (int i = 0; i < settings->count; i++)
+        if (strcmp(settings->item[i].name, name) == 0) return true;
+    return false;
+}
+
 static int parse_setting(void *user, const cli_option *option, const char *text)
 {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text)
         return cli_fail(CLI_USAGE, "--%s: '%s' is not NAME=VALUE", option->name, text);
+    request_settings *settings = (void *)((char *)user + option->offset);
     char *name = cli_strndup(text, (size_t)(equals - text));
-    const int status =
-        request_parse_setting((void *)((char *)user + option->offset), text, name, equals + 1);
+    const int status = has_setting(settings, name)
+                           ? cli_fail(CLI_USAGE, "--%s: %s is given twice", option->name, name)
+                           : request_parse_setting(settings, text, name, equals + 1);
     free(name);
     return status;
 }
@@ -293,6 +302,10 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
 {
     const int status = request->system ? CLI_DONE : load_system(request);
     if (status != CLI_DONE) return status;
+    const double min = dal_min_tolerance(&request->options);
+    if (request->options.tolerance > 0.0 && request->options.tolerance < min)
+        return cli_fail(CLI_USAGE, "--tolerance: %g is below %.2g, the smallest in this precision",
+                        request->options.tolerance, min);
     /* Where the system or the method has no lift there is one space alone; only an explicit
      * --space=lifted is an error. */
     const int has_lift =

@@ -353,6 +353,21 @@ static void choose_step(group_reader *g)
     e->steps = 1;
 }
 
+/* Those of the key and of the options are not below what the precision holds. */
+static int check_tolerances(const group_reader *g)
+{
+    const study_case *e = &g->parsed.item;
+    const double min = dal_min_tolerance(&e->options);
+    for (int i = -1; i < e->tolerances; i++) {
+        const double tolerance = i < 0 ? e->options.tolerance : e->tolerance[i];
+        if (tolerance > 0.0 && tolerance < min)
+            return document_fail(g->doc, g->node,
+                                 "%s: tolerance: %g is below %.2g, the smallest in this precision",
+                                 e->name, tolerance, min);
+    }
+    return CLI_DONE;
+}
+
 static int check_case(const group_reader *g)
 {
     const document *doc = g->doc;
@@ -376,7 +391,7 @@ static int check_case(const group_reader *g)
         const char *error = step_error(e->step[i], e->from, end, text);
         if (error) return document_fail(doc, node, "%s: step %s", e->name, error);
     }
-    return CLI_DONE;
+    return check_tolerances(g);
 }
 
 static int add_case(group_reader *g, int i, const study_case *first)

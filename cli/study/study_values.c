@@ -169,8 +169,6 @@ static int read_settings(study_variants *v, yaml_node_t *node, const char *what)
     v->of_set = v->count;
     int status = node ? document_check_mapping(v->doc, node, what, "names and values") : CLI_DONE;
     for (int i = 0; node && status == CLI_DONE && document_get_pair(v->doc, node, i, &pair); i++) {
-        if (document_value(v->doc, node, pair.name) != pair.value)
-            return document_fail(v->doc, pair.key, "%s: '%s' comes twice", what, pair.name);
         v->setting = cli_realloc(v->setting, ((size_t)v->count + 1) * sizeof *v->setting);
         variant_setting *s = &v->setting[v->count++];
         *s = (variant_setting){.name = pair.name};

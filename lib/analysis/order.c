@@ -40,18 +40,44 @@ long long dal_whole_steps(double from, double to, double step)
                : 0;
 }
 
+/* A measurement: where the states are compared, and who observes the runs. */
+typedef struct measurement {
+    double T;
+    const dal_observer *observer;
+    dal_error *error;
+} measurement;
+
+/* Steps between polls. */
+enum { POLL = 200 };
+
+static dal_status advance_polled(const measurement *m, dal_run *run, long long steps)
+{
+    const dal_observer *o = m->observer;
+    if (!o || !o->poll) return dal_run_advance(run, steps, m->error);
+    for (; steps > 0; steps -= POLL) {
+        DAL_TRY(dal_run_advance(run, steps < POLL ? steps : POLL, m->error));
+        const dal_status status = o->poll(o->user, run);
+        if (status != DAL_OK)
+            return dal__fail(m->error, status, "%s at t = %.17g", dal_status_text(status),
+                             dal_run_time(run));
+    }
+    return DAL_OK;
+}
+
 /* The state of a run of the spec at T into out[dimension]. */
-static dal_status state_at(const dal_run_spec *spec, double T, double *out, long long *evaluations,
-                           dal_error *error)
+static dal_status state_at(const measurement *m, const dal_run_spec *spec, double *out,
+                           long long *evaluations)
 {
     dal_run *run;
+    const double T = m->T;
+    dal_error *error = m->error;
     const long long steps = dal_whole_steps(spec->start_time, T, spec->options.step);
     if (steps == 0)
         return dal__fail(error, DAL_ARGUMENT, "time %g is not a whole number of steps of %g", T,
                          spec->options.step);
     DAL_TRY(dal__refuse_events(spec->system, "tables of the order", error));
     DAL_TRY(dal_run_create(&run, spec, error));
-    dal_status status = dal_run_advance(run, steps, error);
+    const dal_status status = advance_polled(m, run, steps);
     size_t count = (size_t)dal_run_dimension(run);
     if (status == DAL_OK) memcpy(out, dal_run_state(run), count * sizeof(double));
     *evaluations = dal_run_evaluations(run);
@@ -90,6 +116,14 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
                              dal_order *order, dal_error *error)
 {
+    return dal_observe_order(spec, T, levels, reference_method, reference, NULL, order, error);
+}
+
+dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
+                             const dal_method *reference_method, const double *reference,
+                             const dal_observer *observer, dal_order *order, dal_error *error)
+{
+    const measurement m = {T, observer, error};
     DAL_REQUIRE(order, error);
     DAL_TRY(dal__check_spec(spec, error));
     dal_run *run;
@@ -111,13 +145,13 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
             accurate.method = *reference_method;
         else
             status = dal_method_parse(&accurate.method, "gauss12", error);
-        if (status == DAL_OK) status = state_at(&accurate, T, block, &evaluations, error);
+        if (status == DAL_OK) status = state_at(&m, &accurate, block, &evaluations);
         reference = block;
     }
     for (int i = 0; i < levels && status == DAL_OK; i++) {
         dal_run_spec level = *spec;
         order->step[i] = level.options.step = ldexp(spec->options.step, -i);
-        status = state_at(&level, T, block + count, &order->evaluations[i], error);
+        status = state_at(&m, &level, block + count, &order->evaluations[i]);
         if (status == DAL_OK) order->error[i] = dal__distance(reference, block + count, count);
     }
     if (status == DAL_OK) dal_order_slopes(order, 0.0);

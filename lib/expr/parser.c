@@ -40,7 +40,7 @@ enum { MAX_LOOPS = 16, MAX_INDEX = 1000000, MAX_TERMS = 4000000 };
 typedef struct loop {
     const char *name; /* of the index */
     size_t length;
-    int at, end;
+    int at, first, end;
     dal__node total; /* of the terms before; 0: none */
     dal__lexer body; /* where a term begins */
 } loop;
@@ -304,6 +304,25 @@ static dal_status skip_body(parser *p)
     return DAL_OK;
 }
 
+static dal_status too_many_terms(const parser *p, const frame *f)
+{
+    return dal__fail_at(p->error, DAL_TOO_LARGE, f->line, f->column,
+                        "sums of more than %d terms in a formula", (int)MAX_TERMS);
+}
+
+/* Whether the first terms of nested sums show that all of them are too many.  The range of a sum
+ * may depend on the index around it, as j = i..N: k sums then have N^k/k! terms. */
+static bool has_too_many_terms(const parser *p)
+{
+    double terms = 1.0;
+    for (int i = 0; i < p->loops; i++) {
+        const loop *l = &p->loop[i];
+        if (l->at > l->first) return false;
+        terms *= ((double)l->end - l->first + 1.0) / (i + 1);
+    }
+    return terms > MAX_TERMS;
+}
+
 /* Behind the comma after the range of a sum: begins its first term.  empty: there is none, and
  * *value is the sum. */
 static dal_status begin_terms(parser *p, dal__node *value, bool *empty)
@@ -322,8 +341,9 @@ static dal_status begin_terms(parser *p, dal__node *value, bool *empty)
     }
     if (p->loops == MAX_LOOPS)
         return SYNTAX_ERROR(p, &f, "sums nest deeper than %d", (int)MAX_LOOPS);
+    l.first = l.at;
     p->loop[p->loops++] = l;
-    return next(p);
+    return has_too_many_terms(p) ? too_many_terms(p, &f) : next(p);
 }
 
 /* Behind a term of a sum: goes back for the next one, or closes the sum. */
@@ -335,8 +355,7 @@ static dal_status end_term(parser *p, dal__node *value, bool *more)
     loop *l = &p->loop[p->loops - 1];
     l->total = l->total ? dal__node_add(p->graph, l->total, *value) : *value;
     if (!l->total) return graph_fault(p);
-    if (++p->terms > MAX_TERMS)
-        return dal__fail_at(p->error, DAL_TOO_LARGE, f.line, f.column, "sums of too many terms");
+    if (++p->terms > MAX_TERMS) return too_many_terms(p, &f);
     *more = l->at++ < l->end;
     if (*more) {
         p->lexer = l->body;

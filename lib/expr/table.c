@@ -14,7 +14,6 @@
 #include "kernel/elementary.h"
 #include <float.h>
 #include <math.h>
-#include <stdbool.h>
 
 enum { LIMITS = 2, PIECE = 5 /* origin, c[4] */ };
 /* Clocks and their sums may pass the last point by their rounding. */
@@ -78,6 +77,20 @@ void dal__table_fill(const dal_table *t, double *data)
     const double *p = piece + (last - 1) * PIECE, h = t->at[last] - t->at[last - 1];
     fill_end(t, 0, piece[2], first);
     fill_end(t, last, p[2] + h * (2.0 * p[3] + 3.0 * h * p[4]), piece + last * PIECE);
+}
+
+bool dal__table_is_finite(const dal_table *t, const double *data)
+{
+    const int knots = t->points;
+    const double *piece = data + LIMITS + knots;
+    for (int i = 0; i <= knots; i++, piece += PIECE) {
+        const double h = i > 0 && i < knots ? t->at[i] - t->at[i - 1] : 0.0, *c = piece + 1;
+        const double third = 6.0 * fabs(c[3]), second = 2.0 * fabs(c[2]) + h * third;
+        const double first = fabs(c[1]) + h * second;
+        if (!isfinite(fabs(c[0]) + h * first) || !isfinite(first) || !isfinite(second + third))
+            return false;
+    }
+    return true;
 }
 
 const double *dal__table_piece(const dal__table *table, int k)

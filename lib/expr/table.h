@@ -3,6 +3,7 @@
 #define DAL_EXPR_TABLE_H
 
 #include "dalembert.h"
+#include <stdbool.h>
 #include <stddef.h>
 
 enum { DAL__TABLE_ORDERS = 5 /* a cubic, its three derivatives, and 0 */ };
@@ -18,6 +19,9 @@ typedef struct dal__table {
  * dal_table otherwise. */
 size_t dal__table_size(int knots);
 void dal__table_fill(const dal_table *table, double *data);
+/* Whether the numbers that were filled in, and the values between the points, are finite: points
+ * may be too large, or too close. */
+bool dal__table_is_finite(const dal_table *table, const double *data);
 /* Piece number k, from 0 before the first point to the number of points behind the last one: its
  * origin and its coefficients c[4]. */
 const double *dal__table_piece(const dal__table *table, int k);

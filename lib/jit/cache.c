@@ -2,11 +2,16 @@
  *
  * The name of an object is a hash of its text and of the command that compiles it.  A hash of its
  * own bytes follows at its end, where loaders do not read, so that a truncated or changed object is
- * compiled again.  It is written elsewhere and renamed, so that no process sees a part of it: in a
- * folder of its compilation alone, where a compiler that is killed leaves its temporary files. */
+ * compiled again; so is one that is no regular file, or that another user owns or may write.
+ *
+ * An object is written elsewhere and renamed, so that no process sees a part of it: in a folder of
+ * its compilation alone, OBJECT.so.XXXXXX, with the compiler's temporary files.  The source there
+ * is locked as long as the compiler or the process that waits for it lives.  A folder whose source
+ * nobody has locked was left by processes that were killed; the next compilation removes it. */
 #include "jit/cache.h"
 #include "core/machine.h"
 #include <dirent.h>
+#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -15,6 +20,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -83,30 +89,31 @@ static dal_status make_private(const char *directory, dal_error *error)
 
 /* ---- whole files ---- */
 
-/* Reads a regular file; does not wait for the writer of a FIFO. */
-static char *read_all(const char *path, size_t *length)
+/* Opens a file to be read; does not wait for the writer of a FIFO. */
+static int open_file(const char *path)
+{
+    return open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+}
+
+/* Reads a regular file that this user alone can have written. */
+static char *read_all(int file, size_t *length)
 {
     struct stat s;
-    const int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     char *bytes = NULL;
     *length = 0;
-    if (file < 0) return NULL;
-    if (fstat(file, &s) == 0 && S_ISREG(s.st_mode)) bytes = malloc((size_t)s.st_size + 1);
+    if (fstat(file, &s) == 0 && S_ISREG(s.st_mode) && s.st_uid == geteuid() &&
+        (s.st_mode & (S_IWGRP | S_IWOTH)) == 0)
+        bytes = malloc((size_t)s.st_size + 1);
     while (bytes && *length < (size_t)s.st_size) {
         const ssize_t got = read(file, bytes + *length, (size_t)s.st_size - *length);
         if (got <= 0) break;
         *length += (size_t)got;
     }
-    close(file);
     return bytes;
 }
 
-/* Opens a file with these flags and writes the bytes; what: how a message calls that. */
-static dal_status write_bytes(const char *path, int flags, const char *what, const void *bytes,
-                              size_t length, dal_error *error)
+static bool write_all(int file, const void *bytes, size_t length)
 {
-    const int file = open(path, O_WRONLY | O_CLOEXEC | flags, 0600);
-    if (file < 0) return failed(error, what, path);
     bool written = true;
     for (const char *at = bytes; written && length > 0;) {
         const ssize_t put = write(file, at, length);
@@ -114,7 +121,7 @@ static dal_status write_bytes(const char *path, int flags, const char *what, con
         at += put > 0 ? put : 0;
         length -= put > 0 ? (size_t)put : 0;
     }
-    return close(file) == 0 && written ? DAL_OK : failed(error, what, path);
+    return written;
 }
 
 /* ---- the compiler ---- */
@@ -128,8 +135,8 @@ static double now(void)
 }
 
 /* Starts a command without input and output, as leader of a process group, with its temporary files
- * in a folder; returns 0 or an errno. */
-static int start_process(const command *c, const char *folder, pid_t *process)
+ * in a folder and with a lock; returns 0 or an errno. */
+static int start_process(const command *c, const char *folder, int lock, pid_t *process)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -148,6 +155,7 @@ static int start_process(const command *c, const char *folder, pid_t *process)
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
         for (int file = 0; file < 3; file++)
             posix_spawn_file_actions_addopen(&actions, file, "/dev/null", O_RDWR, 0);
+        posix_spawn_file_actions_adddup2(&actions, lock, lock); /* inherited, with the lock */
         refused = posix_spawnp(process, c->word[0], &actions, &attributes, c->word, environment);
         posix_spawnattr_destroy(&attributes);
     }
@@ -162,7 +170,7 @@ static dal_status start_compiler(dal__compilation *c, dal_error *error)
     command full = begin_command(c->compiler);
     pid_t process = 0;
     add_words(&full, files);
-    const int refused = start_process(&full, c->folder, &process);
+    const int refused = start_process(&full, c->folder, c->lock, &process);
     if (refused)
         return dal__fail(error, DAL_UNSUPPORTED, "no compiler '%.200s': %s", c->compiler,
                          strerror(refused));
@@ -186,10 +194,10 @@ static bool has_ended(dal__compilation *c, int *exit_status)
 /* ---- objects ---- */
 
 /* Whether the last eight bytes are the hash of those before. */
-static bool is_whole(const char *path)
+static bool is_whole(int file)
 {
     size_t length;
-    char *bytes = read_all(path, &length);
+    char *bytes = read_all(file, &length);
     uint64_t stored = 0, found = 1;
     if (bytes && length > sizeof stored) {
         memcpy(&stored, bytes + length - sizeof stored, sizeof stored);
@@ -199,14 +207,40 @@ static bool is_whole(const char *path)
     return stored == found;
 }
 
+static bool is_usable(const char *path)
+{
+    const int file = open_file(path);
+    const bool usable = file >= 0 && is_whole(file);
+    if (file >= 0) close(file);
+    return usable;
+}
+
+/* The loader opens the file by its name; what it opens is what was checked, unless this user, whose
+ * directory it is, replaces it meanwhile.  Names like /proc/self/fd/3 are no way out: loaders take
+ * equal names for one object. */
+void *dal__compilation_load(const dal__compilation *c)
+{
+    struct stat checked, now;
+    const int file = open_file(c->path);
+    if (file < 0) return NULL;
+    const bool usable = is_whole(file) && fstat(file, &checked) == 0 && stat(c->path, &now) == 0 &&
+                        checked.st_dev == now.st_dev && checked.st_ino == now.st_ino;
+    void *handle = usable ? dlopen(c->path, RTLD_NOW | RTLD_LOCAL) : NULL;
+    close(file);
+    return handle;
+}
+
+/* Appends the hash of an object, and takes from others what a mask of the user gave them. */
 static dal_status seal(const char *path, dal_error *error)
 {
     size_t length;
-    char *bytes = read_all(path, &length);
-    if (!bytes) return failed(error, "seal", path);
-    const uint64_t sum = hash(0, bytes, length);
+    const int file = open(path, O_RDWR | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+    char *bytes = file >= 0 && fchmod(file, 0700) == 0 ? read_all(file, &length) : NULL;
+    const uint64_t sum = bytes ? hash(0, bytes, length) : 0;
+    const bool sealed = bytes && write_all(file, &sum, sizeof sum);
     free(bytes);
-    return write_bytes(path, O_APPEND, "seal", &sum, sizeof sum, error);
+    const bool closed = file >= 0 && close(file) == 0;
+    return sealed && closed ? DAL_OK : failed(error, "seal", path);
 }
 
 /* A path that no compiler takes for an option, and no loader for a name to record for. */
@@ -223,44 +257,97 @@ static dal_status name_object(const command *c, const char *directory, const cha
     return dal__fail(error, DAL_ARGUMENT, "the path '%.80s...' is too long", directory);
 }
 
-/* ---- compilations ---- */
+/* ---- folders of compilations ---- */
+
+static const char source_name[] = "code.c", object_name[] = "code.so";
+
+/* Removes what a folder holds, the source last, since its lock says that the folder is in use. */
+static void empty_folder(const char *path)
+{
+    DIR *folder = opendir(path);
+    for (const struct dirent *entry; folder && (entry = readdir(folder));)
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 &&
+            strcmp(entry->d_name, source_name) != 0)
+            unlinkat(dirfd(folder), entry->d_name, 0);
+    if (folder) closedir(folder);
+}
 
 /* Removes the folder with all files in it.  opendir, which allocates, is called only where the
  * compiler has left files of its own. */
-static void clean_up(const dal__compilation *c)
+static void clean_up(dal__compilation *c)
 {
-    unlink(c->source);
     unlink(c->object);
-    if (rmdir(c->folder) == 0) return;
-    DIR *folder = opendir(c->folder);
-    for (const struct dirent *entry; folder && (entry = readdir(folder));)
-        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0)
-            unlinkat(dirfd(folder), entry->d_name, 0);
-    if (folder) closedir(folder);
-    rmdir(c->folder);
+    unlink(c->source);
+    if (rmdir(c->folder) != 0) {
+        empty_folder(c->folder);
+        rmdir(c->folder);
+    }
+    if (c->lock >= 0) close(c->lock);
+    c->lock = -1;
 }
 
-static dal_status name_files(dal__compilation *c, const char *directory, const char *text,
-                             dal_error *error)
+/* Removes a folder unless its source is locked; one without a source, if it is empty. */
+static void remove_abandoned(const char *folder)
 {
-    const command words = begin_command(c->compiler);
-    const void *mine = c; /* differs between compilations of a process */
-    DAL_TRY(name_object(&words, directory, text, c->path, DAL__OBJECT_PATH, error));
-    snprintf(c->folder, sizeof c->folder, "%s.%ld.%p", c->path, (long)getpid(), mine);
-    snprintf(c->source, sizeof c->source, "%s/code.c", c->folder);
-    snprintf(c->object, sizeof c->object, "%s/code.so", c->folder);
-    return DAL_OK;
+    char source[DAL__OBJECT_PATH + 60];
+    snprintf(source, sizeof source, "%s/%s", folder, source_name);
+    const int lock = open(source, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) == 0) {
+        empty_folder(folder);
+        unlink(source);
+    }
+    rmdir(folder);
+    if (lock >= 0) close(lock);
 }
+
+/* Removes the folders that processes left which were killed, named by a hash, ".so." and more. */
+static void remove_all_abandoned(const char *directory)
+{
+    char path[DAL__OBJECT_PATH + 40];
+    DIR *cache = opendir(directory);
+    for (const struct dirent *entry; cache && (entry = readdir(cache));) {
+        const size_t hash_length = strspn(entry->d_name, "0123456789abcdef");
+        if (hash_length != 32 || strncmp(entry->d_name + 32, ".so.", 4) != 0) continue;
+        const int length = snprintf(path, sizeof path, "%s/%s", directory, entry->d_name);
+        if (length > 0 && (size_t)length < sizeof path) remove_abandoned(path);
+    }
+    if (cache) closedir(cache);
+}
+
+/* Makes the source in a new folder and locks it.  Another process may have found the folder before
+ * it was locked, and removed it.  Where files cannot be locked nothing is removed either. */
+static bool make_source(dal__compilation *c)
+{
+    struct stat made, now;
+    snprintf(c->folder, sizeof c->folder, "%s.XXXXXX", c->path);
+    if (!mkdtemp(c->folder)) return false;
+    snprintf(c->source, sizeof c->source, "%s/%s", c->folder, source_name);
+    snprintf(c->object, sizeof c->object, "%s/%s", c->folder, object_name);
+    c->lock = open(c->source, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    const bool locked =
+        c->lock >= 0 && (flock(c->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK);
+    if (locked && fstat(c->lock, &made) == 0 && stat(c->source, &now) == 0 &&
+        made.st_ino == now.st_ino)
+        return true;
+    const int reason = errno;
+    clean_up(c);
+    errno = reason;
+    return false;
+}
+
+/* ---- compilations ---- */
 
 static dal_status start(dal__compilation *c, const char *text, dal_error *error)
 {
+    enum { TRIALS = 4 };
     struct stat s;
+    bool made = false;
     if (lstat(c->path, &s) == 0 && S_ISDIR(s.st_mode)) /* a rename replaces all else */
         return dal__fail(error, DAL_IO, "'%.200s' is in the way: it is a directory", c->path);
-    clean_up(c); /* an ended process with this id may have left that folder */
-    if (mkdir(c->folder, 0700) != 0) return failed(error, "make the directory", c->folder);
-    dal_status status =
-        write_bytes(c->source, O_CREAT | O_EXCL, "write", text, strlen(text), error);
+    for (int i = 0; i < TRIALS && !made; i++) made = make_source(c);
+    if (!made) return failed(error, "make the directory", c->folder);
+    dal_status status = DAL_OK;
+    if (!write_all(c->lock, text, strlen(text))) status = failed(error, "write", c->source);
     if (status == DAL_OK) status = start_compiler(c, error);
     if (status != DAL_OK) clean_up(c);
     return status;
@@ -273,13 +360,16 @@ dal_status dal__compilation_begin(dal__compilation *c, const dal_native_options 
         return dal__fail(error, DAL_ARGUMENT, "no directory for compiled steps");
     const char *const compiler = options->compiler ? options->compiler : "cc";
     *c = (dal__compilation){.patience = options->patience > 0 ? options->patience : PATIENCE,
-                            .nice = options->nice};
+                            .nice = options->nice,
+                            .lock = -1};
     if (strlen(compiler) >= sizeof c->compiler)
         return dal__fail(error, DAL_ARGUMENT, "the path '%.80s...' is too long", compiler);
     snprintf(c->compiler, sizeof c->compiler, "%s", compiler);
-    DAL_TRY(name_files(c, options->cache, text, error));
+    const command words = begin_command(c->compiler);
+    DAL_TRY(name_object(&words, options->cache, text, c->path, DAL__OBJECT_PATH, error));
     DAL_TRY(make_private(options->cache, error));
-    return is_whole(c->path) ? DAL_OK : start(c, text, error);
+    remove_all_abandoned(options->cache);
+    return is_usable(c->path) ? DAL_OK : start(c, text, error);
 }
 
 void dal__compilation_forget(const dal__compilation *c) { unlink(c->path); }

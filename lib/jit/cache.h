@@ -16,6 +16,7 @@ typedef struct dal__compilation {
     char compiler[DAL__OBJECT_PATH];
     int patience, nice;
     double last;  /* when the compiler is ended, by the clock */
+    int lock;     /* the source, locked until the compiler and this process let go of it */
     long process; /* the compiler; 0: none runs */
 } dal__compilation;
 
@@ -23,6 +24,9 @@ typedef struct dal__compilation {
  * DAL_UNSUPPORTED (no compiler). */
 dal_status dal__compilation_begin(dal__compilation *c, const dal_native_options *options,
                                   const char *text, dal_error *error);
+/* Loads the object, if it is whole, a regular file of this user, and not writable by others: a
+ * handle of dlopen, or NULL. */
+void *dal__compilation_load(const dal__compilation *c);
 /* Removes an object that could not be loaded; repeat then starts a compiler again. */
 void dal__compilation_forget(const dal__compilation *c);
 dal_status dal__compilation_repeat(dal__compilation *c, const char *text, dal_error *error);

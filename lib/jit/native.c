@@ -88,7 +88,7 @@ static bool load(dal_native *native)
                                           [DAL__TRACE] = PREFIX "_traced",
                                           [DAL__OBSERVE] = PREFIX "_observables"};
     dal__native_code *code = &native->code;
-    void *handle = dlopen(native->compilation.path, RTLD_NOW | RTLD_LOCAL);
+    void *handle = dal__compilation_load(&native->compilation);
     void *found = handle ? dlsym(handle, symbols[native->product]) : NULL;
     if (!found) {
         if (handle) dlclose(handle);

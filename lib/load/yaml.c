@@ -168,6 +168,9 @@ static dal_status read_range(reader *r, dal__entry entry)
         DAL_TRY(read_key(r, &key));
         const bool is_formula = strcmp(key.name, "is") == 0;
         if (!is_formula && strcmp(key.name, "for") != 0) break;
+        if ((is_formula ? &entry : &range)->text)
+            return dal__fail_at(r->error, DAL_MODEL, DAL__AT_NAME(&key), "duplicate key '%s'",
+                                key.name);
         DAL_TRY(next(r));
         if (r->event.type != YAML_SCALAR_EVENT) break;
         DAL_TRY(read_scalar(r, is_formula ? &entry : &range));

@@ -26,6 +26,11 @@ dal_status dal__model_insert_table(dal_model *model, dal__entry entry, const dal
     double *data = dal__model_allocate(model, dal__table_size(table->points), sizeof *data);
     if (!data) return dal__memory_error(error);
     dal__table_fill(table, data);
+    if (!dal__table_is_finite(table, data))
+        return dal__fail_at(error, DAL_MODEL, DAL__AT_TEXT(&entry),
+                            "table %s: its %s overflows: points are too large, or too close",
+                            entry.name,
+                            table->interpolation == DAL_CUBIC ? "cubic spline" : "slope");
     DAL_TRY(dal__model_insert(model, entry, error));
     if (model->tables == model->table_capacity) {
         const int capacity = model->tables ? 2 * model->tables : 4;

@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_STALLED = 1000 };
-
 /* Adds factor times E and the invariants of the present state to what events have changed; formulas
  * that are observed alone need not be conserved between events. */
 static dal_status add_jump(const dal__event_search *w, double factor)
@@ -77,7 +75,7 @@ static dal_status take_events(const dal__event_search *w, double distance,
         const bool is_close =
             is_stalled || distance * fabs(w->m.r0[k]) <= dal__event_rounding(w, k);
         const bool is_again = fabs(w->m.now[k]) == 2.0 && is_close;
-        const bool is_endless = is_again || (is_stalled && *w->m.stalled >= MAX_STALLED);
+        const bool is_endless = is_again || (is_stalled && *w->m.stalled >= DAL__MAX_STALLED);
         if (w->m.s[k] <= distance && is_endless) return dal__events_endless(w, k);
     }
     if (distance > 0.0) {

@@ -15,6 +15,8 @@
 
 #include "run/layout.h"
 
+enum { DAL__MAX_STALLED = 1000 /* successive events at one time; more are endless */ };
+
 /* What to call after each event; happened may be NULL. */
 typedef struct dal__event_listener {
     dal_status (*happened)(void *user, dal_run *run, const dal_occurrence *event);

@@ -108,7 +108,11 @@ static dal_status check_options(const dal_options *o, dal_error *error)
                          (double)o->name, (double)min, (double)max);
     DAL_OPTION_LIST(OPTION)
 #undef OPTION
-    return DAL_OK;
+    if (o->tolerance == 0.0 || o->tolerance >= dal_min_tolerance(o)) return DAL_OK;
+    return dal__fail(error, DAL_ARGUMENT,
+                     "option tolerance: %g is below %.2g, the smallest in %s precision; 0: none",
+                     o->tolerance, dal_min_tolerance(o),
+                     o->precision == DAL_QUAD ? "quad" : "double");
 }
 
 /* A modifier must suit the method inside it, layers 0..depth-1. */

@@ -1,6 +1,8 @@
 /* options.c - the options of a run, all from the one table DAL_OPTION_LIST. */
 #include "core/error.h"
+#include "kernel/quad.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -13,6 +15,13 @@ dal_options dal_options_default(void)
         DAL_OPTION_LIST(OPTION)
 #undef OPTION
     };
+}
+
+double dal_min_tolerance(const dal_options *options)
+{
+    const double ulps = 0x1p-12;
+    if (!options) return NAN;
+    return ulps * DBL_EPSILON * (options->precision == DAL_QUAD ? DAL_QUAD_ULP_RATIO : 1.0);
 }
 
 /* The place of text among words separated by '|', -1: not there. */

@@ -5,6 +5,7 @@
 #include "run/failure.h"
 #include "run/quad.h"
 #include "run/scales.h"
+#include "run/saved.h"
 #include "run/start.h"
 #include <dalembert_kernel.h>
 #include <stdlib.h>
@@ -232,16 +233,11 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
 {
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(memory, error);
-    const dal__layout *k = &run->layout;
     if (count != run->stored)
         return dal__fail(error, DAL_ARGUMENT,
                          "the persistent state of this run has %zu numbers, not %zu", run->stored,
                          count);
-    for (size_t i = 0; i < dal__saved_count(k); i++) {
-        const double x = run->quad.engine ? dal__quad_rounded(memory, i) : memory[i];
-        if (!dal__is_possible(k, i, x))
-            return dal__fail(error, DAL_NOT_FINITE, "persistent number %zu is not finite", i + 1);
-    }
+    DAL_TRY(dal__check_saved(run, memory, error));
     dal__run_back_up(run);
     const dal_status status = load(run, memory);
     if (status == DAL_OK) return DAL_OK;

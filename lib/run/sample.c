@@ -260,6 +260,28 @@ static double row_time(const dal_run *run, const dal_observer *o, double T, long
     return row == samples ? T : from + (T - from) * ((double)row / (double)samples);
 }
 
+/* The counts of an observer, and the times of its rows, which may repeat. */
+static dal_status check_observer(const dal_run *run, const dal_observer *o, double T,
+                                 long long samples, long long first_row, dal_error *error)
+{
+    const double direction = copysign(1.0, run->layout.options.step);
+    double before = row_time(run, o, T, first_row, samples);
+    if (o->every < 0 || (double)o->every > MAX_STEPS)
+        return dal__fail(error, DAL_ARGUMENT, "observations every %lld steps cannot be made",
+                         o->every);
+    if (o->polling < 0)
+        return dal__fail(error, DAL_ARGUMENT, "polls every %lld steps cannot be made", o->polling);
+    for (long long row = first_row; o->row_time && row <= samples; row++) {
+        const double t = row_time(run, o, T, row, samples);
+        if (!(direction * (t - before) >= 0.0) || !isfinite(t))
+            return dal__fail(error, DAL_ARGUMENT,
+                             "row %lld is at t = %.17g, the row before it at %.17g", row, t,
+                             before);
+        before = t;
+    }
+    return DAL_OK;
+}
+
 static dal_status check_arguments(const dal_run *run, const dal_observer *observer, double T,
                                   long long samples, long long first_row, dal_error *error)
 {
@@ -293,6 +315,7 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
     DAL_REQUIRE(run, error);
     if (!observer) observer = &nobody;
     DAL_TRY(check_arguments(run, observer, T, samples, first_row, error));
+    DAL_TRY(check_observer(run, observer, T, samples, first_row, error));
     DAL_TRY(dal__check_events(run, error));
     sampling k = {run, observer, error, 0};
     if (first_row == 0 && dal_run_steps(run) == 0) DAL_TRY(observe_start(&k));

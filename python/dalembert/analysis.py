@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib
-from .errors import Error, InputError, call, call_steps, check, keep_exception
+from .errors import Error, InputError, call, call_steps, check, encode, keep_exception
 from .run import Array, doubles
 from .spec import Spec, SystemLike, chunks
 from .system import text_of
@@ -165,14 +165,15 @@ def order(system: SystemLike, integrator: str | None = None, time: float | None 
     method, exact, found = ffi.NULL, ffi.NULL, ffi.new('dal_order *')
     if isinstance(reference, str):
         method = ffi.new('dal_method *')
-        call(lib.dal_method_parse, method, reference.encode())
+        call(lib.dal_method_parse, method, encode(reference))
     elif reference is not None:
         values = np.ascontiguousarray(reference, dtype=np.float64)
         dimension = len(spec.create_run()[1])
         if values.shape != (dimension,):
             raise InputError('DAL_ARGUMENT', f'a state has shape ({dimension},), not {values.shape}')
         exact = doubles(values)
-    call_steps(lib.dal_measure_order, spec.c, spec.time(time), levels, method, exact, found)
+    observer = ffi.new('dal_observer *', {'poll': lib.python_poll})
+    call_steps(lib.dal_observe_order, spec.c, spec.time(time), levels, method, exact, observer, found)
     columns = {name: np.array(list(getattr(found, name)[0:levels]))
                for name in ('step', 'error', 'evaluations', 'slope')}
     return Order(**columns, order=found.order)
@@ -300,7 +301,7 @@ def section(system: SystemLike, on: str, integrator: str | None = None, time: fl
     """
     spec = Spec(system, integrator, **settings)
     changed = spec.system._with_invariant(on)
-    spec.c.system = changed._system
+    spec.use(changed)
     run, names, _ = spec.create_run()
     count = changed._system.invariants
     rows: list[tuple[float, ...]] = []
@@ -403,7 +404,7 @@ def generate(system: SystemLike, integrator: str | None = None, *, lanes: int = 
     """
     spec = Spec(system, integrator, **settings)
     text = ffi.new('char **')
-    call(lib.dal_generate, spec.c, lanes, ffi.NULL if prefix is None else prefix.encode(), text)
+    call(lib.dal_generate, spec.c, lanes, ffi.NULL if prefix is None else encode(prefix), text)
     try:
         return text_of(text[0])
     finally:

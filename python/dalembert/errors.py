@@ -39,6 +39,18 @@ class StepError(Error, ArithmeticError):
     """A step failed, or an event cannot be passed; the run is as it was before it."""
 
 
+def encode(text: str) -> bytes:
+    """A name for the library, where a text ends at its first NUL: it must have none."""
+    return refuse_nul(text.encode())
+
+
+def refuse_nul(text: bytes) -> bytes:
+    """The text, unless it has a NUL."""
+    if b'\0' in text:
+        raise InputError('DAL_ARGUMENT', f'{text.decode(errors="replace")!r} has a NUL')
+    return text
+
+
 STEP = {lib.DAL_SINGULAR, lib.DAL_SINGULAR_MASS, lib.DAL_NOT_FINITE, lib.DAL_NOT_CONVERGED, lib.DAL_GAUGE,
         lib.DAL_RANK, lib.DAL_INCONSISTENT, lib.DAL_EVENT, lib.DAL_STOPPED}
 OTHER = {lib.DAL_IO, lib.DAL_INTERRUPTED}

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib
-from .errors import InputError, call, make_error
+from .errors import InputError, call, encode, make_error
 from .run import CHUNK, Array, doubles, native_options
 from .spec import Settings, Spec, SystemLike, chunks
 
@@ -59,7 +59,7 @@ def make_variations(vary: Mapping[str, str] | Iterable[str]) -> tuple[Any, int]:
     texts = ['='.join(item) for item in items]
     array = ffi.new('dal_variation[]', max(1, len(texts)))
     for i, text in enumerate(texts):
-        call(lib.dal_variation_parse, ffi.addressof(array, i), text.encode())
+        call(lib.dal_variation_parse, ffi.addressof(array, i), encode(text))
     return array, len(texts)
 
 

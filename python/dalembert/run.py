@@ -9,8 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib
-from .errors import Error, InputError, call, call_steps, check, keep_exception, make_error
-from .spec import Settings, Spec, SystemLike, chunks, make_settings
+from .errors import Error, InputError, call, call_steps, check, encode, keep_exception, make_error, refuse_nul
+from .fixed import Fixed, owned
+from .spec import Settings, Spec, SystemLike, chunks, count_of, make_settings
+from .system import System, text_of
 
 Array = npt.NDArray[np.float64]
 
@@ -29,7 +31,7 @@ def native_options(cache: str | os.PathLike[str] | None, compiler: str) -> tuple
         above = os.environ.get('XDG_CACHE_HOME') or os.path.join(os.path.expanduser('~'), '.cache')
         os.makedirs(above, mode=0o700, exist_ok=True)
         cache = os.path.join(above, 'dalembert')
-    texts = ffi.new('char[]', os.fsencode(cache)), ffi.new('char[]', compiler.encode())
+    texts = ffi.new('char[]', refuse_nul(os.fsencode(cache))), ffi.new('char[]', encode(compiler))
     return ffi.new('dal_native_options *', {'cache': texts[0], 'compiler': texts[1],
                                             'stop': lib.python_stop}), texts
 
@@ -80,7 +82,7 @@ def python_event(user: Any, run: Any, event: Any) -> int:
     return lib.DAL_OK
 
 
-class Run:
+class Run(Fixed):
     """One motion of a system by a method.
 
     Parameters
@@ -113,7 +115,15 @@ class Run:
     Notes
     -----
     While steps are taken other threads of Python run.  A run itself belongs to one thread at a time.
+    The attributes are read-only.
     """
+
+    system: System
+    integrator: str
+    names: tuple[str, ...]
+    observable_names: tuple[str, ...]
+    dimension: int
+    _run: Any
 
     def __init__(self, system: SystemLike, integrator: str | None = None, *, step: float | None = None,
                  parameters: Settings | None = None, start: Settings | None = None,
@@ -165,12 +175,12 @@ class Run:
     @property
     def parameters(self) -> dict[str, float]:
         """The parameter values."""
-        values = lib.dal_run_parameters(self._run)
-        return {name: values[i] for i, name in enumerate(self.system.parameters)}
+        values, system = lib.dal_run_parameters(self._run), lib.dal_run_system(self._run)
+        return {text_of(system.parameter[i]): values[i] for i in range(system.parameters)}
 
     def index(self, name: str) -> int:
         """The place in `state` of a component, ``"phi'"``."""
-        place = lib.dal_run_index(self._run, name.encode())
+        place = lib.dal_run_index(self._run, encode(name))
         if place < 0:
             raise InputError('DAL_NAME', f"no component of the state is named '{name}'")
         return place
@@ -189,7 +199,7 @@ class Run:
             The value cannot be used; nothing is changed.
         """
         record = ffi.new('dal_error *')
-        return is_consistent(lib.dal_run_set_parameter(self._run, name.encode(), value, record), record)
+        return is_consistent(lib.dal_run_set_parameter(self._run, encode(name), value, record), record)
 
     def advance(self, steps: int = 1) -> None:
         """Takes a number of steps, or those before the first that fails.
@@ -201,9 +211,7 @@ class Run:
         StepError
             Names the constraint and the time; the run is as it was before that step.
         """
-        if steps < 0:
-            raise InputError('DAL_ARGUMENT', f'{steps} steps cannot be taken')
-        for count in chunks(steps, CHUNK):
+        for count in chunks(count_of(steps), CHUNK):
             self._call(lib.dal_run_advance, self._run, count)
             if self.stopped is not None:
                 return
@@ -351,7 +359,7 @@ def lane(values: LaneValues | None, i: int) -> dict[str, float]:
             for name, value in (values or {}).items()}
 
 
-class Batch:
+class Batch(Fixed):
     """Many runs of one system and method, called lanes, that differ in parameters and start.
 
     Each lane has the bits of a single run.
@@ -367,9 +375,24 @@ class Batch:
 
     Attributes
     ----------
+    system : System
+    integrator : str
+    step : float
+    count : int
+        Lanes.
     names : tuple of str
         Of the components of a state.
+    dimension : int
+        Numbers in a state.
     """
+
+    system: System
+    integrator: str
+    step: float
+    count: int
+    names: tuple[str, ...]
+    dimension: int
+    _batch: Any
 
     def __init__(self, system: SystemLike, integrator: str | None = None, count: int | None = None, *,
                  step: float | None = None, parameters: LaneValues | None = None,
@@ -381,7 +404,7 @@ class Batch:
         self.dimension = len(self.names)
         batch = ffi.new('dal_batch **')
         call(lib.dal_batch_create, batch, spec.c, self.count, width)
-        self._batch = ffi.gc(batch[0], lib.dal_batch_free)
+        self._batch = owned(batch[0], lib.dal_batch_free, self.system._system)
         for i in range(1, self.count):
             self._start(i, lane(parameters, i), lane(start, i))
 
@@ -399,7 +422,8 @@ class Batch:
         """
         record = ffi.new('dal_error *')
         numbers = np.broadcast_to(np.asarray(values, dtype=np.float64), self.count)
-        statuses = (lib.dal_batch_set_parameter(self._batch, i, name.encode(), number, record)
+        text = encode(name)
+        statuses = (lib.dal_batch_set_parameter(self._batch, i, text, number, record)
                     for i, number in enumerate(numbers))
         return np.array([is_consistent(status, record) for status in statuses])
 
@@ -411,9 +435,7 @@ class Batch:
         StepError
             When no lane is left.
         """
-        if steps < 0:
-            raise InputError('DAL_ARGUMENT', f'{steps} steps cannot be taken')
-        for count in chunks(steps, max(100, CHUNK // self.count)):
+        for count in chunks(count_of(steps), max(100, CHUNK // self.count)):
             if lib.dal_batch_advance(self._batch, count) != lib.DAL_OK:
                 raise next(error for error in self.errors if error is not None)
 

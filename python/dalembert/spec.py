@@ -1,10 +1,12 @@
 """What a run is made from: system, method, options, parameters, start."""
 from __future__ import annotations
 
+import operator
 from typing import Any, Iterator, Mapping, Union
 
 from ._library import ffi, lib
-from .errors import InputError, call
+from .errors import InputError, call, encode
+from .fixed import owned
 from .system import System, text_of
 
 SystemLike = Union[System, str]
@@ -25,7 +27,7 @@ def make_settings(values: Settings | None) -> tuple[Any, int, list[Any]]:
     """An array of dal_setting, its length, and the texts that must live as long."""
     items = list((values or {}).items())
     array = ffi.new('dal_setting[]', max(1, len(items)))
-    texts = [ffi.new('char[]', name.encode()) for name, _ in items]
+    texts = [ffi.new('char[]', encode(name)) for name, _ in items]
     for i, (_, value) in enumerate(items):
         array[i].name, array[i].value = texts[i], float(value)
     return array, len(items), texts
@@ -54,14 +56,14 @@ class Spec:
         if integrator is None:
             raise InputError('DAL_ARGUMENT', f'{self.system.name} has no default integrator: give one')
         self.c = ffi.new('dal_run_spec *')
-        self.c.system = self.system._system
+        self.use(self.system)
         self.c.options = lib.dal_options_default()
-        call(lib.dal_method_parse, ffi.addressof(self.c, 'method'), integrator.encode())
+        call(lib.dal_method_parse, ffi.addressof(self.c, 'method'), encode(integrator))
         if step is None and 'step' in defaults:
             step = float(defaults['step'])
         for name, value in {**({} if step is None else {'step': float(step)}), **options}.items():
-            call(lib.dal_options_set, ffi.addressof(self.c, 'options'), name.replace('_', '-').encode(),
-                 option_text(value).encode())
+            call(lib.dal_options_set, ffi.addressof(self.c, 'options'), encode(name.replace('_', '-')),
+                 encode(option_text(value)))
         self.c.start_time = float(start_time)
         # Both must live as long as the spec.
         self._parameters = make_settings(parameters)
@@ -69,11 +71,16 @@ class Spec:
         self.c.parameters, self.c.parameter_count = self._parameters[:2]
         self.c.start, self.c.start_count = self._start[:2]
 
+    def use(self, system: System) -> None:
+        """Takes another system, which has the coordinates of the first."""
+        self._system = system._system
+        self.c.system = self._system
+
     def create_run(self) -> tuple[Any, tuple[str, ...], tuple[str, ...]]:
         """A dal_run, the names of its state and of its observables."""
         made = ffi.new('dal_run **')
         call(lib.dal_run_create, made, self.c)
-        run = ffi.gc(made[0], lib.dal_run_free)
+        run = owned(made[0], lib.dal_run_free, self._system)
         return (run, names_of(lib.dal_run_name, run, lib.dal_run_dimension(run)),
                 names_of(lib.dal_run_observable_name, run, lib.dal_run_observables(run)))
 
@@ -107,3 +114,14 @@ def chunks(count: int, size: int) -> Iterator[int]:
     while count > 0:
         yield min(count, size)
         count -= size
+
+
+def count_of(steps: Any) -> int:
+    """A number of steps that can be taken."""
+    try:
+        count = operator.index(steps)
+    except TypeError:
+        count = -1
+    if not 0 <= count < 1 << 53:
+        raise InputError('DAL_ARGUMENT', f'{steps} steps cannot be taken')
+    return count

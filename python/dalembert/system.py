@@ -5,7 +5,8 @@ import os
 from typing import Any, Iterator
 
 from ._library import ffi, lib
-from .errors import Error, InputError, call
+from .errors import Error, InputError, call, encode
+from .fixed import Fixed, borrowed, owned
 
 PROPERTIES = tuple(name for name in dir(lib) if name.startswith(('DAL_D_', 'DAL_E_'))
                    ) + ('DAL_AUTONOMOUS', 'DAL_MASS_CONSTANT', 'DAL_VAKONOMIC', 'DAL_SERVO')
@@ -28,7 +29,7 @@ def _names(name_at: Any) -> Iterator[str]:
         i += 1
 
 
-class System:
+class System(Fixed):
     """A mechanical system: coordinates, Lagrangian, forces and constraints.
 
     Parameters
@@ -56,7 +57,28 @@ class System:
         What is known of the constraints and of the energy, as ``'D_LINEAR'``.
     defaults : dict of str to str
         Method, step and time of a run that shows the motion, where the file gives them.
+
+    Notes
+    -----
+    The attributes are read-only.
     """
+
+    name: str
+    title: str
+    reference: str
+    text: str
+    n: int
+    m: int
+    coordinates: tuple[str, ...]
+    invariants: tuple[str, ...]
+    observed: tuple[str, ...]
+    tags: tuple[str, ...]
+    events: tuple[str, ...]
+    parameters: dict[str, float]
+    properties: frozenset[str]
+    defaults: dict[str, str]
+    _model: Any
+    _system: Any
 
     def __init__(self, text: str, name: str = 'system'):
         self._make(text, name, ())
@@ -65,7 +87,7 @@ class System:
         self.name, self.text, self.observed = name, text, observed
         self._model = self._read()
         for number, formula in enumerate(observed, 1):
-            call(lib.dal_model_observe, self._model, formula.encode(), number, 1)
+            call(lib.dal_model_observe, self._model, encode(formula), number, 1)
         self._system = self._derive(self._model)
         s = self._system
         self.title, self.reference = text_of(s.title), text_of(s.reference)
@@ -81,10 +103,10 @@ class System:
     @classmethod
     def builtin(cls, name: str) -> System:
         """A system of the library, ``'chaplygin-sleigh'``; see `builtin_systems`."""
-        text = lib.dal_builtin_text(name.encode())
+        text = lib.dal_builtin_text(encode(name))
         if not text:  # the message has the nearest name
             model = ffi.new('dal_model **')
-            call(lib.dal_model_builtin, model, name.encode())
+            call(lib.dal_model_builtin, model, encode(name))
         return cls(text_of(text), name)
 
     @classmethod
@@ -123,14 +145,14 @@ class System:
 
     def _read(self) -> Any:
         model, text = ffi.new('dal_model **'), self.text.encode()
-        call(lib.dal_model_read, model, self.name.encode(), text, len(text))
-        return ffi.gc(model[0], lib.dal_model_free)
+        call(lib.dal_model_read, model, encode(self.name), text, len(text))
+        return owned(model[0], lib.dal_model_free)
 
     @staticmethod
     def _derive(model: Any) -> Any:
         system = ffi.new('dal_system **')
         call(lib.dal_model_system, model, system)
-        return system[0]
+        return borrowed(system[0], model)
 
     def _read_defaults(self) -> dict[str, str]:
         found, name = {}, ffi.new('char **')
@@ -163,7 +185,7 @@ class System:
         other._model = other._read()
         try:
             call(lib.dal_model_add, other._model, lib.DAL_SECTION_INVARIANTS, name.encode(),
-                 text.encode(), 1, 1)
+                 encode(text), 1, 1)
             other._system = self._derive(other._model)
         except Error as error:
             # Before what is behind '=' stand three more characters: '(' and ')-(' for '='.

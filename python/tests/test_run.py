@@ -1,4 +1,5 @@
 """Runs: closed forms, the rows of the program, failures, interruption."""
+import gc
 import io
 import signal
 import subprocess
@@ -132,6 +133,78 @@ def test_save_and_restore(oscillator):
             second.restore(bad)
 
 
+def test_impossible_checkpoints(oscillator):
+    """A number that no run has is refused by name, and changes nothing."""
+    run = dalembert.Run(oscillator, 'gauss4', step=0.1, space='physical')
+    run.advance(50)
+    saved = run.save()
+    for place, value, name in ((6, 1.5, 'number of steps'), (7, -1.0, 'number of evaluations'),
+                               (8, 2.0, 'uses_newton'), (0, np.nan, 'not finite')):
+        bad = np.frombuffer(saved).copy()
+        bad[place] = value
+        with pytest.raises(dalembert.InputError, match=name):
+            run.restore(bad.tobytes())
+        assert run.save() == saved
+    run.restore(saved)
+
+
+@pytest.mark.parametrize('make', [
+    lambda system: dalembert.Run(system, 'gauss4', step=0.1),
+    lambda system: dalembert.Batch(system, 'gauss4', 3, step=0.1),
+])
+def test_attributes_are_read_only(make):
+    """The model lives as long as what steps it, whatever becomes of attributes."""
+    other = make('vertical-disk')
+    stepped = make('chaplygin-sleigh')
+    for name in ('system', 'dimension', 'names', 'integrator'):
+        with pytest.raises(AttributeError, match='read-only'):
+            setattr(stepped, name, getattr(other, name))
+        with pytest.raises(AttributeError, match='read-only'):
+            delattr(stepped, name)
+    for name in ('_model', '_system', 'events', 'parameters'):
+        with pytest.raises(AttributeError, match='read-only'):
+            delattr(stepped.system, name)
+    vars(stepped).pop('system')
+    gc.collect()
+    fill = [dalembert.System.builtin('vertical-disk') for _ in range(20)]
+    stepped.advance(100)
+    assert np.allclose(np.ravel(stepped.time), 10) and len(fill) == 20
+    stepped.label = 'mine'
+    stepped.label = 'yours'
+    del stepped.label
+
+
+@pytest.mark.parametrize('steps', [-1, float('nan'), float('inf'), 2.5, '3', None])
+def test_bad_steps(oscillator, steps):
+    for stepped in dalembert.Run(oscillator, 'rk4'), dalembert.Batch(oscillator, 'rk4', 2):
+        with pytest.raises(dalembert.InputError, match='cannot be taken'):
+            stepped.advance(steps)
+        assert np.all(stepped.time == 0)
+
+
+@pytest.mark.parametrize('call', [
+    lambda run: run.index('x\0y'),
+    lambda run: run.set_parameter('k\0', 1),
+    lambda run: run.compile('cache\0'),
+    lambda run: run.compile(compiler='cc\0'),
+    lambda run: dalembert.Run(run.system, 'rk4\0'),
+    lambda run: dalembert.Run(run.system, 'rk4', space='physical\0'),
+    lambda run: dalembert.Run(run.system, 'rk4', start={'x\0': 1}),
+    lambda run: dalembert.Run(run.system, 'rk4', parameters={'k\0': 1}),
+    lambda run: dalembert.Batch(run.system, 'rk4', 2).set_parameter('k\0', 1),
+    lambda run: dalembert.System.builtin('chaplygin-sleigh\0'),
+    lambda run: dalembert.System(run.system.text, 'name\0'),
+    lambda run: run.system.observe('x\0'),
+    lambda run: dalembert.section(run.system, 'x\0', 'rk4', 1),
+    lambda run: dalembert.order(run.system, 'rk4', 1, reference='gauss8\0'),
+    lambda run: dalembert.generate(run.system, 'rk4', prefix='name\0'),
+    lambda run: dalembert.ensemble(run.system, 'rk4', members=2, seed=1, times=1, vary={'x': 'uniform(0,1)\0'}),
+])
+def test_names_with_nul(oscillator, call):
+    with pytest.raises(dalembert.InputError, match='has a NUL'):
+        call(dalembert.Run(oscillator, 'rk4'))
+
+
 def test_set_state(oscillator):
     run = dalembert.Run(oscillator, 'gauss8', step=0.1, space='physical')
     run.set_state([0, 1], time=0)
@@ -252,6 +325,7 @@ class Alarm(Exception):
     lambda run: dalembert.trend(run.system, 'rk4', 1e12),
     lambda run: dalembert.section(run.system, 'x', 'rk4', 1e12),
     lambda run: dalembert.lyapunov(run.system, 'rk4', 1e12),
+    lambda run: dalembert.order(run.system, 'rk4', 1e6, levels=2),
     lambda run: dalembert.Batch(run.system, 'rk4', 3).advance(2 ** 50),
 ])
 def test_signals(oscillator, endless):

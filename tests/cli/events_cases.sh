@@ -52,6 +52,39 @@ holds "not done" grep -q '"status": "done"' stopped/manifest.json
 try 0 resume stopped
 says "'stopped' is finished: 6 rows"
 
+# Every number of the state, with the right sum: none crashes, and what no run has is named.
+if there python3; then
+    case_is "a checkpoint whose numbers were changed"
+    change="python3 $here/change_checkpoint.py changed/checkpoint"
+    try 0 run $ball --time 1 --samples 10 --space physical --output ended
+    cp -r ended changed
+    numbers=$($change 0 count)
+    holds "fewer numbers than a state has" [ "$numbers" -gt 20 ]
+    : >messages
+    for value in nan 0.5 -3 1e18; do
+        number=0
+        while [ $number -lt "$numbers" ]; do
+            rm -rf changed
+            cp -r ended changed
+            rm -f changed/checkpoint.before
+            $change $number $value
+            "$program" resume changed >out 2>err
+            status=$?
+            holds "number $number is $value: exit $status" [ $status -le 3 ]
+            [ $status -ne 2 ] || holds "number $number is $value: no reason" grep -q "^dalembert: changed/checkpoint: \
+the checkpoint is damaged: persistent number" err
+            cat err >>messages
+            number=$((number + 1))
+        done
+    done
+    for name in "the time" "the number of steps" "the number of evaluations" "uses_newton" "the size of a substep" \
+        "the side of an event" "times that an event happened" "the event that stopped the run" \
+        "the number of events at one time" "the jump of an observable"; do
+        holds "no word of $name" grep -Eq "persistent number [0-9]+(, .*$name, is | is not finite)" messages
+    done
+    rm -rf changed
+fi
+
 case_is "infinitely many events"
 try 3 run $ball --set c=0.5 --time 3 --samples 3 --output endless
 says 'event 1 \(y - r\) happens infinitely often: number [0-9]* is at t = 1.35457'

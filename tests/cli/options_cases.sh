@@ -105,6 +105,38 @@ for native in off on; do
     says "the mass matrix became singular near t = 0.5"
 done
 
+case_is "tolerance: no smaller than what the precision can hold"
+printf "coordinates: [x]\nparameters: {m: 1}\nlagrangian: m*x'^2/2\n" >heavy.yaml
+for precision in double quad; do
+    [ $precision = double ] && min=5.4e-20 || min=4.7e-38
+    try 2 run ./heavy.yaml --integrator taylor --tolerance 1e-40 --precision $precision --step 1 --time 2
+    says "^dalembert: --tolerance: 1e-40 is below $min, the smallest in this precision$"
+    try 2 order ./heavy.yaml --tolerances 1e-5,1e-40 --precision $precision --time 2
+    says "^dalembert: --tolerances: 1e-40 is below $min, the smallest in this precision$"
+done
+for key in 'tolerance: [1e-5, 1e-40]' 'options: {tolerance: 1e-40}'; do
+    printf 'integrators: taylor\nstep: 1\ntime: 2\n%s\nsystems: [./heavy.yaml]\n' "$key" >tiny.yaml
+    try 2 study tiny.yaml --output tiny
+    says 'tiny.yaml:5:11: ./heavy.yaml: tolerance: 1e-40 is below 5.4e-20, the smallest in this precision$'
+done
+
+case_is "a setting is given once"
+try 2 run heavy.yaml --integrator rk4 --step 0.1 --time 1 --set m=1 --set m=2
+says '^dalembert: --set: m is given twice$'
+try 2 run heavy.yaml --integrator rk4 --step 0.1 --time 1 --set m=1,m=2
+says "1,m=2"
+try 2 run heavy.yaml --integrator rk4 --step 0.1 --time 1 --start x=1 --start "x'=2" --start x=1
+says '^dalembert: --start: x is given twice$'
+try 2 order heavy.yaml --start x=1 --start x=2
+says '^dalembert: --start: x is given twice$'
+for keys in 'set: {m: 1, m: 2}' 'start: {x: 1, x: 2}' 'displace: {p_x: 1, p_x: 2}' \
+    'options: {solver: newton, solver: auto}'; do
+    name=${keys#*{}
+    printf 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: heavy.yaml, %s}]\n' "$keys" >twice.yaml
+    try 2 study twice.yaml --output twice
+    says "twice.yaml:4:[0-9]*: the key '${name%%:*}' comes twice"
+done
+
 case_is "tolerance: compiled, the same bytes"
 try 0 run knife-edge --integrator dop853 --step 5 --time 10 --samples 1 \
     --tolerance 1e-10 --native on --output native.csv

@@ -1,0 +1,252 @@
+/* test_cache.c - compiled objects in a cache: which are loaded, which are compiled again, and what
+ * compilers leave that were killed. */
+#include "compiler.h"
+#include "dalembert_codegen.h"
+#include "fixtures.h"
+#include "folder.h"
+#include <CUnit/CUnit.h>
+#include <dirent.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+/* Tests run in a directory of their own. */
+static char place[] = "/tmp/dal-cache-XXXXXX";
+static int before; /* the directory that was */
+
+static int set_up(void)
+{
+    before = open(".", O_RDONLY | O_DIRECTORY);
+    return before < 0 || !mkdtemp(place) || chdir(place) != 0;
+}
+
+static int tear_down(void)
+{
+    const int back = fchdir(before);
+    folder_remove(place);
+    return close(before) || back;
+}
+
+static const char falling[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y^2/2\n"
+                              "start: {x: 1, y: 1}\n";
+
+static dal_run *new_run(const char *model)
+{
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.01);
+    return fixture_run(&spec);
+}
+
+/* ---- an object is taken from the cache while it is as it was written ---- */
+
+static const char kept[] = "kept"; /* a cache with one object, the only file in it */
+
+static char *only_object(char *path, size_t size)
+{
+    DIR *folder = opendir(kept);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(folder);
+    path[0] = '\0';
+    for (const struct dirent *entry; (entry = readdir(folder));)
+        if (entry->d_name[0] != '.') snprintf(path, size, "%s/%s", kept, entry->d_name);
+    closedir(folder);
+    return path;
+}
+
+/* The folders in a cache: compilations that are under way, or were killed. */
+static int folders_in(const char *path)
+{
+    struct stat s;
+    char name[512];
+    int count = 0;
+    DIR *folder = opendir(path);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(folder);
+    for (const struct dirent *entry; (entry = readdir(folder));) {
+        snprintf(name, sizeof name, "%s/%s", path, entry->d_name);
+        count += entry->d_name[0] != '.' && lstat(name, &s) == 0 && S_ISDIR(s.st_mode);
+    }
+    closedir(folder);
+    return count;
+}
+
+static char *content(const char *path, long *length)
+{
+    FILE *file = fopen(path, "rb");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
+    fseek(file, 0, SEEK_END);
+    *length = ftell(file);
+    rewind(file);
+    char *bytes = malloc((size_t)*length);
+    CU_ASSERT_EQUAL(fread(bytes, 1, (size_t)*length, file), (size_t)*length);
+    fclose(file);
+    return bytes;
+}
+
+static void put_content(const char *path, const char *bytes, long length)
+{
+    FILE *file = fopen(path, "wb");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
+    CU_ASSERT_EQUAL(fwrite(bytes, 1, (size_t)length, file), (size_t)length);
+    fclose(file);
+}
+
+/* How often the compiler has been called, which leaves a letter each time. */
+static long compilations(void)
+{
+    struct stat s;
+    return stat("called", &s) == 0 ? (long)s.st_size : 0;
+}
+
+static void use_cache(const char *model)
+{
+    dal_run *run = new_run(model);
+    const dal_native_options counted = {.cache = kept, .compiler = "./fake"};
+    CU_ASSERT_EQUAL(dal_run_native(run, &counted, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    dal_run_free(run);
+    CU_ASSERT_EQUAL(folder_files(kept), 1);
+}
+
+/* Any byte of it, of what the loader never reads too; cut short, or longer, or empty. */
+static void test_changed_object(void)
+{
+    const char *const model = falling;
+    char path[512];
+    long length, again;
+    compiler_fake("printf x >>called; exec cc \"$@\"");
+    use_cache(model);
+    use_cache(model);
+    CU_ASSERT_EQUAL(compilations(), 1);
+    char *bytes = content(only_object(path, sizeof path), &length);
+    for (int damage = 0; damage < 6; damage++) {
+        const long at[] = {length - 1, length - 8, length - 9, 4};
+        char *other = malloc((size_t)length + 1);
+        memcpy(other, bytes, (size_t)length);
+        other[length] = 'x';
+        if (damage < 4) other[at[damage]] ^= 1;
+        put_content(path, other, damage < 4 ? length : damage == 4 ? length + 1 : length - 1);
+        free(other);
+        use_cache(model);
+        CU_ASSERT_EQUAL(compilations(), damage + 2);
+        other = content(path, &again);
+        CU_ASSERT(again == length && memcmp(other, bytes, (size_t)length) == 0);
+        free(other);
+    }
+    put_content(path, "", 0);
+    use_cache(model);
+    CU_ASSERT_EQUAL(compilations(), 8);
+    free(bytes);
+    unlink("called");
+    unlink("fake");
+    folder_remove(kept);
+}
+
+/* An object that others may write, or that is another user's, or no file, is made again. */
+static void test_object_of_others(void)
+{
+    static const mode_t modes[] = {0720, 0702, 0777};
+    char path[512];
+    struct stat s;
+    compiler_fake("printf x >>called; umask 0; exec cc \"$@\"");
+    use_cache(falling);
+    only_object(path, sizeof path);
+    for (int i = 0; i < 5; i++) {
+        bool is_bad = true;
+        if (i < 3) CU_ASSERT_EQUAL(chmod(path, modes[i]), 0);
+        if (i == 3) is_bad = chown(path, 12345, (gid_t)-1) == 0; /* only root may give it away */
+        if (i == 4) {
+            CU_ASSERT_EQUAL(rename(path, "moved"), 0);
+            CU_ASSERT_EQUAL(symlink("../moved", path), 0);
+        }
+        const long made = compilations();
+        use_cache(falling);
+        CU_ASSERT_EQUAL(compilations(), made + is_bad);
+        CU_ASSERT_EQUAL_FATAL(lstat(path, &s), 0);
+        CU_ASSERT(S_ISREG(s.st_mode) && s.st_uid == geteuid() && (s.st_mode & 077) == 0);
+    }
+    unlink("moved");
+    unlink("called");
+    unlink("fake");
+    folder_remove(kept);
+}
+
+/* The next compilation removes the folders of those that were killed, not that of one that lives:
+ * a compiler that waits for a pipe, as a run does that was killed while it runs. */
+static void test_abandoned(void)
+{
+    enum { HASH = 32 };
+    const dal_native_options waiting = {.cache = kept, .compiler = "./fake", .patience = 600};
+    char folder[64], file[80];
+    dal_native *native = NULL;
+    int status = 0;
+    dal_run *run = new_run(falling);
+    CU_ASSERT_EQUAL_FATAL(mkfifo("held", 0600), 0);
+    const int pipe = open("held", O_RDWR);
+    compiler_fake("read line <held; exec cc \"$@\"");
+    const pid_t killed = fork();
+    if (killed == 0) {
+        dal_native_begin(&native, run, &waiting, NULL);
+        _exit(0); /* and leaves its folder to the compiler, which lives */
+    }
+    CU_ASSERT_EQUAL(waitpid(killed, &status, 0), killed);
+    snprintf(folder, sizeof folder, "%s/%0*d.so.killed", kept, HASH, 0);
+    CU_ASSERT_EQUAL(mkdir(folder, 0700), 0);
+    for (int i = 0; i < 3; i++) {
+        snprintf(file, sizeof file, "%s/%s", folder, i == 0 ? "code.c" : i == 1 ? "code.so" : "x");
+        put_content(file, "int x;", 6);
+    }
+    CU_ASSERT_EQUAL(folders_in(kept), 2);
+    dal_run *other = new_run("vertical-disk");
+    CU_ASSERT_EQUAL(dal_run_native(other, &(dal_native_options){.cache = kept}, NULL), DAL_OK);
+    CU_ASSERT_NOT_EQUAL(access(folder, F_OK), 0);
+    CU_ASSERT_EQUAL(folders_in(kept), 1);
+    CU_ASSERT_EQUAL(write(pipe, "\n", 1), 1); /* the compiler goes on, and ends */
+    for (int i = 0; i < 600 && folders_in(kept) > 0; i++) {
+        nanosleep(&(struct timespec){0, 100000000}, NULL);
+        dal_run *next = new_run("vertical-disk");
+        CU_ASSERT_EQUAL(dal_run_native(next, &(dal_native_options){.cache = kept}, NULL), DAL_OK);
+        dal_run_free(next);
+    }
+    CU_ASSERT_EQUAL(folders_in(kept), 0);
+    dal_run_free(run);
+    dal_run_free(other);
+    close(pipe);
+    unlink("held");
+    unlink("fake");
+    folder_remove(kept);
+}
+
+/* Another text, and another command, has an object of its own. */
+static void test_objects_apart(void)
+{
+    const char *const compilers[] = {"./fake", "./same"};
+    compiler_fake("exec cc \"$@\"");
+    CU_ASSERT_EQUAL(symlink("fake", "same"), 0);
+    for (int i = 0; i < 4; i++) {
+        const dal_native_options with = {.cache = kept, .compiler = compilers[i % 2]};
+        const dal_run_spec spec = fixture_spec(fixture_system(falling),
+                                               i < 2 ? "rk4" : "stormer-verlet", DAL_PHYSICAL, 0.1);
+        dal_run *run = fixture_run(&spec);
+        CU_ASSERT_EQUAL(dal_run_native(run, &with, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(folder_files(kept), i + 1);
+        dal_run_free(run);
+    }
+    unlink("fake");
+    unlink("same");
+    folder_remove(kept);
+}
+
+void suite_cache(void);
+void suite_cache(void)
+{
+    CU_pSuite suite = CU_add_suite("cache", set_up, tear_down);
+    if (!compiler_there()) return;
+    CU_add_test(suite, "an object that was changed", test_changed_object);
+    CU_add_test(suite, "objects of other texts and commands", test_objects_apart);
+    CU_add_test(suite, "objects that others may write", test_object_of_others);
+    CU_add_test(suite, "folders of compilers that were killed", test_abandoned);
+}
