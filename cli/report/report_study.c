@@ -61,9 +61,8 @@ static int report_expectations(report *r)
 {
     report_csv csv = {.text = NULL};
     char *path = cli_join(r->directory, "expectations.csv");
-    const int status = access(path, F_OK) == 0 ? report_csv_read(&csv, path) : CLI_DONE;
+    const int status = access(path, F_OK) == 0 ? read_steps(&csv, path) : CLI_DONE;
     int met = 0;
-    report_csv_append(&csv, "step", "tolerance");
     for (int row = 1; row < csv.rows; row++) met += report_csv_is(&csv, row, "met", "yes");
     if (csv.rows > 1) {
         fprintf(r->page, "<h2>Expectations</h2>\n<p>%d of %d are met.</p>\n", met, csv.rows - 1);
@@ -368,8 +367,7 @@ static int report_label(const study_page *s, const char *label)
     } else if (access(path, F_OK) != 0) {
         fputs("<p>The runs keep no rows, so there is nothing to draw over time.</p>\n", s->r->page);
     } else {
-        status = report_csv_read(&f->series, path);
-        report_csv_append(&f->series, "step", "tolerance");
+        status = read_steps(&f->series, path);
         if (status == CLI_DONE) status = write_data(f);
         if (status == CLI_DONE) status = draw_label(f);
     }
@@ -523,8 +521,7 @@ int report_study(report *r)
     study_page *s = cli_calloc(1, sizeof *s);
     char *path = cli_join(r->directory, "cells.csv");
     s->r = r;
-    int status = report_csv_read(&s->cells, path);
-    report_csv_append(&s->cells, "step", "tolerance");
+    int status = read_steps(&s->cells, path);
     for (int row = 1; status == CLI_DONE && row < s->cells.rows; row++) {
         report_add_word(&s->labels, get_cell(s, row, "label"));
         report_add_word(&s->methods, get_cell(s, row, "integrator"));
