@@ -235,9 +235,9 @@ END_OF_SYSTEM
         ! grep -q '<img' alone/report/index.html"
 
     case_is "angles and positions have axes of their own"
-    holds "other curves among the angles" test "$(sed -n 's/.*title "\([a-z]*\)".*/\1/p' pulled/report/angles.gp)" = phi
+    holds "other curves among the angles" test "$(sed -n 's/.*title [^a-z]\([a-z]*\)[^a-z].*/\1/p' pulled/report/angles.gp)" = phi
     holds "other curves among the positions" test \
-        "$(sed -n 's/.*title "\([a-z]*\)".*/\1/p' pulled/report/coordinates.gp | tr '\n' ' ')" = "x s "
+        "$(sed -n 's/.*title [^a-z]\([a-z]*\)[^a-z].*/\1/p' pulled/report/coordinates.gp | tr '\n' ' ')" = "x s "
 
     # x = cos t: 16,000 rows in 637 half periods; rows a period apart, where x is 1 and x' is 0 but
     # y = sin t is not at rest; and 64 rows in a period.
@@ -276,7 +276,7 @@ systems: [nonholonomic-particle]
 END_OF_STUDY
     try 0 study families.yaml --no-page --output families
     try 0 report families
-    holds "other curves" test "$(sed -n 's/^ .*title "\([^"(]*\) .*/\1/p' \
+    holds "other curves" test "$(sed -n 's/^ .*title [^a-z]\([^(]*\) (.*/\1/p' \
         families/report/nonholonomic-particle-D.gp | tr '\n' ,)" = \
         "Runge-Kutta: rk4,Gauss: gauss6,symplectic: symplectic-euler-10,constraint form: gni,projected: gauss4+project,energy-preserving: discrete-gradient,"
 
