@@ -254,9 +254,10 @@ static bool is_new(const results *all, int begin, int i, bool by_size)
     return s.n > 0;
 }
 
-static int draw_sizes(report *r, const results *all, int begin, int end, const char *method)
+/* Of the method of the result `first`. */
+static int draw_sizes(report *r, const results *all, int begin, int end, int first)
 {
-    char name[2 * MAX_WORD];
+    char name[MAX_WORD], *method = cli_strdup(parse_sized(all, first).method);
     report_plot plot = {.name = name,
                         .title = method,
                         .xlabel = "n",
@@ -265,7 +266,7 @@ static int draw_sizes(report *r, const results *all, int begin, int end, const c
                         .log_x = true,
                         .log_y = true,
                         .has_marks = true};
-    snprintf(name, sizeof name, "sizes-%s", method);
+    snprintf(name, sizeof name, "sizes-%d", first);
     for (int e = 0; e < 2; e++) {
         plot_curve *curve = report_curve(&plot, engines[e][1]);
         for (int i = begin; i < end; i++) {
@@ -274,7 +275,9 @@ static int draw_sizes(report *r, const results *all, int begin, int end, const c
                 report_point(&plot, curve, s.n, get_number(all, i, "median"));
         }
     }
-    return report_draw(r, &plot);
+    const int status = report_draw(r, &plot);
+    free(method);
+    return status;
 }
 
 /* The row of a method and an engine, with a cell for each size. */
@@ -300,8 +303,7 @@ static int write_sizes(report *r, const results *all, int begin, int end)
     int status = CLI_DONE;
     fputs("<div class=\"figures\">\n", r->page);
     for (int i = begin; i < end && status == CLI_DONE; i++)
-        if (is_new(all, begin, i, false))
-            status = draw_sizes(r, all, begin, end, parse_sized(all, i).method);
+        if (is_new(all, begin, i, false)) status = draw_sizes(r, all, begin, end, i);
     fputs("</div>\n" REPORT_TABLE "<th>method</th><th></th>", r->page);
     for (int i = begin; i < end; i++)
         if (is_new(all, begin, i, true)) fprintf(r->page, "<th>n = %d</th>", parse_sized(all, i).n);

@@ -105,7 +105,7 @@ enum { DAL_LAYERS = 4 /* max integrators in a method: one, and modifiers */ };
 /* An integrator and the modifiers around it.  An integrator that is not in the library is used by
  * its address: {{&my_integrator}}. */
 typedef struct dal_method {
-    const dal_integrator *layer[DAL_LAYERS]; /* innermost first; unused ones are NULL */
+    const dal_integrator *layer[DAL_LAYERS]; /* innermost first; the rest is NULL */
 } dal_method;
 
 /* Integrator or modifier number i of the library, from 0; NULL past the last. */

@@ -68,6 +68,12 @@ static void test_refusals(void)
     spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
     spec.method.layer[0] = NULL;
     fixture_refused(&spec, DAL_ARGUMENT, "integrator");
+    /* Layers after a gap would not act. */
+    CU_ASSERT_EQUAL(dal_method_parse(&spec.method, "rk4+project", NULL), DAL_OK);
+    spec.method.layer[3] = spec.method.layer[1];
+    fixture_refused(&spec, DAL_ARGUMENT, "layer 3 of the method is missing: layer 4 is 'project'");
+    spec.method.layer[0] = NULL;
+    fixture_refused(&spec, DAL_ARGUMENT, "layer 1 of the method is missing: layer 2 is 'project'");
 }
 
 static void test_settings(void)

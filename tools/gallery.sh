@@ -26,14 +26,14 @@ cd "$top"
 for directory in study disk board sleigh skate skate-study; do
     "$program" report "$work/$directory" >/dev/null
 done
-cp "$work/study/report/transmission-E.svg" "$2/drift.svg"
-cp "$work/study/report/sleigh-work.svg" "$2/work.svg"
+cp "$work/study/report/1-E.svg" "$2/drift.svg"
+cp "$work/study/report/2-work.svg" "$2/work.svg"
 cp "$work/disk/report/path.svg" "$2/disk.svg"
 cp "$work/board/report/path.svg" "$2/board.svg"
 cp "$work/section/report/section.svg" "$2/section.svg"
 cp "$work/skate/report/path.svg" "$2/skate_path.svg"
-cp "$work/skate-study/report/skate-D.svg" "$2/skate_constraint.svg"
-cp "$work/skate-study/report/skate-E.svg" "$2/skate_energy.svg"
+cp "$work/skate-study/report/1-D.svg" "$2/skate_constraint.svg"
+cp "$work/skate-study/report/1-E.svg" "$2/skate_energy.svg"
 moves() { python3 tools/motion-svg.py "$work/$1/report/index.html" "$2" >"$3"; }
 moves disk "A disk rolls along a ring and leans to and fro" "$2/disk_motion.svg"
 moves board "A snakeboard glides and turns its axles" "$2/board_motion.svg"

@@ -5,6 +5,8 @@
 #include "ui/message.h"
 #include "ui/options.h"
 
+#include "text.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,8 +113,14 @@ const char *document_scalar(const document *doc, const yaml_node_t *node, const 
         return NULL;
     }
     const char *value = (const char *)node->data.scalar.value;
-    if (strlen(value) == node->data.scalar.length) return value;
-    document_fail(doc, node, "%s: a NUL in the text", what);
+    const long control = text_find_control(value, TEXT_LINES);
+    if (strlen(value) < node->data.scalar.length)
+        document_fail(doc, node, "%s: a NUL in the text", what);
+    else if (control >= 0)
+        document_fail(doc, node, "%s: the control character U+%04lX in the text", what,
+                      (unsigned long)control);
+    else
+        return value;
     return NULL;
 }
 
@@ -220,6 +228,7 @@ int document_check_mapping(const document *doc, const yaml_node_t *node, const c
 yaml_node_t *document_value(const document *doc, const yaml_node_t *node, const char *name)
 {
     document_pair pair;
+    if (!node || node->type != YAML_MAPPING_NODE) return NULL;
     for (int i = 0; document_get_pair(doc, node, i, &pair); i++)
         if (pair.key->type == YAML_SCALAR_NODE && strcmp(pair.name, name) == 0) return pair.value;
     return NULL;

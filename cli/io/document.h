@@ -30,7 +30,8 @@ yaml_node_t *document_node(const document *doc, int number);
 /* The number of a scalar among words; -1 after a message with the nearest of them. */
 int document_word(const document *doc, const yaml_node_t *node, const char *what,
                   const char *const *words, int count);
-/* The text of a scalar, which lives as long as the document; NULL after a message. */
+/* The text of a scalar, which lives as long as the document; NULL after a message, also where it
+ * has control characters other than tabs and line ends. */
 const char *document_scalar(const document *doc, const yaml_node_t *node, const char *what);
 int document_number(const document *doc, const yaml_node_t *node, const char *what, double *number);
 
@@ -70,7 +71,7 @@ bool document_get_pair(const document *doc, const yaml_node_t *node, int i, docu
  * it is none the message is "WHAT: CONTENTS are required". */
 int document_check_mapping(const document *doc, const yaml_node_t *node, const char *what,
                            const char *contents);
-/* The value of a key, NULL where the mapping has none of that name. */
+/* The value of a key; NULL where the mapping has none of that name, or there is no mapping. */
 yaml_node_t *document_value(const document *doc, const yaml_node_t *node, const char *name);
 
 /* ---- lists ---- */

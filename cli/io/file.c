@@ -4,6 +4,8 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
+#include "text.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -185,16 +187,10 @@ void cli_put_known(FILE *out, double x)
 
 void cli_put_text(FILE *out, const char *text)
 {
-    if (!strpbrk(text, ",\"\n")) {
+    if (strpbrk(text, ",\"") || text_find_control(text, "") >= 0)
+        text_write_quoted(out, '"', text);
+    else
         fputs(text, out);
-        return;
-    }
-    fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"') fputc('"', out);
-        fputc(*text, out);
-    }
-    fputc('"', out);
 }
 
 int cli_ends_in(const char *text, const char *ending)

@@ -39,7 +39,8 @@ uint64_t file_hash(uint64_t hash, const void *bytes, size_t length);
 void cli_put(FILE *out, double x);
 /* The same, and nothing where x is NaN: a cell of a CSV file is empty where there is no value. */
 void cli_put_known(FILE *out, double x);
-/* Writes a cell of a CSV file; one with a comma or a quote in it is quoted, as RFC 4180 has it. */
+/* Writes a cell of a CSV file; one with a comma or a quote in it is quoted, as RFC 4180 has it.
+ * Control characters become blanks, so that a row is a line. */
 void cli_put_text(FILE *out, const char *text);
 int cli_ends_in(const char *text, const char *ending);
 /* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */

@@ -1,10 +1,16 @@
-/* gnuplot.c - writing scripts for gnuplot and running them. */
+/* gnuplot.c - writing scripts for gnuplot and running them.
+ *
+ * gnuplot runs commands out of many places: in double quotes it runs what `...` encloses and
+ * expands @NAME, a line end begins a statement, and a file name that begins with < or | is a
+ * command.  So texts are in single quotes, where all of that is plain, and every file name is the
+ * caller's, after "./". */
 #include "gnuplot.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
 #include "file.h"
 #include "svg.h"
+#include "text.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -18,16 +24,7 @@
 
 enum { NOT_FOUND = 127, AXES_SIZE = 256 };
 
-void gnuplot_quote(FILE *script, const char *text)
-{
-    fputc('"', script);
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\') fputc('\\', script);
-        /* Back quotes would run a command. */
-        fputc(*text == '`' ? '\'' : *text, script);
-    }
-    fputc('"', script);
-}
+void gnuplot_quote(FILE *script, const char *text) { text_write_quoted(script, '\'', text); }
 
 void gnuplot_set(FILE *script, const char *what, const char *text)
 {
@@ -57,16 +54,20 @@ FILE *gnuplot_open(const char *directory, const char *name, const char *format, 
     char file[512];
     snprintf(file, sizeof file, "%s.gp", name);
     *path = cli_join(directory, file);
-    FILE *script = fopen(*path, "w");
+    snprintf(file, sizeof file, "./%s.%s", name, format);
+    /* An old picture would hide that none was drawn. */
+    char *picture = cli_join(directory, file);
+    const int removed = file_remove(picture);
+    free(picture);
+    FILE *script = removed == CLI_DONE ? fopen(*path, "w") : NULL;
     if (!script) {
-        cli_io("write", *path);
+        if (removed == CLI_DONE) cli_io("write", *path);
         free(*path);
         return NULL;
     }
     fprintf(script, "set terminal %s size %d,%d noenhanced font 'sans,12'\n",
             strcmp(format, "png") == 0 ? "pngcairo background 'white'" : "svg dynamic", width,
             height);
-    snprintf(file, sizeof file, "%s.%s", name, format);
     gnuplot_set(script, "output", file);
     fputs("set datafile separator comma\nset datafile missing ''\nset tics nomirror font ',11.5'\n"
           "set border 3\nset grid back lt 1 lw 1 lc rgb '#c0808080'\nlog_x = 0\nlog_y = 0\n",
@@ -102,7 +103,6 @@ static const char print_axes[] =
 /* Runs gnuplot and reads the axes that it prints. */
 static int run(const char *directory, const char *path, char axes[AXES_SIZE], bool *missing)
 {
-    const char *slash = strrchr(path, '/'), *script = slash ? slash + 1 : path;
     int state, ends[2];
     fflush(NULL);
     const pid_t parent = getpid();
@@ -118,6 +118,7 @@ static int run(const char *directory, const char *path, char axes[AXES_SIZE], bo
         prctl(PR_SET_PDEATHSIG, SIGTERM);
 #endif
         if (getppid() != parent) _exit(1);
+        char *script = cli_format(".%s", strrchr(path, '/'));
         if (chdir(directory) == 0) execlp("gnuplot", "gnuplot", script, (char *)NULL);
         _exit(errno == ENOENT ? NOT_FOUND : 1);
     }
@@ -148,8 +149,13 @@ int gnuplot_draw(const char *directory, FILE *script, const char *path, bool *mi
     if (status == CLI_DONE) status = run(directory, path, axes, missing);
     if (status != CLI_DONE) return status;
     /* NAME.gp has drawn NAME.svg or NAME.png. */
-    char *figure = cli_format("%.*ssvg", (int)strlen(path) - 2, path);
-    if (access(figure, F_OK) == 0) status = svg_tidy(figure, axes);
-    free(figure);
+    const int length = (int)strlen(path) - 2;
+    char *svg = cli_format("%.*ssvg", length, path), *png = cli_format("%.*spng", length, path);
+    if (file_exists(svg))
+        status = svg_tidy(svg, axes);
+    else if (!file_exists(png))
+        status = cli_fail(CLI_IO, "gnuplot drew nothing from '%s'", path);
+    free(svg);
+    free(png);
     return status;
 }

@@ -6,16 +6,18 @@
 #include <stdio.h>
 
 /* Begins DIR/NAME.gp with the terminal, the output NAME.FORMAT (svg or png) and the common style;
- * free *path, that of the script.  NULL after a message. */
+ * free *path, that of the script.  An old picture is removed.  No text of a file is a part of NAME.
+ * NULL after a message. */
 FILE *gnuplot_open(const char *directory, const char *name, const char *format, int width,
                    int height, char **path);
-/* Closes the script and runs gnuplot on it in DIR; an SVG figure has no background and is readable
- * in light and dark.  Returns CLI_DONE, or prints and returns an exit status; *missing, unless
- * NULL, is whether there is no gnuplot. */
+/* Closes the script and runs gnuplot on it in DIR, which must draw its picture; an SVG figure has
+ * no background and is readable in light and dark.  Returns CLI_DONE, or prints and returns an exit
+ * status; *missing, unless NULL, is whether there is no gnuplot. */
 int gnuplot_draw(const char *directory, FILE *script, const char *path, bool *missing);
 /* Whether there is a gnuplot to run. */
 bool gnuplot_is_there(void);
-/* A string of gnuplot, in quotes; the same as a setting: set WHAT "TEXT". */
+/* Any text as a string of gnuplot, in quotes, blanks for its control characters; the same as
+ * a setting: set WHAT 'TEXT'. */
 void gnuplot_quote(FILE *script, const char *text);
 void gnuplot_set(FILE *script, const char *what, const char *text);
 /* The colours of the curves, one after the other; and as "lc rgb C dt D" for more curves than

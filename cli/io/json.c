@@ -5,6 +5,7 @@
 #include "ui/message.h"
 
 #include "file.h"
+#include "text.h"
 
 #include <float.h>
 #include <math.h>
@@ -14,32 +15,11 @@
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-/* The bytes of the character of UTF-8 that begins here, and its code; 0: none does.  Overlong
- * forms, surrogates and codes beyond U+10FFFF are none (The Unicode Standard, table 3-7). */
-static int read_character(const char *text, long *code)
-{
-    static const long min[] = {0, 0, 0x80, 0x800, 0x10000};
-    const unsigned char *s = (const unsigned char *)text;
-    const int length = s[0] < 0x80   ? 1
-                       : s[0] < 0xc0 ? 0
-                       : s[0] < 0xe0 ? 2
-                       : s[0] < 0xf0 ? 3
-                       : s[0] < 0xf8 ? 4
-                                     : 0;
-    *code = length > 1 ? s[0] & (0x7f >> length) : s[0];
-    for (int i = 1; i < length; i++) {
-        if ((s[i] & 0xc0) != 0x80) return 0;
-        *code = *code << 6 | (s[i] & 0x3f);
-    }
-    if (*code < min[length] || *code > 0x10ffff) return 0;
-    return *code < 0xd800 || *code > 0xdfff ? length : 0;
-}
-
 /* Controls, line ends (U+2028, U+2029), the mark of byte order and what is no character. */
 static bool is_escaped(long code)
 {
-    return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x2028 || code == 0x2029 ||
-           code == 0xfeff || code == 0xfffe || code == 0xffff;
+    return text_is_control(code) || code == 0x2028 || code == 0x2029 || code == 0xfeff ||
+           code == 0xfffe || code == 0xffff;
 }
 
 static void put_text(FILE *out, const char *text)
@@ -51,7 +31,7 @@ static void put_text(FILE *out, const char *text)
     }
     fputc('"', out);
     while (*text) {
-        const int length = read_character(text, &code);
+        const int length = text_read_character(text, &code);
         if (length == 0)
             fputs("\\ufffd", out);
         else if (code == '"' || code == '\\')
@@ -287,7 +267,7 @@ static int parse_text(json_reader *r)
     char *text = cli_malloc((size_t)(end - r->at)), *to = text;
     long code = 0;
     while (code >= 0 && *r->at != '"') {
-        const int length = read_character(r->at, &code);
+        const int length = text_read_character(r->at, &code);
         if (code == '\\')
             code = read_escape(r);
         else if (length == 0 || code < 0x20)

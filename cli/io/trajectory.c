@@ -20,6 +20,7 @@
 #include "trajectory.h"
 #include "endian.h"
 #include "file.h"
+#include "text.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -185,6 +186,13 @@ static int read_header(trajectory_reader *r)
     if (r->columns == 0) free(text);
     if (ferror(r->file)) return cli_io("read", r->path);
     if (!is_header) return cli_fail(CLI_USAGE, "'%s' is no .npy file of named doubles", r->path);
+    for (int i = 0; i < r->columns; i++) {
+        const long control = text_find_control(r->name[i], "");
+        if (control >= 0)
+            return cli_fail(CLI_USAGE,
+                            "'%s': the name of column %d has the control character U+%04lX",
+                            r->path, i + 1, (unsigned long)control);
+    }
     if ((size - r->offset) / WORD / (size_t)r->columns >= (size_t)r->count) return CLI_DONE;
     return cli_fail(CLI_IO, "'%s' has fewer rows than its header states", r->path);
 }

@@ -1,8 +1,16 @@
 /* report_cells.c - the cells of a study, and the quantities that its tables and figures show. */
 #include "report_cells.h"
+#include "ui/message.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+
+int read_steps(report_csv *csv, const char *path)
+{
+    const int status = report_csv_read(csv, path);
+    if (status == CLI_DONE) report_csv_append(csv, "step", "tolerance");
+    return status;
+}
 
 double step_tolerance(const char *step)
 {

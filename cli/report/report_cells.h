@@ -14,8 +14,10 @@ typedef struct study_page {
     char *title[REPORT_WORDS]; /* of the system of each label, or the label */
 } study_page;
 
-/* A step and its tolerance are one text on the page, as report_csv_append makes it: "h = 0.1", or
- * "h = 0.1, tolerance 1e-06"; its tolerance, 0 for none. */
+/* Reads a table of cells or orders, in which a step and its tolerance become one text under "step":
+ * "0.1 1e-6"; otherwise as report_csv_read. */
+int read_steps(report_csv *csv, const char *path);
+/* Such a text on the page: "h = 0.1", or "h = 0.1, tolerance 1e-06"; its tolerance, 0 for none. */
 enum { STEP_TITLE = 80 };
 const char *step_title(char title[STEP_TITLE], const char *step);
 double step_tolerance(const char *step);

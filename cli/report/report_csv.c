@@ -2,6 +2,7 @@
 #include "report_csv.h"
 
 #include "io/file.h"
+#include "io/text.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -28,33 +29,75 @@ static char *cut_cell(char *text, char *separator)
     return next;
 }
 
-int report_csv_read(report_csv *csv, const char *path)
+/* Counts rows, and columns of the first one.  All of them are whole. */
+static int count_cells(report_csv *csv, const char *path, size_t length)
 {
-    size_t length;
     bool quoted = false;
-    *csv = (report_csv){.text = file_read(path, &length)};
-    if (!csv->text) return CLI_IO;
-    for (const char *c = csv->text; *c; c++) {
+    char before = '\0';
+    if (strlen(csv->text) < length)
+        return cli_fail(CLI_USAGE, "%s: byte %zu is a NUL", path, strlen(csv->text) + 1);
+    for (const char *c = csv->text; *c; before = *c++) {
         if (*c == '"') quoted = !quoted;
         if (quoted || (*c != ',' && *c != '\n')) continue;
         csv->columns += csv->rows == 0;
         csv->rows += *c == '\n';
     }
     if (csv->rows == 0) return cli_fail(CLI_USAGE, "'%s' has no rows", path);
-    csv->cell = cli_calloc((size_t)csv->rows * (size_t)csv->columns + 1, sizeof *csv->cell);
-    /* Rows shorter than the heads get empty cells, longer ones lose the rest. */
-    char *next = csv->text, separator;
-    for (int row = 0; row < csv->rows; row++) {
-        int column = 0;
-        do {
-            char *cell = next;
-            next = cut_cell(next, &separator);
-            if (column < csv->columns) csv->cell[row * csv->columns + column++] = cell;
-        } while (separator == ',');
-        while (column < csv->columns)
-            csv->cell[row * csv->columns + column++] = next + strlen(next);
-    }
+    if (quoted || before != '\n')
+        return cli_fail(CLI_USAGE, "%s:%d: the file ends within a row", path, csv->rows + 1);
     return CLI_DONE;
+}
+
+/* Cuts a row into cells, one for each head, and moves to the next row. */
+static int cut_row(const report_csv *csv, const char *path, int row, char **next)
+{
+    char separator, **cell = csv->cell + (size_t)row * (size_t)csv->columns;
+    int count = 0;
+    do {
+        char *text = *next;
+        *next = cut_cell(text, &separator);
+        if (count < csv->columns) cell[count] = text;
+        count++;
+    } while (separator == ',');
+    if (count == csv->columns) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "%s:%d: %d columns, but the file has %d heads", path, row + 1, count,
+                    csv->columns);
+}
+
+/* A head is a text, and nothing has a control character. */
+static int check_cell(const report_csv *csv, const char *path, int row, int column)
+{
+    const char *text = csv->cell[row * csv->columns + column];
+    const long control = text_find_control(text, "");
+    if (row == 0 && !text[0])
+        return cli_fail(CLI_USAGE, "%s:1: column %d has no head", path, column + 1);
+    if (control < 0) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "%s:%d: column %d ('%s') has the control character U+%04lX", path,
+                    row + 1, column + 1, csv->cell[column], (unsigned long)control);
+}
+
+static int cut_rows(report_csv *csv, const char *path)
+{
+    int status = CLI_DONE;
+    char *next = csv->text;
+    csv->cell = cli_calloc((size_t)csv->rows * (size_t)csv->columns, sizeof *csv->cell);
+    for (int row = 0; row < csv->rows && status == CLI_DONE; row++) {
+        status = cut_row(csv, path, row, &next);
+        for (int column = 0; column < csv->columns && status == CLI_DONE; column++)
+            status = check_cell(csv, path, row, column);
+    }
+    return status;
+}
+
+int report_csv_read(report_csv *csv, const char *path)
+{
+    size_t length;
+    *csv = (report_csv){.text = file_read(path, &length)};
+    if (!csv->text) return CLI_IO;
+    int status = count_cells(csv, path, length);
+    if (status == CLI_DONE) status = cut_rows(csv, path);
+    if (status != CLI_DONE) report_csv_free(csv);
+    return status;
 }
 
 void report_csv_free(report_csv *csv)

@@ -11,7 +11,8 @@ typedef struct report_csv {
     int rows, columns;
 } report_csv;
 
-/* Returns CLI_DONE or prints and returns an exit status; free it in any case. */
+/* Reads a file of whole rows, with a head for each column and without control characters.  Returns
+ * CLI_DONE; or prints, returns an exit status and leaves no rows; free it in any case. */
 int report_csv_read(report_csv *csv, const char *path);
 void report_csv_free(report_csv *csv);
 /* Appends to each text under a head that under another one, after a space, where that is a positive

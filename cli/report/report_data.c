@@ -28,6 +28,14 @@ void data_write_string(FILE *page, const char *text)
     fputc('"', page);
 }
 
+void data_write_number(FILE *page, double x)
+{
+    if (isfinite(x))
+        fprintf(page, "%.9g", x);
+    else
+        fputs("null", page);
+}
+
 void data_write_levels(FILE *page, const uint16_t *level, int count)
 {
     char *bytes = cli_malloc(2 * (size_t)count + 1);
@@ -159,11 +167,13 @@ static void write_times(FILE *page, const report_csv *series, const cell_rows *l
         if (step_tolerance(steps->word[h]) > 0.0)
             data_write_string(page, step_title(title, steps->word[h]) + 4); /* without "h = " */
         else
-            fprintf(page, "%.9g", strtod(steps->word[h], NULL));
+            data_write_number(page, strtod(steps->word[h], NULL));
         fputs(",\"t\":[", page);
-        for (int i = 0; i < count; i++)
-            fprintf(page, "%s%.6g", i ? "," : "",
-                    report_csv_number(series, longest[h].first + chosen[i] - 1, "until"));
+        for (int i = 0; i < count; i++) {
+            fputs(i ? "," : "", page);
+            data_write_number(page,
+                              report_csv_number(series, longest[h].first + chosen[i] - 1, "until"));
+        }
         fputs("]}", page);
     }
     fputs("]", page);

@@ -13,6 +13,8 @@
 
 /* A string of JSON that may stand in HTML. */
 void data_write_string(FILE *page, const char *text);
+/* A number of JSON; null where it is not finite. */
+void data_write_number(FILE *page, double x);
 /* A string of JSON with integers of 16 bits, little-endian, in base64. */
 void data_write_levels(FILE *page, const uint16_t *level, int count);
 /* Begins and ends the element. */

@@ -155,23 +155,36 @@ static int draw_components(const ensemble_page *p, const char *title, const char
     return status;
 }
 
+/* A member of the ensemble in its manifest. */
+static int write_member(FILE *page, const document *doc, const char *name, const char *heading)
+{
+    const yaml_node_t *root = document_node(doc, 1);
+    yaml_node_t *value = document_value(doc, document_value(doc, root, "ensemble"), name);
+    int status = value ? CLI_DONE : document_fail(doc, root, "there is no %s of an ensemble", name);
+    for (int i = 0; status == CLI_DONE && i < document_count(value); i++) {
+        const char *text = document_scalar(doc, document_item(doc, value, i), name);
+        if (text)
+            report_fact(page, i == 0 ? heading : "", text);
+        else
+            status = CLI_USAGE;
+    }
+    return status;
+}
+
 /* What moves and how, how many members there are, and in what they differ. */
-static void write_facts(const ensemble_page *p, const run_request *request, const document *doc)
+static int write_facts(const ensemble_page *p, const run_request *request, const document *doc)
 {
     FILE *page = p->r->page;
-    const yaml_node_t *e = document_value(doc, document_node(doc, 1), "ensemble");
-    yaml_node_t *vary = document_value(doc, e, "vary");
     report_title(p->r, report_model_title(request->model, "An ensemble"));
     fputs(REPORT_FACTS, page);
     report_fact(page, "system", request->system_name);
     report_system(page, request->model, request);
     report_method(page, request);
-    report_fact(page, "members", document_scalar(doc, document_value(doc, e, "members"), ""));
-    report_fact(page, "seed", document_scalar(doc, document_value(doc, e, "seed"), ""));
-    for (int i = 0; i < document_count(vary); i++)
-        report_fact(page, i == 0 ? "added to each" : "",
-                    document_scalar(doc, document_item(doc, vary, i), ""));
+    int status = write_member(page, doc, "members", "members");
+    if (status == CLI_DONE) status = write_member(page, doc, "seed", "seed");
+    if (status == CLI_DONE) status = write_member(page, doc, "vary", "added to each");
     fputs(REPORT_FACTS_END, page);
+    return status;
 }
 
 static int describe_ensemble(const ensemble_page *p)
@@ -186,7 +199,7 @@ static int describe_ensemble(const ensemble_page *p)
     if (status == CLI_DONE)
         status = manifest_read_input(&request, &doc, document_node(&doc, 1), copy);
     if (status == CLI_DONE) status = cli_read(request.system_name, &request.model);
-    if (status == CLI_DONE) write_facts(p, &request, &doc);
+    if (status == CLI_DONE) status = write_facts(p, &request, &doc);
     request_free(&request);
     yaml_document_delete(&doc.yaml);
     free(copy);
@@ -206,7 +219,7 @@ static void write_statistics(const ensemble_page *p)
     for (int k = 1; k < csv->columns; k++) report_element(page, "th", csv->cell[k]);
     fputs(REPORT_ROWS, page);
     for (int row = csv->rows - p->columns.count; row < csv->rows; row++) {
-        report_row(page, csv->cell[row * csv->columns + 1]);
+        report_row(page, report_csv_get(csv, row, "column"));
         for (int k = 2; k < csv->columns; k++)
             report_number(page, "%.6g", report_csv_number(csv, row, csv->cell[k]));
         fputs("</tr>\n", page);
@@ -231,10 +244,12 @@ static int write_page(ensemble_page *p)
     return status;
 }
 
+/* The last of its heads in the files of this version, and the time that all rows have. */
 static int read_table(const ensemble_page *p, report_csv *csv, const char *name, const char *head)
 {
     char *path = cli_join(p->r->directory, name);
     int status = report_csv_read(csv, path);
+    if (status == CLI_DONE) status = report_csv_require(csv, path, "t");
     if (status == CLI_DONE) status = report_csv_require(csv, path, head);
     free(path);
     return status;

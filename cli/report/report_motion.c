@@ -128,7 +128,8 @@ int motion_read(motion *m, const char *run, int max_frames)
         if (count < 0) status = CLI_IO;
         m->body = p.body;
         memcpy(m->axis, p.axis, sizeof m->axis);
-        snprintf(m->method, sizeof m->method, "%s", p.request.text[REQUEST_integrator]);
+        const char *method = p.request.text[REQUEST_integrator];
+        snprintf(m->method, sizeof m->method, "%s", method ? method : "");
         m->step = p.request.options.step;
         if (count > 1) order_in_time(row, count);
         if (count > 1) make_frames(m, row, count, max_frames);
@@ -160,13 +161,19 @@ static void write_numbers(FILE *page, const motion *m, int which)
         high = fmax(high, m->pose[f][which]);
     }
     if (!(high > low)) {
-        fprintf(page, "[%.9g]", low);
+        fputc('[', page);
+        data_write_number(page, low);
+        fputc(']', page);
         return;
     }
     uint16_t *level = cli_calloc((size_t)m->frames, sizeof *level);
     for (int f = 0; f < m->frames; f++)
         level[f] = (uint16_t)lround((m->pose[f][which] - low) / (high - low) * UINT16_MAX);
-    fprintf(page, "[%.9g,%.9g,", low, high);
+    fputc('[', page);
+    data_write_number(page, low);
+    fputc(',', page);
+    data_write_number(page, high);
+    fputc(',', page);
     data_write_levels(page, level, m->frames);
     fputc(']', page);
     free(level);
@@ -191,11 +198,16 @@ void motion_write(FILE *page, const motion *m)
     };
     fputs("{\"method\":", page);
     data_write_string(page, m->method);
+    fputs(",\"step\":", page);
+    data_write_number(page, m->step);
+    fputs(",\"start\":", page);
+    data_write_number(page, m->start);
+    fputs(",\"end\":", page);
+    data_write_number(page, m->end);
     fprintf(page,
-            ",\"step\":%.9g,\"start\":%.9g,\"end\":%.9g,\"frames\":%d,\"smooth\":%s,"
+            ",\"frames\":%d,\"smooth\":%s,"
             "\"axes\":[\"%s\",\"%s\"],\"body\":\"%s\",\"parts\":[",
-            m->step, m->start, m->end, m->frames, m->is_smooth ? "true" : "false", m->axis[0],
-            m->axis[1], body_name[m->body]);
+            m->frames, m->is_smooth ? "true" : "false", m->axis[0], m->axis[1], body_name[m->body]);
     for (const body_part *first = body_next(m->body, NULL), *part = first; part;
          part = body_next(m->body, part)) {
         if (part != first) fputc(',', page);

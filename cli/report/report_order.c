@@ -61,13 +61,11 @@ static void write_head(const order_page *o)
     fputs(REPORT_FACTS_END, page);
 }
 
-/* The orders, errors and the cost of a step; then the methods that do not apply to the system, or
- * failed, and why. */
+/* The orders, errors and the cost of a step of the methods that have errors. */
 static void write_orders_table(const order_page *o)
 {
     FILE *page = o->r->page;
     char title[STEP_TITLE];
-    int failures = 0;
     fputs(REPORT_TABLE "<td></td><th>order, stated</th><th>order, found</th>", page);
     for (int h = 0; h < o->steps.count; h++)
         report_element(page, "th", step_title(title, o->steps.word[h]));
@@ -91,6 +89,13 @@ static void write_orders_table(const order_page *o)
     fputs(REPORT_TABLE_END
           "<p>An order is found where two successive slopes of the error agree.</p>\n",
           page);
+}
+
+/* The methods that do not apply to the system, or failed, and why. */
+static void write_failures(const order_page *o)
+{
+    FILE *page = o->r->page;
+    int failures = 0;
     for (int row = 1; row < o->csv.rows; row++) {
         if (report_csv_is(&o->csv, row, "message", "")) continue;
         fputs(failures++ ? "" : "<details><summary>methods without errors</summary>\n<ul>\n", page);
@@ -194,8 +199,7 @@ int report_order(report *r)
     char *path = cli_join(r->directory, "order.csv");
     o->r = r;
     int status = results_read(&o->results, r->directory, "order");
-    if (status == CLI_DONE) status = report_csv_read(&o->csv, path);
-    report_csv_append(&o->csv, "step", "tolerance");
+    if (status == CLI_DONE) status = read_steps(&o->csv, path);
     if (status == CLI_DONE && o->csv.rows < 2)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
     for (int row = 1; status == CLI_DONE && row < o->csv.rows; row++) {
@@ -209,8 +213,12 @@ int report_order(report *r)
         report_title(r, title);
         free(title);
         write_head(o);
-        write_orders_table(o);
-        status = draw_figures(o);
+        if (o->methods.count > 0)
+            write_orders_table(o);
+        else
+            fputs("<p>No method has errors to show.</p>\n", r->page);
+        write_failures(o);
+        if (o->methods.count > 0) status = draw_figures(o);
         report_file(r, "order.json", "what it was made with: order.json");
     }
     report_csv_free(&o->csv);

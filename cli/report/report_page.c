@@ -7,6 +7,7 @@
 #include "io/file.h"
 #include "io/gnuplot.h"
 #include "io/svg.h"
+#include "io/text.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -27,10 +28,12 @@ void report_text(FILE *page, const char *text)
                              : *text == '>' ? "&gt;"
                              : *text == '"' ? "&quot;"
                                             : NULL;
+        const unsigned char byte = (unsigned char)*text; /* from 0x80 on, of a longer character */
+        const bool is_control = byte < 0x80 && text_is_control(byte);
         if (entity)
             fputs(entity, page);
         else
-            fputc(*text, page);
+            fputc(is_control && !strchr(TEXT_LINES, *text) ? ' ' : *text, page);
     }
 }
 
@@ -65,10 +68,16 @@ void report_trend(FILE *page, const char *size, const char *trend, const char *n
     else if (strcmp(trend, "none") == 0 || strcmp(trend, "settles") == 0)
         colour = is_larger ? "bounded" : "kept";
     fprintf(page, "<td class=\"trend %s\">", colour);
-    if (size[0] && !is_exact) fprintf(page, "%s<br>", size);
-    fputs(is_exact ? "exact" : trend, page);
+    if (size[0] && !is_exact) {
+        report_text(page, size);
+        fputs("<br>", page);
+    }
+    report_text(page, is_exact ? "exact" : trend);
     if (!trend[0] && !number[0]) fputs("–", page);
-    if (number[0]) fprintf(page, "%s<small>%s</small>", trend[0] ? "<br>" : "", number);
+    if (number[0]) {
+        fputs(trend[0] ? "<br>" : "", page);
+        report_element(page, "small", number);
+    }
     fputs("</td>", page);
 }
 
@@ -121,7 +130,7 @@ int report_embed(report *r, const char *name, const char *alt, const char *capti
         report_base64(r->page, bytes, length);
     }
     fputs("' loading=\"lazy\">", r->page);
-    if (caption[0]) fprintf(r->page, "<figcaption>%s</figcaption>", caption);
+    if (caption[0]) report_element(r->page, "figcaption", caption);
     fputs("</figure>\n", r->page);
     r->figures++;
     free(bytes);

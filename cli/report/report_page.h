@@ -2,7 +2,10 @@
  *
  *     DIR/report/index.html   the page, which needs no other file
  *     DIR/report/NAME.gp      a gnuplot script with its data, to be edited and run again by hand
- *     DIR/report/NAME.svg     what it draws (or .png) */
+ *     DIR/report/NAME.svg     what it draws (or .png)
+ *
+ * Directories come from others: NAME is made of words of the program and of numbers, and no text of
+ * a file becomes a part of HTML, JSON, a script or a file name as it stands. */
 #ifndef DAL_CLI_REPORT_PAGE_H
 #define DAL_CLI_REPORT_PAGE_H
 
@@ -33,7 +36,8 @@ int report_make(report *r, int (*write)(report *r));
 int report_after(const char *directory, int status, int (*write)(report *r));
 /* Ends the head and begins the body with the title as its heading. */
 void report_title(report *r, const char *title);
-/* A text with &, <, > and quotes escaped; the same in an element. */
+/* A text with &, <, > and quotes escaped, and blanks for its control characters except tabs and
+ * line ends; the same in an element. */
 void report_text(FILE *page, const char *text);
 void report_element(FILE *page, const char *element, const char *text);
 /* Bytes as base64. */

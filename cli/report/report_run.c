@@ -292,11 +292,12 @@ static void write_summary(const run_page *run, double time)
     }
     fputs(REPORT_TABLE_END, page);
     for (int row = 1; row < csv->rows; row++)
-        if (report_csv_is(csv, row, "trend", ""))
-            fprintf(page,
-                    "<p>%s has neither size nor trend: the motion of this run need not "
-                    "conserve it.</p>\n",
-                    report_csv_get(csv, row, "observable"));
+        if (report_csv_is(csv, row, "trend", "")) {
+            fputs("<p>", page);
+            report_text(page, report_csv_get(csv, row, "observable"));
+            fputs(" has neither size nor trend: the motion of this run need not conserve it.</p>\n",
+                  page);
+        }
 }
 
 /* ---- the command --------------------------------------------------------------------------- */

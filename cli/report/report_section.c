@@ -80,6 +80,7 @@ int report_section(report *r)
     char *path = cli_join(r->directory, "section.csv");
     int status = results_read(&results, r->directory, "section");
     if (status == CLI_DONE) status = report_csv_read(&csv, path);
+    if (status == CLI_DONE) status = report_csv_require(&csv, path, "t");
     if (status == CLI_DONE) status = report_csv_require(&csv, path, "direction");
     if (status == CLI_DONE) {
         const char *on = results_text(&results, "request", "on");

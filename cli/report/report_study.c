@@ -12,6 +12,7 @@
 #include "io/document.h"
 #include "io/file.h"
 #include "io/gnuplot.h"
+#include "io/text.h"
 #include "report_cells.h"
 #include "report_csv.h"
 #include "report_data.h"
@@ -61,9 +62,8 @@ static int report_expectations(report *r)
 {
     report_csv csv = {.text = NULL};
     char *path = cli_join(r->directory, "expectations.csv");
-    const int status = access(path, F_OK) == 0 ? report_csv_read(&csv, path) : CLI_DONE;
+    const int status = access(path, F_OK) == 0 ? read_steps(&csv, path) : CLI_DONE;
     int met = 0;
-    report_csv_append(&csv, "step", "tolerance");
     for (int row = 1; row < csv.rows; row++) met += report_csv_is(&csv, row, "met", "yes");
     if (csv.rows > 1) {
         fprintf(r->page, "<h2>Expectations</h2>\n<p>%d of %d are met.</p>\n", met, csv.rows - 1);
@@ -82,6 +82,7 @@ static int report_expectations(report *r)
 typedef struct label_figures {
     const study_page *s;
     const char *label;
+    int number; /* of the label on the page, from 1 */
     report_csv series;
     report_words methods; /* those drawn: of many one of each family */
     bool are_families;
@@ -107,11 +108,11 @@ static const char *find_accuracy(const label_figures *f)
     return NULL;
 }
 
-/* A file name of a label, of what is drawn and of the number of a step. */
+/* A file name: "3-E-h2" is E at the second step of the third label. */
 static const char *name_plot(char name[PLOT_NAME], const label_figures *f, const char *what,
                              int step)
 {
-    const int n = snprintf(name, PLOT_NAME, "%.120s-%s", f->label, what);
+    const int n = snprintf(name, PLOT_NAME, "%d-%s", f->number, what);
     if (step > 0) snprintf(name + n, PLOT_NAME - (size_t)n, "-h%d", step + 1);
     return name;
 }
@@ -252,11 +253,10 @@ static int draw_best_path(const label_figures *f)
     const int best = find_best(f);
     if (best == 0) return CLI_DONE;
     char name[PLOT_NAME], caption[2 * PLOT_NAME], division[STEP_TITLE];
-    snprintf(name, sizeof name, "%.120s-path", f->label);
     snprintf(caption, sizeof caption, "The path by %.80s with %s.", get_cell(s, best, "integrator"),
              step_title(division, get_cell(s, best, "step")));
     char *run = cli_join(s->r->directory, get_cell(s, best, "run"));
-    const int status = report_path(s->r, run, name, caption);
+    const int status = report_path(s->r, run, name_plot(name, f, "path", 0), caption);
     free(run);
     return status;
 }
@@ -353,10 +353,12 @@ static void choose_methods(label_figures *f)
         f->methods = all;
 }
 
-static int report_label(const study_page *s, const char *label)
+/* Label i of the page. */
+static int report_label(const study_page *s, int i)
 {
+    const char *label = s->labels.word[i];
     label_figures *f = cli_calloc(1, sizeof *f);
-    *f = (label_figures){.s = s, .label = label};
+    *f = (label_figures){.s = s, .label = label, .number = i + 1};
     f->accuracy = find_accuracy(f);
     for (int row = 1; row < s->cells.rows; row++)
         if (is_of_label(f, row)) report_add_word(&f->steps, get_cell(s, row, "step"));
@@ -368,8 +370,7 @@ static int report_label(const study_page *s, const char *label)
     } else if (access(path, F_OK) != 0) {
         fputs("<p>The runs keep no rows, so there is nothing to draw over time.</p>\n", s->r->page);
     } else {
-        status = report_csv_read(&f->series, path);
-        report_csv_append(&f->series, "step", "tolerance");
+        status = read_steps(&f->series, path);
         if (status == CLI_DONE) status = write_data(f);
         if (status == CLI_DONE) status = draw_label(f);
     }
@@ -424,12 +425,13 @@ static int begin_study(study_page *s)
     document doc = {.place = "study.yaml"};
     size_t length = 0;
     char *path = cli_join(s->r->directory, "study.yaml"), *bytes = file_read(path, &length);
-    const int status = bytes ? document_parse(&doc, path, bytes, length) : CLI_IO;
+    int status = bytes ? document_parse(&doc, path, bytes, length) : CLI_IO;
     if (status == CLI_DONE) {
         const yaml_node_t *root = document_node(&doc, 1);
         const yaml_node_t *title = document_value(&doc, root, "title");
-        const bool is_text = title && title->type == YAML_SCALAR_NODE;
-        report_title(s->r, is_text ? (const char *)title->data.scalar.value : "A study of drift");
+        const char *text = title ? document_scalar(&doc, title, "title") : "A study of drift";
+        if (!text) status = CLI_USAGE;
+        report_title(s->r, text ? text : "");
         list_representatives(s, &doc, document_value(&doc, root, "representatives"));
         yaml_document_delete(&doc.yaml);
     }
@@ -506,7 +508,7 @@ static int write_study(study_page *s)
         fprintf(r->page, "<h2 id=\"s%d\">", i + 1);
         write_name(s, i);
         fputs("</h2>\n", r->page);
-        const int drawn = report_label(s, s->labels.word[i]);
+        const int drawn = report_label(s, i);
         if (status == CLI_DONE) status = drawn;
     }
     fputs("<h2>How to make it again</h2>\n"
@@ -518,14 +520,28 @@ static int write_study(study_page *s)
     return status;
 }
 
+/* The label of a row names files of the study, and its run a directory of it. */
+static int check_names(const study_page *s, const char *path, int row)
+{
+    static const char runs[] = "runs/";
+    const char *label = get_cell(s, row, "label"), *run = get_cell(s, row, "run");
+    const bool is_run = strncmp(run, runs, sizeof runs - 1) == 0;
+    if (!text_is_file_name(label))
+        return cli_fail(CLI_USAGE, "%s:%d: the label '%s' cannot name a file", path, row + 1,
+                        label);
+    if (!run[0] || (is_run && text_is_file_name(run + sizeof runs - 1))) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "%s:%d: the run '%s' is no directory of the study", path, row + 1,
+                    run);
+}
+
 int report_study(report *r)
 {
     study_page *s = cli_calloc(1, sizeof *s);
     char *path = cli_join(r->directory, "cells.csv");
     s->r = r;
-    int status = report_csv_read(&s->cells, path);
-    report_csv_append(&s->cells, "step", "tolerance");
+    int status = read_steps(&s->cells, path);
     for (int row = 1; status == CLI_DONE && row < s->cells.rows; row++) {
+        status = check_names(s, path, row);
         report_add_word(&s->labels, get_cell(s, row, "label"));
         report_add_word(&s->methods, get_cell(s, row, "integrator"));
     }
@@ -551,8 +567,9 @@ int report_after_study(const char *directory, int status, bool names_page)
     free(cells);
     if (!has_results || cli_interrupted()) return status;
     if (gnuplot_is_there()) {
-        if (report_make(&r, report_study) == CLI_DONE && names_page)
-            printf("Page: %s\n", r.page_path);
+        const int made = report_make(&r, report_study);
+        if (made == CLI_DONE && names_page) printf("Page: %s\n", r.page_path);
+        if (status == CLI_DONE) status = made;
     } else if (names_page) {
         printf("Page: 'dalembert report %s' makes it, with figures by gnuplot\n", directory);
     }

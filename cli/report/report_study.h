@@ -12,9 +12,9 @@ int report_study(report *r);
     {                                                                                              \
         "no-page", NULL, NULL, "writes no page of the study", CLI_FLAG(settings, no_page)          \
     }
-/* Behind a study that ended with this exit status, which is returned: writes its page where there
- * is gnuplot, and says where that is where names_page is set.  A page that cannot be written is no
- * error of the study. */
+/* After a study that ended with this exit status: writes its page where there is gnuplot, and says
+ * where that is where names_page is set.  Returns that status, or that of the page where this one
+ * failed. */
 int report_after_study(const char *directory, int status, bool names_page);
 
 #endif

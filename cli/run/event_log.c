@@ -6,6 +6,7 @@
 
 #include "io/file.h"
 
+#include <limits.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -133,8 +134,8 @@ bool event_reader_next(event_reader *r)
     const char *end = r->at ? strchr(r->at + 1, '\n') : NULL;
     double number;
     if (!end) return false;
-    bool is_event =
-        read_cell(&r->at, '\n', &r->t) && read_cell(&r->at, ',', &number) && number >= 1.0;
+    bool is_event = read_cell(&r->at, '\n', &r->t) && read_cell(&r->at, ',', &number) &&
+                    number >= 1.0 && number <= INT_MAX;
     for (int i = 0; is_event && i < r->dimension; i++)
         is_event = read_cell(&r->at, ',', &r->state[i]);
     if (is_event) r->event = (int)number - 1;

@@ -5,6 +5,7 @@
 #include "study_plan.h"
 
 #include "io/file.h"
+#include "io/text.h"
 #include "run/row_times.h"
 #include "run/system.h"
 #include "study_expect.h"
@@ -28,7 +29,7 @@ static int read_label(void *user, const document *doc, yaml_node_t *value, const
     const int status = document_read_text(user, doc, value, key);
     if (status != CLI_DONE) return status;
     const char *label = p->item.group;
-    if (label[0] && !strchr(label, '/') && label[0] != '.') return CLI_DONE;
+    if (text_is_file_name(label)) return CLI_DONE;
     return document_fail(doc, value, "label: '%s' cannot name a file", label);
 }
 
@@ -434,6 +435,11 @@ static int add_group(study_plan *plan, yaml_node_t *node, const parsed_study *ba
     if (status != CLI_DONE) return status;
     const char *slash = strrchr(e->name, '/');
     if (!e->group) e->group = slash ? slash + 1 : e->name;
+    if (text_find_control(e->name, "") >= 0)
+        return document_fail(plan->doc, node, "system: '%s' has control characters", e->name);
+    if (e->group[0] == '.')
+        return document_fail(plan->doc, node, "system: '%s' cannot name a file: give it a label",
+                             e->name);
     status = study_variants_read(&g.variants, g.doc, &g.parsed, &count);
     if (status == CLI_DONE) {
         const int first = plan->case_count;

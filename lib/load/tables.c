@@ -132,6 +132,27 @@ static bool next_line(cursor *c)
     return false;
 }
 
+/* Fields of the line, which a comma at its end makes one more. */
+static int count_fields(const cursor *c)
+{
+    int count = 1;
+    for (const char *at = c->at; at < c->end && *at != '\n'; at++) count += *at == ',';
+    return count;
+}
+
+/* Each column has a head: a number without one belongs to no column that a table could name. */
+static dal_status check_heads(const cursor *first, int *columns)
+{
+    cursor c = *first;
+    *columns = count_fields(&c);
+    for (int i = 0; i < *columns; i++) {
+        size_t length;
+        const char *name = next_field(&c, &length);
+        if (length == 0) return CSV_ERROR(&c, name, "column %d has no head", i + 1);
+    }
+    return DAL_OK;
+}
+
 /* The number of a column in the first line, from 0. */
 static dal_status find_column(const cursor *first, const dal__entry *key, int *column)
 {
@@ -160,10 +181,10 @@ static dal_status find_column(const cursor *first, const dal__entry *key, int *c
     return dal__unknown_at(first->loader->error, DAL__AT_TEXT(key), what, key->text, known, count);
 }
 
-/* Reads the numbers of a line in two columns. */
-static dal_status read_line(cursor *c, const int column[2], double *number[2])
+/* Reads the numbers of a line in two of the columns. */
+static dal_status read_line(cursor *c, int columns, const int column[2], double *number[2])
 {
-    const int last = column[column[1] > column[0]];
+    const int last = column[column[1] > column[0]], fields = count_fields(c);
     for (int i = 0; i <= last; i++) {
         size_t length;
         if (at_line_end(c) && i > 0)
@@ -175,7 +196,11 @@ static dal_status read_line(cursor *c, const int column[2], double *number[2])
                 return CSV_ERROR(c, text, "'%.*s' is not a number", length < 60 ? (int)length : 60,
                                  text);
     }
-    while (!at_line_end(c)) c->at++;
+    for (int i = last + 1; i < fields; i++) {
+        size_t length;
+        const char *text = next_field(c, &length);
+        if (i == columns) return CSV_ERROR(c, text, "column %d has no head", i + 1);
+    }
     return DAL_OK;
 }
 
@@ -186,7 +211,7 @@ static dal_status read_csv(loader *l, const dal__table_request *request, const c
     const dal__entry *key = request->key;
     const char *end = file->text + file->length;
     cursor c = {l, &key[DAL__TABLE_FILE], file->text, file->text, end, 1};
-    int column[2];
+    int columns, column[2];
     size_t lines = 2;
     for (; c.at < end; c.at++) {
         const unsigned char byte = (unsigned char)*c.at;
@@ -197,6 +222,7 @@ static dal_status read_csv(loader *l, const dal__table_request *request, const c
     c.at = c.line = file->text;
     c.number = 1;
     if (file->length == 0) return CSV_ERROR(&c, c.at, "%s", "the file is empty");
+    DAL_TRY(check_heads(&c, &columns));
     DAL_TRY(find_column(&c, &key[DAL__TABLE_AT], &column[0]));
     DAL_TRY(find_column(&c, &key[DAL__TABLE_VALUE], &column[1]));
     for (size_t i = 0; i < file->length; i++) lines += file->text[i] == '\n';
@@ -209,7 +235,7 @@ static dal_status read_csv(loader *l, const dal__table_request *request, const c
         double *number[2] = {at + i, value + i};
         if (i == DAL__MAX_POINTS)
             return CSV_ERROR(&c, c.line, "more than %d points", (int)DAL__MAX_POINTS);
-        DAL_TRY(read_line(&c, column, number));
+        DAL_TRY(read_line(&c, columns, column, number));
         if (i > 0 && !(at[i] > at[i - 1]))
             return CSV_ERROR(&c, c.line, "%.17g does not ascend: %.17g stands before it", at[i],
                              at[i - 1]);

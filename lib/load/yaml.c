@@ -100,6 +100,22 @@ static char *copy(dal_model *model, const char *from, size_t length)
     return to;
 }
 
+/* Controls but line ends and tabs, U+0000..001F, 007F..009F, which change the state of a terminal:
+ * formulas have no use for them, and texts are shown. */
+static dal_status check_characters(reader *r)
+{
+    const unsigned char *text = r->event.data.scalar.value;
+    const size_t length = r->event.data.scalar.length;
+    for (size_t i = 0; i < length; i++) {
+        const bool is_c1 = text[i] == 0xc2 && i + 1 < length && text[i + 1] < 0xa0; /* UTF-8 */
+        const unsigned code = is_c1 ? text[i + 1] : text[i];
+        if (code == 0) return HERE(r, DAL_SYNTAX, "a text holds a NUL character");
+        if (is_c1 || code == 0x7f || (code < ' ' && !strchr("\t\n\r", (int)code)))
+            return HERE(r, DAL_SYNTAX, "a text holds the control character U+%04X", code);
+    }
+    return DAL_OK;
+}
+
 /* Text and place of the present scalar. */
 static dal_status read_scalar(reader *r, dal__entry *entry)
 {
@@ -113,7 +129,7 @@ static dal_status read_scalar(reader *r, dal__entry *entry)
     bool quoted = single || style == YAML_DOUBLE_QUOTED_SCALAR_STYLE;
     entry->line = line_of(event->start_mark);
     entry->column = column_of(event->start_mark) + quoted;
-    if (memchr(value, 0, length)) return HERE(r, DAL_SYNTAX, "a text holds a NUL character");
+    DAL_TRY(check_characters(r));
     bool escaped = quoted && !single && memchr(r->text + begin, '\\', end - begin);
     if (prose || escaped || end < begin + 2 * (size_t)quoted) {
         entry->text = copy(r->model, value, length);
@@ -137,7 +153,7 @@ static dal_status read_key(reader *r, dal__entry *entry)
     const char *value = (const char *)r->event.data.scalar.value;
     size_t length = r->event.data.scalar.length;
     if (r->event.type != YAML_SCALAR_EVENT) return HERE(r, DAL_SYNTAX, "a name is expected here");
-    if (memchr(value, 0, length)) return HERE(r, DAL_SYNTAX, "a text holds a NUL character");
+    DAL_TRY(check_characters(r));
     entry->name = copy(r->model, value, length);
     entry->name_line = line_of(r->event.start_mark);
     entry->name_column = column_of(r->event.start_mark);

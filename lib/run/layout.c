@@ -160,6 +160,11 @@ static dal_status check_layers(dal__layout *k, dal_error *error)
         if (layer->stages > k->stages) k->stages = layer->stages;
         k->depth++;
     }
+    for (int i = k->depth + 1; i < DAL_LAYERS; i++)
+        if (method->layer[i])
+            return dal__fail(error, DAL_ARGUMENT,
+                             "layer %d of the method is missing: layer %d is '%s'", k->depth + 1,
+                             i + 1, method->layer[i]->name ? method->layer[i]->name : "?");
     if (k->depth == 0) return dal__fail(error, DAL_ARGUMENT, "a run needs an integrator");
     return DAL_OK;
 }

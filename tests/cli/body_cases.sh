@@ -21,7 +21,7 @@ picture: {x: x, y: y, angle: 0.5, steer: 0.3, width: 0.4, body: %s}\n' "$1" >bod
     try 0 run ./body.yaml --integrator rk4 --step 0.1 --time 1 --output still
     try 0 report still
     frame still/report/path.gp >outline
-    holds "no title" grep -q "\"Path of the $1\"" still/report/path.gp
+    holds "no title" grep -q "'Path of the $1'" still/report/path.gp
 }
 # is_outline LINE...: the polylines of the body, no more and no less.
 is_outline() {

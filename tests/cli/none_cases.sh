@@ -56,6 +56,6 @@ if there gnuplot; then
         'systems: {system: pendulum-cvt, label: cvt}' >swings.yaml
     try 0 study swings.yaml --output swings
     try 0 report swings
-    sed -n '/^\$curve1/,/^END/p' swings/report/cvt-E.gp | grep , >envelope
+    sed -n '/^\$curve1/,/^END/p' swings/report/1-E.gp | grep , >envelope
     holds "it is no maximum" awk -F, '$2 < max { bad = 1 } { max = $2 } END { exit bad || NR < 4 }' envelope
 fi

@@ -271,7 +271,7 @@ case_is "the page of a study"
 mkdir broken
 printf '#!/bin/sh\nexit 1\n' >broken/gnuplot
 chmod +x broken/gnuplot
-PATH=$PWD/broken:$PATH try 0 study closed.yaml --output there --force
+PATH=$PWD/broken:$PATH try 4 study closed.yaml --output there --force
 says "^dalembert: gnuplot failed on 'there/report/"
 prints '^Tables: there/tables\.txt$'
 holds "a page is named" sh -c '! grep -q ^Page out'
@@ -284,7 +284,7 @@ holds "a page of another study" test ! -e there/report
 if there gnuplot; then
     try 0 study closed.yaml --output there --force --tables
     holds "a page is named" cmp out there/tables.txt
-    holds "no page" grep -q '<svg' there/report/line.yaml-E.svg
+    holds "no page" grep -q '<svg' there/report/1-E.svg
     rm -r there/report
     try 0 resume there
     prints '^Page: there/report/index\.html$'

@@ -99,11 +99,11 @@ invariants: {${invariants}moves: x}\n" >many.yaml
 
     case_is "an older version's columns"
     cp -r bare older
-    sed '1s/size,trend/verdict/' bare/summary.csv >older/summary.csv
+    sed '1s/,trend/,verdict/' bare/summary.csv >older/summary.csv
     try 2 report older
     says "older/summary.csv: there is no column 'trend': another version"
     cp -r bares elder
-    sed '1s/E_size,E_trend/E_verdict/' bares/cells.csv >elder/cells.csv
+    sed '1s/E_trend/E_verdict/' bares/cells.csv >elder/cells.csv
     try 2 report elder
     says "elder/cells.csv: there is no column 'E_trend': another version"
 fi

@@ -1,0 +1,96 @@
+# Files of others: whatever their texts are, no command runs, no page has markup of theirs, and C compiles;
+# and a damaged directory is an error, not a crash.
+
+case_is "a label cannot name a file"
+for label in 'a\\nb' 'a\\tb' '\\x7f' '\\x9b31m' ' \\0' ''; do
+    bad "integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: line.yaml, label: \"$label\"}]\n" \
+        "^dalembert: bad.yaml:4:38: label: ('.*' cannot name a file|.*the control character U\+00..|a NUL in the text)"
+done
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: ["line\\n.yaml"]\n' "^dalembert: bad.yaml:4:11: system: '.*' has control characters$"
+cp line.yaml .line.yaml
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [./.line.yaml]\n' "'./.line.yaml' cannot name a file: give it a label$"
+bad 'title: "\\e[31m"\nintegrators: rk4\nstep: 0.1\ntime: 1\nsystems: [line.yaml]\n' \
+    '^dalembert: bad.yaml:1:8: title: the control character U\+001B in the text$'
+
+case_is "a page of cells whose texts name other files"
+printf 'integrators: rk4\nstep: 0.5\ntime: 2\nstarts: physical\nsystems: [line.yaml]\n' >one.yaml
+try 0 study one.yaml --no-page --output one
+for change in 's#^line.yaml,#../../secret,#' 's#^line.yaml,#.secret,#' 's#^line.yaml,#,#'; do
+    rm -rf other && cp -r one other
+    sed -i "2$change" other/cells.csv
+    try 2 report other
+    says "^dalembert: other/cells.csv:2: the label '.*' cannot name a file$"
+done
+for run in ../secret runs/../../secret runs/.secret /secret secret; do
+    rm -rf other && cp -r one other
+    sed -i "2s#,runs/[^,]*#,$run#" other/cells.csv
+    try 2 report other
+    says "^dalembert: other/cells.csv:2: the run '$run' is no directory of the study$"
+done
+
+case_is "orders where every method is refused"
+try 0 order line.yaml --integrators rk4 --levels 2 --time 1 --output refused
+sed -i '2,$s/^\([^,]*,[^,]*\),.*/\1,,,,,,,,,refused,it is refused/' refused/order.csv
+try 0 report refused
+if there gnuplot; then silent; fi
+holds "no words" grep -q '<p>No method has errors to show.</p>' refused/report/index.html
+holds "no reason" grep -q '<li>rk4: it is refused</li>' refused/report/index.html
+try 0 order chaplygin-sleigh --integrators isokinetic-splitting --step 0.1 --time 1 --output none
+if there gnuplot; then holds "no page" grep -q '<p>No method has errors to show.</p>' none/report/index.html; fi
+
+case_is "a table that is not whole"
+# damaged FILE MESSAGE: the page of the copy of the study, where FILE has replaced its cells, is refused.
+damaged() {
+    cp "$1" other/cells.csv
+    try 2 report other
+    says "^dalembert: (other/cells.csv|'other/cells.csv')$2"
+}
+head -c 300 one/cells.csv >cut && damaged cut ' has no rows$'
+size=$(wc -c <one/cells.csv)
+head -c $((size - 1)) one/cells.csv >cut && damaged cut ':2: the file ends within a row$'
+sed '2s/[^,]*,//' one/cells.csv >cut && damaged cut ':2: [0-9]+ columns, but the file has [0-9]+ heads$'
+sed '2s/$/,/' one/cells.csv >cut && damaged cut ':2: [0-9]+ columns, but the file has [0-9]+ heads$'
+sed '1s/,system,/,,/' one/cells.csv >cut && damaged cut ':1: column 2 has no head$'
+sed '1s/system/"sys\x1btem"/' one/cells.csv >cut && damaged cut ":1: column 2 \('sys.tem'\) has the control character U\+001B$"
+sed '2s/rk4/rk4\r/' one/cells.csv >cut && damaged cut ":2: column 3 \('integrator'\) has the control character U\+000D$"
+tr '4' '\0' <one/cells.csv >cut && damaged cut ': byte [0-9]+ is a NUL$'
+: >cut && damaged cut ' has no rows$'
+
+# A fault of a picture is a fault of the command.
+case_is "a picture that fails"
+mkdir -p fails draws
+printf '#!/bin/sh\nexit 1\n' >fails/gnuplot
+printf '#!/bin/sh\nexit 0\n' >draws/gnuplot
+chmod +x fails/gnuplot draws/gnuplot
+motion="line.yaml --integrator rk4 --step 0.1 --time 2"
+for way in fails draws; do
+    rm -rf run-$way
+    try 0 run $motion --output run-$way
+    for command in "report run-$way" "report one" "study one.yaml --output study-$way" \
+        "order line.yaml --integrators rk4 --levels 2 --time 1 --output order-$way" \
+        "section $motion --on x-0.5 --output section-$way" "lyapunov $motion --output exponents-$way"; do
+        PATH=$PWD/$way:$PATH try 4 $command
+        says "^dalembert: gnuplot (failed on|drew nothing from) '.*\.gp'$"
+    done
+done
+
+if there python3; then
+    # hostile PART...: a part of hostile.py, in a directory of its own.
+    hostile() {
+        rm -rf hostile && mkdir hostile
+        (cd hostile && CC=${CC:-cc} timeout $patience python3 "$here/hostile.py" "$program" "$@") >err 2>&1
+        holds "$1" test $? -eq 0
+    }
+    there "${CC:-cc}" || echo "cli: $name: skipped: C of hostile texts: no compiler"
+    there gnuplot || echo "cli: $name: skipped: pictures of hostile texts: no gnuplot"
+    case_is "hostile texts in a system"
+    hostile systems
+    case_is "hostile texts in a study"
+    hostile studies
+    case_is "hostile texts in what pages are made of"
+    hostile directories
+    case_is "damaged directories"
+    hostile damage 1 12
+else
+    echo "cli: $name: skipped: hostile texts and damaged directories: no python3"
+fi
