@@ -367,17 +367,17 @@ static int write_file(const study_plan *plan, const study_case *of_case, const c
     while (next < end && plan->cells[next].state == STUDY_WAITING) next++;
     if (of_case && next == end) return CLI_DONE;
     char *path = cli_join(directory, name);
-    FILE *out = fopen(path, "w");
-    int status = out ? CLI_DONE : cli_io("write", path);
-    if (out) fprintf(out, "%s\n", heads);
-    for (; next < end && out; next++) {
+    file_output output;
+    int status = file_output_open(&output, path);
+    if (status == CLI_DONE) fprintf(output.stream, "%s\n", heads);
+    for (; next < end && status == CLI_DONE; next++) {
         const study_cell *c = &plan->cells[next];
         if (c->state == STUDY_WAITING) continue;
         csv_row r = {plan, c, c->of_case, study_cell_quantities(c), ""};
         dal_method_name(c->method, r.method, sizeof r.method);
-        put(out, &r);
+        put(output.stream, &r);
     }
-    if (out) status = cli_close(out, path);
+    if (status == CLI_DONE) status = file_output_close(&output, CLI_DONE);
     free(path);
     return status;
 }

@@ -157,4 +157,4 @@ case_is "no room for a file"
     exec "$program" generate knife-edge --integrator rk4 -o large.c 2>err
 )
 holds "exit 4" [ $? -eq 4 ]
-says "cannot write 'large.c.new': File too large"
+says "cannot write 'large.c': File too large"
