@@ -12,7 +12,11 @@ logged() { "$@" >"$root/log" 2>&1 || { cat "$root/log" >&2; fail "$* failed"; };
 printf '[safe]\n\tdirectory = *\n' >"$root/gitconfig"
 GIT_CONFIG_GLOBAL=$root/gitconfig
 export GIT_CONFIG_GLOBAL
-git rev-parse -q --verify HEAD >"$root/log" 2>&1 || { echo "dist: skipped, no repository of git"; exit 0; }
+git rev-parse -q --verify HEAD >"$root/log" 2>&1 || {
+    echo "dist: skipped: no repository of git"
+    [ "${CI:-}" != true ]
+    exit
+}
 logged $make BUILD="$build" dist
 logged git clone -q . "$root/clone"
 (umask 077 && cd "$root/clone" && TZ=Asia/Tokyo logged $make BUILD=elsewhere dist) || exit 1

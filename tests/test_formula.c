@@ -2,6 +2,7 @@
 #include "allocation.h"
 #include "core/error.h"
 #include "formula.h"
+#include "skip.h"
 
 #include <CUnit/Basic.h>
 #include <locale.h>
@@ -167,13 +168,14 @@ static void test_long_number(void)
 
 static void test_locale(void)
 {
+    if (!getenv("LOCPATH")) return; /* under the leak checkers: see the Makefile */
     static const char *const comma[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"};
     locale_t locale = (locale_t)0;
     for (size_t i = 0; i < sizeof comma / sizeof comma[0] && !locale; i++) {
         locale = newlocale(LC_ALL_MASK, comma[i], (locale_t)0);
     }
     if (!locale) {
-        fprintf(stderr, "(no locale with a decimal comma here) ");
+        skip_test("no locale with a decimal comma");
         return;
     }
     locale_t before = uselocale(locale);

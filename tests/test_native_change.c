@@ -421,7 +421,7 @@ void suite_native_change(void);
 void suite_native_change(void)
 {
     CU_pSuite suite = CU_add_suite("native_change", set_up, tear_down);
-    if (system("cc --version >/dev/null 2>&1") != 0) return;
+    if (!compiler_there()) return;
     CU_add_test(suite, "runs: compiled beside their steps", test_beside);
     CU_add_test(suite, "which runs code is for", test_fits);
     CU_add_test(suite, "runs: changed over while sampled", test_sampled);

@@ -3,7 +3,7 @@
 # `lint` also those of the whole continuous check, with `bench` also the libraries that `make bench`
 # compares with; does nothing when all are there.
 set -e
-packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev libjansson-dev locales gnuplot-nox g++ cmake'
+packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev libjansson-dev locales gnuplot-nox g++ cmake groff-base'
 packages="$packages python3 python3-cffi python3-dev python3-numpy python3-pytest python3-setuptools python3-venv"
 if [ "$1" = lint ]; then
     packages="$packages binutils clang clang-format libclang-rt-14-dev universal-ctags valgrind openmpi-bin libopenmpi-dev chromium"

@@ -9,6 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+int analysis_check_directory(const char *output)
+{
+    return output && cli_is_directory(output) ? file_check_directory(output) : CLI_DONE;
+}
+
 int analysis_open(analysis_output *output, const char *path, const char *name)
 {
     *output = (analysis_output){0};

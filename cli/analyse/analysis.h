@@ -15,6 +15,17 @@ typedef struct analysis_output {
     char *table;           /* the path of the table */
 } analysis_output;
 
+/* --force of these commands. */
+#define ANALYSIS_FORCE_OPTION(settings)                                                            \
+    {                                                                                              \
+        "force", NULL, NULL, "writes into a directory that holds other things",                    \
+            CLI_FLAG(settings, force)                                                              \
+    }
+
+/* Without --force: whether an output, NULL where there is none, is no directory of other things.
+ * Returns CLI_DONE, or prints and returns CLI_USAGE. */
+int analysis_check_directory(const char *output);
+
 /* Makes the directory.  Returns CLI_DONE or prints and returns an exit status; free the table. */
 int analysis_open(analysis_output *output, const char *path, const char *name);
 

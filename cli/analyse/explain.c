@@ -195,14 +195,15 @@ static void write_observable(FILE *out, const dal_error_budget *e, int i)
 
 static int write_budget(const char *path, const dal_error_budget *e)
 {
-    const bool is_stdout = strcmp(path, "-") == 0;
-    FILE *out = is_stdout ? stdout : fopen(path, "w");
-    if (!out) return cli_io("create", path);
+    file_output output;
+    const int status = file_output_open(&output, path);
+    if (status != CLI_DONE) return status;
+    FILE *out = output.stream;
     fputs("observable,kind,name,steps,share,margin,rate,rate_low,rate_high,deviation,size,trend,"
           "confidence,words\n",
           out);
     for (int i = 0; i < e->observables; i++) write_observable(out, e, i);
-    return cli_close(out, is_stdout ? "standard output" : path);
+    return file_output_close(&output, CLI_DONE);
 }
 
 /* ---- as JSON ---- */

@@ -25,7 +25,7 @@
 #include <stdlib.h>
 
 typedef struct lyapunov_settings {
-    bool is_volume, json;
+    bool is_volume, json, force;
     run_request request;
     const char *output;
     double transient;
@@ -365,6 +365,7 @@ static const cli_option options[] = {
     {"output", "DIR|FILE", NULL,
      "writes the means so far: .csv, .npy, or a directory with a figure",
      CLI_ROW(cli_parse_output, lyapunov_settings, output)},
+    ANALYSIS_FORCE_OPTION(lyapunov_settings),
     JSON_OPTION(lyapunov_settings),
     {"exponents", "K", NULL, "computes the K largest only",
      CLI_INTEGER(lyapunov_settings, exponents, 1, 1e6)},
@@ -397,6 +398,7 @@ static int measure_means(lyapunov_settings *settings)
 {
     tangent_study s = {.set = settings, .request = &settings->request};
     int status = analysis_check_output(settings->output, settings->json);
+    if (status == CLI_DONE && !settings->force) status = analysis_check_directory(settings->output);
     if (status == CLI_DONE) status = create_spectrum(&s);
     if (status == CLI_DONE) {
         allocate_columns(&s);

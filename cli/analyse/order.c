@@ -489,8 +489,10 @@ static void write_level(FILE *out, const order_study *s, const order_method *m, 
 
 static int write_orders(const order_study *s, const char *path)
 {
-    FILE *out = fopen(path, "w");
-    if (!out) return cli_io("write", path);
+    file_output output;
+    const int status = file_output_open(&output, path);
+    if (status != CLI_DONE) return status;
+    FILE *out = output.stream;
     fprintf(out,
             "label,integrator,stated_order,observed_order,step%s,steps,error,slope,evaluations,"
             "seconds,state,message\n",
@@ -499,7 +501,7 @@ static int write_orders(const order_study *s, const char *path)
         if (m->state == ORDER_REFUSED) write_level(out, s, m, -1);
         for (int k = 0; m->state != ORDER_REFUSED && k < s->levels; k++) write_level(out, s, m, k);
     }
-    return cli_close(out, path);
+    return file_output_close(&output, CLI_DONE);
 }
 
 /* ---- all ----------------------------------------------------------------------------------- */
@@ -507,6 +509,7 @@ static int write_orders(const order_study *s, const char *path)
 static int measure(order_study *s)
 {
     int status = analysis_check_output(s->set->output, s->set->json);
+    if (status == CLI_DONE && !s->set->force) status = analysis_check_directory(s->set->output);
     if (status == CLI_DONE) status = list_steps(s);
     if (status == CLI_DONE)
         status = add_items(s, s->set->integrators, "--integrators", add_methods);

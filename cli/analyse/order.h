@@ -16,6 +16,7 @@ typedef struct order_settings {
     const char *output;
     long long level_count, threads;
     bool json;       /* to stdout, instead of a table */
+    bool force;      /* into any directory */
     bool is_written; /* set when output has the table */
 } order_settings;
 

@@ -307,6 +307,7 @@ int section_find(section_settings *settings)
     if (status != CLI_DONE) return status;
     name_row(&s);
     status = find_axes(&s);
+    if (status == CLI_DONE && !settings->force) status = analysis_check_directory(settings->output);
     if (status == CLI_DONE) status = analysis_open(&output, settings->output, "section");
     if (status == CLI_DONE) s.status = status = run_section(&s, output.table);
     if (settings->json && status != CLI_USAGE && status != CLI_IO) {

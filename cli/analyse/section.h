@@ -13,7 +13,8 @@ typedef struct section_settings {
     int direction; /* of crossings: -1 down, 0 both, 1 up */
     double transient;
     native_mode native;
-    bool json; /* to stdout, instead of rows */
+    bool json;  /* to stdout, instead of rows */
+    bool force; /* into any directory */
 } section_settings;
 
 /* The options of a run that it does not take. */

@@ -1,5 +1,6 @@
 /* order.c - `dalembert order`: the error of many methods against step and against work. */
 #include "analyse/order.h"
+#include "analyse/analysis.h"
 #include "dalembert_analysis.h"
 #include "io/file.h"
 #include "io/json.h"
@@ -32,6 +33,7 @@ static const cli_option options[] = {
     POOL_THREADS_OPTION(order_settings, "runs at a time; results do not depend on it"),
     {"output", "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets a page, too",
      CLI_ROW(cli_parse_output, order_settings, output)},
+    ANALYSIS_FORCE_OPTION(order_settings),
     JSON_OPTION(order_settings),
 };
 

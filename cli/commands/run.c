@@ -6,18 +6,23 @@
 #include "ui/message.h"
 #include "ui/options.h"
 
+/* Whether nothing is in the directory that a new run would overwrite, or that is not of a run. */
+static int check_directory(const run_directory *dir)
+{
+    const char *file = run_directory_find_file(dir);
+    if (!file) return file_check_directory(dir->path);
+    return cli_fail(CLI_USAGE,
+                    "'%s' exists already: 'dalembert resume' continues a run, --force overwrites "
+                    "it",
+                    file);
+}
+
 static int run_in_directory(const run_request *request, const run_settings *settings)
 {
     run_directory dir;
     run_directory_open(&dir, settings->output);
-    int status = cli_output_directory(dir.path);
-    const char *file =
-        status == CLI_DONE && !settings->force ? run_directory_find_file(&dir) : NULL;
-    if (file)
-        status = cli_fail(CLI_USAGE,
-                          "'%s' exists already: 'dalembert resume' continues a run, --force "
-                          "overwrites it",
-                          file);
+    int status = settings->force ? CLI_DONE : check_directory(&dir);
+    if (status == CLI_DONE) status = cli_output_directory(dir.path);
     if (status == CLI_DONE) status = run_directory_lock(&dir, 1);
     if (status == CLI_DONE) status = manifest_begin(&dir, request);
     if (status == CLI_DONE) status = run_integrate(request, &dir, settings);

@@ -1,5 +1,6 @@
 /* section.c - `dalembert section`: where a motion crosses a surface. */
 #include "analyse/section.h"
+#include "analyse/analysis.h"
 #include "io/file.h"
 #include "io/json.h"
 #include "report/report_section.h"
@@ -21,6 +22,7 @@ static const cli_option options[] = {
     NATIVE_OPTION(section_settings),
     {"output", "DIR|FILE|-", "-", "where rows go: .csv, .npy, a directory with a page, or stdout",
      CLI_ROW(cli_parse_output, section_settings, output)},
+    ANALYSIS_FORCE_OPTION(section_settings),
     JSON_OPTION(section_settings),
 };
 

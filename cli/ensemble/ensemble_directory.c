@@ -407,8 +407,7 @@ static int remove_marks(const ensemble_directory *dir)
 /* The manifest is written last, when all else is there. */
 static int begin_new(ensemble_directory *dir, const ensemble *e)
 {
-    int status = remove_marks(dir);
-    if (status == CLI_DONE) status = remove_messages(dir);
+    int status = CLI_DONE;
     char *rows = cli_join(dir->path, "rows.npy");
 #define REMOVE(name, file)                                                                         \
     if (status == CLI_DONE) status = file_remove(dir->name);
@@ -439,13 +438,16 @@ static int begin_or_join(ensemble_directory *dir, const ensemble *e, ensemble_sh
                         "'%s' holds an ensemble: 'dalembert resume %s' continues it, --force "
                         "overwrites it",
                         dir->path, dir->path);
-    return begin_new(dir, e);
+    int status = is_there ? remove_marks(dir) : CLI_DONE;
+    if (status == CLI_DONE && is_there) status = remove_messages(dir);
+    return status == CLI_DONE ? begin_new(dir, e) : status;
 }
 
 int ensemble_directory_begin(ensemble_directory *dir, const ensemble *e, ensemble_shard shard,
                              bool force)
 {
-    int status = cli_directory(dir->path);
+    int status = force ? CLI_DONE : file_check_directory(dir->path);
+    if (status == CLI_DONE) status = cli_directory(dir->path);
     if (status == CLI_DONE) status = ensemble_directory_lock(dir);
     if (status == CLI_DONE) status = begin_or_join(dir, e, shard, force);
     if (status == CLI_DONE) status = ensemble_directory_attach(dir, e, shard);

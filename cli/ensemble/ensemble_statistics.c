@@ -281,18 +281,18 @@ static int write_chunk_failures(const statistics *s, int chunk, double *rows, FI
 static int write_failures(const statistics *s, long long *counts)
 {
     const ensemble *e = s->e;
-    FILE *out = fopen(s->dir->failures, "w");
-    if (!out) return cli_io("write", s->dir->failures);
+    file_output output;
+    int status = file_output_open(&output, s->dir->failures);
+    if (status != CLI_DONE) return status;
+    FILE *out = output.stream;
     double *rows = ensemble_allocate_rows(e);
-    int status = CLI_DONE;
     fputs("member,t,reason", out);
     for (int k = 0; k < e->variations; k++) fprintf(out, ",%s", e->vary[k].name);
     fputs(",message\n", out);
     for (int i = 0; i < ensemble_chunks(e) && status == CLI_DONE; i++)
         status = write_chunk_failures(s, i, rows, out, counts);
     free(rows);
-    const int closed = cli_close(out, s->dir->failures);
-    return status == CLI_DONE ? closed : status;
+    return file_output_close(&output, status);
 }
 
 /* ---- all ---- */

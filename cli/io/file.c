@@ -1,19 +1,24 @@
-/* file.c - files and directories, and the numbers and texts of CSV. */
+/* file.c - files, outputs and directories, and the numbers and texts of CSV. */
 #include "file.h"
 
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/signals.h"
 
 #include "text.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <fnmatch.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 static char *read_all(FILE *file, size_t *length)
@@ -118,17 +123,6 @@ int file_write(const char *path, const void *bytes, size_t length, int sync)
     return write_and_close(descriptor, path, bytes, length, sync);
 }
 
-int file_create(const char *path, const void *bytes, size_t length)
-{
-    const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
-    if (descriptor < 0 && errno == EEXIST)
-        return cli_fail(CLI_USAGE, "'%s' exists; it is not overwritten", path);
-    if (descriptor < 0) return cli_io("write", path);
-    const int status = write_and_close(descriptor, path, bytes, length, 1);
-    if (status != CLI_DONE) unlink(path);
-    return status;
-}
-
 int file_rename(const char *from, const char *to, int sync)
 {
     if (rename(from, to) != 0) return cli_io("write", to);
@@ -136,15 +130,192 @@ int file_rename(const char *from, const char *to, int sync)
     return CLI_DONE;
 }
 
+/* ---- outputs ------------------------------------------------------------------------------- */
+
+/* N of /dev/fd/N, to which /dev/stdout leads; -1 for other paths. */
+static int descriptor_number(const char *path)
+{
+    static const char *const folder[] = {"/dev/fd/", "/proc/self/fd/"};
+    for (size_t i = 0; i < sizeof folder / sizeof *folder; i++) {
+        const size_t n = strlen(folder[i]);
+        const char *digits = path + n;
+        if (strncmp(path, folder[i], n) != 0 || !*digits || strlen(digits) > 5) continue;
+        if (digits[strspn(digits, "0123456789")] == '\0') return atoi(digits);
+    }
+    return -1;
+}
+
+/* The path without symbolic links in its last component, which need not exist; allocated. */
+static char *follow_links(const char *path)
+{
+    enum { MAX_LINKS = 40 };
+    char text[4096], *at = cli_strdup(path);
+    for (int i = 0; i < MAX_LINKS && descriptor_number(at) < 0; i++) {
+        const ssize_t n = readlink(at, text, sizeof text);
+        if (n <= 0 || n == sizeof text) break;
+        const char *slash = strrchr(at, '/');
+        const int folder = text[0] != '/' && slash ? (int)(slash - at) + 1 : 0;
+        char *next = cli_format("%.*s%.*s", folder, at, (int)n, text);
+        free(at);
+        at = next;
+    }
+    return at;
+}
+
+static int connect_to(const char *path)
+{
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    if (strlen(path) >= sizeof address.sun_path) {
+        errno = ENAMETOOLONG;
+        return -1;
+    }
+    strcpy(address.sun_path, path);
+    const int descriptor = socket(AF_UNIX, SOCK_STREAM, 0);
+    if (descriptor < 0) return -1;
+    if (connect(descriptor, (struct sockaddr *)&address, sizeof address) == 0) return descriptor;
+    const int reason = errno;
+    close(descriptor);
+    errno = reason;
+    return -1;
+}
+
+/* A device, a FIFO or a socket.  Where nobody reads it any more a write fails, with a message. */
+static int open_special(const char *path, mode_t mode)
+{
+    cli_catch_broken_pipe();
+    if (S_ISSOCK(mode)) return connect_to(path);
+    if (S_ISDIR(mode)) errno = EISDIR;
+    return S_ISDIR(mode) ? -1 : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
+}
+
+/* The owner and the permissions of a file stay, as far as this user may set them. */
+static void copy_owner(int descriptor, const struct stat *held)
+{
+    if (fchown(descriptor, held->st_uid, held->st_gid) != 0 &&
+        fchown(descriptor, (uid_t)-1, held->st_gid) != 0)
+        errno = 0;
+    fchmod(descriptor, held->st_mode & 0777);
+}
+
+/* A new file beside o->path, where held[1] is; held NULL: nothing is there yet.  A file in a
+ * directory where none can be made is written in place. */
+static int open_beside(file_output *o, const struct stat *held)
+{
+    const char *slash = strrchr(o->path, '/');
+    const int folder = slash ? (int)(slash - o->path) + 1 : 0;
+    if (held && access(o->path, W_OK) != 0) return -1;
+    o->fresh = cli_format("%.*s.%s.new", folder, o->path, o->path + folder);
+    unlink(o->fresh); /* of a process that was killed */
+    const int descriptor = open(o->fresh, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0 && held) copy_owner(descriptor, held);
+    if (descriptor >= 0) return descriptor;
+    const int reason = errno;
+    free(o->fresh);
+    o->fresh = NULL;
+    errno = reason;
+    if (!held || (reason != EACCES && reason != EROFS)) return -1;
+    return open(o->path, O_RDWR | O_TRUNC | O_CLOEXEC);
+}
+
+/* Returns a descriptor; -1 after a message.  end_output() is due in either case. */
+static int begin_output(file_output *o, const char *name)
+{
+    struct stat held;
+    int descriptor;
+    *o = (file_output){.name = name, .path = follow_links(name)};
+    const int number = descriptor_number(o->path);
+    const bool exists = stat(name, &held) == 0;
+    if (number >= 0) {
+        cli_catch_broken_pipe();
+        descriptor = fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    } else if (exists && !S_ISREG(held.st_mode)) {
+        descriptor = open_special(name, held.st_mode);
+    } else {
+        descriptor = open_beside(o, exists ? &held : NULL);
+    }
+    if (descriptor < 0) cli_io("write", name);
+    return descriptor;
+}
+
+/* Gives the file its name, or removes it where status is not CLI_DONE. */
+static int end_output(file_output *o, int status, int sync)
+{
+    if (o->fresh && status == CLI_DONE && rename(o->fresh, o->path) != 0)
+        status = cli_io("write", o->name);
+    if (o->fresh && status != CLI_DONE) unlink(o->fresh);
+    if (o->fresh && status == CLI_DONE && sync) sync_directory(o->path);
+    free(o->fresh);
+    free(o->path);
+    *o = (file_output){0};
+    return status;
+}
+
 int file_replace(const char *path, const void *bytes, size_t length, int sync)
 {
-    char *fresh = cli_format("%s.new", path);
+    file_output o;
     cli_hold_exit();
-    int status = file_write(fresh, bytes, length, sync);
-    if (status == CLI_DONE) status = file_rename(fresh, path, sync);
-    if (status != CLI_DONE) unlink(fresh);
+    const int descriptor = begin_output(&o, path);
+    int status = descriptor < 0 ? CLI_IO : CLI_DONE;
+    if (status == CLI_DONE)
+        status = write_and_close(descriptor, path, bytes, length, sync && o.fresh);
+    status = end_output(&o, status, sync);
     cli_release_exit();
-    free(fresh);
+    return status;
+}
+
+int file_output_open(file_output *o, const char *path)
+{
+    *o = (file_output){.name = "standard output", .stream = stdout};
+    if (strcmp(path, "-") == 0) return CLI_DONE;
+    const int descriptor = begin_output(o, path);
+    if (descriptor >= 0 && !(o->stream = fdopen(descriptor, "wb"))) cli_io("write", path);
+    return o->stream ? CLI_DONE : end_output(o, CLI_IO, 0);
+}
+
+int file_output_close(file_output *o, int status)
+{
+    if (status == CLI_DONE)
+        status = cli_close(o->stream, o->name);
+    else if (o->stream != stdout)
+        fclose(o->stream);
+    return end_output(o, status, 0);
+}
+
+int file_open_output(const char *path)
+{
+    file_output o;
+    cli_hold_exit();
+    const int descriptor = begin_output(&o, path);
+    const int status = end_output(&o, descriptor < 0 ? CLI_IO : CLI_DONE, 0);
+    if (descriptor >= 0 && status != CLI_DONE) close(descriptor);
+    cli_release_exit();
+    return status == CLI_DONE ? descriptor : -1;
+}
+
+FILE *file_stream_output(const char *path)
+{
+    if (strcmp(path, "-") == 0) return stdout;
+    const int descriptor = file_open_output(path);
+    FILE *stream = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
+    if (descriptor >= 0 && !stream) cli_io("write", path);
+    return stream;
+}
+
+int file_create(const char *path, const void *bytes, size_t length)
+{
+    struct stat held;
+    char *target = follow_links(path);
+    const bool is_special =
+        descriptor_number(target) >= 0 ||
+        (stat(path, &held) == 0 && !S_ISREG(held.st_mode) && !S_ISDIR(held.st_mode));
+    free(target);
+    if (is_special) return file_replace(path, bytes, length, 0);
+    const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
+    if (descriptor < 0 && errno == EEXIST)
+        return cli_fail(CLI_USAGE, "'%s' exists; it is not overwritten", path);
+    if (descriptor < 0) return cli_io("write", path);
+    const int status = write_and_close(descriptor, path, bytes, length, 1);
+    if (status != CLI_DONE) unlink(path);
     return status;
 }
 
@@ -240,6 +411,61 @@ int cli_parse_output(void *settings, const cli_option *option, const char *text)
     return cli_fail(CLI_USAGE, "--%s: '%s' does not end in %s%s", option->name, text,
                     has_npy ? ".csv or .npy" : ".csv",
                     has_directory ? "; a directory has no ending" : "");
+}
+
+/* The files by which a directory of results is known: a file of that name, empty where it was only
+ * begun, or with that beginning. */
+static const struct {
+    const char *name, *beginning;
+} directory_marks[] = {
+    {"manifest.json", "{\n  \"dalembert\": "},
+    {"shard-*-of-*.json", "{\n  \"dalembert\": "},
+    {"trajectory.npy", ""},
+    {"lock", ""},
+    {"section.csv", "crossing,t,direction,"},
+    {"order.csv", "label,integrator,stated_order,"},
+    {"lyapunov.csv", "t,lambda1"},
+    {"volume.csv", "t,divergence,"},
+};
+
+static bool is_mark(const char *directory, const char *name)
+{
+    char bytes[64];
+    bool found = false;
+    for (size_t i = 0; i < sizeof directory_marks / sizeof *directory_marks && !found; i++) {
+        if (fnmatch(directory_marks[i].name, name, 0) != 0) continue;
+        const char *beginning = directory_marks[i].beginning;
+        char *path = cli_join(directory, name);
+        FILE *file = fopen(path, "rb");
+        const size_t n = file ? fread(bytes, 1, sizeof bytes, file) : 1, length = strlen(beginning);
+        found = file && (n == 0 || (length && n >= length && !memcmp(bytes, beginning, length)));
+        if (file) fclose(file);
+        free(path);
+    }
+    return found;
+}
+
+bool file_owns_directory(const char *path)
+{
+    DIR *directory = opendir(path);
+    bool is_empty = true, found = false;
+    if (!directory && errno == ENOMEM) cli_out_of_memory();
+    if (!directory) return errno != EACCES; /* what cannot be read may hold anything */
+    for (struct dirent *entry; !found && (entry = readdir(directory));) {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        is_empty = false;
+        found = is_mark(path, entry->d_name);
+    }
+    closedir(directory);
+    return is_empty || found;
+}
+
+int file_check_directory(const char *path)
+{
+    if (file_owns_directory(path)) return CLI_DONE;
+    return cli_fail(CLI_USAGE,
+                    "'%s' is not empty and holds no results of dalembert; --force writes into it",
+                    path);
 }
 
 int cli_output_directory(const char *path)

@@ -1,4 +1,4 @@
-/* file.h - files and directories, and the numbers and texts of CSV. */
+/* file.h - files, outputs and directories, and the numbers and texts of CSV. */
 #ifndef DAL_CLI_FILE_H
 #define DAL_CLI_FILE_H
 
@@ -21,13 +21,33 @@ bool file_is_same(const char *path, const char *other);
  * a power cut and not only the process. */
 int file_write(const char *path, const void *bytes, size_t length, int sync);
 int file_rename(const char *from, const char *to, int sync);
-/* Writes a file that is not there yet.  Returns CLI_DONE, or prints and returns CLI_USAGE or
- * CLI_IO. */
-int file_create(const char *path, const void *bytes, size_t length);
-/* Writes PATH.new and renames it, so that PATH is never half written.  Return CLI_DONE or print and
- * return CLI_IO. */
+
+/* Outputs: one rule for what a user names and for the files of a directory.  A regular file is
+ * written beside its place, as .NAME.new, and renamed; its symbolic links, owner and permissions
+ * stay.  A device, a FIFO or a socket is opened and written, /dev/stdout and /dev/fd/N are these
+ * descriptors, and a directory is an error.  The functions print what fails. */
+
+/* Writes all at once: a file is old or new and never half of either.  Return CLI_DONE or CLI_IO. */
 int file_replace(const char *path, const void *bytes, size_t length, int sync);
 int file_copy(const char *from, const char *to, int sync);
+/* The same piece by piece, "-" being standard output. */
+typedef struct file_output {
+    FILE *stream;
+    const char *name; /* as it was given */
+    char *path;       /* what its symbolic links lead to */
+    char *fresh;      /* a file beside that, to be renamed to it; NULL: it is written in place */
+} file_output;
+int file_output_open(file_output *output, const char *path);
+/* Closes it after the status CLI_DONE; after another the file that was there stays.  Returns the
+ * status, or that of closing. */
+int file_output_close(file_output *output, int status);
+/* For rows, which can be read while they are written: the new, empty file has its name from the
+ * beginning.  Return a descriptor, -1 after a failure, and a stream, "-" being stdout, or NULL. */
+int file_open_output(const char *path);
+FILE *file_stream_output(const char *path);
+/* Writes a file that is not there yet, or a device.  Returns CLI_DONE, CLI_USAGE or CLI_IO. */
+int file_create(const char *path, const void *bytes, size_t length);
+
 /* Removes a file that may be absent. */
 int file_remove(const char *path);
 
@@ -45,6 +65,11 @@ void cli_put_text(FILE *out, const char *text);
 int cli_ends_in(const char *text, const char *ending);
 /* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
 int cli_directory(const char *path);
+/* Whether a directory holds results of this program, or nothing, or is not there. */
+bool file_owns_directory(const char *path);
+/* Returns CLI_DONE for such a directory, else prints and returns CLI_USAGE: others are written into
+ * with --force alone. */
+int file_check_directory(const char *path);
 /* The same for an output, and says on stderr that it is a directory. */
 int cli_output_directory(const char *path);
 /* Whether an output is a directory: not "-", no .csv or .npy, no device and no pipe. */

@@ -104,7 +104,7 @@ int svg_tidy(const char *path, const char *axes)
     FILE *out = cli_memstream_open(&text, &length);
     write_tidy(out, svg, axes);
     cli_memstream_close(out);
-    const int status = file_write(path, text, length, 0);
+    const int status = file_replace(path, text, length, 0);
     free(text);
     free(svg);
     return status;

@@ -174,7 +174,7 @@ int report_close(report *r)
     fprintf(r->page, "</p>\n<script type=\"module\">\n%s</script>\n</body></html>\n",
             report_script);
     cli_memstream_close(r->page);
-    const int status = file_write(r->page_path, r->text, r->length, 0);
+    const int status = file_replace(r->page_path, r->text, r->length, 0);
     free(r->text);
     return status;
 }

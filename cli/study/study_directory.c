@@ -277,15 +277,19 @@ static int lock(const study_directory *dir)
 int study_directory_begin(study_directory *dir, study_plan *plan, const char *text, size_t length,
                           study_shard shard, int force)
 {
-    int status = cli_directory(dir->path);
+    const bool is_own = file_owns_directory(dir->path);
+    int status = force ? CLI_DONE : file_check_directory(dir->path);
+    if (status == CLI_DONE) status = cli_directory(dir->path);
     if (status != CLI_DONE) return status;
     plan->runs = dir->runs;
     dir->shard = shard;
     for (int i = 0; i < plan->cell_count; i++)
         plan->cells[i].other_shard = !shard_has_cell(shard, i);
     const int locked = lock(dir);
-    status =
-        force || is_incomplete(dir) ? clear(dir) : check_place(dir, text, length, shard.count > 0);
+    if (is_incomplete(dir) || (force && is_own))
+        status = clear(dir);
+    else if (!force)
+        status = check_place(dir, text, length, shard.count > 0);
     if (status == CLI_DONE) status = cli_directory(dir->runs);
     if (status == CLI_DONE) status = copy_systems(dir, plan);
     if (status == CLI_DONE) status = write_manifest(dir, plan, "running");
@@ -365,10 +369,11 @@ static int write_files(const study_directory *dir, const study_plan *plan)
     int status = study_write_csv(plan, dir->path);
     if (status == CLI_DONE) status = study_write_expectations(plan, dir->expectations);
     if (status != CLI_DONE) return status;
-    FILE *file = fopen(dir->tables, "w");
-    if (!file) return cli_io("write", dir->tables);
-    print_tables(file, plan);
-    return cli_close(file, dir->tables);
+    file_output tables;
+    status = file_output_open(&tables, dir->tables);
+    if (status != CLI_DONE) return status;
+    print_tables(tables.stream, plan);
+    return file_output_close(&tables, CLI_DONE);
 }
 
 /* The screen, in colour on a terminal (https://no-color.org), or the tables. */

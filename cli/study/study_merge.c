@@ -107,14 +107,12 @@ static int copy_file(const char *source, const char *target)
     char block[1 << 16];
     FILE *from = fopen(source, "rb");
     if (!from) return errno == ENOENT ? CLI_DONE : cli_io("read", source);
-    FILE *to = fopen(target, "wb");
-    int status = to ? CLI_DONE : cli_io("write", target);
-    for (size_t n; to && (n = fread(block, 1, sizeof block, from)) > 0;)
-        if (fwrite(block, 1, n, to) != n) break;
-    if (to && ferror(from)) status = cli_io("read", source);
-    if (to) {
-        const int closed = cli_close(to, target);
-        if (status == CLI_DONE) status = closed;
+    file_output to;
+    int status = file_output_open(&to, target);
+    if (status == CLI_DONE) {
+        for (size_t n; (n = fread(block, 1, sizeof block, from)) > 0;)
+            if (fwrite(block, 1, n, to.stream) != n) break;
+        status = file_output_close(&to, ferror(from) ? cli_io("read", source) : CLI_DONE);
     }
     fclose(from);
     return status;

@@ -51,9 +51,11 @@ static void say_same(char *text, const table_row *r)
     if (physical) snprintf(text, CELL, "%s", physical->bits == r->cell->bits ? "same" : "DIFFERS");
 }
 
-static double per_step(const table_row *r, double x)
+/* The work; seconds are in cells.csv alone, since tables have the same bytes in every run. */
+static double evaluations_per_step(const table_row *r)
 {
-    return r->cell->steps > 0 ? x / (double)r->cell->steps : 0.0;
+    const study_cell *c = r->cell;
+    return c->steps > 0 ? (double)c->evaluations / (double)c->steps : 0.0;
 }
 
 #define SIZE(quantity, member)                                                                     \
@@ -62,11 +64,9 @@ static double per_step(const table_row *r, double x)
     say_number(text, r->q.quantity, "%+.0e", r->q.quantity ? r->q.quantity->rate : 0.0)
 #define TREND(quantity) say_trend(text, r->q.quantity)
 
-#define SPEED_LIST(COLUMN)                                                                         \
+#define WORK_LIST(COLUMN)                                                                          \
     COLUMN("steps", "", 8, snprintf(text, CELL, "%lld", r->cell->steps))                           \
-    COLUMN("evals", "/step", 6,                                                                    \
-           snprintf(text, CELL, "%.1f", per_step(r, (double)r->cell->evaluations)))                \
-    COLUMN("ns", "/step", 7, snprintf(text, CELL, "%.0f", per_step(r, 1e9 * r->cell->seconds)))
+    COLUMN("evals", "/step", 6, snprintf(text, CELL, "%.1f", evaluations_per_step(r)))
 
 /* head, second line of the head, width, how the text is made */
 #define MOTION_LIST(COLUMN)                                                                        \
@@ -79,7 +79,7 @@ static double per_step(const table_row *r, double x)
     COLUMN("max", "|I-I0|", 8, SIZE(invariant, deviation))                                         \
     COLUMN("max", "error", 8, SIZE(error, max_abs))                                                \
     COLUMN("(q,v)", "alone", 8, say_same(text, r))                                                 \
-    SPEED_LIST(COLUMN)
+    WORK_LIST(COLUMN)
 
 #define LIFT_LIST(COLUMN)                                                                          \
     COLUMN("H0", "", 9, SIZE(H, first))                                                            \
@@ -90,7 +90,7 @@ static double per_step(const table_row *r, double x)
     COLUMN("max", "|pi|", 8, SIZE(pi, max_abs))                                                    \
     COLUMN("|pi| rate", "per t", 10, RATE(pi))                                                     \
     COLUMN("max", "|D|", 8, SIZE(D, max_abs))                                                      \
-    SPEED_LIST(COLUMN)
+    WORK_LIST(COLUMN)
 
 /* ---- rows ---------------------------------------------------------------------------------- */
 
@@ -367,17 +367,17 @@ static int write_file(const study_plan *plan, const study_case *of_case, const c
     while (next < end && plan->cells[next].state == STUDY_WAITING) next++;
     if (of_case && next == end) return CLI_DONE;
     char *path = cli_join(directory, name);
-    FILE *out = fopen(path, "w");
-    int status = out ? CLI_DONE : cli_io("write", path);
-    if (out) fprintf(out, "%s\n", heads);
-    for (; next < end && out; next++) {
+    file_output output;
+    int status = file_output_open(&output, path);
+    if (status == CLI_DONE) fprintf(output.stream, "%s\n", heads);
+    for (; next < end && status == CLI_DONE; next++) {
         const study_cell *c = &plan->cells[next];
         if (c->state == STUDY_WAITING) continue;
         csv_row r = {plan, c, c->of_case, study_cell_quantities(c), ""};
         dal_method_name(c->method, r.method, sizeof r.method);
-        put(out, &r);
+        put(output.stream, &r);
     }
-    if (out) status = cli_close(out, path);
+    if (status == CLI_DONE) status = file_output_close(&output, CLI_DONE);
     free(path);
     return status;
 }

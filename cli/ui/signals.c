@@ -51,3 +51,13 @@ void cli_catch_signals(void)
 }
 
 bool cli_interrupted(void) { return caught; }
+
+static void continue_after(int number) { (void)number; }
+
+/* A handler, since programs that are started would inherit that a signal is ignored. */
+void cli_catch_broken_pipe(void)
+{
+    struct sigaction action = {.sa_handler = continue_after, .sa_flags = SA_RESTART};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGPIPE, &action, NULL);
+}

@@ -8,5 +8,7 @@
  * first one, a read or a write that waits for another process fails with EINTR. */
 void cli_catch_signals(void);
 bool cli_interrupted(void);
+/* From this call on a write to a pipe that nobody reads fails with EPIPE. */
+void cli_catch_broken_pipe(void);
 
 #endif

@@ -98,7 +98,8 @@ sh "$bench/sizes.sh" >sizes.txt
 holds "not every size" test "$(grep -c '^gni-tape-.* dal tape gni physical R' sizes.txt)" -eq 7
 
 maker=${program%/*}/bench/page
-if there "$maker" && there gnuplot; then
+makes_pages() { test -x "$maker" && there gnuplot; }
+if needs 24 "no gnuplot, or no ${maker##*/bench/} of the bench" makes_pages; then
     # makes STATUS RESULTS...: the page of results, by its own program.
     makes() {
         expected=$1
@@ -152,4 +153,5 @@ END_OF_RESULTS
     makes 4 nowhere.jsonl
     makes 2
     says 'DIR and RESULTS are required'
+    counted
 fi

@@ -43,7 +43,7 @@ is_ellipse() {
     }' outline
 }
 
-if there gnuplot; then
+if needs 35 "no gnuplot" there gnuplot; then
     case_is "a blade: its edge and an arrow"
     draws blade
     is_outline '-1.000,0.000 1.000,0.000' '0.500,0.300 1.000,0.000 0.500,-0.300'
@@ -99,4 +99,5 @@ picture: {x: x, y: 3, body: ball}\n' >moving.yaml
     holds "other circles" test $? -eq 0
     lines moving/report/path.gp 1 >way
     holds "not from (0, 3) to (10, 3)" test "$(sed -n '1p; $p' way | tr '\n' ' ')" = "0,3 10,3 "
+    counted
 fi

@@ -16,7 +16,7 @@ for document in "$here/../../README.md" "$here"/../../docs/*.md; do
     esac
     while read -r command <&3; do
         case $command in
-        report*) there gnuplot || continue ;;
+        report*) there gnuplot || { skips 1 "no gnuplot" && continue; } ;;
         esac
         eval "try 0 $command"
         cat out err >>printed

@@ -96,9 +96,10 @@ silent
 case_is "threads, native, checkpoints change no byte"
 try 0 $begin --output other --threads 2 --native off --checkpoint 0
 holds "other bytes" same_ensemble whole other
-if there "${CC:-cc}"; then
+if needs 2 "no compiler" there cc; then
     try 0 $begin --output native --native on
     holds "other bytes by compiled steps" same_ensemble whole native
+    counted
 fi
 
 case_is "shards of an ensemble"
@@ -141,7 +142,7 @@ mpi_ensemble() {
     shift 3
     by_mpi $status -n $ranks $options "$mpi_program" "$@"
 }
-if has_mpi; then
+if needs 33 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
     words=${begin%--no-page}
     mpi_ensemble 0 3 "" $words --output by-mpi
     prints "^t = 2, $members members$"
@@ -175,6 +176,7 @@ if has_mpi; then
         holds "other bytes, resumed" same_ensemble whole stopped-too
         rm -r stopped-too
     done
+    counted
 fi
 
 case_is "two processes on one ensemble"
@@ -193,7 +195,7 @@ says "dalembert: 'whole' holds an ensemble: 'dalembert resume whole' continues i
 try 0 resume whole
 holds "other bytes after a second end" same_ensemble whole other
 try 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --output whole
-if raises; then
+if needs 32 "no compiler for signals at given places" raises; then
     RAISE_WRITE=1
     export RAISE_WRITE
     for call in 1 4 5 9 13 17 22; do
@@ -214,6 +216,7 @@ if raises; then
     unset RAISE_WRITE
     try 0 resume interrupted --no-page
     holds "interrupted: other bytes" same_ensemble whole interrupted
+    counted
 fi
 rm killed/final.npy
 try 2 resume killed
@@ -299,10 +302,12 @@ done
 holds "a directory was made" test ! -e wrong
 mkdir wrong
 printf x >wrong/manifest.json
+wrong "'wrong' is not empty and holds no results of dalembert" $one --vary "k=normal(0,1)"
+printf '{\n  "dalembert": "0.5.0"\n}\n' >wrong/manifest.json
 wrong "'wrong' holds something else" $one --vary "k=normal(0,1)"
 
 case_is "the page of an ensemble"
-if there gnuplot; then
+if needs 12 "no gnuplot" there gnuplot; then
     try 0 report whole
     for figure in cloud-1 cloud-3 histogram-1 histogram-6 band-2; do
         holds "no $figure" grep -q '</svg>' whole/report/$figure.svg
@@ -315,4 +320,5 @@ if there gnuplot; then
         --output shifted
     holds "no figure of what varies" test -e shifted/report/histogram-1.svg
     holds "a figure of what does not" test ! -e shifted/report/histogram-3.svg
+    counted
 fi

@@ -26,8 +26,8 @@ strict="-Wall -Wextra -Wpedantic -Werror -Wno-psabi"
 same() {
     system=$1 method=$2 space=$3 lanes=$4 compiler=$5
     shift 5
-    there "$compiler" || return 0
     case_is "$system $method $space, $lanes lanes, $compiler $*"
+    needs 6 "no $compiler" there "$compiler" || return 0
     try 0 generate "$system" --integrator "$method" --space "$space" --lanes "$lanes" $control \
         --prefix g -o g.c
     silent
@@ -40,6 +40,7 @@ same() {
     sed -n '3p' out >interpreted.csv
     holds "other digits: $(cat generated.csv) not $(cat interpreted.csv)" \
         cmp -s generated.csv interpreted.csv
+    counted
 }
 : >cc.log
 control=
@@ -104,7 +105,7 @@ same tables.yaml rk4 physical 8 clang -std=c11 -O1
 
 
 # What a microcontroller must supply.
-if there gcc; then
+if needs 4 "no gcc" there gcc; then
     case_is "only libm and memcpy, memset are needed"
     try 0 generate isokinetic --integrator gauss4+project --prefix g -o g.c
     holds "it does not compile" gcc -std=c11 -Os -ffreestanding $strict -c g.c -o g.o
@@ -113,6 +114,7 @@ if there gcc; then
     case_is "declarations alone"
     printf '#define g_HEADER\n#include "g.c"\nint main(void) { return g_LANES - 1; }\n' >head.c
     holds "it is more than declarations" sh -c "gcc -std=c11 $strict head.c -o head && ./head"
+    counted
 fi
 
 # Names and texts that are C to C.
@@ -157,4 +159,4 @@ case_is "no room for a file"
     exec "$program" generate knife-edge --integrator rk4 -o large.c 2>err
 )
 holds "exit 4" [ $? -eq 4 ]
-says "cannot write 'large.c.new': File too large"
+says "cannot write 'large.c': File too large"

@@ -1,7 +1,7 @@
 # The JSON that the program writes, read by another parser, and that it reads: python3's, where there
 # is one.  (The C suite json reads texts and numbers back everywhere.)
 
-if there python3; then
+if needs 52 "no python3" there python3; then
     case_is "the manifest of a run"
     try 0 run ./line.yaml --integrator rk4 --step .1 --time 1e1 --sums plain --times 1,2.5,10 \
         --set k=0.5 --output described
@@ -94,11 +94,13 @@ END
 
     case_is "the reader of JSON and that of Python"
     reader=${program%/*}/tests/read_json
-    if [ -x "$reader" ]; then
+    if needs 1 "no read_json (make build/tests/read_json)" test -x "$reader"; then
         python3 "$here/read_json.py" "$reader" >compared 2>&1
         status=$?
         holds "$(cat compared)" [ $status -eq 0 ]
+        counted
     fi
+    counted
 fi
 
 case_is "a manifest nested too deep is refused at once"

@@ -63,7 +63,7 @@ row_bytes=$((8 * $(columns_of unkilled/trajectory.npy)))
 header_bytes=$(($(wc -c <unkilled/trajectory.npy) - 20012 * row_bytes))
 
 natives=off
-there cc && natives="off on"
+if there cc; then natives="off on"; else skips 1 "no compiler: nothing is killed with --native on"; fi
 share=$((kills_left / $(echo $natives | wc -w)))
 for native in $natives; do
     case_is "killed at random moments, --native $native, seed $seed"
@@ -83,6 +83,7 @@ done
 
 # With CALLS set, which takes half a minute: killed, or with a full disk, at each call of
 # the system that changes a file.
+[ -z "${CALLS:-}" ] || there strace || skips 1 "no strace"
 if [ -n "${CALLS:-}" ] && there strace; then
     motion="$motion --samples 3000 --time 6 --native off"
     try 0 run $motion --output undisturbed

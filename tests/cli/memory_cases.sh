@@ -43,7 +43,10 @@ fails_cleanly() {
     holds "status $well, $total allocations, at$fault: $*" [ -z "$fault" -a "$total" -gt 0 ]
 }
 
-if shared_object fail_allocation && without_memory 0 1 --version && [ ! -s err ]; then
+fails_allocations() { shared_object fail_allocation && without_memory 0 1 --version && [ ! -s err ]; }
+if sanitized; then
+    cannot 23 "sanitizers have an allocator of their own"
+elif needs 23 "no compiler for allocations that fail" fails_allocations; then
     printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 1' 'systems:' \
         '  - {system: line.yaml, set: {k: [1, 2]}}' >scarce.yaml
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
@@ -79,9 +82,10 @@ if shared_object fail_allocation && without_memory 0 1 --version && [ ! -s err ]
     fails_cleanly resume place --threads 2 --no-page
     prepare() { cp -R scarce/halves place; }
     fails_cleanly merge place/one place/two --output place/all --no-page
-    if there gnuplot; then
+    if needs 1 "no gnuplot" there gnuplot; then
         prepare() { cp -R scarce/whole place; }
         fails_cleanly report place
+        counted
     fi
 
     case_is "no memory: a run that failed for it is resumed"
@@ -96,4 +100,5 @@ if shared_object fail_allocation && without_memory 0 1 --version && [ ! -s err ]
     try 0 resume place
     holds "other rows" cmp scarce/long/trajectory.npy place/trajectory.npy
     rm -rf place scarce
+    counted
 fi

@@ -8,7 +8,7 @@ case_is "native: interpreted, for comparison"
 try 0 run $motion --native off --output tape.csv
 silent
 holds "off made a cache" test ! -e cache
-if there cc; then
+if needs 81 "no compiler" there cc; then
     case_is "native: the same bytes"
     try 0 run $motion --native on --output native.csv
     silent
@@ -147,6 +147,7 @@ if there cc; then
     holds "what the compiler wrote" test "$(cat out err | grep -c spoken)" -eq 0
     holds "other bytes" cmp -s tape.csv native.csv
     holds "something is left in the cache" test -z "$(ls cache/dalembert)"
+    counted
 fi
 
 case_is "native: no compiler"

@@ -13,7 +13,7 @@ holds "the plain motion keeps E" strays off.csv 1e-12
 holds "E is not kept" eval '! strays on.csv 2e-13'
 
 case_is "extend-energy: native and generated, same bytes"
-if there cc; then
+if needs 7 "no compiler" there cc; then
     try 0 run $motion --extend-energy on --native on --output native.csv
     silent
     holds "other bytes" cmp -s on.csv native.csv
@@ -22,6 +22,7 @@ if there cc; then
     try 0 generate contact-oscillator --integrator gauss8 --prefix on
     holds "the option changes nothing" eval '! cmp -s out on.c'
     holds "no compilation" cc -c on.c -o on.o
+    counted
 fi
 
 case_is "extend-energy: resumed"
@@ -101,8 +102,10 @@ try 2 run knife-edge --integrator taylor+lift --step 0.1 --time 1
 printf '%s\n' 'coordinates: [x, y, z]' "lagrangian: (x'^2 + y'^2 + z'^2)/2 + cos(z)*x'*y'" \
     "start: {z: 2^(-23) - 0.5, z': 1}" >vanishing.yaml
 for native in off on; do
+    [ $native = off ] || needs 2 "no compiler" there cc || continue
     try 3 run vanishing.yaml --integrator taylor --step 0.5 --time 2 --native $native
     says "the mass matrix became singular near t = 0.5"
+    [ $native = off ] || counted
 done
 
 case_is "tolerance: no smaller than what the precision can hold"
@@ -138,10 +141,13 @@ for keys in 'set: {m: 1, m: 2}' 'start: {x: 1, x: 2}' 'displace: {p_x: 1, p_x: 2
 done
 
 case_is "tolerance: compiled, the same bytes"
-try 0 run knife-edge --integrator dop853 --step 5 --time 10 --samples 1 \
-    --tolerance 1e-10 --native on --output native.csv
-silent
-holds "other bytes" cmp -s 1e-10.csv native.csv
+if needs 3 "no compiler" there cc; then
+    try 0 run knife-edge --integrator dop853 --step 5 --time 10 --samples 1 \
+        --tolerance 1e-10 --native on --output native.csv
+    silent
+    holds "other bytes" cmp -s 1e-10.csv native.csv
+    counted
+fi
 
 case_is "tolerance: without a step, which is a hundredth of the time then"
 motion="knife-edge --integrator dop853 --tolerance 1e-9 --from 10 --time 3 --samples 9"
@@ -174,14 +180,17 @@ holds "other times" awk -F, 'NR > 1 && !(($2 + 0.2 - (NR - 1)*8*atan2(1, 1))^2 <
 case_is "tolerance: rows within a step, which they do not change"
 for integrator in dop853 taylor; do
     motion="knife-edge --integrator $integrator --tolerance 1e-9 --step 10 --time 20"
-    for native in off on; do
-        try 0 run $motion --samples 200 --native $native --output within-$native.csv
+    try 0 run $motion --samples 200 --native off --output within-off.csv
+    silent
+    if needs 3 "no compiler" there cc; then
+        try 0 run $motion --samples 200 --native on --output within-on.csv
         silent
-    done
-    holds "other bytes compiled" cmp -s within-off.csv within-on.csv
-    holds "rows beyond their bound" awk -F, 'NR > 1 && !($NF < 2e-8 * (1 + $1)) { exit 1 }' within-on.csv
+        holds "other bytes compiled" cmp -s within-off.csv within-on.csv
+        counted
+    fi
+    holds "rows beyond their bound" awk -F, 'NR > 1 && !($NF < 2e-8 * (1 + $1)) { exit 1 }' within-off.csv
     try 0 run $motion --samples 2 --output alone.csv
-    sed -n '1p; 2p; 102p; 202p' within-on.csv >ends.csv
+    sed -n '1p; 2p; 102p; 202p' within-off.csv >ends.csv
     holds "rows change the trajectory" cmp -s ends.csv alone.csv
 done
 

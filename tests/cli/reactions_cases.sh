@@ -21,7 +21,7 @@ holds "header" [ "$(header out)" = "t,lambda1" ]
 holds "lambda of the start is not h" [ "$(sed -n 2p out)" = "0,-1" ]
 
 case_is "reactions: native, in quad precision, generated"
-if there cc; then
+if needs 14 "no compiler" there cc; then
     for method in gauss8 gni; do
         for native in off on; do
             try 0 run knife-edge-reaction $motion --integrator $method --statistics 3 \
@@ -39,6 +39,7 @@ if there cc; then
     holds "no compilation" cc -Wall -Werror -c edge.c -o edge.o
     try 2 generate knife-edge-reaction --integrator gni --reactions on
     says "the multipliers lambda1.. of gni are not observed in generated code"
+    counted
 fi
 
 case_is "reactions: refused with the reason"
@@ -169,7 +170,7 @@ try 0 study force.yaml --no-page --output force
 prints "Expectations: 6 of 6 are met"
 sed '/expect/,$d' force.yaml >bare.yaml
 try 0 study bare.yaml --no-page --output bare
-for study in bare force; do sed '/^Expect/d; /^$/d; s/ *[0-9]*$//' $study/tables.txt >$study.txt; done
+for study in bare force; do sed '/^Expect/d; /^$/d' $study/tables.txt >$study.txt; done
 holds "other tables" cmp -s bare.txt force.txt
 holds "another system observes it" [ -z "$(grep '^knife.*abs' force/quantities.csv)" ]
 for file in force/runs/*; do
@@ -196,7 +197,7 @@ try 2 study bad.yaml
 says "bad.yaml:9:[0-9]*: vakonomic motion has no reaction 'h1'"
 
 case_is "reactions: resumed"
-raises || return 0
+needs 13 "no compiler for signals at given places" raises || return 0
 long="knife-edge-reaction --integrator gni --step 0.001 --time 20 --samples 20011 --native off
       --columns x,h,R,lambda"
 try 0 run $long --output whole.npy
@@ -211,6 +212,7 @@ try 0 resume cut
 for file in trajectory.npy summary.csv; do
     holds "observed, other $file" cmp -s observed/$file cut/$file
 done
-raises && cut_off 137 9 4 study force.yaml --no-page --threads 1 --checkpoint 0 --output force-killed
+cut_off 137 9 4 study force.yaml --no-page --threads 1 --checkpoint 0 --output force-killed
 try 0 resume force-killed --no-page
 holds "killed: other expectations" cmp -s force/expectations.csv force-killed/expectations.csv
+counted

@@ -32,7 +32,7 @@ try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6.2831853071795
     --set v0=0.1 --output ran
 page=drawn/report/index.html
 
-if there python3; then
+if needs 15 "no python3" there python3; then
     case_is "the envelopes of a page are the maxima of series/"
     # Of three methods with two steps: D, E, I, H and the error of the sleigh, D, E and I of the
     # vakonomic one, all but D of the line.
@@ -72,6 +72,7 @@ start: {x2: 3, x1'"'"': 1}\n' >pair.yaml
     try 0 run ./pair.yaml --integrator rk4 --step 0.1 --time 2 --output pair
     try 0 report pair
     holds "a motion without a pair" sh -c "! grep -q '\"motions\"' pair/report/index.html"
+    counted
 fi
 
 if command -v gnuplot >/dev/null 2>&1; then

@@ -24,6 +24,7 @@ unset COLUMNS NO_COLOR OMP_NUM_THREADS
 patience=${PATIENCE:-600}
 passed=0
 failed=0
+skipped=0
 label=
 
 case_is() { label=$1; }
@@ -32,6 +33,36 @@ fail() {
     failed=$((failed + 1))
     echo "cli: FAILED: $label: $1"
     sed 's/^/    stderr: /' err | head -3
+}
+# cannot COUNT REASON: COUNT checks are not made here, which no package changes; skips COUNT REASON: a tool is
+# missing, and where CI is true that fails.
+cannot() {
+    skipped=$((skipped + $1))
+    echo "cli: $name: $label: $1 checks are skipped: $2"
+}
+skips() {
+    cannot "$@"
+    [ "${CI:-}" != true ] || fail "skipped though CI is true: $2"
+}
+# A program under the address sanitizer has an allocator of its own.
+sanitized() { ASAN_OPTIONS=help=1 "$program" --version 2>&1 | grep -q AddressSanitizer; }
+# needs COUNT REASON COMMAND...: begins a block of COUNT checks, which counted ends; where the command fails they
+# are skipped.
+needs() {
+    block_count=$1 block_reason=$2
+    shift 2
+    if "$@"; then
+        blocks="$((passed + failed + skipped)):$block_count $blocks"
+    else
+        skips "$block_count" "$block_reason"
+        false
+    fi
+}
+# counted: the block had as many checks as it said, those of blocks within it included.
+counted() {
+    block=${blocks%% *} blocks=${blocks#* }
+    made=$((passed + failed + skipped - ${block%:*}))
+    [ $made -eq "${block#*:}" ] || fail "the block has $made checks, not ${block#*:}"
 }
 # holds WHAT COMMAND...: the command must succeed.
 holds() {
@@ -122,11 +153,7 @@ cut_off() {
 
 # Whether there are dalembert-mpi, which `make mpi` makes, and Open MPI's mpirun.
 mpi_program=$(dirname "$program")/dalembert-mpi
-has_mpi() {
-    [ -x "$mpi_program" ] && there mpirun && return
-    echo "cli: $label: skipped: no $mpi_program (make mpi), or no mpirun"
-    false
-}
+has_mpi() { [ -x "$mpi_program" ] && there mpirun; }
 # by_mpi STATUS OPTION... PROGRAM ARGUMENT...: like try, by mpirun.
 by_mpi() {
     expected=$1
@@ -171,7 +198,7 @@ END
 # Signals at given places, where the program can be given them.
 shared_object raise_signal && signalled 9 1 run line.yaml --integrator rk4 --step 1 --time 1 --output signalled
 signalling=$?
-raises() { [ $signalling -eq 137 ] || { echo "cli: $name: skipped: no signals at given places" && false; }; }
+raises() { [ $signalling -eq 137 ]; }
 
 # Each part has a directory of its own, so that none meets what another left.
 for part in "$here"/[a-z]*_cases.sh; do
@@ -179,10 +206,10 @@ for part in "$here"/[a-z]*_cases.sh; do
     case " ${parts:-$name} " in *" $name "*) ;; *) continue ;; esac
     work=$top/$name
     mkdir "$work" && cp "$top/line.yaml" "$top/plane.yaml" "$work" && cd "$work" || exit 1
-    HOME=$top/home
+    HOME=$top/home blocks=
     unset XDG_CACHE_HOME
     . "$part"
 done
 
-echo "cli: $passed passed, $failed failed"
+echo "cli: $passed passed, $failed failed, $skipped skipped"
 [ $failed -eq 0 ]

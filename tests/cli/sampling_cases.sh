@@ -69,7 +69,7 @@ try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --statistics 50 --out
 holds "another rate" awk -F, '$1 == "E" && ($7 + 0.09999546) ^ 2 < 1e-12 { found = 1 }
     END { exit !found }' seldom/summary.csv
 
-if terminal; then
+if needs 9 "no terminal (script, stty)" terminal; then
     case_is "progress on a terminal fits its width"
     for width in 70 40 20; do
         script -qec "stty cols $width; '$program' run ./line.yaml --integrator gauss4 --step 0.01 \
@@ -80,4 +80,5 @@ if terminal; then
         [ $width -gt 20 ] && holds "no time to go, $width" grep -q ' %), [0-9]* s to go' lines.txt
         [ $width -gt 40 ] && holds "no drift" grep -q ', moved: E 0\.[0-9]*' lines.txt
     done
+    counted
 fi

@@ -22,8 +22,11 @@ prints '^3,38,30$'
 cp out rows
 
 case_is "the same bits compiled"
-try 0 run tables/push.yaml --integrator gauss4 --step 0.125 --time 3 --samples 3 --space physical --native on
-holds "native differs" cmp rows out
+if needs 2 "no compiler" there cc; then
+    try 0 run tables/push.yaml --integrator gauss4 --step 0.125 --time 3 --samples 3 --space physical --native on
+    holds "native differs" cmp rows out
+    counted
+fi
 
 case_is "a run is resumed where its tables are not"
 push="tables/push.yaml --integrator gauss4 --step 0.125 --time 3 --samples 24 --space physical"
@@ -34,7 +37,7 @@ says "^dalembert: tables/push\.yaml:2:20: cannot read 'tables/data/push\.csv': N
 try 0 run pushed/system.yaml --integrator gauss4 --step 0.125 --time 3 --samples 3 --space physical
 holds "the copy is another system" cmp rows out
 mv tables/hidden tables/data
-if raises; then
+if needs 4 "no compiler for signals at given places" raises; then
     cut_off 137 9 6 run $push --checkpoint 0 --output cut
     mkdir elsewhere
     mv cut elsewhere/moved
@@ -43,6 +46,7 @@ if raises; then
     says "'elsewhere/moved' resumes at t = "
     holds "not the rows of a run never interrupted" cmp elsewhere/moved/trajectory.npy pushed/trajectory.npy
     mv tables/hidden tables/data
+    counted
 fi
 
 case_is "a study has its tables in its directory"

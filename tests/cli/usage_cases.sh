@@ -53,7 +53,7 @@ prints '^- `--sampling linear\|log\|steps`: rows at equal distances in t, in log
 prints 'p\\_\\\*, pi\\_\\\*'
 prints '^- `trajectory.npy`: the rows'
 holds "other commands" test "$(grep -c '^## ' out)" -eq 1
-if there groff; then
+if needs 4 "no groff" there groff; then
     # The page that is made of it, without what stands about the commands.
     { echo '.TH D 1'; echo '@COMMANDS@'; } |
         awk -v version=0 -v commands=reference -f "$here/../../tools/manual.awk" >page.1
@@ -62,6 +62,7 @@ if there groff; then
     holds "no option of run" grep -q '^ *--sampling linear|log|steps$' page
     holds "no note of run" grep -q '^ *trajectory.npy$' page
     holds "escapes are left" sh -c '! grep -q "\\\\" page'
+    counted
 fi
 
 # completes WORDS...: what bash offers for the last one.
@@ -69,7 +70,7 @@ completes() {
     bash -c '. ./completion; COMP_WORDS=(dalembert "$@"); COMP_CWORD=$#; _dalembert "$0"
              echo "${COMPREPLY[*]}"' "$program" "$@"
 }
-if there bash; then
+if needs 21 "no bash" there bash; then
     case_is "completion by bash"
     awk -f "$here/../../tools/completion.awk" reference >completion
     holds "commands" test "$(completes re)" = "resume report"
@@ -94,6 +95,7 @@ if there bash; then
         holds "a system after $option" test -z "$(completes section knife-edge $option kn)"
     done
     holds "-o" sh -c 'for c in run order volume; do grep -q "^        $c) .* --output -o " completion || exit 1; done'
+    counted
 fi
 
 case_is "no help is wider than 80 columns"
@@ -105,7 +107,7 @@ try 0 study --help
 prints '^  runs/NAME/        a directory per cell \(system, integrator, start, step\), as$'
 prints "^                    'run' makes it, with rows after whole numbers of steps$"
 
-if terminal; then
+if needs 5 "no terminal (script, stty)" terminal; then
     case_is "tables on a terminal of 80 columns"
     script -qec "stty cols 80; '$program' list" /dev/null </dev/null | tr -d '\r' >narrow
     holds "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
@@ -115,6 +117,7 @@ if terminal; then
     script -qec "stty cols 80; '$program' list --long" /dev/null </dev/null | tr -d '\r' >narrow
     holds "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
     holds "a title is lost" grep -q "^    Chaplygin's symmetric sleigh, linear constraint; paper, rev" narrow
+    counted
 fi
 
 case_is "tables that fit"
