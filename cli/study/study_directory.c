@@ -5,7 +5,7 @@
 #include "io/json.h"
 #include "run/manifest.h"
 #include "run/system.h"
-#include "study_expect.h"
+#include "study_compare.h"
 #include "study_pool.h"
 #include "study_results.h"
 #include "study_screen.h"

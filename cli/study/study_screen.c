@@ -5,7 +5,7 @@
  * its first start and its first step. */
 #include "study_screen.h"
 
-#include "study_expect.h"
+#include "study_compare.h"
 #include "ui/memory.h"
 
 #include <math.h>
