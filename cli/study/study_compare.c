@@ -24,14 +24,27 @@ static bool is_stated(const study_expectation *x, const dal_trend *trend)
     return is_number || trend->conservation == DAL_CONSERVED;
 }
 
+/* Whether the run of a cell could not begin, and would have had the quantity. */
+static bool has_no_run(const study_expectation *x, const study_cell *c)
+{
+    const study_case *e = c->of_case;
+    if (c->state != STUDY_FAILED || c->observables > 0) return false;
+    if (!study_has_quantity(e, x->quantity)) return false;
+    if (c->start == STUDY_PHYSICAL && study_is_of_lift(x->quantity)) return false;
+    const bool is_conserved = e->system->properties & (DAL_E_EXACT | DAL_E_ON_D);
+    return x->field >= 0 || is_conserved || strcmp(x->quantity, "E") != 0;
+}
+
 /* Whether a cell is compared.  A label may mean several systems; those that never conserve E are
- * passed over. */
+ * passed over, and so are those that refuse the method. */
 static bool is_compared(const study_expectation *x, const study_cell *c)
 {
     if (!study_expectation_covers(x, c) || c->other_shard || c->state == STUDY_WAITING) return 0;
     if (study_expects_state(x)) return 1;
-    const dal_trend *trend = c->state == STUDY_REFUSED ? NULL : find_trend(x, c);
-    return trend && (is_stated(x, trend) || trend->conservation != DAL_NOT_CONSERVED);
+    if (c->state == STUDY_REFUSED) return 0;
+    const dal_trend *trend = find_trend(x, c);
+    if (!trend) return has_no_run(x, c);
+    return is_stated(x, trend) || trend->conservation != DAL_NOT_CONSERVED;
 }
 
 static double field_value(const dal_trend *trend, int field)
@@ -42,11 +55,25 @@ static double field_value(const dal_trend *trend, int field)
     return value[field];
 }
 
+static bool expects_aborted(const study_expectation *x)
+{
+    return x->field < 0 && x->words >> (DAL_SIZE_COUNT + DAL_TREND_ABORTED) & 1;
+}
+
+/* Whether the quantity is known to the end of a run.  Where it is not, size, trend and numbers
+ * cover the part before. */
+static bool is_complete(const study_expectation *x, const study_cell *c)
+{
+    const dal_trend *trend = find_trend(x, c);
+    return c->state == STUDY_FINISHED && trend && trend->trend != DAL_TREND_ABORTED;
+}
+
 static bool is_met(const study_expectation *x, const study_cell *c)
 {
     if (study_expects_state(x)) return x->words >> c->state & 1;
     const dal_trend *trend = find_trend(x, c);
-    if (!is_stated(x, trend)) return 0;
+    if (!trend || !is_stated(x, trend)) return 0;
+    if (!is_complete(x, c)) return expects_aborted(x);
     if (x->field < 0)
         return (x->words >> trend->size | x->words >> (DAL_SIZE_COUNT + trend->trend)) & 1;
     const double value = field_value(trend, x->field);
@@ -84,6 +111,10 @@ static void put_found(FILE *out, const study_expectation *x, const study_cell *c
     const dal_trend *trend = c ? find_trend(x, c) : NULL;
     if (!trend)
         fputs(c ? study_state_words[c->state] : "no run that has it", out);
+    else if (!is_complete(x, c))
+        fputs(c->state == STUDY_FAILED && !expects_aborted(x) ? study_state_words[STUDY_FAILED]
+                                                              : dal_trend_text(DAL_TREND_ABORTED),
+              out);
     else if (!is_stated(x, trend))
         fputs(dal_conservation_text(trend->conservation), out);
     else if (x->field >= 0)
@@ -141,6 +172,15 @@ static void add_comparison(study_comparisons *all, const study_expectation *x, c
     all->item = cli_realloc(all->item, ((size_t)all->count + 1) * sizeof *all->item);
     all->item[all->count++] = (study_comparison){x, c, met};
     all->unmet += !met;
+    if (met || !c || study_expects_state(x) || is_complete(x, c)) return;
+    all->failed += c->state == STUDY_FAILED;
+    all->aborted += c->state == STUDY_FINISHED;
+}
+
+static bool is_refused(const study_expectation *x, const study_cell *c)
+{
+    return study_expectation_covers(x, c) && !study_expects_state(x) && !c->other_shard &&
+           c->state == STUDY_REFUSED;
 }
 
 study_comparisons study_compare(const study_plan *plan)
@@ -153,6 +193,7 @@ study_comparisons study_compare(const study_plan *plan)
         for (int k = 0; k < plan->cell_count; k++) {
             const study_cell *c = &plan->cells[k];
             is_waiting |= study_expectation_covers(x, c) && c->state == STUDY_WAITING;
+            all.refused += is_refused(x, c);
             if (is_compared(x, c)) add_comparison(&all, x, c);
         }
         if (all.count == before && !is_waiting) add_comparison(&all, x, NULL);
@@ -171,18 +212,38 @@ bool study_failure_is_expected(const study_plan *plan, const study_cell *cell)
 {
     for (int i = 0; i < plan->expectation_count; i++) {
         const study_expectation *x = &plan->expectations[i];
-        const unsigned word =
-            study_expects_state(x) ? STUDY_FAILED : (unsigned)DAL_SIZE_COUNT + DAL_TREND_ABORTED;
-        if (is_compared(x, cell) && x->field < 0 && x->words >> word & 1) return 1;
+        if (!is_compared(x, cell)) continue;
+        if (study_expects_state(x) ? is_met(x, cell) : expects_aborted(x) && find_trend(x, cell))
+            return 1;
     }
     return 0;
+}
+
+void study_print_met(FILE *out, const study_comparisons *all)
+{
+    const struct {
+        int count;
+        const char *word;
+    } others[] = {{all->failed, study_state_words[STUDY_FAILED]},
+                  {all->aborted, dal_trend_text(DAL_TREND_ABORTED)},
+                  {all->refused, study_state_words[STUDY_REFUSED]}};
+    const char *separator = "; ";
+    fprintf(out, "Expectations: %d of %d are met", all->count - all->unmet, all->count);
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        if (others[i].count == 0) continue;
+        fprintf(out, "%s%d %s", separator, others[i].count, others[i].word);
+        separator = ", ";
+    }
+    fputs(".\n", out);
 }
 
 void study_print_expectations(FILE *out, const study_plan *plan)
 {
     const study_comparisons all = study_compare(plan);
-    if (plan->expectation_count > 0)
-        fprintf(out, "\nExpectations: %d of %d are met.\n", all.count - all.unmet, all.count);
+    if (plan->expectation_count > 0) {
+        fputc('\n', out);
+        study_print_met(out, &all);
+    }
     for (int i = 0; i < all.count; i++)
         if (!all.item[i].is_met) study_print_comparison(out, &all.item[i], true);
     free(all.item);

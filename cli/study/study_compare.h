@@ -21,9 +21,13 @@ typedef struct study_comparison {
 typedef struct study_comparisons {
     study_comparison *item; /* [count]; free it */
     int count, unmet;
+    int failed, aborted; /* unmet, since the run failed or a value was not finite */
+    int refused;         /* runs that are not compared, since the system refuses the method */
 } study_comparisons;
 /* All comparisons, in the order of the file. */
 study_comparisons study_compare(const study_plan *plan);
+/* "Expectations: 3 of 5 are met; 1 failed, 2 refused." */
+void study_print_met(FILE *out, const study_comparisons *comparisons);
 /* A line about one, in columns of a table or with single blanks:
  *     LABEL METHOD START h = STEP QUANTITY: expected X, found Y (line N) */
 void study_print_comparison(FILE *out, const study_comparison *comparison, bool in_columns);

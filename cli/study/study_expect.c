@@ -228,17 +228,23 @@ static int add_mapping(expect_reader *r, yaml_node_t *node)
 
 /* ---- what the study contains ---- */
 
-bool study_has_quantity(const study_case *e, const char *name)
+bool study_is_of_lift(const char *name)
 {
     static const char *const lifted_names[] = {"H", "|p|", "|pi|", "|pi_e|"};
+    for (size_t i = 0; i < sizeof lifted_names / sizeof(char *); i++)
+        if (strcmp(lifted_names[i], name) == 0) return true;
+    return false;
+}
+
+bool study_has_quantity(const study_case *e, const char *name)
+{
     const dal_system *s = e->system;
     const int is_lifted = s->call.adjoint && e->starts & ~(1 << STUDY_PHYSICAL);
     if (strcmp(name, "state") == 0) return 1;
     if (strcmp(name, "E") == 0) return s->energy != NULL;
     if (strcmp(name, "error") == 0) return s->exact != NULL;
     if (is_constraint(name)) return s->constraints && atoi(name + 1) <= s->m && s->m > 0;
-    for (size_t i = 0; is_lifted && i < sizeof lifted_names / sizeof(char *); i++)
-        if (strcmp(lifted_names[i], name) == 0) return 1;
+    if (is_lifted && study_is_of_lift(name)) return 1;
     for (int i = 0; i < s->invariants; i++)
         if (strcmp(s->invariant[i], name) == 0) return 1;
     return e->options.reactions && columns_need_reactions(s, name);

@@ -45,6 +45,8 @@ int study_expect_read(study_plan *plan, yaml_node_t *node);
 bool study_label_means(const study_case *item, const char *label);
 /* Whether the runs of a case have a quantity of this name. */
 bool study_has_quantity(const study_case *item, const char *name);
+/* Whether a quantity is one of lifted runs alone. */
+bool study_is_of_lift(const char *name);
 /* Whether an expectation is about a cell. */
 bool study_expectation_covers(const study_expectation *x, const study_cell *cell);
 /* Whether it is about the state of a run, not about a quantity. */
