@@ -1,7 +1,7 @@
 /* check_sections.c - what `dalembert check` examines, section by section.
  *
- * Energy: dE/dt = v.Q + sum_a h_a v.A_a.  For D_a homogeneous of degree k in v the last term is
- * k h_a D_a, so E is conserved on D = 0 only; an affine D, as that of a turntable, need not
+ * Energy: dE/dt = v.Q + sum_a h_a v.A_a - L_t.  For D_a homogeneous of degree k in v the second
+ * term is k h_a D_a, so E is conserved on D = 0 only; an affine D, as that of a turntable, need not
  * conserve E at all.
  *
  * Actions: int e/2 |q'' - F|^2 dt is 0 on a solution and positive off it.  int P.X' - H is
@@ -187,6 +187,13 @@ static void check_growth(check *c)
                    space);
 }
 
+/* The degrees at two points may differ by this where D is homogeneous: the rest is noise. */
+static double round_degree(double k)
+{
+    const double noise = 1e-8;
+    return nearbyint(k / noise) * noise + 0.0;
+}
+
 static void check_constraints(check *c)
 {
     dal_constraint_class d;
@@ -203,8 +210,9 @@ static void check_constraints(check *c)
         char text[64] = "not homogeneous";
         int written = 0;
         for (int a = 0; d.homogeneous && a < c->m && written < 44; a++)
-            written += snprintf(text + written, sizeof text - (size_t)written,
-                                "%sD%d of degree %.4g", a > 0 ? ", " : "", a + 1, degree[a] + 0.0);
+            written +=
+                snprintf(text + written, sizeof text - (size_t)written, "%sD%d of degree %.4g",
+                         a > 0 ? ", " : "", a + 1, round_degree(degree[a]));
         check_item(c, CHECK_INFO, "homogeneity of D in v", "%s%s", text,
                    d.linear ? "; affine" : "");
         check_classes(c, &d);

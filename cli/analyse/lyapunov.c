@@ -208,24 +208,20 @@ static double resolution(const tangent_study *s)
     return log(fmax(T, 1.0) + 1.0) / fmax(T, 1.0);
 }
 
-static const char *sign_word(const dal_average *a, double resolution, const char *positive,
-                             const char *negative)
-{
-    if (a->low > resolution) return positive;
-    if (a->high < -resolution) return negative;
-    return "may be 0";
-}
-
 static const char *exponent_word(const tangent_study *s, const dal_average *a)
 {
-    return sign_word(a, resolution(s), "positive", "negative");
+    if (a->low > resolution(s)) return "positive";
+    return a->high < -resolution(s) ? "negative" : "may be 0";
 }
 
-static const char *volume_word(const tangent_study *s, const dal_average *a)
+/* A mean divergence is decided by its interval alone: it is a mean of known values, and log(T)/T is
+ * for exponents. */
+static const char *volume_word(const dal_average *a)
 {
     static const double rounding = 1e-11;
-    const bool is_zero = fabs(a->low) <= rounding && fabs(a->high) <= rounding;
-    return is_zero ? "preserved at every step" : sign_word(a, resolution(s), "grows", "shrinks");
+    if (fabs(a->low) <= rounding && fabs(a->high) <= rounding) return "preserved at every step";
+    if (a->low > 0.0) return "grows";
+    return a->high < 0.0 ? "shrinks" : "may be 0";
 }
 
 /* ---- in words ------------------------------------------------------------------------------ */
@@ -256,8 +252,8 @@ static void print_volume(const tangent_study *s)
     dal_average motion, step;
     dal_lyapunov_divergence(s->spectrum, &motion);
     dal_lyapunov_sum(s->spectrum, &step);
-    print_mean("divergence of F", &motion, volume_word(s, &motion));
-    print_mean("log|det J|/h", &step, volume_word(s, &step));
+    print_mean("divergence of F", &motion, volume_word(&motion));
+    print_mean("log|det J|/h", &step, volume_word(&step));
     printf("\n%d of %d directions; step less motion: %.2g\n", dal_lyapunov_count(s->spectrum),
            dal_run_dimension(dal_lyapunov_run(s->spectrum)), step.mean - motion.mean);
 }
@@ -322,8 +318,8 @@ static void put_volume(json_writer *w, const tangent_study *s)
     dal_average motion, step;
     dal_lyapunov_divergence(s->spectrum, &motion);
     dal_lyapunov_sum(s->spectrum, &step);
-    put_mean(w, "divergence", &motion, volume_word(s, &motion));
-    put_mean(w, "step", &step, volume_word(s, &step));
+    put_mean(w, "divergence", &motion, volume_word(&motion));
+    put_mean(w, "step", &step, volume_word(&step));
     json_put_integer(w, "directions", dal_lyapunov_count(s->spectrum));
     json_put_integer(w, "dimension", dal_run_dimension(dal_lyapunov_run(s->spectrum)));
 }
@@ -349,7 +345,7 @@ static void put_means(const tangent_study *s, const balance *b)
     json_put_number(&w, "from", s->begin);
     json_put_number(&w, "to", dal_run_time(dal_lyapunov_run(s->spectrum)));
     json_put_text(&w, "derivative", dal_lyapunov_is_exact(s->spectrum) ? "exact" : "differences");
-    json_put_number(&w, "resolution", resolution(s));
+    json_put_number(&w, "resolution", s->set->is_volume ? NAN : resolution(s));
     (s->set->is_volume ? put_volume : put_exponents)(&w, s);
     put_balance(&w, b);
     json_end_results(&w);
