@@ -194,6 +194,9 @@ dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, 
  * solved DAL_RANK, DAL_INCONSISTENT. */
 dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
                                double *out, dal_error *error);
+/* The same of a start at the time t. */
+dal_status dal_evaluator_start_at(dal_evaluator *evaluator, double t, const dal_setting *start,
+                                  int start_count, double *out, dal_error *error);
 
 /* d/dt of the count values of a callback along the motion, that is the derivative along
  * (v, F, dg/dt, 1): out[count].  For D it must vanish on every level of D. [alloc]

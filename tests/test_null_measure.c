@@ -110,6 +110,8 @@ static void null_dal_evaluator_start(void)
     REFUSED(dal_evaluator_start(evaluator, COUNT_NEGATIVE, numbers, error));
     REFUSED(dal_evaluator_start(evaluator, SETTINGS_MISSING, numbers, error));
     REFUSED(dal_evaluator_start(evaluator, NAME_MISSING, numbers, error));
+    REFUSED(dal_evaluator_start_at(NULL, 0.0, NULL, 0, numbers, error));
+    REFUSED(dal_evaluator_start_at(evaluator, 0.0, NULL, 0, NULL, error));
 }
 
 /* ---- measures of a system ---- */

@@ -96,7 +96,7 @@ static void choose_points(check *c, double *memory)
             x[i] = c->start[i] + radius * random_number(&random);
         }
         c->near[c->near_count] =
-            (dal_point){.t = fabs(random_number(&random)), .q = x, .v = x + c->n};
+            (dal_point){.t = c->origin.t + fabs(random_number(&random)), .q = x, .v = x + c->n};
         c->near_count += is_field_finite(c, &c->near[c->near_count]);
     }
     memory += CHECK_POINTS * c->size;
@@ -126,11 +126,11 @@ static int prepare_check(check *c)
     if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
     c->start = cli_calloc(size + 1 + points + values, sizeof *c->start);
     c->values = c->start + size + 1 + points;
-    status = dal_evaluator_start(c->evaluator, request->start.item, request->start.count, c->start,
-                                 &error);
+    status = dal_evaluator_start_at(c->evaluator, request->from, request->start.item,
+                                    request->start.count, c->start, &error);
     if (status != DAL_OK)
         return cli_error(cli_input_exit(status), error.line ? request->system_name : NULL, &error);
-    c->origin = (dal_point){.t = 0.0, .q = c->start, .v = c->start + n};
+    c->origin = (dal_point){.t = request->from, .q = c->start, .v = c->start + n};
     c->is_regular = is_field_finite(c, &c->origin);
     choose_points(c, c->start + size + 1);
     return CLI_DONE;

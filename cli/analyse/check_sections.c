@@ -78,8 +78,8 @@ static void check_motion_rate(check *c, const char *what, const motion_rate *rat
 static double start_defect(check *c)
 {
     double *block = c->values, size = 1.0, defect = 0.0;
-    if (dal_evaluator_call(c->evaluator, c->system->call.constraint, 0.0, c->start, c->start + c->n,
-                           NULL, block))
+    if (dal_evaluator_call(c->evaluator, c->system->call.constraint, c->origin.t, c->start,
+                           c->start + c->n, NULL, block))
         return NAN;
     for (int a = 0; a < c->m; a++) {
         double sum = 0.0;
@@ -374,13 +374,15 @@ static double exact_residual(check *c, double t, double d)
 
 static void check_exact(check *c)
 {
-    static const char start[] = "exact solution at t = 0";
     static const char equation[] = "residual of q' = v, v' = F, t < 1";
+    const double t0 = c->origin.t;
+    char start[64];
     static const double times[] = {0.125, 0.375, 0.625, 0.875};
     double max = 0.0;
     if (!c->system->exact) return;
+    snprintf(start, sizeof start, "exact solution at t = %.6g", t0);
     const double distance =
-        exact_at(c, 0.0, c->values) ? analysis_distance(c->values, c->start, 2 * c->n) : INFINITY;
+        exact_at(c, t0, c->values) ? analysis_distance(c->values, c->start, 2 * c->n) : INFINITY;
     if (isinf(distance))
         check_item(c, CHECK_UNMEASURED, start, "it has no value");
     else
@@ -391,10 +393,10 @@ static void check_exact(check *c)
         /* Which increment is best depends on how fast the solution is. */
         double residual = INFINITY;
         for (double d = 0.02; d > 1e-4; d *= 0.5)
-            residual = fmin(residual, exact_residual(c, times[k], d));
+            residual = fmin(residual, exact_residual(c, t0 + times[k], d));
         if (isinf(residual)) {
             check_item(c, CHECK_UNMEASURED, equation, "the solution or F has no value near t = %g",
-                       times[k]);
+                       t0 + times[k]);
             return;
         }
         max = fmax(max, residual);
@@ -448,7 +450,8 @@ static bool sample_path(check *c, const sampled_path *path, const double *start)
     dal_run_spec spec = {.system = &smooth,
                          .options = dal_options_default(),
                          .parameters = c->request->set.item,
-                         .parameter_count = c->request->set.count};
+                         .parameter_count = c->request->set.count,
+                         .start_time = c->origin.t};
     dal_run *run = NULL;
     smooth.events = 0;
     const size_t width = (size_t)path->width;
@@ -456,7 +459,7 @@ static bool sample_path(check *c, const sampled_path *path, const double *start)
     spec.options.space = path->space;
     bool done = dal_method_parse(&spec.method, path->method, NULL) == DAL_OK &&
                 cli_is_ok(dal_run_create(&run, &spec, NULL)) &&
-                dal_run_set_state(run, 0.0, start, NULL) == DAL_OK;
+                dal_run_set_state(run, c->origin.t, start, NULL) == DAL_OK;
     for (int k = 0; done && k < path->count; k++) {
         if (k > 0) done = dal_run_step(run, NULL) == DAL_OK;
         memcpy(path->rows + (size_t)k * width, dal_run_state(run), width * sizeof *path->rows);
@@ -470,14 +473,15 @@ static bool measure_actions(check *c, const sampled_path *path, double *solved, 
 {
     const double e = c->start[c->size], pi = acos(-1.0);
     if (!sample_path(c, path, c->start) ||
-        !cli_is_ok(dal_measure_action(c->evaluator, 0.0, path->h, NODES, path->rows, e, solved)))
+        !cli_is_ok(
+            dal_measure_action(c->evaluator, c->origin.t, path->h, NODES, path->rows, e, solved)))
         return false;
     for (int k = 0; k < NODES; k++) {
         const double s = sin(pi * k / (NODES - 1));
         for (int i = 0; i < c->n; i++) path->rows[k * c->n + i] += 1e-3 * s * s * s * s;
     }
     return cli_is_ok(
-        dal_measure_action(c->evaluator, 0.0, path->h, NODES, path->rows, e, perturbed));
+        dal_measure_action(c->evaluator, c->origin.t, path->h, NODES, path->rows, e, perturbed));
 }
 
 static void check_second_order_action(check *c)
@@ -515,8 +519,8 @@ static void check_stationarity(check *c, const char *method, double limit)
     for (int i = 2 * c->n + 1; i < 4 * c->n + 1; i++) state[i] = i % 2 ? 0.1 : -0.1;
     snprintf(what, sizeof what, "d int P.X' - H, %s", method);
     if (!sample_path(c, &path, state) ||
-        !cli_is_ok(
-            dal_check_stationarity(c->evaluator, 0.0, path.h, LIFTED_NODES, path.rows, &defect)))
+        !cli_is_ok(dal_check_stationarity(c->evaluator, c->origin.t, path.h, LIFTED_NODES,
+                                          path.rows, &defect)))
         check_item(c, CHECK_UNMEASURED, what, "there is no trajectory");
     else if (isinf(limit))
         check_number(c, CHECK_INFO, what, defect, -INFINITY, INFINITY, "%.2g", defect);

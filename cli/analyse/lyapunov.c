@@ -33,7 +33,7 @@ typedef struct lyapunov_settings {
 } lyapunov_settings;
 
 /* The options of a run that the commands do not take. */
-#define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_TIME_OPTIONS | REQUEST_OPTION(space))
+#define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(space))
 
 /* Steps between two polls of the signals. */
 enum { CHUNK = 200, MAX_ROWS = 100000000, MAX_COLUMN_NAME = 24 };
@@ -63,10 +63,11 @@ static int create_spectrum(tangent_study *s)
     dal_run_spec spec;
     request->options.space = DAL_PHYSICAL;
     /* Creating a run of its own finds what is wrong with the options. */
-    int status = request_create_run(request);
+    int status = request_check_forward(request);
+    if (status == CLI_DONE) status = request_create_run(request);
     if (status == CLI_DONE) status = request_make_spec(request, &spec);
     if (status == CLI_DONE)
-        status = row_times_check_step(request, 0.0, s->set->transient + request->time);
+        status = row_times_check_step(request, request->from, s->set->transient + request->time);
     if (status != CLI_DONE) return status;
     /* A vakonomic system has no tangent system; its derivatives are differences. */
     dal_status made = dal_model_tangent(request->model, &tangent, &error);
@@ -132,7 +133,7 @@ static int advance_spectrum(tangent_study *s, long long steps)
 static int run_to_end(tangent_study *s)
 {
     const double h = s->request->options.step;
-    const long long total = llround(s->request->time / h),
+    const long long total = llround((s->request->time - s->request->from) / h),
                     rows = s->set->rows < total ? s->set->rows : total;
     int status = advance_spectrum(s, llround(s->set->transient / h));
     dal_lyapunov_discard_transient(s->spectrum);
@@ -354,7 +355,7 @@ static void put_means(const tangent_study *s, const balance *b)
 /* ---- all ----------------------------------------------------------------------------------- */
 
 static const cli_option options[] = {
-    {"transient", "T0", "0", "the means begin at this time",
+    {"transient", "T0", "0", "the means begin after this time, and take the time from T0 to T",
      CLI_NUMBER(lyapunov_settings, transient, 0.0, INFINITY)},
     {"rows", "N", "100", "rows of the table, at equal distances in t",
      CLI_INTEGER(lyapunov_settings, rows, 1, MAX_ROWS)},
