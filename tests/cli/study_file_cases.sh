@@ -368,3 +368,22 @@ says "knife-edge: the tolerance is given as a key and among the options"
 sed 's/{tolerance: 1e-6,/{tolerance: 1e-7,/' tolerances.yaml >bad.yaml
 try 2 study bad.yaml --output bad
 says "expect: the study has no such step, tolerance and start"
+
+case_is "paths of systems are relative to the study file"
+mkdir -p far/deep away
+cp swing.yaml far/near.yaml
+cp swing.yaml far/deep/bare
+printf 'integrators: rk4\nstep: 0.1\ntime: 1\nstarts: physical
+systems: [near.yaml, ./deep/bare]\n' >far/study.yaml
+try 0 study far/study.yaml --output far/there --no-page
+holds "a path of its own" test "$(column system far/there/cells.csv | tr '\n' ' ')" = "near.yaml ./deep/bare "
+(cd away && try 0 study ../far/study.yaml --output there --no-page && rm ../far/near.yaml && try 0 resume there)
+holds "another result from elsewhere" sh -c "cut -d, -f1-34 far/there/cells.csv >a; cut -d, -f1-34 away/there/cells.csv |
+    cmp -s - a"
+# What was relative to the working directory is no longer found, and the message says why.
+cp swing.yaml near.yaml
+try 2 study far/study.yaml --output far/there --no-page --force
+says "far/study\.yaml:5:[0-9]+: there is no 'far/near\.yaml': paths are relative to the study file"
+rm near.yaml
+try 2 study far/study.yaml --output far/there --no-page --force
+says "far/near\.yaml"
