@@ -355,7 +355,7 @@ static void put_means(const tangent_study *s, const balance *b)
 /* ---- all ----------------------------------------------------------------------------------- */
 
 static const cli_option options[] = {
-    {"transient", "T0", "0", "the means begin after this time, and take the time from T0 to T",
+    {"transient", "T0", "0", "time that passes before the means begin",
      CLI_NUMBER(lyapunov_settings, transient, 0.0, INFINITY)},
     {"rows", "N", "100", "rows of the table, at equal distances in t",
      CLI_INTEGER(lyapunov_settings, rows, 1, MAX_ROWS)},
