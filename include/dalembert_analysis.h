@@ -268,21 +268,17 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
 
 enum { DAL_ORDER_LEVELS = 8 /* max step sizes of dal_order */ };
 
-/* Whether an order is found, or why not: FINDING(code, word). */
-#define DAL_ORDER_FINDING_LIST(FINDING)                                                            \
-    FINDING(FOUND, "found")                                                                        \
-    FINDING(COARSE, "coarse") /* the steps are too large: errors of half the solution, or      \
-                                     slopes that do not agree */   \
-    FINDING(ROUNDING,                                                                              \
-            "rounding") /* fewer than three errors are above rounding and above the      \
-                                     error of the reference */         \
-    FINDING(FEW, "few") /* there are fewer than three step sizes */
-
-typedef enum dal_order_finding {
-#define ORDER_FINDING_CODE(code, word) DAL_ORDER_##code,
-    DAL_ORDER_FINDING_LIST(ORDER_FINDING_CODE)
-#undef ORDER_FINDING_CODE
-} dal_order_finding;
+/* Whether an order is found, or why not: OUTCOME(code, word). */
+#define DAL_ORDER_OUTCOME_LIST(OUTCOME)                                                            \
+    OUTCOME(FOUND, "found")                                                                        \
+    OUTCOME(COARSE, "coarse")     /* steps too large: slopes differ, or half the solution */       \
+    OUTCOME(ROUNDING, "rounding") /* fewer than three errors above rounding or the reference */    \
+    OUTCOME(FEW, "few")           /* fewer than three step sizes */
+typedef enum dal_order_outcome {
+#define ORDER_OUTCOME_CODE(code, word) DAL_ORDER_##code,
+    DAL_ORDER_OUTCOME_LIST(ORDER_OUTCOME_CODE)
+#undef ORDER_OUTCOME_CODE
+} dal_order_outcome;
 
 /* Errors at time T for decreasing steps (step, step/2, step/4, ... in dal_measure_order), their
  * cost, and the slopes between them. */
@@ -293,7 +289,7 @@ typedef struct dal_order {
     long long evaluations[DAL_ORDER_LEVELS]; /* of the field */
     double slope[DAL_ORDER_LEVELS]; /* slope[i] between levels i-1 and i; slope[0] is NaN */
     double order;                   /* NaN: none can be stated */
-    dal_order_finding finding;      /* why it is stated, or not */
+    dal_order_outcome outcome;      /* why it is stated, or not */
 } dal_order;
 
 /* Computes slope and order from levels, step and error.  The order is the second slope of the last
@@ -603,10 +599,12 @@ typedef struct dal_crossings {
 } dal_crossings;
 
 /* Advances the run to time T, a whole number of its steps, and reports the crossings that its
- * steps show.  Where g changes sign within a step, dal_run_intermediate from the beginning of that step finds the state
+ * steps show.  Where g changes sign within a step, dal_run_intermediate from the beginning of that
+ * step finds the state
  * with g = 0, to rounding (compare Henon 1982, DOI 10.1016/0167-2789(82)90034-3); the trajectory
  * itself does not change.  A pair of crossings within one step is found where g has an extremum
- * between them; more of them, and faster ones, are found with smaller steps alone.  A start with g = 0 is no crossing. [alloc]
+ * between them; more of them are found with smaller steps alone.  A start with g = 0 is no
+ * crossing. [alloc]
  * Errors: those of the steps and of the callback; DAL_ARGUMENT. */
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error);

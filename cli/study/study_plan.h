@@ -111,8 +111,7 @@ const char *study_case_system(const study_case *item);
     KEY(starts, "both", read_starts, item, "list of physical, surface, displaced (all three)")     \
     KEY(displacement, "both", document_read_positive, item.displacement,                           \
         "size d of p, pi where displaced (1e-8)")                                                  \
-    KEY(system, "system", document_read_text, item.name,                                           \
-        "a built-in name or a path")                                   \
+    KEY(system, "system", document_read_text, item.name, "a built-in name or a path")              \
     KEY(label, "system", read_label, item.group, "another name for tables and files")              \
     KEY(set, "system", document_read_node, set, "parameter: values")                               \
     KEY(start, "system", document_read_node, start, "name: values")                                \

@@ -147,7 +147,7 @@ case_is "e = 0"
 try 1 check chaplygin-sleigh --start e=0
 prints '^  gauge variable e +FAIL'
 
-case_is "what is said of E and of degrees"
+case_is "energy and degrees of D"
 # The mass shell is not homogeneous in v, so D = 0 at midpoints does work: E moves by O(h^2), every other step.
 try 0 check relativistic-em
 prints '^  E is preserved by +info +\+project-energy$'
