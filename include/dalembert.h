@@ -59,7 +59,8 @@ enum {
     DAL_MODIFIER = 1 << 6,               /* acts on another integrator: NAME+this */
     DAL_COMPONENTWISE = 1 << 7,          /* on (q,v) only adds multiples of v and F */
     DAL_PRESERVES_D_MIDPOINT = 1 << 8,   /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in each step */
-    DAL_PRESERVES_ENERGY = 1 << 9,       /* E, where the motion conserves it */
+    DAL_PRESERVES_ENERGY = 1 << 9,       /* E, where the motion conserves it; with D at midpoints,
+                                            where also every D is homogeneous in v */
     DAL_PERSISTENT_MULTIPLIER = 1 << 10, /* a reversible map of (q, v, last multipliers) */
     DAL_ADAPTIVE = 1 << 11,              /* divides a step h where the option tolerance is not 0 */
     DAL_EXTRAPOLATES_STAGES = 1 << 12    /* the first guess of a step is made from the last step */

@@ -249,6 +249,18 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
 
 enum { DAL_ORDER_LEVELS = 8 /* max step sizes of dal_order */ };
 
+/* Whether an order is found, or why not: OUTCOME(code, word). */
+#define DAL_ORDER_OUTCOME_LIST(OUTCOME)                                                            \
+    OUTCOME(FOUND, "found")                                                                        \
+    OUTCOME(COARSE, "coarse")     /* steps too large: slopes differ, or half the solution */       \
+    OUTCOME(ROUNDING, "rounding") /* fewer than three errors above rounding or the reference */    \
+    OUTCOME(FEW, "few")           /* fewer than three step sizes */
+typedef enum dal_order_outcome {
+#define ORDER_OUTCOME_CODE(code, word) DAL_ORDER_##code,
+    DAL_ORDER_OUTCOME_LIST(ORDER_OUTCOME_CODE)
+#undef ORDER_OUTCOME_CODE
+} dal_order_outcome;
+
 /* Errors at time T for decreasing steps (step, step/2, step/4, ... in dal_measure_order), their
  * cost, and the slopes between them. */
 typedef struct dal_order {
@@ -258,6 +270,7 @@ typedef struct dal_order {
     long long evaluations[DAL_ORDER_LEVELS]; /* of the field */
     double slope[DAL_ORDER_LEVELS]; /* slope[i] between levels i-1 and i; slope[0] is NaN */
     double order;                   /* NaN: none can be stated */
+    dal_order_outcome outcome;      /* why it is stated, or not */
 } dal_order;
 
 /* Computes slope and order from levels, step and error.  The order is the second slope of the last
@@ -488,8 +501,9 @@ typedef struct dal_lyapunov dal_lyapunov;
 
 /* Makes count tangent vectors; 0: one for each direction of the step map, that is 2n +
  * multipliers, less m where the method enforces D = 0, less one where it enforces E.  tangent is
- * dal_model_tangent of the same model, or NULL.  J is exact (to rounding) with it and a
- * Runge-Kutta method, partitioned symplectic Euler, or a composition; otherwise it is found by
+ * dal_model_tangent of the same model, or NULL.  With it and
+ * a Runge-Kutta method, partitioned symplectic Euler, or a composition, J is the derivative of the
+ * formulas of the step, to rounding and to the error of its solver; otherwise it is found by
  * differences of the step, of order 8, with increments that do not depend on how far the
  * coordinates have travelled.  The space of the spec is ignored. [alloc]  Errors: those of a run;
  * DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step is no smooth map of (q, v, g) alone: it has a
@@ -569,11 +583,13 @@ typedef struct dal_crossings {
     long long touches;  /* minima of |g| below 1e-12 max |g| that are no crossings */
 } dal_crossings;
 
-/* Advances the run to time T, a whole number of its steps, and reports every crossing.  Where g
- * changes sign within a step, dal_run_intermediate from the beginning of that step finds the state
+/* Advances the run to time T, a whole number of its steps, and reports the crossings that its
+ * steps show.  Where g changes sign within a step, dal_run_intermediate from the beginning of that
+ * step finds the state
  * with g = 0, to rounding (compare Henon 1982, DOI 10.1016/0167-2789(82)90034-3); the trajectory
  * itself does not change.  A pair of crossings within one step is found where g has an extremum
- * between them.  A start with g = 0 is no crossing. [alloc]
+ * between them; more of them are found with smaller steps alone.  A start with g = 0 is no
+ * crossing. [alloc]
  * Errors: those of the steps and of the callback; DAL_ARGUMENT. */
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error);

@@ -37,6 +37,9 @@ dal_status dal_evaluator_scales(dal_evaluator *evaluator, double t, const double
  * solved DAL_RANK, DAL_INCONSISTENT. */
 dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
                                double *out, dal_error *error);
+/* The same of a start at the time t. */
+dal_status dal_evaluator_start_at(dal_evaluator *evaluator, double t, const dal_setting *start,
+                                  int start_count, double *out, dal_error *error);
 
 /* A system in units of its own: lengths, a time and units of energy, constraints and invariants, in
  * which the numbers of its motion near the start are about 1.  All are powers of two, so that no

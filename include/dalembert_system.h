@@ -202,9 +202,10 @@ struct dal_system {
     dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at the start; NULL: 0, e = 1 */
     int solved_velocities; /* how many a start solves from D = 0, the other velocities being
                                 kept; `start` has first guesses.  Needs call.constraint */
-    const dal_solved *solved;       /* [solved_velocities] */
-    dal_callback *constraints;      /* out[m]: D alone; NULL: D is not observed */
-    dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
+    const dal_solved *solved;  /* [solved_velocities] */
+    dal_callback *constraints; /* out[m]: D alone; NULL: D is not observed */
+    dal_callback
+        *energy; /* out[1]: E = L_v.v - L, of L - g.D where multipliers are g; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants]; NULL: no invariants */
     dal_callback *reactions;        /* out[m + m*n]: h, B of the force B^T h in F; NULL: unknown */
     dal_scale_callback *scales;     /* out[m + 1 + invariants]: of D, E and the invariants; NULL:

@@ -9,8 +9,9 @@
  *
  *     E1 - E0 = h vb.Q + h lambda.(A vb)
  *
- * where A vb = 0 for D linear or homogeneous in v: an E that the motion conserves is preserved to
- * rounding. O. Verdier's odelab has it for linear D.  Coordinates that neither U nor W couple have
+ * where A vb = k D = 0 for D homogeneous of degree k in v: an E that the motion conserves is then
+ * preserved to rounding.  For any other D it errs by O(h^2), even where the motion conserves it.
+ * O. Verdier's odelab has it for linear D.  Coordinates that neither U nor W couple have
  * a kappa of their own, so that energies of blocks that D does not couple are kept one by one; it
  * is 0 where U is quadratic.  Order 2, symmetric; preserves the energy, and D at the midpoints: at
  * the nodes D errs by O(h^2), bounded. */

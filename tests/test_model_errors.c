@@ -208,19 +208,15 @@ static const bad_file formulas[] = {
     {DAL_MODEL, "parameter m: the value is not finite", XY L "parameters: {m: @exp(1000)}\n"},
     {DAL_MODEL, "start of x': the value is not finite", XY L "start: {x': @log(0)}\n"},
     {DAL_NAME,
-     "start of x: coordinate 'y' may not stand here: only parameters and "
+     "start of x: coordinate 'y' may not stand here: only parameters, t and "
      "what start gives before",
      XY L "start: {x: 1 + @y}\n"},
     {DAL_NAME,
-     "start of x: the velocity of 'y' may not stand here: only parameters and "
+     "start of x: the velocity of 'y' may not stand here: only parameters, t and "
      "what start gives before",
      XY L "start: {x: @y'}\n"},
     {DAL_NAME,
-     "start of x: the time 't' may not stand here: only parameters and "
-     "what start gives before",
-     XY L "start: {x: @t}\n"},
-    {DAL_NAME,
-     "start of x: let 'a' may not stand here: only parameters and "
+     "start of x: let 'a' may not stand here: only parameters, t and "
      "what start gives before",
      XY L "let: {a: x'}\nstart: {x: @a}\n"},
     {DAL_NAME, "gauge e: let 'a' may not stand here: only parameters",

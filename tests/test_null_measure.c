@@ -112,6 +112,15 @@ static void null_dal_evaluator_start(void)
     REFUSED(dal_evaluator_start(evaluator, NAME_MISSING, numbers, error));
 }
 
+static void null_dal_evaluator_start_at(void)
+{
+    REFUSED(dal_evaluator_start_at(NULL, 0.0, NULL, 0, numbers, error));
+    REFUSED(dal_evaluator_start_at(evaluator, 0.0, NULL, 0, NULL, error));
+    REFUSED(dal_evaluator_start_at(evaluator, 0.0, COUNT_NEGATIVE, numbers, error));
+    REFUSED(dal_evaluator_start_at(evaluator, 0.0, SETTINGS_MISSING, numbers, error));
+    REFUSED(dal_evaluator_start_at(evaluator, 0.0, NAME_MISSING, numbers, error));
+}
+
 /* ---- measures of a system ---- */
 
 static void null_dal_measure_rate(void)

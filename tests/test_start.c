@@ -110,7 +110,7 @@ static void test_formulas(void)
     static const struct {
         const char *start, *message;
     } bad[] = {
-        {"{x': y, y: 1}", "'y' may not stand here: only parameters and what start gives before"},
+        {"{x': y, y: 1}", "'y' may not stand here: only parameters, t and what start gives before"},
         {"{x: 1, y: r}", "let 'r' may not stand here"},
         {"{x: 1, y: 1, x': 2, y': turn}", "let 'turn' may not stand here"},
         {"{x: x}", "coordinate 'x' may not stand here"},

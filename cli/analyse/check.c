@@ -95,7 +95,7 @@ static void choose_points(check *c, double *memory)
             x[i] = c->start[i] + neighbourhood * random_number(&random);
         }
         c->near[c->near_count] =
-            (dal_point){.t = fabs(random_number(&random)), .q = x, .v = x + c->n};
+            (dal_point){.t = c->origin.t + fabs(random_number(&random)), .q = x, .v = x + c->n};
         c->near_count += is_field_finite(c, &c->near[c->near_count]);
     }
     memory += CHECK_POINTS * c->size;
@@ -117,7 +117,8 @@ static int scale_system(check *c)
                                .parameters = request->set.item,
                                .parameter_count = request->set.count,
                                .start = request->start.item,
-                               .start_count = request->start.count};
+                               .start_count = request->start.count,
+                               .start_time = request->from};
     dal_error error = {0};
     const dal_status status = dal_scaled_create(&c->scaled, &spec, &error);
     c->system = dal_scaled_system(c->scaled);
@@ -143,7 +144,8 @@ static int prepare_check(check *c)
     c->start = cli_calloc(size + 1 + points + values, sizeof *c->start);
     c->values = c->start + size + 1 + points;
     cli_is_ok(dal_evaluator_start(c->evaluator, NULL, 0, c->start, &error));
-    c->origin = (dal_point){.t = 0.0, .q = c->start, .v = c->start + n};
+    c->origin = (dal_point){
+        .t = request->from / dal_scaled_units(c->scaled)[0], .q = c->start, .v = c->start + n};
     c->is_regular = is_field_finite(c, &c->origin);
     choose_points(c, c->start + size + 1);
     return CLI_DONE;

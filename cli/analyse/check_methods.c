@@ -71,16 +71,20 @@ void check_preserving(check *c, bool is_constant, unsigned properties)
 /* ---- every integrator ---- */
 
 /* What an integrator that is accepted preserves, by its properties and those of the system. */
-static unsigned what_is_preserved(const check *c, const dal_integrator *k, bool is_reversible)
+static unsigned what_is_preserved(const check *c, const dal_integrator *k,
+                                  const dal_constraint_class *d)
 {
     const unsigned p = k->properties, system = c->system->properties;
+    const bool is_energy = system & (DAL_E_EXACT | DAL_E_ON_D) && p & DAL_PRESERVES_ENERGY;
+    /* With D = 0 at midpoints h_a v.A_a vanishes there for D homogeneous in v alone. */
+    const bool does_work = c->m > 0 && !d->homogeneous && p & DAL_PRESERVES_D_MIDPOINT;
     const bool is_reversal = p & DAL_SYMMETRIC && !(p & DAL_PERSISTENT_MULTIPLIER);
     const bool has_lift = c->system->call.adjoint && !(k->needs & DAL_NEEDS_BLOCKS);
     const bool is[CHECK_PRESERVED] = {
         [CHECK_PRESERVES_D] = c->m > 0 && (c->is_D_constant || p & c->preserving_D),
-        [CHECK_PRESERVES_E] = p & DAL_PRESERVES_ENERGY && system & (DAL_E_EXACT | DAL_E_ON_D),
+        [CHECK_PRESERVES_E] = is_energy && !does_work,
         [CHECK_PRESERVES_FORM] = p & DAL_SYMPLECTIC && has_lift,
-        [CHECK_PRESERVES_REVERSAL] = is_reversible && is_reversal,
+        [CHECK_PRESERVES_REVERSAL] = d->reversible && is_reversal,
     };
     unsigned bits = 0;
     for (int i = 0; i < CHECK_PRESERVED; i++) bits |= (unsigned)is[i] << i;
@@ -91,8 +95,8 @@ static void examine_methods(check *c)
 {
     dal_constraint_class d;
     const dal_integrator *k;
-    const bool is_reversible =
-        dal_classify_constraints(c->evaluator, &c->origin, &d, NULL) == DAL_OK && d.reversible;
+    if (dal_classify_constraints(c->evaluator, &c->origin, &d, NULL) != DAL_OK)
+        d = (dal_constraint_class){.linear = 0};
     while ((k = dal_integrator_at(c->methods))) {
         dal_error error = {.message = ""};
         const bool is_accepted_here = is_integrator_accepted(c, k, &error);
@@ -101,7 +105,7 @@ static void examine_methods(check *c)
         c->method[c->methods++] = (check_method){
             .name = cli_format("%s%s", k->properties & DAL_MODIFIER ? "+" : "", k->name),
             .reason = is_accepted_here ? NULL : cli_strdup(reason ? reason + 2 : error.message),
-            .preserved = is_accepted_here ? what_is_preserved(c, k, is_reversible) : 0};
+            .preserved = is_accepted_here ? what_is_preserved(c, k, &d) : 0};
     }
 }
 

@@ -1,7 +1,7 @@
 /* check_sections.c - what `dalembert check` examines, section by section.
  *
- * Energy: dE/dt = v.Q + sum_a h_a v.A_a.  For D_a homogeneous of degree k in v the last term is
- * k h_a D_a, so E is conserved on D = 0 only; an affine D, as that of a turntable, need not
+ * Energy: dE/dt = v.Q + sum_a h_a v.A_a - L_t.  For D_a homogeneous of degree k in v the second
+ * term is k h_a D_a, so E is conserved on D = 0 only; an affine D, as that of a turntable, need not
  * conserve E at all.
  *
  * Actions: int e/2 |q'' - F|^2 dt is 0 on a solution and positive off it.  int P.X' - H is
@@ -78,8 +78,8 @@ static void check_motion_rate(check *c, const char *what, const motion_rate *rat
 static double start_defect(check *c)
 {
     double *block = c->values, size = 1.0, defect = 0.0;
-    if (dal_evaluator_call(c->evaluator, c->system->call.constraint, 0.0, c->start, c->start + c->n,
-                           NULL, block))
+    if (dal_evaluator_call(c->evaluator, c->system->call.constraint, c->origin.t, c->start,
+                           c->start + c->n, NULL, block))
         return NAN;
     for (int a = 0; a < c->m; a++) {
         double sum = 0.0;
@@ -189,6 +189,13 @@ static void check_growth(check *c)
                    space);
 }
 
+/* The degrees at two points may differ by this where D is homogeneous: the rest is noise. */
+static double round_degree(double k)
+{
+    const double noise = 1e-8;
+    return nearbyint(k / noise) * noise + 0.0;
+}
+
 static void check_constraints(check *c)
 {
     dal_constraint_class d;
@@ -205,8 +212,9 @@ static void check_constraints(check *c)
         char text[64] = "not homogeneous";
         int written = 0;
         for (int a = 0; d.homogeneous && a < c->m && written < 44; a++)
-            written += snprintf(text + written, sizeof text - (size_t)written,
-                                "%sD%d of degree %.4g", a > 0 ? ", " : "", a + 1, degree[a] + 0.0);
+            written +=
+                snprintf(text + written, sizeof text - (size_t)written, "%sD%d of degree %.4g",
+                         a > 0 ? ", " : "", a + 1, round_degree(degree[a]));
         check_item(c, CHECK_INFO, "homogeneity of D in v", "%s%s", text,
                    d.linear ? "; affine" : "");
         check_classes(c, &d);
@@ -375,7 +383,7 @@ static double max_exact_residual(check *c, double time)
         /* Which increment is best depends on how fast the solution is. */
         double residual = INFINITY;
         for (double d = 0.02; d > 1e-4; d *= 0.5)
-            residual = fmin(residual, exact_residual(c, times[k] * time, d * time));
+            residual = fmin(residual, exact_residual(c, c->origin.t + times[k] * time, d * time));
         max = fmax(max, residual);
     }
     return max;
@@ -383,11 +391,13 @@ static double max_exact_residual(check *c, double time)
 
 static void check_exact(check *c)
 {
-    static const char start[] = "exact solution at t = 0";
     static const char equation[] = "residual of q' = v, v' = F";
+    const double t0 = c->origin.t;
+    char start[64];
     if (!c->system->exact) return;
+    snprintf(start, sizeof start, "exact solution at t = %.6g", c->request->from);
     const double distance =
-        exact_at(c, 0.0, c->values) ? analysis_distance(c->values, c->start, 2 * c->n) : INFINITY;
+        exact_at(c, t0, c->values) ? analysis_distance(c->values, c->start, 2 * c->n) : INFINITY;
     if (isinf(distance))
         check_item(c, CHECK_UNMEASURED, start, "it has no value");
     else
@@ -449,7 +459,8 @@ static bool sample_path(check *c, const sampled_path *path, const double *start)
     dal_run_spec spec = {.system = &smooth,
                          .options = dal_options_default(),
                          .parameters = c->request->set.item,
-                         .parameter_count = c->request->set.count};
+                         .parameter_count = c->request->set.count,
+                         .start_time = c->origin.t};
     dal_run *run = NULL;
     smooth.events = 0;
     const size_t width = (size_t)path->width;
@@ -457,7 +468,7 @@ static bool sample_path(check *c, const sampled_path *path, const double *start)
     spec.options.space = path->space;
     bool done = dal_method_parse(&spec.method, path->method, NULL) == DAL_OK &&
                 cli_is_ok(dal_run_create(&run, &spec, NULL)) &&
-                dal_run_set_state(run, 0.0, start, NULL) == DAL_OK;
+                dal_run_set_state(run, c->origin.t, start, NULL) == DAL_OK;
     for (int k = 0; done && k < path->count; k++) {
         if (k > 0) done = dal_run_step(run, NULL) == DAL_OK;
         memcpy(path->rows + (size_t)k * width, dal_run_state(run), width * sizeof *path->rows);
@@ -471,14 +482,15 @@ static bool measure_actions(check *c, const sampled_path *path, double *solved, 
 {
     const double e = c->start[c->size], pi = acos(-1.0);
     if (!sample_path(c, path, c->start) ||
-        !cli_is_ok(dal_measure_action(c->evaluator, 0.0, path->h, NODES, path->rows, e, solved)))
+        !cli_is_ok(
+            dal_measure_action(c->evaluator, c->origin.t, path->h, NODES, path->rows, e, solved)))
         return false;
     for (int k = 0; k < NODES; k++) {
         const double s = sin(pi * k / (NODES - 1));
         for (int i = 0; i < c->n; i++) path->rows[k * c->n + i] += 1e-3 * s * s * s * s;
     }
     return cli_is_ok(
-        dal_measure_action(c->evaluator, 0.0, path->h, NODES, path->rows, e, perturbed));
+        dal_measure_action(c->evaluator, c->origin.t, path->h, NODES, path->rows, e, perturbed));
 }
 
 static void check_second_order_action(check *c)
@@ -518,8 +530,8 @@ static void check_stationarity(check *c, const char *method, double limit)
     bool done = false; /* with a smaller step where the motion leaves its domain */
     for (int k = 0; k < MAX_REFINEMENTS && !done; k++) {
         done = sample_path(c, &path, state) &&
-               cli_is_ok(dal_check_stationarity(c->evaluator, 0.0, path.h, LIFTED_NODES, path.rows,
-                                                &defect));
+               cli_is_ok(dal_check_stationarity(c->evaluator, c->origin.t, path.h, LIFTED_NODES,
+                                                path.rows, &defect));
         path.h *= 0.25;
     }
     if (!done)

@@ -282,10 +282,11 @@ int explain_run(explain_settings *s)
     dal_error error = {0};
     int status = analysis_check_output(s->output, s->json);
     request_choose_step(&s->request);
+    if (status == CLI_DONE) status = request_check_forward(&s->request);
     if (status == CLI_DONE) status = request_create_run(&s->request);
     if (status == CLI_DONE) status = request_make_spec(&s->request, &spec);
     if (status != CLI_DONE) return status;
-    const double steps = nearbyint(s->request.time / s->request.options.step);
+    const double steps = nearbyint((s->request.time - s->request.from) / s->request.options.step);
     if (!(steps <= EXPLAIN_MAX_STEPS))
         return cli_fail(CLI_USAGE, "%.3g steps: explain takes at most %d", steps,
                         EXPLAIN_MAX_STEPS);

@@ -8,7 +8,7 @@
 enum { EXPLAIN_MAX_STEPS = 2000000000 };
 
 /* The options of a run that it does not take: comparison runs differ in precision themselves. */
-#define EXPLAIN_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_TIME_OPTIONS | REQUEST_OPTION(precision))
+#define EXPLAIN_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(precision))
 
 typedef struct explain_settings {
     run_request request;

@@ -33,7 +33,7 @@ typedef struct lyapunov_settings {
 } lyapunov_settings;
 
 /* The options of a run that the commands do not take. */
-#define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_TIME_OPTIONS | REQUEST_OPTION(space))
+#define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(space))
 
 /* Steps between two polls of the signals. */
 enum { CHUNK = 200, MAX_ROWS = 100000000, MAX_COLUMN_NAME = 24 };
@@ -63,10 +63,11 @@ static int create_spectrum(tangent_study *s)
     dal_run_spec spec;
     request->options.space = DAL_PHYSICAL;
     /* Creating a run of its own finds what is wrong with the options. */
-    int status = request_create_run(request);
+    int status = request_check_forward(request);
+    if (status == CLI_DONE) status = request_create_run(request);
     if (status == CLI_DONE) status = request_make_spec(request, &spec);
     if (status == CLI_DONE)
-        status = row_times_check_step(request, 0.0, s->set->transient + request->time);
+        status = row_times_check_step(request, request->from, s->set->transient + request->time);
     if (status != CLI_DONE) return status;
     /* A vakonomic system has no tangent system; its derivatives are differences. */
     dal_status made = dal_model_tangent(request->model, &tangent, &error);
@@ -132,7 +133,7 @@ static int advance_spectrum(tangent_study *s, long long steps)
 static int run_to_end(tangent_study *s)
 {
     const double h = s->request->options.step;
-    const long long total = llround(s->request->time / h),
+    const long long total = llround((s->request->time - s->request->from) / h),
                     rows = s->set->rows < total ? s->set->rows : total;
     int status = advance_spectrum(s, llround(s->set->transient / h));
     dal_lyapunov_discard_transient(s->spectrum);
@@ -208,24 +209,20 @@ static double resolution(const tangent_study *s)
     return log(fmax(T, 1.0) + 1.0) / fmax(T, 1.0);
 }
 
-static const char *sign_word(const dal_average *a, double resolution, const char *positive,
-                             const char *negative)
-{
-    if (a->low > resolution) return positive;
-    if (a->high < -resolution) return negative;
-    return "may be 0";
-}
-
 static const char *exponent_word(const tangent_study *s, const dal_average *a)
 {
-    return sign_word(a, resolution(s), "positive", "negative");
+    if (a->low > resolution(s)) return "positive";
+    return a->high < -resolution(s) ? "negative" : "may be 0";
 }
 
-static const char *volume_word(const tangent_study *s, const dal_average *a)
+/* A mean divergence is decided by its interval alone: it is a mean of known values, and log(T)/T is
+ * for exponents. */
+static const char *volume_word(const dal_average *a)
 {
     static const double rounding = 1e-11;
-    const bool is_zero = fabs(a->low) <= rounding && fabs(a->high) <= rounding;
-    return is_zero ? "preserved at every step" : sign_word(a, resolution(s), "grows", "shrinks");
+    if (fabs(a->low) <= rounding && fabs(a->high) <= rounding) return "preserved at every step";
+    if (a->low > 0.0) return "grows";
+    return a->high < 0.0 ? "shrinks" : "may be 0";
 }
 
 /* ---- in words ------------------------------------------------------------------------------ */
@@ -256,8 +253,8 @@ static void print_volume(const tangent_study *s)
     dal_average motion, step;
     dal_lyapunov_divergence(s->spectrum, &motion);
     dal_lyapunov_sum(s->spectrum, &step);
-    print_mean("divergence of F", &motion, volume_word(s, &motion));
-    print_mean("log|det J|/h", &step, volume_word(s, &step));
+    print_mean("divergence of F", &motion, volume_word(&motion));
+    print_mean("log|det J|/h", &step, volume_word(&step));
     printf("\n%d of %d directions; step less motion: %.2g\n", dal_lyapunov_count(s->spectrum),
            dal_run_dimension(dal_lyapunov_run(s->spectrum)), step.mean - motion.mean);
 }
@@ -322,8 +319,8 @@ static void put_volume(json_writer *w, const tangent_study *s)
     dal_average motion, step;
     dal_lyapunov_divergence(s->spectrum, &motion);
     dal_lyapunov_sum(s->spectrum, &step);
-    put_mean(w, "divergence", &motion, volume_word(s, &motion));
-    put_mean(w, "step", &step, volume_word(s, &step));
+    put_mean(w, "divergence", &motion, volume_word(&motion));
+    put_mean(w, "step", &step, volume_word(&step));
     json_put_integer(w, "directions", dal_lyapunov_count(s->spectrum));
     json_put_integer(w, "dimension", dal_run_dimension(dal_lyapunov_run(s->spectrum)));
 }
@@ -349,7 +346,7 @@ static void put_means(const tangent_study *s, const balance *b)
     json_put_number(&w, "from", s->begin);
     json_put_number(&w, "to", dal_run_time(dal_lyapunov_run(s->spectrum)));
     json_put_text(&w, "derivative", dal_lyapunov_is_exact(s->spectrum) ? "exact" : "differences");
-    json_put_number(&w, "resolution", resolution(s));
+    json_put_number(&w, "resolution", s->set->is_volume ? NAN : resolution(s));
     (s->set->is_volume ? put_volume : put_exponents)(&w, s);
     put_balance(&w, b);
     json_end_results(&w);
@@ -358,7 +355,7 @@ static void put_means(const tangent_study *s, const balance *b)
 /* ---- all ----------------------------------------------------------------------------------- */
 
 static const cli_option options[] = {
-    {"transient", "T0", "0", "the means begin at this time",
+    {"transient", "T0", "0", "time that passes before the means begin",
      CLI_NUMBER(lyapunov_settings, transient, 0.0, INFINITY)},
     {"rows", "N", "100", "rows of the table, at equal distances in t",
      CLI_INTEGER(lyapunov_settings, rows, 1, MAX_ROWS)},

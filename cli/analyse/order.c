@@ -12,6 +12,7 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/signals.h"
+#include "ui/wrap.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -364,6 +365,30 @@ static const char *failure_message(const order_study *s, const order_method *m)
     return "";
 }
 
+#define OUTCOME_WORD(code, word) word,
+static const char *const outcome_words[] = {DAL_ORDER_OUTCOME_LIST(OUTCOME_WORD)};
+#undef OUTCOME_WORD
+
+/* What words instead of an order mean. */
+static void print_outcomes(const order_study *s)
+{
+    static const char *const texts[] = {
+        [DAL_ORDER_COARSE] = "the last two slopes do not agree, or errors are those of half the "
+                             "solution: the steps are too large",
+        [DAL_ORDER_ROUNDING] = "fewer than three errors lie above rounding and ten times the error "
+                               "of the reference: the steps are too small",
+        [DAL_ORDER_FEW] = "there are fewer than three steps"};
+    for (int k = DAL_ORDER_COARSE; k <= DAL_ORDER_FEW; k++) {
+        const order_method *m = s->methods, *end = m + s->method_count;
+        while (m < end && (m->state != ORDER_DONE || (int)m->order.outcome != k)) m++;
+        if (m == end) continue;
+        char *text = cli_format("no order found, %s: %s", outcome_words[k], texts[k]);
+        putchar('\n');
+        cli_wrap(stdout, text, 0, 0);
+        free(text);
+    }
+}
+
 static void print_orders(const order_study *s)
 {
     const int last = s->levels - 1;
@@ -388,17 +413,17 @@ static void print_orders(const order_study *s)
         if (m->state == ORDER_REFUSED) continue;
         any_without_order |= isnan(m->order.order);
         printf("%-21s %6d", m->name, dal_method_order(&m->method));
-        print_cell("%.2f", 6, m->order.order);
+        if (isnan(m->order.order) && m->state == ORDER_DONE && !is_controlled)
+            printf(" %*s", 6, outcome_words[m->order.outcome]);
+        else
+            print_cell("%.2f", 6, m->order.order);
         for (int i = 0; i < s->levels; i++) print_cell("%.1e", 7, m->order.error[i]);
         const bool succeeded = m->failure[last].status == DAL_OK;
         print_cell("%.1f", 7, succeeded ? (double)m->order.evaluations[last] / steps : NAN);
         print_cell("%.2f", 7, succeeded ? 1e6 * m->seconds[last] / steps : NAN);
         putchar('\n');
     }
-    if (any_without_order && !is_controlled)
-        fputs("\nno order found (-): the last two slopes do not agree, since the steps are too "
-              "large,\nor fewer than three errors lie between rounding and half the solution\n",
-              stdout);
+    if (any_without_order && !is_controlled) print_outcomes(s);
     for (const order_method *m = s->methods; m < s->methods + s->method_count; m++)
         if (m->state != ORDER_DONE)
             printf("\n%s: %s: %s", m->name, state_words[m->state], failure_message(s, m));
@@ -428,6 +453,8 @@ static void put_method(json_writer *w, const order_study *s, const order_method 
     json_put_text(w, "integrator", m->name);
     json_put_integer(w, "stated_order", dal_method_order(&m->method));
     json_put_number(w, "observed_order", m->order.order);
+    const bool is_missing = m->state == ORDER_DONE && !s->set->tolerances && isnan(m->order.order);
+    json_put_text(w, "no_order", is_missing ? outcome_words[m->order.outcome] : NULL);
     json_put_text(w, "state", state_words[m->state]);
     json_put_text(w, "message", m->state == ORDER_DONE ? NULL : failure_message(s, m));
     json_open_list(w, "levels", JSON_LINES);

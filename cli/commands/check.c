@@ -11,7 +11,7 @@ static const cli_option options[] = {JSON_OPTION(check_settings)};
 static int check_command(int argc, char **argv)
 {
     static const uint64_t taken =
-        REQUEST_OPTION(set) | REQUEST_OPTION(start) | REQUEST_OPTION(system);
+        REQUEST_OPTION(set) | REQUEST_OPTION(start) | REQUEST_OPTION(from) | REQUEST_OPTION(system);
     check_settings s = {.request = request_default()};
     cli_option of_request[REQUEST_OPTIONS];
     memcpy(of_request, request_options, sizeof of_request);

@@ -67,8 +67,8 @@ typedef struct document_pair {
     yaml_node_t *key, *value;
 } document_pair;
 bool document_get_pair(const document *doc, const yaml_node_t *node, int i, document_pair *pair);
-/* Checks before that that node is a mapping and its keys are texts, none of which comes twice; where
- * it is none the message is "WHAT: CONTENTS are required". */
+/* Checks before that that node is a mapping and its keys are texts, none of which comes twice;
+ * where it is none the message is "WHAT: CONTENTS are required". */
 int document_check_mapping(const document *doc, const yaml_node_t *node, const char *what,
                            const char *contents);
 /* The value of a key; NULL where the mapping has none of that name, or there is no mapping. */

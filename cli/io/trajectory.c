@@ -425,6 +425,20 @@ int reader_next(trajectory_reader *reader)
     return 1;
 }
 
+double reader_last_time(trajectory_reader *reader)
+{
+    unsigned char bytes[WORD];
+    double t = NAN;
+    const off_t place = ftello(reader->file),
+                last = (off_t)reader->offset + (off_t)(reader->count - 1) * reader->columns * WORD;
+    if (place < 0 || fseeko(reader->file, last, SEEK_SET) != 0) return NAN;
+    if (fread(bytes, 1, WORD, reader->file) == WORD) {
+        const uint64_t bits = read_le64(bytes);
+        memcpy(&t, &bits, sizeof t);
+    }
+    return fseeko(reader->file, place, SEEK_SET) == 0 ? t : NAN;
+}
+
 void reader_close(trajectory_reader *reader)
 {
     if (reader->file) fclose(reader->file);

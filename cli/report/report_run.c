@@ -405,7 +405,7 @@ int report_run(report *r)
     if (status == CLI_DONE) {
         report_title(r, report_model_title(request.model, "A run"));
         if (request.model) write_head(run, dir.manifest);
-        write_summary(run, fabs(request.time - request.from));
+        write_summary(run, fabs(reader_last_time(&run->reader) - request.from));
         if (request.system_name) status = data_write_run(r);
         report_events_write(r->page, &run->events);
         fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);

@@ -56,6 +56,22 @@ static void write_expectations(FILE *page, const report_csv *csv, bool only_unme
     fputs(REPORT_TABLE_END, page);
 }
 
+/* Those that are met; those that are not since a run failed, or a value was not finite. */
+static void write_met(FILE *page, const report_csv *csv, int met)
+{
+    static const char *const words[] = {"failed", "aborted"};
+    fprintf(page, "<h2>Expectations</h2>\n<p>%d of %d are met", met, csv->rows - 1);
+    for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
+        int count = 0;
+        for (int row = 1; row < csv->rows; row++)
+            count += report_csv_is(csv, row, "found", words[k]) &&
+                     report_csv_is(csv, row, "met", "no") &&
+                     !report_csv_is(csv, row, "quantity", "state");
+        if (count > 0) fprintf(page, "; %d %s", count, words[k]);
+    }
+    fputs(".</p>\n", page);
+}
+
 /* A study need not have expectations.  Those that are not met are open on the page, above the fold
  * of all. */
 static int report_expectations(report *r)
@@ -66,7 +82,7 @@ static int report_expectations(report *r)
     int met = 0;
     for (int row = 1; row < csv.rows; row++) met += report_csv_is(&csv, row, "met", "yes");
     if (csv.rows > 1) {
-        fprintf(r->page, "<h2>Expectations</h2>\n<p>%d of %d are met.</p>\n", met, csv.rows - 1);
+        write_met(r->page, &csv, met);
         if (met < csv.rows - 1) write_expectations(r->page, &csv, true);
         fputs("<details><summary>all of them</summary>\n", r->page);
         write_expectations(r->page, &csv, false);
@@ -481,14 +497,30 @@ static void write_name(const study_page *s, int i)
     report_element(page, "small", s->labels.word[i]);
 }
 
+/* ": 5 done, 1 failed" */
+static void write_states(const study_page *s)
+{
+    static const char *const states[] = {"not run", "done", "failed", "refused"};
+    const char *separator = ": ";
+    for (size_t k = 0; k < sizeof states / sizeof states[0]; k++) {
+        int count = 0;
+        for (int row = 1; row < s->cells.rows; row++) count += is_cell(s, row, "state", states[k]);
+        if (count == 0) continue;
+        fprintf(s->r->page, "%s%d %s", separator, count, states[k]);
+        separator = ", ";
+    }
+}
+
 static int write_study(study_page *s)
 {
     report *r = s->r;
     int status = begin_study(s);
     if (status != CLI_DONE) return status;
     bool is_lifted = false;
-    fprintf(r->page, "<p>%d runs: %d systems, %d methods.</p>\n<ol>\n", s->cells.rows - 1,
-            s->labels.count, s->methods.count);
+    fprintf(r->page, "<p>%d runs, %d systems, %d methods", s->cells.rows - 1, s->labels.count,
+            s->methods.count);
+    write_states(s);
+    fputs(".</p>\n<ol>\n", r->page);
     for (int i = 0; i < s->labels.count; i++) {
         fprintf(r->page, "<li><a href=\"#s%d\">", i + 1);
         write_name(s, i);

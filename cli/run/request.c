@@ -134,16 +134,23 @@ static bool needs_no_step(const run_request *request)
            !request_has(request, REQUEST_steps) && request->sampling == REQUEST_SAMPLING_LINEAR;
 }
 
+int request_check_forward(const run_request *request)
+{
+    if (request_has(request, REQUEST_step) && !(request->options.step > 0.0))
+        return cli_fail(CLI_USAGE, "--step: %g is not positive", request->options.step);
+    if (request_has(request, REQUEST_time) && !(request->time > request->from))
+        return request->from == 0.0
+                   ? cli_fail(CLI_USAGE, "--time: %g is not positive", request->time)
+                   : cli_fail(CLI_USAGE, "--time: %g does not come after --from %g", request->time,
+                              request->from);
+    return CLI_DONE;
+}
+
 /* A command that does not take --from goes from t = 0 forwards. */
 static int check_forward(const cli_group *group)
 {
-    const run_request *request = group->settings;
-    if (!(group->without & REQUEST_OPTION(from))) return CLI_DONE;
-    if (request_has(request, REQUEST_step) && !(request->options.step > 0.0))
-        return cli_fail(CLI_USAGE, "--step: %g is not positive", request->options.step);
-    if (request_has(request, REQUEST_time) && !(request->time > 0.0))
-        return cli_fail(CLI_USAGE, "--time: %g is not positive", request->time);
-    return CLI_DONE;
+    return group->without & REQUEST_OPTION(from) ? request_check_forward(group->settings)
+                                                 : CLI_DONE;
 }
 
 /* The length of the formula that begins a list of --observe, without the blanks around it; the next

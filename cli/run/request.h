@@ -85,11 +85,13 @@ void request_free(run_request *request);
     (REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) | REQUEST_OPTION(times) |                  \
      REQUEST_OPTION(statistics) | REQUEST_OPTION(columns) | REQUEST_OPTION(names) |                \
      REQUEST_OPTION(observe) | REQUEST_OPTION(reactions))
-#define REQUEST_TIME_OPTIONS (REQUEST_OPTION(from) | REQUEST_OPTION(steps))
 /* All options; and as a group for a command, which may change their defaults and help in options,
  * and does not take some.  A command that has read its arguments has loaded the system. */
 extern const cli_option request_options[REQUEST_OPTIONS];
 cli_group request_group(run_request *request, const cli_option *options, uint64_t without);
+/* Whether the step is positive and the end after the start, where they were given.  Returns
+ * CLI_DONE, or prints and returns CLI_USAGE. */
+int request_check_forward(const run_request *request);
 /* Whether an option was given; and whether it has a number as its value. */
 bool request_has(const run_request *request, int option);
 bool request_option_is_number(int option);

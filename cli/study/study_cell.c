@@ -180,7 +180,7 @@ static void make_request(cell_run *r)
     const study_case *e = c->of_case;
     run_request *request = &r->request;
     request->system = e->system;
-    request->system_name = e->copy ? e->copy : e->name;
+    request->system_name = study_case_system(e);
     request->method = *c->method;
     request->options = e->options;
     request->options.step = c->step;

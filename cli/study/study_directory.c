@@ -5,7 +5,7 @@
 #include "io/json.h"
 #include "run/manifest.h"
 #include "run/system.h"
-#include "study_expect.h"
+#include "study_compare.h"
 #include "study_pool.h"
 #include "study_results.h"
 #include "study_screen.h"
@@ -215,11 +215,11 @@ static int copy_system(const study_directory *dir, study_case *e)
 {
     size_t length;
     const char *source = dal_model_source(e->model, &length);
-    if (!e->copy && !cli_is_path(e->name)) return CLI_DONE;
+    if (!e->copy && !e->path) return CLI_DONE;
     char *path = study_plan_copy_path(dir->systems, e);
     int status = CLI_DONE;
     if (!file_exists(path))
-        status = cli_copy_system(e->name, e->model, path, 1);
+        status = cli_copy_system(e->path, e->model, path, 1);
     else if (!file_equals(path, source, length))
         status = cli_fail(CLI_USAGE, "'%s' is of another study: '%s' differs", dir->path, path);
     free(e->copy);

@@ -1,4 +1,4 @@
-/* study_expect.c - the expectations of a study, read from its file and compared with results.
+/* study_expect.c - the expectations of a study, read from its file.
  *
  *     expect:
  *       LABEL:                              a label, that of a group, a system, or all
@@ -25,37 +25,6 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* What bounds may be set to: name, member of dal_trend. */
-#define STUDY_FIELD_LIST(FIELD)                                                                    \
-    FIELD(max, max_abs)                                                                            \
-    FIELD(deviation, deviation)                                                                    \
-    FIELD(final, last)                                                                             \
-    FIELD(amplitude, amplitude)                                                                    \
-    FIELD(rate, rate)                                                                              \
-    FIELD(rate_low, rate_low)                                                                      \
-    FIELD(rate_high, rate_high)                                                                    \
-    FIELD(exponent, exponent)                                                                      \
-    FIELD(confidence, confidence)
-
-enum {
-#define FIELD_NUMBER(name, member) STUDY_FIELD_##name,
-    STUDY_FIELD_LIST(FIELD_NUMBER)
-#undef FIELD_NUMBER
-        STUDY_FIELDS
-};
-
-/* One of some words, or a number within bounds. */
-typedef struct study_expectation {
-    const char *label, *method, *quantity; /* as they are written */
-    double step, tolerance;                /* of these cells alone; 0: of all */
-    int start;                             /* of these cells alone; -1: of all */
-    size_t line;
-    unsigned words;  /* bit k: size k, bit DAL_SIZE_COUNT + k: trend k, any of which will do; of
-                        the quantity "state" bit k: state k; 0: bounds */
-    int field;       /* STUDY_FIELD_x that has bounds, -1: none */
-    double min, max; /* infinite where there is no bound */
-} study_expectation;
 
 typedef struct expect_reader {
     study_plan *plan;
@@ -91,8 +60,7 @@ static bool is_method(const dal_method *method, const char *name)
     return strcmp(name, "all") == 0 || strcmp(name, own) == 0;
 }
 
-/* Whether an expectation is about a cell. */
-static bool covers(const study_expectation *x, const study_cell *c)
+bool study_expectation_covers(const study_expectation *x, const study_cell *c)
 {
     if (x->step > 0.0 && x->step != c->step) return 0;
     if (x->tolerance > 0.0 && x->tolerance != c->tolerance) return 0;
@@ -100,7 +68,7 @@ static bool covers(const study_expectation *x, const study_cell *c)
     return study_label_means(c->of_case, x->label) && is_method(c->method, x->method);
 }
 
-static bool is_state(const study_expectation *x) { return strcmp(x->quantity, "state") == 0; }
+bool study_expects_state(const study_expectation *x) { return strcmp(x->quantity, "state") == 0; }
 
 /* D, D1, D2, ... */
 static bool is_constraint(const char *quantity)
@@ -229,7 +197,7 @@ static int read_cells(expect_reader *r, yaml_node_t *node)
     if (start) x->start = document_word(r->doc, start, "start", study_start_words, STUDY_STARTS);
     if (start && x->start < 0) return CLI_USAGE;
     for (int i = 0; i < r->plan->cell_count; i++)
-        if (covers(x, &r->plan->cells[i])) return CLI_DONE;
+        if (study_expectation_covers(x, &r->plan->cells[i])) return CLI_DONE;
     return document_fail(r->doc, node, "expect: the study has no such step%s and start",
                          r->plan->has_tolerances ? ", tolerance" : "");
 }
@@ -244,7 +212,8 @@ static int add_mapping(expect_reader *r, yaml_node_t *node)
 #undef FIELD_KEY
     };
     const char *quantity = r->expectation.quantity;
-    if (is_state(&r->expectation)) return document_fail(r->doc, node, "state: words are required");
+    if (study_expects_state(&r->expectation))
+        return document_fail(r->doc, node, "state: words are required");
     const yaml_node_t *old = document_value(r->doc, node, "verdict");
     if (old) return document_fail(r->doc, old, "expect: 'verdict' is now 'size' and 'trend'");
     const int status = read_cells(r, node);
@@ -259,17 +228,23 @@ static int add_mapping(expect_reader *r, yaml_node_t *node)
 
 /* ---- what the study contains ---- */
 
-bool study_has_quantity(const study_case *e, const char *name)
+bool study_is_of_lift(const char *name)
 {
     static const char *const lifted_names[] = {"H", "|p|", "|pi|", "|pi_e|"};
+    for (size_t i = 0; i < sizeof lifted_names / sizeof(char *); i++)
+        if (strcmp(lifted_names[i], name) == 0) return true;
+    return false;
+}
+
+bool study_has_quantity(const study_case *e, const char *name)
+{
     const dal_system *s = e->system;
     const int is_lifted = s->call.adjoint && e->starts & ~(1 << STUDY_PHYSICAL);
     if (strcmp(name, "state") == 0) return 1;
     if (strcmp(name, "E") == 0) return s->energy != NULL;
     if (strcmp(name, "error") == 0) return s->exact != NULL;
     if (is_constraint(name)) return s->constraints && atoi(name + 1) <= s->m && s->m > 0;
-    for (size_t i = 0; is_lifted && i < sizeof lifted_names / sizeof(char *); i++)
-        if (strcmp(lifted_names[i], name) == 0) return 1;
+    if (is_lifted && study_is_of_lift(name)) return 1;
     for (int i = 0; i < s->invariants; i++)
         if (strcmp(s->invariant[i], name) == 0) return 1;
     return e->options.reactions && columns_need_reactions(s, name);
@@ -320,7 +295,7 @@ static int read_quantity(expect_reader *r, const document_pair *pair)
         if (item->type == YAML_MAPPING_NODE)
             status = add_mapping(r, item);
         else
-            status = add_words(r, item, is_state(x) ? &of_state : &any_words);
+            status = add_words(r, item, study_expects_state(x) ? &of_state : &any_words);
     }
     return status;
 }
@@ -356,203 +331,5 @@ int study_expect_read(study_plan *plan, yaml_node_t *node)
     int status = node ? document_check_mapping(plan->doc, node, "expect", "labels") : CLI_DONE;
     for (int i = 0; node && status == CLI_DONE && document_get_pair(plan->doc, node, i, &pair); i++)
         status = read_label(&r, &pair);
-    return status;
-}
-
-/* ---- comparing ----------------------------------------------------------------------------- */
-
-static const dal_trend *find_trend(const study_expectation *x, const study_cell *c)
-{
-    if (is_state(x)) return NULL;
-    return strcmp(x->quantity, "D") == 0 ? study_cell_constraint(c)
-                                         : study_cell_trend(c, x->quantity);
-}
-
-/* A quantity that the motion need not conserve has numbers, but neither size nor trend. */
-static bool is_stated(const study_expectation *x, const dal_trend *trend)
-{
-    const int is_number =
-        x->field >= 0 && x->field != STUDY_FIELD_exponent && x->field != STUDY_FIELD_confidence;
-    return is_number || trend->conservation == DAL_CONSERVED;
-}
-
-/* Whether a cell is compared.  A label may mean several systems; those that never conserve E are
- * passed over. */
-static bool is_compared(const study_expectation *x, const study_cell *c)
-{
-    if (!covers(x, c) || c->other_shard || c->state == STUDY_WAITING) return 0;
-    if (is_state(x)) return 1;
-    const dal_trend *trend = c->state == STUDY_REFUSED ? NULL : find_trend(x, c);
-    return trend && (is_stated(x, trend) || trend->conservation != DAL_NOT_CONSERVED);
-}
-
-static double field_value(const dal_trend *trend, int field)
-{
-#define FIELD_VALUE(name, member) trend->member,
-    const double value[] = {STUDY_FIELD_LIST(FIELD_VALUE)};
-#undef FIELD_VALUE
-    return value[field];
-}
-
-static bool is_met(const study_expectation *x, const study_cell *c)
-{
-    if (is_state(x)) return x->words >> c->state & 1;
-    const dal_trend *trend = find_trend(x, c);
-    if (!is_stated(x, trend)) return 0;
-    if (x->field < 0)
-        return (x->words >> trend->size | x->words >> (DAL_SIZE_COUNT + trend->trend)) & 1;
-    const double value = field_value(trend, x->field);
-    return value >= x->min && value <= x->max;
-}
-
-/* ---- as text ---- */
-
-static void put_expected(FILE *out, const study_expectation *x)
-{
-#define FIELD_NAME(name, member) #name,
-    static const char *const field_names[] = {STUDY_FIELD_LIST(FIELD_NAME)};
-#undef FIELD_NAME
-    const char *separator = "";
-    for (unsigned k = 0; x->words >> k; k++) {
-        if (!(x->words >> k & 1)) continue;
-        const char *word = is_state(x) ? study_state_words[k]
-                           : k < DAL_SIZE_COUNT
-                               ? dal_size_text((dal_size_class)k)
-                               : dal_trend_text((dal_trend_class)(k - DAL_SIZE_COUNT));
-        fprintf(out, "%s%s", separator, word);
-        separator = " or ";
-    }
-    if (x->field < 0) return;
-    fputs(field_names[x->field], out);
-    if (x->min > -INFINITY) fprintf(out, " >= %g", x->min);
-    if (x->max < INFINITY) fprintf(out, "%s <= %g", x->min > -INFINITY ? "," : "", x->max);
-}
-
-/* The size where a size is expected, the trend where a trend is.  c is NULL where no run has it. */
-static void put_found(FILE *out, const study_expectation *x, const study_cell *c)
-{
-    const unsigned sizes = (1u << DAL_SIZE_COUNT) - 1u;
-    const int has_size = (x->words & sizes) != 0, has_trend = (x->words & ~sizes) != 0;
-    const dal_trend *trend = c ? find_trend(x, c) : NULL;
-    if (!trend)
-        fputs(c ? study_state_words[c->state] : "no run that has it", out);
-    else if (!is_stated(x, trend))
-        fputs(dal_conservation_text(trend->conservation), out);
-    else if (x->field >= 0)
-        fprintf(out, "%.3g", field_value(trend, x->field));
-    else
-        fprintf(out, "%s%s%s", has_size ? dal_size_text(trend->size) : "",
-                has_size && has_trend ? " and " : "",
-                has_trend ? dal_trend_text(trend->trend) : "");
-}
-
-void study_print_comparison(FILE *out, const study_comparison *comparison, bool in_columns)
-{
-    char name[STUDY_NAME], division[STUDY_DIVISION];
-    const int width = in_columns ? 24 : 0;
-    const study_expectation *x = comparison->expectation;
-    const study_cell *c = comparison->cell;
-    fprintf(out, "  %-*s %-*s ", width, c ? c->of_case->label : x->label, width,
-            c ? dal_method_name(c->method, name, sizeof name) : x->method);
-    if (c)
-        fprintf(out, "%-*s %-*s ", in_columns ? 9 : 0, study_start_words[c->start],
-                in_columns ? 12 : 0, study_division(division, c->step, c->tolerance));
-    fprintf(out, "%s: expected ", x->quantity);
-    put_expected(out, x);
-    fputs(", found ", out);
-    put_found(out, x, c);
-    fprintf(out, " (line %zu)\n", x->line);
-}
-
-static void write_row(FILE *out, const study_plan *plan, const study_comparison *comparison)
-{
-    char name[STUDY_NAME];
-    const study_expectation *x = comparison->expectation;
-    const study_cell *c = comparison->cell;
-    cli_put_text(out, c ? c->of_case->label : x->label);
-    fputc(',', out);
-    cli_put_text(out, c ? dal_method_name(c->method, name, sizeof name) : x->method);
-    fprintf(out, ",%s,", c ? study_start_words[c->start] : "");
-    if (c) cli_put(out, c->step);
-    if (plan->has_tolerances) fputc(',', out);
-    if (plan->has_tolerances && c) cli_put(out, c->tolerance);
-    fputc(',', out);
-    cli_put_text(out, x->quantity);
-    fputs(",\"", out);
-    put_expected(out, x);
-    fputs("\",\"", out);
-    put_found(out, x, c);
-    fprintf(out, "\",%s\n", comparison->is_met ? "yes" : "no");
-}
-
-/* ---- all of them ---- */
-
-static void add_comparison(study_comparisons *all, const study_expectation *x, const study_cell *c)
-{
-    const bool met = c && is_met(x, c);
-    all->item = cli_realloc(all->item, ((size_t)all->count + 1) * sizeof *all->item);
-    all->item[all->count++] = (study_comparison){x, c, met};
-    all->unmet += !met;
-}
-
-study_comparisons study_compare(const study_plan *plan)
-{
-    study_comparisons all = {.count = 0};
-    for (int i = 0; i < plan->expectation_count; i++) {
-        const study_expectation *x = &plan->expectations[i];
-        const int before = all.count;
-        bool is_waiting = false;
-        for (int k = 0; k < plan->cell_count; k++) {
-            const study_cell *c = &plan->cells[k];
-            is_waiting |= covers(x, c) && c->state == STUDY_WAITING;
-            if (is_compared(x, c)) add_comparison(&all, x, c);
-        }
-        if (all.count == before && !is_waiting) add_comparison(&all, x, NULL);
-    }
-    return all;
-}
-
-int study_count_unmet(const study_plan *plan)
-{
-    const study_comparisons all = study_compare(plan);
-    free(all.item);
-    return all.unmet;
-}
-
-bool study_failure_is_expected(const study_plan *plan, const study_cell *cell)
-{
-    for (int i = 0; i < plan->expectation_count; i++) {
-        const study_expectation *x = &plan->expectations[i];
-        const unsigned word =
-            is_state(x) ? STUDY_FAILED : (unsigned)DAL_SIZE_COUNT + DAL_TREND_ABORTED;
-        if (is_compared(x, cell) && x->field < 0 && x->words >> word & 1) return 1;
-    }
-    return 0;
-}
-
-void study_print_expectations(FILE *out, const study_plan *plan)
-{
-    const study_comparisons all = study_compare(plan);
-    if (plan->expectation_count > 0)
-        fprintf(out, "\nExpectations: %d of %d are met.\n", all.count - all.unmet, all.count);
-    for (int i = 0; i < all.count; i++)
-        if (!all.item[i].is_met) study_print_comparison(out, &all.item[i], true);
-    free(all.item);
-}
-
-int study_write_expectations(const study_plan *plan, const char *path)
-{
-    size_t length;
-    char *text;
-    if (plan->expectation_count == 0) return file_remove(path);
-    const study_comparisons all = study_compare(plan);
-    FILE *out = cli_memstream_open(&text, &length);
-    fprintf(out, "label,integrator,start,step%s,quantity,expected,found,met\n",
-            plan->has_tolerances ? ",tolerance" : "");
-    for (int i = 0; i < all.count; i++) write_row(out, plan, &all.item[i]);
-    cli_memstream_close(out);
-    const int status = file_replace(path, text, length, 1);
-    free(text);
-    free(all.item);
     return status;
 }

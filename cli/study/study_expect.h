@@ -1,11 +1,42 @@
-/* study_expect.h - the expectations of a study, read from its file and compared with results. */
+/* study_expect.h - the expectations of a study, read from its file. */
 #ifndef DAL_CLI_STUDY_EXPECT_H
 #define DAL_CLI_STUDY_EXPECT_H
 
 #include "study_plan.h"
 
 #include <stdbool.h>
-#include <stdio.h>
+#include <stddef.h>
+
+/* What bounds may be set to: name, member of dal_trend. */
+#define STUDY_FIELD_LIST(FIELD)                                                                    \
+    FIELD(max, max_abs)                                                                            \
+    FIELD(deviation, deviation)                                                                    \
+    FIELD(final, last)                                                                             \
+    FIELD(amplitude, amplitude)                                                                    \
+    FIELD(rate, rate)                                                                              \
+    FIELD(rate_low, rate_low)                                                                      \
+    FIELD(rate_high, rate_high)                                                                    \
+    FIELD(exponent, exponent)                                                                      \
+    FIELD(confidence, confidence)
+
+enum {
+#define FIELD_NUMBER(name, member) STUDY_FIELD_##name,
+    STUDY_FIELD_LIST(FIELD_NUMBER)
+#undef FIELD_NUMBER
+        STUDY_FIELDS
+};
+
+/* One of some words, or a number within bounds. */
+typedef struct study_expectation {
+    const char *label, *method, *quantity; /* as they are written */
+    double step, tolerance;                /* of these cells alone; 0: of all */
+    int start;                             /* of these cells alone; -1: of all */
+    size_t line;
+    unsigned words;  /* bit k: size k, bit DAL_SIZE_COUNT + k: trend k, any of which will do; of
+                        the quantity "state" bit k: state k; 0: bounds */
+    int field;       /* STUDY_FIELD_x that has bounds, -1: none */
+    double min, max; /* infinite where there is no bound */
+} study_expectation;
 
 /* Reads `expect` into a plan with its cells; node may be NULL.  Returns CLI_DONE, or prints and
  * returns CLI_USAGE. */
@@ -14,31 +45,11 @@ int study_expect_read(study_plan *plan, yaml_node_t *node);
 bool study_label_means(const study_case *item, const char *label);
 /* Whether the runs of a case have a quantity of this name. */
 bool study_has_quantity(const study_case *item, const char *name);
-/* How many expectations are not met. */
-int study_count_unmet(const study_plan *plan);
-/* Whether an expectation is that this cell fails. */
-bool study_failure_is_expected(const study_plan *plan, const study_cell *cell);
-
-/* An expectation and a run that it is compared with. */
-typedef struct study_comparison {
-    const struct study_expectation *expectation;
-    const study_cell *cell; /* NULL: no run has the quantity */
-    bool is_met;
-} study_comparison;
-typedef struct study_comparisons {
-    study_comparison *item; /* [count]; free it */
-    int count, unmet;
-} study_comparisons;
-/* All comparisons, in the order of the file. */
-study_comparisons study_compare(const study_plan *plan);
-/* A line about one, in columns of a table or with single blanks:
- *     LABEL METHOD START h = STEP QUANTITY: expected X, found Y (line N) */
-void study_print_comparison(FILE *out, const study_comparison *comparison, bool in_columns);
-/* The number of those that are met, and lines about the others; nothing where nothing is expected.
- */
-void study_print_expectations(FILE *out, const study_plan *plan);
-/* Writes all of them to a file, or removes it where there are none.  Returns CLI_DONE or prints and
- * returns CLI_IO. */
-int study_write_expectations(const study_plan *plan, const char *path);
+/* Whether a quantity is one of lifted runs alone. */
+bool study_is_of_lift(const char *name);
+/* Whether an expectation is about a cell. */
+bool study_expectation_covers(const study_expectation *x, const study_cell *cell);
+/* Whether it is about the state of a run, not about a quantity. */
+bool study_expects_state(const study_expectation *x);
 
 #endif

@@ -269,18 +269,43 @@ char *study_plan_copy_path(const char *directory, const study_case *e)
     return cli_format("%s/%s.yaml", directory, e->label);
 }
 
+const char *study_case_system(const study_case *e)
+{
+    if (e->copy) return e->copy;
+    return e->path ? e->path : e->name;
+}
+
+/* The path of a system file from the working directory: a relative one begins at the study file. */
+static char *find_path(const group_reader *g, const char *name)
+{
+    const char *place = g->doc->place, *slash = strrchr(place, '/');
+    if (name[0] == '/' || !slash) return cli_strdup(name);
+    return cli_format("%.*s%s", (int)(slash - place) + 1, place, name);
+}
+
 /* In the directory of a study a system with a copy was a file, wherever the program is started. */
 static int load_system(const group_reader *g, study_case *e)
 {
     const char *names[CLI_MAX_BUILTINS], *copies = g->plan->copies;
-    const int is_path = cli_is_path(e->name);
     char *copy = copies ? study_plan_copy_path(copies, e) : NULL;
+    char *path = copies ? NULL : find_path(g, e->name);
+    const bool is_path =
+        cli_is_path(e->name) || (path && !dal_builtin_text(e->name) && file_exists(path));
     if (copy && (is_path || file_exists(copy)))
         e->copy = copy;
     else
         free(copy);
+    if (is_path)
+        e->path = path;
+    else
+        free(path);
+    if (e->path && !file_exists(e->path) && file_exists(e->name))
+        return document_fail(g->doc, g->node,
+                             "there is no '%s': paths are relative to the study file, not to the "
+                             "working directory, which has '%s'",
+                             e->path, e->name);
     if (e->copy || is_path || dal_builtin_text(e->name))
-        return cli_load(e->copy ? e->copy : e->name, &e->model, &e->system);
+        return cli_load(study_case_system(e), &e->model, &e->system);
     return document_fail_unknown(g->doc, g->node, "system", e->name, names, cli_builtins(names));
 }
 
@@ -417,6 +442,7 @@ static int add_case(group_reader *g, int i, const study_case *first)
         e->model = first->model;
         e->system = first->system;
         e->copy = first->copy;
+        e->path = first->path;
         e->methods = first->methods;
         e->method_count = first->method_count;
         e->method_steps = first->method_steps;
@@ -570,6 +596,7 @@ void study_plan_free(study_plan *plan)
         if (e->is_first) {
             dal_model_free(e->model);
             free(e->copy);
+            free(e->path);
             free(e->observe);
             free(e->methods);
             free(e->method_steps);

@@ -26,6 +26,8 @@ typedef struct study_case {
     dal_model *model;
     const dal_system *system;
     char *observe; /* formulas that the runs of the group observe, as in --observe; NULL: none */
+    char *path;    /* of the system file, from the working directory; NULL: there is a copy, or the
+                      system is built in */
     char *copy;    /* of the system file, in the directory of the study; NULL: a built-in system */
     double step[STUDY_STEPS], from, time, displacement; /* time: NaN: not given, but: */
     double tolerance[STUDY_TOLERANCES]; /* positive; of the methods that control their error */
@@ -75,6 +77,8 @@ void study_plan_add_steps(study_plan *plan);
 double study_case_end(const study_case *item, double step);
 /* DIRECTORY/LABEL.yaml, the copy of a system file; allocated. */
 char *study_plan_copy_path(const char *directory, const study_case *item);
+/* What the system of a case is read from: its copy, its file, or its name. */
+const char *study_case_system(const study_case *item);
 
 /* The keys of a study file: name, where it may stand, its reader and the member it reads, help.
  * Beside `systems` a key is the default of every system.  The keys of the whole study come first,

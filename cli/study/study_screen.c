@@ -5,8 +5,10 @@
  * its first start and its first step. */
 #include "study_screen.h"
 
-#include "study_expect.h"
+#include "study_compare.h"
+#include "study_fate.h"
 #include "ui/memory.h"
+#include "ui/wrap.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,18 +27,17 @@ enum {
 static const struct {
     const char *heading, *name;
     bool is_displacement;
-} quantities[] = {
+} quantities[QUANTITIES] = {
     {"max |D|", "D", false}, {"max |E-E0|", "E", true}, {"max error", "error", false}};
 
-enum { CONSTRAINT, ENERGY, QUANTITIES = sizeof quantities / sizeof quantities[0] };
+/* E is kept to this part of max |E|. */
+static const double kept_part = 0.01;
 
-/* What becomes of a quantity: STEADY where it is at rounding or bounded. */
-enum { RUNS, AT_ROUNDING, STEADY, DRIFTING, FATES };
-
-/* An integrator, its name, and how many of its runs have which fate. */
+/* An integrator, its name, and how many of its runs have which fate; in how many a quantity is at
+ * rounding, or bounded and kept to that part. */
 typedef struct screen_method {
     char name[STUDY_NAME];
-    int count[QUANTITIES][FATES];
+    int count[QUANTITIES][FATES], kept[QUANTITIES];
 } screen_method;
 
 typedef struct screen {
@@ -50,42 +51,6 @@ typedef struct screen {
     const study_cell *cell[STUDY_REPRESENTATIVES][SYSTEMS]; /* NULL: the study has none */
     bool in_colour;
 } screen;
-
-/* ---- what a run shows ---------------------------------------------------------------------- */
-
-static int first_start(const study_case *e)
-{
-    int start = 0;
-    while (!(e->starts >> start & 1)) start++;
-    return start;
-}
-
-/* NULL where the run has no such quantity, or nothing can be stated of it; of a run that failed it
- * is aborted, neither at rounding nor bounded nor drifting. */
-static const dal_trend *get_trend(const study_cell *c, int quantity)
-{
-    const dal_trend *trend = quantity == CONSTRAINT ? study_cell_constraint(c)
-                             : quantity == ENERGY   ? study_cell_trend(c, "E")
-                                                    : study_cell_trend(c, "error");
-    return trend && trend->conservation == DAL_CONSERVED ? trend : NULL;
-}
-
-static bool is_at_rounding(const dal_trend *trend)
-{
-    return trend->size != DAL_SIZE_LARGER && trend->trend != DAL_TREND_ABORTED;
-}
-
-static bool is_bounded(const dal_trend *trend)
-{
-    return trend->trend == DAL_TREND_NONE || trend->trend == DAL_TREND_SETTLES ||
-           (trend->size == DAL_SIZE_EXACT && trend->trend != DAL_TREND_ABORTED);
-}
-
-static bool is_drifting(const dal_trend *trend)
-{
-    return !is_bounded(trend) && trend->trend != DAL_TREND_UNDECIDED &&
-           trend->trend != DAL_TREND_ABORTED;
-}
 
 /* ---- integrators and systems --------------------------------------------------------------- */
 
@@ -169,16 +134,18 @@ static void count_runs(const screen *s)
 {
     for (int i = 0; i < s->plan->cell_count; i++) {
         const study_cell *c = &s->plan->cells[i];
-        if (c->start == STUDY_DISPLACED || c->start != first_start(c->of_case)) continue;
+        if (c->other_shard || c->start == STUDY_DISPLACED ||
+            c->start != study_first_start(c->of_case))
+            continue;
         screen_method *method = s->of_cell[i];
         for (int k = 0; k < QUANTITIES; k++) {
-            const dal_trend *trend = get_trend(c, k);
-            int *count = method->count[k];
-            if (!trend) continue;
-            count[RUNS]++;
-            count[AT_ROUNDING] += is_at_rounding(trend);
-            count[STEADY] += is_at_rounding(trend) || is_bounded(trend);
-            count[DRIFTING] += !is_at_rounding(trend) && is_drifting(trend);
+            const fate of_run = study_find_fate(c, k);
+            if (of_run == FATES) continue;
+            const dal_trend *trend = study_get_trend(c, k);
+            method->count[k][of_run]++;
+            method->kept[k] +=
+                of_run == AT_ROUNDING ||
+                (of_run == BOUNDED && trend->deviation <= kept_part * trend->max_abs);
         }
     }
 }
@@ -198,7 +165,7 @@ static void choose_cells(screen *s)
         for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
             const study_cell *c = &s->plan->cells[i];
             const int row = find_row(s, s->of_cell[i]);
-            if (row >= 0 && c->start == first_start(e) && c->step == e->step[0] &&
+            if (row >= 0 && c->start == study_first_start(e) && c->step == e->step[0] &&
                 (c->tolerance == 0.0 || c->tolerance == e->tolerance[0]))
                 s->cell[row][k] = c;
         }
@@ -221,12 +188,12 @@ static void put_cut(FILE *out, const char *text, int width, bool is_filled)
 }
 
 /* The colours of the page: kept, bounded, small, drifting; the rest is faint. */
+enum { FAINT = 2, RED = 31, GREEN, YELLOW, CYAN = 36 };
 static int get_colour(const dal_trend *trend)
 {
-    enum { FAINT = 2, RED = 31, GREEN, YELLOW, CYAN = 36 };
-    if (is_bounded(trend)) return is_at_rounding(trend) ? GREEN : YELLOW;
-    if (!is_drifting(trend)) return FAINT;
-    return is_at_rounding(trend) ? CYAN : RED;
+    if (study_is_bounded(trend)) return study_is_at_rounding(trend) ? GREEN : YELLOW;
+    if (!study_is_drifting(trend)) return FAINT;
+    return study_is_at_rounding(trend) ? CYAN : RED;
 }
 
 static void put_cell(FILE *out, const screen *s, const study_cell *c, int quantity)
@@ -234,18 +201,20 @@ static void put_cell(FILE *out, const screen *s, const study_cell *c, int quanti
     static const char *const states[STUDY_STATES] = {
         [STUDY_WAITING] = "..", [STUDY_FAILED] = "fail", [STUDY_REFUSED] = "ref."};
     const char *state = c ? states[c->state] : NULL;
-    const dal_trend *trend = c && !state ? get_trend(c, quantity) : NULL;
+    const dal_trend *trend = c && !state ? study_get_trend(c, quantity) : NULL;
     char text[16];
     snprintf(text, sizeof text, "%s", state ? state : "-");
     if (trend && trend->size == DAL_SIZE_EXACT) {
         snprintf(text, sizeof text, "0");
     } else if (trend) {
+        const char letter[2] = {study_is_stated(trend) ? dal_trend_text(trend->trend)[0] : '\0'};
         const double x = quantities[quantity].is_displacement ? trend->deviation : trend->max_abs;
         const double decade = fmax(-99.0, fmin(99.0, floor(log10(x))));
-        snprintf(text, sizeof text, "%c%+03.0f", dal_trend_text(trend->trend)[0], decade);
+        snprintf(text, sizeof text, isinf(x) ? "inf" : "%s%+03.0f", letter, decade);
     }
     if (s->in_colour)
-        fprintf(out, " \033[%dm%*s\033[0m", trend ? get_colour(trend) : 2, CELL - 1, text);
+        fprintf(out, " \033[%dm%*s\033[0m",
+                trend && study_is_stated(trend) ? get_colour(trend) : FAINT, CELL - 1, text);
     else
         fprintf(out, " %*s", CELL - 1, text);
 }
@@ -256,7 +225,7 @@ static bool has_column(const screen *s, int column, int quantity)
     bool has = quantity == CONSTRAINT && s->column[column]->system->m > 0;
     for (int i = 0; i < s->rows && !has; i++) {
         const study_cell *c = s->cell[i][column];
-        has = c && get_trend(c, quantity);
+        has = c && study_get_trend(c, quantity);
     }
     return has;
 }
@@ -293,7 +262,7 @@ static void print_systems(FILE *out, const screen *s)
     for (int k = 0; k < s->columns; k++) {
         const study_case *e = s->column[k];
         char *text = cli_format("%2d %s%s", k + 1, e->label,
-                                first_start(e) == STUDY_DISPLACED ? " displaced" : "");
+                                study_first_start(e) == STUDY_DISPLACED ? " displaced" : "");
         const bool ends = k % 2 == 1 || k == s->columns - 1;
         if (k % 2 == 0) fputc('\n', out);
         put_cut(out, text, ITEM - 1, !ends);
@@ -305,7 +274,18 @@ static void print_systems(FILE *out, const screen *s)
     if (left > 0) fprintf(out, "   and %d more, which the tables show\n", left);
 }
 
-static void print_key(FILE *out)
+/* Whether a matrix has a number of E without a trend. */
+static bool has_energy_alone(const screen *s)
+{
+    for (int i = 0; i < s->rows; i++)
+        for (int k = 0; k < s->columns; k++) {
+            const study_cell *c = s->cell[i][k];
+            if (c && study_find_fate(c, ENERGY) == OFF_SURFACE) return true;
+        }
+    return false;
+}
+
+static void print_key(FILE *out, const screen *s)
 {
     int column = fprintf(out, "l-08: trend, decade.");
     for (int i = 0; i < DAL_TREND_ABORTED; i++) {
@@ -313,75 +293,136 @@ static void print_key(FILE *out)
         if (column + 4 + (int)strlen(word) > WIDTH) column = fprintf(out, "\n ") - 1;
         column += fprintf(out, " %c %s,", word[0], word);
     }
-    fputs(" 0 constant, - not stated\n", out);
+    fprintf(out, " %s, - not stated\n", has_energy_alone(s) ? "-08 off D = 0" : "0 constant");
 }
 
 /* ---- sentences ----------------------------------------------------------------------------- */
 
+/* Prints "COUNT WORD" for the fates from one on that occur, with commas between them. */
+static void put_fates(FILE *out, const char *separator, const int count[FATES], fate first)
+{
+#define FATE_TEXT(code, text) text,
+    static const char *const texts[] = {FATE_LIST(FATE_TEXT)};
+#undef FATE_TEXT
+    for (int k = (int)first; k < FATES; k++) {
+        if (count[k] == 0) continue;
+        fprintf(out, "%s%d %s", separator, count[k], texts[k]);
+        separator = ", ";
+    }
+}
+
+/* Prints a sentence, which may take several lines; returns the column at its end. */
+static int put_wrapped(FILE *out, const char *text)
+{
+    char *lines;
+    size_t length;
+    FILE *wrapped = cli_memstream_open(&lines, &length);
+    cli_wrap(wrapped, text, 0, 2);
+    cli_memstream_close(wrapped);
+    lines[length - 1] = '\0'; /* the end of its last line */
+    fputs(lines, out);
+    const char *last = strrchr(lines, '\n');
+    const int column = (int)strlen(last ? last + 1 : lines);
+    free(lines);
+    return column;
+}
+
 static void say_fates(FILE *out, const screen *s, int quantity)
 {
-    int sum[FATES] = {0};
+    int sum[FATES] = {0}, runs = 0;
+    char *text;
+    size_t length;
     for (int i = 0; i < s->method_count; i++)
-        for (int k = 0; k < FATES; k++) sum[k] += s->methods[i].count[quantity][k];
-    if (sum[RUNS] == 0)
-        fprintf(out, "No finished run on p = pi = 0 has %s to keep.\n",
+        for (int k = 0; k < FATES; k++) {
+            sum[k] += s->methods[i].count[quantity][k];
+            runs += s->methods[i].count[quantity][k];
+        }
+    FILE *line = cli_memstream_open(&text, &length);
+    if (runs == 0)
+        fprintf(line, "No finished run on p = pi = 0 has %s to keep",
                 quantity == CONSTRAINT ? "a constraint" : "an energy");
-    else if (quantity == CONSTRAINT)
-        fprintf(out, "Of %d runs %d keep D at rounding, %d keep it bounded, %d let it drift.\n",
-                sum[RUNS], sum[AT_ROUNDING], sum[STEADY] - sum[AT_ROUNDING], sum[DRIFTING]);
     else
-        fprintf(out, "On D = 0, %d of %d runs keep E at rounding, %d bounded, %d let it drift.\n",
-                sum[AT_ROUNDING], sum[RUNS], sum[STEADY] - sum[AT_ROUNDING], sum[DRIFTING]);
+        fprintf(line, "%s in %d runs", quantities[quantity].name, runs);
+    put_fates(line, ": ", sum, AT_ROUNDING);
+    fputs(".", line);
+    cli_memstream_close(line);
+    put_wrapped(out, text);
+    fputc('\n', out);
+    free(text);
 }
 
-/* E is stated of a run on D = 0 alone; of an integrator where all of its runs are. */
-static bool is_stated(const screen_method *m, int quantity)
+/* What becomes of a quantity in all runs of an integrator: AT_ROUNDING where each keeps it, else
+ * what is first said against that; FATES where it has no run.  E is to be kept on D = 0 alone. */
+static fate find_method_fate(const screen_method *m, int quantity)
 {
-    if (m->count[quantity][RUNS] == 0) return false;
-    return quantity == CONSTRAINT ||
-           m->count[CONSTRAINT][AT_ROUNDING] == m->count[CONSTRAINT][RUNS];
+    const int *count = m->count[quantity], *of_D = m->count[CONSTRAINT];
+    int runs = 0, on_D = of_D[AT_ROUNDING];
+    for (int k = 0; k < REFUSED; k++) runs += count[k];
+    if (runs == 0) return count[REFUSED] > 0 ? REFUSED : FATES;
+    if (count[FAILED] > 0) return FAILED;
+    if (count[ABORTED] > 0) return ABORTED;
+    for (int k = 0; k < REFUSED; k++) on_D -= of_D[k];
+    if (count[OFF_SURFACE] > 0 || (quantity == ENERGY && on_D < 0)) return OFF_SURFACE;
+    if (count[UNDECIDED] > 0 && count[DRIFTING] == 0) return UNDECIDED;
+    const int kept = quantity == CONSTRAINT ? count[AT_ROUNDING] : m->kept[quantity];
+    return kept == runs ? AT_ROUNDING : DRIFTING;
 }
 
-static bool has_fate(const screen_method *m, int quantity, int fate)
-{
-    return is_stated(m, quantity) && m->count[quantity][fate] == m->count[quantity][RUNS];
-}
-
-/* The integrators of which all runs have a fate, as many as fit a line. */
-static void say_methods(FILE *out, const screen *s, int quantity, int fate, const char *what)
+/* The integrators that keep a quantity in all of their runs, as many as fit a line. */
+static void say_methods(FILE *out, const screen *s, int quantity, const char *what)
 {
     static const char more[] = ", ...";
-    int all = 0, count = 0, listed = 0;
+    int count[FATES] = {0}, all = 0, listed = 0;
+    char *text;
+    size_t length;
     for (int i = 0; i < s->method_count; i++) {
-        all += is_stated(&s->methods[i], quantity);
-        count += has_fate(&s->methods[i], quantity, fate);
+        const fate of_method = find_method_fate(&s->methods[i], quantity);
+        if (of_method == FATES) continue;
+        count[of_method]++;
+        all++;
     }
     if (all == 0) return;
-    int column = fprintf(out, "%d of %d %s", count, all, what);
+    FILE *line = cli_memstream_open(&text, &length);
+    fprintf(line, "%d of %d integrators %s", count[AT_ROUNDING], all, what);
+    put_fates(line, ", ", count, UNDECIDED);
+    cli_memstream_close(line);
+    int column = put_wrapped(out, text);
     for (int i = 0; i < s->method_count; i++) {
         const screen_method *m = &s->methods[i];
-        if (!has_fate(m, quantity, fate)) continue;
+        if (find_method_fate(m, quantity) != AT_ROUNDING) continue;
         if (column + 2 + strlen(m->name) > WIDTH - (sizeof more - 1)) break;
         column += fprintf(out, "%s%s", listed++ ? ", " : ": ", m->name);
     }
-    fprintf(out, "%s\n", listed == count ? "." : more);
+    fprintf(out, "%s\n", listed == count[AT_ROUNDING] ? "." : more);
+    free(text);
 }
 
 /* What the lift adds on p = pi = 0; returns whether the study has such runs. */
 static bool say_lift(FILE *out, const screen *s)
 {
-    int pairs = 0, same = 0;
+    int pairs = 0, same = 0, others[FATES] = {0};
+    char *text;
+    size_t length;
     for (int i = 0; i < s->plan->cell_count; i++) {
         const study_cell *c = &s->plan->cells[i];
         const study_cell *physical =
             c->state == STUDY_FINISHED ? study_cell_physical(s->plan, c) : NULL;
         pairs += physical != NULL;
         same += physical && physical->bits == c->bits;
+        if (c->start != STUDY_SURFACE || c->other_shard) continue;
+        others[FAILED] += c->state == STUDY_FAILED;
+        others[REFUSED] += c->state == STUDY_REFUSED;
     }
-    if (pairs > 0)
-        fprintf(out, "From p = pi = 0 the lift has the bits of (q,v) alone in %d of %d runs.\n",
-                same, pairs);
-    return pairs > 0;
+    if (pairs == 0) return false;
+    FILE *line = cli_memstream_open(&text, &length);
+    fprintf(line, "From p = pi = 0 the lift has the bits of (q,v) in %d of %d runs", same, pairs);
+    put_fates(line, ", ", others, FAILED);
+    fputs(".", line);
+    cli_memstream_close(line);
+    put_wrapped(out, text);
+    fputc('\n', out);
+    free(text);
+    return true;
 }
 
 static double seconds_per_step(const study_cell *c)
@@ -413,9 +454,9 @@ static void say_speed(FILE *out, const screen *s)
 static void print_sentences(FILE *out, const screen *s)
 {
     say_fates(out, s, CONSTRAINT);
-    say_methods(out, s, CONSTRAINT, AT_ROUNDING, "integrators keep D at rounding in every run");
+    say_methods(out, s, CONSTRAINT, "keep D at rounding in every run");
     say_fates(out, s, ENERGY);
-    say_methods(out, s, ENERGY, STEADY, "integrators that stay on D = 0 keep E from drifting");
+    say_methods(out, s, ENERGY, "keep E within 1 % on D = 0");
     if (!say_lift(out, s)) say_speed(out, s);
 }
 
@@ -425,8 +466,7 @@ static void print_sentences(FILE *out, const screen *s)
 static void print_expectations(FILE *out, const study_plan *plan)
 {
     const study_comparisons all = study_compare(plan);
-    if (plan->expectation_count > 0)
-        fprintf(out, "Expectations: %d of %d are met.\n", all.count - all.unmet, all.count);
+    if (plan->expectation_count > 0) study_print_met(out, &all);
     for (int i = 0, shown = 0; i < all.count && shown < UNMET; i++) {
         char *line;
         size_t length;
@@ -467,7 +507,7 @@ static void print_runs(FILE *out, const study_plan *plan)
     char *text = cli_format("  failed first: %s on %s: %s",
                             dal_method_name(failed->method, name, sizeof name),
                             failed->of_case->label, failed->error.message);
-    put_cut(out, text, WIDTH, false);
+    put_wrapped(out, text);
     fputc('\n', out);
     free(text);
 }
@@ -482,7 +522,7 @@ static void print_part(FILE *out, const screen *s, int part, const char *tables)
     if (part == LEGEND) {
         print_systems(out, s);
     } else if (part == KEY) {
-        print_key(out);
+        print_key(out, s);
     } else if (part == SENTENCES) {
         print_sentences(out, s);
     } else if (part == END) {

@@ -35,10 +35,14 @@ static void say_number(char *text, const dal_trend *trend, const char *format, d
         snprintf(text, CELL, format, x);
 }
 
-/* "rounding, linear"; "exact" has no trend. */
+/* "rounding, linear"; "exact" has no trend, and "aborted" no size. */
 static void say_trend(char *text, const dal_trend *trend)
 {
     if (!trend || trend->conservation != DAL_CONSERVED) return;
+    if (trend->trend == DAL_TREND_ABORTED) {
+        snprintf(text, CELL, "%s", dal_trend_text(trend->trend));
+        return;
+    }
     const int is_exact = trend->size == DAL_SIZE_EXACT;
     snprintf(text, CELL, "%s%s%s", dal_size_text(trend->size), is_exact ? "" : ", ",
              is_exact ? "" : dal_trend_text(trend->trend));

@@ -115,6 +115,12 @@ static dal_status set_start(const dal_system *s, const dal_setting *setting, dou
 dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
                                double *out, dal_error *error)
 {
+    return dal_evaluator_start_at(evaluator, 0.0, start, start_count, out, error);
+}
+
+dal_status dal_evaluator_start_at(dal_evaluator *evaluator, double t, const dal_setting *start,
+                                  int start_count, double *out, dal_error *error)
+{
     DAL_REQUIRE(evaluator, error);
     DAL_REQUIRE(out, error);
     DAL_TRY(dal__check_settings(start, start_count, "start values", error));
@@ -122,7 +128,7 @@ dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *star
     int count = 2 * s->n + s->multipliers + 1;
     for (int i = 0; i < count; i++) out[i] = i == count - 1 ? 1.0 : 0.0;
     if (s->start != NULL) {
-        dal_status status = s->start(s, &(dal_point){.work = evaluator->work, NULL}, out);
+        dal_status status = s->start(s, &(dal_point){.t = t, .work = evaluator->work}, out);
         if (status != DAL_OK)
             return dal__fail(error, status, "%s: no start: %s", s->name, dal_status_text(status));
     }
@@ -130,7 +136,7 @@ dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *star
     double *memory = calloc(dal__solve_size(s) + 1, sizeof *memory);
     if (memory == NULL) return dal__fail(error, DAL_MEMORY, "%s: out of memory", s->name);
     const dal_status solved =
-        dal__solve_velocities(s, 0.0, out, out + s->n, evaluator->work, memory, error);
+        dal__solve_velocities(s, t, out, out + s->n, evaluator->work, memory, error);
     free(memory);
     return solved;
 }

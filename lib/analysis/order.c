@@ -96,6 +96,7 @@ void dal_order_slopes(dal_order *o, double noise)
     const int levels = o->levels < DAL_ORDER_LEVELS ? o->levels : DAL_ORDER_LEVELS;
     const double clear = fmax(clear_of_rounding, 10.0 * noise);
     o->order = o->slope[0] = NAN;
+    o->outcome = levels < 3 ? DAL_ORDER_FEW : DAL_ORDER_COARSE;
     for (int i = 1; i < levels; i++)
         o->slope[i] = log(o->error[i - 1] / o->error[i]) / log(o->step[i - 1] / o->step[i]);
     /* The last three errors that are those of the method. */
@@ -105,11 +106,15 @@ void dal_order_slopes(dal_order *o, double noise)
         if (!is_good) last = i - 1;
         good = is_good ? good + 1 : 0;
     }
+    for (int i = 0; i < levels && levels >= 3 && good < 3; i++)
+        if (o->error[i] <= clear) o->outcome = DAL_ORDER_ROUNDING;
     if (good < 3) return;
     /* The next term of the error. */
     const double g = mean_step(o, last), before = mean_step(o, last - 1);
-    if (fabs(o->slope[last - 1] - o->slope[last]) * g <= order_tolerance * (before - g))
+    if (fabs(o->slope[last - 1] - o->slope[last]) * g <= order_tolerance * (before - g)) {
         o->order = o->slope[last];
+        o->outcome = DAL_ORDER_FOUND;
+    }
 }
 
 dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,

@@ -452,7 +452,8 @@ static dal_status survey_start(dal_scaled *s, const dal_run_spec *spec, dal_erro
         w.f = w.x + x + 1;
         w.mass = w.f + nw;
         w.work = w.mass + n;
-        status = dal_evaluator_start(w.evaluator, spec->start, spec->start_count, w.x, error);
+        status =
+            dal_evaluator_start_at(w.evaluator, w.t, spec->start, spec->start_count, w.x, error);
     }
     if (status == DAL_OK) find_units(&w);
     free(block);

@@ -233,7 +233,7 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     const int count = 2 * e->n + e->multipliers;
     const char **names = dal__model_allocate(model, (size_t)count, sizeof *names);
     dal__node *given = dal__model_nodes(model, count, 0);
-    dal__scope scope = dal__scope_of(e, 0);
+    dal__scope scope = dal__scope_of(e, DAL__MAY_T);
     const dal__entry *entry;
     scope.given = given;
     e->solved = dal__model_allocate(model, (size_t)e->m, sizeof *e->solved);

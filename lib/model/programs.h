@@ -10,7 +10,7 @@
  * inputs that it reads. */
 enum { DAL__READS_none, DAL__READS_t, DAL__READS_tqv, DAL__READS_tqvpi };
 #define DAL__SINGLE_LIST(PROGRAM)                                                                  \
-    PROGRAM(START, start, none)                                                                    \
+    PROGRAM(START, start, t)                                                                       \
     PROGRAM(CONSTRAINTS, constraints, tqv)                                                         \
     PROGRAM(ENERGY, energy, tqv)                                                                   \
     PROGRAM(INVARIANTS, invariant_values, tqv)                                                     \

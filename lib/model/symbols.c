@@ -142,7 +142,7 @@ static dal__node misplaced(const dal__scope *scope, const char *what, const char
 {
     dal__fail(error, DAL_NAME, "%s '%.80s' may not stand here: only %sparameters%s", what, name,
               scope->inside ? "arguments and " : "",
-              scope->given              ? " and what start gives before"
+              scope->given              ? ", t and what start gives before"
               : scope->may & DAL__MAY_T ? " and t"
                                         : "");
     return 0;

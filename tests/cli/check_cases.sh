@@ -147,6 +147,19 @@ case_is "e = 0"
 try 1 check chaplygin-sleigh --start e=0
 prints '^  gauge variable e +FAIL'
 
+case_is "energy and degrees of D"
+# The mass shell is not homogeneous in v, so D = 0 at midpoints does work: E moves by O(h^2), every other step.
+try 0 check relativistic-em
+prints '^  E is preserved by +info +\+project-energy$'
+moved() {
+    "$program" run relativistic-em --integrator discrete-gradient --step $1 --time 0.5 --samples $2 --columns E \
+        2>err | awk -F, 'NR == 2 { E = $2 } NR > 2 { d = ($2 - E)^2; if (d > max) max = d } END { print sqrt(max) }'
+}
+holds "E of relativistic-em" awk "BEGIN { r = $(moved 0.01 50)/$(moved 0.005 100); exit !(r > 3.5 && r < 4.5) }"
+# D = y'/x' - tan phi does not change with the length of v.
+try 0 check chaplygin-sleigh-nonlinear
+prints '^  homogeneity of D in v +info +D1 of degree 0$'
+
 case_is "parameters"
 try 0 check chaplygin-sleigh --set omega=2 --set v0=3
 try 2 check chaplygin-sleigh --set omga=2

@@ -150,3 +150,47 @@ bad 'integrators: rk4\nstep: 1\nsystems: [{system: forced.yaml, steps: 3, time: 
 bad 'integrators: rk4\nstep: 1\nsteps: 0\nsystems: [forced.yaml]\n' 'bad.yaml:3:8: steps: 0 is not in 1'
 bad 'integrators: rk4\nstep: 0\ntime: 1\nsystems: [forced.yaml]\n' 'bad.yaml:2:7: step: it must not be 0'
 bad 'integrators: rk4\nstep: [0.5, -1]\nfrom: 3\ntime: 2\nsystems: [forced.yaml]\n' 'a step of 0.5 does not lead from t = 3 to t = 2'
+
+case_is "check, explain, lyapunov and volume from a later time, t in start"
+cat >moving.yaml <<'END2'
+coordinates: [x, y]
+lagrangian: (x'^2 + y'^2)/2
+constraints: [y' - t*x']
+start: {x: sin(t), x': 1, y': t}
+END2
+try 0 run moving.yaml --integrator rk4 --step 0.1 --from 2 --time 3 --samples 1 --columns "x,y',D1"
+holds "the start" awk -F, 'NR == 2 { exit !(($2 - sin(2))^2 < 1e-30 && $3 == 2 && $4 == 0) }' out
+try 0 check moving.yaml --from 2
+# At t = 2 alone y' = 2 is on D = 0.
+sed "s/y': t/y': 2/" moving.yaml >at2.yaml
+try 0 check at2.yaml --from 2
+prints '^  .D. at the start +ok +0 '
+try 1 check at2.yaml
+# x'' = -(1 + cos(t + s)/2) x - x'/10: what is found from t = 2 is what is found from t = 0 with s = 2.
+cat >shifted.yaml <<'END2'
+coordinates: [x]
+parameters: {s: 0}
+lagrangian: x'^2/2 - (1 + cos(t + s)/2)*x^2/2
+forces: {x: -0.1*x'}
+start: {x': 1}
+invariants: {seen: x'^2 + x^2}
+END2
+for command in lyapunov volume; do
+    try 0 $command shifted.yaml --integrator rk4 --step 0.1 --from 2 --time 12 --transient 3
+    prints 'means over t = 5 \.\. 15$'
+    sed 1d out >from
+    try 0 $command shifted.yaml --integrator rk4 --step 0.1 --set s=2 --time 10 --transient 3
+    sed 1d out | cmp -s - from && same=yes || same=$(diff out from)
+    holds "$command: $same" test "$same" = yes
+    try 0 $command shifted.yaml --integrator rk4 --step 0.1 --time 10 --transient 3
+    sed 1d out | cmp -s - from && holds "$command does not see t" false
+    try 2 $command shifted.yaml --integrator rk4 --step 0.1 --from 2 --time 1
+    says -- '--time: 1 does not come after --from 2'
+    try 2 $command shifted.yaml --integrator rk4 --step -0.1 --from 2 --time 1
+    says 'is not positive'
+done
+try 0 explain shifted.yaml --integrator rk4 --step 0.1 --from 2 --time 22
+sed 1d out >from
+try 0 explain shifted.yaml --integrator rk4 --step 0.1 --set s=2 --time 20
+first=$(grep seen out | head -1)
+holds "explain: $first" grep -qF "$first" from

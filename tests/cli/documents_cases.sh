@@ -50,3 +50,13 @@ sed -n '/^<!-- choosing -->$/,/^<!-- end of choosing -->$/{/^<!--/d;p;}' \
     "$here/../../docs/choosing.md" | sed '1d;$d' >stated
 awk -f "$here/../../tools/choosing.awk" choosing/choice/cells.csv >measured
 holds "make references CHOOSING=1 writes other tables: $(diff stated measured | head -3)" cmp stated measured
+
+# "Hairer, Lubich, Wanner 2006, II.1" is the row of "Hairer, Lubich, Wanner 2006"; ';' separates two works.
+case_is "each work that a method cites is in references.md"
+try 0 list integrators --json
+grep -o '"reference": "[^"]*"' out | sed 's/"reference": "//; s/"$//; s/; /\n/g' |
+    sed 's/\([12][0-9][0-9][0-9]\).*/\1/' | sort -u >works
+holds "there are works" test "$(wc -l <works)" -ge 20
+while read -r work; do
+    holds "$work" grep -qF "| $work |" "$here/../../docs/references.md"
+done <works

@@ -59,8 +59,18 @@ for system in falling-disk isokinetic-cluster; do
         awk -F, '$2 ~ /^symplectic-euler-0/ { print $4 }' range.csv | tr -d '\n')"
     holds "$system: an order of rounding" grep -q "^$system,gauss12,12,,0.1" range.csv
 done
-prints '^symplectic-euler-01 +1 +- +[0-9]'
-prints '^no order found'
+prints '^symplectic-euler-01 +1 +coarse +[0-9]'
+prints '^no order found, coarse: the last two slopes do not agree'
+printf "coordinates: [x]\nlagrangian: x'^2/2 - x^2/2\nstart: {x': 1}\n" >swing.yaml
+# gauss12 is at rounding with every one of these steps.
+try 0 order swing.yaml --step 0.1 --time 10 --integrators gauss12,rk4
+prints '^gauss12 +12 +rounding +[0-9]'
+prints '^no order found, rounding: fewer than three errors lie above rounding '
+holds "a reason of others" sh -c "! grep -q 'order found, coarse' out"
+try 0 order swing.yaml --step 0.1 --time 10 --integrators gauss12,rk4 --json
+json out "[m['no_order'] for m in d['methods']] == ['rounding', None]"
+try 0 order swing.yaml --step 0.1 --time 10 --levels 2 --integrators rk4
+prints '^no order found, few: there are fewer than three steps'
 
 # y begins at the value of its exact solution at t = 1, with the velocity that D has then.
 case_is "orders from a later time, with velocities solved from D(q,v,t) = 0"

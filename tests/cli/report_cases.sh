@@ -32,6 +32,17 @@ try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6.2831853071795
     --set v0=0.1 --output ran
 page=drawn/report/index.html
 
+case_is "the largest drift on the page of a run by --steps"
+# |drift| <= |rate| (t - t0) with t = steps times step: the same as by --time.
+for length in "--steps 4000" "--time 200"; do
+    try 0 run knife-edge --integrator gauss4+project --step 0.05 $length --samples 100 --output of-length --force
+    try 0 report of-length
+    grep -o '|drift| ≤ [^<]*' of-length/report/index.html >"drift$length"
+done
+holds "no drift" test -s "drift--time 200"
+holds "no drift of 0" sh -c "! grep '0\.0e+00' 'drift--steps 4000'"
+holds "another drift" cmp "drift--steps 4000" "drift--time 200"
+
 if needs 15 "no python3" there python3; then
     case_is "the envelopes of a page are the maxima of series/"
     # Of three methods with two steps: D, E, I, H and the error of the sleigh, D, E and I of the

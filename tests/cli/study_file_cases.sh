@@ -125,6 +125,73 @@ holds "the table is not kept" grep -q '^Expectations: 2 of 5' there/tables.txt
 expecting '  line: {rk4: {c: exponential}}\n'
 try 3 study expect.yaml --output there --force
 
+case_is "what failed, was aborted or refused meets no size, trend or bound"
+# The field x'' = x^3 is infinite in a finite time; sqrt(0.5 - x) is not a number once x > 1/2.
+cat >burst.yaml <<'END2'
+coordinates: [x, y]
+lagrangian: (x'^2 + y'^2)/2 + x^4/4
+constraints: [y']
+start: {x: 1, x': 1}
+invariants: {still: y}
+END2
+printf 'integrators: [rk4, gauss4, gni]\nstep: 0.5\ntime: 100\nstarts: physical\nsystems:
+  - {system: burst.yaml, label: burst}
+  - {system: line.yaml, label: line}
+expect:
+  burst: {rk4: {still: [exact, rounding, larger], D: {max: {at most: 1}}, E: rounding},
+          gauss4: {still: [none, undecided], E: {deviation: {at least: 0}}}, gni: {state: failed, D: aborted}}
+  line: {rk4: {"sqrt(0.5 - x)": {max: {at least: 0}}, c: [exact, rounding]},
+         gauss4: {"sqrt(0.5 - x)": aborted, c: [exact, rounding]}, gni: {state: [done, refused]}}\n' >lost.yaml
+try 3 study lost.yaml --output there --force --tables --no-page
+prints '^Expectations: 6 of 12 are met; 5 failed, 1 aborted\.$'
+prints '^  burst +rk4 .* still: expected exact or rounding or larger, found failed '
+prints '^  burst +rk4 .* D: expected max <= 1, found failed '
+prints '^  burst +gauss4 .* E: expected deviation >= 0, found failed '
+prints '^  line +rk4 .* sqrt\(0\.5 - x\): expected max >= 0, found aborted '
+try 3 study lost.yaml --output there --force --no-page
+prints '^Expectations: 6 of 12 are met; 5 failed, 1 aborted\.$'
+prints '^D in 3 runs: 3 failed\.$'
+prints '^0 of 3 integrators keep D at rounding in every run, 3 failed\.$'
+prints '^0 of [34] integrators keep E within 1 % on D = 0, 3 failed\.$'
+holds "a failure is met" sh -c "! grep 'failed' there/expectations.csv | grep -v state | grep -q yes"
+# A method that the system refuses is no run: it is counted, but not compared.
+printf 'integrators: [gauss4, gni]\nstep: 0.1\ntime: 1\nstarts: physical
+systems: [chaplygin-sleigh-vakonomic]\nexpect: {all: {all: {E: {at most: 1}}}}\n' >no.yaml
+try 0 study no.yaml --output there --force --no-page
+prints '^Expectations: 1 of 1 are met; 1 refused\.$'
+printf 'integrators: [gauss4, gni]\nstep: 0.1\ntime: 1\nstarts: physical
+systems: [chaplygin-sleigh-vakonomic]\nexpect: {all: {gni: {E: {at most: 1}}}}\n' >no.yaml
+try 1 study no.yaml --output there --force --no-page
+prints '^Expectations: 0 of 1 are met; 1 refused\.$'
+# A run that cannot begin has no quantities, which do not meet anything either.
+cat >cannot.yaml <<'END2'
+coordinates: [x]
+lagrangian: x'^2/2 - x
+constraints: [x*(x' - 1)]
+start: {x: 0}
+invariants: {I: x}
+END2
+printf 'integrators: gauss4\nstep: 0.1\ntime: 1\nstarts: physical
+systems: [cannot.yaml]\nexpect: {cannot.yaml: {all: {I: [exact, rounding], D: aborted}}}\n' >none.yaml
+try 3 study none.yaml --output there --force --no-page
+prints '^Expectations: 0 of 2 are met; 2 failed\.$'
+
+case_is "E off D = 0 has a number without a trend"
+# x'^2/2 + y'^2/2 + x^2/2 changes by h D per unit of time, which is 5e-12 of it at most.
+cat >beside.yaml <<'END2'
+coordinates: [x, y]
+lagrangian: (x'^2 + y'^2)/2 - x^2/2
+constraints: [y' - x*x']
+start: {x: 1, x': 1, y': 1.000000000005}
+END2
+printf 'integrators: gauss4\nstep: 0.1\ntime: 50\nstarts: physical\nsystems: [beside.yaml]\n' >beside-study.yaml
+try 0 study beside-study.yaml --output there --force --no-page
+prints '^gauss4 +[a-z]-12$'
+prints '^gauss4 +-0[4-8]$'
+prints ' -08 off D = 0, - not stated$'
+prints '^E in 1 runs: 1 off D = 0\.$'
+prints '^0 of 1 integrators keep E within 1 % on D = 0, 1 off D = 0\.$'
+
 case_is "bounds of every number of a trend"
 # ramp = 2 t; wave = 2 t + 3 sin(10 t); half = t^1.5/4
 cat >ramp.yaml <<'END'
@@ -301,3 +368,22 @@ says "knife-edge: the tolerance is given as a key and among the options"
 sed 's/{tolerance: 1e-6,/{tolerance: 1e-7,/' tolerances.yaml >bad.yaml
 try 2 study bad.yaml --output bad
 says "expect: the study has no such step, tolerance and start"
+
+case_is "paths of systems are relative to the study file"
+mkdir -p far/deep away
+cp swing.yaml far/near.yaml
+cp swing.yaml far/deep/bare
+printf 'integrators: rk4\nstep: 0.1\ntime: 1\nstarts: physical
+systems: [near.yaml, ./deep/bare]\n' >far/study.yaml
+try 0 study far/study.yaml --output far/there --no-page
+holds "a path of its own" test "$(column system far/there/cells.csv | tr '\n' ' ')" = "near.yaml ./deep/bare "
+(cd away && try 0 study ../far/study.yaml --output there --no-page && rm ../far/near.yaml && try 0 resume there)
+holds "another result from elsewhere" sh -c "cut -d, -f1-34 far/there/cells.csv >a; cut -d, -f1-34 away/there/cells.csv |
+    cmp -s - a"
+# What was relative to the working directory is no longer found, and the message says why.
+cp swing.yaml near.yaml
+try 2 study far/study.yaml --output far/there --no-page --force
+says "far/study\.yaml:5:[0-9]+: there is no 'far/near\.yaml': paths are relative to the study file"
+rm near.yaml
+try 2 study far/study.yaml --output far/there --no-page --force
+says "far/near\.yaml"
