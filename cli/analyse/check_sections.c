@@ -190,11 +190,7 @@ static void check_growth(check *c)
 }
 
 /* The degrees at two points may differ by this where D is homogeneous: the rest is noise. */
-static double round_degree(double k)
-{
-    const double noise = 1e-8;
-    return nearbyint(k / noise) * noise + 0.0;
-}
+static const double noise_of_degree = 1e-8;
 
 static void check_constraints(check *c)
 {
@@ -212,9 +208,9 @@ static void check_constraints(check *c)
         char text[64] = "not homogeneous";
         int written = 0;
         for (int a = 0; d.homogeneous && a < c->m && written < 44; a++)
-            written +=
-                snprintf(text + written, sizeof text - (size_t)written, "%sD%d of degree %.4g",
-                         a > 0 ? ", " : "", a + 1, round_degree(degree[a]));
+            written += snprintf(text + written, sizeof text - (size_t)written,
+                                "%sD%d of degree %.4g", a > 0 ? ", " : "", a + 1,
+                                nearbyint(degree[a] / noise_of_degree) * noise_of_degree + 0.0);
         check_item(c, CHECK_INFO, "homogeneity of D in v", "%s%s", text,
                    d.linear ? "; affine" : "");
         check_classes(c, &d);

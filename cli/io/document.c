@@ -201,16 +201,6 @@ bool document_get_pair(const document *doc, const yaml_node_t *node, int i, docu
     return true;
 }
 
-/* Whether pair i of a mapping of texts has the key of one before it. */
-static bool is_repeated(const document *doc, const yaml_node_t *node, int i)
-{
-    document_pair pair, before;
-    document_get_pair(doc, node, i, &pair);
-    for (int k = 0; k < i && document_get_pair(doc, node, k, &before); k++)
-        if (strcmp(before.name, pair.name) == 0) return true;
-    return false;
-}
-
 int document_check_mapping(const document *doc, const yaml_node_t *node, const char *what,
                            const char *contents)
 {
@@ -219,8 +209,10 @@ int document_check_mapping(const document *doc, const yaml_node_t *node, const c
         return document_fail(doc, node, "%s: %s are required", what, contents);
     for (int i = 0; document_get_pair(doc, node, i, &pair); i++) {
         if (!document_scalar(doc, pair.key, what)) return CLI_USAGE;
-        if (is_repeated(doc, node, i))
-            return document_fail(doc, pair.key, "the key '%s' comes twice", pair.name);
+        document_pair before;
+        for (int k = 0; k < i && document_get_pair(doc, node, k, &before); k++)
+            if (strcmp(before.name, pair.name) == 0)
+                return document_fail(doc, pair.key, "the key '%s' comes twice", pair.name);
     }
     return CLI_DONE;
 }

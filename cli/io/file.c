@@ -188,17 +188,8 @@ static int open_special(const char *path, mode_t mode)
     return S_ISDIR(mode) ? -1 : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
 }
 
-/* The owner and the permissions of a file stay, as far as this user may set them. */
-static void copy_owner(int descriptor, const struct stat *held)
-{
-    if (fchown(descriptor, held->st_uid, held->st_gid) != 0 &&
-        fchown(descriptor, (uid_t)-1, held->st_gid) != 0)
-        errno = 0;
-    fchmod(descriptor, held->st_mode & 0777);
-}
-
-/* A new file beside o->path, where held[1] is; held NULL: nothing is there yet.  A file in a
- * directory where none can be made is written in place. */
+/* A new file beside o->path, where held[1] is, with its owner and permissions; held NULL: nothing is
+ * there yet.  A file in a directory where none can be made is written in place. */
 static int open_beside(file_output *o, const struct stat *held)
 {
     const char *slash = strrchr(o->path, '/');
@@ -207,7 +198,12 @@ static int open_beside(file_output *o, const struct stat *held)
     o->fresh = cli_format("%.*s.%s.new", folder, o->path, o->path + folder);
     unlink(o->fresh); /* of a process that was killed */
     const int descriptor = open(o->fresh, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0 && held) copy_owner(descriptor, held);
+    if (descriptor >= 0 && held) { /* as far as this user may set them */
+        if (fchown(descriptor, held->st_uid, held->st_gid) != 0 &&
+            fchown(descriptor, (uid_t)-1, held->st_gid) != 0)
+            errno = 0;
+        fchmod(descriptor, held->st_mode & 0777);
+    }
     if (descriptor >= 0) return descriptor;
     const int reason = errno;
     free(o->fresh);

@@ -2,8 +2,11 @@
 #include "report_cells.h"
 #include "ui/message.h"
 
+#include "io/text.h"
+
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 int read_steps(report_csv *csv, const char *path)
 {
@@ -73,4 +76,17 @@ int find_cell(const study_page *s, const char *label, const char *method, const 
         if (is_cell(s, row, "start", starts[is_displaced][1])) found = row;
     }
     return found;
+}
+
+int check_cell_names(const study_page *s, const char *path, int row)
+{
+    static const char runs[] = "runs/";
+    const char *label = get_cell(s, row, "label"), *run = get_cell(s, row, "run");
+    const bool is_run = strncmp(run, runs, sizeof runs - 1) == 0;
+    if (!text_is_file_name(label))
+        return cli_fail(CLI_USAGE, "%s:%d: the label '%s' cannot name a file", path, row + 1,
+                        label);
+    if (!run[0] || (is_run && text_is_file_name(run + sizeof runs - 1))) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "%s:%d: the run '%s' is no directory of the study", path, row + 1,
+                    run);
 }

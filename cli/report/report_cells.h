@@ -25,6 +25,8 @@ double step_tolerance(const char *step);
 /* The text of a cell under a head of cells.csv; whether it is another one. */
 const char *get_cell(const study_page *s, int row, const char *head);
 bool is_cell(const study_page *s, int row, const char *head, const char *text);
+/* The label of a row names files of the study, and its run a directory of it: an exit status. */
+int check_cell_names(const study_page *s, const char *path, int row);
 
 /* What tables and figures are about: its column in series/LABEL.csv, those in cells.csv, of which
  * the first is empty where a system lacks it; the texts of its figures; and the title of its table,

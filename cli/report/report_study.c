@@ -12,7 +12,6 @@
 #include "io/document.h"
 #include "io/file.h"
 #include "io/gnuplot.h"
-#include "io/text.h"
 #include "report_cells.h"
 #include "report_csv.h"
 #include "report_data.h"
@@ -552,20 +551,6 @@ static int write_study(study_page *s)
     return status;
 }
 
-/* The label of a row names files of the study, and its run a directory of it. */
-static int check_names(const study_page *s, const char *path, int row)
-{
-    static const char runs[] = "runs/";
-    const char *label = get_cell(s, row, "label"), *run = get_cell(s, row, "run");
-    const bool is_run = strncmp(run, runs, sizeof runs - 1) == 0;
-    if (!text_is_file_name(label))
-        return cli_fail(CLI_USAGE, "%s:%d: the label '%s' cannot name a file", path, row + 1,
-                        label);
-    if (!run[0] || (is_run && text_is_file_name(run + sizeof runs - 1))) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "%s:%d: the run '%s' is no directory of the study", path, row + 1,
-                    run);
-}
-
 int report_study(report *r)
 {
     study_page *s = cli_calloc(1, sizeof *s);
@@ -573,7 +558,7 @@ int report_study(report *r)
     s->r = r;
     int status = read_steps(&s->cells, path);
     for (int row = 1; status == CLI_DONE && row < s->cells.rows; row++) {
-        status = check_names(s, path, row);
+        status = check_cell_names(s, path, row);
         report_add_word(&s->labels, get_cell(s, row, "label"));
         report_add_word(&s->methods, get_cell(s, row, "integrator"));
     }

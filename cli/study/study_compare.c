@@ -177,12 +177,6 @@ static void add_comparison(study_comparisons *all, const study_expectation *x, c
     all->aborted += c->state == STUDY_FINISHED;
 }
 
-static bool is_refused(const study_expectation *x, const study_cell *c)
-{
-    return study_expectation_covers(x, c) && !study_expects_state(x) && !c->other_shard &&
-           c->state == STUDY_REFUSED;
-}
-
 study_comparisons study_compare(const study_plan *plan)
 {
     study_comparisons all = {.count = 0};
@@ -193,7 +187,8 @@ study_comparisons study_compare(const study_plan *plan)
         for (int k = 0; k < plan->cell_count; k++) {
             const study_cell *c = &plan->cells[k];
             is_waiting |= study_expectation_covers(x, c) && c->state == STUDY_WAITING;
-            all.refused += is_refused(x, c);
+            all.refused += study_expectation_covers(x, c) && !study_expects_state(x) &&
+                           !c->other_shard && c->state == STUDY_REFUSED;
             if (is_compared(x, c)) add_comparison(&all, x, c);
         }
         if (all.count == before && !is_waiting) add_comparison(&all, x, NULL);

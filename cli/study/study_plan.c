@@ -271,34 +271,24 @@ char *study_plan_copy_path(const char *directory, const study_case *e)
 
 const char *study_case_system(const study_case *e)
 {
-    if (e->copy) return e->copy;
-    return e->path ? e->path : e->name;
+    return e->copy ? e->copy : e->path ? e->path : e->name;
 }
 
-/* The path of a system file from the working directory: a relative one begins at the study file. */
-static char *find_path(const group_reader *g, const char *name)
-{
-    const char *place = g->doc->place, *slash = strrchr(place, '/');
-    if (name[0] == '/' || !slash) return cli_strdup(name);
-    return cli_format("%.*s%s", (int)(slash - place) + 1, place, name);
-}
-
-/* In the directory of a study a system with a copy was a file, wherever the program is started. */
+/* A relative path begins at the study file.  In the directory of a study a system with a copy was a
+ * file, wherever the program is started. */
 static int load_system(const group_reader *g, study_case *e)
 {
     const char *names[CLI_MAX_BUILTINS], *copies = g->plan->copies;
     char *copy = copies ? study_plan_copy_path(copies, e) : NULL;
-    char *path = copies ? NULL : find_path(g, e->name);
+    const char *place = g->doc->place, *slash = e->name[0] == '/' ? NULL : strrchr(place, '/');
+    const int folder = slash ? (int)(slash - place) + 1 : 0;
+    char *path = copies ? NULL : cli_format("%.*s%s", folder, place, e->name);
     const bool is_path =
         cli_is_path(e->name) || (path && !dal_builtin_text(e->name) && file_exists(path));
-    if (copy && (is_path || file_exists(copy)))
-        e->copy = copy;
-    else
-        free(copy);
-    if (is_path)
-        e->path = path;
-    else
-        free(path);
+    e->copy = copy && (is_path || file_exists(copy)) ? copy : NULL;
+    e->path = is_path ? path : NULL;
+    if (!e->copy) free(copy);
+    if (!e->path) free(path);
     if (e->path && !file_exists(e->path) && file_exists(e->name))
         return document_fail(g->doc, g->node,
                              "there is no '%s': paths are relative to the study file, not to the "
@@ -379,21 +369,6 @@ static void choose_step(group_reader *g)
     e->steps = 1;
 }
 
-/* Those of the key and of the options are not below what the precision holds. */
-static int check_tolerances(const group_reader *g)
-{
-    const study_case *e = &g->parsed.item;
-    const double min = dal_min_tolerance(&e->options);
-    for (int i = -1; i < e->tolerances; i++) {
-        const double tolerance = i < 0 ? e->options.tolerance : e->tolerance[i];
-        if (tolerance > 0.0 && tolerance < min)
-            return document_fail(g->doc, g->node,
-                                 "%s: tolerance: %g is below %.2g, the smallest in this precision",
-                                 e->name, tolerance, min);
-    }
-    return CLI_DONE;
-}
-
 static int check_case(const group_reader *g)
 {
     const document *doc = g->doc;
@@ -417,7 +392,15 @@ static int check_case(const group_reader *g)
         const char *error = step_error(e->step[i], e->from, end, text);
         if (error) return document_fail(doc, node, "%s: step %s", e->name, error);
     }
-    return check_tolerances(g);
+    const double min = dal_min_tolerance(&e->options);
+    for (int i = -1; i < e->tolerances; i++) {
+        const double tolerance = i < 0 ? e->options.tolerance : e->tolerance[i];
+        if (tolerance > 0.0 && tolerance < min)
+            return document_fail(doc, node,
+                                 "%s: tolerance: %g is below %.2g, the smallest in this precision",
+                                 e->name, tolerance, min);
+    }
+    return CLI_DONE;
 }
 
 static int add_case(group_reader *g, int i, const study_case *first)

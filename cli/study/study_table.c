@@ -55,13 +55,7 @@ static void say_same(char *text, const table_row *r)
     if (physical) snprintf(text, CELL, "%s", physical->bits == r->cell->bits ? "same" : "DIFFERS");
 }
 
-/* The work; seconds are in cells.csv alone, since tables have the same bytes in every run. */
-static double evaluations_per_step(const table_row *r)
-{
-    const study_cell *c = r->cell;
-    return c->steps > 0 ? (double)c->evaluations / (double)c->steps : 0.0;
-}
-
+/* Seconds are in cells.csv alone, since tables have the same bytes in every run. */
 #define SIZE(quantity, member)                                                                     \
     say_number(text, r->q.quantity, "%.1e", r->q.quantity ? r->q.quantity->member : 0.0)
 #define RATE(quantity)                                                                             \
@@ -70,7 +64,10 @@ static double evaluations_per_step(const table_row *r)
 
 #define WORK_LIST(COLUMN)                                                                          \
     COLUMN("steps", "", 8, snprintf(text, CELL, "%lld", r->cell->steps))                           \
-    COLUMN("evals", "/step", 6, snprintf(text, CELL, "%.1f", evaluations_per_step(r)))
+    COLUMN("evals", "/step", 6,                                                                    \
+           snprintf(text, CELL, "%.1f",                                                            \
+                    r->cell->steps > 0 ? (double)r->cell->evaluations / (double)r->cell->steps     \
+                                       : 0.0))
 
 /* head, second line of the head, width, how the text is made */
 #define MOTION_LIST(COLUMN)                                                                        \

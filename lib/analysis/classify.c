@@ -1,9 +1,9 @@
 /* classify.c - size and trend of all observables of a run.
  *
- * E = L_v.v - L changes at the rate v.Q + sum_a h_a v.A_a - L_t, which may vanish on every level
- * of D, on D = 0 alone, or not at all; off p = pi = 0 the lift adds the force pi/e, which does work.  H
- * changes at the rate pi.F_t, and nothing conserves reactions.  A quantity that the motion need not
- * conserve has no drift that is due to the method. */
+ * E = L_v.v - L changes at the rate v.Q + sum_a h_a v.A_a - L_t, which may vanish on every level of
+ * D, on D = 0 alone, or not at all; off p = pi = 0 the lift adds the force pi/e, which does work.
+ * H changes at the rate pi.F_t, and nothing conserves reactions.  A quantity that the motion need
+ * not conserve has no drift that is due to the method. */
 #include "core/words.h"
 #include "dalembert_analysis.h"
 #include <float.h>

@@ -239,13 +239,6 @@ static void add_beginning(comparisons *w, double t)
     dal_statistics_add(series(w, DAL__FIRST_SOLVER_AND_ROUNDING), count, t, quad);
 }
 
-/* Differences of a quantity have its scale. */
-static void add_beginning_scales(comparisons *w, const double *scales)
-{
-    for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++)
-        dal_statistics_add_scales(series(w, parts[k]), w->of->observables, scales);
-}
-
 static dal_status sample_beginning(comparisons *w, dal_run **run, dal_error *error)
 {
     const long long steps = w->of->quad_steps, stride = stride_of(steps);
@@ -255,7 +248,9 @@ static dal_status sample_beginning(comparisons *w, dal_run **run, dal_error *err
             DAL_TRY(dal_run_observe(run[k], w->values + k * w->of->observables));
         }
         add_beginning(w, (double)at * w->of->spec.options.step);
-        add_beginning_scales(w, dal_run_scales(run[RUN]));
+        const double *scales = dal_run_scales(run[RUN]); /* differences have them, too */
+        for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++)
+            dal_statistics_add_scales(series(w, parts[k]), w->of->observables, scales);
         if (report_progress(w, 3.0 * QUAD_COST * (double)stride) != DAL_OK) return DAL_INTERRUPTED;
     }
     return DAL_OK;

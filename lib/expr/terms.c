@@ -89,8 +89,6 @@ size_t dal__terms_memory(const dal__terms *t) { return 2 * (size_t)t->max_places
 
 /* ---- the derivatives of one operation ---- */
 
-static double root(double c, double sign, double x) { return sqrt(c + sign * x * x); }
-
 #define SUM(x, y)        ((x) + (y))
 #define DIFFERENCE(x, y) ((x) - (y))
 #define PRODUCT(x, y)    ((x) * (y))
@@ -100,7 +98,7 @@ static double root(double c, double sign, double x) { return sqrt(c + sign * x *
 #define NUMBER(x)        (x)
 #define POWER(x, y)      dal__operate(DAL__POW, x, y, 0.0)
 #define DIRECTION(x, r)  ((r) == 0.0 ? 0.0 : (x) / (r))
-#define ROOT(c, sign, x) root(c, sign, x)
+#define ROOT(c, sign, x) sqrt((c) + (sign) * (x) * (x))
 #define TABLE_SLOPE(x)   dal__table_value(tables, r->symbol + 1, x)
 #define OF(function, x)  dal__operate(DAL__##function, x, 0.0, 0.0)
 

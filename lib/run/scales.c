@@ -108,21 +108,6 @@ static dal_status estimate_reactions(const dal_run *run, const dal_point *at, do
 
 /* ---- one group of observables ---- */
 
-static dal_status scale_formulas(const dal_run *run, const dal_point *at, const places *p)
-{
-    const dal_system *s = run->layout.system;
-    return s->scales ? s->scales(s, at, p->memory, p->formulas)
-                     : estimate_formulas(run, at, p->formulas);
-}
-
-static dal_status scale_reactions(const dal_run *run, const dal_point *at, const places *p)
-{
-    const dal_system *s = run->layout.system;
-    if (!run->layout.options.reactions) return DAL_OK;
-    return s->reaction_scales ? s->reaction_scales(s, at, p->memory, p->reactions)
-                              : estimate_reactions(run, at, p->reactions);
-}
-
 /* H, |p|, |pi|, |pi_e|, out[4]. */
 static dal_status scale_lift(const dal_run *run, const dal_point *at, double *F, double *out)
 {
@@ -183,8 +168,12 @@ static const double *scales_at(const dal_run *run, const places *p, double t, co
 {
     const dal_point at = {.t = t, .q = state, .v = state + run->layout.n, .work = run->work};
     double *out = p->out;
-    *status = scale_formulas(run, &at, p);
-    if (*status == DAL_OK) *status = scale_reactions(run, &at, p);
+    const dal_system *s = run->layout.system;
+    *status = s->scales ? s->scales(s, &at, p->memory, p->formulas)
+                        : estimate_formulas(run, &at, p->formulas);
+    if (*status == DAL_OK && run->layout.options.reactions)
+        *status = s->reaction_scales ? s->reaction_scales(s, &at, p->memory, p->reactions)
+                                     : estimate_reactions(run, &at, p->reactions);
     for (int group = 0; group < DAL__OBSERVABLE_GROUPS && *status == DAL_OK; group++) {
         const int count = dal__observable_count(&run->layout, group, run->exact);
         const double *scales = count > 0 ? group_scales(run, p, &at, group, status) : NULL;

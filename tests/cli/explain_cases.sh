@@ -73,7 +73,7 @@ says "does not end in .csv"
 try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --quad-steps -1
 says "not in 0"
 try 4 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --output /nowhere/why.csv
-says "cannot create"
+says "cannot write"
 
 case_is "explain: a run that fails"
 try 3 explain chaplygin-sleigh --integrator implicit-midpoint --step 0.1 --time 1 --iterations 1
