@@ -565,15 +565,16 @@ typedef struct dal_poincare {
 
 /* The numbers of crossings, reported or not. */
 typedef struct dal_crossings {
-    long long up, down; /* by direction */
-    long long touches;  /* minima of |g| below 1e-12 max |g| that are no crossings */
+    long long up, down;      /* by direction */
+    long long touches;       /* minima of |g| below 1e-12 max |g| that are no crossings */
+    long long unresolved;    /* steps that may hide crossings, */
+    double first_unresolved; /* and the begin of the first of them; NaN: there is none */
 } dal_crossings;
 
-/* Advances the run to time T, a whole number of its steps, and reports every crossing.  Where g
- * changes sign within a step, dal_run_intermediate from the beginning of that step finds the state
- * with g = 0, to rounding (compare Henon 1982, DOI 10.1016/0167-2789(82)90034-3); the trajectory
- * itself does not change.  A pair of crossings within one step is found where g has an extremum
- * between them.  A start with g = 0 is no crossing. [alloc]
+/* Advances the run to time T, a whole number of its steps, and reports every crossing: the state,
+ * found by dal_run_intermediate, with g = 0 to rounding; the trajectory does not change.  A part h
+ * of a step is halved, up to 10 times, where |g'| h > pi max |g| or g changes by more than its
+ * rates g' at both ends explain.  A start with g = 0 is no crossing. [alloc]
  * Errors: those of the steps and of the callback; DAL_ARGUMENT. */
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error);

@@ -30,6 +30,27 @@ holds "not 7 at the level" test "$(wc -l <out)" -eq 8
 try 0 section osc.yaml --on "x = 1" $fine --output touch.csv
 prints '^t = 20: 0 upwards, 0 downwards, 3 touches; 0 rows$'
 
+# x = t: cos 7t = 0 at (k + 1/2) pi/7, two of them in most steps; cos 1e5 t = 0 too often to be found.
+case_is "several crossings in a step"
+printf "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\n" >even.yaml
+coarse="--integrator rk4 --step 0.7 --time 6.3"
+try 0 section even.yaml --on "cos(7*x)" $coarse
+silent
+holds "not all 14" awk -F, 'NR > 1 { t = (NR - 1.5)*3.14159265358979324/7; if (($2 - t)^2 > 1e-26) exit 1 }
+    END { exit NR != 15 }' out
+try 0 section even.yaml --on "cos(1e5*x)" $coarse
+says '^dalembert: 9 steps may hide crossings, the first from t = 0: '
+try 0 section even.yaml --on "cos(1e5*x)" $coarse --output fast.csv --json
+holds "not in the JSON" json out "d['unresolved'] == 9 and d['first_unresolved'] == 0"
+try 0 section even.yaml --on "cos(7*x)" $coarse --output slow.csv --json
+holds "not in the JSON" json out "d['unresolved'] == 0 and d['first_unresolved'] is None"
+for transient in 6.3 7; do
+    try 2 section even.yaml --on x-1 $coarse --transient $transient
+    says "^dalembert: --transient $transient: no crossing is left, the run ends at t = 6.3$"
+done
+try 0 section even.yaml --on x-6 $coarse --transient 5.9
+holds "not the crossing after the transient" test "$(wc -l <out)" -eq 2
+
 case_is "a directory of crossings"
 if command -v gnuplot >/dev/null 2>&1; then
     try 0 section osc.yaml --on x $fine --output crossed --axes "t,x'"
