@@ -364,6 +364,12 @@ static const char *failure_message(const order_study *s, const order_method *m)
     return "";
 }
 
+static void print_branch(void *user, const char *what, const char *text)
+{
+    (void)user;
+    printf("\n%s: %s", what, text);
+}
+
 static void print_orders(const order_study *s)
 {
     const int last = s->levels - 1;
@@ -402,6 +408,7 @@ static void print_orders(const order_study *s)
     for (const order_method *m = s->methods; m < s->methods + s->method_count; m++)
         if (m->state != ORDER_DONE)
             printf("\n%s: %s: %s", m->name, state_words[m->state], failure_message(s, m));
+    analysis_list_branches(s->request->model, print_branch, NULL);
     putchar('\n');
 }
 

@@ -7,7 +7,8 @@
  *
  *     the k-th derivative of F+ - F- at s = 0 is the jump of that of F,
  *
- * found at points of s = 0 near the start.  A step across s = 0 of any method of fixed formulas
+ * or what has no bound there, found beside points of s = 0 near the start: F+ is taken on its side
+ * alone, and F- on the other, so that sign(s) sqrt|s| does not jump, and its derivative does.  A step across s = 0 of any method of fixed formulas
  * leaves an error O(h^(k+1)) where derivative k is the first that jumps: its order is k + 1.
  *
  * Derivatives are taken branch by branch, so a jump of D or of the momentum L_v, which needs an
@@ -31,6 +32,7 @@ typedef struct surface {
     dal__node s;       /* not fixed */
     dal__node *normal; /* [1 + 4n] derivatives of s by t, q, v */
     double *point;     /* [POINTS*symbols] of s = 0 */
+    double *moved;     /* [2*symbols] one beside it, and the normal there */
     int points;
 } surface;
 
@@ -167,13 +169,36 @@ static void find_points(surface *f)
 
 /* ---- jumps ---- */
 
-static bool differ(const surface *f, dal__node above, dal__node below)
+/* g at a point of the surface, moved along the normal so that s changes by a part of its size. */
+static double beside(const surface *f, dal__node g, const double *point, double part)
 {
     const dal__equations *e = &f->model->equations;
+    const int symbols = e->pi - e->t;
+    double *x = f->moved, square = 0.0, size = 1.0;
+    memcpy(x, point, (size_t)e->symbols * sizeof *x);
+    for (int i = 0; i < symbols; i++) {
+        const double slope = dal__evaluate(e->graph, f->normal[i], point);
+        x[e->symbols + i] = slope;
+        square += slope * slope;
+        size += fabs(slope * point[e->t + i]);
+    }
+    for (int i = 0; i < symbols; i++) x[e->t + i] += part * size / square * x[e->symbols + i];
+    return dal__evaluate(e->graph, g, x);
+}
+
+/* Whether F+ on its side of the surface and F- on the other do not meet there: their difference
+ * does not vanish, or one of them grows without bound, as what is beside it comes nearer. */
+static bool differ(const surface *f, dal__node above, dal__node below)
+{
+    static const double far = 1e-6, near = 1e-9, vanishing = 0.7, growing = 1.2;
     for (int k = 0; k < f->points; k++) {
-        const double *x = f->point + k * e->symbols;
-        const double a = dal__evaluate(e->graph, above, x), b = dal__evaluate(e->graph, below, x);
-        if (fabs(a - b) > ROUNDING * (1.0 + fabs(a) + fabs(b))) return true;
+        const double *point = f->point + k * f->model->equations.symbols;
+        const double a1 = beside(f, above, point, far), b1 = beside(f, below, point, -far);
+        const double a2 = beside(f, above, point, near), b2 = beside(f, below, point, -near);
+        const double zero = ROUNDING * (1.0 + fabs(a2) + fabs(b2)), gap = fabs(a2 - b2);
+        if (gap > zero && gap > vanishing * fabs(a1 - b1)) return true;
+        if (fabs(a2) > zero && fabs(a2) > growing * fabs(a1)) return true;
+        if (fabs(b2) > zero && fabs(b2) > growing * fabs(b1)) return true;
     }
     return false;
 }
@@ -265,7 +290,8 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
     const dal__equations *e = &model->equations;
     surface f = {.model = model};
     f.normal = calloc((size_t)e->symbols, sizeof *f.normal);
-    f.point = calloc((size_t)(POINTS * e->symbols), sizeof *f.point);
+    f.point = calloc((size_t)((POINTS + 2) * e->symbols), sizeof *f.point);
+    f.moved = f.point ? f.point + POINTS * e->symbols : NULL;
     *count = 0;
     for (int k = 0; k < model->count && f.normal && f.point; k++) {
         const dal__entry *entry = &model->entries[k];
