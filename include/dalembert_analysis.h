@@ -245,6 +245,19 @@ typedef struct dal_branch {
  * DAL_ARGUMENT, DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity, int *count);
 
+/* The branches at which F or its derivative by a velocity jumps, as far as is known near the start:
+ * beyond one of them derivatives of F are not those of the motion. */
+typedef struct dal_jumps dal_jumps;
+/* Finds those of a model whose system is made, and which must outlive them. [alloc]  Errors:
+ * DAL_ARGUMENT, DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model);
+void dal_jumps_free(dal_jumps *jumps);
+/* How many there are. */
+int dal_jumps_count(const dal_jumps *jumps);
+/* The formula, "force on x", in which a branch is another one at the state of a run than it was at
+ * the last call, valid until the next call; NULL: none. */
+const char *dal_jumps_passed(dal_jumps *jumps, const dal_run *run);
+
 /* ---- order and structure of a method ------------------------------------------------------- */
 
 enum { DAL_ORDER_LEVELS = 8 /* max step sizes of dal_order */ };

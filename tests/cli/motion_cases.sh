@@ -133,6 +133,31 @@ if needs 1 "no /dev/full" test -e /dev/full; then
     counted
 fi
 
+# Tangent vectors do not pass a jump of F or of F_v; x = 1 + cos(w t) exp(-0.05 t)/2 meets none.
+case_is "exponents where F jumps"
+jumps() { # NAME ACCELERATION
+    printf "coordinates: [x]\naccelerations: {x: \"$2\"}\nstart: {x: 1.5, x': 0.3}\n" >$1.yaml
+}
+jumps driven "-x + sign(x) - 0.1*x' + 0.9*cos(t)"
+jumps rubbed "-x - 0.2*abs(x')"
+jumps floored "-x - floor(x)"
+jumps switched "if(t < 1.05, -x, -2*x)"
+for command in lyapunov volume; do
+    for system in driven rubbed floored switched; do
+        try 2 $command $system.yaml --integrator rk4 --step 0.1 --time 200
+        says "^dalembert: $system.yaml: a branch of the acceleration of x changes between t = [0-9.]* and [0-9.]*, where F"
+    done
+    says 'between t = 1 and 1\.1, '
+    try 2 $command driven.yaml --integrator rk4 --step 0.1 --time 1 --transient 200
+    says 'a branch of the acceleration of x changes'
+done
+jumps beside "-x + sign(x) - 0.1*x'"
+sed -i "s/x': 0.3/x': 0/" beside.yaml
+try 0 lyapunov beside.yaml --integrator rk4 --step 0.1 --time 20
+prints '^divergence of F +-0\.1 '
+jumps kinked "-abs(x) - 0.1*x' - 0.2*x'*abs(x')"
+try 0 volume kinked.yaml --integrator rk4 --step 0.1 --time 2
+
 # x'' = x by rk4: R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 at z = h and -h.
 case_is "exponents in closed form"
 try 0 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 20 --transient 30 --output saddle.csv
