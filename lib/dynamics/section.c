@@ -3,10 +3,13 @@
 #include "core/vectors.h"
 #include "dalembert_analysis.h"
 #include "run/crossing.h"
+#include <float.h>
 #include <stdlib.h>
 
 /* A minimum of |g| below this part of max |g| is a touch; rounding errors are far smaller. */
 static const double touching = 1e-12;
+/* Roundings of its terms that |g| may consist of, where they cancel. */
+static const double roundings = 64.0;
 
 enum { POLL = 1000 };
 
@@ -58,10 +61,16 @@ static dal_status rounding_of(void *user, dal_run *run, double *value, double *r
                               dal_error *error)
 {
     const search *w = user;
-    (void)run;
+    const dal_poincare *p = w->section;
+    const bool is_invariant = p->callback == dal_run_system(run)->invariant_values;
+    const double *scales = is_invariant ? dal_run_scales(run) : NULL;
     (void)error;
     *value = touching * w->max_g;
     *rate = 0.0;
+    if (!scales) return DAL_OK;
+    for (int group = 0; group < DAL__OBSERVE_INVARIANTS; group++)
+        scales += dal__observable_count(&run->layout, group, run->exact);
+    *value = fmax(*value, roundings * DBL_EPSILON * scales[p->index]);
     return DAL_OK;
 }
 

@@ -4,8 +4,8 @@
 #include "run/events.h"
 #include "run/failure.h"
 #include "run/quad.h"
-#include "run/scales.h"
 #include "run/saved.h"
+#include "run/scales.h"
 #include "run/start.h"
 #include <dalembert_kernel.h>
 #include <stdlib.h>
