@@ -177,74 +177,6 @@ void dal_statistics_classify(const dal_statistics *statistics, double scale, int
 void dal_run_classify(dal_run *run, const dal_statistics *statistics, int aborted,
                       dal_trend *trend);
 
-/* ---- checks of a system ---- */
-
-/* d/dt of the count values of a callback along the motion, that is the derivative along
- * (v, F, dg/dt, 1): out[count].  For D it must vanish on every level of D. [alloc]
- * Errors: DAL_UNSUPPORTED, DAL_NOT_FINITE, DAL_MEMORY. */
-dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
-                            const dal_point *at, double *out);
-
-/* Derivatives that callbacks return against differences of values: the maximum of
- * |returned - difference| / max(1, |returned|); NaN where there is nothing to compare. */
-typedef struct dal_derivatives {
-    double jacobian;            /* F_q, F_(v,g) */
-    double adjoint;             /* F_q^T pi, F_v^T pi, and its F against field */
-    double constraint_jacobian; /* A = dD/dv */
-    double gram;                /* asymmetry of G = A W^-1 A^T, relative to its size */
-} dal_derivatives;
-/* Compares the derivatives at a point.  [alloc]  Errors: those of the callbacks, DAL_NOT_FINITE:
- * the differences are not finite. */
-dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
-                                 dal_derivatives *out);
-
-/* The numerical rank of G = A W^-1 A^T, and its smallest pivot relative to the largest entry of
- * G scaled to a unit diagonal (0 where G is singular). [alloc]  Errors: those of the callbacks. */
-dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank,
-                            double *pivot);
-
-/* Moves v[n] along W^-1 A^T until D = 0 (Newton, to stagnation). [alloc]  Errors:
- * DAL_NOT_CONVERGED, v being as before; those of the callbacks. */
-dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v);
-
-/* The class of D as a function, by differences at points around *at: each member is a necessary
- * condition, satisfied to rounding at every point tried. */
-typedef struct dal_constraint_class {
-    int linear;          /* affine in v */
-    int constant;        /* affine in (q,v) jointly */
-    int bilinear;        /* affine in v, and affine in q */
-    int quadratic;       /* of degree <= 2 in (q,v) jointly */
-    int parity;          /* D(q,-v,-t) = +D: 1, -D: -1, neither: 0; that of the first
-                            constraint, 0 when one has none */
-    int homogeneous;     /* v.D_v = k D with one k per constraint */
-    int reversible;      /* F(q,-v,-t) = F(q,v,t) */
-    double force_defect; /* max |F(q,-v,-t) - F(q,v,t)| / max(1, |F|) over these points; NaN where
-                            F has no values */
-} dal_constraint_class;
-/* Classifies D about a point; degree[m], when not NULL, receives the k of each constraint. [alloc]
- * Errors: DAL_UNSUPPORTED, DAL_NOT_FINITE: D has no values about the point. */
-dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
-                                    dal_constraint_class *out, double *degree);
-
-/* What jumps where a formula changes its branch: the derivative of F of this number along the
- * motion (0: F itself), or one of these. */
-enum {
-    DAL_JUMP_IMPULSE = -1, /* L, L_v or a constraint: an impulse that is not in F */
-    DAL_JUMP_NONE = 4,     /* no derivative below this one */
-    DAL_JUMP_UNKNOWN       /* no point was found where the branch changes */
-};
-/* A formula with branches, and the first of their jumps. */
-typedef struct dal_branch {
-    char formula[128]; /* "force on x" */
-    int line, column;  /* its place */
-    int jump;          /* the lowest derivative that jumps, or one of the above */
-} dal_branch;
-/* Finds the formulas of the motion with branches (if, abs, min, ...) of a model whose system is
- * made: how many there are, and what up to capacity of them do near the start, with the default
- * parameters.  A step across a jump of derivative k has at most order k + 1. [alloc]  Errors:
- * DAL_ARGUMENT, DAL_MEMORY, DAL_TOO_LARGE. */
-dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity, int *count);
-
 /* ---- order and structure of a method ------------------------------------------------------- */
 
 enum { DAL_ORDER_LEVELS = 8 /* max step sizes of dal_order */ };
@@ -579,17 +511,16 @@ typedef struct dal_poincare {
 
 /* The numbers of crossings, reported or not. */
 typedef struct dal_crossings {
-    long long up, down; /* by direction */
-    long long touches;  /* minima of |g| below 1e-12 max |g| that are no crossings */
+    long long up, down;      /* by direction */
+    long long touches;       /* minima of |g| below 1e-12 max |g| that are no crossings */
+    long long unresolved;    /* steps that may hide crossings, */
+    double first_unresolved; /* and the begin of the first of them; NaN: there is none */
 } dal_crossings;
 
-/* Advances the run to time T, a whole number of its steps, and reports the crossings that its
- * steps show.  Where g changes sign within a step, dal_run_intermediate from the beginning of that
- * step finds the state
- * with g = 0, to rounding (compare Henon 1982, DOI 10.1016/0167-2789(82)90034-3); the trajectory
- * itself does not change.  A pair of crossings within one step is found where g has an extremum
- * between them; more of them are found with smaller steps alone.  A start with g = 0 is no
- * crossing. [alloc]
+/* Advances the run to time T, a whole number of its steps, and reports the crossings that its steps
+ * show: the state, found by dal_run_intermediate, with g = 0 to rounding; the trajectory does not
+ * change.  A part h of a step is halved, up to 10 times, where |g'| h > pi max |g| or g changes by
+ * more than its rates g' at both ends explain.  A start with g = 0 is no crossing. [alloc]
  * Errors: those of the steps and of the callback; DAL_ARGUMENT. */
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error);

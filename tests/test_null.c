@@ -207,6 +207,14 @@ static void null_dal_run_jump(void)
     CU_ASSERT_EQUAL(dal_run_jump(run, -1), 0.0);
 }
 
+static void null_dal_run_unresolved(void)
+{
+    double from = 0.0;
+    CU_ASSERT_EQUAL(dal_run_unresolved(NULL, &from), 0);
+    CU_ASSERT(isnan(from));
+    CU_ASSERT_EQUAL(dal_run_unresolved(run, NULL), 0);
+}
+
 /* ---- batches ---- */
 
 static void null_dal_batch_create(void)

@@ -77,6 +77,29 @@ static void null_dal_model_branches(void)
     dal_model_free(made);
 }
 
+static void null_dal_jumps_create(void)
+{
+    dal_model *made = dal_model_create("made");
+    dal_jumps *jumps;
+    REFUSED_STATUS(dal_jumps_create(NULL, model));
+    REFUSED_STATUS(dal_jumps_create(&jumps, NULL));
+    REFUSED_STATUS(dal_jumps_create(&jumps, made)); /* it has no system yet */
+    dal_model_free(made);
+}
+
+static void null_dal_jumps_free(void) { dal_jumps_free(NULL); }
+
+static void null_dal_jumps_count(void) { CU_ASSERT_EQUAL(dal_jumps_count(NULL), 0); }
+
+static void null_dal_jumps_passed(void)
+{
+    dal_jumps *jumps = NULL;
+    CU_ASSERT_EQUAL(dal_jumps_create(&jumps, model), DAL_OK);
+    CU_ASSERT_PTR_NULL(dal_jumps_passed(NULL, run));
+    CU_ASSERT_PTR_NULL(dal_jumps_passed(jumps, NULL));
+    dal_jumps_free(jumps);
+}
+
 static void null_dal_evaluator_create(void)
 {
     dal_evaluator *made = evaluator;

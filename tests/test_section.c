@@ -328,6 +328,14 @@ static void test_on_a_step(void)
     CU_ASSERT(r.count == 0 && found.up == 0);
 }
 
+/* x^2 + x'^2 = 1 up to rounding, which crosses nothing. */
+static void test_of_rounding(void)
+{
+    dal_crossings found;
+    const record r = crossings_of(OSCILLATOR("x^2 + x'^2 - 1"), "gauss12", 0.1, 20.0, 0, &found);
+    CU_ASSERT(r.count == 0 && found.touches == 0 && found.unresolved == 0);
+}
+
 /* ---- every method, either space ---- */
 
 static void cross_with(const char *model, const char *method, dal_space space)
@@ -441,6 +449,7 @@ void suite_section(void)
     CU_add_test(suite, "touches within 1e-12", test_touches_within);
     CU_add_test(suite, "whole steps", test_whole_steps);
     CU_add_test(suite, "g = 0 at a step", test_on_a_step);
+    CU_add_test(suite, "of rounding alone", test_of_rounding);
     CU_add_test(suite, "every method", test_methods);
     CU_add_test(suite, "what is refused", test_refuses);
     CU_add_test(suite, "ends when interrupted", test_stops);

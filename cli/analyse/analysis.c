@@ -1,5 +1,6 @@
 /* analysis.c - outputs and distances of the commands that examine a system or a motion. */
 #include "analysis.h"
+#include "dalembert_analysis.h"
 #include "io/file.h"
 #include "run/system.h"
 #include "ui/memory.h"
@@ -58,6 +59,34 @@ int analysis_check_output(const char *output, bool json)
 const char *analysis_state(int status)
 {
     return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
+}
+
+/* What a branch leaves of the order, into text[size]. */
+static void describe_branch(const dal_branch *b, char *text, size_t size)
+{
+    if (b->jump == DAL_JUMP_IMPULSE)
+        snprintf(text, size, "L_v or D jumps: F lacks the impulse of it");
+    else if (b->jump == DAL_JUMP_UNKNOWN)
+        snprintf(text, size, "none changes near the start");
+    else if (b->jump == DAL_JUMP_NONE)
+        snprintf(text, size, "F and three derivatives are continuous");
+    else
+        snprintf(text, size, "F%.*s jumps: order %d across it", b->jump, "'''", b->jump + 1);
+}
+
+void analysis_list_branches(dal_model *model,
+                            void (*add)(void *user, const char *what, const char *text), void *user)
+{
+    enum { MAX_BRANCHES = 16 };
+    dal_branch branch[MAX_BRANCHES];
+    int count = 0;
+    if (!model || dal_model_branches(model, branch, MAX_BRANCHES, &count) != DAL_OK) return;
+    for (const dal_branch *b = branch; b < branch + count && b < branch + MAX_BRANCHES; b++) {
+        char what[64], text[64];
+        snprintf(what, sizeof what, "branches, %.50s", b->formula);
+        describe_branch(b, text, sizeof text);
+        add(user, what, text);
+    }
 }
 
 double analysis_distance(const double *a, const double *b, int count)

@@ -42,6 +42,12 @@ int analysis_check_output(const char *output, bool json);
 /* The word for how a run ended that returned this exit status: done, failed, interrupted. */
 const char *analysis_state(int status);
 
+/* Calls add for each formula of a model with branches: what it is, and what they leave of the order
+ * of a step across one of them.  model may be NULL. */
+void analysis_list_branches(dal_model *model,
+                            void (*add)(void *user, const char *what, const char *text),
+                            void *user);
+
 /* max |a_i - b_i| / max(1, |b_i|); infinite where an entry is not a number. */
 double analysis_distance(const double *a, const double *b, int count);
 

@@ -8,6 +8,7 @@
  * stationary on a trajectory; discretised at midpoints, it is so to rounding on a trajectory of
  * implicit-midpoint, and on none of another method. */
 #include "check_sections.h"
+#include "analysis.h"
 #include "check_methods.h"
 #include "dalembert.h"
 #include "ui/memory.h"
@@ -285,27 +286,9 @@ static void check_reversal(check *c)
 
 /* ---- derivatives ---- */
 
-/* Where a formula changes its branch, and what that leaves of the order. */
-static void check_branches(check *c)
+static void add_branch(void *user, const char *what, const char *text)
 {
-    enum { MAX_BRANCHES = 16 };
-    dal_branch branch[MAX_BRANCHES];
-    int count = 0;
-    dal_model *model = c->request->model;
-    if (!model || dal_model_branches(model, branch, MAX_BRANCHES, &count) != DAL_OK) return;
-    for (const dal_branch *b = branch; b < branch + count && b < branch + MAX_BRANCHES; b++) {
-        char what[64];
-        snprintf(what, sizeof what, "branches, %.50s", b->formula);
-        if (b->jump == DAL_JUMP_IMPULSE)
-            check_item(c, CHECK_INFO, what, "L_v or D jumps: F lacks the impulse of it");
-        else if (b->jump == DAL_JUMP_UNKNOWN)
-            check_item(c, CHECK_INFO, what, "none changes near the start");
-        else if (b->jump == DAL_JUMP_NONE)
-            check_item(c, CHECK_INFO, what, "F and three derivatives are continuous");
-        else
-            check_item(c, CHECK_INFO, what, "F%.*s jumps: order %d across it", b->jump, "'''",
-                       b->jump + 1);
-    }
+    check_item(user, CHECK_INFO, what, "%s", text);
 }
 
 static void check_derivatives(check *c)
@@ -340,7 +323,7 @@ static void check_derivatives(check *c)
                  {"symmetry of G = A W^-1 A^T", max.gram}};
     for (size_t k = 0; k < sizeof items / sizeof items[0]; k++)
         if (!isnan(items[k].value)) check_bound(c, items[k].what, items[k].value, limit);
-    check_branches(c);
+    analysis_list_branches(c->request->model, add_branch, c);
 }
 
 /* ---- the exact solution ---- */

@@ -42,8 +42,9 @@ typedef struct tangent_study {
     const lyapunov_settings *set;
     run_request *request;
     dal_lyapunov *spectrum;
-    double begin; /* t at the beginning of the means */
-    int status;   /* of the run */
+    dal_jumps *jumps; /* of F, which end the means */
+    double begin;     /* t at the beginning of the means */
+    int status;       /* of the run */
     /* A table of the means so far: its name, which is the file's and the figure's, and what it has
      * beside t. */
     const char *name, *ylabel;
@@ -70,6 +71,8 @@ static int create_spectrum(tangent_study *s)
         status = row_times_check_step(request, request->from, s->set->transient + request->time);
     if (status != CLI_DONE) return status;
     /* A vakonomic system has no tangent system; its derivatives are differences. */
+    if (dal_jumps_create(&s->jumps, request->model) != DAL_OK)
+        return cli_fail(CLI_IO, "%s: out of memory", request->system_name);
     dal_status made = dal_model_tangent(request->model, &tangent, &error);
     if (made == DAL_OK || made == DAL_UNSUPPORTED)
         made = dal_lyapunov_create(&s->spectrum, &spec, tangent, (int)s->set->exponents, &error);
@@ -119,10 +122,19 @@ static int advance_spectrum(tangent_study *s, long long steps)
     const dal_run *run = dal_lyapunov_run(s->spectrum);
     dal_status status = DAL_OK;
     dal_error error = {0};
-    for (; steps > 0 && status == DAL_OK; steps -= CHUNK) {
+    const long long chunk = dal_jumps_count(s->jumps) > 0 ? 1 : CHUNK;
+    dal_jumps_passed(s->jumps, run);
+    for (; steps > 0 && status == DAL_OK; steps -= chunk) {
         if (cli_interrupted()) return CLI_SIGNAL;
         cli_progress("t = %.6g of %.6g", dal_run_time(run), s->set->transient + s->request->time);
-        status = dal_lyapunov_advance(s->spectrum, steps < CHUNK ? steps : CHUNK, &error);
+        const double t = dal_run_time(run);
+        status = dal_lyapunov_advance(s->spectrum, steps < chunk ? steps : chunk, &error);
+        const char *passed = dal_jumps_passed(s->jumps, run);
+        if (status == DAL_OK && passed)
+            return cli_fail(CLI_USAGE,
+                            "%s: a branch of the %s changes between t = %g and %g, where F or its "
+                            "derivative by a velocity jumps: tangent vectors do not pass it",
+                            s->request->system_name, passed, t, dal_run_time(run));
     }
     return status == DAL_OK ? CLI_DONE
                             : cli_error(cli_exit(status), s->request->system_name, &error);
@@ -406,6 +418,7 @@ static int measure_means(lyapunov_settings *settings)
     free(s.heads);
     free(s.values);
     dal_lyapunov_free(s.spectrum);
+    dal_jumps_free(s.jumps);
     return status;
 }
 

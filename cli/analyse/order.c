@@ -389,6 +389,12 @@ static void print_outcomes(const order_study *s)
     }
 }
 
+static void print_branch(void *user, const char *what, const char *text)
+{
+    (void)user;
+    printf("\n%s: %s", what, text);
+}
+
 static void print_orders(const order_study *s)
 {
     const int last = s->levels - 1;
@@ -427,6 +433,7 @@ static void print_orders(const order_study *s)
     for (const order_method *m = s->methods; m < s->methods + s->method_count; m++)
         if (m->state != ORDER_DONE)
             printf("\n%s: %s: %s", m->name, state_words[m->state], failure_message(s, m));
+    analysis_list_branches(s->request->model, print_branch, NULL);
     putchar('\n');
 }
 

@@ -183,6 +183,10 @@ static int run_section(section *s, const char *path)
                                &error);
     }
     const int closed = has_table ? writer_close(&s->table) : CLI_DONE;
+    if (s->found.unresolved > 0)
+        cli_note("%lld steps may hide crossings, the first from t = %g: |dg/dt| h > pi max |g| in "
+                 "their parts",
+                 s->found.unresolved, s->found.first_unresolved);
     FILE *out = is_stdout ? stderr : stdout;
     if (!s->set->json && (!is_stdout || isatty(STDERR_FILENO)))
         fprintf(out, "t = %g: %lld upwards, %lld downwards, %lld touches; %lld rows\n",
@@ -205,6 +209,8 @@ static void put_run(json_writer *w, const section *s)
     json_put_integer(w, "up", s->found.up);
     json_put_integer(w, "down", s->found.down);
     json_put_integer(w, "touches", s->found.touches);
+    json_put_integer(w, "unresolved", s->found.unresolved);
+    json_put_number(w, "first_unresolved", s->found.first_unresolved);
 }
 
 static int put_section(const section *s)
@@ -305,6 +311,9 @@ int section_find(section_settings *settings)
     request_choose_step(s.request);
     status = request_create_run(s.request);
     if (status != CLI_DONE) return status;
+    if (settings->transient >= s.request->time)
+        return cli_fail(CLI_USAGE, "--transient %g: no crossing is left, the run ends at t = %g",
+                        settings->transient, s.request->time);
     name_row(&s);
     status = find_axes(&s);
     if (status == CLI_DONE && !settings->force) status = analysis_check_directory(settings->output);

@@ -14,7 +14,7 @@ static const cli_option options[] = {
      CLI_TEXT(section_settings, on)},
     {"direction", "down|both|up", "both", "crossings from above it to below, all, or from below",
      CLI_WORD(section_settings, direction)},
-    {"transient", "T0", "0", "leaves out the crossings before this time",
+    {"transient", "T0", "0", "leaves out the crossings before this time; less than --time",
      CLI_NUMBER(section_settings, transient, -INFINITY, INFINITY)},
     {"axes", "X,Y", NULL,
      "columns of the figure (the last coordinate that varies, with its velocity)",
@@ -52,9 +52,9 @@ const cli_command command_section = {
         "A crossing lies where the formula changes its sign within a step.  A step of another "
         "size of the same method, from the beginning of that step, or under a tolerance a "
         "polynomial, meets it to rounding, so that the trajectory is that of 'dalembert run'.  "
-        "Pairs of crossings within one step, or under a tolerance within a part of a substep, "
-        "are found too; of more than two some may be missed.  A touch is no crossing and is "
-        "counted apart; a start on the surface is none.  "
+        "A step is searched in up to 1024 parts, shorter ones where the formula varies faster; "
+        "where that is not enough, the command says how many steps may hide crossings.  "
+        "A touch is no crossing and is counted apart; a start on the surface is none.  "
         "With --tolerance, --step may be left out: it is a hundredth of the time.\n"
         "\n"
         "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the "

@@ -64,6 +64,17 @@ static int open_events(run_recorder *recorder, const run_request *request, const
     return dir ? CLI_DONE : event_log_open(&recorder->events, request, settings->events);
 }
 
+static void print_unresolved(const dal_run *run)
+{
+    double from;
+    const long long steps = dal_run_unresolved(run, &from);
+    if (steps > 0)
+        cli_note(
+            "%lld steps may hide events, the first from t = %g: |d(when)/dt| h > pi max |when| "
+            "in their parts",
+            steps, from);
+}
+
 static int copy_events(const run_directory *dir, const run_settings *settings)
 {
     return dir && settings->events ? file_copy(dir->events, settings->events, 0) : CLI_DONE;
@@ -90,6 +101,7 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
                                        settings->native);
         status = recorder_run(&recorder, &error);
         print_end(&recorder, status, &error);
+        print_unresolved(run);
         if (settings->summary || isatty(STDERR_FILENO)) summary_print(stderr, &recorder);
     }
     recorder_close(&recorder);

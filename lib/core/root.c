@@ -6,20 +6,21 @@
 #include "core/error.h"
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 
 enum { ROUNDS = 200 };
 
 static int sign(double x) { return (x > 0.0) - (x < 0.0); }
 
 dal_status dal__find_root(dal__function *function, void *user, dal__value_at a, dal__value_at b,
-                          double *root)
+                          dal__root *root)
 {
     double part = 0.5;
     for (int round = 0; round < ROUNDS; round++) {
-        const dal__value_at best = fabs(a.f) < fabs(b.f) ? a : b;
+        const bool is_first = fabs(a.f) < fabs(b.f);
         const double width = fabs(b.s - a.s), resolution = DBL_EPSILON * fmax(fabs(a.s), fabs(b.s));
-        *root = best.s;
-        if (best.f == 0.0 || width <= 2.0 * resolution) return DAL_OK;
+        *root = is_first ? (dal__root){a, b} : (dal__root){b, a};
+        if (root->best.f == 0.0 || width <= 2.0 * resolution) return DAL_OK;
         dal__value_at x = {.s = a.s + part * (b.s - a.s)};
         DAL_TRY(function(user, x.s, &x.f));
         const int same = sign(x.f) == sign(a.f);

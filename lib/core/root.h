@@ -10,9 +10,15 @@ typedef struct dal__value_at {
     double s, f;
 } dal__value_at;
 
-/* Finds the root between a and b, at which the values have different signs, to the resolution of s
- * or where the value is 0.  Errors: those of the function. */
+/* A root to the resolution of s, or where the value is 0; and the place on its other side: where
+ * the function jumps, neither value is small. */
+typedef struct dal__root {
+    dal__value_at best, other;
+} dal__root;
+
+/* Finds the root between a and b, at which the values have different signs.  Errors: those of the
+ * function. */
 dal_status dal__find_root(dal__function *function, void *user, dal__value_at a, dal__value_at b,
-                          double *root);
+                          dal__root *root);
 
 #endif

@@ -7,7 +7,8 @@
  *
  *     the k-th derivative of F+ - F- at s = 0 is the jump of that of F,
  *
- * found at points of s = 0 near the start.  A step across s = 0 of any method of fixed formulas
+ * or what has no bound there, found beside points of s = 0 near the start: F+ is taken on its side
+ * alone, and F- on the other, so that sign(s) sqrt|s| does not jump, and its derivative does.  A step across s = 0 of any method of fixed formulas
  * leaves an error O(h^(k+1)) where derivative k is the first that jumps: its order is k + 1.
  *
  * Derivatives are taken branch by branch, so a jump of D or of the momentum L_v, which needs an
@@ -31,6 +32,7 @@ typedef struct surface {
     dal__node s;       /* not fixed */
     dal__node *normal; /* [1 + 4n] derivatives of s by t, q, v */
     double *point;     /* [POINTS*symbols] of s = 0 */
+    double *moved;     /* [2*symbols] one beside it, and the normal there */
     int points;
 } surface;
 
@@ -167,13 +169,36 @@ static void find_points(surface *f)
 
 /* ---- jumps ---- */
 
-static bool differ(const surface *f, dal__node above, dal__node below)
+/* g at a point of the surface, moved along the normal so that s changes by a part of its size. */
+static double beside(const surface *f, dal__node g, const double *point, double part)
 {
     const dal__equations *e = &f->model->equations;
+    const int symbols = e->pi - e->t;
+    double *x = f->moved, square = 0.0, size = 1.0;
+    memcpy(x, point, (size_t)e->symbols * sizeof *x);
+    for (int i = 0; i < symbols; i++) {
+        const double slope = dal__evaluate(e->graph, f->normal[i], point);
+        x[e->symbols + i] = slope;
+        square += slope * slope;
+        size += fabs(slope * point[e->t + i]);
+    }
+    for (int i = 0; i < symbols; i++) x[e->t + i] += part * size / square * x[e->symbols + i];
+    return dal__evaluate(e->graph, g, x);
+}
+
+/* Whether F+ on its side of the surface and F- on the other do not meet there: their difference
+ * does not vanish, or one of them grows without bound, as what is beside it comes nearer. */
+static bool differ(const surface *f, dal__node above, dal__node below)
+{
+    static const double far = 1e-6, near = 1e-9, vanishing = 0.7, growing = 1.2;
     for (int k = 0; k < f->points; k++) {
-        const double *x = f->point + k * e->symbols;
-        const double a = dal__evaluate(e->graph, above, x), b = dal__evaluate(e->graph, below, x);
-        if (fabs(a - b) > ROUNDING * (1.0 + fabs(a) + fabs(b))) return true;
+        const double *point = f->point + k * f->model->equations.symbols;
+        const double a1 = beside(f, above, point, far), b1 = beside(f, below, point, -far);
+        const double a2 = beside(f, above, point, near), b2 = beside(f, below, point, -near);
+        const double zero = ROUNDING * (1.0 + fabs(a2) + fabs(b2)), gap = fabs(a2 - b2);
+        if (gap > zero && gap > vanishing * fabs(a1 - b1)) return true;
+        if (fabs(a2) > zero && fabs(a2) > growing * fabs(a1)) return true;
+        if (fabs(b2) > zero && fabs(b2) > growing * fabs(b1)) return true;
     }
     return false;
 }
@@ -259,15 +284,30 @@ static dal__node formula_of(const dal_model *model, const dal__entry *entry)
     return 0;
 }
 
+static bool place_surface(surface *f, dal_model *model)
+{
+    const int symbols = model->equations.symbols;
+    *f = (surface){.model = model};
+    f->normal = calloc((size_t)symbols, sizeof *f->normal);
+    f->point = calloc((size_t)((POINTS + 2) * symbols), sizeof *f->point);
+    f->moved = f->point ? f->point + POINTS * symbols : NULL;
+    return f->normal && f->point;
+}
+
+static void free_surface(surface *f)
+{
+    free(f->normal);
+    free(f->point);
+}
+
 dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity, int *count)
 {
     DAL_REQUIRE(model && model->made && count && (branch || capacity <= 0), NULL);
     const dal__equations *e = &model->equations;
-    surface f = {.model = model};
-    f.normal = calloc((size_t)e->symbols, sizeof *f.normal);
-    f.point = calloc((size_t)(POINTS * e->symbols), sizeof *f.point);
+    surface f;
+    const bool has_memory = place_surface(&f, model);
     *count = 0;
-    for (int k = 0; k < model->count && f.normal && f.point; k++) {
+    for (int k = 0; k < model->count && has_memory; k++) {
         const dal__entry *entry = &model->entries[k];
         const dal__node formula = formula_of(model, entry);
         int jump = DAL_JUMP_UNKNOWN;
@@ -277,8 +317,145 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
         *to = (dal_branch){.jump = jump, .line = entry->line, .column = entry->column};
         dal__entry_title(model, entry, to->formula, sizeof to->formula);
     }
-    const dal_status status = f.normal && f.point ? e->graph->status : DAL_MEMORY;
-    free(f.normal);
-    free(f.point);
+    free_surface(&f);
+    return has_memory ? e->graph->status : DAL_MEMORY;
+}
+
+/* ---- motions that meet a jump ---- */
+
+/* A node that switches where F or F_v jumps. */
+typedef struct switching {
+    dal__node node;
+    const dal__entry *entry; /* the formula that contains it */
+    double branch;           /* that it had last; NaN: none yet */
+} switching;
+
+struct dal_jumps {
+    dal_model *model;
+    int count, capacity;
+    switching *item; /* [count] */
+    double *x;       /* [symbols] the point */
+    char title[128];
+};
+
+/* Whether F or F_v jumps on the surface; where no point of it is found, whether a node may. */
+static bool jumps_in_tangent(surface *f, dal__op op)
+{
+    const dal__equations *e = &f->model->equations;
+    const int components = e->n + e->multipliers;
+    find_points(f);
+    if (f->points == 0)
+        return op != DAL__ABS && op != DAL__MIN && op != DAL__MAX && op != DAL__TABLE;
+    if (needs_impulse(f)) return true;
+    for (int i = 0; i < components; i++) {
+        if (first_jump(f, e->F[i], 1) == 0) return true;
+        for (int j = 0; j < e->n; j++) {
+            dal__node slope;
+            dal__gradient(e->graph, e->F[i], e->symbol + e->v + j, 1, &slope);
+            if (first_jump(f, slope, 1) == 0) return true;
+        }
+    }
+    return false;
+}
+
+/* The branch of a node at the point x: the sign of what it compares, or the number of its piece;
+ * NaN between two branches. */
+static double branch_of(const dal_jumps *jumps, dal__node i)
+{
+    dal__graph *graph = jumps->model->equations.graph;
+    const dal__record r = dal__inspect(graph, i);
+    const double a = dal__evaluate(graph, r.a, jumps->x);
+    if (r.op == DAL__FLOOR) return floor(a);
+    if (r.op == DAL__TABLE) {
+        const dal__table *table = &graph->tables[r.symbol / DAL__TABLE_ORDERS];
+        int piece = 0;
+        while (piece < table->knots && a > dal__table_piece(table, piece + 1)[0]) piece++;
+        return piece;
+    }
+    const bool is_unary = r.op == DAL__ABS || r.op == DAL__SIGN;
+    const double s = is_unary ? a : a - dal__evaluate(graph, r.b, jumps->x);
+    return s > 0.0 ? 1.0 : s < 0.0 ? -1.0 : NAN;
+}
+
+static bool add_switch(dal_jumps *jumps, dal__node node, const dal__entry *entry)
+{
+    if (jumps->count == jumps->capacity) {
+        const int capacity = 2 * jumps->capacity + 8;
+        switching *item = realloc(jumps->item, (size_t)capacity * sizeof *item);
+        if (!item) return false;
+        jumps->item = item;
+        jumps->capacity = capacity;
+    }
+    jumps->item[jumps->count++] = (switching){node, entry, NAN};
+    return true;
+}
+
+/* Adds the nodes of a formula that switch at a jump. */
+static dal_status add_switches(dal_jumps *jumps, surface *f, const dal__entry *entry,
+                               dal__node formula)
+{
+    dal__graph *graph = f->model->equations.graph;
+    uint8_t *mark = dal__reach(graph, formula);
+    dal_status status = mark ? DAL_OK : DAL_MEMORY;
+    for (dal__node i = 1; status == DAL_OK && i <= formula; i++) {
+        int sign;
+        f->s = mark[i] ? switch_of(graph, i, &sign) : 0;
+        if (!f->s || !jumps_in_tangent(f, (dal__op)dal__inspect(graph, i).op)) continue;
+        if (!add_switch(jumps, i, entry)) status = DAL_MEMORY;
+    }
+    free(mark);
+    return status == DAL_OK ? graph->status : status;
+}
+
+dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model)
+{
+    DAL_REQUIRE(jumps && model && model->made, NULL);
+    const dal__equations *e = &model->equations;
+    surface f;
+    *jumps = calloc(1, sizeof **jumps);
+    if (!*jumps) return DAL_MEMORY;
+    (*jumps)->model = model;
+    (*jumps)->x = calloc((size_t)e->symbols, sizeof(double));
+    dal_status status = place_surface(&f, model) && (*jumps)->x ? DAL_OK : DAL_MEMORY;
+    for (int k = 0; k < model->count && status == DAL_OK; k++) {
+        const dal__node formula = formula_of(model, &model->entries[k]);
+        if (formula && dal__reaches(e->graph, formula, DAL__ROUGH))
+            status = add_switches(*jumps, &f, &model->entries[k], formula);
+    }
+    free_surface(&f);
+    if (status == DAL_OK) return DAL_OK;
+    dal_jumps_free(*jumps);
+    *jumps = NULL;
     return status;
+}
+
+void dal_jumps_free(dal_jumps *jumps)
+{
+    if (!jumps) return;
+    free(jumps->item);
+    free(jumps->x);
+    free(jumps);
+}
+
+int dal_jumps_count(const dal_jumps *jumps) { return jumps ? jumps->count : 0; }
+
+const char *dal_jumps_passed(dal_jumps *jumps, const dal_run *run)
+{
+    const char *passed = NULL;
+    if (!jumps || !run) return NULL;
+    const dal__equations *e = &jumps->model->equations;
+    const double *state = dal_run_state(run);
+    memcpy(jumps->x, dal_run_parameters(run), (size_t)e->parameters * sizeof(double));
+    jumps->x[e->t] = dal_run_time(run);
+    memcpy(jumps->x + e->q, state, (size_t)e->n * sizeof(double));
+    memcpy(jumps->x + e->v, state + e->n, (size_t)e->n * sizeof(double));
+    for (switching *s = jumps->item; s < jumps->item + jumps->count; s++) {
+        const double branch = branch_of(jumps, s->node), before = s->branch;
+        if (isnan(branch)) continue;
+        s->branch = branch;
+        if (passed || isnan(before) || branch == before) continue;
+        dal__entry_title(jumps->model, s->entry, jumps->title, sizeof jumps->title);
+        passed = jumps->title;
+    }
+    return passed;
 }

@@ -31,10 +31,10 @@ static dal_status change(const dal__event_search *w, int k)
     const double *set = w->m.states + (size_t)k * 2 * n, *normal = dal__event_normal(w, k);
     const double c = normal[0];
     const bool is_impact = actions & DAL_EVENT_IMPACT;
-    dal__condition condition = {normal + 1, normal + 1 + n, -(1.0 + c) * w->m.r1[k]};
+    dal__condition condition = {normal + 1, normal + 1 + n, -(1.0 + c) * w->m.rate[k]};
     if (is_impact && (!(c >= 0.0) || !isfinite(c)))
         return dal__fail(w->error, DAL_EVENT, "%s has the restitution %g at t = %.17g",
-                         dal__event_name(w, k), c, at.t);
+                         dal__event_name(w->system, k), c, at.t);
     for (size_t i = 0; is_impact && i < n; i++) condition.value += normal[1 + i] * at.v[i];
     if (actions & DAL_EVENT_SETS) {
         const dal_status status = w->system->event_states(w->system, &at, w->m.states);
@@ -42,12 +42,12 @@ static dal_status change(const dal__event_search *w, int k)
             if (status != DAL_OK || !isfinite(set[i]))
                 return dal__fail(w->error, status == DAL_OK ? DAL_NOT_FINITE : status,
                                  "%s sets a value that is not finite at t = %.17g",
-                                 dal__event_name(w, k), at.t);
+                                 dal__event_name(w->system, k), at.t);
         memcpy(run->persistent, set, 2 * n * sizeof *set);
     }
     if (actions & (DAL_EVENT_SETS | DAL_EVENT_IMPACT)) {
         char place[128];
-        snprintf(place, sizeof place, "%.80s at t = %.17g", dal__event_name(w, k), at.t);
+        snprintf(place, sizeof place, "%.80s at t = %.17g", dal__event_name(w->system, k), at.t);
         dal__linearised D = dal__linearised_of(run, is_impact ? &condition : NULL, place);
         const dal_status status = dal__make_consistent(&D, w->error);
         if (status != DAL_OK && w->error) w->error->status = DAL_EVENT;
@@ -73,10 +73,11 @@ dal_status dal__act_events(const dal__event_search *w, double last,
         any = false;
         for (int k = 0; k < events; k++) {
             const bool is_impact = w->system->event[k].actions & DAL_EVENT_IMPACT;
-            if (w->m.s[k] > last || (round > 0 && !is_impact)) continue;
-            DAL_TRY(dal__evaluate_events(w, w->system->event_rates, w->m.r1));
+            if (w->crossing->zero[k].s > last || (round > 0 && !is_impact)) continue;
+            DAL_TRY(dal__evaluate_event_rates(w));
             DAL_TRY(dal__evaluate_event_normals(w));
-            const double rate = dal__sign(w->m.now[k]) * w->toward * w->m.r1[k];
+            const int from = dal__side_sign(w->crossing->zero[k].side);
+            const double rate = from * w->toward * w->m.rate[k];
             if (is_impact && rate >= -dal__event_rate_rounding(w, k)) continue; /* leads back */
             any = any || is_impact;
             memcpy(w->m.before, w->run->persistent, (size_t)w->run->layout.dim * sizeof(double));
@@ -88,14 +89,14 @@ dal_status dal__act_events(const dal__event_search *w, double last,
             if (!listener || !listener->happened) continue;
             const dal_occurrence event = {.event = k,
                                           .number = (long long)w->m.count[k],
-                                          .direction = -(int)dal__sign(w->m.now[k]),
+                                          .direction = -from,
                                           .t = dal_run_time(w->run),
                                           .before = w->m.before};
             DAL_TRY(listener->happened(listener->user, w->run, &event));
         }
     }
     for (int k = 0; any && k < events; k++)
-        if (w->m.s[k] <= last && w->system->event[k].actions & DAL_EVENT_IMPACT)
+        if (w->crossing->zero[k].s <= last && w->system->event[k].actions & DAL_EVENT_IMPACT)
             return dal__events_endless(w, k);
     return DAL_OK;
 }
@@ -103,29 +104,30 @@ dal_status dal__act_events(const dal__event_search *w, double last,
 dal_status dal__leave_event(const dal__event_search *w, int k)
 {
     const dal_event *event = &w->system->event[k];
-    const double from = dal__sign(w->m.now[k]), rate = w->toward * w->m.r1[k];
+    const double f = w->m.f[k], rate = w->toward * w->m.rate[k];
+    const int from = dal__side_sign(w->crossing->zero[k].side);
     const bool is_wall = event->actions & (DAL_EVENT_IMPACT | DAL_EVENT_TURNS) &&
                          (event->direction != 0 || event->actions & DAL_EVENT_IMPACT);
-    const bool is_off = fabs(w->m.f1[k]) > dal__event_rounding(w, k) &&
-                        event->actions & DAL_EVENT_SETS && w->m.f1[k] != w->m.there[k];
-    double to = is_off                                        ? dal__sign(w->m.f1[k])
-                : fabs(rate) > dal__event_rate_rounding(w, k) ? 2.0 * dal__sign(rate)
-                                                              : 0.0;
-    if (to == 0.0) to = is_wall ? 2.0 * from : -2.0 * from;
+    double accuracy;
+    DAL_TRY(dal__zero_accuracy(w->crossing, k, &accuracy));
+    const bool is_set = fabs(f) > dal__event_rounding(w, k) && event->actions & DAL_EVENT_SETS &&
+                        f != w->m.there[k];
+    const bool is_off = is_set || fabs(w->m.there[k]) > accuracy; /* by a jump of f */
+    const bool leaves = fabs(rate) > dal__event_rate_rounding(w, k);
+    const int across = is_wall ? from : -from;
+    const dal__side to =
+        is_off ? (dal__side)dal__sign(f) : dal__just(leaves ? dal__sign(rate) : across);
     w->m.side[k] = to;
-    if (!is_wall || dal__sign(to) == from || event->actions & DAL_EVENT_STOPS) return DAL_OK;
+    if (!is_wall || dal__side_sign(to) == from || event->actions & DAL_EVENT_STOPS) return DAL_OK;
     return dal__fail(w->error, DAL_EVENT,
                      "%s at t = %.17g: the velocities after it still lead out, d(when)/dt = %.6g",
-                     dal__event_name(w, k), dal_run_time(w->run), w->m.r1[k]);
+                     dal__event_name(w->system, k), dal_run_time(w->run), w->m.rate[k]);
 }
 
-double dal__side_after(const dal__event_search *w, int k, const double *before)
+dal__side dal__side_beside(const dal__event_search *w, int k)
 {
-    const double side = w->m.now[k], f = w->m.f1[k], end = dal__sign(f);
-    const bool is_small = fabs(f) <= 1e-9 * fabs(w->h * w->m.r0[k]);
-    const bool is_set = before && f != before[k] && fabs(f) > dal__event_rounding(w, k);
-    const bool is_same = end == 0.0 || end == dal__sign(side);
-    if (is_set) return end;
-    if (!is_same && fabs(side) == 2.0 && (is_small || dal__is_event_from(w, k, side))) return side;
-    return is_same || dal__is_event_from(w, k, side) ? dal__sign(side) : end;
+    const double f = w->m.f[k], rounding = dal__event_rounding(w, k);
+    const double slack = rounding + fabs(w->crossing->h) * dal__event_rate_rounding(w, k);
+    if (f != w->m.there[k] && fabs(f) > rounding) return (dal__side)dal__sign(f);
+    return dal__side_at(w->crossing, k, f, slack);
 }

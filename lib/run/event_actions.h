@@ -11,9 +11,8 @@ dal_status dal__act_events(const dal__event_search *w, double last,
                            const dal__event_listener *listener);
 /* Sets the side that event k has left to.  Error: DAL_EVENT where that is out of a wall. */
 dal_status dal__leave_event(const dal__event_search *w, int k);
-/* The side of an event that did not act.  before: its values before others acted, and set some
- * of them; NULL: none did. */
-double dal__side_after(const dal__event_search *w, int k, const double *before);
+/* The side of an event that did not act where others did, and may have set its formula. */
+dal__side dal__side_beside(const dal__event_search *w, int k);
 /* The memory of events was changed. */
 void dal__commit_events(const dal__event_search *w);
 

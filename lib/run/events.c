@@ -31,7 +31,7 @@ static dal_status add_jump(const dal__event_search *w, double factor)
 /* Values, rates and normals of the present state. */
 static dal_status evaluate_all(const dal__event_search *w)
 {
-    DAL_TRY(dal__evaluate_events_and_rates(w, w->m.f1, w->m.r1));
+    DAL_TRY(dal__evaluate_events(w));
     return dal__evaluate_event_normals(w);
 }
 
@@ -40,15 +40,16 @@ static dal_status evaluate_all(const dal__event_search *w)
 static dal_status act(const dal__event_search *w, double distance,
                       const dal__event_listener *listener)
 {
+    const dal__crossing *c = w->crossing;
     double last = distance;
     dal_status left = DAL_OK;
     DAL_TRY(evaluate_all(w));
-    memcpy(w->m.there, w->m.f1, (size_t)w->system->events * sizeof(double));
+    memcpy(w->m.there, w->m.f, (size_t)w->system->events * sizeof(double));
     for (int k = 0; k < w->system->events; k++) {
-        const double rate = fabs(w->m.r1[k]);
+        const double rate = fabs(w->m.rate[k]);
         const double own = rate > 0.0 ? dal__event_rounding(w, k) / rate : 0.0;
-        if (w->m.s[k] <= distance + dal__event_time_rounding(w) + fmin(own, 1e-9 * fabs(w->h)))
-            last = fmax(last, w->m.s[k]);
+        if (c->zero[k].s <= distance + dal__crossing_resolution(c) + fmin(own, 1e-9 * fabs(c->h)))
+            last = fmax(last, c->zero[k].s);
     }
     DAL_TRY(add_jump(w, -1.0));
     dal__restart_method(w->run);
@@ -56,10 +57,10 @@ static dal_status act(const dal__event_search *w, double distance,
     DAL_TRY(evaluate_all(w));
     DAL_TRY(add_jump(w, 1.0));
     for (int k = 0; k < w->system->events && left == DAL_OK; k++) {
-        if (w->m.s[k] <= last)
+        if (c->zero[k].s <= last)
             left = dal__leave_event(w, k);
         else
-            w->m.side[k] = dal__side_after(w, k, w->m.there);
+            w->m.side[k] = dal__side_beside(w, k);
     }
     return left;
 }
@@ -69,17 +70,20 @@ static dal_status act(const dal__event_search *w, double distance,
 static dal_status take_events(const dal__event_search *w, double distance,
                               const dal__event_listener *listener)
 {
+    const dal__crossing *c = w->crossing;
     const double s = w->toward * distance;
-    const bool is_stalled = distance <= dal__event_time_rounding(w);
+    const bool is_stalled = distance <= dal__crossing_resolution(c);
+    DAL_TRY(dal__evaluate_event_normals(w));
     for (int k = 0; k < w->system->events; k++) {
         const bool is_close =
-            is_stalled || distance * fabs(w->m.r0[k]) <= dal__event_rounding(w, k);
-        const bool is_again = fabs(w->m.now[k]) == 2.0 && is_close;
+            is_stalled || distance * fabs(c->begin.rate[k]) <= dal__event_rounding(w, k);
+        const bool is_again = dal__is_just(c->zero[k].side) && is_close;
         const bool is_endless = is_again || (is_stalled && *w->m.stalled >= DAL__MAX_STALLED);
-        if (w->m.s[k] <= distance && is_endless) return dal__events_endless(w, k);
+        if (c->zero[k].s <= distance && is_endless) return dal__events_endless(w, k);
     }
+    dal__run_back_up(w->run);
     if (distance > 0.0) {
-        const dal_status status = dal__step_part(w->run, w->h, s);
+        const dal_status status = dal__step_part(w->run, c->h, s);
         if (status != DAL_OK) return dal__failure_reason(w->run, s, status, w->error);
     }
     *w->m.stalled = is_stalled ? *w->m.stalled + 1.0 : 0.0;
@@ -116,14 +120,14 @@ dal_status dal__advance_events(dal_run *run, long long count, const dal__event_l
     double distance;
     DAL_TRY(dal__check_events(run, error));
     for (long long i = 0; i < count; i++) {
-        w.h = run->layout.options.step;
         DAL_TRY(dal__search_events(&w, &distance));
         if (isfinite(distance)) {
             DAL_TRY(take_events(&w, distance, listener));
             DAL_TRY(dal__check_events(run, error));
             continue;
         }
-        for (int k = 0; k < w.system->events; k++) w.m.side[k] = dal__side_after(&w, k, NULL);
+        dal__crossing_take(w.crossing);
+        for (int k = 0; k < w.system->events; k++) w.m.side[k] = w.crossing->zero[k].side;
         *w.m.stalled = 0.0;
         dal__commit_events(&w);
     }
@@ -134,18 +138,17 @@ double dal__next_event(dal_run *run)
 {
     double distance = INFINITY;
     dal__event_search w = dal__event_search_begin(run, NULL);
-    if (dal__search_events(&w, &distance) != DAL_OK) return INFINITY;
-    if (!isfinite(distance)) dal__run_revert(run);
-    return distance;
+    return dal__search_events(&w, &distance) == DAL_OK ? distance : INFINITY;
 }
 
 void dal__change_sides(dal_run *run)
 {
+    if (run->layout.system->events == 0) return;
     const dal__event_search w = dal__event_search_begin(run, NULL);
-    if (w.system->events == 0 || evaluate_all(&w) != DAL_OK) return;
+    if (evaluate_all(&w) != DAL_OK) return;
     for (int k = 0; k < w.system->events; k++) {
-        const bool is_off = fabs(w.m.f1[k]) > dal__event_rounding(&w, k);
-        if (is_off && w.m.side[k] != 0.0) w.m.side[k] = dal__sign(w.m.f1[k]);
+        const bool is_off = fabs(w.m.f[k]) > dal__event_rounding(&w, k);
+        if (is_off && w.m.side[k] != DAL__SIDE_UNKNOWN) w.m.side[k] = dal__sign(w.m.f[k]);
     }
     *w.m.stalled = 0.0;
     dal__commit_events(&w);
@@ -162,6 +165,13 @@ long long dal_run_event_count(const dal_run *run, int event)
 int dal_run_stopped(const dal_run *run)
 {
     return run && run->layout.system->events > 0 ? (int)*dal__event_places_of(run).stopped : 0;
+}
+
+long long dal_run_unresolved(const dal_run *run, double *from)
+{
+    const dal__crossing *c = run ? run->crossing : NULL;
+    if (from) *from = c ? c->first_unresolved : NAN;
+    return c ? c->unresolved : 0;
 }
 
 double dal_run_jump(const dal_run *run, int observable)

@@ -4,8 +4,8 @@
  *
  *     side[events] | count[events] | stopped | stalled | jump[observables]
  *
- * side     where `when` is: 1 above 0, -1 below, 2 and -2 when an event has just left it there, 0
- *          not known yet
+ * side     where `when` is, a dal__side: 1 above 0, -1 below, 2 and -2 when an event has just left
+ *          it there, 0 not known yet
  * count    how often the event has happened
  * stopped  the number of the event that ended the run, from 1; 0: none
  * stalled  successive events at one time

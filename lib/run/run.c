@@ -22,8 +22,8 @@ static size_t own_numbers(const dal__layout *k)
 {
     const size_t time_and_observables = 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
     const size_t reactions = k->options.reactions ? (size_t)(k->n + 2 * k->m) : 0;
-    return stored_count(k) + (size_t)(k->n + k->nw) + dal__event_scratch(k) + time_and_observables +
-           reactions + dal__scale_numbers(k);
+    return stored_count(k) + (size_t)(k->n + k->nw) + dal__event_scratch(k, stored_count(k)) +
+           time_and_observables + reactions + dal__scale_numbers(k);
 }
 
 static size_t quad_bytes(const dal__layout *k)
@@ -52,7 +52,7 @@ static dal_run *place(const dal__layout *layout, void *memory)
     run->shadow = (double *)(void *)at;
     run->point = run->shadow + stored_count(layout);
     run->event_scratch = run->point + layout->n + layout->nw;
-    run->scales = run->event_scratch + dal__event_scratch(layout);
+    run->scales = run->event_scratch + dal__event_scratch(layout, stored_count(layout));
     run->observations.times = run->scales + dal__scale_numbers(layout);
     run->observations.values = run->observations.times + 1;
     run->observations.capacity = 1;
@@ -217,8 +217,7 @@ const double *dal_run_save(const dal_run *run, size_t *count)
     return run && count ? run->storage : NULL;
 }
 
-/* Takes state and parameters from a copy, which are prepared where they are others. */
-static dal_status load(dal_run *run, const double *saved)
+dal_status dal__run_load(dal_run *run, const double *saved)
 {
     const size_t count = dal__saved_count(&run->layout), width = run->stored / count;
     const size_t first = run->layout.persistent * width, bytes = sizeof *saved;
@@ -239,7 +238,7 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
                          count);
     DAL_TRY(dal__check_saved(run, memory, error));
     dal__run_back_up(run);
-    const dal_status status = load(run, memory);
+    const dal_status status = dal__run_load(run, memory);
     if (status == DAL_OK) return DAL_OK;
     dal__run_revert(run);
     return dal__fail(error, status, "the system cannot be prepared with the saved parameters");
@@ -250,4 +249,4 @@ void dal__run_back_up(dal_run *run)
     memcpy(run->shadow, run->storage, run->stored * sizeof *run->storage);
 }
 
-void dal__run_revert(dal_run *run) { load(run, run->shadow); }
+void dal__run_revert(dal_run *run) { dal__run_load(run, run->shadow); }

@@ -54,10 +54,11 @@ struct dal_run {
     double *shadow;        /* [stored] the state before an intermediate step */
     double *scratch;       /* of the engine, for outputs of callbacks */
     double *point;         /* [n + nw] where a step failed; D before a change of parameters */
-    double *event_scratch; /* see events.c */
+    double *event_scratch; /* see event_search.c */
     double *scales;        /* see scales.c */
-    bool exact;            /* the exact solution agrees with the start */
-    void *owned;           /* memory to free, or NULL */
+    struct dal__crossing *crossing; /* of the events, in their scratch; NULL: no step is searched */
+    bool exact;                     /* the exact solution agrees with the start */
+    void *owned;                    /* memory to free, or NULL */
     dal__native_code native;
     dal__observations observations;
 };
@@ -73,6 +74,9 @@ dal_status dal__observe_part(dal_run *run, double h, double part,
 
 enum { DAL__NAME_SIZE = 128 /* bytes of the name of a state component */ };
 
+/* Takes state and parameters from a copy of the storage; parameters that are others are prepared.
+ * Errors: those of prepare. */
+dal_status dal__run_load(dal_run *run, const double *saved);
 /* Saves state and parameters in the shadow, and restores them. */
 void dal__run_back_up(dal_run *run);
 void dal__run_revert(dal_run *run);

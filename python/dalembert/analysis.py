@@ -267,12 +267,15 @@ class Section:
         Crossings by direction, in ``rows`` or not.
     touches : int
         Minima of the distance that are no crossings.
+    unresolved : int
+        Steps that may hide crossings.
     """
 
     rows: npt.NDArray[np.void]
     up: int
     down: int
     touches: int
+    unresolved: int
 
 
 @ffi.def_extern(error=lib.DAL_INTERRUPTED, onerror=keep_exception)
@@ -312,7 +315,8 @@ def section(system: SystemLike, on: str, integrator: str | None = None, time: fl
     found = ffi.new('dal_crossings *')
     call_steps(lib.dal_run_crossings, run, spec.time(time), surface, found)
     columns = [('crossing', 'i8'), ('t', 'f8'), ('direction', 'i8'), *((name, 'f8') for name in names)]
-    return Section(np.array(rows, dtype=columns), found.up, found.down, found.touches)
+    return Section(np.array(rows, dtype=columns), found.up, found.down, found.touches,
+                   found.unresolved)
 
 
 # ---- error sources -----------------------------------------------------------------------------

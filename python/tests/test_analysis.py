@@ -81,7 +81,7 @@ def test_section(oscillator):
     """cos t = 0 at pi/2 + k pi, downwards first."""
     found = dalembert.section(oscillator, 'x', 'gauss12', 20, step=0.1)
     rows = found.rows
-    assert (found.up, found.down, found.touches) == (3, 3, 0)
+    assert (found.up, found.down, found.touches, found.unresolved) == (3, 3, 0, 0)
     assert rows['t'] == pytest.approx(np.pi * (np.arange(6) + 0.5), abs=1e-11)
     assert list(rows['direction']) == [-1, 1] * 3 and np.abs(rows['x']).max() < 1e-13
     up = dalembert.section(oscillator, 'x = 0', 'gauss12', 20, step=0.1, direction=1)

@@ -1,6 +1,6 @@
 # Events: impacts, stops, logs, and runs with them that are interrupted.
 
-needs 380 "no compiler for signals at given places" raises || return 0
+needs 385 "no compiler for signals at given places" raises || return 0
 examples=$here/../../examples
 # A ball above a floor; the times of its bounces are t1 (1 + 2 c (1 - c^k)/(1 - c)), t1 = sqrt(2/g).
 cat >ball.yaml <<'END'
@@ -37,6 +37,16 @@ for file in - both.csv; do
 done
 try 4 run $ball --time 3 --events none/log.csv
 says 'none/log.csv'
+
+case_is "events that a step may hide"
+printf "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\nevents: [{when: cos(1e6*x), direction: up}]\n" >fast.yaml
+try 0 run fast.yaml --integrator rk4 --step 0.01 --time 0.01
+says '^dalembert: [0-9]* steps may hide events, the first from t = 0: '
+sed 's/1e6/7/' fast.yaml >slow.yaml
+try 0 run slow.yaml --integrator rk4 --step 0.7 --time 6.3 --events slow.csv
+silent
+holds "not all 7" awk -F, 'NR > 1 { t = (2*NR - 2.5)*3.14159265358979324/7; if (($1 - t)^2 > 1e-26) exit 1 }
+    END { exit NR != 8 }' slow.csv
 
 case_is "E without its jumps"
 try 0 run $ball --time 3 --summary

@@ -30,6 +30,27 @@ holds "not 7 at the level" test "$(wc -l <out)" -eq 8
 try 0 section osc.yaml --on "x = 1" $fine --output touch.csv
 prints '^t = 20: 0 upwards, 0 downwards, 3 touches; 0 rows$'
 
+# x = t: cos 7t = 0 at (k + 1/2) pi/7, two of them in most steps; cos 1e5 t = 0 too often to be found.
+case_is "several crossings in a step"
+printf "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\n" >even.yaml
+coarse="--integrator rk4 --step 0.7 --time 6.3"
+try 0 section even.yaml --on "cos(7*x)" $coarse
+silent
+holds "not all 14" awk -F, 'NR > 1 { t = (NR - 1.5)*3.14159265358979324/7; if (($2 - t)^2 > 1e-26) exit 1 }
+    END { exit NR != 15 }' out
+try 0 section even.yaml --on "cos(1e5*x)" $coarse
+says '^dalembert: 9 steps may hide crossings, the first from t = 0: '
+try 0 section even.yaml --on "cos(1e5*x)" $coarse --output fast.csv --json
+holds "not in the JSON" json out "d['unresolved'] == 9 and d['first_unresolved'] == 0"
+try 0 section even.yaml --on "cos(7*x)" $coarse --output slow.csv --json
+holds "not in the JSON" json out "d['unresolved'] == 0 and d['first_unresolved'] is None"
+for transient in 6.3 7; do
+    try 2 section even.yaml --on x-1 $coarse --transient $transient
+    says "^dalembert: --transient $transient: no crossing is left, the run ends at t = 6.3$"
+done
+try 0 section even.yaml --on x-6 $coarse --transient 5.9
+holds "not the crossing after the transient" test "$(wc -l <out)" -eq 2
+
 case_is "a directory of crossings"
 if command -v gnuplot >/dev/null 2>&1; then
     try 0 section osc.yaml --on x $fine --output crossed --axes "t,x'"
@@ -111,6 +132,31 @@ if needs 1 "no /dev/full" test -e /dev/full; then
     try 4 section osc.yaml --on x $fine --output /dev/full
     counted
 fi
+
+# Tangent vectors do not pass a jump of F or of F_v; x = 1 + cos(w t) exp(-0.05 t)/2 meets none.
+case_is "exponents where F jumps"
+jumps() { # NAME ACCELERATION
+    printf "coordinates: [x]\naccelerations: {x: \"$2\"}\nstart: {x: 1.5, x': 0.3}\n" >$1.yaml
+}
+jumps driven "-x + sign(x) - 0.1*x' + 0.9*cos(t)"
+jumps rubbed "-x - 0.2*abs(x')"
+jumps floored "-x - floor(x)"
+jumps switched "if(t < 1.05, -x, -2*x)"
+for command in lyapunov volume; do
+    for system in driven rubbed floored switched; do
+        try 2 $command $system.yaml --integrator rk4 --step 0.1 --time 200
+        says "^dalembert: $system.yaml: a branch of the acceleration of x changes between t = [0-9.]* and [0-9.]*, where F"
+    done
+    says 'between t = 1 and 1\.1, '
+    try 2 $command driven.yaml --integrator rk4 --step 0.1 --time 1 --transient 200
+    says 'a branch of the acceleration of x changes'
+done
+jumps beside "-x + sign(x) - 0.1*x'"
+sed -i "s/x': 0.3/x': 0/" beside.yaml
+try 0 lyapunov beside.yaml --integrator rk4 --step 0.1 --time 20
+prints '^divergence of F +-0\.1 '
+jumps kinked "-abs(x) - 0.1*x' - 0.2*x'*abs(x')"
+try 0 volume kinked.yaml --integrator rk4 --step 0.1 --time 2
 
 # x'' = x by rk4: R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 at z = h and -h.
 case_is "exponents in closed form"

@@ -17,6 +17,17 @@ holds "other errors" awk -F, '
 holds "other heads" test "$(head -1 line.csv)" = \
     "label,integrator,stated_order,observed_order,step,steps,error,slope,evaluations,seconds,state,message"
 
+# A block that slides and turns round: sign(x') makes F jump; a square root of |x| makes its derivative.
+case_is "what branches leave of the order"
+printf "coordinates: [x]\nlagrangian: x'^2/2 - x^2/2\nforces: {x: -0.3*sign(x')}\nstart: {x: 1}\n" >slide.yaml
+try 0 order slide.yaml --integrators rk4 --step 0.1 --levels 2 --time 2
+prints '^branches, force on x: F jumps: order 1 across it$'
+sed "s/sign(x')/sign(x)*sqrt(abs(x))/" slide.yaml >root.yaml
+try 0 order root.yaml --integrators rk4 --step 0.1 --levels 2 --time 2
+prints "^branches, force on x: F' jumps: order 2 across it$"
+try 0 order line.yaml --integrators rk4 --step 0.25 --levels 2 --time 1
+holds "branches of what has none" sh -c '! grep -q branches out'
+
 case_is "a reference of its own where the exact solution begins elsewhere"
 try 0 order line.yaml --integrators rk4 --start "x'=2" --step 0.25 --levels 3 --time 2
 prints '^against gauss12 with h = 0\.03125, itself within [0-9]e-1[0-9]$'
