@@ -22,12 +22,13 @@ enum { DAL_PARTIAL_SUMS = 8 /* sums that a block is added up in */ };
 
 /* The version of dal_statistics: it changes whenever the members or their meaning do, and is saved
  * with them in files.  Each member has 64 bits and none is a pointer. */
-enum { DAL_STATISTICS_LAYOUT = 3 };
+enum { DAL_STATISTICS_LAYOUT = 4 };
 
 /* A block of successive values of x. */
 typedef struct dal_statistics_block {
     double t;        /* the middle of its times */
     double x;        /* the mean */
+    double rms;      /* the root mean square of x less the mean */
     double min, max; /* the extreme values */
 } dal_statistics_block;
 
@@ -45,6 +46,8 @@ typedef struct dal_statistics {
     /* Of the open block: t at its first value, min, max, and the partial sums of x - first: value
      * k of the block belongs to sum k modulo DAL_PARTIAL_SUMS. */
     double open_t, open_min, open_max, open_sum[DAL_PARTIAL_SUMS];
+    /* Of the open block: its first value, and the partial sums of ((x - open_from)/rough_unit)^2. */
+    double open_from, open_square[DAL_PARTIAL_SUMS];
     /* Sums and means are those of factor * (x - first): 1, or less after a value near the largest
      * double. */
     double factor;
@@ -52,7 +55,7 @@ typedef struct dal_statistics {
      * rough_steps of successive values while blocks are short; then rough[] of values
      * DAL_PARTIAL_SUMS apart, one pair in four, by partial sum; held[] is the first of a pair. */
     double rough_unit, rough_steps, rough[DAL_PARTIAL_SUMS], held[DAL_PARTIAL_SUMS];
-    /* x: factor * (mean - first); min and max are those of x itself. */
+    /* x: factor * (mean - first); rms in units of 1/factor; min and max are those of x itself. */
     dal_statistics_block block[DAL_STATISTICS_BLOCKS];
 } dal_statistics;
 

@@ -12,8 +12,10 @@
  * resumes from the older.  Nothing in it is ever executed or followed.  A later format raises the
  * number and reads this one, too.  In DALCHK04 the state has no numbers of the choice of a solver,
  * which stand before the last one and the parameters; in DALCHK03 it ends before them.  Those of
- * systems with events or compared pivots are refused: what they have of these differs. */
+ * systems with events or compared pivots are refused: what they have of these differs.  Statistics of
+ * layout 3 have no root mean squares: earlier_statistics.c completes them. */
 #include "checkpoint.h"
+#include "earlier_statistics.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -121,10 +123,12 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
         body - h->state != h->statistics * h->words)
         return damaged(path, "its size is wrong");
     if (h->layout == DAL_STATISTICS_LAYOUT && h->words == STATISTICS_WORDS) return CLI_DONE;
-    return cli_fail(CLI_USAGE,
-                    "%s: its statistics have layout %llu; dalembert " DAL_VERSION
-                    " reads layout %d alone: resume with the version that manifest.json names",
-                    path, (unsigned long long)h->layout, DAL_STATISTICS_LAYOUT);
+    if (h->layout == STATISTICS_LAYOUT_3 && h->words == STATISTICS_WORDS_3) return CLI_DONE;
+    return cli_fail(
+        CLI_USAGE,
+        "%s: its statistics have layout %llu; dalembert " DAL_VERSION
+        " reads layouts %d and %d alone: resume with the version that manifest.json names",
+        path, (unsigned long long)h->layout, STATISTICS_LAYOUT_3, DAL_STATISTICS_LAYOUT);
 }
 
 /* Completes the state of an earlier format by that of the start, state[count]; a number of the run
@@ -145,6 +149,20 @@ static bool read_earlier(const checkpoint_header *header, const unsigned char *b
     copy_words(state, body, before);
     copy_words(state + before + missing, body + before * WORD, present - before);
     return true;
+}
+
+static void read_statistics(const checkpoint_header *header, const unsigned char *words,
+                            dal_statistics *statistics)
+{
+    if (header->layout == DAL_STATISTICS_LAYOUT) {
+        copy_words(statistics, words, header->statistics * STATISTICS_WORDS);
+        return;
+    }
+    for (uint64_t i = 0; i < header->statistics; i++) {
+        uint64_t earlier[STATISTICS_WORDS_3];
+        copy_words(earlier, words + i * sizeof earlier, STATISTICS_WORDS_3);
+        statistics_from_layout_3(&statistics[i], earlier);
+    }
 }
 
 static int restore(const char *path, const checkpoint_header *header, const unsigned char *body,
@@ -168,7 +186,7 @@ static int restore(const char *path, const checkpoint_header *header, const unsi
     free(state);
     if (loaded != DAL_OK) return cli_error(CLI_USAGE, path, &error);
     *position = (run_position){header->row, header->sum, header->seconds};
-    copy_words(statistics, body + header->state * WORD, header->statistics * STATISTICS_WORDS);
+    read_statistics(header, body + header->state * WORD, statistics);
     return CLI_DONE;
 }
 
