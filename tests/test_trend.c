@@ -1,7 +1,7 @@
 /* test_trend.c - sizes and trends: the matrix of results on 1000 synthetic series of each kind and
  * the goals that it must meet, and series with one peculiarity each. */
 #include "quick.h"
-#include "series.h"
+#include "trend_matrix.h"
 #include <CUnit/CUnit.h>
 #include <dalembert.h>
 #include <math.h>
@@ -24,18 +24,6 @@ typedef struct tally {
     clock_t time;
 } tally;
 
-/* Whether a kind accepts a trend. */
-static int accepts(const series_kind *kind, const series *s, const dal_trend *f)
-{
-    static const int bit[] = {ACCEPT_NONE,  ACCEPT_SETTLES,     ACCEPT_WALK,   ACCEPT_LINEAR,
-                              ACCEPT_POWER, ACCEPT_EXPONENTIAL, ACCEPT_GROWING};
-    if (f->trend == DAL_TREND_UNDECIDED) return 1;
-    if (f->trend >= DAL_TREND_UNDECIDED) return 0;
-    if (f->trend == DAL_TREND_POWER && kind->accepts & ACCEPT_LOGARITHM) return f->exponent < 0.2;
-    if (f->trend == DAL_TREND_POWER && !(fabs(f->exponent - s->exponent) <= 0.15)) return 0;
-    return (kind->accepts & bit[f->trend]) != 0;
-}
-
 static const series_kind *kind_named(const char *name)
 {
     for (int i = 0; i < series_kind_count; i++)
@@ -50,6 +38,7 @@ static double rescale(const series_kind *kind, series *s)
     const double offset = series_between(&s->random, -1.0, 1.0) * size;
     if (kind->accepts & (ROUNDINGS | TRUNCATION)) return 1.0;
     for (int k = 0; k < s->count; k++) s->x[k] = offset + size * s->x[k];
+    s->drift *= size;
     return size;
 }
 
@@ -66,8 +55,8 @@ static void draw_one(const series_kind *kind, uint64_t number, tally *all)
     dal_statistics_classify(&statistics, size, 0, &f);
     all->time += clock() - before;
     CU_ASSERT(trend_is_consistent(&f));
-    const int is_wrong = !accepts(kind, &s, &f);
-    const double rate = s.drift * size / (t[1] * (s.count - 1));
+    const int is_wrong = !series_accepts(kind, &s, &f);
+    const double rate = s.drift / (t[1] * (s.count - 1));
     const dal_size_class right = kind->accepts & ROUNDINGS ? DAL_SIZE_ROUNDING : DAL_SIZE_LARGER;
     all->count++;
     all->wrong += is_wrong;
