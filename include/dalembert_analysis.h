@@ -153,7 +153,9 @@ typedef struct dal_trend {
                          NaN where none can be stated */
     dal_size_class size;           /* of the deviation */
     dal_trend_class trend;         /* of x */
-    double confidence;             /* 0..1, of the trend */
+    double confidence;             /* 0..1, of the trend; NaN where it is undecided or aborted */
+    dal_trend_class likeliest;     /* of an undecided trend: what has half of the evidence and more,
+                                      or undecided; else the trend */
     dal_conservation conservation; /* unless DAL_CONSERVED, exponent, size, trend and confidence
                                       state nothing; see dal_run_classify */
 } dal_trend;

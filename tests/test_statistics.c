@@ -394,7 +394,8 @@ static dal_trend_class trend_of(const dal_statistics *s)
 {
     dal_trend f;
     dal_statistics_classify(s, 1.0, 0, &f);
-    CU_ASSERT(f.confidence > 0.0 && f.confidence <= 1.0);
+    CU_ASSERT(f.trend < DAL_TREND_UNDECIDED ? f.confidence > 0.0 && f.confidence <= 1.0
+                                            : isnan(f.confidence));
     return f.trend;
 }
 

@@ -37,15 +37,15 @@ int series_accepts(const series_kind *kind, const series *s, const dal_trend *f)
 int trend_is_consistent(const dal_trend *f)
 {
     const int has_zero = f->rate_low <= 0.0 && f->rate_high >= 0.0;
-    if (!(f->confidence > 0.0 && f->confidence <= 1.0)) return 0;
+    const int states = f->trend < DAL_TREND_UNDECIDED;
+    if (states ? !(f->confidence > 0.0 && f->confidence <= 1.0) : !isnan(f->confidence)) return 0;
     if (!(f->rate_low <= f->rate && f->rate <= f->rate_high)) return 0;
     if ((f->size == DAL_SIZE_EXACT) != (f->deviation == 0.0)) return 0;
     if (f->amplitude > 1.001 * (f->deviation + f->max_drift)) return 0;
     switch (f->trend) {
     case DAL_TREND_NONE:
-        return has_zero && f->exponent == 0.0;
     case DAL_TREND_SETTLES:
-        return f->exponent == 0.0;
+        return has_zero && f->exponent == 0.0;
     case DAL_TREND_RANDOM_WALK:
         return has_zero && f->exponent == 0.5;
     case DAL_TREND_LINEAR:
