@@ -263,7 +263,7 @@ static void add_amplitudes(void)
     assert(amplitude_count == DAL__GROWING_AMPLITUDES);
     add_jumps(0.3 * other);
     add_beats(0.7 * other, 0.06 * other);
-    add_saturations(0.35 * other);
+    add_saturations(0.2 * other);
     assert(amplitude_count == DAL__AMPLITUDES);
 }
 

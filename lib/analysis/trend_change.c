@@ -92,12 +92,17 @@ static fit fit_columns(const double *y, column *c, int columns, int from, int to
     return f;
 }
 
+/* How many times fewer independent values the residues are worth. */
+static double inflation_of(const fit *f)
+{
+    return f->square > 0.0 ? dal__inflation(f->square, f->product, f->bins) : 1.0;
+}
+
 /* Half the width of the interval of the last column; error: of the means of bins. */
-static double margin_of(const fit *f, double error)
+static double margin_of(const fit *f, double error, double i)
 {
     const int n = f->bins, free = n - f->columns;
     if (free < 1 || !(f->squares > 0.0)) return INFINITY;
-    const double i = f->square > 0.0 ? dal__inflation(f->square, f->product, n) : 1.0;
     return dal__student(n / i - f->columns) *
            sqrt((f->square + n * error * error) / free / f->squares * i);
 }
@@ -125,14 +130,15 @@ static fit fit_parabola(const double *y, int from, int to)
 dal__interval dal__trend_bend(const dal__bins *b)
 {
     const fit f = fit_parabola(b->mean, 0, BINS);
-    const double bend = 2.0 * f.last, margin = 2.0 * margin_of(&f, fmax(b->error, b->rounding));
+    const double bend = 2.0 * f.last,
+                 margin = 2.0 * margin_of(&f, fmax(b->error, b->rounding), inflation_of(&f));
     return (dal__interval){bend - margin, bend, bend + margin};
 }
 
 dal__interval dal__trend_second_half(const dal__bins *b)
 {
     const fit f = fit_line(b->mean, BINS / 2, BINS);
-    const double margin = margin_of(&f, fmax(b->error, b->rounding));
+    const double margin = margin_of(&f, fmax(b->error, b->rounding), inflation_of(&f));
     return (dal__interval){f.last - margin, f.last, f.last + margin};
 }
 
@@ -244,8 +250,9 @@ typedef struct outcome {
     change_shape shape;
     double size, shown; /* b; the range of b f over bins */
     double begins, ends;
-    int early, late; /* bins before and from where nothing of the change is seen */
-    column residue;
+    int early, late;  /* bins before and from where nothing of the change is seen */
+    column residue;   /* of all bins, */
+    double inflation; /* and what they are worth */
     double rate, margin;
 } outcome;
 
@@ -278,6 +285,7 @@ static void measure_size(outcome *o)
         first = fit_columns(o->y, c, 4, 0, BINS).last;
     }
     memcpy(o->residue, whole.residue, sizeof o->residue);
+    o->inflation = inflation_of(&whole);
     for (int m = 0; m < BINS; m++) {
         const double x = whole.last * f[shapes - 1][m] + first * f[0][m];
         low = fmin(low, x);
@@ -314,7 +322,8 @@ static void measure_rate(outcome *o, const dal__bins *b)
     const double error = fmax(fmax(b->error, b->rounding), shape_misfit * fabs(o->size));
     const fit f = BINS - o->late >= MIN_LATE ? fit_line(o->y, o->late, BINS) : fit_beside_change(o);
     o->rate = f.last;
-    o->margin = margin_of(&f, error);
+    /* All bins know the correlation better than the late ones, unless the shape misses them. */
+    o->margin = margin_of(&f, error, fmin(inflation_of(&f), o->inflation));
 }
 
 /* ---- what it is ---- */
