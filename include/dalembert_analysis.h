@@ -46,8 +46,7 @@ typedef struct dal_statistics {
     /* Of the open block: t at its first value, min, max, and the partial sums of x - first: value
      * k of the block belongs to sum k modulo DAL_PARTIAL_SUMS. */
     double open_t, open_min, open_max, open_sum[DAL_PARTIAL_SUMS];
-    /* Of the open block: its first value, and the partial sums of ((x - open_from)/rough_unit)^2. */
-    double open_from, open_square[DAL_PARTIAL_SUMS];
+    double open_from, open_square[DAL_PARTIAL_SUMS]; /* its first x; ((x - it)/rough_unit)^2 */
     /* Sums and means are those of factor * (x - first): 1, or less after a value near the largest
      * double. */
     double factor;
@@ -55,7 +54,7 @@ typedef struct dal_statistics {
      * rough_steps of successive values while blocks are short; then rough[] of values
      * DAL_PARTIAL_SUMS apart, one pair in four, by partial sum; held[] is the first of a pair. */
     double rough_unit, rough_steps, rough[DAL_PARTIAL_SUMS], held[DAL_PARTIAL_SUMS];
-    /* x: factor * (mean - first); rms in units of 1/factor; min and max are those of x itself. */
+    /* x: factor * (mean - first), rms: times factor; min and max are those of x itself. */
     dal_statistics_block block[DAL_STATISTICS_BLOCKS];
 } dal_statistics;
 
@@ -147,26 +146,22 @@ typedef struct dal_trend {
     double max_abs, deviation; /* max |x|, max |x - first| */
     double amplitude;          /* half the range of x about the fitted line */
     double rate;               /* slope of the line, per unit of time passed, |t - first t|; where x
-                                   settles, of what follows the change */
-    double rate_low, rate_high; /* its 95 % interval, of this run: another motion, or a longer one,
-                                   may have another rate */
+                                   settles, after the change */
+    double rate_low, rate_high; /* its 95 % interval, of this run and not of a longer one */
     double max_drift;           /* max |drift| over the whole series in this interval */
     double exponent; /* of t: 1 linear, 1/2 random walk, 0 none and settles, fitted for a power law;
                          NaN where none can be stated */
     dal_size_class size;           /* of the deviation */
     dal_trend_class trend;         /* of x */
     double confidence;             /* 0..1, of the trend; NaN where it is undecided or aborted */
-    dal_trend_class likeliest;     /* of an undecided trend: what has half of the evidence and more,
-                                      or undecided; else the trend */
+    dal_trend_class likeliest;     /* where undecided: what has half of the evidence; else trend */
     dal_conservation conservation; /* unless DAL_CONSERVED, exponent, size, trend and confidence
                                       state nothing; see dal_run_classify */
 } dal_trend;
 
 /* Classifies a quantity by the evidence for each shape (Kass, Raftery 1995, DOI
  * 10.1080/01621459.1995.10476572).  scale is its natural size, in its unit; roundings are measured
- * by it.  aborted: the run ended before its time.  More values may be added afterwards.  A
- * confidence of 0.9 and more is wrong in at most 1 % of the series of each kind that
- * docs/program.md lists, with the exceptions named there. */
+ * by it.  aborted: the run ended before its time.  More values may be added afterwards. */
 void dal_statistics_classify(const dal_statistics *statistics, double scale, int aborted,
                              dal_trend *trend);
 

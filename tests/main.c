@@ -1,6 +1,6 @@
 /* main.c - runs the CUnit suites: all, or those named; --list names them, --quick cuts long runs;
- * --bits PART/PARTS compares generated code instead, see bits.h; --trends [SERIES [KIND]] prints how
- * often trends are right, see trend_matrix.h. */
+ * --bits PART/PARTS compares generated code instead, see bits.h; --trends [SERIES [KIND]] prints
+ * how often trends are right, see trend_matrix.h. */
 #include "bits.h"
 #include "fixtures.h"
 #include "quick.h"

@@ -240,30 +240,33 @@ static double root_mean_square(double (*x)(int), int from, int n)
     return 0x1p500 * sqrt(square);
 }
 
-/* Of each block as by its definition, however often blocks were joined. */
+static void check_root_mean_squares(double (*of)(int), int count)
+{
+    dal_statistics s;
+    dal_statistics_start(&s, 1);
+    for (int k = 0; k < count; k++) {
+        const double x = of(k);
+        dal_statistics_add(&s, 1, k, &x);
+    }
+    /* A sum of terms of the size of x^2, of which the root is taken. */
+    const double error = 16.0 * DBL_EPSILON * fmax(fabs(s.min), fabs(s.max));
+    const int n = (int)s.length;
+    for (int b = 0; b < s.blocks; b++) {
+        const double rms = root_mean_square(of, b * n, n);
+        CU_ASSERT_DOUBLE_EQUAL(s.block[b].rms / s.factor, rms, error);
+        if (of == straight)
+            CU_ASSERT_DOUBLE_EQUAL(rms, 0.25 * sqrt((n * n - 1.0) / 12.0), error);
+    }
+}
+
+/* Of each block as by its definition, however often blocks were merged. */
 static void test_root_mean_squares(void)
 {
     static double (*const signals[])(int) = {wavy, straight, enormous};
     static const int counts[] = {40, 500, 3000, 20000};
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++)
-        for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
-            dal_statistics s;
-            dal_statistics_start(&s, 1);
-            for (int k = 0; k < counts[c]; k++) {
-                const double x = signals[i](k);
-                dal_statistics_add(&s, 1, k, &x);
-            }
-            /* A sum of n terms of the size of x^2, of which the root is taken. */
-            const double size = fmax(fabs(s.min), fabs(s.max));
-            for (int b = 0; b < s.blocks; b++) {
-                const int n = (int)s.length;
-                const double rms = root_mean_square(signals[i], b * n, n);
-                const double error = 16.0 * DBL_EPSILON * size;
-                CU_ASSERT_DOUBLE_EQUAL(s.block[b].rms / s.factor, rms, error);
-                if (signals[i] == straight)
-                    CU_ASSERT_DOUBLE_EQUAL(rms, 0.25 * sqrt((n * n - 1.0) / 12.0), error);
-            }
-        }
+        for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++)
+            check_root_mean_squares(signals[i], counts[c]);
 }
 
 /* ---- roughness ---- */

@@ -4,8 +4,8 @@
 
 #include "series.h"
 
-/* Whether a kind accepts the trend of a series that it drew: undecided always counts; of a line also
- * none, unless it is sure, with the drift that it admits. */
+/* Whether a kind accepts the trend of a series that it drew: undecided always counts; of a line
+ * also none, unless it is sure, with the drift that it admits. */
 int series_accepts(const series_kind *kind, const series *s, const dal_trend *f);
 
 /* Whether the numbers of a trend agree with each other. */

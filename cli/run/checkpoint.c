@@ -12,8 +12,8 @@
  * resumes from the older.  Nothing in it is ever executed or followed.  A later format raises the
  * number and reads this one, too.  In DALCHK04 the state has no numbers of the choice of a solver,
  * which stand before the last one and the parameters; in DALCHK03 it ends before them.  Those of
- * systems with events or compared pivots are refused: what they have of these differs.  Statistics of
- * layout 3 have no root mean squares: earlier_statistics.c completes them. */
+ * systems with events or compared pivots are refused: what they have of these differs.  Statistics
+ * of layout 3 have no root mean squares: earlier_statistics.c completes them. */
 #include "checkpoint.h"
 #include "earlier_statistics.h"
 #include "ui/memory.h"

@@ -1,9 +1,9 @@
 /* earlier_statistics.c - the statistics of quantities as earlier versions saved them.
  *
  * Layout 3 has no root mean squares of blocks.  The range of n normal values is near
- * 0.1 + 1.6 sqrt(2 log n) deviations, that of an oscillation 2 sqrt(2), that of two values 2: from
- * the greatest of these that applies, the deviation of a block is estimated.  Blocks that follow are
- * measured, and joined with these, so that the share of the estimate falls as the run goes on. */
+ * 0.1 + 1.6 sqrt(2 log n) deviations, the range of an oscillation 2 sqrt(2), of two values 2: from
+ * the greatest of these that applies, the deviation of a block is estimated.  Blocks that follow
+ * are measured, so that the share of the estimates falls as the run goes on. */
 #include "earlier_statistics.h"
 
 #include <math.h>

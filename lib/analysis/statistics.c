@@ -1,10 +1,10 @@
 /* statistics.c - a quantity x(t) followed at every step in constant memory.
  *
  * The series is cut into blocks of equal length, of which mean, root mean square about it, min and
- * max are kept.  When all
- * DAL_STATISTICS_BLOCKS are full, neighbours are merged and the length doubles, so that between one
- * half and all of them are in use after any number of values: the method of batch means (Flyvbjerg,
- * Petersen 1989, DOI 10.1063/1.457480; Law, Kelton, Simulation Modeling and Analysis, 9.5).
+ * max are kept.  When all DAL_STATISTICS_BLOCKS are full, neighbours are merged and the length
+ * doubles, so that between one half and all of them are in use after any number of values: the
+ * method of batch means (Flyvbjerg, Petersen 1989, DOI 10.1063/1.457480; Law, Kelton, Simulation
+ * Modeling and Analysis, 9.5).
  *
  * The roughness of the series distinguishes a sum of roundings from a smooth change.  If its steps
  * are independent, E (x_(k+l) - x_k)^2 = l sigma^2: the sum of squared steps n sigma^2 is that of
@@ -75,8 +75,7 @@ static double per_rough_unit(const dal_statistics *s)
 
 /* ---- one value ---- */
 
-/* Of the open block whose mean is given: rms^2/unit^2 = <((x - from)/unit)^2> - <(x - from)/unit>^2.
- */
+/* Of the open block: rms^2/unit^2 = <((x - from)/unit)^2> - <(x - from)/unit>^2. */
 static double open_rms(const dal_statistics *s, double mean)
 {
     const double unit = s->rough_unit > 0.0 ? s->rough_unit : 1.0;

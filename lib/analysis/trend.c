@@ -57,6 +57,8 @@ static const double small_beside_memory = 1.0, large_beside_memory = 2.5, tiny_d
 static const double settled_change = 0.3; /* of the spread */
 static const double well_inside = 0.9;    /* the middle of an interval, in half widths */
 static const double power_error = 0.11, power_span = 0.2;
+/* Of the slope of the second half: the largest half width of its interval beside sure growth. */
+static const double clear_growth = 0.4;
 static const double not_sure = 0.89; /* the greatest confidence of what is likely, never sure */
 static const double steady = 0.3;    /* the probability of growth of what does not grow */
 /* A bend of a line, in its margins and in rates. */
@@ -298,10 +300,10 @@ static decision decide_growth(const description *p, dal__meaning best, double we
         const double exponent = exponent_of(&p->evidence);
         if (weight < enough) return not_enough(p, DAL_TREND_POWER, weight);
         if (isnan(exponent)) return undecided(p);
-        /* What no longer grows may also have come to a level. */
+        /* What hardly grows any more may also have come to a level. */
         const dal__interval late = dal__trend_second_half(&p->bins);
-        return decided(p, DAL_TREND_POWER, contains_zero(&late) ? fmin(weight, not_sure) : weight,
-                       exponent);
+        const bool grows = late.high - late.middle < clear_growth * fabs(late.middle);
+        return decided(p, DAL_TREND_POWER, grows ? weight : fmin(weight, not_sure), exponent);
     }
     case DAL__MEANS_EXPONENTIAL:
         if (weight < enough) return not_enough(p, DAL_TREND_EXPONENTIAL, weight);
@@ -312,17 +314,8 @@ static decision decide_growth(const description *p, dal__meaning best, double we
     }
 }
 
-static decision decide_walk(const description *p, double weight)
-{
-    const double middle = fabs(p->drift.low + p->drift.high), width = p->drift.high - p->drift.low;
-    if (p->evidence.walk_over_memory <= walk_evidence || middle >= well_inside * width)
-        return undecided(p);
-    if (weight < enough_for_walk) return not_enough(p, DAL_TREND_RANDOM_WALK, weight);
-    return decided(p, DAL_TREND_RANDOM_WALK, weight, 0.5);
-}
-
-/* Values to one side whose amplitude grows by many e-folds: an exponential over more of them than the
- * shapes of trend_tables.h have, or a modulated one. */
+/* Values to one side whose amplitude grows by many e-folds: an exponential over more of them than
+ * the shapes of trend_tables.h have, or a modulated one. */
 static bool explodes(const description *p)
 {
     const double below = -p->series.low, above = p->series.high;
@@ -353,8 +346,14 @@ static decision decide(const description *p)
         return decide_none(p, w);
     case DAL__MEANS_SETTLES:
         return decide_change(p, w);
-    case DAL__MEANS_WALK:
-        return decide_walk(p, w);
+    case DAL__MEANS_WALK: {
+        const double middle = fabs(p->drift.low + p->drift.high);
+        if (p->evidence.walk_over_memory <= walk_evidence ||
+            middle >= well_inside * (p->drift.high - p->drift.low))
+            return undecided(p);
+        return w < enough_for_walk ? not_enough(p, DAL_TREND_RANDOM_WALK, w)
+                                   : decided(p, DAL_TREND_RANDOM_WALK, w, 0.5);
+    }
     case DAL__MEANS_LINEAR:
         return decide_line(p, w);
     default:
@@ -408,14 +407,6 @@ static double rate_of(const description *p, const dal_statistics *s, double drif
     return drift * p->series.unit / whole / s->factor;
 }
 
-static void set_rate(const description *p, const dal_statistics *s, const dal__interval *drift,
-                     dal_trend *trend)
-{
-    trend->rate = rate_of(p, s, drift->middle);
-    trend->rate_low = rate_of(p, s, drift->low);
-    trend->rate_high = rate_of(p, s, drift->high);
-}
-
 static decision classify(const dal_statistics *s, dal_trend *trend)
 {
     description p = {0};
@@ -427,7 +418,9 @@ static decision classify(const dal_statistics *s, dal_trend *trend)
     }
     describe(&p);
     d = s->count < MIN_VALUES ? undecided(&p) : decide(&p);
-    set_rate(&p, s, &d.drift, trend);
+    trend->rate = rate_of(&p, s, d.drift.middle);
+    trend->rate_low = rate_of(&p, s, d.drift.low);
+    trend->rate_high = rate_of(&p, s, d.drift.high);
     return d;
 }
 

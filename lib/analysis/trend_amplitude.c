@@ -4,8 +4,8 @@
  *
  *     v_i = own_i^2 + mean square of the means i-2 .. i+2 about their line,
  *
- * and z = log(v)/2 its logarithmic amplitude.  The cosine coefficients Z_j of z in bins are compared
- * with those of the shapes F of trend_tables.h, which have no free size,
+ * and z = log(v)/2 its logarithmic amplitude.  The cosine coefficients Z_j of z in bins are
+ * compared with the shapes F of trend_tables.h, which have no free size,
  *
  *     E(F, noise) = exp(-1/2 sum log v_j) S^(-nu/2),    S = sum (Z_j - F_j)^2/v_j + floor,
  *
@@ -35,15 +35,6 @@ static const double min_jump = 0.05, with_jump = 0.4;
 /* Exponentials over more e-folds than the shapes have: z is a line to this part of its rise, and
  * growth has this probability. */
 static const double many_folds = 8.0, line_misfit = 0.035, by_line = 0.89;
-
-/* What a noise weighs: walks and long memory explain any amplitude. */
-static double noise_weight(const dal__noise *n)
-{
-    const double share = n->meaning == DAL__MEANS_WALK    ? 0.3
-                         : n->meaning == DAL__MEANS_OTHER ? 0.5
-                                                          : 1.0;
-    return share * n->shape_weight;
-}
 
 /* The root mean square of the means about block i from their line, however small. */
 static double residue_of_means(const dal__trend_series *s, int i)
@@ -134,7 +125,11 @@ static void weigh_noise(const double *wave, int k, double unit, weights *w)
         square += y[j] * wave[j];
     }
     const double floor = floor_of_z * floor_of_z * n->precision_sum;
-    const double outer = noise_weight(n) * exp(-0.5 * temper * n->log_determinant);
+    /* Walks and long memory explain any amplitude. */
+    const double share = n->meaning == DAL__MEANS_WALK    ? 0.3
+                         : n->meaning == DAL__MEANS_OTHER ? 0.5
+                                                          : 1.0;
+    const double outer = share * n->shape_weight * exp(-0.5 * temper * n->log_determinant);
     correlate(y, sum);
     for (int i = 0; i < DAL__AMPLITUDES; i++) {
         const double rest = fmax(square - 2.0 * sum[i] + dal__amplitude_square[k][i], 0.0) + floor;
@@ -146,22 +141,16 @@ static void weigh_noise(const double *wave, int k, double unit, weights *w)
     w->steady += outer * steady_weight * ninth_power(unit / (square + floor));
 }
 
-/* What the evidence admits where the end does not rise above the beginning, or all at once. */
-static double limit(const double *z)
+/* The probability of growth where the end does not rise above the beginning, or all at once. */
+static double limited(const double *z, double probability)
 {
     const double beginning = mean_of(z, 0, 2 * EIGHTH), late = mean_of(z, LATE, LATE_BINS);
-    const double deviation = deviation_of(z, 0, 2 * EIGHTH);
-    if (late - beginning < min_rise + 2.0 * deviation / sqrt(LATE_BINS)) return without_rise;
-    return 1.0;
-}
-
-static int jumps(const double *z)
-{
-    const double last = mean_of(z, DAL__BINS - 2, 2);
-    const double deviation = deviation_of(z, 0, DAL__BINS - 2);
-    double top = -INFINITY;
+    const double noise = 2.0 * deviation_of(z, 0, 2 * EIGHTH) / sqrt(LATE_BINS);
+    const double last = mean_of(z, DAL__BINS - 2, 2), all = mean_of(z, 0, DAL__BINS - 2);
+    double top = all + 4.0 * deviation_of(z, 0, DAL__BINS - 2);
     for (int m = 0; m < DAL__BINS - 2; m++) top = fmax(top, z[m]);
-    return last > fmax(top, mean_of(z, 0, DAL__BINS - 2) + 4.0 * deviation) + min_jump;
+    if (late - beginning < min_rise + noise) probability = fmin(probability, without_rise);
+    return last > top + min_jump ? fmax(probability, with_jump) : probability;
 }
 
 /* Whether z is a line, by its root mean square residue. */
@@ -197,8 +186,7 @@ dal__growth dal__trend_growth(const dal__trend_series *s)
     const double unit = square + DAL__WAVES * floor_of_z * floor_of_z;
     for (int k = 0; k < DAL__SHAPE_NOISES; k++) weigh_noise(wave, k, unit, &w);
     const double growing = w.powers + w.exponentials;
-    g.probability = fmin(growing / (growing + w.other + w.steady), limit(z));
-    if (jumps(z)) g.probability = fmax(g.probability, with_jump);
+    g.probability = limited(z, growing / (growing + w.other + w.steady));
     g.exponential = w.exponentials / growing;
     return g;
 }

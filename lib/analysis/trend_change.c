@@ -12,14 +12,13 @@
  *
  * i the inflation of residues that are correlated, e the error of the means or 3e-4 b.
  *
- *     level         0 lies in the interval, the drift that it admits in the late part is at most half
- *                   of b, and the change is visible beside what else the values do
- *     beside line   0 lies outside, the late part is long and straight, and the line is there before
- *                   the change, too */
+ *     level         0 lies in the interval, the drift that it admits in the late part is at most
+ *                   half of b, and the change is visible beside what else the values do
+ *     beside line   0 lies outside, the late part is long and straight, and the line is there
+ *                   before the change, too */
 #include "analysis/trend_change.h"
 #include "analysis/statistics.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { BINS = DAL__BINS, MAX_COLUMNS = 6, MIN_LATE = 6, LONG_LATE = 12, MIN_EARLY = 4, GOLDEN = 9 };
@@ -256,20 +255,6 @@ typedef struct outcome {
     double rate, margin;
 } outcome;
 
-static void locate(outcome *o)
-{
-    const double *const p = o->shape.p;
-    if (o->shape.kind == STEP) {
-        o->begins = p[0] - step_widths * p[1];
-        o->ends = p[0] + step_widths * p[1];
-    } else {
-        o->begins = 0.0;
-        o->ends = time_constants * (o->shape.kind == RELAXATION ? p[0] : fmax(p[0], p[1]));
-    }
-    o->early = (int)fmax(floor(o->begins * BINS - 0.5), 0.0);
-    o->late = (int)fmin(ceil(o->ends * BINS + 0.5), BINS);
-}
-
 static void measure_size(outcome *o)
 {
     column c[4], f[2];
@@ -322,21 +307,21 @@ static void measure_rate(outcome *o, const dal__bins *b)
     const double error = fmax(fmax(b->error, b->rounding), shape_misfit * fabs(o->size));
     const fit f = BINS - o->late >= MIN_LATE ? fit_line(o->y, o->late, BINS) : fit_beside_change(o);
     o->rate = f.last;
-    /* All bins know the correlation better than the late ones, unless the shape misses them. */
+    /* All bins know the correlation better than the late ones, where the shape fits. */
     o->margin = margin_of(&f, error, fmin(inflation_of(&f), o->inflation));
 }
 
 /* ---- what it is ---- */
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
+/* Of x, which is sorted. */
 static double median(double *x, int n)
 {
-    qsort(x, (size_t)n, sizeof *x, ascending);
+    for (int i = 1; i < n; i++)
+        for (int k = i; k > 0 && x[k] < x[k - 1]; k--) {
+            const double low = x[k];
+            x[k] = x[k - 1];
+            x[k - 1] = low;
+        }
     return n > 0 ? 0.5 * (x[(n - 1) / 2] + x[n / 2]) : 0.0;
 }
 
@@ -381,12 +366,6 @@ static double admitted_drift(const outcome *o)
     return (fabs(o->rate) + o->margin) * fmax(1.0 - o->ends, min_late) / o->shown;
 }
 
-static bool is_level(const outcome *o)
-{
-    return fabs(o->rate) <= o->margin && admitted_drift(o) <= admitted && residues_are_small(o) &&
-           blocks_are_alike(o);
-}
-
 static bool is_beside_line(const outcome *o)
 {
     const int late = BINS - o->late;
@@ -405,13 +384,21 @@ dal__change dal__trend_change(const dal__trend_series *s, const dal__bins *b,
                               const dal__evidence *e)
 {
     outcome o = {.series = s, .y = b->mean, .shape = likeliest(e)};
+    const double *const p = o.shape.p;
     refine_all(b->mean, &o.shape);
-    locate(&o);
+    const bool is_step = o.shape.kind == STEP;
+    o.begins = is_step ? p[0] - step_widths * p[1] : 0.0;
+    o.ends = is_step ? p[0] + step_widths * p[1] : time_constants * fmax(p[0], p[1]);
+    o.early = (int)fmax(floor(o.begins * BINS - 0.5), 0.0);
+    o.late = (int)fmin(ceil(o.ends * BINS + 0.5), BINS);
     measure_size(&o);
     measure_rate(&o, b);
-    const dal__change_result result = is_level(&o)         ? DAL__CHANGE_TO_LEVEL
-                                      : is_beside_line(&o) ? DAL__CHANGE_BESIDE_LINE
-                                                           : DAL__CHANGE_UNCLEAR;
-    const bool is_sure = BINS - o.late >= MIN_LATE && admitted_drift(&o) <= surely_admitted;
-    return (dal__change){result, is_sure, {o.rate - o.margin, o.rate, o.rate + o.margin}};
+    dal__change change = {.rate = {o.rate - o.margin, o.rate, o.rate + o.margin}};
+    if (fabs(o.rate) <= o.margin && admitted_drift(&o) <= admitted && residues_are_small(&o) &&
+        blocks_are_alike(&o))
+        change.result = DAL__CHANGE_TO_LEVEL;
+    else if (is_beside_line(&o))
+        change.result = DAL__CHANGE_BESIDE_LINE;
+    change.is_sure = BINS - o.late >= MIN_LATE && admitted_drift(&o) <= surely_admitted;
+    return change;
 }
