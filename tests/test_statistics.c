@@ -254,8 +254,7 @@ static void check_root_mean_squares(double (*of)(int), int count)
     for (int b = 0; b < s.blocks; b++) {
         const double rms = root_mean_square(of, b * n, n);
         CU_ASSERT_DOUBLE_EQUAL(s.block[b].rms / s.factor, rms, error);
-        if (of == straight)
-            CU_ASSERT_DOUBLE_EQUAL(rms, 0.25 * sqrt((n * n - 1.0) / 12.0), error);
+        if (of == straight) CU_ASSERT_DOUBLE_EQUAL(rms, 0.25 * sqrt((n * n - 1.0) / 12.0), error);
     }
 }
 

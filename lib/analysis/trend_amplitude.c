@@ -153,32 +153,24 @@ static double limited(const double *z, double probability)
     return last > top + min_jump ? fmax(probability, with_jump) : probability;
 }
 
-/* Whether z is a line, by its root mean square residue. */
-static int is_line(const double *wave, double square, double rise)
-{
-    double xx = 0.0, xy = 0.0;
-    for (int j = 0; j < DAL__WAVES; j++) {
-        const double x = dal__shape_wave[j][DAL__LINEAR_SHAPE];
-        xx += x * x;
-        xy += x * wave[j];
-    }
-    return square - xy * xy / xx < DAL__BINS * line_misfit * line_misfit * rise * rise;
-}
-
 dal__growth dal__trend_growth(const dal__trend_series *s)
 {
-    double z[DAL__BINS], wave[DAL__WAVES], square = 0.0;
+    double z[DAL__BINS], wave[DAL__WAVES], square = 0.0, xx = 0.0, xy = 0.0;
     weights w = {0};
     dal__growth g = {0};
     if (!fill_logarithms(s, z)) return g;
     g.rise = mean_of(z, DAL__BINS - EIGHTH, EIGHTH) - mean_of(z, 0, EIGHTH);
     if (g.rise <= 0.0) return g;
     for (int j = 0; j < DAL__WAVES; j++) {
+        const double x = dal__shape_wave[j][DAL__LINEAR_SHAPE];
         wave[j] = 0.0;
         for (int m = 0; m < DAL__BINS; m++) wave[j] += dal__cosine[j][m] * z[m];
         square += wave[j] * wave[j];
+        xx += x * x;
+        xy += x * wave[j];
     }
-    if (g.rise > many_folds && is_line(wave, square, g.rise)) {
+    const double misfit = sqrt(fmax(square - xy * xy / xx, 0.0) / DAL__BINS);
+    if (g.rise > many_folds && misfit < line_misfit * g.rise) {
         g.probability = by_line;
         g.exponential = 1.0;
         return g;

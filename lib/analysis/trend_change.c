@@ -227,20 +227,6 @@ static change_shape likeliest(const dal__evidence *e)
                           : (change_shape){RELAXATION, {s->parameter, 0.0}};
 }
 
-static void refine_all(const double *y, change_shape *s)
-{
-    for (int i = 0; i < 2; i++) {
-        const double p = s->p[0], q = s->p[1];
-        if (s->kind == STEP) {
-            refine(y, s, 0, p - 0.03, p + 0.03);
-            refine(y, s, 1, 0.4 * q, 2.0 * q);
-            continue;
-        }
-        refine(y, s, 0, 0.6 * p, 1.7 * p);
-        if (s->kind == TWO_RELAXATIONS) refine(y, s, 1, 0.6 * q, 1.7 * q);
-    }
-}
-
 /* ---- the line after it ---- */
 
 typedef struct outcome {
@@ -385,8 +371,13 @@ dal__change dal__trend_change(const dal__trend_series *s, const dal__bins *b,
 {
     outcome o = {.series = s, .y = b->mean, .shape = likeliest(e)};
     const double *const p = o.shape.p;
-    refine_all(b->mean, &o.shape);
     const bool is_step = o.shape.kind == STEP;
+    for (int i = 0; i < 2; i++) {
+        const double at = p[0], second = p[1];
+        refine(o.y, &o.shape, 0, is_step ? at - 0.03 : 0.6 * at, is_step ? at + 0.03 : 1.7 * at);
+        if (o.shape.kind == RELAXATION) continue;
+        refine(o.y, &o.shape, 1, (is_step ? 0.4 : 0.6) * second, (is_step ? 2.0 : 1.7) * second);
+    }
     o.begins = is_step ? p[0] - step_widths * p[1] : 0.0;
     o.ends = is_step ? p[0] + step_widths * p[1] : time_constants * fmax(p[0], p[1]);
     o.early = (int)fmax(floor(o.begins * BINS - 0.5), 0.0);
