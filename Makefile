@@ -15,6 +15,7 @@
 #     make check-dist       the tarball: it builds, passes a part of its tests and installs
 #     make check-kill       runs killed at KILLS random moments and resumed
 #     make check-bits       generated code against the interpreter, all cases, hours; BITS_JOBS at a time
+#     make trends           how often trends are right: SERIES (200) of each kind, length and noise
 #     make lint             the rules of the source, and the tools that check C and shell
 #     make fuzz             each fuzz target for FUZZ_SECONDS
 #     make mutants          whether the tests notice COUNT faults, drawn by SEED, planted in MODULE
@@ -284,6 +285,11 @@ BITS_BUILDS ?= 12
 check-bits: $(BUILD)/tests/suite
 	@seq $(BITS_JOBS) | xargs -P $(BITS_JOBS) -I{} $< --bits {}/$(BITS_JOBS)/$(BITS_BUILDS)
 
+# How often trends are right, for each kind of series, length and noise: some minutes.
+SERIES ?= 200
+trends: $(BUILD)/tests/suite
+	@$< --trends $(SERIES)
+
 # For the memory alone, and what crashes: valgrind's long double has 64 bits, its fused multiply-add
 # loses the sign of a zero, so that asserts on bits (exit status 1) count in the other runs.
 VALGRIND = valgrind -q --error-exitcode=99 --leak-check=full
@@ -356,7 +362,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all help check check-bits check-browser check-dist check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers gallery references lint mutants install uninstall clean FORCE mpi
+.PHONY: all help check check-bits check-browser check-dist check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers gallery references lint mutants trends install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

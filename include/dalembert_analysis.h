@@ -28,6 +28,7 @@ enum { DAL_STATISTICS_LAYOUT = 4 };
 typedef struct dal_statistics_block {
     double t;        /* the middle of its times */
     double x;        /* the mean */
+    double rms;      /* the root mean square of x less the mean */
     double min, max; /* the extreme values */
 } dal_statistics_block;
 
@@ -45,6 +46,7 @@ typedef struct dal_statistics {
     /* Of the open block: t at its first value, min, max, and the partial sums of x - first: value
      * k of the block belongs to sum k modulo DAL_PARTIAL_SUMS. */
     double open_t, open_min, open_max, open_sum[DAL_PARTIAL_SUMS];
+    double open_from, open_square[DAL_PARTIAL_SUMS]; /* its first x; ((x - it)/rough_unit)^2 */
     /* Sums and means are those of factor * (x - first): 1, or less after a value near the largest
      * double. */
     double factor;
@@ -53,7 +55,7 @@ typedef struct dal_statistics {
      * rough_steps of successive values while blocks are short; then rough[] of values
      * DAL_PARTIAL_SUMS apart, one pair in four, by partial sum; held[] is the first of a pair. */
     double rough_unit, rough_steps, rough[DAL_PARTIAL_SUMS], held[DAL_PARTIAL_SUMS];
-    /* x: factor * (mean - first); min and max are those of x itself. */
+    /* x: factor * (mean - first), rms: times factor; min and max are those of x itself. */
     dal_statistics_block block[DAL_STATISTICS_BLOCKS];
 } dal_statistics;
 
@@ -112,7 +114,7 @@ typedef enum dal_size_class {
     TREND(POWER, "power law")             /* it grows like another power of t */                   \
     TREND(EXPONENTIAL, "exponential")     /* it grows by equal factors in equal times */           \
     TREND(GROWING, "growing oscillation") /* about one value, with a growing amplitude */          \
-    TREND(UNDECIDED, "undecided")         /* too few values, or too slow an oscillation */         \
+    TREND(UNDECIDED, "undecided")         /* several of these, or none, explain the values */      \
     TREND(ABORTED, "aborted")             /* a value was not finite, or the run ended early */
 
 /* The trend of a quantity over a long time. */
@@ -144,19 +146,21 @@ const char *dal_conservation_text(dal_conservation conservation);
 
 /* Size and trend of a quantity x, with the numbers both are decided by. */
 typedef struct dal_trend {
-    long long count;            /* values */
-    double first, last;         /* x at the first and at the last */
-    double scale;               /* of the terms that x is made of, see dal_run_classify */
-    double max_abs, deviation;  /* max |x|, max |x - first| */
-    double amplitude;           /* half the range of x about the fitted line */
-    double rate;                /* slope of the line, per unit of time passed, |t - first t| */
-    double rate_low, rate_high; /* its 95 % interval */
+    long long count;           /* values */
+    double first, last;        /* x at the first and at the last */
+    double scale;              /* of the terms that x is made of, see dal_run_classify */
+    double max_abs, deviation; /* max |x|, max |x - first| */
+    double amplitude;          /* half the range of x about the fitted line */
+    double rate;               /* slope of the line, per unit of time passed, |t - first t|; where x
+                                   settles, after the change */
+    double rate_low, rate_high; /* its 95 % interval, of this run and not of a longer one */
     double max_drift;           /* max |drift| over the whole series in this interval */
     double exponent; /* of t: 1 linear, 1/2 random walk, 0 none and settles, fitted for a power law;
                          NaN where none can be stated */
     dal_size_class size;           /* of the deviation */
     dal_trend_class trend;         /* of x */
-    double confidence;             /* 0..1, of the trend */
+    double confidence;             /* 0..1, of the trend; NaN where it is undecided or aborted */
+    dal_trend_class likeliest;     /* where undecided: what has half of the evidence; else trend */
     dal_conservation conservation; /* unless DAL_CONSERVED, exponent, size, trend and confidence
                                       state nothing; see dal_run_classify */
 } dal_trend;

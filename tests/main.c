@@ -1,9 +1,11 @@
 /* main.c - runs the CUnit suites: all, or those named; --list names them, --quick cuts long runs;
- * --bits PART/PARTS compares generated code instead, see bits.h. */
+ * --bits PART/PARTS compares generated code instead, see bits.h; --trends [SERIES [KIND]] prints
+ * how often trends are right, see trend_matrix.h. */
 #include "bits.h"
 #include "fixtures.h"
 #include "quick.h"
 #include "skip.h"
+#include "trend_matrix.h"
 
 #include <CUnit/Basic.h>
 #include <stdio.h>
@@ -42,6 +44,7 @@ int main(int argc, char **argv)
 {
     if (argc == 2 && strcmp(argv[1], "--list") == 0) return list();
     if (argc == 3 && strcmp(argv[1], "--bits") == 0) return bits_part(argv[2]);
+    if (argc > 1 && strcmp(argv[1], "--trends") == 0) return trend_matrix_print(argc - 2, argv + 2);
     if (argc > 1 && strcmp(argv[1], "--quick") == 0) quick = 1, argc--, argv++;
     if (CU_initialize_registry() != CUE_SUCCESS) return 2;
     for (int i = 1; i < argc; i++)

@@ -1,6 +1,7 @@
 /* test_statistics.c - what is kept of a quantity along a run, against closed forms. */
 #include "analysis/statistics.h"
 #include <CUnit/CUnit.h>
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -189,9 +190,9 @@ static void test_packs(void)
     for (size_t i = 0; i < sizeof variants / sizeof variants[0]; i++) {
         if (!dal__machine_has(variants[i].set)) continue;
         double sum[DAL_PARTIAL_SUMS] = {1.0}, rough[DAL_PARTIAL_SUMS] = {0},
-               held[DAL_PARTIAL_SUMS] = {0};
-        double before[3][DAL_PARTIAL_SUMS];
-        dal__tally tally = {sum, 5.0, 5.0, rough, held, 0.5};
+               held[DAL_PARTIAL_SUMS] = {0}, square[DAL_PARTIAL_SUMS] = {0};
+        double before[4][DAL_PARTIAL_SUMS];
+        dal__tally tally = {sum, 5.0, 5.0, rough, held, 0.5, square, 3.0};
         CU_ASSERT(variants[i].add(&tally, 2.0, 3, 3, x));
         CU_ASSERT(tally.min == 0.0 && tally.max == 529.0);
         for (int k = 0; k < DAL_PARTIAL_SUMS; k++) {
@@ -199,11 +200,16 @@ static void test_packs(void)
             CU_ASSERT_EQUAL(sum[k], 3 * k * k + 48 * k + 320 - 6 + (k == 0));
             CU_ASSERT_EQUAL(rough[k], (8 * k + 96) * (8 * k + 96));
             CU_ASSERT_EQUAL(held[k], (k + 8) * (k + 8));
+            double expected = 0.0; /* of integers and quarters: exact */
+            for (int j = k; j < 3 * DAL_PARTIAL_SUMS; j += DAL_PARTIAL_SUMS)
+                expected += 0.25 * (j * j - 3.0) * (j * j - 3.0);
+            CU_ASSERT_EQUAL(square[k], expected);
         }
         const dal__tally tally_before = tally;
         memcpy(before[0], sum, sizeof sum);
         memcpy(before[1], rough, sizeof rough);
         memcpy(before[2], held, sizeof held);
+        memcpy(before[3], square, sizeof square);
         static const double bad[] = {NAN, -INFINITY, 1e300, -1e300};
         x[11] = bad[i % 4];
         CU_ASSERT(!variants[i].add(&tally, 2.0, 2, 7, x));
@@ -211,8 +217,55 @@ static void test_packs(void)
         CU_ASSERT(memcmp(sum, before[0], sizeof sum) == 0);
         CU_ASSERT(memcmp(rough, before[1], sizeof rough) == 0);
         CU_ASSERT(memcmp(held, before[2], sizeof held) == 0);
+        CU_ASSERT(memcmp(square, before[3], sizeof square) == 0);
         x[11] = 121.0;
     }
+}
+
+/* ---- root mean squares ---- */
+
+static double wavy(int k) { return 3.0 + sin(0.7 * k) + (k == 500 ? 40.0 : 0.0); }
+static double straight(int k) { return 2.0 - 0.25 * k; }
+static double enormous(int k) { return 0x1p1000 * (1.0 + 0.5 * sin(0.7 * k)); }
+
+/* That of values from .. from + n - 1 about their mean. */
+static double root_mean_square(double (*x)(int), int from, int n)
+{
+    double mean = 0.0, square = 0.0;
+    for (int k = from; k < from + n; k++) mean += x(k) / n;
+    for (int k = from; k < from + n; k++) {
+        const double d = (x(k) - mean) * 0x1p-500;
+        square += d * d / n;
+    }
+    return 0x1p500 * sqrt(square);
+}
+
+static void check_root_mean_squares(double (*of)(int), int count)
+{
+    dal_statistics s;
+    dal_statistics_start(&s, 1);
+    for (int k = 0; k < count; k++) {
+        const double x = of(k);
+        dal_statistics_add(&s, 1, k, &x);
+    }
+    /* A sum of terms of the size of x^2, of which the root is taken. */
+    const double error = 16.0 * DBL_EPSILON * fmax(fabs(s.min), fabs(s.max));
+    const int n = (int)s.length;
+    for (int b = 0; b < s.blocks; b++) {
+        const double rms = root_mean_square(of, b * n, n);
+        CU_ASSERT_DOUBLE_EQUAL(s.block[b].rms / s.factor, rms, error);
+        if (of == straight) CU_ASSERT_DOUBLE_EQUAL(rms, 0.25 * sqrt((n * n - 1.0) / 12.0), error);
+    }
+}
+
+/* Of each block as by its definition, however often blocks were merged. */
+static void test_root_mean_squares(void)
+{
+    static double (*const signals[])(int) = {wavy, straight, enormous};
+    static const int counts[] = {40, 500, 3000, 20000};
+    for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++)
+        for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++)
+            check_root_mean_squares(signals[i], counts[c]);
 }
 
 /* ---- roughness ---- */
@@ -343,7 +396,8 @@ static dal_trend_class trend_of(const dal_statistics *s)
 {
     dal_trend f;
     dal_statistics_classify(s, 1.0, 0, &f);
-    CU_ASSERT(f.confidence > 0.0 && f.confidence <= 1.0);
+    CU_ASSERT(f.trend < DAL_TREND_UNDECIDED ? f.confidence > 0.0 && f.confidence <= 1.0
+                                            : isnan(f.confidence));
     return f.trend;
 }
 
@@ -379,6 +433,7 @@ void suite_statistics(void)
     CU_add_test(suite, "blocks double", test_blocks_double);
     CU_add_test(suite, "many at a time", test_many);
     CU_add_test(suite, "packs", test_packs);
+    CU_add_test(suite, "root mean squares", test_root_mean_squares);
     CU_add_test(suite, "roughness", test_roughness);
     CU_add_test(suite, "numbers near the largest", test_large_numbers);
     CU_add_test(suite, "intervals of the rate", test_intervals);

@@ -2,7 +2,7 @@
  * whether a run fifty times as long contradicts the statement about a short one. */
 #include "fixtures.h"
 #include "quick.h"
-#include "series.h"
+#include "trend_matrix.h"
 #include <CUnit/CUnit.h>
 #include <dalembert.h>
 #include <math.h>

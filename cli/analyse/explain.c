@@ -166,7 +166,7 @@ static void write_run(FILE *out, const char *observable, const char *name, long 
     fprintf(out, ",run,%s,%lld,,", name, steps);
     analysis_put_cells(out, numbers, 4);
     fprintf(out, ",%s,%s,", cli_size_word(f), cli_trend_word(f));
-    if (f->conservation == DAL_CONSERVED) cli_put(out, f->confidence);
+    if (f->conservation == DAL_CONSERVED) cli_put_known(out, f->confidence);
     fputs(",\n", out);
 }
 

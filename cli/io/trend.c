@@ -22,7 +22,7 @@ void cli_put_values(FILE *out, const dal_trend *t)
         (i < ALWAYS ? cli_put : cli_put_known)(out, cells[i]);
     }
     fprintf(out, ",%s,%s,", cli_size_word(t), cli_trend_word(t));
-    if (is_stated(t)) cli_put(out, t->confidence);
+    if (is_stated(t)) cli_put_known(out, t->confidence);
 }
 
 void cli_put_trend(json_writer *w, const dal_trend *t)
@@ -50,7 +50,7 @@ const char *cli_trend_word(const dal_trend *trend)
 
 char *cli_trend_text(const dal_trend *trend, char *buffer, size_t size)
 {
-    char drift[64] = "", confidence[32] = "";
+    char drift[64] = "", confidence[48] = "";
     if (!is_stated(trend)) {
         snprintf(buffer, size, "%s", dal_conservation_text(trend->conservation));
         return buffer;
@@ -59,6 +59,8 @@ char *cli_trend_text(const dal_trend *trend, char *buffer, size_t size)
         snprintf(drift, sizeof drift, ", |drift| <= %.1e", trend->max_drift);
     if (trend->confidence < 0.995)
         snprintf(confidence, sizeof confidence, ", confidence %.2f", trend->confidence);
+    if (trend->trend == DAL_TREND_UNDECIDED && trend->likeliest != DAL_TREND_UNDECIDED)
+        snprintf(confidence, sizeof confidence, ", likeliest %s", dal_trend_text(trend->likeliest));
     snprintf(buffer, size, "%s%s%s", dal_trend_text(trend->trend), drift, confidence);
     return buffer;
 }

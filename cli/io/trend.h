@@ -19,6 +19,7 @@ void cli_put_trend(json_writer *writer, const dal_trend *trend);
 const char *cli_size_word(const dal_trend *trend);
 const char *cli_trend_word(const dal_trend *trend);
 /* The trend for a reader: "linear", "linear, confidence 0.87" (where it is no certainty),
+ * "undecided, likeliest linear",
  * "none, |drift| <= 1.2e-15" (the largest drift that the interval of the rate admits over the run),
  * or that the motion does not conserve the quantity.  Returns buffer. */
 char *cli_trend_text(const dal_trend *trend, char *buffer, size_t size);

@@ -12,8 +12,10 @@
  * resumes from the older.  Nothing in it is ever executed or followed.  A later format raises the
  * number and reads this one, too.  In DALCHK04 the state has no numbers of the choice of a solver,
  * which stand before the last one and the parameters; in DALCHK03 it ends before them.  Those of
- * systems with events or compared pivots are refused: what they have of these differs. */
+ * systems with events or compared pivots are refused: what they have of these differs.  Statistics
+ * of layout 3 have no root mean squares: earlier_statistics.c completes them. */
 #include "checkpoint.h"
+#include "earlier_statistics.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -123,10 +125,12 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
         body - h->state != h->statistics * h->words)
         return damaged(path, "its size is wrong");
     if (h->layout == DAL_STATISTICS_LAYOUT && h->words == STATISTICS_WORDS) return CLI_DONE;
-    return cli_fail(CLI_USAGE,
-                    "%s: its statistics have layout %llu; dalembert " DAL_VERSION
-                    " reads layout %d alone: resume with the version that manifest.json names",
-                    path, (unsigned long long)h->layout, DAL_STATISTICS_LAYOUT);
+    if (h->layout == STATISTICS_LAYOUT_3 && h->words == STATISTICS_WORDS_3) return CLI_DONE;
+    return cli_fail(
+        CLI_USAGE,
+        "%s: its statistics have layout %llu; dalembert " DAL_VERSION
+        " reads layouts %d and %d alone: resume with the version that manifest.json names",
+        path, (unsigned long long)h->layout, STATISTICS_LAYOUT_3, DAL_STATISTICS_LAYOUT);
 }
 
 /* Completes the state of an earlier format by that of the start, state[count]; a number of the run
@@ -160,16 +164,22 @@ static bool can_be_statistics(const dal_statistics *s)
     if (s->open_count != s->count % s->length || !(s->factor > 0.0 && s->factor <= 1.0))
         return false;
     for (; numbers < end; numbers++)
-        if (!isfinite(*numbers)) return false;
+        if (isnan(*numbers) || (isinf(*numbers) && numbers != &s->scale)) return false;
     return true;
 }
 
-static int read_statistics(const char *path, const unsigned char *bytes, int count,
-                           dal_statistics *statistics)
+static int read_statistics(const char *path, const checkpoint_header *header,
+                           const unsigned char *bytes, dal_statistics *statistics)
 {
-    for (int i = 0; i < count; i++) {
+    for (uint64_t i = 0; i < header->statistics; i++) {
         dal_statistics s;
-        copy_words(&s, bytes + (size_t)i * sizeof s, STATISTICS_WORDS);
+        uint64_t earlier[STATISTICS_WORDS_3];
+        if (header->layout == DAL_STATISTICS_LAYOUT) {
+            copy_words(&s, bytes + i * sizeof s, STATISTICS_WORDS);
+        } else {
+            copy_words(earlier, bytes + i * sizeof earlier, STATISTICS_WORDS_3);
+            statistics_from_layout_3(&s, earlier);
+        }
         if (!can_be_statistics(&s)) return damaged(path, "its statistics cannot be");
         statistics[i] = s;
     }
@@ -210,8 +220,8 @@ static int load_file(const run_directory *dir, const char *path, const trajector
     int status = check_bytes(path, bytes, length, dir->fingerprint, count, &header);
     if (status == CLI_DONE) status = writer_verify(writer, header.row, &header.sum);
     if (status == CLI_DONE)
-        status =
-            read_statistics(path, bytes + (HEADER_WORDS + header.state) * WORD, count, statistics);
+        status = read_statistics(path, &header, bytes + (HEADER_WORDS + header.state) * WORD,
+                                 statistics);
     if (status == CLI_DONE)
         status = restore(path, &header, bytes + HEADER_WORDS * WORD, position, run);
     free(bytes);

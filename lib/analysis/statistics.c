@@ -1,9 +1,10 @@
 /* statistics.c - a quantity x(t) followed at every step in constant memory.
  *
- * The series is cut into blocks of equal length, of which mean, min and max are kept.  When all
- * DAL_STATISTICS_BLOCKS are full, neighbours are merged and the length doubles, so that between one
- * half and all of them are in use after any number of values: the method of batch means (Flyvbjerg,
- * Petersen 1989, DOI 10.1063/1.457480; Law, Kelton, Simulation Modeling and Analysis, 9.5).
+ * The series is cut into blocks of equal length, of which mean, root mean square about it, min and
+ * max are kept.  When all DAL_STATISTICS_BLOCKS are full, neighbours are merged and the length
+ * doubles, so that between one half and all of them are in use after any number of values: the
+ * method of batch means (Flyvbjerg, Petersen 1989, DOI 10.1063/1.457480; Law, Kelton, Simulation
+ * Modeling and Analysis, 9.5).
  *
  * The roughness of the series distinguishes a sum of roundings from a smooth change.  If its steps
  * are independent, E (x_(k+l) - x_k)^2 = l sigma^2: the sum of squared steps n sigma^2 is that of
@@ -18,22 +19,32 @@ void dal_statistics_start(dal_statistics *s, int count)
     for (int i = 0; s && i < count; i++) s[i] = (dal_statistics){.length = 1, .factor = 1.0};
 }
 
+/* rms^2 = (rms_a^2 + rms_b^2)/2 + ((x_a - x_b)/2)^2, in units of the largest. */
+static double joint_rms(const dal_statistics_block *a, const dal_statistics_block *b)
+{
+    const double half = fabs(0.5 * a->x - 0.5 * b->x), unit = fmax(half, fmax(a->rms, b->rms));
+    if (!(unit > 0.0)) return 0.0;
+    const double x = a->rms / unit, y = b->rms / unit, z = half / unit;
+    return unit * sqrt(0.5 * (x * x + y * y) + z * z);
+}
+
 /* Joins neighbours: half as many blocks, twice as long. */
 static void halve(dal_statistics *s)
 {
     for (int i = 0; i < DAL_STATISTICS_BLOCKS / 2; i++) {
         const dal_statistics_block *a = &s->block[2 * i], *b = a + 1;
-        s->block[i] = (dal_statistics_block){0.5 * (a->t + b->t), 0.5 * (a->x + b->x),
-                                             b->min < a->min ? b->min : a->min,
-                                             b->max > a->max ? b->max : a->max};
+        s->block[i] = (dal_statistics_block){.t = 0.5 * (a->t + b->t),
+                                             .x = 0.5 * (a->x + b->x),
+                                             .rms = joint_rms(a, b),
+                                             .min = b->min < a->min ? b->min : a->min,
+                                             .max = b->max > a->max ? b->max : a->max};
     }
     s->blocks = DAL_STATISTICS_BLOCKS / 2;
     s->length *= 2;
 }
 
-static double open_sum(const dal_statistics *s)
+static double sum_of(const double *a /* [DAL_PARTIAL_SUMS] */)
 {
-    const double *a = s->open_sum;
     return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
 }
 
@@ -64,10 +75,24 @@ static double per_rough_unit(const dal_statistics *s)
 
 /* ---- one value ---- */
 
+/* Of the open block: rms^2/unit^2 = <((x - from)/unit)^2> - <(x - from)/unit>^2. */
+static double open_rms(const dal_statistics *s, double mean)
+{
+    const double unit = s->rough_unit > 0.0 ? s->rough_unit : 1.0;
+    const double from = s->open_from * s->factor - s->first * s->factor;
+    const double d = (mean - from) / unit / s->factor;
+    const double square = sum_of(s->open_square) / (double)s->length - d * d;
+    return square > 0.0 ? s->factor * unit * sqrt(square) : 0.0;
+}
+
 static void close_block(dal_statistics *s, double t)
 {
-    s->block[s->blocks++] = (dal_statistics_block){
-        0.5 * (s->open_t + t), open_sum(s) / (double)s->length, s->open_min, s->open_max};
+    const double mean = sum_of(s->open_sum) / (double)s->length;
+    s->block[s->blocks++] = (dal_statistics_block){.t = 0.5 * (s->open_t + t),
+                                                   .x = mean,
+                                                   .rms = open_rms(s, mean),
+                                                   .min = s->open_min,
+                                                   .max = s->open_max};
     s->min = s->open_min < s->min ? s->open_min : s->min;
     s->max = s->open_max > s->max ? s->open_max : s->max;
     s->open_count = 0;
@@ -83,7 +108,9 @@ static void open_block(dal_statistics *s, double t, double x)
     }
     s->open_t = t;
     s->open_min = s->open_max = x;
+    s->open_from = x;
     memset(s->open_sum, 0, sizeof s->open_sum);
+    memset(s->open_square, 0, sizeof s->open_square);
 }
 
 /* Counts values up to x at t. */
@@ -96,7 +123,7 @@ static void move_on(dal_statistics *s, int values, double t, double x)
     if (s->open_count == s->length) close_block(s, t);
 }
 
-static double rough_square(const dal_statistics *s, double x, double from)
+static double square_of(const dal_statistics *s, double x, double from)
 {
     const double unit = per_rough_unit(s);
     const double d = s->factor < 1.0 ? x * unit - from * unit : (x - from) * unit;
@@ -111,11 +138,11 @@ static void add_roughness(dal_statistics *s, double x)
     const int part = (int)(s->open_count % DAL_PARTIAL_SUMS);
     const int phase = (int)(s->open_count / DAL_PARTIAL_SUMS % DAL__CYCLE);
     if (is_short(s))
-        s->rough_steps += s->count > 0 ? rough_square(s, x, s->last) : 0.0;
+        s->rough_steps += s->count > 0 ? square_of(s, x, s->last) : 0.0;
     else if (phase == 0)
         s->held[part] = x;
     else if (phase == 1)
-        s->rough[part] += rough_square(s, x, s->held[part]);
+        s->rough[part] += square_of(s, x, s->held[part]);
 }
 
 static void add_one(dal_statistics *s, double t, double x)
@@ -127,11 +154,16 @@ static void add_one(dal_statistics *s, double t, double x)
     if (fabs(x) > DAL__PLAIN_LIMIT && s->factor == 1.0) {
         s->factor = small_factor;
         for (int i = 0; i < DAL_PARTIAL_SUMS; i++) s->open_sum[i] *= small_factor;
-        for (int i = 0; i < DAL_STATISTICS_BLOCKS; i++) s->block[i].x *= small_factor;
+        for (int i = 0; i < DAL_STATISTICS_BLOCKS; i++) {
+            s->block[i].x *= small_factor;
+            s->block[i].rms *= small_factor;
+        }
     }
     if (s->open_count == 0) open_block(s, t, x);
     add_roughness(s, x);
-    s->open_sum[s->open_count % DAL_PARTIAL_SUMS] += x * s->factor - s->first * s->factor;
+    const int part = (int)(s->open_count % DAL_PARTIAL_SUMS);
+    s->open_sum[part] += x * s->factor - s->first * s->factor;
+    s->open_square[part] += square_of(s, x, s->open_from);
     s->open_min = x < s->open_min ? x : s->open_min;
     s->open_max = x > s->open_max ? x : s->open_max;
     move_on(s, 1, t, x);
@@ -178,8 +210,8 @@ static bool add_packs(dal_statistics *s, tally_packs *add, int packs, const doub
     const int values = packs * DAL_PARTIAL_SUMS;
     if (!(fabs(x[0]) <= DAL__PLAIN_LIMIT)) return false;
     if (s->open_count == 0) open_block(s, t[0], x[0]);
-    dal__tally tally = {s->open_sum, s->open_min, s->open_max,
-                        s->rough,    s->held,     per_rough_unit(s)};
+    dal__tally tally = {s->open_sum, s->open_min,       s->open_max,    s->rough,
+                        s->held,     per_rough_unit(s), s->open_square, s->open_from};
     const int phase = (int)(s->open_count / DAL_PARTIAL_SUMS % DAL__CYCLE);
     if (!add(&tally, s->first, phase, packs, x)) return false;
     s->open_min = tally.min;
@@ -243,6 +275,7 @@ int dal__statistics_blocks(const dal_statistics *s, dal_statistics_block *block)
     for (int i = 0; i < n; i++) {
         block[i].t = fabs(block[i].t - s->from); /* a run may go backwards in t */
         block[i].x /= s->factor;
+        block[i].rms /= s->factor;
         block[i].min -= s->first;
         block[i].max -= s->first;
     }
@@ -329,7 +362,7 @@ void dal_statistics_mean(const dal_statistics *s, dal_average *average)
         return;
     }
     const int n = dal__statistics_blocks(s, block);
-    double sum = s->open_count > 0 ? open_sum(s) / s->factor : 0.0;
+    double sum = s->open_count > 0 ? sum_of(s->open_sum) / s->factor : 0.0;
     for (int i = 0; i < n; i++) sum += block[i].x * (double)s->length;
     const double mean = s->lost || s->count == 0 ? NAN : s->first + sum / (double)s->count;
     line level = fit_line(block, n);

@@ -8,10 +8,12 @@
 enum { DAL__CYCLE = 4 }; /* packs: in each, one difference of packs is squared */
 
 /* Of the open block: the parts of the sum of x - first, the range of x, the parts of the squares of
- * (x - held) times per_unit, and the pack that is held: the first of a cycle. */
+ * (x - held) times per_unit, the pack that is held: the first of a cycle; and the parts of the
+ * squares of (x - from) times per_unit. */
 typedef struct dal__tally {
     double *sum /* [DAL_PARTIAL_SUMS] */, min, max;
     double *rough, *held /* [DAL_PARTIAL_SUMS] */, per_unit;
+    double *square /* [DAL_PARTIAL_SUMS] */, from;
 } dal__tally;
 
 /* A difference beyond this many units counts as this many, so that no square overflows. */

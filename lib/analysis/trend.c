@@ -5,12 +5,18 @@
  * that weight is large enough and the other numbers agree with it; else the trend is undecided:
  *
  *     none           0 lies in the interval of the rate, and the largest drift that noise without
- *                    a trend admits is small beside the spread of x; the amplitude does not double
- *     settles        the change is large beside the spread; else it is none
+ *                    a trend admits is below the spread of x: surely where it is small beside it;
+ *                    the amplitude does not grow
+ *     settles        the change is large beside the spread (else it is none), and what follows it
+ *                    is a level (trend_change.c): a line there beside the change is linear, and
+ *                    anything else undecided
  *     random walk    a memory of T/9 explains it less well, and 0 lies well inside the interval
- *     linear         0 lies outside it
+ *     linear         0 lies outside it, and the line does not bend
  *     power law      the exponent is known to 0.11, and is not 1
- *     growing        the amplitude grows (see there), and no drift is certain beside it
+ *     exponential    surely where it rises before the last tenth
+ *     growing        the amplitude grows (trend_amplitude.c), and no drift is certain beside it
+ *
+ * A trend that is likely, but that another one resembles, has a confidence below 0.9.
  *
  *     dal_statistics
  *       -> dal__trend_series   means of blocks in units of the range; tones are removed
@@ -20,125 +26,45 @@
  *       -> dal_trend           the decision
  *
  * Noise is known to be white where differences of the means of neighbouring blocks are as small as
- * white noise of the spread within the blocks makes them. */
+ * white noise of the deviation within the blocks makes them; for the interval of a rate the slowest
+ * waves must be as small, too. */
 #include "analysis/statistics.h"
-#include "analysis/trend_evidence.h"
+#include "analysis/trend_amplitude.h"
+#include "analysis/trend_change.h"
 #include "core/words.h"
 #include <float.h>
 #include <math.h>
 
-enum { MIN_VALUES = 48, MIN_LENGTH = 8 };
+enum { MIN_VALUES = 48, MIN_LENGTH = 8, LONG_BLOCKS = 32 };
 
 static const double tone_price = 0.8 * 15.0; /* nats */
 static const double interval_level = 0.966;  /* covers 95 %: trend_evidence.c */
-static const double white_odds = 20.0, white_low = 0.55, white_high = 1.7;
+static const double white_odds = 20.0, white_low = 0.55, white_high = 1.6;
+/* Of white noise in the rate, where its slowest waves are white, too; with short blocks. */
+static const double white_rate = 60.0, few_white_rate = 7.5, white_slow = 1.9, whitish_slow = 2.6;
 static const double memory_ratio = 3.0; /* of differences: more, and there is memory */
 
 /* The smallest sufficient posteriors. */
-static const double enough = 0.75, enough_for_none = 0.65, enough_for_walk = 0.58;
+static const double enough = 0.75, enough_for_none = 0.65, enough_beside_memory = 0.55,
+                    enough_for_walk = 0.58;
 /* Of a walk over noise with memory T/9, in nats: only the slowest waves distinguish them. */
 static const double walk_evidence = 1.8;
-static const double certain_line = 0.9, certain_walk = 0.9;
-/* Drifts that count as none, in units of the spread: beside white noise and tones, beside noise
- * with memory, and beside any noise. */
-static const double small_drift = 0.3, small_beside_memory = 1.0, tiny_drift = 0.17;
+static const double certain_line = 0.5, certain_walk = 0.9;
+/* Drifts that count as none, in units of the spread: surely, and at most; beside white noise and
+ * tones, beside noise with memory, and beside any noise. */
+static const double small_drift = 0.15, large_drift = 0.75;
+static const double small_beside_memory = 1.0, large_beside_memory = 2.5, tiny_drift = 0.17;
 static const double settled_change = 0.3; /* of the spread */
 static const double well_inside = 0.9;    /* the middle of an interval, in half widths */
 static const double power_error = 0.11, power_span = 0.2;
-static const double not_sure = 0.9; /* the confidence where weights do not give one */
-
-/* ---- the growth of an amplitude ---- */
-
-/* a_i is the range of x over five blocks about block i; z = log a.  The amplitude grows when z
- * rises by more than 1 and
- *
- *     z = c + p log s    or    z = c + k s,     s = t/T,
- *
- * leaves residues whose root mean square is a small part of that rise.  Noise may cover the
- * beginning: if the whole does not fit, the part well above the beginning is tried.  Beats of two
- * tones rise by as much, but in other shapes.  Values to one side whose z rises in this way by many
- * e-folds explode: an exponential over more e-folds than the shapes of trend_tables.h have, or a
- * modulated one, is found in z alone. */
-/* What the amplitude of an oscillation does: LARGER by a factor of 2 and more, in no known way.
- * EXPLODES: no oscillation, but values to one side that grow by equal factors in equal times. */
-typedef enum growth { STEADY, LARGER, EXPLODES, GROWS, GROWS_FAST } growth;
-
-enum { NEAR = 2, MIN_POINTS = 10 };
-
-static const double doubled = 0.7, grown = 1.0; /* rises of z */
-static const double misfit = 0.035;             /* of the rise */
-static const double clear_of_noise = 1.5;       /* rise of z above the beginning */
-
-static const double exploded = 8.0;   /* rise of z */
+/* Of the slope of the second half: the largest half width of its interval beside sure growth. */
+static const double clear_growth = 0.4;
+static const double not_sure = 0.89; /* the greatest confidence of what is likely, never sure */
+static const double steady = 0.3;    /* the probability of growth of what does not grow */
+/* A bend of a line, in its margins and in rates. */
+static const double clear_bend = 1.2, small_bend = 0.15, large_bend = 0.4;
+static const double exploded = 8.0;   /* rise of the logarithm of an amplitude */
 static const double one_sided = 0.05; /* the nearer end over the farther one */
-
-typedef struct curve {
-    int count;
-    double s[DAL_STATISTICS_BLOCKS], log_s[DAL_STATISTICS_BLOCKS], z[DAL_STATISTICS_BLOCKS];
-} curve;
-
-static bool read_curve(const dal__trend_series *x, curve *c)
-{
-    c->count = 0;
-    for (int i = NEAR; i < x->count - NEAR; i++) {
-        double low = INFINITY, high = -INFINITY;
-        for (int k = i - NEAR; k <= i + NEAR; k++) {
-            low = fmin(low, x->min[k]);
-            high = fmax(high, x->max[k]);
-        }
-        if (!(high > low)) return false;
-        c->s[c->count] = (i + 0.5) / x->count;
-        c->log_s[c->count] = log(c->s[c->count]);
-        c->z[c->count++] = log(high - low);
-    }
-    return true;
-}
-
-/* The root mean square of the residues of z about a rising line through (u, z). */
-static double residue(const double *u, const double *z, int n)
-{
-    double mu = 0.0, mz = 0.0, uu = 0.0, uz = 0.0, zz = 0.0;
-    for (int i = 0; i < n; i++) {
-        mu += u[i] / n;
-        mz += z[i] / n;
-    }
-    for (int i = 0; i < n; i++) {
-        uu += (u[i] - mu) * (u[i] - mu);
-        uz += (u[i] - mu) * (z[i] - mz);
-        zz += (z[i] - mz) * (z[i] - mz);
-    }
-    return uz > 0.0 ? sqrt(fmax(zz - uz * uz / uu, 0.0) / n) : INFINITY;
-}
-
-/* From point `from` on. */
-static growth growth_from(const curve *c, int from)
-{
-    const int n = c->count - from;
-    if (n < MIN_POINTS) return LARGER;
-    const double rise = c->z[c->count - 1] - c->z[from];
-    const double by_power = residue(c->log_s + from, c->z + from, n);
-    const double by_rate = residue(c->s + from, c->z + from, n);
-    if (rise < grown || fmin(by_power, by_rate) > misfit * rise) return LARGER;
-    return by_rate < by_power ? GROWS_FAST : GROWS;
-}
-
-static growth growth_of(const dal__trend_series *x)
-{
-    curve c;
-    double rise = 0.0;
-    if (!read_curve(x, &c)) return STEADY;
-    const int eighth = x->count / 8;
-    for (int i = 0; i < eighth; i++) rise += (c.z[c.count - 1 - i] - c.z[i]) / eighth;
-    if (rise < doubled) return STEADY;
-    if (rise < grown) return LARGER;
-    const growth whole = growth_from(&c, 0);
-    const double below = -x->low, above = x->high;
-    const bool is_one_sided = fmin(below, above) < one_sided * fmax(below, above);
-    if (whole == GROWS_FAST && rise > exploded && is_one_sided) return EXPLODES;
-    int from = 0;
-    while (from < c.count && c.z[from] < c.z[0] + clear_of_noise) from++;
-    return whole != LARGER ? whole : growth_from(&c, from);
-}
 
 /* ---- the description of a series ---- */
 
@@ -148,43 +74,58 @@ typedef struct description {
     dal__bins bins;
     dal__evidence evidence;
     dal__interval drift; /* over the whole series */
-    growth growth;
-    double spread;      /* of x: deviation within and between bins */
-    double small_drift; /* that counts as none */
-    double wandering;   /* max distance of a mean of bins from the mean of all, with tones */
+    dal__growth growth;
+    double spread;    /* of x: deviation within and between bins */
+    bool has_memory;  /* differences show it */
+    double wandering; /* max distance of a mean of bins from the mean of all, with tones */
 } description;
 
-/* The deviation within blocks of n values from their mean range: for n normal numbers it grows like
- * sqrt(2 log n); for an oscillation, the same in all blocks, it is 2 sqrt(2) deviations. */
-static double within_blocks(const dal__trend_series *s)
-{
-    const double normal = 0.1 + 1.6 * sqrt(2.0 * log((double)s->length)), wave = 2.0 * sqrt(2.0);
-    return s->block_range / (s->is_steady ? wave : fmax(wave, normal));
-}
-
-/* The mean square of differences of neighbouring means, in units of that of white noise. */
+/* The mean square of differences of neighbouring means about their mean, in units of that of white
+ * noise with the deviation within blocks. */
 static double difference_ratio(const dal__trend_series *s)
 {
-    const double within = within_blocks(s);
+    const double mean = (s->mean[s->count - 1] - s->mean[0]) / (s->count - 1);
     double square = 0.0;
     for (int i = 1; i < s->count; i++) {
-        const double d = s->mean[i] - s->mean[i - 1];
+        const double d = s->mean[i] - s->mean[i - 1] - mean;
         square += d * d;
     }
-    return square / (2.0 * (s->count - 1)) * (double)s->length / (within * within);
+    return square / (2.0 * (s->count - 1)) * (double)s->length / (s->within * s->within);
 }
 
-/* Weighs the series as it is, and without tones where it has some. */
-static void describe(description *p)
+/* The mean square of the slowest waves less a line, in units of white noise. */
+static double slow_ratio(const dal__trend_series *s, const dal__bins *b)
 {
-    const double ratio = difference_ratio(&p->series);
-    const bool long_enough = p->series.length >= MIN_LENGTH;
-    const double odds = long_enough && ratio > white_low && ratio < white_high ? white_odds : 1.0;
-    dal__trend_series bare = p->series;
-    dal__bins bins;
-    dal__evidence evidence;
-    dal__trend_bin(&p->series, &p->bins);
-    const double within = within_blocks(&p->series);
+    enum { SLOW = 8 };
+    double xx = 0.0, xy = 0.0, square = 0.0;
+    for (int j = 0; j < DAL__WAVES; j++) {
+        const double x = dal__shape_wave[j][DAL__LINEAR_SHAPE];
+        xx += x * x;
+        xy += x * b->wave[j];
+    }
+    for (int j = 0; j < SLOW; j++) {
+        const double r = b->wave[j] - xy / xx * dal__shape_wave[j][DAL__LINEAR_SHAPE];
+        square += r * r / SLOW;
+    }
+    return square / (s->within * s->within) * (double)s->length * s->count / DAL__BINS;
+}
+
+static dal__white_odds odds_of(const description *p, double ratio)
+{
+    dal__white_odds odds = {1.0, 1.0};
+    if (p->series.length < MIN_LENGTH || ratio < white_low || ratio > white_high) return odds;
+    odds.trend = white_odds;
+    const double slow = slow_ratio(&p->series, &p->bins);
+    if (slow < white_slow)
+        odds.rate = p->series.length < LONG_BLOCKS ? few_white_rate : white_rate;
+    else if (slow < whitish_slow)
+        odds.rate = few_white_rate;
+    return odds;
+}
+
+static void measure_spread(description *p)
+{
+    const double within = p->series.within;
     double mean = 0.0, square = 0.0;
     for (int m = 0; m < DAL__BINS; m++) mean += p->bins.mean[m] / DAL__BINS;
     for (int m = 0; m < DAL__BINS; m++) {
@@ -193,9 +134,22 @@ static void describe(description *p)
         p->wandering = fmax(p->wandering, fabs(d));
     }
     p->spread = sqrt(within * within + square);
+}
+
+/* Weighs the series as it is, and without tones where it has some. */
+static void describe(description *p)
+{
+    const double ratio = difference_ratio(&p->series);
+    dal__trend_series bare = p->series;
+    dal__bins bins;
+    dal__evidence evidence;
+    dal__trend_bin(&p->series, &p->bins);
+    measure_spread(p);
+    const dal__white_odds odds = odds_of(p, ratio);
+    if (odds.rate > 1.0) p->bins.error = 0.0; /* white noise has no waves to leave */
     dal__trend_weigh(&p->bins, odds, &p->evidence);
-    p->growth = growth_of(&p->series);
-    p->small_drift = ratio > memory_ratio ? small_beside_memory : small_drift;
+    p->growth = dal__trend_growth(&p->series);
+    p->has_memory = ratio > memory_ratio;
     dal__trend_remove_tones(&bare);
     if (bare.tones > 0) {
         dal__trend_bin(&bare, &bins);
@@ -203,7 +157,7 @@ static void describe(description *p)
         if (evidence.log_total - tone_price * bare.tones > p->evidence.log_total) {
             p->bins = bins;
             p->evidence = evidence;
-            p->small_drift = small_drift;
+            p->has_memory = false;
         }
     }
     p->drift = dal__trend_drift(&p->evidence, interval_level, false);
@@ -250,19 +204,46 @@ static double exponent_of(const dal__evidence *e)
 typedef struct decision {
     dal_trend_class trend;
     double confidence, exponent;
+    dal_trend_class likeliest; /* where it is undecided */
+    dal__interval drift;
 } decision;
 
-static bool has_no_drift(const description *p)
-{
-    return p->drift.low <= 0.0 && p->drift.high >= 0.0;
-}
+static bool contains_zero(const dal__interval *i) { return i->low <= 0.0 && i->high >= 0.0; }
 
 static double max_abs(const dal__interval *i) { return fmax(fabs(i->low), fabs(i->high)); }
 
-static bool admits_none(const description *p)
+static bool is_steady(const description *p) { return p->growth.probability < steady; }
+
+static decision undecided(const description *p)
+{
+    return (decision){DAL_TREND_UNDECIDED, NAN, NAN, DAL_TREND_UNDECIDED, p->drift};
+}
+
+static decision decided(const description *p, dal_trend_class trend, double confidence,
+                        double exponent)
+{
+    return (decision){trend, confidence, exponent, trend, p->drift};
+}
+
+/* Where only the weight is too small. */
+static decision not_enough(const description *p, dal_trend_class likeliest, double weight)
+{
+    decision d = undecided(p);
+    if (weight >= 0.5) d.likeliest = likeliest;
+    return d;
+}
+
+/* No drift that noise without a trend admits is large. */
+static decision decide_none(const description *p, double weight)
 {
     const dal__interval drift = dal__trend_drift(&p->evidence, 0.95, true);
-    return p->growth == STEADY && has_no_drift(p) && max_abs(&drift) < p->small_drift * p->spread;
+    const double admitted = max_abs(&drift) / p->spread;
+    const double small = p->has_memory ? small_beside_memory : small_drift;
+    const double large = p->has_memory ? large_beside_memory : large_drift;
+    const double least = p->has_memory ? enough_beside_memory : enough_for_none;
+    if (!is_steady(p) || !contains_zero(&p->drift) || admitted > large) return undecided(p);
+    if (weight < least) return not_enough(p, DAL_TREND_NONE, weight);
+    return decided(p, DAL_TREND_NONE, admitted < small ? weight : fmin(weight, not_sure), 0.0);
 }
 
 /* Whatever the noise is, it admits next to no drift. */
@@ -270,49 +251,113 @@ static bool is_tiny(const description *p, dal__meaning likeliest, double weight)
 {
     return (likeliest == DAL__MEANS_OTHER || likeliest == DAL__MEANS_NONE ||
             (likeliest == DAL__MEANS_WALK && weight < certain_walk)) &&
-           p->growth == STEADY && has_no_drift(p) && max_abs(&p->drift) < tiny_drift * p->spread;
+           is_steady(p) && contains_zero(&p->drift) && max_abs(&p->drift) < tiny_drift * p->spread;
+}
+
+/* A change, by the line after it. */
+static decision decide_change(const description *p, double weight)
+{
+    if (weight < enough) return not_enough(p, DAL_TREND_SETTLES, weight);
+    const dal__change change = dal__trend_change(&p->series, &p->bins, &p->evidence);
+    decision d = undecided(p);
+    if (change.result == DAL__CHANGE_TO_LEVEL)
+        d = decided(p, DAL_TREND_SETTLES, change.is_sure ? weight : fmin(weight, not_sure), 0.0);
+    if (change.result == DAL__CHANGE_BESIDE_LINE)
+        d = decided(p, DAL_TREND_LINEAR, fmin(weight, not_sure), 1.0);
+    if (change.result != DAL__CHANGE_UNCLEAR) d.drift = change.rate;
+    return d;
+}
+
+/* A line, unless it bends. */
+static decision decide_line(const description *p, double weight)
+{
+    const dal__interval bend = dal__trend_bend(&p->bins);
+    const double rate = fabs(p->drift.middle), margin = bend.high - bend.middle;
+    if (contains_zero(&p->drift)) return undecided(p);
+    if (weight < enough) return not_enough(p, DAL_TREND_LINEAR, weight);
+    if (fabs(bend.middle) > clear_bend * margin && fabs(bend.middle) > small_bend * rate)
+        return undecided(p);
+    const bool is_sure = max_abs(&bend) <= large_bend * rate;
+    return decided(p, DAL_TREND_LINEAR, is_sure ? weight : fmin(weight, not_sure), 1.0);
+}
+
+/* A rise in the last tenth alone may be anything. */
+static bool rises_before_the_end(const dal__bins *b)
+{
+    enum { HALF = DAL__BINS / 2, LATE = 26, COUNT = 3 };
+    double mean = 0.0, square = 0.0, late = 0.0;
+    for (int m = 0; m < HALF; m++) mean += b->mean[m] / HALF;
+    for (int m = 0; m < HALF; m++) square += (b->mean[m] - mean) * (b->mean[m] - mean);
+    for (int m = LATE; m < LATE + COUNT; m++) late += b->mean[m] / COUNT;
+    return fabs(late - mean) > 3.0 * sqrt(square / (HALF - 1) / COUNT);
+}
+
+static decision decide_growth(const description *p, dal__meaning best, double weight)
+{
+    const double *const weights = p->evidence.meaning;
+    switch (best) {
+    case DAL__MEANS_POWER: {
+        const double exponent = exponent_of(&p->evidence);
+        if (weight < enough) return not_enough(p, DAL_TREND_POWER, weight);
+        if (isnan(exponent)) return undecided(p);
+        /* What hardly grows any more may also have come to a level. */
+        const dal__interval late = dal__trend_second_half(&p->bins);
+        const bool grows = late.high - late.middle < clear_growth * fabs(late.middle);
+        return decided(p, DAL_TREND_POWER, grows ? weight : fmin(weight, not_sure), exponent);
+    }
+    case DAL__MEANS_EXPONENTIAL:
+        if (weight < enough) return not_enough(p, DAL_TREND_EXPONENTIAL, weight);
+        return decided(p, DAL_TREND_EXPONENTIAL,
+                       rises_before_the_end(&p->bins) ? weight : fmin(weight, not_sure), NAN);
+    default:
+        return not_enough(p, DAL_TREND_UNDECIDED, weights[best]);
+    }
+}
+
+/* Values to one side whose amplitude grows by many e-folds: an exponential over more of them than
+ * the shapes of trend_tables.h have, or a modulated one. */
+static bool explodes(const description *p)
+{
+    const double below = -p->series.low, above = p->series.high;
+    const double half_way = fabs(p->bins.mean[DAL__BINS / 2] - p->bins.mean[0]);
+    return p->growth.probability >= enough && p->growth.rise > exploded &&
+           p->growth.exponential > 0.5 &&
+           fmax(half_way, fmin(below, above)) < one_sided * fmax(below, above);
 }
 
 static decision decide(const description *p)
 {
     const double *const weight = p->evidence.meaning;
-    const double middle = fabs(p->drift.low + p->drift.high), width = p->drift.high - p->drift.low;
     dal__meaning best = 0;
     for (dal__meaning i = 1; i < DAL__MEANINGS; i++)
         if (weight[i] > weight[best]) best = i;
     const double w = weight[best];
-    const decision undecided = {DAL_TREND_UNDECIDED, w, NAN};
-    if (p->growth == EXPLODES && best == DAL__MEANS_OTHER)
-        return (decision){DAL_TREND_EXPONENTIAL, not_sure, NAN};
-    const bool drifts = best == DAL__MEANS_LINEAR && w > certain_line && !has_no_drift(p);
-    if (p->growth >= GROWS && !drifts && p->wandering < 0.5 * p->bins.half_range)
-        return (decision){DAL_TREND_GROWING, not_sure, NAN};
+    if (best == DAL__MEANS_OTHER && explodes(p))
+        return decided(p, DAL_TREND_EXPONENTIAL, not_sure, NAN);
+    const bool drifts = best == DAL__MEANS_LINEAR && w > certain_line && !contains_zero(&p->drift);
+    if (p->growth.probability >= enough && !drifts && p->wandering < 0.5 * p->bins.half_range)
+        return decided(p, DAL_TREND_GROWING, p->growth.probability, NAN);
     if (best == DAL__MEANS_SETTLES && p->bins.range < settled_change * p->spread)
         best = DAL__MEANS_NONE;
     if (is_tiny(p, best, w))
-        return (decision){DAL_TREND_NONE, fmin(fmax(w, enough), not_sure), 0.0};
+        return decided(p, DAL_TREND_NONE, fmin(fmax(w, enough), not_sure), 0.0);
     switch (best) {
     case DAL__MEANS_NONE:
-        return w >= enough_for_none && admits_none(p) ? (decision){DAL_TREND_NONE, w, 0.0}
-                                                      : undecided;
+        return decide_none(p, w);
     case DAL__MEANS_SETTLES:
-        return w >= enough ? (decision){DAL_TREND_SETTLES, w, 0.0} : undecided;
-    case DAL__MEANS_WALK:
-        return w >= enough_for_walk && p->evidence.walk_over_memory > walk_evidence &&
-                       middle < well_inside * width
-                   ? (decision){DAL_TREND_RANDOM_WALK, w, 0.5}
-                   : undecided;
-    case DAL__MEANS_LINEAR:
-        return w >= enough && !has_no_drift(p) ? (decision){DAL_TREND_LINEAR, w, 1.0} : undecided;
-    case DAL__MEANS_POWER: {
-        const double exponent = exponent_of(&p->evidence);
-        return w >= enough && !isnan(exponent) ? (decision){DAL_TREND_POWER, w, exponent}
-                                               : undecided;
+        return decide_change(p, w);
+    case DAL__MEANS_WALK: {
+        const double middle = fabs(p->drift.low + p->drift.high);
+        if (p->evidence.walk_over_memory <= walk_evidence ||
+            middle >= well_inside * (p->drift.high - p->drift.low))
+            return undecided(p);
+        return w < enough_for_walk ? not_enough(p, DAL_TREND_RANDOM_WALK, w)
+                                   : decided(p, DAL_TREND_RANDOM_WALK, w, 0.5);
     }
-    case DAL__MEANS_EXPONENTIAL:
-        return w >= enough ? (decision){DAL_TREND_EXPONENTIAL, w, NAN} : undecided;
+    case DAL__MEANS_LINEAR:
+        return decide_line(p, w);
     default:
-        return undecided;
+        return decide_growth(p, best, w);
     }
 }
 
@@ -366,18 +411,18 @@ static double rate_of(const description *p, const dal_statistics *s, double drif
 static decision classify(const dal_statistics *s, dal_trend *trend)
 {
     description p = {0};
-    const bool varies = trend->deviation > 0.0;
+    decision d = undecided(&p);
     if (!dal__trend_read(s, &p.series)) {
         dal__trend_line(s, trend);
-        const bool is_constant = s->count > 1 && !varies;
-        return (decision){is_constant ? DAL_TREND_NONE : DAL_TREND_UNDECIDED, 1.0,
-                          is_constant ? 0.0 : NAN};
+        return s->count > 1 && !(trend->deviation > 0.0) ? decided(&p, DAL_TREND_NONE, 1.0, 0.0)
+                                                         : d;
     }
     describe(&p);
-    trend->rate = rate_of(&p, s, p.drift.middle);
-    trend->rate_low = rate_of(&p, s, p.drift.low);
-    trend->rate_high = rate_of(&p, s, p.drift.high);
-    return s->count < MIN_VALUES ? (decision){DAL_TREND_UNDECIDED, 1.0, NAN} : decide(&p);
+    d = s->count < MIN_VALUES ? undecided(&p) : decide(&p);
+    trend->rate = rate_of(&p, s, d.drift.middle);
+    trend->rate_low = rate_of(&p, s, d.drift.low);
+    trend->rate_high = rate_of(&p, s, d.drift.high);
+    return d;
 }
 
 void dal_statistics_classify(const dal_statistics *s, double scale, int aborted, dal_trend *trend)
@@ -390,10 +435,15 @@ void dal_statistics_classify(const dal_statistics *s, double scale, int aborted,
                          .max_abs = dal_statistics_max_abs(s),
                          .deviation = dal_statistics_deviation(s)};
     decision d = classify(s, trend);
-    if (aborted || s->lost || s->count == 0) d = (decision){DAL_TREND_ABORTED, 1.0, NAN};
+    if (aborted || s->lost || s->count == 0)
+        d = (decision){.trend = DAL_TREND_ABORTED,
+                       .confidence = NAN,
+                       .exponent = NAN,
+                       .likeliest = DAL_TREND_ABORTED};
     trend->max_drift = fmax(fabs(trend->rate_low), fabs(trend->rate_high)) * fabs(s->to - s->from);
     trend->amplitude = dal__trend_amplitude(s, trend->rate);
     trend->trend = d.trend;
+    trend->likeliest = d.likeliest;
     trend->confidence = d.confidence;
     trend->exponent = d.exponent;
     trend->size = size_of(s, scale, trend);

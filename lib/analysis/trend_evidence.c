@@ -161,6 +161,31 @@ static void weigh_plain_shapes(const dal__bins *b, int k, const noise_state *s, 
     }
 }
 
+/* Two shapes beside each other; where one column does it, they do not count. */
+static const double clear_part = 3.0, min_part = 0.06;
+
+static void weigh_pair(const dal__bins *b, int k, const noise_state *s, const double *xy, int pair,
+                       dal__evidence *e)
+{
+    const dal__pair *const p = &dal__pair_list[pair];
+    const int i = p->first, l = p->second;
+    const double xx = dal__shape_square[k][i], yy = dal__shape_square[k][l];
+    const double cross = dal__pair_product[k][pair], det = xx * yy - cross * cross;
+    const double c = (yy * xy[i] - cross * xy[l]) / det, d = (xx * xy[l] - cross * xy[i]) / det;
+    const double rest = fmax(s->square - c * xy[i] - d * xy[l], s->floor);
+    const double variance = rest / (b->freedom - 2.0);
+    const double of_c = sqrt(variance * yy / det), of_d = sqrt(variance * xx / det);
+    if (fabs(c) < clear_part * of_c || fabs(d) < clear_part * of_d ||
+        fmin(fabs(c), fabs(d)) < min_part * fmax(fabs(c), fabs(d)))
+        return;
+    const double price =
+        occam(c, of_c, b->half_range) * occam(d, sqrt(variance / yy), b->half_range);
+    const double weight = s->weight * dal__noise_list[k].shape_weight * p->weight * price *
+                          power_of(s->square / rest, tempered_power(b));
+    e->meaning[p->meaning] += weight;
+    e->pair[pair] += weight;
+}
+
 static void weigh_shapes(const dal__bins *b, int k, const noise_state *s, dal__evidence *e)
 {
     const dal__noise *const n = &dal__noise_list[k];
@@ -183,6 +208,7 @@ static void weigh_shapes(const dal__bins *b, int k, const noise_state *s, dal__e
                    outer * 2.0 * dal__shape_list[i].weight * price * price *
                        power_of(s->square / rest, power));
     }
+    for (int i = 0; i < DAL__PAIRS; i++) weigh_pair(b, k, s, xy, i, e);
     weigh_line(b, k, s, xy[DAL__LINEAR_SHAPE], e);
 }
 
@@ -198,13 +224,13 @@ static double log_evidence_of(const noise_state *s, int first, int last, double 
     return log(sum / weights);
 }
 
-void dal__trend_weigh(const dal__bins *b, double white_odds, dal__evidence *e)
+void dal__trend_weigh(const dal__bins *b, dal__white_odds odds, dal__evidence *e)
 {
     noise_state s[DAL__NOISES];
     double best, sum = 0.0;
     memset(e, 0, sizeof *e);
     e->freedom = b->freedom;
-    weigh_noises(b, white_odds, s, &best);
+    weigh_noises(b, odds.trend, s, &best);
     e->walk_over_memory = log_evidence_of(s, DAL__FIRST_WALK, DAL__LAST_WALK, best) -
                           log_evidence_of(s, DAL__FIRST_LONG_MEMORY, DAL__LAST_LONG_MEMORY, best);
     for (int k = 0; k < DAL__NOISES; k++)
@@ -213,6 +239,8 @@ void dal__trend_weigh(const dal__bins *b, double white_odds, dal__evidence *e)
     for (int i = 0; i < DAL__MEANINGS; i++) sum += e->meaning[i];
     for (int i = 0; i < DAL__MEANINGS; i++) e->meaning[i] /= sum;
     for (int i = 0; i < DAL__SHAPES; i++) e->shape[i] /= sum;
+    for (int i = 0; i < DAL__PAIRS; i++) e->pair[i] /= sum;
+    e->drift_weight[0] *= odds.rate;
     e->log_total = log(sum) + temper * best;
 }
 

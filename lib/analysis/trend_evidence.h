@@ -8,6 +8,7 @@ typedef struct dal__evidence {
     double log_total;
     double meaning[DAL__MEANINGS];        /* posterior, adding up to 1 */
     double shape[DAL__SHAPES];            /* posterior */
+    double pair[DAL__PAIRS];              /* posterior of two shapes */
     double power_rest[DAL__POWER_SHAPES]; /* S of the powers under white noise */
     /* The straight line under each noise: drift over the whole series, its deviation, weight. */
     double drift[DAL__SHAPE_NOISES], drift_deviation[DAL__SHAPE_NOISES];
@@ -16,8 +17,12 @@ typedef struct dal__evidence {
     double walk_over_memory; /* log of the evidence of walks over that of noise with memory T/9 */
 } dal__evidence;
 
-/* white_odds: how many times likelier than usual the noise is white. */
-void dal__trend_weigh(const dal__bins *bins, double white_odds, dal__evidence *evidence);
+/* How many times likelier than usual the noise is white: for the trend, for the rate of a line. */
+typedef struct dal__white_odds {
+    double trend, rate;
+} dal__white_odds;
+
+void dal__trend_weigh(const dal__bins *bins, dal__white_odds odds, dal__evidence *evidence);
 
 typedef struct dal__interval {
     double low, middle, high;

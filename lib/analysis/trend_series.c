@@ -31,6 +31,9 @@ static const double steady_alias = 1e-2, alias = 3e-3;
 static const double tone_error =
     5e-4; /* of half the range: what a tone that was taken out leaves */
 
+/* What is left of a difference of squares counts when it is this many roundings. */
+static const double cancelled = 16.0;
+
 typedef dal__trend_series series;
 
 /* ---- reading ---- */
@@ -55,6 +58,23 @@ static void measure_ranges(series *s)
     s->is_steady = variance < steady_range * steady_range * square;
 }
 
+/* Less than the root mean square of a block by what the line to its neighbours rises in it: exact
+ * for a line of n values, which rises by r, rms^2 = r^2 (1 - 1/n^2)/12. */
+static void measure_own(const dal_statistics *x, series *s)
+{
+    const double n = (double)s->length, share = (1.0 - 1.0 / (n * n)) / 12.0;
+    double square = 0.0;
+    for (int i = 0; i < s->count; i++) {
+        const int left = i > 0 ? i - 1 : i, right = i + 1 < s->count ? i + 1 : i;
+        const double r = (s->mean[right] - s->mean[left]) / (right - left);
+        const double rms = x->block[i].rms / s->unit, slope = rms > 0.0 ? r / rms : 0.0;
+        const double rest = 1.0 - share * slope * slope; /* of rms^2, which may be too small */
+        s->own[i] = rest > cancelled * DBL_EPSILON ? rms * sqrt(rest) : 0.0;
+        square += s->own[i] * s->own[i] / s->count;
+    }
+    s->within = sqrt(square);
+}
+
 bool dal__trend_read(const dal_statistics *x, series *s)
 {
     *s = (series){.count = (int)x->blocks, .length = x->length};
@@ -74,6 +94,7 @@ bool dal__trend_read(const dal_statistics *x, series *s)
         s->high = fmax(s->high, s->max[i]);
     }
     measure_ranges(s);
+    measure_own(x, s);
     s->rounding = 0.3 * DBL_EPSILON * (largest * x->factor / unit) / sqrt((double)x->length);
     return true;
 }
@@ -241,18 +262,18 @@ void dal__trend_remove_tones(series *s)
 
 /* Blocks are not constant inside: of the part of one that belongs to a bin, the integral is that of
  * the line with the mean of the block and the slope between its neighbours. */
-static void fill_bins(const series *s, double *bin)
+void dal__trend_fill_bins(const double *block, int count, double *bin)
 {
-    const double width = (double)s->count / DAL__BINS;
+    const double width = (double)count / DAL__BINS;
     double whole = 0.0, before = 0.0; /* integrals up to block i and up to the last bin */
     for (int m = 0, i = 0; m < DAL__BINS; m++) {
         const double to = (m + 1) * width;
-        while (i + 1 <= to) whole += s->mean[i++];
+        while (i + 1 <= to) whole += block[i++];
         double now = whole;
-        if (i < s->count) {
-            const int left = i > 0 ? i - 1 : i, right = i + 1 < s->count ? i + 1 : i;
-            const double slope = (s->mean[right] - s->mean[left]) / (right - left), u = to - i;
-            now += u * s->mean[i] + 0.5 * slope * u * (u - 1.0);
+        if (i < count) {
+            const int left = i > 0 ? i - 1 : i, right = i + 1 < count ? i + 1 : i;
+            const double slope = (block[right] - block[left]) / (right - left), u = to - i;
+            now += u * block[i] + 0.5 * slope * u * (u - 1.0);
         }
         bin[m] = (now - before) / width;
         before = now;
@@ -262,7 +283,7 @@ static void fill_bins(const series *s, double *bin)
 void dal__trend_bin(const series *s, dal__bins *b)
 {
     double low = INFINITY, high = -INFINITY;
-    fill_bins(s, b->mean);
+    dal__trend_fill_bins(s->mean, s->count, b->mean);
     for (int m = 0; m < DAL__BINS; m++) {
         low = fmin(low, b->mean[m]);
         high = fmax(high, b->mean[m]);

@@ -15,11 +15,13 @@ typedef struct dal__trend_series {
     double unit;      /* of factor * x */
     double low, high; /* of all values */
     double mean[DAL_STATISTICS_BLOCKS], min[DAL_STATISTICS_BLOCKS], max[DAL_STATISTICS_BLOCKS];
-    double block_range; /* max - min, in the mean */
-    double swing;       /* the same, less what the trend rises within a block */
-    bool is_steady;     /* it is the same in all blocks */
-    double rounding;    /* of the mean of a block */
-    int tones;          /* taken out of mean */
+    double own[DAL_STATISTICS_BLOCKS]; /* the deviation within a block from its own line */
+    double within;                     /* the root of its mean square */
+    double block_range;                /* max - min, in the mean */
+    double swing;                      /* the same, less what the trend rises within a block */
+    bool is_steady;                    /* it is the same in all blocks */
+    double rounding;                   /* of the mean of a block */
+    int tones;                         /* taken out of mean */
 } dal__trend_series;
 
 typedef struct dal__bins {
@@ -34,6 +36,8 @@ typedef struct dal__bins {
 bool dal__trend_read(const dal_statistics *statistics, dal__trend_series *series);
 /* Takes up to DAL__TONES tones out of the means. */
 void dal__trend_remove_tones(dal__trend_series *series);
+/* The means over bins of what is given in blocks. */
+void dal__trend_fill_bins(const double *block, int count, double *bin /* [DAL__BINS] */);
 void dal__trend_bin(const dal__trend_series *series, dal__bins *bins);
 
 #endif

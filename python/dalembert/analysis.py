@@ -37,7 +37,7 @@ class Trend:
     amplitude : float
         Half the range about the fitted line.
     rate, rate_low, rate_high : float
-        Slope of the line per unit of t, and its 95 % interval.
+        Slope of the line per unit of t, and its 95 % interval, of this run.
     max_drift : float
         max |drift| over the whole series in this interval.
     exponent : float
@@ -47,7 +47,9 @@ class Trend:
     trend : str
         ``'none'``, ``'linear'``, ``'random walk'``, ...
     confidence : float
-        Of the trend, 0 to 1.
+        Of the trend, 0 to 1; NaN where it is ``'undecided'`` or ``'aborted'``.
+    likeliest : str
+        Of an undecided trend what has half of the evidence and more, or ``'undecided'``; else the trend.
     conservation : str
         Unless ``'conserved'``, size and trend state nothing.
     """
@@ -66,10 +68,12 @@ class Trend:
     size: str
     trend: str
     confidence: float
+    likeliest: str
     conservation: str
 
 
-WORDS = {'size': lib.dal_size_text, 'trend': lib.dal_trend_text, 'conservation': lib.dal_conservation_text}
+WORDS = {'size': lib.dal_size_text, 'trend': lib.dal_trend_text, 'likeliest': lib.dal_trend_text,
+         'conservation': lib.dal_conservation_text}
 
 
 def make_trend(t: Any) -> Trend:

@@ -198,7 +198,7 @@ cat >ramp.yaml <<'END'
 coordinates: [x]
 accelerations: {x: 0}
 start: {x': 1}
-invariants: {ramp: 2*x, wave: 2*x + 3*sin(10*x), half: 0.25*x^1.5}
+invariants: {ramp: 2*x, wave: 2*x + 3*sin(10*x), half: 0.25*x^1.5, slow: sin(0.015*x)}
 END
 bounds() { # EXPECTATION: of the motion of ramp.yaml
     printf 'integrators: rk4\nstep: 0.01\ntime: 200\nstarts: physical
@@ -235,6 +235,14 @@ for field in $fields; do
     bounds "half: {$field: {at least: $low, at most: $high}}"
     try 0 study bounds.yaml --output bounds --force
 done
+# Half a period may be anything: no confidence, and no bound of it is met.
+for bound in 'at least: 0' 'at most: 1'; do
+    bounds "slow: {trend: undecided, confidence: {$bound}}"
+    try 1 study bounds.yaml --output bounds --force --tables
+    prints '^Expectations: 1 of 2 are met'
+    prints "slow: expected confidence .= .* \(line 6\)"
+done
+holds "no confidence" [ -z "$(cell slow confidence)" ]
 
 case_is "statements about some cells"
 printf 'integrators: rk4\nstep: [0.1, 0.2]\ntime: 1\nsystems: [plane.yaml]\nexpect:\n  plane.yaml:\n'"\

@@ -24,6 +24,16 @@ try 0 explain damped-oscillator --integrator rk4 --step 0.1 --time 10 --output w
 holds "explain" awk -F, '$1 == "E" && $2 == "run" { rows++; words += $11 $12 $13 != "" }
                          END { exit !(rows > 2 && words == 0) }' why.csv
 
+case_is "what is undecided or aborted has no confidence"
+printf "coordinates: [x]\naccelerations: {x: 0}\nstart: {x': 1}\ninvariants: {slow: sin(0.15*x)}\n" >slow.yaml
+try 0 run slow.yaml --integrator rk4 --step 0.01 --time 20 --output slow --summary
+says '^slow .* undecided$'
+holds "undecided" test "$(of slow/summary.csv slow trend)" = undecided
+holds "no confidence" test -z "$(of slow/summary.csv slow confidence)"
+try 0 explain slow.yaml --integrator rk4 --step 0.01 --time 20 --json
+holds "null in JSON" grep -A 1 '"trend": *"undecided"' out
+holds "a number in JSON" sh -c "grep -A 1 '\"trend\": *\"undecided\"' out | grep -q '\"confidence\": *null'"
+
 printf 'integrators: [rk4, rk4+project]\nstep: 0.1\ntime: 20\nstarts: physical\nsystems:
   - damped-oscillator\n  - contact-oscillator\n' >energy.yaml
 cp energy.yaml stated.yaml
