@@ -1,7 +1,7 @@
 /* dalembert_evaluator.h - a system at a point, in units of its own, and checks of it.
  *
- * The conventions are those of dalembert.h, which it includes.  Derivatives are compared with central
- * differences of order 8, whose noise is near 1e-12. */
+ * The conventions are those of dalembert.h, which it includes.  Derivatives are compared with
+ * central differences of order 8, whose noise is near 1e-12. */
 #ifndef DALEMBERT_EVALUATOR_H
 #define DALEMBERT_EVALUATOR_H
 

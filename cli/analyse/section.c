@@ -311,7 +311,7 @@ int section_find(section_settings *settings)
     request_choose_step(s.request);
     status = request_create_run(s.request);
     if (status != CLI_DONE) return status;
-    if (settings->transient >= s.request->time)
+    if (settings->transient >= s.request->time && s.request->options.step > 0.0)
         return cli_fail(CLI_USAGE, "--transient %g: no crossing is left, the run ends at t = %g",
                         settings->transient, s.request->time);
     name_row(&s);

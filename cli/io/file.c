@@ -188,8 +188,8 @@ static int open_special(const char *path, mode_t mode)
     return S_ISDIR(mode) ? -1 : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
 }
 
-/* A new file beside o->path, where held[1] is, with its owner and permissions; held NULL: nothing is
- * there yet.  A file in a directory where none can be made is written in place. */
+/* A new file beside o->path, where held[1] is, with its owner and permissions; held NULL: nothing
+ * is there yet.  A file in a directory where none can be made is written in place. */
 static int open_beside(file_output *o, const struct stat *held)
 {
     const char *slash = strrchr(o->path, '/');
@@ -213,24 +213,22 @@ static int open_beside(file_output *o, const struct stat *held)
     return open(o->path, O_RDWR | O_TRUNC | O_CLOEXEC);
 }
 
-/* Returns a descriptor; -1 after a message.  end_output() is due in either case. */
-static int begin_output(file_output *o, const char *name)
+/* A descriptor, or -1 and the status after a message.  end_output() is due in either case. */
+static int begin_output(file_output *o, const char *name, int *descriptor)
 {
     struct stat held;
-    int descriptor;
     *o = (file_output){.name = name, .path = follow_links(name)};
     const int number = descriptor_number(o->path);
     const bool exists = stat(name, &held) == 0;
     if (number >= 0) {
         cli_catch_broken_pipe();
-        descriptor = fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+        *descriptor = fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     } else if (exists && !S_ISREG(held.st_mode)) {
-        descriptor = open_special(name, held.st_mode);
+        *descriptor = open_special(name, held.st_mode);
     } else {
-        descriptor = open_beside(o, exists ? &held : NULL);
+        *descriptor = open_beside(o, exists ? &held : NULL);
     }
-    if (descriptor < 0) cli_io("write", name);
-    return descriptor;
+    return *descriptor < 0 ? cli_io("write", name) : CLI_DONE;
 }
 
 /* Gives the file its name, or removes it where status is not CLI_DONE. */
@@ -250,8 +248,7 @@ int file_replace(const char *path, const void *bytes, size_t length, int sync)
 {
     file_output o;
     cli_hold_exit();
-    const int descriptor = begin_output(&o, path);
-    int status = descriptor < 0 ? CLI_IO : CLI_DONE;
+    int descriptor, status = begin_output(&o, path, &descriptor);
     if (status == CLI_DONE)
         status = write_and_close(descriptor, path, bytes, length, sync && o.fresh);
     status = end_output(&o, status, sync);
@@ -263,9 +260,10 @@ int file_output_open(file_output *o, const char *path)
 {
     *o = (file_output){.name = "standard output", .stream = stdout};
     if (strcmp(path, "-") == 0) return CLI_DONE;
-    const int descriptor = begin_output(o, path);
-    if (descriptor >= 0 && !(o->stream = fdopen(descriptor, "wb"))) cli_io("write", path);
-    return o->stream ? CLI_DONE : end_output(o, CLI_IO, 0);
+    int descriptor, status = begin_output(o, path, &descriptor);
+    if (status == CLI_DONE && !(o->stream = fdopen(descriptor, "wb")))
+        status = cli_io("write", path);
+    return status == CLI_DONE ? CLI_DONE : end_output(o, status, 0);
 }
 
 int file_output_close(file_output *o, int status)
@@ -277,24 +275,25 @@ int file_output_close(file_output *o, int status)
     return end_output(o, status, 0);
 }
 
-int file_open_output(const char *path)
+int file_open_output(const char *path, int *descriptor)
 {
     file_output o;
     cli_hold_exit();
-    const int descriptor = begin_output(&o, path);
-    const int status = end_output(&o, descriptor < 0 ? CLI_IO : CLI_DONE, 0);
-    if (descriptor >= 0 && status != CLI_DONE) close(descriptor);
+    const int begun = begin_output(&o, path, descriptor), status = end_output(&o, begun, 0);
+    if (begun == CLI_DONE && status != CLI_DONE) close(*descriptor);
     cli_release_exit();
-    return status == CLI_DONE ? descriptor : -1;
+    return status;
 }
 
-FILE *file_stream_output(const char *path)
+int file_stream_output(const char *path, FILE **stream)
 {
-    if (strcmp(path, "-") == 0) return stdout;
-    const int descriptor = file_open_output(path);
-    FILE *stream = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
-    if (descriptor >= 0 && !stream) cli_io("write", path);
-    return stream;
+    int descriptor;
+    *stream = stdout;
+    if (strcmp(path, "-") == 0) return CLI_DONE;
+    *stream = NULL;
+    const int status = file_open_output(path, &descriptor);
+    if (status == CLI_DONE && !(*stream = fdopen(descriptor, "wb"))) return cli_io("write", path);
+    return status;
 }
 
 int file_create(const char *path, const void *bytes, size_t length)

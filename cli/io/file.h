@@ -42,9 +42,10 @@ int file_output_open(file_output *output, const char *path);
  * status, or that of closing. */
 int file_output_close(file_output *output, int status);
 /* For rows, which can be read while they are written: the new, empty file has its name from the
- * beginning.  Return a descriptor, -1 after a failure, and a stream, "-" being stdout, or NULL. */
-int file_open_output(const char *path);
-FILE *file_stream_output(const char *path);
+ * beginning.  A descriptor; and a stream, "-" being stdout, NULL after a failure.  Return an exit
+ * status. */
+int file_open_output(const char *path, int *descriptor);
+int file_stream_output(const char *path, FILE **stream);
 /* Writes a file that is not there yet, or a device.  Returns CLI_DONE, CLI_USAGE or CLI_IO. */
 int file_create(const char *path, const void *bytes, size_t length);
 

@@ -326,14 +326,15 @@ int writer_create(trajectory_writer *writer, const char *path, char *const *name
     const int is_stdout = strcmp(path, "-") == 0;
     *writer = (trajectory_writer){.columns = columns};
     if (cli_ends_in(path, ".npy")) {
-        const int descriptor = file_open_output(path);
-        if (descriptor < 0) return CLI_IO;
+        int descriptor;
+        const int status = file_open_output(path, &descriptor);
+        if (status != CLI_DONE) return status;
         writer_attach(writer, path, descriptor, names, columns);
         return writer_continue(writer, 0, &(row_sum){{0}});
     }
     writer->path = is_stdout ? "standard output" : path;
-    writer->file = file_stream_output(path);
-    if (!writer->file) return CLI_IO;
+    const int status = file_stream_output(path, &writer->file);
+    if (status != CLI_DONE) return status;
     for (int i = 0; i < columns; i++) {
         if (i) fputc(',', writer->file);
         cli_put_text(writer->file, names[i]);

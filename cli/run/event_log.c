@@ -69,10 +69,9 @@ int event_log_open(event_log *log, const run_request *request, const char *path)
     *log = (event_log){.path = path, .request = request};
     const long long count = events_so_far(request->run);
     if (count > 0) return keep_events(log, count);
-    log->file = file_stream_output(path);
-    if (!log->file) return CLI_IO;
-    write_event_head(log);
-    return CLI_DONE;
+    const int status = file_stream_output(path, &log->file);
+    if (status == CLI_DONE) write_event_head(log);
+    return status;
 }
 
 int event_log_add(event_log *log, const dal_occurrence *event)

@@ -49,13 +49,6 @@ static int parse_run_option(void *user, const cli_option *option, const char *te
     return cli_fail(CLI_USAGE, "--%s", error.message + sizeof begin - 1);
 }
 
-static bool has_setting(const request_settings *settings, const char *name)
-{
-    for (int i = 0; i < settings->count; i++)
-        if (strcmp(settings->item[i].name, name) == 0) return true;
-    return false;
-}
-
 static int parse_setting(void *user, const cli_option *option, const char *text)
 {
     const char *equals = strchr(text, '=');
@@ -63,7 +56,9 @@ static int parse_setting(void *user, const cli_option *option, const char *text)
         return cli_fail(CLI_USAGE, "--%s: '%s' is not NAME=VALUE", option->name, text);
     request_settings *settings = (void *)((char *)user + option->offset);
     char *name = cli_strndup(text, (size_t)(equals - text));
-    const int status = has_setting(settings, name)
+    int before = 0;
+    while (before < settings->count && strcmp(settings->item[before].name, name) != 0) before++;
+    const int status = before < settings->count
                            ? cli_fail(CLI_USAGE, "--%s: %s is given twice", option->name, name)
                            : request_parse_setting(settings, text, name, equals + 1);
     free(name);

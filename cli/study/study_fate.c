@@ -35,17 +35,14 @@ bool study_is_drifting(const dal_trend *trend)
            trend->trend != DAL_TREND_ABORTED;
 }
 
-/* Whether the motion of a case conserves the quantity, at least on D = 0. */
-static bool is_conserved(const study_case *e, int quantity)
-{
-    if (quantity == CONSTRAINT) return e->system->m > 0;
-    return quantity == ENERGY && e->system->energy &&
-           e->system->properties & (DAL_E_EXACT | DAL_E_ON_D);
-}
-
 fate study_find_fate(const study_cell *c, int quantity)
 {
-    if (!is_conserved(c->of_case, quantity) || c->state == STUDY_WAITING) return FATES;
+    const dal_system *s = c->of_case->system;
+    const bool is_conserved = /* at least on D = 0 */
+        quantity == CONSTRAINT
+            ? s->m > 0
+            : quantity == ENERGY && s->energy && s->properties & (DAL_E_EXACT | DAL_E_ON_D);
+    if (!is_conserved || c->state == STUDY_WAITING) return FATES;
     if (c->state != STUDY_FINISHED) return c->state == STUDY_FAILED ? FAILED : REFUSED;
     const dal_trend *trend = study_get_trend(c, quantity);
     if (!trend) return FATES;

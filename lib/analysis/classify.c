@@ -57,14 +57,6 @@ static void mark_reactions(const dal_run *run, int invariants, dal_trend *trend)
             trend[i].conservation = DAL_NOT_CONSERVED;
 }
 
-/* Whether any of the statistics has a scale. */
-static bool has_scales(const dal_statistics *statistics, int count)
-{
-    bool any = false;
-    for (int i = 0; i < count; i++) any = any || statistics[i].scale > 0.0;
-    return any;
-}
-
 void dal_run_classify(dal_run *run, const dal_statistics *statistics, int aborted, dal_trend *trend)
 {
     if (!run || !statistics || !trend) return;
@@ -76,7 +68,9 @@ void dal_run_classify(dal_run *run, const dal_statistics *statistics, int aborte
                        .energy = has_energy ? m : -1,
                        .hamiltonian = is_lifted ? m + has_energy : -1,
                        .pi = is_lifted ? m + has_energy + 2 : -1};
-    const double *present = has_scales(statistics, count) ? NULL : dal_run_scales(run);
+    bool has_scales = false;
+    for (int i = 0; i < count; i++) has_scales = has_scales || statistics[i].scale > 0.0;
+    const double *present = has_scales ? NULL : dal_run_scales(run);
     for (int i = 0; i < count; i++) {
         const bool is_norm =
             is_lifted && i > at.hamiltonian && i < at.hamiltonian + LIFT_OBSERVABLES;

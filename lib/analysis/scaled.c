@@ -329,24 +329,19 @@ static double rate_of_jacobian(const survey *w)
     return rate;
 }
 
-/* |F|/|v| in the metric of the kinetic energy; 0 at rest, or where that is unknown. */
-static double rate_of_motion(const survey *w)
-{
-    double F = 0.0, v = 0.0;
-    for (int i = 0; i < w->s->n; i++) {
-        F += w->mass[i] * w->f[i] * w->f[i];
-        v += w->mass[i] * w->x[w->s->n + i] * w->x[w->s->n + i];
-    }
-    return v > 0.0 ? sqrt(F / v) : 0.0;
-}
-
 /* A spectral radius so far below the rate of the motion consists of roundings; near rest the rate
  * of the motion is no measure of time. */
 static const double negligible = 1e-6, near_rest = 4.0;
 
 static double time_unit(const survey *w)
 {
-    const double radius = rate_of_jacobian(w), motion = rate_of_motion(w);
+    const double radius = rate_of_jacobian(w);
+    double F = 0.0, v = 0.0; /* squares in the metric of the kinetic energy */
+    for (int i = 0; i < w->s->n; i++) {
+        F += w->mass[i] * w->f[i] * w->f[i];
+        v += w->mass[i] * w->x[w->s->n + i] * w->x[w->s->n + i];
+    }
+    const double motion = v > 0.0 ? sqrt(F / v) : 0.0;
     const double rate =
         radius > negligible * motion ? fmax(radius, fmin(motion, near_rest * radius)) : motion;
     if (rate > 0.0) return power_of_two(1.0 / rate);

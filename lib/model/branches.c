@@ -8,8 +8,9 @@
  *     the k-th derivative of F+ - F- at s = 0 is the jump of that of F,
  *
  * or what has no bound there, found beside points of s = 0 near the start: F+ is taken on its side
- * alone, and F- on the other, so that sign(s) sqrt|s| does not jump, and its derivative does.  A step across s = 0 of any method of fixed formulas
- * leaves an error O(h^(k+1)) where derivative k is the first that jumps: its order is k + 1.
+ * alone, and F- on the other, so that sign(s) sqrt|s| does not jump, and its derivative does.  A
+ * step across s = 0 of any method of fixed formulas leaves an error O(h^(k+1)) where derivative k
+ * is the first that jumps: its order is k + 1.
  *
  * Derivatives are taken branch by branch, so a jump of D or of the momentum L_v, which needs an
  * impulse, is not in F. */

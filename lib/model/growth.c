@@ -11,6 +11,7 @@
  * formulas; ranks are numerical, at points about the start.
  *
  * R. Montgomery, A Tour of Subriemannian Geometries, AMS 2002, ch. 2. */
+#include "core/vectors.h"
 #include "dalembert.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
@@ -93,14 +94,6 @@ static int max_rank(const distribution *d)
 
 /* ---- the fields X_i ---- */
 
-/* To a largest component of 1. */
-static void normalise(double *row, int count)
-{
-    double size = 0.0;
-    for (int j = 0; j < count; j++) size = fmax(size, fabs(row[j]));
-    for (int j = 0; j < count && size > 0.0; j++) row[j] /= size;
-}
-
 /* X_c for each column c that is no pivot: 1 there, and -A_p^-1 A_c in the pivots p.  Pivots are
  * chosen by elimination at the first point; t is none. */
 static dal_status make_fields(distribution *d, const dal__node *A, double *x)
@@ -113,7 +106,10 @@ static dal_status make_fields(distribution *d, const dal__node *A, double *x)
     if (d->model->out_of_memory) return DAL_MEMORY;
     for (int i = 0; i < m * dim; i++)
         x[i] = dal__evaluate(e->graph, A[i], d->point) * d->unit[i % dim];
-    for (int a = 0; a < m; a++) normalise(x + a * dim, dim);
+    for (int a = 0; a < m; a++) {
+        const double size = dal__max_abs(x + a * dim, (size_t)dim); /* in the units */
+        for (int j = 0; j < dim && size > 0.0; j++) x[a * dim + j] /= size;
+    }
     for (int a = 0; a < m; a++) {
         const double *row = x + a * dim;
         int best = d->fixed;

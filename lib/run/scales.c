@@ -64,33 +64,23 @@ static double sum_of_products(int n, const double *a, const double *b)
 
 /* ---- systems without scales ---- */
 
-static dal_status estimate_constraints(const dal_run *run, const dal_point *at, double *out)
-{
-    const dal_system *s = run->layout.system;
-    const double *D = run->scratch, *A = D + s->m;
-    if (!s->call.constraint) return s->constraints(s, at, out);
-    DAL_TRY(s->call.constraint(s, at, run->scratch));
-    for (int a = 0; a < s->m; a++) out[a] = fabs(D[a]) + sum_of_products(s->n, A + a * s->n, at->v);
-    return DAL_OK;
-}
-
-static dal_status estimate_energy(const dal_run *run, const dal_point *at, double *out)
-{
-    const dal_system *s = run->layout.system;
-    const double *E = run->scratch, *E_q = E + 1, *E_v = E_q + s->n;
-    if (!s->call.energy_normal) return s->energy(s, at, out);
-    DAL_TRY(s->call.energy_normal(s, at, run->scratch));
-    *out = fabs(*E) + sum_of_products(s->n, E_q, at->q) + sum_of_products(s->n, E_v, at->v);
-    return DAL_OK;
-}
-
 static dal_status estimate_formulas(const dal_run *run, const dal_point *at, double *out)
 {
     const dal_system *s = run->layout.system;
-    if (s->constraints) DAL_TRY(estimate_constraints(run, at, out));
-    if (s->energy) DAL_TRY(estimate_energy(run, at, out + s->m));
-    if (s->invariant_values) DAL_TRY(s->invariant_values(s, at, out + s->m + 1));
-    return DAL_OK;
+    const double *const block = run->scratch; /* D, A; then E, E_q, E_v */
+    if (s->constraints && !s->call.constraint) DAL_TRY(s->constraints(s, at, out));
+    if (s->constraints && s->call.constraint) {
+        DAL_TRY(s->call.constraint(s, at, run->scratch));
+        for (int a = 0; a < s->m; a++)
+            out[a] = fabs(block[a]) + sum_of_products(s->n, block + s->m + a * s->n, at->v);
+    }
+    if (s->energy && !s->call.energy_normal) DAL_TRY(s->energy(s, at, out + s->m));
+    if (s->energy && s->call.energy_normal) {
+        DAL_TRY(s->call.energy_normal(s, at, run->scratch));
+        out[s->m] = fabs(block[0]) + sum_of_products(s->n, block + 1, at->q) +
+                    sum_of_products(s->n, block + 1 + s->n, at->v);
+    }
+    return s->invariant_values ? s->invariant_values(s, at, out + s->m + 1) : DAL_OK;
 }
 
 static dal_status estimate_reactions(const dal_run *run, const dal_point *at, double *out)
@@ -126,18 +116,6 @@ static dal_status scale_lift(const dal_run *run, const dal_point *at, double *F,
     return DAL_OK;
 }
 
-/* |q_i| of the exact solution where the error is largest. */
-static dal_status scale_error(const dal_run *run, const dal_point *at, double *exact, double *out)
-{
-    const dal_system *s = run->layout.system;
-    int largest = 0;
-    DAL_TRY(s->exact(s, at, exact));
-    for (int i = 1; i < s->n; i++)
-        if (fabs(exact[i] - at->q[i]) > fabs(exact[largest] - at->q[largest])) largest = i;
-    *out = fabs(exact[largest]);
-    return DAL_OK;
-}
-
 /* ---- all of them ---- */
 
 /* Where the scales of a group are, after those of the formulas were made. */
@@ -145,6 +123,7 @@ static const double *group_scales(const dal_run *run, const places *p, const dal
                                   int group, dal_status *status)
 {
     const dal_system *s = run->layout.system;
+    int largest = 0;
     switch (group) {
     case DAL__OBSERVE_D:
         return p->formulas;
@@ -155,9 +134,12 @@ static const double *group_scales(const dal_run *run, const places *p, const dal
     case DAL__OBSERVE_LIFT:
         *status = scale_lift(run, at, p->vector, p->lift);
         return p->lift;
-    case DAL__OBSERVE_ERROR:
-        *status = scale_error(run, at, p->vector, p->lift);
-        return p->lift;
+    case DAL__OBSERVE_ERROR: /* of the coordinate where the error is largest */
+        *status = s->exact(s, at, p->vector);
+        for (int i = 1; i < s->n && *status == DAL_OK; i++)
+            if (fabs(p->vector[i] - at->q[i]) > fabs(p->vector[largest] - at->q[largest]))
+                largest = i;
+        return p->vector + largest;
     default: /* the multipliers of a method are those of F, nearly */
         return p->reactions;
     }
