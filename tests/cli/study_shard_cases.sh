@@ -1,6 +1,6 @@
 # Studies in pieces: interrupted and killed anywhere, in shards and merged, by several processes.
 
-needs 145 "no compiler for signals at given places" raises || return 0
+needs 144 "no compiler for signals at given places" raises || return 0
 cp plane.yaml plane
 cat >pieces.yaml <<'END2'
 title: many short runs and a long one
