@@ -191,6 +191,7 @@ enum { DAL_ORDER_LEVELS = 8 /* max step sizes of dal_order */ };
     OUTCOME(COARSE, "coarse")     /* steps too large: slopes differ, or half the solution */       \
     OUTCOME(ROUNDING, "rounding") /* fewer than three errors above rounding or the reference */    \
     OUTCOME(FEW, "few")           /* fewer than three step sizes */
+/* Whether an order was found, and why not. */
 typedef enum dal_order_outcome {
 #define ORDER_OUTCOME_CODE(code, word) DAL_ORDER_##code,
     DAL_ORDER_OUTCOME_LIST(ORDER_OUTCOME_CODE)

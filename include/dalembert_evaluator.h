@@ -132,6 +132,7 @@ typedef struct dal_jumps dal_jumps;
 /* Finds those of a model whose system is made, and which must outlive them. [alloc]  Errors:
  * DAL_ARGUMENT, DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model);
+/* Frees them; NULL is allowed. */
 void dal_jumps_free(dal_jumps *jumps);
 /* How many there are. */
 int dal_jumps_count(const dal_jumps *jumps);
