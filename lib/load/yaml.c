@@ -177,6 +177,7 @@ static dal_status read_range(reader *r, dal__entry entry)
 {
     const int line = line_of(r->event.start_mark), column = column_of(r->event.start_mark);
     dal__entry range = {.section = entry.section};
+    entry.text = NULL;
     for (;;) {
         dal__entry key = {.section = entry.section};
         DAL_TRY(next(r));

@@ -182,8 +182,10 @@ int main(int argc, char **argv)
     if (argc != 3 || dal_model_builtin(&model, argv[1], NULL) != DAL_OK) return 2;
     if (dal_model_text(model, DAL_SECTION_FUNCTIONS, 0, NULL, NULL, NULL) ||
         dal_model_text(model, DAL_SECTION_REACTIONS, 0, NULL, NULL, NULL) ||
-        dal_model_text(model, DAL_SECTION_EVENTS, 0, NULL, NULL, NULL))
+        dal_model_text(model, DAL_SECTION_EVENTS, 0, NULL, NULL, NULL)) {
+        dal_model_free(model);
         return 3;
+    }
     unsigned long long state = strtoull(argv[2], NULL, 10);
     const bool is_plain = state == 0;
     units u = {.tau = 1.0, .c = 1.0, .d = 1.0, .g = 1.0};

@@ -209,6 +209,8 @@ if (ulimit -v 2000000 && "$program" --version) >out 2>err; then
     status=$?
     holds "exit $status, not 2" [ $status -eq 2 ]
     says "'ragged/trajectory.npy' is no .npy file of named doubles"
+else
+    cannot 2 "this program does not begin within 2 GB, as under a sanitizer"
 fi
 
 # A directory of each earlier version is refused and left as it is, and so are statistics of a layout
