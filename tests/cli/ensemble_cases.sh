@@ -289,6 +289,11 @@ holds "other failures, merged" same_ensemble failing failing-both
 try 0 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --space physical --members 9 --seed 1 \
     --vary "s=uniform(0,1)" --output failing-both --force --no-page
 holds "messages of an ensemble before" test ! -e failing-both/messages
+mkdir failing-1/messages/kept
+printf x >failing-1/messages/kept/file
+try 4 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --space physical --members 9 --seed 1 \
+    --vary "s=uniform(0,1)" --output failing-1 --force --no-page
+says "^dalembert: cannot remove 'failing-1/messages/kept': "
 holds "failures without their draws" awk -F, 'NR > 1 && !($4 > 0 && $2 < 1) { exit 1 }' failing/failures.csv
 try 3 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --members 9 --seed 1 --vary "s=uniform(50,60)" \
     --output lost --no-page
