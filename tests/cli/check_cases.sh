@@ -105,6 +105,13 @@ holds "empty lines" awk 'NR < 3 { next }
 case_is "energy and reversal"
 try 0 check unequal-springs
 prints '^  branches, lagrangian +info +F.? jumps: order 2 across it$'
+cat >wall.yaml <<'END'
+coordinates: [x]
+lagrangian: x'^2*(1 + (x > 0))/2
+start: {x': 1}
+END
+try 0 check wall.yaml
+prints '^  branches, lagrangian +info +L_v or D jumps: F lacks the impulse$'
 cat >hidden.yaml <<'END'
 coordinates: [x, max]
 lagrangian: (x'^2 + max'^2)/2 - max^2
