@@ -311,12 +311,12 @@ $(FUZZERS:%=$(BUILD)/tests/%): %: %.o $(STATIC)
 lint: all $(BUILD)/generated/functions.h
 	@CC="$(CC)" BUILD=$(BUILD) sh tools/lint/lint.sh
 
-# Faults planted one by one: make mutants MODULE=lib/dynamics/section.c, or MODULE=integrators; see
-# tools/mutants/mutants.sh.
+# Faults planted one by one: make mutants MODULE=lib/dynamics/section.c, or MODULE=cli OPERATORS=new;
+# see tools/mutants/mutants.sh.
 SEED  ?= 1
 COUNT ?= 20
 mutants:
-	@CC="$(CC)" BUILD="$(BUILD)" sh tools/mutants/mutants.sh "$(MODULE)" $(SEED) $(COUNT)
+	@CC="$(CC)" BUILD="$(BUILD)" OPERATORS="$(OPERATORS)" sh tools/mutants/mutants.sh "$(MODULE)" $(SEED) $(COUNT)
 
 # The documents, and the reference of the public headers.
 docs:

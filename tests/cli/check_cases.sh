@@ -72,9 +72,46 @@ holds "a method of reactions on vakonomic motion" sh -c '! grep -q spark methods
 try 1 check chaplygin-sleigh --start "y2'=0.5"
 prints '^  D is preserved by +info +no method: the start violates'
 
+# D with constant coefficients is preserved by every method, a bilinear one by partitioned Euler, a quadratic one by
+# Gauss, a trigonometric one by what enforces it (docs/theory.md); without a constraint there is none to preserve.
+case_is "D is preserved by: each method in JSON"
+preserves_D() { grep -q "\"integrator\": \"$1\", \"accepted\": true, .*\"preserves\": \[\"D\"" out; }
+# D_of SYSTEM METHOD...: those alone of the methods named preserve D.
+D_of() {
+    system=$1
+    shift
+    try 0 check "$system" --json
+    for method in rk4 gauss4 symplectic-euler-10 spark4 gni +project; do
+        case " $* " in
+        *" $method "*) holds "$system: $method does not preserve D" preserves_D "$method" ;;
+        *) holds "$system: $method preserves D" eval '! preserves_D "$method"' ;;
+        esac
+    done
+}
+D_of ./plane.yaml rk4 gauss4 symplectic-euler-10 spark4 gni +project
+D_of contact-oscillator gauss4 symplectic-euler-10 spark4 gni +project
+D_of appell-hamel gauss4 spark4 gni +project
+D_of chaplygin-sleigh spark4 gni +project
+D_of damped-oscillator
+
+# An empty line is before each section and before the sum, and nowhere else.
+case_is "empty lines between sections"
+try 0 check chaplygin-sleigh
+holds "empty lines" awk 'NR < 3 { next }
+    { begins = $0 ~ /^[^ ]/; if (begins != (empty && $0 != "") || (empty && $0 == "")) wrong = 1; empty = $0 == "" }
+    begins { sections++ }
+    END { exit wrong || empty || sections < 5 }' out
+
 case_is "energy and reversal"
 try 0 check unequal-springs
 prints '^  branches, lagrangian +info +F.? jumps: order 2 across it$'
+cat >wall.yaml <<'END'
+coordinates: [x]
+lagrangian: x'^2*(1 + (x > 0))/2
+start: {x': 1}
+END
+try 0 check wall.yaml
+prints '^  branches, lagrangian +info +L_v or D jumps: F lacks the impulse$'
 cat >hidden.yaml <<'END'
 coordinates: [x, max]
 lagrangian: (x'^2 + max'^2)/2 - max^2

@@ -21,6 +21,33 @@ holds "members failed" test "$(wc -l <whole/failures.csv)" -eq 1
 holds "rows.npy does not end in final.npy" test "$(numbers_of whole/rows.npy 6 $members | cksum)" = \
     "$(numbers_of whole/final.npy 6 $members | cksum)"
 
+# The table repeats the last time of statistics.csv with six digits, below heads and a rule as long as each column.
+case_is "the table of an ensemble"
+sed -n '2,$p' out >table.txt
+awk -F, 'BEGIN { print "column mean deviation min max" }
+    $1 == 2 { printf "%s %.6g %.6g %.6g %.6g\n", $2, $4, $5, $6, $NF }' whole/statistics.csv >expected.txt
+sed 2d table.txt | tr -s ' ' | sed 's/ $//' >words.txt
+holds "other heads or numbers" cmp -s expected.txt words.txt
+awk '{ for (i = 1; i <= NF; i++) if (length($i) > width[i]) width[i] = length($i) }
+    END { for (i = 1; i <= 5; i++) { while (width[i]-- > 0) printf "-"; printf "%s", i < 5 ? "  " : "\n" } }' \
+    expected.txt >rule.txt
+sed -n 2p table.txt >printed.txt
+holds "another rule" cmp -s rule.txt printed.txt
+holds "columns are not aligned" awk 'NR == FNR { rule = $0; next }
+    { for (i = 2; i <= length(rule); i++)
+          if (substr(rule, i - 1, 2) == " -" && substr($0, i - 1, 2) !~ /^ [^ ]$/) exit 1 }' rule.txt table.txt
+
+case_is "heads of an ensemble's files"
+while read -r file heads; do
+    holds "other heads of $file" test "$(head -n 1 whole/$file)" = "$heads"
+done <<'END'
+statistics.csv t,column,count,mean,deviation,min,q0.05,q0.25,q0.5,q0.75,q0.95,max
+covariance.csv t,column,y1,y2,phi,y1',y2',phi'
+histograms.csv t,column,low,high,count
+failures.csv member,t,reason,y1',m,phi',message
+cloud.csv t,member,y1,y2
+END
+
 case_is "an ensemble under a tolerance, without a step"
 controlled="ensemble knife-edge --integrator dop853 --tolerance 1e-9 --time 2 --members 300 --seed 3
     --vary x'=normal(0,0.1) --no-page"
@@ -262,6 +289,11 @@ holds "other failures, merged" same_ensemble failing failing-both
 try 0 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --space physical --members 9 --seed 1 \
     --vary "s=uniform(0,1)" --output failing-both --force --no-page
 holds "messages of an ensemble before" test ! -e failing-both/messages
+mkdir failing-1/messages/kept
+printf x >failing-1/messages/kept/file
+try 4 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --space physical --members 9 --seed 1 \
+    --vary "s=uniform(0,1)" --output failing-1 --force --no-page
+says "^dalembert: cannot remove 'failing-1/messages/kept': "
 holds "failures without their draws" awk -F, 'NR > 1 && !($4 > 0 && $2 < 1) { exit 1 }' failing/failures.csv
 try 3 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --members 9 --seed 1 --vary "s=uniform(50,60)" \
     --output lost --no-page

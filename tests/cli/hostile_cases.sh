@@ -58,19 +58,24 @@ tr '4' '\0' <one/cells.csv >cut && damaged cut ': byte [0-9]+ is a NUL$'
 
 # A fault of a picture is a fault of the command.
 case_is "a picture that fails"
-mkdir -p fails draws
+mkdir -p fails draws stops dies
 printf '#!/bin/sh\nexit 1\n' >fails/gnuplot
 printf '#!/bin/sh\nexit 0\n' >draws/gnuplot
-chmod +x fails/gnuplot draws/gnuplot
+# These leave a picture, which need not be whole.
+printf '#!/bin/sh\necho "<svg></svg>" >"${1%%.gp}.svg"\nexit 3\n' >stops/gnuplot
+printf '#!/bin/sh\necho "<svg></svg>" >"${1%%.gp}.svg"\nkill -9 $$\n' >dies/gnuplot
+chmod +x fails/gnuplot draws/gnuplot stops/gnuplot dies/gnuplot
 motion="line.yaml --integrator rk4 --step 0.1 --time 2"
-for way in fails draws; do
+for way in fails draws stops dies; do
+    failure="failed on"
+    [ $way = draws ] && failure="drew nothing from"
     rm -rf run-$way
     try 0 run $motion --output run-$way
     for command in "report run-$way" "report one" "study one.yaml --output study-$way" \
         "order line.yaml --integrators rk4 --levels 2 --time 1 --output order-$way" \
         "section $motion --on x-0.5 --output section-$way" "lyapunov $motion --output exponents-$way"; do
         PATH=$PWD/$way:$PATH try 4 $command
-        says "^dalembert: gnuplot (failed on|drew nothing from) '.*\.gp'$"
+        says "^dalembert: gnuplot $failure '.*\.gp'$"
     done
 done
 

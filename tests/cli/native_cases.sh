@@ -8,7 +8,7 @@ case_is "native: interpreted, for comparison"
 try 0 run $motion --native off --output tape.csv
 silent
 holds "off made a cache" test ! -e cache
-if needs 81 "no compiler" there cc; then
+if needs 94 "no compiler" there cc; then
     case_is "native: the same bytes"
     try 0 run $motion --native on --output native.csv
     silent
@@ -147,6 +147,28 @@ if needs 81 "no compiler" there cc; then
     holds "what the compiler wrote" test "$(cat out err | grep -c spoken)" -eq 0
     holds "other bytes" cmp -s tape.csv native.csv
     holds "something is left in the cache" test -z "$(ls cache/dalembert)"
+
+    case_is "native: the object of a compiler that fails, or is killed, is not used"
+    for end in 'exit 1' 'kill -9 $$'; do
+        printf '#!/bin/sh\n%s "$@"\n%s\n' "$(command -v cc)" "$end" >broken/cc
+        rm -rf cache
+        PATH=$PWD/broken:$PATH try 0 run $motion --native on --output native.csv
+        says "steps are interpreted: the compiler 'cc' failed"
+        holds "other bytes" cmp -s tape.csv native.csv
+        holds "an object is left in the cache" test -z "$(ls cache/dalembert)"
+    done
+
+    # Its input is empty: what is typed, or piped, is not the compiler's.
+    case_is "native: what a compiler writes and reads is not the program's"
+    printf '#!/bin/sh\necho spoken\necho spoken >&2\ncat >>"%s/gate/read"\nexec %s "$@"\n' "$work" \
+        "$(command -v cc)" >broken/cc
+    rm -rf cache
+    echo typed >typed.txt
+    PATH=$PWD/broken:$PATH try 0 run $motion --native on <typed.txt
+    silent
+    holds "what the compiler wrote" eval '! grep -q spoken out'
+    holds "the compiler did not run" test -e gate/read
+    holds "the compiler read" test ! -s gate/read
     counted
 fi
 

@@ -82,3 +82,30 @@ if needs 9 "no terminal (script, stty)" terminal; then
     done
     counted
 fi
+
+# The steps left, (T - t)/h, are the rate times the time to go, which is rounded to its unit.  A terminal shows of
+# the text what each \r writes over the line: nothing is left of a line before, nor of the last at the end.
+if needs 4 "no terminal (script, stty)" terminal; then
+    case_is "progress on a terminal: its numbers, and what is seen of it"
+    script -qefc "stty cols 100; echo \$\$ >pid; exec '$program' run ./line.yaml --integrator gauss4 --step 0.01 \
+        --time 1e9 --native off --samples 10 --output long --force" long.txt >script.log 2>&1 </dev/null &
+    running=$!
+    has_progress() { test "$(tr '\r' '\n' <long.txt | grep -c ' to go, .*moved: ')" -ge 5; }
+    holds "no progress" reaches $running has_progress
+    kill -INT "$(cat pid)"
+    wait $running
+    holds "another status" test $? -eq 130
+    tr '\r' '\n' <long.txt | grep ' to go, .* steps/s' >lines.txt
+    holds "other numbers" awk '{ sub(/[(]/, "") } {
+            seconds["s"] = 1; seconds["min"] = 60; seconds["h"] = 3600; seconds["days"] = 86400
+            t = $3; left = $6; unit = seconds[$7]; rate = $10; steps = (1e9 - t) / 0.01
+            wrong = steps / rate - left * unit
+            if (wrong < 0) wrong = -wrong
+            if (wrong > 0.5001 * unit + 0.006 * left * unit) exit 1
+        }' lines.txt
+    holds "something is left of a line" awk 'BEGIN { RS = "\r" }
+        { if (sub(/.*\n/, "")) seen = ""
+          seen = $0 substr(seen, length($0) + 1); now = seen; sub(/ +$/, "", now); sub(/ +$/, "")
+          if (now != $0) exit 1 }' long.txt
+    counted
+fi

@@ -66,6 +66,16 @@ sed 's/left}/left, extend: constant}/; s/right}/right, extend: linear}/' tables/
 try 0 run tables/extended.yaml --integrator gauss4 --step 0.125 --time 4 --samples 1 --space physical
 prints '^4,74,42$'
 
+case_is "empty lines in the file of a table"
+cp tables/data/push.csv plain.csv
+printf ' t , left,"right"\r\n\n0, 0, 1\n \t \n\n1,2,1\r\n3, "2", -1\n\n \n  ' >tables/data/push.csv
+try 0 run tables/push.yaml --integrator gauss4 --step 0.125 --time 3 --samples 3 --space physical
+holds "other rows" cmp rows out
+printf 't,left,right\n\n0,0,1\n \r\n\n1,2 3,1\n' >tables/data/push.csv
+try 2 run tables/push.yaml --integrator rk4 --step 0.125 --time 3
+says "^dalembert: tables/push\.yaml:2:[0-9]+: data/push\.csv:6:3: '2 3' is not a number$"
+cp plain.csv tables/data/push.csv
+
 case_is "a file of a table that is wrong"
 printf 't,left,right\n0,0,1\n1,2 3,1\n' >tables/data/push.csv
 try 2 run tables/push.yaml --integrator rk4 --step 0.125 --time 3

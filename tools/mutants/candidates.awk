@@ -2,8 +2,12 @@
 #
 #     FILE  LINE  OPERATOR  MUTATED LINE          (separated by tabs)
 #
-# Sources are formatted by clang-format: binary operators stand between spaces, one statement a
-# line.  Comments, strings, preprocessor lines and declarations are left alone.
+# Sources are formatted by clang-format: binary operators are between spaces, one statement a line.
+# Comments, preprocessor lines and declarations are left alone.
+#
+# -v operators=first: comparisons, logic, arithmetic, constants, negated conditions, deleted
+# statements; new: bits, ++ and --, jumps, exchanged arguments, dropped statuses, returned values,
+# printed texts and their empty lines; all: both.
 
 function emit(operator, text) {
     if (text != $0) printf "%s\t%d\t%s\t%s\n", FILENAME, FNR, operator, text
@@ -95,14 +99,83 @@ function deleted(    text, copy, opened, closed) {
     emit("deleted", substr(code, 1, match(code, /[^ ]/) - 1) ";")
 }
 
+# ---- new ----
+
+# Every occurrence of one text replaced by another.
+function exchange(text, name, by,    from, at) {
+    for (from = 1; (at = index(substr(code, from), text)) > 0; from = at + length(text)) {
+        at += from - 1
+        emit(name, replaced(at, length(text), by))
+    }
+}
+
+# f(a, b): f(b, a), where neither has parentheses.
+function arguments(    from, at, count, open, comma, first, second) {
+    for (from = 1; match(substr(code, from), /[a-z_0-9]+[(][^(),@]+, [^(),@]+[)]/); from = at + count) {
+        at = from + RSTART - 1
+        count = RLENGTH
+        open = index(substr(code, at), "(")
+        comma = index(substr(code, at), ", ")
+        first = substr($0, at + open, comma - open - 1)
+        second = substr($0, at + comma + 1, count - comma - 2)
+        emit("arguments", replaced(at + open, count - open - 1, second ", " first))
+    }
+}
+
+# A status that is dropped, after DAL_TRY or instead of being assigned.
+function dropped(    at, end) {
+    at = index(code, "DAL_TRY(")
+    end = at ? closing(at + 7) : 0
+    if (end) emit("status", replaced(at, end - at + 1, "(void)(" substr($0, at + 8, end - at - 8) ")"))
+    if (match(code, /(^ +|[)] )status = [a-z_0-9]+[(]/) && code ~ /;$/) {
+        at = index(code, "status = ")
+        emit("status", replaced(at, 9, "(void)"))
+    }
+}
+
+function returned(    at, end) {
+    if (!match(code, /return [^;]+;/)) return
+    if (substr(code, RSTART, RLENGTH) !~ /^return (0|NULL|false|DAL_OK|CLI_DONE);$/)
+        emit("return", replaced(RSTART, RLENGTH, "return 0;"))
+}
+
+# Another first word, or no empty line, in a text that is printed.
+function texts(    from, at, count, word) {
+    if (code !~ /printf[(]|puts[(]|cli_table_append[(]/) return
+    for (from = 1; match(substr(code, from), /@@+/); from = at + count) {
+        at = from + RSTART - 1
+        count = RLENGTH
+        word = substr($0, at, count)
+        if (word ~ /^"\\n./ && word !~ /^"\\n"/) emit("empty line", replaced(at, 3, "\""))
+        if (match(word, /[^a-z%\\][a-z][a-z][a-z]+/))
+            emit("text", replaced(at + RSTART, RLENGTH - 1, "other"))
+    }
+}
+
+function new_operators() {
+    swap("&", "bits", "|")
+    swap("|", "bits", "&")
+    if (code !~ /^ *for /) {
+        exchange("++", "increment", "--")
+        exchange("--", "increment", "++")
+    }
+    exchange("break;", "jump", "continue;")
+    exchange("continue;", "jump", "break;")
+    arguments()
+    dropped()
+    returned()
+    texts()
+}
+
 FNR == 1 { comment = 0; directive = 0; whole_before = 1 }
 {
     code = blank()
     skip = directive || code ~ /^[ \t]*#/
     directive = skip && code ~ /\\$/
-    if (skip && code ~ /^#define [A-Z_0-9]+ +[-0-9.ex+]+ *$/) constants()
+    if (skip && operators != "new" && code ~ /^#define [A-Z_0-9]+ +[-0-9.ex+]+ *$/) constants()
     if (skip || code ~ /^[ \t]*$/) next
-    if (code !~ /^[a-z].*[)]$|^[a-z][^=]*,$/) {
+    if (operators ~ /^(new|all)$/ && code ~ /^ /) new_operators()
+    if (operators != "new" && code !~ /^[a-z].*[)]$|^[a-z][^=]*,$/) {
         swap("<", "comparison", "<=")
         swap("<", "comparison", ">=")
         swap("<=", "comparison", "<")

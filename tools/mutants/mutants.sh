@@ -1,19 +1,26 @@
 #!/bin/sh
 # mutants.sh MODULE SEED COUNT - whether the tests notice faults planted in MODULE, a source file or a
-# directory of lib/ or integrators/, or several of them; `make mutants` calls it.
+# directory of lib/, integrators/ or cli/, or several of them; `make mutants` calls it.
 #
-# A mutant is a copy of the sources with one line changed (candidates.awk): a comparison exchanged or
-# off by one, && for ||, + for -, * for /, a constant changed, a condition negated, a statement
-# deleted.  SEED draws COUNT of all those that MODULE has.  Each is built below BUILD/mutants, at -O1
-# and with few variants, since a source of several widths must be changed in all of them; one is for
-# AVX2, so that code for it runs as well.  The suites of the module (suites.txt) run until one fails,
-# then the parts of the command line; a mutant that takes LIMIT times as long as the sources
-# themselves is ended and counts as noticed, as one that crashes does.
+# A mutant is a copy of the sources with one line changed (candidates.awk).  OPERATORS=first: a
+# comparison exchanged or off by one, && for ||, + for -, * for /, a constant changed, a condition
+# negated, a statement deleted.  OPERATORS=new: & for |, ++ for --, break for continue, two arguments
+# exchanged, a status dropped, another value returned, another word or no empty line printed.
+# OPERATORS=all (the default): both.  SEED draws COUNT of all those that MODULE has.
+#
+# Each is built below BUILD/mutants by JOBS processes, at -O1 and with few variants, since a source of
+# several widths must be changed in all of them; one is for AVX2, so that code for it runs as well.
+# The suites of the module (suites.txt) run until one fails, then the parts of the command line, one
+# by one; for a file in cli/ only these.  A part that fails must pass with the sources themselves.  A
+# mutant that takes LIMIT times as long as the sources themselves is ended and counts as noticed, as
+# one that crashes does.
 #
 # A mutant that does not compile, or has the same machine code, is drawn again.  Those that no test
 # can notice are listed with their reason in equivalent.txt.  The others that are left are the
 # survivors: FILE:LINE, the operator and the changed line.  More than one survivor in ten fails.
 module=$1 seed=$2 wanted=$3
+OPERATORS=${OPERATORS:-all}
+case $OPERATORS in first | new | all) ;; *) echo "mutants: OPERATORS is first, new or all" >&2; exit 2 ;; esac
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 LIMIT=${LIMIT:-6}
@@ -42,7 +49,7 @@ copy_sources() {
     done
 }
 build() {
-    make -s -C "$tree" -j"$(nproc)" BUILD=build CC="$CC" CFLAGS=-O1 VARIANTS="$variants" "$@" \
+    make -s -C "$tree" -j"${JOBS:-$(nproc)}" BUILD=build CC="$CC" CFLAGS=-O1 VARIANTS="$variants" "$@" \
         >"$place/make.log" 2>&1
 }
 # tests_of FILE KIND: the suites, or the parts of the command line (KIND cli), of a file.
@@ -58,6 +65,7 @@ tests_of() {
                 else if (cli) parts = parts " " word[i]
                 else suites = suites " " word[i]
             if (kind == "cli") { print parts; exit }
+            if (file ~ /^cli\//) exit
             n = split(suites quick, word, " ")
             for (i = 1; i <= n; i++) if (!(word[i] in seen)) { seen[word[i]] = 1; print word[i] }
         }' "$here/suites.txt"
@@ -78,19 +86,37 @@ passes() {
         limited "$2" build/tests/suite --quick "$suite" || return
     done
     parts=$(tests_of "$1" cli)
-    noticed="cli $parts"
-    [ -z "$parts" ] && return 0
-    build build/dalembert && limited "$((10 * $2))" sh tests/cli/run.sh build/dalembert $parts
+    [ -z "$parts" ] || build build/dalembert || return
+    for part in $parts; do
+        noticed="cli $part"
+        run_part "$((10 * $2 + 300))" build/dalembert "$part"
+        ends=$?
+        [ $ends -eq 0 ] || { confirm "$part"; return $ends; }
+    done
 }
-is_listed() { grep -Fqx "$1: $(echo "$2" | sed 's/^ *//')" "$here/equivalent.txt"; }
+# run_part SECONDS PROGRAM PART: PATIENCE ends commands that hang.
+run_part() { limited "$1" env PATIENCE=60 sh tests/cli/run.sh "$2" "$3"; }
+# A part that fails with the sources themselves would notice nothing.
+confirm() {
+    grep -qx "$1" "$place/confirmed" && return
+    run_part 3600 "$place/program" "$1" ||
+        { cat "$place/test.log"; echo "mutants: cli $1 fails without a mutant"; exit 2; }
+    echo "$1" >>"$place/confirmed"
+}
+# What a file is compiled into.
+target_of() { case $1 in cli/*) echo dalembert ;; *) echo tests/suite ;; esac; }
+is_listed() { grep -Fqx "$1: $(printf '%s\n' "$2" | sed 's/^ *//')" "$here/equivalent.txt"; }
 
 # ---- the sources themselves ----
 
 copy_sources
-build build/tests/suite || { cat "$place/make.log"; echo "mutants: the sources do not build"; exit 2; }
+build build/tests/suite build/dalembert ||
+    { cat "$place/make.log"; echo "mutants: the sources do not build"; exit 2; }
 cp "$tree/build/tests/suite" "$place/suite"
+cp "$tree/build/dalembert" "$place/program"
 "$place/suite" --list >"$place/suites"
-find $module -name '*.[ch]' | sort | xargs awk -f "$here/candidates.awk" |
+: >"$place/confirmed"
+find $module -name '*.[ch]' | sort | xargs awk -v operators="$OPERATORS" -f "$here/candidates.awk" |
     awk -v seed="$seed" 'BEGIN { FS = OFS = "\t"; x = (seed * 48271 + 11) % 2147483646 + 1 }
         { x = (16807 * x) % 2147483647; print x, $0 }' | sort -n | cut -f2- >"$place/candidates"
 began=$(date +%s)
@@ -108,9 +134,9 @@ count=0 killed=0 late=0 survived=0 listed=0 same=0 broken=0
 tab=$(printf '\t')
 exec 3<"$place/candidates"
 while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
-    file=$(echo "$candidate" | cut -f1)
-    line=$(echo "$candidate" | cut -f2)
-    operator=$(echo "$candidate" | cut -f3)
+    file=$(printf '%s\n' "$candidate" | cut -f1)
+    line=$(printf '%s\n' "$candidate" | cut -f2)
+    operator=$(printf '%s\n' "$candidate" | cut -f3)
     text=$(printf '%s\n' "$candidate" | cut -f4-)
     shown=$text
     [ "$operator" = deleted ] && shown="no $(sed -n "${line}p" "$file" | sed 's/^ *//')"
@@ -120,9 +146,12 @@ while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
     fi
     TEXT=$text awk -v line="$line" 'FNR == line { print ENVIRON["TEXT"]; next } { print }' "$file" \
         >"$tree/$file"
-    if ! build build/tests/suite; then
+    target=$(target_of "$file")
+    intact=$place/suite
+    [ "$target" = dalembert ] && intact=$place/program
+    if ! build "build/$target"; then
         broken=$((broken + 1))
-    elif cmp -s "$tree/build/tests/suite" "$place/suite"; then
+    elif cmp -s "$tree/build/$target" "$intact"; then
         same=$((same + 1))
     else
         count=$((count + 1))
