@@ -9,7 +9,7 @@
 
 struct dal_evaluator {
     const dal_system *system;
-    double *scale_memory; /* behind work */
+    double *scale_memory; /* after work */
     double work[];
 };
 

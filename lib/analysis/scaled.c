@@ -43,7 +43,7 @@ const double *dal_scaled_units(const dal_scaled *s) { return s ? s->numbers : NU
 
 /* ---- callbacks ---- */
 
-/* out[i*columns + j] times by, row[i] and column[j], where they are given; the place behind. */
+/* out[i*columns + j] times by, row[i] and column[j], where they are given; the place after them. */
 static double *multiply(double *out, double by, int rows, const double *row, int columns,
                         const double *column)
 {
@@ -421,7 +421,7 @@ static void find_units(survey *w)
     for (int i = 0; i < n; i++) w->mass[i] = kinetic_mass(w, i);
     s->time = field_at(w, w->t, w->x, w->f) ? time_unit(w) : 1.0;
     find_lengths(w, s->time);
-    find_formula_units(w, s->constraint); /* the energy and the invariants are behind */
+    find_formula_units(w, s->constraint); /* then energy and invariants */
     s->energy = s->constraint[m];
     for (int a = 0; a < s->nw - n; a++) s->speed[n + a] = s->energy / s->constraint[a];
     for (int i = 0; i < n; i++) s->per_length[i] = 1.0 / s->length[i];
@@ -470,7 +470,7 @@ dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_
     if (!s) return dal__fail(error, DAL_MEMORY, "out of memory");
     s->plain = p;
     s->n = p->n, s->nw = (int)nw, s->m = p->m;
-    s->length = s->numbers + 1; /* behind the unit of time */
+    s->length = s->numbers + 1; /* after the unit of time */
     s->speed = s->length + n;
     s->field = s->speed + nw;
     s->constraint = s->field + nw;

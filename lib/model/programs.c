@@ -175,7 +175,7 @@ CALLBACK(PICTURE, picture, tqv)
 
 /* ---- sizes of terms ---- */
 
-/* The values of the symbols as the graph numbers them, and behind them memory of the terms. */
+/* memory: the values of the symbols as the graph numbers them, then memory of the terms. */
 static dal_status scale(const dal_system *system, const dal__terms *terms, const dal_point *at,
                         double *memory, double *out)
 {
