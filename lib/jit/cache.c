@@ -31,8 +31,17 @@ extern char **environ;
 
 /* Compiler options; the bits do not depend on them.  Those of the machine are a part of the name of
  * the object, since machines may share a directory.  Without -s it holds the name of its source. */
-static const char *const usual[] = {"-x",      "c",     "-std=gnu11",        "-O2", "-w",
-                                    "-shared", "-fPIC", "-ffp-contract=off", "-s",  NULL};
+static const char *const usual[] = {"-x",
+                                    "c",
+                                    "-std=gnu11",
+                                    "-O2",
+                                    "-w",
+                                    "-shared",
+                                    "-fPIC",
+                                    "-ffp-contract=off",
+                                    "-fno-math-errno", /* square roots in vectors, too */
+                                    "-s",
+                                    NULL};
 static const char *const machine[][8] = {
 #define SET(set, ...) {__VA_ARGS__},
     DAL__INSTRUCTIONS_LIST(SET)
