@@ -5,7 +5,7 @@
 limited() {
     blocks=$1 expected=$2
     shift 2
-    (trap '' XFSZ; ulimit -f "$blocks"; exec timeout $patience "$program" "$@") >out 2>err
+    (trap '' XFSZ; ulimit -f "$blocks"; exec timeout --foreground $patience "$program" "$@") >out 2>err
     ended $? "$@"
 }
 try 0 run ./line.yaml --integrator rk4 --step 0.001 --time 100 --samples 20000 --output whole

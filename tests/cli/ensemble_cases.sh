@@ -150,7 +150,7 @@ says "belongs to another ensemble"
 case_is "shards side by side in one directory"
 pids=
 for k in 1 2 3; do
-    timeout $patience "$program" $begin --output beside --shard $k/3 --threads 1 >out.$k 2>err.$k &
+    timeout --foreground $patience "$program" $begin --output beside --shard $k/3 --threads 1 >out.$k 2>err.$k &
     pids="$pids $!"
 done
 for pid in $pids; do
@@ -254,7 +254,7 @@ says "'killed/final.npy' is not the file that was begun"
 
 case_is "an ensemble on a full disk"
 expected=4
-(ulimit -f 100 && exec timeout $patience "$program" $begin --output full) >out 2>err
+(ulimit -f 100 && exec timeout --foreground $patience "$program" $begin --output full) >out 2>err
 ended $? ensemble
 [ -s err ] && says "cannot write 'full/.*.npy': File too large"
 

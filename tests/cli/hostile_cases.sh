@@ -83,7 +83,7 @@ if there python3; then
     # hostile PART...: a part of hostile.py, in a directory of its own.
     hostile() {
         rm -rf hostile && mkdir hostile
-        (cd hostile && CC=${CC:-cc} timeout $patience python3 "$here/hostile.py" "$program" "$@") >err 2>&1
+        (cd hostile && CC=${CC:-cc} timeout --foreground $patience python3 "$here/hostile.py" "$program" "$@") >err 2>&1
         holds "$1" test $? -eq 0
     }
     there "${CC:-cc}" || echo "cli: $name: skipped: C of hostile texts: no compiler"

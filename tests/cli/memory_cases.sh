@@ -8,7 +8,7 @@ shim=$top/fail_allocation.so
 without_memory() {
     k=$1 count=$2
     shift 2
-    timeout $patience env LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" \
+    timeout --foreground $patience env LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" \
         "$program" "$@" >out 2>err
 }
 # numbers TOTAL: which of TOTAL allocations fail: the first and last few and some between.

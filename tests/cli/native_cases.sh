@@ -178,7 +178,7 @@ mkdir -p none
 path=$PATH
 timeout=$(command -v timeout)
 PATH=$PWD/none
-"$timeout" $patience "$program" run $motion --native on --output native.csv >out 2>err
+"$timeout" --foreground $patience "$program" run $motion --native on --output native.csv >out 2>err
 status=$?
 PATH=$path
 holds "exit $status" test $status -eq 0

@@ -55,7 +55,7 @@ outputs() {
     holds "it is no FIFO any more" test -p fifo.csv
     case_is "a FIFO that nobody reads any more$who"
     head -c 10 fifo.csv >received &
-    timeout $patience $as "$program" run $circle --samples 1000000 --time 1e5 --native off -o fifo.csv >out 2>err
+    timeout --foreground $patience $as "$program" run $circle --samples 1000000 --time 1e5 --native off -o fifo.csv >out 2>err
     holds "exit $?, not 4" test $? -eq 4
     says "^dalembert: cannot write 'fifo.csv': Broken pipe$"
     wait $!

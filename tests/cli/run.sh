@@ -13,7 +13,14 @@ parts=$*
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(mktemp -d) || exit 1
 memory=
-trap 'rm -rf "$top" ${memory:+"$memory"}' EXIT
+# An interrupt leaves no process and no file.
+leave() {
+    jobs -p >"$top/jobs" 2>/dev/null && kill -KILL $(cat "$top/jobs") 2>/dev/null
+    rm -rf "$top" ${memory:+"$memory"}
+}
+trap leave EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM HUP
 cd "$top" || exit 1
 mkdir home
 LC_ALL=C
@@ -73,7 +80,7 @@ holds() {
 try() {
     expected=$1
     shift
-    timeout $patience "$program" "$@" >out 2>err
+    timeout --foreground $patience "$program" "$@" >out 2>err
     ended $? "$@"
 }
 # ended STATUS ARGUMENT...: the program must have ended with the status $expected.
@@ -140,7 +147,7 @@ shared_object() { there "${CC:-cc}" && ${CC:-cc} -shared -fPIC -O1 "$here/$1.c" 
 signalled() {
     number=$1 call=$2
     shift 2
-    timeout $patience env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
+    timeout --foreground $patience env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
         LD_PRELOAD="$top/raise_signal.so" RAISE="$number" RAISE_AT="$call" "$program" "$@"
 } >out 2>err
 # cut_off STATUS NUMBER CALL ARGUMENT...: like try, with that signal.
@@ -159,7 +166,7 @@ by_mpi() {
     expected=$1
     shift
     # Leaks are Open MPI's own; another object may be loaded first.
-    ASAN_OPTIONS=detect_leaks=0:verify_asan_link_order=0 timeout $patience mpirun --allow-run-as-root --oversubscribe \
+    ASAN_OPTIONS=detect_leaks=0:verify_asan_link_order=0 timeout --foreground $patience mpirun --allow-run-as-root --oversubscribe \
         --mca mpi_yield_when_idle 1 "$@" >out 2>err
     ended $? "$@"
 }

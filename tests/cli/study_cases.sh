@@ -312,7 +312,7 @@ fi
 case_is "the built-in study"
 try 0 study --show
 holds "--show is not the file" cmp -s out "$here/../../bench/studies/canonical-drift.yaml"
-timeout $patience "$program" study --output builtin >out 2>err
+timeout --foreground $patience "$program" study --output builtin >out 2>err
 status=$?
 holds "exit $status" test $status -eq 0
 silent
