@@ -7,7 +7,7 @@
 #     make mpi              build/dalembert-mpi, where there is Open MPI
 #     make clean            remove build/
 #
-#     make check            all tests; the CUnit summary comes last
+#     make check            all tests, as many beside each other as -j says; the CUnit summary comes last
 #     make check-python     the package of python/, where Python has cffi, numpy and pytest; a part of check
 #     make check-sanitize   the tests under the address and undefined-behaviour sanitizers
 #     make check-valgrind   the CUnit suites under valgrind
@@ -251,13 +251,14 @@ $(BUILD)/locale:
 RUN_SUITE = LOCPATH=$(BUILD)/locale
 
 HAS_MPI = $(shell command -v $(MPICC) >/dev/null && echo $(MPI_PROGRAM))
+# What there is to check (tests/checks.mk), in the order in which results are printed; all of it is made
+# before.  SUITE has suites, all others being left out, and options of the suites.
+PARTS  = $(patsubst tests/cli/%_cases.sh,%,$(wildcard tests/cli/*_cases.sh))
+CHECKS = $(PARTS:%=cli-%) install browser python $(patsubst %,suite-%,$(or $(filter-out --%,$(SUITE)),$(SUITES)))
 check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/tests/read_json \
        $(BUILD)/tests/change_units $(BUILD)/bench/page $(BUILD)/locale
-	@sh tests/cli/run.sh $(PROGRAM)
-	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
-	@sh tests/browser/run.sh $(PROGRAM)
-	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/python.sh "$(MAKE)" $(BUILD)
-	@$(RUN_SUITE) $(BUILD)/tests/suite $(SUITE)
+	@CC="$(CC)" CFLAGS="$(CFLAGS)" BUILD="$(BUILD)" PROGRAM="$(PROGRAM)" RUN_SUITE="$(RUN_SUITE)" \
+	    SUITE_OPTIONS="$(filter --%,$(SUITE))" sh tests/run.sh "$(MAKE)" $(CHECKS)
 
 check-python: all
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/python.sh "$(MAKE)" $(BUILD)
