@@ -1,6 +1,6 @@
 # Starts whose velocities are moved to D = 0: --consistent.
 
-# W = diag(2, 1), A = (1, 1): v - v0 = -(1/2, 1) (x' + y' - 1)/(3/2).
+# The masses are 2 and 1, so that v - v0 = -(1/2, 1) (x' + y' - 1)/(3/2).
 cat >skew.yaml <<'END'
 coordinates: [x, y]
 lagrangian: x'^2 + y'^2/2

@@ -5,7 +5,7 @@
 # Where there is a file system in memory it is used: a moment is then one of the program, not one of
 # waiting for the disk.
 
-memory=$(mktemp -d -p /dev/shm 2>/dev/null) && cd "$memory"
+memory=$(mktemp -d -p /dev/shm 2>/dev/null) && { cd "$memory" || exit 1; }
 XDG_CACHE_HOME=$work/kill_cache
 export XDG_CACHE_HOME
 seed=${SEED:-$(date +%s)}

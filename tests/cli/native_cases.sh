@@ -177,6 +177,7 @@ rm -rf cache
 mkdir -p none
 path=$PATH
 timeout=$(command -v timeout)
+# shellcheck disable=SC2123
 PATH=$PWD/none
 "$timeout" --foreground $patience "$program" run $motion --native on --output native.csv >out 2>err
 status=$?

@@ -98,7 +98,7 @@ systems:
 END
 "$program" study endless.yaml --output there --force --threads 2 --checkpoint 0 --tables >out 2>err &
 pid=$!
-both_begun() { grep -q '"done"' there/runs/short_*/manifest.json && [ -s there/runs/endless_*/checkpoint ]; }
+both_begun() { grep -q '"done"' there/runs/short_*/manifest.json && cat there/runs/endless_*/checkpoint | grep -q .; }
 holds "nothing begun" reaches $pid both_begun
 ends_by INT 130 $pid
 says 'interrupted'

@@ -77,10 +77,9 @@ case_is "a study in pieces: interrupted"
 cut_off 130 2 20 study pieces.yaml --output stopped-study --threads 1 --checkpoint 0
 says 'interrupted; resume with: dalembert resume stopped-study'
 holds "interrupted" grep -q '"status": "interrupted"' stopped-study/manifest.json
-mkdir elsewhere
-cd elsewhere
+mkdir elsewhere && cd elsewhere || exit 1
 try 0 resume ../stopped-study
-cd ..
+cd "$work" || exit 1
 holds "other bytes" same_study whole-study stopped-study
 
 case_is "a study in pieces: a damaged run"
@@ -101,7 +100,7 @@ for k in 1 2 3; do
     holds "its manifest" grep -q '"status": "done"' shard-$k/shard-$k-of-3.json
 done
 prints '^contact-oscillator: '
-count=$(ls shard-1/runs shard-2/runs shard-3/runs | grep -c _)
+count=$(find shard-[123]/runs -mindepth 1 -maxdepth 1 -name '*_*' | wc -l)
 holds "$count runs, not 20" test "$count" -eq 20
 try 0 merge shard-1 shard-2 shard-3 --output merged
 prints '^Expectations: 6 of 6 are met\.$'

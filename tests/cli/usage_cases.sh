@@ -45,7 +45,7 @@ while read -r command; do
     "$program" "$command" --help | sed -n 's/^  --\([a-z-]*\).*/\1/p' | grep -vx help >names
     awk -v title="## $command" '/^## / { on = $0 == title } on' reference >part
     while read -r name; do
-        holds "$command lacks --$name" grep -Eq -- "^(- .|As for .*)--$name[^a-z-]" part
+        holds "$command lacks --$name" grep -Eq -- "^(- .|As for .*)--${name}[^a-z-]" part
     done <names
 done <commands
 try 0 help run --markdown
@@ -321,7 +321,7 @@ try 0 list integrators
 for integrator in symplectic-euler-00 symplectic-euler-10 symplectic-euler-01 \
     symplectic-euler-11 stormer-verlet rk4 implicit-midpoint gauss4 gauss6 gauss8 gauss10 \
     gauss12 '\+project'; do
-    prints "^$integrator[ ,]"
+    prints "^${integrator}[ ,]"
 done
 prints '^rk4 +4 '
 prints '^gauss12 +12 '
