@@ -14,9 +14,7 @@ here=$(dirname "$0")
 
 # Ends what has RESULTS in its environment: after an interrupt that is all that still runs.
 leave() {
-    for process in /proc/[0-9]*; do
-        tr '\0' '\n' 2>/dev/null <"$process/environ" | grep -Fqx "RESULTS=$RESULTS" && kill -KILL "${process#/proc/}"
-    done 2>/dev/null
+    grep -alsFxz "RESULTS=$RESULTS" /proc/[0-9]*/environ 2>/dev/null | cut -d/ -f3 | xargs -r kill -KILL 2>/dev/null
     rm -rf "$RESULTS"
 }
 trap leave EXIT
