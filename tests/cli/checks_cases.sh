@@ -58,22 +58,22 @@ in_order() { # TEXT...: lines of out that begin so, in this order
 if needs 30 "no make" there make; then
     case_is "checks beside each other: in order, each in its place"
     driven 0 cli-slow cli-after cli-good cli-place suite-one suite-skips
-    holds "the order" in_order 's cli-slow' 'slow output' 's cli-after' 'after output' \
+    expect "the order" in_order 's cli-slow' 'slow output' 's cli-after' 'after output' \
         's cli-good' 'cli: good: 2' 's cli-place' 's suite-one' 's suite-skips' \
         'cli: 9 passed, 0 failed, 2 skipped' 'suites: 2 times tests are skipped' 'Run Summary:' \
         '              suites      2      2    n/a      0        0' \
         '               tests      6      6      6      0        0' \
         '             asserts   2000   2000   2000      0      n/a' 'Elapsed time =    3.000 seconds'
-    holds "one sum" test "$(grep -c '^cli: [0-9]' out)" -eq 1
-    holds "the summary is last" sh -c 'tail -n 1 out | grep -q "^Elapsed time"'
+    expect "one sum" test "$(grep -c '^cli: [0-9]' out)" -eq 1
+    expect "the summary is last" sh -c 'tail -n 1 out | grep -q "^Elapsed time"'
     prints '^place: (/.*)/cli-place/tmp, \1/cli-place/tmp/cache, 0$'
-    holds "files are left" test ! -e "$(sed -n 's/^place: \(.*\), .*, 0$/\1/p' out)"
+    expect "files are left" test ! -e "$(sed -n 's/^place: \(.*\), .*, 0$/\1/p' out)"
 
     case_is "checks beside each other: those that fail"
     jobs=1 options=--quick
     rm "$checks_name/after"
     driven 1 cli-bad cli-killed cli-none cli-zero cli-good suite-bad suite-crash suite-one
-    holds "the order" in_order 's cli-bad' 'cli: FAILED: a case: a reason' 'FAILED: cli-bad, exit status 1' \
+    expect "the order" in_order 's cli-bad' 'cli: FAILED: a case: a reason' 'FAILED: cli-bad, exit status 1' \
         'FAILED: cli-killed, exit status 137' 'FAILED: cli-none counts no checks' \
         'FAILED: cli-zero counts no checks' 's cli-good' 's suite-bad' quick 'Suite bad, Test t' \
         'FAILED: suite-bad, exit status 1' 'FAILED: suite-crash, exit status 139' 's suite-one' \
@@ -82,7 +82,7 @@ if needs 30 "no make" there make; then
         '               tests      6      6      5      1        0'
     for check in cli-bad cli-killed cli-none cli-zero suite-bad suite-crash; do
         driven 1 $check
-        holds "the last line" sh -c 'tail -n 1 out | grep -Eq "^(Elapsed|1 of 1 checks failed)"'
+        expect "the last line" sh -c 'tail -n 1 out | grep -Eq "^(Elapsed|1 of 1 checks failed)"'
     done
     driven 1 cli-ended cli-good
     prints '^FAILED: cli-ended was ended before it had a result$'
@@ -95,10 +95,10 @@ if needs 30 "no make" there make; then
         (cd "$checks_name" && unset MAKEFLAGS MFLAGS MAKELEVEL && exec env PROGRAM=none RUN_SUITE= BUILD=build \
             setsid sh tests/run.sh make cli-endless) >out 2>err &
         driver=$!
-        holds "it begins" awaits test -e "$checks_name/begun"
+        expect "it begins" awaits test -e "$checks_name/begun"
         kill -TERM -$driver
-        holds "the driver goes on" awaits gone $driver
-        for process in $(cat "$checks_name/pids"); do holds "$process goes on" awaits gone "$process"; done
+        expect "the driver goes on" awaits gone $driver
+        for process in $(cat "$checks_name/pids"); do expect "$process goes on" awaits gone "$process"; done
         counted
     fi
     counted
