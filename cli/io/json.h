@@ -17,10 +17,11 @@
  * {.out = file}. */
 typedef struct json_writer {
     FILE *out;
-    int depth;      /* of the present object or list; */
-    int lines;      /* down to this one each member has a line of its own */
-    unsigned lists; /* bit d: the one of depth d is a list */
-    bool is_empty;  /* the present one */
+    int depth;       /* of the present object or list; */
+    int lines;       /* down to this one each member has a line of its own */
+    unsigned lists;  /* bit d: the one of depth d is a list */
+    bool is_empty;   /* the present one */
+    bool is_in_page; /* in an element of HTML: < is escaped, and no space goes between members */
 } json_writer;
 
 typedef enum json_layout { JSON_ON_ONE_LINE, JSON_LINES } json_layout;
@@ -35,10 +36,14 @@ void json_put_text(json_writer *writer, const char *name, const char *text); /* 
 void json_put_flag(json_writer *writer, const char *name, bool flag);
 void json_put_number(json_writer *writer, const char *name, double x);
 void json_put_integer(json_writer *writer, const char *name, long long x);
+/* A number of nine digits, where more would only make a page longer. */
+void json_put_rounded(json_writer *writer, const char *name, double x);
 /* A number that was given as a text: digit for digit where JSON writes it so. */
 void json_put_given(json_writer *writer, const char *name, const char *number);
 /* A value that is JSON already. */
 void json_put_source(json_writer *writer, const char *name, const char *source);
+/* The same, written by the caller. */
+FILE *json_put_name(json_writer *writer, const char *name);
 
 /* Begins and ends what a command prints with --json: an object with its schema, such as
  * dalembert/order/1, and the version of the program. */
