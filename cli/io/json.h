@@ -60,13 +60,15 @@ void json_end_results(json_writer *writer);
 
 /* Parses one object (RFC 8259), length bytes and a NUL, at most DOCUMENT_DEPTH levels deep, to the
  * nodes of a YAML document: texts are quoted scalars; numbers, true, false and null plain ones.
- * Half of a surrogate pair is U+FFFD.  Returns CLI_DONE, or prints and returns CLI_USAGE; the
- * document is to be deleted either way. */
+ * Half of a surrogate pair is U+FFFD.  Returns CLI_DONE, or prints, unless place is NULL, and
+ * returns CLI_USAGE; the document is to be deleted either way. */
 int json_parse(document *doc, const char *place, const char *bytes, size_t length);
 /* What stands for a value in the bytes that were parsed, allocated. */
 char *json_source(const char *bytes, const yaml_node_t *value);
 /* A text of the object in a file, allocated; NULL where the file or the text is not there, after a
  * message where the file cannot be read. */
 char *json_file_text(const char *path, const char *name);
+/* Whether the object in a file has that member; no message where the file is no such object. */
+bool json_file_has(const char *path, const char *name);
 
 #endif
