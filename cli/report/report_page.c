@@ -112,6 +112,20 @@ void report_base64(FILE *page, const char *bytes, size_t length)
     }
 }
 
+void report_put_levels(json_writer *data, const char *name, const uint16_t *level, int count)
+{
+    FILE *page = json_put_name(data, name);
+    char *bytes = cli_malloc(2 * (size_t)count + 1);
+    for (int i = 0; i < count; i++) {
+        bytes[2 * i] = (char)(level[i] & 0xff);
+        bytes[2 * i + 1] = (char)(level[i] >> 8);
+    }
+    fputc('"', page);
+    report_base64(page, bytes, 2 * (size_t)count);
+    fputc('"', page);
+    free(bytes);
+}
+
 int report_embed(report *r, const char *name, const char *alt, const char *caption)
 {
     char file[MAX_FILE_NAME];

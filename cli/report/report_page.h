@@ -9,7 +9,10 @@
 #ifndef DAL_CLI_REPORT_PAGE_H
 #define DAL_CLI_REPORT_PAGE_H
 
+#include "io/json.h"
+
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 extern const char report_style[], report_script[]; /* report.css and report.js, embedded */
@@ -40,8 +43,9 @@ void report_title(report *r, const char *title);
  * line ends; the same in an element. */
 void report_text(FILE *page, const char *text);
 void report_element(FILE *page, const char *element, const char *text);
-/* Bytes as base64. */
+/* Bytes as base64; integers of 16 bits, little-endian, as a text of JSON in base64. */
 void report_base64(FILE *page, const char *bytes, size_t length);
+void report_put_levels(json_writer *data, const char *name, const uint16_t *level, int count);
 /* A table has its heads between REPORT_TABLE and REPORT_ROWS, then rows that begin with a name. */
 #define REPORT_TABLE     "<div class=\"wide\" tabindex=\"0\"><table><thead><tr>"
 #define REPORT_ROWS      "</tr></thead>\n<tbody>"
