@@ -25,6 +25,7 @@ typedef struct report {
     char *text;            /* what is on it, and how much, when it is closed */
     size_t length;
     char *page_path;
+    int read;           /* the exit status of reading the files that are on the page */
     bool lacks_gnuplot; /* scripts are written, figures are not */
     int figures;        /* on the page so far */
 } report;
@@ -56,7 +57,8 @@ void report_number(FILE *page, const char *format, double x);
 /* A cell of a table with a size and a trend, in words and in colour, and a number below them.
  * Without both it holds the number alone. */
 void report_trend(FILE *page, const char *size, const char *trend, const char *number);
-/* A file of the directory, word for word, folded; nothing where there is none. */
+/* A file of the directory, word for word, folded; nothing where there is none.  Without one that
+ * cannot be read report_close fails. */
 void report_file(report *r, const char *name, const char *summary);
 /* The figure DIR/report/NAME.svg, inside the page; alt describes it in words. */
 int report_embed(report *r, const char *name, const char *alt, const char *caption);

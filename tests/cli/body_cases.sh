@@ -43,7 +43,7 @@ is_ellipse() {
     }' outline
 }
 
-if needs 35 "no gnuplot" there gnuplot; then
+if needs 42 "no gnuplot" there gnuplot; then
     case_is "a blade: its edge and an arrow"
     draws blade
     is_outline '-1.000,0.000 1.000,0.000' '0.500,0.300 1.000,0.000 0.500,-0.300'
@@ -99,5 +99,18 @@ picture: {x: x, y: 3, body: ball}\n' >moving.yaml
     expect "other circles" test $? -eq 0
     lines moving/report/path.gp 1 >way
     expect "not from (0, 3) to (10, 3)" test "$(sed -n '1p; $p' way | tr '\n' ' ')" = "0,3 10,3 "
+
+    # x = t passes 5 once and never reaches 50; curves are the path, the bodies and the rings.
+    case_is "rings where events happened, and no curve where none did"
+    for place in 5 50; do
+        { cat moving.yaml && printf 'events: [{when: x - %s}]\n' $place; } >passing.yaml
+        rm -rf passing
+        try 0 run ./passing.yaml --integrator rk4 --step 0.1 --time 10 --samples 80 --output passing
+        try 0 report passing
+        curves=2
+        [ $place -eq 50 ] || curves=3
+        expect "curves with an event at $place" test "$(grep -c '^$curve[0-9]* <<' passing/report/path.gp)" -eq $curves
+        [ $place -eq 50 ] || expect "other rings" test "$(lines passing/report/path.gp 3)" = 5,3
+    done
     counted
 fi

@@ -21,6 +21,14 @@ int main(void)
     return printf("\n") < 0;
 }
 END
+case_is "each option of a run that a file can have"
+for option in "--from 1" "--set k=2" "--start x=1" "--space lifted" "--solver newton" "--iterations 9" \
+    "--extend-energy off" "--reactions off" "--consistent on" "--lanes 2" "--prefix h"; do
+    try 0 generate line.yaml --integrator gauss4 $option
+done
+try 0 generate line.yaml --integrator dop853 --tolerance 1e-9
+try 0 generate plane.yaml --integrator gauss4 --reactions on
+
 strict="-Wall -Wextra -Wpedantic -Werror -Wno-psabi"
 # same SYSTEM INTEGRATOR SPACE LANES COMPILER FLAGS...
 same() {

@@ -11,14 +11,6 @@ without_memory() {
     timeout --foreground $patience env LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" \
         "$program" "$@" >out 2>err
 }
-# numbers TOTAL: which of TOTAL allocations fail: the first and last few and some between.
-numbers() {
-    awk -v total="$1" -v most="$ALLOCATIONS" 'BEGIN {
-        step = total > most ? total / most : 1
-        for (x = 1; x <= total; x += step) print int(x)
-        for (k = total - 3; k <= total; k++) if (k > 0) print k
-    }' | sort -n -u
-}
 # fails_cleanly ARGUMENT...: begins with what `prepare` makes, in the directory `place`.
 fails_cleanly() {
     rm -rf place
@@ -26,7 +18,7 @@ fails_cleanly() {
     without_memory 0 1 "$@"
     well=$? total=$(cat allocations) fault=
     cp out well.out
-    for k in $(numbers "$total"); do
+    for k in $(numbers "$total" "$ALLOCATIONS"); do
         for count in 1 1000000; do
             rm -rf place
             prepare

@@ -310,7 +310,8 @@ END_OF_STUDY
     try 0 order moved.yaml --integrators rk4,gauss4 --levels 3 --step 0.2 --time 2 --set k=0.5 \
         --start "x'=3" --space lifted --output found
     prints '^against gauss12 with h = 0\.025, itself within'
-    rm -r moved.yaml found/report
+    mv moved.yaml moved-back.yaml
+    rm -r found/report
     try 0 report found
     for fact in "<h1>friction on a line: order, work and precision</h1>" "<code>Q_x = -k\*x'</code>" \
         "<code>k = 0.5</code> instead of <code>1</code>" "<code>x' = 3</code> instead of" \
@@ -319,6 +320,8 @@ END_OF_STUDY
         expect "it lacks $fact" grep -q "$fact" found/report/index.html
     done
     expect "defaults of the solver" sh -c "! grep -q '<dt>solver' found/report/index.html"
+    try 0 order moved-back.yaml --integrators rk4 --levels 2 --time 2 --set k=1.0 --output same
+    expect "the value of the file is not that" grep -q '<code>k = 1</code>' same/report/index.html
     rm found/order.json found/order.yaml
     try 0 report found
     expect "no T from the table" grep -q '<dt>time T</dt><dd>2</dd>' found/report/index.html

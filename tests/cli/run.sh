@@ -4,7 +4,8 @@
 #
 # A case runs the program by `try STATUS ARGUMENT...` and examines out and err with `says`, `prints`, `expect` and
 # `refute`; `case_is` names it; a `table` has cases of one command each.  Expected numbers are closed forms or counts.
-# PARTs are files, PART_cases.sh; all of them when none is named.
+# PARTs are files, PART_cases.sh; all of them when none is named.  FIRST_FAILURE=1 ends them at the first check that
+# fails.
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
 shift
 parts=$*
@@ -40,6 +41,7 @@ fail() {
     failed=$((failed + 1))
     echo "cli: FAILED: $label: $1"
     sed 's/^/    stderr: /' err | head -3
+    [ -z "${FIRST_FAILURE:-}" ] || exit 1
 }
 # cannot COUNT REASON: COUNT checks are not made here, which no package changes; skips COUNT REASON: a tool is
 # missing, and where CI is true that fails.
@@ -160,6 +162,15 @@ ends_by() {
     wait "$3" 2>/dev/null
     status=$?
     expect "exit $status after SIG$1, not $2" test $status -eq "$2"
+}
+
+# numbers TOTAL COUNT: about COUNT numbers of 1 to TOTAL: the first and last few and some between.
+numbers() {
+    awk -v total="$1" -v count="$2" 'BEGIN {
+        step = total > count ? total / count : 1
+        for (x = 1; x <= total; x += step) print int(x)
+        for (k = total - 3; k <= total; k++) if (k > 0) print k
+    }' | sort -n -u
 }
 
 # shared_object NAME: makes NAME.so, for LD_PRELOAD.

@@ -130,3 +130,15 @@ if needs 2 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
     expect "other bytes" cmp one.cells two.cells
     counted
 fi
+
+# 80 bytes are as wide as a line may be; a letter of two is not cut in its middle.
+case_is "a title that is too long"
+for first in '' x; do
+    title=$first$(awk 'BEGIN { while (i++ < 60) printf "\303\251" }')
+    short=$first$(awk 'BEGIN { while (i++ < 39) printf "\303\251" }')
+    printf '%s\n' "title: $title" 'integrators: rk4' 'step: 0.5' 'time: 1' 'starts: physical' \
+        'systems: [line.yaml]' >wide.yaml
+    rm -rf wide
+    try 0 study wide.yaml --output wide --no-page
+    holds "another title after '$first'" test "$(head -n 1 out)" = "$short~"
+done
