@@ -168,6 +168,22 @@ typedef struct dal_event {
     unsigned actions; /* DAL_EVENT_SETS | ... */
 } dal_event;
 
+/* The branches of F where sign, abs, min, max, floor, a comparison or a table switches from one
+ * formula to another as an argument s passes certain values.  A run with events repeats a step in
+ * which s may do so with the branches held as at its begin, so that F is smooth in it, and an event
+ * there is found as exactly as anywhere else; see docs/events.md.  Made by a model.  A system
+ * written in C has none: its events have, where F jumps, the error of a step across the jump. */
+typedef struct dal_branches {
+    int count;            /* how many there are */
+    dal_callback *values; /* out[2*count]: s of each, then the size of which eps is its rounding */
+    dal_callback *rates;  /* out[count]: ds/dt along the motion */
+    /* The values, infinite ones among them, between which branch k of s = point stays. */
+    void (*bounds)(const dal_system *system, int k, double point, double *lower, double *upper);
+    /* Until the next call the callbacks of a step, the rates of events and these two decide as for
+     * s = point[count]; NULL: as s is.  work: that of the points where they are evaluated. */
+    void (*hold)(const dal_system *system, const double *point, double *work);
+} dal_branches;
+
 /* A velocity that a start solves from D = 0, and where a file names it, for messages. */
 typedef struct dal_solved {
     int velocity;     /* its number, from 0 */
@@ -227,6 +243,7 @@ struct dal_system {
     const dal_system *extended; /* F continued off D = 0 so that E is exact, for extend-energy */
     const dal_system *quad;     /* work in quad precision, for precision; these two may be NULL */
     const dal_series *series;   /* Taylor coefficients of F; NULL: none */
+    const dal_branches *branches; /* of F where there are events; NULL: none, or not known */
     const struct dal_picture *picture;         /* how it is drawn; NULL: not at all */
     void *data;                                /* of the owner, for callbacks */
     int field_operations, jacobian_operations; /* arithmetic operations of these callbacks, which
