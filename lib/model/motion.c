@@ -238,11 +238,11 @@ static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, in
 /* ---- W on ker A alone ---- */
 
 /* Whether det W has both signs, or vanishes beyond a jump, at irregular points at distances of 1/16
- * to 2^20 from the default start: then W is singular between them, where the motion may well be
+ * to 2^60 from the default start: then W is singular between them, where the motion may well be
  * determined.  No node is made, so that F does not depend on it. */
 static bool may_turn_singular(dal_model *model)
 {
-    enum { POINTS = 256, MIN_EXPONENT = -4, MAX_EXPONENT = 20 };
+    enum { POINTS = 256, MIN_EXPONENT = -4, MAX_EXPONENT = 60 };
     const dal__equations *e = &model->equations;
     double *point = dal__model_allocate(model, (size_t)e->symbols, sizeof *point);
     dal__random random = {1};
