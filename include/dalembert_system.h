@@ -149,7 +149,8 @@ enum {
     DAL_SERVO = 1 << 10,         /* reactions along directions B of their own, not along A^T */
     DAL_BLOCKS_POSITIONAL = 1 << 11, /* every D linear, W^-1 b and A without v */
     DAL_D_ISOKINETIC = 1 << 12,      /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
-    DAL_WIDE_TIMES = 1 << 13         /* the wide sets read dal_point.times, or no time at all */
+    DAL_WIDE_TIMES = 1 << 13,        /* the wide sets read dal_point.times, or no time at all */
+    DAL_MASS_ON_KERNEL = 1 << 14     /* W need be regular on ker A only; see CONSTRAINT, BLOCKS */
 };
 
 /* ---- events -------------------------------------------------------------------------------- */
@@ -416,6 +417,22 @@ typedef struct dal_growth {
  * DAL_NOT_FINITE, DAL_TOO_LARGE. */
 dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,
                             const double *units, dal_growth *out, dal_error *error);
+
+/* Numerical ranks at a point.  The motion is determined there where constraints is m and mass is
+ * n - m: W = L_vv alone may be singular. */
+typedef struct dal_ranks {
+    int constraints;          /* of A = D_v [m*n] */
+    int mass;                 /* of W on ker A; -1 where constraints is below m */
+    double constraints_pivot; /* the smallest pivot over the largest, 0 below full rank */
+    double mass_pivot;        /* likewise */
+} dal_ranks;
+/* Finds the ranks of a model whose system is made, with parameters[parameter_count], at a point of
+ * which t, q[n] and v[n] are read.  Entries are compared in units[1 + n] of t and q, those of
+ * dal_scaled_units; NULL: 1.  [alloc]  Errors: DAL_UNSUPPORTED (vakonomic motion, reactions given),
+ * DAL_NAME, DAL_NOT_FINITE. */
+dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int parameter_count,
+                           const dal_point *at, const double *units, dal_ranks *out,
+                           dal_error *error);
 
 #ifdef __cplusplus
 }

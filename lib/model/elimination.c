@@ -267,6 +267,13 @@ void dal__record_pivots(dal__equations *e, const dal__factors *f, bool of_mass, 
     }
 }
 
+double dal__pivot_product(const dal__equations *e, const dal__factors *f, const double *values)
+{
+    double product = 1.0;
+    for (int k = 0; k < f->n; k++) product *= dal__evaluate(e->graph, *at(f, k, k), values);
+    return product;
+}
+
 /* ---- the whole ---- */
 
 bool dal__factors_allocate(dal_model *model, dal__factors *f, int n, const int *constraints)

@@ -262,7 +262,7 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
     double *value = at->work + p->scratch;
     DAL_TRY(p->run(system, at, value, DAL__PROGRAM_DIAGNOSE, DAL__READS_tqv));
     out[0] = 0.0;
-    for (int k = 0; k < e->pivots; k++)
+    for (int k = 0; k < e->pivots && !e->restricted; k++)
         if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_SINGULAR_MASS;
     for (int a = 0; a < e->m; a++) {
         out[0] = a + 1;
@@ -272,6 +272,8 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
         out[0] = e->pivot[k].constraint;
         if (e->pivot[k].constraint && vanished(value + 2 * k)) return DAL_SINGULAR;
     }
+    for (int k = 0; k < e->pivots && e->restricted; k++) /* whose other pivots need those of A */
+        if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_SINGULAR_MASS;
     const double *lookup = value + 2 * e->pivots + e->m; /* argument, value */
     for (int k = 0; k < e->lookups; k++) {
         out[0] = e->lookup[k] + 1;
