@@ -34,8 +34,9 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
 }
 
 /* Lists the constraints whose rows of A combine to that of one, ", 1, 2", at an irregular point;
- * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: those of A, each
- * scaled to a largest entry of 1, and behind each how it is combined of them. */
+ * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: the rows of A, in
+ * units in which the diagonal of W and the largest entry of each row are 1, and after each how it is
+ * combined of them. */
 static double list_dependence(const dal__equations *e, int row, double *rows, char *list,
                               size_t size)
 {
@@ -47,7 +48,11 @@ static double list_dependence(const dal__equations *e, int row, double *rows, ch
     for (int a = 0; a < m; a++) {
         double *w = rows + a * width; /* row comes last */
         const int number = a == m - 1 ? row : a + (a >= row);
-        for (int i = 0; i < n; i++) w[i] = dal__evaluate(e->graph, e->A[number * n + i], point);
+        for (int i = 0; i < n; i++) {
+            const double mass = fabs(dal__evaluate(e->graph, e->W[i * n + i], point));
+            w[i] = dal__evaluate(e->graph, e->A[number * n + i], point);
+            if (mass > 0.0) w[i] /= sqrt(mass);
+        }
         const double largest = dal__max_abs(w, (size_t)n);
         for (int i = 0; i < n && largest > 0.0; i++) w[i] /= largest;
         w[n + number] = 1.0;
