@@ -14,8 +14,10 @@ here=$(dirname "$0")
 
 # Ends what has RESULTS in its environment: after an interrupt that is all that still runs.
 leave() {
-    grep -alsFxz "RESULTS=$RESULTS" /proc/[0-9]*/environ 2>/dev/null | cut -d/ -f3 | xargs -r kill -KILL 2>/dev/null
-    rm -rf "$RESULTS"
+    results=$RESULTS
+    unset RESULTS
+    grep -alsFxz "RESULTS=$results" /proc/[0-9]*/environ 2>/dev/null | cut -d/ -f3 | xargs -r kill -KILL 2>/dev/null
+    rm -rf "$results"
 }
 trap leave EXIT
 trap 'exit 130' INT

@@ -55,7 +55,7 @@ in_order() { # TEXT...: lines of out that begin so, in this order
         END { exit k != count }' expected -
 }
 
-if needs 30 "no make" there make; then
+if needs 31 "no make" there make; then
     case_is "checks beside each other: in order, each in its place"
     driven 0 cli-slow cli-after cli-good cli-place suite-one suite-skips
     expect "the order" in_order 's cli-slow' 'slow output' 's cli-after' 'after output' \
@@ -64,6 +64,7 @@ if needs 30 "no make" there make; then
         '              suites      2      2    n/a      0        0' \
         '               tests      6      6      6      0        0' \
         '             asserts   2000   2000   2000      0      n/a' 'Elapsed time =    3.000 seconds'
+    silent
     expect "one sum" test "$(grep -c '^cli: [0-9]' out)" -eq 1
     expect "the summary is last" sh -c 'tail -n 1 out | grep -q "^Elapsed time"'
     prints '^place: (/.*)/cli-place/tmp, \1/cli-place/tmp/cache, 0$'
