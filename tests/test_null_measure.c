@@ -353,6 +353,11 @@ static void null_dal_error_budget_describe(void)
 
 /* ---- trends ---- */
 
+static void null_dal_statistics_rate_range(void)
+{
+    CU_ASSERT(isnan(dal_statistics_rate_range(NULL)));
+}
+
 static void null_dal_statistics_max_abs(void) { CU_ASSERT(isnan(dal_statistics_max_abs(NULL))); }
 
 static void null_dal_statistics_deviation(void)
