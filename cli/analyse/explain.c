@@ -37,7 +37,7 @@ static void compile_run(void *user, dal_run *run, long long steps)
     e->native = native_begin(run, end, 0.0, 1.0, e->settings->native);
 }
 
-/* ---- the answer ---- */
+/* ---- sentences and shares ---- */
 
 /* Observables that are listed without --details: with the rest some 24 lines. */
 enum { MAX_LISTED = 6, NAME_WIDTH = 12, CELL_SIZE = 16, MIN_COLUMN = 7, LINE = 80 };
@@ -45,15 +45,6 @@ enum { MAX_LISTED = 6, NAME_WIDTH = 12, CELL_SIZE = 16, MIN_COLUMN = 7, LINE = 8
 static bool is_changed(const dal_error_budget *e, int i)
 {
     return !(e->shares[i].whole.deviation == 0.0);
-}
-
-/* The observables that change; how many there are. */
-static int list_changed(const dal_error_budget *e, int *list)
-{
-    int count = 0;
-    for (int i = 0; i < e->observables; i++)
-        if (is_changed(e, i)) list[count++] = i;
-    return count;
 }
 
 /* The length of the longest name that has at most `limit` characters. */
@@ -192,10 +183,12 @@ static void print_exact(const dal_error_budget *e)
     free(text);
 }
 
-static void print_answer(const dal_error_budget *e, bool details)
+static void print_sources(const dal_error_budget *e, bool details)
 {
     int *list = cli_calloc((size_t)e->observables + 1, sizeof *list);
-    const int all = list_changed(e, list);
+    int all = 0;
+    for (int i = 0; i < e->observables; i++)
+        if (is_changed(e, i)) list[all++] = i;
     const int count = details || all < MAX_LISTED ? all : MAX_LISTED;
     print_sentences(e, list, count);
     if (all > count) printf("... and %d more: --details\n", all - count);
@@ -297,25 +290,19 @@ static void print_runs(const explain_settings *s, const dal_error_budget *e)
     free(text);
 }
 
-static void print_details(const dal_error_budget *e)
+static void print_budget(const explain_settings *s, const dal_error_budget *e)
 {
-    for (int i = 0; i < e->observables; i++)
+    print_sources(e, s->details);
+    print_exact(e);
+    print_runs(s, e);
+    for (int i = 0; s->details && i < e->observables; i++)
         if (is_changed(e, i)) print_observable(e, i);
-    putchar('\n');
-    for (int k = 0; k < DAL_COMPARISONS; k++) {
+    for (int k = 0; s->details && k < DAL_COMPARISONS; k++) {
         if (e->ran[k] || !*e->reason[k]) continue;
         char *text = cli_format("not run: %s: %s", comparison_text(e, k), e->reason[k]);
         cli_wrap(stdout, text, 0, 4);
         free(text);
     }
-}
-
-static void print_budget(const explain_settings *s, const dal_error_budget *e)
-{
-    print_answer(e, s->details);
-    print_exact(e);
-    print_runs(s, e);
-    if (s->details) print_details(e);
 }
 
 /* ---- as CSV ---- */

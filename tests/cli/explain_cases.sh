@@ -7,22 +7,22 @@ case_is "explain: truncation of rk4 on the sleigh"
 sleigh="chaplygin-sleigh --integrator rk4 --space physical --step 0.1 --time 30 --quad-steps 200"
 try 0 explain $sleigh
 silent
-tr -s ' \n' ' ' <out >answer
-holds "a sentence first" grep -Eq '^D1 drifts by truncation \(100 %\): halve the step and it falls by 1[56]' answer
-holds "what E has from D" grep -Eq ' E drifts by truncation \(100 %\), because D does: halve the step' answer
-holds "what +project does" grep -Eq ' With \+project: D1 at rounding, E at [0-9.e-]+ of this, ' answer
+tr -s ' \n' ' ' <out >sentences
+holds "a sentence first" grep -Eq '^D1 drifts by truncation \(100 %\): halve the step and it falls by 1[56]' sentences
+holds "what E has from D" grep -Eq ' E drifts by truncation \(100 %\), because D does: halve the step' sentences
+holds "what +project does" grep -Eq ' With \+project: D1 at rounding, E at [0-9.e-]+ of this, ' sentences
 prints "^ +truncation +rounding +\+project$"
 prints "^  D1 +100 % +< 0\.1 % +[0-9]e-[0-9]+$"
 prints "^exact: spin$"
 holds "what was run" grep -q \
-    "chaplygin-sleigh, rk4, physical, h = 0.1: 300 steps, the first 200 in quad precision too; reference: dop853 to 1e-16. The runs compared: --details" answer
+    "chaplygin-sleigh, rk4, physical, h = 0.1: 300 steps, the first 200 in quad precision too; reference: dop853 to 1e-16. The runs compared: --details" sentences
 holds "a line is wider than 80 columns" is_narrow
 holds "more than 24 lines" test "$(wc -l <out)" -le 24
 
 case_is "explain: --details"
 try 0 explain $sleigh --details
 silent
-holds "the same answer first" sh -c 'tr -s " \n" " " <out | grep -qF "$(sed "s/ *chaplygin-sleigh, .*//" answer)"'
+holds "the same sentences first" sh -c 'tr -s " \n" " " <out | grep -qF "$(sed "s/ *chaplygin-sleigh, .*//" sentences)"'
 prints "^D1: size larger, trend "
 prints "^  truncation    100 % .* in quad precision the .*$"
 holds "the order of truncation" sh -c 'tr -s " \n" " " <out | grep -Eq "falls by 1[56][^ ]* = 2\^[34]\.[90][^ ]* when the step is halved"'
@@ -36,15 +36,15 @@ case_is "explain: an oscillator, with friction and without"
 printf "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\n" >spring.yaml
 sed "s/^start/forces: {x: -0.1*x'}\nstart/" spring.yaml >friction.yaml
 try 0 explain spring.yaml --integrator rk4 --step 0.1 --time 100
-tr -s ' \n' ' ' <out >answer
-holds "truncation" grep -Eq '^E drifts by truncation \(100 %\): halve the step and it falls by 3[12]' answer
+tr -s ' \n' ' ' <out >sentences
+holds "truncation" grep -Eq '^E drifts by truncation \(100 %\): halve the step and it falls by 3[12]' sentences
 try 0 explain friction.yaml --integrator rk4 --step 0.1 --time 40
-tr -s ' \n' ' ' <out >answer
-holds "friction" grep -Eq '^E changes by the motion itself \(100 %\); truncation is [0-9.e-]+ %: halve the step and it falls by ' answer
+tr -s ' \n' ' ' <out >sentences
+holds "friction" grep -Eq '^E changes by the motion itself \(100 %\); truncation is [0-9.e-]+ %: halve the step and it falls by ' sentences
 prints "^ +motion +truncation +rounding$"
 try 0 explain friction.yaml --integrator rk4 --step 1.25 --time 40
-tr -s ' \n' ' ' <out >answer
-holds "both" grep -Eq '^E changes by the motion itself \([0-9]+ %\) and truncation \([0-9.]+ %\): halve the step and truncation falls by ' answer
+tr -s ' \n' ' ' <out >sentences
+holds "both" grep -Eq '^E changes by the motion itself \([0-9]+ %\) and truncation \([0-9.]+ %\): halve the step and truncation falls by ' sentences
 
 case_is "explain: CSV"
 try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \
@@ -83,8 +83,8 @@ prints "no quad precision: not requested"
 
 case_is "explain: a tolerance without a step"
 try 0 explain chaplygin-sleigh --integrator dop853 --tolerance 1e-8 --space physical --time 30 --quad-steps 0 --details
-tr -s ' \n' ' ' <out >answer
-holds "what was run" grep -q "chaplygin-sleigh, dop853, physical, h = 0.3, tolerance 1e-08: 100 steps; " answer
+tr -s ' \n' ' ' <out >sentences
+holds "what was run" grep -q "chaplygin-sleigh, dop853, physical, h = 0.3, tolerance 1e-08: 100 steps; " sentences
 prints "^    substeps half as long "
 
 # E is conserved by an identity, and rk4 is of order 1 in steps across x = 0, where F jumps.
@@ -100,19 +100,19 @@ prints '^  energy E +ok +conserved on every level of D$'
 prints '^  invariant twice +ok '
 for quad in 5000 0; do
     try 0 explain kink.yaml --integrator rk4 --step 0.01 --time 50 --quad-steps $quad
-    tr -s ' \n' ' ' <out >answer
+    tr -s ' \n' ' ' <out >sentences
     for name in E twice; do
-        holds "$name by branches" grep -Eq "$name +(drifts|varies) by truncation at branches \(100 %\): halve the step and it falls by [12]" answer
+        holds "$name by branches" grep -Eq "$name +(drifts|varies) by truncation at branches \(100 %\): halve the step and it falls by [12]" sentences
     done
-    holds "the motion itself" sh -c '! grep -q motion answer'
+    holds "the motion itself" sh -c '! grep -q motion sentences'
 done
 
 # Coulomb's friction: where it sticks, F jumps to and fro.
 case_is "explain: no exact motion"
 printf "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nforces: {x: -0.1*sign(x')}\nstart: {x: 1}\n" >sticks.yaml
 try 0 explain sticks.yaml --integrator rk4 --step 0.01 --time 20 --quad-steps 50
-tr -s ' \n' ' ' <out >answer
-holds "why there is none" grep -q ' no exact motion: too many substeps ' answer
+tr -s ' \n' ' ' <out >sentences
+holds "why there is none" grep -q ' no exact motion: too many substeps ' sentences
 holds "a line is wider than 80 columns" is_narrow
 try 0 explain sticks.yaml --integrator rk4 --step 0.01 --time 20 --quad-steps 50 --json
 prints '"name": "exact-motion", "reason": '
@@ -127,8 +127,8 @@ holds "a line is wider than 80 columns" is_narrow
 holds "more than 24 lines" test "$(wc -l <out)" -le 24
 prints '^\.\.\. and 5 more: --details$'
 try 0 explain many.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 0 --details
-tr -s ' \n' ' ' <out >answer
-holds "the last one" grep -q 'a_name_as_long_as_this_10 changes by ' answer
+tr -s ' \n' ' ' <out >sentences
+holds "the last one" grep -q 'a_name_as_long_as_this_10 changes by ' sentences
 holds "a line is wider than 80 columns" is_narrow
 
 case_is "explain: no step"
