@@ -91,9 +91,9 @@ typedef struct dal_average {
 /* The mean of x; NaN without values; an infinite interval with fewer than 3 blocks. */
 void dal_statistics_mean(const dal_statistics *statistics, dal_average *average);
 
-/* How the slope of x varies: the largest less the smallest of the rates of least squares of the four
- * quarters of the values; NaN with fewer than 16 blocks.  A line that bends on as it does here may
- * have, in a run k times as long, a rate within k - 1 such ranges of its own: of 280 rates of
+/* How the slope of x varies: the largest less the smallest of the rates of least squares of the
+ * four quarters of the values; NaN with fewer than 16 blocks.  A line that bends on as it does here
+ * may have, in a run k times as long, a rate within k - 1 such ranges of its own: of 280 rates of
  * shipped systems 93 % did for k = 50.  It is no confidence interval. */
 double dal_statistics_rate_range(const dal_statistics *statistics);
 

@@ -141,6 +141,19 @@ static void test_solver(void)
     CU_ASSERT(shares_of(&m)->share[DAL_SOURCE_SOLVER] == 0.0);
 }
 
+/* The same in units in which the quantity is 2^40 times larger. */
+static void make_larger(made_up *m)
+{
+    dal_trend *const parts[] = {&m->a.beginning, &m->a.solver_and_rounding,
+                                &m->a.comparison[DAL_COMPARISON_QUAD],
+                                &m->a.comparison[DAL_COMPARISON_QUAD_HALVED]};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        double *const numbers[] = {&parts[i]->rate,      &parts[i]->rate_low, &parts[i]->rate_high,
+                                   &parts[i]->deviation, &parts[i]->max_abs,  &parts[i]->scale};
+        for (int k = 0; k < 6; k++) *numbers[k] *= 0x1p40;
+    }
+}
+
 /* What quad precision leaves: nothing, the motion, or coefficients as doubles. */
 static void test_quad_precision(void)
 {
@@ -190,16 +203,7 @@ static void test_quad_precision(void)
             coefficients ? DAL_SOURCE_TRUNCATION : DAL_SOURCE_COEFFICIENTS;
         CU_ASSERT_DOUBLE_EQUAL(shares_of(&m)->share[source], 0.5, 1e-12);
         CU_ASSERT(m.a.share[other] == 0.0 && !m.a.is_motion);
-        /* The same in units in which it is 2^40 times larger. */
-        m.a.beginning.scale = 0x1p40;
-        for (int part = 0; part < 3; part++) {
-            dal_trend *const f = part == 0   ? &m.a.beginning
-                                 : part == 1 ? &m.a.solver_and_rounding
-                                             : &m.a.comparison[DAL_COMPARISON_QUAD];
-            f->rate *= 0x1p40, f->deviation *= 0x1p40, f->max_abs *= 0x1p40;
-            f->rate_low *= 0x1p40, f->rate_high *= 0x1p40;
-        }
-        m.a.comparison[DAL_COMPARISON_QUAD_HALVED].rate *= 0x1p40;
+        make_larger(&m);
         CU_ASSERT_DOUBLE_EQUAL(shares_of(&m)->share[source], 0.5, 1e-12);
         CU_ASSERT(m.a.share[other] == 0.0);
     }

@@ -183,23 +183,6 @@ static void print_exact(const dal_error_budget *e)
     free(text);
 }
 
-static void print_sources(const dal_error_budget *e, bool details)
-{
-    int *list = cli_calloc((size_t)e->observables + 1, sizeof *list);
-    int all = 0;
-    for (int i = 0; i < e->observables; i++)
-        if (is_changed(e, i)) list[all++] = i;
-    const int count = details || all < MAX_LISTED ? all : MAX_LISTED;
-    print_sentences(e, list, count);
-    if (all > count) printf("... and %d more: --details\n", all - count);
-    print_projection(e, list, count);
-    if (count > 0) {
-        putchar('\n');
-        print_shares(e, list, count);
-    }
-    free(list);
-}
-
 /* ---- the details ---- */
 
 /* A row of the table of runs, 80 columns wide; a long label has a line of its own. */
@@ -292,17 +275,28 @@ static void print_runs(const explain_settings *s, const dal_error_budget *e)
 
 static void print_budget(const explain_settings *s, const dal_error_budget *e)
 {
-    print_sources(e, s->details);
+    int *list = cli_calloc((size_t)e->observables + 1, sizeof *list);
+    int all = 0;
+    for (int i = 0; i < e->observables; i++)
+        if (is_changed(e, i)) list[all++] = i;
+    const int count = s->details || all < MAX_LISTED ? all : MAX_LISTED;
+    print_sentences(e, list, count);
+    if (all > count) printf("... and %d more: --details\n", all - count);
+    print_projection(e, list, count);
+    if (count > 0) {
+        putchar('\n');
+        print_shares(e, list, count);
+    }
     print_exact(e);
     print_runs(s, e);
-    for (int i = 0; s->details && i < e->observables; i++)
-        if (is_changed(e, i)) print_observable(e, i);
+    for (int k = 0; s->details && k < all; k++) print_observable(e, list[k]);
     for (int k = 0; s->details && k < DAL_COMPARISONS; k++) {
         if (e->ran[k] || !*e->reason[k]) continue;
         char *text = cli_format("not run: %s: %s", comparison_text(e, k), e->reason[k]);
         cli_wrap(stdout, text, 0, 4);
         free(text);
     }
+    free(list);
 }
 
 /* ---- as CSV ---- */

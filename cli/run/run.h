@@ -12,8 +12,7 @@
 #define RUN_OPTION_LIST(OPTION)                                                                    \
     OPTION(output)                                                                                 \
     OPTION(events)                                                                                 \
-    OPTION(checkpoint) OPTION(summary) OPTION(details) OPTION(progress) OPTION(native)             \
-        OPTION(force)
+    OPTION(checkpoint) OPTION(summary) OPTION(details) OPTION(progress) OPTION(native) OPTION(force)
 
 enum {
 #define NUMBER(name) RUN_##name,
