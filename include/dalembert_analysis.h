@@ -91,6 +91,12 @@ typedef struct dal_average {
 /* The mean of x; NaN without values; an infinite interval with fewer than 3 blocks. */
 void dal_statistics_mean(const dal_statistics *statistics, dal_average *average);
 
+/* How the slope of x varies: the largest less the smallest of the rates of least squares of the
+ * four quarters of the values; NaN with fewer than 16 blocks.  A line that bends on as it does here
+ * may have, in a run k times as long, a rate within k - 1 such ranges of its own: of 280 rates of
+ * shipped systems 93 % did for k = 50.  It is no confidence interval. */
+double dal_statistics_rate_range(const dal_statistics *statistics);
+
 /* Sizes: SIZE(code, word). */
 #define DAL_SIZE_LIST(SIZE)                                                                        \
     SIZE(EXACT, "exact")       /* the quantity never changed */                                    \
@@ -316,15 +322,25 @@ dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double
  *            + x(solved further) - x(quad, solved further) rounding
  *            + x(run) - x(solved further)                  solver
  *
- * at every moment, and so for the rates of lines of least squares: these shares add up to 1.
- * Coefficients of a method stay doubles in quad precision; their part does not fall with the step
- * as truncation does.  The effect of projection is that of leaving it out, or of adding it; it is
- * no part of the sum.
+ * at every moment, and so for the rates of lines of least squares.  Coefficients of a method stay
+ * doubles in quad precision; their part does not fall with the step as truncation does.  Nor does
+ * truncation in steps across branches (if, abs, min, ...), a source of its own.  The effect of
+ * projection is that of leaving it out, or of adding it; it is no part of the sum.
  *
- * A change along the exact motion is no error.  That motion is computed by taylor with a tolerance
- * of 1e-16, where the equations have a Taylor series; else what quad precision leaves counts as the
- * motion if it does not fall with the step.  Under a tolerance, half the step is the tolerance
- * divided by 2^p, p being the order of the method. */
+ * A change along the exact motion is no error.  What is known to be conserved from this start has
+ * none: D; E by an identity; H, |p|, |pi| and |pi_e| on p = pi = 0; invariants whose rate vanishes
+ * at points about the start.  Of all else the exact motion, found by dop853 with a tolerance of
+ * 1e-16 in units of the system's own, says how it changes,
+ *
+ *     x(quad, solved further) = x(exact motion) + error,
+ *
+ * and motion and error are sources beside each other; a change within roundings is none.  Without
+ * that motion, what quad precision leaves counts as motion if it does not fall with the step.
+ * Under a tolerance, half the step is the tolerance divided by 2^p, p being the order of the
+ * method.
+ *
+ * A share is the size of a part, the absolute value of its rate or its max deviation, over the sum
+ * of the sizes of all: between 0 and 1, and 1 in all. */
 
 /* Comparison runs: RUN(code, word, text).  Those in quad precision cover the first quad_steps
  * steps, the others all. */
@@ -334,7 +350,7 @@ dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double
     RUN(TIGHTER, "tighter", "equations solved further, by two iterations")                         \
     RUN(SUMS, "sums", "plain sums, or compensated ones")                                           \
     RUN(PROJECTION, "projection", "with +project, or without")                                     \
-    RUN(EXACT, "exact-motion", "the exact motion, by taylor")                                      \
+    RUN(EXACT, "exact-motion", "the exact motion, by dop853")                                      \
     RUN(QUAD, "quad", "quad precision, solved further")                                            \
     RUN(QUAD_HALVED, "quad-half-step", "quad precision, solved further, half the step")
 
@@ -348,7 +364,9 @@ typedef enum dal_comparison_run {
 
 /* Error sources: SOURCE(code, word). */
 #define DAL_ERROR_SOURCE_LIST(SOURCE)                                                              \
-    SOURCE(TRUNCATION, "truncation")                                                               \
+    SOURCE(MOTION, "motion")         /* the exact motion changes it */                             \
+    SOURCE(TRUNCATION, "truncation") /* of smooth equations: falls as the order says */            \
+    SOURCE(BRANCHES, "branches")     /* truncation in steps across branches */                     \
     SOURCE(COEFFICIENTS, "coefficients")                                                           \
     SOURCE(SOLVER, "solver")                                                                       \
     SOURCE(ROUNDING, "rounding")                                                                   \
@@ -375,16 +393,20 @@ typedef struct dal_shares {
     dal_trend comparison[DAL_COMPARISONS]; /* of those that ran */
     dal_trend rounding, solver;            /* the differences above, along the beginning */
     dal_trend solver_and_rounding;         /* their sum */
+    dal_trend motion;                      /* of the exact motion, along the beginning */
+    dal_trend error, error_halved;         /* in quad precision less the exact motion, or less the
+                                              start where that conserves it; with half the step */
     int by_rate;       /* whether the beginning is measured by rates, where the run clearly drifts,
                           or else by max deviations */
     int whole_by_rate; /* the same for the whole run */
     int vanishes_in_quad;      /* quad precision leaves nothing of the drift */
-    int is_motion;             /* the exact motion changes it, at least half as much */
+    int is_conserved;          /* the exact motion from this start conserves it */
+    int is_motion;             /* the exact motion makes at least half of the change */
     int solver_is_significant; /* whether the solver's part is well above rounding */
-    double order; /* log2 of what halving the step divides the drift by: in quad precision, or
+    double order; /* log2 of what halving the step divides the error by: in quad precision, or
                      without it along the whole run; NaN: nothing to divide */
-    /* share: of the drift; that of PROJECTION vanishes without it, or with it; NaN: not known.
-     * margin: half the 95 % interval of a share of rates; NaN: none. */
+    /* share: of the change, 0..1; that of PROJECTION vanishes without it, or with it; NaN: not
+     * known.  margin: half the 95 % interval of a share of rates; NaN: none. */
     double share[DAL_ERROR_SOURCES], margin[DAL_ERROR_SOURCES];
 } dal_shares;
 
@@ -393,6 +415,7 @@ typedef struct dal_error_budget {
     dal_run_spec spec;        /* of the run */
     long long steps;          /* of the run */
     long long quad_steps;     /* of those also in quad precision; 0: none */
+    long long exact_steps;    /* substeps of the exact motion, all along */
     int has_projection;       /* the method projects: DAL_COMPARISON_PROJECTION does not */
     int ran[DAL_COMPARISONS]; /* whether each ran to its end */
     char reason[DAL_COMPARISONS][DAL_MESSAGE_SIZE]; /* and if not, the reason */
@@ -420,6 +443,11 @@ dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, lo
 /* Frees a budget. */
 void dal_error_budget_free(dal_error_budget *budget);
 
+/* Says in a sentence what an observable does and by which sources, "drifts by truncation (100 %):
+ * halve the step and it falls by 16", in buffer[size]; returns buffer, NULL where there is no such
+ * observable. */
+char *dal_error_budget_summarise(const dal_error_budget *budget, int observable, char *buffer,
+                                 size_t size);
 /* Describes in words how a share was found, in buffer[size]; returns buffer, NULL where there is no
  * such observable. */
 char *dal_error_budget_describe(const dal_error_budget *budget, int observable,

@@ -5,12 +5,15 @@
 #include <CUnit/CUnit.h>
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* A run of 1000 steps of 0.01 by gauss4 that deviates by 1 in T = 10, drifting at the rate 0.1. */
 typedef struct made_up {
     dal_error_budget e;
     dal_shares a;
+    dal_system with_branches;
+    dal_series refused;
 } made_up;
 
 static dal_trend drift(double rate, double deviation, double margin)
@@ -43,10 +46,22 @@ static made_up make(const dal_system *system, const char *method)
     return m;
 }
 
+/* Rates of least squares are those of the trends. */
 static const dal_shares *shares_of(made_up *m)
 {
-    dal__find_shares(&m->e, &m->a);
+    double rate[1 + DAL_COMPARISONS] = {m->a.whole.rate};
+    for (int k = 0; k < DAL_COMPARISONS; k++) rate[1 + k] = m->a.comparison[k].rate;
+    dal__find_shares(&m->e, &m->a, rate);
     return &m->a;
+}
+
+/* The same system, but its equations contain abs. */
+static void give_branches(made_up *m)
+{
+    m->with_branches = *m->e.spec.system;
+    m->refused = (dal_series){.refused = "abs"};
+    m->with_branches.series = &m->refused;
+    m->e.spec.system = &m->with_branches;
 }
 
 #define IS(x, expected) CU_ASSERT_DOUBLE_EQUAL(x, expected, 1e-14)
@@ -101,27 +116,42 @@ static void test_solver(void)
         double rate, deviation, margin;
         int is_significant;
         double share; /* NAN: unknown */
-    } cases[] = {{0.0, 0.81, 1.0, 1, 0.0},     {0.0, 0.79, 1.0, 0, NAN},
-                 {0.0, 0.09, 1.0, 0, 0.0},     {0.0, 0.11, 1.0, 0, NAN},
-                 {0.021, 0.2, 0.01, 1, 0.21},  {0.019, 0.2, 0.01, 0, NAN},
-                 {-0.021, 0.2, 0.01, 1, -0.21}};
+    } cases[] = {{0.0, 0.81, 1.0, 1, 0.0},    {0.0, 0.79, 1.0, 0, NAN},
+                 {0.0, 0.09, 1.0, 0, 0.0},    {0.0, 0.11, 1.0, 0, NAN},
+                 {0.021, 0.2, 0.01, 1, 0.21}, {0.019, 0.2, 0.01, 0, NAN},
+                 {-0.021, 0.2, 0.01, 1, 0.21}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
         m.a.solver = drift(cases[i].rate, cases[i].deviation, cases[i].margin);
         m.a.solver_and_rounding = drift(0.03, 0.3, 0.006);
         CU_ASSERT_EQUAL(shares_of(&m)->solver_is_significant, cases[i].is_significant);
-        IS(m.a.share[DAL_SOURCE_ROUNDING], cases[i].is_significant ? 0.2 : 0.3);
+        /* Sizes are 0.08 in quad precision, 0.02 or 0.03 of rounding, and the solver's rate. */
+        const double sum = cases[i].is_significant ? 0.1 + fabs(cases[i].rate) : 0.11;
+        IS(m.a.share[DAL_SOURCE_ROUNDING], (cases[i].is_significant ? 0.02 : 0.03) / sum);
         if (isnan(cases[i].share))
             CU_ASSERT(isnan(m.a.share[DAL_SOURCE_SOLVER]))
         else
-            IS(m.a.share[DAL_SOURCE_SOLVER], cases[i].share);
-        if (cases[i].is_significant) IS(m.a.margin[DAL_SOURCE_SOLVER], cases[i].margin / 0.1);
+            IS(m.a.share[DAL_SOURCE_SOLVER], cases[i].share * 0.1 / sum);
+        if (cases[i].is_significant) IS(m.a.margin[DAL_SOURCE_SOLVER], cases[i].margin / sum);
     }
     /* With nothing to solve there is no share of it. */
     made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
     m.a.solver = drift(0.0, 0.5, 1.0);
     m.e.ran[DAL_COMPARISON_TIGHTER] = 0;
     CU_ASSERT(shares_of(&m)->share[DAL_SOURCE_SOLVER] == 0.0);
+}
+
+/* The same in units in which the quantity is 2^40 times larger. */
+static void make_larger(made_up *m)
+{
+    dal_trend *const parts[] = {&m->a.beginning, &m->a.solver_and_rounding,
+                                &m->a.comparison[DAL_COMPARISON_QUAD],
+                                &m->a.comparison[DAL_COMPARISON_QUAD_HALVED]};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        double *const numbers[] = {&parts[i]->rate,      &parts[i]->rate_low, &parts[i]->rate_high,
+                                   &parts[i]->deviation, &parts[i]->max_abs,  &parts[i]->scale};
+        for (int k = 0; k < 6; k++) *numbers[k] *= 0x1p40;
+    }
 }
 
 /* What quad precision leaves: nothing, the motion, or coefficients as doubles. */
@@ -151,12 +181,19 @@ static void test_quad_precision(void)
         CU_ASSERT_EQUAL(shares_of(&m)->is_motion, !k);
         CU_ASSERT_EQUAL(isnan(m.a.share[DAL_SOURCE_TRUNCATION]), !k);
         CU_ASSERT_EQUAL(isnan(m.a.margin[DAL_SOURCE_TRUNCATION]), !k);
+        IS(m.a.share[k ? DAL_SOURCE_TRUNCATION : DAL_SOURCE_MOTION], 0.8);
         IS(m.a.order, k ? 0.51 : 0.49);
+        /* But what is conserved is not the motion's, however it falls. */
+        m.a.is_conserved = 1;
+        CU_ASSERT_EQUAL(shares_of(&m)->is_motion, 0);
+        IS(m.a.share[DAL_SOURCE_TRUNCATION], 0.8);
+        CU_ASSERT(m.a.share[DAL_SOURCE_MOTION] == 0.0);
     }
     /* Small, and falling by less than 2^(4 - 1/2): coefficients. */
     for (int k = 0; k < 4; k++) {
         made_up m = make(system, "gauss4");
         m.a.beginning = drift(1e-12, 1e-11, 1e-14);
+        m.a.solver_and_rounding = drift(5e-13, 5e-12, 1e-14);
         m.a.comparison[DAL_COMPARISON_QUAD] = drift(5e-13, (k & 1 ? 1.01 : 0.99) * rounding, 1e-14);
         m.a.comparison[DAL_COMPARISON_QUAD_HALVED].rate = 5e-13 / exp2(k & 2 ? 3.51 : 3.49);
         const int coefficients = k == 0;
@@ -166,35 +203,104 @@ static void test_quad_precision(void)
             coefficients ? DAL_SOURCE_TRUNCATION : DAL_SOURCE_COEFFICIENTS;
         CU_ASSERT_DOUBLE_EQUAL(shares_of(&m)->share[source], 0.5, 1e-12);
         CU_ASSERT(m.a.share[other] == 0.0 && !m.a.is_motion);
+        make_larger(&m);
+        CU_ASSERT_DOUBLE_EQUAL(shares_of(&m)->share[source], 0.5, 1e-12);
+        CU_ASSERT(m.a.share[other] == 0.0);
     }
 }
 
-/* The motion is what the exact one changes, by half at least and by more than its roundings; where
- * there is none, how the drift falls with the step decides. */
+/* What quad precision leaves and does not fall as the order says is truncation at branches, where
+ * there are some. */
+static void test_branches(void)
+{
+    for (int k = 0; k < 4; k++) {
+        made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
+        if (k & 1) give_branches(&m);
+        m.a.is_conserved = 1;
+        m.a.comparison[DAL_COMPARISON_QUAD_HALVED].rate = 0.08 / exp2(k & 2 ? 3.51 : 3.49);
+        const int at_branches = k == 1;
+        IS(shares_of(&m)->share[at_branches ? DAL_SOURCE_BRANCHES : DAL_SOURCE_TRUNCATION], 0.8);
+        CU_ASSERT(m.a.share[at_branches ? DAL_SOURCE_TRUNCATION : DAL_SOURCE_BRANCHES] == 0.0);
+        CU_ASSERT(m.a.share[DAL_SOURCE_COEFFICIENTS] == 0.0);
+        /* By halving alone: all of it, if it falls. */
+        m.e.quad_steps = 0;
+        m.a.comparison[DAL_COMPARISON_HALVED] = drift(0.1 / exp2(k & 2 ? 0.49 : 0.51), 1.0, 0.0);
+        if (k == 1)
+            IS(shares_of(&m)->share[DAL_SOURCE_BRANCHES], 1.0)
+        else
+            CU_ASSERT(!(shares_of(&m)->share[DAL_SOURCE_BRANCHES] > 0.0));
+        CU_ASSERT(m.a.share[DAL_SOURCE_MOTION] == 0.0);
+    }
+}
+
+/* Friction takes 0.06 of the 0.1, truncation 0.03, and rounding 0.01; without quad precision the
+ * errors of the run and of its half, less those of the motion, are 0.032 and 0.002. */
+static void test_split(void)
+{
+    made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
+    m.a.comparison[DAL_COMPARISON_EXACT] = m.a.motion = drift(-0.06, 0.6, 0.001);
+    m.a.comparison[DAL_COMPARISON_QUAD] = drift(-0.03, 0.3, 0.001);
+    m.a.error = drift(0.03, 0.3, 0.001);
+    m.a.error_halved = drift(0.03 / 16.0, 0.02, 0.001);
+    m.a.solver_and_rounding = drift(0.01, 0.1, 0.001);
+    const dal_shares *a = shares_of(&m);
+    CU_ASSERT(a->by_rate && a->is_motion && !a->is_conserved);
+    IS(a->share[DAL_SOURCE_MOTION], 0.6);
+    IS(a->share[DAL_SOURCE_TRUNCATION], 0.3);
+    IS(a->share[DAL_SOURCE_ROUNDING], 0.1);
+    IS(a->order, 4.0);
+    /* An error that does not drift is measured by deviations, as the motion then is. */
+    m.a.error.rate = 0.001;
+    m.a.motion.deviation = 1.6;
+    CU_ASSERT(shares_of(&m)->by_rate == 0);
+    IS(m.a.share[DAL_SOURCE_MOTION], 0.8);
+    IS(m.a.share[DAL_SOURCE_TRUNCATION], 0.15);
+    IS(m.a.order, log2(15.0));
+    /* What the exact motion changes within its roundings is conserved. */
+    m.a.comparison[DAL_COMPARISON_EXACT] = drift(1e-13, 15.9 * 1000.0 * DBL_EPSILON, 1e-16);
+    CU_ASSERT(shares_of(&m)->is_conserved == 1 && m.a.share[DAL_SOURCE_MOTION] == 0.0);
+    m.a.is_conserved = 0;
+    m.a.comparison[DAL_COMPARISON_EXACT].deviation = 16.1 * 1000.0 * DBL_EPSILON;
+    CU_ASSERT(shares_of(&m)->is_conserved == 0);
+    m.e.exact_steps = 1100; /* it takes more substeps */
+    CU_ASSERT(shares_of(&m)->is_conserved == 1);
+
+    m = make(fixture_system("chaplygin-sleigh"), "gauss4");
+    m.e.quad_steps = 0;
+    m.a.whole = drift(-0.068, 0.68, 0.001);
+    m.a.comparison[DAL_COMPARISON_EXACT] = drift(-0.1, 1.0, 0.001);
+    m.a.comparison[DAL_COMPARISON_HALVED] = drift(-0.098, 1.0, 0.001);
+    m.a.comparison[DAL_COMPARISON_PROJECTION] = drift(-0.092, 1.0, 0.001);
+    CU_ASSERT_DOUBLE_EQUAL(shares_of(&m)->share[DAL_SOURCE_MOTION], 100.0 / 132.0, 1e-12);
+    CU_ASSERT_DOUBLE_EQUAL(m.a.share[DAL_SOURCE_TRUNCATION], 32.0 / 132.0, 1e-12);
+    CU_ASSERT_DOUBLE_EQUAL(m.a.share[DAL_SOURCE_PROJECTION], 0.75, 1e-12);
+    CU_ASSERT_DOUBLE_EQUAL(m.a.order, 4.0, 1e-12);
+}
+
+/* The motion's is at least half of the change. */
 static void test_motion_of(void)
 {
     const dal_system *system = fixture_system("chaplygin-sleigh");
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 2; k++) {
         made_up m = make(system, "gauss4");
-        m.e.quad_steps = k & 2 ? 0 : 1000;
-        m.a.comparison[DAL_COMPARISON_HALVED] = drift(0.1 / 16.0, 0.05, 0.001);
-        m.a.comparison[DAL_COMPARISON_EXACT] = drift(k & 1 ? 0.051 : 0.049, 1.0, 0.001);
-        CU_ASSERT_EQUAL(shares_of(&m)->is_motion, k & 1);
-        CU_ASSERT_EQUAL(isnan(m.a.share[DAL_SOURCE_TRUNCATION]) != 0, k & 1);
+        m.e.quad_steps = 0;
+        m.a.comparison[DAL_COMPARISON_HALVED] = drift(0.1, 1.0, 0.001);
+        m.a.comparison[DAL_COMPARISON_EXACT] = drift(k ? 0.051 : -0.099, 1.0, 0.001);
+        CU_ASSERT_EQUAL(shares_of(&m)->is_motion, k);
     }
     /* Where quad precision leaves less than a tenth, rounding errors have grown in both. */
     for (int k = 0; k < 2; k++) {
         made_up m = make(system, "gauss4");
-        m.a.comparison[DAL_COMPARISON_EXACT] = m.a.whole;
+        m.a.comparison[DAL_COMPARISON_EXACT] = m.a.motion = m.a.whole;
         m.a.comparison[DAL_COMPARISON_QUAD] = drift(k ? 0.0101 : 0.0099, 0.1, 0.0);
         CU_ASSERT_EQUAL(shares_of(&m)->is_motion, k);
-        CU_ASSERT_EQUAL(isnan(m.a.share[DAL_SOURCE_TRUNCATION]) != 0, k);
+        CU_ASSERT_EQUAL(m.a.share[DAL_SOURCE_MOTION] > 0.0, k);
     }
     for (int k = 0; k < 3; k++) {
         made_up m = make(system, "gauss4");
         m.a.comparison[DAL_COMPARISON_QUAD_HALVED] = m.a.comparison[DAL_COMPARISON_QUAD];
         m.e.ran[DAL_COMPARISON_EXACT] = k < 2;
-        if (k == 1) m.a.whole = m.a.comparison[DAL_COMPARISON_EXACT];
+        m.a.is_conserved = k == 1;
         CU_ASSERT_EQUAL(shares_of(&m)->is_motion, k == 2);
     }
 }
@@ -206,15 +312,16 @@ static void test_halving(void)
     for (int k = 0; k < 4; k++) {
         static const double order[] = {3.51, 3.49, 4.49, 4.51};
         made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
-        const double rest = exp2(-order[k]);
+        const double rest = exp2(-order[k]), falls_by = k == 3 ? 32.0 : 16.0;
         m.e.quad_steps = 0;
         m.a.comparison[DAL_COMPARISON_HALVED] = drift(0.1 * rest, 1.0, 0.0);
         const double share = shares_of(&m)->share[DAL_SOURCE_TRUNCATION];
         CU_ASSERT_DOUBLE_EQUAL(m.a.order, order[k], 1e-12);
-        if (k % 3 == 0 ? k == 3 : k == 1)
+        if (k == 1)
             CU_ASSERT(isnan(share))
-        else
-            CU_ASSERT_DOUBLE_EQUAL(share, (1.0 - rest) * 16.0 / 15.0, 1e-12);
+        else /* an observable may have a higher order than the method */
+            CU_ASSERT_DOUBLE_EQUAL(share, fmin((1.0 - rest) * falls_by / (falls_by - 1.0), 1.0),
+                                   1e-12);
         CU_ASSERT(isnan(m.a.share[DAL_SOURCE_ROUNDING]) && isnan(m.a.share[DAL_SOURCE_SOLVER]));
         IS(m.a.share[DAL_SOURCE_PROJECTION], 0.75);
     }
@@ -242,15 +349,88 @@ static void test_words(void)
     CU_ASSERT(says(&m, DAL_SOURCE_COEFFICIENTS, "leaves is truncation, or nothing"));
     m.a.comparison[DAL_COMPARISON_QUAD_HALVED] = drift(0.32, 3.2, 0.0);
     CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "in quad precision the rate grows by 4 = 2^2.00"));
-    m.a.comparison[DAL_COMPARISON_EXACT] = m.a.whole;
-    CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "the motion itself changes it: along"));
+    CU_ASSERT(says(&m, DAL_SOURCE_MOTION, "along the exact motion it does not change"));
+    CU_ASSERT(says(&m, DAL_SOURCE_BRANCHES, "the equations have no branches"));
+    m.a.is_conserved = 0;
+    m.a.comparison[DAL_COMPARISON_EXACT] = m.a.motion = m.a.whole;
+    m.a.error = drift(0.08, 0.8, 0.0);
+    m.a.error_halved = drift(0.005, 0.05, 0.0);
+    CU_ASSERT(says(&m, DAL_SOURCE_MOTION, "along the exact motion the drift is 1 times this"));
+    CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "less the exact motion, the rate falls by 16 = 2^4"));
     CU_ASSERT(says(&m, DAL_SOURCE_COEFFICIENTS, "leaves is the motion itself, or truncation"));
     m.e.quad_steps = 0;
-    CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "changes it, or lets rounding errors grow: along"));
     m.a.comparison[DAL_COMPARISON_EXACT] = drift(0.0, 0.0, 0.0);
     m.e.ran[DAL_COMPARISON_HALVED] = 0;
     strcpy(m.e.reason[DAL_COMPARISON_HALVED], "it left the domain");
     CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "with half the step: it left the domain"));
+}
+
+static int sums_up(made_up *m, const char *expected)
+{
+    char words[DAL_MESSAGE_SIZE];
+    shares_of(m);
+    m->e.shares = &m->a;
+    const int same =
+        strcmp(dal_error_budget_summarise(&m->e, 0, words, sizeof words), expected) == 0;
+    if (!same) printf("\n  '%s' is not '%s'\n", words, expected);
+    return same;
+}
+
+static void test_sentences(void)
+{
+    const dal_system *system = fixture_system("chaplygin-sleigh");
+    made_up m = make(system, "gauss4");
+    m.a.whole.size = DAL_SIZE_LARGER;
+    CU_ASSERT(sums_up(&m, "drifts by truncation (80 %) and rounding (20 %): halve the step and "
+                          "truncation falls by 16"));
+    m.a.solver_and_rounding = m.a.rounding = drift(0.0, 1e-9, 0.0);
+    CU_ASSERT(sums_up(&m, "drifts by truncation (100 %): halve the step and it falls by 16"));
+    m.a.whole.conservation = DAL_OFF_SURFACE;
+    CU_ASSERT(sums_up(&m, "drifts by truncation (100 %), because D does: halve the step and it "
+                          "falls by 16"));
+    m.a.whole.conservation = DAL_CONSERVED;
+    m.e.spec.options.tolerance = 1e-6;
+    CU_ASSERT(sums_up(&m, "drifts by truncation (100 %): divide the tolerance by 16 and it falls "
+                          "by 16"));
+    m.e.spec.options.tolerance = 0.0;
+    m.a.comparison[DAL_COMPARISON_QUAD_HALVED] = m.a.comparison[DAL_COMPARISON_QUAD];
+    CU_ASSERT(sums_up(&m, "drifts by truncation (100 %): halve the step and it does not fall"));
+    give_branches(&m);
+    m.a.comparison[DAL_COMPARISON_QUAD_HALVED].rate = 0.02;
+    CU_ASSERT(sums_up(&m, "drifts by truncation at branches (100 %): halve the step and it falls "
+                          "by 4"));
+    m.e.spec.system = system;
+    m.a.comparison[DAL_COMPARISON_QUAD] = drift(0.0, 0.0, 0.0);
+    m.a.solver = drift(0.1, 1.0, 0.001);
+    CU_ASSERT(sums_up(&m, "drifts by the solver (100 %): solve the equations further"));
+
+    /* Friction, and a little truncation. */
+    m = make(system, "gauss4");
+    m.a.comparison[DAL_COMPARISON_EXACT] = m.a.motion = drift(0.1, 1.0, 0.001);
+    m.a.error = drift(1e-4, 1e-3, 1e-6);
+    m.a.error_halved = drift(1e-4 / 16.0, 1e-3 / 16.0, 1e-6);
+    m.a.solver_and_rounding = drift(0.0, 1e-9, 0.0);
+    m.a.whole.size = DAL_SIZE_LARGER;
+    CU_ASSERT(sums_up(&m, "changes by the motion itself (100 %); truncation is 0.1 %: halve the "
+                          "step and it falls by 16"));
+    /* Rounding, and nothing. */
+    m = make(system, "gauss4");
+    m.a.whole.size = DAL_SIZE_ROUNDING;
+    CU_ASSERT(sums_up(&m, "stays at rounding"));
+    m.a.whole = m.a.beginning = drift(0.0, 0.0, 0.0);
+    CU_ASSERT(sums_up(&m, "never changes"));
+    m.a.whole.deviation = INFINITY;
+    CU_ASSERT(sums_up(&m, "is not finite"));
+    /* A buffer of any length ends in NUL. */
+    char words[16];
+    m = make(system, "gauss4");
+    shares_of(&m);
+    m.e.shares = &m.a;
+    for (size_t size = 1; size <= sizeof words; size++) {
+        memset(words, 'x', sizeof words);
+        dal_error_budget_summarise(&m.e, 0, words, size);
+        CU_ASSERT_EQUAL(strlen(words), size - 1);
+    }
 }
 
 /* Projection: what goes without it, never less than nothing; nothing of what never moved. */
@@ -277,7 +457,10 @@ void suite_error_shares(void)
     CU_add_test(suite, "the solver", test_solver);
     CU_add_test(suite, "what quad precision leaves", test_quad_precision);
     CU_add_test(suite, "the motion itself", test_motion_of);
+    CU_add_test(suite, "truncation at branches", test_branches);
+    CU_add_test(suite, "friction and truncation", test_split);
     CU_add_test(suite, "halving alone", test_halving);
     CU_add_test(suite, "projection", test_projection);
     CU_add_test(suite, "in words", test_words);
+    CU_add_test(suite, "in a sentence", test_sentences);
 }

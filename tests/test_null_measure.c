@@ -326,6 +326,17 @@ static void null_dal_error_budget_create(void)
 
 static void null_dal_error_budget_free(void) { dal_error_budget_free(NULL); }
 
+static void null_dal_error_budget_summarise(void)
+{
+    char buffer[64] = "as before";
+    const int count = budget->observables;
+    CU_ASSERT_PTR_NULL(dal_error_budget_summarise(NULL, 0, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_error_budget_summarise(budget, 0, NULL, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_error_budget_summarise(budget, -1, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_error_budget_summarise(budget, count, buffer, sizeof buffer));
+    CU_ASSERT_STRING_EQUAL(buffer, "as before");
+}
+
 static void null_dal_error_budget_describe(void)
 {
     char buffer[DAL_MESSAGE_SIZE];
@@ -341,6 +352,11 @@ static void null_dal_error_budget_describe(void)
 }
 
 /* ---- trends ---- */
+
+static void null_dal_statistics_rate_range(void)
+{
+    CU_ASSERT(isnan(dal_statistics_rate_range(NULL)));
+}
 
 static void null_dal_statistics_max_abs(void) { CU_ASSERT(isnan(dal_statistics_max_abs(NULL))); }
 

@@ -421,6 +421,25 @@ static void test_nothing_and_nonsense(void)
     CU_ASSERT_EQUAL(f.trend, DAL_TREND_ABORTED);
 }
 
+static double parabola(double t) { return 5.0 - t + 0.25 * t * t; }
+
+/* The line of least squares of a parabola has its slope in the middle: of 32 blocks, those of the
+ * first and the last quarter are 24 blocks apart. */
+static void test_rates_of_quarters(void)
+{
+    const double block = 8.0 * 32.0 / (VALUES - 1);
+    dal_statistics s = statistics_of(parabola, 8.0, VALUES);
+    CU_ASSERT_DOUBLE_EQUAL(dal_statistics_rate_range(&s), 0.5 * 24.0 * block, 1e-12);
+    s = statistics_of(line, 8.0, VALUES);
+    CU_ASSERT_DOUBLE_EQUAL(dal_statistics_rate_range(&s), 0.0, 1e-12);
+    s = statistics_of(line, 8.0, 15);
+    CU_ASSERT(isnan(dal_statistics_rate_range(&s)));
+    s = statistics_of(line, 8.0, 16);
+    CU_ASSERT_DOUBLE_EQUAL(dal_statistics_rate_range(&s), 0.0, 1e-12);
+    dal_statistics_add(&s, 1, 9.0, &(double){NAN});
+    CU_ASSERT(isnan(dal_statistics_rate_range(&s)));
+}
+
 void suite_statistics(void)
 {
     CU_pSuite suite = CU_add_suite("statistics of a quantity", NULL, NULL);
@@ -437,6 +456,7 @@ void suite_statistics(void)
     CU_add_test(suite, "roughness", test_roughness);
     CU_add_test(suite, "numbers near the largest", test_large_numbers);
     CU_add_test(suite, "intervals of the rate", test_intervals);
+    CU_add_test(suite, "rates of quarters", test_rates_of_quarters);
     CU_add_test(suite, "Student's quantiles", test_student);
     CU_add_test(suite, "few values", test_few_values);
     CU_add_test(suite, "no values, values that are not finite", test_nothing_and_nonsense);

@@ -37,7 +37,153 @@ static void compile_run(void *user, dal_run *run, long long steps)
     e->native = native_begin(run, end, 0.0, 1.0, e->settings->native);
 }
 
-/* ---- in words ---- */
+/* ---- sentences and shares ---- */
+
+/* Observables that are listed without --details: with the rest some 24 lines. */
+enum { MAX_LISTED = 6, NAME_WIDTH = 12, CELL_SIZE = 16, MIN_COLUMN = 7, LINE = 80 };
+
+static bool is_changed(const dal_error_budget *e, int i)
+{
+    return !(e->shares[i].whole.deviation == 0.0);
+}
+
+/* The length of the longest name that has at most `limit` characters. */
+static int width_of_names(const dal_error_budget *e, const int *list, int count, int limit)
+{
+    int width = 0;
+    for (int k = 0; k < count; k++) {
+        const int length = (int)strlen(e->shares[list[k]].name);
+        if (length > width && length <= limit) width = length;
+    }
+    return width;
+}
+
+static void print_sentences(const dal_error_budget *e, const int *list, int count)
+{
+    const int width = width_of_names(e, list, count, NAME_WIDTH);
+    for (int k = 0; k < count; k++) {
+        char words[512];
+        const int column = printf("%-*s ", width, e->shares[list[k]].name);
+        char *text = cli_format("%s.", dal_error_budget_summarise(e, list[k], words, sizeof words));
+        cli_wrap(stdout, text, column, width + 1);
+        free(text);
+    }
+}
+
+/* A share in percent: -: none, ?: unknown. */
+static const char *share_text(double share, char *buffer)
+{
+    if (isnan(share)) return "?";
+    if (share == 0.0) return "-";
+    if (share < 0.001) return "< 0.1 %";
+    snprintf(buffer, CELL_SIZE, "%.2g %%", share < 0.995 ? 100.0 * share : 100.0);
+    return share < 0.995 ? buffer : "100 %";
+}
+
+/* What a drift is with, or without, projection, over that of the run. */
+static double projected_ratio(const dal_shares *a)
+{
+    const dal_trend *other = &a->comparison[DAL_COMPARISON_PROJECTION], *whole = &a->whole;
+    if (!(a->share[DAL_SOURCE_PROJECTION] == 0.0)) return 1.0 - a->share[DAL_SOURCE_PROJECTION];
+    return a->whole_by_rate ? fabs(other->rate / whole->rate) : other->deviation / whole->deviation;
+}
+
+static const char *ratio_text(double ratio, char *buffer)
+{
+    if (isnan(ratio)) return "-";
+    snprintf(buffer, CELL_SIZE, "%.1g", ratio);
+    return buffer;
+}
+
+/* What +project makes of the drifts that it removes. */
+static void print_projection(const dal_error_budget *e, const int *list, int count)
+{
+    char *text = cli_strdup("With +project: ");
+    int found = 0;
+    if (!e->ran[DAL_COMPARISON_PROJECTION] || e->has_projection) count = 0;
+    for (int k = 0; k < count; k++) {
+        const dal_shares *a = &e->shares[list[k]];
+        char cell[CELL_SIZE];
+        if (a->whole.size != DAL_SIZE_LARGER || !(a->share[DAL_SOURCE_PROJECTION] >= 0.5)) continue;
+        const bool is_rounding =
+            a->is_conserved && a->comparison[DAL_COMPARISON_PROJECTION].size != DAL_SIZE_LARGER;
+        char *longer = cli_format("%s%s%s at %s%s%s", text, found++ > 0 ? ", " : "", a->name,
+                                  is_rounding ? "rounding" : "",
+                                  is_rounding ? "" : ratio_text(projected_ratio(a), cell),
+                                  is_rounding ? "" : " of this");
+        free(text);
+        text = longer;
+    }
+    char *sentence = cli_format("%s.", text);
+    if (found > 0) cli_wrap(stdout, sentence, 0, 4);
+    free(sentence);
+    free(text);
+}
+
+/* Whether a source has a column: truncation and rounding always, others where they have a part. */
+static bool has_column(const dal_error_budget *e, const int *list, int count, int source)
+{
+    bool found = source == DAL_SOURCE_TRUNCATION || source == DAL_SOURCE_ROUNDING;
+    for (int k = 0; k < count && !found; k++) {
+        const double share = e->shares[list[k]].share[source];
+        found = source == DAL_SOURCE_PROJECTION ? !isnan(share) : share != 0.0;
+    }
+    return found && !(source == DAL_SOURCE_PROJECTION && !e->ran[DAL_COMPARISON_PROJECTION]);
+}
+
+static const char *head_of(const dal_error_budget *e, int source)
+{
+    if (source != DAL_SOURCE_PROJECTION) return dal_error_source_name((dal_error_source)source);
+    return e->has_projection ? "unprojected" : "+project";
+}
+
+static int width_of(const dal_error_budget *e, int source)
+{
+    const int width = (int)strlen(head_of(e, source));
+    return width > MIN_COLUMN ? width : MIN_COLUMN;
+}
+
+static void print_shares(const dal_error_budget *e, const int *list, int count)
+{
+    int shown[DAL_ERROR_SOURCES], columns = 0, left = LINE - 2;
+    for (int s = 0; s < DAL_ERROR_SOURCES; s++) {
+        if (!has_column(e, list, count, s)) continue;
+        shown[columns++] = s;
+        left -= 2 + width_of(e, s);
+    }
+    const int width = 2 + width_of_names(e, list, count, left);
+    printf("%*s", width, "");
+    for (int c = 0; c < columns; c++) printf("  %*s", width_of(e, shown[c]), head_of(e, shown[c]));
+    putchar('\n');
+    for (int k = 0; k < count; k++) {
+        const dal_shares *a = &e->shares[list[k]];
+        if (printf("  %-*s", width - 2, a->name) > width) printf("\n%*s", width, "");
+        for (int c = 0; c < columns; c++) {
+            char cell[CELL_SIZE];
+            printf("  %*s", width_of(e, shown[c]),
+                   shown[c] == DAL_SOURCE_PROJECTION ? ratio_text(projected_ratio(a), cell)
+                                                     : share_text(a->share[shown[c]], cell));
+        }
+        putchar('\n');
+    }
+}
+
+/* The names of what never changed. */
+static void print_exact(const dal_error_budget *e)
+{
+    char *text = cli_strdup("exact: ");
+    int count = 0;
+    for (int i = 0; i < e->observables; i++) {
+        if (is_changed(e, i)) continue;
+        char *longer = cli_format("%s%s%s", text, count++ > 0 ? ", " : "", e->shares[i].name);
+        free(text);
+        text = longer;
+    }
+    if (count > 0) cli_wrap(stdout, text, 0, 4);
+    free(text);
+}
+
+/* ---- the details ---- */
 
 /* A row of the table of runs, 80 columns wide; a long label has a line of its own. */
 enum { RATE_COLUMN = 30, WORDS_COLUMN = 35 };
@@ -71,16 +217,21 @@ static void print_observable(const dal_error_budget *e, int i)
     const dal_shares *a = &e->shares[i];
     char text[128];
     cli_trend_text(&a->whole, text, sizeof text);
-    if (a->whole.conservation == DAL_CONSERVED)
-        printf("%s: size %s, trend %s\n", a->name, dal_size_text(a->whole.size), text);
-    else
-        printf("%s: %s\n", a->name, text);
+    const bool is_stated = a->whole.conservation == DAL_CONSERVED;
+    char *head = cli_format("%s: %s%s%s%s", a->name, is_stated ? "size " : "",
+                            is_stated ? dal_size_text(a->whole.size) : "",
+                            is_stated ? ", trend " : "", text);
+    putchar('\n');
+    cli_wrap(stdout, head, 0, 4);
+    free(head);
     for (int k = 0; k < DAL_ERROR_SOURCES; k++) {
         char words[512], number[64] = "?";
         int length = 0;
-        if (!isnan(a->share[k])) length = snprintf(number, sizeof number, "%.3g", a->share[k]);
+        if (!isnan(a->share[k]))
+            length = snprintf(number, sizeof number, "%.3g %%", 100.0 * a->share[k]);
         if (length > 0 && !isnan(a->margin[k]))
-            snprintf(number + length, sizeof number - (size_t)length, " +- %.1g", a->margin[k]);
+            snprintf(number + length, sizeof number - (size_t)length, " +- %.1g",
+                     100.0 * a->margin[k]);
         const int column =
             printf("  %-13s %-17s  ", dal_error_source_name((dal_error_source)k), number);
         cli_wrap(stdout, dal_error_budget_describe(e, i, (dal_error_source)k, words, sizeof words),
@@ -99,50 +250,53 @@ static void print_observable(const dal_error_budget *e, int i)
         print_run(text, &a->comparison[k],
                   k < DAL_COMPARISON_QUAD ? a->whole.deviation : a->beginning.deviation);
     }
-    putchar('\n');
 }
 
-/* Where the exact motion comes from, or why it is estimated. */
-static void print_reference(const dal_error_budget *e)
+/* What was run, and where the exact motion comes from, or why it is estimated. */
+static void print_runs(const explain_settings *s, const dal_error_budget *e)
 {
-    char *text =
-        e->ran[DAL_COMPARISON_EXACT]
-            ? cli_strdup("reference: the exact motion, by taylor with tolerance 1e-16")
-            : cli_format("reference: %s: %s",
-                         e->quad_steps > 0 ? "quad precision and half the step" : "half the step",
-                         e->reason[DAL_COMPARISON_EXACT]);
+    char method[128], tolerance[32] = "", quad[64] = "";
+    const run_request *request = &s->request;
+    if (request->options.tolerance > 0.0)
+        snprintf(tolerance, sizeof tolerance, ", tolerance %g", request->options.tolerance);
+    if (e->quad_steps > 0)
+        snprintf(quad, sizeof quad, ", the first %lld in quad precision too", e->quad_steps);
+    char *text = cli_format("%s, %s, %s, h = %g%s: %lld steps%s; %s%s%s", request->system_name,
+                            dal_method_name(&request->method, method, sizeof method),
+                            request->options.space == DAL_LIFTED ? "lifted" : "physical",
+                            request->options.step, tolerance, e->steps, quad,
+                            e->ran[DAL_COMPARISON_EXACT] ? "reference: dop853 to 1e-16"
+                                                         : "no exact motion: ",
+                            e->ran[DAL_COMPARISON_EXACT] ? "" : e->reason[DAL_COMPARISON_EXACT],
+                            s->details ? "" : ".  The runs compared: --details");
     cli_wrap(stdout, text, 0, 4);
     free(text);
 }
 
 static void print_budget(const explain_settings *s, const dal_error_budget *e)
 {
-    char method[128];
-    const run_request *request = &s->request;
-    const char *separator = "exact: ";
-    printf("%s, %s, %s, h = %g", request->system_name,
-           dal_method_name(&request->method, method, sizeof method),
-           request->options.space == DAL_LIFTED ? "lifted" : "physical", request->options.step);
-    if (request->options.tolerance > 0.0) printf(", tolerance %g", request->options.tolerance);
-    printf(": %lld steps", e->steps);
-    if (e->quad_steps > 0) printf(", the first %lld in quad precision too", e->quad_steps);
-    putchar('\n');
-    print_reference(e);
-    putchar('\n');
+    int *list = cli_calloc((size_t)e->observables + 1, sizeof *list);
+    int all = 0;
     for (int i = 0; i < e->observables; i++)
-        if (e->shares[i].whole.deviation > 0.0) print_observable(e, i);
-    for (int i = 0; i < e->observables; i++) {
-        if (e->shares[i].whole.deviation > 0.0) continue;
-        printf("%s%s", separator, e->shares[i].name);
-        separator = ", ";
+        if (is_changed(e, i)) list[all++] = i;
+    const int count = s->details || all < MAX_LISTED ? all : MAX_LISTED;
+    print_sentences(e, list, count);
+    if (all > count) printf("... and %d more: --details\n", all - count);
+    print_projection(e, list, count);
+    if (count > 0) {
+        putchar('\n');
+        print_shares(e, list, count);
     }
-    if (*separator == ',') putchar('\n');
-    for (int k = 0; k < DAL_COMPARISONS; k++) {
-        if (e->ran[k] || !*e->reason[k] || k == DAL_COMPARISON_EXACT) continue;
+    print_exact(e);
+    print_runs(s, e);
+    for (int k = 0; s->details && k < all; k++) print_observable(e, list[k]);
+    for (int k = 0; s->details && k < DAL_COMPARISONS; k++) {
+        if (e->ran[k] || !*e->reason[k]) continue;
         char *text = cli_format("not run: %s: %s", comparison_text(e, k), e->reason[k]);
         cli_wrap(stdout, text, 0, 4);
         free(text);
     }
+    free(list);
 }
 
 /* ---- as CSV ---- */
@@ -236,7 +390,11 @@ static void put_observable(json_writer *w, const dal_error_budget *e, int i)
 {
     const dal_shares *a = &e->shares[i];
     json_open(w, NULL, JSON_LINES);
+    char words[512];
     json_put_text(w, "name", a->name);
+    json_put_text(w, "sentence", dal_error_budget_summarise(e, i, words, sizeof words));
+    json_put_flag(w, "is_conserved", a->is_conserved != 0);
+    json_put_number(w, "order", a->order);
     json_open_list(w, "runs", JSON_LINES);
     put_run(w, "all", e->steps, &a->whole);
     if (e->quad_steps > 0) put_run(w, "first-steps", e->quad_steps, &a->beginning);

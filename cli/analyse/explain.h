@@ -15,7 +15,8 @@ typedef struct explain_settings {
     long long quad_steps;
     const char *output; /* of CSV; NULL: sentences to stdout */
     native_mode native;
-    bool json; /* to stdout, instead of sentences */
+    bool details; /* prints the runs that were compared, too */
+    bool json;    /* to stdout, instead of sentences */
 } explain_settings;
 
 /* Returns CLI_DONE or prints and returns an exit status. */

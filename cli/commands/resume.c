@@ -71,6 +71,7 @@ const cli_command command_resume = {
              "interrupted.  A finished run is left alone.  Of a study, the unfinished runs are "
              "continued and the tables and the page made; of shards, those that were begun in DIR. "
              " --threads is for "
-             "studies and ensembles, --summary is for runs, --progress for runs and ensembles.\n",
+             "studies and ensembles, --summary and --details are for runs, --progress for runs and "
+             "ensembles.\n",
     .run = resume,
 };

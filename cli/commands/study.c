@@ -126,7 +126,7 @@ static int study(int argc, char **argv)
     const cli_group groups[] = {
         CLI_GROUP(options, &s),
         run_group(&s.run, RUN_OPTION(output) | RUN_OPTION(events) | RUN_OPTION(summary) |
-                              RUN_OPTION(progress)),
+                              RUN_OPTION(details) | RUN_OPTION(progress)),
     };
     int status = cli_read_arguments(&command_study, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;

@@ -48,7 +48,7 @@ static int parse_arguments(settings *s, int argc, char **argv)
     const cli_group groups[] = {
         CLI_GROUP(options, s),
         run_group(&s->run, RUN_OPTION(output) | RUN_OPTION(events) | RUN_OPTION(summary) |
-                               RUN_OPTION(progress)),
+                               RUN_OPTION(details) | RUN_OPTION(progress)),
     };
     const int status = cli_read_arguments(&command, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;

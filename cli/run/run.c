@@ -27,6 +27,9 @@ static const cli_option options[RUN_OPTIONS] = {
     [RUN_summary] = {"summary", NULL, NULL,
                      "prints the summary on stderr even where it is no terminal",
                      .parse = cli_parse_flag, .offset = offsetof(run_settings, summary)},
+    [RUN_details] = {"details", NULL, NULL,
+                     "prints the summary with what the rate of a line may be in a longer run",
+                     .parse = cli_parse_flag, .offset = offsetof(run_settings, details)},
     [RUN_progress] = PROGRESS_OPTION(run_settings),
     [RUN_native] = NATIVE_OPTION(run_settings),
     [RUN_force] = {"force", NULL, NULL, "overwrites what the directory holds",
@@ -102,7 +105,9 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
         status = recorder_run(&recorder, &error);
         print_end(&recorder, status, &error);
         print_unresolved(run);
-        if (settings->summary || isatty(STDERR_FILENO)) summary_print(stderr, &recorder);
+        if (settings->summary || settings->details || isatty(STDERR_FILENO))
+            summary_print(stderr, &recorder);
+        if (settings->details) summary_print_details(stderr, &recorder);
     }
     recorder_close(&recorder);
     const int copied = copy_events(dir, settings);

@@ -11,7 +11,8 @@
 /* The options of a run that do not concern the trajectory. */
 #define RUN_OPTION_LIST(OPTION)                                                                    \
     OPTION(output)                                                                                 \
-    OPTION(events) OPTION(checkpoint) OPTION(summary) OPTION(progress) OPTION(native) OPTION(force)
+    OPTION(events)                                                                                 \
+    OPTION(checkpoint) OPTION(summary) OPTION(details) OPTION(progress) OPTION(native) OPTION(force)
 
 enum {
 #define NUMBER(name) RUN_##name,
@@ -23,7 +24,7 @@ enum {
 typedef struct run_settings {
     const char *output, *events; /* events: a file, or NULL */
     double interval;             /* between checkpoints, in seconds */
-    bool summary, force;
+    bool summary, details, force;
     native_mode native;
     progress_mode progress;
 } run_settings;

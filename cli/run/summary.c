@@ -36,6 +36,24 @@ void summary_print(FILE *out, const run_recorder *r)
     }
 }
 
+void summary_print_details(FILE *out, const run_recorder *r)
+{
+    enum { TIMES = 50 };
+    int found = 0;
+    for (int i = 0; i < r->observables; i++) {
+        const dal_trend *f = &r->trend[i];
+        const double range = dal_statistics_rate_range(&r->statistics[i]);
+        if (f->conservation != DAL_CONSERVED || f->trend != DAL_TREND_LINEAR || isnan(range))
+            continue;
+        if (found++ == 0)
+            fprintf(out, "rates in a run %d times as long, if the line bends on as in this one:\n",
+                    TIMES);
+        fprintf(out, "%-12s %+.1e to %+.1e\n", recorder_observable_name(r, i),
+                f->rate - (TIMES - 1) * range, f->rate + (TIMES - 1) * range);
+    }
+    if (found == 0) fprintf(out, "rates in a longer run: no trend is linear\n");
+}
+
 int summary_write(const run_recorder *r, const char *path)
 {
     char *text;

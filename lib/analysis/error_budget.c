@@ -4,6 +4,7 @@
  * subtracted.  Quad precision is slow and covers the first steps alone; there the run, the same
  * solved further, and both step sizes in quad precision advance together. */
 #include "analysis/error_shares.h"
+#include "analysis/reference.h"
 #include "analysis/statistics.h"
 #include "core/error.h"
 #include "core/vectors.h"
@@ -17,7 +18,6 @@
 enum { SAMPLES = 1 << 15, QUAD_COST = 100 /* times that of a double step, for progress */ };
 
 static const double looser = 1e-10, looser_by = 1e3;
-static const double exact_tolerance = 1e-16;
 enum { FURTHER = 2 }; /* iterations */
 
 typedef struct comparisons {
@@ -25,7 +25,8 @@ typedef struct comparisons {
     const dal_error_budget_observer *observer;
     dal_statistics *series; /* [DAL__SERIES][observables] */
     dal_trend *trends;      /* [DAL__SERIES][observables] */
-    double *values;         /* [4][observables] */
+    double *values;         /* [TOGETHER + 1][observables] */
+    int *conserved;         /* [observables] */
     double work, done;
     dal_error *error;
 } comparisons;
@@ -92,8 +93,7 @@ static void halve(dal_run_spec *spec)
 /* Makes the spec of a run that of a comparison; NULL, or the reason why there is none. */
 static const char *change_spec(dal_run_spec *spec, dal_comparison_run comparison)
 {
-    static const char nothing[] = "the method solves no equations", no_taylor[] = "no taylor";
-    const dal_options plain = dal_options_default();
+    static const char nothing[] = "the method solves no equations";
     dal_options *o = &spec->options;
     switch (comparison) {
     case DAL_COMPARISON_LOOSER:
@@ -105,12 +105,6 @@ static const char *change_spec(dal_run_spec *spec, dal_comparison_run comparison
         return NULL;
     case DAL_COMPARISON_PROJECTION:
         return change_projection(spec);
-    case DAL_COMPARISON_EXACT:
-        o->solver_tolerance = plain.solver_tolerance;
-        o->extra_iterations = plain.extra_iterations;
-        o->sums = plain.sums;
-        o->tolerance = exact_tolerance;
-        return dal_method_parse(&spec->method, "taylor", NULL) == DAL_OK ? NULL : no_taylor;
     case DAL_COMPARISON_QUAD:
         o->precision = DAL_QUAD;
         break;
@@ -170,17 +164,21 @@ static dal_status observe(dal_run *run, double *values, dal_error *error)
                      dal_status_text(status));
 }
 
+static void add_values(comparisons *w, int which, double t, const double *values,
+                       const double *scales)
+{
+    dal_statistics_add(series(w, which), w->of->observables, t, values);
+    dal_statistics_add_scales(series(w, which), w->of->observables, scales);
+}
+
 /* Samples a run that takes `per` steps for each step of the first one. */
 static dal_status sample_run(comparisons *w, dal_run *run, int which, int per, dal_error *error)
 {
     const long long steps = w->of->steps, stride = stride_of(steps);
-    const int count = w->of->observables;
     for (long long at = 0; at <= steps; at += stride) {
         if (at > 0) DAL_TRY(dal_run_advance(run, stride * per, error));
         DAL_TRY(observe(run, w->values, error));
-        dal_statistics_add(series(w, which), count, (double)at * w->of->spec.options.step,
-                           w->values);
-        dal_statistics_add_scales(series(w, which), count, dal_run_scales(run));
+        add_values(w, which, (double)at * w->of->spec.options.step, w->values, dal_run_scales(run));
         if (report_progress(w, (double)(stride * per)) != DAL_OK) return DAL_INTERRUPTED;
     }
     return DAL_OK;
@@ -219,46 +217,99 @@ static dal_status run_comparison(comparisons *w, dal_comparison_run comparison)
     return DAL_OK;
 }
 
+static dal_status sample_reference(comparisons *w, dal__reference *reference, dal_error *error)
+{
+    const long long steps = w->of->steps, stride = stride_of(steps);
+    dal_run *run = dal__reference_run(reference);
+    for (long long at = 0; at <= steps; at += stride) {
+        if (at > 0) DAL_TRY(dal__reference_advance(reference, stride, error));
+        DAL_TRY(observe(run, w->values, error));
+        add_values(w, 1 + DAL_COMPARISON_EXACT, (double)at * w->of->spec.options.step, w->values,
+                   dal_run_scales(run));
+        if (report_progress(w, (double)stride) != DAL_OK) return DAL_INTERRUPTED;
+    }
+    return DAL_OK;
+}
+
+static dal_status run_reference(comparisons *w)
+{
+    dal__reference *reference = NULL;
+    dal_error error = {0};
+    dal_status status = dal__reference_create(&reference, &w->of->spec, &error);
+    if (status == DAL_OK) status = sample_reference(w, reference, &error);
+    if (status == DAL_OK) w->of->exact_steps = dal__reference_steps(reference);
+    dal__reference_free(reference);
+    w->of->ran[DAL_COMPARISON_EXACT] = status == DAL_OK;
+    if (ends_all(w, status, &error)) return status;
+    if (status != DAL_OK) leave_out(w, DAL_COMPARISON_EXACT, error.message);
+    return DAL_OK;
+}
+
 /* ---- the beginning ---- */
 
 /* The run; solved further; in quad precision; the same with half the step. */
 enum { RUN, TIGHT, QUAD, HALF, TOGETHER };
 
 /* The series of the beginning. */
-static const int parts[] = {DAL__FIRST_RUN,          DAL__FIRST_ROUNDING,
-                            DAL__FIRST_SOLVER,       DAL__FIRST_SOLVER_AND_ROUNDING,
-                            1 + DAL_COMPARISON_QUAD, 1 + DAL_COMPARISON_QUAD_HALVED};
+static const int parts[] = {DAL__FIRST_RUN,
+                            DAL__FIRST_ROUNDING,
+                            DAL__FIRST_SOLVER,
+                            DAL__FIRST_SOLVER_AND_ROUNDING,
+                            DAL__FIRST_MOTION,
+                            DAL__FIRST_ERROR,
+                            DAL__FIRST_ERROR_HALVED,
+                            1 + DAL_COMPARISON_QUAD,
+                            1 + DAL_COMPARISON_QUAD_HALVED};
 
-static void add_beginning(comparisons *w, double t)
+typedef struct beginning {
+    dal_run *run[TOGETHER];
+    dal__reference *exact; /* NULL: none */
+} beginning;
+
+static void subtract(int count, const double *x, const double *y, double *out)
 {
-    const int count = w->of->observables;
-    double *run = w->values, *tight = run + count, *quad = tight + count, *half = quad + count;
-    dal_statistics_add(series(w, DAL__FIRST_RUN), count, t, run);
-    dal_statistics_add(series(w, 1 + DAL_COMPARISON_QUAD), count, t, quad);
-    dal_statistics_add(series(w, 1 + DAL_COMPARISON_QUAD_HALVED), count, t, half);
-    for (int i = 0; i < count; i++) {
-        const double all = run[i] - quad[i];
-        run[i] -= tight[i];
-        tight[i] -= quad[i];
-        quad[i] = all;
-    }
-    dal_statistics_add(series(w, DAL__FIRST_SOLVER), count, t, run);
-    dal_statistics_add(series(w, DAL__FIRST_ROUNDING), count, t, tight);
-    dal_statistics_add(series(w, DAL__FIRST_SOLVER_AND_ROUNDING), count, t, quad);
+    for (int i = 0; i < count; i++) out[i] = x[i] - y[i];
 }
 
-static dal_status sample_beginning(comparisons *w, dal_run **run, dal_error *error)
+/* values: of the runs in their order, and of the exact motion.  Differences have the scales of the
+ * run, too. */
+static void add_beginning(comparisons *w, double t, const double *scales, bool is_exact)
+{
+    const int count = w->of->observables;
+    double *run = w->values, *tight = run + count, *quad = tight + count, *half = quad + count,
+           *exact = half + count;
+    add_values(w, DAL__FIRST_RUN, t, run, scales);
+    add_values(w, 1 + DAL_COMPARISON_QUAD, t, quad, scales);
+    add_values(w, 1 + DAL_COMPARISON_QUAD_HALVED, t, half, scales);
+    if (is_exact) {
+        add_values(w, DAL__FIRST_MOTION, t, exact, scales);
+        subtract(count, half, exact, half);
+        add_values(w, DAL__FIRST_ERROR_HALVED, t, half, scales);
+        subtract(count, quad, exact, exact);
+        add_values(w, DAL__FIRST_ERROR, t, exact, scales);
+    }
+    subtract(count, run, quad, half);
+    add_values(w, DAL__FIRST_SOLVER_AND_ROUNDING, t, half, scales);
+    subtract(count, run, tight, run);
+    add_values(w, DAL__FIRST_SOLVER, t, run, scales);
+    subtract(count, tight, quad, tight);
+    add_values(w, DAL__FIRST_ROUNDING, t, tight, scales);
+}
+
+static dal_status sample_beginning(comparisons *w, const beginning *b, dal_error *error)
 {
     const long long steps = w->of->quad_steps, stride = stride_of(steps);
+    const int count = w->of->observables;
     for (long long at = 0; at <= steps; at += stride) {
         for (int k = 0; k < TOGETHER; k++) {
-            if (at > 0) DAL_TRY(dal_run_advance(run[k], k == HALF ? 2 * stride : stride, error));
-            DAL_TRY(observe(run[k], w->values + k * w->of->observables, error));
+            if (at > 0) DAL_TRY(dal_run_advance(b->run[k], k == HALF ? 2 * stride : stride, error));
+            DAL_TRY(observe(b->run[k], w->values + k * count, error));
         }
-        add_beginning(w, (double)at * w->of->spec.options.step);
-        const double *scales = dal_run_scales(run[RUN]); /* differences have them, too */
-        for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++)
-            dal_statistics_add_scales(series(w, parts[k]), w->of->observables, scales);
+        if (b->exact && at > 0) DAL_TRY(dal__reference_advance(b->exact, stride, error));
+        if (b->exact)
+            DAL_TRY(dal_run_observe(dal__reference_run(b->exact), w->values + TOGETHER * count));
+        add_beginning(w, (double)at * w->of->spec.options.step, dal_run_scales(b->run[RUN]),
+                      b->exact != NULL);
         if (report_progress(w, 3.0 * QUAD_COST * (double)stride) != DAL_OK) return DAL_INTERRUPTED;
     }
     return DAL_OK;
@@ -268,16 +319,19 @@ static dal_status run_beginning(comparisons *w)
 {
     static const dal_comparison_run comparison[] = {
         DAL_COMPARISONS, DAL_COMPARISON_TIGHTER, DAL_COMPARISON_QUAD, DAL_COMPARISON_QUAD_HALVED};
-    dal_run *run[TOGETHER] = {NULL};
+    beginning b = {.exact = NULL};
     dal_error error = {0};
     dal_status status = DAL_OK;
     for (int k = 0; k < TOGETHER && status == DAL_OK; k++) {
         dal_run_spec spec = w->of->spec;
         if (k != RUN) change_spec(&spec, comparison[k]);
-        status = create(w, &spec, w->of->quad_steps, &run[k], &error);
+        status = create(w, &spec, w->of->quad_steps, &b.run[k], &error);
     }
-    if (status == DAL_OK) status = sample_beginning(w, run, &error);
-    for (int k = 0; k < TOGETHER; k++) dal_run_free(run[k]);
+    if (status == DAL_OK && w->of->ran[DAL_COMPARISON_EXACT])
+        status = dal__reference_create(&b.exact, &w->of->spec, &error);
+    if (status == DAL_OK) status = sample_beginning(w, &b, &error);
+    for (int k = 0; k < TOGETHER; k++) dal_run_free(b.run[k]);
+    dal__reference_free(b.exact);
     const int ran = status == DAL_OK;
     w->of->ran[DAL_COMPARISON_QUAD] = w->of->ran[DAL_COMPARISON_QUAD_HALVED] = ran;
     if (ends_all(w, status, &error)) return status;
@@ -290,34 +344,54 @@ static dal_status run_beginning(comparisons *w)
 
 /* ---- the whole ---- */
 
+/* Rates of parts add up to the rate of the whole, so they are rates of least squares, which are
+ * linear in the values. */
+static double rate_of_line(const comparisons *w, int which, int i)
+{
+    dal_trend line = trends(w, which)[i];
+    dal__trend_line(series(w, which) + i, &line);
+    return line.rate;
+}
+
+static void make_rates_linear(comparisons *w)
+{
+    for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++)
+        for (int i = 0; i < w->of->observables; i++) {
+            dal_trend *const f = trends(w, parts[k]) + i;
+            f->rate = rate_of_line(w, parts[k], i);
+            f->rate_low = fmin(f->rate_low, f->rate);
+            f->rate_high = fmax(f->rate_high, f->rate);
+        }
+}
+
+static void collect_trends(const comparisons *w, int i, dal_shares *s)
+{
+    s->whole = trends(w, DAL__WHOLE_RUN)[i];
+    s->is_conserved = w->conserved[i];
+    for (int k = 0; k < DAL_COMPARISONS; k++)
+        if (w->of->ran[k]) s->comparison[k] = trends(w, 1 + k)[i];
+    if (w->of->quad_steps == 0) return;
+    s->beginning = trends(w, DAL__FIRST_RUN)[i];
+    s->rounding = trends(w, DAL__FIRST_ROUNDING)[i];
+    s->solver = trends(w, DAL__FIRST_SOLVER)[i];
+    s->solver_and_rounding = trends(w, DAL__FIRST_SOLVER_AND_ROUNDING)[i];
+    s->motion = trends(w, DAL__FIRST_MOTION)[i];
+    s->error = trends(w, DAL__FIRST_ERROR)[i];
+    s->error_halved = trends(w, DAL__FIRST_ERROR_HALVED)[i];
+}
+
 static void find_shares(comparisons *w, dal_run *run)
 {
     for (int which = 0; which < DAL__SERIES; which++)
         if (w->of->observables > 0 && series(w, which)->count > 0)
             dal_run_classify(run, series(w, which), 0, trends(w, which));
-    /* Rates of parts add up to that of the whole, so they are those of least squares, which are
-     * linear in the values. */
-    for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++)
-        for (int i = 0; i < w->of->observables; i++) {
-            dal_trend *const f = trends(w, parts[k]) + i;
-            dal_trend line = *f;
-            dal__trend_line(series(w, parts[k]) + i, &line);
-            f->rate = line.rate;
-            f->rate_low = fmin(f->rate_low, line.rate);
-            f->rate_high = fmax(f->rate_high, line.rate);
-        }
+    make_rates_linear(w);
     for (int i = 0; i < w->of->observables; i++) {
-        dal_shares *s = &w->of->shares[i];
-        s->whole = trends(w, DAL__WHOLE_RUN)[i];
-        for (int k = 0; k < DAL_COMPARISONS; k++)
-            if (w->of->ran[k]) s->comparison[k] = trends(w, 1 + k)[i];
-        if (w->of->quad_steps > 0) {
-            s->beginning = trends(w, DAL__FIRST_RUN)[i];
-            s->rounding = trends(w, DAL__FIRST_ROUNDING)[i];
-            s->solver = trends(w, DAL__FIRST_SOLVER)[i];
-            s->solver_and_rounding = trends(w, DAL__FIRST_SOLVER_AND_ROUNDING)[i];
-        }
-        dal__find_shares(w->of, s);
+        double rate[1 + DAL_COMPARISONS];
+        for (int which = 0; which <= DAL_COMPARISONS; which++)
+            rate[which] = rate_of_line(w, which, i);
+        collect_trends(w, i, &w->of->shares[i]);
+        dal__find_shares(w->of, &w->of->shares[i], rate);
     }
 }
 
@@ -329,8 +403,9 @@ static dal_status allocate(comparisons *w, const dal_run *run)
     w->of->shares = calloc(rows, sizeof *w->of->shares);
     w->series = calloc(rows * DAL__SERIES, sizeof *w->series);
     w->trends = calloc(rows * DAL__SERIES, sizeof *w->trends);
-    w->values = dal__numbers(rows, TOGETHER);
-    if (!w->of->shares || !w->series || !w->trends || !w->values)
+    w->values = dal__numbers(rows, TOGETHER + 1);
+    w->conserved = calloc(rows, sizeof *w->conserved);
+    if (!w->of->shares || !w->series || !w->trends || !w->values || !w->conserved)
         return dal__fail(w->error, DAL_MEMORY, "out of memory");
     for (int i = 0; i < count; i++)
         dal_run_observable_name(run, i, w->of->shares[i].name, sizeof w->of->shares[i].name);
@@ -343,8 +418,11 @@ static dal_status run_all(comparisons *w)
     dal_run *run;
     DAL_TRY(create(w, &w->of->spec, w->of->steps, &run, w->error));
     dal_status status = allocate(w, run);
+    if (status == DAL_OK) status = dal__find_conserved(&w->of->spec, run, w->conserved, w->error);
     if (status == DAL_OK) status = sample_run(w, run, DAL__WHOLE_RUN, 1, w->error);
-    for (int k = 0; k < DAL_COMPARISON_QUAD && status == DAL_OK; k++)
+    /* The observer may use the run that was begun last: here `run`. */
+    if (status == DAL_OK) status = run_reference(w);
+    for (int k = 0; k < DAL_COMPARISON_EXACT && status == DAL_OK; k++)
         status = run_comparison(w, (dal_comparison_run)k);
     if (status == DAL_OK && w->of->quad_steps > 0) status = run_beginning(w);
     if (status == DAL_OK) find_shares(w, run);
@@ -384,6 +462,7 @@ dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, lo
     free(w.series);
     free(w.trends);
     free(w.values);
+    free(w.conserved);
     if (status == DAL_OK)
         *budget = made;
     else

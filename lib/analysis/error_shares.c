@@ -1,12 +1,17 @@
-/* error_shares.c - the shares of a drift, from the trends of a run and of its comparisons.
+/* error_shares.c - the shares of a drift, from the trends of a run and of its comparisons, and in
+ * words.
+ *
+ *     x(run) = motion + truncation, in smooth steps or across branches, or coefficients
+ *            + rounding + solver
  *
  * A drift is measured by its rate where the line of least squares rises by at least half of the max
  * deviation and its interval excludes 0; rates of parts add up to that of the sum.  Otherwise it is
- * measured by the max deviation, and shares need not add up. */
+ * measured by the max deviation.  The share of a part is its size over the sum of the sizes. */
 #include "analysis/error_shares.h"
 #include "core/words.h"
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 /* The solver's part must exceed what rounding does by this, or be a rate this far from zero. */
@@ -14,15 +19,19 @@ static const double significant = 4.0, clear = 2.0;
 /* Parts of a drift: below the first a source is none; below the second the rest is rounding in quad
  * precision. */
 static const double small = 0.1, nothing = 1e-12;
-/* The effect of coefficients in each step, in roundings of the scale, at most. */
-static const double coefficient_roundings = 16.0;
+/* Roundings of the scale in each step: what coefficients do, and the errors of the exact motion, at
+ * most. */
+static const double roundings_per_step = 16.0;
 static const double half_an_order = 0.5;
-/* A change of an observable is the motion's if the exact motion has at least this part of it. */
-static const double part_of_motion = 0.5;
 
 const char *dal_error_source_name(dal_error_source source)
 {
     DAL__RETURN_WORD(DAL_ERROR_SOURCE_LIST, DAL__SECOND, source, "?");
+}
+
+int dal__has_branches(const dal_system *system)
+{
+    return system->series && system->series->refused;
 }
 
 static double half_width(const dal_trend *f) { return 0.5 * (f->rate_high - f->rate_low); }
@@ -37,61 +46,109 @@ static double size_of(const dal_trend *f, int by_rate)
     return by_rate ? fabs(f->rate) : f->deviation;
 }
 
-/* log2 of the ratio of a drift to that with half the step; NaN where one is 0. */
-static double order_of(const dal_trend *whole, const dal_trend *halved, int by_rate)
+/* log2 of the ratio of an error to that with half the step; NaN where one is 0. */
+static double order_of(double whole, double halved)
 {
-    const double a = size_of(whole, by_rate), b = size_of(halved, by_rate);
-    return a > 0.0 && b > 0.0 ? log2(a / b) : NAN;
+    return whole > 0.0 && halved > 0.0 ? log2(whole / halved) : NAN;
 }
+
+/* The order of a drift that falls as the method says: at least the stated one. */
+static bool falls_as_stated(const dal_error_budget *e, double order)
+{
+    return order >= dal_method_order(&e->spec.method) - half_an_order;
+}
+
+/* ---- the motion ---- */
+
+/* The errors of the exact motion, at most. */
+static double error_of_reference(const dal_error_budget *e, double scale)
+{
+    const long long steps = e->steps > e->exact_steps ? e->steps : e->exact_steps;
+    return roundings_per_step * DBL_EPSILON * scale * (double)steps;
+}
+
+/* Whether the exact motion changes a quantity.  Where quad precision leaves next to nothing,
+ * rounding errors have grown with the motion: those of the exact motion in doubles do, too. */
+static bool has_motion(const dal_error_budget *e, dal_shares *a)
+{
+    const dal_trend *exact = &a->comparison[DAL_COMPARISON_EXACT];
+    if (a->is_conserved || !e->ran[DAL_COMPARISON_EXACT]) return false;
+    a->is_conserved = exact->deviation <= error_of_reference(e, exact->scale);
+    return !a->is_conserved &&
+           (e->quad_steps == 0 || size_of(&a->comparison[DAL_COMPARISON_QUAD], a->by_rate) >=
+                                      small * size_of(&a->beginning, a->by_rate));
+}
+
+/* ---- with quad precision ---- */
 
 static void set_share(dal_shares *a, dal_error_source source, const dal_trend *part)
 {
-    const double whole = size_of(&a->beginning, a->by_rate);
-    a->share[source] = a->by_rate ? part->rate / a->beginning.rate : part->deviation / whole;
-    a->margin[source] = a->by_rate ? half_width(part) / whole : NAN;
+    a->share[source] = size_of(part, a->by_rate);
+    a->margin[source] = a->by_rate ? half_width(part) : NAN;
 }
 
-/* Whether what quad precision leaves comes from coefficients: it is small, and does not fall with
- * the step as the order of the method says. */
-static int is_of_coefficients(const dal_error_budget *e, const dal_shares *a)
+/* Sizes of parts become shares of their sum. */
+static void divide_by_sum(dal_shares *a)
 {
-    const double max =
-        coefficient_roundings * DBL_EPSILON * a->beginning.scale * (double)e->quad_steps;
-    const int order = dal_method_order(&e->spec.method);
-    return a->comparison[DAL_COMPARISON_QUAD].deviation <= max && !isnan(a->order) &&
-           a->order < order - half_an_order;
+    double sum = 0.0;
+    for (int k = 0; k < DAL_ERROR_SOURCES; k++)
+        if (!isnan(a->share[k])) sum += a->share[k];
+    for (int k = 0; k < DAL_ERROR_SOURCES && sum > 0.0; k++) {
+        a->share[k] /= sum;
+        a->margin[k] /= sum;
+    }
 }
 
-/* What quad precision leaves is truncation, an error of coefficients, or the motion itself, which
- * does not fall with the step at all.  Where it leaves next to nothing, rounding errors have grown
- * with the motion: those of the exact motion in doubles do, too. */
-static void weigh_quad(const dal_error_budget *e, dal_shares *a)
+/* The source of what quad precision leaves beside the motion.  Coefficients leave little of the
+ * scale, and it does not fall with the step as the order of the method says; nor does what steps
+ * across branches leave, which need not be little. */
+static dal_error_source source_in_quad(const dal_error_budget *e, const dal_shares *a)
 {
-    const dal_trend *quad = &a->comparison[DAL_COMPARISON_QUAD];
+    if (isnan(a->order) || falls_as_stated(e, a->order)) return DAL_SOURCE_TRUNCATION;
+    if (a->error.deviation <=
+        roundings_per_step * DBL_EPSILON * a->beginning.scale * (double)e->quad_steps)
+        return DAL_SOURCE_COEFFICIENTS;
+    return dal__has_branches(e->spec.system) ? DAL_SOURCE_BRANCHES : DAL_SOURCE_TRUNCATION;
+}
+
+static void weigh_quad(const dal_error_budget *e, dal_shares *a, bool moves)
+{
     const double whole = size_of(&a->beginning, a->by_rate);
-    a->vanishes_in_quad = size_of(quad, a->by_rate) <= nothing * whole ||
-                          quad->deviation <= 2.0 * DBL_EPSILON * a->beginning.max_abs;
+    const double unknown = moves ? error_of_reference(e, a->beginning.scale)
+                                 : 2.0 * DBL_EPSILON * a->beginning.max_abs;
+    a->vanishes_in_quad =
+        size_of(&a->error, a->by_rate) <= nothing * whole || a->error.deviation <= unknown;
     if (!a->vanishes_in_quad)
-        a->order = order_of(quad, &a->comparison[DAL_COMPARISON_QUAD_HALVED], a->by_rate);
-    const int coefficients = is_of_coefficients(e, a);
-    if (!e->ran[DAL_COMPARISON_EXACT])
-        a->is_motion = !coefficients && a->order < half_an_order;
-    else if (size_of(quad, a->by_rate) < small * whole)
-        a->is_motion = 0;
-    set_share(a, coefficients ? DAL_SOURCE_COEFFICIENTS : DAL_SOURCE_TRUNCATION, quad);
-    a->share[coefficients ? DAL_SOURCE_TRUNCATION : DAL_SOURCE_COEFFICIENTS] = 0.0;
-    if (a->is_motion) a->share[DAL_SOURCE_TRUNCATION] = a->margin[DAL_SOURCE_TRUNCATION] = NAN;
+        a->order = order_of(size_of(&a->error, a->by_rate), size_of(&a->error_halved, a->by_rate));
+    const dal_error_source source = source_in_quad(e, a);
+    /* Without an exact motion: what does not fall with the step at all. */
+    const bool is_motion = !a->is_conserved && !e->ran[DAL_COMPARISON_EXACT] &&
+                           source != DAL_SOURCE_COEFFICIENTS && a->order < half_an_order;
+    a->share[DAL_SOURCE_MOTION] = a->share[DAL_SOURCE_TRUNCATION] = 0.0;
+    a->share[DAL_SOURCE_BRANCHES] = a->share[DAL_SOURCE_COEFFICIENTS] = 0.0;
+    if (moves) set_share(a, DAL_SOURCE_MOTION, &a->motion);
+    set_share(a, is_motion ? DAL_SOURCE_MOTION : source, &a->error);
+    if (is_motion) a->share[DAL_SOURCE_TRUNCATION] = NAN;
 }
 
 /* Quad precision separates truncation and coefficients from rounding, more iterations the solver.
  */
 static void share_beginning(const dal_error_budget *e, dal_shares *a)
 {
-    a->by_rate = drifts(&a->beginning, (double)e->quad_steps * e->spec.options.step);
+    const double time = (double)e->quad_steps * fabs(e->spec.options.step);
+    a->by_rate = drifts(&a->beginning, time);
+    const bool moves = has_motion(e, a);
+    if (moves) {
+        a->by_rate = a->by_rate && drifts(&a->error, time);
+    } else {
+        a->error = a->comparison[DAL_COMPARISON_QUAD];
+        a->error_halved = a->comparison[DAL_COMPARISON_QUAD_HALVED];
+    }
     if (!(size_of(&a->beginning, a->by_rate) > 0.0)) return;
-    weigh_quad(e, a);
-    const int moves = a->by_rate && fabs(a->solver.rate) > clear * half_width(&a->solver);
-    a->solver_is_significant = a->solver.deviation > significant * a->rounding.deviation || moves;
+    weigh_quad(e, a, moves);
+    const int solver_drifts = a->by_rate && fabs(a->solver.rate) > clear * half_width(&a->solver);
+    a->solver_is_significant =
+        a->solver.deviation > significant * a->rounding.deviation || solver_drifts;
     set_share(a, DAL_SOURCE_ROUNDING,
               a->solver_is_significant ? &a->rounding : &a->solver_and_rounding);
     if (a->solver_is_significant)
@@ -99,40 +156,56 @@ static void share_beginning(const dal_error_budget *e, dal_shares *a)
     else if (!e->ran[DAL_COMPARISON_TIGHTER] ||
              a->solver.deviation < small * a->beginning.deviation)
         a->share[DAL_SOURCE_SOLVER] = 0.0;
+    divide_by_sum(a);
 }
 
-/* Without quad precision: halving the step divides truncation T by 2^p and leaves the rest. */
-static void share_by_halving(const dal_error_budget *e, dal_shares *a)
+/* ---- without it ---- */
+
+/* The error of the run or of a comparison along all steps: where the motion changes the quantity,
+ * by rates, which may be subtracted. */
+static double whole_error(const dal_shares *a, bool moves, int series, const double *rate)
 {
-    const double whole = size_of(&a->whole, a->whole_by_rate);
-    if (!e->ran[DAL_COMPARISON_HALVED] || !(whole > 0.0)) return;
-    const dal_trend *half = &a->comparison[DAL_COMPARISON_HALVED];
-    a->order = order_of(&a->whole, half, a->whole_by_rate);
-    const double divisor = exp2(dal_method_order(&e->spec.method));
-    if (!a->is_motion && fabs(a->order - dal_method_order(&e->spec.method)) < half_an_order)
-        a->share[DAL_SOURCE_TRUNCATION] =
-            (whole - size_of(half, a->whole_by_rate)) / whole * divisor / (divisor - 1.0);
+    const dal_trend *f = series == DAL__WHOLE_RUN ? &a->whole : &a->comparison[series - 1];
+    return moves ? fabs(rate[series] - rate[1 + DAL_COMPARISON_EXACT])
+                 : size_of(f, a->whole_by_rate);
 }
 
-void dal__find_shares(const dal_error_budget *e, dal_shares *a)
+/* Halving the step divides truncation T by 2^p or more and leaves the rest. */
+static void share_by_halving(const dal_error_budget *e, dal_shares *a, bool moves,
+                             const double *rate)
+{
+    const double error = whole_error(a, moves, DAL__WHOLE_RUN, rate);
+    const double motion = moves ? fabs(rate[1 + DAL_COMPARISON_EXACT]) : 0.0;
+    const double sum = motion + error;
+    if (!(sum > 0.0)) return;
+    if (moves || a->is_conserved) a->share[DAL_SOURCE_MOTION] = motion / sum;
+    if (!dal__has_branches(e->spec.system)) a->share[DAL_SOURCE_BRANCHES] = 0.0;
+    if (!e->ran[DAL_COMPARISON_TIGHTER]) a->share[DAL_SOURCE_SOLVER] = 0.0;
+    if (!e->ran[DAL_COMPARISON_HALVED]) return;
+    const double half = whole_error(a, moves, 1 + DAL_COMPARISON_HALVED, rate);
+    a->order = order_of(error, half);
+    if (falls_as_stated(e, a->order)) {
+        const double divisor = exp2(fmax(nearbyint(a->order), dal_method_order(&e->spec.method)));
+        const double part = (error - half) / sum * divisor / (divisor - 1.0);
+        a->share[DAL_SOURCE_TRUNCATION] = fmin(part, error / sum);
+    } else if (a->order >= half_an_order && dal__has_branches(e->spec.system)) {
+        a->share[DAL_SOURCE_BRANCHES] = error / sum;
+    }
+}
+
+void dal__find_shares(const dal_error_budget *e, dal_shares *a, const double *rate)
 {
     for (int k = 0; k < DAL_ERROR_SOURCES; k++) a->share[k] = a->margin[k] = NAN;
     a->order = NAN;
     if (!isfinite(a->whole.deviation)) return;
-    a->whole_by_rate = drifts(&a->whole, (double)e->steps * e->spec.options.step);
-    /* What rounding alone may change along the exact motion. */
-    const dal_trend *exact = &a->comparison[DAL_COMPARISON_EXACT];
-    const double roundings = coefficient_roundings * DBL_EPSILON * exact->scale * (double)e->steps;
-    a->is_motion =
-        e->ran[DAL_COMPARISON_EXACT] && exact->deviation > roundings &&
-        size_of(exact, a->whole_by_rate) > part_of_motion * size_of(&a->whole, a->whole_by_rate);
-    if (e->quad_steps > 0)
-        share_beginning(e, a);
-    else
-        share_by_halving(e, a);
-    const double whole = size_of(&a->whole, a->whole_by_rate);
+    a->whole_by_rate = drifts(&a->whole, (double)e->steps * fabs(e->spec.options.step));
+    if (e->quad_steps > 0) share_beginning(e, a);
+    const bool moves = has_motion(e, a);
+    if (e->quad_steps == 0) share_by_halving(e, a, moves, rate);
+    a->is_motion = a->share[DAL_SOURCE_MOTION] >= 0.5;
+    const double whole = whole_error(a, moves, DAL__WHOLE_RUN, rate);
     if (!e->ran[DAL_COMPARISON_PROJECTION] || !(whole > 0.0)) return;
-    const double other = size_of(&a->comparison[DAL_COMPARISON_PROJECTION], a->whole_by_rate);
+    const double other = whole_error(a, moves, 1 + DAL_COMPARISON_PROJECTION, rate);
     a->share[DAL_SOURCE_PROJECTION] = fmax(1.0 - other / whole, 0.0);
 }
 
@@ -145,11 +218,28 @@ typedef struct description {
     size_t size;
 } description;
 
+static bool is_described(const dal_error_budget *e, int observable, char *buffer, size_t size)
+{
+    if (!e || !buffer || observable < 0 || observable >= e->observables) return false;
+    if (size > 0) buffer[0] = '\0';
+    return true;
+}
+
+/* ---- how a share was found ---- */
+
 /* The drift of a comparison over that of the run. */
 static double drift_ratio(const description *s, dal_comparison_run comparison)
 {
     const dal_trend *all = &s->a->whole, *other = &s->a->comparison[comparison];
     return s->a->whole_by_rate ? fabs(other->rate / all->rate) : other->deviation / all->deviation;
+}
+
+/* The same of the error, where the motion changes the quantity. */
+static double projection_ratio(const description *s)
+{
+    const double share = s->a->share[DAL_SOURCE_PROJECTION];
+    return !s->a->is_conserved && share > 0.0 ? 1.0 - share
+                                              : drift_ratio(s, DAL_COMPARISON_PROJECTION);
 }
 
 static void describe_order(const description *s, const char *before)
@@ -168,24 +258,55 @@ static void describe_order(const description *s, const char *before)
                  exp2(fabs(s->a->order)), fabs(s->a->order));
 }
 
+static void describe_motion(const description *s)
+{
+    const dal_error_budget *e = s->e;
+    if (e->ran[DAL_COMPARISON_EXACT] && s->a->is_conserved)
+        snprintf(s->text, s->size, "along the exact motion it does not change");
+    else if (s->a->is_conserved)
+        snprintf(s->text, s->size, "the motion conserves it");
+    else if (!e->ran[DAL_COMPARISON_EXACT] && s->a->is_motion)
+        snprintf(s->text, s->size,
+                 "what quad precision leaves does not fall when the step is halved");
+    else if (!e->ran[DAL_COMPARISON_EXACT])
+        snprintf(s->text, s->size, "no exact motion: %s", e->reason[DAL_COMPARISON_EXACT]);
+    else if (s->a->share[DAL_SOURCE_MOTION] == 0.0)
+        snprintf(s->text, s->size, "quad precision leaves next to nothing: rounding errors grow");
+    else
+        snprintf(s->text, s->size, "along the exact motion the drift is %.3g times this",
+                 drift_ratio(s, DAL_COMPARISON_EXACT));
+}
+
 static void describe_truncation(const description *s)
 {
-    if (s->a->is_motion && s->e->ran[DAL_COMPARISON_EXACT])
-        snprintf(s->text, s->size,
-                 "the motion itself %s: along the exact motion the drift is %.3g times this",
-                 s->e->quad_steps > 0 ? "changes it" : "changes it, or lets rounding errors grow",
-                 drift_ratio(s, DAL_COMPARISON_EXACT));
+    const bool moves = s->e->ran[DAL_COMPARISON_EXACT] && s->a->share[DAL_SOURCE_MOTION] > 0.0;
+    if (s->a->share[DAL_SOURCE_COEFFICIENTS] > 0.0 || s->a->share[DAL_SOURCE_BRANCHES] > 0.0)
+        snprintf(s->text, s->size, "what %s does not fall by 2^%d when the step is halved",
+                 s->e->quad_steps > 0 ? "quad precision leaves" : "there is",
+                 dal_method_order(&s->e->spec.method));
     else if (s->e->quad_steps == 0)
         describe_order(s, isnan(s->a->share[DAL_SOURCE_TRUNCATION])
                               ? "halving alone, without quad precision, is not conclusive:"
                               : "by halving alone:");
-    else if (s->a->is_motion)
-        describe_order(s, "the motion itself changes it:");
-    else if (s->a->share[DAL_SOURCE_COEFFICIENTS] != 0.0)
-        snprintf(s->text, s->size, "what quad precision leaves does not fall by 2^%d",
-                 dal_method_order(&s->e->spec.method));
     else
-        describe_order(s, "in quad precision");
+        describe_order(s,
+                       moves ? "in quad precision, less the exact motion," : "in quad precision");
+}
+
+static void describe_branches(const description *s)
+{
+    char words[128];
+    description inner = *s;
+    if (!dal__has_branches(s->e->spec.system)) {
+        snprintf(s->text, s->size, "the equations have no branches");
+    } else if (!(s->a->share[DAL_SOURCE_BRANCHES] > 0.0)) {
+        snprintf(s->text, s->size, "truncation falls as in smooth equations");
+    } else {
+        inner.text = words, inner.size = sizeof words;
+        describe_order(&inner, s->e->quad_steps > 0 ? "in quad precision" : "");
+        snprintf(s->text, s->size, "the equations contain %s: %s, not by 2^%d",
+                 s->e->spec.system->series->refused, words, dal_method_order(&s->e->spec.method));
+    }
 }
 
 static void describe_coefficients(const description *s)
@@ -236,20 +357,19 @@ static void describe_projection(const description *s)
     if (!s->e->ran[DAL_COMPARISON_PROJECTION])
         snprintf(s->text, s->size, "%s", s->e->reason[DAL_COMPARISON_PROJECTION]);
     else
-        snprintf(s->text, s->size, "%s the drift is %.3g times this",
+        snprintf(s->text, s->size, "%s the %s is %.3g times this",
                  s->e->has_projection ? "without projection" : "with +project",
-                 drift_ratio(s, DAL_COMPARISON_PROJECTION));
+                 s->a->is_conserved ? "drift" : "error", projection_ratio(s));
 }
 
 char *dal_error_budget_describe(const dal_error_budget *e, int observable, dal_error_source source,
                                 char *buffer, size_t size)
 {
-    static void (*const describe[])(const description *) = {describe_truncation,
-                                                            describe_coefficients, describe_solver,
-                                                            describe_rounding, describe_projection};
-    if (!e || !buffer || observable < 0 || observable >= e->observables) return NULL;
+    static void (*const describe[])(const description *) = {
+        describe_motion, describe_truncation, describe_branches,  describe_coefficients,
+        describe_solver, describe_rounding,   describe_projection};
+    if (!is_described(e, observable, buffer, size)) return NULL;
     const description s = {e, &e->shares[observable], buffer, size};
-    if (size > 0) buffer[0] = '\0';
     if (!isfinite(s.a->whole.deviation))
         snprintf(buffer, size, "it is not finite");
     else if (!(s.a->whole.deviation > 0.0))
@@ -259,5 +379,150 @@ char *dal_error_budget_describe(const dal_error_budget *e, int observable, dal_e
         snprintf(buffer, size, "it does not change in the first %lld steps", e->quad_steps);
     else if ((unsigned)source < DAL_ERROR_SOURCES)
         describe[source](&s);
+    return buffer;
+}
+
+/* ---- a sentence ---- */
+
+/* Sources below the first part of a change are not named, or, beside the motion, apart from it;
+ * above the second there is no other one. */
+static const double named = 0.01, alone = 0.95;
+/* What projection removes at least of a drift that D = 0 would not have. */
+static const double by_constraints = 0.5;
+
+static const char *phrase(dal_error_source source)
+{
+    switch (source) {
+    case DAL_SOURCE_MOTION:
+        return "the motion itself";
+    case DAL_SOURCE_BRANCHES:
+        return "truncation at branches";
+    case DAL_SOURCE_COEFFICIENTS:
+        return "rounding of coefficients";
+    case DAL_SOURCE_SOLVER:
+        return "the solver";
+    default:
+        return dal_error_source_name(source);
+    }
+}
+
+static void append_words(description *s, const char *format, const char *text, double number)
+{
+    const int length = snprintf(s->text, s->size, format, text, number);
+    const size_t used = length < 0 ? 0 : (size_t)length < s->size ? (size_t)length : s->size;
+    s->text += used;
+    s->size -= used;
+}
+
+/* "0.4 %", "23 %", "100 %" */
+static void append_percent(description *s, double share)
+{
+    if (share >= 0.995)
+        append_words(s, "100 %%%s", "", 0.0);
+    else
+        append_words(s, "%s%.2g %%", "", 100.0 * share);
+}
+
+/* The largest share after `before`, of sources that are named; DAL_ERROR_SOURCES: none. */
+static int next_source(const dal_shares *a, const bool *done)
+{
+    int next = DAL_ERROR_SOURCES;
+    for (int k = 0; k < DAL_SOURCE_PROJECTION; k++)
+        if (!done[k] && a->share[k] >= named &&
+            (next == DAL_ERROR_SOURCES || a->share[k] > a->share[next]))
+            next = k;
+    return next;
+}
+
+/* "by truncation (80 %) and rounding (20 %)"; the largest source. */
+static int list_sources(description *s)
+{
+    bool done[DAL_ERROR_SOURCES] = {false};
+    const int first = next_source(s->a, done);
+    for (int k = first, next; k < DAL_ERROR_SOURCES; k = next) {
+        done[k] = true;
+        next = next_source(s->a, done);
+        append_words(s,
+                     k == first                 ? " by %s ("
+                     : next < DAL_ERROR_SOURCES ? ", %s ("
+                                                : " and %s (",
+                     phrase((dal_error_source)k), 0.0);
+        append_percent(s, s->a->share[k]);
+        append_words(s, ")%s", "", 0.0);
+    }
+    return first;
+}
+
+/* Which error the step reduces: truncation, with or without branches. */
+static int reduced_source(const dal_shares *a)
+{
+    return a->share[DAL_SOURCE_BRANCHES] > 0.0 ? DAL_SOURCE_BRANCHES : DAL_SOURCE_TRUNCATION;
+}
+
+static void advise_step(description *s, const char *what)
+{
+    const dal_options *o = &s->e->spec.options;
+    const double order = s->a->order, divisor = exp2(dal_method_order(&s->e->spec.method));
+    if (o->tolerance > 0.0)
+        append_words(s, ": divide the tolerance by %s%.0f", "", divisor);
+    else
+        append_words(s, ": halve the step%s", "", 0.0);
+    if (order < 0.5)
+        append_words(s, " and %s does not fall", what, 0.0);
+    else
+        append_words(s, " and %s falls by %.3g", what, exp2(order));
+}
+
+/* What is smaller than what is named, beside the motion. */
+static void add_error_of_motion(description *s, int source)
+{
+    append_words(s, "; %s is ", phrase((dal_error_source)source), 0.0);
+    append_percent(s, s->a->share[source]);
+    advise_step(s, "it");
+}
+
+static void advise(description *s, int first)
+{
+    const int reduced = reduced_source(s->a);
+    const double share = s->a->share[reduced];
+    if (s->a->whole.conservation == DAL_OFF_SURFACE &&
+        s->a->share[DAL_SOURCE_PROJECTION] > by_constraints && !s->e->has_projection)
+        append_words(s, ", because D does%s", "", 0.0);
+    if (first == DAL_SOURCE_SOLVER)
+        append_words(s, ": solve the equations further%s", "", 0.0);
+    else if (first == DAL_SOURCE_ROUNDING && s->e->spec.options.sums == DAL_SUMS_PLAIN &&
+             s->e->ran[DAL_COMPARISON_SUMS])
+        append_words(s, ": with compensated sums%s it is %.2g times this", "",
+                     drift_ratio(s, DAL_COMPARISON_SUMS));
+    else if (share > 0.0 && share < named && s->a->is_motion && !isnan(s->a->order))
+        add_error_of_motion(s, reduced);
+    else if (share >= named && !isnan(s->a->order))
+        advise_step(s, share >= alone ? "it" : phrase((dal_error_source)reduced));
+}
+
+char *dal_error_budget_summarise(const dal_error_budget *e, int observable, char *buffer,
+                                 size_t size)
+{
+    if (!is_described(e, observable, buffer, size)) return NULL;
+    const dal_shares *a = &e->shares[observable];
+    description s = {e, a, buffer, size};
+    if (!isfinite(a->whole.deviation))
+        append_words(&s, "is not finite%s", "", 0.0);
+    else if (!(a->whole.deviation > 0.0))
+        append_words(&s, "never changes%s", "", 0.0);
+    else if (a->is_conserved && a->whole.size == DAL_SIZE_ROUNDING)
+        append_words(&s, "stays at rounding%s", "", 0.0);
+    else {
+        append_words(&s, "%s",
+                     a->is_motion       ? "changes"
+                     : a->whole_by_rate ? "drifts"
+                                        : "varies",
+                     0.0);
+        const int first = list_sources(&s);
+        if (first < DAL_ERROR_SOURCES)
+            advise(&s, first);
+        else
+            append_words(&s, "; these runs do not say by what%s", "", 0.0);
+    }
     return buffer;
 }

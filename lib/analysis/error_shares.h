@@ -11,10 +11,17 @@ typedef enum dal__series_of_run {
     DAL__FIRST_ROUNDING,
     DAL__FIRST_SOLVER,
     DAL__FIRST_SOLVER_AND_ROUNDING,
+    DAL__FIRST_MOTION,
+    DAL__FIRST_ERROR,
+    DAL__FIRST_ERROR_HALVED,
     DAL__SERIES
 } dal__series_of_run;
 
-/* Finds the shares from the trends of all these series. */
-void dal__find_shares(const dal_error_budget *budget, dal_shares *shares);
+/* Finds the shares from the trends of all these series and from is_conserved; rate[1 +
+ * DAL_COMPARISONS]: of least squares, of the whole run and of the comparisons. */
+void dal__find_shares(const dal_error_budget *budget, dal_shares *shares, const double *rate);
+
+/* Whether F has branches (if, abs, min, ...). */
+int dal__has_branches(const dal_system *system);
 
 #endif

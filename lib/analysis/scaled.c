@@ -14,9 +14,9 @@
  * the beginning of the motion, or the length of equal kinetic energy, |q_i|, 1, the first that is
  * not 0.  d_a, c and g_k are the largest scales of D_a, E and I_k at points l_i, u_i about the
  * start. */
+#include "analysis/scaled.h"
 #include "core/error.h"
 #include "core/vectors.h"
-#include "dalembert_analysis.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -40,6 +40,18 @@ void dal_scaled_free(dal_scaled *s) { free(s); }
 
 const dal_system *dal_scaled_system(const dal_scaled *s) { return s ? &s->system : NULL; }
 const double *dal_scaled_units(const dal_scaled *s) { return s ? s->numbers : NULL; }
+
+void dal__scaled_from_user(const dal_scaled *s, const double *state, double *out)
+{
+    for (int i = 0; i < s->n; i++) out[i] = state[i] * s->per_length[i];
+    for (int i = 0; i < s->nw; i++) out[s->n + i] = state[s->n + i] * s->per_speed[i];
+}
+
+void dal__scaled_to_user(const dal_scaled *s, const double *state, double *out)
+{
+    for (int i = 0; i < s->n; i++) out[i] = state[i] * s->length[i];
+    for (int i = 0; i < s->nw; i++) out[s->n + i] = state[s->n + i] * s->speed[i];
+}
 
 /* ---- callbacks ---- */
 

@@ -395,3 +395,19 @@ double dal__trend_amplitude(const dal_statistics *s, double rate)
     const double rise = n > 1 ? within * fabs(rate) * (block[1].t - block[0].t) : 0.0;
     return n > 0 ? fmax(0.5 * (high - low - rise), 0.0) : 0.0;
 }
+
+double dal_statistics_rate_range(const dal_statistics *s)
+{
+    enum { QUARTERS = 4, MIN_BLOCKS = 16 };
+    dal_statistics_block block[DAL_STATISTICS_BLOCKS];
+    double low = INFINITY, high = -INFINITY;
+    const int n = s && !s->lost ? dal__statistics_blocks(s, block) : 0;
+    if (n < MIN_BLOCKS) return NAN;
+    for (int k = 0; k < QUARTERS; k++) {
+        const int from = k * n / QUARTERS, to = (k + 1) * n / QUARTERS;
+        const double slope = fit_line(block + from, to - from).slope;
+        low = fmin(low, slope);
+        high = fmax(high, slope);
+    }
+    return high - low;
+}

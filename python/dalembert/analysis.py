@@ -334,14 +334,19 @@ class Shares:
     trend : Trend
         Along the whole run.
     share : dict of str to float
-        By source: ``'truncation'``, ``'coefficients'``, ``'solver'``, ``'rounding'``,
-        ``'projection'``; NaN: not known.
+        Of the change, 0 to 1, by source: ``'motion'``, ``'truncation'``, ``'branches'``,
+        ``'coefficients'``, ``'solver'``, ``'rounding'``, which add up to 1, and ``'projection'``;
+        NaN: not known.
     margin : dict of str to float
         Half the 95 % interval of a share.
     how : dict of str to str
         How a share was found, in words.
     is_motion : bool
-        The motion itself moves the observable.
+        The motion itself makes at least half of the change.
+    is_conserved : bool
+        The exact motion conserves the observable.
+    sentence : str
+        What the observable does, and by which sources.
     """
 
     trend: Trend
@@ -349,6 +354,13 @@ class Shares:
     margin: dict[str, float]
     how: dict[str, str]
     is_motion: bool
+    is_conserved: bool
+    sentence: str
+
+
+def summarise(budget: Any, observable: int) -> str:
+    buffer = ffi.new('char[]', 1024)
+    return text_of(lib.dal_error_budget_summarise(budget, observable, buffer, len(buffer)))
 
 
 def describe(budget: Any, observable: int, source: int) -> str:
@@ -386,7 +398,8 @@ def explain(system: SystemLike, integrator: str | None = None, time: float | Non
         found[text_of(shares.name)] = Shares(
             make_trend(shares.whole), {name: shares.share[k] for k, name in sources.items()},
             {name: shares.margin[k] for k, name in sources.items()},
-            {name: describe(budget, i, k) for k, name in sources.items()}, bool(shares.is_motion))
+            {name: describe(budget, i, k) for k, name in sources.items()}, bool(shares.is_motion),
+            bool(shares.is_conserved), summarise(budget, i))
     return found
 
 

@@ -104,7 +104,8 @@ def test_explain(oscillator):
     shares = dalembert.explain(oscillator, 'rk4', 100, step=0.1, quad_steps=200)['E']
     assert shares.share['truncation'] == pytest.approx(1, abs=1e-6)
     assert abs(shares.share['rounding']) < 1e-6 and shares.trend.trend == 'linear'
-    assert shares.how['truncation'] and not shares.is_motion
+    assert shares.how['truncation'] and not shares.is_motion and shares.is_conserved
+    assert shares.sentence.startswith('drifts by truncation (100 %): halve the step and it falls by ')
     assert sum(shares.share[name] for name in ('truncation', 'coefficients', 'solver', 'rounding')
                ) == pytest.approx(1)
 

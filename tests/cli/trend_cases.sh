@@ -117,3 +117,16 @@ invariants: {${invariants}moves: x}\n" >many.yaml
     try 2 report elder
     says "elder/cells.csv: there is no column 'E_trend': another version"
 fi
+
+# x = t + 5e-5 t^2: the rate is 1.005, the rates of the quarters of 100 are 0.0025 apart, 49 * 0.0075
+# is 0.37.
+case_is "the rates of a longer run"
+printf "coordinates: [x]\naccelerations: {x: 1e-4}\nstart: {x': 1}\ninvariants: {way: x}\n" >bends.yaml
+try 0 run bends.yaml --integrator rk4 --step 0.1 --time 100 --output bends --details
+says '^way .* linear'
+says '^rates in a run 50 times as long, if the line bends on as in this one:$'
+says '^way +\+6\.[345]e-01 to \+1\.4e\+00$'
+try 0 run bends.yaml --integrator rk4 --step 0.1 --time 100 --output bends --summary --force
+holds "--summary alone" sh -c '! grep -q "times as long" err'
+try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --output none --details
+says '^rates in a longer run: no trend is linear$'

@@ -41,6 +41,43 @@ else
     echo "cli: units: skipped: no $units (make check builds it)"
 fi
 
+# Shares in percent, rounded, with the sentence and what is conserved of each observable but the error;
+# of what stays at rounding, that it does.
+shares() {
+    python3 - <<'END'
+import json
+for o in json.load(open('explained'))['observables']:
+    if o['name'] == 'error':
+        continue
+    if o['sentence'] in ('stays at rounding', 'never changes'):
+        print(o['name'], o['is_conserved'], 'stays')
+        continue
+    print(o['name'], o['is_conserved'], o['sentence'].split(' (')[0])
+    print([None if s['share'] is None else round(100 * s['share'], 1) + 0.0 for s in o['sources']],
+          None if o['order'] is None else round(o['order'], 2) + 0.0)
+END
+}
+
+case_is "explain in other units"
+if [ -x "$units" ] && needs 8 "no python3" there python3; then
+    for system in chaplygin-sleigh contact-oscillator damped-oscillator isokinetic; do
+        for seed in 0 3; do
+            mkdir -p explain-$seed
+            "$units" $system $seed >explain-$seed/system.yaml 2>err
+            tau=$(sed -n '1s/^# \([^ ]*\).*/\1/p' explain-$seed/system.yaml)
+            (cd explain-$seed && "$program" explain system.yaml --integrator rk4 --json \
+                --step "$(awk -v tau="$tau" 'BEGIN { printf "%.17g", 0.0625/tau }')" \
+                --time "$(awk -v tau="$tau" 'BEGIN { printf "%.17g", 25/tau }')" >explained 2>>err
+                echo "exit $?" >shares
+                shares >>shares)
+        done
+        holds "$system: explain differs in other units: $(diff explain-0/shares explain-3/shares | head -4)" \
+            cmp explain-0/shares explain-3/shares
+        holds "$system: no shares" test "$(grep -c "'\|\[" explain-3/shares)" -ge 1
+    done
+    counted
+fi
+
 case_is "an oscillator at x = 1000, and its exact solution"
 cat >far.yaml <<'END'
 coordinates: [x]

@@ -1,0 +1,31 @@
+/* reference.h - the exact motion of a run, to rounding, and what it conserves. */
+#ifndef DAL_REFERENCE_H
+#define DAL_REFERENCE_H
+
+#include "dalembert_analysis.h"
+
+/* The exact motion from the start of a run, beside that run. */
+typedef struct dal__reference dal__reference;
+
+/* The tolerance of its substeps, in units of the system's own. */
+#define DAL__REFERENCE_TOLERANCE 1e-16
+
+/* Makes the motion of a spec, at its start. [alloc]  Errors: those of runs; DAL_UNSUPPORTED: p and
+ * pi are not 0, so that they move (q, v), too. */
+dal_status dal__reference_create(dal__reference **reference, const dal_run_spec *spec,
+                                 dal_error *error);
+/* Frees it; NULL is allowed. */
+void dal__reference_free(dal__reference *reference);
+/* Goes on by steps of the spec.  Errors: those of a step. */
+dal_status dal__reference_advance(dal__reference *reference, long long steps, dal_error *error);
+/* Its substeps so far. */
+long long dal__reference_steps(const dal__reference *reference);
+/* A run of the spec that is at the present state of the exact motion, for its observables. */
+dal_run *dal__reference_run(dal__reference *reference);
+
+/* Finds which observables of a run of the spec the exact motion from its start is known to
+ * conserve, conserved[observables]. [alloc]  Errors: DAL_MEMORY. */
+dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int *conserved,
+                               dal_error *error);
+
+#endif
