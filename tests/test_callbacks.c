@@ -1,6 +1,8 @@
 /* test_callbacks.c - callbacks of a system that fail: whichever call does, a function of the library
  * returns the status of the callback, or one that says what became of it, with a message; unless its
- * result is NaN or the one without a failure. */
+ * result is NaN or the one without a failure.  And the same of allocations: DAL_MEMORY, nothing else,
+ * and no block is left. */
+#include "allocation.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -479,8 +481,42 @@ static dal_status scale(trial *t)
 /* ---- the suite ---- */
 
 static const char sleigh[] = "chaplygin-sleigh";
+static const char swing[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2\n"
+                            "start: {x: 1, y': 1}\ninvariants: {g: x}\n";
+static const char ball[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
+                           "start: {y: 1}\n"
+                           "events:\n  - {when: y, direction: down, restitution: 0.5}\n"
+                           "  - {when: y - 0.2, direction: up, set: {x: x + 1}}\n";
 #define EACH(text, method, space, tolerance, work)                                                 \
     each_call_fails(text, method, space, tolerance, work, #work)
+
+static void each_allocation_fails(const char *text, const char *method, dal_space space,
+                                  trial_work *work)
+{
+    const dal_system *system = fixture_system(text);
+    allocation_trial allocations = {0};
+    while (allocation_next(&allocations)) {
+        trial t = {.spec = fixture_spec(system, method, space, STEP)};
+        allocation_start(&allocations);
+        allocation_end(&allocations, work(&t));
+    }
+    CU_ASSERT(allocations.failures > 0);
+}
+
+static void test_memory(void)
+{
+    static trial_work *const works[] = {
+        create,         step,           sample,           observe,        change,
+        restore,        advance_batch,  measure_lyapunov, measure_rate,   check_derivatives,
+        measure_rank,   measure_scales, project_velocity, scale,          classify_constraints,
+        measure_action, check_dirac,    measure_order};
+    for (size_t i = 0; i < sizeof works / sizeof works[0]; i++)
+        each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, works[i]);
+    each_allocation_fails(sleigh, "gauss4", DAL_LIFTED, check_maps);
+    each_allocation_fails(sleigh, "gauss4", DAL_PHYSICAL, budget);
+    each_allocation_fails(swing, "rk4", DAL_PHYSICAL, cross);
+    each_allocation_fails(ball, "rk4", DAL_PHYSICAL, pass_events);
+}
 
 static void test_runs(void)
 {
@@ -522,12 +558,6 @@ static void test_measures(void)
 
 static void test_places(void)
 {
-    static const char swing[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2\n"
-                                "start: {x: 1, y': 1}\ninvariants: {g: x}\n";
-    static const char ball[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
-                               "start: {y: 1}\n"
-                               "events:\n  - {when: y, direction: down, restitution: 0.5}\n"
-                               "  - {when: y - 0.2, direction: up, set: {x: x + 1}}\n";
     EACH(swing, "rk4", DAL_PHYSICAL, 0.0, cross);
     EACH(ball, "rk4", DAL_PHYSICAL, 1e-13, pass_events);
 }
@@ -538,4 +568,5 @@ void suite_callbacks(void)
     CU_add_test(suite, "runs and batches", test_runs);
     CU_add_test(suite, "measures", test_measures);
     CU_add_test(suite, "crossings and events", test_places);
+    CU_add_test(suite, "out of memory", test_memory);
 }
