@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static void refused(dal_status got, dal_status expected, const dal_error *error, const char *message)
+static void refused(dal_status got, dal_status expected, const dal_error *error,
+                    const char *message)
 {
     CU_ASSERT_EQUAL(got, expected);
     CU_ASSERT_EQUAL(error->status, expected);
@@ -28,8 +29,7 @@ static void test_modifiers(void)
 
 static void test_batches(void)
 {
-    const dal_run_spec spec =
-        fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
+    const dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
     dal_error error;
     dal_batch *batch = NULL;
     refused(dal_batch_create(&batch, &spec, 2, 3, &error), DAL_ARGUMENT, &error,
@@ -98,7 +98,9 @@ static void test_systems(void)
         {{.n = 0}, DAL_ARGUMENT, "a system needs coordinates; n is 0"},
         {{.n = 1, .pivots = -1}, DAL_ARGUMENT, "a dimension of the system is negative"},
         {{.n = 3, .m = 2, .multipliers = 1}, DAL_ARGUMENT, "1 multipliers for 2 constraints"},
-        {{.n = 1, .parameters = 3, .workspace = 2}, DAL_ARGUMENT, "3 parameters in a workspace of 2"},
+        {{.n = 1, .parameters = 3, .workspace = 2},
+         DAL_ARGUMENT,
+         "3 parameters in a workspace of 2"},
         {{.n = 1, .pivots = 2, .workspace = 1}, DAL_ARGUMENT, "2 pivots in a workspace of 1"},
         {{.n = 1, .m = 2}, DAL_TOO_LARGE, "1 coordinates, 2 constraints"},
         {{.n = 100001}, DAL_TOO_LARGE, "100001 coordinates, 0 constraints"},
