@@ -27,6 +27,16 @@ static void test_modifiers(void)
     dal_run_free(fixture_stepped(&spec, 1));
 }
 
+static void test_tolerances(void)
+{
+    dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
+    spec.options.tolerance = 1e-9;
+    fixture_refused(&spec, DAL_UNSUPPORTED,
+                    "rk4 has no control of its step size: the tolerance must be 0");
+    spec.options.tolerance = 1e-40;
+    fixture_refused(&spec, DAL_ARGUMENT, "option tolerance: 1e-40 is below");
+}
+
 static void test_batches(void)
 {
     const dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
@@ -150,6 +160,7 @@ void suite_refusals(void)
 {
     CU_pSuite suite = CU_add_suite("refusals", NULL, NULL);
     CU_add_test(suite, "modifiers", test_modifiers);
+    CU_add_test(suite, "tolerances", test_tolerances);
     CU_add_test(suite, "batches", test_batches);
     CU_add_test(suite, "runs", test_runs);
     CU_add_test(suite, "systems made by hand", test_systems);
