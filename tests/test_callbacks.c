@@ -489,10 +489,10 @@ static const char ball[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y
                            "  - {when: y - 0.2, direction: up, set: {x: x + 1}}\n";
 
 static void each_allocation_fails(const char *text, const char *method, dal_space space,
-                                  trial_work *work)
+                                  bool is_single, trial_work *work)
 {
     const dal_system *system = fixture_system(text);
-    allocation_trial allocations = {0};
+    allocation_trial allocations = {.is_single = is_single};
     while (allocation_next(&allocations)) {
         trial t = {.spec = fixture_spec(system, method, space, STEP)};
         allocation_start(&allocations);
@@ -508,12 +508,14 @@ static void test_memory(void)
         restore,        advance_batch,  measure_lyapunov, measure_rate, check_derivatives,
         measure_rank,   measure_scales, project_velocity, scale,        classify_constraints,
         measure_action, check_dirac,    measure_order};
-    for (size_t i = 0; i < sizeof works / sizeof works[0]; i++)
-        each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, works[i]);
-    each_allocation_fails(sleigh, "gauss4", DAL_LIFTED, check_maps);
-    each_allocation_fails(sleigh, "gauss4", DAL_PHYSICAL, budget);
-    each_allocation_fails(swing, "rk4", DAL_PHYSICAL, cross);
-    each_allocation_fails(ball, "rk4", DAL_PHYSICAL, pass_events);
+    for (int once = 0; once < 2; once++) {
+        for (size_t i = 0; i < sizeof works / sizeof works[0]; i++)
+            each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, once, works[i]);
+        each_allocation_fails(sleigh, "gauss4", DAL_LIFTED, once, check_maps);
+        each_allocation_fails(sleigh, "gauss4", DAL_PHYSICAL, once, budget);
+        each_allocation_fails(swing, "rk4", DAL_PHYSICAL, once, cross);
+        each_allocation_fails(ball, "rk4", DAL_PHYSICAL, once, pass_events);
+    }
 }
 
 static void test_runs(void)
