@@ -7,12 +7,14 @@
 
 static _Thread_local long left = -1;
 static _Thread_local int failed;
-static atomic_long blocks; /* allocated and not yet freed, of all threads */
+static _Thread_local bool fails_once; /* and the allocations after it succeed */
+static atomic_long blocks;            /* allocated and not yet freed, of all threads */
 
 void allocation_fail_after(long count)
 {
     left = count;
     failed = 0;
+    fails_once = false;
 }
 
 int allocation_failed(void) { return failed; }
@@ -21,6 +23,7 @@ static int refuse(void)
 {
     if (left < 0) return 0;
     if (left > 0) return left--, 0;
+    if (fails_once) left = -1;
     return failed = 1;
 }
 
@@ -75,7 +78,11 @@ bool allocation_next(allocation_trial *trial)
     return !trial->passed;
 }
 
-void allocation_start(const allocation_trial *trial) { allocation_fail_after(trial->failures); }
+void allocation_start(const allocation_trial *trial)
+{
+    allocation_fail_after(trial->failures);
+    fails_once = trial->is_single;
+}
 
 bool allocation_end(allocation_trial *trial, dal_status status)
 {

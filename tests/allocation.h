@@ -2,7 +2,8 @@
  *
  *     allocation_trial trial = {0};
  *     while (allocation_next(&trial)) {
- *         allocation_start(&trial);           trial.failures allocations succeed, no later one
+ *         allocation_start(&trial);           trial.failures allocations succeed, no later one,
+ *                                             or with is_single all but the next one
  *         status = ...;
  *         allocation_end(&trial, status);     back to normal
  *         ... frees what there is ...
@@ -20,6 +21,7 @@ int allocation_failed(void); /* has one been refused since? */
 
 typedef struct allocation_trial {
     long failures, blocks; /* so far; before the first */
+    bool is_single;        /* set by the caller: later allocations succeed again */
     bool passed;
 } allocation_trial;
 

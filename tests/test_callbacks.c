@@ -1,6 +1,8 @@
-/* test_callbacks.c - callbacks of a system that fail: whichever call does, a function of the library
- * returns the status of the callback, or one that says what became of it, with a message; unless its
- * result is NaN or the one without a failure. */
+/* test_callbacks.c - callbacks of a system that fail: whichever call does, a function of the
+ * library returns the status of the callback, or one that says what became of it, with a message;
+ * unless its result is NaN or the one without a failure.  Likewise allocations: DAL_MEMORY, nothing
+ * else, and no block is left. */
+#include "allocation.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -50,7 +52,7 @@ static bool fails(void) { return ++calls == failing; }
             failed = #name;                                                                        \
             return DAL_IO;                                                                         \
         }                                                                                          \
-        return original->member(original, at, out);                             \
+        return original->member(original, at, out);                                                \
     }
 MEMBERS(FAIL)
 #undef FAIL
@@ -104,7 +106,7 @@ static bool are_close(const trial *a, const trial *b)
 
 /* Every call of the work on a system fails once, or MAX_TRIALS of them. */
 static void each_call_fails(const char *text, const char *method, dal_space space, double tolerance,
-                            trial_work *work, const char *name)
+                            trial_work *work)
 {
     const dal_system system = failing_system(fixture_system(text));
     trial well = {.spec = fixture_spec(&system, method, space, STEP), .tolerance = tolerance};
@@ -113,7 +115,7 @@ static void each_call_fails(const char *text, const char *method, dal_space spac
     const long total = calls;
     CU_ASSERT_EQUAL(status, DAL_OK);
     CU_ASSERT(total > 0);
-    if (status != DAL_OK) printf("\n%.20s: %s, %s: %s\n", text, name, method, dal_status_name(status));
+    if (status != DAL_OK) printf("\n%.20s, %s: %s\n", text, method, dal_status_name(status));
     const long by = total / MAX_TRIALS + 1;
     for (long k = 1; k <= total; k += by) {
         trial other = {.spec = well.spec};
@@ -128,8 +130,7 @@ static void each_call_fails(const char *text, const char *method, dal_space spac
         for (int i = 0; i < well.count; i++)
             if (well.out[i] != other.out[i])
                 printf("   [%d] %g %g\n", i, well.out[i], other.out[i]);
-        printf("%.20s: %s, %s: call %ld of %ld, %s, fails unseen\n", text, name, method, k, total,
-               failed);
+        printf("%.20s, %s: call %ld of %ld, %s, fails unseen\n", text, method, k, total, failed);
     }
 }
 
@@ -171,8 +172,7 @@ static dal_status keep_sample(void *user, dal_run *run, long long row, double ti
     trial *t = user;
     double values[8] = {0};
     (void)row, (void)time;
-    const dal_status status =
-        dal_run_observables(run) <= 8 ? dal_run_observe(run, values) : DAL_OK;
+    const dal_status status = dal_run_observables(run) <= 8 ? dal_run_observe(run, values) : DAL_OK;
     add(t, values, (int)(sizeof values / sizeof *values));
     add_run(t, run);
     return status;
@@ -193,11 +193,8 @@ static dal_status keep_scales(void *user, dal_run *run, const double *scales)
 static dal_status sample(trial *t)
 {
     dal_run *run = NULL;
-    const dal_observer observer = {.user = t,
-                                   .sample = keep_sample,
-                                   .values = keep_values,
-                                   .scales = keep_scales,
-                                   .every = 1};
+    const dal_observer observer = {
+        .user = t, .sample = keep_sample, .values = keep_values, .scales = keep_scales, .every = 1};
     const double T = 4.0 * t->spec.options.step;
     dal_status status = dal_run_create(&run, &t->spec, &t->error);
     if (status == DAL_OK) status = dal_run_sample(run, T, 3, 0, &observer, &t->error);
@@ -284,7 +281,9 @@ static dal_status measure_rate(trial *t)
     double x[32], rate = 0.0;
     dal_point at;
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = t->error.status = dal_measure_rate(evaluator, t->spec.system->energy, 1, &at, &rate);
+    if (!status)
+        status = t->error.status =
+            dal_measure_rate(evaluator, t->spec.system->energy, 1, &at, &rate);
     add_number(t, (double)rate);
     dal_evaluator_free(evaluator);
     return status;
@@ -340,9 +339,10 @@ static dal_status classify_constraints(trial *t)
     dal_point at;
     dal_constraint_class class = {0};
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = t->error.status = dal_classify_constraints(evaluator, &at, &class, degree);
+    if (!status)
+        status = t->error.status = dal_classify_constraints(evaluator, &at, &class, degree);
     const double numbers[] = {class.linear, class.constant,    class.bilinear,  class.quadratic,
-                           class.parity, class.homogeneous, class.reversible};
+                              class.parity, class.homogeneous, class.reversible};
     add(t, numbers, 7);
     if (class.homogeneous) add(t, degree, t->spec.system->m);
     dal_evaluator_free(evaluator);
@@ -355,7 +355,8 @@ static dal_status measure_scales(trial *t)
     double x[32], scales[16] = {0};
     dal_point at;
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = t->error.status = dal_evaluator_scales(evaluator, 0.0, at.q, at.v, scales);
+    if (!status)
+        status = t->error.status = dal_evaluator_scales(evaluator, 0.0, at.q, at.v, scales);
     add(t, scales, 1 + t->spec.system->m);
     dal_evaluator_free(evaluator);
     return status;
@@ -388,7 +389,8 @@ static dal_status measure_action(trial *t)
     for (int i = 0; i < ROWS * n; i++) q[i] = sin(0.1 * i);
     for (int i = 0; i < 3 * (4 * n + 2); i++) states[i] = 1.0 + 0.01 * i;
     status = t->error.status = dal_measure_action(evaluator, 0.0, 0.1, ROWS, q, 1.0, &action);
-    if (!status) status = t->error.status = dal_check_stationarity(evaluator, 0.0, 0.1, 3, states, &defect);
+    if (!status)
+        status = t->error.status = dal_check_stationarity(evaluator, 0.0, 0.1, 3, states, &defect);
     add_number(t, (double)action);
     add_number(t, (double)defect);
     dal_evaluator_free(evaluator);
@@ -398,8 +400,8 @@ static dal_status measure_action(trial *t)
 static dal_status measure_order(trial *t)
 {
     dal_order order = {0};
-    const dal_status status = dal_measure_order(&t->spec, 4.0 * t->spec.options.step, 2, NULL, NULL,
-                                                &order, &t->error);
+    const dal_status status =
+        dal_measure_order(&t->spec, 4.0 * t->spec.options.step, 2, NULL, NULL, &order, &t->error);
     add(t, order.error, order.levels);
     return status;
 }
@@ -408,7 +410,8 @@ static dal_status check_maps(trial *t)
 {
     double symplectic = 0.0, reverse = 0.0;
     dal_status status = dal_check_symplecticity(&t->spec, 0.0, NULL, 0.0, &symplectic, &t->error);
-    if (status == DAL_OK) status = dal_check_reversibility(&t->spec, 0.0, NULL, &reverse, &t->error);
+    if (status == DAL_OK)
+        status = dal_check_reversibility(&t->spec, 0.0, NULL, &reverse, &t->error);
     add_number(t, (double)symplectic);
     add_number(t, (double)reverse);
     return status;
@@ -470,8 +473,7 @@ static dal_status scale(trial *t)
 {
     dal_scaled *scaled = NULL;
     const dal_status status = dal_scaled_create(&scaled, &t->spec, &t->error);
-    if (status == DAL_OK)
-        add(t, dal_scaled_units(scaled), 1 + t->spec.system->n);
+    if (status == DAL_OK) add(t, dal_scaled_units(scaled), 1 + t->spec.system->n);
     dal_scaled_free(scaled);
     return status;
 }
@@ -479,57 +481,85 @@ static dal_status scale(trial *t)
 /* ---- the suite ---- */
 
 static const char sleigh[] = "chaplygin-sleigh";
-#define EACH(text, method, space, tolerance, work)                                                 \
-    each_call_fails(text, method, space, tolerance, work, #work)
+static const char swing[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2\n"
+                            "start: {x: 1, y': 1}\ninvariants: {g: x}\n";
+static const char ball[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
+                           "start: {y: 1}\n"
+                           "events:\n  - {when: y, direction: down, restitution: 0.5}\n"
+                           "  - {when: y - 0.2, direction: up, set: {x: x + 1}}\n";
+
+static void each_allocation_fails(const char *text, const char *method, dal_space space,
+                                  bool is_single, trial_work *work)
+{
+    const dal_system *system = fixture_system(text);
+    allocation_trial allocations = {.is_single = is_single};
+    while (allocation_next(&allocations)) {
+        trial t = {.spec = fixture_spec(system, method, space, STEP)};
+        allocation_start(&allocations);
+        allocation_end(&allocations, work(&t));
+    }
+    CU_ASSERT(allocations.failures > 0);
+}
+
+static void test_memory(void)
+{
+    static trial_work *const works[] = {
+        create,         step,           sample,           observe,      change,
+        restore,        advance_batch,  measure_lyapunov, measure_rate, check_derivatives,
+        measure_rank,   measure_scales, project_velocity, scale,        classify_constraints,
+        measure_action, check_dirac,    measure_order};
+    for (int once = 0; once < 2; once++) {
+        for (size_t i = 0; i < sizeof works / sizeof works[0]; i++)
+            each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, once, works[i]);
+        each_allocation_fails(sleigh, "gauss4", DAL_LIFTED, once, check_maps);
+        each_allocation_fails(sleigh, "gauss4", DAL_PHYSICAL, once, budget);
+        each_allocation_fails(swing, "rk4", DAL_PHYSICAL, once, cross);
+        each_allocation_fails(ball, "rk4", DAL_PHYSICAL, once, pass_events);
+    }
+}
 
 static void test_runs(void)
 {
     static const char *const methods[] = {"rk4", "gauss4", "dla", "gauss4+project", "dop853"};
     for (int i = 0; i < 5; i++) {
-        EACH(sleigh, methods[i], DAL_PHYSICAL, 0.0, create);
-        EACH(sleigh, methods[i], DAL_PHYSICAL, 0.0, step);
-        EACH(sleigh, methods[i], DAL_PHYSICAL, 0.0, sample);
-        EACH(sleigh, methods[i], DAL_PHYSICAL, 0.0, advance_batch);
+        each_call_fails(sleigh, methods[i], DAL_PHYSICAL, 0.0, create);
+        each_call_fails(sleigh, methods[i], DAL_PHYSICAL, 0.0, step);
+        each_call_fails(sleigh, methods[i], DAL_PHYSICAL, 0.0, sample);
+        each_call_fails(sleigh, methods[i], DAL_PHYSICAL, 0.0, advance_batch);
     }
-    EACH(sleigh, "gauss4", DAL_LIFTED, 0.0, create);
-    EACH(sleigh, "gauss4", DAL_LIFTED, 0.0, step);
-    EACH(sleigh, "gauss4", DAL_LIFTED, 0.0, sample);
-    EACH(sleigh, "gauss4", DAL_LIFTED, 0.0, observe);
-    EACH(sleigh, "gauss4", DAL_PHYSICAL, 0.0, observe);
-    EACH(sleigh, "gauss4", DAL_PHYSICAL, 0.0, change);
-    EACH(sleigh, "rk4", DAL_PHYSICAL, 0.0, restore);
+    each_call_fails(sleigh, "gauss4", DAL_LIFTED, 0.0, create);
+    each_call_fails(sleigh, "gauss4", DAL_LIFTED, 0.0, step);
+    each_call_fails(sleigh, "gauss4", DAL_LIFTED, 0.0, sample);
+    each_call_fails(sleigh, "gauss4", DAL_LIFTED, 0.0, observe);
+    each_call_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, observe);
+    each_call_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, change);
+    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, restore);
 }
 
 static void test_measures(void)
 {
     static const char *const texts[] = {sleigh, fixture_quadratic};
     for (int i = 0; i < 2; i++) {
-        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_rate);
-        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, check_derivatives);
-        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_rank);
-        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, project_velocity);
-        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, classify_constraints);
-        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_scales);
+        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_rate);
+        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, check_derivatives);
+        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_rank);
+        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, project_velocity);
+        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, classify_constraints);
+        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_scales);
     }
-    EACH(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, check_dirac);
-    EACH(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_action);
-    EACH(sleigh, "rk4", DAL_PHYSICAL, 0.0, measure_order);
-    EACH(sleigh, "gauss4", DAL_LIFTED, DIFFERENCES, check_maps);
-    EACH(sleigh, "gauss4", DAL_PHYSICAL, 0.0, budget);
-    EACH(sleigh, "rk4", DAL_PHYSICAL, 0.0, scale);
-    EACH(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_lyapunov);
+    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, check_dirac);
+    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_action);
+    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, measure_order);
+    each_call_fails(sleigh, "gauss4", DAL_LIFTED, DIFFERENCES, check_maps);
+    each_call_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, budget);
+    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, scale);
+    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_lyapunov);
 }
 
 static void test_places(void)
 {
-    static const char swing[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2\n"
-                                "start: {x: 1, y': 1}\ninvariants: {g: x}\n";
-    static const char ball[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
-                               "start: {y: 1}\n"
-                               "events:\n  - {when: y, direction: down, restitution: 0.5}\n"
-                               "  - {when: y - 0.2, direction: up, set: {x: x + 1}}\n";
-    EACH(swing, "rk4", DAL_PHYSICAL, 0.0, cross);
-    EACH(ball, "rk4", DAL_PHYSICAL, 1e-13, pass_events);
+    each_call_fails(swing, "rk4", DAL_PHYSICAL, 0.0, cross);
+    each_call_fails(ball, "rk4", DAL_PHYSICAL, 1e-13, pass_events);
 }
 
 void suite_callbacks(void)
@@ -538,4 +568,5 @@ void suite_callbacks(void)
     CU_add_test(suite, "runs and batches", test_runs);
     CU_add_test(suite, "measures", test_measures);
     CU_add_test(suite, "crossings and events", test_places);
+    CU_add_test(suite, "out of memory", test_memory);
 }

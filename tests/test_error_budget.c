@@ -451,6 +451,20 @@ static void test_observer(void)
     CU_ASSERT_PTR_NULL(e);
 }
 
+/* An explicit method has no equations that could be solved more or less exactly. */
+static void test_explicit(void)
+{
+    static const dal_comparison_run solver[] = {DAL_COMPARISON_TIGHTER, DAL_COMPARISON_LOOSER};
+    const dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
+    dal_error_budget *e = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_error_budget_create(&spec, 4, 2, NULL, &e, NULL), DAL_OK);
+    for (int i = 0; i < 2; i++) {
+        CU_ASSERT(!e->ran[solver[i]]);
+        CU_ASSERT_STRING_EQUAL(e->reason[solver[i]], "the method solves no equations");
+    }
+    dal_error_budget_free(e);
+}
+
 static void test_out_of_memory(void)
 {
     const dal_run_spec spec =
@@ -482,6 +496,7 @@ void suite_error_budget(void)
     CU_add_test(suite, "what the motion conserves", test_conserved);
     CU_add_test(suite, "units", test_units);
     CU_add_test(suite, "without quad precision", test_by_hand);
+    CU_add_test(suite, "an explicit method", test_explicit);
     CU_add_test(suite, "observers", test_observer);
     CU_add_test(suite, "out of memory", test_out_of_memory);
 }

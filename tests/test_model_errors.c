@@ -496,9 +496,9 @@ static dal_status whole_life(const char *name, dal_error *error)
 }
 
 /* Every allocation fails once; each time the outcome is a status and nothing is lost. */
-static void check_memory(const char *name)
+static void check_memory(const char *name, bool is_single)
 {
-    allocation_trial trial = {0};
+    allocation_trial trial = {.is_single = is_single};
     while (allocation_next(&trial)) {
         dal_error error = {.line = -1};
         allocation_start(&trial);
@@ -509,9 +509,12 @@ static void check_memory(const char *name)
 
 static void test_memory(void)
 {
-    check_memory("vertical-disk");
-    check_memory("chaplygin-sleigh-vakonomic");
-    check_memory("servo-pendulum");
+    check_memory("vertical-disk", false);
+    check_memory("vertical-disk", true);
+    check_memory("chaplygin-sleigh-vakonomic", false);
+    check_memory("chaplygin-sleigh-vakonomic", true);
+    check_memory("servo-pendulum", false);
+    check_memory("servo-pendulum", true);
 }
 
 void suite_model_errors(void)

@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static void refused(dal_status got, dal_status expected, const dal_error *error, const char *message)
+static void refused(dal_status got, dal_status expected, const dal_error *error,
+                    const char *message)
 {
     CU_ASSERT_EQUAL(got, expected);
     CU_ASSERT_EQUAL(error->status, expected);
@@ -26,10 +27,19 @@ static void test_modifiers(void)
     dal_run_free(fixture_stepped(&spec, 1));
 }
 
+static void test_tolerances(void)
+{
+    dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
+    spec.options.tolerance = 1e-9;
+    fixture_refused(&spec, DAL_UNSUPPORTED,
+                    "rk4 has no control of its step size: the tolerance must be 0");
+    spec.options.tolerance = 1e-40;
+    fixture_refused(&spec, DAL_ARGUMENT, "option tolerance: 1e-40 is below");
+}
+
 static void test_batches(void)
 {
-    const dal_run_spec spec =
-        fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
+    const dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
     dal_error error;
     dal_batch *batch = NULL;
     refused(dal_batch_create(&batch, &spec, 2, 3, &error), DAL_ARGUMENT, &error,
@@ -98,7 +108,9 @@ static void test_systems(void)
         {{.n = 0}, DAL_ARGUMENT, "a system needs coordinates; n is 0"},
         {{.n = 1, .pivots = -1}, DAL_ARGUMENT, "a dimension of the system is negative"},
         {{.n = 3, .m = 2, .multipliers = 1}, DAL_ARGUMENT, "1 multipliers for 2 constraints"},
-        {{.n = 1, .parameters = 3, .workspace = 2}, DAL_ARGUMENT, "3 parameters in a workspace of 2"},
+        {{.n = 1, .parameters = 3, .workspace = 2},
+         DAL_ARGUMENT,
+         "3 parameters in a workspace of 2"},
         {{.n = 1, .pivots = 2, .workspace = 1}, DAL_ARGUMENT, "2 pivots in a workspace of 1"},
         {{.n = 1, .m = 2}, DAL_TOO_LARGE, "1 coordinates, 2 constraints"},
         {{.n = 100001}, DAL_TOO_LARGE, "100001 coordinates, 0 constraints"},
@@ -148,6 +160,7 @@ void suite_refusals(void)
 {
     CU_pSuite suite = CU_add_suite("refusals", NULL, NULL);
     CU_add_test(suite, "modifiers", test_modifiers);
+    CU_add_test(suite, "tolerances", test_tolerances);
     CU_add_test(suite, "batches", test_batches);
     CU_add_test(suite, "runs", test_runs);
     CU_add_test(suite, "systems made by hand", test_systems);

@@ -207,6 +207,8 @@ static void test_errors(void)
          "table f has no 'value'; it needs file, at and value", 4, 13},
         {SYSTEM "tables: {f: {file: f.csv, at: t, value: M, interpolation: cubi}}\n",
          "unknown interpolation 'cubi'; did you mean 'cubic'?", 4, 59},
+        {SYSTEM "tables: {f: {file: f.csv, at: t, value: M, extend: linea}}\n",
+         "unknown extension 'linea'; did you mean 'linear'?", 4, 52},
         {SYSTEM "tables: {f: {file: f.csv, at: t, value: M, interpolation: cubic}}\n"
                 "files: {f.csv: \"t,M\\n0,1e308\\n1,-1e308\\n2,1e308\"}\n",
          "table f: its cubic spline overflows: points are too large, or too close", 4, 13},

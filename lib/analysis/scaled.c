@@ -235,9 +235,10 @@ typedef struct survey {
     dal_scaled *s;
     dal_evaluator *evaluator; /* of the plain system */
     const dal_run_spec *spec;
-    double t, *x, *f; /* [n + nw] the present point; [nw] F there */
-    double *mass;     /* [n] diagonal of W; 0 where it is unknown */
-    double *work;     /* as long as the longest output of a callback */
+    double t, *x, *f;  /* [n + nw] the present point; [nw] F there */
+    double *mass;      /* [n] diagonal of W; 0 where it is unknown */
+    double *work;      /* as long as the longest output of a callback */
+    dal_status status; /* DAL_MEMORY: a unit could not be found */
 } survey;
 
 /* A power of two near x; 0, or 1 for what is not finite.  Numbers that are usual, as 1, sqrt(2) and
@@ -320,12 +321,13 @@ static double spectral_radius(const double *J, int size, double *x, double *y)
 }
 
 /* 0 where the system has no jacobian, or J is nilpotent. */
-static double rate_of_jacobian(const survey *w)
+static double rate_of_jacobian(survey *w)
 {
     const dal_system *p = w->s->plain;
     const int n = w->s->n, nw = w->s->nw, size = 2 * n;
     double *F_q = dal__numbers(1, (size_t)(nw * (n + nw)) + (size_t)(size * size + 2 * size));
     double rate = 0.0;
+    if (!F_q) w->status = DAL_MEMORY;
     if (!F_q) return 0.0;
     double *F_v = F_q + nw * n, *J = F_v + nw * nw, *x = J + size * size;
     if (p->call.jacobian && dal_evaluator_call(w->evaluator, p->call.jacobian, w->t, w->x, w->x + n,
@@ -346,7 +348,7 @@ static double rate_of_jacobian(const survey *w)
  * of the motion is no measure of time. */
 static const double negligible = 1e-6, near_rest = 4.0;
 
-static double time_unit(const survey *w)
+static double time_unit(survey *w)
 {
     const double radius = rate_of_jacobian(w);
     double F = 0.0, v = 0.0; /* squares in the metric of the kinetic energy */
@@ -454,7 +456,7 @@ static dal_status survey_start(dal_scaled *s, const dal_run_spec *spec, dal_erro
     survey w = {.s = s, .spec = spec, .t = spec->start_time};
     DAL_TRY(dal_evaluator_create(&w.evaluator, p, spec->parameters, spec->parameter_count, error));
     double *block = dal__numbers(1, x + 1 + nw + n + 3 * x + nw + rows);
-    dal_status status = block ? DAL_OK : dal__fail(error, DAL_MEMORY, "out of memory");
+    dal_status status = block ? DAL_OK : DAL_MEMORY;
     if (block) {
         w.x = block;
         w.f = w.x + x + 1;
@@ -463,10 +465,13 @@ static dal_status survey_start(dal_scaled *s, const dal_run_spec *spec, dal_erro
         status =
             dal_evaluator_start_at(w.evaluator, w.t, spec->start, spec->start_count, w.x, error);
     }
-    if (status == DAL_OK) find_units(&w);
+    if (status == DAL_OK) {
+        find_units(&w);
+        status = w.status;
+    }
     free(block);
     dal_evaluator_free(w.evaluator);
-    return status;
+    return status == DAL_MEMORY ? dal__fail(error, DAL_MEMORY, "out of memory") : status;
 }
 
 dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_error *error)

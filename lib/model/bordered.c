@@ -243,7 +243,7 @@ static bool pair_constraints(dal_model *model, dal__bordered *s, dal__node *A)
     const dal__equations *e = &model->equations;
     const int f = s->frees;
     dal__node *row = dal__model_nodes(model, 2 * f, 0), *both = dal__model_nodes(model, 2 * f, 0);
-    for (int a = 0; both && a < s->lefts; a++)
+    for (int a = 0; row && both && a < s->lefts; a++)
         for (int b = a + 1; b < s->lefts && s->partner[a] == a; b++) {
             if (s->partner[b] != b) continue;
             for (int i = 0; i < f; i++) {

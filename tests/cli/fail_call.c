@@ -2,7 +2,8 @@
  *
  * Call FAIL_AT (the first is 1) of those below fails with EIO; how many there were is written to
  * FAIL_LOG.  A stream that is opened counts twice: at the second number it is opened, but cannot be
- * read, or holds no bytes that are written to it.  Programs that it starts have a working system. */
+ * read, or holds no bytes that are written to it.  Programs that this one starts have a working
+ * system. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* RTLD_NEXT, fopencookie */
 #endif

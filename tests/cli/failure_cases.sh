@@ -86,3 +86,13 @@ for arguments in "run $sleigh" "run $sleigh --samples 1" list --help --version "
     expect "exit $status, not 4: $arguments" [ $status -eq 4 ]
     says "cannot write 'standard output': No space left on device"
 done
+# A stream that is full before its end no longer knows why.
+motion="--integrator rk4 --step 0.1 --time 1"
+for arguments in "check line.yaml" "show benenti" "generate line.yaml --integrator rk4" "explain line.yaml $motion" \
+    "order line.yaml --integrators rk4 --time 1" "lyapunov line.yaml $motion" "section line.yaml --on x-0.1 $motion" \
+    "explain line.yaml $motion --json" "order line.yaml --integrators rk4 --time 1 --output -" "list --json"; do
+    "$program" $arguments >/dev/full 2>err
+    status=$?
+    holds "exit $status, not 4: $arguments" [ $status -eq 4 ]
+    says "^dalembert: cannot write 'standard output': "
+done

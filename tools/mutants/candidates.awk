@@ -109,11 +109,20 @@ function exchange(text, name, by,    from, at) {
     }
 }
 
+# Whether f(b, a) is f(a, b): of a function that begins at a place, with what follows it.
+function is_symmetric(at, after,    name) {
+    name = substr(code, at)
+    sub(/[(].*/, "", name)
+    if (name == "strcmp") return after ~ /^ [!=]= 0/ || substr(code, at - 1, 1) == "!"
+    return name ~ /^(cli_)?calloc$|^f(min|max)$|^hypot$|^file_is_same$/
+}
+
 # f(a, b): f(b, a), where neither has parentheses.
 function arguments(    from, at, count, open, comma, first, second) {
     for (from = 1; match(substr(code, from), /[a-z_0-9]+[(][^(),@]+, [^(),@]+[)]/); from = at + count) {
         at = from + RSTART - 1
         count = RLENGTH
+        if (is_symmetric(at, substr(code, at + count))) continue
         open = index(substr(code, at), "(")
         comma = index(substr(code, at), ", ")
         first = substr($0, at + open, comma - open - 1)

@@ -94,8 +94,8 @@ passes() {
         [ $ends -eq 0 ] || { confirm "$part"; return $ends; }
     done
 }
-# run_part SECONDS PROGRAM PART: PATIENCE ends commands that hang.
-run_part() { limited "$1" env PATIENCE=60 sh tests/cli/run.sh "$2" "$3"; }
+# run_part SECONDS PROGRAM PART: PATIENCE ends commands that hang; a machine with other work needs more of it.
+run_part() { limited "$1" env PATIENCE="${PATIENCE:-60}" FIRST_FAILURE=1 sh tests/cli/run.sh "$2" "$3"; }
 # A part that fails with the sources themselves would notice nothing.
 confirm() {
     grep -qx "$1" "$place/confirmed" && return
