@@ -421,15 +421,3 @@ bool json_file_has(const char *path, const char *name)
     yaml_document_delete(&doc.yaml);
     return found;
 }
-
-bool json_file_has(const char *path, const char *name)
-{
-    size_t length;
-    document doc = {0};
-    char *bytes = file_exists(path) ? file_read(path, &length) : NULL;
-    const bool found = bytes && json_parse(&doc, NULL, bytes, length) == CLI_DONE &&
-                       document_value(&doc, yaml_document_get_root_node(&doc.yaml), name);
-    yaml_document_delete(&doc.yaml);
-    free(bytes);
-    return found;
-}
