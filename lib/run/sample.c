@@ -65,11 +65,10 @@ static void evaluate_states(const dal_run *run, int count)
 static dal_status deliver_scales(const sampling *k, int count)
 {
     dal_run *run = k->run;
-    const long long before = dal_run_steps(run) / k->observer->every + 1 - count;
-    for (int i = 0; i < count; i++) {
+    const long long last = dal_run_steps(run) / k->observer->every + 1, before = last - count;
+    for (long long due = dal__scales_due(before); due <= last; due = dal__scales_due(due)) {
         dal_status status = DAL_OK;
-        if (!dal__scales_due(before + i + 1)) continue;
-        const double *scales = dal__scales_observed(run, i, &status);
+        const double *scales = dal__scales_observed(run, (int)(due - before - 1), &status);
         if (scales) status = k->observer->scales(k->observer->user, run, scales);
         DAL_TRY(observed(k, status));
     }

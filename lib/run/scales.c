@@ -48,11 +48,12 @@ static size_t lay_out(const dal__layout *k, double *memory, places *p)
 
 size_t dal__scale_numbers(const dal__layout *k) { return lay_out(k, NULL, NULL); }
 
-bool dal__scales_due(long long observations)
+/* They are due at multiples of the least power of 2 of which at most POINTS reach that far. */
+long long dal__scales_due(long long observations)
 {
     long long distance = 1;
-    while (observations > POINTS * distance) distance *= 2;
-    return observations % distance == 0;
+    while (observations >= POINTS * distance) distance *= 2;
+    return (observations / distance + 1) * distance;
 }
 
 static double sum_of_products(int n, const double *a, const double *b)
