@@ -37,6 +37,7 @@ dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition
     k.x = k.G + rows * rows;
     k.given = k.x + rows;
     k.out = k.given + n;
+    k.unit = k.out + system->m + 2 * system->m * n + 1;
     return k;
 }
 
@@ -139,11 +140,12 @@ dal_status dal__check_rank(dal__linearised *k, dal_error *error)
     return solve(k, error);
 }
 
-/* Moves v by the given part of v' - v; *change is max |v' - v|. */
+/* Moves v by the given part of v' - v; *change is max |v' - v|, in units. */
 static dal_status move(dal__linearised *k, double part, double *change, dal_error *error)
 {
     const int n = k->system->n, rows = k->rows;
     double *v = k->v, *x = k->x;
+    dal__velocity_units(n, rows, k->A, k->B, k->unit);
     for (int a = 0; a < rows; a++) {
         x[a] = -k->D[a];
         for (int i = 0; i < n; i++) x[a] -= k->A[a * n + i] * (k->given[i] - v[i]);
@@ -153,7 +155,7 @@ static dal_status move(dal__linearised *k, double part, double *change, dal_erro
     for (int i = 0; i < n; i++) {
         double moved = k->given[i];
         for (int a = 0; a < rows; a++) moved += k->B[i * rows + a] * x[a];
-        *change = fmax(*change, fabs(moved - v[i]));
+        if (k->unit[i] > 0.0) *change = fmax(*change, fabs(moved - v[i]) / k->unit[i]);
         if (part < 1.0) moved = v[i] + part * (moved - v[i]);
         v[i] = moved + 0.0; /* no -0: see lib/kernel/step.h */
     }
@@ -176,7 +178,7 @@ dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
         if (m > 0 && !isfinite(k->D[max])) break;
         before = change;
         DAL_TRY(move(k, part, &change, error));
-        if (dal__is_converged(change, before, dal_max_norm(k->v, n))) return DAL_OK;
+        if (dal__is_converged(change, before, dal__max_in_units(n, k->v, k->unit))) return DAL_OK;
         if (change > before) part = fmax(0.5 * part, min_damping);
     }
     return dal__fail(error, isfinite(k->D[max]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,

@@ -22,6 +22,7 @@ typedef struct dal__linearised {
     double *D, *A, *B;               /* [rows], [rows*n], [n*rows]: W^-1 A^T */
     double *G, *x;                   /* [rows*rows], [rows] */
     double *given, *out;             /* [n], [m + 2*m*n + 1] */
+    double *unit;                    /* [n] see dal__velocity_units */
 } dal__linearised;
 
 /* The present state of a run, its constraints not yet evaluated. */

@@ -184,3 +184,12 @@ const double *dal_run_scales(dal_run *run)
     lay_out(&run->layout, run->scales, &p);
     return scales_at(run, &p, dal_run_time(run), run->persistent, &status);
 }
+
+const double *dal__constraint_scales(dal_run *run)
+{
+    const dal_system *s = run->layout.system;
+    const dal_point at = dal__here(run);
+    places p;
+    lay_out(&run->layout, run->scales, &p);
+    return s->scales && s->scales(s, &at, p.memory, p.formulas) == DAL_OK ? p.formulas : NULL;
+}

@@ -1,15 +1,18 @@
 /* start.c - parameters and start of a run: set by name, completed by the system, checked; and a
  * parameter set between steps.
  *
- * A start is consistent when |D_a| <= 1e-10 |A_a| |v| (1-norm times max norm), and its constraints
- * are independent (run/consistent.h). */
+ * A start is consistent when |D_a| <= 1e-10 (S(D_a) + sqrt(A_a W^-1 A_a^T  v.W v)), the terms of D_a
+ * and what velocities of the same energy contribute to it at most, and its constraints are
+ * independent (run/consistent.h). */
 #include "run/start.h"
 #include "core/error.h"
 #include "core/solved.h"
 #include "run/consistent.h"
 #include "run/events.h"
 #include "run/quad.h"
+#include "run/scales.h"
 #include <dalembert_kernel.h>
+#include <math.h>
 #include <stdio.h>
 
 #define CONSISTENT 1e-10
@@ -120,24 +123,47 @@ static const char *suggest(const dal__linearised *k, const dal_run *run, int a, 
     return hint;
 }
 
-/* run: whose start it is, or NULL; before: D of the parameters before a change, or NULL. */
-static dal_status check_consistent(const dal__linearised *k, const double *before,
-                                   const dal_run *run, dal_error *error)
+/* v.W v, termwise; NaN where the system does not say. */
+static double kinetic_size(const dal__linearised *k)
+{
+    const int n = k->system->n;
+    double *normal = k->given, sum = 0.0; /* E, E_q, E_v = W v, and n more */
+    dal_callback *const energy_normal = k->system->call.energy_normal;
+    if (!energy_normal || energy_normal(k->system, &k->at, normal) != DAL_OK) return NAN;
+    for (int i = 0; i < n; i++) sum += fabs(k->v[i] * normal[1 + n + i]);
+    return sum;
+}
+
+/* What of D_a is small, if |A_a| is the sum of its entries: where v.W v is not known, speed times
+ * that. */
+static double small_constraint(const dal__linearised *k, int a, double kinetic, double sum)
+{
+    const int n = k->system->n;
+    double G = 0.0;
+    for (int i = 0; i < n; i++) G += k->A[a * n + i] * k->B[i * k->rows + a];
+    const double size = sqrt(fabs(G)) * sqrt(kinetic);
+    return CONSISTENT * (isfinite(size) ? size : sum * dal_max_norm(k->v, n));
+}
+
+/* before: D of the parameters before a change; NULL: it is the start of the run. */
+static dal_status check_consistent(dal_run *run, const dal__linearised *k, const double *before,
+                                   dal_error *error)
 {
     char hint[256] = "";
     const int n = k->system->n;
-    const double speed = dal_max_norm(k->v, n);
+    const double *scales = dal__constraint_scales(run), kinetic = kinetic_size(k);
     for (int i = 0; i < k->rows; i++) {
         double scale = 0.0;
         for (int j = 0; j < n; j++) scale += fabs(k->A[i * n + j]);
-        const double small = CONSISTENT * scale * speed;
+        const double small = small_constraint(k, i, kinetic, scale) +
+                             (scales && isfinite(scales[i]) ? CONSISTENT * scales[i] : 0.0);
         if (fabs(k->D[i]) <= small) continue;
         if (isfinite(k->D[i]) && !isfinite(scale)) continue;        /* dal__check_rank says so */
         if (before && fabs(k->D[i] - before[i]) <= small) continue; /* the drift of a run */
         if (!isfinite(k->D[i])) DAL_TRY(dal__check_mass(k, error));
         return dal__fail(error, isfinite(k->D[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
                          "%s violates constraint %d: D%d = %.6g%s", k->place, i + 1, i + 1, k->D[i],
-                         run ? suggest(k, run, i, hint, sizeof hint) : hint);
+                         before ? hint : suggest(k, run, i, hint, sizeof hint));
     }
     return DAL_OK;
 }
@@ -156,19 +182,35 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
                                   error));
     if (run->layout.options.consistent) DAL_TRY(dal__make_consistent(&k, error));
     DAL_TRY(dal__linearise(&k, NULL, error));
-    DAL_TRY(check_consistent(&k, NULL, run, error));
+    DAL_TRY(check_consistent(run, &k, NULL, error));
     return dal__check_rank(&k, error);
 }
 
-/* Whether the exact solution has the start of this run. */
+/* Raises size[2n] to the exact solution at t and at times after it, the start of its motion. */
+static void raise_to_exact(const dal_run *run, dal_point at, double *size, double *out)
+{
+    enum { TIMES = 11 }; /* up to 1024 steps */
+    const dal_system *system = run->layout.system;
+    const double start = at.t;
+    for (int k = 0; k < TIMES; k++) {
+        at.t = start + ldexp(run->layout.options.step, k);
+        if (system->exact(system, &at, out) != DAL_OK) return;
+        for (int i = 0; i < 2 * system->n; i++)
+            if (isfinite(out[i])) size[i] = fmax(size[i], fabs(out[i]));
+    }
+}
+
+/* Whether the exact solution has the start of this run, each number relative to its size. */
 static bool exact_agrees(dal_run *run)
 {
     const dal__layout *k = &run->layout;
     const dal_point at = dal__here(run);
-    if (!k->system->exact || k->system->exact(k->system, &at, run->scratch) != DAL_OK) return false;
-    const double size = 1.0 + dal_max_norm(run->persistent, 2 * k->n);
+    double *exact = run->scratch, *size = exact + 2 * k->n, *other = size + 2 * k->n;
+    if (!k->system->exact || k->system->exact(k->system, &at, exact) != DAL_OK) return false;
+    for (int i = 0; i < 2 * k->n; i++) size[i] = fabs(run->persistent[i]);
+    raise_to_exact(run, at, size, other);
     for (int i = 0; i < 2 * k->n; i++)
-        if (!(fabs(run->scratch[i] - run->persistent[i]) <= CONSISTENT * size)) return false;
+        if (!(fabs(exact[i] - run->persistent[i]) <= CONSISTENT * size[i])) return false;
     return true;
 }
 
@@ -233,7 +275,7 @@ static dal_status check_parameters(dal_run *run, const double *before, dal_error
     if (!has_constraints(run)) return DAL_OK;
     DAL_TRY(dal__linearise(&k, NULL, error));
     DAL_TRY(dal__check_rank(&k, error));
-    return check_consistent(&k, before, NULL, error);
+    return check_consistent(run, &k, before, error);
 }
 
 void dal__restart_method(dal_run *run)
