@@ -27,9 +27,10 @@ static const dal_system *in_units(const char *text, const units *u)
 {
     char yaml[2048];
     snprintf(yaml, sizeof yaml,
-             "parameters: {sx: %.17g, sy: %.17g, sz: %.17g, ux: %.17g, uy: %.17g, uz: %.17g, tau: %.17g, c: %.17g, d: %.17g}\n%s",
-             u->s[0], u->s[1], u->s[2], u->s[0] / u->tau, u->s[1] / u->tau, u->s[2] / u->tau, u->tau,
-             u->c, u->d, text);
+             "parameters: {sx: %.17g, sy: %.17g, sz: %.17g, ux: %.17g, uy: %.17g, uz: %.17g, "
+             "tau: %.17g, c: %.17g, d: %.17g}\n%s",
+             u->s[0], u->s[1], u->s[2], u->s[0] / u->tau, u->s[1] / u->tau, u->s[2] / u->tau,
+             u->tau, u->c, u->d, text);
     return fixture_system(yaml);
 }
 

@@ -5,8 +5,8 @@
  *     D_u (u' - u) = -D,
  *
  * with as many columns as names, by elimination with pivots from all rows, each relative to its
- * largest entry; velocities are in the units in which constraints move them.  Where D is linear one step solves it.  Rows are left where the velocities named
- * are fewer than the constraints. */
+ * largest entry; velocities are in the units in which constraints move them.  Where D is linear one
+ * step solves it.  Rows are left where the velocities named are fewer than the constraints. */
 #include "core/solved.h"
 #include "core/vectors.h"
 #include <math.h>

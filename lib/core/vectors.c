@@ -44,6 +44,40 @@ bool dal__is_converged(double change, double before, double size)
     return change <= resolution || (change >= before && change <= 64.0 * resolution);
 }
 
+void dal__jacobi_sizes(int n, const double *m, double *size)
+{
+    int unknown = 0;
+    for (int i = 0; i < n; i++) {
+        size[i] = isfinite(m[i * n + i]) ? fabs(m[i * n + i]) : 0.0;
+        unknown += size[i] == 0.0;
+    }
+    while (unknown > 0) {
+        int found = 0, first = -1;
+        double max = 0.0;
+        for (int i = 0; i < n; i++, max = 0.0) {
+            if (size[i] > 0.0) continue;
+            if (first < 0) first = i;
+            for (int j = 0; j < n; j++) {
+                const double x = fmax(fabs(m[i * n + j]), fabs(m[j * n + i])),
+                             d = x * (x / size[j]);
+                max = isfinite(d) ? fmax(max, d) : max;
+            }
+            size[i] = max;
+            found += max > 0.0;
+        }
+        if (found == 0) {
+            const double *row = m + first * n;
+            for (int e = 0; e < n * n; e++) {
+                const double d = fabs(row[e / n] * (row[e % n] / m[e]));
+                max = isfinite(d) ? fmax(max, d) : max;
+            }
+            size[first] = max > 0.0 ? max : 1.0;
+            found = 1;
+        }
+        unknown -= found;
+    }
+}
+
 void dal__velocity_units(int n, int m, const double *A, const double *B, double *unit)
 {
     const int unknown = INT_MAX;
@@ -58,7 +92,8 @@ void dal__velocity_units(int n, int m, const double *A, const double *B, double 
     for (int i = 0; i < n; i++) {
         if (!isfinite(unit[i])) unit[i] = 0.0;
         if (unit[i] == 0.0) continue;
-        const int exponent = ilogb(unit[i]);
+        int exponent;
+        frexp(unit[i], &exponent);
         if (first == unknown) first = exponent;
         unit[i] = ldexp(1.0, (exponent - first - ((exponent - first) & 1)) / 2);
     }

@@ -74,6 +74,23 @@ dal_status dal__check_mass(const dal__linearised *k, dal_error *error)
                      k->place);
 }
 
+void dal__constraint_sizes(dal__linearised *k, const double *scales)
+{
+    const int n = k->system->n;
+    double *energy = k->given, kinetic = 0.0; /* E, E_q, E_v = W v, and n more */
+    dal_callback *const energy_normal = k->system->call.energy_normal;
+    if (!energy_normal || energy_normal(k->system, &k->at, energy) != DAL_OK) kinetic = NAN;
+    for (int i = 0; i < n && !isnan(kinetic); i++) kinetic += fabs(k->v[i] * energy[1 + n + i]);
+    for (int a = 0; a < k->rows; a++) {
+        double G = 0.0, sum = 0.0;
+        for (int i = 0; i < n; i++) G += k->A[a * n + i] * k->B[i * k->rows + a];
+        for (int i = 0; i < n; i++) sum += fabs(k->A[a * n + i]);
+        const double size = sqrt(fabs(G)) * sqrt(kinetic);
+        k->x[a] = isfinite(size) ? size : sum * dal_max_norm(k->v, n);
+        if (scales && isfinite(scales[a])) k->x[a] += scales[a];
+    }
+}
+
 /* The error that row a of G has no pivot; k->out[a] was its entry on the diagonal. */
 static dal_status dependent(const dal__linearised *k, int a, double pivot, dal_error *error)
 {

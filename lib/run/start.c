@@ -1,12 +1,12 @@
 /* start.c - parameters and start of a run: set by name, completed by the system, checked; and a
  * parameter set between steps.
  *
- * A start is consistent when |D_a| <= 1e-10 (S(D_a) + sqrt(A_a W^-1 A_a^T  v.W v)), the terms of D_a
- * and what velocities of the same energy contribute to it at most, and its constraints are
+ * A start is consistent when |D_a| is at most 1e-10 of its size, and its constraints are
  * independent (run/consistent.h). */
 #include "run/start.h"
 #include "core/error.h"
 #include "core/solved.h"
+#include "core/vectors.h"
 #include "run/consistent.h"
 #include "run/events.h"
 #include "run/quad.h"
@@ -123,42 +123,18 @@ static const char *suggest(const dal__linearised *k, const dal_run *run, int a, 
     return hint;
 }
 
-/* v.W v, termwise; NaN where the system does not say. */
-static double kinetic_size(const dal__linearised *k)
-{
-    const int n = k->system->n;
-    double *normal = k->given, sum = 0.0; /* E, E_q, E_v = W v, and n more */
-    dal_callback *const energy_normal = k->system->call.energy_normal;
-    if (!energy_normal || energy_normal(k->system, &k->at, normal) != DAL_OK) return NAN;
-    for (int i = 0; i < n; i++) sum += fabs(k->v[i] * normal[1 + n + i]);
-    return sum;
-}
-
-/* What of D_a is small, if |A_a| is the sum of its entries: where v.W v is not known, speed times
- * that. */
-static double small_constraint(const dal__linearised *k, int a, double kinetic, double sum)
-{
-    const int n = k->system->n;
-    double G = 0.0;
-    for (int i = 0; i < n; i++) G += k->A[a * n + i] * k->B[i * k->rows + a];
-    const double size = sqrt(fabs(G)) * sqrt(kinetic);
-    return CONSISTENT * (isfinite(size) ? size : sum * dal_max_norm(k->v, n));
-}
-
 /* before: D of the parameters before a change; NULL: it is the start of the run. */
-static dal_status check_consistent(dal_run *run, const dal__linearised *k, const double *before,
+static dal_status check_consistent(dal_run *run, dal__linearised *k, const double *before,
                                    dal_error *error)
 {
     char hint[256] = "";
     const int n = k->system->n;
-    const double *scales = dal__constraint_scales(run), kinetic = kinetic_size(k);
+    dal__constraint_sizes(k, dal__constraint_scales(run));
     for (int i = 0; i < k->rows; i++) {
-        double scale = 0.0;
-        for (int j = 0; j < n; j++) scale += fabs(k->A[i * n + j]);
-        const double small = small_constraint(k, i, kinetic, scale) +
-                             (scales && isfinite(scales[i]) ? CONSISTENT * scales[i] : 0.0);
+        const double small = CONSISTENT * k->x[i];
+        const bool is_regular = isfinite(dal__max_abs(k->A + i * n, (size_t)n));
         if (fabs(k->D[i]) <= small) continue;
-        if (isfinite(k->D[i]) && !isfinite(scale)) continue;        /* dal__check_rank says so */
+        if (isfinite(k->D[i]) && !is_regular) continue;             /* dal__check_rank says so */
         if (before && fabs(k->D[i] - before[i]) <= small) continue; /* the drift of a run */
         if (!isfinite(k->D[i])) DAL_TRY(dal__check_mass(k, error));
         return dal__fail(error, isfinite(k->D[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
@@ -186,29 +162,22 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
     return dal__check_rank(&k, error);
 }
 
-/* Raises size[2n] to the exact solution at t and at times after it, the start of its motion. */
-static void raise_to_exact(const dal_run *run, dal_point at, double *size, double *out)
-{
-    enum { TIMES = 11 }; /* up to 1024 steps */
-    const dal_system *system = run->layout.system;
-    const double start = at.t;
-    for (int k = 0; k < TIMES; k++) {
-        at.t = start + ldexp(run->layout.options.step, k);
-        if (system->exact(system, &at, out) != DAL_OK) return;
-        for (int i = 0; i < 2 * system->n; i++)
-            if (isfinite(out[i])) size[i] = fmax(size[i], fabs(out[i]));
-    }
-}
-
-/* Whether the exact solution has the start of this run, each number relative to its size. */
+/* Whether the exact solution has the start of this run, each number relative to its largest value
+ * there and up to 1024 steps later. */
 static bool exact_agrees(dal_run *run)
 {
+    enum { TIMES = 11 };
     const dal__layout *k = &run->layout;
-    const dal_point at = dal__here(run);
+    dal_point at = dal__here(run);
     double *exact = run->scratch, *size = exact + 2 * k->n, *other = size + 2 * k->n;
     if (!k->system->exact || k->system->exact(k->system, &at, exact) != DAL_OK) return false;
     for (int i = 0; i < 2 * k->n; i++) size[i] = fabs(run->persistent[i]);
-    raise_to_exact(run, at, size, other);
+    for (int time = 0; time < TIMES; time++) {
+        at.t = dal_run_time(run) + ldexp(k->options.step, time);
+        if (k->system->exact(k->system, &at, other) != DAL_OK) break;
+        for (int i = 0; i < 2 * k->n; i++)
+            size[i] = isfinite(other[i]) ? fmax(size[i], fabs(other[i])) : size[i];
+    }
     for (int i = 0; i < 2 * k->n; i++)
         if (!(fabs(exact[i] - run->persistent[i]) <= CONSISTENT * size[i])) return false;
     return true;
