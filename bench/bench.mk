@@ -9,6 +9,7 @@
 #     make bench-page       build/bench/report/index.html, of these, those that are missing made first
 #     make bench-smoke      the same with next to no work: does it all build, run and agree?
 #     make bench-solvers    the solver auto against the better of the two, 60 cases: some 10 s
+#     make bench-versions   an observed step against one of version 0.4, in instructions: a minute
 #     make bench-long       1e9 steps of the sleigh with statistics at every step: some 40 s
 #     make bench-native     --native auto against off and on, 40 cases: half an hour of two processors
 #
@@ -159,6 +160,10 @@ $(BENCH)/solvers: bench/solvers.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 bench-solvers: $(BENCH)/solvers
 	@$< tape
 .PHONY: bench-solvers
+
+bench-versions: $(PROGRAM)
+	@sh bench/versions.sh $(PROGRAM) $(BENCH)/versions
+.PHONY: bench-versions
 
 bench-long: $(PROGRAM)
 	@mkdir -p $(BENCH)

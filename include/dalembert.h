@@ -331,7 +331,8 @@ typedef struct dal_observer {
 /* Advances the run to time T and samples rows first_row..samples, T0 = start_time, at t = T0 +
  * row*(T - T0)/samples, the last at T exactly.  The trajectory consists of steps h, which must lead
  * to T; dal_run_intermediate gives a row between two of them.  After an interruption between rows
- * pass the first row not sampled.  observer may be NULL.
+ * pass the first row not sampled.  observer may be NULL.  Where an event ends the run, or cannot be
+ * passed (DAL_STOPPED, DAL_EVENT), the last row is there, at the time that is reached.
  * Errors: those of a step; DAL_ARGUMENT, before anything is done, also where a row's time is not
  * finite or before that of the row before it, or every or polling is negative; what a callback
  * returns. */

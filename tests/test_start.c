@@ -62,7 +62,7 @@ static void test_rank(void)
     CU_ASSERT_EQUAL(rank(-1.9e-6), DAL_RANK);
 }
 
-/* x = 2 exp(-t): the error is observed where |x - 2|, |x' + 2| <= 1e-10 (1 + 2). */
+/* x = 2 exp(-t): the error is observed where |x - 2|, |x' + 2| <= 1e-10 2. */
 static int observables(const char *name, double off)
 {
     dal_run_spec spec =
@@ -83,8 +83,8 @@ static void test_exact(void)
     static const char *const names[] = {"x", "x'"};
     for (int i = 0; i < 2; i++)
         for (int sign = -1; sign <= 1; sign += 2) {
-            CU_ASSERT_EQUAL(observables(names[i], sign * 2.8e-10), 1);
-            CU_ASSERT_EQUAL(observables(names[i], sign * 3.2e-10), 0);
+            CU_ASSERT_EQUAL(observables(names[i], sign * 1.8e-10), 1);
+            CU_ASSERT_EQUAL(observables(names[i], sign * 2.2e-10), 0);
         }
 }
 

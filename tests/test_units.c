@@ -27,9 +27,10 @@ static const dal_system *in_units(const char *text, const units *u)
 {
     char yaml[2048];
     snprintf(yaml, sizeof yaml,
-             "parameters: {sx: %.17g, sy: %.17g, sz: %.17g, ux: %.17g, uy: %.17g, uz: %.17g, tau: %.17g, c: %.17g, d: %.17g}\n%s",
-             u->s[0], u->s[1], u->s[2], u->s[0] / u->tau, u->s[1] / u->tau, u->s[2] / u->tau, u->tau,
-             u->c, u->d, text);
+             "parameters: {sx: %.17g, sy: %.17g, sz: %.17g, ux: %.17g, uy: %.17g, uz: %.17g, "
+             "tau: %.17g, c: %.17g, d: %.17g}\n%s",
+             u->s[0], u->s[1], u->s[2], u->s[0] / u->tau, u->s[1] / u->tau, u->s[2] / u->tau,
+             u->tau, u->c, u->d, text);
     return fixture_system(yaml);
 }
 
@@ -103,8 +104,89 @@ static void test_pivots(void)
     for (int i = 0; i < 5; i++) check_same(texts[i], "rk4", 0x1p-5, 100);
 }
 
+/* ---- starts ---- */
+
+#define SLEDGE(start)                                                                              \
+    "coordinates: [x, y]\n"                                                                        \
+    "lagrangian: c*((ux*x')^2 + (uy*y')^2)/2\n"                                                    \
+    "constraints: [d*(ux*x' + uy*y')]\n"                                                           \
+    "start: {x': 1/ux, y': " start "/uy}\n"
+
+/* A start is as near to D = 0 in all units, and as far from it. */
+static void test_start_tolerance(void)
+{
+    for (int i = -1; i < OTHERS; i++) {
+        const units *u = i < 0 ? &one : &others[i];
+        dal_run_spec spec = spec_in_units(SLEDGE("-1.000000000001"), u, "rk4", 0x1p-5);
+        dal_run_free(fixture_run(&spec));
+        spec = spec_in_units(SLEDGE("-1.00000001"), u, "rk4", 0x1p-5);
+        fixture_refused(&spec, DAL_INCONSISTENT, "violates constraint 1");
+    }
+}
+
+/* |v| = 1 in the units of one: the nearest velocity to u is u/|u|, here (0.6, 0.8). */
+static const char unit_speed[] = "coordinates: [x, y]\n"
+                                 "lagrangian: c*((ux*x')^2 + (uy*y')^2)/2\n"
+                                 "constraints: [d*((ux*x')^2 + (uy*y')^2 - 1)]\n"
+                                 "start: {x': 0.75/ux, y': 1/uy}\n";
+/* X + 2 Y = 1 and X - Y = -1: X = -1/3, Y = 2/3. */
+static const char solved[] =
+    "coordinates: [x, y, z]\n"
+    "lagrangian: c*((ux*x')^2 + (uy*y')^2 + (uz*z')^2)/2\n"
+    "constraints: [d*(ux*x' + 2*uy*y' - uz*z'), d*(ux*x' - uy*y' + uz*z')]\n"
+    "start: {z': 1/uz, solve: [x', y']}\n";
+
+static void check_start(const char *text, double x, double y)
+{
+    dal_run *plain = NULL;
+    for (int i = -1; i < OTHERS; i++) {
+        const units *u = i < 0 ? &one : &others[i];
+        dal_run_spec spec = spec_in_units(text, u, "rk4", 0x1p-5);
+        const int n = spec.system->n;
+        spec.options.consistent = 1;
+        dal_run *run = fixture_run(&spec);
+        const double *v = dal_run_state(run) + n;
+        CU_ASSERT_DOUBLE_EQUAL(v[0] * u->s[0] / u->tau, x, 4 * 0x1p-53);
+        CU_ASSERT_DOUBLE_EQUAL(v[1] * u->s[1] / u->tau, y, 4 * 0x1p-53);
+        if (plain) CU_ASSERT(is_same(run, u, plain, n, 0.0));
+        if (plain) dal_run_free(run);
+        if (!plain) plain = run;
+    }
+    dal_run_free(plain);
+}
+
+static void test_consistent_starts(void)
+{
+    check_start(unit_speed, 0.6, 0.8);
+    check_start(solved, -1.0 / 3.0, 2.0 / 3.0);
+}
+
+#define TWO_SPRINGS(y)                                                                             \
+    "coordinates: [x, y]\n"                                                                        \
+    "lagrangian: c*((ux*x')^2 + (uy*y')^2 - (sx*x)^2 - (sy*y)^2)/2\n"                              \
+    "start: {x: 1/sx, y: " y "/sy}\n"                                                              \
+    "exact: {x: cos(tau*t)/sx, y: 0.5*cos(tau*t)/sy}\n"
+
+/* The exact solution is that of a start, or is not, in all units: there is an error to observe. */
+static void test_exact_solutions(void)
+{
+    for (int i = -1; i < OTHERS; i++) {
+        const units *u = i < 0 ? &one : &others[i];
+        dal_run_spec spec = spec_in_units(TWO_SPRINGS("0.5"), u, "rk4", 0x1p-5);
+        dal_run *exact = fixture_run(&spec);
+        spec = spec_in_units(TWO_SPRINGS("0.500001"), u, "rk4", 0x1p-5);
+        dal_run *other = fixture_run(&spec);
+        CU_ASSERT_EQUAL(dal_run_observables(exact), dal_run_observables(other) + 1);
+        dal_run_free(exact);
+        dal_run_free(other);
+    }
+}
+
 void suite_units(void)
 {
     CU_pSuite suite = CU_add_suite("units", NULL, NULL);
     CU_add_test(suite, "pivots", test_pivots);
+    CU_add_test(suite, "tolerance of starts", test_start_tolerance);
+    CU_add_test(suite, "consistent starts", test_consistent_starts);
+    CU_add_test(suite, "exact solutions", test_exact_solutions);
 }

@@ -5,8 +5,8 @@
  *     D_u (u' - u) = -D,
  *
  * with as many columns as names, by elimination with pivots from all rows, each relative to its
- * largest entry.  Where D is linear one step solves it.  Rows are left where the velocities named
- * are fewer than the constraints. */
+ * largest entry; velocities are in the units in which constraints move them.  Where D is linear one
+ * step solves it.  Rows are left where the velocities named are fewer than the constraints. */
 #include "core/solved.h"
 #include "core/vectors.h"
 #include <math.h>
@@ -24,6 +24,7 @@ typedef struct newton {
     dal_point at;
     double *v;
     double *D, *A;  /* [m], [m*n] */
+    double *unit;   /* [n] see dal__velocity_units */
     double *matrix; /* [m*width] */
     int columns, width;
 } newton;
@@ -38,7 +39,7 @@ bool dal__is_solved(const dal_solved *solved, int count, int velocity)
 size_t dal__solve_size(const dal_system *s)
 {
     const size_t m = (size_t)s->m, n = (size_t)s->n;
-    return m + 2 * m * n + m * ((size_t)s->solved_velocities + 2);
+    return m + 2 * m * n + n + m * ((size_t)s->solved_velocities + 2);
 }
 
 static const char *name_of(const newton *k, int column, char *buffer)
@@ -79,14 +80,19 @@ static dal_status undetermined(const newton *k, int column, dal_error *error)
 /* Fills the rows, each relative to its largest entry. */
 static void fill_matrix(const newton *k)
 {
-    const int n = k->system->n;
-    for (int a = 0; a < k->system->m; a++) {
+    const int n = k->system->n, m = k->system->m;
+    dal__velocity_units(n, m, k->A, k->A + m * n, k->unit);
+    for (int j = 0; j < n; j++)
+        if (!(k->unit[j] > 0.0)) k->unit[j] = 1.0;
+    for (int a = 0; a < m; a++) {
         double scale = 0.0, *row = &k->matrix[a * k->width];
-        for (int j = 0; j < k->columns; j++)
-            scale = fmax(scale, fabs(k->A[a * n + k->system->solved[j].velocity]));
+        for (int j = 0; j < k->columns; j++) {
+            const int i = k->system->solved[j].velocity;
+            row[j] = k->A[a * n + i] * k->unit[i];
+            scale = fmax(scale, fabs(row[j]));
+        }
         if (scale == 0.0) scale = 1.0;
-        for (int j = 0; j < k->columns; j++)
-            row[j] = k->A[a * n + k->system->solved[j].velocity] / scale;
+        for (int j = 0; j < k->columns; j++) row[j] /= scale;
         row[k->columns] = -k->D[a] / scale;
         row[k->columns + 1] = a;
     }
@@ -126,7 +132,7 @@ static dal_status eliminate(const newton *k, dal_error *error)
     return DAL_OK;
 }
 
-/* max |u' - u| of one step. */
+/* max |u' - u| of one step, in units. */
 static dal_status take_step(newton *k, double *change, dal_error *error)
 {
     const int width = k->width, last = k->columns;
@@ -135,11 +141,12 @@ static dal_status take_step(newton *k, double *change, dal_error *error)
     DAL_TRY(eliminate(k, error));
     *change = 0.0;
     for (int j = last - 1; j >= 0; j--) {
-        double *x = &M[j * width + last], *v = &k->v[k->system->solved[j].velocity];
+        const int velocity = k->system->solved[j].velocity;
+        double *x = &M[j * width + last], *v = &k->v[velocity];
         for (int i = j + 1; i < last; i++) *x -= M[j * width + i] * M[i * width + last];
         *x /= M[j * width + j];
         *change = fmax(*change, fabs(*x));
-        *v = *v + *x + 0.0; /* no -0: see lib/kernel/step.h */
+        *v = *v + *x * k->unit[velocity] + 0.0; /* no -0: see lib/kernel/step.h */
     }
     return DAL_OK;
 }
@@ -174,11 +181,11 @@ dal_status dal__solve_velocities(const dal_system *s, double t, const double *q,
     int max = 0;
     if (s->solved_velocities == 0) return DAL_OK;
     DAL_TRY(check_solved(s, error));
-    k.matrix = k.A + 2 * m * n;
+    k.unit = k.A + 2 * m * n;
+    k.matrix = k.unit + n;
     k.columns = s->solved_velocities;
     k.width = k.columns + 2;
     for (int i = 0; i < MAX_STEPS; i++) {
-        double size = 0.0;
         const dal_status status = s->call.constraint(s, &k.at, memory);
         if (status != DAL_OK)
             return dal__fail(error, status, "the constraints cannot be evaluated at the start");
@@ -186,8 +193,7 @@ dal_status dal__solve_velocities(const dal_system *s, double t, const double *q,
         if (!isfinite(k.D[max])) break;
         before = change;
         DAL_TRY(take_step(&k, &change, error));
-        for (int j = 0; j < n; j++) size = fmax(size, fabs(v[j]));
-        if (dal__is_converged(change, before, size)) return DAL_OK;
+        if (dal__is_converged(change, before, dal__max_in_units(n, v, k.unit))) return DAL_OK;
     }
     return dal__fail_at(error, isfinite(k.D[max]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
                         s->solved[0].line, s->solved[0].column,

@@ -1,6 +1,7 @@
 /* vectors.c - memory, norms, orthonormal rows, least squares and random numbers. */
 #include "core/vectors.h"
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,6 +42,69 @@ bool dal__is_converged(double change, double before, double size)
 {
     const double resolution = DBL_EPSILON * size;
     return change <= resolution || (change >= before && change <= 64.0 * resolution);
+}
+
+void dal__jacobi_sizes(int n, const double *m, double *size)
+{
+    int unknown = 0;
+    for (int i = 0; i < n; i++) {
+        size[i] = isfinite(m[i * n + i]) ? fabs(m[i * n + i]) : 0.0;
+        unknown += size[i] == 0.0;
+    }
+    while (unknown > 0) {
+        int found = 0, first = -1;
+        double max = 0.0;
+        for (int i = 0; i < n; i++, max = 0.0) {
+            if (size[i] > 0.0) continue;
+            if (first < 0) first = i;
+            for (int j = 0; j < n; j++) {
+                const double x = fmax(fabs(m[i * n + j]), fabs(m[j * n + i])),
+                             d = x * (x / size[j]);
+                max = isfinite(d) ? fmax(max, d) : max;
+            }
+            size[i] = max;
+            found += max > 0.0;
+        }
+        if (found == 0) {
+            const double *row = m + first * n;
+            for (int e = 0; e < n * n; e++) {
+                const double d = fabs(row[e / n] * (row[e % n] / m[e]));
+                max = isfinite(d) ? fmax(max, d) : max;
+            }
+            size[first] = max > 0.0 ? max : 1.0;
+            found = 1;
+        }
+        unknown -= found;
+    }
+}
+
+void dal__velocity_units(int n, int m, const double *A, const double *B, double *unit)
+{
+    const int unknown = INT_MAX;
+    int first = unknown;
+    for (int i = 0; i < n; i++) unit[i] = 0.0;
+    for (int a = 0; a < m; a++) {
+        double G = 0.0;
+        for (int i = 0; i < n; i++) G += A[a * n + i] * B[i * m + a];
+        for (int i = 0; i < n && G != 0.0 && isfinite(G); i++)
+            unit[i] = fmax(unit[i], fabs(B[i * m + a] / G) * fabs(B[i * m + a]));
+    }
+    for (int i = 0; i < n; i++) {
+        if (!isfinite(unit[i])) unit[i] = 0.0;
+        if (unit[i] == 0.0) continue;
+        int exponent;
+        frexp(unit[i], &exponent);
+        if (first == unknown) first = exponent;
+        unit[i] = ldexp(1.0, (exponent - first - ((exponent - first) & 1)) / 2);
+    }
+}
+
+double dal__max_in_units(int n, const double *v, const double *unit)
+{
+    double max = 0.0;
+    for (int i = 0; i < n; i++)
+        if (unit[i] > 0.0) max = fmax(max, fabs(v[i]) / unit[i]);
+    return max;
 }
 
 double dal__uniform(dal__random *random)

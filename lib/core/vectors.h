@@ -28,6 +28,16 @@ double dal__distance(const double *a, const double *b, size_t count);
 /* Whether an iteration for numbers of this size has converged, by its last change and the one
  * before: it is within rounding, or within 64 times that and no longer falls. */
 bool dal__is_converged(double change, double before, double size);
+/* The sizes d_i = |m_ii| of Jacobi's scaling of a symmetric matrix m[n*n], size[n].  A row with 0
+ * on the diagonal has the least one with which m_ij^2 <= d_i d_j; where no other row has a size,
+ * ab/c with entries a, b, c of three rows in pairs, or 1. */
+void dal__jacobi_sizes(int n, const double *m, double *size);
+/* Units of the velocities that m constraints move, unit[n], powers of 2 that change as those of the
+ * velocities do: max_a |B_ia|/sqrt(G_aa) = max_a sqrt(W^-1_ii) |cos(e_i, A_a)| for A[m*n], B[n*m] =
+ * W^-1 A^T and the diagonal of G = A B, relative to the first; 0 where none does. */
+void dal__velocity_units(int n, int m, const double *A, const double *B, double *unit);
+/* max |v_i|/unit_i over those that are not 0. */
+double dal__max_in_units(int n, const double *v, const double *unit);
 
 /* x loses its part along the unit vector. */
 void dal__remove_part(double *x, const double *unit, int count);

@@ -6,10 +6,10 @@
  *
  * The pivots are chosen before any node is made, by eliminating the numbers at the default start
  * (or near it, when the matrix is singular there).  Among the entries of at
- * least a tenth of the largest, each relative to the size of its row and column (Jacobi scaling,
- * below), the first choice are those that depend on parameters alone (they cannot vanish along a run), then untouched ones
- * (no cancellation), then those of the diagonal (they preserve the symmetry).  W may thus be
- * indefinite and have zeros on its diagonal.
+ * least a tenth of the largest, each relative to the size of its row and column (Jacobi scaling),
+ * the first choice are those that depend on parameters alone (they cannot vanish along a run), then
+ * untouched ones (no cancellation), then those of the diagonal (they preserve the symmetry).  W may
+ * thus be indefinite and have zeros on its diagonal.
  *
  * Pivots that come from a subtraction are checked along a run against what it subtracted from. */
 #include "model/elimination.h"
@@ -37,8 +37,8 @@ typedef struct plan {
 
 /* ---- the order ---- */
 
-/* m_ij^2/(d_i d_j) with the sizes d: a number without units.  No digit of it depends on those of the
- * coordinates where they are powers of two, so that the same pivots are chosen. */
+/* m_ij^2/(d_i d_j) with the sizes d: a number without units.  No digit of it depends on the units
+ * of the coordinates where they are powers of two, so that the same pivots are chosen. */
 static double score(const plan *p, int i, int j)
 {
     const double m = p->value[i * p->n + j];
@@ -114,55 +114,6 @@ static void eliminate_numbers(plan *p, int k)
     }
 }
 
-/* The size that entries m_ij with rows j of known size give row i, max m_ij^2/d_j; 0: there is none. */
-static double size_by_others(const plan *p, int i)
-{
-    double size = 0.0;
-    for (int j = 0; j < p->n; j++) {
-        const double m = fmax(fabs(p->value[i * p->n + j]), fabs(p->value[j * p->n + i]));
-        if (p->size[j] > 0.0 && isfinite(m)) size = fmax(size, m * (m / p->size[j]));
-    }
-    return isfinite(size) ? size : 0.0;
-}
-
-/* The size of a row whose others have none: of three rows with entries a, b, c in pairs it is ab/c;
- * otherwise those of the others follow from any, 1. */
-static double size_by_two(const plan *p, int i)
-{
-    const double *row = p->value + i * p->n;
-    double size = 0.0;
-    for (int j = 0; j < p->n; j++) {
-        for (int k = 0; k < j && row[j] != 0.0; k++) {
-            const double ratio = row[k] / p->value[j * p->n + k];
-            if (isfinite(ratio)) size = fmax(size, fabs(row[j] * ratio));
-        }
-    }
-    return size > 0.0 && isfinite(size) ? size : 1.0;
-}
-
-/* The sizes d_i = |m_ii|, of Jacobi's scaling.  A row with 0 on the diagonal, of an indefinite
- * matrix, has the least one with which m_ij^2 <= d_i d_j. */
-static void find_sizes(plan *p)
-{
-    int unknown = 0;
-    for (int i = 0; i < p->n; i++) {
-        const double size = fabs(p->value[i * p->n + i]);
-        p->size[i] = isfinite(size) ? size : 0.0;
-        unknown += p->size[i] == 0.0;
-    }
-    while (unknown > 0) {
-        int found = 0, first = -1;
-        for (int i = 0; i < p->n; i++) {
-            if (p->size[i] > 0.0) continue;
-            if (first < 0) first = i;
-            const double size = size_by_others(p, i);
-            if (size > 0.0) p->size[i] = size, found++;
-        }
-        if (found == 0) p->size[first] = size_by_two(p, first), found = 1;
-        unknown -= found;
-    }
-}
-
 /* Fills in the values of the matrix at a point, and the sizes of its rows. */
 static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, const double *at)
 {
@@ -177,7 +128,7 @@ static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, 
         p->flag[i] = (unsigned char)((present ? PRESENT : 0) | (varying ? VARYING : 0));
         if (present) p->entry[i / p->n * p->n + p->entries[i / p->n]++] = i % p->n;
     }
-    find_sizes(p);
+    dal__jacobi_sizes(p->n, p->value, p->size);
 }
 
 /* -1, or the row that is left without a pivot.  Ends early where the elimination, whose every

@@ -35,8 +35,8 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
 
 /* Lists the constraints whose rows of A combine to that of one, ", 1, 2", at an irregular point;
  * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: the rows of A, in
- * units in which the diagonal of W and the largest entry of each row are 1, and after each how it is
- * combined of them. */
+ * units in which the diagonal of W and the largest entry of each row are 1, and after each how it
+ * is combined of them. */
 static double list_dependence(const dal__equations *e, int row, double *rows, char *list,
                               size_t size)
 {

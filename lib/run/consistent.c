@@ -37,6 +37,7 @@ dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition
     k.x = k.G + rows * rows;
     k.given = k.x + rows;
     k.out = k.given + n;
+    k.unit = k.out + system->m + 2 * system->m * n + 1;
     return k;
 }
 
@@ -71,6 +72,23 @@ dal_status dal__check_mass(const dal__linearised *k, dal_error *error)
         return DAL_OK;
     return dal__fail(error, DAL_SINGULAR_MASS, "%s is singular at %s", dal__mass_words(system),
                      k->place);
+}
+
+void dal__constraint_sizes(dal__linearised *k, const double *scales)
+{
+    const int n = k->system->n;
+    double *energy = k->given, kinetic = 0.0; /* E, E_q, E_v = W v, and n more */
+    dal_callback *const energy_normal = k->system->call.energy_normal;
+    if (!energy_normal || energy_normal(k->system, &k->at, energy) != DAL_OK) kinetic = NAN;
+    for (int i = 0; i < n && !isnan(kinetic); i++) kinetic += fabs(k->v[i] * energy[1 + n + i]);
+    for (int a = 0; a < k->rows; a++) {
+        double G = 0.0, sum = 0.0;
+        for (int i = 0; i < n; i++) G += k->A[a * n + i] * k->B[i * k->rows + a];
+        for (int i = 0; i < n; i++) sum += fabs(k->A[a * n + i]);
+        const double size = sqrt(fabs(G)) * sqrt(kinetic);
+        k->x[a] = isfinite(size) ? size : sum * dal_max_norm(k->v, n);
+        if (scales && isfinite(scales[a])) k->x[a] += scales[a];
+    }
 }
 
 /* The error that row a of G has no pivot; k->out[a] was its entry on the diagonal. */
@@ -139,11 +157,12 @@ dal_status dal__check_rank(dal__linearised *k, dal_error *error)
     return solve(k, error);
 }
 
-/* Moves v by the given part of v' - v; *change is max |v' - v|. */
+/* Moves v by the given part of v' - v; *change is max |v' - v|, in units. */
 static dal_status move(dal__linearised *k, double part, double *change, dal_error *error)
 {
     const int n = k->system->n, rows = k->rows;
     double *v = k->v, *x = k->x;
+    dal__velocity_units(n, rows, k->A, k->B, k->unit);
     for (int a = 0; a < rows; a++) {
         x[a] = -k->D[a];
         for (int i = 0; i < n; i++) x[a] -= k->A[a * n + i] * (k->given[i] - v[i]);
@@ -153,7 +172,7 @@ static dal_status move(dal__linearised *k, double part, double *change, dal_erro
     for (int i = 0; i < n; i++) {
         double moved = k->given[i];
         for (int a = 0; a < rows; a++) moved += k->B[i * rows + a] * x[a];
-        *change = fmax(*change, fabs(moved - v[i]));
+        if (k->unit[i] > 0.0) *change = fmax(*change, fabs(moved - v[i]) / k->unit[i]);
         if (part < 1.0) moved = v[i] + part * (moved - v[i]);
         v[i] = moved + 0.0; /* no -0: see lib/kernel/step.h */
     }
@@ -176,7 +195,7 @@ dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
         if (m > 0 && !isfinite(k->D[max])) break;
         before = change;
         DAL_TRY(move(k, part, &change, error));
-        if (dal__is_converged(change, before, dal_max_norm(k->v, n))) return DAL_OK;
+        if (dal__is_converged(change, before, dal__max_in_units(n, k->v, k->unit))) return DAL_OK;
         if (change > before) part = fmax(0.5 * part, min_damping);
     }
     return dal__fail(error, isfinite(k->D[max]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,

@@ -22,6 +22,7 @@ typedef struct dal__linearised {
     double *D, *A, *B;               /* [rows], [rows*n], [n*rows]: W^-1 A^T */
     double *G, *x;                   /* [rows*rows], [rows] */
     double *given, *out;             /* [n], [m + 2*m*n + 1] */
+    double *unit;                    /* [n] see dal__velocity_units */
 } dal__linearised;
 
 /* The present state of a run, its constraints not yet evaluated. */
@@ -34,6 +35,11 @@ dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error)
 
 /* The error of a mass matrix that is singular at the point; DAL_OK: it is not, or is not known. */
 dal_status dal__check_mass(const dal__linearised *k, dal_error *error);
+/* Stores in x[rows] the sizes of the constraints, S(D_a) + sqrt(A_a W^-1 A_a^T v.W v): the terms of
+ * D_a, scales[m] (NULL: not known), and what velocities of the same energy add to it at most; where
+ * v.W v is not known, sum |A_ai| max |v_i|. */
+void dal__constraint_sizes(dal__linearised *k, const double *scales);
+
 /* Whether the rows are independent: no pivot of G = A B is below 1e-12 of its diagonal entry,
  * without exchanges of rows.  Errors: DAL_RANK, DAL_SINGULAR_MASS. */
 dal_status dal__check_rank(dal__linearised *k, dal_error *error);

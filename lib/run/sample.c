@@ -65,11 +65,10 @@ static void evaluate_states(const dal_run *run, int count)
 static dal_status deliver_scales(const sampling *k, int count)
 {
     dal_run *run = k->run;
-    const long long before = dal_run_steps(run) / k->observer->every + 1 - count;
-    for (int i = 0; i < count; i++) {
+    const long long last = dal_run_steps(run) / k->observer->every + 1, before = last - count;
+    for (long long due = dal__scales_due(before); due <= last; due = dal__scales_due(due)) {
         dal_status status = DAL_OK;
-        if (!dal__scales_due(before + i + 1)) continue;
-        const double *scales = dal__scales_observed(run, i, &status);
+        const double *scales = dal__scales_observed(run, (int)(due - before - 1), &status);
         if (scales) status = k->observer->scales(k->observer->user, run, scales);
         DAL_TRY(observed(k, status));
     }
@@ -324,9 +323,12 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
     DAL_TRY(dal__check_events(run, error));
     sampling k = {run, observer, error, 0};
     if (first_row == 0 && dal_run_steps(run) == 0) DAL_TRY(observe_start(&k));
-    for (long long row = first_row; row <= samples; row++) {
-        const dal_status status = advance_to_row(&k, row, row_time(run, observer, T, row, samples));
-        if (status == DAL_STOPPED && observer->sample) /* the last row is that of the event */
+    double last = dal_run_time(run), t; /* the time of the last row, or of the start */
+    for (long long row = first_row; row <= samples; row++, last = t) {
+        t = row_time(run, observer, T, row, samples);
+        const dal_status status = advance_to_row(&k, row, t);
+        const bool is_endless = status == DAL_EVENT && dal_run_time(run) != last;
+        if ((is_endless || status == DAL_STOPPED) && observer->sample) /* the last row is there */
             DAL_TRY(observed(&k, observer->sample(observer->user, run, row, dal_run_time(run))));
         if (status == DAL_STOPPED) return dal__check_events(run, error);
         DAL_TRY(status);

@@ -48,11 +48,12 @@ static size_t lay_out(const dal__layout *k, double *memory, places *p)
 
 size_t dal__scale_numbers(const dal__layout *k) { return lay_out(k, NULL, NULL); }
 
-bool dal__scales_due(long long observations)
+/* They are due at multiples of the least power of 2 of which at most POINTS reach that far. */
+long long dal__scales_due(long long observations)
 {
     long long distance = 1;
-    while (observations > POINTS * distance) distance *= 2;
-    return observations % distance == 0;
+    while (observations >= POINTS * distance) distance *= 2;
+    return (observations / distance + 1) * distance;
 }
 
 static double sum_of_products(int n, const double *a, const double *b)
@@ -182,4 +183,13 @@ const double *dal_run_scales(dal_run *run)
     if (!run) return NULL;
     lay_out(&run->layout, run->scales, &p);
     return scales_at(run, &p, dal_run_time(run), run->persistent, &status);
+}
+
+const double *dal__constraint_scales(dal_run *run)
+{
+    const dal_system *s = run->layout.system;
+    const dal_point at = dal__here(run);
+    places p;
+    lay_out(&run->layout, run->scales, &p);
+    return s->scales && s->scales(s, &at, p.memory, p.formulas) == DAL_OK ? p.formulas : NULL;
 }

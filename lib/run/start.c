@@ -1,15 +1,18 @@
 /* start.c - parameters and start of a run: set by name, completed by the system, checked; and a
  * parameter set between steps.
  *
- * A start is consistent when |D_a| <= 1e-10 |A_a| |v| (1-norm times max norm), and its constraints
- * are independent (run/consistent.h). */
+ * A start is consistent when |D_a| is at most 1e-10 of its size, and its constraints are
+ * independent (run/consistent.h). */
 #include "run/start.h"
 #include "core/error.h"
 #include "core/solved.h"
+#include "core/vectors.h"
 #include "run/consistent.h"
 #include "run/events.h"
 #include "run/quad.h"
+#include "run/scales.h"
 #include <dalembert_kernel.h>
+#include <math.h>
 #include <stdio.h>
 
 #define CONSISTENT 1e-10
@@ -120,24 +123,23 @@ static const char *suggest(const dal__linearised *k, const dal_run *run, int a, 
     return hint;
 }
 
-/* run: whose start it is, or NULL; before: D of the parameters before a change, or NULL. */
-static dal_status check_consistent(const dal__linearised *k, const double *before,
-                                   const dal_run *run, dal_error *error)
+/* before: D of the parameters before a change; NULL: it is the start of the run. */
+static dal_status check_consistent(dal_run *run, dal__linearised *k, const double *before,
+                                   dal_error *error)
 {
     char hint[256] = "";
     const int n = k->system->n;
-    const double speed = dal_max_norm(k->v, n);
+    dal__constraint_sizes(k, dal__constraint_scales(run));
     for (int i = 0; i < k->rows; i++) {
-        double scale = 0.0;
-        for (int j = 0; j < n; j++) scale += fabs(k->A[i * n + j]);
-        const double small = CONSISTENT * scale * speed;
+        const double small = CONSISTENT * k->x[i];
+        const bool is_regular = isfinite(dal__max_abs(k->A + i * n, (size_t)n));
         if (fabs(k->D[i]) <= small) continue;
-        if (isfinite(k->D[i]) && !isfinite(scale)) continue;        /* dal__check_rank says so */
+        if (isfinite(k->D[i]) && !is_regular) continue;             /* dal__check_rank says so */
         if (before && fabs(k->D[i] - before[i]) <= small) continue; /* the drift of a run */
         if (!isfinite(k->D[i])) DAL_TRY(dal__check_mass(k, error));
         return dal__fail(error, isfinite(k->D[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
                          "%s violates constraint %d: D%d = %.6g%s", k->place, i + 1, i + 1, k->D[i],
-                         run ? suggest(k, run, i, hint, sizeof hint) : hint);
+                         before ? hint : suggest(k, run, i, hint, sizeof hint));
     }
     return DAL_OK;
 }
@@ -156,19 +158,28 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
                                   error));
     if (run->layout.options.consistent) DAL_TRY(dal__make_consistent(&k, error));
     DAL_TRY(dal__linearise(&k, NULL, error));
-    DAL_TRY(check_consistent(&k, NULL, run, error));
+    DAL_TRY(check_consistent(run, &k, NULL, error));
     return dal__check_rank(&k, error);
 }
 
-/* Whether the exact solution has the start of this run. */
+/* Whether the exact solution has the start of this run, each number relative to its largest value
+ * there and up to 1024 steps later. */
 static bool exact_agrees(dal_run *run)
 {
+    enum { TIMES = 11 };
     const dal__layout *k = &run->layout;
-    const dal_point at = dal__here(run);
-    if (!k->system->exact || k->system->exact(k->system, &at, run->scratch) != DAL_OK) return false;
-    const double size = 1.0 + dal_max_norm(run->persistent, 2 * k->n);
+    dal_point at = dal__here(run);
+    double *exact = run->scratch, *size = exact + 2 * k->n, *other = size + 2 * k->n;
+    if (!k->system->exact || k->system->exact(k->system, &at, exact) != DAL_OK) return false;
+    for (int i = 0; i < 2 * k->n; i++) size[i] = fabs(run->persistent[i]);
+    for (int time = 0; time < TIMES; time++) {
+        at.t = dal_run_time(run) + ldexp(k->options.step, time);
+        if (k->system->exact(k->system, &at, other) != DAL_OK) break;
+        for (int i = 0; i < 2 * k->n; i++)
+            size[i] = isfinite(other[i]) ? fmax(size[i], fabs(other[i])) : size[i];
+    }
     for (int i = 0; i < 2 * k->n; i++)
-        if (!(fabs(run->scratch[i] - run->persistent[i]) <= CONSISTENT * size)) return false;
+        if (!(fabs(exact[i] - run->persistent[i]) <= CONSISTENT * size[i])) return false;
     return true;
 }
 
@@ -233,7 +244,7 @@ static dal_status check_parameters(dal_run *run, const double *before, dal_error
     if (!has_constraints(run)) return DAL_OK;
     DAL_TRY(dal__linearise(&k, NULL, error));
     DAL_TRY(dal__check_rank(&k, error));
-    return check_consistent(&k, before, NULL, error);
+    return check_consistent(run, &k, before, error);
 }
 
 void dal__restart_method(dal_run *run)
