@@ -62,7 +62,8 @@ static void test_rank(void)
     CU_ASSERT_EQUAL(rank(-1.9e-6), DAL_RANK);
 }
 
-/* x = 2 exp(-t): the error is observed where |x - 2|, |x' + 2| <= 1e-10 (1 + 2). */
+/* x = 2 exp(-t): the error is observed where |x - 2|, |x' + 2| <= 1e-10 * 2, the largest |x| and
+ * |x'| of the solution. */
 static int observables(const char *name, double off)
 {
     dal_run_spec spec =
@@ -83,8 +84,27 @@ static void test_exact(void)
     static const char *const names[] = {"x", "x'"};
     for (int i = 0; i < 2; i++)
         for (int sign = -1; sign <= 1; sign += 2) {
-            CU_ASSERT_EQUAL(observables(names[i], sign * 2.8e-10), 1);
-            CU_ASSERT_EQUAL(observables(names[i], sign * 3.2e-10), 0);
+            CU_ASSERT_EQUAL(observables(names[i], sign * 1.9e-10), 1);
+            CU_ASSERT_EQUAL(observables(names[i], sign * 2.1e-10), 0);
+        }
+}
+
+/* cos(t - pi/2) is 6e-17 at t = 0, and sin(t) is 0: the same, beside the 1 that both become, in all
+ * units; 1e-9 is another start. */
+static void test_exact_zero(void)
+{
+    static const double starts[] = {0.0, 1e-11, 1e-9}, units[] = {1.0, 0x1p-60, 0x1p60};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            char text[256];
+            snprintf(text, sizeof text,
+                     "coordinates: [x]\naccelerations: {x: -x}\n"
+                     "start: {x: %.17g*%.17g, x': %.17g}\nexact: {x: %.17g*cos(t - pi/2)}\n",
+                     units[k], starts[i], units[k], units[k]);
+            const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
+            dal_run *run = fixture_run(&spec);
+            CU_ASSERT_EQUAL(dal_run_observables(run), i < 2);
+            dal_run_free(run);
         }
 }
 
@@ -486,4 +506,5 @@ void suite_start(void)
     CU_add_test(suite, "what cannot be made consistent", test_unsolvable);
     CU_add_test(suite, "pivots are 1e-12 at least", test_rank);
     CU_add_test(suite, "an exact solution begins there within 1e-10", test_exact);
+    CU_add_test(suite, "an exact solution that begins at 0, in all units", test_exact_zero);
 }
