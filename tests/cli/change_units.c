@@ -2,9 +2,9 @@
  *
  *     q_i = s_i Q_i,   t = tau T,   L' = c L,   D'_a = d D_a,   invariants times g
  *
- * with powers of two between 2^-30 and 2^30, drawn by SEED; with 0 all are 1.  The texts of the
- * formulas are changed, nothing else: each coordinate x becomes (s*x), each x' (s/tau*x'), t
- * (tau*t).
+ * with powers of two between 2^-60 and 2^60, drawn by SEED; with 0 all are 1, with a multiple of 4
+ * the s_i are equal.  The texts of the formulas are changed, nothing else: each coordinate x becomes
+ * (s*x), each x' (s/tau*x'), t (tau*t).
  * The first line is a comment with tau, c, d and the s_i. */
 #include <dalembert.h>
 #include <math.h>
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_COORDINATES = 64, TEXT = 4096 };
+enum { MAX_COORDINATES = 64, TEXT = 4096, MAX_EXPONENT = 60, EQUAL = 4 };
 
 typedef struct units {
     int n;
@@ -32,7 +32,8 @@ static bool is_name(char c) { return is_letter(c) || is_digit(c); }
 static double draw(unsigned long long *state)
 {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return ldexp(1.0, (int)(*state >> 33) % 31 * ((*state >> 40) & 1 ? 1 : -1));
+    const int exponent = (int)((*state >> 33) % (2 * MAX_EXPONENT + 1)) - MAX_EXPONENT;
+    return ldexp(1.0, exponent);
 }
 
 static int find(const units *u, const char *name, size_t length)
@@ -187,7 +188,7 @@ int main(int argc, char **argv)
         return 3;
     }
     unsigned long long state = strtoull(argv[2], NULL, 10);
-    const bool is_plain = state == 0;
+    const bool is_plain = state == 0, is_equal = state % EQUAL == 0;
     units u = {.tau = 1.0, .c = 1.0, .d = 1.0, .g = 1.0};
     for (const char *text;
          u.n < MAX_COORDINATES &&
@@ -197,7 +198,7 @@ int main(int argc, char **argv)
     if (!is_plain) u.tau = draw(&state), u.c = draw(&state), u.d = draw(&state), u.g = draw(&state);
     printf("# %.17g %.17g %.17g", u.tau, u.c, u.d);
     for (int i = 0; i < u.n; i++) {
-        u.s[i] = is_plain ? 1.0 : draw(&state);
+        u.s[i] = is_plain ? 1.0 : is_equal && i > 0 ? u.s[0] : draw(&state);
         printf(" %.17g", u.s[i]);
     }
     puts("");
