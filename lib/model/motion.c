@@ -16,6 +16,7 @@
 #include "expr/traversal.h"
 #include "model/bordered.h"
 #include "model/model.h"
+#include "model/units.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -33,20 +34,25 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
 }
 
 /* Lists the constraints whose rows of A combine to that of one, ", 1, 2", at an irregular point;
- * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: those of A, each
- * scaled to a largest entry of 1, and behind each how it is combined of them. */
+ * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: those of A in units
+ * of v, each scaled to a largest entry of 1, and after each how it is combined of them; then room
+ * for the point and the units. */
 static double list_dependence(const dal__equations *e, int row, double *rows, char *list,
                               size_t size)
 {
     const double golden = 0.6180339887498949, rounding = 1e-9;
     const int n = e->n, m = e->m, width = n + m;
     double *point = rows + m * width;
-    for (int i = 0; i < e->symbols; i++)
-        point[i] = e->value[i] + (i < e->parameters ? 0.0 : fmod((i + 1) * golden, 1.0) - 0.5);
+    const double *unit = point + e->symbols;
+    for (int i = 0; i < e->symbols; i++) {
+        const double off = fmod((i + 1) * golden, 1.0) - 0.5;
+        point[i] = e->value[i] + (i < e->parameters ? 0.0 : unit[i] * off);
+    }
     for (int a = 0; a < m; a++) {
         double *w = rows + a * width; /* row comes last */
         const int number = a == m - 1 ? row : a + (a >= row);
-        for (int i = 0; i < n; i++) w[i] = dal__evaluate(e->graph, e->A[number * n + i], point);
+        for (int i = 0; i < n; i++)
+            w[i] = dal__evaluate(e->graph, e->A[number * n + i], point) * unit[e->v + i];
         const double largest = dal__max_abs(w, (size_t)n);
         for (int i = 0; i < n && largest > 0.0; i++) w[i] /= largest;
         w[n + number] = 1.0;
@@ -72,14 +78,15 @@ dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *erro
 {
     const dal__equations *e = &model->equations;
     const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, row);
-    const size_t count = (size_t)(e->m * (e->n + e->m) + e->symbols);
-    double *rows = dal__model_allocate(model, count, sizeof *rows);
+    const size_t before = (size_t)(e->m * (e->n + e->m) + e->symbols);
+    double *rows = dal__model_allocate(model, before + (size_t)e->symbols, sizeof *rows);
     char list[128] = ", others";
     if (e->servo)
         return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
                             "constraint %d is not held by the reactions: A W^-1 B^T is singular",
                             row + 1);
-    const double left = rows ? list_dependence(e, row, rows, list, sizeof list) : 0.0;
+    const bool has_units = rows && dal__model_units(model, rows + before) == DAL_OK;
+    const double left = has_units ? list_dependence(e, row, rows, list, sizeof list) : 0.0;
     if (left > nothing_left && isfinite(left))
         return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
                             "constraint %d nearly depends on %s: they differ by %.1g of its "
