@@ -1,7 +1,7 @@
 /* units.c - the sizes of the symbols of a model near its start, as powers of two.
  *
  *     v_i   |v_i|, or that of equal energy: W_ii v_i^2 = max_j W_jj v_j^2, or S(L) at rest
- *     q_i   |q_i|, or the smallest at which L, a D or a force changes by a part of its S
+ *     q_i   |q_i|, or the smallest at which S of L, a D or a force grows by a part
  *     t     |t|, or likewise              g_a   S(L)/S(D_a)
  *
  * S(f) is the size of the terms of f (expr/terms.h).  What begins at 0 and changes nothing has the
@@ -20,7 +20,7 @@ typedef struct survey {
     dal__node *node;   /* [formulas]: L, D_a, Q_i */
     dal__terms *terms; /* of these */
     int formulas;
-    double *scale, *memory; /* [formulas] */
+    double *scale, *moved, *memory; /* [formulas]: scales at x and beside it; of terms */
 } survey;
 
 static double power_of_two(double x)
@@ -49,44 +49,41 @@ static void find_speeds(const survey *s)
     }
 }
 
-/* Whether a formula differs from `before` by a part of its scale, with one symbol moved. */
-static bool changes(const survey *s, const double *before, int symbol, double by)
+/* Whether the scale of a formula grows from s->scale by a part of it, with one symbol moved. */
+static bool changes(const survey *s, int symbol, double by)
 {
     static const double part = 0.25;
     const double held = s->x[symbol];
     bool found = false;
     s->x[symbol] += by;
-    for (int k = 0; k < s->formulas && !found; k++) {
-        const double change = fabs(dal__evaluate(s->e->graph, s->node[k], s->x) - before[k]);
-        found = s->scale[k] > 0.0 && !(change < part * s->scale[k]);
-    }
+    dal__terms_scales(s->terms, s->x, s->memory, s->moved);
     s->x[symbol] = held;
+    for (int k = 0; k < s->formulas && !found; k++)
+        found = s->scale[k] > 0.0 && s->moved[k] > (1.0 + part) * s->scale[k];
     return found;
 }
 
 /* The unit of a symbol that is 0: 2^k for the smallest k that changes a formula. */
-static double find_change(const survey *s, const double *before, int symbol)
+static double find_change(const survey *s, int symbol)
 {
     enum { MIN = -150, MAX = 150 };
     int low = MIN, high = MAX;
-    if (!changes(s, before, symbol, ldexp(1.0, high))) return 1.0;
+    if (!changes(s, symbol, ldexp(1.0, high))) return 1.0;
     while (high - low > 1) {
         const int middle = low + (high - low) / 2;
-        *(changes(s, before, symbol, ldexp(1.0, middle)) ? &high : &low) = middle;
+        *(changes(s, symbol, ldexp(1.0, middle)) ? &high : &low) = middle;
     }
     return ldexp(1.0, high);
 }
 
-static void find_others(const survey *s, double *before)
+static void find_others(const survey *s)
 {
     const dal__equations *e = s->e;
     for (int i = 0; i < e->n; i++) s->x[e->v + i] += s->unit[e->v + i];
-    for (int i = 0; i < e->multipliers; i++) s->x[e->g + i] = 0.0;
     dal__terms_scales(s->terms, s->x, s->memory, s->scale);
-    for (int k = 0; k < s->formulas; k++) before[k] = dal__evaluate(e->graph, s->node[k], s->x);
     for (int i = e->t; i < e->q + e->n; i++) {
         s->unit[i] = power_of_two(s->x[i]);
-        if (s->unit[i] == 0.0) s->unit[i] = find_change(s, before, i);
+        if (s->unit[i] == 0.0) s->unit[i] = find_change(s, i);
     }
     for (int a = 0; a < e->multipliers; a++) {
         const double unit = power_of_two(s->scale[0] / s->scale[1 + a]);
@@ -114,7 +111,8 @@ dal_status dal__model_units(dal_model *model, double *unit)
         dal__terms_scales(s.terms, s.x, s.memory, s.scale);
         s.scale[n] = s.scale[0];
         find_speeds(&s);
-        find_others(&s, s.scale + s.formulas);
+        s.moved = s.scale + s.formulas;
+        find_others(&s);
     }
     dal__terms_free(s.terms);
     return s.memory ? DAL_OK : DAL_MEMORY;
