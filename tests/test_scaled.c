@@ -221,6 +221,15 @@ static unsigned energy_in_units(double a, double b, double c, double r)
     return fixture_system(text)->properties & (DAL_E_EXACT | DAL_E_ON_D);
 }
 
+/* The same field as a difference of terms that are 1e12 times as large, as are their roundings. */
+static void test_cancelling_energy(void)
+{
+    const dal_system *system = fixture_system(
+        "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+        "forces: {x: y'*((x + 1)^2 - x^2 - 2*x), y: -x'}\nstart: {x: 1e6, x': 1}\n");
+    CU_ASSERT(system->properties & DAL_E_EXACT);
+}
+
 static void test_energy(void)
 {
     static const double units[][3] = {{1, 1, 1},
@@ -302,6 +311,7 @@ void suite_scaled(void)
     CU_add_test(suite, "a coordinate that rests", test_coordinate_at_rest);
     CU_add_test(suite, "units at the state of a run", test_run);
     CU_add_test(suite, "an energy that is conserved in all units", test_energy);
+    CU_add_test(suite, "an energy whose terms cancel", test_cancelling_energy);
     CU_add_test(suite, "orders in other units", test_order);
     CU_add_test(suite, "exponents in other units", test_exponents);
     CU_add_test(suite, "unknown parameters", test_refused);

@@ -47,7 +47,7 @@ states_of() {
             # |p| and |pi| are maxima over coordinates: off 0 they have a unit only where all have the same
             awk -F, -v equal="$(awk 'NR == 1 { e = 1; for (i = 6; i <= NF; i++) e = e && $i == $5; print e }' system.yaml)" '
                 NR == 1 { for (i = 1; i <= NF; i++) head[$i] = i; next }
-                $3 == "displaced" && !equal { next }
+                ($3 == "displaced" || $5 == "error") && !equal { next }
                 { print $2, $3, $5, $head["size"], $head["size"] == "rounding" ? "" : $head["trend"] }' study/quantities.csv ;;
         section)
             first=$(sed -n 's/^coordinates: \["\([^"]*\)".*/\1/p' system.yaml)
