@@ -429,8 +429,8 @@ char *dal_error_budget_describe(const dal_error_budget *budget, int observable,
 /* ---- Lyapunov exponents and phase volume --------------------------------------------------- */
 
 /* A run on (q, v, g) with tangent vectors.  J, the derivative of each of its steps, moves them, and
- * Gram-Schmidt makes them orthonormal again in the units of dal_scaled (Benettin, Galgani, Giorgilli, Strelcyn 1980,
- * DOI 10.1007/BF02128236).
+ * Gram-Schmidt makes them orthonormal again in the units of dal_scaled (Benettin, Galgani,
+ * Giorgilli, Strelcyn 1980, DOI 10.1007/BF02128236).
  *     J V = V' R,    exponent i = mean of log(R_ii)/h,    mean of log|det J|/h = their sum
  * The mean divergence of the motion, that of the trace of F_(v,g), is their sum, too.  Over a long
  * time it holds for every density of the phase space, and on D = 0, provided that the logarithms of

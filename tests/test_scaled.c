@@ -224,9 +224,9 @@ static unsigned energy_in_units(double a, double b, double c, double r)
 /* The same field as a difference of terms that are 1e12 times as large, as are their roundings. */
 static void test_cancelling_energy(void)
 {
-    const dal_system *system = fixture_system(
-        "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
-        "forces: {x: y'*((x + 1)^2 - x^2 - 2*x), y: -x'}\nstart: {x: 1e6, x': 1}\n");
+    const dal_system *system =
+        fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                       "forces: {x: y'*((x + 1)^2 - x^2 - 2*x), y: -x'}\nstart: {x: 1e6, x': 1}\n");
     CU_ASSERT(system->properties & DAL_E_EXACT);
 }
 

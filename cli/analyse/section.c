@@ -268,31 +268,25 @@ static bool varies(const section *s, int column, const double *units)
 
 /* The last coordinate that varies together with its velocity; else the last two of q and v that
  * vary; else t and the one that does. */
-static void choose_axes(section *s, const double *units)
+static int choose_axes(section *s)
 {
     const int n = s->request->system->n, q = FIRST_STATE_COLUMN;
-    int *axis = s->axis;
-    for (int i = q + n - 1; i >= q; i--) {
-        if (!varies(s, i, units) || !varies(s, i + n, units)) continue;
-        axis[0] = i;
-        axis[1] = i + n;
-        return;
-    }
-    axis[1] = q + 2 * n - 1;
-    while (axis[1] > q && !varies(s, axis[1], units)) axis[1]--;
-    axis[0] = axis[1] - 1;
-    while (axis[0] >= q && !varies(s, axis[0], units)) axis[0]--;
-    if (axis[0] < q) axis[0] = COLUMN_T;
-}
-
-/* With the units of the columns. */
-static int choose_axes_in_units(section *s)
-{
+    int *axis = s->axis, i = q + n - 1;
     dal_scaled *scaled;
     dal_error error = {0};
     const dal_status made = dal_scaled_create_at(&scaled, s->request->run, &error);
     if (made != DAL_OK) return cli_error(cli_exit(made), s->request->system_name, &error);
-    choose_axes(s, dal_scaled_units(scaled) + 1);
+    const double *units = dal_scaled_units(scaled) + 1;
+    while (i >= q && !(varies(s, i, units) && varies(s, i + n, units))) i--;
+    axis[0] = i;
+    axis[1] = i + n;
+    if (i < q) {
+        axis[1] = q + 2 * n - 1;
+        while (axis[1] > q && !varies(s, axis[1], units)) axis[1]--;
+        axis[0] = axis[1] - 1;
+        while (axis[0] >= q && !varies(s, axis[0], units)) axis[0]--;
+        if (axis[0] < q) axis[0] = COLUMN_T;
+    }
     dal_scaled_free(scaled);
     return CLI_DONE;
 }
@@ -331,7 +325,7 @@ int section_find(section_settings *settings)
         if (status == CLI_DONE) status = written;
     }
     if ((status == CLI_DONE || status == CLI_SIGNAL) && output.directory) {
-        int written = s.axis[0] < 0 ? choose_axes_in_units(&s) : CLI_DONE;
+        int written = s.axis[0] < 0 ? choose_axes(&s) : CLI_DONE;
         if (written == CLI_DONE)
             written = analysis_describe(&output, "section", s.request, put_figure, &s);
         if (status == CLI_DONE) status = written;

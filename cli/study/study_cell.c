@@ -187,37 +187,36 @@ static void find_momentum_units(const cell_run *r, double *size)
     free(start);
 }
 
-/* Adds values in units of d: of p and pi in their units, of all else in its own. */
-static void add_in_units(cell_run *r, const request_settings *values, const double *size)
+/* Adds a value in units of d: of p and pi in their units size[2n], of all else in its own. */
+static void add_in_units(cell_run *r, const double *size, const char *name, double value)
 {
     const study_case *e = r->cell->of_case;
     const int n = e->system->n;
-    for (int j = 0; j < values->count; j++) {
-        double d = e->displacement;
-        for (int k = 0; k < 2 * n; k++) {
-            char *name = cli_format("%s_%s", k < n ? "p" : "pi", e->system->coordinate[k % n]);
-            if (strcmp(name, values->item[j].name) == 0) d *= size[k];
-            free(name);
-        }
-        request_add_setting(&r->request.start, values->item[j].name, d * values->item[j].value);
+    double d = e->displacement;
+    for (int k = 0; k < 2 * n; k++) {
+        char *momentum = cli_format("%s_%s", k < n ? "p" : "pi", e->system->coordinate[k % n]);
+        if (strcmp(momentum, name) == 0) d *= size[k];
+        free(momentum);
     }
+    request_add_setting(&r->request.start, name, d * value);
 }
 
-/* By default p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ... in their units: no two alike, and not
- * along the motion. */
+/* By default p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ... in their units: no two alike, and
+ * not along the motion. */
 static void add_displacement(cell_run *r)
 {
     const study_case *e = r->cell->of_case;
     const int n = e->system->n;
     double *size = cli_calloc(2 * (size_t)n, sizeof *size);
     find_momentum_units(r, size);
-    add_in_units(r, &e->displace, size);
+    for (int j = 0; j < e->displace.count; j++)
+        add_in_units(r, size, e->displace.item[j].name, e->displace.item[j].value);
     for (int i = 0; e->displace.count == 0 && i < n; i++) {
-        const double d = i % 2 ? -e->displacement : e->displacement;
+        const double sign = i % 2 ? -1.0 : 1.0;
         char *p = cli_format("p_%s", e->system->coordinate[i]);
         char *pi = cli_format("pi_%s", e->system->coordinate[i]);
-        request_add_setting(&r->request.start, p, d * size[i] / (i + 1));
-        request_add_setting(&r->request.start, pi, d * size[n + i] / (i + 2));
+        add_in_units(r, size, p, sign / (i + 1));
+        add_in_units(r, size, pi, sign / (i + 2));
         free(p);
         free(pi);
     }

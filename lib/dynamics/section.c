@@ -12,7 +12,7 @@ static const double touching = 1e-12;
 /* Roundings of its terms that |g| may consist of, where they cancel. */
 static const double roundings = 64.0;
 
-/* In so many steps the motion changes as a whole. */
+/* After this number of steps the motion has changed as a whole. */
 static const double many_steps = 100.0;
 
 enum { POLL = 1000 };

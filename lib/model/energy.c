@@ -7,9 +7,10 @@
  * on every level of D for k = 0, on D = 0 alone for other k; homogeneity is sufficient, but not
  * necessary.  An identity that simplification does not show is evaluated at irregular points, whose
  * distances from the start are measured by the units of the model: a sum counts as zero if it is
- * within rounding of what its terms are made of, S of expr/terms.h, at each.  Where the terms do not vanish one
- * by one, dE/dt as a whole may still vanish on D = 0 (a force orthogonal to all motions that D
- * allows, a constraint force that vanishes on D = 0): it is evaluated at points projected there.
+ * within rounding of what its terms are made of, S of expr/terms.h, at each.  Where the terms do
+ * not vanish one by one, dE/dt as a whole may still vanish on D = 0 (a force orthogonal to all
+ * motions that D allows, a constraint force that vanishes on D = 0): it is evaluated at points
+ * projected there.
  *
  * The normal of a conserved E, for projections: E_q, E_v and W^-1 E_q.  (W^-1 E_v is v.)
  *

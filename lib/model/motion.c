@@ -34,9 +34,9 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
 }
 
 /* Lists the constraints whose rows of A combine to that of one, ", 1, 2", at an irregular point;
- * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: those of A in units
- * of v, each scaled to a largest entry of 1, and after each how it is combined of them; then room
- * for the point and the units. */
+ * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: those of A in
+ * units of v, each scaled to a largest entry of 1, and after each how it is combined of them; then
+ * room for the point, and the units. */
 static double list_dependence(const dal__equations *e, int row, double *rows, char *list,
                               size_t size)
 {

@@ -4,8 +4,8 @@
 
 #include "model/model.h"
 
-/* The units of t, q, v and g, unit[symbols], about the default start; of all other symbols 1.  Errors:
- * DAL_MEMORY. */
+/* The units of t, q, v and g, unit[symbols], about the default start; of all other symbols 1.
+ * Errors: DAL_MEMORY. */
 dal_status dal__model_units(dal_model *model, double *unit);
 
 #endif
