@@ -7,7 +7,7 @@
 #     make mpi              build/dalembert-mpi, where there is Open MPI
 #     make clean            remove build/
 #
-#     make check            all tests; the CUnit summary comes last
+#     make check            all tests, as many beside each other as -j says; the CUnit summary comes last
 #     make check-python     the package of python/, where Python has cffi, numpy and pytest; a part of check
 #     make check-sanitize   the tests under the address and undefined-behaviour sanitizers
 #     make check-valgrind   the CUnit suites under valgrind
@@ -252,13 +252,14 @@ $(BUILD)/locale:
 RUN_SUITE = LOCPATH=$(BUILD)/locale
 
 HAS_MPI = $(shell command -v $(MPICC) >/dev/null && echo $(MPI_PROGRAM))
+# What there is to check (tests/checks.mk), in the order in which results are printed; all of it is made
+# before.  SUITE has suites, all others being left out, and options of the suites.
+PARTS  = $(patsubst tests/cli/%_cases.sh,%,$(wildcard tests/cli/*_cases.sh))
+CHECKS = $(PARTS:%=cli-%) install browser python $(patsubst %,suite-%,$(or $(filter-out --%,$(SUITE)),$(SUITES)))
 check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/tests/read_json \
        $(BUILD)/tests/change_units $(BUILD)/bench/page $(BUILD)/locale
-	@sh tests/cli/run.sh $(PROGRAM)
-	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
-	@sh tests/browser/run.sh $(PROGRAM)
-	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/python.sh "$(MAKE)" $(BUILD)
-	@$(RUN_SUITE) $(BUILD)/tests/suite $(SUITE)
+	@CC="$(CC)" CFLAGS="$(CFLAGS)" BUILD="$(BUILD)" PROGRAM="$(PROGRAM)" RUN_SUITE="$(RUN_SUITE)" \
+	    SUITE_OPTIONS="$(filter --%,$(SUITE))" sh tests/run.sh "$(MAKE)" $(CHECKS)
 
 check-python: all
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/python.sh "$(MAKE)" $(BUILD)
@@ -296,21 +297,23 @@ SERIES ?= 200
 trends: $(BUILD)/tests/suite
 	@$< --trends $(SERIES)
 
-# For the memory alone, and what crashes: valgrind's long double has 64 bits, its fused multiply-add
-# loses the sign of a zero, so that asserts on bits (exit status 1) count in the other runs.
-VALGRIND = valgrind -q --error-exitcode=99 --leak-check=full
+# For the memory alone, and what crashes: tests/valgrind.sh.  As it takes a second to begin, it has
+# VALGRIND_SUITES suites at a time.
+VALGRIND_SUITES ?= 8
 check-valgrind: $(BUILD)/tests/suite
-	@$(VALGRIND) $(BUILD)/tests/suite --quick $(SUITE); test $$? -le 1
+	@BUILD="$(BUILD)" RUN_SUITE="sh tests/valgrind.sh" SUITE_OPTIONS=--quick sh tests/run.sh "$(MAKE)" \
+	    $$(echo $(or $(SUITE),$(SUITES)) | xargs -n $(VALGRIND_SUITES) | sed 's/ /+/g; s/^/suite-/')
 
+# No fuzzer takes a batch: the library needs no variants with lanes.
 fuzz:
-	$(MAKE) BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) \
+	$(MAKE) BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) VARIANTS="x1 x1_QUAD" \
 	    CFLAGS="$(CHECKED) -fsanitize=fuzzer-no-link,address,undefined" run-fuzzers
 
-run-fuzzers: $(FUZZERS:%=$(BUILD)/tests/%)
-	@for f in $^; do mkdir -p $$f.corpus && \
-	    $$f -verbosity=0 -max_total_time=$(FUZZ_SECONDS) -artifact_prefix=$$f. \
-	        $$f.corpus systems || exit 1; \
-	    echo "fuzz: $$(basename $$f): ok"; done
+run-fuzzers: $(FUZZERS:%=run-%)
+$(FUZZERS:%=run-%): run-%: $(BUILD)/tests/%
+	@mkdir -p $<.corpus
+	@$< -verbosity=0 -max_total_time=$(FUZZ_SECONDS) -artifact_prefix=$<. $<.corpus systems
+	@echo "fuzz: $*: ok"
 $(FUZZERS:%=$(BUILD)/tests/%): %: %.o $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) -fsanitize=fuzzer $^ $(LIBS) -o $@
 
@@ -368,7 +371,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all help check check-bits check-browser check-dist check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers gallery references lint mutants trends units install uninstall clean FORCE mpi
+.PHONY: all help check check-bits check-browser check-dist check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers $(FUZZERS:%=run-%) gallery references lint mutants trends units install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

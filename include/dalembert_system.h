@@ -149,7 +149,8 @@ enum {
     DAL_SERVO = 1 << 10,         /* reactions along directions B of their own, not along A^T */
     DAL_BLOCKS_POSITIONAL = 1 << 11, /* every D linear, W^-1 b and A without v */
     DAL_D_ISOKINETIC = 1 << 12,      /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
-    DAL_WIDE_TIMES = 1 << 13         /* the wide sets read dal_point.times, or no time at all */
+    DAL_WIDE_TIMES = 1 << 13,        /* the wide sets read dal_point.times, or no time at all */
+    DAL_MASS_ON_KERNEL = 1 << 14     /* W need be regular on ker A only; see CONSTRAINT, BLOCKS */
 };
 
 /* ---- events -------------------------------------------------------------------------------- */
@@ -167,6 +168,22 @@ typedef struct dal_event {
     int direction;    /* 1: when increases along the run, -1: decreases, 0: both */
     unsigned actions; /* DAL_EVENT_SETS | ... */
 } dal_event;
+
+/* The branches of F where sign, abs, min, max, floor, a comparison or a table switches from one
+ * formula to another as an argument s passes certain values.  A run with events repeats a step in
+ * which s may do so with the branches held as at its begin, so that F is smooth in it, and an event
+ * there is found as exactly as anywhere else; see docs/events.md.  Made by a model.  A system
+ * written in C has none: its events have, where F jumps, the error of a step across the jump. */
+typedef struct dal_branches {
+    int count;            /* how many there are */
+    dal_callback *values; /* out[2*count]: s of each, then the size of which eps is its rounding */
+    dal_callback *rates;  /* out[count]: ds/dt along the motion */
+    /* The values, infinite ones among them, between which branch k of s = point stays. */
+    void (*bounds)(const dal_system *system, int k, double point, double *lower, double *upper);
+    /* Until the next call the callbacks of a step, the rates of events and these two decide as for
+     * s = point[count]; NULL: as s is.  work: that of the points where they are evaluated. */
+    void (*hold)(const dal_system *system, const double *point, double *work);
+} dal_branches;
 
 /* A velocity that a start solves from D = 0, and where a file names it, for messages. */
 typedef struct dal_solved {
@@ -227,6 +244,7 @@ struct dal_system {
     const dal_system *extended; /* F continued off D = 0 so that E is exact, for extend-energy */
     const dal_system *quad;     /* work in quad precision, for precision; these two may be NULL */
     const dal_series *series;   /* Taylor coefficients of F; NULL: none */
+    const dal_branches *branches; /* of F where there are events; NULL: none, or not known */
     const struct dal_picture *picture;         /* how it is drawn; NULL: not at all */
     void *data;                                /* of the owner, for callbacks */
     int field_operations, jacobian_operations; /* arithmetic operations of these callbacks, which
@@ -399,6 +417,22 @@ typedef struct dal_growth {
  * DAL_NOT_FINITE, DAL_TOO_LARGE. */
 dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,
                             const double *units, dal_growth *out, dal_error *error);
+
+/* Numerical ranks at a point.  The motion is determined there where constraints is m and mass is
+ * n - m: W = L_vv alone may be singular. */
+typedef struct dal_ranks {
+    int constraints;          /* of A = D_v [m*n] */
+    int mass;                 /* of W on ker A; -1 where constraints is below m */
+    double constraints_pivot; /* the smallest pivot over the largest, 0 below full rank */
+    double mass_pivot;        /* likewise */
+} dal_ranks;
+/* Finds the ranks of a model whose system is made, with parameters[parameter_count], at a point of
+ * which t, q[n] and v[n] are read.  Entries are compared in units[1 + n] of t and q, those of
+ * dal_scaled_units; NULL: 1.  [alloc]  Errors: DAL_UNSUPPORTED (vakonomic motion, reactions given),
+ * DAL_NAME, DAL_NOT_FINITE. */
+dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int parameter_count,
+                           const dal_point *at, const double *units, dal_ranks *out,
+                           dal_error *error);
 
 #ifdef __cplusplus
 }

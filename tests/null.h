@@ -14,19 +14,28 @@
 /* Where the calls under test report. */
 static dal_error *error;
 
-/* DAL_ARGUMENT, from a call that hands error over, with a message, and without a record too. */
-#define REFUSED(call)                                                                              \
+/* DAL_ARGUMENT, from a function that takes no record. */
+#define REFUSED_STATUS(call) CU_ASSERT_EQUAL((call), DAL_ARGUMENT)
+/* The same with a message, from a call that hands error over. */
+#define REFUSED_WITH_RECORD(call)                                                                  \
     do {                                                                                           \
         dal_error record = {0};                                                                    \
         error = &record;                                                                           \
-        CU_ASSERT_EQUAL((call), DAL_ARGUMENT);                                                     \
+        REFUSED_STATUS(call);                                                                      \
         CU_ASSERT(record.status == DAL_ARGUMENT && record.message[0] != '\0');                     \
         CU_ASSERT(record.line == 0 && record.column == 0);                                         \
-        error = NULL;                                                                              \
-        CU_ASSERT_EQUAL((call), DAL_ARGUMENT);                                                     \
     } while (0)
-/* The same of a function that takes no record. */
-#define REFUSED_STATUS(call) CU_ASSERT_EQUAL((call), DAL_ARGUMENT)
+/* The same without a record: error is NULL. */
+#define REFUSED_WITHOUT_RECORD(call)                                                               \
+    do {                                                                                           \
+        error = NULL;                                                                              \
+        REFUSED_STATUS(call);                                                                      \
+    } while (0)
+#define REFUSED(call)                                                                              \
+    do {                                                                                           \
+        REFUSED_WITH_RECORD(call);                                                                 \
+        REFUSED_WITHOUT_RECORD(call);                                                              \
+    } while (0)
 
 /* Settings that nobody may give, as "settings, count". */
 #define COUNT_NEGATIVE   NULL, -1

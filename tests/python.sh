@@ -32,7 +32,7 @@ logged $python -m venv --system-site-packages "$root/V"
 package=$("$root/V/bin/python" -c 'import sysconfig; print(sysconfig.get_path("platlib"))')
 logged env DALEMBERT_BUILD="$build" "$root/V/bin/pip" install --no-build-isolation --no-deps ./python
 # A call that is not interrupted where it must be would never end.
-(cd python/tests && timeout 1200 "$root/V/bin/python" -m pytest -q -p no:cacheprovider . ../../docs/python.md \
+(cd python/tests && timeout --foreground 1200 "$root/V/bin/python" -m pytest -q -p no:cacheprovider . ../../docs/python.md \
     --doctest-glob='*.md' --doctest-modules --pyargs dalembert) >"$root/tests" 2>&1 ||
     { cat "$root/tests" >&2; fail "tests failed"; }
 

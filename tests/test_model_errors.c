@@ -343,9 +343,9 @@ static const bad_file mechanics[] = {
      "constraint 2 nearly depends on 1: they differ by 1e-09 of its coefficients, and A W^-1 A^T "
      "is singular in double precision",
      XY L "constraints: [x' + 1e-9*y', @x' + 2e-9*y']\n"},
-    {DAL_RANK, "constraint 1 is redundant, it depends on 3, 4: A W^-1 A^T is singular",
+    {DAL_RANK, "constraint 4 is redundant, it depends on 1, 3: A W^-1 A^T is singular",
      "coordinates: [x, y, z, w]\nlagrangian: x'^2 + y'^2 + z'^2 + w'^2\n"
-     "constraints: [@x' - y*w', 5*y' + w', 7*z', 2*x' - 2*y*w' + y*z']\n"},
+     "constraints: [x' - y*w', 5*y' + w', 7*z', @2*x' - 2*y*w' + y*z']\n"},
 };
 
 /* ---- the check ---- */

@@ -530,6 +530,19 @@ static void null_dal_model_growth(void)
     REFUSED(dal_model_growth(model, &(dal_setting){NULL, 1.0}, 1, NULL, &growth, error));
 }
 
+static void null_dal_model_ranks(void)
+{
+    const double x[8] = {0};
+    const dal_point at = {.q = x, .v = x};
+    dal_ranks ranks;
+    REFUSED(dal_model_ranks(NULL, NULL, 0, &at, NULL, &ranks, error));
+    REFUSED(dal_model_ranks(model, NULL, 0, &at, NULL, NULL, error));
+    REFUSED(dal_model_ranks(model, NULL, 0, NULL, NULL, &ranks, error));
+    REFUSED(dal_model_ranks(model, NULL, 0, &(dal_point){.q = x}, NULL, &ranks, error));
+    REFUSED(dal_model_ranks(model, NULL, 1, &at, NULL, &ranks, error));
+    REFUSED(dal_model_ranks(model, &(dal_setting){NULL, 1.0}, 1, &at, NULL, &ranks, error));
+}
+
 void suite_null(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and negative counts", open_objects, close_objects);

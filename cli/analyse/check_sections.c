@@ -92,6 +92,50 @@ static double start_defect(check *c)
     return defect / size;
 }
 
+static void check_rank(check *c, const char *what, int rank, int full, double pivot)
+{
+    check_number(c, rank == full ? CHECK_OK : CHECK_FAIL, what, rank, full, full,
+                 "%d of %d, smallest pivot %.2g", rank, full, pivot);
+}
+
+static void check_rank_of_G(check *c)
+{
+    int rank = 0;
+    double pivot = 0.0;
+    const dal_status status = dal_measure_rank(c->evaluator, &c->origin, &rank, &pivot);
+    if (cli_is_ok(status))
+        check_rank(c, "rank of G at the start", rank, c->m, pivot);
+    else if (status != DAL_UNSUPPORTED)
+        check_item(c, CHECK_FAIL, "rank of G at the start", "it has no value: %s",
+                   dal_status_text(status));
+}
+
+/* The ranks of A and of W on ker A, at the start of the run in the units of the file. */
+static void check_ranks(check *c)
+{
+    const request_settings *set = &c->request->set;
+    const double *units = dal_scaled_units(c->scaled);
+    double *q = cli_calloc(2 * (size_t)c->n, sizeof *q), *v = q + c->n;
+    dal_ranks ranks;
+    for (int i = 0; i < c->n; i++) {
+        q[i] = c->start[i] * units[1 + i];
+        v[i] = c->start[c->n + i] * units[1 + i] / units[0];
+    }
+    const dal_point at = {.t = c->request->from, .q = q, .v = v};
+    const dal_status status =
+        dal_model_ranks(c->request->model, set->item, set->count, &at, units, &ranks, NULL);
+    free(q);
+    if (!cli_is_ok(status)) {
+        if (status != DAL_UNSUPPORTED)
+            check_item(c, CHECK_FAIL, "rank of A at the start", "it has no value: %s",
+                       dal_status_text(status));
+        return;
+    }
+    check_rank(c, "rank of A at the start", ranks.constraints, c->m, ranks.constraints_pivot);
+    if (ranks.mass >= 0 && c->n > c->m)
+        check_rank(c, "rank of W on ker A", ranks.mass, c->n - c->m, ranks.mass_pivot);
+}
+
 static void check_start(check *c)
 {
     static const char points[] = "points about the start";
@@ -115,15 +159,8 @@ static void check_start(check *c)
                      defect, consistent);
     else if (c->system->call.constraint)
         check_bound(c, "|D| at the start", defect, consistent);
-    int rank = 0;
-    double pivot = 0.0;
-    const dal_status status = dal_measure_rank(c->evaluator, &c->origin, &rank, &pivot);
-    if (cli_is_ok(status))
-        check_number(c, rank == c->m ? CHECK_OK : CHECK_FAIL, "rank of G at the start", rank, c->m,
-                     c->m, "%d of %d, smallest pivot %.2g", rank, c->m, pivot);
-    else if (status != DAL_UNSUPPORTED)
-        check_item(c, CHECK_FAIL, "rank of G at the start", "it has no value: %s",
-                   dal_status_text(status));
+    if (!(c->system->properties & DAL_MASS_ON_KERNEL)) check_rank_of_G(c);
+    check_ranks(c);
     check_number(c, found, points, c->near_count, 1, INFINITY, "%d; %d projected to D = 0",
                  c->near_count, c->surface_count);
 }

@@ -105,20 +105,10 @@ int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensem
     return status;
 }
 
-static const yaml_node_t *find_ensemble(const document *doc)
-{
-    const yaml_node_t *root = document_node(doc, 1);
-    const yaml_node_t *node = root ? document_value(doc, root, "ensemble") : NULL;
-    return node && node->type == YAML_MAPPING_NODE ? node : NULL;
-}
-
 bool ensemble_directory_has_ensemble(const char *path)
 {
-    size_t length;
     char *manifest = cli_join(path, "manifest.json");
-    char *bytes = file_exists(manifest) ? file_read(manifest, &length) : NULL;
-    const bool found = bytes && strstr(bytes, "\n  \"ensemble\": {") != NULL;
-    free(bytes);
+    const bool found = json_file_has(manifest, "ensemble");
     free(manifest);
     return found;
 }
@@ -175,7 +165,7 @@ static const document_key keys[] = {{"members", read_integer, offsetof(ensemble,
 int ensemble_directory_read(ensemble_directory *dir, ensemble *e)
 {
     size_t length;
-    if (!ensemble_directory_has_ensemble(dir->path))
+    if (!file_exists(dir->manifest))
         return cli_fail(CLI_USAGE, "'%s' holds no ensemble", dir->path);
     char *bytes = file_read(dir->manifest, &length);
     if (!bytes) return CLI_IO;
@@ -183,8 +173,8 @@ int ensemble_directory_read(ensemble_directory *dir, ensemble *e)
     int status = json_parse(doc, dir->manifest, bytes, length);
     free(bytes);
     if (status != CLI_DONE) return status;
-    const yaml_node_t *root = document_node(doc, 1), *node = find_ensemble(doc);
-    if (!node) return document_fail(doc, root, "there is no ensemble");
+    const yaml_node_t *root = document_node(doc, 1), *node = document_value(doc, root, "ensemble");
+    if (!node) return cli_fail(CLI_USAGE, "'%s' holds no ensemble", dir->path);
     status = manifest_read_input(&e->request, doc, root, dir->system);
     if (status == CLI_DONE)
         status = document_read_mapping(doc, node, "ensemble", keys, sizeof keys / sizeof *keys, e);

@@ -18,6 +18,7 @@ int document_fail(const document *doc, const yaml_node_t *node, const char *form
 {
     char message[MESSAGE];
     va_list list;
+    if (!doc->place) return CLI_USAGE;
     va_start(list, format);
     vsnprintf(message, sizeof message, format, list);
     va_end(list);

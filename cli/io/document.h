@@ -9,7 +9,7 @@
 #include <yaml.h>
 
 typedef struct document {
-    const char *place;
+    const char *place; /* for messages; NULL: without them */
     yaml_document_t yaml;
 } document;
 

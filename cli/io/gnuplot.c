@@ -125,13 +125,15 @@ static int run(const char *directory, const char *path, char axes[AXES_SIZE], bo
     close(ends[1]);
     FILE *printed = fdopen(ends[0], "r");
     if (!printed || !fgets(axes, AXES_SIZE, printed)) axes[0] = '\0';
+    const bool is_read = printed && !ferror(printed);
     if (printed)
         fclose(printed);
     else
         close(ends[0]);
     while (waitpid(child, &state, 0) < 0)
         if (errno != EINTR) return cli_io("wait for", "gnuplot");
-    if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return CLI_DONE;
+    if (WIFEXITED(state) && WEXITSTATUS(state) == 0)
+        return is_read ? CLI_DONE : cli_fail(CLI_IO, "cannot read what gnuplot prints");
     const bool is_missing = WIFEXITED(state) && WEXITSTATUS(state) == NOT_FOUND;
     if (missing) *missing = is_missing;
     if (is_missing)

@@ -22,8 +22,9 @@ static bool is_escaped(long code)
            code == 0xfffe || code == 0xffff;
 }
 
-static void put_text(FILE *out, const char *text)
+static void put_text(const json_writer *w, const char *text)
 {
+    FILE *out = w->out;
     long code;
     if (!text) {
         fputs("null", out);
@@ -36,7 +37,7 @@ static void put_text(FILE *out, const char *text)
             fputs("\\ufffd", out);
         else if (code == '"' || code == '\\')
             fprintf(out, "\\%c", *text);
-        else if (is_escaped(code))
+        else if (is_escaped(code) || (code == '<' && w->is_in_page))
             fprintf(out, "\\u%04lx", (unsigned long)code);
         else
             fwrite(text, 1, (size_t)length, out);
@@ -49,21 +50,21 @@ static void put_text(FILE *out, const char *text)
 static void put_gap(const json_writer *w, int depth)
 {
     if (w->depth <= w->lines)
-        fprintf(w->out, "\n%*s", 2 * depth, "");
-    else if (!w->is_empty && depth == w->depth)
+        fprintf(w->out, "\n%*s", w->is_in_page ? 0 : 2 * depth, "");
+    else if (!w->is_empty && depth == w->depth && !w->is_in_page)
         fputc(' ', w->out);
 }
 
 static bool is_list(const json_writer *w) { return w->lists >> w->depth & 1u; }
 
-static FILE *put_name(json_writer *w, const char *name)
+FILE *json_put_name(json_writer *w, const char *name)
 {
     if (!name && !is_list(w)) return w->out;
     if (!w->is_empty) fputc(',', w->out);
     put_gap(w, w->depth);
     if (name) {
-        put_text(w->out, name);
-        fputs(": ", w->out);
+        put_text(w, name);
+        fputs(w->is_in_page ? ":" : ": ", w->out);
     }
     w->is_empty = false;
     return w->out;
@@ -71,7 +72,7 @@ static FILE *put_name(json_writer *w, const char *name)
 
 static void open_level(json_writer *w, const char *name, json_layout layout, bool list)
 {
-    fputc(list ? '[' : '{', put_name(w, name));
+    fputc(list ? '[' : '{', json_put_name(w, name));
     w->depth++;
     w->lists = (w->lists & ~(1u << w->depth)) | (unsigned)list << w->depth;
     if (layout == JSON_LINES) w->lines = w->depth;
@@ -101,12 +102,13 @@ void json_close(json_writer *w)
 
 void json_put_text(json_writer *w, const char *name, const char *text)
 {
-    put_text(put_name(w, name), text);
+    json_put_name(w, name);
+    put_text(w, text);
 }
 
 void json_put_flag(json_writer *w, const char *name, bool flag)
 {
-    fputs(flag ? "true" : "false", put_name(w, name));
+    fputs(flag ? "true" : "false", json_put_name(w, name));
 }
 
 /* Zero has no sign.  All doubles keep 15 digits, but for those so small that they have fewer. */
@@ -118,17 +120,26 @@ void json_put_number(json_writer *w, const char *name, double x)
         const int length = snprintf(text, sizeof text, "%.*g", digits, x + 0.0);
         dal_parse_number(text, (size_t)length, &read);
     }
-    fputs(text, put_name(w, name));
+    fputs(text, json_put_name(w, name));
+}
+
+void json_put_rounded(json_writer *w, const char *name, double x)
+{
+    FILE *out = json_put_name(w, name);
+    if (isfinite(x))
+        fprintf(out, "%.9g", x);
+    else
+        fputs("null", out);
 }
 
 void json_put_integer(json_writer *w, const char *name, long long x)
 {
-    fprintf(put_name(w, name), "%lld", x);
+    fprintf(json_put_name(w, name), "%lld", x);
 }
 
 void json_put_source(json_writer *w, const char *name, const char *source)
 {
-    fputs(source, put_name(w, name));
+    fputs(source, json_put_name(w, name));
 }
 
 /* RFC 8259: -? (0 | [1-9][0-9]*) (. [0-9]+)? ([eE] [+-]? [0-9]+)?  The length of the number that
@@ -400,4 +411,16 @@ char *json_file_text(const char *path, const char *name)
     char *text = bytes ? find_text(path, bytes, length, name) : NULL;
     free(bytes);
     return text;
+}
+
+bool json_file_has(const char *path, const char *name)
+{
+    size_t length;
+    document doc = {0};
+    char *bytes = file_exists(path) ? file_read(path, &length) : NULL;
+    const bool found = bytes && json_parse(&doc, NULL, bytes, length) == CLI_DONE &&
+                       document_value(&doc, yaml_document_get_root_node(&doc.yaml), name);
+    yaml_document_delete(&doc.yaml);
+    free(bytes);
+    return found;
 }

@@ -17,10 +17,11 @@
  * {.out = file}. */
 typedef struct json_writer {
     FILE *out;
-    int depth;      /* of the present object or list; */
-    int lines;      /* down to this one each member has a line of its own */
-    unsigned lists; /* bit d: the one of depth d is a list */
-    bool is_empty;  /* the present one */
+    int depth;       /* of the present object or list; */
+    int lines;       /* down to this one each member has a line of its own */
+    unsigned lists;  /* bit d: the one of depth d is a list */
+    bool is_empty;   /* the present one */
+    bool is_in_page; /* in an element of HTML: < is escaped, and no space goes between members */
 } json_writer;
 
 typedef enum json_layout { JSON_ON_ONE_LINE, JSON_LINES } json_layout;
@@ -35,10 +36,14 @@ void json_put_text(json_writer *writer, const char *name, const char *text); /* 
 void json_put_flag(json_writer *writer, const char *name, bool flag);
 void json_put_number(json_writer *writer, const char *name, double x);
 void json_put_integer(json_writer *writer, const char *name, long long x);
+/* A number of nine digits, where more would only make a page longer. */
+void json_put_rounded(json_writer *writer, const char *name, double x);
 /* A number that was given as a text: digit for digit where JSON writes it so. */
 void json_put_given(json_writer *writer, const char *name, const char *number);
 /* A value that is JSON already. */
 void json_put_source(json_writer *writer, const char *name, const char *source);
+/* The same, written by the caller. */
+FILE *json_put_name(json_writer *writer, const char *name);
 
 /* Begins and ends what a command prints with --json: an object with its schema, such as
  * dalembert/order/1, and the version of the program. */
@@ -55,13 +60,15 @@ void json_end_results(json_writer *writer);
 
 /* Parses one object (RFC 8259), length bytes and a NUL, at most DOCUMENT_DEPTH levels deep, to the
  * nodes of a YAML document: texts are quoted scalars; numbers, true, false and null plain ones.
- * Half of a surrogate pair is U+FFFD.  Returns CLI_DONE, or prints and returns CLI_USAGE; the
- * document is to be deleted either way. */
+ * Half of a surrogate pair is U+FFFD.  Returns CLI_DONE, or prints, unless place is NULL, and
+ * returns CLI_USAGE; the document is to be deleted either way. */
 int json_parse(document *doc, const char *place, const char *bytes, size_t length);
 /* What stands for a value in the bytes that were parsed, allocated. */
 char *json_source(const char *bytes, const yaml_node_t *value);
 /* A text of the object in a file, allocated; NULL where the file or the text is not there, after a
  * message where the file cannot be read. */
 char *json_file_text(const char *path, const char *name);
+/* Whether the object in a file has that member; no message where the file is no such object. */
+bool json_file_has(const char *path, const char *name);
 
 #endif

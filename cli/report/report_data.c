@@ -17,51 +17,26 @@
 enum { ZERO_LEVEL = 0, ONE_LEVEL = 32768, OCTAVE = 256, INFINITE_LEVEL = 65535, MAX_TIMES = 64 };
 static const double spread = 1.06;
 
-void data_write_string(FILE *page, const char *text)
+json_writer data_begin(FILE *page)
 {
-    fputc('"', page);
-    for (; *text; text++)
-        if (*text == '"' || *text == '\\' || *text == '<' || (unsigned char)*text < ' ')
-            fprintf(page, "\\u%04x", (unsigned)*text);
-        else
-            fputc(*text, page);
-    fputc('"', page);
+    json_writer data = {.out = page, .is_in_page = true};
+    fputs("<script type=\"application/json\" class=\"data\">", page);
+    json_open(&data, NULL, JSON_LINES);
+    return data;
 }
 
-void data_write_number(FILE *page, double x)
+void data_end(json_writer *data)
 {
-    if (isfinite(x))
-        fprintf(page, "%.9g", x);
-    else
-        fputs("null", page);
+    json_close(data);
+    fputs("</script>\n", data->out);
 }
 
-void data_write_levels(FILE *page, const uint16_t *level, int count)
+void data_write_motions(json_writer *data, const motion *motions, int count)
 {
-    char *bytes = cli_malloc(2 * (size_t)count + 1);
-    for (int i = 0; i < count; i++) {
-        bytes[2 * i] = (char)(level[i] & 0xff);
-        bytes[2 * i + 1] = (char)(level[i] >> 8);
-    }
-    fputc('"', page);
-    report_base64(page, bytes, 2 * (size_t)count);
-    fputc('"', page);
-    free(bytes);
-}
-
-void data_begin(FILE *page) { fputs("<script type=\"application/json\" class=\"data\">{", page); }
-
-void data_end(FILE *page) { fputs("}</script>\n", page); }
-
-void data_write_motions(FILE *page, const motion *motions, int count)
-{
-    fputs("\"motions\":[", page);
-    for (int i = 0, written = 0; i < count; i++) {
-        if (motions[i].frames < 2) continue;
-        if (written++) fputc(',', page);
-        motion_write(page, &motions[i]);
-    }
-    fputc(']', page);
+    json_open_list(data, "motions", JSON_ON_ONE_LINE);
+    for (int i = 0; i < count; i++)
+        if (motions[i].frames > 1) motion_write(data, &motions[i]);
+    json_close(data);
 }
 
 int data_write_run(report *r)
@@ -69,9 +44,9 @@ int data_write_run(report *r)
     motion m;
     const int status = motion_read(&m, r->directory, MOTION_RUN_FRAMES);
     if (m.frames > 1) {
-        data_begin(r->page);
-        data_write_motions(r->page, &m, 1);
-        data_end(r->page);
+        json_writer data = data_begin(r->page);
+        data_write_motions(&data, &m, 1);
+        data_end(&data);
     }
     motion_free(&m);
     return status;
@@ -109,7 +84,8 @@ static uint16_t level_of(double x)
     return (uint16_t)fmin(fmax(lround(ONE_LEVEL + OCTAVE * log2(x)), 1), INFINITE_LEVEL - 1);
 }
 
-static void write_envelope(FILE *page, const report_csv *series, cell_rows cell, const char *column)
+static void write_envelope(json_writer *data, const char *name, const report_csv *series,
+                           cell_rows cell, const char *column)
 {
     int chosen[MAX_TIMES];
     uint16_t level[MAX_TIMES];
@@ -120,30 +96,27 @@ static void write_envelope(FILE *page, const report_csv *series, cell_rows cell,
         if (x > max) max = x; /* a part of the time may be without rows */
         if (i + 1 == chosen[next]) level[next++] = level_of(max);
     }
-    data_write_levels(page, level, count);
+    report_put_levels(data, name, level, count);
 }
 
 /* The cell of a row of cells.csv, with the quantities that are shown of its start. */
-static void write_cell(const study_page *s, int row, int step, const report_csv *series,
-                       cell_rows rows)
+static void write_cell(json_writer *data, const study_page *s, int row, int step,
+                       const report_csv *series, cell_rows rows)
 {
-    FILE *page = s->r->page;
     const char *run = get_cell(s, row, "run");
     const bool is_displaced = is_cell(s, row, "start", "displaced");
     char *path = cli_format("%s/%s/report/index.html", s->r->directory, run);
-    fputs("{\"method\":", page);
-    data_write_string(page, get_cell(s, row, "integrator"));
-    fprintf(page, ",\"step\":%d", step);
-    fputs(",\"run\":", page);
-    data_write_string(page, run);
-    if (file_exists(path)) fputs(",\"page\":true", page);
+    json_open(data, NULL, JSON_ON_ONE_LINE);
+    json_put_text(data, "method", get_cell(s, row, "integrator"));
+    json_put_integer(data, "step", step);
+    json_put_text(data, "run", run);
+    if (file_exists(path)) json_put_flag(data, "page", true);
     for (int k = 0; k < QUANTITIES; k++) {
         const quantity *t = &quantities[k];
-        if (t->is_displaced != is_displaced || is_cell(s, row, t->value, "")) continue;
-        fprintf(page, ",\"%s\":", t->name);
-        write_envelope(page, series, rows, t->column);
+        if (t->is_displaced == is_displaced && !is_cell(s, row, t->value, ""))
+            write_envelope(data, t->name, series, rows, t->column);
     }
-    fputc('}', page);
+    json_close(data);
     free(path);
 }
 
@@ -155,39 +128,36 @@ static int find_word(const report_words *words, const char *text)
 }
 
 /* The times of each step, those of its longest cell. */
-static void write_times(FILE *page, const report_csv *series, const cell_rows *longest,
+static void write_times(json_writer *data, const report_csv *series, const cell_rows *longest,
                         const report_words *steps)
 {
     int chosen[MAX_TIMES];
     char title[STEP_TITLE];
-    fputs(",\"steps\":[", page);
+    json_open_list(data, "steps", JSON_ON_ONE_LINE);
     for (int h = 0; h < steps->count; h++) {
         const int count = choose_times(longest[h].count, chosen);
-        fputs(h ? ",{\"h\":" : "{\"h\":", page);
+        json_open(data, NULL, JSON_ON_ONE_LINE);
         if (step_tolerance(steps->word[h]) > 0.0)
-            data_write_string(page, step_title(title, steps->word[h]) + 4); /* without "h = " */
+            json_put_text(data, "h", step_title(title, steps->word[h]) + 4); /* without "h = " */
         else
-            data_write_number(page, strtod(steps->word[h], NULL));
-        fputs(",\"t\":[", page);
-        for (int i = 0; i < count; i++) {
-            fputs(i ? "," : "", page);
-            data_write_number(page,
-                              report_csv_number(series, longest[h].first + chosen[i] - 1, "until"));
-        }
-        fputs("]}", page);
+            json_put_rounded(data, "h", strtod(steps->word[h], NULL));
+        json_open_list(data, "t", JSON_ON_ONE_LINE);
+        for (int i = 0; i < count; i++)
+            json_put_rounded(data, NULL,
+                             report_csv_number(series, longest[h].first + chosen[i] - 1, "until"));
+        json_close(data);
+        json_close(data);
     }
-    fputs("]", page);
+    json_close(data);
 }
 
-void data_write_envelopes(const study_page *s, const char *label, const report_words *steps,
-                          const report_csv *series)
+void data_write_envelopes(json_writer *data, const study_page *s, const char *label,
+                          const report_words *steps, const report_csv *series)
 {
-    FILE *page = s->r->page;
     cell_rows longest[REPORT_WORDS] = {{0, 0}};
-    fputs("\"label\":", page);
-    data_write_string(page, label);
-    fputs(",\"cells\":[", page);
-    for (int first = 1, end, written = 0; first < series->rows; first = end) {
+    json_put_text(data, "label", label);
+    json_open_list(data, "cells", JSON_LINES);
+    for (int first = 1, end; first < series->rows; first = end) {
         for (end = first + 1; end < series->rows && is_same_cell(series, first, end);) end++;
         const cell_rows rows = {first, end - first};
         const char *start = report_csv_get(series, first, "start");
@@ -197,10 +167,8 @@ void data_write_envelopes(const study_page *s, const char *label, const report_w
                                   strcmp(start, "displaced") == 0);
         if (h == steps->count || row == 0 || !is_cell(s, row, "start", start)) continue;
         if (rows.count > longest[h].count) longest[h] = rows;
-        fputs(written++ ? ",\n" : "", page);
-        write_cell(s, row, h, series, rows);
+        write_cell(data, s, row, h, series, rows);
     }
-    fputc(']', page);
-    write_times(page, series, longest, steps);
-    fputc(',', page);
+    json_close(data);
+    write_times(data, series, longest, steps);
 }

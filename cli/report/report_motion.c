@@ -10,7 +10,7 @@
 #include "ui/message.h"
 
 #include "report_body.h"
-#include "report_data.h"
+#include "report_page.h"
 #include "report_pose.h"
 
 #include <math.h>
@@ -153,70 +153,68 @@ double motion_extent(const motion *m)
 /* ---- writing ------------------------------------------------------------------------------- */
 
 /* A number of all frames: [LOW, HIGH, BASE64], or [LOW] of one that does not change. */
-static void write_numbers(FILE *page, const motion *m, int which)
+static void write_numbers(json_writer *data, const motion *m, int which, const char *name)
 {
     double low = INFINITY, high = -INFINITY;
     for (int f = 0; f < m->frames; f++) {
         low = fmin(low, m->pose[f][which]);
         high = fmax(high, m->pose[f][which]);
     }
-    if (!(high > low)) {
-        fputc('[', page);
-        data_write_number(page, low);
-        fputc(']', page);
-        return;
+    json_open_list(data, name, JSON_ON_ONE_LINE);
+    json_put_rounded(data, NULL, low);
+    if (high > low) {
+        uint16_t *level = cli_calloc((size_t)m->frames, sizeof *level);
+        for (int f = 0; f < m->frames; f++)
+            level[f] = (uint16_t)lround((m->pose[f][which] - low) / (high - low) * UINT16_MAX);
+        json_put_rounded(data, NULL, high);
+        report_put_levels(data, NULL, level, m->frames);
+        free(level);
     }
-    uint16_t *level = cli_calloc((size_t)m->frames, sizeof *level);
-    for (int f = 0; f < m->frames; f++)
-        level[f] = (uint16_t)lround((m->pose[f][which] - low) / (high - low) * UINT16_MAX);
-    fputc('[', page);
-    data_write_number(page, low);
-    fputc(',', page);
-    data_write_number(page, high);
-    fputc(',', page);
-    data_write_levels(page, level, m->frames);
-    fputc(']', page);
-    free(level);
+    json_close(data);
 }
 
-static void write_part(FILE *page, const body_part *part)
+static void write_pair(json_writer *data, const char *name, const double pair[2])
 {
-    fprintf(page, "{\"pivot\":[%g,%g],\"turn\":%g,\"narrowed\":%s,\"radius\":%g,\"line\":[",
-            part->pivot[0], part->pivot[1], part->turn, part->is_narrowed ? "true" : "false",
-            part->radius);
-    for (int i = 0; i < part->count; i++)
-        fprintf(page, "%s[%g,%g]", i ? "," : "", part->at[i][0], part->at[i][1]);
-    fputs("]}", page);
+    json_open_list(data, name, JSON_ON_ONE_LINE);
+    json_put_rounded(data, NULL, pair[0]);
+    json_put_rounded(data, NULL, pair[1]);
+    json_close(data);
 }
 
-void motion_write(FILE *page, const motion *m)
+static void write_part(json_writer *data, const body_part *part)
+{
+    json_open(data, NULL, JSON_ON_ONE_LINE);
+    write_pair(data, "pivot", part->pivot);
+    json_put_rounded(data, "turn", part->turn);
+    json_put_flag(data, "narrowed", part->is_narrowed);
+    json_put_rounded(data, "radius", part->radius);
+    json_open_list(data, "line", JSON_ON_ONE_LINE);
+    for (int i = 0; i < part->count; i++) write_pair(data, NULL, part->at[i]);
+    json_close(data);
+    json_close(data);
+}
+
+void motion_write(json_writer *data, const motion *m)
 {
     static const char *const names[] = {
 #define NUMBER_NAME(code, name) name,
         DAL_PICTURE_LIST(NUMBER_NAME)
 #undef NUMBER_NAME
     };
-    fputs("{\"method\":", page);
-    data_write_string(page, m->method);
-    fputs(",\"step\":", page);
-    data_write_number(page, m->step);
-    fputs(",\"start\":", page);
-    data_write_number(page, m->start);
-    fputs(",\"end\":", page);
-    data_write_number(page, m->end);
-    fprintf(page,
-            ",\"frames\":%d,\"smooth\":%s,"
-            "\"axes\":[\"%s\",\"%s\"],\"body\":\"%s\",\"parts\":[",
-            m->frames, m->is_smooth ? "true" : "false", m->axis[0], m->axis[1], body_name[m->body]);
-    for (const body_part *first = body_next(m->body, NULL), *part = first; part;
-         part = body_next(m->body, part)) {
-        if (part != first) fputc(',', page);
-        write_part(page, part);
-    }
-    fputc(']', page);
-    for (int i = 0; i < DAL_PICTURE_COUNT; i++) {
-        fprintf(page, ",\"%s\":", names[i]);
-        write_numbers(page, m, i);
-    }
-    fputs("}", page);
+    json_open(data, NULL, JSON_ON_ONE_LINE);
+    json_put_text(data, "method", m->method);
+    json_put_rounded(data, "step", m->step);
+    json_put_rounded(data, "start", m->start);
+    json_put_rounded(data, "end", m->end);
+    json_put_integer(data, "frames", m->frames);
+    json_put_flag(data, "smooth", m->is_smooth);
+    json_open_list(data, "axes", JSON_ON_ONE_LINE);
+    for (int i = 0; i < 2; i++) json_put_text(data, NULL, m->axis[i]);
+    json_close(data);
+    json_put_text(data, "body", body_name[m->body]);
+    json_open_list(data, "parts", JSON_ON_ONE_LINE);
+    for (const body_part *part = NULL; (part = body_next(m->body, part));) write_part(data, part);
+    json_close(data);
+    for (int i = 0; i < DAL_PICTURE_COUNT; i++) write_numbers(data, m, i, names[i]);
+    json_close(data);
 }

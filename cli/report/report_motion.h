@@ -6,9 +6,9 @@
 #define DAL_CLI_REPORT_MOTION_H
 
 #include "dalembert.h"
+#include "io/json.h"
 
 #include <stdbool.h>
-#include <stdio.h>
 
 /* Frames of a motion on the page of a study, of which there may be many, and on that of a run; two
  * of five numbers a frame are at most 40 and 300 kB. */
@@ -31,6 +31,6 @@ void motion_free(motion *m);
 /* The larger side of the path. */
 double motion_extent(const motion *m);
 /* Writes it as a JSON object. */
-void motion_write(FILE *page, const motion *m);
+void motion_write(json_writer *data, const motion *m);
 
 #endif

@@ -85,15 +85,20 @@ void report_file(report *r, const char *name, const char *summary)
 {
     char *path = cli_join(r->directory, name), line[512];
     FILE *file = fopen(path, "r");
-    free(path);
     if (!file && errno == ENOMEM) cli_out_of_memory();
-    if (!file) return;
+    if (!file) {
+        if (errno != ENOENT) r->read = cli_io("read", path);
+        free(path);
+        return;
+    }
     fputs("<details><summary>", r->page);
     report_text(r->page, summary);
     fputs("</summary>\n<pre tabindex=\"0\">", r->page);
     while (fgets(line, sizeof line, file)) report_text(r->page, line);
     fputs("</pre></details>\n", r->page);
+    if (ferror(file)) r->read = cli_io("read", path);
     fclose(file);
+    free(path);
 }
 
 /* ---- figures ------------------------------------------------------------------------------- */
@@ -110,6 +115,20 @@ void report_base64(FILE *page, const char *bytes, size_t length)
         for (size_t k = 0; k < 4; k++)
             fputc(i + k <= length ? letters[word >> (18 - 6 * k) & 63u] : '=', page);
     }
+}
+
+void report_put_levels(json_writer *data, const char *name, const uint16_t *level, int count)
+{
+    FILE *page = json_put_name(data, name);
+    char *bytes = cli_malloc(2 * (size_t)count + 1);
+    for (int i = 0; i < count; i++) {
+        bytes[2 * i] = (char)(level[i] & 0xff);
+        bytes[2 * i + 1] = (char)(level[i] >> 8);
+    }
+    fputc('"', page);
+    report_base64(page, bytes, 2 * (size_t)count);
+    fputc('"', page);
+    free(bytes);
 }
 
 int report_embed(report *r, const char *name, const char *alt, const char *caption)
@@ -174,7 +193,8 @@ int report_close(report *r)
     fprintf(r->page, "</p>\n<script type=\"module\">\n%s</script>\n</body></html>\n",
             report_script);
     cli_memstream_close(r->page);
-    const int status = file_replace(r->page_path, r->text, r->length, 0);
+    int status = r->read;
+    if (status == CLI_DONE) status = file_replace(r->page_path, r->text, r->length, 0);
     free(r->text);
     return status;
 }

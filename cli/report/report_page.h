@@ -9,7 +9,10 @@
 #ifndef DAL_CLI_REPORT_PAGE_H
 #define DAL_CLI_REPORT_PAGE_H
 
+#include "io/json.h"
+
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 extern const char report_style[], report_script[]; /* report.css and report.js, embedded */
@@ -22,6 +25,7 @@ typedef struct report {
     char *text;            /* what is on it, and how much, when it is closed */
     size_t length;
     char *page_path;
+    int read;           /* the exit status of reading the files that are on the page */
     bool lacks_gnuplot; /* scripts are written, figures are not */
     int figures;        /* on the page so far */
 } report;
@@ -40,8 +44,9 @@ void report_title(report *r, const char *title);
  * line ends; the same in an element. */
 void report_text(FILE *page, const char *text);
 void report_element(FILE *page, const char *element, const char *text);
-/* Bytes as base64. */
+/* Bytes as base64; integers of 16 bits, little-endian, as a text of JSON in base64. */
 void report_base64(FILE *page, const char *bytes, size_t length);
+void report_put_levels(json_writer *data, const char *name, const uint16_t *level, int count);
 /* A table has its heads between REPORT_TABLE and REPORT_ROWS, then rows that begin with a name. */
 #define REPORT_TABLE     "<div class=\"wide\" tabindex=\"0\"><table><thead><tr>"
 #define REPORT_ROWS      "</tr></thead>\n<tbody>"
@@ -52,7 +57,8 @@ void report_number(FILE *page, const char *format, double x);
 /* A cell of a table with a size and a trend, in words and in colour, and a number below them.
  * Without both it holds the number alone. */
 void report_trend(FILE *page, const char *size, const char *trend, const char *number);
-/* A file of the directory, word for word, folded; nothing where there is none. */
+/* A file of the directory, word for word, folded; nothing where there is none.  Without one that
+ * cannot be read report_close fails. */
 void report_file(report *r, const char *name, const char *summary);
 /* The figure DIR/report/NAME.svg, inside the page; alt describes it in words. */
 int report_embed(report *r, const char *name, const char *alt, const char *caption);

@@ -303,7 +303,7 @@ static int find_worst(const label_figures *f, double bound, const char *step)
 }
 
 /* The motion of the most accurate run, and the least accurate that stays in sight of it. */
-static int write_motions(const label_figures *f)
+static int write_motions(const label_figures *f, json_writer *data)
 {
     motion pair[2] = {{.frames = 0}, {.frames = 0}};
     const int best = find_best(f);
@@ -317,7 +317,7 @@ static int write_motions(const label_figures *f)
         motion_free(&pair[1]);
         bound = error_of(f, row);
     }
-    data_write_motions(f->s->r->page, pair, 2);
+    data_write_motions(data, pair, 2);
     motion_free(&pair[0]);
     motion_free(&pair[1]);
     return status;
@@ -325,10 +325,10 @@ static int write_motions(const label_figures *f)
 
 static int write_data(const label_figures *f)
 {
-    data_begin(f->s->r->page);
-    data_write_envelopes(f->s, f->label, &f->steps, &f->series);
-    const int status = write_motions(f);
-    data_end(f->s->r->page);
+    json_writer data = data_begin(f->s->r->page);
+    data_write_envelopes(&data, f->s, f->label, &f->steps, &f->series);
+    const int status = write_motions(f, &data);
+    data_end(&data);
     return status;
 }
 

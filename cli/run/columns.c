@@ -100,6 +100,11 @@ static bool is_match(const run_columns *c, const run_request *request, int i, co
 static int without_multipliers(const run_request *request, const char *item)
 {
     char method[NAME_SIZE];
+    if (request->system->properties & DAL_MASS_ON_KERNEL)
+        return cli_fail(CLI_USAGE,
+                        "--columns: no column '%s': where W is used on ker A alone, methods carry "
+                        "no multipliers; those of F are h1..",
+                        item);
     return cli_fail(CLI_USAGE,
                     "--columns: no column '%s': %s has no multipliers of its own, which are "
                     "lambda1..; those of F are h1..",

@@ -52,7 +52,7 @@ int run_directory_lock(run_directory *dir, int is_new)
     dir->descriptor = open(dir->rows, O_RDWR | (is_new ? O_CREAT : 0), 0666);
     if (dir->descriptor < 0) return cli_io("write", dir->rows);
     if (fcntl(dir->descriptor, F_SETLK, &whole) == 0) return CLI_DONE;
-    /* Some network file systems have no locks; there the user must take care. */
+    /* A file system without locks: see ensemble_directory.c. */
     if (errno != EACCES && errno != EAGAIN) return CLI_DONE;
     return cli_fail(CLI_USAGE, "'%s': another process is writing to it", dir->rows);
 }

@@ -44,7 +44,6 @@ static int add(expect_reader *r, const yaml_node_t *node)
 
 /* ---- what an expectation is about ---- */
 
-/* Whether a label means a case: its own, its group's, its system's, or all. */
 bool study_label_means(const study_case *e, const char *label)
 {
     return strcmp(label, e->label) == 0 || strcmp(label, e->group) == 0 ||

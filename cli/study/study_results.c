@@ -266,7 +266,7 @@ static int take_file(int descriptor, const results_file *f)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     struct stat info;
-    /* Some network file systems have no locks; there the user must take care. */
+    /* A file system without locks: see ensemble_directory.c. */
     const bool is_taken =
         fcntl(descriptor, F_SETLK, &whole) != 0 && (errno == EACCES || errno == EAGAIN);
     if (fstat(descriptor, &info) != 0) return cli_io("read", f->path);

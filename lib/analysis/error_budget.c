@@ -162,6 +162,14 @@ static dal_status create(comparisons *w, const dal_run_spec *spec, long long ste
 /* Steps between two samples of a run. */
 static long long stride_of(long long steps) { return (steps + SAMPLES - 1) / SAMPLES; }
 
+static dal_status observe(dal_run *run, double *values, dal_error *error)
+{
+    const dal_status status = dal_run_observe(run, values);
+    if (status == DAL_OK) return DAL_OK;
+    return dal__fail(error, status, "the observables at t = %.17g: %s", dal_run_time(run),
+                     dal_status_text(status));
+}
+
 /* Samples a run that takes `per` steps for each step of the first one. */
 static dal_status sample_run(comparisons *w, dal_run *run, int which, int per, dal_error *error)
 {
@@ -169,7 +177,7 @@ static dal_status sample_run(comparisons *w, dal_run *run, int which, int per, d
     const int count = w->of->observables;
     for (long long at = 0; at <= steps; at += stride) {
         if (at > 0) DAL_TRY(dal_run_advance(run, stride * per, error));
-        DAL_TRY(dal_run_observe(run, w->values));
+        DAL_TRY(observe(run, w->values, error));
         dal_statistics_add(series(w, which), count, (double)at * w->of->spec.options.step,
                            w->values);
         dal_statistics_add_scales(series(w, which), count, dal_run_scales(run));
@@ -245,7 +253,7 @@ static dal_status sample_beginning(comparisons *w, dal_run **run, dal_error *err
     for (long long at = 0; at <= steps; at += stride) {
         for (int k = 0; k < TOGETHER; k++) {
             if (at > 0) DAL_TRY(dal_run_advance(run[k], k == HALF ? 2 * stride : stride, error));
-            DAL_TRY(dal_run_observe(run[k], w->values + k * w->of->observables));
+            DAL_TRY(observe(run[k], w->values + k * w->of->observables, error));
         }
         add_beginning(w, (double)at * w->of->spec.options.step);
         const double *scales = dal_run_scales(run[RUN]); /* differences have them, too */

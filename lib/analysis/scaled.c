@@ -205,6 +205,7 @@ static void make_system(dal_scaled *s)
     s->system.wide4 = s->system.wide8 = NULL;
     s->system.extended = s->system.quad = NULL;
     s->system.series = NULL;
+    s->system.branches = NULL;
     s->system.picture = NULL;
     s->system.events = 0;
     s->system.solved_velocities = 0;

@@ -65,6 +65,8 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
 dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *error);
 /* The pragmas that keep a compiler exact; kernel, system, method and steps. */
 void dal__write_compiler(dal__generation *g);
+/* The one rule for loops over components: unrolled, or vectors. */
+void dal__write_unrolling(dal__generation *g);
 void dal__write_steps(dal__generation *g);
 
 #endif

@@ -85,7 +85,7 @@ static const char usage[] =
     " * Change y only before the first step; PREFIX_set sets parameters, and begins the method "
     "again.\n"
     " *\n"
-    " *     cc -O3 -march=native -c FILE.c         as C11 or C++17; needs libm alone\n"
+    " *     cc -O3 -march=native -fno-math-errno -c FILE.c    as C11 or C++17; needs libm alone\n"
     " *\n"
     " * Without -march=native, or -mfma, a fused multiply-add on x86-64 is a slow call of libm.\n"
     " * From another file: #define PREFIX_HEADER, then #include this one: declarations only.\n"

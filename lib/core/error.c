@@ -133,6 +133,13 @@ dal_status dal__find_parameter(const dal_system *s, const char *name, int *numbe
     return dal__unknown(error, "parameter", name, s->parameter, names);
 }
 
+const char *dal__mass_words(const dal_system *s)
+{
+    return s->properties & DAL_MASS_ON_KERNEL
+               ? "the mass matrix, on the velocities that the constraints allow,"
+               : "the mass matrix";
+}
+
 dal_status dal__set_parameters(const dal_system *s, const dal_setting *settings, int count,
                                dal_status not_finite, double *value, dal_error *error)
 {

@@ -59,6 +59,8 @@ dal_status dal__check_settings(const dal_setting *settings, int count, const cha
 /* Finds the number of a parameter, from 0.  Errors: DAL_NAME with the nearest name. */
 dal_status dal__find_parameter(const dal_system *system, const char *name, int *number,
                                dal_error *error);
+/* How messages call the W that must be regular. */
+const char *dal__mass_words(const dal_system *system);
 /* Sets the values of all parameters: those of the system, and settings over them.  Errors: DAL_NAME
  * with the nearest name, not_finite where a value is not finite. */
 dal_status dal__set_parameters(const dal_system *system, const dal_setting *settings, int count,

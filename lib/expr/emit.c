@@ -61,17 +61,23 @@ static void write_operand(const writer *w, uint32_t place, bool bare)
     }
 }
 
-static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
+const char *dal__operation_expression(uint32_t op) { return expressions[op]; }
 
-void dal__expression_write(int op, dal__operand_writer *write, const void *user, dal__buffer *text)
+/* Of the name or number that begins there; 0: none does. */
+static size_t name_length(const char *at)
 {
-    const char *at = expressions[op];
-    for (char before = ' '; *at; before = *at++) {
-        const bool alone = !is_letter(before) && !is_letter(at[1]);
-        if (alone && *at >= 'a' && *at <= 'c')
-            write(user, *at - 'a');
-        else
-            dal__buffer_append(text, *at == '*' && at[1] != ' ' ? "* " : (char[]){*at, '\0'});
+    return strspn(at, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789");
+}
+
+void dal__expression_write(const char *expression, dal__name_writer *write, const void *user,
+                           dal__buffer *text)
+{
+    for (const char *at = expression; *at;) {
+        const size_t name = name_length(at), length = name ? name : 1;
+        const char *end = name ? write(user, at, name) : NULL;
+        if (!end) dal__buffer_append_bytes(text, at, length);
+        if (*at == '*' && at[1] != ' ') dal__buffer_append(text, " ");
+        at = end ? end : at + length;
     }
 }
 
@@ -82,10 +88,12 @@ typedef struct operands {
     bool bare;
 } operands;
 
-static void write_place(const void *user, int operand)
+static const char *write_place(const void *user, const char *name, size_t length)
 {
     const operands *o = user;
-    write_operand(o->w, o->place[operand], o->bare);
+    if (length > 1 || *name < 'a' || *name > 'c') return NULL;
+    write_operand(o->w, o->place[*name - 'a'], o->bare);
+    return name + 1;
 }
 
 static void write_expression(const writer *w, const dal__instruction *i)
@@ -102,7 +110,7 @@ static void write_expression(const writer *w, const dal__instruction *i)
     const bool numbers = is_number(w->tapes, i->a) && is_number(w->tapes, i->b);
     const bool bare = !numbers && !strstr(expressions[i->op], "dal_") && i->op != DAL__NEG;
     const operands o = {w, {i->a, i->b, i->c}, bare};
-    dal__expression_write((int)i->op, write_place, &o, w->text);
+    dal__expression_write(expressions[i->op], write_place, &o, w->text);
 }
 
 static void write_instruction(writer *w, const dal__instruction *i)

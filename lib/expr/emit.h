@@ -31,9 +31,14 @@ void dal__tapes_write_tables(const dal__tapes *tapes, dal__buffer *text);
 
 /* Writes what is constant along a run, by its place in work; bare: a number may stay a double. */
 void dal__constant_write(const dal__tapes *tapes, uint32_t place, bool bare, dal__buffer *text);
-/* Writes the expression of an operation; write writes operand 0, 1 or 2 of it. */
-typedef void dal__operand_writer(const void *user, int operand);
-void dal__expression_write(int op, dal__operand_writer *write, const void *user, dal__buffer *text);
+/* Writes what a name of an expression means, and returns the end of what it has read of it; NULL:
+ * the name stays. */
+typedef const char *dal__name_writer(const void *user, const char *name, size_t length);
+/* Writes an expression as the preprocessor makes text of it, with its names as write has them. */
+void dal__expression_write(const char *expression, dal__name_writer *write, const void *user,
+                           dal__buffer *text);
+/* The expression of an operation in a, b and c. */
+const char *dal__operation_expression(uint32_t op);
 
 /* The kinds of elementary functions that a tape calls. */
 enum {

@@ -26,6 +26,7 @@ static void tape_free(dal__tape *tape)
     free(tape->output);
     free(tape->place);
     free(tape->code);
+    free(tape->held);
 }
 
 void dal__tapes_free(dal__tapes *tapes)
@@ -56,6 +57,8 @@ int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count)
     tapes->tape[tapes->count] = tape;
     return tapes->count++;
 }
+
+void dal__tapes_let_hold(dal__tapes *tapes, int i) { tapes->tape[i].may_hold = true; }
 
 /* ---- a schedule ---- */
 
@@ -156,6 +159,35 @@ static int find_lives(schedule *s, const dal__tape *tape, dal__node top)
     return computed;
 }
 
+/* Instruction i of node `node`, which decides at its point. */
+static dal__instruction held_instruction(const dal__tapes *tapes, dal__node node,
+                                         dal__instruction i)
+{
+    enum { P, SIGN, MINUS_SIGN, BELOW, ABOVE };
+    const dal__held_point point = tapes->point[node];
+    if (point == 0) return i;
+    const uint32_t number = (uint32_t)abs(point) - 1;
+    const uint32_t p = (uint32_t)tapes->held + 1 + DAL__HELD_NUMBERS * number;
+    const uint32_t sign = p + (point > 0 ? SIGN : MINUS_SIGN);
+    const uint32_t below = p + (point > 0 ? BELOW : ABOVE);
+    switch (i.op) {
+    case DAL__ABS:
+        return (dal__instruction){DAL__MUL, i.d, i.a, sign, 0};
+    case DAL__SIGN:
+        return (dal__instruction){DAL__MIN, i.d, sign, sign, 0};
+    case DAL__FLOOR:
+        return (dal__instruction){DAL__FLOOR, i.d, p, 0, 0};
+    case DAL__MIN:
+        return (dal__instruction){DAL__IF, i.d, below, i.a, i.b};
+    case DAL__MAX:
+        return (dal__instruction){DAL__IF, i.d, below, i.b, i.a};
+    case DAL__TABLE:
+        return (dal__instruction){DAL__PIECE, i.d, i.a, i.b, p};
+    default: /* < and <=: they differ where no motion stays */
+        return (dal__instruction){DAL__MIN, i.d, below, below, 0};
+    }
+}
+
 /* Frees the place of a temporary that node i reads last. */
 static void release(schedule *s, const dal__tapes *tapes, dal__node x, dal__node i)
 {
@@ -192,6 +224,7 @@ static void emit(schedule *s, dal__tapes *tapes, dal__tape *tape, dal__node i, d
         code.d = s->use[l.op == DAL__SIN ? i : pair].place;
         code.b = s->use[l.op == DAL__SIN ? pair : i].place;
     }
+    if (tape->held) tape->held[tape->length] = held_instruction(tapes, i, code);
     tape->code[tape->length++] = code;
 }
 
@@ -202,8 +235,11 @@ static dal_status schedule_tape(schedule *s, dal__tapes *tapes, dal__tape *tape)
     dal__node top = 0;
     for (int k = 0; k < tape->outputs; k++)
         if (tape->output[k] > top) top = tape->output[k];
-    tape->code = malloc(((size_t)find_lives(s, tape, top) + 1) * sizeof *tape->code);
-    if (!tape->code) return DAL_MEMORY;
+    const size_t computed = (size_t)find_lives(s, tape, top) + 1;
+    const bool may_hold = tape->may_hold && tapes->points > 0;
+    tape->code = malloc(computed * sizeof *tape->code);
+    tape->held = may_hold ? malloc(computed * sizeof *tape->held) : NULL;
+    if (!tape->code || (may_hold && !tape->held)) return DAL_MEMORY;
     s->vacancies = s->used = 0;
     for (dal__node i = 1; i <= top; i++) {
         if (!is_computed(s, i)) continue;
@@ -234,7 +270,9 @@ static dal_status lay_out(dal__tapes *tapes, schedule *s)
         }
     }
     tapes->first_input = place;
-    tapes->temporaries = place + (size_t)tapes->inputs;
+    tapes->held = place + (size_t)tapes->inputs;
+    tapes->temporaries =
+        tapes->held + (tapes->points > 0 ? 1 + DAL__HELD_NUMBERS * (size_t)tapes->points : 0);
     for (dal__node i = 1; i <= s->last_node; i++) {
         dal__record r = dal__inspect(tapes->graph, i);
         if (r.op != DAL__SYMBOL || !s->use[i].reached) continue;

@@ -4,12 +4,12 @@
 #include "expr/tape.h"
 #include "expr/traversal.h"
 
-static __attribute__((flatten, noinline)) void execute(const dal__tape *tape,
-                                                       const dal__table *tables, double *work)
+static __attribute__((flatten, noinline)) void
+execute(const dal__instruction *code, int length, const dal__table *tables, double *work)
 {
     num *w = (num *)work;
-    for (int k = 0; k < tape->length; k++) {
-        const dal__instruction i = tape->code[k]; /* a copy, which no write to w can change */
+    for (int k = 0; k < length; k++) {
+        const dal__instruction i = code[k]; /* a copy, which no write to w can change */
         switch (i.op) {
 #define CASE(code, expression)                                                                     \
     case DAL__##code: {                                                                            \
@@ -26,6 +26,11 @@ static __attribute__((flatten, noinline)) void execute(const dal__tape *tape,
             const dal__table *t = &tables[i.b / DAL__TABLE_ORDERS];
             w[i.d] = dal_piecewise(w[i.a], t->data, t->knots, (int)(i.b % DAL__TABLE_ORDERS));
         } break;
+        case DAL__PIECE: {
+            const dal__table *t = &tables[i.b / DAL__TABLE_ORDERS];
+            const int order = (int)(i.b % DAL__TABLE_ORDERS);
+            w[i.d] = dal_piece_at(w[i.c], w[i.a], t->data, t->knots, order);
+        } break;
         }
     }
 }
@@ -33,8 +38,9 @@ static __attribute__((flatten, noinline)) void execute(const dal__tape *tape,
 void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work, double *out)
 {
     const dal__tape *tape = &tapes->tape[program];
-    execute(tape, tapes->tables, work);
     const num *w = (const num *)work;
+    const bool is_held = tape->held && dal_lane(w[tapes->held], 0) != 0.0;
+    execute(is_held ? tape->held : tape->code, tape->length, tapes->tables, work);
     num *o = (num *)out;
     for (int k = 0; k < tape->outputs; k++) o[k] = w[tape->place[k]];
 }
@@ -44,6 +50,18 @@ void DAL_WIDE(dal__tapes_prepare)(const dal__tapes *tapes, double *work)
 {
     num *numbers = (num *)work + tapes->parameters;
     for (int i = 0; i < tapes->numbers; i++) numbers[i] = dal_num(tapes->number[i]);
-    execute(&tapes->hoisted, tapes->tables, work);
+    execute(tapes->hoisted.code, tapes->hoisted.length, tapes->tables, work);
+    DAL_WIDE(dal__tapes_hold)(tapes, NULL, work);
+}
+
+void DAL_WIDE(dal__tapes_hold)(const dal__tapes *tapes, const double *point, double *work)
+{
+    num *held = (num *)work + tapes->held;
+    if (tapes->points > 0) *held++ = dal_num(point != NULL);
+    for (int k = 0; point && k < tapes->points; k++, held += DAL__HELD_NUMBERS) {
+        const double p = point[k], sign = (p > 0.0) - (p < 0.0);
+        const double numbers[DAL__HELD_NUMBERS] = {p, sign, -sign, p < 0.0, p > 0.0};
+        for (int i = 0; i < DAL__HELD_NUMBERS; i++) held[i] = dal_num(numbers[i]);
+    }
 }
 #endif

@@ -1,7 +1,7 @@
 /* taylor.c - series programs from tapes: every result of a tape becomes a series of its own. */
 #include "expr/taylor.h"
 #include "expr/operations.h"
-#include "expr/traversal.h"
+#include "expr/recurrences.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,8 +26,6 @@ void dal__taylor_free(dal__taylor *taylor)
     free(taylor);
 }
 
-static bool is_constant(uint32_t a) { return (a & DAL__TAYLOR_CONSTANT) != 0; }
-
 /* The name in a formula of an operation that has no Taylor series where it jumps or has a kink;
  * else NULL.  (hypot has none at 0 alone, where coefficients are not finite; if has one where its
  * condition is constant along a run.) */
@@ -36,24 +34,38 @@ static const char *refused_name(const dal__taylor_operation *i)
     const uint32_t op = i->op;
     int arity;
     if (op == DAL__LESS || op == DAL__LESS_EQUAL || op == DAL__EQUAL) return "a comparison";
-    if (op == DAL__IF && is_constant(i->a)) return NULL;
+    if (op == DAL__IF && dal__is_constant(i->a)) return NULL;
     if (op == DAL__TABLE) return "a table";
     if (op == DAL__HYPOT || op >= DAL__OP_COUNT) return NULL;
     if (!((DAL__ROUGH) >> op & 1)) return NULL;
     return dal__function_name((dal__op)op, &arity);
 }
 
-/* Operations whose recurrence needs a second series, and those that divide. */
-#define PAIRED                                                                                     \
-    (DAL__OP_BIT(SIN) | DAL__OP_BIT(COS) | DAL__OP_BIT(TAN) | DAL__OP_BIT(SINH) |                  \
-     DAL__OP_BIT(COSH) | DAL__OP_BIT(TANH) | DAL__OP_BIT(ASIN) | DAL__OP_BIT(ACOS) |               \
-     DAL__OP_BIT(ATAN) | DAL__OP_BIT(ATAN2) | DAL__OP_BIT(ASINH) | DAL__OP_BIT(SINCOS))
-#define DIVIDING                                                                                   \
-    (DAL__OP_BIT(DIV) | DAL__OP_BIT(SQRT) | DAL__OP_BIT(HYPOT) | DAL__OP_BIT(POW) |                \
-     DAL__OP_BIT(LOG) | DAL__OP_BIT(ASIN) | DAL__OP_BIT(ACOS) | DAL__OP_BIT(ATAN) |                \
-     DAL__OP_BIT(ATAN2) | DAL__OP_BIT(ASINH))
+/* Series of an operation: operands and results, or their slopes. */
+enum { NONE, A, B, C, U, W, SLOPES, SLOPE_A = SLOPES + A, SLOPE_B, SLOPE_C, SLOPE_U };
 
-static bool is_one_of(uint32_t op, uint64_t set) { return op < 64 && set >> op & 1; }
+/* What the recurrences need: pairs of series for inner sums, a second series, a reciprocal. */
+static const struct {
+    uint8_t pair[DAL__TAYLOR_SUMS][2];
+    bool has_pair, divides;
+} recurrences[DAL__RECURRENCES] = {
+#define SUMS(...)                                                                                  \
+    {                                                                                              \
+        __VA_ARGS__                                                                                \
+    }
+#define NO_SUMS                                 SUMS({NONE, NONE})
+#define PLAIN(code, sums, u)                    [DAL__##code] = {sums, false, false},
+#define QUOTIENT(code, sums, divisor, u)        [DAL__##code] = {sums, false, true},
+#define PAIR(code, sums, second, u, w)          [DAL__##code] = {sums, true, false},
+#define PAIR_QUOTIENT(code, sums, second, u, w) [DAL__##code] = {sums, true, true},
+    DAL__RECURRENCE_LIST(PLAIN, QUOTIENT, PAIR, PAIR_QUOTIENT)
+#undef SUMS
+#undef NO_SUMS
+#undef PLAIN
+#undef QUOTIENT
+#undef PAIR
+#undef PAIR_QUOTIENT
+};
 
 /* What is known while a tape is converted. */
 typedef struct conversion {
@@ -69,15 +81,24 @@ static dal__taylor_operation *append_operation(const conversion *c, dal__taylor_
     dal__taylor *taylor = c->taylor;
     const uint32_t operand[] = {own.a, own.b, own.c};
     uint32_t depth = 0;
-    own.d = own.e = own.reciprocal = (uint32_t)taylor->slots++;
-    if (is_one_of(own.op, PAIRED)) own.e = (uint32_t)taylor->slots++;
-    if (is_one_of(own.op, DIVIDING)) own.reciprocal = (uint32_t)taylor->slots++;
+    own.u = own.w = own.reciprocal = (uint32_t)taylor->slots++;
+    if (recurrences[own.recurrence].has_pair) own.w = (uint32_t)taylor->slots++;
+    if (recurrences[own.recurrence].divides) own.reciprocal = (uint32_t)taylor->slots++;
     for (int i = 0; i < 3; i++)
-        if (!is_constant(operand[i]) && c->depth[operand[i]] >= depth)
+        if (!dal__is_constant(operand[i]) && c->depth[operand[i]] >= depth)
             depth = c->depth[operand[i]] + 1;
-    c->depth[own.d] = c->depth[own.e] = own.turns ? 0 : depth;
+    c->depth[own.u] = c->depth[own.w] = depth;
     taylor->code[taylor->length] = own;
     return &taylor->code[taylor->length++];
+}
+
+/* An operation of order 0 and its recurrence. */
+static dal__taylor_operation make_operation(uint32_t op, uint32_t a, uint32_t b)
+{
+    const uint32_t recurrence = op == DAL__LOG && dal__is_constant(a)   ? DAL__LOG_CONSTANT
+                                : op == DAL__DIV && dal__is_constant(b) ? DAL__DIV_CONSTANT
+                                                                        : op;
+    return (dal__taylor_operation){.op = op, .recurrence = recurrence, .a = a, .b = b};
 }
 
 /* The slot of j a_j. */
@@ -85,15 +106,15 @@ static uint32_t slope(const conversion *c, uint32_t a)
 {
     const dal__taylor *taylor = c->taylor;
     for (int k = c->first; k < taylor->length; k++)
-        if (taylor->code[k].op == DAL__SLOPE && taylor->code[k].a == a) return taylor->code[k].d;
-    return append_operation(c, (dal__taylor_operation){.op = DAL__SLOPE, .a = a})->d;
+        if (taylor->code[k].op == DAL__SLOPE && taylor->code[k].a == a) return taylor->code[k].u;
+    return append_operation(c, make_operation(DAL__SLOPE, a, a))->u;
 }
 
 /* The number of the inner sum of a and b; DAL__TAYLOR_CONSTANT where one of them is constant along
  * a run, so that no sum is needed. */
 static uint32_t find_sum(dal__taylor *taylor, uint32_t a, uint32_t b)
 {
-    if (is_constant(a) || is_constant(b)) return DAL__TAYLOR_CONSTANT;
+    if (dal__is_constant(a) || dal__is_constant(b)) return DAL__TAYLOR_CONSTANT;
     for (int k = 0; k < taylor->sums; k++) {
         const dal__taylor_sum *sum = &taylor->sum[k];
         if ((sum->a == a && sum->b == b) || (sum->a == b && sum->b == a)) return (uint32_t)k;
@@ -102,58 +123,21 @@ static uint32_t find_sum(dal__taylor *taylor, uint32_t a, uint32_t b)
     return (uint32_t)taylor->sums++;
 }
 
-/* Series of an operation: operands and results, or their slopes. */
-enum { NONE, A, B, C, D, E, SLOPES, SLOPE_A = SLOPES + A, SLOPE_B, SLOPE_C, SLOPE_D };
-
-/* The pairs of series whose inner sums the recurrences need; see taylor_wide.c. */
-static const struct {
-    uint32_t op;
-    uint8_t pair[DAL__TAYLOR_SUMS][2];
-} inner_sums[] = {
-    {DAL__MUL, {{A, B}}},
-    {DAL__MUL_ADD, {{A, B}}},
-    {DAL__MUL_SUB, {{A, B}}},
-    {DAL__SUB_MUL, {{A, B}}},
-    {DAL__DIV, {{B, D}}},
-    {DAL__SQRT, {{D, D}}},
-    {DAL__HYPOT, {{D, D}, {A, A}, {B, B}}},
-    {DAL__EXP, {{SLOPE_A, D}}},
-    {DAL__POW_MOVING, {{SLOPE_C, D}}},
-    {DAL__POW, {{SLOPE_A, D}, {SLOPE_D, A}}},
-    {DAL__LOG, {{SLOPE_D, A}}},
-    {DAL__SIN, {{SLOPE_A, D}, {SLOPE_A, E}}},
-    {DAL__COS, {{SLOPE_A, D}, {SLOPE_A, E}}},
-    {DAL__SINCOS, {{SLOPE_A, D}, {SLOPE_A, E}}},
-    {DAL__SINH, {{SLOPE_A, D}, {SLOPE_A, E}}},
-    {DAL__COSH, {{SLOPE_A, D}, {SLOPE_A, E}}},
-    {DAL__TAN, {{SLOPE_A, E}, {D, D}}},
-    {DAL__TANH, {{SLOPE_A, E}, {D, D}}},
-    {DAL__ASIN, {{SLOPE_D, E}, {SLOPE_D, A}}},
-    {DAL__ACOS, {{SLOPE_D, E}, {SLOPE_D, A}}},
-    {DAL__ASINH, {{SLOPE_D, E}, {SLOPE_D, A}}},
-    {DAL__ATAN, {{SLOPE_D, E}, {A, A}}},
-    {DAL__ATAN2, {{SLOPE_D, E}, {A, A}, {B, B}, {SLOPE_A, B}, {SLOPE_B, A}}},
-};
-
 /* One of the series of an operation, or a constant: for NONE, and for the slope of a constant. */
 static uint32_t series_of(const conversion *c, const dal__taylor_operation *i, int which)
 {
-    const uint32_t of[] = {DAL__TAYLOR_CONSTANT, i->a, i->b, i->c, i->d, i->e};
+    const uint32_t of[] = {DAL__TAYLOR_CONSTANT, i->a, i->b, i->c, i->u, i->w};
     const uint32_t slot = of[which % SLOPES];
-    return which < SLOPES || is_constant(slot) ? slot : slope(c, slot);
+    return which < SLOPES || dal__is_constant(slot) ? slot : slope(c, slot);
 }
 
 /* Appends an operation and the sums that it needs; slopes of operands stand before it, those of its
  * results behind it. */
 static dal__taylor_operation *append_recurrence(const conversion *c, dal__taylor_operation own)
 {
-    const size_t count = sizeof inner_sums / sizeof *inner_sums;
-    size_t k = 0;
-    while (k < count && inner_sums[k].op != own.op) k++;
-    if (k == count || own.turns) return append_operation(c, own);
-    const uint8_t(*pair)[2] = inner_sums[k].pair;
+    const uint8_t(*pair)[2] = recurrences[own.recurrence].pair;
     for (int j = 0; j < DAL__TAYLOR_SUMS; j++)
-        if (pair[j][0] < SLOPE_D) series_of(c, &own, pair[j][0]);
+        if (pair[j][0] < SLOPE_U) series_of(c, &own, pair[j][0]);
     dal__taylor_operation *i = append_operation(c, own);
     for (int j = 0; j < DAL__TAYLOR_SUMS && pair[j][0]; j++)
         i->sum[i->sums++] =
@@ -165,12 +149,15 @@ static dal__taylor_operation *append_recurrence(const conversion *c, dal__taylor
 static dal__taylor_operation *append_turn(const conversion *c, dal__taylor_operation own)
 {
     const uint32_t rate = own.a + (uint32_t)c->taylor->coordinates;
-    own.turns = true;
+    own.recurrence = own.op == DAL__SIN   ? DAL__SIN_TURN
+                     : own.op == DAL__COS ? DAL__COS_TURN
+                                          : DAL__SINCOS_TURN;
     dal__taylor_operation *i = append_operation(c, own);
-    const uint32_t sine = i->op == DAL__COS ? i->e : i->d, cosine = i->op == DAL__COS ? i->d : i->e;
+    const uint32_t sine = i->op == DAL__COS ? i->w : i->u, cosine = i->op == DAL__COS ? i->u : i->w;
+    c->depth[sine] = c->depth[cosine] = 0;
     c->turn[sine] = c->turn[cosine] = (uint32_t)c->taylor->length;
-    i->b = append_recurrence(c, (dal__taylor_operation){DAL__MUL, .a = rate, .b = cosine})->d;
-    i->c = append_recurrence(c, (dal__taylor_operation){DAL__MUL, .a = rate, .b = sine})->d;
+    i->b = append_recurrence(c, make_operation(DAL__MUL, rate, cosine))->u;
+    i->c = append_recurrence(c, make_operation(DAL__MUL, rate, sine))->u;
     return i;
 }
 
@@ -178,11 +165,11 @@ static dal__taylor_operation *append_turn(const conversion *c, dal__taylor_opera
  * is the slot. */
 static bool find_turn(const conversion *c, uint32_t a, uint32_t b, uint32_t *product)
 {
-    const uint32_t turn = is_constant(a) ? 0 : c->turn[a];
+    const uint32_t turn = dal__is_constant(a) ? 0 : c->turn[a];
     if (turn == 0) return false;
     const dal__taylor_operation *i = &c->taylor->code[turn - 1];
     if (b != i->a + (uint32_t)c->taylor->coordinates) return false;
-    *product = (a == i->d) == (i->op == DAL__COS) ? i->b : i->c;
+    *product = (a == i->u) == (i->op == DAL__COS) ? i->b : i->c;
     return true;
 }
 
@@ -193,24 +180,22 @@ static bool is_slope_of_hypot(const conversion *c, uint32_t a, uint32_t b)
     const dal__taylor_operation *code = c->taylor->code, *equal = NULL;
     bool root = false, divides = false;
     for (int k = c->first; k < c->taylor->length; k++)
-        if (code[k].op == DAL__EQUAL && code[k].d == a) equal = &code[k];
+        if (code[k].op == DAL__EQUAL && code[k].u == a) equal = &code[k];
     for (int k = c->first; k < c->taylor->length && equal; k++) {
-        const uint32_t r = code[k].op == DAL__HYPOT ? code[k].d : code[k].b;
+        const uint32_t r = code[k].op == DAL__HYPOT ? code[k].u : code[k].b;
         if (r != equal->a && r != equal->b) continue;
         root = root || code[k].op == DAL__HYPOT;
         divides = divides || code[k].op == DAL__DIV;
     }
-    return is_constant(b) && root && divides;
+    return dal__is_constant(b) && root && divides;
 }
 
 /* a^b = exp(b log a), of an exponent that moves. */
 static dal__taylor_operation make_moving_power(const conversion *c, dal__taylor_operation own)
 {
-    const dal__taylor_operation log = {.op = DAL__LOG, .a = own.a};
-    const dal__taylor_operation exponent = {
-        .op = DAL__MUL, .a = own.b, .b = append_recurrence(c, log)->d};
-    own.c = append_recurrence(c, exponent)->d;
-    own.op = DAL__POW_MOVING;
+    const uint32_t log = append_recurrence(c, make_operation(DAL__LOG, own.a, own.a))->u;
+    own.c = append_recurrence(c, make_operation(DAL__MUL, own.b, log))->u;
+    own.recurrence = DAL__POW_MOVING;
     return own;
 }
 
@@ -219,7 +204,8 @@ static dal__taylor_operation make_moving_power(const conversion *c, dal__taylor_
 static void convert(const conversion *c, const dal__instruction *i)
 {
     uint32_t *slot = c->slot, a = slot[i->a], b = slot[i->b];
-    dal__taylor_operation own = {.op = i->op, .a = a, .b = b, .c = slot[i->c]};
+    dal__taylor_operation own = make_operation(i->op, a, b);
+    own.c = slot[i->c];
     const bool product = i->op == DAL__MUL || i->op == DAL__MUL_ADD || i->op == DAL__MUL_SUB ||
                          i->op == DAL__SUB_MUL;
     const bool angle = i->op == DAL__SIN || i->op == DAL__COS || i->op == DAL__SINCOS;
@@ -229,14 +215,14 @@ static void convert(const conversion *c, const dal__instruction *i)
         slot[i->d] = own.c;
         return;
     }
-    if (product && !is_constant(a) && !is_constant(b) && c->depth[a] > c->depth[b])
+    if (product && !dal__is_constant(a) && !dal__is_constant(b) && c->depth[a] > c->depth[b])
         own.a = b, own.b = a;
-    if (i->op == DAL__POW && !is_constant(b)) own = make_moving_power(c, own);
+    if (i->op == DAL__POW && !dal__is_constant(b)) own = make_moving_power(c, own);
     if (i->op == DAL__SINCOS) own.b = a; /* where the tape has the place of the cosine */
     const bool turns = angle && a >= 1 && a <= (uint32_t)c->taylor->coordinates;
     const dal__taylor_operation *last = turns ? append_turn(c, own) : append_recurrence(c, own);
-    slot[i->d] = last->d;
-    if (i->op == DAL__SINCOS) slot[i->b] = last->e;
+    slot[i->d] = last->u;
+    if (i->op == DAL__SINCOS) slot[i->b] = last->w;
 }
 
 /* Finds whether an operation is needed beyond order 0, and with it operands and sums;
@@ -244,14 +230,14 @@ static void convert(const conversion *c, const dal__instruction *i)
 static void find_orders(dal__taylor *taylor, dal__taylor_operation *i, bool *needed)
 {
     const uint32_t operand[] = {i->a, i->b, i->c};
-    i->once = !needed[i->d] && !needed[i->e];
+    i->once = !needed[i->u] && !needed[i->w];
     if (i->once) return;
     const char *name = refused_name(i);
     if (name && !taylor->refused) taylor->refused = name;
     for (int j = 0; j < 3; j++)
-        if (!is_constant(operand[j])) needed[operand[j]] = true;
+        if (!dal__is_constant(operand[j])) needed[operand[j]] = true;
     for (int j = 0; j < i->sums; j++) {
-        if (is_constant(i->sum[j])) continue;
+        if (dal__is_constant(i->sum[j])) continue;
         dal__taylor_sum *sum = &taylor->sum[i->sum[j]];
         sum->needed = needed[sum->a] = needed[sum->b] = true;
     }
@@ -279,7 +265,7 @@ static void convert_tape(const conversion *c, const dal__tape *tape, int count, 
     for (int k = 0; k < tape->length; k++) convert(c, &tape->code[k]);
     for (int k = 0; k < tape->outputs; k++) {
         const uint32_t output = c->slot[tape->place[k]];
-        if (k < count && !is_constant(output)) needed[output] = true;
+        if (k < count && !dal__is_constant(output)) needed[output] = true;
         taylor->output[taylor->outputs++] = output;
     }
     /* Some operations need slopes or products that stand behind them, found in the second pass. */

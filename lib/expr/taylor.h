@@ -2,7 +2,7 @@
  *
  *     inputs x(t) = x_0 + x_1 t + x_2 t^2 + ..   ->   outputs f(x(t)) = f_0 + f_1 t + f_2 t^2 + ..
  *
- * One recurrence per operation (taylor_wide.c) gives coefficient k of its result from coefficients
+ * One recurrence per operation (recurrences.h) gives coefficient k of its result from coefficients
  * 0..k of its operands and 0..k-1 of itself.  A series program is made from tapes that are
  * finished: each result of a tape becomes a series, a slot, with a place of its own, since all its
  * coefficients are needed until the step ends; what is constant along a run stays in work.
@@ -22,27 +22,34 @@
 #define DAL_EXPR_TAYLOR_H
 
 #include "expr/tape.h"
+#include "expr/traversal.h"
 
 /* An operand is a slot, or with this bit the place in work of what is constant along a run. */
 #define DAL__TAYLOR_CONSTANT (UINT32_C(1) << 31)
 
-/* Operations that tapes do not have. */
+/* Recurrences that are not each of an operation of tapes. */
 enum {
-    DAL__POW_MOVING = 64, /* a power whose exponent moves: a^b = exp(c), c = b log a */
-    DAL__SLOPE            /* coefficients j a_j */
+    DAL__SLOPE = DAL__SUB_MUL + 1, /* coefficients j a_j */
+    DAL__POW_MOVING,               /* a power whose exponent moves: a^b = exp(c), c = b log a */
+    DAL__LOG_CONSTANT,             /* of what is constant along a run */
+    DAL__DIV_CONSTANT,             /* by what is */
+    DAL__SIN_TURN,                 /* sine of a coordinate a, whose cosine times a' is b, and */
+    DAL__COS_TURN,                 /* sine times a' is c; so the next two */
+    DAL__SINCOS_TURN,
+    DAL__RECURRENCES
 };
 
 enum { DAL__TAYLOR_SUMS = 5 };
 
-/* An operation.  d: slot of its result; e: of a second series, the cosine of a sine; reciprocal: of
- * what its recurrence multiplies by, in order 0 alone; the latter are d where there is none.
- * a, b, c: operands; sum[sums]: numbers of the inner sums, in the order of inner_sums. */
+/* An operation: of order 0 by op, as tapes have it, of others by recurrence, the same or one of
+ * those above.  u: slot of its result; w: of a second series, the cosine of a sine; reciprocal: of
+ * what its recurrence multiplies by, in order 0 alone; the latter are u where there is none.
+ * a, b, c: operands; sum[sums]: numbers of the inner sums, in the order of recurrences.h. */
 typedef struct dal__taylor_operation {
-    uint32_t op, d, e, reciprocal, a, b, c;
+    uint32_t op, recurrence, u, w, reciprocal, a, b, c;
     uint32_t sum[DAL__TAYLOR_SUMS];
     int sums;
-    bool turns; /* sine or cosine of a coordinate a: b and c are cos(a) a' and sin(a) a' */
-    bool once;  /* order 0 alone is needed */
+    bool once; /* order 0 alone is needed */
 } dal__taylor_operation;
 
 /* sum_(j=1..k-1) a_j b_(k-j) of two slots. */

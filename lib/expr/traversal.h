@@ -32,7 +32,8 @@ enum {
     DAL__SINCOS = DAL__OP_COUNT, /* sin a and cos a */
     DAL__MUL_ADD,                /* a*b + c, rounded once; so the next two */
     DAL__MUL_SUB,                /* a*b - c */
-    DAL__SUB_MUL                 /* c - a*b */
+    DAL__SUB_MUL,                /* c - a*b */
+    DAL__PIECE                   /* a table, its piece being held: see tape.h */
 };
 
 /* A node as it is computed everywhere: an operation of the graph, or a fused one.  What is fused

@@ -9,6 +9,7 @@
  * is locked as long as the compiler or the process that waits for it lives.  A folder whose source
  * nobody has locked was left by processes that were killed; the next compilation removes it. */
 #include "jit/cache.h"
+#include "core/hash.h"
 #include "core/machine.h"
 #include <dirent.h>
 #include <dlfcn.h>
@@ -31,8 +32,17 @@ extern char **environ;
 
 /* Compiler options; the bits do not depend on them.  Those of the machine are a part of the name of
  * the object, since machines may share a directory.  Without -s it holds the name of its source. */
-static const char *const usual[] = {"-x",      "c",     "-std=gnu11",        "-O2", "-w",
-                                    "-shared", "-fPIC", "-ffp-contract=off", "-s",  NULL};
+static const char *const usual[] = {"-x",
+                                    "c",
+                                    "-std=gnu11",
+                                    "-O2",
+                                    "-w",
+                                    "-shared",
+                                    "-fPIC",
+                                    "-ffp-contract=off",
+                                    "-fno-math-errno", /* square roots in vectors, too */
+                                    "-s",
+                                    NULL};
 static const char *const machine[][8] = {
 #define SET(set, ...) {__VA_ARGS__},
     DAL__INSTRUCTIONS_LIST(SET)
@@ -61,13 +71,6 @@ static command begin_command(const char *compiler)
     add_words(&c, usual);
     add_words(&c, machine[dal__machine_best()]);
     return c;
-}
-
-/* FNV-1a, 64 bits. */
-static uint64_t hash(uint64_t h, const char *bytes, size_t length)
-{
-    for (size_t i = 0; i < length; i++) h = (h ^ (unsigned char)bytes[i]) * 0x100000001b3u;
-    return h;
 }
 
 static dal_status failed(dal_error *error, const char *what, const char *path)
@@ -201,7 +204,7 @@ static bool is_whole(int file)
     uint64_t stored = 0, found = 1;
     if (bytes && length > sizeof stored) {
         memcpy(&stored, bytes + length - sizeof stored, sizeof stored);
-        found = hash(0, bytes, length - sizeof stored);
+        found = dal__hash(0, bytes, length - sizeof stored);
     }
     free(bytes);
     return stored == found;
@@ -236,7 +239,7 @@ static dal_status seal(const char *path, dal_error *error)
     size_t length;
     const int file = open(path, O_RDWR | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
     char *bytes = file >= 0 && fchmod(file, 0700) == 0 ? read_all(file, &length) : NULL;
-    const uint64_t sum = bytes ? hash(0, bytes, length) : 0;
+    const uint64_t sum = bytes ? dal__hash(0, bytes, length) : 0;
     const bool sealed = bytes && write_all(file, &sum, sizeof sum);
     free(bytes);
     const bool closed = file >= 0 && close(file) == 0;
@@ -248,8 +251,8 @@ static dal_status name_object(const command *c, const char *directory, const cha
                               size_t size, dal_error *error)
 {
     const size_t length = strlen(text);
-    uint64_t one = hash(UINT64_C(0xcbf29ce484222325), text, length), two = hash(1, text, length);
-    for (int i = 0; i < c->words; i++) one = hash(one, c->word[i], strlen(c->word[i]) + 1);
+    uint64_t one = dal__hash(DAL__HASH_START, text, length), two = dal__hash(1, text, length);
+    for (int i = 0; i < c->words; i++) one = dal__hash(one, c->word[i], strlen(c->word[i]) + 1);
     const int written =
         snprintf(path, size, "%s%s/%016llx%016llx.so", directory[0] == '/' ? "" : "./", directory,
                  (unsigned long long)one, (unsigned long long)two);

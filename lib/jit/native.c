@@ -22,9 +22,6 @@
 
 /* ---- texts ---- */
 
-/* Loops over components are unrolled up to this size of a state. */
-enum { MAX_UNROLLED = 64 };
-
 /* Declarations instead of headers, which take a compiler longer. */
 static void write_declarations(dal__generation *g)
 {
@@ -54,9 +51,7 @@ static const char lanes_text[] =
 static void write_sizes(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
-    const bool small = k->dim <= MAX_UNROLLED;
-    dal__buffer_append(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
-                                       : "#define DAL_UNROLL\n");
+    dal__write_unrolling(g);
     dal__buffer_print(&g->text,
                       "enum { DAL_FIXED_N = %d, DAL_FIXED_NW = %d, DAL_FIXED_M = %d, "
                       "DAL_FIXED_DIM = %d, DAL_FIXED_LIFTED = %d, DAL__OBSERVABLES = %d };\n",

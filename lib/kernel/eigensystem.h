@@ -49,7 +49,7 @@ DAL_INLINE void dal__divide_complex(num *m, int n, int k)
     }
 }
 
-/* Brings the largest entry of column k at or below the diagonal to the diagonal, in each lane. */
+/* As dal__pivot does for real rows; an entry is as large as the sum |re| + |im|. */
 DAL_INLINE void dal__pivot_complex(num *m, int rows, int k)
 {
     const int n = 2 * rows;

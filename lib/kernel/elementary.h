@@ -212,13 +212,14 @@ DAL_INLINE num dal_floor(num x)
  *
  *     data:  lower limit, upper limit | knot[knots], ascending | origin, c[4] of knots + 1 pieces
  *
- * Piece k holds from knot k - 1 up to knot k, which belongs to the next one. */
-DAL_INLINE num dal_piecewise(num x, const double *data, int knots, int order)
+ * Piece k holds from knot k - 1 up to knot k, which belongs to the next one.  The piece is the one
+ * that contains a point, also where x has left it. */
+DAL_INLINE num dal_piece_at(num point, num x, const double *data, int knots, int order)
 {
     const double *knot = data + 2;
     num d = x, c0 = x, c1 = x, c2 = x, c3 = x;
     for (int lane = 0; lane < DAL_LANES; lane++) {
-        const double at = dal_lane(x, lane);
+        const double at = dal_lane(point, lane);
         int k = 0;
         for (int rest = knots; rest > 0;) {
             const int half = rest / 2, right = knot[k + half] <= at;
@@ -243,6 +244,11 @@ DAL_INLINE num dal_piecewise(num x, const double *data, int knots, int order)
     default:
         return dal_fma(dal_num(0.0), d, dal_num(6.0) * c3);
     }
+}
+
+DAL_INLINE num dal_piecewise(num x, const double *data, int knots, int order)
+{
+    return dal_piece_at(x, x, data, knots, order);
 }
 #endif
 

@@ -1,7 +1,7 @@
 /* series.h - sums over Taylor coefficients.
  *
  * The k-th coefficient, k >= 1, of a series follows from its lower ones and from those of its
- * operands, by the recurrences of expr/taylor_wide.c.  Most of their work is inner sums of two
+ * operands, by the recurrences of expr/recurrences.h.  Most of their work is inner sums of two
  * series, over what is known before order k begins:
  *
  *     sum_(j=1..k-1) a_j b_(k-j)

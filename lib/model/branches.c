@@ -21,6 +21,7 @@
 #include "expr/terms.h"
 #include "expr/traversal.h"
 #include "model/formulas.h"
+#include "model/held.h"
 #include "model/model.h"
 #include "model/units.h"
 #include <math.h>
@@ -77,17 +78,14 @@ static dal__node table_side(dal__graph *graph, int symbol, dal__node a, int sign
 static dal__node switch_of(dal__graph *graph, dal__node i, int *sign)
 {
     const dal__record r = dal__inspect(graph, i);
-    dal__node s = 0;
-    if (r.fixed) return 0;
-    if (r.op == DAL__ABS || r.op == DAL__SIGN) s = r.a;
-    if (r.op == DAL__FLOOR) s = dal__node_sub(graph, r.a, dal__number(graph, 1.0));
-    if (r.op == DAL__LESS || r.op == DAL__LESS_EQUAL || r.op == DAL__MIN || r.op == DAL__MAX)
-        s = dal__node_sub(graph, r.a, r.b);
+    dal__node s = dal__switch_argument(graph, i);
+    if (s == 0) return 0;
+    if (r.op == DAL__FLOOR) s = dal__node_sub(graph, s, dal__number(graph, 1.0));
     if (r.op == DAL__TABLE) {
         const dal__table *table = &graph->tables[r.symbol / DAL__TABLE_ORDERS];
         const int corner = find_corner(table);
         if (corner < 0) return 0;
-        s = dal__node_sub(graph, r.a, dal__number(graph, dal__table_piece(table, corner + 1)[0]));
+        s = dal__node_sub(graph, s, dal__number(graph, dal__table_piece(table, corner + 1)[0]));
     }
     const dal__node opposite = dal__node_neg(graph, s);
     *sign = opposite < s ? -1 : 1;

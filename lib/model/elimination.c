@@ -6,8 +6,8 @@
  *
  * The pivots are chosen before any node is made, by eliminating the numbers at the default start
  * (or near it, when the matrix is singular there).  Among the entries of at
- * least a tenth of the largest, each relative to the size of its row and column, the first choice
- * are those that depend on parameters alone (they cannot vanish along a run), then untouched ones
+ * least a tenth of the largest, each relative to the size of its row and column (Jacobi scaling,
+ * below), the first choice are those that depend on parameters alone (they cannot vanish along a run), then untouched ones
  * (no cancellation), then those of the diagonal (they preserve the symmetry).  W may thus be
  * indefinite and have zeros on its diagonal.
  *
@@ -25,23 +25,26 @@ enum { VARYING = 1, TOUCHED = 2, PRESENT = 4 };
 /* The elimination in numbers. */
 typedef struct plan {
     int n;
-    double *value;                  /* [n*n] */
-    unsigned char *flag;            /* [n*n] */
-    double *row_root, *column_root; /* [n] of the largest entry of each */
-    int *row, *column;              /* [n]: the order of pivots; unused ones behind */
-    int *place;                     /* [n] of a column in column */
-    int *entry; /* [n*n] the columns of the entries of each row, entries[n] of them */
+    double *value;       /* [n*n] */
+    unsigned char *flag; /* [n*n] */
+    double *size;        /* [n] of the row and the column of each, as a diagonal entry has it */
+    int *row, *column;   /* [n]: the order of pivots; unused ones last */
+    int *place;          /* [n] of a column in column */
+    int *entry;          /* [n*n] the columns of the entries of each row, entries[n] of them */
     int *entries;
     long updates; /* of entries that vary along a run */
 } plan;
 
 /* ---- the order ---- */
 
+/* m_ij^2/(d_i d_j) with the sizes d: a number without units.  No digit of it depends on those of the
+ * coordinates where they are powers of two, so that the same pivots are chosen. */
 static double score(const plan *p, int i, int j)
 {
-    double size = p->row_root[i] * p->column_root[j];
-    double s = fabs(p->value[i * p->n + j]) / size;
-    return size > 0.0 && isfinite(s) ? s : 0.0;
+    const double m = p->value[i * p->n + j];
+    if (m == 0.0) return 0.0;
+    const double s = fabs(m / p->size[i]) * fabs(m / p->size[j]);
+    return isfinite(s) ? s : 0.0;
 }
 
 static void swap(int *a, int *b)
@@ -70,13 +73,13 @@ static bool choose(plan *p, int k)
     const double max = max_score(p, k);
     double best_score = 0.0;
     int best = -1, best_i = k, best_j = k;
-    if (max <= DAL__PIVOT_LEAST) return false;
+    if (max <= DAL__PIVOT_LEAST * DAL__PIVOT_LEAST) return false;
     for (int i = k; i < p->n; i++) {
         const int row = p->row[i];
         for (int l = 0; l < p->entries[row]; l++) {
             const int column = p->entry[row * p->n + l], j = p->place[column];
             const double s = score(p, row, column);
-            if (j < k || s < 0.1 * max) continue;
+            if (j < k || s < 0.01 * max) continue;
             const unsigned char flag = p->flag[row * p->n + column];
             const int preferred =
                 (flag & VARYING ? 0 : 4) + (flag & TOUCHED ? 0 : 2) + (row == column);
@@ -111,28 +114,70 @@ static void eliminate_numbers(plan *p, int k)
     }
 }
 
-/* Fills in the values of the matrix at a point, and the largest of each row and column. */
+/* The size that entries m_ij with rows j of known size give row i, max m_ij^2/d_j; 0: there is none. */
+static double size_by_others(const plan *p, int i)
+{
+    double size = 0.0;
+    for (int j = 0; j < p->n; j++) {
+        const double m = fmax(fabs(p->value[i * p->n + j]), fabs(p->value[j * p->n + i]));
+        if (p->size[j] > 0.0 && isfinite(m)) size = fmax(size, m * (m / p->size[j]));
+    }
+    return isfinite(size) ? size : 0.0;
+}
+
+/* The size of a row whose others have none: of three rows with entries a, b, c in pairs it is ab/c;
+ * otherwise those of the others follow from any, 1. */
+static double size_by_two(const plan *p, int i)
+{
+    const double *row = p->value + i * p->n;
+    double size = 0.0;
+    for (int j = 0; j < p->n; j++) {
+        for (int k = 0; k < j && row[j] != 0.0; k++) {
+            const double ratio = row[k] / p->value[j * p->n + k];
+            if (isfinite(ratio)) size = fmax(size, fabs(row[j] * ratio));
+        }
+    }
+    return size > 0.0 && isfinite(size) ? size : 1.0;
+}
+
+/* The sizes d_i = |m_ii|, of Jacobi's scaling.  A row with 0 on the diagonal, of an indefinite
+ * matrix, has the least one with which m_ij^2 <= d_i d_j. */
+static void find_sizes(plan *p)
+{
+    int unknown = 0;
+    for (int i = 0; i < p->n; i++) {
+        const double size = fabs(p->value[i * p->n + i]);
+        p->size[i] = isfinite(size) ? size : 0.0;
+        unknown += p->size[i] == 0.0;
+    }
+    while (unknown > 0) {
+        int found = 0, first = -1;
+        for (int i = 0; i < p->n; i++) {
+            if (p->size[i] > 0.0) continue;
+            if (first < 0) first = i;
+            const double size = size_by_others(p, i);
+            if (size > 0.0) p->size[i] = size, found++;
+        }
+        if (found == 0) p->size[first] = size_by_two(p, first), found = 1;
+        unknown -= found;
+    }
+}
+
+/* Fills in the values of the matrix at a point, and the sizes of its rows. */
 static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, const double *at)
 {
     for (int i = 0; i < p->n; i++) {
-        p->row_root[i] = p->column_root[i] = 0.0;
         p->row[i] = p->column[i] = p->place[i] = i;
         p->entries[i] = 0;
     }
     for (int i = 0; i < p->n * p->n; i++) {
-        double *row_size = &p->row_root[i / p->n], *column_size = &p->column_root[i % p->n];
         bool present = !dal__is_number(e->graph, matrix[i], 0.0);
         bool varying = dal__depends(e->graph, matrix[i], e->parameters, e->symbols);
         p->value[i] = present ? dal__evaluate(e->graph, matrix[i], at) : 0.0;
         p->flag[i] = (unsigned char)((present ? PRESENT : 0) | (varying ? VARYING : 0));
         if (present) p->entry[i / p->n * p->n + p->entries[i / p->n]++] = i % p->n;
-        *row_size = fmax(*row_size, fabs(p->value[i]));
-        *column_size = fmax(*column_size, fabs(p->value[i]));
     }
-    for (int i = 0; i < p->n; i++) {
-        p->row_root[i] = sqrt(p->row_root[i]);
-        p->column_root[i] = sqrt(p->column_root[i]);
-    }
+    find_sizes(p);
 }
 
 /* -1, or the row that is left without a pivot.  Ends early where the elimination, whose every
@@ -159,8 +204,7 @@ static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
     *p = (plan){.n = f->n,
                 .value = dal__model_allocate(model, n * n, sizeof *p->value),
                 .flag = dal__model_allocate(model, n * n, sizeof *p->flag),
-                .row_root = dal__model_allocate(model, n, sizeof *p->row_root),
-                .column_root = dal__model_allocate(model, n, sizeof *p->column_root),
+                .size = dal__model_allocate(model, n, sizeof *p->size),
                 .place = dal__model_allocate(model, n, sizeof *p->place),
                 .entry = dal__model_allocate(model, n * n, sizeof *p->entry),
                 .entries = dal__model_allocate(model, n, sizeof *p->entries),
@@ -265,6 +309,13 @@ void dal__record_pivots(dal__equations *e, const dal__factors *f, bool of_mass, 
                          .of_mass = of_mass,
                          .of_motion = of_motion};
     }
+}
+
+double dal__pivot_product(const dal__equations *e, const dal__factors *f, const double *values)
+{
+    double product = 1.0;
+    for (int k = 0; k < f->n; k++) product *= dal__evaluate(e->graph, *at(f, k, k), values);
+    return product;
 }
 
 /* ---- the whole ---- */

@@ -26,6 +26,9 @@ dal_status dal__factor(dal_model *model, dal__factors *factors);
 /* Appends the pivots to those of the equations. */
 void dal__record_pivots(dal__equations *equations, const dal__factors *factors, bool of_mass,
                         bool of_motion);
+/* The product of the pivots at values of the symbols: the determinant, except for its sign. */
+double dal__pivot_product(const dal__equations *equations, const dal__factors *factors,
+                          const double *values);
 /* Solves for right-hand sides [columns*n], one after the other, into x[columns*n]; collect: with
  * sums in few operations (collect.h).  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal__solve(dal_model *model, const dal__factors *factors, bool collect, int columns,

@@ -70,7 +70,9 @@ typedef struct dal__equations {
     int mass_guard;                 /* which of them is det W, from 1; 0: none */
     dal__pivot *pivot;              /* [pivots], of at most 2 (n + m) */
     struct dal__factors *mass;      /* of W */
-    struct dal__bordered *bordered; /* solves for F and h; NULL for vakonomic motion */
+    /* One of them solves for F and h, neither for vakonomic motion. */
+    struct dal__bordered *bordered;     /* where W has an inverse */
+    struct dal__restricted *restricted; /* where W need have one on ker A only */
     double *value;                  /* [symbols]: default parameters, default start */
     int *symbol;                    /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
     dal__node *flow;                /* [1 + n]: d/dt of (t, q), that is 1 and v */

@@ -185,7 +185,7 @@ dal_status dal__derive_events(dal_model *model, dal_error *error)
         if (c < 0.0)
             return dal__fail_at(error, DAL_MODEL, DAL__AT_TEXT(entry),
                                 "event %d: the restitution %g is negative", k + 1, c);
-        const dal_status status = dal__solve_vector(model, e->n, e->W, normal, normal + e->n);
+        const dal_status status = dal__solve_force(model, normal, normal + e->n);
         if (status != DAL_OK) return dal__size_error(status, error);
     }
     return DAL_OK;

@@ -16,6 +16,7 @@
 #include "expr/traversal.h"
 #include "model/bordered.h"
 #include "model/model.h"
+#include "model/restricted.h"
 #include "model/units.h"
 #include <limits.h>
 #include <math.h>
@@ -34,9 +35,9 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
 }
 
 /* Lists the constraints whose rows of A combine to that of one, ", 1, 2", at an irregular point;
- * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: those of A in
- * units of v, each scaled to a largest entry of 1, and after each how it is combined of them; then
- * room for the point, and the units. */
+ * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: the rows of A, in
+ * units in which the diagonal of W and the largest entry of each row are 1, and after each how it is
+ * combined of them; then room for the point, and the units. */
 static double list_dependence(const dal__equations *e, int row, double *rows, char *list,
                               size_t size)
 {
@@ -51,8 +52,11 @@ static double list_dependence(const dal__equations *e, int row, double *rows, ch
     for (int a = 0; a < m; a++) {
         double *w = rows + a * width; /* row comes last */
         const int number = a == m - 1 ? row : a + (a >= row);
-        for (int i = 0; i < n; i++)
-            w[i] = dal__evaluate(e->graph, e->A[number * n + i], point) * unit[e->v + i];
+        for (int i = 0; i < n; i++) {
+            const double mass = fabs(dal__evaluate(e->graph, e->W[i * n + i], point));
+            w[i] = dal__evaluate(e->graph, e->A[number * n + i], point);
+            if (mass > 0.0) w[i] /= sqrt(mass);
+        }
         const double largest = dal__max_abs(w, (size_t)n);
         for (int i = 0; i < n && largest > 0.0; i++) w[i] /= largest;
         w[n + number] = 1.0;
@@ -145,6 +149,27 @@ dal_status dal__solve_mass(dal_model *model)
     return DAL_OK;
 }
 
+dal_status dal__solve_force(dal_model *model, const dal__node *force, dal__node *x)
+{
+    const dal__equations *e = &model->equations;
+    dal__node *zero = dal__model_nodes(model, e->m, dal__number(e->graph, 0.0));
+    if (!e->restricted) return dal__solve_vector(model, e->n, e->W, force, x);
+    if (!zero) return DAL_MEMORY;
+    return dal__restricted_solve(model, e->restricted, force, zero, x, NULL);
+}
+
+/* The same of a restricted W, whose pivots are chosen where u = v is that of the start. */
+static dal_status directions_at_pi(dal_model *model, const dal__node *W, dal__node *U)
+{
+    const dal__equations *e = &model->equations;
+    dal__restricted r;
+    for (int i = 0; i < e->n; i++) e->value[e->pi + i] = e->value[e->v + i];
+    const dal_status status = dal__restricted_factor(model, W, &r);
+    for (int i = 0; i < e->n; i++) e->value[e->pi + i] = 0.0;
+    DAL_TRY(status);
+    return dal__restricted_directions(model, &r, U);
+}
+
 dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
 {
     const dal__equations *e = &model->equations;
@@ -152,14 +177,16 @@ dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
     dal__factors mass = *e->mass;
     int *v = dal__model_allocate(model, (size_t)n, sizeof *v);
     dal__node *u = dal__model_nodes(model, n, 0), *x = dal__model_nodes(model, n * m, 0);
+    const dal__node *from = e->restricted ? e->W : e->mass->matrix;
     mass.matrix = dal__model_nodes(model, n * n, 0);
     if (model->out_of_memory) return DAL_MEMORY;
-    for (int i = 0; i < n * n; i++) mass.matrix[i] = e->mass->matrix[i];
+    for (int i = 0; i < n * n; i++) mass.matrix[i] = from[i];
     for (int i = 0; i < n; i++) {
         v[i] = e->v + i;
         u[i] = dal__symbol(e->graph, e->pi + i);
     }
     dal__substitute_all(e->graph, n * n, mass.matrix, v, n, u);
+    if (e->restricted) return directions_at_pi(model, mass.matrix, U);
     DAL_TRY(dal__solve(model, &mass, false, m, e->A, x));
     for (int i = 0; i < n; i++)
         for (int a = 0; a < m; a++) U[i * m + a] = x[a * n + i];
@@ -218,13 +245,79 @@ static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, in
     return best == last ? e->graph->status : derive_by(model, mass, best, singular);
 }
 
-dal_status dal__motion_derive(dal_model *model, dal_error *error)
+/* ---- W on ker A alone ---- */
+
+/* Whether det W has both signs, or vanishes beyond a jump, at irregular points at distances of 1/16
+ * to 2^60 from the default start: then W is singular between them, where the motion may well be
+ * determined.  No node is made, so that F does not depend on it. */
+static bool may_turn_singular(dal_model *model)
+{
+    enum { POINTS = 256, MIN_EXPONENT = -4, MAX_EXPONENT = 60 };
+    const dal__equations *e = &model->equations;
+    double *point = dal__model_allocate(model, (size_t)e->symbols, sizeof *point);
+    dal__random random = {1};
+    bool positive = false, negative = false, zero = false, varies = false, jumps = false;
+    for (int i = 0; i < e->n * e->n; i++) {
+        varies |= dal__depends(e->graph, e->W[i], e->parameters, e->symbols);
+        jumps |= dal__reaches(e->graph, e->W[i], DAL__JUMPING);
+    }
+    for (int k = 0; k < POINTS && varies && point; k++) {
+        for (int i = 0; i < e->symbols; i++) {
+            const double u = dal__uniform(&random), range = MAX_EXPONENT - MIN_EXPONENT;
+            const double far = exp2(MIN_EXPONENT + range * fabs(dal__uniform(&random)));
+            point[i] = e->value[i] + (i < e->parameters || k == 0 ? 0.0 : copysign(far, u));
+        }
+        const double det = dal__pivot_product(e, e->mass, point);
+        positive |= isfinite(det) && det > 0.0;
+        negative |= isfinite(det) && det < 0.0;
+        zero |= det == 0.0 && k > 0;
+    }
+    return (positive && negative) || (jumps && zero);
+}
+
+static dal_status derive_restricted(dal_model *model)
+{
+    dal__equations *e = &model->equations;
+    const dal__node none = dal__number(e->graph, 0.0);
+    dal__node *bottom = dal__model_nodes(model, e->m, none);
+    dal__restricted *r = e->restricted = dal__model_allocate(model, 1, sizeof *r);
+    if (model->out_of_memory) return DAL_MEMORY;
+    DAL_TRY(dal__restricted_factor(model, e->W, r));
+    e->mass_positive = r->V.positive;
+    dal__restricted_record_pivots(e, r);
+    DAL_TRY(dal__restricted_solve(model, r, e->b, bottom, e->a, NULL));
+    DAL_TRY(dal__restricted_directions(model, r, e->U));
+    for (int a = 0; a < e->m; a++) bottom[a] = dal__node_neg(e->graph, e->c[a]);
+    return dal__restricted_solve(model, r, e->b, bottom, e->F, e->h);
+}
+
+/* The error of constraints that are dependent, or of a W that is singular on ker A. */
+static dal_status singular_restricted(const dal_model *model, dal_error *error)
 {
     const dal__equations *e = &model->equations;
+    const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
+    return dal__fail_at(error, DAL_SINGULAR_MASS, L ? L->line : 0, L ? L->column : 0,
+                        "the mass matrix is singular on the velocities that the constraints allow: "
+                        "with them it does not determine the acceleration of '%s'",
+                        e->coordinate[e->restricted->V.singular]);
+}
+
+dal_status dal__motion_derive(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
     int singular;
     dal_status status = dal__solve_mass(model);
-    if (status == DAL_SINGULAR) return dal__singular_mass(model, e->mass->singular, error);
-    if (status != DAL_OK) return unsolved(model, status, "the mass matrix", error);
+    const bool fails = status == DAL_SINGULAR, may_restrict = e->m > 0 && !e->servo;
+    if (fails && !may_restrict) return dal__singular_mass(model, e->mass->singular, error);
+    if (status != DAL_OK && !fails) return unsolved(model, status, "the mass matrix", error);
+    if (may_restrict && (fails || may_turn_singular(model))) {
+        status = derive_restricted(model);
+        if (status == DAL_SINGULAR)
+            return e->restricted->singular < 0
+                       ? singular_restricted(model, error)
+                       : dal__dependent_constraints(model, e->restricted->singular, error);
+        return status == DAL_OK ? DAL_OK : unsolved(model, status, "W on ker A", error);
+    }
     status = derive_cheapest(model, e->mass, &singular);
     if (status == DAL_SINGULAR) return dal__dependent_constraints(model, singular, error);
     return status == DAL_OK ? DAL_OK : unsolved(model, status, "A W^-1 A^T", error);
@@ -243,7 +336,19 @@ static dal__node *name(dal_model *model, int first, int count)
     return out;
 }
 
-bool dal__motion_is_symmetric(const dal__equations *e) { return e->bordered && !e->servo; }
+bool dal__motion_is_symmetric(const dal__equations *e)
+{
+    return e->restricted || (e->bordered && !e->servo);
+}
+
+/* W x - A^T h = top, A x = bottom by the factors of F. */
+static dal_status solve_motion(dal_model *model, const dal__node *top, const dal__node *bottom,
+                               dal__node *x, dal__node *h)
+{
+    const dal__equations *e = &model->equations;
+    return e->restricted ? dal__restricted_solve(model, e->restricted, top, bottom, x, h)
+                         : dal__bordered_solve(model, e->bordered, false, top, bottom, x, h);
+}
 
 /* What is differentiated: b - W F + A^T h [n] and -c - A F [m], F and h being symbols. */
 static dal__node *residuals(dal_model *model)
@@ -310,7 +415,7 @@ dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by
     DAL_TRY(insert(model, columns * size, rhs, NULL));
     for (int c = 0; c < columns; c++) {
         const dal__node *top = rhs + c * size;
-        DAL_TRY(dal__bordered_solve(model, e->bordered, false, top, top + n, x, NULL));
+        DAL_TRY(solve_motion(model, top, top + n, x, NULL));
         for (int i = 0; i < n; i++) *(c < n ? &by_q[i * n + c] : &by_v[i * n + c - n]) = x[i];
     }
     return e->graph->status;
@@ -326,7 +431,7 @@ dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_
     dal__node *weight = dal__model_nodes(model, size, 0), *out = dal__model_nodes(model, 2 * n, 0);
     dal__node *zero = dal__model_nodes(model, m, dal__number(e->graph, 0.0));
     if (model->out_of_memory) return DAL_MEMORY;
-    DAL_TRY(dal__bordered_solve(model, e->bordered, false, pi, zero, weight, weight + n));
+    DAL_TRY(solve_motion(model, pi, zero, weight, weight + n));
     for (int a = 0; a < m; a++) weight[n + a] = dal__node_neg(e->graph, weight[n + a]);
     dal__gradient(e->graph, dal__dot(e->graph, size, w, residual), symbol, 2 * n, out);
     DAL_TRY(insert(model, 2 * n, out, weight));

@@ -9,6 +9,7 @@
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "kernel/quad.h"
+#include "model/held.h"
 #include "model/model.h"
 #include "model/motion.h"
 #include <math.h>
@@ -171,7 +172,36 @@ dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, c
     }
 DAL__SINGLE_LIST(CALLBACK)
 CALLBACK(PICTURE, picture, tqv)
+CALLBACK(BRANCH_VALUES, branch_values, tqv)
+CALLBACK(BRANCH_RATES, branch_rates, tqv)
 #undef CALLBACK
+
+/* ---- branches ---- */
+
+static void bounds(const dal_system *system, int k, double point, double *lower, double *upper)
+{
+    const dal__programs *p = system->data;
+    dal__branch_bounds(&p->branch[k], p->tapes, point, lower, upper);
+}
+
+static void hold(const dal_system *system, const double *point, double *work)
+{
+    const dal__programs *p = system->data;
+    dal__tapes_hold_x1(p->tapes, point, work);
+}
+
+static void hold_quad(const dal_system *system, const double *point, double *work)
+{
+    const dal__programs *p = system->data;
+    dal__tapes_hold_x1_QUAD(p->tapes, point, work);
+}
+
+static void point_to_branches(dal__programs *programs, dal_system *system)
+{
+    const int count = programs->branches.count;
+    programs->branches = (dal_branches){count, branch_values, branch_rates, bounds, hold};
+    system->branches = count > 0 ? &programs->branches : NULL;
+}
 
 /* ---- sizes of terms ---- */
 
@@ -232,7 +262,7 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
     double *value = at->work + p->scratch;
     DAL_TRY(p->run(system, at, value, DAL__PROGRAM_DIAGNOSE, DAL__READS_tqv));
     out[0] = 0.0;
-    for (int k = 0; k < e->pivots; k++)
+    for (int k = 0; k < e->pivots && !e->restricted; k++)
         if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_SINGULAR_MASS;
     for (int a = 0; a < e->m; a++) {
         out[0] = a + 1;
@@ -242,6 +272,8 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
         out[0] = e->pivot[k].constraint;
         if (e->pivot[k].constraint && vanished(value + 2 * k)) return DAL_SINGULAR;
     }
+    for (int k = 0; k < e->pivots && e->restricted; k++) /* whose other pivots need those of A */
+        if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_SINGULAR_MASS;
     const double *lookup = value + 2 * e->pivots + e->m; /* argument, value */
     for (int k = 0; k < e->lookups; k++) {
         out[0] = e->lookup[k] + 1;
@@ -346,6 +378,8 @@ static dal_status make_quad(dal_model *model, const dal__programs *programs, dal
     k->system = *system;
     k->system.data = &k->programs;
     k->system.series = &k->programs.series;
+    k->programs.branches.hold = hold_quad;
+    if (system->branches) k->system.branches = &k->programs.branches;
     k->system.prepare = prepare_quad;
     k->system.call = k->programs.wide1;
     k->system.wide4 = k->system.wide8 = NULL;
@@ -373,6 +407,7 @@ static const dal_callbacks *if_filled(const dal_callbacks *wide)
 
 dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system)
 {
+    if (system->events > 0) DAL_TRY(dal__programs_add_branches(model, programs));
     DAL_TRY(dal__tapes_finish(programs->tapes));
     const dal__equations *e = programs->equations;
     const int inputs = (int)programs->tapes->first_input - e->parameters;
@@ -406,6 +441,7 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     system->picture = programs->program[DAL__PROGRAM_PICTURE].present ? &programs->picture : NULL;
     system->diagnose = programs->program[DAL__PROGRAM_DIAGNOSE].present ? diagnose : NULL;
     point_to_scales(programs, system);
+    point_to_branches(programs, system);
     system->properties |= DAL_WIDE_TIMES;
     DAL_TRY(make_series(model, programs));
     point_to_series(programs);

@@ -27,6 +27,8 @@ typedef enum dal__program_code {
     DAL_CALLBACK_LIST(CODE) DAL__SINGLE_LIST(CODE)
 #undef CODE
         DAL__PROGRAM_PICTURE,
+    DAL__PROGRAM_BRANCH_VALUES,
+    DAL__PROGRAM_BRANCH_RATES,
     DAL__PROGRAM_DIAGNOSE,
     DAL__PROGRAM_COUNT
 } dal__program_code;
@@ -38,6 +40,14 @@ typedef struct dal__program {
     int checked; /* pivots, each with its size, that follow the outputs */
     int left;    /* pivots for the rank check, behind these */
 } dal__program;
+
+/* A branch: the argument of nodes that switch, and the table at whose points they do, or one of
+ * these. */
+enum { DAL__BRANCH_AT_ZERO = -1, DAL__BRANCH_AT_INTEGERS = -2 };
+typedef struct dal__branch {
+    dal__node argument;
+    int table;
+} dal__branch;
 
 /* Evaluates a program on what it reads of *at. */
 typedef dal_status dal__run_program(const dal_system *system, const dal_point *at, double *out,
@@ -59,6 +69,8 @@ typedef struct dal__programs {
     const dal__terms *terms;          /* of D, E, invariants; the model's, as the next */
     const dal__terms *reaction_terms; /* of h, R; NULL: not made */
     dal_picture picture;
+    dal__branch *branch; /* [branches.count] those that may be held; the model's */
+    dal_branches branches;
     dal__run_program *run; /* a program of one lane */
 } dal__programs;
 

@@ -127,7 +127,7 @@ dal_status dal__properties(dal_model *model)
     if (e->m && !keeps_rank && !(e->properties & (e->m > 1 ? DAL_D_CONSTANT : DAL_D_LINEAR)))
         e->properties |= DAL_D_RANK_CHECKED;
     e->properties |= (autonomous ? DAL_AUTONOMOUS : 0u) | (constant ? DAL_MASS_CONSTANT : 0u) |
-                     (e->vakonomic ? DAL_VAKONOMIC : 0u) | (e->servo ? DAL_SERVO : 0u);
+                     (e->vakonomic ? DAL_VAKONOMIC : 0u) | (e->servo ? DAL_SERVO : 0u) | (e->restricted ? DAL_MASS_ON_KERNEL : 0u);
     DAL_TRY(dal__energy_properties(model));
     e->properties |= parts_properties(e, first);
     return e->graph->status;
@@ -232,7 +232,7 @@ static bool guard_determinant(search *s, bool mass, const char *name)
     dal__equations *e = &s->model->equations;
     dal__node det = dal__number(e->graph, 1.0);
     for (int k = 0; k < e->pivots; k++)
-        if (mass ? e->pivot[k].of_mass : e->pivot[k].constraint > 0)
+        if (mass ? e->pivot[k].of_mass && e->pivot[k].constraint == 0 : e->pivot[k].constraint > 0)
             det = dal__node_mul(e->graph, det, e->pivot[k].pivot);
     return !e->vakonomic && append_guard(s, det, name);
 }
@@ -254,6 +254,8 @@ dal_status dal__guards(dal_model *model)
     }
     if (model->out_of_memory) return DAL_MEMORY;
     if (e->servo) guard_determinant(&s, false, "the reactions: det A W^-1 B^T");
-    if (guard_determinant(&s, true, "the mass matrix: det W")) e->mass_guard = e->guards;
+    const char *name =
+        e->restricted ? "the mass matrix on ker A: its determinant" : "the mass matrix: det W";
+    if (guard_determinant(&s, true, name)) e->mass_guard = e->guards;
     return s.full ? DAL_TOO_LARGE : e->graph->status;
 }

@@ -63,14 +63,22 @@ dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error)
     return DAL_OK;
 }
 
+dal_status dal__check_mass(const dal__linearised *k, dal_error *error)
+{
+    const dal_system *system = k->system;
+    double number;
+    if (!system->diagnose || system->diagnose(system, &k->at, &number) != DAL_SINGULAR_MASS)
+        return DAL_OK;
+    return dal__fail(error, DAL_SINGULAR_MASS, "%s is singular at %s", dal__mass_words(system),
+                     k->place);
+}
+
 /* The error that row a of G has no pivot; k->out[a] was its entry on the diagonal. */
 static dal_status dependent(const dal__linearised *k, int a, double pivot, dal_error *error)
 {
     const dal_system *system = k->system;
     const double size = dal__max_abs(k->A + a * system->n, (size_t)system->n);
-    double number = 0.0;
-    if (system->diagnose && system->diagnose(system, &k->at, &number) == DAL_SINGULAR_MASS)
-        return dal__fail(error, DAL_SINGULAR_MASS, "the mass matrix is singular at %s", k->place);
+    DAL_TRY(dal__check_mass(k, error));
     if (a == system->m)
         return dal__fail(error, DAL_RANK,
                          "%s changes no velocity that the constraints leave free (pivot %g of G)",
@@ -84,6 +92,11 @@ static dal_status dependent(const dal__linearised *k, int a, double pivot, dal_e
         return dal__fail(error, DAL_RANK,
                          "constraint %d has infinite derivatives by the velocities at %s", a + 1,
                          k->place);
+    if (system->properties & DAL_MASS_ON_KERNEL && isnan(pivot))
+        return dal__fail(error, DAL_RANK,
+                         "the constraints are dependent at %s: constraint %d restricts only "
+                         "velocities that others restrict",
+                         k->place, a + 1);
     if (size * size < DBL_MIN || isinf(size * size))
         return dal__fail(error, DAL_RANK,
                          "constraint %d is badly scaled: its derivatives by the velocities reach "

@@ -32,6 +32,8 @@ dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition
  * of the constraints. */
 dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error);
 
+/* The error of a mass matrix that is singular at the point; DAL_OK: it is not, or is not known. */
+dal_status dal__check_mass(const dal__linearised *k, dal_error *error);
 /* Whether the rows are independent: no pivot of G = A B is below 1e-12 of its diagonal entry,
  * without exchanges of rows.  Errors: DAL_RANK, DAL_SINGULAR_MASS. */
 dal_status dal__check_rank(dal__linearised *k, dal_error *error);

@@ -42,6 +42,9 @@ typedef struct dal__engine {
      * the substep there gives.  Without a tolerance, or where the method leaves no polynomial, it
      * is a step of size `part`.  NULL for several lanes. */
     dal__lanes (*step_part)(void *engine, double h, double part, dal_status *reason);
+    /* Holds the branches of the system at points, or no longer, as dal_branches.hold.  NULL for
+     * several lanes. */
+    void (*hold)(void *engine, const double *point);
     /* Evaluates a callback (dal_callback_code) at a state, with its own pi. */
     dal_status (*eval)(void *engine, int code, double t, const double *state, double *out);
     /* The observables of the present state; exact_known as in dal__observable_count.  NULL for

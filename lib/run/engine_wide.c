@@ -458,14 +458,24 @@ static dal__lanes part_engine(void *engine_, double h, double part, dal_status *
     e->step.layer = e->layer;
     return failed;
 }
+
+static void hold_engine(void *engine_, const double *point)
+{
+    engine *e = engine_;
+    const dal_system *system = e->layout.system;
+    system->branches->hold(system, point, (double *)e->work);
+    e->dense_h = 0.0; /* the substeps found last are those of other formulas */
+}
 #else
 #define part_engine NULL
+#define hold_engine NULL
 #endif
 
 const dal__engine DAL_WIDE(dal__engine) = {.bytes = engine_bytes,
                                            .place = place_engine,
                                            .step = step_engine,
                                            .step_part = part_engine,
+                                           .hold = hold_engine,
                                            .eval = eval_engine,
                                            .observe = observe_engine,
                                            .trace = trace_engine};

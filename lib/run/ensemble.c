@@ -15,6 +15,7 @@
  *
  * so that it depends neither on other members nor on other names. */
 #include "core/error.h"
+#include "core/hash.h"
 #include "run/batch.h"
 #include "run/start.h"
 #include <math.h>
@@ -35,8 +36,7 @@ static uint64_t mix(uint64_t z)
 
 unsigned long long dal_random_key(const char *name, unsigned long long seed)
 {
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
-    for (; name && *name; name++) hash = (hash ^ (unsigned char)*name) * UINT64_C(0x100000001b3);
+    const uint64_t hash = dal__hash(DAL__HASH_START, name, name ? strlen(name) : 0);
     return mix(hash + seed * increment);
 }
 

@@ -118,6 +118,11 @@ dal_status dal__leave_event(const dal__event_search *w, int k)
     const dal__side to =
         is_off ? (dal__side)dal__sign(f) : dal__just(leaves ? dal__sign(rate) : across);
     w->m.side[k] = to;
+    if (dal__event_slides(w, k) && !(event->actions & DAL_EVENT_STOPS))
+        return dal__fail(w->error, DAL_EVENT,
+                         "%s at t = %.17g: on both sides of it F leads back, so that the motion "
+                         "would slide along it, which no step does",
+                         dal__event_name(w->system, k), dal_run_time(w->run));
     if (!is_wall || dal__side_sign(to) == from || event->actions & DAL_EVENT_STOPS) return DAL_OK;
     return dal__fail(w->error, DAL_EVENT,
                      "%s at t = %.17g: the velocities after it still lead out, d(when)/dt = %.6g",

@@ -1,6 +1,7 @@
 /* event_search.c - the formulas of events, whose zeros crossing.c finds along a run. */
 #include "run/event_search.h"
 #include <float.h>
+#include <string.h>
 
 /* Multiples of DBL_EPSILON: below the first, |f| is 0 but for its rounding; below the second, a
  * rate is. */
@@ -24,12 +25,46 @@ static size_t crossing_numbers(void)
     return (sizeof(dal__crossing) + sizeof(double) - 1) / sizeof(double);
 }
 
+static int branch_count(const dal__layout *k)
+{
+    return k->system->branches ? k->system->branches->count : 0;
+}
+
+enum { BRANCH_ARRAYS = 5 /* point, value, its size, rate, across */ };
+
+/* Numbers of a dal__held_places. */
+static size_t held_numbers(const dal__layout *k, size_t stored)
+{
+    const size_t events = (size_t)k->system->events, branches = (size_t)branch_count(k);
+    if (branches == 0) return 0;
+    return crossing_numbers() + dal__crossing_numbers(events + branches, stored) +
+           BRANCH_ARRAYS * branches + 2 * events +
+           (branches * sizeof(dal__held_branch) + sizeof(double) - 1) / sizeof(double);
+}
+
 size_t dal__event_scratch(const dal__layout *k, size_t stored)
 {
     const size_t events = (size_t)k->system->events, n = (size_t)k->n;
     if (events == 0) return 0;
     return (ARRAYS + 1 + 4 * n) * events + (size_t)k->dim + (size_t)dal__max_observables(k) +
-           crossing_numbers() + dal__crossing_numbers(events, stored);
+           crossing_numbers() + dal__crossing_numbers(events, stored) + held_numbers(k, stored);
+}
+
+static dal__held_places held_places(const dal__layout *k, size_t stored, double *at)
+{
+    const size_t events = (size_t)k->system->events, branches = (size_t)branch_count(k);
+    double *arrays = at + crossing_numbers() + dal__crossing_numbers(events + branches, stored);
+    if (branches == 0) return (dal__held_places){.crossing = NULL};
+    return (dal__held_places){
+        .crossing = (dal__crossing *)(void *)at,
+        .point = arrays,
+        .value = arrays + branches,
+        .rate = arrays + 3 * branches,
+        .across = arrays + 4 * branches,
+        .event_rate = arrays + BRANCH_ARRAYS * branches,
+        .event_scale = arrays + BRANCH_ARRAYS * branches + events,
+        .branch =
+            (dal__held_branch *)(void *)(arrays + BRANCH_ARRAYS * branches + 2 * events)};
 }
 
 dal__event_places dal__event_places_of(const dal_run *run)
@@ -88,11 +123,6 @@ dal_status dal__evaluate_events(const dal__event_search *w)
     return dal__evaluate_event_rates(w);
 }
 
-dal_status dal__evaluate_event_rates(const dal__event_search *w)
-{
-    return rates_of(NULL, w->run, w->m.rate, w->error);
-}
-
 const double *dal__event_normal(const dal__event_search *w, int k)
 {
     return w->m.normals + (size_t)k * (1 + 2 * (size_t)w->system->n);
@@ -144,26 +174,250 @@ static int direction_of(void *user, const dal_run *run, int k)
     return run->layout.system->event[k].direction;
 }
 
+/* ---- branches ---- */
+
+/* How many steps ahead a branch may be that a step meets: methods evaluate F beyond its ends. */
+static const double reach = 4.0;
+/* In steps, how far apart an event and the change of a branch may be that are the same. */
+static const double same = 1e-9;
+/* What a branch is away from its change by rounding, in units of eps; where it may be near. */
+static const double branch_factor = 64.0, near_size = 1e-9;
+
+/* A point between two ends, one of which may be infinite. */
+static double point_between(double lower, double upper)
+{
+    if (isinf(lower)) return upper - (1.0 + fabs(upper));
+    if (isinf(upper)) return lower + (1.0 + fabs(lower));
+    return lower + 0.5 * (upper - lower);
+}
+
+static void set_bounds(const dal__event_search *w, int j, double point)
+{
+    dal__held_branch *b = &w->held.branch[j];
+    w->system->branches->bounds(w->system, j, point, &b->lower, &b->upper);
+    w->held.point[j] = point_between(b->lower, b->upper);
+}
+
+/* The end that is next to x. */
+static double nearest_end(const dal__held_branch *b, double x)
+{
+    return x - b->lower <= b->upper - x ? b->lower : b->upper;
+}
+
+static dal_status evaluate_branches(const dal__event_search *w, dal_callback *callback, int count,
+                                    double *out)
+{
+    const dal_point at = dal__here(w->run);
+    DAL_TRY(callback(w->system, &at, out));
+    for (int j = 0; j < count; j++)
+        if (!isfinite(out[j])) return DAL_NOT_FINITE;
+    return DAL_OK;
+}
+
+static dal_status branch_values(const dal__event_search *w)
+{
+    const dal_branches *b = w->system->branches;
+    return evaluate_branches(w, b->values, 2 * b->count, w->held.value);
+}
+
+static dal_status branch_rates(const dal__event_search *w, double *out)
+{
+    return evaluate_branches(w, w->system->branches->rates, w->system->branches->count, out);
+}
+
+/* Rates of the arguments with the present points; notes those of events. */
+static dal_status held_rates(const dal__event_search *w, double *out)
+{
+    const dal__held_places *held = &w->held;
+    dal__run_hold(w->run, held->point);
+    DAL_TRY(branch_rates(w, out));
+    DAL_TRY(rates_of(NULL, w->run, held->event_rate, NULL));
+    for (int k = 0; k < w->system->events; k++)
+        held->event_scale[k] = fmax(held->event_scale[k], fabs(held->event_rate[k]));
+    return DAL_OK;
+}
+
+/* Holds branch j at an end, which no side leads away from. */
+static dal_status hold_at_end(const dal__event_search *w, int j, double end)
+{
+    dal__held_branch *b = &w->held.branch[j];
+    b->lower = -INFINITY;
+    b->upper = INFINITY;
+    w->held.point[j] = end;
+    DAL_TRY(held_rates(w, w->held.rate));
+    b->is_sliding = fabs(w->held.rate[j]) > branch_factor * DBL_EPSILON * b->scale;
+    return DAL_OK;
+}
+
+/* At an end the side of branch j is the one to which its rate there leads, if both do the one that
+ * it is on. */
+static dal_status choose_side(const dal__event_search *w, int j)
+{
+    dal__held_branch *b = &w->held.branch[j];
+    const double s = w->held.value[j], h = w->run->layout.options.step;
+    const double end = nearest_end(b, s), outwards = end == b->lower ? -w->toward : w->toward;
+    const double point = w->held.point[j], across = end == b->lower ? nextafter(end, -INFINITY) : end;
+    DAL_TRY(held_rates(w, w->held.rate));
+    const dal__held_branch own = *b;
+    set_bounds(w, j, across);
+    DAL_TRY(held_rates(w, w->held.across));
+    const double inner = w->held.rate[j], outer = w->held.across[j];
+    b->scale = fmax(fabs(inner), fabs(outer));
+    b->is_at_end =
+        fabs(s - end) <= branch_factor * DBL_EPSILON * (b->size + fabs(h) * b->scale);
+    const bool stays = outwards * inner < 0.0, leaves = outwards * outer > 0.0;
+    if (b->is_at_end && !stays && leaves) return DAL_OK;
+    if (b->is_at_end && !stays) return hold_at_end(w, j, end);
+    b->lower = own.lower;
+    b->upper = own.upper;
+    w->held.point[j] = point;
+    return DAL_OK;
+}
+
+/* The arguments here, and the ends between which they are. */
+static dal_status place_branches(const dal__event_search *w)
+{
+    const int count = w->system->branches->count;
+    DAL_TRY(branch_values(w));
+    for (int j = 0; j < count; j++) {
+        w->held.branch[j] = (dal__held_branch){.size = w->held.value[count + j]};
+        set_bounds(w, j, w->held.value[j]);
+    }
+    return DAL_OK;
+}
+
+/* Chooses at the present state where the branches are held, and holds them. */
+static dal_status choose_branches(const dal__event_search *w)
+{
+    bool is_at_end = false;
+    w->held.crossing->is_kept = false;
+    for (int k = 0; k < w->system->events; k++) w->held.event_scale[k] = 0.0;
+    DAL_TRY(place_branches(w));
+    for (int j = 0; j < w->system->branches->count; j++) {
+        DAL_TRY(choose_side(w, j));
+        is_at_end = is_at_end || w->held.branch[j].is_at_end;
+    }
+    for (int k = 0; k < w->system->events && !is_at_end; k++) w->held.event_scale[k] = 0.0;
+    dal__run_hold(w->run, w->held.point);
+    return DAL_OK;
+}
+
+/* How far inside of its ends a branch is, for the argument s: positive there, with simple zeros;
+ * and its derivative. */
+static double inside(const dal__held_branch *b, double s, double *slope)
+{
+    const bool has_lower = isfinite(b->lower), has_upper = isfinite(b->upper);
+    const double above = s - b->lower, below = b->upper - s, length = b->upper - b->lower;
+    *slope = has_lower && has_upper ? (below - above) / length : has_lower ? 1.0 : -1.0;
+    if (has_lower && has_upper) return above * (below / length);
+    if (!has_lower && !has_upper) return *slope = 0.0, 1.0;
+    return has_lower ? above : below;
+}
+
+/* Whether a step from or to the present state, of these arguments, may meet an end. */
+static bool may_meet_end(const dal__event_search *w)
+{
+    const int count = w->system->branches->count;
+    const double h = w->run->layout.options.step;
+    if (branch_rates(w, w->held.rate) != DAL_OK) return true;
+    for (int j = 0; j < count; j++) {
+        const dal__held_branch *b = &w->held.branch[j];
+        const double s = w->held.value[j], distance = fmin(s - b->lower, b->upper - s);
+        if (distance <= reach * fabs(h * w->held.rate[j]) + near_size * b->size) return true;
+    }
+    return false;
+}
+
+/* Whether an evaluation of F in the free step may be beyond an end of a branch. */
+static bool is_near(const dal__event_search *w)
+{
+    const bool is_long = w->run->layout.options.tolerance > 0.0;
+    if (is_long || place_branches(w) != DAL_OK || may_meet_end(w)) return true;
+    dal__run_load(w->run, w->free->after);
+    const bool is_near = branch_values(w) != DAL_OK || may_meet_end(w);
+    dal__run_load(w->run, w->free->before);
+    return is_near;
+}
+
+/* ---- events and branches ---- */
+
+static dal_status held_values_of(void *user, dal_run *run, double *out, dal_error *error)
+{
+    const dal__event_search w = dal__event_search_begin(run, error);
+    double slope;
+    DAL_TRY(values_of(user, run, out, error));
+    DAL_TRY(branch_values(&w));
+    for (int j = 0; j < w.system->branches->count; j++)
+        out[w.system->events + j] = inside(&w.held.branch[j], w.held.value[j], &slope);
+    return DAL_OK;
+}
+
+static dal_status held_rates_of(void *user, dal_run *run, double *out, dal_error *error)
+{
+    const dal__event_search w = dal__event_search_begin(run, error);
+    double slope;
+    DAL_TRY(rates_of(user, run, out, error));
+    DAL_TRY(branch_values(&w));
+    DAL_TRY(branch_rates(&w, w.held.rate));
+    for (int j = 0; j < w.system->branches->count; j++) {
+        inside(&w.held.branch[j], w.held.value[j], &slope);
+        out[w.system->events + j] = slope * w.held.rate[j];
+    }
+    return DAL_OK;
+}
+
+static dal_status held_roundings_of(void *user, dal_run *run, double *value, double *rate,
+                                    dal_error *error)
+{
+    const dal__event_search w = dal__event_search_begin(run, error);
+    const double unit = branch_factor * DBL_EPSILON, h = fabs(run->layout.options.step);
+    const int events = w.system->events;
+    DAL_TRY(roundings_of(user, run, value, rate, error));
+    for (int k = 0; k < events; k++) value[k] += unit * h * w.held.event_scale[k];
+    for (int j = 0; j < w.system->branches->count; j++) {
+        const dal__held_branch *b = &w.held.branch[j];
+        value[events + j] = unit * (b->size + h * b->scale);
+        rate[events + j] = unit * b->scale;
+    }
+    return DAL_OK;
+}
+
+static int held_direction_of(void *user, const dal_run *run, int k)
+{
+    return k < run->layout.system->events ? direction_of(user, run, k) : -1;
+}
+
 /* ---- the search ---- */
 
 dal__event_search dal__event_search_begin(dal_run *run, dal_error *error)
 {
     const dal__layout *k = &run->layout;
-    const dal__functions functions = {.count = k->system->events,
-                                      .values = values_of,
-                                      .rates = rates_of,
-                                      .roundings = roundings_of,
-                                      .direction = direction_of};
+    dal__functions functions = {.count = k->system->events,
+                                .values = values_of,
+                                .rates = rates_of,
+                                .roundings = roundings_of,
+                                .direction = direction_of};
     const dal__event_places m = dal__event_places_of(run);
     double *at = m.observed + dal__max_observables(k);
+    double *end = at + crossing_numbers() + dal__crossing_numbers((size_t)k->system->events, run->stored);
+    const dal__held_places held = held_places(k, run->stored, end);
     if (!run->crossing && functions.count > 0) {
         run->crossing = (dal__crossing *)(void *)at;
         dal__crossing_init(run->crossing, run, &functions, at + crossing_numbers());
+        functions = (dal__functions){.count = functions.count + branch_count(k),
+                                     .values = held_values_of,
+                                     .rates = held_rates_of,
+                                     .roundings = held_roundings_of,
+                                     .direction = held_direction_of};
+        if (held.crossing)
+            dal__crossing_init(held.crossing, run, &functions, end + crossing_numbers());
     }
     return (dal__event_search){.run = run,
                                .error = error,
                                .system = k->system,
                                .m = m,
+                               .held = held,
+                               .free = run->crossing,
                                .crossing = run->crossing,
                                .toward = copysign(1.0, k->options.step)};
 }
@@ -181,35 +435,137 @@ dal_status dal__events_endless(const dal__event_search *w, int k)
                      name, (long long)w->m.count[k], t);
 }
 
-static dal_status search_step(const dal__event_search *w, double h, double *distance,
+/* Searches the next step, or a shorter one of size h; NaN: the result does not count. */
+typedef dal_status search_function(const dal__event_search *w, double h, double *distance,
+                                   dal_error *error);
+
+static dal_status search_free(const dal__event_search *w, double h, double *distance,
                               dal_error *error)
 {
-    dal__crossing *c = w->crossing;
+    dal__crossing *c = w->free;
     for (int k = 0; k < w->system->events; k++) c->zero[k].side = (dal__side)w->m.side[k];
     c->is_begun = false;
     DAL_TRY(dal__crossing_begin(c, h, error));
     return dal__crossing_next(c, distance);
 }
 
-/* The same of the next step.  Where it fails, as beyond a wall, a shorter one may have an event. */
-dal_status dal__search_events(dal__event_search *w, double *distance)
+/* Whether the step that was begun has the bits of the free one: then no branch has changed. */
+static bool is_as_free(const dal__event_search *w)
 {
-    dal__crossing *c = w->crossing;
+    const dal__crossing *c = w->held.crossing;
+    return c->h == w->free->h && !w->has_failed &&
+           memcmp(c->after, w->free->after, w->run->stored * sizeof *c->after) == 0;
+}
+
+/* With the branches held as they are here.  An event counts that is not after the first change of a
+ * branch, and so does a step without either. */
+static dal_status search_held(const dal__event_search *w, double h, double *distance,
+                              dal_error *error)
+{
+    dal__crossing *c = w->held.crossing;
+    const int events = w->system->events, count = c->functions.count;
+    double change = INFINITY, event = INFINITY;
+    for (int k = 0; k < events; k++) c->zero[k].side = (dal__side)w->m.side[k];
+    for (int k = events; k < count; k++)
+        c->zero[k].side = w->held.branch[k - events].is_at_end ? DAL__JUST_ABOVE : DAL__ABOVE;
+    c->is_begun = false;
+    *distance = NAN;
+    DAL_TRY(dal__crossing_begin(c, h, error));
+    if (is_as_free(w)) return DAL_OK;
+    DAL_TRY(dal__crossing_next(c, distance));
+    for (int k = 0; k < events; k++) event = fmin(event, c->zero[k].s);
+    for (int k = events; k < count; k++) change = fmin(change, c->zero[k].s);
+    const double first = change + same * fabs(h) + dal__crossing_resolution(c);
+    *distance = isfinite(change) && event > first ? NAN : event;
+    return DAL_OK;
+}
+
+/* The same of the next step.  Where it fails, as beyond a wall, a shorter one may have an event. */
+static dal_status search_next(const dal__event_search *w, search_function *search, double *distance,
+                              dal_error *reason)
+{
     const double h = w->run->layout.options.step;
-    dal_error reason = {0}, ignored = {0};
-    if (dal__crossing_is_kept(c, distance)) return DAL_OK;
-    const dal_status status = search_step(w, h, distance, &reason);
+    const dal_status status = search(w, h, distance, reason);
     double low = 0.0, high = h;
     bool found = status == DAL_OK;
     for (int i = 0; i < MAX_HALVES && !found; i++) {
         const double middle = 0.5 * (low + high);
-        const dal_status shorter = search_step(w, middle, distance, &ignored);
+        dal_error ignored = {0};
+        const dal_status shorter = search(w, middle, distance, &ignored);
         found = shorter == DAL_OK && isfinite(*distance);
         *(shorter == DAL_OK ? &low : &high) = middle;
     }
-    if (found)
-        dal__crossing_keep(c, *distance);
-    else if (w->error)
-        *w->error = reason;
     return found ? DAL_OK : status;
+}
+
+/* Searches the next step with the branches held, and whether the result counts. */
+static bool repeat_held(const dal__event_search *w, double *distance)
+{
+    dal_error ignored = {0};
+    bool slides = false;
+    dal_status status = choose_branches(w);
+    for (int j = 0; j < w->system->branches->count; j++)
+        slides = slides || w->held.branch[j].is_sliding;
+    if (status == DAL_OK && !slides) status = search_next(w, search_held, distance, &ignored);
+    dal__run_hold(w->run, NULL);
+    return status == DAL_OK && !slides && !isnan(*distance);
+}
+
+dal_status dal__search_events(dal__event_search *w, double *distance)
+{
+    dal__crossing *const free = w->free, *const held = w->held.crossing;
+    const long long unresolved = free->unresolved;
+    const double first_unresolved = free->first_unresolved;
+    dal_error reason = {0};
+    double repeated;
+    w->crossing = free;
+    if (dal__crossing_is_kept(free, distance)) return DAL_OK;
+    if (held && dal__crossing_is_kept(held, distance)) return w->crossing = held, DAL_OK;
+    const dal_status status = search_next(w, search_free, distance, &reason);
+    w->has_failed = status != DAL_OK;
+    if (held && (w->has_failed || is_near(w)) && repeat_held(w, &repeated)) {
+        w->crossing = held;
+        *distance = repeated;
+        free->unresolved = unresolved;
+        free->first_unresolved = first_unresolved;
+    } else if (w->has_failed) {
+        if (w->error) *w->error = reason;
+        return status;
+    }
+    dal__crossing_keep(w->crossing, *distance);
+    return DAL_OK;
+}
+
+/* ---- holding ---- */
+
+void dal__hold_as_searched(const dal__event_search *w, bool is_held)
+{
+    if (w->crossing == w->held.crossing) dal__run_hold(w->run, is_held ? w->held.point : NULL);
+}
+
+void dal__hold_as_kept(dal_run *run)
+{
+    double distance;
+    if (!run->layout.system->branches || !run->crossing) return;
+    const dal__event_search w = dal__event_search_begin(run, NULL);
+    if (dal__crossing_is_kept(w.held.crossing, &distance)) dal__run_hold(run, w.held.point);
+}
+
+bool dal__event_slides(const dal__event_search *w, int k)
+{
+    const dal__crossing *c = w->crossing;
+    for (int j = 0; c == w->held.crossing && j < w->system->branches->count; j++) {
+        const double apart = fabs(c->zero[w->system->events + j].s - c->zero[k].s);
+        if (w->held.branch[j].is_sliding && apart <= same * fabs(c->h)) return true;
+    }
+    return false;
+}
+
+dal_status dal__evaluate_event_rates(const dal__event_search *w)
+{
+    if (!w->held.crossing) return rates_of(NULL, w->run, w->m.rate, w->error);
+    if (choose_branches(w) != DAL_OK) dal__run_hold(w->run, NULL);
+    const dal_status status = rates_of(NULL, w->run, w->m.rate, w->error);
+    dal__run_hold(w->run, NULL);
+    return status;
 }

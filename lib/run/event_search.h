@@ -15,14 +15,37 @@ typedef struct dal__event_places {
     double *observed;                                /* [observables] */
 } dal__event_places;
 
+/* A branch of F as a step holds it. */
+typedef struct dal__held_branch {
+    double lower, upper; /* its argument stays between them */
+    double size;         /* of which eps is the rounding of the argument */
+    double scale;        /* max |rate| of the argument, at an end on both of its sides */
+    bool is_at_end;      /* the argument is at one of them except for rounding */
+    bool is_sliding;     /* and the rates lead back there from both sides */
+} dal__held_branch;
+
+/* What a search with the branches held needs; B branches, E events. */
+typedef struct dal__held_places {
+    dal__crossing *crossing;  /* of the E formulas `when`, and of how far the B branches hold */
+    dal__held_branch *branch; /* [B] */
+    double *point;            /* [B] where they decide */
+    double *value;            /* [2B] arguments, and sizes */
+    double *rate, *across;    /* [B] rates of the arguments; with one of them on its other side */
+    double *event_rate;       /* [E] */
+    double *event_scale;      /* [E] max |rate| of `when` on both sides of an end; 0: at none */
+} dal__held_places;
+
 typedef struct dal__event_search {
     dal_run *run;
     dal_error *error;
     const dal_system *system;
     dal__event_places m;
+    dal__held_places held; /* branch is NULL where the system has no branches */
+    dal__crossing *free;   /* of the formulas `when`, in a step as it is */
     dal__crossing
-        *crossing; /* of the formulas `when`: sides, and sizes of the steps to the events */
-    double toward; /* the sign of the step */
+        *crossing; /* free or held.crossing: sides, and sizes of the steps to the events */
+    double toward;   /* the sign of the step */
+    bool has_failed; /* the step as it is */
 } dal__event_search;
 
 /* Numbers of that memory, and of what else a run with events needs beside it; stored: numbers in a
@@ -38,7 +61,15 @@ dal__event_search dal__event_search_begin(dal_run *run, dal_error *error);
  * DAL_NOT_FINITE. */
 dal_status dal__search_events(dal__event_search *w, double *distance);
 
-/* Evaluates at the present state the values f and the rates, the rates alone, or the normals. */
+/* Holds the branches as the search did that was kept for the present state, if any were held; and
+ * the same where the caller has that search, or no longer. */
+void dal__hold_as_kept(dal_run *run);
+void dal__hold_as_searched(const dal__event_search *w, bool is_held);
+/* Whether the rates lead back, from both sides, to a branch that is where event k was found. */
+bool dal__event_slides(const dal__event_search *w, int k);
+
+/* Evaluates at the present state the values f and the rates, the rates alone, or the normals.
+ * Rates are those of the side to which the motion leads where a branch of F changes. */
 dal_status dal__evaluate_events(const dal__event_search *w);
 dal_status dal__evaluate_event_rates(const dal__event_search *w);
 dal_status dal__evaluate_event_normals(const dal__event_search *w);

@@ -26,8 +26,8 @@ static dal_status diagnose(dal_run *run, const dal__failure *failure, dal_error 
             "constraint %d became singular near t = %.17g: G = A W^-1 A^T has no inverse",
             (int)number, failure->t);
     if (status == DAL_SINGULAR_MASS)
-        return dal__fail(error, status, "the mass matrix became singular near t = %.17g",
-                         failure->t);
+        return dal__fail(error, status, "%s became singular near t = %.17g",
+                         dal__mass_words(system), failure->t);
     if (status == DAL_NOT_FINITE)
         return dal__fail(error, status, "table %.80s is read outside its points near t = %.17g",
                          system->table[(int)number - 1], failure->t);
@@ -47,6 +47,21 @@ static bool gauge_crosses(dal_run *run, double t, double h)
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
 
+/* Whether small steps pass from t to t + h: then the gradients of the constraints turn in it, and G
+ * keeps an inverse all the way.  The state is restored. */
+static bool passes_in_parts(dal_run *run, double h)
+{
+    enum { PARTS = 64 };
+    const size_t bytes = run->layout.persistent * sizeof *run->persistent;
+    dal_status reason = DAL_OK;
+    bool passes = true;
+    memcpy(run->shadow, run->persistent, bytes);
+    for (int i = 0; i < PARTS && passes; i++)
+        passes = run->kind->engine->step(run->engine, h / PARTS, 1u, &reason) == 0;
+    memcpy(run->persistent, run->shadow, bytes);
+    return passes;
+}
+
 static dal_status turned(dal_run *run, const dal__failure *failure, double t, double h,
                          dal_error *error)
 {
@@ -56,6 +71,12 @@ static dal_status turned(dal_run *run, const dal__failure *failure, double t, do
                          failure->guard == system->mass_guard ? DAL_SINGULAR_MASS : DAL_SINGULAR,
                          "%s goes to zero between t = %.17g and %.17g: singular there",
                          system->guard ? system->guard[failure->guard - 1] : "a guard", t, t + h);
+    if (passes_in_parts(run, h))
+        return dal__fail(error, DAL_NOT_CONVERGED,
+                         "the gradient of constraint %d by the velocities turns by more than a "
+                         "right angle in the step of %g from t = %.17g, though G = A W^-1 A^T is "
+                         "regular; take a smaller step",
+                         failure->constraint, h, t);
     return dal__fail(error, DAL_SINGULAR,
                      "constraint %d becomes singular between t = %.17g and %.17g: its normal "
                      "shrinks or turns round, so that G = A W^-1 A^T vanishes",

@@ -214,7 +214,9 @@ int dal__observable_count(const dal__layout *k, int group, bool exact_known)
     case DAL__OBSERVE_REACTIONS:
         return k->options.reactions ? k->m + k->n : 0;
     case DAL__OBSERVE_MULTIPLIERS:
-        return k->options.reactions ? k->multiplier : 0;
+        /* On ker A alone a method carries rates A v', not multipliers (lib/model/restricted.c). */
+        return k->options.reactions && !(system->properties & DAL_MASS_ON_KERNEL) ? k->multiplier
+                                                                                  : 0;
     case DAL__OBSERVE_ERROR:
         return exact_known;
     default:

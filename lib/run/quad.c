@@ -91,6 +91,11 @@ dal_status dal__quad_prepare(dal_run *run)
     return system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
 }
 
+void dal__quad_hold(dal_run *run, const double *point)
+{
+    kind()->engine->hold(run->quad.engine, point);
+}
+
 dal_status dal__quad_step(dal_run *run, double h)
 {
     dal_status reason = DAL_OK;

@@ -19,6 +19,7 @@ void dal__quad_push(dal_run *run, size_t first);
 void dal__quad_pull(dal_run *run);
 /* Completes work from the parameters. */
 dal_status dal__quad_prepare(dal_run *run);
+void dal__quad_hold(dal_run *run, const double *point);
 dal_status dal__quad_step(dal_run *run, double h);
 dal_status dal__quad_step_part(dal_run *run, double h, double part);
 /* As dal_run_observe. */

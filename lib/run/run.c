@@ -113,10 +113,17 @@ void dal_run_free(dal_run *run)
     free(run->owned);
 }
 
+void dal__run_hold(dal_run *run, const double *point)
+{
+    run->kind->engine->hold(run->engine, point);
+    if (run->quad.engine) dal__quad_hold(run, point);
+    run->is_held = point != NULL;
+}
+
 dal_status dal__step_run(dal_run *run, double h, long long count)
 {
     dal_status status = DAL_OK;
-    if (run->native.traced) {
+    if (run->native.traced && !run->is_held) {
         unsigned failed = 0;
         int reason = DAL_OK;
         run->native.traced(run->persistent, run->work, h, count, &failed, &reason, NULL, 0);

@@ -57,12 +57,16 @@ struct dal_run {
     double *event_scratch; /* see event_search.c */
     double *scales;        /* see scales.c */
     struct dal__crossing *crossing; /* of the events, in their scratch; NULL: no step is searched */
+    bool is_held;                   /* the branches of the system are held */
     bool exact;                     /* the exact solution agrees with the start */
     void *owned;                    /* memory to free, or NULL */
     dal__native_code native;
     dal__observations observations;
 };
 
+/* Holds the branches of the system at points [branches->count], see dal_branches; NULL: no
+ * longer. */
+void dal__run_hold(dal_run *run, const double *point);
 /* Takes count steps of size h, until one fails; does not explain a failure. */
 dal_status dal__step_run(dal_run *run, double h, long long count);
 /* Advances an interpreted run by a part of a step of size h, see dal__engine.step_part; the same as

@@ -10,6 +10,7 @@
  * of the capacity, wherever a run was begun or interrupted, so that sums in parts find whole parts.
  */
 #include "core/error.h"
+#include "run/event_search.h"
 #include "run/events.h"
 #include "run/failure.h"
 #include "run/run.h"
@@ -190,7 +191,11 @@ dal_status dal_run_intermediate(dal_run *run, double h,
     if (!isfinite(h))
         return dal__fail(error, DAL_ARGUMENT, "an intermediate step must be finite; it is %g", h);
     const double step = run->layout.options.step, part = h / step;
-    return dal__observe_part(run, part > 0.0 && part < 1.0 ? step : h, h, observe, user, error);
+    const double whole = part > 0.0 && part < 1.0 ? step : h;
+    dal__hold_as_kept(run);
+    const dal_status status = dal__observe_part(run, whole, h, observe, user, error);
+    if (run->is_held) dal__run_hold(run, NULL);
+    return status;
 }
 
 /* Steps and rows between polls: 992 / 2^i, so that polls coincide with ends of batches. */

@@ -134,6 +134,7 @@ static dal_status check_consistent(const dal__linearised *k, const double *befor
         if (fabs(k->D[i]) <= small) continue;
         if (isfinite(k->D[i]) && !isfinite(scale)) continue;        /* dal__check_rank says so */
         if (before && fabs(k->D[i] - before[i]) <= small) continue; /* the drift of a run */
+        if (!isfinite(k->D[i])) DAL_TRY(dal__check_mass(k, error));
         return dal__fail(error, isfinite(k->D[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
                          "%s violates constraint %d: D%d = %.6g%s", k->place, i + 1, i + 1, k->D[i],
                          run ? suggest(k, run, i, hint, sizeof hint) : hint);
@@ -215,7 +216,8 @@ static dal_status check_field(dal_run *run, dal_error *error)
     double number = 0.0, *f = run->scratch;
     const dal_status fault = system->diagnose ? system->diagnose(system, &at, &number) : DAL_OK;
     if (fault == DAL_SINGULAR_MASS)
-        return dal__fail(error, fault, "the mass matrix is singular at the present state");
+        return dal__fail(error, fault, "%s is singular at the present state",
+                         dal__mass_words(system));
     if (fault == DAL_SINGULAR)
         return dal__fail(error, fault, "constraint %d is singular at the present state",
                          (int)number);

@@ -69,7 +69,7 @@ END_OF_PAGE
 failed=0
 for scheme in light dark; do
     dark=$([ $scheme = dark ] && echo 0 || echo 1)
-    timeout ${PATIENCE:-600} $browser --headless --no-sandbox --disable-gpu --disable-background-networking \
+    timeout --foreground ${PATIENCE:-600} $browser --headless --no-sandbox --disable-gpu --disable-background-networking \
         --user-data-dir="$work/profile" --blink-settings=preferredColorScheme=$dark \
         --window-size=1400,1000 --virtual-time-budget=60000 --dump-dom "file://$work/frames.html" \
         >dom 2>messages
@@ -81,7 +81,7 @@ for scheme in light dark; do
     sed -n "s/^examined: /browser: /p" dom
 done
 if command -v python3 >/dev/null 2>&1; then
-    timeout ${PATIENCE:-600} python3 "$here/script.py" $browser "$work" "$here/../../docs/gallery" || failed=1
+    timeout --foreground ${PATIENCE:-600} python3 "$here/script.py" $browser "$work" "$here/../../docs/gallery" || failed=1
 else
     echo "browser: the script is skipped: no python3"
     [ "${CI:-}" != true ] || failed=1

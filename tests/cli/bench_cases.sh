@@ -23,9 +23,9 @@ program slow '6 1 2' '8 1 2' '30 1 2'
 program fast '2 1 2' '2 1 2' '3 1 2.5'
 printf '%s\n' 'one | slow by fast | slow | fast | 1 | >= 3 | 0' >cases.txt
 compares 0 3
-holds "no head above it" test "$(sed -n 2p out | cut -c 1-4)" = case
+expect "no head above it" test "$(sed -n 2p out | cut -c 1-4)" = case
 prints '^one +slow by fast +4  \(3 to 10\)  >= 3 +met +0e\+00$'
-holds "not the median" grep -q '"case":"one".*"median":4,"min":3,"max":10,"goal":">= 3","met":true' results.jsonl
+expect "not the median" grep -q '"case":"one".*"median":4,"min":3,"max":10,"goal":">= 3","met":true' results.jsonl
 
 case_is "a program that leaves a directory"
 printf '#!/bin/sh\nmkdir -p "$0.cache" && echo 1\n' >programs/leaves && chmod +x programs/leaves
@@ -33,7 +33,7 @@ printf '%s\n' 'left | - | leaves | | 2 | - | -' >cases.txt
 compares 0 1
 prints '^left +- +2  \(2 to 2\)'
 silent
-holds "it stays" test "$(ls programs)" = "$(printf '%s\n' fast leaves slow)"
+expect "it stays" test "$(ls programs)" = "$(printf '%s\n' fast leaves slow)"
 
 case_is "end states that differ, programs that fail or are not there"
 program slow '6 1 2' '6 1 2'
@@ -65,14 +65,14 @@ esac
 END_OF_PROGRAM
 chmod +x programs/tolerances
 sh "$bench/tolerances.sh" programs >tolerances.txt
-holds "not every system, number of lanes, error and method" test "$(grep -c '^[^#]' tolerances.txt)" -eq 36
-holds "no reference" grep -qx 'a reference' programs/reference.falling-disk
-holds "no tolerance" grep -qxF 'taylor-8-1e-10 | A, 8 lanes, 1e-10 (3e-8) | tolerances time taylor A 8 1e-10 3e-8 | hand rk4 A | 1 | <= 586 | -' tolerances.txt
+expect "not every system, number of lanes, error and method" test "$(grep -c '^[^#]' tolerances.txt)" -eq 36
+expect "no reference" grep -qx 'a reference' programs/reference.falling-disk
+expect "no tolerance" grep -qxF 'taylor-8-1e-10 | A, 8 lanes, 1e-10 (3e-8) | tolerances time taylor A 8 1e-10 3e-8 | hand rk4 A | 1 | <= 586 | -' tolerances.txt
 grep '^taylor-1-1e-13' tolerances.txt >cases.txt
 compares 0 1
 prints '^taylor-1-1e-13 +A, one lane, 1e-13: 2e-13 at best +not reached$'
 cp programs/tolerances programs/heyoka
-holds "no heyoka" test "$(sh "$bench/tolerances.sh" programs heyoka | grep -c '^heyoka-.*| heyoka time heyoka A ')" -eq 4
+expect "no heyoka" test "$(sh "$bench/tolerances.sh" programs heyoka | grep -c '^heyoka-.*| heyoka time heyoka A ')" -eq 4
 
 # The same as a page: three kinds of results, each with a figure, and a table that has its numbers.
 case_is "sections of a table of cases"
@@ -88,14 +88,14 @@ one | slow <by> fast | slow | fast | 1 | >= 3 | 0
 two | the same | fast | slow | 1 | - | 0
 END_OF_CASES
 compares 0 3
-holds "no machine" sh -c 'sed -n 1p results.jsonl | grep -q "\"processors\":[0-9]*,.*\"processes\":3}$"'
-holds "no section" test "$(sed -n 2p results.jsonl)" = \
+expect "no machine" sh -c 'sed -n 1p results.jsonl | grep -q "\"processors\":[0-9]*,.*\"processes\":3}$"'
+expect "no section" test "$(sed -n 2p results.jsonl)" = \
     '{"section":"First","unit":"parts of a second","figure":"ratios","text":"A text of two lines."}'
-holds "no default" test "$(sed -n 4p results.jsonl)" = \
+expect "no default" test "$(sed -n 4p results.jsonl)" = \
     '{"section":"Second","unit":"time of one side / time of the other","figure":"ratios","text":""}'
 
 sh "$bench/sizes.sh" >sizes.txt
-holds "not every size" test "$(grep -c '^gni-tape-.* dal tape gni physical R' sizes.txt)" -eq 7
+expect "not every size" test "$(grep -c '^gni-tape-.* dal tape gni physical R' sizes.txt)" -eq 7
 
 maker=${program%/*}/bench/page
 makes_pages() { test -x "$maker" && there gnuplot; }
@@ -123,25 +123,25 @@ END_OF_RESULTS
     prints '^paged/report/index.html$'
     silent
     page=paged/report/index.html
-    holds "no figures" test "$(grep -c '<figure><img' $page)" -eq 4
-    holds "no heads" test "$(grep -o '<h2>[A-Z][a-z]*</h2>' $page | tr -d '\n')" = \
+    expect "no figures" test "$(grep -c '<figure><img' $page)" -eq 4
+    expect "no heads" test "$(grep -o '<h2>[A-Z][a-z]*</h2>' $page | tr -d '\n')" = \
         "<h2>First</h2><h2>Second</h2><h2>Sizes</h2><h2>Runs</h2>"
-    holds "no text of a section" grep -q '<p>A text of two lines.</p>' $page
-    holds "no row of a case" grep -q '<tr><th scope="row">one</th>.*>slow &lt;by&gt; fast</td><td>4</td><td>3 to 10</td><td>≥ 3</td><td class="kept">met</td></tr>$' $page
-    holds "a case without a goal" grep -q '<tr><th scope="row">two</th>.*<td>0.25</td><td>0.1 to 0.3333</td><td></td><td></td></tr>$' $page
-    holds "no sizes" grep -q '<td>interpreted</td><td>1.5</td><td>6.5</td></tr>$' $page
-    holds "no sizes of compiled steps" grep -q '<td>compiled</td><td>0.25</td><td>–</td></tr>$' $page
-    holds "no run" grep -q '<td>rk4</td><td>10</td><td>1.5 s</td><td>2.5 s</td><td>0.5 s</td><td>1.25 s</td><td>–</td></tr>$' $page
-    holds "no data of the figure" grep -q '^1,4,3,10,3$' paged/report/ratios-1.gp
+    expect "no text of a section" grep -q '<p>A text of two lines.</p>' $page
+    expect "no row of a case" grep -q '<tr><th scope="row">one</th>.*>slow &lt;by&gt; fast</td><td>4</td><td>3 to 10</td><td>≥ 3</td><td class="kept">met</td></tr>$' $page
+    expect "a case without a goal" grep -q '<tr><th scope="row">two</th>.*<td>0.25</td><td>0.1 to 0.3333</td><td></td><td></td></tr>$' $page
+    expect "no sizes" grep -q '<td>interpreted</td><td>1.5</td><td>6.5</td></tr>$' $page
+    expect "no sizes of compiled steps" grep -q '<td>compiled</td><td>0.25</td><td>–</td></tr>$' $page
+    expect "no run" grep -q '<td>rk4</td><td>10</td><td>1.5 s</td><td>2.5 s</td><td>0.5 s</td><td>1.25 s</td><td>–</td></tr>$' $page
+    expect "no data of the figure" grep -q '^1,4,3,10,3$' paged/report/ratios-1.gp
 
     case_is "a section of which nothing was measured"
     printf '%s\n' '{"section":"A","text":"-"}' '{"case":"a","what":"w","median":null,"goal":"<= 2","met":null}' >skipped.jsonl
     makes 0 skipped.jsonl
     silent
-    holds "no row" grep -q '<td>–</td><td>–</td><td>≤ 2</td><td>not measured</td></tr>$' $page
+    expect "no row" grep -q '<td>–</td><td>–</td><td>≤ 2</td><td>not measured</td></tr>$' $page
     printf '%s\n' '{"section":"A","text":"-"}' '{"case":"a","what":"w","a":"","median":null,"goal":"<= 2","met":null}' >skipped.jsonl
     makes 0 skipped.jsonl
-    holds "measured" grep -q '<td>–</td><td>–</td><td>≤ 2</td><td>not reached</td></tr>$' $page
+    expect "measured" grep -q '<td>–</td><td>–</td><td>≤ 2</td><td>not reached</td></tr>$' $page
 
     case_is "results that are none"
     echo '{"case":"a"}' >none.jsonl

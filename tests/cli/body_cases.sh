@@ -21,16 +21,16 @@ picture: {x: x, y: y, angle: 0.5, steer: 0.3, width: 0.4, body: %s}\n' "$1" >bod
     try 0 run ./body.yaml --integrator rk4 --step 0.1 --time 1 --output still
     try 0 report still
     frame still/report/path.gp >outline
-    holds "no title" grep -q "'Path of the $1'" still/report/path.gp
+    expect "no title" grep -q "'Path of the $1'" still/report/path.gp
 }
 # is_outline LINE...: the polylines of the body, no more and no less.
 is_outline() {
     printf '%s\n' "$@" >wanted
-    holds "another outline: $(tr '\n' ';' <outline)" cmp outline wanted
+    expect "another outline: $(tr '\n' ';' <outline)" cmp outline wanted
 }
 # is_ellipse A B: the first polyline is closed, of 33 points on (x/A)^2 + (y/B)^2 = 1, once round.
 is_ellipse() {
-    holds "no ellipse" awk -v a="$1" -v b="$2" 'NR == 1 {
+    expect "no ellipse" awk -v a="$1" -v b="$2" 'NR == 1 {
         for (i = 1; i <= NF; i++) {
             split($i, p, ",")
             if ((p[1]/a)^2 + (p[2]/b)^2 > 1.02 || (p[1]/a)^2 + (p[2]/b)^2 < 0.98) exit 1
@@ -43,7 +43,7 @@ is_ellipse() {
     }' outline
 }
 
-if needs 35 "no gnuplot" there gnuplot; then
+if needs 42 "no gnuplot" there gnuplot; then
     case_is "a blade: its edge and an arrow"
     draws blade
     is_outline '-1.000,0.000 1.000,0.000' '0.500,0.300 1.000,0.000 0.500,-0.300'
@@ -56,17 +56,17 @@ if needs 35 "no gnuplot" there gnuplot; then
     case_is "a disk: as wide as width says, with its axle"
     draws disk
     is_ellipse 1 0.4
-    holds "no axle" test "$(tail -n +2 outline)" = '0.000,-0.350 0.000,0.350'
+    expect "no axle" test "$(tail -n +2 outline)" = '0.000,-0.350 0.000,0.350'
 
     case_is "a ball: a circle"
     draws ball
     is_ellipse 0.7 0.7
-    holds "more than that" test "$(wc -l <outline)" -eq 1
+    expect "more than that" test "$(wc -l <outline)" -eq 1
 
     case_is "a robot: a circle and its direction"
     draws robot
     is_ellipse 0.9 0.9
-    holds "no front" test "$(tail -n +2 outline)" = '0.000,0.000 0.900,0.000'
+    expect "no front" test "$(tail -n +2 outline)" = '0.000,0.000 0.900,0.000'
 
     # Axles of half length 0.45, wheels of half length 0.3.  Turned by 0.3 about (1, 0), the axle
     # ends at (1 -+ 0.45 sin 0.3, +-0.45 cos 0.3), a wheel reaches 0.3 (cos 0.3, sin 0.3) from there;
@@ -96,8 +96,21 @@ picture: {x: x, y: 3, body: ball}\n' >moving.yaml
         { d = ($1 - 1.25*int(n / 33))^2 + ($2 - 3)^2; n++
           if (d > 0.1484 || d < 0.1481) { n = 0; exit } }
         END { exit n != 9*33 }'
-    holds "other circles" test $? -eq 0
+    expect "other circles" test $? -eq 0
     lines moving/report/path.gp 1 >way
-    holds "not from (0, 3) to (10, 3)" test "$(sed -n '1p; $p' way | tr '\n' ' ')" = "0,3 10,3 "
+    expect "not from (0, 3) to (10, 3)" test "$(sed -n '1p; $p' way | tr '\n' ' ')" = "0,3 10,3 "
+
+    # x = t passes 5 once and never reaches 50; curves are the path, the bodies and the rings.
+    case_is "rings where events happened, and no curve where none did"
+    for place in 5 50; do
+        { cat moving.yaml && printf 'events: [{when: x - %s}]\n' $place; } >passing.yaml
+        rm -rf passing
+        try 0 run ./passing.yaml --integrator rk4 --step 0.1 --time 10 --samples 80 --output passing
+        try 0 report passing
+        curves=2
+        [ $place -eq 50 ] || curves=3
+        expect "curves with an event at $place" test "$(grep -c '^$curve[0-9]* <<' passing/report/path.gp)" -eq $curves
+        [ $place -eq 50 ] || expect "other rings" test "$(lines passing/report/path.gp 3)" = 5,3
+    done
     counted
 fi

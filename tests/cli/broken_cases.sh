@@ -5,7 +5,7 @@
 limited() {
     blocks=$1 expected=$2
     shift 2
-    (trap '' XFSZ; ulimit -f "$blocks"; exec timeout $patience "$program" "$@") >out 2>err
+    (trap '' XFSZ; ulimit -f "$blocks"; exec timeout --foreground $patience "$program" "$@") >out 2>err
     ended $? "$@"
 }
 try 0 run ./line.yaml --integrator rk4 --step 0.001 --time 100 --samples 20000 --output whole
@@ -19,23 +19,23 @@ for blocks in 1 8 64; do
     limited $blocks 4 report full
     says "^dalembert: cannot write 'full/report/[a-zA-Z.]*': File too large"
     empty
-    holds "the rows changed" cmp full/trajectory.npy whole/trajectory.npy
+    expect "the rows changed" cmp full/trajectory.npy whole/trajectory.npy
 done
 try 0 report full
-holds "no page" grep -q '</html>' full/report/index.html
+expect "no page" grep -q '</html>' full/report/index.html
 
 case_is "resume while the disk is full"
 rm -rf full
 # room for some thousand rows, with checkpoints among them
 limited 1024 4 run ./line.yaml --integrator rk4 --step 0.001 --time 100 --samples 20000 --checkpoint 0 \
     --native off --output full
-holds "no checkpoint" test -s full/checkpoint
+expect "no checkpoint" test -s full/checkpoint
 limited 16 4 resume full
 says "^dalembert: cannot (write|resize) 'full/[a-z.]*': File too large"
 limited 16 4 resume full
 try 0 resume full
-holds "not the rows of a run never interrupted" cmp full/trajectory.npy whole/trajectory.npy
-holds "not the summary of a run never interrupted" cmp full/summary.csv whole/summary.csv
+expect "not the rows of a run never interrupted" cmp full/trajectory.npy whole/trajectory.npy
+expect "not the summary of a run never interrupted" cmp full/summary.csv whole/summary.csv
 
 case_is "rows that are cut short"
 # in a row, before the first one, in the header, and nothing left
@@ -45,15 +45,15 @@ for length in $((size - 1)) $((size - 20000 * columns * 8)) 100 0; do
     truncate -s $length short/trajectory.npy
     "$program" report short >out 2>err
     status=$?
-    holds "exit $status, neither 4 nor 2: $length bytes" test $status -eq 4 -o $status -eq 2
+    expect "exit $status, neither 4 nor 2: $length bytes" test $status -eq 4 -o $status -eq 2
     says "^dalembert: '?short/trajectory.npy'?"
     empty
     cp short/trajectory.npy before.npy
     "$program" resume short >out 2>err
     status=$?
-    holds "exit $status, not 2: $length bytes" test $status -eq 2
+    expect "exit $status, not 2: $length bytes" test $status -eq 2
     says "^dalembert: '?short/trajectory.npy'?"
-    holds "resume changed it" cmp short/trajectory.npy before.npy
+    expect "resume changed it" cmp short/trajectory.npy before.npy
 done
 
 case_is "a study on a full disk"
@@ -68,5 +68,35 @@ try 0 resume cut
 for file in cells.csv quantities.csv; do
     # all but what is of the clock
     for each in plain cut; do cut -d, -f1-8 $each/$file >$each.csv; done
-    holds "another $file" cmp cut.csv plain.csv
+    expect "another $file" cmp cut.csv plain.csv
 done
+
+# Each column that a page needs of a table.
+case_is "tables of an older version"
+if needs 26 "no gnuplot" there gnuplot; then
+    printf 'coordinates: [x]\nlagrangian: (x'"'"'^2 - x^2)/2\nstart: {x'"'"': 1}\n' >swing.yaml
+    printf '%s\n' 'integrators: rk4' 'step: 0.1' 'time: 1' 'starts: physical' 'systems: [line.yaml]' >few.yaml
+    try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --output a-run
+    try 0 section swing.yaml --on x --integrator rk4 --step 0.1 --time 10 --output a-section
+    try 0 study few.yaml --output a-study --no-page
+    try 0 ensemble line.yaml --integrator rk4 --step 0.5 --times 1 --members 20 --seed 1 --vary "k=uniform(1,2)" \
+        --output an-ensemble --no-page
+    while read -r from table heads; do
+        for head in $heads; do
+            rm -rf older
+            cp -r "$from" older
+            awk -F, -v OFS=, -v head="$head" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == head) $i = "old" } 1' \
+                "$from/$table" >"older/$table"
+            try 2 report older
+            says "^dalembert: older/$table: there is no column '$head': another version of dalembert wrote it$"
+        done
+    done <<'EOF'
+a-run summary.csv trend
+a-section section.csv t direction
+a-study cells.csv E_trend D_trend
+an-ensemble statistics.csv t deviation
+an-ensemble histograms.csv t count
+an-ensemble cloud.csv t member
+EOF
+    counted
+fi

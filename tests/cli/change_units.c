@@ -3,10 +3,11 @@
  *
  *     q_i = s_i Q_i,   t = tau T,   L' = c L,   D'_a = d D_a,   invariants times g
  *
- * with powers of two between 2^-60 and 2^60, drawn by SEED; with 0 all are 1, with a multiple of 4
- * the s_i are equal.  The texts of the formulas are changed, nothing else: each coordinate x
- * becomes (s*x), each x' (s/tau*x'), t (tau*t).  With the third argument the factors are parameters, so
- * that the formulas are the same for all seeds, and so is what simplification makes of them.
+ * with powers of two between 2^-60 and 2^60, drawn by SEED; with 0 all are 1, with a multiple of
+ * 4 the s_i are equal.  The texts of the formulas are changed, nothing else: each coordinate x
+ * becomes (s*x), each x' (s/tau*x'), t (tau*t).  With the third argument the factors are
+ * parameters, so that the formulas are the same for all seeds, and so is what simplification makes
+ * of them.
  * The first line is a comment with tau, c, d and the s_i. */
 #include <dalembert.h>
 #include <math.h>

@@ -2,11 +2,11 @@
 
 case_is "every built-in system runs as it stands"
 "$program" list systems | awk 'NR > 1 && /^[a-z]/ { print $1 }' >systems
-holds "there are systems" test "$(wc -l <systems)" -ge 30
+expect "there are systems" test "$(wc -l <systems)" -ge 30
 while read -r system <&3; do
     try 0 run "$system"
     says "^dalembert: $system gives --integrator [a-z0-9+-]+ --step [0-9.]+ --time [0-9.]+$"
-    holds "$system: other rows" test "$(wc -l <out)" -eq 102
+    expect "$system: other rows" test "$(wc -l <out)" -eq 102
 done 3<systems
 
 case_is "they fill only what is absent"
@@ -21,18 +21,18 @@ says '^dalembert: spring.yaml gives --integrator gauss4 --step 0.25 --time 3$'
 mv out taken
 try 0 run spring.yaml --samples 4 --integrator gauss4 --step 0.25 --time 3
 silent
-holds "other rows" cmp taken out
+expect "other rows" cmp taken out
 try 0 run spring.yaml --samples 4 --step 0.5 --integrator rk4
 says '^dalembert: spring.yaml gives --time 3$'
 try 0 run spring.yaml --times 1,2
 says '^dalembert: spring.yaml gives --integrator gauss4 --step 0.25$'
-holds "not until the last of the times" grep -q '^2,' out
+expect "not until the last of the times" grep -q '^2,' out
 try 0 explain spring.yaml --quad-steps 0
 says 'gives --integrator gauss4 --step 0.25 --time 3$'
 prints 'gauss4, lifted, h = 0.25: 12 steps'
 try 0 section spring.yaml --on x
 says 'gives --integrator gauss4 --step 0.25 --time 3$'
-holds "another number of crossings" test "$(wc -l <out)" -eq 2
+expect "another number of crossings" test "$(wc -l <out)" -eq 2
 for command in lyapunov volume; do
     try 0 $command spring.yaml
     says 'gives --integrator gauss4 --step 0.25 --time 3$'
@@ -51,7 +51,7 @@ silent
 
 case_is "a directory has what was taken"
 try 0 run spring.yaml --output held
-holds "not in the manifest" grep -q '^    "step": 0.25,$' held/manifest.json
+expect "not in the manifest" grep -q '^    "step": 0.25,$' held/manifest.json
 sed -i '/^defaults/d' held/system.yaml
 try 2 resume held
 try 0 run spring.yaml --output gone --force

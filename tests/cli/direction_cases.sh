@@ -16,71 +16,66 @@ exact() {
 
 case_is "a run that begins at T0, either way"
 try 0 run $run --step 0.125 --from 2 --time 3 --samples 4
-holds "rows from 2 to 3" [ "$(rows_at)" = "t 2 2.25 2.5 2.75 3 " ]
-holds "another motion" exact 2
+expect "rows from 2 to 3" [ "$(rows_at)" = "t 2 2.25 2.5 2.75 3 " ]
+expect "another motion" exact 2
 try 0 run $run --step -0.125 --from 2 --time 1 --samples 4
-holds "rows from 2 to 1" [ "$(rows_at)" = "t 2 1.75 1.5 1.25 1 " ]
-holds "another motion backwards" exact 2
+expect "rows from 2 to 1" [ "$(rows_at)" = "t 2 1.75 1.5 1.25 1 " ]
+expect "another motion backwards" exact 2
 try 0 run $run --step -0.125 --time -1 --samples 3
-holds "another motion before 0" exact 0
+expect "another motion before 0" exact 0
 
 case_is "a number of steps"
 try 0 run $run --step -0.125 --from 2 --steps 8 --samples 2
-holds "eight steps" [ "$(rows_at)" = "t 2 1.5 1 " ]
+expect "eight steps" [ "$(rows_at)" = "t 2 1.5 1 " ]
 try 0 run $run --step 0.1 --from 4 --steps 1 --samples 1
-holds "one step, though 4.1 - 4 < 0.1" [ "$(rows_at)" = "t 4 4.0999999999999996 " ]
-holds "another motion" exact 4
-try 2 run $run --step -0.125 --from 2 --steps 8 --time 1
-says '--steps excludes --time'
-try 2 run $run --step 0.125 --steps 0
-says '--steps: 0 is not in 1\.\.'
+expect "one step, though 4.1 - 4 < 0.1" [ "$(rows_at)" = "t 4 4.0999999999999996 " ]
+expect "another motion" exact 4
+table <<'END'
+2 | run $run --step -0.125 --from 2 --steps 8 --time 1 | says --steps excludes --time
+2 | run $run --step 0.125 --steps 0 | says --steps: 0 is not in 1\.\.
+END
 try 2 run $run --step 0.125 --from 1e17 --steps 2
 says '^dalembert: --steps: 2 steps of 0.125 from t = 1e\+17 lead to no other finite time$'
 try 2 run $run --step 1e300 --steps 1000000000
 says '^dalembert: --steps: 1000000000 steps of 1e\+300 from t = 0 lead to no other finite time$'
 printf '%s\n' "defaults: {integrator: gauss8, step: 0.125, time: 100}" >>forced.yaml
 try 0 run ./forced.yaml --steps 2 --samples 1
-holds "not the time of the file" [ "$(rows_at)" = "t 0 0.25 " ]
+expect "not the time of the file" [ "$(rows_at)" = "t 0 0.25 " ]
 
 case_is "rows backwards at other times"
 try 0 run $run --step -0.125 --from 2 --times 2,1.7,1.2 --time 1
-holds "those times, and T" [ "$(cut -d, -f1 out | tr '\n' ' ')" = "t 2 1.7 1.2 1 " ]
-holds "another motion" exact 2
+expect "those times, and T" [ "$(cut -d, -f1 out | tr '\n' ' ')" = "t 2 1.7 1.2 1 " ]
+expect "another motion" exact 2
 try 0 run $run --step -0.125 --from 2 --time 0 --samples 3 --sampling log
-holds "1, 4 and 16 steps" [ "$(rows_at)" = "t 2 1.875 1.5 0 " ]
+expect "1, 4 and 16 steps" [ "$(rows_at)" = "t 2 1.875 1.5 0 " ]
 try 0 run $run --step -0.125 --from 2 --time 0.9 --samples 3 --sampling steps
-holds "whole steps" [ "$(rows_at)" = "t 2 1.625 1.25 0.875 " ]
-try 2 run $run --step -0.125 --from 2 --times 1.5,1,1.2
-says '--times: 1.2 does not come after the time before'
-try 2 run $run --step -0.125 --from 2 --times 1,1.5
-says '--times: a step of -0.125 does not lead from 1 to 1.5'
-try 2 run $run --step -0.125 --from 2 --times 2.5,1.5
-says '--times: 2.5 lies before the start at t = 2'
-try 2 run $run --step -0.125 --from 2 --times 1.5,0.5 --time 1
-says '--times: 0.5 is later than T = 1'
+expect "whole steps" [ "$(rows_at)" = "t 2 1.625 1.25 0.875 " ]
+table <<'END'
+2 | run $run --step -0.125 --from 2 --times 1.5,1,1.2 | says --times: 1.2 does not come after the time before
+2 | run $run --step -0.125 --from 2 --times 1,1.5 | says --times: a step of -0.125 does not lead from 1 to 1.5
+2 | run $run --step -0.125 --from 2 --times 2.5,1.5 | says --times: 2.5 lies before the start at t = 2
+2 | run $run --step -0.125 --from 2 --times 1.5,0.5 --time 1 | says --times: 0.5 is later than T = 1
+END
 
 case_is "a sign that does not lead there"
 try 2 run $run --step 0.125 --from 1.0000000001 --time 1
 says '^dalembert: --time: a step of 0.125 does not lead from t = 1.0000000001 to t = 1$'
-try 2 run $run --step 0.125 --from 2 --time 1
-says '--time: a step of 0.125 does not lead from t = 2 to t = 1'
-try 2 run $run --step -0.125 --from 2 --time 3
-says '--time: a step of -0.125 does not lead from t = 2 to t = 3'
-try 2 run $run --step -3 --from 2 --time 1
-says '--step: -3 is larger than the time -1'
-try 2 lyapunov $run --step -0.125 --time 1
-says '--step: -0.125 is not positive'
-try 2 lyapunov $run --step 0.125 --time -1
-says '--time: -1 is not positive'
+table <<'END'
+2 | run $run --step 0.125 --from 2 --time 1 | says --time: a step of 0.125 does not lead from t = 2 to t = 1
+2 | run $run --step -0.125 --from 2 --time 3 | says --time: a step of -0.125 does not lead from t = 2 to t = 3
+2 | run $run --step -3 --from 2 --time 1 | says --step: -3 is larger than the time -1
+2 | lyapunov $run --step -0.125 --time 1 | says --step: -0.125 is not positive
+2 | lyapunov $run --step 0.125 --time -1 | says --time: -1 is not positive
+END
 
 case_is "a directory of a run backwards is resumed"
 long="chaplygin-sleigh --integrator gauss4 --step -0.01 --from 5 --steps 2000 --samples 40"
 try 0 run $long --output whole
 try 0 resume whole
 says "is finished: 41 rows"
-holds "the manifest has the options" grep -q '"from": 5,' whole/manifest.json
-holds "and the number of steps" grep -q '"steps": 2000,' whole/manifest.json
-holds "it ended there" grep -q '"t": -15,' whole/manifest.json
+expect "the manifest has the options" grep -q '"from": 5,' whole/manifest.json
+expect "and the number of steps" grep -q '"steps": 2000,' whole/manifest.json
+expect "it ended there" grep -q '"t": -15,' whole/manifest.json
 
 case_is "a generated file begins there, too"
 if needs 7 "no gcc" there gcc; then
@@ -95,29 +90,29 @@ int main(void)
     return printf("%.17g,%.17g,%.17g\n", g_time(&s, 0), s.y[0], s.y[1]) < 0;
 }
 END
-    holds "it does not compile" gcc -std=c11 -O1 main.c -o main -lm
+    expect "it does not compile" gcc -std=c11 -O1 main.c -o main -lm
     ./main >generated.csv
     try 0 run $run --space physical --step -0.125 --from 2 --steps 8 --samples 1 --columns "x,x'"
     sed -n 3p out >interpreted.csv
-    holds "other digits" cmp -s generated.csv interpreted.csv
+    expect "other digits" cmp -s generated.csv interpreted.csv
     case_is "compiled steps go there, too"
     long="contact-oscillator --integrator gauss4 --step -0.05 --from 5 --steps 90 --samples 7"
     try 0 run $long --native off --output interpreted.csv
     try 0 run $long --native on --output native.csv
-    holds "other bytes" cmp -s interpreted.csv native.csv
+    expect "other bytes" cmp -s interpreted.csv native.csv
     counted
 fi
 
 case_is "orders and sections from T0"
 try 0 order ./forced.yaml --from 2 --time 5 --step 0.5 --integrators rk4 --output order.csv
-holds "another order" awk -F, 'NR == 2 && ($4 - 4)^2 > 0.01 { exit 1 }' order.csv
-holds "other numbers of steps" [ "$(cut -d, -f6 order.csv | tr '\n' ' ')" = "steps 6 12 24 48 " ]
+expect "another order" awk -F, 'NR == 2 && ($4 - 4)^2 > 0.01 { exit 1 }' order.csv
+expect "other numbers of steps" [ "$(cut -d, -f6 order.csv | tr '\n' ' ')" = "steps 6 12 24 48 " ]
 try 2 order ./forced.yaml --from 2 --time 1 --step 0.5 --integrators rk4
 says 'the time 1 is not a whole number of steps'
 # phi = t - 3
 try 0 section chaplygin-sleigh --integrator gauss4 --step 0.1 --from 3 --time 20 --on "sin(phi)" --output -
-holds "other times" awk -F, 'NR > 1 && ($2 - 3 - 3.14159265358979 * (NR - 1))^2 > 1e-20 { exit 1 }' out
-holds "five crossings" [ "$(wc -l <out)" = 6 ]
+expect "other times" awk -F, 'NR > 1 && ($2 - 3 - 3.14159265358979 * (NR - 1))^2 > 1e-20 { exit 1 }' out
+expect "five crossings" [ "$(wc -l <out)" = 6 ]
 try 2 section chaplygin-sleigh --integrator gauss4 --step -0.1 --time -3 --on phi
 says 'a section needs a positive step'
 
@@ -134,17 +129,17 @@ systems:
   - {system: ./forced.yaml, label: forwards, from: -1.5, step: 0.125}
 END
 try 0 study study.yaml --output there --no-page
-holds "other ends" [ "$(column time there/cells.csv | tr '\n' ' ')" = "1 0 0 0 -0.5 " ]
-holds "not reached" [ "$(column reached there/cells.csv | tr '\n' ' ')" = "1 0 0 0 -0.5 " ]
-holds "other numbers of steps" [ "$(column steps there/cells.csv | tr '\n' ' ')" = "8 8 16 8 8 " ]
+expect "other ends" [ "$(column time there/cells.csv | tr '\n' ' ')" = "1 0 0 0 -0.5 " ]
+expect "not reached" [ "$(column reached there/cells.csv | tr '\n' ' ')" = "1 0 0 0 -0.5 " ]
+expect "other numbers of steps" [ "$(column steps there/cells.csv | tr '\n' ' ')" = "8 8 16 8 8 " ]
 # E = x'^2/2 at the end, x' = -0.3 + sin t - sin T0
 ends() {
     awk -F, '$5 == "E" { T0 = $1 == "forwards" ? -1.5 : 2; v = -0.3 + sin(T[++n]) - sin(T0)
         if (($7 - v^2 / 2)^2 > 1e-24) exit 1 }
         BEGIN { split("1 0 0 0 -0.5", T, " ") }' there/quantities.csv
 }
-holds "another motion" ends
-holds "until the end" awk -F, 'NR > 1 && $5 > 2.0001 { exit 1 }' there/series/time.csv
+expect "another motion" ends
+expect "until the end" awk -F, 'NR > 1 && $5 > 2.0001 { exit 1 }' there/series/time.csv
 bad 'integrators: rk4\nstep: 1\nsteps: 3\ntime: 1\nsystems: [forced.yaml]\n' 'bad.yaml:1:1: steps exclude time'
 bad 'integrators: rk4\nstep: 1\nsystems: [{system: forced.yaml, steps: 3, time: 1}]\n' 'bad.yaml:3:11: steps exclude time'
 bad 'integrators: rk4\nstep: 1\nsteps: 0\nsystems: [forced.yaml]\n' 'bad.yaml:3:8: steps: 0 is not in 1'
@@ -159,7 +154,7 @@ constraints: [y' - t*x']
 start: {x: sin(t), x': 1, y': t}
 END2
 try 0 run moving.yaml --integrator rk4 --step 0.1 --from 2 --time 3 --samples 1 --columns "x,y',D1"
-holds "the start" awk -F, 'NR == 2 { exit !(($2 - sin(2))^2 < 1e-30 && $3 == 2 && $4 == 0) }' out
+expect "the start" awk -F, 'NR == 2 { exit !(($2 - sin(2))^2 < 1e-30 && $3 == 2 && $4 == 0) }' out
 try 0 check moving.yaml --from 2
 # At t = 2 alone y' = 2 is on D = 0.
 sed "s/y': t/y': 2/" moving.yaml >at2.yaml
@@ -181,9 +176,9 @@ for command in lyapunov volume; do
     sed 1d out >from
     try 0 $command shifted.yaml --integrator rk4 --step 0.1 --set s=2 --time 10 --transient 3
     sed 1d out | cmp -s - from && same=yes || same=$(diff out from)
-    holds "$command: $same" test "$same" = yes
+    expect "$command: $same" test "$same" = yes
     try 0 $command shifted.yaml --integrator rk4 --step 0.1 --time 10 --transient 3
-    sed 1d out | cmp -s - from && holds "$command does not see t" false
+    sed 1d out | cmp -s - from && expect "$command does not see t" false
     try 2 $command shifted.yaml --integrator rk4 --step 0.1 --from 2 --time 1
     says -- '--time: 1 does not come after --from 2'
     try 2 $command shifted.yaml --integrator rk4 --step -0.1 --from 2 --time 1
@@ -193,4 +188,4 @@ try 0 explain shifted.yaml --integrator rk4 --step 0.1 --from 2 --time 22
 sed 1d out >from
 try 0 explain shifted.yaml --integrator rk4 --step 0.1 --set s=2 --time 20
 first=$(grep seen out | head -1)
-holds "explain: $first" grep -qF "$first" from
+expect "explain: $first" grep -qF "$first" from

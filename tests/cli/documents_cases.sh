@@ -12,7 +12,7 @@ for document in "$here/../../README.md" "$here"/../../docs/*.md; do
         grep -v '^study$' >commands
     case $document in
     */README.md | */tutorial.md | */program.md)
-        holds "there are commands" test "$(wc -l <commands)" -ge 2 ;;
+        expect "there are commands" test "$(wc -l <commands)" -ge 2 ;;
     esac
     while read -r command <&3; do
         case $command in
@@ -25,7 +25,7 @@ for document in "$here/../../README.md" "$here"/../../docs/*.md; do
         while IFS= read -r line; do
             grep -Fqx -- "$line" printed || echo "$line"
         done >missing
-    holds "a command prints: $(head -1 missing)" test ! -s missing
+    expect "a command prints: $(head -1 missing)" test ! -s missing
     cd .. || exit 1
 done
 
@@ -40,23 +40,23 @@ for table in formats/*.csv formats/*/*.csv formats/*/series/*.csv; do
     *section.csv) sed -i "/^[xy]'*$\|xi/d" columns ;;
     *lyapunov.csv) sed -i "/^lambda[2-9]$/d" columns ;;
     esac
-    holds "$table: $(tr '\n' ' ' <columns)" test ! -s columns
+    expect "$table: $(tr '\n' ' ' <columns)" test ! -s columns
 done
-holds "there are tables" test -s formats/study/cells.csv
+expect "there are tables" test -s formats/study/cells.csv
 
 # The tables of choosing.md are the results of its study.
 case_is "the tables of choosing.md"
 sed -n '/^<!-- choosing -->$/,/^<!-- end of choosing -->$/{/^<!--/d;p;}' \
     "$here/../../docs/choosing.md" | sed '1d;$d' >stated
 awk -f "$here/../../tools/choosing.awk" choosing/choice/cells.csv >measured
-holds "make references CHOOSING=1 writes other tables: $(diff stated measured | head -3)" cmp stated measured
+expect "make references CHOOSING=1 writes other tables: $(diff stated measured | head -3)" cmp stated measured
 
 # "Hairer, Lubich, Wanner 2006, II.1" is the row of "Hairer, Lubich, Wanner 2006"; ';' separates two works.
 case_is "each work that a method cites is in references.md"
 try 0 list integrators --json
 grep -o '"reference": "[^"]*"' out | sed 's/"reference": "//; s/"$//; s/; /\n/g' |
     sed 's/\([12][0-9][0-9][0-9]\).*/\1/' | sort -u >works
-holds "there are works" test "$(wc -l <works)" -ge 20
+expect "there are works" test "$(wc -l <works)" -ge 20
 while read -r work; do
-    holds "$work" grep -qF "| $work |" "$here/../../docs/references.md"
+    expect "$work" grep -qF "| $work |" "$here/../../docs/references.md"
 done <works

@@ -13,12 +13,12 @@ case_is "an ensemble"
 try 0 $begin --output whole --threads 1
 prints "^t = 2, $members members$"
 silent
-holds "final.npy" has_rows whole/final.npy $members
-holds "members.npy" has_rows whole/members.npy $members
-holds "members.npy has other columns" test "$(columns_of whole/members.npy)" -eq 5
-holds "statistics of other times" test "$(column t whole/statistics.csv | sort -u | tr '\n' ' ')" = "0.5 1 2 "
-holds "members failed" test "$(wc -l <whole/failures.csv)" -eq 1
-holds "rows.npy does not end in final.npy" test "$(numbers_of whole/rows.npy 6 $members | cksum)" = \
+expect "final.npy" has_rows whole/final.npy $members
+expect "members.npy" has_rows whole/members.npy $members
+expect "members.npy has other columns" test "$(columns_of whole/members.npy)" -eq 5
+expect "statistics of other times" test "$(column t whole/statistics.csv | sort -u | tr '\n' ' ')" = "0.5 1 2 "
+expect "members failed" test "$(wc -l <whole/failures.csv)" -eq 1
+expect "rows.npy does not end in final.npy" test "$(numbers_of whole/rows.npy 6 $members | cksum)" = \
     "$(numbers_of whole/final.npy 6 $members | cksum)"
 
 # The table repeats the last time of statistics.csv with six digits, below heads and a rule as long as each column.
@@ -27,19 +27,19 @@ sed -n '2,$p' out >table.txt
 awk -F, 'BEGIN { print "column mean deviation min max" }
     $1 == 2 { printf "%s %.6g %.6g %.6g %.6g\n", $2, $4, $5, $6, $NF }' whole/statistics.csv >expected.txt
 sed 2d table.txt | tr -s ' ' | sed 's/ $//' >words.txt
-holds "other heads or numbers" cmp -s expected.txt words.txt
+expect "other heads or numbers" cmp -s expected.txt words.txt
 awk '{ for (i = 1; i <= NF; i++) if (length($i) > width[i]) width[i] = length($i) }
     END { for (i = 1; i <= 5; i++) { while (width[i]-- > 0) printf "-"; printf "%s", i < 5 ? "  " : "\n" } }' \
     expected.txt >rule.txt
 sed -n 2p table.txt >printed.txt
-holds "another rule" cmp -s rule.txt printed.txt
-holds "columns are not aligned" awk 'NR == FNR { rule = $0; next }
+expect "another rule" cmp -s rule.txt printed.txt
+expect "columns are not aligned" awk 'NR == FNR { rule = $0; next }
     { for (i = 2; i <= length(rule); i++)
           if (substr(rule, i - 1, 2) == " -" && substr($0, i - 1, 2) !~ /^ [^ ]$/) exit 1 }' rule.txt table.txt
 
 case_is "heads of an ensemble's files"
 while read -r file heads; do
-    holds "other heads of $file" test "$(head -n 1 whole/$file)" = "$heads"
+    expect "other heads of $file" test "$(head -n 1 whole/$file)" = "$heads"
 done <<'END'
 statistics.csv t,column,count,mean,deviation,min,q0.05,q0.25,q0.5,q0.75,q0.95,max
 covariance.csv t,column,y1,y2,phi,y1',y2',phi'
@@ -53,13 +53,13 @@ controlled="ensemble knife-edge --integrator dop853 --tolerance 1e-9 --time 2 --
     --vary x'=normal(0,0.1) --no-page"
 try 0 $controlled --output chosen
 try 0 $controlled --step 0.02 --output given
-holds "other members" cmp -s chosen/final.npy given/final.npy
-holds "not in the manifest" grep -q '"step": 0.02' chosen/manifest.json
+expect "other members" cmp -s chosen/final.npy given/final.npy
+expect "not in the manifest" grep -q '"step": 0.02' chosen/manifest.json
 try 0 resume chosen
 printf 'coordinates: [x]\nlagrangian: x'"'"'^2/2\n' >free.yaml
 try 0 ensemble ./free.yaml --integrator dop853 --tolerance 1e-9 --times 1,2 --members 9 --seed 3 \
     --vary "x'=normal(0,1)" --output listed --no-page
-holds "not a hundredth" grep -q '"step": 0.02' listed/manifest.json
+expect "not a hundredth" grep -q '"step": 0.02' listed/manifest.json
 try 2 ensemble ./free.yaml --integrator dop853 --tolerance 1e-9 --times 0.3,1.7 --members 9 --seed 3 \
     --vary "x'=normal(0,1)" --output bad
 says "^dalembert: --times: 0.3 is not a whole number of steps of 0.017 from t = 0"
@@ -85,13 +85,13 @@ for name in y1 y2 phi "y1'" "y2'" "phi'"; do
         }' >expected.txt
     awk -F, -v name="$name" '$1 == 2 && $2 == name { for (i = 3; i <= NF; i++) printf "%s ", $i }' \
         whole/statistics.csv | cat - expected.txt | tr '\n' ' ' >both.txt
-    holds "$name: other statistics" awk 'NF != 20 { exit 1 }
+    expect "$name: other statistics" awk 'NF != 20 { exit 1 }
         { for (i = 1; i <= 10; i++) { d = $i - $(i + 10); if (d > 1e-12 || d < -1e-12) exit 1 } }' both.txt
 done
 awk '{ a += $1; b += $4; s += $1 * $4 } END { printf "%.17g", (s - a * b / NR) / (NR - 1) }' final.txt >expected.txt
 awk -F, '$1 == 2 && $2 == "y1" { print $6 }' whole/covariance.csv | cat - expected.txt | tr '\n' ' ' >both.txt
-holds "another covariance" awk '{ exit !(NF == 2 && ($1 - $2)^2 < 1e-20) }' both.txt
-holds "histograms lack members" awk -F, -v n=$members 'NR > 1 { sum[$1 "," $2] += $5 }
+expect "another covariance" awk '{ exit !(NF == 2 && ($1 - $2)^2 < 1e-20) }' both.txt
+expect "histograms lack members" awk -F, -v n=$members 'NR > 1 { sum[$1 "," $2] += $5 }
     END { for (i in sum) { kinds++; if (sum[i] != n) exit 1 } exit kinds != 18 }' whole/histograms.csv
 
 case_is "members are those of single runs"
@@ -105,42 +105,42 @@ try 0 run chaplygin-sleigh --space physical --integrator rk4 --step 0.01 --time 
     --start "y1'=$v" --start "phi'=$w" --consistent --columns "q,v" --output single.csv
 tail -n 1 single.csv | cut -d, -f 2- | tr ',' ' ' >single.txt
 sed -n 700p final.txt | cat - single.txt | tr '\n' ' ' >both.txt
-holds "member 699 is another motion" awk '{ if (NF != 12) exit 1
+expect "member 699 is another motion" awk '{ if (NF != 12) exit 1
     for (i = 1; i <= 6; i++) if (($i - $(i + 6))^2 > 1e-24) exit 1 }' both.txt
 
 case_is "progress of an ensemble"
 try 0 $begin --output shown --progress json
-holds "no last line" grep -q "^{\"done\": $members, \"members\": $members, \"seconds\": [^ ]*, \"remaining\": 0}$" err
-holds "other lines" test "$(grep -cv '^{"done": ' err)" -eq 0
-holds "other bytes" same_ensemble whole shown
-try 0 $begin --output shown --shard 2/2 --progress json --force
-says '^\{"done": 488, "members": 488, '
-try 0 resume shown --progress json --no-page
-says '^\{"done": 488, "members": 488, "seconds": [^ ]*, "remaining": 0\}$'
+expect "no last line" grep -q "^{\"done\": $members, \"members\": $members, \"seconds\": [^ ]*, \"remaining\": 0}$" err
+expect "other lines" test "$(grep -cv '^{"done": ' err)" -eq 0
+expect "other bytes" same_ensemble whole shown
+table <<'END'
+0 | $begin --output shown --shard 2/2 --progress json --force | says ^\{"done": 488, "members": 488, 
+0 | resume shown --progress json --no-page | says ^\{"done": 488, "members": 488, "seconds": [^ ]*, "remaining": 0\}$
+END
 try 0 $begin --output shown --progress off --force
 silent
 
 case_is "threads, native, checkpoints change no byte"
 try 0 $begin --output other --threads 2 --native off --checkpoint 0
-holds "other bytes" same_ensemble whole other
+expect "other bytes" same_ensemble whole other
 if needs 2 "no compiler" there cc; then
     try 0 $begin --output native --native on
-    holds "other bytes by compiled steps" same_ensemble whole native
+    expect "other bytes by compiled steps" same_ensemble whole native
     counted
 fi
 
 case_is "shards of an ensemble"
 try 0 $begin --output third-1 --shard 1/3
 says "other shards are not done"
-holds "statistics of a shard" test ! -e third-1/statistics.csv
+expect "statistics of a shard" test ! -e third-1/statistics.csv
 try 2 merge third-1 --output merged
 says "is done in none of the directories"
 try 0 $begin --output third-2 --shard 2/3
 try 0 $begin --output third-2 --shard 3/3
 try 0 merge third-1 third-2 --output merged --force --no-page
-holds "other bytes of shards" same_ensemble whole merged
+expect "other bytes of shards" same_ensemble whole merged
 try 0 $begin --output third-2 --shard 1/3
-holds "other bytes of shards in one directory" same_ensemble whole third-2
+expect "other bytes of shards in one directory" same_ensemble whole third-2
 try 0 $(echo "$begin" | sed 's/--seed 3/--seed 4/') --output seed-4 --shard 1/3
 try 2 merge seed-4 third-2 --output merged --force
 says "belongs to another ensemble"
@@ -150,17 +150,17 @@ says "belongs to another ensemble"
 case_is "shards side by side in one directory"
 pids=
 for k in 1 2 3; do
-    timeout $patience "$program" $begin --output beside --shard $k/3 --threads 1 >out.$k 2>err.$k &
+    timeout --foreground $patience "$program" $begin --output beside --shard $k/3 --threads 1 >out.$k 2>err.$k &
     pids="$pids $!"
 done
 for pid in $pids; do
     ends=0
     wait "$pid" || ends=$?
     cat err.[123] >err
-    holds "a shard failed" test $ends -eq 0
+    expect "a shard failed" test $ends -eq 0
 done
-holds "other bytes of shards side by side" same_ensemble whole beside
-holds "no shard has written the statistics" grep -q "^t = 2" out.1 out.2 out.3
+expect "other bytes of shards side by side" same_ensemble whole beside
+expect "no shard has written the statistics" grep -q "^t = 2" out.1 out.2 out.3
 
 case_is "an ensemble by MPI"
 # mpi_ensemble STATUS RANKS "OPTION.." ARGUMENT...: mpirun's own options in one word.
@@ -174,17 +174,17 @@ if needs 33 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
     mpi_ensemble 0 3 "" $words --output by-mpi
     prints "^t = 2, $members members$"
     silent
-    holds "other bytes by MPI" same_ensemble whole by-mpi
+    expect "other bytes by MPI" same_ensemble whole by-mpi
     mpi_ensemble 2 2 "" $words --output by-mpi
     says "'by-mpi' holds an ensemble: 'dalembert resume by-mpi' continues it, --force overwrites it"
     mpi_ensemble 0 9 "" $words --output by-mpi --force
-    holds "other bytes of more processes than chunks" same_ensemble whole by-mpi
+    expect "other bytes of more processes than chunks" same_ensemble whole by-mpi
     mpi_ensemble 2 2 "" $words
     says "^dalembert: --output is missing; usage: mpirun dalembert-mpi ensemble SYSTEM"
     mpi_ensemble 2 2 "" $words --output unmade --vary "k=normal(0,1)"
     says "^dalembert: --vary: unknown start value or parameter 'k'"
     mpi_ensemble 2 2 "" --resume --output unmade
-    holds "something was made" test ! -e unmade
+    expect "something was made" test ! -e unmade
     mpi_ensemble 0 1 "" ensemble --help
     prints '^usage: mpirun dalembert-mpi ensemble SYSTEM'
     silent
@@ -193,14 +193,14 @@ if needs 33 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
         rm -rf stopped
         mpi_ensemble ${killed_by#*:} 2 "-x LD_PRELOAD=$top/raise_signal.so -x RAISE=${killed_by%:*} -x RAISE_AT=12
             -x RAISE_WRITE=1" $words --output stopped --checkpoint 0
-        holds "it is finished" test ! -e stopped/statistics.csv
-        holds "no chunk is done" grep -qa "$(printf '\001')" stopped/chunks-1-of-2
+        expect "it is finished" test ! -e stopped/statistics.csv
+        expect "no chunk is done" grep -qa "$(printf '\001')" stopped/chunks-1-of-2
         cp -r stopped stopped-too
         mpi_ensemble 0 3 "" --resume --output stopped
-        holds "other bytes, resumed by MPI" same_ensemble whole stopped
+        expect "other bytes, resumed by MPI" same_ensemble whole stopped
         try 0 resume stopped-too --no-page
-        holds "statistics more than once" test "$(grep -c '^t = 2' out)" -eq 1
-        holds "other bytes, resumed" same_ensemble whole stopped-too
+        expect "statistics more than once" test "$(grep -c '^t = 2' out)" -eq 1
+        expect "other bytes, resumed" same_ensemble whole stopped-too
         rm -r stopped-too
     done
     counted
@@ -210,8 +210,8 @@ case_is "two processes on one ensemble"
 "$program" ensemble line.yaml --integrator rk4 --step 1e-6 --time 1e6 --native off --threads 1 --members 300 --seed 1 \
     --vary "k=normal(0,0.1)" --output busy >out 2>err &
 other=$!
-holds "no directory" reaches $other test -e busy/chunks
-holds "no signals are caught" ready $other
+expect "no directory" reaches $other test -e busy/chunks
+expect "no signals are caught" ready $other
 try 2 resume busy
 says "'busy/chunks': another process is writing to it"
 ends_by KILL 137 $other
@@ -220,6 +220,9 @@ case_is "an ensemble is resumed"
 try 2 $begin --output whole
 says "dalembert: 'whole' holds an ensemble: 'dalembert resume whole' continues it, --force overwrites it"
 try 0 resume whole
+cp -r whole one-line
+tr '\n' ' ' <whole/manifest.json >one-line/manifest.json # the same JSON in another layout
+try 0 resume one-line --no-page
 holds "other bytes after a second end" same_ensemble whole other
 try 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --output whole
 if needs 32 "no compiler for signals at given places" raises; then
@@ -234,7 +237,7 @@ if needs 32 "no compiler for signals at given places" raises; then
         unset RAISE_WRITE
         [ -e killed/manifest.json ] && again="resume killed --no-page"
         try 0 $again $([ "$again" = "$begin" ] && echo --output killed)
-        holds "killed at $call: other bytes" same_ensemble whole killed
+        expect "killed at $call: other bytes" same_ensemble whole killed
         RAISE_WRITE=1
         export RAISE_WRITE
     done
@@ -242,7 +245,7 @@ if needs 32 "no compiler for signals at given places" raises; then
     says "interrupted; resume with: dalembert resume interrupted"
     unset RAISE_WRITE
     try 0 resume interrupted --no-page
-    holds "interrupted: other bytes" same_ensemble whole interrupted
+    expect "interrupted: other bytes" same_ensemble whole interrupted
     counted
 fi
 rm killed/final.npy
@@ -254,7 +257,7 @@ says "'killed/final.npy' is not the file that was begun"
 
 case_is "an ensemble on a full disk"
 expected=4
-(ulimit -f 100 && exec timeout $patience "$program" $begin --output full) >out 2>err
+(ulimit -f 100 && exec timeout --foreground $patience "$program" $begin --output full) >out 2>err
 ended $? ensemble
 [ -s err ] && says "cannot write 'full/.*.npy': File too large"
 
@@ -271,12 +274,12 @@ try 0 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --space physical 
 lost=$(($(wc -l <failing/failures.csv) - 1))
 says "^dalembert: $lost of 300 members failed:$"
 says "^dalembert: $lost: "
-holds "$lost failed" test $lost -gt 100 -a $lost -lt 299
-holds "failed members are counted" test "$(column count failing/statistics.csv | sort -u)" -eq $((300 - lost))
-holds "failed members have states" test \
+expect "$lost failed" test $lost -gt 100 -a $lost -lt 299
+expect "failed members are counted" test "$(column count failing/statistics.csv | sort -u)" -eq $((300 - lost))
+expect "failed members have states" test \
     "$(numbers_of failing/final.npy 2 300 | grep -c nan)" -eq $lost
 # Member and t are those of the message: a = sqrt(x) is not defined in the step from there.
-holds "failures without their messages" awk -F, '
+expect "failures without their messages" awk -F, '
     NR == 1 { if ($5 != "message") exit 1; next }
     { t = $NF; sub(/.* t = /, "", t); if ($NF !~ /^"?a value is not finite in the step of 0.01 from/ || t != $2) exit 1 }
     END { exit NR < 100 }' failing/failures.csv
@@ -285,16 +288,16 @@ for k in 1 2; do
         --vary "s=uniform(0,20)" --output failing-$k --no-page --shard $k/2 --native off
 done
 try 0 merge failing-1 failing-2 --output failing-both --no-page
-holds "other failures, merged" same_ensemble failing failing-both
+expect "other failures, merged" same_ensemble failing failing-both
 try 0 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --space physical --members 9 --seed 1 \
     --vary "s=uniform(0,1)" --output failing-both --force --no-page
-holds "messages of an ensemble before" test ! -e failing-both/messages
+expect "messages of an ensemble before" test ! -e failing-both/messages
 mkdir failing-1/messages/kept
 printf x >failing-1/messages/kept/file
 try 4 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --space physical --members 9 --seed 1 \
     --vary "s=uniform(0,1)" --output failing-1 --force --no-page
 says "^dalembert: cannot remove 'failing-1/messages/kept': "
-holds "failures without their draws" awk -F, 'NR > 1 && !($4 > 0 && $2 < 1) { exit 1 }' failing/failures.csv
+expect "failures without their draws" awk -F, 'NR > 1 && !($4 > 0 && $2 < 1) { exit 1 }' failing/failures.csv
 try 3 ensemble root.yaml --integrator rk4 --step 0.01 --time 1 --members 9 --seed 1 --vary "s=uniform(50,60)" \
     --output lost --no-page
 says "9 of 9 members failed"
@@ -329,9 +332,9 @@ wrong "unknown column of --axes 'y'" $one --vary "k=normal(0,1)" --axes "x,y"
 wrong "--shard: '3/2' is not K/N" $one --vary "k=normal(0,1)" --shard 3/2
 for output in x.csv x.npy x.h5 -; do
     wrong "--output: '$output' is no directory" $one --vary "k=normal(0,1)" --output $output
-    holds "$output was made" test ! -e ./$output
+    expect "$output was made" test ! -e ./$output
 done
-holds "a directory was made" test ! -e wrong
+expect "a directory was made" test ! -e wrong
 mkdir wrong
 printf x >wrong/manifest.json
 wrong "'wrong' is not empty and holds no results of dalembert" $one --vary "k=normal(0,1)"
@@ -342,15 +345,15 @@ case_is "the page of an ensemble"
 if needs 12 "no gnuplot" there gnuplot; then
     try 0 report whole
     for figure in cloud-1 cloud-3 histogram-1 histogram-6 band-2; do
-        holds "no $figure" grep -q '</svg>' whole/report/$figure.svg
+        expect "no $figure" grep -q '</svg>' whole/report/$figure.svg
     done
-    holds "no table" grep -q 'Statistics at t = 2' whole/report/index.html
-    holds "nothing about the system" grep -q "<h1>Chaplygin.*s symmetric sleigh, linear" whole/report/index.html
-    holds "nothing about what varies" grep -q '<dt>added to each</dt>' whole/report/index.html
+    expect "no table" grep -q 'Statistics at t = 2' whole/report/index.html
+    expect "nothing about the system" grep -q "<h1>Chaplygin.*s symmetric sleigh, linear" whole/report/index.html
+    expect "nothing about what varies" grep -q '<dt>added to each</dt>' whole/report/index.html
     # Moved along y1 the members have the same phi, which has no figure.
     try 0 ensemble chaplygin-sleigh --members 20 --seed 3 --vary "y1=uniform(0,1)" --time 1 --space physical \
         --output shifted
-    holds "no figure of what varies" test -e shifted/report/histogram-1.svg
-    holds "a figure of what does not" test ! -e shifted/report/histogram-3.svg
+    expect "no figure of what varies" test -e shifted/report/histogram-1.svg
+    expect "a figure of what does not" test ! -e shifted/report/histogram-3.svg
     counted
 fi

@@ -7,7 +7,7 @@ breaks() {
     try 3 run "$@"
     says "^dalembert: .*$message"
     lines=$(wc -l <out)
-    holds "$lines lines, not $least..$most" [ "$lines" -ge "$least" -a "$lines" -le "$most" ]
+    expect "$lines lines, not $least..$most" [ "$lines" -ge "$least" -a "$lines" -le "$most" ]
 }
 
 case_is "G singular: phi = pi/2 in (nh33)"
@@ -47,23 +47,23 @@ breaks 'did not converge' 2 11 contact-oscillator --integrator gauss8 --step 100
 case_is "a failing run keeps the rows of a file"
 try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
     --output rows.csv
-holds "17 lines" [ "$(wc -l <rows.csv)" -eq 17 ]
-holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' rows.csv
+expect "17 lines" [ "$(wc -l <rows.csv)" -eq 17 ]
+expect "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' rows.csv
 try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
     --output rows.npy
-holds "16 rows" has_rows rows.npy 16
+expect "16 rows" has_rows rows.npy 16
 try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
     --output broken
-holds "other rows" cmp rows.npy broken/trajectory.npy
-holds "a summary" grep -q '^D1,.*,aborted,$' broken/summary.csv
+expect "other rows" cmp rows.npy broken/trajectory.npy
+expect "a summary" grep -q '^D1,.*,aborted,$' broken/summary.csv
 
 case_is "messages never go where the rows go"
 # With standard error closed, the file of rows must not become it.
 "$program" run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
     --output mute.csv 2>&-
-holds "rows and nothing else" cmp mute.csv rows.csv
+expect "rows and nothing else" cmp mute.csv rows.csv
 "$program" list >&- 2>err
-holds "a closed standard output is a failing write" [ $? -eq 4 ]
+expect "a closed standard output is a failing write" [ $? -eq 4 ]
 
 case_is "output that cannot be written"
 sleigh="chaplygin-sleigh --integrator rk4 --step 0.001 --time 10 --samples 10000"
@@ -83,6 +83,6 @@ says "cannot write '/dev/full': No space left on device"
 for arguments in "run $sleigh" "run $sleigh --samples 1" list --help --version "run --help"; do
     "$program" $arguments >/dev/full 2>err
     status=$?
-    holds "exit $status, not 4: $arguments" [ $status -eq 4 ]
+    expect "exit $status, not 4: $arguments" [ $status -eq 4 ]
     says "cannot write 'standard output': No space left on device"
 done

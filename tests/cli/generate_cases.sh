@@ -21,6 +21,14 @@ int main(void)
     return printf("\n") < 0;
 }
 END
+case_is "each option of a run that a file can have"
+for option in "--from 1" "--set k=2" "--start x=1" "--space lifted" "--solver newton" "--iterations 9" \
+    "--extend-energy off" "--reactions off" "--consistent on" "--lanes 2" "--prefix h"; do
+    try 0 generate line.yaml --integrator gauss4 $option
+done
+try 0 generate line.yaml --integrator dop853 --tolerance 1e-9
+try 0 generate plane.yaml --integrator gauss4 --reactions on
+
 strict="-Wall -Wextra -Wpedantic -Werror -Wno-psabi"
 # same SYSTEM INTEGRATOR SPACE LANES COMPILER FLAGS...
 same() {
@@ -32,13 +40,13 @@ same() {
         --prefix g -o g.c
     silent
     empty
-    holds "it does not compile: $(cat cc.log)" sh -c \
+    expect "it does not compile: $(cat cc.log)" sh -c \
         "$compiler $* $strict drive.c -o driven -lm >cc.log 2>&1"
     ./driven >generated.csv
     try 0 run "$system" --integrator "$method" --space "$space" --step 0.0625 --time 6.25 --samples 1 \
         $control
     sed -n '3p' out >interpreted.csv
-    holds "other digits: $(cat generated.csv) not $(cat interpreted.csv)" \
+    expect "other digits: $(cat generated.csv) not $(cat interpreted.csv)" \
         cmp -s generated.csv interpreted.csv
     counted
 }
@@ -108,12 +116,12 @@ same tables.yaml rk4 physical 8 clang -std=c11 -O1
 if needs 4 "no gcc" there gcc; then
     case_is "only libm and memcpy, memset are needed"
     try 0 generate isokinetic --integrator gauss4+project --prefix g -o g.c
-    holds "it does not compile" gcc -std=c11 -Os -ffreestanding $strict -c g.c -o g.o
-    holds "it needs $(nm -u g.o | tr -d '\n')" test -z "$(nm -u g.o | awk '{ print $2 }' |
+    expect "it does not compile" gcc -std=c11 -Os -ffreestanding $strict -c g.c -o g.o
+    expect "it needs $(nm -u g.o | tr -d '\n')" test -z "$(nm -u g.o | awk '{ print $2 }' |
         grep -Evx 'memcpy|memset|sin|cos|tan|exp|log|pow|a?sinh?|a?cosh?|a?tanh?|atan2|sqrt|fabs|fma')"
     case_is "declarations alone"
     printf '#define g_HEADER\n#include "g.c"\nint main(void) { return g_LANES - 1; }\n' >head.c
-    holds "it is more than declarations" sh -c "gcc -std=c11 $strict head.c -o head && ./head"
+    expect "it is more than declarations" sh -c "gcc -std=c11 $strict head.c -o head && ./head"
     counted
 fi
 
@@ -134,19 +142,17 @@ prints '^    p.k = 0x1p-1;$'
 prints '^    y\[1\] = dal_num\(3.0\);$'
 
 case_is "errors of generate"
-try 2 generate
-says 'the SYSTEM is missing'
-try 2 generate line.yaml
-says '--integrator is missing'
-try 2 generate line.yaml --integrator rk4 --lanes 3
-says '3 lanes'
+table <<'END'
+2 | generate | says the SYSTEM is missing
+2 | generate line.yaml | says --integrator is missing
+2 | generate line.yaml --integrator rk4 --lanes 3 | says 3 lanes
+END
 try 2 generate line.yaml --integrator rk4 --lanes 99
-try 2 generate line.yaml --integrator rk4 --prefix '9x'
-says 'does not begin with a letter'
-try 2 generate line.yaml --integrator rk4 --prefix 'a;b'
-says 'not a C name'
-try 2 generate line.yaml --integrator rk5
-says "did you mean 'rk4'"
+table <<'END'
+2 | generate line.yaml --integrator rk4 --prefix '9x' | says does not begin with a letter
+2 | generate line.yaml --integrator rk4 --prefix 'a;b' | says not a C name
+2 | generate line.yaml --integrator rk5 | says did you mean 'rk4'
+END
 try 2 generate line.yaml --integrator rk4 --set K=1
 try 2 generate chaplygin-sleigh-vakonomic --integrator rk4 --space lifted
 try 4 generate line.yaml --integrator rk4 -o nowhere/at/all.c
@@ -158,5 +164,5 @@ case_is "no room for a file"
     ulimit -f 4
     exec "$program" generate knife-edge --integrator rk4 -o large.c 2>err
 )
-holds "exit 4" [ $? -eq 4 ]
+expect "exit 4" [ $? -eq 4 ]
 says "cannot write 'large.c': File too large"

@@ -33,10 +33,10 @@ try 0 order line.yaml --integrators rk4 --levels 2 --time 1 --output refused
 sed -i '2,$s/^\([^,]*,[^,]*\),.*/\1,,,,,,,,,refused,it is refused/' refused/order.csv
 try 0 report refused
 if there gnuplot; then silent; fi
-holds "no words" grep -q '<p>No method has errors to show.</p>' refused/report/index.html
-holds "no reason" grep -q '<li>rk4: it is refused</li>' refused/report/index.html
+expect "no words" grep -q '<p>No method has errors to show.</p>' refused/report/index.html
+expect "no reason" grep -q '<li>rk4: it is refused</li>' refused/report/index.html
 try 0 order chaplygin-sleigh --integrators isokinetic-splitting --step 0.1 --time 1 --output none
-if there gnuplot; then holds "no page" grep -q '<p>No method has errors to show.</p>' none/report/index.html; fi
+if there gnuplot; then expect "no page" grep -q '<p>No method has errors to show.</p>' none/report/index.html; fi
 
 case_is "a table that is not whole"
 # damaged FILE MESSAGE: the page of the copy of the study, where FILE has replaced its cells, is refused.
@@ -83,8 +83,8 @@ if there python3; then
     # hostile PART...: a part of hostile.py, in a directory of its own.
     hostile() {
         rm -rf hostile && mkdir hostile
-        (cd hostile && CC=${CC:-cc} timeout $patience python3 "$here/hostile.py" "$program" "$@") >err 2>&1
-        holds "$1" test $? -eq 0
+        (cd hostile && CC=${CC:-cc} timeout --foreground $patience python3 "$here/hostile.py" "$program" "$@") >err 2>&1
+        expect "$1" test $? -eq 0
     }
     there "${CC:-cc}" || echo "cli: $name: skipped: C of hostile texts: no compiler"
     there gnuplot || echo "cli: $name: skipped: pictures of hostile texts: no gnuplot"

@@ -47,7 +47,7 @@ refuse 'p_phi' chaplygin-sleigh $run --space physical --start p_phi=1
 
 case_is "a message is one line, whatever a name holds"
 refuse "unknown system 'a\?b\?\[31m'" "$(printf 'a\nb\033[31m')" $run
-holds "one line" [ "$(wc -l <err)" -eq 1 ]
+expect "one line" [ "$(wc -l <err)" -eq 1 ]
 
 case_is "settings"
 refuse "--set: 'omega' is not NAME=VALUE" chaplygin-sleigh $run --set omega

@@ -5,16 +5,16 @@ if needs 52 "no python3" there python3; then
     case_is "the manifest of a run"
     try 0 run ./line.yaml --integrator rk4 --step .1 --time 1e1 --sums plain --times 1,2.5,10 \
         --set k=0.5 --output described
-    holds "the options are not what was given" json described/manifest.json \
+    expect "the options are not what was given" json described/manifest.json \
         "d['input'] == {'system': 'system.yaml', 'integrator': 'rk4', 'step': 0.1, 'time': 10,
                         'times': '1,2.5,10', 'sums': 'plain', 'set': {'k': 0.5}, 'start': {}}"
-    holds "no numbers" json described/manifest.json \
+    expect "no numbers" json described/manifest.json \
         "number(d['t']) and d['t'] == 10 and d['rows'] == 3 and d['steps'] == 100
          and number(d['seconds']) and d['evaluations'] == 400 and d['native'] is False"
-    holds "no words" json described/manifest.json "d['status'] == 'done' and d['method'] == 'rk4'
+    expect "no words" json described/manifest.json "d['status'] == 'done' and d['method'] == 'rk4'
          and d['machine']['compiler'] and d['machine']['libyaml']"
     try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --start e=inf --output infinite
-    holds "e" json infinite/manifest.json "d['input']['start'] == {'e': 'inf'}"
+    expect "e" json infinite/manifest.json "d['input']['start'] == {'e': 'inf'}"
     rm infinite/checkpoint
     try 0 resume infinite
     cat >ends.yaml <<'END'
@@ -22,7 +22,7 @@ coordinates: [x]
 accelerations: {x: sqrt(0.5 - t)}
 END
     try 3 run ./ends.yaml --integrator rk4 --step 0.1 --time 1 --output ends
-    holds "no message" json ends/manifest.json "d['status'] == 'failed' and 't = ' in d['message']"
+    expect "no message" json ends/manifest.json "d['status'] == 'failed' and 't = ' in d['message']"
 
     case_is "the manifest of a study, with letters beyond ASCII"
     cat >letters.yaml <<'END'
@@ -35,21 +35,21 @@ systems:
 END
     title="'Gr\u00f6\u00dfe \u2013 \U0001D11E \"quoted\" back\\\\slash\ttab\u2028line'"
     try 0 study letters.yaml --output letters
-    holds "another title" json letters/manifest.json "d['study'] == $title"
-    holds "no counts" json letters/manifest.json "d['status'] == 'done' and number(d['seconds'])
+    expect "another title" json letters/manifest.json "d['study'] == $title"
+    expect "no counts" json letters/manifest.json "d['status'] == 'done' and number(d['seconds'])
         and sum(d['cells'].values()) == d['cells']['done'] >= 1"
     for manifest in letters/runs/*/manifest.json; do
-        holds "$manifest" json "$manifest" "d['status'] == 'done' and d['input']['step'] == 0.1"
+        expect "$manifest" json "$manifest" "d['status'] == 'done' and d['input']['step'] == 0.1"
     done
     try 0 study letters.yaml --output letters-1 --shard 1/1
-    holds "of a shard" json letters-1/shard-1-of-1.json "d['study'] == $title"
+    expect "of a shard" json letters-1/shard-1-of-1.json "d['study'] == $title"
     # The title is no obstacle to those who read the manifest.
     try 0 merge letters-1 --output letters-merged
-    holds "merged" json letters-merged/manifest.json "d['study'] == $title and d['status'] == 'done'"
+    expect "merged" json letters-merged/manifest.json "d['study'] == $title and d['status'] == 'done'"
     printf 'title: "a status\\n  done"\nintegrators: [rk4]\nstep: 0.1\ntime: 1\nsystems: [line.yaml]\n' \
         >breaks.yaml
     try 0 study breaks.yaml --output breaks
-    holds "line ends" json breaks/manifest.json "d['study'] == 'a status\n  done'"
+    expect "line ends" json breaks/manifest.json "d['study'] == 'a status\n  done'"
 
     case_is "a cell makes the request that its options make"
     cat >cell.yaml <<'END'
@@ -67,14 +67,14 @@ END
         --sampling steps --statistics 2 --space lifted --solver-tolerance 1e-11 --solver newton \
         --set k=0.7 --start x=0.1 --start p_x=3.0000000000000004e-8 --output one
     input() { python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["input"])' "$1"; }
-    holds "$(input cell/runs/cell_*/manifest.json)" \
+    expect "$(input cell/runs/cell_*/manifest.json)" \
         [ "$(input cell/runs/cell_*/manifest.json)" = "$(input one/manifest.json)" ]
-    holds "other rows" cmp cell/runs/cell_*/trajectory.npy one/trajectory.npy
+    expect "other rows" cmp cell/runs/cell_*/trajectory.npy one/trajectory.npy
 
     case_is "progress"
     try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --progress json --output -
     cp err progress.lines
-    holds "not JSON" json progress.lines "set(d) == {'t', 'time', 'steps', 'rows', 'seconds',
+    expect "not JSON" json progress.lines "set(d) == {'t', 'time', 'steps', 'rows', 'seconds',
         'remaining', 'deviation'} and all(map(number, d['deviation'].values()))"
     cat >burst.yaml <<'END'
 coordinates: [x]
@@ -84,12 +84,12 @@ invariants: {never: log(-1 - x^2)}
 END
     try 0 run burst.yaml --integrator rk4 --step 0.1 --time 1 --progress json
     cp err burst.lines
-    holds "what is not finite is not null" json burst.lines "d['deviation']['never'] is None
+    expect "what is not finite is not null" json burst.lines "d['deviation']['never'] is None
         and d['deviation']['E'] == 0"
 
     case_is "all manifests, in which no name comes twice"
     for manifest in $(find . -name '*.json'); do
-        holds "$manifest" json "$manifest" "d['dalembert'] and d['machine'] and d['status']"
+        expect "$manifest" json "$manifest" "d['dalembert'] and d['machine'] and d['status']"
     done
 
     case_is "the reader of JSON and that of Python"
@@ -97,7 +97,7 @@ END
     if needs 1 "no read_json (make build/tests/read_json)" test -x "$reader"; then
         python3 "$here/read_json.py" "$reader" >compared 2>&1
         status=$?
-        holds "$(cat compared)" [ $status -eq 0 ]
+        expect "$(cat compared)" [ $status -eq 0 ]
         counted
     fi
     counted

@@ -5,7 +5,7 @@
 # Where there is a file system in memory it is used: a moment is then one of the program, not one of
 # waiting for the disk.
 
-memory=$(mktemp -d -p /dev/shm 2>/dev/null) && cd "$memory"
+memory=$(mktemp -d -p /dev/shm 2>/dev/null) && { cd "$memory" || exit 1; }
 XDG_CACHE_HOME=$work/kill_cache
 export XDG_CACHE_HOME
 seed=${SEED:-$(date +%s)}
@@ -51,7 +51,7 @@ survive() {
         fi
         killed=$((killed + 1))
         kills_left=$((kills_left - 1))
-        holds "rows that cannot be read" whole_rows "$folder/trajectory.npy"
+        expect "rows that cannot be read" whole_rows "$folder/trajectory.npy"
     done
     [ -e "$folder/manifest.json" ] && set -- resume "$folder" --native $native
     try 0 "$@"
@@ -75,8 +75,8 @@ for native in $natives; do
     [ $native = "${natives##* }" ] && until_left=0
     while [ $kills_left -gt $until_left ]; do
         survive killed_often run $motion --time 200 --output killed_often --native $native
-        holds "other rows" cmp unkilled/trajectory.npy killed_often/trajectory.npy
-        holds "another summary" cmp unkilled/summary.csv killed_often/summary.csv
+        expect "other rows" cmp unkilled/trajectory.npy killed_often/trajectory.npy
+        expect "another summary" cmp unkilled/summary.csv killed_often/summary.csv
         [ $failed -gt 0 ] && break
     done
 done
@@ -99,8 +99,8 @@ if [ -n "${CALLS:-}" ] && there strace; then
                 set -- run $motion --output injected --force
                 [ -e injected/manifest.json ] && set -- resume injected
                 try 0 "$@"
-                holds "other rows, call $i" cmp undisturbed/trajectory.npy injected/trajectory.npy
-                holds "another summary, call $i" cmp undisturbed/summary.csv injected/summary.csv
+                expect "other rows, call $i" cmp undisturbed/trajectory.npy injected/trajectory.npy
+                expect "another summary, call $i" cmp undisturbed/summary.csv injected/summary.csv
             done
         done
     done 2>killed.log

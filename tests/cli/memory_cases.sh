@@ -8,16 +8,8 @@ shim=$top/fail_allocation.so
 without_memory() {
     k=$1 count=$2
     shift 2
-    timeout $patience env LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" \
+    timeout --foreground $patience env LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" \
         "$program" "$@" >out 2>err
-}
-# numbers TOTAL: which of TOTAL allocations fail: the first and last few and some between.
-numbers() {
-    awk -v total="$1" -v most="$ALLOCATIONS" 'BEGIN {
-        step = total > most ? total / most : 1
-        for (x = 1; x <= total; x += step) print int(x)
-        for (k = total - 3; k <= total; k++) if (k > 0) print k
-    }' | sort -n -u
 }
 # fails_cleanly ARGUMENT...: begins with what `prepare` makes, in the directory `place`.
 fails_cleanly() {
@@ -26,7 +18,7 @@ fails_cleanly() {
     without_memory 0 1 "$@"
     well=$? total=$(cat allocations) fault=
     cp out well.out
-    for k in $(numbers "$total"); do
+    for k in $(numbers "$total" "$ALLOCATIONS"); do
         for count in 1 1000000; do
             rm -rf place
             prepare
@@ -40,7 +32,7 @@ fails_cleanly() {
             [ -z "$(find place -name '*.new' 2>/dev/null)" ] || fault="$fault $k:file"
         done
     done
-    holds "status $well, $total allocations, at$fault: $*" [ -z "$fault" -a "$total" -gt 0 ]
+    expect "status $well, $total allocations, at$fault: $*" [ -z "$fault" -a "$total" -gt 0 ]
 }
 
 fails_allocations() { shared_object fail_allocation && without_memory 0 1 --version && [ ! -s err ]; }
@@ -94,11 +86,11 @@ elif needs 23 "no compiler for allocations that fail" fails_allocations; then
     without_memory 0 1 run $long --checkpoint 1000 --output scarce/long
     first=$(($(cat allocations) + 20)) # some checkpoints later
     without_memory $first 1000000 run $long --checkpoint 0 --output place
-    holds "status $?" [ $? -eq 4 ]
+    expect "status $?" [ $? -eq 4 ]
     says '^dalembert: out of memory$'
-    holds "no checkpoint" test -s place/checkpoint
+    expect "no checkpoint" test -s place/checkpoint
     try 0 resume place
-    holds "other rows" cmp scarce/long/trajectory.npy place/trajectory.npy
+    expect "other rows" cmp scarce/long/trajectory.npy place/trajectory.npy
     rm -rf place scarce
     counted
 fi

@@ -7,24 +7,24 @@ motion="nonholonomic-particle --integrator gauss4+project --step 0.01 --time 5"
 case_is "native: interpreted, for comparison"
 try 0 run $motion --native off --output tape.csv
 silent
-holds "off made a cache" test ! -e cache
+expect "off made a cache" test ! -e cache
 if needs 94 "no compiler" there cc; then
     case_is "native: the same bytes"
     try 0 run $motion --native on --output native.csv
     silent
-    holds "other bytes" cmp -s tape.csv native.csv
-    holds "not the objects of steps and observables" test "$(ls cache/dalembert | wc -l)" -eq 2
-    holds "the cache is not private" test "$(stat -c %a cache/dalembert)" = 700
+    expect "other bytes" cmp -s tape.csv native.csv
+    expect "not the objects of steps and observables" test "$(ls cache/dalembert | wc -l)" -eq 2
+    expect "the cache is not private" test "$(stat -c %a cache/dalembert)" = 700
     objects=$(ls cache/dalembert/*.so)
     made=$(stat -c %i $objects)
 
     case_is "native: taken from the cache, by checkpoints too"
     try 0 run $motion --native on --output native.csv
-    holds "compiled again" test "$(stat -c %i $objects)" = "$made"
+    expect "compiled again" test "$(stat -c %i $objects)" = "$made"
     try 0 run $motion --native off --output interpreted
     try 0 run $motion --native on --output there
-    holds "other bytes" cmp -s interpreted/trajectory.npy there/trajectory.npy
-    holds "another summary" cmp -s interpreted/summary.csv there/summary.csv
+    expect "other bytes" cmp -s interpreted/trajectory.npy there/trajectory.npy
+    expect "another summary" cmp -s interpreted/summary.csv there/summary.csv
 
     case_is "native: a corrupt object is compiled again"
     for object in $objects; do
@@ -33,7 +33,7 @@ if needs 94 "no compiler" there cc; then
             eval "$damage"
             try 0 run $motion --native on --output native.csv
             silent
-            holds "other bytes" cmp -s tape.csv native.csv
+            expect "other bytes" cmp -s tape.csv native.csv
         done
     done
 
@@ -43,13 +43,13 @@ if needs 94 "no compiler" there cc; then
         mkfifo "$object"
         try 0 run $motion --native on --output native.csv
         silent
-        holds "other bytes" cmp -s tape.csv native.csv
-        holds "no object instead" test -f "$object"
+        expect "other bytes" cmp -s tape.csv native.csv
+        expect "no object instead" test -f "$object"
         rm "$object"
         mkdir "$object"
         try 0 run $motion --native on --output native.csv
         says "are interpreted: '.*/cache/dalembert/.*' is in the way: it is a directory"
-        holds "other bytes" cmp -s tape.csv native.csv
+        expect "other bytes" cmp -s tape.csv native.csv
         rmdir "$object"
     done
 
@@ -60,17 +60,17 @@ if needs 94 "no compiler" there cc; then
     wait
     cat one.err two.err >err
     silent
-    holds "other bytes" cmp -s tape.csv one.csv
-    holds "other bytes" cmp -s tape.csv two.csv
-    holds "not the objects of steps and observables" test "$(ls cache/dalembert | wc -l)" -eq 2
+    expect "other bytes" cmp -s tape.csv one.csv
+    expect "other bytes" cmp -s tape.csv two.csv
+    expect "not the objects of steps and observables" test "$(ls cache/dalembert | wc -l)" -eq 2
 
     case_is "native: the same failure"
     try 3 run chaplygin-sleigh-nonlinear --integrator rk4 --step 0.05 --time 5 --native off
     cp out tape.csv
     cp err tape.err
     try 3 run chaplygin-sleigh-nonlinear --integrator rk4 --step 0.05 --time 5 --native on
-    holds "other bytes" cmp -s out tape.csv
-    holds "another message" cmp -s err tape.err
+    expect "other bytes" cmp -s out tape.csv
+    expect "another message" cmp -s err tape.err
     try 0 run $motion --native off --output tape.csv
 
     case_is "native: a study"
@@ -80,7 +80,7 @@ if needs 94 "no compiler" there cc; then
     silent
     try 0 study native.yaml --output tape-study --native off
     for file in quantities.csv series/chaplygin-sleigh.csv; do
-        holds "$file has other bytes" cmp -s native-study/$file tape-study/$file
+        expect "$file has other bytes" cmp -s native-study/$file tape-study/$file
     done
 
     case_is "native: the cells of a study share objects"
@@ -92,7 +92,7 @@ if needs 94 "no compiler" there cc; then
     rm -rf cache native-study
     PATH=$PWD/gate:$PATH try 0 study native.yaml --output native-study --native on --threads 4
     silent
-    holds "not the steps of two methods on two spaces" test "$(wc -l <gate/begun)" -eq 4
+    expect "not the steps of two methods on two spaces" test "$(wc -l <gate/begun)" -eq 4
     cmp -s native-study/quantities.csv tape-study/quantities.csv || fail "other bytes"
 
     case_is "native: nothing is compiled again for other parameters and starts"
@@ -101,7 +101,7 @@ if needs 94 "no compiler" there cc; then
     rm -rf cache gate/begun native-study tape-study
     PATH=$PWD/gate:$PATH try 0 study grid.yaml --output native-study --native on --threads 4
     silent
-    holds "not the steps of two methods on two spaces" test "$(wc -l <gate/begun)" -eq 4
+    expect "not the steps of two methods on two spaces" test "$(wc -l <gate/begun)" -eq 4
     try 0 study grid.yaml --output tape-study --native off
     cmp -s native-study/quantities.csv tape-study/quantities.csv || fail "other bytes"
 
@@ -115,9 +115,9 @@ if needs 94 "no compiler" there cc; then
     PATH=$PWD/gate:$PATH "$program" run $endless --output changed 2>err &
     reaches $! test -s gate/begun
     ends_by TERM 130 $!
-    holds "native: no compiler was done" grep -q '"native": false' changed/manifest.json
-    holds "the compiler goes on" sh -c "! kill -0 $(cat gate/begun)"
-    holds "something is left in the cache" test -z "$(ls cache/dalembert)"
+    expect "native: no compiler was done" grep -q '"native": false' changed/manifest.json
+    expect "the compiler goes on" sh -c "! kill -0 $(cat gate/begun)"
+    expect "something is left in the cache" test -z "$(ls cache/dalembert)"
     rm gate/begun
     PATH=$PWD/gate:$PATH "$program" resume changed 2>err &
     reaches $! test -s gate/begun
@@ -126,15 +126,15 @@ if needs 94 "no compiler" there cc; then
     compiled() { ls cache/dalembert/*.so && ! ls -d cache/dalembert/*/; }
     reaches $! compiled
     ends_by TERM 130 $!
-    holds "not native" grep -q '"native": true' changed/manifest.json
+    expect "not native" grep -q '"native": true' changed/manifest.json
     "$program" run $endless --native off --output unchanged 2>err &
     length=$(size changed/trajectory.npy)
     reaches $! has_bytes unchanged/trajectory.npy $length
     ends_by TERM 130 $!
     first changed/trajectory.npy $((length - 1000)) >changed.rows
     first unchanged/trajectory.npy $((length - 1000)) >unchanged.rows
-    holds "no rows" test -s changed.rows
-    holds "other rows" cmp changed.rows unchanged.rows
+    expect "no rows" test -s changed.rows
+    expect "other rows" cmp changed.rows unchanged.rows
     rm -rf changed unchanged
 
     case_is "native: a compiler that fails"
@@ -144,9 +144,9 @@ if needs 94 "no compiler" there cc; then
     rm -rf cache
     PATH=$PWD/broken:$PATH try 0 run $motion --native on --output native.csv
     says "steps are interpreted: the compiler 'cc' failed"
-    holds "what the compiler wrote" test "$(cat out err | grep -c spoken)" -eq 0
-    holds "other bytes" cmp -s tape.csv native.csv
-    holds "something is left in the cache" test -z "$(ls cache/dalembert)"
+    expect "what the compiler wrote" test "$(cat out err | grep -c spoken)" -eq 0
+    expect "other bytes" cmp -s tape.csv native.csv
+    expect "something is left in the cache" test -z "$(ls cache/dalembert)"
 
     case_is "native: the object of a compiler that fails, or is killed, is not used"
     for end in 'exit 1' 'kill -9 $$'; do
@@ -154,8 +154,8 @@ if needs 94 "no compiler" there cc; then
         rm -rf cache
         PATH=$PWD/broken:$PATH try 0 run $motion --native on --output native.csv
         says "steps are interpreted: the compiler 'cc' failed"
-        holds "other bytes" cmp -s tape.csv native.csv
-        holds "an object is left in the cache" test -z "$(ls cache/dalembert)"
+        expect "other bytes" cmp -s tape.csv native.csv
+        expect "an object is left in the cache" test -z "$(ls cache/dalembert)"
     done
 
     # Its input is empty: what is typed, or piped, is not the compiler's.
@@ -166,9 +166,9 @@ if needs 94 "no compiler" there cc; then
     echo typed >typed.txt
     PATH=$PWD/broken:$PATH try 0 run $motion --native on <typed.txt
     silent
-    holds "what the compiler wrote" eval '! grep -q spoken out'
-    holds "the compiler did not run" test -e gate/read
-    holds "the compiler read" test ! -s gate/read
+    expect "what the compiler wrote" eval '! grep -q spoken out'
+    expect "the compiler did not run" test -e gate/read
+    expect "the compiler read" test ! -s gate/read
     counted
 fi
 
@@ -177,20 +177,21 @@ rm -rf cache
 mkdir -p none
 path=$PATH
 timeout=$(command -v timeout)
+# shellcheck disable=SC2123
 PATH=$PWD/none
-"$timeout" $patience "$program" run $motion --native on --output native.csv >out 2>err
+"$timeout" --foreground $patience "$program" run $motion --native on --output native.csv >out 2>err
 status=$?
 PATH=$path
-holds "exit $status" test $status -eq 0
+expect "exit $status" test $status -eq 0
 says "steps are interpreted: no compiler 'cc'"
-holds "other bytes" cmp -s tape.csv native.csv
+expect "other bytes" cmp -s tape.csv native.csv
 
 case_is "native: a cache that is not private, or cannot be"
 mkdir -p cache/dalembert
 chmod 755 cache/dalembert
 try 0 run $motion --native on --output native.csv
 says 'steps are interpreted: .* is not a directory of this user alone'
-holds "other bytes" cmp -s tape.csv native.csv
+expect "other bytes" cmp -s tape.csv native.csv
 rm -rf cache
 : >cache
 try 0 run $motion --native on --output native.csv

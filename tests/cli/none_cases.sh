@@ -16,7 +16,7 @@ are_all() {
     shift 3
     for name in $heads; do
         cell $table $name "$@" >cells
-        holds "$table: $name: $*" test -s cells -a "$(grep -cvE "$pattern" cells)" -eq 0
+        expect "$table: $name: $*" test -s cells -a "$(grep -cvE "$pattern" cells)" -eq 0
     done
 }
 is_empty() { are_all '^$' "$@"; }
@@ -34,7 +34,7 @@ try 0 study some.yaml --output some
 reached="reached steps evaluations bits"
 is_empty some/cells.csv "$reached D_max E_first run" gni,surface refused
 has_values some/cells.csv "$reached E_first seconds" rk4
-holds "seconds of no run" sh -c '! grep refused some/cells.csv | grep -qv "physical space\",$"'
+expect "seconds of no run" sh -c '! grep refused some/cells.csv | grep -qv "physical space\",$"'
 is_empty some/cells.csv "D_max D_rate" line rk4
 has_values some/cells.csv "D_max D_rate" plane rk4
 is_empty some/cells.csv "H_first p_max" rk4,physical
@@ -47,9 +47,9 @@ is_empty some/series/plane.csv "H p pi" rk4,physical
 # Five rows within a hundred parts
 for quantity in D E H pi; do
     cell some/series/plane.csv $quantity rk4,surface,0.5 >cells
-    holds "$quantity: parts without rows" test "$(grep -c . cells)" -eq 5 -a "$(wc -l <cells)" -gt 80
+    expect "$quantity: parts without rows" test "$(grep -c . cells)" -eq 5 -a "$(wc -l <cells)" -gt 80
 done
-holds "nan" sh -c '! grep -r --include=*.csv nan some'
+refute "nan" grep -r --include=*.csv nan some
 if needs 3 "no gnuplot" there gnuplot; then
     case_is "no value: an envelope over parts without rows"
     printf '%s\n' 'integrators: implicit-midpoint' 'step: 0.5' 'time: 20' 'starts: physical' \
@@ -57,6 +57,6 @@ if needs 3 "no gnuplot" there gnuplot; then
     try 0 study swings.yaml --output swings
     try 0 report swings
     sed -n '/^\$curve1/,/^END/p' swings/report/1-E.gp | grep , >envelope
-    holds "it is no maximum" awk -F, '$2 < max { bad = 1 } { max = $2 } END { exit bad || NR < 4 }' envelope
+    expect "it is no maximum" awk -F, '$2 < max { bad = 1 } { max = $2 } END { exit bad || NR < 4 }' envelope
     counted
 fi

@@ -33,8 +33,8 @@ each_output() {
 }
 writes() { # WORDS TEXT: the output gets the text
     written $1
-    holds "status $? of $1" test $? -eq 0
-    holds "no '$2': $1" grep -q "$2" received
+    expect "status $? of $1" test $? -eq 0
+    expect "no '$2': $1" grep -q "$2" received
 }
 is_device() { [ -c device ] && [ "$(stat -c %t:%T device)" = 1:3 ]; }
 
@@ -52,11 +52,11 @@ outputs() {
         return $status
     }
     each_output writes
-    holds "it is no FIFO any more" test -p fifo.csv
+    expect "it is no FIFO any more" test -p fifo.csv
     case_is "a FIFO that nobody reads any more$who"
     head -c 10 fifo.csv >received &
-    timeout $patience $as "$program" run $circle --samples 1000000 --time 1e5 --native off -o fifo.csv >out 2>err
-    holds "exit $?, not 4" test $? -eq 4
+    timeout --foreground $patience $as "$program" run $circle --samples 1000000 --time 1e5 --native off -o fifo.csv >out 2>err
+    expect "exit $?, not 4" test $? -eq 4
     says "^dalembert: cannot write 'fifo.csv': Broken pipe$"
     wait $!
 
@@ -76,10 +76,10 @@ outputs() {
             [ "$(stat -c %a folder/target.csv)" = 640 ]
     }
     each_output writes
-    holds "another file is left: $(ls -A folder)" test "$(ls -A folder | tr '\n' ' ')" = "held target.csv "
+    expect "another file is left: $(ls -A folder)" test "$(ls -A folder | tr '\n' ' ')" = "held target.csv "
     rm -f folder/target.csv
     $as "$program" run $circle -o link.csv 2>err
-    holds "a link to nothing is not followed" grep -q ^t, folder/target.csv
+    expect "a link to nothing is not followed" grep -q ^t, folder/target.csv
 
     case_is "a directory is none for a file$who"
     mkdir -p taken.csv
@@ -87,26 +87,26 @@ outputs() {
     output=taken.csv
     fails() {
         $as "$program" $1 >out 2>err
-        holds "exit $?: $1" test $? -eq 4
+        expect "exit $?: $1" test $? -eq 4
         says "'taken.csv': Is a directory$"
     }
     commands | grep -v '^order\|^lyapunov\|^volume\|^section' >list
     while IFS='|' read -r words text <&3; do fails "$(echo "$words" | sed s/OUT/taken.csv/)"; done 3<list
-    holds "it has files" test -z "$(ls -A taken.csv)"
+    expect "it has files" test -z "$(ls -A taken.csv)"
 
     case_is "standard output by its name$who"
     if [ -e /dev/stdout ]; then
         for output in /dev/stdout /dev/fd/1; do
             echo before >received
             $as "$program" generate knife-edge --integrator rk4 -o $output >>received 2>err
-            holds "not behind what was there" test "$(head -n 1 received)" = before
-            holds "nothing" grep -q knife_edge_rk4 received
+            expect "not behind what was there" test "$(head -n 1 received)" = before
+            expect "nothing" grep -q knife_edge_rk4 received
             $as "$program" run $circle -o $output 2>err | cat >received
-            holds "no rows" test "$(wc -l <received)" -eq 12
+            expect "no rows" test "$(wc -l <received)" -eq 12
         done
         $as "$program" show suslov -o /dev/stdout >>received 2>err
-        holds "show has not appended" sh -c 'head -n 1 received | grep -q ^t, && grep -q ^title: received'
-        holds "no link any more" test -e /dev/stdout
+        expect "show has not appended" sh -c 'head -n 1 received | grep -q ^t, && grep -q ^title: received'
+        expect "no link any more" test -e /dev/stdout
     fi
 
     if [ -c device ]; then
@@ -116,9 +116,9 @@ outputs() {
         each_output writes
         ln -s device to-device
         $as "$program" generate knife-edge --integrator rk4 -o to-device 2>err
-        holds "it is replaced by its link" test $? -eq 0 -a -L to-device
-        holds "show" $as "$program" show suslov -o device
-        holds "it is no device any more" is_device
+        expect "it is replaced by its link" test $? -eq 0 -a -L to-device
+        expect "show" $as "$program" show suslov -o device
+        expect "it is no device any more" is_device
         rm -f to-device
     fi
 }
@@ -151,8 +151,8 @@ LIST
     reaches $listener test -e listening
     try 0 generate knife-edge --integrator rk4 -o socket
     wait $listener
-    holds "it got nothing" grep -q knife_edge_rk4 received
-    holds "it is no socket any more" test -S socket
+    expect "it got nothing" grep -q knife_edge_rk4 received
+    expect "it is no socket any more" test -S socket
     try 4 generate knife-edge --integrator rk4 -o socket
     says "^dalembert: cannot write 'socket': Connection refused$"
     counted
@@ -162,8 +162,8 @@ case_is "files of others beside an output stay"
 echo mine >rows.csv.new
 try 0 run $circle -o rows.csv
 try 0 generate knife-edge --integrator rk4 -o rows.csv
-holds "rows.csv.new is mine" test "$(cat rows.csv.new)" = mine
-holds "a file is left" test ! -e .rows.csv.new
+expect "rows.csv.new is mine" test "$(cat rows.csv.new)" = mine
+expect "a file is left" test ! -e .rows.csv.new
 
 case_is "rows of .npy need a file"
 mkfifo fifo.npy
@@ -186,11 +186,11 @@ for command in "run $motion" "order line.yaml --integrators rk4 --step 0.1 --tim
     says "^dalembert: 'project' is not empty and holds no results of dalembert; --force writes into it$"
     empty
     ls -R project | cmp -s - listed
-    holds "files are in it: $command" test $? -eq 0
+    expect "files are in it: $command" test $? -eq 0
     rm -rf copy && cp -R project copy
     try 0 $command --output copy --force
     for file in notes.txt results/data.csv runs/first messages/1; do
-        holds "$file is gone: $command --force" test "$(cat copy/$file)" = mine
+        expect "$file is gone: $command --force" test "$(cat copy/$file)" = mine
     done
     # what it has written is its own, in an empty directory also without force
     rm -rf fresh && mkdir fresh
@@ -232,16 +232,16 @@ if there setpriv && $as test -r "$work/other/line.yaml" 2>err; then
     case_is "a file that may not be written stays as it is"
     $as sh -c 'echo mine >held.csv && chmod 444 held.csv'
     $as "$program" run $circle -o held.csv 2>err
-    holds "exit $?, not 4" test $? -eq 4
+    expect "exit $?, not 4" test $? -eq 4
     says "^dalembert: cannot write 'held.csv': Permission denied$"
-    holds "it is written" test "$(cat held.csv)" = mine
+    expect "it is written" test "$(cat held.csv)" = mine
     case_is "a file in a directory where none can be made"
     mkdir locked && echo before >locked/rows.csv && chown $owner locked/rows.csv
     $as "$program" run $circle -o locked/rows.csv 2>err
-    holds "exit $?, not 0" test $? -eq 0
-    holds "no rows" test "$(wc -l <locked/rows.csv)" -eq 12
+    expect "exit $?, not 0" test $? -eq 0
+    expect "no rows" test "$(wc -l <locked/rows.csv)" -eq 12
     $as "$program" run $circle -o locked/new.csv 2>err
-    holds "exit $?, not 4" test $? -eq 4
+    expect "exit $?, not 4" test $? -eq 4
     says "^dalembert: cannot write 'locked/new.csv': Permission denied$"
     cd .. || exit 1
     program=$own

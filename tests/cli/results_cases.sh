@@ -7,11 +7,11 @@ results() {
     shift
     try "$wanted" "$@" --json
     cat out >>all.lines
-    holds "another schema" grep -q "^  \"schema\": \"dalembert/$1/1\",$" out
+    expect "another schema" grep -q "^  \"schema\": \"dalembert/$1/1\",$" out
     reader=${program%/*}/tests/read_json
     needs 1 "no read_json (make build/tests/read_json)" test -x "$reader" || return 0
     { wc -c <out && cat out; } | "$reader" >read
-    holds "no JSON" sh -c '[ "$(wc -l <read)" -eq 1 ] && ! grep -q "^refused" read'
+    expect "no JSON" sh -c '[ "$(wc -l <read)" -eq 1 ] && ! grep -q "^refused" read'
     counted
 }
 
@@ -50,7 +50,7 @@ case_is "JSON without another parser"
 while read -r arguments; do
     results 0 $arguments
     silent
-    holds "no version" grep -q '^  "dalembert": "[0-9.]*",$' out
+    expect "no version" grep -q '^  "dalembert": "[0-9.]*",$' out
 done <<END
 check ./plane.yaml
 list systems
@@ -65,7 +65,7 @@ if needs 2 "no /dev/full" test -c /dev/full; then
     case_is "JSON that cannot be written"
     "$program" check ./line.yaml --json 2>err >/dev/full
     status=$?
-    holds "exit $status, not 4" test $status -eq 4
+    expect "exit $status, not 4" test $status -eq 4
     says "cannot write 'standard output'"
     counted
 fi
@@ -74,38 +74,38 @@ needs 94 "no python3" there python3 || return 0
 
 case_is "list as JSON"
 results 0 list
-holds "no sleigh" json out "
+expect "no sleigh" json out "
     [(s['coordinates'], s['constraints'], s['parameters']) for s in d['systems']
      if s['system'] == 'chaplygin-sleigh']
         == [(['y1', 'y2', 'phi'], 1, {'m': 1, 'I': 1, 'v0': 1, 'omega': 1})]"
-holds "methods" json out "
+expect "methods" json out "
     [(i['order'], i['is_modifier'], i['properties'], i['preserves'])
      for i in d['integrators'] if i['integrator'] in ('gauss4', 'project')]
         == [(4, False, ['symmetric', 'symplectic lift'], ['quadratic']),
             (None, True, [], ['every'])]"
 mv out all.json
 try 0 list --markdown
-holds "other names than those of the tables" json all.json "
+expect "other names than those of the tables" json all.json "
     [line.split('\`')[1].lstrip('+') for line in open('out') if line.startswith('| \`')]
         == [s['system'] for s in d['systems']] + [i['integrator'] for i in d['integrators']]"
 results 0 list --tag chaotic --preserves energy
-holds "filters" json out "
+expect "filters" json out "
     d['request'] == {'table': None, 'tag': 'chaotic', 'order': None, 'preserves': 'energy'}
     and d['systems'] and all('chaotic' in s['tags'] for s in d['systems'])
     and d['integrators'] and all('energy' in i['preserves'] for i in d['integrators'])"
 
 case_is "check as JSON"
 results 0 check ./plane.yaml
-holds "no items" json out "
+expect "no items" json out "
     [(i['result'], i['value'], i['at_least'], i['at_most']) for i in d['items']
      if i['item'] in ('|D| at the start', 'rank of G at the start', 'first-class constraints')]
         == [('ok', 0, None, 1e-10), ('ok', 1, 1, 1), ('ok', 5, 5, 5)]"
-holds "counts" json out "d['failed'] == d['not_measured'] == 0
+expect "counts" json out "d['failed'] == d['not_measured'] == 0
     and (d['coordinates'], d['constraints']) == (2, 1) and d['preserving'] is None
     and (d['growth'], d['growth_dimension']) == ([1], 2)"
 mv out plane.json
 try 0 check ./plane.yaml
-holds "other items than those of the text" json plane.json "
+expect "other items than those of the text" json plane.json "
     [(i['item'], i['result']) for i in d['items']]
         == [(line[2:36].strip(), line[38:42].strip()) for line in open('out')
             if line[:2] == '  ' and line[2] not in ' -']"
@@ -113,12 +113,12 @@ holds "other items than those of the text" json plane.json "
 sed 's/^exact:.*/exact: {x: (1 - exp(-2*k*t))\/k}/
      s/^title:.*/title: "\\u03b8 \\"twice\\"\\ta"/' line.yaml >twice.yaml
 results 1 check twice.yaml
-holds "the failure" json out "
+expect "the failure" json out "
     [(i['item'][:8], i['at_most']) for i in d['items'] if i['result'] == 'FAIL'] == [('residual', 1e-8)]
     and all(near(i['value'], 1) for i in d['items'] if i['result'] == 'FAIL')
     and d['failed'] == 1 and d['title'] == '\u03b8 \"twice\"\ta'"
 results 0 check heisenberg
-holds "integrators" json out "{'gauss4', '+project'} <= set(d['preserving'])
+expect "integrators" json out "{'gauss4', '+project'} <= set(d['preserving'])
     and 'rk4' not in d['preserving'] and d['growth_complete']
     and {k['integrator'] for k in d['methods'] if 'D' in k['preserves']} == set(d['preserving'])
     and [k['preserves'] for k in d['methods'] if k['integrator'] == 'rk4'] == [[]]
@@ -127,29 +127,29 @@ holds "integrators" json out "{'gauss4', '+project'} <= set(d['preserving'])
 
 case_is "order as JSON"
 results 0 order $friction --time 2 --integrators rk4,isokinetic-splitting --output order.csv
-holds "the request" json out "d['request']['parameters'] == {'k': 0.5}
+expect "the request" json out "d['request']['parameters'] == {'k': 0.5}
     and d['request']['time'] == 2 and d['request']['space'] == 'physical'
     and 'step' not in d['request'] and 'integrator' not in d['request']
     and d['reference'] == {'integrator': None, 'step': None, 'error': None}"
 # x is 2 (1 - x') in both; the units are 2 of time, which is 1/k, 1 of x', as at the start, and so 2 of x.
-holds "errors" json out "
+expect "errors" json out "
     all(near(l['error'], abs($R(-0.5*l['step'])**l['steps'] - math.exp(-1)), 1e-4)
         and l['evaluations'] == 4 * l['steps'] and near(l['steps'], 2 / l['step'])
         and l['seconds'] > 0
         for l in d['methods'][0]['levels']) and len(d['methods'][0]['levels']) == 4"
-holds "the order" json out "d['methods'][0]['stated_order'] == 4
+expect "the order" json out "d['methods'][0]['stated_order'] == 4
     and abs(d['methods'][0]['observed_order'] - 4) < 0.1
     and d['methods'][0]['observed_order'] == d['methods'][0]['levels'][3]['slope']
     and d['methods'][0]['message'] is None and d['methods'][0]['levels'][0]['slope'] is None"
-holds "what is refused" json out "[m['state'] for m in d['methods']] == ['done', 'refused']
+expect "what is refused" json out "[m['state'] for m in d['methods']] == ['done', 'refused']
     and 'isokinetic' in d['methods'][1]['message'] and d['methods'][1]['levels'] == []"
-holds "other numbers than in CSV" json out "
+expect "other numbers than in CSV" json out "
     [[cell(r[k]) for k in ('step', 'steps', 'error', 'slope', 'evaluations', 'seconds')]
      for r in rows('order.csv') if r['integrator'] == 'rk4']
         == [[l[k] for k in ('step', 'steps', 'error', 'slope', 'evaluations', 'seconds')]
             for l in d['methods'][0]['levels']]"
 results 0 order pendulum-cvt --integrators gni --step 0.1 --time 1
-holds "the reference" json out "d['reference']['integrator'] == 'gauss12'
+expect "the reference" json out "d['reference']['integrator'] == 'gauss12'
     and near(d['reference']['step'], 0.1 / 2**4) and 0 < d['reference']['error'] < 1e-12"
 cat >stiff.yaml <<'END'
 coordinates: [x]
@@ -157,7 +157,7 @@ accelerations: {x: 0.001*sqrt(4 - x'^2) - 10*x'}
 start: {x': 1}
 END
 results 3 order stiff.yaml --integrators symplectic-euler-00 --steps 1,0.05 --time 2
-holds "null where a run failed" json out "[(l['error'] is None, l['seconds'] is None,
+expect "null where a run failed" json out "[(l['error'] is None, l['seconds'] is None,
     l['evaluations'] is None, l['message'] is None) for l in d['methods'][0]['levels']]
         == [(True,) * 3 + (False,), (False,) * 3 + (True,)]
     and (d['methods'][0]['state'], d['methods'][0]['observed_order']) == ('failed', None)"
@@ -166,76 +166,76 @@ case_is "lyapunov and volume as JSON"
 # A step has the determinant R; the divergence of the motion is -k.
 for command in lyapunov volume; do
     results 0 $command $friction --integrator rk4 --time 10 --transient 1 --output $command.csv
-    holds "the means" json out "near(d['divergence']['mean'], -0.5, 1e-12)
+    expect "the means" json out "near(d['divergence']['mean'], -0.5, 1e-12)
         and near(d['sum' if '$command' == 'lyapunov' else 'step']['mean'],
                  math.log($R(-0.1)) / 0.2, 1e-12)
         and (d['state'], d['derivative']) == ('done', 'exact')
         and near(d['from'], 1) and near(d['to'], 11) and d['request']['transient'] == 1"
-    holds "the balance" json out "
+    expect "the balance" json out "
         near(d['balance']['difference'], math.log($R(-0.1)) / 0.2 + 0.5, 1e-4)
         and abs(d['balance']['difference']) < d['balance']['margin']
         and d['balance']['surface'] == 0 and d['balance']['reason'] is None"
-    holds "other means than in CSV" json out "
+    expect "other means than in CSV" json out "
         [e['mean'] for e in d.get('exponents', [])] + [d['divergence']['mean']]
             + ([d['step']['mean']] if '$command' == 'volume' else [])
         == [float(x) for x in list(rows('$command.csv')[-1].values())[1:]]"
     mv out $command.json
 done
-holds "exponents" json lyapunov.json "d['sum_is_of_all'] is True
+expect "exponents" json lyapunov.json "d['sum_is_of_all'] is True
     and all(e['low'] <= e['mean'] <= e['high'] for e in d['exponents'])
     and [e['result'] for e in d['exponents']] == ['may be 0', 'negative']"
-holds "directions" json volume.json "d['directions'] == d['dimension'] == 2
+expect "directions" json volume.json "d['directions'] == d['dimension'] == 2
     and d['divergence']['result'] == d['step']['result'] == 'shrinks'"
 results 0 lyapunov $friction --integrator rk4 --time 2 --exponents 1
-holds "without the sum of all" json out "len(d['exponents']) == 1 and d['sum_is_of_all'] is False
+expect "without the sum of all" json out "len(d['exponents']) == 1 and d['sum_is_of_all'] is False
     and d['balance']['difference'] is None and '1 of 2' in d['balance']['reason']"
 results 3 lyapunov ends.yaml --integrator rk4 --step 0.1 --time 1
-holds "a run that fails" json out "d['state'] == 'failed' and 0 < d['to'] < 0.6"
+expect "a run that fails" json out "d['state'] == 'failed' and 0 < d['to'] < 0.6"
 
 case_is "explain as JSON"
 results 0 explain $friction --integrator rk4 --time 10 --output explain.csv
-holds "the request" json out "d['request']['space'] == 'lifted' and d['request']['step'] == 0.2
+expect "the request" json out "d['request']['space'] == 'lifted' and d['request']['step'] == 0.2
     and d['steps'] == d['quad_steps'] == 50 and 'precision' not in d['request']"
 # E = x'^2/2 of the run, and of one with half the step.
-holds "deviations" json out "
+expect "deviations" json out "
     [near(r['deviation'], (1 - $R(-0.5*h)**(20/h))/2, 1e-9)
      for o in d['observables'] if o['name'] == 'E' for r in o['runs']
      for name, h in (('all', 0.2), ('half-step', 0.1)) if r['name'] == name] == [True, True]"
-holds "what is not conserved has no trend" json out "
+expect "what is not conserved has no trend" json out "
     [(r['size'], r['trend'], r['exponent'], r['confidence']) for o in d['observables']
      for r in o['runs'] if (o['name'], r['name']) == ('E', 'all')] == [(None,) * 4]"
-holds "other numbers than in CSV" json out "
+expect "other numbers than in CSV" json out "
     [[o['name'], kind, r['name']] + [r.get(k) for k in
         ('steps', 'share', 'margin', 'rate', 'rate_low', 'rate_high', 'deviation', 'size',
          'trend', 'confidence', 'words')]
      for o in d['observables'] for kind in ('run', 'source') for r in o[kind + 's']]
     == [[cell(x) for x in r.values()] for r in rows('explain.csv')]"
 results 0 explain $friction --integrator rk4 --time 2 --quad-steps 0
-holds "without quad precision" json out "d['quad_steps'] == 0
+expect "without quad precision" json out "d['quad_steps'] == 0
     and all('quad' not in r['name'] for o in d['observables'] for r in o['runs'])
     and {'name', 'reason'} == set(d['not_run'][0])"
 
 case_is "section as JSON"
 # x = (1 - exp(-k t))/k is 0.5 at t = -log(1 - k/2)/k.
 results 0 section $friction --integrator rk4 --time 3 --on "x=0.5" --output section.csv
-holds "the crossing" json out "d['up'] == 1 and d['down'] == d['touches'] == 0
+expect "the crossing" json out "d['up'] == 1 and d['down'] == d['touches'] == 0
     and near(d['rows'][0][1], -2*math.log(0.75), 1e-4) and near(d['rows'][0][3], 0.5)
     and d['request']['on'] == 'x=0.5' and d['request']['direction'] == 'both'"
-holds "other rows than in CSV" json out "
+expect "other rows than in CSV" json out "
     [dict(zip(d['columns'], row)) for row in d['rows']]
         == [{k: float(x) for k, x in r.items()} for r in rows('section.csv')]"
 results 0 section pendulum-cvt --on "sin(xi)" --direction up --integrator gni --step 0.1 --time 50
-holds "upwards" json out "len(d['rows']) == d['up'] > 10
+expect "upwards" json out "len(d['rows']) == d['up'] > 10
     and all(abs(math.sin(r[3])) < 1e-12 and r[2] == 1 for r in d['rows'])
     and [r[0] for r in d['rows']] == list(range(1, d['up'] + 1))"
 results 3 section ends.yaml --on t-0.3 --integrator rk4 --step 0.1 --time 1
-holds "a run that fails" json out "d['state'] == 'failed' and d['up'] == 1"
+expect "a run that fails" json out "d['state'] == 'failed' and d['up'] == 1"
 "$program" section $friction --integrator rk4 --on "sin(t)" --time 1e12 --output cut --json 2>err >out &
 pid=$!
-holds "no rows" reaches $pid has_lines cut/section.csv 4
+expect "no rows" reaches $pid has_lines cut/section.csv 4
 ends_by INT 130 $pid
 says '^dalembert: interrupted; [0-9]+ rows are kept$'
-holds "a run that is interrupted" json out "d['state'] == 'interrupted' and d['to'] < 1e12
+expect "a run that is interrupted" json out "d['state'] == 'interrupted' and d['to'] < 1e12
     and [r[0] for r in d['rows']] == [float(r['crossing']) for r in rows('cut/section.csv')]
     and all(near(r[1], math.pi * r[0], 1e-9) for r in d['rows'])"
 
@@ -269,5 +269,5 @@ trend = {'rate', 'rate_low', 'rate_high', 'exponent', 'size', 'trend'}  # amplit
 print(*sorted(n for n in seen - trend if f'`{n}`' not in described))
 print(len(seen))
 END
-holds "$(cat undescribed)" sh -c '[ -z "$(head -1 undescribed)" ] && [ "$(tail -1 undescribed)" -gt 60 ]'
+expect "$(cat undescribed)" sh -c '[ -z "$(head -1 undescribed)" ] && [ "$(tail -1 undescribed)" -gt 60 ]'
 counted

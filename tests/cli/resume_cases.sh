@@ -8,14 +8,14 @@ long="chaplygin-sleigh --integrator gauss8+project --step 0.001 --time 20 --samp
 case_is "a directory"
 try 0 run $long --output whole
 empty
-holds "rows" has_rows whole/trajectory.npy 20012
-holds "it names the system" grep -qx '    "system": "chaplygin-sleigh",' whole/manifest.json
-holds "it has the settings" grep -qx '    "set": {"omega": 1.5},' whole/manifest.json
-holds "the heads of the summary" grep -qx "observable,first,final,maximum,deviation,amplitude,rate,\
+expect "rows" has_rows whole/trajectory.npy 20012
+expect "it names the system" grep -qx '    "system": "chaplygin-sleigh",' whole/manifest.json
+expect "it has the settings" grep -qx '    "set": {"omega": 1.5},' whole/manifest.json
+expect "the heads of the summary" grep -qx "observable,first,final,maximum,deviation,amplitude,rate,\
 rate_low,rate_high,exponent,size,trend,confidence" whole/summary.csv
-holds "D1 is not kept to rounding" grep -q '^D1,.*,rounding,[a-z ]*,[0-9.e-]*$' whole/summary.csv
+expect "D1 is not kept to rounding" grep -q '^D1,.*,rounding,[a-z ]*,[0-9.e-]*$' whole/summary.csv
 try 0 run $long --output whole.npy
-holds "the rows are those of a file" cmp whole.npy whole/trajectory.npy
+expect "the rows are those of a file" cmp whole.npy whole/trajectory.npy
 
 case_is "a directory is not written over"
 try 2 run $long --output whole
@@ -24,11 +24,11 @@ mkdir -p mine
 echo 'not a copy' >mine/system.yaml
 try 2 run $long --output mine
 says "'mine/system.yaml' exists already"
-holds "the file was touched" grep -qx 'not a copy' mine/system.yaml
+expect "the file was touched" grep -qx 'not a copy' mine/system.yaml
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output other
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --samples 5 --output other --force
-holds "6 rows" has_rows other/trajectory.npy 6
-holds "the system file was copied" cmp line.yaml other/system.yaml
+expect "6 rows" has_rows other/trajectory.npy 6
+expect "the system file was copied" cmp line.yaml other/system.yaml
 
 case_is "a finished run"
 try 0 resume whole
@@ -42,8 +42,8 @@ for call in 3 8 15; do cut_off 137 9 $call resume killed --checkpoint 0; done
 printf '1.5,0.9' >>killed/trajectory.npy
 try 0 resume killed
 says "'killed' resumes at t = [0-9.]*[1-9][0-9.]* with row [1-9]"
-holds "not the rows of a run never interrupted" cmp killed/trajectory.npy whole/trajectory.npy
-holds "not the summary of a run never interrupted" cmp killed/summary.csv whole/summary.csv
+expect "not the rows of a run never interrupted" cmp killed/trajectory.npy whole/trajectory.npy
+expect "not the summary of a run never interrupted" cmp killed/summary.csv whole/summary.csv
 
 case_is "killed between renaming the old checkpoint and the new one"
 cp -r killed between
@@ -53,15 +53,15 @@ try 0 resume between
 says "'between' is finished"
 rm between/checkpoint.before
 try 0 resume between
-holds "not the rows of a run never interrupted" cmp between/trajectory.npy whole/trajectory.npy
-holds "not the summary of a run never interrupted" cmp between/summary.csv whole/summary.csv
+expect "not the rows of a run never interrupted" cmp between/trajectory.npy whole/trajectory.npy
+expect "not the summary of a run never interrupted" cmp between/summary.csv whole/summary.csv
 
 case_is "killed before the first checkpoint"
 cp -r whole early
 rm -f early/checkpoint early/checkpoint.before early/summary.csv
 head -c 100 whole/trajectory.npy >early/trajectory.npy
 try 0 resume early
-holds "not the rows of a run never interrupted" cmp early/trajectory.npy whole/trajectory.npy
+expect "not the rows of a run never interrupted" cmp early/trajectory.npy whole/trajectory.npy
 
 case_is "interrupted"
 for signal in 15 2; do
@@ -70,19 +70,19 @@ for signal in 15 2; do
     says 'interrupted; resume with: dalembert resume stopped'
 done
 "$program" run $long --time 1e9 --samples 1e9 --checkpoint 1e6 --output undue 2>err &
-holds "no rows" reaches $! has_bytes undue/trajectory.npy 100000
+expect "no rows" reaches $! has_bytes undue/trajectory.npy 100000
 ends_by INT 130 $!
-holds "no checkpoint, though none was due" test -s undue/checkpoint
+expect "no checkpoint, though none was due" test -s undue/checkpoint
 cp -r stopped cut
 cp -r stopped flipped
 cp -r stopped early_flip
 try 0 resume stopped
-holds "not the rows of a run never interrupted" cmp stopped/trajectory.npy whole/trajectory.npy
+expect "not the rows of a run never interrupted" cmp stopped/trajectory.npy whole/trajectory.npy
 "$program" run $long --time 1e9 --samples 1e9 >out 2>err &
-holds "no rows" reaches $! has_lines out 2
+expect "no rows" reaches $! has_lines out 2
 ends_by INT 130 $!
 says 'interrupted; [0-9]+ rows are kept'
-holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' out
+expect "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' out
 
 # word FILE K: number k of its words of 64 bits, from 0.  flip FILE BYTE: changes one byte of it.
 word() { od -A n -t d8 -j $((8 * $2)) -N 8 "$1" | tr -d ' '; }
@@ -95,20 +95,20 @@ case_is "rows that are not those of the checkpoint"
 columns=$(columns_of whole.npy)
 header=$(($(wc -c <whole.npy) - 20012 * columns * 8))
 last=$((header + $(word cut/checkpoint 2) * columns * 8 - 8))
-holds "checkpoints of one row" test "$(word cut/checkpoint 2)" -gt "$(word cut/checkpoint.before 2)"
+expect "checkpoints of one row" test "$(word cut/checkpoint 2)" -gt "$(word cut/checkpoint.before 2)"
 truncate -s $last cut/trajectory.npy
 flip flipped/trajectory.npy $last
 for folder in cut flipped; do
     try 0 resume $folder
     says "$folder/checkpoint.before is read instead"
-    holds "not the rows of a run never interrupted" cmp $folder/trajectory.npy whole/trajectory.npy
-    holds "not the summary of a run never interrupted" cmp $folder/summary.csv whole/summary.csv
+    expect "not the rows of a run never interrupted" cmp $folder/trajectory.npy whole/trajectory.npy
+    expect "not the summary of a run never interrupted" cmp $folder/summary.csv whole/summary.csv
 done
 flip early_flip/trajectory.npy $((header + 100))
 cp early_flip/trajectory.npy kept.npy
 try 2 resume early_flip
 says "early_flip/trajectory.npy': its first [0-9]+ rows were changed since the checkpoint"
-holds "it was written to" cmp kept.npy early_flip/trajectory.npy
+expect "it was written to" cmp kept.npy early_flip/trajectory.npy
 
 case_is "bytes of a checkpoint that are changed or missing"
 size=$(wc -c <flipped/checkpoint)
@@ -128,15 +128,15 @@ case_is "no room for more rows"
     exec "$program" run $long --checkpoint 0 --output full 2>err
 )
 status=$?
-holds "exit $status, not 4" [ $status -eq 4 ]
+expect "exit $status, not 4" [ $status -eq 4 ]
 says "cannot write 'full/(trajectory.npy|checkpoint.new)': File too large"
 try 0 resume full
-holds "not the rows of a run never interrupted" cmp full/trajectory.npy whole/trajectory.npy
+expect "not the rows of a run never interrupted" cmp full/trajectory.npy whole/trajectory.npy
 
 case_is "two processes on one directory"
 "$program" run $long --time 1e9 --samples 1e9 --checkpoint 0 --output busy 2>err &
 other=$!
-holds "no checkpoint" reaches $other test -e busy/checkpoint
+expect "no checkpoint" reaches $other test -e busy/checkpoint
 try 2 resume busy
 says "busy/trajectory.npy': another process is writing to it"
 ends_by KILL 137 $other
@@ -151,8 +151,8 @@ printf x | dd of=older/checkpoint bs=1 seek=100 conv=notrunc 2>/dev/null
 try 0 resume older
 says 'older/checkpoint: the checkpoint is damaged: its check sum is wrong'
 says 'older/checkpoint.before is read instead'
-holds "not the rows of a run never interrupted" cmp older/trajectory.npy whole/trajectory.npy
-holds "not the summary of a run never interrupted" cmp older/summary.csv whole/summary.csv
+expect "not the rows of a run never interrupted" cmp older/trajectory.npy whole/trajectory.npy
+expect "not the summary of a run never interrupted" cmp older/summary.csv whole/summary.csv
 rm -f damaged/checkpoint.before
 try 2 resume damaged
 says 'damaged/checkpoint: the checkpoint is damaged: its check sum is wrong'
@@ -207,7 +207,7 @@ if (ulimit -v 2000000 && "$program" --version) >out 2>err; then
     printf '\223NUMPY\2\0\377\377\377\377' >ragged/trajectory.npy
     (ulimit -v 2000000 && exec "$program" report ragged) >out 2>err
     status=$?
-    holds "exit $status, not 2" [ $status -eq 2 ]
+    expect "exit $status, not 2" [ $status -eq 2 ]
     says "'ragged/trajectory.npy' is no .npy file of named doubles"
 else
     cannot 2 "this program does not begin within 2 GB, as under a sanitizer"
@@ -225,7 +225,7 @@ for kept in "$here"/data/run-*; do
     try 2 resume taken
     says "^dalembert: taken/manifest.json:2:16: written by dalembert $version, which can resume it; \
 dalembert $present resumes what 0\.3 or later wrote$"
-    holds "it was changed" diff -r "$kept" taken
+    expect "it was changed" diff -r "$kept" taken
     sed "s/^  \"dalembert\": .*/  \"dalembert\": \"$present\",/" "$kept/manifest.json" >taken/manifest.json
     try 2 resume taken
     says "taken/checkpoint: its statistics have layout $layout; dalembert $present reads layout"
@@ -235,14 +235,14 @@ done
 continues_format() {
     rm -rf taken never
     cp -r "$here/data/format-$1" taken
-    holds "its format" [ "$(head -c 8 taken/checkpoint)" = DALCHK$1 ]
+    expect "its format" [ "$(head -c 8 taken/checkpoint)" = DALCHK$1 ]
     try 0 resume taken
     says "'taken' resumes at t = $2 with row $3"
-    holds "the format of now" [ "$(head -c 8 taken/checkpoint)" = DALCHK05 ]
+    expect "the format of now" [ "$(head -c 8 taken/checkpoint)" = DALCHK05 ]
     try 0 run taken/system.yaml --integrator gauss4 --step 0.01 --time $4 --samples $5 --space physical \
         --set k=9 --output never
-    holds "not the rows of a run never interrupted" cmp taken/trajectory.npy never/trajectory.npy
-    holds "not the summary of a run never interrupted" cmp taken/summary.csv never/summary.csv
+    expect "not the rows of a run never interrupted" cmp taken/trajectory.npy never/trajectory.npy
+    expect "not the summary of a run never interrupted" cmp taken/summary.csv never/summary.csv
 }
 
 case_is "a checkpoint of format 03, without parameters"
@@ -258,7 +258,7 @@ for needs in events pivots; do
     cp -r "$here/data/format-04-$needs" taken
     try 2 resume taken
     says "taken/checkpoint: has an earlier format, which lacks numbers that this system needs now; resume with the"
-    holds "it was changed" diff -r "$here/data/format-04-$needs" taken
+    expect "it was changed" diff -r "$here/data/format-04-$needs" taken
 done
 
 case_is "files of a run that are lost or damaged"
@@ -273,7 +273,7 @@ without() {
 without trajectory.npy
 try 2 resume less
 says "^dalembert: 'less/trajectory\.npy' is missing: the run cannot be continued$"
-holds "it was made" [ ! -e less/trajectory.npy ]
+expect "it was made" [ ! -e less/trajectory.npy ]
 without manifest.json
 try 2 resume less
 says 'there is no less/manifest\.json$'
@@ -287,9 +287,9 @@ for text in '' '{' '[]' '{"input": 1}' '{"dalembert": "0.2.0", "study": "x"}' 'h
     printf '%s' "$text" >less/manifest.json
     try 2 resume less
     says '^dalembert: less/manifest\.json:'
-    holds "a run is called a study" sh -c '! grep -q "the study" err'
+    refute "a run is called a study" grep -q "the study" err
 done
 try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --output less --force
-holds "other rows" cmp lost/trajectory.npy less/trajectory.npy
+expect "other rows" cmp lost/trajectory.npy less/trajectory.npy
 rm -rf less lost
 counted

@@ -2,9 +2,10 @@
 # run.sh PROGRAM [PART]... - the program as its users see it: exit statuses, what it writes where, what it says
 # of bad input, and that nothing it wrote is lost when it is stopped, killed or out of room.
 #
-# A case runs the program by `try STATUS ARGUMENT...` and examines out and err with `says`,
-# `prints` and `holds`; `case_is` names it.  Expected numbers are closed forms or counts.  PARTs are
-# files, PART_cases.sh; all of them when none is named.
+# A case runs the program by `try STATUS ARGUMENT...` and examines out and err with `says`, `prints`, `expect` and
+# `refute`; `case_is` names it; a `table` has cases of one command each.  Expected numbers are closed forms or counts.
+# PARTs are files, PART_cases.sh; all of them when none is named.  FIRST_FAILURE=1 ends them at the first check that
+# fails.
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
 shift
 parts=$*
@@ -13,7 +14,14 @@ parts=$*
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(mktemp -d) || exit 1
 memory=
-trap 'rm -rf "$top" ${memory:+"$memory"}' EXIT
+# An interrupt leaves no process and no file.
+leave() {
+    jobs -p >"$top/jobs" 2>/dev/null && kill -KILL $(cat "$top/jobs") 2>/dev/null
+    rm -rf "$top" ${memory:+"$memory"}
+}
+trap leave EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM HUP
 cd "$top" || exit 1
 mkdir home
 LC_ALL=C
@@ -33,6 +41,7 @@ fail() {
     failed=$((failed + 1))
     echo "cli: FAILED: $label: $1"
     sed 's/^/    stderr: /' err | head -3
+    [ -z "${FIRST_FAILURE:-}" ] || exit 1
 }
 # cannot COUNT REASON: COUNT checks are not made here, which no package changes; skips COUNT REASON: a tool is
 # missing, and where CI is true that fails.
@@ -64,16 +73,22 @@ counted() {
     made=$((passed + failed + skipped - ${block%:*}))
     [ $made -eq "${block#*:}" ] || fail "the block has $made checks, not ${block#*:}"
 }
-# holds WHAT COMMAND...: the command must succeed.
-holds() {
+# expect WHAT COMMAND...: the command must succeed; refute WHAT COMMAND...: it must fail.  WHAT is wrong otherwise.
+expect() {
     what=$1
     shift
     if "$@" >/dev/null 2>&1; then pass; else fail "$what"; fi
 }
+refute() {
+    what=$1
+    shift
+    if "$@" >/dev/null 2>&1; then fail "$what"; else pass; fi
+}
+holds() { expect "$@"; } # in parts that are not converted
 try() {
     expected=$1
     shift
-    timeout $patience "$program" "$@" >out 2>err
+    timeout --foreground $patience "$program" "$@" >out 2>err
     ended $? "$@"
 }
 # ended STATUS ARGUMENT...: the program must have ended with the status $expected.
@@ -86,6 +101,22 @@ says() { if grep -Eq -- "$1" err; then pass; else fail "stderr lacks /$1/"; fi; 
 prints() { if grep -Eq -- "$1" out; then pass; else fail "stdout lacks /$1/"; fi; }
 silent() { if [ -s err ]; then fail "stderr is not empty"; else pass; fi; }
 empty() { if [ -s out ]; then fail "stdout is not empty"; else pass; fi; }
+
+# table: reads lines "STATUS | ARGUMENT... | says PATTERN" and "STATUS | ARGUMENT... | prints PATTERN": each is a call
+# of try, with words as the shell reads them, and what it must write.  A line "case: NAME" begins a case.
+table() {
+    title=$label
+    while IFS= read -r row; do
+        case $row in 'case: '*) title=${row#case: } && continue ;; esac
+        arguments=${row#* | }
+        written=${arguments#* | }
+        arguments=${arguments%% | *}
+        label="$title: $arguments"
+        eval "try ${row%% | *} $arguments" </dev/null
+        ${written%% *} "${written#* }"
+    done
+    label=$title
+}
 
 # there COMMAND...: it can be run here.
 there() { command -v "${1%% *}" >/dev/null 2>&1; }
@@ -126,11 +157,20 @@ ready() { if grep -q '^SigCgt' /proc/self/status; then reaches "$1" catches "$1"
 # ends_by SIGNAL STATUS PID: the signal ends the process, with that status.
 ends_by() {
     kill -"$1" "$3"
-    holds "it goes on after SIG$1" awaits gone "$3"
+    expect "it goes on after SIG$1" awaits gone "$3"
     kill -9 "$3" 2>/dev/null
     wait "$3" 2>/dev/null
     status=$?
-    holds "exit $status after SIG$1, not $2" test $status -eq "$2"
+    expect "exit $status after SIG$1, not $2" test $status -eq "$2"
+}
+
+# numbers TOTAL COUNT: about COUNT numbers of 1 to TOTAL: the first and last few and some between.
+numbers() {
+    awk -v total="$1" -v count="$2" 'BEGIN {
+        step = total > count ? total / count : 1
+        for (x = 1; x <= total; x += step) print int(x)
+        for (k = total - 3; k <= total; k++) if (k > 0) print k
+    }' | sort -n -u
 }
 
 # shared_object NAME: makes NAME.so, for LD_PRELOAD.
@@ -140,7 +180,7 @@ shared_object() { there "${CC:-cc}" && ${CC:-cc} -shared -fPIC -O1 "$here/$1.c" 
 signalled() {
     number=$1 call=$2
     shift 2
-    timeout $patience env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
+    timeout --foreground $patience env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
         LD_PRELOAD="$top/raise_signal.so" RAISE="$number" RAISE_AT="$call" "$program" "$@"
 } >out 2>err
 # cut_off STATUS NUMBER CALL ARGUMENT...: like try, with that signal.
@@ -159,8 +199,8 @@ by_mpi() {
     expected=$1
     shift
     # Leaks are Open MPI's own; another object may be loaded first.
-    ASAN_OPTIONS=detect_leaks=0:verify_asan_link_order=0 timeout $patience mpirun --allow-run-as-root --oversubscribe \
-        --mca mpi_yield_when_idle 1 "$@" >out 2>err
+    ASAN_OPTIONS=detect_leaks=0:verify_asan_link_order=0 timeout --foreground $patience \
+        mpirun --allow-run-as-root --oversubscribe --mca mpi_yield_when_idle 1 "$@" >out 2>err
     ended $? "$@"
 }
 

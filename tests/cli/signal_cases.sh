@@ -38,11 +38,11 @@ for signal in INT TERM; do
     [ $signal = INT ] && number=2 || number=15
     case_is "a second SIG$signal ends what the first did not"
     if request_in_step; then pass; else fail "ended by a request in the midst of a step"; fi
-    holds "it goes on" ends_at_last $signal
+    expect "it goes on" ends_at_last $signal
     kill -9 $pid 2>/dev/null
     wait $pid 2>/dev/null
     status=$?
-    holds "exit $status after SIG$signal, not $((128 + number))" test $status -eq $((128 + number))
+    expect "exit $status after SIG$signal, not $((128 + number))" test $status -eq $((128 + number))
 done
 
 case_is "a section is interrupted: its rows are kept"
@@ -51,25 +51,25 @@ try 0 $cut --time 300
 mv out whole.csv
 "$program" $cut --time 1e12 --output cut 2>err >counted &
 pid=$!
-holds "no rows" reaches $pid has_lines cut/section.csv 4
+expect "no rows" reaches $pid has_lines cut/section.csv 4
 ends_by INT 130 $pid
 says '^dalembert: interrupted; [0-9]+ rows are kept$'
-holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' cut/section.csv
+expect "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' cut/section.csv
 rows=$(($(wc -l <cut/section.csv) - 1))
-holds "$rows rows" test $rows -gt 2
-holds "not as many as are counted" grep -q "; $rows rows\$" counted
+expect "$rows rows" test $rows -gt 2
+expect "not as many as are counted" grep -q "; $rows rows\$" counted
 # x = cos t crosses 0 at pi/2 + k pi; rk4 is late by h^4/120 of t
-holds "other crossings" awk -F, 'NR > 1 { d = $2 - (NR - 1.5)*3.14159265358979
+expect "other crossings" awk -F, 'NR > 1 { d = $2 - (NR - 1.5)*3.14159265358979
     if (d^2 > 1e-12*$2^2 || $3 != (NR % 2 ? 1 : -1)) exit 1 }' cut/section.csv
 least=$((rows < 95 ? rows : 95))
 head -n $((least + 1)) cut/section.csv >short.csv
 head -n $((least + 1)) whole.csv >wanted.csv
-holds "not the rows of a section never interrupted" cmp short.csv wanted.csv
+expect "not the rows of a section never interrupted" cmp short.csv wanted.csv
 
 case_is "order is interrupted"
 "$program" order ./swing.yaml --integrators rk4 --time 1e12 --step 0.01 >out 2>err &
 pid=$!
-holds "no handlers" ready $pid
+expect "no handlers" ready $pid
 ends_by INT 130 $pid
 says '^dalembert: interrupted$'
 empty

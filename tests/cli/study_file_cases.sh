@@ -12,11 +12,11 @@ printf "$common"'systems:
 ' >values.yaml
 try 0 study values.yaml --output there --force
 silent
-holds "labels: $(labels)" test "$(labels)" = \
+expect "labels: $(labels)" test "$(labels)" = \
     "line_k=1_x=0 line_k=1_x=3 line_k=1.5_x=0 line_k=1.5_x=3 line_k=2_x=0 line_k=2_x=3 "
 # c = x' + k x at the start
 first_c=$(awk -F, '$5 == "c" { printf "%s ", $6 }' there/quantities.csv)
-holds "c: $first_c" test "$first_c" = "2 5 2 6.5 2 8 "
+expect "c: $first_c" test "$first_c" = "2 5 2 6.5 2 8 "
 
 case_is "seeds, lists and methods that cannot be, whether they matter or not"
 for seeds in hello '[]' '[[1]]' '[1, [2]]' '{between: [0, 1]}' '[-1]' 1.5; do
@@ -42,7 +42,7 @@ case_is "names that no directory can have"
 long=$(awk 'BEGIN { for (i = 0; i < 5000; i++) printf "x" }')
 rm -rf there
 bad "${common}systems: [{system: line.yaml, label: $long}]\n" 'too long a name for a directory'
-holds "a directory was made" [ ! -e there ]
+expect "a directory was made" [ ! -e there ]
 middle=$(awk 'BEGIN { for (i = 0; i < 235; i++) printf "x" }')
 bad "${common}systems: [{system: line.yaml, label: $middle, set: {k: [1, 2.5]}}]\n" \
     'too long a name for a directory'
@@ -60,8 +60,8 @@ printf 'integrators: rk4\nstep: {from: 0.5, to: 0.1, by: -0.2}\ntime: 1\nstarts:
 systems: [{system: line.yaml, set: {k: {from: 0, to: 0.3, by: 0.1}}}]\n" >ranges.yaml
 try 0 study ranges.yaml --output there --force
 steps=$(column step there/cells.csv | sort -u | awk '{ printf "%.3g ", $1 }')
-holds "steps $steps" test "$steps" = "0.1 0.3 0.5 "
-holds "labels $(labels)" test "$(labels)" = \
+expect "steps $steps" test "$steps" = "0.1 0.3 0.5 "
+expect "labels $(labels)" test "$(labels)" = \
     "line.yaml_k=0 line.yaml_k=0.1 line.yaml_k=0.2 line.yaml_k=0.3 "
 
 case_is "quantities are observed in every step, or every K-th"
@@ -79,7 +79,7 @@ expect:
   each: {gauss4: {seen: {max: {at least: 0.99998, at most: 1}, final: {at most: 0}}}}
   few: {gauss4: {seen: {max: {at most: 4e-3}}}}\n' >observed.yaml
 try 0 study observed.yaml --output there --force
-holds "not 2 rows" test "$(od -An -c -N 512 there/runs/each_gauss4_physical_0.01/trajectory.npy |
+expect "not 2 rows" test "$(od -An -c -N 512 there/runs/each_gauss4_physical_0.01/trajectory.npy |
     tr -d ' \n' | grep -c "(2,)")" -eq 1
 
 case_is "draws"
@@ -87,15 +87,15 @@ case_is "draws"
 printf "${common}seeds: [1, 7]\nsystems: [{system: line.yaml, start: {x': {between: [1, 2]}}}]\n" \
     >draws.yaml
 try 0 study draws.yaml --output there --force
-holds "labels $(labels)" test "$(labels)" = "line.yaml_seed=1 line.yaml_seed=7 "
+expect "labels $(labels)" test "$(labels)" = "line.yaml_seed=1 line.yaml_seed=7 "
 E_first=$(column E_first there/cells.csv | tr '\n' ' ')
-holds "E(0) = $E_first" test "$E_first" = "0.82568526102259454 1.061239195889158 "
+expect "E(0) = $E_first" test "$E_first" = "0.82568526102259454 1.061239195889158 "
 # Drawn off x' = y', brought back along the mass metric: both become the mean.
 printf "${common}seeds: 7\nsystems: [{system: plane.yaml, start: {x': {between: [0, 1]}}}]\n" \
     >projected.yaml
 try 0 study projected.yaml --output there --force
 E_first=$(column E_first there/cells.csv)
-holds "E(0) = $E_first" awk "BEGIN { exit !($E_first - 0.53061959794457902 < 4e-16 && 0.53061959794457902 - $E_first < 4e-16) }"
+expect "E(0) = $E_first" awk "BEGIN { exit !($E_first - 0.53061959794457902 < 4e-16 && 0.53061959794457902 - $E_first < 4e-16) }"
 
 case_is "statements that hold, and that do not"
 expecting() {
@@ -109,8 +109,8 @@ expecting '  line: {all: {c: {max: {at most: 2}, final: {at least: 0.9}}, E: {at
   appell-hamel: {rk4: {state: failed, D: aborted}, gauss4: {D1: aborted}}\n'
 try 0 study expect.yaml --output there --force
 prints '^Expectations: 18 of 18 are met\.$'
-holds "18 rows and a head" test "$(wc -l <there/expectations.csv)" -eq 19
-holds "all met" test "$(column met there/expectations.csv | sort -u)" = yes
+expect "18 rows and a head" test "$(wc -l <there/expectations.csv)" -eq 19
+expect "all met" test "$(column met there/expectations.csv | sort -u)" = yes
 # E of x' = exp(-t) falls from 1/2 to exp(-6)/2: by 0.49876
 expecting '  line_k=1: {rk4: {E: {deviation: {at most: 0.4987}, final: {at least: 0.01}}, c: power law}}
   appell-hamel: {all: {state: [failed, refused]}}\n'
@@ -119,8 +119,8 @@ prints '^Expectations: 2 of 5 are met\.$'
 prints '^  line_k=1 .* rk4 .* E: expected deviation <= 0\.4987, found 0\.499 \(line 9\)$'
 prints '^  line_k=1 .* E: expected final >= 0\.01, found 0\.00124 \(line 9\)$'
 prints '^  line_k=1 .* c: expected power law, found none \(line 9\)$'
-holds "three not met" test "$(column met there/expectations.csv | grep -c no)" -eq 3
-holds "the table is not kept" grep -q '^Expectations: 2 of 5' there/tables.txt
+expect "three not met" test "$(column met there/expectations.csv | grep -c no)" -eq 3
+expect "the table is not kept" grep -q '^Expectations: 2 of 5' there/tables.txt
 # A failure that nobody expected counts for more.
 expecting '  line: {rk4: {c: exponential}}\n'
 try 3 study expect.yaml --output there --force
@@ -153,7 +153,7 @@ prints '^Expectations: 6 of 12 are met; 5 failed, 1 aborted\.$'
 prints '^D in 3 runs: 3 failed\.$'
 prints '^0 of 3 integrators keep D at rounding in every run, 3 failed\.$'
 prints '^0 of [34] integrators keep E within 1 % on D = 0, 3 failed\.$'
-holds "a failure is met" sh -c "! grep 'failed' there/expectations.csv | grep -v state | grep -q yes"
+expect "a failure is met" sh -c "! grep 'failed' there/expectations.csv | grep -v state | grep -q yes"
 # A method that the system refuses is no run: it is counted, but not compared.
 printf 'integrators: [gauss4, gni]\nstep: 0.1\ntime: 1\nstarts: physical
 systems: [chaplygin-sleigh-vakonomic]\nexpect: {all: {all: {E: {at most: 1}}}}\n' >no.yaml
@@ -242,7 +242,7 @@ for bound in 'at least: 0' 'at most: 1'; do
     prints '^Expectations: 1 of 2 are met'
     prints "slow: expected confidence .= .* \(line 6\)"
 done
-holds "no confidence" [ -z "$(cell slow confidence)" ]
+expect "no confidence" [ -z "$(cell slow confidence)" ]
 
 case_is "statements about some cells"
 printf 'integrators: rk4\nstep: [0.1, 0.2]\ntime: 1\nsystems: [plane.yaml]\nexpect:\n  plane.yaml:\n'"\
@@ -339,26 +339,26 @@ silent
 prints '^ lifted, on p = pi = 0, h = 0.5, T = 10$'
 prints '^ lifted, on p = pi = 0, h = 0.5, tolerance 1e-10, T = 10$'
 # 2 steps x 2 starts x (2 tolerances of dop853 + 1 of rk4, which takes none)
-holds "not 12 cells" test "$(column state controlled/cells.csv | grep -c '^done$')" -eq 12
-holds "tolerances of rk4" test "$(awk -F, '$3 == "rk4" { print $6 }' controlled/cells.csv | sort -u)" = 0
-holds "(q,v) and the surface differ" test -z "$(column same_as_physical controlled/cells.csv | grep no)"
+expect "not 12 cells" test "$(column state controlled/cells.csv | grep -c '^done$')" -eq 12
+expect "tolerances of rk4" test "$(awk -F, '$3 == "rk4" { print $6 }' controlled/cells.csv | sort -u)" = 0
+expect "(q,v) and the surface differ" test -z "$(column same_as_physical controlled/cells.csv | grep no)"
 # 4 cells of dop853 of the one, 2 of the other
-holds "other cells compared" test "$(column tolerance controlled/expectations.csv | sort -g | uniq -c |
+expect "other cells compared" test "$(column tolerance controlled/expectations.csv | sort -g | uniq -c |
     awk '{ print $1 }' | tr '\n' ' ')" = "2 4 "
 for file in quantities.csv series/knife-edge.csv; do
-    holds "$file: other cells" test "$(awk -F, 'NR > 1 { print $2, $3, $4, $5 }' controlled/$file |
+    expect "$file: other cells" test "$(awk -F, 'NR > 1 { print $2, $3, $4, $5 }' controlled/$file |
         sort -u | wc -l)" -eq 12
 done
 try 0 run knife-edge --integrator dop853 --step 0.5 --tolerance 1e-10 --time 10 --samples 400 \
     --sampling steps --output alone.npy --space physical
-holds "not the run of that tolerance" cmp -s alone.npy \
+expect "not the run of that tolerance" cmp -s alone.npy \
     controlled/runs/knife-edge_dop853_physical_0.5_tolerance=1e-10/trajectory.npy
 
 case_is "tolerances without a step"
 sed -e '1i integrators: dop853' -e '/^step\|rk4/d; /^expect/,$d' tolerances.yaml >chosen.yaml
 echo 'samples: 16' >>chosen.yaml
 try 0 study chosen.yaml --output chosen
-holds "the step is not a hundredth of the time" test "$(column step chosen/cells.csv | sort -u)" = 0.10000000000000001
+expect "the step is not a hundredth of the time" test "$(column step chosen/cells.csv | sort -u)" = 0.10000000000000001
 sed 's/integrators: .*/integrators: [dop853, rk4]/' chosen.yaml >fixed.yaml
 try 2 study fixed.yaml --output bad
 says "^dalembert: fixed.yaml:[0-9]+:[0-9]+: knife-edge: the step is missing, and rk4 takes no tolerance"
@@ -384,9 +384,9 @@ cp swing.yaml far/deep/bare
 printf 'integrators: rk4\nstep: 0.1\ntime: 1\nstarts: physical
 systems: [near.yaml, ./deep/bare]\n' >far/study.yaml
 try 0 study far/study.yaml --output far/there --no-page
-holds "a path of its own" test "$(column system far/there/cells.csv | tr '\n' ' ')" = "near.yaml ./deep/bare "
+expect "a path of its own" test "$(column system far/there/cells.csv | tr '\n' ' ')" = "near.yaml ./deep/bare "
 (cd away && try 0 study ../far/study.yaml --output there --no-page && rm ../far/near.yaml && try 0 resume there)
-holds "another result from elsewhere" sh -c "cut -d, -f1-34 far/there/cells.csv >a; cut -d, -f1-34 away/there/cells.csv |
+expect "another result from elsewhere" sh -c "cut -d, -f1-34 far/there/cells.csv >a; cut -d, -f1-34 away/there/cells.csv |
     cmp -s - a"
 # What was relative to the working directory is no longer found, and the message says why.
 cp swing.yaml near.yaml

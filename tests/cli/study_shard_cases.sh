@@ -29,23 +29,23 @@ same_study() {
 case_is "a study in pieces: the whole"
 try 0 study pieces.yaml --output whole-study --threads 1
 silent
-holds "not 3 kinds of cells" test "$(column state whole-study/cells.csv | sort | uniq -c |
+expect "not 3 kinds of cells" test "$(column state whole-study/cells.csv | sort | uniq -c |
     tr -d ' \n')" = 16done4failed4refused
 runs=$(ls whole-study/runs | wc -l)
-holds "$runs runs, not 20" test "$runs" -eq 20
+expect "$runs runs, not 20" test "$runs" -eq 20
 for name in $(column run whole-study/cells.csv | grep .); do
-    holds "$name" test -s "whole-study/$name/trajectory.npy" -a -s "whole-study/$name/summary.csv"
+    expect "$name" test -s "whole-study/$name/trajectory.npy" -a -s "whole-study/$name/summary.csv"
 done
 try 0 study pieces.yaml --output two-threads --threads 2
-holds "two threads make other bytes" same_study whole-study two-threads
+expect "two threads make other bytes" same_study whole-study two-threads
 OMP_NUM_THREADS=2
 export OMP_NUM_THREADS
 try 0 study pieces.yaml --output two-threads --force
 unset OMP_NUM_THREADS
-holds "OMP_NUM_THREADS makes other bytes" same_study whole-study two-threads
+expect "OMP_NUM_THREADS makes other bytes" same_study whole-study two-threads
 try 0 resume whole-study
 prints '^many short runs and a long one$'
-holds "a finished study changes" same_study whole-study two-threads
+expect "a finished study changes" same_study whole-study two-threads
 
 # kill_study SEED THREADS: kill -9 at random calls, twelve times.
 kill_study() {
@@ -57,7 +57,7 @@ kill_study() {
     done
     [ -e killed-study/study.yaml ] && begin="resume killed-study"
     try 0 $begin --threads "$2"
-    holds "killed with seed $1, $2 threads: other bytes" \
+    expect "killed with seed $1, $2 threads: other bytes" \
         same_study whole-study killed-study
 }
 case_is "a study in pieces: killed at any moment"
@@ -71,17 +71,16 @@ mkdir begun-study
 cp -r whole-study/runs whole-study/systems whole-study/manifest.json begun-study
 sed 's/short/other/; s/time: 40$/time: 20/' pieces.yaml >another.yaml
 try 0 study another.yaml --output begun-study
-holds "not begun again" grep -q '^contact-oscillator,.*,20,done' begun-study/cells.csv
+expect "not begun again" grep -q '^contact-oscillator,.*,20,done' begun-study/cells.csv
 
 case_is "a study in pieces: interrupted"
 cut_off 130 2 20 study pieces.yaml --output stopped-study --threads 1 --checkpoint 0
 says 'interrupted; resume with: dalembert resume stopped-study'
-holds "interrupted" grep -q '"status": "interrupted"' stopped-study/manifest.json
-mkdir elsewhere
-cd elsewhere
+expect "interrupted" grep -q '"status": "interrupted"' stopped-study/manifest.json
+mkdir elsewhere && cd elsewhere || exit 1
 try 0 resume ../stopped-study
-cd ..
-holds "other bytes" same_study whole-study stopped-study
+cd "$work" || exit 1
+expect "other bytes" same_study whole-study stopped-study
 
 case_is "a study in pieces: a damaged run"
 cp -r whole-study damaged-study
@@ -92,51 +91,51 @@ try 2 resume damaged-study
 says 'plane_rk4_physical_0.01/checkpoint: the checkpoint is damaged'
 rm -r $run
 try 0 resume damaged-study
-holds "other bytes" same_study whole-study damaged-study
+expect "other bytes" same_study whole-study damaged-study
 
 case_is "shards in directories of their own"
 for k in 1 2 3; do
     try 0 study pieces.yaml --output shard-$k --shard $k/3 --tables
-    holds "a shard leaves tables" test ! -e shard-$k/tables.txt -a ! -e shard-$k/cells.csv
-    holds "its manifest" grep -q '"status": "done"' shard-$k/shard-$k-of-3.json
+    expect "a shard leaves tables" test ! -e shard-$k/tables.txt -a ! -e shard-$k/cells.csv
+    expect "its manifest" grep -q '"status": "done"' shard-$k/shard-$k-of-3.json
 done
 prints '^contact-oscillator: '
-count=$(ls shard-1/runs shard-2/runs shard-3/runs | grep -c _)
-holds "$count runs, not 20" test "$count" -eq 20
+count=$(find shard-[123]/runs -mindepth 1 -maxdepth 1 -name '*_*' | wc -l)
+expect "$count runs, not 20" test "$count" -eq 20
 try 0 merge shard-1 shard-2 shard-3 --output merged
 prints '^Expectations: 6 of 6 are met\.$'
-holds "other bytes" same_study whole-study merged
+expect "other bytes" same_study whole-study merged
 try 2 merge shard-1 shard-2 shard-3 --output merged
 says "'merged/study.yaml' exists already"
 try 0 merge shard-3 shard-1 shard-2 --output merged --force
-holds "other bytes in another order" same_study whole-study merged
+expect "other bytes in another order" same_study whole-study merged
 
 case_is "shards in one directory"
 for k in 1 2; do "$program" study pieces.yaml --output shared --shard $k/2 >out.$k 2>err.$k & done
 wait
 cat err.1 err.2 >err
 silent
-try 2 study pieces.yaml --output shared
-says "'shared/study.yaml' exists already"
-try 2 study another.yaml --output shared --shard 1/2
-says "'shared/study.yaml' is another study"
+table <<'END'
+2 | study pieces.yaml --output shared | says 'shared/study.yaml' exists already
+2 | study another.yaml --output shared --shard 1/2 | says 'shared/study.yaml' is another study
+END
 try 0 merge shared --output shared
-holds "other bytes" same_study whole-study shared
+expect "other bytes" same_study whole-study shared
 
 case_is "a shard that was interrupted"
 cut_off 130 2 20 study pieces.yaml --output shard-b --shard 2/2 --threads 1 --checkpoint 0
 try 0 study pieces.yaml --output shard-a --shard 1/2
 try 2 merge shard-a shard-b --output halves
-holds "no message" grep -Eq "in none of the directories|is not finished: dalembert resume" err
+expect "no message" grep -Eq "in none of the directories|is not finished: dalembert resume" err
 try 0 resume shard-b
 try 0 merge shard-a shard-b --output halves
-holds "other bytes" same_study whole-study halves
+expect "other bytes" same_study whole-study halves
 
 case_is "what cannot be merged"
-try 2 merge shard-1 shard-3 --output incomplete
-says "_.*' is in none of the directories: a shard is missing"
-try 2 merge shard-1 shard-2 shard-3 shard-a --output incomplete
-says "' is in 'shard-.' and in 'shard-a'"
+table <<'END'
+2 | merge shard-1 shard-3 --output incomplete | says _.*' is in none of the directories: a shard is missing
+2 | merge shard-1 shard-2 shard-3 shard-a --output incomplete | says ' is in 'shard-.' and in 'shard-a'
+END
 try 2 merge shard-1 shard-1 --output incomplete
 says "'shard-1' is given twice"
 sed 's/short/shorter/' shard-2/study.yaml >retitled
@@ -145,30 +144,28 @@ try 2 merge shard-1 shard-2 shard-3 --output incomplete
 says "'shard-2' and 'shard-1' are of two studies: 'shard-2/study.yaml' and"
 cp shard-1/study.yaml shard-2/study.yaml
 echo '# changed' >>shard-2/systems/plane.yaml
-try 2 merge shard-1 shard-2 shard-3 --output incomplete
-says "'shard-2/systems/plane.yaml' and 'shard-1/systems/plane.yaml' differ"
-try 2 merge shard-1 nowhere --output incomplete
-says "'nowhere' holds no study"
-try 2 merge --output incomplete
-says 'the DIR... is missing'
-try 2 merge shard-1
-says '--output is missing'
+table <<'END'
+2 | merge shard-1 shard-2 shard-3 --output incomplete | says 'shard-2/systems/plane.yaml' and 'shard-1/systems/plane.yaml' differ
+2 | merge shard-1 nowhere --output incomplete | says 'nowhere' holds no study
+2 | merge --output incomplete | says the DIR... is missing
+2 | merge shard-1 | says --output is missing
+END
 for shard in 0/2 3/2 2 1/x x/2 1/; do
     try 2 study pieces.yaml --output incomplete --shard $shard
     says '--shard: '
 done
-holds "something was made" test ! -e incomplete
+expect "something was made" test ! -e incomplete
 
 case_is "a study by MPI"
 if needs 13 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
     by_mpi 0 -n 2 "$mpi_program" pieces.yaml --output by-mpi
     prints '^Expectations: 6 of 6 are met\.$'
-    holds "other bytes" same_study whole-study by-mpi
+    expect "other bytes" same_study whole-study by-mpi
     by_mpi 2 -n 2 "$mpi_program" pieces.yaml --output by-mpi
     says "'by-mpi/study.yaml' exists already"
     rm -r by-mpi/runs/plane* by-mpi/cells.csv
     by_mpi 0 -n 3 "$mpi_program" --resume --output by-mpi
-    holds "other bytes, resumed" same_study whole-study by-mpi
+    expect "other bytes, resumed" same_study whole-study by-mpi
     by_mpi 2 -n 2 "$mpi_program" nowhere.yaml --output by-mpi
     says "cannot read 'nowhere.yaml'"
     by_mpi 2 -n 2 "$mpi_program" pieces.yaml

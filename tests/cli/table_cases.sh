@@ -24,7 +24,7 @@ cp out rows
 case_is "the same bits compiled"
 if needs 2 "no compiler" there cc; then
     try 0 run tables/push.yaml --integrator gauss4 --step 0.125 --time 3 --samples 3 --space physical --native on
-    holds "native differs" cmp rows out
+    expect "native differs" cmp rows out
     counted
 fi
 
@@ -35,7 +35,7 @@ mv tables/data tables/hidden
 try 2 run $push
 says "^dalembert: tables/push\.yaml:2:20: cannot read 'tables/data/push\.csv': No such file or directory$"
 try 0 run pushed/system.yaml --integrator gauss4 --step 0.125 --time 3 --samples 3 --space physical
-holds "the copy is another system" cmp rows out
+expect "the copy is another system" cmp rows out
 mv tables/hidden tables/data
 if needs 4 "no compiler for signals at given places" raises; then
     cut_off 137 9 6 run $push --checkpoint 0 --output cut
@@ -44,7 +44,7 @@ if needs 4 "no compiler for signals at given places" raises; then
     mv tables/data tables/hidden
     try 0 resume elsewhere/moved
     says "'elsewhere/moved' resumes at t = "
-    holds "not the rows of a run never interrupted" cmp elsewhere/moved/trajectory.npy pushed/trajectory.npy
+    expect "not the rows of a run never interrupted" cmp elsewhere/moved/trajectory.npy pushed/trajectory.npy
     mv tables/hidden tables/data
     counted
 fi
@@ -57,7 +57,7 @@ step: 0.125
 time: 3
 END
 try 0 study push_study.yaml --output push_study
-holds "the points are not in the copy" grep -rq '0, 0, 1' push_study/systems
+expect "the points are not in the copy" grep -rq '0, 0, 1' push_study/systems
 
 case_is "outside the points of a table"
 try 3 run tables/push.yaml --integrator rk4 --step 0.125 --time 4
@@ -70,7 +70,7 @@ case_is "empty lines in the file of a table"
 cp tables/data/push.csv plain.csv
 printf ' t , left,"right"\r\n\n0, 0, 1\n \t \n\n1,2,1\r\n3, "2", -1\n\n \n  ' >tables/data/push.csv
 try 0 run tables/push.yaml --integrator gauss4 --step 0.125 --time 3 --samples 3 --space physical
-holds "other rows" cmp rows out
+expect "other rows" cmp rows out
 printf 't,left,right\n\n0,0,1\n \r\n\n1,2 3,1\n' >tables/data/push.csv
 try 2 run tables/push.yaml --integrator rk4 --step 0.125 --time 3
 says "^dalembert: tables/push\.yaml:2:[0-9]+: data/push\.csv:6:3: '2 3' is not a number$"

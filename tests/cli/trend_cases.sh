@@ -9,30 +9,30 @@ of() { awk -F, -v name="$2" -v head="$3" 'NR == 1 { for (i = 1; i <= NF; i++) if
 case_is "E has a trend where the motion conserves it"
 try 0 run damped-oscillator --integrator rk4 --step 0.1 --time 20 --output damped
 for head in exponent size trend confidence; do
-    holds "$head" test -z "$(of damped/summary.csv E $head)"
+    expect "$head" test -z "$(of damped/summary.csv E $head)"
 done
-holds "no number" test -n "$(of damped/summary.csv E deviation)"
+expect "no number" test -n "$(of damped/summary.csv E deviation)"
 try 0 run contact-oscillator --integrator rk4 --step 0.1 --time 20 --space physical --output left
-holds "off D = 0" test -z "$(of left/summary.csv E trend)"
-holds "D has a trend" test -n "$(of left/summary.csv D1 trend)"
-holds "D is larger" test "$(of left/summary.csv D1 size)" = larger
+expect "off D = 0" test -z "$(of left/summary.csv E trend)"
+expect "D has a trend" test -n "$(of left/summary.csv D1 trend)"
+expect "D is larger" test "$(of left/summary.csv D1 size)" = larger
 try 0 run contact-oscillator --integrator rk4+project --step 0.1 --time 20 --space physical \
     --output stays
-holds "on D = 0" test -n "$(of stays/summary.csv E trend)"
-holds "D is kept" test "$(of stays/summary.csv D1 size)" = rounding
+expect "on D = 0" test -n "$(of stays/summary.csv E trend)"
+expect "D is kept" test "$(of stays/summary.csv D1 size)" = rounding
 try 0 explain damped-oscillator --integrator rk4 --step 0.1 --time 10 --output why.csv
-holds "explain" awk -F, '$1 == "E" && $2 == "run" { rows++; words += $11 $12 $13 != "" }
+expect "explain" awk -F, '$1 == "E" && $2 == "run" { rows++; words += $11 $12 $13 != "" }
                          END { exit !(rows > 2 && words == 0) }' why.csv
 
 case_is "what is undecided or aborted has no confidence"
 printf "coordinates: [x]\naccelerations: {x: 0}\nstart: {x': 1}\ninvariants: {slow: sin(0.15*x)}\n" >slow.yaml
 try 0 run slow.yaml --integrator rk4 --step 0.01 --time 20 --output slow --summary
 says '^slow .* undecided$'
-holds "undecided" test "$(of slow/summary.csv slow trend)" = undecided
-holds "no confidence" test -z "$(of slow/summary.csv slow confidence)"
+expect "undecided" test "$(of slow/summary.csv slow trend)" = undecided
+expect "no confidence" test -z "$(of slow/summary.csv slow confidence)"
 try 0 explain slow.yaml --integrator rk4 --step 0.01 --time 20 --json
-holds "null in JSON" grep -A 1 '"trend": *"undecided"' out
-holds "a number in JSON" sh -c "grep -A 1 '\"trend\": *\"undecided\"' out | grep -q '\"confidence\": *null'"
+expect "null in JSON" grep -A 1 '"trend": *"undecided"' out
+expect "a number in JSON" sh -c "grep -A 1 '\"trend\": *\"undecided\"' out | grep -q '\"confidence\": *null'"
 
 printf 'integrators: [rk4, rk4+project]\nstep: 0.1\ntime: 20\nstarts: physical\nsystems:
   - damped-oscillator\n  - contact-oscillator\n' >energy.yaml
@@ -42,13 +42,13 @@ try 1 study stated.yaml --output energies --force
 cell() { awk -F, -v key="$1,$1,$2," -v head="$3" '
     NR == 1 { for (i = 1; i <= NF; i++) if ($i == head) k = i } index($0, key) == 1 { print $k }' \
     energies/cells.csv; }
-holds "a study: friction" test -z "$(cell damped-oscillator rk4 E_trend)"
-holds "a study: no number" test -n "$(cell damped-oscillator rk4 E_deviation)"
-holds "a study: off D = 0" test -z "$(cell contact-oscillator rk4 E_trend)$(cell contact-oscillator rk4 E_size)"
-holds "a study: on D = 0" test -n "$(cell contact-oscillator rk4+project E_trend)"
+expect "a study: friction" test -z "$(cell damped-oscillator rk4 E_trend)"
+expect "a study: no number" test -n "$(cell damped-oscillator rk4 E_deviation)"
+expect "a study: off D = 0" test -z "$(cell contact-oscillator rk4 E_trend)$(cell contact-oscillator rk4 E_size)"
+expect "a study: on D = 0" test -n "$(cell contact-oscillator rk4+project E_trend)"
 # E of the damped oscillator is nothing to speak of; that of rk4 is unmet, for a reason.
-holds "two statements" test "$(wc -l <energies/expectations.csv)" -eq 3
-holds "no reason" grep -q '^contact-oscillator,rk4,.*"conserved on D = 0 only, and D is not 0",no$' \
+expect "two statements" test "$(wc -l <energies/expectations.csv)" -eq 3
+expect "no reason" grep -q '^contact-oscillator,rk4,.*"conserved on D = 0 only, and D is not 0",no$' \
     energies/expectations.csv
 cp energy.yaml stated.yaml
 printf 'expect:\n  damped-oscillator: {rk4: {E: none}}\n' >>stated.yaml
@@ -66,12 +66,12 @@ if command -v gnuplot >/dev/null 2>&1; then
     printf "coordinates: [x]\naccelerations: {x: -x}\n" >bare.yaml
     try 0 run bare.yaml --integrator rk4 --step 0.1 --time 5 --space physical --output bare
     try 0 report bare
-    holds "sentences" test -z "$(sentences bare/report/index.html)"
+    expect "sentences" test -z "$(sentences bare/report/index.html)"
     printf 'integrators: [rk4, gauss4]\nstep: 0.1\ntime: 5\nstarts: [physical, surface]\nsystems: [bare.yaml]\n' \
         >bares.yaml
     try 0 study bares.yaml --output bares
     try 0 report bares
-    holds "sentences on a study" sh -c '! grep -Eq "(is|stays) 0" bares/report/index.html'
+    refute "sentences on a study" grep -Eq "(is|stays) 0" bares/report/index.html
 
     case_is "a page of what never changes"
     printf "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [y']
@@ -80,13 +80,13 @@ start: {x': 1}\ninvariants: {still: y'}\n" >even.yaml
     try 0 report even
     for sentence in 'D is 0 at all rows' 'H is the same at all rows' \
         'The invariants are the same at all rows'; do
-        holds "$sentence" grep -q "<p>$sentence.</p>" even/report/index.html
+        expect "$sentence" grep -q "<p>$sentence.</p>" even/report/index.html
     done
     printf 'integrators: [rk4, gauss4]\nstep: 0.1\ntime: 5\nstarts: physical\nsystems: [even.yaml]\n' \
         >evens.yaml
     try 0 study evens.yaml --output evens
     try 0 report evens
-    holds "of which methods" grep -q '<p>max |D| is 0 at all rows with rk4, gauss4.</p>' \
+    expect "of which methods" grep -q '<p>max |D| is 0 at all rows with rk4, gauss4.</p>' \
         evens/report/index.html
 
     # The figure has room for twelve curves; the thirteenth changes.
@@ -97,15 +97,15 @@ start: {x': 1}\ninvariants: {still: y'}\n" >even.yaml
 invariants: {${invariants}moves: x}\n" >many.yaml
     try 0 run many.yaml --integrator gauss4 --step 0.1 --time 5 --space physical --output many
     try 0 report many
-    holds "a sentence" sh -c '! grep -q "invariants are the same" many/report/index.html'
-    holds "another one" sh -c '! grep -q "Nothing that should not change" many/report/index.html'
+    refute "a sentence" grep -q "invariants are the same" many/report/index.html
+    refute "another one" grep -q "Nothing that should not change" many/report/index.html
 
     case_is "a page of E that the motion does not conserve"
     try 0 report damped
-    holds "the drift of E" sh -c '! grep -q "title .E" damped/report/drift.gp'
-    holds "E itself" test -s damped/report/E.gp
+    refute "the drift of E" grep -q "title .E" damped/report/drift.gp
+    expect "E itself" test -s damped/report/E.gp
     try 0 report stays
-    holds "no drift of E" grep -q "title .E" stays/report/drift.gp
+    expect "no drift of E" grep -q "title .E" stays/report/drift.gp
 
     case_is "an older version's columns"
     cp -r bare older

@@ -15,7 +15,7 @@ prints '^dalembert [0-9]+\.[0-9]+\.[0-9]+$'
 case_is "help of every command"
 "$program" --help | sed -n '/^commands:/,/^$/s/^  \([a-z]*\) .*/\1/p' >commands
 for command in list show new check run resume study report; do
-    holds "--help does not list $command" grep -qx $command commands
+    expect "--help does not list $command" grep -qx $command commands
 done
 while read -r command; do
     try 0 "$command" --help
@@ -27,12 +27,12 @@ case_is "the command help"
 try 0 --help
 mv out usage
 try 0 help
-holds "it does not list the commands" cmp usage out
+expect "it does not list the commands" cmp usage out
 while read -r command; do
     try 0 "$command" --help
     mv out described
     try 0 help "$command"
-    holds "$command: help and --help differ" cmp described out
+    expect "$command: help and --help differ" cmp described out
 done <commands
 try 2 help rnu
 says "^dalembert: unknown command 'rnu'; did you mean 'run'\?$"
@@ -45,23 +45,23 @@ while read -r command; do
     "$program" "$command" --help | sed -n 's/^  --\([a-z-]*\).*/\1/p' | grep -vx help >names
     awk -v title="## $command" '/^## / { on = $0 == title } on' reference >part
     while read -r name; do
-        holds "$command lacks --$name" grep -Eq -- "^(- .|As for .*)--$name[^a-z-]" part
+        expect "$command lacks --$name" grep -Eq -- "^(- .|As for .*)--${name}[^a-z-]" part
     done <names
 done <commands
 try 0 help run --markdown
 prints '^- `--sampling linear\|log\|steps`: rows at equal distances in t, in log t, .* \(linear\)$'
 prints 'p\\_\\\*, pi\\_\\\*'
 prints '^- `trajectory.npy`: the rows'
-holds "other commands" test "$(grep -c '^## ' out)" -eq 1
+expect "other commands" test "$(grep -c '^## ' out)" -eq 1
 if needs 4 "no groff" there groff; then
     # The page that is made of it, without what stands about the commands.
     { echo '.TH D 1'; echo '@COMMANDS@'; } |
         awk -v version=0 -v commands=reference -f "$here/../../tools/manual.awk" >page.1
     groff -ww -man -Tascii page.1 2>err | sed 's/.\x08//g' >page
     silent
-    holds "no option of run" grep -q '^ *--sampling linear|log|steps$' page
-    holds "no note of run" grep -q '^ *trajectory.npy$' page
-    holds "escapes are left" sh -c '! grep -q "\\\\" page'
+    expect "no option of run" grep -q '^ *--sampling linear|log|steps$' page
+    expect "no note of run" grep -q '^ *trajectory.npy$' page
+    refute "escapes are left" grep -q "\\\\" page
     counted
 fi
 
@@ -73,35 +73,35 @@ completes() {
 if needs 21 "no bash" there bash; then
     case_is "completion by bash"
     awk -f "$here/../../tools/completion.awk" reference >completion
-    holds "commands" test "$(completes re)" = "resume report"
-    holds "options" test "$(completes run --sam)" = "--samples --sampling"
-    holds "options of run in section" test "$(completes section --sp)" = "--space"
-    holds "an option that it does not take" test -z "$(completes lyapunov --sp)"
-    holds "words" test "$(completes run --sampling l)" = "linear log"
-    holds "systems" test "$(completes check snake)" = "snakeboard"
-    holds "systems to show" test "$(completes show snake)" = "snakeboard"
-    holds "new" test "$(completes new --)" = "--help"
-    holds "what is preserved" test "$(completes list --preserves e)" = "every energy"
-    holds "integrators" test "$(completes run knife-edge --integrator gauss1)" = "gauss10 gauss12"
-    holds "a list of them" test "$(completes order knife-edge --integrators rk4,gauss1)" = \
+    expect "commands" test "$(completes re)" = "resume report"
+    expect "options" test "$(completes run --sam)" = "--samples --sampling"
+    expect "options of run in section" test "$(completes section --sp)" = "--space"
+    expect "an option that it does not take" test -z "$(completes lyapunov --sp)"
+    expect "words" test "$(completes run --sampling l)" = "linear log"
+    expect "systems" test "$(completes check snake)" = "snakeboard"
+    expect "systems to show" test "$(completes show snake)" = "snakeboard"
+    expect "new" test "$(completes new --)" = "--help"
+    expect "what is preserved" test "$(completes list --preserves e)" = "every energy"
+    expect "integrators" test "$(completes run knife-edge --integrator gauss1)" = "gauss10 gauss12"
+    expect "a list of them" test "$(completes order knife-edge --integrators rk4,gauss1)" = \
         "rk4,gauss10 rk4,gauss12"
-    holds "tags" test "$(completes list --tag ch)" = "chaotic"
-    holds "tables" test "$(completes list s)" = "systems"
-    holds "commands to describe" test "$(completes help re)" = "resume report"
-    holds "a value behind =" test "$(completes run --native = o)" = "on off"
-    holds "all values behind =" test "$(completes run --native =)" = "auto on off"
+    expect "tags" test "$(completes list --tag ch)" = "chaotic"
+    expect "tables" test "$(completes list s)" = "systems"
+    expect "commands to describe" test "$(completes help re)" = "resume report"
+    expect "a value behind =" test "$(completes run --native = o)" = "on off"
+    expect "all values behind =" test "$(completes run --native =)" = "auto on off"
     # Where nothing is offered bash completes names of files.
     for option in -o --output --step --on; do
-        holds "a system after $option" test -z "$(completes section knife-edge $option kn)"
+        expect "a system after $option" test -z "$(completes section knife-edge $option kn)"
     done
-    holds "-o" sh -c 'for c in run order volume; do grep -q "^        $c) .* --output -o " completion || exit 1; done'
+    expect "-o" sh -c 'for c in run order volume; do grep -q "^        $c) .* --output -o " completion || exit 1; done'
     counted
 fi
 
 case_is "no help is wider than 80 columns"
 while read -r command; do
     try 0 "$command" --help
-    holds "$command" awk 'length($0) > 80 { exit 1 }' out
+    expect "$command" awk 'length($0) > 80 { exit 1 }' out
 done <commands
 try 0 study --help
 prints '^  runs/NAME/        a directory per cell \(system, integrator, start, step\), as$'
@@ -110,21 +110,21 @@ prints "^                    'run' makes it, with rows after whole numbers of st
 if needs 5 "no terminal (script, stty)" terminal; then
     case_is "tables on a terminal of 80 columns"
     script -qec "stty cols 80; '$program' list" /dev/null </dev/null | tr -d '\r' >narrow
-    holds "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
-    holds "the text does not go on below itself" grep -q "^                                  constraint$" narrow
+    expect "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
+    expect "the text does not go on below itself" grep -q "^                                  constraint$" narrow
     COLUMNS=80 "$program" list >out
-    holds "COLUMNS gives another table" cmp narrow out
+    expect "COLUMNS gives another table" cmp narrow out
     script -qec "stty cols 80; '$program' list --long" /dev/null </dev/null | tr -d '\r' >narrow
-    holds "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
-    holds "a title is lost" grep -q "^    Chaplygin's symmetric sleigh, linear constraint; paper, rev" narrow
+    expect "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
+    expect "a title is lost" grep -q "^    Chaplygin's symmetric sleigh, linear constraint; paper, rev" narrow
     counted
 fi
 
 case_is "tables that fit"
 for columns in 60 80 100 130 200; do
     COLUMNS=$columns "$program" list >out
-    holds "a line of $columns is wider" awk -v most=$columns 'length($0) > most { exit 1 }' out
-    holds "lines of $columns lack something" sh -c 'grep -q "^vertical-disk " out && grep -q "^+lift " out'
+    expect "a line of $columns is wider" awk -v most=$columns 'length($0) > most { exit 1 }' out
+    expect "lines of $columns lack something" sh -c 'grep -q "^vertical-disk " out && grep -q "^+lift " out'
 done
 prints '^chaplygin-sleigh  .*linear in v .*conserved on D = 0  yes .* sleigh, linear constraint$'
 COLUMNS=80 "$program" list >out
@@ -136,7 +136,7 @@ try 0 list
 mv out complete
 for columns in 0 -1 wide; do
     COLUMNS=$columns "$program" list >out
-    holds "COLUMNS=$columns gives another table" cmp complete out
+    expect "COLUMNS=$columns gives another table" cmp complete out
 done
 COLUMNS=80 "$program" list --markdown >out
 prints '^\| `chaplygin-sleigh` .*\| conserved on D = 0 \|'
@@ -148,34 +148,34 @@ prints '^gni, nonholonomic-rattle .*Ferraro'
 first() { sed '1,2d; s/[ ,].*//' out | tr '\n' ' '; }
 case_is "lists that are filtered"
 try 0 list --order 8
-holds "order 8" test "$(first)" = "dop853 gauss8 lobatto8 +suzuki8 +kahan-li8 "
+expect "order 8" test "$(first)" = "dop853 gauss8 lobatto8 +suzuki8 +kahan-li8 "
 try 0 list --preserves energy
-holds "energy" test "$(first)" = "discrete-gradient +project-energy "
+expect "energy" test "$(first)" = "discrete-gradient +project-energy "
 try 0 list --preserves midpoints
-holds "D at midpoints" test "$(first)" = "dla discrete-gradient "
+expect "D at midpoints" test "$(first)" = "dla discrete-gradient "
 for word in bilinear quadratic every; do
     try 0 list --preserves $word --order 4
     first >$word
 done
-holds "bilinear D" test "$(cat bilinear)" = \
+expect "bilinear D" test "$(cat bilinear)" = \
     "mclachlan4 bm4 gauss4 lobatto4 spark4 gauss-spark4 lobatto-nonholonomic4 "
-holds "quadratic D" test "$(cat quadratic)" = "gauss4 spark4 gauss-spark4 lobatto-nonholonomic4 "
-holds "every D" test "$(cat every)" = "spark4 gauss-spark4 lobatto-nonholonomic4 "
+expect "quadratic D" test "$(cat quadratic)" = "gauss4 spark4 gauss-spark4 lobatto-nonholonomic4 "
+expect "every D" test "$(cat every)" = "spark4 gauss-spark4 lobatto-nonholonomic4 "
 try 0 list --tag chaotic
-holds "a tag" test "$(first)" = "chaotic-oscillators "
+expect "a tag" test "$(first)" = "chaotic-oscillators "
 try 0 list --tag chaotic --order 12
 prints '^chaotic-oscillators '
 prints '^gauss12 '
-holds "more is listed" test "$(wc -l <out)" -eq 7
+expect "more is listed" test "$(wc -l <out)" -eq 7
 for filter in '--order 7' '--tag chaos' '--preserves energy --order 12'; do
     try 2 list $filter
     says "^dalembert: list: nothing matches; "
     empty
 done
-try 2 list systems --order 4
-says '^dalembert: list systems: --order and --preserves select integrators$'
-try 2 list integrators --tag chaotic
-says '^dalembert: list integrators: --tag selects systems$'
+table <<'END'
+2 | list systems --order 4 | says ^dalembert: list systems: --order and --preserves select integrators$
+2 | list integrators --tag chaotic | says ^dalembert: list integrators: --tag selects systems$
+END
 try 2 list --preserves D
 says "^dalembert: --preserves: 'D' is not one of bilinear\|quadratic\|every\|midpoints\|energy$"
 empty
@@ -190,14 +190,14 @@ done
 case_is "values of options"
 while read -r command; do
     try 0 "$command" --help
-    holds "$command: another value is called H" sh -c "! grep -E '^  --[a-z-]+ H( |\$)' out | grep -qv '^  --step H'"
+    expect "$command: another value is called H" sh -c "! grep -E '^  --[a-z-]+ H( |\$)' out | grep -qv '^  --step H'"
 done <commands
 try 0 run --help
 prints '^  --step H '
 prints '^  --tolerance TOLERANCE( |$)'
 prints '^  --solver-tolerance CHANGE( |$)'
 try 0 order --help
-holds "order: other defaults" sh -c 'tr -s " \n" " " <out | grep -q -- \
+expect "order: other defaults" sh -c 'tr -s " \n" " " <out | grep -q -- \
     "--time T integrates from t = T0 to t = T (10) .* (physical) --solver"'
 
 case_is "unknown command"
@@ -246,7 +246,7 @@ try 2 resume
 says 'DIR is missing'
 
 # errors N: the number of messages.
-errors() { holds "$(wc -l <err) messages" test "$(wc -l <err)" -eq "$1"; }
+errors() { expect "$(wc -l <err) messages" test "$(wc -l <err)" -eq "$1"; }
 case_is "all that is wrong is named at once"
 try 2 run chaplygin-sleig --integrater rk4 --step x --tim 3 --precision dubble --solver newtn
 says "unknown option '--integrater'; did you mean '--integrator'\?"
@@ -276,20 +276,18 @@ says "unknown option '--colour'"
 errors 1
 
 case_is "missing and superfluous values"
-try 2 run chaplygin-sleigh --step
-says '^dalembert: --step needs a value'
-try 2 run chaplygin-sleigh --step --time 1
-says '^dalembert: --step needs a value'
-try 2 run chaplygin-sleigh --summary=yes
-says '^dalembert: --summary takes no value$'
-try 2 run chaplygin-sleigh knife-edge
-says "only one SYSTEM, not also 'knife-edge'"
+table <<'END'
+2 | run chaplygin-sleigh --step | says ^dalembert: --step needs a value
+2 | run chaplygin-sleigh --step --time 1 | says ^dalembert: --step needs a value
+2 | run chaplygin-sleigh --summary=yes | says ^dalembert: --summary takes no value$
+2 | run chaplygin-sleigh knife-edge | says only one SYSTEM, not also 'knife-edge'
+END
 
 case_is "--opt=value is --opt value"
 try 0 run chaplygin-sleigh --integrator rk4 --step 0.1 --time 1
 mv out apart
 try 0 run --integrator=rk4 --step=0.1 --time=1 -- chaplygin-sleigh
-holds "the rows differ" cmp apart out
+expect "the rows differ" cmp apart out
 
 case_is "-o is --output in every command that has it"
 while read -r command; do
@@ -298,10 +296,10 @@ while read -r command; do
     says '^dalembert: --output needs a value: --output '
     echo "$command"
 done <commands >with_output
-holds "$(tr '\n' ' ' <with_output)" test "$(wc -l <with_output)" -ge 9
+expect "$(tr '\n' ' ' <with_output)" test "$(wc -l <with_output)" -ge 9
 try 0 run plain.yaml --integrator rk4 --step 0.1 --time 1 -o short.csv
 try 0 run plain.yaml --integrator rk4 --step 0.1 --time 1 --output long.csv
-holds "the rows differ" cmp short.csv long.csv
+expect "the rows differ" cmp short.csv long.csv
 try 2 check plain.yaml -o x.csv
 says "unknown option '-o'"
 
@@ -321,7 +319,7 @@ try 0 list integrators
 for integrator in symplectic-euler-00 symplectic-euler-10 symplectic-euler-01 \
     symplectic-euler-11 stormer-verlet rk4 implicit-midpoint gauss4 gauss6 gauss8 gauss10 \
     gauss12 '\+project'; do
-    prints "^$integrator[ ,]"
+    prints "^${integrator}[ ,]"
 done
 prints '^rk4 +4 '
 prints '^gauss12 +12 '

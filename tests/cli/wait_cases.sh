@@ -2,7 +2,7 @@
 # computation; and nothing that was started goes on alone.
 
 # stopped FILE: the process whose number it holds ends.
-stopped() { holds "what was started goes on" awaits gone "$(cat "$1")"; }
+stopped() { expect "what was started goes on" awaits gone "$(cat "$1")"; }
 
 mkdir -p wait/bin wait/home
 printf '#!/bin/sh\necho $$ >"%s/wait/number.new"\nmv "%s/wait/number.new" "%s/wait/number"\nexec sleep 36000\n' \
@@ -24,16 +24,16 @@ motion="chaplygin-sleigh --integrator rk4 --step 0.1 --time 1"
 for command in "run $motion" "run $motion --output wait/run" "explain $motion" \
     "section $motion --time 1e5 --on phi=1" "study wait/study.yaml --output wait/study --threads 2"; do
     alone $command --native on
-    holds "no compiler was started" reaches $! test -e wait/number
+    expect "no compiler was started" reaches $! test -e wait/number
     ends_by TERM 130 $!
     stopped wait/number
-    holds "files are left" sh -c '! ls wait/home/dalembert/* >/dev/null 2>&1'
+    refute "files are left" sh -c 'ls wait/home/dalembert/*'
 done
 
 case_is "SIGTERM while gnuplot runs"
 try 0 run $motion --output wait/drawn
 alone report wait/drawn
-holds "gnuplot was not started" reaches $! test -e wait/number
+expect "gnuplot was not started" reaches $! test -e wait/number
 ends_by TERM 143 $!
 if [ "$(uname)" = Linux ]; then stopped wait/number; else kill "$(cat wait/number)"; fi
 
@@ -45,7 +45,7 @@ for command in "run" "run --progress json"; do
     reader=$!
     "$program" $command chaplygin-sleigh --integrator rk4 --step 0.1 --time 1e8 --samples 1e9 \
         >wait/pipe 2>err &
-    holds "no handlers" ready $!
+    expect "no handlers" ready $!
     sleep 0.5 # the pipe is full by then, on most machines
     ends_by TERM 130 $!
     says '^dalembert: interrupted; [0-9]+ rows are kept$'
@@ -59,7 +59,7 @@ for command in "run $endless" "lyapunov $endless" "volume $endless" "section $en
     "explain $endless --time 1e7" \
     "order chaplygin-sleigh --integrators gauss12 --step 1e-2 --time 1e12 --threads 2"; do
     "$program" $command >out 2>err &
-    holds "no handlers" ready $!
+    expect "no handlers" ready $!
     sleep 0.5 # something is computed by then, on most machines
     ends_by TERM 130 $!
 done

@@ -39,6 +39,11 @@ nesting() {
         print FILENAME ":" FNR ": more than 3 levels deep" }'
 }
 # Files and names that comments speak of.
+# Two files with one comment have one thought: it is in one of them, or has one name.
+twice() {
+    git ls-files '*.[ch]' '*.inc' '*.sh' '*.awk' '*.py' '*.mk' Makefile .ci/run |
+        xargs awk -v BLOCK=64 -f $here/blocks.awk
+}
 comments() {
     find . -name build -prune -o -name .git -prune -o -type f -print >"$BUILD/files.txt"
     sources | xargs awk -f $here/comments.awk "$BUILD/files.txt"
@@ -53,6 +58,20 @@ scripts() {
         *bash*) bash -n "$script" ;;
         *) sh -n "$script" ;;
         esac
+    done
+}
+# What shellcheck warns of, except what these scripts mean: words are split and lists of files read without
+# quotes, where no name has a blank (SC2038, SC2044, SC2046); parts of the command line have neither a first
+# line nor variables that they do not share with run.sh (SC1090, SC2034, SC2148, SC2154); they write x= y= z,
+# to files whose names are commands, too (SC1007, SC1010, SC2217, SC2238); variables go before a function
+# (SC2097, SC2098); some shells have ulimit -v, and tests that need it look (SC3045).
+shell() {
+    find tools tests bench .ci -name '*.sh' -o -path .ci/run | sort >"$BUILD/scripts.txt"
+    for dialect in sh bash; do
+        while read -r script; do
+            case $(head -n 1 "$script") in *bash*) echo bash ;; *) echo sh ;; esac | grep -qx $dialect && echo "$script"
+        done <"$BUILD/scripts.txt" | xargs shellcheck --shell=$dialect --severity=warning --format=gcc \
+            --exclude=SC1007,SC1010,SC1090,SC2034,SC2038,SC2044,SC2046,SC2097,SC2098,SC2148,SC2154,SC2217,SC2238,SC3045
     done
 }
 
@@ -159,7 +178,9 @@ check "names of static functions" names
 check "static functions called once" once
 check "names in comments" comments
 check "the public header in C++" cplusplus
+check "comments that two files have" twice
 check "scripts" scripts
+check "shellcheck" shell
 check "symbol prefix" prefix
 check "no changeable globals" globals
 check "calls of the library" calls

@@ -131,7 +131,6 @@ limit=$((LIMIT * ($(date +%s) - began) / 4 + 10))
 # ---- mutants ----
 
 count=0 killed=0 late=0 survived=0 listed=0 same=0 broken=0
-tab=$(printf '\t')
 exec 3<"$place/candidates"
 while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
     file=$(printf '%s\n' "$candidate" | cut -f1)

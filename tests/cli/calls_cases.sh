@@ -1,0 +1,127 @@
+# Calls of the system that fail: wherever one does, a command ends with a message and another status, or has written
+# what it writes otherwise.  fail_call.c lets the k-th call fail; FAILING_CALLS says how many k are tried for a command.
+
+FAILING_CALLS=${FAILING_CALLS:-60}
+shim=$top/fail_call.so
+# without_call K ARGUMENT...: call K fails; 0: none.
+without_call() {
+    k=$1
+    shift
+    timeout $patience env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
+        LD_PRELOAD="$shim" FAIL_AT=$k FAIL_LOG="$work/calls" "$program" "$@" >out 2>err
+}
+# What a command has printed and written, in the directory $1 and the file $1.out, without times.
+without_times() {
+    rm -rf "$1"
+    mkdir -p place
+    mv place "$1"
+    grep -vE '^A step takes| runs in |^rk4 ' out >"$1.out"
+    find "$1" -name cells.csv -o -name order.csv >tables
+    while read -r file; do
+        awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "seconds") k = i } { $k = ""; print }' "$file" >cells
+        mv cells "$file"
+    done <tables
+}
+# The checkpoint holds times, the lock nothing.
+same_files() { diff -r -I '"seconds"' -x 'checkpoint*' -x lock "$1" "$2" && cmp "$1.out" "$2.out"; }
+# fails_openly ARGUMENT...: begins with what `prepare` makes, in the directory `place`.
+fails_openly() {
+    rm -rf place
+    prepare
+    without_call 0 "$@"
+    well=$? total=$(cat calls) fault=
+    without_times well
+    for k in $(numbers "$total" "$FAILING_CALLS"); do
+        rm -rf place
+        prepare
+        without_call "$k" "$@"
+        status=$?
+        left=$(find place -name '*.new' 2>/dev/null)
+        without_times other
+        if [ -n "$left" ]; then
+            fault="$fault $k:file"
+        elif [ $status -eq "$well" ]; then
+            same_files well other >/dev/null || fault="$fault $k:other"
+        elif [ $status -ne 2 -a $status -ne 4 ] || ! grep -q '^dalembert: ' err; then
+            fault="$fault $k:$status"
+        fi
+    done
+    holds "status $well, $total calls, at$fault: $*" [ -z "$fault" -a "$total" -gt 0 -a "$well" -eq 0 ]
+}
+
+fails_calls() { shared_object fail_call && without_call 0 --version && [ ! -s err ]; }
+if needs 33 "no compiler for calls that fail" fails_calls; then
+    motion="line.yaml --integrator rk4 --step 0.1 --time 1"
+    cat >ball.yaml <<'EOF'
+coordinates: [y]
+lagrangian: y'^2/2 - y
+start: {y: 1}
+events:
+  - {when: y, direction: down, restitution: 0.5}
+EOF
+    printf '%s\n' t,f 0,0 1,2 >push.csv
+    printf '%s\n' 0.2 0.5 1 >times.csv
+    printf '%s\n' 'coordinates: [x]' 'tables: {f: {file: push.csv, at: t, value: f}}' \
+        'accelerations: {x: f(t)}' >push.yaml
+    printf '%s\n' 'integrators: rk4' 'step: 0.1' 'time: 1' 'starts: physical' 'systems:' \
+        '  - {system: line.yaml, set: {k: [1, 2]}}' >short.yaml
+
+    case_is "calls that fail: one file"
+    prepare() { mkdir place; }
+    fails_openly check line.yaml
+    fails_openly run $motion
+    fails_openly run $motion --output place/rows.csv
+    fails_openly run $motion --output place/rows.npy
+    fails_openly run push.yaml --integrator rk4 --step 0.1 --times times.csv --observe "x^2" --output place/rows.csv
+    fails_openly run ball.yaml --integrator rk4 --step 0.1 --time 3 --events place/log.csv --output place/rows.csv
+    fails_openly generate line.yaml --integrator rk4 --output place/line.c
+    fails_openly new place/begun
+    fails_openly order line.yaml --integrators rk4 --time 1 --threads 1 --output place/order.csv
+    fails_openly section chaplygin-sleigh-full-turn --on phi=1 --integrator rk4 --step 0.1 --time 9 --output place/section.csv
+    fails_openly lyapunov isokinetic --integrator rk4 --step 0.1 --time 2 --output place/means.csv
+
+    case_is "calls that fail: directories"
+    prepare() { :; }
+    fails_openly run ball.yaml --integrator rk4 --step 0.1 --time 3 --output place
+    fails_openly study short.yaml --output place --threads 1 --no-page
+    few="ensemble line.yaml --integrator rk4 --step 0.5 --times 0.5,1 --members 300 --seed 1 --vary k=uniform(1,2)"
+    fails_openly $few --threads 1 --no-page --output place
+
+    case_is "calls that fail: directories that were begun"
+    mkdir begun
+    for shard in 1 2; do
+        try 0 study short.yaml --shard $shard/2 --output begun/study-$shard --threads 1
+        try 0 $few --shard $shard/2 --output begun/ensemble-$shard --threads 1
+    done
+    try 0 study short.yaml --output whole-study --no-page
+    try 0 $few --output whole-ensemble --no-page
+    prepare() { cp -R begun place; }
+    fails_openly merge place/study-1 place/study-2 --output place/study --threads 1 --no-page
+    fails_openly merge place/ensemble-1 place/ensemble-2 --output place/ensemble --threads 1 --no-page
+    prepare() { cp -R begun/study-1 place && rm -r place/runs/*; }
+    fails_openly resume place --threads 1 --no-page
+    prepare() { cp -R begun/ensemble-1 place && rm place/chunks*; }
+    fails_openly resume place --threads 1 --no-page
+    prepare() { cp -R run place; }
+    try 0 run $motion --output run
+    fails_openly run $motion --output place --force
+    prepare() { cp -R whole-study place; }
+    fails_openly study short.yaml --output place --threads 1 --force --no-page
+    prepare() { cp -R whole-ensemble place; }
+    fails_openly $few --output place --threads 1 --force --no-page
+    if needs 3 "no gnuplot" there gnuplot; then
+        FAILING_CALLS=25
+        prepare() { cp -R run place; }
+        fails_openly report place
+        prepare() { cp -R whole-study place; }
+        fails_openly report place
+        prepare() { cp -R whole-ensemble place; }
+        fails_openly report place
+        counted
+    fi
+    rm -rf run
+    cut_off 137 9 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --checkpoint 0 --output run
+    prepare() { cp -R run place; }
+    fails_openly resume place
+    counted
+fi

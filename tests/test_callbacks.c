@@ -1,0 +1,541 @@
+/* test_callbacks.c - callbacks of a system that fail: whichever call does, a function of the library
+ * returns the status of the callback, or one that says what became of it, with a message; unless its
+ * result is NaN or the one without a failure. */
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { NUMBERS = 300, MAX_TRIALS = 600 };
+#define STEP        0.1
+#define DIFFERENCES 1e-6 /* the error of differences is smaller */
+
+/* ---- a system of which one call fails ---- */
+
+/* All callbacks but exact: without its value at the start there is no observable error. */
+
+static const dal_system *original;
+static long calls, failing; /* the call that fails, from 1; 0: none */
+static const char *failed;  /* the callback that failed */
+
+static bool fails(void) { return ++calls == failing; }
+
+#define MEMBERS(MEMBER)                                                                            \
+    MEMBER(call.field, field)                                                                      \
+    MEMBER(call.adjoint, adjoint)                                                                  \
+    MEMBER(call.jacobian, jacobian)                                                                \
+    MEMBER(call.constraint, constraint)                                                            \
+    MEMBER(call.energy_normal, energy_normal)                                                      \
+    MEMBER(call.gauge, gauge)                                                                      \
+    MEMBER(call.guards, guards)                                                                    \
+    MEMBER(call.blocks, blocks)                                                                    \
+    MEMBER(call.potential, potential)                                                              \
+    MEMBER(prepare, prepare)                                                                       \
+    MEMBER(start, start)                                                                           \
+    MEMBER(constraints, constraints)                                                               \
+    MEMBER(energy, energy)                                                                         \
+    MEMBER(invariant_values, invariant_values)                                                     \
+    MEMBER(reactions, reactions)                                                                   \
+    MEMBER(projection, projection)                                                                 \
+    MEMBER(event_values, event_values)                                                             \
+    MEMBER(event_rates, event_rates)                                                               \
+    MEMBER(event_states, event_states)                                                             \
+    MEMBER(event_normals, event_normals)
+#define FAIL(member, name)                                                                         \
+    static dal_status fail_##name(const dal_system *system, const dal_point *at, double *out)      \
+    {                                                                                              \
+        (void)system;                                                                              \
+        if (fails()) {                                                                             \
+            failed = #name;                                                                        \
+            return DAL_IO;                                                                         \
+        }                                                                                          \
+        return original->member(original, at, out);                             \
+    }
+MEMBERS(FAIL)
+#undef FAIL
+
+static dal_system failing_system(const dal_system *system)
+{
+    dal_system copy = *system;
+    original = system;
+    copy.wide4 = copy.wide8 = NULL;
+    copy.extended = copy.quad = NULL;
+    copy.series = NULL;
+    copy.scales = copy.reaction_scales = NULL;
+    copy.diagnose = NULL;
+#define WRAP(member, name)                                                                         \
+    if (system->member) copy.member = fail_##name;
+    MEMBERS(WRAP)
+#undef WRAP
+    return copy;
+}
+
+/* ---- what is tried ---- */
+
+typedef struct trial {
+    dal_run_spec spec;
+    double tolerance; /* of a result that differences with another increment may have */
+    dal_error error;
+    double out[NUMBERS];
+    int count;
+} trial;
+typedef dal_status trial_work(trial *t);
+
+static void add(trial *t, const double *numbers, int count)
+{
+    for (int i = 0; i < count && t->count < NUMBERS; i++) t->out[t->count++] = numbers[i];
+}
+static void add_number(trial *t, double number) { add(t, &number, 1); }
+static void add_run(trial *t, const dal_run *run)
+{
+    add(t, dal_run_state(run), dal_run_dimension(run));
+}
+
+static bool are_close(const trial *a, const trial *b)
+{
+    bool is_close = a->count == b->count;
+    for (int i = 0; is_close && i < a->count; i++) {
+        const double x = a->out[i], y = b->out[i], size = fmax(fabs(x), 1.0);
+        is_close = x == y || isnan(y) || fabs(x - y) <= a->tolerance * size;
+    }
+    return is_close;
+}
+
+/* Every call of the work on a system fails once, or MAX_TRIALS of them. */
+static void each_call_fails(const char *text, const char *method, dal_space space, double tolerance,
+                            trial_work *work, const char *name)
+{
+    const dal_system system = failing_system(fixture_system(text));
+    trial well = {.spec = fixture_spec(&system, method, space, STEP), .tolerance = tolerance};
+    calls = failing = 0;
+    const dal_status status = work(&well);
+    const long total = calls;
+    CU_ASSERT_EQUAL(status, DAL_OK);
+    CU_ASSERT(total > 0);
+    if (status != DAL_OK) printf("\n%.20s: %s, %s: %s\n", text, name, method, dal_status_name(status));
+    const long by = total / MAX_TRIALS + 1;
+    for (long k = 1; k <= total; k += by) {
+        trial other = {.spec = well.spec};
+        calls = 0;
+        failing = k;
+        const dal_status seen = work(&other);
+        const bool is_seen = seen == DAL_IO || seen == DAL_NOT_FINITE || seen == DAL_NOT_CONVERGED;
+        const bool is_same = seen == DAL_OK && are_close(&well, &other);
+        CU_ASSERT(!is_seen || other.error.status == seen);
+        CU_ASSERT(is_seen || is_same);
+        if (is_seen || is_same) continue;
+        for (int i = 0; i < well.count; i++)
+            if (well.out[i] != other.out[i])
+                printf("   [%d] %g %g\n", i, well.out[i], other.out[i]);
+        printf("%.20s: %s, %s: call %ld of %ld, %s, fails unseen\n", text, name, method, k, total,
+               failed);
+    }
+}
+
+static dal_status create(trial *t)
+{
+    dal_run *run = NULL;
+    const dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    if (status == DAL_OK) add_run(t, run);
+    dal_run_free(run);
+    return status;
+}
+
+static dal_status step(trial *t)
+{
+    dal_run *run = NULL;
+    dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    if (status == DAL_OK) status = dal_run_advance(run, 3, &t->error);
+    if (status == DAL_OK) add_run(t, run);
+    dal_run_free(run);
+    return status;
+}
+
+static dal_status observe(trial *t)
+{
+    dal_run *run = NULL;
+    double values[32] = {0};
+    dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    if (status == DAL_OK) status = t->error.status = dal_run_observe(run, values);
+    const double *scales = status == DAL_OK ? dal_run_scales(run) : NULL;
+    if (scales) add(t, scales, dal_run_observables(run));
+    if (status == DAL_OK && !scales) status = t->error.status = DAL_IO; /* as documented */
+    add(t, values, (int)(sizeof values / sizeof *values));
+    dal_run_free(run);
+    return status;
+}
+
+static dal_status keep_sample(void *user, dal_run *run, long long row, double time)
+{
+    trial *t = user;
+    double values[8] = {0};
+    (void)row, (void)time;
+    const dal_status status =
+        dal_run_observables(run) <= 8 ? dal_run_observe(run, values) : DAL_OK;
+    add(t, values, (int)(sizeof values / sizeof *values));
+    add_run(t, run);
+    return status;
+}
+static dal_status keep_values(void *user, dal_run *run, int count, const double *time,
+                              const double *values, size_t stride)
+{
+    (void)run, (void)time, (void)stride;
+    add(user, values, count);
+    return DAL_OK;
+}
+static dal_status keep_scales(void *user, dal_run *run, const double *scales)
+{
+    (void)run;
+    add(user, scales, 1);
+    return DAL_OK;
+}
+static dal_status sample(trial *t)
+{
+    dal_run *run = NULL;
+    const dal_observer observer = {.user = t,
+                                   .sample = keep_sample,
+                                   .values = keep_values,
+                                   .scales = keep_scales,
+                                   .every = 1};
+    const double T = 4.0 * t->spec.options.step;
+    dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    if (status == DAL_OK) status = dal_run_sample(run, T, 3, 0, &observer, &t->error);
+    dal_run_free(run);
+    return status;
+}
+
+static dal_status change(trial *t)
+{
+    dal_run *run = NULL;
+    dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    if (status == DAL_OK)
+        status = dal_run_set_parameter(run, t->spec.system->parameter[0], 1.25, &t->error);
+    if (status == DAL_OK) status = dal_run_step(run, &t->error);
+    if (status == DAL_OK) add_run(t, run);
+    dal_run_free(run);
+    return status;
+}
+
+static dal_status restore(trial *t)
+{
+    dal_run *run = NULL, *other = NULL;
+    size_t count;
+    dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    if (status == DAL_OK) status = dal_run_create(&other, &t->spec, &t->error);
+    if (status == DAL_OK) status = dal_run_step(run, &t->error);
+    const double *saved = status == DAL_OK ? dal_run_save(run, &count) : NULL;
+    if (saved) status = dal_run_restore(other, saved, count, &t->error);
+    if (status == DAL_OK) status = dal_run_step(other, &t->error);
+    if (status == DAL_OK) add_run(t, other);
+    dal_run_free(run);
+    dal_run_free(other);
+    return status;
+}
+
+static dal_status advance_batch(trial *t)
+{
+    dal_batch *batch = NULL;
+    double state[32];
+    dal_status status = dal_batch_create(&batch, &t->spec, 2, 1, &t->error);
+    if (status == DAL_OK) status = dal_batch_advance(batch, 3);
+    for (int lane = 0; lane < 2 && status == DAL_OK; lane++) {
+        status = dal_batch_status(batch, lane, &t->error);
+        dal_batch_state(batch, lane, state);
+        add(t, state, 2 * t->spec.system->n);
+    }
+    dal_batch_free(batch);
+    return status;
+}
+
+static dal_status measure_lyapunov(trial *t)
+{
+    dal_lyapunov *l = NULL;
+    dal_average average[2];
+    dal_balance balance = {0};
+    dal_status status = dal_lyapunov_create(&l, &t->spec, NULL, 0, &t->error);
+    if (status == DAL_OK) status = dal_lyapunov_advance(l, 3, &t->error);
+    if (status == DAL_OK) {
+        dal_lyapunov_exponent(l, 0, &average[0]);
+        dal_lyapunov_divergence(l, &average[1]);
+        add_number(t, (double)average[0].mean);
+        add_number(t, (double)average[1].mean);
+        status = dal_lyapunov_balance(l, &balance, &t->error);
+    }
+    add(t, &balance.difference, sizeof(double));
+    add(t, &balance.surface, sizeof(double));
+    add(t, &balance.margin, sizeof(double));
+    dal_lyapunov_free(l);
+    return status;
+}
+
+/* An evaluator and the start of the system, x[2n]. */
+static dal_status begin(trial *t, dal_evaluator **evaluator, double *x, dal_point *at)
+{
+    dal_status status = dal_evaluator_create(evaluator, t->spec.system, NULL, 0, &t->error);
+    if (status == DAL_OK) status = dal_evaluator_start(*evaluator, NULL, 0, x, &t->error);
+    *at = (dal_point){.q = x, .v = x + t->spec.system->n};
+    return status;
+}
+
+static dal_status measure_rate(trial *t)
+{
+    dal_evaluator *evaluator = NULL;
+    double x[32], rate = 0.0;
+    dal_point at;
+    dal_status status = begin(t, &evaluator, x, &at);
+    if (!status) status = t->error.status = dal_measure_rate(evaluator, t->spec.system->energy, 1, &at, &rate);
+    add_number(t, (double)rate);
+    dal_evaluator_free(evaluator);
+    return status;
+}
+
+static dal_status check_derivatives(trial *t)
+{
+    dal_evaluator *evaluator = NULL;
+    double x[32];
+    dal_point at;
+    dal_derivatives derivatives = {0};
+    dal_status status = begin(t, &evaluator, x, &at);
+    if (!status) status = t->error.status = dal_check_derivatives(evaluator, &at, &derivatives);
+    const double numbers[] = {derivatives.jacobian, derivatives.adjoint,
+                              derivatives.constraint_jacobian, derivatives.gram};
+    add(t, numbers, 4);
+    dal_evaluator_free(evaluator);
+    return status;
+}
+
+static dal_status measure_rank(trial *t)
+{
+    dal_evaluator *evaluator = NULL;
+    double x[32], pivot = 0.0;
+    int rank = 0;
+    dal_point at;
+    dal_status status = begin(t, &evaluator, x, &at);
+    if (!status) status = t->error.status = dal_measure_rank(evaluator, &at, &rank, &pivot);
+    add_number(t, (double)rank);
+    add_number(t, (double)pivot);
+    dal_evaluator_free(evaluator);
+    return status;
+}
+
+static dal_status project_velocity(trial *t)
+{
+    dal_evaluator *evaluator = NULL;
+    double x[32];
+    dal_point at;
+    const int n = t->spec.system->n;
+    dal_status status = begin(t, &evaluator, x, &at);
+    if (!status) x[n] += 0.1;
+    if (!status) status = t->error.status = dal_project_velocity(evaluator, 0.0, x, x + n);
+    if (!status) add(t, x + n, n);
+    dal_evaluator_free(evaluator);
+    return status;
+}
+
+static dal_status classify_constraints(trial *t)
+{
+    dal_evaluator *evaluator = NULL;
+    double x[32], degree[8] = {0};
+    dal_point at;
+    dal_constraint_class class = {0};
+    dal_status status = begin(t, &evaluator, x, &at);
+    if (!status) status = t->error.status = dal_classify_constraints(evaluator, &at, &class, degree);
+    const double numbers[] = {class.linear, class.constant,    class.bilinear,  class.quadratic,
+                           class.parity, class.homogeneous, class.reversible};
+    add(t, numbers, 7);
+    if (class.homogeneous) add(t, degree, t->spec.system->m);
+    dal_evaluator_free(evaluator);
+    return status;
+}
+
+static dal_status measure_scales(trial *t)
+{
+    dal_evaluator *evaluator = NULL;
+    double x[32], scales[16] = {0};
+    dal_point at;
+    dal_status status = begin(t, &evaluator, x, &at);
+    if (!status) status = t->error.status = dal_evaluator_scales(evaluator, 0.0, at.q, at.v, scales);
+    add(t, scales, 1 + t->spec.system->m);
+    dal_evaluator_free(evaluator);
+    return status;
+}
+
+static dal_status check_dirac(trial *t)
+{
+    dal_evaluator *evaluator = NULL;
+    double x[32];
+    dal_point at;
+    dal_dirac dirac = {0};
+    dal_status status = begin(t, &evaluator, x, &at);
+    if (!status) status = t->error.status = dal_check_dirac(evaluator, &at, 1.0, &dirac);
+    const double numbers[] = {dirac.second_class, dirac.free_multipliers, dirac.conservation,
+                              dirac.multipliers,  dirac.secondary,        dirac.hamiltonian};
+    add(t, numbers, 6);
+    dal_evaluator_free(evaluator);
+    return status;
+}
+
+static dal_status measure_action(trial *t)
+{
+    enum { ROWS = 12 };
+    dal_evaluator *evaluator;
+    const dal_system *system = t->spec.system;
+    const int n = system->n;
+    double q[ROWS * 8], states[3 * 34], action = 0.0, defect = 0.0;
+    dal_status status = dal_evaluator_create(&evaluator, system, NULL, 0, &t->error);
+    if (status != DAL_OK) return status;
+    for (int i = 0; i < ROWS * n; i++) q[i] = sin(0.1 * i);
+    for (int i = 0; i < 3 * (4 * n + 2); i++) states[i] = 1.0 + 0.01 * i;
+    status = t->error.status = dal_measure_action(evaluator, 0.0, 0.1, ROWS, q, 1.0, &action);
+    if (!status) status = t->error.status = dal_check_stationarity(evaluator, 0.0, 0.1, 3, states, &defect);
+    add_number(t, (double)action);
+    add_number(t, (double)defect);
+    dal_evaluator_free(evaluator);
+    return status;
+}
+
+static dal_status measure_order(trial *t)
+{
+    dal_order order = {0};
+    const dal_status status = dal_measure_order(&t->spec, 4.0 * t->spec.options.step, 2, NULL, NULL,
+                                                &order, &t->error);
+    add(t, order.error, order.levels);
+    return status;
+}
+
+static dal_status check_maps(trial *t)
+{
+    double symplectic = 0.0, reverse = 0.0;
+    dal_status status = dal_check_symplecticity(&t->spec, 0.0, NULL, 0.0, &symplectic, &t->error);
+    if (status == DAL_OK) status = dal_check_reversibility(&t->spec, 0.0, NULL, &reverse, &t->error);
+    add_number(t, (double)symplectic);
+    add_number(t, (double)reverse);
+    return status;
+}
+
+static dal_status budget(trial *t)
+{
+    dal_error_budget *e = NULL;
+    const dal_status status = dal_error_budget_create(&t->spec, 4, 0, NULL, &e, &t->error);
+    for (int i = 0; e && i < e->observables; i++) add_number(t, e->shares[i].whole.deviation);
+    dal_error_budget_free(e);
+    return status;
+}
+
+static dal_status keep_crossing(void *user, dal_run *run, const dal_crossing *crossing)
+{
+    (void)run;
+    add(user, &crossing->t, 1);
+    return DAL_OK;
+}
+static dal_status cross(trial *t)
+{
+    dal_run *run = NULL;
+    dal_crossings found = {0};
+    const dal_system *system = t->spec.system;
+    const dal_poincare section = {.callback = system->invariant_values,
+                                  .count = system->invariants,
+                                  .user = t,
+                                  .cross = keep_crossing};
+    dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    if (status == DAL_OK)
+        status = dal_run_crossings(run, 40.0 * t->spec.options.step, &section, &found, &t->error);
+    add_number(t, (double)found.up);
+    add_number(t, (double)found.down);
+    dal_run_free(run);
+    return status;
+}
+
+static dal_status keep_event(void *user, dal_run *run, const dal_occurrence *event)
+{
+    add(user, &event->t, 1);
+    add_run(user, run);
+    return DAL_OK;
+}
+static dal_status pass_events(trial *t)
+{
+    dal_run *run = NULL;
+    dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    if (status == DAL_OK)
+        status = dal_run_events(run, 30.0 * t->spec.options.step, keep_event, t, &t->error);
+    const long long unresolved = run ? dal_run_unresolved(run, NULL) : 0;
+    add_number(t, (double)unresolved);
+    if (status == DAL_OK) add_run(t, run);
+    dal_run_free(run);
+    return status;
+}
+
+static dal_status scale(trial *t)
+{
+    dal_scaled *scaled = NULL;
+    const dal_status status = dal_scaled_create(&scaled, &t->spec, &t->error);
+    if (status == DAL_OK)
+        add(t, dal_scaled_units(scaled), 1 + t->spec.system->n);
+    dal_scaled_free(scaled);
+    return status;
+}
+
+/* ---- the suite ---- */
+
+static const char sleigh[] = "chaplygin-sleigh";
+#define EACH(text, method, space, tolerance, work)                                                 \
+    each_call_fails(text, method, space, tolerance, work, #work)
+
+static void test_runs(void)
+{
+    static const char *const methods[] = {"rk4", "gauss4", "dla", "gauss4+project", "dop853"};
+    for (int i = 0; i < 5; i++) {
+        EACH(sleigh, methods[i], DAL_PHYSICAL, 0.0, create);
+        EACH(sleigh, methods[i], DAL_PHYSICAL, 0.0, step);
+        EACH(sleigh, methods[i], DAL_PHYSICAL, 0.0, sample);
+        EACH(sleigh, methods[i], DAL_PHYSICAL, 0.0, advance_batch);
+    }
+    EACH(sleigh, "gauss4", DAL_LIFTED, 0.0, create);
+    EACH(sleigh, "gauss4", DAL_LIFTED, 0.0, step);
+    EACH(sleigh, "gauss4", DAL_LIFTED, 0.0, sample);
+    EACH(sleigh, "gauss4", DAL_LIFTED, 0.0, observe);
+    EACH(sleigh, "gauss4", DAL_PHYSICAL, 0.0, observe);
+    EACH(sleigh, "gauss4", DAL_PHYSICAL, 0.0, change);
+    EACH(sleigh, "rk4", DAL_PHYSICAL, 0.0, restore);
+}
+
+static void test_measures(void)
+{
+    static const char *const texts[] = {sleigh, fixture_quadratic};
+    for (int i = 0; i < 2; i++) {
+        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_rate);
+        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, check_derivatives);
+        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_rank);
+        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, project_velocity);
+        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, classify_constraints);
+        EACH(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_scales);
+    }
+    EACH(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, check_dirac);
+    EACH(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_action);
+    EACH(sleigh, "rk4", DAL_PHYSICAL, 0.0, measure_order);
+    EACH(sleigh, "gauss4", DAL_LIFTED, DIFFERENCES, check_maps);
+    EACH(sleigh, "gauss4", DAL_PHYSICAL, 0.0, budget);
+    EACH(sleigh, "rk4", DAL_PHYSICAL, 0.0, scale);
+    EACH(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_lyapunov);
+}
+
+static void test_places(void)
+{
+    static const char swing[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2\n"
+                                "start: {x: 1, y': 1}\ninvariants: {g: x}\n";
+    static const char ball[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
+                               "start: {y: 1}\n"
+                               "events:\n  - {when: y, direction: down, restitution: 0.5}\n"
+                               "  - {when: y - 0.2, direction: up, set: {x: x + 1}}\n";
+    EACH(swing, "rk4", DAL_PHYSICAL, 0.0, cross);
+    EACH(ball, "rk4", DAL_PHYSICAL, 1e-13, pass_events);
+}
+
+void suite_callbacks(void)
+{
+    CU_pSuite suite = CU_add_suite("callbacks that fail", NULL, NULL);
+    CU_add_test(suite, "runs and batches", test_runs);
+    CU_add_test(suite, "measures", test_measures);
+    CU_add_test(suite, "crossings and events", test_places);
+}

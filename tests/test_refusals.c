@@ -1,0 +1,156 @@
+/* test_refusals.c - what functions refuse, and the message that says why. */
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void refused(dal_status got, dal_status expected, const dal_error *error, const char *message)
+{
+    CU_ASSERT_EQUAL(got, expected);
+    CU_ASSERT_EQUAL(error->status, expected);
+    CU_ASSERT_STRING_EQUAL(error->message, message);
+}
+
+/* D(q,v) -> -D in each step of discrete-gradient, which only preserves D between its ends; dla
+ * preserves D itself, too. */
+static void test_modifiers(void)
+{
+    const dal_system *system = fixture_system(fixture_constant);
+    dal_run_spec spec =
+        fixture_spec(system, "discrete-gradient+symmetric-project", DAL_PHYSICAL, 0.1);
+    fixture_refused(&spec, DAL_UNSUPPORTED,
+                    "+symmetric-project has no solution around discrete-gradient, which turns D "
+                    "into -D in every step");
+    spec = fixture_spec(system, "dla+symmetric-project", DAL_PHYSICAL, 0.1);
+    dal_run_free(fixture_stepped(&spec, 1));
+}
+
+static void test_batches(void)
+{
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
+    dal_error error;
+    dal_batch *batch = NULL;
+    refused(dal_batch_create(&batch, &spec, 2, 3, &error), DAL_ARGUMENT, &error,
+            "width 3 is not 0, 1, 4 or 8");
+    CU_ASSERT_PTR_NULL(batch);
+    refused(dal_batch_create(&batch, &spec, 0, 1, &error), DAL_ARGUMENT, &error,
+            "a batch of 0 runs is empty");
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 2, 1, &error), DAL_OK);
+    for (int lane = -1; lane <= 2; lane += 3) {
+        char message[64];
+        snprintf(message, sizeof message, "lane %d of 2 does not exist", lane);
+        refused(dal_batch_start(batch, lane, NULL, 0, NULL, 0, &error), DAL_ARGUMENT, &error,
+                message);
+        refused(dal_batch_status(batch, lane, &error), DAL_ARGUMENT, &error, message);
+    }
+    dal_batch_free(batch);
+}
+
+static double backwards(void *user, long long row)
+{
+    (void)user;
+    return row < 2 ? 0.5 * (double)row : 0.25;
+}
+static double nowhere(void *user, long long row)
+{
+    (void)user;
+    return row < 2 ? 0.5 * (double)row : NAN;
+}
+
+static void test_runs(void)
+{
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.125);
+    dal_run *run = fixture_run(&spec);
+    dal_error error;
+    dal_observer observer = {.row_time = backwards};
+    refused(dal_run_advance(run, -1, &error), DAL_ARGUMENT, &error, "-1 steps: a run goes forward");
+    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_ARGUMENT, &error,
+            "row 2 is at t = 0.25, the row before it at 0.5");
+    observer.row_time = nowhere;
+    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_ARGUMENT, &error,
+            "row 2 is at t = nan, the row before it at 0.5");
+    observer = (dal_observer){.every = -1};
+    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_ARGUMENT, &error,
+            "observations every -1 steps cannot be made");
+    observer = (dal_observer){.polling = -1};
+    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_ARGUMENT, &error,
+            "polls every -1 steps cannot be made");
+    CU_ASSERT_EQUAL(dal_run_steps(run), 0);
+    dal_run_free(run);
+}
+
+static dal_status no_values(const dal_system *system, const dal_point *at, double *out)
+{
+    (void)system, (void)at, (void)out;
+    return DAL_NOT_FINITE;
+}
+
+static void test_systems(void)
+{
+    static const struct {
+        dal_system system;
+        dal_status status;
+        const char *message;
+    } bad[] = {
+        {{.n = 0}, DAL_ARGUMENT, "a system needs coordinates; n is 0"},
+        {{.n = 1, .pivots = -1}, DAL_ARGUMENT, "a dimension of the system is negative"},
+        {{.n = 3, .m = 2, .multipliers = 1}, DAL_ARGUMENT, "1 multipliers for 2 constraints"},
+        {{.n = 1, .parameters = 3, .workspace = 2}, DAL_ARGUMENT, "3 parameters in a workspace of 2"},
+        {{.n = 1, .pivots = 2, .workspace = 1}, DAL_ARGUMENT, "2 pivots in a workspace of 1"},
+        {{.n = 1, .m = 2}, DAL_TOO_LARGE, "1 coordinates, 2 constraints"},
+        {{.n = 100001}, DAL_TOO_LARGE, "100001 coordinates, 0 constraints"},
+        {{.n = 1, .start = no_values}, DAL_NOT_FINITE, "the system has no start with these"},
+        {{.name = "hand", .n = 1, .start = no_values}, DAL_NOT_FINITE, "hand has no start with"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        dal_system system = bad[i].system;
+        system.call.field = fixture_oscillate;
+        const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
+        fixture_refused(&spec, bad[i].status, bad[i].message);
+    }
+}
+
+static void test_models(void)
+{
+    dal_error error;
+    dal_model *model = dal_model_create("late");
+    CU_ASSERT_EQUAL(dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "x", 1, 1, NULL), DAL_OK);
+    refused(dal_model_add(model, DAL_SECTION_TABLES, "f", "f.csv", 2, 3, &error), DAL_ARGUMENT,
+            &error, "tables are added by dal_model_add_table");
+    CU_ASSERT(error.line == 2 && error.column == 3);
+    CU_ASSERT_EQUAL(dal_model_observe(model, "x^2", 3, 1, NULL), DAL_OK);
+    refused(dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "y", 4, 5, &error), DAL_ARGUMENT,
+            &error, "formulas to observe come after all other entries");
+    CU_ASSERT(error.line == 4 && error.column == 5);
+    dal_model_free(model);
+}
+
+/* A ball that is faster after each passage upwards could not have come from there. */
+static void test_events(void)
+{
+    static const char ball[] = "coordinates: [y]\nlagrangian: y'^2/2 - y\nstart: {y: -1, y': 2}\n"
+                               "events:\n  - {when: y, direction: up, set: {y': 2*y'}}\n";
+    const dal_run_spec spec = fixture_spec(fixture_system(ball), "gauss4", DAL_PHYSICAL, 0.0625);
+    dal_run *run = fixture_run(&spec);
+    dal_error error;
+    /* y = -1 + 2t - t^2/2 is 0 at t = 2 - sqrt(2), where y' = sqrt(2) becomes 2 sqrt(2). */
+    CU_ASSERT_EQUAL(dal_run_events(run, 2.0, NULL, NULL, &error), DAL_EVENT);
+    CU_ASSERT_PTR_NOT_NULL(
+        strstr(error.message, ": the velocities after it still lead out, d(when)/dt = 2.82843"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "at t = 0.5857864376269"));
+    dal_run_free(run);
+}
+
+void suite_refusals(void)
+{
+    CU_pSuite suite = CU_add_suite("refusals", NULL, NULL);
+    CU_add_test(suite, "modifiers", test_modifiers);
+    CU_add_test(suite, "batches", test_batches);
+    CU_add_test(suite, "runs", test_runs);
+    CU_add_test(suite, "systems made by hand", test_systems);
+    CU_add_test(suite, "models", test_models);
+    CU_add_test(suite, "events that lead out", test_events);
+}

@@ -1,0 +1,110 @@
+/* test_units.c - runs in other units: with
+ *
+ *     q_i = s_i Q_i,   t = tau T,   L' = c L,   D' = d D
+ *
+ * and powers of two, the same motion has the same bits: Q_i s_i = q_i, V_i s_i/tau = v_i. */
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdio.h>
+
+/* The units of a run; what is 0 is 1. */
+typedef struct units {
+    double s[3], tau, c, d;
+} units;
+
+static const units one = {{1.0, 1.0, 1.0}, 1.0, 1.0, 1.0};
+static const units others[] = {
+    {{0x1p-30, 0x1p40, 0x1p3}, 0x1p-20, 0x1p5, 0x1p-9},
+    {{0x1p60, 0x1p-59, 0x1p-1}, 0x1p9, 0x1p-60, 0x1p60},
+    {{0x1p-7, 0x1p-7, 0x1p-60}, 0x1p-60, 0x1p31, 0x1p-31},
+};
+enum { OTHERS = 3 };
+
+/* A system of x, y, z as a text in which these are in units: sx*x, ux*x', tau*t; L times c, D times
+ * d.  As parameters the units change no formula. */
+static const dal_system *in_units(const char *text, const units *u)
+{
+    char yaml[2048];
+    snprintf(yaml, sizeof yaml,
+             "parameters: {sx: %.17g, sy: %.17g, sz: %.17g, ux: %.17g, uy: %.17g, uz: %.17g, tau: %.17g, c: %.17g, d: %.17g}\n%s",
+             u->s[0], u->s[1], u->s[2], u->s[0] / u->tau, u->s[1] / u->tau, u->s[2] / u->tau, u->tau,
+             u->c, u->d, text);
+    return fixture_system(yaml);
+}
+
+static dal_run_spec spec_in_units(const char *text, const units *u, const char *method, double h)
+{
+    dal_run_spec spec = fixture_spec(in_units(text, u), method, DAL_PHYSICAL, h / u->tau);
+    spec.options.sums = DAL_SUMS_PLAIN;
+    return spec;
+}
+
+/* Whether two runs have the same state up to their units, to a number of roundings. */
+static bool is_same(const dal_run *run, const units *u, const dal_run *plain, int n,
+                    double roundings)
+{
+    const double *Y = dal_run_state(run), *y = dal_run_state(plain);
+    bool same = true;
+    for (int i = 0; i < 2 * n; i++) {
+        const double unit = u->s[i % n] / (i < n ? 1.0 : u->tau);
+        same = same && fabs(Y[i] * unit - y[i]) <= roundings * 0x1p-53 * fabs(y[i]);
+        if (!same) printf("\n  number %d: %a, not %a", i + 1, Y[i] * unit, y[i]);
+    }
+    return same;
+}
+
+/* The same bits, and as many evaluations, by a method in all units. */
+static void check_same(const char *text, const char *method, double h, long long steps)
+{
+    dal_run_spec spec = spec_in_units(text, &one, method, h);
+    const int n = spec.system->n;
+    dal_run *plain = fixture_stepped(&spec, steps);
+    for (int i = 0; i < OTHERS; i++) {
+        spec = spec_in_units(text, &others[i], method, h);
+        dal_run *run = fixture_stepped(&spec, steps);
+        if (!run || !is_same(run, &others[i], plain, n, 0.0)) {
+            CU_FAIL("other bits in other units");
+            printf("\n  %s in units %d", method, i + 1);
+        }
+        CU_ASSERT_EQUAL(dal_run_evaluations(run), dal_run_evaluations(plain));
+        dal_run_free(run);
+    }
+    dal_run_free(plain);
+}
+
+/* A double pendulum, whose W is full. */
+static const char pendulum[] =
+    "coordinates: [x, y]\n"
+    "lagrangian: c*((ux*x')^2 + (uy*y')^2/2 + cos(sx*x - sy*y)*ux*x'*uy*y'\n"
+    "  + 2*cos(sx*x) + cos(sy*y))\n"
+    "start: {x: 1.5/sx, y: 0.5/sy, x': 0.25/ux}\n";
+/* W is 0 on the diagonal, and indefinite. */
+static const char crossed[] = "coordinates: [x, y]\n"
+                              "lagrangian: c*(ux*x'*uy*y' - sx*x*sy*y)\n"
+                              "start: {x: 1/sx, y': 0.5/uy}\n";
+static const char triangle[] =
+    "coordinates: [x, y, z]\n"
+    "lagrangian: c*(ux*x'*uy*y' + uy*y'*uz*z' + uz*z'*ux*x' - (sx*x)^2 - (sz*z)^2)\n"
+    "start: {x: 1/sx, z: 0.5/sz}\n";
+static const char partly[] =
+    "coordinates: [x, y, z]\n"
+    "lagrangian: c*(ux*x'*uy*y' + uy*y'*uz*z' + (uz*z')^2 - (sx*x)^2 - (sz*z)^2)/2\n"
+    "start: {x: 1/sx, z: 0.5/sz}\n";
+static const char rolling[] =
+    "coordinates: [x, y, z]\n"
+    "lagrangian: c*((ux*x')^2 + 3*(uy*y')^2 + (uz*z')^2 - (sx*x)^2 - (sz*z)^2)/2\n"
+    "constraints: [d*(sy*y*ux*x' + uy*y' + uz*z'), d*(ux*x' - sx*x*uz*z')]\n"
+    "start: {x: 1/sx, y: 0.125/sy, x': 1/ux, y': -1.125/uy, z': 1/uz}\n";
+
+static void test_pivots(void)
+{
+    static const char *const texts[] = {pendulum, crossed, triangle, partly, rolling};
+    for (int i = 0; i < 5; i++) check_same(texts[i], "rk4", 0x1p-5, 100);
+}
+
+void suite_units(void)
+{
+    CU_pSuite suite = CU_add_suite("units", NULL, NULL);
+    CU_add_test(suite, "pivots", test_pivots);
+}
