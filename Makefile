@@ -15,6 +15,7 @@
 #     make check-dist       the tarball: it builds, passes a part of its tests and installs
 #     make check-kill       runs killed at KILLS random moments and resumed
 #     make check-bits       generated code against the interpreter, all cases, hours; BITS_JOBS at a time
+#     make units            every built-in system in the units drawn by UNITS (1 2 3 4)
 #     make trends           how often trends are right: SERIES (200) of each kind, length and noise
 #     make lint             the rules of the source, and the tools that check C and shell
 #     make fuzz             each fuzz target for FUZZ_SECONDS
@@ -286,6 +287,11 @@ BITS_BUILDS ?= 12
 check-bits: $(BUILD)/tests/suite
 	@seq $(BITS_JOBS) | xargs -P $(BITS_JOBS) -I{} $< --bits {}/$(BITS_JOBS)/$(BITS_BUILDS)
 
+# Every command on every built-in system in other units: a minute for each set of units.
+UNITS ?= 1 2 3 4
+units: all $(BUILD)/tests/change_units
+	@UNITS="$(UNITS)" sh tests/cli/run.sh $(PROGRAM) units
+
 # How often trends are right, for each kind of series, length and noise: some minutes.
 SERIES ?= 200
 trends: $(BUILD)/tests/suite
@@ -365,7 +371,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all help check check-bits check-browser check-dist check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers $(FUZZERS:%=run-%) gallery references lint mutants trends install uninstall clean FORCE mpi
+.PHONY: all help check check-bits check-browser check-dist check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers $(FUZZERS:%=run-%) gallery references lint mutants trends units install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

@@ -209,7 +209,8 @@ typedef enum dal_order_outcome {
 typedef struct dal_order {
     int levels;                              /* step sizes, at most DAL_ORDER_LEVELS */
     double step[DAL_ORDER_LEVELS];           /* step sizes, decreasing */
-    double error[DAL_ORDER_LEVELS];          /* max norm of the error at T */
+    double error[DAL_ORDER_LEVELS];          /* of (q, v, g) at T: the largest part of a component,
+                                                or of its unit (dal_scaled) where that is larger */
     long long evaluations[DAL_ORDER_LEVELS]; /* of the field */
     double slope[DAL_ORDER_LEVELS]; /* slope[i] between levels i-1 and i; slope[0] is NaN */
     double order;                   /* NaN: none can be stated */
@@ -456,8 +457,8 @@ char *dal_error_budget_describe(const dal_error_budget *budget, int observable,
 /* ---- Lyapunov exponents and phase volume --------------------------------------------------- */
 
 /* A run on (q, v, g) with tangent vectors.  J, the derivative of each of its steps, moves them, and
- * Gram-Schmidt makes them orthonormal again (Benettin, Galgani, Giorgilli, Strelcyn 1980,
- * DOI 10.1007/BF02128236).
+ * Gram-Schmidt makes them orthonormal again in the units of dal_scaled (Benettin, Galgani,
+ * Giorgilli, Strelcyn 1980, DOI 10.1007/BF02128236).
  *     J V = V' R,    exponent i = mean of log(R_ii)/h,    mean of log|det J|/h = their sum
  * The mean divergence of the motion, that of the trace of F_(v,g), is their sum, too.  Over a long
  * time it holds for every density of the phase space, and on D = 0, provided that the logarithms of
@@ -512,6 +513,9 @@ int dal_lyapunov_is_exact(const dal_lyapunov *lyapunov);
 /* Whether the vectors span the space, so that their sum is log|det J|/h. */
 int dal_lyapunov_is_whole(const dal_lyapunov *lyapunov);
 
+/* The unit of time of the system, tau of dal_scaled; NaN for NULL.  Exponents of regular motion may
+ * reach about log(1 + T/tau)/T after a time T. */
+double dal_lyapunov_time_unit(const dal_lyapunov *lyapunov);
 /* Exponent i, from 0 (NaN past the last); their order is decreasing after a transient. */
 void dal_lyapunov_exponent(const dal_lyapunov *lyapunov, int i, dal_average *average);
 /* The sum of the exponents. */

@@ -51,11 +51,15 @@ typedef struct dal_scaled dal_scaled;
  * is given, says the time where the motion does not.  The system must outlive it. [alloc]  Errors:
  * those of the parameters and of the start; DAL_MEMORY. */
 dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_error *error);
+/* The same of the system of a run, with its parameters, by the motion from its present
+ * state. [alloc]  Errors: DAL_MEMORY. */
+dal_status dal_scaled_create_at(dal_scaled **scaled, const dal_run *run, dal_error *error);
 /* Frees it and its system. */
 void dal_scaled_free(dal_scaled *scaled);
 /* The system in those units, with one lane, without series, quad precision and events. */
 const dal_system *dal_scaled_system(const dal_scaled *scaled);
-/* The units of time and of the coordinates, [1 + n]; those of velocities are their quotients. */
+/* The units of time, of the coordinates, and of velocities and multipliers,
+ * [1 + n + n + multipliers]. */
 const double *dal_scaled_units(const dal_scaled *scaled);
 
 /* ---- checks of a system ---- */

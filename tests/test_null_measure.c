@@ -451,6 +451,14 @@ static void null_dal_scaled_create(void)
     CU_ASSERT_EQUAL(dal_scaled_create(&scaled, &(dal_run_spec){0}, NULL), DAL_ARGUMENT);
 }
 
+static void null_dal_scaled_create_at(void)
+{
+    dal_scaled *scaled;
+    CU_ASSERT_EQUAL(dal_scaled_create_at(NULL, run, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_scaled_create_at(&scaled, NULL, NULL), DAL_ARGUMENT);
+    CU_ASSERT_PTR_NULL(scaled);
+}
+
 static void null_dal_scaled_free(void) { dal_scaled_free(NULL); }
 static void null_dal_scaled_system(void) { CU_ASSERT_PTR_NULL(dal_scaled_system(NULL)); }
 static void null_dal_scaled_units(void) { CU_ASSERT_PTR_NULL(dal_scaled_units(NULL)); }
@@ -504,6 +512,12 @@ static void null_dal_lyapunov_run(void) { CU_ASSERT_PTR_NULL(dal_lyapunov_run(NU
 static void null_dal_lyapunov_count(void) { CU_ASSERT_EQUAL(dal_lyapunov_count(NULL), 0); }
 static void null_dal_lyapunov_is_exact(void) { CU_ASSERT_EQUAL(dal_lyapunov_is_exact(NULL), 0); }
 static void null_dal_lyapunov_is_whole(void) { CU_ASSERT_EQUAL(dal_lyapunov_is_whole(NULL), 0); }
+
+static void null_dal_lyapunov_time_unit(void)
+{
+    CU_ASSERT(isnan(dal_lyapunov_time_unit(NULL)));
+    CU_ASSERT(dal_lyapunov_time_unit(lyapunov) > 0.0);
+}
 
 static void null_dal_lyapunov_exponent(void)
 {

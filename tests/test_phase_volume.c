@@ -84,6 +84,22 @@ static void test_far_attractor(void)
     }
 }
 
+/* The units of the time, of x, y, phi and of their velocities. */
+static void find_units(const char *name, double unit[7])
+{
+    const dal_run_spec spec = fixture_spec(fixture_system(name), "rk4+project", DAL_PHYSICAL, 0.05);
+    dal_scaled *scaled;
+    CU_ASSERT_EQUAL_FATAL(dal_scaled_create(&scaled, &spec, NULL), DAL_OK);
+    memcpy(unit, dal_scaled_units(scaled), 7 * sizeof *unit);
+    dal_scaled_free(scaled);
+}
+
+static double square_of_gradient(const double unit[7], double phi, double v)
+{
+    return pow(unit[3] * v, 2.0) + pow(unit[4] * sin(phi), 2.0) + pow(unit[5] * cos(phi), 2.0) +
+           pow(unit[6], 2.0);
+}
+
 /* 40000 steps and 2900 lengths: with increments like x the angle was turned round and round. */
 static void test_long_way(void)
 {
@@ -93,9 +109,14 @@ static void test_long_way(void)
     for (int i = 0; i < 4; i++) CU_ASSERT(fabs(fixture_exponent(s, i)) < 2.0 * log(T) / T);
     if (steps == 40000) {
         /* tau = V t/J + tau0: the integral of the divergence, -log(cosh tau/cosh tau0), and
-         * log |grad D| = log(2 + v^2)/2. */
+         * log |grad D| by (q/l, v/u), D having the gradient v by phi and -sin(phi), cos(phi), -1 by
+         * x', y', phi'. */
         const double V = sqrt(2.11), tau0 = atanh(0.7 / V), tau = tau0 + V / 2.0 * T;
-        const double log_cosh = tau - log(2.0), density = 0.5 * log((2.0 + V * V) / 2.49);
+        const double phi = dal_run_state(dal_lyapunov_run(s))[2], log_cosh = tau - log(2.0);
+        double unit[7];
+        find_units("chaplygin-sleigh-offset", unit);
+        const double density =
+            0.5 * log(square_of_gradient(unit, phi, V) / square_of_gradient(unit, 0.3, 0.7));
         const double mean = -(log_cosh - log(cosh(tau0))) / T;
         CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), mean + density / T, 1e-5);
         CU_ASSERT_DOUBLE_EQUAL(balance_of(s).surface, density / T, 1e-7);

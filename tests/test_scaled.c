@@ -190,6 +190,105 @@ static void test_coordinate_at_rest(void)
     dal_scaled_free(scaled);
 }
 
+/* The units of a run at its start, and of its velocities. */
+static void test_run(void)
+{
+    const dal_run_spec spec = fixture_spec(fixture_system("snakeboard"), "rk4", DAL_PHYSICAL, 0.05);
+    dal_scaled *scaled, *other;
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL_FATAL(dal_scaled_create(&scaled, &spec, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_scaled_create_at(&other, run, NULL), DAL_OK);
+    const double *units = dal_scaled_units(scaled), *at_run = dal_scaled_units(other);
+    const int n = spec.system->n;
+    for (int i = 0; i <= n; i++) CU_ASSERT_EQUAL(units[i], at_run[i]);
+    for (int i = 1; i <= n; i++) CU_ASSERT_EQUAL(units[n + i], units[i] / units[0]);
+    dal_scaled_free(other);
+    dal_scaled_free(scaled);
+    dal_run_free(run);
+}
+
+/* x, y, z in units a, b, c.  A magnetic field along z conserves E, by an identity that sums of
+ * formulas do not show; friction r along z does not, however small z is beside x and y. */
+static unsigned energy_in_units(double a, double b, double c, double r)
+{
+    char text[512];
+    snprintf(text, sizeof text,
+             "coordinates: [x, y, z]\n"
+             "lagrangian: ((%.17g*x')^2 + (%.17g*y')^2 + (%.17g*z')^2)/2\n"
+             "forces: {x: %.17g*y'*(sin(%.17g*x)^2 + cos(%.17g*x)^2), y: -%.17g*x', "
+             "z: -%.17g*z'}\nstart: {x': %.17g, z': %.17g}\n",
+             a, b, c, a * b, a, a, a * b, r * c * c, 1.0 / a, 0.5 / c);
+    return fixture_system(text)->properties & (DAL_E_EXACT | DAL_E_ON_D);
+}
+
+/* The same field as a difference of terms that are 1e12 times as large, as are their roundings. */
+static void test_cancelling_energy(void)
+{
+    const dal_system *system =
+        fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                       "forces: {x: y'*((x + 1)^2 - x^2 - 2*x), y: -x'}\nstart: {x: 1e6, x': 1}\n");
+    CU_ASSERT(system->properties & DAL_E_EXACT);
+}
+
+static void test_energy(void)
+{
+    static const double units[][3] = {{1, 1, 1},
+                                      {0x1p60, 0x1p60, 0x1p60},
+                                      {0x1p-60, 0x1p60, 0x1p40},
+                                      {0x1p-60, 0x1p-50, 0x1p60},
+                                      {0x1p50, 0x1p60, 0x1p-60}};
+    for (int k = 0; k < 5; k++) {
+        const double *u = units[k];
+        CU_ASSERT_EQUAL(energy_in_units(u[0], u[1], u[2], 0.0), DAL_E_EXACT);
+        CU_ASSERT_EQUAL(energy_in_units(u[0], u[1], u[2], 1e-3), 0);
+    }
+}
+
+/* x'' = x - y', y'' = -y + x' in units s of x, r of y and tau of t. */
+static dal_run_spec coupled(double s, double r, double tau)
+{
+    char text[512];
+    snprintf(text, sizeof text,
+             "coordinates: [x, y]\naccelerations: {x: %.17g*x - %.17g*y', y: -%.17g*y + %.17g*x'}\n"
+             "start: {x: %.17g, y': %.17g}\n",
+             tau * tau, r * tau / s, tau * tau, s * tau / r, 1.0 / s, tau / r);
+    return fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0x1p-4 / tau);
+}
+
+/* The errors are ratios: the same digits where all that is compared scales, and 1e-7 of them the
+ * reference, whose equations are solved to a tolerance. */
+static void test_order(void)
+{
+    const dal_run_spec plain = coupled(1.0, 1.0, 1.0);
+    const dal_run_spec other = coupled(0x1p-60, 0x1p50, 0x1p-40);
+    dal_order order[2];
+    CU_ASSERT_EQUAL(dal_measure_order(&plain, 2.0, 4, NULL, NULL, &order[0], NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_order(&other, 0x1p41, 4, NULL, NULL, &order[1], NULL), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(order[0].order, 4.0, 0.1);
+    CU_ASSERT_DOUBLE_EQUAL(order[1].order, order[0].order, 1e-5);
+    for (int i = 0; i < 4; i++)
+        CU_ASSERT_DOUBLE_EQUAL(order[1].error[i], order[0].error[i], 1e-6 * order[0].error[i]);
+}
+
+/* Exponents are rates.  J is found by differences, whose increments are in these units, too. */
+static void test_exponents(void)
+{
+    const double tau = 0x1p-40;
+    const dal_run_spec spec[] = {coupled(1.0, 1.0, 1.0), coupled(0x1p-60, 0x1p50, tau)};
+    double exponent[2][4], unit[2];
+    for (int k = 0; k < 2; k++) {
+        dal_lyapunov *s;
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec[k], NULL, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 4);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 400, NULL), DAL_OK);
+        for (int i = 0; i < 4; i++) exponent[k][i] = fixture_exponent(s, i);
+        unit[k] = dal_lyapunov_time_unit(s);
+        dal_lyapunov_free(s);
+    }
+    CU_ASSERT_EQUAL(unit[1] * tau, unit[0]);
+    for (int i = 0; i < 4; i++) CU_ASSERT_DOUBLE_EQUAL(exponent[1][i] / tau, exponent[0][i], 1e-9);
+}
+
 static void test_refused(void)
 {
     dal_scaled *scaled;
@@ -210,5 +309,10 @@ void suite_scaled(void)
     CU_add_test(suite, "the potential", test_potential);
     CU_add_test(suite, "units of an oscillator", test_units);
     CU_add_test(suite, "a coordinate that rests", test_coordinate_at_rest);
+    CU_add_test(suite, "units at the state of a run", test_run);
+    CU_add_test(suite, "an energy that is conserved in all units", test_energy);
+    CU_add_test(suite, "an energy whose terms cancel", test_cancelling_energy);
+    CU_add_test(suite, "orders in other units", test_order);
+    CU_add_test(suite, "exponents in other units", test_exponents);
     CU_add_test(suite, "unknown parameters", test_refused);
 }

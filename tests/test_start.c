@@ -88,6 +88,25 @@ static void test_exact(void)
         }
 }
 
+/* cos(t - pi/2) is 6e-17 at t = 0, and sin(t) is 0: the same, beside the 1 that both become, in all
+ * units; 1e-9 is another start. */
+static void test_exact_zero(void)
+{
+    static const double starts[] = {0.0, 1e-11, 1e-9}, units[] = {1.0, 0x1p-60, 0x1p60};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            char text[256];
+            snprintf(text, sizeof text,
+                     "coordinates: [x]\naccelerations: {x: -x}\n"
+                     "start: {x: %.17g*%.17g, x': %.17g}\nexact: {x: %.17g*cos(t - pi/2)}\n",
+                     units[k], starts[i], units[k], units[k]);
+            const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
+            dal_run *run = fixture_run(&spec);
+            CU_ASSERT_EQUAL(dal_run_observables(run), i < 2);
+            dal_run_free(run);
+        }
+}
+
 /* A start that the parameters make infinite is named, with its value. */
 static void test_not_finite(void)
 {
@@ -486,4 +505,5 @@ void suite_start(void)
     CU_add_test(suite, "what cannot be made consistent", test_unsolvable);
     CU_add_test(suite, "pivots are 1e-12 at least", test_rank);
     CU_add_test(suite, "an exact solution begins there within 1e-10", test_exact);
+    CU_add_test(suite, "an exact solution that begins at 0, in all units", test_exact_zero);
 }

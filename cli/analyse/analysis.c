@@ -89,11 +89,11 @@ void analysis_list_branches(dal_model *model,
     }
 }
 
-double analysis_distance(const double *a, const double *b, int count)
+double analysis_distance(const double *a, const double *b, const double *units, int count)
 {
     double max = 0.0;
     for (int i = 0; i < count; i++) {
-        const double gap = fabs(a[i] - b[i]) / fmax(1.0, fabs(b[i]));
+        const double gap = fabs(a[i] - b[i]) / fmax(units ? units[i] : 1.0, fabs(b[i]));
         max = gap <= max ? max : isnan(gap) ? INFINITY : gap;
     }
     return max;

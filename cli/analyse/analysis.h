@@ -48,8 +48,9 @@ void analysis_list_branches(dal_model *model,
                             void (*add)(void *user, const char *what, const char *text),
                             void *user);
 
-/* max |a_i - b_i| / max(1, |b_i|); infinite where an entry is not a number. */
-double analysis_distance(const double *a, const double *b, int count);
+/* max |a_i - b_i| / max(u_i, |b_i|) in units u, NULL: 1; infinite where an entry is not a
+ * number. */
+double analysis_distance(const double *a, const double *b, const double *units, int count);
 
 /* Writes cells of a CSV file, each behind a comma; those that are not a number stay empty. */
 void analysis_put_cells(FILE *out, const double *numbers, int count);

@@ -387,7 +387,7 @@ static double exact_residual(check *c, double t, double d)
             if (!exact_at(c, t + side * k * d, x)) return INFINITY;
             for (int i = 0; i < 2 * n; i++) rate[i] += side * weight[k - 1] * x[i] / d;
         }
-    return analysis_distance(rate, v, 2 * n); /* the field stands behind v */
+    return analysis_distance(rate, v, NULL, 2 * n); /* the field stands behind v */
 }
 
 /* Where it has values up to a time; infinite where it has not. */
@@ -412,8 +412,9 @@ static void check_exact(check *c)
     char start[64];
     if (!c->system->exact) return;
     snprintf(start, sizeof start, "exact solution at t = %.6g", c->request->from);
-    const double distance =
-        exact_at(c, t0, c->values) ? analysis_distance(c->values, c->start, 2 * c->n) : INFINITY;
+    const double distance = exact_at(c, t0, c->values)
+                                ? analysis_distance(c->values, c->start, NULL, 2 * c->n)
+                                : INFINITY;
     if (isinf(distance))
         check_item(c, CHECK_UNMEASURED, start, "it has no value");
     else

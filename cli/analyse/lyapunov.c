@@ -214,11 +214,12 @@ typedef struct balance {
 } balance;
 
 /* What cannot be distinguished from 0 after this time: exponents of regular motion are about
- * log(T)/T. */
+ * log(1 + T/tau)/T. */
 static double resolution(const tangent_study *s)
 {
-    const double T = dal_run_time(dal_lyapunov_run(s->spectrum)) - s->begin;
-    return log(fmax(T, 1.0) + 1.0) / fmax(T, 1.0);
+    const double tau = dal_lyapunov_time_unit(s->spectrum);
+    const double T = fmax((dal_run_time(dal_lyapunov_run(s->spectrum)) - s->begin) / tau, 1.0);
+    return log(T + 1.0) / T / tau;
 }
 
 static const char *exponent_word(const tangent_study *s, const dal_average *a)
@@ -229,9 +230,9 @@ static const char *exponent_word(const tangent_study *s, const dal_average *a)
 
 /* A mean divergence is decided by its interval alone: it is a mean of known values, and log(T)/T is
  * for exponents. */
-static const char *volume_word(const dal_average *a)
+static const char *volume_word(const tangent_study *s, const dal_average *a)
 {
-    static const double rounding = 1e-11;
+    const double rounding = 1e-11 / dal_lyapunov_time_unit(s->spectrum);
     if (fabs(a->low) <= rounding && fabs(a->high) <= rounding) return "preserved at every step";
     if (a->low > 0.0) return "grows";
     return a->high < 0.0 ? "shrinks" : "may be 0";
@@ -257,7 +258,8 @@ static void print_exponents(const tangent_study *s)
     print_mean("their sum", &a, dal_lyapunov_is_whole(s->spectrum) ? "all" : "not all");
     dal_lyapunov_divergence(s->spectrum, &a);
     print_mean("divergence of F", &a, "exact, at every step");
-    printf("\nexponents of regular motion may reach about log(T)/T = %.2g\n", resolution(s));
+    printf("\nexponents of regular motion may reach about log(1 + T/tau)/T = %.2g\n",
+           resolution(s));
 }
 
 static void print_volume(const tangent_study *s)
@@ -265,8 +267,8 @@ static void print_volume(const tangent_study *s)
     dal_average motion, step;
     dal_lyapunov_divergence(s->spectrum, &motion);
     dal_lyapunov_sum(s->spectrum, &step);
-    print_mean("divergence of F", &motion, volume_word(&motion));
-    print_mean("log|det J|/h", &step, volume_word(&step));
+    print_mean("divergence of F", &motion, volume_word(s, &motion));
+    print_mean("log|det J|/h", &step, volume_word(s, &step));
     printf("\n%d of %d directions; step less motion: %.2g\n", dal_lyapunov_count(s->spectrum),
            dal_run_dimension(dal_lyapunov_run(s->spectrum)), step.mean - motion.mean);
 }
@@ -331,8 +333,8 @@ static void put_volume(json_writer *w, const tangent_study *s)
     dal_average motion, step;
     dal_lyapunov_divergence(s->spectrum, &motion);
     dal_lyapunov_sum(s->spectrum, &step);
-    put_mean(w, "divergence", &motion, volume_word(&motion));
-    put_mean(w, "step", &step, volume_word(&step));
+    put_mean(w, "divergence", &motion, volume_word(s, &motion));
+    put_mean(w, "step", &step, volume_word(s, &step));
     json_put_integer(w, "directions", dal_lyapunov_count(s->spectrum));
     json_put_integer(w, "dimension", dal_run_dimension(dal_lyapunov_run(s->spectrum)));
 }

@@ -65,8 +65,10 @@ typedef struct order_study {
     bool divides; /* the step was not given, and is the whole time */
     order_method *methods;
     int method_count;
-    int numbers;                  /* that are compared: q, v and vakonomic g */
-    double *reference;            /* [numbers] at T, and room for as many */
+    int numbers;         /* that are compared: q, v and vakonomic g */
+    const double *units; /* [numbers] of theirs: errors are parts of these, or of a number */
+    dal_scaled *scaled;  /* has them */
+    double *reference;   /* [numbers] at T, and room for as many */
     const char *reference_method; /* NULL: the exact solution */
     double reference_step, reference_tolerance;
     double noise; /* the error of the reference; 0 where it is not known */
@@ -246,12 +248,13 @@ static bool use_exact_solution(order_study *s)
         !cli_is_ok(
             dal_evaluator_create(&evaluator, system, request->set.item, request->set.count, NULL)))
         return false;
-    const bool found = dal_evaluator_call(evaluator, system->exact, request->from, start, start,
-                                          NULL, s->reference) == DAL_OK &&
-                       analysis_distance(start, s->reference, s->numbers) <= 1e-10 &&
-                       dal_evaluator_call(evaluator, system->exact, request->time, start, start,
-                                          NULL, s->reference) == DAL_OK &&
-                       isfinite(analysis_distance(s->reference, s->reference, s->numbers));
+    const bool found =
+        dal_evaluator_call(evaluator, system->exact, request->from, start, start, NULL,
+                           s->reference) == DAL_OK &&
+        analysis_distance(start, s->reference, s->units, s->numbers) <= 1e-10 &&
+        dal_evaluator_call(evaluator, system->exact, request->time, start, start, NULL,
+                           s->reference) == DAL_OK &&
+        isfinite(analysis_distance(s->reference, s->reference, s->units, s->numbers));
     dal_evaluator_free(evaluator);
     return found;
 }
@@ -279,7 +282,7 @@ static dal_status use_method(order_study *s, const char *name, dal_error *error)
             fmax(second_reference * tolerance, dal_min_tolerance(&spec.options));
     if (status == DAL_OK) status = run_divided(s, &spec, s->reference, &cost, error);
     if (status != DAL_OK) return status;
-    s->noise = fmax(analysis_distance(coarse, s->reference, s->numbers), rounding);
+    s->noise = fmax(analysis_distance(coarse, s->reference, s->units, s->numbers), rounding);
     s->reference_method = name;
     s->reference_step = fine;
     s->reference_tolerance = is_controlled ? spec.options.tolerance : 0.0;
@@ -291,8 +294,13 @@ static int make_reference(order_study *s)
     dal_error error = {0};
     s->numbers = 2 * s->spec.system->n + s->spec.system->multipliers;
     s->reference = cli_calloc(2 * (size_t)s->numbers + 1, sizeof *s->reference);
+    dal_run_spec spec = s->spec;
+    spec.options.step = s->step[0];
+    dal_status status = dal_scaled_create(&s->scaled, &spec, &error);
+    if (status != DAL_OK) return cli_error(cli_exit(status), "reference", &error);
+    s->units = dal_scaled_units(s->scaled) + 1;
     if (use_exact_solution(s)) return CLI_DONE;
-    dal_status status = use_method(s, s->set->tolerances ? "taylor" : "gauss12", &error);
+    status = use_method(s, s->set->tolerances ? "taylor" : "gauss12", &error);
     if (status == DAL_NOT_CONVERGED || (s->set->tolerances && status == DAL_UNSUPPORTED))
         status = use_method(s, "dop853", &error);
     if (status == DAL_OK) return CLI_DONE;
@@ -322,8 +330,9 @@ static void run_level(void *user, int i)
     }
     m->order.step[level] = s->set->tolerances ? s->tolerance[level] : s->step[level];
     m->order.evaluations[level] = cost.evaluations;
-    m->order.error[level] =
-        cli_is_ok(failure->status) ? analysis_distance(end, s->reference, s->numbers) : NAN;
+    m->order.error[level] = cli_is_ok(failure->status)
+                                ? analysis_distance(end, s->reference, s->units, s->numbers)
+                                : NAN;
     free(end);
 }
 
@@ -579,5 +588,6 @@ int order_measure(order_settings *settings)
     const int status = measure(&s);
     free(s.methods);
     free(s.reference);
+    dal_scaled_free(s.scaled);
     return status;
 }

@@ -257,37 +257,38 @@ static int find_axes(section *s)
     return axis[1] < 0 ? CLI_USAGE : CLI_DONE;
 }
 
-/* Visibly, and by more than an error of the method: relative to the column itself, and to the
- * largest of all coordinates, or of all velocities. */
-static bool varies(const section *s, int column)
+/* Visibly, and by more than an error of the method: relative to the column itself, and to the unit
+ * of the coordinate or the velocity. */
+static bool varies(const section *s, int column, const double *units)
 {
-    const int n = s->request->system->n, q = FIRST_STATE_COLUMN;
-    const int first = column < q + n ? q : q + n;
     const double range = s->max[column] - s->min[column];
     const double size = fmax(fabs(s->min[column]), fabs(s->max[column]));
-    double scale = 0.0;
-    for (int i = first; i < first + n; i++)
-        scale = fmax(scale, fmax(fabs(s->min[i]), fabs(s->max[i])));
-    return range > 1e-3 * size && range > 1e-6 * scale;
+    return range > 1e-3 * size && range > 1e-6 * units[column - FIRST_STATE_COLUMN];
 }
 
 /* The last coordinate that varies together with its velocity; else the last two of q and v that
  * vary; else t and the one that does. */
-static void choose_axes(section *s)
+static int choose_axes(section *s)
 {
     const int n = s->request->system->n, q = FIRST_STATE_COLUMN;
-    int *axis = s->axis;
-    for (int i = q + n - 1; i >= q; i--) {
-        if (!varies(s, i) || !varies(s, i + n)) continue;
-        axis[0] = i;
-        axis[1] = i + n;
-        return;
+    int *axis = s->axis, i = q + n - 1;
+    dal_scaled *scaled;
+    dal_error error = {0};
+    const dal_status made = dal_scaled_create_at(&scaled, s->request->run, &error);
+    if (made != DAL_OK) return cli_error(cli_exit(made), s->request->system_name, &error);
+    const double *units = dal_scaled_units(scaled) + 1;
+    while (i >= q && !(varies(s, i, units) && varies(s, i + n, units))) i--;
+    axis[0] = i;
+    axis[1] = i + n;
+    if (i < q) {
+        axis[1] = q + 2 * n - 1;
+        while (axis[1] > q && !varies(s, axis[1], units)) axis[1]--;
+        axis[0] = axis[1] - 1;
+        while (axis[0] >= q && !varies(s, axis[0], units)) axis[0]--;
+        if (axis[0] < q) axis[0] = COLUMN_T;
     }
-    axis[1] = q + 2 * n - 1;
-    while (axis[1] > q && !varies(s, axis[1])) axis[1]--;
-    axis[0] = axis[1] - 1;
-    while (axis[0] >= q && !varies(s, axis[0])) axis[0]--;
-    if (axis[0] < q) axis[0] = COLUMN_T;
+    dal_scaled_free(scaled);
+    return CLI_DONE;
 }
 
 /* The run, and the columns of the figure. */
@@ -324,8 +325,9 @@ int section_find(section_settings *settings)
         if (status == CLI_DONE) status = written;
     }
     if ((status == CLI_DONE || status == CLI_SIGNAL) && output.directory) {
-        if (s.axis[0] < 0) choose_axes(&s);
-        const int written = analysis_describe(&output, "section", s.request, put_figure, &s);
+        int written = s.axis[0] < 0 ? choose_axes(&s) : CLI_DONE;
+        if (written == CLI_DONE)
+            written = analysis_describe(&output, "section", s.request, put_figure, &s);
         if (status == CLI_DONE) status = written;
     }
     free(output.table);

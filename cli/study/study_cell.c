@@ -153,22 +153,74 @@ static void add_settings(request_settings *to, const request_settings *from, dou
         request_add_setting(to, from->item[i].name, from->item[i].value * unit);
 }
 
-/* By default p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ...: no two alike, and not along the
- * motion. */
+/* The units of pi_i, and by time of p_i,
+ *
+ *     pi_i:  k/(l_i tau^2),   p_i:  k/(l_i tau^3),   k = min l_i^2,
+ *
+ * in the system's own units l_i and tau: pi = 1 changes no v'_i by more than its unit l_i/tau^2,
+ * and p_i and pi_i change under the adjoint equations as 1/l_i.  size[2n], p first. */
+static void find_momentum_units(const cell_run *r, double *size)
+{
+    const run_request *request = &r->request;
+    const int n = request->system->n;
+    dal_setting *start = cli_calloc((size_t)request->start.count + 1, sizeof *start);
+    dal_run_spec spec = {.system = request->system,
+                         .options = request->options,
+                         .parameters = request->set.item,
+                         .parameter_count = request->set.count,
+                         .start = start,
+                         .start_time = request->from};
+    for (int i = 0; i < request->start.count; i++) /* p and pi have no part in the units */
+        if (strncmp(request->start.item[i].name, "p_", 2) != 0 &&
+            strncmp(request->start.item[i].name, "pi_", 3) != 0)
+            start[spec.start_count++] = request->start.item[i];
+    dal_scaled *scaled;
+    double min = INFINITY;
+    const bool found = dal_scaled_create(&scaled, &spec, NULL) == DAL_OK;
+    const double *units = dal_scaled_units(scaled), tau = found ? units[0] : 1.0;
+    for (int i = 0; i < n && found; i++) min = fmin(min, units[1 + i]);
+    for (int i = 0; i < n; i++) {
+        size[n + i] = found ? min / units[1 + i] * min / tau / tau : 1.0;
+        size[i] = size[n + i] / tau;
+    }
+    dal_scaled_free(scaled);
+    free(start);
+}
+
+/* Adds a value in units of d: of p and pi in their units size[2n], of all else in its own. */
+static void add_in_units(cell_run *r, const double *size, const char *name, double value)
+{
+    const study_case *e = r->cell->of_case;
+    const int n = e->system->n;
+    double d = e->displacement;
+    for (int k = 0; k < 2 * n; k++) {
+        char *momentum = cli_format("%s_%s", k < n ? "p" : "pi", e->system->coordinate[k % n]);
+        if (strcmp(momentum, name) == 0) d *= size[k];
+        free(momentum);
+    }
+    request_add_setting(&r->request.start, name, d * value);
+}
+
+/* By default p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ... in their units: no two alike, and
+ * not along the motion. */
 static void add_displacement(cell_run *r)
 {
     const study_case *e = r->cell->of_case;
-    request_settings *start = &r->request.start;
-    add_settings(start, &e->displace, e->displacement);
-    for (int i = 0; e->displace.count == 0 && i < e->system->n; i++) {
-        const double size = i % 2 ? -e->displacement : e->displacement;
+    const int n = e->system->n;
+    double *size = cli_calloc(2 * (size_t)n, sizeof *size);
+    find_momentum_units(r, size);
+    for (int j = 0; j < e->displace.count; j++)
+        add_in_units(r, size, e->displace.item[j].name, e->displace.item[j].value);
+    for (int i = 0; e->displace.count == 0 && i < n; i++) {
+        const double sign = i % 2 ? -1.0 : 1.0;
         char *p = cli_format("p_%s", e->system->coordinate[i]);
         char *pi = cli_format("pi_%s", e->system->coordinate[i]);
-        request_add_setting(start, p, size / (i + 1));
-        request_add_setting(start, pi, size / (i + 2));
+        add_in_units(r, size, p, sign / (i + 1));
+        add_in_units(r, size, pi, sign / (i + 2));
         free(p);
         free(pi);
     }
+    free(size);
 }
 
 static void make_request(cell_run *r)
@@ -249,13 +301,13 @@ static void take_trends(study_cell *c, const run_recorder *recorder)
         c->windows[i / STUDY_TRACKS][i % STUDY_TRACKS] = NAN;
 }
 
-/* What of a column is on a track: its size, or its change since the start, absolute or relative to
- * a first value above 1. */
-typedef enum column_measure { NOT_TRACKED, MAX_ABS, CHANGE, RELATIVE_CHANGE } column_measure;
+/* What of a column is on a track: its size, or its change since the start. */
+typedef enum column_measure { NOT_TRACKED, MAX_ABS, CHANGE } column_measure;
 
 typedef struct tracked_column {
     column_measure measure;
     int track;
+    double scale; /* by which it is divided: 1, or that of the terms of an invariant */
     double first;
 } tracked_column;
 
@@ -270,21 +322,23 @@ static void choose_tracks(const study_cell *c, int columns, tracked_column *colu
     while (c->of_case->options.reactions && strcmp(c->names[reactions], "h1") != 0) reactions--;
     for (int i = 0; is_lifted && i < 2 * s->n; i++)
         column[2 + 2 * s->n + i] =
-            (tracked_column){MAX_ABS, i < s->n ? STUDY_TRACK_P : STUDY_TRACK_PI, 0.0};
+            (tracked_column){MAX_ABS, i < s->n ? STUDY_TRACK_P : STUDY_TRACK_PI, 1.0, 0.0};
     tracked_column *next = column + columns - c->observables + (is_lifted ? 3 : 0);
     for (int i = 0; i < c->observables; i++) {
         const char *name = c->names[i];
         if (name[0] == '|') continue;
         if (i >= reactions - s->observed && i < error) {
-            *next++ = (tracked_column){NOT_TRACKED, 0, 0.0};
+            *next++ = (tracked_column){NOT_TRACKED, 0, 1.0, 0.0};
             continue;
         }
-        *next++ = i < s->m     ? (tracked_column){MAX_ABS, STUDY_TRACK_D, 0.0}
-                  : i == error ? (tracked_column){MAX_ABS, STUDY_TRACK_ERROR, 0.0}
+        const double scale = c->trend[i].scale;
+        *next++ = i < s->m     ? (tracked_column){MAX_ABS, STUDY_TRACK_D, 1.0, 0.0}
+                  : i == error ? (tracked_column){MAX_ABS, STUDY_TRACK_ERROR, 1.0, 0.0}
                   : i >= reactions - s->invariants
-                      ? (tracked_column){RELATIVE_CHANGE, STUDY_TRACK_INVARIANTS, 0.0}
-                  : strcmp(name, "E") == 0 ? (tracked_column){CHANGE, STUDY_TRACK_E, 0.0}
-                                           : (tracked_column){CHANGE, STUDY_TRACK_H, 0.0};
+                      ? (tracked_column){CHANGE, STUDY_TRACK_INVARIANTS,
+                                         scale > 0.0 && isfinite(scale) ? scale : 1.0, 0.0}
+                  : strcmp(name, "E") == 0 ? (tracked_column){CHANGE, STUDY_TRACK_E, 1.0, 0.0}
+                                           : (tracked_column){CHANGE, STUDY_TRACK_H, 1.0, 0.0};
     }
 }
 
@@ -293,9 +347,8 @@ static void raise_tracks(const tracked_column *column, const double *row, int co
 {
     for (int i = 0; i < columns; i++) {
         const tracked_column *c = &column[i];
-        double x = fabs(row[i] - c->first);
+        const double x = fabs(row[i] - c->first) / c->scale;
         if (c->measure == NOT_TRACKED) continue;
-        if (c->measure == RELATIVE_CHANGE) x /= fmax(1.0, fabs(c->first));
         if (!(x <= max[c->track])) max[c->track] = isnan(x) ? INFINITY : x;
     }
 }

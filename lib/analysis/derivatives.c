@@ -104,14 +104,27 @@ static dal_status along_flow(void *user, double s, double *out)
     return dal_evaluator_call(f->evaluator, f->callback, f->at->t + s, f->q, f->v, NULL, out);
 }
 
+/* memory[n + 2*nw] */
+static dal_status find_flow(flow *f, double *memory)
+{
+    const dal_system *s = dal_evaluator_system(f->evaluator);
+    f->n = s->n;
+    f->nw = s->n + s->multipliers;
+    f->field = memory;
+    f->q = memory + f->nw;
+    f->v = f->q + f->n;
+    const dal_point *at = f->at;
+    DAL_TRY(dal_evaluator_call(f->evaluator, s->call.field, at->t, at->q, at->v, NULL, f->field));
+    return isfinite(dal__max_abs(f->field, (size_t)f->nw)) &&
+                   isfinite(dal__max_abs(at->v, (size_t)f->n))
+               ? DAL_OK
+               : DAL_NOT_FINITE;
+}
+
 static dal_status rate_in(flow *f, int count, double *scratch, double *out)
 {
-    const dal_point *at = f->at;
-    DAL_TRY(dal_evaluator_call(f->evaluator, dal_evaluator_system(f->evaluator)->call.field, at->t,
-                               at->q, at->v, NULL, f->field));
     double speed = dal__max_abs(f->field, (size_t)f->nw);
-    speed = fmax(1.0, fmax(speed, dal__max_abs(at->v, (size_t)f->n)));
-    if (!isfinite(speed)) return DAL_NOT_FINITE;
+    speed = fmax(1.0, fmax(speed, dal__max_abs(f->at->v, (size_t)f->n)));
     DAL_TRY(dal__differentiate(along_flow, f, DAL__INCREMENT / speed, count, scratch, out));
     return isfinite(dal__max_abs(out, (size_t)count)) ? DAL_OK : DAL_NOT_FINITE;
 }
@@ -122,14 +135,55 @@ dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, in
     DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     DAL_REQUIRE_COUNT(count, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
-    int n = s->n, nw = s->n + s->multipliers;
+    const size_t n = (size_t)s->n, nw = n + (size_t)s->multipliers;
     if (callback == NULL) return DAL_UNSUPPORTED;
-    double *block = dal__numbers(1, (size_t)(n + 2 * nw) + 3 * (size_t)count);
+    double *block = dal__numbers(1, n + 2 * nw + 3 * (size_t)count);
     if (block == NULL) return DAL_MEMORY;
-    flow f = {evaluator, callback, at, n, nw, block, block + nw, block + nw + n};
-    dal_status status = rate_in(&f, count, block + n + 2 * nw, out);
+    flow f = {.evaluator = evaluator, .callback = callback, .at = at};
+    dal_status status = find_flow(&f, block);
+    if (status == DAL_OK) status = rate_in(&f, count, block + n + 2 * nw, out);
     free(block);
     return status;
+}
+
+/* One of the values in units of its size, s in units of a time. */
+typedef struct scaled_flow {
+    flow flow;
+    int index;
+    double time, size;
+    double *values; /* of the callback */
+} scaled_flow;
+
+static dal_status along_scaled_flow(void *user, double s, double *out)
+{
+    scaled_flow *f = user;
+    DAL_TRY(along_flow(&f->flow, s * f->time, f->values));
+    *out = f->values[f->index] / f->size;
+    return DAL_OK;
+}
+
+dal_status dal__rate_in_units(const dal__rate *of, const dal_point *at, double *rate)
+{
+    const dal_system *s = dal_evaluator_system(of->evaluator);
+    const size_t n = (size_t)s->n, nw = n + (size_t)s->multipliers;
+    double *block = dal__numbers(1, n + 2 * nw + 3 + (size_t)of->count), found[2] = {NAN, NAN};
+    if (block == NULL) return DAL_MEMORY;
+    double *scratch = block + n + 2 * nw;
+    scaled_flow f = {.flow = {.evaluator = of->evaluator, .callback = of->callback, .at = at},
+                     .index = of->index,
+                     .time = of->time,
+                     .size = 1.0,
+                     .values = scratch + 3};
+    dal_status status = find_flow(&f.flow, block);
+    for (int k = 0; k < 2 && status == DAL_OK; k++) /* f may have no value on one side */
+        along_scaled_flow(&f, k ? DAL__INCREMENT : -DAL__INCREMENT, &found[k]);
+    f.size = fmax(of->size, fmax(fabs(found[0]), fabs(found[1])));
+    if (!(f.size > 0.0) || !isfinite(f.size)) f.size = 1.0;
+    if (status == DAL_OK)
+        status = dal__differentiate(along_scaled_flow, &f, DAL__INCREMENT, 1, scratch, rate);
+    *rate *= f.size / f.time;
+    free(block);
+    return status != DAL_OK || isfinite(*rate) ? status : DAL_NOT_FINITE;
 }
 
 /* ---- derivatives ---- */

@@ -1,8 +1,9 @@
 /* order.c - the observed order of a method: slopes of the error under halving of the step.
  *
- *     e_i = max_k |x_k(T; h_i) - x_k(T)| / max(1, |x_k(T)|),   h_i = h/2^i
+ *     e_i = max_k |x_k(T; h_i) - x_k(T)| / max(u_k, |x_k(T)|),   h_i = h/2^i
  *     slope_i = log(e_(i-1) / e_i) / log(h_(i-1) / h_i)
  *
+ * over the components of q, v and g, u_k being their units (scaled.c).
  * With e = C h^p (1 + a h + ..) the next term of the error moves a slope from p by
  *
  *     slope_i - p = a g_i + ..,   g_i = (h_(i-1) - h_i) / log(h_(i-1) / h_i),
@@ -40,9 +41,11 @@ long long dal_whole_steps(double from, double to, double step)
                : 0;
 }
 
-/* A measurement: where the states are compared, and who observes the runs. */
+/* A measurement: where the states are compared, in which units, and who observes the runs. */
 typedef struct measurement {
     double T;
+    const double *units; /* [numbers] */
+    int numbers;
     const dal_observer *observer;
     dal_error *error;
 } measurement;
@@ -83,6 +86,17 @@ static dal_status state_at(const measurement *m, const dal_run_spec *spec, doubl
     *evaluations = dal_run_evaluations(run);
     dal_run_free(run);
     return status;
+}
+
+static double max_error(const measurement *m, const double *reference, const double *x)
+{
+    double max = 0.0;
+    for (int k = 0; k < m->numbers; k++) {
+        const double size = fmax(m->units[k], fabs(reference[k]));
+        const double part = fabs(x[k] - reference[k]) / size;
+        max = part <= max ? max : isnan(part) ? INFINITY : part;
+    }
+    return max;
 }
 
 static double mean_step(const dal_order *o, int i)
@@ -128,7 +142,8 @@ dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
                              const dal_observer *observer, dal_order *order, dal_error *error)
 {
-    const measurement m = {T, observer, error};
+    measurement m = {.T = T, .observer = observer, .error = error};
+    dal_scaled *scaled;
     DAL_REQUIRE(order, error);
     DAL_TRY(dal__check_spec(spec, error));
     dal_run *run;
@@ -137,10 +152,15 @@ dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
                          DAL_ORDER_LEVELS);
     DAL_TRY(dal_run_create(&run, spec, error));
     const size_t count = (size_t)dal_run_dimension(run);
+    dal_status status = dal_scaled_create_at(&scaled, run, error);
     dal_run_free(run);
-    double *block = dal__numbers(2, count);
-    if (block == NULL) return dal__fail(error, DAL_MEMORY, "order: out of memory");
-    dal_status status = DAL_OK;
+    double *block = status == DAL_OK ? dal__numbers(2, count) : NULL;
+    if (block == NULL) {
+        dal_scaled_free(scaled);
+        return status != DAL_OK ? status : dal__fail(error, DAL_MEMORY, "order: out of memory");
+    }
+    m.units = dal_scaled_units(scaled) + 1;
+    m.numbers = 2 * spec->system->n + spec->system->multipliers;
     *order = (dal_order){.levels = levels};
     if (reference == NULL) {
         dal_run_spec accurate = *spec;
@@ -157,9 +177,10 @@ dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
         dal_run_spec level = *spec;
         order->step[i] = level.options.step = ldexp(spec->options.step, -i);
         status = state_at(&m, &level, block + count, &order->evaluations[i]);
-        if (status == DAL_OK) order->error[i] = dal__distance(reference, block + count, count);
+        if (status == DAL_OK) order->error[i] = max_error(&m, reference, block + count);
     }
     if (status == DAL_OK) dal_order_slopes(order, 0.0);
     free(block);
+    dal_scaled_free(scaled);
     return status;
 }

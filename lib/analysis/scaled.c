@@ -234,7 +234,7 @@ static void make_system(dal_scaled *s)
 typedef struct survey {
     dal_scaled *s;
     dal_evaluator *evaluator; /* of the plain system */
-    const dal_run_spec *spec;
+    double step;
     double t, *x, *f;  /* [n + nw] the present point; [nw] F there */
     double *mass;      /* [n] diagonal of W; 0 where it is unknown */
     double *work;      /* as long as the longest output of a callback */
@@ -360,7 +360,7 @@ static double time_unit(survey *w)
     const double rate =
         radius > negligible * motion ? fmax(radius, fmin(motion, near_rest * radius)) : motion;
     if (rate > 0.0) return power_of_two(1.0 / rate);
-    const double step = fabs(w->spec->options.step);
+    const double step = fabs(w->step);
     return step > 0.0 && isfinite(step) ? power_of_two(10.0 * step) : 1.0;
 }
 
@@ -370,7 +370,7 @@ static void follow_motion(survey *w, double tau, double *length)
 {
     enum { STEPS = 4, PARTS = 16 }; /* a quarter: it may become singular soon */
     const int n = w->s->n, nw = w->s->nw;
-    const double h = copysign(tau / PARTS, w->spec->options.step);
+    const double h = copysign(tau / PARTS, w->step);
     double *x = w->work, *middle = x + n + nw, *f = middle + n + nw;
     memcpy(x, w->x, (size_t)(n + nw) * sizeof *x);
     for (int k = 0; k < STEPS && field_at(w, w->t + k * h, x, f); k++) {
@@ -448,44 +448,19 @@ static void find_units(survey *w)
     s->start[n + s->nw] = w->x[n + s->nw]; /* e has no unit */
 }
 
-static dal_status survey_start(dal_scaled *s, const dal_run_spec *spec, dal_error *error)
+/* Finds the units from (q, v, g, e) in w->x. */
+static dal_status make_scaled(dal_scaled **scaled, const dal_system *p, survey *w, dal_error *error)
 {
-    const dal_system *p = s->plain;
-    const size_t x = (size_t)(s->n + s->nw), n = (size_t)s->n, nw = (size_t)s->nw;
-    const size_t rows = (size_t)(p->m + 1 + p->invariants);
-    survey w = {.s = s, .spec = spec, .t = spec->start_time};
-    DAL_TRY(dal_evaluator_create(&w.evaluator, p, spec->parameters, spec->parameter_count, error));
-    double *block = dal__numbers(1, x + 1 + nw + n + 3 * x + nw + rows);
-    dal_status status = block ? DAL_OK : DAL_MEMORY;
-    if (block) {
-        w.x = block;
-        w.f = w.x + x + 1;
-        w.mass = w.f + nw;
-        w.work = w.mass + n;
-        status =
-            dal_evaluator_start_at(w.evaluator, w.t, spec->start, spec->start_count, w.x, error);
-    }
-    if (status == DAL_OK) {
-        find_units(&w);
-        status = w.status;
-    }
-    free(block);
-    dal_evaluator_free(w.evaluator);
-    return status == DAL_MEMORY ? dal__fail(error, DAL_MEMORY, "out of memory") : status;
-}
-
-dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_error *error)
-{
-    DAL_REQUIRE(scaled, error);
-    *scaled = NULL;
-    DAL_REQUIRE(spec, error);
-    const dal_system *p = spec->system;
-    DAL_REQUIRE(p, error);
     const size_t n = (size_t)p->n, nw = n + (size_t)p->multipliers, m = (size_t)p->m;
     const size_t formulas = m + 1 + (size_t)p->invariants;
     const size_t numbers = 1 + n + nw + nw + formulas + n + nw + m + n + nw + 1;
+    double *block = dal__numbers(1, nw + n + 3 * (n + nw) + nw + formulas);
     dal_scaled *s = calloc(1, sizeof *s + numbers * sizeof(double));
-    if (!s) return dal__fail(error, DAL_MEMORY, "out of memory");
+    if (!s || !block) {
+        free(block);
+        free(s);
+        return dal__fail(error, DAL_MEMORY, "out of memory");
+    }
     s->plain = p;
     s->n = p->n, s->nw = (int)nw, s->m = p->m;
     s->length = s->numbers + 1; /* after the unit of time */
@@ -497,10 +472,80 @@ dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_
     s->per_speed = s->per_length + n;
     s->per_constraint = s->per_speed + nw;
     s->start = s->per_constraint + m;
-    const dal_status status = survey_start(s, spec, error);
-    if (status != DAL_OK) return dal_scaled_free(s), status;
+    w->s = s;
+    w->f = block;
+    w->mass = w->f + nw;
+    w->work = w->mass + n;
+    find_units(w);
+    free(block);
+    if (w->status != DAL_OK) {
+        free(s);
+        return dal__fail(error, w->status, "out of memory");
+    }
     s->numbers[0] = s->time;
     make_system(s);
     *scaled = s;
     return DAL_OK;
+}
+
+dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_error *error)
+{
+    DAL_REQUIRE(scaled, error);
+    *scaled = NULL;
+    DAL_REQUIRE(spec, error);
+    const dal_system *p = spec->system;
+    DAL_REQUIRE(p, error);
+    survey w = {.step = spec->options.step, .t = spec->start_time};
+    DAL_TRY(dal_evaluator_create(&w.evaluator, p, spec->parameters, spec->parameter_count, error));
+    w.x = dal__numbers(1, (size_t)(2 * p->n + p->multipliers + 1));
+    dal_status status = w.x ? DAL_OK : dal__fail(error, DAL_MEMORY, "out of memory");
+    if (status == DAL_OK)
+        status =
+            dal_evaluator_start_at(w.evaluator, w.t, spec->start, spec->start_count, w.x, error);
+    if (status == DAL_OK) status = make_scaled(scaled, p, &w, error);
+    free(w.x);
+    dal_evaluator_free(w.evaluator);
+    return status;
+}
+
+/* ---- of a run ---- */
+
+static dal_status evaluator_of_run(dal_evaluator **evaluator, const dal_system *system,
+                                   const dal_run *run, dal_error *error)
+{
+    const double *value = dal_run_parameters(run);
+    dal_setting *settings = calloc((size_t)system->parameters + 1, sizeof *settings);
+    if (!settings) return dal__fail(error, DAL_MEMORY, "out of memory");
+    for (int i = 0; i < system->parameters; i++)
+        settings[i] = (dal_setting){system->parameter[i], value[i]};
+    const dal_status status =
+        dal_evaluator_create(evaluator, system, settings, system->parameters, error);
+    free(settings);
+    return status;
+}
+
+dal_status dal__evaluator_of_run(dal_evaluator **evaluator, const dal_scaled *scaled,
+                                 const dal_run *run, dal_error *error)
+{
+    return evaluator_of_run(evaluator, scaled ? &scaled->system : dal_run_system(run), run, error);
+}
+
+dal_status dal_scaled_create_at(dal_scaled **scaled, const dal_run *run, dal_error *error)
+{
+    DAL_REQUIRE(scaled, error);
+    *scaled = NULL;
+    DAL_REQUIRE(run, error);
+    const dal_system *p = dal_run_system(run);
+    const size_t x = (size_t)(2 * p->n + p->multipliers);
+    survey w = {.step = dal_run_step_size(run), .t = dal_run_time(run)};
+    DAL_TRY(evaluator_of_run(&w.evaluator, p, run, error));
+    w.x = dal__numbers(1, (size_t)(2 * p->n + p->multipliers + 1));
+    dal_status status = w.x ? DAL_OK : dal__fail(error, DAL_MEMORY, "out of memory");
+    if (status == DAL_OK) {
+        memcpy(w.x, dal_run_state(run), x * sizeof *w.x);
+        status = make_scaled(scaled, p, &w, error);
+    }
+    free(w.x);
+    dal_evaluator_free(w.evaluator);
+    return status;
 }

@@ -9,8 +9,13 @@
  * (q, dq, v, dv), moves dq, dv by its own derivative; any other map is differentiated numerically,
  * along each vector by eight steps, or more where it is less smooth.  R by modified Gram-Schmidt,
  * twice for every vector, so that V' is orthonormal to rounding (Giraud, Langou, Rozloznik 2005,
- * DOI 10.1016/j.camwa.2005.08.009). */
+ * DOI 10.1016/j.camwa.2005.08.009).
+ *
+ * V is a frame of (q/l, v/u, g/u) in the system's own units, see lib/analysis/scaled.c: what is
+ * orthonormal, which direction is lost and how far the means are from their limits do not depend on
+ * the units of the user. */
 #include "analysis/derivatives.h"
+#include "analysis/scaled.h"
 #include "core/error.h"
 #include "core/vectors.h"
 #include <math.h>
@@ -27,7 +32,10 @@ enum { EXTRA_MEANS = 4 };
 struct dal_lyapunov {
     dal_run *run;       /* the trajectory */
     dal_run *auxiliary; /* steps tangent vectors, or displaced states, from the state of the run */
-    dal_evaluator *evaluator;
+    dal_scaled *scaled; /* the system in its own units */
+    dal_evaluator *evaluator; /* of that */
+    const double *unit;       /* [dimension] of the state */
+    double time;              /* the unit of time */
     int n, nw, dimension, count, rank, exact;
     int order;    /* of the method */
     int enforced; /* functions that the method enforces: D, and E behind; 0, m or m+1 */
@@ -38,6 +46,7 @@ struct dal_lyapunov {
                         error of the step may be, and by how much div F has changed */
     double *scratch;   /* [5*dimension], or the jacobian's [nw*n + nw*nw] */
     double *gradients; /* [(m + 1)*dimension] of what is enforced */
+    double *place;     /* [dimension] the state of the run in units */
     double t, *z;      /* [dimension] where the step began */
     double *memory, *displaced; /* [memory_count] all of the run there, and beside it */
     size_t memory_count;
@@ -56,13 +65,18 @@ static dal_status move_exactly(dal_lyapunov *s, double *vector)
     const size_t n = (size_t)s->n, bytes = n * sizeof(double);
     double *x = s->scratch;
     memcpy(x, s->z, bytes);
-    memcpy(x + n, vector, bytes);
     memcpy(x + 2 * n, s->z + n, bytes);
-    memcpy(x + 3 * n, vector + n, bytes);
+    for (size_t i = 0; i < n; i++) {
+        x[n + i] = vector[i] * s->unit[i];
+        x[3 * n + i] = vector[n + i] * s->unit[n + i];
+    }
     DAL_TRY(dal_run_set_state(s->auxiliary, s->t, x, s->error));
     DAL_TRY(dal_run_step(s->auxiliary, s->error));
-    memcpy(vector, dal_run_state(s->auxiliary) + n, bytes);
-    memcpy(vector + n, dal_run_state(s->auxiliary) + 3 * n, bytes);
+    const double *y = dal_run_state(s->auxiliary);
+    for (size_t i = 0; i < n; i++) {
+        vector[i] = y[n + i] / s->unit[i];
+        vector[n + i] = y[3 * n + i] / s->unit[n + i];
+    }
     return DAL_OK;
 }
 
@@ -74,7 +88,7 @@ static dal_status displace(dal_lyapunov *s, double size)
     double *z = s->displaced;
     memcpy(z, s->memory, s->memory_count * sizeof(double));
     for (int i = 0; i < d; i++) {
-        const double change = size * s->direction[i];
+        const double change = size * s->direction[i] * s->unit[i];
         const double y = s->z[i] + change, part = y - s->z[i];
         z[i] = y;
         if (s->has_remainder) z[d + i] += (s->z[i] - (y - part)) + (change - part);
@@ -83,7 +97,7 @@ static dal_status displace(dal_lyapunov *s, double size)
     return dal_run_set_state(s->auxiliary, s->t, z, s->error);
 }
 
-/* How far that is then from z. */
+/* How far that is then from z, in units. */
 static dal_status step_along(void *user, double size, double *out)
 {
     dal_lyapunov *s = user;
@@ -94,6 +108,7 @@ static dal_status step_along(void *user, double size, double *out)
     const double *y = dal_run_state(s->auxiliary), *r = dal_run_save(s->auxiliary, &count) + d;
     for (int i = 0; i < d; i++) out[i] = y[i] - s->z[i];
     for (int i = 0; i < d && s->has_remainder; i++) out[i] += r[i] - s->memory[d + i];
+    for (int i = 0; i < d; i++) out[i] /= s->unit[i];
     return DAL_OK;
 }
 
@@ -103,7 +118,7 @@ static double size_of(const dal_lyapunov *s, const double *vector)
     double max = 0.0;
     for (int i = 0; i < s->dimension; i++) {
         const double rate = i < s->n ? s->h * s->z[s->n + i] : s->z[i];
-        max = fmax(max, fabs(vector[i]) / fmax(1.0, fabs(rate)));
+        max = fmax(max, fabs(vector[i]) / fmax(1.0, fabs(rate / s->unit[i])));
     }
     return max;
 }
@@ -158,21 +173,30 @@ static double row_norm(const double *matrix, int rows, int columns)
     return max;
 }
 
+/* The state of the run in units. */
+static dal_point scale_point(const dal_lyapunov *s)
+{
+    const double *z = dal_run_state(s->run);
+    for (int i = 0; i < s->dimension; i++) s->place[i] = z[i] / s->unit[i];
+    return (dal_point){.t = dal_run_time(s->run) / s->time, .q = s->place, .v = s->place + s->n};
+}
+
 /* The trace of F_(v,g), and a rate at which motions near this one come and go. */
 static dal_status find_divergence(dal_lyapunov *s)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
-    const double *z = dal_run_state(s->run), *by_v = s->scratch + s->nw * s->n;
+    const double *by_v = s->scratch + s->nw * s->n;
     s->divergence = s->rate = NAN;
     if (system->call.jacobian == NULL) return DAL_OK;
-    const dal_status status = dal_evaluator_call(
-        s->evaluator, system->call.jacobian, dal_run_time(s->run), z, z + s->n, NULL, s->scratch);
+    const dal_point at = scale_point(s);
+    const dal_status status =
+        dal_evaluator_call(s->evaluator, system->call.jacobian, at.t, at.q, at.v, NULL, s->scratch);
     if (status != DAL_OK)
         return dal__fail(s->error, status, "t = %g: no jacobian: %s", dal_run_time(s->run),
                          dal_status_text(status));
     s->divergence = 0.0;
-    for (int i = 0; i < s->nw; i++) s->divergence += by_v[i * s->nw + i];
-    s->rate = fmax(sqrt(row_norm(s->scratch, s->nw, s->n)), row_norm(by_v, s->nw, s->nw));
+    for (int i = 0; i < s->nw; i++) s->divergence += by_v[i * s->nw + i] / s->time;
+    s->rate = fmax(sqrt(row_norm(s->scratch, s->nw, s->n)), row_norm(by_v, s->nw, s->nw)) / s->time;
     return DAL_OK;
 }
 
@@ -224,8 +248,7 @@ dal_status dal_lyapunov_advance(dal_lyapunov *s, long long steps, dal_error *err
 static double find_gradients(dal_lyapunov *s)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
-    const double *z = dal_run_state(s->run);
-    const dal_point at = {.t = dal_run_time(s->run), .q = z, .v = z + s->n};
+    const dal_point at = scale_point(s);
     double size = 0.0;
     dal_status status = DAL_OK;
     if (s->enforced > 0)
@@ -325,8 +348,11 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
     s->h = spec.options.step;
     s->order = dal_method_order(&spec.method);
     s->has_remainder = spec.options.precision == DAL_DOUBLE;
-    return dal_evaluator_create(&s->evaluator, system, spec.parameters, spec.parameter_count,
-                                error);
+    DAL_TRY(dal_scaled_create_at(&s->scaled, s->run, error));
+    DAL_TRY(dal__evaluator_of_run(&s->evaluator, s->scaled, s->run, error));
+    s->time = dal_scaled_units(s->scaled)[0];
+    s->unit = dal_scaled_units(s->scaled) + 1;
+    return DAL_OK;
 }
 
 static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
@@ -336,7 +362,7 @@ static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
     const size_t gradients = ((size_t)dal_evaluator_system(s->evaluator)->m + 1) * d;
     dal_run_save(s->run, &s->memory_count);
     const size_t memory = s->memory_count > d ? s->memory_count : d;
-    double *block = dal__numbers(1, d * d + d + d + EXTRA_MEANS + scratch + gradients + 2 * memory);
+    double *block = dal__numbers(1, d * d + 3 * d + EXTRA_MEANS + scratch + gradients + 2 * memory);
     s->vectors = block;
     s->statistics = calloc(d + EXTRA_MEANS, sizeof *s->statistics);
     if (block == NULL || s->statistics == NULL)
@@ -345,7 +371,8 @@ static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
     s->growth = s->z + d;
     s->scratch = s->growth + d + EXTRA_MEANS;
     s->gradients = s->scratch + scratch;
-    s->memory = s->gradients + gradients;
+    s->place = s->gradients + gradients;
+    s->memory = s->place + d;
     s->displaced = s->memory + memory;
     return DAL_OK;
 }
@@ -424,6 +451,7 @@ void dal_lyapunov_free(dal_lyapunov *s)
     dal_run_free(s->run);
     dal_run_free(s->auxiliary);
     dal_evaluator_free(s->evaluator);
+    dal_scaled_free(s->scaled);
     free(s->vectors);
     free(s->statistics);
     free(s);
@@ -435,6 +463,8 @@ const dal_run *dal_lyapunov_run(const dal_lyapunov *s) { return s ? s->run : NUL
 int dal_lyapunov_count(const dal_lyapunov *s) { return s ? s->count : 0; }
 int dal_lyapunov_is_exact(const dal_lyapunov *s) { return s && s->exact; }
 int dal_lyapunov_is_whole(const dal_lyapunov *s) { return s && s->count == s->rank; }
+
+double dal_lyapunov_time_unit(const dal_lyapunov *s) { return s ? s->time : NAN; }
 
 /* The mean of number i of growth; NaN where there is no such number. */
 static void mean_of(const dal_lyapunov *s, int i, dal_average *average)

@@ -1,7 +1,8 @@
 /* section.c - Poincare sections: where a run crosses g(q,v,t) = 0, found by lib/run/crossing.c. */
+#include "analysis/derivatives.h"
+#include "analysis/scaled.h"
 #include "core/error.h"
 #include "core/vectors.h"
-#include "dalembert_analysis.h"
 #include "run/crossing.h"
 #include <float.h>
 #include <stdlib.h>
@@ -10,6 +11,9 @@
 static const double touching = 1e-12;
 /* Roundings of its terms that |g| may consist of, where they cancel. */
 static const double roundings = 64.0;
+
+/* After this number of steps the motion has changed as a whole. */
+static const double many_steps = 100.0;
 
 enum { POLL = 1000 };
 
@@ -51,8 +55,14 @@ static dal_status rate_of(void *user, dal_run *run, double *rate, dal_error *err
     search *w = user;
     const dal_poincare *p = w->section;
     const dal_point at = dal__here(run);
-    const dal_status status = dal_measure_rate(w->evaluator, p->callback, p->count, &at, w->values);
-    *rate = status == DAL_OK ? w->values[p->index] : NAN;
+    const dal__rate of = {.evaluator = w->evaluator,
+                          .callback = p->callback,
+                          .count = p->count,
+                          .index = p->index,
+                          .time = many_steps * dal_run_step_size(run),
+                          .size = w->max_g};
+    const dal_status status = dal__rate_in_units(&of, &at, rate);
+    if (status != DAL_OK) *rate = NAN;
     if (status == DAL_OK || status == DAL_NOT_FINITE) return DAL_OK;
     return no_value(at.t, *rate, status, error);
 }
@@ -136,19 +146,6 @@ static dal_status search_steps(search *w, long long steps)
 
 /* ---- making one ---- */
 
-static dal_status evaluator_of(search *w, const dal_run *run)
-{
-    const dal_system *s = dal_run_system(run);
-    const double *value = dal_run_parameters(run);
-    dal_setting *settings = calloc((size_t)s->parameters + 1, sizeof *settings);
-    if (settings == NULL) return dal__fail(w->error, DAL_MEMORY, "section: out of memory");
-    for (int i = 0; i < s->parameters; i++) settings[i] = (dal_setting){s->parameter[i], value[i]};
-    const dal_status status =
-        dal_evaluator_create(&w->evaluator, s, settings, s->parameters, w->error);
-    free(settings);
-    return status;
-}
-
 static dal_status check_section(const dal_run *run, const dal_poincare *section, dal_error *error)
 {
     const double h = dal_run_step_size(run);
@@ -186,7 +183,7 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
     if (block == NULL) return dal__fail(error, DAL_MEMORY, "section: out of memory");
     w.values = block + numbers;
     dal__crossing_init(&w.zeros, run, &functions, block);
-    dal_status status = evaluator_of(&w, run);
+    dal_status status = dal__evaluator_of_run(&w.evaluator, NULL, run, error);
     if (status == DAL_OK) status = search_steps(&w, steps);
     dal_evaluator_free(w.evaluator);
     free(block);

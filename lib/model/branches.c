@@ -14,12 +14,16 @@
  *
  * Derivatives are taken branch by branch, so a jump of D or of the momentum L_v, which needs an
  * impulse, is not in F. */
+#include "core/vectors.h"
 #include "dalembert_analysis.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
+#include "expr/terms.h"
 #include "expr/traversal.h"
 #include "model/formulas.h"
 #include "model/held.h"
+#include "model/model.h"
+#include "model/units.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,7 +37,8 @@ typedef struct surface {
     dal__node s;       /* not fixed */
     dal__node *normal; /* [1 + 4n] derivatives of s by t, q, v */
     double *point;     /* [POINTS*symbols] of s = 0 */
-    double *moved;     /* [2*symbols] one beside it, and the normal there */
+    double *moved;     /* [2*symbols] one beside it, and the normal there, in units */
+    double *unit;      /* [symbols] */
     int points;
 } surface;
 
@@ -131,27 +136,39 @@ static dal__node smooth_side(dal__graph *graph, dal__node f, dal__node s, int si
 
 /* ---- points ---- */
 
+/* The derivatives of s by t, q, v at a point in units; returns the size of the terms of s: those of
+ * a unit of each, and what the point makes of them. */
+static double find_normal(const surface *f, const double *x, double *normal)
+{
+    const dal__equations *e = &f->model->equations;
+    double size = 0.0;
+    for (int i = 0; i < e->pi - e->t; i++) {
+        const double unit = f->unit[e->t + i];
+        normal[i] = dal__evaluate(e->graph, f->normal[i], x) * unit;
+        size = fmax(size, fabs(normal[i]) * (1.0 + fabs(x[e->t + i] / unit)));
+    }
+    return size;
+}
+
 /* Newton's method along the normal, from the start moved by multiples of the golden ratio. */
 static bool find_point(const surface *f, int number, double *x)
 {
     const double golden = 0.6180339887498949;
     const dal__equations *e = &f->model->equations;
     const int symbols = e->pi - e->t;
+    double *const normal = f->moved;
     for (int i = 0; i < e->symbols; i++) {
         x[i] = e->value[i];
-        if (i >= e->parameters) x[i] += fmod((number * e->symbols + i + 1) * golden, 1.0) - 0.5;
+        const double off = fmod((number * e->symbols + i + 1) * golden, 1.0) - 0.5;
+        if (i >= e->parameters) x[i] += f->unit[i] * off;
     }
     for (int k = 0; k < MAX_ITERATIONS; k++) {
-        double square = 0.0, s = dal__evaluate(e->graph, f->s, x), size = 0.0;
-        for (int i = 0; i < symbols; i++) {
-            const double slope = dal__evaluate(e->graph, f->normal[i], x);
-            square += slope * slope;
-            size = fmax(size, fabs(slope * x[e->t + i]));
-        }
+        double s = dal__evaluate(e->graph, f->s, x);
+        const double size = find_normal(f, x, normal);
+        const double square = dal__dot_product(symbols, normal, normal);
         if (!isfinite(s / square)) return false;
-        if (fabs(s) <= 1e-14 * (1.0 + size)) return true;
-        for (int i = 0; i < symbols; i++)
-            x[e->t + i] -= s / square * dal__evaluate(e->graph, f->normal[i], x);
+        if (fabs(s) <= 1e-14 * size) return true;
+        for (int i = 0; i < symbols; i++) x[e->t + i] -= s / square * normal[i] * f->unit[e->t + i];
     }
     return false;
 }
@@ -172,16 +189,24 @@ static double beside(const surface *f, dal__node g, const double *point, double 
 {
     const dal__equations *e = &f->model->equations;
     const int symbols = e->pi - e->t;
-    double *x = f->moved, square = 0.0, size = 1.0;
+    double *x = f->moved, *normal = x + e->symbols;
     memcpy(x, point, (size_t)e->symbols * sizeof *x);
-    for (int i = 0; i < symbols; i++) {
-        const double slope = dal__evaluate(e->graph, f->normal[i], point);
-        x[e->symbols + i] = slope;
-        square += slope * slope;
-        size += fabs(slope * point[e->t + i]);
-    }
-    for (int i = 0; i < symbols; i++) x[e->t + i] += part * size / square * x[e->symbols + i];
+    const double size = find_normal(f, point, normal);
+    const double square = dal__dot_product(symbols, normal, normal);
+    for (int i = 0; i < symbols; i++)
+        x[e->t + i] += part * size / square * normal[i] * f->unit[e->t + i];
     return dal__evaluate(e->graph, g, x);
+}
+
+/* The size of the terms of g at a point. */
+static double size_of_terms(const surface *f, dal__node g, const double *point)
+{
+    dal__terms *terms = dal__terms_create(f->model->equations.graph, &g, 1);
+    double *memory = terms ? dal__numbers(1, dal__terms_memory(terms)) : NULL, size = 0.0;
+    if (memory) dal__terms_scales(terms, point, memory, &size);
+    free(memory);
+    dal__terms_free(terms);
+    return isfinite(size) ? size : 0.0;
 }
 
 /* Whether F+ on its side of the surface and F- on the other do not meet there: their difference
@@ -193,7 +218,8 @@ static bool differ(const surface *f, dal__node above, dal__node below)
         const double *point = f->point + k * f->model->equations.symbols;
         const double a1 = beside(f, above, point, far), b1 = beside(f, below, point, -far);
         const double a2 = beside(f, above, point, near), b2 = beside(f, below, point, -near);
-        const double zero = ROUNDING * (1.0 + fabs(a2) + fabs(b2)), gap = fabs(a2 - b2);
+        const double size = fabs(a2) + fabs(b2) + size_of_terms(f, above, point);
+        const double zero = ROUNDING * size, gap = fabs(a2 - b2);
         if (gap > zero && gap > vanishing * fabs(a1 - b1)) return true;
         if (fabs(a2) > zero && fabs(a2) > growing * fabs(a1)) return true;
         if (fabs(b2) > zero && fabs(b2) > growing * fabs(b1)) return true;
@@ -287,9 +313,11 @@ static bool place_surface(surface *f, dal_model *model)
     const int symbols = model->equations.symbols;
     *f = (surface){.model = model};
     f->normal = calloc((size_t)symbols, sizeof *f->normal);
-    f->point = calloc((size_t)((POINTS + 2) * symbols), sizeof *f->point);
-    f->moved = f->point ? f->point + POINTS * symbols : NULL;
-    return f->normal && f->point;
+    f->point = calloc((size_t)((POINTS + 3) * symbols), sizeof *f->point);
+    if (!f->normal || !f->point) return false;
+    f->moved = f->point + POINTS * symbols;
+    f->unit = f->moved + 2 * symbols;
+    return dal__model_units(model, f->unit) == DAL_OK;
 }
 
 static void free_surface(surface *f)

@@ -5,10 +5,12 @@
  *
  * For B = A and D_a homogeneous of degree k in v Euler's identity v.A_a = k D_a makes E an integral
  * on every level of D for k = 0, on D = 0 alone for other k; homogeneity is sufficient, but not
- * necessary.  An identity that simplification does not show is evaluated at irregular points: a sum
- * counts as zero if it is within rounding of its terms at each.  Where the terms do not vanish one
- * by one, dE/dt as a whole may still vanish on D = 0 (a force orthogonal to all motions that D
- * allows, a constraint force that vanishes on D = 0): it is evaluated at points projected there.
+ * necessary.  An identity that simplification does not show is evaluated at irregular points, whose
+ * distances from the start are measured by the units of the model: a sum counts as zero if it is
+ * within rounding of what its terms are made of, S of expr/terms.h, at each.  Where the terms do
+ * not vanish one by one, dE/dt as a whole may still vanish on D = 0 (a force orthogonal to all
+ * motions that D allows, a constraint force that vanishes on D = 0): it is evaluated at points
+ * projected there.
  *
  * The normal of a conserved E, for projections: E_q, E_v and W^-1 E_q.  (W^-1 E_v is v.)
  *
@@ -23,9 +25,11 @@
 #include "core/vectors.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
+#include "expr/terms.h"
 #include "expr/traversal.h"
 #include "model/model.h"
 #include "model/motion.h"
+#include "model/units.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -40,11 +44,20 @@ enum { POINTS = 8, MAX_EXTENDED = 256 };
 #define REST 1e-150
 
 typedef struct identity {
+    dal_model *model;
     const dal__equations *e;
-    double *point; /* [symbols] */
-    dal__node *term;
-    int terms;
+    double *point, *unit; /* [symbols]; unit: NULL until it is used */
+    dal__node *term;      /* [max_terms] */
+    int terms, max_terms;
+    double *scale; /* [max_terms] of the terms */
 } identity;
+
+static bool find_units(identity *id)
+{
+    if (id->unit) return true;
+    id->unit = dal__model_allocate(id->model, (size_t)id->e->symbols, sizeof *id->unit);
+    return id->unit && dal__model_units(id->model, id->unit) == DAL_OK;
+}
 
 /* Moves the point off the start by multiples of the golden ratio, each number to another place. */
 static void move(const identity *id, int number)
@@ -53,34 +66,41 @@ static void move(const identity *id, int number)
     const dal__equations *e = id->e;
     for (int i = 0; i < e->symbols; i++) {
         id->point[i] = e->value[i];
-        if (i >= e->parameters) id->point[i] += 0.1 + fmod((number * e->symbols + i) * golden, 1.0);
+        if (i >= e->parameters)
+            id->point[i] += id->unit[i] * (0.1 + fmod((number * e->symbols + i) * golden, 1.0));
     }
 }
 
+/* The sum of the terms at the point and the size of what they are made of; NaN without memory. */
 static void sum_terms(const identity *id, double *sum, double *size)
 {
-    *sum = *size = 0.0;
-    for (int i = 0; i < id->terms; i++) {
-        double term = dal__evaluate(id->e->graph, id->term[i], id->point);
-        *sum += term;
-        *size += fabs(term);
+    dal__terms *terms = dal__terms_create(id->e->graph, id->term, id->terms);
+    double *memory = terms ? dal__numbers(1, dal__terms_memory(terms)) : NULL;
+    *sum = *size = memory ? 0.0 : NAN;
+    if (memory) dal__terms_scales(terms, id->point, memory, id->scale);
+    for (int i = 0; i < id->terms && memory; i++) {
+        *sum += dal__evaluate(id->e->graph, id->term[i], id->point);
+        *size += id->scale[i];
     }
+    free(memory);
+    dal__terms_free(terms);
 }
 
 /* Makes scratch[a*n ...] the unit vector along the part of A_a orthogonal to the rows before it,
- * and adds to the shift the Newton step of D_a along it.  Returns the length of that step. */
+ * and adds to the shift the Newton step of D_a along it, all in units of v.  Returns the length of
+ * that step. */
 static double shift_along(const identity *id, int a, double *scratch, double *shift)
 {
     const dal__equations *e = id->e;
     int n = e->n;
-    double *unit = scratch + a * n, missing = 0.0;
+    double *row = scratch + a * n, missing = 0.0;
     for (int i = 0; i < n; i++) {
-        unit[i] = dal__evaluate(e->graph, e->A[a * n + i], id->point);
-        missing -= unit[i] * shift[i];
+        row[i] = dal__evaluate(e->graph, e->A[a * n + i], id->point) * id->unit[e->v + i];
+        missing -= row[i] * shift[i];
     }
     missing -= dal__evaluate(e->graph, e->constraint[a], id->point);
     const double size = dal__orthonormalise_row(scratch, a, n);
-    for (int i = 0; i < n; i++) shift[i] += missing / size * unit[i];
+    for (int i = 0; i < n; i++) shift[i] += missing / size * row[i];
     return fabs(missing / size);
 }
 
@@ -90,13 +110,15 @@ static bool reach_surface(identity *id, double *scratch)
     enum { MAX_ITERATIONS = 30 };
     const dal__equations *e = id->e;
     double *v = id->point + e->v, *shift = scratch + e->m * e->n;
+    const double *unit = id->unit + e->v;
     for (int k = 0; k < MAX_ITERATIONS; k++) {
-        double change = 0.0, size = sqrt(dal__dot_product(e->n, v, v));
+        double change = 0.0, square = 0.0;
+        for (int i = 0; i < e->n; i++) square += v[i] / unit[i] * (v[i] / unit[i]);
         for (int i = 0; i < e->n; i++) shift[i] = 0.0;
         for (int a = 0; a < e->m; a++) change += shift_along(id, a, scratch, shift);
         if (!isfinite(change)) return false;
-        for (int i = 0; i < e->n; i++) v[i] += shift[i];
-        if (change <= 8 * DBL_EPSILON * size) return true;
+        for (int i = 0; i < e->n; i++) v[i] += unit[i] * shift[i];
+        if (change <= 8 * DBL_EPSILON * sqrt(square)) return true;
     }
     return false;
 }
@@ -107,6 +129,7 @@ static bool vanishes_at_points(identity *id, double *scratch)
     int defined = 0;
     for (int i = 0; i < id->terms; i++) /* the points may all lie in one branch */
         if (dal__reaches(id->e->graph, id->term[i], DAL__ROUGH)) return false;
+    if (!find_units(id)) return false;
     for (int number = 0; number < POINTS; number++) {
         double sum, size;
         move(id, number);
@@ -156,11 +179,13 @@ static bool is_homogeneous(identity *id, int a)
     const dal__equations *e = id->e;
     double power, size;
     virtual_power(id, a);
+    if (!find_units(id)) return false;
     move(id, 0);
     sum_terms(id, &power, &size);
-    double k = power / dal__evaluate(e->graph, e->constraint[a], id->point);
+    const double D = dal__evaluate(e->graph, e->constraint[a], id->point);
+    double k = power / D;
     if (!isfinite(k)) return false;
-    if (fabs(k - nearbyint(k)) < ROUNDING * fabs(k)) k = nearbyint(k);
+    if (fabs(k - nearbyint(k)) < ROUNDING * size / fabs(D)) k = nearbyint(k);
     add_term(id, dal__node_mul(e->graph, dal__number(e->graph, -k), e->constraint[a]));
     return vanishes(id);
 }
@@ -189,10 +214,11 @@ static unsigned by_parts(identity *id)
 dal_status dal__energy_properties(dal_model *model)
 {
     dal__equations *e = &model->equations;
-    identity id = {.e = e};
+    identity id = {.model = model, .e = e, .max_terms = e->n + e->m + 2};
     if (e->accelerations) return DAL_OK;
     id.point = dal__model_allocate(model, (size_t)e->symbols, sizeof *id.point);
-    id.term = dal__model_nodes(model, e->n + e->m + 2, 0);
+    id.term = dal__model_nodes(model, id.max_terms, 0);
+    id.scale = dal__model_allocate(model, (size_t)id.max_terms, sizeof *id.scale);
     dal__node *E_v = dal__model_nodes(model, e->n, 0);
     double *scratch = dal__model_allocate(model, (size_t)((e->m + 1) * e->n), sizeof *scratch);
     if (model->out_of_memory) return DAL_MEMORY;

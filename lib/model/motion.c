@@ -17,6 +17,7 @@
 #include "model/bordered.h"
 #include "model/model.h"
 #include "model/restricted.h"
+#include "model/units.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -43,8 +44,11 @@ static double list_dependence(const dal__equations *e, int row, double *rows, ch
     const double golden = 0.6180339887498949, rounding = 1e-9;
     const int n = e->n, m = e->m, width = n + m;
     double *point = rows + m * width;
-    for (int i = 0; i < e->symbols; i++)
-        point[i] = e->value[i] + (i < e->parameters ? 0.0 : fmod((i + 1) * golden, 1.0) - 0.5);
+    const double *unit = point + e->symbols;
+    for (int i = 0; i < e->symbols; i++) {
+        const double off = fmod((i + 1) * golden, 1.0) - 0.5;
+        point[i] = e->value[i] + (i < e->parameters ? 0.0 : unit[i] * off);
+    }
     for (int a = 0; a < m; a++) {
         double *w = rows + a * width; /* row comes last */
         const int number = a == m - 1 ? row : a + (a >= row);
@@ -78,14 +82,15 @@ dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *erro
 {
     const dal__equations *e = &model->equations;
     const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, row);
-    const size_t count = (size_t)(e->m * (e->n + e->m) + e->symbols);
-    double *rows = dal__model_allocate(model, count, sizeof *rows);
+    const size_t before = (size_t)(e->m * (e->n + e->m) + e->symbols);
+    double *rows = dal__model_allocate(model, before + (size_t)e->symbols, sizeof *rows);
     char list[128] = ", others";
     if (e->servo)
         return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
                             "constraint %d is not held by the reactions: A W^-1 B^T is singular",
                             row + 1);
-    const double left = rows ? list_dependence(e, row, rows, list, sizeof list) : 0.0;
+    const bool has_units = rows && dal__model_units(model, rows + before) == DAL_OK;
+    const double left = has_units ? list_dependence(e, row, rows, list, sizeof list) : 0.0;
     if (left > nothing_left && isfinite(left))
         return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
                             "constraint %d nearly depends on %s: they differ by %.1g of its "

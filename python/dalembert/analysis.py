@@ -133,7 +133,7 @@ class Order:
     Attributes
     ----------
     step, error : ndarray
-        Step sizes, decreasing; max norm of the error, relative to max(1, |x|).
+        Step sizes, decreasing; error of (q, v, g), parts of |x| or of its unit.
     evaluations : ndarray of int
         Of the field.
     slope : ndarray

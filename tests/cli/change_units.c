@@ -1,10 +1,13 @@
-/* change_units.c - a built-in system in other units, as a system file: change_units SYSTEM SEED
+/* change_units.c - a built-in system in other units, as a system file:
+ * change_units SYSTEM SEED [parameters]
  *
  *     q_i = s_i Q_i,   t = tau T,   L' = c L,   D'_a = d D_a,   invariants times g
  *
- * with powers of two between 2^-30 and 2^30, drawn by SEED; with 0 all are 1.  The texts of the
- * formulas are changed, nothing else: each coordinate x becomes (s*x), each x' (s/tau*x'), t
- * (tau*t).
+ * with powers of two between 2^-60 and 2^60, drawn by SEED; with 0 all are 1, with a multiple of
+ * 4 the s_i are equal.  The texts of the formulas are changed, nothing else: each coordinate x
+ * becomes (s*x), each x' (s/tau*x'), t (tau*t).  With the third argument the factors are
+ * parameters, so that the formulas are the same for all seeds, and so is what simplification makes
+ * of them.
  * The first line is a comment with tau, c, d and the s_i. */
 #include <dalembert.h>
 #include <math.h>
@@ -13,13 +16,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_COORDINATES = 64, TEXT = 4096 };
+enum { MAX_COORDINATES = 64, TEXT = 4096, MAX_EXPONENT = 60, EQUAL = 4 };
 
 typedef struct units {
     int n;
     const char *name[MAX_COORDINATES];
     double s[MAX_COORDINATES], tau, c, d, g;
+    bool as_parameters;
+    int factors;
+    double *factor; /* [factors] the parameters f1, f2, .. */
 } units;
+
+/* The text of a factor: a number, or one more parameter. */
+static void print_factor(units *u, double k, char text[64])
+{
+    if (!u->as_parameters) {
+        snprintf(text, 64, "%.17g", k);
+        return;
+    }
+    u->factor = realloc(u->factor, ((size_t)u->factors + 1) * sizeof *u->factor);
+    if (!u->factor) exit(2);
+    u->factor[u->factors++] = k;
+    snprintf(text, 64, "f_%d", u->factors);
+}
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 static bool is_letter(char c)
@@ -32,7 +51,8 @@ static bool is_name(char c) { return is_letter(c) || is_digit(c); }
 static double draw(unsigned long long *state)
 {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return ldexp(1.0, (int)(*state >> 33) % 31 * ((*state >> 40) & 1 ? 1 : -1));
+    const int exponent = (int)((*state >> 33) % (2 * MAX_EXPONENT + 1)) - MAX_EXPONENT;
+    return ldexp(1.0, exponent);
 }
 
 static int find(const units *u, const char *name, size_t length)
@@ -56,6 +76,11 @@ static double factor(const units *u, const char *name, size_t length, bool is_pr
     return 1.0;
 }
 
+static bool has_unit(const units *u, const char *name, size_t length)
+{
+    return find(u, name, length) >= 0 || (length == 1 && *name == 't');
+}
+
 static void append(char *out, const char *text, size_t length)
 {
     const size_t used = strlen(out);
@@ -65,21 +90,27 @@ static void append(char *out, const char *text, size_t length)
 }
 
 /* by * (the formula in the new units) */
-static void convert(const units *u, double by, const char *text, char *out)
+static void convert(units *u, double by, const char *text, char *out)
 {
-    snprintf(out, TEXT, "%.17g*(", by);
+    char number[64];
+    print_factor(u, by, number);
+    snprintf(out, TEXT, "%s*(", number);
     while (*text) {
         size_t length = 1;
         if (is_letter(*text)) {
             while (is_name(text[length])) length++;
             const bool is_prime = text[length] == '\'';
             const double k = factor(u, text, length, is_prime);
-            char number[64];
+            const bool is_factor = k != 1.0 || (u->as_parameters && has_unit(u, text, length));
             length += is_prime;
-            snprintf(number, sizeof number, "(%.17g*", k);
-            append(out, number, k != 1.0 ? strlen(number) : 0);
+            if (is_factor) {
+                print_factor(u, k, number);
+                append(out, "(", 1);
+                append(out, number, strlen(number));
+                append(out, "*", 1);
+            }
             append(out, text, length);
-            append(out, ")", k != 1.0);
+            append(out, ")", is_factor);
         } else {
             while (is_digit(*text) && (is_name(text[length]) || text[length] == '.')) length++;
             append(out, text, length);
@@ -128,7 +159,7 @@ static double formula_factor(const units *u, dal_section section, const char *na
     }
 }
 
-static void print_entry(const units *u, dal_section section, const char *name, const char *text,
+static void print_entry(units *u, dal_section section, const char *name, const char *text,
                         const char *separator)
 {
     char converted[TEXT] = "";
@@ -145,8 +176,7 @@ static void print_entry(const units *u, dal_section section, const char *name, c
            converted);
 }
 
-static void print_section(const units *u, const dal_model *model, dal_section section,
-                          const char *key)
+static void print_section(units *u, const dal_model *model, dal_section section, const char *key)
 {
     const char *name = NULL, *text;
     int line, column, count = 0;
@@ -158,6 +188,10 @@ static void print_section(const units *u, const dal_model *model, dal_section se
         if (strcmp(name ? name : "", "solve") == 0) continue;
         print_entry(u, section, name, text, count > 0 ? ", " : "");
     }
+    for (int k = 0; section == DAL_SECTION_PARAMETERS && k < u->factors; k++) {
+        printf("%s\"f_%d\": %.17g", count++ > 0 ? ", " : "parameters: {", k + 1, u->factor[k]);
+        is_mapping = true;
+    }
     if (count > 0) puts(is_mapping ? "}" : section == DAL_SECTION_LAGRANGIAN ? "" : "]");
 }
 
@@ -167,7 +201,6 @@ int main(int argc, char **argv)
         dal_section section;
         const char *key;
     } sections[] = {{DAL_SECTION_COORDINATES, "coordinates"},
-                    {DAL_SECTION_PARAMETERS, "parameters"},
                     {DAL_SECTION_LET, "let"},
                     {DAL_SECTION_LAGRANGIAN, "lagrangian"},
                     {DAL_SECTION_ACCELERATIONS, "accelerations"},
@@ -177,9 +210,10 @@ int main(int argc, char **argv)
                     {DAL_SECTION_START, "start"},
                     {DAL_SECTION_INVARIANTS, "invariants"},
                     {DAL_SECTION_EXACT, "exact"},
-                    {DAL_SECTION_DEFAULTS, "defaults"}};
+                    {DAL_SECTION_DEFAULTS, "defaults"},
+                    {DAL_SECTION_PARAMETERS, "parameters"}}; /* after the factors are known */
     dal_model *model;
-    if (argc != 3 || dal_model_builtin(&model, argv[1], NULL) != DAL_OK) return 2;
+    if (argc < 3 || dal_model_builtin(&model, argv[1], NULL) != DAL_OK) return 2;
     if (dal_model_text(model, DAL_SECTION_FUNCTIONS, 0, NULL, NULL, NULL) ||
         dal_model_text(model, DAL_SECTION_REACTIONS, 0, NULL, NULL, NULL) ||
         dal_model_text(model, DAL_SECTION_EVENTS, 0, NULL, NULL, NULL)) {
@@ -187,8 +221,8 @@ int main(int argc, char **argv)
         return 3;
     }
     unsigned long long state = strtoull(argv[2], NULL, 10);
-    const bool is_plain = state == 0;
-    units u = {.tau = 1.0, .c = 1.0, .d = 1.0, .g = 1.0};
+    const bool is_plain = state == 0, is_equal = state % EQUAL == 0;
+    units u = {.tau = 1.0, .c = 1.0, .d = 1.0, .g = 1.0, .as_parameters = argc > 3};
     for (const char *text;
          u.n < MAX_COORDINATES &&
          (text = dal_model_text(model, DAL_SECTION_COORDINATES, u.n, NULL, NULL, NULL));)
@@ -197,7 +231,7 @@ int main(int argc, char **argv)
     if (!is_plain) u.tau = draw(&state), u.c = draw(&state), u.d = draw(&state), u.g = draw(&state);
     printf("# %.17g %.17g %.17g", u.tau, u.c, u.d);
     for (int i = 0; i < u.n; i++) {
-        u.s[i] = is_plain ? 1.0 : draw(&state);
+        u.s[i] = is_plain ? 1.0 : is_equal && i > 0 ? u.s[0] : draw(&state);
         printf(" %.17g", u.s[i]);
     }
     puts("");
@@ -205,6 +239,7 @@ int main(int argc, char **argv)
     if (mechanics) printf("mechanics: %s\n", mechanics);
     for (size_t k = 0; k < sizeof sections / sizeof *sections; k++)
         print_section(&u, model, sections[k].section, sections[k].key);
+    free(u.factor);
     dal_model_free(model);
     return 0;
 }

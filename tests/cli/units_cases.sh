@@ -1,5 +1,10 @@
 # What the program states does not depend on the units of the user: built-in systems, each coordinate,
-# the time, the Lagrangian, the constraints and the invariants multiplied by powers of two.
+# the time, the Lagrangian, the constraints and the invariants multiplied by powers of two.  UNITS="1 2 3" compares
+# all commands on all systems in these units, not some in one.
+#
+# Other than by the units may be: numbers at rounding, and trends of what is no more than rounding; bits where other
+# pivots are chosen (rounds_otherwise); |p| and |pi| off p = pi = 0, maxima over coordinates of different units, and
+# then the motion, for H adds the pi_i^2; error, a length.
 units=${program%/*}/tests/change_units
 
 # The words: numbers are replaced.  Only a 0 is sometimes a rounding.
@@ -11,32 +16,126 @@ sizes() {
         $1 != "error" { print $1, $head["size"], $head["size"] == "rounding" ? "" : $head["trend"] }' "$1"
 }
 
+# Where the units of two coordinates differ, Gauss elimination may choose other pivots, which rounds otherwise.
+rounds_otherwise=" chaplygin-sleigh-vakonomic falling-disk roller-racer snakeboard suslov vertical-disk "
+# The units of a file of change_units: tau, c, d and those of the coordinates.
+unit() { awk -v i="$2" 'NR == 1 { print $(i + 1) }' "$1"; }
+default_step() { sed -n 's/^defaults:.*"step": \([^,}]*\).*/\1/p' "$1"; }
+
+# states_of COMMAND: what it prints of system.yaml that has no unit, numbers in units of the time where it is one.
+states_of() {
+    tau=$(unit system.yaml 1)
+    case $1 in
+        check)
+            "$program" check system.yaml >out 2>err
+            echo "exit $?"
+            words out ;;
+        run)
+            "$program" run system.yaml --integrator rk4 --output run >out 2>err
+            echo "exit $?"
+            sizes run/summary.csv ;;
+        order)
+            "$program" order system.yaml --integrators rk4,gauss4,gauss4+project --output order.csv >out 2>err
+            echo "exit $?" # errors near rounding have other digits
+            awk -F, 'NR > 1 { print $2, $3, sprintf("%.1f", $4), $7 > 1e-9 ? sprintf("%.1e", $7) : "", $11 }' order.csv ;;
+        study)
+            printf 'systems: [system.yaml]\nintegrators: [rk4, gauss4, dla, rk4+project]\n%s\nsamples: 40\n' \
+                'starts: [physical, surface, displaced]' >study.yaml
+            printf 'steps: 100\nstep: %s\n' "$(default_step system.yaml)" >>study.yaml
+            "$program" study study.yaml --output study --no-page --tables >out 2>err
+            echo "exit $?"
+            # |p| and |pi| are maxima over coordinates: off 0 they have a unit only where all have the same
+            awk -F, -v equal="$(awk 'NR == 1 { e = 1; for (i = 6; i <= NF; i++) e = e && $i == $5; print e }' system.yaml)" '
+                NR == 1 { for (i = 1; i <= NF; i++) head[$i] = i; next }
+                ($3 == "displaced" || $5 == "error") && !equal { next }
+                { print $2, $3, $5, $head["size"], $head["size"] == "rounding" ? "" : $head["trend"] }' study/quantities.csv ;;
+        section)
+            first=$(sed -n 's/^coordinates: \["\([^"]*\)".*/\1/p' system.yaml)
+            "$program" section system.yaml --on "$first'" --integrator rk4 --output section.csv >out 2>err
+            echo "exit $?"
+            awk -F, -v tau="$tau" 'NR > 1 { print $1, sprintf("%.6g", $2*tau), $3 }' section.csv
+            sed 's/^t = [^:]*//' out ;;
+        *)
+            "$program" "$1" system.yaml --integrator rk4 >out 2>err
+            echo "exit $?"
+            # mean, low, high over the unit of time; chance decides the digits of what is near 0
+            awk -v tau="$tau" '/^(exponent [0-9]|their sum|divergence|log)/ {
+                    for (i = NF; i > 2; i--) if ($i ~ /^-?[0-9.]+(e[-+][0-9]+)?$/) {
+                        x = $i/tau
+                        $i = x < 1e-6 && x > -1e-6 ? 0 : sprintf("%.3g", x)
+                    }
+                    print
+                }' out ;;
+    esac
+}
+
+# bits_of: the rows of 50 steps, in the units that all systems have.
+bits_of() {
+    "$program" run system.yaml --integrator rk4 --space physical --step "$(default_step system.yaml)" --steps 50 \
+        --samples 50 --sampling steps --output rows.csv >out 2>err
+    echo "exit $?"
+    awk -F, 'NR == FNR { if (FNR == 1) { n = split($0, u, " ") - 4; tau = u[2] } ; next }
+        FNR > 1 {
+            row = sprintf("%.17g", $1*tau)
+            for (i = 1; i <= n; i++) row = row sprintf(" %.17g %.17g", $(1 + i)*u[4 + i], $(1 + n + i)*u[4 + i]/tau)
+            print row
+        }' system.yaml rows.csv
+}
+# same_rows FILE FILE: to 1e-12 of the largest number.
+same_rows() {
+    paste "$1" "$2" | awk '{ n = NF/2; for (i = 1; i <= n; i++) {
+            if ($1 == "exit") { bad += $2 != $4; next }
+            size = $i < 0 ? -$i : $i; d = $i - $(n + i); if (d < 0) d = -d
+            if (size > max) max = size
+            if (d > gap) gap = d } }
+        END { exit !(NR > 1 && bad == 0 && gap <= 1e-12*max) }'
+}
+
+# compare SYSTEM SEED COMMAND...
+compare() {
+    system=$1 seed=$2
+    shift 2
+    for command in "$@"; do
+        [ -f "plain/$system/$command" ] || (mkdir -p "plain/$system" && cd "plain/$system" &&
+            "$units" "$system" 0 >system.yaml && states_of "$command" >"$command" 2>&1)
+        mkdir -p other
+        (cd other && "$units" "$system" "$seed" >system.yaml && states_of "$command" >"$command" 2>&1)
+        holds "$system: $command differs in units $seed: $(diff "plain/$system/$command" other/"$command" | head -4)" \
+            cmp "plain/$system/$command" other/"$command"
+        rm -rf other
+    done
+}
+
 case_is "units of built-in systems"
 if [ -x "$units" ]; then
+    touch err
     "$program" list systems --markdown | sed -n 's/^| `\([a-z-]*\)` .*/\1/p' >systems
     changed=0
     while read -r system; do
-        mkdir -p one other
-        "$units" "$system" 0 >one/system.yaml 2>err
+        "$units" "$system" 0 >out 2>&1
         [ $? -eq 3 ] && continue # it has events, reactions or functions of its own
-        "$units" "$system" 1 >other/system.yaml 2>err || fail "$system: no other units"
         changed=$((changed + 1))
-        for place in one other; do
-            (cd $place && "$program" check system.yaml >check 2>err
-                echo "exit $?" >>check
-                words check >words
-                "$program" run system.yaml --integrator rk4 --output run >out 2>>err
-                echo "exit $?" >sizes
-                sizes run/summary.csv >>sizes 2>&1)
+        for seed in ${UNITS:-17}; do
+            compare "$system" "$seed" check run
+            [ -z "$UNITS" ] || compare "$system" "$seed" order study section lyapunov volume
+            mkdir -p one other
+            (cd one && "$units" "$system" 0 parameters >system.yaml && bits_of >rows)
+            (cd other && "$units" "$system" "$seed" parameters >system.yaml && bits_of >rows)
+            case $rounds_otherwise in
+                *" $system "*) holds "$system: other rows in units $seed" same_rows one/rows other/rows ;;
+                *) holds "$system: other bits in units $seed" cmp one/rows other/rows ;;
+            esac
+            rm -rf one other
         done
-        holds "$system: check differs in other units: $(diff one/words other/words | head -4)" \
-            cmp one/words other/words
-        holds "$system: sizes differ in other units: $(diff one/sizes other/sizes | head -4)" \
-            cmp one/sizes other/sizes
-        holds "$system: no sizes" test "$(wc -l <one/sizes)" -ge 2
-        rm -rf one other
+        holds "$system: no sizes" test "$(wc -l <"plain/$system/run")" -ge 2
     done <systems
     holds "only $changed systems" test $changed -ge 33
+    for seed in 4 17; do
+        for system in damped-oscillator isokinetic nonholonomic-particle; do
+            compare $system $seed order study section lyapunov volume
+        done
+    done
+    rm -rf plain
 else
     echo "cli: units: skipped: no $units (make check builds it)"
 fi

@@ -1,0 +1,11 @@
+/* units.h - the sizes of the symbols of a model, for points at which formulas are compared. */
+#ifndef DAL_MODEL_UNITS_H
+#define DAL_MODEL_UNITS_H
+
+#include "model/model.h"
+
+/* The units of t, q, v and g, unit[symbols], about the default start; of all other symbols 1.
+ * Errors: DAL_MEMORY. */
+dal_status dal__model_units(dal_model *model, double *unit);
+
+#endif
