@@ -233,8 +233,7 @@ static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta)
 /* v_i - (W^-1 A^T beta)_i */
 static dal__node free_velocity(const dal__equations *e, const dal__node *beta, int i)
 {
-    return dal__node_sub(e->graph, e->flow[1 + i],
-                         dal__dot(e->graph, e->m, e->U + i * e->m, beta));
+    return dal__node_sub(e->graph, e->flow[1 + i], dal__dot(e->graph, e->m, e->U + i * e->m, beta));
 }
 
 /* E_v times that: v.E_v - (A v).beta, unless U is not W^-1 A^T itself. */

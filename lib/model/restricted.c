@@ -3,8 +3,7 @@
  *     W x - A^T h = top,   A x = bottom
  *
  * has one solution where A has full rank and W is regular on ker A, whether W has an inverse or
- * not (Benzi, Golub, Liesen, Acta Numerica 14 (2005) 1, doi:10.1017/S0962492904000212, theorem 3.2
- * with ker A for ker W).  With weights g > 0 of the coordinates,
+ * not.  With weights g > 0 of the coordinates,
  *
  *     S = A g^-1 A^T,   N = g^-1 A^T S^-1,   P = 1 - N A        (A N = 1, P projects to ker A)
  *     V = P^T W P + A^T C A,                                    C > 0, diagonal
@@ -12,7 +11,9 @@
  *
  * V maps ker A to its annihilator as W does, and the range of N to that of A^T: it is regular
  * exactly where the system is, and positive definite where W is so on ker A.  No coordinate is
- * singled out, so that no chart ends.  y loses the rounding that leads out of ker A.
+ * singled out, so that no chart ends.  y loses the rounding that leads out of ker A.  This is the
+ * null-space method with a projector for a basis: M. Benzi, G. H. Golub, J. Liesen, Acta Numerica
+ * 14 (2005) 1, section 6, doi:10.1017/S0962492904000212.
  *
  * The weights are the diagonal of W; that of a coordinate without a mass balances its entries of A.
  * All are powers of two from the values at the default start, and so is C. */
