@@ -60,7 +60,7 @@ lagrangian: x'^2/2 + 100*(1 - t)*y'^2/2
 constraints: [y' - x'/10]
 start: {x': 1, y': 0.1}
 END
-breaks 'mass matrix on ker A: its determinant goes to zero between t = 1.9.* and 2.0.*' 21 23 \
+breaks 'mass matrix, on the velocities that the constraints allow, .* near t = (2|1\.99)' 21 22 \
     ./ending.yaml --integrator rk4 --step 0.07 --time 4 --samples 40
 try 1 check ending.yaml --from 2
 prints '^  rank of W on ker A +FAIL +0 of 1'
