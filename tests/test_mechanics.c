@@ -142,9 +142,9 @@ static void scale_directions(int n, int m, const double *expected, double *out)
     const double *A = expected + m, *R = A + m * n;
     for (int i = 0; i < n; i++) {
         double row[REFERENCE_MAX] = {0.0}, *X = out + m + m * n + i * m;
-        for (int a = 0; a < m; a++)
-            for (int b = 0; b < m; b++)
-                for (int j = 0; j < n; j++) row[b] += X[a] * A[a * n + j] * R[j * m + b];
+        for (int a = 0; a < m * m; a++)
+            for (int j = 0; j < n; j++)
+                row[a % m] += X[a / m] * A[a / m * n + j] * R[j * m + a % m];
         memcpy(X, row, (size_t)m * sizeof *X);
     }
 }

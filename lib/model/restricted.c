@@ -110,11 +110,19 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
     return e->graph->status;
 }
 
-/* V; WP[n*n] is scratch. */
-static void fill_matrix(const dal__equations *e, const dal__restricted *r, dal__node *WP)
+dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__restricted *r)
 {
+    const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
-    dal__node *V = r->V.matrix;
+    *r = (dal__restricted){.W = W, .singular = -1};
+    r->N = dal__model_nodes(model, n * m, 0);
+    r->P = dal__model_nodes(model, n * n, 0);
+    dal__node *scratch = dal__model_nodes(model, n * n, 0);
+    double *g = dal__model_allocate(model, (size_t)(n + m * n), sizeof *g);
+    if (!dal__factors_allocate(model, &r->V, n, NULL)) return DAL_MEMORY;
+    find_weights(e, W, g, g + n);
+    DAL_TRY(make_projector(model, r, g, scratch));
+    dal__node *V = r->V.matrix, *WP = scratch;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             WP[i * n + j] = dal__number(e->graph, 0.0);
@@ -132,21 +140,6 @@ static void fill_matrix(const dal__equations *e, const dal__restricted *r, dal__
             }
             V[i * n + j] = V[j * n + i] = sum;
         }
-}
-
-dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__restricted *r)
-{
-    const dal__equations *e = &model->equations;
-    const int n = e->n, m = e->m;
-    *r = (dal__restricted){.W = W, .singular = -1};
-    r->N = dal__model_nodes(model, n * m, 0);
-    r->P = dal__model_nodes(model, n * n, 0);
-    dal__node *scratch = dal__model_nodes(model, n * n, 0);
-    double *g = dal__model_allocate(model, (size_t)(n + m * n), sizeof *g);
-    if (!dal__factors_allocate(model, &r->V, n, NULL)) return DAL_MEMORY;
-    find_weights(e, W, g, g + n);
-    DAL_TRY(make_projector(model, r, g, scratch));
-    fill_matrix(e, r, scratch);
     return dal__factor(model, &r->V);
 }
 
