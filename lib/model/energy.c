@@ -342,16 +342,6 @@ static void fill_block(const blocks *b, int block, dal__node *out)
     }
 }
 
-/* Whether a constraint contains the velocities of two coordinates. */
-static bool share_constraint(const dal__equations *e, int i, int j)
-{
-    for (int a = 0; a < e->m; a++)
-        if (!dal__is_number(e->graph, e->A[a * e->n + i], 0.0) &&
-            !dal__is_number(e->graph, e->A[a * e->n + j], 0.0))
-            return true;
-    return false;
-}
-
 /* Joins the blocks of all coordinates that U_q of coordinate i or its row of W contains; where W is
  * restricted, those that a constraint couples, too: one alone may have no kinetic energy. */
 static void couple(const blocks *b, int i)
@@ -360,8 +350,10 @@ static void couple(const blocks *b, int i)
     uint8_t *mark = dal__reach(e->graph, b->U_q[i]);
     for (int j = 0; j < e->n; j++) {
         const dal__node q = dal__find_symbol(e->graph, e->q + j);
-        const bool contains = !mark || (q && q <= b->U_q[i] && mark[q]) ||
-                              (e->restricted && share_constraint(e, i, j));
+        bool contains = !mark || (q && q <= b->U_q[i] && mark[q]);
+        for (int a = 0; a < e->m && e->restricted; a++)
+            contains |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0) &&
+                        !dal__is_number(e->graph, e->A[a * e->n + j], 0.0);
         const int from = b->block[j], to = b->block[i];
         if (from == to || (!contains && dal__is_number(e->graph, e->W[i * e->n + j], 0.0)))
             continue;
