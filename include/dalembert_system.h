@@ -96,7 +96,10 @@ typedef dal_status dal_scale_callback(const dal_system *system, const dal_point 
  * with nw = n + multipliers, and what they are.  All but field may be NULL, which excludes what is
  * in parentheses.  guards keep their signs; blocks is of F = a + R h, B = A by Chetaev's rule;
  * potential is of L = v.Wv/2 + g.v - U, W constant, for each coordinate those that U and W couple
- * it with, and the first two are 0 where that U is quadratic. */
+ * it with, and the first two are 0 where that U is quadratic.
+ * With DAL_MASS_ON_KERNEL W need not have an inverse: W^-1 A^T and R are the X with A X = 1 and
+ * W X = A^T Z for some Z, W^-1 b is the a with A a = 0 and W a = b + A^T z for some z, and so with
+ * W^-1 E_q. */
 /* clang-format off */
 #define DAL_CALLBACK_LIST(CALLBACK) \
     CALLBACK(FIELD, field, tqv, nw) /* F, then dg/dt */ \
@@ -150,7 +153,7 @@ enum {
     DAL_BLOCKS_POSITIONAL = 1 << 11, /* every D linear, W^-1 b and A without v */
     DAL_D_ISOKINETIC = 1 << 12,      /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
     DAL_WIDE_TIMES = 1 << 13,        /* the wide sets read dal_point.times, or no time at all */
-    DAL_MASS_ON_KERNEL = 1 << 14     /* W need be regular on ker A only; see CONSTRAINT, BLOCKS */
+    DAL_MASS_ON_KERNEL = 1 << 14     /* W need be regular on ker A only, see dal_callbacks */
 };
 
 /* ---- events -------------------------------------------------------------------------------- */

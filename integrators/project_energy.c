@@ -12,8 +12,8 @@
  *     M = (  A B        A v              )
  *         ( (A v)^T   v.E_v + h^2 E_q.N  )
  *
- * Where W need be regular on ker A only (lib/model/restricted.c), B are other directions of the same
- * span, E_v.B is the last row, and N has W N = E_q on ker A.
+ * Where W need be regular on ker A only (lib/model/restricted.c), B are other directions of the
+ * same span, E_v.B is the last row, and N has W N = E_q on ker A.
  *
  * Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), IV.4.  Keeps the order, every D,
  * and E where it is a constant of the motion; loses symmetry, and, as in project.c,
@@ -89,7 +89,8 @@ DAL_INLINE void set_directions(dal_step *s, level *k, num *matrix)
     DAL_EACH(a, m) {
         dal_multiply(A + a * n, 1, n, k->v0, &matrix[a * levels + m]);
         matrix[m * levels + a] = matrix[a * levels + m];
-        if (DAL_PROPERTIES(s) & DAL_MASS_ON_KERNEL) matrix[m * levels + a] = energy_rate(k, n, m, a);
+        if (DAL_PROPERTIES(s) & DAL_MASS_ON_KERNEL)
+            matrix[m * levels + a] = energy_rate(k, n, m, a);
         DAL_EACH(b, m) {
             num sum = dal_num(0.0);
             DAL_EACH(i, n) sum += A[a * n + i] * B[i * m + b];

@@ -146,8 +146,8 @@ static void test_extension(void)
 
 static void test_lanes(void)
 {
-    static const char *const methods[] = {"gauss6+project", "gni", "spark4", "taylor",
-                                          "mclachlan-perlmutter+yoshida4", "rk4"};
+    static const char *const methods[] = {
+        "gauss6+project", "gni", "spark4", "taylor", "mclachlan-perlmutter+yoshida4", "rk4"};
     for (int i = 0; i < 6; i++) {
         dal_run_spec spec = fixture_spec(fixture_system(wheel), methods[i], DAL_PHYSICAL, 0.1);
         fixture_lanes(spec, 11, 25, "x", 0.5, 0.1);
@@ -190,8 +190,8 @@ static double massless_constraint(int a, const double *q, const double *v, doubl
 
 static void test_bordered(void)
 {
-    const reference_formulas formulas = {3, 2, massless_lagrangian, massless_force,
-                                         massless_constraint, NULL};
+    const reference_formulas formulas = {
+        3, 2, massless_lagrangian, massless_force, massless_constraint, NULL};
     reference b = reference_of_text(MASSLESS);
     CU_ASSERT(b.system->properties & DAL_MASS_ON_KERNEL);
     for (int k = 0; k < 40; k++) {
@@ -226,10 +226,10 @@ static family draw(unsigned long long *state, int k)
     family f;
     for (int i = 0; i < 6; i++) f.w[i] = next_random(state);
     if (k % 3 == 0) f.w[2] = f.w[4] = f.w[5] = 0.0; /* d has no kinetic energy */
-    if (k % 3 == 1)                                  /* rank 2 */
-        f.w[5] = (f.w[2] * f.w[2] * f.w[3] - 2 * f.w[1] * f.w[2] * f.w[4] +
-                  f.w[4] * f.w[4] * f.w[0]) /
-                 (f.w[0] * f.w[3] - f.w[1] * f.w[1]);
+    if (k % 3 == 1)                                 /* rank 2 */
+        f.w[5] =
+            (f.w[2] * f.w[2] * f.w[3] - 2 * f.w[1] * f.w[2] * f.w[4] + f.w[4] * f.w[4] * f.w[0]) /
+            (f.w[0] * f.w[3] - f.w[1] * f.w[1]);
     f.turns = k % 3 == 2;
     f.r = next_random(state);
     f.s = next_random(state);
@@ -260,13 +260,16 @@ static void compare_family(const family *f, unsigned long long *state, int *rest
 {
     char text[1024], L[512];
     write_lagrangian(f, "d", "d'", L, sizeof L);
-    snprintf(text, sizeof text, "coordinates: [f, g, d]\n%sconstraints: ['d'' - %.17g*f'' - "
-                                "%.17g*cos(g)*g''']\n", L, f->r, f->s);
+    snprintf(text, sizeof text,
+             "coordinates: [f, g, d]\n%sconstraints: ['d'' - %.17g*f'' - "
+             "%.17g*cos(g)*g''']\n",
+             L, f->r, f->s);
     reference whole = reference_of_text(text);
     write_lagrangian(f, "d", "w", L, sizeof L);
     snprintf(text, sizeof text,
              "coordinates: [f, g]\nlet: {d: %.17g*f + %.17g*sin(g), w: %.17g*f' + "
-             "%.17g*cos(g)*g'}\n%s", f->r, f->s, f->r, f->s, L);
+             "%.17g*cos(g)*g'}\n%s",
+             f->r, f->s, f->r, f->s, L);
     reference reduced = reference_of_text(text);
     *restricted += (whole.system->properties & DAL_MASS_ON_KERNEL) != 0;
     for (int k = 0; k < 8; k++) {
@@ -326,8 +329,7 @@ static void test_impact(void)
                                "constraints: [x' - theta'/2]\n"
                                "events: [{when: theta - 1, restitution: 0.5}]\n"
                                "start: {x': 1, theta': 2}\n";
-    const dal_run_spec spec =
-        fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
+    const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
     dal_run *run = fixture_stepped(&spec, 10);
     const double *x = dal_run_state(run);
     CU_ASSERT(fabs(x[2] + 0.5) < 1e-13 && fabs(x[3] + 1.0) < 1e-13);

@@ -98,18 +98,6 @@ static void check_rank(check *c, const char *what, int rank, int full, double pi
                  "%d of %d, smallest pivot %.2g", rank, full, pivot);
 }
 
-static void check_rank_of_G(check *c)
-{
-    int rank = 0;
-    double pivot = 0.0;
-    const dal_status status = dal_measure_rank(c->evaluator, &c->origin, &rank, &pivot);
-    if (cli_is_ok(status))
-        check_rank(c, "rank of G at the start", rank, c->m, pivot);
-    else if (status != DAL_UNSUPPORTED)
-        check_item(c, CHECK_FAIL, "rank of G at the start", "it has no value: %s",
-                   dal_status_text(status));
-}
-
 /* The ranks of A and of W on ker A, at the start of the run in the units of the file. */
 static void check_ranks(check *c)
 {
@@ -159,7 +147,16 @@ static void check_start(check *c)
                      defect, consistent);
     else if (c->system->call.constraint)
         check_bound(c, "|D| at the start", defect, consistent);
-    if (!(c->system->properties & DAL_MASS_ON_KERNEL)) check_rank_of_G(c);
+    if (!(c->system->properties & DAL_MASS_ON_KERNEL)) { /* else G is 1 */
+        int rank = 0;
+        double pivot = 0.0;
+        const dal_status status = dal_measure_rank(c->evaluator, &c->origin, &rank, &pivot);
+        if (cli_is_ok(status))
+            check_rank(c, "rank of G at the start", rank, c->m, pivot);
+        else if (status != DAL_UNSUPPORTED)
+            check_item(c, CHECK_FAIL, "rank of G at the start", "it has no value: %s",
+                       dal_status_text(status));
+    }
     check_ranks(c);
     check_number(c, found, points, c->near_count, 1, INFINITY, "%d; %d projected to D = 0",
                  c->near_count, c->surface_count);

@@ -81,7 +81,7 @@ const cli_command command_order = {
         "step; the reference is taylor, or dop853 where the equations have no Taylor series, at a "
         "hundredth of the smallest, and the slope is that of the error over the tolerance.  "
         "Without --step the step is T, or a part of it where T takes more substeps than a step may "
-        "have.\n"
+        "have, or a constraint turns too far in it.\n"
         "\n"
         "DIR gets order.csv, order.json (the request and the reference) and, by gnuplot, the page "
         "of 'dalembert report': error against step, evaluations of F and processor time.  Only the "

@@ -256,28 +256,6 @@ static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta)
     return dal__solve_vector(model, m, G, along, beta);
 }
 
-/* v_i - (W^-1 A^T beta)_i */
-static dal__node free_velocity(const dal__equations *e, const dal__node *beta, int i)
-{
-    return dal__node_sub(e->graph, e->flow[1 + i],
-                         dal__dot(e->graph, e->m, e->U + i * e->m, beta));
-}
-
-/* E_v times that: v.E_v - (A v).beta, unless U is not W^-1 A^T itself. */
-static dal__node free_power(const dal__equations *e, const dal__node *along, const dal__node *beta)
-{
-    const int n = e->n;
-    const dal__node *E_v = e->normal + 1 + n;
-    dal__node sum = dal__number(e->graph, 0.0);
-    if (!e->restricted)
-        return dal__node_sub(e->graph, dal__dot(e->graph, n, e->flow + 1, E_v),
-                             dal__dot(e->graph, e->m, along, beta));
-    for (int i = 0; i < n; i++)
-        sum = dal__node_add(e->graph, sum,
-                            dal__node_mul(e->graph, E_v[i], free_velocity(e, beta, i)));
-    return sum;
-}
-
 static dal_status extend(dal_model *model)
 {
     dal__equations *e = &model->equations;
@@ -289,7 +267,15 @@ static dal_status extend(dal_model *model)
     dal_status status = find_beta(model, along, beta);
     if (status != DAL_OK) return status == DAL_SINGULAR ? DAL_OK : status; /* B is not A */
     const dal__node *v = e->flow + 1;
-    dal__node divisor = dal__node_add(graph, free_power(e, along, beta), dal__number(graph, REST));
+    const dal__node *E_v = e->normal + 1 + n;
+    dal__node free = dal__dot(graph, n, v, E_v);
+    if (!e->restricted) free = dal__node_sub(graph, free, dal__dot(graph, m, along, beta));
+    for (int a = 0; a < m && e->restricted; a++) /* U is not W^-1 A^T itself */
+        for (int i = 0; i < n; i++)
+            free = dal__node_sub(
+                graph, free,
+                dal__node_mul(graph, E_v[i], dal__node_mul(graph, e->U[i * m + a], beta[a])));
+    dal__node divisor = dal__node_add(graph, free, dal__number(graph, REST));
     dal__node rate =
         dal__node_sub(graph, dal__dot(graph, n, v, e->force), partial_t(e, e->lagrangian));
     for (int a = 0; a < m; a++) {
@@ -298,8 +284,8 @@ static dal_status extend(dal_model *model)
     }
     dal__node alpha = dal__node_neg(graph, dal__node_div(graph, rate, divisor));
     for (int i = 0; i < n; i++) {
-        extended[i] =
-            dal__node_add(graph, e->F[i], dal__node_mul(graph, alpha, free_velocity(e, beta, i)));
+        dal__node along_free = dal__node_sub(graph, v[i], dal__dot(graph, m, e->U + i * m, beta));
+        extended[i] = dal__node_add(graph, e->F[i], dal__node_mul(graph, alpha, along_free));
     }
     e->extended = extended;
     return graph->status;
@@ -382,16 +368,6 @@ static void fill_block(const blocks *b, int block, dal__node *out)
     }
 }
 
-/* Whether a constraint contains the velocities of two coordinates. */
-static bool share_constraint(const dal__equations *e, int i, int j)
-{
-    for (int a = 0; a < e->m; a++)
-        if (!dal__is_number(e->graph, e->A[a * e->n + i], 0.0) &&
-            !dal__is_number(e->graph, e->A[a * e->n + j], 0.0))
-            return true;
-    return false;
-}
-
 /* Joins the blocks of all coordinates that U_q of coordinate i or its row of W contains; where W is
  * restricted, those that a constraint couples, too: one alone may have no kinetic energy. */
 static void couple(const blocks *b, int i)
@@ -400,8 +376,10 @@ static void couple(const blocks *b, int i)
     uint8_t *mark = dal__reach(e->graph, b->U_q[i]);
     for (int j = 0; j < e->n; j++) {
         const dal__node q = dal__find_symbol(e->graph, e->q + j);
-        const bool contains = !mark || (q && q <= b->U_q[i] && mark[q]) ||
-                              (e->restricted && share_constraint(e, i, j));
+        bool contains = !mark || (q && q <= b->U_q[i] && mark[q]);
+        for (int a = 0; a < e->m && e->restricted; a++)
+            contains |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0) &&
+                        !dal__is_number(e->graph, e->A[a * e->n + j], 0.0);
         const int from = b->block[j], to = b->block[i];
         if (from == to || (!contains && dal__is_number(e->graph, e->W[i * e->n + j], 0.0)))
             continue;

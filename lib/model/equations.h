@@ -63,19 +63,18 @@ typedef struct dal__equations {
     dal__node *F;      /* [n + multipliers] */
     dal__node energy;  /* or 0 */
     dal__node *normal; /* [1 + 3n]: E, E_q, E_v, W^-1 E_q; or NULL */
-    dal__node *potential;           /* [3n], see energy.c; or NULL */
-    dal__node *extended;            /* [n]: F continued off D = 0 with E exact; or NULL */
-    dal__node *guard;               /* [guards] */
-    int lookups, *lookup;           /* [lookups] the tables that are read in the diagnosis */
-    int mass_guard;                 /* which of them is det W, from 1; 0: none */
-    dal__pivot *pivot;              /* [pivots], of at most 2 (n + m) */
-    struct dal__factors *mass;      /* of W */
-    /* One of them solves for F and h, neither for vakonomic motion. */
-    struct dal__bordered *bordered;     /* where W has an inverse */
-    struct dal__restricted *restricted; /* where W need have one on ker A only */
-    double *value;                  /* [symbols]: default parameters, default start */
-    int *symbol;                    /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
-    dal__node *flow;                /* [1 + n]: d/dt of (t, q), that is 1 and v */
+    dal__node *potential;               /* [3n], see energy.c; or NULL */
+    dal__node *extended;                /* [n]: F continued off D = 0 with E exact; or NULL */
+    dal__node *guard;                   /* [guards] */
+    int lookups, *lookup;               /* [lookups] the tables that are read in the diagnosis */
+    int mass_guard;                     /* which of them is det W, from 1; 0: none */
+    dal__pivot *pivot;                  /* [pivots], of at most 2 (n + m) */
+    struct dal__factors *mass;          /* of W */
+    struct dal__bordered *bordered;     /* solves for F and h; NULL for vakonomic motion */
+    struct dal__restricted *restricted; /* solves instead where W may be singular; or NULL */
+    double *value;                      /* [symbols]: default parameters, default start */
+    int *symbol;     /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
+    dal__node *flow; /* [1 + n]: d/dt of (t, q), that is 1 and v */
     /* Names. */
     const char **parameter, **coordinate, **let_name, **invariant_name, **guard_name, **tag;
     const char **table_name;

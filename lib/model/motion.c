@@ -30,7 +30,10 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
     const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
     return dal__fail_at(
         error, DAL_SINGULAR_MASS, L ? L->line : 0, L ? L->column : 0,
-        "the mass matrix is singular: it does not determine the acceleration of '%s'",
+        e->restricted ? "the mass matrix is singular on the velocities that the constraints allow: "
+                        "with them it does not determine the acceleration of '%s'"
+                      : "the mass matrix is singular: it does not determine the acceleration of "
+                        "'%s'",
         e->coordinate[row]);
 }
 
@@ -158,18 +161,6 @@ dal_status dal__solve_force(dal_model *model, const dal__node *force, dal__node 
     return dal__restricted_solve(model, e->restricted, force, zero, x, NULL);
 }
 
-/* The same of a restricted W, whose pivots are chosen where u = v is that of the start. */
-static dal_status directions_at_pi(dal_model *model, const dal__node *W, dal__node *U)
-{
-    const dal__equations *e = &model->equations;
-    dal__restricted r;
-    for (int i = 0; i < e->n; i++) e->value[e->pi + i] = e->value[e->v + i];
-    const dal_status status = dal__restricted_factor(model, W, &r);
-    for (int i = 0; i < e->n; i++) e->value[e->pi + i] = 0.0;
-    DAL_TRY(status);
-    return dal__restricted_directions(model, &r, U);
-}
-
 dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
 {
     const dal__equations *e = &model->equations;
@@ -186,7 +177,13 @@ dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
         u[i] = dal__symbol(e->graph, e->pi + i);
     }
     dal__substitute_all(e->graph, n * n, mass.matrix, v, n, u);
-    if (e->restricted) return directions_at_pi(model, mass.matrix, U);
+    if (e->restricted) { /* pivots are chosen where u = v is that of the start */
+        dal__restricted r;
+        for (int i = 0; i < n; i++) e->value[e->pi + i] = e->value[e->v + i];
+        const dal_status status = dal__restricted_factor(model, mass.matrix, &r);
+        for (int i = 0; i < n; i++) e->value[e->pi + i] = 0.0;
+        return status == DAL_OK ? dal__restricted_directions(model, &r, U) : status;
+    }
     DAL_TRY(dal__solve(model, &mass, false, m, e->A, x));
     for (int i = 0; i < n; i++)
         for (int a = 0; a < m; a++) U[i * m + a] = x[a * n + i];
@@ -291,17 +288,6 @@ static dal_status derive_restricted(dal_model *model)
     return dal__restricted_solve(model, r, e->b, bottom, e->F, e->h);
 }
 
-/* The error of constraints that are dependent, or of a W that is singular on ker A. */
-static dal_status singular_restricted(const dal_model *model, dal_error *error)
-{
-    const dal__equations *e = &model->equations;
-    const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
-    return dal__fail_at(error, DAL_SINGULAR_MASS, L ? L->line : 0, L ? L->column : 0,
-                        "the mass matrix is singular on the velocities that the constraints allow: "
-                        "with them it does not determine the acceleration of '%s'",
-                        e->coordinate[e->restricted->V.singular]);
-}
-
 dal_status dal__motion_derive(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
@@ -314,7 +300,7 @@ dal_status dal__motion_derive(dal_model *model, dal_error *error)
         status = derive_restricted(model);
         if (status == DAL_SINGULAR)
             return e->restricted->singular < 0
-                       ? singular_restricted(model, error)
+                       ? dal__singular_mass(model, e->restricted->V.singular, error)
                        : dal__dependent_constraints(model, e->restricted->singular, error);
         return status == DAL_OK ? DAL_OK : unsolved(model, status, "W on ker A", error);
     }

@@ -12,8 +12,8 @@ dal_status dal__motion_derive(dal_model *model, dal_error *error);
 /* The first part of it: mass, the factors of W, a = W^-1 b, U = W^-1 A^T, R = W^-1 B^T.  Errors:
  * DAL_SINGULAR, DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal__solve_mass(dal_model *model);
-/* W^-1 force [n]; where W is restricted to ker A, the x of ker A with W x - A^T h = force for some h.
- * Errors: DAL_SINGULAR, DAL_MEMORY, DAL_TOO_LARGE. */
+/* W^-1 force [n]; where W is restricted to ker A, the x of ker A with W x - A^T h = force for some
+ * h.  Errors: DAL_SINGULAR, DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal__solve_force(dal_model *model, const dal__node *force, dal__node *x);
 /* W(q,u)^-1 A^T [n*m], u being the symbols of pi.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U);

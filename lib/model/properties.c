@@ -127,7 +127,8 @@ dal_status dal__properties(dal_model *model)
     if (e->m && !keeps_rank && !(e->properties & (e->m > 1 ? DAL_D_CONSTANT : DAL_D_LINEAR)))
         e->properties |= DAL_D_RANK_CHECKED;
     e->properties |= (autonomous ? DAL_AUTONOMOUS : 0u) | (constant ? DAL_MASS_CONSTANT : 0u) |
-                     (e->vakonomic ? DAL_VAKONOMIC : 0u) | (e->servo ? DAL_SERVO : 0u) | (e->restricted ? DAL_MASS_ON_KERNEL : 0u);
+                     (e->vakonomic ? DAL_VAKONOMIC : 0u) | (e->servo ? DAL_SERVO : 0u) |
+                     (e->restricted ? DAL_MASS_ON_KERNEL : 0u);
     DAL_TRY(dal__energy_properties(model));
     e->properties |= parts_properties(e, first);
     return e->graph->status;

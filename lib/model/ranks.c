@@ -58,12 +58,11 @@ static int rank_on_kernel(const matrices *k, double *pivot)
     for (int a = 0; a < size; a++)
         for (int b = 0; b < size; b++) {
             double sum = 0.0, terms = 0.0;
-            for (int i = 0; i < n; i++)
-                for (int j = 0; j < n; j++) {
-                    const double term = Z[a * n + i] * k->W[i * n + j] * Z[b * n + j];
-                    sum += term;
-                    terms += fabs(term);
-                }
+            for (int i = 0; i < n * n; i++) {
+                const double term = Z[a * n + i / n] * k->W[i] * Z[b * n + i % n];
+                sum += term;
+                terms += fabs(term);
+            }
             k->matrix[a * size + b] = sum;
             if (a == b) root[a] = sqrt(terms);
         }
@@ -77,8 +76,8 @@ static int rank_on_kernel(const matrices *k, double *pivot)
 }
 
 /* Evaluates A, with rows of a largest entry of 1, and W. */
-static bool evaluate(const matrices *k, const dal__equations *e, const double *value,
-                     const double *units)
+static bool fill_matrices(const matrices *k, const dal__equations *e, const double *value,
+                          const double *units)
 {
     const int n = k->n;
     for (int i = 0; i < k->m * n; i++)
@@ -137,7 +136,7 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
     value[e->t] = at->t;
     memcpy(value + e->q, at->q, n * sizeof *value);
     memcpy(value + e->v, at->v, n * sizeof *value);
-    if (!evaluate(&k, e, value, units ? units : ones))
+    if (!fill_matrices(&k, e, value, units ? units : ones))
         return dal__fail(error, DAL_NOT_FINITE, "A or W is not finite at t = %.17g", at->t);
     find_ranks(&k, out);
     return DAL_OK;

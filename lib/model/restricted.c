@@ -3,8 +3,7 @@
  *     W x - A^T h = top,   A x = bottom
  *
  * has one solution where A has full rank and W is regular on ker A, whether W has an inverse or
- * not (Benzi, Golub, Liesen, Acta Numerica 14 (2005) 1, doi:10.1017/S0962492904000212, theorem 3.2
- * with ker A for ker W).  With weights g > 0 of the coordinates,
+ * not.  With weights g > 0 of the coordinates,
  *
  *     S = A g^-1 A^T,   N = g^-1 A^T S^-1,   P = 1 - N A        (A N = 1, P projects to ker A)
  *     V = P^T W P + A^T C A,                                    C > 0, diagonal
@@ -12,7 +11,9 @@
  *
  * V maps ker A to its annihilator as W does, and the range of N to that of A^T: it is regular
  * exactly where the system is, and positive definite where W is so on ker A.  No coordinate is
- * singled out, so that no chart ends.  y loses the rounding that leads out of ker A.
+ * singled out, so that no chart ends.  y loses the rounding that leads out of ker A.  This is the
+ * null-space method with a projector for a basis: M. Benzi, G. H. Golub, J. Liesen, Acta Numerica
+ * 14 (2005) 1, section 6, doi:10.1017/S0962492904000212.
  *
  * The weights are the diagonal of W; that of a coordinate without a mass balances its entries of A.
  * All are powers of two from the values at the default start, and so is C. */
@@ -109,11 +110,19 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
     return e->graph->status;
 }
 
-/* V; WP[n*n] is scratch. */
-static void fill_matrix(const dal__equations *e, const dal__restricted *r, dal__node *WP)
+dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__restricted *r)
 {
+    const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
-    dal__node *V = r->V.matrix;
+    *r = (dal__restricted){.W = W, .singular = -1};
+    r->N = dal__model_nodes(model, n * m, 0);
+    r->P = dal__model_nodes(model, n * n, 0);
+    dal__node *scratch = dal__model_nodes(model, n * n, 0);
+    double *g = dal__model_allocate(model, (size_t)(n + m * n), sizeof *g);
+    if (!dal__factors_allocate(model, &r->V, n, NULL)) return DAL_MEMORY;
+    find_weights(e, W, g, g + n);
+    DAL_TRY(make_projector(model, r, g, scratch));
+    dal__node *V = r->V.matrix, *WP = scratch;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             WP[i * n + j] = dal__number(e->graph, 0.0);
@@ -131,21 +140,6 @@ static void fill_matrix(const dal__equations *e, const dal__restricted *r, dal__
             }
             V[i * n + j] = V[j * n + i] = sum;
         }
-}
-
-dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__restricted *r)
-{
-    const dal__equations *e = &model->equations;
-    const int n = e->n, m = e->m;
-    *r = (dal__restricted){.W = W, .singular = -1};
-    r->N = dal__model_nodes(model, n * m, 0);
-    r->P = dal__model_nodes(model, n * n, 0);
-    dal__node *scratch = dal__model_nodes(model, n * n, 0);
-    double *g = dal__model_allocate(model, (size_t)(n + m * n), sizeof *g);
-    if (!dal__factors_allocate(model, &r->V, n, NULL)) return DAL_MEMORY;
-    find_weights(e, W, g, g + n);
-    DAL_TRY(make_projector(model, r, g, scratch));
-    fill_matrix(e, r, scratch);
     return dal__factor(model, &r->V);
 }
 

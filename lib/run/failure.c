@@ -47,21 +47,6 @@ static bool gauge_crosses(dal_run *run, double t, double h)
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
 
-/* Whether small steps pass from t to t + h: then the gradients of the constraints turn in it, and G
- * keeps an inverse all the way.  The state is restored. */
-static bool passes_in_parts(dal_run *run, double h)
-{
-    enum { PARTS = 64 };
-    const size_t bytes = run->layout.persistent * sizeof *run->persistent;
-    dal_status reason = DAL_OK;
-    bool passes = true;
-    memcpy(run->shadow, run->persistent, bytes);
-    for (int i = 0; i < PARTS && passes; i++)
-        passes = run->kind->engine->step(run->engine, h / PARTS, 1u, &reason) == 0;
-    memcpy(run->persistent, run->shadow, bytes);
-    return passes;
-}
-
 static dal_status turned(dal_run *run, const dal__failure *failure, double t, double h,
                          dal_error *error)
 {
@@ -71,7 +56,16 @@ static dal_status turned(dal_run *run, const dal__failure *failure, double t, do
                          failure->guard == system->mass_guard ? DAL_SINGULAR_MASS : DAL_SINGULAR,
                          "%s goes to zero between t = %.17g and %.17g: singular there",
                          system->guard ? system->guard[failure->guard - 1] : "a guard", t, t + h);
-    if (passes_in_parts(run, h))
+    /* Where small steps pass, the gradients turn, and G keeps an inverse all the way. */
+    enum { PARTS = 64 };
+    const size_t bytes = run->layout.persistent * sizeof *run->persistent;
+    dal_status reason = DAL_OK;
+    bool passes = true;
+    memcpy(run->shadow, run->persistent, bytes);
+    for (int i = 0; i < PARTS && passes; i++)
+        passes = run->kind->engine->step(run->engine, h / PARTS, 1u, &reason) == 0;
+    memcpy(run->persistent, run->shadow, bytes);
+    if (passes)
         return dal__fail(error, DAL_NOT_CONVERGED,
                          "the gradient of constraint %d by the velocities turns by more than a "
                          "right angle in the step of %g from t = %.17g, though G = A W^-1 A^T is "

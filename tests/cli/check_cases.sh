@@ -29,6 +29,8 @@ holds "another head without title and reference" sh -c 'head -n 4 out | cmp head
 case_is "the sleigh: n = 3, D trigonometric, E on D = 0 alone"
 try 0 check chaplygin-sleigh
 prints '^  rank of G at the start +ok +1 of 1'
+prints '^  rank of A at the start +ok +1 of 1'
+prints '^  rank of W on ker A +ok +2 of 2'
 prints '^  D affine in v +ok +yes$'
 prints '^  D bilinear in \(q,v\) +info +no$'
 prints '^  D quadratic in \(q,v\) +info +no$'

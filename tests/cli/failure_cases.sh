@@ -30,6 +30,47 @@ try 2 run chaplygin-sleigh --integrator rk4 --step 0.01 --time 1 --set m=0
 says '^dalembert: chaplygin-sleigh: the mass matrix is singular at the start$'
 empty
 
+case_is "W is singular, the motion is determined"
+# x = cos t; theta has no inertia.
+cat >wheel.yaml <<'END'
+coordinates: [x, theta]
+lagrangian: x'^2/2 - x^2/2
+constraints: [x' - theta'/2]
+start: {x: 1}
+exact: {x: cos(t), theta: 2*cos(t) - 2}
+END
+try 0 check wheel.yaml
+prints '^  rank of A at the start +ok +1 of 1'
+prints '^  rank of W on ker A +ok +1 of 1'
+prints '^[0-9]+ items, 0 failed$'
+try 0 run wheel.yaml --integrator gauss8+project --step 0.1 --time 5 --samples 5 --native off
+mv out interpreted
+holds "not cos t" awk -F, 'NR > 1 && !($NF < 1e-12) {exit 1}' interpreted
+try 0 run wheel.yaml --integrator gauss8+project --step 0.1 --time 5 --samples 5 --native auto
+holds "other bits" cmp out interpreted
+try 2 run wheel.yaml --integrator gni --space physical --step 0.1 --time 5 --columns x,h1,lambda1
+says "--columns: no column 'lambda1': where W is used on ker A alone, methods carry no multipliers"
+empty
+
+case_is "W becomes singular on ker A"
+# There it is 2 - t, times a number.
+cat >ending.yaml <<'END'
+coordinates: [x, y]
+lagrangian: x'^2/2 + 100*(1 - t)*y'^2/2
+constraints: [y' - x'/10]
+start: {x': 1, y': 0.1}
+END
+breaks 'mass matrix, on the velocities that the constraints allow, .* near t = (2|1\.99)' 21 22 \
+    ./ending.yaml --integrator rk4 --step 0.07 --time 4 --samples 40
+try 1 check ending.yaml --from 2
+prints '^  rank of W on ker A +FAIL +0 of 1'
+
+case_is "a constraint turns by more than a right angle, G = 1"
+try 3 run isokinetic --integrator taylor --tolerance 1e-9 --step 5 --time 10 --samples 2
+says 'the gradient of constraint 1 by the velocities turns by more than a right angle in the step'
+try 0 order isokinetic --tolerances 1e-4,1e-6,1e-8 --time 10
+holds "no errors" [ "$(grep -c '^[dt].* [0-9.]*e-[0-9]* .*e-[0-9]* .*e-0[89] ' out)" = 2 ]
+
 case_is "e reaches 0"
 cat >gauge.yaml <<'END'
 coordinates: [x]
