@@ -78,9 +78,9 @@ void dal__branch_bounds(const dal__branch *branch, const dal__tapes *tapes, doub
 static void let_hold(dal__programs *p)
 {
 #define CODE(code, ...) DAL__PROGRAM_##code,
-    static const dal__program_code codes[] = {
-        DAL_CALLBACK_LIST(CODE) DAL__PROGRAM_PROJECTION, DAL__PROGRAM_EVENT_RATES,
-        DAL__PROGRAM_BRANCH_VALUES, DAL__PROGRAM_BRANCH_RATES};
+    static const dal__program_code codes[] = {DAL_CALLBACK_LIST(CODE) DAL__PROGRAM_PROJECTION,
+                                              DAL__PROGRAM_EVENT_RATES, DAL__PROGRAM_BRANCH_VALUES,
+                                              DAL__PROGRAM_BRANCH_RATES};
 #undef CODE
     for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
         if (p->program[codes[i]].present) dal__tapes_let_hold(p->tapes, p->program[codes[i]].tape);
@@ -110,8 +110,8 @@ static uint8_t *mark_nodes(dal_model *model, const dal__programs *p, dal__node *
 static int branch_number(const dal__programs *p, const dal__branch *branch)
 {
     int k = 0;
-    while (k < p->branches.count && (p->branch[k].argument != branch->argument ||
-                                     p->branch[k].table != branch->table))
+    while (k < p->branches.count &&
+           (p->branch[k].argument != branch->argument || p->branch[k].table != branch->table))
         k++;
     return k;
 }
