@@ -260,11 +260,13 @@ static dal_status choose_side(const dal__event_search *w, int j)
     DAL_TRY(held_rates(w, w->held.rate));
     const dal__held_branch own = *b;
     set_bounds(w, j, across);
-    DAL_TRY(held_rates(w, w->held.across));
-    const double inner = w->held.rate[j], outer = w->held.across[j];
+    /* Where the formulas of the other side have no values here, it is not near. */
+    const bool has_other = held_rates(w, w->held.across) == DAL_OK;
+    const double inner = w->held.rate[j], outer = has_other ? w->held.across[j] : 0.0;
     b->scale = fmax(fabs(inner), fabs(outer));
     b->is_at_end = fabs(s - end) <= branch_factor * DBL_EPSILON * (b->size + fabs(h) * b->scale);
-    const bool stays = outwards * inner<0.0, leaves = outwards * outer> 0.0;
+    const bool stays = outwards * inner < 0.0;
+    const bool leaves = outwards * outer > 0.0;
     if (b->is_at_end && !stays && leaves) return DAL_OK;
     if (b->is_at_end && !stays) return hold_at_end(w, j, end);
     b->lower = own.lower;
@@ -439,12 +441,24 @@ dal_status dal__events_endless(const dal__event_search *w, int k)
 typedef dal_status search_function(const dal__event_search *w, double h, double *distance,
                                    dal_error *error);
 
+/* Whether the run is where the last step ended, whose values are known there. */
+static bool is_at_last_end(const dal__crossing *c)
+{
+    const dal_run *run = c->run;
+    const size_t width = run->stored / dal__saved_count(&run->layout), bytes = sizeof *c->after;
+    const size_t state = dal__at_events(&run->layout) * width;
+    const size_t parameters = run->layout.persistent * width;
+    return c->is_begun && memcmp(run->storage, c->after, state * bytes) == 0 &&
+           memcmp(run->storage + parameters, c->after + parameters,
+                  (run->stored - parameters) * bytes) == 0;
+}
+
 static dal_status search_free(const dal__event_search *w, double h, double *distance,
                               dal_error *error)
 {
     dal__crossing *c = w->free;
     for (int k = 0; k < w->system->events; k++) c->zero[k].side = (dal__side)w->m.side[k];
-    c->is_begun = false;
+    c->is_begun = is_at_last_end(c);
     DAL_TRY(dal__crossing_begin(c, h, error));
     return dal__crossing_next(c, distance);
 }
