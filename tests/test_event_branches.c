@@ -148,7 +148,7 @@ static void test_floor(void)
 static void test_comparison(void)
 {
     const motion m = {"coordinates: [x]\nlagrangian: x'^2/2\n"
-                      "forces: {x: \"if(x' < 1, -2, -0.5) - if(1 > x', 2, 0)\"}\n"
+                      "forces: {x: \"if(x' < 1, -2, -0.5) - if(1 < x', 0, 2)\"}\n"
                       "start: {x: 0.1, x': 2}\n"
                       "events: [{when: x' - 1}, {when: x', direction: down, stop: true}]\n",
                       2,
@@ -186,6 +186,21 @@ static void test_wall(void)
         CU_ASSERT_EQUAL(dal_method_parse(&method, names[i], NULL), DAL_OK);
         CU_ASSERT(check_method(&m, &method, WAYS, 1.0) >= 2);
     }
+}
+
+/* A motion does not count beyond the branch that was held: F is 0 up to x = 1 at t = 1, then -2, so
+ * that x is 1.2 at t = 1.276, and not at 1.2. */
+static void test_beyond(void)
+{
+    const dal_run_spec spec = fixture_spec(
+        fixture_system(
+            "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\n"
+            "forces: {x: \"if(x < 1, 0, -2)\"}\nevents: [{when: x - 1.2, stop: true}]\n"),
+        "rk4", DAL_PHYSICAL, 0.9);
+    record r;
+    CU_ASSERT(find_events(&spec, 3.0, DAL_STOPPED, &r));
+    CU_ASSERT_EQUAL(r.count, 1);
+    CU_ASSERT(r.time[0] > 1.21);
 }
 
 /* ---- where F has a kink ---- */
@@ -354,6 +369,7 @@ void suite_event_branches(void)
     CU_add_test(suite, "floor", test_floor);
     CU_add_test(suite, "comparisons", test_comparison);
     CU_add_test(suite, "a wall", test_wall);
+    CU_add_test(suite, "beyond a branch", test_beyond);
     CU_add_test(suite, "kinks", test_kink);
     CU_add_test(suite, "rest", test_rest);
     CU_add_test(suite, "rows", test_rows);
