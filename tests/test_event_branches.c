@@ -4,6 +4,7 @@
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MAX = 16 };
@@ -235,6 +236,30 @@ static void test_kink(void)
     }
 }
 
+/* A table 1 up to x = 1 and 2 x - 1 beyond it: at x = 1.5 it is 2, and 1 with its first piece. */
+static void test_piece(void)
+{
+    const dal_system *system =
+        fixture_system("coordinates: [x]\ntables: {f: {file: f.csv, at: x, value: f}}\n"
+                       "files: {f.csv: \"x,f\\n0,1\\n1,1\\n2,3\"}\n"
+                       "lagrangian: x'^2/2\nforces: {x: f(x)}\nevents: [{when: x - 1}]\n");
+    const dal_branches *b = system->branches;
+    CU_ASSERT_FATAL(b && b->count == 1);
+    double *work = calloc(system->workspace + 1, sizeof *work);
+    const double q = 1.5, v = 0.0, first = 0.5;
+    double F, lower, upper;
+    const dal_point at = {.q = &q, .v = &v, .work = work};
+    CU_ASSERT_EQUAL(system->prepare(system, &at, NULL), DAL_OK);
+    for (int is_held = 0; is_held < 2; is_held++) {
+        b->hold(system, is_held ? &first : NULL, work);
+        CU_ASSERT_EQUAL(system->call.field(system, &at, &F), DAL_OK);
+        CU_ASSERT_EQUAL(F, is_held ? 1.0 : 2.0);
+    }
+    b->bounds(system, 0, q, &lower, &upper);
+    CU_ASSERT(lower == 1.0 && upper == 2.0);
+    free(work);
+}
+
 /* ---- rest ---- */
 
 /* Where the event does not stop the run, the block stays at rest.  Where F leads back to v = 0 from
@@ -371,6 +396,7 @@ void suite_event_branches(void)
     CU_add_test(suite, "a wall", test_wall);
     CU_add_test(suite, "beyond a branch", test_beyond);
     CU_add_test(suite, "kinks", test_kink);
+    CU_add_test(suite, "a piece of a table", test_piece);
     CU_add_test(suite, "rest", test_rest);
     CU_add_test(suite, "rows", test_rows);
     CU_add_test(suite, "resumed", test_resume);
