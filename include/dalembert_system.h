@@ -244,9 +244,9 @@ struct dal_system {
     dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
                                number of the constraint (from 1), DAL_SINGULAR_MASS, DAL_NOT_FINITE
                                with that of a table read outside its points, or DAL_OK */
-    const dal_system *extended; /* F continued off D = 0 so that E is exact, for extend-energy */
-    const dal_system *quad;     /* work in quad precision, for precision; these two may be NULL */
-    const dal_series *series;   /* Taylor coefficients of F; NULL: none */
+    const dal_system *extended;   /* F continued off D = 0 so that E is exact, for extend-energy */
+    const dal_system *quad;       /* work in quad precision, for precision; these two may be NULL */
+    const dal_series *series;     /* Taylor coefficients of F; NULL: none */
     const dal_branches *branches; /* of F where there are events; NULL: none, or not known */
     const struct dal_picture *picture;         /* how it is drawn; NULL: not at all */
     void *data;                                /* of the owner, for callbacks */

@@ -4,8 +4,8 @@
 #include "expr/tape.h"
 #include "expr/traversal.h"
 
-static __attribute__((flatten, noinline)) void
-execute(const dal__instruction *code, int length, const dal__table *tables, double *work)
+static __attribute__((flatten, noinline)) void execute(const dal__instruction *code, int length,
+                                                       const dal__table *tables, double *work)
 {
     num *w = (num *)work;
     for (int k = 0; k < length; k++) {
@@ -60,7 +60,7 @@ void DAL_WIDE(dal__tapes_hold)(const dal__tapes *tapes, const double *point, dou
     if (tapes->points > 0) *held++ = dal_num(point != NULL);
     for (int k = 0; point && k < tapes->points; k++, held += DAL__HELD_NUMBERS) {
         const double p = point[k], sign = (p > 0.0) - (p < 0.0);
-        const double numbers[DAL__HELD_NUMBERS] = {p, sign, -sign, p < 0.0, p > 0.0};
+        const double numbers[DAL__HELD_NUMBERS] = {p, sign, -sign, p<0.0, p> 0.0};
         for (int i = 0; i < DAL__HELD_NUMBERS; i++) held[i] = dal_num(numbers[i]);
     }
 }

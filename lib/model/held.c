@@ -78,9 +78,9 @@ void dal__branch_bounds(const dal__branch *branch, const dal__tapes *tapes, doub
 static void let_hold(dal__programs *p)
 {
 #define CODE(code, ...) DAL__PROGRAM_##code,
-    static const dal__program_code codes[] = {
-        DAL_CALLBACK_LIST(CODE) DAL__PROGRAM_PROJECTION, DAL__PROGRAM_EVENT_RATES,
-        DAL__PROGRAM_BRANCH_VALUES, DAL__PROGRAM_BRANCH_RATES};
+    static const dal__program_code codes[] = {DAL_CALLBACK_LIST(CODE) DAL__PROGRAM_PROJECTION,
+                                              DAL__PROGRAM_EVENT_RATES, DAL__PROGRAM_BRANCH_VALUES,
+                                              DAL__PROGRAM_BRANCH_RATES};
 #undef CODE
     for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
         if (p->program[codes[i]].present) dal__tapes_let_hold(p->tapes, p->program[codes[i]].tape);
@@ -110,8 +110,8 @@ static uint8_t *mark_nodes(dal_model *model, const dal__programs *p, dal__node *
 static int branch_number(const dal__programs *p, const dal__branch *branch)
 {
     int k = 0;
-    while (k < p->branches.count && (p->branch[k].argument != branch->argument ||
-                                     p->branch[k].table != branch->table))
+    while (k < p->branches.count &&
+           (p->branch[k].argument != branch->argument || p->branch[k].table != branch->table))
         k++;
     return k;
 }
@@ -139,7 +139,7 @@ static dal_status find_branches(dal_model *model, dal__programs *p)
 }
 
 /* sqrt(sum (ds/dx x)^2). */
-static dal__node size_of(const dal__equations *e, dal__node s, dal__node *slope)
+static dal__node argument_size(const dal__equations *e, dal__node s, dal__node *slope)
 {
     const int count = e->pi - e->t;
     dal__node sum = dal__number(e->graph, 0.0);
@@ -167,7 +167,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p)
         const dal__node by_g =
             dal__tangent(e->graph, s, e->symbol + e->g, e->multipliers, F + e->n);
         values[k] = s;
-        values[count + k] = size_of(e, s, slope);
+        values[count + k] = argument_size(e, s, slope);
         rates[k] = dal__node_add(e->graph, dal__time_derivative(e, s),
                                  dal__node_add(e->graph, by_v, by_g));
     }
@@ -176,7 +176,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p)
     return dal__programs_add(model, p, DAL__PROGRAM_BRANCH_RATES, rates, count);
 }
 
-/* Tells the tapes which nodes are held at which branch. */
+/* Gives the tapes the point of each node. */
 static dal_status place_points(dal_model *model, dal__programs *p)
 {
     dal__graph *graph = model->equations.graph;

@@ -63,8 +63,7 @@ static dal__held_places held_places(const dal__layout *k, size_t stored, double 
         .across = arrays + 4 * branches,
         .event_rate = arrays + BRANCH_ARRAYS * branches,
         .event_scale = arrays + BRANCH_ARRAYS * branches + events,
-        .branch =
-            (dal__held_branch *)(void *)(arrays + BRANCH_ARRAYS * branches + 2 * events)};
+        .branch = (dal__held_branch *)(void *)(arrays + BRANCH_ARRAYS * branches + 2 * events)};
 }
 
 dal__event_places dal__event_places_of(const dal_run *run)
@@ -256,16 +255,18 @@ static dal_status choose_side(const dal__event_search *w, int j)
     dal__held_branch *b = &w->held.branch[j];
     const double s = w->held.value[j], h = w->run->layout.options.step;
     const double end = nearest_end(b, s), outwards = end == b->lower ? -w->toward : w->toward;
-    const double point = w->held.point[j], across = end == b->lower ? nextafter(end, -INFINITY) : end;
+    const double point = w->held.point[j],
+                 across = end == b->lower ? nextafter(end, -INFINITY) : end;
     DAL_TRY(held_rates(w, w->held.rate));
     const dal__held_branch own = *b;
     set_bounds(w, j, across);
-    DAL_TRY(held_rates(w, w->held.across));
-    const double inner = w->held.rate[j], outer = w->held.across[j];
+    /* Where the formulas of the other side have no values here, it is not near. */
+    const bool has_other = held_rates(w, w->held.across) == DAL_OK;
+    const double inner = w->held.rate[j], outer = has_other ? w->held.across[j] : 0.0;
     b->scale = fmax(fabs(inner), fabs(outer));
-    b->is_at_end =
-        fabs(s - end) <= branch_factor * DBL_EPSILON * (b->size + fabs(h) * b->scale);
-    const bool stays = outwards * inner < 0.0, leaves = outwards * outer > 0.0;
+    b->is_at_end = fabs(s - end) <= branch_factor * DBL_EPSILON * (b->size + fabs(h) * b->scale);
+    const bool stays = outwards * inner < 0.0;
+    const bool leaves = outwards * outer > 0.0;
     if (b->is_at_end && !stays && leaves) return DAL_OK;
     if (b->is_at_end && !stays) return hold_at_end(w, j, end);
     b->lower = own.lower;
@@ -399,7 +400,8 @@ dal__event_search dal__event_search_begin(dal_run *run, dal_error *error)
                                 .direction = direction_of};
     const dal__event_places m = dal__event_places_of(run);
     double *at = m.observed + dal__max_observables(k);
-    double *end = at + crossing_numbers() + dal__crossing_numbers((size_t)k->system->events, run->stored);
+    double *end =
+        at + crossing_numbers() + dal__crossing_numbers((size_t)k->system->events, run->stored);
     const dal__held_places held = held_places(k, run->stored, end);
     if (!run->crossing && functions.count > 0) {
         run->crossing = (dal__crossing *)(void *)at;
@@ -439,20 +441,35 @@ dal_status dal__events_endless(const dal__event_search *w, int k)
 typedef dal_status search_function(const dal__event_search *w, double h, double *distance,
                                    dal_error *error);
 
+/* Whether the run is where the last step ended, whose values are known there. */
+static bool is_at_last_end(const dal__crossing *c)
+{
+    const dal_run *run = c->run;
+    const size_t width = run->stored / dal__saved_count(&run->layout), bytes = sizeof *c->after;
+    const size_t state = dal__at_events(&run->layout) * width;
+    const size_t parameters = run->layout.persistent * width;
+    return c->is_begun && memcmp(run->storage, c->after, state * bytes) == 0 &&
+           memcmp(run->storage + parameters, c->after + parameters,
+                  (run->stored - parameters) * bytes) == 0;
+}
+
 static dal_status search_free(const dal__event_search *w, double h, double *distance,
                               dal_error *error)
 {
     dal__crossing *c = w->free;
     for (int k = 0; k < w->system->events; k++) c->zero[k].side = (dal__side)w->m.side[k];
-    c->is_begun = false;
+    c->is_begun = is_at_last_end(c);
     DAL_TRY(dal__crossing_begin(c, h, error));
     return dal__crossing_next(c, distance);
 }
 
-/* Whether the step that was begun has the bits of the free one: then no branch has changed. */
+/* Whether the step that was begun has the bits of the free one: then no branch has changed.  At an
+ * end of a branch rounding may make them so. */
 static bool is_as_free(const dal__event_search *w)
 {
     const dal__crossing *c = w->held.crossing;
+    for (int j = 0; j < w->system->branches->count; j++)
+        if (w->held.branch[j].is_at_end) return false;
     return c->h == w->free->h && !w->has_failed &&
            memcmp(c->after, w->free->after, w->run->stored * sizeof *c->after) == 0;
 }
@@ -526,8 +543,9 @@ dal_status dal__search_events(dal__event_search *w, double *distance)
     if (held && (w->has_failed || is_near(w)) && repeat_held(w, &repeated)) {
         w->crossing = held;
         *distance = repeated;
-        free->unresolved = unresolved;
-        free->first_unresolved = first_unresolved;
+        free->unresolved = unresolved + held->is_unresolved;
+        free->first_unresolved =
+            unresolved == 0 && held->is_unresolved ? dal_run_time(w->run) : first_unresolved;
     } else if (w->has_failed) {
         if (w->error) *w->error = reason;
         return status;

@@ -43,7 +43,7 @@ typedef struct dal__event_search {
     dal__held_places held; /* branch is NULL where the system has no branches */
     dal__crossing *free;   /* of the formulas `when`, in a step as it is */
     dal__crossing
-        *crossing; /* free or held.crossing: sides, and sizes of the steps to the events */
+        *crossing;   /* free or held.crossing: sides, and sizes of the steps to the events */
     double toward;   /* the sign of the step */
     bool has_failed; /* the step as it is */
 } dal__event_search;

@@ -1,6 +1,6 @@
 # Events: impacts, stops, logs, and runs with them that are interrupted.
 
-needs 388 "no compiler for signals at given places" raises || return 0
+needs 401 "no compiler for signals at given places" raises || return 0
 examples=$here/../../examples
 # A ball above a floor; the times of its bounces are t1 (1 + 2 c (1 - c^k)/(1 - c)), t1 = sqrt(2/g).
 cat >ball.yaml <<'END'
@@ -139,6 +139,27 @@ if needs 2 "no compiler" there cc; then
     holds "other bits" cmp compiled.csv interpreted.csv
     counted
 fi
+
+# It stops at t = 2.2/(mu g) = 2.2/2.943; the steps about the stop are interpreted.
+case_is "a block that dry friction stops"
+cat >block.yaml <<'END'
+coordinates: [x]
+parameters: {m: 1.5, mu: 0.3, g: 9.81}
+lagrangian: m/2*x'^2
+forces: {x: -mu*m*g*sign(x')}
+start: {x': 2.2}
+events: [{when: x', direction: down, stop: true}]
+END
+for method in rk4 gauss8 stormer-verlet gni; do
+    block="block.yaml --integrator $method --step 0.007 --time 2 --samples 50"
+    try 0 run $block --native off --output interpreted.csv
+    holds "$method: another time" awk -F, '{ t = $1 } END { exit (t - 2.2/2.943)^2 > 1e-24 }' interpreted.csv
+    if needs 2 "no compiler" there cc; then
+        try 0 run $block --native on --output compiled.csv
+        holds "$method: other bits" cmp compiled.csv interpreted.csv
+        counted
+    fi
+done
 
 case_is "commands that would pass over events"
 for command in "lyapunov $ball --time 1" "section $ball --time 1 --on y" "explain $ball --time 1" \
