@@ -389,11 +389,21 @@ char *json_source(const char *bytes, const yaml_node_t *value)
                        value->end_mark.index - value->start_mark.index);
 }
 
-static char *find_text(const char *path, const char *bytes, size_t length, const char *name)
+/* place: for messages, as in json_parse. */
+static bool parse_file(document *doc, const char *path, const char *place)
+{
+    size_t length;
+    char *bytes = file_exists(path) ? file_read(path, &length) : NULL;
+    const bool is_parsed = bytes && json_parse(doc, place, bytes, length) == CLI_DONE;
+    free(bytes);
+    return is_parsed;
+}
+
+char *json_file_text(const char *path, const char *name)
 {
     document doc = {0};
     char *copy = NULL;
-    if (json_parse(&doc, path, bytes, length) == CLI_DONE) {
+    if (parse_file(&doc, path, path)) {
         const yaml_node_t *root = yaml_document_get_root_node(&doc.yaml);
         const yaml_node_t *node = document_value(&doc, root, name);
         const char *value = node ? document_scalar(&doc, node, name) : NULL;
@@ -403,24 +413,11 @@ static char *find_text(const char *path, const char *bytes, size_t length, const
     return copy;
 }
 
-char *json_file_text(const char *path, const char *name)
-{
-    size_t length;
-    if (!file_exists(path)) return NULL;
-    char *bytes = file_read(path, &length);
-    char *text = bytes ? find_text(path, bytes, length, name) : NULL;
-    free(bytes);
-    return text;
-}
-
 bool json_file_has(const char *path, const char *name)
 {
-    size_t length;
     document doc = {0};
-    char *bytes = file_exists(path) ? file_read(path, &length) : NULL;
-    const bool found = bytes && json_parse(&doc, NULL, bytes, length) == CLI_DONE &&
+    const bool found = parse_file(&doc, path, NULL) &&
                        document_value(&doc, yaml_document_get_root_node(&doc.yaml), name);
     yaml_document_delete(&doc.yaml);
-    free(bytes);
     return found;
 }
