@@ -13,29 +13,16 @@
 typedef struct settings {
     ensemble_settings common; /* with dalembert-mpi */
     long long threads;
-    ensemble_shard shard;
+    store_shard shard;
     progress_mode progress;
     bool no_page;
 } settings;
 
-static int parse_shard(void *user, const cli_option *option, const char *text)
-{
-    ensemble_shard *shard = &((settings *)user)->shard;
-    int end = 0;
-    (void)option;
-    if (sscanf(text, "%lld/%lld%n", &shard->number, &shard->count, &end) != 2 || text[end])
-        return cli_fail(CLI_USAGE, "--shard: '%s' is not K/N", text);
-    if (shard->count < 1 || shard->count > 1000000 || shard->number < 1 ||
-        shard->number > shard->count)
-        return cli_fail(CLI_USAGE, "--shard: '%s' is not K/N with 1 <= K <= N <= 1000000", text);
-    return CLI_DONE;
-}
-
 static const cli_option options[] = {
     POOL_THREADS_OPTION(settings, "chunks of members at a time; results do not depend on it"),
-    {"shard", "K/N", NULL,
-     "runs every N-th chunk of 256 members, from the K-th on; 'dalembert merge' joins shards",
-     .parse = parse_shard},
+    STORE_SHARD_OPTION(
+        settings,
+        "runs every N-th chunk of 256 members, from the K-th on; 'dalembert merge' joins shards"),
     PROGRESS_OPTION(settings),
     {"no-page", NULL, NULL, "writes no page", CLI_FLAG(settings, no_page)},
 };

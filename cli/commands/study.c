@@ -21,30 +21,16 @@ static const char default_directory[] = "dalembert-study";
 typedef struct settings {
     const char *study, *output;
     long long threads;
-    study_shard shard;
+    store_shard shard;
     bool show, tables, no_page;
     run_settings run;
 } settings;
 
-static int parse_shard(void *user, const cli_option *option, const char *text)
-{
-    study_shard *shard = &((settings *)user)->shard;
-    const char *slash = strchr(text, '/');
-    char number[32];
-    (void)option;
-    if (!slash || (size_t)(slash - text) >= sizeof number)
-        return cli_fail(CLI_USAGE, "--shard: '%s' is not K/N", text);
-    snprintf(number, sizeof number, "%.*s", (int)(slash - text), text);
-    int status = cli_integer("--shard", slash + 1, 1, 1000000, &shard->count);
-    if (status != CLI_DONE) return status;
-    return cli_integer("--shard", number, 1, shard->count, &shard->number);
-}
-
 static const cli_option options[] = {
     {"output", "DIR", NULL, "writes the files there (dalembert-study)", CLI_TEXT(settings, output)},
     POOL_THREADS_OPTION(settings, "cells at a time; results do not depend on it"),
-    {"shard", "K/N", NULL, "runs every N-th cell, from the K-th on; 'dalembert merge' joins shards",
-     .parse = parse_shard},
+    STORE_SHARD_OPTION(settings,
+                       "runs every N-th cell, from the K-th on; 'dalembert merge' joins shards"),
     {"tables", NULL, NULL, "prints the tables, not a screenful", CLI_FLAG(settings, tables)},
     REPORT_NO_PAGE_OPTION(settings),
     {"show", NULL, NULL, "prints the study file itself and runs nothing", CLI_FLAG(settings, show)},

@@ -8,12 +8,10 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 void ensemble_directory_open(ensemble_directory *dir, const char *path)
@@ -86,23 +84,16 @@ static void put_ensemble(json_writer *w, const ensemble *e)
 int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensemble *e,
                                       const char *state)
 {
-    char *text, method[256], *input = manifest_input(&e->request);
-    size_t length;
-    json_writer w = {.out = cli_memstream_open(&text, &length)};
-    json_open(&w, NULL, JSON_LINES);
-    json_put_text(&w, "dalembert", DAL_VERSION);
-    json_put_source(&w, "input", input);
-    put_ensemble(&w, e);
-    manifest_put_machine(&w);
-    json_put_text(&w, "method", dal_method_name(&e->request.method, method, sizeof method));
-    json_put_text(&w, "status", state);
-    json_close(&w);
-    fputc('\n', w.out);
-    cli_memstream_close(w.out);
-    const int status = file_replace(dir->manifest, text, length, 1);
+    char method[256], *input = manifest_input(&e->request);
+    store_manifest m;
+    store_begin_manifest(&m);
+    json_put_source(&m.json, "input", input);
+    put_ensemble(&m.json, e);
+    manifest_put_machine(&m.json);
+    json_put_text(&m.json, "method", dal_method_name(&e->request.method, method, sizeof method));
+    json_put_text(&m.json, "status", state);
     free(input);
-    free(text);
-    return status;
+    return store_end_manifest(&m, dir->manifest, 1);
 }
 
 bool ensemble_directory_has_ensemble(const char *path)
@@ -221,55 +212,16 @@ char *ensemble_directory_read_messages(const ensemble_directory *dir, int chunk)
     return text;
 }
 
-static int remove_messages(const ensemble_directory *dir)
-{
-    int status = CLI_DONE;
-    DIR *directory = opendir(dir->messages);
-    for (struct dirent *entry; directory && (entry = readdir(directory)) && status == CLI_DONE;) {
-        char *path = cli_join(dir->messages, entry->d_name);
-        if (entry->d_name[0] != '.') status = file_remove(path);
-        free(path);
-    }
-    if (directory) closedir(directory);
-    rmdir(dir->messages);
-    return status;
-}
-
 /* ---- marks --------------------------------------------------------------------------------- */
 
-static char *marks_path(const ensemble_directory *dir, ensemble_shard shard)
-{
-    if (shard.count == 0) return cli_join(dir->path, "chunks");
-    return cli_format("%s/chunks-%lld-of-%lld", dir->path, shard.number, shard.count);
-}
-
-int ensemble_directory_shards(const ensemble_directory *dir, ensemble_shard **shards, int *count)
-{
-    DIR *directory = opendir(dir->path);
-    *shards = NULL;
-    *count = 0;
-    if (!directory) return cli_io("read", dir->path);
-    for (struct dirent *entry; (entry = readdir(directory));) {
-        ensemble_shard shard = {0};
-        int end = 0;
-        sscanf(entry->d_name, "chunks-%lld-of-%lld%n", &shard.number, &shard.count, &end);
-        const bool is_shard =
-            end > 0 && !entry->d_name[end] && shard.number >= 1 && shard.number <= shard.count;
-        if (!is_shard && strcmp(entry->d_name, "chunks") != 0) continue;
-        if (!is_shard) shard = (ensemble_shard){0};
-        *shards = cli_realloc(*shards, ((size_t)*count + 1) * sizeof **shards);
-        (*shards)[(*count)++] = shard;
-    }
-    closedir(directory);
-    return CLI_DONE;
-}
+static const store_shard_file marks_file = {"chunks", "chunks", ""};
 
 /* Adds the chunks that one shard has done. */
-static int read_marks(ensemble_directory *dir, const ensemble *e, ensemble_shard shard)
+static int read_marks(ensemble_directory *dir, const ensemble *e, store_shard shard)
 {
     size_t length;
     const size_t chunks = (size_t)ensemble_chunks(e);
-    char *path = marks_path(dir, shard), *bytes = file_read(path, &length);
+    char *path = store_shard_path(dir->path, marks_file, shard), *bytes = file_read(path, &length);
     int status = bytes ? CLI_DONE : CLI_IO;
     /* A process that was killed before it wrote the word has done nothing. */
     const bool is_new = bytes && length < WORD;
@@ -283,9 +235,14 @@ static int read_marks(ensemble_directory *dir, const ensemble *e, ensemble_shard
     return status;
 }
 
+int ensemble_directory_shards(const ensemble_directory *dir, store_shard **shards, int *count)
+{
+    return store_find_shards(dir->path, marks_file, shards, count);
+}
+
 int ensemble_directory_update(ensemble_directory *dir, const ensemble *e, bool *is_complete)
 {
-    ensemble_shard *shards;
+    store_shard *shards;
     int count, status = ensemble_directory_shards(dir, &shards, &count);
     for (int i = 0; i < count && status == CLI_DONE; i++) status = read_marks(dir, e, shards[i]);
     *is_complete = status == CLI_DONE;
@@ -320,23 +277,9 @@ int ensemble_directory_save(const ensemble_directory *dir, const ensemble *e)
     return status;
 }
 
-static int lock(int descriptor, const char *path, bool waits)
-{
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    int result;
-    do result = fcntl(descriptor, waits ? F_SETLKW : F_SETLK, &whole);
-    while (result != 0 && errno == EINTR);
-    if (result == 0) return CLI_DONE;
-    /* Some network file systems have no locks; there the user must take care. */
-    if (errno != EACCES && errno != EAGAIN) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "'%s': another process is writing to it", path);
-}
-
 int ensemble_directory_lock(ensemble_directory *dir)
 {
-    if (dir->descriptor < 0) dir->descriptor = open(dir->lock, O_RDWR | O_CREAT, 0666);
-    if (dir->descriptor < 0) return cli_io("write", dir->lock);
-    return lock(dir->descriptor, dir->lock, true);
+    return dir->descriptor < 0 ? store_wait(dir->path, &dir->descriptor) : CLI_DONE;
 }
 
 /* ---- tables -------------------------------------------------------------------------------- */
@@ -361,7 +304,7 @@ static int open_tables(ensemble_directory *dir, const ensemble *e, bool is_new)
     return status;
 }
 
-int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, ensemble_shard shard)
+int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, store_shard shard)
 {
     bool is_complete;
     detach(dir);
@@ -371,28 +314,15 @@ int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, ensemb
     if (status != CLI_DONE) return status;
     dir->done = cli_calloc((size_t)ensemble_chunks(e), 1);
     if (shard.count < 0) return ensemble_directory_update(dir, e, &is_complete);
-    dir->marks_path = marks_path(dir, shard);
+    dir->marks_path = store_shard_path(dir->path, marks_file, shard);
     dir->marks = open(dir->marks_path, O_RDWR | O_CREAT, 0666);
     if (dir->marks < 0) return cli_io("write", dir->marks_path);
-    /* A lock is lost where the process closes any descriptor of the file, as reading it does. */
+    /* Reading the file would lose the lock. */
     status = ensemble_directory_update(dir, e, &is_complete);
-    return status == CLI_DONE ? lock(dir->marks, dir->marks_path, false) : status;
+    return status == CLI_DONE ? store_lock(dir->marks, dir->marks_path) : status;
 }
 
 /* ---- beginning ----------------------------------------------------------------------------- */
-
-static int remove_marks(const ensemble_directory *dir)
-{
-    ensemble_shard *shards;
-    int count, status = ensemble_directory_shards(dir, &shards, &count);
-    for (int i = 0; i < count && status == CLI_DONE; i++) {
-        char *path = marks_path(dir, shards[i]);
-        status = file_remove(path);
-        free(path);
-    }
-    free(shards);
-    return status;
-}
 
 /* The manifest is written last, when all else is there. */
 static int begin_new(ensemble_directory *dir, const ensemble *e)
@@ -415,8 +345,7 @@ static int begin_new(ensemble_directory *dir, const ensemble *e)
 }
 
 /* A shard joins an ensemble that is there; that it is the same one, its marks show. */
-static int begin_or_join(ensemble_directory *dir, const ensemble *e, ensemble_shard shard,
-                         bool force)
+static int begin_or_join(ensemble_directory *dir, const ensemble *e, store_shard shard, bool force)
 {
     const bool is_there = ensemble_directory_has_ensemble(dir->path);
     if (!is_there && file_exists(dir->manifest))
@@ -428,12 +357,12 @@ static int begin_or_join(ensemble_directory *dir, const ensemble *e, ensemble_sh
                         "'%s' holds an ensemble: 'dalembert resume %s' continues it, --force "
                         "overwrites it",
                         dir->path, dir->path);
-    int status = is_there ? remove_marks(dir) : CLI_DONE;
-    if (status == CLI_DONE && is_there) status = remove_messages(dir);
+    int status = is_there ? store_remove_shards(dir->path, marks_file) : CLI_DONE;
+    if (status == CLI_DONE && is_there) status = store_remove(dir->messages, 1);
     return status == CLI_DONE ? begin_new(dir, e) : status;
 }
 
-int ensemble_directory_begin(ensemble_directory *dir, const ensemble *e, ensemble_shard shard,
+int ensemble_directory_begin(ensemble_directory *dir, const ensemble *e, store_shard shard,
                              bool force)
 {
     int status = force ? CLI_DONE : file_check_directory(dir->path);

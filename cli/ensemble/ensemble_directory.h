@@ -20,6 +20,7 @@
 #include "ensemble.h"
 #include "io/document.h"
 #include "io/npy_table.h"
+#include "io/store.h"
 
 /* member of ensemble_directory, file: those that say what was done, which a new ensemble removes;
  * and all. */
@@ -33,19 +34,10 @@
 #define ENSEMBLE_FILE_LIST(PATH)                                                                   \
     ENSEMBLE_RESULT_LIST(PATH)                                                                     \
     PATH(system, "system.yaml")                                                                    \
-    PATH(messages, "messages")                                                                     \
-    PATH(lock, "lock")
+    PATH(messages, "messages")
 
 /* The columns of members.npy before what was drawn. */
 enum { MEMBER_STATUS, MEMBER_TIME, MEMBER_DRAWN };
-
-/* Chunks k - 1, k - 1 + n, k - 1 + 2n, .. of n shards; count 0: all. */
-typedef struct ensemble_shard {
-    long long number, count;
-} ensemble_shard;
-
-/* All that is there is read, and nothing marked. */
-#define ENSEMBLE_NO_SHARD ((ensemble_shard){0, -1})
 
 typedef struct ensemble_directory {
     const char *path; /* the caller's */
@@ -56,7 +48,7 @@ typedef struct ensemble_directory {
     npy_table members, final, rows;
     bool has_rows;
     uint64_t fingerprint;
-    ensemble_shard shard;
+    store_shard shard;
     int marks;      /* descriptor of the file of chunks, locked; -1: not open */
     int descriptor; /* of the lock of the directory; -1: not held */
     char *marks_path;
@@ -76,14 +68,15 @@ bool ensemble_directory_has_ensemble(const char *path);
 
 /* Begins a new ensemble, or a shard of one that is there.  What is there is overwritten with force
  * alone. */
-int ensemble_directory_begin(ensemble_directory *dir, const ensemble *e, ensemble_shard shard,
+int ensemble_directory_begin(ensemble_directory *dir, const ensemble *e, store_shard shard,
                              bool force);
 /* Reads the ensemble of a directory, and completes it. */
 int ensemble_directory_read(ensemble_directory *dir, ensemble *e);
-/* Opens the tables and the marks of a shard that was begun, for this process alone. */
-int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, ensemble_shard shard);
+/* Opens the tables and the marks of a shard that was begun, for this process alone; of
+ * STORE_ALL_SHARDS all that is there is read, and nothing marked. */
+int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, store_shard shard);
 /* The shards that were begun in a directory, allocated; one of count 0 where it is not divided. */
-int ensemble_directory_shards(const ensemble_directory *dir, ensemble_shard **shards, int *count);
+int ensemble_directory_shards(const ensemble_directory *dir, store_shard **shards, int *count);
 /* Waits until no other shard begins or ends, and keeps others waiting until dir is closed. */
 int ensemble_directory_lock(ensemble_directory *dir);
 /* Brings to the disk why members of a chunk failed; reads that, allocated, NULL where there is

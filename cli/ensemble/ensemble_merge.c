@@ -22,7 +22,7 @@ typedef struct merge {
 /* Begins the target, or continues one that is among the sources. */
 static int begin_target(merge *m, bool force)
 {
-    const ensemble_shard whole = {0};
+    const store_shard whole = {0};
     for (int i = 0; i < m->sources; i++)
         if (file_is_same(m->source[i].path, m->target.path))
             return ensemble_directory_attach(&m->target, &m->e, whole);
@@ -71,7 +71,7 @@ static int merge_all(merge *m, int threads, bool force)
 {
     int status = ensemble_directory_read(&m->source[0], &m->e);
     for (int i = 0; i < m->sources && status == CLI_DONE; i++)
-        status = ensemble_directory_attach(&m->source[i], &m->e, ENSEMBLE_NO_SHARD);
+        status = ensemble_directory_attach(&m->source[i], &m->e, STORE_ALL_SHARDS);
     if (status == CLI_DONE) status = begin_target(m, force);
     if (status != CLI_DONE) return status;
     m->rows = ensemble_allocate_rows(&m->e);

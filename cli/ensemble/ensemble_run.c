@@ -216,15 +216,10 @@ static int run_chunk(const pool_state *p, const worker *w, int chunk)
     return status == CLI_DONE ? write_messages(p, w, chunk, count) : status;
 }
 
-static bool is_of_shard(ensemble_shard shard, int chunk)
-{
-    return shard.count == 0 || chunk % shard.count == shard.number - 1;
-}
-
 static void run_task(void *user, int chunk)
 {
     pool_state *p = user;
-    if (!is_of_shard(p->dir->shard, chunk) || p->dir->done[chunk] || cli_interrupted()) return;
+    if (!store_shard_has(p->dir->shard, chunk) || p->dir->done[chunk] || cli_interrupted()) return;
     worker_request request = {.pool = p};
     pool_exclude(take_worker, &request);
     if (!request.worker) return;
@@ -261,7 +256,7 @@ static void begin_native(pool_state *p, native_mode mode)
 static void count_members(pool_state *p)
 {
     for (int i = 0; i < ensemble_chunks(p->e); i++) {
-        if (!is_of_shard(p->dir->shard, i)) continue;
+        if (!store_shard_has(p->dir->shard, i)) continue;
         p->members += ensemble_chunk_members(p->e, i);
         if (p->dir->done[i]) p->done += ensemble_chunk_members(p->e, i);
     }
@@ -323,7 +318,7 @@ int ensemble_end(const ensemble *e, ensemble_directory *dir, int status, int thr
 }
 
 /* Runs what is left of a shard. */
-static int resume_shard(ensemble *e, ensemble_directory *dir, ensemble_shard shard,
+static int resume_shard(ensemble *e, ensemble_directory *dir, store_shard shard,
                         const ensemble_run_options *options)
 {
     const char *path = dir->path;
@@ -342,14 +337,14 @@ int ensemble_resume(const char *path, const ensemble_run_options *options)
 {
     ensemble e = ensemble_default();
     ensemble_directory dir;
-    ensemble_shard *shards = NULL;
+    store_shard *shards = NULL;
     int count = 0;
     ensemble_directory_open(&dir, path);
     int status = ensemble_directory_read(&dir, &e);
     if (status == CLI_DONE) status = ensemble_directory_shards(&dir, &shards, &count);
     /* One that was killed before its first mark has no shard. */
     if (status == CLI_DONE && count == 0)
-        status = resume_shard(&e, &dir, (ensemble_shard){0}, options);
+        status = resume_shard(&e, &dir, (store_shard){0}, options);
     for (int i = 0; i < count && status == CLI_DONE; i++)
         status = resume_shard(&e, &dir, shards[i], options);
     status = ensemble_end(&e, &dir, status, options->threads);

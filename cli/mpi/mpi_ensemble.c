@@ -23,7 +23,7 @@ static const cli_command command = {
 static int begin_directory(mpi_request *request, ensemble_settings *s)
 {
     ensemble_directory dir;
-    const ensemble_shard whole = {0};
+    const store_shard whole = {0};
     request->interval = s->interval;
     request->native = s->native;
     int status = mpi_set_output(request, s->output);
@@ -48,7 +48,7 @@ int mpi_ensemble_begin(mpi_request *request, int argc, char **argv)
     return status;
 }
 
-static int open_shard(const mpi_request *request, ensemble_shard shard, ensemble *e,
+static int open_shard(const mpi_request *request, store_shard shard, ensemble *e,
                       ensemble_directory *dir)
 {
     *e = ensemble_default();
@@ -68,13 +68,13 @@ int mpi_ensemble_run(const mpi_request *request)
     const ensemble_run_options how = {1, request->interval, request->native, PROGRESS_OFF};
     ensemble e;
     ensemble_directory dir;
-    int status = open_shard(request, (ensemble_shard){request->rank + 1, request->size}, &e, &dir);
+    int status = open_shard(request, (store_shard){request->rank + 1, request->size}, &e, &dir);
     if (status == CLI_DONE) status = ensemble_run(&e, &dir, &how);
     close_shard(&e, &dir);
     status = mpi_max_status(status);
     if (request->rank > 0 || (status != CLI_DONE && status != CLI_SIGNAL)) return status;
     /* The whole has the marks of all shards now. */
-    int opened = open_shard(request, (ensemble_shard){0}, &e, &dir);
+    int opened = open_shard(request, (store_shard){0}, &e, &dir);
     if (opened == CLI_DONE) opened = ensemble_directory_save(&dir, &e);
     status = opened == CLI_DONE ? ensemble_end(&e, &dir, status, pool_threads()) : opened;
     close_shard(&e, &dir);

@@ -64,7 +64,7 @@ static int begin_directory(const settings *s)
     size_t length;
     study_plan plan = {0};
     study_directory dir;
-    const study_shard whole = {0};
+    const store_shard whole = {0};
     char *text = file_read(s->study, &length);
     if (!text) return CLI_USAGE;
     int status = study_plan_read(&plan, s->study, text, length, NULL);

@@ -19,6 +19,7 @@
 
 #include "dalembert_codegen.h"
 #include "io/file.h"
+#include "io/store.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -64,29 +65,22 @@ void manifest_put_machine(json_writer *w)
 int manifest_write(const run_directory *dir, const run_request *request,
                    const run_position *position, const char *state, const char *message)
 {
-    char *text, method[256];
-    size_t length;
+    char method[256];
+    store_manifest m;
     const dal_run *run = request->run;
-    json_writer w = {.out = cli_memstream_open(&text, &length)};
-    json_open(&w, NULL, JSON_LINES);
-    json_put_text(&w, "dalembert", DAL_VERSION);
-    json_put_source(&w, "input", dir->input);
-    manifest_put_machine(&w);
-    json_put_text(&w, "method", dal_method_name(&request->method, method, sizeof method));
-    json_put_text(&w, "status", state);
-    json_put_number(&w, "t", dal_run_time(run));
-    json_put_integer(&w, "rows", position->row);
-    json_put_integer(&w, "steps", dal_run_steps(run));
-    json_put_integer(&w, "evaluations", dal_run_evaluations(run));
-    json_put_source(&w, "native", dal_run_is_native(run) ? "true" : "false");
-    json_put_number(&w, "seconds", position->seconds);
-    if (message[0]) json_put_text(&w, "message", message);
-    json_close(&w);
-    fputc('\n', w.out);
-    cli_memstream_close(w.out);
-    const int status = file_replace(dir->manifest, text, length, dir->sync);
-    free(text);
-    return status;
+    store_begin_manifest(&m);
+    json_put_source(&m.json, "input", dir->input);
+    manifest_put_machine(&m.json);
+    json_put_text(&m.json, "method", dal_method_name(&request->method, method, sizeof method));
+    json_put_text(&m.json, "status", state);
+    json_put_number(&m.json, "t", dal_run_time(run));
+    json_put_integer(&m.json, "rows", position->row);
+    json_put_integer(&m.json, "steps", dal_run_steps(run));
+    json_put_integer(&m.json, "evaluations", dal_run_evaluations(run));
+    json_put_source(&m.json, "native", dal_run_is_native(run) ? "true" : "false");
+    json_put_number(&m.json, "seconds", position->seconds);
+    if (message[0]) json_put_text(&m.json, "message", message);
+    return store_end_manifest(&m, dir->manifest, dir->sync);
 }
 
 bool manifest_has_ended(const char *path)

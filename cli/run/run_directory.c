@@ -3,8 +3,8 @@
 #include "ui/message.h"
 
 #include "io/file.h"
+#include "io/store.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -46,13 +46,9 @@ bool run_directory_has_run(const run_directory *dir) { return file_exists(dir->m
 
 int run_directory_lock(run_directory *dir, int is_new)
 {
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     if (!is_new && !file_exists(dir->rows))
         return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->rows);
     dir->descriptor = open(dir->rows, O_RDWR | (is_new ? O_CREAT : 0), 0666);
     if (dir->descriptor < 0) return cli_io("write", dir->rows);
-    if (fcntl(dir->descriptor, F_SETLK, &whole) == 0) return CLI_DONE;
-    /* A file system without locks: see ensemble_directory.c. */
-    if (errno != EACCES && errno != EAGAIN) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "'%s': another process is writing to it", dir->rows);
+    return store_lock(dir->descriptor, dir->rows);
 }

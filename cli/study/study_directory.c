@@ -14,13 +14,9 @@
 #include "ui/message.h"
 #include "ui/signals.h"
 
-#include <dirent.h>
-#include <errno.h>
-#include <fcntl.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 void study_directory_open(study_directory *dir, const char *path)
@@ -53,67 +49,32 @@ bool study_directory_is_finished(const study_directory *dir)
 
 /* ---- shards -------------------------------------------------------------------------------- */
 
-static bool shard_has_cell(study_shard shard, int cell)
-{
-    return shard.count <= 0 || cell % shard.count == shard.number - 1;
-}
-
-/* The manifest of a shard, or of the whole; allocated. */
-static char *manifest_path(const study_directory *dir, study_shard shard)
-{
-    if (shard.count == 0) return cli_strdup(dir->manifest);
-    return cli_format("%s/shard-%lld-of-%lld.json", dir->path, shard.number, shard.count);
-}
-
-/* The shards that have manifests in the directory, allocated. */
-static int find_shards(const study_directory *dir, study_shard **shards, int *count)
-{
-    DIR *directory = opendir(dir->path);
-    *shards = NULL;
-    *count = 0;
-    if (!directory) return cli_io("read", dir->path);
-    for (struct dirent *entry; (entry = readdir(directory));) {
-        study_shard shard;
-        int end = 0;
-        sscanf(entry->d_name, "shard-%lld-of-%lld.json%n", &shard.number, &shard.count, &end);
-        if (end == 0 || entry->d_name[end] || shard.number < 1 || shard.number > shard.count)
-            continue;
-        *shards = cli_realloc(*shards, ((size_t)*count + 1) * sizeof **shards);
-        (*shards)[(*count)++] = shard;
-    }
-    closedir(directory);
-    return CLI_DONE;
-}
+static const store_shard_file manifest_file = {"manifest.json", "shard", ".json"};
 
 /* ---- the manifest -------------------------------------------------------------------------- */
 
-static int write_shard_manifest(const study_directory *dir, study_shard shard,
+static int write_shard_manifest(const study_directory *dir, store_shard shard,
                                 const study_plan *plan, const char *state)
 {
-    char *text, *path = manifest_path(dir, shard);
-    size_t length;
+    char *path = store_shard_path(dir->path, manifest_file, shard);
+    store_manifest m;
     int count[STUDY_STATES] = {0};
     double seconds = 0.0;
     for (int i = 0; i < plan->cell_count; i++) {
-        if (!shard_has_cell(shard, i)) continue;
+        if (!store_shard_has(shard, i)) continue;
         count[plan->cells[i].state]++;
         seconds += plan->cells[i].seconds;
     }
-    json_writer w = {.out = cli_memstream_open(&text, &length)};
-    json_open(&w, NULL, JSON_LINES);
-    json_put_text(&w, "dalembert", DAL_VERSION);
-    json_put_text(&w, "study", plan->title);
-    manifest_put_machine(&w);
-    json_put_text(&w, "status", state);
-    json_open(&w, "cells", JSON_ON_ONE_LINE);
-    for (int i = 0; i < STUDY_STATES; i++) json_put_integer(&w, study_state_words[i], count[i]);
-    json_close(&w);
-    json_put_number(&w, "seconds", seconds);
-    json_close(&w);
-    fputc('\n', w.out);
-    cli_memstream_close(w.out);
-    const int status = file_replace(path, text, length, 1);
-    free(text);
+    store_begin_manifest(&m);
+    json_put_text(&m.json, "study", plan->title);
+    manifest_put_machine(&m.json);
+    json_put_text(&m.json, "status", state);
+    json_open(&m.json, "cells", JSON_ON_ONE_LINE);
+    for (int i = 0; i < STUDY_STATES; i++)
+        json_put_integer(&m.json, study_state_words[i], count[i]);
+    json_close(&m.json);
+    json_put_number(&m.json, "seconds", seconds);
+    const int status = store_end_manifest(&m, path, 1);
     free(path);
     return status;
 }
@@ -121,11 +82,10 @@ static int write_shard_manifest(const study_directory *dir, study_shard shard,
 /* state: running, interrupted, failed, unmet, done. */
 static int write_manifest(const study_directory *dir, const study_plan *plan, const char *state)
 {
-    study_shard *shards;
+    store_shard *shards;
     int count;
-    if (dir->shard.count != STUDY_ALL_SHARDS)
-        return write_shard_manifest(dir, dir->shard, plan, state);
-    int status = find_shards(dir, &shards, &count);
+    if (dir->shard.count >= 0) return write_shard_manifest(dir, dir->shard, plan, state);
+    int status = store_find_shards(dir->path, manifest_file, &shards, &count);
     for (int i = 0; i < count && status == CLI_DONE; i++)
         status = write_shard_manifest(dir, shards[i], plan, state);
     free(shards);
@@ -171,43 +131,15 @@ int study_directory_open_results(const study_directory *dir, const study_plan *p
 
 /* ---- beginning ----------------------------------------------------------------------------- */
 
-/* Removes a directory and what is in it, down to a depth that no study exceeds; or a file. */
-static int remove_tree(const char *path, int depth)
-{
-    struct stat info;
-    if (lstat(path, &info) != 0) return errno == ENOENT ? CLI_DONE : cli_io("remove", path);
-    if (!S_ISDIR(info.st_mode)) return file_remove(path);
-    DIR *directory = depth > 0 ? opendir(path) : NULL;
-    if (!directory) return cli_io("remove", path);
-    int status = CLI_DONE;
-    for (struct dirent *entry; status == CLI_DONE && (entry = readdir(directory));) {
-        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
-        char *inner = cli_join(path, entry->d_name);
-        status = remove_tree(inner, depth - 1);
-        free(inner);
-    }
-    closedir(directory);
-    if (status != CLI_DONE) return status;
-    return rmdir(path) == 0 ? CLI_DONE : cli_io("remove", path);
-}
-
 /* Removes the study that is there, study.yaml first. */
 static int clear(const study_directory *dir)
 {
-    study_shard *shards = NULL;
-    int status = CLI_DONE, count = 0;
+    int status = CLI_DONE;
 #define REMOVE(name, file)                                                                         \
-    if (status == CLI_DONE) status = remove_tree(dir->name, 2);
+    if (status == CLI_DONE) status = store_remove(dir->name, 2);
     STUDY_FILE_LIST(REMOVE)
 #undef REMOVE
-    if (status == CLI_DONE) status = find_shards(dir, &shards, &count);
-    for (int i = 0; i < count && status == CLI_DONE; i++) {
-        char *path = manifest_path(dir, shards[i]);
-        status = file_remove(path);
-        free(path);
-    }
-    free(shards);
-    return status;
+    return status == CLI_DONE ? store_remove_shards(dir->path, manifest_file) : status;
 }
 
 /* A copy that is there already, of a study that the shard joins, must be the same. */
@@ -262,30 +194,19 @@ static bool is_incomplete(const study_directory *dir)
     return has_title;
 }
 
-/* Shards that begin in one directory at the same time come one after the other: the descriptor of
- * a locked file, -1 where that cannot be had (some network file systems have no locks). */
-static int lock(const study_directory *dir)
-{
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    char *path = cli_join(dir->path, "lock");
-    const int descriptor = open(path, O_RDWR | O_CREAT, 0666);
-    if (descriptor >= 0) fcntl(descriptor, F_SETLKW, &whole);
-    free(path);
-    return descriptor;
-}
-
 int study_directory_begin(study_directory *dir, study_plan *plan, const char *text, size_t length,
-                          study_shard shard, int force)
+                          store_shard shard, int force)
 {
     const bool is_own = file_owns_directory(dir->path);
-    int status = force ? CLI_DONE : file_check_directory(dir->path);
+    int descriptor = -1, status = force ? CLI_DONE : file_check_directory(dir->path);
     if (status == CLI_DONE) status = cli_directory(dir->path);
+    /* Shards that begin in one directory at the same time come one after the other. */
+    if (status == CLI_DONE) status = store_wait(dir->path, &descriptor);
     if (status != CLI_DONE) return status;
     plan->runs = dir->runs;
     dir->shard = shard;
     for (int i = 0; i < plan->cell_count; i++)
-        plan->cells[i].other_shard = !shard_has_cell(shard, i);
-    const int locked = lock(dir);
+        plan->cells[i].other_shard = !store_shard_has(shard, i);
     if (is_incomplete(dir) || (force && is_own))
         status = clear(dir);
     else if (!force)
@@ -296,7 +217,7 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
     if (status == CLI_DONE) status = file_replace(dir->study, text, length, 1);
     if (status == CLI_DONE)
         status = study_directory_open_results(dir, plan, text, length, &plan->results);
-    if (locked >= 0) close(locked);
+    close(descriptor);
     return status;
 }
 
@@ -313,14 +234,14 @@ int study_directory_read(study_directory *dir, study_plan *plan)
     if (status == CLI_DONE)
         status = study_directory_open_results(dir, plan, dir->text, dir->length, &plan->results);
     if (status != CLI_DONE || file_exists(dir->manifest)) return status;
-    study_shard *shards;
+    store_shard *shards;
     int count;
-    dir->shard = (study_shard){.count = STUDY_ALL_SHARDS};
-    status = find_shards(dir, &shards, &count);
+    dir->shard = STORE_ALL_SHARDS;
+    status = store_find_shards(dir->path, manifest_file, &shards, &count);
     for (int i = 0; i < plan->cell_count; i++) {
         plan->cells[i].other_shard = 1;
         for (int k = 0; k < count; k++)
-            if (shard_has_cell(shards[k], i)) plan->cells[i].other_shard = 0;
+            if (store_shard_has(shards[k], i)) plan->cells[i].other_shard = 0;
     }
     free(shards);
     return status;

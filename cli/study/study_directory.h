@@ -13,6 +13,7 @@
 #ifndef DAL_CLI_STUDY_DIRECTORY_H
 #define DAL_CLI_STUDY_DIRECTORY_H
 
+#include "io/store.h"
 #include "study_plan.h"
 
 #include <stdbool.h>
@@ -31,14 +32,6 @@
     PATH(quantities, "quantities.csv")                                                             \
     PATH(expectations, "expectations.csv")
 
-/* Cells k, k + n, k + 2n, ... of n shards; count 0: all cells, STUDY_ALL_SHARDS: the cells of all
- * shards whose manifests are in the directory. */
-enum { STUDY_ALL_SHARDS = -1 };
-
-typedef struct study_shard {
-    long long number, count;
-} study_shard;
-
 typedef struct study_directory {
     const char *path; /* the caller's */
 #define PATH_MEMBER(name, file) char *name;
@@ -46,7 +39,7 @@ typedef struct study_directory {
 #undef PATH_MEMBER
     char *text; /* of study.yaml, as it was read */
     size_t length;
-    study_shard shard; /* what of the study is run */
+    store_shard shard; /* what of the study is run; STORE_ALL_SHARDS: those that are there */
     int writer;        /* which of several processes this is that run it, from 1; 0: the only one */
 } study_directory;
 
@@ -71,7 +64,7 @@ bool study_directory_is_finished(const study_directory *dir);
  * written over with force alone; a shard of the same study joins it.  The cells of the plan then
  * have their place there. */
 int study_directory_begin(study_directory *dir, study_plan *plan, const char *text, size_t length,
-                          study_shard shard, int force);
+                          store_shard shard, int force);
 /* Reads the plan of the study, or of those of its shards that are there. */
 int study_directory_read(study_directory *dir, study_plan *plan);
 /* Reads the results of cells without rows in place of those before, *results being NULL where all

@@ -171,7 +171,7 @@ static int read_results(merge *m, const study_directory *dir, study_results **re
 /* A target that is one of the sources is complete but for the runs of the others. */
 static int begin_target(merge *m, int force)
 {
-    const study_shard whole = {0};
+    const store_shard whole = {0};
     for (int i = 0; i < m->sources; i++) {
         if (!file_is_same(m->source[i].path, m->target.path)) continue;
         m->plan.runs = m->target.runs;

@@ -12,6 +12,7 @@
 
 #include "io/endian.h"
 #include "io/file.h"
+#include "io/store.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -264,13 +265,11 @@ static unsigned char *make_record(int number, const study_cell *cell)
  * that is not whole. */
 static int take_file(int descriptor, const results_file *f)
 {
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     struct stat info;
-    /* A file system without locks: see ensemble_directory.c. */
-    const bool is_taken =
-        fcntl(descriptor, F_SETLK, &whole) != 0 && (errno == EACCES || errno == EAGAIN);
+    const int status = store_lock(descriptor, f->path);
+    if (status != CLI_DONE) return status;
     if (fstat(descriptor, &info) != 0) return cli_io("read", f->path);
-    if (is_taken || (size_t)info.st_size != f->size)
+    if ((size_t)info.st_size != f->size)
         return cli_fail(CLI_USAGE, "'%s': another process is writing to it", f->path);
     return ftruncate(descriptor, (off_t)f->valid) == 0 ? CLI_DONE : cli_io("write", f->path);
 }

@@ -1,0 +1,152 @@
+/* store.c - what the directories of runs, studies and ensembles have in common. */
+#include "store.h"
+#include "dalembert.h"
+#include "file.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- locks --------------------------------------------------------------------------------- */
+
+/* Some network file systems have no locks. */
+static bool lock_file(int descriptor, int command)
+{
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    int result;
+    do result = fcntl(descriptor, command, &whole);
+    while (result != 0 && errno == EINTR);
+    return result == 0 || (errno != EACCES && errno != EAGAIN);
+}
+
+int store_lock(int descriptor, const char *path)
+{
+    if (lock_file(descriptor, F_SETLK)) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "'%s': another process is writing to it", path);
+}
+
+int store_wait(const char *directory, int *descriptor)
+{
+    char *path = cli_join(directory, "lock");
+    *descriptor = open(path, O_RDWR | O_CREAT, 0666);
+    const int status = *descriptor < 0 ? cli_io("write", path) : CLI_DONE;
+    if (status == CLI_DONE) lock_file(*descriptor, F_SETLKW);
+    free(path);
+    return status;
+}
+
+/* ---- shards -------------------------------------------------------------------------------- */
+
+enum { MAX_SHARDS = 1000000 };
+
+bool store_shard_has(store_shard shard, int item)
+{
+    return shard.count <= 0 || item % shard.count == shard.number - 1;
+}
+
+static bool is_shard(store_shard shard) { return shard.number >= 1 && shard.number <= shard.count; }
+
+int store_parse_shard(void *settings, const cli_option *option, const char *text)
+{
+    store_shard *shard = (store_shard *)(void *)((char *)settings + option->offset);
+    int end = 0;
+    if (sscanf(text, "%lld/%lld%n", &shard->number, &shard->count, &end) != 2 || text[end])
+        return cli_fail(CLI_USAGE, "--%s: '%s' is not K/N", option->name, text);
+    if (is_shard(*shard) && shard->count <= MAX_SHARDS) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "--%s: '%s' is not K/N with 1 <= K <= N <= %d", option->name, text,
+                    MAX_SHARDS);
+}
+
+char *store_shard_path(const char *directory, store_shard_file file, store_shard shard)
+{
+    if (shard.count == 0) return cli_join(directory, file.whole);
+    return cli_format("%s/%s-%lld-of-%lld%s", directory, file.stem, shard.number, shard.count,
+                      file.ending);
+}
+
+/* Whether a file has the name of a shard's. */
+static bool read_name(const char *name, store_shard_file file, store_shard *shard)
+{
+    const size_t stem = strlen(file.stem);
+    int end = 0;
+    *shard = (store_shard){0, 0};
+    if (strcmp(name, file.whole) == 0) return true;
+    if (strncmp(name, file.stem, stem) != 0) return false;
+    sscanf(name + stem, "-%lld-of-%lld%n", &shard->number, &shard->count, &end);
+    return end > 0 && strcmp(name + stem + end, file.ending) == 0 && is_shard(*shard);
+}
+
+int store_find_shards(const char *path, store_shard_file file, store_shard **shards, int *count)
+{
+    DIR *directory = opendir(path);
+    store_shard shard;
+    *shards = NULL;
+    *count = 0;
+    if (!directory) return cli_io("read", path);
+    for (struct dirent *entry; (entry = readdir(directory));) {
+        if (!read_name(entry->d_name, file, &shard)) continue;
+        *shards = cli_realloc(*shards, ((size_t)*count + 1) * sizeof **shards);
+        (*shards)[(*count)++] = shard;
+    }
+    closedir(directory);
+    return CLI_DONE;
+}
+
+int store_remove_shards(const char *directory, store_shard_file file)
+{
+    store_shard *shards;
+    int count, status = store_find_shards(directory, file, &shards, &count);
+    for (int i = 0; i < count && status == CLI_DONE; i++) {
+        char *path = store_shard_path(directory, file, shards[i]);
+        status = file_remove(path);
+        free(path);
+    }
+    free(shards);
+    return status;
+}
+
+/* ---- manifests ----------------------------------------------------------------------------- */
+
+void store_begin_manifest(store_manifest *manifest)
+{
+    manifest->json = (json_writer){.out = cli_memstream_open(&manifest->text, &manifest->length)};
+    json_open(&manifest->json, NULL, JSON_LINES);
+    json_put_text(&manifest->json, "dalembert", DAL_VERSION);
+}
+
+int store_end_manifest(store_manifest *manifest, const char *path, int sync)
+{
+    json_end_results(&manifest->json);
+    cli_memstream_close(manifest->json.out);
+    const int status = file_replace(path, manifest->text, manifest->length, sync);
+    free(manifest->text);
+    return status;
+}
+
+/* ---- removal ------------------------------------------------------------------------------- */
+
+int store_remove(const char *path, int depth)
+{
+    struct stat info;
+    if (lstat(path, &info) != 0) return errno == ENOENT ? CLI_DONE : cli_io("remove", path);
+    if (!S_ISDIR(info.st_mode) || depth == 0) return file_remove(path);
+    DIR *directory = opendir(path);
+    if (!directory) return cli_io("remove", path);
+    int status = CLI_DONE;
+    for (struct dirent *entry; status == CLI_DONE && (entry = readdir(directory));) {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        char *inner = cli_join(path, entry->d_name);
+        status = store_remove(inner, depth - 1);
+        free(inner);
+    }
+    closedir(directory);
+    if (status != CLI_DONE) return status;
+    return rmdir(path) == 0 ? CLI_DONE : cli_io("remove", path);
+}

@@ -1,0 +1,73 @@
+/* store.h - what the directories of runs, studies and ensembles have in common: locks, shards,
+ * manifests, removal. */
+#ifndef DAL_CLI_STORE_H
+#define DAL_CLI_STORE_H
+
+#include "json.h"
+#include "ui/options.h"
+
+#include <stdbool.h>
+
+/* ---- locks --------------------------------------------------------------------------------- */
+
+/* Both return CLI_DONE, also where a network file system has no locks, so that the user must take
+ * care; or print and return an exit status. */
+
+/* Locks a file for this process alone, CLI_USAGE where another one has it.  The lock is lost where
+ * the process closes any descriptor of the file. */
+int store_lock(int descriptor, const char *path);
+/* Waits for the file DIR/lock, and locks it until *descriptor is closed; -1: it was not opened. */
+int store_wait(const char *directory, int *descriptor);
+
+/* ---- shards -------------------------------------------------------------------------------- */
+
+/* Items k - 1, k - 1 + n, k - 1 + 2n, .. of n shards; count 0: all. */
+typedef struct store_shard {
+    long long number, count;
+} store_shard;
+
+/* What a reader is that runs none of the items: all the shards of a directory. */
+#define STORE_ALL_SHARDS ((store_shard){0, -1})
+
+bool store_shard_has(store_shard shard, int item);
+/* The option --shard K/N, which stores a store_shard. */
+cli_parser store_parse_shard;
+#define STORE_SHARD_OPTION(settings, help)                                                         \
+    {                                                                                              \
+        "shard", "K/N", NULL, help, CLI_ROW(store_parse_shard, settings, shard)                    \
+    }
+
+/* The file that a shard has in its directory: whole, or STEM-K-of-N and an ending. */
+typedef struct store_shard_file {
+    const char *whole, *stem, *ending;
+} store_shard_file;
+
+/* Its path, allocated. */
+char *store_shard_path(const char *directory, store_shard_file file, store_shard shard);
+/* The shards that have their files there, allocated, in no order; or prints and returns CLI_IO. */
+int store_find_shards(const char *directory, store_shard_file file, store_shard **shards,
+                      int *count);
+/* Removes their files. */
+int store_remove_shards(const char *directory, store_shard_file file);
+
+/* ---- manifests ----------------------------------------------------------------------------- */
+
+/* A manifest that is written: an object that begins with the version of the program. */
+typedef struct store_manifest {
+    json_writer json;
+    char *text;
+    size_t length;
+} store_manifest;
+
+/* Ends and frees what it began, and replaces the file as a whole.  Returns CLI_DONE, or prints and
+ * returns CLI_IO. */
+void store_begin_manifest(store_manifest *manifest);
+int store_end_manifest(store_manifest *manifest, const char *path, int sync);
+
+/* ---- removal ------------------------------------------------------------------------------- */
+
+/* Removes a file, or a directory with what is in it, down to that depth; either may be absent.
+ * Returns CLI_DONE, or prints and returns CLI_IO. */
+int store_remove(const char *path, int depth);
+
+#endif
