@@ -1,4 +1,4 @@
-/* scaled.h - states in the units of a scaled system and of the user; evaluators of a run's system. */
+/* scaled.h - states in units of a scaled system or the user; evaluators of a run's system. */
 #ifndef DAL_ANALYSIS_SCALED_H
 #define DAL_ANALYSIS_SCALED_H
 

@@ -13,7 +13,7 @@
 #include "load/tables.h"
 #include "core/buffer.h"
 #include "load/file.h"
-#include "model/tables.h"
+#include "model/functions.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,15 +1,33 @@
-/* ranks.c - the ranks that decide whether the equations of motion have one solution at a point.
+/* ranks.c - ranks at points: whether the equations of motion have one solution, and the growth
+ * vector of the velocities that constraints allow.
  *
  *     W v' - A^T h = b,   A v' = -c
  *
- * have one where A has rank m and W is regular on ker A, that is Z W Z^T of rank n - m for rows Z
- * that span ker A.  Entries are compared in the given units. */
+ * have one solution where A has rank m and W is regular on ker A, that is Z W Z^T of rank n - m for
+ * rows Z that span ker A.  Entries are compared in the given units.
+ *
+ * D = A(q) v allows the fields X_1, .., X_(n-m) that span ker A.  With the bracket of fields
+ *
+ *     [X, Y]_j = sum_i X_i dY_j/dq_i - Y_i dX_j/dq_i
+ *     V_1 = span X_i,    V_(k+1) = V_k + span [X_i, V_k]
+ *
+ * the ranks of V_1, V_2, .. at generic points are the growth vector.  Where V_2 = V_1 the
+ * constraints are integrable (Frobenius), where a rank is n every q can be reached (Chow).
+ * D = A v + a and D of t are the same on (t, q), with the column a.  Brackets are exact, as
+ * formulas; ranks are numerical, at points about the start.
+ *
+ * R. Montgomery, A Tour of Subriemannian Geometries, AMS 2002, ch. 2. */
 #include "core/vectors.h"
 #include "dalembert.h"
+#include "expr/derivative.h"
+#include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/model.h"
+#include "model/motion.h"
 #include <math.h>
 #include <string.h>
+
+/* ---- of A, and of W on ker A ---- */
 
 /* Pivots below this part of the largest leave F less than six digits. */
 static const double rank_tolerance = 1e-10;
@@ -140,4 +158,245 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
         return dal__fail(error, DAL_NOT_FINITE, "A or W is not finite at t = %.17g", at->t);
     find_ranks(&k, out);
     return DAL_OK;
+}
+
+/* ---- the growth vector ---- */
+
+enum { POINTS = 3, MAX_NODES = 400000 };
+/* Nodes passed over by derivatives: the brackets of a large system are not all followed. */
+#define MAX_WORK 4e9
+/* Components of fields below this are rounding; every X_i has a component 1 in the units given. */
+#define ROUNDING 1e-9
+
+typedef struct distribution {
+    dal_model *model;
+    int dim, fixed;     /* coordinates: of q, or of t and q; fixed: 1 where the first one is t */
+    const int *symbol;  /* [dim] of them */
+    const double *unit; /* [dim] of them */
+    dal__node *field;   /* [POINTS*dim*dim] the fields so far, [dim] each */
+    double *weight;     /* [POINTS*dim + 1] by which they are multiplied */
+    int fields, first;  /* how many; how many of them are X_i */
+    double *point;      /* [POINTS*symbols] */
+    int points;
+    double *basis; /* [POINTS*dim*dim] orthonormal, of the fields at each point */
+    int rank[POINTS];
+    double work;
+} distribution;
+
+/* ---- the fields at the points ---- */
+
+/* Adds what of x[dim] is orthogonal to the basis at a point; false: nothing is. */
+static bool extend_basis(distribution *d, int point, double *x)
+{
+    double *basis = d->basis + (size_t)(point * d->dim) * (size_t)d->dim;
+    double size = 1.0, left = 0.0;
+    if (d->rank[point] == d->dim) return false;
+    for (int j = 0; j < d->dim; j++) size = fmax(size, fabs(x[j]));
+    for (int k = 0; k < 2 * d->rank[point]; k++) { /* twice, against rounding */
+        const double *b = basis + k % d->rank[point] * d->dim;
+        double product = 0.0;
+        for (int j = 0; j < d->dim; j++) product += b[j] * x[j];
+        for (int j = 0; j < d->dim; j++) x[j] -= product * b[j];
+    }
+    for (int j = 0; j < d->dim; j++) left += x[j] * x[j];
+    left = sqrt(left);
+    if (!(left > ROUNDING * size) || isinf(left)) return false;
+    for (int j = 0; j < d->dim; j++) basis[d->rank[point] * d->dim + j] = x[j] / left;
+    d->rank[point]++;
+    return true;
+}
+
+/* Adds the field behind the others where it is independent of them at a point. */
+static void add_field(distribution *d, double weight, double *x)
+{
+    dal__graph *graph = d->model->equations.graph;
+    const dal__node *field = d->field + d->fields * d->dim;
+    bool is_new = false, is_zero = true;
+    for (int j = 0; j < d->dim; j++) is_zero &= dal__is_number(graph, field[j], 0.0);
+    for (int k = 0; k < d->points && !is_zero; k++) {
+        const double *at = d->point + k * d->model->equations.symbols;
+        for (int j = 0; j < d->dim; j++)
+            x[j] = dal__is_number(graph, field[j], 0.0)
+                       ? 0.0
+                       : dal__evaluate(graph, field[j], at) * weight / d->unit[j];
+        is_new |= extend_basis(d, k, x);
+    }
+    d->weight[d->fields] = weight;
+    d->fields += is_new;
+}
+
+static int max_rank(const distribution *d)
+{
+    int max = 0;
+    for (int k = 0; k < d->points; k++)
+        if (d->rank[k] > max) max = d->rank[k];
+    return max;
+}
+
+/* ---- the fields X_i ---- */
+
+/* X_c for each column c that is no pivot: 1 there, and -A_p^-1 A_c in the pivots p.  Pivots are
+ * chosen by elimination at the first point; t is none. */
+static dal_status make_fields(distribution *d, const dal__node *A, double *x)
+{
+    dal__equations *e = &d->model->equations;
+    const int m = e->m, dim = d->dim;
+    bool *pivot = dal__model_allocate(d->model, (size_t)dim, sizeof *pivot);
+    dal__node *matrix = dal__model_nodes(d->model, m * m, 0);
+    dal__node *side = dal__model_nodes(d->model, 2 * m, 0), *solution = side + m;
+    if (d->model->out_of_memory) return DAL_MEMORY;
+    for (int i = 0; i < m * dim; i++)
+        x[i] = dal__evaluate(e->graph, A[i], d->point) * d->unit[i % dim];
+    for (int a = 0; a < m; a++) {
+        const double size = dal__max_abs(x + a * dim, (size_t)dim); /* in the units */
+        for (int j = 0; j < dim && size > 0.0; j++) x[a * dim + j] /= size;
+    }
+    for (int a = 0; a < m; a++) {
+        const double *row = x + a * dim;
+        int best = d->fixed;
+        for (int j = d->fixed; j < dim; j++)
+            if (fabs(row[j]) > fabs(row[best])) best = j;
+        if (!(fabs(row[best]) > ROUNDING)) return DAL_SINGULAR;
+        pivot[best] = true;
+        for (int b = a + 1; b < m; b++) {
+            const double factor = x[b * dim + best] / row[best];
+            for (int j = 0; j < dim; j++) x[b * dim + j] -= factor * row[j];
+        }
+    }
+    for (int j = 0, p = 0; j < dim; j++) {
+        if (!pivot[j]) continue;
+        for (int a = 0; a < m; a++) matrix[a * m + p] = A[a * dim + j];
+        p++;
+    }
+    for (int c = 0; c < dim; c++) {
+        if (pivot[c]) continue;
+        dal__node *field = d->field + d->fields * dim;
+        for (int a = 0; a < m; a++) side[a] = dal__node_neg(e->graph, A[a * dim + c]);
+        DAL_TRY(dal__solve_vector(d->model, m, matrix, side, solution));
+        for (int j = 0, p = 0; j < dim; j++)
+            field[j] = pivot[j] ? solution[p++] : dal__number(e->graph, j == c ? 1.0 : 0.0);
+        add_field(d, d->unit[c], x);
+    }
+    d->first = d->fields;
+    return e->graph->status;
+}
+
+/* ---- brackets ---- */
+
+/* The derivative of f along a field. */
+static dal__node along(distribution *d, dal__node f, const dal__node *field)
+{
+    dal__graph *graph = d->model->equations.graph;
+    if (dal__inspect(graph, f).op == DAL__NUMBER) return dal__number(graph, 0.0);
+    d->work += graph->count;
+    return dal__tangent(graph, f, d->symbol, d->dim, field);
+}
+
+/* Adds the brackets of the X_i with the fields from begin on; false: formulas have become too
+ * large. */
+static bool add_level(distribution *d, int begin, double *x)
+{
+    dal__graph *graph = d->model->equations.graph;
+    const int end = d->fields;
+    for (int k = begin; k < end; k++)
+        for (int i = 0; i < (begin == 0 ? k : d->first); i++) {
+            const dal__node *X = d->field + i * d->dim, *Y = d->field + k * d->dim;
+            dal__node *out = d->field + d->fields * d->dim;
+            if (max_rank(d) == d->dim) return true;
+            if (graph->count > MAX_NODES || d->work > MAX_WORK) return false;
+            for (int j = 0; j < d->dim; j++)
+                out[j] = dal__node_sub(graph, along(d, Y[j], X), along(d, X[j], Y));
+            add_field(d, d->weight[i] * d->weight[k], x);
+        }
+    return true;
+}
+
+/* ---- the whole ---- */
+
+/* D at v = 0. */
+static dal__node at_rest(const dal__equations *e, dal__node D, const dal__node *zeros)
+{
+    return dal__substitute(e->graph, D, e->symbol + e->v, e->n, zeros);
+}
+
+/* A[m*dim] of a distribution, behind it n zeros, the first column for t; and irregular points about
+ * the start, value[symbols], at which it is finite. */
+static dal_status make_matrix(distribution *d, dal__node *A, const double *value,
+                              const double *units, dal_error *error)
+{
+    const double golden = 0.6180339887498949;
+    const dal__equations *e = &d->model->equations;
+    const dal__node *zeros = A + e->m * (1 + e->n);
+    bool has_t = false;
+    for (int i = 0; i < e->m * e->n; i++) {
+        if (dal__depends(e->graph, e->A[i], e->v, e->v + e->n))
+            return dal__fail(error, DAL_UNSUPPORTED, "constraint %d is not linear in v",
+                             i / e->n + 1);
+        has_t |= dal__depends(e->graph, e->A[i], e->t, e->t + 1);
+    }
+    for (int a = 0; a < e->m; a++)
+        has_t |= !dal__is_number(e->graph, at_rest(e, e->constraint[a], zeros), 0.0);
+    d->fixed = has_t;
+    d->dim = e->n + has_t;
+    d->symbol = e->symbol + (has_t ? e->t : e->q);
+    d->unit = units + !has_t;
+    for (int a = 0; a < e->m; a++) {
+        if (has_t) A[a * d->dim] = at_rest(e, e->constraint[a], zeros);
+        memcpy(A + a * d->dim + has_t, e->A + a * e->n, (size_t)e->n * sizeof *A);
+    }
+    for (int try = 0; try < 8 * POINTS && d->points < POINTS; try++) {
+        double *x = d->point + d->points * e->symbols, sum = 0.0;
+        memcpy(x, value, (size_t)e->symbols * sizeof *x);
+        for (int i = 0; i <= e->n; i++)
+            x[e->t + i] += units[i] * (fmod((try * e->symbols + e->t + i + 1) * golden, 1.0) - 0.5);
+        for (int i = 0; i < e->m * d->dim; i++) sum += dal__evaluate(e->graph, A[i], x);
+        d->points += isfinite(sum);
+    }
+    if (d->points == 0)
+        return dal__fail(error, DAL_NOT_FINITE, "A has no finite values about the start");
+    return e->graph->status;
+}
+
+dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,
+                            const double *units, dal_growth *out, dal_error *error)
+{
+    DAL_REQUIRE(model, error);
+    DAL_REQUIRE(out, error);
+    DAL_REQUIRE(model->made, error);
+    DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
+    const dal__equations *e = &model->equations;
+    distribution d = {.model = model};
+    *out = (dal_growth){.levels = 0};
+    if (e->m == 0) return dal__fail(error, DAL_UNSUPPORTED, "the system has no constraints");
+    const size_t dim = 1 + (size_t)e->n, symbols = (size_t)e->symbols;
+    dal__node *A =
+        dal__model_nodes(model, (int)((size_t)e->m * dim) + e->n, dal__number(e->graph, 0.0));
+    double *value = dal__model_allocate(model, symbols, sizeof *value);
+    double *x = dal__model_allocate(model, (size_t)e->m * dim, sizeof *x);
+    double *ones = dal__model_allocate(model, dim, sizeof *ones);
+    if (model->out_of_memory) return DAL_MEMORY;
+    for (size_t i = 0; i < dim; i++) ones[i] = 1.0;
+    memcpy(value, e->value, symbols * sizeof *value);
+    DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_NOT_FINITE, value,
+                                error));
+    d.field = dal__model_nodes(model, (int)((POINTS * dim + 1) * dim), 0);
+    d.weight = dal__model_allocate(model, POINTS * dim + 1, sizeof *d.weight);
+    d.basis = dal__model_allocate(model, POINTS * dim * dim, sizeof *d.basis);
+    d.point = dal__model_allocate(model, POINTS * symbols, sizeof *d.point);
+    if (model->out_of_memory) return DAL_MEMORY;
+    DAL_TRY(make_matrix(&d, A, value, units ? units : ones, error));
+    const dal_status status = make_fields(&d, A, x);
+    if (status == DAL_SINGULAR)
+        return dal__fail(error, status, "the constraints are dependent about the start");
+    DAL_TRY(status);
+    out->dimension = d.dim;
+    out->rank[out->levels++] = max_rank(&d);
+    for (int begin = 0; out->levels < DAL_GROWTH_LEVELS && !out->is_complete;) {
+        const int end = d.fields, last = out->rank[out->levels - 1];
+        if (!add_level(&d, begin, x)) break;
+        begin = end;
+        if (max_rank(&d) > last) out->rank[out->levels++] = max_rank(&d);
+        out->is_complete = max_rank(&d) == last || max_rank(&d) == d.dim;
+    }
+    return e->graph->status;
 }

@@ -42,7 +42,7 @@ fails_openly() {
             fault="$fault $k:file"
         elif [ $status -eq "$well" ]; then
             same_files well other >/dev/null || fault="$fault $k:other"
-        elif [ $status -ne 2 -a $status -ne 4 ] || ! grep -q '^dalembert: ' err; then
+        elif { [ $status -ne 2 ] && [ $status -ne 4 ]; } || ! grep -q '^dalembert: ' err; then
             fault="$fault $k:$status"
         fi
     done
