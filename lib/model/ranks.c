@@ -235,13 +235,20 @@ static int max_rank(const distribution *d)
 
 /* ---- the fields X_i ---- */
 
+static dal__node times(dal__graph *graph, dal__node f, double factor)
+{
+    return dal__node_mul(graph, dal__number(graph, factor), f);
+}
+
 /* X_c for each column c that is no pivot: 1 there, and -A_p^-1 A_c in the pivots p.  Pivots are
- * chosen by elimination at the first point; t is none. */
+ * chosen by elimination at the first point; t is none.  A_p is solved in units in which the largest
+ * entry of each row is about 1, since its rows and columns have units of their own. */
 static dal_status make_fields(distribution *d, const dal__node *A, double *x)
 {
     dal__equations *e = &d->model->equations;
     const int m = e->m, dim = d->dim;
     bool *pivot = dal__model_allocate(d->model, (size_t)dim, sizeof *pivot);
+    double *per_row = dal__model_allocate(d->model, (size_t)m, sizeof *per_row);
     dal__node *matrix = dal__model_nodes(d->model, m * m, 0);
     dal__node *side = dal__model_nodes(d->model, 2 * m, 0), *solution = side + m;
     if (d->model->out_of_memory) return DAL_MEMORY;
@@ -250,6 +257,7 @@ static dal_status make_fields(distribution *d, const dal__node *A, double *x)
     for (int a = 0; a < m; a++) {
         const double size = dal__max_abs(x + a * dim, (size_t)dim); /* in the units */
         for (int j = 0; j < dim && size > 0.0; j++) x[a * dim + j] /= size;
+        per_row[a] = size > 0.0 && isfinite(size) ? ldexp(1.0, -ilogb(size)) : 1.0;
     }
     for (int a = 0; a < m; a++) {
         const double *row = x + a * dim;
@@ -265,16 +273,18 @@ static dal_status make_fields(distribution *d, const dal__node *A, double *x)
     }
     for (int j = 0, p = 0; j < dim; j++) {
         if (!pivot[j]) continue;
-        for (int a = 0; a < m; a++) matrix[a * m + p] = A[a * dim + j];
+        for (int a = 0; a < m; a++)
+            matrix[a * m + p] = times(e->graph, A[a * dim + j], per_row[a] * d->unit[j]);
         p++;
     }
     for (int c = 0; c < dim; c++) {
         if (pivot[c]) continue;
         dal__node *field = d->field + d->fields * dim;
-        for (int a = 0; a < m; a++) side[a] = dal__node_neg(e->graph, A[a * dim + c]);
+        for (int a = 0; a < m; a++) side[a] = times(e->graph, A[a * dim + c], -per_row[a]);
         DAL_TRY(dal__solve_vector(d->model, m, matrix, side, solution));
         for (int j = 0, p = 0; j < dim; j++)
-            field[j] = pivot[j] ? solution[p++] : dal__number(e->graph, j == c ? 1.0 : 0.0);
+            field[j] = pivot[j] ? times(e->graph, solution[p++], d->unit[j])
+                                : dal__number(e->graph, j == c ? 1.0 : 0.0);
         add_field(d, d->unit[c], x);
     }
     d->first = d->fields;
