@@ -46,7 +46,7 @@ fails_openly() {
             fault="$fault $k:$status"
         fi
     done
-    holds "status $well, $total calls, at$fault: $*" [ -z "$fault" -a "$total" -gt 0 -a "$well" -eq 0 ]
+    expect "status $well, $total calls, at$fault: $*" [ -z "$fault" -a "$total" -gt 0 -a "$well" -eq 0 ]
 }
 
 fails_calls() { shared_object fail_call && without_call 0 --version && [ ! -s err ]; }

@@ -223,7 +223,7 @@ try 0 resume whole
 cp -r whole one-line
 tr '\n' ' ' <whole/manifest.json >one-line/manifest.json # the same JSON in another layout
 try 0 resume one-line --no-page
-holds "other bytes after a second end" same_ensemble whole other
+expect "other bytes after a second end" same_ensemble whole other
 try 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --output whole
 if needs 32 "no compiler for signals at given places" raises; then
     RAISE_WRITE=1

@@ -8,27 +8,27 @@ sleigh="chaplygin-sleigh --integrator rk4 --space physical --step 0.1 --time 30 
 try 0 explain $sleigh
 silent
 tr -s ' \n' ' ' <out >sentences
-holds "a sentence first" grep -Eq '^D1 drifts by truncation \(100 %\): halve the step and it falls by 1[56]' sentences
-holds "what E has from D" grep -Eq ' E drifts by truncation \(100 %\), because D does: halve the step' sentences
-holds "what +project does" grep -Eq ' With \+project: D1 at rounding, E at [0-9.e-]+ of this, ' sentences
+expect "a sentence first" grep -Eq '^D1 drifts by truncation \(100 %\): halve the step and it falls by 1[56]' sentences
+expect "what E has from D" grep -Eq ' E drifts by truncation \(100 %\), because D does: halve the step' sentences
+expect "what +project does" grep -Eq ' With \+project: D1 at rounding, E at [0-9.e-]+ of this, ' sentences
 prints "^ +truncation +rounding +\+project$"
 prints "^  D1 +100 % +< 0\.1 % +[0-9]e-[0-9]+$"
 prints "^exact: spin$"
-holds "what was run" grep -q \
+expect "what was run" grep -q \
     "chaplygin-sleigh, rk4, physical, h = 0.1: 300 steps, the first 200 in quad precision too; reference: dop853 to 1e-16. The runs compared: --details" sentences
-holds "a line is wider than 80 columns" is_narrow
-holds "more than 24 lines" test "$(wc -l <out)" -le 24
+expect "a line is wider than 80 columns" is_narrow
+expect "more than 24 lines" test "$(wc -l <out)" -le 24
 
 case_is "explain: --details"
 try 0 explain $sleigh --details
 silent
-holds "the same sentences first" sh -c 'tr -s " \n" " " <out | grep -qF "$(sed "s/ *chaplygin-sleigh, .*//" sentences)"'
+expect "the same sentences first" sh -c 'tr -s " \n" " " <out | grep -qF "$(sed "s/ *chaplygin-sleigh, .*//" sentences)"'
 prints "^D1: size larger, trend "
 prints "^  truncation    100 % .* in quad precision the .*$"
-holds "the order of truncation" sh -c 'tr -s " \n" " " <out | grep -Eq "falls by 1[56][^ ]* = 2\^[34]\.[90][^ ]* when the step is halved"'
+expect "the order of truncation" sh -c 'tr -s " \n" " " <out | grep -Eq "falls by 1[56][^ ]* = 2\^[34]\.[90][^ ]* when the step is halved"'
 prints "^    half the step "
 prints "^not run: equations solved less far: the method solves no equations$"
-holds "a line is wider than 80 columns" is_narrow
+expect "a line is wider than 80 columns" is_narrow
 
 # x'' = -x: rk4 multiplies E by 1 - h^6/72 + h^8/576 in each step, which is 2^5 per unit of time when
 # h is halved, and friction takes exp(-c t) of it.
@@ -37,31 +37,31 @@ printf "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\n" >spring.y
 sed "s/^start/forces: {x: -0.1*x'}\nstart/" spring.yaml >friction.yaml
 try 0 explain spring.yaml --integrator rk4 --step 0.1 --time 100
 tr -s ' \n' ' ' <out >sentences
-holds "truncation" grep -Eq '^E drifts by truncation \(100 %\): halve the step and it falls by 3[12]' sentences
+expect "truncation" grep -Eq '^E drifts by truncation \(100 %\): halve the step and it falls by 3[12]' sentences
 try 0 explain friction.yaml --integrator rk4 --step 0.1 --time 40
 tr -s ' \n' ' ' <out >sentences
-holds "friction" grep -Eq '^E changes by the motion itself \(100 %\); truncation is [0-9.e-]+ %: halve the step and it falls by ' sentences
+expect "friction" grep -Eq '^E changes by the motion itself \(100 %\); truncation is [0-9.e-]+ %: halve the step and it falls by ' sentences
 prints "^ +motion +truncation +rounding$"
 try 0 explain friction.yaml --integrator rk4 --step 1.25 --time 40
 tr -s ' \n' ' ' <out >sentences
-holds "both" grep -Eq '^E changes by the motion itself \([0-9]+ %\) and truncation \([0-9.]+ %\): halve the step and truncation falls by ' sentences
+expect "both" grep -Eq '^E changes by the motion itself \([0-9]+ %\) and truncation \([0-9.]+ %\): halve the step and truncation falls by ' sentences
 
 case_is "explain: CSV"
 try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \
     --solver-tolerance 1e-8 --quad-steps 200 --output why.csv
 silent
 empty
-holds "heads" grep -q '^observable,kind,name,steps,share,margin,rate,rate_low,rate_high,deviation,size,trend,confidence,words$' why.csv
+expect "heads" grep -q '^observable,kind,name,steps,share,margin,rate,rate_low,rate_high,deviation,size,trend,confidence,words$' why.csv
 sed 's/"[^"]*"/words/' why.csv >plain.csv
-holds "columns" awk -F, 'NF != 14 { exit 1 }' plain.csv
-holds "the solver's share" awk -F, '$1 == "D1" && $3 == "solver" && $5 > 0.99 { found = 1 } END { exit !found }' why.csv
-holds "rows" awk -F, '$1 == "D1" { n[$2]++ } END { exit !(n["run"] == 10 && n["source"] == 7) }' why.csv
-holds "shares between 0 and 1" awk -F, '$2 == "source" && $5 != "" && !($5 >= 0 && $5 <= 1) { exit 1 }' plain.csv
-holds "shares that add up to 1" awk -F, '$2 == "source" && $3 != "projection" { sum[$1] += $5 }
+expect "columns" awk -F, 'NF != 14 { exit 1 }' plain.csv
+expect "the solver's share" awk -F, '$1 == "D1" && $3 == "solver" && $5 > 0.99 { found = 1 } END { exit !found }' why.csv
+expect "rows" awk -F, '$1 == "D1" { n[$2]++ } END { exit !(n["run"] == 10 && n["source"] == 7) }' why.csv
+expect "shares between 0 and 1" awk -F, '$2 == "source" && $5 != "" && !($5 >= 0 && $5 <= 1) { exit 1 }' plain.csv
+expect "shares that add up to 1" awk -F, '$2 == "source" && $3 != "projection" { sum[$1] += $5 }
     END { for (i in sum) { n++; if (sum[i] > 0 && (sum[i] < 1 - 1e-9 || sum[i] > 1 + 1e-9)) exit 1 } exit n < 4 }' plain.csv
 try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \
     --solver-tolerance 1e-8 --quad-steps 200 --output -
-holds "other rows on standard output" cmp -s out why.csv
+expect "other rows on standard output" cmp -s out why.csv
 
 # What is no number has no error sources.
 case_is "explain: not finite"
@@ -72,10 +72,10 @@ start: {x': 1}
 invariants: {never: log(-1 - x^2), later: log(0.5 - x)}
 END
 try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 50 --output nowhere.csv
-holds "shares" awk -F, '($1 == "never" || $1 == "later") && $2 == "source" {
+expect "shares" awk -F, '($1 == "never" || $1 == "later") && $2 == "source" {
     n++; if ($5 != "" || $NF != "it is not finite") exit 1 } END { exit n != 14 }' nowhere.csv
 try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 50
-holds "a ratio that is none" sh -c '! grep -q nan out'
+expect "a ratio that is none" sh -c '! grep -q nan out'
 
 case_is "explain: no quad precision"
 try 0 explain line.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 0 --details
@@ -84,7 +84,7 @@ prints "no quad precision: not requested"
 case_is "explain: a tolerance without a step"
 try 0 explain chaplygin-sleigh --integrator dop853 --tolerance 1e-8 --space physical --time 30 --quad-steps 0 --details
 tr -s ' \n' ' ' <out >sentences
-holds "what was run" grep -q "chaplygin-sleigh, dop853, physical, h = 0.3, tolerance 1e-08: 100 steps; " sentences
+expect "what was run" grep -q "chaplygin-sleigh, dop853, physical, h = 0.3, tolerance 1e-08: 100 steps; " sentences
 prints "^    substeps half as long "
 
 # E is conserved by an identity, and rk4 is of order 1 in steps across x = 0, where F jumps.
@@ -102,9 +102,9 @@ for quad in 5000 0; do
     try 0 explain kink.yaml --integrator rk4 --step 0.01 --time 50 --quad-steps $quad
     tr -s ' \n' ' ' <out >sentences
     for name in E twice; do
-        holds "$name by branches" grep -Eq "$name +(drifts|varies) by truncation at branches \(100 %\): halve the step and it falls by [12]" sentences
+        expect "$name by branches" grep -Eq "$name +(drifts|varies) by truncation at branches \(100 %\): halve the step and it falls by [12]" sentences
     done
-    holds "the motion itself" sh -c '! grep -q motion sentences'
+    expect "the motion itself" sh -c '! grep -q motion sentences'
 done
 
 # Coulomb's friction: where it sticks, F jumps to and fro.
@@ -112,8 +112,8 @@ case_is "explain: no exact motion"
 printf "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nforces: {x: -0.1*sign(x')}\nstart: {x: 1}\n" >sticks.yaml
 try 0 explain sticks.yaml --integrator rk4 --step 0.01 --time 20 --quad-steps 50
 tr -s ' \n' ' ' <out >sentences
-holds "why there is none" grep -q ' no exact motion: too many substeps ' sentences
-holds "a line is wider than 80 columns" is_narrow
+expect "why there is none" grep -q ' no exact motion: too many substeps ' sentences
+expect "a line is wider than 80 columns" is_narrow
 try 0 explain sticks.yaml --integrator rk4 --step 0.01 --time 20 --quad-steps 50 --json
 prints '"name": "exact-motion", "reason": '
 
@@ -123,13 +123,13 @@ case_is "explain: many observables"
     for k in 1 2 3 4 5 6 7 8 9 10; do echo "  a_name_as_long_as_this_$k: x + $k*x'"; done
 } >many.yaml
 try 0 explain many.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 0
-holds "a line is wider than 80 columns" is_narrow
-holds "more than 24 lines" test "$(wc -l <out)" -le 24
+expect "a line is wider than 80 columns" is_narrow
+expect "more than 24 lines" test "$(wc -l <out)" -le 24
 prints '^\.\.\. and 5 more: --details$'
 try 0 explain many.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 0 --details
 tr -s ' \n' ' ' <out >sentences
-holds "the last one" grep -q 'a_name_as_long_as_this_10 changes by ' sentences
-holds "a line is wider than 80 columns" is_narrow
+expect "the last one" grep -q 'a_name_as_long_as_this_10 changes by ' sentences
+expect "a line is wider than 80 columns" is_narrow
 
 case_is "explain: no step"
 try 2 explain line.yaml --integrator rk4 --time 1

@@ -45,9 +45,9 @@ prints '^  rank of W on ker A +ok +1 of 1'
 prints '^[0-9]+ items, 0 failed$'
 try 0 run wheel.yaml --integrator gauss8+project --step 0.1 --time 5 --samples 5 --native off
 mv out interpreted
-holds "not cos t" awk -F, 'NR > 1 && !($NF < 1e-12) {exit 1}' interpreted
+expect "not cos t" awk -F, 'NR > 1 && !($NF < 1e-12) {exit 1}' interpreted
 try 0 run wheel.yaml --integrator gauss8+project --step 0.1 --time 5 --samples 5 --native auto
-holds "other bits" cmp out interpreted
+expect "other bits" cmp out interpreted
 try 2 run wheel.yaml --integrator gni --space physical --step 0.1 --time 5 --columns x,h1,lambda1
 says "--columns: no column 'lambda1': where W is used on ker A alone, methods carry no multipliers"
 empty
@@ -69,7 +69,7 @@ case_is "a constraint turns by more than a right angle, G = 1"
 try 3 run isokinetic --integrator taylor --tolerance 1e-9 --step 5 --time 10 --samples 2
 says 'the gradient of constraint 1 by the velocities turns by more than a right angle in the step'
 try 0 order isokinetic --tolerances 1e-4,1e-6,1e-8 --time 10
-holds "no errors" [ "$(grep -c '^[dt].* [0-9.]*e-[0-9]* .*e-[0-9]* .*e-0[89] ' out)" = 2 ]
+expect "no errors" [ "$(grep -c '^[dt].* [0-9.]*e-[0-9]* .*e-[0-9]* .*e-0[89] ' out)" = 2 ]
 
 case_is "e reaches 0"
 cat >gauge.yaml <<'END'
@@ -134,6 +134,6 @@ for arguments in "check line.yaml" "show benenti" "generate line.yaml --integrat
     "explain line.yaml $motion --json" "order line.yaml --integrators rk4 --time 1 --output -" "list --json"; do
     "$program" $arguments >/dev/full 2>err
     status=$?
-    holds "exit $status, not 4: $arguments" [ $status -eq 4 ]
+    expect "exit $status, not 4: $arguments" [ $status -eq 4 ]
     says "^dalembert: cannot write 'standard output': "
 done

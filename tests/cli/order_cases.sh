@@ -7,14 +7,14 @@ silent
 prints '^against the exact solution$'
 prints '^rk4 +4 +4\.[01][0-9] '
 prints '^gauss4 +4 +4\.0[0-9] .* [0-9.]+ +[0-9.]+$'
-holds "other errors" awk -F, '
+expect "other errors" awk -F, '
     $2 == "rk4" { h = $5; R = 1 - h + h^2/2 - h^3/6 + h^4/24; e = R^$6 - exp(-2)
         if ($6 != 2 / h || ($7 - e)^2 > (1e-9 * e)^2 || $9 != 4 * $6) exit 1
         if (before && ($8 - log(before / e) / log(2))^2 > 1e-12) exit 1
         if (!before && $8 != "") exit 1
         before = e; rows++ }
     END { exit rows != 3 }' line.csv
-holds "other heads" test "$(head -1 line.csv)" = \
+expect "other heads" test "$(head -1 line.csv)" = \
     "label,integrator,stated_order,observed_order,step,steps,error,slope,evaluations,seconds,state,message"
 
 # A block that slides and turns round: sign(x') makes F jump; a square root of |x| makes its derivative.
@@ -26,7 +26,7 @@ sed "s/sign(x')/sign(x)*sqrt(abs(x))/" slide.yaml >root.yaml
 try 0 order root.yaml --integrators rk4 --step 0.1 --levels 2 --time 2
 prints "^branches, force on x: F' jumps: order 2 across it$"
 try 0 order line.yaml --integrators rk4 --step 0.25 --levels 2 --time 1
-holds "branches of what has none" sh -c '! grep -q branches out'
+expect "branches of what has none" sh -c '! grep -q branches out'
 
 case_is "a reference of its own where the exact solution begins elsewhere"
 try 0 order line.yaml --integrators rk4 --start "x'=2" --step 0.25 --levels 3 --time 2
@@ -37,7 +37,7 @@ case_is "modifiers, refusals and failures"
 try 0 order chaplygin-sleigh --integrators gauss4+project,isokinetic-splitting --time 1 --output few.csv
 prints '^gauss4\+project +4 +[34]\.[09]'
 prints '^isokinetic-splitting: refused: .* has no isokinetic constraint'
-holds "no row of the refused" grep -Eq '^chaplygin-sleigh,isokinetic-splitting,2,,,,,,,,refused,' few.csv
+expect "no row of the refused" grep -Eq '^chaplygin-sleigh,isokinetic-splitting,2,,,,,,,,refused,' few.csv
 try 3 order pursuit --integrators rk4 --steps 0.5,0.25 --time 100
 try 2 order chaplygin-sleigh-vakonomic --integrators rk4 --time 1 --space lifted --start p_x=1
 cat >stiff.yaml <<'END'
@@ -51,11 +51,11 @@ prints '^symplectic-euler-00: failed: '
 
 case_is "all methods, any number of threads"
 try 0 order chaplygin-sleigh --time 1 --threads 1 --output one.csv
-holds "fewer than 25 methods" test "$(cut -d, -f2 one.csv | sort -u | wc -l)" -ge 26
+expect "fewer than 25 methods" test "$(cut -d, -f2 one.csv | sort -u | wc -l)" -ge 26
 try 0 order chaplygin-sleigh --time 1 --threads 2 --output two.csv
 cut -d, -f1-9,11- one.csv >one.cut
 cut -d, -f1-9,11- two.csv >two.cut
-holds "the numbers depend on threads" cmp one.cut two.cut
+expect "the numbers depend on threads" cmp one.cut two.cut
 
 # Where an order is found it is the stated one; symplectic-euler-00 and -01, whose slopes there are
 # 0.4 to 2.1, have none, nor has what reaches rounding in two steps.
@@ -64,11 +64,11 @@ for system in falling-disk isokinetic-cluster; do
     expected=0
     [ $system = falling-disk ] && expected=3
     try $expected order $system --step 0.1 --time 10 --output range.csv
-    holds "$system: another order" awk -F, 'NR > 1 && $4 != "" { if (($4 - $3)^2 > 0.15^2) exit 1
+    expect "$system: another order" awk -F, 'NR > 1 && $4 != "" { if (($4 - $3)^2 > 0.15^2) exit 1
         found[$2] } END { n = 0; for (m in found) n++; exit n < 15 }' range.csv
-    holds "$system: an order of symplectic-euler" test -z "$(
+    expect "$system: an order of symplectic-euler" test -z "$(
         awk -F, '$2 ~ /^symplectic-euler-0/ { print $4 }' range.csv | tr -d '\n')"
-    holds "$system: an order of rounding" grep -q "^$system,gauss12,12,,0.1" range.csv
+    expect "$system: an order of rounding" grep -q "^$system,gauss12,12,,0.1" range.csv
 done
 prints '^symplectic-euler-01 +1 +coarse +[0-9]'
 prints '^no order found, coarse: the last two slopes do not agree'
@@ -77,7 +77,7 @@ printf "coordinates: [x]\nlagrangian: x'^2/2 - x^2/2\nstart: {x': 1}\n" >swing.y
 try 0 order swing.yaml --step 0.1 --time 10 --integrators gauss12,rk4
 prints '^gauss12 +12 +rounding +[0-9]'
 prints '^no order found, rounding: fewer than three errors lie above rounding '
-holds "a reason of others" sh -c "! grep -q 'order found, coarse' out"
+expect "a reason of others" sh -c "! grep -q 'order found, coarse' out"
 try 0 order swing.yaml --step 0.1 --time 10 --integrators gauss12,rk4 --json
 json out "[m['no_order'] for m in d['methods']] == ['rounding', None]"
 try 0 order swing.yaml --step 0.1 --time 10 --levels 2 --integrators rk4
@@ -103,10 +103,10 @@ case_is "errors by tolerance"
 try 0 order knife-edge --time 10 --tolerances 1e-4,1e-8 --output controlled.csv
 prints '^against the exact solution$'
 prints '^dop853 +8 +- '
-holds "not the adaptive methods alone" test "$(column integrator controlled.csv | sort -u | tr '\n' ' ')" = \
+expect "not the adaptive methods alone" test "$(column integrator controlled.csv | sort -u | tr '\n' ' ')" = \
     "dop853 taylor "
-holds "not one step" test "$(column step controlled.csv | sort -u)" = 10
-holds "errors far from the tolerance" awk -F, 'NR > 1 && !($8 > 1e-2*$6 && $8 < 1e2*$6) { exit 1 }' \
+expect "not one step" test "$(column step controlled.csv | sort -u)" = 10
+expect "errors far from the tolerance" awk -F, 'NR > 1 && !($8 > 1e-2*$6 && $8 < 1e2*$6) { exit 1 }' \
     controlled.csv
 # The reference is another method, where there is no exact solution.
 try 0 order falling-disk --integrators dop853,rk4 --time 10 --tolerances 1e-6,1e-9 --step 5 --json
@@ -116,9 +116,9 @@ prints 'rk4 has no control of its step size'
 # An oscillator for 5,000 periods: more substeps than a step may have.
 printf 'coordinates: [x]\nlagrangian: (x'"'"'^2 - x^2)/2\nstart: {x: 1}\nexact: {x: cos(t)}\n' >oscillator.yaml
 try 0 order oscillator.yaml --integrators dop853 --time 31415 --tolerances 1e-8,1e-12 --output periods.csv
-holds "a failure of what succeeded" test "$(column message periods.csv | tr -d '\n')" = ""
-holds "T in parts" test "$(column steps periods.csv | sort -u)" = 1
-holds "no error of T" awk -F, 'NR > 1 && !($8 < 31415*1e-8 && $10 > 1e5) { exit 1 }' periods.csv
+expect "a failure of what succeeded" test "$(column message periods.csv | tr -d '\n')" = ""
+expect "T in parts" test "$(column steps periods.csv | sort -u)" = 1
+expect "no error of T" awk -F, 'NR > 1 && !($8 < 31415*1e-8 && $10 > 1e5) { exit 1 }' periods.csv
 try 3 order oscillator.yaml --integrators dop853 --time 31415 --tolerances 1e-8,1e-12 --step 31415
 prints '^dop853: failed: too many substeps'
 try 2 order knife-edge --tolerances 1e-4
@@ -134,14 +134,14 @@ case_is "diagrams"
 if command -v gnuplot >/dev/null 2>&1; then
     try 0 order line.yaml --integrators rk4,gauss4 --time 1 --output orders
     for name in order work time; do
-        holds "no $name.svg" grep -q '<svg' orders/report/$name.svg
-        holds "rk4 is not in $name.svg" grep -q 'rk4' orders/report/$name.svg
+        expect "no $name.svg" grep -q '<svg' orders/report/$name.svg
+        expect "rk4 is not in $name.svg" grep -q 'rk4' orders/report/$name.svg
     done
     try 0 order knife-edge --time 10 --tolerances 1e-4,1e-8 --output by-tolerance
-    holds "no tolerance.svg" grep -q '<svg' by-tolerance/report/tolerance.svg
-    holds "an order without steps" test ! -e by-tolerance/report/order.svg
-    holds "no tolerances" grep -q '<th>h = 10, tolerance 1e-08</th>' by-tolerance/report/index.html
-    holds "diagrams that are drawn twice" test -z "$(find orders -maxdepth 1 -name '*.svg')"
+    expect "no tolerance.svg" grep -q '<svg' by-tolerance/report/tolerance.svg
+    expect "an order without steps" test ! -e by-tolerance/report/order.svg
+    expect "no tolerances" grep -q '<th>h = 10, tolerance 1e-08</th>' by-tolerance/report/index.html
+    expect "diagrams that are drawn twice" test -z "$(find orders -maxdepth 1 -name '*.svg')"
 fi
 
 case_is "orders: bad input"

@@ -140,5 +140,5 @@ for first in '' x; do
         'systems: [line.yaml]' >wide.yaml
     rm -rf wide
     try 0 study wide.yaml --output wide --no-page
-    holds "another title after '$first'" test "$(head -n 1 out)" = "$short~"
+    expect "another title after '$first'" test "$(head -n 1 out)" = "$short~"
 done

@@ -100,7 +100,7 @@ compare() {
             "$units" "$system" 0 >system.yaml && states_of "$command" >"$command" 2>&1)
         mkdir -p other
         (cd other && "$units" "$system" "$seed" >system.yaml && states_of "$command" >"$command" 2>&1)
-        holds "$system: $command differs in units $seed: $(diff "plain/$system/$command" other/"$command" | head -4)" \
+        expect "$system: $command differs in units $seed: $(diff "plain/$system/$command" other/"$command" | head -4)" \
             cmp "plain/$system/$command" other/"$command"
         rm -rf other
     done
@@ -122,14 +122,14 @@ if [ -x "$units" ]; then
             (cd one && "$units" "$system" 0 parameters >system.yaml && bits_of >rows)
             (cd other && "$units" "$system" "$seed" parameters >system.yaml && bits_of >rows)
             case $rounds_otherwise in
-                *" $system "*) holds "$system: other rows in units $seed" same_rows one/rows other/rows ;;
-                *) holds "$system: other bits in units $seed" cmp one/rows other/rows ;;
+                *" $system "*) expect "$system: other rows in units $seed" same_rows one/rows other/rows ;;
+                *) expect "$system: other bits in units $seed" cmp one/rows other/rows ;;
             esac
             rm -rf one other
         done
-        holds "$system: no sizes" test "$(wc -l <"plain/$system/run")" -ge 2
+        expect "$system: no sizes" test "$(wc -l <"plain/$system/run")" -ge 2
     done <systems
-    holds "only $changed systems" test $changed -ge 33
+    expect "only $changed systems" test $changed -ge 33
     for seed in 4 17; do
         for system in damped-oscillator isokinetic nonholonomic-particle; do
             compare $system $seed order study section lyapunov volume
@@ -170,9 +170,9 @@ if [ -x "$units" ] && needs 8 "no python3" there python3; then
                 echo "exit $?" >shares
                 shares >>shares)
         done
-        holds "$system: explain differs in other units: $(diff explain-0/shares explain-3/shares | head -4)" \
+        expect "$system: explain differs in other units: $(diff explain-0/shares explain-3/shares | head -4)" \
             cmp explain-0/shares explain-3/shares
-        holds "$system: no shares" test "$(grep -c "'\|\[" explain-3/shares)" -ge 1
+        expect "$system: no shares" test "$(grep -c "'\|\[" explain-3/shares)" -ge 1
     done
     counted
 fi
@@ -236,4 +236,4 @@ start: {x: 1e-11}
 END
 try 0 run atom.yaml --integrator rk4 --step 2e-15 --time 2e-13 --output atom
 sizes atom/summary.csv >sizes
-holds "E is rounding: $(grep '^E ' sizes)" grep -q '^E larger ' sizes
+expect "E is rounding: $(grep '^E ' sizes)" grep -q '^E larger ' sizes
