@@ -122,21 +122,19 @@ typedef struct start {
     int size; /* of (q, v, g) */
 } start;
 
-/* Whether their rates are known at a point; then those that are not 0 are not conserved. */
-static bool try_point(start *w, dal__random *random, int *conserved)
+/* Where their rates are known at a point, those that are not 0 are not conserved. */
+static dal_status try_point(start *w, dal__random *random, int *conserved)
 {
     const dal_system *s = dal_scaled_system(w->scaled);
     for (int i = 0; i < w->size; i++)
         w->point[i] = w->state[i] + neighbourhood * dal__uniform(random);
     const dal_point at = {
         .t = w->t + fabs(dal__uniform(random)), .q = w->point, .v = w->point + s->n};
-    if (s->m > 0 && dal_project_velocity(w->evaluator, at.t, w->point, w->point + s->n) != DAL_OK)
-        return false;
-    if (dal_measure_rate(w->evaluator, s->invariant_values, s->invariants, &at, w->rate) != DAL_OK)
-        return false;
+    if (s->m > 0) DAL_TRY(dal_project_velocity(w->evaluator, at.t, w->point, w->point + s->n));
+    DAL_TRY(dal_measure_rate(w->evaluator, s->invariant_values, s->invariants, &at, w->rate));
     for (int i = 0; i < s->invariants; i++)
         if (!(fabs(w->rate[i]) <= no_rate)) conserved[i] = 0;
-    return true;
+    return DAL_OK;
 }
 
 static dal_status find_invariants(start *w, const dal_run_spec *spec, const dal_run *run,
@@ -156,7 +154,11 @@ static dal_status find_invariants(start *w, const dal_run_spec *spec, const dal_
     w->t = dal_run_time(run) / dal_scaled_units(w->scaled)[0];
     dal__scaled_from_user(w->scaled, dal_run_state(run), w->state);
     for (int i = 0; i < s->invariants; i++) conserved[i] = 1;
-    for (int k = 0; k < POINTS; k++) known += try_point(w, &random, conserved);
+    for (int k = 0; k < POINTS; k++) {
+        const dal_status status = try_point(w, &random, conserved);
+        if (status == DAL_MEMORY) return status;
+        known += status == DAL_OK;
+    }
     for (int i = 0; i < s->invariants && known <= POINTS / 2; i++) conserved[i] = 0;
     return DAL_OK;
 }

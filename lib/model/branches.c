@@ -204,6 +204,7 @@ static double size_of_terms(const surface *f, dal__node g, const double *point)
     dal__terms *terms = dal__terms_create(f->model->equations.graph, &g, 1);
     double *memory = terms ? dal__numbers(1, dal__terms_memory(terms)) : NULL, size = 0.0;
     if (memory) dal__terms_scales(terms, point, memory, &size);
+    f->model->out_of_memory |= !memory;
     free(memory);
     dal__terms_free(terms);
     return isfinite(size) ? size : 0.0;
@@ -332,6 +333,7 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
     const dal__equations *e = &model->equations;
     surface f;
     const bool has_memory = place_surface(&f, model);
+    model->out_of_memory |= !has_memory;
     *count = 0;
     for (int k = 0; k < model->count && has_memory; k++) {
         const dal__entry *entry = &model->entries[k];
@@ -344,7 +346,7 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
         dal__entry_title(model, entry, to->formula, sizeof to->formula);
     }
     free_surface(&f);
-    return has_memory ? e->graph->status : DAL_MEMORY;
+    return model->out_of_memory ? DAL_MEMORY : e->graph->status;
 }
 
 /* ---- motions that meet a jump ---- */

@@ -77,6 +77,7 @@ static void sum_terms(const identity *id, double *sum, double *size)
     dal__terms *terms = dal__terms_create(id->e->graph, id->term, id->terms);
     double *memory = terms ? dal__numbers(1, dal__terms_memory(terms)) : NULL;
     *sum = *size = memory ? 0.0 : NAN;
+    id->model->out_of_memory |= !memory;
     if (memory) dal__terms_scales(terms, id->point, memory, id->scale);
     for (int i = 0; i < id->terms && memory; i++) {
         *sum += dal__evaluate(id->e->graph, id->term[i], id->point);
@@ -231,7 +232,7 @@ dal_status dal__energy_properties(dal_model *model)
         found = vanishes(&id) ? DAL_E_EXACT : vanishes_at_points(&id, scratch) ? DAL_E_ON_D : 0;
     }
     e->properties |= found;
-    return e->graph->status;
+    return model->out_of_memory ? DAL_MEMORY : e->graph->status;
 }
 
 /* ---- a conserved energy ---- */

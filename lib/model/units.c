@@ -115,5 +115,6 @@ dal_status dal__model_units(dal_model *model, double *unit)
         find_others(&s);
     }
     dal__terms_free(s.terms);
+    model->out_of_memory |= !s.memory;
     return s.memory ? DAL_OK : DAL_MEMORY;
 }

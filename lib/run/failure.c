@@ -47,6 +47,40 @@ static bool gauge_crosses(dal_run *run, double t, double h)
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
 
+/* The pivot of a constraint, from 1, in G at the present state; NaN: it has none. */
+static double pivot_of(dal_run *run, int constraint, double t)
+{
+    const int m = run->layout.m, n = run->layout.n;
+    double *c = run->scratch, *g = c + m + 2 * m * n, pivot = NAN;
+    if (run->kind->engine->eval(run->engine, DAL_EVAL_CONSTRAINT, t, run->persistent, c) != DAL_OK)
+        return NAN;
+    dal_gram(c + m, c + m + m * n, m, n, g);
+    for (int k = 0; k < constraint; k++) pivot = fabs(dal_eliminate(g, m, k));
+    return pivot;
+}
+
+/* Whether small steps pass where one of h fails, and G keeps its size: where it vanishes at an even
+ * pace its pivot, the square of a distance, is below 1/64^2 of the largest in one of them, and small
+ * from the beginning where errors of D lead past the singular place. */
+static bool passes_in_parts(dal_run *run, int constraint, double t, double h)
+{
+    enum { PARTS = 64 };
+    const double least = 0.1;
+    const size_t bytes = run->layout.persistent * sizeof *run->persistent;
+    dal_status reason = DAL_OK;
+    double min = pivot_of(run, constraint, t), max = min;
+    bool passes = true;
+    memcpy(run->shadow, run->persistent, bytes);
+    for (int i = 0; i < PARTS && passes; i++) {
+        passes = run->kind->engine->step(run->engine, h / PARTS, 1u, &reason) == 0;
+        const double pivot = pivot_of(run, constraint, t + (i + 1) * h / PARTS);
+        min = fmin(min, pivot);
+        max = fmax(max, pivot);
+    }
+    memcpy(run->persistent, run->shadow, bytes);
+    return passes && min > least * max;
+}
+
 static dal_status turned(dal_run *run, const dal__failure *failure, double t, double h,
                          dal_error *error)
 {
@@ -56,16 +90,7 @@ static dal_status turned(dal_run *run, const dal__failure *failure, double t, do
                          failure->guard == system->mass_guard ? DAL_SINGULAR_MASS : DAL_SINGULAR,
                          "%s goes to zero between t = %.17g and %.17g: singular there",
                          system->guard ? system->guard[failure->guard - 1] : "a guard", t, t + h);
-    /* Where small steps pass, the gradients turn, and G keeps an inverse all the way. */
-    enum { PARTS = 64 };
-    const size_t bytes = run->layout.persistent * sizeof *run->persistent;
-    dal_status reason = DAL_OK;
-    bool passes = true;
-    memcpy(run->shadow, run->persistent, bytes);
-    for (int i = 0; i < PARTS && passes; i++)
-        passes = run->kind->engine->step(run->engine, h / PARTS, 1u, &reason) == 0;
-    memcpy(run->persistent, run->shadow, bytes);
-    if (passes)
+    if (passes_in_parts(run, failure->constraint, t, h))
         return dal__fail(error, DAL_NOT_CONVERGED,
                          "the gradient of constraint %d by the velocities turns by more than a "
                          "right angle in the step of %g from t = %.17g, though G = A W^-1 A^T is "

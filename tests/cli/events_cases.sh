@@ -1,6 +1,6 @@
 # Events: impacts, stops, logs, and runs with them that are interrupted.
 
-needs 401 "no compiler for signals at given places" raises || return 0
+needs 404 "no compiler for signals at given places" raises || return 0
 examples=$here/../../examples
 # A ball above a floor; the times of its bounces are t1 (1 + 2 c (1 - c^k)/(1 - c)), t1 = sqrt(2/g).
 cat >ball.yaml <<'END'
