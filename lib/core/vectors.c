@@ -107,6 +107,13 @@ double dal__max_in_units(int n, const double *v, const double *unit)
     return max;
 }
 
+double dal__power_of_two(double x)
+{
+    int exponent;
+    frexp(x, &exponent);
+    return x != 0.0 && isfinite(x) ? ldexp(0.5, exponent) : 0.0;
+}
+
 double dal__uniform(dal__random *random)
 {
     random->state = random->state * 6364136223846793005u + 1442695040888963407u;

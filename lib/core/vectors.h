@@ -53,6 +53,9 @@ double dal__orthonormalise_row(double *rows, int j, int width);
 int dal__least_squares(int rows, int columns, double *a, double *right, double *x, double tolerance,
                        double *pivot, double *work /* [columns*(columns+2)] */);
 
+/* The power of two at or below |x|; 0 where x is 0 or not finite. */
+double dal__power_of_two(double x);
+
 /* A small deterministic generator, uniform on [-1, 1). */
 typedef struct dal__random {
     uint64_t state;

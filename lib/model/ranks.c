@@ -257,7 +257,7 @@ static dal_status make_fields(distribution *d, const dal__node *A, double *x)
     for (int a = 0; a < m; a++) {
         const double size = dal__max_abs(x + a * dim, (size_t)dim); /* in the units */
         for (int j = 0; j < dim && size > 0.0; j++) x[a * dim + j] /= size;
-        per_row[a] = size > 0.0 && isfinite(size) ? ldexp(1.0, -ilogb(size)) : 1.0;
+        per_row[a] = size > 0.0 && isfinite(size) ? 1.0 / dal__power_of_two(size) : 1.0;
     }
     for (int a = 0; a < m; a++) {
         const double *row = x + a * dim;

@@ -18,6 +18,7 @@
  * The weights are the diagonal of W; that of a coordinate without a mass balances its entries of A.
  * All are powers of two from the values at the default start, and so is C. */
 #include "model/restricted.h"
+#include "core/vectors.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/model.h"
@@ -31,18 +32,9 @@ static void add_product(const dal__equations *e, dal__node *sum, dal__node a, da
 
 /* ---- weights ---- */
 
-/* The power of two next to |x|; 0 where that is 0 or not finite. */
-static double power_near(double x)
-{
-    int exponent;
-    if (x == 0.0 || !isfinite(x)) return 0.0;
-    frexp(x, &exponent);
-    return ldexp(1.0, exponent - 1);
-}
-
 static double magnitude(const dal__equations *e, dal__node node)
 {
-    return power_near(dal__evaluate(e->graph, node, e->value));
+    return dal__power_of_two(dal__evaluate(e->graph, node, e->value));
 }
 
 /* The weight with which coordinate i counts in A as the others do that have one; 0: none has. */
@@ -56,7 +48,7 @@ static double balance(const dal__equations *e, const double *A, const double *g,
             if (g[j] > 0.0) size = fmax(size, row[j] * row[j] / g[j]);
         if (size > 0.0) best = fmax(best, row[i] * row[i] / size);
     }
-    return power_near(best);
+    return dal__power_of_two(best);
 }
 
 /* g[n]; A[m*n] is scratch. */

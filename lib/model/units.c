@@ -8,6 +8,7 @@
  * unit 1.  All change with the units of the user as the symbols do: points at distances of theirs
  * are the same in all units.  lib/analysis/scaled.c knows the motion, and has better ones. */
 #include "model/units.h"
+#include "core/vectors.h"
 #include "expr/terms.h"
 #include "expr/traversal.h"
 #include <math.h>
@@ -23,13 +24,6 @@ typedef struct survey {
     double *scale, *moved, *memory; /* [formulas]: scales at x and beside it; of terms */
 } survey;
 
-static double power_of_two(double x)
-{
-    int exponent;
-    frexp(x, &exponent);
-    return x != 0.0 && isfinite(x) ? ldexp(0.5, exponent) : 0.0;
-}
-
 /* Equal energies, of v that are 0 at the start. */
 static void find_speeds(const survey *s)
 {
@@ -37,14 +31,15 @@ static void find_speeds(const survey *s)
     double energy = 0.0;
     for (int i = 0; i < e->n; i++) {
         const double mass = fabs(dal__evaluate(e->graph, e->W[i * e->n + i], s->x));
-        s->unit[e->v + i] = power_of_two(s->x[e->v + i]);
+        s->unit[e->v + i] = dal__power_of_two(s->x[e->v + i]);
         s->scale[i] = isfinite(mass) ? mass : 0.0;
         energy = fmax(energy, s->scale[i] * pow(s->unit[e->v + i], 2.0));
     }
     if (energy == 0.0) energy = s->scale[e->n];
     for (int i = 0; i < e->n; i++) {
         double *const unit = &s->unit[e->v + i];
-        if (*unit == 0.0 && s->scale[i] > 0.0) *unit = power_of_two(sqrt(energy / s->scale[i]));
+        if (*unit == 0.0 && s->scale[i] > 0.0)
+            *unit = dal__power_of_two(sqrt(energy / s->scale[i]));
         if (*unit == 0.0) *unit = 1.0;
     }
 }
@@ -82,11 +77,11 @@ static void find_others(const survey *s)
     for (int i = 0; i < e->n; i++) s->x[e->v + i] += s->unit[e->v + i];
     dal__terms_scales(s->terms, s->x, s->memory, s->scale);
     for (int i = e->t; i < e->q + e->n; i++) {
-        s->unit[i] = power_of_two(s->x[i]);
+        s->unit[i] = dal__power_of_two(s->x[i]);
         if (s->unit[i] == 0.0) s->unit[i] = find_change(s, i);
     }
     for (int a = 0; a < e->multipliers; a++) {
-        const double unit = power_of_two(s->scale[0] / s->scale[1 + a]);
+        const double unit = dal__power_of_two(s->scale[0] / s->scale[1 + a]);
         s->unit[e->g + a] = unit > 0.0 ? unit : 1.0;
     }
 }

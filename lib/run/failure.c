@@ -60,8 +60,8 @@ static double pivot_of(dal_run *run, int constraint, double t)
 }
 
 /* Whether small steps pass where one of h fails, and G keeps its size: where it vanishes at an even
- * pace its pivot, the square of a distance, is below 1/64^2 of the largest in one of them, and small
- * from the beginning where errors of D lead past the singular place. */
+ * pace its pivot, the square of a distance, is below 1/64^2 of the largest in one of them, and
+ * small from the beginning where errors of D lead past the singular place. */
 static bool passes_in_parts(dal_run *run, int constraint, double t, double h)
 {
     enum { PARTS = 64 };
