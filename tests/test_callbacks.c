@@ -259,9 +259,9 @@ static dal_status measure_lyapunov(trial *t)
         add_number(t, (double)average[1].mean);
         status = dal_lyapunov_balance(l, &balance, &t->error);
     }
-    add(t, &balance.difference, sizeof(double));
-    add(t, &balance.surface, sizeof(double));
-    add(t, &balance.margin, sizeof(double));
+    add_number(t, balance.difference);
+    add_number(t, balance.surface);
+    add_number(t, balance.margin);
     dal_lyapunov_free(l);
     return status;
 }

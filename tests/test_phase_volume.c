@@ -84,13 +84,15 @@ static void test_far_attractor(void)
     }
 }
 
-/* The units of the time, of x, y, phi and of their velocities. */
-static void find_units(const char *name, double unit[7])
+/* The units of the time, of n coordinates and of their velocities: unit[1 + 2*n]. */
+static void find_units(const char *name, const dal_setting *start, int count, double *unit)
 {
-    const dal_run_spec spec = fixture_spec(fixture_system(name), "rk4+project", DAL_PHYSICAL, 0.05);
+    dal_run_spec spec = fixture_spec(fixture_system(name), "rk4+project", DAL_PHYSICAL, 0.05);
     dal_scaled *scaled;
+    spec.start = start;
+    spec.start_count = count;
     CU_ASSERT_EQUAL_FATAL(dal_scaled_create(&scaled, &spec, NULL), DAL_OK);
-    memcpy(unit, dal_scaled_units(scaled), 7 * sizeof *unit);
+    memcpy(unit, dal_scaled_units(scaled), (1 + 2 * (size_t)spec.system->n) * sizeof *unit);
     dal_scaled_free(scaled);
 }
 
@@ -114,7 +116,7 @@ static void test_long_way(void)
         const double V = sqrt(2.11), tau0 = atanh(0.7 / V), tau = tau0 + V / 2.0 * T;
         const double phi = dal_run_state(dal_lyapunov_run(s))[2], log_cosh = tau - log(2.0);
         double unit[7];
-        find_units("chaplygin-sleigh-offset", unit);
+        find_units("chaplygin-sleigh-offset", NULL, 0, unit);
         const double density =
             0.5 * log(square_of_gradient(unit, phi, V) / square_of_gradient(unit, 0.3, 0.7));
         const double mean = -(log_cosh - log(cosh(tau0))) / T;
@@ -134,8 +136,13 @@ static void test_long_isokinetic(void)
     dal_lyapunov *s = differences("isokinetic", "rk4+project", start, 2, steps);
     const double T = 0.05 * (double)steps, theta = 2.0 * atan(tan(0.05) * exp(-T));
     CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 3);
-    /* theta' = -sin theta: d theta grows by sin(theta)/sin(0.1) */
-    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), (log(sin(theta)) - log(sin(0.1))) / T, 1e-4);
+    /* theta' = -sin theta: d theta grows by sin(theta)/sin(0.1); and |grad D|, D having the gradient
+     * (cos theta, sin theta) by x', y', in units. */
+    double unit[5];
+    find_units("isokinetic", start, 2, unit);
+    const double density = log(hypot(unit[3] * cos(theta), unit[4] * sin(theta)) /
+                               hypot(unit[3] * cos(0.1), unit[4] * sin(0.1)));
+    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), (log(sin(theta)) - log(sin(0.1)) + density) / T, 1e-4);
     dal_lyapunov_free(s);
 }
 

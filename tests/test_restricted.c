@@ -195,7 +195,7 @@ static void test_bordered(void)
     reference b = reference_of_text(MASSLESS);
     CU_ASSERT(b.system->properties & DAL_MASS_ON_KERNEL);
     for (int k = 0; k < 40; k++) {
-        double F[3], expected[3], q[3], v[3];
+        double F[3], expected[3], q[REFERENCE_MAX] = {0.0}, v[REFERENCE_MAX] = {0.0};
         const double t = 0.05 * k; /* 1 among them */
         for (int i = 0; i < 3; i++) {
             q[i] = sin(3.0 * k + i);
