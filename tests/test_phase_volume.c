@@ -136,8 +136,8 @@ static void test_long_isokinetic(void)
     dal_lyapunov *s = differences("isokinetic", "rk4+project", start, 2, steps);
     const double T = 0.05 * (double)steps, theta = 2.0 * atan(tan(0.05) * exp(-T));
     CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 3);
-    /* theta' = -sin theta: d theta grows by sin(theta)/sin(0.1); and |grad D|, D having the gradient
-     * (cos theta, sin theta) by x', y', in units. */
+    /* theta' = -sin theta: d theta grows by sin(theta)/sin(0.1), and |grad D| in units changes: the
+     * gradient by x', y' is (cos theta, sin theta). */
     double unit[5];
     find_units("isokinetic", start, 2, unit);
     const double density = log(hypot(unit[3] * cos(theta), unit[4] * sin(theta)) /
