@@ -250,16 +250,11 @@ static dal_status run_reference(comparisons *w)
 /* The run; solved further; in quad precision; the same with half the step. */
 enum { RUN, TIGHT, QUAD, HALF, TOGETHER };
 
-/* The series of the beginning. */
-static const int parts[] = {DAL__FIRST_RUN,
-                            DAL__FIRST_ROUNDING,
-                            DAL__FIRST_SOLVER,
-                            DAL__FIRST_SOLVER_AND_ROUNDING,
-                            DAL__FIRST_MOTION,
-                            DAL__FIRST_ERROR,
-                            DAL__FIRST_ERROR_HALVED,
-                            1 + DAL_COMPARISON_QUAD,
-                            1 + DAL_COMPARISON_QUAD_HALVED};
+static bool is_of_beginning(int which)
+{
+    return which >= DAL__FIRST_RUN || which == 1 + DAL_COMPARISON_QUAD ||
+           which == 1 + DAL_COMPARISON_QUAD_HALVED;
+}
 
 typedef struct beginning {
     dal_run *run[TOGETHER];
@@ -355,10 +350,10 @@ static double rate_of_line(const comparisons *w, int which, int i)
 
 static void make_rates_linear(comparisons *w)
 {
-    for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++)
-        for (int i = 0; i < w->of->observables; i++) {
-            dal_trend *const f = trends(w, parts[k]) + i;
-            f->rate = rate_of_line(w, parts[k], i);
+    for (int which = 0; which < DAL__SERIES; which++)
+        for (int i = 0; i < w->of->observables && is_of_beginning(which); i++) {
+            dal_trend *const f = trends(w, which) + i;
+            f->rate = rate_of_line(w, which, i);
             f->rate_low = fmin(f->rate_low, f->rate);
             f->rate_high = fmax(f->rate_high, f->rate);
         }
