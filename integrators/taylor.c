@@ -3,7 +3,7 @@
  *     y1 = y + h (x_1 + h (x_2 + .. + h x_p)),     x_k = (d/dt)^k y / k!
  *
  * Jorba, Zou, Experimental Mathematics 14 (2005) 99.  The coefficients come from recurrences over
- * the formulas of the model (lib/expr/recurrences.h), exact but for rounding.  Of order 10 with
+ * the formulas of the model (lib/expr/recurrences.h), exact except rounding.  Of order 10 with
  * steps of a fixed size, explicit; preserves D with constant coefficients, no other.
  *
  * With a tolerance each substep has the order for it (lib/kernel/taylor.h) and the size at which

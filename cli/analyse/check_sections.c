@@ -384,7 +384,7 @@ static double exact_residual(check *c, double t, double d)
             if (!exact_at(c, t + side * k * d, x)) return INFINITY;
             for (int i = 0; i < 2 * n; i++) rate[i] += side * weight[k - 1] * x[i] / d;
         }
-    return analysis_distance(rate, v, NULL, 2 * n); /* the field stands behind v */
+    return analysis_distance(rate, v, NULL, 2 * n); /* after v is F */
 }
 
 /* Where it has values up to a time; infinite where it has not. */

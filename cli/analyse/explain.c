@@ -80,7 +80,7 @@ static const char *share_text(double share, char *buffer)
     return share < 0.995 ? buffer : "100 %";
 }
 
-/* What a drift is with, or without, projection, over that of the run. */
+/* A drift with, or without, projection, over the drift of the run. */
 static double projected_ratio(const dal_shares *a)
 {
     const dal_trend *other = &a->comparison[DAL_COMPARISON_PROJECTION], *whole = &a->whole;

@@ -307,7 +307,7 @@ typedef enum column_measure { NOT_TRACKED, MAX_ABS, CHANGE } column_measure;
 typedef struct tracked_column {
     column_measure measure;
     int track;
-    double scale; /* by which it is divided: 1, or that of the terms of an invariant */
+    double scale; /* by which it is divided: 1, or the scale of an invariant */
     double first;
 } tracked_column;
 

@@ -33,7 +33,7 @@ typedef struct dal__rate {
     double time;      /* a positive one, in which the motion changes */
     double size;      /* of the value along the motion so far, 0 or more */
 } dal__rate;
-/* [alloc]  Errors: those of the callbacks, DAL_NOT_FINITE, DAL_MEMORY. */
+/* [alloc]  Errors: from the callbacks, DAL_NOT_FINITE, DAL_MEMORY. */
 dal_status dal__rate_in_units(const dal__rate *of, const dal_point *at, double *rate);
 
 /* The derivatives by (q, v, g), differences[rows * (n + nw)], of the first rows values of a

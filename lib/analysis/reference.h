@@ -10,13 +10,13 @@ typedef struct dal__reference dal__reference;
 /* The tolerance of its substeps, in units of the system's own. */
 #define DAL__REFERENCE_TOLERANCE 1e-16
 
-/* Makes the motion of a spec, at its start. [alloc]  Errors: those of runs; DAL_UNSUPPORTED: p and
+/* Makes the motion of a spec, at its start. [alloc]  Errors: as of runs; DAL_UNSUPPORTED: p and
  * pi are not 0, so that they move (q, v), too. */
 dal_status dal__reference_create(dal__reference **reference, const dal_run_spec *spec,
                                  dal_error *error);
 /* Frees it; NULL is allowed. */
 void dal__reference_free(dal__reference *reference);
-/* Goes on by steps of the spec.  Errors: those of a step. */
+/* Goes on by steps of the spec.  Errors: as of a step. */
 dal_status dal__reference_advance(dal__reference *reference, long long steps, dal_error *error);
 /* Its substeps so far. */
 long long dal__reference_steps(const dal__reference *reference);

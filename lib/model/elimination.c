@@ -8,7 +8,7 @@
  * (or near it, when the matrix is singular there).  Among the entries of at
  * least a tenth of the largest, each relative to the size of its row and column (Jacobi scaling),
  * the first choice are those that depend on parameters alone (they cannot vanish along a run), then
- * untouched ones (no cancellation), then those of the diagonal (they preserve the symmetry).  W may
+ * untouched ones (no cancellation), then diagonal ones (they preserve the symmetry).  W may
  * thus be indefinite and have zeros on its diagonal.
  *
  * Pivots that come from a subtraction are checked along a run against what it subtracted from. */

@@ -23,7 +23,7 @@ dal_status dal__read_signature(dal_model *model, const dal__entry *entry, dal__f
 /* The value of a function at arguments, [arity]. */
 dal__node dal__call_function(dal__graph *graph, const dal__function *function,
                              const dal__node *argument);
-/* Adds a copy of an entry of tables, with its points.  Errors: those of dal_model_add_table. */
+/* Adds a copy of an entry of tables, with its points.  Errors: as of dal_model_add_table. */
 dal_status dal__model_insert_table(dal_model *model, dal__entry entry, const dal_table *table,
                                    dal_error *error);
 

@@ -32,7 +32,7 @@ dal__node dal__switch_argument(dal__graph *graph, dal__node node)
     }
 }
 
-/* The branch of a node, and in *sign whether its argument is that of the node; false: none. */
+/* The branch of a node; sign: 1 where both have one argument, -1 opposite ones; false: none. */
 static bool find_branch(dal__graph *graph, dal__node node, dal__branch *branch, int *sign)
 {
     const dal__record r = dal__inspect(graph, node);

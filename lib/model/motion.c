@@ -177,7 +177,7 @@ dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
         u[i] = dal__symbol(e->graph, e->pi + i);
     }
     dal__substitute_all(e->graph, n * n, mass.matrix, v, n, u);
-    if (e->restricted) { /* pivots are chosen where u = v is that of the start */
+    if (e->restricted) { /* pivots are chosen where u is the v of the start */
         dal__restricted r;
         for (int i = 0; i < n; i++) e->value[e->pi + i] = e->value[e->v + i];
         const dal_status status = dal__restricted_factor(model, mass.matrix, &r);

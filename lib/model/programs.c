@@ -272,7 +272,7 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
         out[0] = e->pivot[k].constraint;
         if (e->pivot[k].constraint && vanished(value + 2 * k)) return DAL_SINGULAR;
     }
-    for (int k = 0; k < e->pivots && e->restricted; k++) /* whose other pivots need those of A */
+    for (int k = 0; k < e->pivots && e->restricted; k++) /* whose other pivots need A's */
         if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_SINGULAR_MASS;
     const double *lookup = value + 2 * e->pivots + e->m; /* argument, value */
     for (int k = 0; k < e->lookups; k++) {

@@ -464,7 +464,7 @@ static void hold_engine(void *engine_, const double *point)
     engine *e = engine_;
     const dal_system *system = e->layout.system;
     system->branches->hold(system, point, (double *)e->work);
-    e->dense_h = 0.0; /* the substeps found last are those of other formulas */
+    e->dense_h = 0.0; /* the substeps found last had other formulas */
 }
 #else
 #define part_engine NULL

@@ -224,7 +224,7 @@ static dal_status branch_rates(const dal__event_search *w, double *out)
     return evaluate_branches(w, w->system->branches->rates, w->system->branches->count, out);
 }
 
-/* Rates of the arguments with the present points; notes those of events. */
+/* Rates of the arguments with the present points; also notes the rates of events. */
 static dal_status held_rates(const dal__event_search *w, double *out)
 {
     const dal__held_places *held = &w->held;

@@ -69,7 +69,7 @@ void dal__hold_as_searched(const dal__event_search *w, bool is_held);
 bool dal__event_slides(const dal__event_search *w, int k);
 
 /* Evaluates at the present state the values f and the rates, the rates alone, or the normals.
- * Rates are those of the side to which the motion leads where a branch of F changes. */
+ * Where a branch of F changes, rates are taken on the side to which the motion leads. */
 dal_status dal__evaluate_events(const dal__event_search *w);
 dal_status dal__evaluate_event_rates(const dal__event_search *w);
 dal_status dal__evaluate_event_normals(const dal__event_search *w);
