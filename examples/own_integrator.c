@@ -1,26 +1,10 @@
-/* own_integrator.c - an integrator outside the library: Heun's method, used by its address.
- *
- *     k1 = f(t, y),   k2 = f(t + h, y + h k1),   y1 = y + h/2 (k1 + k2)
+/* own_integrator.c - an integrator outside the library, used by its address.
  *
  * Needs the two installed headers and the library, nothing of its sources. */
 #include <dalembert.h>
-#include <dalembert_kernel.h>
 #include <stdio.h>
 
-DAL_INLINE dal_status step(dal_step *s)
-{
-    DAL_VECTOR(s, k1, DAL_DIM(s));
-    DAL_VECTOR(s, k2, DAL_DIM(s));
-    DAL_VECTOR(s, y, DAL_DIM(s));
-    dal_field(s, s->t, s->y, k1);
-    DAL_EACH(i, DAL_DIM(s)) y[i] = s->y[i] + s->h * k1[i];
-    dal_field(s, s->t + s->h, y, k2);
-    DAL_EACH(i, DAL_DIM(s)) y[i] = 0.5 * s->h * (k1[i] + k2[i]);
-    return dal_update(s, s->h, y);
-}
-
-DAL_INTEGRATOR(heun, step, .name = "heun", .summary = "Heun's method", .reference = "Heun 1900",
-               .order = 2, .stages = 2, .properties = DAL_EXPLICIT, .needs = DAL_NEEDS_FIELD);
+#include "heun.c"
 
 int main(void)
 {

@@ -40,7 +40,7 @@ extern "C" {
 #define DAL_VERSION_MAJOR 0 /* before 1.0 a new minor version may change the interface */
 #define DAL_VERSION_MINOR 5 /* a part of the soname, libdalembert.so.MAJOR.MINOR, before 1.0 */
 #define DAL_VERSION_PATCH 0 /* leaves the interface as it is */
-/* The version as a text, "0.3.0". */
+/* The version as a text, "0.5.0". */
 #define DAL_VERSION DAL__VERSION(DAL_VERSION_MAJOR, DAL_VERSION_MINOR, DAL_VERSION_PATCH)
 
 #define DAL__VERSION(major, minor, patch)      DAL__VERSION_TEXT(major, minor, patch)

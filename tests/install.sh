@@ -45,11 +45,10 @@ for document in README.md docs/embedding.md; do
     logged $cc -std=c11 $CFLAGS "$root/shown.c" $(pkg-config --cflags --libs dalembert) -o "$root/shown"
     LD_LIBRARY_PATH=$lib "$root/shown" || fail "the lines of $document fail"
 done
-sed -n '/^\/\* heun.c/,/^```$/p' docs/design.md | sed '$d' >"$root/heun.c"
-logged $cc -std=c11 -Wall -Wextra -Werror -Wno-psabi $CFLAGS $(pkg-config --cflags dalembert) -c "$root/heun.c" \
+logged $cc -std=c11 -Wall -Wextra -Werror -Wno-psabi $CFLAGS $(pkg-config --cflags dalembert) -c examples/heun.c \
     -o "$root/heun.o"
 logged nm "$root/heun.o"
-grep -q dal_integrator_heun "$root/log" || fail "the integrator of docs/design.md defines no descriptor"
+grep -q dal_integrator_heun "$root/log" || fail "examples/heun.c defines no descriptor"
 
 # From C++ the headers have no warnings, and that of the kernel none from C++17 on.
 cxx=${CXX:-c++}

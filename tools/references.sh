@@ -1,7 +1,7 @@
 #!/bin/sh
 # references.sh PROGRAM [choosing] - writes the parts of docs/ that are made: systems, integrators,
-# modifiers, commands and keys of studies as the program prints them, and how directories
-# depend on each other; with a second argument also the results of the
+# modifiers, commands and keys of studies as the program prints them, the example of an
+# integrator, and how directories depend on each other; with a second argument also the results of the
 # study of choosing.md, which takes half a minute.
 program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 cd "$(dirname "$0")/.." || exit 2
@@ -27,6 +27,7 @@ replace() {
 "$program" list integrators --markdown | replace integrators integrators.md
 "$program" help --markdown | replace commands commands.md
 "$program" help study --markdown | awk -f tools/study_keys.awk | replace 'study keys' formats.md
+{ echo '```c'; cat examples/heun.c; echo '```'; } | replace heun design.md
 sh tools/lint/dependencies.sh >docs/dependencies.dot
 if command -v dot >/dev/null; then
     dot -Tsvg -Gbgcolor=transparent docs/dependencies.dot | awk '

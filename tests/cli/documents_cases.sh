@@ -60,3 +60,15 @@ expect "there are works" test "$(wc -l <works)" -ge 20
 while read -r work; do
     expect "$work" grep -qF "| $work |" "$here/../../docs/references.md"
 done <works
+
+case_is "the version that headers and documents name"
+version=$("$program" --version | sed 's/dalembert //')
+names_version() { # FILE PATTERN VERSION: \1 of the pattern is VERSION wherever FILE has the pattern
+    sed -n "s/$2.*/\1/p" "$here/../../$1" | sort -u >named
+    expect "$1: version $(cat named), not $3" test "$(cat named)" = "$3"
+}
+names_version include/dalembert.h '.*version as a text, "\(.*\)"' "$version"
+names_version CITATION.cff '^version: \(.*\)' "$version"
+names_version docs/installation.md '.*dalembert-\([0-9.]*\)\.tar\.gz' "$version"
+names_version docs/installation.md '.*dalembert \([0-9]*\.[0-9]*\) REQUIRED' "${version%.*}"
+names_version docs/embedding.md '.*find_package(dalembert \([0-9.]*\))' "${version%.*}"

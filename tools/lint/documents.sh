@@ -15,6 +15,7 @@ program=$1
 "$program" list integrators --markdown | same integrators integrators
 "$program" help --markdown | same commands commands
 "$program" help study --markdown | awk -f tools/study_keys.awk | same 'study keys' formats
+{ echo '```c'; cat examples/heun.c; echo '```'; } | same heun design
 
 # listed WHAT DOCUMENT PATTERN SOURCE: the first names of the table WHAT of a document are what the
 # pattern finds in the source, \1 of it.
