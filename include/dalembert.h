@@ -8,7 +8,7 @@
  *
  * q and v are coordinates and velocities, L is the Lagrangian, Q are forces, h the multipliers of
  * the constraints (and h a step size), W = L_vv the mass matrix, E = L_v.v - L.  Equation numbers
- * (nhK) are those of A. A. Deriglazov, arXiv:2510.24492.
+ * (nhK) are from A. A. Deriglazov, arXiv:2510.24492.
  *
  * Statuses.  Every function that can fail returns a dal_status and, where it takes a dal_error,
  * fills it; a dal_error may be NULL.  A NULL pointer to an object, a text, numbers or a result, a
@@ -21,7 +21,7 @@
  * to constant data belongs to its object and is valid as long as that.
  *
  * Shapes.  [n] after a pointer is the number of its elements; matrices are row-major.  n, m and
- * multipliers are those of dal_system, dimension is dal_run_dimension.  Quantities have the units
+ * multipliers are members of dal_system, dimension is dal_run_dimension.  Quantities have the units
  * of the system, which are the user's own; angles in formulas are in radians.
  *
  * Nothing here prints, reads the environment or has global state.  Different objects may be used in
@@ -87,11 +87,11 @@ typedef dal_status dal_step_function(struct dal_step *step);
 
 /* A constant descriptor; its file in integrators/ holds the mathematics. */
 typedef struct dal_integrator {
-    const char *name;        /* lower case, "rk4"; of a modifier the part behind the + */
+    const char *name;        /* lower case, "rk4"; of a modifier the part after the + */
     const char *alias;       /* another name, or NULL */
     const char *summary;     /* what it is, in a few words */
     const char *reference;   /* where it is from */
-    int order;               /* 0 for a modifier: that of the inner method */
+    int order;               /* 0 for a modifier: the inner method's */
     int stages;              /* solved together or stored at once; determines scratch and, with
                                 DAL_EXTRAPOLATES_STAGES, persistent state */
     unsigned properties;     /* DAL_SYMMETRIC | ... */
@@ -222,7 +222,7 @@ size_t dal_run_size(const dal_run_spec *spec);
  * DAL_SINGULAR_MASS, DAL_GAUGE, DAL_NOT_FINITE, DAL_MEMORY (too few bytes). */
 dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
                         dal_error *error);
-/* Makes a run in memory of its own. [alloc]  Errors: those of dal_run_init. */
+/* Makes a run in memory of its own. [alloc]  Errors: as for dal_run_init. */
 dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *error);
 /* Frees what the run owns: its memory after dal_run_create, compiled code always. */
 void dal_run_free(dal_run *run);
@@ -232,7 +232,7 @@ void dal_run_free(dal_run *run);
  * DAL_SINGULAR_MASS, DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the message names the constraint
  * and the time. */
 dal_status dal_run_step(dal_run *run, dal_error *error);
-/* Takes count steps, or those before the first that fails.  Errors: those of a step. */
+/* Takes count steps, or as many as succeed before one fails.  Errors: as for a step. */
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error);
 
 /* The system of the spec, or the one that the option extend-energy selects. */
@@ -265,7 +265,7 @@ int dal_run_index(const dal_run *run, const char *name);
  * extrapolated, and +project-energy takes the energy of the present state.  The observable error is
  * NaN from then on.  DAL_INCONSISTENT says that the parameter is set, and that a constraint is thus
  * violated (as at a start).  Errors, which change nothing: DAL_NAME with the nearest name,
- * DAL_NOT_FINITE, DAL_SINGULAR_MASS, DAL_SINGULAR, DAL_RANK, those of prepare and field. */
+ * DAL_NOT_FINITE, DAL_SINGULAR_MASS, DAL_SINGULAR, DAL_RANK, errors of prepare and field. */
 dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, dal_error *error);
 
 /* The persistent state and the parameters, *count doubles: all that passes from one step to the
@@ -274,16 +274,16 @@ const double *dal_run_save(const dal_run *run, size_t *count);
 /* Restores a copy, saved[count], into a run of the same spec, which then continues with the same
  * bits.  Errors, which change nothing: DAL_ARGUMENT (a wrong count, or a number that the state
  * cannot have, such as a counter of 1.5), DAL_NOT_FINITE, and where the system cannot be prepared
- * with the parameters those of prepare. */
+ * with the parameters errors of prepare. */
 dal_status dal_run_restore(dal_run *run, const double *saved, size_t count, dal_error *error);
 
 /* The number of observables, in this order: D1..Dm, E (with an energy), H, |p|, |pi|, |pi_e|
- * (lifted; max norms), invariants, with the option reactions h1.., R_x.. and lambda1.. (that of the
+ * (lifted; max norms), invariants, with the option reactions h1.., R_x.. and lambda1.. (of the
  * last step; h before), error (max over q; with an exact solution from the start). */
 int dal_run_observables(const dal_run *run);
 /* Writes the name of observable i into buffer[size]; returns buffer, NULL past the last. */
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size);
-/* Writes the observables of the present state to out.  Errors: those of the callbacks. */
+/* Writes the observables of the present state to out.  Errors: as for the callbacks. */
 dal_status dal_run_observe(dal_run *run, double *out);
 /* The scales of the observables at the present state, [observables] in memory of the run until it
  * is used again; NULL where a callback fails: the largest of the terms that each is made of, see
@@ -333,15 +333,15 @@ typedef struct dal_observer {
  * to T; dal_run_intermediate gives a row between two of them.  After an interruption between rows
  * pass the first row not sampled.  observer may be NULL.  Where an event ends the run, or cannot be
  * passed (DAL_STOPPED, DAL_EVENT), the last row is there, at the time that is reached.
- * Errors: those of a step; DAL_ARGUMENT, before anything is done, also where a row's time is not
- * finite or before that of the row before it, or every or polling is negative; what a callback
+ * Errors: as for a step; DAL_ARGUMENT, before anything is done, also where a row's time is not
+ * finite or before the time of the row before it, or every or polling is negative; what a callback
  * returns. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 /* Takes a step of size h from the present state, calls observe there, and restores the run to the
  * bit.  Under a tolerance, and with h less than the step of the run, the state is one within the
- * next step: that of the polynomial of the substep that contains it, if the method has dense
- * output.  observe must not move the run.  Errors: those of a step, the run being unchanged;
+ * next step: the one of the polynomial of the substep that contains it, if the method has dense
+ * output.  observe must not move the run.  Errors: as for a step, the run being unchanged;
  * DAL_ARGUMENT; what observe returns. */
 dal_status dal_run_intermediate(dal_run *run, double h,
                                 dal_status (*observe)(void *user, dal_run *run), void *user,
@@ -349,7 +349,7 @@ dal_status dal_run_intermediate(dal_run *run, double h,
 
 /* Advances the run to time T with its events, which all functions that take steps do, and calls
  * happened, which may be NULL, after each.  A step that would pass an event ends at it, to
- * rounding; the next one has size h again.  Errors: those of dal_run_sample; DAL_STOPPED where an
+ * rounding; the next one has size h again.  Errors: as for dal_run_sample; DAL_STOPPED where an
  * event ends the run; DAL_EVENT where one cannot be passed: it happens infinitely often, as when a
  * ball comes to rest, or leaves velocities that lead out of the allowed side; DAL_UNSUPPORTED on
  * the lifted space off p = pi = 0; what happened returns. */
@@ -373,14 +373,14 @@ double dal_run_jump(const dal_run *run, int observable);
 /* Many runs of one system and method, called lanes, that differ in parameters and start. */
 typedef struct dal_batch dal_batch;
 /* Makes count runs of one spec that are stepped several at a time, each with the bits of a single
- * run.  width: max lanes at a time, 1, 4 or 8; 0: the fastest.  [alloc]  Errors: those of
+ * run.  width: max lanes at a time, 1, 4 or 8; 0: the fastest.  [alloc]  Errors: as for
  * dal_run_init, DAL_ARGUMENT (count, width), DAL_UNSUPPORTED (quad precision). */
 dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
                             dal_error *error);
 /* Frees a batch. */
 void dal_batch_free(dal_batch *batch);
-/* Sets parameters[parameter_count] and start[start_count] of one lane, which replace those of the
- * spec, at its start.  Errors: those of dal_run_init; DAL_ARGUMENT (lane, or after a step, unless
+/* Sets parameters[parameter_count] and start[start_count] of one lane, which replace the
+ * spec's, at its start.  Errors: as for dal_run_init; DAL_ARGUMENT (lane, or after a step, unless
  * dal_batch_clear was called). */
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
@@ -451,7 +451,7 @@ unsigned long long dal_random_key(const char *name, unsigned long long seed);
  *     } */
 typedef struct dal_ensemble dal_ensemble;
 /* Makes an ensemble of a spec, whose numbers vary by variations[count], with a batch of that number
- * of lanes.  [alloc]  Errors: those of dal_batch_create; DAL_NAME (nothing has that name, with the
+ * of lanes.  [alloc]  Errors: as for dal_batch_create; DAL_NAME (nothing has that name, with the
  * nearest), DAL_ARGUMENT (a name twice, or as dal_variation_parse). */
 dal_status dal_ensemble_create(dal_ensemble **ensemble, const dal_run_spec *spec,
                                const dal_variation *variations, int count, unsigned long long seed,

@@ -1,6 +1,6 @@
 /* dalembert_analysis.h - statistics, trends, checks, order, error budgets, Lyapunov exponents.
  *
- * The conventions are those of dalembert.h.  Everything here uses its public functions only.
+ * The conventions of dalembert.h hold here.  Everything here uses its public functions only.
  * Derivatives are compared with central differences of order 8, whose noise is near 1e-12.
  *
  * Symplecticity on the lifted space says nothing about D or the energy of the motion itself: on
@@ -47,7 +47,7 @@ typedef struct dal_statistics {
      * k of the block belongs to sum k modulo DAL_PARTIAL_SUMS. */
     double open_t, open_min, open_max, open_sum[DAL_PARTIAL_SUMS];
     double open_from, open_square[DAL_PARTIAL_SUMS]; /* its first x; ((x - it)/rough_unit)^2 */
-    /* Sums and means are those of factor * (x - first): 1, or less after a value near the largest
+    /* Sums and means are of factor * (x - first): 1, or less after a value near the largest
      * double. */
     double factor;
     double scale; /* the largest by dal_statistics_add_scales; 0: none */
@@ -55,7 +55,7 @@ typedef struct dal_statistics {
      * rough_steps of successive values while blocks are short; then rough[] of values
      * DAL_PARTIAL_SUMS apart, one pair in four, by partial sum; held[] is the first of a pair. */
     double rough_unit, rough_steps, rough[DAL_PARTIAL_SUMS], held[DAL_PARTIAL_SUMS];
-    /* x: factor * (mean - first), rms: times factor; min and max are those of x itself. */
+    /* x: factor * (mean - first), rms: times factor; min and max are of x itself. */
     dal_statistics_block block[DAL_STATISTICS_BLOCKS];
 } dal_statistics;
 
@@ -64,7 +64,7 @@ void dal_statistics_start(dal_statistics *statistics, int count);
 /* Adds one value of each quantity, values[count], at time t, which increases in nearly equal steps.
  * A value that is not finite is left out and sets lost. */
 void dal_statistics_add(dal_statistics *statistics, int count, double t, const double *values);
-/* Adds the values of each quantity at t[samples]; that of quantity i at t[k] is
+/* Adds the values of each quantity at t[samples]; the value of quantity i at t[k] is
  * values[i * stride + k].  The result has the bits of adding them one by one; it is many times
  * faster. */
 void dal_statistics_add_many(dal_statistics *statistics, int count, int samples, const double *t,
@@ -180,7 +180,7 @@ void dal_statistics_classify(const dal_statistics *statistics, double scale, int
 
 /* Classifies all observables of a run: statistics[count] and trend[count] in the order of
  * dal_run_observe.  Their scales are those that dal_statistics_add_scales has added, or, where it
- * has added none, those of the present state; of norms (|p|, |pi|, |pi_e|) the largest value.  E is
+ * has added none, of the present state; of norms (|p|, |pi|, |pi_e|) the largest value.  E is
  * DAL_CONSERVED where the motion conserves it on every level of D, or on
  * D = 0 while max |D| is rounding-sized, and not where pi/e acts; H where F does not depend on t or
  * pi is 0; all else always is. */
@@ -221,7 +221,7 @@ typedef struct dal_order {
  * three errors that are above rounding (2e-13, and ten times noise, the error of the reference) and
  * below half the solution, if the two slopes agree so well that the next term of the error changes
  * it by at most 0.1.  Otherwise it is NaN: the steps are not in the asymptotic range, or fewer than
- * three errors are those of the method. */
+ * three errors are the method's own. */
 void dal_order_slopes(dal_order *order, double noise);
 
 /* The number of steps between two times: n with |n step - (to - from)| <= 1e-9 |to|, 1 <= n < 2^53;
@@ -230,7 +230,7 @@ long long dal_whole_steps(double from, double to, double step);
 
 /* Measures the order with 2 to DAL_ORDER_LEVELS step sizes: the state at T, a whole number of the
  * steps, against reference[dimension], or, when that is NULL, against gauss12 (or
- * *reference_method) with half the smallest step. [alloc]  Errors: those of the runs, DAL_ARGUMENT.
+ * *reference_method) with half the smallest step. [alloc]  Errors: as for the runs, DAL_ARGUMENT.
  */
 dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
@@ -243,7 +243,7 @@ dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
 /* The maximum entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
  * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e).  Lifted space only:
  * DAL_UNSUPPORTED; e must be finite.  increment, to begin with, relative to max(1, h |v|) of a
- * coordinate and max(1, |x|) of all else; 0: 2e-3. [alloc]  Errors: those of a step. */
+ * coordinate and max(1, |x|) of all else; 0: 2e-3. [alloc]  Errors: as for a step. */
 dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const double *state,
                                    double increment, double *defect, dal_error *error);
 
@@ -252,14 +252,14 @@ dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const dou
  *     (q, v) -> (q, -v),      (q, v, e, p, pi, pi_e) -> (q, -v, e, -p, pi, -pi_e),
  * the antisymplectic lift that leaves H = pi.pi/(2e) + pi.F + p.v alone when mu_e is odd in t and
  * F(q,-v,-t) = F(q,v,t); vakonomic g goes to -g where D is odd in v.  [alloc]
- * Errors: those of a step. */
+ * Errors: as for a step. */
 dal_status dal_check_reversibility(const dal_run_spec *spec, double t, const double *state,
                                    double *defect, dal_error *error);
 
 /* p.dq + pi.dv along steps of spec->method with 1/e = 0: (q,p,v,pi) from a lifted run with the
  * start of spec (its p_x, pi_x name the covector), (dq,dv) from the tangent system of the same
  * model (dal_model_tangent) in the physical space, beginning with direction[2n].  Constant for
- * symplectic methods.  The statistics cover every step. [alloc]  Errors: those of the runs. */
+ * symplectic methods.  The statistics cover every step. [alloc]  Errors: as for the runs. */
 dal_status dal_adjoint_pairing(const dal_run_spec *spec, const dal_system *tangent,
                                const double *direction, long long steps, dal_statistics *statistics,
                                dal_error *error);
@@ -278,7 +278,7 @@ dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, lon
  * with X_k [2n+1] = q, v, e at the count >= 3 nodes, P_k [2n+1] = p, pi, pi_e the mean over each
  * of the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.  The maximum of
  * |dS/dX_k| over inner nodes and |dS/dP_k|, divided by h: zero to rounding for implicit-midpoint,
- * of the order of the error for others. [alloc]  Errors: DAL_ARGUMENT, those of the callbacks. */
+ * of the order of the error for others. [alloc]  Errors: DAL_ARGUMENT, errors of the callbacks. */
 dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
                                   const double *states, double *defect);
 
@@ -326,7 +326,7 @@ dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double
  * at every moment, and so for the rates of lines of least squares.  Coefficients of a method stay
  * doubles in quad precision; their part does not fall with the step as truncation does.  Nor does
  * truncation in steps across branches (if, abs, min, ...), a source of its own.  The effect of
- * projection is that of leaving it out, or of adding it; it is no part of the sum.
+ * projection is the effect of leaving it out, or of adding it; it is no part of the sum.
  *
  * A change along the exact motion is no error.  What is known to be conserved from this start has
  * none: D; E by an identity; H, |p|, |pi| and |pi_e| on p = pi = 0; invariants whose rate vanishes
@@ -406,7 +406,7 @@ typedef struct dal_shares {
     int solver_is_significant; /* whether the solver's part is well above rounding */
     double order; /* log2 of what halving the step divides the error by: in quad precision, or
                      without it along the whole run; NaN: nothing to divide */
-    /* share: of the change, 0..1; that of PROJECTION vanishes without it, or with it; NaN: not
+    /* share: of the change, 0..1; the share of PROJECTION vanishes without it, or with it; NaN: not
      * known.  margin: half the 95 % interval of a share of rates; NaN: none. */
     double share[DAL_ERROR_SOURCES], margin[DAL_ERROR_SOURCES];
 } dal_shares;
@@ -437,7 +437,7 @@ typedef struct dal_error_budget_observer {
 
 /* Runs a spec for a number of steps, and the runs it is compared with, and finds the shares of
  * every observable's drift.  observer may be NULL.  A comparison that is not possible is left out,
- * with a reason.  [alloc]  Errors: those of the run itself, DAL_ARGUMENT. */
+ * with a reason.  [alloc]  Errors: as for the run itself, DAL_ARGUMENT. */
 dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, long long quad_steps,
                                    const dal_error_budget_observer *observer,
                                    dal_error_budget **budget, dal_error *error);
@@ -460,7 +460,7 @@ char *dal_error_budget_describe(const dal_error_budget *budget, int observable,
  * Gram-Schmidt makes them orthonormal again in the units of dal_scaled (Benettin, Galgani,
  * Giorgilli, Strelcyn 1980, DOI 10.1007/BF02128236).
  *     J V = V' R,    exponent i = mean of log(R_ii)/h,    mean of log|det J|/h = their sum
- * The mean divergence of the motion, that of the trace of F_(v,g), is their sum, too.  Over a long
+ * The mean divergence of the motion, the mean trace of F_(v,g), is their sum, too.  Over a long
  * time it holds for every density of the phase space, and on D = 0, provided that the logarithms of
  * the density and of |grad D| grow slower than t: they contribute total derivatives only. */
 typedef struct dal_lyapunov dal_lyapunov;
@@ -471,7 +471,7 @@ typedef struct dal_lyapunov dal_lyapunov;
  * a Runge-Kutta method, partitioned symplectic Euler, or a composition, J is the derivative of the
  * formulas of the step, to rounding and to the error of its solver; otherwise it is found by
  * differences of the step, of order 8, with increments that do not depend on how far the
- * coordinates have travelled.  The space of the spec is ignored. [alloc]  Errors: those of a run;
+ * coordinates have travelled.  The space of the spec is ignored. [alloc]  Errors: as for a run;
  * DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step is no smooth map of (q, v, g) alone: it has a
  * multiplier as persistent state, or a tolerance. */
 dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
@@ -495,7 +495,7 @@ typedef struct dal_balance {
     double margin;     /* a bound of the errors of the method, the mean of
                           dimension r x^order / (1 - x) with x = h r and
                           r = max(|F_q|^(1/2), |F_(v,g)|), of the quadrature and of J; it has no
-                          statistical part: both means are those of one trajectory */
+                          statistical part: both are means of one trajectory */
     int holds;         /* |difference| <= margin; if not, J is wrong */
 } dal_balance;
 
@@ -537,7 +537,7 @@ typedef struct dal_crossing {
 typedef struct dal_poincare {
     dal_callback *callback; /* of the run's system; invariant_values for an invariant */
     int count;              /* its values */
-    int index;              /* that of g, from 0 */
+    int index;              /* the index of g, from 0 */
     int direction;          /* 1: from g < 0 to g > 0, -1: the other way, 0: both */
     void *user;             /* the first argument of both callbacks */
     /* Called with the run at the crossing. */
@@ -558,7 +558,7 @@ typedef struct dal_crossings {
  * show: the state, found by dal_run_intermediate, with g = 0 to rounding; the trajectory does not
  * change.  A part h of a step is halved, up to 10 times, where |g'| h > pi max |g| or g changes by
  * more than its rates g' at both ends explain.  A start with g = 0 is no crossing. [alloc]
- * Errors: those of the steps and of the callback; DAL_ARGUMENT. */
+ * Errors: as for the steps and of the callback; DAL_ARGUMENT. */
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error);
 

@@ -1,6 +1,6 @@
 /* dalembert_codegen.h - steps compiled for one system and method: as a C file, or within a run.
  *
- * The conventions are those of dalembert.h. */
+ * The conventions of dalembert.h hold here. */
 #ifndef DALEMBERT_CODEGEN_H
 #define DALEMBERT_CODEGEN_H
 
@@ -13,8 +13,8 @@ extern "C" {
 /* ---- generated C files --------------------------------------------------------------------- */
 
 /* Writes a self-contained C file that steps this system by this method on this space, lanes (1, 2,
- * 4, 8 or 16) at a time: *text, to be freed with free(); its first comment explains its use.  The
- * bits are those of a run of the same spec.  The system must come from a model, the integrators
+ * 4, 8 or 16) at a time: *text, to be freed with free(); its first comment explains its use.  It
+ * gives the bits of a run of the same spec.  The system must come from a model, the integrators
  * from the library.  Parameters and start of the spec are the defaults of the file; solver and
  * iterations are fixed in it, the step size is not.  prefix begins every public name (NULL:
  * SYSTEM_METHOD). [alloc]  Errors: as dal_run_create, DAL_ARGUMENT (lanes, prefix),
@@ -70,7 +70,7 @@ int dal_batch_is_native(const dal_batch *batch);
  *     dal_native_free(native);
  *
  * Several runs may use one, which must outlive them; the system must outlive it.  It is used by one
- * thread at a time, but for the steps of the runs. */
+ * thread at a time, except the steps of the runs. */
 typedef struct dal_native dal_native;
 
 /* How far it is. */
@@ -82,7 +82,7 @@ typedef enum dal_native_state {
 
 /* Begins to compile the steps of a run, and returns without waiting; stop is not called.  They fit
  * all runs of the same system, method and options, the step size excepted.  [alloc]  Errors: as
- * dal_run_native, but for what the compiler does. */
+ * dal_run_native, except what the compiler does. */
 dal_status dal_native_begin(dal_native **native, const dal_run *run,
                             const dal_native_options *options, dal_error *error);
 /* The same for dal_run_native_observables.  They fit all runs of the same system on that space. */

@@ -1,6 +1,6 @@
 /* dalembert_evaluator.h - a system at a point, in units of its own, and checks of it.
  *
- * The conventions are those of dalembert.h, which it includes.  Derivatives are compared with
+ * The conventions of dalembert.h, which it includes, hold here.  Derivatives are compared with
  * central differences of order 8, whose noise is near 1e-12. */
 #ifndef DALEMBERT_EVALUATOR_H
 #define DALEMBERT_EVALUATOR_H
@@ -15,8 +15,8 @@ extern "C" {
 typedef struct dal_evaluator dal_evaluator;
 
 /* Makes an evaluator with parameters[parameter_count]; the others have the system's values.  The
- * system must outlive it. [alloc]  Errors: DAL_NAME with the nearest name, DAL_NOT_FINITE, those of
- * prepare. */
+ * system must outlive it. [alloc]  Errors: DAL_NAME with the nearest name, DAL_NOT_FINITE,
+ * errors of prepare. */
 dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *system,
                                 const dal_setting *parameters, int parameter_count,
                                 dal_error *error);
@@ -25,7 +25,7 @@ void dal_evaluator_free(dal_evaluator *evaluator);
 /* The system that is evaluated. */
 const dal_system *dal_evaluator_system(const dal_evaluator *evaluator);
 /* Calls a callback of the system at t, q[n], v[n + multipliers]; pi[n] is read by the adjoint alone
- * and may else be NULL.  Errors: DAL_UNSUPPORTED (callback is NULL), those of the callback. */
+ * and may else be NULL.  Errors: DAL_UNSUPPORTED (callback is NULL), errors of the callback. */
 dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
                               const double *q, const double *v, const double *pi, double *out);
 /* The scales of D, E and the invariants at a point, out[m + 1 + invariants], see
@@ -34,8 +34,8 @@ dal_status dal_evaluator_scales(dal_evaluator *evaluator, double t, const double
                                 const double *v, double *out);
 /* The start: out[2n + multipliers + 1] = q, v, g, e, with x, x', g1 and e replaced by
  * start[start_count], and then the velocities that it solves by those from D = 0 at t = 0.  It need
- * not satisfy the other constraints.  Errors: DAL_NAME, those of the system; of velocities that are
- * solved DAL_RANK, DAL_INCONSISTENT. */
+ * not satisfy the other constraints.  Errors: DAL_NAME, errors of the system; where
+ * velocities are solved DAL_RANK, DAL_INCONSISTENT. */
 dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
                                double *out, dal_error *error);
 /* The same of a start at the time t. */
@@ -49,7 +49,7 @@ dal_status dal_evaluator_start_at(dal_evaluator *evaluator, double t, const dal_
 typedef struct dal_scaled dal_scaled;
 /* Finds the units of spec->system by its motion from spec->start at start_time; a step, where one
  * is given, says the time where the motion does not.  The system must outlive it. [alloc]  Errors:
- * those of the parameters and of the start; DAL_MEMORY. */
+ * errors of the parameters and of the start; DAL_MEMORY. */
 dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_error *error);
 /* The same of the system of a run, with its parameters, by the motion from its present
  * state. [alloc]  Errors: DAL_MEMORY. */
@@ -78,18 +78,18 @@ typedef struct dal_derivatives {
     double constraint_jacobian; /* A = dD/dv */
     double gram;                /* asymmetry of G = A W^-1 A^T, relative to its size */
 } dal_derivatives;
-/* Compares the derivatives at a point.  [alloc]  Errors: those of the callbacks, DAL_NOT_FINITE:
+/* Compares the derivatives at a point.  [alloc]  Errors: as for the callbacks, DAL_NOT_FINITE:
  * the differences are not finite. */
 dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
                                  dal_derivatives *out);
 
 /* The numerical rank of G = A W^-1 A^T, and its smallest pivot relative to the largest entry of
- * G scaled to a unit diagonal (0 where G is singular). [alloc]  Errors: those of the callbacks. */
+ * G scaled to a unit diagonal (0 where G is singular). [alloc]  Errors: as for the callbacks. */
 dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank,
                             double *pivot);
 
 /* Moves v[n] along W^-1 A^T until D = 0 (Newton, to stagnation). [alloc]  Errors:
- * DAL_NOT_CONVERGED, v being as before; those of the callbacks. */
+ * DAL_NOT_CONVERGED, v being as before; errors of the callbacks. */
 dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v);
 
 /* The class of D as a function, by differences at points around *at: each member is a necessary
@@ -99,7 +99,7 @@ typedef struct dal_constraint_class {
     int constant;        /* affine in (q,v) jointly */
     int bilinear;        /* affine in v, and affine in q */
     int quadratic;       /* of degree <= 2 in (q,v) jointly */
-    int parity;          /* D(q,-v,-t) = +D: 1, -D: -1, neither: 0; that of the first
+    int parity;          /* D(q,-v,-t) = +D: 1, -D: -1, neither: 0; of the first
                             constraint, 0 when one has none */
     int homogeneous;     /* v.D_v = k D with one k per constraint */
     int reversible;      /* F(q,-v,-t) = F(q,v,t) */
@@ -131,9 +131,9 @@ typedef struct dal_branch {
 dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity, int *count);
 
 /* The branches at which F or its derivative by a velocity jumps, as far as is known near the start:
- * beyond one of them derivatives of F are not those of the motion. */
+ * beyond one of them derivatives of F are not derivatives of the motion. */
 typedef struct dal_jumps dal_jumps;
-/* Finds those of a model whose system is made, and which must outlive them. [alloc]  Errors:
+/* Finds the branches of a model whose system is made, and which must outlive them. [alloc]  Errors:
  * DAL_ARGUMENT, DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model);
 /* Frees them; NULL is allowed. */

@@ -3,7 +3,7 @@
  * An integrator advances a state y in place by one step h.  It is written once, in plain C over the
  * type num (one double, or several lanes), and is compiled at each width.  It must not branch on
  * the value of one lane, store anything outside *step, or call the system except through the
- * functions below.  No function returns behind the author's back.  Five macros serve every
+ * functions below.  No function returns unseen by the author.  Five macros serve every
  * integrator:
  *
  *     DAL_INLINE                            before each function

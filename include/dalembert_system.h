@@ -69,7 +69,7 @@ typedef struct dal_system dal_system;
 
 /* Where a system is evaluated.  work begins with the parameter values, [system->parameters]; the
  * rest of its system->workspace doubles are the system's own (filled by prepare) and scratch.
- * Functions with a memory of their own, as those of a dal_evaluator, read t, q and v alone. */
+ * Functions with a memory of their own, as a dal_evaluator has, read t, q and v alone. */
 typedef struct dal_point {
     double t;            /* time */
     const double *q;     /* [n] coordinates */
@@ -125,7 +125,7 @@ typedef struct dal_callbacks {
  * and the lower ones in memory[size[lifted]*stride], k < stride, follows coefficient k of
  *     out[n + multipliers]           F, dg/dt
  *     out[3n + 1]                    F, F_q^T pi, F_v^T pi, mu_e, on the lifted space
- * All arrays are interleaved by lanes as those of a callback; work is that of a dal_point. */
+ * All arrays are interleaved by lanes as for a callback; work is as in dal_point. */
 typedef dal_status dal_series_callback(const dal_system *system, int lifted, int k, int stride,
                                        const double *in, double *work, double *memory, double *out);
 /* Those callbacks of a system. */
@@ -184,7 +184,7 @@ typedef struct dal_branches {
     /* The values, infinite ones among them, between which branch k of s = point stays. */
     void (*bounds)(const dal_system *system, int k, double point, double *lower, double *upper);
     /* Until the next call the callbacks of a step, the rates of events and these two decide as for
-     * s = point[count]; NULL: as s is.  work: that of the points where they are evaluated. */
+     * s = point[count]; NULL: as s is.  work: as in the points where they are evaluated. */
     void (*hold)(const dal_system *system, const double *point, double *work);
 } dal_branches;
 
@@ -243,7 +243,7 @@ struct dal_system {
     dal_callback *event_normals; /* out[(1 + 2n)*events]: restitution, when_q, W^-1 when_q */
     dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
                                number of the constraint (from 1), DAL_SINGULAR_MASS, DAL_NOT_FINITE
-                               with that of a table read outside its points, or DAL_OK */
+                               with the one of a table read outside its points, or DAL_OK */
     const dal_system *extended;   /* F continued off D = 0 so that E is exact, for extend-energy */
     const dal_system *quad;       /* work in quad precision, for precision; these two may be NULL */
     const dal_series *series;     /* Taylor coefficients of F; NULL: none */
@@ -261,7 +261,7 @@ struct dal_system {
     NUMBER(X, "x")         /* place on the abscissa */                                             \
     NUMBER(Y, "y")         /* place on the ordinate */                                             \
     NUMBER(ANGLE, "angle") /* heading, from x to y */                                              \
-    NUMBER(STEER, "steer") /* angle of a board's front axle (minus that of the other), or arm */   \
+    NUMBER(STEER, "steer") /* angle of a board's front axle (minus the other's), or arm */         \
     NUMBER(WIDTH, "width") /* of a disk: breadth over length as seen */
 /* The bodies that are drawn, BODY(code, name). */
 #define DAL_BODY_LIST(BODY)                                                                        \
@@ -369,16 +369,16 @@ const char *dal_model_text(const dal_model *model, dal_section section, int i, c
 /* Warning number i about a model that has its system, and where not NULL its place; NULL: none. */
 const char *dal_model_warning(const dal_model *model, int i, int *line, int *column);
 /* Makes *model from the YAML text of a system file, text[length].  name is for messages and may be
- * NULL.  Files of its tables stand in the text, under "files". [alloc]  Errors: DAL_SYNTAX,
+ * NULL.  Files of its tables are in the text, under "files". [alloc]  Errors: DAL_SYNTAX,
  * DAL_NAME and DAL_MODEL, with place. */
 dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
                           dal_error *error);
 /* Makes *model from the file at path, which tables name their files from. [alloc]  Errors: DAL_IO,
- * those of dal_model_read. */
+ * as for dal_model_read. */
 dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error);
 /* The YAML text that a model was read from, with the files of its tables in it, so that
  * dal_model_read makes the same model anywhere; NULL where it was not read.  *length without the
- * NUL behind it. */
+ * NUL after it. */
 const char *dal_model_source(const dal_model *model, size_t *length);
 /* Makes *model from a system of the library, "chaplygin-sleigh". [alloc]  Errors: DAL_NAME with
  * the nearest name. */
@@ -394,18 +394,18 @@ const char *dal_builtin_text(const char *name);
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error);
 /* Gives the tangent system, owned by the model: 2n coordinates (q, dq), accelerations F and
  * F_q dq + F_v dv, no constraints.  A Runge-Kutta or partitioned method applied to it is that
- * method's exact tangent map. [alloc]  Errors: those of dal_model_system. */
+ * method's exact tangent map. [alloc]  Errors: as for dal_model_system. */
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error);
 
 /* A value for a name. */
 typedef struct dal_setting {
     const char *name; /* of a parameter or of a component of the state */
-    double value;     /* finite, but for e = INFINITY */
+    double value;     /* finite, except e = INFINITY */
 } dal_setting;
 
 enum { DAL_GROWTH_LEVELS = 64 /* max ranks of dal_growth */ };
 /* The growth vector of the velocities that D = 0 allows, a distribution V_1 on the space of q:
- * rank[k] is that of V_(k+1) = V_k + [V_1, V_k] at generic points.  V_1 alone: D is integrable,
+ * rank[k] is the rank of V_(k+1) = V_k + [V_1, V_k] at generic points.  V_1 alone: D is integrable,
  * that is holonomic; a last rank below the dimension: a part of it is. */
 typedef struct dal_growth {
     int dimension;               /* n; where D has terms without v, or t: n + 1, of (t, q) */
@@ -414,7 +414,7 @@ typedef struct dal_growth {
     int rank[DAL_GROWTH_LEVELS]; /* [levels] */
 } dal_growth;
 /* Finds the growth vector of a model whose system is made, by exact brackets at points near the
- * start, with parameters[parameter_count].  units[1 + n] of t and q, those of dal_scaled_units, say
+ * start, with parameters[parameter_count].  units[1 + n] of t and q, from dal_scaled_units, say
  * how far the points are and what components are compared with; NULL: 1.  [alloc]  Errors:
  * DAL_UNSUPPORTED (no constraints, or one that is not linear in v), DAL_NAME, DAL_SINGULAR,
  * DAL_NOT_FINITE, DAL_TOO_LARGE. */
@@ -430,7 +430,7 @@ typedef struct dal_ranks {
     double mass_pivot;        /* likewise */
 } dal_ranks;
 /* Finds the ranks of a model whose system is made, with parameters[parameter_count], at a point of
- * which t, q[n] and v[n] are read.  Entries are compared in units[1 + n] of t and q, those of
+ * which t, q[n] and v[n] are read.  Entries are compared in units[1 + n] of t and q, as from
  * dal_scaled_units; NULL: 1.  [alloc]  Errors: DAL_UNSUPPORTED (vakonomic motion, reactions given),
  * DAL_NAME, DAL_NOT_FINITE. */
 dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int parameter_count,

@@ -3,7 +3,7 @@
  *     Psi_h = Phi*_(c_1 h) o Phi_(c_2 h) o ... o Phi*_(c_2 h) o Phi_(c_1 h),     sum c_i = 1
  *
  * the same sizes both ways, Phi = symplectic Euler (1,0), new q and old v, Phi* = (0,1).
- * Compositions of both reach an order with fewer and smaller steps than those of a symmetric
+ * Compositions of both reach an order with fewer and smaller steps than compositions of a symmetric
  * method.
  *
  *     bm4         12 steps, from the splitting S_6 of order 4       Blanes, Moan, J. Comput. Appl.

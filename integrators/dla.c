@@ -11,7 +11,7 @@
  *     vb = v0 + h/2 a(qb, vb) + h/2 B(q0, v0) mu,   qb = q0 + h/2 vb,   D(qb, vb, t + h/2) = 0
  *     v1 = vb + h/2 a(qb, vb) + h/2 B(q1, v1) nu,   q1 = q0 + h vb,     D(q1, v1, t1) = 0
  *
- * so that the q are those of the two-step equations (D linear, W constant; else this is the same
+ * so that the q satisfy the two-step equations (D linear, W constant; else this is the same
  * with the midpoint rule for v' = a, and for B at the node's velocity).  Order 2, symmetric, keeps
  * every D, and D at the midpoints. */
 #include <dalembert_kernel.h>

@@ -45,7 +45,7 @@ static const double a853[] = {5.26001519587677318785587544488e-2,
     2.79488845294199600508499808837e+1, -2.85899827713502369474065508674,
     -8.87285693353062954433549289258, 1.23605671757943030647266201528e+1,
     6.43392746015763530355970484046e-1};
-/* The digits of a and b behind the doubles above. */
+/* The digits of a and b after the doubles above. */
 static const double a853_low[] = {2.2355514829149388e-18, -8.9639166988370505e-19,
     -2.6891750096511152e-18, -1.3445875048255075e-18, 0.0, 2.9051313894306059e-18,
     -6.6241522039166237e-18, 0.0, 7.0162460965731243e-18, 1.0537371249772312e-17,
@@ -93,7 +93,7 @@ DAL_INLINE void add_derivatives(int dim, int count, const double *weight, const 
     }
 }
 
-/* sum = weight_1 k_1 + .. + weight_count k_count, the digits behind the doubles first. */
+/* sum = weight_1 k_1 + .. + weight_count k_count, the digits after the doubles first. */
 DAL_INLINE void combine(int dim, int count, const double *weight, const double *low, int is_fine,
                         const num *k, num *DAL_RESTRICT sum)
 {
@@ -122,8 +122,8 @@ DAL_INLINE void derivatives(dal_step *s, dal_times t, dal_times size, int known,
 
 #if DAL_WITH_CONTROL
 /* clang-format off */
-/* The weights of the embedded method of order 3 (bhh in dop853.f), and those of order 8 less those
- * of order 5 (er); their differences from order 8 vanish up to h^3 and h^5. */
+/* The weights of the embedded method of order 3 (bhh in dop853.f), and order 8 less order 5
+ * (er); their differences from order 8 vanish up to h^3 and h^5. */
 static const double third853[] = {0.244094488188976377952755905512, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
     0.0, 0.733846688281611857341361741547, 0.0, 0.0, 0.220588235294117647058823529412e-1};
 static const double fifth853[] = {0.1312004499419488073250102996e-1, 0.0, 0.0, 0.0, 0.0,
@@ -153,7 +153,7 @@ DAL_INLINE dal_times error853(const dal_step *s, dal_times h, const num *derivat
     return (dal_times)dal_select(dal_equal(both, zero), zero, error);
 }
 
-/* r of a trial of size h: the error of (q,v) and that of (p,pi) each by itself, and none of e and
+/* r of a trial of size h: the errors of (q,v) and of (p,pi) each by itself, and none of e and
  * pi_e, so that the substeps of (q,v) on the surface know neither the space nor the gauge. */
 DAL_INLINE dal_times ratio853(dal_step *s, dal_times h, const num *k, const num *derivative)
 {
@@ -271,7 +271,7 @@ DAL_INLINE void extension_terms(int dim, const num *mean, const num *k, num *DAL
 
 /* Replaces r2, .., r8 by the coefficients of s^0, .., s^6 in r2 + z (r3 + s (r4 + z ..)), from the
  * innermost bracket outwards.  A pass makes r_d + z P = r_d + P - s P of r_d and the coefficients
- * of P = r_(d+1) + s (..), which already stand behind it. */
+ * of P = r_(d+1) + s (..), which already follow it. */
 DAL_INLINE void expand_extension(int dim, num *r)
 {
     const int last = (EXTENSION_TERMS_853 - 1) * dim;

@@ -3,7 +3,7 @@
  *     K_i = a(Q_i,V_i) + B(Q_i,V_i) L_i,   sum_j b_j c_j^k D(Q_j, V_j) = 0, k = 0..s-2,
  *     D(q1, v1) = 0
  *
- * with the Gauss coefficients for q and v alike; lib/kernel/spark.h.  The family is that of L. Jay,
+ * with the Gauss coefficients for q and v alike; lib/kernel/spark.h.  The family is due to L. Jay,
  * Lagrange-d'Alembert SPARK integrators (2009); this choice of equations stood the tests of order,
  * symmetry and reversal.  Order 2s, symmetric, preserve every D. */
 #include <dalembert_kernel.h>
@@ -11,7 +11,7 @@
 static const double c1[] = {0.5}, a1[] = {0.5}, b1[] = {1.0};
 static const double one[] = {1.0};
 
-/* Behind the rows of a stand the weights b. */
+/* After the rows of a come the weights b. */
 static const double c2[] = {0.211324865405187117745, 0.788675134594812882255, 1.0};
 static const double a2[] = {0.25, -0.038675134594812882255, 0.538675134594812882255, 0.25, 0.5,
                             0.5};

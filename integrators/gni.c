@@ -3,7 +3,7 @@
  *     vh = v0 + h/2 (a(q0,v0) + B(q0,v0) lambda0),   q1 = q0 + h vh
  *     v1 = vh + h/2 (a(q1,v1) + B(q1,v1) lambda1),   D(q1, v1, t1) = 0
  *
- * lambda1 is the lambda0 of the next step; the first is that of the continuous motion.  S. Ferraro,
+ * lambda1 is the lambda0 of the next step; the first is the continuous motion's.  S. Ferraro,
  * D. Iglesias, D. Martin de Diego, Nonlinearity 21 (2008) 1911, and, in this form, Ferraro,
  * Iglesias, Martin de Diego, Discrete Contin. Dyn. Syst. Suppl. (2009) 220.  vh -> vh of the next
  * step is a reflection in D = 0: without forces, and with constant W, its kinetic energy is kept.

@@ -9,7 +9,7 @@
  *     (1 + C)^T d = -C^T P,   P1 = P + d
  *
  * The rest of H, pi^2/(2e), is a flow v' = pi/e, pi_e' = pi^2/(2e^2), half before and half after
- * (Strang 1968).  Sanz-Serna, SIAM Rev. 58 (2016) 3, has the principle.  Order: that of NAME on
+ * (Strang 1968).  Sanz-Serna, SIAM Rev. 58 (2016) 3, has the principle.  Order: as of NAME on
  * p = pi = 0 and where 1/e = 0, else 2.  Costs 2n steps of NAME with F_q, F_v. */
 #include <dalembert_kernel.h>
 
@@ -51,7 +51,7 @@ DAL_INLINE dal_status differentiate(dal_step *s, int j, num *unit, num *zero, nu
     return status;
 }
 
-/* d = -(1 + C)^-T C^T P; the columns are the rows of C^T and become those of (1 + C)^T. */
+/* d = -(1 + C)^-T C^T P; the columns are the rows of C^T and become the columns of (1 + C)^T. */
 DAL_INLINE void pull(dal_step *s, num *columns, const num *momenta, num *d)
 {
     const int size = 2 * DAL_N(s);

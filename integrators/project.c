@@ -24,7 +24,7 @@ DAL_INLINE void eval_constraint(dal_step *s, projection *p)
     dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, p->v, NULL, p->out);
 }
 
-/* The unknown is the change of v, whose scale is that of v. */
+/* The unknown is the change of v, whose scale is the scale of v. */
 DAL_INLINE void projection_map(dal_step *s, dal_equation *eq)
 {
     projection *p = (projection *)eq->context;

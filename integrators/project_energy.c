@@ -20,7 +20,7 @@
  * symplecticity on the lift. */
 #include <dalembert_kernel.h>
 
-/* m + 1 unknowns and equations: those of D, then that of E. */
+/* m + 1 unknowns and equations: m for D, then one for E. */
 #define LEVELS(s) (DAL_M(s) + 1)
 
 typedef struct level {

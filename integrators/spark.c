@@ -6,14 +6,14 @@
  *                            L_1 is L_s of the step before
  *
  * L. Jay, Math. Comp. 75 (2006) 641 and Lagrange-d'Alembert SPARK integrators (2009); R. Sato
- * Martin de Almagro, D. Martin de Diego, arXiv:1810.10926, whose s = 2 is gni but for forces that
- * depend on v.  Order 2s - 2, symmetric (the second in its multipliers, too, which begin with those
- * of the continuous motion: a wrong beginning costs an order), preserve every D.  An error of
- * multipliers that are persistent grows where the motion contracts, as gni's does.  The equations
- * are those of lib/kernel/spark.h.
+ * Martin de Almagro, D. Martin de Diego, arXiv:1810.10926, whose s = 2 is gni, except with
+ * forces that depend on v.  Order 2s - 2, symmetric (the second in its multipliers, too, which
+ * begin with the continuous motion's: a wrong beginning costs an order), preserve every D.  An
+ * error of multipliers that are persistent grows where the motion contracts, as gni's does.  The
+ * equations are in lib/kernel/spark.h.
  *
  * Nodes: zeros of the (s-2)nd derivative of (x(1-x))^(s-1), then 1; a from C(s),
- * ahat_ij = b_j (1 - a_ji/b_i); behind the rows of both that of the weights b.  omega: a_2 .. a_s,
+ * ahat_ij = b_j (1 - a_ji/b_i); after the rows of both the row of weights b.  omega: a_2 .. a_s,
  * and the end. */
 #include <dalembert_kernel.h>
 

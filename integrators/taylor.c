@@ -12,7 +12,7 @@
  *     h = tolerance^(1/p) min (max(1, |x|)/|x_m|)^(1/m),   m = p-3 .. p,
  *
  * four of them, since odd or even motions lack every other one, and some motions more.  Last
- * coefficients may vanish all the same, as those of x'' = t^50 at t = 0 do; so the polynomial must
+ * coefficients may vanish all the same, as they do for x'' = t^50 at t = 0; so the polynomial must
  * satisfy the equations at the end of the substep, else h is halved. */
 #include <dalembert_kernel.h>
 
@@ -24,7 +24,7 @@ enum { ESTIMATES = 4 };
 #define DEFECT_OF_TOLERANCE 1e3
 #define DEFECT_OF_ROUNDING  (2e-12 * DAL_ULP_RATIO)
 
-/* The bits of |x| as an integer, which are ordered as the numbers are; those of NaN come last. */
+/* The bits of |x| as an integer, which are ordered as the numbers are; NaN comes last. */
 DAL_INLINE dal_mask bits_of(num x)
 {
     const dal_times size = (dal_times)x;

@@ -16,7 +16,7 @@ typedef struct dal__root {
     dal__value_at best, other;
 } dal__root;
 
-/* Finds the root between a and b, at which the values have different signs.  Errors: those of the
+/* Finds the root between a and b, at which the values have different signs.  Errors: as for the
  * function. */
 dal_status dal__find_root(dal__function *function, void *user, dal__value_at a, dal__value_at b,
                           dal__root *root);

@@ -7,7 +7,7 @@
  *
  * Two evaluations and a product of matrices cost more than many a step.  They are spared where the
  * pivots of the equations that F solves give no warning: those at the first evaluation of F in each
- * step, which the system leaves behind.  One of them is the square of the distance s of a gradient
+ * step, which the system leaves.  One of them is the square of the distance s of a gradient
  * from the span of others (or s itself, with given reactions), and vanishes with G.  Where s passes
  * through zero at an even pace, it is half of what it was, or less, in that step or in the step
  * before: s^2 has fallen to a quarter.  The warning is a change of sign or by more than
@@ -50,7 +50,7 @@ DAL_INLINE num dal_group_nonfinite(const num *x, int count, int group)
 #define dal_group_nonfinite(x, count, group) ((void)(group), dal_nonfinite(x, count))
 #endif
 
-/* Lanes in which every component of the state is finite; 1/e stands for e. */
+/* Lanes in which every component of the state is finite; 1/e is tested instead of e. */
 DAL_INLINE dal_mask dal_finite_state(const dal_step *s, int group)
 {
     const int dim = DAL_DIM(s) / DAL_STEP_GROUPS;
@@ -105,8 +105,8 @@ DAL_INLINE dal_mask dal_check_guards(dal_step *s, int group, const num *y0, int 
 #if DAL_WITH_PIVOTS
 #define DAL__PIVOT_CHANGE 1.25
 
-/* Lanes where a pivot differs in sign or size from that of the step before, in this step or in the
- * last, or where one of them is not known.  Saves those of this step. */
+/* Lanes where a pivot differs in sign or size from the step before, in this step or in the
+ * last, or where one of them is not known.  Saves the pivots of this step. */
 DAL_INLINE dal_mask dal_pivots_warn(dal_step *s, int group)
 {
     const int known = s->pivots_known[group];

@@ -5,7 +5,7 @@
 
 #include "step.h"
 
-/* The output of DAL_EVAL_BLOCKS: D, A, B as in that of DAL_EVAL_CONSTRAINT, then a and c. */
+/* The output of DAL_EVAL_BLOCKS: D, A, B as from DAL_EVAL_CONSTRAINT, then a and c. */
 #define DAL_BLOCKS_SIZE(s) (2 * DAL_M(s) + DAL_N(s) + 2 * DAL_M(s) * DAL_N(s))
 DAL_INLINE int dal_blocks_A(const dal_step *s) { return DAL_M(s); }
 DAL_INLINE int dal_blocks_B(const dal_step *s) { return DAL_M(s) + DAL_M(s) * DAL_N(s); }

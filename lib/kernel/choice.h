@@ -1,6 +1,6 @@
 /* choice.h - the solver "auto": fixed point or Newton's method, whichever costs less.
  *
- * Costs are counted in operations, those of F and of its derivatives as the system states them, and
+ * Costs are counted in operations, F and its derivatives at the cost that the system states, and
  * in the iterations that each lane needed; no clock is read.  In units of an iteration of the fixed
  * point, k of which solve an equation, Newton's method costs
  *
@@ -12,7 +12,7 @@
  * twice as many, at most DAL__MAX_INTERVAL.  A fixed point that hardly contracts, or that takes
  * more iterations than it may, is given up for Newton's method at once.
  *
- * The decision stands in the persistent state: uses_newton, and choice[3][DAL_STEP_GROUPS]:
+ * The decision is kept in the persistent state: uses_newton, and choice[3][DAL_STEP_GROUPS]:
  *
  *     last        iterations of the last equation that counted
  *     remaining   equations until the next trial
@@ -24,7 +24,7 @@
 
 /* Equations from one trial of the other method to the next. */
 enum { DAL__MIN_INTERVAL = 8, DAL__MAX_INTERVAL = 512 };
-/* The time of an operation of Newton's method, that of the fixed point being 1.  It is longer in
+/* The time of an operation of Newton's method, the fixed point's being 1.  It is longer in
  * compiled steps than in interpreted ones; both must choose alike, and take the mean. */
 #define DAL__NEWTON_WEIGHT 1.4
 /* Iterations of Newton's method, at best and as expected, where it has not been tried; the fixed
@@ -39,8 +39,8 @@ typedef struct dal_newton_cost {
 } dal_newton_cost;
 
 /* The cost for stages of `width` unknowns each; split: the matrix is inverted by eigenvalues
- * (eigensystem.h).  The terms are counts of multiplications, but for those of lower order, which
- * stand for the rest and were fitted to timings.  It is that of (q, v) on both spaces, so that a
+ * (eigensystem.h).  The terms are counts of multiplications, except terms of lower order, which
+ * represent the rest and were fitted to timings.  Both spaces are charged for (q, v), so that a
  * motion has the same bits there. */
 DAL_INLINE dal_newton_cost dal_cost_of_newton(const dal_step *s, int stages, int width, int split)
 {

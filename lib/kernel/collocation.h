@@ -43,7 +43,7 @@ typedef struct dal_stages {
     int stride;      /* of f */
 } dal_stages;
 
-/* The eigensystem that splits Newton's matrix, NULL: it stays whole, as that of a single stage. */
+/* The eigensystem that splits Newton's matrix, NULL: it stays whole, as with a single stage. */
 DAL_INLINE const dal_eigensystem *dal__eigensystem(const dal_tableau *method)
 {
     return DAL_STAGES(method) > 1 ? method->eigensystem : NULL;

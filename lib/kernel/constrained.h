@@ -14,7 +14,7 @@
  * D may be nonlinear, W may depend on q, v, t.  The iteration contracts like h.  Where that is too
  * slow, Newton's matrix is 1 - z P F_v - z^2 P F_q with P = 1 - B G^-1 A at the beginning of the
  * step: the large part of the derivative of an iteration, since P B = 0 and the motion along the
- * constraints is that of F.  (For servo constraints B = W^-1 times their own directions.) */
+ * constraints is F's.  (For servo constraints B = W^-1 times their own directions.) */
 #ifndef DAL_KERNEL_CONSTRAINED_H
 #define DAL_KERNEL_CONSTRAINED_H
 

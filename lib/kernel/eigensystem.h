@@ -110,7 +110,7 @@ DAL_INLINE void dal__multiply_complex(const num *inverse, int n, const num *t, n
     }
 }
 
-/* d <- M^-1 d, every step'th number of d; inverse: those of N_e one after the other,
+/* d <- M^-1 d, every step'th number of d; inverse: inverses of N_e, one after the other,
  * [2*width*width] each, a real one [width*width].  scratch: [3*stages*width]. */
 DAL_SEPARATE void dal_apply_eigensystem(const dal_eigensystem *e, int stages, int width,
                                         const num *inverse, num *d, int step, num *scratch)

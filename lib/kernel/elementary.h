@@ -21,7 +21,7 @@
  * zero is z = 0 and its interval ends at (pi/4)^2: x^2 S and x^4 C then err almost evenly, by
  * 9.5e-18 and 8.2e-19 with coefficients rounded to double.
  *
- * The rarer functions call libm in each lane.  Quad precision have those of the C library. */
+ * The rarer functions call libm in each lane.  Quad precision takes the C library's. */
 #ifndef DAL_KERNEL_ELEMENTARY_H
 #define DAL_KERNEL_ELEMENTARY_H
 

@@ -105,7 +105,7 @@
 
 #ifdef DAL_NUM_QUAD
 typedef dal_quad num;
-#define DAL_ULP_RATIO DAL_QUAD_ULP_RATIO /* unit in the last place, in units of that of a double */
+#define DAL_ULP_RATIO DAL_QUAD_ULP_RATIO /* unit in the last place, in units of a double's */
 #else
 /* A number, or one for each lane, with + - * / and unary minus. */
 typedef double num;

@@ -24,7 +24,7 @@ DAL_INLINE void dal_lift_observables(const num *y, int n, const num *f, num mu, 
 #endif
 
 #if DAL_WITH_REACTIONS
-/* out[m + n]: h and R = B^T h, from h[m] and, behind it, B[m*n]. */
+/* out[m + n]: h and R = B^T h, from h[m] and, after it, B[m*n]. */
 DAL_INLINE void dal_reaction_observables(const num *h, int m, int n, num *out)
 {
     const num *B = h + m;

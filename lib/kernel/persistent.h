@@ -31,7 +31,7 @@
     MEMBER(level, TWO)                                                                             \
     MEMBER(last_pivots, PIVOTS) MEMBER(derivatives, DERIVATIVES) MEMBER(choice, THREE)
 
-/* Places behind y and r. */
+/* Places after y and r. */
 enum {
 #define CLOCK(name) DAL__##name,
     DAL__CLOCK_LIST(CLOCK)

@@ -31,7 +31,7 @@ DAL_DECLARE_QUAD(sqrt)
 DAL_DECLARE_QUAD(sin)
 DAL_DECLARE_QUAD(cos)
 
-/* The unit in the last place of 1, in units of that of a double. */
+/* The unit in the last place of 1, in units of a double's. */
 #if DAL_QUAD_DIGITS >= 113
 #define DAL_QUAD_ULP_RATIO 0x1p-60
 #elif DAL_QUAD_DIGITS > DBL_MANT_DIG

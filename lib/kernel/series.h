@@ -1,6 +1,6 @@
 /* series.h - sums over Taylor coefficients.
  *
- * The k-th coefficient, k >= 1, of a series follows from its lower ones and from those of its
+ * The k-th coefficient, k >= 1, of a series follows from lower coefficients of it and of its
  * operands, by the recurrences of expr/recurrences.h.  Most of their work is inner sums of two
  * series, over what is known before order k begins:
  *
@@ -43,7 +43,7 @@ DAL_INLINE num dal__interior(const num *a, const num *b, int terms)
     DAL__SUM_TERMS(num, dal_fma, a, b, 1, terms);
 }
 
-/* The inner sum of a and b; that of a and a. */
+/* The inner sum of a and b; the inner sum of a and a. */
 DAL_INLINE num dal_sum_products(const num *a, const num *b, int k)
 {
     if (k < 2) return dal_num(0.0);
@@ -81,7 +81,7 @@ typedef num dal__terms;
 #endif
 
 /* A compiled single run forms the inner sums of all products of an order together.  Their operands
- * are stored side by side, coefficient j of that of product i at l[j*count + i]. */
+ * are stored side by side, coefficient j of the operand of product i at l[j*count + i]. */
 DAL_INLINE dal__terms dal__interiors(const num *l, const num *r, int count, int terms)
 {
     DAL__SUM_TERMS(dal__terms, DAL__FUSE_TERMS, l, r, count, terms);

@@ -52,7 +52,7 @@ typedef struct dal_block {
     num *start;                         /* [size] a copy of the first guess, for a second attempt */
     num *inverse;                       /* [size*size] M^-1 (of each group), Newton only */
     num *scratch;                       /* [3*size], Newton only */
-    const dal_eigensystem *eigensystem; /* inverse holds those of N_e; NULL: M^-1 */
+    const dal_eigensystem *eigensystem; /* inverse holds the inverses of N_e; NULL: M^-1 */
     int stages;                         /* with an eigensystem */
 } dal_block;
 
@@ -68,7 +68,7 @@ typedef struct dal_equation {
     int follows; /* 1: takes the method that other equations of the step chose */
 } dal_equation;
 
-/* A map may store values for the end of the step: those of a lane's own last iteration, which
+/* A map may store values for the end of the step: of a lane's own last iteration, which
  * further iterations of its neighbours do not change. */
 #if DAL_SCALAR
 #define DAL_IF_ACTIVE(active, fresh, old) (fresh)
@@ -413,7 +413,7 @@ DAL_SHARED_EARLY dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iterati
  *     M_ij = delta_ij 1 - z a_ij F_v - z^2 a2_ij [F_q 0]           i, j = 1..stages
  * and its inverse, [size*size] with size = stages*width; transposed: F_q^T, F_v^T, n*n each.
  * a2 is a squared (q moves with v), or 0 where q does not.  With the eigensystem of a the inverse
- * is made of those of the N_e, see eigensystem.h. */
+ * is made of the inverses of the N_e, see eigensystem.h. */
 typedef struct dal_stage_matrix {
     int stages;
     double z;

@@ -204,8 +204,8 @@ struct dal_step {
     int rank_checked;                          /* 1: steps are subject to the rank check */
     double tolerance;                          /* of substeps, 0: no substeps */
 
-    int pivot_count; /* that the rank check compares, see acceptance.h */
-    num *pivots;     /* [pivot_count] those of the first evaluation of F in the step */
+    int pivot_count;                   /* that the rank check compares, see acceptance.h */
+    num *pivots;                       /* [pivot_count] of the first evaluation of F in the step */
     int pivots_known[DAL_STEP_GROUPS]; /* 1: there was one, or they are not compared */
 
     num *scratch; /* bump allocator, see dal_scratch */
@@ -293,7 +293,7 @@ DAL_INLINE int dal_leaves_pivots(dal_callback_code code)
 #endif
 
 /* Whether a step, or a part of it, has failed in all lanes.  Without the hint a compiler takes the
- * code behind several returns for cold and leaves it slow. */
+ * code after several returns for cold and leaves it slow. */
 DAL_INLINE int dal_failed(dal_status status) { return DAL_RARELY(status != DAL_OK); }
 
 #if DAL_WITH_TANGENT
@@ -317,7 +317,7 @@ DAL_INLINE int dal_at_pi(const dal_step *s) { return 3 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi_e(const dal_step *s) { return 4 * DAL_N(s) + 1; }
 
 #if DAL_WITH_CONSTRAINT
-/* p = pi = pi_e = 0, behind a projection. */
+/* p = pi = pi_e = 0, after a projection. */
 DAL_INLINE void dal_clear_momenta(dal_step *s)
 {
     const int first = dal_at_p(s);

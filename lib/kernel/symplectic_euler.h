@@ -14,8 +14,8 @@
  *              u = v + h (F(q*, u, t*) + pi / e*),   q* = q + [s_q=1] h u
  *
  * Symplectic for every choice, as sum dX1 dP1 - dX dP = h d(dH) = 0; order 1.  The adjoint of
- * (s_q, s_v) is (1-s_q, 1-s_v).  The physical space has the first line only, and v stands
- * for (v, g) there. */
+ * (s_q, s_v) is (1-s_q, 1-s_v).  The physical space has the first line only, and v
+ * means (v, g) there. */
 #ifndef DAL_KERNEL_SYMPLECTIC_EULER_H
 #define DAL_KERNEL_SYMPLECTIC_EULER_H
 

@@ -15,7 +15,7 @@ typedef struct dal_tableau {
     const double *b, *b_tail;             /* [s] multiples of 1/1024, and the rest */
     const double *a, *a_tail;             /* [s*s] */
     const double *extrapolation;          /* [s*s] Lagrange basis l_j(1 + c_i) on the nodes */
-    const double *partner, *partner_tail; /* [s*s] of w and p, where a is that of q, e and pi */
+    const double *partner, *partner_tail; /* [s*s] of w and p, where a belongs to q, e and pi */
     const dal_eigensystem *eigensystem;   /* of a = partner; NULL: none */
 } dal_tableau;
 

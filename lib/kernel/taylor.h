@@ -11,7 +11,7 @@
  * Order for a tolerance: the error of a step of size h is about (h/R)^p where R is the radius of
  * convergence, the work about p^2 for a length h; it is least for h = R/e^2 and
  * p = 1 - log(tolerance)/2 (Jorba and Zou 2005).  The work is measured to be nearer to p than to
- * p^2, and some of it is that of a step of any order, which favours FURTHER orders. */
+ * p^2, and some of it is the cost of a step of any order, which favours FURTHER orders. */
 #ifndef DAL_KERNEL_TAYLOR_H
 #define DAL_KERNEL_TAYLOR_H
 
@@ -21,7 +21,7 @@
 #ifndef DAL_SPECIALISED
 enum { DAL__TAYLOR_FURTHER = 6, DAL__TAYLOR_MAX_ORDER = 40, DAL__TAYLOR_FIXED_ORDER = 10 };
 
-/* The order for a tolerance; for 0, that of steps of a fixed size. */
+/* The order for a tolerance; for 0, the order of steps of a fixed size. */
 DAL_INLINE int dal_taylor_order(double tolerance)
 {
     if (tolerance == 0.0) return DAL__TAYLOR_FIXED_ORDER;
@@ -54,8 +54,8 @@ DAL_INLINE num dal__convolve(const num *a, int a_stride, const num *b, int b_str
     return sum;
 }
 
-/* Coefficient k of the canonical variables' field, from x_0 .. x_k; f holds that of F, F_q^T pi,
- * F_v^T pi, mu_e. */
+/* Coefficient k of the canonical variables' field, from x_0 .. x_k; f holds the one of F,
+ * F_q^T pi, F_v^T pi, mu_e. */
 DAL_INLINE void dal__lifted_series(const dal_step *s, int k, const num *x, const num *f,
                                    const dal_expansion *g, num *dx)
 {
@@ -141,7 +141,7 @@ DAL_INLINE void dal_expand_first(dal_step *s, dal_times t, num *x, const dal_exp
 }
 
 /* Coefficients 2 .. order.  The body of a compiled step is too large for compilers to do well with
- * that of this loop in it, too; nothing but x and the series is written here. */
+ * the body of this loop in it, too; nothing but x and the series is written here. */
 static DAL_UNUSED __attribute__((noinline)) void
 dal__expand_orders(dal_step *s, num *DAL_RESTRICT x, const dal_expansion *e)
 {

@@ -88,7 +88,7 @@ void dal__crossing_init(dal__crossing *c, dal_run *run, const dal__functions *fu
                         double *memory);
 
 /* Begins to search a step of size h from the present state, which stays.  Sides that are known are
- * those of zero[].  Errors: those of a step, and of the functions. */
+ * those of zero[].  Errors: as for a step, and of the functions. */
 dal_status dal__crossing_begin(dal__crossing *c, double h, dal_error *error);
 /* The distance of the next zero that counts, the first of all functions; infinite: none in the rest
  * of the step.  zero[].s has the zeros of the same part. */

@@ -57,7 +57,7 @@ dal__event_places dal__event_places_of(const dal_run *run);
 dal__event_search dal__event_search_begin(dal_run *run, dal_error *error);
 
 /* Finds the first event within the next step: its distance, infinite where there is none.  The run
- * stays as it is, and the result is kept until the run changes.  Errors: those of a step,
+ * stays as it is, and the result is kept until the run changes.  Errors: as for a step,
  * DAL_NOT_FINITE. */
 dal_status dal__search_events(dal__event_search *w, double *distance);
 

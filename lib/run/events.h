@@ -24,7 +24,7 @@ typedef struct dal__event_listener {
 } dal__event_listener;
 
 /* Takes count steps; one that would pass an event ends there, and the event acts.  listener may be
- * NULL.  Errors: those of a step, what the listener returns, DAL_EVENT, DAL_STOPPED,
+ * NULL.  Errors: as for a step, what the listener returns, DAL_EVENT, DAL_STOPPED,
  * DAL_UNSUPPORTED where p, pi or pi_e is not 0. */
 dal_status dal__advance_events(dal_run *run, long long count, const dal__event_listener *listener,
                                dal_error *error);

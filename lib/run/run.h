@@ -79,7 +79,7 @@ dal_status dal__observe_part(dal_run *run, double h, double part,
 enum { DAL__NAME_SIZE = 128 /* bytes of the name of a state component */ };
 
 /* Takes state and parameters from a copy of the storage; parameters that are others are prepared.
- * Errors: those of prepare. */
+ * Errors: as for prepare. */
 dal_status dal__run_load(dal_run *run, const double *saved);
 /* Saves state and parameters in the shadow, and restores them. */
 void dal__run_back_up(dal_run *run);
