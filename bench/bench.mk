@@ -48,6 +48,8 @@ $(BENCH)/heyoka: $(wildcard bench/heyoka/*) $(BENCH_HEADERS)
 $(BENCH)/rows: bench/rows.c $(BUILD)/tests/program.a $(BENCH_HEADERS)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) -std=c11 $(WARN) -O2 -Iinclude -Icli $< $(BUILD)/tests/program.a $(STATIC) $(LIBS) -o $@
+$(BENCH)/numbers: bench/numbers.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
+	$(call SAY,cc)$(CC) -std=c11 $(WARN) -O2 -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
 $(BENCH)/statistics: bench/statistics.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 	$(call SAY,cc)$(CC) -std=c11 $(WARN) -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
 $(BENCH)/hand: bench/hand.c $(BENCH_HEADERS)
@@ -103,7 +105,7 @@ $(BENCH)/page: bench/page.c $(BUILD)/tests/program.a $(STATIC)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) $(ALL) -Icli $(LDFLAGS) $^ $(LIBS) -o $@
 
-bench-programs: $(BENCH)/dal $(BENCH)/rows $(BENCH)/native $(BENCH)/statistics $(BENCH)/hand $(BENCH)/hand-own $(BENCH)/hand-implicit \
+bench-programs: $(BENCH)/dal $(BENCH)/rows $(BENCH)/numbers $(BENCH)/native $(BENCH)/statistics $(BENCH)/hand $(BENCH)/hand-own $(BENCH)/hand-implicit \
     $(BENCH)/hand-implicit-own $(BENCH)/hand-implicit-compensated $(BENCH)/peak
 	@for gen in $(BENCH_GEN); do $(MAKE) -s --no-print-directory $(BENCH)/$$gen || exit 1; done
 	@for peer in $(BENCH_PEERS); do $(MAKE) -s --no-print-directory $(BENCH)/$$peer || exit 1; done

@@ -45,6 +45,8 @@ static void null_dal_parse_number(void)
     REFUSED_STATUS(dal_parse_number("1", 1, NULL));
 }
 
+static void null_dal_format_number(void) { CU_ASSERT(dal_format_number(NULL, 1.0) == 0); }
+
 static void null_dal_options_default(void) { CU_ASSERT(dal_options_default().step > 0.0); }
 
 static void null_dal_min_tolerance(void) { CU_ASSERT(isnan(dal_min_tolerance(NULL))); }

@@ -338,12 +338,14 @@ uint64_t file_hash(uint64_t hash, const void *bytes, size_t length)
 void cli_put(FILE *out, double x)
 {
     /* Zero of either sign is common (p = pi = 0 on the surface) and quick to write. */
-    if (x == 0.0)
+    if (x == 0.0) {
         fputc('0', out);
-    else if (isnan(x))
+    } else if (isnan(x)) {
         fputs("nan", out);
-    else
-        fprintf(out, "%.17g", x);
+    } else {
+        char text[DAL_NUMBER_SIZE];
+        fwrite(text, 1, (size_t)dal_format_number(text, x), out);
+    }
 }
 
 void cli_put_known(FILE *out, double x)
