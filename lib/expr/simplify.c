@@ -11,8 +11,8 @@
  * A function of a number becomes its value, with the bits a tape would give, unless that is not
  * finite: then the node stays, and its evaluation gives the infinity or NaN. */
 #include "expr/simplify.h"
+#include "expr/operations.h"
 #include "expr/table.h"
-#include "expr/traversal.h"
 #include <math.h>
 
 /* Rules may call each other this deep; below, a node is made as it is.  Integer powers up to

@@ -2,6 +2,7 @@
 #include "expr/taylor.h"
 #include "expr/operations.h"
 #include "expr/recurrences.h"
+#include "expr/traversal.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -21,8 +21,8 @@
 #ifndef DAL_EXPR_TAYLOR_H
 #define DAL_EXPR_TAYLOR_H
 
+#include "expr/operations.h"
 #include "expr/tape.h"
-#include "expr/traversal.h"
 
 /* An operand is a slot, or with this bit the place in work of what is constant along a run. */
 #define DAL__TAYLOR_CONSTANT (UINT32_C(1) << 31)
