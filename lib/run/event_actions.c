@@ -8,7 +8,6 @@
  * v.Wv/2 where D is linear and homogeneous, and f and D do not depend on t. */
 #include "run/event_actions.h"
 #include "run/consistent.h"
-#include "run/quad.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +16,8 @@ enum { MAX_ROUNDS = 100 };
 
 void dal__commit_events(const dal__event_search *w)
 {
-    if (w->run->quad.engine) dal__quad_push(w->run, dal__at_events(&w->run->layout));
+    if (w->run->quad.engine)
+        dal__quad_push(&w->run->quad, w->run->persistent, dal__at_events(&w->run->layout));
 }
 
 /* Changes q and v as event k says, first what it sets, then the rate of its formula, which becomes
@@ -58,8 +58,8 @@ static dal_status change(const dal__event_search *w, int k)
         if (run->persistent[i] == w->m.before[i]) continue;
         run->persistent[dim + i] = 0.0;
         if (!run->quad.engine) continue;
-        dal__quad_set(run, i);
-        dal__quad_set(run, dim + i);
+        dal__quad_set(&run->quad, run->persistent, i);
+        dal__quad_set(&run->quad, run->persistent, dim + i);
     }
     return DAL_OK;
 }

@@ -13,12 +13,6 @@ enum { MAX_HALVES = 12 };
 
 enum { ARRAYS = 3 /* f, rate, there */ };
 
-size_t dal__event_memory(const dal__layout *k)
-{
-    const size_t events = (size_t)k->system->events;
-    return events > 0 ? 2 * events + 2 + (size_t)dal__max_observables(k) : 0;
-}
-
 /* Numbers that hold a dal__crossing. */
 static size_t crossing_numbers(void)
 {

@@ -1,6 +1,6 @@
 /* observe.c - the observables of the present state, and the names of observables and of state
  * components.  The engine computes them (engine_wide.c). */
-#include "run/quad.h"
+#include "run/run.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -92,6 +92,6 @@ dal_status dal_run_observe(dal_run *run, double *out)
 {
     DAL_REQUIRE(run, NULL);
     DAL_REQUIRE(out, NULL);
-    if (run->quad.engine) return dal__quad_observe(run, out);
+    if (run->quad.engine) return dal__quad_observe(&run->quad, run->exact, out);
     return run->kind->engine->observe(run->engine, run->exact, out);
 }

@@ -3,7 +3,6 @@
 #include "run/event_search.h"
 #include "run/events.h"
 #include "run/failure.h"
-#include "run/quad.h"
 #include "run/saved.h"
 #include "run/scales.h"
 #include "run/start.h"
@@ -62,7 +61,10 @@ static dal_run *place(const dal__layout *layout, void *memory)
     run->storage = run->persistent;
     run->stored = stored_count(layout);
     at += dal__align(run->kind->engine->bytes(layout));
-    if (quad_bytes(layout) > 0) dal__quad_place(run, at);
+    if (quad_bytes(layout) > 0) {
+        dal__quad_place(&run->quad, layout, at);
+        run->storage = run->quad.persistent;
+    }
     return run;
 }
 
@@ -81,7 +83,7 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
     dal_run *made = place(&layout, memory);
     DAL_TRY(dal__run_start(made, spec->parameters, spec->parameter_count, spec->start,
                            spec->start_count, NULL, error));
-    if (made->quad.engine) dal__quad_push(made, 0);
+    if (made->quad.engine) dal__quad_push(&made->quad, made->persistent, 0);
     DAL_TRY(dal__check_events(made, error));
     *run = made;
     return DAL_OK;
@@ -116,7 +118,7 @@ void dal_run_free(dal_run *run)
 void dal__run_hold(dal_run *run, const double *point)
 {
     run->kind->engine->hold(run->engine, point);
-    if (run->quad.engine) dal__quad_hold(run, point);
+    if (run->quad.engine) dal__quad_hold(&run->quad, point);
     run->is_held = point != NULL;
 }
 
@@ -130,8 +132,9 @@ dal_status dal__step_run(dal_run *run, double h, long long count)
         return failed ? (dal_status)reason : DAL_OK;
     }
     if (run->quad.engine) {
-        for (long long i = 0; i < count && status == DAL_OK; i++) status = dal__quad_step(run, h);
-        dal__quad_pull(run);
+        for (long long i = 0; i < count && status == DAL_OK; i++)
+            status = dal__quad_step(&run->quad, h);
+        dal__quad_pull(&run->quad, run->persistent);
         return status;
     }
     for (long long i = 0; i < count; i++)
@@ -147,8 +150,8 @@ dal_status dal__step_part(dal_run *run, double h, double part)
         run->kind->engine->step_part(run->engine, h, part, &status);
         return status;
     }
-    status = dal__quad_step_part(run, h, part);
-    dal__quad_pull(run);
+    status = dal__quad_step_part(&run->quad, h, part);
+    dal__quad_pull(&run->quad, run->persistent);
     return status;
 }
 
@@ -214,7 +217,7 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
     memset(run->persistent + dal__at_events(k), 0, k->event_memory * sizeof *run->persistent);
     for (int i = 0; i < k->dim; i++) run->persistent[i] = state[i] + 0.0;
     run->persistent[dal__at(k, DAL__TIME)] = t;
-    if (run->quad.engine) dal__quad_push(run, 0);
+    if (run->quad.engine) dal__quad_push(&run->quad, run->persistent, 0);
     return DAL_OK;
 }
 
@@ -231,7 +234,7 @@ dal_status dal__run_load(dal_run *run, const double *saved)
     const bool same =
         memcmp(run->storage + first, saved + first, (run->stored - first) * bytes) == 0;
     memcpy(run->storage, saved, run->stored * bytes);
-    if (run->quad.engine) dal__quad_pull(run);
+    if (run->quad.engine) dal__quad_pull(&run->quad, run->persistent);
     return same ? DAL_OK : dal__run_prepare(run);
 }
 

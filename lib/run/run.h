@@ -5,7 +5,7 @@
 #ifndef DAL_RUN_H
 #define DAL_RUN_H
 
-#include "run/engine.h"
+#include "run/quad.h"
 
 /* Compiled functions, see lib/jit/native.c; an object has one of them.  persistent, work and states
  * are as everywhere; lanes is a mask. */
@@ -23,14 +23,6 @@ typedef struct dal__native_code {
     void *handle;
     void (*release)(void *handle);
 } dal__native_code;
-
-/* The engine of a run in quad precision, see quad.c.  Its arrays hold quad numbers. */
-typedef struct dal__quad_run {
-    dal__layout layout; /* of the system in quad precision */
-    void *engine;       /* NULL: the run is in double */
-    double *persistent; /* [layout.persistent] */
-    double *work;       /* [layout.workspace] */
-} dal__quad_run;
 
 /* Up to capacity successive observations: observable i of observation k is values[i*capacity +
  * k]. */

@@ -6,7 +6,6 @@
 #include "run/saved.h"
 #include "run/event_search.h"
 #include "run/events.h"
-#include "run/quad.h"
 #include <math.h>
 
 static const double max_count = 0x1p53;

@@ -9,7 +9,6 @@
 #include "core/vectors.h"
 #include "run/consistent.h"
 #include "run/events.h"
-#include "run/quad.h"
 #include "run/scales.h"
 #include <dalembert_kernel.h>
 #include <math.h>
@@ -23,8 +22,8 @@ dal_status dal__run_prepare(dal_run *run)
     const dal_point at = dal__here(run);
     if (k->system->prepare) DAL_TRY(k->system->prepare(k->system, &at, NULL));
     if (!run->quad.engine) return DAL_OK;
-    dal__quad_push(run, k->persistent);
-    return dal__quad_prepare(run);
+    dal__quad_push(&run->quad, run->persistent, k->persistent);
+    return dal__quad_prepare(&run->quad, dal_run_time(run));
 }
 
 static dal_status prepare(dal_run *run, dal_error *error)
@@ -252,7 +251,7 @@ void dal__restart_method(dal_run *run)
     const dal__layout *k = &run->layout;
     const size_t first = dal__at(k, DAL__CLOCK_SIZE), changed = dal__at_changed(k);
     memset(run->persistent + first, 0, (changed - first) * sizeof *run->persistent);
-    if (run->quad.engine) dal__quad_push(run, first);
+    if (run->quad.engine) dal__quad_push(&run->quad, run->persistent, first);
 }
 
 /* The next step is the method's first, and the solution no longer the exact one. */
