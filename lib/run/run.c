@@ -155,18 +155,6 @@ dal_status dal__step_part(dal_run *run, double h, double part)
     return status;
 }
 
-dal_status dal__observe_part(dal_run *run, double h, double part,
-                             dal_status (*observe)(void *user, dal_run *run), void *user,
-                             dal_error *error)
-{
-    dal__run_back_up(run);
-    dal_status status = dal__step_part(run, h, part);
-    if (status != DAL_OK) return dal__failure_reason(run, part, status, error);
-    status = observe(user, run);
-    dal__run_revert(run);
-    return status;
-}
-
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
 {
     DAL_REQUIRE(run, error);
@@ -219,6 +207,16 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
     run->persistent[dal__at(k, DAL__TIME)] = t;
     if (run->quad.engine) dal__quad_push(&run->quad, run->persistent, 0);
     return DAL_OK;
+}
+
+dal_status dal__run_prepare(dal_run *run)
+{
+    const dal__layout *k = &run->layout;
+    const dal_point at = dal__here(run);
+    if (k->system->prepare) DAL_TRY(k->system->prepare(k->system, &at, NULL));
+    if (!run->quad.engine) return DAL_OK;
+    dal__quad_push(&run->quad, run->persistent, k->persistent);
+    return dal__quad_prepare(&run->quad, dal_run_time(run));
 }
 
 const double *dal_run_save(const dal_run *run, size_t *count)

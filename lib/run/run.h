@@ -61,15 +61,13 @@ struct dal_run {
 void dal__run_hold(dal_run *run, const double *point);
 /* Takes count steps of size h, until one fails; does not explain a failure. */
 dal_status dal__step_run(dal_run *run, double h, long long count);
-/* Advances an interpreted run by a part of a step of size h, see dal__engine.step_part; the same as
- * dal_run_intermediate does, with an observer and then back. */
+/* Advances an interpreted run by a part of a step of size h, see dal__engine.step_part. */
 dal_status dal__step_part(dal_run *run, double h, double part);
-dal_status dal__observe_part(dal_run *run, double h, double part,
-                             dal_status (*observe)(void *user, dal_run *run), void *user,
-                             dal_error *error);
 
 enum { DAL__NAME_SIZE = 128 /* bytes of the name of a state component */ };
 
+/* Completes work from the parameters. */
+dal_status dal__run_prepare(dal_run *run);
 /* Takes state and parameters from a copy of the storage; parameters that are others are prepared.
  * Errors: those of prepare. */
 dal_status dal__run_load(dal_run *run, const double *saved);

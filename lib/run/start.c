@@ -16,16 +16,6 @@
 
 #define CONSISTENT 1e-10
 
-dal_status dal__run_prepare(dal_run *run)
-{
-    const dal__layout *k = &run->layout;
-    const dal_point at = dal__here(run);
-    if (k->system->prepare) DAL_TRY(k->system->prepare(k->system, &at, NULL));
-    if (!run->quad.engine) return DAL_OK;
-    dal__quad_push(&run->quad, run->persistent, k->persistent);
-    return dal__quad_prepare(&run->quad, dal_run_time(run));
-}
-
 static dal_status prepare(dal_run *run, dal_error *error)
 {
     const char *name = run->layout.system->name;

@@ -4,8 +4,6 @@
 
 #include "run/run.h"
 
-/* Completes work from the parameters. */
-dal_status dal__run_prepare(dal_run *run);
 /* Lets the next step be the method's first. */
 void dal__restart_method(dal_run *run);
 /* Sets parameters and the start at its time, adds numbers to that, added[dim] or NULL, and checks
