@@ -52,6 +52,8 @@ typedef struct dal__event_search {
 size_t dal__event_scratch(const dal__layout *layout, size_t stored);
 /* The memory and scratch of a run. */
 dal__event_places dal__event_places_of(const dal_run *run);
+/* The search of the next step as it is; NULL: none was begun. */
+const dal__crossing *dal__event_crossing(const dal_run *run);
 dal__event_search dal__event_search_begin(dal_run *run, dal_error *error);
 
 /* Finds the first event within the next step: its distance, infinite where there is none.  The run

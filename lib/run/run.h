@@ -48,10 +48,10 @@ struct dal_run {
     double *point;         /* [n + nw] where a step failed; D before a change of parameters */
     double *event_scratch; /* see event_search.c */
     double *scales;        /* see scales.c */
-    struct dal__crossing *crossing; /* of the events, in their scratch; NULL: no step is searched */
-    bool is_held;                   /* the branches of the system are held */
-    bool exact;                     /* the exact solution agrees with the start */
-    void *owned;                    /* memory to free, or NULL */
+    bool has_search;       /* event_scratch holds a search, see event_search.c */
+    bool is_held;          /* the branches of the system are held */
+    bool exact;            /* the exact solution agrees with the start */
+    void *owned;           /* memory to free, or NULL */
     dal__native_code native;
     dal__observations observations;
 };

@@ -8,7 +8,6 @@
 #include "core/solved.h"
 #include "core/vectors.h"
 #include "run/consistent.h"
-#include "run/events.h"
 #include "run/scales.h"
 #include <dalembert_kernel.h>
 #include <math.h>
@@ -251,12 +250,10 @@ static void begin_again(dal_run *run)
     dal__restart_method(run);
 }
 
-dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, dal_error *error)
+dal_status dal__change_parameter(dal_run *run, const char *name, double value, dal_error *error)
 {
     dal_error reason = {0};
     int i;
-    DAL_REQUIRE(run, error);
-    DAL_REQUIRE(name, error);
     DAL_TRY(dal__find_parameter(run->layout.system, name, &i, error));
     if (!isfinite(value))
         return dal__fail(error, DAL_NOT_FINITE, "parameter %s: %g is not a finite number", name,
@@ -267,7 +264,6 @@ dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, d
     const dal_status status = check_parameters(run, run->point, &reason);
     if (status == DAL_OK || status == DAL_INCONSISTENT) {
         begin_again(run);
-        dal__change_sides(run);
     } else {
         run->work[i] = before;
         dal__run_prepare(run);
