@@ -552,3 +552,12 @@ dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b)
         return function(graph, op, a);
     }
 }
+
+dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b)
+{
+    dal__node sum = dal__number(graph, 0.0);
+    for (int i = 0; i < count; i++)
+        if (!dal__is_number(graph, a[i], 0.0))
+            sum = dal__node_add(graph, sum, dal__node_mul(graph, a[i], b[i]));
+    return sum;
+}

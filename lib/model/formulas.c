@@ -3,7 +3,7 @@
  * Symbols are numbered
  *     parameters | t | q, dq | v, dv | pi, dpi | g | h, R
  * where dq, dv, dpi have a meaning in the tangent system only, and h, R, the reactions, until their
- * formulas are known (equations.c). */
+ * formulas are known (derive.c). */
 #include "model/formulas.h"
 #include "core/solved.h"
 #include "expr/derivative.h"

@@ -1,6 +1,6 @@
 /* model.h - a model: its entries, its equations, its systems.
  *
- * Entries (texts with places) are parsed by formulas.c, derived from by equations.c,
+ * Entries (texts with places) are parsed by formulas.c, derived from by derive.c,
  * properties.c and energy.c, compiled by programs.c and made a dal_system by system.c.
  * All memory of a model is in one list and is freed with it. */
 #ifndef DAL_MODEL_MODEL_H

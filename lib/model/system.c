@@ -2,6 +2,7 @@
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
+#include "model/derive.h"
 #include "model/energy.h"
 #include "model/events.h"
 #include "model/formulas.h"
