@@ -1,6 +1,7 @@
 /* test_generate_parts.c - the parts of the kernel that descriptors declare.  Each integrator
  * compiles with these alone, so none is missing, and without one of them it does not, so none is
  * superfluous. */
+#include "codegen/generate.h"
 #include "codegen/parts.h"
 #include "compiler.h"
 #include "fixtures.h"

@@ -16,7 +16,7 @@ plain() { # FILE
         END { if (!guarded) print line }' "$1" ;; # the last #endif is that of the guard
     esac
 }
-echo '#include "codegen/generate.h"'
+echo '#include "codegen/generation.h"'
 number=0
 for file in "$@"; do
     printf 'static const char text%d[] = {\n' $number

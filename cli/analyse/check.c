@@ -8,10 +8,10 @@
 #include "ui/memory.h"
 #include "ui/wrap.h"
 
+#include "check_items.h"
 #include "check_sections.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,46 +25,6 @@ static const char *const result_words[] = {
     CHECK_RESULT_LIST(RESULT_TEXT)
 #undef RESULT_TEXT
 };
-
-/* ---- the items ---- */
-
-static check_entry *add_entry(check *c, check_result result, const char *what, char *text)
-{
-    c->entry = cli_realloc(c->entry, ((size_t)c->items + 1) * sizeof *c->entry);
-    c->failed += result == CHECK_FAIL;
-    c->unmeasured += result == CHECK_UNMEASURED;
-    check_entry *entry = &c->entry[c->items++];
-    *entry = (check_entry){.section = c->section, .result = result, .text = text};
-    entry->value = entry->least = entry->most = NAN;
-    entry->what = what ? cli_strdup(what) : NULL;
-    return entry;
-}
-
-void check_item(check *c, check_result result, const char *what, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    add_entry(c, result, what, cli_format_list(format, list));
-    va_end(list);
-}
-
-void check_number(check *c, check_result result, const char *what, double value, double least,
-                  double most, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    check_entry *entry = add_entry(c, result, what, cli_format_list(format, list));
-    va_end(list);
-    entry->value = value;
-    entry->least = least;
-    entry->most = most;
-}
-
-void check_bound(check *c, const char *what, double value, double limit)
-{
-    check_number(c, value <= limit ? CHECK_OK : CHECK_FAIL, what, value, -INFINITY, limit,
-                 "%.2g  (at most %.0e)", value, limit);
-}
 
 /* ---- points about the start ---- */
 

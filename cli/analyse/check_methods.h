@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_CHECK_METHODS_H
 #define DAL_CLI_CHECK_METHODS_H
 
-#include "check.h"
+#include "check_items.h"
 
 /* Adds the item of the integrators that have one of these properties and that `run` accepts; with
  * constant coefficients D is preserved by all of them. */

@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_CHECK_SECTIONS_H
 #define DAL_CLI_CHECK_SECTIONS_H
 
-#include "check.h"
+#include "check_items.h"
 
 /* In their order.  Each prints items, or none where it does not apply to the system. */
 enum { CHECK_SECTIONS = 9 };

@@ -15,9 +15,9 @@
 #include "run/request.h"
 #include "run/request_json.h"
 #include "run/row_times.h"
+#include "ui/arguments.h"
 #include "ui/memory.h"
 #include "ui/message.h"
-#include "ui/options.h"
 #include "ui/signals.h"
 
 #include <math.h>

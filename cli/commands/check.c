@@ -1,8 +1,8 @@
 /* check.c - `dalembert check`: examines a system before a run. */
 #include "analyse/check.h"
 #include "io/json.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
-#include "ui/options.h"
 
 #include <string.h>
 

@@ -3,10 +3,10 @@
 #include "io/file.h"
 #include "report/report_ensemble.h"
 #include "run/pool.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/memory.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 #include <stdio.h>
 

@@ -2,8 +2,8 @@
 #include "analyse/explain.h"
 #include "io/file.h"
 #include "io/json.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
-#include "ui/options.h"
 
 static const cli_option options[] = {
     {"quad-steps", "N", "10000", "runs the first N steps in quad precision too; 0: none",

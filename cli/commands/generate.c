@@ -2,9 +2,9 @@
 #include "dalembert_codegen.h"
 #include "io/file.h"
 #include "run/request.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* help.c - `dalembert help`: the commands, one of them, or a reference of all. */
 #include "ui/help.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 #include <stdio.h>
 #include <string.h>

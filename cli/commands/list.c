@@ -4,10 +4,10 @@
 #include "dalembert.h"
 #include "io/json.h"
 #include "run/system.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/memory.h"
 #include "ui/message.h"
-#include "ui/options.h"
 #include "ui/table.h"
 
 #include <math.h>

@@ -5,10 +5,10 @@
 #include "report/report_study.h"
 #include "run/pool.h"
 #include "study/study_merge.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/memory.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 #include <stdlib.h>
 

@@ -1,9 +1,9 @@
 /* new.c - `dalembert new`: a system file to begin with. */
 #include "io/file.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/memory.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 #include <stdlib.h>
 #include <string.h>

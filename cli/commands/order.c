@@ -6,8 +6,8 @@
 #include "io/json.h"
 #include "report/report_order.h"
 #include "run/pool.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
-#include "ui/options.h"
 
 #include <string.h>
 

@@ -5,9 +5,9 @@
 #include "report/report_run.h"
 #include "report/report_section.h"
 #include "report/report_study.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,9 +6,9 @@
 #include "run/pool.h"
 #include "run/run.h"
 #include "study/study_directory.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 static int resume_run(const char *directory, const run_settings *settings)
 {

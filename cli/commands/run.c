@@ -2,9 +2,9 @@
 #include "run/run.h"
 #include "io/file.h"
 #include "run/manifest.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 /* Whether nothing is in the directory that a new run would overwrite, or that is not of a run. */
 static int check_directory(const run_directory *dir)

@@ -4,8 +4,8 @@
 #include "io/file.h"
 #include "io/json.h"
 #include "report/report_section.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
-#include "ui/options.h"
 
 #include <math.h>
 

@@ -1,9 +1,9 @@
 /* show.c - `dalembert show`: the file of a built-in system. */
 #include "io/file.h"
 #include "run/system.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 #include <stdio.h>
 #include <string.h>

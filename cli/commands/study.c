@@ -5,9 +5,9 @@
 #include "run/run.h"
 #include "study/study_directory.h"
 #include "study/study_plan.h"
+#include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,6 +9,7 @@
 #include "ensemble/ensemble_directory.h"
 #include "mpi_ensemble.h"
 #include "mpi_study.h"
+#include "ui/arguments.h"
 #include "ui/message.h"
 
 #include <mpi.h>

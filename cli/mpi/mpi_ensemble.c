@@ -7,8 +7,8 @@
 #include "mpi_ensemble.h"
 #include "ensemble/ensemble_run.h"
 #include "run/pool.h"
+#include "ui/arguments.h"
 #include "ui/message.h"
-#include "ui/options.h"
 
 static const cli_command command = {
     .name = "dalembert-mpi ensemble",

@@ -13,8 +13,8 @@
 #include "study/study_directory.h"
 #include "study/study_pool.h"
 #include "study/study_results.h"
+#include "ui/arguments.h"
 #include "ui/message.h"
-#include "ui/options.h"
 #include "ui/signals.h"
 
 #include <mpi.h>

@@ -7,7 +7,7 @@
 #ifndef DAL_CLI_COLUMNS_H
 #define DAL_CLI_COLUMNS_H
 
-#include "request.h"
+#include "request_data.h"
 
 typedef struct run_columns {
     int values;  /* 1 + the dimension + the number of observables */

@@ -3,9 +3,10 @@
 
 #include "checkpoint.h"
 #include "dalembert.h"
+#include "io/file.h"
 #include "io/json.h"
+#include "io/trend.h"
 #include "manifest.h"
-#include "summary.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -340,6 +341,24 @@ static int end_status(const run_recorder *r, dal_status status, dal_error *error
     return cli_exit(status);
 }
 
+/* Size and trend of each observable, as summary.csv. */
+static int write_summary(const run_recorder *r)
+{
+    char *text;
+    size_t length;
+    FILE *out = cli_memstream_open(&text, &length);
+    fprintf(out, "observable,first,final,maximum,deviation,%s\n", cli_trend_heads);
+    for (int i = 0; i < r->observables; i++) {
+        cli_put_text(out, recorder_observable_name(r, i));
+        cli_put_values(out, &r->trend[i]);
+        fputc('\n', out);
+    }
+    cli_memstream_close(out);
+    const int status = file_replace(r->dir->summary, text, length, r->dir->sync);
+    free(text);
+    return status;
+}
+
 /* The summary comes before the checkpoint of a finished run, so that it is never missing.  A run
  * that failed has a checkpoint of that point: resumed, it fails again at once. */
 static int write_end(run_recorder *r, int status, const char *message)
@@ -347,7 +366,7 @@ static int write_end(run_recorder *r, int status, const char *message)
     int written = CLI_DONE;
     if (r->dir && (status == CLI_DONE || status == CLI_FAILED)) {
         written = writer_sync(&r->writer, 0);
-        if (written == CLI_DONE) written = summary_write(r, r->dir->summary);
+        if (written == CLI_DONE) written = write_summary(r);
         if (written == CLI_DONE) written = save(r);
     }
     if (r->dir && written == CLI_DONE && status != CLI_IO)

@@ -141,33 +141,6 @@ int request_check_forward(const run_request *request)
     return CLI_DONE;
 }
 
-/* A command that does not take --from goes from t = 0 forwards. */
-static int check_forward(const cli_group *group)
-{
-    return group->without & REQUEST_OPTION(from) ? request_check_forward(group->settings)
-                                                 : CLI_DONE;
-}
-
-/* The length of the formula that begins a list of --observe, without the blanks around it; the next
- * one is behind *end. */
-static size_t find_formula(const char **list, const char **end)
-{
-    *list += strspn(*list, " ");
-    size_t length = strcspn(*list, ";");
-    *end = *list + length;
-    while (length > 0 && (*list)[length - 1] == ' ') length--;
-    return length;
-}
-
-bool request_observes(const run_request *request, const char *name)
-{
-    for (const char *at = request->observe, *end; at; at = *end ? end + 1 : NULL) {
-        const size_t length = find_formula(&at, &end);
-        if (strlen(name) == length && strncmp(at, name, length) == 0) return true;
-    }
-    return false;
-}
-
 /* The system, with the formulas of --observe. */
 static int load_system(run_request *request)
 {
@@ -176,7 +149,7 @@ static int load_system(run_request *request)
     int count = 0;
     if (!list) return cli_load(request->system_name, &request->model, &request->system);
     for (const char *at = list, *end; at; at = *end ? end + 1 : NULL) {
-        const size_t length = find_formula(&at, &end);
+        const size_t length = request_find_formula(&at, &end);
         formula = cli_realloc(formula, ((size_t)count + 1) * sizeof *formula);
         formula[count++] = (cli_formula){cli_strndup(at, length), 1, (int)(at - list) + 1};
     }
@@ -214,7 +187,9 @@ static int take_defaults(const cli_group *group, int status)
     }
     if (taken[0] && found == CLI_DONE && status == CLI_DONE)
         cli_note("%s gives%s", request->system_name, taken);
-    const int forward = check_forward(group);
+    /* A command that does not take --from goes from t = 0 forwards. */
+    const bool is_forward = group->without & REQUEST_OPTION(from);
+    const int forward = is_forward ? request_check_forward(request) : CLI_DONE;
     return found == CLI_DONE ? forward : found;
 }
 
@@ -228,11 +203,6 @@ int request_parse_option(run_request *request, int option, const char *text)
 {
     request->text[option] = text;
     return request_options[option].parse(request, &request_options[option], text);
-}
-
-bool request_has(const run_request *request, int option)
-{
-    return request->text[option] || request->typed >> option & 1;
 }
 
 bool request_option_is_number(int option)
@@ -258,12 +228,6 @@ run_request request_default(void)
     return request;
 }
 
-void request_free_settings(request_settings *settings)
-{
-    for (int i = 0; i < settings->count; i++) free((char *)settings->item[i].name);
-    free(settings->item);
-}
-
 void request_free(run_request *request)
 {
     dal_run_free(request->run);
@@ -274,18 +238,6 @@ void request_free(run_request *request)
     free(request->list);
     for (int i = 0; i < REQUEST_DEFAULTS; i++) free(request->taken[i]);
     *request = request_default();
-}
-
-void request_add_setting(request_settings *settings, const char *name, double value)
-{
-    for (int i = 0; i < settings->count; i++)
-        if (strcmp(settings->item[i].name, name) == 0) {
-            settings->item[i].value = value;
-            return;
-        }
-    size_t count = (size_t)settings->count + 1;
-    settings->item = cli_realloc(settings->item, count * sizeof *settings->item);
-    settings->item[settings->count++] = (dal_setting){cli_strdup(name), value};
 }
 
 int request_parse_setting(request_settings *settings, const char *what, const char *name,
@@ -351,23 +303,20 @@ int request_complete(run_request *request, dal_run_spec *spec)
     return status == CLI_DONE ? request_make_spec(request, spec) : status;
 }
 
-/* Before any file is made. */
-static int check_columns(const run_request *request)
-{
-    run_columns columns;
-    const int status = columns_make(&columns, request);
-    columns_free(&columns);
-    return status;
-}
-
 int request_create_run(run_request *request)
 {
     dal_run_spec spec;
     dal_error error = {0};
+    run_columns columns;
     const int status = request_complete(request, &spec);
     if (status != CLI_DONE) return status;
     const dal_status made = dal_run_create(&request->run, &spec, &error);
-    if (made == DAL_OK) return check_columns(request);
-    request->run = NULL;
-    return cli_error(cli_input_exit(made), request->system_name, &error);
+    if (made != DAL_OK) {
+        request->run = NULL;
+        return cli_error(cli_input_exit(made), request->system_name, &error);
+    }
+    /* --columns is checked before any file is made. */
+    const int selected = columns_make(&columns, request);
+    columns_free(&columns);
+    return selected;
 }

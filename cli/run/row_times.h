@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_ROW_TIMES_H
 #define DAL_CLI_ROW_TIMES_H
 
-#include "request.h"
+#include "request_data.h"
 #include "ui/options.h"
 
 /* Times that are not equally distant are kept in memory. */

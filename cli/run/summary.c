@@ -1,13 +1,10 @@
 /* summary.c - size and trend of each observable over a run. */
 #include "summary.h"
 #include "dalembert.h"
-#include "ui/memory.h"
 
-#include "io/file.h"
 #include "io/trend.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 void summary_print(FILE *out, const run_recorder *r)
 {
@@ -52,21 +49,4 @@ void summary_print_details(FILE *out, const run_recorder *r)
                 f->rate - (TIMES - 1) * range, f->rate + (TIMES - 1) * range);
     }
     if (found == 0) fprintf(out, "rates in a longer run: no trend is linear\n");
-}
-
-int summary_write(const run_recorder *r, const char *path)
-{
-    char *text;
-    size_t length;
-    FILE *out = cli_memstream_open(&text, &length);
-    fprintf(out, "observable,first,final,maximum,deviation,%s\n", cli_trend_heads);
-    for (int i = 0; i < r->observables; i++) {
-        cli_put_text(out, recorder_observable_name(r, i));
-        cli_put_values(out, &r->trend[i]);
-        fputc('\n', out);
-    }
-    cli_memstream_close(out);
-    const int status = file_replace(path, text, length, r->dir->sync);
-    free(text);
-    return status;
 }

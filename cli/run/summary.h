@@ -9,7 +9,5 @@
 void summary_print(FILE *out, const run_recorder *recorder);
 /* For each line the rates that it may have in a longer run, if it bends on as it does in this. */
 void summary_print_details(FILE *out, const run_recorder *recorder);
-/* Writes summary.csv.  Returns CLI_DONE or prints and returns CLI_IO. */
-int summary_write(const run_recorder *recorder, const char *path);
 
 #endif

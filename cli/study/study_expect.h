@@ -2,10 +2,9 @@
 #ifndef DAL_CLI_STUDY_EXPECT_H
 #define DAL_CLI_STUDY_EXPECT_H
 
-#include "study_plan.h"
+#include "study_data.h"
 
 #include <stdbool.h>
-#include <stddef.h>
 
 /* What bounds may be set to: name, member of dal_trend. */
 #define STUDY_FIELD_LIST(FIELD)                                                                    \
@@ -25,18 +24,6 @@ enum {
 #undef FIELD_NUMBER
         STUDY_FIELDS
 };
-
-/* One of some words, or a number within bounds. */
-typedef struct study_expectation {
-    const char *label, *method, *quantity; /* as they are written */
-    double step, tolerance;                /* of these cells alone; 0: of all */
-    int start;                             /* of these cells alone; -1: of all */
-    size_t line;
-    unsigned words;  /* bit k: size k, bit DAL_SIZE_COUNT + k: trend k, any of which will do; of
-                        the quantity "state" bit k: state k; 0: bounds */
-    int field;       /* STUDY_FIELD_x that has bounds, -1: none */
-    double min, max; /* infinite where there is no bound */
-} study_expectation;
 
 /* Reads `expect` into a plan with its cells; node may be NULL.  Returns CLI_DONE, or prints and
  * returns CLI_USAGE. */

@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_STUDY_OBSERVE_H
 #define DAL_CLI_STUDY_OBSERVE_H
 
-#include "study_plan.h"
+#include "study_data.h"
 
 /* Makes the systems again that `expect` names formulas for, and notes these in their cases; node
  * may be NULL.  Returns CLI_DONE, or prints and returns an exit status. */

@@ -6,6 +6,7 @@
 
 #include "io/file.h"
 #include "io/text.h"
+#include "run/request.h"
 #include "run/row_times.h"
 #include "run/system.h"
 #include "study_expect.h"
@@ -269,11 +270,6 @@ char *study_plan_copy_path(const char *directory, const study_case *e)
     return cli_format("%s/%s.yaml", directory, e->label);
 }
 
-const char *study_case_system(const study_case *e)
-{
-    return e->copy ? e->copy : e->path ? e->path : e->name;
-}
-
 /* A relative path begins at the study file.  In the directory of a study a system with a copy was a
  * file, wherever the program is started. */
 static int load_system(const group_reader *g, study_case *e)
@@ -353,11 +349,6 @@ static int read_first_case(const group_reader *g, study_case *e)
 }
 
 /* ---- cases ---- */
-
-double study_case_end(const study_case *e, double step)
-{
-    return e->run_steps > 0 ? e->from + (double)e->run_steps * step : e->time;
-}
 
 static void choose_step(group_reader *g)
 {

@@ -8,7 +8,7 @@
 #ifndef DAL_CLI_STUDY_RESULTS_H
 #define DAL_CLI_STUDY_RESULTS_H
 
-#include "study_plan.h"
+#include "study_data.h"
 
 #include <stdbool.h>
 

@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_STUDY_SCREEN_H
 #define DAL_CLI_STUDY_SCREEN_H
 
-#include "study_plan.h"
+#include "study_data.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_STUDY_TABLE_H
 #define DAL_CLI_STUDY_TABLE_H
 
-#include "study_plan.h"
+#include "study_data.h"
 
 #include <stdio.h>
 

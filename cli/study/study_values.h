@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_STUDY_VALUES_H
 #define DAL_CLI_STUDY_VALUES_H
 
-#include "study_plan.h"
+#include "study_data.h"
 
 /*     0.1                                one value
  *     [0.1, 0.05]                        a list
@@ -22,6 +22,14 @@ enum { STUDY_VALUES_MAX = 10000 };
 int study_values_read(study_values *values, const document *doc, yaml_node_t *node,
                       const char *what);
 void study_values_free(study_values *values);
+
+/* A case, the nodes that need its system, and what only the whole study has. */
+typedef struct parsed_study {
+    study_case item;
+    yaml_node_t *integrators, *set, *start, *displace, *seeds;
+    yaml_node_t *systems, *expect, *representatives;
+    const char *title;
+} parsed_study;
 
 /* The settings of a system with several values or drawn ones, and all their combinations. */
 typedef struct study_variants study_variants;

@@ -1,42 +1,15 @@
 /* memory.c - the memory of the program.
  *
- * Only this file of the program allocates.  Where memory runs out the program ends with a message
- * and status 4; standard streams and open files are flushed. */
+ * Only this file of the program allocates; where memory runs out, the program ends (message.h). */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* fopencookie */
 #endif
 #include "memory.h"
 
 #include <errno.h>
-#include <pthread.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* A thread that the end of the program must not interrupt holds it to read; the one that ends the
- * program, to write. */
-static pthread_rwlock_t exits = PTHREAD_RWLOCK_INITIALIZER;
-static _Thread_local bool holds_exit;
-
-void cli_hold_exit(void)
-{
-    pthread_rwlock_rdlock(&exits);
-    holds_exit = true;
-}
-
-void cli_release_exit(void)
-{
-    holds_exit = false;
-    pthread_rwlock_unlock(&exits);
-}
-
-/* Another thread that runs out of memory waits here while the first one ends the program. */
-void cli_out_of_memory(void)
-{
-    if (holds_exit) cli_release_exit();
-    pthread_rwlock_wrlock(&exits);
-    exit(cli_fail(CLI_IO, "out of memory"));
-}
 
 bool cli_is_ok(dal_status status)
 {

@@ -9,12 +9,6 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Ends the program with a message and status 4. */
-_Noreturn void cli_out_of_memory(void);
-/* Between these two calls a lack of memory in another thread does not end the program, so that
- * files that belong together are complete. */
-void cli_hold_exit(void);
-void cli_release_exit(void);
 /* Whether a status is DAL_OK; ends the program where it is DAL_MEMORY. */
 bool cli_is_ok(dal_status status);
 

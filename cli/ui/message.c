@@ -1,10 +1,10 @@
 /* message.c - messages on stderr, and the exit statuses that go with them. */
 #include "message.h"
 #include "clock.h"
-#include "memory.h"
 #include "signals.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -164,4 +164,31 @@ int cli_close(FILE *out, const char *path)
     }
     errno = reason;
     return failed ? cli_io("write", path) : CLI_DONE;
+}
+
+/* ---- the end without memory: standard streams and open files are flushed -------------------- */
+
+/* A thread that the end of the program must not interrupt holds it to read; the one that ends the
+ * program, to write. */
+static pthread_rwlock_t exits = PTHREAD_RWLOCK_INITIALIZER;
+static _Thread_local bool holds_exit;
+
+void cli_hold_exit(void)
+{
+    pthread_rwlock_rdlock(&exits);
+    holds_exit = true;
+}
+
+void cli_release_exit(void)
+{
+    holds_exit = false;
+    pthread_rwlock_unlock(&exits);
+}
+
+/* Another thread that runs out of memory waits here while the first one ends the program. */
+void cli_out_of_memory(void)
+{
+    if (holds_exit) cli_release_exit();
+    pthread_rwlock_wrlock(&exits);
+    exit(cli_fail(CLI_IO, "out of memory"));
 }

@@ -1,4 +1,5 @@
-/* message.h - exit statuses, messages on stderr, and the line of progress. */
+/* message.h - exit statuses, messages on stderr, the line of progress, the end without
+ * memory. */
 #ifndef DAL_CLI_MESSAGE_H
 #define DAL_CLI_MESSAGE_H
 
@@ -45,6 +46,13 @@ int cli_error(int exit_status, const char *place, const dal_error *error);
 /* "dalembert: cannot VERB 'PATH': strerror(errno)"; returns CLI_IO, or CLI_USAGE where the path is
  * too long.  Where a signal ended the wait it prints nothing and returns CLI_SIGNAL. */
 int cli_io(const char *verb, const char *path);
+
+/* Ends the program with a message and status 4. */
+_Noreturn void cli_out_of_memory(void);
+/* Between these two calls a lack of memory in another thread does not end the program, so that
+ * files that belong together are complete. */
+void cli_hold_exit(void);
+void cli_release_exit(void);
 
 /* Closes (or, for stdout, flushes) a file that was written to.  Returns CLI_DONE or, when any write
  * of its life failed, prints and returns CLI_IO. */

@@ -1,4 +1,4 @@
-/* options.h - commands, their options as rows of tables, and the reading of arguments. */
+/* options.h - commands, and their options as rows of tables. */
 #ifndef DAL_CLI_OPTIONS_H
 #define DAL_CLI_OPTIONS_H
 
@@ -66,16 +66,8 @@ typedef struct cli_command {
     int (*run)(int argc, char **argv);
 } cli_command;
 
-enum { CLI_GO_ON = -1 };
-
 /* Stores the defaults; those that are none for a parser are a mistake of the program. */
 void cli_set_defaults(const cli_option *options, int count, void *settings);
-/* Stores the defaults of all groups and reads all arguments: --option value, --option=value, never
- * an abbreviation; -- ends the options.  Returns CLI_GO_ON, or an exit status after --help or a
- * message for each thing that is missing or wrong. */
-int cli_read_arguments(const cli_command *command, int argc, char **argv, const cli_group *groups,
-                       int count);
-
 /* The present name of an option that was renamed, and of a value of an option; or NULL. */
 const char *cli_renamed_option(const char *name);
 const char *cli_renamed_value(const char *option, const char *text);

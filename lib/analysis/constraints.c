@@ -7,7 +7,6 @@
  * decides against it, points where D is not finite decide nothing.
  *
  *     G = A W^-1 A^T;     v <- v - W^-1 A^T G^-1 D until D = 0 (Newton) */
-#include "analysis/constraints.h"
 #include "analysis/derivatives.h"
 #include "core/error.h"
 #include "core/vectors.h"
@@ -224,19 +223,6 @@ static dal_status constraint_blocks(dal_evaluator *evaluator, double t, const do
     return isfinite(dal__max_abs(out, count)) ? DAL_OK : DAL_NOT_FINITE;
 }
 
-void dal__gram_matrix(const dal_system *s, const double *block, double *gram)
-{
-    int n = s->n, m = s->m;
-    const double *A = block + m, *R = block + m + m * n;
-    for (int a = 0; a < m; a++) {
-        for (int b = 0; b < m; b++) {
-            double sum = 0.0;
-            for (int i = 0; i < n; i++) sum += A[a * n + i] * R[i * m + b];
-            gram[a * m + b] = sum;
-        }
-    }
-}
-
 dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank, double *pivot)
 {
     DAL_REQUIRE(evaluator && dal__has_state(at) && rank && pivot, NULL);
@@ -247,7 +233,7 @@ dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *
     double *gram = block + m * (1 + 2 * n), *size = gram + m * m;
     dal_status status = constraint_blocks(evaluator, at->t, at->q, at->v, block);
     if (status == DAL_OK) {
-        dal__gram_matrix(s, block, gram);
+        dal__gram_matrix(s->n, s->m, block + m, block + m + m * n, gram);
         /* Scaled by the root of the largest entry of each row: constraints in any units. */
         for (size_t a = 0; a < m; a++) size[a] = sqrt(dal__max_abs(gram + a * m, m));
         for (size_t k = 0; k < m * m; k++) {
@@ -291,7 +277,7 @@ static dal_status newton_step(projection *p)
 {
     int n = p->s->n, m = p->s->m;
     memcpy(p->right, p->block, (size_t)m * sizeof(double));
-    dal__gram_matrix(p->s, p->block, p->gram);
+    dal__gram_matrix(n, m, p->block + m, p->block + m + m * n, p->gram);
     if (dal__least_squares(m, m, p->gram, p->right, p->step, rank_tolerance, NULL, p->work) < m)
         return DAL_SINGULAR;
     for (int i = 0; i < n; i++)

@@ -3,7 +3,6 @@
  *
  *     d/dt f(q,v,t) along the motion = d/ds f(q + s v, v + s F, t + s) at s = 0 */
 #include "analysis/derivatives.h"
-#include "analysis/constraints.h"
 #include "core/error.h"
 #include "core/vectors.h"
 #include <math.h>
@@ -287,7 +286,8 @@ static dal_status compare_constraint(comparison *d, dal_derivatives *out)
     DAL_TRY(tabulate(d, d->s->constraints, d->m));
     DAL_TRY(call(d, d->s->call.constraint, d->given));
     out->constraint_jacobian = compare(d, d->given + d->m, d->m, d->n, d->n);
-    dal__gram_matrix(d->s, d->given, d->scratch);
+    const double *A = d->given + d->m;
+    dal__gram_matrix(d->n, d->m, A, A + d->m * d->n, d->scratch);
     const double *gram = d->scratch, size = dal__max_abs(gram, (size_t)d->m * (size_t)d->m);
     double max = 0.0;
     for (int i = 0; i < d->m; i++)

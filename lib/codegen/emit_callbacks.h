@@ -2,7 +2,7 @@
 #ifndef DAL_EMIT_CALLBACKS_H
 #define DAL_EMIT_CALLBACKS_H
 
-#include "codegen/generate.h"
+#include "codegen/generation.h"
 
 void dal__emit_callbacks(dal__generation *g);
 void dal__write_start(dal__generation *g);

@@ -17,82 +17,6 @@ enum { MAX_STACK = 1 << 22 };
  * and components, one lane or more. */
 enum { MAX_UNROLLED_DIM = 64, MAX_UNROLLED = 15, MAX_UNROLLED_LANES = 32 };
 
-/* ---- what a file needs ---- */
-
-bool dal__uses_newton(const dal__generation *g)
-{
-    const unsigned implicit = DAL_KERNEL_EULER | DAL_KERNEL_COLLOCATION | DAL_KERNEL_ENFORCE;
-    return g->kernel & implicit && g->spec->options.solver != DAL_FIXED_POINT &&
-           g->programs->program[DAL__PROGRAM_JACOBIAN].present;
-}
-
-/* Whether a modifier moves tangent vectors stored in the momenta. */
-bool dal__follows_tangents(const dal__generation *g)
-{
-    return g->layout.lifted && g->kernel & DAL_KERNEL_TANGENT;
-}
-
-/* Whether the observables need a program. */
-static bool observes(const dal__generation *g, dal__program_code code)
-{
-    if (code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_GAUGE) return g->layout.lifted;
-    return code == DAL__PROGRAM_CONSTRAINTS || code == DAL__PROGRAM_ENERGY ||
-           code == DAL__PROGRAM_INVARIANTS || code == DAL__PROGRAM_EXACT ||
-           (code == DAL__PROGRAM_REACTIONS && g->layout.options.reactions);
-}
-
-/* Whether the file has the code of the canonical variables, of which some methods have calls on
- * any space. */
-static bool has_lift(const dal__generation *g)
-{
-    return g->layout.lifted ||
-           g->kernel & (DAL_KERNEL_EULER | DAL_KERNEL_COLLOCATION | DAL_KERNEL_TANGENT);
-}
-
-/* Whether the kernel, or the method, evaluates a callback, be it present or not. */
-bool dal__evaluates(const dal__generation *g, dal__program_code code)
-{
-    const unsigned kernel = g->kernel;
-    if (g->product == DAL__OBSERVE) return observes(g, code);
-    switch (code) {
-    case DAL__PROGRAM_ADJOINT:
-    case DAL__PROGRAM_GAUGE:
-        return has_lift(g);
-    case DAL__PROGRAM_JACOBIAN:
-        return kernel & (DAL_KERNEL_SOLVE | DAL_KERNEL_TANGENT);
-    case DAL__PROGRAM_CONSTRAINT:
-        return kernel & DAL_KERNEL_CONSTRAINT || dal__checks_rank(g->layout.system);
-    case DAL__PROGRAM_BLOCKS:
-        return kernel & DAL_KERNEL_BLOCKS;
-    case DAL__PROGRAM_POTENTIAL:
-        return kernel & DAL_KERNEL_POTENTIAL;
-    case DAL__PROGRAM_ENERGY_NORMAL:
-        return kernel & DAL_KERNEL_ENERGY_NORMAL;
-    case DAL__PROGRAM_GUARDS:
-        return g->layout.system->guards > 0;
-    case DAL__PROGRAM_REACTIONS:
-        return g->layout.options.reactions;
-    case DAL__PROGRAM_DIAGNOSE:
-    case DAL__PROGRAM_PICTURE:
-    case DAL__PROGRAM_PROJECTION:
-    case DAL__PROGRAM_EVENT_VALUES:
-    case DAL__PROGRAM_EVENT_RATES:
-    case DAL__PROGRAM_EVENT_STATES:
-    case DAL__PROGRAM_EVENT_NORMALS:
-        return false;
-    default:
-        return true;
-    }
-}
-
-bool dal__wants(const dal__generation *g, dal__program_code code)
-{
-    const bool lift = code == DAL__PROGRAM_ADJOINT || code == DAL__PROGRAM_GAUGE;
-    if (!g->programs->program[code].present || !dal__evaluates(g, code)) return false;
-    if (code == DAL__PROGRAM_JACOBIAN) return dal__uses_newton(g) || dal__follows_tangents(g);
-    return g->layout.lifted || !lift;
-}
-
 /* ---- checks ---- */
 
 static dal_status check_method(dal__generation *g, dal_error *error)
@@ -176,22 +100,13 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
 
 /* ---- constants and conditions ---- */
 
-/* Whether steps are divided into substeps. */
-static bool is_controlled(const dal__generation *g) { return g->layout.options.tolerance > 0.0; }
-
-/* Whether lanes have times of their own. */
-bool dal__has_times(const dal__generation *g)
-{
-    return g->product == DAL__OBSERVE || (g->lanes > 1 && is_controlled(g));
-}
-
 /* Whether all groups of lanes are stepped as one larger system: where registers hold what a step
  * needs of two groups. */
 static bool steps_together(const dal__generation *g)
 {
     const dal_integrator *method = g->layout.method.layer[0];
     const bool few_stages = method->properties & DAL_EXTRAPOLATES_STAGES && method->stages <= 2;
-    return g->lanes > 1 && g->layout.depth == 1 && !g->layout.lifted && !is_controlled(g) &&
+    return g->lanes > 1 && g->layout.depth == 1 && !g->layout.lifted && !dal__is_controlled(g) &&
            (method->properties & DAL_COMPONENTWISE || few_stages);
 }
 
@@ -223,7 +138,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_BRANCHES", calls & DAL__CALLS_BRANCHES},
         {"DAL_WITH_LIBM", calls & DAL__CALLS_LIBM},
         {"DAL_WITH_TABLES", calls & DAL__CALLS_TABLES},
-        {"DAL_WITH_LIFT", has_lift(g)},
+        {"DAL_WITH_LIFT", dal__has_lift(g)},
         {"DAL_WITH_TANGENT", kernel & DAL_KERNEL_TANGENT},
         {"DAL_WITH_SOLVE", kernel & DAL_KERNEL_SOLVE},
         {"DAL_WITH_METHOD_STATE", kernel & DAL_KERNEL_METHOD_STATE},
@@ -238,7 +153,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_EVAL_GROUP", guards || rank || kernel & DAL_KERNEL_SOLVE},
         {"DAL_WITH_GROUPS", steps_together(g)},
         {"DAL_WITH_SERIES", kernel & DAL_KERNEL_SERIES},
-        {"DAL_WITH_CONTROL", is_controlled(g)},
+        {"DAL_WITH_CONTROL", dal__is_controlled(g)},
         {"DAL_WITH_TIMES", dal__has_times(g)},
         {"DAL_WITH_TRACE", g->product == DAL__TRACE},
     };
@@ -291,7 +206,7 @@ static void write_constants(dal__generation *g)
     const dal__layout *k = &g->layout;
     const bool solves = g->kernel & (DAL_KERNEL_COLLOCATION | DAL_KERNEL_EULER);
     const bool is_explicit =
-        dal_method_properties(&g->spec->method) & DAL_EXPLICIT && !is_controlled(g);
+        dal_method_properties(&g->spec->method) & DAL_EXPLICIT && !dal__is_controlled(g);
     /* A single lane is stepped only while it is alive; an explicit step of several may include
      * lanes that are not. */
     const bool all_alive =
@@ -337,7 +252,7 @@ static void write_constants(dal__generation *g)
     for (int i = 0; i < COUNT; i++)
         if (list[i].solver && g->kernel & DAL_KERNEL_SOLVE)
             dal__buffer_print(&g->text, "#define DAL_FIXED_%s %d\n", list[i].name, list[i].value);
-    if (is_controlled(g)) write_number(g, "DAL_FIXED_TOLERANCE", k->options.tolerance);
+    if (dal__is_controlled(g)) write_number(g, "DAL_FIXED_TOLERANCE", k->options.tolerance);
     if (g->kernel & DAL_KERNEL_SERIES) {
         dal__buffer_print(&g->text, "#define DAL_FIXED_SERIES %d\n", count_series(g));
         dal__buffer_print(&g->text, "#define DAL_FIXED_TAYLOR_ORDER %d\n", k->taylor_order);
@@ -373,7 +288,7 @@ static const char compiler[] =
 void dal__write_compiler(dal__generation *g)
 {
     dal__buffer_append(&g->text, compiler);
-    if (g->lanes == 1 && !(g->kernel & DAL_KERNEL_SOLVE) && !is_controlled(g)) return;
+    if (g->lanes == 1 && !(g->kernel & DAL_KERNEL_SOLVE) && !dal__is_controlled(g)) return;
     dal__buffer_append(
         &g->text,
         "#pragma GCC diagnostic ignored \"-Wpsabi\"\n"

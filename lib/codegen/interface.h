@@ -2,7 +2,7 @@
 #ifndef DAL_CODEGEN_INTERFACE_H
 #define DAL_CODEGEN_INTERFACE_H
 
-#include "codegen/generate.h"
+#include "codegen/generation.h"
 
 /* Sets the prefix: that of the caller, or (NULL) SYSTEM_METHOD.  Errors: DAL_ARGUMENT. */
 dal_status dal__choose_prefix(dal__generation *g, const char *prefix, dal_error *error);

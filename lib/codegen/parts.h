@@ -6,7 +6,7 @@
 #ifndef DAL_CODEGEN_PARTS_H
 #define DAL_CODEGEN_PARTS_H
 
-#include "codegen/generate.h"
+#include "codegen/generation.h"
 
 /* The parts that all layers of the method declare, with those that they use. */
 unsigned dal__kernel_of(const dal_method *method);

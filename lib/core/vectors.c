@@ -78,6 +78,16 @@ void dal__jacobi_sizes(int n, const double *m, double *size)
     }
 }
 
+void dal__gram_matrix(int n, int m, const double *A, const double *B, double *G)
+{
+    for (int a = 0; a < m; a++)
+        for (int b = 0; b < m; b++) {
+            double sum = 0.0;
+            for (int i = 0; i < n; i++) sum += A[a * n + i] * B[i * m + b];
+            G[a * m + b] = sum;
+        }
+}
+
 void dal__velocity_units(int n, int m, const double *A, const double *B, double *unit)
 {
     const int unknown = INT_MAX;

@@ -32,6 +32,8 @@ bool dal__is_converged(double change, double before, double size);
  * on the diagonal has the least one with which m_ij^2 <= d_i d_j; where no other row has a size,
  * ab/c with entries a, b, c of three rows in pairs, or 1. */
 void dal__jacobi_sizes(int n, const double *m, double *size);
+/* G = A B [m*m] for A[m*n], B[n*m] = W^-1 A^T. */
+void dal__gram_matrix(int n, int m, const double *A, const double *B, double *G);
 /* Units of the velocities that m constraints move, unit[n], powers of 2 that change as those of the
  * velocities do: max_a |B_ia|/sqrt(G_aa) = max_a sqrt(W^-1_ii) |cos(e_i, A_a)| for A[m*n], B[n*m] =
  * W^-1 A^T and the diagonal of G = A B, relative to the first; 0 where none does. */

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/vectors.h"
 #include "run/crossing.h"
+#include "run/observe.h"
 #include <float.h>
 #include <stdlib.h>
 

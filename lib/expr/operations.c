@@ -1,5 +1,7 @@
-/* operations.c - the operations that a formula calls by name. */
+/* operations.c - operations: their names in formulas, and their values. */
 #include "expr/operations.h"
+#include "expr/arithmetic.h"
+#include <math.h>
 #include <string.h>
 
 static const struct function {
@@ -38,4 +40,17 @@ bool dal__is_function(const char *name, size_t length)
 bool dal__hides_function(const char *name)
 {
     return dal__is_young(dal__function_named(name, strlen(name))) || strcmp(name, "sum") == 0;
+}
+
+double dal__operate(int op, double a, double b, double c)
+{
+    switch (op) {
+#define CASE(code, expression)                                                                     \
+    case DAL__##code:                                                                              \
+        return expression;
+        DAL__OPERATION_LIST(CASE)
+#undef CASE
+    default:
+        return NAN;
+    }
 }

@@ -40,7 +40,24 @@
 #ifndef DAL_EXPR_RECURRENCES_H
 #define DAL_EXPR_RECURRENCES_H
 
-#include "expr/taylor.h"
+#include "expr/operations.h"
+
+/* An operand is a slot, or with this bit the place in work of what is constant along a run. */
+#define DAL__TAYLOR_CONSTANT (UINT32_C(1) << 31)
+
+/* Recurrences that are not each of an operation of tapes. */
+enum {
+    DAL__SLOPE = DAL__SUB_MUL + 1, /* coefficients j a_j */
+    DAL__POW_MOVING,               /* a power whose exponent moves: a^b = exp(c), c = b log a */
+    DAL__LOG_CONSTANT,             /* of what is constant along a run */
+    DAL__DIV_CONSTANT,             /* by what is */
+    DAL__SIN_TURN,                 /* sine of a coordinate a, whose cosine times a' is b, and */
+    DAL__COS_TURN,                 /* sine times a' is c; so the next two */
+    DAL__SINCOS_TURN,
+    DAL__RECURRENCES
+};
+
+enum { DAL__TAYLOR_SUMS = 5 };
 
 /* clang-format off */
 #define DAL__RECURRENCE_LIST(PLAIN, QUOTIENT, PAIR, PAIR_QUOTIENT)                                 \

@@ -11,8 +11,8 @@
  * A function of a number becomes its value, with the bits a tape would give, unless that is not
  * finite: then the node stays, and its evaluation gives the infinity or NaN. */
 #include "expr/simplify.h"
+#include "expr/operations.h"
 #include "expr/table.h"
-#include "expr/traversal.h"
 #include <math.h>
 
 /* Rules may call each other this deep; below, a node is made as it is.  Integer powers up to
@@ -551,4 +551,13 @@ dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b)
     default:
         return function(graph, op, a);
     }
+}
+
+dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b)
+{
+    dal__node sum = dal__number(graph, 0.0);
+    for (int i = 0; i < count; i++)
+        if (!dal__is_number(graph, a[i], 0.0))
+            sum = dal__node_add(graph, sum, dal__node_mul(graph, a[i], b[i]));
+    return sum;
 }

@@ -18,5 +18,7 @@ dal__node dal__node_if(dal__graph *graph, dal__node a, dal__node b, dal__node c)
 /* A derivative of a table, by the number that is its symbol. */
 dal__node dal__node_table(dal__graph *graph, int symbol, dal__node a);
 dal__node dal__node_neg(dal__graph *graph, dal__node a);
+/* sum_i a[i] b[i] of count nodes. */
+dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b);
 
 #endif

@@ -5,7 +5,7 @@
  * Symbols 0..parameters-1 are parameters, the next inputs symbols are inputs.  Nodes that depend on
  * parameters alone are hoisted: computed by dal__tapes_prepare_x1, not by each run of a program.
  * An instruction is an operation, where it writes and where it reads, as places in work; beside the
- * operations of the graph there are a few that do two of them at once (traversal.h).  A program's
+ * operations of the graph there are a few that do two of them at once (operations.h).  A program's
  * arithmetic for a node is the same in every program and at every width: same bits.
  *
  * Nodes that switch from one formula to another may be held: some programs have a second list of

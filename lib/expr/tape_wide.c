@@ -1,8 +1,8 @@
 /* tape_wide.c - runs a program, over num. */
 #include "expr/arithmetic.h"
+#include "expr/operations.h"
 #include "expr/table.h"
 #include "expr/tape.h"
-#include "expr/traversal.h"
 
 static __attribute__((flatten, noinline)) void execute(const dal__instruction *code, int length,
                                                        const dal__table *tables, double *work)

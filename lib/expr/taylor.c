@@ -1,7 +1,7 @@
 /* taylor.c - series programs from tapes: every result of a tape becomes a series of its own. */
 #include "expr/taylor.h"
 #include "expr/operations.h"
-#include "expr/recurrences.h"
+#include "expr/traversal.h"
 #include <stdlib.h>
 #include <string.h>
 

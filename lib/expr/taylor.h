@@ -21,30 +21,13 @@
 #ifndef DAL_EXPR_TAYLOR_H
 #define DAL_EXPR_TAYLOR_H
 
+#include "expr/recurrences.h"
 #include "expr/tape.h"
-#include "expr/traversal.h"
-
-/* An operand is a slot, or with this bit the place in work of what is constant along a run. */
-#define DAL__TAYLOR_CONSTANT (UINT32_C(1) << 31)
-
-/* Recurrences that are not each of an operation of tapes. */
-enum {
-    DAL__SLOPE = DAL__SUB_MUL + 1, /* coefficients j a_j */
-    DAL__POW_MOVING,               /* a power whose exponent moves: a^b = exp(c), c = b log a */
-    DAL__LOG_CONSTANT,             /* of what is constant along a run */
-    DAL__DIV_CONSTANT,             /* by what is */
-    DAL__SIN_TURN,                 /* sine of a coordinate a, whose cosine times a' is b, and */
-    DAL__COS_TURN,                 /* sine times a' is c; so the next two */
-    DAL__SINCOS_TURN,
-    DAL__RECURRENCES
-};
-
-enum { DAL__TAYLOR_SUMS = 5 };
 
 /* An operation: of order 0 by op, as tapes have it, of others by recurrence, the same or one of
- * those above.  u: slot of its result; w: of a second series, the cosine of a sine; reciprocal: of
- * what its recurrence multiplies by, in order 0 alone; the latter are u where there is none.
- * a, b, c: operands; sum[sums]: numbers of the inner sums, in the order of recurrences.h. */
+ * those of recurrences.h.  u: slot of its result; w: of a second series, the cosine of a sine;
+ * reciprocal: of what its recurrence multiplies by, in order 0 alone; the latter are u where there
+ * is none.  a, b, c: operands; sum[sums]: numbers of the inner sums, in the order of its list. */
 typedef struct dal__taylor_operation {
     uint32_t op, recurrence, u, w, reciprocal, a, b, c;
     uint32_t sum[DAL__TAYLOR_SUMS];

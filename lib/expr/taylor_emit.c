@@ -5,7 +5,6 @@
 #include "expr/taylor_emit.h"
 #include "expr/arithmetic.h"
 #include "expr/emit.h"
-#include "expr/recurrences.h"
 #include <string.h>
 
 /* The body that is written: which order, as it is called there. */

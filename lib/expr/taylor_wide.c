@@ -1,7 +1,7 @@
 /* taylor_wide.c - runs a series program, over num. */
 #include "expr/arithmetic.h"
-#include "expr/recurrences.h"
-#include "expr/traversal.h"
+#include "expr/operations.h"
+#include "expr/taylor.h"
 #include "kernel/series.h"
 
 /* An order that is computed. */

@@ -3,7 +3,6 @@
  * Operands have smaller indices than their node, so marking runs down the indices and computing
  * runs up. */
 #include "expr/traversal.h"
-#include "expr/arithmetic.h"
 #include "expr/simplify.h"
 #include "expr/table.h"
 #include <math.h>
@@ -66,19 +65,6 @@ dal__lowered dal__lower(const dal__graph *graph, dal__node node)
     const dal__record *product = &graph->node[later ? r->b : r->a];
     const int op = r->op == DAL__ADD ? DAL__MUL_ADD : later ? DAL__SUB_MUL : DAL__MUL_SUB;
     return (dal__lowered){op, product->a, product->b, later ? r->a : r->b};
-}
-
-double dal__operate(int op, double a, double b, double c)
-{
-    switch (op) {
-#define CASE(code, expression)                                                                     \
-    case DAL__##code:                                                                              \
-        return expression;
-        DAL__OPERATION_LIST(CASE)
-#undef CASE
-    default:
-        return NAN;
-    }
 }
 
 double dal__evaluate(dal__graph *graph, dal__node node, const double *values)

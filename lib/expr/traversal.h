@@ -2,7 +2,7 @@
 #ifndef DAL_EXPR_TRAVERSAL_H
 #define DAL_EXPR_TRAVERSAL_H
 
-#include "expr/graph.h"
+#include "expr/operations.h"
 
 /* Marks node and all nodes it depends on, [node + 1]; NULL, and the status of the graph is
  * DAL_MEMORY, when memory is out. [alloc] */
@@ -26,16 +26,6 @@ bool dal__reaches(dal__graph *graph, dal__node node, uint64_t operations);
      DAL__OP_BIT(TABLE))
 #define DAL__ROUGH (DAL__JUMPING | DAL__KINKED)
 
-/* Operations that are computed as one: both functions of one argument; and a sum or difference one
- * of whose operands is a product. */
-enum {
-    DAL__SINCOS = DAL__OP_COUNT, /* sin a and cos a */
-    DAL__MUL_ADD,                /* a*b + c, rounded once; so the next two */
-    DAL__MUL_SUB,                /* a*b - c */
-    DAL__SUB_MUL,                /* c - a*b */
-    DAL__PIECE                   /* a table, its piece being held: see tape.h */
-};
-
 /* A node as it is computed everywhere: an operation of the graph, or a fused one.  What is fused
  * depends on the node alone: in a sum that is not fixed, a product that is not; of two products the
  * one made later, so that the other is computed before it. */
@@ -45,8 +35,6 @@ typedef struct dal__lowered {
 } dal__lowered;
 dal__lowered dal__lower(const dal__graph *graph, dal__node node);
 
-/* One operation on doubles, with the bits of a tape. */
-double dal__operate(int op, double a, double b, double c);
 /* The value of a node; values[symbol].  Slow, for single values (pivots, starts); NaN when memory
  * is out, as above. [alloc] */
 double dal__evaluate(dal__graph *graph, dal__node node, const double *values);

@@ -2,8 +2,15 @@
 #ifndef DAL_LOAD_TABLES_H
 #define DAL_LOAD_TABLES_H
 
-#include "load/yaml.h"
 #include "model/model.h"
+
+/* A system file as text. */
+typedef struct dal__system_text {
+    const char *name;      /* of the model */
+    const char *directory; /* where files of tables are, with the / at its end; NULL: in the text */
+    const char *text;
+    size_t length;
+} dal__system_text;
 
 /* The keys of a table, KEY(code, name). */
 #define DAL__TABLE_KEY_LIST(KEY)                                                                   \

@@ -5,10 +5,11 @@
  * the formula are those of the file.  In single quotes '' becomes "' ", which means the same to a
  * formula and is as long.  Only double quotes with escapes and texts that are no formulas are used
  * as libyaml unfolds them. */
-#include "load/yaml.h"
+#include "load/file.h"
 #include "load/tables.h"
 #include "model/model.h"
 #include "model/symbols.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
@@ -415,7 +416,8 @@ static dal_status read_text(dal_model *model, const dal__system_text *system, si
     return dal__load_tables(model, r.tables, system, mark + r.first, error);
 }
 
-dal_status dal__read_system(dal_model **model, const dal__system_text *system, dal_error *error)
+/* dal_model_read with a directory. */
+static dal_status read_system(dal_model **model, const dal__system_text *system, dal_error *error)
 {
     static const char mark[] = "\xEF\xBB\xBF"; /* a byte order mark is no text */
     const size_t skip = system->length >= 3 && memcmp(system->text, mark, 3) == 0 ? 3 : 0;
@@ -436,5 +438,43 @@ dal_status dal_model_read(dal_model **model, const char *name, const char *text,
     DAL_REQUIRE(model, error);
     *model = NULL;
     if (!text) return dal__fail(error, DAL_ARGUMENT, "there is no text to read");
-    return dal__read_system(model, &(dal__system_text){name, NULL, text, length}, error);
+    return read_system(model, &(dal__system_text){name, NULL, text, length}, error);
+}
+
+/* The name of the file without directories and ".yaml"; at most size bytes with the NUL. */
+static void name_of(const char *path, char *name, size_t size)
+{
+    static const char ending[] = ".yaml";
+    const char *slash = strrchr(path, '/'), *begin = slash ? slash + 1 : path;
+    size_t length = strlen(begin), ending_length = sizeof ending - 1;
+    if (length > ending_length && strcmp(begin + length - ending_length, ending) == 0)
+        length -= ending_length;
+    snprintf(name, size, "%.*s", (int)(length < size ? length : size - 1), begin);
+}
+
+dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error)
+{
+    DAL_REQUIRE(model, error);
+    char name[256];
+    dal_error reason;
+    *model = NULL;
+    DAL_REQUIRE(path, error);
+    name_of(path, name, sizeof name);
+    dal__system_text system = {.name = name};
+    char *text = dal__read_file(path, &system.length, &reason);
+    if (!text) return dal__fail(error, reason.status, "%s", reason.message);
+    const char *slash = strrchr(path, '/');
+    const size_t folders = slash ? (size_t)(slash - path) + 1 : 0;
+    char *directory = malloc(folders + 1);
+    if (directory) {
+        memcpy(directory, path, folders);
+        directory[folders] = 0;
+    }
+    system.text = text;
+    system.directory = directory;
+    const dal_status status =
+        directory ? read_system(model, &system, error) : dal__memory_error(error);
+    free(directory);
+    free(text);
+    return status;
 }

@@ -20,9 +20,9 @@
 #include "expr/simplify.h"
 #include "expr/terms.h"
 #include "expr/traversal.h"
-#include "model/formulas.h"
 #include "model/held.h"
 #include "model/model.h"
+#include "model/symbols.h"
 #include "model/units.h"
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef DAL_MODEL_EQUATIONS_H
 #define DAL_MODEL_EQUATIONS_H
 
-#include "expr/graph.h"
+#include "expr/derivative.h"
 
 /* A pivot of the elimination.  It must not be small compared with the terms it was subtracted
  * from. */
@@ -81,15 +81,10 @@ typedef struct dal__equations {
     int tags;
 } dal__equations;
 
-/* Derives everything but the given formulas.  Errors: DAL_RANK, DAL_SINGULAR_MASS, DAL_MEMORY,
- * DAL_TOO_LARGE. */
-dal_status dal__equations_derive(dal_model *model, dal_error *error);
-/* Replaces h and R = B^T h in invariants and events by their formulas, whose nodes are made where
- * they are used alone.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
-dal_status dal__insert_reactions(dal_model *model);
-/* sum_i a[i] b[i] of count nodes. */
-dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b);
 /* d/dt along v without accelerations: f_q v + f_t. */
-dal__node dal__time_derivative(const dal__equations *e, dal__node f);
+static inline dal__node dal__time_derivative(const dal__equations *e, dal__node f)
+{
+    return dal__tangent(e->graph, f, e->symbol + e->t, 1 + e->n, e->flow);
+}
 
 #endif

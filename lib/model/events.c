@@ -7,8 +7,8 @@
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
-#include "model/formulas.h"
 #include "model/motion.h"
+#include "model/symbols.h"
 #include <math.h>
 #include <string.h>
 

@@ -3,11 +3,10 @@
  * Symbols are numbered
  *     parameters | t | q, dq | v, dv | pi, dpi | g | h, R
  * where dq, dv, dpi have a meaning in the tangent system only, and h, R, the reactions, until their
- * formulas are known (equations.c). */
+ * formulas are known (derive.c). */
 #include "model/formulas.h"
 #include "core/solved.h"
 #include "expr/derivative.h"
-#include "expr/parser.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/events.h"
@@ -19,77 +18,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- one formula ---- */
-
-void dal__entry_title(const dal_model *model, const dal__entry *entry, char *title, size_t size)
-{
-    const char *label = entry->observed ? "observed" : dal__sections[entry->section].label;
-    int number = 1;
-    for (const dal__entry *other = model->entries; other < entry; other++)
-        number += other->section == entry->section;
-    if (entry->item)
-        snprintf(title, size,
-                 entry->section == DAL_SECTION_EVENTS ? "%s %d, %.80s" : "%s %d on %.80s", label,
-                 entry->item, entry->name);
-    else if (entry->name && !entry->observed)
-        snprintf(title, size, "%s %.80s", label, entry->name);
-    else if (dal__sections[entry->section].form == DAL__LIST)
-        snprintf(title, size, "%s %d", label, number);
-    else
-        snprintf(title, size, "%s", label);
-}
-
-/* Adds the title of the entry to the message, and its place in the file to that of the error. */
-static dal_status locate(const dal_model *model, const dal__entry *entry, dal_error *error,
-                         const dal_error *inner)
-{
-    char title[128];
-    dal__entry_title(model, entry, title, sizeof title);
-    int line = entry->line ? entry->line : 1, column = entry->line ? entry->column : 1;
-    return dal__fail_at(error, inner->status, line + inner->line - 1,
-                        inner->line == 1 ? column + inner->column - 1 : inner->column, "%s: %s",
-                        title, inner->message);
-}
-
-dal_status dal__parse_entry(dal_model *model, const dal__entry *entry, dal__scope scope,
-                            dal__node *node, dal_error *error)
-{
-    dal_error inner = {.line = 1, .column = 1};
-    scope.model = model;
-    scope.index = entry->index;
-    scope.at = entry->at;
-    const dal__names names = {dal__resolve_name, dal__scope_function, dal__scope_call, &scope};
-    dal_status status =
-        dal__parse(model->equations.graph, entry->text, strlen(entry->text), &names, node, &inner);
-    return status == DAL_OK ? DAL_OK : locate(model, entry, error, &inner);
-}
-
-dal_status dal__not_finite(const dal_model *model, const dal__entry *entry, dal_error *error)
-{
-    const dal_error inner = {DAL_MODEL, 1, 1, "the value is not finite"};
-    const dal_status status = model->equations.graph->status;
-    return status != DAL_OK ? dal__size_error(status, error) : locate(model, entry, error, &inner);
-}
-
 enum {
     MAY_ALL = DAL__MAY_T | DAL__MAY_STATE,
     OF_INVARIANTS = DAL__MAY_MULTIPLIERS | DAL__MAY_REACTIONS
 };
 
-dal__scope dal__scope_of(const dal__equations *e, unsigned may)
-{
-    return (dal__scope){
-        .may = may, .parameters = e->parameters, .lets = e->lets, .functions = e->functions};
-}
-
 /* ---- sections of coordinates ---- */
-
-dal_status dal__find_word(const char *word, int line, int column, const char *what,
-                          const char *const *words, int count, int *i, dal_error *error)
-{
-    *i = dal__index_of(word, strlen(word), words, count);
-    return *i >= 0 ? DAL_OK : dal__unknown_at(error, line, column, what, word, words, count);
-}
 
 /* Adds the formulas of a section to out[i] of their coordinates; in a list of mappings each item
  * has its row. */

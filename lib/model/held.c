@@ -48,30 +48,6 @@ static bool find_branch(dal__graph *graph, dal__node node, dal__branch *branch, 
     return true;
 }
 
-void dal__branch_bounds(const dal__branch *branch, const dal__tapes *tapes, double point,
-                        double *lower, double *upper)
-{
-    if (branch->table == DAL__BRANCH_AT_ZERO) {
-        *lower = point < 0.0 ? -INFINITY : 0.0;
-        *upper = point < 0.0 ? 0.0 : INFINITY;
-    } else if (branch->table == DAL__BRANCH_AT_INTEGERS) {
-        *lower = floor(point);
-        *upper = *lower + 1.0;
-    } else {
-        const dal__table *table = &tapes->tables[branch->table];
-        int first = 0, last = table->knots; /* of the knots from which the next one is chosen */
-        while (first < last) {
-            const int middle = first + (last - first) / 2;
-            if (dal__table_piece(table, middle + 1)[0] <= point)
-                first = middle + 1;
-            else
-                last = middle;
-        }
-        *lower = first > 0 ? dal__table_piece(table, first)[0] : -INFINITY;
-        *upper = first < table->knots ? dal__table_piece(table, first + 1)[0] : INFINITY;
-    }
-}
-
 /* ---- programs ---- */
 
 /* Lets the programs of a step, and of the rates of events, hold their nodes. */

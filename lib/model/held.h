@@ -2,7 +2,7 @@
 #ifndef DAL_MODEL_HELD_H
 #define DAL_MODEL_HELD_H
 
-#include "model/model.h"
+#include "model/programs.h"
 
 /* What decides the branch of a node: a of abs(a), sign(a), floor(a) and a table, a - b of a < b,
  * a <= b, min(a, b) and max(a, b); 0 where the node does not switch along a run. [alloc] */
@@ -11,8 +11,5 @@ dal__node dal__switch_argument(dal__graph *graph, dal__node node);
 /* Adds the programs of the branches of F, and lets those of a step hold them; after all other nodes
  * are made.  Nothing without branches.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal__programs_add_branches(dal_model *model, dal__programs *programs);
-/* The values between which a branch at a point stays. */
-void dal__branch_bounds(const dal__branch *branch, const dal__tapes *tapes, double point,
-                        double *lower, double *upper);
 
 #endif

@@ -132,31 +132,24 @@ dal_status dal__size_error(dal_status status, dal_error *error)
     return dal__fail(error, status, "the equations of the system are too large");
 }
 
-dal_model *dal_model_create(const char *name)
+void dal__model_discard(dal_model *model)
 {
-    dal_model *model = calloc(1, sizeof *model);
-    if (!model) return NULL;
-    model->name = dal__model_print(model, "%s", name ? name : "");
-    if (model->name) return model;
-    dal_model_free(model);
-    return NULL;
-}
-
-void dal_model_free(dal_model *model)
-{
-    if (!model) return;
-    dal__programs_free(&model->programs);
-    dal__programs_free(&model->tangent_programs);
-    dal__programs_free(&model->extended_programs);
-    dal__terms_free(model->terms);
-    dal__terms_free(model->reaction_terms);
-    dal__graph_free(model->equations.graph);
     for (dal__allocation *block = model->blocks, *next; block; block = next) {
         next = block->next;
         free(block);
     }
     free(model->given);
     free(model);
+}
+
+dal_model *dal_model_create(const char *name)
+{
+    dal_model *model = calloc(1, sizeof *model);
+    if (!model) return NULL;
+    model->name = dal__model_print(model, "%s", name ? name : "");
+    if (model->name) return model;
+    dal__model_discard(model);
+    return NULL;
 }
 
 /* ---- entries ---- */

@@ -1,6 +1,6 @@
 /* model.h - a model: its entries, its equations, its systems.
  *
- * Entries (texts with places) are parsed by formulas.c, derived from by equations.c,
+ * Entries (texts with places) are parsed by formulas.c, derived from by derive.c,
  * properties.c and energy.c, compiled by programs.c and made a dal_system by system.c.
  * All memory of a model is in one list and is freed with it. */
 #ifndef DAL_MODEL_MODEL_H
@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "expr/table.h"
 #include "model/equations.h"
-#include "model/programs.h"
+#include "model/program_list.h"
 
 enum {
     DAL__MAX_ENTRIES = 4096,     /* of a model, all sections together, as they are given */
@@ -86,6 +86,8 @@ struct dal_model {
 void *dal__model_allocate(dal_model *model, size_t count, size_t size);
 dal__node *dal__model_nodes(dal_model *model, int count, dal__node initial);
 char *dal__model_print(dal_model *model, const char *format, ...) DAL__PRINTF(2, 3);
+/* Frees the entries, all that was allocated, and the model. */
+void dal__model_discard(dal_model *model);
 /* Adds a warning at the name of an entry; text lives as long as the model. */
 void dal__model_warn(dal_model *model, const dal__entry *entry, const char *text);
 /* The errors DAL_MEMORY, and DAL_MEMORY or DAL_TOO_LARGE of a graph. */

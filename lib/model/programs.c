@@ -9,8 +9,6 @@
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "kernel/quad.h"
-#include "model/held.h"
-#include "model/model.h"
 #include "model/motion.h"
 #include <math.h>
 #include <string.h>
@@ -178,10 +176,35 @@ CALLBACK(BRANCH_RATES, branch_rates, tqv)
 
 /* ---- branches ---- */
 
+/* The values between which a branch at a point stays. */
+static void branch_bounds(const dal__branch *branch, const dal__tapes *tapes, double point,
+                          double *lower, double *upper)
+{
+    if (branch->table == DAL__BRANCH_AT_ZERO) {
+        *lower = point < 0.0 ? -INFINITY : 0.0;
+        *upper = point < 0.0 ? 0.0 : INFINITY;
+    } else if (branch->table == DAL__BRANCH_AT_INTEGERS) {
+        *lower = floor(point);
+        *upper = *lower + 1.0;
+    } else {
+        const dal__table *table = &tapes->tables[branch->table];
+        int first = 0, last = table->knots; /* of the knots from which the next one is chosen */
+        while (first < last) {
+            const int middle = first + (last - first) / 2;
+            if (dal__table_piece(table, middle + 1)[0] <= point)
+                first = middle + 1;
+            else
+                last = middle;
+        }
+        *lower = first > 0 ? dal__table_piece(table, first)[0] : -INFINITY;
+        *upper = first < table->knots ? dal__table_piece(table, first + 1)[0] : INFINITY;
+    }
+}
+
 static void bounds(const dal_system *system, int k, double point, double *lower, double *upper)
 {
     const dal__programs *p = system->data;
-    dal__branch_bounds(&p->branch[k], p->tapes, point, lower, upper);
+    branch_bounds(&p->branch[k], p->tapes, point, lower, upper);
 }
 
 static void hold(const dal_system *system, const double *point, double *work)
@@ -407,7 +430,6 @@ static const dal_callbacks *if_filled(const dal_callbacks *wide)
 
 dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system)
 {
-    if (system->events > 0) DAL_TRY(dal__programs_add_branches(model, programs));
     DAL_TRY(dal__tapes_finish(programs->tapes));
     const dal__equations *e = programs->equations;
     const int inputs = (int)programs->tapes->first_input - e->parameters;

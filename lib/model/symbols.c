@@ -1,11 +1,11 @@
-/* symbols.c - the names of a model, and what a name means in a formula.  Names are distinct, and
- * none is that of a function or of another column of the output. */
+/* symbols.c - the names of a model, what a name means in a formula, and the parsing of one formula.
+ * Names are distinct, and none is a function or another column of the output. */
 #include "model/symbols.h"
 #include "expr/lexer.h"
 #include "expr/operations.h"
+#include "expr/parser.h"
 #include "expr/traversal.h"
 #include "model/functions.h"
-#include "model/model.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -16,6 +16,13 @@ int dal__index_of(const char *name, size_t length, const char *const *names, int
     for (int i = 0; i < count; i++)
         if (strncmp(names[i], name, length) == 0 && names[i][length] == 0) return i;
     return -1;
+}
+
+dal_status dal__find_word(const char *word, int line, int column, const char *what,
+                          const char *const *words, int count, int *i, dal_error *error)
+{
+    *i = dal__index_of(word, strlen(word), words, count);
+    return *i >= 0 ? DAL_OK : dal__unknown_at(error, line, column, what, word, words, count);
 }
 
 /* ---- clashes ---- */
@@ -251,8 +258,8 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
     return unknown(scope, name, error);
 }
 
-dal__node dal__resolve_name(void *user, const char *text, size_t length, bool prime,
-                            dal_error *error)
+static dal__node resolve_name(void *user, const char *text, size_t length, bool prime,
+                              dal_error *error)
 {
     const dal__scope *scope = user;
     const dal__equations *e = &scope->model->equations;
@@ -277,7 +284,7 @@ dal__node dal__resolve_name(void *user, const char *text, size_t length, bool pr
 
 /* ---- functions ---- */
 
-const char *dal__scope_function(void *user, int i, int *arity)
+static const char *scope_function(void *user, int i, int *arity)
 {
     const dal__scope *scope = user;
     if (i >= scope->functions) return NULL;
@@ -285,10 +292,68 @@ const char *dal__scope_function(void *user, int i, int *arity)
     return scope->model->equations.function[i].name;
 }
 
-dal__node dal__scope_call(void *user, int i, const dal__node *argument, dal_error *error)
+static dal__node scope_call(void *user, int i, const dal__node *argument, dal_error *error)
 {
     const dal__scope *scope = user;
     const dal__equations *e = &scope->model->equations;
     (void)error;
     return dal__call_function(e->graph, &e->function[i], argument);
+}
+
+/* ---- one formula ---- */
+
+void dal__entry_title(const dal_model *model, const dal__entry *entry, char *title, size_t size)
+{
+    const char *label = entry->observed ? "observed" : dal__sections[entry->section].label;
+    int number = 1;
+    for (const dal__entry *other = model->entries; other < entry; other++)
+        number += other->section == entry->section;
+    if (entry->item)
+        snprintf(title, size,
+                 entry->section == DAL_SECTION_EVENTS ? "%s %d, %.80s" : "%s %d on %.80s", label,
+                 entry->item, entry->name);
+    else if (entry->name && !entry->observed)
+        snprintf(title, size, "%s %.80s", label, entry->name);
+    else if (dal__sections[entry->section].form == DAL__LIST)
+        snprintf(title, size, "%s %d", label, number);
+    else
+        snprintf(title, size, "%s", label);
+}
+
+/* Adds the title of the entry to the message, and its place in the file to that of the error. */
+static dal_status locate(const dal_model *model, const dal__entry *entry, dal_error *error,
+                         const dal_error *inner)
+{
+    char title[128];
+    dal__entry_title(model, entry, title, sizeof title);
+    int line = entry->line ? entry->line : 1, column = entry->line ? entry->column : 1;
+    return dal__fail_at(error, inner->status, line + inner->line - 1,
+                        inner->line == 1 ? column + inner->column - 1 : inner->column, "%s: %s",
+                        title, inner->message);
+}
+
+dal_status dal__parse_entry(dal_model *model, const dal__entry *entry, dal__scope scope,
+                            dal__node *node, dal_error *error)
+{
+    dal_error inner = {.line = 1, .column = 1};
+    scope.model = model;
+    scope.index = entry->index;
+    scope.at = entry->at;
+    const dal__names names = {resolve_name, scope_function, scope_call, &scope};
+    dal_status status =
+        dal__parse(model->equations.graph, entry->text, strlen(entry->text), &names, node, &inner);
+    return status == DAL_OK ? DAL_OK : locate(model, entry, error, &inner);
+}
+
+dal_status dal__not_finite(const dal_model *model, const dal__entry *entry, dal_error *error)
+{
+    const dal_error inner = {DAL_MODEL, 1, 1, "the value is not finite"};
+    const dal_status status = model->equations.graph->status;
+    return status != DAL_OK ? dal__size_error(status, error) : locate(model, entry, error, &inner);
+}
+
+dal__scope dal__scope_of(const dal__equations *e, unsigned may)
+{
+    return (dal__scope){
+        .may = may, .parameters = e->parameters, .lets = e->lets, .functions = e->functions};
 }

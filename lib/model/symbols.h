@@ -1,8 +1,8 @@
-/* symbols.h - the names of a model, and what they mean in a formula. */
+/* symbols.h - the names of a model, what they mean in a formula, and the parsing of one formula. */
 #ifndef DAL_MODEL_SYMBOLS_H
 #define DAL_MODEL_SYMBOLS_H
 
-#include "expr/graph.h"
+#include "model/model.h"
 
 /* Collects the names of all sections into the equations and refuses clashes. */
 dal_status dal__collect_names(dal_model *model, dal_error *error);
@@ -20,10 +20,19 @@ typedef struct dal__scope {
     int at;
     const struct dal__function *inside; /* whose body the formula is; NULL: none */
 } dal__scope;
-/* The functions that a scope knows, as the parser wants them. */
-const char *dal__scope_function(void *scope, int i, int *arity);
-dal__node dal__scope_call(void *scope, int i, const dal__node *argument, dal_error *error);
-dal__node dal__resolve_name(void *scope, const char *name, size_t length, bool prime,
-                            dal_error *error);
+
+/* How messages call the formula of an entry: "force on x", "constraint 2". */
+void dal__entry_title(const dal_model *model, const dal__entry *entry, char *title, size_t size);
+
+/* Parses the text of an entry; the message of an error gets the entry's name and place. */
+dal_status dal__parse_entry(dal_model *model, const dal__entry *entry, dal__scope scope,
+                            dal__node *node, dal_error *error);
+/* The error that the value of an entry is not finite. */
+dal_status dal__not_finite(const dal_model *model, const dal__entry *entry, dal_error *error);
+/* All parameters and lets, and what else a formula may contain: DAL__MAY_T | ... */
+dal__scope dal__scope_of(const dal__equations *e, unsigned may);
+/* Finds the index of a word in a list; what: how a message calls it. */
+dal_status dal__find_word(const char *word, int line, int column, const char *what,
+                          const char *const *words, int count, int *i, dal_error *error);
 
 #endif

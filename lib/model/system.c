@@ -2,11 +2,14 @@
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
+#include "model/derive.h"
 #include "model/energy.h"
 #include "model/events.h"
 #include "model/formulas.h"
+#include "model/held.h"
 #include "model/model.h"
 #include "model/motion.h"
+#include "model/programs.h"
 #include "model/properties.h"
 
 /* ---- programs ---- */
@@ -216,6 +219,12 @@ static dal_status add_terms(dal_model *model)
     return e->graph->status;
 }
 
+static dal_status finish_programs(dal_model *model, dal__programs *programs, dal_system *system)
+{
+    if (system->events > 0) DAL_TRY(dal__programs_add_branches(model, programs));
+    return dal__programs_finish(model, programs, system);
+}
+
 /* The same system with its energy exact: itself, another one, or none. */
 static dal_status make_extended(dal_model *model)
 {
@@ -224,7 +233,7 @@ static dal_status make_extended(dal_model *model)
     if (!e->extended) return DAL_OK;
     model->extended = model->system;
     model->extended.properties ^= DAL_E_ON_D | DAL_E_EXACT;
-    DAL_TRY(dal__programs_finish(model, &model->extended_programs, &model->extended));
+    DAL_TRY(finish_programs(model, &model->extended_programs, &model->extended));
     model->system.extended = model->extended.extended = &model->extended;
     return DAL_OK;
 }
@@ -252,7 +261,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_OK) status = dal__insert_reactions(model);
     if (status == DAL_OK) status = add_invariants(model);
     if (status == DAL_OK) status = add_terms(model);
-    if (status == DAL_OK) status = dal__programs_finish(model, &model->programs, &model->system);
+    if (status == DAL_OK) status = finish_programs(model, &model->programs, &model->system);
     if (status == DAL_OK) status = make_extended(model);
     if (status != DAL_OK) return dal__size_error(status, error);
     model->made = true;
@@ -306,7 +315,7 @@ static dal_status make_tangent(dal_model *model)
                                   .parameter = e->parameter,
                                   .value = e->value};
     DAL_TRY(add_tangent_programs(model));
-    return dal__programs_finish(model, &model->tangent_programs, &model->tangent);
+    return finish_programs(model, &model->tangent_programs, &model->tangent);
 }
 
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error)
@@ -325,4 +334,16 @@ dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_er
     model->tangent_made = true;
     *system = &model->tangent;
     return DAL_OK;
+}
+
+void dal_model_free(dal_model *model)
+{
+    if (!model) return;
+    dal__programs_free(&model->programs);
+    dal__programs_free(&model->tangent_programs);
+    dal__programs_free(&model->extended_programs);
+    dal__terms_free(model->terms);
+    dal__terms_free(model->reaction_terms);
+    dal__graph_free(model->equations.graph);
+    dal__model_discard(model);
 }

@@ -27,6 +27,7 @@
 #include "run/crossing.h"
 #include "core/root.h"
 #include "run/failure.h"
+#include "run/observe.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

@@ -13,12 +13,6 @@ enum { MAX_HALVES = 12 };
 
 enum { ARRAYS = 3 /* f, rate, there */ };
 
-size_t dal__event_memory(const dal__layout *k)
-{
-    const size_t events = (size_t)k->system->events;
-    return events > 0 ? 2 * events + 2 + (size_t)dal__max_observables(k) : 0;
-}
-
 /* Numbers that hold a dal__crossing. */
 static size_t crossing_numbers(void)
 {
@@ -390,6 +384,17 @@ static int held_direction_of(void *user, const dal_run *run, int k)
 
 /* ---- the search ---- */
 
+static dal__crossing *free_crossing(const dal_run *run, const dal__event_places *m)
+{
+    return (dal__crossing *)(void *)(m->observed + dal__max_observables(&run->layout));
+}
+
+const dal__crossing *dal__event_crossing(const dal_run *run)
+{
+    const dal__event_places m = dal__event_places_of(run);
+    return run->has_search ? free_crossing(run, &m) : NULL;
+}
+
 dal__event_search dal__event_search_begin(dal_run *run, dal_error *error)
 {
     const dal__layout *k = &run->layout;
@@ -399,13 +404,13 @@ dal__event_search dal__event_search_begin(dal_run *run, dal_error *error)
                                 .roundings = roundings_of,
                                 .direction = direction_of};
     const dal__event_places m = dal__event_places_of(run);
-    double *at = m.observed + dal__max_observables(k);
-    double *end =
-        at + crossing_numbers() + dal__crossing_numbers((size_t)k->system->events, run->stored);
+    dal__crossing *const free = free_crossing(run, &m);
+    double *at = (double *)free + crossing_numbers();
+    double *end = at + dal__crossing_numbers((size_t)k->system->events, run->stored);
     const dal__held_places held = held_places(k, run->stored, end);
-    if (!run->crossing && functions.count > 0) {
-        run->crossing = (dal__crossing *)(void *)at;
-        dal__crossing_init(run->crossing, run, &functions, at + crossing_numbers());
+    if (!run->has_search && functions.count > 0) {
+        run->has_search = true;
+        dal__crossing_init(free, run, &functions, at);
         functions = (dal__functions){.count = functions.count + branch_count(k),
                                      .values = held_values_of,
                                      .rates = held_rates_of,
@@ -419,8 +424,8 @@ dal__event_search dal__event_search_begin(dal_run *run, dal_error *error)
                                .system = k->system,
                                .m = m,
                                .held = held,
-                               .free = run->crossing,
-                               .crossing = run->crossing,
+                               .free = run->has_search ? free : NULL,
+                               .crossing = run->has_search ? free : NULL,
                                .toward = copysign(1.0, k->options.step)};
 }
 
@@ -564,7 +569,7 @@ void dal__hold_as_searched(const dal__event_search *w, bool is_held)
 void dal__hold_as_kept(dal_run *run)
 {
     double distance;
-    if (!run->layout.system->branches || !run->crossing) return;
+    if (!run->layout.system->branches || !run->has_search) return;
     const dal__event_search w = dal__event_search_begin(run, NULL);
     if (dal__crossing_is_kept(w.held.crossing, &distance)) dal__run_hold(run, w.held.point);
 }

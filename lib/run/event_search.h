@@ -48,12 +48,12 @@ typedef struct dal__event_search {
     bool has_failed; /* the step as it is */
 } dal__event_search;
 
-/* Numbers of that memory, and of what else a run with events needs beside it; stored: numbers in a
- * checkpoint. */
-size_t dal__event_memory(const dal__layout *layout);
+/* Numbers of what a run with events needs beside that memory; stored: numbers in a checkpoint. */
 size_t dal__event_scratch(const dal__layout *layout, size_t stored);
 /* The memory and scratch of a run. */
 dal__event_places dal__event_places_of(const dal_run *run);
+/* The search of the next step as it is; NULL: none was begun. */
+const dal__crossing *dal__event_crossing(const dal_run *run);
 dal__event_search dal__event_search_begin(dal_run *run, dal_error *error);
 
 /* Finds the first event within the next step: its distance, infinite where there is none.  The run

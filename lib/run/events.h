@@ -31,9 +31,6 @@ dal_status dal__advance_events(dal_run *run, long long count, const dal__event_l
 /* The distance of the first event within the next step; infinite where there is none, or the step
  * fails.  The run stays as it is. */
 double dal__next_event(dal_run *run);
-/* After a change of parameters: an event whose formula is now on the other side has not happened by
- * that. */
-void dal__change_sides(dal_run *run);
 /* DAL_STOPPED with its message where an event has ended the run; DAL_UNSUPPORTED on the lifted
  * space off p = pi = 0: an event acts on (q, v) alone, p and pi would need its derivatives. */
 dal_status dal__check_events(const dal_run *run, dal_error *error);

@@ -1,8 +1,8 @@
 /* layout.c - the dimensions and sizes of a run, and whether system, method and options fit. */
+#include "run/layout.h"
 #include "core/error.h"
 #include "kernel/quad.h"
-#include "run/event_search.h"
-#include "run/quad.h"
+#include "run/registry.h"
 #include <dalembert_kernel.h>
 #include <float.h>
 #include <math.h>
@@ -298,6 +298,31 @@ static dal_status check_series(const dal__layout *k, dal_error *error)
                      name ? name : "this system", series->refused);
 }
 
+/* Whether a run can be in quad precision. */
+static dal_status check_quad(const dal__layout *k, dal_error *error)
+{
+    if (DAL_QUAD_DIGITS < 113)
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "quad precision: this machine has no type of 113 binary digits");
+    if (!k->system->quad)
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "quad precision: %.80s has no form in it, not being made from a model",
+                         k->system->name ? k->system->name : "this system");
+    for (int i = 0; i < k->depth; i++)
+        if (!dal__integrator_wide(k->method.layer[i], DAL__VARIANT_x1_QUAD))
+            return dal__fail(error, DAL_UNSUPPORTED,
+                             "quad precision: '%.80s' has no form in it, not being the library's",
+                             k->method.layer[i]->name ? k->method.layer[i]->name : "?");
+    return DAL_OK;
+}
+
+/* Numbers of the persistent state that events need, see events.h. */
+static size_t event_memory(const dal__layout *k)
+{
+    const size_t events = (size_t)k->system->events;
+    return events > 0 ? 2 * events + 2 + (size_t)dal__max_observables(k) : 0;
+}
+
 /* Sizes, in floating point first so that nothing overflows. */
 static dal_status measure(dal__layout *k, dal_error *error)
 {
@@ -332,7 +357,7 @@ static dal_status measure(dal__layout *k, dal_error *error)
 #define MEMBER(member, count) k->persistent += (size_t)DAL__COUNT_##count(k);
     DAL__METHOD_STATE_LIST(MEMBER)
 #undef MEMBER
-    k->event_memory = dal__event_memory(k);
+    k->event_memory = event_memory(k);
     k->persistent += k->event_memory;
     return DAL_OK;
 }
@@ -373,7 +398,7 @@ dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error 
     DAL_TRY(check_needs(k, error));
     DAL_TRY(check_series(k, error));
     DAL_TRY(check_reactions(k, error));
-    if (k->options.precision == DAL_QUAD) DAL_TRY(dal__quad_check(k, error));
+    if (k->options.precision == DAL_QUAD) DAL_TRY(check_quad(k, error));
     return measure(k, error);
 }
 

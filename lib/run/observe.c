@@ -1,6 +1,7 @@
-/* observe.c - the observables of the present state, and the names of observables and of state
- * components.  The engine computes them (engine_wide.c). */
-#include "run/quad.h"
+/* observe.c - the observables of the present state, or of one within the next step, and the names
+ * of observables and of state components.  The engine computes them (engine_wide.c). */
+#include "run/observe.h"
+#include "run/failure.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -92,6 +93,18 @@ dal_status dal_run_observe(dal_run *run, double *out)
 {
     DAL_REQUIRE(run, NULL);
     DAL_REQUIRE(out, NULL);
-    if (run->quad.engine) return dal__quad_observe(run, out);
+    if (run->quad.engine) return dal__quad_observe(&run->quad, run->exact, out);
     return run->kind->engine->observe(run->engine, run->exact, out);
+}
+
+dal_status dal__observe_part(dal_run *run, double h, double part,
+                             dal_status (*observe)(void *user, dal_run *run), void *user,
+                             dal_error *error)
+{
+    dal__run_back_up(run);
+    dal_status status = dal__step_part(run, h, part);
+    if (status != DAL_OK) return dal__failure_reason(run, part, status, error);
+    status = observe(user, run);
+    dal__run_revert(run);
+    return status;
 }

@@ -5,7 +5,7 @@
 #ifndef DAL_RUN_H
 #define DAL_RUN_H
 
-#include "run/engine.h"
+#include "run/quad.h"
 
 /* Compiled functions, see lib/jit/native.c; an object has one of them.  persistent, work and states
  * are as everywhere; lanes is a mask. */
@@ -23,14 +23,6 @@ typedef struct dal__native_code {
     void *handle;
     void (*release)(void *handle);
 } dal__native_code;
-
-/* The engine of a run in quad precision, see quad.c.  Its arrays hold quad numbers. */
-typedef struct dal__quad_run {
-    dal__layout layout; /* of the system in quad precision */
-    void *engine;       /* NULL: the run is in double */
-    double *persistent; /* [layout.persistent] */
-    double *work;       /* [layout.workspace] */
-} dal__quad_run;
 
 /* Up to capacity successive observations: observable i of observation k is values[i*capacity +
  * k]. */
@@ -56,10 +48,10 @@ struct dal_run {
     double *point;         /* [n + nw] where a step failed; D before a change of parameters */
     double *event_scratch; /* see event_search.c */
     double *scales;        /* see scales.c */
-    struct dal__crossing *crossing; /* of the events, in their scratch; NULL: no step is searched */
-    bool is_held;                   /* the branches of the system are held */
-    bool exact;                     /* the exact solution agrees with the start */
-    void *owned;                    /* memory to free, or NULL */
+    bool has_search;       /* event_scratch holds a search, see event_search.c */
+    bool is_held;          /* the branches of the system are held */
+    bool exact;            /* the exact solution agrees with the start */
+    void *owned;           /* memory to free, or NULL */
     dal__native_code native;
     dal__observations observations;
 };
@@ -69,15 +61,13 @@ struct dal_run {
 void dal__run_hold(dal_run *run, const double *point);
 /* Takes count steps of size h, until one fails; does not explain a failure. */
 dal_status dal__step_run(dal_run *run, double h, long long count);
-/* Advances an interpreted run by a part of a step of size h, see dal__engine.step_part; the same as
- * dal_run_intermediate does, with an observer and then back. */
+/* Advances an interpreted run by a part of a step of size h, see dal__engine.step_part. */
 dal_status dal__step_part(dal_run *run, double h, double part);
-dal_status dal__observe_part(dal_run *run, double h, double part,
-                             dal_status (*observe)(void *user, dal_run *run), void *user,
-                             dal_error *error);
 
 enum { DAL__NAME_SIZE = 128 /* bytes of the name of a state component */ };
 
+/* Completes work from the parameters. */
+dal_status dal__run_prepare(dal_run *run);
 /* Takes state and parameters from a copy of the storage; parameters that are others are prepared.
  * Errors: as for prepare. */
 dal_status dal__run_load(dal_run *run, const double *saved);

@@ -13,6 +13,7 @@
 #include "run/event_search.h"
 #include "run/events.h"
 #include "run/failure.h"
+#include "run/observe.h"
 #include "run/run.h"
 #include "run/scales.h"
 #include <float.h>

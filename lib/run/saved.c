@@ -1,12 +1,10 @@
-/* saved.c - whether numbers can be those of a saved run.
+/* saved.c - saves and restores a run.
  *
  * A checkpoint may come from a damaged or edited file.  The persistent state, whose order
  * kernel/persistent.h and events.h state, has numbers with few possible values: counters, flags,
  * sides.  Steps and searches rely on these. */
-#include "run/saved.h"
 #include "run/event_search.h"
 #include "run/events.h"
-#include "run/quad.h"
 #include <math.h>
 
 static const double max_count = 0x1p53;
@@ -141,7 +139,9 @@ static dal_status check_events(saved *s)
     return check_jumps(s, any);
 }
 
-dal_status dal__check_saved(const dal_run *run, const double *memory, dal_error *error)
+/* Checks the numbers of a checkpoint of a run, memory[stored].  Errors: DAL_NOT_FINITE,
+ * DAL_ARGUMENT. */
+static dal_status check_saved(const dal_run *run, const double *memory, dal_error *error)
 {
     const dal__layout *k = &run->layout;
     saved s = {run, memory, 0, error};
@@ -150,4 +150,26 @@ dal_status dal__check_saved(const dal_run *run, const double *memory, dal_error 
             return dal__fail(error, DAL_NOT_FINITE, "persistent number %zu is not finite", i + 1);
     DAL_TRY(check_steps(&s));
     return k->event_memory > 0 ? check_events(&s) : DAL_OK;
+}
+
+const double *dal_run_save(const dal_run *run, size_t *count)
+{
+    if (count) *count = run ? run->stored : 0;
+    return run && count ? run->storage : NULL;
+}
+
+dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal_error *error)
+{
+    DAL_REQUIRE(run, error);
+    DAL_REQUIRE(memory, error);
+    if (count != run->stored)
+        return dal__fail(error, DAL_ARGUMENT,
+                         "the persistent state of this run has %zu numbers, not %zu", run->stored,
+                         count);
+    DAL_TRY(check_saved(run, memory, error));
+    dal__run_back_up(run);
+    const dal_status status = dal__run_load(run, memory);
+    if (status == DAL_OK) return DAL_OK;
+    dal__run_revert(run);
+    return dal__fail(error, status, "the system cannot be prepared with the saved parameters");
 }

@@ -8,24 +8,12 @@
 #include "core/solved.h"
 #include "core/vectors.h"
 #include "run/consistent.h"
-#include "run/events.h"
-#include "run/quad.h"
 #include "run/scales.h"
 #include <dalembert_kernel.h>
 #include <math.h>
 #include <stdio.h>
 
 #define CONSISTENT 1e-10
-
-dal_status dal__run_prepare(dal_run *run)
-{
-    const dal__layout *k = &run->layout;
-    const dal_point at = dal__here(run);
-    if (k->system->prepare) DAL_TRY(k->system->prepare(k->system, &at, NULL));
-    if (!run->quad.engine) return DAL_OK;
-    dal__quad_push(run, k->persistent);
-    return dal__quad_prepare(run);
-}
 
 static dal_status prepare(dal_run *run, dal_error *error)
 {
@@ -252,7 +240,7 @@ void dal__restart_method(dal_run *run)
     const dal__layout *k = &run->layout;
     const size_t first = dal__at(k, DAL__CLOCK_SIZE), changed = dal__at_changed(k);
     memset(run->persistent + first, 0, (changed - first) * sizeof *run->persistent);
-    if (run->quad.engine) dal__quad_push(run, first);
+    if (run->quad.engine) dal__quad_push(&run->quad, run->persistent, first);
 }
 
 /* The next step is the method's first, and the solution no longer the exact one. */
@@ -262,12 +250,10 @@ static void begin_again(dal_run *run)
     dal__restart_method(run);
 }
 
-dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, dal_error *error)
+dal_status dal__change_parameter(dal_run *run, const char *name, double value, dal_error *error)
 {
     dal_error reason = {0};
     int i;
-    DAL_REQUIRE(run, error);
-    DAL_REQUIRE(name, error);
     DAL_TRY(dal__find_parameter(run->layout.system, name, &i, error));
     if (!isfinite(value))
         return dal__fail(error, DAL_NOT_FINITE, "parameter %s: %g is not a finite number", name,
@@ -278,7 +264,6 @@ dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, d
     const dal_status status = check_parameters(run, run->point, &reason);
     if (status == DAL_OK || status == DAL_INCONSISTENT) {
         begin_again(run);
-        dal__change_sides(run);
     } else {
         run->work[i] = before;
         dal__run_prepare(run);

@@ -4,8 +4,6 @@
 
 #include "run/run.h"
 
-/* Completes work from the parameters. */
-dal_status dal__run_prepare(dal_run *run);
 /* Lets the next step be the method's first. */
 void dal__restart_method(dal_run *run);
 /* Sets parameters and the start at its time, adds numbers to that, added[dim] or NULL, and checks
@@ -13,5 +11,8 @@ void dal__restart_method(dal_run *run);
 dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int parameter_count,
                           const dal_setting *start, int start_count, const double *added,
                           dal_error *error);
+/* dal_run_set_parameter of a run whose events do not matter; the parameter was changed where it
+ * returns DAL_OK or DAL_INCONSISTENT. */
+dal_status dal__change_parameter(dal_run *run, const char *name, double value, dal_error *error);
 
 #endif

@@ -3,9 +3,31 @@
 #
 #     sh tools/lint/dependencies.sh | dot -Tsvg >dependencies.svg
 #
-# Fails where directories depend on each other in a circle.
+# Fails where directories depend on each other in a circle, or files: NAME.c, NAME_wide.c, NAME.h and
+# NAME.inc are one file.  tsort names those of the circle.
 cd "$(dirname "$0")/../.." || exit 2
-edges=$(find lib cli integrators -name '*.[ch]' -o -name '*.inc' | sort | xargs awk '
+sources() { find lib cli integrators -name '*.[ch]' -o -name '*.inc' | sort; }
+
+sources | xargs awk '
+    function file_of(path) {
+        sub(/(_wide)?\.[a-z]+$/, "", path)
+        return path
+    }
+    BEGIN { for (i = 1; i < ARGC; i++) is_source[ARGV[i]] }
+    FNR == 1 {
+        folder = tree = FILENAME
+        sub(/[^\/]*$/, "", folder)
+        sub(/\/.*/, "/", tree)
+    }
+    /^[ \t]*#[ \t]*include[ \t]*"/ {
+        name = $0
+        sub(/^[^"]*"/, "", name)
+        sub(/".*/, "", name)
+        path = (tree name) in is_source ? tree name : folder name
+        if (path in is_source && file_of(path) != file_of(FILENAME)) print file_of(FILENAME), file_of(path)
+    }' | sort -u | tsort >/dev/null || exit 1
+
+edges=$(sources | xargs awk '
     FNR == 1 {
         from = FILENAME
         sub(/\/[^\/]*$/, "", from)

@@ -134,7 +134,7 @@ headers() {
     find lib cli -name '*.c' | xargs ctags -x --c-kinds=f --_xformat='function %F %N %{line}' >>"$where"
     find lib cli -name '*.c' | xargs awk -f $here/headers.awk "$where"
 }
-# Directories depend on each other in one direction, as docs/dependencies.dot draws it.
+# Directories depend on each other in one direction, as docs/dependencies.dot draws it; so do files.
 dependencies() {
     sh $here/dependencies.sh >"$BUILD/dependencies.dot" || return 1
     cmp -s "$BUILD/dependencies.dot" docs/dependencies.dot ||
@@ -166,7 +166,7 @@ if [ $# -gt 0 ]; then
 fi
 check "format" format
 check "who may include what" includes
-check "dependencies of directories" dependencies
+check "dependencies of directories and files" dependencies
 check "lines and files" sizes
 check "functions" functions
 check "nesting" nesting

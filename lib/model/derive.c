@@ -1,4 +1,4 @@
-/* equations.c - the equations of motion, as nodes.
+/* derive.c - the equations of motion, as nodes.
  *
  *     W = L_vv,  b = L_q - L_vq v - L_vt + Q,  A = D_v,  c = D_q v + D_t
  *     G = A W^-1 B^T,  G h = -(c + A W^-1 b),  F = W^-1 (b + B^T h)              (nh3)-(nh5)
@@ -9,28 +9,13 @@
  *
  *     ( L'_vv  -A^T ) (dv/dt)   ( L'_q - L'_vq v - L'_vt + Q )
  *     (   A      0  ) (dg/dt) = (       - D_q v - D_t        )  */
-#include "model/equations.h"
+#include "model/derive.h"
 #include "expr/angles.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/elimination.h"
-#include "model/model.h"
 #include "model/motion.h"
-
-dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b)
-{
-    dal__node sum = dal__number(graph, 0.0);
-    for (int i = 0; i < count; i++)
-        if (!dal__is_number(graph, a[i], 0.0))
-            sum = dal__node_add(graph, sum, dal__node_mul(graph, a[i], b[i]));
-    return sum;
-}
-
-dal__node dal__time_derivative(const dal__equations *e, dal__node f)
-{
-    return dal__tangent(e->graph, f, e->symbol + e->t, 1 + e->n, e->flow);
-}
 
 static dal_status exhausted(const dal_model *model, dal_error *error)
 {

@@ -1,0 +1,97 @@
+/* request_data.h - what a run is made from, as the command line or a manifest.json gives it. */
+#ifndef DAL_CLI_REQUEST_DATA_H
+#define DAL_CLI_REQUEST_DATA_H
+
+#include "dalembert.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* What the run itself does not know; the library's options come behind, then the SYSTEM. */
+#define REQUEST_OPTION_LIST(OPTION)                                                                \
+    OPTION(integrator)                                                                             \
+    OPTION(time)                                                                                   \
+    OPTION(from)                                                                                   \
+    OPTION(steps)                                                                                  \
+    OPTION(samples)                                                                                \
+    OPTION(sampling)                                                                               \
+    OPTION(times)                                                                                  \
+    OPTION(statistics)                                                                             \
+    OPTION(columns)                                                                                \
+    OPTION(names)                                                                                  \
+    OPTION(observe)                                                                                \
+    OPTION(set)                                                                                    \
+    OPTION(start)
+
+enum {
+#define NUMBER(name) REQUEST_##name,
+    REQUEST_OPTION_LIST(NUMBER)
+#undef NUMBER
+#define NUMBER(type, name, word, initial, least, greatest, value, help) REQUEST_##name,
+        DAL_OPTION_LIST(NUMBER)
+#undef NUMBER
+            REQUEST_system,
+    REQUEST_OPTIONS
+};
+enum { REQUEST_DEFAULTS = 3 }; /* the options that a system file may give */
+
+typedef struct request_settings {
+    dal_setting *item; /* with names of their own */
+    int count;
+} request_settings;
+
+/* The words of --sampling. */
+typedef enum request_sampling {
+    REQUEST_SAMPLING_LINEAR,
+    REQUEST_SAMPLING_LOG,
+    REQUEST_SAMPLING_STEPS
+} request_sampling;
+
+/* The words of --names. */
+typedef enum request_names { REQUEST_NAMES_SYSTEM, REQUEST_NAMES_PLAIN } request_names;
+
+typedef struct run_request {
+    const char *system_name; /* a built-in name or a path; the caller's, as all texts here */
+    const char *columns;     /* --columns; NULL: all */
+    const char *observe;     /* --observe, formulas between semicolons; NULL: none */
+    const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given as a text */
+    uint64_t typed;    /* set of options whose values below were given without a text */
+    bool chooses_step; /* under a tolerance the step may be left out; set beforehand */
+    double from, time;
+    long long steps, samples, statistics; /* steps: 0: not given */
+    request_sampling sampling;
+    request_names names;
+    double given_time; /* these two before they are made those of whole steps */
+    long long given_samples;
+    double *row_time;              /* [samples + 1]; NULL: at equal distances */
+    long long times;               /* number of times that were given */
+    char *list;                    /* those as a text */
+    char *taken[REQUEST_DEFAULTS]; /* texts that came from the system file */
+    dal_options options;
+    request_settings set, start;
+    dal_method method;
+    dal_model *model;
+    const dal_system *system; /* may be set beforehand; nothing is loaded then */
+    dal_run *run;
+} run_request;
+
+/* A set of options; those that concern rows only; those without which time begins at 0, is given
+ * as such and increases. */
+#define REQUEST_OPTION(name) (UINT64_C(1) << REQUEST_##name)
+#define REQUEST_ROW_OPTIONS                                                                        \
+    (REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) | REQUEST_OPTION(times) |                  \
+     REQUEST_OPTION(statistics) | REQUEST_OPTION(columns) | REQUEST_OPTION(names) |                \
+     REQUEST_OPTION(observe) | REQUEST_OPTION(reactions))
+/* Whether an option was given. */
+bool request_has(const run_request *request, int option);
+/* Whether a column is a formula of --observe. */
+bool request_observes(const run_request *request, const char *name);
+/* The length of the formula that begins a list of --observe, without the blanks around it; the next
+ * one is after *end. */
+size_t request_find_formula(const char **list, const char **end);
+/* Adds a setting to those of a parameter or a start, or replaces that of the same name. */
+void request_add_setting(request_settings *settings, const char *name, double value);
+void request_free_settings(request_settings *settings);
+
+#endif

@@ -1,0 +1,180 @@
+/* study_data.h - a study: its cases, their cells and results, and what is expected of them. */
+#ifndef DAL_CLI_STUDY_DATA_H
+#define DAL_CLI_STUDY_DATA_H
+
+#include "dalembert_analysis.h"
+#include "io/document.h"
+#include "run/native.h"
+#include "run/request_data.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Where a cell starts.  code, word, space, what it is */
+#define STUDY_START_LIST(START)                                                                    \
+    START(PHYSICAL, "physical", DAL_PHYSICAL, "(q,v) alone")                                       \
+    START(SURFACE, "surface", DAL_LIFTED, "lifted, on p = pi = 0")                                 \
+    START(DISPLACED, "displaced", DAL_LIFTED, "lifted, p and pi displaced")
+
+enum {
+#define START_CODE(code, word, space, about) STUDY_##code,
+    STUDY_START_LIST(START_CODE)
+#undef START_CODE
+        STUDY_STARTS
+};
+extern const char *const study_start_words[STUDY_STARTS];
+
+/* What the figures show over time, window by window.  code, column */
+#define STUDY_TRACK_LIST(TRACK)                                                                    \
+    TRACK(D, "D")                   /* max |D_a| */                                                \
+    TRACK(E, "E")                   /* |E - E(0)| */                                               \
+    TRACK(H, "H")                   /* |H - H(0)| */                                               \
+    TRACK(P, "p")                   /* max |p| */                                                  \
+    TRACK(PI, "pi")                 /* max |pi| */                                                 \
+    TRACK(INVARIANTS, "invariants") /* max |I - I(0)| / max(1, |I(0)|) */                          \
+    TRACK(ERROR, "error")           /* against the exact solution */
+
+enum {
+#define TRACK_CODE(code, column) STUDY_TRACK_##code,
+    STUDY_TRACK_LIST(TRACK_CODE)
+#undef TRACK_CODE
+        STUDY_TRACKS
+};
+
+enum { STUDY_WINDOWS = 100, STUDY_NAME = 128 };
+
+/* Whether a cell has been run, and how that ended. */
+#define STUDY_STATE_LIST(STATE)                                                                    \
+    STATE(WAITING, "not run")                                                                      \
+    STATE(FINISHED, "done")                                                                        \
+    STATE(FAILED, "failed")   /* the run stopped early, or could not begin */                      \
+    STATE(REFUSED, "refused") /* the integrator needs what the system lacks */
+
+typedef enum study_state {
+#define STATE_CODE(code, word) STUDY_##code,
+    STUDY_STATE_LIST(STATE_CODE)
+#undef STATE_CODE
+        STUDY_STATES
+} study_state;
+extern const char *const study_state_words[STUDY_STATES];
+
+typedef struct study_cell {
+    const struct study_case *of_case;
+    const dal_method *method;
+    double step, tolerance; /* tolerance: of the key; 0: as the options say */
+    int start;
+    char *name;      /* that of its directory, too */
+    int other_shard; /* it belongs to another shard */
+    study_state state;
+    dal_error error;
+    double time; /* reached */
+    long long steps, evaluations;
+    double seconds; /* of the thread's processor time, in steps */
+    uint64_t bits;  /* a hash of the bits of (q,v) at all samples */
+    int observables;
+    dal_trend *trend;                /* [observables] in the order of dal_run_observe */
+    char (*names)[STUDY_NAME];       /* [observables] */
+    double (*windows)[STUDY_TRACKS]; /* maxima; NaN: no rows, or no such column */
+    int window_count;
+} study_cell;
+
+/* One of some words, or a number within bounds. */
+typedef struct study_expectation {
+    const char *label, *method, *quantity; /* as they are written */
+    double step, tolerance;                /* of these cells alone; 0: of all */
+    int start;                             /* of these cells alone; -1: of all */
+    size_t line;
+    unsigned words;  /* bit k: size k, bit DAL_SIZE_COUNT + k: trend k, any of which will do; of
+                        the quantity "state" bit k: state k; 0: bounds */
+    int field;       /* STUDY_FIELD_x that has bounds, -1: none */
+    double min, max; /* infinite where there is no bound */
+} study_expectation;
+
+enum { STUDY_STEPS = 16, STUDY_TOLERANCES = 16, STUDY_REPRESENTATIVES = 16 };
+
+/* What is kept of runs: a directory with rows for each, or the results alone, for many short runs.
+ */
+typedef enum study_rows { STUDY_ROWS_KEPT, STUDY_ROWS_NONE } study_rows;
+
+/* One system of a study, with one value for each of its settings.  Cases that differ in these
+ * values alone are of one group: they stand together and share the model, the copy and the methods,
+ * which belong to the first of them. */
+typedef struct study_case {
+    const char *name;  /* a built-in name or a path */
+    const char *group; /* the label in the file, or the last part of the name */
+    char *label;       /* name in tables and files; no two cases share one */
+    int is_first;      /* of its group */
+    dal_model *model;
+    const dal_system *system;
+    char *observe; /* formulas that the runs of the group observe, as in --observe; NULL: none */
+    char *path;    /* of the system file, from the working directory; NULL: there is a copy, or the
+                      system is built in */
+    char *copy;    /* of the system file, in the directory of the study; NULL: a built-in system */
+    double step[STUDY_STEPS], from, time, displacement; /* time: NaN: not given, but: */
+    double tolerance[STUDY_TOLERANCES]; /* positive; of the methods that control their error */
+    long long run_steps;                /* steps of each run; 0: not given, but time */
+    int rows;                           /* a study_rows */
+    int steps, tolerances, starts;      /* tolerances: 0: the options; starts: bit STUDY_x set */
+    long long samples, statistics;
+    dal_options options;                   /* but step and space, and as they were given: */
+    const char *option[REQUEST_OPTIONS];   /* NULL: not given */
+    request_settings set, start, displace; /* displace: in units of displacement */
+    dal_method *methods;
+    int method_count;
+    double (*method_steps)[2]; /* [method_count] that the cells of the group take, on each space */
+    int first_cell, cells;     /* its cells stand together */
+} study_case;
+
+typedef struct study_plan {
+    const char *copies;            /* directory with copies of system files, or NULL */
+    const char *runs;              /* where the directories of the runs are */
+    struct study_results *results; /* of the cells that keep no rows; NULL where all do */
+    double interval;               /* seconds between checkpoints of a run */
+    native_mode native;
+    const char *title;
+    document *doc; /* the parsed text, to which all names point */
+    study_case *cases;
+    int case_count;
+    study_cell *cells;
+    int cell_count;
+    study_expectation *expectations;
+    int expectation_count;
+    dal_method representative[STUDY_REPRESENTATIVES];
+    int representatives;
+    double seconds;      /* that the runs have taken */
+    bool has_tolerances; /* a case has the key tolerance: files have that column */
+    bool shows_tables;
+} study_plan;
+
+/* Forgets the results. */
+void study_cell_free(study_cell *cell);
+/* The name of a cell, allocated. */
+char *study_cell_name(const study_cell *cell);
+/* "h = 0.1", or "h = 0.1, tolerance 1e-06", for tables. */
+enum { STUDY_DIVISION = 64 };
+const char *study_division(char text[STUDY_DIVISION], double step, double tolerance);
+/* The trend of an observable by name, NULL for none; of the constraint with the largest D. */
+const dal_trend *study_cell_trend(const study_cell *cell, const char *name);
+const dal_trend *study_cell_constraint(const study_cell *cell);
+/* The trends that tables show, NULL where the cell has none, and the name of the invariant that
+ * moved farthest, or "". */
+typedef struct study_quantities {
+    const dal_trend *D, *E, *H, *p, *pi, *pi_e, *invariant, *error;
+    const char *invariant_name;
+} study_quantities;
+study_quantities study_cell_quantities(const study_cell *cell);
+/* The time of its run in steps. */
+double study_cell_length(const study_cell *cell);
+/* Those of all cells that take the same steps, kept by the case. */
+double *study_cell_method_steps(const study_cell *cell);
+/* The finished cell in (q,v) with the same method, step and tolerance as one on the surface, or
+ * NULL. */
+const study_cell *study_cell_physical(const study_plan *plan, const study_cell *cell);
+
+/* Where the runs of a step end, in t. */
+double study_case_end(const study_case *item, double step);
+/* What the system of a case is read from: its copy, its file, or its name. */
+const char *study_case_system(const study_case *item);
+
+#endif

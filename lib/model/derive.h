@@ -1,0 +1,14 @@
+/* derive.h - the equations of motion of a model, from its formulas. */
+#ifndef DAL_MODEL_DERIVE_H
+#define DAL_MODEL_DERIVE_H
+
+#include "model/model.h"
+
+/* Derives everything but the given formulas.  Errors: DAL_RANK, DAL_SINGULAR_MASS, DAL_MEMORY,
+ * DAL_TOO_LARGE. */
+dal_status dal__equations_derive(dal_model *model, dal_error *error);
+/* Replaces h and R = B^T h in invariants and events by their formulas, whose nodes are made where
+ * they are used alone.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__insert_reactions(dal_model *model);
+
+#endif
