@@ -330,7 +330,7 @@ int section_find(section_settings *settings)
             written = analysis_describe(&output, "section", s.request, put_figure, &s);
         if (status == CLI_DONE) status = written;
     }
-    free(output.table);
+    analysis_close(&output, status);
     free(s.names);
     free(s.row);
     free(s.kept);
