@@ -12,6 +12,7 @@
 #include "study_table.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 #include "ui/signals.h"
 
 #include <stdbool.h>
@@ -297,16 +298,14 @@ static int write_files(const study_directory *dir, const study_plan *plan)
     return file_output_close(&tables, CLI_DONE);
 }
 
-/* The screen, in colour on a terminal (https://no-color.org), or the tables. */
+/* The screen, in colour on a terminal, or the tables. */
 static int print_results(const study_directory *dir, const study_plan *plan)
 {
-    const char *no_colour = getenv("NO_COLOR"), *terminal = getenv("TERM");
-    const bool in_colour = isatty(STDOUT_FILENO) && !(no_colour && no_colour[0]) &&
-                           !(terminal && strcmp(terminal, "dumb") == 0);
     if (plan->shows_tables)
         print_tables(stdout, plan);
     else
-        study_print_screen(stdout, plan, dir->shard.count == 0 ? dir->tables : NULL, in_colour);
+        study_print_screen(stdout, plan, dir->shard.count == 0 ? dir->tables : NULL,
+                           screen_is_in_colour(stdout));
     return cli_close(stdout, "standard output");
 }
 

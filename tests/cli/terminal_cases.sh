@@ -1,0 +1,64 @@
+# What a person sees: screens of at most 24 lines that fit a terminal of 80 or 60 columns.  A terminal is a
+# pseudo-terminal of `script` (util-linux; Debian's bsdutils), its width set by `stty` (coreutils).
+
+# shown COLUMNS ARGUMENT...: what a terminal of that width shows of the program, colours included, in `out`.  Each
+# \r begins the line again, as after a line of progress.
+shown() {
+    shown_columns=$1
+    shift
+    script -qec "stty cols $shown_columns rows 50; TERM=xterm '$program' $*" /dev/null </dev/null |
+        sed 's/\r$//; s/.*\r//' >out
+    : >err
+}
+colour=$(printf '\033\\[')
+# fits COLUMNS [LINES]: no line of `out` is longer, nor are there more.
+fits() {
+    sed "s/$colour[0-9;]*m//g" out >plain
+    expect "longer than $1: $(awk -v n="$1" 'length($0) > n' plain | head -1)" awk "length(\$0) > $1 { exit 1 }" plain
+    expect "$(wc -l <plain) lines" test "$(wc -l <plain)" -le "${2:-24}"
+}
+
+sleigh="run chaplygin-sleigh --integrator rk4 --step 0.05 --time 1000"
+if needs 25 "no terminal (script, stty)" terminal; then
+    case_is "run: a screen instead of rows"
+    shown 80 $sleigh
+    fits 80
+    prints '^chaplygin-sleigh by rk4 on the lift \(14 variables\), h = 0\.05, t = 0 \.\. 1000$'
+    prints '^20,000 steps in [0-9.e-]* s$'
+    # The exact motion turns at phi' = 1.
+    prints "phi' = 1$"
+    prints '^  D1  .*linear.*  grows like t: 5\.2e-8 per unit of time,$'
+    prints '^  E  .*not stated.*conserved on D = 0 only'
+    prints '^  H, .*exact'
+    prints '^Rows:  -o FILE\.csv, or a pipe$'
+    prints '^  dalembert explain chaplygin-sleigh --integrator rk4 '
+    expect "no colour" grep -q "$colour" out
+    shown 60 $sleigh
+    fits 60
+    case_is "run: no colours with NO_COLOR"
+    script -qec "stty cols 80; NO_COLOR=1 TERM=xterm '$program' $sleigh" /dev/null </dev/null >out
+    refute "colours" grep -q "$colour" out
+    case_is "run: rows on a terminal on request alone; --summary changes nothing, --details the table"
+    shown 80 $sleigh --output -
+    prints '^t,y1,y2,phi,'
+    shown 80 $sleigh --summary
+    fits 80
+    prints '^  D1  .*linear'
+    shown 130 $sleigh --details
+    prints ' exponent +size +trend$'
+    case_is "run: a file and a directory are named"
+    shown 80 $sleigh -o rows.csv
+    prints '^Rows:  101 in rows\.csv$'
+    expect "no rows" has_lines rows.csv 102
+    shown 80 run chaplygin-sleigh -o sleigh
+    fits 80
+    prints '^Rows:  101 in sleigh/trajectory\.npy$'
+    prints "^dalembert: wrote the directory 'sleigh'$"
+    counted
+fi
+
+case_is "a pipe has the rows, and a table of the summary on request"
+try 0 $sleigh --summary
+prints '^t,y1,y2,phi,'
+expect "not 102 lines" test "$(wc -l <out)" -eq 102
+says ' exponent +size +trend$'
