@@ -10,10 +10,10 @@ shown() {
         sed 's/\r$//; s/.*\r//' >out
     : >err
 }
-colour=$(printf '\033\\[')
+escape=$(printf '\033\\[')
 # fits COLUMNS [LINES]: no line of `out` is longer, nor are there more.
 fits() {
-    sed "s/$colour[0-9;]*m//g" out >plain
+    sed "s/${escape}[0-9;]*m//g" out >plain
     expect "longer than $1: $(awk -v n="$1" 'length($0) > n' plain | head -1)" awk "length(\$0) > $1 { exit 1 }" plain
     expect "$(wc -l <plain) lines" test "$(wc -l <plain)" -le "${2:-24}"
 }
@@ -32,12 +32,12 @@ if needs 25 "no terminal (script, stty)" terminal; then
     prints '^  H, .*exact'
     prints '^Rows:  -o FILE\.csv, or a pipe$'
     prints '^  dalembert explain chaplygin-sleigh --integrator rk4 '
-    expect "no colour" grep -q "$colour" out
+    expect "no colour" grep -q "$escape" out
     shown 60 $sleigh
     fits 60
     case_is "run: no colours with NO_COLOR"
     script -qec "stty cols 80; NO_COLOR=1 TERM=xterm '$program' $sleigh" /dev/null </dev/null >out
-    refute "colours" grep -q "$colour" out
+    refute "colours" grep -q "$escape" out
     case_is "run: rows on a terminal on request alone; --summary changes nothing, --details the table"
     shown 80 $sleigh --output -
     prints '^t,y1,y2,phi,'
