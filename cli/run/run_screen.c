@@ -12,21 +12,6 @@
 
 enum { STATE_LINES = 3, OBSERVABLES = 11 };
 
-/* The coordinates and velocities, as many as fit a few lines. */
-static void say_state(screen *s, const run_recorder *r)
-{
-    const int count = 2 * r->request->system->n;
-    const double *state = dal_run_state(r->request->run);
-    char **items = cli_calloc((size_t)count, sizeof *items);
-    for (int i = 0; i < count; i++) {
-        char x[SCREEN_NUMBER];
-        items[i] = cli_format("%s = %s", r->columns.name[1 + i], screen_number(x, state[i], 4));
-    }
-    screen_say_items(s, (const char *const *)items, count, STATE_LINES, "-o");
-    for (int i = 0; i < count; i++) free(items[i]);
-    free(items);
-}
-
 /* Whether two quantities share a line: they have the same verdict, without numbers. */
 static bool are_alike(const run_recorder *r, int i, int k)
 {
@@ -92,7 +77,15 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output)
                : recorder_is_finished(r) ? ""
                                          : "; the run did not reach its end");
     screen_skip(&s);
-    say_state(&s, r);
+    /* The coordinates and velocities, as many as fit a few lines. */
+    const int values = 2 * request->system->n;
+    char **items = cli_calloc((size_t)values + 1, sizeof *items);
+    for (int i = 0; i < values; i++)
+        items[i] = cli_format("%s = %s", r->columns.name[1 + i],
+                              screen_number(count, dal_run_state(run)[i], 4));
+    screen_say_items(&s, (const char *const *)items, values, STATE_LINES, "-o");
+    for (int i = 0; i < values; i++) free(items[i]);
+    free(items);
     screen_skip(&s);
     const int moving = say_verdicts(&s, r);
     screen_skip(&s);

@@ -2,6 +2,7 @@
 #include "study_matrix.h"
 
 #include "ui/memory.h"
+#include "ui/name_groups.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -35,30 +36,10 @@ static void list_methods(study_matrix *s)
     }
 }
 
-/* The integrator of each cell, found once. */
-static void index_cells(study_matrix *s)
-{
-    s->of_cell = cli_calloc((size_t)s->plan->cell_count + 1, sizeof *s->of_cell);
-    for (int i = 0; i < s->plan->cell_count; i++)
-        s->of_cell[i] = find_method(s, s->plan->cells[i].method);
-}
-
-/* Names of a family differ in numbers alone: gauss4 and gauss6, symplectic-euler-00 and -01. */
-static bool is_same_family(const char *a, const char *b)
-{
-    static const char number[] = "-0123456789";
-    for (;; a++, b++) {
-        a += strspn(a, number);
-        b += strspn(b, number);
-        if (*a != *b) return false;
-        if (!*a) return true;
-    }
-}
-
 static bool has_family(const study_matrix *s, const char *name)
 {
     for (int i = 0; i < s->rows; i++)
-        if (is_same_family(s->row[i]->name, name)) return true;
+        if (name_is_of_family(s->row[i]->name, name)) return true;
     return false;
 }
 
@@ -107,13 +88,6 @@ static void count_runs(const study_matrix *s)
     }
 }
 
-static int find_row(const study_matrix *s, const study_method *method)
-{
-    int row = s->rows - 1;
-    while (row >= 0 && s->row[row] != method) row--;
-    return row;
-}
-
 /* The cells of the matrix: of each system those from its first start with its first step. */
 static void choose_cells(study_matrix *s)
 {
@@ -121,7 +95,8 @@ static void choose_cells(study_matrix *s)
         const study_case *e = s->column[k];
         for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
             const study_cell *c = &s->plan->cells[i];
-            const int row = find_row(s, s->of_cell[i]);
+            int row = s->rows - 1;
+            while (row >= 0 && s->row[row] != s->of_cell[i]) row--;
             if (row >= 0 && c->start == study_first_start(e) && c->step == e->step[0] &&
                 (c->tolerance == 0.0 || c->tolerance == e->tolerance[0]))
                 s->cell[row][k] = c;
@@ -133,7 +108,9 @@ void study_matrix_make(study_matrix *s, const study_plan *plan)
 {
     *s = (study_matrix){.plan = plan};
     list_methods(s);
-    index_cells(s);
+    s->of_cell = cli_calloc((size_t)plan->cell_count + 1, sizeof *s->of_cell);
+    for (int i = 0; i < plan->cell_count; i++)
+        s->of_cell[i] = find_method(s, plan->cells[i].method);
     choose_rows(s);
     choose_columns(s);
     choose_cells(s);

@@ -62,7 +62,7 @@ typedef struct study_plan {
     int representatives;
     double seconds;      /* that the runs have taken */
     bool has_tolerances; /* a case has the key tolerance: files have that column */
-    bool shows_tables;
+    bool shows_tables, shows_matrices;
 } study_plan;
 
 /* Reads a plan and makes its systems and cells; place is the file, for messages, copies a member of

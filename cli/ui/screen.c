@@ -98,7 +98,8 @@ void screen_say_items(screen *s, const char *const *items, int count, int lines,
     for (int i = 0; i < count; i++) {
         const int length = (int)strlen(items[i]);
         if (line == lines && i < count - 1 && column + SPACES + length > width) {
-            fprintf(s->out, "%*s... and %d more (%s)", SPACES, "", count - i, more);
+            fprintf(s->out, "%*s... and %d more%s%s%s", SPACES, "", count - i, *more ? " (" : "",
+                    more, *more ? ")" : "");
             break;
         }
         if (column > 0 && column + SPACES + length > s->width) {
@@ -109,6 +110,14 @@ void screen_say_items(screen *s, const char *const *items, int count, int lines,
         column += fprintf(s->out, "%*s%s", column > 0 ? SPACES : INDENT, "", items[i]);
     }
     fputc('\n', s->out);
+}
+
+int screen_count_lines(screen *s)
+{
+    int lines = 0;
+    fflush(s->out);
+    for (const char *text = s->text; (text = strchr(text, '\n')); text++) lines++;
+    return lines;
 }
 
 void screen_skip(screen *s) { fputc('\n', s->out); }
@@ -164,32 +173,27 @@ static int count_characters(const char *text)
     return n;
 }
 
-/* The text that ends a row, after some blanks; where there is no room for it, on the next line. */
-static void put_text(const screen *s, const char *text, int column, int blanks, int indent)
-{
-    if (column + blanks + LEAST_TEXT > s->width) {
-        fputc('\n', s->out);
-        column = 0;
-        blanks = indent + 2 * GAP;
-    }
-    fprintf(s->out, "%*s", blanks, "");
-    cli_wrap_to(s->out, text, column + blanks, column + blanks, s->width);
-}
-
 /* One row; the last of the columns that are shown leaves no blanks at the end of the line. */
-static void put_row(const screen *s, const screen_cell *row, const int *widths, int shown,
-                    const char *align, int indent)
+static void put_row(const screen *s, const screen_table *t, const screen_cell *row,
+                    const int *widths, int shown, const char *align, int indent)
 {
     static const char *const codes[SCREEN_COLOURS] = {
         [SCREEN_ROUNDING] = "32", [SCREEN_SMALL] = "33", [SCREEN_MEDIUM] = "38;5;208",
         [SCREEN_LARGE] = "31",    [SCREEN_FAINT] = "2",
     };
+    const int gap = t->gap ? t->gap : GAP;
     int column = fprintf(s->out, "%*s", indent, ""), blanks = 0;
     for (int i = 0; i < shown; i++) {
         const int spaces = widths[i] - count_characters(row[i].text);
         const bool is_right = align_of(align, i) == 'r';
         if (align_of(align, i) == 'w' && row[i].text[0]) {
-            put_text(s, row[i].text, column, blanks, indent);
+            if (column + blanks + LEAST_TEXT > s->width) { /* on the next line */
+                fputc('\n', s->out);
+                column = 0;
+                blanks = indent + 2 * GAP;
+            }
+            column += fprintf(s->out, "%*s", blanks, "");
+            cli_wrap_to(s->out, row[i].text, column, column, s->width);
             return;
         }
         if (row[i].text[0]) {
@@ -199,10 +203,10 @@ static void put_row(const screen *s, const screen_cell *row, const int *widths, 
             fputs(row[i].text, s->out);
             if (code) fputs("\033[0m", s->out);
             column += blanks + widths[i];
-            blanks = GAP + (is_right ? 0 : spaces);
+            blanks = gap + (is_right ? 0 : spaces);
             column -= is_right ? 0 : spaces;
         } else {
-            blanks += widths[i] + GAP;
+            blanks += widths[i] + gap;
         }
     }
     fputc('\n', s->out);
@@ -219,10 +223,10 @@ int screen_add_table(screen *s, const screen_table *t, const char *align, int in
     for (; shown < t->columns; shown++) {
         const bool is_wrapped = align_of(align, shown) == 'w';
         if (shown > 0 && !is_wrapped && used + widths[shown] > s->width) break;
-        used += widths[shown] + GAP;
+        used += widths[shown] + (t->gap ? t->gap : GAP);
     }
     for (int k = 0; k < t->cells; k += t->columns)
-        put_row(s, t->cell + k, widths, shown, align, indent);
+        put_row(s, t, t->cell + k, widths, shown, align, indent);
     free(widths);
     return t->columns - shown;
 }

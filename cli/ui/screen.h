@@ -51,6 +51,8 @@ void screen_say(screen *s, int hanging, const char *format, ...) CLI_PRINTF(3, 4
 void screen_say_command(screen *s, const char *head, const char *command);
 /* Adds items side by side on at most that number of lines, and counts the others. */
 void screen_say_items(screen *s, const char *const *items, int count, int lines, const char *more);
+/* The lines so far. */
+int screen_count_lines(screen *s);
 /* Adds an empty line. */
 void screen_skip(screen *s);
 
@@ -66,6 +68,7 @@ typedef struct screen_cell {
 
 typedef struct screen_table {
     int columns, cells, capacity;
+    int gap; /* blanks between columns; 0: 2 */
     screen_cell *cell;
 } screen_table;
 

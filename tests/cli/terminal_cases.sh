@@ -10,7 +10,7 @@ shown() {
         sed 's/\r$//; s/.*\r//' >out
     : >err
 }
-escape=$(printf '\033\\[')
+escape=$(printf "\\033\\\\[")
 # fits COLUMNS [LINES]: no line of `out` is longer, nor are there more.
 fits() {
     sed "s/${escape}[0-9;]*m//g" out >plain
@@ -54,6 +54,59 @@ if needs 25 "no terminal (script, stty)" terminal; then
     fits 80
     prints '^Rows:  101 in sleigh/trajectory\.npy$'
     prints "^dalembert: wrote the directory 'sleigh'$"
+    counted
+fi
+
+# D of the plane is constant and linear: every method keeps it; rk4 does not keep the sleigh's.
+cat >small.yaml <<'END'
+title: a small study
+integrators: [rk4, gauss4+project]
+step: 0.1
+time: 20
+starts: physical
+systems: [chaplygin-sleigh, plane.yaml]
+END
+{ echo "integrators: [rk4, gauss4, gauss6, spark2, spark4]"; echo "step: 0.1"; echo "time: 1"; echo "starts: physical"
+    echo "systems:"
+    for system in chaplygin-sleigh chaplygin-sleigh-nonlinear knife-edge plane.yaml vertical-disk contact-oscillator; do
+        echo "  - $system"
+    done
+} >wide.yaml
+if needs 27 "no terminal (script, stty)" terminal; then
+    case_is "study: names, ok or a size, and what to take"
+    shown 80 study small.yaml --output there --force --no-page
+    fits 80 23
+    prints '^Largest \|D\| and \|E - E0\| until t = 20, h = 0\.1$'
+    prints '^a small study: 2 methods x 2 systems, 4 runs in '
+    expect "other heads" grep -q '^ *sleigh  *plane$' plain
+    expect "other columns" grep -q '^ *D  *E  *D  *E$' plain
+    expect "rk4 keeps D" grep -Eq '^rk4 +[1-9]e-[0-9][/?^]? +\([1-9]e-[0-9]\) +ok +' plain
+    expect "gauss4+project does not keep D" grep -Eq '^gauss4\+project +ok .* ok +' plain
+    expect "others are to be taken" grep -q '^Take for D: *gauss4+project$' plain
+    expect "nothing to try next" grep -q 'dalembert explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 20$' plain
+    expect "no tables" grep -q '^Tables: there/tables.txt$' plain
+    expect "no green for rounding" grep -q "${escape}32mok" out
+    case_is "study: what a pipe gets comes with --details, the tables with --tables"
+    try 0 study small.yaml --output there --force --no-page
+    sed 's/ in [0-9.]* s:/ in S:/; /^A step takes /d' out >piped
+    shown 80 study small.yaml --output there --force --no-page --details
+    sed "s/${escape}[0-9;]*m//g; s/ in [0-9.]* s:/ in S:/; /^A step takes /d" out >plain
+    expect "another screen" cmp piped plain
+    shown 80 study small.yaml --output there --force --no-page --tables
+    prints '^chaplygin-sleigh: '
+    case_is "study: systems that do not fit are counted"
+    shown 80 study wide.yaml --output there --force --no-page
+    fits 80 23
+    expect "other names" grep -q '^ *sleigh  *nonline  *knife  *ok in all$' plain
+    prints '^\.\.\. and 3 more systems \(--details\)$'
+    # Stiff accuracy enforces D: spark2, spark4.  The six systems have a constraint each.
+    expect "other groups" grep -Eq '^Take for D: +spark\*' plain
+    expect "spark2 does not keep all" grep -Eq '^spark2 .* 6/6 ' plain
+    for columns in 60 40; do
+        shown $columns study wide.yaml --output there --force --no-page
+        fits $columns 23
+        prints '^\.\.\. and [0-9] more systems'
+    done
     counted
 fi
 
