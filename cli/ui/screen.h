@@ -39,6 +39,13 @@ FILE *screen_terminal(void);
 /* Whether a terminal gets colours (https://no-color.org). */
 bool screen_is_in_colour(FILE *to);
 
+/* The row of --details in a table of options. */
+#define SCREEN_DETAILS_OPTION(settings)                                                            \
+    {                                                                                              \
+        "details", NULL, NULL, "prints on a terminal what a pipe gets",                            \
+            CLI_FLAG(settings, details)                                                            \
+    }
+
 /* Begins a screen; screen_close prints it and ends it.  more is the option that prints what does
  * not fit; NULL: the screen may have any number of lines.  Returns CLI_DONE, or prints and returns
  * CLI_IO. */

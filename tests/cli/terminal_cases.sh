@@ -110,6 +110,60 @@ if needs 27 "no terminal (script, stty)" terminal; then
     counted
 fi
 
+# y' = 2 y is not what `exact` and the invariant say.
+cat >wrong.yaml <<'END'
+coordinates: [x]
+lagrangian: x'^2/2 - x^2/2
+start: {x: 1}
+invariants: {pace: x'}
+exact: {x: cos(2*t)}
+END
+if needs 34 "no terminal (script, stty)" terminal; then
+    case_is "check: the result, what is conserved, which methods keep it"
+    shown 80 check chaplygin-sleigh
+    fits 80
+    prints '^3 coordinates, 1 constraint, growth \(2, 3\) on q: nonholonomic'
+    prints '^ok: [0-9]+ checks of '
+    prints '^  Conserved +E: conserved on D = 0 only; speed; spin$'
+    prints '^  D is kept by +spark\*, gauss-spark\*, '
+    prints '^  Refused +isokinetic-splitting: '
+    prints '^Take gauss-spark4 to begin with\.$'
+    for columns in 60 45; do
+        shown $columns check chaotic-oscillators
+        fits $columns
+    done
+    case_is "check: what failed comes first, with its likely cause"
+    script -qec "stty cols 80; '$program' check wrong.yaml; echo status \$?" /dev/null </dev/null | sed 's/\r$//' >out
+    fits 80 25
+    prints '^FAIL: invariant pace: '
+    prints '^FAIL: residual of q. = v, v. = F: '
+    prints '^    see exact: it does not solve the equations of motion$'
+    prints '^2 of [0-9]+ checks failed\.$'
+    prints '^status 1$'
+    case_is "check: what a pipe gets comes with --details"
+    try 0 check chaplygin-sleigh
+    mv out piped
+    shown 80 check chaplygin-sleigh --details
+    expect "other bytes" cmp piped out
+    case_is "section: the first crossings, as many columns as fit"
+    # The oscillator x = cos t crosses x = 0 at t = pi/2 + k pi, 32 times until t = 100: downwards first.
+    sed -i '/exact\|invariants/d' wrong.yaml
+    crossings="section wrong.yaml --on x --integrator gauss8 --step 0.1 --time 100"
+    for columns in 80 40; do
+        shown $columns $crossings
+        fits $columns
+        prints '^16 upwards, 16 downwards, 0 touches$'
+        prints '^ 1 +1\.5708  down '
+        prints '^\.\.\. and 20 more \(--details\)$'
+    done
+    prints '^[0-9]+ more columns: --details'
+    try 0 $crossings
+    mv out piped
+    shown 80 "$crossings --details 2>/dev/null"
+    expect "other rows" cmp piped out
+    counted
+fi
+
 case_is "a pipe has the rows, and a table of the summary on request"
 try 0 $sleigh --summary
 prints '^t,y1,y2,phi,'
