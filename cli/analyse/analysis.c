@@ -26,7 +26,13 @@ int analysis_open(analysis_output *output, const char *path, const char *name)
     char *file = cli_format("%s.csv", name);
     output->table = cli_join(path, file);
     free(file);
-    return cli_output_directory(path);
+    return cli_directory(path);
+}
+
+void analysis_close(analysis_output *output, int exit_status)
+{
+    if (output->directory) file_report_directory(output->directory, exit_status);
+    free(output->table);
 }
 
 int analysis_describe(const analysis_output *output, const char *name, const run_request *request,

@@ -26,8 +26,10 @@ typedef struct analysis_output {
  * Returns CLI_DONE, or prints and returns CLI_USAGE. */
 int analysis_check_directory(const char *output);
 
-/* Makes the directory.  Returns CLI_DONE or prints and returns an exit status; free the table. */
+/* Makes the directory.  Returns CLI_DONE or prints and returns an exit status; close it. */
 int analysis_open(analysis_output *output, const char *path, const char *name);
+/* A line says which directory was written, by a command with that exit status. */
+void analysis_close(analysis_output *output, int exit_status);
 
 /* Writes what the table in a directory was made with, for `report`: NAME.json with the members that
  * put writes, and NAME.yaml, the copy of a system that is no built-in one.  Returns CLI_DONE or

@@ -3,9 +3,11 @@
  * No property that a system states is trusted: flags, derivatives, invariants and exact solutions
  * are compared with numbers at the start and at random points about it. */
 #include "check.h"
+#include "check_screen.h"
 #include "io/json.h"
 #include "run/request_json.h"
 #include "ui/memory.h"
+#include "ui/screen.h"
 #include "ui/wrap.h"
 
 #include "check_items.h"
@@ -239,8 +241,12 @@ int check_system(check_settings *settings)
     int status = prepare_check(&c);
     if (status == CLI_DONE) {
         examine(&c);
-        (settings->json ? put_check : print_check)(&c);
-        status = cli_close(stdout, "standard output");
+        if (!settings->json && !settings->details && screen_has_reader()) {
+            status = check_print_screen(&c);
+        } else {
+            (settings->json ? put_check : print_check)(&c);
+            status = cli_close(stdout, "standard output");
+        }
     }
     if (status == CLI_DONE && c.failed + c.unmeasured > 0) status = CLI_CHECK;
     free_check(&c);

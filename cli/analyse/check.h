@@ -8,7 +8,7 @@
 
 typedef struct check_settings {
     run_request request;
-    bool json;
+    bool json, details;
 } check_settings;
 
 /* Prints the report, as text or as JSON.  Returns CLI_DONE, CLI_CHECK where an item failed or was

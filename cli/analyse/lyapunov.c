@@ -201,7 +201,7 @@ static int run_with_table(tangent_study *s)
     const int closed = s->table.path ? writer_close(&s->table) : CLI_DONE;
     if (status == CLI_DONE) status = closed;
     if (status == CLI_DONE && output.directory) status = draw_means(s, output.directory);
-    free(output.table);
+    analysis_close(&output, status);
     return status;
 }
 

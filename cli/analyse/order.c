@@ -575,7 +575,7 @@ static int measure(order_study *s)
         s->set->is_written = status == CLI_DONE;
         if (status == CLI_DONE && output.directory)
             status = analysis_describe(&output, "order", s->request, put_reference, s);
-        free(output.table);
+        analysis_close(&output, status);
     }
     for (int i = 0; status == CLI_DONE && i < s->method_count; i++)
         if (s->methods[i].state == ORDER_FAILED) status = CLI_FAILED;

@@ -11,6 +11,7 @@
 #include "run/system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 #include "ui/signals.h"
 
 #include <math.h>
@@ -19,7 +20,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MAX_NAME = 80 };
+enum { MAX_NAME = 80, SCREEN_ROWS = 12 /* on a terminal */ };
 
 /* The columns of a row before the state. */
 enum { COLUMN_CROSSING, COLUMN_T, COLUMN_DIRECTION, FIRST_STATE_COLUMN };
@@ -141,7 +142,7 @@ static dal_status write_crossing(void *user, dal_run *run, const dal_crossing *c
         s->min[i] = fmin(s->min[i], s->row[i]);
         s->max[i] = fmax(s->max[i], s->row[i]);
     }
-    if (s->set->json) keep_row(s);
+    if (s->set->json || (s->set->is_screen && s->rows < SCREEN_ROWS)) keep_row(s);
     s->rows++;
     if (s->table.path) s->write_status = writer_append(&s->table, s->row);
     return s->write_status == CLI_DONE ? DAL_OK : DAL_IO;
@@ -153,6 +154,44 @@ static dal_status poll_signals(void *user, dal_run *run)
     native_poll(&s->native);
     cli_progress("t = %.6g of %.6g, %lld crossings", dal_run_time(run), s->request->time, s->rows);
     return cli_interrupted() ? DAL_INTERRUPTED : DAL_OK;
+}
+
+/* The crossings on a terminal: their number, and of the first ones as many columns as fit. */
+static int print_screen(const section *s)
+{
+    enum { DIGITS = 6 };
+    static const char *const directions[] = {"down", "touch", "up"};
+    const long long rows = s->rows < SCREEN_ROWS ? s->rows : SCREEN_ROWS;
+    char method[MAX_NAME], count[SCREEN_NUMBER], x[SCREEN_NUMBER];
+    screen out;
+    screen_open(&out, stdout);
+    screen_say(&out, 2, "%s by %s crosses %s%s %s times until t = %.6g", s->request->system_name,
+               dal_method_name(&s->request->method, method, sizeof method), s->set->on,
+               strchr(s->set->on, '=') ? "" : " = 0", screen_count(count, s->rows),
+               dal_run_time(s->request->run));
+    screen_say(&out, 2, "%lld upwards, %lld downwards, %lld touches", s->found.up, s->found.down,
+               s->found.touches);
+    screen_skip(&out);
+    screen_table t = {.columns = s->columns};
+    for (int i = 0; i < s->columns; i++)
+        screen_add_cell(&t, SCREEN_PLAIN, "%s", i == COLUMN_CROSSING ? "" : s->names[i]);
+    for (long long k = 0; k < rows * s->columns; k++) {
+        const long long i = k % s->columns;
+        if (i == COLUMN_DIRECTION)
+            screen_add_cell(&t, SCREEN_PLAIN, "%s", directions[(int)s->kept[k] + 1]);
+        else
+            screen_add_cell(&t, SCREEN_PLAIN, "%s", screen_number(x, s->kept[k], DIGITS));
+    }
+    const int left_out = screen_add_table(&out, &t, "rrlr", 0);
+    screen_free_table(&t);
+    if (rows < s->rows) screen_say(&out, 2, "... and %lld more (--details)", s->rows - rows);
+    screen_skip(&out);
+    if (left_out > 0) screen_say(&out, 2, "%d more columns: --details, or -o FILE.csv", left_out);
+    if (strcmp(s->set->output, "-") == 0)
+        screen_say(&out, 2, "Rows:  -o FILE.csv, or a pipe; a page: -o DIR");
+    else
+        screen_say(&out, 2, "Rows:  %lld in %s", s->rows, s->set->output);
+    return screen_close(&out, "--details");
 }
 
 static int run_section(section *s, const char *path)
@@ -167,7 +206,8 @@ static int run_section(section *s, const char *path)
                                    .cross = write_crossing,
                                    .poll = poll_signals};
     for (int i = 0; i < s->columns; i++) columns_rename(r, s->names[i]); /* --axes is read */
-    const bool is_stdout = strcmp(path, "-") == 0, has_table = !(s->set->json && is_stdout);
+    const bool is_stdout = strcmp(path, "-") == 0,
+               has_table = !((s->set->json || s->set->is_screen) && is_stdout);
     int status = has_table ? writer_create(&s->table, path, s->names, s->columns) : CLI_DONE;
     if (status == CLI_DONE) {
         cli_catch_signals();
@@ -188,6 +228,8 @@ static int run_section(section *s, const char *path)
                  "their parts",
                  s->found.unresolved, s->found.first_unresolved);
     FILE *out = is_stdout ? stderr : stdout;
+    if (s->set->is_screen && status != CLI_USAGE)
+        return print_screen(s) == CLI_DONE ? status : CLI_IO;
     if (!s->set->json && (!is_stdout || isatty(STDERR_FILENO)))
         fprintf(out, "t = %g: %lld upwards, %lld downwards, %lld touches; %lld rows\n",
                 dal_run_time(r->run), s->found.up, s->found.down, s->found.touches, s->rows);
@@ -330,7 +372,7 @@ int section_find(section_settings *settings)
             written = analysis_describe(&output, "section", s.request, put_figure, &s);
         if (status == CLI_DONE) status = written;
     }
-    free(output.table);
+    analysis_close(&output, status);
     free(s.names);
     free(s.row);
     free(s.kept);

@@ -13,8 +13,9 @@ typedef struct section_settings {
     int direction; /* of crossings: -1 down, 0 both, 1 up */
     double transient;
     native_mode native;
-    bool json;  /* to stdout, instead of rows */
-    bool force; /* into any directory */
+    bool json;               /* to stdout, instead of rows */
+    bool details, is_screen; /* is_screen: a terminal gets a table of the first rows */
+    bool force;              /* into any directory */
 } section_settings;
 
 /* The options of a run that it does not take. */

@@ -3,10 +3,12 @@
 #include "io/json.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
+#include "ui/screen.h"
 
 #include <string.h>
 
-static const cli_option options[] = {JSON_OPTION(check_settings)};
+static const cli_option options[] = {SCREEN_DETAILS_OPTION(check_settings),
+                                     JSON_OPTION(check_settings)};
 
 static int check_command(int argc, char **argv)
 {

@@ -58,7 +58,8 @@ static int resume(int argc, char **argv)
     const bool is_study = study_directory_has_study(&dir);
     study_directory_close(&dir);
     if (!is_study) return resume_run(s.directory, &s.run);
-    const study_run_options how = {(int)s.threads, s.run.interval, s.run.native, false};
+    const study_run_options how = {(int)s.threads, s.run.interval, s.run.native, false,
+                                   s.run.details};
     const int ended = study_resume(s.directory, &how);
     return s.no_page ? ended : report_after_study(s.directory, ended, true);
 }

@@ -22,10 +22,11 @@ static int run_in_directory(const run_request *request, const run_settings *sett
     run_directory dir;
     run_directory_open(&dir, settings->output);
     int status = settings->force ? CLI_DONE : check_directory(&dir);
-    if (status == CLI_DONE) status = cli_output_directory(dir.path);
+    if (status == CLI_DONE) status = cli_directory(dir.path);
     if (status == CLI_DONE) status = run_directory_lock(&dir, 1);
     if (status == CLI_DONE) status = manifest_begin(&dir, request);
     if (status == CLI_DONE) status = run_integrate(request, &dir, settings);
+    file_report_directory(dir.path, status);
     run_directory_close(&dir);
     return status;
 }

@@ -6,6 +6,7 @@
 #include "report/report_section.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
+#include "ui/screen.h"
 
 #include <math.h>
 
@@ -24,6 +25,7 @@ static const cli_option options[] = {
      CLI_ROW(cli_parse_output, section_settings, output)},
     ANALYSIS_FORCE_OPTION(section_settings),
     JSON_OPTION(section_settings),
+    SCREEN_DETAILS_OPTION(section_settings),
 };
 
 static int section(int argc, char **argv)
@@ -34,6 +36,7 @@ static int section(int argc, char **argv)
                                 request_group(&s.request, request_options, SECTION_WITHOUT)};
     int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
     s.direction--; /* -1, 0 or 1 */
+    s.is_screen = screen_has_reader() && !s.json && !s.details;
     if (status == CLI_GO_ON) status = section_find(&s);
     if ((status == CLI_DONE || status == CLI_SIGNAL) && cli_is_directory(s.output))
         status = report_after(s.output, status, report_section);

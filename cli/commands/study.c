@@ -22,7 +22,7 @@ typedef struct settings {
     const char *study, *output;
     long long threads;
     store_shard shard;
-    bool show, tables, no_page;
+    bool show, tables, details, no_page;
     run_settings run;
 } settings;
 
@@ -31,6 +31,8 @@ static const cli_option options[] = {
     POOL_THREADS_OPTION(settings, "cells at a time; results do not depend on it"),
     STORE_SHARD_OPTION(settings,
                        "runs every N-th cell, from the K-th on; 'dalembert merge' joins shards"),
+    {"details", NULL, NULL, "prints the matrices that a pipe gets on a terminal, too",
+     CLI_FLAG(settings, details)},
     {"tables", NULL, NULL, "prints the tables, not a screenful", CLI_FLAG(settings, tables)},
     REPORT_NO_PAGE_OPTION(settings),
     {"show", NULL, NULL, "prints the study file itself and runs nothing", CLI_FLAG(settings, show)},
@@ -58,9 +60,8 @@ static const char notes[] =
         "state is done, failed or refused.  The exit status is 1 when a result is not as "
         "expected.\n"
         "\n"
-        "stdout gets at most 40 lines: trend and decade of the constraints and of the energy, for "
-        "representative integrators and the first start and step of each system, and what of all "
-        "integrators holds.  DIR gets\n"
+        "A terminal gets 24 lines: D and E of representative integrators for the first start and "
+        "step of each system, with a mark of their growth; a pipe, or --details, 40.  DIR gets\n"
         "  study.yaml        the study itself; systems/ copies of system files\n"
         "  runs/NAME/        a directory per cell (system, integrator, start, step), as 'run' "
         "makes it,\n"
@@ -93,7 +94,8 @@ static int run_study(const settings *s, const char *text, size_t length)
 {
     study_plan plan;
     study_directory dir;
-    const study_run_options how = {(int)s->threads, s->run.interval, s->run.native, s->tables};
+    const study_run_options how = {(int)s->threads, s->run.interval, s->run.native, s->tables,
+                                   s->details};
     study_directory_open(&dir, s->output ? s->output : default_directory);
     int status = study_plan_read(&plan, s->study ? s->study : builtin_name, text, length, NULL);
     const int force = s->run.force || (!s->output && study_directory_is_finished(&dir));

@@ -465,11 +465,10 @@ int file_check_directory(const char *path)
                     path);
 }
 
-int cli_output_directory(const char *path)
+void file_report_directory(const char *path, int exit_status)
 {
-    const int status = cli_directory(path);
-    if (status == CLI_DONE) cli_note("'%s' is a directory", path);
-    return status;
+    if (exit_status == CLI_DONE || exit_status == CLI_FAILED)
+        cli_note("wrote the directory '%s'", path);
 }
 
 /* A device or a pipe is written to as it is, whatever its name. */

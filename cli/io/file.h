@@ -71,8 +71,9 @@ bool file_owns_directory(const char *path);
 /* Returns CLI_DONE for such a directory, else prints and returns CLI_USAGE: others are written into
  * with --force alone. */
 int file_check_directory(const char *path);
-/* The same for an output, and says on stderr that it is a directory. */
-int cli_output_directory(const char *path);
+/* Says on stderr that results are in a directory, if a command with that exit status has left any.
+ */
+void file_report_directory(const char *path, int exit_status);
 /* Whether an output is a directory: not "-", no .csv or .npy, no device and no pipe. */
 bool cli_is_directory(const char *output);
 /* Stores the text of an option --output, whose value names what it may be: FILE, FILE.csv, DIR.

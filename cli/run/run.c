@@ -5,8 +5,10 @@
 #include "ui/message.h"
 #include "ui/signals.h"
 
+#include "run_screen.h"
 #include "summary.h"
 #include "ui/options.h"
+#include "ui/screen.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +17,8 @@
 
 static const cli_option options[RUN_OPTIONS] = {
     [RUN_output] = {"output", "FILE|DIR|-", "-",
-                    "writes the rows there: .csv, .npy, a directory, or standard output",
+                    "writes the rows there: .csv, .npy, a directory, or standard output, where a "
+                    "terminal gets them only with this option",
                     .parse = cli_parse_output, .offset = offsetof(run_settings, output)},
     [RUN_events] = {"events", "FILE.csv", NULL,
                     "writes t, the number and the state after it of each event of the system",
@@ -38,7 +41,7 @@ static const cli_option options[RUN_OPTIONS] = {
 
 cli_group run_group(run_settings *settings, uint64_t without)
 {
-    return (cli_group){options, RUN_OPTIONS, settings, NULL, without, "run", NULL};
+    return (cli_group){options, RUN_OPTIONS, settings, settings->text, without, "run", NULL};
 }
 
 static void print_end(const run_recorder *r, int status, const dal_error *error)
@@ -88,7 +91,9 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
     run_recorder recorder;
     dal_error error;
     dal_run *run = request->run;
-    int status = recorder_open(&recorder, request, dir, settings->output);
+    const bool is_screen_alone = screen_has_reader() && !settings->text[RUN_output];
+    const char *output = is_screen_alone ? "/dev/null" : settings->output;
+    int status = recorder_open(&recorder, request, dir, output);
     if (status == CLI_DONE) status = open_events(&recorder, request, dir, settings);
     recorder.interval = settings->interval;
     recorder.progress = settings->progress;
@@ -105,7 +110,11 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
         status = recorder_run(&recorder, &error);
         print_end(&recorder, status, &error);
         print_unresolved(run);
-        if (settings->summary || settings->details || isatty(STDERR_FILENO))
+        /* A terminal gets a screen; what is no terminal, the table of all numbers on request. */
+        FILE *terminal = screen_terminal();
+        if (terminal && !settings->details)
+            run_screen_print(terminal, &recorder, is_screen_alone ? NULL : output);
+        if (settings->details || (settings->summary && !isatty(STDERR_FILENO)))
             summary_print(stderr, &recorder);
         if (settings->details) summary_print_details(stderr, &recorder);
     }

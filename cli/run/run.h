@@ -27,6 +27,7 @@ typedef struct run_settings {
     bool summary, details, force;
     native_mode native;
     progress_mode progress;
+    const char *text[RUN_OPTIONS]; /* as given; NULL: not given */
 } run_settings;
 
 /* As a group for a command, which does not take some: a set of RUN_OPTION(name). */

@@ -144,7 +144,7 @@ typedef struct study_plan {
     int representatives;
     double seconds;      /* that the runs have taken */
     bool has_tolerances; /* a case has the key tolerance: files have that column */
-    bool shows_tables;
+    bool shows_tables, shows_matrices;
 } study_plan;
 
 /* Forgets the results. */

@@ -6,12 +6,14 @@
 #include "run/manifest.h"
 #include "run/system.h"
 #include "study_compare.h"
+#include "study_overview.h"
 #include "study_pool.h"
 #include "study_results.h"
 #include "study_screen.h"
 #include "study_table.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 #include "ui/signals.h"
 
 #include <stdbool.h>
@@ -254,6 +256,7 @@ int study_directory_run(const study_directory *dir, study_plan *plan,
     plan->interval = options->interval;
     plan->native = options->native;
     plan->shows_tables = options->shows_tables;
+    plan->shows_matrices = options->shows_matrices;
     return study_directory_finish(dir, plan, study_pool_run(plan, options->threads));
 }
 
@@ -297,16 +300,16 @@ static int write_files(const study_directory *dir, const study_plan *plan)
     return file_output_close(&tables, CLI_DONE);
 }
 
-/* The screen, in colour on a terminal (https://no-color.org), or the tables. */
+/* The screen, in colour on a terminal, or the tables. */
 static int print_results(const study_directory *dir, const study_plan *plan)
 {
-    const char *no_colour = getenv("NO_COLOR"), *terminal = getenv("TERM");
-    const bool in_colour = isatty(STDOUT_FILENO) && !(no_colour && no_colour[0]) &&
-                           !(terminal && strcmp(terminal, "dumb") == 0);
+    const char *tables = dir->shard.count == 0 ? dir->tables : NULL;
+    if (screen_has_reader() && !plan->shows_tables && !plan->shows_matrices)
+        return study_print_overview(stdout, plan, tables);
     if (plan->shows_tables)
         print_tables(stdout, plan);
     else
-        study_print_screen(stdout, plan, dir->shard.count == 0 ? dir->tables : NULL, in_colour);
+        study_print_screen(stdout, plan, tables, screen_is_in_colour(stdout));
     return cli_close(stdout, "standard output");
 }
 

@@ -48,7 +48,8 @@ typedef struct study_run_options {
     int threads;
     double interval; /* seconds between checkpoints of a run */
     native_mode native;
-    bool shows_tables; /* prints the tables, not the screen */
+    bool shows_tables;   /* prints the tables, not the screen */
+    bool shows_matrices; /* on a terminal, too, prints what a pipe gets */
 } study_run_options;
 
 /* Makes the names of the files in a directory. */

@@ -7,6 +7,7 @@
 
 #include "study_compare.h"
 #include "study_fate.h"
+#include "study_matrix.h"
 #include "ui/memory.h"
 #include "ui/wrap.h"
 
@@ -17,7 +18,6 @@
 enum {
     LINES = 39, /* one more is for the place of the page */
     WIDTH = 80,
-    SYSTEMS = 12,
     CELL = 5,  /* " l-08" */
     ITEM = 40, /* of the legend, two on a line */
     UNMET = 3  /* expectations that are named */
@@ -29,148 +29,6 @@ static const struct {
     bool is_displacement;
 } quantities[QUANTITIES] = {
     {"max |D|", "D", false}, {"max |E-E0|", "E", true}, {"max error", "error", false}};
-
-/* E is kept to this part of max |E|. */
-static const double kept_part = 0.01;
-
-/* An integrator, its name, and how many of its runs have which fate; in how many a quantity is at
- * rounding, or bounded and kept to that part. */
-typedef struct screen_method {
-    char name[STUDY_NAME];
-    int count[QUANTITIES][FATES], kept[QUANTITIES];
-} screen_method;
-
-typedef struct screen {
-    const study_plan *plan;
-    screen_method *methods; /* all of the study */
-    int method_count;
-    screen_method **of_cell; /* [cells of the plan] */
-    const screen_method *row[STUDY_REPRESENTATIVES];
-    const study_case *column[SYSTEMS];
-    int rows, columns;
-    const study_cell *cell[STUDY_REPRESENTATIVES][SYSTEMS]; /* NULL: the study has none */
-    bool in_colour;
-} screen;
-
-/* ---- integrators and systems --------------------------------------------------------------- */
-
-static screen_method *find_method(const screen *s, const dal_method *method)
-{
-    char name[STUDY_NAME];
-    dal_method_name(method, name, sizeof name);
-    for (int i = 0; i < s->method_count; i++)
-        if (strcmp(s->methods[i].name, name) == 0) return &s->methods[i];
-    return NULL;
-}
-
-static void list_methods(screen *s)
-{
-    for (int i = 0; i < s->plan->case_count; i++) {
-        const study_case *e = &s->plan->cases[i];
-        for (int k = 0; e->is_first && k < e->method_count; k++) {
-            if (find_method(s, &e->methods[k])) continue;
-            const size_t count = (size_t)s->method_count + 1;
-            s->methods = cli_realloc(s->methods, count * sizeof *s->methods);
-            screen_method *new = &s->methods[s->method_count++];
-            *new = (screen_method){0};
-            dal_method_name(&e->methods[k], new->name, sizeof new->name);
-        }
-    }
-}
-
-/* The integrator of each cell, found once. */
-static void index_cells(screen *s)
-{
-    s->of_cell = cli_calloc((size_t)s->plan->cell_count + 1, sizeof *s->of_cell);
-    for (int i = 0; i < s->plan->cell_count; i++)
-        s->of_cell[i] = find_method(s, s->plan->cells[i].method);
-}
-
-/* Names of a family differ in numbers alone: gauss4 and gauss6, symplectic-euler-00 and -01. */
-static bool is_same_family(const char *a, const char *b)
-{
-    static const char number[] = "-0123456789";
-    for (;; a++, b++) {
-        a += strspn(a, number);
-        b += strspn(b, number);
-        if (*a != *b) return false;
-        if (!*a) return true;
-    }
-}
-
-static bool has_family(const screen *s, const char *name)
-{
-    for (int i = 0; i < s->rows; i++)
-        if (is_same_family(s->row[i]->name, name)) return true;
-    return false;
-}
-
-/* Those that the study lists; else all or, where these are too many, the first of each family. */
-static void choose_rows(screen *s)
-{
-    const study_plan *plan = s->plan;
-    for (; s->rows < plan->representatives; s->rows++)
-        s->row[s->rows] = find_method(s, &plan->representative[s->rows]);
-    for (int i = 0; plan->representatives == 0 && i < s->method_count; i++)
-        if (s->rows < STUDY_REPRESENTATIVES &&
-            (s->method_count <= STUDY_REPRESENTATIVES || !has_family(s, s->methods[i].name)))
-            s->row[s->rows++] = &s->methods[i];
-}
-
-/* Systems with constraints come first; where these are too many, one of each group. */
-static void choose_columns(screen *s)
-{
-    const bool are_many = s->plan->case_count > SYSTEMS;
-    for (int rank = 0; rank < 4; rank++)
-        for (int i = 0; i < s->plan->case_count && s->columns < SYSTEMS; i++) {
-            const study_case *e = &s->plan->cases[i];
-            if ((e->system->m == 0) * 2 + (are_many && !e->is_first) == rank)
-                s->column[s->columns++] = e;
-        }
-}
-
-/* Of the runs on p = pi = 0 from the first start of a system, whose numbers are those of (q,v). */
-static void count_runs(const screen *s)
-{
-    for (int i = 0; i < s->plan->cell_count; i++) {
-        const study_cell *c = &s->plan->cells[i];
-        if (c->other_shard || c->start == STUDY_DISPLACED ||
-            c->start != study_first_start(c->of_case))
-            continue;
-        screen_method *method = s->of_cell[i];
-        for (int k = 0; k < QUANTITIES; k++) {
-            const fate of_run = study_find_fate(c, k);
-            if (of_run == FATES) continue;
-            const dal_trend *trend = study_get_trend(c, k);
-            method->count[k][of_run]++;
-            method->kept[k] +=
-                of_run == AT_ROUNDING ||
-                (of_run == BOUNDED && trend->deviation <= kept_part * trend->max_abs);
-        }
-    }
-}
-
-static int find_row(const screen *s, const screen_method *method)
-{
-    int row = s->rows - 1;
-    while (row >= 0 && s->row[row] != method) row--;
-    return row;
-}
-
-/* The cells of the matrix: of each system those from its first start with its first step. */
-static void choose_cells(screen *s)
-{
-    for (int k = 0; k < s->columns; k++) {
-        const study_case *e = s->column[k];
-        for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
-            const study_cell *c = &s->plan->cells[i];
-            const int row = find_row(s, s->of_cell[i]);
-            if (row >= 0 && c->start == study_first_start(e) && c->step == e->step[0] &&
-                (c->tolerance == 0.0 || c->tolerance == e->tolerance[0]))
-                s->cell[row][k] = c;
-        }
-    }
-}
 
 /* ---- the matrix ---------------------------------------------------------------------------- */
 
@@ -196,7 +54,7 @@ static int get_colour(const dal_trend *trend)
     return study_is_at_rounding(trend) ? CYAN : RED;
 }
 
-static void put_cell(FILE *out, const screen *s, const study_cell *c, int quantity)
+static void put_cell(FILE *out, bool in_colour, const study_cell *c, int quantity)
 {
     static const char *const states[STUDY_STATES] = {
         [STUDY_WAITING] = "..", [STUDY_FAILED] = "fail", [STUDY_REFUSED] = "ref."};
@@ -212,7 +70,7 @@ static void put_cell(FILE *out, const screen *s, const study_cell *c, int quanti
         const double decade = fmax(-99.0, fmin(99.0, floor(log10(x))));
         snprintf(text, sizeof text, isinf(x) ? "inf" : "%s%+03.0f", letter, decade);
     }
-    if (s->in_colour)
+    if (in_colour)
         fprintf(out, " \033[%dm%*s\033[0m",
                 trend && study_is_stated(trend) ? get_colour(trend) : FAINT, CELL - 1, text);
     else
@@ -220,7 +78,7 @@ static void put_cell(FILE *out, const screen *s, const study_cell *c, int quanti
 }
 
 /* A system has a column where something can be stated of it. */
-static bool has_column(const screen *s, int column, int quantity)
+static bool has_column(const study_matrix *s, int column, int quantity)
 {
     bool has = quantity == CONSTRAINT && s->column[column]->system->m > 0;
     for (int i = 0; i < s->rows && !has; i++) {
@@ -230,9 +88,9 @@ static bool has_column(const screen *s, int column, int quantity)
     return has;
 }
 
-static void print_matrix(FILE *out, const screen *s, int quantity)
+static void print_matrix(FILE *out, const study_matrix *s, int quantity, bool in_colour)
 {
-    bool is_shown[SYSTEMS];
+    bool is_shown[STUDY_COLUMNS];
     int shown = 0, width = (int)strlen(quantities[quantity].heading);
     for (int k = 0; k < s->columns; k++) shown += is_shown[k] = has_column(s, k, quantity);
     if (shown == 0) return;
@@ -248,7 +106,7 @@ static void print_matrix(FILE *out, const screen *s, int quantity)
             if (i < 0)
                 fprintf(out, " %*d", CELL - 1, k + 1);
             else
-                put_cell(out, s, s->cell[i][k], quantity);
+                put_cell(out, in_colour, s->cell[i][k], quantity);
         }
         fputc('\n', out);
     }
@@ -256,7 +114,7 @@ static void print_matrix(FILE *out, const screen *s, int quantity)
 
 /* ---- legends ------------------------------------------------------------------------------- */
 
-static void print_systems(FILE *out, const screen *s)
+static void print_systems(FILE *out, const study_matrix *s)
 {
     put_cut(out, s->plan->title, WIDTH, false);
     for (int k = 0; k < s->columns; k++) {
@@ -275,7 +133,7 @@ static void print_systems(FILE *out, const screen *s)
 }
 
 /* Whether a matrix has a number of E without a trend. */
-static bool has_energy_alone(const screen *s)
+static bool has_energy_alone(const study_matrix *s)
 {
     for (int i = 0; i < s->rows; i++)
         for (int k = 0; k < s->columns; k++) {
@@ -285,7 +143,7 @@ static bool has_energy_alone(const screen *s)
     return false;
 }
 
-static void print_key(FILE *out, const screen *s)
+static void print_key(FILE *out, const study_matrix *s)
 {
     int column = fprintf(out, "l-08: trend, decade.");
     for (int i = 0; i < DAL_TREND_ABORTED; i++) {
@@ -327,7 +185,7 @@ static int put_wrapped(FILE *out, const char *text)
     return column;
 }
 
-static void say_fates(FILE *out, const screen *s, int quantity)
+static void say_fates(FILE *out, const study_matrix *s, int quantity)
 {
     int sum[FATES] = {0}, runs = 0;
     char *text;
@@ -351,32 +209,15 @@ static void say_fates(FILE *out, const screen *s, int quantity)
     free(text);
 }
 
-/* What becomes of a quantity in all runs of an integrator: AT_ROUNDING where each keeps it, else
- * what is first said against that; FATES where it has no run.  E is to be kept on D = 0 alone. */
-static fate find_method_fate(const screen_method *m, int quantity)
-{
-    const int *count = m->count[quantity], *of_D = m->count[CONSTRAINT];
-    int runs = 0, on_D = of_D[AT_ROUNDING];
-    for (int k = 0; k < REFUSED; k++) runs += count[k];
-    if (runs == 0) return count[REFUSED] > 0 ? REFUSED : FATES;
-    if (count[FAILED] > 0) return FAILED;
-    if (count[ABORTED] > 0) return ABORTED;
-    for (int k = 0; k < REFUSED; k++) on_D -= of_D[k];
-    if (count[OFF_SURFACE] > 0 || (quantity == ENERGY && on_D < 0)) return OFF_SURFACE;
-    if (count[UNDECIDED] > 0 && count[DRIFTING] == 0) return UNDECIDED;
-    const int kept = quantity == CONSTRAINT ? count[AT_ROUNDING] : m->kept[quantity];
-    return kept == runs ? AT_ROUNDING : DRIFTING;
-}
-
 /* The integrators that keep a quantity in all of their runs, as many as fit a line. */
-static void say_methods(FILE *out, const screen *s, int quantity, const char *what)
+static void say_methods(FILE *out, const study_matrix *s, int quantity, const char *what)
 {
     static const char more[] = ", ...";
     int count[FATES] = {0}, all = 0, listed = 0;
     char *text;
     size_t length;
     for (int i = 0; i < s->method_count; i++) {
-        const fate of_method = find_method_fate(&s->methods[i], quantity);
+        const fate of_method = study_method_fate(&s->methods[i], quantity);
         if (of_method == FATES) continue;
         count[of_method]++;
         all++;
@@ -388,8 +229,8 @@ static void say_methods(FILE *out, const screen *s, int quantity, const char *wh
     cli_memstream_close(line);
     int column = put_wrapped(out, text);
     for (int i = 0; i < s->method_count; i++) {
-        const screen_method *m = &s->methods[i];
-        if (find_method_fate(m, quantity) != AT_ROUNDING) continue;
+        const study_method *m = &s->methods[i];
+        if (study_method_fate(m, quantity) != AT_ROUNDING) continue;
         if (column + 2 + strlen(m->name) > WIDTH - (sizeof more - 1)) break;
         column += fprintf(out, "%s%s", listed++ ? ", " : ": ", m->name);
     }
@@ -398,7 +239,7 @@ static void say_methods(FILE *out, const screen *s, int quantity, const char *wh
 }
 
 /* What the lift adds on p = pi = 0; returns whether the study has such runs. */
-static bool say_lift(FILE *out, const screen *s)
+static bool say_lift(FILE *out, const study_matrix *s)
 {
     int pairs = 0, same = 0, others[FATES] = {0};
     char *text;
@@ -430,7 +271,7 @@ static double seconds_per_step(const study_cell *c)
     return c->state == STUDY_FINISHED && c->steps > 0 ? c->seconds / (double)c->steps : NAN;
 }
 
-static void say_speed(FILE *out, const screen *s)
+static void say_speed(FILE *out, const study_matrix *s)
 {
     const study_cell *fastest = NULL, *slowest = NULL;
     char fast[STUDY_NAME], slow[STUDY_NAME];
@@ -451,7 +292,7 @@ static void say_speed(FILE *out, const screen *s)
     free(line);
 }
 
-static void print_sentences(FILE *out, const screen *s)
+static void print_sentences(FILE *out, const study_matrix *s)
 {
     say_fates(out, s, CONSTRAINT);
     say_methods(out, s, CONSTRAINT, "keep D at rounding in every run");
@@ -517,7 +358,8 @@ static void print_runs(FILE *out, const study_plan *plan)
 /* The parts from top to bottom: a matrix for each quantity is between the legend and the key. */
 enum { LEGEND, MATRIX, KEY = MATRIX + QUANTITIES, SENTENCES, END, PARTS };
 
-static void print_part(FILE *out, const screen *s, int part, const char *tables)
+static void print_part(FILE *out, const study_matrix *s, int part, const char *tables,
+                       bool in_colour)
 {
     if (part == LEGEND) {
         print_systems(out, s);
@@ -530,7 +372,7 @@ static void print_part(FILE *out, const screen *s, int part, const char *tables)
         print_runs(out, s->plan);
         fprintf(out, "Tables: %s\n", tables ? tables : "'dalembert merge' makes them");
     } else {
-        print_matrix(out, s, part - MATRIX);
+        print_matrix(out, s, part - MATRIX, in_colour);
     }
 }
 
@@ -547,19 +389,14 @@ static int count_lines(const char *text)
 /* The last matrices are left out where they do not fit; blank lines fill what is left. */
 void study_print_screen(FILE *out, const study_plan *plan, const char *tables, bool in_colour)
 {
-    screen s = {.plan = plan, .in_colour = in_colour};
+    study_matrix s;
+    study_matrix_make(&s, plan);
     char *text[PARTS];
     size_t length;
     int lines = 0;
-    list_methods(&s);
-    index_cells(&s);
-    choose_rows(&s);
-    choose_columns(&s);
-    choose_cells(&s);
-    count_runs(&s);
     for (int i = 0; i < PARTS; i++) {
         FILE *part = cli_memstream_open(&text[i], &length);
-        print_part(part, &s, i, tables);
+        print_part(part, &s, i, tables, in_colour);
         cli_memstream_close(part);
         lines += count_lines(text[i]);
     }
@@ -575,6 +412,5 @@ void study_print_screen(FILE *out, const study_plan *plan, const char *tables, b
         fputs(text[i], out);
         free(text[i]);
     }
-    free(s.of_cell);
-    free(s.methods);
+    study_matrix_free(&s);
 }

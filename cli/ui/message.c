@@ -2,6 +2,7 @@
 #include "message.h"
 #include "clock.h"
 #include "signals.h"
+#include "wrap.h"
 
 #include <errno.h>
 #include <pthread.h>
@@ -12,6 +13,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+enum { HANGING = 4 };
 enum { MESSAGE_SIZE = 8192 }; /* more than the longest path */
 
 int cli_exit(dal_status status)
@@ -104,7 +106,10 @@ static void print_message(const char *format, va_list list)
     cli_progress_end();
     /* Where both go to one place, the message follows the rows. */
     fflush(stdout);
-    fprintf(stderr, "dalembert: %s%s\n", message, length < MESSAGE_SIZE ? "" : "...");
+    if (isatty(STDERR_FILENO) && length < MESSAGE_SIZE)
+        cli_wrap_to(stderr, message, fprintf(stderr, "dalembert: "), HANGING, cli_width());
+    else
+        fprintf(stderr, "dalembert: %s%s\n", message, length < MESSAGE_SIZE ? "" : "...");
 }
 
 int cli_fail(int exit_status, const char *format, ...)

@@ -18,16 +18,16 @@ try 0 run $circle --output /dev/null
 silent
 mkdir held.d
 try 0 run $circle --output held.d
-says "^dalembert: 'held.d' is a directory$"
+says "^dalembert: wrote the directory 'held.d'$"
 
 case_is "a directory is announced"
 for output in h0.1 ./plain; do
     try 0 run $circle -o $output
-    says "^dalembert: '$output' is a directory$"
+    says "^dalembert: wrote the directory '$output'$"
     expect "no rows in $output" test -s $output/trajectory.npy
 done
 try 0 lyapunov knife-edge --integrator gauss4 --step 0.1 --time 2 --rows 4 --output means
-says "^dalembert: 'means' is a directory$"
+says "^dalembert: wrote the directory 'means'$"
 try 0 run $circle -o rows.csv
 silent
 
@@ -119,7 +119,7 @@ if needs 5 "no terminal (script, stty)" terminal; then
     script -qec "'$program' $slow | cat >piped" shown </dev/null >/dev/null
     expect "other rows" cmp rows piped
     expect "no line of progress" grep -q 't = [0-9.]* ([0-9]* %), ' shown
-    script -qec "stty cols 100; '$program' $slow" both </dev/null >/dev/null
+    script -qec "stty cols 100; '$program' $slow --output -" both </dev/null >/dev/null
     expect "no line of progress beside rows" grep -q 't = [0-9.]* ([0-9]* %), ' both
     # What a terminal shows of it: each \r begins the line again.
     tr -d '\000' <both | sed 's/\r$//; s/.*\r//' | grep '^[0-9t.e+-]*,[a-z0-9.e+-]*$' >left

@@ -1,0 +1,36 @@
+/* study_matrix.h - which integrators and systems of a study its screens show, and what becomes of D
+ * and E under each integrator. */
+#ifndef DAL_CLI_STUDY_MATRIX_H
+#define DAL_CLI_STUDY_MATRIX_H
+
+#include "study_fate.h"
+#include "study_plan.h"
+
+enum { STUDY_COLUMNS = 12 };
+
+/* An integrator, its name, and how many of its runs have which fate; in how many a quantity is at
+ * rounding, or bounded and kept to that part. */
+typedef struct study_method {
+    char name[STUDY_NAME];
+    int count[QUANTITIES][FATES], kept[QUANTITIES];
+} study_method;
+
+typedef struct study_matrix {
+    const study_plan *plan;
+    study_method *methods; /* all of the study */
+    int method_count;
+    study_method **of_cell; /* [cells of the plan] */
+    const study_method *row[STUDY_REPRESENTATIVES];
+    const study_case *column[STUDY_COLUMNS];
+    int rows, columns;
+    const study_cell *cell[STUDY_REPRESENTATIVES][STUDY_COLUMNS]; /* NULL: the study has none */
+} study_matrix;
+
+/* Chooses rows, columns and cells, and counts the runs; free it. */
+void study_matrix_make(study_matrix *matrix, const study_plan *plan);
+void study_matrix_free(study_matrix *matrix);
+/* What becomes of a quantity in all runs of an integrator: AT_ROUNDING where each keeps it, else
+ * what is first said against that; FATES where it has no run.  E is to be kept on D = 0 alone. */
+fate study_method_fate(const study_method *m, int quantity);
+
+#endif

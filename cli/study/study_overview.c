@@ -1,0 +1,187 @@
+/* study_overview.c - the results of a study on a terminal.
+ *
+ * A table of integrators and systems, D and E beside each other, and how many runs of each
+ * integrator are at rounding where not all systems fit; then the integrators to take. */
+#include "study_overview.h"
+
+#include "study_matrix.h"
+#include "study_sentences.h"
+#include "ui/memory.h"
+#include "ui/name_groups.h"
+#include "ui/screen.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { LINES = SCREEN_LINES - 1, CELL = 8, COUNTS = 12, ROW_NAME = 20 };
+
+/* The systems of the table: short names, and which quantities they have. */
+typedef struct overview {
+    const study_plan *plan;
+    study_matrix matrix;
+    screen screen;
+    char name[STUDY_COLUMNS][STUDY_SHORT_NAME];
+    bool has[STUDY_COLUMNS][QUANTITIES];
+    int columns; /* systems that fit; the others are in the counts */
+} overview;
+
+/* ---- the table ----------------------------------------------------------------------------- */
+
+/* Which quantities the systems have, and how many of them fit beside the names and, where some are
+ * left out, the counts. */
+static void fit_systems(overview *o)
+{
+    const study_matrix *m = &o->matrix;
+    int width = ROW_NAME;
+    for (int i = 0; i < m->columns; i++) {
+        bool *has = o->has[i];
+        for (int k = 0; k < m->rows * QUANTITIES; k++) {
+            const study_cell *c = m->cell[k / QUANTITIES][i];
+            has[k % QUANTITIES] |= c && study_get_trend(c, k % QUANTITIES);
+        }
+        has[CONSTRAINT] |= m->column[i]->system->m > 0;
+        /* The error is for what has nothing to conserve. */
+        has[ERROR] = has[ERROR] && !has[CONSTRAINT] && !has[ENERGY];
+        width += CELL * (has[CONSTRAINT] + has[ENERGY] + has[ERROR]);
+        const bool is_last = i == o->plan->case_count - 1;
+        if (o->columns == i && width + (is_last ? 0 : COUNTS) <= o->screen.width) o->columns++;
+    }
+}
+
+/* The heads, in rows -2 and -1, and some of the rows. */
+static void add_table(overview *o, int rows)
+{
+    static const char *const heads[QUANTITIES] = {"D", "E", "error"};
+    const study_matrix *m = &o->matrix;
+    const bool has_counts = o->columns < o->plan->case_count;
+    screen_table t = {.gap = 1};
+    for (int k = 0; k < (rows + 2) * (o->columns + 1) * QUANTITIES; k++) {
+        const int row = k / QUANTITIES / (o->columns + 1) - 2;
+        const int i = k / QUANTITIES % (o->columns + 1), q = k % QUANTITIES;
+        const bool is_count = i == o->columns, is_first = q == CONSTRAINT || !o->has[i][CONSTRAINT];
+        if (i == 0 && q == 0)
+            screen_add_cell(&t, SCREEN_PLAIN, "%s", row < 0 ? "" : m->row[row]->name);
+        if (is_count ? !has_counts || q == ERROR : !o->has[i][q]) continue;
+        if (row == -2)
+            screen_add_cell(&t, SCREEN_PLAIN, "%s",
+                            is_count   ? (q == CONSTRAINT ? "ok in" : "all")
+                            : is_first ? o->name[i]
+                                       : "");
+        else if (row == -1)
+            screen_add_cell(&t, SCREEN_PLAIN, "%s", heads[q]);
+        else if (is_count)
+            study_add_count(&t, m->row[row], q);
+        else
+            study_add_size(&t, m->cell[row][i], q);
+        if (row == -2) t.columns = t.cells;
+    }
+    screen_add_table(&o->screen, &t, "l", 0);
+    screen_free_table(&t);
+}
+
+/* ---- sentences ----------------------------------------------------------------------------- */
+
+static void say_runs(overview *o)
+{
+    const study_plan *plan = o->plan;
+    int runs = 0, count[STUDY_STATES] = {0};
+    const study_cell *failed = NULL;
+    char number[SCREEN_NUMBER], seconds[SCREEN_NUMBER], states[160] = "", name[STUDY_NAME];
+    for (int i = 0; i < plan->cell_count; i++) {
+        const study_cell *c = &plan->cells[i];
+        if (c->other_shard) continue;
+        runs++;
+        count[c->state]++;
+        if (!failed && c->state == STUDY_FAILED) failed = c;
+    }
+    for (int i = 0; i < STUDY_STATES; i++)
+        if (count[i] > 0 && count[i] < runs)
+            snprintf(states + strlen(states), sizeof states - strlen(states), ", %d %s", count[i],
+                     study_state_words[i]);
+    screen_say(&o->screen, 2, "%s: %d methods x %d systems, %s runs in %s%s", plan->title,
+               o->matrix.method_count, plan->case_count, screen_count(number, runs),
+               screen_seconds(seconds, plan->seconds), states);
+    if (failed)
+        screen_say(&o->screen, 4, "  failed first: %s on %s: %s",
+                   dal_method_name(failed->method, name, sizeof name), failed->of_case->label,
+                   failed->error.message);
+}
+
+/* Which integrators keep D, E, and both in all of their runs. */
+static void say_take(overview *o)
+{
+    static const char *const heads[] = {"Take for D:   ", "  for E (1 %): ", "  for both:   "};
+    const study_matrix *m = &o->matrix;
+    const char **names = cli_calloc((size_t)m->method_count + 1, sizeof *names);
+    bool *is_in = cli_calloc((size_t)m->method_count + 1, sizeof *is_in);
+    for (int k = 0; k < 3; k++) {
+        int count = 0;
+        bool applies = false;
+        for (int i = 0; i < m->method_count; i++) {
+            const fate D = study_method_fate(&m->methods[i], CONSTRAINT),
+                       E = study_method_fate(&m->methods[i], ENERGY);
+            const bool keeps_D = D == AT_ROUNDING, keeps_E = E == AT_ROUNDING;
+            if (D == REFUSED || (k != 1 && D == FATES) || (k != 0 && E == FATES)) continue;
+            names[count] = m->methods[i].name;
+            is_in[count++] = k == 0 ? keeps_D : k == 1 ? keeps_E : keeps_D && keeps_E;
+            applies = true;
+        }
+        if (!applies) continue;
+        char *text = name_groups(names, is_in, count, o->screen.width - (int)strlen(heads[k]));
+        screen_say(&o->screen, (int)strlen(heads[k]), "%s%s", heads[k], text);
+        free(text);
+    }
+    free(names);
+    free(is_in);
+}
+
+int study_print_overview(FILE *to, const study_plan *plan, const char *tables)
+{
+    /* Lines after the rows, and of them those of the key. */
+    enum { BELOW = 10, BELOW_NARROW = 12, KEY_LINES = 8 };
+    static const char *const key[] = {"ok: rounding",       "/ grows like t",
+                                      "^ faster",           "~ slower",
+                                      "? too short to say", "( ) not stated: D is not 0",
+                                      "x failed",           "n/a refused"};
+    overview o = {.plan = plan};
+    study_matrix_make(&o.matrix, plan);
+    screen_open(&o.screen, to);
+    study_name_columns(&o.matrix, o.name);
+    fit_systems(&o);
+    char *range = study_describe_range(plan);
+    screen_say(&o.screen, 2, "Largest |D| and |E - E0| %s", range);
+    free(range);
+    say_runs(&o);
+    study_say_expectations(&o.screen, plan);
+    const int room = LINES - screen_count_lines(&o.screen) -
+                     (o.screen.width < SCREEN_COLUMNS ? BELOW_NARROW : BELOW);
+    const int rows = o.matrix.rows <= room ? o.matrix.rows : room > 1 ? room - 1 : 1;
+    add_table(&o, rows);
+    const int systems = plan->case_count - o.columns, methods = o.matrix.rows - rows;
+    if (systems > 0 && methods > 0)
+        screen_say(&o.screen, 2, "... and %d more systems, %d more methods (--details)", systems,
+                   methods);
+    else if (systems + methods > 0)
+        screen_say(&o.screen, 2, "... and %d more %s (--details)", systems + methods,
+                   systems > 0 ? "systems" : "methods");
+    screen_say_items(&o.screen, key, sizeof key / sizeof *key, KEY_LINES, "");
+    say_take(&o);
+    /* The first cell of the table that drifts. */
+    const study_cell *next = NULL;
+    for (int k = 0; k < o.matrix.rows * o.columns && !next; k++) {
+        const study_cell *c = o.matrix.cell[k / o.columns][k % o.columns];
+        const dal_trend *trend = c ? study_get_trend(c, CONSTRAINT) : NULL;
+        if (trend && !study_is_at_rounding(trend) && study_is_drifting(trend)) next = c;
+    }
+    char method[STUDY_NAME], *command = NULL;
+    if (next)
+        command = cli_format("dalembert explain %s --integrator %s --step %g --time %g",
+                             study_case_system(next->of_case),
+                             dal_method_name(next->method, method, sizeof method), next->step,
+                             study_case_end(next->of_case, next->step));
+    if (next) screen_say_command(&o.screen, "Next:", command);
+    free(command);
+    screen_say(&o.screen, 2, "Tables: %s", tables ? tables : "'dalembert merge' makes them");
+    study_matrix_free(&o.matrix);
+    return screen_close(&o.screen, "--details");
+}

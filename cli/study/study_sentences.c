@@ -1,0 +1,124 @@
+/* study_sentences.c - cells and sentences of the screen of a study on a terminal. */
+#include "study_sentences.h"
+
+#include "study_compare.h"
+#include "ui/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Expectations that are not met and are shown. */
+enum { MAX_UNMET = 2 };
+
+/* Whether a part of the label of a column between hyphens and underscores is in no other label; the
+ * first such part becomes the name, or else the last one. */
+static bool find_name(const study_matrix *m, int column, bool is_cut, char name[STUDY_SHORT_NAME])
+{
+    bool found = false;
+    const char *part = m->column[column]->label;
+    for (size_t length; !found && *part; part += length + (part[length] != '\0')) {
+        length = strcspn(part, "-_");
+        if (strcmp(part + strcspn(part, "."), ".yaml") == 0) length = strcspn(part, ".");
+        if (length >= STUDY_SHORT_NAME && !is_cut) continue;
+        snprintf(name, STUDY_SHORT_NAME, "%.*s", (int)length, part);
+        int k = 0;
+        while (k < m->columns && (k == column || !strstr(m->column[k]->label, name))) k++;
+        found = k == m->columns;
+    }
+    return found;
+}
+
+void study_name_columns(const study_matrix *m, char (*name)[STUDY_SHORT_NAME])
+{
+    for (int i = 0; i < m->columns; i++) {
+        const bool found = find_name(m, i, false, name[i]) || find_name(m, i, true, name[i]);
+        for (int k = 0; !found && k < i; k++)
+            if (strcmp(name[i], name[k]) == 0)
+                snprintf(name[i], STUDY_SHORT_NAME, "%.4s%d", name[k], (i + 1) % 100);
+    }
+}
+
+void study_add_size(screen_table *t, const study_cell *c, int quantity)
+{
+    static const char *const states[STUDY_STATES] = {
+        [STUDY_WAITING] = "...", [STUDY_FAILED] = "x", [STUDY_REFUSED] = "n/a"};
+    static const char *const marks[DAL_TREND_COUNT] = {
+        [DAL_TREND_NONE] = "",     [DAL_TREND_SETTLES] = "",    [DAL_TREND_RANDOM_WALK] = "~",
+        [DAL_TREND_LINEAR] = "/",  [DAL_TREND_POWER] = "^",     [DAL_TREND_EXPONENTIAL] = "^",
+        [DAL_TREND_GROWING] = "^", [DAL_TREND_UNDECIDED] = "?", [DAL_TREND_ABORTED] = "x"};
+    const char *state = c ? states[c->state] : "-";
+    const dal_trend *trend = c && !state ? study_get_trend(c, quantity) : NULL;
+    char size[SCREEN_NUMBER];
+    if (!trend) {
+        screen_add_cell(t, c && c->state == STUDY_FAILED ? SCREEN_LARGE : SCREEN_FAINT, "%s",
+                        state ? state : "-");
+        return;
+    }
+    const double x = quantity == ENERGY ? trend->deviation : trend->max_abs;
+    screen_number(size, x, 1);
+    if (!study_is_stated(trend)) {
+        screen_add_cell(t, SCREEN_FAINT, "(%s)", size);
+    } else if (study_is_at_rounding(trend)) {
+        screen_add_cell(t, SCREEN_ROUNDING, "ok");
+    } else {
+        const bool is_slow = trend->trend == DAL_TREND_POWER && trend->exponent < 1.0;
+        screen_add_cell(t, screen_colour_of(x), "%s%s", size, is_slow ? "~" : marks[trend->trend]);
+    }
+}
+
+void study_add_count(screen_table *t, const study_method *m, int quantity)
+{
+    int runs = 0;
+    for (int k = 0; k < REFUSED; k++) runs += m->count[quantity][k];
+    const int ok = m->count[quantity][AT_ROUNDING];
+    if (runs == 0)
+        screen_add_cell(t, SCREEN_FAINT, "-");
+    else
+        screen_add_cell(t, ok == runs ? SCREEN_ROUNDING : SCREEN_PLAIN, "%d/%d", ok, runs);
+}
+
+char *study_describe_range(const study_plan *plan)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {0.0, 0.0};
+    char text[2][2][SCREEN_NUMBER];
+    for (int i = 0; i < plan->case_count; i++) {
+        const study_case *e = &plan->cases[i];
+        const double x[] = {study_case_end(e, e->step[0]), fabs(e->step[0])};
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], x[k]);
+            high[k] = fmax(high[k], x[k]);
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        screen_number(text[k][0], low[k], 3);
+        screen_number(text[k][1], high[k], 3);
+    }
+    return cli_format("until t = %s%s%s, h = %s%s%s", text[0][0], low[0] < high[0] ? " .. " : "",
+                      low[0] < high[0] ? text[0][1] : "", text[1][0],
+                      low[1] < high[1] ? " .. " : "", low[1] < high[1] ? text[1][1] : "");
+}
+
+void study_say_expectations(screen *s, const study_plan *plan)
+{
+    const study_comparisons all = study_compare(plan);
+    for (int i = 0, shown = 0; i < all.count && shown < MAX_UNMET; i++) {
+        char *line;
+        size_t length;
+        if (all.item[i].is_met) continue;
+        FILE *text = cli_memstream_open(&line, &length);
+        study_print_comparison(text, &all.item[i], false);
+        cli_memstream_close(text);
+        line[strcspn(line, "\n")] = '\0';
+        screen_say(s, 4, "  %s", line);
+        free(line);
+        shown++;
+    }
+    if (plan->expectation_count > 0) {
+        const int compared = all.count, met = all.count - all.unmet;
+        char numbers[2][SCREEN_NUMBER];
+        screen_say(s, 2, "Expectations: %s of %s are met", screen_count(numbers[0], met),
+                   screen_count(numbers[1], compared));
+    }
+    free(all.item);
+}

@@ -1,0 +1,100 @@
+/* screen.h - what a person reads on a terminal: at most 24 lines of at most 80 columns.
+ *
+ * Pipes and files get data; a terminal gets a screen, which states the result first.  A screen is
+ * made in memory and printed as a whole.  What does not fit is counted, with the option that prints
+ * it.  Colours are for terminals only, and never say what no word or mark says. */
+#ifndef DAL_CLI_SCREEN_H
+#define DAL_CLI_SCREEN_H
+
+#include "message.h"
+
+#include <stdbool.h>
+
+enum { SCREEN_LINES = 24, SCREEN_COLUMNS = 80, SCREEN_NUMBER = 32 };
+
+/* The palette: rounding, then larger sizes by decades; faint is what is not stated. */
+typedef enum screen_colour {
+    SCREEN_PLAIN,
+    SCREEN_ROUNDING,
+    SCREEN_SMALL,
+    SCREEN_MEDIUM,
+    SCREEN_LARGE,
+    SCREEN_FAINT,
+    SCREEN_COLOURS
+} screen_colour;
+
+typedef struct screen {
+    FILE *out; /* the text as it is made; whatever is written there is printed in the end */
+    FILE *to;  /* a terminal */
+    int width; /* columns */
+    bool in_colour;
+    char *text;
+    size_t length;
+} screen;
+
+/* Whether a person reads standard output: it is a terminal. */
+bool screen_has_reader(void);
+/* The terminal for a summary: standard output, or else standard error; NULL: neither is one. */
+FILE *screen_terminal(void);
+/* Whether a terminal gets colours (https://no-color.org). */
+bool screen_is_in_colour(FILE *to);
+
+/* The row of --details in a table of options. */
+#define SCREEN_DETAILS_OPTION(settings)                                                            \
+    {                                                                                              \
+        "details", NULL, NULL, "prints on a terminal what a pipe gets",                            \
+            CLI_FLAG(settings, details)                                                            \
+    }
+
+/* Begins a screen; screen_close prints it and ends it.  more is the option that prints what does
+ * not fit; NULL: the screen may have any number of lines.  Returns CLI_DONE, or prints and returns
+ * CLI_IO. */
+void screen_open(screen *s, FILE *to);
+int screen_close(screen *s, const char *more);
+
+/* Adds a paragraph, whose second and later lines begin in column hanging. */
+void screen_say(screen *s, int hanging, const char *format, ...) CLI_PRINTF(3, 4);
+/* Adds a command after a head, on lines of its own where it is long, with backslashes. */
+void screen_say_command(screen *s, const char *head, const char *command);
+/* Adds items side by side on at most that number of lines, and counts the others. */
+void screen_say_items(screen *s, const char *const *items, int count, int lines, const char *more);
+/* The lines so far. */
+int screen_count_lines(screen *s);
+/* Adds an empty line. */
+void screen_skip(screen *s);
+
+/* Names between commas, as many as fit into columns, then "... and 12 more"; allocated. */
+char *screen_list_names(const char *const *names, int count, int columns);
+
+/* A table of texts: rows of the same number of cells, added one by one.  Begin with
+ * {.columns = n}; free it. */
+typedef struct screen_cell {
+    char *text;
+    screen_colour colour;
+} screen_cell;
+
+typedef struct screen_table {
+    int columns, cells, capacity;
+    int gap; /* blanks between columns; 0: 2 */
+    screen_cell *cell;
+} screen_table;
+
+void screen_add_cell(screen_table *t, screen_colour colour, const char *format, ...)
+    CLI_PRINTF(3, 4);
+/* Adds a table to a screen.  align has a letter for each column, the last one for all others: l, r,
+ * and w for a last column whose text is wrapped.  Columns that do not fit are left out: returns how
+ * many. */
+int screen_add_table(screen *s, const screen_table *t, const char *align, int indent);
+void screen_free_table(screen_table *t);
+
+/* A number with some significant digits, without zeros in its exponent: 5.2e-8, 12.3, 20000.
+ * Returns text. */
+const char *screen_number(char text[SCREEN_NUMBER], double x, int digits);
+/* A count with commas between thousands: 20,000.  Returns text. */
+const char *screen_count(char text[SCREEN_NUMBER], long long count);
+/* A time with its unit: "0.02 s", "3.1 min".  Returns text. */
+const char *screen_seconds(char text[SCREEN_NUMBER], double seconds);
+/* The colour of a size that is no rounding. */
+screen_colour screen_colour_of(double size);
+
+#endif

@@ -1,0 +1,171 @@
+# What a person sees: screens of at most 24 lines that fit a terminal of 80 or 60 columns.  A terminal is a
+# pseudo-terminal of `script` (util-linux; Debian's bsdutils), its width set by `stty` (coreutils).
+
+# shown COLUMNS ARGUMENT...: what a terminal of that width shows of the program, colours included, in `out`.  Each
+# \r begins the line again, as after a line of progress.
+shown() {
+    shown_columns=$1
+    shift
+    script -qec "stty cols $shown_columns rows 50; TERM=xterm '$program' $*" /dev/null </dev/null |
+        sed 's/\r$//; s/.*\r//' >out
+    : >err
+}
+escape=$(printf "\\033\\\\[")
+# fits COLUMNS [LINES]: no line of `out` is longer, nor are there more.
+fits() {
+    sed "s/${escape}[0-9;]*m//g" out >plain
+    expect "longer than $1: $(awk -v n="$1" 'length($0) > n' plain | head -1)" awk "length(\$0) > $1 { exit 1 }" plain
+    expect "$(wc -l <plain) lines" test "$(wc -l <plain)" -le "${2:-24}"
+}
+
+sleigh="run chaplygin-sleigh --integrator rk4 --step 0.05 --time 1000"
+if needs 25 "no terminal (script, stty)" terminal; then
+    case_is "run: a screen instead of rows"
+    shown 80 $sleigh
+    fits 80
+    prints '^chaplygin-sleigh by rk4 on the lift \(14 variables\), h = 0\.05, t = 0 \.\. 1000$'
+    prints '^20,000 steps in [0-9.e-]* s$'
+    # The exact motion turns at phi' = 1.
+    prints "phi' = 1$"
+    prints '^  D1  .*linear.*  grows like t: 5\.2e-8 per unit of time,$'
+    prints '^  E  .*not stated.*conserved on D = 0 only'
+    prints '^  H, .*exact'
+    prints '^Rows:  -o FILE\.csv, or a pipe$'
+    prints '^  dalembert explain chaplygin-sleigh --integrator rk4 '
+    expect "no colour" grep -q "$escape" out
+    shown 60 $sleigh
+    fits 60
+    case_is "run: no colours with NO_COLOR"
+    script -qec "stty cols 80; NO_COLOR=1 TERM=xterm '$program' $sleigh" /dev/null </dev/null >out
+    refute "colours" grep -q "$escape" out
+    case_is "run: rows on a terminal on request alone; --summary changes nothing, --details the table"
+    shown 80 $sleigh --output -
+    prints '^t,y1,y2,phi,'
+    shown 80 $sleigh --summary
+    fits 80
+    prints '^  D1  .*linear'
+    shown 130 $sleigh --details
+    prints ' exponent +size +trend$'
+    case_is "run: a file and a directory are named"
+    shown 80 $sleigh -o rows.csv
+    prints '^Rows:  101 in rows\.csv$'
+    expect "no rows" has_lines rows.csv 102
+    shown 80 run chaplygin-sleigh -o sleigh
+    fits 80
+    prints '^Rows:  101 in sleigh/trajectory\.npy$'
+    prints "^dalembert: wrote the directory 'sleigh'$"
+    counted
+fi
+
+# D of the plane is constant and linear: every method keeps it; rk4 does not keep the sleigh's.
+cat >small.yaml <<'END'
+title: a small study
+integrators: [rk4, gauss4+project]
+step: 0.1
+time: 20
+starts: physical
+systems: [chaplygin-sleigh, plane.yaml]
+END
+{ echo "integrators: [rk4, gauss4, gauss6, spark2, spark4]"; echo "step: 0.1"; echo "time: 1"; echo "starts: physical"
+    echo "systems:"
+    for system in chaplygin-sleigh chaplygin-sleigh-nonlinear knife-edge plane.yaml vertical-disk contact-oscillator; do
+        echo "  - $system"
+    done
+} >wide.yaml
+if needs 27 "no terminal (script, stty)" terminal; then
+    case_is "study: names, ok or a size, and what to take"
+    shown 80 study small.yaml --output there --force --no-page
+    fits 80 23
+    prints '^Largest \|D\| and \|E - E0\| until t = 20, h = 0\.1$'
+    prints '^a small study: 2 methods x 2 systems, 4 runs in '
+    expect "other heads" grep -q '^ *sleigh  *plane$' plain
+    expect "other columns" grep -q '^ *D  *E  *D  *E$' plain
+    expect "rk4 keeps D" grep -Eq '^rk4 +[1-9]e-[0-9][/?^]? +\([1-9]e-[0-9]\) +ok +' plain
+    expect "gauss4+project does not keep D" grep -Eq '^gauss4\+project +ok .* ok +' plain
+    expect "others are to be taken" grep -q '^Take for D: *gauss4+project$' plain
+    expect "nothing to try next" grep -q 'dalembert explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 20$' plain
+    expect "no tables" grep -q '^Tables: there/tables.txt$' plain
+    expect "no green for rounding" grep -q "${escape}32mok" out
+    case_is "study: what a pipe gets comes with --details, the tables with --tables"
+    try 0 study small.yaml --output there --force --no-page
+    sed 's/ in [0-9.]* s:/ in S:/; /^A step takes /d' out >piped
+    shown 80 study small.yaml --output there --force --no-page --details
+    sed "s/${escape}[0-9;]*m//g; s/ in [0-9.]* s:/ in S:/; /^A step takes /d" out >plain
+    expect "another screen" cmp piped plain
+    shown 80 study small.yaml --output there --force --no-page --tables
+    prints '^chaplygin-sleigh: '
+    case_is "study: systems that do not fit are counted"
+    shown 80 study wide.yaml --output there --force --no-page
+    fits 80 23
+    expect "other names" grep -q '^ *sleigh  *nonline  *knife  *ok in all$' plain
+    prints '^\.\.\. and 3 more systems \(--details\)$'
+    # Stiff accuracy enforces D: spark2, spark4.  The six systems have a constraint each.
+    expect "other groups" grep -Eq '^Take for D: +spark\*' plain
+    expect "spark2 does not keep all" grep -Eq '^spark2 .* 6/6 ' plain
+    for columns in 60 40; do
+        shown $columns study wide.yaml --output there --force --no-page
+        fits $columns 23
+        prints '^\.\.\. and [0-9] more systems'
+    done
+    counted
+fi
+
+# y' = 2 y is not what `exact` and the invariant say.
+cat >wrong.yaml <<'END'
+coordinates: [x]
+lagrangian: x'^2/2 - x^2/2
+start: {x: 1}
+invariants: {pace: x'}
+exact: {x: cos(2*t)}
+END
+if needs 34 "no terminal (script, stty)" terminal; then
+    case_is "check: the result, what is conserved, which methods keep it"
+    shown 80 check chaplygin-sleigh
+    fits 80
+    prints '^3 coordinates, 1 constraint, growth \(2, 3\) on q: nonholonomic'
+    prints '^ok: [0-9]+ checks of '
+    prints '^  Conserved +E: conserved on D = 0 only; speed; spin$'
+    prints '^  D is kept by +spark\*, gauss-spark\*, '
+    prints '^  Refused +isokinetic-splitting: '
+    prints '^Take gauss-spark4 to begin with\.$'
+    for columns in 60 45; do
+        shown $columns check chaotic-oscillators
+        fits $columns
+    done
+    case_is "check: what failed comes first, with its likely cause"
+    script -qec "stty cols 80; '$program' check wrong.yaml; echo status \$?" /dev/null </dev/null | sed 's/\r$//' >out
+    fits 80 25
+    prints '^FAIL: invariant pace: '
+    prints '^FAIL: residual of q. = v, v. = F: '
+    prints '^    see exact: it does not solve the equations of motion$'
+    prints '^2 of [0-9]+ checks failed\.$'
+    prints '^status 1$'
+    case_is "check: what a pipe gets comes with --details"
+    try 0 check chaplygin-sleigh
+    mv out piped
+    shown 80 check chaplygin-sleigh --details
+    expect "other bytes" cmp piped out
+    case_is "section: the first crossings, as many columns as fit"
+    # The oscillator x = cos t crosses x = 0 at t = pi/2 + k pi, 32 times until t = 100: downwards first.
+    sed -i '/exact\|invariants/d' wrong.yaml
+    crossings="section wrong.yaml --on x --integrator gauss8 --step 0.1 --time 100"
+    for columns in 80 40; do
+        shown $columns $crossings
+        fits $columns
+        prints '^16 upwards, 16 downwards, 0 touches$'
+        prints '^ 1 +1\.5708  down '
+        prints '^\.\.\. and 20 more \(--details\)$'
+    done
+    prints '^[0-9]+ more columns: --details'
+    try 0 $crossings
+    mv out piped
+    shown 80 "$crossings --details 2>/dev/null"
+    expect "other rows" cmp piped out
+    counted
+fi
+
+case_is "a pipe has the rows, and a table of the summary on request"
+try 0 $sleigh --summary
+prints '^t,y1,y2,phi,'
+expect "not 102 lines" test "$(wc -l <out)" -eq 102
+says ' exponent +size +trend$'
