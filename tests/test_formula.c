@@ -384,6 +384,58 @@ static void test_out_of_memory(void)
     free(text);
 }
 
+/* x[1] is x. */
+static dal__node resolve_index(void *user, const char *name, size_t length, bool prime,
+                               dal_error *error)
+{
+    const bool is_index = length == 2 && name[1] == '1';
+    return formula_resolve(user, name, is_index ? 1 : length, prime, error);
+}
+
+/* A graph that holds no more than so many nodes: the status and the column are those of the token
+ * that needs the next one, be it of a number, a name, an index, an operation or a sum. */
+static void test_every_node(void)
+{
+    static const struct {
+        const char *text;
+        int column[8]; /* of the token that needs node 1, 2, ...; 0: no more, or not compared */
+    } cases[] = {{"7", {1}},
+                 {"x", {1}},
+                 {"pi", {1}},
+                 {"-x", {2, 3}},
+                 {"3 - x[1]", {1, 7, 8, 9}},
+                 {"sum(i, 4, 3, x)", {8, 11, 15}},
+                 {"sum(i, 4, 3, x) + y", {8, 11, 15, 19}},
+                 {"x'^2 + 3*y/(z/2)", {0}},
+                 {"x != y", {1, 6}},
+                 {"if(x < y, 5, 6)", {0}},
+                 {"min(x, y, 3)", {0}},
+                 {"sum(i, 1, 3, i*x)", {0}},
+                 {"sum(i, 1, 2, i)*sin(cos(y))", {0}}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        dal_status status = DAL_TOO_LARGE;
+        for (int limit = 0; status != DAL_OK && limit < 100; limit++) {
+            dal__graph *graph = formula_graph();
+            dal__node node = 0;
+            dal_error error = {.status = DAL_OK};
+            graph->limit = limit;
+            const dal__names names = {.resolve = resolve_index, .user = graph};
+            status =
+                dal__parse(graph, cases[i].text, strlen(cases[i].text), &names, &node, &error);
+            const int column = limit < 8 ? cases[i].column[limit] : 0;
+            CU_ASSERT_EQUAL(status, graph->status);
+            CU_ASSERT_EQUAL(status, error.status);
+            CU_ASSERT_EQUAL(status == DAL_OK, node > 0);
+            if (status != DAL_OK) CU_ASSERT_STRING_EQUAL(error.message, "the formula is too large");
+            if (status != DAL_OK && column) CU_ASSERT_EQUAL(error.column, column);
+            if (status != DAL_OK && column && error.column != column)
+                printf("\n%s, node %d: column %d\n", cases[i].text, limit + 1, error.column);
+            dal__graph_free(graph);
+        }
+        CU_ASSERT_EQUAL(status, DAL_OK);
+    }
+}
+
 void suite_formula(void)
 {
     CU_pSuite suite = CU_add_suite("formula", NULL, NULL);
@@ -398,6 +450,7 @@ void suite_formula(void)
     CU_add_test(suite, "names of functions", test_function_names);
     CU_add_test(suite, "deep nesting", test_deep_nesting);
     CU_add_test(suite, "long formulas", test_long_formulas);
+    CU_add_test(suite, "a graph that is full at each node", test_every_node);
     CU_add_test(suite, "ten thousand terms", test_many_terms);
     CU_add_test(suite, "out of memory", test_out_of_memory);
 }
