@@ -349,15 +349,17 @@ static dal_status classify_constraints(trial *t)
     return status;
 }
 
+/* Beside D = 0, where no number is 0. */
 static dal_status measure_scales(trial *t)
 {
     dal_evaluator *evaluator = NULL;
     double x[32], scales[16] = {0};
     dal_point at;
     dal_status status = begin(t, &evaluator, x, &at);
+    x[t->spec.system->n] += 0.1;
     if (!status)
         status = t->error.status = dal_evaluator_scales(evaluator, 0.0, at.q, at.v, scales);
-    add(t, scales, 1 + t->spec.system->m);
+    add(t, scales, t->spec.system->m + 1 + t->spec.system->invariants);
     dal_evaluator_free(evaluator);
     return status;
 }
@@ -553,6 +555,7 @@ static void test_measures(void)
     each_call_fails(sleigh, "gauss4", DAL_LIFTED, DIFFERENCES, check_maps);
     each_call_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, budget);
     each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, scale);
+    each_call_fails(swing, "rk4", DAL_PHYSICAL, 0.0, measure_scales);
     each_call_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_lyapunov);
 }
 

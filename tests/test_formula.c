@@ -392,7 +392,7 @@ static dal__node resolve_index(void *user, const char *name, size_t length, bool
     return formula_resolve(user, name, is_index ? 1 : length, prime, error);
 }
 
-/* A graph that holds no more than so many nodes: the status and the column are those of the token
+/* A graph that holds no more than a given number of nodes: the status and the column are those of the token
  * that needs the next one, be it of a number, a name, an index, an operation or a sum. */
 static void test_every_node(void)
 {
@@ -420,8 +420,7 @@ static void test_every_node(void)
             dal_error error = {.status = DAL_OK};
             graph->limit = limit;
             const dal__names names = {.resolve = resolve_index, .user = graph};
-            status =
-                dal__parse(graph, cases[i].text, strlen(cases[i].text), &names, &node, &error);
+            status = dal__parse(graph, cases[i].text, strlen(cases[i].text), &names, &node, &error);
             const int column = limit < 8 ? cases[i].column[limit] : 0;
             CU_ASSERT_EQUAL(status, graph->status);
             CU_ASSERT_EQUAL(status, error.status);
