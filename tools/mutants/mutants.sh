@@ -161,7 +161,7 @@ while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
     file=$(printf '%s\n' "$candidate" | cut -f1)
     line=$(printf '%s\n' "$candidate" | cut -f2)
     operator=$(printf '%s\n' "$candidate" | cut -f3)
-    line_text=$(printf '%s\n' "$candidate" | cut -f4-)
+    text=$(printf '%s\n' "$candidate" | cut -f4-)
     shown=$text
     [ "$operator" = deleted ] && shown="no $(sed -n "${line}p" "$file" | sed 's/^ *//')"
     if is_listed "$file" "$line" "$shown"; then
