@@ -320,12 +320,13 @@ $(FUZZERS:%=$(BUILD)/tests/%): %: %.o $(STATIC)
 lint: all $(BUILD)/generated/functions.h
 	@CC="$(CC)" BUILD=$(BUILD) sh tools/lint/lint.sh
 
-# Faults planted one by one: make mutants MODULE=lib/dynamics/section.c, or MODULE=cli OPERATORS=new;
+# Faults planted one by one: make mutants MODULE=lib/dynamics/section.c, MODULE=cli OPERATORS=new, or
+# MODULE=lib OPERATORS=bounds SANITIZE=1;
 # see tools/mutants/mutants.sh.
 SEED  ?= 1
 COUNT ?= 20
 mutants:
-	@CC="$(CC)" BUILD="$(BUILD)" OPERATORS="$(OPERATORS)" sh tools/mutants/mutants.sh "$(MODULE)" $(SEED) $(COUNT)
+	@CC="$(CC)" BUILD="$(BUILD)" OPERATORS="$(OPERATORS)" SANITIZE="$(SANITIZE)" sh tools/mutants/mutants.sh "$(MODULE)" $(SEED) $(COUNT)
 
 # The documents, and the reference of the public headers.
 docs:

@@ -1,5 +1,7 @@
 /* test_branches.c - systems whose formulas have branches: what is known of them, where they lose
  * smoothness, and motions against closed forms. */
+#include "allocation.h"
+#include "fixtures.h"
 #include "motion.h"
 #include "reference.h"
 #include <dalembert_analysis.h>
@@ -53,6 +55,7 @@ static const struct {
     {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - k*max(x, 0)^2", 1},
     {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - if(x > 0, k, 0)", DAL_JUMP_IMPULSE},
     {"lagrangian", "lagrangian: if(x > 0, 1, 2)*x'^2 + y'^2/2", DAL_JUMP_IMPULSE},
+    {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 + k*abs(y')", DAL_JUMP_IMPULSE},
     {"constraint 1", "constraints: [\"y' - if(x > 0, x', 0)\"]", DAL_JUMP_IMPULSE},
     {"constraint 1", "constraints: [\"y' - max(x, 0)*x'\"]", 0},
 };
@@ -79,6 +82,82 @@ static void test_jumps(void)
 {
     for (size_t i = 0; i < sizeof jumps / sizeof jumps[0]; i++)
         check_jump(jumps[i].formula, jumps[i].text, jumps[i].jump);
+}
+
+/* ---- what a run passes ---- */
+
+/* x = 1 + t, and with the force on x also x' = 1 + t; steps of 0.25, so that some states are on a
+ * surface.  There a node has no branch: it is passed in the step after. */
+enum { STEPS = 12 };
+static const struct {
+    const char *text;
+    int count;           /* of nodes whose branches are watched */
+    const char *formula; /* that is passed; NULL: none */
+    const char *at;      /* for each step, whether it passes */
+} passed[] = {
+    {"forces: {y: sign(x - 3.1)}", 1, "force on y", "000000001000"},
+    {"forces: {y: sign(3 - x)}", 1, "force on y", "000000001000"},
+    {"forces: {y: sign(x - 1)}", 1, NULL, "000000000000"},
+    {"forces: {y: \"if(x < 1.6 + t/5, 1, 0)\"}", 1, "force on y", "000100000000"},
+    {"forces: {y: floor(x + 0.1)}", 1, "force on y", "000100010001"},
+    {"forces: {y: abs(x - 2.1)}", 0, NULL, "000000000000"},
+    {"forces: {y: \"min(x, 2.1)\"}", 0, NULL, "000000000000"},
+    {"forces: {y: sign(x^2 + 1)}", 1, NULL, "000000000000"},
+    {"forces: {y: abs(x^2 + 1)}", 0, NULL, "000000000000"},
+    {"forces: {y: floor(x) - floor(x)}", 0, NULL, "000000000000"},
+    {"forces: {x: 1, y: abs(x' - 2.1)}", 1, "force on y", "000010000000"},
+    {"forces: {x: 1, y: \"max(x', 2.6)\"}", 1, "force on y", "000000100000"},
+    {"forces: {x: 1, y: f(x')}\n" TABLE("linear"), 1, "force on y", "000010000000"},
+    {"forces: {x: 1, y: f(x' - 2)}\n" TABLE("linear"), 1, "force on y", "000000100000"},
+    {"forces: {x: f(x)}\n" TABLE("linear"), 0, NULL, "000000000000"},
+    {"forces: {x: 1, y: sign(x' - 2.1) + sign(2.9 - x')}", 2, "force on y", "000010010000"},
+    {"forces: {x: \"if(y > 99, 0, 1)\", y: sign(x' - 2.1)}", 2, "force on y", "000010000000"},
+    {"constraints: [\"y' - if(x > 3.1, x', x'/4)\"]", 1, "constraint 1", "000000001000"},
+};
+
+static void check_passed(size_t i)
+{
+    char yaml[512], seen[STEPS + 1] = "";
+    dal_jumps *watched = NULL;
+    snprintf(yaml, sizeof yaml, FREE "lagrangian: (x'^2 + y'^2)/2\n%s\n", passed[i].text);
+    reference b = reference_of_text(yaml);
+    const dal_run_spec spec = fixture_spec(b.system, "symplectic-euler-00", DAL_PHYSICAL, 0.25);
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL_FATAL(dal_jumps_create(&watched, b.model), DAL_OK);
+    CU_ASSERT_EQUAL(dal_jumps_count(watched), passed[i].count);
+    CU_ASSERT_PTR_NULL(dal_jumps_passed(watched, run));
+    for (int k = 0; k < STEPS; k++) {
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        const char *formula = dal_jumps_passed(watched, run);
+        seen[k] = formula ? '1' : '0';
+        if (formula) CU_ASSERT_STRING_EQUAL(formula, passed[i].formula);
+    }
+    CU_ASSERT_STRING_EQUAL(seen, passed[i].at);
+    if (strcmp(seen, passed[i].at) != 0) printf("\n  %s: %s", passed[i].text, seen);
+    dal_jumps_free(watched);
+    dal_run_free(run);
+    reference_free(&b);
+}
+
+static void test_passed(void)
+{
+    for (size_t i = 0; i < sizeof passed / sizeof passed[0]; i++) check_passed(i);
+}
+
+/* Each time of another model, which keeps what is made for it. */
+static void test_jumps_memory(void)
+{
+    allocation_trial trial = {0};
+    while (allocation_next(&trial)) {
+        dal_jumps *watched = NULL;
+        reference b = reference_of_text(FREE "lagrangian: (x'^2 + y'^2)/2\n"
+                                             "forces: {y: sign(x - 3) + floor(x')}\n");
+        allocation_start(&trial);
+        const dal_status status = dal_jumps_create(&watched, b.model);
+        CU_ASSERT_EQUAL(watched == NULL, allocation_end(&trial, status));
+        dal_jumps_free(watched);
+        reference_free(&b);
+    }
 }
 
 /* ---- what is known of a system ---- */
@@ -176,6 +255,8 @@ void suite_branches(void)
 {
     CU_pSuite suite = CU_add_suite("branches", NULL, NULL);
     CU_add_test(suite, "what jumps", test_jumps);
+    CU_add_test(suite, "what a run passes", test_passed);
+    CU_add_test(suite, "jumps: out of memory", test_jumps_memory);
     CU_add_test(suite, "properties", test_properties);
     CU_add_test(suite, "guards", test_guards);
     CU_add_test(suite, "potentials with a kink", test_potential);

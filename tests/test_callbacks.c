@@ -245,6 +245,35 @@ static dal_status advance_batch(trial *t)
     return status;
 }
 
+/* With a parameter and a start that vary, and another one of each. */
+static dal_status make_ensemble(trial *t)
+{
+    const dal_system *s = t->spec.system;
+    const dal_setting parameter = {s->parameter[1], 1.5}, start = {s->coordinate[1], 0.25};
+    const char *const varied[] = {s->parameter[0], s->coordinate[0]};
+    dal_variation variations[2];
+    dal_ensemble *ensemble = NULL;
+    dal_run_spec spec = t->spec;
+    spec.parameters = &parameter, spec.parameter_count = 1;
+    spec.start = &start, spec.start_count = 1;
+    dal_status status = DAL_OK;
+    for (int i = 0; i < 2 && status == DAL_OK; i++) {
+        char text[80];
+        snprintf(text, sizeof text, "%s=uniform(1,1.25)", varied[i]);
+        status = dal_variation_parse(&variations[i], text, &t->error);
+    }
+    if (status == DAL_OK)
+        status = dal_ensemble_create(&ensemble, &spec, variations, 2, 1, 4, &t->error);
+    dal_ensemble_free(ensemble);
+    return status;
+}
+
+static dal_status observe_reactions(trial *t)
+{
+    t->spec.options.reactions = 1;
+    return observe(t);
+}
+
 static dal_status measure_lyapunov(trial *t)
 {
     dal_lyapunov *l = NULL;
@@ -349,15 +378,17 @@ static dal_status classify_constraints(trial *t)
     return status;
 }
 
+/* Beside D = 0, where no number is 0. */
 static dal_status measure_scales(trial *t)
 {
     dal_evaluator *evaluator = NULL;
     double x[32], scales[16] = {0};
     dal_point at;
     dal_status status = begin(t, &evaluator, x, &at);
+    x[t->spec.system->n] += 0.1;
     if (!status)
         status = t->error.status = dal_evaluator_scales(evaluator, 0.0, at.q, at.v, scales);
-    add(t, scales, 1 + t->spec.system->m);
+    add(t, scales, t->spec.system->m + 1 + t->spec.system->invariants);
     dal_evaluator_free(evaluator);
     return status;
 }
@@ -483,6 +514,8 @@ static dal_status scale(trial *t)
 static const char sleigh[] = "chaplygin-sleigh";
 static const char swing[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2\n"
                             "start: {x: 1, y': 1}\ninvariants: {g: x}\n";
+static const char solved[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                             "constraints: [\"y' - x'^3\"]\nstart: {x': 1, solve: [\"y'\"]}\n";
 static const char ball[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
                            "start: {y: 1}\n"
                            "events:\n  - {when: y, direction: down, restitution: 0.5}\n"
@@ -504,10 +537,10 @@ static void each_allocation_fails(const char *text, const char *method, dal_spac
 static void test_memory(void)
 {
     static trial_work *const works[] = {
-        create,         step,           sample,           observe,      change,
-        restore,        advance_batch,  measure_lyapunov, measure_rate, check_derivatives,
-        measure_rank,   measure_scales, project_velocity, scale,        classify_constraints,
-        measure_action, check_dirac,    measure_order};
+        create,         step,           sample,           observe,       change,
+        restore,        advance_batch,  measure_lyapunov, measure_rate,  check_derivatives,
+        measure_rank,   measure_scales, project_velocity, scale,         classify_constraints,
+        measure_action, check_dirac,    measure_order,    make_ensemble, observe_reactions};
     for (int once = 0; once < 2; once++) {
         for (size_t i = 0; i < sizeof works / sizeof works[0]; i++)
             each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, once, works[i]);
@@ -534,6 +567,8 @@ static void test_runs(void)
     each_call_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, observe);
     each_call_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, change);
     each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, restore);
+    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, observe_reactions);
+    each_call_fails(solved, "rk4", DAL_PHYSICAL, 0.0, create);
 }
 
 static void test_measures(void)
@@ -553,6 +588,7 @@ static void test_measures(void)
     each_call_fails(sleigh, "gauss4", DAL_LIFTED, DIFFERENCES, check_maps);
     each_call_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, budget);
     each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, scale);
+    each_call_fails(swing, "rk4", DAL_PHYSICAL, 0.0, measure_scales);
     each_call_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_lyapunov);
 }
 

@@ -365,6 +365,122 @@ static void test_words(void)
     CU_ASSERT(says(&m, DAL_SOURCE_TRUNCATION, "with half the step: it left the domain"));
 }
 
+/* The whole text, without shares found before it. */
+static int describes(made_up *m, dal_error_source source, const char *expected)
+{
+    char words[DAL_MESSAGE_SIZE];
+    m->e.shares = &m->a;
+    dal_error_budget_describe(&m->e, 0, source, words, sizeof words);
+    const int same = strcmp(words, expected) == 0;
+    if (!same) printf("\n  '%s' is not '%s'\n", words, expected);
+    return same;
+}
+#define DESCRIBES(source, text) CU_ASSERT(describes(&m, DAL_SOURCE_##source, text))
+
+static made_up with_reasons(void)
+{
+    made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
+    for (int k = 0; k < DAL_COMPARISONS; k++) snprintf(m.e.reason[k], 32, "reason %d", k);
+    snprintf(m.e.reason[DAL_COMPARISON_EXACT], 32, "none is given");
+    snprintf(m.e.reason[DAL_COMPARISON_QUAD], 32, "no type for it");
+    snprintf(m.e.reason[DAL_COMPARISON_HALVED], 32, "it left the domain");
+    snprintf(m.e.reason[DAL_COMPARISON_TIGHTER], 32, "nothing is solved");
+    snprintf(m.e.reason[DAL_COMPARISON_PROJECTION], 32, "D has none");
+    shares_of(&m);
+    return m;
+}
+
+/* Each text of each source. */
+static void test_descriptions(void)
+{
+    made_up m = with_reasons();
+    DESCRIBES(TRUNCATION,
+              "in quad precision the rate falls by 16 = 2^4.00 when the step is halved");
+    DESCRIBES(ROUNDING,
+              "this part vanishes in quad precision; with plain sums the drift is 1 times "
+              "this");
+    m.e.spec.options.sums = DAL_SUMS_PLAIN;
+    DESCRIBES(ROUNDING,
+              "this part vanishes in quad precision; with compensated sums the drift is 1 "
+              "times this");
+    DESCRIBES(SOLVER, "two more iterations change no more than roundings do");
+    DESCRIBES(BRANCHES, "the equations have no branches");
+    DESCRIBES(PROJECTION, "with +project the drift is 0.25 times this");
+    m.e.ran[DAL_COMPARISON_SUMS] = m.e.ran[DAL_COMPARISON_PROJECTION] = 0;
+    m.a.solver_is_significant = 1;
+    DESCRIBES(ROUNDING, "this part vanishes in quad precision");
+    DESCRIBES(SOLVER, "this part vanishes when the equations are solved to rounding and iterated "
+                      "twice more");
+    DESCRIBES(PROJECTION, "D has none");
+    m.e.ran[DAL_COMPARISON_TIGHTER] = 0;
+    DESCRIBES(SOLVER, "nothing is solved");
+    m.a.order = 1.0;
+    m.a.share[DAL_SOURCE_COEFFICIENTS] = 0.5;
+    DESCRIBES(COEFFICIENTS,
+              "what quad precision leaves falls by 2 = 2^1.00 when the step is halved, "
+              "not by 2^4: coefficients are doubles");
+    DESCRIBES(TRUNCATION,
+              "what quad precision leaves does not fall by 2^4 when the step is halved");
+    m.a.share[DAL_SOURCE_COEFFICIENTS] = 0.0;
+    m.a.order = NAN;
+    DESCRIBES(TRUNCATION, "in quad precision nothing of it is left when the step is halved");
+    m.a.vanishes_in_quad = 1;
+    DESCRIBES(TRUNCATION, "in quad precision nothing of it is left");
+    give_branches(&m);
+    DESCRIBES(BRANCHES, "truncation falls as in smooth equations");
+    m.a.order = 1.0, m.a.share[DAL_SOURCE_BRANCHES] = 0.5;
+    DESCRIBES(BRANCHES, "the equations contain abs: in quad precision the rate falls by 2 = 2^1.00 "
+                        "when the step is halved, not by 2^4");
+}
+
+static void test_descriptions_of_motion(void)
+{
+    made_up m = with_reasons();
+    m.e.ran[DAL_COMPARISON_EXACT] = 0;
+    m.a.is_conserved = 1;
+    DESCRIBES(MOTION, "the motion conserves it");
+    m.a.is_conserved = 0;
+    m.a.is_motion = 1;
+    DESCRIBES(MOTION, "what quad precision leaves does not fall when the step is halved");
+    m.a.is_motion = 0;
+    DESCRIBES(MOTION, "no exact motion: none is given");
+    m.e.ran[DAL_COMPARISON_EXACT] = 1;
+    m.a.share[DAL_SOURCE_MOTION] = 0.0;
+    DESCRIBES(MOTION, "quad precision leaves next to nothing: rounding errors grow");
+}
+
+static void test_descriptions_without_quad(void)
+{
+    made_up m = with_reasons();
+    m.e.quad_steps = m.a.is_conserved = 0;
+    m.a.order = 1.0;
+    m.e.has_projection = 1;
+    m.a.share[DAL_SOURCE_PROJECTION] = 0.875;
+    DESCRIBES(ROUNDING, "no quad precision: no type for it");
+    DESCRIBES(COEFFICIENTS, "without quad precision they cannot be distinguished from truncation");
+    DESCRIBES(SOLVER, "solved further the drift is 1 times this");
+    DESCRIBES(PROJECTION, "without projection the error is 0.125 times this");
+    m.a.whole_by_rate = 0;
+    m.a.share[DAL_SOURCE_TRUNCATION] = NAN;
+    DESCRIBES(TRUNCATION, "halving alone, without quad precision, is not conclusive: the deviation "
+                          "falls by 2 = 2^1.00 when the step is halved");
+    m.a.share[DAL_SOURCE_TRUNCATION] = 0.5, m.a.order = -1.0;
+    DESCRIBES(TRUNCATION, "by halving alone: the deviation grows by 2 = 2^1.00 when the step is "
+                          "halved");
+    m.a.share[DAL_SOURCE_BRANCHES] = 0.5;
+    DESCRIBES(TRUNCATION, "what there is does not fall by 2^4 when the step is halved");
+    m.a.share[DAL_SOURCE_BRANCHES] = 0.0;
+    m.e.ran[DAL_COMPARISON_HALVED] = 0;
+    DESCRIBES(TRUNCATION,
+              "neither quad precision nor a run with half the step: it left the domain");
+    m.a.whole.deviation = 0.0;
+    DESCRIBES(TRUNCATION, "it never changes");
+    m.a.whole.deviation = NAN;
+    DESCRIBES(TRUNCATION, "it is not finite");
+    m.a.whole.deviation = 1.0, m.e.quad_steps = 1000, m.a.beginning.deviation = 0.0;
+    DESCRIBES(TRUNCATION, "it does not change in the first 1000 steps");
+}
+
 static int sums_up(made_up *m, const char *expected)
 {
     char words[DAL_MESSAGE_SIZE];
@@ -462,5 +578,8 @@ void suite_error_shares(void)
     CU_add_test(suite, "halving alone", test_halving);
     CU_add_test(suite, "projection", test_projection);
     CU_add_test(suite, "in words", test_words);
+    CU_add_test(suite, "every description", test_descriptions);
+    CU_add_test(suite, "descriptions of the motion", test_descriptions_of_motion);
+    CU_add_test(suite, "descriptions without quad precision", test_descriptions_without_quad);
     CU_add_test(suite, "in a sentence", test_sentences);
 }

@@ -63,6 +63,27 @@ static void test_simultaneous(void)
     }
 }
 
+/* At t = 1e9 a point of time is 1e-7 long. */
+static void test_simultaneous_late(void)
+{
+    static const struct {
+        const char *text;
+        int first;
+        double y;
+    } cases[] = {{TWO("0.30000001", "0.3"), 0, 3.0}, {TWO("0.30001", "0.3"), 1, 4.0}};
+    for (int i = 0; i < 2; i++) {
+        record r = {0};
+        dal_run_spec spec = fixture_spec(fixture_system(cases[i].text), "rk4", DAL_PHYSICAL, 0.25);
+        spec.start_time = 1e9;
+        dal_run *run = fixture_run(&spec);
+        CU_ASSERT_EQUAL(dal_run_events(run, 1e9 + 1.0, note, &r, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(r.count, 2);
+        CU_ASSERT_EQUAL(r.event[0], cases[i].first);
+        CU_ASSERT_EQUAL(r.after[1][1], cases[i].y);
+        dal_run_free(run);
+    }
+}
+
 /* Many in one step: between two walls at a distance of 0.6 at 0.3 + 0.6 k, whatever the step; one
  * at the start is at once, and ends a run before its first step. */
 static void test_within_a_step(void)
@@ -303,6 +324,7 @@ void suite_event_times(void)
 {
     CU_pSuite suite = CU_add_suite("event times", NULL, NULL);
     CU_add_test(suite, "at one time", test_simultaneous);
+    CU_add_test(suite, "at one time, late", test_simultaneous_late);
     CU_add_test(suite, "within a step", test_within_a_step);
     CU_add_test(suite, "within a step of many substeps", test_within_substeps);
     CU_add_test(suite, "with a nonlinear constraint", test_nonlinear);

@@ -525,6 +525,29 @@ static void test_refuses(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "has events"));
 }
 
+/* Without restitution a point goes on along the wall: what roundings leave of its velocity to the
+ * wall does not lead out, whichever way the wall is turned. */
+static void test_inelastic(void)
+{
+    enum { WALLS = 40 };
+    for (int k = 1; k <= WALLS; k++) {
+        char text[256];
+        const double a = 0.15 * k, x = 0.3 + 0.01 * k;
+        snprintf(
+            text, sizeof text,
+            "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+            "start: {x': %.17g, y': %.17g}\n"
+            "events: [{when: 1 - x*cos(%.17g) - y*sin(%.17g), direction: down, restitution: 0}]"
+            "\n",
+            cos(a) - x * sin(a), sin(a) + x * cos(a), a, a);
+        const record r = events_of(text, "rk4", DAL_PHYSICAL, 0.1, 3.0, DAL_OK, NULL);
+        CU_ASSERT_EQUAL_FATAL(r.count, 1);
+        CU_ASSERT_DOUBLE_EQUAL(r.t[0], 1.0, 1e-12);
+        CU_ASSERT_DOUBLE_EQUAL(r.after[0][2], -x * sin(a), 1e-14);
+        CU_ASSERT_DOUBLE_EQUAL(r.after[0][3], x * cos(a), 1e-14);
+    }
+}
+
 void suite_events(void)
 {
     CU_pSuite suite = CU_add_suite("events", NULL, NULL);
@@ -543,6 +566,7 @@ void suite_events(void)
     CU_add_test(suite, "a wall before a pole", test_wall_before_a_pole);
     CU_add_test(suite, "infinitely many", test_endless);
     CU_add_test(suite, "velocities that lead out", test_outward);
+    CU_add_test(suite, "without restitution", test_inelastic);
     CU_add_test(suite, "rows", test_rows);
     CU_add_test(suite, "resumed", test_resume);
     CU_add_test(suite, "jumps of E", test_jump);

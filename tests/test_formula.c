@@ -335,6 +335,72 @@ static void test_deep_nesting(void)
     check_repeated("", "if(x<1,", "y", ",x)", 10000, 2.5);
 }
 
+static void test_deep_sums(void)
+{
+    check_repeated("", "sum(i,1,1,", "x", ")", 16, 0.3);
+    char *text = repeated("", "sum(i,1,1,", "x", ")", 17);
+    dal__graph *graph = formula_graph();
+    dal__node node;
+    dal_error error = {.status = DAL_OK};
+    CU_ASSERT_EQUAL(formula_parse(graph, text, &node, &error), DAL_SYNTAX);
+    CU_ASSERT(error.status == DAL_SYNTAX && error.line == 1 && error.column == 16 * 10 + 1);
+    CU_ASSERT_STRING_EQUAL(error.message, "sums nest deeper than 16");
+    dal__graph_free(graph);
+    free(text);
+}
+
+/* ---- functions of the caller ---- */
+
+enum { NEXT, NEVER };
+
+static const char *own_name(void *user, int i, int *arity)
+{
+    (void)user;
+    *arity = 1;
+    return i == NEXT ? "next" : i == NEVER ? "never" : NULL;
+}
+
+static dal__node call_own(void *user, int i, const dal__node *argument, dal_error *error)
+{
+    if (i == NEXT) return dal__node_add(user, argument[0], dal__number(user, 1.0));
+    error->status = DAL_MODEL;
+    snprintf(error->message, sizeof error->message, "never has no value");
+    return 0;
+}
+
+/* What a function refuses is at its name; a graph that is full, at the bracket that calls it. */
+static void test_own_functions(void)
+{
+    static const struct {
+        const char *text;
+        int limit;
+        dal_status status;
+        int column;
+        const char *message;
+    } cases[] = {{"2*next(x)", 100, DAL_OK, 0, ""},
+                 {"2*next(x)", 3, DAL_TOO_LARGE, 9, "the formula is too large"},
+                 {"2*next(x)", 2, DAL_TOO_LARGE, 9, "the formula is too large"},
+                 {"2*never(x)", 100, DAL_MODEL, 3, "never has no value"},
+                 {"2*next(x, y)", 100, DAL_SYNTAX, 3, "next takes 1 argument, not 2"},
+                 {"2*next", 100, DAL_SYNTAX, 3, "next is a function: write next(...)"},
+                 {"2*nest(x)", 100, DAL_NAME, 3, "unknown function 'nest'; did you mean 'next'?"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        dal__graph *graph = formula_graph();
+        const dal__names names = {formula_resolve, own_name, call_own, graph};
+        dal__node node = 0;
+        dal_error error = {.status = DAL_OK};
+        graph->limit = cases[i].limit;
+        CU_ASSERT_EQUAL(
+            dal__parse(graph, cases[i].text, strlen(cases[i].text), &names, &node, &error),
+            cases[i].status);
+        CU_ASSERT_EQUAL(error.status, cases[i].status);
+        if (cases[i].status == DAL_OK) CU_ASSERT_EQUAL(dal__evaluate(graph, node, point), 2.6);
+        if (cases[i].status != DAL_OK) CU_ASSERT_STRING_EQUAL(error.message, cases[i].message);
+        if (cases[i].status != DAL_OK) CU_ASSERT_EQUAL(error.column, cases[i].column);
+        dal__graph_free(graph);
+    }
+}
+
 static void test_long_formulas(void)
 {
     check_repeated("0", "+x*y", "", "", 25000, 25000 * 0.75);
@@ -384,6 +450,57 @@ static void test_out_of_memory(void)
     free(text);
 }
 
+/* x[1] is x. */
+static dal__node resolve_index(void *user, const char *name, size_t length, bool prime,
+                               dal_error *error)
+{
+    const bool is_index = length == 2 && name[1] == '1';
+    return formula_resolve(user, name, is_index ? 1 : length, prime, error);
+}
+
+/* A graph that holds no more than a given number of nodes: the status and the column are those of
+ * the token that needs the next one, be it of a number, a name, an index, an operation or a sum. */
+static void test_every_node(void)
+{
+    static const struct {
+        const char *text;
+        int column[8]; /* of the token that needs node 1, 2, ...; 0: no more, or not compared */
+    } cases[] = {{"7", {1}},
+                 {"x", {1}},
+                 {"pi", {1}},
+                 {"-x", {2, 3}},
+                 {"3 - x[1]", {1, 7, 8, 9}},
+                 {"sum(i, 4, 3, x)", {8, 11, 15}},
+                 {"sum(i, 4, 3, x) + y", {8, 11, 15, 19}},
+                 {"x'^2 + 3*y/(z/2)", {0}},
+                 {"x != y", {1, 6}},
+                 {"if(x < y, 5, 6)", {0}},
+                 {"min(x, y, 3)", {0}},
+                 {"sum(i, 1, 3, i*x)", {0}},
+                 {"sum(i, 1, 2, i)*sin(cos(y))", {0}}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        dal_status status = DAL_TOO_LARGE;
+        for (int limit = 0; status != DAL_OK && limit < 100; limit++) {
+            dal__graph *graph = formula_graph();
+            dal__node node = 0;
+            dal_error error = {.status = DAL_OK};
+            graph->limit = limit;
+            const dal__names names = {.resolve = resolve_index, .user = graph};
+            status = dal__parse(graph, cases[i].text, strlen(cases[i].text), &names, &node, &error);
+            const int column = limit < 8 ? cases[i].column[limit] : 0;
+            CU_ASSERT_EQUAL(status, graph->status);
+            CU_ASSERT_EQUAL(status, error.status);
+            CU_ASSERT_EQUAL(status == DAL_OK, node > 0);
+            if (status != DAL_OK) CU_ASSERT_STRING_EQUAL(error.message, "the formula is too large");
+            if (status != DAL_OK && column) CU_ASSERT_EQUAL(error.column, column);
+            if (status != DAL_OK && column && error.column != column)
+                printf("\n%s, node %d: column %d\n", cases[i].text, limit + 1, error.column);
+            dal__graph_free(graph);
+        }
+        CU_ASSERT_EQUAL(status, DAL_OK);
+    }
+}
+
 void suite_formula(void)
 {
     CU_pSuite suite = CU_add_suite("formula", NULL, NULL);
@@ -397,7 +514,10 @@ void suite_formula(void)
     CU_add_test(suite, "the byte 0, and the end", test_zero_byte);
     CU_add_test(suite, "names of functions", test_function_names);
     CU_add_test(suite, "deep nesting", test_deep_nesting);
+    CU_add_test(suite, "sums in sums", test_deep_sums);
+    CU_add_test(suite, "functions of the caller", test_own_functions);
     CU_add_test(suite, "long formulas", test_long_formulas);
+    CU_add_test(suite, "a graph that is full at each node", test_every_node);
     CU_add_test(suite, "ten thousand terms", test_many_terms);
     CU_add_test(suite, "out of memory", test_out_of_memory);
 }

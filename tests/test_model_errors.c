@@ -343,6 +343,11 @@ static const bad_file mechanics[] = {
      "constraint 2 nearly depends on 1: they differ by 1e-09 of its coefficients, and A W^-1 A^T "
      "is singular in double precision",
      XY L "constraints: [x' + 1e-9*y', @x' + 2e-9*y']\n"},
+    {DAL_RANK, "constraint 2 is redundant, it depends on 1: A W^-1 A^T is singular",
+     XY L "mechanics: vakonomic\nconstraints: [x' + y', @x*(x' + y')]\nstart: {x: 1}\n"},
+    {DAL_SINGULAR_MASS,
+     "the mass matrix is singular: it does not determine the acceleration of 'y'",
+     XY "mechanics: vakonomic\nlagrangian: @x'^2/2 - y\nconstraints: [x']\n"},
     {DAL_RANK, "constraint 4 is redundant, it depends on 1, 3: A W^-1 A^T is singular",
      "coordinates: [x, y, z, w]\nlagrangian: x'^2 + y'^2 + z'^2 + w'^2\n"
      "constraints: [x' - y*w', 5*y' + w', 7*z', @2*x' - 2*y*w' + y*z']\n"},

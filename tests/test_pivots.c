@@ -222,6 +222,10 @@ static const struct {
     /* A magnetic force does no work; this is seen by numbers only. */
     {"lagrangian: (x'^2 + y'^2)/2\nforces: {x: exp(x)*y'/x', y: -exp(x)}",
      DAL_E_EXACT | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
+    /* dE/dt = 0.01 sin(x) D: points of D = 0 are found by several steps of Newton's method. */
+    {"lagrangian: (x'^2 + y'^2)/2\nforces: {x: \"0.01*sin(x)*(y'^2 + y' - 1)/x'\"}\n"
+     "start: {x': 1, y': 0.618}\nconstraints: [\"y'^2 + y' - 1\"]",
+     DAL_D_QUADRATIC | DAL_D_RANK_CHECKED | DAL_E_ON_D | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
     {"accelerations: {x: -x, y: -y}", DAL_BLOCKS_POSITIONAL | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
     {"accelerations: {x: -x*t}", DAL_BLOCKS_POSITIONAL | DAL_MASS_CONSTANT},
 };

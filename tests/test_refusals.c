@@ -1,6 +1,7 @@
 /* test_refusals.c - what functions refuse, and the message that says why. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
+#include <dalembert_codegen.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -156,6 +157,73 @@ static void test_events(void)
     dal_run_free(run);
 }
 
+/* Names and paths of any length are copied to places of a size. */
+static void test_lengths(void)
+{
+    char long_name[4100];
+    memset(long_name, 'a', sizeof long_name - 1);
+    long_name[sizeof long_name - 1] = '\0';
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.125);
+    dal_error error;
+    dal_method method;
+    char *text = NULL, expected[DAL_MESSAGE_SIZE];
+    snprintf(expected, sizeof expected, "prefix '%.60s...' is too long", long_name);
+    refused(dal_generate(&spec, 1, long_name, &text, &error), DAL_ARGUMENT, &error, expected);
+    CU_ASSERT_PTR_NULL(text);
+    snprintf(expected, sizeof expected, "integrator name '%.60s...' is too long", long_name);
+    refused(dal_method_parse(&method, long_name, &error), DAL_NAME, &error, expected);
+    dal_run *run = fixture_run(&spec);
+    const dal_native_options options = {.cache = "unused", .compiler = long_name};
+    snprintf(expected, sizeof expected, "the path '%.80s...' is too long", long_name);
+    refused(dal_run_native(run, &options, &error), DAL_ARGUMENT, &error, expected);
+    refused(dal_run_native(run, NULL, &error), DAL_ARGUMENT, &error,
+            "no directory for compiled steps");
+    CU_ASSERT_FALSE(dal_run_is_native(run));
+    dal_run_free(run);
+}
+
+static dal_status no_section(void *user, dal_run *run, const dal_crossing *crossing)
+{
+    (void)user, (void)run, (void)crossing;
+    return DAL_OK;
+}
+
+static void test_sections(void)
+{
+    dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, -0.125);
+    dal_error error;
+    dal_crossings found;
+    dal_poincare section = {.callback = spec.system->energy, .count = 1, .cross = no_section};
+    dal_run *run = fixture_run(&spec);
+    refused(dal_run_crossings(run, -1.0, &section, &found, &error), DAL_ARGUMENT, &error,
+            "a section needs a positive step; it is -0.125");
+    section.index = 1;
+    refused(dal_run_crossings(run, -1.0, &section, &found, &error), DAL_ARGUMENT, &error,
+            "the section is value 2 of 1");
+    dal_lyapunov *exponents = NULL;
+    refused(dal_lyapunov_create(&exponents, &spec, NULL, 0, &error), DAL_ARGUMENT, &error,
+            "exponents need a positive step; it is -0.125");
+    CU_ASSERT_PTR_NULL(exponents);
+    dal_run_free(run);
+}
+
+/* The balance of exponents needs the divergence of F, which is found by the Jacobian. */
+static void test_balance(void)
+{
+    const dal_system hand = {.name = "hand", .n = 1, .call.field = fixture_oscillate};
+    dal_run_spec spec = fixture_spec(&hand, "rk4", DAL_PHYSICAL, 0.125);
+    dal_lyapunov *exponents = NULL;
+    dal_balance balance;
+    dal_error error;
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&exponents, &spec, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(exponents, 10, NULL), DAL_OK);
+    refused(dal_lyapunov_balance(exponents, &balance, &error), DAL_UNSUPPORTED, &error,
+            "there is no divergence: no step, or no jacobian");
+    dal_lyapunov_free(exponents);
+}
+
 void suite_refusals(void)
 {
     CU_pSuite suite = CU_add_suite("refusals", NULL, NULL);
@@ -166,4 +234,7 @@ void suite_refusals(void)
     CU_add_test(suite, "systems made by hand", test_systems);
     CU_add_test(suite, "models", test_models);
     CU_add_test(suite, "events that lead out", test_events);
+    CU_add_test(suite, "names that are too long", test_lengths);
+    CU_add_test(suite, "sections and exponents backwards", test_sections);
+    CU_add_test(suite, "exponents without a Jacobian", test_balance);
 }

@@ -432,6 +432,7 @@ static dal_status add_switches(dal_jumps *jumps, surface *f, const dal__entry *e
         if (!add_switch(jumps, i, entry)) status = DAL_MEMORY;
     }
     free(mark);
+    if (f->model->out_of_memory) return DAL_MEMORY;
     return status == DAL_OK ? graph->status : status;
 }
 

@@ -130,6 +130,11 @@ start: {x': 1}
 END
 try 0 check wall.yaml
 prints '^  branches, lagrangian +info +L_v or D jumps: F lacks the impulse$'
+for force in 'abs(x^2 + 1)|none changes near the start$' 'max(0, x - 3)^4|F and three derivatives are$'; do
+    printf '%s\n' 'coordinates: [x]' "lagrangian: x'^2/2" "forces: {x: \"${force%|*}\"}" >smooth.yaml
+    try 0 check smooth.yaml
+    prints "^  branches, force on x +info +${force#*|}"
+done
 cat >hidden.yaml <<'END'
 coordinates: [x, max]
 lagrangian: (x'^2 + max'^2)/2 - max^2

@@ -327,6 +327,7 @@ wrong "--seed is missing" --members 10 --vary "k=normal(0,1)"
 wrong "--vary is missing" $one
 wrong "--times: 0.25 is not a whole number of steps of 0.1" $one --vary "k=normal(0,1)" --times 0.25,1
 wrong "--quantiles: 2 is not from 0 to 1" $one --vary "k=normal(0,1)" --quantiles 0.5,2
+wrong "--quantiles: more than 16" $one --vary "k=normal(0,1)" --quantiles 0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1
 wrong "--axes: 'x' is not two columns" $one --vary "k=normal(0,1)" --axes x
 wrong "unknown column of --axes 'y'" $one --vary "k=normal(0,1)" --axes "x,y"
 wrong "--shard: '3/2' is not K/N" $one --vary "k=normal(0,1)" --shard 3/2

@@ -129,6 +129,8 @@ try 2 order knife-edge --tolerances 1e-4,1e-6 --steps 0.1,0.05
 says 'tolerances excludes --steps and --tolerance'
 try 2 order knife-edge --tolerances 10,1e-6
 says 'tolerances: 10 is larger than 1'
+try 2 order line.yaml --tolerances 1e-1,1e-2,1e-3,1e-4,1e-5,1e-6,1e-7,1e-8,1e-9 --time 1
+says 'tolerances: more than 8'
 
 case_is "diagrams"
 if command -v gnuplot >/dev/null 2>&1; then

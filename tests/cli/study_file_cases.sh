@@ -321,6 +321,13 @@ bad "${common}systems: [knife-egde]\n" "bad.yaml:5:11: unknown system 'knife-egd
 bad "${common}samples: 0.5\nsystems: [line.yaml]\n" 'bad.yaml:5:10: samples: 0.5 is not an integer'
 bad "${common}statistics: 0\nsystems: [line.yaml]\n" 'bad.yaml:5:13: statistics: 0 is not in 1'
 
+case_is "a system that is missing, a range that is a draw, and too many values"
+bad "${common}systems: [{label: a}]\n" '^dalembert: bad\.yaml:5:11: the system is missing$'
+bad "${common}systems: [{system: line.yaml, start: {x: {between: [0, 1], from: 1}}}]\n" \
+    ': start: between excludes all other keys$'
+bad 'integrators: rk4\nstep: {from: 0.5, to: 0.1, count: 17}\ntime: 1\nsystems: [line.yaml]\n' \
+    ':2:7: step: 17 values, not 1\.\.16$'
+
 case_is "tolerances are an axis"
 cat >tolerances.yaml <<'END'
 integrators: [dop853, rk4]

@@ -1,6 +1,6 @@
 # Studies in pieces: interrupted and killed anywhere, in shards and merged, by several processes.
 
-needs 144 "no compiler for signals at given places" raises || return 0
+needs 147 "no compiler for signals at given places" raises || return 0
 cp plane.yaml plane
 cat >pieces.yaml <<'END2'
 title: many short runs and a long one
@@ -130,6 +130,14 @@ expect "no message" grep -Eq "in none of the directories|is not finished: dalemb
 try 0 resume shard-b
 try 0 merge shard-a shard-b --output halves
 expect "other bytes" same_study whole-study halves
+
+case_is "a shard of a study whose system has changed"
+cp line.yaml changed.yaml
+printf 'integrators: rk4\nstep: 0.5\ntime: 1\nsystems: [changed.yaml]\n' >changed-study.yaml
+try 0 study changed-study.yaml --output changed --shard 1/2
+echo '# and more' >>changed.yaml
+try 2 study changed-study.yaml --output changed --shard 2/2
+says "^dalembert: 'changed' is of another study: 'changed/systems/.*' differs\$"
 
 case_is "what cannot be merged"
 table <<'END'

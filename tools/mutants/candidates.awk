@@ -7,7 +7,8 @@
 #
 # -v operators=first: comparisons, logic, arithmetic, constants, negated conditions, deleted
 # statements; new: bits, ++ and --, jumps, exchanged arguments, dropped statuses, returned values,
-# printed texts and their empty lines; all: both.
+# printed texts and their empty lines; all: both.  bounds: one turn too many of a loop, one place
+# too few of an allocation.
 
 function emit(operator, text) {
     if (text != $0) printf "%s\t%d\t%s\t%s\n", FILENAME, FNR, operator, text
@@ -176,15 +177,27 @@ function new_operators() {
     texts()
 }
 
+# ---- bounds ----
+
+function bounds(    from, at) {
+    if (code ~ /(^| |})(for|while) [(]/) swap("<", "bound", "<=")
+    if (code !~ /alloc(ate)?[(]|dal__numbers[(]|dal__model_nodes[(]/) return
+    for (from = 1; (at = index(substr(code, from), " + 1")) > 0; from = at + 4) {
+        at += from - 1
+        if (substr(code, at + 4, 1) !~ /[0-9.]/) emit("place", replaced(at, 4, ""))
+    }
+}
+
 FNR == 1 { comment = 0; directive = 0; whole_before = 1 }
 {
     code = blank()
     skip = directive || code ~ /^[ \t]*#/
     directive = skip && code ~ /\\$/
-    if (skip && operators != "new" && code ~ /^#define [A-Z_0-9]+ +[-0-9.ex+]+ *$/) constants()
+    if (skip && operators ~ /^(first|all)$/ && code ~ /^#define [A-Z_0-9]+ +[-0-9.ex+]+ *$/) constants()
     if (skip || code ~ /^[ \t]*$/) next
     if (operators ~ /^(new|all)$/ && code ~ /^ /) new_operators()
-    if (operators != "new" && code !~ /^[a-z].*[)]$|^[a-z][^=]*,$/) {
+    if (operators == "bounds" && code ~ /^ /) bounds()
+    if (operators ~ /^(first|all)$/ && code !~ /^[a-z].*[)]$|^[a-z][^=]*,$/) {
         swap("<", "comparison", "<=")
         swap("<", "comparison", ">=")
         swap("<=", "comparison", "<")

@@ -6,7 +6,11 @@
 # comparison exchanged or off by one, && for ||, + for -, * for /, a constant changed, a condition
 # negated, a statement deleted.  OPERATORS=new: & for |, ++ for --, break for continue, two arguments
 # exchanged, a status dropped, another value returned, another word or no empty line printed.
-# OPERATORS=all (the default): both.  SEED draws COUNT of all those that MODULE has.
+# OPERATORS=all (the default): both.  OPERATORS=bounds: one turn too many of a loop, one place too few
+# of an allocation.  SEED draws COUNT of all those that MODULE has.
+#
+# SANITIZE=1 builds them with the address and undefined-behaviour sanitizers, which notice reads and
+# writes past an end that change no result.
 #
 # Each is built below BUILD/mutants by JOBS processes, at -O1 and with few variants, since a source of
 # several widths must be changed in all of them; one is for AVX2, so that code for it runs as well.
@@ -16,17 +20,26 @@
 # one that crashes does.
 #
 # A mutant that does not compile, or has the same machine code, is drawn again.  Those that no test
-# can notice are listed with their reason in equivalent.txt.  The others that are left are the
+# can notice are listed with their reason in equivalent.txt, by their line, or by function and both
+# lines where a line as `return 0;` has many sources.  The others that are left are the
 # survivors: FILE:LINE, the operator and the changed line.  More than one survivor in ten fails.
 module=$1 seed=$2 wanted=$3
 OPERATORS=${OPERATORS:-all}
-case $OPERATORS in first | new | all) ;; *) echo "mutants: OPERATORS is first, new or all" >&2; exit 2 ;; esac
+case $OPERATORS in
+first | new | all | bounds) ;;
+*) echo "mutants: OPERATORS is first, new, all or bounds" >&2; exit 2 ;;
+esac
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 LIMIT=${LIMIT:-6}
 BUILD=${BUILD:-build}
 place=$root/$BUILD/mutants
 case $BUILD in /*) place=$BUILD/mutants ;; esac
+flags=-O1
+if [ -n "$SANITIZE" ]; then
+    place=$place-sanitize
+    flags="-O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=address,undefined"
+fi
 tree=$place/tree
 variants="x1 x1_QUAD x4"
 grep -q avx2 /proc/cpuinfo 2>/dev/null && variants="x1 x1_QUAD x4_AVX2"
@@ -49,7 +62,7 @@ copy_sources() {
     done
 }
 build() {
-    make -s -C "$tree" -j"${JOBS:-$(nproc)}" BUILD=build CC="$CC" CFLAGS=-O1 VARIANTS="$variants" "$@" \
+    make -s -C "$tree" -j"${JOBS:-$(nproc)}" BUILD=build CC="$CC" CFLAGS="$flags" VARIANTS="$variants" "$@" \
         >"$place/make.log" 2>&1
 }
 # tests_of FILE KIND: the suites, or the parts of the command line (KIND cli), of a file.
@@ -70,11 +83,12 @@ tests_of() {
             for (i = 1; i <= n; i++) if (!(word[i] in seen)) { seen[word[i]] = 1; print word[i] }
         }' "$here/suites.txt"
 }
-# limited SECONDS COMMAND...: in the tree, within a time and a memory that faults may not exceed.
+# limited SECONDS COMMAND...: in the tree, within a time and a memory that faults may not exceed; the
+# sanitizers map much more than they use.
 limited() {
     seconds=$1
     shift
-    (cd "$tree" && ulimit -v 8000000 && TMPDIR=$place/tmp exec timeout -k 2 "$seconds" "$@") \
+    (cd "$tree" && { [ -n "$SANITIZE" ] || ulimit -v 8000000; } && TMPDIR=$place/tmp exec timeout -k 2 "$seconds" "$@") \
         >"$place/test.log" 2>&1
 }
 # The suites there are: those of the list that this version does not have are passed over.
@@ -105,7 +119,18 @@ confirm() {
 }
 # What a file is compiled into.
 target_of() { case $1 in cli/*) echo dalembert ;; *) echo tests/suite ;; esac; }
-is_listed() { grep -Fqx "$1: $(printf '%s\n' "$2" | sed 's/^ *//')" "$here/equivalent.txt"; }
+# function_of FILE LINE: the function that the line is in.
+function_of() {
+    awk -v line="$2" 'FNR > line { exit }
+        /^[A-Za-z].*[(]/ && !/;$/ { name = $0; sub(/[(].*/, "", name); sub(/.*[ *]/, "", name) }
+        END { print name }' "$1"
+}
+# is_listed FILE LINE TEXT
+is_listed() {
+    line_text=$(printf '%s\n' "$3" | sed 's/^ *//')
+    original=$(sed -n "${2}s/^ *//p" "$1")
+    grep -Fqx -e "$1: $line_text" -e "$1: $(function_of "$1" "$2"): $line_text, not $original" "$here/equivalent.txt"
+}
 
 # ---- the sources themselves ----
 
@@ -139,7 +164,7 @@ while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
     text=$(printf '%s\n' "$candidate" | cut -f4-)
     shown=$text
     [ "$operator" = deleted ] && shown="no $(sed -n "${line}p" "$file" | sed 's/^ *//')"
-    if is_listed "$file" "$shown"; then
+    if is_listed "$file" "$line" "$shown"; then
         listed=$((listed + 1))
         continue
     fi
@@ -165,7 +190,7 @@ while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
     fi
     cp "$file" "$tree/$file"
 done
-echo "mutants: $module, SEED=$seed: $count mutants, $((killed + late)) noticed ($late by their time)," \
+echo "mutants: $module, OPERATORS=$OPERATORS, SEED=$seed: $count mutants, $((killed + late)) noticed ($late by their time)," \
     "$survived survived; beside them $listed listed as equivalent, $same of the same machine code," \
     "$broken that do not compile"
 [ $((10 * survived)) -le "$count" ]
