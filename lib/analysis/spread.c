@@ -27,7 +27,7 @@ void dal_measure_spread(const double *values, long long count, dal_spread *sprea
 }
 
 /* Reorders values[first..last] so that number k is where sorting would put it, smaller ones before
- * and larger ones behind (Hoare 1961, algorithm 65, DOI 10.1145/366622.366647). */
+ * and larger ones after it (Hoare 1961, algorithm 65, DOI 10.1145/366622.366647). */
 static void select_value(double *values, long long first, long long last, long long k)
 {
     while (first < last) {

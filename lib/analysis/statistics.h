@@ -31,8 +31,8 @@ double dal__roughness(const dal_statistics *statistics);
 
 /* The 97.5 % quantile of Student's distribution. */
 double dal__student(double freedom);
-/* How many times fewer independent values n residues are worth, given the sum of their squares and
- * that of the products of neighbours. */
+/* How many times fewer independent values n residues are worth, given the sums of their squares and
+ * of the products of neighbours. */
 double dal__inflation(double square, double product, int n);
 
 /* The rate of least squares and its interval. */

@@ -26,7 +26,7 @@ static num square_of(const view *v, num a, num from)
     return dal_min(d * d, dal_num(DAL__ROUGH_LIMIT));
 }
 
-/* Adds one value, or a cycle of four at once: comparisons are slow, and most of those of a cycle
+/* Adds one value, or a cycle of four at once: comparisons are slow, and most of the ones in a cycle
  * do not depend on each other. */
 static void add_value(lane_tally *s, const view *v, int phase, num a)
 {

@@ -247,7 +247,7 @@ void dal__trend_weigh(const dal__bins *b, dal__white_odds odds, dal__evidence *e
 /* ---- the drift, as an interval ---- */
 
 /* Under each noise the drift b of a straight line has Student's distribution about its estimate;
- * the interval is that of their mixture, each with the weight of its noise:
+ * the interval belongs to their mixture, each with the weight of its noise:
  *
  *     F(b) = sum_k w_k T_nu((b - b_k)/d_k),     T_nu(t) = Phi(t (1 - 1/4 nu)/sqrt(1 + t^2/2 nu))
  *

@@ -260,8 +260,8 @@ void dal__trend_remove_tones(series *s)
 
 /* ---- bins ---- */
 
-/* Blocks are not constant inside: of the part of one that belongs to a bin, the integral is that of
- * the line with the mean of the block and the slope between its neighbours. */
+/* Blocks are not constant inside: over the part of one that belongs to a bin, the integral is taken
+ * of the line that has the mean of the block and the slope between its neighbours. */
 void dal__trend_fill_bins(const double *block, int count, double *bin)
 {
     const double width = (double)count / DAL__BINS;

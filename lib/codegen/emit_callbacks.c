@@ -77,7 +77,7 @@ static void write_program(dal__generation *g, dal__program_code code, const char
     dal__buffer_append(&g->text, "}\n");
 }
 
-/* Whether a program writes its outputs where they belong: no pivots stand behind them. */
+/* Whether a program writes its outputs where they belong: no pivots follow them. */
 static bool is_direct(const dal__generation *g, dal__program_code code)
 {
     const dal__program *p = &g->programs->program[code];
@@ -125,7 +125,7 @@ static void write_mask(dal__generation *g)
 {
     dal__buffer_append(
         &g->text,
-        "/* Copies the outputs; NaN in the lanes where one of the pivots behind them, each\n"
+        "/* Copies the outputs; NaN in the lanes where one of the pivots after them, each\n"
         " * followed by its size, has vanished. */\n"
         "DAL_INLINE void dal__mask_singular(const num *all, int outputs, int pivots, "
         "num *out)\n{\n"
@@ -163,7 +163,7 @@ static void write_dispatch(dal__generation *g)
 /* The body of the recurrences for order 0, with all outputs, or for an order k, without those that
  * are needed by their values alone: pivots.  That for k is inlined into the loop over orders; for 0
  * it would take compilers more time than it saves. */
-static void write_orders(dal__generation *g, bool first, int outputs, int behind)
+static void write_orders(dal__generation *g, bool first, int outputs, int end)
 {
     const dal__taylor *taylor = g->programs->taylor[g->layout.lifted];
     dal__buffer *text = &g->text;
@@ -175,7 +175,7 @@ static void write_orders(dal__generation *g, bool first, int outputs, int behind
                       first ? "first" : "next");
     dal__taylor_write(taylor, g->programs->tapes, first, g->lanes == 1, text);
     for (int i = 0; i < taylor->outputs; i++) {
-        if (!first && i >= outputs && i < behind) continue;
+        if (!first && i >= outputs && i < end) continue;
         dal__buffer_print(text, "    out[%d] = ", i);
         dal__taylor_write_output(taylor, g->programs->tapes, i, first, text);
         dal__buffer_append(text, ";\n");
@@ -191,10 +191,10 @@ static void write_series(dal__generation *g)
     const dal__taylor *taylor = g->programs->taylor[lifted];
     const dal__program *p =
         &g->programs->program[lifted ? DAL__PROGRAM_ADJOINT : DAL__PROGRAM_FIELD];
-    const int outputs = p->outputs, left = outputs + 2 * p->checked, behind = left + p->left;
+    const int outputs = p->outputs, left = outputs + 2 * p->checked, end = left + p->left;
     dal__buffer *text = &g->text;
-    write_orders(g, true, outputs, behind);
-    write_orders(g, false, outputs, behind);
+    write_orders(g, true, outputs, end);
+    write_orders(g, false, outputs, end);
     dal__buffer_print(text,
                       "DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num "
                       "*in, num *memory, num *out)\n{\n"
@@ -206,8 +206,8 @@ static void write_series(dal__generation *g)
                       "    else dal__series_next(s->work, k, c, packed, all);\n"
                       "    DAL_EACH(i, %d) out[i] = all[i];\n",
                       taylor->slots, taylor->outputs, taylor->inputs, outputs);
-    if (lifted && taylor->outputs > behind)
-        dal__buffer_print(text, "    out[%d] = all[%d];\n", outputs, behind);
+    if (lifted && taylor->outputs > end)
+        dal__buffer_print(text, "    out[%d] = all[%d];\n", outputs, end);
     else if (lifted)
         dal__buffer_print(text, "    out[%d] = dal_num(0.0);\n", outputs);
     if (p->checked > 0)

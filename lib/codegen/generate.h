@@ -1,6 +1,6 @@
 /* generate.h - one C file from the spec of a run.
  *
- * A generated file is the kernel and the integrator as they stand in the library, compiled with
+ * A generated file is the kernel and the integrator as they are in the library, compiled with
  * constant dimensions (DAL_SPECIALISED), with the programs of the system as straight-line code. */
 #ifndef DAL_GENERATE_H
 #define DAL_GENERATE_H
@@ -20,8 +20,8 @@ extern const dal__source dal__sources[];
 
 enum { DAL__PREFIX_SIZE = 64 };
 
-/* A whole file; or, for lib/jit, the steps of some lanes, those of one lane with a trace of its
- * states, or the observables of many states. */
+/* A whole file; or, for lib/jit, the steps of some lanes, the steps of one lane with a trace of
+ * its states, or the observables of many states. */
 typedef enum dal__product { DAL__FILE, DAL__LANES, DAL__TRACE, DAL__OBSERVE } dal__product;
 
 /* A name that lines #if of a source are decided by, see parts.h. */

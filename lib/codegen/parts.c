@@ -135,7 +135,7 @@ static int decide(const dal__generation *g, const char *line)
     return negated && value != UNKNOWN ? !value : value;
 }
 
-/* An open #if: its value, whether lines around it are written, and those of its present branch. */
+/* An open #if: its value, whether the lines around it and in its present branch are written. */
 typedef struct branch {
     int value;
     bool around, on;

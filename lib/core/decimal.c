@@ -3,8 +3,8 @@
  *     d1 d2 ... dk . dk+1 ... dn e x  =  d1 ... dn e (x - n + k)
  *
  * The second form has no decimal point, the only character of strtod that depends on the locale.
- * Two doubles and the point halfway between them have at most 767 digits, so of the digits behind
- * that it matters only whether one is not 0: a last digit 1 stands for them. */
+ * Two doubles and the point halfway between them have at most 767 digits, so of the digits after
+ * these it matters only whether one is not 0: a last digit 1 replaces them. */
 #include "core/decimal.h"
 #include "core/error.h"
 #include <math.h>

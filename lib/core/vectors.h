@@ -32,9 +32,9 @@ bool dal__is_converged(double change, double before, double size);
  * on the diagonal has the least one with which m_ij^2 <= d_i d_j; where no other row has a size,
  * ab/c with entries a, b, c of three rows in pairs, or 1. */
 void dal__jacobi_sizes(int n, const double *m, double *size);
-/* Units of the velocities that m constraints move, unit[n], powers of 2 that change as those of the
- * velocities do: max_a |B_ia|/sqrt(G_aa) = max_a sqrt(W^-1_ii) |cos(e_i, A_a)| for A[m*n], B[n*m] =
- * W^-1 A^T and the diagonal of G = A B, relative to the first; 0 where none does. */
+/* Units of the velocities that m constraints move, unit[n], powers of 2 that change with the units
+ * of the velocities: max_a |B_ia|/sqrt(G_aa) = max_a sqrt(W^-1_ii) |cos(e_i, A_a)| for A[m*n],
+ * B[n*m] = W^-1 A^T and the diagonal of G = A B, relative to the first; 0 where none does. */
 void dal__velocity_units(int n, int m, const double *A, const double *B, double *unit);
 /* max |v_i|/unit_i over those that are not 0. */
 double dal__max_in_units(int n, const double *v, const double *unit);
