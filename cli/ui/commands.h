@@ -1,6 +1,6 @@
 /* commands.h - the commands of the program.
  *
- * Each gets the arguments behind the name of the program and returns the exit status.  stdout
+ * Each gets the arguments after the name of the program and returns the exit status.  stdout
  * carries data only; messages begin with "dalembert: " and go to stderr.  The program never calls
  * setlocale, so the C locale holds and a number is read and written the same everywhere. */
 #ifndef DAL_CLI_COMMANDS_H

@@ -145,7 +145,7 @@ typedef struct reader {
     int group_count;
     int argc, next;
     char **argv;
-    bool plain;                 /* behind -- */
+    bool plain;                 /* after -- */
     uint64_t given[MAX_GROUPS]; /* bit k: option k was given */
 } reader;
 
