@@ -154,7 +154,7 @@ static void test_solver(void)
     dal_error_budget_free(e);
 }
 
-/* gauss8 keeps a bilinear D but for its coefficients, which are good to 20 digits: what they do to
+/* gauss8 keeps a bilinear D except for its coefficients, good to 20 digits: what these do to
  * D in a unit of time is proportional to h (h^2 in a step), and far below rounding. */
 static void test_coefficients(void)
 {
@@ -339,7 +339,7 @@ static void test_conserved(void)
     dal_error_budget_free(e);
 }
 
-/* In units 2^40 and 2^-40 times larger all is the same, but for roundings. */
+/* In units 2^40 and 2^-40 times larger all is the same, except for roundings. */
 static void test_units(void)
 {
     double share[3][DAL_ERROR_SOURCES], order[3];

@@ -423,8 +423,8 @@ static void test_nothing_and_nonsense(void)
 
 static double parabola(double t) { return 5.0 - t + 0.25 * t * t; }
 
-/* The line of least squares of a parabola has its slope in the middle: of 32 blocks, those of the
- * first and the last quarter are 24 blocks apart. */
+/* The line of least squares of a parabola has its slope in the middle: of 32 blocks, the middles
+ * of the first and the last quarter are 24 blocks apart. */
 static void test_rates_of_quarters(void)
 {
     const double block = 8.0 * 32.0 / (VALUES - 1);
