@@ -228,7 +228,7 @@ static double wavy(int k) { return 3.0 + sin(0.7 * k) + (k == 500 ? 40.0 : 0.0);
 static double straight(int k) { return 2.0 - 0.25 * k; }
 static double enormous(int k) { return 0x1p1000 * (1.0 + 0.5 * sin(0.7 * k)); }
 
-/* That of values from .. from + n - 1 about their mean. */
+/* The root mean square of values from .. from + n - 1 about their mean. */
 static double root_mean_square(double (*x)(int), int from, int n)
 {
     double mean = 0.0, square = 0.0;

@@ -19,7 +19,7 @@ typedef dal_status dal__curve(void *user, double s, double *out);
 dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count, double *scratch,
                               double *out);
 
-/* That of values by *x, which is varied in place. */
+/* The derivative of values by *x, which is varied in place. */
 typedef dal_status dal__values(void *user, double *out);
 dal_status dal__differentiate_by(double *x, dal__values *values, void *user, double d, int count,
                                  double *scratch, double *out);

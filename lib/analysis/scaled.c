@@ -192,7 +192,7 @@ static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
 SCALED_LIST(CALLBACK)
 #undef CALLBACK
 
-/* That of the spec: start values are in the units of the user. */
+/* The start of the spec: start values are in the units of the user. */
 static dal_status start(const dal_system *system, const dal_point *at, double *out)
 {
     const dal_scaled *s = system->data;

@@ -86,7 +86,7 @@ static double occam(double size, double deviation, double width)
     return 0.7978845608028654 * deviation / (w * (1.0 + ratio * ratio));
 }
 
-/* That of a line: as likely small, beside oscillations, as all there is. */
+/* The cost of a line: as likely small, beside oscillations, as all there is. */
 static double line_price(const dal__bins *b, double size, double deviation)
 {
     return 0.5 * occam(size, deviation, 0.3 * b->half_range) +

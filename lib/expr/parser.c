@@ -253,7 +253,7 @@ static const loop *loop_of(const parser *p)
     return NULL;
 }
 
-/* Behind the bracket of an index: x[2] is the name x2. */
+/* After the bracket of an index: x[2] is the name x2. */
 static dal_status close_index(parser *p, dal__node *value)
 {
     DAL_TRY(reduce(p, 1, value));
@@ -323,7 +323,7 @@ static bool has_too_many_terms(const parser *p)
     return terms > MAX_TERMS;
 }
 
-/* Behind the comma after the range of a sum: begins its first term.  empty: there is none, and
+/* After the comma that ends the range of a sum: begins its first term.  empty: there is none, and
  * *value is the sum. */
 static dal_status begin_terms(parser *p, dal__node *value, bool *empty)
 {
@@ -346,7 +346,7 @@ static dal_status begin_terms(parser *p, dal__node *value, bool *empty)
     return has_too_many_terms(p) ? too_many_terms(p, &f) : next(p);
 }
 
-/* Behind a term of a sum: goes back for the next one, or closes the sum. */
+/* After a term of a sum: goes back for the next one, or closes the sum. */
 static dal_status end_term(parser *p, dal__node *value, bool *more)
 {
     const frame f = p->stack[p->depth - 1];

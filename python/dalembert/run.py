@@ -100,7 +100,7 @@ class Run(Fixed):
     start_time : float
         t of the start.
     **options
-        Those of the command line with underscores: ``space='physical'``,
+        Options of the command line, with underscores: ``space='physical'``,
         ``solver_tolerance=1e-12``, ``precision='quad'``.
 
     Attributes

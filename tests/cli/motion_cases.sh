@@ -73,7 +73,7 @@ varied() { # DIR
 }
 if command -v gnuplot >/dev/null 2>&1; then
     case_is "the picture of a section"
-    # That of docs/program.md; on it D makes y' = 0.
+    # The section of docs/program.md; on it D makes y' = 0.
     readme=$(sed -n 's/^    build\/dalembert section //p' "$here/../../docs/program.md")
     eval "try 0 section $readme --output of-readme"
     expect "axes that do not vary" varied of-readme

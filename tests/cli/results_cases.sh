@@ -240,7 +240,7 @@ expect "a run that is interrupted" json out "d['state'] == 'interrupted' and d['
     and all(near(r[1], math.pi * r[0], 1e-9) for r in d['rows'])"
 
 case_is "every name is described"
-# Those of parameters and of options are the system's and the request's.
+# Names of parameters and of options are the system's and the request's.
 python3 - "$here/../../docs/formats.md" <<'END' >undescribed
 import json, re, sys
 
