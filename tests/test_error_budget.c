@@ -75,7 +75,7 @@ static void test_truncation(void)
     CU_ASSERT_EQUAL(of(e, "D1")->share[DAL_SOURCE_PROJECTION], 0.0);
     CU_ASSERT(of(e, "D1")->comparison[DAL_COMPARISON_PROJECTION].deviation > 1e-5);
     CU_ASSERT(fabs(of(e, "D1")->share[DAL_SOURCE_ROUNDING] - 1.0) < 1e-9);
-    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "nothing of it is left"));
+    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "nothing of it remains"));
     dal_error_budget_free(e);
 }
 
@@ -122,7 +122,7 @@ static void test_rounding(void)
     CU_ASSERT(fabs(d->share[DAL_SOURCE_TRUNCATION]) < 1e-12);
     CU_ASSERT_EQUAL(d->share[DAL_SOURCE_COEFFICIENTS], 0.0);
     CU_ASSERT(!(d->share[DAL_SOURCE_SOLVER] > 0.0));
-    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "in quad precision nothing of it is left"));
+    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "in quad precision nothing of it remains"));
     /* E, which this method does not keep, drifts by truncation. */
     CU_ASSERT(fabs(of(e, "E")->share[DAL_SOURCE_TRUNCATION] - 1.0) < 1e-6);
     CU_ASSERT(fabs(of(e, "E")->order - 2.0) < 0.1);

@@ -250,8 +250,8 @@ static void describe_order(const description *s, const char *before)
                  s->e->reason[DAL_COMPARISON_HALVED]);
     else if (isnan(s->a->order))
         snprintf(s->text, s->size, "%s %s", before,
-                 s->a->vanishes_in_quad ? "nothing of it is left"
-                                        : "nothing of it is left when the step is halved");
+                 s->a->vanishes_in_quad ? "nothing of it remains"
+                                        : "nothing of it remains when the step is halved");
     else
         snprintf(s->text, s->size, "%s %s %s by %.3g = 2^%.2f when the step is halved", before,
                  by_rate ? "the rate" : "the deviation", s->a->order < 0.0 ? "grows" : "falls",
