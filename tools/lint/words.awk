@@ -20,6 +20,7 @@ FNR == 1 {
     for (k = 1; k <= rows; k++) if (FILENAME !~ "^(" places[k] ")") words = words some[k]
     pattern = "(^|[^a-z])(" substr(words, 2) ")([^a-z]|$)"
     upper = "(^|[^A-Z])(" substr(capitals, 2) ")([^A-Z]|$)"
+    last = ""
 }
 FILENAME == "CHANGELOG.md" && /^ *\|/ { next } # old names, each beside its new one
 {
@@ -29,4 +30,9 @@ FILENAME == "CHANGELOG.md" && /^ *\|/ { next } # old names, each beside its new 
         gsub(/^[^A-Za-z]|[^A-Za-z]$/, "", found)
         print FILENAME ":" FNR ": " found
     }
+    # Two words at a line's end and the next one's beginning, after the mark of a comment.
+    gsub(/[^a-z.,;:]/, " ", line)
+    count = split(line, word, " ")
+    if (last != "" && (last " " word[1]) ~ "^(" substr(words, 2) ")$") print FILENAME ":" FNR ": " last " " word[1]
+    last = word[count]
 }
