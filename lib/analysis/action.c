@@ -88,7 +88,7 @@ static double hamiltonian(void *user, const double *z)
     return square / (2.0 * e) + sum + mu * pi[n];
 }
 
-/* before holds P - h/2 H_X of the interval before, a part of dS/dX at the node between. */
+/* before holds P - h/2 H_X of the interval before, a term of dS/dX at the node between. */
 static double variation(path *w, const double *row, int inner)
 {
     double max = 0.0;

@@ -93,8 +93,8 @@ static double max_error(const measurement *m, const double *reference, const dou
     double max = 0.0;
     for (int k = 0; k < m->numbers; k++) {
         const double size = fmax(m->units[k], fabs(reference[k]));
-        const double part = fabs(x[k] - reference[k]) / size;
-        max = part <= max ? max : isnan(part) ? INFINITY : part;
+        const double error = fabs(x[k] - reference[k]) / size;
+        max = error <= max ? max : isnan(error) ? INFINITY : error;
     }
     return max;
 }

@@ -56,8 +56,8 @@ void dal_measure_quantiles(double *values, long long count, const double *p, int
         const long long low = (long long)place, high = low + 1 < count ? low + 1 : low;
         select_value(values, 0, count - 1, low);
         select_value(values, low, count - 1, high);
-        const double part = place - (double)low;
-        quantile[i] = values[low] + part * (values[high] - values[low]);
+        const double fraction = place - (double)low;
+        quantile[i] = values[low] + fraction * (values[high] - values[low]);
     }
 }
 

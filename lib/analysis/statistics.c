@@ -135,14 +135,14 @@ static bool is_short(const dal_statistics *s) { return s->length < DAL__CYCLE * 
 
 static void add_roughness(dal_statistics *s, double x)
 {
-    const int part = (int)(s->open_count % DAL_PARTIAL_SUMS);
+    const int number = (int)(s->open_count % DAL_PARTIAL_SUMS);
     const int phase = (int)(s->open_count / DAL_PARTIAL_SUMS % DAL__CYCLE);
     if (is_short(s))
         s->rough_steps += s->count > 0 ? square_of(s, x, s->last) : 0.0;
     else if (phase == 0)
-        s->held[part] = x;
+        s->held[number] = x;
     else if (phase == 1)
-        s->rough[part] += square_of(s, x, s->held[part]);
+        s->rough[number] += square_of(s, x, s->held[number]);
 }
 
 static void add_one(dal_statistics *s, double t, double x)
@@ -161,9 +161,9 @@ static void add_one(dal_statistics *s, double t, double x)
     }
     if (s->open_count == 0) open_block(s, t, x);
     add_roughness(s, x);
-    const int part = (int)(s->open_count % DAL_PARTIAL_SUMS);
-    s->open_sum[part] += x * s->factor - s->first * s->factor;
-    s->open_square[part] += square_of(s, x, s->open_from);
+    const int number = (int)(s->open_count % DAL_PARTIAL_SUMS);
+    s->open_sum[number] += x * s->factor - s->first * s->factor;
+    s->open_square[number] += square_of(s, x, s->open_from);
     s->open_min = x < s->open_min ? x : s->open_min;
     s->open_max = x > s->open_max ? x : s->open_max;
     move_on(s, 1, t, x);
@@ -200,8 +200,8 @@ static tally_packs *best_tally(void)
 static int packs_ahead(const dal_statistics *s, int values)
 {
     if (s->open_count % DAL_PARTIAL_SUMS != 0 || is_short(s) || s->factor < 1.0) return 0;
-    const long long left = s->length - s->open_count;
-    return (int)(left < values ? left : values) / DAL_PARTIAL_SUMS;
+    const long long rest = s->length - s->open_count;
+    return (int)(rest < values ? rest : values) / DAL_PARTIAL_SUMS;
 }
 
 static bool add_packs(dal_statistics *s, tally_packs *add, int packs, const double *t,

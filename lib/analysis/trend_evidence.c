@@ -162,7 +162,7 @@ static void weigh_plain_shapes(const dal__bins *b, int k, const noise_state *s, 
 }
 
 /* Two shapes beside each other; where one column does it, they do not count. */
-static const double clear_part = 3.0, min_part = 0.06;
+static const double clear_deviations = 3.0, min_ratio = 0.06;
 
 static void weigh_pair(const dal__bins *b, int k, const noise_state *s, const double *xy, int pair,
                        dal__evidence *e)
@@ -175,8 +175,8 @@ static void weigh_pair(const dal__bins *b, int k, const noise_state *s, const do
     const double rest = fmax(s->square - c * xy[i] - d * xy[l], s->floor);
     const double variance = rest / (b->freedom - 2.0);
     const double of_c = sqrt(variance * yy / det), of_d = sqrt(variance * xx / det);
-    if (fabs(c) < clear_part * of_c || fabs(d) < clear_part * of_d ||
-        fmin(fabs(c), fabs(d)) < min_part * fmax(fabs(c), fabs(d)))
+    if (fabs(c) < clear_deviations * of_c || fabs(d) < clear_deviations * of_d ||
+        fmin(fabs(c), fabs(d)) < min_ratio * fmax(fabs(c), fabs(d)))
         return;
     const double price =
         occam(c, of_c, b->half_range) * occam(d, sqrt(variance / yy), b->half_range);

@@ -2,7 +2,7 @@
  *
  * A file has the parts that its integrators declare (DAL_KERNEL_*), and what these use.  Inside a
  * part, lines #if and #ifdef with names that are known here are decided here, so that what is not
- * needed does not reach the file; all others are left to the compiler. */
+ * needed does not reach the file; the compiler decides all others. */
 #ifndef DAL_CODEGEN_PARTS_H
 #define DAL_CODEGEN_PARTS_H
 

@@ -35,7 +35,7 @@ static size_t read_digits(digits *d, const char *text, size_t i, size_t length, 
     return i;
 }
 
-/* The exponent part at text[i], if it is complete; beyond MAX_EXPONENT its size does not matter. */
+/* The exponent at text[i], if it is complete; beyond MAX_EXPONENT its size does not matter. */
 static size_t read_exponent(digits *d, const char *text, size_t i, size_t length)
 {
     size_t j = i + 1;

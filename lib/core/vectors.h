@@ -39,16 +39,16 @@ void dal__velocity_units(int n, int m, const double *A, const double *B, double 
 /* max |v_i|/unit_i over those that are not 0. */
 double dal__max_in_units(int n, const double *v, const double *unit);
 
-/* x loses its part along the unit vector. */
-void dal__remove_part(double *x, const double *unit, int count);
-/* Row j of rows[.. * width] loses its parts along the orthonormal rows before it and becomes a unit
- * vector; its length before that. */
+/* x loses its component along the unit vector. */
+void dal__remove_component(double *x, const double *unit, int count);
+/* Row j of rows[.. * width] loses its components along the orthonormal rows before it and becomes a
+ * unit vector; its length before that. */
 double dal__orthonormalise_row(double *rows, int j, int width);
 
 /* Modified Gram-Schmidt with column pivoting on a[rows*columns] (destroyed).  Columns shorter
  * than tolerance times the longest count as dependent; the rank is returned, and in *pivot (when
  * not NULL) the shortest over the longest of all pivots, 0 when rank < columns.
- * When right is not NULL it loses its part in the span (the rest is the least residue), and
+ * When right is not NULL it loses its component in the span (the rest is the least residue), and
  * x[columns] is the solution of a x = right with the dependent columns' x at 0. */
 int dal__least_squares(int rows, int columns, double *a, double *right, double *x, double tolerance,
                        double *pivot, double *work /* [columns*(columns+2)] */);

@@ -421,8 +421,8 @@ static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
     dal_lyapunov_discard_transient(s);
     for (int j = 0; j < s->rank && isfinite(s->log_from); j++) /* tangent to what is enforced */
         for (int k = 0; k < s->enforced; k++)
-            dal__remove_part(s->vectors + j * s->dimension, s->gradients + k * s->dimension,
-                             s->dimension);
+            dal__remove_component(s->vectors + j * s->dimension, s->gradients + k * s->dimension,
+                                  s->dimension);
     const dal_status status = orthonormalise(s, s->rank);
     s->error = NULL;
     return status;
