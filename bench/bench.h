@@ -4,7 +4,7 @@
  *                               the state reached
  *
  * A contender's work begins at the start and makes a fixed number of steps, so that what is timed
- * is also what is compared.  Time is that of the processor in this process, so that others on the
+ * is also what is compared.  Time is processor time of this process, so that others on the
  * machine do less harm, and the least of five rounds; BENCH_MS is the length of a round in
  * milliseconds (20; 0 for a smoke run).  The process is fresh: bench/run.sh takes medians over
  * several, since the layout of memory alone can make one of them slow. */
@@ -62,7 +62,7 @@ static inline double bench_time(const bench_contender *contender, int (*begin)(v
     return taken + (bench_now() - since);
 }
 
-/* The state is that of the first round.  begin brings the contender to its start where its work
+/* The state is the end of the first round.  begin brings the contender to its start where its work
  * does not do so. */
 static inline int bench_measure_from(const bench_contender *contender, int (*begin)(void *self))
 {

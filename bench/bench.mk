@@ -100,7 +100,7 @@ $(BENCH)/gen.%: $(BENCH)/gen.%.c bench/gen.c bench/bench.h
 	$(call SAY,cc)$(CC) -std=c11 -D_POSIX_C_SOURCE=200809L $(BENCH_FAST) $(EXACT) -Wno-psabi \
 	    -include $< bench/gen.c -lm -o $@
 
-# The page of the results, one of those of `dalembert report`.
+# The page of the results, one of the pages of `dalembert report`.
 $(BENCH)/page: bench/page.c $(BUILD)/tests/program.a $(STATIC)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) $(ALL) -Icli $(LDFLAGS) $^ $(LIBS) -o $@

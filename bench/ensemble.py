@@ -1,9 +1,9 @@
-"""ensemble.py - the speed of `dalembert ensemble`, as a share of that of its bare steps.
+"""ensemble.py - the speed of `dalembert ensemble`, as a share of the speed of its bare steps.
 
     ensemble.py PROGRAM PROGRAMS RESULTS     appends a section to RESULTS, for page.c
 
 BENCH_MEMBERS members (a million) of system A, their starts drawn, take STEPS steps of RK4.  The bare
-steps are those of `dal compiled256` of PROGRAMS, a compiled batch, on each processor at once.  The
+steps are taken by `dal compiled256` of PROGRAMS, a compiled batch, on each processor at once.  The
 ensemble begins as a process and ends with all its files and its page; its compiled code is in the
 cache.  Shares are medians of RUNS (3), by the clock on the wall and by the time of the processors,
 which other work on the machine changes less.
@@ -69,7 +69,7 @@ with open(results, 'a', encoding='utf-8') as out:
     json.dump({'section': 'An ensemble, and its bare steps', 'unit': 'share of the bare speed',
                'figure': 'ratios',
                'text': f'The speed of dalembert ensemble with {members} members of A and {STEPS} steps of '
-                       'RK4, as a share of that of a compiled batch, which does nothing but step, on '
+                       'RK4, as a share of the speed of a compiled batch, which only steps, on '
                        'all processors. The ensemble draws its starts, and writes all its files and '
                        'its page.'}, out)
     out.write('\n')

@@ -4,7 +4,7 @@
  *     gsl driver A|B3                                rk4 by gsl_odeiv2_driver_apply_fixed_step
  *
  * Each of these takes, in one call of size 2h, one full step and two half steps of size h and keeps
- * the half steps: a call is two steps of the others, and the time printed is that of one accepted
+ * the half steps: a call is two steps of the others, and the time printed is for one accepted
  * half step, its part of the full step included.  rk2imp is the implicit midpoint rule, rk4imp
  * Gauss' method of order 4, both by Newton's method with the exact Jacobian; they take their
  * tolerance from a control object, which therefore demands 1e-14 here and does not choose

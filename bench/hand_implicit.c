@@ -4,7 +4,7 @@
  * iteration ends by the same rule (lib/kernel/collocation.h, solve.h).
  *
  *     hand-implicit midpoint|gauss4 A|B3       with libm's sine and cosine, and plain sums
- *     hand-implicit-own midpoint|gauss4 A      with those of this project (HAND_OWN_SINCOS)
+ *     hand-implicit-own midpoint|gauss4 A      with this project's (HAND_OWN_SINCOS)
  *     hand-implicit-compensated midpoint|gauss4 A|B3
  *                                              also with its arithmetic (HAND_COMPENSATED):
  *                                              compensated sums, coefficients of more than 53 bits,

@@ -2,7 +2,7 @@
  *
  *     odeint rk4 A|B3       state of doubles
  *     odeint rk4x8 A|B3     state of 8-lane vectors, eight trajectories at once; the sine and
- *                           cosine over lanes are those of this project, odeint having none
+ *                           cosine over lanes are this project's, odeint having none
  *     odeint rk4x16 A|B3    of 16-lane vectors, which the compiler splits into two of 8 */
 #define _POSIX_C_SOURCE 200809L
 #define DAL_LANES       8

@@ -5,11 +5,11 @@
  * RESULTS are JSON lines, as run.sh and native_auto.py write them:
  *
  *     {"processor": ...}   the machine; begins each file
- *     {"section": ...}     a heading and a text; "figure" is what the results behind it are:
+ *     {"section": ...}     a heading and a text; "figure" is what the results after it are:
  *     {"case": ...}        of "ratios" a ratio, of "sizes" the time of a step on a chain
  *     {"system": ...}      of "runs" the seconds that a run takes in each mode
  *
- * The page is one of those of `dalembert report` (cli/report/report_page.h). */
+ * The page is made as by `dalembert report` (cli/report/report_page.h). */
 #define _POSIX_C_SOURCE 200809L
 #include "io/file.h"
 #include "io/gnuplot.h"
@@ -24,7 +24,7 @@
 
 enum { MAX_LINES = 4096, MAX_WORD = 32 };
 
-/* The lines of all files; those of a section stand together. */
+/* The lines of all files; lines of a section are together. */
 typedef struct results {
     document line[MAX_LINES];
     char *place[MAX_LINES]; /* of messages */
@@ -78,7 +78,7 @@ static int read_results(results *all, const char *path)
     return status;
 }
 
-/* The line behind the last one from i on that has the name. */
+/* The line after the last one from i on that has the name. */
 static int find_end(const results *all, int i, const char *name)
 {
     while (i < all->count && get(all, i, name)) i++;
@@ -400,7 +400,7 @@ static void write_facts(FILE *page, const results *all, int i)
     fputs("</dl>\n", page);
 }
 
-/* Writes a section; *i becomes the line behind it. */
+/* Writes a section; *i becomes the line after it. */
 static int write_section(report *r, const results *all, int *i)
 {
     const int section = *i, begin = section + 1;
@@ -433,8 +433,8 @@ static int write_page(report *r, const results *all)
         "run "
         "alternately with the other in fresh processes, and both reach the same end state. A "
         "number is the "
-        "median over these processes, its spread the smallest and the largest. Time is that of the "
-        "processor in the process, unless a text says otherwise.</p>\n",
+        "median over these processes, its spread the smallest and the largest. Time is processor "
+        "time of the process, unless a text says otherwise.</p>\n",
         r->page);
     for (int i = 0; i < all->count && status == CLI_DONE;) {
         if (get(all, i, "section"))

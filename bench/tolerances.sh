@@ -39,8 +39,8 @@ for system in A chaotic-oscillators falling-disk; do
         cat <<'END_OF_TEXT'
 ## Time to an error: A, T = 100 | steps of RK4 by hand on A
 # The time of a trajectory under error control, compiled, in steps of the loop by hand for RK4 on A, which is
-# measured beside it. The error is that of (q, v) at T, relative, in the Euclidean norm, the largest of all
-# lanes; the reference is taylor in quad precision, with which gauss12 in quad precision agrees. The tolerance,
+# measured beside it. The error of (q, v) at T is relative, in the Euclidean norm, the largest of
+# all lanes; the reference is taylor in quad precision, with which gauss12 in quad precision agrees. The tolerance,
 # in brackets, is the largest that reaches the error. Eight lanes have starts of their own. The goals are the
 # times of heyoka 7 at its best flags, measured once, on a machine where a step of the loop takes 44.4 ns.
 END_OF_TEXT

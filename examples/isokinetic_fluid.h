@@ -31,7 +31,7 @@ enum { FLUID_MAX_PAIRS = 50 * FLUID_SPHERES };
 #define FLUID_CUT  2.0
 #define FLUID_SKIN 0.3
 
-/* What work holds behind the parameters, for this system alone. */
+/* What work holds after the parameters, for this system alone. */
 typedef struct fluid_list {
     double valid; /* 1: built */
     double origin[FLUID_N];

@@ -10,7 +10,7 @@
  *     F = (left + right)/r,    M = (right - left) b/r
  *
  * for which the wheels are driven to give r'' + 2 k (r' - P') + k^2 (r - P), with the path r(t).
- * Then e = r - P obeys e'' + 2 k e' + k^2 e = 0, but for the torques being held for a period T:
+ * Then e = r - P obeys e'' + 2 k e' + k^2 e = 0, except that torques are held for a period T:
  * that changes P'' by at most T J, where J bounds the rates of r'' and P'', so that |e| <= T J/k^2.
  *
  * Prints t, x, y, |e| and |D| every second, and fails if |e| exceeds its bound. */

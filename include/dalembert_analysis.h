@@ -478,8 +478,8 @@ dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec
                                const dal_system *tangent, int count, dal_error *error);
 /* Frees the vectors and their run. */
 void dal_lyapunov_free(dal_lyapunov *lyapunov);
-/* Takes steps of the run and its vectors; the run has the bits of dal_run_advance.  Errors: those
- * of a step; DAL_SINGULAR when J takes a vector to 0. */
+/* Takes steps of the run and its vectors; the run has the bits of dal_run_advance.  Errors: as
+ * for a step; DAL_SINGULAR when J takes a vector to 0. */
 dal_status dal_lyapunov_advance(dal_lyapunov *lyapunov, long long steps, dal_error *error);
 /* Begins all means at the present time, after a transient; the vectors stay. */
 void dal_lyapunov_discard_transient(dal_lyapunov *lyapunov);

@@ -1,6 +1,6 @@
 """Finds the library and describes the extension module dalembert._library to cffi.
 
-The declarations are those of the public headers, as the compiler's preprocessor writes them out;
+The declarations come from the public headers, as the compiler's preprocessor writes them out;
 the compiler then compares them with the headers.
 
     DALEMBERT_BUILD    a directory that `make` made, the library of which is linked statically

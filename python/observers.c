@@ -85,7 +85,7 @@ static dal_status add_scales(void *user, dal_run *run, const double *scales)
 }
 
 /* Advances a run to time T and fills statistics[observables] with the values at the start, and then
- * with those of one step in `every`. */
+ * with the values of one step in `every`. */
 static dal_status python_follow(dal_run *run, double T, long long every, dal_statistics *statistics,
                                 dal_error *error)
 {

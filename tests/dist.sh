@@ -1,7 +1,7 @@
 #!/bin/sh
 # dist.sh MAKE BUILD - makes the tarball of the last commit, here and in a clone, which gives the same
 # bytes; elsewhere and without git it builds, passes a part of its tests and installs.
-# CC and CFLAGS are those of its build.
+# CC and CFLAGS are as in its build.
 make="$1 --no-print-directory" build=$2
 root=$(mktemp -d) || exit 1
 trap 'rm -rf "$root"' EXIT

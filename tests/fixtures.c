@@ -220,7 +220,7 @@ void fixture_refused(const dal_run_spec *spec, dal_status status, const char *fr
     dal_error error = {0};
     CU_ASSERT_EQUAL(dal_run_create(&run, spec, &error), status);
     CU_ASSERT_EQUAL(error.status, status);
-    CU_ASSERT(error.line == 0 && error.column == 0); /* it stands in no text */
+    CU_ASSERT(error.line == 0 && error.column == 0); /* it is in no text */
     CU_ASSERT_PTR_NULL(run);
     if (!strstr(error.message, fragment)) printf("\n  %s\n", error.message);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));

@@ -15,7 +15,7 @@ extern const char fixture_gentle[];
 /* D with constant coefficients; D bilinear in (q,v); D quadratic in v; all conservative. */
 extern const char fixture_constant[], fixture_bilinear[], fixture_quadratic[];
 
-/* The system of a model from YAML text or (no newline in it) a built-in name, and that of its
+/* The system of a model from YAML text or (no newline in it) a built-in name, and the system of its
  * tangent map; fails the test when there is none.  Equal texts have the same. */
 const dal_system *fixture_system(const char *text);
 const dal_system *fixture_tangent(const char *text);
@@ -58,7 +58,7 @@ const char *fixture_method(int i, char *name, size_t size);
  * lifted run is displaced first. */
 double fixture_order(dal_run_spec spec, double T, int coarse, int fine, double displacement);
 
-/* Means of a spectrum; that of an exponent lies in its interval. */
+/* Means of a spectrum; an exponent's lies in its interval. */
 double fixture_exponent(const dal_lyapunov *s, int i);
 double fixture_sum(const dal_lyapunov *s);
 double fixture_divergence(const dal_lyapunov *s);

@@ -1,7 +1,7 @@
 #!/bin/sh
 # install.sh MAKE BUILD - installs into a temporary place, builds the examples against what is
 # installed there and nothing else, and compares what they print with closed forms.
-# CC and CFLAGS are those of the build.
+# CC and CFLAGS are as in the build.
 make=$1 build=$2
 cc=${CC:-cc}
 root=$(mktemp -d) || exit 1
@@ -50,7 +50,7 @@ logged $cc -std=c11 -Wall -Wextra -Werror -Wno-psabi $CFLAGS $(pkg-config --cfla
 logged nm "$root/heun.o"
 grep -q dal_integrator_heun "$root/log" || fail "examples/heun.c defines no descriptor"
 
-# From C++ the headers have no warnings, and that of the kernel none from C++17 on.
+# From C++ the headers have no warnings, and the kernel's has none from C++17 on.
 cxx=${CXX:-c++}
 if command -v "${cxx%% *}" >/dev/null; then
     for source in 'c++11 dalembert_analysis dalembert_codegen dalembert' 'c++17 dalembert_kernel'; do
@@ -156,7 +156,7 @@ awk "$near"'
       near($1, FNR - 1, 1e-9); near($2, state[1], 1e-9); near($3, state[2], 1e-9); near($4, e, 1e-10)
       near($5, 0, 1e-15) }' rows=23 "$root/path_following.txt" || fail "path_following is wrong"
 
-# The program finds its built-in systems wherever it stands, and reads the installed files.
+# The program finds its built-in systems wherever it is, and reads the installed files.
 "$prefix/bin/dalembert" check "$prefix/share/dalembert/systems/chaplygin-sleigh.yaml" \
     >/dev/null || fail "the installed system file does not pass its check"
 manual=$prefix/share/man/man1/dalembert.1

@@ -1,7 +1,7 @@
 #!/bin/sh
 # python.sh MAKE BUILD - installs the package of python/ into an environment of its own, once with the
 # library of BUILD and once with an installed one, runs its tests and what docs/python.md shows, and
-# executes the notebook.  CC and CFLAGS are those of the build.
+# executes the notebook.  CC and CFLAGS are as in the build.
 # Where CI is true it fails without Python and what the tests need.
 # make gets BUILD as it was given: a path that begins with the tree's has the blanks of that.
 make=$1 given=$2 build=$(realpath "$2") || exit 1

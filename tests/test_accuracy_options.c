@@ -9,7 +9,7 @@ static const char free_motion[] = "coordinates: [x]\nlagrangian: x'^2/2\nstart: 
 static const char oscillator[] =
     "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1, x': 0.5}\n";
 
-/* x + h v again and again: plain sums are those of a loop, and compensated ones lose nothing. */
+/* x + h v again and again: plain sums are a loop's, and compensated ones lose nothing. */
 static void test_sums(void)
 {
     enum { STEPS = 100000 };
@@ -24,7 +24,7 @@ static void test_sums(void)
     CU_ASSERT_EQUAL(dal_run_advance(exact, STEPS, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(plain, STEPS, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_state(plain)[0], x);
-    /* Right to all digits of x and of what x has no room for, which stands behind x and x': the
+    /* Right to all digits of x and of what x has no room for, which comes after x and x': the
      * product h v is part + rest, STEPS times that is right + lost. */
     size_t count;
     const double *carried = dal_run_save(exact, &count);
@@ -62,7 +62,7 @@ static void test_one_side(void)
 }
 
 /* The midpoint rule's fixed point contracts by (h/2)^2 = 1/16 on an oscillator.  The state's size
- * is |v| + |x|/h = 2.5 and that of the unknown 0.5: the first change below the tolerance leaves
+ * is |v| + |x|/h = 2.5 and the unknown's 0.5: the first change below the tolerance leaves
  * between a 272th and a 17th of it. */
 static void test_looser(void)
 {

@@ -120,7 +120,7 @@ static double error_at(const char *text, double T, double tolerance, const doubl
 
 /* With a small tolerance nothing grows but the rounding of F: not the phase of an
  * oscillator, which the doubles nearest to the coefficients shift by 7e-17 in a unit of time.  The
- * end of the sleigh is that of Gragg's extrapolation of order 28 in quad precision, with 1000
+ * end of the sleigh is from Gragg's extrapolation of order 28 in quad precision, with 1000
  * steps as with 500. */
 static void test_fine(void)
 {
@@ -401,7 +401,7 @@ static void fails(const char *text, double step, const char *reason, double reac
     if (reached > 0.0) CU_ASSERT(fabs(strtod(where + strlen("at t = "), NULL) - reached) <= 1e-6);
 }
 
-/* x = 1/(1 - t) ends at 1, and its scale goes with it; sqrt(1 - t) has no value behind 1; 160000
+/* x = 1/(1 - t) ends at 1, and its scale goes with it; sqrt(1 - t) has no value after 1; 160000
  * turns are too many. */
 static void test_failures(void)
 {

@@ -195,7 +195,7 @@ static void test_failed_lane_stays(void)
         CU_ASSERT_EQUAL(dal_batch_time(batch, i), i == 1 ? 0.0 : 2.0);
     }
     dal_batch_free(batch);
-    /* With no lane left the status is that of a lane. */
+    /* With no lane left the status is a lane's. */
     CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 1, 0, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, &start, 1, NULL), DAL_OK);
     broken = true;

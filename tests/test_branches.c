@@ -17,7 +17,7 @@
 
 /* ---- what jumps ---- */
 
-/* A table f; its derivatives jump at the points, those of a natural spline from the third on. */
+/* A table f; its derivatives jump at the points, a natural spline's from the third on. */
 #define TABLE(form)                                                                                \
     "files: {f.csv: \"u,f\\n-9,0\\n0.5,1\\n2,0\\n9,3\"}\n"                                         \
     "tables: {f: {file: f.csv, at: u, value: f, interpolation: " form "}}\n"
@@ -226,7 +226,7 @@ static void test_potential(void)
 
 /* ---- motions ---- */
 
-/* y swings for a time of pi on the spring of stiffness 1, of pi/2 on that of stiffness 4.  Steps
+/* y swings for a time of pi on the spring of stiffness 1, of pi/2 on the one of stiffness 4.  Steps
  * that end where the spring changes lose no order; steps across are of order 2. */
 static void test_unequal_springs(void)
 {

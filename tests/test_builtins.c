@@ -137,7 +137,7 @@ static double divergence(const reference *b, double t, const double *x)
     return sum;
 }
 
-/* The logarithm of the volume follows that of an invariant density, which may grow like log(t); on
+/* The logarithm of the volume follows an invariant density's, which may grow like log(t); on
  * the way to an attractor it falls like t.  Its change from t = 10 to 20, by the trapezoidal rule.
  */
 static void check_volume(const reference *b)

@@ -174,7 +174,7 @@ static void test_object_of_others(void)
     folder_remove(kept);
 }
 
-/* The next compilation removes the folders of those that were killed, not that of one that lives:
+/* The next compilation removes the folders of those that were killed, not of one that lives:
  * a compiler that waits for a pipe, as a run does that was killed while it runs. */
 static void test_abandoned(void)
 {

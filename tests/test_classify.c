@@ -40,7 +40,7 @@ static int follow(const dal_run_spec *spec, followed *f)
     return 1;
 }
 
-/* What becomes of an observable along 400 steps; "" stands for a run without it. */
+/* What becomes of an observable along 400 steps; "" is a run without it. */
 static const char *fate(const dal_system *system, const char *method, const dal_options *options,
                         const dal_setting *start, const char *name)
 {

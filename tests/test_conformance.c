@@ -73,7 +73,7 @@ static void for_each_modified(visitor *visit, void *user)
     }
 }
 
-/* ---- order, where it is that of the method inside (compositions: test_phase_composition.c) ----
+/* ---- order, where it is the inner method's (compositions: test_phase_composition.c) ----
  */
 
 static void check_order(const char *name, const dal_method *method, void *user)

@@ -42,7 +42,7 @@ static void test_refusals(void)
 static double *multipliers(dal_run *run, double *memory)
 {
     const size_t first =
-        dal__at(&run->layout, DAL__CLOCK_SIZE) + 2; /* behind stiff and derivatives_h */
+        dal__at(&run->layout, DAL__CLOCK_SIZE) + 2; /* after stiff and derivatives_h */
     CU_ASSERT_EQUAL(memory[first], 1.0);            /* they have been set */
     return memory + first + 1;
 }
@@ -126,7 +126,7 @@ static double carried_order(const dal_system *system, const char *method, bool w
     return log2(error[0] / error[1]);
 }
 
-/* The multipliers that a run begins with must be those of the motion: others cost the methods of
+/* The multipliers that a run begins with must be the motion's: others cost the methods of
  * higher order two orders for good. */
 static void test_beginning(void)
 {
@@ -137,7 +137,7 @@ static void test_beginning(void)
     CU_ASSERT_DOUBLE_EQUAL(carried_order(system, "lobatto-nonholonomic6", true), 4.0, 0.1);
 }
 
-/* A run set to a state begins again, with the multipliers that belong to it: those of a fresh run.
+/* A run set to a state begins again, with the multipliers that belong to it: a fresh run's.
  */
 static void test_set_state(void)
 {
@@ -176,7 +176,7 @@ static double growth(const dal_system *system, const char *method, double spin, 
     spec.parameters = &speed;
     spec.parameter_count = 1;
     dal_run *run = fixture_run(&spec);
-    const int Hf = 2; /* behind D1 and E */
+    const int Hf = 2; /* after D1 and E */
     for (int i = 0; i < 2; i++) {
         CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, llround(0.5 * T / h), NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_run_observe(run, seen[i]), DAL_OK);

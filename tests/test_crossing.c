@@ -91,7 +91,7 @@ static void compare(const char *g, const record *r, const double *t, int count, 
     CU_ASSERT(r->unresolved == 0 && isnan(r->first));
 }
 
-/* A section and an event find the zeros t[count] of g, an event also backwards those of g(-x). */
+/* A section and an event find the zeros t[count] of g, an event also zeros of g(-x), backwards. */
 static void find(const char *g, const char *reflected, const double *t, int count, const motion *m)
 {
     const motion back = {m->method, -m->step, -m->T, m->tolerance};

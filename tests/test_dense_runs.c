@@ -127,7 +127,7 @@ static void test_bits(void)
     }
 }
 
-/* A state is that of the present parameters and of the present state. */
+/* A state between steps follows from the present parameters and the present state. */
 static void test_changes(void)
 {
     static const char text[] = "coordinates: [x]\nparameters: {k: 1}\n"
@@ -275,7 +275,7 @@ void suite_dense_runs(void)
     CU_add_test(suite, "rows within a step, against closed forms", test_closed_forms);
     CU_add_test(suite, "bits that do not depend on rows", test_bits);
     CU_add_test(suite, "changed parameters and states", test_changes);
-    CU_add_test(suite, "a step that fails behind its rows", test_failing_step);
+    CU_add_test(suite, "a step that fails after its rows", test_failing_step);
     CU_add_test(suite, "a method without polynomials", test_without_polynomials);
     CU_add_test(suite, "sections and events, against closed forms", test_crossings);
     CU_add_test(suite, "quad precision", test_quad);

@@ -1,5 +1,5 @@
 /* test_elementary.c - sin and cos against MPFR to one unit in the last place; every function the
- * same bits at every width, whatever stands in the neighbouring lanes. */
+ * same bits at every width, whatever is in the neighbouring lanes. */
 #include "elementary.h"
 
 #include <CUnit/Basic.h>

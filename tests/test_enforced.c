@@ -1,4 +1,4 @@
-/* test_enforced.c - methods that enforce D = 0, each by the equations it stands for. */
+/* test_enforced.c - methods that enforce D = 0, each by the equations that define it. */
 #include "fixtures.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>

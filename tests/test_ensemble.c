@@ -45,7 +45,7 @@ static void test_generator(void)
     }
 }
 
-/* Moments of count draws within some deviations of those of the distribution: mean, variance, and
+/* Moments of count draws within some deviations of the distribution's: mean, variance, and
  * the fourth central moment, which the error of the variance follows from; and a probability. */
 static void check_moments(const char *text, double mean, double variance, double fourth,
                           double below, double probability)

@@ -75,7 +75,7 @@ static void test_truncation(void)
     CU_ASSERT_EQUAL(of(e, "D1")->share[DAL_SOURCE_PROJECTION], 0.0);
     CU_ASSERT(of(e, "D1")->comparison[DAL_COMPARISON_PROJECTION].deviation > 1e-5);
     CU_ASSERT(fabs(of(e, "D1")->share[DAL_SOURCE_ROUNDING] - 1.0) < 1e-9);
-    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "nothing of it is left"));
+    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "nothing of it remains"));
     dal_error_budget_free(e);
 }
 
@@ -122,7 +122,7 @@ static void test_rounding(void)
     CU_ASSERT(fabs(d->share[DAL_SOURCE_TRUNCATION]) < 1e-12);
     CU_ASSERT_EQUAL(d->share[DAL_SOURCE_COEFFICIENTS], 0.0);
     CU_ASSERT(!(d->share[DAL_SOURCE_SOLVER] > 0.0));
-    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "in quad precision nothing of it is left"));
+    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "in quad precision nothing of it remains"));
     /* E, which this method does not keep, drifts by truncation. */
     CU_ASSERT(fabs(of(e, "E")->share[DAL_SOURCE_TRUNCATION] - 1.0) < 1e-6);
     CU_ASSERT(fabs(of(e, "E")->order - 2.0) < 0.1);
@@ -154,7 +154,7 @@ static void test_solver(void)
     dal_error_budget_free(e);
 }
 
-/* gauss8 keeps a bilinear D but for its coefficients, which are good to 20 digits: what they do to
+/* gauss8 keeps a bilinear D except for its coefficients, good to 20 digits: what these do to
  * D in a unit of time is proportional to h (h^2 in a step), and far below rounding. */
 static void test_coefficients(void)
 {
@@ -339,7 +339,7 @@ static void test_conserved(void)
     dal_error_budget_free(e);
 }
 
-/* In units 2^40 and 2^-40 times larger all is the same, but for roundings. */
+/* In units 2^40 and 2^-40 times larger all is the same, except for roundings. */
 static void test_units(void)
 {
     double share[3][DAL_ERROR_SOURCES], order[3];

@@ -46,7 +46,7 @@ static made_up make(const dal_system *system, const char *method)
     return m;
 }
 
-/* Rates of least squares are those of the trends. */
+/* Rates of least squares are the trends' own. */
 static const dal_shares *shares_of(made_up *m)
 {
     double rate[1 + DAL_COMPARISONS] = {m->a.whole.rate};
@@ -234,7 +234,7 @@ static void test_branches(void)
 }
 
 /* Friction takes 0.06 of the 0.1, truncation 0.03, and rounding 0.01; without quad precision the
- * errors of the run and of its half, less those of the motion, are 0.032 and 0.002. */
+ * errors of the run and of its half, less the errors of the motion, are 0.032 and 0.002. */
 static void test_split(void)
 {
     made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");

@@ -311,7 +311,7 @@ static dal_status check_row(void *user, dal_run *run, long long row, double t)
     return DAL_OK;
 }
 
-/* Rows between the steps are those of the motion too, and change nothing. */
+/* Rows between the steps follow the motion too, and change nothing. */
 static void test_rows(void)
 {
     const dal_run_spec spec =

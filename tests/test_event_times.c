@@ -1,4 +1,4 @@
-/* test_event_times.c - events at one time, of velocities, of reactions; the steps behind them. */
+/* test_event_times.c - events at one time, of velocities, of reactions; the steps after them. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -36,7 +36,7 @@ static record events_of(const char *text, const char *method, double step, doubl
 /* ---- at one time ---- */
 
 /* x = t.  Two events less than its rounding apart are one point of time, and act in the order of
- * the file, whichever is first by a rounding: 2 y + 1.  Those further apart act in that of time:
+ * the file, whichever is first by a rounding: 2 y + 1.  Those further apart act in order of time:
  * 2 (y + 1). */
 #define TWO(first, second)                                                                         \
     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nstart: {y: 1, x': 1}\n"                     \
@@ -258,7 +258,7 @@ static void test_index(void)
 }
 
 /* A parameter that moves the floor above the ball is no impact; one that moves it elsewhere counts
- * from then on, also right behind an impact. */
+ * from then on, also right after an impact. */
 static void test_parameter(void)
 {
     const char *text = "coordinates: [y]\nparameters: {r: 0.1}\nlagrangian: y'^2/2 - 9.81*y\n"

@@ -179,7 +179,7 @@ static void test_long(void)
     }
 }
 
-/* The lift of F~ is a canonical system like that of F. */
+/* The lift of F~ is a canonical system like the lift of F. */
 static void test_lifted(void)
 {
     dal_run_spec spec =

@@ -213,8 +213,8 @@ static const struct {
     {"x + * y", DAL_SYNTAX, 1, 5, "a value is missing before '*'"},
     {"-", DAL_SYNTAX, 1, 2, "a value is missing at the end"},
     {"^2", DAL_SYNTAX, 1, 1, "a value is missing before '^'"},
-    {"x, y", DAL_SYNTAX, 1, 2, "',' stands outside"},
-    {"(x, y)", DAL_SYNTAX, 1, 3, "',' stands outside"},
+    {"x, y", DAL_SYNTAX, 1, 2, "',' outside the arguments of a function"},
+    {"(x, y)", DAL_SYNTAX, 1, 3, "',' outside the arguments of a function"},
     {"sin(x, y)", DAL_SYNTAX, 1, 1, "sin takes 1 argument, not 2"},
     {"1 + sqrt()", DAL_SYNTAX, 1, 5, "sqrt takes 1 argument, not 0"},
     {"atan2(x)", DAL_SYNTAX, 1, 1, "atan2 takes 2 arguments, not 1"},
@@ -282,7 +282,7 @@ static void test_zero_byte(void)
     CU_ASSERT_EQUAL(status, DAL_SYNTAX);
     CU_ASSERT_EQUAL(error.column, 5);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "unexpected byte 0x00"));
-    /* What lies behind the end is not read. */
+    /* What lies after the end is not read. */
     CU_ASSERT_EQUAL(dal__parse(graph, "x + y'", 5, &names, &node, &error), DAL_OK);
     CU_ASSERT_EQUAL(dal__inspect(graph, node).op, DAL__ADD);
     CU_ASSERT_EQUAL(dal__symbol(graph, Y), dal__inspect(graph, node).b);

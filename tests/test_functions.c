@@ -23,7 +23,7 @@ static double field_difference(const char *one, const char *other)
     return fmax(fabs(F[0][0] - F[1][0]), fabs(F[0][1] - F[1][1]));
 }
 
-/* Every call stands for its formula: with numbers, parameters and functions as arguments, and with
+/* Every call means its formula: with numbers, parameters and functions as arguments, and with
  * arguments that have the names of parameters, of t or of coordinates. */
 static void test_calls(void)
 {
@@ -74,7 +74,7 @@ static void test_nesting(void)
 
 /* ---- sizes, indices, sums ---- */
 
-/* What stands for many against the formulas written out. */
+/* What means many formulas, against the formulas written out. */
 static void test_indices(void)
 {
     static const char many[] =

@@ -37,7 +37,7 @@ static const char *system_for(const dal_integrator *integrator)
     return integrator->needs & DAL_NEEDS_ISOKINETIC ? "isokinetic-cluster" : "chaplygin-sleigh";
 }
 
-/* Writes the steps with these parts and those that they use.  A modifier stands around rk4, which
+/* Writes the steps with these parts and those that they use.  A modifier is around rk4, which
  * uses none, whether it suits it or not. */
 static bool accepts_with(int number, unsigned parts, int lanes, dal_space space)
 {

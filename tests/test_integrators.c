@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Every integrator that is not a modifier, or, with project, with +project behind its name. */
+/* Every integrator that is not a modifier, or, with project, with +project after its name. */
 typedef void visitor(const char *name, const dal_method *method, void *user);
 
 static void for_each(bool project, visitor *visit, void *user)

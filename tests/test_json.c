@@ -123,7 +123,7 @@ static void test_every_character(void)
             if (code < 0xd800 || code > 0xdfff) to = encode(to, code);
         *to = '\0';
         if (is_read_as(text, text)) continue;
-        printf("U+%04lx or one of those behind it\n", first);
+        printf("U+%04lx or one of those after it\n", first);
         CU_FAIL("a character is not read back");
         return;
     }
@@ -358,7 +358,7 @@ static void test_depth(void)
     show_messages(kept);
 }
 
-/* The bytes of a value are those that stand there, whatever letters come before. */
+/* The bytes of a value are the bytes in the text, whatever letters come before. */
 static void test_source(void)
 {
     static const char bytes[] =

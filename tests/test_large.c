@@ -98,7 +98,7 @@ static double *fluid_point(double *qv)
     return work;
 }
 
-/* f = -U_q, and v.F = 0: the power of the thermostat is that of the forces. */
+/* f = -U_q, and v.F = 0: the power of the thermostat is the power of the forces. */
 static void test_fluid_forces(void)
 {
     double qv[2 * FLUID_N], f[FLUID_N], F[FLUID_N], above, below;

@@ -361,7 +361,7 @@ void suite_lyapunov(void)
     CU_add_test(suite, "a full turn of the sleigh, closed form", test_full_turn);
     CU_add_test(suite, "the measures of the shipped systems", test_tags);
     CU_add_test(suite, "vakonomic motion", test_vakonomic);
-    CU_add_test(suite, "the trajectory is that of a run", test_same_bits);
+    CU_add_test(suite, "the trajectory is a run's", test_same_bits);
     CU_add_test(suite, "what is refused", test_refuses);
     CU_add_test(suite, "increments of differences", test_increments);
     CU_add_test(suite, "out of memory", test_out_of_memory);

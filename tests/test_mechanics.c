@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Differences are good to 1e-12 (reference.h); the elimination behind them amplifies it. */
+/* Differences are good to 1e-12 (reference.h); the elimination after them amplifies it. */
 #define BY_DIFFERENCES 1e-10
 
 /* ---- two hard systems ---- */

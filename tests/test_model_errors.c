@@ -201,7 +201,7 @@ static const bad_file formulas[] = {
     {DAL_NAME, "lagrangian: unknown name 'z'", "title: \"\xc3\xa4\"\n" XY "lagrangian: @z\n"},
     {DAL_NAME, "lagrangian: unknown name 'z'", "\xef\xbb\xbf" XY "lagrangian: x + @z\n"},
     {DAL_NAME, "lagrangian: unknown name 'z'", "# one\r\n" XY "lagrangian: x\r\n  + @z\r\n"},
-    /* What may stand where. */
+    /* Which names are allowed where. */
     {DAL_NAME, "parameter m: unknown name 'k'", XY L "parameters: {m: @k, k: 1}\n"},
     {DAL_NAME, "let a: unknown name 'bcd'", XY L "let: {a: @bcd, bcd: 1}\n"},
     {DAL_SYNTAX, "parameter m: the number 1e999 is too large", XY L "parameters: {m: @1e999}\n"},
@@ -406,7 +406,7 @@ static void test_functions(void) { CHECK_ALL(functions); }
 static void test_indices(void) { CHECK_ALL(indices); }
 static void test_mechanics(void) { CHECK_ALL(mechanics); }
 
-/* Escapes and doubled quotes are those of YAML. */
+/* Escapes and doubled quotes are YAML's. */
 static void test_quotes(void)
 {
     static const char *const texts[] = {XY "lagrangian: \"(x'^2 + \\x79'^2)/2\"\n",

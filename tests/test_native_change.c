@@ -115,7 +115,7 @@ static void test_beside(void)
     same_memory(run, tape);
     CU_ASSERT_EQUAL(dal_run_use_native(small, native, &error), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_use_native(other, native, &error), DAL_ARGUMENT);
-    CU_ASSERT_STRING_EQUAL(error.message, "the compiled code is that of other steps");
+    CU_ASSERT_STRING_EQUAL(error.message, "the compiled code is for other steps");
     CU_ASSERT_FALSE(dal_run_is_native(other));
     CU_ASSERT_EQUAL(folder_files("gated"), 1);
     dal_run_free(tape);

@@ -189,7 +189,7 @@ static void test_failure(void)
     dal_run_free(plain);
 }
 
-/* An observer that wants no more ends the run where it stands. */
+/* An observer that wants no more ends the run where it is. */
 static void test_refusal(void)
 {
     static series s;

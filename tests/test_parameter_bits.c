@@ -95,7 +95,7 @@ static void same_native(const dal_run_spec *spec, const dal_run *run)
     dal_run_free(native);
 }
 
-/* A generated file as a shared object, with its state behind it. */
+/* A generated file as a shared object, followed by its state. */
 typedef struct object {
     int lanes;
     void *handle;

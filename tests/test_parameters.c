@@ -389,7 +389,7 @@ static void test_drift(void)
     dal_run_free(run);
 }
 
-/* Every parameter of every system can be set to what it is, wherever the run stands. */
+/* Every parameter of every system can be set to what it is, wherever the run is. */
 static void test_built_in(void)
 {
     for (int i = 0; dal_builtin_name(i); i++) {

@@ -177,7 +177,7 @@ static void test_surface(void)
     }
 }
 
-/* On the surface the order of the base; off it that of the splitting. */
+/* On the surface the order of the base; off it the order of the splitting. */
 static void test_order(void)
 {
     const dal_system *full = fixture_system(fixture_full), *weak = fixture_system(fixture_gentle);

@@ -119,7 +119,7 @@ static void test_symplectic_condition(void)
     }
 }
 
-/* A first guess needs no more digits than those of double. */
+/* A first guess needs no more digits than a double has. */
 static void check_guess(const whole *w, const double *row, real c, int k)
 {
     real sum = 0.0L, size = 0.0L;

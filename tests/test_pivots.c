@@ -118,7 +118,7 @@ static void test_singular_rate(void)
     reference_free(&b);
 }
 
-/* Parameters alone, or a first pivot, are not checked: no pivots behind the outputs. */
+/* Parameters alone, or a first pivot, are not checked: no pivots after the outputs. */
 static void test_start_may_be_singular(void)
 {
     reference b = reference_of_text("coordinates: [x, y, z]\n"

@@ -113,8 +113,8 @@ static double error_at_end(const dal_run_spec *spec, int steps)
     return error;
 }
 
-/* The order of a method where doubles would not see its error any more.  Those of gauss8 have
- * coefficients good to 20 digits, the midpoint rule has none to speak of. */
+/* The order of a method where doubles would not see its error any more.  The coefficients of
+ * gauss8 are good to 20 digits, the midpoint rule has none to speak of. */
 static void test_order(void)
 {
     static const struct {

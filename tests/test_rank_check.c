@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A snakeboard whose axles come to stand across it; rows of A that become parallel at z = pi/4;
+/* A snakeboard whose axles turn across it; rows of A that become parallel at z = pi/4;
  * bodies on a cone of velocities that come to rest, one of them beside another. */
 static const char *const texts[] = {
     "coordinates: [x, y, th, psi, phi]\n"
@@ -115,7 +115,7 @@ static void test_builtins(void)
 
 /* In the first, x' and y' have constant coefficients each in one constraint alone, so that the rank
  * of A is 2 everywhere, and W is positive definite: A W^-1 A^T is regular.  Each other lacks one of
- * these: x' has a coefficient that vanishes, y' stands in both constraints, W is indefinite, and
+ * these: x' has a coefficient that vanishes, y' is in both constraints, W is indefinite, and
  * vakonomic motion has other equations. */
 static void test_regular(void)
 {

@@ -188,7 +188,7 @@ static void test_differences(void)
 /* ---- multipliers of a method ---- */
 
 /* The last multiplier of RATTLE: v1 = vh + h/2 lambda A^T with vh = (q1 - q0)/h, for the sleigh
- * with unit masses, where A A^T = 1; not that of F. */
+ * with unit masses, where A A^T = 1; not F's multiplier. */
 static void test_rattle(void)
 {
     reference b = reference_builtin("chaplygin-sleigh");
@@ -227,7 +227,7 @@ static void test_restored(void)
     close_run(&o);
 }
 
-/* In quad precision h1 is that of the same formula: roundings apart. */
+/* In quad precision h1 follows from the same formula: roundings apart. */
 static void test_quad(void)
 {
     reference b = reference_builtin("knife-edge-reaction");

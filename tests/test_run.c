@@ -230,7 +230,7 @@ static void test_rest_is_singular(void)
     dal_run_free(run);
 }
 
-/* A snakeboard whose axles come to stand across it, phi = pi/2, where the two constraints depend;
+/* A snakeboard whose axles turn across it, phi = pi/2, where the two constraints depend;
  * and a normal that vanishes with a factor of D.  Between steps G recovers: nothing but the turn
  * shows it.  (phi' is constant; phi = pi/2 at t = 2.14, x = 0 at t = 1.) */
 static void test_leapt_over(void)

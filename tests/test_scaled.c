@@ -1,5 +1,5 @@
 /* test_scaled.c - systems in units of their own: the same motions, the same derivatives, and units
- * that change as those of the user do. */
+ * that change with the user's. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -75,7 +75,7 @@ static void test_motions(void)
         distance_after(fixture_system("chaplygin-sleigh-vakonomic"), "rk4", DAL_PHYSICAL), 0.0);
 }
 
-/* All derivatives are those of the scaled values, by differences. */
+/* All derivatives are derivatives of the scaled values, by differences. */
 static void test_derivatives(void)
 {
     static const char *const systems[] = {"chaplygin-sleigh-incline", "falling-disk", "benenti",

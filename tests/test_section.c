@@ -233,7 +233,7 @@ static void test_no_rate_at_an_end(void)
 }
 
 /* g = +-((t - c)^2 - d^2), which rk4 follows exactly, with its minimum at c in a step of 0.25
- * beside t = 1, the step where |g| is least: behind it or before it, so that both crossings c -+ d
+ * beside t = 1, the step where |g| is least: after it or before it, so that both crossings c -+ d
  * lie in the step after t = 1, or in the one before. */
 static void test_pairs_on_either_side(void)
 {
@@ -362,7 +362,7 @@ static void cross_with(const char *model, const char *method, dal_space space)
     dal_run_free(plain);
 }
 
-/* y = 0.6 cos t + 0.7 sin t, whatever D does to x and z.  The trajectory is that of a run without
+/* y = 0.6 cos t + 0.7 sin t, whatever D does to x and z.  The trajectory is the same as without
  * sections, and the crossings lie on it to rounding. */
 static void test_methods(void)
 {

@@ -200,7 +200,7 @@ static void test_nonlinear(void)
     CU_ASSERT_DOUBLE_EQUAL((z[2] - 0.7) * 4.0 * z[3] - (z[3] - 0.5) * z[2], 0.0, 1e-14);
 }
 
-/* The metric is that of the velocities given.  W = diag(1 + x'^2, 1), diag(5, 1) at (2, 1/2), and
+/* The metric is taken at the velocities given.  W = diag(1 + x'^2, 1), diag(5, 1) at (2, 1/2), and
  * A = (1, 1): v - v0 = -(1/5, 1) (x' + y' - 1)/(6/5). */
 static void test_metric(void)
 {

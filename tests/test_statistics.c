@@ -228,7 +228,7 @@ static double wavy(int k) { return 3.0 + sin(0.7 * k) + (k == 500 ? 40.0 : 0.0);
 static double straight(int k) { return 2.0 - 0.25 * k; }
 static double enormous(int k) { return 0x1p1000 * (1.0 + 0.5 * sin(0.7 * k)); }
 
-/* That of values from .. from + n - 1 about their mean. */
+/* The root mean square of values from .. from + n - 1 about their mean. */
 static double root_mean_square(double (*x)(int), int from, int n)
 {
     double mean = 0.0, square = 0.0;
@@ -423,8 +423,8 @@ static void test_nothing_and_nonsense(void)
 
 static double parabola(double t) { return 5.0 - t + 0.25 * t * t; }
 
-/* The line of least squares of a parabola has its slope in the middle: of 32 blocks, those of the
- * first and the last quarter are 24 blocks apart. */
+/* The line of least squares of a parabola has its slope in the middle: of 32 blocks, the middles
+ * of the first and the last quarter are 24 blocks apart. */
 static void test_rates_of_quarters(void)
 {
     const double block = 8.0 * 32.0 / (VALUES - 1);

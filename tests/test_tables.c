@@ -46,7 +46,7 @@ static double value_at(const dal_table *table, double u, double *slope)
     return F[1];
 }
 
-/* Straight lines; at a point the slope is that of the interval on its right. */
+/* Straight lines; at a point the slope is the slope on its right. */
 static void test_linear(void)
 {
     static const double at[] = {-1.0, 0.0, 2.0, 3.0}, value[] = {4.0, 1.0, 2.0, -6.0};
@@ -63,7 +63,7 @@ static void test_linear(void)
 }
 
 /* The natural spline through 0, 1, 0 at 0, 1, 2: M_1 = -3, f = x + (x - x^3)/2 on [0, 1], and the
- * mirror image behind. */
+ * mirror image after it. */
 static void test_cubic(void)
 {
     static const double at[] = {0.0, 1.0, 2.0}, value[] = {0.0, 1.0, 0.0};
@@ -198,7 +198,7 @@ static void test_errors(void)
         {SYSTEM TABLE "files: {f.csv: \"t,M\\n0,1\\n\\n1\\n\"}\n",
          "f.csv:4:2: the line has 1 column; column 2 is missing", 4, 20},
         {SYSTEM TABLE "files: {f.csv: \"t,M\\n0,1\\n2,1\\n2,3\"}\n",
-         "f.csv:4:1: 2 does not ascend: 2 stands before it", 4, 20},
+         "f.csv:4:1: 2 does not ascend: 2 comes before it", 4, 20},
         {SYSTEM TABLE "files: {f.csv: \"t,M\\n0,1\\n1,\\xB5\"}\n",
          "f.csv:3:3: unexpected byte 0xc2; a table is plain ASCII", 4, 20},
         {SYSTEM "tables: {f: {file: f.csv, at: t, valu: M}}\n",

@@ -59,7 +59,7 @@ static void expand_free(expansion *e)
     dal__graph_free(e->graph);
 }
 
-/* Coefficients of the outputs, out[k*count + i], from those of the inputs, in[k*INPUTS + i]. */
+/* Coefficients of the outputs, out[k*count + i], from the inputs' in[k*INPUTS + i]. */
 static void run(const char *const *formulas, int count, const double *in, double *out)
 {
     expansion e = expand(formulas, count);
@@ -208,7 +208,7 @@ static bool write_file(const expansion *e, const char *path)
 
 typedef void body(const double *w, int k, double (*c)[STRIDE + 1], double *l);
 
-/* All coefficients of all series by compiled bodies; whether they are those of e. */
+/* All coefficients of all series by compiled bodies; whether they are e's. */
 static bool run_compiled(const expansion *e, void *handle, const char *const *name,
                          const double *in)
 {
@@ -493,7 +493,7 @@ static void test_gaps(void)
     dal_run_free(run);
 }
 
-/* An oscillator with steps that are long beside its motion keeps its amplitude but for roundings,
+/* An oscillator with steps that are long beside its motion keeps its amplitude to within roundings,
  * which differ from step to step: after n steps sqrt(n) of them are left.  Coefficients that are
  * rounded alike in each step leave n. */
 static void test_long_steps(void)

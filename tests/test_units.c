@@ -167,7 +167,7 @@ static void test_consistent_starts(void)
     "start: {x: 1/sx, y: " y "/sy}\n"                                                              \
     "exact: {x: cos(tau*t)/sx, y: 0.5*cos(tau*t)/sy}\n"
 
-/* The exact solution is that of a start, or is not, in all units: there is an error to observe. */
+/* The exact solution fits a start, or does not, in all units: there is an error to observe. */
 static void test_exact_solutions(void)
 {
     for (int i = -1; i < OTHERS; i++) {

@@ -1,5 +1,5 @@
 # completion.awk - what bash completes of dalembert, made of the reference that `dalembert help
-# --markdown` prints: commands, options, and behind an option what may stand there: its words, names
+# --markdown` prints: commands, options, and after an option what may follow it: its words, names
 # of built-in methods and tags, else files.  -o is --output.
 BEGIN { tick = "`" }
 /^## Exit status$/ { exit }

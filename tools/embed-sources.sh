@@ -1,8 +1,8 @@
 #!/bin/sh
 # embed-sources.sh FILE... - writes the C table of the sources that are embedded in the library for
-# generated files.  They lack their #include lines, since a generated file holds them all; those of
+# generated files.  They lack their #include lines, since a generated file holds them all; files of
 # the kernel and the templates also lack include guards, comments that begin a line, and empty
-# lines: they are explained where they stand, and a generated file has its own comment.
+# lines: they are explained where they are, and a generated file has its own comment.
 set -e
 plain() { # FILE
     case $1 in
@@ -13,7 +13,7 @@ plain() { # FILE
         /^\/\*/ { comment = 1 }
         comment { if (/\*\/$/) comment = 0; next }
         { if (held) print line; line = $0; held = 1 }
-        END { if (!guarded) print line }' "$1" ;; # the last #endif is that of the guard
+        END { if (!guarded) print line }' "$1" ;; # the last #endif is the guard's
     esac
 }
 echo '#include "codegen/generation.h"'

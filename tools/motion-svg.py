@@ -1,7 +1,7 @@
 """motion-svg.py PAGE ALT - prints the motion on the page of a run as an animated SVG picture.
 
 The page of `dalembert report` has the motion as docs/formats.md describes it.  The picture moves by
-CSS alone, and stands still where its reader prefers reduced motion: then it is the whole path.
+CSS alone, and does not move where its reader prefers reduced motion: then it is the whole path.
 """
 import base64
 import html
@@ -51,7 +51,7 @@ def line(points):
 
 
 def arc_parts(points):
-    """How much of the whole length lies behind each point."""
+    """How much of the whole length lies before each point."""
     lengths = [0.0]
     for (x0, y0), (x1, y1) in zip(points, points[1:]):
         lengths.append(lengths[-1] + math.hypot(x1 - x0, y1 - y0))

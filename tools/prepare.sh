@@ -1,7 +1,7 @@
 #!/bin/sh
 # prepare.sh [lint|bench] - installs, on Debian, the packages that building and testing need, with
-# `lint` also those of the whole continuous check, with `bench` also the libraries that `make bench`
-# compares with; does nothing when all are there.
+# `lint` also what the whole continuous check needs, with `bench` also the libraries that `make
+# bench` compares with; does nothing when all are there.
 set -e
 packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev libjansson-dev locales gnuplot-nox g++ cmake groff-base'
 packages="$packages python3 python3-cffi python3-dev python3-numpy python3-pytest python3-setuptools python3-venv"
@@ -23,7 +23,7 @@ sudo=
 [ "$(id -u)" -eq 0 ] || sudo=sudo
 export DEBIAN_FRONTEND=noninteractive
 # Another apt may run, as on a machine that has just started: wait for it.  The timeout of apt is for
-# the lock of dpkg alone, not for that of the lists.
+# the lock of dpkg alone, not for the lock of the lists.
 tries=60
 until said=$(LC_ALL=C $sudo apt-get update 2>&1); do
     tries=$((tries - 1))

@@ -10,7 +10,7 @@ trap 'rm -rf "$made"' EXIT
 LC_ALL=C
 export LC_ALL
 
-# replace WHAT DOCUMENT: what stands between the marks of WHAT becomes standard input.
+# replace WHAT DOCUMENT: what is between the marks of WHAT becomes standard input.
 replace() {
     cat >"$made/table"
     awk -v what="$1" -v table="$made/table" '

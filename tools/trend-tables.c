@@ -327,7 +327,7 @@ static const noise_source sources[DAL__NOISES] = {
     {DAL__MEANS_OTHER, smooth, 0, 3, .15, 0, 0},
 };
 
-/* The prior of a noise alone: that of its class, over its members. */
+/* The prior of a noise alone: the prior of its class, over its members. */
 static double class_weight(const noise_source *n)
 {
     const double prior = n->meaning == DAL__MEANS_NONE   ? 0.43

@@ -3,7 +3,7 @@
  *     heyoka find heyoka SYSTEM LANES ERROR             the largest tolerance that reaches the error
  *     heyoka time heyoka SYSTEM LANES ERROR TOLERANCE   nanoseconds of a trajectory
  *
- * The equations are those of fields.hpp.  Lanes are a batch of heyoka's, in registers as wide as the
+ * The equations are in fields.hpp.  Lanes are a batch of heyoka's, in registers as wide as the
  * machine has them.  Timed are the fastest of those flags that reach the error. */
 #define _POSIX_C_SOURCE 200809L
 #include "../tolerances.h"

@@ -73,7 +73,7 @@ const cli_command command_merge = {
     .name = "merge",
     .synopsis = "dalembert merge DIR... --output DIR [OPTION]...",
     .about = "joins the shards of a study or of an ensemble",
-    .notes = "Shards may share a directory.  Tables and files are, but for times, the bytes of the "
-             "study or ensemble that was not divided.\n",
+    .notes = "Shards may share a directory.  Except for times, tables and files have the bytes of "
+             "the undivided study or ensemble.\n",
     .run = merge,
 };

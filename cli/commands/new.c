@@ -35,7 +35,7 @@ const cli_command command_new = {
     .name = "new",
     .synopsis = "dalembert new NAME",
     .about = "writes NAME.yaml, a commented system to begin with",
-    .notes = "The system runs as it stands.  A file that exists is never "
+    .notes = "The system runs as written.  A file that exists is never "
              "overwritten.\n",
     .run = new_system,
 };

@@ -79,7 +79,7 @@ const cli_command command_order = {
         "\n"
         "With --tolerances the adaptive methods are compared at each tolerance, which divides the "
         "step; the reference is taylor, or dop853 where the equations have no Taylor series, at a "
-        "hundredth of the smallest, and the slope is that of the error over the tolerance.  "
+        "hundredth of the smallest, and the slope of the error is taken over the tolerance.  "
         "Without --step the step is T, or a part of it where T takes more substeps than a step may "
         "have, or a constraint turns too far in it.\n"
         "\n"

@@ -84,7 +84,7 @@ const cli_command command_report = {
     .synopsis = "dalembert report DIR [OPTION]...",
     .about = "makes a page with figures of a run, a study, an ensemble, orders or a section",
     .notes = "The command writes DIR/report/index.html, one page with everything in it; the "
-             "figures, and the gnuplot scripts that draw them, stand beside it.  Without gnuplot "
+             "figures, and the gnuplot scripts that draw them, are beside it.  Without gnuplot "
              "the page "
              "has no figures.\n",
     .run = run_report,

@@ -68,8 +68,8 @@ const cli_command command_resume = {
     .name = "resume",
     .synopsis = "dalembert resume DIR [OPTION]...",
     .about = "continues a run, a study or an ensemble that was interrupted",
-    .notes = "The rows are, byte for byte, those of a run of the same version that was never "
-             "interrupted.  A finished run is left alone.  Of a study, the unfinished runs are "
+    .notes = "The rows are, byte for byte, what the same version writes without an interruption.  "
+             "A finished run is left alone.  Of a study, the unfinished runs are "
              "continued and the tables and the page made; of shards, those that were begun in DIR. "
              " --threads is for "
              "studies and ensembles, --summary and --details are for runs, --progress for runs and "

@@ -82,7 +82,7 @@ static const char notes[] =
         "'dalembert resume DIR' continues a study after an interruption, kill -9 included; it does "
         "not repeat finished runs.  Shards may share one DIR; they print what their own cells show "
         "and "
-        "write no tables: 'dalembert merge' makes those of the study.  'mpirun dalembert-mpi "
+        "write no tables: 'dalembert merge' makes them.  'mpirun dalembert-mpi "
         "STUDY.yaml --output DIR' runs a study on the processes of a cluster.\n"
         "\n"
         "A cell that fails has the message in its row and the study continues; the exit status is "

@@ -43,7 +43,7 @@ typedef struct ensemble_settings {
     bool force;
 } ensemble_settings;
 
-/* Its options, but those of the request. */
+/* Its options, except the options of the request. */
 cli_group ensemble_group(ensemble_settings *settings);
 
 /* An empty ensemble. */

@@ -37,7 +37,7 @@ typedef struct pool_state {
     ensemble_directory *dir;
     dal_native *native; /* NULL: interpreted */
     worker *idle;
-    int status;              /* CLI_DONE, or that of the first failure of the program's own */
+    int status;              /* CLI_DONE, or the first failure's of the program's own */
     long long done, members; /* members of this shard that are done, and all of them */
     long long begun;         /* those that were done before */
     double start, shown, saved, interval;
@@ -312,7 +312,7 @@ int ensemble_end(const ensemble *e, ensemble_directory *dir, int status, int thr
     if (status != CLI_DONE) return status;
     if (is_complete) return ensemble_finish(e, dir, threads);
     cli_note(
-        "'%s': other shards are not done; 'dalembert merge' joins those of several directories",
+        "'%s': other shards are not done; 'dalembert merge' joins shards of several directories",
         dir->path);
     return CLI_DONE;
 }

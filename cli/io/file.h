@@ -12,7 +12,7 @@
 /* The bytes of a file and a NUL, allocated; NULL after a message. */
 char *file_read(const char *path, size_t *length);
 bool file_exists(const char *path);
-/* Whether a file has exactly these bytes, or those of another. */
+/* Whether a file has exactly these bytes, or the same as another. */
 bool file_equals(const char *path, const void *bytes, size_t length);
 bool file_is_copy(const char *path, const char *other);
 /* Whether two paths lead to one file or directory. */
@@ -39,7 +39,7 @@ typedef struct file_output {
 } file_output;
 int file_output_open(file_output *output, const char *path);
 /* Closes it after the status CLI_DONE; after another the file that was there stays.  Returns the
- * status, or that of closing. */
+ * status, or the status of closing. */
 int file_output_close(file_output *output, int status);
 /* For rows, which can be read while they are written: the new, empty file has its name from the
  * beginning.  A descriptor; and a stream, "-" being stdout, NULL after a failure.  Return an exit
@@ -77,7 +77,7 @@ void file_report_directory(const char *path, int exit_status);
 /* Whether an output is a directory: not "-", no .csv or .npy, no device and no pipe. */
 bool cli_is_directory(const char *output);
 /* Stores the text of an option --output, whose value names what it may be: FILE, FILE.csv, DIR.
- * Another ending than .csv and .npy is an error, but for what exists and is no plain file. */
+ * Another ending than .csv and .npy is an error, except for what exists and is no plain file. */
 cli_parser cli_parse_output;
 /* "DIR/NAME", allocated. */
 char *cli_join(const char *directory, const char *name);

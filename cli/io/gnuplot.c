@@ -33,7 +33,7 @@ void gnuplot_set(FILE *script, const char *what, const char *text)
     fputc('\n', script);
 }
 
-/* Of middling luminance (0.17 to 0.25), so that each stands out on white and on black alike, by a
+/* Of middling luminance (0.17 to 0.25), so that each is distinct on white and on black alike, by a
  * contrast of 3.6 at least. */
 const char *gnuplot_colour(int i)
 {

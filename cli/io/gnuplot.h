@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 /* Begins DIR/NAME.gp with the terminal, the output NAME.FORMAT (svg or png) and the common style;
- * free *path, that of the script.  An old picture is removed.  No text of a file is a part of NAME.
+ * free *path, the script's.  An old picture is removed.  No text of a file is a part of NAME.
  * NULL after a message. */
 FILE *gnuplot_open(const char *directory, const char *name, const char *format, int width,
                    int height, char **path);

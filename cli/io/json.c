@@ -46,7 +46,7 @@ static void put_text(const json_writer *w, const char *text)
     fputc('"', out);
 }
 
-/* What goes between two members, and before the first and behind the last on lines of their own. */
+/* What goes between two members, and before the first and after the last on lines of their own. */
 static void put_gap(const json_writer *w, int depth)
 {
     if (w->depth <= w->lines)
@@ -111,7 +111,7 @@ void json_put_flag(json_writer *w, const char *name, bool flag)
     fputs(flag ? "true" : "false", json_put_name(w, name));
 }
 
-/* Zero has no sign.  All doubles keep 15 digits, but for those so small that they have fewer. */
+/* Zero has no sign.  All doubles keep 15 digits, except the ones so small that they have fewer. */
 void json_put_number(json_writer *w, const char *name, double x)
 {
     char text[32] = "null";
@@ -205,7 +205,7 @@ void json_end_results(json_writer *w)
 typedef struct json_reader {
     document *doc;
     const char *text, *at;
-    size_t line;            /* of what stands at `at`, from 0 */
+    size_t line;            /* of what is at `at`, from 0 */
     const char *line_start; /* of that line */
     int depth;
 } json_reader;
@@ -270,7 +270,7 @@ static char *put_code(char *to, long code)
     return to + length;
 }
 
-/* A text in quotes; what is read is never longer than what stands there. */
+/* A text in quotes; what is read is never longer than what is there. */
 static int parse_text(json_reader *r)
 {
     const char *end = ++r->at;
@@ -376,7 +376,7 @@ int json_parse(document *doc, const char *place, const char *bytes, size_t lengt
     added(yaml_document_initialize(&doc->yaml, NULL, NULL, NULL, 1, 1));
     const int root = parse_value(&r);
     skip_space(&r);
-    if (root && r.at != bytes + length) fail(&r, "no JSON: there is more behind it");
+    if (root && r.at != bytes + length) fail(&r, "no JSON: there is more after it");
     if (!root || r.at != bytes + length) return CLI_USAGE;
     const yaml_node_t *node = document_node(doc, root);
     if (node->type == YAML_MAPPING_NODE) return CLI_DONE;

@@ -27,7 +27,7 @@ typedef struct json_writer {
 typedef enum json_layout { JSON_ON_ONE_LINE, JSON_LINES } json_layout;
 
 /* Begins an object or a list, of lines only within such; name is NULL for the outermost, and below
- * for all that stands in a list.  Ends it. */
+ * for all that is in a list.  Ends it. */
 void json_open(json_writer *writer, const char *name, json_layout layout);
 void json_open_list(json_writer *writer, const char *name, json_layout layout);
 void json_close(json_writer *writer);
@@ -63,7 +63,7 @@ void json_end_results(json_writer *writer);
  * Half of a surrogate pair is U+FFFD.  Returns CLI_DONE, or prints, unless place is NULL, and
  * returns CLI_USAGE; the document is to be deleted either way. */
 int json_parse(document *doc, const char *place, const char *bytes, size_t length);
-/* What stands for a value in the bytes that were parsed, allocated. */
+/* The text of a value in the bytes that were parsed, allocated. */
 char *json_source(const char *bytes, const yaml_node_t *value);
 /* A text of the object in a file, allocated; NULL where the file or the text is not there, after a
  * message where the file cannot be read. */

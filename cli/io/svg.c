@@ -23,7 +23,7 @@ static const char style[] =
 #define GROUP "<g fill=\"none\" color=\"black\" stroke=\"currentColor\""
 #define ENDS  " stroke-linecap=\"butt\" stroke-linejoin=\"miter\""
 
-/* What gnuplot writes, and what stands for it; the first is the group around all. */
+/* What gnuplot writes, and what replaces it; the first is the group around all. */
 static const struct {
     const char *from, *to;
 } shorter[] = {
@@ -69,8 +69,8 @@ static const char *next_line(const char *line)
     return line + strspn(line, "\n\t ");
 }
 
-/* The line behind the one that has a text. */
-static const char *behind(const char *line, const char *text)
+/* The line after the one that has a text. */
+static const char *line_after(const char *line, const char *text)
 {
     const char *found = strstr(line, text);
     return found ? next_line(found) : line;
@@ -84,9 +84,9 @@ static void write_tidy(FILE *out, const char *svg, const char *axes)
         if (begins(line, "<title>Gnuplot")) {
             fputs(style, out);
             fprintf(out, "<metadata>%.*s</metadata>\n", (int)strcspn(axes, "\n"), axes);
-            next = behind(line, "</desc>");
-        } else if (begins(line, "<defs>") && !strstr(behind(line, "</defs>"), "<use ")) {
-            next = behind(line, "</defs>");
+            next = line_after(line, "</desc>");
+        } else if (begins(line, "<defs>") && !strstr(line_after(line, "</defs>"), "<use ")) {
+            next = line_after(line, "</defs>");
         } else if (begins(line, "<g ") && begins(next, "</g>")) {
             next = next_line(next);
         } else if (!begins(line, "<rect x=\"0\" y=\"0\"")) { /* a ground without colour */

@@ -10,7 +10,7 @@
  * The last line of the header is 64 bytes long and begins at a multiple of 64, so that the number
  * of rows is replaced by one write within one sector and is the old or the new one at any moment.
  * Rows are collected and written many at a time, and the header gets their number afterwards: the
- * file can be read whatever ends the process.  Rows behind that number are not read.
+ * file can be read whatever ends the process.  Rows after that number are not read.
  *
  * The sum of rows takes word number i, 64 bits, into lane i mod 4,
  *
@@ -63,7 +63,7 @@ static void add_rounds(row_sum *sum, const unsigned char *bytes, long long round
     *sum = (row_sum){{s0, s1, s2, s3}};
 }
 
-/* Adds count words, behind those before. */
+/* Adds count words, after the words before. */
 static void add_words(row_sum *sum, long long before, const unsigned char *bytes, long long count)
 {
     long long i = 0;
@@ -142,7 +142,7 @@ static char *read_header_text(FILE *file, size_t size, size_t *offset)
     return text;
 }
 
-/* Parses ('NAME', '<f8') at *at, moves *at behind it and ends the name with a NUL. */
+/* Parses ('NAME', '<f8') at *at, moves *at past it and ends the name with a NUL. */
 static char *parse_name(char **at)
 {
     static const char type[] = ", '<f8')";
@@ -289,8 +289,7 @@ int writer_verify(const trajectory_writer *writer, long long rows, const row_sum
     const int same = pread(writer->descriptor, text, length, 0) == (ssize_t)length &&
                      memcmp(text, writer->header, length) == 0;
     free(text);
-    if (!same)
-        return cli_fail(CLI_USAGE, "'%s': its columns are not those of the run", writer->path);
+    if (!same) return cli_fail(CLI_USAGE, "'%s': its columns are not the run's", writer->path);
     const int status = sum_rows(writer, rows, &found);
     if (status != CLI_DONE || memcmp(&found, sum, sizeof found) == 0) return status;
     return cli_fail(CLI_USAGE, "'%s': its first %lld rows were changed since the checkpoint",

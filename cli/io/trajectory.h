@@ -16,7 +16,7 @@ typedef struct trajectory_writer {
     int columns, failed;
     FILE *file; /* of CSV; NULL for .npy, of which the rest is */
     int descriptor;
-    char *header; /* its last 64 bytes have the number of rows; the rows begin behind it */
+    char *header; /* its last 64 bytes have the number of rows; the rows begin after it */
     size_t header_length;
     unsigned char *buffer;       /* [capacity * columns] numbers */
     long long capacity, pending; /* rows in it */
@@ -36,7 +36,7 @@ void writer_attach(trajectory_writer *writer, const char *path, int descriptor, 
 /* Checks that such a file has these columns and begins with rows of that sum: CLI_USAGE where it
  * does not. */
 int writer_verify(const trajectory_writer *writer, long long rows, const row_sum *sum);
-/* Continues behind the first rows, of that sum, and cuts off the rest. */
+/* Continues after the first rows, of that sum, and cuts off the rest. */
 int writer_continue(trajectory_writer *writer, long long rows, const row_sum *sum);
 int writer_append(trajectory_writer *writer, const double *values);
 /* Writes all rows so far and then their number; with sync the rows are on the disk before. */

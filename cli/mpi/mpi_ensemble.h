@@ -8,7 +8,7 @@
  * Returns CLI_GO_ON, or an exit status after --help or a message. */
 int mpi_ensemble_begin(mpi_request *request, int argc, char **argv);
 /* On all ranks: runs the ensemble of the directory; rank 0 finishes it.  Returns an exit status,
- * which is that of the job on rank 0. */
+ * which is the job's on rank 0. */
 int mpi_ensemble_run(const mpi_request *request);
 
 #endif

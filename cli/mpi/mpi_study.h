@@ -8,7 +8,7 @@
  * fills the request.  Returns CLI_GO_ON, or an exit status after --help or a message. */
 int mpi_study_begin(mpi_request *request, int argc, char **argv);
 /* On all ranks: runs the study of the directory; rank 0 finishes it.  Returns an exit status, which
- * is that of the job on rank 0. */
+ * is the job's on rank 0. */
 int mpi_study_run(const mpi_request *request);
 
 #endif

@@ -1,6 +1,6 @@
 // report.js - what can be pressed on the pages of `dalembert report`, which are complete without it:
 // tables are sorted and filtered, and their cells unfold; methods are compared; figures enlarge and
-// show their values; motions play.  The data stand on the page as JSON, see docs/formats.md.
+// show their values; motions play.  The data are on the page as JSON, see docs/formats.md.
 
 // ---- elements ------------------------------------------------------------------------------------
 

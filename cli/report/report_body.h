@@ -20,8 +20,8 @@ typedef struct body_part {
     double at[BODY_POINTS][2]; /* of the line, from the pivot */
 } body_part;
 
-/* The parts of a body, one after the other: that behind a part, the first one for NULL; NULL behind
- * the last. */
+/* The parts of a body, one after the other: the one after a part, the first one for NULL; NULL
+ * after the last. */
 const body_part *body_next(dal_body body, const body_part *part);
 extern const char *const body_name[DAL_BODY_COUNT];
 

@@ -1,9 +1,9 @@
 /* report_data.c - what report.js reads on a page: texts and numbers as JSON.
  *
  * An envelope is the largest value up to t, at times that lie ever further apart: each is the next
- * one of the table, or the first behind 1.06 times the one before.  The level of a value x is
- * 32768 + 256 log2 x, so that neighbouring ones are 0.3 % apart; 0 stands for x = 0 and 65535 for
- * what is not finite. */
+ * one of the table, or the first after 1.06 times the one before.  The level of a value x is
+ * 32768 + 256 log2 x, so that neighbouring ones are 0.3 % apart; 0 is x = 0 and 65535 is what is
+ * not finite. */
 #include "report_data.h"
 #include "dalembert.h"
 #include "ui/memory.h"
@@ -54,7 +54,7 @@ int data_write_run(report *r)
 
 /* ---- envelopes ----------------------------------------------------------------------------- */
 
-/* The rows of a cell in series/LABEL.csv, which stand together: from first, count of them. */
+/* The rows of a cell in series/LABEL.csv, which are together: from first, count of them. */
 typedef struct cell_rows {
     int first, count;
 } cell_rows;
@@ -127,7 +127,7 @@ static int find_word(const report_words *words, const char *text)
     return i;
 }
 
-/* The times of each step, those of its longest cell. */
+/* The times of each step, from its longest cell. */
 static void write_times(json_writer *data, const report_csv *series, const cell_rows *longest,
                         const report_words *steps)
 {

@@ -22,7 +22,7 @@ enum { HISTOGRAMS = 4, CLOUDS = 12 };
 typedef struct ensemble_page {
     report *r;
     report_csv statistics, histograms, cloud;
-    report_words times, columns; /* as they stand in the files */
+    report_words times, columns; /* as they are in the files */
 } ensemble_page;
 
 /* Number k of at most `most` of the times, the first and the last among them. */

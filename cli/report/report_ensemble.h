@@ -6,7 +6,7 @@
 
 /* Writes the page of r->directory; returns CLI_DONE, or prints and returns an exit status. */
 int report_ensemble(report *r);
-/* The page behind a command that ended with this exit status; none where members are not done. */
+/* The page after a command that ended with this exit status; none where members are not done. */
 int report_after_ensemble(const char *directory, int status);
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-/* Frames of a motion on the page of a study, of which there may be many, and on that of a run; two
+/* Frames of a motion on the page of a study, of which there may be many, and on a run's page; two
  * of five numbers a frame are at most 40 and 300 kB. */
 enum { MOTION_STUDY_FRAMES = 1500, MOTION_RUN_FRAMES = 6000 };
 

@@ -33,7 +33,7 @@ static int find_row(const order_page *o, const char *method, const char *step)
     return 0;
 }
 
-/* T, the space and the reference stand in order.json. */
+/* T, the space and the reference are in order.json. */
 static void write_head(const order_page *o)
 {
     FILE *page = o->r->page;

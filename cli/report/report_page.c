@@ -187,7 +187,7 @@ int report_close(report *r)
     fputs("<p class=\"faint\">Made by dalembert " DAL_VERSION ".", r->page);
     if (r->figures > 0)
         fprintf(r->page,
-                " Every figure stands beside this page, as NAME.%s and as the gnuplot script "
+                " Every figure is beside this page, as NAME.%s and as the gnuplot script "
                 "NAME.gp with its data.",
                 r->format);
     fprintf(r->page, "</p>\n<script type=\"module\">\n%s</script>\n</body></html>\n",

@@ -5,7 +5,7 @@
  *     DIR/report/NAME.svg     what it draws (or .png)
  *
  * Directories come from others: NAME is made of words of the program and of numbers, and no text of
- * a file becomes a part of HTML, JSON, a script or a file name as it stands. */
+ * a file becomes a part of HTML, JSON, a script or a file name as it is. */
 #ifndef DAL_CLI_REPORT_PAGE_H
 #define DAL_CLI_REPORT_PAGE_H
 
@@ -35,8 +35,8 @@ int report_open(report *r);
 int report_close(report *r);
 /* Makes the page of r->directory, opened and closed; the caller frees r->place and r->page_path. */
 int report_make(report *r, int (*write)(report *r));
-/* The page of a directory behind a command that wrote it and ended with this exit status; without
- * gnuplot there is none.  Returns that status, or that of the page where this one failed. */
+/* The page of a directory after a command that wrote it and ended with this exit status; without
+ * gnuplot there is none.  Returns that status, or the page's where the page failed. */
 int report_after(const char *directory, int status, int (*write)(report *r));
 /* Ends the head and begins the body with the title as its heading. */
 void report_title(report *r, const char *title);

@@ -118,7 +118,7 @@ static void write_axis(FILE *s, const char *axis, const report_plot *plot, int k
             fprintf(s, "set %srange [%.17g:%.17g]\n", axis, min - width, max + width);
         return;
     }
-    /* Labels stand at powers of ten: a range that does not hold two of them becomes one of whole
+    /* Labels are at powers of ten: a range that does not hold two of them becomes one of whole
      * decades. */
     const double below = floor(log10(min)), above = fmax(ceil(log10(max)), below + 1.0);
     fprintf(s, "set logscale %s\nlog_%s = 1\nset %srange ", axis, axis, axis);
@@ -216,7 +216,7 @@ static void write_axes(FILE *s, const report_plot *plot)
         if (extent > 0.0)
             fprintf(s, "set xtics %.9g\nset ytics %.9g\n", times * power, times * power);
     }
-    /* The key stands below, as wide as the figure; the label of the ordinate stands at the edge,
+    /* The key is below, as wide as the figure; the label of the ordinate is at the edge,
      * however wide the numbers beside it are. */
     gnuplot_set(s, "label 1", plot->ylabel);
     fprintf(s,

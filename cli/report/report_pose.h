@@ -30,10 +30,10 @@ typedef struct pose_reader {
 /* Opens the run in a directory.  Without has_poses there is nothing to show, which is no error.
  * Returns CLI_DONE, or prints and returns an exit status; close it in any case. */
 int pose_open(pose_reader *p, const char *run);
-/* Reads a row: 1, or 0 behind the last one, or -1 after a failure and its message.  What a picture
+/* Reads a row: 1, or 0 after the last one, or -1 after a failure and its message.  What a picture
  * does not define there is NaN. */
 int pose_next(pose_reader *p);
-/* The pose of another state q, v, which need not be that of a row. */
+/* The pose of another state q, v, which need not be a row's. */
 void pose_of(pose_reader *p, double t, const double *q, const double *v, double *pose);
 void pose_close(pose_reader *p);
 

@@ -29,7 +29,7 @@ static bool is_default(const cli_option *option, const char *text)
     return length > 0 && strlen(text) == length && strncmp(option->initial, text, length) == 0;
 }
 
-/* Options at their defaults are not worth an item, but for the space; those that this version does
+/* Options at their defaults are not worth an item, except the space; those that this version does
  * not know are not of a run. */
 static int read_member(report_results *results, const document_pair *member)
 {

@@ -53,7 +53,7 @@ void row_series_add(row_series *s, double t, double x)
 
 /* ---- curves -------------------------------------------------------------------------------- */
 
-/* The parts of a band hold several turns each; its ends are those of the rows. */
+/* The parts of a band hold several turns each; it ends where the rows end. */
 static void draw_band(const row_series *s, const report_plot *plot, plot_curve *curve)
 {
     const int parts = (int)fmax(1.0, fmin(s->bins, (double)s->turns / BAND_TURNS));

@@ -59,10 +59,10 @@ typedef struct run_column {
     int group;                    /* or NO_GROUP */
     plot_curve *curve, *envelope; /* NULL: it has none, or there are too many */
     row_series *series;           /* of the curve */
-    int velocity;                 /* the column of that of a coordinate, 0: there is none */
+    int velocity;                 /* the column of a coordinate's velocity, 0: there is none */
     row_distance distance;        /* of a coordinate */
     bool is_conserved;            /* it should not change */
-    double first, max_abs;        /* at the first row; of all rows so far, but for E, H and the
+    double first, max_abs;        /* at the first row; of all rows so far; for E, H and the
                                      invariants less first */
     double last, jumped, drift;   /* at the last row; what events have added; max |x - first| of
                                      all rows so far without that */

@@ -152,7 +152,7 @@ static void add_envelope(const label_figures *f, report_plot *plot, const char *
     const char *start = get_cell(f->s, cell, "start");
     plot_curve *curve = NULL;
     double max = 0.0;
-    /* The rows of a cell stand together. */
+    /* The rows of a cell are together. */
     for (int row = 1; row < f->series.rows; row++) {
         if (!report_csv_is(&f->series, row, "integrator", method) ||
             !report_csv_is(&f->series, row, "step", step) ||
@@ -455,7 +455,7 @@ static int begin_study(study_page *s)
     return status;
 }
 
-/* The system of a label: the copy of its file, which stands under the first label that has it, or a
+/* The system of a label: the copy of its file, which is under the first label that has it, or a
  * built-in one; *model is NULL where there is neither. */
 static int read_model(const study_page *s, const char *label, dal_model **model)
 {

@@ -13,7 +13,7 @@ int report_study(report *r);
         "no-page", NULL, NULL, "writes no page of the study", CLI_FLAG(settings, no_page)          \
     }
 /* After a study that ended with this exit status: writes its page where there is gnuplot, and says
- * where that is where names_page is set.  Returns that status, or that of the page where this one
+ * where that is where names_page is set.  Returns that status, or the page's where the page
  * failed. */
 int report_after_study(const char *directory, int status, bool names_page);
 

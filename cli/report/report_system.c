@@ -21,7 +21,7 @@ void report_fact(FILE *page, const char *name, const char *text)
     fputc('\n', page);
 }
 
-/* The formulas of a section, each with what stands before its name and behind its text. */
+/* The formulas of a section, each with what comes before its name and after its text. */
 static void write_formulas(FILE *page, const dal_model *model, dal_section section,
                            const char *heading, const char *prefix, const char *suffix)
 {
@@ -147,7 +147,7 @@ static bool continues_name(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/* Where a name stands in a text before its end, as a word of its own and not as a velocity. */
+/* Where a name is in a text before its end, as a word of its own and not as a velocity. */
 static const char *find_name(const char *text, const char *end, const char *name)
 {
     const size_t length = strlen(name);
@@ -158,7 +158,7 @@ static const char *find_name(const char *text, const char *end, const char *name
     return NULL;
 }
 
-/* Whether a name stands in the brackets of a function. */
+/* Whether a name is in the brackets of a function. */
 static bool is_argument(const char *text, const char *function, const char *name)
 {
     const char *open = text;

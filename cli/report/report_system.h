@@ -11,14 +11,14 @@
 /* The title of a model, or another text where it has none. */
 const char *report_model_title(const dal_model *model, const char *otherwise);
 /* A list between REPORT_FACTS and REPORT_FACTS_END: the formulas of a model as they were given,
- * parameters and start with those of a request, its method and its options. */
+ * parameters and start as a request changes them, its method and its options. */
 #define REPORT_FACTS     "<dl class=\"facts\">\n"
 #define REPORT_FACTS_END "</dl>\n"
 void report_system(FILE *page, const dal_model *model, const run_request *request);
 void report_method(FILE *page, const run_request *request);
 /* One more item. */
 void report_fact(FILE *page, const char *name, const char *text);
-/* Whether a coordinate is an angle: it has the name of one, theta or phi1, or stands in a sine,
+/* Whether a coordinate is an angle: it has the name of one, theta or phi1, or is in a sine,
  * cosine or tangent. */
 bool report_is_angle(const dal_model *model, const char *coordinate);
 

@@ -44,7 +44,7 @@ static void describe_group(const cli_group *group, option_kind kind, option_prin
 
 /* ---- for a terminal ------------------------------------------------------------------------ */
 
-/* What it does stands on the next line where the option is long. */
+/* What it does is on the next line where the option is long. */
 static void print_text(const char *name, const char *help)
 {
     enum { HELP_COLUMN = 26 };
@@ -95,7 +95,7 @@ static void print_item(const char *name, const char *help)
     put_escaped(help, help + strlen(help));
 }
 
-/* Paragraphs stand apart, items below each other. */
+/* Blank lines separate paragraphs, line breaks items. */
 static void print_notes(const char *notes)
 {
     bool follows_item = false;

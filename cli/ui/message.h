@@ -64,7 +64,7 @@ void cli_progress(const char *format, ...) CLI_PRINTF(1, 2);
 void cli_progress_end(void);
 /* Columns of the terminal on stderr; 80 where they are not known. */
 int cli_width(void);
-/* Columns that standard output is to fit into: COLUMNS of the environment, or those of a terminal;
+/* Columns that standard output is to fit into: COLUMNS of the environment, or the terminal's;
  * 0: it is neither. */
 int cli_output_width(void);
 

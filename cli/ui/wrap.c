@@ -22,7 +22,7 @@ static void put_word(wrapper *w, const char *word, int length, int spaces)
     w->column += spaces + length;
 }
 
-/* The end of a line is a space, two of them behind a sentence. */
+/* The end of a line is a space, two of them after a sentence. */
 static void put_words(wrapper *w, const char *text, const char *end)
 {
     while (text < end) {
@@ -52,7 +52,7 @@ void cli_wrap(FILE *out, const char *text, int column, int hanging)
 
 static const char *end_of_line(const char *text) { return text + strcspn(text, "\n"); }
 
-/* The second column of an item begins behind the first gap of two spaces. */
+/* The second column of an item begins after the first gap of two spaces. */
 static void divide_item(const char *line, int length, cli_paragraph *p)
 {
     const int indent = (int)strspn(line, " ");

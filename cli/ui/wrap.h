@@ -12,7 +12,7 @@ void cli_wrap_to(FILE *out, const char *text, int column, int hanging, int width
 /* Notes are paragraphs and items.  A line that begins with spaces is an item, "  NAME   what it
  * is", to which lines belong that begin below what it is. */
 typedef struct cli_paragraph {
-    const char *begin, *text, *end; /* text: behind the name */
+    const char *begin, *text, *end; /* text: after the name */
     const char *name;               /* of an item */
     int name_length;                /* 0: it has none */
     int hanging;                    /* where further lines begin */

@@ -27,9 +27,9 @@ static dal_status lagrangian(dal_evaluator *evaluator, double t, double h, const
     for (int i = 0; i < n; i++) {
         double first = 0.0, second = second_weight[0] * row[i];
         for (int k = 4; k >= 1; k--) {
-            double ahead = row[i + k * n], behind = row[i - k * n];
-            first += first_weight[k] * (ahead - behind);
-            second += second_weight[k] * (ahead + behind);
+            double after = row[i + k * n], before = row[i - k * n];
+            first += first_weight[k] * (after - before);
+            second += second_weight[k] * (after + before);
         }
         v[i] = first / h;
         a[i] = second / (h * h);
@@ -88,7 +88,7 @@ static double hamiltonian(void *user, const double *z)
     return square / (2.0 * e) + sum + mu * pi[n];
 }
 
-/* before holds P - h/2 H_X of the interval before, a part of dS/dX at the node between. */
+/* before holds P - h/2 H_X of the interval before, a term of dS/dX at the node between. */
 static double variation(path *w, const double *row, int inner)
 {
     double max = 0.0;

@@ -93,7 +93,7 @@ static void reverse(survey *w)
     w->t = -w->t;
 }
 
-/* +1, -1 or 0 for each constraint into w->sign; that of the first, 0 when one has none. */
+/* +1, -1 or 0 for each constraint into w->sign; returns the first, or 0 when one has none. */
 static int find_parity(survey *w)
 {
     for (int a = 0; a < w->m; a++) w->sign[a] = 2.0;

@@ -21,8 +21,8 @@ enum { ATTEMPTS = 24 };
 static const double order_8[4] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
 static const double order_6[4] = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0, 0.0};
 
-/* The derivative by the increment d into out; by how much those of order 8 and of order 6 differ,
- * relative to max(1, |derivative|), and how much of that the roundings of the values may be. */
+/* The derivative by the increment d into out; by how much order 8 and order 6 differ, relative to
+ * max(1, |derivative|), and how much of that the roundings of the values may be. */
 static dal_status difference(dal__curve *curve, void *user, double d, int count, double *scratch,
                              double *out, double *gap, double *noise)
 {

@@ -7,19 +7,19 @@
 /* The increment to begin with, relative to the scale of a quantity: the error of order 8 at a
  * function whose nearest singularity is 0.3 away, 576 (2e-3/0.3)^8 / 0.3 = 7e-15, stays below the
  * rounding 2.2e-16/2e-3 = 1e-13.  The scale of a coordinate is 1, or the way h |v| of a step, never
- * |q|, which only says how far it has travelled; that of velocities, multipliers and momenta is
- * their own size. */
+ * |q|, which only says how far it has travelled; the scale of velocities, multipliers and momenta
+ * is their own size. */
 #define DAL__INCREMENT 2e-3
 
 /* A curve x(s) in count numbers, and its derivative at s = 0:
  *     x' = sum_(k=1..4) c_k (x(k d) - x(-k d)) / d,   c = 4/5, -1/5, 4/105, -1/280.
  * d is shortened where order 6, from the same values, does not agree, or where the curve has no
- * value. scratch[3*count].  Errors: that of the curve, when it has no values for any d. */
+ * value. scratch[3*count].  Errors: as for the curve, when it has no values for any d. */
 typedef dal_status dal__curve(void *user, double s, double *out);
 dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count, double *scratch,
                               double *out);
 
-/* That of values by *x, which is varied in place. */
+/* The derivative of values by *x, which is varied in place. */
 typedef dal_status dal__values(void *user, double *out);
 dal_status dal__differentiate_by(double *x, dal__values *values, void *user, double d, int count,
                                  double *scratch, double *out);

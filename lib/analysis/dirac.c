@@ -96,7 +96,7 @@ typedef struct algebra {
     dal__dirac_space space;
     int n, pairs, count, primary;          /* 3n+1, 4n+1, 2n+1 */
     double *z;                             /* [2*pairs] */
-    double *gradient;                      /* [(count+1) * 2*pairs]; the last is that of H */
+    double *gradient;                      /* [(count+1) * 2*pairs]; H's is the last */
     double *matrix, *right, *mu, *scratch; /* [count^2], [count], [count], [count(count+2)] */
 } algebra;
 

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SAMPLES = 1 << 15, QUAD_COST = 100 /* times that of a double step, for progress */ };
+enum { SAMPLES = 1 << 15, QUAD_COST = 100 /* in double steps, for progress */ };
 
 static const double looser = 1e-10, looser_by = 1e3;
 enum { FURTHER = 2 }; /* iterations */
@@ -90,7 +90,7 @@ static void halve(dal_run_spec *spec)
     o->tolerance = ldexp(o->tolerance, -dal_method_order(&spec->method));
 }
 
-/* Makes the spec of a run that of a comparison; NULL, or the reason why there is none. */
+/* Turns the spec of a run into the spec of a comparison; NULL, or the reason why there is none. */
 static const char *change_spec(dal_run_spec *spec, dal_comparison_run comparison)
 {
     static const char nothing[] = "the method solves no equations";
@@ -189,7 +189,7 @@ static void leave_out(comparisons *w, dal_comparison_run comparison, const char 
     snprintf(w->of->reason[comparison], sizeof w->of->reason[comparison], "%s", reason);
 }
 
-/* An interruption and a lack of memory end all of it; any other failure is that of one run. */
+/* An interruption and a lack of memory end all of it; any other failure concerns one run only. */
 static bool ends_all(const comparisons *w, dal_status status, const dal_error *error)
 {
     if (status == DAL_MEMORY && w->error) *w->error = *error;
@@ -438,7 +438,7 @@ dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, lo
                          quad_steps);
     if (spec->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_ARGUMENT,
-                         "an error budget is that of a run in doubles; quad precision is one of "
+                         "an error budget needs a run in doubles; quad precision is one of "
                          "its comparisons");
     dal_error_budget *made = calloc(1, sizeof *made);
     if (!made) return dal__fail(error, DAL_MEMORY, "out of memory");

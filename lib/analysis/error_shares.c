@@ -5,7 +5,7 @@
  *            + rounding + solver
  *
  * A drift is measured by its rate where the line of least squares rises by at least half of the max
- * deviation and its interval excludes 0; rates of parts add up to that of the sum.  Otherwise it is
+ * deviation and its interval excludes 0; rates of parts add up to the sum's rate.  Otherwise it is
  * measured by the max deviation.  The share of a part is its size over the sum of the sizes. */
 #include "analysis/error_shares.h"
 #include "core/words.h"
@@ -68,7 +68,7 @@ static double error_of_reference(const dal_error_budget *e, double scale)
 }
 
 /* Whether the exact motion changes a quantity.  Where quad precision leaves next to nothing,
- * rounding errors have grown with the motion: those of the exact motion in doubles do, too. */
+ * rounding errors have grown with the motion, as they do for the exact motion in doubles, too. */
 static bool has_motion(const dal_error_budget *e, dal_shares *a)
 {
     const dal_trend *exact = &a->comparison[DAL_COMPARISON_EXACT];
@@ -227,7 +227,7 @@ static bool is_described(const dal_error_budget *e, int observable, char *buffer
 
 /* ---- how a share was found ---- */
 
-/* The drift of a comparison over that of the run. */
+/* The drift of a comparison over the drift of the run. */
 static double drift_ratio(const description *s, dal_comparison_run comparison)
 {
     const dal_trend *all = &s->a->whole, *other = &s->a->comparison[comparison];
@@ -250,8 +250,8 @@ static void describe_order(const description *s, const char *before)
                  s->e->reason[DAL_COMPARISON_HALVED]);
     else if (isnan(s->a->order))
         snprintf(s->text, s->size, "%s %s", before,
-                 s->a->vanishes_in_quad ? "nothing of it is left"
-                                        : "nothing of it is left when the step is halved");
+                 s->a->vanishes_in_quad ? "nothing of it remains"
+                                        : "nothing of it remains when the step is halved");
     else
         snprintf(s->text, s->size, "%s %s %s by %.3g = 2^%.2f when the step is halved", before,
                  by_rate ? "the rate" : "the deviation", s->a->order < 0.0 ? "grows" : "falls",

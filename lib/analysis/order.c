@@ -93,8 +93,8 @@ static double max_error(const measurement *m, const double *reference, const dou
     double max = 0.0;
     for (int k = 0; k < m->numbers; k++) {
         const double size = fmax(m->units[k], fabs(reference[k]));
-        const double part = fabs(x[k] - reference[k]) / size;
-        max = part <= max ? max : isnan(part) ? INFINITY : part;
+        const double error = fabs(x[k] - reference[k]) / size;
+        max = error <= max ? max : isnan(error) ? INFINITY : error;
     }
     return max;
 }
@@ -113,7 +113,7 @@ void dal_order_slopes(dal_order *o, double noise)
     o->outcome = levels < 3 ? DAL_ORDER_FEW : DAL_ORDER_COARSE;
     for (int i = 1; i < levels; i++)
         o->slope[i] = log(o->error[i - 1] / o->error[i]) / log(o->step[i - 1] / o->step[i]);
-    /* The last three errors that are those of the method. */
+    /* The last three errors that come from the method. */
     int last = levels - 1, good = 0;
     for (int i = levels - 1; i >= 0 && good < 3; i--) {
         const bool is_good = o->error[i] > clear && o->error[i] < below_the_solution;

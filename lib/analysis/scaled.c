@@ -192,7 +192,7 @@ static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
 SCALED_LIST(CALLBACK)
 #undef CALLBACK
 
-/* That of the spec: start values are in the units of the user. */
+/* The start of the spec: start values are in the units of the user. */
 static dal_status start(const dal_system *system, const dal_point *at, double *out)
 {
     const dal_scaled *s = system->data;
@@ -368,9 +368,9 @@ static double time_unit(survey *w)
  * midpoint rule; where F fails it ends. */
 static void follow_motion(survey *w, double tau, double *length)
 {
-    enum { STEPS = 4, PARTS = 16 }; /* a quarter: it may become singular soon */
+    enum { STEPS = 4, STEPS_OF_TAU = 16 }; /* a quarter: it may become singular soon */
     const int n = w->s->n, nw = w->s->nw;
-    const double h = copysign(tau / PARTS, w->step);
+    const double h = copysign(tau / STEPS_OF_TAU, w->step);
     double *x = w->work, *middle = x + n + nw, *f = middle + n + nw;
     memcpy(x, w->x, (size_t)(n + nw) * sizeof *x);
     for (int k = 0; k < STEPS && field_at(w, w->t + k * h, x, f); k++) {
@@ -386,7 +386,7 @@ static void follow_motion(survey *w, double tau, double *length)
 
 static void find_lengths(survey *w, double tau)
 {
-    static const double rounding = 1e-10; /* parts of a length of equal energy */
+    static const double rounding = 1e-10; /* fraction of a length of equal energy */
     dal_scaled *s = w->s;
     double energy = 0.0;
     follow_motion(w, tau, s->length);

@@ -27,7 +27,7 @@ void dal_measure_spread(const double *values, long long count, dal_spread *sprea
 }
 
 /* Reorders values[first..last] so that number k is where sorting would put it, smaller ones before
- * and larger ones behind (Hoare 1961, algorithm 65, DOI 10.1145/366622.366647). */
+ * and larger ones after it (Hoare 1961, algorithm 65, DOI 10.1145/366622.366647). */
 static void select_value(double *values, long long first, long long last, long long k)
 {
     while (first < last) {
@@ -56,8 +56,8 @@ void dal_measure_quantiles(double *values, long long count, const double *p, int
         const long long low = (long long)place, high = low + 1 < count ? low + 1 : low;
         select_value(values, 0, count - 1, low);
         select_value(values, low, count - 1, high);
-        const double part = place - (double)low;
-        quantile[i] = values[low] + part * (values[high] - values[low]);
+        const double fraction = place - (double)low;
+        quantile[i] = values[low] + fraction * (values[high] - values[low]);
     }
 }
 

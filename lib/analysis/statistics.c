@@ -7,8 +7,8 @@
  * Modeling and Analysis, 9.5).
  *
  * The roughness of the series distinguishes a sum of roundings from a smooth change.  If its steps
- * are independent, E (x_(k+l) - x_k)^2 = l sigma^2: the sum of squared steps n sigma^2 is that of
- * (x_(k+1) - x_k)^2, or, at a fraction of the cost, 4/8 times that of (x_(k+8) - x_k)^2 over one
+ * are independent, E (x_(k+l) - x_k)^2 = l sigma^2: the sum of squared steps n sigma^2 sums
+ * (x_(k+1) - x_k)^2, or, at a fraction of the cost, 4/8 times the sum of (x_(k+8) - x_k)^2 over one
  * k in four.  A smooth series has steps in one direction and a sum that is smaller by n. */
 #include "analysis/statistics.h"
 #include <math.h>
@@ -135,14 +135,14 @@ static bool is_short(const dal_statistics *s) { return s->length < DAL__CYCLE * 
 
 static void add_roughness(dal_statistics *s, double x)
 {
-    const int part = (int)(s->open_count % DAL_PARTIAL_SUMS);
+    const int number = (int)(s->open_count % DAL_PARTIAL_SUMS);
     const int phase = (int)(s->open_count / DAL_PARTIAL_SUMS % DAL__CYCLE);
     if (is_short(s))
         s->rough_steps += s->count > 0 ? square_of(s, x, s->last) : 0.0;
     else if (phase == 0)
-        s->held[part] = x;
+        s->held[number] = x;
     else if (phase == 1)
-        s->rough[part] += square_of(s, x, s->held[part]);
+        s->rough[number] += square_of(s, x, s->held[number]);
 }
 
 static void add_one(dal_statistics *s, double t, double x)
@@ -161,9 +161,9 @@ static void add_one(dal_statistics *s, double t, double x)
     }
     if (s->open_count == 0) open_block(s, t, x);
     add_roughness(s, x);
-    const int part = (int)(s->open_count % DAL_PARTIAL_SUMS);
-    s->open_sum[part] += x * s->factor - s->first * s->factor;
-    s->open_square[part] += square_of(s, x, s->open_from);
+    const int number = (int)(s->open_count % DAL_PARTIAL_SUMS);
+    s->open_sum[number] += x * s->factor - s->first * s->factor;
+    s->open_square[number] += square_of(s, x, s->open_from);
     s->open_min = x < s->open_min ? x : s->open_min;
     s->open_max = x > s->open_max ? x : s->open_max;
     move_on(s, 1, t, x);
@@ -200,8 +200,8 @@ static tally_packs *best_tally(void)
 static int packs_ahead(const dal_statistics *s, int values)
 {
     if (s->open_count % DAL_PARTIAL_SUMS != 0 || is_short(s) || s->factor < 1.0) return 0;
-    const long long left = s->length - s->open_count;
-    return (int)(left < values ? left : values) / DAL_PARTIAL_SUMS;
+    const long long rest = s->length - s->open_count;
+    return (int)(rest < values ? rest : values) / DAL_PARTIAL_SUMS;
 }
 
 static bool add_packs(dal_statistics *s, tally_packs *add, int packs, const double *t,
@@ -293,7 +293,7 @@ double dal__roughness(const dal_statistics *s)
 /* ---- means and lines ---- */
 
 /* Both are made from the means of N blocks.  Were those independent, the variance of the mean would
- * be sigma^2/N and that of the slope sigma^2/S_tt; with the correlation rho of neighbours it is
+ * be sigma^2/N, of the slope sigma^2/S_tt; with the correlation rho of neighbours it is
  * larger by (1 + rho)/(1 - rho), and N blocks are worth as many fewer (Priestley, Spectral Analysis
  * and Time Series, 5.3.2).  The intervals are Student's for that many. */
 typedef struct line {
@@ -318,8 +318,8 @@ static line fit_line(const dal_statistics_block *block, int n)
     return l;
 }
 
-/* The 97.5 % quantile of Student's distribution, expanded about that of the normal one (Fisher,
- * Cornish 1960, DOI 10.1080/00401706.1960.10489895): better than 1 % from 3 degrees on. */
+/* The 97.5 % quantile of Student's distribution, expanded about the quantile of the normal one
+ * (Fisher, Cornish 1960, DOI 10.1080/00401706.1960.10489895): better than 1 % from 3 degrees on. */
 double dal__student(double freedom)
 {
     static const double c[] = {1.959964, 2.372212, 2.822501, 2.555850};
@@ -334,8 +334,8 @@ double dal__inflation(double square, double product, int n)
     return (1.0 + rho) / (1.0 - rho);
 }
 
-/* Half the width of the interval of a line with 1 parameter (a mean) or 2; its variance is that of
- * the residues over the sum of squares (N for a mean). */
+/* Half the width of the interval of a line with 1 parameter (a mean) or 2; its variance is the
+ * variance of the residues over the sum of squares (N for a mean). */
 static double half_width(const line *l, const dal_statistics_block *block, int n, int parameters,
                          double squares)
 {

@@ -26,7 +26,7 @@ static num square_of(const view *v, num a, num from)
     return dal_min(d * d, dal_num(DAL__ROUGH_LIMIT));
 }
 
-/* Adds one value, or a cycle of four at once: comparisons are slow, and most of those of a cycle
+/* Adds one value, or a cycle of four at once: comparisons are slow, and most of the ones in a cycle
  * do not depend on each other. */
 static void add_value(lane_tally *s, const view *v, int phase, num a)
 {
@@ -67,7 +67,7 @@ bool DAL_WIDE(dal__tally_packs)(dal__tally *tally, double first, int phase, int 
                                 const double *values)
 {
     const dal_stored *const x = (const dal_stored *)values;
-    dal_stored *const part = (dal_stored *)tally->sum, *const rough = (dal_stored *)tally->rough,
+    dal_stored *const sum = (dal_stored *)tally->sum, *const rough = (dal_stored *)tally->rough,
                       *const held = (dal_stored *)tally->held,
                       *const square = (dal_stored *)tally->square;
     const view v = {first, tally->per_unit, tally->from, phase, packs};
@@ -75,14 +75,13 @@ bool DAL_WIDE(dal__tally_packs)(dal__tally *tally, double first, int phase, int 
     lane_tally s[NUMS];
     dal_mask good = dal_all();
     for (int i = 0; i < NUMS; i++) {
-        s[i] =
-            add_packs((lane_tally){part[i], x[i], x[i], rough[i], held[i], square[i]}, &v, x + i);
+        s[i] = add_packs((lane_tally){sum[i], x[i], x[i], rough[i], held[i], square[i]}, &v, x + i);
         good &= dal_finite(s[i].sum) & dal_less_equal(s[i].max, limit) &
                 dal_less_equal(-s[i].min, limit);
     }
     if (dal_any(~good)) return false;
     for (int i = 0; i < NUMS; i++) {
-        part[i] = s[i].sum;
+        sum[i] = s[i].sum;
         rough[i] = s[i].rough;
         held[i] = s[i].held;
         square[i] = s[i].square;

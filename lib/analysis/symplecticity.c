@@ -35,7 +35,7 @@ static dal_status step_from(stepmap *m, double t, const double *z, double *out)
 }
 
 /* A run of the spec; z is a copy of state, or of the run's start, with rows further vectors of the
- * dimension behind it. */
+ * dimension after it. */
 static dal_status open_map(stepmap *m, const dal_run_spec *spec, double t, const double *state,
                            size_t rows, dal_error *error)
 {

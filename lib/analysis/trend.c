@@ -80,7 +80,7 @@ typedef struct description {
     double wandering; /* max distance of a mean of bins from the mean of all, with tones */
 } description;
 
-/* The mean square of differences of neighbouring means about their mean, in units of that of white
+/* The mean square of differences of neighbouring means about their mean, over its value for white
  * noise with the deviation within blocks. */
 static double difference_ratio(const dal__trend_series *s)
 {
@@ -165,7 +165,7 @@ static void describe(description *p)
 
 /* ---- powers ---- */
 
-/* The power of least S, between those of the grid by a parabola in log p. */
+/* The power of least S, between powers of the grid by a parabola in log p. */
 static double best_power(const dal__evidence *e)
 {
     int i = 0;

@@ -32,8 +32,8 @@ static const double min_rise = 0.04, without_rise = 0.5;
 /* A jump of the last two bins above all others is no steady amplitude. */
 static const double min_jump = 0.05, with_jump = 0.4;
 
-/* Exponentials over more e-folds than the shapes have: z is a line to this part of its rise, and
- * growth has this probability. */
+/* Exponentials over more e-folds than the shapes have: z is a line to this fraction of its rise,
+ * and growth has this probability. */
 static const double many_folds = 8.0, line_misfit = 0.035, by_line = 0.89;
 
 /* The root mean square of the means about block i from their line, however small. */

@@ -6,7 +6,7 @@
 
 typedef struct dal__growth {
     double probability; /* that the amplitude grows, by a power of t or exponentially */
-    double exponential; /* of this, the part of exponentials */
+    double exponential; /* of this, the share of exponentials */
     double rise;        /* of the logarithm of the amplitude, from the first to the last eighth */
 } dal__growth;
 

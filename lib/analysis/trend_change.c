@@ -4,17 +4,17 @@
  *
  *     y = a + r s + b f(s; p),    f = tanh((s - c)/w), or -e^(-s/tau), or two of the latter,
  *
- * with p by golden sections.  The late part begins where f is within 1e-3 of its end, at c + 4 w or
- * 7 tau, half a bin later.  Its line by least squares, or, where it is short, r beside f and its
+ * with p by golden sections.  The late segment begins where f is within 1e-3 of its end, at c + 4 w
+ * or 7 tau, half a bin later.  Its line by least squares, or, where it is short, r beside f and its
  * derivatives in p, is the rate of the series after the change, with the interval
  *
  *     r -+ t(n/i - k) sqrt((S + n e^2)/(n - k)/S_ss i),
  *
  * i the inflation of residues that are correlated, e the error of the means or 3e-4 b.
  *
- *     level         0 lies in the interval, the drift that it admits in the late part is at most
+ *     level         0 lies in the interval, the drift that it admits in the late segment is at most
  *                   half of b, and the change is visible beside what else the values do
- *     beside line   0 lies outside, the late part is long and straight, and the line is there
+ *     beside line   0 lies outside, the late segment is long and straight, and the line is there
  *                   before the change, too */
 #include "analysis/trend_change.h"
 #include "analysis/statistics.h"
@@ -70,8 +70,8 @@ static fit fit_columns(const double *y, column *c, int columns, int from, int to
         const double whole = product_from(c[k], c[k], from, to);
         for (int l = 0; l < 2 * k; l++) { /* twice is enough */
             const double *const q = c[l % k];
-            const double part = product_from(c[k], q, from, to);
-            for (int m = from; m < to; m++) c[k][m] -= part * q[m];
+            const double component = product_from(c[k], q, from, to);
+            for (int m = from; m < to; m++) c[k][m] -= component * q[m];
         }
         f.squares = product_from(c[k], c[k], from, to);
         f.last = 0.0;
@@ -346,7 +346,7 @@ static bool blocks_are_alike(const outcome *o)
     return !(before > other_noise * after && before > min_before * o->shown);
 }
 
-/* The drift that the interval admits in the late part, in units of the change. */
+/* The drift that the interval admits in the late segment, in units of the change. */
 static double admitted_drift(const outcome *o)
 {
     return (fabs(o->rate) + o->margin) * fmax(1.0 - o->ends, min_late) / o->shown;

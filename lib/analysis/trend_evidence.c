@@ -86,7 +86,7 @@ static double occam(double size, double deviation, double width)
     return 0.7978845608028654 * deviation / (w * (1.0 + ratio * ratio));
 }
 
-/* That of a line: as likely small, beside oscillations, as all there is. */
+/* The cost of a line: as likely small, beside oscillations, as all there is. */
 static double line_price(const dal__bins *b, double size, double deviation)
 {
     return 0.5 * occam(size, deviation, 0.3 * b->half_range) +
@@ -162,7 +162,7 @@ static void weigh_plain_shapes(const dal__bins *b, int k, const noise_state *s, 
 }
 
 /* Two shapes beside each other; where one column does it, they do not count. */
-static const double clear_part = 3.0, min_part = 0.06;
+static const double clear_deviations = 3.0, min_ratio = 0.06;
 
 static void weigh_pair(const dal__bins *b, int k, const noise_state *s, const double *xy, int pair,
                        dal__evidence *e)
@@ -175,8 +175,8 @@ static void weigh_pair(const dal__bins *b, int k, const noise_state *s, const do
     const double rest = fmax(s->square - c * xy[i] - d * xy[l], s->floor);
     const double variance = rest / (b->freedom - 2.0);
     const double of_c = sqrt(variance * yy / det), of_d = sqrt(variance * xx / det);
-    if (fabs(c) < clear_part * of_c || fabs(d) < clear_part * of_d ||
-        fmin(fabs(c), fabs(d)) < min_part * fmax(fabs(c), fabs(d)))
+    if (fabs(c) < clear_deviations * of_c || fabs(d) < clear_deviations * of_d ||
+        fmin(fabs(c), fabs(d)) < min_ratio * fmax(fabs(c), fabs(d)))
         return;
     const double price =
         occam(c, of_c, b->half_range) * occam(d, sqrt(variance / yy), b->half_range);
@@ -247,7 +247,7 @@ void dal__trend_weigh(const dal__bins *b, dal__white_odds odds, dal__evidence *e
 /* ---- the drift, as an interval ---- */
 
 /* Under each noise the drift b of a straight line has Student's distribution about its estimate;
- * the interval is that of their mixture, each with the weight of its noise:
+ * the interval belongs to their mixture, each with the weight of its noise:
  *
  *     F(b) = sum_k w_k T_nu((b - b_k)/d_k),     T_nu(t) = Phi(t (1 - 1/4 nu)/sqrt(1 + t^2/2 nu))
  *

@@ -14,7 +14,7 @@ typedef struct dal__evidence {
     double drift[DAL__SHAPE_NOISES], drift_deviation[DAL__SHAPE_NOISES];
     double drift_weight[DAL__SHAPE_NOISES];
     int freedom;
-    double walk_over_memory; /* log of the evidence of walks over that of noise with memory T/9 */
+    double walk_over_memory; /* log of the evidence of walks over noise with memory T/9 */
 } dal__evidence;
 
 /* How many times likelier than usual the noise is white: for the trend, for the rate of a line. */

@@ -31,7 +31,7 @@ static const double steady_alias = 1e-2, alias = 3e-3;
 static const double tone_error =
     5e-4; /* of half the range: what a tone that was taken out leaves */
 
-/* What is left of a difference of squares counts when it is this many roundings. */
+/* What remains of a difference of squares counts when it is this many roundings. */
 static const double cancelled = 16.0;
 
 typedef dal__trend_series series;
@@ -116,8 +116,8 @@ static void fill_polynomials(tone_fit *f)
         double *const p = f->column[k], *const before = f->column[k ? k - 1 : 0];
         for (int i = 0; i < n; i++) p[i] = k ? (2.0 * i + 1.0 - n) / n * before[i] : 1.0;
         for (int l = k - 2; l >= 0; l -= 2) {
-            const double part = dal__dot_product(n, p, f->column[l]);
-            for (int i = 0; i < n; i++) p[i] -= part * f->column[l][i];
+            const double component = dal__dot_product(n, p, f->column[l]);
+            for (int i = 0; i < n; i++) p[i] -= component * f->column[l][i];
         }
         const double size = 1.0 / sqrt(dal__dot_product(n, p, p));
         for (int i = 0; i < n; i++) p[i] *= size;
@@ -171,7 +171,7 @@ static int solve(double m[COLUMNS][COLUMNS], double *x, int n)
         const double whole = m[i][i];
         for (int k = 0; k < i; k++) m[i][i] -= m[i][k] * m[i][k];
         if (!(m[i][i] > 1e-12 * whole) || !(whole > 0.0)) {
-            for (int k = i; k < n; k++) m[k][i] = 0.0; /* nothing new: its part is 0 */
+            for (int k = i; k < n; k++) m[k][i] = 0.0; /* nothing new: its size is 0 */
             m[i][i] = INFINITY;
             continue;
         }
@@ -218,11 +218,11 @@ static void newton_step(tone_fit *f, const double *x)
         for (int k = 0; k < n; k++) f->residue[k] -= c[i] * f->column[i][k];
     f->square = dal__dot_product(n, f->residue, f->residue);
     for (int l = 0; l < f->tones; l++) {
-        const double *const part = c + POLYNOMIALS + 3 * l;
+        const double *const tone = c + POLYNOMIALS + 3 * l;
         const double limit = 0.5 * 2.0 * pi / n; /* half a period at a time */
         /* The phase turns about the middle. */
-        const double d = fmin(fmax(part[2] / n, -limit), limit), middle = 0.5 * n * d;
-        const double a = part[0], b = part[1];
+        const double d = fmin(fmax(tone[2] / n, -limit), limit), middle = 0.5 * n * d;
+        const double a = tone[0], b = tone[1];
         f->a[l] = a * cos(middle) - b * sin(middle);
         f->b[l] = a * sin(middle) + b * cos(middle);
         f->angle[l] += d;
@@ -260,8 +260,8 @@ void dal__trend_remove_tones(series *s)
 
 /* ---- bins ---- */
 
-/* Blocks are not constant inside: of the part of one that belongs to a bin, the integral is that of
- * the line with the mean of the block and the slope between its neighbours. */
+/* Blocks are not constant inside: where one overlaps a bin, the integral is taken of the line that
+ * has the mean of the block and the slope between its neighbours. */
 void dal__trend_fill_bins(const double *block, int count, double *bin)
 {
     const double width = (double)count / DAL__BINS;

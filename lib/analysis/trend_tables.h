@@ -4,7 +4,7 @@
  *
  *     Y_j = sum_m y_m sqrt(2/BINS) cos(pi j (m + 1/2)/BINS),    j = 1 .. WAVES,
  *
- * its cosine coefficients without that of the constant.  For white noise, autoregressive noise and
+ * its cosine coefficients without the constant's.  For white noise, autoregressive noise and
  * a random walk these are nearly uncorrelated (Mueller, Watson 2008, DOI 10.1111/j.1468-0262.2008
  * .00821.x; 2018, DOI 10.3982/ECTA15047), so that a noise is a list of variances.  The tables are
  * made by tools/trend-tables.c when the library is built. */

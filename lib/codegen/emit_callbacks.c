@@ -8,8 +8,8 @@
 
 /* A longer program is a function that is not inlined; implicit methods evaluate one at many
  * places.  A compiler takes more than twice as long for a function of twice the length: one longer
- * still is split into functions of PART operations. */
-enum { MAX_INLINED = 600, MAX_INLINED_IMPLICIT = 120, MAX_WHOLE = 1000, PART = 500 };
+ * still is split into functions of CHUNK operations. */
+enum { MAX_INLINED = 600, MAX_INLINED_IMPLICIT = 120, MAX_WHOLE = 1000, CHUNK = 500 };
 
 /* ---- inputs ---- */
 
@@ -54,30 +54,30 @@ static void write_program(dal__generation *g, dal__program_code code, const char
                              : is_cold           ? "DAL_COLD"
                                                  : "static DAL_UNUSED __attribute__((noinline))";
     const int tape = g->programs->program[code].tape;
-    const int most = length > MAX_WHOLE ? PART : MAX_WHOLE;
+    const int most = length > MAX_WHOLE ? CHUNK : MAX_WHOLE;
     dal__tape_writer *writer =
         dal__tape_writer_create(g->programs->tapes, tape, g->input, &g->text);
-    int parts = 0;
+    int chunks = 0;
     for (bool more = writer; more;) {
         if (is_cold && length > MAX_INLINED) dal__buffer_append(&g->text, unordered);
         if (length > most)
             dal__buffer_print(&g->text, "%s void dal__%s_%d(DAL__ARGUMENTS, num *passed)\n{\n",
-                              kind, name, ++parts);
+                              kind, name, ++chunks);
         else
             dal__buffer_print(&g->text, "%s void dal__%s(DAL__ARGUMENTS)\n{\n", kind, name);
-        more = dal__tape_write_part(writer, most);
+        more = dal__tape_write_chunk(writer, most);
         dal__buffer_append(&g->text, "}\n");
     }
     dal__tape_writer_free(writer);
-    if (parts == 0) return;
+    if (chunks == 0) return;
     dal__buffer_print(&g->text, "%s void dal__%s(DAL__ARGUMENTS)\n{\n    num passed[%d];\n", kind,
                       name, dal__tapes_passed(g->programs->tapes));
-    for (int i = 1; i <= parts; i++)
+    for (int i = 1; i <= chunks; i++)
         dal__buffer_print(&g->text, "    dal__%s_%d(w, t, q, v, pi, out, passed);\n", name, i);
     dal__buffer_append(&g->text, "}\n");
 }
 
-/* Whether a program writes its outputs where they belong: no pivots stand behind them. */
+/* Whether a program writes its outputs where they belong: no pivots follow them. */
 static bool is_direct(const dal__generation *g, dal__program_code code)
 {
     const dal__program *p = &g->programs->program[code];
@@ -90,7 +90,7 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
                        const char *name)
 {
     const dal__program *p = &g->programs->program[code];
-    const int outputs = p->outputs, left = outputs + 2 * p->checked, all = left + p->left;
+    const int outputs = p->outputs, pivots = outputs + 2 * p->checked, all = pivots + p->left;
     if (!dal__wants(g, code)) return;
     if (is_direct(g, code)) {
         dal__buffer_print(&g->text, "    case DAL_EVAL_%s: dal__%s(w, t, q, v, pi, out); break;\n",
@@ -117,7 +117,7 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
         dal__buffer_print(&g->text,
                           "        if (pivots)\n            DAL_EACH(i, %d) "
                           "pivots[i * DAL_STEP_GROUPS] = all[%d + i];\n",
-                          p->left, left);
+                          p->left, pivots);
     dal__buffer_append(&g->text, "        break;\n    }\n");
 }
 
@@ -125,7 +125,7 @@ static void write_mask(dal__generation *g)
 {
     dal__buffer_append(
         &g->text,
-        "/* Copies the outputs; NaN in the lanes where one of the pivots behind them, each\n"
+        "/* Copies the outputs; NaN in the lanes where one of the pivots after them, each\n"
         " * followed by its size, has vanished. */\n"
         "DAL_INLINE void dal__mask_singular(const num *all, int outputs, int pivots, "
         "num *out)\n{\n"
@@ -163,7 +163,7 @@ static void write_dispatch(dal__generation *g)
 /* The body of the recurrences for order 0, with all outputs, or for an order k, without those that
  * are needed by their values alone: pivots.  That for k is inlined into the loop over orders; for 0
  * it would take compilers more time than it saves. */
-static void write_orders(dal__generation *g, bool first, int outputs, int behind)
+static void write_orders(dal__generation *g, bool first, int outputs, int end)
 {
     const dal__taylor *taylor = g->programs->taylor[g->layout.lifted];
     dal__buffer *text = &g->text;
@@ -175,7 +175,7 @@ static void write_orders(dal__generation *g, bool first, int outputs, int behind
                       first ? "first" : "next");
     dal__taylor_write(taylor, g->programs->tapes, first, g->lanes == 1, text);
     for (int i = 0; i < taylor->outputs; i++) {
-        if (!first && i >= outputs && i < behind) continue;
+        if (!first && i >= outputs && i < end) continue;
         dal__buffer_print(text, "    out[%d] = ", i);
         dal__taylor_write_output(taylor, g->programs->tapes, i, first, text);
         dal__buffer_append(text, ";\n");
@@ -191,10 +191,10 @@ static void write_series(dal__generation *g)
     const dal__taylor *taylor = g->programs->taylor[lifted];
     const dal__program *p =
         &g->programs->program[lifted ? DAL__PROGRAM_ADJOINT : DAL__PROGRAM_FIELD];
-    const int outputs = p->outputs, left = outputs + 2 * p->checked, behind = left + p->left;
+    const int outputs = p->outputs, pivots = outputs + 2 * p->checked, end = pivots + p->left;
     dal__buffer *text = &g->text;
-    write_orders(g, true, outputs, behind);
-    write_orders(g, false, outputs, behind);
+    write_orders(g, true, outputs, end);
+    write_orders(g, false, outputs, end);
     dal__buffer_print(text,
                       "DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num "
                       "*in, num *memory, num *out)\n{\n"
@@ -206,8 +206,8 @@ static void write_series(dal__generation *g)
                       "    else dal__series_next(s->work, k, c, packed, all);\n"
                       "    DAL_EACH(i, %d) out[i] = all[i];\n",
                       taylor->slots, taylor->outputs, taylor->inputs, outputs);
-    if (lifted && taylor->outputs > behind)
-        dal__buffer_print(text, "    out[%d] = all[%d];\n", outputs, behind);
+    if (lifted && taylor->outputs > end)
+        dal__buffer_print(text, "    out[%d] = all[%d];\n", outputs, end);
     else if (lifted)
         dal__buffer_print(text, "    out[%d] = dal_num(0.0);\n", outputs);
     if (p->checked > 0)
@@ -218,7 +218,7 @@ static void write_series(dal__generation *g)
                           "    if (k == 0 && !s->pivots_known[0]) {\n"
                           "        DAL_EACH(i, %d) s->pivots[i] = all[%d + i];\n"
                           "        s->pivots_known[0] = 1;\n    }\n",
-                          p->left, left);
+                          p->left, pivots);
     dal__buffer_append(text, "}\n");
 }
 

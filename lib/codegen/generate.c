@@ -35,7 +35,7 @@ static dal_status check_method(dal__generation *g, dal_error *error)
     return DAL_OK;
 }
 
-/* Series in the memory of a step; packed ones stand behind the others, and one more is for their
+/* Series in the memory of a step; packed ones come after the others, and one more is for their
  * alignment. */
 static int count_series(const dal__generation *g)
 {

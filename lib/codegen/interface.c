@@ -14,7 +14,7 @@ static void write_comment(dal__buffer *text, const char *words)
     }
 }
 
-/* Words that cannot name a member: those of C and C++, and macros of the headers. */
+/* Words that cannot name a member: keywords of C and C++, and macros of the headers. */
 static const char *const reserved[] = {
     "alignas",     "alignof",    "and",          "and_eq",
     "asm",         "auto",       "bitand",       "bitor",
@@ -81,7 +81,7 @@ static const char usage[] =
     " * i of a lane is y[i * PREFIX_LANES + lane], and so with all arrays.  A copy of the struct "
     "is\n"
     " * a checkpoint.  A step succeeds or leaves its lane as it was and returns a status; a lane\n"
-    " * with a status stands still until started again (with one lane: until the next call).\n"
+    " * with a status does not move until started again (with one lane: until the next call).\n"
     " * Change y only before the first step; PREFIX_set sets parameters, and begins the method "
     "again.\n"
     " *\n"
@@ -89,8 +89,7 @@ static const char usage[] =
     " *\n"
     " * Without -march=native, or -mfma, a fused multiply-add on x86-64 is a slow call of libm.\n"
     " * From another file: #define PREFIX_HEADER, then #include this one: declarations only.\n"
-    " * The bits are those of dalembert itself, whatever the compiler and its options; "
-    "-ffast-math\n"
+    " * The bits are dalembert's own, whatever the compiler and its options; -ffast-math\n"
     " * is refused. */\n";
 
 static void write_head(dal__generation *g)

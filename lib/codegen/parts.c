@@ -135,7 +135,7 @@ static int decide(const dal__generation *g, const char *line)
     return negated && value != UNKNOWN ? !value : value;
 }
 
-/* An open #if: its value, whether lines around it are written, and those of its present branch. */
+/* An open #if: its value, whether the lines around it and in its present branch are written. */
 typedef struct branch {
     int value;
     bool around, on;
@@ -148,7 +148,7 @@ static void decide_branch(const dal__generation *g, const char *line, branch *b)
     b->on = b->around && b->value != 0;
 }
 
-/* Whether a directive is left to the compiler; keeps the open branches. */
+/* Whether the compiler has to decide a directive; keeps the open branches. */
 static bool passes(const dal__generation *g, const char *line, branch *open, int *depth)
 {
     branch *b = &open[*depth];
@@ -168,7 +168,7 @@ static bool passes(const dal__generation *g, const char *line, branch *open, int
 }
 
 /* Writes text up to end, with the prefix for the word PREFIX. */
-static void write_part(dal__generation *g, const char *text, const char *end)
+static void write_until(dal__generation *g, const char *text, const char *end)
 {
     static const char word[] = "PREFIX";
     for (const char *next; (next = strstr(text, word)) && next < end; text = next + strlen(word)) {
@@ -180,7 +180,7 @@ static void write_part(dal__generation *g, const char *text, const char *end)
 
 void dal__write_template(dal__generation *g, const char *text)
 {
-    write_part(g, text, text + strlen(text));
+    write_until(g, text, text + strlen(text));
 }
 
 void dal__write_item(dal__generation *g, const char *item)
@@ -200,13 +200,13 @@ void dal__write_selected(dal__generation *g, const char *text)
     for (size_t length; *text; text += length) {
         length = strcspn(text, "\n");
         length += text[length] == '\n';
-        /* What follows branches that are left out begins the chain. */
+        /* What follows branches that are dropped begins the chain. */
         const bool begins_chain = begins(text, "#elif") && open[depth].value == 0;
         const bool conditional =
             begins(text, "#if") || begins(text, "#el") || begins(text, "#endif");
         if (!(conditional ? passes(g, text, open, &depth) : open[depth].on)) continue;
         if (begins_chain) dal__buffer_append(&g->text, "#");
-        write_part(g, begins_chain ? text + strlen("#el") : text, text + length);
+        write_until(g, begins_chain ? text + strlen("#el") : text, text + length);
     }
 }
 

@@ -2,7 +2,7 @@
  *
  * A file has the parts that its integrators declare (DAL_KERNEL_*), and what these use.  Inside a
  * part, lines #if and #ifdef with names that are known here are decided here, so that what is not
- * needed does not reach the file; all others are left to the compiler. */
+ * needed does not reach the file; the compiler decides all others. */
 #ifndef DAL_CODEGEN_PARTS_H
 #define DAL_CODEGEN_PARTS_H
 
@@ -21,7 +21,7 @@ void dal__write_source(dal__generation *g, const char *name);
 void dal__write_selected(dal__generation *g, const char *text);
 /* Writes a text, with the prefix for the word PREFIX, as it is. */
 void dal__write_template(dal__generation *g, const char *text);
-/* Writes an item of a list behind the others, on a line of its own where theirs is full. */
+/* Writes an item of a list after the others, on a line of its own where theirs is full. */
 void dal__write_item(dal__generation *g, const char *item);
 /* Writes the parts of the kernel. */
 void dal__write_kernel(dal__generation *g);

@@ -1,7 +1,7 @@
 /* error.c - statuses and their words, the caller's error record, the nearest name, and what public
  * functions require of their arguments (see dalembert.h, conventions).
  *
- * The distance of two names is that of Damerau and Levenshtein in its "optimal string alignment"
+ * The distance of two names is Damerau and Levenshtein's in its "optimal string alignment"
  * form: the smallest number of insertions, deletions, substitutions and swaps of neighbours.  It is
  * counted in quarters of an edit, so that a letter in the wrong case costs less than a wrong
  * letter. */

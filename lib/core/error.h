@@ -11,7 +11,7 @@
 #define DAL__PRINTF(f, a)
 #endif
 
-/* Returns the status of a call that failed.  A compiler without the hint takes the code behind
+/* Returns the status of a call that failed.  A compiler without the hint takes the code after
  * several of these for cold and leaves it slow. */
 #define DAL_TRY(expression)                                                                        \
     do {                                                                                           \
@@ -61,7 +61,7 @@ dal_status dal__find_parameter(const dal_system *system, const char *name, int *
                                dal_error *error);
 /* How messages call the W that must be regular. */
 const char *dal__mass_words(const dal_system *system);
-/* Sets the values of all parameters: those of the system, and settings over them.  Errors: DAL_NAME
+/* Sets the values of all parameters: the system's, and settings over them.  Errors: DAL_NAME
  * with the nearest name, not_finite where a value is not finite. */
 dal_status dal__set_parameters(const dal_system *system, const dal_setting *settings, int count,
                                dal_status not_finite, double *value, dal_error *error);

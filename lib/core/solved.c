@@ -6,13 +6,13 @@
  *
  * with as many columns as names, by elimination with pivots from all rows, each relative to its
  * largest entry; velocities are in the units in which constraints move them.  Where D is linear one
- * step solves it.  Rows are left where the velocities named are fewer than the constraints. */
+ * step solves it.  Rows remain where the velocities named are fewer than the constraints. */
 #include "core/solved.h"
 #include "core/vectors.h"
 #include <math.h>
 #include <stdio.h>
 
-/* A pivot below this part of the largest entry of its column means that columns are dependent. */
+/* A pivot below this fraction of its column's largest entry means that columns are dependent. */
 static const double independent = 1e-12;
 
 enum { MAX_STEPS = 200, NAME_SIZE = 128 };

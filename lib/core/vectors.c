@@ -132,17 +132,17 @@ double dal__uniform(dal__random *random)
 
 /* ---- orthonormal rows ---- */
 
-void dal__remove_part(double *x, const double *unit, int count)
+void dal__remove_component(double *x, const double *unit, int count)
 {
-    double part = 0.0;
-    for (int i = 0; i < count; i++) part += unit[i] * x[i];
-    for (int i = 0; i < count; i++) x[i] -= part * unit[i];
+    double component = 0.0;
+    for (int i = 0; i < count; i++) component += unit[i] * x[i];
+    for (int i = 0; i < count; i++) x[i] -= component * unit[i];
 }
 
 double dal__orthonormalise_row(double *rows, int j, int width)
 {
     double *x = rows + (size_t)j * (size_t)width;
-    for (int k = 0; k < j; k++) dal__remove_part(x, rows + (size_t)k * (size_t)width, width);
+    for (int k = 0; k < j; k++) dal__remove_component(x, rows + (size_t)k * (size_t)width, width);
     double square = 0.0;
     for (int i = 0; i < width; i++) square += x[i] * x[i];
     const double length = sqrt(square);
@@ -187,21 +187,21 @@ static double pivot_column(matrix *m, int i)
     return m->norm[longest];
 }
 
-/* Column i becomes a unit vector, the later ones lose their part along it: row by row, as the
+/* Column i becomes a unit vector, the later ones lose their component along it: row by row, as the
  * matrix lies in memory. */
 static void orthogonalise(matrix *m, int i, double norm)
 {
-    double *const part = m->r + i * m->columns;
-    part[i] = norm;
-    for (int j = i + 1; j < m->columns; j++) part[j] = 0.0;
+    double *const component = m->r + i * m->columns;
+    component[i] = norm;
+    for (int j = i + 1; j < m->columns; j++) component[j] = 0.0;
     for (int k = 0; k < m->rows; k++) {
         double *const row = m->a + k * m->columns;
         row[i] /= norm;
-        for (int j = i + 1; j < m->columns; j++) part[j] += row[i] * row[j];
+        for (int j = i + 1; j < m->columns; j++) component[j] += row[i] * row[j];
     }
     for (int k = 0; k < m->rows; k++) {
         double *const row = m->a + k * m->columns;
-        for (int j = i + 1; j < m->columns; j++) row[j] -= part[j] * row[i];
+        for (int j = i + 1; j < m->columns; j++) row[j] -= component[j] * row[i];
     }
 }
 

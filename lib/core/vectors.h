@@ -34,23 +34,23 @@ bool dal__is_converged(double change, double before, double size);
 void dal__jacobi_sizes(int n, const double *m, double *size);
 /* G = A B [m*m] for A[m*n], B[n*m] = W^-1 A^T. */
 void dal__gram_matrix(int n, int m, const double *A, const double *B, double *G);
-/* Units of the velocities that m constraints move, unit[n], powers of 2 that change as those of the
- * velocities do: max_a |B_ia|/sqrt(G_aa) = max_a sqrt(W^-1_ii) |cos(e_i, A_a)| for A[m*n], B[n*m] =
- * W^-1 A^T and the diagonal of G = A B, relative to the first; 0 where none does. */
+/* Units of the velocities that m constraints move, unit[n], powers of 2 that change with the units
+ * of the velocities: max_a |B_ia|/sqrt(G_aa) = max_a sqrt(W^-1_ii) |cos(e_i, A_a)| for A[m*n],
+ * B[n*m] = W^-1 A^T and the diagonal of G = A B, relative to the first; 0 where none does. */
 void dal__velocity_units(int n, int m, const double *A, const double *B, double *unit);
 /* max |v_i|/unit_i over those that are not 0. */
 double dal__max_in_units(int n, const double *v, const double *unit);
 
-/* x loses its part along the unit vector. */
-void dal__remove_part(double *x, const double *unit, int count);
-/* Row j of rows[.. * width] loses its parts along the orthonormal rows before it and becomes a unit
- * vector; its length before that. */
+/* x loses its component along the unit vector. */
+void dal__remove_component(double *x, const double *unit, int count);
+/* Row j of rows[.. * width] loses its components along the orthonormal rows before it and becomes a
+ * unit vector; its length before that. */
 double dal__orthonormalise_row(double *rows, int j, int width);
 
 /* Modified Gram-Schmidt with column pivoting on a[rows*columns] (destroyed).  Columns shorter
  * than tolerance times the longest count as dependent; the rank is returned, and in *pivot (when
  * not NULL) the shortest over the longest of all pivots, 0 when rank < columns.
- * When right is not NULL it loses its part in the span (the rest is the least residue), and
+ * When right is not NULL it loses its component in the span (the rest is the least residue), and
  * x[columns] is the solution of a x = right with the dependent columns' x at 0. */
 int dal__least_squares(int rows, int columns, double *a, double *right, double *x, double tolerance,
                        double *pivot, double *work /* [columns*(columns+2)] */);

@@ -8,7 +8,7 @@
 #define DAL_WORDS_H
 
 #define DAL__FIRST_OF(first, ...) first
-/* The second column of a list of rows (code, word) or (code, word, ...), with a comma behind. */
+/* The second column of a list of rows (code, word) or (code, word, ...), with a comma after it. */
 #define DAL__SECOND(code, ...) DAL__FIRST_OF(__VA_ARGS__, 0),
 /* The third column of a list of rows (code, word, text). */
 #define DAL__THIRD(code, word, text) text,

@@ -26,7 +26,7 @@
  * loses. */
 static const double lost_direction = 1e-6;
 
-/* Means beside those of the exponents, see growth. */
+/* Means beside the means of the exponents, see growth. */
 enum { EXTRA_MEANS = 4 };
 
 struct dal_lyapunov {
@@ -37,9 +37,9 @@ struct dal_lyapunov {
     const double *unit;       /* [dimension] of the state */
     double time;              /* the unit of time */
     int n, nw, dimension, count, rank, exact;
-    int order;    /* of the method */
-    int enforced; /* functions that the method enforces: D, and E behind; 0, m or m+1 */
-    int turns_D;  /* the method turns D into -D: off D = 0 it is not near the flow */
+    int order;                  /* of the method */
+    int enforced;               /* functions that the method enforces: D, then E; 0, m or m+1 */
+    int turns_D;                /* the method turns D into -D: off D = 0 it is not near the flow */
     double h, divergence, rate; /* at the present state; rate: see find_divergence */
     double *vectors;            /* [dimension*dimension] the first count of them are in use */
     double *growth;    /* [dimension + 4] log R_ii / h of a step, their sum, div F, what the
@@ -377,7 +377,7 @@ static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
     return DAL_OK;
 }
 
-/* How many directions a step leaves: behind them R_ii is 0, or noise.  The vectors stay as that
+/* How many directions a step leaves: after them R_ii is 0, or noise.  The vectors stay as that
  * step left them. */
 static dal_status find_rank(dal_lyapunov *s, unsigned properties)
 {
@@ -407,7 +407,7 @@ static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
     DAL_TRY(allocate_vectors(s, error));
     s->error = error;
     DAL_TRY(find_rank(s, properties));
-    /* The functions whose directions are lost: D, and E behind it. */
+    /* The functions whose directions are lost: D, then E. */
     const int lost = s->dimension - s->rank, m = dal_evaluator_system(s->evaluator)->m;
     const int max = m + ((properties & DAL_PRESERVES_ENERGY) != 0);
     s->enforced = lost == m || lost == max ? lost : 0;
@@ -421,8 +421,8 @@ static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
     dal_lyapunov_discard_transient(s);
     for (int j = 0; j < s->rank && isfinite(s->log_from); j++) /* tangent to what is enforced */
         for (int k = 0; k < s->enforced; k++)
-            dal__remove_part(s->vectors + j * s->dimension, s->gradients + k * s->dimension,
-                             s->dimension);
+            dal__remove_component(s->vectors + j * s->dimension, s->gradients + k * s->dimension,
+                                  s->dimension);
     const dal_status status = orthonormalise(s, s->rank);
     s->error = NULL;
     return status;

@@ -4,8 +4,8 @@
 
 #include "expr/graph.h"
 
-/* Replaces in these nodes the sines and cosines of sums by those of the terms, where all together
- * then cost less. */
+/* Replaces in these nodes the sines and cosines of sums by sines and cosines of the terms, where
+ * all together then cost less. */
 void dal__expand_angles(dal__graph *graph, dal__node *nodes, int count);
 
 #endif

@@ -1,6 +1,6 @@
 /* arithmetic.h - what each operation computes from a, b and c, over num.
  *
- * The one list behind constant folding, dal__evaluate and the tapes, so that they agree in every
+ * The one list used by constant folding, dal__evaluate and the tapes, so that they agree in every
  * bit.  The library is compiled without contraction: fused operations are the last three,
  * and dal__lower chooses the sums that use them. */
 #ifndef DAL_EXPR_ARITHMETIC_H

@@ -3,7 +3,7 @@
  *     sin u (a sin u + b cos u) + cos u (a cos u - b sin u) = a
  *
  * A term is a coefficient, which is constant along a run, times factors, which are no sums or
- * products themselves.  Equal terms are added last: what is left of f sin(u)^2 + f cos(u)^2 and
+ * products themselves.  Equal terms are added last: what remains of f sin(u)^2 + f cos(u)^2 and
  * f - f is found among terms as they came. */
 #include "expr/collect.h"
 #include "expr/simplify.h"

@@ -5,7 +5,7 @@
  *
  * Both sweeps visit only what lies between the symbols and f.
  *
- * Of if, min and max the derivative is that of the operand taken, and what the others give may be
+ * Of if, min and max the derivative is the taken operand's, and what the others give may be
  * no number: 0 times an adjoint would not be 0.  So the reverse sweep stops at such a branch y, and
  * goes down from each of its operands in a sweep of its own:
  *
@@ -75,7 +75,7 @@ static bool is_branch(const dal__record *r)
 }
 
 /* if(condition, x, y) as the derivative of a branch whose operands have the derivatives b, and c
- * for the third; 0 stands for a derivative that is 0. */
+ * for the third; the node 0 is a derivative that is 0. */
 static dal__node branch_derivative(dal__graph *g, dal__node y, const dal__node derivative[3])
 {
     const dal__record r = g->node[y];

@@ -1,7 +1,7 @@
 /* emit.c - programs as straight-line C over num: the arithmetic of the tape, written out.
  *
  * Every result is a constant x1, x2, ... of its own; parameters and hoisted nodes are
- * DAL_WORK(place), with their places in work.  Between parts a result is passed by the place that
+ * DAL_WORK(place), with their places in work.  Between chunks a result is passed by the place that
  * it has among the temporaries in work: no other gets it before the last that reads it. */
 #include "expr/emit.h"
 #include "expr/arithmetic.h"
@@ -15,9 +15,9 @@ typedef struct dal__tape_writer {
     const dal__tapes *tapes;
     const dal__tape *tape;
     const dal__input_name *input;
-    int next, end;    /* the next instruction, and the end of the part */
+    int next, end;    /* the next instruction, and the end of the chunk */
     uint32_t *result; /* [workspace] the number of the result that a place holds; 0: of no result
-                         of this part */
+                         of this chunk */
     uint32_t results;
     int *maker; /* [workspace] the last result that a place gets: 2 i, 2 i + 1 of instruction i */
     int *last;  /* [2 length] the instruction that reads a result last */
@@ -130,7 +130,7 @@ static void write_instruction(writer *w, const dal__instruction *i)
     w->result[i->d] = ++w->results;
 }
 
-/* ---- parts ---- */
+/* ---- chunks ---- */
 
 /* The operands of an instruction, as places. */
 static int find_operands(const dal__instruction *i, uint32_t *place)
@@ -154,7 +154,7 @@ static void find_readers(writer *w)
     }
 }
 
-/* Takes the operands that earlier parts have passed. */
+/* Takes the operands that earlier chunks have passed. */
 static void write_taken(writer *w, const dal__instruction *i)
 {
     uint32_t place[3];
@@ -166,7 +166,7 @@ static void write_taken(writer *w, const dal__instruction *i)
     }
 }
 
-/* Passes a result on where a later part reads it. */
+/* Passes a result on where a later chunk reads it. */
 static void write_given(const writer *w, int result, uint32_t place)
 {
     if (w->last[result] >= w->end)
@@ -210,11 +210,11 @@ void dal__tape_writer_free(writer *w)
     free(w);
 }
 
-bool dal__tape_write_part(writer *w, int instructions)
+bool dal__tape_write_chunk(writer *w, int instructions)
 {
     const dal__tape *tape = w->tape;
-    const int first = w->next, left = tape->length - first;
-    w->end = first + (left < instructions ? left : instructions);
+    const int first = w->next, rest = tape->length - first;
+    w->end = first + (rest < instructions ? rest : instructions);
     memset(w->result, 0, w->tapes->workspace * sizeof *w->result);
     w->results = 0;
     if (w->zeros >= MANY_ZEROS && first == 0)

@@ -12,16 +12,16 @@ typedef struct dal__input_name {
 
 /* A program as C statements over num that set out[0], out[1], ...: its instructions one by one, so
  * that it computes the same bits.  Input number i is called input[i].text; parameters and hoisted
- * nodes are DAL_WORK(place), with their places in work.  A long program is written in parts, each
+ * nodes are DAL_WORK(place), with their places in work.  A long program is written in chunks, each
  * the body of a function; num passed[passed] holds what one computes and a later one reads. */
 typedef struct dal__tape_writer dal__tape_writer;
 /* NULL: out of memory, noted in text. [alloc] */
 dal__tape_writer *dal__tape_writer_create(const dal__tapes *tapes, int program,
                                           const dal__input_name *input, dal__buffer *text);
 void dal__tape_writer_free(dal__tape_writer *writer);
-/* Writes the next part, of this number of instructions at most; returns whether some are left. */
-bool dal__tape_write_part(dal__tape_writer *writer, int instructions);
-/* The numbers that parts of a program pass. */
+/* Writes the next chunk, of this number of instructions at most; returns whether some remain. */
+bool dal__tape_write_chunk(dal__tape_writer *writer, int instructions);
+/* The numbers that chunks of a program pass. */
 int dal__tapes_passed(const dal__tapes *tapes);
 
 /* Writes, of what dal__tapes_prepare_x1 computes, what the programs with is_written[count] read. */

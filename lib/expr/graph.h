@@ -8,7 +8,7 @@
  *
  * Canonical form (simplify.c).  Every node is a term +-c*r whose coefficient c is fixed and whose
  * rest r is not; the sign sits at the coefficient, (-c)*r, or is a NEG where c = 1.  The numeric
- * factor of a fixed product stands first, operands of ADD and MUL are ordered by index, a quotient
+ * factor of a fixed product comes first, operands of ADD and MUL are ordered by index, a quotient
  * of quotients is one quotient, and x/c is (1/c)*x wherever 1/c costs nothing in accuracy or in
  * time.
  *
@@ -24,7 +24,7 @@
 typedef int32_t dal__node; /* 0: no node */
 
 /* Operations: code, arity, name in a formula (NULL: not callable by name).  A name of a system wins
- * over those of functions from SIGN on, which are younger than systems that may use the name. */
+ * over functions from SIGN on, which are younger than systems that may use the name. */
 #define DAL__OP_LIST(OP)                                                                           \
     OP(NUMBER, 0, NULL)                                                                            \
     OP(SYMBOL, 0, NULL)                                                                            \

@@ -48,7 +48,7 @@ static dal_status read_name(dal__lexer *l, dal__token *t)
     l->at = c + t->prime;
     if (!t->prime || l->at == l->end || *l->at != '\'') return DAL_OK;
     const int column = (int)(l->at - l->line_start) + 1;
-    t->prime = false; /* that of the message */
+    t->prime = false; /* it belongs to the message */
     return dal__fail_at(l->error, DAL_SYNTAX, l->line, column,
                         "%.*s'' is a second derivative; a formula knows only %.*s and %.*s'",
                         dal__token_shown(t), t->text, dal__token_shown(t), t->text,
@@ -79,7 +79,7 @@ static dal_status read_other(dal__lexer *l, dal__token *t)
     if (c && strchr("+-*/^(),<>[]", c)) return DAL_OK;
     if (c == '=') return SYNTAX_ERROR(l, t, "unexpected '='; a comparison is written ==");
     if (c == '\'') {
-        return SYNTAX_ERROR(l, t, "unexpected '; a prime stands right behind a name, as in x'");
+        return SYNTAX_ERROR(l, t, "unexpected '; a prime follows a name without a blank, as in x'");
     }
     if (c < 0x20 || c > 0x7e)
         return SYNTAX_ERROR(l, t, "unexpected byte 0x%02x; a formula is plain ASCII", c);

@@ -1,7 +1,7 @@
 /* lexer.h - formulas to tokens.
  *
  *     number   digits [. digits] [e [+-] digits], or . digits ...
- *     name     [A-Za-z_][A-Za-z0-9_]*, with ' right behind it for a velocity
+ *     name     [A-Za-z_][A-Za-z0-9_]*, with ' right after it for a velocity
  *     other    + - * / ^ ( ) [ ] , < > <= >= == !=
  *
  * Blanks, tabs and line ends separate.  Columns count bytes from 1. */

@@ -9,9 +9,9 @@
 dal__op dal__function_named(const char *name, size_t length);
 const char *dal__function_name(dal__op op, int *arity);
 
-/* Whether the name of a function may be that of something else, too, which then hides it. */
+/* Whether something else may have the name of a function, too, and then hides it. */
 bool dal__is_young(dal__op function);
-/* Whether a name is that of a function, and nothing else may have it; and whether another thing of
+/* Whether a name belongs to a function, and nothing else may have it; and whether another thing of
  * this name hides a function. */
 bool dal__is_function(const char *name, size_t length);
 bool dal__hides_function(const char *name);

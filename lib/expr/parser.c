@@ -21,8 +21,8 @@
 
 /* ---- what the parser holds ---- */
 
-/* Something that needs the value right of it; kind: that of an operator, '~' unary minus, '(' a
- * bracket, 'f' the arguments of a function, 's' those of sum, '[' an index, 0 the whole formula. */
+/* Something that needs the value right of it; kind: the sign of an operator, '~' unary minus, '(' a
+ * bracket, 'f' or 's' (sum) the arguments of a function, '[' an index, 0 the whole formula. */
 typedef struct frame {
     char kind;
     dal__op function; /* or 0: */
@@ -134,7 +134,7 @@ static dal_status wrong_arguments(const parser *p, const frame *f, int given)
                         is_chained(f->function) ? " or more" : "", arity == 1 ? "" : "s", given);
 }
 
-/* A name that is no function stands before a bracket. */
+/* A name that is no function comes before a bracket. */
 static dal_status unknown_function(const parser *p)
 {
     const dal__token *t = &p->token;
@@ -253,7 +253,7 @@ static const loop *loop_of(const parser *p)
     return NULL;
 }
 
-/* Behind the bracket of an index: x[2] is the name x2. */
+/* After the bracket of an index: x[2] is the name x2. */
 static dal_status close_index(parser *p, dal__node *value)
 {
     DAL_TRY(reduce(p, 1, value));
@@ -275,7 +275,7 @@ static dal_status close_index(parser *p, dal__node *value)
     return dal__fail_at(p->error, fault.status, f.line, f.column, "%s", fault.message);
 }
 
-/* Behind `sum`, with the lexer behind its bracket: the index and a comma. */
+/* After `sum`, with the lexer after its bracket: the index and a comma. */
 static dal_status open_sum(parser *p, dal__lexer lexer)
 {
     dal__token index, comma = {.kind = 0};
@@ -323,7 +323,7 @@ static bool has_too_many_terms(const parser *p)
     return terms > MAX_TERMS;
 }
 
-/* Behind the comma after the range of a sum: begins its first term.  empty: there is none, and
+/* After the comma that ends the range of a sum: begins its first term.  empty: there is none, and
  * *value is the sum. */
 static dal_status begin_terms(parser *p, dal__node *value, bool *empty)
 {
@@ -346,7 +346,7 @@ static dal_status begin_terms(parser *p, dal__node *value, bool *empty)
     return has_too_many_terms(p) ? too_many_terms(p, &f) : next(p);
 }
 
-/* Behind a term of a sum: goes back for the next one, or closes the sum. */
+/* After a term of a sum: goes back for the next one, or closes the sum. */
 static dal_status end_term(parser *p, dal__node *value, bool *more)
 {
     const frame f = p->stack[p->depth - 1];
@@ -396,7 +396,7 @@ static dal_status symbol(parser *p, dal__node *value)
     return dal__fail_at(p->error, fault.status, t->line, t->column, "%s", fault.message);
 }
 
-/* Whether the present name, that of a function, has another meaning. */
+/* Whether the present name, a function's, has another meaning. */
 static bool is_hidden(const parser *p, dal__op function)
 {
     dal_error ignored;
@@ -547,7 +547,7 @@ static dal_status read_operators(parser *p, dal__node *value, bool *more)
             DAL_TRY(reduce(p, 1, value));
             const frame *f = &p->stack[p->depth - 1];
             if (f->kind != 'f' && f->kind != 's')
-                return SYNTAX_ERROR(p, &p->token, "',' stands outside the arguments of a function");
+                return SYNTAX_ERROR(p, &p->token, "',' outside the arguments of a function");
             DAL_TRY(push_argument(p, *value));
             const size_t given = p->arguments - p->stack[p->depth - 1].first;
             if (f->kind == 'f' || given == 1) return next(p);

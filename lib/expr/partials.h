@@ -8,7 +8,7 @@
  *     ROOT(c, sign, x)    sqrt(c + sign x^2)
  *     TABLE_SLOPE(x)      the next derivative of the table y at x
  *
- * The derivative of abs is sign, and that of sign is 0. */
+ * The derivative of abs is sign, and sign has the derivative 0. */
 #ifndef DAL_EXPR_PARTIALS_H
 #define DAL_EXPR_PARTIALS_H
 

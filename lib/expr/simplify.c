@@ -382,7 +382,7 @@ static dal__node join(dal__graph *graph, term x, term y)
     return attach(graph, s);
 }
 
-/* Where x is a sum and y combines with one of its two parts: the sum of the rest and that. */
+/* Where x is a sum and y combines with one of its two terms: the sum of the rest and that. */
 static dal__node absorb(dal__graph *graph, term x, term y)
 {
     dal__record r = graph->node[x.rest];

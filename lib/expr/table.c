@@ -26,7 +26,7 @@ static double slope(const dal_table *t, int i)
     return (t->value[i + 1] - t->value[i]) / (t->at[i + 1] - t->at[i]);
 }
 
-/* Stores M_i in c[2] of the piece behind point i; c[3] holds the eliminated diagonal meanwhile. */
+/* Stores M_i in c[2] of the piece after point i; c[3] holds the eliminated diagonal meanwhile. */
 static void solve_spline(const dal_table *t, double *piece)
 {
     const int last = t->points - 1;

@@ -8,7 +8,7 @@
 
 enum { DAL__TABLE_ORDERS = 5 /* a cubic, its three derivatives, and 0 */ };
 
-/* A piecewise polynomial, whose data are those of dal_piecewise (kernel/elementary.h). */
+/* A piecewise polynomial, with the data of dal_piecewise (kernel/elementary.h). */
 typedef struct dal__table {
     int knots;
     int degree;
@@ -22,7 +22,7 @@ void dal__table_fill(const dal_table *table, double *data);
 /* Whether the numbers that were filled in, and the values between the points, are finite: points
  * may be too large, or too close. */
 bool dal__table_is_finite(const dal_table *table, const double *data);
-/* Piece number k, from 0 before the first point to the number of points behind the last one: its
+/* Piece number k, from 0 before the first point to the number of points after the last one: its
  * origin and its coefficients c[4]. */
 const double *dal__table_piece(const dal__table *table, int k);
 /* The value or a derivative at x, by the symbol of its node, with the bits of a tape; NaN outside

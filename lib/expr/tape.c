@@ -68,7 +68,7 @@ void dal__tapes_let_hold(dal__tapes *tapes, int i) { tapes->tape[i].may_hold = t
 typedef struct node_use {
     uint32_t place;  /* in work; NOWHERE while a temporary is not alive */
     dal__node last;  /* the node whose instruction reads this one last */
-    uint32_t vacant; /* number k of a stack of places that temporaries have left */
+    uint32_t vacant; /* number k of a stack of places that temporaries have freed */
     bool constant;   /* depends on parameters alone */
     bool reached;    /* needed by any program; then, by the present one */
 } node_use;

@@ -42,7 +42,7 @@ enum { DAL__HELD_NUMBERS = 5 /* of a point */ };
 
 typedef struct dal__tapes {
     const dal__graph *graph;
-    const struct dal__table *tables; /* [table_count] those of the graph */
+    const struct dal__table *tables; /* [table_count] the graph's */
     int table_count;
     int parameters, inputs;
     int points;                   /* at which nodes may be held */

@@ -71,7 +71,7 @@ static const struct {
 typedef struct conversion {
     dal__taylor *taylor;
     int first;       /* number of the first operation of this tape */
-    uint32_t *slot;  /* [workspace] the operand that stands in a place of work now */
+    uint32_t *slot;  /* [workspace] the operand that is in a place of work now */
     uint32_t *depth; /* [slots] operations of the same order that must precede the series' own */
     uint32_t *turn;  /* [slots] of a coordinate's sine or cosine: 1 + number of its operation */
 } conversion;
@@ -131,8 +131,8 @@ static uint32_t series_of(const conversion *c, const dal__taylor_operation *i, i
     return which < SLOPES || dal__is_constant(slot) ? slot : slope(c, slot);
 }
 
-/* Appends an operation and the sums that it needs; slopes of operands stand before it, those of its
- * results behind it. */
+/* Appends an operation and the sums that it needs; slopes of operands come before it, slopes of its
+ * results after it. */
 static dal__taylor_operation *append_recurrence(const conversion *c, dal__taylor_operation own)
 {
     const uint8_t(*pair)[2] = recurrences[own.recurrence].pair;
@@ -268,7 +268,7 @@ static void convert_tape(const conversion *c, const dal__tape *tape, int count, 
         if (k < count && !dal__is_constant(output)) needed[output] = true;
         taylor->output[taylor->outputs++] = output;
     }
-    /* Some operations need slopes or products that stand behind them, found in the second pass. */
+    /* Some operations need slopes or products that come after them, found in the second pass. */
     for (int pass = 0; pass < 2; pass++)
         for (int k = taylor->length - 1; k >= c->first; k--)
             find_orders(taylor, &taylor->code[k], needed);

@@ -10,7 +10,7 @@
  *     memory[slots][stride]     coefficients, stride of them for each slot; inputs come first
  *
  * What a recurrence adds up over lower orders are inner sums of two slots (kernel/series.h).  All
- * those of a program stand in one list, each once.  For the sums of terms j a_j b_(k-j) there are
+ * sums of a program are in one list, each once.  For the sums of terms j a_j b_(k-j) there are
  * slots with coefficients j a_j.
  *
  * Order 0 computes with the operations of the tape: f_0 has the bits of the tape's outputs.  Sums
@@ -54,12 +54,12 @@ typedef struct dal__taylor {
 dal__taylor *dal__taylor_create(int inputs, int coordinates);
 void dal__taylor_free(dal__taylor *taylor);
 /* Adds the outputs of a finished tape, count of them with all orders and the others by their values
- * alone; places[inputs] are those of the inputs in work.  An operation without a recurrence that
+ * alone; places[inputs]: where the inputs are in work.  An operation without a recurrence that
  * one of those count needs leaves its name in refused.  Errors: DAL_MEMORY. [alloc] */
 dal_status dal__taylor_add(dal__taylor *taylor, const dal__tapes *tapes, int program, int count,
                            const uint32_t *places);
 
-/* Coefficient k of all series, from that of the inputs, in[inputs], and from the lower ones in
+/* Coefficient k of all series, from the inputs' in[inputs] and from the lower ones in
  * memory; k < stride.  Coefficient k of outputs first.. first + count - 1.  All arrays are
  * interleaved by lanes. */
 #define DAL__TAYLOR_RUN(name, variant, lanes, set)                                                 \

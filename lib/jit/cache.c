@@ -30,7 +30,7 @@
 
 extern char **environ;
 
-/* Compiler options; the bits do not depend on them.  Those of the machine are a part of the name of
+/* Compiler options; the bits do not depend on them.  Options of the machine belong to the name of
  * the object, since machines may share a directory.  Without -s it holds the name of its source. */
 static const char *const usual[] = {"-x",
                                     "c",

@@ -38,7 +38,7 @@ static void write_declarations(dal__generation *g)
                   "double atan2(double, double), pow(double, double);\n");
 }
 
-/* A register full of lanes; the parameters are those of one lane. */
+/* A register full of lanes; the parameters are one lane's. */
 static const char lanes_text[] =
     "#define DAL_SPECIALISED 1\n"
     "#if defined __AVX512F__\n#define DAL_LANES 8\n"
@@ -168,7 +168,7 @@ static dal_status write_steps(dal_native *native, dal_error *error)
     return dal__generation_finish(&g, &native->text, error);
 }
 
-/* The observables of a run, wherever it stands: the function PREFIX_observables. */
+/* The observables of a run, wherever it is: the function PREFIX_observables. */
 static dal_status write_observables(dal_native *native, const dal_run *run, dal_error *error)
 {
     dal__generation g = {.run = run, .layout = run->layout, .lanes = 8, .product = DAL__OBSERVE};
@@ -275,7 +275,7 @@ static dal_status check_use(const dal_native *native, bool fits, dal_error *erro
 {
     if (native->state != DAL_NATIVE_READY)
         return dal__fail(error, DAL_ARGUMENT, "the compiled code is not ready");
-    if (!fits) return dal__fail(error, DAL_ARGUMENT, "the compiled code is that of other steps");
+    if (!fits) return dal__fail(error, DAL_ARGUMENT, "the compiled code is for other steps");
     return DAL_OK;
 }
 

@@ -378,7 +378,7 @@ DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL
 #endif
 
 #if DAL_WITH_LIFT
-/* That of the canonical variables but q' = v. */
+/* The field of the canonical variables, without q' = v. */
 DAL_INLINE void dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
     const int n = DAL_N(s);

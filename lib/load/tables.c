@@ -3,7 +3,7 @@
  *     t, M          names of columns
  *     0, 0.5        numbers, at least in the columns that are used
  *
- * Messages have two places: that of the file's name in the system file, and that in the file.
+ * Messages have two places: where the system file names the file, and a place in that file.
  *
  * A model keeps its text with these files in it, as
  *
@@ -99,14 +99,14 @@ typedef struct cursor {
     int number; /* of the line, from 1 */
 } cursor;
 
-/* An error at a place of the file of a table, within that of its name. */
+/* An error at a place of the file of a table, and at the place that names the file. */
 #define CSV_ERROR(c, place, format, ...)                                                           \
     dal__fail_at((c)->loader->error, DAL_SYNTAX, DAL__AT_TEXT((c)->name), "%.80s:%d:%d: " format,  \
                  (c)->name->text, (c)->number, (int)((place) - (c)->line) + 1, __VA_ARGS__)
 
 static bool at_line_end(const cursor *c) { return c->at == c->end || *c->at == '\n'; }
 
-/* The next field of a line without blanks and quotes around it, and the comma behind it. */
+/* The next field of a line without blanks and quotes around it, and the comma after it. */
 static const char *next_field(cursor *c, size_t *length)
 {
     const char *begin = c->at, *stop = c->at;
@@ -237,7 +237,7 @@ static dal_status read_csv(loader *l, const dal__table_request *request, const c
             return CSV_ERROR(&c, c.line, "more than %d points", (int)DAL__MAX_POINTS);
         DAL_TRY(read_line(&c, columns, column, number));
         if (i > 0 && !(at[i] > at[i - 1]))
-            return CSV_ERROR(&c, c.line, "%.17g does not ascend: %.17g stands before it", at[i],
+            return CSV_ERROR(&c, c.line, "%.17g does not ascend: %.17g comes before it", at[i],
                              at[i - 1]);
         table->points++;
     }

@@ -2,7 +2,7 @@
  * with libyaml.  Nothing nests deeper than a section, so no recursion is needed.
  *
  * A formula is a verbatim piece of the file, with its line breaks, so that line and column inside
- * the formula are those of the file.  In single quotes '' becomes "' ", which means the same to a
+ * the formula count in the file, too.  In single quotes '' becomes "' ", which means the same to a
  * formula and is as long.  Only double quotes with escapes and texts that are no formulas are used
  * as libyaml unfolds them. */
 #include "load/file.h"

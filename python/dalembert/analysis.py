@@ -91,7 +91,7 @@ def trend(system: SystemLike, integrator: str | None = None, time: float | None 
     system, integrator, **settings
         As of a `Run`.
     time : float, optional
-        The default is that of the system file.
+        The default is the system file's.
     every : int
         Steps between two values.
 
@@ -284,7 +284,7 @@ class Section:
 
 @ffi.def_extern(error=lib.DAL_INTERRUPTED, onerror=keep_exception)
 def python_cross(user: Any, run: Any, crossing: Any) -> int:
-    """Adds a row to the list behind user."""
+    """Adds a row to the list that user is a handle of."""
     rows, dimension = ffi.from_handle(user)
     rows.append((len(rows) + 1, crossing.t, crossing.direction,
                  *ffi.unpack(lib.dal_run_state(run), dimension)))

@@ -75,7 +75,7 @@ def state_at(numbers: Any, dimension: int) -> Array:
 
 @ffi.def_extern(error=lib.DAL_INTERRUPTED, onerror=keep_exception)
 def python_event(user: Any, run: Any, event: Any) -> int:
-    """Adds an event to the list behind user."""
+    """Adds an event to the list that user is a handle of."""
     found, names, dimension = ffi.from_handle(user)
     found.append(Event(event.event, names[event.event], event.t, event.direction,
                        state_at(event.before, dimension), state_at(lib.dal_run_state(run), dimension)))
@@ -90,9 +90,9 @@ class Run(Fixed):
     system : System or str
         A system, or the name of a built-in one.
     integrator : str, optional
-        ``'rk4'``, ``'gauss8+project'``; the default is that of the system file.
+        ``'rk4'``, ``'gauss8+project'``; the default is the system file's.
     step : float, optional
-        Step size h, negative: backwards in t; the default is that of the system file, or 0.01.
+        Step size h, negative: backwards in t; the default is the system file's, or 0.01.
     parameters : mapping of str to float, optional
         Those that differ from their default.
     start : mapping of str to float, optional
@@ -100,7 +100,7 @@ class Run(Fixed):
     start_time : float
         t of the start.
     **options
-        Those of the command line with underscores: ``space='physical'``,
+        Options of the command line, with underscores: ``space='physical'``,
         ``solver_tolerance=1e-12``, ``precision='quad'``.
 
     Attributes
@@ -262,7 +262,7 @@ class Run(Fixed):
     def trajectory(self, times: npt.ArrayLike) -> npt.NDArray[np.void]:
         """Advances the run and gives a row at each time.
 
-        The run takes steps h only, and stands at the last step before the last time.  A shorter
+        The run takes steps h only, and ends at the last step before the last time.  A shorter
         step of the same method gives a row between two steps.
 
         Parameters
@@ -321,7 +321,7 @@ class Run(Fixed):
         Parameters
         ----------
         cache : path, optional
-            A directory of this user alone; the default is that of the program.
+            A directory of this user alone; the default is the program's.
         compiler : str, optional
             A C compiler.
         """
@@ -369,7 +369,7 @@ class Batch(Fixed):
     system, integrator, step, **options
         As of a `Run`.
     count : int, optional
-        The number of lanes; by default that of the values given as arrays.
+        The number of lanes; by default the length of the values given as arrays.
     parameters, start : mapping of str to float or array_like, optional
         A number for all lanes, or an array with one for each.
 

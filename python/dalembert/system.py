@@ -127,7 +127,7 @@ class System(Fixed):
         Returns
         -------
         System
-            Its runs have the bits of those of this system.
+            Its runs have the same bits as runs of this system.
 
         Raises
         ------
@@ -188,7 +188,7 @@ class System(Fixed):
                  encode(text), 1, 1)
             other._system = self._derive(other._model)
         except Error as error:
-            # Before what is behind '=' stand three more characters: '(' and ')-(' for '='.
+            # What follows '=' has three more characters before it: '(' and ')-(' for '='.
             column = (error.column or 0) - (1 if (error.column or 0) <= len(left) + 1 else 3)
             message = error.message.replace(f'invariant {name}: ', '', 1)
             raise type(error)(error.status, message, 1, max(1, column)) from None

@@ -11,7 +11,7 @@ OSCILLATOR = "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\n"
 ROOT = "coordinates: [x]\nparameters: {s: 1}\nlagrangian: x'^2/2\nforces: {x: -s*sqrt(x)}\nstart: {x: 1}\n"
 
 
-def test_members_are_those_of_the_program(tmp_path):
+def test_members_of_the_program(tmp_path):
     program = os.environ.get('DALEMBERT_PROGRAM')
     if not program:
         pytest.skip('no program')

@@ -29,7 +29,7 @@ def test_closed_form():
 
 
 def test_rows_of_the_program(program):
-    """The bits are those of `dalembert run`, between steps, too."""
+    """The bits are the same as from `dalembert run`, between steps, too."""
     text = program('run', SLEIGH, '--integrator', 'gauss4+project', '--step', '0.03', '--time', '3',
                    '--samples', '7')
     expected = np.genfromtxt(io.StringIO(text), delimiter=',', names=True, deletechars='', dtype=float)

@@ -41,7 +41,7 @@ addEventListener('load', async () => {
         if (parseFloat(style.fontSize) < 11) fault(`${name} has letters of ${style.fontSize}`);
     }
 
-    // A figure is unpacked and laid out as it stands on the page, so that its letters have boxes.
+    // A figure is unpacked and laid out as it is on the page, so that its letters have boxes.
     const look = (image, name) => {
         const box = image.getBoundingClientRect(), holder = document.createElement('div');
         holder.style = `position: absolute; left: 0; top: 0; width: ${box.width}px`;
@@ -66,7 +66,7 @@ addEventListener('load', async () => {
                     fault(`${what} covers "${texts[j].textContent.trim()}"`);
             }
         });
-        // The key stands beside the curves: no name of a curve lies between the axes.
+        // The key is beside the curves: no name of a curve lies between the axes.
         const [x0, x1, , , , y0, y1] = holder.querySelector('metadata').textContent.split(' ').filter(Boolean)
             .map(x => scale * x);
         for (const t of holder.querySelectorAll('g[id^=gnuplot_plot] text')) {

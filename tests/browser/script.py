@@ -199,7 +199,7 @@ def check_enlarge(browser, where, figure):
     check_names(browser, f"{where}, enlarged")
     browser.press("Escape")
     wait_until(browser, "!document.querySelector('dialog')")
-    expect(browser.run(f"document.activeElement === {image}"), f"{where}: the focus is lost behind a figure")
+    expect(browser.run(f"document.activeElement === {image}"), f"{where}: the focus is lost after a figure")
 
 
 def check_play(browser, where, motions):

@@ -110,7 +110,7 @@ EOF
     prepare() { cp -R whole-ensemble place; }
     fails_openly $few --output place --threads 1 --force --no-page
     if sanitized; then
-        cannot 3 "sanitizers make calls of their own beside those of a page"
+        cannot 3 "sanitizers make calls of their own beside the page's"
     elif needs 3 "no gnuplot" there gnuplot; then
         FAILING_CALLS=25
         prepare() { cp -R run place; }

@@ -1,11 +1,11 @@
 """change_checkpoint.py FILE NUMBER VALUE - sets a number of the state in a checkpoint, and the sum.
 
 NUMBER is counted from 0, a negative one from the end of the state; with VALUE 'count' it prints how
-many there are.  The format is that of cli/run/checkpoint.c."""
+many there are.  The format is in cli/run/checkpoint.c."""
 import struct
 import sys
 
-HEADER, STATE = 12, 8  # words of the header; the one that counts those of the state
+HEADER, STATE = 12, 8  # words of the header; the one that counts the words of the state
 
 
 def sum_of(data):

@@ -1,6 +1,6 @@
 # What a system file gives for a run: its key `defaults`.
 
-case_is "every built-in system runs as it stands"
+case_is "every built-in system runs as it is"
 "$program" list systems | awk 'NR > 1 && /^[a-z]/ { print $1 }' >systems
 expect "there are systems" test "$(wc -l <systems)" -ge 30
 while read -r system <&3; do

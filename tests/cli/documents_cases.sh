@@ -1,6 +1,6 @@
 # The command lines of README.md and docs/ do what they say: those that begin with build/dalembert,
 # in their order, in a directory of each document that holds the files it shows.  A description
-# stands behind two blanks.  Without what follows it, `study` runs the built-in study, which takes
+# follows two blanks.  Without what follows it, `study` runs the built-in study, which takes
 # too long here.  Each indented line between the marks of `printed` is a line that they print.
 
 for document in "$here/../../README.md" "$here"/../../docs/*.md; do

@@ -4,7 +4,7 @@
 members=1000
 begin="ensemble chaplygin-sleigh --space physical --integrator rk4 --step 0.01 --times 0.5,1,2 --members $members
     --seed 3 --vary y1'=normal(0,0.1) --vary m=uniform(0,1) --vary phi'=lognormal(0,0.2) --no-page"
-# All files but those of the interruption.
+# All files except what the interruption leaves.
 same_ensemble() { ! diff -rq "$1" "$2" | grep -v ': chunks\|: lock\|: report\|: manifest'; }
 # The members of a .npy file as texts, $2 numbers in a line, $3 lines at its end.
 numbers_of() { tail -c $((8 * $2 * $3)) "$1" | od -An -v -tf8 -w$((8 * $2)); }
@@ -94,7 +94,7 @@ expect "another covariance" awk '{ exit !(NF == 2 && ($1 - $2)^2 < 1e-20) }' bot
 expect "histograms lack members" awk -F, -v n=$members 'NR > 1 { sum[$1 "," $2] += $5 }
     END { for (i in sum) { kinds++; if (sum[i] != n) exit 1 } exit kinds != 18 }' whole/histograms.csv
 
-case_is "members are those of single runs"
+case_is "members are the same as single runs"
 numbers_of whole/members.npy 5 $members | sed -n 700p >drawn.txt
 read -r status t drawn_v drawn_m drawn_w <drawn.txt
 try 0 show chaplygin-sleigh
@@ -278,7 +278,7 @@ expect "$lost failed" test $lost -gt 100 -a $lost -lt 299
 expect "failed members are counted" test "$(column count failing/statistics.csv | sort -u)" -eq $((300 - lost))
 expect "failed members have states" test \
     "$(numbers_of failing/final.npy 2 300 | grep -c nan)" -eq $lost
-# Member and t are those of the message: a = sqrt(x) is not defined in the step from there.
+# The message names this member and t: a = sqrt(x) is not defined in the step from there.
 expect "failures without their messages" awk -F, '
     NR == 1 { if ($5 != "message") exit 1; next }
     { t = $NF; sub(/.* t = /, "", t); if ($NF !~ /^"?a value is not finite in the step of 0.01 from/ || t != $2) exit 1 }

@@ -12,7 +12,7 @@ events:
   - {when: y - r, direction: down, restitution: c}
 END
 ball="ball.yaml --integrator gauss4 --step 0.01"
-# bounces FILE COUNT: the times and the states of a log are those of the closed form.
+# bounces FILE COUNT: the times and the states of a log agree with the closed form.
 bounces() {
     awk -F, -v bounces="$2" 'NR == 1 { next }
         { g = 9.81; c = 0.8; k = NR - 2; t = sqrt(2/g)*(1 + 2*c*(1 - c^k)/(1 - c))

@@ -24,7 +24,7 @@ static long number(const char *name, long otherwise)
     return text ? strtol(text, NULL, 10) : otherwise;
 }
 
-/* Runs behind the beginnings of the libraries, which have no way to fail but their own. */
+/* Runs after the beginnings of the libraries, which have no way to fail but their own. */
 __attribute__((constructor)) static void begin(void)
 {
     first = number("FAIL_AT", 0);

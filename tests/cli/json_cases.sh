@@ -92,7 +92,7 @@ END
         expect "$manifest" json "$manifest" "d['dalembert'] and d['machine'] and d['status']"
     done
 
-    case_is "the reader of JSON and that of Python"
+    case_is "the readers of JSON, the program's and Python's"
     reader=${program%/*}/tests/read_json
     if needs 1 "no read_json (make build/tests/read_json)" test -x "$reader"; then
         python3 "$here/read_json.py" "$reader" >compared 2>&1

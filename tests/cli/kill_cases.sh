@@ -1,5 +1,5 @@
 # Runs that are killed (SIGKILL) at random moments, again and again, and resumed: the bytes are
-# those of a run that was left alone.  KILLS, 52 when not given, is how many there are in all; SEED
+# the same as without.  KILLS, 52 when not given, is how many there are in all; SEED
 # draws the moments.  Between two kills the file of rows must be one that can be read.
 
 # Where there is a file system in memory it is used: a moment is then one of the program, not one of
@@ -16,7 +16,7 @@ rounds=0
 product() { awk "BEGIN { print $1 * $2 }"; }
 milliseconds() { echo $(($(date +%s%N) / 1000000)); }
 
-# whole_rows FILE: the file ends behind the rows that its header counts, or later.
+# whole_rows FILE: the file ends after the rows that its header counts, or later.
 whole_rows() {
     [ -s "$1" ] || return 0 # killed before there was a header
     set -- "$1" "$(head -c 8192 "$1" | tr -cd ' -~\n' | sed -n "1s/.*'shape': (\([0-9]*\),).*/\1/p")"

@@ -24,7 +24,7 @@ cp out both.csv
 try 0 section osc.yaml --on x $fine --direction up
 expect "not 3 upwards" awk -F, 'NR > 1 && $3 != 1 { exit 1 } END { exit NR != 4 }' out
 try 0 section osc.yaml --on x $fine --transient 10
-expect "not 3 behind t = 10" awk -F, 'NR > 1 && $2 < 10 { exit 1 } END { exit NR != 4 }' out
+expect "not 3 after t = 10" awk -F, 'NR > 1 && $2 < 10 { exit 1 } END { exit NR != 4 }' out
 try 0 section osc.yaml --on "x = level" $fine
 expect "not 7 at the level" test "$(wc -l <out)" -eq 8
 try 0 section osc.yaml --on "x = 1" $fine --output touch.csv
@@ -73,7 +73,7 @@ varied() { # DIR
 }
 if command -v gnuplot >/dev/null 2>&1; then
     case_is "the picture of a section"
-    # That of docs/program.md; on it D makes y' = 0.
+    # The section of docs/program.md; on it D makes y' = 0.
     readme=$(sed -n 's/^    build\/dalembert section //p' "$here/../../docs/program.md")
     eval "try 0 section $readme --output of-readme"
     expect "axes that do not vary" varied of-readme
@@ -182,7 +182,7 @@ try 3 lyapunov ending.yaml --integrator rk4 --step 0.1 --time 5 --output ending.
 says 'not finite'
 prints 'means over t = 0 \.\. 2\.4$'
 prints '^exponent 2 '
-expect "rows behind the end" awk -F, 'NR > 1 && $1 > 2.6 { exit 1 } END { exit NR < 20 }' ending.csv
+expect "rows after the end" awk -F, 'NR > 1 && $1 > 2.6 { exit 1 } END { exit NR < 20 }' ending.csv
 
 case_is "exponents: bad input"
 table <<'END'
@@ -218,7 +218,7 @@ prints '^log.det J./h .* shrinks$'
 prints '^5 of 6 directions'
 
 # Teeth of 1e-12: the field's own derivative is that within a tooth, -0.1, a difference sees -0.3.
-case_is "a derivative that is not that of the motion"
+case_is "a derivative that the motion does not have"
 cat >teeth.yaml <<'END'
 coordinates: [x]
 accelerations: {x: -0.3*x' + 0.2*atan(tan(1e12*x'))/1e12}

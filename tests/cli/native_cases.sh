@@ -107,7 +107,7 @@ if needs 94 "no compiler" there cc; then
 
     case_is "native: changed over to while the run goes on"
     size() { wc -c <"$1"; }
-    # first FILE COUNT: the first numbers of a trajectory, behind its header.
+    # first FILE COUNT: the first numbers of a trajectory, after its header.
     first() { tail -c +$((11 + $(od -An -tu2 -j8 -N2 "$1"))) "$1" | head -c "$2"; }
     endless="chaplygin-sleigh --integrator gauss4 --step 0.01 --time 1e9 --samples 500000000"
     rm -rf cache gate/begun

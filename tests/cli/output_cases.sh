@@ -65,7 +65,7 @@ sed 's/\bq\b/x/g' named.yaml >x.yaml
 try 0 run x.yaml --integrator rk4 --step 0.1 --time 0.5 --columns q
 expect "$(head -1 out)" test "$(head -1 out)" = t,x,phi,p_
 
-case_is "columns: the numbers are those of the whole row"
+case_is "columns: the numbers are the same as in the whole row"
 try 0 run named.yaml --integrator rk4 --step 0.1 --time 1 --output whole.csv
 try 0 run named.yaml --integrator rk4 --step 0.1 --time 1 --columns phi,E --output part.csv
 cut -d, -f1,3,"$(head -1 whole.csv | tr ',' '\n' | grep -nx E | cut -d: -f1)" whole.csv >expected.csv

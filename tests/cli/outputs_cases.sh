@@ -99,7 +99,7 @@ outputs() {
         for output in /dev/stdout /dev/fd/1; do
             echo before >received
             $as "$program" generate knife-edge --integrator rk4 -o $output >>received 2>err
-            expect "not behind what was there" test "$(head -n 1 received)" = before
+            expect "not after what was there" test "$(head -n 1 received)" = before
             expect "nothing" grep -q knife_edge_rk4 received
             $as "$program" run $circle -o $output 2>err | cat >received
             expect "no rows" test "$(wc -l <received)" -eq 12

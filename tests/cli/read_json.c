@@ -1,6 +1,6 @@
 /* read_json.c - shows how the program reads JSON, for a comparison with another reader.
  *
- * On stdin there are documents, each behind its length and a line end.  For each a line is printed:
+ * On stdin there are documents, each after its length and a line end.  For each a line is printed:
  * "refused", or the document with the bytes of its texts in hexadecimal digits. */
 #include "io/json.h"
 #include "ui/memory.h"

@@ -1,4 +1,4 @@
-"""read_json.py READER - compares the program's reader of JSON with that of Python.
+"""read_json.py READER - compares the program's reader of JSON with Python's.
 
 Documents are drawn: texts with all kinds of escapes, numbers, objects and arrays within each other
 down to the depth that the program reads, blanks anywhere; and the same with a few bytes changed,
@@ -48,7 +48,7 @@ def expected(document):
         value = json.loads(document.decode(), object_pairs_hook=Pairs, parse_int=Number,
                            parse_float=Number, parse_constant=refuse)
         return show(value) if isinstance(value, Pairs) else 'refused'
-    except ValueError:  # of which those of json and of UTF-8 are
+    except ValueError:  # of which the errors of json and of UTF-8 are
         return 'refused'
 
 

@@ -125,7 +125,7 @@ if command -v gnuplot >/dev/null 2>&1; then
     tr "\n'" ' "' <drawn/report/3-D.svg | sed 's/$/\n/' >beside
     expect "a figure is not the file beside it" cmp decoded beside
 
-    # An error c h^4 stands on a line of slope 4.
+    # An error c h^4 is on a line of slope 4.
     case_is "the order diagram holds the errors of the cells"
     expect "points" sh -c "grep -A2 'curve1 <<' drawn/report/2-order.gp | tail -2 |
         awk -F, '{ x[NR] = log(\$1); y[NR] = log(\$2) }
@@ -330,7 +330,7 @@ END_OF_STUDY
     case_is "the report of a section"
     try 0 section round.yaml --on x --integrator gauss8 --step 0.1 --time 20 --transient 3 \
         --axes "y,x'" --output cut
-    expect "no page behind the command" grep -q '<img' cut/report/index.html
+    expect "no page after the command" grep -q '<img' cut/report/index.html
     rm -r cut/report
     try 0 report cut
     silent

@@ -1,4 +1,4 @@
-# What the commands print with --json: the numbers are those of closed forms, or of the CSV files
+# What the commands print with --json: the numbers come from closed forms, or from the CSV files
 # that the same run of the command writes.
 
 # results STATUS ARGUMENT...: the command prints one document of JSON and nothing else.
@@ -85,7 +85,7 @@ expect "methods" json out "
             (None, True, [], ['every'])]"
 mv out all.json
 try 0 list --markdown
-expect "other names than those of the tables" json all.json "
+expect "other names than in the tables" json all.json "
     [line.split('\`')[1].lstrip('+') for line in open('out') if line.startswith('| \`')]
         == [s['system'] for s in d['systems']] + [i['integrator'] for i in d['integrators']]"
 results 0 list --tag chaotic --preserves energy
@@ -105,7 +105,7 @@ expect "counts" json out "d['failed'] == d['not_measured'] == 0
     and (d['growth'], d['growth_dimension']) == ([1], 2)"
 mv out plane.json
 try 0 check ./plane.yaml
-expect "other items than those of the text" json plane.json "
+expect "other items than in the text" json plane.json "
     [(i['item'], i['result']) for i in d['items']]
         == [(line[2:36].strip(), line[38:42].strip()) for line in open('out')
             if line[:2] == '  ' and line[2] not in ' -']"
@@ -240,7 +240,7 @@ expect "a run that is interrupted" json out "d['state'] == 'interrupted' and d['
     and all(near(r[1], math.pi * r[0], 1e-9) for r in d['rows'])"
 
 case_is "every name is described"
-# Those of parameters and of options are the system's and the request's.
+# Names of parameters and of options are the system's and the request's.
 python3 - "$here/../../docs/formats.md" <<'END' >undescribed
 import json, re, sys
 

@@ -15,7 +15,7 @@ expect "the heads of the summary" grep -qx "observable,first,final,maximum,devia
 rate_low,rate_high,exponent,size,trend,confidence" whole/summary.csv
 expect "D1 is not kept to rounding" grep -q '^D1,.*,rounding,[a-z ]*,[0-9.e-]*$' whole/summary.csv
 try 0 run $long --output whole.npy
-expect "the rows are those of a file" cmp whole.npy whole/trajectory.npy
+expect "the rows are the same as in a file" cmp whole.npy whole/trajectory.npy
 
 case_is "a directory is not written over"
 try 2 run $long --output whole
@@ -91,7 +91,7 @@ flip() {
     printf "\\$(printf %o $(((old + 1) % 256)))" | dd of="$1" bs=1 seek="$2" conv=notrunc 2>/dev/null
 }
 
-case_is "rows that are not those of the checkpoint"
+case_is "rows that are not the checkpoint's"
 columns=$(columns_of whole.npy)
 header=$(($(wc -c <whole.npy) - 20012 * columns * 8))
 last=$((header + $(word cut/checkpoint 2) * columns * 8 - 8))
@@ -187,7 +187,7 @@ says "'damaged' holds no run: there is no damaged/manifest.json"
 cp -r busy shorter
 : >shorter/trajectory.npy
 try 2 resume shorter
-says "shorter/trajectory.npy': its columns are not those of the run"
+says "shorter/trajectory.npy': its columns are not the run's"
 
 case_is "rows that are none"
 for bytes in 0 9 50 200; do

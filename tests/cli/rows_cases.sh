@@ -117,7 +117,7 @@ for locale in de_DE.UTF-8 C.UTF-8; do
     expect "rows under $locale" cmp out standard
 done
 
-case_is "a message stands behind the rows, also in one stream"
+case_is "a message comes after the rows, also in one stream"
 "$program" run chaplygin-sleigh-nonlinear --integrator rk4 --step 0.01 --time 2 >both 2>&1
 expect "rows, then the message" awk '
     NR > 1 && !/^dalembert: / && !/^[0-9].*,[0-9]/ { bad = 1 }

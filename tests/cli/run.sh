@@ -67,7 +67,7 @@ needs() {
         false
     fi
 }
-# counted: the block had as many checks as it said, those of blocks within it included.
+# counted: the block had as many checks as it said, checks of blocks within it included.
 counted() {
     block=${blocks%% *} blocks=${blocks#* }
     made=$((passed + failed + skipped - ${block%:*}))

@@ -17,7 +17,7 @@ expect:
   plane: {all: {D: [exact, rounding]}}
   appell-hamel: {all: {state: failed}}
 END2
-# All bytes but those of times: the last column of cells.csv.
+# All bytes except times: the last column of cells.csv.
 untimed() { sed 's/,[^,]*$//' "$1/cells.csv"; }
 same_study() {
     untimed "$1" >one.untimed

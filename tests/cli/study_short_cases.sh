@@ -29,7 +29,7 @@ same_results() {
 }
 untimed_cells() { sed 's/,[^,]*$//' "$1/cells.csv"; }
 
-case_is "short runs: the results are those of runs with rows"
+case_is "short runs: the results are the same as of runs with rows"
 try 0 study short.yaml --output kept --threads 1
 try 0 study bare.yaml --output bare --threads 1
 silent

@@ -46,7 +46,7 @@ expect "a study: friction" test -z "$(cell damped-oscillator rk4 E_trend)"
 expect "a study: no number" test -n "$(cell damped-oscillator rk4 E_deviation)"
 expect "a study: off D = 0" test -z "$(cell contact-oscillator rk4 E_trend)$(cell contact-oscillator rk4 E_size)"
 expect "a study: on D = 0" test -n "$(cell contact-oscillator rk4+project E_trend)"
-# E of the damped oscillator is nothing to speak of; that of rk4 is unmet, for a reason.
+# E of the damped oscillator is nothing to speak of; the statement on rk4 is unmet, for a reason.
 expect "two statements" test "$(wc -l <energies/expectations.csv)" -eq 3
 expect "no reason" grep -q '^contact-oscillator,rk4,.*"conserved on D = 0 only, and D is not 0",no$' \
     energies/expectations.csv
@@ -58,7 +58,7 @@ cp energy.yaml stated.yaml
 printf 'expect:\n  damped-oscillator: {rk4: {E: {deviation: {at least: 0.1}}}}\n' >>stated.yaml
 try 0 study stated.yaml --output energies --force
 
-# sentences PAGE: the paragraphs of a page, but for those of its head and end.
+# sentences PAGE: the paragraphs of a page, except in its head and end.
 sentences() { grep -o '<p>[^<]*</p>' "$1"; }
 
 if command -v gnuplot >/dev/null 2>&1; then

@@ -18,7 +18,7 @@ sizes() {
 
 # Where the units of two coordinates differ, Gauss elimination may choose other pivots, which rounds otherwise.
 rounds_otherwise=" chaplygin-sleigh-vakonomic falling-disk roller-racer snakeboard suslov vertical-disk "
-# The units of a file of change_units: tau, c, d and those of the coordinates.
+# The units of a file of change_units: tau, c, d and the units of the coordinates.
 unit() { awk -v i="$2" 'NR == 1 { print $(i + 1) }' "$1"; }
 default_step() { sed -n 's/^defaults:.*"step": \([^,}]*\).*/\1/p' "$1"; }
 

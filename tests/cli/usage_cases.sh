@@ -54,7 +54,7 @@ prints 'p\\_\\\*, pi\\_\\\*'
 prints '^- `trajectory.npy`: the rows'
 expect "other commands" test "$(grep -c '^## ' out)" -eq 1
 if needs 4 "no groff" there groff; then
-    # The page that is made of it, without what stands about the commands.
+    # The page that is made of it, without what is around the commands.
     { echo '.TH D 1'; echo '@COMMANDS@'; } |
         awk -v version=0 -v commands=reference -f "$here/../../tools/manual.awk" >page.1
     groff -ww -man -Tascii page.1 2>err | sed 's/.\x08//g' >page
@@ -88,8 +88,8 @@ if needs 21 "no bash" there bash; then
     expect "tags" test "$(completes list --tag ch)" = "chaotic"
     expect "tables" test "$(completes list s)" = "systems"
     expect "commands to describe" test "$(completes help re)" = "resume report"
-    expect "a value behind =" test "$(completes run --native = o)" = "on off"
-    expect "all values behind =" test "$(completes run --native =)" = "auto on off"
+    expect "a value after =" test "$(completes run --native = o)" = "on off"
+    expect "all values after =" test "$(completes run --native =)" = "auto on off"
     # Where nothing is offered bash completes names of files.
     for option in -o --output --step --on; do
         expect "a system after $option" test -z "$(completes section knife-edge $option kn)"

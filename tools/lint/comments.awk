@@ -1,6 +1,6 @@
 # comments.awk - names in comments that there are not: awk -f comments.awk FILES SOURCE...
-# FILES lists the files of the repository; identifiers are those of the code of all SOURCEs, and
-# one that begins others (DAL_SOLVER_) stands for them.  Words that are made elsewhere: see `made`.
+# FILES lists the files of the repository; identifiers come from the code of all SOURCEs, and
+# one that begins others (DAL_SOLVER_) means them all.  Words that are made elsewhere: see `made`.
 
 BEGIN {
     n = split("sleigh.c variants.h dal_integrator_NAME dop853.f", made, " ")

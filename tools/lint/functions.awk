@@ -1,6 +1,6 @@
 # functions.awk - how often the static functions of a source are called.  Reads the list of functions
 # that ctags makes (FILE LINE END NAME), then the sources; report=once prints the shares of those
-# called once, report=names the names that stand in more than three files.
+# called once, report=names the names that occur in more than three files.
 #
 # A function that is also used as a pointer, in a table or as an argument, is not counted.
 BEGIN { identifier = "[A-Za-z_][A-Za-z_0-9]*" }

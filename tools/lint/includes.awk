@@ -34,7 +34,7 @@ function own(name, path, line, found) {
     close(path)
     return found && name !~ /\//
 }
-# The project's own headers may stand in <> as well; a header in quotes is never the system's.
+# The project's own headers may be in <> as well; a header in quotes is never the system's.
 function fits(name) {
     if (name ~ allowed[place] || ("OWN" ~ allowed[place] && own(name))) return 1
     if (name !~ /^<dalembert/) return 0

@@ -91,7 +91,7 @@ limited() {
     (cd "$tree" && { [ -n "$SANITIZE" ] || ulimit -v 8000000; } && TMPDIR=$place/tmp exec timeout -k 2 "$seconds" "$@") \
         >"$place/test.log" 2>&1
 }
-# The suites there are: those of the list that this version does not have are passed over.
+# The suites there are: suites of the list that this version does not have are passed over.
 known() { for suite in $1; do grep -qx "$suite" "$place/suites" && echo "$suite"; done; }
 # passes FILE SECONDS: whether all tests of a file pass; names the test that does not.
 passes() {

@@ -1,6 +1,6 @@
 """headers.py HEADER - writes a header as Doxygen reads it (an input filter).
 
-The headers have plain comments.  The one above a declaration, or behind it on its line, documents
+The headers have plain comments.  The one above a declaration, or after it on its line, documents
 it; the first one documents the header, and /* ---- title ---- */ begins a group.  Lines that are
 indented within a comment are formulas.  X-lists are written out, a row with its texts and its
 comment; several declarators on a line become one each.
@@ -151,9 +151,9 @@ def kernel_names():
 
 
 def kernel_part(source, names):
-    """The declarations of some names in a header of lib/kernel, without bodies.  A comment is that
-    of the declarations below it up to a blank line; of several declarations, the last with one counts,
-    which is not that of generated files.
+    """The declarations of some names in a header of lib/kernel, without bodies.  A comment belongs
+    to the declarations below it up to a blank line; of several declarations, the last with one
+    counts, which is not the one in generated files.
     """
     out = []
     for name in names:
@@ -216,14 +216,14 @@ class Writer:
             self.out[self.heading] += '\n' + documentation(self.above)
         self.above = ''
 
-    def declare(self, code, behind):
+    def declare(self, code, after):
         for line in constants(code) or declarators(code):
             if self.above:
                 self.write('/** %s */' % documentation(self.above))
-            if behind and line.startswith('#define'):
-                self.write('/** %s */\n%s' % (documentation(behind), line))
+            if after and line.startswith('#define'):
+                self.write('/** %s */\n%s' % (documentation(after), line))
             else:
-                self.write(line + (' /**< %s */' % documentation(behind) if behind else ''))
+                self.write(line + (' /**< %s */' % documentation(after) if after else ''))
         self.above = ''
 
     def header(self, source):

@@ -2,7 +2,7 @@
 
 The documents keep the links that they have in the repository.  Here a link to another document
 leads to its page, one to a public header to the reference, one to any other file to a page that
-shows it.  The order of the pages is that of docs/index.md, which must name every document.
+shows it.  The pages have the order of docs/index.md, which must name every document.
 """
 import glob
 import json
@@ -28,7 +28,7 @@ class Site:
             file.write(text)
 
     def target(self, path):
-        """The page or file of the site that stands for a path of the repository."""
+        """The page or file of the site that shows a path of the repository."""
         if path in OUTSIDE:
             return OUTSIDE[path]
         if path.startswith('docs/'):
