@@ -56,7 +56,7 @@ VERSION := $(shell awk '/define DAL_VERSION_(MAJOR|MINOR|PATCH) / { printf "%s%s
 SONAME  := libdalembert.so.$(basename $(VERSION))
 
 # Sources over num - files named *_wide.c, and every integrator - are compiled once per variant: a
-# number of lanes and an instruction set, chosen when a batch is made.  What each gains stands in
+# number of lanes and an instruction set, chosen when a batch is made.  What each gains is in
 # docs/performance.md.  x1 is what others may call by name.  x1_QUAD has quad precision
 # (lib/kernel/quad.h), which no machine has for an instruction set: it is never chosen for speed.
 VARIANTS        = x1 x1_QUAD $(or $(VARIANTS_$(MACHINE)),x4)
@@ -342,7 +342,7 @@ references: all
 
 # ---- installation ----------------------------------------------------------------------------
 
-# The directories of the GNU coding standards; DESTDIR stands before each, for packages.
+# The directories of the GNU coding standards; DESTDIR comes before each, for packages.
 BINDIR     ?= $(PREFIX)/bin
 LIBDIR     ?= $(PREFIX)/lib
 INCLUDEDIR ?= $(PREFIX)/include
