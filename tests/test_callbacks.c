@@ -158,7 +158,7 @@ static dal_status observe(trial *t)
     dal_run *run = NULL;
     double values[32] = {0};
     dal_status status = dal_run_create(&run, &t->spec, &t->error);
-    if (status == DAL_OK) status = t->error.status = dal_run_observe(run, values);
+    if (!status) status = t->error.status = dal_run_observe(run, values);
     const double *scales = status == DAL_OK ? dal_run_scales(run) : NULL;
     if (scales) add(t, scales, dal_run_observables(run));
     if (status == DAL_OK && !scales) status = t->error.status = DAL_IO; /* as documented */
@@ -304,18 +304,21 @@ static dal_status begin(trial *t, dal_evaluator **evaluator, double *x, dal_poin
     return status;
 }
 
+static dal_status finish(trial *t, dal_evaluator *evaluator, dal_status status)
+{
+    dal_evaluator_free(evaluator);
+    return t->error.status = status;
+}
+
 static dal_status measure_rate(trial *t)
 {
     dal_evaluator *evaluator = NULL;
     double x[32], rate = 0.0;
     dal_point at;
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status)
-        status = t->error.status =
-            dal_measure_rate(evaluator, t->spec.system->energy, 1, &at, &rate);
+    if (!status) status = dal_measure_rate(evaluator, t->spec.system->energy, 1, &at, &rate);
     add_number(t, (double)rate);
-    dal_evaluator_free(evaluator);
-    return status;
+    return finish(t, evaluator, status);
 }
 
 static dal_status check_derivatives(trial *t)
@@ -325,12 +328,11 @@ static dal_status check_derivatives(trial *t)
     dal_point at;
     dal_derivatives derivatives = {0};
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = t->error.status = dal_check_derivatives(evaluator, &at, &derivatives);
+    if (!status) status = dal_check_derivatives(evaluator, &at, &derivatives);
     const double numbers[] = {derivatives.jacobian, derivatives.adjoint,
                               derivatives.constraint_jacobian, derivatives.gram};
     add(t, numbers, 4);
-    dal_evaluator_free(evaluator);
-    return status;
+    return finish(t, evaluator, status);
 }
 
 static dal_status measure_rank(trial *t)
@@ -340,11 +342,10 @@ static dal_status measure_rank(trial *t)
     int rank = 0;
     dal_point at;
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = t->error.status = dal_measure_rank(evaluator, &at, &rank, &pivot);
+    if (!status) status = dal_measure_rank(evaluator, &at, &rank, &pivot);
     add_number(t, (double)rank);
     add_number(t, (double)pivot);
-    dal_evaluator_free(evaluator);
-    return status;
+    return finish(t, evaluator, status);
 }
 
 static dal_status project_velocity(trial *t)
@@ -355,10 +356,9 @@ static dal_status project_velocity(trial *t)
     const int n = t->spec.system->n;
     dal_status status = begin(t, &evaluator, x, &at);
     if (!status) x[n] += 0.1;
-    if (!status) status = t->error.status = dal_project_velocity(evaluator, 0.0, x, x + n);
+    if (!status) status = dal_project_velocity(evaluator, 0.0, x, x + n);
     if (!status) add(t, x + n, n);
-    dal_evaluator_free(evaluator);
-    return status;
+    return finish(t, evaluator, status);
 }
 
 static dal_status classify_constraints(trial *t)
@@ -368,14 +368,12 @@ static dal_status classify_constraints(trial *t)
     dal_point at;
     dal_constraint_class class = {0};
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status)
-        status = t->error.status = dal_classify_constraints(evaluator, &at, &class, degree);
+    if (!status) status = dal_classify_constraints(evaluator, &at, &class, degree);
     const double numbers[] = {class.linear, class.constant,    class.bilinear,  class.quadratic,
                               class.parity, class.homogeneous, class.reversible};
     add(t, numbers, 7);
     if (class.homogeneous) add(t, degree, t->spec.system->m);
-    dal_evaluator_free(evaluator);
-    return status;
+    return finish(t, evaluator, status);
 }
 
 /* Beside D = 0, where no number is 0. */
@@ -386,11 +384,9 @@ static dal_status measure_scales(trial *t)
     dal_point at;
     dal_status status = begin(t, &evaluator, x, &at);
     x[t->spec.system->n] += 0.1;
-    if (!status)
-        status = t->error.status = dal_evaluator_scales(evaluator, 0.0, at.q, at.v, scales);
+    if (!status) status = dal_evaluator_scales(evaluator, 0.0, at.q, at.v, scales);
     add(t, scales, t->spec.system->m + 1 + t->spec.system->invariants);
-    dal_evaluator_free(evaluator);
-    return status;
+    return finish(t, evaluator, status);
 }
 
 static dal_status check_dirac(trial *t)
@@ -400,12 +396,11 @@ static dal_status check_dirac(trial *t)
     dal_point at;
     dal_dirac dirac = {0};
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = t->error.status = dal_check_dirac(evaluator, &at, 1.0, &dirac);
+    if (!status) status = dal_check_dirac(evaluator, &at, 1.0, &dirac);
     const double numbers[] = {dirac.second_class, dirac.free_multipliers, dirac.conservation,
                               dirac.multipliers,  dirac.secondary,        dirac.hamiltonian};
     add(t, numbers, 6);
-    dal_evaluator_free(evaluator);
-    return status;
+    return finish(t, evaluator, status);
 }
 
 static dal_status measure_action(trial *t)
@@ -419,13 +414,11 @@ static dal_status measure_action(trial *t)
     if (status != DAL_OK) return status;
     for (int i = 0; i < ROWS * n; i++) q[i] = sin(0.1 * i);
     for (int i = 0; i < 3 * (4 * n + 2); i++) states[i] = 1.0 + 0.01 * i;
-    status = t->error.status = dal_measure_action(evaluator, 0.0, 0.1, ROWS, q, 1.0, &action);
-    if (!status)
-        status = t->error.status = dal_check_stationarity(evaluator, 0.0, 0.1, 3, states, &defect);
+    status = dal_measure_action(evaluator, 0.0, 0.1, ROWS, q, 1.0, &action);
+    if (!status) status = dal_check_stationarity(evaluator, 0.0, 0.1, 3, states, &defect);
     add_number(t, (double)action);
     add_number(t, (double)defect);
-    dal_evaluator_free(evaluator);
-    return status;
+    return finish(t, evaluator, status);
 }
 
 static dal_status measure_order(trial *t)
@@ -441,8 +434,7 @@ static dal_status check_maps(trial *t)
 {
     double symplectic = 0.0, reverse = 0.0;
     dal_status status = dal_check_symplecticity(&t->spec, 0.0, NULL, 0.0, &symplectic, &t->error);
-    if (status == DAL_OK)
-        status = dal_check_reversibility(&t->spec, 0.0, NULL, &reverse, &t->error);
+    if (!status) status = dal_check_reversibility(&t->spec, 0.0, NULL, &reverse, &t->error);
     add_number(t, (double)symplectic);
     add_number(t, (double)reverse);
     return status;

@@ -458,7 +458,7 @@ static dal__node resolve_index(void *user, const char *name, size_t length, bool
     return formula_resolve(user, name, is_index ? 1 : length, prime, error);
 }
 
-/* A graph that holds no more than a given number of nodes: the status and the column are those of
+/* A graph that holds no more than a given number of nodes: the status and the column belong to
  * the token that needs the next one, be it of a number, a name, an index, an operation or a sum. */
 static void test_every_node(void)
 {

@@ -3,8 +3,8 @@
 #ifndef DAL_CLI_STUDY_MATRIX_H
 #define DAL_CLI_STUDY_MATRIX_H
 
+#include "study_data.h"
 #include "study_fate.h"
-#include "study_plan.h"
 
 enum { STUDY_COLUMNS = 12 };
 

@@ -30,7 +30,7 @@ char *name_groups(const char *const *names, const bool *is_in, int count, int co
     enum { FEW = 2, MANY = 6, PASSES = 3 };
     char **groups = cli_calloc((size_t)count + 1, sizeof *groups), *text;
     int found = 0, out[FEW] = {0}, outside = 0;
-    /* Those of modifiers come first, single names last. */
+    /* Groups of modifiers come first, single names last. */
     for (int j = 0; j < PASSES * count; j++) {
         const int i = j % count;
         if (j < count && !is_in[i] && outside++ < FEW) out[outside - 1] = i;

@@ -17,7 +17,7 @@ extern const dal__source dal__sources[];
 
 enum { DAL__PREFIX_SIZE = 64 };
 
-/* A whole file; or, for lib/jit, the steps of some lanes, those of one lane with a trace of its
+/* A whole file; or, for lib/jit, the steps of some lanes, the steps of one lane with a trace of its
  * states, or the observables of many states. */
 typedef enum dal__product { DAL__FILE, DAL__LANES, DAL__TRACE, DAL__OBSERVE } dal__product;
 

@@ -24,8 +24,8 @@
 #include "expr/recurrences.h"
 #include "expr/tape.h"
 
-/* An operation: of order 0 by op, as tapes have it, of others by recurrence, the same or one of
- * those of recurrences.h.  u: slot of its result; w: of a second series, the cosine of a sine;
+/* An operation: of order 0 by op, as tapes have it, of others by recurrence, the same or one
+ * of recurrences.h.  u: slot of its result; w: of a second series, the cosine of a sine;
  * reciprocal: of what its recurrence multiplies by, in order 0 alone; the latter are u where there
  * is none.  a, b, c: operands; sum[sums]: numbers of the inner sums, in the order of its list. */
 typedef struct dal__taylor_operation {

@@ -4,7 +4,7 @@
 #     sh tools/lint/dependencies.sh | dot -Tsvg >dependencies.svg
 #
 # Fails where directories depend on each other in a circle, or files: NAME.c, NAME_wide.c, NAME.h and
-# NAME.inc are one file.  tsort names those of the circle.
+# NAME.inc are one file.  tsort names the files of the circle.
 cd "$(dirname "$0")/../.." || exit 2
 sources() { find lib cli integrators -name '*.[ch]' -o -name '*.inc' | sort; }
 
