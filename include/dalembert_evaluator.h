@@ -89,7 +89,8 @@ dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *
                             double *pivot);
 
 /* Moves v[n] along W^-1 A^T until D = 0 (Newton, to stagnation). [alloc]  Errors:
- * DAL_NOT_CONVERGED, v being as before; errors of the callbacks. */
+ * DAL_NOT_CONVERGED, or DAL_SINGULAR where G is singular, v being as before; errors of the
+ * callbacks. */
 dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v);
 
 /* The class of D as a function, by differences at points around *at: each member is a necessary

@@ -250,29 +250,20 @@ static dal_status make_ensemble(trial *t)
 {
     const dal_system *s = t->spec.system;
     const dal_setting parameter = {s->parameter[1], 1.5}, start = {s->coordinate[1], 0.25};
-    const char *const varied[] = {s->parameter[0], s->coordinate[0]};
-    dal_variation variations[2];
+    dal_variation variations[2] = {{.distribution = DAL_UNIFORM, .first = 1.0, .second = 1.25}};
     dal_ensemble *ensemble = NULL;
     dal_run_spec spec = t->spec;
     spec.parameters = &parameter, spec.parameter_count = 1;
     spec.start = &start, spec.start_count = 1;
-    dal_status status = DAL_OK;
-    for (int i = 0; i < 2 && status == DAL_OK; i++) {
-        char text[80];
-        snprintf(text, sizeof text, "%s=uniform(1,1.25)", varied[i]);
-        status = dal_variation_parse(&variations[i], text, &t->error);
-    }
-    if (status == DAL_OK)
-        status = dal_ensemble_create(&ensemble, &spec, variations, 2, 1, 4, &t->error);
+    variations[1] = variations[0];
+    snprintf(variations[0].name, sizeof variations[0].name, "%s", s->parameter[0]);
+    snprintf(variations[1].name, sizeof variations[1].name, "%s", s->coordinate[0]);
+    const dal_status status = dal_ensemble_create(&ensemble, &spec, variations, 2, 1, 4, &t->error);
     dal_ensemble_free(ensemble);
     return status;
 }
 
-static dal_status observe_reactions(trial *t)
-{
-    t->spec.options.reactions = 1;
-    return observe(t);
-}
+static dal_status observe_reactions(trial *t) { return t->spec.options.reactions = 1, observe(t); }
 
 static dal_status measure_lyapunov(trial *t)
 {

@@ -191,6 +191,23 @@ static void test_project_velocity_nothing(void)
     dal_evaluator_free(evaluator);
 }
 
+/* At rest the gradient of D = x'^2 + y'^2 - 1 is 0: no step is determined. */
+static void test_project_velocity_singular(void)
+{
+    dal_evaluator *evaluator =
+        fixture_evaluator(fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                         "constraints: [x'^2 + y'^2 - 1]\nstart: {x': 1}\n"));
+    const double q[] = {0.0, 0.0};
+    double v[] = {0.0, 0.0};
+    CU_ASSERT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), DAL_SINGULAR);
+    CU_ASSERT(v[0] == 0.0 && v[1] == 0.0);
+    v[0] = 0.9;
+    CU_ASSERT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(v[0], 1.0, 1e-13);
+    CU_ASSERT_EQUAL(v[1], 0.0);
+    dal_evaluator_free(evaluator);
+}
+
 /* D = sqrt(x'^2 + d^2) has no zero, and Newton's method goes from x' = d to -d, where |D| is the
  * same.  Below 1e-13 of the terms of D, or of 1 if they are smaller, |D| counts as 0. */
 static void test_project_velocity_rounding(void)
@@ -451,6 +468,8 @@ void suite_measure(void)
     CU_add_test(suite, "rank of G", test_rank);
     CU_add_test(suite, "velocities projected to D = 0", test_project_velocity);
     CU_add_test(suite, "no projection to a D without zero", test_project_velocity_nothing);
+    CU_add_test(suite, "no projection where the gradients of D are 0",
+                test_project_velocity_singular);
     CU_add_test(suite, "projection to a D of the size of rounding", test_project_velocity_rounding);
     CU_add_test(suite, "kinds of D", test_degree);
     CU_add_test(suite, "nearly of another kind", test_nearly);

@@ -231,6 +231,49 @@ static void test_compiled(void)
     folder_remove("cache");
 }
 
+/* ---- a constraint that turns ---- */
+
+static const dal_system *turning;
+static long calls, failing; /* of D; the call that fails, from 1; 0: none */
+
+static dal_status failing_constraint(const dal_system *system, const dal_point *at, double *out)
+{
+    (void)system;
+    return ++calls == failing ? DAL_IO : turning->call.constraint(turning, at, out);
+}
+
+static dal_status turn(const dal_run_spec *spec, dal_error *error)
+{
+    calls = 0;
+    dal_run *run = fixture_run(spec);
+    const dal_status status = dal_run_step(run, error);
+    dal_run_free(run);
+    return status;
+}
+
+/* The velocity of a particle of constant kinetic energy turns in a long step; G = |v|^2 is 1.  That
+ * G keeps its size is seen at the ends of 64 parts of the step, one value less shows it too. */
+static void test_turn(void)
+{
+    enum { PARTS = 64 };
+    turning = fixture_system("isokinetic");
+    dal_system system = *turning;
+    system.call.constraint = failing_constraint;
+    system.wide4 = system.wide8 = NULL;
+    system.extended = system.quad = NULL;
+    const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 5.0);
+    dal_error error;
+    failing = 0;
+    CU_ASSERT_EQUAL(turn(&spec, &error), DAL_NOT_CONVERGED);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "turns by more than a right angle"));
+    const long total = calls;
+    for (failing = total - PARTS + 2; failing <= total; failing++) {
+        CU_ASSERT_EQUAL(turn(&spec, &error), DAL_NOT_CONVERGED);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "turns by more than a right angle"));
+    }
+    failing = 0;
+}
+
 void suite_rank_check(void)
 {
     CU_pSuite suite = CU_add_suite("rank check", NULL, NULL);
@@ -240,4 +283,5 @@ void suite_rank_check(void)
     CU_add_test(suite, "made where pivots change", test_spared);
     CU_add_test(suite, "lanes", test_lanes);
     CU_add_test(suite, "compiled steps", test_compiled);
+    CU_add_test(suite, "a constraint that turns", test_turn);
 }

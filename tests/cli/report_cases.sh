@@ -362,6 +362,51 @@ END_OF_SYSTEM
     expect "no figure of the others" grep -q '<svg' burst/report/coordinates.svg
 fi
 
+# outline DIR EXPECTED...: the page of a directory is HTML, every element closed and known; EXPECTED are
+# pieces of the list of its headings, terms and heads of columns, in their order.
+outline() {
+    directory=$1
+    shift
+    try 0 report "$directory"
+    python3 "$here/page_outline.py" "$directory/report/index.html" >outline 2>&1
+    status=$?
+    expect "$directory: $(tail -1 outline)" [ $status -eq 0 ]
+    heads=$(tr '\n' '|' <outline)
+    for piece; do
+        case "|$heads" in *"|$piece|"*) pass ;; *) fail "$directory: no $piece in $heads" ;; esac
+    done
+}
+drawn_and_read() { there python3 && there gnuplot; }
+if needs 35 "no python3 or no gnuplot" drawn_and_read; then
+    case_is "pages are HTML with the headings of their kind"
+    try 0 order line.yaml --integrators rk4,gauss4 --levels 2 --time 1 --output outline-orders
+    try 0 section chaplygin-sleigh-full-turn --on phi=1 --integrator rk4 --step 0.05 --time 20 --output outline-section
+    try 0 ensemble knife-edge --members 20 --seed 1 --vary "x'=normal(0,0.1)" --integrator rk4 --step 0.1 --time 2 \
+        --output outline-ensemble
+    printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 2' 'systems: [knife-edge]' \
+        'expect: {knife-edge: {rk4: {state: done}}}' >outline.yaml
+    try 0 study outline.yaml --output outline-study
+    try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6 --samples 40 --output outline-run
+    outline outline-run \
+        'dt system|dt Lagrangian|dt constraints|dt parameters|dt start|dt source|dt method|dt step h|dt time T|dt samples' \
+        'h2 Size and trend|th size, trend|th confidence|th first|th final|th max |x||th max |x − first|' \
+        'th rate|th rate, from|th to (95 %)|th exponent|th D1|th E|th H' \
+        'h2 Figures|h2 How to make it again|summary what it was made with: manifest.json'
+    outline outline-orders 'h1 friction on a line: order, work and precision' 'dt space|dt error' \
+        'th order, stated|th order, found' 'th evaluations of F a step|th µs a step|th rk4|th gauss4' \
+        'h2 Figures|summary what it was made with: order.json'
+    outline outline-section 'dt section|h2 Figure|summary what it was made with: section.json'
+    outline outline-ensemble 'dt members|dt seed|dt added to each|h2 Statistics at t = 2|th column|th count|th mean' \
+        'th deviation|th min|th q0.05|th q0.25|th q0.5|th q0.75|th q0.95|th max' 'h2 Clouds|h2 Histograms' \
+        'summary members that failed: failures.csv|summary what it was made with: manifest.json'
+    outline outline-study 'h3 Constraints: max |D|' 'h3 Energy: max |E − E(0)|' \
+        'h3 Invariants of the systems: max |I − I(0)|, the largest of each' \
+        'h3 Hamiltonian of the lift: max |H − H(0)|, started off p = π = 0' \
+        'h2 Expectations|summary all of them|th system|th integrator|th start|th h|th quantity|th expected|th found' \
+        'h2 How to make it again|summary study.yaml|summary what it was made with: manifest.json|summary the tables: tables.txt'
+    counted
+fi
+
 case_is "no gnuplot"
 rm -rf ran/report
 PATH=/nonexistent "$program" report ran >out 2>err

@@ -24,6 +24,11 @@ try 0 explain damped-oscillator --integrator rk4 --step 0.1 --time 10 --output w
 expect "explain" awk -F, '$1 == "E" && $2 == "run" { rows++; words += $11 $12 $13 != "" }
                          END { exit !(rows > 2 && words == 0) }' why.csv
 
+# A run whose trend has been found to be undecided: the case is about the words, not about the trend.
+case_is "what is undecided names the trend that has half of the evidence"
+try 0 run knife-edge --integrator rk4 --step 0.05 --time 10 --output halves --summary
+says '^error .* larger +undecided, likeliest linear$'
+
 case_is "what is undecided or aborted has no confidence"
 printf "coordinates: [x]\naccelerations: {x: 0}\nstart: {x': 1}\ninvariants: {slow: sin(0.15*x)}\n" >slow.yaml
 try 0 run slow.yaml --integrator rk4 --step 0.01 --time 20 --output slow --summary

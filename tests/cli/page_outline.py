@@ -1,0 +1,91 @@
+"""page_outline.py - reads a page of `dalembert report` strictly.
+
+    page_outline.py PAGE    prints its headings, terms and heads of columns in their order, without
+                            the places where words may be divided
+
+Every element is one that HTML has, is closed, and has attributes that it may have; anything else is
+an error.
+"""
+import sys
+from html.parser import HTMLParser
+
+VOID = {"meta", "link", "img", "br", "hr", "input", "col"}
+HTML = VOID | set(
+    "html head title style script body header main section footer nav div span p a b i em strong "
+    "code pre h1 h2 h3 h4 dl dt dd ul ol li table caption colgroup thead tbody tr th td details "
+    "summary figure figcaption button label select option canvas sub sup small var time".split()
+)
+SVG = set(
+    "svg g path line polyline polygon rect circle ellipse text tspan title desc defs clippath use "
+    "marker lineargradient stop".split()
+)
+OWN = {
+    "a": {"href", "download"},
+    "img": {"src", "alt", "loading", "width", "height", "decoding"},
+    "meta": {"charset", "name", "content", "http-equiv"},
+    "script": {"type", "id"},
+    "html": {"lang"},
+    "th": {"colspan", "rowspan", "scope"},
+    "td": {"colspan", "rowspan"},
+    "button": {"type", "value", "disabled"},
+    "input": {"type", "value", "name", "min", "max", "step", "checked", "disabled"},
+    "details": {"open"},
+    "label": {"for"},
+    "select": {"name"},
+    "option": {"value", "selected"},
+    "canvas": {"width", "height"},
+}
+GLOBAL = {"id", "class", "title", "hidden", "tabindex", "role", "style", "lang", "inert"}
+SHOWN = {"title", "h1", "h2", "h3", "dt", "th", "summary"}
+
+
+class Outline(HTMLParser):
+    """The elements that are open, and the texts of those that are shown."""
+
+    def __init__(self):
+        super().__init__(convert_charrefs=True)
+        self.open, self.text = [], []
+
+    def fault(self, what):
+        sys.exit(f"line {self.getpos()[0]}: {what}, in {' '.join(self.open)}")
+
+    def handle_starttag(self, tag, attrs):
+        in_svg = "svg" in self.open or tag == "svg"
+        if tag not in (SVG if in_svg else HTML):
+            self.fault(f"<{tag}>")
+        for name, _ in attrs:
+            known = in_svg or name in GLOBAL | OWN.get(tag, set())
+            if not known and not name.startswith(("data-", "aria-")):
+                self.fault(f"<{tag} {name}=>")
+        if tag not in VOID:
+            self.open.append(tag)
+        if tag in SHOWN and not in_svg:
+            self.text.append("")
+
+    def handle_startendtag(self, tag, attrs):
+        self.handle_starttag(tag, attrs)
+        if tag not in VOID:
+            self.handle_endtag(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.fault(f"</{tag}>")
+        if tag in SHOWN and "svg" not in self.open:
+            print(tag, " ".join(self.text.pop().replace("\u00ad", "").split()))
+
+    def handle_data(self, data):
+        for i in range(len(self.text)):
+            self.text[i] += data
+
+
+def main():
+    sys.stdout.reconfigure(encoding="utf-8")
+    outline = Outline()
+    with open(sys.argv[1], encoding="utf-8") as page:
+        outline.feed(page.read())
+    outline.close()
+    if outline.open:
+        outline.fault("the end")
+
+
+main()
