@@ -3,6 +3,7 @@
 #include "codegen/emit_callbacks.h"
 #include "codegen/interface.h"
 #include "codegen/parts.h"
+#include "codegen/preprocessor.h"
 #include "core/error.h"
 #include "dalembert_codegen.h"
 #include "expr/taylor_emit.h"
@@ -354,7 +355,7 @@ static void write_method(dal__generation *g)
                               i);
         }
         dal__buffer_print(text, "#define step dal__step_%d\n", i);
-        dal__write_selected(g, g->source[i]);
+        dal__preprocess(g, g->source[i]);
         dal__buffer_append(text, "#undef step\n");
     }
     dal__buffer_append(text, "#define dal__whole_step dal__of_");

@@ -21,7 +21,7 @@ enum { DAL__PREFIX_SIZE = 64 };
  * states, or the observables of many states. */
 typedef enum dal__product { DAL__FILE, DAL__LANES, DAL__TRACE, DAL__OBSERVE } dal__product;
 
-/* A name that lines #if of a source are decided by, see parts.h. */
+/* A name that lines #if of a source are decided by, see preprocessor.c. */
 typedef struct dal__condition {
     const char *name;
     bool value;

@@ -1,6 +1,7 @@
 /* interface.c - what the caller of a generated file sees: usage, declarations, names. */
 #include "codegen/interface.h"
 #include "codegen/parts.h"
+#include "codegen/preprocessor.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -11,6 +11,7 @@
 #include "codegen/generate.h"
 #include "codegen/interface.h"
 #include "codegen/parts.h"
+#include "codegen/preprocessor.h"
 #include "jit/cache.h"
 #include "run/batch.h"
 #include "run/run.h"

@@ -28,9 +28,8 @@ typedef enum dal_callback_code {
 
 #ifdef DAL_SPECIALISED
 
-/* In a generated file dimensions are constants and all memory is local.  DAL_STEP_GROUPS groups of
- * lanes are stepped as one larger system: component i of group j is number i*DAL_STEP_GROUPS +
- * j. */
+/* In a generated file dimensions are constants, memory is local.  DAL_STEP_GROUPS groups of lanes
+ * are stepped as one larger system: component i of group j is number i*DAL_STEP_GROUPS + j. */
 #define DAL_N(s)      (DAL_FIXED_N * DAL_STEP_GROUPS)
 #define DAL_NW(s)     (DAL_FIXED_NW * DAL_STEP_GROUPS)
 #define DAL_M(s)      DAL_FIXED_M
@@ -80,24 +79,104 @@ typedef enum dal_callback_code {
 #define DAL__MARK(step)               (void)0
 #define DAL__RELEASE(step)            (void)0
 
+#else
+
+enum { DAL_STEP_GROUPS = 1 };
+
+#define DAL_N(s)                      ((s)->n)   /* coordinates */
+#define DAL_NW(s)                     ((s)->nw)  /* velocities and vakonomic multipliers */
+#define DAL_M(s)                      ((s)->m)   /* constraints */
+#define DAL_DIM(s)                    ((s)->dim) /* numbers in the state */
+#define DAL_LIFTED(s)                 ((s)->lifted)
+#define DAL_SOLVER(s)                 ((s)->solver)
+#define DAL_ITERATIONS(s)             ((s)->iterations)
+#define DAL_SOLVER_TOLERANCE(s)       ((s)->solver_tolerance)
+#define DAL_EXTRA_ITERATIONS(s)       ((s)->extra_iterations)
+#define DAL_CONTROLLED(s)             ((s)->tolerance > 0.0)
+#define DAL_TOLERANCE(s)              ((s)->tolerance)
+#define DAL_PLAIN(s)                  ((s)->plain)
+#define DAL_TANGENT(s)                ((s)->tangent)
+#define DAL_MAY_NEWTON(s)             ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
+#define DAL_FIELD_OPERATIONS(s)       ((s)->field_operations)
+#define DAL_JACOBIAN_OPERATIONS(s)    ((s)->jacobian_operations)
+#define DAL_PROPERTIES(s)             ((s)->properties)
+#define DAL_GUARDS(s)                 ((s)->guards)
+#define DAL_RANK_CHECKED(s)           ((s)->rank_checked)
+#define DAL_PIVOTS(s)                 ((s)->pivot_count)
+#define DAL_PERSISTENT_MULTIPLIERS(s) ((s)->m)
+#define DAL_STAGE_DERIVATIVES(s)      ((s)->derivatives_kept)
+#define DAL_STAGES(t)                 ((t)->stages) /* of a tableau */
+#define DAL_SERIES(s)                 ((s)->series_count)
+#define DAL_TAYLOR_ORDER(s)           ((s)->taylor_order)
+#define DAL_TOLERANCE_ROOT(s)         ((s)->tolerance_root)
+
+#endif
+
+/* The state of a step: numbers of its own in a generated file, elsewhere those of an engine. */
+#ifdef DAL_SPECIALISED
+#define DAL__NUMBERS(name, count) name[DAL__AT_LEAST_ONE(count) * DAL_STEP_GROUPS]
+#else
+#define DAL__NUMBERS(name, count) *name
+#endif
+
 struct dal_step {
-    double t, h;
-    num y[DAL_FIXED_DIM * DAL_STEP_GROUPS], r[DAL_FIXED_DIM * DAL_STEP_GROUPS];
-#define MEMBER(member, count) num member[DAL__AT_LEAST_ONE(DAL__COUNT_##count) * DAL_STEP_GROUPS];
-    DAL__METHOD_STATE_LIST(MEMBER)
-#undef MEMBER
-    dal_mask alive[DAL_STEP_GROUPS], unconverged[DAL_STEP_GROUPS];
+    double t, h; /* start and size of the step; dal_update advances t */
+    num DAL__NUMBERS(y, DAL_FIXED_DIM), DAL__NUMBERS(r, DAL_FIXED_DIM);
+#define DAL__METHOD_NUMBERS(member, count) num DAL__NUMBERS(member, DAL__COUNT_##count);
+    DAL__METHOD_STATE_LIST(DAL__METHOD_NUMBERS)
+
+    dal_mask alive[DAL_STEP_GROUPS], unconverged[DAL_STEP_GROUPS]; /* not failed; not solved */
 #if DAL_WITH_TIMES
-    int has_times;
+    int has_times; /* 1: callbacks are evaluated at these times, not at a common one */
     dal_times times;
 #endif
 #if DAL_WITH_PIVOTS
-    num pivots[(DAL__COUNT_PIVOTS - 1) * DAL_STEP_GROUPS];
-    int pivots_known[DAL_STEP_GROUPS];
+    num DAL__NUMBERS(pivots, DAL__COUNT_PIVOTS - 1); /* of the first evaluation of F in the step */
+    int pivots_known[DAL_STEP_GROUPS]; /* 1: there was one, or they are not compared */
 #endif
+#ifdef DAL_SPECIALISED
     const dal_stored *work; /* parameters, and values that depend on them alone */
-    long long evaluations;
+#else
+    int n, nw, m, dim;
+    int lifted;        /* 1 on the canonical space */
+    int tangent;       /* 1 while p, pi hold a tangent vector (dq, dv) */
+    num *method_state; /* [method_state_count] the numbers of the method, one after the other */
+    int method_state_count;
+    int derivatives_kept;
+    int pivot_count; /* that the rank check compares, see acceptance.h */
+
+    int solver;              /* dal_solver */
+    int iterations;          /* max iterations */
+    double solver_tolerance; /* relative change; 0: rounding level */
+    int extra_iterations;    /* after convergence */
+    int plain;               /* 1: sums without compensation, r stays 0 */
+    int has_jacobian;
+    int field_operations, jacobian_operations; /* of the callbacks */
+    unsigned properties;                       /* of the system */
+    int guards;                                /* of the system */
+    int rank_checked;                          /* 1: steps are subject to the rank check */
+    double tolerance;                          /* of substeps, 0: no substeps */
+
+    num *scratch; /* bump allocator, see dal_scratch */
+    size_t used, capacity;
+    int exhausted; /* 1: more was requested, and the step fails */
+
+    const dal_integrator *const *layer; /* innermost first */
+    int depth;                          /* which of the chain is at work */
+
+    void (*eval)(dal_step *step, dal_callback_code code, double t, const num *q, const num *v,
+                 const num *pi, num *out);
+    void (*series)(dal_step *step, int k, int stride, const num *in, num *memory, num *out);
+    int series_count;        /* in memory */
+    int taylor_order;        /* for the tolerance */
+    double tolerance_root;   /* tolerance^(1/taylor_order) */
+    struct dal_dense *dense; /* where to store the polynomial of a substep; NULL: nowhere */
+    void *owner;             /* of eval and series */
+#endif
+    long long evaluations; /* of the field or the lifted field */
 };
+
+#ifdef DAL_SPECIALISED
 
 #if DAL_WITH_METHOD_STATE
 /* Copies the state of the method; restores it in some lanes. */
@@ -141,90 +220,6 @@ DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num *in, n
 #endif
 
 #else
-
-enum { DAL_STEP_GROUPS = 1 };
-
-#define DAL_N(s)                      ((s)->n)   /* coordinates */
-#define DAL_NW(s)                     ((s)->nw)  /* velocities and vakonomic multipliers */
-#define DAL_M(s)                      ((s)->m)   /* constraints */
-#define DAL_DIM(s)                    ((s)->dim) /* numbers in the state */
-#define DAL_LIFTED(s)                 ((s)->lifted)
-#define DAL_SOLVER(s)                 ((s)->solver)
-#define DAL_ITERATIONS(s)             ((s)->iterations)
-#define DAL_SOLVER_TOLERANCE(s)       ((s)->solver_tolerance)
-#define DAL_EXTRA_ITERATIONS(s)       ((s)->extra_iterations)
-#define DAL_CONTROLLED(s)             ((s)->tolerance > 0.0)
-#define DAL_TOLERANCE(s)              ((s)->tolerance)
-#define DAL_PLAIN(s)                  ((s)->plain)
-#define DAL_TANGENT(s)                ((s)->tangent)
-#define DAL_MAY_NEWTON(s)             ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
-#define DAL_FIELD_OPERATIONS(s)       ((s)->field_operations)
-#define DAL_JACOBIAN_OPERATIONS(s)    ((s)->jacobian_operations)
-#define DAL_PROPERTIES(s)             ((s)->properties)
-#define DAL_GUARDS(s)                 ((s)->guards)
-#define DAL_RANK_CHECKED(s)           ((s)->rank_checked)
-#define DAL_PIVOTS(s)                 ((s)->pivot_count)
-#define DAL_PERSISTENT_MULTIPLIERS(s) ((s)->m)
-#define DAL_STAGE_DERIVATIVES(s)      ((s)->derivatives_kept)
-#define DAL_STAGES(t)                 ((t)->stages) /* of a tableau */
-#define DAL_SERIES(s)                 ((s)->series_count)
-#define DAL_TAYLOR_ORDER(s)           ((s)->taylor_order)
-#define DAL_TOLERANCE_ROOT(s)         ((s)->tolerance_root)
-
-struct dal_step {
-    double t, h; /* start and size of the step; dal_update advances t */
-    int n, nw, m, dim;
-    int lifted;  /* 1 on the canonical space */
-    int tangent; /* 1 while p, pi hold a tangent vector (dq, dv) */
-    num *y, *r;  /* [dim] */
-
-    /* The state of the method, see persistent.h. */
-#define MEMBER(member, count)         num *member;
-    DAL__METHOD_STATE_LIST(MEMBER)
-#undef MEMBER
-    num *method_state; /* [method_state_count] all these, one after the other */
-    int method_state_count;
-    int derivatives_kept;
-
-    dal_mask alive[DAL_STEP_GROUPS];       /* lanes that have not failed */
-    dal_mask unconverged[DAL_STEP_GROUPS]; /* lanes whose implicit equations failed */
-#if DAL_WITH_TIMES
-    int has_times; /* 1: callbacks are evaluated at these times, not at a common one */
-    dal_times times;
-#endif
-    int solver;              /* dal_solver */
-    int iterations;          /* max iterations */
-    double solver_tolerance; /* relative change; 0: rounding level */
-    int extra_iterations;    /* after convergence */
-    int plain;               /* 1: sums without compensation, r stays 0 */
-    int has_jacobian;
-    int field_operations, jacobian_operations; /* of the callbacks */
-    unsigned properties;                       /* of the system */
-    int guards;                                /* of the system */
-    int rank_checked;                          /* 1: steps are subject to the rank check */
-    double tolerance;                          /* of substeps, 0: no substeps */
-
-    int pivot_count;                   /* that the rank check compares, see acceptance.h */
-    num *pivots;                       /* [pivot_count] of the first evaluation of F in the step */
-    int pivots_known[DAL_STEP_GROUPS]; /* 1: there was one, or they are not compared */
-
-    num *scratch; /* bump allocator, see dal_scratch */
-    size_t used, capacity;
-    int exhausted; /* 1: more was requested, and the step fails */
-
-    const dal_integrator *const *layer; /* innermost first */
-    int depth;                          /* which of the chain is at work */
-
-    void (*eval)(dal_step *step, dal_callback_code code, double t, const num *q, const num *v,
-                 const num *pi, num *out);
-    void (*series)(dal_step *step, int k, int stride, const num *in, num *memory, num *out);
-    int series_count;        /* in memory */
-    int taylor_order;        /* for the tolerance */
-    double tolerance_root;   /* tolerance^(1/taylor_order) */
-    struct dal_dense *dense; /* where to store the polynomial of a substep; NULL: nowhere */
-    void *owner;             /* of eval and series */
-    long long evaluations;   /* of the field or the lifted field */
-};
 
 static DAL_UNUSED __attribute__((noinline, cold)) num *dal__exhausted(dal_step *s, int count)
 {
