@@ -76,6 +76,8 @@ void cli_set_defaults(const cli_option *options, int count, void *settings);
 int cli_read_arguments(const cli_command *command, int argc, char **argv, const cli_group *groups,
                        int count);
 
+/* The name here of an option that other programs call otherwise: step for dt; or NULL. */
+const char *cli_synonym(const char *name);
 /* The present name of an option that was renamed, and of a value of an option; or NULL. */
 const char *cli_renamed_option(const char *name);
 const char *cli_renamed_value(const char *option, const char *text);

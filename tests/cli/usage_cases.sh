@@ -198,7 +198,7 @@ prints '^  --tolerance TOLERANCE( |$)'
 prints '^  --solver-tolerance CHANGE( |$)'
 try 0 order --help
 expect "order: other defaults" sh -c 'tr -s " \n" " " <out | grep -q -- \
-    "--time T integrates from t = T0 to t = T (10) .* (physical) --solver"'
+    "--time T integrates from t = T0 to t = T (10) .* (lifted) --solver"'
 
 case_is "unknown command"
 try 2 rnu
