@@ -185,6 +185,17 @@ if needs 15 "no terminal (script, stty)" terminal; then
     prints '^integrator +stated  found '
     counted
 fi
+if needs 7 "no terminal (script, stty)" terminal; then
+    case_is "list: the names alone"
+    for columns in 80 60; do
+        shown $columns list
+        fits $columns
+    done
+    shown 80 list
+    fits 80
+    prints '^  appell-hamel, '
+    counted
+fi
 case_is "order: the space is that of run"
 try 0 order chaplygin-sleigh --integrators rk4,gni --json
 expect "another space" grep -q '^    "space": "lifted",$' out

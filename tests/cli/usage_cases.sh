@@ -109,10 +109,10 @@ prints "^                    'run' makes it, with rows after whole numbers of st
 
 if needs 5 "no terminal (script, stty)" terminal; then
     case_is "tables on a terminal of 80 columns"
-    script -qec "stty cols 80; '$program' list" /dev/null </dev/null | tr -d '\r' >narrow
+    script -qec "stty cols 80; '$program' list systems" /dev/null </dev/null | tr -d '\r' >narrow
     expect "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
     expect "the text does not go on below itself" grep -q "^                                  constraint$" narrow
-    COLUMNS=80 "$program" list >out
+    COLUMNS=80 "$program" list systems >out
     expect "COLUMNS gives another table" cmp narrow out
     script -qec "stty cols 80; '$program' list --long" /dev/null </dev/null | tr -d '\r' >narrow
     expect "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
