@@ -249,7 +249,7 @@ static const struct {
     {"maxi(x, y)", DAL_NAME, 1, 1, "unknown function 'maxi'; did you mean 'max'?"},
     {"x \xc2\xb7 y", DAL_SYNTAX, 1, 3, "unexpected byte 0xc2"},
     {"x +\n\ty +\n \x01", DAL_SYNTAX, 3, 2, "unexpected byte 0x01"},
-    {"x**2", DAL_SYNTAX, 1, 3, "a value is missing before '*'"},
+    {"x**2", DAL_SYNTAX, 1, 2, "a power is written ^, not **"},
 };
 
 static void test_faults(void)

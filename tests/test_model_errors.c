@@ -117,7 +117,9 @@ static const bad_file names[] = {
     {DAL_MODEL, "duplicate 'a' in tags", "tags: [a, @a]\n"},
     {DAL_NAME, "'2y' in coordinates is not a name: a letter, then letters, digits and _",
      "coordinates: [x, @2y]\n"},
-    {DAL_NAME, "'a b' in invariants is not a name: a letter, then letters, digits and _",
+    {DAL_NAME,
+     "'a b' in invariants is not a name: a letter, then letters, digits and _; is a bracket not "
+     "closed?",
      "invariants: {@a b: x}\n"},
     {DAL_NAME, "'x''' in start is not a name: a letter, then letters, digits and _",
      "start: {@x'': 1}\n"},
@@ -238,7 +240,9 @@ static const bad_file functions[] = {
      XY L "functions: {@V(r: x}\n"},
     {DAL_NAME, "'V(r s)' in functions is not a function with its arguments, as V(r)",
      XY L "functions: {@V(r s): x}\n"},
-    {DAL_NAME, "'2(r)' in functions is not a name: a letter, then letters, digits and _",
+    {DAL_NAME,
+     "'2(r)' in functions is not a name: a letter, then letters, digits and _; a formula with "
+     "commas within {} or [] needs quotes",
      XY L "functions: {@2(r): x}\n"},
     {DAL_NAME, "function V has two arguments 'r'", XY L "functions: {@\"V(r, r)\": r}\n"},
     {DAL_NAME, "function 'sin': this name is reserved in formulas",
@@ -324,7 +328,10 @@ static const bad_file mechanics[] = {
     {DAL_SINGULAR_MASS,
      "the mass matrix is singular: it does not determine the acceleration of 'y'",
      XY "lagrangian: @(x' + x*y')^2/2\n"},
-    {DAL_RANK, "constraint 1 does not depend on the velocities", XY L "constraints: [@x - y]\n"},
+    {DAL_RANK,
+     "constraint 1 does not depend on the velocities; of f(q) = 0 write the time derivative, as "
+     "2*x*x' + 2*y*y' of x^2 + y^2",
+     XY L "constraints: [@x - y]\n"},
     {DAL_MODEL, "vakonomic mechanics has no reactions: its multipliers take their place",
      XY L "mechanics: vakonomic\nconstraints: [x']\nreactions: [{@x: 1}]\n"},
     {DAL_MODEL, "reaction 2 has no constraint: there are 1",

@@ -6,11 +6,13 @@
 #include "analysis.h"
 #include "dalembert_analysis.h"
 #include "io/file.h"
+#include "order_screen.h"
 #include "run/pool.h"
 #include "run/request_json.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 #include "ui/signals.h"
 #include "ui/wrap.h"
 
@@ -22,7 +24,7 @@
 /* A run this short is repeated, and its shortest time counts; steps between two polls of the
  * signals. */
 static const double short_time = 0.01;
-enum { MAX_REPEATS = 3, CHUNK = 1000, MAX_NAME = 128 };
+enum { MAX_REPEATS = 3, CHUNK = 1000 };
 /* A step to T that takes more substeps than a step may have is divided into 16 parts, then into 16
  * times as many, up to MAX_PARTS. */
 enum { DIVISION = 16, MAX_PARTS = 1 << 20 };
@@ -31,48 +33,11 @@ static const double rounding = 1e-16;
 /* The tolerances of the two references, as parts of the smallest one. */
 static const double first_reference = 0.1, second_reference = 0.01;
 
-/* The result of a method.  code, word */
-#define ORDER_STATE_LIST(STATE)                                                                    \
-    STATE(DONE, "done") STATE(FAILED, "failed") STATE(REFUSED, "refused")
-
-typedef enum order_state {
-#define STATE_CODE(code, word) ORDER_##code,
-    ORDER_STATE_LIST(STATE_CODE)
-#undef STATE_CODE
-} order_state;
-
 static const char *const state_words[] = {
 #define STATE_WORD(code, word) word,
     ORDER_STATE_LIST(STATE_WORD)
 #undef STATE_WORD
 };
-
-typedef struct order_method {
-    dal_method method;
-    char name[MAX_NAME];
-    dal_order order;                     /* error is NaN where the run failed */
-    double seconds[DAL_ORDER_LEVELS];    /* of processor time */
-    dal_error failure[DAL_ORDER_LEVELS]; /* status DAL_OK where the run succeeded */
-    order_state state;                   /* failed: at one step at least */
-} order_method;
-
-typedef struct order_study {
-    order_settings *set;
-    run_request *request;
-    dal_run_spec spec;                                          /* but for method and step */
-    double step[DAL_ORDER_LEVELS], tolerance[DAL_ORDER_LEVELS]; /* tolerance: 0 unless it falls */
-    int levels;
-    bool divides; /* the step was not given, and is the whole time */
-    order_method *methods;
-    int method_count;
-    int numbers;         /* that are compared: q, v and vakonomic g */
-    const double *units; /* [numbers] of theirs: errors are parts of these, or of a number */
-    dal_scaled *scaled;  /* has them */
-    double *reference;   /* [numbers] at T, and room for as many */
-    const char *reference_method; /* NULL: the exact solution */
-    double reference_step, reference_tolerance;
-    double noise; /* the error of the reference; 0 where it is not known */
-} order_study;
 
 /* ---- lists of methods and steps ------------------------------------------------------------ */
 
@@ -134,7 +99,7 @@ static int add_items(order_study *s, const char *list, const char *option,
                      int (*add)(order_study *s, const char *item))
 {
     for (;;) {
-        char item[MAX_NAME];
+        char item[ORDER_NAME];
         const size_t length = strcspn(list, ",");
         if (length == 0 || length >= sizeof item)
             return cli_fail(CLI_USAGE, "%s: '%.40s' is not a list between commas", option, list);
@@ -175,7 +140,7 @@ static int list_steps(order_study *s)
     return CLI_DONE;
 }
 
-static long long count_steps(const order_study *s, double h)
+long long order_count_steps(const order_study *s, double h)
 {
     return dal_whole_steps(s->request->from, s->request->time, h);
 }
@@ -197,7 +162,7 @@ static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, dou
     const double begin = cli_thread_seconds();
     /* A step under a tolerance may take long. */
     const long long chunk = spec->options.tolerance > 0.0 ? 1 : CHUNK;
-    for (long long left = count_steps(s, spec->options.step); left > 0 && status == DAL_OK;
+    for (long long left = order_count_steps(s, spec->options.step); left > 0 && status == DAL_OK;
          left -= chunk)
         status = cli_interrupted() ? DAL_INTERRUPTED
                                    : dal_run_advance(run, left < chunk ? left : chunk, error);
@@ -308,6 +273,13 @@ static int make_reference(order_study *s)
                                      : cli_error(cli_exit(status), "reference", &error);
 }
 
+dal_choice order_space(const order_study *s, const order_method *m)
+{
+    const bool has_lift = !(dal_method_needs(&m->method) & DAL_NEEDS_BLOCKS);
+    return has_lift || request_has(s->request, REQUEST_space) ? s->spec.options.space
+                                                              : DAL_PHYSICAL;
+}
+
 /* Method i / levels at one of the steps, the smallest, which takes longest, first. */
 static void run_level(void *user, int i)
 {
@@ -317,6 +289,7 @@ static void run_level(void *user, int i)
     dal_run_spec spec = s->spec;
     spec.method = m->method;
     spec.options.step = s->step[level];
+    spec.options.space = order_space(s, m);
     if (s->set->tolerances) spec.options.tolerance = s->tolerance[level];
     double *end = cli_calloc((size_t)s->numbers + 1, sizeof *end);
     dal_error *failure = &m->failure[level];
@@ -367,7 +340,7 @@ static void print_cell(const char *format, int width, double x)
 }
 
 /* The reason of the first failure. */
-static const char *failure_message(const order_study *s, const order_method *m)
+const char *order_failure_message(const order_study *s, const order_method *m)
 {
     for (int i = 0; i < s->levels; i++)
         if (m->failure[i].status != DAL_OK) return m->failure[i].message;
@@ -375,7 +348,7 @@ static const char *failure_message(const order_study *s, const order_method *m)
 }
 
 #define OUTCOME_WORD(code, word) word,
-static const char *const outcome_words[] = {DAL_ORDER_OUTCOME_LIST(OUTCOME_WORD)};
+const char *const order_outcome_words[] = {DAL_ORDER_OUTCOME_LIST(OUTCOME_WORD)};
 #undef OUTCOME_WORD
 
 /* What words instead of an order mean. */
@@ -391,7 +364,7 @@ static void print_outcomes(const order_study *s)
         const order_method *m = s->methods, *end = m + s->method_count;
         while (m < end && (m->state != ORDER_DONE || (int)m->order.outcome != k)) m++;
         if (m == end) continue;
-        char *text = cli_format("no order found, %s: %s", outcome_words[k], texts[k]);
+        char *text = cli_format("no order found, %s: %s", order_outcome_words[k], texts[k]);
         putchar('\n');
         cli_wrap(stdout, text, 0, 0);
         free(text);
@@ -407,11 +380,15 @@ static void print_branch(void *user, const char *what, const char *text)
 static void print_orders(const order_study *s)
 {
     const int last = s->levels - 1;
-    const double steps = (double)count_steps(s, s->step[last]);
+    const double steps = (double)order_count_steps(s, s->step[last]);
     const bool is_controlled = s->set->tolerances != NULL;
     bool any_without_order = false;
-    printf("%s, error of (q,v) at t = %g, %s\nagainst ", s->request->system_name, s->request->time,
-           s->spec.options.space == DAL_LIFTED ? "lifted" : "physical");
+    bool is_mixed = false;
+    for (int i = 0; i < s->method_count; i++)
+        is_mixed |= order_space(s, &s->methods[i]) != s->spec.options.space;
+    printf("%s, error of (q,v) at t = %g, %s%s\nagainst ", s->request->system_name,
+           s->request->time, s->spec.options.space == DAL_LIFTED ? "lifted" : "physical",
+           is_mixed ? ", physical where a method has no lift" : "");
     if (s->reference_method)
         printf("%s with %s = %g, itself within %.0e\n\n", s->reference_method,
                is_controlled ? "tolerance" : "h",
@@ -429,7 +406,7 @@ static void print_orders(const order_study *s)
         any_without_order |= isnan(m->order.order);
         printf("%-21s %6d", m->name, dal_method_order(&m->method));
         if (isnan(m->order.order) && m->state == ORDER_DONE && !is_controlled)
-            printf(" %*s", 6, outcome_words[m->order.outcome]);
+            printf(" %*s", 6, order_outcome_words[m->order.outcome]);
         else
             print_cell("%.2f", 6, m->order.order);
         for (int i = 0; i < s->levels; i++) print_cell("%.1e", 7, m->order.error[i]);
@@ -441,7 +418,7 @@ static void print_orders(const order_study *s)
     if (any_without_order && !is_controlled) print_outcomes(s);
     for (const order_method *m = s->methods; m < s->methods + s->method_count; m++)
         if (m->state != ORDER_DONE)
-            printf("\n%s: %s: %s", m->name, state_words[m->state], failure_message(s, m));
+            printf("\n%s: %s: %s", m->name, state_words[m->state], order_failure_message(s, m));
     analysis_list_branches(s->request->model, print_branch, NULL);
     putchar('\n');
 }
@@ -454,7 +431,7 @@ static void put_level(json_writer *w, const order_study *s, const order_method *
     json_open(w, NULL, JSON_ON_ONE_LINE);
     json_put_number(w, "step", s->step[level]);
     if (s->set->tolerances) json_put_number(w, "tolerance", s->tolerance[level]);
-    json_put_integer(w, "steps", count_steps(s, s->step[level]));
+    json_put_integer(w, "steps", order_count_steps(s, s->step[level]));
     json_put_number(w, "error", m->order.error[level]);
     json_put_number(w, "slope", m->order.slope[level]);
     json_put_number(w, "evaluations", succeeded ? (double)m->order.evaluations[level] : NAN);
@@ -470,9 +447,9 @@ static void put_method(json_writer *w, const order_study *s, const order_method 
     json_put_integer(w, "stated_order", dal_method_order(&m->method));
     json_put_number(w, "observed_order", m->order.order);
     const bool is_missing = m->state == ORDER_DONE && !s->set->tolerances && isnan(m->order.order);
-    json_put_text(w, "no_order", is_missing ? outcome_words[m->order.outcome] : NULL);
+    json_put_text(w, "no_order", is_missing ? order_outcome_words[m->order.outcome] : NULL);
     json_put_text(w, "state", state_words[m->state]);
-    json_put_text(w, "message", m->state == ORDER_DONE ? NULL : failure_message(s, m));
+    json_put_text(w, "message", m->state == ORDER_DONE ? NULL : order_failure_message(s, m));
     json_open_list(w, "levels", JSON_LINES);
     for (int i = 0; m->state != ORDER_REFUSED && i < s->levels; i++) put_level(w, s, m, i);
     json_close(w);
@@ -516,7 +493,7 @@ static void write_level(FILE *out, const order_study *s, const order_method *m, 
     const double h = has_run ? s->step[level] : NAN;
     const double first[] = {m->order.order, h, has_run ? s->tolerance[level] : NAN};
     const double cells[] = {
-        has_run ? (double)count_steps(s, h) : NAN, has_run ? m->order.error[level] : NAN,
+        has_run ? (double)order_count_steps(s, h) : NAN, has_run ? m->order.error[level] : NAN,
         has_run ? m->order.slope[level] : NAN,
         succeeded ? (double)m->order.evaluations[level] : NAN, succeeded ? m->seconds[level] : NAN};
     cli_put_text(out, s->request->system_name);
@@ -526,7 +503,7 @@ static void write_level(FILE *out, const order_study *s, const order_method *m, 
     analysis_put_cells(out, first, s->set->tolerances ? 3 : 2);
     analysis_put_cells(out, cells, sizeof cells / sizeof *cells);
     fprintf(out, ",%s,", state_words[succeeded ? ORDER_DONE : has_run ? ORDER_FAILED : m->state]);
-    cli_put_text(out, has_run ? m->failure[level].message : failure_message(s, m));
+    cli_put_text(out, has_run ? m->failure[level].message : order_failure_message(s, m));
     fputc('\n', out);
 }
 
@@ -565,8 +542,12 @@ static int measure(order_study *s)
     status = make_reference(s);
     if (status == CLI_DONE) status = run_methods(s, (int)s->set->threads);
     if (status == CLI_DONE) {
-        (s->set->json ? put_orders : print_orders)(s);
-        status = cli_close(stdout, "standard output");
+        if (!s->set->json && !s->set->details && screen_has_reader()) {
+            status = order_print_screen(s);
+        } else {
+            (s->set->json ? put_orders : print_orders)(s);
+            status = cli_close(stdout, "standard output");
+        }
     }
     if (status == CLI_DONE && s->set->output) {
         analysis_output output;

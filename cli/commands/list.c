@@ -8,6 +8,7 @@
 #include "ui/commands.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 #include "ui/table.h"
 
 #include <math.h>
@@ -347,6 +348,38 @@ static void put_tables(const selection *list, const settings *s)
     json_end_results(&w);
 }
 
+enum { MAX_NAMES = 100 };
+
+/* The names alone, on a terminal. */
+static int print_names(const selection *list)
+{
+    const char *system[CLI_MAX_BUILTINS], *integrator[2][MAX_NAMES];
+    int systems = 0, count[2] = {0};
+    for (; systems < list->systems && systems < CLI_MAX_BUILTINS; systems++)
+        system[systems] = dal_builtin_name(systems);
+    for (int i = 0; i < list->integrators; i++) {
+        const dal_integrator *k = list->integrator[i];
+        const int kind = (k->properties & DAL_MODIFIER) != 0;
+        if (count[kind] < MAX_NAMES) integrator[kind][count[kind]++] = k->name;
+    }
+    const struct {
+        const char *head, *more;
+        const char *const *names;
+        int count;
+    } lists[] = {{"Systems", "list systems", system, systems},
+                 {"Integrators", "list integrators", integrator[0], count[0]},
+                 {"Modifiers, as in rk4+project", "list integrators", integrator[1], count[1]}};
+    screen s;
+    screen_open(&s, stdout);
+    for (int i = 0; i < 3; i++) {
+        char *names = screen_list_names(lists[i].names, lists[i].count, MAX_NAMES * MAX_NAMES);
+        screen_say(&s, 2, "%s (dalembert %s):", lists[i].head, lists[i].more);
+        screen_say(&s, 2, "  %s", names);
+        free(names);
+    }
+    return screen_close(&s, "list systems, list integrators");
+}
+
 static int list(int argc, char **argv)
 {
     settings s = {.preserves = -1, .width = cli_output_width()};
@@ -356,7 +389,11 @@ static int list(int argc, char **argv)
     if (status != CLI_GO_ON) return status;
     if (s.json && s.markdown) return cli_fail(CLI_USAGE, "list: --json excludes --markdown");
     status = select_tables(&selected, &s);
-    if (status == CLI_DONE) {
+    const bool is_plain = !s.table && !s.tag && !s.order && s.preserves < 0 && !s.is_long &&
+                          !s.json && !s.markdown && !getenv("COLUMNS");
+    if (status == CLI_DONE && is_plain && screen_has_reader()) {
+        status = print_names(&selected);
+    } else if (status == CLI_DONE) {
         (s.json ? put_tables : print_tables)(&selected, &s);
         status = cli_close(stdout, "standard output");
     }
@@ -377,7 +414,8 @@ const cli_command command_list = {
         "are preserved to rounding on D = 0.  A modifier +WORD follows an integrator, NAME+WORD: "
         "rk4+project.  'as NAME' means the properties of NAME.  'adaptive' takes --tolerance.\n"
         "\n"
-        "On a terminal, or where the environment has COLUMNS, tables have the columns that fit, "
+        "A terminal gets the names alone where no TABLE is given.  On a terminal, or where the "
+        "environment has COLUMNS, tables have the columns that fit, "
         "and one name for each integrator.  Otherwise they are complete; --long adds the tags.  "
         "--preserves bilinear also lists what preserves quadratic D, and both list what preserves "
         "every D.\n",

@@ -49,5 +49,6 @@ int main(int argc, char **argv)
         names[i] = commands[i]->name;
         if (strcmp(names[i], first) == 0) return commands[i]->run(argc - 1, argv + 1);
     }
-    return cli_unknown("command", first, names, COMMANDS);
+    if (dal_nearest(first, names, COMMANDS)) return cli_unknown("command", first, names, COMMANDS);
+    return cli_fail(CLI_USAGE, "unknown command '%s'; 'dalembert help' lists the commands", first);
 }

@@ -8,6 +8,7 @@
 #include "run/pool.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
+#include "ui/screen.h"
 
 #include <string.h>
 
@@ -35,6 +36,7 @@ static const cli_option options[] = {
      CLI_ROW(cli_parse_output, order_settings, output)},
     ANALYSIS_FORCE_OPTION(order_settings),
     JSON_OPTION(order_settings),
+    SCREEN_DETAILS_OPTION(order_settings),
 };
 
 static int order(int argc, char **argv)
@@ -45,7 +47,6 @@ static int order(int argc, char **argv)
     memcpy(of_request, request_options, sizeof of_request);
     of_request[REQUEST_step].initial = "0.1";
     of_request[REQUEST_time].initial = "10";
-    of_request[REQUEST_space].initial = "physical";
     const cli_group groups[] = {CLI_GROUP(options, &s),
                                 request_group(&s.request, of_request, ORDER_WITHOUT)};
     int status = cli_read_arguments(&command_order, argc, argv, groups, 2);
@@ -62,8 +63,8 @@ const cli_command command_order = {
     .about = "measures error against step and against work for many integrators",
     .notes =
         "--step is the largest step, --time the time of the errors; both come from the defaults of "
-        "the system file where they are not given, or are 0.1 and 10.  The space is (q,v) unless "
-        "--space lifted is given.\n"
+        "the system file where they are not given, or are 0.1 and 10.  The space is the lifted one "
+        "where the method and the system have a lift, else (q,v).\n"
         "\n"
         "The error is the largest difference in q and v at T, relative to |x| or to the "
         "system's own unit of it, whichever is larger, from the "

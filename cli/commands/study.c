@@ -89,6 +89,17 @@ static const char notes[] =
         "then 3, unless the study expects the failure.  A cell is refused, which is no failure, "
         "where the integrator needs what the system lacks.\n";
 
+/* Whether a text has a key at the beginning of a line. */
+static bool has_key(const char *text, const char *key)
+{
+    const size_t length = strlen(key);
+    for (; text; text = strchr(text, '\n')) {
+        text += *text == '\n';
+        if (strncmp(text, key, length) == 0) return true;
+    }
+    return false;
+}
+
 /* A finished study is written over where nobody named the directory: each is there by default. */
 static int run_study(const settings *s, const char *text, size_t length)
 {
@@ -122,6 +133,11 @@ static int study(int argc, char **argv)
     char *own = s.study ? file_read(s.study, &length) : NULL;
     if (s.study && !own) return CLI_USAGE;
     const char *text = own ? own : study_builtin_text;
+    if (own && has_key(text, "coordinates:") && !has_key(text, "systems:")) {
+        free(own);
+        return cli_fail(CLI_USAGE, "'%s' is a system, not a study: 'dalembert run %s' runs it",
+                        s.study, s.study);
+    }
     if (s.show) {
         fwrite(text, 1, length, stdout);
         status = cli_close(stdout, "standard output");

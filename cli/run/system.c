@@ -1,9 +1,11 @@
 /* system.c - reads the system of a command. */
 #include "system.h"
 #include "io/file.h"
+#include "ui/memory.h"
 #include "ui/message.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -40,7 +42,22 @@ static int read_builtin(const char *name, dal_model **model)
 {
     const char *names[CLI_MAX_BUILTINS];
     dal_error error = {0};
-    if (!dal_builtin_text(name)) return cli_unknown("system", name, names, cli_builtins(names));
+    if (!dal_builtin_text(name)) {
+        struct stat status;
+        const int count = cli_builtins(names);
+        char *path = cli_format("%s.yaml", name);
+        const bool is_there = stat(path, &status) == 0;
+        const int failed =
+            is_there ? cli_fail(CLI_USAGE, "unknown system '%s'; there is '%s'", name, path)
+            : dal_nearest(name, names, count)
+                ? cli_unknown("system", name, names, count)
+                : cli_fail(CLI_USAGE,
+                           "unknown system '%s', and no such file; 'dalembert list systems' names "
+                           "the systems",
+                           name);
+        free(path);
+        return failed;
+    }
     const dal_status read = dal_model_builtin(model, name, &error);
     return read == DAL_OK ? CLI_DONE : cli_error(cli_input_exit(read), name, &error);
 }

@@ -20,11 +20,14 @@
 #include "run/columns.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { LABELS = 200 /* columns of a list of labels */ };
 
 typedef struct expect_reader {
     study_plan *plan;
@@ -267,8 +270,15 @@ static int refuse_label(const expect_reader *r, const yaml_node_t *node, const c
     const study_plan *plan = r->plan;
     const char **names = cli_calloc((size_t)plan->case_count, sizeof *names);
     for (int i = 0; i < plan->case_count; i++) names[i] = plan->cases[i].label;
+    const size_t length = strlen(label);
+    const char *hint = dal_nearest(label, names, plan->case_count);
+    for (int i = 0; i < plan->case_count; i++)
+        if (strncmp(names[i], label, length) == 0 && names[i][length] == '.') hint = names[i];
+    char *labels = screen_list_names(names, plan->case_count, LABELS);
     const int status =
-        document_fail_unknown(r->doc, node, "label of this study", label, names, plan->case_count);
+        document_fail(r->doc, node, "unknown label of this study '%s'; %s '%s'%s", label,
+                      hint ? "did you mean" : "there is", hint ? hint : labels, hint ? "?" : "");
+    free(labels);
     free(names);
     return status;
 }

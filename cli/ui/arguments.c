@@ -54,9 +54,16 @@ static int unknown_option(reader *r, const char *argument, size_t length)
             if (r->groups[g].options[k].name && !(r->groups[g].without >> k & 1))
                 names[count++] = r->groups[g].options[k].name;
     names[count++] = "help";
-    const char *nearest = dal_nearest(bare, names, count);
+    const char *nearest = dal_nearest(bare, names, count), *synonym = cli_synonym(bare);
+    bool has_synonym = false;
+    for (int k = 0; k < count; k++) has_synonym |= synonym && strcmp(names[k], synonym) == 0;
+    if (has_synonym) nearest = synonym;
     if (present)
         cli_fail(CLI_USAGE, "%s: the option '%s' is called '--%s' now", r->argv[0], name, present);
+    else if (strcmp(bare, "seed") == 0)
+        cli_fail(CLI_USAGE,
+                 "%s: unknown option '%s': it draws no random numbers, as 'ensemble' does",
+                 r->argv[0], name);
     else if (nearest)
         cli_fail(CLI_USAGE, "%s: unknown option '%s'; did you mean '--%s'?", r->argv[0], name,
                  nearest);

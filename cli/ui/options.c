@@ -21,6 +21,18 @@ const char *cli_renamed_option(const char *name)
     return NULL;
 }
 
+const char *cli_synonym(const char *name)
+{
+    static const char *const synonyms[][2] = {
+        {"dt", "step"},           {"h", "step"},       {"stepsize", "step"}, {"step-size", "step"},
+        {"method", "integrator"}, {"i", "integrator"}, {"tmax", "time"},     {"t-max", "time"},
+        {"tend", "time"},         {"t", "time"},       {"tol", "tolerance"}, {"rtol", "tolerance"},
+        {"atol", "tolerance"},    {"params", "set"},   {"param", "set"},     {"out", "output"}};
+    for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
+        if (strcmp(name, synonyms[i][0]) == 0) return synonyms[i][1];
+    return NULL;
+}
+
 const char *cli_renamed_value(const char *option, const char *text)
 {
     const bool is_long = strcmp(option, "precision") == 0 && strcmp(text, "long") == 0;

@@ -68,6 +68,8 @@ typedef struct cli_command {
 
 /* Stores the defaults; those that are none for a parser are a mistake of the program. */
 void cli_set_defaults(const cli_option *options, int count, void *settings);
+/* The name here of an option that other programs call otherwise: step for dt; or NULL. */
+const char *cli_synonym(const char *name);
 /* The present name of an option that was renamed, and of a value of an option; or NULL. */
 const char *cli_renamed_option(const char *name);
 const char *cli_renamed_value(const char *option, const char *text);

@@ -67,6 +67,22 @@ static int distance(const char *a, const char *b)
     return row[0][lb];
 }
 
+/* Other spellings of a velocity, other = "x'": vx, v_x, dx, xdot and x_dot. */
+static bool spells_velocity(const char *name, const char *other)
+{
+    static const char *const before[] = {"v", "v_", "d", "", ""};
+    static const char *const after[] = {"", "", "", "dot", "_dot"};
+    const size_t length = strlen(other);
+    if (length < 2 || other[length - 1] != '\'') return false;
+    for (size_t k = 0; k < sizeof before / sizeof *before; k++) {
+        const size_t n = strlen(before[k]);
+        if (strncmp(name, before[k], n) == 0 && strncmp(name + n, other, length - 1) == 0 &&
+            strcmp(name + n + length - 1, after[k]) == 0)
+            return true;
+    }
+    return false;
+}
+
 const char *dal_nearest(const char *name, const char *const *names, int count)
 {
     size_t length = name && names ? strlen(name) : MAX_LETTERS + 1;
@@ -77,6 +93,7 @@ const char *dal_nearest(const char *name, const char *const *names, int count)
     for (int i = 0; i < count; i++) {
         size_t other = names[i] ? strlen(names[i]) : MAX_LETTERS + 1;
         if (other > MAX_LETTERS) continue;
+        if (spells_velocity(name, names[i])) return names[i];
         int d = distance(name, names[i]);
         int everything = EDIT * (int)(other > length ? other : length);
         if (d > limit || d >= everything || d >= best) continue;
@@ -130,7 +147,15 @@ dal_status dal__find_parameter(const dal_system *s, const char *name, int *numbe
         *number = i;
         if (strcmp(s->parameter[i], name) == 0) return DAL_OK;
     }
-    return dal__unknown(error, "parameter", name, s->parameter, names);
+    if (names == 0 || dal_nearest(name, s->parameter, names))
+        return dal__unknown(error, "parameter", name, s->parameter, names);
+    char list[160] = "";
+    size_t n = 0;
+    for (int i = 0; i < names && n + MAX_LETTERS + 6 < sizeof list; i++)
+        n += (size_t)snprintf(list + n, sizeof list - n, "%s%.*s", i > 0 ? ", " : "", MAX_LETTERS,
+                              s->parameter[i]);
+    return dal__fail(error, DAL_NAME, "unknown parameter '%.*s'; there is %s", MAX_LETTERS, name,
+                     list);
 }
 
 const char *dal__mass_words(const dal_system *s)

@@ -76,6 +76,8 @@ static dal_status read_other(dal__lexer *l, dal__token *t)
     t->kind = (char)c;
     t->length = 1;
     l->at++;
+    if (c == '*' && l->at < l->end && *l->at == '*')
+        return SYNTAX_ERROR(l, t, "a power is written ^, not **");
     if (c && strchr("+-*/^(),<>[]", c)) return DAL_OK;
     if (c == '=') return SYNTAX_ERROR(l, t, "unexpected '='; a comparison is written ==");
     if (c == '\'') {

@@ -51,7 +51,9 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
             depends |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0);
         if (!depends && e->graph->status == DAL_OK)
             return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
-                                "constraint %d does not depend on the velocities", a + 1);
+                                "constraint %d does not depend on the velocities; of f(q) = 0 "
+                                "write the time derivative, as 2*x*x' + 2*y*y' of x^2 + y^2",
+                                a + 1);
     }
     return DAL_OK;
 }

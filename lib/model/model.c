@@ -229,9 +229,13 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
         strcspn(name, "]") == length - 1)
         letters = length;
     if (length > 0 && letters == length) return DAL_OK;
+    const char *hint = strchr(name, '(') || strchr(name, ')')
+                           ? "; a formula with commas within {} or [] needs quotes"
+                       : strchr(name, ' ') ? "; is a bracket not closed?"
+                                           : "";
     return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
-                        "'%.80s' in %s is not a name: a letter, then letters, digits and _", name,
-                        dal__section_name(entry->section));
+                        "'%.80s' in %s is not a name: a letter, then letters, digits and _%s", name,
+                        dal__section_name(entry->section), hint);
 }
 
 dal_status dal__duplicate(const dal__entry *entry, dal_error *error)

@@ -171,7 +171,15 @@ static dal__node unknown(const dal__scope *scope, const char *name, dal_error *e
     const dal__equations *e = &scope->model->equations;
     const char *names[MAX_NAMES];
     int count = 0;
-    for (int i = 0; i < e->n && scope->may & DAL__MAY_STATE; i++) names[count++] = e->coordinate[i];
+    for (int i = 0; i < e->n && scope->may & DAL__MAY_STATE; i++) {
+        char velocity[DAL__MAX_LETTERS + 2];
+        const char *pair[] = {e->coordinate[i], velocity};
+        names[count++] = e->coordinate[i];
+        snprintf(velocity, sizeof velocity, "%s'", e->coordinate[i]);
+        if (dal_nearest(name, pair, 2) != velocity) continue;
+        dal__unknown(error, "name", name, pair + 1, 1);
+        return 0;
+    }
     for (int i = 0; i < scope->parameters; i++) names[count++] = e->parameter[i];
     for (int i = 0; i < scope->lets; i++) names[count++] = e->let_name[i];
     for (int i = 0; i < e->sizes; i++) names[count++] = e->size_name[i];

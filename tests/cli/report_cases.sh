@@ -7,7 +7,7 @@ mkdir -p hollow
 try 2 report hollow
 says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\) nor an ensemble \(statistics.csv\) nor orders \(order.csv\) nor a section \(section.csv\)"
 try 2 report nowhere
-says "'nowhere' holds neither"
+says "^dalembert: there is no directory 'nowhere'$"
 mkdir -p begun && touch begun/study.yaml
 table <<'END'
 2 | report begun | says 'begun' holds a study that is not finished: 'dalembert resume' continues it

@@ -164,6 +164,46 @@ if needs 34 "no terminal (script, stty)" terminal; then
     counted
 fi
 
+if needs 15 "no terminal (script, stty)" terminal; then
+    case_is "order: errors on the lift, as many columns as fit"
+    # The exact solution has x' = 1: rk4 has order 4, gni, which has no lift, order 2.
+    shown 80 order chaplygin-sleigh --integrators rk4,gauss4,gni
+    fits 80
+    prints 'at t = 20 on the lift, in \(q, v\) where a'
+    prints '^Below an error of 1e-6 first: '
+    expect "another order of rk4" grep -Eq '^rk4 +4 +4\.00 +1\.6e-4 +1\.0e-5 ' plain
+    expect "another order of gni" grep -Eq '^gni +2 +2\.00 ' plain
+    shown 60 order chaplygin-sleigh --integrators rk4,gauss4,gni
+    fits 60
+    shown 40 order chaplygin-sleigh --integrators rk4,gauss4,gni
+    fits 40
+    prints '^\.\.\. and [0-9] more columns \(--details\)$'
+    shown 80 order chaplygin-sleigh
+    fits 80
+    prints '^\.\.\. and 21 more methods \(--details\)$'
+    shown 80 order chaplygin-sleigh --integrators rk4 --details
+    prints '^integrator +stated  found '
+    counted
+fi
+if needs 7 "no terminal (script, stty)" terminal; then
+    case_is "list: the names alone"
+    for columns in 80 60; do
+        shown $columns list
+        fits $columns
+    done
+    shown 80 list
+    fits 80
+    prints '^  appell-hamel, '
+    counted
+fi
+case_is "order: the space is that of run"
+try 0 order chaplygin-sleigh --integrators rk4,gni --json
+expect "another space" grep -q '^    "space": "lifted",$' out
+try 0 order chaplygin-sleigh --integrators rk4,gni
+prints ', lifted, physical where a method has no lift$'
+try 0 order chaplygin-sleigh-vakonomic --integrators rk4 --time 1
+prints ', physical$'
+
 case_is "a pipe has the rows, and a table of the summary on request"
 try 0 $sleigh --summary
 prints '^t,y1,y2,phi,'

@@ -109,10 +109,10 @@ prints "^                    'run' makes it, with rows after whole numbers of st
 
 if needs 5 "no terminal (script, stty)" terminal; then
     case_is "tables on a terminal of 80 columns"
-    script -qec "stty cols 80; '$program' list" /dev/null </dev/null | tr -d '\r' >narrow
+    script -qec "stty cols 80; '$program' list systems" /dev/null </dev/null | tr -d '\r' >narrow
     expect "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
     expect "the text does not go on below itself" grep -q "^                                  constraint$" narrow
-    COLUMNS=80 "$program" list >out
+    COLUMNS=80 "$program" list systems >out
     expect "COLUMNS gives another table" cmp narrow out
     script -qec "stty cols 80; '$program' list --long" /dev/null </dev/null | tr -d '\r' >narrow
     expect "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
@@ -198,7 +198,7 @@ prints '^  --tolerance TOLERANCE( |$)'
 prints '^  --solver-tolerance CHANGE( |$)'
 try 0 order --help
 expect "order: other defaults" sh -c 'tr -s " \n" " " <out | grep -q -- \
-    "--time T integrates from t = T0 to t = T (10) .* (physical) --solver"'
+    "--time T integrates from t = T0 to t = T (10) .* (lifted) --solver"'
 
 case_is "unknown command"
 try 2 rnu

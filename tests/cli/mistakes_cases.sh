@@ -1,0 +1,55 @@
+# Mistakes that many users make: the message names what was meant.
+
+cat >skate.yaml <<'END'
+coordinates: [x, y, phi]
+parameters: {m: 1, J: 1, k: 1}
+lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 - k/2*(x^2 + y^2)
+constraints:
+  - x'*sin(phi) - y'*cos(phi)
+start: {x: 1, x': 0.5, phi': 0.7}
+END
+sed "s/x'^2 + y/xdot^2 + y/" skate.yaml >dot.yaml
+sed "s/x'^2 + y/v_x^2 + y/" skate.yaml >spelled.yaml
+sed "s/x': 0.5/x': max(0.5, 0)/" skate.yaml >comma.yaml
+sed 's/x^2/x**2/' skate.yaml >power.yaml
+sed "s/  - x'.*/  - x^2 + y^2 - 1/" skate.yaml >holonomic.yaml
+sed 's/phi\]/phi/' skate.yaml >bracket.yaml
+cat >blow.yaml <<'END'
+coordinates: [x]
+lagrangian: x'^2/2 + x^4
+start: {x: 1}
+END
+expected() { printf 'integrators: [rk4]\nstep: 0.1\ntime: 1\nsystems: [skate.yaml]\nexpect: {%s: {rk4: {D: exact}}}\n' "$1"; }
+expected skate >nearly.yaml
+expected knife >nowhere.yaml
+run="--integrator rk4 --step 0.1 --time 1"
+table <<'END'
+case: a file beside its name
+2 | run skate $run | says ^dalembert: unknown system 'skate'; there is 'skate.yaml'$
+2 | run nofile.txt $run | says ^dalembert: unknown system 'nofile.txt', and no such file; 'dalembert list systems'
+case: options of other programs
+2 | run skate.yaml --dt 1 | says unknown option '--dt'; did you mean '--step'\?$
+2 | run skate.yaml --method rk4 | says unknown option '--method'; did you mean '--integrator'\?$
+2 | run skate.yaml -i rk4 | says unknown option '-i'; did you mean '--integrator'\?$
+2 | run skate.yaml --tmax 1 | says unknown option '--tmax'; did you mean '--time'\?$
+2 | run skate.yaml --tol 1 | says unknown option '--tol'; did you mean '--tolerance'\?$
+2 | run skate.yaml --seed 1 | says unknown option '--seed': it draws no random numbers, as 'ensemble' does$
+2 | check skate.yaml --dt 1 | says unknown option '--dt'; did you mean '--set'
+2 | simulate | says ^dalembert: unknown command 'simulate'; 'dalembert help' lists the commands$
+case: velocities
+2 | run skate.yaml $run --columns vy | says no column 'vy'; did you mean 'y''\?$
+2 | run skate.yaml $run --start vx=2 | says unknown start name 'vx'; did you mean 'x''\?$
+2 | run dot.yaml $run | says ^dalembert: dot.yaml:3:18: lagrangian: unknown name 'xdot'; did you mean 'x''\?$
+2 | run spelled.yaml $run | says unknown name 'v_x'; did you mean 'x''\?$
+case: files
+2 | run comma.yaml $run | says is not a name: .*; a formula with commas within \{\} or \[\] needs quotes$
+2 | run power.yaml $run | says ^dalembert: power.yaml:3:52: lagrangian: a power is written \^, not \*\*$
+2 | run holonomic.yaml $run | says :5:5: constraint 1 does not depend on the velocities; of f\(q\) = 0 write the time derivative
+2 | run bracket.yaml $run | says is not a name: .*; is a bracket not closed\?$
+2 | run skate.yaml $run --set mass=2 | says unknown parameter 'mass'; there is m, J, k$
+2 | study skate.yaml | says ^dalembert: 'skate.yaml' is a system, not a study: 'dalembert run skate.yaml' runs it$
+2 | study nearly.yaml --output there | says unknown label of this study 'skate'; did you mean 'skate.yaml'\?$
+2 | study nowhere.yaml --output there | says unknown label of this study 'knife'; there is 'skate.yaml'$
+2 | report nodir | says ^dalembert: there is no directory 'nodir'$
+3 | run blow.yaml --integrator rk4 --step 0.5 --time 10 | says ^dalembert: a smaller step may help: --step 0.05$
+END
