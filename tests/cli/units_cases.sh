@@ -22,6 +22,23 @@ rounds_otherwise=" chaplygin-sleigh-vakonomic falling-disk roller-racer snakeboa
 unit() { awk -v i="$2" 'NR == 1 { print $(i + 1) }' "$1"; }
 default_step() { sed -n 's/^defaults:.*"step": \([^,}]*\).*/\1/p' "$1"; }
 
+# Shares in percent, rounded, with the sentence and what is conserved of each observable but the error;
+# of what stays at rounding, that it does.
+shares() {
+    python3 - <<'END'
+import json
+for o in json.load(open('explained'))['observables']:
+    if o['name'] == 'error':
+        continue
+    if o['sentence'] in ('stays at rounding', 'never changes'):
+        print(o['name'], o['is_conserved'], 'stays')
+        continue
+    print(o['name'], o['is_conserved'], o['sentence'].split(' (')[0])
+    print([None if s['share'] is None else round(100 * s['share'], 1) + 0.0 for s in o['sources']],
+          None if o['order'] is None else round(o['order'], 2) + 0.0)
+END
+}
+
 # states_of COMMAND: what it prints of system.yaml that has no unit, numbers in units of the time where it is one.
 states_of() {
     tau=$(unit system.yaml 1)
@@ -55,6 +72,10 @@ states_of() {
             echo "exit $?"
             awk -F, -v tau="$tau" 'NR > 1 { print $1, sprintf("%.6g", $2*tau), $3 }' section.csv
             sed 's/^t = [^:]*//' out ;;
+        explain)
+            "$program" explain system.yaml --integrator rk4 --json >explained 2>err
+            echo "exit $?"
+            [ ! -s explained ] || shares ;;
         *)
             "$program" "$1" system.yaml --integrator rk4 >out 2>err
             echo "exit $?"
@@ -117,7 +138,7 @@ if [ -x "$units" ]; then
         changed=$((changed + 1))
         for seed in ${UNITS:-17}; do
             compare "$system" "$seed" check run
-            [ -z "$UNITS" ] || compare "$system" "$seed" order study section lyapunov volume
+            [ -z "$UNITS" ] || compare "$system" "$seed" order study section lyapunov volume explain
             mkdir -p one other
             (cd one && "$units" "$system" 0 parameters >system.yaml && bits_of >rows)
             (cd other && "$units" "$system" "$seed" parameters >system.yaml && bits_of >rows)
@@ -139,23 +160,6 @@ if [ -x "$units" ]; then
 else
     echo "cli: units: skipped: no $units (make check builds it)"
 fi
-
-# Shares in percent, rounded, with the sentence and what is conserved of each observable but the error;
-# of what stays at rounding, that it does.
-shares() {
-    python3 - <<'END'
-import json
-for o in json.load(open('explained'))['observables']:
-    if o['name'] == 'error':
-        continue
-    if o['sentence'] in ('stays at rounding', 'never changes'):
-        print(o['name'], o['is_conserved'], 'stays')
-        continue
-    print(o['name'], o['is_conserved'], o['sentence'].split(' (')[0])
-    print([None if s['share'] is None else round(100 * s['share'], 1) + 0.0 for s in o['sources']],
-          None if o['order'] is None else round(o['order'], 2) + 0.0)
-END
-}
 
 case_is "explain in other units"
 if [ -x "$units" ] && needs 8 "no python3" there python3; then
