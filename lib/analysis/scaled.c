@@ -218,6 +218,7 @@ static void make_system(dal_scaled *s)
     s->system.series = NULL;
     s->system.branches = NULL;
     s->system.picture = NULL;
+    s->system.units = NULL;
     s->system.events = 0;
     s->system.solved_velocities = 0;
     s->system.start = start;

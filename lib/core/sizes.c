@@ -92,7 +92,7 @@ static double spectral_radius(const double *J, int size, double *x, double *y)
     return exp(growth / (ITERATIONS - FIRST));
 }
 
-/* Beyond this size of a system J costs more than it tells. */
+/* Beyond this size of a system J costs more than it is worth. */
 enum { MAX_JACOBIAN = 200 };
 
 static bool has_jacobian(const dal_system *s)
