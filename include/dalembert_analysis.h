@@ -241,14 +241,15 @@ dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
                              const dal_observer *observer, dal_order *order, dal_error *error);
 
 /* The maximum entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
- * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e).  Lifted space only:
- * DAL_UNSUPPORTED; e must be finite.  increment, to begin with, relative to max(1, h |v|) of a
- * coordinate and max(1, |x|) of all else; 0: 2e-3. [alloc]  Errors: as for a step. */
+ * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e), in the units of the
+ * system for q and v, and their reciprocals for the momenta.  Lifted space only:
+ * DAL_UNSUPPORTED; e must be finite.  increment, to begin with, relative to max(unit, h |v|) of a
+ * coordinate and max(unit, |x|) of all else; 0: 2e-3. [alloc]  Errors: as for a step. */
 dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const double *state,
                                    double increment, double *defect, dal_error *error);
 
-/* rho step rho step = id: the maximum difference from the identity, relative to max(1, |x|), over
- * one step from the start (or from state at time t).  rho reverses time, t -> -t, with
+/* rho step rho step = id: the maximum difference from the identity, relative to max(unit, |x|),
+ * over one step from the start (or from state at time t).  rho reverses time, t -> -t, with
  *     (q, v) -> (q, -v),      (q, v, e, p, pi, pi_e) -> (q, -v, e, -p, pi, -pi_e),
  * the antisymplectic lift that leaves H = pi.pi/(2e) + pi.F + p.v alone when mu_e is odd in t and
  * F(q,-v,-t) = F(q,v,t); vakonomic g goes to -g where D is odd in v.  [alloc]

@@ -135,16 +135,18 @@ static const double fifth853[] = {0.1312004499419488073250102996e-1, 0.0, 0.0, 0
 
 /* error / tolerance over count components from first on:
  *     |h| |e5|^2 / sqrt(count (|e5|^2 + |e3|^2/100))
- * where the components l of e3 and e5 are in units of tolerance (1 + |y_l|). */
+ * where the components l of e3 and e5 are in units of tolerance (unit_l + |y_l|). */
 DAL_INLINE dal_times error853(const dal_step *s, dal_times h, const num *derivative, const num *e3,
                               const num *e5, int first, int count)
 {
     const double tolerance = DAL_TOLERANCE(s);
+    const double *units = first == 0 ? DAL_UNITS(s) : NULL; /* p and pi have none */
     dal_times square3 = h - h, square5 = h - h;
     DAL_EACH(place, count) {
         const int l = first + place;
         const num size = dal_max(dal_abs(s->y[l]), dal_abs(s->y[l] + h * derivative[l]));
-        const num unit = tolerance + tolerance * size;
+        const double absolute = tolerance * (units ? units[place] : 1.0);
+        const num unit = absolute + tolerance * size;
         square3 += e3[l] / unit * (e3[l] / unit);
         square5 += e5[l] / unit * (e5[l] / unit);
     }

@@ -45,7 +45,7 @@ DAL_INLINE void freeze_projection(dal_step *s, projection *p)
     const num *a = p->out + m, *b = p->out + m + m * n;
     DAL_EACH(i, n * m) p->directions[i] = b[i];
     dal_gram(a, b, m, n, g);
-    dal_invert(g, p->inverse, m);
+    dal_invert_in_units(g, p->inverse, m, DAL_LEVELS(s), m);
 }
 
 DAL_INLINE dal_status project_velocity(dal_step *s)
@@ -59,7 +59,8 @@ DAL_INLINE dal_status project_velocity(dal_step *s)
     DAL_BLOCK(s, change, DAL_N(s), 0);
     projection p = {s->y + n, v, out, directions, inverse, shift};
     DAL_EQUATION(eq, 1, &p, change);
-    eq.block[0].scale[0] = dal_max_norm(s->y + n, n);
+    dal_set_speeds(s, &eq.block[0], n);
+    eq.block[0].scale[0] = dal_speed_norm(s, s->y + n);
     DAL_EACH(i, n) eq.block[0].u[i] = dal_num(0.0);
     DAL_EACH(i, n) v[i] = s->y[n + i];
     freeze_projection(s, &p);

@@ -103,10 +103,9 @@ DAL_INLINE void set_directions(dal_step *s, level *k, num *matrix)
 /* The size of v, and of q/h, against which rounding in them and in E is small. */
 DAL_INLINE num level_scale(const dal_step *s, const level *k, num whole)
 {
-    const int n = DAL_N(s);
     const num weight = dal_abs(s->level[0] / whole);
     return dal_velocity_scale(s, s->h, 0) +
-           weight * (dal_max_norm(k->v0, n) + dal_max_norm(k->normal, n));
+           weight * (dal_speed_norm(s, k->v0) + dal_speed_norm(s, k->normal));
 }
 
 DAL_INLINE void freeze_directions(dal_step *s, level *k, dal_equation *eq)
@@ -121,7 +120,7 @@ DAL_INLINE void freeze_directions(dal_step *s, level *k, dal_equation *eq)
     find_missing(s, k);
     set_directions(s, k, matrix);
     eq->block[0].scale[0] = level_scale(s, k, matrix[levels * levels - 1]);
-    dal_invert(matrix, k->inverse, levels);
+    dal_invert_in_units(matrix, k->inverse, levels, DAL_LEVELS(s), levels);
 }
 
 DAL_INLINE dal_status to_level(dal_step *s)
@@ -140,6 +139,7 @@ DAL_INLINE dal_status to_level(dal_step *s)
     DAL_BLOCK(s, change, 2 * DAL_N(s), 0); /* of v and of q/h */
     level k = {q0, v0, q, v, constraint, energy, directions, normal, inverse, missing, shift};
     DAL_EQUATION(eq, 1, &k, change);
+    dal_set_speeds(s, &eq.block[0], DAL_N(s));
     freeze_directions(s, &k, &eq);
     if (dal_failed(dal_solve(s, &eq, level_map, NULL))) return DAL_NOT_CONVERGED;
     DAL_EACH(i, DAL_N(s)) q[i] = s->h * eq.block[0].u[DAL_N(s) + i];

@@ -77,9 +77,12 @@ DAL_INLINE void begin_reflection(dal_step *s, reflection *k, dal_equation *eq)
     DAL_EACH(i, n * m) k->B0[i] = B[i];
     dal_gram(A, B, m, n, g);
     DAL_EACH(i, m * m) g[i] = 2.0 * g[i];
-    dal_invert(g, k->inverse, m);
+    dal_invert_in_units(g, k->inverse, m, DAL_LEVELS(s), m);
+    num norm = dal_num(0.0);
+    DAL_EACH(i, n) norm = dal_max(norm, dal_in_units(dal_max_norm(B + i * m, m), DAL_SPEEDS(s), i));
+    dal_set_speeds(s, &eq->block[1], n);
     eq->block[1].scale[0] = dal_velocity_scale(s, s->h, 0);
-    eq->block[0].scale[0] = eq->block[1].scale[0] / dal_max_norm(B, n * m);
+    eq->block[0].scale[0] = eq->block[1].scale[0] / norm;
     DAL_EACH(a, m) eq->block[0].u[a] = dal_num(0.0);
     DAL_EACH(i, n) eq->block[1].u[i] = s->y[n + i];
 }

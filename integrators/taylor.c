@@ -11,6 +11,8 @@
  *
  *     h = tolerance^(1/p) min (max(1, |x|)/|x_m|)^(1/m),   m = p-3 .. p,
  *
+ * in the units of x that the system has;
+ *
  * four of them, since odd or even motions lack every other one, and some motions more.  Last
  * coefficients may vanish all the same, as they do for x'' = t^50 at t = 0; so the polynomial must
  * satisfy the equations at the end of the substep, else h is halved. */
@@ -65,24 +67,31 @@ DAL_INLINE dal_times power_of_2(dal_times x)
     return of_bits((exponent & 0x7ff) << 52) * (1.0 + f * (0.6931 + f * (0.2402 + f * 0.0555)));
 }
 
-/* Bits of max |x_i| over count components. */
-DAL_INLINE dal_mask max_bits(const num *x, int count)
+/* The units of components from first on; p and pi have none. */
+DAL_INLINE const double *units_from(const dal_step *s, int first)
+{
+    return first == 0 ? DAL_UNITS(s) : NULL;
+}
+
+/* Bits of max |x_i|/unit_i over count components; NULL: 1. */
+DAL_INLINE dal_mask max_bits(const num *x, const double *unit, int count)
 {
     dal_mask bits = dal_all() & 0;
-    DAL_EACH(i, count) bits = larger(bits, bits_of(x[i]));
+    DAL_EACH(i, count) bits = larger(bits, bits_of(dal_in_units(x[i], unit, i)));
     return bits;
 }
 
 /* h/tolerance^(1/p) for count components from first on, 0 where a coefficient is not finite. */
 DAL_INLINE num radius(const dal_step *s, const num *x, int first, int count)
 {
+    const double *units = units_from(s, first);
     const int order = DAL_TAYLOR_ORDER(s);
-    const dal_mask unit = larger(bits_of(dal_num(1.0)), max_bits(x + first, count));
+    const dal_mask unit = larger(bits_of(dal_num(1.0)), max_bits(x + first, units, count));
     const dal_times log_unit = logarithm(unit);
     dal_mask largest = unit;
     num log_size = dal_num(900.0); /* in the range of power_of_2 */
     for (int m = order - ESTIMATES + 1; m <= order; m++) {
-        const dal_mask last = max_bits(x + m * DAL_DIM(s) + first, count);
+        const dal_mask last = max_bits(x + m * DAL_DIM(s) + first, units, count);
         log_size = dal_min(log_size, (num)((log_unit - logarithm(last)) * (1.0 / m)));
         largest = larger(largest, last);
     }
@@ -105,12 +114,14 @@ DAL_INLINE num next_size(const dal_step *s, const num *x)
 DAL_INLINE dal_mask satisfies(const dal_step *s, num h, const num *end, const num *field,
                               const num *rate, int first, int count)
 {
+    const double *units = units_from(s, first);
     num defect = dal_num(0.0), size = dal_num(1.0), nonfinite = dal_num(0.0);
-    for (int i = first; i < first + count; i++) {
-        const num of_i = dal_abs(h * (field[i] - rate[i]));
+    DAL_EACH(k, count) {
+        const int i = first + k;
+        const num of_i = dal_abs(h * (field[i] - rate[i])), moved = dal_abs(h * field[i]);
         nonfinite += of_i - of_i;
-        defect = dal_max(defect, of_i);
-        size = dal_max(size, dal_max(dal_abs(end[i]), dal_abs(h * field[i])));
+        defect = dal_max(defect, dal_in_units(of_i, units, k));
+        size = dal_max(size, dal_in_units(dal_max(dal_abs(end[i]), moved), units, k));
     }
     const double allowed = DEFECT_OF_TOLERANCE * DAL_TOLERANCE(s) + DEFECT_OF_ROUNDING;
     return dal_finite(nonfinite) & dal_less_equal(defect, allowed * size);

@@ -56,15 +56,19 @@ static bool is_same(const dal_run *run, const units *u, const dal_run *plain, in
 }
 
 /* The same bits, and as many evaluations, by a method in all units. */
-static void check_same(const char *text, const char *method, double h, long long steps)
+static void check_units(const char *text, const char *method, double h, long long steps,
+                        const dal_options *options, const units *list, int count)
 {
     dal_run_spec spec = spec_in_units(text, &one, method, h);
     const int n = spec.system->n;
+    if (options) spec.options.tolerance = options->tolerance, spec.options.solver = options->solver;
     dal_run *plain = fixture_stepped(&spec, steps);
-    for (int i = 0; i < OTHERS; i++) {
-        spec = spec_in_units(text, &others[i], method, h);
+    for (int i = 0; i < count; i++) {
+        spec = spec_in_units(text, &list[i], method, h);
+        if (options)
+            spec.options.tolerance = options->tolerance, spec.options.solver = options->solver;
         dal_run *run = fixture_stepped(&spec, steps);
-        if (!run || !is_same(run, &others[i], plain, n, 0.0)) {
+        if (!run || !is_same(run, &list[i], plain, n, 0.0)) {
             CU_FAIL("other bits in other units");
             printf("\n  %s in units %d", method, i + 1);
         }
@@ -72,6 +76,17 @@ static void check_same(const char *text, const char *method, double h, long long
         dal_run_free(run);
     }
     dal_run_free(plain);
+}
+
+static void check_same_with(const char *text, const char *method, double h, long long steps,
+                            const dal_options *options)
+{
+    check_units(text, method, h, steps, options, others, OTHERS);
+}
+
+static void check_same(const char *text, const char *method, double h, long long steps)
+{
+    check_same_with(text, method, h, steps, NULL);
 }
 
 /* A double pendulum, whose W is full. */
@@ -102,6 +117,73 @@ static void test_pivots(void)
 {
     static const char *const texts[] = {pendulum, crossed, triangle, partly, rolling};
     for (int i = 0; i < 5; i++) check_same(texts[i], "rk4", 0x1p-5, 100);
+}
+
+/* ---- norms ---- */
+
+/* D is 0 in all of the motion; two constraints of unlike size. */
+static const char unlike[] =
+    "coordinates: [x, y, z]\n"
+    "lagrangian: c*(3*(ux*x')^2 + (uy*y')^2 + 5*(uz*z')^2 - (sx*x)^2 - 2*sx*x*uy*y' - (sz*z)^2)/2\n"
+    "constraints: [d*(sy*y*ux*x' + uy*y' + uz*z'), 64*d*(ux*x' - sx*x*uz*z')]\n"
+    "start: {x: 1/sx, y: 0.125/sy, x': 1/ux, y': -1.125/uy, z': 1/uz}\n";
+
+/* Implicit equations end after as many iterations, at the same numbers. */
+static void test_solvers(void)
+{
+    static const char *const methods[] = {"gauss4",
+                                          "gauss8",
+                                          "symplectic-euler-11",
+                                          "lobatto6",
+                                          "rk4+project",
+                                          "rk4+project-energy",
+                                          "gauss4+symmetric-project",
+                                          "dla",
+                                          "gni",
+                                          "spark4",
+                                          "gauss-spark4",
+                                          "lobatto-nonholonomic4",
+                                          "mclachlan-perlmutter"};
+    static const char *const texts[] = {pendulum, crossed, triangle, partly};
+    dal_options newton = dal_options_default();
+    newton.solver = DAL_NEWTON;
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        check_same(rolling, methods[i], 0x1p-3, 30);
+        check_same(unlike, methods[i], 0x1p-3, 30);
+    }
+    for (int i = 0; i < 4; i++) check_same(texts[i], "gauss6", 0x1p-2, 30);
+    for (int i = 0; i < 4; i++) check_same_with(texts[i], "gauss6", 0x1p-2, 30, &newton);
+    for (int i = 0; i < 4; i++) check_same_with(texts[i], "implicit-midpoint", 0x1p-2, 30, &newton);
+}
+
+/* Substeps have the same sizes: the absolute part of a tolerance has the units of x.  With taylor
+ * they have where the time is the same, whose powers are in its coefficients. */
+static void test_tolerances(void)
+{
+    static const char *const texts[] = {pendulum, crossed, triangle, partly, rolling, unlike};
+    const units lengths = {{0x1p-30, 0x1p40, 0x1p3}, 1.0, 0x1p5, 0x1p-9};
+    dal_options options = dal_options_default();
+    for (int i = 0; i < 6; i++) {
+        options.tolerance = 1e-6;
+        check_same_with(texts[i], "dop853", 1.0, 8, &options);
+        options.tolerance = 1e-12;
+        check_same_with(texts[i], "dop853", 1.0, 8, &options);
+        check_units(texts[i], "taylor", 1.0, 8, &options, &lengths, 1);
+    }
+}
+
+/* A map of a step is as far from the identity. */
+static void test_reversibility(void)
+{
+    double plain = 0.0;
+    for (int i = -1; i < OTHERS; i++) {
+        const dal_run_spec spec = spec_in_units(unlike, i < 0 ? &one : &others[i], "rk4", 0x1p-2);
+        double defect = 0.0;
+        CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+        if (i < 0) plain = defect;
+        CU_ASSERT(defect > 1e-12 && defect < 1.0);
+        CU_ASSERT_EQUAL(defect, plain);
+    }
 }
 
 /* ---- starts ---- */
@@ -186,6 +268,9 @@ void suite_units(void)
 {
     CU_pSuite suite = CU_add_suite("units", NULL, NULL);
     CU_add_test(suite, "pivots", test_pivots);
+    CU_add_test(suite, "solvers", test_solvers);
+    CU_add_test(suite, "tolerances", test_tolerances);
+    CU_add_test(suite, "reversibility", test_reversibility);
     CU_add_test(suite, "tolerance of starts", test_start_tolerance);
     CU_add_test(suite, "consistent starts", test_consistent_starts);
     CU_add_test(suite, "exact solutions", test_exact_solutions);

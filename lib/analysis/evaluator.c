@@ -1,4 +1,5 @@
 /* evaluator.c - a system with its parameters in force and memory to evaluate it in. */
+#include "analysis/evaluator.h"
 #include "core/error.h"
 #include "core/solved.h"
 #include "dalembert_analysis.h"
@@ -44,6 +45,8 @@ dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *sys
 }
 
 void dal_evaluator_free(dal_evaluator *evaluator) { free(evaluator); }
+
+double *dal__evaluator_work(dal_evaluator *evaluator) { return evaluator->work; }
 
 const dal_system *dal_evaluator_system(const dal_evaluator *evaluator)
 {

@@ -9,13 +9,12 @@
  * All units are powers of two, so that no digit changes, and change with the units of the user as
  * the quantities do: whatever is found of the scaled system does not depend on those.
  *
- * 1/tau is the spectral radius of J = (0 1; F_q F_v) at the start, by power iteration after
- * balancing (Osborne 1960, DOI 10.1145/321043.321048); l_i the largest tau |v_i| or tau^2 |F_i| at
- * the beginning of the motion, or the length of equal kinetic energy, |q_i|, 1, the first that is
- * not 0.  d_a, c and g_k are the largest scales of D_a, E and I_k at points l_i, u_i about the
- * start. */
+ * tau and l_i are the time and the lengths of the motion near the start (core/sizes.h); d_a, c and
+ * g_k the largest scales of D_a, E and I_k at points l_i, u_i about the start. */
 #include "analysis/scaled.h"
+#include "analysis/evaluator.h"
 #include "core/error.h"
+#include "core/sizes.h"
 #include "core/vectors.h"
 #include <math.h>
 #include <stdbool.h>
@@ -219,6 +218,7 @@ static void make_system(dal_scaled *s)
     s->system.series = NULL;
     s->system.branches = NULL;
     s->system.picture = NULL;
+    s->system.units = NULL;
     s->system.events = 0;
     s->system.solved_velocities = 0;
     s->system.start = start;
@@ -234,174 +234,10 @@ static void make_system(dal_scaled *s)
 typedef struct survey {
     dal_scaled *s;
     dal_evaluator *evaluator; /* of the plain system */
-    double step;
-    double t, *x, *f;  /* [n + nw] the present point; [nw] F there */
-    double *mass;      /* [n] diagonal of W; 0 where it is unknown */
-    double *work;      /* as long as the longest output of a callback */
-    dal_status status; /* DAL_MEMORY: a unit could not be found */
+    dal__sizes sizes;         /* of the motion there */
+    double t, *x;             /* [n + nw + 1] the state */
+    double *work;             /* for a point and the scales of formulas */
 } survey;
-
-/* A power of two near x; 0, or 1 for what is not finite.  Numbers that are usual, as 1, sqrt(2) and
- * 2, are far from where it changes. */
-static double power_of_two(double x)
-{
-    static const double off_centre = 1.23;
-    int exponent;
-    if (!isfinite(x)) return 1.0;
-    frexp(off_centre * x, &exponent);
-    return x > 0.0 ? ldexp(0.5, exponent < -500 ? -500 : exponent > 500 ? 500 : exponent) : 0.0;
-}
-
-static bool field_at(const survey *w, double t, const double *x, double *f)
-{
-    const dal_system *p = w->s->plain;
-    return dal_evaluator_call(w->evaluator, p->call.field, t, x, x + p->n, NULL, f) == DAL_OK &&
-           isfinite(dal__max_abs(f, (size_t)w->s->nw));
-}
-
-/* W_ii = (E(u) + E(-u) - 2 E(0))/u^2 for a velocity u of one coordinate, so large that the kinetic
- * energy prevails. */
-static double kinetic_mass(const survey *w, int i)
-{
-    const dal_system *p = w->s->plain;
-    double *v = w->work, E[3];
-    for (double u = 0x1p-400; u < 0x1p400 && p->energy; u *= 0x1p10) {
-        for (int k = 0; k < 3; k++) {
-            memset(v, 0, (size_t)w->s->nw * sizeof *v);
-            v[i] = (k - 1) * u;
-            if (dal_evaluator_call(w->evaluator, p->energy, w->t, w->x, v, NULL, &E[k])) return 0.0;
-        }
-        const double mass = (E[0] - E[1]) + (E[2] - E[1]);
-        if (!isfinite(mass)) return 0.0;
-        if (fabs(mass) > 0x1p20 * fabs(E[1]) && mass / u / u != 0.0) return fabs(mass / u / u);
-    }
-    return 0.0;
-}
-
-/* The sums of |J_ij| and of |J_ji| over j != i. */
-static void off_diagonal_sums(const double *J, int size, int i, double *row, double *column)
-{
-    *row = *column = -fabs(J[i * size + i]);
-    for (int j = 0; j < size; j++) {
-        *row += fabs(J[i * size + j]);
-        *column += fabs(J[j * size + i]);
-    }
-}
-
-/* Scales J so that row i and column i are of one size, as far as they are coupled. */
-static void balance(double *J, int size)
-{
-    enum { SWEEPS = 40 };
-    for (int k = 0; k < SWEEPS * size; k++) {
-        const int i = k % size;
-        double row, column;
-        off_diagonal_sums(J, size, i, &row, &column);
-        const double factor = sqrt(column / row);
-        if (!(row > 0.0 && column > 0.0) || !isfinite(factor)) continue;
-        for (int j = 0; j < size; j++) J[i * size + j] *= factor;
-        for (int j = 0; j < size; j++) J[j * size + i] /= factor;
-    }
-}
-
-/* By power iteration: the mean growth of a vector, after it has found its directions. */
-static double spectral_radius(const double *J, int size, double *x, double *y)
-{
-    enum { ITERATIONS = 128, FIRST = 64 };
-    dal__random random = {11};
-    double growth = 0.0;
-    for (int i = 0; i < size; i++) x[i] = dal__uniform(&random);
-    for (int k = 0; k < ITERATIONS; k++) {
-        for (int i = 0; i < size; i++) y[i] = dal__dot_product(size, J + i * size, x);
-        const double before = dal__max_abs(x, (size_t)size), after = dal__max_abs(y, (size_t)size);
-        if (!(after > 0.0) || !isfinite(after)) return 0.0;
-        if (k >= FIRST) growth += log(after / before);
-        for (int i = 0; i < size; i++) x[i] = y[i] / after;
-    }
-    return exp(growth / (ITERATIONS - FIRST));
-}
-
-/* 0 where the system has no jacobian, or J is nilpotent. */
-static double rate_of_jacobian(survey *w)
-{
-    const dal_system *p = w->s->plain;
-    const int n = w->s->n, nw = w->s->nw, size = 2 * n;
-    double *F_q = dal__numbers(1, (size_t)(nw * (n + nw)) + (size_t)(size * size + 2 * size));
-    double rate = 0.0;
-    if (!F_q) w->status = DAL_MEMORY;
-    if (!F_q) return 0.0;
-    double *F_v = F_q + nw * n, *J = F_v + nw * nw, *x = J + size * size;
-    if (p->call.jacobian && dal_evaluator_call(w->evaluator, p->call.jacobian, w->t, w->x, w->x + n,
-                                               NULL, F_q) == DAL_OK) {
-        for (int i = 0; i < n; i++) {
-            J[i * size + n + i] = 1.0;
-            memcpy(J + (n + i) * size, F_q + i * n, (size_t)n * sizeof *J);
-            memcpy(J + (n + i) * size + n, F_v + i * nw, (size_t)n * sizeof *J);
-        }
-        balance(J, size);
-        rate = spectral_radius(J, size, x, x + size);
-    }
-    free(F_q);
-    return rate;
-}
-
-/* A spectral radius so far below the rate of the motion consists of roundings; near rest the rate
- * of the motion is no measure of time. */
-static const double negligible = 1e-6, near_rest = 4.0;
-
-static double time_unit(survey *w)
-{
-    const double radius = rate_of_jacobian(w);
-    double F = 0.0, v = 0.0; /* squares in the metric of the kinetic energy */
-    for (int i = 0; i < w->s->n; i++) {
-        F += w->mass[i] * w->f[i] * w->f[i];
-        v += w->mass[i] * w->x[w->s->n + i] * w->x[w->s->n + i];
-    }
-    const double motion = v > 0.0 ? sqrt(F / v) : 0.0;
-    const double rate =
-        radius > negligible * motion ? fmax(radius, fmin(motion, near_rest * radius)) : motion;
-    if (rate > 0.0) return power_of_two(1.0 / rate);
-    const double step = fabs(w->step);
-    return step > 0.0 && isfinite(step) ? power_of_two(10.0 * step) : 1.0;
-}
-
-/* Raises the lengths to what the beginning of the motion shows, by the explicit
- * midpoint rule; where F fails it ends. */
-static void follow_motion(survey *w, double tau, double *length)
-{
-    enum { STEPS = 4, STEPS_OF_TAU = 16 }; /* a quarter: it may become singular soon */
-    const int n = w->s->n, nw = w->s->nw;
-    const double h = copysign(tau / STEPS_OF_TAU, w->step);
-    double *x = w->work, *middle = x + n + nw, *f = middle + n + nw;
-    memcpy(x, w->x, (size_t)(n + nw) * sizeof *x);
-    for (int k = 0; k < STEPS && field_at(w, w->t + k * h, x, f); k++) {
-        for (int i = 0; i < n; i++)
-            length[i] = fmax(length[i], fmax(tau * fabs(x[n + i]), tau * tau * fabs(f[i])));
-        for (int i = 0; i < n; i++) middle[i] = x[i] + 0.5 * h * x[n + i];
-        for (int i = 0; i < nw; i++) middle[n + i] = x[n + i] + 0.5 * h * f[i];
-        if (!field_at(w, w->t + (k + 0.5) * h, middle, f)) break;
-        for (int i = 0; i < n; i++) x[i] += h * middle[n + i];
-        for (int i = 0; i < nw; i++) x[n + i] += h * f[i];
-    }
-}
-
-static void find_lengths(survey *w, double tau)
-{
-    static const double rounding = 1e-10; /* fraction of a length of equal energy */
-    dal_scaled *s = w->s;
-    double energy = 0.0;
-    follow_motion(w, tau, s->length);
-    for (int i = 0; i < s->n; i++)
-        if (isfinite(s->length[i])) energy = fmax(energy, w->mass[i] * s->length[i] * s->length[i]);
-    for (int i = 0; i < s->n; i++) {
-        const double likewise = w->mass[i] > 0.0 ? sqrt(energy / w->mass[i]) : 0.0;
-        if (s->length[i] < rounding * likewise) s->length[i] = 0.0; /* forces that cancel */
-        s->length[i] = power_of_two(s->length[i]);
-        if (s->length[i] == 0.0) s->length[i] = power_of_two(likewise);
-        if (s->length[i] == 0.0) s->length[i] = power_of_two(fabs(w->x[i]));
-        if (s->length[i] == 0.0) s->length[i] = 1.0;
-        s->speed[i] = s->length[i] / tau;
-    }
-}
 
 /* The units of D, E and invariants, from points about the start; unit[m + 1 + invariants]. */
 static void find_formula_units(survey *w, double *unit)
@@ -424,7 +260,7 @@ static void find_formula_units(survey *w, double *unit)
             if (isfinite(scale[i])) unit[i] = fmax(unit[i], scale[i]);
     }
     for (int i = 0; i < count; i++) {
-        unit[i] = power_of_two(unit[i]);
+        unit[i] = dal__near_power_of_two(unit[i]);
         if (unit[i] == 0.0) unit[i] = 1.0;
     }
 }
@@ -433,9 +269,11 @@ static void find_units(survey *w)
 {
     dal_scaled *s = w->s;
     const int n = s->n, m = s->m;
-    for (int i = 0; i < n; i++) w->mass[i] = kinetic_mass(w, i);
-    s->time = field_at(w, w->t, w->x, w->f) ? time_unit(w) : 1.0;
-    find_lengths(w, s->time);
+    s->time = w->sizes.time;
+    for (int i = 0; i < n; i++) {
+        s->length[i] = w->sizes.length[i];
+        s->speed[i] = s->length[i] / s->time;
+    }
     find_formula_units(w, s->constraint); /* then energy and invariants */
     s->energy = s->constraint[m];
     for (int a = 0; a < s->nw - n; a++) s->speed[n + a] = s->energy / s->constraint[a];
@@ -454,7 +292,8 @@ static dal_status make_scaled(dal_scaled **scaled, const dal_system *p, survey *
     const size_t n = (size_t)p->n, nw = n + (size_t)p->multipliers, m = (size_t)p->m;
     const size_t formulas = m + 1 + (size_t)p->invariants;
     const size_t numbers = 1 + n + nw + nw + formulas + n + nw + m + n + nw + 1;
-    double *block = dal__numbers(1, nw + n + 3 * (n + nw) + nw + formulas);
+    const size_t sizes = dal__sizes_memory(p);
+    double *block = dal__numbers(1, sizes + n + nw + formulas);
     dal_scaled *s = calloc(1, sizeof *s + numbers * sizeof(double));
     if (!s || !block) {
         free(block);
@@ -473,15 +312,14 @@ static dal_status make_scaled(dal_scaled **scaled, const dal_system *p, survey *
     s->per_constraint = s->per_speed + nw;
     s->start = s->per_constraint + m;
     w->s = s;
-    w->f = block;
-    w->mass = w->f + nw;
-    w->work = w->mass + n;
+    w->sizes.system = p;
+    w->sizes.work = dal__evaluator_work(w->evaluator);
+    w->sizes.t = w->t;
+    w->sizes.x = w->x;
+    w->work = block + sizes;
+    dal__find_sizes(&w->sizes, block);
     find_units(w);
     free(block);
-    if (w->status != DAL_OK) {
-        free(s);
-        return dal__fail(error, w->status, "out of memory");
-    }
     s->numbers[0] = s->time;
     make_system(s);
     *scaled = s;
@@ -495,7 +333,7 @@ dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_
     DAL_REQUIRE(spec, error);
     const dal_system *p = spec->system;
     DAL_REQUIRE(p, error);
-    survey w = {.step = spec->options.step, .t = spec->start_time};
+    survey w = {.sizes.step = spec->options.step, .t = spec->start_time};
     DAL_TRY(dal_evaluator_create(&w.evaluator, p, spec->parameters, spec->parameter_count, error));
     w.x = dal__numbers(1, (size_t)(2 * p->n + p->multipliers + 1));
     dal_status status = w.x ? DAL_OK : dal__fail(error, DAL_MEMORY, "out of memory");
@@ -537,7 +375,7 @@ dal_status dal_scaled_create_at(dal_scaled **scaled, const dal_run *run, dal_err
     DAL_REQUIRE(run, error);
     const dal_system *p = dal_run_system(run);
     const size_t x = (size_t)(2 * p->n + p->multipliers);
-    survey w = {.step = dal_run_step_size(run), .t = dal_run_time(run)};
+    survey w = {.sizes.step = dal_run_step_size(run), .t = dal_run_time(run)};
     DAL_TRY(evaluator_of_run(&w.evaluator, p, run, error));
     w.x = dal__numbers(1, (size_t)(2 * p->n + p->multipliers + 1));
     dal_status status = w.x ? DAL_OK : dal__fail(error, DAL_MEMORY, "out of memory");

@@ -55,6 +55,28 @@ static dal_status open_map(stepmap *m, const dal_run_spec *spec, double t, const
     return DAL_OK;
 }
 
+/* The unit of number i of the state by the units of the system; the products of canonical pairs
+ * are 1. */
+static double unit_of(const stepmap *m, int i)
+{
+    const dal_system *s = dal_run_system(m->run);
+    const int e = 2 * s->n, first_momentum = e + 1, pi_e = 4 * s->n + 1;
+    if (s->units == NULL) return 1.0;
+    if (m->dimension != 4 * s->n + 2 || i < e) return s->units[i];
+    return i == e || i == pi_e ? 1.0 : 1.0 / s->units[i - first_momentum];
+}
+
+/* max_i |a_i - b_i| / max(unit_i, |a_i|); infinite if one is NaN. */
+static double distance_in_units(const stepmap *m, const double *a, const double *b)
+{
+    double max = 0.0;
+    for (int i = 0; i < m->dimension; i++) {
+        const double part = fabs(a[i] - b[i]) / fmax(unit_of(m, i), fabs(a[i]));
+        max = part <= max ? max : isnan(part) ? INFINITY : part;
+    }
+    return max;
+}
+
 static void close_map(stepmap *m)
 {
     free(m->z);
@@ -69,16 +91,17 @@ static dal_status step_of(void *user, double *out)
     return step_from(m, m->t, m->z, out);
 }
 
-/* columns[j] = d(step)/dz_j. */
+/* columns[j] = d(step)/dz_j, in units of the system. */
 static dal_status differentiate_step(stepmap *m, double increment, double *columns, double *scratch)
 {
     const int n = dal_run_system(m->run)->n;
     for (int j = 0; j < m->dimension; j++) {
         /* The scale of a coordinate is the way of a step. */
         const double way = j < n ? dal_run_step_size(m->run) * m->z[n + j] : m->z[j];
-        const double d = increment * fmax(1.0, fabs(way));
+        const double unit = unit_of(m, j), d = increment * fmax(unit, fabs(way));
         double *out = columns + (size_t)j * (size_t)m->dimension;
         DAL_TRY(dal__differentiate_by(&m->z[j], step_of, m, d, m->dimension, scratch, out));
+        for (int i = 0; i < m->dimension; i++) out[i] *= unit / unit_of(m, i);
     }
     return DAL_OK;
 }
@@ -162,7 +185,7 @@ dal_status dal_check_reversibility(const dal_run_spec *spec, double t, const dou
     reverse_time(spec->system->n, m.dimension, sign, z);
     if (status == DAL_OK) status = step_from(&m, -dal_run_time(m.run), z, z);
     reverse_time(spec->system->n, m.dimension, sign, z);
-    if (status == DAL_OK) *defect = dal__distance(m.z, z, (size_t)m.dimension);
+    if (status == DAL_OK) *defect = distance_in_units(&m, m.z, z);
     close_map(&m);
     return status;
 }

@@ -111,6 +111,12 @@ static bool steps_together(const dal__generation *g)
            (method->properties & DAL_COMPONENTWISE || few_stages);
 }
 
+/* Whether steps compare numbers in units of the system. */
+static bool has_units(const dal__generation *g)
+{
+    return g->product != DAL__OBSERVE && (is_controlled(g) || g->kernel & DAL_KERNEL_SOLVE);
+}
+
 /* The kinds of elementary functions that the programs in the file call. */
 static unsigned calls_of_programs(const dal__generation *g)
 {
@@ -157,6 +163,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_CONTROL", dal__is_controlled(g)},
         {"DAL_WITH_TIMES", dal__has_times(g)},
         {"DAL_WITH_TRACE", g->product == DAL__TRACE},
+        {"DAL_WITH_UNITS", has_units(g)},
     };
     g->conditions = sizeof list / sizeof *list;
     memcpy(g->condition, list, sizeof list);
@@ -200,6 +207,37 @@ static void write_number(dal__generation *g, const char *name, double value)
     dal__buffer_print(&g->text, "#define %s ", name);
     dal__buffer_number(&g->text, value);
     dal__buffer_append(&g->text, "\n");
+}
+
+/* The units of the system as constants; a list that is not needed is NULL. */
+static void write_units(dal__generation *g)
+{
+    static const struct {
+        const char *name;
+        dal__unit_list list;
+        const char *constants;
+    } lists[] = {
+        {"DAL_UNITS", DAL__UNITS, "dal__units"},
+        {"DAL_SPEEDS", DAL__SPEEDS, "(dal__units + DAL_FIXED_N)"},
+        {"DAL_LEVELS", DAL__LEVELS, "(dal__units + DAL_FIXED_N + DAL_FIXED_NW)"},
+    };
+    const dal__layout *k = &g->layout;
+    bool is_used = false;
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        const bool has = dal__units(k, lists[i].list) != NULL;
+        dal__buffer_print(&g->text, "#define %s(s) %s\n", lists[i].name,
+                          has ? lists[i].constants : "((const double *)0)");
+        is_used |= has;
+    }
+    dal__buffer_print(&g->text, "#define DAL_FIXED_SPEEDS %d\n",
+                      dal__units(k, DAL__SPEEDS) != NULL);
+    if (!is_used) return;
+    dal__buffer_append(&g->text, "static const double dal__units[] __attribute__((unused)) = {");
+    for (int i = 0; i < k->n + k->nw + k->m + 1; i++) {
+        dal__buffer_append(&g->text, i == 0 ? "" : ", ");
+        dal__buffer_number(&g->text, k->system->units[i]);
+    }
+    dal__buffer_append(&g->text, "};\n");
 }
 
 static void write_constants(dal__generation *g)
@@ -369,6 +407,7 @@ void dal__write_steps(dal__generation *g)
     dal__write_compiler(g);
     dal__write_unrolling(g);
     write_constants(g);
+    if (has_units(g)) write_units(g);
     write_enums(g);
     write_callback_codes(g);
     dal__write_kernel(g);

@@ -92,12 +92,22 @@ DAL_INLINE void dal__subtract_row(num *m, int n, int i, int k, num factor)
     for (int j = 0; j < n; j++) m[i * n + j] -= factor * m[k * n + j];
 }
 
+/* Divides row i of a matrix by unit[i], a power of two; the units[period] repeat; NULL: 1. */
+DAL_INLINE void dal__scale_rows(num *m, int rows, int columns, const double *unit, int period)
+{
+    for (int i = 0; unit && i < rows; i++)
+        for (int j = 0; j < columns; j++) m[i * columns + j] *= 1.0 / unit[i % period];
+}
+
 /* inverse[n*n] of m[n*n], which is destroyed: Gauss-Jordan with partial pivoting in each lane.
+ * Rows are compared in units[period] that repeat, powers of two; NULL: all are the same.
  * A singular matrix leaves infinities or NaN.  The callers iterate a residual to stagnation, so
  * the inverse affects the rate of convergence, not the result. */
-DAL_SEPARATE void dal_invert(num *m, num *inverse, int n)
+DAL_SEPARATE void dal_invert_in_units(num *m, num *inverse, int n, const double *unit, int period)
 {
     for (int i = 0; i < n * n; i++) inverse[i] = dal_num(i % (n + 1) == 0);
+    dal__scale_rows(m, n, n, unit, period);
+    dal__scale_rows(inverse, n, n, unit, period);
     for (int k = 0; k < n; k++) {
         dal__pivot(m, inverse, n, k);
         const num scale = 1.0 / m[k * n + k];
@@ -112,6 +122,12 @@ DAL_SEPARATE void dal_invert(num *m, num *inverse, int n)
             dal__subtract_row(inverse, n, i, k, factor);
         }
     }
+}
+
+/* The same where the rows have one unit. */
+DAL_INLINE void dal_invert(num *m, num *inverse, int n)
+{
+    dal_invert_in_units(m, inverse, n, NULL, 1);
 }
 
 #endif

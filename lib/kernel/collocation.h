@@ -409,6 +409,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
     eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_NW(s) / DAL_STEP_GROUPS,
                                  dal__eigensystem(method) != NULL);
     eq.block[0].weight = eq.block[1].weight = fabs(s->h);
+    dal_set_speeds(s, &eq.block[0], DAL_NW(s));
     DAL_EACH(j, DAL_STEP_GROUPS) eq.block[0].scale[j] = dal_velocity_scale(s, s->h, j);
     if (DAL_LIFTED(s)) {
         dal__gauge_stages(s, &k);

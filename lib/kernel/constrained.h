@@ -25,13 +25,14 @@
 DAL_SHARED void dal_continuous_multipliers(dal_step *s, const num *blocks, num *h);
 
 #ifndef DAL_LINKED
-/* x = g^-1 rhs; g[size*size] is destroyed. */
-DAL_INLINE void dal_solve_small(num *g, num *inverse, int size, const num *rhs, num *x)
+/* x = g^-1 rhs; g[size*size], which has rows of all D again and again, is destroyed. */
+DAL_INLINE void dal_solve_small(const dal_step *s, num *g, num *inverse, int size, const num *rhs,
+                                num *x)
 {
     if (size == 1)
         inverse[0] = 1.0 / g[0];
     else
-        dal_invert(g, inverse, size);
+        dal_invert_in_units(g, inverse, size, DAL_LEVELS(s), DAL_M(s));
     dal_multiply(inverse, size, size, rhs, x);
 }
 
@@ -46,7 +47,7 @@ DAL_SHARED void dal_continuous_multipliers(dal_step *s, const num *blocks, num *
     dal_multiply(A, m, n, blocks + dal_blocks_a(s), rhs);
     DAL_EACH(i, m) rhs[i] = -(c[i] + rhs[i]);
     dal_gram(A, blocks + dal_blocks_B(s), m, n, g);
-    if (m > 0) dal_solve_small(g, inverse, m, rhs, h);
+    if (m > 0) dal_solve_small(s, g, inverse, m, rhs, h);
 }
 #endif
 
@@ -117,7 +118,7 @@ DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
         k->rhs[i] = sum;
     }
     dal_gram(A, k->directions, m, n, k->g);
-    dal_solve_small(k->g, k->inverse, m, k->rhs, k->fresh);
+    dal_solve_small(s, k->g, k->inverse, m, k->rhs, k->fresh);
     DAL_EACH(i, m) k->mu[i] = DAL_IF_ACTIVE(eq->active[0], k->fresh[i], k->mu[i]);
     DAL_EACH(i, n)
         DAL_EACH(j, m) image[i] += k->directions[i * m + j] * k->fresh[j];
@@ -133,7 +134,7 @@ DAL_INLINE void dal__project_matrix(dal_step *s, const num *blocks, int columns,
     DAL_VECTOR(s, across, DAL_M(s));
     DAL_VECTOR(s, x, DAL_M(s));
     dal_gram(A, B, m, n, g);
-    if (m > 0) dal_invert(g, inverse, m);
+    if (m > 0) dal_invert_in_units(g, inverse, m, DAL_LEVELS(s), m);
     for (int c = 0; c < columns; c++) {
         for (int i = 0; i < m; i++) {
             across[i] = dal_num(0.0);
@@ -184,6 +185,7 @@ DAL_INLINE dal_equation dal_velocity_equation(const dal_step *s, dal_block block
 {
     DAL_EQUATION(eq, 1, context, block);
     eq.cost = dal_cost_of_newton(s, 1, DAL_N(s), 0);
+    dal_set_speeds(s, &eq.block[0], DAL_N(s));
     eq.block[0].scale[0] = dal_velocity_scale(s, s->h, 0);
     DAL_EACH(i, block.size) eq.block[0].u[i] = dal_num(0.0);
     return eq;

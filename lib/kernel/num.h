@@ -31,6 +31,7 @@
 #define DAL_WITH_LIFT         1 /* the canonical variables */
 #define DAL_WITH_TANGENT      1 /* tangent vectors in their place */
 #define DAL_WITH_SOLVE        1 /* implicit equations */
+#define DAL_WITH_UNITS        1 /* units of the system: these, or a tolerance */
 #define DAL_WITH_METHOD_STATE 1 /* saved within a step */
 #define DAL_WITH_GAUGE        1 /* e changes */
 #define DAL_WITH_CONSTRAINT   1 /* the callback */
@@ -312,6 +313,15 @@ DAL_INLINE void dal__square_packs(const num *u, int count, num *part)
 #else
 #define dal__norm_packs(x, count, norm)           0
 #define dal__nonfinite_packs(x, count, nonfinite) 0
+#endif
+
+#if DAL_WITH_UNITS
+/* x/unit_i; unit NULL: 1. */
+DAL_INLINE num dal_in_units(num x, const double *unit, int i)
+{
+    if (!unit) return x;
+    return x / unit[i];
+}
 #endif
 
 #if DAL_WITH_SOLVE

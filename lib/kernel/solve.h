@@ -54,6 +54,8 @@ typedef struct dal_block {
     num *scratch;                       /* [3*size], Newton only */
     const dal_eigensystem *eigensystem; /* inverse holds the inverses of N_e; NULL: M^-1 */
     int stages;                         /* with an eigensystem */
+    const double *unit;                 /* [width] of the unknowns, again and again; NULL: equal */
+    int width;
 } dal_block;
 
 /* An implicit equation u = map(u), of one or two blocks. */
@@ -111,6 +113,8 @@ typedef void dal_matrix(dal_step *step, dal_equation *equation);
                       name##_inverse,                                                              \
                       name##_scratch,                                                              \
                       NULL,                                                                        \
+                      1,                                                                           \
+                      NULL,                                                                        \
                       1}
 
 /* Declares an equation of `count` blocks; where Newton's method may solve it, its cost is set. */
@@ -125,26 +129,54 @@ DAL_INLINE int dal__any_group(const dal_mask *lanes)
     return dal_any(some);
 }
 
-/* The max norm over group j. */
-DAL_INLINE num dal__group_norm(const num *x, int count, int j)
+/* The units of a block.  Compilers see in files without units that there are none. */
+#ifdef DAL_SPECIALISED
+#define DAL_BLOCK_UNIT(b) (DAL_FIXED_SPEEDS ? (b)->unit : NULL)
+#else
+#define DAL_BLOCK_UNIT(b) ((b)->unit)
+#endif
+
+/* The max norm over group j, in units[width] that repeat; NULL: 1. */
+DAL_INLINE num dal__group_norm(const num *x, int count, const double *unit, int width, int j)
 {
-    if (DAL_STEP_GROUPS == 1) return dal_max_norm(x, count);
+    if (DAL_STEP_GROUPS == 1 && !unit) return dal_max_norm(x, count);
+    const int all = count / DAL_STEP_GROUPS, period = unit ? width : all;
     num norm = dal_num(0.0);
-    DAL_EACH(i, count / DAL_STEP_GROUPS) norm = dal_max(norm, dal_abs(x[i * DAL_STEP_GROUPS + j]));
+    for (int first = 0; first < all; first += period)
+        DAL_EACH(i, period)
+            norm =
+                dal_max(norm, dal_abs(dal_in_units(x[(first + i) * DAL_STEP_GROUPS + j], unit, i)));
     return norm;
+}
+DAL_INLINE num dal__block_norm(const dal_block *b, const num *x, int j)
+{
+    return dal__group_norm(x, DAL_SIZE(b), DAL_BLOCK_UNIT(b), b->width, j);
 }
 
 /* Sizes of a group's state for blocks that move v or pi, with the effect of rounding in q or p
  * within a step that contracts. */
 DAL_INLINE num dal_velocity_scale(const dal_step *s, double h, int group)
 {
-    return dal__group_norm(s->y + DAL_N(s), DAL_NW(s), group) +
-           dal__group_norm(s->y, DAL_N(s), group) / dal_num(fabs(h));
+    const double *unit = DAL_SPEEDS(s);
+    const int n = DAL_N(s), nw = DAL_NW(s);
+    return dal__group_norm(s->y + n, nw, unit, nw / DAL_STEP_GROUPS, group) +
+           dal__group_norm(s->y, n, unit, n / DAL_STEP_GROUPS, group) / dal_num(fabs(h));
+}
+/* The max norm of a velocity of all lanes, v[n]. */
+DAL_INLINE num dal_speed_norm(const dal_step *s, const num *v)
+{
+    return dal__group_norm(v, DAL_N(s), DAL_SPEEDS(s), DAL_N(s), 0);
+}
+/* Declares the unknowns of a block velocities, or their rates, of count numbers each stage. */
+DAL_INLINE void dal_set_speeds(const dal_step *s, dal_block *b, int count)
+{
+    b->unit = DAL_SPEEDS(s);
+    b->width = count / DAL_STEP_GROUPS;
 }
 DAL_INLINE num dal_momentum_scale(const dal_step *s, double h, int group)
 {
-    return dal__group_norm(s->y + dal_at_pi(s), DAL_N(s), group) +
-           fabs(h) * dal__group_norm(s->y + dal_at_p(s), DAL_N(s), group);
+    return dal__group_norm(s->y + dal_at_pi(s), DAL_N(s), NULL, 1, group) +
+           fabs(h) * dal__group_norm(s->y + dal_at_p(s), DAL_N(s), NULL, 1, group);
 }
 
 #define dal_solve DAL_WIDE(dal_solve)
@@ -210,6 +242,8 @@ DAL_INLINE void dal__advance(const dal_step *s, dal_block *b, const dal_mask *ac
         nonfinite[j] += d - d;
         u[i] = dal_select(active[j], u[i] + d, u[i]);
     }
+    if (DAL_BLOCK_UNIT(b) != NULL)
+        DAL_EACH(j, DAL_STEP_GROUPS) norm[j] = dal__block_norm(b, b->image, j);
     DAL_EACH(j, DAL_STEP_GROUPS) {
         b->before[j] = b->now[j];
         b->now[j] = b->weight * norm[j] + nonfinite[j];
@@ -218,7 +252,7 @@ DAL_INLINE void dal__advance(const dal_step *s, dal_block *b, const dal_mask *ac
 
 DAL_INLINE num dal__size(const dal_block *b, int j)
 {
-    return b->scale[j] + b->weight * dal__group_norm(b->u, DAL_SIZE(b), j);
+    return b->scale[j] + b->weight * dal__block_norm(b, b->u, j);
 }
 
 /* Lanes where an increment is zero, or small enough after several iterations. */
@@ -442,6 +476,7 @@ DAL_INLINE void dal__eigen_inverse(dal_step *s, const dal_stage_matrix *k, const
                                    num *m, num *inverse)
 {
     const int width = DAL_NW(s) / DAL_STEP_GROUPS;
+    const double *unit = k->transposed ? NULL : DAL_SPEEDS(s);
     for (int e = 0; e < (DAL_STAGES(k) + 1) / 2; e++) {
         const double *value = k->eigensystem->value + 2 * e;
         const double re = k->z * value[0], im = k->z * value[1];
@@ -456,10 +491,12 @@ DAL_INLINE void dal__eigen_inverse(dal_step *s, const dal_stage_matrix *k, const
             x[width + j] = dal_num(i == j);
             y[width + j] = dal_num(0.0);
         }
-        if (real)
-            dal_invert(m, from, width);
-        else
-            dal_invert_complex(m, from, width);
+        if (real) {
+            dal_invert_in_units(m, from, width, unit, width);
+            continue;
+        }
+        dal__scale_rows(m, width, row, unit, width);
+        dal_invert_complex(m, from, width);
     }
 }
 
@@ -483,7 +520,7 @@ DAL_SHARED void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const 
                                   k->z * k->a[stage], k->z * k->z * k->a2[stage]);
         }
     }
-    dal_invert(m, inverse, size);
+    dal_invert_in_units(m, inverse, size, k->transposed ? NULL : DAL_SPEEDS(s), width);
 }
 #endif
 

@@ -157,7 +157,7 @@ DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
     dal__spark_stages(s, k, image);
     if (m == 0) return;
     dal__spark_equations(s, k, K, image);
-    dal_solve_small(k->matrix, k->inverse, count * m, k->rhs, k->L);
+    dal_solve_small(s, k->matrix, k->inverse, count * m, k->rhs, k->L);
     for (int i = 0; i < count; i++) {
         const num *B = k->blocks + (i + first) * DAL_BLOCKS_SIZE(s) + dal_blocks_B(s);
         for (int c = 0; c < n; c++)
@@ -228,6 +228,7 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
     DAL_EQUATION(eq, 1, &k, block);
     eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_N(s), 0);
     eq.block[0].weight = fabs(s->h);
+    dal_set_speeds(s, &eq.block[0], DAL_N(s));
     eq.block[0].scale[0] = dal_velocity_scale(s, s->h, 0);
     dal__product(DAL_STAGES(method), method->a, method->ahat, product);
     dal__spark_begin(s, &k, &eq);

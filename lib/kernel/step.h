@@ -109,6 +109,9 @@ enum { DAL_STEP_GROUPS = 1 };
 #define DAL_SERIES(s)                 ((s)->series_count)
 #define DAL_TAYLOR_ORDER(s)           ((s)->taylor_order)
 #define DAL_TOLERANCE_ROOT(s)         ((s)->tolerance_root)
+#define DAL_UNITS(s)                  ((s)->units)  /* [n + nw] of q, v, g; NULL: 1 */
+#define DAL_SPEEDS(s)                 ((s)->speeds) /* [nw] of v, g; NULL: all are the same */
+#define DAL_LEVELS(s)                 ((s)->levels) /* [m + 1] of D, E; NULL: likewise */
 
 #endif
 
@@ -156,6 +159,7 @@ struct dal_step {
     int guards;                                /* of the system */
     int rank_checked;                          /* 1: steps are subject to the rank check */
     double tolerance;                          /* of substeps, 0: no substeps */
+    const double *units, *speeds, *levels;     /* of the system; NULL as in the macros */
 
     num *scratch; /* bump allocator, see dal_scratch */
     size_t used, capacity;

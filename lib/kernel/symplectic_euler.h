@@ -119,6 +119,7 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
     DAL_EQUATION(eq, 1, k, block);
     eq.cost = dal_cost_of_newton(s, 1, DAL_NW(s), 0);
     if (k->at.v) {
+        dal_set_speeds(s, &eq.block[0], nw);
         eq.block[0].scale[0] = dal_velocity_scale(s, k->h, 0);
         DAL_EACH(i, nw) eq.block[0].u[i] = s->y[n + i];
         if (dal_failed(dal_solve(s, &eq, dal__euler_map_v, dal__euler_matrix)))

@@ -18,6 +18,7 @@
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/model.h"
+#include "model/units.h"
 #include <math.h>
 
 enum { VARYING = 1, TOUCHED = 2, PRESENT = 4 };
@@ -168,9 +169,10 @@ static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
     if (p->updates > e->graph->limit) return DAL_TOO_LARGE;
     if (f->singular < 0) return DAL_OK;
     const double golden = 0.6180339887498949;
+    DAL_TRY(dal__model_units(model, point));
     for (int i = 0; i < e->symbols; i++) {
-        point[i] = e->value[i];
-        if (i >= e->parameters) point[i] += 0.125 + 0.5 * fmod((i + 1) * golden, 1.0);
+        const double moved = point[i] * (0.125 + 0.5 * fmod((i + 1) * golden, 1.0));
+        point[i] = e->value[i] + (i >= e->parameters ? moved : 0.0);
     }
     evaluate(p, e, f->matrix, point);
     f->singular = order(p, e->graph->limit);

@@ -78,6 +78,7 @@ struct dal_model {
     bool made, tangent_made;
     dal__programs programs, tangent_programs, extended_programs;
     dal__terms *terms, *reaction_terms; /* of D, E, invariants; of h, R; NULL: not made */
+    double *units;                      /* of the system, see dal_system */
     dal_system system, tangent, extended;
 };
 

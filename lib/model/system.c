@@ -11,6 +11,7 @@
 #include "model/motion.h"
 #include "model/programs.h"
 #include "model/properties.h"
+#include "model/units.h"
 
 /* ---- programs ---- */
 
@@ -144,9 +145,13 @@ static const char *text_of(const dal_model *model, dal_section section)
     return entry ? entry->text : NULL;
 }
 
-static void describe(dal_model *model)
+static dal_status describe(dal_model *model)
 {
     const dal__equations *e = &model->equations;
+    const int units = 2 * e->n + e->multipliers + e->m + 1;
+    model->units = dal__model_allocate(model, (size_t)units, sizeof *model->units);
+    if (!model->units) return DAL_MEMORY;
+    for (int i = 0; i < units; i++) model->units[i] = 1.0;
     model->system = (dal_system){
         .name = model->name,
         .title = text_of(model, DAL_SECTION_TITLE),
@@ -173,7 +178,9 @@ static void describe(dal_model *model)
         .events = e->events,
         .event = e->event,
         .table = e->table_name,
+        .units = model->units,
     };
+    return DAL_OK;
 }
 
 /* The last program of the system and of the extended one. */
@@ -252,7 +259,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_OK) status = dal__properties(model);
     if (status == DAL_OK) status = dal__conserved_energy(model);
     if (status == DAL_OK) status = dal__potential(model);
-    if (status == DAL_OK) describe(model);
+    if (status == DAL_OK) status = describe(model);
     if (status == DAL_OK) status = add_programs(model, &model->programs, model->equations.F);
     if (status == DAL_OK) status = add_reactions(model, &model->programs);
     if (status == DAL_OK && model->equations.extended)
@@ -262,6 +269,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_OK) status = add_invariants(model);
     if (status == DAL_OK) status = add_terms(model);
     if (status == DAL_OK) status = finish_programs(model, &model->programs, &model->system);
+    if (status == DAL_OK) status = dal__system_units(model, &model->system, model->units);
     if (status == DAL_OK) status = make_extended(model);
     if (status != DAL_OK) return dal__size_error(status, error);
     model->made = true;

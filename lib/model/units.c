@@ -1,13 +1,25 @@
 /* units.c - the sizes of the symbols of a model near its start, as powers of two.
  *
+ * For points at which formulas are compared:
+ *
  *     v_i   |v_i|, or that of equal energy: W_ii v_i^2 = max_j W_jj v_j^2, or S(L) at rest
  *     q_i   |q_i|, or the smallest at which S of L, a D or a force grows by a part
  *     t     |t|, or likewise              g_a   S(L)/S(D_a)
  *
  * S(f) is the size of the terms of f (expr/terms.h).  What begins at 0 and changes nothing has the
  * unit 1.  All change with the units of the user as the symbols do: points at distances of theirs
- * are the same in all units.  lib/analysis/scaled.c knows the motion, and has better ones. */
+ * are the same in all units.
+ *
+ * For runs, where the motion is known (core/sizes.h):
+ *
+ *     l_i = r_i max_j l'_j/r_j        l' the lengths of the motion, r_i = sqrt(W_11/W_ii)
+ *     u_i = l_i/tau                   g_a, D_a, E: as above, S(L)/S(D_a), S(D_a), S(L)
+ *
+ * So coordinates of equal inertia have equal units, whatever they do near the start; l'_i is taken
+ * of coordinates without inertia, and of given accelerations. */
 #include "model/units.h"
+#include "core/sizes.h"
+#include "core/solved.h"
 #include "core/vectors.h"
 #include "expr/terms.h"
 #include "expr/traversal.h"
@@ -86,7 +98,8 @@ static void find_others(const survey *s)
     }
 }
 
-dal_status dal__model_units(dal_model *model, double *unit)
+/* levels[m + 1]: the units of D_a and of E; may be NULL. */
+static dal_status find_symbols(dal_model *model, double *unit, double *levels)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
@@ -108,8 +121,99 @@ dal_status dal__model_units(dal_model *model, double *unit)
         find_speeds(&s);
         s.moved = s.scale + s.formulas;
         find_others(&s);
+        for (int a = 0; levels && a <= m; a++) {
+            const double level = dal__near_power_of_two(s.scale[a < m ? 1 + a : 0]);
+            levels[a] = level > 0.0 ? level : 1.0;
+        }
     }
     dal__terms_free(s.terms);
     model->out_of_memory |= !s.memory;
     return s.memory ? DAL_OK : DAL_MEMORY;
+}
+
+dal_status dal__model_units(dal_model *model, double *unit)
+{
+    return find_symbols(model, unit, NULL);
+}
+
+/* ---- units of runs ---- */
+
+/* ratio[n]: sqrt(W_jj/W_ii), a power of two, with j the first coordinate that has an inertia; 0 for
+ * those that have none.  1/2 and 1 give the same. */
+static void find_ratios(const dal__equations *e, double *ratio)
+{
+    static const double off_centre = 1.4;
+    double first = 0.0;
+    for (int i = 0; i < e->n; i++) {
+        const double mass = fabs(dal__evaluate(e->graph, e->W[i * e->n + i], e->value));
+        int exponent;
+        ratio[i] = 0.0;
+        if (e->accelerations || !(mass > 0.0) || !isfinite(mass)) continue;
+        if (first == 0.0) first = mass;
+        frexp(off_centre * (first / mass), &exponent);
+        ratio[i] = ldexp(1.0, (exponent - (exponent & 1)) / 2);
+    }
+}
+
+/* The step gives the unit of time of a free motion. */
+static double default_step(const dal_model *model)
+{
+    const dal__entry *entry;
+    double step = 0.0;
+    for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_DEFAULTS, k)) != NULL; k++)
+        if (strcmp(entry->name, "step") == 0)
+            dal_parse_number(entry->text, strlen(entry->text), &step);
+    return step;
+}
+
+/* x[2n + multipliers + 1]: the default start, with velocities solved from D = 0 where they can be;
+ * memory[dal__solve_size]. */
+static bool find_start(const dal_system *s, double *x, double *work, double *memory)
+{
+    const size_t nw = (size_t)(s->n + s->multipliers);
+    const dal_point at = {.work = work};
+    if (s->prepare && s->prepare(s, &at, NULL) != DAL_OK) return false;
+    if (s->start(s, &at, x) != DAL_OK) return false;
+    if (s->solved_velocities == 0) return true;
+    double *const guess = memory + dal__solve_size(s);
+    memcpy(guess, x + s->n, nw * sizeof *x);
+    if (dal__solve_velocities(s, 0.0, x, x + s->n, work, memory, NULL) != DAL_OK)
+        memcpy(x + s->n, guess, nw * sizeof *x);
+    return true;
+}
+
+static void find_lengths(const dal__sizes *sizes, const double *ratio, double *units)
+{
+    const int n = sizes->system->n;
+    double length = 0.0;
+    for (int i = 0; i < n; i++)
+        if (ratio[i] > 0.0) length = fmax(length, sizes->length[i] / ratio[i]);
+    for (int i = 0; i < n; i++) {
+        units[i] = ratio[i] > 0.0 ? length * ratio[i] : sizes->length[i];
+        units[n + i] = units[i] / sizes->time;
+    }
+}
+
+dal_status dal__system_units(dal_model *model, const dal_system *system, double *units)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, nw = n + e->multipliers, symbols = e->symbols;
+    const size_t numbers = (size_t)(symbols + n + (2 * n + e->multipliers + 1)) +
+                           system->workspace + dal__sizes_memory(system) + dal__solve_size(system) +
+                           (size_t)nw;
+    double *unit = calloc(numbers, sizeof *unit);
+    if (!unit) return DAL_MEMORY;
+    double *ratio = unit + symbols, *x = ratio + n, *work = x + 2 * n + e->multipliers + 1;
+    double *memory = work + system->workspace;
+    memcpy(work, system->value, (size_t)system->parameters * sizeof *work);
+    const dal_status status = find_symbols(model, unit, units + n + nw);
+    find_ratios(e, ratio);
+    if (status == DAL_OK && find_start(system, x, work, memory)) {
+        dal__sizes sizes = {.system = system, .work = work, .step = default_step(model), .x = x};
+        dal__find_sizes(&sizes, memory);
+        find_lengths(&sizes, ratio, units);
+    }
+    for (int a = 0; a < e->multipliers; a++) units[2 * n + a] = unit[e->g + a];
+    free(unit);
+    return status == DAL_OK ? e->graph->status : status;
 }

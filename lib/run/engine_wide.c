@@ -190,6 +190,9 @@ static void prepare_step(engine *e)
     s->rank_checked = dal__checks_rank(k->system);
     s->pivot_count = k->pivots;
     s->tolerance = k->options.tolerance;
+    s->units = dal__units(k, DAL__UNITS);
+    s->speeds = dal__units(k, DAL__SPEEDS);
+    s->levels = dal__units(k, DAL__LEVELS);
     s->capacity = k->scratch;
     place_method_state(e);
     s->layer = e->layer;

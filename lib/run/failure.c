@@ -3,13 +3,24 @@
 #include "run/failure.h"
 #include <dalembert_kernel.h>
 
+/* max |x_i| of numbers of (q, v, g) from first on, in units of the system. */
+static double max_in_units(const dal__layout *k, const double *x, int first, int count)
+{
+    const double *const units = dal__units(k, DAL__UNITS);
+    double max = 0.0;
+    for (int i = 0; i < count; i++)
+        max = dal_max(max, dal_abs(dal_in_units(x[i], units, first + i)));
+    return max;
+}
+
 /* Whether the point is far away, in the iteration or in the whole run: then the overflow says
  * nothing about the system. */
 static bool is_far_away(const dal_run *run, const dal__failure *failure)
 {
     const dal__layout *k = &run->layout;
-    const double far = fmin(1e8 * (1.0 + dal_max_norm(run->persistent, k->n + k->nw)), 1e60);
-    return dal_max_norm(failure->q, k->n) > far || dal_max_norm(failure->v, k->nw) > far;
+    const double far = fmin(1e8 * (1.0 + max_in_units(k, run->persistent, 0, k->n + k->nw)), 1e60);
+    return max_in_units(k, failure->q, 0, k->n) > far ||
+           max_in_units(k, failure->v, k->n, k->nw) > far;
 }
 
 /* The reason that the system gives for the point; DAL_OK: none. */

@@ -362,6 +362,16 @@ static dal_status measure(dal__layout *k, dal_error *error)
     return DAL_OK;
 }
 
+const double *dal__units(const dal__layout *k, dal__unit_list list)
+{
+    const double *const units = k->system->units;
+    const int first = list == DAL__UNITS ? 0 : list == DAL__SPEEDS ? k->n : k->n + k->nw;
+    const int end = list == DAL__LEVELS ? k->n + k->nw + k->m + 1 : k->n + k->nw;
+    for (int i = first; units && i < end; i++)
+        if (units[i] != (list == DAL__UNITS ? 1.0 : units[first])) return units + first;
+    return NULL;
+}
+
 /* Operations of callbacks that say nothing of them: F has some ten a component. */
 static void guess_operations(dal__layout *k)
 {

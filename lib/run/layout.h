@@ -64,6 +64,11 @@ static inline bool dal__is_possible(const dal__layout *k, size_t i, double x)
     return isfinite(x) || (k->lifted && i == 2 * (size_t)k->n && isinf(x));
 }
 
+/* The units of a system: of q, v and g, where one is not 1; of v and g, and of D and E, where they
+ * differ among each other.  Else NULL. */
+typedef enum dal__unit_list { DAL__UNITS, DAL__SPEEDS, DAL__LEVELS } dal__unit_list;
+const double *dal__units(const dal__layout *layout, dal__unit_list list);
+
 /* Checks a spec and computes its layout; errors as dal_run_init. */
 dal_status dal__layout_init(dal__layout *layout, const dal_run_spec *spec, dal_error *error);
 

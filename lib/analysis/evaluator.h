@@ -1,0 +1,10 @@
+/* evaluator.h - the inside of an evaluator, for functions that evaluate a system by themselves. */
+#ifndef DAL_ANALYSIS_EVALUATOR_H
+#define DAL_ANALYSIS_EVALUATOR_H
+
+#include "dalembert_analysis.h"
+
+/* The workspace of an evaluator, [workspace], with its parameters. */
+double *dal__evaluator_work(dal_evaluator *evaluator);
+
+#endif
