@@ -238,8 +238,8 @@ struct dal_system {
     dal_scale_callback *reaction_scales; /* out[m + n]: of h and R = B^T h; NULL: likewise */
     size_t scale_memory;                 /* doubles that these two need */
     const double *units; /* [n + nw + m + 1] how large each q, v, g, D and E is, powers of two: a
-                            tolerance is relative to |x| plus that of q and v, equations are solved
-                            and pivots chosen in units of v, D and E; NULL: all are 1 */
+                            tolerance is relative to |x| plus the unit of q and v, equations are
+                            solved and pivots chosen in units of v, D and E; NULL: all are 1 */
     dal_callback *projection;   /* out[m + 2*m*n]: D, A, W(q,u)^-1 A^T, u being at->pi; NULL: W does
                                  not depend on v, call.constraint gives the same */
     dal_callback *exact;        /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */

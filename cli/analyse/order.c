@@ -140,11 +140,6 @@ static int list_steps(order_study *s)
     return CLI_DONE;
 }
 
-long long order_count_steps(const order_study *s, double h)
-{
-    return dal_whole_steps(s->request->from, s->request->time, h);
-}
-
 /* ---- runs ---------------------------------------------------------------------------------- */
 
 typedef struct run_cost {
@@ -273,13 +268,6 @@ static int make_reference(order_study *s)
                                      : cli_error(cli_exit(status), "reference", &error);
 }
 
-dal_choice order_space(const order_study *s, const order_method *m)
-{
-    const bool has_lift = !(dal_method_needs(&m->method) & DAL_NEEDS_BLOCKS);
-    return has_lift || request_has(s->request, REQUEST_space) ? s->spec.options.space
-                                                              : DAL_PHYSICAL;
-}
-
 /* Method i / levels at one of the steps, the smallest, which takes longest, first. */
 static void run_level(void *user, int i)
 {
@@ -338,18 +326,6 @@ static void print_cell(const char *format, int width, double x)
     snprintf(text, sizeof text, format, x);
     printf(" %*s", width, isnan(x) ? "-" : text);
 }
-
-/* The reason of the first failure. */
-const char *order_failure_message(const order_study *s, const order_method *m)
-{
-    for (int i = 0; i < s->levels; i++)
-        if (m->failure[i].status != DAL_OK) return m->failure[i].message;
-    return "";
-}
-
-#define OUTCOME_WORD(code, word) word,
-const char *const order_outcome_words[] = {DAL_ORDER_OUTCOME_LIST(OUTCOME_WORD)};
-#undef OUTCOME_WORD
 
 /* What words instead of an order mean. */
 static void print_outcomes(const order_study *s)

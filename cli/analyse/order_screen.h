@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_ORDER_SCREEN_H
 #define DAL_CLI_ORDER_SCREEN_H
 
-#include "order.h"
+#include "order_study.h"
 
 /* Prints the first methods, those that failed or were refused, and the method of the least time.
  * Returns CLI_DONE, or prints and returns CLI_IO. */

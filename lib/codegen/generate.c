@@ -114,7 +114,7 @@ static bool steps_together(const dal__generation *g)
 /* Whether steps compare numbers in units of the system. */
 static bool has_units(const dal__generation *g)
 {
-    return g->product != DAL__OBSERVE && (is_controlled(g) || g->kernel & DAL_KERNEL_SOLVE);
+    return g->product != DAL__OBSERVE && (dal__is_controlled(g) || g->kernel & DAL_KERNEL_SOLVE);
 }
 
 /* The kinds of elementary functions that the programs in the file call. */

@@ -115,7 +115,7 @@ enum { DAL_STEP_GROUPS = 1 };
 
 #endif
 
-/* The state of a step: numbers of its own in a generated file, elsewhere those of an engine. */
+/* The state of a step: numbers of its own in a generated file, elsewhere in an engine. */
 #ifdef DAL_SPECIALISED
 #define DAL__NUMBERS(name, count) name[DAL__AT_LEAST_ONE(count) * DAL_STEP_GROUPS]
 #else

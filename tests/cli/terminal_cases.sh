@@ -196,7 +196,7 @@ if needs 7 "no terminal (script, stty)" terminal; then
     prints '^  appell-hamel, '
     counted
 fi
-case_is "order: the space is that of run"
+case_is "order: the space is the default of run"
 try 0 order chaplygin-sleigh --integrators rk4,gni --json
 expect "another space" grep -q '^    "space": "lifted",$' out
 try 0 order chaplygin-sleigh --integrators rk4,gni

@@ -1,0 +1,25 @@
+/* order_study.c - what orders are measured of. */
+#include "order_study.h"
+
+#define OUTCOME_WORD(code, word) word,
+const char *const order_outcome_words[] = {DAL_ORDER_OUTCOME_LIST(OUTCOME_WORD)};
+#undef OUTCOME_WORD
+
+long long order_count_steps(const order_study *s, double h)
+{
+    return dal_whole_steps(s->request->from, s->request->time, h);
+}
+
+const char *order_failure_message(const order_study *s, const order_method *m)
+{
+    for (int i = 0; i < s->levels; i++)
+        if (m->failure[i].status != DAL_OK) return m->failure[i].message;
+    return "";
+}
+
+dal_choice order_space(const order_study *s, const order_method *m)
+{
+    const bool has_lift = !(dal_method_needs(&m->method) & DAL_NEEDS_BLOCKS);
+    return has_lift || request_has(s->request, REQUEST_space) ? s->spec.options.space
+                                                              : DAL_PHYSICAL;
+}
