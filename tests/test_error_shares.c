@@ -423,9 +423,9 @@ static void test_descriptions(void)
               "what quad precision leaves does not fall by 2^4 when the step is halved");
     m.a.share[DAL_SOURCE_COEFFICIENTS] = 0.0;
     m.a.order = NAN;
-    DESCRIBES(TRUNCATION, "in quad precision nothing of it is left when the step is halved");
+    DESCRIBES(TRUNCATION, "in quad precision nothing of it remains when the step is halved");
     m.a.vanishes_in_quad = 1;
-    DESCRIBES(TRUNCATION, "in quad precision nothing of it is left");
+    DESCRIBES(TRUNCATION, "in quad precision nothing of it remains");
     give_branches(&m);
     DESCRIBES(BRANCHES, "truncation falls as in smooth equations");
     m.a.order = 1.0, m.a.share[DAL_SOURCE_BRANCHES] = 0.5;

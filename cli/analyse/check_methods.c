@@ -95,7 +95,7 @@ static void examine_methods(check *c)
 {
     dal_constraint_class d;
     const dal_integrator *k;
-    if (dal_classify_constraints(c->evaluator, &c->origin, &d, NULL) != DAL_OK)
+    if (!cli_is_ok(dal_classify_constraints(c->evaluator, &c->origin, &d, NULL)))
         d = (dal_constraint_class){.linear = 0};
     while ((k = dal_integrator_at(c->methods))) {
         dal_error error = {.message = ""};

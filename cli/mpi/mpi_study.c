@@ -187,6 +187,7 @@ int mpi_study_run(const mpi_request *request)
     study_plan_add_steps(&plan);
     plan.interval = request->interval;
     plan.native = request->native;
+    plan.shows_matrices = true; /* mpirun gives a rank a terminal, wherever its own output goes */
     status = mpi_max_status(status);
     if (status == CLI_DONE) {
         cli_catch_signals();

@@ -154,7 +154,9 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
     value[e->t] = at->t;
     memcpy(value + e->q, at->q, n * sizeof *value);
     memcpy(value + e->v, at->v, n * sizeof *value);
-    if (!fill_matrices(&k, e, value, units ? units : ones))
+    const bool is_finite = fill_matrices(&k, e, value, units ? units : ones);
+    if (e->graph->status == DAL_MEMORY) return dal__memory_error(error);
+    if (!is_finite)
         return dal__fail(error, DAL_NOT_FINITE, "A or W is not finite at t = %.17g", at->t);
     find_ranks(&k, out);
     return DAL_OK;
@@ -394,8 +396,9 @@ dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int
     d.basis = dal__model_allocate(model, POINTS * dim * dim, sizeof *d.basis);
     d.point = dal__model_allocate(model, POINTS * symbols, sizeof *d.point);
     if (model->out_of_memory) return DAL_MEMORY;
-    DAL_TRY(make_matrix(&d, A, value, units ? units : ones, error));
-    const dal_status status = make_fields(&d, A, x);
+    dal_status status = make_matrix(&d, A, value, units ? units : ones, error);
+    if (status == DAL_OK) status = make_fields(&d, A, x);
+    if (e->graph->status == DAL_MEMORY) return dal__memory_error(error);
     if (status == DAL_SINGULAR)
         return dal__fail(error, status, "the constraints are dependent about the start");
     DAL_TRY(status);

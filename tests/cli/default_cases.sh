@@ -40,7 +40,7 @@ for command in lyapunov volume; do
 done
 try 0 order spring.yaml --integrators rk4
 says 'gives --step 0.25 --time 3$'
-prints 'at t = 3, physical'
+prints 'at t = 3, lifted'
 try 0 order spring.yaml --integrators rk4 --steps 0.5,0.25,0.125 --time 2
 silent
 try 0 generate spring.yaml

@@ -128,7 +128,7 @@ expect "integrators" json out "{'gauss4', '+project'} <= set(d['preserving'])
 case_is "order as JSON"
 results 0 order $friction --time 2 --integrators rk4,isokinetic-splitting --output order.csv
 expect "the request" json out "d['request']['parameters'] == {'k': 0.5}
-    and d['request']['time'] == 2 and d['request']['space'] == 'physical'
+    and d['request']['time'] == 2 and d['request']['space'] == 'lifted'
     and 'step' not in d['request'] and 'integrator' not in d['request']
     and d['reference'] == {'integrator': None, 'step': None, 'error': None}"
 # x is 2 (1 - x') in both; the units are 2 of time, which is 1/k, 1 of x', as at the start, and so 2 of x.
