@@ -62,10 +62,11 @@ const char *dal_nearest(const char *name, const char *const *names, int count);
 /* Reads a decimal number from text[length]: sign, digits, one point, exponent, and nothing else;
  * correctly rounded, in every locale the same.  Errors: DAL_SYNTAX, DAL_TOO_LARGE (overflow). */
 dal_status dal_parse_number(const char *text, size_t length, double *value);
+/* Room for the text of a number. */
+#define DAL_NUMBER_SIZE 32
 /* Writes x with 17 significant digits to text[DAL_NUMBER_SIZE] as %.17g of printf does, in every
  * locale the same, infinity as inf or -inf, and NaN as nan.  Returns the number of characters
  * before the NUL; dal_parse_number gives x again where it is finite. */
-#define DAL_NUMBER_SIZE 32
 int dal_format_number(char *text, double x);
 
 /* ---- systems ------------------------------------------------------------------------------- */

@@ -55,7 +55,7 @@ typedef struct dal_block {
     const dal_eigensystem *eigensystem; /* inverse holds the inverses of N_e; NULL: M^-1 */
     int stages;                         /* with an eigensystem */
     const double *unit;                 /* [width] of the unknowns, again and again; NULL: equal */
-    int width;
+    int width;                          /* units before they repeat */
 } dal_block;
 
 /* An implicit equation u = map(u), of one or two blocks. */
