@@ -312,7 +312,9 @@ typedef struct dal_observer {
     /* Called at the start and after every `every` steps. */
     dal_status (*step)(void *user, dal_run *run);
     /* Replaces step for long runs: receives the observables of several such steps at once, number
-     * i at t[k], k < count, in values[i * stride + k].  The run is not yet at the next of them. */
+     * i at t[k], k < count, in values[i * stride + k].  E and the invariants are without what
+     * events have added (dal_run_jump): the rest shows whether the motion between events conserves
+     * them.  The run is not yet at the next of these steps. */
     dal_status (*values)(void *user, dal_run *run, int count, const double *t, const double *values,
                          size_t stride);
     /* Called with the scales of all observables, see dal_run_scales, at the first state that values

@@ -58,21 +58,14 @@ static dal_status python_events(dal_run *run, double T, void *user, dal_error *e
 typedef struct followed {
     dal_statistics *statistics;
     int observables;
-    double *shifted; /* [observables] */
 } followed;
 
 static dal_status add_values(void *user, dal_run *run, int count, const double *t,
                              const double *values, size_t stride)
 {
     const followed *f = user;
-    if (dal_run_system(run)->events == 0) {
-        dal_statistics_add_many(f->statistics, f->observables, count, t, values, stride);
-        return DAL_OK;
-    }
-    /* With events values come one by one; what events add is no drift. */
-    for (int i = 0; i < f->observables; i++)
-        f->shifted[i] = values[(size_t)i * stride] - dal_run_jump(run, i);
-    dal_statistics_add(f->statistics, f->observables, t[0], f->shifted);
+    (void)run;
+    dal_statistics_add_many(f->statistics, f->observables, count, t, values, stride);
     return DAL_OK;
 }
 
@@ -89,16 +82,12 @@ static dal_status add_scales(void *user, dal_run *run, const double *scales)
 static dal_status python_follow(dal_run *run, double T, long long every, dal_statistics *statistics,
                                 dal_error *error)
 {
-    followed f = {statistics, dal_run_observables(run), NULL};
+    followed f = {statistics, dal_run_observables(run)};
     const dal_observer observer = {.user = &f,
                                    .values = add_values,
                                    .scales = add_scales,
                                    .every = every,
                                    .poll = python_poll};
-    f.shifted = malloc((size_t)f.observables * sizeof *f.shifted);
-    if (!f.shifted) return DAL_MEMORY;
     dal_statistics_start(statistics, f.observables);
-    const dal_status status = dal_run_sample(run, T, 1, 0, &observer, error);
-    free(f.shifted);
-    return status;
+    return dal_run_sample(run, T, 1, 0, &observer, error);
 }

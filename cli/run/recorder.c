@@ -32,7 +32,6 @@ static int allocate_values(run_recorder *r)
     r->row = cli_calloc(count, sizeof *r->row);
     r->statistics = cli_calloc((size_t)r->observables + 1, sizeof *r->statistics);
     r->trend = cli_calloc((size_t)r->observables + 1, sizeof *r->trend);
-    r->shifted = cli_calloc((size_t)r->observables + 1, sizeof *r->shifted);
     dal_statistics_start(r->statistics, r->observables);
     return status;
 }
@@ -92,7 +91,6 @@ void recorder_close(run_recorder *r)
     columns_free(&r->columns);
     free(r->statistics);
     free(r->trend);
-    free(r->shifted);
     event_log_close(&r->events);
 }
 
@@ -227,19 +225,6 @@ static dal_status library_status(run_recorder *r, int exit_status)
     return exit_status == CLI_DONE ? DAL_OK : DAL_IO;
 }
 
-void recorder_add_values(dal_statistics *statistics, const dal_run *run, int count, const double *t,
-                         const double *values, size_t stride, double *shifted)
-{
-    const int observables = dal_run_observables(run);
-    if (dal_run_system(run)->events == 0) {
-        dal_statistics_add_many(statistics, observables, count, t, values, stride);
-        return;
-    }
-    for (int i = 0; i < observables; i++) /* with events there is one observation */
-        shifted[i] = values[(size_t)i * stride] - dal_run_jump(run, i);
-    dal_statistics_add(statistics, observables, t[0], shifted);
-}
-
 static dal_status add_event(void *user, dal_run *run, const dal_occurrence *event)
 {
     run_recorder *r = user;
@@ -251,7 +236,8 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
                              const double *values, size_t stride)
 {
     run_recorder *r = user;
-    recorder_add_values(r->statistics, run, count, t, values, stride, r->shifted);
+    (void)run;
+    dal_statistics_add_many(r->statistics, r->observables, count, t, values, stride);
     return DAL_OK;
 }
 

@@ -33,7 +33,6 @@ typedef struct run_recorder {
     double *row;                /* those of them that are columns */
     dal_statistics *statistics; /* [observables] */
     dal_trend *trend;           /* [observables] when the run is finished or has failed */
-    double *shifted;            /* [observables] a value without what events have added */
     event_log events;
     run_position position;
     dal_observer observer;
@@ -52,12 +51,6 @@ typedef struct run_recorder {
     int shows_rows; /* on a terminal, where they would follow a line of progress */
     int failure;    /* exit status of a failure of the program's own, already printed */
 } run_recorder;
-
-/* Adds observations of a run, as dal_observer.values has them, to statistics[observables], but E
- * and the invariants without what events have added to them: what is left over shows whether the
- * motion between events conserves them.  shifted[observables] is scratch. */
-void recorder_add_values(dal_statistics *statistics, const dal_run *run, int count, const double *t,
-                         const double *values, size_t stride, double *shifted);
 
 /* Opens the writer: output is a file or "-"; in a directory trajectory.npy, with the run standing
  * where the checkpoint says.  Call recorder_close in any case. */

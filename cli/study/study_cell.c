@@ -340,7 +340,6 @@ typedef struct short_run {
     cell_run *of_cell;
     const study_stop_check *check;
     dal_statistics *statistics; /* [observables] */
-    double *shifted;            /* [observables] scratch */
     native_run native;
 } short_run;
 
@@ -366,7 +365,7 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
                              const double *values, size_t stride)
 {
     const short_run *s = user;
-    recorder_add_values(s->statistics, run, count, t, values, stride, s->shifted);
+    dal_statistics_add_many(s->statistics, dal_run_observables(run), count, t, values, stride);
     return DAL_OK;
 }
 
@@ -422,11 +421,9 @@ static int run_without_rows(cell_run *r, const study_stop_check *check)
     if (study_results_get(r->plan->results, number, c)) return CLI_DONE;
     short_run s = {.of_cell = r, .check = check};
     s.statistics = cli_calloc(count, sizeof *s.statistics);
-    s.shifted = cli_calloc(count, sizeof *s.shifted);
     dal_statistics_start(s.statistics, c->observables);
     const dal_status status = integrate(r, &s, &error);
     free(s.statistics);
-    free(s.shifted);
     if (status == DAL_INTERRUPTED) return CLI_SIGNAL;
     take_end(r, &error, status != DAL_OK);
     return study_results_add(r->plan->results, number, c, r->plan->interval);

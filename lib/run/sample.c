@@ -62,6 +62,14 @@ static void evaluate_states(const dal_run *run, int count)
     for (int i = 0; i < count && run->exact && changed; i++) error[i] = NAN;
 }
 
+/* Of the one observation that a run with events has at a time. */
+static void leave_out_jumps(const dal_run *run)
+{
+    const dal__observations *o = &run->observations;
+    for (int i = 0; i < dal_run_observables(run); i++)
+        o->values[(size_t)i * (size_t)o->capacity] -= dal_run_jump(run, i);
+}
+
 /* The scales at those of the last count observations where they are due. */
 static dal_status deliver_scales(const sampling *k, int count)
 {
@@ -82,6 +90,7 @@ static dal_status deliver(const sampling *k, int count)
     if (count == 0) return DAL_OK;
     if (k->observer->scales) DAL_TRY(deliver_scales(k, count));
     if (o->states) evaluate_states(k->run, count);
+    if (k->run->layout.system->events > 0) leave_out_jumps(k->run);
     return observed(k, k->observer->values(k->observer->user, k->run, count, o->times, o->values,
                                            (size_t)o->capacity));
 }
