@@ -143,6 +143,17 @@ void study_print_comparison(FILE *out, const study_comparison *comparison, bool 
     fprintf(out, " (line %zu)\n", x->line);
 }
 
+char *study_comparison_text(const study_comparison *comparison)
+{
+    char *line;
+    size_t length;
+    FILE *text = cli_memstream_open(&line, &length);
+    study_print_comparison(text, comparison, false);
+    cli_memstream_close(text);
+    line[strcspn(line, "\n")] = '\0';
+    return line;
+}
+
 static void write_row(FILE *out, const study_plan *plan, const study_comparison *comparison)
 {
     char name[STUDY_NAME];

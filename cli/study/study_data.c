@@ -122,3 +122,17 @@ double study_case_end(const study_case *e, double step)
 {
     return e->run_steps > 0 ? e->from + (double)e->run_steps * step : e->time;
 }
+
+int study_count_states(const study_plan *plan, int *count, const study_cell **failed)
+{
+    int cells = 0;
+    memset(count, 0, STUDY_STATES * sizeof *count);
+    *failed = NULL;
+    for (const study_cell *c = plan->cells; c < plan->cells + plan->cell_count; c++) {
+        if (c->other_shard) continue;
+        cells++;
+        count[c->state]++;
+        if (!*failed && c->state == STUDY_FAILED) *failed = c;
+    }
+    return cells;
+}

@@ -171,6 +171,9 @@ double *study_cell_method_steps(const study_cell *cell);
 /* The finished cell in (q,v) with the same method, step and tolerance as one on the surface, or
  * NULL. */
 const study_cell *study_cell_physical(const study_plan *plan, const study_cell *cell);
+/* How many cells of this shard are in each state, count[STUDY_STATES], and the first that failed,
+ * or NULL.  Returns how many they are. */
+int study_count_states(const study_plan *plan, int *count, const study_cell **failed);
 
 /* Where the runs of a step end, in t. */
 double study_case_end(const study_case *item, double step);

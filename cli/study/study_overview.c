@@ -84,16 +84,10 @@ static void add_table(overview *o, int rows)
 static void say_runs(overview *o)
 {
     const study_plan *plan = o->plan;
-    int runs = 0, count[STUDY_STATES] = {0};
-    const study_cell *failed = NULL;
+    int count[STUDY_STATES];
+    const study_cell *failed;
     char number[SCREEN_NUMBER], seconds[SCREEN_NUMBER], states[160] = "", name[STUDY_NAME];
-    for (int i = 0; i < plan->cell_count; i++) {
-        const study_cell *c = &plan->cells[i];
-        if (c->other_shard) continue;
-        runs++;
-        count[c->state]++;
-        if (!failed && c->state == STUDY_FAILED) failed = c;
-    }
+    const int runs = study_count_states(plan, count, &failed);
     for (int i = 0; i < STUDY_STATES; i++)
         if (count[i] > 0 && count[i] < runs)
             snprintf(states + strlen(states), sizeof states - strlen(states), ", %d %s", count[i],

@@ -309,13 +309,8 @@ static void print_expectations(FILE *out, const study_plan *plan)
     const study_comparisons all = study_compare(plan);
     if (plan->expectation_count > 0) study_print_met(out, &all);
     for (int i = 0, shown = 0; i < all.count && shown < UNMET; i++) {
-        char *line;
-        size_t length;
         if (all.item[i].is_met) continue;
-        FILE *text = cli_memstream_open(&line, &length);
-        study_print_comparison(text, &all.item[i], false);
-        cli_memstream_close(text);
-        line[strcspn(line, "\n")] = '\0';
+        char *line = study_comparison_text(&all.item[i]);
         put_cut(out, line, WIDTH, false);
         fputc('\n', out);
         free(line);
@@ -326,15 +321,9 @@ static void print_expectations(FILE *out, const study_plan *plan)
 
 static void print_runs(FILE *out, const study_plan *plan)
 {
-    int runs = 0, count[STUDY_STATES] = {0};
-    const study_cell *failed = NULL;
-    for (int i = 0; i < plan->cell_count; i++) {
-        const study_cell *c = &plan->cells[i];
-        if (c->other_shard) continue;
-        runs++;
-        count[c->state]++;
-        if (!failed && c->state == STUDY_FAILED) failed = c;
-    }
+    int count[STUDY_STATES];
+    const study_cell *failed;
+    const int runs = study_count_states(plan, count, &failed);
     fprintf(out, "%d runs in %.*f s", runs, plan->seconds < 10.0 ? 2 : 0, plan->seconds);
     const char *separator = ": ";
     for (int i = 0; i < STUDY_STATES; i++) {

@@ -103,13 +103,8 @@ void study_say_expectations(screen *s, const study_plan *plan)
 {
     const study_comparisons all = study_compare(plan);
     for (int i = 0, shown = 0; i < all.count && shown < MAX_UNMET; i++) {
-        char *line;
-        size_t length;
         if (all.item[i].is_met) continue;
-        FILE *text = cli_memstream_open(&line, &length);
-        study_print_comparison(text, &all.item[i], false);
-        cli_memstream_close(text);
-        line[strcspn(line, "\n")] = '\0';
+        char *line = study_comparison_text(&all.item[i]);
         screen_say(s, 4, "  %s", line);
         free(line);
         shown++;
