@@ -63,7 +63,7 @@ static void add_cells(screen_table *t, const order_study *s, const order_method 
 int order_print_screen(const order_study *s)
 {
     const order_method *end = s->methods + s->method_count, *best = NULL;
-    int left_out = 0, failed = 0, best_level = 0, rows = 0;
+    int left_out = 0, best_level = 0, rows = 0;
     bool is_mixed = false;
     char space[80], x[SCREEN_NUMBER], h[SCREEN_NUMBER];
     screen_table t = {.columns = s->levels + 5, .gap = 1};
@@ -78,7 +78,6 @@ int order_print_screen(const order_study *s)
             best_level = level;
         }
         is_mixed |= order_space(s, m) != s->spec.options.space;
-        failed += m->state == ORDER_FAILED;
         if (m->state == ORDER_REFUSED) continue;
         if (rows++ < ROWS)
             add_cells(&t, s, m, 0);

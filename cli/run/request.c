@@ -74,14 +74,15 @@ static int parse_setting(void *user, const cli_option *option, const char *text)
 const cli_option request_options[REQUEST_OPTIONS] = {
     {"integrator", "NAME", NULL,
      "the method: rk4, gauss8+project, ...; see 'dalembert list integrators'",
-     .parse = parse_method},
+     .parse = parse_method, .heading = "method and time"},
     {"time", "T", NULL, "integrates from t = T0 to t = T", .parse = parse_time},
     {"from", "T0", "0", "the time of the start", .parse = cli_parse_number, .offset = FIELD(from),
      .min = -DBL_MAX, .max = DBL_MAX},
     {"steps", "N", NULL, "ends after N steps, at T = T0 + N h; excludes --time",
      .parse = cli_parse_integer, .offset = FIELD(steps), .min = 1, .max = max_steps},
     {"samples", "N", "100", "rows after the first, at equal distances in t",
-     .parse = cli_parse_integer, .offset = FIELD(samples), .min = 1, .max = max_count},
+     .parse = cli_parse_integer, .offset = FIELD(samples), .min = 1, .max = max_count,
+     .heading = "rows and observables"},
     {"sampling", "linear|log|steps", "linear",
      "rows at equal distances in t, in log t, or in t; the last two after whole steps",
      .parse = cli_parse_word, .offset = FIELD(sampling)},
@@ -99,13 +100,17 @@ const cli_option request_options[REQUEST_OPTIONS] = {
      "observes formulas as invariants, with semicolons between them: \"abs(h1) - 0.3*m; x^2\"",
      .parse = cli_parse_text, .offset = FIELD(observe)},
     {"set", "PARAMETER=V", NULL, "sets a parameter; may be repeated", .parse = parse_setting,
-     .offset = FIELD(set)},
+     .offset = FIELD(set), .heading = "parameters and start"},
     {"start", "NAME=V", NULL,
      "sets a start value: x, x', e (or e=inf), p_x, pi_x, ...; may be repeated",
      .parse = parse_setting, .offset = FIELD(start)},
 #define ROW(type, name, word, initial, least, greatest, value, help)                               \
-    {word, value, REQUEST_##name - REQUEST_step ? DEFAULT_##type(initial, value) : NULL, help,     \
-     .parse = parse_run_option},
+    {word,                                                                                         \
+     value,                                                                                        \
+     REQUEST_##name - REQUEST_step ? DEFAULT_##type(initial, value) : NULL,                        \
+     help,                                                                                         \
+     .parse = parse_run_option,                                                                    \
+     .heading = REQUEST_##name == REQUEST_step ? "steps and implicit equations" : NULL},
     DAL_OPTION_LIST(ROW)
 #undef ROW
         {NULL, "SYSTEM", CLI_REQUIRED,

@@ -19,7 +19,8 @@ static const cli_option options[RUN_OPTIONS] = {
     [RUN_output] = {"output", "FILE|DIR|-", "-",
                     "writes the rows there: .csv, .npy, a directory, or standard output, where a "
                     "terminal gets them only with this option",
-                    .parse = cli_parse_output, .offset = offsetof(run_settings, output)},
+                    .parse = cli_parse_output, .offset = offsetof(run_settings, output),
+                    .heading = "output"},
     [RUN_events] = {"events", "FILE.csv", NULL,
                     "writes t, the number and the state after it of each event of the system",
                     .parse = cli_parse_text, .offset = offsetof(run_settings, events)},

@@ -57,16 +57,32 @@ static void print_text(const char *name, const char *help)
     cli_wrap(stdout, help, HELP_COLUMN, HELP_COLUMN);
 }
 
+/* Prints the options of a kind in a group below their headings; present is the last, or NULL. */
+static void print_group(const cli_group *g, option_kind kind, const char **present)
+{
+    const bool is_first = !*present || strcmp(*present, "options") == 0;
+    const char *heading = is_first ? "options" : "other options";
+    for (int k = 0; k < g->count; k++) {
+        const cli_option *option = &g->options[k];
+        if (option->heading) heading = option->heading;
+        if (g->without >> k & 1 || kind_of(option) != kind) continue;
+        if (!*present || strcmp(*present, heading) != 0) printf("\n%s:\n", heading);
+        *present = heading;
+        describe_option(option, print_text);
+    }
+}
+
 int cli_print_help(const cli_command *command, const cli_group *groups, int count)
 {
     static const cli_option help = {.name = "help", .help = "print this"};
+    const char *heading = NULL;
     cli_wrap(stdout, command->synopsis, printf("usage: "), 17);
     puts(command->about);
     puts("\narguments:");
-    for (option_kind kind = ARGUMENT; kind <= OPTIONAL; kind++) {
-        if (kind == REQUIRED) puts("\noptions:");
-        for (int g = 0; g < count; g++) describe_group(&groups[g], kind, print_text);
-    }
+    for (int g = 0; g < count; g++) describe_group(&groups[g], ARGUMENT, print_text);
+    for (option_kind kind = REQUIRED; kind <= OPTIONAL; kind++)
+        for (int g = 0; g < count; g++) print_group(&groups[g], kind, &heading);
+    if (!heading) puts("\noptions:");
     describe_option(&help, print_text);
     if (command->notes) {
         putchar('\n');

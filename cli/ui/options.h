@@ -21,6 +21,8 @@ struct cli_option {
     cli_parser *parse;
     size_t offset;   /* in the settings, of what the parsers below store */
     double min, max; /* of a number */
+    /* Where --help lists it and the rows after it; NULL: as the row before it, or "options". */
+    const char *heading;
 };
 
 extern const char CLI_REQUIRED[];

@@ -37,6 +37,17 @@ done <commands
 try 2 help rnu
 says "^dalembert: unknown command 'rnu'; did you mean 'run'\?$"
 
+case_is "help lists options below headings"
+try 0 help run
+for heading in arguments 'method and time' 'rows and observables' 'parameters and start' \
+    'steps and implicit equations' output; do
+    prints "^$heading:$"
+done
+expect "--set is below its heading" sh -c "grep -A1 '^parameters and start:' out | grep -q -- '--set'"
+expect "an option is listed twice" test -z "$(grep -o '^  --[a-z-]*' out | sort | uniq -d)"
+try 0 help list
+prints '^options:$'
+
 case_is "the reference has every option of every command"
 try 0 help --markdown
 silent
