@@ -90,8 +90,10 @@ static int add_tolerance(order_study *s, const char *text)
 {
     const run_request *r = s->request;
     s->divides = !r->text[REQUEST_step];
-    s->step[s->levels] = s->divides ? r->time - r->from : r->options.step;
-    return add_level(s, "--tolerances", text, s->tolerance);
+    const int status = add_level(s, "--tolerances", text, s->tolerance);
+    if (status == CLI_DONE)
+        s->step[s->levels - 1] = s->divides ? r->time - r->from : r->options.step;
+    return status;
 }
 
 /* Adds each item of a list between commas. */
