@@ -235,7 +235,7 @@ static void test_unprojectable(void)
         {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
          "constraints: [x'^2 + y'^2 + x - 2]\nstart: {x': 1, y': 1}\n"
          "events: [{when: y - 0.5, set: {x: 3}}]\n",
-         "near those of event 1 (y - 0.5) at t = 0.53589838"},
+         "near the velocities of event 1 (y - 0.5) at t = 0.53589838"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         dal_error error = {0};

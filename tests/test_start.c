@@ -457,9 +457,8 @@ static void test_dependent(void)
     static const char text[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                                "parameters: {k: 1, l: 2, s: 1}\n"
                                "constraints: [x' + k*y', s*(x' + l*y')]\n";
-    static const char few[] =
-        "constraint 2 restricts, but for rounding, only velocities that those "
-        "before it restrict at the start";
+    static const char few[] = "constraint 2 restricts, except for rounding, only velocities that "
+                              "earlier ones restrict at the start";
     static const char scaled[] = "constraint 2 is badly scaled: its derivatives by the velocities "
                                  "reach ";
     const struct {

@@ -70,7 +70,7 @@ void check_preserving(check *c, bool is_constant, unsigned properties)
 
 /* ---- every integrator ---- */
 
-/* What an integrator that is accepted preserves, by its properties and those of the system. */
+/* What an integrator that is accepted preserves, by its properties and the system's. */
 static unsigned what_is_preserved(const check *c, const dal_integrator *k,
                                   const dal_constraint_class *d)
 {

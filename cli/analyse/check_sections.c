@@ -1,7 +1,7 @@
 /* check_sections.c - what `dalembert check` examines, section by section.
  *
  * Energy: dE/dt = v.Q + sum_a h_a v.A_a - L_t.  For D_a homogeneous of degree k in v the second
- * term is k h_a D_a, so E is conserved on D = 0 only; an affine D, as that of a turntable, need not
+ * term is k h_a D_a, so E is conserved on D = 0 only; an affine D, as on a turntable, need not
  * conserve E at all.
  *
  * Actions: int e/2 |q'' - F|^2 dt is 0 on a solution and positive off it.  int P.X' - H is

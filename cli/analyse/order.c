@@ -221,8 +221,8 @@ static bool use_exact_solution(order_study *s)
     return found;
 }
 
-/* Two runs of an accurate method: that of the smaller step, or tolerance, is the reference, their
- * distance its error. */
+/* Two runs of an accurate method: the one with the smaller step, or tolerance, is the reference,
+ * their distance its error. */
 static dal_status use_method(order_study *s, const char *name, dal_error *error)
 {
     const bool is_controlled = s->set->tolerances != NULL;
@@ -333,7 +333,7 @@ static void print_cell(const char *format, int width, double x)
 static void print_outcomes(const order_study *s)
 {
     static const char *const texts[] = {
-        [DAL_ORDER_COARSE] = "the last two slopes do not agree, or errors are those of half the "
+        [DAL_ORDER_COARSE] = "the last two slopes do not agree, or errors are half as large as the "
                              "solution: the steps are too large",
         [DAL_ORDER_ROUNDING] = "fewer than three errors lie above rounding and ten times the error "
                                "of the reference: the steps are too small",
@@ -513,8 +513,9 @@ static int measure(order_study *s)
         status = add_items(s, s->set->integrators, "--integrators", add_methods);
     if (status == CLI_DONE) status = request_make_spec(s->request, &s->spec);
     if (status == CLI_DONE && s->spec.system->events > 0)
-        status = cli_fail(CLI_USAGE, "%s has events: the order is that of a motion without them",
-                          s->request->system_name);
+        status =
+            cli_fail(CLI_USAGE, "%s has events: the order is measured on a motion without them",
+                     s->request->system_name);
     if (status != CLI_DONE) return status;
     cli_catch_signals();
     status = make_reference(s);

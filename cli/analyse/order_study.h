@@ -43,7 +43,7 @@ typedef struct order_method {
 typedef struct order_study {
     order_settings *set;
     run_request *request;
-    dal_run_spec spec;                                          /* but for method and step */
+    dal_run_spec spec;                                          /* except method and step */
     double step[DAL_ORDER_LEVELS], tolerance[DAL_ORDER_LEVELS]; /* tolerance: 0 unless it falls */
     int levels;
     bool divides; /* the step was not given, and is the whole time */

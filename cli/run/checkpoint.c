@@ -4,16 +4,16 @@
  *
  *     header      the word DALCHK05, then as in the struct below
  *     state       [state] all that the run carries from step to step, and its parameters
- *     statistics  [statistics * words] those of each observable, in a layout that has a number
+ *     statistics  [statistics * words] of each observable, in a layout that has a number
  *     sum         FNV-1a of all before
  *
  * The file is written under another name, brought to the disk and renamed, and the previous one is
  * kept: where the newer one is damaged, or the rows are not those it was written with, the run
  * resumes from the older.  Nothing in it is ever executed or followed.  A later format raises the
  * number and reads this one, too.  In DALCHK04 the state has no numbers of the choice of a solver,
- * which stand before the last one and the parameters; in DALCHK03 it ends before them.  Those of
- * systems with events or compared pivots are refused: what they have of these differs.  Statistics
- * of layout 3 have no root mean squares: earlier_statistics.c completes them. */
+ * which are before the last one and the parameters; in DALCHK03 it ends before them.  For systems
+ * with events or compared pivots both are refused: what they have of these differs.  Statistics of
+ * layout 3 have no root mean squares: earlier_statistics.c completes them. */
 #include "checkpoint.h"
 #include "earlier_statistics.h"
 #include "ui/memory.h"
@@ -100,8 +100,8 @@ static int damaged(const char *path, const char *reason)
     return cli_fail(CLI_USAGE, "%s: the checkpoint is damaged: %s", path, reason);
 }
 
-/* Reads and checks the header.  Statistics of another layout are refused: those of half a run would
- * pass for those of the whole. */
+/* Reads and checks the header.  Statistics of another layout are refused: statistics of half a
+ * run would pass for statistics of the whole. */
 static int check_bytes(const char *path, const unsigned char *bytes, size_t length,
                        uint64_t fingerprint, int count, checkpoint_header *h)
 {
@@ -133,8 +133,8 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
         path, (unsigned long long)h->layout, STATISTICS_LAYOUT_3, DAL_STATISTICS_LAYOUT);
 }
 
-/* Completes the state of an earlier format by that of the start, state[count]; a number of the run
- * is one double or, in quad precision, two.  False: it does not have what this run needs. */
+/* Completes the state of an earlier format from the state of the start, state[count]; a number of
+ * the run is one double or, in quad precision, two.  False: it lacks what this run needs. */
 static bool read_earlier(const checkpoint_header *header, const unsigned char *body,
                          const dal_run *run, size_t count, double *state)
 {

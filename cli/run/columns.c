@@ -103,11 +103,11 @@ static int without_multipliers(const run_request *request, const char *item)
     if (request->system->properties & DAL_MASS_ON_KERNEL)
         return cli_fail(CLI_USAGE,
                         "--columns: no column '%s': where W is used on ker A alone, methods carry "
-                        "no multipliers; those of F are h1..",
+                        "no multipliers; F has h1..",
                         item);
     return cli_fail(CLI_USAGE,
                     "--columns: no column '%s': %s has no multipliers of its own, which are "
-                    "lambda1..; those of F are h1..",
+                    "lambda1..; F has h1..",
                     item, dal_method_name(&request->method, method, sizeof method));
 }
 

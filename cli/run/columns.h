@@ -17,13 +17,13 @@ typedef struct run_columns {
 } run_columns;
 
 /* Makes the columns of the run of a request.  Returns CLI_DONE, or prints and returns CLI_USAGE
- * where an item of --columns matches none, or a plain name is that of another column; free them in
+ * where an item of --columns matches none, or a plain name is another column's; free them in
  * any case. */
 int columns_make(run_columns *columns, const run_request *request);
 /* Whether a list of --columns has names, groups or patterns of h1.., R_x.. or lambda1.. that are
  * not names of the system. */
 bool columns_need_reactions(const dal_system *system, const char *list);
-/* Makes of a name that of the column, in its place: with --names plain "x'" becomes "vx". */
+/* Replaces a name by the name of its column: with --names plain "x'" becomes "vx". */
 void columns_rename(const run_request *request, char *name);
 /* Whether a column is the velocity of a coordinate. */
 bool columns_is_velocity(const run_request *request, const char *name, const char *coordinate);

@@ -118,7 +118,7 @@ char *manifest_input(const run_request *request)
     return text;
 }
 
-/* The text of a built-in system is that of the library, of any other that of the copy. */
+/* The text of a built-in system is the library's, of any other the copy's. */
 static int find_fingerprint(run_directory *dir, const char *builtin)
 {
     size_t length = builtin ? strlen(builtin) : 0;

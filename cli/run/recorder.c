@@ -135,7 +135,7 @@ static CLI_PRINTF(2, 3) int append_piece(progress_line *line, const char *format
     return 1;
 }
 
-/* Seconds to the end, if the steps take the time that those of this process took so far. */
+/* Seconds to the end, if the steps take as long as the steps of this process took so far. */
 static double remaining(const run_recorder *r, double t)
 {
     const double done = t - r->start_time;

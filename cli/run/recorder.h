@@ -30,7 +30,7 @@ typedef struct run_recorder {
     int dimension, observables;
     run_columns columns;
     double *values;             /* [1 + dimension + observables] t, state, all observables */
-    double *row;                /* those of them that are columns */
+    double *row;                /* the values that are columns */
     dal_statistics *statistics; /* [observables] */
     dal_trend *trend;           /* [observables] when the run is finished or has failed */
     event_log events;

@@ -62,7 +62,7 @@ typedef struct run_request {
     long long steps, samples, statistics; /* steps: 0: not given */
     request_sampling sampling;
     request_names names;
-    double given_time; /* these two before they are made those of whole steps */
+    double given_time; /* these two before they are rounded to whole steps */
     long long given_samples;
     double *row_time;              /* [samples + 1]; NULL: at equal distances */
     long long times;               /* number of times that were given */
@@ -90,7 +90,7 @@ bool request_observes(const run_request *request, const char *name);
 /* The length of the formula that begins a list of --observe, without the blanks around it; the next
  * one is after *end. */
 size_t request_find_formula(const char **list, const char **end);
-/* Adds a setting to those of a parameter or a start, or replaces that of the same name. */
+/* Adds a setting of a parameter or a start, or replaces the one with the same name. */
 void request_add_setting(request_settings *settings, const char *name, double value);
 void request_free_settings(request_settings *settings);
 

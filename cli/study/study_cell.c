@@ -2,9 +2,9 @@
  *
  * The results are read from that directory, whether the run was made now, resumed, or finished
  * before: trends from the statistics in its checkpoint, tracks from its rows.  Rows are taken after
- * whole numbers of steps, so that the trajectory is that of the steps alone.  A cell that keeps no
- * rows has no directory: its results go to those of the study, and its bits are those of both
- * ends. */
+ * whole numbers of steps, so that the trajectory consists of the steps alone.  A cell that keeps no
+ * rows has no directory: its results go to the results of the study, and its bits are taken at
+ * both ends. */
 #include "study_cell.h"
 
 #include "io/file.h"
@@ -202,7 +202,7 @@ typedef struct tracked_column {
     double first;
 } tracked_column;
 
-/* The columns of p and pi, and those of observables, which come last and without |p|, |pi|,
+/* The columns of p and pi, and of observables, which come last and without |p|, |pi|,
  * |pi_e|.  Reactions and formulas that are observed need not be conserved. */
 static void choose_tracks(const study_cell *c, int columns, tracked_column *column)
 {

@@ -64,7 +64,7 @@ typedef struct study_cell {
     const dal_method *method;
     double step, tolerance; /* tolerance: of the key; 0: as the options say */
     int start;
-    char *name;      /* that of its directory, too */
+    char *name;      /* also of its directory */
     int other_shard; /* it belongs to another shard */
     study_state state;
     dal_error error;
@@ -166,7 +166,7 @@ typedef struct study_quantities {
 study_quantities study_cell_quantities(const study_cell *cell);
 /* The time of its run in steps. */
 double study_cell_length(const study_cell *cell);
-/* Those of all cells that take the same steps, kept by the case. */
+/* The steps of all cells that take the same ones, kept by the case. */
 double *study_cell_method_steps(const study_cell *cell);
 /* The finished cell in (q,v) with the same method, step and tolerance as one on the surface, or
  * NULL. */

@@ -66,10 +66,10 @@ bool study_directory_is_finished(const study_directory *dir);
  * have their place there. */
 int study_directory_begin(study_directory *dir, study_plan *plan, const char *text, size_t length,
                           store_shard shard, int force);
-/* Reads the plan of the study, or of those of its shards that are there. */
+/* Reads the plan of the study, or of the shards of it that exist. */
 int study_directory_read(study_directory *dir, study_plan *plan);
 /* Reads the results of cells without rows in place of those before, *results being NULL where all
- * cells keep some; text is that of the study. */
+ * cells keep some; text is the study's. */
 int study_directory_open_results(const study_directory *dir, const study_plan *plan,
                                  const char *text, size_t length, struct study_results **results);
 /* Runs the cells, then finishes; and reads the study before. */

@@ -1,7 +1,7 @@
 /* study_expect.c - the expectations of a study, read from its file.
  *
  *     expect:
- *       LABEL:                              a label, that of a group, a system, or all
+ *       LABEL:                              the label of a start, group or system, or all
  *         INTEGRATOR:                       as in the study, or all, or all+project and the like
  *           QUANTITY: rounding              a size, or a trend
  *           QUANTITY: [exact, none]         one of several

@@ -67,7 +67,7 @@ static void choose_columns(study_matrix *s)
         }
 }
 
-/* Of the runs on p = pi = 0 from the first start of a system, whose numbers are those of (q,v). */
+/* Of the runs on p = pi = 0 from the first start of a system, whose numbers describe (q,v). */
 static void count_runs(const study_matrix *s)
 {
     for (int i = 0; i < s->plan->cell_count; i++) {

@@ -30,7 +30,7 @@ typedef struct merge {
 
 /* ---- the sources ---- */
 
-/* Compares a file of source i with that of the first. */
+/* Compares a file of source i with the same file of the first. */
 static int compare_files(const merge *m, int i, const char *path, const char *first)
 {
     if (file_is_copy(path, first)) return CLI_DONE;
@@ -168,7 +168,7 @@ static int read_results(merge *m, const study_directory *dir, study_results **re
 
 /* ---- all ---- */
 
-/* A target that is one of the sources is complete but for the runs of the others. */
+/* A target that is one of the sources is complete except for the runs of the others. */
 static int begin_target(merge *m, int force)
 {
     const store_shard whole = {0};

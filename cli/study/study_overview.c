@@ -131,7 +131,7 @@ static void say_take(overview *o)
 
 int study_print_overview(FILE *to, const study_plan *plan, const char *tables)
 {
-    /* Lines after the rows, and of them those of the key. */
+    /* Lines after the rows, and how many of them are the key's. */
     enum { BELOW = 10, BELOW_NARROW = 12, KEY_LINES = 8 };
     static const char *const key[] = {"ok: rounding",       "/ grows like t",
                                       "^ faster",           "~ slower",

@@ -17,7 +17,7 @@ char *study_plan_copy_path(const char *directory, const study_case *item);
 
 /* The keys of a study file: name, where it may stand, its reader and the member it reads, help.
  * Beside `systems` a key is the default of every system.  The keys of the whole study come first,
- * then those of both, then those of a system. */
+ * then keys of both, then keys of a system. */
 #define STUDY_KEY_LIST(KEY)                                                                        \
     KEY(title, "study", document_read_text, title, "title of tables and pages")                    \
     KEY(systems, "study", document_read_node, systems,                                             \

@@ -58,7 +58,7 @@ typedef struct pool_state {
     study_plan *plan;
     int *order;
     int done, count;
-    int status; /* CLI_DONE, or that of the first failure of the program's own */
+    int status; /* CLI_DONE, or the status of the program's own first failure */
     double start, shown;
 } pool_state;
 

@@ -65,7 +65,7 @@ typedef struct results_file {
 } results_file;
 
 struct study_results {
-    results_file *file; /* [files], the first is that of this process */
+    results_file *file; /* [files], the first is this process's own */
     int files, cells;
     const unsigned char **record; /* [cells] in a file, or NULL */
     uint64_t fingerprint;

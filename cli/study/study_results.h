@@ -2,7 +2,7 @@
  *
  *     DIR/results/WRITER   a header, then a record for each cell, in the order of their ends
  *
- * Every process that runs cells of a study writes a file of its own and reads those of all: WRITER
+ * Every process that runs cells of a study writes a file of its own and reads all files: WRITER
  * is `all`, `K-of-N` of a shard, or `rank-R` with MPI.  A record that was not written to its end,
  * because the process was killed, is left out, and its cell is run again. */
 #ifndef DAL_CLI_STUDY_RESULTS_H

@@ -1,7 +1,7 @@
 /* study_table.c - the results of a study, in tables for readers and as CSV.
  *
  * The tables are per system and step: the motion itself (D, E, invariants, error), whose numbers
- * are those of (q,v) alone; and, off p = pi = 0, what only the lift can show (H, p, pi). */
+ * describe (q,v) alone; and, off p = pi = 0, what only the lift can show (H, p, pi). */
 #include "study_table.h"
 
 #include "io/file.h"
@@ -179,7 +179,7 @@ void study_print_case(FILE *out, const study_plan *plan, const study_case *e)
             e->system->title ? e->system->title : "");
     for (int h = 0; h < e->steps; h++)
         for (int start = 0; start < STUDY_STARTS; start++) {
-            /* The numbers on the surface are those of (q,v); the files hold both. */
+            /* The numbers on the surface describe (q,v); the files hold both. */
             int repeats = start == STUDY_PHYSICAL && e->starts & 1 << STUDY_SURFACE;
             if (e->starts & 1 << start && !repeats) print_tables(out, plan, e, e->step[h], start);
         }
@@ -244,7 +244,7 @@ static void put_run(FILE *out, const csv_row *r)
     free(run);
 }
 
-/* Studies that have the key tolerance have a column of it behind that of the step. */
+/* Studies that have the key tolerance have a column of it after the step's. */
 static void put_step(FILE *out, const csv_row *r)
 {
     cli_put(out, r->cell->step);

@@ -129,7 +129,7 @@ typedef struct variant_setting {
 struct study_variants {
     const document *doc;
     const yaml_node_t *start_node;
-    variant_setting *setting; /* those of set come first */
+    variant_setting *setting; /* settings of set come first */
     int count, of_set, drawn, start_drawn;
     variant_setting seed;
 };
@@ -249,7 +249,7 @@ static double choose(const study_values *values, int *i)
     return value;
 }
 
-/* The digits of i choose the values; the lowest is that of the seed, then that of the last
+/* The digits of i choose the values; the lowest chooses the seed, the next the last
  * setting. */
 void study_variants_apply(const study_variants *v, int i, study_case *e)
 {

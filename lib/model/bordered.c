@@ -14,7 +14,7 @@
  *
  *     G = A W'^-1 B^T,   G h = -(c + A W'^-1 b'),   F_f = W'^-1 (b' + B^T h)        (nh3)-(nh5)
  *
- * Two constraints may be replaced by half their sum and half their difference (those of a board on
+ * Two constraints may be replaced by half their sum and half their difference (as for a board on
  * two axles), which changes neither singularities nor conditioning. */
 #include "model/bordered.h"
 #include "expr/collect.h"
@@ -336,8 +336,8 @@ static dal_status solve_free(dal_model *model, const dal__bordered *s, bool forw
     return DAL_OK;
 }
 
-/* All multipliers: those of the constraints left and, of row d of W x - A^T h, those that were
- * solved for a coordinate. */
+/* All multipliers: of the constraints that remain and, from row d of W x - A^T h, of the
+ * constraints that were solved for a coordinate. */
 static void find_forces(const dal__equations *e, const dal__bordered *s, const vectors *w,
                         const dal__node *top, const dal__node *x, dal__node *h)
 {

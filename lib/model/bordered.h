@@ -6,7 +6,7 @@
 
 /* Ways to solve it: SOLVED, with all constraints solved for a coordinate first that can be; PAIRED,
  * with constraints paired; COLLECTED, with the sums of the reduced equations in few operations;
- * FORWARD, those of the elimination, too. */
+ * FORWARD, the sums of the elimination, too. */
 enum { DAL__SOLVED = 1, DAL__PAIRED = 2, DAL__COLLECTED = 4, DAL__FORWARD = 8 };
 
 /* The system of one model, solved as far as that does not depend on the right-hand side. */
@@ -21,7 +21,7 @@ bool dal__bordered_is_reduced(const dal__bordered *bordered);
 /* Whether all are: their coefficients of these coordinates are a diagonal of constants, so that the
  * rank of A cannot fall. */
 bool dal__bordered_keeps_rank(const dal__bordered *bordered);
-/* Replaces the pivots of the equations by those of W and of this system. */
+/* Replaces the pivots of the equations by the pivots of W and of this system. */
 void dal__bordered_record_pivots(dal__equations *equations, const dal__bordered *bordered,
                                  const dal__factors *mass);
 /* W x - B^T h = top [n], A x = bottom [m]; h is NULL where it is not wanted.  collected: as its way

@@ -5,7 +5,7 @@
  * point x_i where its derivative jumps most.  With the branch of s > 0 taken
  * everywhere F is a smooth F+, with the other one F-.  Along the normal of s,
  *
- *     the k-th derivative of F+ - F- at s = 0 is the jump of that of F,
+ *     the k-th derivative of F+ - F- at s = 0 is the jump of the same derivative of F,
  *
  * or what has no bound there, found beside points of s = 0 near the start: F+ is taken on its side
  * alone, and F- on the other, so that sign(s) sqrt|s| does not jump, and its derivative does.  A
@@ -136,8 +136,8 @@ static dal__node smooth_side(dal__graph *graph, dal__node f, dal__node s, int si
 
 /* ---- points ---- */
 
-/* The derivatives of s by t, q, v at a point in units; returns the size of the terms of s: those of
- * a unit of each, and what the point makes of them. */
+/* The derivatives of s by t, q, v at a point in units; returns the size of the terms of s: from a
+ * unit of each, and from the point itself. */
 static double find_normal(const surface *f, const double *x, double *normal)
 {
     const dal__equations *e = &f->model->equations;

@@ -4,7 +4,7 @@
  *     G = A W^-1 B^T,  G h = -(c + A W^-1 b),  F = W^-1 (b + B^T h)              (nh3)-(nh5)
  *
  * with B = A by Chetaev's rule, or as given under reactions.  Given accelerations mean W = 1.
- * Vakonomic motion is that of L' = L - g.D with the multipliers g as further variables: (nh6),
+ * Vakonomic motion follows from L' = L - g.D with the multipliers g as further variables: (nh6),
  * (nh35)
  *
  *     ( L'_vv  -A^T ) (dv/dt)   ( L'_q - L'_vq v - L'_vt + Q )

@@ -336,8 +336,9 @@ dal_status dal__factor(dal_model *model, dal__factors *f)
     return e->graph->status;
 }
 
-/* One right-hand side; y[n] is scratch.  The last division has one rounding: that of a multiplied
- * reciprocal would be the same in every step where the pivot is constant, and make D drift. */
+/* One right-hand side; y[n] is scratch.  The last division has one rounding: the rounding of a
+ * multiplied reciprocal would be the same in every step where the pivot is constant, and make D
+ * drift. */
 static void solve_one(dal__graph *graph, const dal__factors *f, bool collect, const dal__node *rhs,
                       dal__node *x, dal__node *y)
 {

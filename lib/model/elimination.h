@@ -23,7 +23,7 @@ bool dal__factors_allocate(dal_model *model, dal__factors *factors, int n, const
 /* Factors the matrix.  Errors: DAL_MEMORY, DAL_SINGULAR, DAL_TOO_LARGE (too many
  * unknowns are coupled, directly or by the elimination). */
 dal_status dal__factor(dal_model *model, dal__factors *factors);
-/* Appends the pivots to those of the equations. */
+/* Appends the pivots to the equations' own. */
 void dal__record_pivots(dal__equations *equations, const dal__factors *factors, bool of_mass,
                         bool of_motion);
 /* The product of the pivots at values of the symbols: the determinant, except for its sign. */

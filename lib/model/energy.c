@@ -316,7 +316,7 @@ dal_status dal__conserved_energy(dal_model *model)
  *     L = v.Wv/2 + g(q).v - U(q),   W constant
  *
  * Coordinates that U_qq or W couple form a block; U is the sum of functions U_B of one block each.
- * The outputs of a coordinate are those of its block: U_B up to a constant, U_B,q.v and v.W_B v.
+ * A coordinate has the outputs of its block: U_B up to a constant, U_B,q.v and v.W_B v.
  * So each block preserves what it would preserve alone.  Where U_B is quadratic its gradient at the
  * midpoint is a discrete gradient already: such a block has U_B = 0 here. */
 typedef struct blocks {

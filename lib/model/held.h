@@ -8,8 +8,8 @@
  * a <= b, min(a, b) and max(a, b); 0 where the node does not switch along a run. [alloc] */
 dal__node dal__switch_argument(dal__graph *graph, dal__node node);
 
-/* Adds the programs of the branches of F, and lets those of a step hold them; after all other nodes
- * are made.  Nothing without branches.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+/* Adds the programs of the branches of F, and lets the programs of a step hold them; after all
+ * other nodes are made.  Nothing without branches.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal__programs_add_branches(dal_model *model, dal__programs *programs);
 
 #endif

@@ -206,8 +206,8 @@ static dal_status check_observed(const dal__entry *entry, dal_error *error)
     return DAL_OK;
 }
 
-/* Checks the name of an entry, or the text of a coordinate.  A start, or what an event sets, may be
- * that of a velocity, x'. */
+/* Checks the name of an entry, or the text of a coordinate.  A start, or what an event sets, may
+ * name a velocity, x'. */
 static dal_status check_name(const dal__entry *entry, dal_error *error)
 {
     const char *name = entry->section == DAL_SECTION_COORDINATES ? entry->text : entry->name;

@@ -39,7 +39,7 @@ typedef struct dal__entry {
     int line, column, name_line, name_column;
     int item;          /* in a list of mappings: which, from 1; otherwise 0 */
     bool observed;     /* an invariant by dal_model_observe */
-    bool apart;        /* of "for i = 1..N: formula": the place is that of the formula */
+    bool apart;        /* of "for i = 1..N: formula": the place is the formula's */
     const char *index; /* a name that is the number at in the formula; NULL: none */
     int at;
 } dal__entry;

@@ -1,7 +1,7 @@
 /* motion.c - accelerations and multipliers of the Lagrange-d'Alembert equations, as nodes: in the
  * cheapest of a few ways, and their derivatives.
  *
- * Derivatives do not go through the elimination (bordered.c).  With its matrix K as that of
+ * Derivatives do not go through the elimination (bordered.c).  With its matrix K, as in
  * K (F, -h) = r, which is symmetric,
  *
  *     K (F, -h)_x = r_x - K_x (F, -h),        pi.F_x = w.(r_x - K_x (F, -h)),  K w = (pi, 0)
@@ -37,7 +37,7 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
         e->coordinate[row]);
 }
 
-/* Lists the constraints whose rows of A combine to that of one, ", 1, 2", at an irregular point;
+/* Lists the constraints whose rows of A combine to the row of one, ", 1, 2", at an irregular point;
  * returns the largest entry that their combination leaves of it.  rows[m*(n+m)]: the rows of A, in
  * units in which the diagonal of W and the largest entry of each row are 1, and after each how it
  * is combined of them. */

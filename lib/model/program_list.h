@@ -6,7 +6,7 @@
 #include "expr/terms.h"
 #include "model/equations.h"
 
-/* The programs of a system besides those of its callbacks (DAL_CALLBACK_LIST): code, name, and the
+/* The programs of a system besides its callbacks (DAL_CALLBACK_LIST): code, name, and the
  * inputs that it reads. */
 enum { DAL__READS_none, DAL__READS_t, DAL__READS_tqv, DAL__READS_tqvpi };
 #define DAL__SINGLE_LIST(PROGRAM)                                                                  \
@@ -60,7 +60,7 @@ typedef struct dal__programs {
     int n, multipliers; /* of this system: 2n, 0 for the tangent one */
     int t, q, v, pi, g; /* places of the inputs in work */
     size_t scratch;     /* place in work for outputs and pivots together */
-    size_t pivots_left; /* place in work where field and adjoint leave those of the rank check */
+    size_t pivots_left; /* place in work where field and adjoint write pivots of the rank check */
     int pivots;         /* how many these are */
     dal__program program[DAL__PROGRAM_COUNT];
     dal_callbacks wide1, wide4, wide8;

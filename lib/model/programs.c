@@ -87,8 +87,8 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
 
 /* ---- derivatives of the motion ---- */
 
-/* Derivatives of e->F follow from its equations; those of another F, by sweeps over F.  Where F is
- * small both are made and the cheaper ones taken. */
+/* Derivatives of e->F follow from its equations; derivatives of another F, by sweeps over F.  Where
+ * F is small both are made and the cheaper ones taken. */
 enum { MAX_SWEPT = 1000 };
 
 static bool has_equations(const dal__equations *e, const dal__node *F)

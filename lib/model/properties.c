@@ -118,8 +118,8 @@ dal_status dal__properties(dal_model *model)
     e->properties = e->m ? ~0u : 0;
     for (int a = 0; a < e->m; a++)
         e->properties &= constraint_class(e, e->constraint[a], first, second);
-    /* The rank of A is to be checked where it can fall and no formula shows it: that of nonlinear
-     * constraints, and of several that vary and may become parallel (a snakeboard with its axles
+    /* The rank of A is to be checked where it can fall and no formula shows it: for nonlinear
+     * constraints, and for several that vary and may become parallel (a snakeboard with its axles
      * across).  A W^-1 A^T vanishes with the rank of A alone where W is positive definite, which
      * its guard det W keeps it. */
     const bool keeps_rank =

@@ -136,7 +136,7 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
     const size_t n = (size_t)e->n, m = (size_t)e->m, symbols = (size_t)e->symbols;
     *out = (dal_ranks){.mass = -1};
     if (e->vakonomic || e->servo)
-        return dal__fail(error, DAL_UNSUPPORTED, "the motion is not that of Chetaev's rule");
+        return dal__fail(error, DAL_UNSUPPORTED, "the motion does not follow Chetaev's rule");
     matrices k = {.n = e->n,
                   .m = e->m,
                   .A = dal__model_allocate(model, m * n + 1, sizeof(double)),

@@ -9,14 +9,14 @@
  *     V = P^T W P + A^T C A,                                    C > 0, diagonal
  *     x = N bottom + y,   V y = P^T (top - W N bottom),   h = N^T (W x - top)
  *
- * V maps ker A to its annihilator as W does, and the range of N to that of A^T: it is regular
+ * V maps ker A to its annihilator as W does, and the range of N to the range of A^T: it is regular
  * exactly where the system is, and positive definite where W is so on ker A.  No coordinate is
  * singled out, so that no chart ends.  y loses the rounding that leads out of ker A.  This is the
  * null-space method with a projector for a basis: M. Benzi, G. H. Golub, J. Liesen, Acta Numerica
  * 14 (2005) 1, section 6, doi:10.1017/S0962492904000212.
  *
- * The weights are the diagonal of W; that of a coordinate without a mass balances its entries of A.
- * All are powers of two from the values at the default start, and so is C. */
+ * The weights are the diagonal of W; the weight of a coordinate without a mass balances its entries
+ * of A.  All are powers of two from the values at the default start, and so is C. */
 #include "model/restricted.h"
 #include "core/vectors.h"
 #include "expr/simplify.h"

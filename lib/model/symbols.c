@@ -69,7 +69,7 @@ static const char *entry_name(const dal__entry *entry)
     return entry->name ? entry->name : entry->text;
 }
 
-/* Whether two entries define one name; that of a function ends at its bracket. */
+/* Whether two entries define one name; a function's name ends at its bracket. */
 static bool same_name(const dal__entry *a, const dal__entry *b)
 {
     const char *x = entry_name(a), *y = entry_name(b);
@@ -328,7 +328,7 @@ void dal__entry_title(const dal_model *model, const dal__entry *entry, char *tit
         snprintf(title, size, "%s", label);
 }
 
-/* Adds the title of the entry to the message, and its place in the file to that of the error. */
+/* Adds the title of the entry to the message, and its place in the file to the error's place. */
 static dal_status locate(const dal_model *model, const dal__entry *entry, dal_error *error,
                          const dal_error *inner)
 {

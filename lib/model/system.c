@@ -1,4 +1,4 @@
-/* system.c - the dal_system of a model, and that of its tangent map. */
+/* system.c - the dal_system of a model, and of its tangent map. */
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"

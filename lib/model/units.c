@@ -2,7 +2,7 @@
  *
  * For points at which formulas are compared:
  *
- *     v_i   |v_i|, or that of equal energy: W_ii v_i^2 = max_j W_jj v_j^2, or S(L) at rest
+ *     v_i   |v_i|, or the one of equal energy: W_ii v_i^2 = max_j W_jj v_j^2, or S(L) at rest
  *     q_i   |q_i|, or the smallest at which S of L, a D or a force grows by a part
  *     t     |t|, or likewise              g_a   S(L)/S(D_a)
  *

@@ -72,7 +72,7 @@ static int next_kind(const engine_choice *from, int remaining)
     return i;
 }
 
-/* Groups before that of a lane are at most as many as the widest would be. */
+/* Groups before a lane's own are at most as many as the widest would be. */
 static group *group_of(const dal_batch *batch, int lane)
 {
     group *b = &batch->group[lane / batch->group[0].kind->width];

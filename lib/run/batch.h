@@ -9,7 +9,7 @@
 dal_status dal__batch_of_variant(dal_batch **batch, const dal_run_spec *spec, int count, int width,
                                  dal__variant only, dal_error *error);
 
-/* As dal_batch_start, for a lane whose start is that of the settings and numbers added to it,
+/* As dal_batch_start, for a lane whose start is the settings' with numbers added to it,
  * [dimension] or NULL; and what its status is where it has no start. */
 dal_status dal__batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                             int parameter_count, const dal_setting *start, int start_count,

@@ -124,10 +124,11 @@ static dal_status dependent(const dal__linearised *k, int a, double pivot, dal_e
         return dal__fail(error, DAL_RANK,
                          "constraint %d has %g on the diagonal of G = A W^-1 A^T at %s", a + 1,
                          k->out[a], k->place);
-    return dal__fail(error, DAL_RANK,
-                     "constraint %d restricts, but for rounding, only velocities that those before "
-                     "it restrict at %s: of its %g on the diagonal of G they leave %.2g",
-                     a + 1, k->place, k->out[a], pivot);
+    return dal__fail(
+        error, DAL_RANK,
+        "constraint %d restricts, except for rounding, only velocities that earlier ones "
+        "restrict at %s: of its %g on the diagonal of G they leave %.2g",
+        a + 1, k->place, k->out[a], pivot);
 }
 
 /* Solves G x = x without exchanges of rows. */
@@ -198,8 +199,9 @@ dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
         if (dal__is_converged(change, before, dal__max_in_units(n, k->v, k->unit))) return DAL_OK;
         if (change > before) part = fmax(0.5 * part, min_damping);
     }
-    return dal__fail(error, isfinite(k->D[max]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
-                     "no velocities near those of %s were found that satisfy constraint %d: "
-                     "D%d = %.6g",
-                     k->place, max + 1, max + 1, k->D[max]);
+    return dal__fail(
+        error, isfinite(k->D[max]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
+        "no velocities near the velocities of %s were found that satisfy constraint %d: "
+        "D%d = %.6g",
+        k->place, max + 1, max + 1, k->D[max]);
 }

@@ -29,7 +29,7 @@ typedef struct dal__linearised {
 dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition,
                                    const char *place);
 
-/* Evaluates D, A and B at the state, with W at the velocities u; NULL: at its own.  Errors: those
+/* Evaluates D, A and B at the state, with W at the velocities u; NULL: at its own.  Errors: as
  * of the constraints. */
 dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error);
 
@@ -47,7 +47,7 @@ dal_status dal__check_rank(dal__linearised *k, dal_error *error);
 /* Replaces the velocities u of the state by those, v, on D(q,v,t) = 0 and the condition for which
  * (v - u).W(q,u) (v - u) is stationary: in one step where D is linear.  Errors, and then v is not
  * defined: DAL_RANK, DAL_SINGULAR_MASS, DAL_INCONSISTENT (no such v is found near u),
- * DAL_UNSUPPORTED (W has no inverse), those of the constraints. */
+ * DAL_UNSUPPORTED (W has no inverse), as of the constraints. */
 dal_status dal__make_consistent(dal__linearised *k, dal_error *error);
 
 #endif

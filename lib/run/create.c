@@ -12,7 +12,7 @@ static size_t stored_count(const dal__layout *k)
     return k->options.precision == DAL_DOUBLE ? count : count * dal__quad_width();
 }
 
-/* Doubles beside those of the engines. */
+/* Doubles beside the engines' own. */
 static size_t own_numbers(const dal__layout *k)
 {
     const size_t time_and_observables = 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;

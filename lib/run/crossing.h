@@ -74,8 +74,8 @@ typedef struct dal__crossing {
     bool is_kept;     /* `distance` is the result of the search from `before` */
     double distance;
     int k;                   /* the function whose root is sought, */
-    bool by_rate;            /* or that of its rate */
-    long long touches;       /* extrema that are 0 but for rounding */
+    bool by_rate;            /* or the root of its rate */
+    long long touches;       /* extrema that are 0 up to rounding */
     long long unresolved;    /* steps in which |f'| times a part is more than pi max |f| */
     double first_unresolved; /* begin of the first of them; NaN: there is none */
     bool is_unresolved;      /* whether the present step is one */
@@ -88,7 +88,7 @@ void dal__crossing_init(dal__crossing *c, dal_run *run, const dal__functions *fu
                         double *memory);
 
 /* Begins to search a step of size h from the present state, which stays.  Sides that are known are
- * those of zero[].  Errors: as for a step, and of the functions. */
+ * in zero[].  Errors: as for a step, and of the functions. */
 dal_status dal__crossing_begin(dal__crossing *c, double h, dal_error *error);
 /* The distance of the next zero that counts, the first of all functions; infinite: none in the rest
  * of the step.  zero[].s has the zeros of the same part. */

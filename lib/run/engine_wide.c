@@ -294,8 +294,8 @@ static void observe_lift(engine *e, double t, num *out)
     dal_lift_observables(y, n, f, mu, out);
 }
 
-/* The multipliers of the method's last step; before the first those of F, which `values` begins
- * with. */
+/* The multipliers of the method's last step; before the first the multipliers of F, which `values`
+ * begins with. */
 static void observe_multipliers(const engine *e, num *values)
 {
     const dal_mask known = dal_less(dal_num(0.5), *e->step.has_multiplier);
@@ -385,7 +385,7 @@ static void begin_step(engine *e, double h, dal__lanes alive, dal_mask lanes)
 {
     dal_step *s = &e->step;
     memcpy(e->backup, e->persistent, changing(e) * sizeof(num));
-    int first = 0; /* alive lane; its time is that of all of them */
+    int first = 0; /* alive lane; all of them have its time */
     while (first < DAL_LANES - 1 && !(alive >> first & 1)) first++;
     s->t = dal_lane(*persistent_at(e, DAL__TIME), first);
     s->h = h;

@@ -268,7 +268,7 @@ void dal_ensemble_free(dal_ensemble *ensemble)
     free(ensemble);
 }
 
-/* The value of a parameter before something is added: that of the spec, or of the system. */
+/* The value of a parameter before something is added: the spec's, or the system's. */
 static double parameter_base(const dal_ensemble *e, int parameter)
 {
     const dal_system *system = dal__batch_layout(e->batch)->system;

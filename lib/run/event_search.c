@@ -3,7 +3,7 @@
 #include <float.h>
 #include <string.h>
 
-/* Multiples of DBL_EPSILON: below the first, |f| is 0 but for its rounding; below the second, a
+/* Multiples of DBL_EPSILON: below the first, |f| is 0 up to its rounding; below the second, a
  * rate is. */
 static const double value_factor = 16.0, rate_factor = 64.0;
 
@@ -129,7 +129,7 @@ dal_status dal__evaluate_event_normals(const dal__event_search *w)
     return dal__fail(w->error, status, "the events have no normals at t = %.17g", at.t);
 }
 
-/* The rounding of f, from the rounding of q; and of its rate, from that of v. */
+/* The rounding of f, from the rounding of q; and of its rate, from the rounding of v. */
 static double rounding_of(const dal__event_search *w, int k, const double *x)
 {
     const double *normal = dal__event_normal(w, k) + 1;

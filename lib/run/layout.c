@@ -19,7 +19,7 @@ enum { MAX_NUMBERS = 1000000000 };
 static const char *energy_fault(const dal_system *system)
 {
     if (system->properties & DAL_VAKONOMIC)
-        return "the energy of vakonomic motion is not that of L";
+        return "vakonomic motion does not conserve the energy of L";
     if (!system->energy) return "the system has no energy";
     if (!(system->properties & (DAL_E_EXACT | DAL_E_ON_D)))
         return "the motion does not conserve its energy";
@@ -248,7 +248,7 @@ static bool is_reaction(const dal_system *system, const char *name)
     return false;
 }
 
-/* A column has one meaning: names of the system are not those of reactions. */
+/* A column has one meaning: names of the system do not name reactions. */
 static dal_status check_reactions(const dal__layout *k, dal_error *error)
 {
     const dal_system *s = k->system;

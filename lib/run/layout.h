@@ -73,8 +73,8 @@ const double *dal__units(const dal__layout *layout, dal__unit_list list);
 dal_status dal__layout_init(dal__layout *layout, const dal_run_spec *spec, dal_error *error);
 
 /* The groups of observables in their order; LIFT: H, |p|, |pi|, |pi_e|; ERROR: where the exact
- * solution is known to be that of the run; REACTIONS, of F, and MULTIPLIERS, of the method, where
- * they are observed. */
+ * solution is known to start as the run does; REACTIONS, of F, and MULTIPLIERS, of the method,
+ * where they are observed. */
 typedef enum dal__observable_group {
     DAL__OBSERVE_D,
     DAL__OBSERVE_E,

@@ -39,7 +39,7 @@ struct dal_run {
     const dal__engine_kind *kind; /* of one lane */
     void *engine;
     double *persistent; /* [layout.persistent] of the engine; in quad precision: rounded */
-    double *storage;    /* [stored] persistent and, behind it, parameters; or those of quad */
+    double *storage;    /* [stored] persistent and, after it, parameters; or the same of quad */
     size_t stored;
     dal__quad_run quad;
     double *work;          /* [layout.workspace] parameters, and numbers of the system */

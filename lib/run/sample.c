@@ -1,8 +1,8 @@
 /* sample.c - a run observed: rows at equal distances in t, and observations every so often.
  *
  * The trajectory consists of steps h.  A row counts as reached when its time is nearer than ALIGNED
- * steps, or than the rounding of the clock, to that of a step; otherwise dal_run_intermediate gives
- * the row.  Times are compared in the direction of the run, the sign of h.
+ * steps, or than the rounding of the clock, to the time of a step; otherwise dal_run_intermediate
+ * gives the row.  Times are compared in the direction of the run, the sign of h.
  *
  * dal_observer.values receives observations in batches.  With compiled observables the states are
  * collected and evaluated together, as many at a time as a register has lanes; else each is
@@ -70,7 +70,7 @@ static void leave_out_jumps(const dal_run *run)
         o->values[(size_t)i * (size_t)o->capacity] -= dal_run_jump(run, i);
 }
 
-/* The scales at those of the last count observations where they are due. */
+/* The scales at each of the last count observations where they are due. */
 static dal_status deliver_scales(const sampling *k, int count)
 {
     dal_run *run = k->run;

@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Where a run keeps its scales: the results [observables]; those of D, E, invariants; of h, R; of H
- * and the norms of the lift [4]; a state [dimension]; F or the exact solution; memory of the
+/* Where a run keeps its scales: the results [observables]; the scales of D, E, invariants; of h, R;
+ * of H and the norms of the lift [4]; a state [dimension]; F or the exact solution; memory of the
  * system. */
 typedef struct places {
     double *out, *formulas, *reactions, *lift, *state, *vector, *memory;
@@ -119,7 +119,7 @@ static dal_status scale_lift(const dal_run *run, const dal_point *at, double *F,
 
 /* ---- all of them ---- */
 
-/* Where the scales of a group are, after those of the formulas were made. */
+/* Where the scales of a group are, after the scales of the formulas were made. */
 static const double *group_scales(const dal_run *run, const places *p, const dal_point *at,
                                   int group, dal_status *status)
 {
@@ -141,7 +141,7 @@ static const double *group_scales(const dal_run *run, const places *p, const dal
             if (fabs(p->vector[i] - at->q[i]) > fabs(p->vector[largest] - at->q[largest]))
                 largest = i;
         return p->vector + largest;
-    default: /* the multipliers of a method are those of F, nearly */
+    default: /* the multipliers of a method are nearly F's */
         return p->reactions;
     }
 }
