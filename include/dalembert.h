@@ -147,23 +147,21 @@ typedef enum dal_sums {
     DAL_SUMS_PLAIN        /* plain sums */
 } dal_sums;
 
-/* One of several words, by its number. */
-typedef int dal_choice;
-/* All options: OPTION(type, member, name in texts, default, min, max, the words of a choice or a
- * placeholder for the number, help). */
+/* All options: OPTION(type, member, name in texts, default, min, max, the words of the values of an
+ * enumeration or bool or a placeholder for the number, help). */
 #define DAL_OPTION_LIST(OPTION)                                                                    \
     OPTION(double, step, "step", 0.01, -1e300, 1e300, "H", "step size h; negative: backwards")     \
-    OPTION(dal_choice, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                        \
+    OPTION(dal_space, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                         \
            "variables: the 4n+2 of the lift, or (q,v); vakonomic systems have (q,v) alone")        \
-    OPTION(dal_choice, solver, "solver", DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",         \
+    OPTION(dal_solver, solver, "solver", DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",         \
            "how implicit equations are solved; to rounding level without solver-tolerance")        \
     OPTION(int, iterations, "iterations", 100, 1, 100000, "N",                                     \
            "maximum number of iterations of an implicit equation")                                 \
-    OPTION(dal_choice, extend_energy, "extend-energy", 0, 0, 1, "off|on",                          \
+    OPTION(bool, extend_energy, "extend-energy", false, 0, 1, "off|on",                            \
            "continues F off D = 0 so that E is conserved there too")                               \
-    OPTION(dal_choice, reactions, "reactions", 0, 0, 1, "off|on",                                  \
+    OPTION(bool, reactions, "reactions", false, 0, 1, "off|on",                                    \
            "observes multipliers h1.., reactions R_x.. of F, and a method's own lambda1..")        \
-    OPTION(dal_choice, consistent, "consistent", 0, 0, 1, "off|on",                                \
+    OPTION(bool, consistent, "consistent", false, 0, 1, "off|on",                                  \
            "moves the velocities of the start to D = 0, by the least change in the mass metric")   \
     OPTION(double, tolerance, "tolerance", 0, 0.0, 1.0, "TOLERANCE",                               \
            "estimated error, absolute and relative, of substeps, dop853 and taylor; 0: none")      \
@@ -171,10 +169,10 @@ typedef int dal_choice;
            "relative change at which an implicit equation counts as solved; 0: rounding level")    \
     OPTION(int, extra_iterations, "extra-iterations", 0, 0, 1000, "N",                             \
            "iterations after an implicit equation is solved")                                      \
-    OPTION(dal_choice, sums, "sums", DAL_SUMS_COMPENSATED, 0, 1, "compensated|plain",              \
+    OPTION(dal_sums, sums, "sums", DAL_SUMS_COMPENSATED, 0, 1, "compensated|plain",                \
            "how steps are added to the state")                                                     \
     OPTION(                                                                                        \
-        dal_choice, precision, "precision", DAL_DOUBLE, 0, 1, "double|quad",                       \
+        dal_precision, precision, "precision", DAL_DOUBLE, 0, 1, "double|quad",                    \
         "arithmetic of the run; quad has 113 binary digits and takes some hundred times longer")
 
 /* How a method takes its steps. */

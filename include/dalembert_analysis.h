@@ -175,7 +175,7 @@ typedef struct dal_trend {
  * 10.1080/01621459.1995.10476572).  scale is the size of the terms that it is made of, in its unit,
  * by which roundings are measured; where it or a value is not finite, no change is a rounding.
  * aborted: the run ended before its time.  More values may be added afterwards. */
-void dal_statistics_classify(const dal_statistics *statistics, double scale, int aborted,
+void dal_statistics_classify(const dal_statistics *statistics, double scale, bool aborted,
                              dal_trend *trend);
 
 /* Classifies all observables of a run: statistics[count] and trend[count] in the order of
@@ -184,7 +184,7 @@ void dal_statistics_classify(const dal_statistics *statistics, double scale, int
  * DAL_CONSERVED where the motion conserves it on every level of D, or on
  * D = 0 while max |D| is rounding-sized, and not where pi/e acts; H where F does not depend on t or
  * pi is 0; all else always is. */
-void dal_run_classify(dal_run *run, const dal_statistics *statistics, int aborted,
+void dal_run_classify(dal_run *run, const dal_statistics *statistics, bool aborted,
                       dal_trend *trend);
 
 /* ---- order and structure of a method ------------------------------------------------------- */
@@ -398,13 +398,13 @@ typedef struct dal_shares {
     dal_trend motion;                      /* of the exact motion, along the beginning */
     dal_trend error, error_halved;         /* in quad precision less the exact motion, or less the
                                               start where that conserves it; with half the step */
-    int by_rate;       /* whether the beginning is measured by rates, where the run clearly drifts,
+    bool by_rate;       /* whether the beginning is measured by rates, where the run clearly drifts,
                           or else by max deviations */
-    int whole_by_rate; /* the same for the whole run */
-    int vanishes_in_quad;      /* quad precision leaves nothing of the drift */
-    int is_conserved;          /* the exact motion from this start conserves it */
-    int is_motion;             /* the exact motion makes at least half of the change */
-    int solver_is_significant; /* whether the solver's part is well above rounding */
+    bool whole_by_rate; /* the same for the whole run */
+    bool vanishes_in_quad;      /* quad precision leaves nothing of the drift */
+    bool is_conserved;          /* the exact motion from this start conserves it */
+    bool is_motion;             /* the exact motion makes at least half of the change */
+    bool solver_is_significant; /* whether the solver's part is well above rounding */
     double order; /* log2 of what halving the step divides the error by: in quad precision, or
                      without it along the whole run; NaN: nothing to divide */
     /* share: of the change, 0..1; the share of PROJECTION vanishes without it, or with it; NaN: not
@@ -414,12 +414,12 @@ typedef struct dal_shares {
 
 /* A run, the runs it was compared with, and the shares of every observable's drift. */
 typedef struct dal_error_budget {
-    dal_run_spec spec;        /* of the run */
-    long long steps;          /* of the run */
-    long long quad_steps;     /* of those also in quad precision; 0: none */
-    long long exact_steps;    /* substeps of the exact motion, all along */
-    int has_projection;       /* the method projects: DAL_COMPARISON_PROJECTION does not */
-    int ran[DAL_COMPARISONS]; /* whether each ran to its end */
+    dal_run_spec spec;         /* of the run */
+    long long steps;           /* of the run */
+    long long quad_steps;      /* of those also in quad precision; 0: none */
+    long long exact_steps;     /* substeps of the exact motion, all along */
+    bool has_projection;       /* the method projects: DAL_COMPARISON_PROJECTION does not */
+    bool ran[DAL_COMPARISONS]; /* whether each ran to its end */
     char reason[DAL_COMPARISONS][DAL_MESSAGE_SIZE]; /* and if not, the reason */
     int observables;                                /* of the run */
     dal_shares *shares;                             /* [observables] */
@@ -497,7 +497,7 @@ typedef struct dal_balance {
                           dimension r x^order / (1 - x) with x = h r and
                           r = max(|F_q|^(1/2), |F_(v,g)|), of the quadrature and of J; it has no
                           statistical part: both are means of one trajectory */
-    int holds;         /* |difference| <= margin; if not, J is wrong */
+    bool holds;        /* |difference| <= margin; if not, J is wrong */
 } dal_balance;
 
 /* Compares the sum of all exponents so far with the divergence.  [alloc]  Errors: DAL_UNSUPPORTED:
@@ -510,9 +510,9 @@ const dal_run *dal_lyapunov_run(const dal_lyapunov *lyapunov);
 /* The number of vectors, and of exponents. */
 int dal_lyapunov_count(const dal_lyapunov *lyapunov);
 /* Whether J is by the tangent system, not by differences. */
-int dal_lyapunov_is_exact(const dal_lyapunov *lyapunov);
+bool dal_lyapunov_is_exact(const dal_lyapunov *lyapunov);
 /* Whether the vectors span the space, so that their sum is log|det J|/h. */
-int dal_lyapunov_is_whole(const dal_lyapunov *lyapunov);
+bool dal_lyapunov_is_whole(const dal_lyapunov *lyapunov);
 
 /* The unit of time of the system, tau of dal_scaled; NaN for NULL.  Exponents of regular motion may
  * reach about log(1 + T/tau)/T after a time T. */

@@ -30,7 +30,7 @@ typedef struct dal_native_options {
     const char *compiler; /* found along PATH, or a path; NULL: cc */
     int patience;         /* seconds after which a compiler is killed; 0: 60 */
     int nice;             /* by how much its priority is lower, 0..19 */
-    int (*stop)(void *);  /* called often while a compiler runs: not 0 kills it; NULL: never */
+    bool (*stop)(void *); /* called often while a compiler runs: true kills it; NULL: never */
     void *user;           /* the argument of stop */
 } dal_native_options;
 
@@ -43,7 +43,7 @@ typedef struct dal_native_options {
  * stop). */
 dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error);
 /* Whether the steps of a run are compiled. */
-int dal_run_is_native(const dal_run *run);
+bool dal_run_is_native(const dal_run *run);
 
 /* Compiles the observables for dal_observer.values: many states at a time, with the same bits.
  * Independent of dal_run_native.  [alloc]  Errors: as there. */
@@ -54,7 +54,7 @@ dal_status dal_run_native_observables(dal_run *run, const dal_native_options *op
  * Errors: as dal_run_native. */
 dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options, dal_error *error);
 /* Whether the steps of a batch are compiled. */
-int dal_batch_is_native(const dal_batch *batch);
+bool dal_batch_is_native(const dal_batch *batch);
 
 /* ---- compiled while a run is interpreted ---------------------------------------------------- */
 
@@ -95,7 +95,7 @@ dal_status dal_native_begin_batch(dal_native **native, const dal_batch *batch,
  * failed: DAL_UNSUPPORTED (the compiler failed or timed out), DAL_IO (cache). */
 dal_native_state dal_native_poll(dal_native *native, dal_error *error);
 /* Whether a run could use it, when it is ready. */
-int dal_native_fits(const dal_native *native, const dal_run *run);
+bool dal_native_fits(const dal_native *native, const dal_run *run);
 /* Takes the steps, or evaluates the observables, by compiled code from now on.  May be called by
  * what observes the run.  [alloc]  Errors: DAL_ARGUMENT (it is not ready, or does not fit),
  * DAL_MEMORY (of observables). */

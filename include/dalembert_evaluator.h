@@ -96,14 +96,14 @@ dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double
 /* The class of D as a function, by differences at points around *at: each member is a necessary
  * condition, satisfied to rounding at every point tried. */
 typedef struct dal_constraint_class {
-    int linear;          /* affine in v */
-    int constant;        /* affine in (q,v) jointly */
-    int bilinear;        /* affine in v, and affine in q */
-    int quadratic;       /* of degree <= 2 in (q,v) jointly */
+    bool linear;         /* affine in v */
+    bool constant;       /* affine in (q,v) jointly */
+    bool bilinear;       /* affine in v, and affine in q */
+    bool quadratic;      /* of degree <= 2 in (q,v) jointly */
     int parity;          /* D(q,-v,-t) = +D: 1, -D: -1, neither: 0; of the first
                             constraint, 0 when one has none */
-    int homogeneous;     /* v.D_v = k D with one k per constraint */
-    int reversible;      /* F(q,-v,-t) = F(q,v,t) */
+    bool homogeneous;    /* v.D_v = k D with one k per constraint */
+    bool reversible;     /* F(q,-v,-t) = F(q,v,t) */
     double force_defect; /* max |F(q,-v,-t) - F(q,v,t)| / max(1, |F|) over these points; NaN where
                             F has no values */
 } dal_constraint_class;

@@ -4,6 +4,7 @@
 #ifndef DALEMBERT_SYSTEM_H
 #define DALEMBERT_SYSTEM_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -419,7 +420,7 @@ enum { DAL_GROWTH_LEVELS = 64 /* max ranks of dal_growth */ };
 typedef struct dal_growth {
     int dimension;               /* n; where D has terms without v, or t: n + 1, of (t, q) */
     int levels;                  /* ranks */
-    int is_complete;             /* 0: further brackets are too large */
+    bool is_complete;            /* false: further brackets are too large */
     int rank[DAL_GROWTH_LEVELS]; /* [levels] */
 } dal_growth;
 /* Finds the growth vector of a model whose system is made, by exact brackets at points near the

@@ -27,7 +27,7 @@ extern "Python" dal_status python_poll(void *user, dal_run *run);
 extern "Python" dal_status python_event(void *user, dal_run *run, const dal_occurrence *event);
 extern "Python" dal_status python_cross(void *user, dal_run *run, const dal_crossing *crossing);
 extern "Python" dal_status python_progress(void *user, double done);
-extern "Python" int python_stop(void *user);
+extern "Python" bool python_stop(void *user);
 dal_status python_rows(dal_run *run, long long count, const double *times, double *rows,
                        long long *made, dal_error *error);
 dal_status python_events(dal_run *run, double T, void *user, dal_error *error);

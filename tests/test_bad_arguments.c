@@ -55,8 +55,8 @@ static void test_options(void)
     dal_run_spec spec = fixture_spec(&system, "rk4", (dal_space)7, 0.1);
     fixture_refused(&spec, DAL_ARGUMENT, "option space: 7 is not from 0 to 1");
     spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
-    spec.options.solver = -1;
-    fixture_refused(&spec, DAL_ARGUMENT, "option solver: -1 is not from 0 to 2");
+    spec.options.solver = (dal_solver)3;
+    fixture_refused(&spec, DAL_ARGUMENT, "option solver: 3 is not from 0 to 2");
 }
 
 /* A double has 53 binary digits, and sums 12 more that count; a quad number has 113. */

@@ -392,7 +392,7 @@ static void test_compiler_hangs(void)
     assert_ended(pipe);
 }
 
-static int stop_after(void *user)
+static bool stop_after(void *user)
 {
     int *calls = user;
     return (*calls)-- <= 0;

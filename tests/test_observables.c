@@ -215,7 +215,7 @@ static void test_lift(void)
                                         {"pi_x", 0.5}, {"pi_y", -0.25}, {"pi_e", -0.375}};
     const double lift[] = {(0.25 + 0.0625) / 4 + (-0.25 + 0.09375) + (0.09375 + 0.5) - 0.09375, 1.0,
                            0.5, 0.375};
-    for (dal_choice precision = DAL_DOUBLE; precision <= DAL_QUAD; precision++) {
+    for (dal_precision precision = DAL_DOUBLE; precision <= DAL_QUAD; precision++) {
         dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.01);
         double out[MAX_OBSERVABLES];
         spec.options.precision = precision;

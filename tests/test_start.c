@@ -444,8 +444,10 @@ static void test_unsolvable(void)
         fixture_spec(fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                                     "constraints: [y' - sqrt(x')]\nstart: {x': 0}\n"),
                      "rk4", DAL_PHYSICAL, 0.1);
-    for (spec.options.consistent = 0; spec.options.consistent <= 1; spec.options.consistent++)
+    for (int consistent = 0; consistent <= 1; consistent++) {
+        spec.options.consistent = consistent;
         fixture_refused(&spec, DAL_RANK, "constraint 1 has infinite derivatives");
+    }
     make_consistent("coordinates: [x, y]\nlagrangian: (x'^2 - y'^2)/2\nstart: {x': 1}\n"
                     "constraints: [x' - (1 + x)*y']\n",
                     DAL_RANK, "constraint 1 has 0 on the diagonal of G", z);

@@ -17,7 +17,7 @@ const char *order_failure_message(const order_study *s, const order_method *m)
     return "";
 }
 
-dal_choice order_space(const order_study *s, const order_method *m)
+dal_space order_space(const order_study *s, const order_method *m)
 {
     const bool has_lift = !(dal_method_needs(&m->method) & DAL_NEEDS_BLOCKS);
     return has_lift || request_has(s->request, REQUEST_space) ? s->spec.options.space

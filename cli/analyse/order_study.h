@@ -66,6 +66,6 @@ long long order_count_steps(const order_study *s, double h);
 const char *order_failure_message(const order_study *s, const order_method *m);
 /* The space of the runs of a method: lifted where the method and the system have a lift, unless
  * --space says otherwise. */
-dal_choice order_space(const order_study *s, const order_method *m);
+dal_space order_space(const order_study *s, const order_method *m);
 
 #endif

@@ -56,7 +56,7 @@ static int open_writer(run_recorder *r, const char *output)
     return writer_continue(&r->writer, r->position.row, &r->position.sum);
 }
 
-static int is_interrupted(void *user)
+static bool is_interrupted(void *user)
 {
     (void)user;
     return cli_interrupted();

@@ -45,7 +45,7 @@ typedef struct run_recorder {
     double seconds;       /* seconds in steps and rows since then */
     double shown;         /* when progress was last shown */
     progress_mode progress;
-    int (*stop)(void *user); /* whether to end the run; cli_interrupted by default */
+    bool (*stop)(void *user); /* whether to end the run; cli_interrupted by default */
     void *stop_user;
     int no_line;    /* no line of progress: no terminal */
     int shows_rows; /* on a terminal, where they would follow a line of progress */

@@ -67,9 +67,13 @@ static int parse_setting(void *user, const cli_option *option, const char *text)
 
 #define FIELD(name) offsetof(run_request, name)
 /* The default of each type; of a choice, its words. */
-#define DEFAULT_double(initial, value)     #initial
-#define DEFAULT_int(initial, value)        #initial
-#define DEFAULT_dal_choice(initial, value) value
+#define DEFAULT_double(initial, value)        #initial
+#define DEFAULT_int(initial, value)           #initial
+#define DEFAULT_bool(initial, value)          value
+#define DEFAULT_dal_space(initial, value)     value
+#define DEFAULT_dal_solver(initial, value)    value
+#define DEFAULT_dal_sums(initial, value)      value
+#define DEFAULT_dal_precision(initial, value) value
 
 const cli_option request_options[REQUEST_OPTIONS] = {
     {"integrator", "NAME", NULL,

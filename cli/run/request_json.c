@@ -14,9 +14,13 @@ static void put_choice(json_writer *w, int option, int choice)
     json_put_text(w, request_options[option].name, word);
 }
 
-#define PUT_double(w, option, x)     json_put_number(w, request_options[option].name, x)
-#define PUT_int(w, option, x)        json_put_integer(w, request_options[option].name, x)
-#define PUT_dal_choice(w, option, x) put_choice(w, option, x)
+#define PUT_double(w, option, x) json_put_number(w, request_options[option].name, x)
+#define PUT_int(w, option, x)    json_put_integer(w, request_options[option].name, x)
+#define PUT_bool                 put_choice
+#define PUT_dal_space            put_choice
+#define PUT_dal_solver           put_choice
+#define PUT_dal_sums             put_choice
+#define PUT_dal_precision        put_choice
 
 void request_put_value(json_writer *w, const run_request *request, int option)
 {

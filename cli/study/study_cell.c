@@ -117,7 +117,7 @@ static void add_displacement(cell_run *r)
 static void make_request(cell_run *r)
 {
 #define START_SPACE(code, word, space, about) space,
-    static const dal_choice space[] = {STUDY_START_LIST(START_SPACE)};
+    static const dal_space space[] = {STUDY_START_LIST(START_SPACE)};
 #undef START_SPACE
     const study_cell *c = r->cell;
     const study_case *e = c->of_case;

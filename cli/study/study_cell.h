@@ -8,7 +8,7 @@
 
 /* Called now and then while a run goes: whether to stop it, with a checkpoint. */
 typedef struct study_stop_check {
-    int (*stop)(void *user);
+    bool (*stop)(void *user);
     void *user;
 } study_stop_check;
 

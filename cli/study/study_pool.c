@@ -86,7 +86,7 @@ static void add_end(void *user)
     show_progress(p);
 }
 
-static int must_stop(void *user)
+static bool must_stop(void *user)
 {
     pool_exclude(show_progress, user);
     return cli_interrupted();

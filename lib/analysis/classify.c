@@ -57,7 +57,8 @@ static void mark_reactions(const dal_run *run, int invariants, dal_trend *trend)
             trend[i].conservation = DAL_NOT_CONSERVED;
 }
 
-void dal_run_classify(dal_run *run, const dal_statistics *statistics, int aborted, dal_trend *trend)
+void dal_run_classify(dal_run *run, const dal_statistics *statistics, bool aborted,
+                      dal_trend *trend)
 {
     if (!run || !statistics || !trend) return;
     const dal_system *s = dal_run_system(run);

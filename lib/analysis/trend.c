@@ -425,7 +425,7 @@ static decision classify(const dal_statistics *s, dal_trend *trend)
     return d;
 }
 
-void dal_statistics_classify(const dal_statistics *s, double scale, int aborted, dal_trend *trend)
+void dal_statistics_classify(const dal_statistics *s, double scale, bool aborted, dal_trend *trend)
 {
     if (!s || !trend) return;
     *trend = (dal_trend){.count = s->count,

@@ -461,8 +461,8 @@ void dal_lyapunov_free(dal_lyapunov *s)
 
 const dal_run *dal_lyapunov_run(const dal_lyapunov *s) { return s ? s->run : NULL; }
 int dal_lyapunov_count(const dal_lyapunov *s) { return s ? s->count : 0; }
-int dal_lyapunov_is_exact(const dal_lyapunov *s) { return s && s->exact; }
-int dal_lyapunov_is_whole(const dal_lyapunov *s) { return s && s->count == s->rank; }
+bool dal_lyapunov_is_exact(const dal_lyapunov *s) { return s && s->exact; }
+bool dal_lyapunov_is_whole(const dal_lyapunov *s) { return s && s->count == s->rank; }
 
 double dal_lyapunov_time_unit(const dal_lyapunov *s) { return s ? s->time : NAN; }
 

@@ -265,7 +265,7 @@ static bool has_same_observables(const dal_native *native, const dal_run *run)
            native->layout.options.reactions == run->layout.options.reactions;
 }
 
-int dal_native_fits(const dal_native *native, const dal_run *run)
+bool dal_native_fits(const dal_native *native, const dal_run *run)
 {
     if (!native || !run || native->product == DAL__LANES) return 0;
     return native->product == DAL__OBSERVE ? has_same_observables(native, run)
@@ -282,7 +282,7 @@ static dal_status check_use(const dal_native *native, bool fits, dal_error *erro
 
 /* ---- runs ---- */
 
-int dal_run_is_native(const dal_run *run) { return run && run->native.traced != NULL; }
+bool dal_run_is_native(const dal_run *run) { return run && run->native.traced != NULL; }
 
 enum { REGISTER = 8 }; /* numbers in the widest; as many as a line of the cache has */
 

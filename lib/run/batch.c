@@ -296,7 +296,7 @@ dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native_cod
     return DAL_OK;
 }
 
-int dal_batch_is_native(const dal_batch *batch) { return batch && batch->native.steps != NULL; }
+bool dal_batch_is_native(const dal_batch *batch) { return batch && batch->native.steps != NULL; }
 
 /* ---- use ---- */
 

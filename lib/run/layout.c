@@ -108,7 +108,7 @@ static dal_status check_options(const dal_options *o, dal_error *error)
         return dal__fail(error, DAL_ARGUMENT, "the step must be finite and not 0; it is %g",
                          o->step);
 #define OPTION(type, name, word, initial, min, max, value, help)                                   \
-    if (!(o->name >= min && o->name <= max))                                                       \
+    if (!((double)o->name >= min && (double)o->name <= max))                                       \
         return dal__fail(error, DAL_ARGUMENT, "option %s: %g is not from %g to %g", word,          \
                          (double)o->name, (double)min, (double)max);
     DAL_OPTION_LIST(OPTION)
@@ -446,7 +446,6 @@ typedef struct option {
     const char *name, *value;
     double min, max;
     bool is_whole, is_choice;
-    size_t offset;
 } option;
 
 static dal_status parse(const option *k, const char *text, double *value, dal_error *error)
@@ -466,16 +465,30 @@ static dal_status parse(const option *k, const char *text, double *value, dal_er
 }
 
 /* of each type of options: is_whole, is_choice */
-#define DAL__TYPE_double     false, false
-#define DAL__TYPE_int        true, false
-#define DAL__TYPE_dal_choice true, true
+#define DAL__TYPE_double        false, false
+#define DAL__TYPE_int           true, false
+#define DAL__TYPE_bool          true, true
+#define DAL__TYPE_dal_space     true, true
+#define DAL__TYPE_dal_solver    true, true
+#define DAL__TYPE_dal_sums      true, true
+#define DAL__TYPE_dal_precision true, true
+
+/* Sets option number i to a value in its range. */
+static void set_option(dal_options *options, int i, double value)
+{
+    int number = 0;
+#define OPTION(type, field, ...)                                                                   \
+    if (number++ == i) options->field = (type)value;
+    DAL_OPTION_LIST(OPTION)
+#undef OPTION
+}
 
 dal_status dal_options_set(dal_options *options, const char *name, const char *text,
                            dal_error *error)
 {
     static const option table[] = {
 #define OPTION(type, field, word, initial, min, max, value, help)                                  \
-    {word, value, min, max, DAL__TYPE_##type, offsetof(dal_options, field)},
+    {word, value, min, max, DAL__TYPE_##type},
         DAL_OPTION_LIST(OPTION)
 #undef OPTION
     };
@@ -485,16 +498,11 @@ dal_status dal_options_set(dal_options *options, const char *name, const char *t
     DAL_REQUIRE(name, error);
     DAL_REQUIRE(text, error);
     for (int i = 0; i < COUNT; i++) {
-        const option *k = &table[i];
-        void *field = (char *)options + k->offset;
         double value = 0.0;
-        names[i] = k->name;
-        if (strcmp(name, k->name) != 0) continue;
-        DAL_TRY(parse(k, text, &value, error));
-        if (k->is_whole)
-            *(int *)field = (int)value;
-        else
-            *(double *)field = value;
+        names[i] = table[i].name;
+        if (strcmp(name, names[i]) != 0) continue;
+        DAL_TRY(parse(&table[i], text, &value, error));
+        set_option(options, i, value);
         return DAL_OK;
     }
     return dal__unknown(error, "option", name, names, COUNT);

@@ -112,7 +112,7 @@ def python_progress(user: Any, done: float) -> int:
     return lib.DAL_OK
 
 
-@ffi.def_extern(error=1, onerror=keep_exception)
-def python_stop(user: Any) -> int:
+@ffi.def_extern(error=True, onerror=keep_exception)
+def python_stop(user: Any) -> bool:
     """The same for a compiler."""
-    return 0
+    return False
