@@ -226,7 +226,7 @@ dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *er
 void dal_run_free(dal_run *run);
 
 /* Takes one step, or the part of it before an event of the system, which then acts (see
- * dal_run_events); or leaves the run unchanged to the bit.  Errors: DAL_SINGULAR,
+ * dal_run_sample); or leaves the run unchanged to the bit.  Errors: DAL_SINGULAR,
  * DAL_SINGULAR_MASS, DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the message names the constraint
  * and the time. */
 dal_status dal_run_step(dal_run *run, dal_error *error);
@@ -331,11 +331,14 @@ typedef struct dal_observer {
 /* Advances the run to time T and samples rows first_row..samples, T0 = start_time, at t = T0 +
  * row*(T - T0)/samples, the last at T exactly.  The trajectory consists of steps h, which must lead
  * to T; dal_run_intermediate gives a row between two of them.  After an interruption between rows
- * pass the first row not sampled.  observer may be NULL.  Where an event ends the run, or cannot be
- * passed (DAL_STOPPED, DAL_EVENT), the last row is there, at the time that is reached.
- * Errors: as for a step; DAL_ARGUMENT, before anything is done, also where a row's time is not
- * finite or before the time of the row before it, or every or polling is negative; what a callback
- * returns. */
+ * pass the first row not sampled.  observer may be NULL.  A step that would pass an event of the system
+ * ends at it, to rounding; the next one has size h again.  Where an event ends the run, or cannot be
+ * passed, the last row is there, at the time that is reached.
+ * Errors: as for a step; DAL_STOPPED where an event ends the run; DAL_EVENT where one cannot be
+ * passed: it happens infinitely often, as when a ball comes to rest, or leaves velocities that lead
+ * out of the allowed side; DAL_UNSUPPORTED with events on the lifted space off p = pi = 0;
+ * DAL_ARGUMENT, before anything is done, also where a row's time is not finite or before the time of
+ * the row before it, or every or polling is negative; what a callback returns. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 /* Takes a step of size h from the present state, calls observe there, and restores the run to the
@@ -347,16 +350,6 @@ dal_status dal_run_intermediate(dal_run *run, double h,
                                 dal_status (*observe)(void *user, dal_run *run), void *user,
                                 dal_error *error);
 
-/* Advances the run to time T with its events, which all functions that take steps do, and calls
- * happened, which may be NULL, after each.  A step that would pass an event ends at it, to
- * rounding; the next one has size h again.  Errors: as for dal_run_sample; DAL_STOPPED where an
- * event ends the run; DAL_EVENT where one cannot be passed: it happens infinitely often, as when a
- * ball comes to rest, or leaves velocities that lead out of the allowed side; DAL_UNSUPPORTED on
- * the lifted space off p = pi = 0; what happened returns. */
-dal_status dal_run_events(dal_run *run, double T,
-                          dal_status (*happened)(void *user, dal_run *run,
-                                                 const dal_occurrence *event),
-                          void *user, dal_error *error);
 /* How often an event of the system, from 0, has happened; -1 without the event. */
 long long dal_run_event_count(const dal_run *run, int event);
 /* The number of the event that stopped the run, from 1; 0: none did. */

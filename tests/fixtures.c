@@ -142,6 +142,15 @@ dal_run *fixture_run(const dal_run_spec *spec)
     return run;
 }
 
+dal_status fixture_events(dal_run *run, double T,
+                          dal_status (*happened)(void *user, dal_run *run,
+                                                 const dal_occurrence *event),
+                          void *user, dal_error *error)
+{
+    const dal_observer observer = {.user = user, .event = happened};
+    return dal_run_sample(run, T, 1, 1, &observer, error);
+}
+
 dal_run *fixture_stepped(const dal_run_spec *spec, long long steps)
 {
     dal_run *run = fixture_run(spec);

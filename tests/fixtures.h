@@ -29,7 +29,12 @@ bool fixture_accepts(const dal_method *method, const dal_system *system, dal_spa
 /* A run of it; NULL and a failed test when it cannot be made. */
 dal_run *fixture_run(const dal_run_spec *spec);
 
-/* The same after some steps. */
+/* Advances a run to time T and calls happened, or nothing, after each event. */
+dal_status fixture_events(dal_run *run, double T,
+                          dal_status (*happened)(void *user, dal_run *run,
+                                                 const dal_occurrence *event),
+                          void *user, dal_error *error);
+/* A run of it after some steps. */
 dal_run *fixture_stepped(const dal_run_spec *spec, long long steps);
 /* Each lane of a batch has after some steps the bits of a run by itself; lane i starts at
  * name = from + i*by. */

@@ -475,7 +475,7 @@ static dal_status pass_events(trial *t)
     dal_run *run = NULL;
     dal_status status = dal_run_create(&run, &t->spec, &t->error);
     if (status == DAL_OK)
-        status = dal_run_events(run, 30.0 * t->spec.options.step, keep_event, t, &t->error);
+        status = fixture_events(run, 30.0 * t->spec.options.step, keep_event, t, &t->error);
     const long long unresolved = run ? dal_run_unresolved(run, NULL) : 0;
     add_number(t, (double)unresolved);
     if (status == DAL_OK) add_run(t, run);

@@ -76,7 +76,7 @@ static record events_of(const char *g, const motion *m)
     snprintf(text, sizeof text,
              "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\nevents: [{when: \"%s\"}]\n", g);
     dal_run *run = run_of(text, m);
-    CU_ASSERT_EQUAL(dal_run_events(run, m->T, note_event, &r, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, m->T, note_event, &r, NULL), DAL_OK);
     r.unresolved = dal_run_unresolved(run, &r.first);
     dal_run_free(run);
     return r;
@@ -243,7 +243,7 @@ static void test_changed_between(void)
     CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STOPPED);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), 0.75, 1e-15);
     CU_ASSERT_EQUAL(dal_run_restore(run, saved, count, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_events(run, 2.0, NULL, NULL, NULL), DAL_STOPPED);
+    CU_ASSERT_EQUAL(fixture_events(run, 2.0, NULL, NULL, NULL), DAL_STOPPED);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), 0.6, 1e-15);
     dal_run_free(run);
 }

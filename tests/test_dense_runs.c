@@ -240,7 +240,7 @@ static void test_crossings(void)
                                       .count = 1,
                                       .user = &c,
                                       .cross = note_crossing};
-        const dal_status status = is_event ? dal_run_events(run, 12.0, note_event, &c, NULL)
+        const dal_status status = is_event ? fixture_events(run, 12.0, note_event, &c, NULL)
                                            : dal_run_crossings(run, 12.0, &section, &found, NULL);
         CU_ASSERT_EQUAL(status, DAL_OK);
         CU_ASSERT_EQUAL(c.count, 4);

@@ -41,7 +41,7 @@ static bool find_events(const dal_run_spec *spec, double T, dal_status expected,
     const dal_status made = dal_run_create(&run, spec, NULL);
     if (made == DAL_UNSUPPORTED) return false;
     CU_ASSERT_EQUAL_FATAL(made, DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_events(run, T, note, r, NULL), expected);
+    CU_ASSERT_EQUAL(fixture_events(run, T, note, r, NULL), expected);
     dal_run_free(run);
     return true;
 }
@@ -230,7 +230,7 @@ static void test_kink(void)
         CU_ASSERT_DOUBLE_EQUAL(r.time[0], 1.0, accuracy);
         CU_ASSERT_DOUBLE_EQUAL(r.time[1], 1.5, accuracy);
         dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_events(run, 3.0, NULL, NULL, NULL), DAL_STOPPED);
+        CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, NULL), DAL_STOPPED);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], later, accuracy);
         dal_run_free(run);
     }
@@ -273,7 +273,7 @@ static void test_rest(void)
         const dal_run_spec spec =
             fixture_spec(fixture_system(text), names[i % 4], DAL_PHYSICAL, 0.01);
         dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_events(run, 3.0, NULL, NULL, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_run_event_count(run, 0), 1);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], 2.2 * 2.2 / (2.0 * 0.3 * 9.81), accuracy);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[1], 0.0, 1e-16);
@@ -287,7 +287,7 @@ static void test_rest(void)
                        "forces: {x: -0.1*sign(x')}\nstart: {x: 1.05}\nevents: [{when: x'}]\n"),
         "gauss12", DAL_PHYSICAL, 0.1);
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_events(run, 30.0, note, &r, &error), DAL_EVENT);
+    CU_ASSERT_EQUAL(fixture_events(run, 30.0, note, &r, &error), DAL_EVENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "event 1 (x') at t = 15.70796326794"));
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "F leads back"));
     CU_ASSERT_EQUAL(r.count, 5);
@@ -380,7 +380,7 @@ static void test_quad(void)
     const dal_status made = dal_run_create(&run, &spec, NULL);
     if (made == DAL_UNSUPPORTED) return; /* no type of 113 bits */
     CU_ASSERT_EQUAL_FATAL(made, DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_events(run, 3.0, NULL, NULL, NULL), DAL_STOPPED);
+    CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, NULL), DAL_STOPPED);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), 2.2 / (0.3 * 9.81), 1e-15);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[1], 0.0, 1e-15);
     dal_run_free(run);

@@ -53,7 +53,7 @@ static record events_of(const char *text, const char *method, dal_space space, d
     record r = {0};
     dal_error own = {0};
     dal_run *run = run_of(text, method, space, step);
-    const dal_status status = dal_run_events(run, T, note, &r, error ? error : &own);
+    const dal_status status = fixture_events(run, T, note, &r, error ? error : &own);
     if (status != expected) printf("\n  %s\n", error ? error->message : own.message);
     CU_ASSERT_EQUAL(status, expected);
     dal_run_free(run);
@@ -476,7 +476,7 @@ static void test_jump(void)
 {
     dal_run *run = run_of(BALL("restitution: c"), "gauss4", DAL_PHYSICAL, 0.01);
     double E[8];
-    CU_ASSERT_EQUAL(dal_run_events(run, 2.0, NULL, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, 2.0, NULL, NULL, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_event_count(run, 0), 3);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_jump(run, 0), (pow(0.8, 6) - 1.0) * 9.81, 1e-12);
     CU_ASSERT_EQUAL(dal_run_observe(run, E), DAL_OK);
@@ -492,7 +492,7 @@ static void test_quad(void)
         fixture_spec(fixture_system(BALL("restitution: c")), "gauss4", DAL_PHYSICAL, 0.05);
     spec.options.precision = DAL_QUAD;
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_events(run, 1.0, NULL, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, 1.0, NULL, NULL, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_event_count(run, 0), 1);
     const double first = sqrt(2.0 / 9.81), t = dal_run_time(run) - first;
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], 0.1 + 0.8 * 9.81 * first * t - 0.5 * 9.81 * t * t,

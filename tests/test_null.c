@@ -185,12 +185,6 @@ static void null_dal_run_intermediate(void)
     CU_ASSERT_EQUAL(dal_run_intermediate(run, 0.1, see, NULL, NULL), DAL_OK);
 }
 
-static void null_dal_run_events(void)
-{
-    REFUSED(dal_run_events(NULL, 1.0, NULL, NULL, error));
-    CU_ASSERT_EQUAL(dal_run_events(run, 3.0, NULL, NULL, NULL), DAL_OK);
-}
-
 static void null_dal_run_event_count(void)
 {
     CU_ASSERT_EQUAL(dal_run_event_count(NULL, 0), -1);

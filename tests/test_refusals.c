@@ -150,7 +150,7 @@ static void test_events(void)
     dal_run *run = fixture_run(&spec);
     dal_error error;
     /* y = -1 + 2t - t^2/2 is 0 at t = 2 - sqrt(2), where y' = sqrt(2) becomes 2 sqrt(2). */
-    CU_ASSERT_EQUAL(dal_run_events(run, 2.0, NULL, NULL, &error), DAL_EVENT);
+    CU_ASSERT_EQUAL(fixture_events(run, 2.0, NULL, NULL, &error), DAL_EVENT);
     CU_ASSERT_PTR_NOT_NULL(
         strstr(error.message, ": the velocities after it still lead out, d(when)/dt = 2.82843"));
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "at t = 0.5857864376269"));

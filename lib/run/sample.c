@@ -345,12 +345,3 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
     }
     return DAL_OK;
 }
-
-dal_status dal_run_events(dal_run *run, double T,
-                          dal_status (*happened)(void *user, dal_run *run,
-                                                 const dal_occurrence *event),
-                          void *user, dal_error *error)
-{
-    const dal_observer observer = {.user = user, .event = happened};
-    return dal_run_sample(run, T, 1, 1, &observer, error);
-}
