@@ -331,14 +331,14 @@ typedef struct dal_observer {
 /* Advances the run to time T and samples rows first_row..samples, T0 = start_time, at t = T0 +
  * row*(T - T0)/samples, the last at T exactly.  The trajectory consists of steps h, which must lead
  * to T; dal_run_intermediate gives a row between two of them.  After an interruption between rows
- * pass the first row not sampled.  observer may be NULL.  A step that would pass an event of the system
- * ends at it, to rounding; the next one has size h again.  Where an event ends the run, or cannot be
- * passed, the last row is there, at the time that is reached.
- * Errors: as for a step; DAL_STOPPED where an event ends the run; DAL_EVENT where one cannot be
- * passed: it happens infinitely often, as when a ball comes to rest, or leaves velocities that lead
- * out of the allowed side; DAL_UNSUPPORTED with events on the lifted space off p = pi = 0;
- * DAL_ARGUMENT, before anything is done, also where a row's time is not finite or before the time of
- * the row before it, or every or polling is negative; what a callback returns. */
+ * pass the first row not sampled.  observer may be NULL.  A step that would pass an event of the
+ * system ends at it, to rounding; the next one has size h again.  Where an event ends the run, or
+ * cannot be passed, the last row is there, at the time that is reached.  Errors: as for a step;
+ * DAL_STOPPED where an event ends the run; DAL_EVENT where one cannot be passed: it happens
+ * infinitely often, as when a ball comes to rest, or leaves velocities that lead out of the allowed
+ * side; DAL_UNSUPPORTED with events on the lifted space off p = pi = 0; DAL_ARGUMENT, before
+ * anything is done, also where a row's time is not finite or before the time of the row before it,
+ * or every or polling is negative; what a callback returns. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 /* Takes a step of size h from the present state, calls observe there, and restores the run to the
@@ -471,7 +471,7 @@ typedef struct dal_spread {
 } dal_spread;
 
 /* The spread of values[count], finite ones; NaN where too few are there. */
-void dal_measure_spread(const double *values, long long count, dal_spread *spread);
+void dal_spread_measure(dal_spread *spread, const double *values, long long count);
 /* Quantiles of values[count], which are reordered: quantile[i] for p[i] in 0..1, i < quantiles.
  * Between two values it is linear (Hyndman, Fan 1996, type 7, DOI 10.1080/00031305.1996.10473566).
  * NaN without values. */

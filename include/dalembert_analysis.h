@@ -204,7 +204,7 @@ typedef enum dal_order_outcome {
 #undef ORDER_OUTCOME_CODE
 } dal_order_outcome;
 
-/* Errors at time T for decreasing steps (step, step/2, step/4, ... in dal_measure_order), their
+/* Errors at time T for decreasing steps (step, step/2, step/4, ... in dal_order_measure), their
  * cost, and the slopes between them. */
 typedef struct dal_order {
     int levels;                              /* step sizes, at most DAL_ORDER_LEVELS */
@@ -230,15 +230,11 @@ long long dal_whole_steps(double from, double to, double step);
 
 /* Measures the order with 2 to DAL_ORDER_LEVELS step sizes: the state at T, a whole number of the
  * steps, against reference[dimension], or, when that is NULL, against gauss12 (or
- * *reference_method) with half the smallest step. [alloc]  Errors: as for the runs, DAL_ARGUMENT.
- */
-dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
+ * *reference_method) with half the smallest step.  The observer, which may be NULL, has its poll
+ * called every few hundred steps of a run. [alloc]  Errors: as for the runs, DAL_ARGUMENT. */
+dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
-                             dal_order *order, dal_error *error);
-/* The same, which calls the observer's poll (NULL: nothing) every few hundred steps of a run. */
-dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
-                             const dal_method *reference_method, const double *reference,
-                             const dal_observer *observer, dal_order *order, dal_error *error);
+                             const dal_observer *observer, dal_error *error);
 
 /* The maximum entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
  * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e), in the units of the
@@ -439,9 +435,9 @@ typedef struct dal_error_budget_observer {
 /* Runs a spec for a number of steps, and the runs it is compared with, and finds the shares of
  * every observable's drift.  observer may be NULL.  A comparison that is not possible is left out,
  * with a reason.  [alloc]  Errors: as for the run itself, DAL_ARGUMENT. */
-dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, long long quad_steps,
-                                   const dal_error_budget_observer *observer,
-                                   dal_error_budget **budget, dal_error *error);
+dal_status dal_error_budget_create(dal_error_budget **budget, const dal_run_spec *spec,
+                                   long long steps, long long quad_steps,
+                                   const dal_error_budget_observer *observer, dal_error *error);
 /* Frees a budget. */
 void dal_error_budget_free(dal_error_budget *budget);
 

@@ -415,8 +415,8 @@ static dal_status measure_action(trial *t)
 static dal_status measure_order(trial *t)
 {
     dal_order order = {0};
-    const dal_status status =
-        dal_measure_order(&t->spec, 4.0 * t->spec.options.step, 2, NULL, NULL, &order, &t->error);
+    const dal_status status = dal_order_measure(&order, &t->spec, 4.0 * t->spec.options.step, 2,
+                                                NULL, NULL, NULL, &t->error);
     add(t, order.error, order.levels);
     return status;
 }
@@ -434,7 +434,7 @@ static dal_status check_maps(trial *t)
 static dal_status budget(trial *t)
 {
     dal_error_budget *e = NULL;
-    const dal_status status = dal_error_budget_create(&t->spec, 4, 0, NULL, &e, &t->error);
+    const dal_status status = dal_error_budget_create(&e, &t->spec, 4, 0, NULL, &t->error);
     for (int i = 0; e && i < e->observables; i++) add_number(t, e->shares[i].whole.deviation);
     dal_error_budget_free(e);
     return status;

@@ -288,7 +288,7 @@ static void test_quantiles(void)
         memcpy(sorted, values, sizeof values);
         qsort(sorted, (size_t)count, sizeof *sorted, compare_numbers);
         dal_spread spread;
-        dal_measure_spread(values, count, &spread);
+        dal_spread_measure(&spread, values, count);
         CU_ASSERT_EQUAL(spread.count, count);
         CU_ASSERT_EQUAL(spread.min, sorted[0]);
         CU_ASSERT_EQUAL(spread.max, sorted[count - 1]);
@@ -311,13 +311,13 @@ static void test_spread(void)
     double values[1000];
     dal_spread spread;
     for (int i = 0; i < 1000; i++) values[i] = 1e8 + (i % 2 ? 1.0 : -1.0);
-    dal_measure_spread(values, 1000, &spread);
+    dal_spread_measure(&spread, values, 1000);
     CU_ASSERT_DOUBLE_EQUAL(spread.mean, 1e8, 1e-8);
     CU_ASSERT_DOUBLE_EQUAL(spread.deviation, sqrt(1000.0 / 999.0), 1e-12);
     /* The sum is beyond 2^53 and rounds each summand to a multiple of 8 or 16; the mean is right to
      * its own last place, 2^-6. */
     for (int i = 0; i < 999; i++) values[i] = 1e14 + 5.0 * (i % 3 == 0);
-    dal_measure_spread(values, 999, &spread);
+    dal_spread_measure(&spread, values, 999);
     CU_ASSERT_DOUBLE_EQUAL(spread.mean - 1e14, 5.0 / 3.0, 0x1p-5);
 }
 

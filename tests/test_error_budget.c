@@ -11,7 +11,7 @@ static dal_error_budget *explained(const dal_run_spec *spec, long long steps, lo
 {
     dal_error_budget *e = NULL;
     dal_error error = {0};
-    const dal_status status = dal_error_budget_create(spec, steps, quad_steps, NULL, &e, &error);
+    const dal_status status = dal_error_budget_create(&e, spec, steps, quad_steps, NULL, &error);
     if (status != DAL_OK) printf("\n  %s\n", error.message);
     CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
     return e;
@@ -431,23 +431,23 @@ static void test_observer(void)
     dal_error error = {0};
     watch w = {.max_calls = 1 << 30};
     const dal_error_budget_observer observer = {&w, step, begin};
-    CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, &observer, &e, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, &observer, &error), DAL_OK);
     CU_ASSERT_EQUAL(w.runs, 8); /* the run, five comparisons, and the beginning in doubles */
     CU_ASSERT(w.done > 0.99);
     dal_error_budget_free(e);
     const int all = w.calls;
     for (int max_calls = 1; max_calls < all; max_calls += all / 7) {
         w = (watch){.max_calls = max_calls};
-        CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, &observer, &e, &error),
+        CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, &observer, &error),
                         DAL_INTERRUPTED);
         CU_ASSERT_PTR_NULL(e);
     }
-    CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 0, 50, NULL, &e, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 0, 50, NULL, &error), DAL_ARGUMENT);
     spec.options.precision = DAL_QUAD;
-    CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, NULL, &e, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, NULL, &error), DAL_ARGUMENT);
     spec.options.precision = DAL_DOUBLE;
     spec.options.iterations = 1;
-    CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, NULL, &e, &error), DAL_NOT_CONVERGED);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, NULL, &error), DAL_NOT_CONVERGED);
     CU_ASSERT_PTR_NULL(e);
 }
 
@@ -457,7 +457,7 @@ static void test_explicit(void)
     static const dal_comparison_run solver[] = {DAL_COMPARISON_TIGHTER, DAL_COMPARISON_LOOSER};
     const dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
     dal_error_budget *e = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_error_budget_create(&spec, 4, 2, NULL, &e, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_error_budget_create(&e, &spec, 4, 2, NULL, NULL), DAL_OK);
     for (int i = 0; i < 2; i++) {
         CU_ASSERT(!e->ran[solver[i]]);
         CU_ASSERT_STRING_EQUAL(e->reason[solver[i]], "the method solves no equations");
@@ -473,7 +473,7 @@ static void test_out_of_memory(void)
     while (allocation_next(&trial)) {
         dal_error_budget *e = NULL;
         allocation_start(&trial);
-        const dal_status status = dal_error_budget_create(&spec, 4, 2, NULL, &e, NULL);
+        const dal_status status = dal_error_budget_create(&e, &spec, 4, 2, NULL, NULL);
         CU_ASSERT_EQUAL(e == NULL, allocation_end(&trial, status));
         dal_error_budget_free(e);
     }

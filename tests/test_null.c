@@ -306,14 +306,14 @@ static void null_dal_ensemble_batch(void) { CU_ASSERT_PTR_NULL(dal_ensemble_batc
 static void null_dal_ensemble_draws(void) { dal_ensemble_draws(NULL, numbers); }
 static void null_dal_ensemble_states(void) { dal_ensemble_states(NULL, numbers); }
 
-static void null_dal_measure_spread(void)
+static void null_dal_spread_measure(void)
 {
     dal_spread spread;
-    dal_measure_spread(NULL, 1, &spread);
+    dal_spread_measure(&spread, NULL, 1);
     CU_ASSERT(spread.count == 0 && isnan(spread.mean));
-    dal_measure_spread(numbers, -1, &spread);
+    dal_spread_measure(&spread, numbers, -1);
     CU_ASSERT(spread.count == 0 && isnan(spread.max));
-    dal_measure_spread(numbers, 1, NULL);
+    dal_spread_measure(NULL, numbers, 1);
 }
 
 static void null_dal_measure_quantiles(void)

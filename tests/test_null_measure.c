@@ -28,7 +28,7 @@ static int open_objects(void)
            dal_evaluator_create(&evaluator, system, NULL, 0, NULL) != DAL_OK ||
            dal_model_tangent(model, &tangent, NULL) != DAL_OK ||
            dal_lyapunov_create(&lyapunov, &spec, NULL, 1, NULL) != DAL_OK ||
-           dal_error_budget_create(&spec, 10, 0, NULL, &budget, NULL) != DAL_OK;
+           dal_error_budget_create(&budget, &spec, 10, 0, NULL, NULL) != DAL_OK;
 }
 
 static int close_objects(void)
@@ -204,26 +204,19 @@ static dal_status interrupts(void *user, dal_run *stepped)
     return dal_run_steps(stepped) > 0 && ++*(int *)user > 2 ? DAL_INTERRUPTED : DAL_OK;
 }
 
-static void null_dal_observe_order(void)
+static void null_dal_order_measure(void)
 {
     dal_order order;
     int polls = 0;
     const dal_observer observer = {.user = &polls, .poll = interrupts}, nobody = {.poll = NULL};
-    REFUSED_SPECS(bad, dal_observe_order(bad, 1.0, 2, NULL, NULL, &nobody, &order, error));
-    REFUSED(dal_observe_order(&spec, 1.0, 2, NULL, NULL, &nobody, NULL, error));
-    CU_ASSERT_EQUAL(dal_observe_order(&spec, 1.0, 2, NULL, NULL, &nobody, &order, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_observe_order(&spec, 100.0, 2, NULL, NULL, &observer, &order, NULL),
+    REFUSED_SPECS(bad, dal_order_measure(&order, bad, 1.0, 2, NULL, NULL, &nobody, error));
+    REFUSED(dal_order_measure(NULL, &spec, 1.0, 2, NULL, NULL, &nobody, error));
+    REFUSED(dal_order_measure(&order, &spec, 1.0, -1, NULL, NULL, NULL, error));
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 2, NULL, NULL, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 2, NULL, NULL, &nobody, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 100.0, 2, NULL, NULL, &observer, NULL),
                     DAL_INTERRUPTED);
     CU_ASSERT_EQUAL(polls, 3);
-}
-
-static void null_dal_measure_order(void)
-{
-    dal_order order;
-    REFUSED_SPECS(bad, dal_measure_order(bad, 1.0, 2, NULL, NULL, &order, error));
-    REFUSED(dal_measure_order(&spec, 1.0, -1, NULL, NULL, &order, error));
-    REFUSED(dal_measure_order(&spec, 1.0, 2, NULL, NULL, NULL, error));
-    CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 2, NULL, NULL, &order, NULL), DAL_OK);
 }
 
 static void null_dal_check_symplecticity(void)
@@ -317,11 +310,11 @@ static void null_dal_error_source_name(void)
 static void null_dal_error_budget_create(void)
 {
     dal_error_budget *made = budget;
-    REFUSED_SPECS(bad, dal_error_budget_create(bad, 10, 0, NULL, &made, error));
+    REFUSED_SPECS(bad, dal_error_budget_create(&made, bad, 10, 0, NULL, error));
     CU_ASSERT_PTR_NULL(made);
-    REFUSED(dal_error_budget_create(&spec, -1, 0, NULL, &made, error));
-    REFUSED(dal_error_budget_create(&spec, 10, -1, NULL, &made, error));
-    REFUSED(dal_error_budget_create(&spec, 10, 0, NULL, NULL, error));
+    REFUSED(dal_error_budget_create(&made, &spec, -1, 0, NULL, error));
+    REFUSED(dal_error_budget_create(&made, &spec, 10, -1, NULL, error));
+    REFUSED(dal_error_budget_create(NULL, &spec, 10, 0, NULL, error));
 }
 
 static void null_dal_error_budget_free(void) { dal_error_budget_free(NULL); }

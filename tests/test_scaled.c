@@ -262,8 +262,9 @@ static void test_order(void)
     const dal_run_spec plain = coupled(1.0, 1.0, 1.0);
     const dal_run_spec other = coupled(0x1p-60, 0x1p50, 0x1p-40);
     dal_order order[2];
-    CU_ASSERT_EQUAL(dal_measure_order(&plain, 2.0, 4, NULL, NULL, &order[0], NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_measure_order(&other, 0x1p41, 4, NULL, NULL, &order[1], NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order[0], &plain, 2.0, 4, NULL, NULL, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order[1], &other, 0x1p41, 4, NULL, NULL, NULL, NULL),
+                    DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(order[0].order, 4.0, 0.1);
     CU_ASSERT_DOUBLE_EQUAL(order[1].order, order[0].order, 1e-5);
     for (int i = 0; i < 4; i++)

@@ -21,7 +21,7 @@ static void test_order(void)
         const dal_run_spec spec = fixture_spec(fixture_system(fixture_full), cases[k].method,
                                                DAL_PHYSICAL, cases[k].step);
         dal_order order;
-        CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, NULL, &order, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, NULL, NULL, NULL), DAL_OK);
         CU_ASSERT_DOUBLE_EQUAL(order.order, cases[k].order, 0.1);
         CU_ASSERT_EQUAL(order.step[2], cases[k].step / 4.0);
         CU_ASSERT(order.error[0] > order.error[1] && order.error[1] > order.error[2]);
@@ -35,10 +35,10 @@ static void test_order_of_reference(void)
     dal_run_spec spec =
         fixture_spec(fixture_system("chaplygin-sleigh"), "gauss6", DAL_PHYSICAL, 0.25);
     dal_order order;
-    CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, x, &order, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, x, NULL, NULL), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(order.order, 6.0, 0.1);
     spec = fixture_spec(fixture_system("chaplygin-sleigh"), "gauss12", DAL_PHYSICAL, 0.0625);
-    CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 2, NULL, x, &order, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 2, NULL, x, NULL, NULL), DAL_OK);
     CU_ASSERT(isnan(order.order));
 }
 
@@ -137,7 +137,7 @@ static void test_order_whole_steps(void)
         fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.25);
     for (int i = 0; i < 4; i++) {
         dal_order order;
-        CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0 + off[i], 2, NULL, NULL, &order, NULL),
+        CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0 + off[i], 2, NULL, NULL, NULL, NULL),
                         i < 2 ? DAL_OK : DAL_ARGUMENT);
     }
 }
@@ -147,7 +147,7 @@ static void test_order_work(void)
     const dal_run_spec spec =
         fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.25);
     dal_order order;
-    CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, NULL, &order, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, NULL, NULL, NULL), DAL_OK);
     for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(order.evaluations[i], 16LL << i);
 }
 
@@ -157,10 +157,13 @@ static void test_order_refuses(void)
         fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_LIFTED, 0.3);
     dal_order order;
     dal_error error;
-    CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, NULL, &order, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, NULL, NULL, &error),
+                    DAL_ARGUMENT);
     CU_ASSERT(strstr(error.message, "whole number of steps") != NULL);
-    CU_ASSERT_EQUAL(dal_measure_order(&spec, 0.9, 1, NULL, NULL, &order, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_measure_order(&spec, 0.9, 9, NULL, NULL, &order, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 0.9, 1, NULL, NULL, NULL, &error),
+                    DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 0.9, 9, NULL, NULL, NULL, &error),
+                    DAL_ARGUMENT);
 }
 
 /* ---- symplecticity ---- */
@@ -369,7 +372,7 @@ static dal_status all_measures(const dal_run_spec *spec, const dal_system *tange
     double number;
     dal_order order;
     dal_statistics pairing;
-    dal_status status = dal_measure_order(spec, 0.5, 2, NULL, NULL, &order, NULL);
+    dal_status status = dal_order_measure(&order, spec, 0.5, 2, NULL, NULL, NULL, NULL);
     if (!status) status = dal_check_symplecticity(spec, 0.0, NULL, 0.0, &number, NULL);
     if (!status) status = dal_check_reversibility(spec, 0.0, NULL, &number, NULL);
     if (!status) status = dal_adjoint_pairing(spec, tangent, direction, 2, &pairing, NULL);

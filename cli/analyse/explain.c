@@ -452,7 +452,7 @@ int explain_run(explain_settings *s)
     const dal_error_budget_observer observer = {&explained, show_progress, compile_run};
     cli_catch_signals();
     const dal_status done =
-        dal_error_budget_create(&spec, (long long)steps, s->quad_steps, &observer, &e, &error);
+        dal_error_budget_create(&e, &spec, (long long)steps, s->quad_steps, &observer, &error);
     cli_progress_end();
     if (done != DAL_OK) return cli_error(cli_exit(done), s->request.system_name, &error);
     status = s->output ? write_budget(s->output, e) : CLI_DONE;

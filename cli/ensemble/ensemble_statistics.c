@@ -106,7 +106,7 @@ static void measure_component(void *user, int i)
                        0};
     const int status = for_rows(s, i / e->columns, take_column, &r);
     if (status == CLI_DONE) {
-        dal_measure_spread(r.values, r.count, &c->spread);
+        dal_spread_measure(&c->spread, r.values, r.count);
         count_bins(c, r.values, r.count);
         dal_measure_quantiles(r.values, r.count, e->quantile, e->quantiles, c->quantile);
     } else {

@@ -425,9 +425,9 @@ static dal_status run_all(comparisons *w)
     return status;
 }
 
-dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, long long quad_steps,
-                                   const dal_error_budget_observer *observer,
-                                   dal_error_budget **budget, dal_error *error)
+dal_status dal_error_budget_create(dal_error_budget **budget, const dal_run_spec *spec,
+                                   long long steps, long long quad_steps,
+                                   const dal_error_budget_observer *observer, dal_error *error)
 {
     DAL_REQUIRE(budget, error);
     *budget = NULL;

@@ -131,16 +131,9 @@ void dal_order_slopes(dal_order *o, double noise)
     }
 }
 
-dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
+dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
-                             dal_order *order, dal_error *error)
-{
-    return dal_observe_order(spec, T, levels, reference_method, reference, NULL, order, error);
-}
-
-dal_status dal_observe_order(const dal_run_spec *spec, double T, int levels,
-                             const dal_method *reference_method, const double *reference,
-                             const dal_observer *observer, dal_order *order, dal_error *error)
+                             const dal_observer *observer, dal_error *error)
 {
     measurement m = {.T = T, .observer = observer, .error = error};
     dal_scaled *scaled;

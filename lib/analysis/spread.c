@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-void dal_measure_spread(const double *values, long long count, dal_spread *spread)
+void dal_spread_measure(dal_spread *spread, const double *values, long long count)
 {
     if (!spread) return;
     *spread = (dal_spread){0, NAN, NAN, NAN, NAN};

@@ -177,7 +177,7 @@ def order(system: SystemLike, integrator: str | None = None, time: float | None 
             raise InputError('DAL_ARGUMENT', f'a state has shape ({dimension},), not {values.shape}')
         exact = doubles(values)
     observer = ffi.new('dal_observer *', {'poll': lib.python_poll})
-    call_steps(lib.dal_observe_order, spec.c, spec.time(time), levels, method, exact, observer, found)
+    call_steps(lib.dal_order_measure, found, spec.c, spec.time(time), levels, method, exact, observer)
     columns = {name: np.array(list(getattr(found, name)[0:levels]))
                for name in ('step', 'error', 'evaluations', 'slope')}
     return Order(**columns, order=found.order)
@@ -389,7 +389,7 @@ def explain(system: SystemLike, integrator: str | None = None, time: float | Non
     spec = Spec(system, integrator, **settings)
     made = ffi.new('dal_error_budget **')
     observer = ffi.new('dal_error_budget_observer *', {'step': lib.python_progress})
-    call_steps(lib.dal_error_budget_create, spec.c, spec.steps(spec.time(time)), quad_steps, observer, made)
+    call_steps(lib.dal_error_budget_create, made, spec.c, spec.steps(spec.time(time)), quad_steps, observer)
     budget = ffi.gc(made[0], lib.dal_error_budget_free)
     sources = {i: text_of(lib.dal_error_source_name(i)) for i in range(lib.DAL_ERROR_SOURCES)}
     found = {}
