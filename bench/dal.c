@@ -44,7 +44,7 @@ static dal_status sleigh_callback(const dal_system *system, const dal_point *at,
     out[0] = h * s - SLEIGH_G;
     out[1] = -(h * c);
     out[2] = -SLEIGH_K * s;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status sleigh_start(const dal_system *system, const dal_point *at, double *out)
@@ -52,14 +52,14 @@ static dal_status sleigh_start(const dal_system *system, const dal_point *at, do
     (void)system, (void)at;
     memcpy(out, sleigh_y, sizeof sleigh_y);
     out[SMALL_DIM] = 1.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status sleigh_constraints(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = at->v[0] * sin(at->q[2]) - at->v[1] * cos(at->q[2]);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status no_forces(const dal_system *system, const dal_point *at, double *out)
@@ -67,7 +67,7 @@ static dal_status no_forces(const dal_system *system, const dal_point *at, doubl
     (void)system;
     memset(out, 0, FLUID_N * sizeof *out);
     fluid_thermostat(at->v, out);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static const dal_system sleigh_by_hand = {.name = "sleigh",
@@ -113,7 +113,7 @@ static const dal_system *find_system(const char *engine, const char *name, dal_e
     if (strcmp(name, "C") == 0 || strcmp(name, "C0") == 0) return &fluid;
     if (strcmp(name, "B101") == 0) return &chain_system;
     if (strcmp(engine, "callback") == 0) return strcmp(name, "A") == 0 ? &sleigh_by_hand : NULL;
-    if (make_model(&model, name, error) == DAL_OK) dal_model_system(model, &system, error);
+    if (make_model(&model, name, error) == DAL_STATUS_OK) dal_model_system(model, &system, error);
     if (!system || strcmp(engine, "unchecked") != 0) return system;
     unchecked = *system;
     unchecked.properties &= ~(unsigned)DAL_D_RANK_CHECKED;
@@ -175,7 +175,8 @@ static int make(contender *j, char **argv, dal_error *error)
     if (dal_run_create(&j->run, &j->spec, error)) return 1;
     memcpy(j->start, dal_run_state(j->run), (size_t)dal_run_dimension(j->run) * sizeof *j->start);
     const dal_native_options native = {.cache = CACHE, .patience = MAX_COMPILE_SECONDS};
-    if (strcmp(argv[1], "native") == 0) return dal_run_native(j->run, &native, error) != DAL_OK;
+    if (strcmp(argv[1], "native") == 0)
+        return dal_run_native(j->run, &native, error) != DAL_STATUS_OK;
     if (strncmp(argv[1], "batch", 5) == 0) return make_batch(j, atoi(argv[1] + 5), error);
     if (strncmp(argv[1], "compiled", 8) != 0) return 0;
     return make_batch(j, atoi(argv[1] + 8), error) || dal_batch_native(j->batch, &native, error);

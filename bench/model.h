@@ -10,7 +10,7 @@ static inline dal_status bench_model(dal_model **model, const char *name, dal_er
 {
     char path[64];
     snprintf(path, sizeof path, "bench/systems/%.40s.yaml", name);
-    if (dal_model_builtin(model, name, NULL) == DAL_OK) return DAL_OK;
+    if (dal_model_builtin(model, name, NULL) == DAL_STATUS_OK) return DAL_STATUS_OK;
     return dal_model_read_file(model, path, error);
 }
 
@@ -19,7 +19,7 @@ static inline const dal_system *bench_system(const char *name, dal_error *error)
 {
     const dal_system *system = NULL;
     dal_model *model;
-    if (bench_model(&model, name, error) == DAL_OK) dal_model_system(model, &system, error);
+    if (bench_model(&model, name, error) == DAL_STATUS_OK) dal_model_system(model, &system, error);
     return system;
 }
 

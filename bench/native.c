@@ -41,9 +41,9 @@ static double once(const dal_run_spec *spec, double *end)
     dal_error error = {0};
     const dal_native_options options = {.cache = place};
     double taken = -1.0;
-    if (dal_run_create(&run, spec, &error) == DAL_OK) {
+    if (dal_run_create(&run, spec, &error) == DAL_STATUS_OK) {
         const double begin = wall();
-        if (dal_run_native(run, &options, &error) == DAL_OK) taken = wall() - begin;
+        if (dal_run_native(run, &options, &error) == DAL_STATUS_OK) taken = wall() - begin;
         if (dal_run_advance(run, 1000, &error)) taken = -1.0;
         memcpy(end, dal_run_state(run), 6 * sizeof *end);
         dal_run_free(run);

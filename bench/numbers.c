@@ -37,7 +37,8 @@ static int read_by_library(void *self, double *end)
 {
     numbers *n = self;
     for (int i = 0; i < COUNT; i++)
-        if (dal_parse_number(n->text[i], strlen(n->text[i]), &n->value[i]) != DAL_OK) return 1;
+        if (dal_parse_number(n->text[i], strlen(n->text[i]), &n->value[i]) != DAL_STATUS_OK)
+            return 1;
     return check(n, end);
 }
 

@@ -29,19 +29,19 @@ static dal_status observe(void *user, dal_run *run, int count, const double *t,
     contender *j = user;
     (void)run;
     dal_statistics_add_many(j->statistics, j->observables, count, t, values, stride);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The time of a step of a run, in ns; negative where it failed. */
 static double time_step(contender *j, long long steps, int observed)
 {
     const dal_observer observer = {.user = j, .values = observed ? observe : NULL, .every = 1};
-    if (dal_run_restore(j->run, j->start, j->numbers, NULL) != DAL_OK) return -1.0;
+    if (dal_run_restore(j->run, j->start, j->numbers, NULL) != DAL_STATUS_OK) return -1.0;
     dal_statistics_start(j->statistics, j->observables);
     const double begin = bench_now();
     const dal_status status =
         dal_run_sample(j->run, (double)steps * j->spec.options.step, 1, 0, &observer, NULL);
-    return status == DAL_OK ? (bench_now() - begin) / (double)steps : -1.0;
+    return status == DAL_STATUS_OK ? (bench_now() - begin) / (double)steps : -1.0;
 }
 
 static int measure(contender *j)

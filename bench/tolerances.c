@@ -94,7 +94,7 @@ static int integrate(const dal_run_spec *spec, double time, double *start, doubl
     const dal_status status = dal_run_advance(run, lround(time / spec->options.step), error);
     memcpy(end, dal_run_state(run), bytes);
     dal_run_free(run);
-    return status != DAL_OK;
+    return status != DAL_STATUS_OK;
 }
 
 static void print_state(const double *y, int size)
@@ -147,7 +147,7 @@ static double error_of(void *self, double tolerance)
 static int start_again(void *self)
 {
     contender *j = self;
-    if (j->run) return dal_run_set_state(j->run, 0.0, j->reference.start[0], NULL) != DAL_OK;
+    if (j->run) return dal_run_set_state(j->run, 0.0, j->reference.start[0], NULL) != DAL_STATUS_OK;
     if (dal_batch_clear(j->batch)) return 1;
     for (int i = 0; i < j->lanes; i++) {
         const dal_run_spec *spec = &j->lane[i].spec;
@@ -169,7 +169,7 @@ static int work(void *self, double *end)
         if (j->batch) dal_batch_state(j->batch, i, j->end[i]);
     }
     memcpy(end, j->end[0], bytes);
-    return status != DAL_OK;
+    return status != DAL_STATUS_OK;
 }
 
 static int time_steps(contender *j, dal_error *error)

@@ -16,14 +16,14 @@ static dal_status field(const dal_system *system, const dal_point *at, double *o
     const double h = -((k * at->q[X] - at->q[Y]) / (1.0 + k * k));
     out[X] = -at->q[X] - k * h;
     out[Y] = -at->q[Y] + h;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status constraints(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = at->v[Y] - at->work[0] * at->v[X];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 int main(void)

@@ -65,7 +65,7 @@ static inline dal_status chain_field(const dal_system *system, const dal_point *
 {
     (void)system;
     chain_force(at->work[0], at->q, at->v, out);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* b_q alpha for z_i, alpha = (pi_0 - beta, pi_zi - beta y_i, pi_yi). */
@@ -94,7 +94,7 @@ static inline dal_status chain_adjoint(const dal_system *system, const dal_point
     Fv[0] = 0.0;
     for (int i = 0; i < CHAIN_K; i++) Fv[1 + i] = -beta * vy[i];
     for (int i = 0; i < CHAIN_K; i++) Fv[CHAIN_Y + i] = -beta * vz[i];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static inline dal_status chain_constraints(const dal_system *system, const dal_point *at,
@@ -102,7 +102,7 @@ static inline dal_status chain_constraints(const dal_system *system, const dal_p
 {
     (void)system;
     out[0] = at->v[0] + chain_dot(at->q + CHAIN_Y, at->v + 1);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* D, A and W^-1 A^T, which with unit masses is A again. */
@@ -124,7 +124,7 @@ static inline dal_status chain_energy(const dal_system *system, const dal_point 
     for (int i = 0; i < CHAIN_N; i++) twice += v[i] * v[i] + q[i] * q[i];
     for (int i = 1; i <= CHAIN_K; i++) twice += eps * (q[i - 1] * q[i - 1]) * (q[i] * q[i]);
     out[0] = 0.5 * twice;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* q, v, e at t = 0, with z_0' from D = 0; k = 1 is a start with a known solution. */
@@ -141,7 +141,7 @@ static inline dal_status chain_start(const dal_system *system, const dal_point *
     }
     v[0] = -chain_dot(q + CHAIN_Y, v + 1);
     v[CHAIN_N] = 1.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static const char *const chain_parameter[] = {"eps"};

@@ -29,8 +29,8 @@ static dal_status compare(dal_run *run, dal_run *other, double *difference, dal_
     const double *memory = dal_run_save(run, &count), *a = dal_run_state(run),
                  *b = dal_run_state(other);
     dal_status status = dal_run_restore(other, memory, count, error);
-    if (status == DAL_OK) status = dal_run_advance(run, STEPS, error);
-    if (status == DAL_OK) status = dal_run_advance(other, STEPS, error);
+    if (status == DAL_STATUS_OK) status = dal_run_advance(run, STEPS, error);
+    if (status == DAL_STATUS_OK) status = dal_run_advance(other, STEPS, error);
     *difference = 0.0;
     for (int i = 0; i < 2 * FLUID_N; i++) *difference = fmax(*difference, fabs(a[i] - b[i]));
     return status;

@@ -79,7 +79,7 @@ static inline dal_status fluid_list_make(fluid_list *list, const double *q, doub
     double d[3];
     for (int i = 0; i < FLUID_SPHERES; i++) {
         list->begin[i] = count;
-        if (count + FLUID_SPHERES > FLUID_MAX_PAIRS) return DAL_TOO_LARGE;
+        if (count + FLUID_SPHERES > FLUID_MAX_PAIRS) return DAL_STATUS_TOO_LARGE;
         for (int j = i + 1; j < FLUID_SPHERES; j++) {
             list->other[count] = (unsigned short)j;
             count += fluid_square(q, side, i, j, d) < reach;
@@ -88,7 +88,7 @@ static inline dal_status fluid_list_make(fluid_list *list, const double *q, doub
     list->begin[FLUID_SPHERES] = count;
     memcpy(list->origin, q, sizeof list->origin);
     list->valid = 1.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* -u'/r as a function of r^2, and u. */
@@ -113,7 +113,7 @@ static inline dal_status fluid_forces(const dal_point *at, double *f)
     double d[3];
     if (!fluid_list_holds(list, q)) {
         const dal_status status = fluid_list_make(list, q, side);
-        if (status != DAL_OK) return status;
+        if (status != DAL_STATUS_OK) return status;
     }
     for (int c = 0; c < FLUID_N; c++) f[c] = 0.0;
     for (int i = 0; i < FLUID_SPHERES; i++) {
@@ -128,7 +128,7 @@ static inline dal_status fluid_forces(const dal_point *at, double *f)
             }
         }
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* a.b in eight partial sums: one order of summation, with vector registers or without. */
@@ -151,7 +151,7 @@ static inline dal_status fluid_field(const dal_system *system, const dal_point *
 {
     const dal_status status = fluid_forces(at, out);
     (void)system;
-    if (status == DAL_OK) fluid_thermostat(at->v, out);
+    if (status == DAL_STATUS_OK) fluid_thermostat(at->v, out);
     return status;
 }
 
@@ -160,7 +160,7 @@ static inline dal_status fluid_constraints(const dal_system *system, const dal_p
 {
     (void)system;
     out[0] = 0.5 * fluid_dot(at->v, at->v) - at->work[FLUID_KINETIC];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* D, A = v and W^-1 A^T = v. */
@@ -183,14 +183,14 @@ static inline dal_status fluid_energy(const dal_system *system, const dal_point 
             if (square < FLUID_CUT * FLUID_CUT) sum += fluid_pair_energy(square);
         }
     out[0] = sum;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static inline dal_status fluid_prepare(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system, (void)out;
     fluid_list_of(at)->valid = 0.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Velocities without a mean, of kinetic energy K. */
@@ -219,7 +219,7 @@ static inline dal_status fluid_start(const dal_system *system, const dal_point *
     }
     fluid_start_velocities(at->work[FLUID_KINETIC], out + FLUID_N);
     out[2 * FLUID_N] = 1.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static const char *const fluid_parameter[] = {"K", "L"};

@@ -81,16 +81,16 @@ static dal_status control(dal_run *run, const places *at, double *deviation, dal
     const double moment = INERTIA / AHEAD * (wanted[1] * c - wanted[0] * s - v * w);
     const double sum = force * RADIUS, difference = moment * RADIUS / HALF_AXLE;
     dal_status status = dal_run_set_parameter(run, "left", 0.5 * (sum - difference), error);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         status = dal_run_set_parameter(run, "right", 0.5 * (sum + difference), error);
     return status;
 }
 
 static int follow(dal_run *run, dal_error *error)
 {
-    const places at = {dal_run_index(run, "x"),   dal_run_index(run, "y"),
-                       dal_run_index(run, "phi"), dal_run_index(run, "x'"),
-                       dal_run_index(run, "y'"),  dal_run_index(run, "phi'")};
+    const places at = {dal_run_component_index(run, "x"),   dal_run_component_index(run, "y"),
+                       dal_run_component_index(run, "phi"), dal_run_component_index(run, "x'"),
+                       dal_run_component_index(run, "y'"),  dal_run_component_index(run, "phi'")};
     const double bound = error_bound();
     double deviation, seen[2], max = 0.0; /* seen: D, E */
     for (int step = 0; step <= SECONDS * PER_SECOND; step++) {

@@ -12,13 +12,13 @@
  *
  * Statuses.  Every function that can fail returns a dal_status and, where it takes a dal_error,
  * fills it; a dal_error may be NULL.  A NULL pointer to an object, a text, numbers or a result, a
- * NULL name in a dal_setting and a negative count are errors, DAL_ARGUMENT, unless the function
- * allows them.  A function without a status then returns 0, NaN or NULL, writes NaN to its result,
- * does nothing, or returns -1 for an index.  *_free(NULL) does nothing.
+ * NULL name in a dal_setting and a negative count are errors, DAL_STATUS_ARGUMENT, unless the
+ * function allows them.  A function without a status then returns 0, NaN or NULL, writes NaN to its
+ * result, does nothing, or returns -1 for an index.  *_free(NULL) does nothing.
  *
- * Memory.  [alloc] marks functions that allocate, and these may also fail with DAL_MEMORY.  create
- * makes an object that free releases; init places one in memory of the caller.  A returned pointer
- * to constant data belongs to its object and is valid as long as that.
+ * Memory.  [alloc] marks functions that allocate, and these may also fail with DAL_STATUS_MEMORY.
+ * create makes an object that free releases; init places one in memory of the caller.  A returned
+ * pointer to constant data belongs to its object and is valid as long as that.
  *
  * Shapes.  [n] after a pointer is the number of its elements; matrices are row-major.  n, m and
  * multipliers are members of dal_system, dimension is dal_run_dimension.  Quantities have the units
@@ -41,9 +41,9 @@ extern "C" {
 #define DAL_VERSION_MINOR 5 /* a part of the soname, libdalembert.so.MAJOR.MINOR, before 1.0 */
 #define DAL_VERSION_PATCH 0 /* leaves the interface as it is */
 /* The version as a text, "0.5.0". */
-#define DAL_VERSION DAL__VERSION(DAL_VERSION_MAJOR, DAL_VERSION_MINOR, DAL_VERSION_PATCH)
+#define DAL_VERSION DAL__VERSION_OF(DAL_VERSION_MAJOR, DAL_VERSION_MINOR, DAL_VERSION_PATCH)
 
-#define DAL__VERSION(major, minor, patch)      DAL__VERSION_TEXT(major, minor, patch)
+#define DAL__VERSION_OF(major, minor, patch)   DAL__VERSION_TEXT(major, minor, patch)
 #define DAL__VERSION_TEXT(major, minor, patch) #major "." #minor "." #patch
 
 /* ---- integrators and methods --------------------------------------------------------------- */
@@ -111,7 +111,7 @@ typedef struct dal_method {
 
 /* Integrator or modifier number i of the library, from 0; NULL past the last. */
 const dal_integrator *dal_integrator_at(int i);
-/* Finds a method of the library by name: "rk4", "gauss8+project".  Errors: DAL_NAME with the
+/* Finds a method of the library by name: "rk4", "gauss8+project".  Errors: DAL_STATUS_NAME with the
  * nearest name. */
 dal_status dal_method_parse(dal_method *method, const char *name, dal_error *error);
 /* Writes the full name into buffer[size], cut where it does not fit; returns buffer. */
@@ -184,8 +184,8 @@ typedef struct dal_options {
 
 /* The default of every option. */
 dal_options dal_options_default(void);
-/* Sets the option with a name from a text, "newton" or "0.01".  Errors: DAL_NAME with the nearest
- * name, DAL_ARGUMENT (out of range), DAL_SYNTAX. */
+/* Sets the option with a name from a text, "newton" or "0.01".  Errors: DAL_STATUS_NAME with the
+ * nearest name, DAL_STATUS_ARGUMENT (out of range), DAL_STATUS_SYNTAX. */
 dal_status dal_options_set(dal_options *options, const char *name, const char *text,
                            dal_error *error);
 
@@ -215,9 +215,10 @@ typedef struct dal_run_spec {
 /* Bytes that a run needs; 0 when the spec cannot be used. */
 size_t dal_run_size(const dal_run_spec *spec);
 /* Places a run in memory[bytes] of the caller, dal_run_size bytes at least, of any alignment; it
- * need not be freed, unless dal_run_native is used.  Errors: DAL_ARGUMENT, DAL_NAME with the
- * nearest name, DAL_UNSUPPORTED, DAL_INCONSISTENT (|D| beyond 1e-10 relative), DAL_RANK,
- * DAL_SINGULAR_MASS, DAL_GAUGE, DAL_NOT_FINITE, DAL_MEMORY (too few bytes). */
+ * need not be freed, unless dal_run_native is used.  Errors: DAL_STATUS_ARGUMENT, DAL_STATUS_NAME
+ * with the nearest name, DAL_STATUS_UNSUPPORTED, DAL_STATUS_INCONSISTENT (|D| beyond 1e-10
+ * relative), DAL_STATUS_RANK, DAL_STATUS_SINGULAR_MASS, DAL_STATUS_GAUGE, DAL_STATUS_NOT_FINITE,
+ * DAL_STATUS_MEMORY (too few bytes). */
 dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
                         dal_error *error);
 /* Makes a run in memory of its own. [alloc]  Errors: as for dal_run_init. */
@@ -226,9 +227,9 @@ dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *er
 void dal_run_free(dal_run *run);
 
 /* Takes one step, or the part of it before an event of the system, which then acts (see
- * dal_run_sample); or leaves the run unchanged to the bit.  Errors: DAL_SINGULAR,
- * DAL_SINGULAR_MASS, DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the message names the constraint
- * and the time. */
+ * dal_run_sample); or leaves the run unchanged to the bit.  Errors: DAL_STATUS_SINGULAR,
+ * DAL_STATUS_SINGULAR_MASS, DAL_STATUS_NOT_FINITE, DAL_STATUS_NOT_CONVERGED, DAL_STATUS_GAUGE; the
+ * message names the constraint and the time. */
 dal_status dal_run_step(dal_run *run, dal_error *error);
 /* Takes count steps, or as many as succeed before one fails.  Errors: as for a step. */
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error);
@@ -252,27 +253,29 @@ const double *dal_run_state(const dal_run *run);
 /* The parameter values of the run, [parameters]. */
 const double *dal_run_parameters(const dal_run *run);
 /* Replaces time and state, state[dimension], and clears all other persistent state.  The state need
- * not satisfy the constraints, and e may be infinite.  Errors: DAL_NOT_FINITE. */
+ * not satisfy the constraints, and e may be infinite.  Errors: DAL_STATUS_NOT_FINITE. */
 dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_error *error);
 /* Writes the name of state component i, from 0, into buffer[size]: x, x', e, p_x, pi_x, pi_e, g1;
  * returns buffer, NULL past the last. */
-char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size);
-/* The number of the state component with a name of dal_run_name; -1 where there is none. */
-int dal_run_index(const dal_run *run, const char *name);
+char *dal_run_component_name(const dal_run *run, int i, char *buffer, size_t size);
+/* The number of the state component with a name of dal_run_component_name; -1 where there is
+ * none. */
+int dal_run_component_index(const dal_run *run, const char *name);
 /* Sets one parameter between two steps.  The next step is like a first one: no stages are
  * extrapolated, and +project-energy takes the energy of the present state.  The observable error is
- * NaN from then on.  DAL_INCONSISTENT says that the parameter is set, and that a constraint is thus
- * violated (as at a start).  Errors, which change nothing: DAL_NAME with the nearest name,
- * DAL_NOT_FINITE, DAL_SINGULAR_MASS, DAL_SINGULAR, DAL_RANK, errors of prepare and field. */
+ * NaN from then on.  DAL_STATUS_INCONSISTENT says that the parameter is set, and that a constraint
+ * is thus violated (as at a start).  Errors, which change nothing: DAL_STATUS_NAME with the nearest
+ * name, DAL_STATUS_NOT_FINITE, DAL_STATUS_SINGULAR_MASS, DAL_STATUS_SINGULAR, DAL_STATUS_RANK,
+ * errors of prepare and field. */
 dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, dal_error *error);
 
 /* The persistent state and the parameters, *count doubles: all that passes from one step to the
  * next.  A copy of it is a checkpoint. */
 const double *dal_run_save(const dal_run *run, size_t *count);
 /* Restores a copy, saved[count], into a run of the same spec, which then continues with the same
- * bits.  Errors, which change nothing: DAL_ARGUMENT (a wrong count, or a number that the state
- * cannot have, such as a counter of 1.5), DAL_NOT_FINITE, and where the system cannot be prepared
- * with the parameters errors of prepare. */
+ * bits.  Errors, which change nothing: DAL_STATUS_ARGUMENT (a wrong count, or a number that the
+ * state cannot have, such as a counter of 1.5), DAL_STATUS_NOT_FINITE, and where the system cannot
+ * be prepared with the parameters errors of prepare. */
 dal_status dal_run_restore(dal_run *run, const double *saved, size_t count, dal_error *error);
 
 /* The number of observables, in this order: D1..Dm, E (with an energy), H, |p|, |pi|, |pi_e|
@@ -300,7 +303,8 @@ typedef struct dal_occurrence {
     const double *before; /* [dimension] the state before it acted; the run has that after it */
 } dal_occurrence;
 
-/* Callbacks of dal_run_sample; any may be NULL.  Any status but DAL_OK ends the run with it. */
+/* Callbacks of dal_run_sample; any may be NULL.  Any status but DAL_STATUS_OK ends the run with
+ * it. */
 typedef struct dal_observer {
     void *user; /* the first argument of every callback */
     /* Called for each row. */
@@ -309,9 +313,9 @@ typedef struct dal_observer {
     dal_status (*poll)(void *user, dal_run *run);
     /* Called at the start and after every `every` steps. */
     dal_status (*step)(void *user, dal_run *run);
-    /* Replaces step for long runs: receives the observables of several such steps at once, number
-     * i at t[k], k < count, in values[i * stride + k].  E and the invariants are without what
-     * events have added (dal_run_jump): the rest shows whether the motion between events conserves
+    /* Replaces step for long runs: receives the observables of several such steps at once, number i
+     * at t[k], k < count, in values[i * stride + k].  E and the invariants are without what events
+     * have added (dal_run_event_jump): the rest shows whether the motion between events conserves
      * them.  The run is not yet at the next of these steps. */
     dal_status (*values)(void *user, dal_run *run, int count, const double *t, const double *values,
                          size_t stride);
@@ -334,18 +338,18 @@ typedef struct dal_observer {
  * pass the first row not sampled.  observer may be NULL.  A step that would pass an event of the
  * system ends at it, to rounding; the next one has size h again.  Where an event ends the run, or
  * cannot be passed, the last row is there, at the time that is reached.  Errors: as for a step;
- * DAL_STOPPED where an event ends the run; DAL_EVENT where one cannot be passed: it happens
- * infinitely often, as when a ball comes to rest, or leaves velocities that lead out of the allowed
- * side; DAL_UNSUPPORTED with events on the lifted space off p = pi = 0; DAL_ARGUMENT, before
- * anything is done, also where a row's time is not finite or before the time of the row before it,
- * or every or polling is negative; what a callback returns. */
+ * DAL_STATUS_STOPPED where an event ends the run; DAL_STATUS_EVENT where one cannot be passed: it
+ * happens infinitely often, as when a ball comes to rest, or leaves velocities that lead out of the
+ * allowed side; DAL_STATUS_UNSUPPORTED with events on the lifted space off p = pi = 0;
+ * DAL_STATUS_ARGUMENT, before anything is done, also where a row's time is not finite or before the
+ * time of the row before it, or every or polling is negative; what a callback returns. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 /* Takes a step of size h from the present state, calls observe there, and restores the run to the
  * bit.  Under a tolerance, and with h less than the step of the run, the state is one within the
  * next step: the one of the polynomial of the substep that contains it, if the method has dense
  * output.  observe must not move the run.  Errors: as for a step, the run being unchanged;
- * DAL_ARGUMENT; what observe returns. */
+ * DAL_STATUS_ARGUMENT; what observe returns. */
 dal_status dal_run_intermediate(dal_run *run, double h,
                                 dal_status (*observe)(void *user, dal_run *run), void *user,
                                 dal_error *error);
@@ -359,7 +363,7 @@ int dal_run_stopped(const dal_run *run);
  * NULL. */
 long long dal_run_unresolved(const dal_run *run, double *from);
 /* What events have added to an observable that is E or an invariant, all together; 0 for others. */
-double dal_run_jump(const dal_run *run, int observable);
+double dal_run_event_jump(const dal_run *run, int observable);
 
 /* ---- batches ------------------------------------------------------------------------------- */
 
@@ -367,13 +371,13 @@ double dal_run_jump(const dal_run *run, int observable);
 typedef struct dal_batch dal_batch;
 /* Makes count runs of one spec that are stepped several at a time, each with the bits of a single
  * run.  width: max lanes at a time, 1, 4 or 8; 0: the fastest.  [alloc]  Errors: as for
- * dal_run_init, DAL_ARGUMENT (count, width), DAL_UNSUPPORTED (quad precision). */
+ * dal_run_init, DAL_STATUS_ARGUMENT (count, width), DAL_STATUS_UNSUPPORTED (quad precision). */
 dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
                             dal_error *error);
 /* Frees a batch. */
 void dal_batch_free(dal_batch *batch);
-/* Sets parameters[parameter_count] and start[start_count] of one lane, which replace the
- * spec's, at its start.  Errors: as for dal_run_init; DAL_ARGUMENT (lane, or after a step, unless
+/* Sets parameters[parameter_count] and start[start_count] of one lane, which replace the spec's, at
+ * its start.  Errors: as for dal_run_init; DAL_STATUS_ARGUMENT (lane, or after a step, unless
  * dal_batch_clear was called). */
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
@@ -381,16 +385,18 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
 /* Takes all lanes out of the batch, which keeps its memory and its compiled steps: only lanes that
  * dal_batch_start starts again, from the start_time, are then stepped. */
 dal_status dal_batch_clear(dal_batch *batch);
-/* dal_run_set_parameter for one lane.  Errors: also DAL_ARGUMENT (lane), the status of a lane that
- * has failed. */
+/* dal_run_set_parameter for one lane.  Errors: also DAL_STATUS_ARGUMENT (lane), the status of a
+ * lane that has failed. */
 dal_status dal_batch_set_parameter(dal_batch *batch, int lane, const char *name, double value,
                                    dal_error *error);
 /* Takes count steps in every lane that has not failed.  A lane that fails keeps the state before
- * the failing step and does not slow down the others.  Returns DAL_OK while a lane is left. */
+ * the failing step and does not slow down the others.  Returns DAL_STATUS_OK while a lane is
+ * left. */
 dal_status dal_batch_advance(dal_batch *batch, long long count);
 /* The number of lanes. */
 int dal_batch_count(const dal_batch *batch);
-/* The status of a lane: DAL_OK, or why its step failed; DAL_ARGUMENT without the lane. */
+/* The status of a lane: DAL_STATUS_OK, or why its step failed; DAL_STATUS_ARGUMENT without the
+ * lane. */
 dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error);
 /* The present time of a lane; NaN without the lane. */
 double dal_batch_time(const dal_batch *batch, int lane);
@@ -425,8 +431,9 @@ typedef struct dal_variation {
     double first, second;          /* the two numbers of the distribution */
 } dal_variation;
 
-/* Parses "x'=normal(0,0.1)".  Errors: DAL_SYNTAX, DAL_NAME (of a distribution, with the nearest),
- * DAL_ARGUMENT (low not below high, a negative deviation), DAL_TOO_LARGE. */
+/* Parses "x'=normal(0,0.1)".  Errors: DAL_STATUS_SYNTAX, DAL_STATUS_NAME (of a distribution, with
+ * the nearest), DAL_STATUS_ARGUMENT (low not below high, a negative deviation),
+ * DAL_STATUS_TOO_LARGE. */
 dal_status dal_variation_parse(dal_variation *variation, const char *text, dal_error *error);
 /* What a member, from 0, draws: a function of distribution, name, seed and member alone; see
  * lib/run/ensemble.c. */
@@ -444,8 +451,8 @@ unsigned long long dal_random_key(const char *name, unsigned long long seed);
  *     } */
 typedef struct dal_ensemble dal_ensemble;
 /* Makes an ensemble of a spec, whose numbers vary by variations[count], with a batch of that number
- * of lanes.  [alloc]  Errors: as for dal_batch_create; DAL_NAME (nothing has that name, with the
- * nearest), DAL_ARGUMENT (a name twice, or as dal_variation_parse). */
+ * of lanes.  [alloc]  Errors: as for dal_batch_create; DAL_STATUS_NAME (nothing has that name, with
+ * the nearest), DAL_STATUS_ARGUMENT (a name twice, or as dal_variation_parse). */
 dal_status dal_ensemble_create(dal_ensemble **ensemble, const dal_run_spec *spec,
                                const dal_variation *variations, int count, unsigned long long seed,
                                int lanes, dal_error *error);
@@ -453,7 +460,7 @@ dal_status dal_ensemble_create(dal_ensemble **ensemble, const dal_run_spec *spec
 void dal_ensemble_free(dal_ensemble *ensemble);
 /* Starts members first, .., first + count - 1 in the first lanes.  With the option consistent their
  * velocities are moved to D = 0.  A lane without a start is not stepped; dal_batch_status has the
- * reason.  Errors: DAL_ARGUMENT (count). */
+ * reason.  Errors: DAL_STATUS_ARGUMENT (count). */
 dal_status dal_ensemble_start(dal_ensemble *ensemble, unsigned long long first, int count);
 /* The batch of an ensemble, to be stepped and compiled. */
 dal_batch *dal_ensemble_batch(dal_ensemble *ensemble);

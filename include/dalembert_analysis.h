@@ -231,7 +231,8 @@ long long dal_whole_steps(double from, double to, double step);
 /* Measures the order with 2 to DAL_ORDER_LEVELS step sizes: the state at T, a whole number of the
  * steps, against reference[dimension], or, when that is NULL, against gauss12 (or
  * *reference_method) with half the smallest step.  The observer, which may be NULL, has its poll
- * called every few hundred steps of a run. [alloc]  Errors: as for the runs, DAL_ARGUMENT. */
+ * called every few hundred steps of a run. [alloc]  Errors: as for the runs,
+ * DAL_STATUS_ARGUMENT. */
 dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
                              const dal_observer *observer, dal_error *error);
@@ -239,8 +240,8 @@ dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double 
 /* The maximum entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
  * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e), in the units of the
  * system for q and v, and their reciprocals for the momenta.  Lifted space only:
- * DAL_UNSUPPORTED; e must be finite.  increment, to begin with, relative to max(unit, h |v|) of a
- * coordinate and max(unit, |x|) of all else; 0: 2e-3. [alloc]  Errors: as for a step. */
+ * DAL_STATUS_UNSUPPORTED; e must be finite.  increment, to begin with, relative to max(unit, h |v|)
+ * of a coordinate and max(unit, |x|) of all else; 0: 2e-3. [alloc]  Errors: as for a step. */
 dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const double *state,
                                    double increment, double *defect, dal_error *error);
 
@@ -267,17 +268,17 @@ dal_status dal_adjoint_pairing(const dal_run_spec *spec, const dal_system *tange
  * t0 + h, ...: derivatives by differences of order 8, so the four points at either end serve for
  * differences only; count >= 10. [alloc]  0 on solutions up to discretisation and rounding (about
  * (2e-15/h^2)^2 and h^16), positive off them. */
-dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, long long count,
-                              const double *q, double e, double *action);
+dal_status dal_evaluator_measure_action(dal_evaluator *evaluator, double t0, double h,
+                                        long long count, const double *q, double e, double *action);
 
 /* How far the discrete first-order action (nh23) is from stationary on a path.
  *     S = sum_k P_k.(X_(k+1) - X_k) - h H((X_k + X_(k+1))/2, P_k)
- * with X_k [2n+1] = q, v, e at the count >= 3 nodes, P_k [2n+1] = p, pi, pi_e the mean over each
- * of the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.  The maximum of
- * |dS/dX_k| over inner nodes and |dS/dP_k|, divided by h: zero to rounding for implicit-midpoint,
- * of the order of the error for others. [alloc]  Errors: DAL_ARGUMENT, errors of the callbacks. */
-dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
-                                  const double *states, double *defect);
+ * with X_k [2n+1] = q, v, e at the count >= 3 nodes, P_k [2n+1] = p, pi, pi_e the mean over each of
+ * the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.  The maximum of |dS/dX_k|
+ * over inner nodes and |dS/dP_k|, divided by h: zero to rounding for implicit-midpoint, of the
+ * order of the error for others. [alloc]  Errors: DAL_STATUS_ARGUMENT, errors of the callbacks. */
+dal_status dal_evaluator_check_stationarity(dal_evaluator *evaluator, double t0, double h,
+                                            long long count, const double *states, double *defect);
 
 /* A function on a phase space of 2N numbers z = (X, P). */
 typedef double dal_observable_function(void *user, const double *z);
@@ -304,9 +305,10 @@ typedef struct dal_dirac {
                              are not 0: positive, so that the secondary constraints are needed */
     double hamiltonian;   /* |H_c| on the surface; 0 */
 } dal_dirac;
-/* Performs Dirac's algorithm at a point, with a value of e.  [alloc]  Errors: DAL_UNSUPPORTED
- * (vakonomic), DAL_NOT_FINITE. */
-dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e, dal_dirac *out);
+/* Performs Dirac's algorithm at a point, with a value of e.  [alloc]  Errors:
+ * DAL_STATUS_UNSUPPORTED (vakonomic), DAL_STATUS_NOT_FINITE. */
+dal_status dal_evaluator_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e,
+                                     dal_dirac *out);
 
 /* ---- error budgets ------------------------------------------------------------------------- */
 
@@ -424,8 +426,8 @@ typedef struct dal_error_budget {
 /* Callbacks of dal_error_budget_create; any may be NULL. */
 typedef struct dal_error_budget_observer {
     void *user; /* the first argument of every callback */
-    /* Called now and then with the share of the work that is done, 0..1; any status but DAL_OK ends
-     * it. */
+    /* Called now and then with the share of the work that is done, 0..1; any status but
+     * DAL_STATUS_OK ends it. */
     dal_status (*step)(void *user, double done);
     /* Called with every new run in doubles; may replace its steps by compiled code.  The last such
      * run exists whenever step is called. */
@@ -434,7 +436,7 @@ typedef struct dal_error_budget_observer {
 
 /* Runs a spec for a number of steps, and the runs it is compared with, and finds the shares of
  * every observable's drift.  observer may be NULL.  A comparison that is not possible is left out,
- * with a reason.  [alloc]  Errors: as for the run itself, DAL_ARGUMENT. */
+ * with a reason.  [alloc]  Errors: as for the run itself, DAL_STATUS_ARGUMENT. */
 dal_status dal_error_budget_create(dal_error_budget **budget, const dal_run_spec *spec,
                                    long long steps, long long quad_steps,
                                    const dal_error_budget_observer *observer, dal_error *error);
@@ -462,21 +464,21 @@ char *dal_error_budget_describe(const dal_error_budget *budget, int observable,
  * the density and of |grad D| grow slower than t: they contribute total derivatives only. */
 typedef struct dal_lyapunov dal_lyapunov;
 
-/* Makes count tangent vectors; 0: one for each direction of the step map, that is 2n +
- * multipliers, less m where the method enforces D = 0, less one where it enforces E.  tangent is
- * dal_model_tangent of the same model, or NULL.  With it and
- * a Runge-Kutta method, partitioned symplectic Euler, or a composition, J is the derivative of the
- * formulas of the step, to rounding and to the error of its solver; otherwise it is found by
- * differences of the step, of order 8, with increments that do not depend on how far the
- * coordinates have travelled.  The space of the spec is ignored. [alloc]  Errors: as for a run;
- * DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step is no smooth map of (q, v, g) alone: it has a
- * multiplier as persistent state, or a tolerance. */
+/* Makes count tangent vectors; 0: one for each direction of the step map, that is 2n + multipliers,
+ * less m where the method enforces D = 0, less one where it enforces E.  tangent is
+ * dal_model_tangent of the same model, or NULL.  With it and a Runge-Kutta method, partitioned
+ * symplectic Euler, or a composition, J is the derivative of the formulas of the step, to rounding
+ * and to the error of its solver; otherwise it is found by differences of the step, of order 8,
+ * with increments that do not depend on how far the coordinates have travelled.  The space of the
+ * spec is ignored. [alloc]  Errors: as for a run; DAL_STATUS_ARGUMENT (count);
+ * DAL_STATUS_UNSUPPORTED: the step is no smooth map of (q, v, g) alone: it has a multiplier as
+ * persistent state, or a tolerance. */
 dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
                                const dal_system *tangent, int count, dal_error *error);
 /* Frees the vectors and their run. */
 void dal_lyapunov_free(dal_lyapunov *lyapunov);
 /* Takes steps of the run and its vectors; the run has the bits of dal_run_advance.  Errors: as
- * for a step; DAL_SINGULAR when J takes a vector to 0. */
+ * for a step; DAL_STATUS_SINGULAR when J takes a vector to 0. */
 dal_status dal_lyapunov_advance(dal_lyapunov *lyapunov, long long steps, dal_error *error);
 /* Begins all means at the present time, after a transient; the vectors stay. */
 void dal_lyapunov_discard_transient(dal_lyapunov *lyapunov);
@@ -496,9 +498,9 @@ typedef struct dal_balance {
     bool holds;        /* |difference| <= margin; if not, J is wrong */
 } dal_balance;
 
-/* Compares the sum of all exponents so far with the divergence.  [alloc]  Errors: DAL_UNSUPPORTED:
- * not all exponents, no jacobian, directions lost that neither D nor E explains, a method that maps
- * D to -D in every step, or x >= 1 in some step. */
+/* Compares the sum of all exponents so far with the divergence.  [alloc]  Errors:
+ * DAL_STATUS_UNSUPPORTED: not all exponents, no jacobian, directions lost that neither D nor E
+ * explains, a method that maps D to -D in every step, or x >= 1 in some step. */
 dal_status dal_lyapunov_balance(dal_lyapunov *lyapunov, dal_balance *balance, dal_error *error);
 
 /* The run, at its present state. */
@@ -530,7 +532,7 @@ typedef struct dal_crossing {
 } dal_crossing;
 
 /* A Poincare section, the surface g = 0.  cross and poll may be NULL and must not move the run; any
- * status but DAL_OK ends the run with that status. */
+ * status but DAL_STATUS_OK ends the run with that status. */
 typedef struct dal_poincare {
     dal_callback *callback; /* of the run's system; invariant_values for an invariant */
     int count;              /* its values */
@@ -555,7 +557,7 @@ typedef struct dal_crossings {
  * show: the state, found by dal_run_intermediate, with g = 0 to rounding; the trajectory does not
  * change.  A part h of a step is halved, up to 10 times, where |g'| h > pi max |g| or g changes by
  * more than its rates g' at both ends explain.  A start with g = 0 is no crossing. [alloc]
- * Errors: as for the steps and of the callback; DAL_ARGUMENT. */
+ * Errors: as for the steps and of the callback; DAL_STATUS_ARGUMENT. */
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error);
 

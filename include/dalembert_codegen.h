@@ -17,8 +17,8 @@ extern "C" {
  * gives the bits of a run of the same spec.  The system must come from a model, the integrators
  * from the library.  Parameters and start of the spec are the defaults of the file; solver and
  * iterations are fixed in it, the step size is not.  prefix begins every public name (NULL:
- * SYSTEM_METHOD). [alloc]  Errors: as dal_run_create, DAL_ARGUMENT (lanes, prefix),
- * DAL_UNSUPPORTED, DAL_TOO_LARGE (Newton's matrices). */
+ * SYSTEM_METHOD). [alloc]  Errors: as dal_run_create, DAL_STATUS_ARGUMENT (lanes, prefix),
+ * DAL_STATUS_UNSUPPORTED, DAL_STATUS_TOO_LARGE (Newton's matrices). */
 dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
                         dal_error *error);
 
@@ -38,9 +38,9 @@ typedef struct dal_native_options {
  * takes them from the cache.  Bits, checkpoints and errors stay the same; on failure the run
  * continues without compiled code.  Only these functions of the library start a process and write
  * files.  The run must be freed by dal_run_free, which unloads the code, even after dal_run_init.
- * [alloc]  Errors: DAL_UNSUPPORTED (no compiler, it failed or timed out; or as dal_generate),
- * DAL_IO (cache), DAL_ARGUMENT (no cache named), DAL_TOO_LARGE, DAL_MEMORY, DAL_INTERRUPTED (by
- * stop). */
+ * [alloc]  Errors: DAL_STATUS_UNSUPPORTED (no compiler, it failed or timed out; or as
+ * dal_generate), DAL_STATUS_IO (cache), DAL_STATUS_ARGUMENT (no cache named), DAL_STATUS_TOO_LARGE,
+ * DAL_STATUS_MEMORY, DAL_STATUS_INTERRUPTED (by stop). */
 dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error);
 /* Whether the steps of a run are compiled. */
 bool dal_run_is_native(const dal_run *run);
@@ -63,7 +63,7 @@ bool dal_batch_is_native(const dal_batch *batch);
  *
  *     dal_native *native = NULL;
  *     dal_native_begin(&native, run, &options, &error);
- *     while (dal_run_time(run) < T && dal_run_advance(run, 1000, &error) == DAL_OK)
+ *     while (dal_run_time(run) < T && dal_run_advance(run, 1000, &error) == DAL_STATUS_OK)
  *         if (native && dal_native_poll(native, &error) == DAL_NATIVE_READY)
  *             dal_run_use_native(run, native, &error);
  *     dal_run_free(run);
@@ -92,16 +92,16 @@ dal_status dal_native_begin_observables(dal_native **native, const dal_run *run,
 dal_status dal_native_begin_batch(dal_native **native, const dal_batch *batch,
                                   const dal_native_options *options, dal_error *error);
 /* How far it is, without waiting; loads it when the compiler has ended.  *error is set where it has
- * failed: DAL_UNSUPPORTED (the compiler failed or timed out), DAL_IO (cache). */
+ * failed: DAL_STATUS_UNSUPPORTED (the compiler failed or timed out), DAL_STATUS_IO (cache). */
 dal_native_state dal_native_poll(dal_native *native, dal_error *error);
 /* Whether a run could use it, when it is ready. */
 bool dal_native_fits(const dal_native *native, const dal_run *run);
 /* Takes the steps, or evaluates the observables, by compiled code from now on.  May be called by
- * what observes the run.  [alloc]  Errors: DAL_ARGUMENT (it is not ready, or does not fit),
- * DAL_MEMORY (of observables). */
+ * what observes the run.  [alloc]  Errors: DAL_STATUS_ARGUMENT (it is not ready, or does not fit),
+ * DAL_STATUS_MEMORY (of observables). */
 dal_status dal_run_use_native(dal_run *run, const dal_native *native, dal_error *error);
-/* The same for a batch, between two calls of dal_batch_advance.  [alloc]  Errors: DAL_ARGUMENT,
- * DAL_MEMORY. */
+/* The same for a batch, between two calls of dal_batch_advance.  [alloc]  Errors:
+ * DAL_STATUS_ARGUMENT, DAL_STATUS_MEMORY. */
 dal_status dal_batch_use_native(dal_batch *batch, const dal_native *native, dal_error *error);
 /* Ends the compiler, or unloads the code. */
 void dal_native_free(dal_native *native);

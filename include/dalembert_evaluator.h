@@ -15,8 +15,8 @@ extern "C" {
 typedef struct dal_evaluator dal_evaluator;
 
 /* Makes an evaluator with parameters[parameter_count]; the others have the system's values.  The
- * system must outlive it. [alloc]  Errors: DAL_NAME with the nearest name, DAL_NOT_FINITE,
- * errors of prepare. */
+ * system must outlive it. [alloc]  Errors: DAL_STATUS_NAME with the nearest name,
+ * DAL_STATUS_NOT_FINITE, errors of prepare. */
 dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *system,
                                 const dal_setting *parameters, int parameter_count,
                                 dal_error *error);
@@ -25,7 +25,8 @@ void dal_evaluator_free(dal_evaluator *evaluator);
 /* The system that is evaluated. */
 const dal_system *dal_evaluator_system(const dal_evaluator *evaluator);
 /* Calls a callback of the system at t, q[n], v[n + multipliers]; pi[n] is read by the adjoint alone
- * and may else be NULL.  Errors: DAL_UNSUPPORTED (callback is NULL), errors of the callback. */
+ * and may else be NULL.  Errors: DAL_STATUS_UNSUPPORTED (callback is NULL), errors of the
+ * callback. */
 dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
                               const double *q, const double *v, const double *pi, double *out);
 /* The scales of D, E and the invariants at a point, out[m + 1 + invariants], see
@@ -34,8 +35,8 @@ dal_status dal_evaluator_scales(dal_evaluator *evaluator, double t, const double
                                 const double *v, double *out);
 /* The start: out[2n + multipliers + 1] = q, v, g, e, with x, x', g1 and e replaced by
  * start[start_count], and then the velocities that it solves by those from D = 0 at t = 0.  It need
- * not satisfy the other constraints.  Errors: DAL_NAME, errors of the system; where
- * velocities are solved DAL_RANK, DAL_INCONSISTENT. */
+ * not satisfy the other constraints.  Errors: DAL_STATUS_NAME, errors of the system; where
+ * velocities are solved DAL_STATUS_RANK, DAL_STATUS_INCONSISTENT. */
 dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
                                double *out, dal_error *error);
 /* The same of a start at the time t. */
@@ -49,10 +50,10 @@ dal_status dal_evaluator_start_at(dal_evaluator *evaluator, double t, const dal_
 typedef struct dal_scaled dal_scaled;
 /* Finds the units of spec->system by its motion from spec->start at start_time; a step, where one
  * is given, says the time where the motion does not.  The system must outlive it. [alloc]  Errors:
- * errors of the parameters and of the start; DAL_MEMORY. */
+ * errors of the parameters and of the start; DAL_STATUS_MEMORY. */
 dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_error *error);
 /* The same of the system of a run, with its parameters, by the motion from its present
- * state. [alloc]  Errors: DAL_MEMORY. */
+ * state. [alloc]  Errors: DAL_STATUS_MEMORY. */
 dal_status dal_scaled_create_at(dal_scaled **scaled, const dal_run *run, dal_error *error);
 /* Frees it and its system. */
 void dal_scaled_free(dal_scaled *scaled);
@@ -66,9 +67,9 @@ const double *dal_scaled_units(const dal_scaled *scaled);
 
 /* d/dt of the count values of a callback along the motion, that is the derivative along
  * (v, F, dg/dt, 1): out[count].  For D it must vanish on every level of D. [alloc]
- * Errors: DAL_UNSUPPORTED, DAL_NOT_FINITE, DAL_MEMORY. */
-dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
-                            const dal_point *at, double *out);
+ * Errors: DAL_STATUS_UNSUPPORTED, DAL_STATUS_NOT_FINITE, DAL_STATUS_MEMORY. */
+dal_status dal_evaluator_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
+                                      const dal_point *at, double *out);
 
 /* Derivatives that callbacks return against differences of values: the maximum of
  * |returned - difference| / max(1, |returned|); NaN where there is nothing to compare. */
@@ -78,20 +79,21 @@ typedef struct dal_derivatives {
     double constraint_jacobian; /* A = dD/dv */
     double gram;                /* asymmetry of G = A W^-1 A^T, relative to its size */
 } dal_derivatives;
-/* Compares the derivatives at a point.  [alloc]  Errors: as for the callbacks, DAL_NOT_FINITE:
- * the differences are not finite. */
-dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
-                                 dal_derivatives *out);
+/* Compares the derivatives at a point.  [alloc]  Errors: as for the callbacks,
+ * DAL_STATUS_NOT_FINITE: the differences are not finite. */
+dal_status dal_evaluator_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
+                                           dal_derivatives *out);
 
 /* The numerical rank of G = A W^-1 A^T, and its smallest pivot relative to the largest entry of
  * G scaled to a unit diagonal (0 where G is singular). [alloc]  Errors: as for the callbacks. */
-dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank,
-                            double *pivot);
+dal_status dal_evaluator_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank,
+                                      double *pivot);
 
 /* Moves v[n] along W^-1 A^T until D = 0 (Newton, to stagnation). [alloc]  Errors:
- * DAL_NOT_CONVERGED, or DAL_SINGULAR where G is singular, v being as before; errors of the
- * callbacks. */
-dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v);
+ * DAL_STATUS_NOT_CONVERGED, or DAL_STATUS_SINGULAR where G is singular, v being as before; errors
+ * of the callbacks. */
+dal_status dal_evaluator_project_velocity(dal_evaluator *evaluator, double t, const double *q,
+                                          double *v);
 
 /* The class of D as a function, by differences at points around *at: each member is a necessary
  * condition, satisfied to rounding at every point tried. */
@@ -108,9 +110,9 @@ typedef struct dal_constraint_class {
                             F has no values */
 } dal_constraint_class;
 /* Classifies D about a point; degree[m], when not NULL, receives the k of each constraint. [alloc]
- * Errors: DAL_UNSUPPORTED, DAL_NOT_FINITE: D has no values about the point. */
-dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
-                                    dal_constraint_class *out, double *degree);
+ * Errors: DAL_STATUS_UNSUPPORTED, DAL_STATUS_NOT_FINITE: D has no values about the point. */
+dal_status dal_evaluator_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
+                                              dal_constraint_class *out, double *degree);
 
 /* What jumps where a formula changes its branch: the derivative of F of this number along the
  * motion (0: F itself), or one of these. */
@@ -128,14 +130,14 @@ typedef struct dal_branch {
 /* Finds the formulas of the motion with branches (if, abs, min, ...) of a model whose system is
  * made: how many there are, and what up to capacity of them do near the start, with the default
  * parameters.  A step across a jump of derivative k has at most order k + 1. [alloc]  Errors:
- * DAL_ARGUMENT, DAL_MEMORY, DAL_TOO_LARGE. */
+ * DAL_STATUS_ARGUMENT, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity, int *count);
 
 /* The branches at which F or its derivative by a velocity jumps, as far as is known near the start:
  * beyond one of them derivatives of F are not derivatives of the motion. */
 typedef struct dal_jumps dal_jumps;
 /* Finds the branches of a model whose system is made, and which must outlive them. [alloc]  Errors:
- * DAL_ARGUMENT, DAL_MEMORY, DAL_TOO_LARGE. */
+ * DAL_STATUS_ARGUMENT, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model);
 /* Frees them; NULL is allowed. */
 void dal_jumps_free(dal_jumps *jumps);

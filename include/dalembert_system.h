@@ -35,15 +35,16 @@ extern "C" {
     STATUS(EVENT, "an event cannot be passed")                                                     \
     STATUS(STOPPED, "stopped by an event")
 
-/* The result of a function: DAL_OK, which is 0, or the kind of failure. */
+/* The result of a function: DAL_STATUS_OK, which is 0, or the kind of failure. */
 typedef enum dal_status {
-#define CODE(code, text) DAL_##code,
+#define CODE(code, text) DAL_STATUS_##code,
     DAL_STATUS_LIST(CODE)
 #undef CODE
         DAL_STATUS_COUNT
 } dal_status;
 
-/* The identifier of a status, "DAL_SINGULAR"; "DAL_?" for other numbers. */
+/* The name of a status in tables and in Python, "DAL_SINGULAR" of DAL_STATUS_SINGULAR; "DAL_?" for
+ * other numbers. */
 const char *dal_status_name(dal_status status);
 /* The text of a status, "a constraint became singular". */
 const char *dal_status_text(dal_status status);
@@ -61,7 +62,8 @@ typedef struct dal_error {
  * of its length, or within two edits.  Elements of names may be NULL. */
 const char *dal_nearest(const char *name, const char *const *names, int count);
 /* Reads a decimal number from text[length]: sign, digits, one point, exponent, and nothing else;
- * correctly rounded, in every locale the same.  Errors: DAL_SYNTAX, DAL_TOO_LARGE (overflow). */
+ * correctly rounded, in every locale the same.  Errors: DAL_STATUS_SYNTAX, DAL_STATUS_TOO_LARGE
+ * (overflow). */
 dal_status dal_parse_number(const char *text, size_t length, double *value);
 /* Room for the text of a number. */
 #define DAL_NUMBER_SIZE 32
@@ -251,9 +253,11 @@ struct dal_system {
     dal_callback *event_rates;  /* out[events]: d(when)/dt along the motion */
     dal_callback *event_states; /* out[2n*events]: q, v as each sets them; NULL: none does */
     dal_callback *event_normals; /* out[(1 + 2n)*events]: restitution, when_q, W^-1 when_q */
-    dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
-                               number of the constraint (from 1), DAL_SINGULAR_MASS, DAL_NOT_FINITE
-                               with the one of a table read outside its points, or DAL_OK */
+    dal_callback
+        *diagnose; /* out[1]: why field is not finite here: returns DAL_STATUS_SINGULAR with the
+                               number of the constraint (from 1), DAL_STATUS_SINGULAR_MASS,
+                               DAL_STATUS_NOT_FINITE with the one of a table read outside its
+                               points, or DAL_STATUS_OK */
     const dal_system *extended;   /* F continued off D = 0 so that E is exact, for extend-energy */
     const dal_system *quad;       /* work in quad precision, for precision; these two may be NULL */
     const dal_series *series;     /* Taylor coefficients of F; NULL: none */
@@ -346,14 +350,15 @@ dal_model *dal_model_create(const char *name);
 /* Frees a model and its systems. */
 void dal_model_free(dal_model *model);
 /* Adds an entry to a section, in any order.  Its text is copied, and parsed by dal_model_system;
- * line and column (from 1 or 0) are its place. [alloc]  Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL. */
+ * line and column (from 1 or 0) are its place. [alloc]  Errors: DAL_STATUS_NAME, DAL_STATUS_SYNTAX,
+ * DAL_STATUS_MODEL. */
 dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
                          int line, int column, dal_error *error);
 /* Adds a formula that runs observe, after all other entries: it may contain what an invariant may,
  * is the last of the system's invariants, has its own text as name and need not be conserved.  No
- * other equation changes.  [alloc]  Errors: DAL_NAME (a name alone, which as a formula is written
- * (x)), DAL_SYNTAX (no text, line breaks, quotes, blanks at an end), DAL_TOO_LARGE (more than 100
- * characters), DAL_MODEL (given twice). */
+ * other equation changes.  [alloc]  Errors: DAL_STATUS_NAME (a name alone, which as a formula is
+ * written (x)), DAL_STATUS_SYNTAX (no text, line breaks, quotes, blanks at an end),
+ * DAL_STATUS_TOO_LARGE (more than 100 characters), DAL_STATUS_MODEL (given twice). */
 dal_status dal_model_observe(dal_model *model, const char *formula, int line, int column,
                              dal_error *error);
 /* Between two points a table is a straight line, or the natural cubic spline: smooth up to its
@@ -369,8 +374,8 @@ typedef struct dal_table {
     dal_extend extend;               /* outside of them */
 } dal_table;
 /* Adds a table, whose points are copied; formulas call it by its name, as torque(t). [alloc]
- * Errors: DAL_NAME, DAL_MODEL (points that do not ascend or are not finite), DAL_TOO_LARGE (more
- * than 100,000 points). */
+ * Errors: DAL_STATUS_NAME, DAL_STATUS_MODEL (points that do not ascend or are not finite),
+ * DAL_STATUS_TOO_LARGE (more than 100,000 points). */
 dal_status dal_model_add_table(dal_model *model, const char *name, const dal_table *table, int line,
                                int column, dal_error *error);
 /* Text number i of a section, from 0, and where not NULL its name and place; NULL past the last. */
@@ -379,19 +384,19 @@ const char *dal_model_text(const dal_model *model, dal_section section, int i, c
 /* Warning number i about a model that has its system, and where not NULL its place; NULL: none. */
 const char *dal_model_warning(const dal_model *model, int i, int *line, int *column);
 /* Makes *model from the YAML text of a system file, text[length].  name is for messages and may be
- * NULL.  Files of its tables are in the text, under "files". [alloc]  Errors: DAL_SYNTAX,
- * DAL_NAME and DAL_MODEL, with place. */
+ * NULL.  Files of its tables are in the text, under "files". [alloc]  Errors: DAL_STATUS_SYNTAX,
+ * DAL_STATUS_NAME and DAL_STATUS_MODEL, with place. */
 dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
                           dal_error *error);
-/* Makes *model from the file at path, which tables name their files from. [alloc]  Errors: DAL_IO,
- * as for dal_model_read. */
+/* Makes *model from the file at path, which tables name their files from. [alloc]  Errors:
+ * DAL_STATUS_IO, as for dal_model_read. */
 dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error);
 /* The YAML text that a model was read from, with the files of its tables in it, so that
  * dal_model_read makes the same model anywhere; NULL where it was not read.  *length without the
  * NUL after it. */
 const char *dal_model_source(const dal_model *model, size_t *length);
-/* Makes *model from a system of the library, "chaplygin-sleigh". [alloc]  Errors: DAL_NAME with
- * the nearest name. */
+/* Makes *model from a system of the library, "chaplygin-sleigh". [alloc]  Errors: DAL_STATUS_NAME
+ * with the nearest name. */
 dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *error);
 /* Name of system number i of the library, from 0; NULL past the last. */
 const char *dal_builtin_name(int i);
@@ -399,8 +404,8 @@ const char *dal_builtin_name(int i);
 const char *dal_builtin_text(const char *name);
 
 /* Gives the system of a complete model, made at the first call and owned by the model: the formulas
- * are parsed and F is derived, with exact derivatives. [alloc]  Errors: DAL_SYNTAX and DAL_NAME
- * with place, DAL_MODEL, DAL_TOO_LARGE. */
+ * are parsed and F is derived, with exact derivatives. [alloc]  Errors: DAL_STATUS_SYNTAX and
+ * DAL_STATUS_NAME with place, DAL_STATUS_MODEL, DAL_STATUS_TOO_LARGE. */
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error);
 /* Gives the tangent system, owned by the model: 2n coordinates (q, dq), accelerations F and
  * F_q dq + F_v dv, no constraints.  A Runge-Kutta or partitioned method applied to it is that
@@ -424,10 +429,10 @@ typedef struct dal_growth {
     int rank[DAL_GROWTH_LEVELS]; /* [levels] */
 } dal_growth;
 /* Finds the growth vector of a model whose system is made, by exact brackets at points near the
- * start, with parameters[parameter_count].  units[1 + n] of t and q, from dal_scaled_units, say
- * how far the points are and what components are compared with; NULL: 1.  [alloc]  Errors:
- * DAL_UNSUPPORTED (no constraints, or one that is not linear in v), DAL_NAME, DAL_SINGULAR,
- * DAL_NOT_FINITE, DAL_TOO_LARGE. */
+ * start, with parameters[parameter_count].  units[1 + n] of t and q, from dal_scaled_units, say how
+ * far the points are and what components are compared with; NULL: 1.  [alloc]  Errors:
+ * DAL_STATUS_UNSUPPORTED (no constraints, or one that is not linear in v), DAL_STATUS_NAME,
+ * DAL_STATUS_SINGULAR, DAL_STATUS_NOT_FINITE, DAL_STATUS_TOO_LARGE. */
 dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,
                             const double *units, dal_growth *out, dal_error *error);
 
@@ -441,8 +446,8 @@ typedef struct dal_ranks {
 } dal_ranks;
 /* Finds the ranks of a model whose system is made, with parameters[parameter_count], at a point of
  * which t, q[n] and v[n] are read.  Entries are compared in units[1 + n] of t and q, as from
- * dal_scaled_units; NULL: 1.  [alloc]  Errors: DAL_UNSUPPORTED (vakonomic motion, reactions given),
- * DAL_NAME, DAL_NOT_FINITE. */
+ * dal_scaled_units; NULL: 1.  [alloc]  Errors: DAL_STATUS_UNSUPPORTED (vakonomic motion, reactions
+ * given), DAL_STATUS_NAME, DAL_STATUS_NOT_FINITE. */
 dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int parameter_count,
                            const dal_point *at, const double *units, dal_ranks *out,
                            dal_error *error);

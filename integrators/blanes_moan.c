@@ -34,12 +34,12 @@ DAL_INLINE dal_status alternate(dal_step *s, int substeps, const double *c)
     dal_substeps(&k, s->h, size);
     for (int i = 0; i < substeps; i += 2) {
         if (dal_failed(dal_symplectic_euler(s, DAL_POLARISATION(1, 0), size[i])))
-            return DAL_NOT_CONVERGED;
+            return DAL_STATUS_NOT_CONVERGED;
         if (dal_failed(dal_symplectic_euler(s, DAL_POLARISATION(0, 1), size[i + 1])))
-            return DAL_NOT_CONVERGED;
+            return DAL_STATUS_NOT_CONVERGED;
     }
     s->t = end;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Defines a method of substeps_ substeps. */

@@ -51,7 +51,7 @@ DAL_INLINE dal_status compose(dal_step *s, int substeps, const double *c)
         if (dal_failed(status)) return status;
     }
     s->t = end;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Defines a modifier of substeps_ substeps. */

@@ -53,13 +53,13 @@ DAL_INLINE dal_status step_to_midpoint(dal_step *s, midpoint *k)
     dal_equation eq = dal_velocity_equation(s, block, k);
     dal_eval_blocks(s, s->t, s->y, s->y + n, k->blocks);
     DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->blocks[dal_blocks_B(s) + i];
-    if (dal_failed(dal_enforce(s, &eq, map_midpoint, 0))) return DAL_NOT_CONVERGED;
+    if (dal_failed(dal_enforce(s, &eq, map_midpoint, 0))) return DAL_STATUS_NOT_CONVERGED;
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq.block[0].u[i]);
     DAL_EACH(i, n) k->qb[i] = dal_moved_q(s, i, 0.5 * s->h * k->vb[i]);
     dal_eval_blocks(s, s->t + 0.5 * s->h, k->qb, k->vb, k->blocks);
     DAL_EACH(i, n)
         k->elimination.free[i] = eq.block[0].u[i] + 0.5 * s->h * k->blocks[dal_blocks_a(s) + i];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 DAL_INLINE dal_status step(dal_step *s)
@@ -72,12 +72,12 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_BLOCK(s, block, DAL_N(s), 0);
     DAL_ELIMINATION(s, elimination, 0.5 * s->h, 1.0);
     midpoint k = {elimination, qb, vb, blocks};
-    if (dal_failed(step_to_midpoint(s, &k))) return DAL_NOT_CONVERGED;
+    if (dal_failed(step_to_midpoint(s, &k))) return DAL_STATUS_NOT_CONVERGED;
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_EACH(i, n) d[i] = s->h * vb[i];
     DAL_EACH(i, n) qb[i] = dal_moved_q(s, i, d[i]);
     DAL_EACH(i, n) eq.block[0].u[i] = elimination.free[i];
-    if (dal_failed(dal_solve(s, &eq, map_end, NULL))) return DAL_NOT_CONVERGED;
+    if (dal_failed(dal_solve(s, &eq, map_end, NULL))) return DAL_STATUS_NOT_CONVERGED;
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
     return dal_update(s, s->h, d);
 }

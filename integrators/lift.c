@@ -85,7 +85,7 @@ DAL_INLINE dal_status flow(dal_step *s)
     pull(s, columns, y + p, d);
     put(s, p, size, y + p, r + p);
     dal_add(s, p, size, d);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 DAL_INLINE dal_status step(dal_step *s)
@@ -95,7 +95,7 @@ DAL_INLINE dal_status step(dal_step *s)
     const dal_status status = flow(s);
     if (dal_failed(status)) return status;
     drift(s, 0.5 * s->h);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 DAL_INTEGRATOR(

@@ -64,18 +64,18 @@ DAL_INLINE dal_status project_velocity(dal_step *s)
     DAL_EACH(i, n) eq.block[0].u[i] = dal_num(0.0);
     DAL_EACH(i, n) v[i] = s->y[n + i];
     freeze_projection(s, &p);
-    if (dal_failed(dal_solve(s, &eq, projection_map, NULL))) return DAL_NOT_CONVERGED;
+    if (dal_failed(dal_solve(s, &eq, projection_map, NULL))) return DAL_STATUS_NOT_CONVERGED;
     dal_add(s, n, n, eq.block[0].u);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 DAL_INLINE dal_status step(dal_step *s)
 {
     const dal_status status = dal_inner(s, s->h);
     if (dal_failed(status)) return status;
-    if (DAL_M(s) > 0 && dal_failed(project_velocity(s))) return DAL_NOT_CONVERGED;
+    if (DAL_M(s) > 0 && dal_failed(project_velocity(s))) return DAL_STATUS_NOT_CONVERGED;
     dal_clear_momenta(s);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 DAL_INTEGRATOR(project, step, .name = "project",

@@ -141,11 +141,11 @@ DAL_INLINE dal_status to_level(dal_step *s)
     DAL_EQUATION(eq, 1, &k, change);
     dal_set_speeds(s, &eq.block[0], DAL_N(s));
     freeze_directions(s, &k, &eq);
-    if (dal_failed(dal_solve(s, &eq, level_map, NULL))) return DAL_NOT_CONVERGED;
+    if (dal_failed(dal_solve(s, &eq, level_map, NULL))) return DAL_STATUS_NOT_CONVERGED;
     DAL_EACH(i, DAL_N(s)) q[i] = s->h * eq.block[0].u[DAL_N(s) + i];
     dal_add(s, 0, DAL_N(s), q);
     dal_add(s, DAL_N(s), DAL_N(s), eq.block[0].u);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* level: E0 and, once it is known, 1. */
@@ -164,9 +164,9 @@ DAL_INLINE dal_status step(dal_step *s)
     note_energy(s);
     const dal_status status = dal_inner(s, s->h);
     if (dal_failed(status)) return status;
-    if (dal_failed(to_level(s))) return DAL_NOT_CONVERGED;
+    if (dal_failed(to_level(s))) return DAL_STATUS_NOT_CONVERGED;
     dal_clear_momenta(s);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 DAL_INTEGRATOR(project_energy, step, .name = "project-energy",

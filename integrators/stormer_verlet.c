@@ -12,7 +12,8 @@
 DAL_INLINE dal_status step(dal_step *s)
 {
     const double half = 0.5 * s->h;
-    if (dal_failed(dal_symplectic_euler(s, DAL_POLARISATION(1, 0), half))) return DAL_NOT_CONVERGED;
+    if (dal_failed(dal_symplectic_euler(s, DAL_POLARISATION(1, 0), half)))
+        return DAL_STATUS_NOT_CONVERGED;
     return dal_symplectic_euler(s, DAL_POLARISATION(0, 1), half);
 }
 

@@ -40,7 +40,7 @@ DAL_INLINE void step_inside(dal_step *s, reflection *k, const num *mu, dal_mask 
     s->alive[0] = active;
     push_velocity(s, k, k->B0, mu);
     const dal_status status = dal_inner(s, s->h);
-    if (status != DAL_OK && status != DAL_NOT_CONVERGED) k->status = status;
+    if (status != DAL_STATUS_OK && status != DAL_STATUS_NOT_CONVERGED) k->status = status;
     k->failed = active & ~s->alive[0];
     s->t = k->t0 + s->h;
     s->alive[0] = alive;
@@ -99,11 +99,12 @@ DAL_INLINE dal_status reflect(dal_step *s)
     DAL_VECTOR(s, shift, DAL_M(s));
     DAL_BLOCK(s, mu, DAL_M(s), 0);
     DAL_BLOCK(s, v1, DAL_N(s), 0);
-    reflection k = {s->t, y0, r0, method_state0, B0, inverse, out, push, shift, ~dal_all(), DAL_OK};
+    reflection k = {s->t, y0,   r0,    method_state0, B0,           inverse,
+                    out,  push, shift, ~dal_all(),    DAL_STATUS_OK};
     DAL_EQUATION(eq, 2, &k, mu, v1);
     begin_reflection(s, &k, &eq);
     const dal_status status = dal_solve(s, &eq, reflection_map, NULL);
-    return k.status == DAL_OK ? status : k.status;
+    return k.status == DAL_STATUS_OK ? status : k.status;
 }
 
 DAL_INLINE dal_status step(dal_step *s)

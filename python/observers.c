@@ -27,7 +27,7 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
     out[0] = t;
     memcpy(out + 1, dal_run_state(run), table->dimension * sizeof *out);
     const dal_status status = dal_run_observe(run, out + 1 + table->dimension);
-    if (status == DAL_OK) table->made = row;
+    if (status == DAL_STATUS_OK) table->made = row;
     return status;
 }
 
@@ -66,7 +66,7 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
     const followed *f = user;
     (void)run;
     dal_statistics_add_many(f->statistics, f->observables, count, t, values, stride);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status add_scales(void *user, dal_run *run, const double *scales)
@@ -74,7 +74,7 @@ static dal_status add_scales(void *user, dal_run *run, const double *scales)
     const followed *f = user;
     (void)run;
     dal_statistics_add_scales(f->statistics, f->observables, scales);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Advances a run to time T and fills statistics[observables] with the values at the start, and then

@@ -86,7 +86,7 @@ void allocation_start(const allocation_trial *trial)
 
 bool allocation_end(allocation_trial *trial, dal_status status)
 {
-    CU_ASSERT_EQUAL(status, failed ? DAL_MEMORY : DAL_OK);
+    CU_ASSERT_EQUAL(status, failed ? DAL_STATUS_MEMORY : DAL_STATUS_OK);
     left = -1;
     trial->failures += failed;
     trial->passed = !failed;

@@ -28,8 +28,8 @@ typedef struct allocation_trial {
 /* Whether another allocation is to fail: until none did.  Checks that all blocks are free again. */
 bool allocation_next(allocation_trial *trial);
 void allocation_start(const allocation_trial *trial);
-/* Whether an allocation failed: checks that then, and only then, the status is DAL_MEMORY, and
- * DAL_OK otherwise. */
+/* Whether an allocation failed: checks that then, and only then, the status is DAL_STATUS_MEMORY,
+ * and DAL_STATUS_OK otherwise. */
 bool allocation_end(allocation_trial *trial, dal_status status);
 
 #endif

@@ -76,7 +76,7 @@ static bool begin_lane(motion *m, int lane)
     dal_run_spec spec = m->spec;
     spec.start = &m->start[lane];
     spec.start_count = lane > 0;
-    if (dal_run_create(&m->run[lane], &spec, &error) == DAL_INCONSISTENT && lane > 0) {
+    if (dal_run_create(&m->run[lane], &spec, &error) == DAL_STATUS_INCONSISTENT && lane > 0) {
         m->start[lane].value = m->begin[0][0];
         spec.start_count = 0;
         dal_run_create(&m->run[lane], &spec, &error);
@@ -104,9 +104,9 @@ static bool begin_motion(motion *m, int system, int method, dal_space space)
     *m = (motion){.spec = {.options = dal_options_default()}};
     m->spec.options.space = space;
     bool can = method_name(method, m->method) &&
-               dal_model_builtin(&m->model, dal_builtin_name(system), NULL) == DAL_OK &&
-               dal_model_system(m->model, &m->spec.system, NULL) == DAL_OK &&
-               dal_method_parse(&m->spec.method, m->method, NULL) == DAL_OK;
+               dal_model_builtin(&m->model, dal_builtin_name(system), NULL) == DAL_STATUS_OK &&
+               dal_model_system(m->model, &m->spec.system, NULL) == DAL_STATUS_OK &&
+               dal_method_parse(&m->spec.method, m->method, NULL) == DAL_STATUS_OK;
     if (can && system % 2 == 1 && dal_method_properties(&m->spec.method) & DAL_ADAPTIVE) {
         m->spec.options.tolerance = TOLERANCE;
         m->spec.options.step *= FACTOR;
@@ -139,7 +139,7 @@ static void compare_batch(motion *m, int width)
     int other = 0;
     dal_batch *batch;
     snprintf(way, sizeof way, "batch of width %d", width);
-    if (!state || dal_batch_create(&batch, &m->spec, WIDE, width, NULL) != DAL_OK) {
+    if (!state || dal_batch_create(&batch, &m->spec, WIDE, width, NULL) != DAL_STATUS_OK) {
         differs(m, way, "not made");
         free(state);
         return;
@@ -149,8 +149,9 @@ static void compare_batch(motion *m, int width)
     dal_batch_advance(batch, STEPS - STEPS / 3);
     for (int i = 0; i < WIDE; i++) {
         dal_batch_state(batch, i, state);
-        other += memcmp(state, dal_run_state(m->run[i]), bytes) != 0 ||
-                 (dal_batch_status(batch, i, NULL) == DAL_OK) != (m->status[i] == DAL_OK);
+        other +=
+            memcmp(state, dal_run_state(m->run[i]), bytes) != 0 ||
+            (dal_batch_status(batch, i, NULL) == DAL_STATUS_OK) != (m->status[i] == DAL_STATUS_OK);
     }
     if (other) differs(m, way, "other bits");
     dal_batch_free(batch);
@@ -279,12 +280,12 @@ static void compare_generated(motion *m, int lanes, int build)
     snprintf(way, sizeof way, "generated, %d lanes, %s", lanes, name);
     if (!there_is(build) || !mkdtemp(folder)) return;
     const dal_status status = dal_generate(&m->spec, lanes, "bits", &text, &error);
-    void *handle = status == DAL_OK ? load(text, folder, name) : NULL;
+    void *handle = status == DAL_STATUS_OK ? load(text, folder, name) : NULL;
     if (handle) {
         compare_loaded(m, lanes, handle, way);
         dlclose(handle);
     } else {
-        differs(m, way, status == DAL_OK ? "does not compile" : error.message);
+        differs(m, way, status == DAL_STATUS_OK ? "does not compile" : error.message);
     }
     free(text);
     rmdir(folder);

@@ -66,8 +66,9 @@ static fixture *fixtures;
 
 static void require(dal_status status, const dal_error *error)
 {
-    if (status != DAL_OK) printf("\n  %d:%d: %s\n", error->line, error->column, error->message);
-    CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
+    if (status != DAL_STATUS_OK)
+        printf("\n  %d:%d: %s\n", error->line, error->column, error->message);
+    CU_ASSERT_EQUAL_FATAL(status, DAL_STATUS_OK);
 }
 
 static dal_model *model_of(const char *text)
@@ -117,7 +118,7 @@ dal_run_spec fixture_spec(const dal_system *system, const char *method, dal_spac
                           double step)
 {
     dal_run_spec spec = {.system = system, .options = dal_options_default()};
-    CU_ASSERT_EQUAL_FATAL(dal_method_parse(&spec.method, method, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_method_parse(&spec.method, method, NULL), DAL_STATUS_OK);
     spec.options.space = space;
     spec.options.step = step;
     return spec;
@@ -154,7 +155,7 @@ dal_status fixture_events(dal_run *run, double T,
 dal_run *fixture_stepped(const dal_run_spec *spec, long long steps)
 {
     dal_run *run = fixture_run(spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_STATUS_OK);
     return run;
 }
 
@@ -162,12 +163,12 @@ void fixture_lanes(dal_run_spec spec, int lanes, long long steps, const char *na
                    double by)
 {
     dal_batch *batch = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, lanes, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, lanes, 0, NULL), DAL_STATUS_OK);
     for (int i = 0; i < lanes; i++) {
         const dal_setting start = {name, from + i * by};
-        CU_ASSERT_EQUAL(dal_batch_start(batch, i, NULL, 0, &start, 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, NULL, 0, &start, 1, NULL), DAL_STATUS_OK);
     }
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, steps), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, steps), DAL_STATUS_OK);
     for (int i = 0; i < lanes; i++) {
         const dal_setting start = {name, from + i * by};
         double state[64];
@@ -192,7 +193,7 @@ dal_status fixture_failed_step(const dal_run_spec *spec, dal_error *error)
     CU_ASSERT_FATAL(count <= sizeof before / sizeof *before);
     memcpy(before, memory, count * sizeof *before);
     const dal_status status = dal_run_step(run, error);
-    CU_ASSERT_NOT_EQUAL(status, DAL_OK);
+    CU_ASSERT_NOT_EQUAL(status, DAL_STATUS_OK);
     CU_ASSERT_EQUAL(memcmp(before, memory, count * sizeof *before), 0);
     dal_run_free(run);
     return status;
@@ -204,7 +205,7 @@ double fixture_symplectic_defect(const dal_run_spec *spec)
     double defect = NAN;
     fixture_perturb(run, 0.3);
     CU_ASSERT_EQUAL(dal_check_symplecticity(spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
-                    DAL_OK);
+                    DAL_STATUS_OK);
     dal_run_free(run);
     return defect;
 }
@@ -212,7 +213,7 @@ double fixture_symplectic_defect(const dal_run_spec *spec)
 dal_evaluator *fixture_evaluator(const dal_system *system)
 {
     dal_evaluator *evaluator = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_STATUS_OK);
     return evaluator;
 }
 
@@ -220,7 +221,7 @@ dal_status fixture_oscillate(const dal_system *system, const dal_point *at, doub
 {
     (void)system;
     out[0] = -at->q[0];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 void fixture_refused(const dal_run_spec *spec, dal_status status, const char *fragment)
@@ -241,7 +242,7 @@ void fixture_perturb(dal_run *run, double size)
     double state[256];
     memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
     for (int i = 0; i < 2 * n; i++) state[2 * n + 1 + i] = size * (1.0 - 0.3 * i);
-    CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, state, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, state, NULL), DAL_STATUS_OK);
 }
 
 const char *fixture_method(int i, char *name, size_t size)
@@ -260,7 +261,7 @@ static void end_state(dal_run_spec spec, double T, int count, double displacemen
     spec.options.step = T / count;
     dal_run *run = fixture_run(&spec);
     if (displacement != 0.0) fixture_perturb(run, displacement);
-    CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_STATUS_OK);
     memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
     dal_run_free(run);
 }
@@ -269,7 +270,7 @@ double fixture_order(dal_run_spec spec, double T, int coarse, int fine, double d
 {
     double reference[64], state[64], error[2] = {0.0, 0.0};
     dal_run_spec accurate = spec;
-    CU_ASSERT_EQUAL(dal_method_parse(&accurate.method, "gauss10", NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_method_parse(&accurate.method, "gauss10", NULL), DAL_STATUS_OK);
     end_state(accurate, T, 1500, displacement, reference);
     for (int k = 0; k < 2; k++) {
         end_state(spec, T, k ? fine : coarse, displacement, state);

@@ -13,7 +13,7 @@ dal__node formula_resolve(void *user, const char *name, size_t length, bool prim
         bool same = length == 1 && name[0] == names[i][0] && prime == (names[i][1] != '\0');
         if (same) return dal__symbol(user, i);
     }
-    error->status = DAL_NAME;
+    error->status = DAL_STATUS_NAME;
     snprintf(error->message, sizeof error->message, "no such name: %.*s%s",
              (int)(length < 60 ? length : 60), name, prime ? "'" : "");
     return 0;
@@ -34,10 +34,10 @@ dal_status formula_parse(dal__graph *graph, const char *text, dal__node *node, d
 dal__node formula_node(dal__graph *graph, const char *text)
 {
     dal__node node = 0;
-    dal_error error = {.status = DAL_OK};
+    dal_error error = {.status = DAL_STATUS_OK};
     dal_status status = formula_parse(graph, text, &node, &error);
-    CU_ASSERT_EQUAL(status, DAL_OK);
-    if (status != DAL_OK) fprintf(stderr, "%s: %s\n", text, error.message);
+    CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
+    if (status != DAL_STATUS_OK) fprintf(stderr, "%s: %s\n", text, error.message);
     return node;
 }
 

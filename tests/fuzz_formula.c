@@ -23,7 +23,7 @@ static dal__node resolve(void *user, const char *name, size_t length, bool prime
     const char *found = length == 1 ? strchr(letters, name[0]) : NULL;
     int symbol = found ? (int)(found - letters) : -1;
     if (found && (!prime || symbol >= PARAMETERS)) return dal__symbol(user, symbol + 2 * prime);
-    error->status = DAL_NAME;
+    error->status = DAL_STATUS_NAME;
     strcpy(error->message, "unknown");
     return 0;
 }
@@ -38,7 +38,7 @@ static void check_tape(dal__graph *graph, const dal__node *nodes, int count)
     static const double values[SYMBOLS] = {1.3, -0.7, 0.3, 2.5, -1.25, 0.75};
     dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
     require(dal__tapes_add(tapes, nodes, count) == 0);
-    require(dal__tapes_finish(tapes) == DAL_OK);
+    require(dal__tapes_finish(tapes) == DAL_STATUS_OK);
     double *work = malloc(tapes->workspace * sizeof *work), out[3];
     memcpy(work, values, PARAMETERS * sizeof *work);
     dal__tapes_prepare_x1(tapes, work);
@@ -58,15 +58,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static const int symbol = PARAMETERS;
     dal__graph *graph = dal__graph_create(PARAMETERS);
     dal__node nodes[3] = {0};
-    dal_error error = {.status = DAL_OK};
+    dal_error error = {.status = DAL_STATUS_OK};
     if (size > MAX_BYTES) size = MAX_BYTES;
     const char *text = (const char *)data;
     const dal__names names = {.resolve = resolve, .user = graph};
     dal_status status = dal__parse(graph, text, size, &names, &nodes[0], &error);
-    if (status == DAL_OK) {
+    if (status == DAL_STATUS_OK) {
         dal__gradient(graph, nodes[0], &symbol, 1, &nodes[1]);
         nodes[2] = dal__tangent(graph, nodes[1], &symbol, 1, &nodes[0]);
-        require(graph->status == DAL_OK);
+        require(graph->status == DAL_STATUS_OK);
         check_tape(graph, nodes, 3);
     } else {
         require(error.status == status && error.line > 0 && error.column > 0);

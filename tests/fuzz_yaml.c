@@ -31,8 +31,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const dal_system *system;
     dal_error error;
     if (size > 1024) return 0;
-    if (dal_model_read(&model, "fuzz", (const char *)data, size, &error) == DAL_OK) {
-        if (dal_model_system(model, &system, &error) == DAL_OK) evaluate(system);
+    if (dal_model_read(&model, "fuzz", (const char *)data, size, &error) == DAL_STATUS_OK) {
+        if (dal_model_system(model, &system, &error) == DAL_STATUS_OK) evaluate(system);
         dal_model_free(model);
     }
     return 0;

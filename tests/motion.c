@@ -18,8 +18,8 @@ motion motion_open(const char *name, dal_space space, double step, motion_settin
     spec.options.space = space;
     for (int i = 0; i < parameters.count; i++)
         reference_set(&z.b, parameters.item[i].name, parameters.item[i].value);
-    CU_ASSERT_FATAL(dal_method_parse(&spec.method, "gauss8", NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_run_create(&z.run, &spec, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_method_parse(&spec.method, "gauss8", NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_run_create(&z.run, &spec, NULL) == DAL_STATUS_OK);
     z.step = step;
     z.n = z.b.system->n;
     z.x = dal_run_state(z.run);
@@ -34,7 +34,7 @@ motion motion_default(const char *name, double step)
 void motion_advance(motion *z, double time)
 {
     double left = time - dal_run_time(z->run);
-    CU_ASSERT_FATAL(dal_run_advance(z->run, llround(left / z->step), NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_advance(z->run, llround(left / z->step), NULL) == DAL_STATUS_OK);
     CU_ASSERT(fabs(dal_run_time(z->run) - time) <= 1e-13 * (1.0 + time));
     z->x = dal_run_state(z->run);
 }
@@ -48,7 +48,8 @@ void motion_close(motion *z)
 static double value_of(const motion *z, dal_callback *call, int i)
 {
     double out[REFERENCE_OUT];
-    CU_ASSERT(reference_call(&z->b, call, dal_run_time(z->run), z->x, z->x + z->n, out) == DAL_OK);
+    CU_ASSERT(reference_call(&z->b, call, dal_run_time(z->run), z->x, z->x + z->n, out) ==
+              DAL_STATUS_OK);
     return out[i];
 }
 

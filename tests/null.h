@@ -14,15 +14,15 @@
 /* Where the calls under test report. */
 static dal_error *error;
 
-/* DAL_ARGUMENT, from a function that takes no record. */
-#define REFUSED_STATUS(call) CU_ASSERT_EQUAL((call), DAL_ARGUMENT)
+/* DAL_STATUS_ARGUMENT, from a function that takes no record. */
+#define REFUSED_STATUS(call) CU_ASSERT_EQUAL((call), DAL_STATUS_ARGUMENT)
 /* The same with a message, from a call that hands error over. */
 #define REFUSED_WITH_RECORD(call)                                                                  \
     do {                                                                                           \
         dal_error record = {0};                                                                    \
         error = &record;                                                                           \
         REFUSED_STATUS(call);                                                                      \
-        CU_ASSERT(record.status == DAL_ARGUMENT && record.message[0] != '\0');                     \
+        CU_ASSERT(record.status == DAL_STATUS_ARGUMENT && record.message[0] != '\0');              \
         CU_ASSERT(record.line == 0 && record.column == 0);                                         \
     } while (0)
 /* The same without a record: error is NULL. */
@@ -48,15 +48,16 @@ static inline dal_status open_spec(dal_model **model, dal_run_spec *spec)
 {
     *spec = (dal_run_spec){.options = dal_options_default()};
     dal_status status = dal_model_builtin(model, "chaplygin-sleigh", NULL);
-    if (status == DAL_OK) status = dal_model_system(*model, &spec->system, NULL);
-    return status == DAL_OK ? dal_method_parse(&spec->method, "rk4", NULL) : status;
+    if (status == DAL_STATUS_OK) status = dal_model_system(*model, &spec->system, NULL);
+    return status == DAL_STATUS_OK ? dal_method_parse(&spec->method, "rk4", NULL) : status;
 }
 
 /* The same with a run and a batch; 0, or what CUnit takes for a failure. */
 static inline int open_runs(dal_model **model, dal_run_spec *spec, dal_run **run, dal_batch **batch)
 {
-    return open_spec(model, spec) != DAL_OK || dal_run_create(run, spec, NULL) != DAL_OK ||
-           dal_batch_create(batch, spec, 3, 0, NULL) != DAL_OK;
+    return open_spec(model, spec) != DAL_STATUS_OK ||
+           dal_run_create(run, spec, NULL) != DAL_STATUS_OK ||
+           dal_batch_create(batch, spec, 3, 0, NULL) != DAL_STATUS_OK;
 }
 
 static inline int close_runs(dal_model *model, dal_run *run, dal_batch *batch)

@@ -31,7 +31,7 @@ static void take_work(reference *b)
 static reference finish(reference b, const char *what)
 {
     dal_error error = {.line = 0};
-    if (dal_model_system(b.model, &b.system, &error) != DAL_OK) stop(what, &error);
+    if (dal_model_system(b.model, &b.system, &error) != DAL_STATUS_OK) stop(what, &error);
     take_work(&b);
     return b;
 }
@@ -40,7 +40,8 @@ reference reference_of_text(const char *yaml)
 {
     reference b = {.model = NULL};
     dal_error error = {.line = 0};
-    if (dal_model_read(&b.model, "text", yaml, strlen(yaml), &error) != DAL_OK) stop(yaml, &error);
+    if (dal_model_read(&b.model, "text", yaml, strlen(yaml), &error) != DAL_STATUS_OK)
+        stop(yaml, &error);
     return finish(b, yaml);
 }
 
@@ -48,7 +49,7 @@ reference reference_builtin(const char *name)
 {
     reference b = {.model = NULL};
     dal_error error = {.line = 0};
-    if (dal_model_builtin(&b.model, name, &error) != DAL_OK) stop(name, &error);
+    if (dal_model_builtin(&b.model, name, &error) != DAL_STATUS_OK) stop(name, &error);
     return finish(b, name);
 }
 
@@ -56,7 +57,7 @@ reference reference_tangent(const reference *of)
 {
     reference b = {.model = NULL};
     dal_error error = {.line = 0};
-    if (dal_model_tangent(of->model, &b.system, &error) != DAL_OK) stop("tangent", &error);
+    if (dal_model_tangent(of->model, &b.system, &error) != DAL_STATUS_OK) stop("tangent", &error);
     take_work(&b);
     return b;
 }

@@ -21,8 +21,8 @@ static void test_sums(void)
     dal_run *plain = fixture_run(&spec);
     double x = 0.0;
     for (int i = 0; i < STEPS; i++) x += h * v;
-    CU_ASSERT_EQUAL(dal_run_advance(exact, STEPS, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(plain, STEPS, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(exact, STEPS, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(plain, STEPS, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_state(plain)[0], x);
     /* Right to all digits of x and of what x has no room for, which comes after x and x': the
      * product h v is part + rest, STEPS times that is right + lost. */
@@ -52,7 +52,7 @@ static void test_one_side(void)
         dal_run *run = fixture_run(&spec);
         double found[16], max = 0.0;
         for (int k = 0; k < 100; k++) {
-            CU_ASSERT_EQUAL(dal_run_advance(run, stretch, NULL), DAL_OK);
+            CU_ASSERT_EQUAL(dal_run_advance(run, stretch, NULL), DAL_STATUS_OK);
             dal_run_observe(run, found);
             max = fmax(max, fabs(found[0]));
         }
@@ -127,12 +127,13 @@ static void test_refused(void)
     dal_run_spec spec =
         fixture_spec(fixture_system(oscillator), "implicit-midpoint", DAL_PHYSICAL, 0.5);
     spec.options.solver_tolerance = -1e-3;
-    fixture_refused(&spec, DAL_ARGUMENT, "option solver-tolerance: -0.001 is not from 0 to 1");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT,
+                    "option solver-tolerance: -0.001 is not from 0 to 1");
     spec.options.solver_tolerance = NAN;
-    fixture_refused(&spec, DAL_ARGUMENT, "option solver-tolerance: nan");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "option solver-tolerance: nan");
     spec.options.solver_tolerance = 0.0;
     spec.options.sums = 2;
-    fixture_refused(&spec, DAL_ARGUMENT, "option sums: 2 is not from 0 to 1");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "option sums: 2 is not from 0 to 1");
 }
 
 void suite_accuracy_options(void)

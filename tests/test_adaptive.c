@@ -35,7 +35,7 @@ static double exact_error(dal_run *run)
     char name[32];
     const int last = dal_run_observables(run) - 1;
     CU_ASSERT_STRING_EQUAL(dal_run_observable_name(run, last, name, sizeof name), "error");
-    CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_STATUS_OK);
     return out[last];
 }
 
@@ -55,7 +55,7 @@ static double displaced_error(dal_run *run)
     dal_run *reference = fixture_run(&spec);
     double error = 0.0;
     fixture_perturb(reference, size);
-    CU_ASSERT_EQUAL(dal_run_advance(reference, 1000, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(reference, 1000, NULL), DAL_STATUS_OK);
     for (int i = 0; i < dal_run_dimension(run); i++)
         error = fmax(error, fabs(dal_run_state(run)[i] - dal_run_state(reference)[i]));
     dal_run_free(reference);
@@ -73,7 +73,7 @@ static double slope(dal_run_spec spec, int steps, double displacement, error_fun
         spec.options.tolerance = pow(10.0, -4.0 - 0.5 * k);
         dal_run *run = fixture_run(&spec);
         if (displacement != 0.0) fixture_perturb(run, displacement);
-        CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_STATUS_OK);
         const double x = log(spec.options.tolerance), y = log(error(run));
         sx += x;
         sy += y;
@@ -146,7 +146,7 @@ static void test_work(void)
     long long min = 1000000, max = 0;
     for (int i = 0; i < 20; i++) {
         const long long before = dal_run_evaluations(run);
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         const long long made = dal_run_evaluations(run) - before;
         min = made < min ? made : min;
         max = made > max ? made : max;
@@ -182,8 +182,8 @@ static void test_whole(void)
     dal_run *a = fixture_run(&fixed), *b = fixture_run(&loose);
     fixture_perturb(a, 0.3);
     fixture_perturb(b, 0.3);
-    CU_ASSERT_EQUAL(dal_run_advance(a, 50, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(b, 50, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(a, 50, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(b, 50, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_evaluations(a), 50 * STAGES);
     CU_ASSERT_EQUAL(dal_run_evaluations(b), 50 * STAGES);
     same_state(a, b, dal_run_dimension(a));
@@ -217,11 +217,11 @@ static void test_load(void)
     const dal_run_spec spec = spec_of(fixture_system(kepler), DAL_PHYSICAL, PERIOD / 20, 1e-9);
     dal_run *whole = fixture_run(&spec), *first = fixture_run(&spec), *second = fixture_run(&spec);
     size_t count, again;
-    CU_ASSERT_EQUAL(dal_run_advance(whole, 20, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(first, 7, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(whole, 20, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(first, 7, NULL), DAL_STATUS_OK);
     const double *memory = dal_run_save(first, &count);
-    CU_ASSERT_EQUAL(dal_run_restore(second, memory, count, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(second, 13, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(second, memory, count, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(second, 13, NULL), DAL_STATUS_OK);
     memory = dal_run_save(whole, &count);
     CU_ASSERT_EQUAL(memcmp(memory, dal_run_save(second, &again), count * sizeof *memory), 0);
     CU_ASSERT_EQUAL(count, again);
@@ -249,7 +249,7 @@ static void test_projected(void)
         spec.options.tolerance = 1e-9;
         dal_run *run = fixture_stepped(&spec, 2);
         CU_ASSERT(dal_run_evaluations(run) > 4 * STAGES);
-        CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_STATUS_OK);
         CU_ASSERT(fabs(out[0]) <= 1e-14);
         CU_ASSERT(exact_error(run) <= 1e-6);
         dal_run_free(run);
@@ -265,7 +265,7 @@ static void test_claims(void)
         char name[96];
         dal_method method;
         fixture_method(i, name, sizeof name);
-        CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_STATUS_OK);
         dal_run_spec spec =
             fixture_spec(fixture_system("contact-oscillator"), name, DAL_PHYSICAL, 0.1);
         if (!fixture_accepts(&method, spec.system, DAL_PHYSICAL)) continue;
@@ -273,16 +273,16 @@ static void test_claims(void)
         if (dal_method_properties(&method) & DAL_ADAPTIVE)
             dal_run_free(fixture_run(&spec));
         else
-            fixture_refused(&spec, DAL_UNSUPPORTED, name);
+            fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, name);
     }
     dal_run_spec spec =
         fixture_spec(fixture_system("contact-oscillator"), "dop853+lift", DAL_LIFTED, 0.1);
     spec.options.tolerance = 1e-6;
-    fixture_refused(&spec, DAL_UNSUPPORTED, "dop853+lift has no control of its step size");
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, "dop853+lift has no control of its step size");
     spec = spec_of(spec.system, DAL_LIFTED, 0.1, -1e-6);
-    fixture_refused(&spec, DAL_ARGUMENT, "option tolerance: -1e-06 is not from 0 to 1");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "option tolerance: -1e-06 is not from 0 to 1");
     spec.options.tolerance = NAN;
-    fixture_refused(&spec, DAL_ARGUMENT, "is not from 0 to 1");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "is not from 0 to 1");
 }
 
 /* At rest, x = x' = 0, nothing but the momenta moves: with 1/e = 0, p' = pi and pi' = -p, so that
@@ -298,7 +298,7 @@ static void test_momenta_alone(void)
         spec.start = start;
         spec.start_count = 2;
         dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         const double *z = dal_run_state(run);
         CU_ASSERT_DOUBLE_EQUAL(z[3], sin(20.0), 20.0 * tolerances[k]);
         CU_ASSERT_DOUBLE_EQUAL(z[4], cos(20.0), 20.0 * tolerances[k]);
@@ -327,10 +327,10 @@ static void test_native(void)
         dal_run *tape = fixture_run(&spec), *native = fixture_run(&spec);
         size_t count;
         dal_error error = {0};
-        CU_ASSERT_EQUAL(dal_run_advance(tape, 4, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_advance(native, 1, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_native(native, &compiler_options, &error), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_advance(native, 3, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(tape, 4, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(native, 1, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_native(native, &compiler_options, &error), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(native, 3, NULL), DAL_STATUS_OK);
         CU_ASSERT(dal_run_evaluations(tape) > 2 * 4 * STAGES);
         const double *memory = dal_run_save(tape, &count);
         CU_ASSERT_EQUAL(memcmp(memory, dal_run_save(native, &count), count * sizeof *memory), 0);
@@ -347,14 +347,14 @@ static void same_lanes(const dal_run_spec *of, int width, bool native)
     dal_run_spec spec = *of;
     dal_batch *batch = NULL;
     dal_error reason = {0}, error = {0};
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, LANES, width, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, LANES, width, NULL), DAL_STATUS_OK);
     dal_setting x[LANES];
     for (int lane = 0; lane < LANES; lane++) {
         x[lane] = (dal_setting){"x", lane == 6 ? 4.3 : 0.1 + 0.09 * lane};
-        CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, &x[lane], 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, &x[lane], 1, NULL), DAL_STATUS_OK);
     }
-    if (native) CU_ASSERT_EQUAL(dal_batch_native(batch, &compiler_options, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, STEPS), DAL_OK);
+    if (native) CU_ASSERT_EQUAL(dal_batch_native(batch, &compiler_options, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, STEPS), DAL_STATUS_OK);
     for (int lane = 0; lane < LANES; lane++) {
         double state[8];
         spec.start = &x[lane];
@@ -363,9 +363,9 @@ static void same_lanes(const dal_run_spec *of, int width, bool native)
         CU_ASSERT_FATAL(dal_run_dimension(run) <= 8);
         const dal_status status = dal_run_advance(run, STEPS, &reason);
         dal_batch_state(batch, lane, state);
-        CU_ASSERT_EQUAL(status == DAL_OK, lane != 6);
+        CU_ASSERT_EQUAL(status == DAL_STATUS_OK, lane != 6);
         CU_ASSERT_EQUAL(dal_batch_status(batch, lane, &error), status);
-        if (status != DAL_OK) CU_ASSERT_STRING_EQUAL(error.message, reason.message);
+        if (status != DAL_STATUS_OK) CU_ASSERT_STRING_EQUAL(error.message, reason.message);
         CU_ASSERT_EQUAL(dal_batch_time(batch, lane), dal_run_time(run));
         same_state_as(run, state);
         dal_run_free(run);
@@ -392,7 +392,7 @@ static void fails(const char *text, double step, const char *reason, double reac
 {
     const dal_run_spec spec = spec_of(fixture_system(text), DAL_PHYSICAL, step, 1e-10);
     dal_error error = {0};
-    CU_ASSERT_EQUAL(fixture_failed_step(&spec, &error), DAL_NOT_CONVERGED);
+    CU_ASSERT_EQUAL(fixture_failed_step(&spec, &error), DAL_STATUS_NOT_CONVERGED);
     if (!strstr(error.message, reason)) printf("\n  %s\n", error.message);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, reason));
     CU_ASSERT(error.line == 0 && error.column == 0);

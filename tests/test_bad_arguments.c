@@ -12,7 +12,7 @@ static dal_status unprepared(const dal_system *system, const dal_point *at, doub
     (void)system;
     (void)at;
     (void)out;
-    return DAL_NOT_FINITE;
+    return DAL_STATUS_NOT_FINITE;
 }
 
 /* A struct filled by hand may say anything. */
@@ -21,19 +21,19 @@ static void test_systems(void)
     dal_system system = (dal_system){.name = "hand", .n = 1, .call.field = fixture_oscillate};
     dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
     system.workspace = SIZE_MAX;
-    fixture_refused(&spec, DAL_TOO_LARGE, "workspace");
+    fixture_refused(&spec, DAL_STATUS_TOO_LARGE, "workspace");
     CU_ASSERT_EQUAL(dal_run_size(&spec), 0);
     system.workspace = 1;
     system.parameters = 1000;
-    fixture_refused(&spec, DAL_ARGUMENT, "1000 parameters in a workspace of 1");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "1000 parameters in a workspace of 1");
     system.workspace = 0;
     const dal_setting given = {"k", 1.0};
     spec.parameters = &given;
     spec.parameter_count = 1;
-    fixture_refused(&spec, DAL_NAME, "unknown parameter 'k'"); /* no parameter has a name */
+    fixture_refused(&spec, DAL_STATUS_NAME, "unknown parameter 'k'"); /* no parameter has a name */
     spec.parameter_count = 0;
     system.prepare = unprepared;
-    fixture_refused(&spec, DAL_NOT_FINITE, "hand cannot be prepared");
+    fixture_refused(&spec, DAL_STATUS_NOT_FINITE, "hand cannot be prepared");
 }
 
 static void test_starts(void)
@@ -42,21 +42,21 @@ static void test_starts(void)
     dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_LIFTED, 0.1);
     spec.parameters = &massless;
     spec.parameter_count = 1;
-    fixture_refused(&spec, DAL_SINGULAR_MASS, "mass matrix is singular at the start");
+    fixture_refused(&spec, DAL_STATUS_SINGULAR_MASS, "mass matrix is singular at the start");
     spec.parameter_count = 0;
     spec.start = &tiny;
     spec.start_count = 1;
-    fixture_refused(&spec, DAL_GAUGE, "e must not vanish");
+    fixture_refused(&spec, DAL_STATUS_GAUGE, "e must not vanish");
 }
 
 static void test_options(void)
 {
     const dal_system system = {.name = "hand", .n = 1, .call.field = fixture_oscillate};
     dal_run_spec spec = fixture_spec(&system, "rk4", (dal_space)7, 0.1);
-    fixture_refused(&spec, DAL_ARGUMENT, "option space: 7 is not from 0 to 1");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "option space: 7 is not from 0 to 1");
     spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
     spec.options.solver = (dal_solver)3;
-    fixture_refused(&spec, DAL_ARGUMENT, "option solver: 3 is not from 0 to 2");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "option solver: 3 is not from 0 to 2");
 }
 
 /* A double has 53 binary digits, and sums 12 more that count; a quad number has 113. */
@@ -70,7 +70,7 @@ static void test_tolerances(void)
         spec.options.tolerance = min;
         dal_run_free(fixture_run(&spec));
         spec.options.tolerance = 0.999 * min;
-        fixture_refused(&spec, DAL_ARGUMENT, "option tolerance: ");
+        fixture_refused(&spec, DAL_STATUS_ARGUMENT, "option tolerance: ");
     }
     CU_ASSERT(isnan(dal_min_tolerance(NULL)));
 }
@@ -79,7 +79,7 @@ static void test_no_text(void)
 {
     dal_model *model;
     dal_error error;
-    CU_ASSERT_EQUAL(dal_model_read(&model, "none", NULL, 0, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_model_read(&model, "none", NULL, 0, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_STRING_EQUAL(error.message, "there is no text to read");
     CU_ASSERT_PTR_NULL(model);
 }
@@ -98,19 +98,19 @@ static void test_long_names(void)
         const dal_status status =
             dal_model_add(model, DAL_SECTION_COORDINATES, NULL, name, 1, 15, &error);
         if (length > 100) {
-            CU_ASSERT_EQUAL(status, DAL_TOO_LARGE);
+            CU_ASSERT_EQUAL(status, DAL_STATUS_TOO_LARGE);
             CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "more than 100 characters"));
         } else {
             snprintf(formula, sizeof formula, "%s'^2/2", name);
-            CU_ASSERT_EQUAL(status, DAL_OK);
+            CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
             dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, formula, 0, 0, NULL);
-            CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, &error), DAL_OK);
+            CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, &error), DAL_STATUS_OK);
             dal_run_spec spec = fixture_spec(system, "rk4", DAL_LIFTED, 0.1);
             snprintf(formula, sizeof formula, "pi_%s", name);
             const dal_setting start = {formula, 1.0};
             spec.start = &start;
             spec.start_count = 1;
-            CU_ASSERT_EQUAL_FATAL(dal_run_create(&run, &spec, &error), DAL_OK);
+            CU_ASSERT_EQUAL_FATAL(dal_run_create(&run, &spec, &error), DAL_STATUS_OK);
             CU_ASSERT_EQUAL(dal_run_state(run)[4], 1.0); /* q, v, e, p, pi */
             dal_run_free(run);
         }
@@ -126,7 +126,7 @@ static dal_status count_row(void *user, dal_run *run, long long row, double t)
 {
     (void)user, (void)run, (void)row;
     CU_ASSERT(isfinite(t));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Nothing is done where the rows or counts of an observer cannot be. */
@@ -144,15 +144,15 @@ static void test_observers(void)
     for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
         dal_error error = {0};
         const dal_observer rows = {.user = times[i], .row_time = time_of_row, .sample = count_row};
-        CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 2, 0, &rows, &error), DAL_ARGUMENT);
+        CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 2, 0, &rows, &error), DAL_STATUS_ARGUMENT);
         CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "is at t = "));
     }
     const dal_observer counts[] = {{.every = -1}, {.every = INT64_MAX}, {.polling = -2}};
     for (int i = 0; i < 3; i++)
-        CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 2, 0, &counts[i], NULL), DAL_ARGUMENT);
+        CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 2, 0, &counts[i], NULL), DAL_STATUS_ARGUMENT);
     CU_ASSERT_EQUAL(dal_run_steps(run), 0);
     const dal_observer good = {.user = repeated, .row_time = time_of_row, .sample = count_row};
-    CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 2, 0, &good, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 2, 0, &good, NULL), DAL_STATUS_OK);
     dal_run_free(run);
 }
 
@@ -160,7 +160,7 @@ static dal_status interrupts(const dal_system *system, const dal_point *at, doub
 {
     (void)system;
     out[0] = -at->q[0];
-    return at->t > 0.5 ? DAL_INTERRUPTED : DAL_OK;
+    return at->t > 0.5 ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
 static void test_run_arguments(void)
@@ -169,15 +169,15 @@ static void test_run_arguments(void)
     const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
     dal_error error = {0};
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, -5, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 3, 0, NULL, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, -5, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 3, 0, NULL, &error), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_steps(run), 3);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 0.5, 5, -1, NULL, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 0.5, 5, 6, NULL, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 0.5, 5, 0, NULL, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.5, 5, -1, NULL, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.5, 5, 6, NULL, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.5, 5, 0, NULL, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "row 0 lies before"));
     /* What the system says comes back. */
-    CU_ASSERT_EQUAL(dal_run_advance(run, 10, &error), DAL_INTERRUPTED);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 10, &error), DAL_STATUS_INTERRUPTED);
     /* The clock of five steps is 0.5, the second stage of the sixth 0.05 later. */
     CU_ASSERT_STRING_EQUAL(error.message,
                            "the system failed at t = 0.55000000000000004: interrupted");
@@ -191,7 +191,7 @@ static void test_names_of_methods(void)
 {
     dal_method method;
     char name[32];
-    CU_ASSERT_EQUAL(dal_method_parse(&method, "rk4+project+project-energy", NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_method_parse(&method, "rk4+project+project-energy", NULL), DAL_STATUS_OK);
     for (size_t size = 0; size <= sizeof name; size++) {
         memset(name, '?', sizeof name);
         CU_ASSERT_PTR_EQUAL(dal_method_name(&method, name, size), name);

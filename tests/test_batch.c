@@ -46,10 +46,10 @@ static void check_batch(dal_batch *batch, int dimension, double (*single)[MAX_DI
 {
     for (int i = 0; i < dal_batch_count(batch); i++) {
         const dal_setting parameter = lane_parameter(i), start = lane_start(i);
-        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &parameter, 1, &start, 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &parameter, 1, &start, 1, NULL), DAL_STATUS_OK);
     }
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, half()), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, half()), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, half()), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, half()), DAL_STATUS_OK);
     int wrong = 0;
     double states[(FEW + 1) * MAX_DIMENSION];
     const size_t size = (size_t)dimension * sizeof *states, end = (size_t)(FEW * dimension);
@@ -61,7 +61,7 @@ static void check_batch(dal_batch *batch, int dimension, double (*single)[MAX_DI
         dal_batch_state(batch, i, lane);
         wrong += memcmp(single[i], lane, size) != 0;
         wrong += memcmp(single[i], states + i * dimension, size) != 0;
-        wrong += dal_batch_status(batch, i, NULL) != DAL_OK;
+        wrong += dal_batch_status(batch, i, NULL) != DAL_STATUS_OK;
     }
     CU_ASSERT_EQUAL(wrong, 0);
     dal_batch_free(batch);
@@ -74,7 +74,7 @@ static void check_variants(const dal_run_spec *spec, int dimension, double (*sin
         const bool can = dal__machine_has(variants[v].set);
         const dal_status status =
             dal__batch_of_variant(&batch, spec, FEW, 0, variants[v].variant, NULL);
-        CU_ASSERT_EQUAL(status, can ? DAL_OK : DAL_UNSUPPORTED);
+        CU_ASSERT_EQUAL(status, can ? DAL_STATUS_OK : DAL_STATUS_UNSUPPORTED);
         if (batch) check_batch(batch, dimension, single);
     }
 }
@@ -87,7 +87,7 @@ static void same_bits(const dal_run_spec *spec, int dimension)
     check_variants(spec, dimension, single);
     for (int w = 0; w < 4; w++) {
         dal_batch *batch = NULL;
-        CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, FEW, widths[w], NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, FEW, widths[w], NULL), DAL_STATUS_OK);
         check_batch(batch, dimension, single);
     }
 }
@@ -115,13 +115,13 @@ static void test_mixed_stiffness(void)
     const dal_run_spec spec =
         fixture_spec(fixture_system("chaplygin-sleigh-friction"), "gauss6", DAL_LIFTED, 0.02);
     dal_batch *batch = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 8, 8, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 8, 8, NULL), DAL_STATUS_OK);
     dal_setting k[8];
     for (int i = 0; i < 8; i++) {
         k[i] = (dal_setting){"k", i % 2 ? 10.0 + i : 3000.0 * i + 10.0};
-        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &k[i], 1, NULL, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &k[i], 1, NULL, 0, NULL), DAL_STATUS_OK);
     }
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 50), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 50), DAL_STATUS_OK);
     for (int i = 0; i < 8; i++) {
         double lane[64];
         dal_run_spec one = spec;
@@ -141,15 +141,16 @@ static void check_failing_lane(const dal_run_spec *spec, int count, int width, i
     const dal_setting fast = {"s", 100.0}, none = {"s", 0.0};
     dal_batch *batch = NULL;
     dal_error error = {0};
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, count, width, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, count, width, NULL), DAL_STATUS_OK);
     for (int i = 0; i < count; i++)
         CU_ASSERT_EQUAL(dal_batch_start(batch, i, i == bad ? &fast : &none, 1, NULL, 0, NULL),
-                        DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 100), DAL_OK);
+                        DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 100), DAL_STATUS_OK);
     for (int i = 0; i < count; i++) {
         double state[2];
         dal_batch_state(batch, i, state);
-        CU_ASSERT_EQUAL(dal_batch_status(batch, i, &error), i == bad ? DAL_NOT_FINITE : DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_status(batch, i, &error),
+                        i == bad ? DAL_STATUS_NOT_FINITE : DAL_STATUS_OK);
         if (i != bad) CU_ASSERT_EQUAL(state[0], 1.0);
         if (i != bad) CU_ASSERT_DOUBLE_EQUAL(dal_batch_time(batch, i), 1.0, 1e-15);
         if (i == bad) CU_ASSERT(state[0] > 0.0 && dal_batch_time(batch, i) < 0.5);
@@ -174,7 +175,7 @@ static dal_status breaks(const dal_system *system, const dal_point *at, double *
 {
     (void)system;
     out[0] = broken && at->q[0] == 2.0 ? NAN : 0.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* A lane that has failed is never stepped again, though it could be. */
@@ -184,24 +185,25 @@ static void test_failed_lane_stays(void)
     const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.25);
     const dal_setting start = {"q1", 2.0};
     dal_batch *batch = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 3, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 1, NULL, 0, &start, 1, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 3, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 1, NULL, 0, &start, 1, NULL), DAL_STATUS_OK);
     broken = true;
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_STATUS_OK);
     broken = false;
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_STATUS_OK);
     for (int i = 0; i < 3; i++) {
-        CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL), i == 1 ? DAL_NOT_FINITE : DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL),
+                        i == 1 ? DAL_STATUS_NOT_FINITE : DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_batch_time(batch, i), i == 1 ? 0.0 : 2.0);
     }
     dal_batch_free(batch);
     /* With no lane left the status is a lane's. */
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 1, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, &start, 1, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 1, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, &start, 1, NULL), DAL_STATUS_OK);
     broken = true;
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_STATUS_NOT_FINITE);
     broken = false;
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_STATUS_NOT_FINITE);
     CU_ASSERT_EQUAL(dal_batch_time(batch, 0), 0.0);
     dal_batch_free(batch);
 }
@@ -219,11 +221,12 @@ static void test_singular_lane(void)
     static const int widths[] = {1, 4, 8};
     for (int w = 0; w < 3; w++) {
         dal_batch *batch = NULL;
-        CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 64, widths[w], NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_batch_start(batch, 37, NULL, 0, upwards, 3, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_batch_advance(batch, 40), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 64, widths[w], NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, 37, NULL, 0, upwards, 3, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_batch_advance(batch, 40), DAL_STATUS_OK);
         for (int i = 0; i < 64; i++)
-            CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL), i == 37 ? DAL_SINGULAR : DAL_OK);
+            CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL),
+                            i == 37 ? DAL_STATUS_SINGULAR : DAL_STATUS_OK);
         CU_ASSERT_DOUBLE_EQUAL(dal_batch_time(batch, 37), 2.0 / 9.81, 2 * 0.013);
         dal_batch_free(batch);
     }
@@ -235,14 +238,14 @@ static void test_arguments(void)
         fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_LIFTED, 0.1);
     dal_batch *batch = NULL;
     dal_error error;
-    CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 0, 0, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 3, 5, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 3, 0, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 0, 0, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 3, 5, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 3, 0, &error), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_batch_count(batch), 3);
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 3, NULL, 0, NULL, 0, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_batch_status(batch, -1, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 3, NULL, 0, NULL, 0, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_batch_status(batch, -1, &error), DAL_STATUS_ARGUMENT);
     const dal_setting bad = {"y2'", 1.0};
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 1, NULL, 0, &bad, 1, &error), DAL_INCONSISTENT);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 1, NULL, 0, &bad, 1, &error), DAL_STATUS_INCONSISTENT);
     dal_batch_free(batch);
 }
 
@@ -296,18 +299,18 @@ static void uneven_sweeps(const dal_system *system, const char *method)
     const dal_run_spec spec = fixture_spec(system, method, DAL_LIFTED, 0.02);
     dal_batch *batch = NULL;
     int differ = 0;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, UNEVEN, 8, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, UNEVEN, 8, NULL), DAL_STATUS_OK);
     for (int lane = 0; lane < UNEVEN; lane++) {
         dal_setting start[3];
         const int count = uneven_start(lane, start);
-        CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, start, count, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, start, count, NULL), DAL_STATUS_OK);
     }
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 60), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 60), DAL_STATUS_OK);
     for (int lane = 0; lane < UNEVEN; lane++) differ += !same_as_single(spec, batch, lane);
     if (differ) printf("\n  %s: %d lanes differ\n", method, differ);
     CU_ASSERT_EQUAL(differ, 0);
     const dal_setting e = {"e", 2.0};
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, &e, 1, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, &e, 1, NULL), DAL_STATUS_ARGUMENT);
     dal_batch_free(batch);
 }
 
@@ -329,19 +332,19 @@ static void test_cleared(void)
     const dal_setting bad = {"q1", 2.0}, again[] = {{"q1", 5.0}, {"q1'", 1.0}};
     dal_batch *batch = NULL;
     double state[2];
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 11, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 1, NULL, 0, &bad, 1, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 11, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 1, NULL, 0, &bad, 1, NULL), DAL_STATUS_OK);
     broken = true;
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_STATUS_OK);
     broken = false;
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, NULL, 0, NULL), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_batch_clear(batch), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, NULL, 0, NULL), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_batch_clear(batch), DAL_STATUS_OK);
     for (int i = 0; i < 9; i++)
-        CU_ASSERT_EQUAL(dal_batch_start(batch, i, NULL, 0, again, 2, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 8), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, NULL, 0, again, 2, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 8), DAL_STATUS_OK);
     for (int i = 0; i < 11; i++) {
         dal_batch_state(batch, i, state);
-        CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_batch_time(batch, i), i < 9 ? 2.0 : 1.0);
         CU_ASSERT_EQUAL(state[0], i < 9 ? 7.0 : 0.0);
     }

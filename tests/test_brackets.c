@@ -35,10 +35,10 @@ static dal_status dirac_of(const char *text, double (*phi)(void *, const double 
     const dal_system *system = fixture_system(text);
     dal_evaluator *evaluator = fixture_evaluator(system);
     double x[16];
-    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_STATUS_OK);
     const dal_point at = {.t = 0.2, .q = x, .v = x + system->n};
     const dal_status status = phi ? dal__dirac_algebra(evaluator, &at, 1.5, phi, out)
-                                  : dal_check_dirac(evaluator, &at, 1.5, out);
+                                  : dal_evaluator_check_dirac(evaluator, &at, 1.5, out);
     *n = system->n;
     dal_evaluator_free(evaluator);
     return status;
@@ -51,7 +51,7 @@ static void test_dirac(void)
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
         dal_dirac d;
         int n;
-        CU_ASSERT_EQUAL_FATAL(dirac_of(texts[k], NULL, &d, &n), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dirac_of(texts[k], NULL, &d, &n), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(d.constraints, 4 * n + 1);
         CU_ASSERT_EQUAL(d.second_class, 2 * n);
         CU_ASSERT_EQUAL(d.first_class, 2 * n + 1);
@@ -61,7 +61,7 @@ static void test_dirac(void)
     }
     dal_dirac d;
     int n;
-    CU_ASSERT_EQUAL(dirac_of("chaplygin-sleigh-vakonomic", NULL, &d, &n), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dirac_of("chaplygin-sleigh-vakonomic", NULL, &d, &n), DAL_STATUS_UNSUPPORTED);
 }
 
 /* z = (q, v, lambda, e; p, pi, pi_lambda, pi_e).  Three ways to get the constraints wrong: p in
@@ -92,7 +92,7 @@ static void test_dirac_finds_wrong_constraints(void)
     for (int k = 0; k < 3; k++) {
         dal_dirac d;
         int n;
-        CU_ASSERT_EQUAL_FATAL(dirac_of("chaplygin-sleigh", wrongs[k], &d, &n), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dirac_of("chaplygin-sleigh", wrongs[k], &d, &n), DAL_STATUS_OK);
         CU_ASSERT(d.second_class != 2 * n || d.conservation > 0.01 || d.multipliers > 0.01);
     }
 }
@@ -108,10 +108,13 @@ static void test_action_closed_form(void)
     const double h = 0.05, a = 0.7, e = 1.5;
     double x[NODES], action;
     for (int k = 0; k < NODES; k++) x[k] = 0.5 * a * h * k * h * k;
-    CU_ASSERT_EQUAL(dal_measure_action(evaluator, 0.0, h, NODES, x, e, &action), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_measure_action(evaluator, 0.0, h, NODES, x, e, &action),
+                    DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(action, 0.5 * e * a * a * h * (NODES - 9), 1e-11);
-    CU_ASSERT_EQUAL(dal_measure_action(evaluator, 0.0, h, 9, x, e, &action), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_measure_action(evaluator, 0.0, 0.0, NODES, x, e, &action), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_evaluator_measure_action(evaluator, 0.0, h, 9, x, e, &action),
+                    DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_evaluator_measure_action(evaluator, 0.0, 0.0, NODES, x, e, &action),
+                    DAL_STATUS_ARGUMENT);
     dal_evaluator_free(evaluator);
 }
 
@@ -129,8 +132,9 @@ static void test_action_of_the_sleigh(void)
             q[3 * k + 1] = 1.0 - cos(t);
             q[3 * k + 2] = t;
         }
-        CU_ASSERT_EQUAL(dal_measure_action(evaluator, 0.0, 0.02, NODES, q, 1.0, &action[moved]),
-                        DAL_OK);
+        CU_ASSERT_EQUAL(
+            dal_evaluator_measure_action(evaluator, 0.0, 0.02, NODES, q, 1.0, &action[moved]),
+            DAL_STATUS_OK);
     }
     CU_ASSERT(action[0] < 1e-21);
     CU_ASSERT(action[1] > 1e-6);
@@ -147,7 +151,7 @@ static void trajectory(const dal_system *system, const char *method, double *sta
     fixture_perturb(run, 0.3);
     for (size_t k = 0; k < STATES; k++) {
         memcpy(states + k * width, dal_run_state(run), width * sizeof *states);
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     }
     dal_run_free(run);
 }
@@ -159,15 +163,18 @@ static void test_stationarity(void)
     dal_evaluator *evaluator = fixture_evaluator(system);
     double states[STATES * WIDE], midpoint, other;
     trajectory(system, "gauss4", states);
-    CU_ASSERT_EQUAL(dal_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &other), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &other),
+                    DAL_STATUS_OK);
     trajectory(system, "implicit-midpoint", states);
-    CU_ASSERT_EQUAL(dal_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &midpoint),
-                    DAL_OK);
+    CU_ASSERT_EQUAL(
+        dal_evaluator_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &midpoint),
+        DAL_STATUS_OK);
     CU_ASSERT(midpoint < 1e-10);
     CU_ASSERT(other > 1e-6);
     /* One node moved: no longer stationary. */
     states[5 * WIDE + 1] += 1e-4;
-    CU_ASSERT_EQUAL(dal_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &other), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &other),
+                    DAL_STATUS_OK);
     CU_ASSERT(other > 1e-4);
     dal_evaluator_free(evaluator);
 }

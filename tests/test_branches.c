@@ -68,13 +68,13 @@ static void check_jump(const char *formula, const char *text, int jump)
     const bool free = strncmp(text, "lagrangian", 10) != 0;
     snprintf(yaml, sizeof yaml, FREE "%s%s\n", free ? "lagrangian: (x'^2 + y'^2)/2\n" : "", text);
     reference b = reference_of_text(yaml);
-    CU_ASSERT_EQUAL(dal_model_branches(b.model, branch, 2, &count), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_branches(b.model, branch, 2, &count), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(count, jump == NO_BRANCH ? 0 : 1);
     if (count == 1) CU_ASSERT_STRING_EQUAL(branch[0].formula, formula);
     if (count == 1) CU_ASSERT_EQUAL(branch[0].jump, jump);
     if (count == 1 && branch[0].jump != jump) printf("\n  %s: %d", text, branch[0].jump);
     if (count == 1) CU_ASSERT(branch[0].line == (free ? 5 : 4) && branch[0].column > 1);
-    CU_ASSERT_EQUAL(dal_model_branches(b.model, NULL, 0, &count), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_branches(b.model, NULL, 0, &count), DAL_STATUS_OK);
     reference_free(&b);
 }
 
@@ -123,11 +123,11 @@ static void check_passed(size_t i)
     reference b = reference_of_text(yaml);
     const dal_run_spec spec = fixture_spec(b.system, "symplectic-euler-00", DAL_PHYSICAL, 0.25);
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL_FATAL(dal_jumps_create(&watched, b.model), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_jumps_create(&watched, b.model), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_jumps_count(watched), passed[i].count);
     CU_ASSERT_PTR_NULL(dal_jumps_passed(watched, run));
     for (int k = 0; k < STEPS; k++) {
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         const char *formula = dal_jumps_passed(watched, run);
         seen[k] = formula ? '1' : '0';
         if (formula) CU_ASSERT_STRING_EQUAL(formula, passed[i].formula);
@@ -218,7 +218,8 @@ static void test_potential(void)
         char text[256];
         snprintf(text, sizeof text, FREE "lagrangian: (x'^2 + y'^2)/2 - %s - y^2\n", kinked[i]);
         reference b = reference_of_text(text);
-        CU_ASSERT_EQUAL(reference_call(&b, b.system->call.potential, 0.0, q, v, out), DAL_OK);
+        CU_ASSERT_EQUAL(reference_call(&b, b.system->call.potential, 0.0, q, v, out),
+                        DAL_STATUS_OK);
         CU_ASSERT(out[0] != 0.0 && out[1] == 0.0);
         reference_free(&b);
     }

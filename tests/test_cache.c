@@ -105,8 +105,8 @@ static void use_cache(const char *model)
 {
     dal_run *run = new_run(model);
     const dal_native_options counted = {.cache = kept, .compiler = "./fake"};
-    CU_ASSERT_EQUAL(dal_run_native(run, &counted, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_native(run, &counted, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     dal_run_free(run);
     CU_ASSERT_EQUAL(folder_files(kept), 1);
 }
@@ -201,14 +201,16 @@ static void test_abandoned(void)
     }
     CU_ASSERT_EQUAL(folders_in(kept), 2);
     dal_run *other = new_run("vertical-disk");
-    CU_ASSERT_EQUAL(dal_run_native(other, &(dal_native_options){.cache = kept}, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_native(other, &(dal_native_options){.cache = kept}, NULL),
+                    DAL_STATUS_OK);
     CU_ASSERT_NOT_EQUAL(access(folder, F_OK), 0);
     CU_ASSERT_EQUAL(folders_in(kept), 1);
     CU_ASSERT_EQUAL(write(pipe, "\n", 1), 1); /* the compiler goes on, and ends */
     for (int i = 0; i < 600 && folders_in(kept) > 0; i++) {
         nanosleep(&(struct timespec){0, 100000000}, NULL);
         dal_run *next = new_run("vertical-disk");
-        CU_ASSERT_EQUAL(dal_run_native(next, &(dal_native_options){.cache = kept}, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_native(next, &(dal_native_options){.cache = kept}, NULL),
+                        DAL_STATUS_OK);
         dal_run_free(next);
     }
     CU_ASSERT_EQUAL(folders_in(kept), 0);
@@ -231,7 +233,7 @@ static void test_objects_apart(void)
         const dal_run_spec spec = fixture_spec(fixture_system(falling),
                                                i < 2 ? "rk4" : "stormer-verlet", DAL_PHYSICAL, 0.1);
         dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_native(run, &with, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_native(run, &with, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(folder_files(kept), i + 1);
         dal_run_free(run);
     }

@@ -1,7 +1,7 @@
 /* test_callbacks.c - callbacks of a system that fail: whichever call does, a function of the
  * library returns the status of the callback, or one that says what became of it, with a message;
- * unless its result is NaN or the one without a failure.  Likewise allocations: DAL_MEMORY, nothing
- * else, and no block is left. */
+ * unless its result is NaN or the one without a failure.  Likewise allocations: DAL_STATUS_MEMORY,
+ * nothing else, and no block is left. */
 #include "allocation.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
@@ -50,7 +50,7 @@ static bool fails(void) { return ++calls == failing; }
         (void)system;                                                                              \
         if (fails()) {                                                                             \
             failed = #name;                                                                        \
-            return DAL_IO;                                                                         \
+            return DAL_STATUS_IO;                                                                  \
         }                                                                                          \
         return original->member(original, at, out);                                                \
     }
@@ -113,17 +113,18 @@ static void each_call_fails(const char *text, const char *method, dal_space spac
     calls = failing = 0;
     const dal_status status = work(&well);
     const long total = calls;
-    CU_ASSERT_EQUAL(status, DAL_OK);
+    CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
     CU_ASSERT(total > 0);
-    if (status != DAL_OK) printf("\n%.20s, %s: %s\n", text, method, dal_status_name(status));
+    if (status != DAL_STATUS_OK) printf("\n%.20s, %s: %s\n", text, method, dal_status_name(status));
     const long by = total / MAX_TRIALS + 1;
     for (long k = 1; k <= total; k += by) {
         trial other = {.spec = well.spec};
         calls = 0;
         failing = k;
         const dal_status seen = work(&other);
-        const bool is_seen = seen == DAL_IO || seen == DAL_NOT_FINITE || seen == DAL_NOT_CONVERGED;
-        const bool is_same = seen == DAL_OK && are_close(&well, &other);
+        const bool is_seen = seen == DAL_STATUS_IO || seen == DAL_STATUS_NOT_FINITE ||
+                             seen == DAL_STATUS_NOT_CONVERGED;
+        const bool is_same = seen == DAL_STATUS_OK && are_close(&well, &other);
         CU_ASSERT(!is_seen || other.error.status == seen);
         CU_ASSERT(is_seen || is_same);
         if (is_seen || is_same) continue;
@@ -138,7 +139,7 @@ static dal_status create(trial *t)
 {
     dal_run *run = NULL;
     const dal_status status = dal_run_create(&run, &t->spec, &t->error);
-    if (status == DAL_OK) add_run(t, run);
+    if (status == DAL_STATUS_OK) add_run(t, run);
     dal_run_free(run);
     return status;
 }
@@ -147,8 +148,8 @@ static dal_status step(trial *t)
 {
     dal_run *run = NULL;
     dal_status status = dal_run_create(&run, &t->spec, &t->error);
-    if (status == DAL_OK) status = dal_run_advance(run, 3, &t->error);
-    if (status == DAL_OK) add_run(t, run);
+    if (status == DAL_STATUS_OK) status = dal_run_advance(run, 3, &t->error);
+    if (status == DAL_STATUS_OK) add_run(t, run);
     dal_run_free(run);
     return status;
 }
@@ -159,9 +160,10 @@ static dal_status observe(trial *t)
     double values[32] = {0};
     dal_status status = dal_run_create(&run, &t->spec, &t->error);
     if (!status) status = t->error.status = dal_run_observe(run, values);
-    const double *scales = status == DAL_OK ? dal_run_scales(run) : NULL;
+    const double *scales = status == DAL_STATUS_OK ? dal_run_scales(run) : NULL;
     if (scales) add(t, scales, dal_run_observables(run));
-    if (status == DAL_OK && !scales) status = t->error.status = DAL_IO; /* as documented */
+    if (status == DAL_STATUS_OK && !scales)
+        status = t->error.status = DAL_STATUS_IO; /* as documented */
     add(t, values, (int)(sizeof values / sizeof *values));
     dal_run_free(run);
     return status;
@@ -172,7 +174,8 @@ static dal_status keep_sample(void *user, dal_run *run, long long row, double ti
     trial *t = user;
     double values[8] = {0};
     (void)row, (void)time;
-    const dal_status status = dal_run_observables(run) <= 8 ? dal_run_observe(run, values) : DAL_OK;
+    const dal_status status =
+        dal_run_observables(run) <= 8 ? dal_run_observe(run, values) : DAL_STATUS_OK;
     add(t, values, (int)(sizeof values / sizeof *values));
     add_run(t, run);
     return status;
@@ -182,13 +185,13 @@ static dal_status keep_values(void *user, dal_run *run, int count, const double 
 {
     (void)run, (void)time, (void)stride;
     add(user, values, count);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 static dal_status keep_scales(void *user, dal_run *run, const double *scales)
 {
     (void)run;
     add(user, scales, 1);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 static dal_status sample(trial *t)
 {
@@ -197,7 +200,7 @@ static dal_status sample(trial *t)
         .user = t, .sample = keep_sample, .values = keep_values, .scales = keep_scales, .every = 1};
     const double T = 4.0 * t->spec.options.step;
     dal_status status = dal_run_create(&run, &t->spec, &t->error);
-    if (status == DAL_OK) status = dal_run_sample(run, T, 3, 0, &observer, &t->error);
+    if (status == DAL_STATUS_OK) status = dal_run_sample(run, T, 3, 0, &observer, &t->error);
     dal_run_free(run);
     return status;
 }
@@ -206,10 +209,10 @@ static dal_status change(trial *t)
 {
     dal_run *run = NULL;
     dal_status status = dal_run_create(&run, &t->spec, &t->error);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         status = dal_run_set_parameter(run, t->spec.system->parameter[0], 1.25, &t->error);
-    if (status == DAL_OK) status = dal_run_step(run, &t->error);
-    if (status == DAL_OK) add_run(t, run);
+    if (status == DAL_STATUS_OK) status = dal_run_step(run, &t->error);
+    if (status == DAL_STATUS_OK) add_run(t, run);
     dal_run_free(run);
     return status;
 }
@@ -219,12 +222,12 @@ static dal_status restore(trial *t)
     dal_run *run = NULL, *other = NULL;
     size_t count;
     dal_status status = dal_run_create(&run, &t->spec, &t->error);
-    if (status == DAL_OK) status = dal_run_create(&other, &t->spec, &t->error);
-    if (status == DAL_OK) status = dal_run_step(run, &t->error);
-    const double *saved = status == DAL_OK ? dal_run_save(run, &count) : NULL;
+    if (status == DAL_STATUS_OK) status = dal_run_create(&other, &t->spec, &t->error);
+    if (status == DAL_STATUS_OK) status = dal_run_step(run, &t->error);
+    const double *saved = status == DAL_STATUS_OK ? dal_run_save(run, &count) : NULL;
     if (saved) status = dal_run_restore(other, saved, count, &t->error);
-    if (status == DAL_OK) status = dal_run_step(other, &t->error);
-    if (status == DAL_OK) add_run(t, other);
+    if (status == DAL_STATUS_OK) status = dal_run_step(other, &t->error);
+    if (status == DAL_STATUS_OK) add_run(t, other);
     dal_run_free(run);
     dal_run_free(other);
     return status;
@@ -235,8 +238,8 @@ static dal_status advance_batch(trial *t)
     dal_batch *batch = NULL;
     double state[32];
     dal_status status = dal_batch_create(&batch, &t->spec, 2, 1, &t->error);
-    if (status == DAL_OK) status = dal_batch_advance(batch, 3);
-    for (int lane = 0; lane < 2 && status == DAL_OK; lane++) {
+    if (status == DAL_STATUS_OK) status = dal_batch_advance(batch, 3);
+    for (int lane = 0; lane < 2 && status == DAL_STATUS_OK; lane++) {
         status = dal_batch_status(batch, lane, &t->error);
         dal_batch_state(batch, lane, state);
         add(t, state, 2 * t->spec.system->n);
@@ -271,8 +274,8 @@ static dal_status measure_lyapunov(trial *t)
     dal_average average[2];
     dal_balance balance = {0};
     dal_status status = dal_lyapunov_create(&l, &t->spec, NULL, 0, &t->error);
-    if (status == DAL_OK) status = dal_lyapunov_advance(l, 3, &t->error);
-    if (status == DAL_OK) {
+    if (status == DAL_STATUS_OK) status = dal_lyapunov_advance(l, 3, &t->error);
+    if (status == DAL_STATUS_OK) {
         dal_lyapunov_exponent(l, 0, &average[0]);
         dal_lyapunov_divergence(l, &average[1]);
         add_number(t, (double)average[0].mean);
@@ -290,7 +293,7 @@ static dal_status measure_lyapunov(trial *t)
 static dal_status begin(trial *t, dal_evaluator **evaluator, double *x, dal_point *at)
 {
     dal_status status = dal_evaluator_create(evaluator, t->spec.system, NULL, 0, &t->error);
-    if (status == DAL_OK) status = dal_evaluator_start(*evaluator, NULL, 0, x, &t->error);
+    if (status == DAL_STATUS_OK) status = dal_evaluator_start(*evaluator, NULL, 0, x, &t->error);
     *at = (dal_point){.q = x, .v = x + t->spec.system->n};
     return status;
 }
@@ -307,7 +310,8 @@ static dal_status measure_rate(trial *t)
     double x[32], rate = 0.0;
     dal_point at;
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = dal_measure_rate(evaluator, t->spec.system->energy, 1, &at, &rate);
+    if (!status)
+        status = dal_evaluator_measure_rate(evaluator, t->spec.system->energy, 1, &at, &rate);
     add_number(t, (double)rate);
     return finish(t, evaluator, status);
 }
@@ -319,7 +323,7 @@ static dal_status check_derivatives(trial *t)
     dal_point at;
     dal_derivatives derivatives = {0};
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = dal_check_derivatives(evaluator, &at, &derivatives);
+    if (!status) status = dal_evaluator_check_derivatives(evaluator, &at, &derivatives);
     const double numbers[] = {derivatives.jacobian, derivatives.adjoint,
                               derivatives.constraint_jacobian, derivatives.gram};
     add(t, numbers, 4);
@@ -333,7 +337,7 @@ static dal_status measure_rank(trial *t)
     int rank = 0;
     dal_point at;
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = dal_measure_rank(evaluator, &at, &rank, &pivot);
+    if (!status) status = dal_evaluator_measure_rank(evaluator, &at, &rank, &pivot);
     add_number(t, (double)rank);
     add_number(t, (double)pivot);
     return finish(t, evaluator, status);
@@ -347,7 +351,7 @@ static dal_status project_velocity(trial *t)
     const int n = t->spec.system->n;
     dal_status status = begin(t, &evaluator, x, &at);
     if (!status) x[n] += 0.1;
-    if (!status) status = dal_project_velocity(evaluator, 0.0, x, x + n);
+    if (!status) status = dal_evaluator_project_velocity(evaluator, 0.0, x, x + n);
     if (!status) add(t, x + n, n);
     return finish(t, evaluator, status);
 }
@@ -359,7 +363,7 @@ static dal_status classify_constraints(trial *t)
     dal_point at;
     dal_constraint_class class = {0};
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = dal_classify_constraints(evaluator, &at, &class, degree);
+    if (!status) status = dal_evaluator_classify_constraints(evaluator, &at, &class, degree);
     const double numbers[] = {class.linear, class.constant,    class.bilinear,  class.quadratic,
                               class.parity, class.homogeneous, class.reversible};
     add(t, numbers, 7);
@@ -387,7 +391,7 @@ static dal_status check_dirac(trial *t)
     dal_point at;
     dal_dirac dirac = {0};
     dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = dal_check_dirac(evaluator, &at, 1.0, &dirac);
+    if (!status) status = dal_evaluator_check_dirac(evaluator, &at, 1.0, &dirac);
     const double numbers[] = {dirac.second_class, dirac.free_multipliers, dirac.conservation,
                               dirac.multipliers,  dirac.secondary,        dirac.hamiltonian};
     add(t, numbers, 6);
@@ -402,11 +406,11 @@ static dal_status measure_action(trial *t)
     const int n = system->n;
     double q[ROWS * 8], states[3 * 34], action = 0.0, defect = 0.0;
     dal_status status = dal_evaluator_create(&evaluator, system, NULL, 0, &t->error);
-    if (status != DAL_OK) return status;
+    if (status != DAL_STATUS_OK) return status;
     for (int i = 0; i < ROWS * n; i++) q[i] = sin(0.1 * i);
     for (int i = 0; i < 3 * (4 * n + 2); i++) states[i] = 1.0 + 0.01 * i;
-    status = dal_measure_action(evaluator, 0.0, 0.1, ROWS, q, 1.0, &action);
-    if (!status) status = dal_check_stationarity(evaluator, 0.0, 0.1, 3, states, &defect);
+    status = dal_evaluator_measure_action(evaluator, 0.0, 0.1, ROWS, q, 1.0, &action);
+    if (!status) status = dal_evaluator_check_stationarity(evaluator, 0.0, 0.1, 3, states, &defect);
     add_number(t, (double)action);
     add_number(t, (double)defect);
     return finish(t, evaluator, status);
@@ -444,7 +448,7 @@ static dal_status keep_crossing(void *user, dal_run *run, const dal_crossing *cr
 {
     (void)run;
     add(user, &crossing->t, 1);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 static dal_status cross(trial *t)
 {
@@ -456,7 +460,7 @@ static dal_status cross(trial *t)
                                   .user = t,
                                   .cross = keep_crossing};
     dal_status status = dal_run_create(&run, &t->spec, &t->error);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         status = dal_run_crossings(run, 40.0 * t->spec.options.step, &section, &found, &t->error);
     add_number(t, (double)found.up);
     add_number(t, (double)found.down);
@@ -468,17 +472,17 @@ static dal_status keep_event(void *user, dal_run *run, const dal_occurrence *eve
 {
     add(user, &event->t, 1);
     add_run(user, run);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 static dal_status pass_events(trial *t)
 {
     dal_run *run = NULL;
     dal_status status = dal_run_create(&run, &t->spec, &t->error);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         status = fixture_events(run, 30.0 * t->spec.options.step, keep_event, t, &t->error);
     const long long unresolved = run ? dal_run_unresolved(run, NULL) : 0;
     add_number(t, (double)unresolved);
-    if (status == DAL_OK) add_run(t, run);
+    if (status == DAL_STATUS_OK) add_run(t, run);
     dal_run_free(run);
     return status;
 }
@@ -487,7 +491,7 @@ static dal_status scale(trial *t)
 {
     dal_scaled *scaled = NULL;
     const dal_status status = dal_scaled_create(&scaled, &t->spec, &t->error);
-    if (status == DAL_OK) add(t, dal_scaled_units(scaled), 1 + t->spec.system->n);
+    if (status == DAL_STATUS_OK) add(t, dal_scaled_units(scaled), 1 + t->spec.system->n);
     dal_scaled_free(scaled);
     return status;
 }

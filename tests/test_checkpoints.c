@@ -13,15 +13,15 @@ static void test_checkpoint(void)
         fixture_spec(fixture_system(fixture_full), "gauss8", DAL_LIFTED, 0.02);
     dal_run *whole = fixture_run(&spec), *first = fixture_run(&spec), *second = fixture_run(&spec);
     size_t count;
-    CU_ASSERT_EQUAL(dal_run_advance(whole, 80, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(first, 37, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(whole, 80, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(first, 37, NULL), DAL_STATUS_OK);
     const double *memory = dal_run_save(first, &count);
-    CU_ASSERT_EQUAL(dal_run_restore(second, memory, count, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(second, 43, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(second, memory, count, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(second, 43, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(
         memcmp(dal_run_save(whole, &count), dal_run_save(second, &count), count * sizeof(double)),
         0);
-    CU_ASSERT_EQUAL(dal_run_restore(second, memory, count - 1, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_restore(second, memory, count - 1, NULL), DAL_STATUS_ARGUMENT);
     dal_run_free(whole);
     dal_run_free(first);
     dal_run_free(second);
@@ -36,10 +36,10 @@ static void test_own_memory(void)
     char *memory = malloc(bytes + 7);
     dal_run *run = NULL, *other = fixture_run(&spec);
     dal_error error;
-    CU_ASSERT_EQUAL(dal_run_init(&run, memory + 7, bytes - 1, &spec, &error), DAL_MEMORY);
-    CU_ASSERT_EQUAL_FATAL(dal_run_init(&run, memory + 7, bytes, &spec, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 20, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(other, 20, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_init(&run, memory + 7, bytes - 1, &spec, &error), DAL_STATUS_MEMORY);
+    CU_ASSERT_EQUAL_FATAL(dal_run_init(&run, memory + 7, bytes, &spec, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 20, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(other, 20, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(other),
                            sizeof(double) * (size_t)dal_run_dimension(run)),
                     0);
@@ -122,7 +122,7 @@ static void test_impossible(void)
         const size_t first = list[i].is_of_events ? dal__at_events(k) : dal__at(k, DAL__TIME);
         memcpy(bad, good, count * sizeof *bad);
         bad[first + list[i].at] = list[i].x;
-        CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, &error), DAL_ARGUMENT);
+        CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, &error), DAL_STATUS_ARGUMENT);
         CU_ASSERT_PTR_NOT_NULL(strstr(error.message, list[i].name));
         CU_ASSERT_EQUAL(memcmp(dal_run_save(run, &count), good, count * sizeof *good), 0);
     }
@@ -141,16 +141,16 @@ static void test_impossible_jumps(void)
     dal_error error = {0};
     CU_ASSERT(bad[jumps] < 0.0); /* of E */
     bad[jumps] = 0.25;
-    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_jump(run, 0), 0.25);
+    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_event_jump(run, 0), 0.25);
     bad[jumps + 1] = 0.25; /* of H */
-    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "jump of an observable"));
     bad[jumps + 1] = 0.0;
     bad[jumps - 4] = 0.0; /* no event has happened */
-    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, NULL), DAL_STATUS_ARGUMENT);
     bad[jumps] = 0.0;
-    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, NULL), DAL_STATUS_OK);
     dal_run_free(run);
     free(bad);
 }
@@ -161,7 +161,7 @@ static void restore_changed(dal_run *run, const double *bad, const double *good,
 {
     dal_error error = {0};
     const dal_status status = dal_run_restore(run, bad, count, &error);
-    if (status != DAL_OK) {
+    if (status != DAL_STATUS_OK) {
         CU_ASSERT(error.message[0] != '\0');
         CU_ASSERT_EQUAL(memcmp(dal_run_save(run, &count), good, count * sizeof *good), 0);
         return;
@@ -169,8 +169,8 @@ static void restore_changed(dal_run *run, const double *bad, const double *good,
     for (int i = 0; i < 2; i++) dal_run_step(run, NULL);
     CU_ASSERT(dal_run_steps(run) >= 0 && dal_run_evaluations(run) >= 0);
     CU_ASSERT(dal_run_stopped(run) >= 0 && dal_run_stopped(run) <= 2);
-    CU_ASSERT(dal_run_event_count(run, 0) >= -1 && dal_run_jump(run, -1) == 0.0);
-    CU_ASSERT_EQUAL(dal_run_restore(run, good, count, NULL), DAL_OK);
+    CU_ASSERT(dal_run_event_count(run, 0) >= -1 && dal_run_event_jump(run, -1) == 0.0);
+    CU_ASSERT_EQUAL(dal_run_restore(run, good, count, NULL), DAL_STATUS_OK);
 }
 
 /* Every word of a checkpoint takes values that doubles may have, and every byte is changed. */
@@ -194,7 +194,7 @@ static void change_everything(const dal_run_spec *spec, long long steps)
             }
         bad[i] = good[i];
     }
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     dal_run *other = fixture_stepped(spec, steps + 1);
     CU_ASSERT_EQUAL(
         memcmp(dal_run_save(run, &count), dal_run_save(other, &count), count * sizeof *good), 0);

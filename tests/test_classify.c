@@ -22,14 +22,14 @@ static int follow(const dal_run_spec *spec, followed *f)
     double values[MAX];
     dal_run *run;
     dal_error error;
-    if (dal_run_create(&run, spec, &error) != DAL_OK) {
+    if (dal_run_create(&run, spec, &error) != DAL_STATUS_OK) {
         printf("\n  %s", error.message);
         return 0;
     }
     f->count = dal_run_observables(run);
     dal_statistics_start(statistics, f->count);
     for (int k = 0; k <= STEPS; k++) {
-        if (k > 0 && dal_run_step(run, &error) != DAL_OK) break;
+        if (k > 0 && dal_run_step(run, &error) != DAL_STATUS_OK) break;
         dal_run_observe(run, values);
         dal_statistics_add(statistics, f->count, dal_run_time(run), values);
     }
@@ -47,7 +47,8 @@ static const char *fate(const dal_system *system, const char *method, const dal_
     dal_run_spec spec = {.system = system, .options = *options, .start = start};
     while (spec.start_count < STARTS && start[spec.start_count].name) spec.start_count++;
     followed f = {.count = 0};
-    if (dal_method_parse(&spec.method, method, NULL) != DAL_OK || !follow(&spec, &f)) return "";
+    if (dal_method_parse(&spec.method, method, NULL) != DAL_STATUS_OK || !follow(&spec, &f))
+        return "";
     for (int i = 0; i < f.count; i++)
         if (strcmp(f.names[i], name) == 0) return dal_conservation_text(f.trend[i].conservation);
     return "";
@@ -130,11 +131,11 @@ static void test_other_level(void)
     dal_trend trend[MAX];
     dal_run *run = fixture_run(&spec);
     double values[MAX], state[6] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
-    CU_ASSERT_FATAL(dal_run_set_state(run, 0.0, state, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_set_state(run, 0.0, state, NULL) == DAL_STATUS_OK);
     const int count = dal_run_observables(run);
     dal_statistics_start(statistics, count);
     for (int k = 0; k <= STEPS; k++) {
-        if (k > 0) CU_ASSERT_FATAL(dal_run_step(run, NULL) == DAL_OK);
+        if (k > 0) CU_ASSERT_FATAL(dal_run_step(run, NULL) == DAL_STATUS_OK);
         dal_run_observe(run, values);
         dal_statistics_add(statistics, count, dal_run_time(run), values);
     }

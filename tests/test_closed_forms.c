@@ -327,9 +327,9 @@ static void test_blow_up(void)
     double end = (PI / 2 - atan(sinh(0.3))) / 0.5, x[4];
     motion z = motion_default("relativistic-scalar", 0.005);
     motion_advance(&z, 2.4);
-    CU_ASSERT(reference_call(&z.b, z.b.system->exact, 2.4, NULL, NULL, x) == DAL_OK);
+    CU_ASSERT(reference_call(&z.b, z.b.system->exact, 2.4, NULL, NULL, x) == DAL_STATUS_OK);
     CU_ASSERT(reference_distance(4, z.x, x) < SMALL);
-    CU_ASSERT(dal_run_advance(z.run, (long long)((end - 2.4) / 0.005) + 2, NULL) != DAL_OK);
+    CU_ASSERT(dal_run_advance(z.run, (long long)((end - 2.4) / 0.005) + 2, NULL) != DAL_STATUS_OK);
     CU_ASSERT(dal_run_time(z.run) < end);
     motion_close(&z);
 }

@@ -67,7 +67,7 @@ static void for_each_modified(visitor *visit, void *user)
                 continue;
             if (inside->order > 6 || !takes(modifier, inside)) continue;
             snprintf(name, sizeof name, "%s+%s", inside->name, modifier->name);
-            CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_OK);
+            CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_STATUS_OK);
             visit(name, &method, user);
         }
     }
@@ -103,7 +103,7 @@ static void check_symmetric(const char *name, const dal_method *method, void *us
     if (dal_method_properties(method) & DAL_PERSISTENT_MULTIPLIER) return;
     if (!fixture_accepts(method, user, DAL_PHYSICAL)) return;
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.2);
-    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_STATUS_OK);
     if (!(dal_method_properties(method) & DAL_SYMMETRIC)) return;
     if (!(defect <= 1e-14)) printf("\n  %s: defect %.3e\n", name, defect);
     CU_ASSERT(defect <= 1e-14);
@@ -129,10 +129,10 @@ static strays strays_of(const dal_system *system, const char *name)
     dal_run *run = fixture_run(&spec);
     double first[32], now[32];
     strays max = {0.0, 0.0};
-    CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_STATUS_OK);
     for (int i = 0; i < 10 * long_run(20); i++) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_STATUS_OK);
         for (int a = 0; a < system->m; a++) max.D = fmax(max.D, fabs(now[a]));
         max.E = fmax(max.E, fabs(now[system->m] - first[system->m]));
     }
@@ -173,12 +173,12 @@ static void check_lanes(const char *name, const dal_method *method, void *user)
     dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.05);
     spec.start_count = 1;
     spec.start = &(dal_setting){"u", 0.0};
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, LANES, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, LANES, 0, NULL), DAL_STATUS_OK);
     for (int i = 0; i < LANES; i++) {
         const dal_setting start = {"u", 0.1 * i};
-        CU_ASSERT_EQUAL(dal_batch_start(batch, i, NULL, 0, &start, 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, NULL, 0, &start, 1, NULL), DAL_STATUS_OK);
     }
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 10), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 10), DAL_STATUS_OK);
     for (int i = 0; i < LANES; i++) {
         spec.start = &(dal_setting){"u", 0.1 * i};
         dal_run *run = fixture_stepped(&spec, 10);
@@ -208,18 +208,18 @@ static const char ending[] = "coordinates: [x, y, z]\n"
 static void check_untouched(const char *name, const dal_method *method, void *user)
 {
     static double before[4096];
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     size_t count = 0;
     if (!fixture_accepts(method, user, DAL_PHYSICAL)) return;
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.05);
     dal_run *run = fixture_run(&spec);
-    for (int i = 0; i < 100 && status == DAL_OK; i++) {
+    for (int i = 0; i < 100 && status == DAL_STATUS_OK; i++) {
         const double *memory = dal_run_save(run, &count);
         memcpy(before, memory, count * sizeof *memory);
         status = dal_run_step(run, NULL);
     }
-    if (status == DAL_OK) printf("\n  %s: no step failed\n", name);
-    CU_ASSERT_NOT_EQUAL(status, DAL_OK);
+    if (status == DAL_STATUS_OK) printf("\n  %s: no step failed\n", name);
+    CU_ASSERT_NOT_EQUAL(status, DAL_STATUS_OK);
     CU_ASSERT_EQUAL(memcmp(before, dal_run_save(run, &count), count * sizeof *before), 0);
     dal_run_free(run);
 }
@@ -264,8 +264,8 @@ static void test_rest(void)
             dal_run *run = fixture_run(&spec);
             double found[16];
             const dal_status status = dal_run_advance(run, steps, NULL);
-            CU_ASSERT_EQUAL(status, DAL_OK);
-            if (status != DAL_OK) printf("\n  %s, a = %g\n", names[i], lengths[k]);
+            CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
+            if (status != DAL_STATUS_OK) printf("\n  %s, a = %g\n", names[i], lengths[k]);
             dal_run_observe(run, found);
             CU_ASSERT(fabs(found[0]) < 1e-14);
             CU_ASSERT(steps < 3000 || fabs(dal_run_state(run)[5]) < 1e-14);
@@ -284,7 +284,7 @@ static void test_cancellation(void)
             fixture_spec(fixture_system("relativistic-em"), names[i], DAL_PHYSICAL, 0.1);
         dal_run *run = fixture_run(&spec);
         double found[16];
-        CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_STATUS_OK);
         dal_run_observe(run, found);
         CU_ASSERT(fabs(found[0]) < 1e-9);
         dal_run_free(run);
@@ -296,7 +296,7 @@ static void test_cancellation(void)
 static void refused(const char *text, const char *name, dal_space space, const char *reason)
 {
     const dal_run_spec spec = fixture_spec(fixture_system(text), name, space, 0.1);
-    fixture_refused(&spec, DAL_UNSUPPORTED, reason);
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, reason);
 }
 
 static void test_refused(void)

@@ -19,8 +19,9 @@ static dal_status refusal(const dal_system *system, const char *method, dal_spac
     const dal_run_spec spec = fixture_spec(system, method, space, 0.1);
     const dal_status status = dal_run_create(&run, &spec, &error);
     dal_run_free(run);
-    if (status != DAL_OK && !strstr(error.message, reason)) printf("\n  %s\n", error.message);
-    CU_ASSERT(status == DAL_OK || strstr(error.message, reason) != NULL);
+    if (status != DAL_STATUS_OK && !strstr(error.message, reason))
+        printf("\n  %s\n", error.message);
+    CU_ASSERT(status == DAL_STATUS_OK || strstr(error.message, reason) != NULL);
     return status;
 }
 
@@ -28,12 +29,12 @@ static void test_refusals(void)
 {
     dal_system system = *fixture_system(fixture_full);
     const dal_system *vakonomic = fixture_system("chaplygin-sleigh-vakonomic");
-    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_LIFTED, "lifted"), DAL_UNSUPPORTED);
-    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, ""), DAL_OK);
+    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_LIFTED, "lifted"), DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, ""), DAL_STATUS_OK);
     system.call.blocks = NULL;
-    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, "blocks"), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, "blocks"), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_EQUAL(refusal(vakonomic, "mclachlan-perlmutter", DAL_PHYSICAL, "blocks"),
-                    DAL_UNSUPPORTED);
+                    DAL_STATUS_UNSUPPORTED);
 }
 
 /* ---- persistent multipliers ---- */
@@ -66,15 +67,15 @@ static double turning_defect(const char *method, const char *fixture, double sig
     size_t count;
     double defect = 0.0, begin[64];
     const int n = system->n;
-    CU_ASSERT_EQUAL(dal_run_advance(run, 3, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 3, NULL), DAL_STATUS_OK);
     memcpy(begin, dal_run_state(run), 2 * (size_t)n * sizeof *begin);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     double *memory = memory_of(run, &count);
     for (int i = 0; i < n; i++) memory[n + i] = -memory[n + i];
     for (int i = 0; i < n; i++) memory[run->layout.dim + n + i] = -memory[run->layout.dim + n + i];
     for (int i = 0; i < system->m; i++) multipliers(run, memory)[i] *= sign;
-    CU_ASSERT_EQUAL(dal_run_restore(run, memory, count, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(run, memory, count, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     for (int i = 0; i < n; i++) {
         defect = fmax(defect, fabs(dal_run_state(run)[i] - begin[i]));
         defect = fmax(defect, fabs(dal_run_state(run)[n + i] + begin[n + i]));
@@ -107,8 +108,8 @@ static void end_state(const dal_system *system, const char *method, int count, b
     size_t size;
     double *memory = memory_of(run, &size);
     if (wrong) memory[dal__at(&run->layout, DAL__CLOCK_SIZE) + 2] = 1.0;
-    CU_ASSERT_EQUAL(dal_run_restore(run, memory, size, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(run, memory, size, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_STATUS_OK);
     memcpy(state, dal_run_state(run), 2 * (size_t)system->n * sizeof *state);
     free(memory);
     dal_run_free(run);
@@ -146,19 +147,19 @@ static void test_set_state(void)
     double start[16];
     size_t count;
     memcpy(start, dal_run_state(run), 8 * sizeof *start);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 7, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, start, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 5, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(fresh, 5, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 7, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, start, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 5, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(fresh, 5, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(fresh), 8 * sizeof *start), 0);
     /* A checkpoint has them: without them the next step is another one. */
     double *memory = memory_of(run, &count);
-    CU_ASSERT_EQUAL(dal_run_restore(fresh, memory, count, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_step(fresh, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(fresh, memory, count, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_step(fresh, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(fresh), 8 * sizeof *start), 0);
-    CU_ASSERT_EQUAL(dal_run_set_state(fresh, memory[16], memory, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_step(fresh, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_set_state(fresh, memory[16], memory, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_step(fresh, NULL), DAL_STATUS_OK);
     CU_ASSERT_NOT_EQUAL(memcmp(dal_run_state(run), dal_run_state(fresh), 8 * sizeof *start), 0);
     free(memory);
     dal_run_free(run);
@@ -178,8 +179,8 @@ static double growth(const dal_system *system, const char *method, double spin, 
     dal_run *run = fixture_run(&spec);
     const int Hf = 2; /* after D1 and E */
     for (int i = 0; i < 2; i++) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, llround(0.5 * T / h), NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, seen[i]), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, llround(0.5 * T / h), NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen[i]), DAL_STATUS_OK);
     }
     dal_run_free(run);
     return log(seen[1][Hf] / seen[0][Hf]) / (0.5 * T);
@@ -214,8 +215,8 @@ static double max_change(dal_run *run, double E, long long count)
 {
     double seen[8], max = 0.0;
     for (long long i = 0; i < count; i++) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 37, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 37, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
         max = fmax(max, fabs(seen[1] - E));
     }
     return max;
@@ -231,7 +232,7 @@ static void test_bounded(void)
         fixture_spec(fixture_system("contact-oscillator"), "mclachlan-perlmutter", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     double seen[8];
-    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
     const double first = max_change(run, seen[1], rows);
     max_change(run, seen[1], 8 * rows);
     const double last = max_change(run, seen[1], rows);
@@ -252,7 +253,7 @@ static double spread(const dal_batch *batch, dal_evaluator *evaluator)
         dal_batch_state(batch, i, state);
         CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->energy, 0.0, state, state + system->n,
                                            NULL, &E[i]),
-                        DAL_OK);
+                        DAL_STATUS_OK);
         mean += E[i] / STARTS;
     }
     for (int i = 0; i < STARTS; i++) sum += (E[i] - mean) * (E[i] - mean);
@@ -268,16 +269,17 @@ static void test_walk(void)
                                            "mclachlan-perlmutter", DAL_PHYSICAL, 0.2);
     dal_batch *batch = NULL;
     dal_evaluator *evaluator = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, STARTS, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, spec.system, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, STARTS, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, spec.system, NULL, 0, NULL),
+                          DAL_STATUS_OK);
     for (int i = 0; i < STARTS; i++) {
         const dal_setting angle = {"angle", acos(-1.0) * i / 80.0};
-        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &angle, 1, NULL, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &angle, 1, NULL, 0, NULL), DAL_STATUS_OK);
     }
     CU_ASSERT(spread(batch, evaluator) < 1e-14);
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, steps), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, steps), DAL_STATUS_OK);
     const double early = spread(batch, evaluator);
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 15 * steps), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 15 * steps), DAL_STATUS_OK);
     const double ratio = spread(batch, evaluator) / early;
     CU_ASSERT(steps < 5000 || (ratio > 2.3 && ratio < 7.0));
     dal_evaluator_free(evaluator);

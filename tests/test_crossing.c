@@ -22,7 +22,7 @@ static dal_status note_crossing(void *user, dal_run *run, const dal_crossing *cr
     (void)run;
     CU_ASSERT_FATAL(r->count < MAX);
     r->t[r->count++] = crossing->t;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status note_event(void *user, dal_run *run, const dal_occurrence *event)
@@ -31,7 +31,7 @@ static dal_status note_event(void *user, dal_run *run, const dal_occurrence *eve
     (void)run;
     CU_ASSERT_FATAL(r->count < MAX);
     r->t[r->count++] = event->t;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 typedef struct motion {
@@ -59,7 +59,7 @@ static record section_of(const char *g, const motion *m)
                                   .count = 1,
                                   .user = &r,
                                   .cross = note_crossing};
-    CU_ASSERT_EQUAL(dal_run_crossings(run, m->T, &section, &found, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_crossings(run, m->T, &section, &found, NULL), DAL_STATUS_OK);
     r.unresolved = found.unresolved;
     r.first = found.first_unresolved;
     r.touches = found.touches;
@@ -76,7 +76,7 @@ static record events_of(const char *g, const motion *m)
     snprintf(text, sizeof text,
              "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\nevents: [{when: \"%s\"}]\n", g);
     dal_run *run = run_of(text, m);
-    CU_ASSERT_EQUAL(fixture_events(run, m->T, note_event, &r, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, m->T, note_event, &r, NULL), DAL_STATUS_OK);
     r.unresolved = dal_run_unresolved(run, &r.first);
     dal_run_free(run);
     return r;
@@ -167,13 +167,13 @@ static void test_unresolved(void)
              "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\n"
              "invariants: {g: cos(1e5*x)}\nevents: [{when: cos(1e5*x)}]\n");
     dal_run *run = run_of(text, &m);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     CU_ASSERT(dal_run_unresolved(run, &first) >= 1 && first == 0.0);
     dal_run_free(run);
     *strstr(text, "events") = '\0';
     run = run_of(text, &m);
     const dal_poincare section = {.callback = dal_run_system(run)->invariant_values, .count = 1};
-    CU_ASSERT_EQUAL(dal_run_crossings(run, m.T, &section, &found, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_crossings(run, m.T, &section, &found, NULL), DAL_STATUS_OK);
     CU_ASSERT(found.unresolved == 3 && found.first_unresolved == 0.0);
     dal_run_free(run);
 }
@@ -187,7 +187,7 @@ static dal_status count_values(const dal_system *system, const dal_point *at, do
     evaluations++;
     out[0] = at->q[0] - 0.5;
     (void)system;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status ignore_row(void *user, dal_run *run, long long row, double t)
@@ -196,7 +196,7 @@ static dal_status ignore_row(void *user, dal_run *run, long long row, double t)
     (void)run;
     (void)row;
     (void)t;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* x = t: rows between two steps do not search a step again, and change no bit of the run. */
@@ -212,7 +212,7 @@ static void test_rows_between_steps(void)
     for (int i = 0; i < 2; i++) {
         dal_run *run = fixture_run(&spec);
         evaluations = 0;
-        CU_ASSERT_EQUAL(dal_run_sample(run, 2.0, i ? 48 : 1, 0, &observer, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_sample(run, 2.0, i ? 48 : 1, 0, &observer, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_run_event_count(run, 0), 1);
         memcpy(end[i], dal_run_state(run), sizeof end[i]);
         counted[i] = evaluations;
@@ -237,13 +237,13 @@ static void test_changed_between(void)
     const double *numbers = dal_run_save(run, &count);
     CU_ASSERT_FATAL(count <= 64);
     memcpy(saved, numbers, count * sizeof *saved);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 0.55, 1, 0, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.55, 1, 0, &observer, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_time(run), 0.5);
-    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "a", 0.75, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STOPPED);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "a", 0.75, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_STOPPED);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), 0.75, 1e-15);
-    CU_ASSERT_EQUAL(dal_run_restore(run, saved, count, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(fixture_events(run, 2.0, NULL, NULL, NULL), DAL_STOPPED);
+    CU_ASSERT_EQUAL(dal_run_restore(run, saved, count, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, 2.0, NULL, NULL, NULL), DAL_STATUS_STOPPED);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), 0.6, 1e-15);
     dal_run_free(run);
 }

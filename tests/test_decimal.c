@@ -18,8 +18,8 @@ static void reads(const char *text)
     double value = NAN;
     const double right = strtod(text, NULL);
     const dal_status status = dal_parse_number(text, strlen(text), &value);
-    const bool agrees =
-        isinf(right) ? status == DAL_TOO_LARGE : status == DAL_OK && is_same(value, right);
+    const bool agrees = isinf(right) ? status == DAL_STATUS_TOO_LARGE
+                                     : status == DAL_STATUS_OK && is_same(value, right);
     if (!agrees) printf("reads '%s' as %a, not %a\n", text, value, right);
     CU_ASSERT(agrees);
 }
@@ -150,9 +150,9 @@ static void test_texts_that_are_no_numbers(void)
     const char *const texts[] = {"", ".", "e5", "1.2.3", "1e", "1e+", "--1", "1 ", "0x1", "nan"};
     double value = 5.0;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        CU_ASSERT(dal_parse_number(texts[i], strlen(texts[i]), &value) == DAL_SYNTAX);
+        CU_ASSERT(dal_parse_number(texts[i], strlen(texts[i]), &value) == DAL_STATUS_SYNTAX);
     CU_ASSERT(value == 5.0);
-    CU_ASSERT(dal_parse_number("1e309", 5, &value) == DAL_TOO_LARGE);
+    CU_ASSERT(dal_parse_number("1e309", 5, &value) == DAL_STATUS_TOO_LARGE);
     reads("5.");
     reads(".5");
     reads("-000.00000e-99999999999999999999");

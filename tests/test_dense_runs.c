@@ -22,16 +22,16 @@ static dal_status take_row(void *user, dal_run *run, long long row, double t)
 {
     rows *r = user;
     double observed[32];
-    if (row == r->stop) return DAL_INTERRUPTED;
+    if (row == r->stop) return DAL_STATUS_INTERRUPTED;
     const int last = dal_run_observables(run) - 1;
     CU_ASSERT_FATAL(row < MAX_ROWS && dal_run_dimension(run) <= NUMBERS && last < 32);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), t, 4 * DBL_EPSILON * fabs(t));
     memcpy(r->state[row], dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof(double));
     r->count++;
-    if (last < 0) return DAL_OK;
-    CU_ASSERT_EQUAL(dal_run_observe(run, observed), DAL_OK);
+    if (last < 0) return DAL_STATUS_OK;
+    CU_ASSERT_EQUAL(dal_run_observe(run, observed), DAL_STATUS_OK);
     r->error = fmax(r->error, observed[last] / (1.0 + fabs(t)));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_run_spec spec_of(const char *text, const char *method, dal_space space, double step,
@@ -47,8 +47,8 @@ static rows sample(dal_run *run, double T, int samples)
     rows r = {.stop = -1};
     const dal_observer observer = {.user = &r, .sample = take_row};
     dal_error error = {0};
-    CU_ASSERT_EQUAL(dal_run_sample(run, T, samples, 0, &observer, &error), DAL_OK);
-    if (error.status != DAL_OK) printf("\n  %s\n", error.message);
+    CU_ASSERT_EQUAL(dal_run_sample(run, T, samples, 0, &observer, &error), DAL_STATUS_OK);
+    if (error.status != DAL_STATUS_OK) printf("\n  %s\n", error.message);
     CU_ASSERT_EQUAL(r.count, samples + 1);
     return r;
 }
@@ -77,13 +77,13 @@ static void test_closed_forms(void)
 static dal_status copy_state(void *user, dal_run *run)
 {
     memcpy(user, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof(double));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The bits of the state a part of a step away. */
 static void state_at(dal_run *run, double part, double *state)
 {
-    CU_ASSERT_EQUAL(dal_run_intermediate(run, part, copy_state, state, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, part, copy_state, state, NULL), DAL_STATUS_OK);
 }
 
 /* The trajectory has the same bits without rows; a row has the same bits whatever was evaluated
@@ -105,12 +105,12 @@ static void test_bits(void)
         rows again = {.stop = 11};
         dal_observer observer = {.user = &again, .sample = take_row};
         run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_sample(run, 10.0, 33, 0, &observer, NULL), DAL_INTERRUPTED);
+        CU_ASSERT_EQUAL(dal_run_sample(run, 10.0, 33, 0, &observer, NULL), DAL_STATUS_INTERRUPTED);
         dal_run *resumed = fixture_run(&spec);
         const double *saved = dal_run_save(run, &count);
-        CU_ASSERT_EQUAL(dal_run_restore(resumed, saved, count, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_restore(resumed, saved, count, NULL), DAL_STATUS_OK);
         again.stop = -1;
-        CU_ASSERT_EQUAL(dal_run_sample(resumed, 10.0, 33, 11, &observer, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_sample(resumed, 10.0, 33, 11, &observer, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(memcmp(r.state, again.state, sizeof r.state), 0);
         dal_run_free(resumed);
         dal_run_free(run);
@@ -136,13 +136,13 @@ static void test_changes(void)
     dal_run *run = fixture_run(&spec);
     for (int k = 1; k <= 9; k++) {
         double state[2], start[] = {0.0, k};
-        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", k * k, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", k * k, NULL), DAL_STATUS_OK);
         state_at(run, 0.25, state);
         CU_ASSERT_DOUBLE_EQUAL(state[0], sin(0.25 * k) / k, 1e-14);
-        CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, start, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, start, NULL), DAL_STATUS_OK);
         state_at(run, 0.25, state);
         CU_ASSERT_DOUBLE_EQUAL(state[0], sin(0.25 * k), 1e-14);
-        CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, (double[]){0.0, 1.0}, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, (double[]){0.0, 1.0}, NULL), DAL_STATUS_OK);
     }
     dal_run_free(run);
 }
@@ -157,13 +157,14 @@ static void test_failing_step(void)
         const dal_run_spec spec = spec_of(text, methods[i], DAL_PHYSICAL, 2.0, 1e-12);
         dal_run *run = fixture_run(&spec);
         double state[2];
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_NOT_CONVERGED);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_NOT_CONVERGED);
         for (int k = 9; k >= 1; k--) {
             const double t = 0.1 * k, x = 1.0 / (1.0 - t);
             state_at(run, t, state);
             CU_ASSERT_DOUBLE_EQUAL(state[0], x, 1e-8 * x);
         }
-        CU_ASSERT_EQUAL(dal_run_intermediate(run, 1.5, copy_state, state, NULL), DAL_NOT_CONVERGED);
+        CU_ASSERT_EQUAL(dal_run_intermediate(run, 1.5, copy_state, state, NULL),
+                        DAL_STATUS_NOT_CONVERGED);
         CU_ASSERT_EQUAL(dal_run_time(run), 0.0);
         dal_run_free(run);
     }
@@ -212,7 +213,7 @@ static dal_status note_crossing(void *user, dal_run *run, const dal_crossing *cr
     CU_ASSERT_FATAL(c->count < 16);
     c->t[c->count] = crossing->t;
     c->x[c->count++] = dal_run_state(run)[0];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status note_event(void *user, dal_run *run, const dal_occurrence *event)
@@ -242,7 +243,7 @@ static void test_crossings(void)
                                       .cross = note_crossing};
         const dal_status status = is_event ? fixture_events(run, 12.0, note_event, &c, NULL)
                                            : dal_run_crossings(run, 12.0, &section, &found, NULL);
-        CU_ASSERT_EQUAL(status, DAL_OK);
+        CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
         CU_ASSERT_EQUAL(c.count, 4);
         for (int k = 0; k < c.count; k++) {
             const double t = (k % 2 ? 5.0 : 1.0) * pi / 6.0 + 2.0 * pi * (k / 2);

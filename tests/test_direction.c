@@ -33,14 +33,14 @@ static double distance_of(dal_run_spec spec)
     memcpy(end, dal_run_state(there), bytes);
     spec.options.step = -step;
     dal_run *back = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_set_state(back, dal_run_time(there), end, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_set_state(back, dal_run_time(there), end, NULL), DAL_STATUS_OK);
     const dal_status returned = dal_run_advance(back, STEPS, NULL);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(back), start_time, 1e-15);
     for (int i = 0; i < 2 * spec.system->n; i++)
         distance = fmax(distance, fabs(dal_run_state(back)[i] - begin[i]));
     dal_run_free(there);
     dal_run_free(back);
-    return went == DAL_OK && returned == DAL_OK ? distance : NAN;
+    return went == DAL_STATUS_OK && returned == DAL_STATUS_OK ? distance : NAN;
 }
 
 /* Rounding of some eighty steps, with the condition of the implicit equations. */
@@ -49,7 +49,7 @@ static const double rounding = 2e-12;
 static int check_return(const dal_system *system, const char *name)
 {
     dal_method method;
-    CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_STATUS_OK);
     const unsigned properties = dal_method_properties(&method);
     const dal_run_spec spec = fixture_spec(system, name, DAL_PHYSICAL, step);
     /* The last multipliers are a part of the state of these, and not of (q,v). */
@@ -118,7 +118,7 @@ static void test_closed_form(void)
         spec.start_time = from[i / 2];
         dal_run *run = fixture_run(&spec);
         CU_ASSERT_EQUAL(dal_run_time(run), from[i / 2]);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 60, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 60, NULL), DAL_STATUS_OK);
         const double t = from[i / 2] + 60 * h;
         CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), t, 1e-14);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], forced_place(from[i / 2], t), 1e-12);
@@ -133,7 +133,7 @@ static void test_control(void)
     spec.options.tolerance = 1e-12;
     spec.start_time = 2.5;
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 3, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 3, NULL), DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], forced_place(2.5, -3.5), 1e-10);
     dal_run_free(run);
 }
@@ -145,11 +145,11 @@ static void test_batch(void)
     dal_run *run = fixture_run(&spec);
     dal_batch *batch = NULL;
     double state[64];
-    CU_ASSERT_EQUAL(dal_run_advance(run, 30, NULL), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 9, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 8, NULL, 0, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 30, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 9, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 8, NULL, 0, NULL, 0, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_batch_time(batch, 8), 1.25);
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 30), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 30), DAL_STATUS_OK);
     for (int lane = 0; lane < 9; lane++) {
         dal_batch_state(batch, lane, state);
         CU_ASSERT_EQUAL(dal_batch_time(batch, lane), dal_run_time(run));
@@ -175,7 +175,7 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
     r->t[row] = t;
     r->x[row] = dal_run_state(run)[0];
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), t, 1e-14);
-    return ++r->count == r->end ? DAL_INTERRUPTED : DAL_OK;
+    return ++r->count == r->end ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
 /* Rows at equal distances between steps, and the same after an interruption and a restore. */
@@ -188,17 +188,17 @@ static void check_rows(double h, double T)
     dal_run_spec spec = fixture_spec(fixture_system(forced), "gauss8", DAL_PHYSICAL, h);
     spec.start_time = 2.5;
     dal_run *run = fixture_run(&spec), *first = fixture_run(&spec), *second = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_sample(run, T, ROWS, 0, &all, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, T, ROWS, 0, &all, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(whole.count, ROWS + 1);
     for (int i = 0; i <= ROWS; i++) {
         CU_ASSERT_DOUBLE_EQUAL(whole.t[i], 2.5 + (T - 2.5) * i / ROWS, 1e-14);
         CU_ASSERT_DOUBLE_EQUAL(whole.x[i], forced_place(2.5, whole.t[i]), 1e-12);
     }
     CU_ASSERT_EQUAL(whole.t[ROWS], T);
-    CU_ASSERT_EQUAL(dal_run_sample(first, T, ROWS, 0, &some, NULL), DAL_INTERRUPTED);
+    CU_ASSERT_EQUAL(dal_run_sample(first, T, ROWS, 0, &some, NULL), DAL_STATUS_INTERRUPTED);
     const double *saved = dal_run_save(first, &count);
-    CU_ASSERT_EQUAL(dal_run_restore(second, saved, count, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_sample(second, T, ROWS, 4, &some, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(second, saved, count, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(second, T, ROWS, 4, &some, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(memcmp(whole.x, parts.x, sizeof whole.x), 0);
     dal_run_free(run);
     dal_run_free(first);
@@ -235,7 +235,7 @@ static void test_trend(void)
 static void refuse_end(dal_run *run, double T, const char *fragment)
 {
     dal_error error = {0};
-    CU_ASSERT_EQUAL(dal_run_sample(run, T, 10, 0, NULL, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, T, 10, 0, NULL, &error), DAL_STATUS_ARGUMENT);
     if (!strstr(error.message, fragment)) printf("\n  '%s'\n", error.message);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
 }
@@ -251,10 +251,10 @@ static void test_refused(void)
     refuse_end(run, -INFINITY, "the time must be finite");
     dal_run_free(run);
     spec.start_time = NAN;
-    fixture_refused(&spec, DAL_ARGUMENT, "the time of the start must be finite");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "the time of the start must be finite");
     spec.start_time = 0.0;
     spec.options.step = 0.0;
-    fixture_refused(&spec, DAL_ARGUMENT, "the step must be finite and not 0");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "the step must be finite and not 0");
 }
 
 void suite_direction(void)

@@ -65,17 +65,17 @@ static double midpoint_defect(const char *text, const char *method)
     double q[8], v[8], D[8], defect = 0.0;
     dal_run *run = fixture_run(&spec);
     dal_evaluator *evaluator = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_STATUS_OK);
     for (int k = 0; k < 20; k++) {
         const double t = dal_run_time(run) + 0.5 * h, *state = dal_run_state(run);
         for (int i = 0; i < n; i++) q[i] = state[i];
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         for (int i = 0; i < n; i++) {
             v[i] = (state[i] - q[i]) / h;
             q[i] = 0.5 * (q[i] + state[i]);
         }
         CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->constraints, t, q, v, NULL, D),
-                        DAL_OK);
+                        DAL_STATUS_OK);
         for (int a = 0; a < system->m; a++) defect = fmax(defect, fabs(D[a]));
     }
     dal_evaluator_free(evaluator);
@@ -99,10 +99,10 @@ static double change(const char *text, const char *method, double h, long long s
     const dal_run_spec spec = fixture_spec(system, method, DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     double first[64], now[64], max = 0.0;
-    CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_STATUS_OK);
     for (long long i = 0; i < steps; i++) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_STATUS_OK);
         max = fmax(max, fabs(now[which] - first[which]));
     }
     dal_run_free(run);
@@ -148,7 +148,7 @@ static void test_two_step(void)
     for (int k = 0; k < 30; k++) {
         memmove(q[0], q[1], 2 * sizeof q[0]);
         memcpy(q[2], dal_run_state(run), sizeof q[2]);
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         if (k < 2) continue;
         for (int side = 0; side < 2; side++) {
             for (int i = 0; i < 3; i++) middle[i] = 0.5 * (q[side][i] + q[side + 1][i]);
@@ -172,7 +172,7 @@ static void test_reflection(void)
     for (int k = 0; k < 1000; k++) {
         double square = 0.0;
         memcpy(q, dal_run_state(run), sizeof q);
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         for (int i = 0; i < 3; i++) square += pow((dal_run_state(run)[i] - q[i]) / 0.1, 2.0);
         if (k == 0) first = square;
         /* The differences of q have lost up to three digits. */
@@ -218,8 +218,8 @@ static void test_stiff(void)
         spec.parameter_count = 1;
         dal_run *run = fixture_run(&spec);
         dal_error error = {0};
-        if (dal_run_advance(run, 50, &error) != DAL_OK) printf("\n  %s\n", error.message);
-        CU_ASSERT(error.status == DAL_OK);
+        if (dal_run_advance(run, 50, &error) != DAL_STATUS_OK) printf("\n  %s\n", error.message);
+        CU_ASSERT(error.status == DAL_STATUS_OK);
         dal_run_free(run);
     }
 }

@@ -13,7 +13,7 @@ static const double sigmas = 5.0; /* deviations of an estimate that pass */
 static dal_variation parsed(const char *text)
 {
     dal_variation v;
-    CU_ASSERT_EQUAL(dal_variation_parse(&v, text, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_variation_parse(&v, text, NULL), DAL_STATUS_OK);
     return v;
 }
 
@@ -107,7 +107,8 @@ static dal_ensemble *make(const dal_run_spec *spec, const dal_variation *v, int 
 {
     dal_ensemble *made = NULL;
     dal_error error = {0};
-    CU_ASSERT_EQUAL_FATAL(dal_ensemble_create(&made, spec, v, count, SEED, lanes, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_ensemble_create(&made, spec, v, count, SEED, lanes, &error),
+                          DAL_STATUS_OK);
     return made;
 }
 
@@ -129,13 +130,13 @@ static void test_members(void)
                                parsed("x=uniform(-1,1)")};
     double whole[COUNT][DIMENSION], part[COUNT][DIMENSION], draws[COUNT][3];
     dal_ensemble *a = make(&spec, v, 3, COUNT), *b = make(&spec, v, 3, 5);
-    CU_ASSERT_EQUAL(dal_ensemble_start(a, 0, COUNT), DAL_OK);
+    CU_ASSERT_EQUAL(dal_ensemble_start(a, 0, COUNT), DAL_STATUS_OK);
     dal_batch_advance(dal_ensemble_batch(a), 60);
     dal_ensemble_states(a, whole[0]);
     dal_ensemble_draws(a, draws[0]);
     for (int first = 10; first >= 0; first -= 5) {
         const int count = first == 10 ? 3 : 5;
-        CU_ASSERT_EQUAL(dal_ensemble_start(b, (unsigned long long)first, count), DAL_OK);
+        CU_ASSERT_EQUAL(dal_ensemble_start(b, (unsigned long long)first, count), DAL_STATUS_OK);
         dal_batch_advance(dal_ensemble_batch(b), 20);
         dal_batch_advance(dal_ensemble_batch(b), 40);
         dal_ensemble_states(b, part[first]);
@@ -171,7 +172,7 @@ static void test_covariance(void)
     dal_ensemble *e = make(&spec, v, 2, COUNT);
     double states[2 * COUNT], before[4] = {0}, after[4] = {0}, mean[2][2] = {{0}};
     for (int time = 0; time < 2; time++) {
-        if (time == 0) CU_ASSERT_EQUAL(dal_ensemble_start(e, 0, COUNT), DAL_OK);
+        if (time == 0) CU_ASSERT_EQUAL(dal_ensemble_start(e, 0, COUNT), DAL_STATUS_OK);
         if (time == 1) dal_batch_advance(dal_ensemble_batch(e), 46); /* t = 2.3 */
         dal_ensemble_states(e, states);
         for (int i = 0; i < 2 * COUNT; i++) mean[time][i % 2] += states[i] / COUNT;
@@ -202,7 +203,7 @@ static void test_failures(void)
     const dal_variation fast = parsed("s=uniform(-1,99)");
     dal_ensemble *e = make(&spec, &fast, 1, COUNT);
     double states[2 * COUNT], draws[COUNT];
-    CU_ASSERT_EQUAL(dal_ensemble_start(e, 0, COUNT), DAL_OK);
+    CU_ASSERT_EQUAL(dal_ensemble_start(e, 0, COUNT), DAL_STATUS_OK);
     dal_batch_advance(dal_ensemble_batch(e), 100);
     dal_ensemble_states(e, states);
     dal_ensemble_draws(e, draws);
@@ -211,7 +212,7 @@ static void test_failures(void)
     for (int i = 0; i < COUNT; i++) {
         const bool is_lost = isnan(states[2 * i]) && isnan(states[2 * i + 1]);
         const dal_status status = dal_batch_status(dal_ensemble_batch(e), i, NULL);
-        CU_ASSERT_EQUAL(status, is_lost ? DAL_NOT_FINITE : DAL_OK);
+        CU_ASSERT_EQUAL(status, is_lost ? DAL_STATUS_NOT_FINITE : DAL_STATUS_OK);
         CU_ASSERT(1.0 + draws[i] > 2.0 || !is_lost);
         failed += is_lost;
     }
@@ -220,10 +221,10 @@ static void test_failures(void)
     spec = fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.01);
     const dal_variation across = parsed("y2'=uniform(0.5,1)");
     e = make(&spec, &across, 1, 3);
-    CU_ASSERT_EQUAL(dal_ensemble_start(e, 0, 3), DAL_OK);
+    CU_ASSERT_EQUAL(dal_ensemble_start(e, 0, 3), DAL_STATUS_OK);
     for (int i = 0; i < 3; i++)
-        CU_ASSERT_EQUAL(dal_batch_status(dal_ensemble_batch(e), i, NULL), DAL_INCONSISTENT);
-    CU_ASSERT_EQUAL(dal_ensemble_start(e, 0, 4), DAL_ARGUMENT);
+        CU_ASSERT_EQUAL(dal_batch_status(dal_ensemble_batch(e), i, NULL), DAL_STATUS_INCONSISTENT);
+    CU_ASSERT_EQUAL(dal_ensemble_start(e, 0, 4), DAL_STATUS_ARGUMENT);
     dal_ensemble_free(e);
 }
 
@@ -239,28 +240,29 @@ static void check_refused(const char *text, dal_status status, const char *fragm
 
 static void test_errors(void)
 {
-    check_refused("", DAL_SYNTAX, "is not NAME=DISTRIBUTION(A,B)");
-    check_refused("x=normal(0,1", DAL_SYNTAX, "is not NAME=DISTRIBUTION(A,B)");
-    check_refused("x=normal(0)", DAL_SYNTAX, "is not NAME=DISTRIBUTION(A,B)");
-    check_refused("x=normal(0,1)2", DAL_SYNTAX, "is not NAME=DISTRIBUTION(A,B)");
-    check_refused("=normal(0,1)", DAL_SYNTAX, "does not begin with a name");
-    check_refused("x=norml(0,1)", DAL_NAME, "'norml', not one of uniform normal lognormal");
-    check_refused("x=normal(0,q)", DAL_SYNTAX, "'q' is not a number");
-    check_refused("x=normal(0,-1)", DAL_ARGUMENT, "x: the standard deviation -1 is negative");
-    check_refused("x=uniform(2,1)", DAL_ARGUMENT, "x: uniform needs LOW < HIGH");
-    check_refused("x=uniform(1,1)", DAL_ARGUMENT, "x: uniform needs LOW < HIGH");
+    check_refused("", DAL_STATUS_SYNTAX, "is not NAME=DISTRIBUTION(A,B)");
+    check_refused("x=normal(0,1", DAL_STATUS_SYNTAX, "is not NAME=DISTRIBUTION(A,B)");
+    check_refused("x=normal(0)", DAL_STATUS_SYNTAX, "is not NAME=DISTRIBUTION(A,B)");
+    check_refused("x=normal(0,1)2", DAL_STATUS_SYNTAX, "is not NAME=DISTRIBUTION(A,B)");
+    check_refused("=normal(0,1)", DAL_STATUS_SYNTAX, "does not begin with a name");
+    check_refused("x=norml(0,1)", DAL_STATUS_NAME, "'norml', not one of uniform normal lognormal");
+    check_refused("x=normal(0,q)", DAL_STATUS_SYNTAX, "'q' is not a number");
+    check_refused("x=normal(0,-1)", DAL_STATUS_ARGUMENT,
+                  "x: the standard deviation -1 is negative");
+    check_refused("x=uniform(2,1)", DAL_STATUS_ARGUMENT, "x: uniform needs LOW < HIGH");
+    check_refused("x=uniform(1,1)", DAL_STATUS_ARGUMENT, "x: uniform needs LOW < HIGH");
     const dal_run_spec spec =
         fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.01);
     const dal_variation unknown = parsed("y1''=normal(0,1)");
     const dal_variation twice[] = {parsed("y1=normal(0,1)"), parsed("y1=uniform(0,1)")};
     dal_ensemble *e;
     dal_error error = {0};
-    CU_ASSERT_EQUAL(dal_ensemble_create(&e, &spec, &unknown, 1, 0, 8, &error), DAL_NAME);
+    CU_ASSERT_EQUAL(dal_ensemble_create(&e, &spec, &unknown, 1, 0, 8, &error), DAL_STATUS_NAME);
     CU_ASSERT_PTR_NULL(e);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "unknown start value or parameter 'y1'''"));
-    CU_ASSERT_EQUAL(dal_ensemble_create(&e, &spec, twice, 2, 0, 8, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_ensemble_create(&e, &spec, twice, 2, 0, 8, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "y1 is varied twice"));
-    CU_ASSERT_EQUAL(dal_ensemble_create(&e, &spec, twice, 1, 0, 0, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_ensemble_create(&e, &spec, twice, 1, 0, 0, &error), DAL_STATUS_ARGUMENT);
 }
 
 /* ---- statistics ---- */

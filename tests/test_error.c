@@ -7,8 +7,8 @@
 
 static void test_every_status_has_its_words(void)
 {
-    CU_ASSERT_STRING_EQUAL(dal_status_name(DAL_SINGULAR), "DAL_SINGULAR");
-    CU_ASSERT_STRING_EQUAL(dal_status_text(DAL_SINGULAR), "a constraint became singular");
+    CU_ASSERT_STRING_EQUAL(dal_status_name(DAL_STATUS_SINGULAR), "DAL_SINGULAR");
+    CU_ASSERT_STRING_EQUAL(dal_status_text(DAL_STATUS_SINGULAR), "a constraint became singular");
     for (int i = 0; i < DAL_STATUS_COUNT; i++)
         for (int j = 0; j < i; j++) {
             dal_status a = (dal_status)i, b = (dal_status)j;
@@ -30,22 +30,23 @@ static void test_version_text_has_the_numbers(void)
 static void test_record(void)
 {
     dal_error error;
-    CU_ASSERT(dal__fail_at(&error, DAL_RANK, 3, 7, "a%s%d", "\nb\x7f", 5) == DAL_RANK);
-    CU_ASSERT(error.status == DAL_RANK && error.line == 3 && error.column == 7);
+    CU_ASSERT(dal__fail_at(&error, DAL_STATUS_RANK, 3, 7, "a%s%d", "\nb\x7f", 5) ==
+              DAL_STATUS_RANK);
+    CU_ASSERT(error.status == DAL_STATUS_RANK && error.line == 3 && error.column == 7);
     CU_ASSERT_STRING_EQUAL(error.message, "a?b?5");
-    CU_ASSERT(dal__fail_at(NULL, DAL_IO, 3, 7, "unheard") == DAL_IO);
+    CU_ASSERT(dal__fail_at(NULL, DAL_STATUS_IO, 3, 7, "unheard") == DAL_STATUS_IO);
 }
 
 static void test_record_without_a_place(void)
 {
     dal_error error = {.line = 3, .column = 7};
-    CU_ASSERT(dal__fail(&error, DAL_MEMORY, "a%s%d", "\nb\x7f", 5) == DAL_MEMORY);
-    CU_ASSERT(error.status == DAL_MEMORY && error.line == 0 && error.column == 0);
+    CU_ASSERT(dal__fail(&error, DAL_STATUS_MEMORY, "a%s%d", "\nb\x7f", 5) == DAL_STATUS_MEMORY);
+    CU_ASSERT(error.status == DAL_STATUS_MEMORY && error.line == 0 && error.column == 0);
     CU_ASSERT_STRING_EQUAL(error.message, "a?b?5");
-    CU_ASSERT(dal__fail(NULL, DAL_IO, "unheard") == DAL_IO);
+    CU_ASSERT(dal__fail(NULL, DAL_STATUS_IO, "unheard") == DAL_STATUS_IO);
     const char *const names[] = {"omega"};
     error.line = error.column = 7;
-    CU_ASSERT(dal__unknown(&error, "parameter", "omga", names, 1) == DAL_NAME);
+    CU_ASSERT(dal__unknown(&error, "parameter", "omga", names, 1) == DAL_STATUS_NAME);
     CU_ASSERT(error.line == 0 && error.column == 0);
     CU_ASSERT_STRING_EQUAL(error.message, "unknown parameter 'omga'; did you mean 'omega'?");
 }
@@ -56,7 +57,7 @@ static void test_record_is_cut_not_overrun(void)
     char text[2 * DAL_MESSAGE_SIZE];
     memset(text, 'x', sizeof text);
     text[sizeof text - 1] = 0;
-    dal__fail_at(&error, DAL_SYNTAX, 1, 1, "%s", text);
+    dal__fail_at(&error, DAL_STATUS_SYNTAX, 1, 1, "%s", text);
     CU_ASSERT(strlen(error.message) == DAL_MESSAGE_SIZE - 1);
 }
 
@@ -101,9 +102,9 @@ static void test_unknown(void)
 {
     const char *const names[] = {"omega", "v0"};
     dal_error error;
-    CU_ASSERT(dal__unknown_at(&error, 2, 5, "parameter", "omga", names, 2) == DAL_NAME);
+    CU_ASSERT(dal__unknown_at(&error, 2, 5, "parameter", "omga", names, 2) == DAL_STATUS_NAME);
     CU_ASSERT_STRING_EQUAL(error.message, "unknown parameter 'omga'; did you mean 'omega'?");
-    CU_ASSERT(dal__unknown_at(&error, 2, 5, "parameter", "mass", names, 2) == DAL_NAME);
+    CU_ASSERT(dal__unknown_at(&error, 2, 5, "parameter", "mass", names, 2) == DAL_STATUS_NAME);
     CU_ASSERT_STRING_EQUAL(error.message, "unknown parameter 'mass'");
 }
 

@@ -12,8 +12,8 @@ static dal_error_budget *explained(const dal_run_spec *spec, long long steps, lo
     dal_error_budget *e = NULL;
     dal_error error = {0};
     const dal_status status = dal_error_budget_create(&e, spec, steps, quad_steps, NULL, &error);
-    if (status != DAL_OK) printf("\n  %s\n", error.message);
-    CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
+    if (status != DAL_STATUS_OK) printf("\n  %s\n", error.message);
+    CU_ASSERT_EQUAL_FATAL(status, DAL_STATUS_OK);
     return e;
 }
 
@@ -369,14 +369,14 @@ static dal_status energy(const dal_system *system, const dal_point *at, double *
 {
     (void)system;
     out[0] = 0.5 * (at->v[0] * at->v[0] + at->q[0] * at->q[0]);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 static dal_status start(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system, (void)at;
     out[0] = 1.0;
     out[1] = 0.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Without quad precision halving alone decides: rk4 on an oscillator loses energy like h^5. */
@@ -415,7 +415,7 @@ static dal_status step(void *user, double done)
     CU_ASSERT(done >= w->done && done <= 1.0);
     CU_ASSERT(dal_run_steps(w->last) >= 0 && dal_run_system(w->last)->n == 3);
     w->done = done;
-    return ++w->calls < w->max_calls ? DAL_OK : DAL_INTERRUPTED;
+    return ++w->calls < w->max_calls ? DAL_STATUS_OK : DAL_STATUS_INTERRUPTED;
 }
 static void begin(void *user, dal_run *run, long long steps)
 {
@@ -431,7 +431,7 @@ static void test_observer(void)
     dal_error error = {0};
     watch w = {.max_calls = 1 << 30};
     const dal_error_budget_observer observer = {&w, step, begin};
-    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, &observer, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, &observer, &error), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(w.runs, 8); /* the run, five comparisons, and the beginning in doubles */
     CU_ASSERT(w.done > 0.99);
     dal_error_budget_free(e);
@@ -439,15 +439,16 @@ static void test_observer(void)
     for (int max_calls = 1; max_calls < all; max_calls += all / 7) {
         w = (watch){.max_calls = max_calls};
         CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, &observer, &error),
-                        DAL_INTERRUPTED);
+                        DAL_STATUS_INTERRUPTED);
         CU_ASSERT_PTR_NULL(e);
     }
-    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 0, 50, NULL, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 0, 50, NULL, &error), DAL_STATUS_ARGUMENT);
     spec.options.precision = DAL_QUAD;
-    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, NULL, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, NULL, &error), DAL_STATUS_ARGUMENT);
     spec.options.precision = DAL_DOUBLE;
     spec.options.iterations = 1;
-    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, NULL, &error), DAL_NOT_CONVERGED);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&e, &spec, 100, 50, NULL, &error),
+                    DAL_STATUS_NOT_CONVERGED);
     CU_ASSERT_PTR_NULL(e);
 }
 
@@ -457,7 +458,7 @@ static void test_explicit(void)
     static const dal_comparison_run solver[] = {DAL_COMPARISON_TIGHTER, DAL_COMPARISON_LOOSER};
     const dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
     dal_error_budget *e = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_error_budget_create(&e, &spec, 4, 2, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_error_budget_create(&e, &spec, 4, 2, NULL, NULL), DAL_STATUS_OK);
     for (int i = 0; i < 2; i++) {
         CU_ASSERT(!e->ran[solver[i]]);
         CU_ASSERT_STRING_EQUAL(e->reason[solver[i]], "the method solves no equations");

@@ -30,7 +30,7 @@ static dal_status note(void *user, dal_run *run, const dal_occurrence *event)
     (void)run;
     if (r->count < MAX) r->time[r->count] = event->t;
     r->count++;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The events of a run; false: the method cannot act on the system. */
@@ -39,8 +39,8 @@ static bool find_events(const dal_run_spec *spec, double T, dal_status expected,
     dal_run *run;
     *r = (record){0};
     const dal_status made = dal_run_create(&run, spec, NULL);
-    if (made == DAL_UNSUPPORTED) return false;
-    CU_ASSERT_EQUAL_FATAL(made, DAL_OK);
+    if (made == DAL_STATUS_UNSUPPORTED) return false;
+    CU_ASSERT_EQUAL_FATAL(made, DAL_STATUS_OK);
     CU_ASSERT_EQUAL(fixture_events(run, T, note, r, NULL), expected);
     dal_run_free(run);
     return true;
@@ -108,9 +108,9 @@ static void test_block(void)
 {
     const double stop = 2.2 / (0.3 * 9.81);
     const motion forwards = {
-        BLOCK("-", ", direction: down, stop: true"), 1, 1, {stop}, DAL_STOPPED};
+        BLOCK("-", ", direction: down, stop: true"), 1, 1, {stop}, DAL_STATUS_STOPPED};
     const motion backwards = {
-        BLOCK("", ", direction: down, stop: true"), 1, 1, {stop}, DAL_STOPPED};
+        BLOCK("", ", direction: down, stop: true"), 1, 1, {stop}, DAL_STATUS_STOPPED};
     CU_ASSERT(check_methods(&forwards, 1.0) > 80);
     CU_ASSERT(check_methods(&backwards, -1.0) > 80);
 }
@@ -126,7 +126,7 @@ static void test_turning(void)
                       1,
                       2,
                       {v / (a + b), v / (a + b) + sqrt(2.0 * top / (a - b))},
-                      DAL_STOPPED};
+                      DAL_STATUS_STOPPED};
     CU_ASSERT(check_methods(&m, 1.0) > 80);
 }
 
@@ -141,7 +141,7 @@ static void test_floor(void)
                       0,
                       3,
                       {up, up + to_top, up + 2.0 * to_top},
-                      DAL_STOPPED};
+                      DAL_STATUS_STOPPED};
     CU_ASSERT(check_methods(&m, 1.0) > 80);
 }
 
@@ -155,7 +155,7 @@ static void test_comparison(void)
                       2,
                       2,
                       {2.0, 2.25},
-                      DAL_STOPPED};
+                      DAL_STATUS_STOPPED};
     CU_ASSERT(check_methods(&m, 1.0) > 80);
 }
 
@@ -169,7 +169,7 @@ static void test_wall(void)
                 0,
                 0,
                 {0},
-                DAL_OK};
+                DAL_STATUS_OK};
     const double g = 9.81;
     double v = sqrt(2.0 * g), t = v / g;
     while (t < 3.0 && m.count + 2 <= MAX) {
@@ -184,7 +184,7 @@ static void test_wall(void)
         "rk4",    "gauss8", "dop853", "stormer-verlet", "gni", "stormer-verlet+yoshida4",
         "spark4", "dla"};
     for (int i = 0; i < 8; i++) {
-        CU_ASSERT_EQUAL(dal_method_parse(&method, names[i], NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_method_parse(&method, names[i], NULL), DAL_STATUS_OK);
         CU_ASSERT(check_method(&m, &method, WAYS, 1.0) >= 2);
     }
 }
@@ -199,7 +199,7 @@ static void test_beyond(void)
             "forces: {x: \"if(x < 1, 0, -2)\"}\nevents: [{when: x - 1.2, stop: true}]\n"),
         "rk4", DAL_PHYSICAL, 0.9);
     record r;
-    CU_ASSERT(find_events(&spec, 3.0, DAL_STOPPED, &r));
+    CU_ASSERT(find_events(&spec, 3.0, DAL_STATUS_STOPPED, &r));
     CU_ASSERT_EQUAL(r.count, 1);
     CU_ASSERT(r.time[0] > 1.21);
 }
@@ -225,12 +225,12 @@ static void test_kink(void)
                  forces[i / 3]);
         dal_run_spec spec = fixture_spec(fixture_system(text), names[i % 3], DAL_PHYSICAL, 0.3);
         record r;
-        CU_ASSERT(find_events(&spec, 3.0, DAL_STOPPED, &r));
+        CU_ASSERT(find_events(&spec, 3.0, DAL_STATUS_STOPPED, &r));
         CU_ASSERT_EQUAL_FATAL(r.count, 2);
         CU_ASSERT_DOUBLE_EQUAL(r.time[0], 1.0, accuracy);
         CU_ASSERT_DOUBLE_EQUAL(r.time[1], 1.5, accuracy);
         dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, NULL), DAL_STOPPED);
+        CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, NULL), DAL_STATUS_STOPPED);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], later, accuracy);
         dal_run_free(run);
     }
@@ -249,10 +249,10 @@ static void test_piece(void)
     const double q = 1.5, v = 0.0, first = 0.5;
     double F, lower, upper;
     const dal_point at = {.q = &q, .v = &v, .work = work};
-    CU_ASSERT_EQUAL(system->prepare(system, &at, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(system->prepare(system, &at, NULL), DAL_STATUS_OK);
     for (int is_held = 0; is_held < 2; is_held++) {
         b->hold(system, is_held ? &first : NULL, work);
-        CU_ASSERT_EQUAL(system->call.field(system, &at, &F), DAL_OK);
+        CU_ASSERT_EQUAL(system->call.field(system, &at, &F), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(F, is_held ? 1.0 : 2.0);
     }
     b->bounds(system, 0, q, &lower, &upper);
@@ -273,7 +273,7 @@ static void test_rest(void)
         const dal_run_spec spec =
             fixture_spec(fixture_system(text), names[i % 4], DAL_PHYSICAL, 0.01);
         dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_run_event_count(run, 0), 1);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], 2.2 * 2.2 / (2.0 * 0.3 * 9.81), accuracy);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[1], 0.0, 1e-16);
@@ -287,7 +287,7 @@ static void test_rest(void)
                        "forces: {x: -0.1*sign(x')}\nstart: {x: 1.05}\nevents: [{when: x'}]\n"),
         "gauss12", DAL_PHYSICAL, 0.1);
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(fixture_events(run, 30.0, note, &r, &error), DAL_EVENT);
+    CU_ASSERT_EQUAL(fixture_events(run, 30.0, note, &r, &error), DAL_STATUS_EVENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "event 1 (x') at t = 15.70796326794"));
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "F leads back"));
     CU_ASSERT_EQUAL(r.count, 5);
@@ -308,7 +308,7 @@ static dal_status check_row(void *user, dal_run *run, long long row, double t)
     const double x = past < 0.0 ? 3.0 * t - 3.5 * t * t : 9.0 / 14.0 - 1.5 * past * past;
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], x, accuracy);
     *(long long *)user = row;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Rows between the steps follow the motion too, and change nothing. */
@@ -319,9 +319,9 @@ static void test_rows(void)
     long long last = -1;
     const dal_observer observer = {.user = &last, .sample = check_row};
     dal_run *run = fixture_run(&spec), *other = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 1.2, 97, 0, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 1.2, 97, 0, &observer, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(last, 97);
-    CU_ASSERT_EQUAL(dal_run_sample(other, 1.2, 1, 0, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(other, 1.2, 1, 0, NULL, NULL), DAL_STATUS_OK);
     size_t count;
     const double *saved = dal_run_save(run, &count);
     CU_ASSERT_EQUAL(memcmp(saved, dal_run_save(other, &count), count * sizeof *saved), 0);
@@ -337,9 +337,9 @@ static void test_resume(void)
     size_t count;
     for (int k = 0; k < 60; k++) {
         const double *saved = dal_run_save(run, &count);
-        CU_ASSERT_EQUAL(dal_run_restore(other, saved, count, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_step(other, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_restore(other, saved, count, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_step(other, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(memcmp(saved, dal_run_save(other, &count), count * sizeof *saved), 0);
     }
     CU_ASSERT(dal_run_event_count(run, 0) > 2 && dal_run_event_count(run, 1) > 1);
@@ -362,8 +362,8 @@ static void test_bits(void)
         dal_run *run = fixture_run(&plain), *other = fixture_run(&spec);
         CU_ASSERT_PTR_NULL(plain.system->branches);
         CU_ASSERT_PTR_NOT_NULL(spec.system->branches);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 106, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_advance(other, 106, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 106, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(other, 106, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(other), 2 * sizeof(double)), 0);
         dal_run_free(run);
         dal_run_free(other);
@@ -378,9 +378,9 @@ static void test_quad(void)
     spec.options.precision = DAL_QUAD;
     dal_run *run;
     const dal_status made = dal_run_create(&run, &spec, NULL);
-    if (made == DAL_UNSUPPORTED) return; /* no type of 113 bits */
-    CU_ASSERT_EQUAL_FATAL(made, DAL_OK);
-    CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, NULL), DAL_STOPPED);
+    if (made == DAL_STATUS_UNSUPPORTED) return; /* no type of 113 bits */
+    CU_ASSERT_EQUAL_FATAL(made, DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, NULL), DAL_STATUS_STOPPED);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), 2.2 / (0.3 * 9.81), 1e-15);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[1], 0.0, 1e-15);
     dal_run_free(run);

@@ -20,7 +20,7 @@ static dal_status note(void *user, dal_run *run, const dal_occurrence *event)
     r->event[r->count] = event->event;
     r->t[r->count] = event->t;
     memcpy(r->after[r->count++], dal_run_state(run), bytes);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static record events_of(const char *text, const char *method, double step, double T)
@@ -28,7 +28,7 @@ static record events_of(const char *text, const char *method, double step, doubl
     record r = {0};
     const dal_run_spec spec = fixture_spec(fixture_system(text), method, DAL_PHYSICAL, step);
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(fixture_events(run, T, note, &r, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, T, note, &r, NULL), DAL_STATUS_OK);
     dal_run_free(run);
     return r;
 }
@@ -76,7 +76,7 @@ static void test_simultaneous_late(void)
         dal_run_spec spec = fixture_spec(fixture_system(cases[i].text), "rk4", DAL_PHYSICAL, 0.25);
         spec.start_time = 1e9;
         dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(fixture_events(run, 1e9 + 1.0, note, &r, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(fixture_events(run, 1e9 + 1.0, note, &r, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL_FATAL(r.count, 2);
         CU_ASSERT_EQUAL(r.event[0], cases[i].first);
         CU_ASSERT_EQUAL(r.after[1][1], cases[i].y);
@@ -108,7 +108,7 @@ static void test_within_a_step(void)
                      "rk4", DAL_LIFTED, 0.5);
     spec.start_time = -7.0;
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(fixture_events(run, 1.0, note, &r, NULL), DAL_STOPPED);
+    CU_ASSERT_EQUAL(fixture_events(run, 1.0, note, &r, NULL), DAL_STATUS_STOPPED);
     CU_ASSERT(r.count == 1 && r.t[0] == -7.0 && dal_run_steps(run) == 0);
     dal_run_free(run);
 }
@@ -130,7 +130,7 @@ static void test_within_substeps(void)
         spec.options.tolerance = 1e-14;
         dal_run *run = fixture_run(&spec);
         record r = {0};
-        CU_ASSERT_EQUAL(fixture_events(run, 50.0, note, &r, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(fixture_events(run, 50.0, note, &r, NULL), DAL_STATUS_OK);
         dal_run_free(run);
         CU_ASSERT_EQUAL_FATAL(r.count, i < 2 ? 12 : 8);
         for (int k = 0; k < r.count; k++)
@@ -199,7 +199,7 @@ static void test_grip(void)
         const dal_run_spec spec =
             fixture_spec(fixture_system(text), methods[i], DAL_PHYSICAL, 0.02);
         dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(fixture_events(run, 5.0, note, &r, NULL), DAL_STOPPED);
+        CU_ASSERT_EQUAL(fixture_events(run, 5.0, note, &r, NULL), DAL_STATUS_STOPPED);
         CU_ASSERT_EQUAL_FATAL(r.count, 2);
         CU_ASSERT_EQUAL(r.event[1], 1);
         for (int k = 0; k < 2; k++) {
@@ -267,22 +267,24 @@ static void test_parameter(void)
     record r = {0};
     const dal_run_spec spec = fixture_spec(fixture_system(text), "gauss4", DAL_PHYSICAL, 0.01);
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "r", 1.5, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(fixture_events(run, 0.2, note, &r, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "r", 1.5, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, 0.2, note, &r, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(r.count, 0);
-    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "r", 0.3, NULL), DAL_OK);
-    while (r.count == 0) CU_ASSERT_EQUAL_FATAL(fixture_events(run, 0.5, note, &r, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "r", 0.3, NULL), DAL_STATUS_OK);
+    while (r.count == 0)
+        CU_ASSERT_EQUAL_FATAL(fixture_events(run, 0.5, note, &r, NULL), DAL_STATUS_OK);
     const double t = sqrt(1.4 / 9.81), v = 0.9 * 9.81 * t;
     CU_ASSERT_DOUBLE_EQUAL(r.t[0], t, 1e-12);
     dal_run_free(run);
 
     r = (record){0};
     run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "r", 0.3, NULL), DAL_OK);
-    while (dal_run_event_count(run, 0) == 0) CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "r", 0.3, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(fixture_events(run, 1.2, note, &r, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "r", 0.3, NULL), DAL_STATUS_OK);
+    while (dal_run_event_count(run, 0) == 0)
+        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "r", 0.3, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, 1.2, note, &r, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(r.count, 1);
     CU_ASSERT_DOUBLE_EQUAL(r.t[0], t + 2.0 * v / 9.81, 1e-12);
     dal_run_free(run);
@@ -304,14 +306,14 @@ static void test_restart(void)
         dal_run_spec spec = fixture_spec(fixture_system(text), methods[i], DAL_PHYSICAL, 0.05);
         dal_run *run = fixture_run(&spec), *other;
         while (dal_run_event_count(run, 0) == 0)
-            CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
+            CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         spec.start_time = dal_run_time(run);
         other = fixture_run(&spec);
         CU_ASSERT_EQUAL(dal_run_set_state(other, dal_run_time(run), dal_run_state(run), NULL),
-                        DAL_OK);
+                        DAL_STATUS_OK);
         for (int k = 0; k < 3; k++) {
-            CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
-            CU_ASSERT_EQUAL(dal_run_step(other, NULL), DAL_OK);
+            CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
+            CU_ASSERT_EQUAL(dal_run_step(other, NULL), DAL_STATUS_OK);
             for (int c = 0; c < dal_run_dimension(run); c++)
                 CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[c], dal_run_state(other)[c], 1e-14);
         }

@@ -28,7 +28,7 @@ static dal_status note(void *user, dal_run *run, const dal_occurrence *event)
     record *r = user;
     const size_t bytes = (size_t)dal_run_dimension(run) * sizeof(double);
     CU_ASSERT_FATAL(bytes <= NUMBERS * sizeof(double));
-    if (r->count == MAX) return DAL_OK;
+    if (r->count == MAX) return DAL_STATUS_OK;
     CU_ASSERT_EQUAL(event->t, dal_run_time(run));
     CU_ASSERT_EQUAL(event->number, dal_run_event_count(run, event->event));
     r->event[r->count] = event->event;
@@ -37,7 +37,7 @@ static dal_status note(void *user, dal_run *run, const dal_occurrence *event)
     r->t[r->count] = event->t;
     memcpy(r->before[r->count], event->before, bytes);
     memcpy(r->after[r->count++], dal_run_state(run), bytes);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_run *run_of(const char *text, const char *method, dal_space space, double step)
@@ -71,7 +71,8 @@ static void test_ball(void)
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
         for (int k = 0; k < 4; k++) {
             const dal_space space = k % 2 && i < 3 ? DAL_LIFTED : DAL_PHYSICAL;
-            const record r = events_of(texts[k / 2], methods[i], space, 0.01, 3.0, DAL_OK, NULL);
+            const record r =
+                events_of(texts[k / 2], methods[i], space, 0.01, 3.0, DAL_STATUS_OK, NULL);
             CU_ASSERT_EQUAL_FATAL(r.count, 6);
             double t = first, speed = v;
             for (int b = 0; b < r.count; b++) {
@@ -91,7 +92,7 @@ static void test_backwards(void)
 {
     const double g = 9.81, c = 0.8, first = sqrt(2.0 / g);
     const record r =
-        events_of(BALL("restitution: c"), "gauss4", DAL_LIFTED, -0.01, -1.5, DAL_OK, NULL);
+        events_of(BALL("restitution: c"), "gauss4", DAL_LIFTED, -0.01, -1.5, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL_FATAL(r.count, 2);
     CU_ASSERT_DOUBLE_EQUAL(r.t[0], -first, 1e-12);
     CU_ASSERT_DOUBLE_EQUAL(r.t[1], -first * (1.0 + 2.0 * c), 1e-12);
@@ -112,7 +113,7 @@ static void test_tilted(void)
            "start: {x: H*sin(a), y: H*cos(a)}\n"
            "events: [{when: x*sin(a) + y*cos(a), direction: down, restitution: c}]\n";
     const double g = 9.81, c = 0.7, a = 0.3, H = 0.5;
-    const record r = events_of(text, "gauss4", DAL_PHYSICAL, 0.02, 1.5, DAL_OK, NULL);
+    const record r = events_of(text, "gauss4", DAL_PHYSICAL, 0.02, 1.5, DAL_STATUS_OK, NULL);
     double t = sqrt(2.0 * H / (g * cos(a))), speed = g * cos(a) * t;
     CU_ASSERT_FATAL(r.count >= 4);
     for (int b = 0; b < r.count; b++) {
@@ -152,7 +153,7 @@ static void test_pendulum(void)
                        "events: [{when: q - B, direction: up, restitution: 1}]\n";
     const double k = sin(0.6), phi = asin(sin(0.25) / k), half_pi = acos(0.0);
     const double half = elliptic(k, -half_pi, phi);
-    const record r = events_of(text, "gauss12", DAL_LIFTED, 0.05, 20.0, DAL_OK, NULL);
+    const record r = events_of(text, "gauss12", DAL_LIFTED, 0.05, 20.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL_FATAL(r.count, (int)((20.0 / half + 1.0) / 2.0));
     for (int b = 0; b < r.count; b++) {
         CU_ASSERT_DOUBLE_EQUAL(r.t[b], (2 * b + 1) * half, 1e-12);
@@ -167,7 +168,7 @@ static void test_block(void)
                        "accelerations: {x: -u*g}\nstart: {x': v}\n"
                        "events: [{when: x', direction: down, stop: true}]\n";
     dal_error error = {0};
-    const record r = events_of(text, "rk4", DAL_PHYSICAL, 0.01, 5.0, DAL_STOPPED, &error);
+    const record r = events_of(text, "rk4", DAL_PHYSICAL, 0.01, 5.0, DAL_STATUS_STOPPED, &error);
     CU_ASSERT_EQUAL_FATAL(r.count, 1);
     CU_ASSERT_DOUBLE_EQUAL(r.t[0], 2.0 / (0.3 * 9.81), 1e-12);
     CU_ASSERT_DOUBLE_EQUAL(r.after[0][0], 2.0 / (0.3 * 9.81), 1e-12);
@@ -187,7 +188,7 @@ static void test_block(void)
 static void test_impact(void)
 {
     const record r =
-        events_of(ROBOT("restitution: c"), "gauss8", DAL_PHYSICAL, 0.02, 5.0, DAL_OK, NULL);
+        events_of(ROBOT("restitution: c"), "gauss8", DAL_PHYSICAL, 0.02, 5.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_FATAL(r.count >= 2);
     for (int k = 0; k < r.count; k++) {
         const double *z = r.after[k], *v = z + 3, *u = r.before[k] + 3, s = z[2];
@@ -214,7 +215,7 @@ static void test_impact(void)
 static void test_projection(void)
 {
     const record r = events_of(ROBOT("set: {x': -x' - 1, s': 0.7}"), "gauss8", DAL_LIFTED, 0.02,
-                               1.0, DAL_OK, NULL);
+                               1.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL_FATAL(r.count, 1);
     const double *u = r.before[0] + 3, *v = r.after[0] + 3, s = r.after[0][2];
     const double away = -u[0] - 1.0, off = away * sin(s) - u[1] * cos(s);
@@ -239,7 +240,7 @@ static void test_unprojectable(void)
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         dal_error error = {0};
-        events_of(cases[k].text, "rk4", DAL_PHYSICAL, 0.1, 2.0, DAL_EVENT, &error);
+        events_of(cases[k].text, "rk4", DAL_PHYSICAL, 0.1, 2.0, DAL_STATUS_EVENT, &error);
         CU_ASSERT_PTR_NOT_NULL(strstr(error.message, cases[k].message));
         if (!strstr(error.message, cases[k].message)) printf("\n  %s\n", error.message);
     }
@@ -251,7 +252,7 @@ static void test_moving_wall(void)
     const char *text = "coordinates: [x]\nparameters: {u: -0.5}\nlagrangian: x'^2/2\n"
                        "start: {x': 1}\n"
                        "events: [{when: 3 + u*t - x, direction: down, restitution: 1}]\n";
-    const record r = events_of(text, "rk4", DAL_PHYSICAL, 0.07, 4.0, DAL_OK, NULL);
+    const record r = events_of(text, "rk4", DAL_PHYSICAL, 0.07, 4.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL_FATAL(r.count, 1);
     CU_ASSERT_DOUBLE_EQUAL(r.t[0], 2.0, 1e-14);
     CU_ASSERT_DOUBLE_EQUAL(r.after[0][1], -2.0, 1e-14);
@@ -265,7 +266,7 @@ static void test_directions(void)
     const double pi = acos(-1.0);
     const char *text =
         OSCILLATOR("{when: x}, {when: x, direction: up}, {when: x, direction: down}");
-    const record r = events_of(text, "gauss12", DAL_LIFTED, 0.1, 20.0, DAL_OK, NULL);
+    const record r = events_of(text, "gauss12", DAL_LIFTED, 0.1, 20.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL_FATAL(r.count, 12);
     for (int k = 0; k < 6; k++) {
         const double t = (k + 0.5) * pi;
@@ -285,16 +286,16 @@ static void test_pair(void)
                *up = OSCILLATOR("{when: x - 0.999, direction: up}");
     const char *down = OSCILLATOR("{when: x - 0.999, direction: down}"),
                *touch = OSCILLATOR("{when: x - 1}");
-    record r = events_of(both, "gauss12", DAL_PHYSICAL, 0.15, 7.0, DAL_OK, NULL);
+    record r = events_of(both, "gauss12", DAL_PHYSICAL, 0.15, 7.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL_FATAL(r.count, 3);
     CU_ASSERT_DOUBLE_EQUAL(r.t[0], near, 1e-11);
     CU_ASSERT_DOUBLE_EQUAL(r.t[1], 2.0 * pi - near, 1e-11);
     CU_ASSERT_DOUBLE_EQUAL(r.t[2], 2.0 * pi + near, 1e-11);
-    r = events_of(up, "gauss12", DAL_PHYSICAL, 0.15, 7.0, DAL_OK, NULL);
+    r = events_of(up, "gauss12", DAL_PHYSICAL, 0.15, 7.0, DAL_STATUS_OK, NULL);
     CU_ASSERT(r.count == 1 && fabs(r.t[0] - 2.0 * pi + near) < 1e-11);
-    r = events_of(down, "gauss12", DAL_PHYSICAL, 0.15, 7.0, DAL_OK, NULL);
+    r = events_of(down, "gauss12", DAL_PHYSICAL, 0.15, 7.0, DAL_STATUS_OK, NULL);
     CU_ASSERT(r.count == 2 && fabs(r.t[1] - 2.0 * pi - near) < 1e-11);
-    r = events_of(touch, "gauss12", DAL_PHYSICAL, 0.15, 7.0, DAL_OK, NULL);
+    r = events_of(touch, "gauss12", DAL_PHYSICAL, 0.15, 7.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL(r.count, 0);
 }
 
@@ -305,7 +306,7 @@ static void test_order_in_the_file(void)
     const char *set = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                       "start: {x': 1, y': 1}\nevents: [{when: y - 0.3, set: {x: 2*x}},"
                       "{when: 0.3 - x, direction: both, set: {y: y + x}}]\n";
-    record r = events_of(set, "rk4", DAL_PHYSICAL, 0.25, 1.0, DAL_OK, NULL);
+    record r = events_of(set, "rk4", DAL_PHYSICAL, 0.25, 1.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL_FATAL(r.count, 2);
     CU_ASSERT(r.event[0] == 0 && r.event[1] == 1 && r.t[0] == r.t[1]);
     CU_ASSERT_DOUBLE_EQUAL(r.after[1][0], 0.6, 1e-15);
@@ -314,7 +315,7 @@ static void test_order_in_the_file(void)
                          "start: {x': 1, y': 1}\n"
                          "events: [{when: 0.3 - x, direction: down, restitution: 1},"
                          "{when: 0.3 - y, direction: down, restitution: 0.5}]\n";
-    r = events_of(corner, "gauss4", DAL_LIFTED, 0.25, 1.0, DAL_OK, NULL);
+    r = events_of(corner, "gauss4", DAL_LIFTED, 0.25, 1.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL_FATAL(r.count, 2);
     CU_ASSERT_DOUBLE_EQUAL(r.after[1][2], -1.0, 1e-15);
     CU_ASSERT_DOUBLE_EQUAL(r.after[1][3], -0.5, 1e-15);
@@ -326,7 +327,7 @@ static void test_wall_before_a_pole(void)
     const char *text = "coordinates: [y]\naccelerations: {y: 1e-9*sqrt(y)}\n"
                        "start: {y: 1, y': -3}\n"
                        "events: [{when: y - 0.05, direction: down, restitution: 1}]\n";
-    record r = events_of(text, "rk4", DAL_PHYSICAL, 0.2, 0.6, DAL_OK, NULL);
+    record r = events_of(text, "rk4", DAL_PHYSICAL, 0.2, 0.6, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL_FATAL(r.count, 1);
     CU_ASSERT_DOUBLE_EQUAL(r.t[0], 0.95 / 3.0, 1e-8);
     CU_ASSERT_DOUBLE_EQUAL(r.after[0][1], 3.0, 1e-8);
@@ -334,7 +335,7 @@ static void test_wall_before_a_pole(void)
     dal_error error = {0};
     r = events_of("coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\n"
                   "events: [{when: sqrt(0.53 - x) - 0.1, set: {x': -1}}]\n",
-                  "rk4", DAL_PHYSICAL, 0.2, 0.8, DAL_OK, &error);
+                  "rk4", DAL_PHYSICAL, 0.2, 0.8, DAL_STATUS_OK, &error);
     CU_ASSERT_EQUAL_FATAL(r.count, 1);
     CU_ASSERT_DOUBLE_EQUAL(r.t[0], 0.52, 1e-14);
     CU_ASSERT_STRING_EQUAL(error.message, "");
@@ -347,21 +348,23 @@ static void test_endless(void)
 {
     dal_error error = {0};
     record *r = calloc(1, sizeof *r);
-    *r = events_of(BALL("restitution: 0.5"), "gauss4", DAL_PHYSICAL, 0.01, 3.0, DAL_EVENT, &error);
+    *r = events_of(BALL("restitution: 0.5"), "gauss4", DAL_PHYSICAL, 0.01, 3.0, DAL_STATUS_EVENT,
+                   &error);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "event 1 (y - r) happens infinitely often"));
     CU_ASSERT_FATAL(r->count > 10);
     CU_ASSERT_DOUBLE_EQUAL(r->t[r->count - 1], 3.0 * sqrt(2.0 / 9.81), 1e-7);
-    *r = events_of(BALL("restitution: 0"), "gauss4", DAL_PHYSICAL, 0.01, 3.0, DAL_EVENT, &error);
+    *r = events_of(BALL("restitution: 0"), "gauss4", DAL_PHYSICAL, 0.01, 3.0, DAL_STATUS_EVENT,
+                   &error);
     CU_ASSERT_EQUAL(r->count, 1);
     /* Two events that set each other off at one time. */
     events_of("coordinates: [x]\nlagrangian: x'^2/2\nstart: {x: 0.5, x': 1}\n"
               "events: [{when: x - 1, set: {x: 0, x': -1}}, {when: x, set: {x: 1, x': 1}}]\n",
-              "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_EVENT, &error);
+              "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_STATUS_EVENT, &error);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "at t = 0.5"));
     /* What a set passes over is no crossing. */
     *r = events_of("coordinates: [x]\nlagrangian: x'^2/2\nstart: {x: 0.5, x': 1}\n"
                    "events: [{when: x - 1, set: {x: 3}}, {when: x - 2, set: {x: 0}}]\n",
-                   "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_OK, NULL);
+                   "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL(r->count, 1);
     free(r);
 }
@@ -369,21 +372,22 @@ static void test_endless(void)
 static void test_outward(void)
 {
     dal_error error = {0};
-    const record r =
-        events_of(BALL("set: {y': y'/2}"), "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_EVENT, &error);
+    const record r = events_of(BALL("set: {y': y'/2}"), "rk4", DAL_PHYSICAL, 0.01, 3.0,
+                               DAL_STATUS_EVENT, &error);
     CU_ASSERT_EQUAL(r.count, 1);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "event 1 (y - r) at t = 0.4515"));
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "still lead out"));
     /* One at rest upon a wall. */
     const char *rest = "coordinates: [y]\nlagrangian: y'^2/2 - y\n"
                        "events: [{when: y, direction: down, restitution: 0.5}]\n";
-    events_of(rest, "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_EVENT, &error);
+    events_of(rest, "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_STATUS_EVENT, &error);
     CU_ASSERT_PTR_NOT_NULL(
         strstr(error.message, "event 1 (y) happens infinitely often from t = 0"));
     /* A set that gives no velocity is no wall, and neither is one of both directions. */
-    CU_ASSERT(events_of(BALL("set: {y: y}"), "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_OK, NULL).count ==
-              1);
-    events_of(BALL("restitution: y - 1"), "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_EVENT, &error);
+    CU_ASSERT(
+        events_of(BALL("set: {y: y}"), "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_STATUS_OK, NULL).count ==
+        1);
+    events_of(BALL("restitution: y - 1"), "rk4", DAL_PHYSICAL, 0.01, 3.0, DAL_STATUS_EVENT, &error);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "has the restitution -0.9"));
 }
 
@@ -401,7 +405,7 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
     CU_ASSERT_FATAL(r->count < MAX);
     r->values[r->count][0] = t;
     memcpy(&r->values[r->count++][1], dal_run_state(run), 2 * sizeof(double));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The height of the ball at t. */
@@ -425,10 +429,10 @@ static void test_rows(void)
     rows *r = observer.user, few;
     dal_run *run = run_of(text, "gauss6", DAL_LIFTED, 0.1),
             *other = run_of(text, "gauss6", DAL_LIFTED, 0.1);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 3.0, 5, 0, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 3.0, 5, 0, &observer, NULL), DAL_STATUS_OK);
     few = *r;
     *r = (rows){0};
-    CU_ASSERT_EQUAL(dal_run_sample(other, 3.0, 50, 0, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(other, 3.0, 50, 0, &observer, NULL), DAL_STATUS_OK);
     for (int k = 0; k <= 50; k++)
         CU_ASSERT_DOUBLE_EQUAL(r->values[k][1], height(r->values[k][0]), 1e-12);
     for (int k = 0; k <= 5; k++)
@@ -441,11 +445,11 @@ static void test_rows(void)
 
     *r = (rows){0};
     run = run_of(BALL("stop: true"), "gauss6", DAL_LIFTED, 0.1);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 3.0, 30, 0, &observer, NULL), DAL_STOPPED);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 3.0, 30, 0, &observer, NULL), DAL_STATUS_STOPPED);
     CU_ASSERT_EQUAL(r->count, 6);
     CU_ASSERT_DOUBLE_EQUAL(r->values[5][0], sqrt(2.0 / 9.81), 1e-12);
     CU_ASSERT_EQUAL(dal_run_stopped(run), 1);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STOPPED);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_STOPPED);
     CU_ASSERT_EQUAL(r->count, 6);
     dal_run_free(run);
 }
@@ -459,11 +463,12 @@ static void test_resume(void)
     size_t count;
     dal_run_save(run, &count);
     for (int k = 0; k < STEPS; k++) {
-        CU_ASSERT_EQUAL(dal_run_restore(other, dal_run_save(run, NULL), 0, NULL), DAL_ARGUMENT);
+        CU_ASSERT_EQUAL(dal_run_restore(other, dal_run_save(run, NULL), 0, NULL),
+                        DAL_STATUS_ARGUMENT);
         const double *saved = dal_run_save(run, &count);
-        CU_ASSERT_EQUAL(dal_run_restore(other, saved, count, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_step(other, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_restore(other, saved, count, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_step(other, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(memcmp(saved, dal_run_save(other, &count), count * sizeof *saved), 0);
     }
     CU_ASSERT(dal_run_event_count(run, 0) > 5);
@@ -476,12 +481,12 @@ static void test_jump(void)
 {
     dal_run *run = run_of(BALL("restitution: c"), "gauss4", DAL_PHYSICAL, 0.01);
     double E[8];
-    CU_ASSERT_EQUAL(fixture_events(run, 2.0, NULL, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, 2.0, NULL, NULL, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_event_count(run, 0), 3);
-    CU_ASSERT_DOUBLE_EQUAL(dal_run_jump(run, 0), (pow(0.8, 6) - 1.0) * 9.81, 1e-12);
-    CU_ASSERT_EQUAL(dal_run_observe(run, E), DAL_OK);
-    CU_ASSERT_DOUBLE_EQUAL(E[0] - dal_run_jump(run, 0), 9.81 * 1.1, 1e-12);
-    CU_ASSERT_EQUAL(dal_run_jump(run, 1), 0.0);
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_event_jump(run, 0), (pow(0.8, 6) - 1.0) * 9.81, 1e-12);
+    CU_ASSERT_EQUAL(dal_run_observe(run, E), DAL_STATUS_OK);
+    CU_ASSERT_DOUBLE_EQUAL(E[0] - dal_run_event_jump(run, 0), 9.81 * 1.1, 1e-12);
+    CU_ASSERT_EQUAL(dal_run_event_jump(run, 1), 0.0);
     CU_ASSERT_EQUAL(dal_run_event_count(run, 1), -1);
     dal_run_free(run);
 }
@@ -492,7 +497,7 @@ static void test_quad(void)
         fixture_spec(fixture_system(BALL("restitution: c")), "gauss4", DAL_PHYSICAL, 0.05);
     spec.options.precision = DAL_QUAD;
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(fixture_events(run, 1.0, NULL, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(fixture_events(run, 1.0, NULL, NULL, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_event_count(run, 0), 1);
     const double first = sqrt(2.0 / 9.81), t = dal_run_time(run) - first;
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], 0.1 + 0.8 * 9.81 * first * t - 0.5 * 9.81 * t * t,
@@ -512,16 +517,16 @@ static void test_refuses(void)
     char *text;
     spec.start = &start;
     spec.start_count = 1;
-    fixture_refused(&spec, DAL_UNSUPPORTED, "events act on p = pi = 0 only");
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, "events act on p = pi = 0 only");
     spec.start_count = 0;
     dal_run *run = fixture_run(&spec);
     fixture_perturb(run, 1.0);
-    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "events act on p = pi = 0 only"));
     dal_run_free(run);
-    CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 4, 0, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 4, 0, &error), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "has events: batches would pass over them"));
-    CU_ASSERT_EQUAL(dal_generate(&spec, 1, "ball", &text, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_generate(&spec, 1, "ball", &text, &error), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "has events"));
 }
 
@@ -540,7 +545,7 @@ static void test_inelastic(void)
             "events: [{when: 1 - x*cos(%.17g) - y*sin(%.17g), direction: down, restitution: 0}]"
             "\n",
             cos(a) - x * sin(a), sin(a) + x * cos(a), a, a);
-        const record r = events_of(text, "rk4", DAL_PHYSICAL, 0.1, 3.0, DAL_OK, NULL);
+        const record r = events_of(text, "rk4", DAL_PHYSICAL, 0.1, 3.0, DAL_STATUS_OK, NULL);
         CU_ASSERT_EQUAL_FATAL(r.count, 1);
         CU_ASSERT_DOUBLE_EQUAL(r.t[0], 1.0, 1e-12);
         CU_ASSERT_DOUBLE_EQUAL(r.after[0][2], -x * sin(a), 1e-14);

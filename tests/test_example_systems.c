@@ -13,8 +13,8 @@ static const dal_system *open_system(dal_model **model, const char *name)
     const dal_system *system = NULL;
     char path[256];
     snprintf(path, sizeof path, "examples/%s", name);
-    CU_ASSERT_FATAL(dal_model_read_file(model, path, NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_model_system(*model, &system, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_model_read_file(model, path, NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_model_system(*model, &system, NULL) == DAL_STATUS_OK);
     return system;
 }
 
@@ -26,13 +26,13 @@ static dal_run *create_run(const dal_system *system, int i, double step)
     dal_run_spec spec = {.system = system, .options = dal_options_default()};
     dal_run *run = NULL;
     if (integrator->properties & DAL_MODIFIER) return NULL;
-    CU_ASSERT_EQUAL(dal_method_parse(&spec.method, integrator->name, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_method_parse(&spec.method, integrator->name, NULL), DAL_STATUS_OK);
     spec.options.space = DAL_PHYSICAL;
     spec.options.step = step;
     spec.options.consistent = 1; /* the car with trailers begins off D = 0 */
     const dal_status status = dal_run_create(&run, &spec, NULL);
-    CU_ASSERT(status == DAL_OK || status == DAL_UNSUPPORTED);
-    return status == DAL_OK ? run : NULL;
+    CU_ASSERT(status == DAL_STATUS_OK || status == DAL_STATUS_UNSUPPORTED);
+    return status == DAL_STATUS_OK ? run : NULL;
 }
 
 /* One step of a large system by an implicit method takes a tenth of a second, and under valgrind
@@ -54,8 +54,8 @@ static void take_steps(const char *name)
         if (!run) continue;
         accepted++;
         CU_ASSERT_EQUAL(dal_run_advance(run, steps_of(system, dal_integrator_at(i)), &error),
-                        DAL_OK);
-        if (error.status != DAL_OK)
+                        DAL_STATUS_OK);
+        if (error.status != DAL_STATUS_OK)
             printf("%s, %s: %s\n", name, dal_integrator_at(i)->name, error.message);
         dal_run_free(run);
     }
@@ -92,7 +92,7 @@ static void compare_ends(const char *name, double step, double T, const double *
         if (!run) continue;
         dal_method method = {.layer = {dal_integrator_at(i)}};
         double worst = 0.0;
-        CU_ASSERT_EQUAL(dal_run_advance(run, (long long)(T / step + 0.5), NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, (long long)(T / step + 0.5), NULL), DAL_STATUS_OK);
         for (int k = 0; k < system->n; k++) worst = fmax(worst, fabs(dal_run_state(run)[k] - q[k]));
         CU_ASSERT(worst <= allowed(dal_method_order(&method)));
         if (!(worst <= allowed(dal_method_order(&method))))
@@ -235,8 +235,8 @@ static void test_solved_car(void)
     CU_ASSERT_FATAL(place != NULL && length + 64 < sizeof text);
     snprintf(text, sizeof text, "%.*sf': -0.25, solve: [y', a', b1', b2']}%s",
              (int)(place - source), source, place + strlen(end));
-    CU_ASSERT_FATAL(dal_model_read(&model, NULL, text, strlen(text), NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_model_system(model, &system, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_model_read(&model, NULL, text, strlen(text), NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_model_system(model, &system, NULL) == DAL_STATUS_OK);
     dal_run *run = create_run(system, 0, 0.01);
     CU_ASSERT_FATAL(run != NULL);
     for (int i = 0; i < 6; i++)

@@ -34,7 +34,7 @@ static dal_evaluator *evaluator_of(const dal_system *system)
 {
     dal_evaluator *evaluator = NULL;
     CU_ASSERT_PTR_NOT_NULL_FATAL(system);
-    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_STATUS_OK);
     return evaluator;
 }
 
@@ -42,7 +42,7 @@ static void field(dal_evaluator *evaluator, const double *at_v, double *F)
 {
     const dal_system *system = dal_evaluator_system(evaluator);
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.field, 0.0, q, at_v, NULL, F),
-                    DAL_OK);
+                    DAL_STATUS_OK);
 }
 
 /* Along F~ neither E nor D changes, by differences. */
@@ -51,10 +51,12 @@ static void check_rates(dal_evaluator *extended)
     const dal_system *system = dal_evaluator_system(extended);
     const dal_point at = {.t = 0.0, .q = q, .v = v};
     double rate[MAX];
-    CU_ASSERT_EQUAL(dal_measure_rate(extended, system->energy, 1, &at, rate), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_measure_rate(extended, system->energy, 1, &at, rate),
+                    DAL_STATUS_OK);
     if (!(fabs(rate[0]) <= 1e-11)) printf("\n  %s: dE/dt %.2e\n", system->name, rate[0]);
     CU_ASSERT(fabs(rate[0]) <= 1e-11);
-    CU_ASSERT_EQUAL(dal_measure_rate(extended, system->constraints, system->m, &at, rate), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_measure_rate(extended, system->constraints, system->m, &at, rate),
+                    DAL_STATUS_OK);
     for (int a = 0; a < system->m; a++) CU_ASSERT(fabs(rate[a]) <= 1e-11);
 }
 
@@ -64,7 +66,7 @@ static void check_surface(dal_evaluator *plain, dal_evaluator *extended)
     const int n = dal_evaluator_system(plain)->n;
     double on[MAX], F[2][MAX], off_by = 0.0, on_by = 0.0;
     memcpy(on, v, sizeof v);
-    CU_ASSERT_EQUAL(dal_project_velocity(plain, 0.0, q, on), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_project_velocity(plain, 0.0, q, on), DAL_STATUS_OK);
     field(plain, v, F[0]);
     field(extended, v, F[1]);
     for (int i = 0; i < n; i++) off_by = fmax(off_by, fabs(F[1][i] - F[0][i]));
@@ -113,7 +115,7 @@ static double slope(dal_evaluator *evaluator, int k)
             x[k] += (side ? -1 : 1) * (j + 1) * step;
             CU_ASSERT_EQUAL(
                 dal_evaluator_call(evaluator, system->energy, 0.0, x, x + MAX, NULL, &E[side]),
-                DAL_OK);
+                DAL_STATUS_OK);
         }
         sum += weight[j] * (E[0] - E[1]) / step;
     }
@@ -128,8 +130,9 @@ static void test_normal(void)
         const int n = system->n;
         double E, out[1 + 3 * MAX], again[1 + 3 * MAX];
         dal_callback *normal = system->call.energy_normal;
-        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, normal, 0.0, q, v, NULL, out), DAL_OK);
-        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->energy, 0.0, q, v, NULL, &E), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, normal, 0.0, q, v, NULL, out), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->energy, 0.0, q, v, NULL, &E),
+                        DAL_STATUS_OK);
         CU_ASSERT_EQUAL(out[0], E);
         for (int j = 0; j < n; j++) {
             CU_ASSERT_DOUBLE_EQUAL(out[1 + j], slope(evaluator, j), 1e-11);
@@ -137,7 +140,8 @@ static void test_normal(void)
         }
         /* E_v is W v, and so E_q where v is W^-1 E_q. */
         const double *x = out + 1 + 2 * n;
-        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, normal, 0.0, q, x, NULL, again), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, normal, 0.0, q, x, NULL, again),
+                        DAL_STATUS_OK);
         for (int j = 0; j < n; j++) CU_ASSERT_DOUBLE_EQUAL(again[1 + n + j], out[1 + j], 1e-13);
         dal_evaluator_free(evaluator);
     }
@@ -152,10 +156,10 @@ static double energy_error(const dal_system *system, int extend, long long count
     double first[16], now[16], max = 0.0;
     spec.options.extend_energy = extend;
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_STATUS_OK);
     for (int i = 0; i < 1000; i++) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, count / 1000, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, count / 1000, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_STATUS_OK);
         max = fmax(max, fabs(now[1] / first[1] - 1.0));
     }
     dal_run_free(run);
@@ -193,7 +197,7 @@ static void test_lifted(void)
     dal_run *run = fixture_run(&spec);
     fixture_perturb(run, 0.3);
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
-                    DAL_OK);
+                    DAL_STATUS_OK);
     CU_ASSERT(defect <= 1e-9);
     dal_run_free(run);
 }
@@ -204,7 +208,7 @@ static void refused(const char *text, const char *reason)
 {
     dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
     spec.options.extend_energy = 1;
-    fixture_refused(&spec, DAL_UNSUPPORTED, reason);
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, reason);
 }
 
 static void test_refused(void)
@@ -219,7 +223,7 @@ static void test_refused(void)
     dal_run *run = NULL;
     by_hand.extended = NULL;
     spec.options.extend_energy = 1;
-    CU_ASSERT_EQUAL(dal_run_create(&run, &spec, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_run_create(&run, &spec, &error), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "the system has no such extension"));
 }
 

@@ -195,61 +195,61 @@ static const struct {
     int line, column;
     const char *message;
 } faults[] = {
-    {"", DAL_SYNTAX, 1, 1, "the formula is empty"},
-    {" \n ", DAL_SYNTAX, 1, 1, "the formula is empty"},
-    {"2x", DAL_SYNTAX, 1, 2, "write 2*x"},
-    {"x + 2.5 y'", DAL_SYNTAX, 1, 9, "write 2.5*y'"},
-    {"2(x)", DAL_SYNTAX, 1, 2, "write 2*("},
-    {"2sin(x)", DAL_SYNTAX, 1, 2, "write 2*sin"},
-    {"x y", DAL_SYNTAX, 1, 3, "an operator is missing before 'y'"},
-    {"(x)(y)", DAL_SYNTAX, 1, 4, "an operator is missing before '('"},
-    {"1.2.3", DAL_SYNTAX, 1, 4, "an operator is missing before '.3'"},
-    {"(x", DAL_SYNTAX, 1, 1, "'(' is never closed"},
-    {"x*((y + 1)", DAL_SYNTAX, 1, 3, "'(' is never closed"},
-    {"sin(x", DAL_SYNTAX, 1, 1, "'(' is never closed"},
-    {"x)", DAL_SYNTAX, 1, 2, "')' closes no '('"},
-    {"()", DAL_SYNTAX, 1, 2, "a value is missing before ')'"},
-    {"x +", DAL_SYNTAX, 1, 4, "a value is missing at the end"},
-    {"x + * y", DAL_SYNTAX, 1, 5, "a value is missing before '*'"},
-    {"-", DAL_SYNTAX, 1, 2, "a value is missing at the end"},
-    {"^2", DAL_SYNTAX, 1, 1, "a value is missing before '^'"},
-    {"x, y", DAL_SYNTAX, 1, 2, "',' outside the arguments of a function"},
-    {"(x, y)", DAL_SYNTAX, 1, 3, "',' outside the arguments of a function"},
-    {"sin(x, y)", DAL_SYNTAX, 1, 1, "sin takes 1 argument, not 2"},
-    {"1 + sqrt()", DAL_SYNTAX, 1, 5, "sqrt takes 1 argument, not 0"},
-    {"atan2(x)", DAL_SYNTAX, 1, 1, "atan2 takes 2 arguments, not 1"},
-    {"atan2(x, y, z)", DAL_SYNTAX, 1, 1, "atan2 takes 2 arguments, not 3"},
-    {"atan2(x,)", DAL_SYNTAX, 1, 9, "a value is missing before ')'"},
-    {"x + sin", DAL_SYNTAX, 1, 5, "sin is a function"},
-    {"x + sine(y)", DAL_NAME, 1, 5, "unknown function 'sine'; did you mean 'sin'?"},
-    {"SQRT(y)", DAL_NAME, 1, 1, "did you mean 'sqrt'?"},
-    {"x'(y)", DAL_SYNTAX, 1, 1, "x' is not a function: write x'*(...)"},
-    {"q'(y)", DAL_NAME, 1, 1, "unknown function 'q''"},
-    {"a + q'", DAL_NAME, 1, 5, "no such name: q'"},
-    {"x + pi'", DAL_NAME, 1, 5, "no such name: pi'"},
-    {"x\n + 3*\n  qq", DAL_NAME, 3, 3, "no such name: qq"},
-    {"x''", DAL_SYNTAX, 1, 3, "second derivative"},
-    {"x '", DAL_SYNTAX, 1, 3, "unexpected '"},
-    {"x/0", DAL_SYNTAX, 1, 2, "division by zero"},
-    {"1 + 1/(1 - 1)", DAL_SYNTAX, 1, 6, "division by zero"},
-    {"x/(y - y)", DAL_SYNTAX, 1, 2, "division by zero"},
-    {"0^-1", DAL_SYNTAX, 1, 2, "division by zero"},
-    {"1/(0*x)", DAL_SYNTAX, 1, 2, "division by zero"},
-    {"1e999", DAL_SYNTAX, 1, 1, "the number 1e999 is too large"},
-    {"x + .", DAL_SYNTAX, 1, 5, "unexpected '.'"},
-    {"x $ y", DAL_SYNTAX, 1, 3, "unexpected '$'"},
-    {"x = y", DAL_SYNTAX, 1, 3, "unexpected '='; a comparison is written =="},
-    {"x <", DAL_SYNTAX, 1, 4, "a value is missing at the end"},
-    {"x < <= y", DAL_SYNTAX, 1, 5, "a value is missing before '<='"},
-    {"x < y < z", DAL_SYNTAX, 1, 7, "comparisons make no chain"},
-    {"x ! y", DAL_SYNTAX, 1, 3, "unexpected '!'"},
-    {"if(x < 1, 2)", DAL_SYNTAX, 1, 1, "if takes 3 arguments, not 2"},
-    {"min(x)", DAL_SYNTAX, 1, 1, "min takes 2 or more arguments, not 1"},
-    {"x + max", DAL_SYNTAX, 1, 5, "max is a function"},
-    {"maxi(x, y)", DAL_NAME, 1, 1, "unknown function 'maxi'; did you mean 'max'?"},
-    {"x \xc2\xb7 y", DAL_SYNTAX, 1, 3, "unexpected byte 0xc2"},
-    {"x +\n\ty +\n \x01", DAL_SYNTAX, 3, 2, "unexpected byte 0x01"},
-    {"x**2", DAL_SYNTAX, 1, 2, "a power is written ^, not **"},
+    {"", DAL_STATUS_SYNTAX, 1, 1, "the formula is empty"},
+    {" \n ", DAL_STATUS_SYNTAX, 1, 1, "the formula is empty"},
+    {"2x", DAL_STATUS_SYNTAX, 1, 2, "write 2*x"},
+    {"x + 2.5 y'", DAL_STATUS_SYNTAX, 1, 9, "write 2.5*y'"},
+    {"2(x)", DAL_STATUS_SYNTAX, 1, 2, "write 2*("},
+    {"2sin(x)", DAL_STATUS_SYNTAX, 1, 2, "write 2*sin"},
+    {"x y", DAL_STATUS_SYNTAX, 1, 3, "an operator is missing before 'y'"},
+    {"(x)(y)", DAL_STATUS_SYNTAX, 1, 4, "an operator is missing before '('"},
+    {"1.2.3", DAL_STATUS_SYNTAX, 1, 4, "an operator is missing before '.3'"},
+    {"(x", DAL_STATUS_SYNTAX, 1, 1, "'(' is never closed"},
+    {"x*((y + 1)", DAL_STATUS_SYNTAX, 1, 3, "'(' is never closed"},
+    {"sin(x", DAL_STATUS_SYNTAX, 1, 1, "'(' is never closed"},
+    {"x)", DAL_STATUS_SYNTAX, 1, 2, "')' closes no '('"},
+    {"()", DAL_STATUS_SYNTAX, 1, 2, "a value is missing before ')'"},
+    {"x +", DAL_STATUS_SYNTAX, 1, 4, "a value is missing at the end"},
+    {"x + * y", DAL_STATUS_SYNTAX, 1, 5, "a value is missing before '*'"},
+    {"-", DAL_STATUS_SYNTAX, 1, 2, "a value is missing at the end"},
+    {"^2", DAL_STATUS_SYNTAX, 1, 1, "a value is missing before '^'"},
+    {"x, y", DAL_STATUS_SYNTAX, 1, 2, "',' outside the arguments of a function"},
+    {"(x, y)", DAL_STATUS_SYNTAX, 1, 3, "',' outside the arguments of a function"},
+    {"sin(x, y)", DAL_STATUS_SYNTAX, 1, 1, "sin takes 1 argument, not 2"},
+    {"1 + sqrt()", DAL_STATUS_SYNTAX, 1, 5, "sqrt takes 1 argument, not 0"},
+    {"atan2(x)", DAL_STATUS_SYNTAX, 1, 1, "atan2 takes 2 arguments, not 1"},
+    {"atan2(x, y, z)", DAL_STATUS_SYNTAX, 1, 1, "atan2 takes 2 arguments, not 3"},
+    {"atan2(x,)", DAL_STATUS_SYNTAX, 1, 9, "a value is missing before ')'"},
+    {"x + sin", DAL_STATUS_SYNTAX, 1, 5, "sin is a function"},
+    {"x + sine(y)", DAL_STATUS_NAME, 1, 5, "unknown function 'sine'; did you mean 'sin'?"},
+    {"SQRT(y)", DAL_STATUS_NAME, 1, 1, "did you mean 'sqrt'?"},
+    {"x'(y)", DAL_STATUS_SYNTAX, 1, 1, "x' is not a function: write x'*(...)"},
+    {"q'(y)", DAL_STATUS_NAME, 1, 1, "unknown function 'q''"},
+    {"a + q'", DAL_STATUS_NAME, 1, 5, "no such name: q'"},
+    {"x + pi'", DAL_STATUS_NAME, 1, 5, "no such name: pi'"},
+    {"x\n + 3*\n  qq", DAL_STATUS_NAME, 3, 3, "no such name: qq"},
+    {"x''", DAL_STATUS_SYNTAX, 1, 3, "second derivative"},
+    {"x '", DAL_STATUS_SYNTAX, 1, 3, "unexpected '"},
+    {"x/0", DAL_STATUS_SYNTAX, 1, 2, "division by zero"},
+    {"1 + 1/(1 - 1)", DAL_STATUS_SYNTAX, 1, 6, "division by zero"},
+    {"x/(y - y)", DAL_STATUS_SYNTAX, 1, 2, "division by zero"},
+    {"0^-1", DAL_STATUS_SYNTAX, 1, 2, "division by zero"},
+    {"1/(0*x)", DAL_STATUS_SYNTAX, 1, 2, "division by zero"},
+    {"1e999", DAL_STATUS_SYNTAX, 1, 1, "the number 1e999 is too large"},
+    {"x + .", DAL_STATUS_SYNTAX, 1, 5, "unexpected '.'"},
+    {"x $ y", DAL_STATUS_SYNTAX, 1, 3, "unexpected '$'"},
+    {"x = y", DAL_STATUS_SYNTAX, 1, 3, "unexpected '='; a comparison is written =="},
+    {"x <", DAL_STATUS_SYNTAX, 1, 4, "a value is missing at the end"},
+    {"x < <= y", DAL_STATUS_SYNTAX, 1, 5, "a value is missing before '<='"},
+    {"x < y < z", DAL_STATUS_SYNTAX, 1, 7, "comparisons make no chain"},
+    {"x ! y", DAL_STATUS_SYNTAX, 1, 3, "unexpected '!'"},
+    {"if(x < 1, 2)", DAL_STATUS_SYNTAX, 1, 1, "if takes 3 arguments, not 2"},
+    {"min(x)", DAL_STATUS_SYNTAX, 1, 1, "min takes 2 or more arguments, not 1"},
+    {"x + max", DAL_STATUS_SYNTAX, 1, 5, "max is a function"},
+    {"maxi(x, y)", DAL_STATUS_NAME, 1, 1, "unknown function 'maxi'; did you mean 'max'?"},
+    {"x \xc2\xb7 y", DAL_STATUS_SYNTAX, 1, 3, "unexpected byte 0xc2"},
+    {"x +\n\ty +\n \x01", DAL_STATUS_SYNTAX, 3, 2, "unexpected byte 0x01"},
+    {"x**2", DAL_STATUS_SYNTAX, 1, 2, "a power is written ^, not **"},
 };
 
 static void test_faults(void)
@@ -257,7 +257,7 @@ static void test_faults(void)
     for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
         dal__graph *graph = formula_graph();
         dal__node node = 1;
-        dal_error error = {.status = DAL_OK};
+        dal_error error = {.status = DAL_STATUS_OK};
         dal_status status = formula_parse(graph, faults[i].text, &node, &error);
         bool right = status == faults[i].status && error.status == status && node == 0 &&
                      error.line == faults[i].line && error.column == faults[i].column &&
@@ -279,11 +279,11 @@ static void test_zero_byte(void)
     dal_error error;
     const dal__names names = {.resolve = formula_resolve, .user = graph};
     dal_status status = dal__parse(graph, "x + \0y", 6, &names, &node, &error);
-    CU_ASSERT_EQUAL(status, DAL_SYNTAX);
+    CU_ASSERT_EQUAL(status, DAL_STATUS_SYNTAX);
     CU_ASSERT_EQUAL(error.column, 5);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "unexpected byte 0x00"));
     /* What lies after the end is not read. */
-    CU_ASSERT_EQUAL(dal__parse(graph, "x + y'", 5, &names, &node, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal__parse(graph, "x + y'", 5, &names, &node, &error), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal__inspect(graph, node).op, DAL__ADD);
     CU_ASSERT_EQUAL(dal__symbol(graph, Y), dal__inspect(graph, node).b);
     dal__graph_free(graph);
@@ -341,9 +341,9 @@ static void test_deep_sums(void)
     char *text = repeated("", "sum(i,1,1,", "x", ")", 17);
     dal__graph *graph = formula_graph();
     dal__node node;
-    dal_error error = {.status = DAL_OK};
-    CU_ASSERT_EQUAL(formula_parse(graph, text, &node, &error), DAL_SYNTAX);
-    CU_ASSERT(error.status == DAL_SYNTAX && error.line == 1 && error.column == 16 * 10 + 1);
+    dal_error error = {.status = DAL_STATUS_OK};
+    CU_ASSERT_EQUAL(formula_parse(graph, text, &node, &error), DAL_STATUS_SYNTAX);
+    CU_ASSERT(error.status == DAL_STATUS_SYNTAX && error.line == 1 && error.column == 16 * 10 + 1);
     CU_ASSERT_STRING_EQUAL(error.message, "sums nest deeper than 16");
     dal__graph_free(graph);
     free(text);
@@ -363,7 +363,7 @@ static const char *own_name(void *user, int i, int *arity)
 static dal__node call_own(void *user, int i, const dal__node *argument, dal_error *error)
 {
     if (i == NEXT) return dal__node_add(user, argument[0], dal__number(user, 1.0));
-    error->status = DAL_MODEL;
+    error->status = DAL_STATUS_MODEL;
     snprintf(error->message, sizeof error->message, "never has no value");
     return 0;
 }
@@ -377,26 +377,29 @@ static void test_own_functions(void)
         dal_status status;
         int column;
         const char *message;
-    } cases[] = {{"2*next(x)", 100, DAL_OK, 0, ""},
-                 {"2*next(x)", 3, DAL_TOO_LARGE, 9, "the formula is too large"},
-                 {"2*next(x)", 2, DAL_TOO_LARGE, 9, "the formula is too large"},
-                 {"2*never(x)", 100, DAL_MODEL, 3, "never has no value"},
-                 {"2*next(x, y)", 100, DAL_SYNTAX, 3, "next takes 1 argument, not 2"},
-                 {"2*next", 100, DAL_SYNTAX, 3, "next is a function: write next(...)"},
-                 {"2*nest(x)", 100, DAL_NAME, 3, "unknown function 'nest'; did you mean 'next'?"}};
+    } cases[] = {
+        {"2*next(x)", 100, DAL_STATUS_OK, 0, ""},
+        {"2*next(x)", 3, DAL_STATUS_TOO_LARGE, 9, "the formula is too large"},
+        {"2*next(x)", 2, DAL_STATUS_TOO_LARGE, 9, "the formula is too large"},
+        {"2*never(x)", 100, DAL_STATUS_MODEL, 3, "never has no value"},
+        {"2*next(x, y)", 100, DAL_STATUS_SYNTAX, 3, "next takes 1 argument, not 2"},
+        {"2*next", 100, DAL_STATUS_SYNTAX, 3, "next is a function: write next(...)"},
+        {"2*nest(x)", 100, DAL_STATUS_NAME, 3, "unknown function 'nest'; did you mean 'next'?"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         dal__graph *graph = formula_graph();
         const dal__names names = {formula_resolve, own_name, call_own, graph};
         dal__node node = 0;
-        dal_error error = {.status = DAL_OK};
+        dal_error error = {.status = DAL_STATUS_OK};
         graph->limit = cases[i].limit;
         CU_ASSERT_EQUAL(
             dal__parse(graph, cases[i].text, strlen(cases[i].text), &names, &node, &error),
             cases[i].status);
         CU_ASSERT_EQUAL(error.status, cases[i].status);
-        if (cases[i].status == DAL_OK) CU_ASSERT_EQUAL(dal__evaluate(graph, node, point), 2.6);
-        if (cases[i].status != DAL_OK) CU_ASSERT_STRING_EQUAL(error.message, cases[i].message);
-        if (cases[i].status != DAL_OK) CU_ASSERT_EQUAL(error.column, cases[i].column);
+        if (cases[i].status == DAL_STATUS_OK)
+            CU_ASSERT_EQUAL(dal__evaluate(graph, node, point), 2.6);
+        if (cases[i].status != DAL_STATUS_OK)
+            CU_ASSERT_STRING_EQUAL(error.message, cases[i].message);
+        if (cases[i].status != DAL_STATUS_OK) CU_ASSERT_EQUAL(error.column, cases[i].column);
         dal__graph_free(graph);
     }
 }
@@ -444,7 +447,8 @@ static void test_out_of_memory(void)
         dal_error error;
         allocation_start(&trial);
         dal__graph *graph = formula_graph();
-        allocation_end(&trial, graph ? formula_parse(graph, text, &node, &error) : DAL_MEMORY);
+        allocation_end(&trial,
+                       graph ? formula_parse(graph, text, &node, &error) : DAL_STATUS_MEMORY);
         dal__graph_free(graph);
     }
     free(text);
@@ -479,25 +483,26 @@ static void test_every_node(void)
                  {"sum(i, 1, 3, i*x)", {0}},
                  {"sum(i, 1, 2, i)*sin(cos(y))", {0}}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        dal_status status = DAL_TOO_LARGE;
-        for (int limit = 0; status != DAL_OK && limit < 100; limit++) {
+        dal_status status = DAL_STATUS_TOO_LARGE;
+        for (int limit = 0; status != DAL_STATUS_OK && limit < 100; limit++) {
             dal__graph *graph = formula_graph();
             dal__node node = 0;
-            dal_error error = {.status = DAL_OK};
+            dal_error error = {.status = DAL_STATUS_OK};
             graph->limit = limit;
             const dal__names names = {.resolve = resolve_index, .user = graph};
             status = dal__parse(graph, cases[i].text, strlen(cases[i].text), &names, &node, &error);
             const int column = limit < 8 ? cases[i].column[limit] : 0;
             CU_ASSERT_EQUAL(status, graph->status);
             CU_ASSERT_EQUAL(status, error.status);
-            CU_ASSERT_EQUAL(status == DAL_OK, node > 0);
-            if (status != DAL_OK) CU_ASSERT_STRING_EQUAL(error.message, "the formula is too large");
-            if (status != DAL_OK && column) CU_ASSERT_EQUAL(error.column, column);
-            if (status != DAL_OK && column && error.column != column)
+            CU_ASSERT_EQUAL(status == DAL_STATUS_OK, node > 0);
+            if (status != DAL_STATUS_OK)
+                CU_ASSERT_STRING_EQUAL(error.message, "the formula is too large");
+            if (status != DAL_STATUS_OK && column) CU_ASSERT_EQUAL(error.column, column);
+            if (status != DAL_STATUS_OK && column && error.column != column)
                 printf("\n%s, node %d: column %d\n", cases[i].text, limit + 1, error.column);
             dal__graph_free(graph);
         }
-        CU_ASSERT_EQUAL(status, DAL_OK);
+        CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
     }
 }
 

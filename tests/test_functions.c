@@ -17,7 +17,7 @@ static double field_difference(const char *one, const char *other)
     const char *const texts[] = {one, other};
     for (int k = 0; k < 2; k++) {
         reference b = reference_of_text(texts[k]);
-        CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.6, q, v, F[k]), DAL_OK);
+        CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.6, q, v, F[k]), DAL_STATUS_OK);
         reference_free(&b);
     }
     return fmax(fabs(F[0][0] - F[1][0]), fabs(F[0][1] - F[1][1]));
@@ -67,7 +67,7 @@ static void test_nesting(void)
     reference b = reference_of_text(strcat(text, "forces: {x: f59(x)}\n"));
     const double q = 3.0, v = 0.0;
     double F = 0.0;
-    CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.0, &q, &v, &F), DAL_OK);
+    CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.0, &q, &v, &F), DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(F, 1.5, 1e-15);
     reference_free(&b);
 }
@@ -95,7 +95,7 @@ static void test_indices(void)
     CU_ASSERT_STRING_EQUAL(b.system->coordinate[1], "u2");
     CU_ASSERT_STRING_EQUAL(b.system->parameter[2], "k3");
     double start[5];
-    CU_ASSERT_EQUAL(reference_call(&b, b.system->start, 0.0, NULL, NULL, start), DAL_OK);
+    CU_ASSERT_EQUAL(reference_call(&b, b.system->start, 0.0, NULL, NULL, start), DAL_STATUS_OK);
     CU_ASSERT(start[0] == 0.0 && start[1] == 3.0 && start[2] == 0.5 && start[3] == 0.5);
     reference_free(&b);
 }
@@ -111,10 +111,10 @@ typedef struct large {
 static large open_large(const char *path)
 {
     large z = {.model = NULL};
-    CU_ASSERT_FATAL(dal_model_read_file(&z.model, path, NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_model_system(z.model, &z.system, NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_evaluator_create(&z.evaluator, z.system, NULL, 0, NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_evaluator_start(z.evaluator, NULL, 0, z.start, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_model_read_file(&z.model, path, NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_model_system(z.model, &z.system, NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_evaluator_create(&z.evaluator, z.system, NULL, 0, NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_evaluator_start(z.evaluator, NULL, 0, z.start, NULL) == DAL_STATUS_OK);
     return z;
 }
 
@@ -122,7 +122,7 @@ static void evaluate_large(large *z)
 {
     CU_ASSERT_EQUAL(dal_evaluator_call(z->evaluator, z->system->call.field, 0.0, z->start,
                                        z->start + z->system->n, NULL, z->F),
-                    DAL_OK);
+                    DAL_STATUS_OK);
 }
 
 static void close_large(large *z)
@@ -186,7 +186,7 @@ static void test_thousand(void)
     double F[1023], q[1023], v[1023] = {0.0};
     reference b = reference_of_text(text);
     for (int i = 0; i < 1023; i++) q[i] = 0.1 * i * i;
-    CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.0, q, v, F), DAL_OK);
+    CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.0, q, v, F), DAL_STATUS_OK);
     for (int i = 1; i < 1022; i++) {
         const double left = q[i] - q[i - 1], right = q[i + 1] - q[i];
         const double expected = 4 * (right * right * right - left * left * left);
@@ -207,7 +207,7 @@ static void test_sparse(void)
     double F[N], q[N], v[N] = {0.0};
     reference b = reference_of_text(text);
     for (int i = 0; i < N; i++) q[i] = sin(1.0 + i);
-    CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.0, q, v, F), DAL_OK);
+    CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.0, q, v, F), DAL_STATUS_OK);
     for (int i = 0; i < N; i++) {
         const int first = i / 2 * 2, other = 2 * first + 1 - i;
         CU_ASSERT_DOUBLE_EQUAL(2 * F[i] + cos(q[first]) / 4 * F[other], -q[i], 1e-14);
@@ -237,8 +237,9 @@ static void test_dense(void)
         dal_model *model = NULL;
         const dal_system *system;
         const size_t length = strlen(cases[i].text);
-        CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, "dense", cases[i].text, length, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_TOO_LARGE);
+        CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, "dense", cases[i].text, length, NULL),
+                              DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_STATUS_TOO_LARGE);
         snprintf(message, sizeof message,
                  "the mass matrix of %d coordinates couples too many of them", cases[i].n);
         CU_ASSERT_STRING_EQUAL(error.message, message);

@@ -16,9 +16,9 @@ static int set_up(void)
 {
     dal_error error;
     spec = (dal_run_spec){.options = dal_options_default()};
-    if (dal_model_builtin(&model, "chaplygin-sleigh", &error) != DAL_OK) return 1;
-    if (dal_model_system(model, &spec.system, &error) != DAL_OK) return 1;
-    return dal_method_parse(&spec.method, "gauss4+project", &error) != DAL_OK;
+    if (dal_model_builtin(&model, "chaplygin-sleigh", &error) != DAL_STATUS_OK) return 1;
+    if (dal_model_system(model, &spec.system, &error) != DAL_STATUS_OK) return 1;
+    return dal_method_parse(&spec.method, "gauss4+project", &error) != DAL_STATUS_OK;
 }
 
 static int tear_down(void)
@@ -31,7 +31,7 @@ static dal_status generate(const dal_run_spec *of, int lanes, const char *prefix
 {
     char *text;
     dal_status status = dal_generate(of, lanes, prefix, &text, error);
-    CU_ASSERT_EQUAL(text == NULL, status != DAL_OK);
+    CU_ASSERT_EQUAL(text == NULL, status != DAL_STATUS_OK);
     free(text);
     return status;
 }
@@ -43,30 +43,30 @@ static void test_refusals(void)
     by_hand.prepare = NULL;
     dal_integrator own = *spec.method.layer[0];
     dal_run_spec other = spec;
-    CU_ASSERT_EQUAL(generate(&spec, 3, NULL, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(generate(&spec, 32, NULL, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(generate(&spec, 1, "", &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(generate(&spec, 1, "a b", &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(generate(&spec, 1, "_a", &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(generate(&spec, 1, "9a", &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(generate(&spec, 1, "a;b", &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(generate(&spec, 1, "dal", &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(generate(&spec, 1, "DAL_", &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(generate(&spec, 1, "dalton", &error), DAL_OK);
+    CU_ASSERT_EQUAL(generate(&spec, 3, NULL, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 32, NULL, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "", &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "a b", &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "_a", &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "9a", &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "a;b", &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "dal", &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "DAL_", &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "dalton", &error), DAL_STATUS_OK);
     other.system = &by_hand;
-    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "chaplygin-sleigh"));
     CU_ASSERT(error.line == 0 && error.column == 0);
     other = spec;
     other.method.layer[0] = &own;
-    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_STATUS_UNSUPPORTED);
     other = spec;
     other.method.layer[2] = other.method.layer[1];
-    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_STATUS_UNSUPPORTED);
     other = spec;
     other.parameters = &(dal_setting){"nothing", 1.0};
     other.parameter_count = 1;
-    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_NAME);
+    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_STATUS_NAME);
 }
 
 /* Every integrator of the library must be found again in the texts it carries. */
@@ -77,10 +77,11 @@ static void test_every_method(void)
         char name[64];
         dal_run_spec other = spec;
         fixture_method(i, name, sizeof name);
-        CU_ASSERT_EQUAL(dal_method_parse(&other.method, name, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_method_parse(&other.method, name, NULL), DAL_STATUS_OK);
         if (dal_method_needs(&other.method) & DAL_NEEDS_BLOCKS) other.options.space = DAL_PHYSICAL;
         const bool serves = fixture_accepts(&other.method, spec.system, other.options.space);
-        CU_ASSERT_EQUAL(generate(&other, 8, NULL, &error), serves ? DAL_OK : DAL_UNSUPPORTED);
+        CU_ASSERT_EQUAL(generate(&other, 8, NULL, &error),
+                        serves ? DAL_STATUS_OK : DAL_STATUS_UNSUPPORTED);
     }
 }
 
@@ -91,8 +92,8 @@ static void test_length(void)
     dal_run_spec rk4 = spec;
     char *text = NULL;
     int lines = 0;
-    CU_ASSERT_EQUAL(dal_method_parse(&rk4.method, "rk4", NULL), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_generate(&rk4, 1, NULL, &text, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_method_parse(&rk4.method, "rk4", NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_generate(&rk4, 1, NULL, &text, NULL), DAL_STATUS_OK);
     for (const char *c = text; *c; c++) lines += *c == '\n';
     CU_ASSERT(lines <= MAX_LINES);
     CU_ASSERT_PTR_NULL(strstr(text, "dal_solve"));
@@ -113,7 +114,7 @@ static void test_unusual_names(void)
         other.name = unusual[i];
         other.title = NULL;
         with.system = &other;
-        CU_ASSERT_EQUAL(dal_generate(&with, 1, NULL, &text, &error), DAL_OK);
+        CU_ASSERT_EQUAL(dal_generate(&with, 1, NULL, &text, &error), DAL_STATUS_OK);
         if (!text) continue;
         const char *name = strstr(text, "typedef struct ") + strlen("typedef struct ");
         const size_t length = strspn(name, "abcdefghijklmnopqrstuvwxyzADL0123456789_");

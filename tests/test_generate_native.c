@@ -53,15 +53,16 @@ static void same_run(const dal_run_spec *of)
     dal_run *const loaded = fixture_run(of);
     dal_error error;
     size_t count;
-    CU_ASSERT_EQUAL(dal_run_advance(tape, 300, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(native, 100, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_native(native, &options, &error), compiles ? DAL_OK : DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_run_advance(tape, 300, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(native, 100, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_native(native, &options, &error),
+                    compiles ? DAL_STATUS_OK : DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_EQUAL(dal_run_is_native(native), compiles);
-    CU_ASSERT_EQUAL(dal_run_advance(native, 135, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(native, 135, &error), DAL_STATUS_OK);
     const double *memory = dal_run_save(native, &count);
-    CU_ASSERT_EQUAL(dal_run_restore(loaded, memory, count, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(native, 65, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(loaded, 65, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(loaded, memory, count, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(native, 65, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(loaded, 65, &error), DAL_STATUS_OK);
     same_memory(native, tape);
     same_memory(loaded, tape);
     dal_run_free(tape);
@@ -77,9 +78,10 @@ static void same_steps(const dal_system *system, const char *method)
     spec.options.solver = DAL_NEWTON;
     dal_run *const tape = fixture_run(&spec), *const native = fixture_run(&spec);
     compiler_fake("exec cc \"$@\" -O0");
-    CU_ASSERT_EQUAL(dal_run_native(native, &plain, NULL), compiles ? DAL_OK : DAL_UNSUPPORTED);
-    CU_ASSERT_EQUAL(dal_run_advance(tape, 10, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(native, 10, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_native(native, &plain, NULL),
+                    compiles ? DAL_STATUS_OK : DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_run_advance(tape, 10, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(native, 10, NULL), DAL_STATUS_OK);
     same_memory(native, tape);
     dal_run_free(tape);
     dal_run_free(native);
@@ -99,7 +101,7 @@ static void test_long(void)
     dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, NULL);
     dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "x'^2/2", 0, 0, NULL);
     dal_model_add(model, DAL_SECTION_FORCES, "x", formula + 1, 0, 0, NULL);
-    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
     same_steps(system, "rk4");
     dal_model_free(model);
 }
@@ -156,11 +158,11 @@ static const char falling[] = "coordinates: [x, y]\nparameters: {s: 0}\n"
 static dal_batch *lanes_of(const dal_run_spec *spec, int count)
 {
     dal_batch *batch = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, count, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, count, 0, NULL), DAL_STATUS_OK);
     for (int i = 0; i < count; i++) {
         const dal_setting s = {"s", i == 0 ? 40.0 : i == 8 ? 4.0 : 0.01 * i};
         const dal_setting start = {"y'", 0.1 * i};
-        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &s, 1, &start, 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &s, 1, &start, 1, NULL), DAL_STATUS_OK);
     }
     return batch;
 }
@@ -185,12 +187,12 @@ static void same_batch(const dal_run_spec *spec, int count, long long first)
     dal_batch_advance(tape, 1000);
     dal_batch_advance(native, first);
     CU_ASSERT_EQUAL(dal_batch_native(native, &options, &error),
-                    compiles ? DAL_OK : DAL_UNSUPPORTED);
+                    compiles ? DAL_STATUS_OK : DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_EQUAL(dal_batch_is_native(native), compiles);
     dal_batch_advance(native, 1000 - first);
     CU_ASSERT_EQUAL(dal_batch_advance(native, 1000), dal_batch_advance(tape, 1000));
     for (int lane = 0; lane < count; lane++) same_lane(tape, native, lane);
-    CU_ASSERT_NOT_EQUAL(dal_batch_status(native, 0, NULL), DAL_OK);
+    CU_ASSERT_NOT_EQUAL(dal_batch_status(native, 0, NULL), DAL_STATUS_OK);
     dal_batch_free(tape);
     dal_batch_free(native);
 }
@@ -212,11 +214,11 @@ static void test_batch_start(void)
     const dal_run_spec spec = fixture_spec(fixture_system(falling), "rk4", DAL_PHYSICAL, 0.001);
     const dal_setting start = {"y", 2.0};
     dal_batch *const tape = lanes_of(&spec, 5), *const native = lanes_of(&spec, 5);
-    if (compiles) CU_ASSERT_EQUAL(dal_batch_native(native, &options, NULL), DAL_OK);
+    if (compiles) CU_ASSERT_EQUAL(dal_batch_native(native, &options, NULL), DAL_STATUS_OK);
     const dal_native_options nothing = {.cache = "/nowhere/at/all"};
-    if (compiles) CU_ASSERT_EQUAL(dal_batch_native(native, &nothing, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_start(tape, 4, NULL, 0, &start, 1, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_start(native, 4, NULL, 0, &start, 1, NULL), DAL_OK);
+    if (compiles) CU_ASSERT_EQUAL(dal_batch_native(native, &nothing, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(tape, 4, NULL, 0, &start, 1, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(native, 4, NULL, 0, &start, 1, NULL), DAL_STATUS_OK);
     dal_batch_advance(tape, 100);
     dal_batch_advance(native, 100);
     for (int lane = 0; lane < 5; lane++) same_lane(tape, native, lane);
@@ -237,13 +239,13 @@ static void test_memory(void)
         const dal_status one = dal_run_native(run, &options, NULL);
         const dal_status many = dal_batch_native(batch, &options, NULL);
         if (!allocation_failed()) break;
-        CU_ASSERT_EQUAL(dal_run_is_native(run), one == DAL_OK);
-        CU_ASSERT_EQUAL(dal_batch_is_native(batch), many == DAL_OK);
-        CU_ASSERT_EQUAL(dal_batch_advance(batch, 10), DAL_OK);
-        CU_ASSERT_EQUAL(dal_batch_advance(tape, 10), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_is_native(run), one == DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_batch_is_native(batch), many == DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_batch_advance(batch, 10), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_batch_advance(tape, 10), DAL_STATUS_OK);
     }
     allocation_fail_after(-1);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     for (int lane = 0; lane < 5; lane++) same_lane(tape, batch, lane);
     dal_run_free(run);
     dal_batch_free(batch);
@@ -259,14 +261,14 @@ static void test_memory_for_samples(void)
     dal_error error = {0};
     int refused = 0;
     CU_ASSERT_EQUAL(dal_run_observables(run), 1);
-    CU_ASSERT_EQUAL(dal_run_observe(run, &first), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, &first), DAL_STATUS_OK);
     for (long n = 0;; n++) {
         allocation_fail_after(n);
         const dal_status status = dal_run_native_observables(run, &options, &error);
         if (!allocation_failed()) break;
-        CU_ASSERT_NOT_EQUAL(status, DAL_OK);
+        CU_ASSERT_NOT_EQUAL(status, DAL_STATUS_OK);
         refused += strstr(error.message, " observations") != NULL;
-        CU_ASSERT_EQUAL(dal_run_observe(run, &again), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, &again), DAL_STATUS_OK);
         CU_ASSERT(again == first);
     }
     allocation_fail_after(-1);
@@ -290,7 +292,7 @@ static void refused(const dal_native_options *with, dal_status expected, const c
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, reason));
     CU_ASSERT(error.line == 0 && error.column == 0);
     CU_ASSERT_FALSE(dal_run_is_native(run));
-    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_STATUS_OK);
     dal_run_free(run);
 }
 
@@ -303,22 +305,22 @@ static void test_cache_refused(void)
 {
     static char long_name[2000];
     memset(long_name, 'x', sizeof long_name - 1);
-    refused(NULL, DAL_ARGUMENT, "no directory");
-    refused_cache(NULL, DAL_ARGUMENT, "no directory");
-    refused_cache("", DAL_ARGUMENT, "no directory");
-    refused_cache(long_name, DAL_ARGUMENT, "too long");
-    refused_cache("/dev/null", DAL_IO, "/dev/null");
-    refused_cache("/nowhere/at/all", DAL_IO, "/nowhere/at/all");
+    refused(NULL, DAL_STATUS_ARGUMENT, "no directory");
+    refused_cache(NULL, DAL_STATUS_ARGUMENT, "no directory");
+    refused_cache("", DAL_STATUS_ARGUMENT, "no directory");
+    refused_cache(long_name, DAL_STATUS_ARGUMENT, "too long");
+    refused_cache("/dev/null", DAL_STATUS_IO, "/dev/null");
+    refused_cache("/nowhere/at/all", DAL_STATUS_IO, "/nowhere/at/all");
     CU_ASSERT_EQUAL_FATAL(mkdir("open", 0700), 0);
     for (int mode = 0701; mode < 0730; mode += 007) { /* others search; the group reads; writes */
         CU_ASSERT_EQUAL(chmod("open", (mode_t)mode), 0);
-        refused_cache("open", DAL_IO, "of this user alone");
+        refused_cache("open", DAL_STATUS_IO, "of this user alone");
     }
     CU_ASSERT_EQUAL(chmod("open", 0700), 0);
     CU_ASSERT_EQUAL(symlink("open", "link"), 0);
-    refused_cache("link", DAL_IO, "of this user alone");
+    refused_cache("link", DAL_STATUS_IO, "of this user alone");
     if (chown("open", 12345, (gid_t)-1) == 0) /* only root may give a directory away */
-        refused_cache("open", DAL_IO, "of this user alone");
+        refused_cache("open", DAL_STATUS_IO, "of this user alone");
     CU_ASSERT_EQUAL(folder_files("open"), 0);
     unlink("link");
     folder_remove("open");
@@ -332,7 +334,7 @@ static void test_cache_names(void)
     for (int i = 0; i < 3 && compiles; i++) {
         dal_run *run = new_run(falling);
         CU_ASSERT_EQUAL(dal_run_native(run, &(dal_native_options){.cache = names[i]}, NULL),
-                        DAL_OK);
+                        DAL_STATUS_OK);
         CU_ASSERT_EQUAL(folder_files(names[i]), 1);
         dal_run_free(run);
         folder_remove(names[i]);
@@ -344,16 +346,16 @@ static void test_compilers_refused(void)
 {
     const dal_native_options fake = {.cache = "cache", .compiler = "./fake", .patience = 600};
     const int kept = (mkdir("cache", 0700), folder_files("cache"));
-    refused(&(dal_native_options){.cache = "cache", .compiler = "./none"}, DAL_UNSUPPORTED,
+    refused(&(dal_native_options){.cache = "cache", .compiler = "./none"}, DAL_STATUS_UNSUPPORTED,
             "no compiler './none'");
     compiler_fake("exit 1");
-    refused(&fake, DAL_UNSUPPORTED, "the compiler './fake' failed");
+    refused(&fake, DAL_STATUS_UNSUPPORTED, "the compiler './fake' failed");
     compiler_fake("kill -SEGV $$");
-    refused(&fake, DAL_UNSUPPORTED, "the compiler './fake' failed");
+    refused(&fake, DAL_STATUS_UNSUPPORTED, "the compiler './fake' failed");
     compiler_fake("exit 0"); /* and makes nothing */
-    refused(&fake, DAL_IO, "cannot seal");
+    refused(&fake, DAL_STATUS_IO, "cannot seal");
     compiler_fake("while [ $# -gt 2 ]; do shift; done; echo 'no object' >\"$1\"");
-    refused(&fake, DAL_IO, "cannot be loaded");
+    refused(&fake, DAL_STATUS_IO, "cannot be loaded");
     CU_ASSERT_EQUAL(folder_files("cache"), kept);
     unlink("fake");
 }
@@ -388,7 +390,7 @@ static void test_compiler_hangs(void)
 {
     const dal_native_options fake = {.cache = "cache", .compiler = "./fake", .patience = 1};
     const int pipe = hanging_compiler();
-    refused(&fake, DAL_UNSUPPORTED, "the compiler './fake' was ended after 1 seconds");
+    refused(&fake, DAL_STATUS_UNSUPPORTED, "the compiler './fake' was ended after 1 seconds");
     assert_ended(pipe);
 }
 
@@ -405,7 +407,7 @@ static void test_compiler_stopped(void)
     const dal_native_options fake = {
         .cache = "cache", .compiler = "./fake", .stop = stop_after, .user = &calls};
     const int kept = folder_files("cache"), pipe = hanging_compiler();
-    refused(&fake, DAL_INTERRUPTED, "the compiler './fake' was stopped");
+    refused(&fake, DAL_STATUS_INTERRUPTED, "the compiler './fake' was stopped");
     assert_ended(pipe);
     CU_ASSERT_EQUAL(folder_files("cache"), kept);
 }
@@ -419,11 +421,11 @@ static void test_foreign_object(void)
                   "echo 'int other;' >other.c; while [ $# -gt 2 ]; do shift; done\n"
                   "exec cc -shared -fPIC other.c -o \"$1\"");
     if (compiles) {
-        CU_ASSERT_EQUAL(dal_run_native(run, &fake, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_native(run, &fake, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(access("other.c", F_OK), 0);
         CU_ASSERT_TRUE(dal_run_is_native(run));
     }
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     dal_run_free(run);
 }
 

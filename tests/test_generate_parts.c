@@ -49,17 +49,17 @@ static bool accepts_with(int number, unsigned parts, int lanes, dal_space space)
         fixture_spec(system, fixture_method(number, name, sizeof name), space, 0.01);
     if (integrator->properties & DAL_ADAPTIVE && !(integrator->properties & DAL_MODIFIER))
         spec.options.tolerance = 1e-9;
-    dal__generation g = {.spec = &spec, .lanes = lanes, .product = DAL__LANES};
-    CU_ASSERT_EQUAL_FATAL(dal__generation_check(&g, "steps", NULL), DAL_OK);
+    dal__generation g = {.spec = &spec, .lanes = lanes, .product = DAL__PRODUCT_LANES};
+    CU_ASSERT_EQUAL_FATAL(dal__generation_check(&g, "steps", NULL), DAL_STATUS_OK);
     if (integrator->properties & DAL_MODIFIER) {
         dal_method rk4;
-        CU_ASSERT_EQUAL_FATAL(dal_method_parse(&rk4, "rk4", NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_method_parse(&rk4, "rk4", NULL), DAL_STATUS_OK);
         g.layout.method.layer[0] = rk4.layer[0];
         dal__find_source(rk4.layer[0], &g.identifier[0], &g.source[0]);
     }
     g.kernel = dal__kernel_closure(parts);
     dal__write_steps(&g);
-    CU_ASSERT_EQUAL_FATAL(dal__generation_finish(&g, &text, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal__generation_finish(&g, &text, NULL), DAL_STATUS_OK);
     const bool accepted = accepts(text);
     free(text);
     return accepted;

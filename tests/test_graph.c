@@ -275,7 +275,7 @@ static void test_values_kept(void)
         sample s = random_formula();
         dal__node node;
         bool usable = isfinite(s.value) && isfinite(s.bound) && s.bound < 1e-9L;
-        if (!usable || formula_parse(graph, s.text, &node, NULL) != DAL_OK) continue;
+        if (!usable || formula_parse(graph, s.text, &node, NULL) != DAL_STATUS_OK) continue;
         tried++;
         double value = dal__evaluate(graph, node, point);
         bool right = fabsl(value - s.value) <= slack * s.bound;
@@ -297,7 +297,7 @@ static void test_too_large(void)
     graph->limit = 1000;
     dal__node x = dal__symbol(graph, X), f = x;
     while (f) f = dal__apply(graph, DAL__EXP, f, 0);
-    CU_ASSERT_EQUAL(graph->status, DAL_TOO_LARGE);
+    CU_ASSERT_EQUAL(graph->status, DAL_STATUS_TOO_LARGE);
     CU_ASSERT_EQUAL(graph->count, 1000);
     /* The graph remembers, and node 0 is nothing to everybody. */
     CU_ASSERT_EQUAL(dal__symbol(graph, X), 0);
@@ -307,7 +307,7 @@ static void test_too_large(void)
     CU_ASSERT_EQUAL(dal__tangent(graph, 0, NULL, 0, NULL), 0);
     CU_ASSERT(isnan(dal__evaluate(graph, 0, point)));
     dal_error error;
-    CU_ASSERT_EQUAL(formula_parse(graph, "x + 1", &f, &error), DAL_TOO_LARGE);
+    CU_ASSERT_EQUAL(formula_parse(graph, "x + 1", &f, &error), DAL_STATUS_TOO_LARGE);
     dal__graph_free(graph);
 }
 

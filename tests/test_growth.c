@@ -16,7 +16,7 @@ enum { MAX_RANKS = 8 };
 static void check_growth(const char *name, dal_model *model, int dimension, const int *rank)
 {
     dal_growth found;
-    bool same = dal_model_growth(model, NULL, 0, NULL, &found, NULL) == DAL_OK &&
+    bool same = dal_model_growth(model, NULL, 0, NULL, &found, NULL) == DAL_STATUS_OK &&
                 found.is_complete && found.dimension == dimension;
     int levels = 0;
     while (rank[levels]) levels++;
@@ -111,11 +111,11 @@ static void test_parameters(void)
     dal_growth found;
     for (int k = 0; k < 2; k++) {
         const dal_setting set = {"k", k};
-        CU_ASSERT_EQUAL(dal_model_growth(b.model, &set, 1, NULL, &found, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_model_growth(b.model, &set, 1, NULL, &found, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(found.levels, k + 1);
     }
     CU_ASSERT_EQUAL(dal_model_growth(b.model, &(dal_setting){"l", 1.0}, 1, NULL, &found, NULL),
-                    DAL_NAME);
+                    DAL_STATUS_NAME);
     reference_free(&b);
 }
 
@@ -124,11 +124,11 @@ static void test_refused(void)
     dal_growth found;
     reference b =
         reference_of_text(PLANE "constraints: [x'^2 + y'^2 - z'^2]\nstart: {x': 1, z': 1}");
-    CU_ASSERT_EQUAL(dal_model_growth(b.model, NULL, 0, NULL, &found, NULL), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_model_growth(b.model, NULL, 0, NULL, &found, NULL), DAL_STATUS_UNSUPPORTED);
     reference_free(&b);
     b = reference_of_text(PLANE);
-    CU_ASSERT_EQUAL(dal_model_growth(b.model, NULL, 0, NULL, &found, NULL), DAL_UNSUPPORTED);
-    CU_ASSERT_EQUAL(dal_model_growth(NULL, NULL, 0, NULL, &found, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_model_growth(b.model, NULL, 0, NULL, &found, NULL), DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_model_growth(NULL, NULL, 0, NULL, &found, NULL), DAL_STATUS_ARGUMENT);
     reference_free(&b);
 }
 

@@ -18,7 +18,7 @@ static void for_each(bool project, visitor *visit, void *user)
         if (dal_integrator_at(i)->properties & DAL_MODIFIER) continue;
         snprintf(name, sizeof name, "%s%s", dal_integrator_at(i)->name, project ? "+project" : "");
         dal_method method;
-        CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_STATUS_OK);
         visit(name, &method, user);
     }
 }
@@ -106,7 +106,7 @@ static void check_symmetric(const char *name, const dal_method *method, void *us
     if (!fixture_accepts(method, user, DAL_PHYSICAL)) return;
     const double h = revealing_step(method, DAL_SYMMETRIC, 0.2);
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, h);
-    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_STATUS_OK);
     const bool claimed = (dal_method_properties(method) & DAL_SYMMETRIC) != 0;
     const bool good = claimed ? defect <= 1e-14 : defect >= 1e-7;
     if (!good) printf("\n  %s: defect %.3e\n", name, defect);
@@ -131,7 +131,8 @@ static void check_pairing(const char *name, const dal_method *method, void *user
     dal_run_spec spec = fixture_spec(fixture_system(text), name, DAL_LIFTED, 0.005);
     spec.start = start;
     spec.start_count = 4;
-    CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, 1000, &pairing, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, 1000, &pairing, NULL),
+                    DAL_STATUS_OK);
     if (!(dal_statistics_deviation(&pairing) <=
           1e-13 * fmax(1.0, dal_statistics_max_abs(&pairing))))
         printf("\n  %s: pairing moved by %.2e\n", name, dal_statistics_deviation(&pairing));
@@ -155,7 +156,7 @@ static void surface_end(const dal_system *system, const char *name, dal_space sp
     spec.start_count = space == DAL_LIFTED;
     dal_run *run = fixture_stepped(&spec, 10 * (int)long_run(20));
     memcpy(qv, dal_run_state(run), 2 * (size_t)system->n * sizeof *qv);
-    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
     for (int i = 0; i < dal_run_observables(run); i++) {
         dal_run_observable_name(run, i, label, sizeof label);
         if (strcmp(label, "H") == 0 || label[0] == '|') CU_ASSERT_EQUAL(seen[i], 0.0);
@@ -205,8 +206,8 @@ static double max_d(const dal_system *system, const char *name, double h, long l
     dal_run *run = fixture_run(&spec);
     double seen[32], max = 0.0;
     for (long long i = 0; i < count; i += 100) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 100, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 100, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
         for (int a = 0; a < system->m; a++) max = fmax(max, fabs(seen[a]));
     }
     dal_run_free(run);

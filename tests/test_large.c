@@ -104,8 +104,8 @@ static void test_fluid_forces(void)
     double qv[2 * FLUID_N], f[FLUID_N], F[FLUID_N], above, below;
     double *work = fluid_point(qv);
     const dal_point at = {0.0, qv, qv + FLUID_N, NULL, work, NULL};
-    CU_ASSERT_EQUAL_FATAL(fluid_forces(&at, f), DAL_OK);
-    CU_ASSERT_EQUAL(fluid_field(&fluid_system, &at, F), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(fluid_forces(&at, f), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(fluid_field(&fluid_system, &at, F), DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(dot(F, qv + FLUID_N, FLUID_N), 0.0, 1e-10);
     for (int i = 0; i < FLUID_N; i += 61) {
         const double kept = qv[i];
@@ -126,19 +126,19 @@ static void test_fluid_list(void)
     double qv[2 * FLUID_N], old[FLUID_N], new[FLUID_N];
     double *work = fluid_point(qv);
     const dal_point at = {0.0, qv, qv + FLUID_N, NULL, work, NULL};
-    CU_ASSERT_EQUAL_FATAL(fluid_forces(&at, old), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(fluid_forces(&at, old), DAL_STATUS_OK);
     for (int i = 0; i < FLUID_N; i++) qv[i] += 0.08 * cos(11.0 * i);
-    CU_ASSERT_EQUAL(fluid_forces(&at, old), DAL_OK);
+    CU_ASSERT_EQUAL(fluid_forces(&at, old), DAL_STATUS_OK);
     CU_ASSERT(fluid_list_of(&at)->origin[1] != qv[1]);
-    CU_ASSERT_EQUAL(fluid_prepare(&fluid_system, &at, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(fluid_forces(&at, new), DAL_OK);
+    CU_ASSERT_EQUAL(fluid_prepare(&fluid_system, &at, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(fluid_forces(&at, new), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(fluid_list_of(&at)->origin[1], qv[1]);
     CU_ASSERT_EQUAL(memcmp(old, new, sizeof old), 0);
     qv[1] += 0.2;
-    CU_ASSERT_EQUAL(fluid_forces(&at, new), DAL_OK);
+    CU_ASSERT_EQUAL(fluid_forces(&at, new), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(fluid_list_of(&at)->origin[1], qv[1]);
     for (int i = 0; i < FLUID_N; i++) qv[i] = 1e-3 * i;
-    CU_ASSERT_EQUAL(fluid_forces(&at, new), DAL_TOO_LARGE);
+    CU_ASSERT_EQUAL(fluid_forces(&at, new), DAL_STATUS_TOO_LARGE);
     free(work);
 }
 

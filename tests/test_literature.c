@@ -10,7 +10,7 @@ static double observable(dal_run *run, const char *name)
 {
     double values[64];
     char label[64];
-    CU_ASSERT_EQUAL(dal_run_observe(run, values), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, values), DAL_STATUS_OK);
     for (int i = 0; dal_run_observable_name(run, i, label, sizeof label); i++)
         if (strcmp(label, name) == 0) return values[i];
     return NAN;
@@ -22,7 +22,7 @@ static double closed_form_error(dal_run *run, long long steps)
     const int n = dal_run_system(run)->n;
     double error = 0.0, scale = 1.0;
     for (long long i = 0; i < steps; i++) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         for (int j = 0; j < n; j++) scale = fmax(scale, fabs(dal_run_state(run)[j]));
         error = fmax(error, observable(run, "error"));
     }
@@ -101,7 +101,7 @@ static double distance_to_circle(const dal_system *system, double k)
     spec.parameter_count = 4;
     dal_run *run = fixture_run(&spec);
     for (int i = 0; i < 200; i++) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         const double *q = dal_run_state(run), t = dal_run_time(run);
         distance = fmax(distance, hypot(q[0] - sin(t), q[1] - (1.0 - cos(t))));
     }

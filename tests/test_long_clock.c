@@ -28,7 +28,7 @@ static void set_step(dal_run *run, long long k)
     memory[dal__at(&run->layout, DAL__TIME)] = t;
     memory[dal__at(&run->layout, DAL__TIME_ERROR)] = fma((double)k, h, -t);
     memory[dal__at(&run->layout, DAL__STEPS)] = (double)k;
-    CU_ASSERT_EQUAL(dal_run_restore(run, memory, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(run, memory, count, NULL), DAL_STATUS_OK);
 }
 
 static void check_clock(const dal_system *system, const char *method, dal_space space)
@@ -37,11 +37,11 @@ static void check_clock(const dal_system *system, const char *method, dal_space 
     dal_run *first = fixture_run(&spec), *run = fixture_run(&spec);
     set_step(run, far_step);
     for (int i = 1; i <= 1000; i++) {
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         if (dal_run_time(run) != (double)(far_step + i) * h) CU_FAIL("the clock is not k h");
     }
     CU_ASSERT_EQUAL(dal_run_steps(run), far_step + 1000);
-    CU_ASSERT_EQUAL(dal_run_advance(first, 1000, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(first, 1000, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(memcmp(dal_run_state(first), dal_run_state(run),
                            (size_t)dal_run_dimension(run) * sizeof(double)),
                     0);
@@ -63,7 +63,7 @@ static void test_from_the_start(void)
         fixture_spec(fixture_system(oscillator), "symplectic-euler", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     for (long long k = 1; k <= 200000; k++) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         if (dal_run_time(run) != (double)k * h) {
             CU_FAIL("the clock is not k h");
             break;
@@ -90,7 +90,7 @@ static dal_status see(void *user, dal_run *run, long long row, double t)
     s->t[s->count] = t;
     s->x[s->count] = dal_run_state(run)[0];
     s->steps[s->count] = dal_run_steps(run);
-    return ++s->count == s->max ? DAL_INTERRUPTED : DAL_OK;
+    return ++s->count == s->max ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
 static void test_rows_on_steps(void)
@@ -102,7 +102,7 @@ static void test_rows_on_steps(void)
     seen s = {.max = ROWS};
     const dal_observer observer = {.user = &s, .sample = see};
     set_step(run, far_step);
-    CU_ASSERT_EQUAL(dal_run_sample(run, T, rows, rows - 2, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, T, rows, rows - 2, &observer, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(s.count, 3);
     for (int i = 0; i < 3; i++) {
         CU_ASSERT_EQUAL(s.steps[i], far_step + 1000 * (i + 1));
@@ -131,7 +131,8 @@ static void test_rows_near_steps(void)
     seen s = {.max = ROWS};
     const dal_observer observer = {.user = &s, .sample = see, .row_time = near_steps};
     set_step(run, far_step);
-    CU_ASSERT_EQUAL(dal_run_sample(run, (double)(far_step + 7) * h, 6, 0, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, (double)(far_step + 7) * h, 6, 0, &observer, NULL),
+                    DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(s.count, 7);
     for (int i = 0; i < 7; i++) {
         const double step = (double)(far_step + i + 1) * h;
@@ -156,7 +157,7 @@ static void test_rows_near_early_steps(void)
     dal_run *run = fixture_run(&spec);
     seen s = {.max = ROWS};
     const dal_observer observer = {.user = &s, .sample = see, .row_time = near_step_one};
-    CU_ASSERT_EQUAL(dal_run_sample(run, 2.0 * h, 5, 0, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 2.0 * h, 5, 0, &observer, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(s.count, 6);
     for (int i = 0; i < 6; i++) {
         const double t = i < 5 ? near_step_one(NULL, i) : 2.0 * h;
@@ -178,7 +179,7 @@ static void test_rows_between_steps(void)
     const dal_observer observer = {.user = &s, .sample = see};
     set_step(run, far_step);
     CU_ASSERT_EQUAL(dal_run_sample(run, T, 2 * steps, 2 * far_step + 1, &observer, NULL),
-                    DAL_INTERRUPTED);
+                    DAL_STATUS_INTERRUPTED);
     CU_ASSERT_EQUAL(s.count, ROWS);
     for (int i = 0; i < s.count; i++) {
         CU_ASSERT_DOUBLE_EQUAL(s.t[i], ((double)far_step + 0.5 * (i + 1)) * h, T * DBL_EPSILON);

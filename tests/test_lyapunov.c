@@ -17,10 +17,10 @@ static dal_lyapunov *lyapunov_of(const char *model, const char *method, double s
     dal_error error = {0};
     const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, step);
     const dal_system *tangent = fixture_tangent(model);
-    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent, 0, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, transient, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent, 0, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, transient, &error), DAL_STATUS_OK);
     dal_lyapunov_discard_transient(s);
-    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, steps, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, steps, &error), DAL_STATUS_OK);
     return s;
 }
 
@@ -131,8 +131,8 @@ static void compare_ways(const char *model, const char *method, double tolerance
     const dal_system *tangent = fixture_tangent(model);
     for (int k = 0; k < 2; k++) {
         const dal_system *given = k == 0 ? tangent : NULL;
-        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&way[k], &spec, given, 0, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_lyapunov_advance(way[k], 10, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&way[k], &spec, given, 0, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(way[k], 10, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_lyapunov_is_exact(way[k]), k == 0);
     }
     for (int i = 0; i < dal_lyapunov_count(way[0]); i++)
@@ -171,15 +171,15 @@ static void test_rank(void)
     for (size_t i = 0; i < sizeof forcing / sizeof *forcing; i++) {
         const dal_run_spec spec =
             fixture_spec(fixture_system("chaplygin-sleigh-offset"), forcing[i], DAL_PHYSICAL, 0.05);
-        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent, 0, &error), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent, 0, &error), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_lyapunov_count(s), 5);
         CU_ASSERT(dal_lyapunov_is_whole(s) && !dal_lyapunov_is_exact(s));
-        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 20, &error), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 20, &error), DAL_STATUS_OK);
         dal_lyapunov_free(s);
-        CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 2, &error), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 2, &error), DAL_STATUS_OK);
         CU_ASSERT(!dal_lyapunov_is_whole(s));
         dal_lyapunov_free(s);
-        CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, tangent, 6, &error), DAL_ARGUMENT);
+        CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, tangent, 6, &error), DAL_STATUS_ARGUMENT);
         CU_ASSERT_PTR_NULL(s);
         CU_ASSERT(strstr(error.message, "the step map has 5") != NULL);
         CU_ASSERT(error.line == 0 && error.column == 0);
@@ -262,9 +262,9 @@ static void test_vakonomic(void)
     dal_lyapunov *s = NULL;
     const dal_run_spec spec =
         fixture_spec(fixture_system("chaplygin-sleigh-vakonomic"), "gauss6", DAL_PHYSICAL, 0.05);
-    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_lyapunov_count(s), 7);
-    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 100, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 100, NULL), DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), fixture_divergence(s), 1e-5);
     dal_lyapunov_free(s);
 }
@@ -276,7 +276,7 @@ static void test_same_bits(void)
     dal_run *run = fixture_run(&spec);
     dal_lyapunov *s = lyapunov_of(fixture_full, "gauss4", 0.05, 7, 23);
     size_t count, other;
-    CU_ASSERT_EQUAL(dal_run_advance(run, 30, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 30, NULL), DAL_STATUS_OK);
     const double *memory = dal_run_save(run, &count);
     CU_ASSERT_EQUAL(
         memcmp(memory, dal_run_save(dal_lyapunov_run(s), &other), count * sizeof *memory), 0);
@@ -291,16 +291,16 @@ static void test_refuses(void)
     dal_lyapunov *s = NULL;
     dal_error error;
     dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh"), "gni", DAL_PHYSICAL, 0.05);
-    CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT(strstr(error.message, "has a multiplier") != NULL);
     CU_ASSERT(error.line == 0 && error.column == 0);
     spec = fixture_spec(fixture_system("chaplygin-sleigh"), "dop853", DAL_PHYSICAL, 0.05);
     spec.options.tolerance = 1e-8;
-    CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT(strstr(error.message, "tolerance") != NULL);
     CU_ASSERT(error.line == 0 && error.column == 0);
     spec.options.tolerance = 0.0;
-    CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, -1, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, -1, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_PTR_NULL(s);
 }
 
@@ -312,12 +312,12 @@ static dal_status two_springs(const dal_system *system, const dal_point *at, dou
 {
     (void)system;
     out[0] = -at->q[0], out[1] = -2.0 * at->q[1];
-    if (calls++ % 4 != 0) return DAL_OK;
+    if (calls++ % 4 != 0) return DAL_STATUS_OK;
     const double size =
         fmax(fmax(fabs(at->q[0]), fabs(at->q[1])), fmax(fabs(at->v[0]), fabs(at->v[1]))) /
         DAL__INCREMENT;
     others += !(fabs(size - round(size)) < 1e-12);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static void test_increments(void)
@@ -325,9 +325,9 @@ static void test_increments(void)
     const dal_system system = {.name = "springs", .n = 2, .call.field = two_springs};
     const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
     dal_lyapunov *s = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 4, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 4, NULL), DAL_STATUS_OK);
     calls = others = 0;
-    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 10, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 10, NULL), DAL_STATUS_OK);
     CU_ASSERT(calls >= 10 * 4 * 4 * 8);
     CU_ASSERT_EQUAL(others, 0);
     dal_lyapunov_free(s);

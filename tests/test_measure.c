@@ -13,7 +13,7 @@ static dal_status cubic_field(const dal_system *s, const dal_point *at, double *
 {
     (void)s;
     out[0] = -at->q[0] * at->q[0] * at->q[0] - 0.5 * at->v[0];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status cubic_jacobian(const dal_system *s, const dal_point *at, double *out)
@@ -21,7 +21,7 @@ static dal_status cubic_jacobian(const dal_system *s, const dal_point *at, doubl
     (void)s;
     out[0] = -3.0 * at->q[0] * at->q[0] + wrong;
     out[1] = -0.5;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status cubic_adjoint(const dal_system *s, const dal_point *at, double *out)
@@ -29,7 +29,7 @@ static dal_status cubic_adjoint(const dal_system *s, const dal_point *at, double
     cubic_field(s, at, out);
     out[1] = (-3.0 * at->q[0] * at->q[0] + wrong) * at->pi[0];
     out[2] = -0.5 * at->pi[0];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status cubic_energy(const dal_system *s, const dal_point *at, double *out)
@@ -37,7 +37,7 @@ static dal_status cubic_energy(const dal_system *s, const dal_point *at, double 
     const double x2 = at->q[0] * at->q[0];
     (void)s;
     out[0] = 0.5 * at->v[0] * at->v[0] + 0.25 * x2 * x2;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static const dal_system cubic = {
@@ -54,17 +54,17 @@ static void test_evaluator(void)
     const dal_setting set[] = {{"v0", 3.0}}, start[] = {{"phi'", 2.0}, {"e", 5.0}};
     dal_evaluator *evaluator;
     double x[7];
-    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, set, 1, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, start, 2, x, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, set, 1, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, start, 2, x, NULL), DAL_STATUS_OK);
     const double expected[] = {0, 0, 0, 3, 0, 2, 5};
     for (int i = 0; i < 7; i++) CU_ASSERT_EQUAL(x[i], expected[i]);
     /* E = (v0^2 + phi'^2)/2 */
     double energy;
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->energy, 0.0, x, x + 3, NULL, &energy),
-                    DAL_OK);
+                    DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(energy, 6.5, 1e-15);
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, NULL, 0.0, x, x + 3, NULL, &energy),
-                    DAL_UNSUPPORTED);
+                    DAL_STATUS_UNSUPPORTED);
     dal_evaluator_free(evaluator);
 }
 
@@ -75,12 +75,13 @@ static void test_evaluator_names(void)
     dal_evaluator *evaluator;
     double x[7];
     const dal_system *system = fixture_system("chaplygin-sleigh");
-    CU_ASSERT_EQUAL(dal_evaluator_create(&evaluator, system, set, 1, &error), DAL_NAME);
+    CU_ASSERT_EQUAL(dal_evaluator_create(&evaluator, system, set, 1, &error), DAL_STATUS_NAME);
     CU_ASSERT_PTR_NULL(evaluator);
     CU_ASSERT(strstr(error.message, "'omge'; did you mean 'omega'?") != NULL);
-    CU_ASSERT_EQUAL(dal_evaluator_create(&evaluator, system, &inf, 1, &error), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_evaluator_create(&evaluator, system, &inf, 1, &error),
+                    DAL_STATUS_NOT_FINITE);
     evaluator = fixture_evaluator(system);
-    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, start, 1, x, &error), DAL_NAME);
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, start, 1, x, &error), DAL_STATUS_NAME);
     CU_ASSERT(strstr(error.message, "'phy'; did you mean 'phi'?") != NULL);
     dal_evaluator_free(evaluator);
 }
@@ -94,9 +95,11 @@ static void test_rate(void)
     dal_evaluator *evaluator = fixture_evaluator(&cubic);
     double rate;
     /* dE/dt = v (v' + x^3) = -v^2/2 */
-    CU_ASSERT_EQUAL(dal_measure_rate(evaluator, cubic.energy, 1, &at, &rate), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_measure_rate(evaluator, cubic.energy, 1, &at, &rate),
+                    DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(rate, -0.5 * v * v, 1e-12);
-    CU_ASSERT_EQUAL(dal_measure_rate(evaluator, NULL, 1, &at, &rate), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_evaluator_measure_rate(evaluator, NULL, 1, &at, &rate),
+                    DAL_STATUS_UNSUPPORTED);
     dal_evaluator_free(evaluator);
 }
 
@@ -107,12 +110,12 @@ static void test_derivatives_find_faults(void)
     dal_evaluator *evaluator = fixture_evaluator(&cubic);
     dal_derivatives d;
     wrong = 0.0;
-    CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_check_derivatives(evaluator, &at, &d), DAL_STATUS_OK);
     CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-12);
     CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-12);
     CU_ASSERT(isnan(d.constraint_jacobian) && isnan(d.gram)); /* nothing to compare */
     wrong = 1e-6;
-    CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_check_derivatives(evaluator, &at, &d), DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(d.jacobian, 1e-6 / (3.0 * q * q - 1e-6), 1e-11);
     CU_ASSERT(d.adjoint > 1e-8);
     wrong = 0.0;
@@ -127,9 +130,9 @@ static void test_derivatives_of_systems(void)
         dal_evaluator *evaluator = fixture_evaluator(fixture_system(texts[k]));
         double x[16];
         dal_derivatives d;
-        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_STATUS_OK);
         const dal_point at = {.t = 0.3, .q = x, .v = x + fixture_system(texts[k])->n};
-        CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_check_derivatives(evaluator, &at, &d), DAL_STATUS_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-10);
         CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-10);
         CU_ASSERT(d.constraint_jacobian >= 0.0 && d.constraint_jacobian < 1e-10);
@@ -156,10 +159,10 @@ static void test_rank(void)
         dal_evaluator *evaluator = fixture_evaluator(fixture_system(cases[k].text));
         double x[16], pivot;
         int rank;
-        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_STATUS_OK);
         if (cases[k].text == twice) x[2] = 1e-12;
         const dal_point at = {.t = 0.0, .q = x, .v = x + fixture_system(cases[k].text)->n};
-        CU_ASSERT_EQUAL(dal_measure_rank(evaluator, &at, &rank, &pivot), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_measure_rank(evaluator, &at, &rank, &pivot), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(rank, cases[k].rank);
         CU_ASSERT(rank == fixture_system(cases[k].text)->m ? pivot > 0.01 : pivot == 0.0);
         dal_evaluator_free(evaluator);
@@ -172,8 +175,9 @@ static void test_project_velocity(void)
     dal_evaluator *evaluator = fixture_evaluator(system);
     const double q[] = {0.1, 0.4, 0.3, 0.2};
     double v[] = {0.9, 0.7, 0.1, 1.3}, D[2];
-    CU_ASSERT_EQUAL(dal_project_velocity(evaluator, 0.4, q, v), DAL_OK);
-    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->constraints, 0.4, q, v, NULL, D), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_project_velocity(evaluator, 0.4, q, v), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->constraints, 0.4, q, v, NULL, D),
+                    DAL_STATUS_OK);
     CU_ASSERT(fabs(D[0]) < 1e-15 && fabs(D[1]) < 1e-15);
     dal_evaluator_free(evaluator);
 }
@@ -186,7 +190,7 @@ static void test_project_velocity_nothing(void)
                                          "constraints: [x'^2 + y'^2 + 1]\nstart: {x': 1}\n"));
     const double q[] = {0.0, 0.0};
     double v[] = {0.6, 0.3};
-    CU_ASSERT_NOT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), DAL_OK);
+    CU_ASSERT_NOT_EQUAL(dal_evaluator_project_velocity(evaluator, 0.0, q, v), DAL_STATUS_OK);
     CU_ASSERT(v[0] == 0.6 && v[1] == 0.3);
     dal_evaluator_free(evaluator);
 }
@@ -199,10 +203,10 @@ static void test_project_velocity_singular(void)
                                          "constraints: [x'^2 + y'^2 - 1]\nstart: {x': 1}\n"));
     const double q[] = {0.0, 0.0};
     double v[] = {0.0, 0.0};
-    CU_ASSERT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), DAL_SINGULAR);
+    CU_ASSERT_EQUAL(dal_evaluator_project_velocity(evaluator, 0.0, q, v), DAL_STATUS_SINGULAR);
     CU_ASSERT(v[0] == 0.0 && v[1] == 0.0);
     v[0] = 0.9;
-    CU_ASSERT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_project_velocity(evaluator, 0.0, q, v), DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(v[0], 1.0, 1e-13);
     CU_ASSERT_EQUAL(v[1], 0.0);
     dal_evaluator_free(evaluator);
@@ -221,10 +225,11 @@ static void test_project_velocity_rounding(void)
                                                 "parameters: {d: 1}\n"
                                                 "constraints: [sqrt(x'^2 + d^2)]\n"),
                                  &d, 1, NULL),
-            DAL_OK);
+            DAL_STATUS_OK);
         const double q[] = {0.0, 0.0};
         double v[] = {d.value, 0.0};
-        CU_ASSERT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), k ? DAL_NOT_CONVERGED : DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_project_velocity(evaluator, 0.0, q, v),
+                        k ? DAL_STATUS_NOT_CONVERGED : DAL_STATUS_OK);
         dal_evaluator_free(evaluator);
     }
 }
@@ -259,9 +264,9 @@ static void examine_kind(const kind *expected)
     dal_evaluator *evaluator = fixture_evaluator(fixture_system(expected->text));
     double x[8], degree = -1.0;
     dal_constraint_class d;
-    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_STATUS_OK);
     const dal_point at = {.t = 0.0, .q = x, .v = x + 3};
-    CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, &degree), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_classify_constraints(evaluator, &at, &d, &degree), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(d.linear, expected->linear);
     CU_ASSERT_EQUAL(d.constant, expected->constant);
     CU_ASSERT_EQUAL(d.bilinear, expected->bilinear);
@@ -298,9 +303,10 @@ static void test_nearly(void)
         snprintf(text, sizeof text, PLANE "[x' + 2*y' - z' + %g*%s]\nstart: {x': 1, z': 1}\n",
                  factor[i % 2], cases[i / 2].more);
         dal_evaluator *evaluator = fixture_evaluator(fixture_system(text));
-        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_STATUS_OK);
         const dal_point at = {.t = 0.0, .q = x, .v = x + 3};
-        CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_classify_constraints(evaluator, &at, &d, NULL),
+                        DAL_STATUS_OK);
         CU_ASSERT_EQUAL(d.linear, i % 2 ? cases[i / 2].linear : 1);
         CU_ASSERT_EQUAL(d.constant, i % 2 ? cases[i / 2].constant : 1);
         CU_ASSERT_EQUAL(d.bilinear, i % 2 ? cases[i / 2].bilinear : 1);
@@ -326,9 +332,9 @@ static void test_nearly_dependent(void)
                        "parameters: {s: %g}\n",
                  s[i]);
         dal_evaluator *evaluator = fixture_evaluator(fixture_system(text));
-        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_STATUS_OK);
         const dal_point at = {.t = 0.0, .q = x, .v = x + 3};
-        CU_ASSERT_EQUAL(dal_measure_rank(evaluator, &at, &rank, &pivot), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_measure_rank(evaluator, &at, &rank, &pivot), DAL_STATUS_OK);
         const int full = i < 2 || i == 4;
         CU_ASSERT_EQUAL(rank, full ? 2 : 1);
         CU_ASSERT_DOUBLE_EQUAL(pivot, full ? s[i] * s[i] / 8.0 : 0.0, 0.15 * s[i] * s[i] / 8.0);
@@ -352,10 +358,11 @@ static void test_nearly_reversible(void)
                 fixture_system("coordinates: [x]\nparameters: {k: 0}\n"
                                "accelerations: {x: -0.5*x - k*x'}\nstart: {x': 1}\n"),
                 &k, 1, NULL),
-            DAL_OK);
-        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
+            DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_STATUS_OK);
         const dal_point at = {.t = 0.0, .q = x, .v = x + 1};
-        CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_classify_constraints(evaluator, &at, &d, NULL),
+                        DAL_STATUS_OK);
         CU_ASSERT(d.force_defect >= 2.0 * frictions[i] - 1e-15);
         CU_ASSERT(d.force_defect <= 2.6 * frictions[i] + 1e-15);
         CU_ASSERT_EQUAL(d.reversible, i < 3);
@@ -375,7 +382,7 @@ static dal_status no_field(const dal_system *s, const dal_point *at, double *out
     (void)s;
     (void)at;
     out[0] = NAN;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static void test_unmeasured(void)
@@ -387,16 +394,19 @@ static void test_unmeasured(void)
     dal_derivatives derivatives;
     dal_constraint_class class;
     double rate;
-    CU_ASSERT_EQUAL(dal_measure_rate(evaluator, system->constraints, 1, &at, &rate),
-                    DAL_NOT_FINITE);
-    CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &derivatives), DAL_NOT_FINITE);
-    CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &class, NULL), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_evaluator_measure_rate(evaluator, system->constraints, 1, &at, &rate),
+                    DAL_STATUS_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_evaluator_check_derivatives(evaluator, &at, &derivatives),
+                    DAL_STATUS_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_evaluator_classify_constraints(evaluator, &at, &class, NULL),
+                    DAL_STATUS_NOT_FINITE);
     CU_ASSERT(!class.linear && !class.constant && !class.bilinear && !class.quadratic);
     CU_ASSERT(!class.homogeneous);
     dal_evaluator_free(evaluator);
     const dal_system empty = {.name = "empty", .n = 1, .call = {.field = no_field}};
     evaluator = fixture_evaluator(&empty);
-    CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &class, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_classify_constraints(evaluator, &at, &class, NULL),
+                    DAL_STATUS_OK);
     CU_ASSERT(isnan(class.force_defect) && !class.reversible);
     dal_evaluator_free(evaluator);
 }
@@ -413,7 +423,7 @@ static void test_derivatives_anywhere(void)
         dal_evaluator *evaluator = fixture_evaluator(fixture_system(texts[k]));
         const dal_point at = {.t = 0.0, .q = &place[k], .v = &v};
         dal_derivatives d;
-        CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_check_derivatives(evaluator, &at, &d), DAL_STATUS_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-8);
         CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-8);
         dal_evaluator_free(evaluator);
@@ -431,15 +441,15 @@ static dal_status all_measures(const dal_system *system)
     dal_constraint_class class;
     dal_dirac dirac;
     dal_status status = dal_evaluator_create(&evaluator, system, NULL, 0, NULL);
-    if (status != DAL_OK) return status;
+    if (status != DAL_STATUS_OK) return status;
     status = dal_evaluator_start(evaluator, NULL, 0, x, NULL);
     const dal_point at = {.t = 0.0, .q = x, .v = x + system->n};
-    if (!status) status = dal_measure_rate(evaluator, system->energy, 1, &at, numbers);
-    if (!status) status = dal_check_derivatives(evaluator, &at, &derivatives);
-    if (!status) status = dal_measure_rank(evaluator, &at, &rank, numbers);
-    if (!status) status = dal_project_velocity(evaluator, 0.0, x, x + system->n);
-    if (!status) status = dal_classify_constraints(evaluator, &at, &class, NULL);
-    if (!status) status = dal_check_dirac(evaluator, &at, 1.0, &dirac);
+    if (!status) status = dal_evaluator_measure_rate(evaluator, system->energy, 1, &at, numbers);
+    if (!status) status = dal_evaluator_check_derivatives(evaluator, &at, &derivatives);
+    if (!status) status = dal_evaluator_measure_rank(evaluator, &at, &rank, numbers);
+    if (!status) status = dal_evaluator_project_velocity(evaluator, 0.0, x, x + system->n);
+    if (!status) status = dal_evaluator_classify_constraints(evaluator, &at, &class, NULL);
+    if (!status) status = dal_evaluator_check_dirac(evaluator, &at, 1.0, &dirac);
     dal_evaluator_free(evaluator);
     return status;
 }

@@ -101,7 +101,7 @@ static void test_field(void)
     for (int k = 0; k < SYSTEMS; k++) {
         reference b = reference_of_text(systems[k].text);
         double F[REFERENCE_MAX], expected[REFERENCE_MAX];
-        CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
+        CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_STATUS_OK);
         reference_motion(systems[k].formulas, q0, v0, t0, expected);
         CU_ASSERT(reference_distance(b.system->n, F, expected) < BY_DIFFERENCES);
         reference_free(&b);
@@ -118,7 +118,7 @@ static void test_accelerations(void)
     double bx = -vy + sin(t0), by = x * vx;
     double h = -(2 * vx * bx + 4 * vy * by) / (4 * vx * vx + 16 * vy * vy);
     double expected[] = {bx + 2 * vx * h, by + 4 * vy * h};
-    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_STATUS_OK);
     CU_ASSERT(reference_distance(2, F, expected) < 1e-14);
     CU_ASSERT(b.system->energy == NULL);
     reference_free(&b);
@@ -162,10 +162,10 @@ static void test_constraint(void)
                 expected[m + a * n + i] = reference_by_v(f->constraint, a, i, q0, v0, t0);
             expected_normal(f, a, expected + m + m * n);
         }
-        CU_ASSERT(reference_call(&b, b.system->call.constraint, t0, q0, v0, out) == DAL_OK);
+        CU_ASSERT(reference_call(&b, b.system->call.constraint, t0, q0, v0, out) == DAL_STATUS_OK);
         if (b.system->properties & DAL_MASS_ON_KERNEL) scale_directions(n, m, expected, out);
         CU_ASSERT(reference_distance(m + 2 * m * n, out, expected) < BY_DIFFERENCES);
-        CU_ASSERT(reference_call(&b, b.system->constraints, t0, q0, v0, D) == DAL_OK);
+        CU_ASSERT(reference_call(&b, b.system->constraints, t0, q0, v0, D) == DAL_STATUS_OK);
         CU_ASSERT(memcmp(D, out, (size_t)m * sizeof *D) == 0);
         reference_free(&b);
     }
@@ -179,7 +179,7 @@ static void test_energy(void)
         double E, expected = -f->lagrangian(0, q0, v0, t0);
         for (int i = 0; i < f->n; i++)
             expected += v0[i] * reference_by_v(f->lagrangian, 0, i, q0, v0, t0);
-        CU_ASSERT(reference_call(&b, b.system->energy, t0, q0, v0, &E) == DAL_OK);
+        CU_ASSERT(reference_call(&b, b.system->energy, t0, q0, v0, &E) == DAL_STATUS_OK);
         CU_ASSERT(reference_distance(1, &E, &expected) < BY_DIFFERENCES);
         reference_free(&b);
     }
@@ -226,7 +226,7 @@ static void check_jacobian(const reference *b)
     int n = b->system->n, nw = n + b->system->multipliers, count = nw * (n + nw);
     double out[REFERENCE_OUT], expected[REFERENCE_OUT];
     expected_jacobian(b, expected);
-    CU_ASSERT(reference_call(b, b->system->call.jacobian, t0, q0, v0, out) == DAL_OK);
+    CU_ASSERT(reference_call(b, b->system->call.jacobian, t0, q0, v0, out) == DAL_STATUS_OK);
     CU_ASSERT(reference_distance(count, out, expected) < BY_DIFFERENCES);
 }
 
@@ -243,8 +243,8 @@ static void check_adjoint(const reference *b)
             expected[i] += pi[j] * J[j * n + i];
             expected[n + i] += pi[j] * J[n * n + j * n + i];
         }
-    CU_ASSERT(reference_pull(b, t0, q0, v0, pi, out) == DAL_OK);
-    CU_ASSERT(reference_call(b, b->system->call.field, t0, q0, v0, F) == DAL_OK);
+    CU_ASSERT(reference_pull(b, t0, q0, v0, pi, out) == DAL_STATUS_OK);
+    CU_ASSERT(reference_call(b, b->system->call.field, t0, q0, v0, F) == DAL_STATUS_OK);
     CU_ASSERT(memcmp(out, F, (size_t)n * sizeof *F) == 0);
     CU_ASSERT(reference_distance(2 * n, out + n, expected) < BY_DIFFERENCES);
 }
@@ -274,7 +274,7 @@ static void test_tangent(void)
     CU_ASSERT(d.system->n == 2 * n && d.system->m == 0);
     CU_ASSERT_STRING_EQUAL(d.system->coordinate[0], "a");
     CU_ASSERT_STRING_EQUAL(d.system->coordinate[n], "dq_a");
-    CU_ASSERT(reference_call(&d, d.system->call.field, t0, q0, v0, F) == DAL_OK);
+    CU_ASSERT(reference_call(&d, d.system->call.field, t0, q0, v0, F) == DAL_STATUS_OK);
     CU_ASSERT(memcmp(F, expected, (size_t)n * sizeof *F) == 0);
     CU_ASSERT(reference_distance(2 * n, F, expected) < BY_DIFFERENCES);
     check_jacobian(&d);
@@ -310,7 +310,7 @@ static void test_vakonomic(void)
     multiplier[0] = v0[4], multiplier[1] = v0[5];
     CU_ASSERT(b.system->multipliers == 2 && b.system->properties & DAL_VAKONOMIC);
     CU_ASSERT(b.system->call.adjoint == NULL);
-    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, out) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, out) == DAL_STATUS_OK);
     for (int i = 0; i < 4; i++) {
         residual[i] = -reference_load(&f, i, q0, v0, t0);
         for (int j = 0; j < 4; j++) residual[i] += reference_mass(&f, i, j, q0, v0, t0) * out[j];
@@ -348,7 +348,7 @@ static void check_lanes(const lanes_case *c)
     for (int i = 0; i < workspace; i++)
         for (int l = 0; l < c->lanes; l++) c->b->work[i * c->lanes + l] = prepared[i];
     dal_point at = {t0, q, v, pi, c->b->work, NULL};
-    CU_ASSERT(c->wide(c->b->system, &at, out) == DAL_OK);
+    CU_ASSERT(c->wide(c->b->system, &at, out) == DAL_STATUS_OK);
     memcpy(c->b->work, prepared, (size_t)workspace * sizeof *prepared);
     for (int l = 0; l < c->lanes; l++) {
         double q1[REFERENCE_MAX], v1[REFERENCE_MAX], pi1[REFERENCE_MAX], one[REFERENCE_OUT],
@@ -358,7 +358,7 @@ static void check_lanes(const lanes_case *c)
         reference_gather(c->lanes, l, REFERENCE_MAX, pi, pi1);
         reference_gather(c->lanes, l, c->outputs, out, lane);
         dal_point point = {t0, q1, v1, pi1, c->b->work, NULL};
-        CU_ASSERT(c->single(c->b->system, &point, one) == DAL_OK);
+        CU_ASSERT(c->single(c->b->system, &point, one) == DAL_STATUS_OK);
         CU_ASSERT(memcmp(one, lane, (size_t)c->outputs * sizeof *one) == 0);
     }
 }

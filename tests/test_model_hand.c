@@ -8,15 +8,20 @@ static void test_add(void)
     dal_model *model = dal_model_create("hand");
     const dal_system *system;
     dal_error error;
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_FORCES, NULL, "1", 3, 4, &error) == DAL_ARGUMENT);
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_FORCES, NULL, "1", 3, 4, &error) ==
+              DAL_STATUS_ARGUMENT);
     CU_ASSERT_STRING_EQUAL(error.message, "an entry of forces has a name and a text");
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_TAGS, "a", "b", 3, 4, &error) == DAL_ARGUMENT);
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_TAGS, "a", "b", 3, 4, &error) ==
+              DAL_STATUS_ARGUMENT);
     CU_ASSERT_STRING_EQUAL(error.message, "an entry of tags has a text and no name");
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "x'^2/", 0, 0, NULL) == DAL_OK);
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "1", 0, 0, &error) == DAL_MODEL);
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "x'^2/", 0, 0, NULL) ==
+              DAL_STATUS_OK);
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "1", 0, 0, &error) ==
+              DAL_STATUS_MODEL);
     CU_ASSERT_STRING_EQUAL(error.message, "duplicate lagrangian");
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, NULL) == DAL_OK);
-    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_SYNTAX);
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, NULL) ==
+              DAL_STATUS_OK);
+    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_STATUS_SYNTAX);
     CU_ASSERT(error.line == 1 && error.column > 1); /* within the text itself */
     dal_model_free(model);
     dal_model_free(NULL);
@@ -27,9 +32,10 @@ static void test_add_after(void)
     dal_model *model;
     const dal_system *system;
     dal_error error;
-    CU_ASSERT_FATAL(dal_model_builtin(&model, "damped-oscillator", &error) == DAL_OK);
-    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_OK);
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_TAGS, NULL, "b", 0, 0, &error) == DAL_ARGUMENT);
+    CU_ASSERT_FATAL(dal_model_builtin(&model, "damped-oscillator", &error) == DAL_STATUS_OK);
+    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_STATUS_OK);
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_TAGS, NULL, "b", 0, 0, &error) ==
+              DAL_STATUS_ARGUMENT);
     CU_ASSERT_STRING_EQUAL(error.message,
                            "'damped-oscillator' already has its system: nothing can be added");
     dal_model_free(model);
@@ -40,8 +46,10 @@ static void test_vakonomic_tangent(void)
     dal_model *model;
     const dal_system *system;
     dal_error error;
-    CU_ASSERT_FATAL(dal_model_builtin(&model, "chaplygin-sleigh-vakonomic", &error) == DAL_OK);
-    CU_ASSERT(dal_model_tangent(model, &system, &error) == DAL_UNSUPPORTED && system == NULL);
+    CU_ASSERT_FATAL(dal_model_builtin(&model, "chaplygin-sleigh-vakonomic", &error) ==
+                    DAL_STATUS_OK);
+    CU_ASSERT(dal_model_tangent(model, &system, &error) == DAL_STATUS_UNSUPPORTED &&
+              system == NULL);
     CU_ASSERT_STRING_EQUAL(error.message, "'chaplygin-sleigh-vakonomic' has multipliers: there is "
                                           "no tangent system for it");
     dal_model_free(model);
@@ -58,7 +66,7 @@ static void test_add_reactions(void)
         snprintf(message, sizeof message,
                  "'%s' in reactions is not a constraint and a coordinate, as 1.x", bad[k]);
         CU_ASSERT(dal_model_add(model, DAL_SECTION_REACTIONS, bad[k], "1", 3, 4, &error) ==
-                  DAL_NAME);
+                  DAL_STATUS_NAME);
         CU_ASSERT_STRING_EQUAL(error.message, message);
     }
     dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, NULL);
@@ -66,12 +74,12 @@ static void test_add_reactions(void)
     dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "(x'^2 + y'^2)/2 - x", 0, 0, NULL);
     dal_model_add(model, DAL_SECTION_CONSTRAINTS, NULL, "x' - y", 0, 0, NULL);
     dal_model_add(model, DAL_SECTION_CONSTRAINTS, NULL, "y' - x", 0, 0, NULL);
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_REACTIONS, "2.x", "1", 0, 0, NULL) == DAL_OK);
-    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_MODEL);
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_REACTIONS, "2.x", "1", 0, 0, NULL) == DAL_STATUS_OK);
+    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_STATUS_MODEL);
     CU_ASSERT_STRING_EQUAL(error.message,
                            "constraint 1 has no reaction: the list needs one for each");
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_REACTIONS, "1.y", "1", 0, 0, NULL) == DAL_OK);
-    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_OK);
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_REACTIONS, "1.y", "1", 0, 0, NULL) == DAL_STATUS_OK);
+    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_STATUS_OK);
     CU_ASSERT(system->properties & DAL_SERVO);
     dal_model_free(model);
 }

@@ -55,7 +55,7 @@ static void compare_blocks(const reference *b, const char *name, double toleranc
     double h[REFERENCE_MAX], reactions[REFERENCE_OUT];
     for (int number = 0; number < POINTS; number++) {
         set_point(n, number, q, v);
-        if (reference_call(b, b->system->call.blocks, 0.3, q, v, blocks) != DAL_OK) continue;
+        if (reference_call(b, b->system->call.blocks, 0.3, q, v, blocks) != DAL_STATUS_OK) continue;
         reference_call(b, b->system->call.field, 0.3, q, v, F[0]);
         motion_of_blocks(n, m, blocks, F[1], h);
         const double distance = reference_distance(n, F[0], F[1]);
@@ -111,8 +111,8 @@ static void test_coupled_by_blocks(void)
 static void compare_by_hand(const char *name, const char *path, double ratio)
 {
     reference derived = reference_builtin(name), hand = {.model = NULL};
-    CU_ASSERT_FATAL(dal_model_read_file(&hand.model, path, NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_model_system(hand.model, &hand.system, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_model_read_file(&hand.model, path, NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_model_system(hand.model, &hand.system, NULL) == DAL_STATUS_OK);
     double q[REFERENCE_MAX], v[REFERENCE_MAX], F[2][REFERENCE_MAX], work[512] = {0};
     const dal_point at = {.t = 0.0, .q = q, .v = v, .work = work};
     CU_ASSERT_FATAL(hand.system->workspace <= 512);

@@ -65,7 +65,7 @@ typedef dal_status native_begin(dal_native **native, const dal_run *run,
 static dal_native *ready(native_begin *begin, const dal_run *run)
 {
     dal_native *native = NULL;
-    CU_ASSERT_EQUAL_FATAL(begin(&native, run, &options, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(begin(&native, run, &options, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(wait_for(native, NULL), DAL_NATIVE_READY);
     return native;
 }
@@ -99,22 +99,22 @@ static void test_beside(void)
     dal_native *native = NULL;
     dal_error error = {0};
     gated_compiler();
-    CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &gated, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 77, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &gated, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 77, &error), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_native_poll(native, &error), DAL_NATIVE_PENDING);
-    CU_ASSERT_EQUAL(dal_run_use_native(run, native, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_use_native(run, native, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_STRING_EQUAL(error.message, "the compiled code is not ready");
     open_gate();
     CU_ASSERT_EQUAL(wait_for(native, &error), DAL_NATIVE_READY);
     CU_ASSERT_FALSE(dal_run_is_native(run));
-    CU_ASSERT_EQUAL(dal_run_use_native(run, native, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_use_native(run, native, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_use_native(run, native, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_use_native(run, native, &error), DAL_STATUS_OK);
     CU_ASSERT_TRUE(dal_run_is_native(run));
-    CU_ASSERT_EQUAL(dal_run_advance(run, 123, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(tape, 200, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 123, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(tape, 200, &error), DAL_STATUS_OK);
     same_memory(run, tape);
-    CU_ASSERT_EQUAL(dal_run_use_native(small, native, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_use_native(other, native, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_use_native(small, native, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_use_native(other, native, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_STRING_EQUAL(error.message, "the compiled code is for other steps");
     CU_ASSERT_FALSE(dal_run_is_native(other));
     CU_ASSERT_EQUAL(folder_files("gated"), 1);
@@ -172,15 +172,16 @@ static void change_over(recording *r, dal_run *run, int at)
 {
     if (r->at != at) return;
     const int call = r->calls++;
-    if (call == r->steps_call) CU_ASSERT_EQUAL(dal_run_use_native(run, r->steps, NULL), DAL_OK);
+    if (call == r->steps_call)
+        CU_ASSERT_EQUAL(dal_run_use_native(run, r->steps, NULL), DAL_STATUS_OK);
     if (call == r->observables_call)
-        CU_ASSERT_EQUAL(dal_run_use_native(run, r->observables, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_use_native(run, r->observables, NULL), DAL_STATUS_OK);
 }
 
 static dal_status record_poll(void *user, dal_run *run)
 {
     change_over(user, run, FROM_POLL);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status record_values(void *user, dal_run *run, int count, const double *t,
@@ -193,16 +194,16 @@ static dal_status record_values(void *user, dal_run *run, int count, const doubl
         for (int i = 0; i < observables; i++)
             r->x[r->samples][i] = values[(size_t)i * stride + (size_t)k];
     change_over(r, run, FROM_VALUES);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status record_row(void *user, dal_run *run, long long row, double t)
 {
     recording *r = user;
     (void)row, (void)t;
-    CU_ASSERT_EQUAL(dal_run_observe(run, r->row[r->rows++]), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, r->row[r->rows++]), DAL_STATUS_OK);
     change_over(r, run, FROM_ROW);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static void record(recording *r, const dal_run_spec *spec)
@@ -217,7 +218,7 @@ static void record(recording *r, const dal_run_spec *spec)
     CU_ASSERT_FATAL(dal_run_observables(run) <= MAX_OBSERVABLES);
     dal_statistics_start(r->statistics, dal_run_observables(run));
     CU_ASSERT_EQUAL(dal_run_sample(run, STEPS * spec->options.step, 37, 0, &observer, NULL),
-                    DAL_OK);
+                    DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_is_native(run), r->steps_call >= 0);
     dal_run_free(run);
 }
@@ -258,10 +259,10 @@ enum { LANES = 5 };
 static dal_batch *lanes_of(const dal_run_spec *spec)
 {
     dal_batch *batch = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, LANES, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, LANES, 0, NULL), DAL_STATUS_OK);
     for (int i = 0; i < LANES; i++) {
         const dal_setting s = {"s", i == 0 ? 40.0 : 0.01 * i};
-        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &s, 1, NULL, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &s, 1, NULL, 0, NULL), DAL_STATUS_OK);
     }
     return batch;
 }
@@ -275,15 +276,15 @@ static void test_batches(void)
     dal_native *native = NULL;
     dal_error error = {0};
     gated_compiler();
-    CU_ASSERT_EQUAL_FATAL(dal_native_begin_batch(&native, batch, &gated, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_native_begin_batch(&native, batch, &gated, &error), DAL_STATUS_OK);
     dal_batch_advance(batch, 700); /* a lane has failed */
     CU_ASSERT_EQUAL(dal_native_poll(native, &error), DAL_NATIVE_PENDING);
-    CU_ASSERT_EQUAL(dal_batch_use_native(batch, native, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_batch_use_native(batch, native, &error), DAL_STATUS_ARGUMENT);
     open_gate();
     CU_ASSERT_EQUAL(wait_for(native, &error), DAL_NATIVE_READY);
-    CU_ASSERT_EQUAL(dal_batch_use_native(other, native, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_batch_use_native(other, native, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_FALSE(dal_batch_is_native(other));
-    CU_ASSERT_EQUAL(dal_batch_use_native(batch, native, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_use_native(batch, native, &error), DAL_STATUS_OK);
     CU_ASSERT_TRUE(dal_batch_is_native(batch));
     dal_batch_advance(batch, 800);
     dal_batch_advance(tape, 1500);
@@ -310,13 +311,13 @@ static void fails(const char *script, dal_status status, const char *message)
     compiler_fake(script);
     const dal_native_options fake = {.cache = "gated", .compiler = "./fake", .patience = 1};
     const int kept = (mkdir("gated", 0700), folder_files("gated"));
-    CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &fake, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &fake, &error), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(wait_for(native, &error), DAL_NATIVE_FAILED);
     CU_ASSERT_EQUAL(error.status, status);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, message));
     CU_ASSERT_EQUAL(dal_native_poll(native, NULL), DAL_NATIVE_FAILED);
-    CU_ASSERT_EQUAL(dal_run_use_native(run, native, NULL), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_use_native(run, native, NULL), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(folder_files("gated"), kept);
     dal_native_free(native);
     dal_run_free(run);
@@ -328,17 +329,17 @@ static void test_failures(void)
     dal_native *native = (dal_native *)(void *)run;
     dal_error error = {0};
     const dal_native_options none = {.cache = "gated", .compiler = "./none"};
-    fails("exit 1", DAL_UNSUPPORTED, "the compiler './fake' failed");
-    fails("sleep 1000", DAL_UNSUPPORTED, "the compiler './fake' was ended after 1 seconds");
-    fails("while [ $# -gt 2 ]; do shift; done; echo 'no object' >\"$1\"", DAL_IO,
+    fails("exit 1", DAL_STATUS_UNSUPPORTED, "the compiler './fake' failed");
+    fails("sleep 1000", DAL_STATUS_UNSUPPORTED, "the compiler './fake' was ended after 1 seconds");
+    fails("while [ $# -gt 2 ]; do shift; done; echo 'no object' >\"$1\"", DAL_STATUS_IO,
           "cannot be loaded");
     /* posix_spawn may say at once that there is no such file, or leave it to the child's status */
-    if (dal_native_begin(&native, run, &none, &error) == DAL_OK) {
+    if (dal_native_begin(&native, run, &none, &error) == DAL_STATUS_OK) {
         CU_ASSERT_EQUAL(wait_for(native, &error), DAL_NATIVE_FAILED);
     } else {
         CU_ASSERT_PTR_NULL(native);
     }
-    CU_ASSERT_EQUAL(error.status, DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(error.status, DAL_STATUS_UNSUPPORTED);
     dal_native_free(native);
     dal_run_free(run);
 }
@@ -353,7 +354,7 @@ static void test_ended(void)
     const int kept = (mkdir("gated", 0700), folder_files("gated"));
     CU_ASSERT_EQUAL(mkfifo("held", 0600), 0);
     compiler_fake("mktemp >made; sleep 60 >held & wait");
-    CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &gated, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &gated, NULL), DAL_STATUS_OK);
     const int held = open("held", O_RDONLY);
     CU_ASSERT_EQUAL(folder_files("gated"), kept + 1);
     FILE *const file = fopen("made", "r");
@@ -387,7 +388,7 @@ static void test_priority(void)
              lower < 19 ? lower : 19);
     compiler_fake(script);
     dal_native *native = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &fake, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &fake, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(wait_for(native, NULL), DAL_NATIVE_READY);
     dal_native_free(native);
     dal_run_free(run);
@@ -402,14 +403,14 @@ static void test_memory(void)
         dal_native *native = NULL;
         allocation_fail_after(n);
         dal_status status = dal_native_begin_observables(&native, run, &options, NULL);
-        CU_ASSERT_EQUAL(status == DAL_OK, native != NULL);
+        CU_ASSERT_EQUAL(status == DAL_STATUS_OK, native != NULL);
         if (native && dal_native_poll(native, NULL) == DAL_NATIVE_READY)
             status = dal_run_use_native(run, native, NULL);
         const int failed = allocation_failed();
         allocation_fail_after(-1);
-        if (!failed) CU_ASSERT_EQUAL(status, DAL_OK);
+        if (!failed) CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
         if (failed) dal_native_free(native);
-        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         if (failed) continue;
         dal_run_free(run);
         dal_native_free(native);

@@ -94,7 +94,7 @@ static void null_dal_run_advance(void)
 {
     REFUSED(dal_run_advance(NULL, 1, error));
     REFUSED(dal_run_advance(run, -1, error));
-    CU_ASSERT_EQUAL(dal_run_advance(run, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 0, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_steps(run), 0);
 }
 
@@ -114,17 +114,17 @@ static void null_dal_run_set_state(void)
     REFUSED(dal_run_set_state(run, 0.0, NULL, error));
 }
 
-static void null_dal_run_name(void)
+static void null_dal_run_component_name(void)
 {
-    CU_ASSERT_PTR_NULL(dal_run_name(NULL, 0, buffer, sizeof buffer));
-    CU_ASSERT_PTR_NULL(dal_run_name(run, 0, NULL, sizeof buffer));
-    CU_ASSERT_PTR_NULL(dal_run_name(run, -1, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_run_component_name(NULL, 0, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_run_component_name(run, 0, NULL, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_run_component_name(run, -1, buffer, sizeof buffer));
 }
 
-static void null_dal_run_index(void)
+static void null_dal_run_component_index(void)
 {
-    CU_ASSERT_EQUAL(dal_run_index(NULL, "phi"), -1);
-    CU_ASSERT_EQUAL(dal_run_index(run, NULL), -1);
+    CU_ASSERT_EQUAL(dal_run_component_index(NULL, "phi"), -1);
+    CU_ASSERT_EQUAL(dal_run_component_index(run, NULL), -1);
 }
 
 static void null_dal_run_set_parameter(void)
@@ -171,18 +171,21 @@ static void null_dal_run_sample(void)
     REFUSED(dal_run_sample(NULL, 1.0, 1, 0, NULL, error));
     REFUSED(dal_run_sample(run, 1.0, -1, 0, NULL, error));
     REFUSED(dal_run_sample(run, 1.0, 1, -1, NULL, error));
-    CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 1, 0, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 1, 0, NULL, NULL), DAL_STATUS_OK);
     REFUSED(dal_run_sample(run, 2.0, 1, 1, &(dal_observer){.every = -1}, error));
     REFUSED(dal_run_sample(run, 2.0, 1, 1, &(dal_observer){.polling = -1}, error));
 }
 
-static dal_status see(void *user, dal_run *seen) { return user || !seen ? DAL_IO : DAL_OK; }
+static dal_status see(void *user, dal_run *seen)
+{
+    return user || !seen ? DAL_STATUS_IO : DAL_STATUS_OK;
+}
 
 static void null_dal_run_intermediate(void)
 {
     REFUSED(dal_run_intermediate(NULL, 0.1, see, NULL, error));
     REFUSED(dal_run_intermediate(run, 0.1, NULL, NULL, error));
-    CU_ASSERT_EQUAL(dal_run_intermediate(run, 0.1, see, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, 0.1, see, NULL, NULL), DAL_STATUS_OK);
 }
 
 static void null_dal_run_event_count(void)
@@ -197,10 +200,10 @@ static void null_dal_run_stopped(void)
     CU_ASSERT_EQUAL(dal_run_stopped(run), 0);
 }
 
-static void null_dal_run_jump(void)
+static void null_dal_run_event_jump(void)
 {
-    CU_ASSERT_EQUAL(dal_run_jump(NULL, 0), 0.0);
-    CU_ASSERT_EQUAL(dal_run_jump(run, -1), 0.0);
+    CU_ASSERT_EQUAL(dal_run_event_jump(NULL, 0), 0.0);
+    CU_ASSERT_EQUAL(dal_run_event_jump(run, -1), 0.0);
 }
 
 static void null_dal_run_unresolved(void)
@@ -250,7 +253,7 @@ static void null_dal_batch_advance(void)
 {
     REFUSED_STATUS(dal_batch_advance(NULL, 1));
     REFUSED_STATUS(dal_batch_advance(batch, -1));
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, NULL, 0, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_batch_time(batch, 0), 0.0);
 }
 
@@ -300,7 +303,7 @@ static void null_dal_ensemble_create(void)
 static void null_dal_ensemble_free(void) { dal_ensemble_free(NULL); }
 static void null_dal_ensemble_start(void)
 {
-    CU_ASSERT_EQUAL(dal_ensemble_start(NULL, 0, 1), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_ensemble_start(NULL, 0, 1), DAL_STATUS_ARGUMENT);
 }
 static void null_dal_ensemble_batch(void) { CU_ASSERT_PTR_NULL(dal_ensemble_batch(NULL)); }
 static void null_dal_ensemble_draws(void) { dal_ensemble_draws(NULL, numbers); }
@@ -333,7 +336,10 @@ static void null_dal_add_products(void)
     CU_ASSERT_EQUAL(dal_add_products(1, numbers, numbers, -1, numbers), 0);
 }
 
-static void null_dal_batch_clear(void) { CU_ASSERT_EQUAL(dal_batch_clear(NULL), DAL_ARGUMENT); }
+static void null_dal_batch_clear(void)
+{
+    CU_ASSERT_EQUAL(dal_batch_clear(NULL), DAL_STATUS_ARGUMENT);
+}
 static void null_dal_batch_states(void)
 {
     numbers[0] = 7.0;
@@ -395,11 +401,11 @@ static void null_dal_model_add_table(void)
     REFUSED(dal_model_add_table(made, NULL, &table, 0, 0, error));
     REFUSED(dal_model_add_table(made, "f", NULL, 0, 0, error));
     REFUSED(dal_model_add(made, DAL_SECTION_TABLES, "f", "1", 0, 0, error));
-    CU_ASSERT_EQUAL(dal_model_add_table(made, "f", &table, 0, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_add_table(made, "f", &table, 0, 0, NULL), DAL_STATUS_OK);
     table.at = NULL;
     REFUSED(dal_model_add_table(made, "g", &table, 0, 0, error));
     table.points = 0;
-    CU_ASSERT_EQUAL(dal_model_add_table(made, "g", &table, 0, 0, NULL), DAL_MODEL);
+    CU_ASSERT_EQUAL(dal_model_add_table(made, "g", &table, 0, 0, NULL), DAL_STATUS_MODEL);
     dal_model_free(made);
 }
 
@@ -410,9 +416,9 @@ static void null_dal_model_observe(void)
     REFUSED(dal_model_observe(NULL, "x + 1", 0, 0, error));
     REFUSED(dal_model_observe(made, NULL, 0, 0, error));
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        CU_ASSERT_NOT_EQUAL(dal_model_observe(made, bad[i], 0, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_model_observe(made, "x + 1", 0, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_model_observe(made, "x + 1", 0, 0, NULL), DAL_MODEL);
+        CU_ASSERT_NOT_EQUAL(dal_model_observe(made, bad[i], 0, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_observe(made, "x + 1", 0, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_observe(made, "x + 1", 0, 0, NULL), DAL_STATUS_MODEL);
     REFUSED(dal_model_add(made, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, error));
     dal_model_free(made);
 }
@@ -425,7 +431,7 @@ static void null_dal_model_source(void)
     CU_ASSERT_PTR_NULL(dal_model_source(NULL, &length));
     CU_ASSERT_PTR_NULL(dal_model_source(made, &length));
     dal_model_free(made);
-    CU_ASSERT_EQUAL(dal_model_read(&made, "made", text, strlen(text), NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_read(&made, "made", text, strlen(text), NULL), DAL_STATUS_OK);
     CU_ASSERT_STRING_EQUAL(dal_model_source(made, &length), text);
     CU_ASSERT_EQUAL(length, strlen(text));
     CU_ASSERT_STRING_EQUAL(dal_model_source(made, NULL), text);
@@ -437,8 +443,8 @@ static void null_dal_model_text(void)
     dal_model *made = dal_model_create("made");
     const char *name = NULL;
     int line = 0, column = 0;
-    CU_ASSERT_EQUAL(dal_model_add(made, DAL_SECTION_START, "x", "1", 2, 9, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_model_add(made, DAL_SECTION_START, "y", "2*k", 3, 7, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_add(made, DAL_SECTION_START, "x", "1", 2, 9, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_add(made, DAL_SECTION_START, "y", "2*k", 3, 7, NULL), DAL_STATUS_OK);
     CU_ASSERT_PTR_NULL(dal_model_text(NULL, DAL_SECTION_START, 0, &name, &line, &column));
     CU_ASSERT_PTR_NULL(dal_model_text(made, DAL_SECTION_START, -1, &name, &line, &column));
     CU_ASSERT_PTR_NULL(dal_model_text(made, DAL_SECTION_START, 2, &name, &line, &column));
@@ -458,9 +464,9 @@ static void null_dal_model_warning(void)
     dal_model *made = NULL;
     const dal_system *made_system = NULL;
     int line = 0, column = 0;
-    CU_ASSERT_EQUAL(dal_model_read(&made, "made", text, strlen(text), NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_read(&made, "made", text, strlen(text), NULL), DAL_STATUS_OK);
     CU_ASSERT_PTR_NULL(dal_model_warning(made, 0, &line, &column)); /* there is no system yet */
-    CU_ASSERT_EQUAL(dal_model_system(made, &made_system, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_system(made, &made_system, NULL), DAL_STATUS_OK);
     CU_ASSERT_STRING_EQUAL(dal_model_warning(made, 0, NULL, NULL),
                            "coordinate 'max' hides the function of this name");
     CU_ASSERT_PTR_NOT_NULL(dal_model_warning(made, 1, &line, &column));
@@ -477,7 +483,7 @@ static void null_dal_model_read(void)
     REFUSED(dal_model_read(NULL, "name", "coordinates: [x]", 16, error));
     REFUSED(dal_model_read(&made, "name", NULL, 16, error));
     CU_ASSERT_PTR_NULL(made);
-    CU_ASSERT_EQUAL(dal_model_read(&made, NULL, "coordinates: [x]", 16, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_read(&made, NULL, "coordinates: [x]", 16, NULL), DAL_STATUS_OK);
     dal_model_free(made);
 }
 

@@ -85,7 +85,7 @@ static void null_dal_native_poll(void)
     dal_error why = {0};
     CU_ASSERT_EQUAL(dal_native_poll(NULL, NULL), DAL_NATIVE_FAILED);
     CU_ASSERT_EQUAL(dal_native_poll(NULL, &why), DAL_NATIVE_FAILED);
-    CU_ASSERT_EQUAL(why.status, DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(why.status, DAL_STATUS_ARGUMENT);
 }
 
 static void null_dal_native_fits(void) { CU_ASSERT_EQUAL(dal_native_fits(NULL, run), 0); }

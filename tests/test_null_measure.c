@@ -18,17 +18,17 @@ static double numbers[256];
 
 static int open_objects(void)
 {
-    if (open_spec(&model, &spec) != DAL_OK) return 1;
+    if (open_spec(&model, &spec) != DAL_STATUS_OK) return 1;
     system = spec.system;
     no_system = bad_count = spec;
     no_system.system = NULL;
     bad_count.parameter_count = -1;
     at = (dal_point){.t = 0.0, .q = numbers, .v = numbers + system->n};
-    return dal_run_create(&run, &spec, NULL) != DAL_OK ||
-           dal_evaluator_create(&evaluator, system, NULL, 0, NULL) != DAL_OK ||
-           dal_model_tangent(model, &tangent, NULL) != DAL_OK ||
-           dal_lyapunov_create(&lyapunov, &spec, NULL, 1, NULL) != DAL_OK ||
-           dal_error_budget_create(&budget, &spec, 10, 0, NULL, NULL) != DAL_OK;
+    return dal_run_create(&run, &spec, NULL) != DAL_STATUS_OK ||
+           dal_evaluator_create(&evaluator, system, NULL, 0, NULL) != DAL_STATUS_OK ||
+           dal_model_tangent(model, &tangent, NULL) != DAL_STATUS_OK ||
+           dal_lyapunov_create(&lyapunov, &spec, NULL, 1, NULL) != DAL_STATUS_OK ||
+           dal_error_budget_create(&budget, &spec, 10, 0, NULL, NULL) != DAL_STATUS_OK;
 }
 
 static int close_objects(void)
@@ -94,7 +94,7 @@ static void null_dal_jumps_count(void) { CU_ASSERT_EQUAL(dal_jumps_count(NULL), 
 static void null_dal_jumps_passed(void)
 {
     dal_jumps *jumps = NULL;
-    CU_ASSERT_EQUAL(dal_jumps_create(&jumps, model), DAL_OK);
+    CU_ASSERT_EQUAL(dal_jumps_create(&jumps, model), DAL_STATUS_OK);
     CU_ASSERT_PTR_NULL(dal_jumps_passed(NULL, run));
     CU_ASSERT_PTR_NULL(dal_jumps_passed(jumps, NULL));
     dal_jumps_free(jumps);
@@ -123,7 +123,7 @@ static void null_dal_evaluator_call(void)
     REFUSED_STATUS(dal_evaluator_call(evaluator, field, 0.0, at.q, at.v, NULL, NULL));
     REFUSED_STATUS(dal_evaluator_call(evaluator, adjoint, 0.0, at.q, at.v, NULL, numbers));
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, NULL, 0.0, at.q, at.v, NULL, numbers),
-                    DAL_UNSUPPORTED);
+                    DAL_STATUS_UNSUPPORTED);
 }
 
 static void null_dal_evaluator_start(void)
@@ -146,47 +146,47 @@ static void null_dal_evaluator_start_at(void)
 
 /* ---- measures of a system ---- */
 
-static void null_dal_measure_rate(void)
+static void null_dal_evaluator_measure_rate(void)
 {
     dal_callback *field = system->call.field;
-    REFUSED_STATUS(dal_measure_rate(NULL, field, 1, &at, numbers));
-    REFUSED_STATUS(dal_measure_rate(evaluator, field, -1, &at, numbers));
-    REFUSED_POINTS(bad, dal_measure_rate(evaluator, field, 1, bad, numbers));
-    REFUSED_STATUS(dal_measure_rate(evaluator, field, 1, &at, NULL));
+    REFUSED_STATUS(dal_evaluator_measure_rate(NULL, field, 1, &at, numbers));
+    REFUSED_STATUS(dal_evaluator_measure_rate(evaluator, field, -1, &at, numbers));
+    REFUSED_POINTS(bad, dal_evaluator_measure_rate(evaluator, field, 1, bad, numbers));
+    REFUSED_STATUS(dal_evaluator_measure_rate(evaluator, field, 1, &at, NULL));
 }
 
-static void null_dal_check_derivatives(void)
+static void null_dal_evaluator_check_derivatives(void)
 {
     dal_derivatives out;
-    REFUSED_STATUS(dal_check_derivatives(NULL, &at, &out));
-    REFUSED_POINTS(bad, dal_check_derivatives(evaluator, bad, &out));
-    REFUSED_STATUS(dal_check_derivatives(evaluator, &at, NULL));
+    REFUSED_STATUS(dal_evaluator_check_derivatives(NULL, &at, &out));
+    REFUSED_POINTS(bad, dal_evaluator_check_derivatives(evaluator, bad, &out));
+    REFUSED_STATUS(dal_evaluator_check_derivatives(evaluator, &at, NULL));
 }
 
-static void null_dal_measure_rank(void)
+static void null_dal_evaluator_measure_rank(void)
 {
     int rank;
     double pivot;
-    REFUSED_STATUS(dal_measure_rank(NULL, &at, &rank, &pivot));
-    REFUSED_POINTS(bad, dal_measure_rank(evaluator, bad, &rank, &pivot));
-    REFUSED_STATUS(dal_measure_rank(evaluator, &at, NULL, &pivot));
-    REFUSED_STATUS(dal_measure_rank(evaluator, &at, &rank, NULL));
+    REFUSED_STATUS(dal_evaluator_measure_rank(NULL, &at, &rank, &pivot));
+    REFUSED_POINTS(bad, dal_evaluator_measure_rank(evaluator, bad, &rank, &pivot));
+    REFUSED_STATUS(dal_evaluator_measure_rank(evaluator, &at, NULL, &pivot));
+    REFUSED_STATUS(dal_evaluator_measure_rank(evaluator, &at, &rank, NULL));
 }
 
-static void null_dal_project_velocity(void)
+static void null_dal_evaluator_project_velocity(void)
 {
-    REFUSED_STATUS(dal_project_velocity(NULL, 0.0, numbers, numbers + 8));
-    REFUSED_STATUS(dal_project_velocity(evaluator, 0.0, NULL, numbers + 8));
-    REFUSED_STATUS(dal_project_velocity(evaluator, 0.0, numbers, NULL));
+    REFUSED_STATUS(dal_evaluator_project_velocity(NULL, 0.0, numbers, numbers + 8));
+    REFUSED_STATUS(dal_evaluator_project_velocity(evaluator, 0.0, NULL, numbers + 8));
+    REFUSED_STATUS(dal_evaluator_project_velocity(evaluator, 0.0, numbers, NULL));
 }
 
-static void null_dal_classify_constraints(void)
+static void null_dal_evaluator_classify_constraints(void)
 {
     dal_constraint_class out;
-    REFUSED_STATUS(dal_classify_constraints(NULL, &at, &out, NULL));
-    REFUSED_POINTS(bad, dal_classify_constraints(evaluator, bad, &out, NULL));
-    REFUSED_STATUS(dal_classify_constraints(evaluator, &at, NULL, NULL));
-    CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &out, NULL), DAL_OK);
+    REFUSED_STATUS(dal_evaluator_classify_constraints(NULL, &at, &out, NULL));
+    REFUSED_POINTS(bad, dal_evaluator_classify_constraints(evaluator, bad, &out, NULL));
+    REFUSED_STATUS(dal_evaluator_classify_constraints(evaluator, &at, NULL, NULL));
+    CU_ASSERT_EQUAL(dal_evaluator_classify_constraints(evaluator, &at, &out, NULL), DAL_STATUS_OK);
 }
 
 /* ---- measures of a method ---- */
@@ -201,7 +201,8 @@ static void null_dal_whole_steps(void)
 
 static dal_status interrupts(void *user, dal_run *stepped)
 {
-    return dal_run_steps(stepped) > 0 && ++*(int *)user > 2 ? DAL_INTERRUPTED : DAL_OK;
+    return dal_run_steps(stepped) > 0 && ++*(int *)user > 2 ? DAL_STATUS_INTERRUPTED
+                                                            : DAL_STATUS_OK;
 }
 
 static void null_dal_order_measure(void)
@@ -212,10 +213,12 @@ static void null_dal_order_measure(void)
     REFUSED_SPECS(bad, dal_order_measure(&order, bad, 1.0, 2, NULL, NULL, &nobody, error));
     REFUSED(dal_order_measure(NULL, &spec, 1.0, 2, NULL, NULL, &nobody, error));
     REFUSED(dal_order_measure(&order, &spec, 1.0, -1, NULL, NULL, NULL, error));
-    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 2, NULL, NULL, NULL, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 2, NULL, NULL, &nobody, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 2, NULL, NULL, NULL, NULL),
+                    DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 2, NULL, NULL, &nobody, NULL),
+                    DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 100.0, 2, NULL, NULL, &observer, NULL),
-                    DAL_INTERRUPTED);
+                    DAL_STATUS_INTERRUPTED);
     CU_ASSERT_EQUAL(polls, 3);
 }
 
@@ -246,22 +249,22 @@ static void null_dal_adjoint_pairing(void)
 
 /* ---- the action and Dirac's algebra ---- */
 
-static void null_dal_measure_action(void)
+static void null_dal_evaluator_measure_action(void)
 {
     double action;
-    REFUSED_STATUS(dal_measure_action(NULL, 0.0, 0.1, 10, numbers, 1.0, &action));
-    REFUSED_STATUS(dal_measure_action(evaluator, 0.0, 0.1, -1, numbers, 1.0, &action));
-    REFUSED_STATUS(dal_measure_action(evaluator, 0.0, 0.1, 10, NULL, 1.0, &action));
-    REFUSED_STATUS(dal_measure_action(evaluator, 0.0, 0.1, 10, numbers, 1.0, NULL));
+    REFUSED_STATUS(dal_evaluator_measure_action(NULL, 0.0, 0.1, 10, numbers, 1.0, &action));
+    REFUSED_STATUS(dal_evaluator_measure_action(evaluator, 0.0, 0.1, -1, numbers, 1.0, &action));
+    REFUSED_STATUS(dal_evaluator_measure_action(evaluator, 0.0, 0.1, 10, NULL, 1.0, &action));
+    REFUSED_STATUS(dal_evaluator_measure_action(evaluator, 0.0, 0.1, 10, numbers, 1.0, NULL));
 }
 
-static void null_dal_check_stationarity(void)
+static void null_dal_evaluator_check_stationarity(void)
 {
     double defect;
-    REFUSED_STATUS(dal_check_stationarity(NULL, 0.0, 0.1, 10, numbers, &defect));
-    REFUSED_STATUS(dal_check_stationarity(evaluator, 0.0, 0.1, -1, numbers, &defect));
-    REFUSED_STATUS(dal_check_stationarity(evaluator, 0.0, 0.1, 10, NULL, &defect));
-    REFUSED_STATUS(dal_check_stationarity(evaluator, 0.0, 0.1, 10, numbers, NULL));
+    REFUSED_STATUS(dal_evaluator_check_stationarity(NULL, 0.0, 0.1, 10, numbers, &defect));
+    REFUSED_STATUS(dal_evaluator_check_stationarity(evaluator, 0.0, 0.1, -1, numbers, &defect));
+    REFUSED_STATUS(dal_evaluator_check_stationarity(evaluator, 0.0, 0.1, 10, NULL, &defect));
+    REFUSED_STATUS(dal_evaluator_check_stationarity(evaluator, 0.0, 0.1, 10, numbers, NULL));
 }
 
 static double first(void *user, const double *z) { return user ? NAN : z[0]; }
@@ -283,12 +286,12 @@ static void null_dal_poisson(void)
     CU_ASSERT(isnan(dal_poisson(numbers, numbers, -1)));
 }
 
-static void null_dal_check_dirac(void)
+static void null_dal_evaluator_check_dirac(void)
 {
     dal_dirac out;
-    REFUSED_STATUS(dal_check_dirac(NULL, &at, 1.0, &out));
-    REFUSED_POINTS(bad, dal_check_dirac(evaluator, bad, 1.0, &out));
-    REFUSED_STATUS(dal_check_dirac(evaluator, &at, 1.0, NULL));
+    REFUSED_STATUS(dal_evaluator_check_dirac(NULL, &at, 1.0, &out));
+    REFUSED_POINTS(bad, dal_evaluator_check_dirac(evaluator, bad, 1.0, &out));
+    REFUSED_STATUS(dal_evaluator_check_dirac(evaluator, &at, 1.0, NULL));
 }
 
 /* ---- what a drift comes from ---- */
@@ -430,25 +433,25 @@ static void null_dal_evaluator_scales(void)
 {
     const double x[8] = {0.0};
     double out[8];
-    CU_ASSERT_EQUAL(dal_evaluator_scales(NULL, 0.0, x, x, out), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_evaluator_scales(evaluator, 0.0, NULL, x, out), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_evaluator_scales(evaluator, 0.0, x, NULL, out), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_evaluator_scales(evaluator, 0.0, x, x, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_evaluator_scales(NULL, 0.0, x, x, out), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_evaluator_scales(evaluator, 0.0, NULL, x, out), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_evaluator_scales(evaluator, 0.0, x, NULL, out), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_evaluator_scales(evaluator, 0.0, x, x, NULL), DAL_STATUS_ARGUMENT);
 }
 
 static void null_dal_scaled_create(void)
 {
     dal_scaled *scaled;
-    CU_ASSERT_EQUAL(dal_scaled_create(NULL, &(dal_run_spec){0}, NULL), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_scaled_create(&scaled, NULL, NULL), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_scaled_create(&scaled, &(dal_run_spec){0}, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_scaled_create(NULL, &(dal_run_spec){0}, NULL), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_scaled_create(&scaled, NULL, NULL), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_scaled_create(&scaled, &(dal_run_spec){0}, NULL), DAL_STATUS_ARGUMENT);
 }
 
 static void null_dal_scaled_create_at(void)
 {
     dal_scaled *scaled;
-    CU_ASSERT_EQUAL(dal_scaled_create_at(NULL, run, NULL), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_scaled_create_at(&scaled, NULL, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_scaled_create_at(NULL, run, NULL), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_scaled_create_at(&scaled, NULL, NULL), DAL_STATUS_ARGUMENT);
     CU_ASSERT_PTR_NULL(scaled);
 }
 

@@ -83,7 +83,7 @@ static dal_status take_many(void *user, dal_run *run, int samples, const double 
     dal_statistics_add_many(s->statistics, s->observables, samples, t, x, stride);
     s->samples += samples;
     if (samples > s->max_at_once) s->max_at_once = samples;
-    return s->samples > s->refuse ? DAL_INTERRUPTED : DAL_OK;
+    return s->samples > s->refuse ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
 /* A row on every step or between two of them, or only at the end. */
@@ -101,9 +101,9 @@ static dal_status sample(dal_run *run, series *s, bool many, long long every, lo
 static void compile(dal_run *run, bool steps, bool observables)
 {
     if (steps && compiler_works)
-        CU_ASSERT_EQUAL(dal_run_native(run, &compiler_options, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_native(run, &compiler_options, NULL), DAL_STATUS_OK);
     if (observables && compiler_works)
-        CU_ASSERT_EQUAL(dal_run_native_observables(run, &compiler_options, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_native_observables(run, &compiler_options, NULL), DAL_STATUS_OK);
 }
 
 /* ---- the same bits ---- */
@@ -116,8 +116,8 @@ static void same_series(const subject *of, const dal_system *system, int way)
     begin(&one, plain);
     begin(&many, run);
     compile(run, way & 1, way & 2);
-    CU_ASSERT_EQUAL(sample(plain, &one, false, every, rows, 0, rows), DAL_OK);
-    CU_ASSERT_EQUAL(sample(run, &many, true, every, rows, 0, rows), DAL_OK);
+    CU_ASSERT_EQUAL(sample(plain, &one, false, every, rows, 0, rows), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(sample(run, &many, true, every, rows, 0, rows), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(one.samples, 1 + STEPS / every);
     CU_ASSERT(one.observables > 0 && one.x[0][0] == one.x[0][0]);
     CU_ASSERT_EQUAL(memcmp(one.t, many.t, sizeof one.t), 0);
@@ -147,13 +147,14 @@ static void test_pieces(void)
     begin(&whole, run);
     begin(&pieces, run);
     compile(run, true, true);
-    CU_ASSERT_EQUAL(sample(run, &whole, true, 1, ROWS, 0, ROWS), DAL_OK);
+    CU_ASSERT_EQUAL(sample(run, &whole, true, 1, ROWS, 0, ROWS), DAL_STATUS_OK);
     for (int row = 0; row < ROWS; row++) {
-        CU_ASSERT_EQUAL(sample(other, &pieces, true, 1, ROWS, row + (row > 0), row + 1), DAL_OK);
+        CU_ASSERT_EQUAL(sample(other, &pieces, true, 1, ROWS, row + (row > 0), row + 1),
+                        DAL_STATUS_OK);
         const double *memory = dal_run_save(other, &count);
         dal_run *const next = run_of(&subjects[0], system);
         compile(next, row % 3, row % 2);
-        CU_ASSERT_EQUAL(dal_run_restore(next, memory, count, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_restore(next, memory, count, NULL), DAL_STATUS_OK);
         dal_run_free(other);
         other = next;
     }
@@ -176,13 +177,14 @@ static void test_failure(void)
         begin(&one, run);
         begin(&many, run);
         compile(run, way & 1, way & 2);
-        if (way == 0) CU_ASSERT_EQUAL(sample(plain, &one, false, 1, 1, 0, 1), DAL_NOT_FINITE);
-        CU_ASSERT_EQUAL(sample(run, &many, true, 1, 1, 0, 1), DAL_NOT_FINITE);
+        if (way == 0)
+            CU_ASSERT_EQUAL(sample(plain, &one, false, 1, 1, 0, 1), DAL_STATUS_NOT_FINITE);
+        CU_ASSERT_EQUAL(sample(run, &many, true, 1, 1, 0, 1), DAL_STATUS_NOT_FINITE);
         CU_ASSERT_EQUAL(many.samples, 1 + dal_run_steps(run));
         CU_ASSERT_EQUAL(dal_run_steps(run), dal_run_steps(plain));
         CU_ASSERT_EQUAL(many.t[many.samples - 1], dal_run_time(plain));
         double x[MAX_OBSERVABLES];
-        CU_ASSERT_EQUAL(dal_run_observe(plain, x), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(plain, x), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(many.x[0][many.samples - 1], x[0]);
         dal_run_free(run);
     }
@@ -198,7 +200,7 @@ static void test_refusal(void)
         begin(&s, run);
         s.refuse = 300;
         compile(run, way & 1, way & 2);
-        CU_ASSERT_EQUAL(sample(run, &s, true, 1, 1, 0, 1), DAL_INTERRUPTED);
+        CU_ASSERT_EQUAL(sample(run, &s, true, 1, 1, 0, 1), DAL_STATUS_INTERRUPTED);
         CU_ASSERT(s.samples > 300 && dal_run_steps(run) == s.samples - 1);
         dal_run_free(run);
     }
@@ -223,7 +225,7 @@ static void test_lift(void)
         spec.start_count = sizeof start / sizeof *start;
         dal_run *run = fixture_run(&spec);
         const int first = dal_run_observables(run) - 4;
-        CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_STATUS_OK);
         for (int i = 0; i < 4; i++) CU_ASSERT_EQUAL(out[first + i], lift[i]);
         dal_run_free(run);
     }

@@ -16,7 +16,7 @@ static dal_status look(void *user, dal_run *run)
     CU_ASSERT_EQUAL(dal_run_steps(run), l->count * l->every);
     l->count++;
     l->last = dal_run_time(run);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status show(void *user, dal_run *run, long long row, double t)
@@ -24,7 +24,7 @@ static dal_status show(void *user, dal_run *run, long long row, double t)
     samples *l = user;
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), t, 1e-12);
     l->shown[row] = t;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static double given(void *user, long long row)
@@ -43,7 +43,7 @@ static void test_calls(void)
         const dal_observer observer = {
             .user = &l, .sample = show, .step = look, .every = every, .row_time = given};
         dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_sample(run, 10.0, 3, 0, &observer, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_sample(run, 10.0, 3, 0, &observer, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(l.count, 1 + 100 / every);
         CU_ASSERT_DOUBLE_EQUAL(l.last, 0.1 * (100 - 100 % every), 1e-12);
         for (int i = 0; i < 4; i++) CU_ASSERT_EQUAL(l.shown[i], times[i]);
@@ -64,7 +64,7 @@ static dal_status call(void *user, int callback)
 {
     calls *c = user;
     c->of[callback]++;
-    return ++c->made == c->refused ? DAL_IO : DAL_OK;
+    return ++c->made == c->refused ? DAL_STATUS_IO : DAL_STATUS_OK;
 }
 static dal_status on_sample(void *user, dal_run *run, long long row, double t)
 {
@@ -130,14 +130,14 @@ static void test_refusals(void)
             const dal_run_spec spec =
                 fixture_spec(fixture_system(texts[i]), "rk4", DAL_PHYSICAL, 0.1);
             calls all = {0};
-            CU_ASSERT_EQUAL(sampled(&spec, by_values, every, &all, NULL), DAL_OK);
+            CU_ASSERT_EQUAL(sampled(&spec, by_values, every, &all, NULL), DAL_STATUS_OK);
             CU_ASSERT(all.of[SAMPLE] == 8 && all.of[POLL] > 0);
             if (i == 1) CU_ASSERT_EQUAL(all.of[STEP], by_values ? 0 : 1 + 50 / every);
             CU_ASSERT(!by_values == !all.of[VALUES] && !by_values == !all.of[SCALES]);
             CU_ASSERT_EQUAL(all.of[EVENT] > 0, i == 0);
             for (long refused = 1; refused <= all.made; refused++) {
                 calls c = {.refused = refused};
-                CU_ASSERT_EQUAL(sampled(&spec, by_values, every, &c, NULL), DAL_IO);
+                CU_ASSERT_EQUAL(sampled(&spec, by_values, every, &c, NULL), DAL_STATUS_IO);
                 CU_ASSERT_EQUAL(c.made, refused);
             }
         }

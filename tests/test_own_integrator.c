@@ -32,7 +32,7 @@ static void test_scratch(void)
     size_t count;
     spec.method = (dal_method){{&dal_integrator_frugal}};
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 3, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 3, &error), DAL_STATUS_OK);
     dal_run_free(run);
     spec.method = (dal_method){{&dal_integrator_greedy}};
     run = fixture_run(&spec);
@@ -40,8 +40,8 @@ static void test_scratch(void)
     double before[64];
     CU_ASSERT_FATAL(count <= sizeof before / sizeof *before);
     memcpy(before, saved, count * sizeof *before);
-    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_MEMORY);
-    CU_ASSERT_EQUAL(error.status, DAL_MEMORY);
+    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_STATUS_MEMORY);
+    CU_ASSERT_EQUAL(error.status, DAL_STATUS_MEMORY);
     CU_ASSERT_EQUAL(memcmp(before, dal_run_save(run, &count), count * sizeof *before), 0);
     CU_ASSERT_EQUAL(dal_run_steps(run), 0);
     dal_run_free(run);

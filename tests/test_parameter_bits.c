@@ -43,11 +43,11 @@ static void drive_run(dal_run *run, int lane)
 {
     for (int i = 0; i < CHANGES; i++) {
         const long long left = changes[i].step + lane - dal_run_steps(run);
-        CU_ASSERT_EQUAL(dal_run_advance(run, left, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, left, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_run_set_parameter(run, changes[i].name, changes[i].value, NULL),
-                        DAL_OK);
+                        DAL_STATUS_OK);
     }
-    CU_ASSERT_EQUAL(dal_run_advance(run, STEPS - dal_run_steps(run), NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, STEPS - dal_run_steps(run), NULL), DAL_STATUS_OK);
 }
 
 static void drive_batch(dal_batch *batch)
@@ -58,8 +58,8 @@ static void drive_batch(dal_batch *batch)
                 CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, i / CHANGES,
                                                         changes[i % CHANGES].name,
                                                         changes[i % CHANGES].value, NULL),
-                                DAL_OK);
-        CU_ASSERT_EQUAL(dal_batch_advance(batch, 1), DAL_OK);
+                                DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_batch_advance(batch, 1), DAL_STATUS_OK);
     }
 }
 
@@ -67,12 +67,12 @@ static void same_batch(const dal_run_spec *spec, int width, bool native, dal_run
 {
     double state[32];
     dal_batch *batch = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, LANES, width, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, LANES, width, NULL), DAL_STATUS_OK);
     for (int lane = 0; lane < LANES; lane++) {
         const dal_setting start = start_of(lane);
-        CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, &start, 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, &start, 1, NULL), DAL_STATUS_OK);
     }
-    if (native) CU_ASSERT_EQUAL(dal_batch_native(batch, &compiler_options, NULL), DAL_OK);
+    if (native) CU_ASSERT_EQUAL(dal_batch_native(batch, &compiler_options, NULL), DAL_STATUS_OK);
     drive_batch(batch);
     for (int lane = 0; lane < LANES; lane++) {
         dal_batch_state(batch, lane, state);
@@ -87,7 +87,7 @@ static void same_native(const dal_run_spec *spec, const dal_run *run)
 {
     dal_run *native = run_of(*spec, 0);
     size_t m, n;
-    CU_ASSERT_EQUAL(dal_run_native(native, &compiler_options, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_native(native, &compiler_options, NULL), DAL_STATUS_OK);
     drive_run(native, 0);
     const double *x = dal_run_save(native, &m), *y = dal_run_save(run, &n);
     CU_ASSERT_EQUAL_FATAL(m, n);
@@ -122,7 +122,7 @@ static object load(const dal_run_spec *spec, const dal_run *run, int lanes)
     snprintf(command, sizeof command,
              "cc -std=c11 -O0 -Wall -Wextra -Wno-psabi -Werror -shared -fPIC -o %s %s -lm", path,
              source);
-    CU_ASSERT_EQUAL_FATAL(dal_generate(spec, lanes, "g", &text, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_generate(spec, lanes, "g", &text, NULL), DAL_STATUS_OK);
     FILE *file = fopen(source, "w");
     CU_ASSERT_PTR_NOT_NULL_FATAL(file);
     fputs(text, file);

@@ -17,11 +17,11 @@ static void each_name(dal_run *run)
 {
     char name[64];
     int i = 0;
-    for (; dal_run_name(run, i, name, sizeof name); i++)
-        CU_ASSERT_EQUAL(dal_run_index(run, name), i);
+    for (; dal_run_component_name(run, i, name, sizeof name); i++)
+        CU_ASSERT_EQUAL(dal_run_component_index(run, name), i);
     CU_ASSERT_EQUAL(i, dal_run_dimension(run));
-    CU_ASSERT_EQUAL(dal_run_index(run, "y"), -1);
-    CU_ASSERT_EQUAL(dal_run_index(run, ""), -1);
+    CU_ASSERT_EQUAL(dal_run_component_index(run, "y"), -1);
+    CU_ASSERT_EQUAL(dal_run_component_index(run, ""), -1);
     dal_run_free(run);
 }
 
@@ -31,19 +31,19 @@ static void test_names(void)
     const dal_system *vakonomic = fixture_system("chaplygin-sleigh-vakonomic");
     dal_run_spec spec = fixture_spec(sleigh, "rk4", DAL_LIFTED, 0.1);
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_index(run, "y2'"), 4);
-    CU_ASSERT_EQUAL(dal_run_index(run, "e"), 6);
-    CU_ASSERT_EQUAL(dal_run_index(run, "p_y1"), 7);
-    CU_ASSERT_EQUAL(dal_run_index(run, "pi_phi"), 12);
-    CU_ASSERT_EQUAL(dal_run_index(run, "pi_e"), 13);
+    CU_ASSERT_EQUAL(dal_run_component_index(run, "y2'"), 4);
+    CU_ASSERT_EQUAL(dal_run_component_index(run, "e"), 6);
+    CU_ASSERT_EQUAL(dal_run_component_index(run, "p_y1"), 7);
+    CU_ASSERT_EQUAL(dal_run_component_index(run, "pi_phi"), 12);
+    CU_ASSERT_EQUAL(dal_run_component_index(run, "pi_e"), 13);
     each_name(run);
     spec = fixture_spec(sleigh, "rk4", DAL_PHYSICAL, 0.1);
     run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_index(run, "p_y1"), -1);
+    CU_ASSERT_EQUAL(dal_run_component_index(run, "p_y1"), -1);
     each_name(run);
     spec = fixture_spec(vakonomic, "rk4", DAL_PHYSICAL, 0.1);
     run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_index(run, "g1"), 2 * vakonomic->n);
+    CU_ASSERT_EQUAL(dal_run_component_index(run, "g1"), 2 * vakonomic->n);
     each_name(run);
 }
 
@@ -65,10 +65,10 @@ static void test_motion(void)
 {
     for (int precision = DAL_DOUBLE; precision <= DAL_QUAD; precision++) {
         dal_run *run = spring_run("gauss12", precision);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 9.0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 9.0, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_run_parameters(run)[1], 9.0);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 50, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 50, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_run_steps(run), 150);
         const double x = cos(2.0), v = -2.0 * sin(2.0), c = cos(1.5), s = sin(1.5);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], x * c + v / 3.0 * s, 1e-14);
@@ -83,17 +83,17 @@ static void test_warm_start(void)
 {
     dal_run *run = spring_run("gauss6", DAL_DOUBLE);
     const dal__layout *k = &run->layout;
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     const long long first = dal_run_evaluations(run);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 20, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 20, NULL), DAL_STATUS_OK);
     const long long before = dal_run_evaluations(run);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     const long long warm = dal_run_evaluations(run) - before;
     CU_ASSERT(warm < first);
-    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 4.0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 4.0, NULL), DAL_STATUS_OK);
     for (size_t i = dal__at(k, DAL__CLOCK_SIZE); i < dal__at_changed(k); i++)
         CU_ASSERT_EQUAL(run->persistent[i], 0.0);
-    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     CU_ASSERT(dal_run_evaluations(run) - before - warm > warm);
     dal_run_free(run);
 }
@@ -103,12 +103,12 @@ static void test_energy_level(void)
 {
     dal_run *run = spring_run("rk4+project-energy", DAL_DOUBLE);
     double seen[3];
-    CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 9.0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 9.0, NULL), DAL_STATUS_OK);
     const double *y = dal_run_state(run), level = 0.5 * y[1] * y[1] + 4.5 * y[0] * y[0];
     for (int i = 0; i < 300; i++) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
         CU_ASSERT_DOUBLE_EQUAL(seen[0], level, 4e-15 * level);
     }
     dal_run_free(run);
@@ -128,7 +128,7 @@ static dal_status see(void *user, dal_run *run, int count, const double *t, cons
     (void)run;
     last->value = values[stride + (size_t)count - 1];
     last->before = values[(size_t)count - 1];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static double sampled_error(dal_run *run)
@@ -136,7 +136,7 @@ static double sampled_error(dal_run *run)
     last_seen last = {0.0, 0.0};
     const dal_observer observer = {.user = &last, .values = see, .every = 1};
     const double T = dal_run_time(run) + 0.1;
-    CU_ASSERT_EQUAL(dal_run_sample(run, T, 1, 1, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, T, 1, 1, &observer, NULL), DAL_STATUS_OK);
     CU_ASSERT(isfinite(last.before));
     return last.value;
 }
@@ -146,16 +146,17 @@ static void test_error(void)
     for (int native = 0; native <= (int)compiler_works; native++) {
         dal_run *run = spring_run("gauss8", DAL_DOUBLE);
         double seen[2];
-        if (native) CU_ASSERT_EQUAL(dal_run_native(run, &compiler_options, NULL), DAL_OK);
+        if (native) CU_ASSERT_EQUAL(dal_run_native(run, &compiler_options, NULL), DAL_STATUS_OK);
         if (native)
-            CU_ASSERT_EQUAL(dal_run_native_observables(run, &compiler_options, NULL), DAL_OK);
+            CU_ASSERT_EQUAL(dal_run_native_observables(run, &compiler_options, NULL),
+                            DAL_STATUS_OK);
         CU_ASSERT(sampled_error(run) < 1e-13);
-        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 5.0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 5.0, NULL), DAL_STATUS_OK);
         CU_ASSERT(isnan(sampled_error(run)));
-        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 4.0, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 4.0, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
         CU_ASSERT(isfinite(seen[0]) && isnan(seen[1]));
-        CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, dal_run_state(run), NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, dal_run_state(run), NULL), DAL_STATUS_OK);
         CU_ASSERT(isnan(sampled_error(run)));
         dal_run_free(run);
     }
@@ -178,23 +179,24 @@ static void test_checkpoint(void)
         dal_run *run = spring_run("gauss6", precision), *other = spring_run("gauss6", precision);
         size_t count;
         double seen[2], copy[256];
-        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_STATUS_OK);
         CU_ASSERT_FATAL(dal_run_save(run, &count) && count <= 256);
         memcpy(copy, dal_run_save(run, &count), count * sizeof *copy);
-        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 7.0, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_restore(other, dal_run_save(run, &count), count, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 7.0, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_restore(other, dal_run_save(run, &count), count, NULL),
+                        DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_run_parameters(other)[1], 7.0);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_advance(other, 10, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(other, 10, NULL), DAL_STATUS_OK);
         same_memory(run, other);
-        CU_ASSERT_EQUAL(dal_run_observe(other, seen), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(other, seen), DAL_STATUS_OK);
         CU_ASSERT(isnan(seen[1]));
         /* Back to before the change. */
-        CU_ASSERT_EQUAL(dal_run_restore(run, copy, count, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_restore(run, copy, count, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_run_parameters(run)[1], 4.0);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 90, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 90, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
         CU_ASSERT(seen[1] < 1e-12);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], cos(2.0), 1e-12);
         dal_run_free(run);
@@ -212,10 +214,10 @@ static dal_status stiffen(void *user, dal_run *run)
 static void test_intermediate(void)
 {
     dal_run *run = spring_run("gauss6", DAL_DOUBLE), *other = spring_run("gauss6", DAL_DOUBLE);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_intermediate(run, 0.004, stiffen, NULL, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(other, 20, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, 0.004, stiffen, NULL, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(other, 20, NULL), DAL_STATUS_OK);
     same_memory(run, other);
     dal_run_free(run);
     dal_run_free(other);
@@ -250,15 +252,15 @@ static void test_refusals(void)
     for (int precision = DAL_DOUBLE; precision <= DAL_QUAD; precision++) {
         spec.options.precision = precision;
         dal_run *run = fixture_stepped(&spec, 10), *other = fixture_stepped(&spec, 10);
-        refused(run, "mm", 1.0, DAL_NAME, "did you mean 'm'?");
-        refused(run, "x", 1.0, DAL_NAME, "unknown parameter 'x'");
-        refused(run, "k", NAN, DAL_NOT_FINITE, "parameter k");
-        refused(run, "k", -INFINITY, DAL_NOT_FINITE, "-inf");
-        refused(run, "m", 0.0, DAL_SINGULAR_MASS, "parameter m = 0: the mass matrix");
-        refused(run, "I", 0.0, DAL_SINGULAR_MASS, "the present state");
-        refused(run, "k", 1e200, DAL_NOT_FINITE, "acceleration");
-        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_advance(other, 10, NULL), DAL_OK);
+        refused(run, "mm", 1.0, DAL_STATUS_NAME, "did you mean 'm'?");
+        refused(run, "x", 1.0, DAL_STATUS_NAME, "unknown parameter 'x'");
+        refused(run, "k", NAN, DAL_STATUS_NOT_FINITE, "parameter k");
+        refused(run, "k", -INFINITY, DAL_STATUS_NOT_FINITE, "-inf");
+        refused(run, "m", 0.0, DAL_STATUS_SINGULAR_MASS, "parameter m = 0: the mass matrix");
+        refused(run, "I", 0.0, DAL_STATUS_SINGULAR_MASS, "the present state");
+        refused(run, "k", 1e200, DAL_STATUS_NOT_FINITE, "acceleration");
+        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(other, 10, NULL), DAL_STATUS_OK);
         same_memory(run, other);
         dal_run_free(run);
         dal_run_free(other);
@@ -275,11 +277,11 @@ static void test_rank(void)
                       "constraints: [s*(x' - y')]\nstart: {x': 1, y': 1}\n";
     dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
     dal_run *run = fixture_run(&spec);
-    refused(run, "s", 1.0, DAL_SINGULAR, "is singular at the present state");
+    refused(run, "s", 1.0, DAL_STATUS_SINGULAR, "is singular at the present state");
     dal_run_free(run);
     spec = fixture_spec(fixture_system(one), "rk4", DAL_PHYSICAL, 0.1);
     run = fixture_stepped(&spec, 1);
-    refused(run, "s", 0.0, DAL_SINGULAR, "constraint 1 is singular");
+    refused(run, "s", 0.0, DAL_STATUS_SINGULAR, "constraint 1 is singular");
     dal_run_free(run);
 }
 
@@ -288,15 +290,15 @@ static dal_status divide(const dal_system *system, const dal_point *at, double *
 {
     (void)system;
     out[0] = -at->q[0] * at->work[1];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status invert(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system, (void)out;
-    if (at->work[0] > 10.0) return DAL_MODEL;
+    if (at->work[0] > 10.0) return DAL_STATUS_MODEL;
     at->work[1] = 1.0 / at->work[0];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static void test_by_hand(void)
@@ -316,19 +318,19 @@ static void test_by_hand(void)
     spec.start = &start;
     spec.start_count = 1;
     dal_run *run = fixture_stepped(&spec, 5), *other = fixture_stepped(&spec, 5);
-    refused(run, "s", 11.0, DAL_MODEL, "hand cannot be prepared");
-    refused(run, "s", 0.0, DAL_NOT_FINITE, "acceleration 1");
-    CU_ASSERT_EQUAL(dal_run_advance(run, 5, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(other, 5, NULL), DAL_OK);
+    refused(run, "s", 11.0, DAL_STATUS_MODEL, "hand cannot be prepared");
+    refused(run, "s", 0.0, DAL_STATUS_NOT_FINITE, "acceleration 1");
+    CU_ASSERT_EQUAL(dal_run_advance(run, 5, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(other, 5, NULL), DAL_STATUS_OK);
     same_memory(run, other);
-    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "s", 4.0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "s", 4.0, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(run->work[1], 0.25);
     size_t count;
     double copy[256];
     CU_ASSERT_FATAL(dal_run_save(run, &count) && count <= 256);
     memcpy(copy, dal_run_save(run, &count), count * sizeof *copy);
     copy[count - 1] = 12.0;
-    CU_ASSERT_EQUAL(dal_run_restore(run, copy, count, NULL), DAL_MODEL);
+    CU_ASSERT_EQUAL(dal_run_restore(run, copy, count, NULL), DAL_STATUS_MODEL);
     CU_ASSERT_EQUAL(run->work[0], 4.0);
     CU_ASSERT_EQUAL(run->work[1], 0.25);
     dal_run_free(run);
@@ -351,14 +353,14 @@ static void test_violated(void)
         dal_run *run = fixture_stepped(&spec, 10);
         double seen[2];
         dal_error error = {0};
-        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 1.0, &error), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 3.0, &error), DAL_INCONSISTENT);
+        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 1.0, &error), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_set_parameter(run, "k", 3.0, &error), DAL_STATUS_INCONSISTENT);
         CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "parameter k = 3: the present state violates "
                                                      "constraint 1: D1 = -"));
         CU_ASSERT_EQUAL(dal_run_parameters(run)[0], 3.0);
         const double level = dal_run_state(run)[2] - 3.0 * dal_run_state(run)[3];
-        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
         CU_ASSERT_DOUBLE_EQUAL(seen[0], i == 0 ? level : 0.0, 1e-14);
         dal_run_free(run);
     }
@@ -370,7 +372,8 @@ static void set_all(dal_run *run)
     dal_error error = {0};
     for (int i = 0; i < system->parameters; i++) {
         const double value = dal_run_parameters(run)[i];
-        if (dal_run_set_parameter(run, system->parameter[i], value, &error) == DAL_OK) continue;
+        if (dal_run_set_parameter(run, system->parameter[i], value, &error) == DAL_STATUS_OK)
+            continue;
         printf("\n  %s: %s\n", system->name, error.message);
         CU_FAIL("a parameter as it is");
     }
@@ -383,9 +386,9 @@ static void test_drift(void)
         fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.2);
     dal_run *run = fixture_stepped(&spec, 100);
     double seen[8];
-    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
     CU_ASSERT(fabs(seen[0]) > 1e-7);
-    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "I", 2.0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "I", 2.0, NULL), DAL_STATUS_OK);
     dal_run_free(run);
 }
 
@@ -399,7 +402,7 @@ static void test_built_in(void)
         dal_run *run = fixture_run(&spec);
         for (int step = 0; step < 3; step++) {
             set_all(run);
-            CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
+            CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_STATUS_OK);
         }
         dal_run_free(run);
     }
@@ -419,21 +422,22 @@ static void test_lanes(void)
     dal_run *other = fixture_run(&spec);
     dal_error error = {0};
     double state[2];
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 5, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 5, "s", 1.0, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 0, "t", 1.0, &error), DAL_NAME);
-    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 0, "s", NAN, &error), DAL_NOT_FINITE);
-    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 3, "s", 40.0, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 100), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(other, 100, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 5, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 5, "s", 1.0, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 0, "t", 1.0, &error), DAL_STATUS_NAME);
+    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 0, "s", NAN, &error), DAL_STATUS_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 3, "s", 40.0, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 100), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(other, 100, NULL), DAL_STATUS_OK);
     for (int lane = 0; lane < 5; lane++) {
         dal_batch_state(batch, lane, state);
-        CU_ASSERT_EQUAL(dal_batch_status(batch, lane, NULL), lane == 3 ? DAL_NOT_FINITE : DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_status(batch, lane, NULL),
+                        lane == 3 ? DAL_STATUS_NOT_FINITE : DAL_STATUS_OK);
         CU_ASSERT_EQUAL(memcmp(state, dal_run_state(other), sizeof state) == 0, lane != 3);
     }
-    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 3, "s", 1.0, &error), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 3, "s", 1.0, &error), DAL_STATUS_NOT_FINITE);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "t = "));
-    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 2, "s", 1.0, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_set_parameter(batch, 2, "s", 1.0, &error), DAL_STATUS_OK);
     dal_batch_free(batch);
     dal_run_free(other);
 }

@@ -89,7 +89,8 @@ static void test_symmetric(void)
                 fixture_spec(fixture_system(fixture_bilinear), join(bases[b], composed[i].name, ""),
                              DAL_PHYSICAL, 0.2);
             CU_ASSERT(dal_method_properties(&spec.method) & DAL_SYMMETRIC);
-            CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+            CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL),
+                            DAL_STATUS_OK);
             if (!(defect <= 1e-14)) printf("\n  %s: defect %.2e\n", composed[i].name, defect);
             CU_ASSERT(defect <= 1e-14);
         }
@@ -123,8 +124,8 @@ static double max_d(const char *fixture, const char *method, double h, long long
     dal_run *run = fixture_run(&spec);
     double seen[32], max = 0.0;
     for (long long i = 0; i < count; i += 10) {
-        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 10, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 10, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
         for (int a = 0; a < spec.system->m; a++) max = fmax(max, fabs(seen[a]));
     }
     dal_run_free(run);
@@ -201,7 +202,7 @@ static void test_sum(void)
 static void refused(const dal_system *system, const char *name, const char *reason)
 {
     const dal_run_spec spec = fixture_spec(system, name, DAL_LIFTED, 0.1);
-    fixture_refused(&spec, DAL_UNSUPPORTED, reason);
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, reason);
 }
 
 static void test_refused(void)

@@ -146,7 +146,7 @@ static void test_pairing(void)
         spec.start = start;
         spec.start_count = 4;
         CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, 300, &pairing, NULL),
-                        DAL_OK);
+                        DAL_STATUS_OK);
         const double moved = dal_statistics_deviation(&pairing);
         const double size = fmax(1.0, dal_statistics_max_abs(&pairing));
         CU_ASSERT(lifted ? moved <= 1e-13 * size : moved > 1e-8);
@@ -193,7 +193,7 @@ static void test_order(void)
 static void refused(const dal_system *system, const char *name, const char *reason)
 {
     const dal_run_spec spec = fixture_spec(system, name, DAL_LIFTED, 0.1);
-    fixture_refused(&spec, DAL_UNSUPPORTED, reason);
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, reason);
 }
 
 static void test_refused(void)

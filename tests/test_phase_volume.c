@@ -11,7 +11,7 @@ static dal_balance balance_of(dal_lyapunov *s)
 {
     dal_balance b = {0};
     dal_error error = {0};
-    CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &b, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &b, &error), DAL_STATUS_OK);
     CU_ASSERT(b.holds && fabs(b.difference) <= b.margin);
     return b;
 }
@@ -25,8 +25,8 @@ static dal_lyapunov *differences(const char *text, const char *method, const dal
     dal_error error = {0};
     spec.start = start;
     spec.start_count = count;
-    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_advance(s, steps, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_advance(s, steps, &error), DAL_STATUS_OK);
     balance_of(s);
     return s;
 }
@@ -71,11 +71,11 @@ static void test_far_attractor(void)
         dal_lyapunov *s = NULL;
         spec.start = start;
         spec.start_count = 4;
-        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), methods[k].count);
-        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 1000, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 1000, NULL), DAL_STATUS_OK);
         dal_lyapunov_discard_transient(s);
-        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, steps, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, steps, NULL), DAL_STATUS_OK);
         CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, methods[k].count - 1), rate, 2e-3);
         CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), rate, 2e-3);
         CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), rate, 1e-9);
@@ -91,7 +91,7 @@ static void find_units(const char *name, const dal_setting *start, int count, do
     dal_scaled *scaled;
     spec.start = start;
     spec.start_count = count;
-    CU_ASSERT_EQUAL_FATAL(dal_scaled_create(&scaled, &spec, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_scaled_create(&scaled, &spec, NULL), DAL_STATUS_OK);
     memcpy(unit, dal_scaled_units(scaled), (1 + 2 * (size_t)spec.system->n) * sizeof *unit);
     dal_scaled_free(scaled);
 }
@@ -174,9 +174,9 @@ static void test_quad(void)
     for (int k = 0; k < 2; k++) {
         dal_lyapunov *s = NULL;
         spec.options.precision = k == 0 ? DAL_DOUBLE : DAL_QUAD;
-        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 5);
-        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 20, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 20, NULL), DAL_STATUS_OK);
         for (int i = 0; i < 5; i++) value[k][i] = fixture_exponent(s, i);
         dal_lyapunov_free(s);
     }
@@ -195,9 +195,9 @@ static void test_wrong_derivative(void)
     for (int k = 0; k < 2; k++) {
         dal_lyapunov *s = NULL;
         dal_balance b;
-        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent[k], 0, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 100, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &b, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent[k], 0, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 100, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &b, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(b.holds, k == 0);
         CU_ASSERT_DOUBLE_EQUAL(b.difference, k == 0 ? 0.0 : -0.2, 1e-6);
         CU_ASSERT_EQUAL(b.surface, 0.0);
@@ -238,9 +238,10 @@ static void test_no_balance(void)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const dal_run_spec spec =
             fixture_spec(system, cases[k].method, DAL_PHYSICAL, cases[k].step);
-        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, cases[k].count, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 3, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &b, &error), DAL_UNSUPPORTED);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, cases[k].count, NULL),
+                              DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 3, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &b, &error), DAL_STATUS_UNSUPPORTED);
         CU_ASSERT(strstr(error.message, cases[k].reason) != NULL);
         dal_lyapunov_free(s);
     }

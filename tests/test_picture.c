@@ -21,7 +21,7 @@ static void test_numbers(void)
     reference_set(&b, "l", 3.0);
     CU_ASSERT_FATAL(b.system->picture != NULL);
     CU_ASSERT(b.system->picture->body == DAL_BODY_DISK);
-    CU_ASSERT(reference_call(&b, b.system->picture->evaluate, 2.0, q, v, out) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->picture->evaluate, 2.0, q, v, out) == DAL_STATUS_OK);
     CU_ASSERT(fabs(out[DAL_PICTURE_X] - (0.5 + 3.0 * sin(0.3))) < 1e-15);
     CU_ASSERT(fabs(out[DAL_PICTURE_Y] + 3.0 * cos(0.3)) < 1e-15);
     CU_ASSERT(out[DAL_PICTURE_ANGLE] == 0.3 / 4);
@@ -63,7 +63,7 @@ static double slip(const reference *b, const double *x)
     for (int k = -1; k <= 1; k++) {
         for (int i = 0; i < b->system->n; i++) q[i] = x[i] + k * s * x[b->system->n + i];
         CU_ASSERT(reference_call(b, b->system->picture->evaluate, 0.0, q, x + b->system->n,
-                                 out[k + 1]) == DAL_OK);
+                                 out[k + 1]) == DAL_STATUS_OK);
     }
     double dx = (out[2][DAL_PICTURE_X] - out[0][DAL_PICTURE_X]) / (2 * s);
     double dy = (out[2][DAL_PICTURE_Y] - out[0][DAL_PICTURE_Y]) / (2 * s);
@@ -78,10 +78,10 @@ static void check_rolling(const reference *b)
     dal_run_spec spec = {.system = b->system, .options = dal_options_default()};
     spec.options.step = 0.001;
     spec.options.space = DAL_PHYSICAL;
-    CU_ASSERT(dal_method_parse(&spec.method, "rk4", NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_OK);
+    CU_ASSERT(dal_method_parse(&spec.method, "rk4", NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_STATUS_OK);
     CU_ASSERT(fabs(slip(b, dal_run_state(run))) < 1e-9);
-    CU_ASSERT(dal_run_advance(run, 600, NULL) == DAL_OK);
+    CU_ASSERT(dal_run_advance(run, 600, NULL) == DAL_STATUS_OK);
     CU_ASSERT(fabs(slip(b, dal_run_state(run))) < 1e-9);
     dal_run_free(run);
 }

@@ -47,8 +47,8 @@ static void test_singular_mass(void)
     CU_ASSERT(count_nan(9, out) == 9);
     reference_call(&b, b.system->call.field, 0.0, good, v, out);
     CU_ASSERT(count_nan(3, out) == 0);
-    CU_ASSERT(diagnosis(&b, 1e-8, &which) == DAL_SINGULAR_MASS);
-    CU_ASSERT(diagnosis(&b, 1e-4, &which) == DAL_OK);
+    CU_ASSERT(diagnosis(&b, 1e-8, &which) == DAL_STATUS_SINGULAR_MASS);
+    CU_ASSERT(diagnosis(&b, 1e-4, &which) == DAL_STATUS_OK);
     reference_free(&b);
 }
 
@@ -57,9 +57,9 @@ static void test_massless(void)
 {
     reference b = reference_builtin("chaplygin-sleigh");
     double which;
-    CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_OK);
+    CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_STATUS_OK);
     reference_set(&b, "I", 0.0);
-    CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_SINGULAR_MASS);
+    CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_STATUS_SINGULAR_MASS);
     reference_free(&b);
 }
 
@@ -67,8 +67,8 @@ static void test_dependent_constraints(void)
 {
     reference b = reference_of_text(parallel_text);
     double which = 0.0;
-    CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_OK);
-    CU_ASSERT(diagnosis(&b, atan(1.0), &which) == DAL_SINGULAR && which == 2.0);
+    CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_STATUS_OK);
+    CU_ASSERT(diagnosis(&b, atan(1.0), &which) == DAL_STATUS_SINGULAR && which == 2.0);
     reference_free(&b);
 }
 
@@ -94,7 +94,7 @@ static void check_diagnosis(const char *system, const double *q, const double *v
     double which = 0.0, F[3];
     reference_call(&b, b.system->call.field, 0.0, q, v, F);
     CU_ASSERT(!isfinite(F[0]) || !isfinite(F[1]) || !isfinite(F[2]));
-    CU_ASSERT(reference_call(&b, b.system->diagnose, 0.0, q, v, &which) == DAL_SINGULAR);
+    CU_ASSERT(reference_call(&b, b.system->diagnose, 0.0, q, v, &which) == DAL_STATUS_SINGULAR);
     CU_ASSERT(which == 1.0);
     reference_free(&b);
 }
@@ -113,7 +113,7 @@ static void test_singular_rate(void)
                                     "constraints: [x' + z', y' - sqrt(x)]\n"
                                     "start: {x: 1}\n");
     double q[] = {0, 0, 0}, v[] = {1, 0, -1}, which = 0.0;
-    CU_ASSERT(reference_call(&b, b.system->diagnose, 0.0, q, v, &which) == DAL_SINGULAR);
+    CU_ASSERT(reference_call(&b, b.system->diagnose, 0.0, q, v, &which) == DAL_STATUS_SINGULAR);
     CU_ASSERT(which == 2.0);
     reference_free(&b);
 }
@@ -162,7 +162,7 @@ static void test_guards(void)
     CU_ASSERT(has_guard(&b, "constraint 1: y'") && has_guard(&b, "constraint 1: t"));
     CU_ASSERT(has_guard(&b, "constraint 1: cos(x)"));
     CU_ASSERT(has_guard(&b, "constraint 1: a denominator"));
-    CU_ASSERT(reference_call(&b, b.system->call.guards, 0.9, q, v, out) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->call.guards, 0.9, q, v, out) == DAL_STATUS_OK);
     for (int i = 0; i < 4; i++) sum += out[i];
     CU_ASSERT(fabs(sum - (0.7 + 0.9 + cos(0.3) + 0.8)) < 1e-15);
     reference_free(&b);
@@ -297,8 +297,8 @@ static void test_by_hand(void)
     dal_point at = {.q = q, .v = v, .work = work};
     for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
         CU_ASSERT(dal_model_add(b.model, entries[i].section, entries[i].name, entries[i].text, 0, 0,
-                                NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_model_system(b.model, &b.system, NULL) == DAL_OK);
+                                NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_model_system(b.model, &b.system, NULL) == DAL_STATUS_OK);
     CU_ASSERT_FATAL(b.system->workspace <= sizeof work / sizeof *work);
     CU_ASSERT_STRING_EQUAL(b.system->name, "by hand");
     b.system->prepare(b.system, &at, NULL);
@@ -312,8 +312,9 @@ static void test_by_hand(void)
 static void test_from_file(void)
 {
     reference b = {.work = NULL};
-    CU_ASSERT_FATAL(dal_model_read_file(&b.model, "systems/knife-edge.yaml", NULL) == DAL_OK);
-    CU_ASSERT(dal_model_system(b.model, &b.system, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_model_read_file(&b.model, "systems/knife-edge.yaml", NULL) ==
+                    DAL_STATUS_OK);
+    CU_ASSERT(dal_model_system(b.model, &b.system, NULL) == DAL_STATUS_OK);
     CU_ASSERT_STRING_EQUAL(b.system->name, "knife-edge");
     CU_ASSERT_STRING_EQUAL(b.system->title, "Knife edge on an inclined plane");
     CU_ASSERT_STRING_EQUAL(b.system->parameter[3], "alpha");

@@ -107,7 +107,7 @@ static double error_at_end(const dal_run_spec *spec, int steps)
 {
     double out[32];
     dal_run *run = fixture_stepped(spec, steps);
-    CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_STATUS_OK);
     const double error = out[dal_run_observables(run) - 1];
     dal_run_free(run);
     return error;
@@ -148,12 +148,12 @@ static void test_constraint(void)
     dal_run *in_double = fixture_stepped(&spec, 200);
     spec.options.precision = DAL_QUAD;
     dal_run *start = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_observe(start, out), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(start, out), DAL_STATUS_OK);
     const double before = out[0];
     dal_run *in_quad = fixture_stepped(&spec, 200);
-    CU_ASSERT_EQUAL(dal_run_observe(in_quad, out), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(in_quad, out), DAL_STATUS_OK);
     CU_ASSERT(fabs(out[0] - before) < 1e-30);
-    CU_ASSERT_EQUAL(dal_run_observe(in_double, out), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(in_double, out), DAL_STATUS_OK);
     CU_ASSERT(fabs(out[0] - before) > 1e-18);
     dal_run_free(in_double);
     dal_run_free(start);
@@ -173,8 +173,8 @@ static void compare(const dal_run_spec *of)
         fixture_perturb(in_double, 0.1);
         fixture_perturb(in_quad, 0.1);
     }
-    CU_ASSERT_EQUAL(dal_run_advance(in_double, 5, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(in_quad, 5, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(in_double, 5, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(in_quad, 5, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_time(in_quad), dal_run_time(in_double));
     CU_ASSERT_EQUAL(dal_run_steps(in_quad), 5);
     double max_error = 0.0, min_error = 0.0;
@@ -183,8 +183,8 @@ static void compare(const dal_run_spec *of)
         max_error = fmax(max_error, d);
         min_error = fmax(min_error, d);
     }
-    CU_ASSERT_EQUAL(dal_run_observe(in_double, a), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_observe(in_quad, b), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(in_double, a), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(in_quad, b), DAL_STATUS_OK);
     for (int i = 0; i < dal_run_observables(in_double); i++)
         max_error = fmax(max_error, fabs(a[i] - b[i]));
     dal_method_name(&spec.method, name, sizeof name);
@@ -220,7 +220,7 @@ static dal_status nothing(void *user, dal_run *run, long long row, double t)
 {
     (void)run, (void)row, (void)t;
     ++*(int *)user;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Rows between steps, and a copy of the memory in the middle, change no bit. */
@@ -232,22 +232,22 @@ static void test_memory(void)
     int rows = 0;
     const dal_observer observer = {.user = &rows, .sample = nothing};
     dal_error error = {0};
-    CU_ASSERT_EQUAL(dal_run_sample(sampled, 1.0, 7, 0, &observer, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(sampled, 1.0, 7, 0, &observer, &error), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(rows, 8);
     size_t count, other;
     const double *memory = dal_run_save(sampled, &count);
     dal_run *loaded = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_restore(loaded, memory, count, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(loaded, memory, count, &error), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_time(loaded), 1.0);
-    CU_ASSERT_EQUAL(dal_run_advance(loaded, 8, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(loaded, 8, NULL), DAL_STATUS_OK);
     const double *x = dal_run_save(loaded, &count), *y = dal_run_save(straight, &other);
     CU_ASSERT_EQUAL_FATAL(count, other);
     CU_ASSERT_EQUAL(memcmp(x, y, count * sizeof *x), 0);
-    CU_ASSERT_EQUAL(dal_run_restore(loaded, x, count - 1, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_restore(loaded, x, count - 1, &error), DAL_STATUS_ARGUMENT);
     num *bad = malloc(count * sizeof(double));
     memcpy(bad, x, count * sizeof(double));
     bad[1] = NAN;
-    CU_ASSERT_EQUAL(dal_run_restore(loaded, (double *)bad, count, &error), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_run_restore(loaded, (double *)bad, count, &error), DAL_STATUS_NOT_FINITE);
     free(bad);
     dal_run_free(straight);
     dal_run_free(sampled);
@@ -264,16 +264,16 @@ static void test_refused(void)
     dal_batch *batch;
     char *text;
     spec.options.precision = DAL_QUAD;
-    fixture_refused(&spec, DAL_UNSUPPORTED, "quad precision: spring has no form in it");
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, "quad precision: spring has no form in it");
     spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
     spec.options.precision = DAL_QUAD;
-    CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 4, 0, &error), DAL_UNSUPPORTED);
-    CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 4, 0, &error), DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "quad precision"));
     CU_ASSERT(error.line == 0 && error.column == 0);
     dal_integrator outside = *spec.method.layer[0];
     spec.method.layer[0] = &outside;
-    fixture_refused(&spec, DAL_UNSUPPORTED, "'rk4' has no form in it");
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, "'rk4' has no form in it");
 }
 
 void suite_quad(void)

@@ -50,7 +50,7 @@ static long long advance(const dal_run_spec *spec, dal_error *error)
 {
     dal_run *run = NULL;
     *error = (dal_error){0};
-    if (dal_run_create(&run, spec, error) != DAL_OK) return -1;
+    if (dal_run_create(&run, spec, error) != DAL_STATUS_OK) return -1;
     dal_run_advance(run, STEPS, error);
     const long long steps = dal_run_steps(run);
     dal_run_free(run);
@@ -64,7 +64,7 @@ static void compare(const dal_system *system, const char *name, double h, dal_sp
     dal_system always = *system;
     dal_error error, expected;
     dal_run_spec spec = {.system = system, .options = dal_options_default()};
-    if (dal_method_parse(&spec.method, name, NULL) != DAL_OK ||
+    if (dal_method_parse(&spec.method, name, NULL) != DAL_STATUS_OK ||
         !fixture_accepts(&spec.method, system, space))
         return;
     spec.options.step = h;
@@ -75,7 +75,7 @@ static void compare(const dal_system *system, const char *name, double h, dal_sp
     CU_ASSERT(steps == advance(&spec, &expected));
     CU_ASSERT(error.status == expected.status);
     CU_ASSERT_STRING_EQUAL(error.message, expected.message);
-    *singular += expected.status == DAL_SINGULAR;
+    *singular += expected.status == DAL_STATUS_SINGULAR;
 }
 
 static int compare_all(const dal_system *system, int first_size)
@@ -153,7 +153,7 @@ static dal_status count(const dal_system *system, const dal_point *at, double *o
 /* Evaluations of the constraint since the last time. */
 static int evaluated(dal_run *run, long long steps)
 {
-    CU_ASSERT(dal_run_advance(run, steps, NULL) == DAL_OK);
+    CU_ASSERT(dal_run_advance(run, steps, NULL) == DAL_STATUS_OK);
     const int counted = evaluations;
     evaluations = 0;
     return counted;
@@ -173,9 +173,9 @@ static void test_spared(void)
     CU_ASSERT(evaluated(run, 1000) == 4);
     size_t numbers;
     const double *saved = dal_run_save(run, &numbers);
-    CU_ASSERT(dal_run_restore(resumed, saved, numbers, NULL) == DAL_OK);
+    CU_ASSERT(dal_run_restore(resumed, saved, numbers, NULL) == DAL_STATUS_OK);
     CU_ASSERT(evaluated(resumed, 1000) == 0);
-    CU_ASSERT(dal_run_set_state(resumed, 0.0, dal_run_state(run), NULL) == DAL_OK);
+    CU_ASSERT(dal_run_set_state(resumed, 0.0, dal_run_state(run), NULL) == DAL_STATUS_OK);
     CU_ASSERT(evaluated(resumed, 1000) == 4);
     dal_run_free(resumed);
     dal_run_free(run);
@@ -195,10 +195,10 @@ static void test_lanes(void)
     for (int i = 0; i < METHODS; i++) {
         dal_run_spec spec = fixture_spec(fixture_system(texts[1]), methods[i], DAL_PHYSICAL, 0.043);
         dal_batch *batch = NULL;
-        CU_ASSERT_FATAL(dal_batch_create(&batch, &spec, COUNT, 0, NULL) == DAL_OK);
+        CU_ASSERT_FATAL(dal_batch_create(&batch, &spec, COUNT, 0, NULL) == DAL_STATUS_OK);
         for (int lane = 0; lane < COUNT; lane++) {
             const dal_setting start = {"z", 0.2 + 0.03 * lane};
-            CU_ASSERT(dal_batch_start(batch, lane, NULL, 0, &start, 1, NULL) == DAL_OK);
+            CU_ASSERT(dal_batch_start(batch, lane, NULL, 0, &start, 1, NULL) == DAL_STATUS_OK);
         }
         dal_batch_advance(batch, STEPS);
         for (int lane = 0; lane < COUNT; lane++) {
@@ -222,8 +222,9 @@ static void test_compiled(void)
         dal_error error, expected;
         const long long steps = advance(&spec, &expected);
         dal_run *run = fixture_run(&spec);
-        CU_ASSERT(dal_run_native(run, &(dal_native_options){.cache = "cache"}, NULL) == DAL_OK);
-        CU_ASSERT(dal_run_advance(run, STEPS, &error) == DAL_SINGULAR);
+        CU_ASSERT(dal_run_native(run, &(dal_native_options){.cache = "cache"}, NULL) ==
+                  DAL_STATUS_OK);
+        CU_ASSERT(dal_run_advance(run, STEPS, &error) == DAL_STATUS_SINGULAR);
         CU_ASSERT(dal_run_steps(run) == steps);
         CU_ASSERT_STRING_EQUAL(error.message, expected.message);
         dal_run_free(run);
@@ -239,7 +240,7 @@ static long calls, failing; /* of D; the call that fails, from 1; 0: none */
 static dal_status failing_constraint(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
-    return ++calls == failing ? DAL_IO : turning->call.constraint(turning, at, out);
+    return ++calls == failing ? DAL_STATUS_IO : turning->call.constraint(turning, at, out);
 }
 
 static dal_status turn(const dal_run_spec *spec, dal_error *error)
@@ -264,11 +265,11 @@ static void test_turn(void)
     const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 5.0);
     dal_error error;
     failing = 0;
-    CU_ASSERT_EQUAL(turn(&spec, &error), DAL_NOT_CONVERGED);
+    CU_ASSERT_EQUAL(turn(&spec, &error), DAL_STATUS_NOT_CONVERGED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "turns by more than a right angle"));
     const long total = calls;
     for (failing = total - PARTS + 2; failing <= total; failing++) {
-        CU_ASSERT_EQUAL(turn(&spec, &error), DAL_NOT_CONVERGED);
+        CU_ASSERT_EQUAL(turn(&spec, &error), DAL_STATUS_NOT_CONVERGED);
         CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "turns by more than a right angle"));
     }
     failing = 0;

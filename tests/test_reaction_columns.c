@@ -28,21 +28,21 @@ static dal_run_spec spec_of(const dal_system *system, const char *method, dal_sp
     spec.options.space = space;
     spec.options.step = 0.05;
     spec.options.reactions = 1;
-    CU_ASSERT_FATAL(dal_method_parse(&spec.method, method, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_method_parse(&spec.method, method, NULL) == DAL_STATUS_OK);
     return spec;
 }
 
 static void observe(observed *o)
 {
     CU_ASSERT_FATAL(dal_run_observables(o->run) <= MAX_OBSERVABLES);
-    CU_ASSERT_FATAL(dal_run_observe(o->run, o->value) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_observe(o->run, o->value) == DAL_STATUS_OK);
     o->x = dal_run_state(o->run);
 }
 
 static observed open_run(reference b, dal_run_spec spec)
 {
     observed o = {.b = b};
-    CU_ASSERT_FATAL(dal_run_create(&o.run, &spec, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_create(&o.run, &spec, NULL) == DAL_STATUS_OK);
     observe(&o);
     return o;
 }
@@ -55,7 +55,7 @@ static void close_run(observed *o)
 
 static void advance(observed *o, long long steps)
 {
-    CU_ASSERT_FATAL(dal_run_advance(o->run, steps, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_advance(o->run, steps, NULL) == DAL_STATUS_OK);
     observe(o);
 }
 
@@ -175,11 +175,11 @@ static void test_differences(void)
         R[i] = -reference_load(&full, i, q, v, t);
         for (int j = 0; j < 3; j++) R[i] += reference_mass(&full, i, j, q, v, t) * F[j];
     }
-    CU_ASSERT_FATAL(reference_call(&b, b.system->reactions, t, q, v, out) == DAL_OK);
+    CU_ASSERT_FATAL(reference_call(&b, b.system->reactions, t, q, v, out) == DAL_STATUS_OK);
     for (int i = 0; i < 3; i++) sum[i] = out[0] * out[2 + i] + out[1] * out[5 + i];
     CU_ASSERT(reference_distance(3, sum, R) < BY_DIFFERENCES);
     CU_ASSERT(fabs(out[2] - 3.0) < SMALL); /* D as written */
-    CU_ASSERT(reference_call(&b, b.system->invariant_values, t, q, v, invariant) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->invariant_values, t, q, v, invariant) == DAL_STATUS_OK);
     const double expected[] = {out[0], R[0] + 2 * R[2], out[1] * R[1]};
     CU_ASSERT(reference_distance(3, invariant, expected) < BY_DIFFERENCES);
     reference_free(&b);
@@ -217,10 +217,10 @@ static void test_restored(void)
     double value[MAX_OBSERVABLES];
     size_t count;
     advance(&o, 7);
-    CU_ASSERT_FATAL(dal_run_create(&other, &spec, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_create(&other, &spec, NULL) == DAL_STATUS_OK);
     const double *saved = dal_run_save(o.run, &count);
-    CU_ASSERT(dal_run_restore(other, saved, count, NULL) == DAL_OK);
-    CU_ASSERT(dal_run_observe(other, value) == DAL_OK);
+    CU_ASSERT(dal_run_restore(other, saved, count, NULL) == DAL_STATUS_OK);
+    CU_ASSERT(dal_run_observe(other, value) == DAL_STATUS_OK);
     const size_t bytes = (size_t)dal_run_observables(other) * sizeof *value;
     CU_ASSERT(memcmp(value, o.value, bytes) == 0);
     dal_run_free(other);
@@ -240,10 +240,10 @@ static void test_quad(void)
         return;
     }
     observed o = open_run(b, spec_of(b.system, "gauss8", DAL_PHYSICAL));
-    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_STATUS_OK);
     advance(&o, 20);
-    CU_ASSERT(dal_run_advance(run, 20, NULL) == DAL_OK);
-    CU_ASSERT(dal_run_observe(run, value) == DAL_OK);
+    CU_ASSERT(dal_run_advance(run, 20, NULL) == DAL_STATUS_OK);
+    CU_ASSERT(dal_run_observe(run, value) == DAL_STATUS_OK);
     CU_ASSERT(reference_distance(dal_run_observables(run), o.value, value) < SMALL);
     dal_run_free(run);
     close_run(&o);
@@ -265,22 +265,22 @@ static void check_refused(reference b, dal_run_spec spec, dal_status status, con
 static void test_refused(void)
 {
     reference b = reference_builtin("damped-oscillator");
-    check_refused(b, spec_of(b.system, "rk4", DAL_PHYSICAL), DAL_UNSUPPORTED,
+    check_refused(b, spec_of(b.system, "rk4", DAL_PHYSICAL), DAL_STATUS_UNSUPPORTED,
                   "the system has no constraints");
     b = reference_builtin("chaplygin-sleigh-vakonomic");
-    check_refused(b, spec_of(b.system, "rk4", DAL_PHYSICAL), DAL_UNSUPPORTED, "g1, g2");
+    check_refused(b, spec_of(b.system, "rk4", DAL_PHYSICAL), DAL_STATUS_UNSUPPORTED, "g1, g2");
     b = reference_builtin("contact-oscillator");
     dal_run_spec spec = spec_of(b.system, "rk4", DAL_PHYSICAL);
     spec.options.extend_energy = 1;
-    check_refused(b, spec, DAL_UNSUPPORTED, "F continued off D = 0");
+    check_refused(b, spec, DAL_STATUS_UNSUPPORTED, "F continued off D = 0");
     b = reference_of_text("coordinates: [x, h1]\nlagrangian: x'^2 + h1'^2\n"
                           "constraints: [x' - h1']\n");
-    check_refused(b, spec_of(b.system, "rk4", DAL_PHYSICAL), DAL_NAME,
+    check_refused(b, spec_of(b.system, "rk4", DAL_PHYSICAL), DAL_STATUS_NAME,
                   "'h1' is also the name of a coordinate");
     b = reference_builtin("chaplygin-sleigh");
     dal_system plain = *b.system;
     plain.reactions = NULL;
-    check_refused(b, spec_of(&plain, "rk4", DAL_PHYSICAL), DAL_UNSUPPORTED, "no callback");
+    check_refused(b, spec_of(&plain, "rk4", DAL_PHYSICAL), DAL_STATUS_UNSUPPORTED, "no callback");
 }
 
 void suite_reaction_columns(void)

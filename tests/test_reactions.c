@@ -34,7 +34,7 @@ static void test_field(void)
 {
     reference b = reference_of_text(full_text);
     double F[REFERENCE_MAX], expected[REFERENCE_MAX];
-    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_STATUS_OK);
     reference_motion(&full, q0, v0, t0, expected);
     CU_ASSERT(reference_distance(3, F, expected) < BY_DIFFERENCES);
     CU_ASSERT(b.system->properties & DAL_SERVO);
@@ -71,7 +71,7 @@ static void test_adjoint(void)
 {
     reference b = reference_of_text(full_text);
     double out[9], expected[6], pi[] = {0.4, -0.8, 0.6};
-    CU_ASSERT(reference_pull(&b, t0, q0, v0, pi, out) == DAL_OK);
+    CU_ASSERT(reference_pull(&b, t0, q0, v0, pi, out) == DAL_STATUS_OK);
     for (int i = 0; i < 6; i++) expected[i] = slope(&b, pi, i);
     CU_ASSERT(reference_distance(6, out + 3, expected) < BY_DIFFERENCES);
     reference_free(&b);
@@ -81,7 +81,7 @@ static void test_metric(void)
 {
     reference b = reference_of_text(full_text);
     double out[2 + 6 + 6], product, A;
-    CU_ASSERT(reference_call(&b, b.system->call.constraint, t0, q0, v0, out) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->call.constraint, t0, q0, v0, out) == DAL_STATUS_OK);
     for (int a = 0; a < 2; a++)
         for (int i = 0; i < 3; i++) {
             product = 0.0;
@@ -105,7 +105,7 @@ static void check_same(const char *rest, const char *reactions)
         strcat(text, rest);
         if (k) strcat(text, reactions);
         reference b = reference_of_text(text);
-        CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F[k]) == DAL_OK);
+        CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F[k]) == DAL_STATUS_OK);
         CU_ASSERT(!(b.system->properties & DAL_SERVO) == !k);
         reference_free(&b);
     }
@@ -183,9 +183,9 @@ static void test_pendulum(void)
                          .parameter_count = 3};
     double x[2] = {1.2, 0.3};
     spec.options.step = 0.02;
-    CU_ASSERT_FATAL(dal_method_parse(&spec.method, "gauss8", NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_OK);
-    CU_ASSERT(dal_run_advance(run, 500, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_method_parse(&spec.method, "gauss8", NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_STATUS_OK);
+    CU_ASSERT(dal_run_advance(run, 500, NULL) == DAL_STATUS_OK);
     for (int k = 0; k < 10000; k++) swing(&p, 0.001, x);
     const double *state = dal_run_state(run);
     CU_ASSERT(fabs(state[1] - x[0]) < 1e-12 && fabs(state[3] - x[1]) < 1e-12);
@@ -206,9 +206,9 @@ static void test_loss(void)
                          .parameters = set,
                          .parameter_count = 3};
     spec.options.step = 0.05;
-    CU_ASSERT_FATAL(dal_method_parse(&spec.method, "rk4", NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_OK);
-    CU_ASSERT(dal_run_advance(run, 100, &error) == DAL_SINGULAR);
+    CU_ASSERT_FATAL(dal_method_parse(&spec.method, "rk4", NULL) == DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_STATUS_OK);
+    CU_ASSERT(dal_run_advance(run, 100, &error) == DAL_STATUS_SINGULAR);
     CU_ASSERT(strstr(error.message, "the reactions: det A W^-1 B^T") != NULL);
     dal_run_free(run);
     reference_free(&b);

@@ -21,7 +21,7 @@ static void test_modifiers(void)
     const dal_system *system = fixture_system(fixture_constant);
     dal_run_spec spec =
         fixture_spec(system, "discrete-gradient+symmetric-project", DAL_PHYSICAL, 0.1);
-    fixture_refused(&spec, DAL_UNSUPPORTED,
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED,
                     "+symmetric-project has no solution around discrete-gradient, which turns D "
                     "into -D in every step");
     spec = fixture_spec(system, "dla+symmetric-project", DAL_PHYSICAL, 0.1);
@@ -32,10 +32,10 @@ static void test_tolerances(void)
 {
     dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
     spec.options.tolerance = 1e-9;
-    fixture_refused(&spec, DAL_UNSUPPORTED,
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED,
                     "rk4 has no control of its step size: the tolerance must be 0");
     spec.options.tolerance = 1e-40;
-    fixture_refused(&spec, DAL_ARGUMENT, "option tolerance: 1e-40 is below");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "option tolerance: 1e-40 is below");
 }
 
 static void test_batches(void)
@@ -43,18 +43,18 @@ static void test_batches(void)
     const dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
     dal_error error;
     dal_batch *batch = NULL;
-    refused(dal_batch_create(&batch, &spec, 2, 3, &error), DAL_ARGUMENT, &error,
+    refused(dal_batch_create(&batch, &spec, 2, 3, &error), DAL_STATUS_ARGUMENT, &error,
             "width 3 is not 0, 1, 4 or 8");
     CU_ASSERT_PTR_NULL(batch);
-    refused(dal_batch_create(&batch, &spec, 0, 1, &error), DAL_ARGUMENT, &error,
+    refused(dal_batch_create(&batch, &spec, 0, 1, &error), DAL_STATUS_ARGUMENT, &error,
             "a batch of 0 runs is empty");
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 2, 1, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 2, 1, &error), DAL_STATUS_OK);
     for (int lane = -1; lane <= 2; lane += 3) {
         char message[64];
         snprintf(message, sizeof message, "lane %d of 2 does not exist", lane);
-        refused(dal_batch_start(batch, lane, NULL, 0, NULL, 0, &error), DAL_ARGUMENT, &error,
+        refused(dal_batch_start(batch, lane, NULL, 0, NULL, 0, &error), DAL_STATUS_ARGUMENT, &error,
                 message);
-        refused(dal_batch_status(batch, lane, &error), DAL_ARGUMENT, &error, message);
+        refused(dal_batch_status(batch, lane, &error), DAL_STATUS_ARGUMENT, &error, message);
     }
     dal_batch_free(batch);
 }
@@ -77,17 +77,18 @@ static void test_runs(void)
     dal_run *run = fixture_run(&spec);
     dal_error error;
     dal_observer observer = {.row_time = backwards};
-    refused(dal_run_advance(run, -1, &error), DAL_ARGUMENT, &error, "-1 steps: a run goes forward");
-    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_ARGUMENT, &error,
+    refused(dal_run_advance(run, -1, &error), DAL_STATUS_ARGUMENT, &error,
+            "-1 steps: a run goes forward");
+    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_STATUS_ARGUMENT, &error,
             "row 2 is at t = 0.25, the row before it at 0.5");
     observer.row_time = nowhere;
-    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_ARGUMENT, &error,
+    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_STATUS_ARGUMENT, &error,
             "row 2 is at t = nan, the row before it at 0.5");
     observer = (dal_observer){.every = -1};
-    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_ARGUMENT, &error,
+    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_STATUS_ARGUMENT, &error,
             "observations every -1 steps cannot be made");
     observer = (dal_observer){.polling = -1};
-    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_ARGUMENT, &error,
+    refused(dal_run_sample(run, 1.0, 3, 0, &observer, &error), DAL_STATUS_ARGUMENT, &error,
             "polls every -1 steps cannot be made");
     CU_ASSERT_EQUAL(dal_run_steps(run), 0);
     dal_run_free(run);
@@ -96,7 +97,7 @@ static void test_runs(void)
 static dal_status no_values(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system, (void)at, (void)out;
-    return DAL_NOT_FINITE;
+    return DAL_STATUS_NOT_FINITE;
 }
 
 static void test_systems(void)
@@ -106,17 +107,23 @@ static void test_systems(void)
         dal_status status;
         const char *message;
     } bad[] = {
-        {{.n = 0}, DAL_ARGUMENT, "a system needs coordinates; n is 0"},
-        {{.n = 1, .pivots = -1}, DAL_ARGUMENT, "a dimension of the system is negative"},
-        {{.n = 3, .m = 2, .multipliers = 1}, DAL_ARGUMENT, "1 multipliers for 2 constraints"},
+        {{.n = 0}, DAL_STATUS_ARGUMENT, "a system needs coordinates; n is 0"},
+        {{.n = 1, .pivots = -1}, DAL_STATUS_ARGUMENT, "a dimension of the system is negative"},
+        {{.n = 3, .m = 2, .multipliers = 1},
+         DAL_STATUS_ARGUMENT,
+         "1 multipliers for 2 constraints"},
         {{.n = 1, .parameters = 3, .workspace = 2},
-         DAL_ARGUMENT,
+         DAL_STATUS_ARGUMENT,
          "3 parameters in a workspace of 2"},
-        {{.n = 1, .pivots = 2, .workspace = 1}, DAL_ARGUMENT, "2 pivots in a workspace of 1"},
-        {{.n = 1, .m = 2}, DAL_TOO_LARGE, "1 coordinates, 2 constraints"},
-        {{.n = 100001}, DAL_TOO_LARGE, "100001 coordinates, 0 constraints"},
-        {{.n = 1, .start = no_values}, DAL_NOT_FINITE, "the system has no start with these"},
-        {{.name = "hand", .n = 1, .start = no_values}, DAL_NOT_FINITE, "hand has no start with"},
+        {{.n = 1, .pivots = 2, .workspace = 1},
+         DAL_STATUS_ARGUMENT,
+         "2 pivots in a workspace of 1"},
+        {{.n = 1, .m = 2}, DAL_STATUS_TOO_LARGE, "1 coordinates, 2 constraints"},
+        {{.n = 100001}, DAL_STATUS_TOO_LARGE, "100001 coordinates, 0 constraints"},
+        {{.n = 1, .start = no_values}, DAL_STATUS_NOT_FINITE, "the system has no start with these"},
+        {{.name = "hand", .n = 1, .start = no_values},
+         DAL_STATUS_NOT_FINITE,
+         "hand has no start with"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         dal_system system = bad[i].system;
@@ -130,13 +137,14 @@ static void test_models(void)
 {
     dal_error error;
     dal_model *model = dal_model_create("late");
-    CU_ASSERT_EQUAL(dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "x", 1, 1, NULL), DAL_OK);
-    refused(dal_model_add(model, DAL_SECTION_TABLES, "f", "f.csv", 2, 3, &error), DAL_ARGUMENT,
-            &error, "tables are added by dal_model_add_table");
+    CU_ASSERT_EQUAL(dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "x", 1, 1, NULL),
+                    DAL_STATUS_OK);
+    refused(dal_model_add(model, DAL_SECTION_TABLES, "f", "f.csv", 2, 3, &error),
+            DAL_STATUS_ARGUMENT, &error, "tables are added by dal_model_add_table");
     CU_ASSERT(error.line == 2 && error.column == 3);
-    CU_ASSERT_EQUAL(dal_model_observe(model, "x^2", 3, 1, NULL), DAL_OK);
-    refused(dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "y", 4, 5, &error), DAL_ARGUMENT,
-            &error, "formulas to observe come after all other entries");
+    CU_ASSERT_EQUAL(dal_model_observe(model, "x^2", 3, 1, NULL), DAL_STATUS_OK);
+    refused(dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "y", 4, 5, &error),
+            DAL_STATUS_ARGUMENT, &error, "formulas to observe come after all other entries");
     CU_ASSERT(error.line == 4 && error.column == 5);
     dal_model_free(model);
 }
@@ -150,7 +158,7 @@ static void test_events(void)
     dal_run *run = fixture_run(&spec);
     dal_error error;
     /* y = -1 + 2t - t^2/2 is 0 at t = 2 - sqrt(2), where y' = sqrt(2) becomes 2 sqrt(2). */
-    CU_ASSERT_EQUAL(fixture_events(run, 2.0, NULL, NULL, &error), DAL_EVENT);
+    CU_ASSERT_EQUAL(fixture_events(run, 2.0, NULL, NULL, &error), DAL_STATUS_EVENT);
     CU_ASSERT_PTR_NOT_NULL(
         strstr(error.message, ": the velocities after it still lead out, d(when)/dt = 2.82843"));
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "at t = 0.5857864376269"));
@@ -169,15 +177,16 @@ static void test_lengths(void)
     dal_method method;
     char *text = NULL, expected[DAL_MESSAGE_SIZE];
     snprintf(expected, sizeof expected, "prefix '%.60s...' is too long", long_name);
-    refused(dal_generate(&spec, 1, long_name, &text, &error), DAL_ARGUMENT, &error, expected);
+    refused(dal_generate(&spec, 1, long_name, &text, &error), DAL_STATUS_ARGUMENT, &error,
+            expected);
     CU_ASSERT_PTR_NULL(text);
     snprintf(expected, sizeof expected, "integrator name '%.60s...' is too long", long_name);
-    refused(dal_method_parse(&method, long_name, &error), DAL_NAME, &error, expected);
+    refused(dal_method_parse(&method, long_name, &error), DAL_STATUS_NAME, &error, expected);
     dal_run *run = fixture_run(&spec);
     const dal_native_options options = {.cache = "unused", .compiler = long_name};
     snprintf(expected, sizeof expected, "the path '%.80s...' is too long", long_name);
-    refused(dal_run_native(run, &options, &error), DAL_ARGUMENT, &error, expected);
-    refused(dal_run_native(run, NULL, &error), DAL_ARGUMENT, &error,
+    refused(dal_run_native(run, &options, &error), DAL_STATUS_ARGUMENT, &error, expected);
+    refused(dal_run_native(run, NULL, &error), DAL_STATUS_ARGUMENT, &error,
             "no directory for compiled steps");
     CU_ASSERT_FALSE(dal_run_is_native(run));
     dal_run_free(run);
@@ -186,7 +195,7 @@ static void test_lengths(void)
 static dal_status no_section(void *user, dal_run *run, const dal_crossing *crossing)
 {
     (void)user, (void)run, (void)crossing;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static void test_sections(void)
@@ -197,13 +206,13 @@ static void test_sections(void)
     dal_crossings found;
     dal_poincare section = {.callback = spec.system->energy, .count = 1, .cross = no_section};
     dal_run *run = fixture_run(&spec);
-    refused(dal_run_crossings(run, -1.0, &section, &found, &error), DAL_ARGUMENT, &error,
+    refused(dal_run_crossings(run, -1.0, &section, &found, &error), DAL_STATUS_ARGUMENT, &error,
             "a section needs a positive step; it is -0.125");
     section.index = 1;
-    refused(dal_run_crossings(run, -1.0, &section, &found, &error), DAL_ARGUMENT, &error,
+    refused(dal_run_crossings(run, -1.0, &section, &found, &error), DAL_STATUS_ARGUMENT, &error,
             "the section is value 2 of 1");
     dal_lyapunov *exponents = NULL;
-    refused(dal_lyapunov_create(&exponents, &spec, NULL, 0, &error), DAL_ARGUMENT, &error,
+    refused(dal_lyapunov_create(&exponents, &spec, NULL, 0, &error), DAL_STATUS_ARGUMENT, &error,
             "exponents need a positive step; it is -0.125");
     CU_ASSERT_PTR_NULL(exponents);
     dal_run_free(run);
@@ -217,9 +226,9 @@ static void test_balance(void)
     dal_lyapunov *exponents = NULL;
     dal_balance balance;
     dal_error error;
-    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&exponents, &spec, NULL, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_lyapunov_advance(exponents, 10, NULL), DAL_OK);
-    refused(dal_lyapunov_balance(exponents, &balance, &error), DAL_UNSUPPORTED, &error,
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&exponents, &spec, NULL, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(exponents, 10, NULL), DAL_STATUS_OK);
+    refused(dal_lyapunov_balance(exponents, &balance, &error), DAL_STATUS_UNSUPPORTED, &error,
             "there is no divergence: no step, or no jacobian");
     dal_lyapunov_free(exponents);
 }

@@ -13,7 +13,7 @@
 static dal_status fail_sometimes(const dal_system *system, const dal_point *at, double *out)
 {
     int *left = system->data;
-    if (--*left == 0) return DAL_NOT_FINITE;
+    if (--*left == 0) return DAL_STATUS_NOT_FINITE;
     return fixture_oscillate(system, at, out);
 }
 
@@ -22,7 +22,7 @@ static dal_status unit_start(const dal_system *system, const dal_point *at, doub
     (void)system;
     (void)at;
     out[0] = 1.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_system hand_made(dal_callback *field, void *data)
@@ -41,8 +41,8 @@ static void test_by_hand(void)
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), 10.0, 0.0);
     CU_ASSERT_EQUAL(dal_run_steps(run), 100);
     char name[16];
-    CU_ASSERT_STRING_EQUAL(dal_run_name(run, 1, name, sizeof name), "q1'");
-    CU_ASSERT_PTR_NULL(dal_run_name(run, 2, name, sizeof name));
+    CU_ASSERT_STRING_EQUAL(dal_run_component_name(run, 1, name, sizeof name), "q1'");
+    CU_ASSERT_PTR_NULL(dal_run_component_name(run, 2, name, sizeof name));
     dal_run_free(run);
 }
 
@@ -54,26 +54,28 @@ static void test_refusals(void)
     const double steps[] = {0.0, -INFINITY, NAN, INFINITY};
     for (int i = 0; i < 4; i++) {
         const dal_run_spec spec = fixture_spec(system, "rk4", DAL_LIFTED, steps[i]);
-        fixture_refused(&spec, DAL_ARGUMENT, "step");
+        fixture_refused(&spec, DAL_STATUS_ARGUMENT, "step");
     }
     const dal_system bare = hand_made(fixture_oscillate, NULL);
     dal_run_spec spec = fixture_spec(&bare, "rk4", DAL_LIFTED, 0.1);
-    fixture_refused(&spec, DAL_UNSUPPORTED, "rk4 cannot act on hand");
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, "rk4 cannot act on hand");
     spec = fixture_spec(&bare, "implicit-midpoint", DAL_PHYSICAL, 0.1);
     spec.options.solver = DAL_NEWTON;
-    fixture_refused(&spec, DAL_UNSUPPORTED, "jacobian");
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, "jacobian");
     const dal_system empty = {.name = "empty", .n = 0, .call.field = fixture_oscillate};
     spec = fixture_spec(&empty, "rk4", DAL_PHYSICAL, 0.1);
-    fixture_refused(&spec, DAL_ARGUMENT, "n is 0");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "n is 0");
     spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
     spec.method.layer[0] = NULL;
-    fixture_refused(&spec, DAL_ARGUMENT, "integrator");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "integrator");
     /* Layers after a gap would not act. */
-    CU_ASSERT_EQUAL(dal_method_parse(&spec.method, "rk4+project", NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_method_parse(&spec.method, "rk4+project", NULL), DAL_STATUS_OK);
     spec.method.layer[3] = spec.method.layer[1];
-    fixture_refused(&spec, DAL_ARGUMENT, "layer 3 of the method is missing: layer 4 is 'project'");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT,
+                    "layer 3 of the method is missing: layer 4 is 'project'");
     spec.method.layer[0] = NULL;
-    fixture_refused(&spec, DAL_ARGUMENT, "layer 1 of the method is missing: layer 2 is 'project'");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT,
+                    "layer 1 of the method is missing: layer 2 is 'project'");
 }
 
 static void test_settings(void)
@@ -82,21 +84,21 @@ static void test_settings(void)
     dal_setting bad = {"omeg", 1.0};
     spec.parameters = &bad;
     spec.parameter_count = 1;
-    fixture_refused(&spec, DAL_NAME, "'omega'");
+    fixture_refused(&spec, DAL_STATUS_NAME, "'omega'");
     spec.parameter_count = 0;
     spec.start = &bad;
     spec.start_count = 1;
     bad = (dal_setting){"pi_ph", 1.0};
-    fixture_refused(&spec, DAL_NAME, "'pi_phi'");
+    fixture_refused(&spec, DAL_STATUS_NAME, "'pi_phi'");
     bad = (dal_setting){"y2'", 0.1};
-    fixture_refused(&spec, DAL_INCONSISTENT, "constraint 1");
+    fixture_refused(&spec, DAL_STATUS_INCONSISTENT, "constraint 1");
     bad = (dal_setting){"e", 0.0};
-    fixture_refused(&spec, DAL_GAUGE, "e = 0");
+    fixture_refused(&spec, DAL_STATUS_GAUGE, "e = 0");
     bad = (dal_setting){"phi", NAN};
-    fixture_refused(&spec, DAL_ARGUMENT, "phi");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "phi");
     spec.options.space = DAL_PHYSICAL;
     bad = (dal_setting){"p_phi", 1.0};
-    fixture_refused(&spec, DAL_NAME, "p_phi");
+    fixture_refused(&spec, DAL_STATUS_NAME, "p_phi");
     /* Start formulas follow the parameters: y1' = v0. */
     const dal_setting speed = {"v0", 2.5};
     spec.start_count = 0;
@@ -112,7 +114,7 @@ static dal_status stand_still(const dal_system *system, const dal_point *at, dou
     (void)system;
     (void)at;
     out[0] = out[1] = 0.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* D = (x' + y', 2 x' + 2 y'), unit masses. */
@@ -124,7 +126,7 @@ static dal_status twice(const dal_system *system, const dal_point *at, double *o
     out[1] = 2.0 * out[0];
     memcpy(out + 2, a, sizeof a);
     memcpy(out + 6, b, sizeof b);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static void test_rank(void)
@@ -136,7 +138,7 @@ static void test_rank(void)
                                .call = {.field = stand_still, .constraint = twice},
                                .constraints = stand_still};
     const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
-    fixture_refused(&spec, DAL_RANK, "constraint 2");
+    fixture_refused(&spec, DAL_STATUS_RANK, "constraint 2");
 }
 
 /* ---- a step succeeds or leaves the run bitwise unchanged ---- */
@@ -157,11 +159,11 @@ static void test_transaction(void)
             countdown = 1 + step % 9; /* fails at the first, second, ... evaluation */
             const int expected = countdown;
             const dal_status status = dal_run_step(run, NULL);
-            if (status == DAL_OK) continue;
+            if (status == DAL_STATUS_OK) continue;
             CU_ASSERT(countdown < expected);
             CU_ASSERT_EQUAL(memcmp(copy, memory, count * sizeof *copy), 0);
             countdown = 1 << 20;
-            CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+            CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         }
         /* The failures left no trace. */
         countdown = 1 << 20;
@@ -195,20 +197,21 @@ static void test_failures(void)
 {
     static const char *const methods[] = {"rk4", "gauss4", "stormer-verlet+project"};
     for (int i = 0; i < 3; i++)
-        fails("chaplygin-sleigh-nonlinear", methods[i], 0.01, 400, NULL, 0, DAL_SINGULAR,
+        fails("chaplygin-sleigh-nonlinear", methods[i], 0.01, 400, NULL, 0, DAL_STATUS_SINGULAR,
               "constraint 1");
     const char *gauge = "coordinates: [x]\nlagrangian: x'^2/2\ngauge: {e: 1, mu_e: -1}\n";
-    fails(gauge, "rk4", 0.3, 10, NULL, 0, DAL_GAUGE, "e reached zero");
-    fails(gauge, "implicit-midpoint", 0.25, 10, NULL, 0, DAL_GAUGE, "e reached zero");
+    fails(gauge, "rk4", 0.3, 10, NULL, 0, DAL_STATUS_GAUGE, "e reached zero");
+    fails(gauge, "implicit-midpoint", 0.25, 10, NULL, 0, DAL_STATUS_GAUGE, "e reached zero");
     /* K = (v + h K/2)^2 + 1 has no real root from h = 1 on. */
     const char *rootless = "coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: x'^2 + 1}\n";
-    fails(rootless, "implicit-midpoint", 50.0, 10, NULL, 0, DAL_NOT_CONVERGED, "did not converge");
-    fails(rootless, "gauss6", 50.0, 10, NULL, 0, DAL_NOT_CONVERGED, "did not converge");
-    fails(rootless, "symplectic-euler-11", 50.0, 10, NULL, 0, DAL_NOT_CONVERGED,
+    fails(rootless, "implicit-midpoint", 50.0, 10, NULL, 0, DAL_STATUS_NOT_CONVERGED,
+          "did not converge");
+    fails(rootless, "gauss6", 50.0, 10, NULL, 0, DAL_STATUS_NOT_CONVERGED, "did not converge");
+    fails(rootless, "symplectic-euler-11", 50.0, 10, NULL, 0, DAL_STATUS_NOT_CONVERGED,
           "did not converge");
     const char *pole =
         "coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: -sqrt(x)}\nstart: {x: 1}\n";
-    fails(pole, "rk4", 0.1, 100, NULL, 0, DAL_NOT_FINITE, "not finite");
+    fails(pole, "rk4", 0.1, 100, NULL, 0, DAL_STATUS_NOT_FINITE, "not finite");
 }
 
 /* A body under D = (x'^2 + y'^2 - z'^2)/2 thrown upwards comes to rest, where G = 0. */
@@ -221,7 +224,8 @@ static void test_rest_is_singular(void)
     static const char *const methods[] = {"rk4", "gauss8", "gauss12+project"};
     static const double steps[] = {0.001, 0.013, 0.1};
     for (int i = 0; i < 9; i++)
-        fails(text, methods[i / 3], steps[i % 3], 1000, NULL, 0, DAL_SINGULAR, "constraint 1");
+        fails(text, methods[i / 3], steps[i % 3], 1000, NULL, 0, DAL_STATUS_SINGULAR,
+              "constraint 1");
     const dal_setting falling = {"z'", -1.0};
     dal_run_spec spec = fixture_spec(fixture_system(text), "gauss8", DAL_LIFTED, 0.013);
     spec.start = &falling;
@@ -247,8 +251,10 @@ static void test_leapt_over(void)
     static const char *const methods[] = {"rk4", "gauss4", "stormer-verlet+project"};
     static const double steps[] = {0.007, 0.013, 0.11};
     for (int i = 0; i < 9; i++) {
-        fails(board, methods[i / 3], steps[i % 3], 400, NULL, 0, DAL_SINGULAR, "constraint 2");
-        fails(factor, methods[i / 3], steps[i % 3], 400, NULL, 0, DAL_SINGULAR, "a factor goes");
+        fails(board, methods[i / 3], steps[i % 3], 400, NULL, 0, DAL_STATUS_SINGULAR,
+              "constraint 2");
+        fails(factor, methods[i / 3], steps[i % 3], 400, NULL, 0, DAL_STATUS_SINGULAR,
+              "a factor goes");
     }
 }
 
@@ -258,10 +264,10 @@ static void test_mass_is_singular(void)
     static const char *const methods[] = {"rk4", "gauss6", "stormer-verlet"};
     for (int i = 0; i < 3; i++) {
         fails("coordinates: [x]\nlagrangian: (1 - x)*x'^2/2 + x\nstart: {x': 1}\n", methods[i],
-              0.013, 500, NULL, 0, DAL_SINGULAR_MASS, "mass matrix");
+              0.013, 500, NULL, 0, DAL_STATUS_SINGULAR_MASS, "mass matrix");
         fails("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + x*x'*y'\nstart: {x': 1, y': "
               "-1}\n",
-              methods[i], 0.013, 500, NULL, 0, DAL_SINGULAR_MASS, "mass matrix");
+              methods[i], 0.013, 500, NULL, 0, DAL_STATUS_SINGULAR_MASS, "mass matrix");
     }
 }
 
@@ -275,17 +281,17 @@ typedef struct rows {
 static dal_status keep_row(void *user, dal_run *run, long long row, double t)
 {
     rows *r = user;
-    if (r->count == r->stop_at) return DAL_INTERRUPTED;
+    if (r->count == r->stop_at) return DAL_STATUS_INTERRUPTED;
     r->t[row] = t;
     r->x[row] = dal_run_state(run)[0];
     r->count++;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static void sample(dal_run *run, double T, long long samples, long long first, rows *r)
 {
     const dal_observer observer = {.user = r, .sample = keep_row};
-    CU_ASSERT_EQUAL(dal_run_sample(run, T, samples, first, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, T, samples, first, &observer, NULL), DAL_STATUS_OK);
 }
 
 static void test_samples(void)
@@ -300,7 +306,7 @@ static void test_samples(void)
     CU_ASSERT_EQUAL(a.t[40], 10.0);
     for (int i = 0; i <= 40; i++) CU_ASSERT_DOUBLE_EQUAL(a.x[i], cos(a.t[i]), 1e-10);
     CU_ASSERT_EQUAL(dal_run_steps(run), 33);
-    CU_ASSERT_EQUAL(dal_run_advance(other, 33, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(other, 33, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(other), 2 * sizeof(double)), 0);
     dal_run_free(run);
     dal_run_free(other);
@@ -310,20 +316,20 @@ static void test_samples(void)
     b.stop_at = 17;
     const dal_observer observer = {.user = &b, .sample = keep_row};
     dal_error error;
-    CU_ASSERT_EQUAL(dal_run_sample(run, 10.0, 40, 0, &observer, &error), DAL_INTERRUPTED);
-    CU_ASSERT_EQUAL(error.status, DAL_INTERRUPTED);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 10.0, 40, 0, &observer, &error), DAL_STATUS_INTERRUPTED);
+    CU_ASSERT_EQUAL(error.status, DAL_STATUS_INTERRUPTED);
     b.stop_at = 99;
     sample(run, 10.0, 40, 17, &b);
     CU_ASSERT_EQUAL(memcmp(a.x, b.x, 41 * sizeof(double)), 0);
     dal_run_free(run);
 
     run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 0.1, 1, 0, &observer, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.1, 1, 0, &observer, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "larger than the time"));
-    CU_ASSERT_EQUAL(dal_run_sample(run, 1e300, 1, 0, &observer, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 1e300, 1, 0, &observer, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "more than can be counted"));
-    CU_ASSERT_EQUAL(dal_run_sample(run, NAN, 1, 0, &observer, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 0, 0, &observer, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, NAN, 1, 0, &observer, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 0, 0, &observer, &error), DAL_STATUS_ARGUMENT);
     dal_run_free(run);
 }
 
@@ -342,7 +348,7 @@ static dal_status note_poll(void *user, dal_run *run)
     if (gap > p->gap) p->gap = gap;
     p->before = step;
     if (step >= 512 && p->observer.polling == 9) p->observer.polling = 100;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* 9 is rounded down to 7, 100 to 62; by default there are 992 steps from one to the next. */
@@ -357,7 +363,7 @@ static void test_polls(void)
         dal_run *run = fixture_run(&spec);
         polled p = {.observer = {.user = &p, .poll = note_poll, .polling = cases[i].polling}};
         const double T = 0.1 * (double)cases[i].steps;
-        CU_ASSERT_EQUAL(dal_run_sample(run, T, 1, 0, &p.observer, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_sample(run, T, 1, 0, &p.observer, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(p.gap, cases[i].gap);
         CU_ASSERT(cases[i].steps - p.before <= 2 * cases[i].gap);
         dal_run_free(run);

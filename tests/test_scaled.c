@@ -11,7 +11,7 @@ static dal_scaled *scale(const dal_system *system)
     const dal_run_spec spec = {.system = system};
     dal_scaled *scaled = NULL;
     dal_error error = {0};
-    if (dal_scaled_create(&scaled, &spec, &error) != DAL_OK) printf("\n  %s", error.message);
+    if (dal_scaled_create(&scaled, &spec, &error) != DAL_STATUS_OK) printf("\n  %s", error.message);
     CU_ASSERT_PTR_NOT_NULL_FATAL(scaled);
     return scaled;
 }
@@ -63,7 +63,7 @@ static void test_motions(void)
         CU_ASSERT(distance_after(system, "rk4+project", DAL_PHYSICAL) <= 1e-13);
         for (int k = 0; k < 6; k++) {
             dal_method method;
-            CU_ASSERT_FATAL(dal_method_parse(&method, others[k], NULL) == DAL_OK);
+            CU_ASSERT_FATAL(dal_method_parse(&method, others[k], NULL) == DAL_STATUS_OK);
             if (fixture_accepts(&method, system, DAL_PHYSICAL))
                 CU_ASSERT(distance_after(system, others[k], DAL_PHYSICAL) <= 1e-11);
         }
@@ -86,9 +86,9 @@ static void test_derivatives(void)
         const int n = dal_scaled_system(scaled)->n;
         double start[64];
         dal_derivatives d;
-        CU_ASSERT_FATAL(dal_evaluator_start(evaluator, NULL, 0, start, NULL) == DAL_OK);
+        CU_ASSERT_FATAL(dal_evaluator_start(evaluator, NULL, 0, start, NULL) == DAL_STATUS_OK);
         const dal_point at = {.t = 0.25, .q = start, .v = start + n};
-        CU_ASSERT_FATAL(dal_check_derivatives(evaluator, &at, &d) == DAL_OK);
+        CU_ASSERT_FATAL(dal_evaluator_check_derivatives(evaluator, &at, &d) == DAL_STATUS_OK);
         CU_ASSERT(d.jacobian <= 1e-9);
         CU_ASSERT(isnan(d.adjoint) || d.adjoint <= 1e-9);
         CU_ASSERT(d.constraint_jacobian <= 1e-9);
@@ -110,18 +110,18 @@ static void test_mass(void)
         dal_evaluator *evaluator = fixture_evaluator(system);
         const int n = system->n, m = system->m;
         double start[MAX], block[MAX], normal[MAX], other[MAX], v[MAX];
-        CU_ASSERT_FATAL(dal_evaluator_start(evaluator, NULL, 0, start, NULL) == DAL_OK);
+        CU_ASSERT_FATAL(dal_evaluator_start(evaluator, NULL, 0, start, NULL) == DAL_STATUS_OK);
         CU_ASSERT_FATAL(dal_evaluator_call(evaluator, system->call.constraint, 0.0, start,
-                                           start + n, NULL, block) == DAL_OK);
+                                           start + n, NULL, block) == DAL_STATUS_OK);
         for (int a = 0; a <= m; a++) {
             const double *row = block + m + a * n;
             CU_ASSERT_FATAL(dal_evaluator_call(evaluator, system->call.energy_normal, 0.0, start,
-                                               start + n, NULL, normal) == DAL_OK);
+                                               start + n, NULL, normal) == DAL_STATUS_OK);
             for (int i = 0; i < n; i++)
                 v[i] = a < m ? block[m + m * n + i * m + a] : normal[1 + 2 * n + i];
             if (a == m) row = normal + 1;
             CU_ASSERT_FATAL(dal_evaluator_call(evaluator, system->call.energy_normal, 0.0, start, v,
-                                               NULL, other) == DAL_OK);
+                                               NULL, other) == DAL_STATUS_OK);
             for (int i = 0; i < n; i++)
                 CU_ASSERT_DOUBLE_EQUAL(other[1 + n + i], row[i], 1e-13 * (1.0 + fabs(row[i])));
         }
@@ -142,11 +142,11 @@ static void test_potential(void)
     const int n = system->n;
     const double d = 1e-5;
     double start[16], q[16], U[3][48], sum[3] = {0.0}, rate = 0.0;
-    CU_ASSERT_FATAL(dal_evaluator_start(evaluator, NULL, 0, start, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_evaluator_start(evaluator, NULL, 0, start, NULL) == DAL_STATUS_OK);
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < n; i++) q[i] = start[i] + (k - 1) * d * start[n + i];
         CU_ASSERT_FATAL(dal_evaluator_call(evaluator, system->call.potential, 0.0, q, start + n,
-                                           NULL, U[k]) == DAL_OK);
+                                           NULL, U[k]) == DAL_STATUS_OK);
         for (int i = 0; i < n; i++) sum[k] += U[k][i];
     }
     for (int i = 0; i < n; i++) rate += U[1][n + i];
@@ -196,8 +196,8 @@ static void test_run(void)
     const dal_run_spec spec = fixture_spec(fixture_system("snakeboard"), "rk4", DAL_PHYSICAL, 0.05);
     dal_scaled *scaled, *other;
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL_FATAL(dal_scaled_create(&scaled, &spec, NULL), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_scaled_create_at(&other, run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_scaled_create(&scaled, &spec, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_scaled_create_at(&other, run, NULL), DAL_STATUS_OK);
     const double *units = dal_scaled_units(scaled), *at_run = dal_scaled_units(other);
     const int n = spec.system->n;
     for (int i = 0; i <= n; i++) CU_ASSERT_EQUAL(units[i], at_run[i]);
@@ -262,9 +262,10 @@ static void test_order(void)
     const dal_run_spec plain = coupled(1.0, 1.0, 1.0);
     const dal_run_spec other = coupled(0x1p-60, 0x1p50, 0x1p-40);
     dal_order order[2];
-    CU_ASSERT_EQUAL(dal_order_measure(&order[0], &plain, 2.0, 4, NULL, NULL, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order[0], &plain, 2.0, 4, NULL, NULL, NULL, NULL),
+                    DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_order_measure(&order[1], &other, 0x1p41, 4, NULL, NULL, NULL, NULL),
-                    DAL_OK);
+                    DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(order[0].order, 4.0, 0.1);
     CU_ASSERT_DOUBLE_EQUAL(order[1].order, order[0].order, 1e-5);
     for (int i = 0; i < 4; i++)
@@ -279,9 +280,9 @@ static void test_exponents(void)
     double exponent[2][4], unit[2];
     for (int k = 0; k < 2; k++) {
         dal_lyapunov *s;
-        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec[k], NULL, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec[k], NULL, 0, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 4);
-        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 400, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 400, NULL), DAL_STATUS_OK);
         for (int i = 0; i < 4; i++) exponent[k][i] = fixture_exponent(s, i);
         unit[k] = dal_lyapunov_time_unit(s);
         dal_lyapunov_free(s);
@@ -297,7 +298,7 @@ static void test_refused(void)
     const dal_setting unknown = {"mass", 1.0};
     const dal_run_spec spec = {
         .system = fixture_system("chaplygin-sleigh"), .parameters = &unknown, .parameter_count = 1};
-    CU_ASSERT_EQUAL(dal_scaled_create(&scaled, &spec, &error), DAL_NAME);
+    CU_ASSERT_EQUAL(dal_scaled_create(&scaled, &spec, &error), DAL_STATUS_NAME);
     CU_ASSERT_PTR_NULL(scaled);
 }
 

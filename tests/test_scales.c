@@ -119,7 +119,7 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
     follower *f = user;
     (void)run;
     dal_statistics_add_many(f->statistics, f->count, count, t, values, stride);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status add_scales(void *user, dal_run *run, const double *scales)
@@ -128,7 +128,7 @@ static dal_status add_scales(void *user, dal_run *run, const double *scales)
     (void)run;
     f->scaled++;
     dal_statistics_add_scales(f->statistics, f->count, scales);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static follower sample(dal_run *run, double T, dal_status right)
@@ -147,7 +147,7 @@ static sizes measure(const dal_system *system, const char *method, double h, int
     const dal_run_spec spec = fixture_spec(system, method, space, h);
     dal_run *run = fixture_run(&spec);
     sizes out = {.count = dal_run_observables(run)};
-    const follower f = sample(run, h * steps, DAL_OK);
+    const follower f = sample(run, h * steps, DAL_STATUS_OK);
     for (int i = 0; i < f.count; i++) out.scale[i] = f.statistics[i].scale;
     dal_run_classify(run, f.statistics, 0, out.trend);
     dal_run_free(run);
@@ -203,7 +203,7 @@ static void test_blow_up(void)
     const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_LIFTED, 0.01);
     dal_run *run = fixture_run(&spec);
     dal_trend trend[MAX];
-    follower f = sample(run, 10.0, DAL_NOT_FINITE);
+    follower f = sample(run, 10.0, DAL_STATUS_NOT_FINITE);
     dal_run_classify(run, f.statistics, 1, trend);
     CU_ASSERT(trend[0].max_abs > 1e20);
     CU_ASSERT_EQUAL(trend[0].size, DAL_SIZE_LARGER);
@@ -226,25 +226,25 @@ static dal_status constraint_by_hand(const dal_system *system, const dal_point *
     const double D = at->v[0] - 2.0 * at->v[1], all[] = {D, 1.0, -2.0, 1.0, -2.0};
     (void)system;
     memcpy(out, all, sizeof all);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 static dal_status D_by_hand(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     *out = at->v[0] - 2.0 * at->v[1];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 static dal_status energy_by_hand(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     *out = 0.5 * (at->v[0] * at->v[0] + at->v[1] * at->v[1]) - 100.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 static dal_status rest(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system, (void)at;
     out[0] = out[1] = 0.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static void test_system_in_c(void)
@@ -257,7 +257,7 @@ static void test_system_in_c(void)
     const double state[] = {0.0, 0.0, 7.0, 3.0};
     const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
     dal_run *run = fixture_run(&spec);
-    CU_ASSERT_FATAL(dal_run_set_state(run, 0.0, state, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_set_state(run, 0.0, state, NULL) == DAL_STATUS_OK);
     const double *scales = dal_run_scales(run);
     CU_ASSERT_PTR_NOT_NULL_FATAL(scales);
     CU_ASSERT_EQUAL(scales[0], 14.0);
@@ -276,7 +276,7 @@ static void test_how_often(void)
         dal_run *run = fixture_run(&spec);
         follower f = {.count = dal_run_observables(run)};
         if (values[k][0] > 1) {
-            f = sample(run, (values[k][0] - 1) * 0x1p-5, DAL_OK);
+            f = sample(run, (values[k][0] - 1) * 0x1p-5, DAL_STATUS_OK);
             CU_ASSERT_EQUAL(f.scaled, values[k][1]);
         }
         dal_run_free(run);
@@ -295,10 +295,10 @@ static void test_lift(void)
     state[6] = 2.0;
     state[7] = 30.0;
     state[12] = 5.0;
-    CU_ASSERT_FATAL(dal_run_set_state(run, 0.0, state, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_set_state(run, 0.0, state, NULL) == DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_scales(run)[2], 30.0 * 0.5 * cos(0.7), 1e-14);
     state[7] = 3.0;
-    CU_ASSERT_FATAL(dal_run_set_state(run, 0.0, state, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_set_state(run, 0.0, state, NULL) == DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_scales(run)[2], 25.0 / 4.0);
     dal_run_free(run);
 }

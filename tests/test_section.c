@@ -27,21 +27,21 @@ static dal_status note(void *user, dal_run *run, const dal_crossing *crossing)
     double seen[MAX];
     CU_ASSERT_FATAL(r->count < MAX);
     CU_ASSERT_EQUAL(dal_run_time(run), crossing->t);
-    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_STATUS_OK);
     const dal_system *s = dal_run_system(run);
     const int lifted = dal_run_dimension(run) > 2 * s->n + s->multipliers;
     r->g[r->count] = seen[s->m + (s->energy != NULL) + (lifted ? 4 : 0)];
     r->t[r->count] = crossing->t;
     r->direction[r->count] = crossing->direction;
     r->number[r->count++] = crossing->number;
-    return r->count == r->stop_after ? DAL_INTERRUPTED : DAL_OK;
+    return r->count == r->stop_after ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
 static dal_status poll(void *user, dal_run *run)
 {
     (void)run;
     ((record *)user)->polls++;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The crossings of invariant 1 by a run. */
@@ -67,8 +67,8 @@ static record crossings_of(const char *text, const char *method, double step, do
     dal_error error = {0};
     record r = {0};
     const dal_status status = cross(run, T, direction, &r, found, &error);
-    if (status != DAL_OK) printf("\n  %s\n", error.message);
-    CU_ASSERT_EQUAL(status, DAL_OK);
+    if (status != DAL_STATUS_OK) printf("\n  %s\n", error.message);
+    CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
     dal_run_free(run);
     return r;
 }
@@ -80,7 +80,7 @@ static dal_status copy_x(void *user, dal_run *run)
     double *out = user;
     out[0] = dal_run_time(run);
     out[1] = dal_run_state(run)[0];
-    return out[1] < 0.0 ? DAL_INTERRUPTED : DAL_OK;
+    return out[1] < 0.0 ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
 static void test_intermediate(void)
@@ -91,18 +91,18 @@ static void test_intermediate(void)
     double seen[2], before[256];
     size_t count;
     CU_ASSERT_EQUAL(dal_run_step_size(run), 0.25);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 3, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 3, NULL), DAL_STATUS_OK);
     const double *memory = dal_run_save(run, &count);
     CU_ASSERT_FATAL(count < 256);
     memcpy(before, memory, count * sizeof *memory);
-    CU_ASSERT_EQUAL(dal_run_intermediate(run, 0.125, copy_x, seen, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, 0.125, copy_x, seen, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(seen[0], 0.875);
     CU_ASSERT_DOUBLE_EQUAL(seen[1], cos(0.875), 1e-15);
     /* Backwards, and beyond the step; what look returns is returned. */
-    CU_ASSERT_EQUAL(dal_run_intermediate(run, -0.5, copy_x, seen, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, -0.5, copy_x, seen, NULL), DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(seen[1], cos(0.25), 1e-13);
-    CU_ASSERT_EQUAL(dal_run_intermediate(run, 1.0, copy_x, seen, NULL), DAL_INTERRUPTED);
-    CU_ASSERT_EQUAL(dal_run_intermediate(run, NAN, copy_x, seen, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, 1.0, copy_x, seen, NULL), DAL_STATUS_INTERRUPTED);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, NAN, copy_x, seen, NULL), DAL_STATUS_ARGUMENT);
     CU_ASSERT_EQUAL(memcmp(before, memory, count * sizeof *memory), 0);
     dal_run_free(run);
 }
@@ -174,7 +174,7 @@ static void test_within_substeps(void)
         dal_run *run = fixture_run(&spec);
         dal_crossings found;
         record r = {0};
-        CU_ASSERT_EQUAL(cross(run, 20.0, 0, &r, &found, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(cross(run, 20.0, 0, &r, &found, NULL), DAL_STATUS_OK);
         dal_run_free(run);
         CU_ASSERT_EQUAL_FATAL(r.count, 7);
         CU_ASSERT(found.down == 4 && found.up == 3 && found.touches == 0);
@@ -302,7 +302,7 @@ static void test_whole_steps(void)
         dal_crossings found;
         record r = {0};
         CU_ASSERT_EQUAL(cross(run, 2.0 * (1.0 + off[i]), 0, &r, &found, NULL),
-                        i < 2 ? DAL_OK : DAL_ARGUMENT);
+                        i < 2 ? DAL_STATUS_OK : DAL_STATUS_ARGUMENT);
         CU_ASSERT_EQUAL(dal_run_steps(run), i < 2 ? 8 : 0);
         dal_run_free(run);
     }
@@ -348,14 +348,14 @@ static void cross_with(const char *model, const char *method, dal_space space)
     record r = {0};
     size_t count;
     const dal_status status = cross(run, 9.0, 0, &r, &found, &error);
-    if (status != DAL_OK) printf("\n  %s: %s\n", method, error.message);
-    CU_ASSERT_EQUAL(status, DAL_OK);
+    if (status != DAL_STATUS_OK) printf("\n  %s: %s\n", method, error.message);
+    CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
     CU_ASSERT_EQUAL(r.count, 3);
     for (int k = 0; k < r.count; k++) {
         CU_ASSERT_DOUBLE_EQUAL(r.g[k], 0.0, 1e-15);
         CU_ASSERT_DOUBLE_EQUAL(r.t[k], (k + 1) * pi - atan(6.0 / 7.0), 0.05);
     }
-    CU_ASSERT_EQUAL(dal_run_advance(plain, 180, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(plain, 180, NULL), DAL_STATUS_OK);
     const double *a = dal_run_save(run, &count), *b = dal_run_save(plain, &count);
     CU_ASSERT_EQUAL(memcmp(a, b, count * sizeof *a), 0);
     dal_run_free(run);
@@ -388,13 +388,13 @@ static void test_refuses(void)
     dal_crossings found;
     dal_error error;
     record r = {0};
-    CU_ASSERT_EQUAL(cross(run, 0.95, 0, &r, &found, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(cross(run, 0.95, 0, &r, &found, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT(strstr(error.message, "whole number of steps") != NULL);
-    CU_ASSERT_EQUAL(cross(run, 0.0, 0, &r, &found, &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(cross(run, 1.0, 0, &r, &found, &error), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(cross(run, 0.0, 0, &r, &found, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(cross(run, 1.0, 0, &r, &found, &error), DAL_STATUS_NOT_FINITE);
     CU_ASSERT(strstr(error.message, "no value at t = 0.5") != NULL);
     const dal_poincare wrong = {.callback = spec.system->invariant_values, .count = 1, .index = 1};
-    CU_ASSERT_EQUAL(dal_run_crossings(run, 1.0, &wrong, &found, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_crossings(run, 1.0, &wrong, &found, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT(strstr(error.message, "value 2 of 1") != NULL);
     dal_run_free(run);
 }
@@ -406,12 +406,12 @@ static void test_stops(void)
     dal_run *run = fixture_run(&spec);
     dal_crossings found;
     record r = {.stop_after = 2};
-    CU_ASSERT_EQUAL(cross(run, 40.0, 0, &r, &found, NULL), DAL_INTERRUPTED);
+    CU_ASSERT_EQUAL(cross(run, 40.0, 0, &r, &found, NULL), DAL_STATUS_INTERRUPTED);
     CU_ASSERT_EQUAL(r.count, 2);
     dal_run_free(run);
     run = fixture_run(&spec);
     r = (record){0};
-    CU_ASSERT_EQUAL(cross(run, 40.0, 0, &r, &found, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(cross(run, 40.0, 0, &r, &found, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(r.polls, 4);
     dal_run_free(run);
 }

@@ -79,12 +79,12 @@ static void test_lanes(void)
     const dal_run_spec spec = with_friction("gauss4", 0.05);
     dal_setting k[LANES];
     dal_batch *batch = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, LANES, LANES, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, LANES, LANES, NULL), DAL_STATUS_OK);
     for (int i = 0; i < LANES; i++) {
         k[i] = (dal_setting){"k", 0.5 + 6.0 * i};
-        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &k[i], 1, NULL, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &k[i], 1, NULL, 0, NULL), DAL_STATUS_OK);
     }
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, STEPS), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, STEPS), DAL_STATUS_OK);
     for (int i = 0; i < LANES; i++) {
         double lane[16];
         dal_run_spec one = spec;
@@ -105,11 +105,11 @@ static void test_saved(void)
     for (int i = 0; i < 30; i++) {
         size_t count;
         const double *expected = dal_run_save(whole, &count);
-        CU_ASSERT_EQUAL(dal_run_advance(first, 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(first, 1, NULL), DAL_STATUS_OK);
         const double *saved = dal_run_save(first, &count);
         dal_run *second = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_restore(second, saved, count, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_run_advance(second, 2 * STEPS - 1 - i, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_restore(second, saved, count, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(second, 2 * STEPS - 1 - i, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(memcmp(dal_run_save(second, &count), expected, count * sizeof *saved), 0);
         dal_run_free(second);
     }

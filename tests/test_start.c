@@ -36,8 +36,9 @@ static void test_consistent(void)
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             for (int sign = -1; sign <= 1; sign += 2) {
-                CU_ASSERT_EQUAL(inconsistent(scale[i], speed[j], sign * 0.9e-10), DAL_OK);
-                CU_ASSERT_EQUAL(inconsistent(scale[i], speed[j], sign * 1.1e-10), DAL_INCONSISTENT);
+                CU_ASSERT_EQUAL(inconsistent(scale[i], speed[j], sign * 0.9e-10), DAL_STATUS_OK);
+                CU_ASSERT_EQUAL(inconsistent(scale[i], speed[j], sign * 1.1e-10),
+                                DAL_STATUS_INCONSISTENT);
             }
 }
 
@@ -56,10 +57,10 @@ static dal_status rank(double s)
 
 static void test_rank(void)
 {
-    CU_ASSERT_EQUAL(rank(2.1e-6), DAL_OK);
-    CU_ASSERT_EQUAL(rank(1.9e-6), DAL_RANK);
-    CU_ASSERT_EQUAL(rank(-2.1e-6), DAL_OK);
-    CU_ASSERT_EQUAL(rank(-1.9e-6), DAL_RANK);
+    CU_ASSERT_EQUAL(rank(2.1e-6), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(rank(1.9e-6), DAL_STATUS_RANK);
+    CU_ASSERT_EQUAL(rank(-2.1e-6), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(rank(-1.9e-6), DAL_STATUS_RANK);
 }
 
 /* x = 2 exp(-t): the error is observed where |x - 2|, |x' + 2| <= 1e-10 2. */
@@ -117,7 +118,7 @@ static void test_not_finite(void)
     const dal_setting k = {"k", 500.0};
     spec.parameters = &k;
     spec.parameter_count = 1;
-    fixture_refused(&spec, DAL_NOT_FINITE, "start x is not finite: inf");
+    fixture_refused(&spec, DAL_STATUS_NOT_FINITE, "start x is not finite: inf");
 }
 
 /* Formulas of a start know what it has given before, through let, too. */
@@ -146,8 +147,9 @@ static void test_formulas(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         dal_error error = {0};
         snprintf(text, sizeof text, "%s%s\n", begin, bad[i].start);
-        CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, NULL, text, strlen(text), NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_NAME);
+        CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, NULL, text, strlen(text), NULL),
+                              DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_STATUS_NAME);
         CU_ASSERT_PTR_NOT_NULL(strstr(error.message, bad[i].message));
         if (!strstr(error.message, bad[i].message)) printf("\n  '%s'\n", error.message);
         CU_ASSERT_EQUAL(error.line, 5);
@@ -179,7 +181,7 @@ static void test_linear(void)
     double z[4];
     const bool made = make_consistent("coordinates: [x, y]\nlagrangian: x'^2 + y'^2/2\n"
                                       "constraints: [x' + y' - 1]\nstart: {x: 5, x': 2, y': 0.5}\n",
-                                      DAL_OK, "", z);
+                                      DAL_STATUS_OK, "", z);
     CU_ASSERT_FATAL(made);
     CU_ASSERT_EQUAL(z[0], 5.0);
     CU_ASSERT_DOUBLE_EQUAL(z[2], 1.5, 1e-15);
@@ -194,7 +196,7 @@ static void test_nonlinear(void)
     const bool made =
         make_consistent("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                         "constraints: [(x'^2 + 4*y'^2 - 1)/2]\nstart: {x': 0.7, y': 0.5}\n",
-                        DAL_OK, "", z);
+                        DAL_STATUS_OK, "", z);
     CU_ASSERT_FATAL(made);
     CU_ASSERT_DOUBLE_EQUAL(z[2] * z[2] + 4.0 * z[3] * z[3], 1.0, 1e-14);
     CU_ASSERT_DOUBLE_EQUAL((z[2] - 0.7) * 4.0 * z[3] - (z[3] - 0.5) * z[2], 0.0, 1e-14);
@@ -207,7 +209,7 @@ static void test_metric(void)
     double z[4];
     const bool made = make_consistent("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + x'^4/12\n"
                                       "constraints: [x' + y' - 1]\nstart: {x': 2, y': 0.5}\n",
-                                      DAL_OK, "", z);
+                                      DAL_STATUS_OK, "", z);
     CU_ASSERT_FATAL(made);
     CU_ASSERT_DOUBLE_EQUAL(z[2], 1.75, 1e-15);
     CU_ASSERT_DOUBLE_EQUAL(z[3], -0.75, 1e-15);
@@ -242,7 +244,7 @@ static void test_curved(void)
                  "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + x'^2*y'^2/2\n"
                  "constraints: [(x'^2 + 4*y'^2 - 1)/2]\nstart: {x': %g, y': %g}\n",
                  vx, vy);
-        const bool made = make_consistent(text, DAL_OK, "", z);
+        const bool made = make_consistent(text, DAL_STATUS_OK, "", z);
         CU_ASSERT_FATAL(made);
         CU_ASSERT_DOUBLE_EQUAL(z[2], cos(low), 1e-13);
         CU_ASSERT_DOUBLE_EQUAL(z[3], 0.5 * sin(low), 1e-13);
@@ -269,7 +271,7 @@ static void test_solved_linear(void)
     dal_run *run = fixture_run(&spec);
     dal_evaluator *evaluator = fixture_evaluator(fixture_system(text));
     double start[7];
-    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, start, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, start, NULL), DAL_STATUS_OK);
     for (int i = 0; i < 3; i++) {
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[3 + i], expected[i], 1e-14);
         CU_ASSERT_EQUAL(dal_run_state(run)[3 + i], start[3 + i]);
@@ -282,7 +284,7 @@ static void test_solved_linear(void)
     const dal_setting off = {"z'", 2.5};
     spec.start = &off;
     spec.start_count = 1;
-    fixture_refused(&spec, DAL_INCONSISTENT,
+    fixture_refused(&spec, DAL_STATUS_INCONSISTENT,
                     "violates constraint 2: D2 = 0.5; solve under start can name one more "
                     "velocity, as z'");
     dal_run_free(run);
@@ -309,7 +311,7 @@ static void test_solved_and_moved(void)
     double z[6];
     const bool made = make_consistent(SPACE "constraints: [x' + y' - 1, z' - 2]\n"
                                             "start: {x': 3, z': 2.5, solve: [y']}\n",
-                                      DAL_OK, "", z);
+                                      DAL_STATUS_OK, "", z);
     CU_ASSERT_FATAL(made);
     CU_ASSERT_DOUBLE_EQUAL(z[3], 3.0, 1e-15);
     CU_ASSERT_DOUBLE_EQUAL(z[4], -2.0, 1e-15);
@@ -324,16 +326,19 @@ static void test_not_solved(void)
         int column;
     } cases[] = {
         {PLANE "constraints: [(x'^2 + y'^2 - 25)/2]\nstart: {x': 6, y': 1, solve: [y']}\n",
-         "cannot be solved for y': no root of constraint 1 was found", DAL_INCONSISTENT, 31},
+         "cannot be solved for y': no root of constraint 1 was found", DAL_STATUS_INCONSISTENT, 31},
         {PLANE "constraints: [(x'^2 + y'^2 - 25)/2]\nstart: {x': 3, solve: [y']}\n",
-         "for y': no constraint restricts it at the first guess 0; give another one", DAL_RANK, 24},
+         "for y': no constraint restricts it at the first guess 0; give another one",
+         DAL_STATUS_RANK, 24},
         {PLANE "constraints: [log(x' + y')]\nstart: {x': -3, solve: [y']}\n",
-         "no root of constraint 1 was found from these first guesses, D1 = ", DAL_NOT_FINITE, 25},
+         "no root of constraint 1 was found from these first guesses, D1 = ", DAL_STATUS_NOT_FINITE,
+         25},
         {SPACE "constraints: [x' + y' - 1, z' - 2]\nstart: {z': 2, solve: [x', y']}\n",
-         "for both x' and y', which constraint 1 restricts", DAL_RANK, 28},
-        {SPACE "constraints: [z' - 2, x' + y' - 1]\nstart: {solve: [y', z']}\n", "", DAL_OK, 0},
+         "for both x' and y', which constraint 1 restricts", DAL_STATUS_RANK, 28},
+        {SPACE "constraints: [z' - 2, x' + y' - 1]\nstart: {solve: [y', z']}\n", "", DAL_STATUS_OK,
+         0},
         {SPACE "constraints: [x' - 2]\nstart: {x': 2, solve: [y']}\n",
-         "for y': no constraint restricts it", DAL_RANK, 24},
+         "for y': no constraint restricts it", DAL_STATUS_RANK, 24},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const dal_run_spec spec =
@@ -378,7 +383,7 @@ static void test_solve_misspelt(void)
         const dal_system *system;
         dal_error error = {0};
         snprintf(text, sizeof text, PLANE "constraints: [x' + y']\nstart: %s\n", cases[k].start);
-        if (dal_model_read(&model, NULL, text, strlen(text), &error) == DAL_OK)
+        if (dal_model_read(&model, NULL, text, strlen(text), &error) == DAL_STATUS_OK)
             dal_model_system(model, &system, &error);
         CU_ASSERT_PTR_NOT_NULL(strstr(error.message, cases[k].message));
         if (!strstr(error.message, cases[k].message)) printf("\n  '%s'\n", error.message);
@@ -395,9 +400,10 @@ static void test_solved_by_hand(void)
     dal_model *model = NULL;
     const dal_system *system = NULL;
     const char text[] = PLANE "constraints: [x' + 2*y' - 4]\nstart: {x': 2}\n";
-    CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, NULL, text, strlen(text), NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_model_add(model, DAL_SECTION_START, "solve.y'", "", 0, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, NULL, text, strlen(text), NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_add(model, DAL_SECTION_START, "solve.y'", "", 0, 0, NULL),
+                    DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(system->solved_velocities, 1);
     CU_ASSERT_EQUAL(system->solved[0].velocity, 1);
     dal_system by_hand = *fixture_system(text);
@@ -412,11 +418,11 @@ static void test_solved_by_hand(void)
     const dal_solved none = {.velocity = 2}, both[] = {{.velocity = 0}, {.velocity = 1}};
     const dal_run_spec spec = fixture_spec(&by_hand, "rk4", DAL_PHYSICAL, 0.1);
     by_hand.solved = &none;
-    fixture_refused(&spec, DAL_ARGUMENT,
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT,
                     "1 velocities to be solved from 1 constraints, of 2 velocities");
     by_hand.solved = both;
     by_hand.solved_velocities = 2;
-    fixture_refused(&spec, DAL_ARGUMENT, "2 velocities to be solved from 1 constraints");
+    fixture_refused(&spec, DAL_STATUS_ARGUMENT, "2 velocities to be solved from 1 constraints");
     dal_model_free(model);
 }
 
@@ -426,7 +432,8 @@ static void test_lanes(void)
     static const char text[] = "coordinates: [x, y]\nlagrangian: x'^2 + y'^2/2\n"
                                "constraints: [x' + x*y' - 1]\nstart: {x: 5, x': 2, y': 0.5}\n";
     dal_run_spec spec = fixture_spec(fixture_system(text), "gauss4", DAL_LIFTED, 0.1);
-    fixture_refused(&spec, DAL_INCONSISTENT, "the option consistent moves its velocities to D = 0");
+    fixture_refused(&spec, DAL_STATUS_INCONSISTENT,
+                    "the option consistent moves its velocities to D = 0");
     spec.options.consistent = 1;
     fixture_lanes(spec, 5, 10, "x", -0.5, 0.25);
 }
@@ -436,21 +443,21 @@ static void test_unsolvable(void)
     double z[4];
     make_consistent("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                     "constraints: [x'^2 + y'^2 + 1]\nstart: {x': 1, y': 0.3}\n",
-                    DAL_INCONSISTENT, "satisfy constraint 1: D1 = ", z);
+                    DAL_STATUS_INCONSISTENT, "satisfy constraint 1: D1 = ", z);
     make_consistent("coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
                     "constraints: [x' - y', (z'^2 - 1)/2]\nstart: {x': 1}\n",
-                    DAL_RANK, "constraint 2 restricts no velocity at the start", z);
+                    DAL_STATUS_RANK, "constraint 2 restricts no velocity at the start", z);
     dal_run_spec spec =
         fixture_spec(fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                                     "constraints: [y' - sqrt(x')]\nstart: {x': 0}\n"),
                      "rk4", DAL_PHYSICAL, 0.1);
     for (int consistent = 0; consistent <= 1; consistent++) {
         spec.options.consistent = consistent;
-        fixture_refused(&spec, DAL_RANK, "constraint 1 has infinite derivatives");
+        fixture_refused(&spec, DAL_STATUS_RANK, "constraint 1 has infinite derivatives");
     }
     make_consistent("coordinates: [x, y]\nlagrangian: (x'^2 - y'^2)/2\nstart: {x': 1}\n"
                     "constraints: [x' - (1 + x)*y']\n",
-                    DAL_RANK, "constraint 1 has 0 on the diagonal of G", z);
+                    DAL_STATUS_RANK, "constraint 1 has 0 on the diagonal of G", z);
 }
 
 /* The pivots of G = A A^T are 1 + k^2 and s^2 (k - l)^2/(1 + k^2). */
@@ -479,9 +486,9 @@ static void test_dependent(void)
         dal_run_spec spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
         spec.parameters = set;
         spec.parameter_count = 3;
-        fixture_refused(&spec, DAL_RANK, cases[i].message);
+        fixture_refused(&spec, DAL_STATUS_RANK, cases[i].message);
         spec.options.consistent = 1;
-        fixture_refused(&spec, DAL_RANK, cases[i].message);
+        fixture_refused(&spec, DAL_STATUS_RANK, cases[i].message);
     }
 }
 

@@ -21,7 +21,8 @@ static void test_order(void)
         const dal_run_spec spec = fixture_spec(fixture_system(fixture_full), cases[k].method,
                                                DAL_PHYSICAL, cases[k].step);
         dal_order order;
-        CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, NULL, NULL, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, NULL, NULL, NULL),
+                        DAL_STATUS_OK);
         CU_ASSERT_DOUBLE_EQUAL(order.order, cases[k].order, 0.1);
         CU_ASSERT_EQUAL(order.step[2], cases[k].step / 4.0);
         CU_ASSERT(order.error[0] > order.error[1] && order.error[1] > order.error[2]);
@@ -35,10 +36,10 @@ static void test_order_of_reference(void)
     dal_run_spec spec =
         fixture_spec(fixture_system("chaplygin-sleigh"), "gauss6", DAL_PHYSICAL, 0.25);
     dal_order order;
-    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, x, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, x, NULL, NULL), DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(order.order, 6.0, 0.1);
     spec = fixture_spec(fixture_system("chaplygin-sleigh"), "gauss12", DAL_PHYSICAL, 0.0625);
-    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 2, NULL, x, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 2, NULL, x, NULL, NULL), DAL_STATUS_OK);
     CU_ASSERT(isnan(order.order));
 }
 
@@ -138,7 +139,7 @@ static void test_order_whole_steps(void)
     for (int i = 0; i < 4; i++) {
         dal_order order;
         CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0 + off[i], 2, NULL, NULL, NULL, NULL),
-                        i < 2 ? DAL_OK : DAL_ARGUMENT);
+                        i < 2 ? DAL_STATUS_OK : DAL_STATUS_ARGUMENT);
     }
 }
 
@@ -147,7 +148,8 @@ static void test_order_work(void)
     const dal_run_spec spec =
         fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.25);
     dal_order order;
-    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, NULL, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, NULL, NULL, NULL),
+                    DAL_STATUS_OK);
     for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(order.evaluations[i], 16LL << i);
 }
 
@@ -158,12 +160,12 @@ static void test_order_refuses(void)
     dal_order order;
     dal_error error;
     CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 1.0, 3, NULL, NULL, NULL, &error),
-                    DAL_ARGUMENT);
+                    DAL_STATUS_ARGUMENT);
     CU_ASSERT(strstr(error.message, "whole number of steps") != NULL);
     CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 0.9, 1, NULL, NULL, NULL, &error),
-                    DAL_ARGUMENT);
+                    DAL_STATUS_ARGUMENT);
     CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 0.9, 9, NULL, NULL, NULL, &error),
-                    DAL_ARGUMENT);
+                    DAL_STATUS_ARGUMENT);
 }
 
 /* ---- symplecticity ---- */
@@ -213,7 +215,7 @@ static void test_symplecticity_closed_form(void)
     const double h = 0.4;
     dal_run_spec spec = fixture_spec(fixture_system(oscillator), "rk4", DAL_LIFTED, h);
     double defect;
-    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, NULL, 0.0, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, NULL, 0.0, &defect, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(spec.system->units[0], spec.system->units[1]);
     CU_ASSERT_DOUBLE_EQUAL(defect, expected_rk4_defect(h, spec.system->units[0]), 1e-11);
     CU_ASSERT(defect > 1e-5);
@@ -238,7 +240,7 @@ static void test_symplecticity(void)
         double defect;
         fixture_perturb(run, 0.5);
         CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.3, dal_run_state(run), 0.0, &defect, NULL),
-                        DAL_OK);
+                        DAL_STATUS_OK);
         CU_ASSERT(cases[k].symplectic ? defect < 1e-10 : defect > 1e-8);
         dal_run_free(run);
     }
@@ -255,7 +257,7 @@ static void test_symplecticity_far(void)
     double defect;
     fixture_perturb(run, 0.5);
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
-                    DAL_OK);
+                    DAL_STATUS_OK);
     CU_ASSERT(defect < 1e-6);
     dal_run_free(run);
 }
@@ -267,11 +269,12 @@ static void test_symplecticity_place(void)
     double early, late;
     fixture_perturb(run, 0.5);
     const double *state = dal_run_state(run);
-    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, state, 0.0, &early, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.9, state, 0.0, &late, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, state, 0.0, &early, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.9, state, 0.0, &late, NULL), DAL_STATUS_OK);
     CU_ASSERT(fabs(early - late) > 1e-3 * early);
     spec.options.space = DAL_PHYSICAL;
-    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, NULL, 0.0, &early, NULL), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, NULL, 0.0, &early, NULL),
+                    DAL_STATUS_UNSUPPORTED);
     dal_run_free(run);
 }
 
@@ -284,7 +287,7 @@ static void test_reversibility_closed_form(void)
     const dal_run_spec spec =
         fixture_spec(fixture_system(oscillator), "symplectic-euler-00", DAL_PHYSICAL, 0.1);
     double defect;
-    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_STATUS_OK);
     CU_ASSERT(spec.system->units[0] < 0.7);
     CU_ASSERT_DOUBLE_EQUAL(defect, 0.1 * 0.1, 1e-15);
 }
@@ -302,7 +305,7 @@ static void test_reversibility(void)
             double defect;
             fixture_perturb(run, 0.5);
             CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, dal_run_state(run), &defect, NULL),
-                            DAL_OK);
+                            DAL_STATUS_OK);
             CU_ASSERT(i < 3 ? defect < 1e-14 : defect > 1e-10);
             dal_run_free(run);
         }
@@ -317,7 +320,7 @@ static void test_reversibility_in_time(void)
                      "gauss4", DAL_PHYSICAL, 0.1);
     const double state[] = {0.7, 0.4};
     double defect;
-    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.8, state, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.8, state, &defect, NULL), DAL_STATUS_OK);
     CU_ASSERT(defect < 1e-15);
 }
 
@@ -329,11 +332,11 @@ static void test_irreversible_and_vakonomic(void)
     dal_run_spec spec = fixture_spec(system, "gauss8", DAL_PHYSICAL, 0.1);
     const double state[] = {0.1, 0.2, 0.3, 1.0, 0.5, 1.0};
     double defect;
-    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, state, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, state, &defect, NULL), DAL_STATUS_OK);
     CU_ASSERT(defect > 0.01);
     system = fixture_system("chaplygin-sleigh-vakonomic");
     spec = fixture_spec(system, "gauss8", DAL_PHYSICAL, 0.1);
-    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_STATUS_OK);
     CU_ASSERT(defect < 1e-14);
 }
 
@@ -348,7 +351,8 @@ static double pairing_of(const char *text, const char *method, long long steps)
     dal_run_spec spec = fixture_spec(fixture_system(text), method, DAL_LIFTED, 0.05);
     spec.start = start;
     spec.start_count = 4;
-    CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, steps, &pairing, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, steps, &pairing, NULL),
+                    DAL_STATUS_OK);
     CU_ASSERT_EQUAL(pairing.count, steps + 1);
     /* p.dq + pi.dv at the start */
     CU_ASSERT_DOUBLE_EQUAL(pairing.first, 0.7 * 0.3 - 0.4 * 0.5 + 0.5 * 0.4, 1e-15);

@@ -52,14 +52,14 @@ static void go(const reference *b, double from, double to, double *x)
 
 static void start(const reference *b, double *x)
 {
-    CU_ASSERT(reference_call(b, b->system->start, 0.0, NULL, NULL, x) == DAL_OK);
+    CU_ASSERT(reference_call(b, b->system->start, 0.0, NULL, NULL, x) == DAL_STATUS_OK);
 }
 
 /* ---- exact solutions ---- */
 
 static void exact(const reference *b, double t, double *x)
 {
-    CU_ASSERT(reference_call(b, b->system->exact, t, NULL, NULL, x) == DAL_OK);
+    CU_ASSERT(reference_call(b, b->system->exact, t, NULL, NULL, x) == DAL_STATUS_OK);
 }
 
 static void exact_rate(const reference *b, double t, double *rate)

@@ -17,12 +17,13 @@ static dal_model *model_of(const dal_table *table)
     static const char *const entries[][2] = {{"x", "f(t)"}, {"y", "f(y)"}};
     for (int i = 0; i < 2; i++)
         CU_ASSERT_EQUAL(
-            dal_model_add(model, DAL_SECTION_COORDINATES, NULL, entries[i][0], 0, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_model_add_table(model, "f", table, 0, 0, NULL), DAL_OK);
+            dal_model_add(model, DAL_SECTION_COORDINATES, NULL, entries[i][0], 0, 0, NULL),
+            DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_add_table(model, "f", table, 0, 0, NULL), DAL_STATUS_OK);
     for (int i = 0; i < 2; i++)
         CU_ASSERT_EQUAL(dal_model_add(model, DAL_SECTION_ACCELERATIONS, entries[i][0],
                                       entries[i][1], 0, 0, NULL),
-                        DAL_OK);
+                        DAL_STATUS_OK);
     return model;
 }
 
@@ -32,13 +33,13 @@ static double value_at(const dal_table *table, double u, double *slope)
     const dal_system *system = NULL;
     dal_model *model = model_of(table);
     dal_error error;
-    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, &error), DAL_STATUS_OK);
     double *work = calloc(system->workspace + 1, sizeof *work);
     double q[2] = {0.0, u}, v[2] = {0.0}, pi[2] = {0.0, 1.0}, F[2], adjoint[6];
     const dal_point at = {u, q, v, pi, work, NULL};
-    CU_ASSERT_EQUAL(system->prepare(system, &at, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(system->call.field(system, &at, F), DAL_OK);
-    CU_ASSERT_EQUAL(system->call.adjoint(system, &at, adjoint), DAL_OK);
+    CU_ASSERT_EQUAL(system->prepare(system, &at, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(system->call.field(system, &at, F), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(system->call.adjoint(system, &at, adjoint), DAL_STATUS_OK);
     if (slope) *slope = adjoint[3]; /* d(pi.F)/dy */
     CU_ASSERT((isnan(F[0]) && isnan(F[1])) || F[0] == F[1]);
     free(work);
@@ -145,17 +146,18 @@ static void test_robot(void)
     const dal_system *system = NULL;
     dal_run *run = NULL;
     dal_run_spec spec = {.options = dal_options_default()};
-    CU_ASSERT_EQUAL_FATAL(dal_model_read_file(&model, "examples/driven-robot.yaml", NULL), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_read_file(&model, "examples/driven-robot.yaml", NULL),
+                          DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
     spec.system = system;
     spec.options.step = 0.01;
     spec.options.space = DAL_PHYSICAL;
-    CU_ASSERT_EQUAL(dal_method_parse(&spec.method, "gauss6", NULL), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_run_create(&run, &spec, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_method_parse(&spec.method, "gauss6", NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_run_create(&run, &spec, NULL), DAL_STATUS_OK);
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         const double *y;
         while (dal_run_time(run) < expected[i].t - 0.005)
-            CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
+            CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_STATUS_OK);
         y = dal_run_state(run);
         CU_ASSERT_DOUBLE_EQUAL(y[3] * cos(y[2]) + y[4] * sin(y[2]), expected[i].speed, 1e-8);
         CU_ASSERT_DOUBLE_EQUAL(y[2], expected[i].phi, 1e-12);
@@ -248,18 +250,18 @@ static void test_source(void)
         CU_ASSERT_PTR_NOT_NULL_FATAL(file);
         fputs(texts[i], file);
         fclose(file);
-        CU_ASSERT_EQUAL(dal_model_read_file(&model, path, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_model_read_file(&model, path, NULL), DAL_STATUS_OK);
         remove(path);
         const char *source = dal_model_source(model, &length);
         CU_ASSERT_PTR_NOT_NULL_FATAL(source);
-        CU_ASSERT_EQUAL_FATAL(dal_model_read(&copy, "copy", source, length, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_model_read(&copy, "copy", source, length, NULL), DAL_STATUS_OK);
         CU_ASSERT_STRING_EQUAL(dal_model_source(copy, NULL), source);
-        CU_ASSERT_EQUAL(dal_model_system(copy, &system, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_model_system(copy, &system, NULL), DAL_STATUS_OK);
         double F[1], q[1] = {0.0}, work[64] = {0.0};
         const dal_point at = {2.5, q, q, NULL, work, NULL};
         CU_ASSERT_FATAL(system->workspace <= 64);
-        CU_ASSERT_EQUAL(system->prepare(system, &at, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(system->call.field(system, &at, F), DAL_OK);
+        CU_ASSERT_EQUAL(system->prepare(system, &at, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(system->call.field(system, &at, F), DAL_STATUS_OK);
         CU_ASSERT_DOUBLE_EQUAL(F[0], 0.6, 1e-15);
         dal_model_free(copy);
         dal_model_free(model);

@@ -169,7 +169,7 @@ static void test_same_bits(void)
     }
     dal__tapes_add(tapes, nodes, FORMULAS);
     dal__tapes_add(tapes, gradients, 3 * FORMULAS);
-    CU_ASSERT_EQUAL_FATAL(dal__tapes_finish(tapes), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal__tapes_finish(tapes), DAL_STATUS_OK);
     for (int round = 0; round < ROUNDS; round++) {
         for (int i = 0; i < FORMULAS; i++) {
             check_program(graph, tapes, i, &nodes[i], 1, round);
@@ -209,7 +209,7 @@ static void test_random_programs(void)
         }
         dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
         dal__tapes_add(tapes, &node[NODES - OUTPUTS], OUTPUTS);
-        CU_ASSERT_EQUAL_FATAL(dal__tapes_finish(tapes), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal__tapes_finish(tapes), DAL_STATUS_OK);
         check_program(graph, tapes, 0, &node[NODES - OUTPUTS], OUTPUTS, g);
         dal__tapes_free(tapes);
         dal__graph_free(graph);
@@ -224,7 +224,7 @@ static dal__tapes *tapes_of(dal__graph *graph, const char *const *texts, int cou
     for (int i = 0; i < count; i++) nodes[i] = formula_node(graph, texts[i]);
     dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
     CU_ASSERT_EQUAL(dal__tapes_add(tapes, nodes, count), 0);
-    CU_ASSERT_EQUAL(dal__tapes_finish(tapes), DAL_OK);
+    CU_ASSERT_EQUAL(dal__tapes_finish(tapes), DAL_STATUS_OK);
     return tapes;
 }
 
@@ -278,7 +278,7 @@ static void test_places_are_reused(void)
     }
     dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
     dal__tapes_add(tapes, &f, 1);
-    CU_ASSERT_EQUAL(dal__tapes_finish(tapes), DAL_OK);
+    CU_ASSERT_EQUAL(dal__tapes_finish(tapes), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(tapes->tape[0].length, 4 * LINKS);
     CU_ASSERT(tapes->workspace <= FIXED + FEW);
     dal__tapes_free(tapes);
@@ -331,11 +331,11 @@ static void test_faults(void)
     dal__node beyond = dal__symbol(graph, SYMBOLS), nothing = 0;
     dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
     dal__tapes_add(tapes, &beyond, 1);
-    CU_ASSERT_EQUAL(dal__tapes_finish(tapes), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal__tapes_finish(tapes), DAL_STATUS_ARGUMENT);
     dal__tapes_free(tapes);
     tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
     dal__tapes_add(tapes, &nothing, 1);
-    CU_ASSERT_EQUAL(dal__tapes_finish(tapes), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal__tapes_finish(tapes), DAL_STATUS_ARGUMENT);
     dal__tapes_free(tapes);
     dal__graph_free(graph);
 }
@@ -351,7 +351,7 @@ static void test_out_of_memory(void)
         dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
         bool added = tapes && dal__tapes_add(tapes, nodes, FORMULAS) == 0;
         added = added && dal__tapes_add(tapes, nodes, 2) == 1;
-        allocation_end(&trial, added ? dal__tapes_finish(tapes) : DAL_MEMORY);
+        allocation_end(&trial, added ? dal__tapes_finish(tapes) : DAL_STATUS_MEMORY);
         dal__tapes_free(tapes);
     }
     dal__graph_free(graph);

@@ -33,10 +33,10 @@ static expansion expand_some(const char *const *formulas, int count, int orders)
     for (int i = 0; i < count; i++) nodes[i] = formula_node(e.graph, formulas[i]);
     e.tapes = dal__tapes_create(e.graph, PARAMETERS, INPUTS);
     CU_ASSERT_EQUAL_FATAL(dal__tapes_add(e.tapes, nodes, count), 0);
-    CU_ASSERT_EQUAL_FATAL(dal__tapes_finish(e.tapes), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal__tapes_finish(e.tapes), DAL_STATUS_OK);
     for (int i = 0; i < INPUTS; i++) places[i] = (uint32_t)e.tapes->first_input + (uint32_t)i;
     e.taylor = dal__taylor_create(INPUTS, 0);
-    CU_ASSERT_EQUAL_FATAL(dal__taylor_add(e.taylor, e.tapes, 0, orders, places), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal__taylor_add(e.taylor, e.tapes, 0, orders, places), DAL_STATUS_OK);
     e.work = formula_work(e.tapes->workspace);
     e.memory = formula_work((size_t)e.taylor->slots * STRIDE);
     e.work[A] = 3.0;
@@ -369,12 +369,12 @@ static void test_quad_reference(void)
         dal_run *reference = fixture_run(&spec);
         const int dim = dal_run_dimension(reference);
         if (lifted) fixture_perturb(reference, 0.3);
-        CU_ASSERT_EQUAL(dal_run_advance(reference, 50, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(reference, 50, NULL), DAL_STATUS_OK);
         for (int k = 0; k < 4; k++) {
             dal_run_spec own = spec_of(fixture_gentle, spec.options.space, 0.5, tolerances[k]);
             dal_run *run = fixture_run(&own);
             if (lifted) fixture_perturb(run, 0.3);
-            CU_ASSERT_EQUAL(dal_run_advance(run, 2, NULL), DAL_OK);
+            CU_ASSERT_EQUAL(dal_run_advance(run, 2, NULL), DAL_STATUS_OK);
             const double error = distance(dal_run_state(run), dal_run_state(reference), dim);
             if (!(error <= 10.0 * (tolerances[k] + 2e-16)))
                 printf("\n  %d, tolerance %g: error %g\n", lifted, tolerances[k], error);
@@ -392,7 +392,7 @@ static void test_quad(void)
     double out[8];
     spec.options.precision = DAL_QUAD;
     dal_run *run = fixture_stepped(&spec, 4);
-    CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(out[0], 0.5);
     CU_ASSERT_EQUAL(dal_run_state(run)[0], cos(10.0));
     dal_run_free(run);
@@ -488,7 +488,7 @@ static void test_gaps(void)
     spec = spec_of(septic, DAL_PHYSICAL, 30.0, 1e-10);
     run = fixture_stepped(&spec, 1);
     double out[8];
-    CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_STATUS_OK);
     CU_ASSERT_DOUBLE_EQUAL(out[0], 0.5, 1e-8);
     dal_run_free(run);
 }
@@ -532,17 +532,17 @@ static void test_refused(void)
     static const char kinked[] = "coordinates: [x]\naccelerations: {x: -abs(x)}\nstart: {x: 1}\n";
     const dal_system hand = {.name = "by hand", .n = 1, .call = {.field = fixture_oscillate}};
     dal_run_spec spec = spec_of(kinked, DAL_PHYSICAL, 0.1, 0.0);
-    fixture_refused(&spec, DAL_UNSUPPORTED,
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED,
                     "the equations contain abs, which has no Taylor series");
     spec.system = &hand;
-    fixture_refused(&spec, DAL_UNSUPPORTED, "no Taylor series, not being made from a model");
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, "no Taylor series, not being made from a model");
 }
 
 static void fails(const char *text, double step, const char *reason)
 {
     const dal_run_spec spec = spec_of(text, DAL_PHYSICAL, step, 1e-10);
     dal_error error = {0};
-    CU_ASSERT_EQUAL(fixture_failed_step(&spec, &error), DAL_NOT_CONVERGED);
+    CU_ASSERT_EQUAL(fixture_failed_step(&spec, &error), DAL_STATUS_NOT_CONVERGED);
     if (!strstr(error.message, reason)) printf("\n  %s\n", error.message);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, reason));
 }

@@ -16,7 +16,7 @@ static dal_status take(void *user, dal_run *run, int samples, const double *at,
                        const double *values, size_t stride)
 {
     dal_statistics_add_many(user, dal_run_observables(run), samples, at, values, stride);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* All trends of a run; the place of an observable, or -1. */
@@ -30,8 +30,8 @@ static int run_trends(const char *system, const char *method, double h, double T
     char name[64];
     int place = -1;
     dal_statistics_start(statistics, OBSERVABLES);
-    if (dal_run_create(&run, &spec, NULL) == DAL_OK &&
-        dal_run_sample(run, T, 1, 0, &observer, NULL) == DAL_OK) {
+    if (dal_run_create(&run, &spec, NULL) == DAL_STATUS_OK &&
+        dal_run_sample(run, T, 1, 0, &observer, NULL) == DAL_STATUS_OK) {
         dal_run_classify(run, statistics, 0, trend);
         for (int i = 0; i < dal_run_observables(run); i++) {
             dal_run_observable_name(run, i, name, sizeof name);

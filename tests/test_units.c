@@ -179,7 +179,7 @@ static void test_reversibility(void)
     for (int i = -1; i < OTHERS; i++) {
         const dal_run_spec spec = spec_in_units(unlike, i < 0 ? &one : &others[i], "rk4", 0x1p-2);
         double defect = 0.0;
-        CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_STATUS_OK);
         if (i < 0) plain = defect;
         CU_ASSERT(defect > 1e-12 && defect < 1.0);
         CU_ASSERT_EQUAL(defect, plain);
@@ -202,7 +202,7 @@ static void test_start_tolerance(void)
         dal_run_spec spec = spec_in_units(SLEDGE("-1.000000000001"), u, "rk4", 0x1p-5);
         dal_run_free(fixture_run(&spec));
         spec = spec_in_units(SLEDGE("-1.00000001"), u, "rk4", 0x1p-5);
-        fixture_refused(&spec, DAL_INCONSISTENT, "violates constraint 1");
+        fixture_refused(&spec, DAL_STATUS_INCONSISTENT, "violates constraint 1");
     }
 }
 

@@ -86,7 +86,7 @@ void analysis_list_branches(dal_model *model,
     enum { MAX_BRANCHES = 16 };
     dal_branch branch[MAX_BRANCHES];
     int count = 0;
-    if (!model || dal_model_branches(model, branch, MAX_BRANCHES, &count) != DAL_OK) return;
+    if (!model || dal_model_branches(model, branch, MAX_BRANCHES, &count) != DAL_STATUS_OK) return;
     for (const dal_branch *b = branch; b < branch + count && b < branch + MAX_BRANCHES; b++) {
         char what[64], text[64];
         snprintf(what, sizeof what, "branches, %.50s", b->formula);

@@ -64,7 +64,7 @@ static void choose_points(check *c, double *memory)
     for (int k = 0; k < c->near_count; k++) {
         double *x = memory + c->surface_count * c->size, t = c->near[k].t;
         memcpy(x, c->near[k].q, (size_t)c->size * sizeof *x);
-        if (!cli_is_ok(dal_project_velocity(c->evaluator, t, x, x + c->n))) continue;
+        if (!cli_is_ok(dal_evaluator_project_velocity(c->evaluator, t, x, x + c->n))) continue;
         c->surface[c->surface_count] = (dal_point){.t = t, .q = x, .v = x + c->n};
         c->surface_count += is_field_finite(c, &c->surface[c->surface_count]);
     }
@@ -84,7 +84,7 @@ static int scale_system(check *c)
     dal_error error = {0};
     const dal_status status = dal_scaled_create(&c->scaled, &spec, &error);
     c->system = dal_scaled_system(c->scaled);
-    if (status == DAL_OK) return CLI_DONE;
+    if (status == DAL_STATUS_OK) return CLI_DONE;
     return cli_error(cli_input_exit(status), error.line ? request->system_name : NULL, &error);
 }
 

@@ -15,7 +15,7 @@ static bool is_accepted(check *c, const char *method, dal_error *error)
     dal_run *run = NULL;
     request->options = dal_options_default();
     request->options.step = 0.01;
-    if (dal_method_parse(&request->method, method, error) != DAL_OK) return false;
+    if (dal_method_parse(&request->method, method, error) != DAL_STATUS_OK) return false;
     if (request_make_spec(request, &spec) != CLI_DONE) return false;
     const bool accepted = cli_is_ok(dal_run_create(&run, &spec, error));
     dal_run_free(run);
@@ -95,7 +95,7 @@ static void examine_methods(check *c)
 {
     dal_constraint_class d;
     const dal_integrator *k;
-    if (!cli_is_ok(dal_classify_constraints(c->evaluator, &c->origin, &d, NULL)))
+    if (!cli_is_ok(dal_evaluator_classify_constraints(c->evaluator, &c->origin, &d, NULL)))
         d = (dal_constraint_class){.linear = 0};
     while ((k = dal_integrator_at(c->methods))) {
         dal_error error = {.message = ""};

@@ -43,7 +43,7 @@ static motion_rate measure_rate(check *c, dal_callback *callback, int values, in
     motion_rate rate = {.points = count};
     for (int k = 0; k < count; k++) {
         const dal_status status =
-            dal_measure_rate(c->evaluator, callback, values, &points[k], c->values);
+            dal_evaluator_measure_rate(c->evaluator, callback, values, &points[k], c->values);
         if (!cli_is_ok(status)) {
             rate.status = status;
             continue;
@@ -114,7 +114,7 @@ static void check_ranks(check *c)
         dal_model_ranks(c->request->model, set->item, set->count, &at, units, &ranks, NULL);
     free(q);
     if (!cli_is_ok(status)) {
-        if (status != DAL_UNSUPPORTED)
+        if (status != DAL_STATUS_UNSUPPORTED)
             check_item(c, CHECK_FAIL, "rank of A at the start", "it has no value: %s",
                        dal_status_text(status));
         return;
@@ -150,10 +150,11 @@ static void check_start(check *c)
     if (!(c->system->properties & DAL_MASS_ON_KERNEL)) { /* else G is 1 */
         int rank = 0;
         double pivot = 0.0;
-        const dal_status status = dal_measure_rank(c->evaluator, &c->origin, &rank, &pivot);
+        const dal_status status =
+            dal_evaluator_measure_rank(c->evaluator, &c->origin, &rank, &pivot);
         if (cli_is_ok(status))
             check_rank(c, "rank of G at the start", rank, c->m, pivot);
-        else if (status != DAL_UNSUPPORTED)
+        else if (status != DAL_STATUS_UNSUPPORTED)
             check_item(c, CHECK_FAIL, "rank of G at the start", "it has no value: %s",
                        dal_status_text(status));
     }
@@ -238,7 +239,8 @@ static void check_constraints(check *c)
     check_motion_rate(c, "dD/dt along F, off D = 0", &off, zero);
     check_growth(c);
     double *degree = cli_calloc((size_t)c->m + 1, sizeof *degree);
-    const dal_status status = dal_classify_constraints(c->evaluator, &c->origin, &d, degree);
+    const dal_status status =
+        dal_evaluator_classify_constraints(c->evaluator, &c->origin, &d, degree);
     if (cli_is_ok(status)) {
         char text[64] = "not homogeneous";
         int written = 0;
@@ -307,10 +309,11 @@ static void check_reversal(check *c)
                                          "D(q,-v) = +D(q,v)"};
     static const char what[] = "F(q,-v,-t) = F(q,v,t)";
     dal_constraint_class d;
-    const dal_status status = dal_classify_constraints(c->evaluator, &c->origin, &d, NULL);
+    const dal_status status =
+        dal_evaluator_classify_constraints(c->evaluator, &c->origin, &d, NULL);
     if (!cli_is_ok(status) || isnan(d.force_defect)) {
         check_item(c, CHECK_UNMEASURED, what, "%s",
-                   dal_status_text(cli_is_ok(status) ? DAL_NOT_FINITE : status));
+                   dal_status_text(cli_is_ok(status) ? DAL_STATUS_NOT_FINITE : status));
         return;
     }
     check_number(c, CHECK_INFO, what, d.force_defect, -INFINITY, INFINITY, "%s (difference %.2g)",
@@ -329,10 +332,10 @@ static void check_derivatives(check *c)
 {
     static const double limit = 1e-8;
     dal_derivatives max = {NAN, NAN, NAN, NAN}, d;
-    dal_status failure = DAL_OK;
+    dal_status failure = DAL_STATUS_OK;
     int points = 0;
     for (int k = 0; k < c->near_count; k++) {
-        const dal_status status = dal_check_derivatives(c->evaluator, &c->near[k], &d);
+        const dal_status status = dal_evaluator_check_derivatives(c->evaluator, &c->near[k], &d);
         if (!cli_is_ok(status)) {
             failure = status;
             continue;
@@ -365,7 +368,7 @@ static void check_derivatives(check *c)
 static bool exact_at(check *c, double t, double *out)
 {
     return dal_evaluator_call(c->evaluator, c->system->exact, t, c->start, c->start, NULL, out) ==
-           DAL_OK;
+           DAL_STATUS_OK;
 }
 
 /* The exact solution at t against the motion: max |(q',v') - (v,F)| / max(1, |(v,F)|), with (q',v')
@@ -375,8 +378,8 @@ static double exact_residual(check *c, double t, double d)
     static const double weight[] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
     const int n = c->n;
     double *x = c->values, *q = x + 2 * n, *v = q + n, *field = v + n, *rate = field + n;
-    if (!exact_at(c, t, q) ||
-        dal_evaluator_call(c->evaluator, c->system->call.field, t, q, v, NULL, field) != DAL_OK)
+    if (!exact_at(c, t, q) || dal_evaluator_call(c->evaluator, c->system->call.field, t, q, v, NULL,
+                                                 field) != DAL_STATUS_OK)
         return INFINITY;
     memset(rate, 0, 2 * (size_t)n * sizeof *rate);
     for (int k = 1; k <= 4; k++)
@@ -436,8 +439,8 @@ static void check_algebra(check *c)
     const dal_point *at = c->surface_count > 0 ? &c->surface[0] : &c->origin;
     const double e = c->start[c->size];
     if (e == 0.0 || isinf(e)) return;
-    const dal_status status = dal_check_dirac(c->evaluator, at, e, &d);
-    if (status == DAL_UNSUPPORTED) return;
+    const dal_status status = dal_evaluator_check_dirac(c->evaluator, at, e, &d);
+    if (status == DAL_STATUS_UNSUPPORTED) return;
     if (!cli_is_ok(status)) {
         check_item(c, CHECK_UNMEASURED, "brackets", "%s", dal_status_text(status));
         return;
@@ -480,11 +483,11 @@ static bool sample_path(check *c, const sampled_path *path, const double *start)
     const size_t width = (size_t)path->width;
     spec.options.step = path->h;
     spec.options.space = path->space;
-    bool done = dal_method_parse(&spec.method, path->method, NULL) == DAL_OK &&
+    bool done = dal_method_parse(&spec.method, path->method, NULL) == DAL_STATUS_OK &&
                 cli_is_ok(dal_run_create(&run, &spec, NULL)) &&
-                dal_run_set_state(run, c->origin.t, start, NULL) == DAL_OK;
+                dal_run_set_state(run, c->origin.t, start, NULL) == DAL_STATUS_OK;
     for (int k = 0; done && k < path->count; k++) {
-        if (k > 0) done = dal_run_step(run, NULL) == DAL_OK;
+        if (k > 0) done = dal_run_step(run, NULL) == DAL_STATUS_OK;
         memcpy(path->rows + (size_t)k * width, dal_run_state(run), width * sizeof *path->rows);
     }
     dal_run_free(run);
@@ -496,15 +499,15 @@ static bool measure_actions(check *c, const sampled_path *path, double *solved, 
 {
     const double e = c->start[c->size], pi = acos(-1.0);
     if (!sample_path(c, path, c->start) ||
-        !cli_is_ok(
-            dal_measure_action(c->evaluator, c->origin.t, path->h, NODES, path->rows, e, solved)))
+        !cli_is_ok(dal_evaluator_measure_action(c->evaluator, c->origin.t, path->h, NODES,
+                                                path->rows, e, solved)))
         return false;
     for (int k = 0; k < NODES; k++) {
         const double s = sin(pi * k / (NODES - 1));
         for (int i = 0; i < c->n; i++) path->rows[k * c->n + i] += 1e-3 * s * s * s * s;
     }
-    return cli_is_ok(
-        dal_measure_action(c->evaluator, c->origin.t, path->h, NODES, path->rows, e, perturbed));
+    return cli_is_ok(dal_evaluator_measure_action(c->evaluator, c->origin.t, path->h, NODES,
+                                                  path->rows, e, perturbed));
 }
 
 static void check_second_order_action(check *c)
@@ -544,8 +547,8 @@ static void check_stationarity(check *c, const char *method, double limit)
     bool done = false; /* with a smaller step where the motion leaves its domain */
     for (int k = 0; k < MAX_REFINEMENTS && !done; k++) {
         done = sample_path(c, &path, state) &&
-               cli_is_ok(dal_check_stationarity(c->evaluator, c->origin.t, path.h, LIFTED_NODES,
-                                                path.rows, &defect));
+               cli_is_ok(dal_evaluator_check_stationarity(c->evaluator, c->origin.t, path.h,
+                                                          LIFTED_NODES, path.rows, &defect));
         path.h *= 0.25;
     }
     if (!done)

@@ -27,7 +27,7 @@ static dal_status show_progress(void *user, double done)
     explanation *e = user;
     native_poll(&e->native);
     cli_progress("%.0f %%", 100.0 * done);
-    return cli_interrupted() ? DAL_INTERRUPTED : DAL_OK;
+    return cli_interrupted() ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
 static void compile_run(void *user, dal_run *run, long long steps)
@@ -454,7 +454,7 @@ int explain_run(explain_settings *s)
     const dal_status done =
         dal_error_budget_create(&e, &spec, (long long)steps, s->quad_steps, &observer, &error);
     cli_progress_end();
-    if (done != DAL_OK) return cli_error(cli_exit(done), s->request.system_name, &error);
+    if (done != DAL_STATUS_OK) return cli_error(cli_exit(done), s->request.system_name, &error);
     status = s->output ? write_budget(s->output, e) : CLI_DONE;
     if (status == CLI_DONE && (s->json || !s->output)) {
         (s->json ? put_budget : print_budget)(s, e);

@@ -71,13 +71,13 @@ static int create_spectrum(tangent_study *s)
         status = row_times_check_step(request, request->from, s->set->transient + request->time);
     if (status != CLI_DONE) return status;
     /* A vakonomic system has no tangent system; its derivatives are differences. */
-    if (dal_jumps_create(&s->jumps, request->model) != DAL_OK)
+    if (dal_jumps_create(&s->jumps, request->model) != DAL_STATUS_OK)
         return cli_fail(CLI_IO, "%s: out of memory", request->system_name);
     dal_status made = dal_model_tangent(request->model, &tangent, &error);
-    if (made == DAL_OK || made == DAL_UNSUPPORTED)
+    if (made == DAL_STATUS_OK || made == DAL_STATUS_UNSUPPORTED)
         made = dal_lyapunov_create(&s->spectrum, &spec, tangent, (int)s->set->exponents, &error);
-    return made == DAL_OK ? CLI_DONE
-                          : cli_error(cli_input_exit(made), request->system_name, &error);
+    return made == DAL_STATUS_OK ? CLI_DONE
+                                 : cli_error(cli_input_exit(made), request->system_name, &error);
 }
 
 /* Column i of the table and its name: t, lambda1, .., divergence or t, divergence, step. */
@@ -120,24 +120,24 @@ static void allocate_columns(tangent_study *s)
 static int advance_spectrum(tangent_study *s, long long steps)
 {
     const dal_run *run = dal_lyapunov_run(s->spectrum);
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     dal_error error = {0};
     const long long chunk = dal_jumps_count(s->jumps) > 0 ? 1 : CHUNK;
     dal_jumps_passed(s->jumps, run);
-    for (; steps > 0 && status == DAL_OK; steps -= chunk) {
+    for (; steps > 0 && status == DAL_STATUS_OK; steps -= chunk) {
         if (cli_interrupted()) return CLI_SIGNAL;
         cli_progress("t = %.6g of %.6g", dal_run_time(run), s->set->transient + s->request->time);
         const double t = dal_run_time(run);
         status = dal_lyapunov_advance(s->spectrum, steps < chunk ? steps : chunk, &error);
         const char *passed = dal_jumps_passed(s->jumps, run);
-        if (status == DAL_OK && passed)
+        if (status == DAL_STATUS_OK && passed)
             return cli_fail(CLI_USAGE,
                             "%s: a branch of the %s changes between t = %g and %g, where F or its "
                             "derivative by a velocity jumps: tangent vectors do not pass it",
                             s->request->system_name, passed, t, dal_run_time(run));
     }
-    return status == DAL_OK ? CLI_DONE
-                            : cli_error(cli_exit(status), s->request->system_name, &error);
+    return status == DAL_STATUS_OK ? CLI_DONE
+                                   : cli_error(cli_exit(status), s->request->system_name, &error);
 }
 
 /* The transient, then the rows at equal distances; after a failure or a signal the means so far are
@@ -395,7 +395,8 @@ static int report_means(const tangent_study *s)
 {
     dal_error error = {0};
     balance b = {.reason = ""};
-    if (dal_lyapunov_balance(s->spectrum, &b.found, &error) != DAL_OK) b.reason = error.message;
+    if (dal_lyapunov_balance(s->spectrum, &b.found, &error) != DAL_STATUS_OK)
+        b.reason = error.message;
     (s->set->json ? put_means : print_means)(s, &b);
     const int closed = cli_close(stdout, "standard output");
     if (closed != CLI_DONE || b.reason[0] || b.found.holds) return closed;

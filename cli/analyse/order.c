@@ -45,7 +45,7 @@ static int add_method(order_study *s, const char *name)
 {
     dal_error error = {0};
     dal_method method;
-    if (dal_method_parse(&method, name, &error) != DAL_OK)
+    if (dal_method_parse(&method, name, &error) != DAL_STATUS_OK)
         return cli_error(CLI_USAGE, NULL, &error);
     const size_t count = (size_t)s->method_count + 1;
     s->methods = cli_realloc(s->methods, count * sizeof *s->methods);
@@ -155,13 +155,13 @@ static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, dou
 {
     dal_run *run;
     dal_status status = dal_run_create(&run, spec, error);
-    if (status != DAL_OK) return status;
+    if (status != DAL_STATUS_OK) return status;
     const double begin = cli_thread_seconds();
     /* A step under a tolerance may take long. */
     const long long chunk = spec->options.tolerance > 0.0 ? 1 : CHUNK;
-    for (long long left = order_count_steps(s, spec->options.step); left > 0 && status == DAL_OK;
-         left -= chunk)
-        status = cli_interrupted() ? DAL_INTERRUPTED
+    for (long long left = order_count_steps(s, spec->options.step);
+         left > 0 && status == DAL_STATUS_OK; left -= chunk)
+        status = cli_interrupted() ? DAL_STATUS_INTERRUPTED
                                    : dal_run_advance(run, left < chunk ? left : chunk, error);
     *cost = (run_cost){dal_run_evaluations(run), cli_thread_seconds() - begin};
     memcpy(end, dal_run_state(run), (size_t)s->numbers * sizeof *end);
@@ -177,10 +177,10 @@ static dal_status run_divided(const order_study *s, const dal_run_spec *spec, do
     dal_run_spec part = *spec;
     dal_status status;
     for (int parts = 1;; parts *= DIVISION) {
-        *error = (dal_error){.status = DAL_OK};
+        *error = (dal_error){.status = DAL_STATUS_OK};
         part.options.step = spec->options.step / parts;
         status = run_to_end(s, &part, end, cost, error);
-        if (!s->divides || status != DAL_NOT_CONVERGED || parts == MAX_PARTS) return status;
+        if (!s->divides || status != DAL_STATUS_NOT_CONVERGED || parts == MAX_PARTS) return status;
     }
 }
 
@@ -212,10 +212,10 @@ static bool use_exact_solution(order_study *s)
         return false;
     const bool found =
         dal_evaluator_call(evaluator, system->exact, request->from, start, start, NULL,
-                           s->reference) == DAL_OK &&
+                           s->reference) == DAL_STATUS_OK &&
         analysis_distance(start, s->reference, s->units, s->numbers) <= 1e-10 &&
         dal_evaluator_call(evaluator, system->exact, request->time, start, start, NULL,
-                           s->reference) == DAL_OK &&
+                           s->reference) == DAL_STATUS_OK &&
         isfinite(analysis_distance(s->reference, s->reference, s->units, s->numbers));
     dal_evaluator_free(evaluator);
     return found;
@@ -237,18 +237,18 @@ static dal_status use_method(order_study *s, const char *name, dal_error *error)
     spec.options.tolerance =
         is_controlled ? fmax(first_reference * tolerance, dal_min_tolerance(&spec.options))
                       : s->spec.options.tolerance;
-    if (status == DAL_OK) status = run_divided(s, &spec, coarse, &cost, error);
+    if (status == DAL_STATUS_OK) status = run_divided(s, &spec, coarse, &cost, error);
     spec.options.step = fine;
     if (is_controlled)
         spec.options.tolerance =
             fmax(second_reference * tolerance, dal_min_tolerance(&spec.options));
-    if (status == DAL_OK) status = run_divided(s, &spec, s->reference, &cost, error);
-    if (status != DAL_OK) return status;
+    if (status == DAL_STATUS_OK) status = run_divided(s, &spec, s->reference, &cost, error);
+    if (status != DAL_STATUS_OK) return status;
     s->noise = fmax(analysis_distance(coarse, s->reference, s->units, s->numbers), rounding);
     s->reference_method = name;
     s->reference_step = fine;
     s->reference_tolerance = is_controlled ? spec.options.tolerance : 0.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static int make_reference(order_study *s)
@@ -259,15 +259,16 @@ static int make_reference(order_study *s)
     dal_run_spec spec = s->spec;
     spec.options.step = s->step[0];
     dal_status status = dal_scaled_create(&s->scaled, &spec, &error);
-    if (status != DAL_OK) return cli_error(cli_exit(status), "reference", &error);
+    if (status != DAL_STATUS_OK) return cli_error(cli_exit(status), "reference", &error);
     s->units = dal_scaled_units(s->scaled) + 1;
     if (use_exact_solution(s)) return CLI_DONE;
     status = use_method(s, s->set->tolerances ? "taylor" : "gauss12", &error);
-    if (status == DAL_NOT_CONVERGED || (s->set->tolerances && status == DAL_UNSUPPORTED))
+    if (status == DAL_STATUS_NOT_CONVERGED ||
+        (s->set->tolerances && status == DAL_STATUS_UNSUPPORTED))
         status = use_method(s, "dop853", &error);
-    if (status == DAL_OK) return CLI_DONE;
-    return status == DAL_INTERRUPTED ? cli_fail(CLI_SIGNAL, "interrupted")
-                                     : cli_error(cli_exit(status), "reference", &error);
+    if (status == DAL_STATUS_OK) return CLI_DONE;
+    return status == DAL_STATUS_INTERRUPTED ? cli_fail(CLI_SIGNAL, "interrupted")
+                                            : cli_error(cli_exit(status), "reference", &error);
 }
 
 /* Method i / levels at one of the steps, the smallest, which takes longest, first. */
@@ -285,8 +286,8 @@ static void run_level(void *user, int i)
     dal_error *failure = &m->failure[level];
     run_cost cost = {0};
     m->seconds[level] = INFINITY;
-    failure->status = DAL_OK;
-    for (int k = 0; k < MAX_REPEATS && failure->status == DAL_OK; k++) {
+    failure->status = DAL_STATUS_OK;
+    for (int k = 0; k < MAX_REPEATS && failure->status == DAL_STATUS_OK; k++) {
         failure->status = run_divided(s, &spec, end, &cost, failure);
         m->seconds[level] = fmin(m->seconds[level], cost.seconds);
         if (cost.seconds > short_time) break;
@@ -309,11 +310,11 @@ static int run_methods(order_study *s, int threads)
         if (s->set->tolerances) m->order.order = NAN;
         for (int i = 0; i < s->levels; i++) {
             dal_error *failure = &m->failure[i];
-            if (failure->status == DAL_OK) continue;
+            if (failure->status == DAL_STATUS_OK) continue;
             if (!failure->message[0])
                 snprintf(failure->message, sizeof failure->message, "%s",
                          dal_status_text(failure->status));
-            m->state = failure->status == DAL_UNSUPPORTED ? ORDER_REFUSED : ORDER_FAILED;
+            m->state = failure->status == DAL_STATUS_UNSUPPORTED ? ORDER_REFUSED : ORDER_FAILED;
         }
     }
     return CLI_DONE;
@@ -388,7 +389,7 @@ static void print_orders(const order_study *s)
         else
             print_cell("%.2f", 6, m->order.order);
         for (int i = 0; i < s->levels; i++) print_cell("%.1e", 7, m->order.error[i]);
-        const bool succeeded = m->failure[last].status == DAL_OK;
+        const bool succeeded = m->failure[last].status == DAL_STATUS_OK;
         print_cell("%.1f", 7, succeeded ? (double)m->order.evaluations[last] / steps : NAN);
         print_cell("%.2f", 7, succeeded ? 1e6 * m->seconds[last] / steps : NAN);
         putchar('\n');
@@ -405,7 +406,7 @@ static void print_orders(const order_study *s)
 
 static void put_level(json_writer *w, const order_study *s, const order_method *m, int level)
 {
-    const bool succeeded = m->failure[level].status == DAL_OK;
+    const bool succeeded = m->failure[level].status == DAL_STATUS_OK;
     json_open(w, NULL, JSON_ON_ONE_LINE);
     json_put_number(w, "step", s->step[level]);
     if (s->set->tolerances) json_put_number(w, "tolerance", s->tolerance[level]);
@@ -467,7 +468,8 @@ static void put_orders(const order_study *s)
 /* At a step; level < 0: a method that was refused. */
 static void write_level(FILE *out, const order_study *s, const order_method *m, int level)
 {
-    const bool has_run = level >= 0, succeeded = has_run && m->failure[level].status == DAL_OK;
+    const bool has_run = level >= 0,
+               succeeded = has_run && m->failure[level].status == DAL_STATUS_OK;
     const double h = has_run ? s->step[level] : NAN;
     const double first[] = {m->order.order, h, has_run ? s->tolerance[level] : NAN};
     const double cells[] = {

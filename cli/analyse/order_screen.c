@@ -53,7 +53,7 @@ static void add_cells(screen_table *t, const order_study *s, const order_method 
         screen_add_cell(t, isnan(error) ? SCREEN_FAINT : screen_colour_of(error), "%s",
                         isnan(error) ? "-" : screen_number(x, error, 2));
     }
-    const bool succeeded = m->failure[last].status == DAL_OK;
+    const bool succeeded = m->failure[last].status == DAL_STATUS_OK;
     const double cost[] = {(double)m->order.evaluations[last] / steps,
                            1e6 * m->seconds[last] / steps};
     for (int i = 0; i < 2; i++)

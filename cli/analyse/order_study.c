@@ -13,7 +13,7 @@ long long order_count_steps(const order_study *s, double h)
 const char *order_failure_message(const order_study *s, const order_method *m)
 {
     for (int i = 0; i < s->levels; i++)
-        if (m->failure[i].status != DAL_OK) return m->failure[i].message;
+        if (m->failure[i].status != DAL_STATUS_OK) return m->failure[i].message;
     return "";
 }
 

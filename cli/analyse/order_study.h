@@ -36,7 +36,7 @@ typedef struct order_method {
     char name[ORDER_NAME];
     dal_order order;                     /* error is NaN where the run failed */
     double seconds[DAL_ORDER_LEVELS];    /* of processor time */
-    dal_error failure[DAL_ORDER_LEVELS]; /* status DAL_OK where the run succeeded */
+    dal_error failure[DAL_ORDER_LEVELS]; /* status DAL_STATUS_OK where the run succeeded */
     order_state state;                   /* failed: at one step at least */
 } order_method;
 

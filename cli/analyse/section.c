@@ -62,8 +62,8 @@ static int load_with_invariant(run_request *request, const char *name, const cha
     if (status != CLI_DONE) return status;
     dal_status made =
         dal_model_add(request->model, DAL_SECTION_INVARIANTS, name, formula, 1, column, &error);
-    if (made == DAL_OK) made = dal_model_system(request->model, &request->system, &error);
-    if (made == DAL_OK) return CLI_DONE;
+    if (made == DAL_STATUS_OK) made = dal_model_system(request->model, &request->system, &error);
+    if (made == DAL_STATUS_OK) return CLI_DONE;
     /* The user knows --on, not the invariant. */
     char prefix[MAX_NAME + 16];
     const size_t n = (size_t)snprintf(prefix, sizeof prefix, "invariant %s: ", name);
@@ -115,7 +115,7 @@ static void name_row(section *s)
         if (i < FIRST_STATE_COLUMN)
             snprintf(s->names[i], MAX_NAME, "%s", first[i]);
         else
-            dal_run_name(s->request->run, i - FIRST_STATE_COLUMN, s->names[i], MAX_NAME);
+            dal_run_component_name(s->request->run, i - FIRST_STATE_COLUMN, s->names[i], MAX_NAME);
     }
 }
 
@@ -132,7 +132,7 @@ static void keep_row(section *s)
 static dal_status write_crossing(void *user, dal_run *run, const dal_crossing *crossing)
 {
     section *s = user;
-    if (crossing->t < s->set->transient) return DAL_OK;
+    if (crossing->t < s->set->transient) return DAL_STATUS_OK;
     s->row[COLUMN_CROSSING] = (double)s->rows + 1.0;
     s->row[COLUMN_T] = crossing->t;
     s->row[COLUMN_DIRECTION] = crossing->direction;
@@ -145,7 +145,7 @@ static dal_status write_crossing(void *user, dal_run *run, const dal_crossing *c
     if (s->set->json || (s->set->is_screen && s->rows < SCREEN_ROWS)) keep_row(s);
     s->rows++;
     if (s->table.path) s->write_status = writer_append(&s->table, s->row);
-    return s->write_status == CLI_DONE ? DAL_OK : DAL_IO;
+    return s->write_status == CLI_DONE ? DAL_STATUS_OK : DAL_STATUS_IO;
 }
 
 static dal_status poll_signals(void *user, dal_run *run)
@@ -153,7 +153,7 @@ static dal_status poll_signals(void *user, dal_run *run)
     section *s = user;
     native_poll(&s->native);
     cli_progress("t = %.6g of %.6g, %lld crossings", dal_run_time(run), s->request->time, s->rows);
-    return cli_interrupted() ? DAL_INTERRUPTED : DAL_OK;
+    return cli_interrupted() ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
 /* The crossings on a terminal: their number, and of the first ones as many columns as fit. */
@@ -216,11 +216,11 @@ static int run_section(section *s, const char *path)
         cli_progress_end();
         if (s->write_status != CLI_DONE)
             status = s->write_status;
-        else if (done == DAL_INTERRUPTED)
+        else if (done == DAL_STATUS_INTERRUPTED)
             status = cli_fail(CLI_SIGNAL, "interrupted; %lld rows are kept", s->rows);
-        else if (done != DAL_OK)
-            status = cli_error(done == DAL_ARGUMENT ? CLI_USAGE : cli_exit(done), r->system_name,
-                               &error);
+        else if (done != DAL_STATUS_OK)
+            status = cli_error(done == DAL_STATUS_ARGUMENT ? CLI_USAGE : cli_exit(done),
+                               r->system_name, &error);
     }
     const int closed = has_table ? writer_close(&s->table) : CLI_DONE;
     if (s->found.unresolved > 0)
@@ -317,7 +317,7 @@ static int choose_axes(section *s)
     dal_scaled *scaled;
     dal_error error = {0};
     const dal_status made = dal_scaled_create_at(&scaled, s->request->run, &error);
-    if (made != DAL_OK) return cli_error(cli_exit(made), s->request->system_name, &error);
+    if (made != DAL_STATUS_OK) return cli_error(cli_exit(made), s->request->system_name, &error);
     const double *units = dal_scaled_units(scaled) + 1;
     while (i >= q && !(varies(s, i, units) && varies(s, i + n, units))) i--;
     axis[0] = i;

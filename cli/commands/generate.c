@@ -39,7 +39,8 @@ static int generate_text(settings *s)
     dal_error error = {0};
     char *text = NULL;
     dal_status made = dal_generate(&spec, (int)s->lanes, s->prefix, &text, &error);
-    if (made != DAL_OK) return cli_error(cli_input_exit(made), s->request.system_name, &error);
+    if (made != DAL_STATUS_OK)
+        return cli_error(cli_input_exit(made), s->request.system_name, &error);
     if (strcmp(s->output, "-") != 0) {
         status = file_replace(s->output, text, strlen(text), 1);
     } else {

@@ -40,7 +40,7 @@ int ensemble_parse_vary(void *user, const cli_option *option, const char *text)
     (void)option;
     const size_t count = (size_t)e->variations + 1;
     e->vary = cli_realloc(e->vary, count * sizeof *e->vary);
-    if (dal_variation_parse(&e->vary[count - 1], text, &error) != DAL_OK)
+    if (dal_variation_parse(&e->vary[count - 1], text, &error) != DAL_STATUS_OK)
         return cli_fail(CLI_USAGE, "--vary: %s", error.message);
     for (int i = 0; i < e->variations; i++)
         if (strcmp(e->vary[i].name, e->vary[count - 1].name) == 0)
@@ -155,7 +155,7 @@ static void name_columns(ensemble *e)
     e->columns = dal_run_dimension(e->request.run);
     e->column = cli_calloc((size_t)e->columns, sizeof *e->column);
     for (int i = 0; i < e->columns; i++)
-        e->column[i] = cli_strdup(dal_run_name(e->request.run, i, name, sizeof name));
+        e->column[i] = cli_strdup(dal_run_component_name(e->request.run, i, name, sizeof name));
 }
 
 int ensemble_complete(ensemble *e)
@@ -174,7 +174,7 @@ int ensemble_complete(ensemble *e)
     const dal_status made =
         dal_ensemble_create(&e->first, &e->spec, e->vary, e->variations,
                             (unsigned long long)e->seed, ENSEMBLE_CHUNK, &error);
-    if (made == DAL_OK) return CLI_DONE;
-    return cli_error(cli_input_exit(made), made == DAL_NAME ? "--vary" : e->request.system_name,
-                     &error);
+    if (made == DAL_STATUS_OK) return CLI_DONE;
+    return cli_error(cli_input_exit(made),
+                     made == DAL_STATUS_NAME ? "--vary" : e->request.system_name, &error);
 }

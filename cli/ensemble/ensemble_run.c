@@ -62,7 +62,7 @@ static void use_native(pool_state *p, worker *w)
     if (!p->native || dal_batch_is_native(batch)) return;
     const dal_native_state state = dal_native_poll(p->native, &error);
     if (state == DAL_NATIVE_READY) dal_batch_use_native(batch, p->native, &error);
-    if (error.status == DAL_OK) return;
+    if (error.status == DAL_STATUS_OK) return;
     cli_note("steps are interpreted: %s", error.message);
     dal_native_free(p->native);
     p->native = NULL;
@@ -185,7 +185,8 @@ static int write_messages(const pool_state *p, const worker *w, int chunk, int c
     size_t length;
     FILE *out = cli_memstream_open(&text, &length);
     for (int i = 0; i < count; i++)
-        if (dal_batch_status(batch, i, &error) != DAL_OK) fprintf(out, "%s\n", error.message);
+        if (dal_batch_status(batch, i, &error) != DAL_STATUS_OK)
+            fprintf(out, "%s\n", error.message);
     cli_memstream_close(out);
     const int status =
         length > 0 ? ensemble_directory_write_messages(p->dir, chunk, text) : CLI_DONE;
@@ -203,7 +204,7 @@ static int run_chunk(const pool_state *p, const worker *w, int chunk)
     long long step = 0;
     int status = CLI_DONE;
     dal_ensemble_start(w->ensemble, (unsigned long long)first, count);
-    for (int i = 0; i < count; i++) started[i] = dal_batch_status(batch, i, NULL) == DAL_OK;
+    for (int i = 0; i < count; i++) started[i] = dal_batch_status(batch, i, NULL) == DAL_STATUS_OK;
     for (int t = 0; t < e->times && status == CLI_DONE; t++) {
         status = advance(batch, e->steps[t] - step);
         step = e->steps[t];
@@ -243,7 +244,7 @@ static void begin_native(pool_state *p, native_mode mode)
     char *cache = native_cache();
     const dal_native_options options = {.cache = cache};
     if (dal_native_begin_batch(&p->native, dal_ensemble_batch(e->first), &options, &error) !=
-        DAL_OK) {
+        DAL_STATUS_OK) {
         p->native = NULL;
         cli_note("steps are interpreted: %s", error.message);
     }

@@ -172,7 +172,7 @@ void json_put_given(json_writer *w, const char *name, const char *number)
     const size_t length = number_length(number);
     if (length > 0 && !number[length])
         json_put_source(w, name, number);
-    else if (dal_parse_number(number, strlen(number), &x) == DAL_OK)
+    else if (dal_parse_number(number, strlen(number), &x) == DAL_STATUS_OK)
         json_put_number(w, name, x);
     else
         json_put_text(w, name, number);

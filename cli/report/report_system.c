@@ -46,7 +46,7 @@ static const dal_setting *find_setting(const request_settings *settings, const c
 static bool is_number(const char *text, double x)
 {
     double value;
-    return dal_parse_number(text, strlen(text), &value) == DAL_OK && value == x;
+    return dal_parse_number(text, strlen(text), &value) == DAL_STATUS_OK && value == x;
 }
 
 /* "m = 1, v0 = 0.1 instead of 1", then what the request alone has. */
@@ -113,7 +113,7 @@ void report_system(FILE *page, const dal_model *model, const run_request *reques
 static void write_method(FILE *page, const char *name)
 {
     dal_method method;
-    if (dal_method_parse(&method, name, NULL) != DAL_OK) {
+    if (dal_method_parse(&method, name, NULL) != DAL_STATUS_OK) {
         report_fact(page, "method", name);
         return;
     }

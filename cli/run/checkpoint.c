@@ -205,7 +205,7 @@ static int restore(const char *path, const checkpoint_header *header, const unsi
     }
     const dal_status loaded = dal_run_restore(run, state, earlier ? count : header->state, &error);
     free(state);
-    if (loaded != DAL_OK) return damaged(path, error.message);
+    if (loaded != DAL_STATUS_OK) return damaged(path, error.message);
     *position = (run_position){header->row, header->sum, header->seconds};
     return CLI_DONE;
 }

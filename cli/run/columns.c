@@ -78,7 +78,7 @@ static void name_values(run_columns *c, const dal_run *run)
         const int k = i - 1, observable = k - dimension;
         const char *name = i == 0 ? "t"
                            : observable < 0
-                               ? dal_run_name(run, k, buffer, NAME_SIZE)
+                               ? dal_run_component_name(run, k, buffer, NAME_SIZE)
                                : dal_run_observable_name(run, observable, buffer, NAME_SIZE);
         c->name[i] = cli_strdup(name ? name : "?");
     }

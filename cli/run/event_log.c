@@ -28,7 +28,7 @@ static void write_event_head(const event_log *log)
     char name[NAME_SIZE];
     fputs("t,event", log->file);
     for (int i = 0; i < dal_run_dimension(run); i++) {
-        dal_run_name(run, i, name, sizeof name);
+        dal_run_component_name(run, i, name, sizeof name);
         columns_rename(log->request, name);
         fputc(',', log->file);
         cli_put_text(log->file, name);

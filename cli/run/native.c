@@ -92,7 +92,7 @@ static void at_exit(void) { atexit(end_program); }
 static void print_failure(native_part part, const dal_error *error)
 {
     static atomic_flag printed[NATIVE_PARTS] = {ATOMIC_FLAG_INIT, ATOMIC_FLAG_INIT};
-    if (error->status == DAL_MEMORY) cli_out_of_memory();
+    if (error->status == DAL_STATUS_MEMORY) cli_out_of_memory();
     if (!atomic_flag_test_and_set(&printed[part]))
         cli_note("%s are interpreted: %s", part == NATIVE_STEPS ? "steps" : "observables",
                  error->message);
@@ -168,7 +168,7 @@ static bool use_code(native_run *n)
     if (state == DAL_NATIVE_READY) dal_run_use_native(n->run, native, &error);
     pthread_mutex_unlock(&mutex);
     if (state == DAL_NATIVE_PENDING) return false;
-    if (error.status != DAL_OK) print_failure(n->part, &error);
+    if (error.status != DAL_STATUS_OK) print_failure(n->part, &error);
     begin_part(n, n->part + 1);
     return true;
 }

@@ -222,7 +222,7 @@ static double stop_clock(run_recorder *r)
 static dal_status library_status(run_recorder *r, int exit_status)
 {
     r->failure = exit_status;
-    return exit_status == CLI_DONE ? DAL_OK : DAL_IO;
+    return exit_status == CLI_DONE ? DAL_STATUS_OK : DAL_STATUS_IO;
 }
 
 static dal_status add_event(void *user, dal_run *run, const dal_occurrence *event)
@@ -238,7 +238,7 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
     run_recorder *r = user;
     (void)run;
     dal_statistics_add_many(r->statistics, r->observables, count, t, values, stride);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status add_scales(void *user, dal_run *run, const double *scales)
@@ -246,7 +246,7 @@ static dal_status add_scales(void *user, dal_run *run, const double *scales)
     run_recorder *r = user;
     (void)run;
     dal_statistics_add_scales(r->statistics, r->observables, scales);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status add_row(void *user, dal_run *run, long long row, double t)
@@ -257,14 +257,15 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
     r->values[0] = t;
     memcpy(state, dal_run_state(run), (size_t)r->dimension * sizeof *state);
     dal_status status = dal_run_observe(run, state + r->dimension);
-    if (status != DAL_OK) return status;
+    if (status != DAL_STATUS_OK) return status;
     for (int i = 0; i < r->columns.count; i++) r->row[i] = r->values[r->columns.index[i]];
     r->position.row++;
     if (r->shows_rows) cli_progress_end();
     status = library_status(r, writer_append(&r->writer, r->row));
     /* In a directory the next poll ends the run: only there may a checkpoint be taken, and not
      * within a step that has a row between its ends. */
-    return status == DAL_OK && !r->dir && r->stop(r->stop_user) ? DAL_INTERRUPTED : status;
+    return status == DAL_STATUS_OK && !r->dir && r->stop(r->stop_user) ? DAL_STATUS_INTERRUPTED
+                                                                       : status;
 }
 
 static int save(run_recorder *r)
@@ -299,7 +300,7 @@ static dal_status poll(void *user, dal_run *run)
     const double too_soon = 0.01, too_late = 0.1;
     run_recorder *r = user;
     const int stop = r->stop(r->stop_user);
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     const double seconds = stop_clock(r);
     if (seconds < too_soon && r->observer.polling < MAX_POLLING) r->observer.polling *= 2;
     if (seconds > too_late && r->observer.polling > 1) r->observer.polling /= 2;
@@ -310,7 +311,7 @@ static dal_status poll(void *user, dal_run *run)
     show_progress(r, dal_run_time(run), 0);
     native_poll(&r->native);
     r->clock = cli_seconds();
-    return status == DAL_OK && stop ? DAL_INTERRUPTED : status;
+    return status == DAL_STATUS_OK && stop ? DAL_STATUS_INTERRUPTED : status;
 }
 
 /* ---- the end ------------------------------------------------------------------------------- */
@@ -318,10 +319,10 @@ static dal_status poll(void *user, dal_run *run)
 /* The exit status of an end; *error has a message only where none was printed yet. */
 static int end_status(const run_recorder *r, dal_status status, dal_error *error)
 {
-    if (status == DAL_OK || status == DAL_STOPPED) return CLI_DONE;
-    if (r->failure != CLI_DONE || status == DAL_INTERRUPTED) error->message[0] = '\0';
+    if (status == DAL_STATUS_OK || status == DAL_STATUS_STOPPED) return CLI_DONE;
+    if (r->failure != CLI_DONE || status == DAL_STATUS_INTERRUPTED) error->message[0] = '\0';
     if (r->failure != CLI_DONE) return r->failure;
-    if (status != DAL_INTERRUPTED && error->message[0] == '\0')
+    if (status != DAL_STATUS_INTERRUPTED && error->message[0] == '\0')
         snprintf(error->message, sizeof error->message, "%s", dal_status_text(status));
     error->line = 0;
     return cli_exit(status);
@@ -397,6 +398,7 @@ int recorder_run(run_recorder *r, dal_error *error)
     stop_clock(r);
     if (r->progress != PROGRESS_OFF) cli_progress_end();
     show_progress(r, dal_run_time(run), 1);
-    dal_run_classify(run, r->statistics, status != DAL_OK && status != DAL_STOPPED, r->trend);
+    dal_run_classify(run, r->statistics, status != DAL_STATUS_OK && status != DAL_STATUS_STOPPED,
+                     r->trend);
     return write_end(r, end_status(r, status, error), error->message);
 }

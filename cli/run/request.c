@@ -23,7 +23,7 @@ static int parse_method(void *user, const cli_option *option, const char *text)
     run_request *request = user;
     dal_error error = {0};
     (void)option;
-    if (dal_method_parse(&request->method, text, &error) == DAL_OK) return CLI_DONE;
+    if (dal_method_parse(&request->method, text, &error) == DAL_STATUS_OK) return CLI_DONE;
     return cli_error(CLI_USAGE, NULL, &error);
 }
 
@@ -41,7 +41,8 @@ static int parse_run_option(void *user, const cli_option *option, const char *te
     const char *present = cli_renamed_value(option->name, text);
     if (present)
         return cli_fail(CLI_USAGE, "--%s: '%s' is called '%s' now", option->name, text, present);
-    if (dal_options_set(&request->options, option->name, text, &error) == DAL_OK) return CLI_DONE;
+    if (dal_options_set(&request->options, option->name, text, &error) == DAL_STATUS_OK)
+        return CLI_DONE;
     /* "option step: ..." of the library is "--step: ..." of the program. */
     static const char begin[] = "option ";
     if (strncmp(error.message, begin, sizeof begin - 1) != 0)
@@ -320,7 +321,7 @@ int request_create_run(run_request *request)
     const int status = request_complete(request, &spec);
     if (status != CLI_DONE) return status;
     const dal_status made = dal_run_create(&request->run, &spec, &error);
-    if (made != DAL_OK) {
+    if (made != DAL_STATUS_OK) {
         request->run = NULL;
         return cli_error(cli_input_exit(made), request->system_name, &error);
     }

@@ -55,7 +55,7 @@ static void print_end(const run_recorder *r, int status, const dal_error *error)
         cli_error(status, r->request->system_name, error);
     else if (error->message[0])
         cli_note("%s: %s", r->request->system_name, error->message);
-    if (status == CLI_FAILED && error->status == DAL_NOT_FINITE)
+    if (status == CLI_FAILED && error->status == DAL_STATUS_NOT_FINITE)
         cli_note("a smaller step may help: --step %g", r->request->options.step / 10.0);
 }
 

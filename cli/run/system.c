@@ -27,8 +27,8 @@ static int read_path(const char *path, dal_model **model)
     if (S_ISDIR(status.st_mode))
         return cli_fail(CLI_USAGE, "cannot read '%s': it is a directory", path);
     const dal_status read = dal_model_read_file(model, path, &error);
-    if (read == DAL_OK) return CLI_DONE;
-    return cli_error(read == DAL_IO ? CLI_IO : cli_input_exit(read), path, &error);
+    if (read == DAL_STATUS_OK) return CLI_DONE;
+    return cli_error(read == DAL_STATUS_IO ? CLI_IO : cli_input_exit(read), path, &error);
 }
 
 int cli_builtins(const char *names[CLI_MAX_BUILTINS])
@@ -59,7 +59,7 @@ static int read_builtin(const char *name, dal_model **model)
         return failed;
     }
     const dal_status read = dal_model_builtin(model, name, &error);
-    return read == DAL_OK ? CLI_DONE : cli_error(cli_input_exit(read), name, &error);
+    return read == DAL_STATUS_OK ? CLI_DONE : cli_error(cli_input_exit(read), name, &error);
 }
 
 int cli_read(const char *system, dal_model **model)
@@ -113,13 +113,13 @@ static int make_system(const char *system, const char *formulas, bool is_known, 
     int line, column;
     dal_status make = dal_model_system(*model, made, &error);
     const char *integrator = cli_default(*model, "integrator", &line, &column);
-    if (make == DAL_OK && integrator) {
+    if (make == DAL_STATUS_OK && integrator) {
         make = dal_method_parse(&method, integrator, &error);
         error.line = line;
         error.column = column;
     }
-    if (make == DAL_OK && !is_known) print_warnings(system, *model);
-    if (make == DAL_OK) return CLI_DONE;
+    if (make == DAL_STATUS_OK && !is_known) print_warnings(system, *model);
+    if (make == DAL_STATUS_OK) return CLI_DONE;
     const bool is_formula = strncmp(error.message, prefix, length) == 0;
     if (is_formula)
         memmove(error.message, error.message + length, strlen(error.message + length) + 1);
@@ -148,7 +148,7 @@ int cli_observe(const char *system, const char *place, const cli_formula *formul
     for (int i = 0; i < count; i++) {
         const cli_formula *f = &formulas[i];
         const dal_status added = dal_model_observe(*model, f->text, f->line, f->column, &error);
-        if (added != DAL_OK) return refuse(model, made, added, place, &error);
+        if (added != DAL_STATUS_OK) return refuse(model, made, added, place, &error);
     }
     return make_system(system, place, is_known, model, made);
 }

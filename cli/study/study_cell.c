@@ -67,7 +67,7 @@ static void find_momentum_units(const cell_run *r, double *size)
             start[spec.start_count++] = request->start.item[i];
     dal_scaled *scaled;
     double min = INFINITY;
-    const bool found = dal_scaled_create(&scaled, &spec, NULL) == DAL_OK;
+    const bool found = dal_scaled_create(&scaled, &spec, NULL) == DAL_STATUS_OK;
     const double *units = dal_scaled_units(scaled), tau = found ? units[0] : 1.0;
     for (int i = 0; i < n && found; i++) min = fmin(min, units[1 + i]);
     for (int i = 0; i < n; i++) {
@@ -168,7 +168,7 @@ static int create_run(cell_run *r)
     const dal_status created = dal_run_create(&r->request.run, &spec, &r->cell->error);
     if (cli_is_ok(created)) return CLI_DONE;
     r->request.run = NULL;
-    set_failure(r->cell, created == DAL_UNSUPPORTED ? STUDY_REFUSED : STUDY_FAILED, created);
+    set_failure(r->cell, created == DAL_STATUS_UNSUPPORTED ? STUDY_REFUSED : STUDY_FAILED, created);
     return CLI_DONE;
 }
 
@@ -358,7 +358,7 @@ static dal_status add_end(void *user, dal_run *run, long long row, double t)
         const double x = dal_run_state(run)[i] + 0.0;
         c->bits = file_hash(c->bits, &x, sizeof x);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status add_values(void *user, dal_run *run, int count, const double *t,
@@ -366,14 +366,14 @@ static dal_status add_values(void *user, dal_run *run, int count, const double *
 {
     const short_run *s = user;
     dal_statistics_add_many(s->statistics, dal_run_observables(run), count, t, values, stride);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status add_scales(void *user, dal_run *run, const double *scales)
 {
     const short_run *s = user;
     dal_statistics_add_scales(s->statistics, dal_run_observables(run), scales);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status poll_short_run(void *user, dal_run *run)
@@ -381,8 +381,9 @@ static dal_status poll_short_run(void *user, dal_run *run)
     short_run *s = user;
     (void)run;
     native_poll(&s->native);
-    return (s->check && s->check->stop(s->check->user)) || cli_interrupted() ? DAL_INTERRUPTED
-                                                                             : DAL_OK;
+    return (s->check && s->check->stop(s->check->user)) || cli_interrupted()
+               ? DAL_STATUS_INTERRUPTED
+               : DAL_STATUS_OK;
 }
 
 /* Runs the cell from its start to its end, however often it was begun. */
@@ -404,10 +405,10 @@ static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
                              alike * steps / (double)request->statistics, alike, r->plan->native);
     c->bits = FILE_HASH_START;
     const dal_status status = dal_run_sample(request->run, request->time, 1, 0, &observer, error);
-    const bool has_ended = status == DAL_OK || status == DAL_STOPPED;
+    const bool has_ended = status == DAL_STATUS_OK || status == DAL_STATUS_STOPPED;
     dal_run_classify(request->run, s->statistics, !has_ended, c->trend);
     c->seconds = cli_thread_seconds() - start;
-    return has_ended ? DAL_OK : status;
+    return has_ended ? DAL_STATUS_OK : status;
 }
 
 static int run_without_rows(cell_run *r, const study_stop_check *check)
@@ -424,8 +425,8 @@ static int run_without_rows(cell_run *r, const study_stop_check *check)
     dal_statistics_start(s.statistics, c->observables);
     const dal_status status = integrate(r, &s, &error);
     free(s.statistics);
-    if (status == DAL_INTERRUPTED) return CLI_SIGNAL;
-    take_end(r, &error, status != DAL_OK);
+    if (status == DAL_STATUS_INTERRUPTED) return CLI_SIGNAL;
+    take_end(r, &error, status != DAL_STATUS_OK);
     return study_results_add(r->plan->results, number, c, r->plan->interval);
 }
 

@@ -116,7 +116,7 @@ static int read_option(study_case *e, const document *doc, const document_pair *
     if (cli_renamed_value(name, word))
         return document_fail(doc, pair->key, "options: %s: %s is called %s now", name, word,
                              cli_renamed_value(name, word));
-    if (dal_options_set(&e->options, name, word, &error) != DAL_OK)
+    if (dal_options_set(&e->options, name, word, &error) != DAL_STATUS_OK)
         return document_fail(doc, pair->key, "%s", error.message);
     e->option[request_find_option(name)] = word;
     return CLI_DONE;
@@ -228,7 +228,7 @@ static int add_method(study_case *e, const document *doc, const yaml_node_t *nod
     dal_error error = {0};
     size_t count = (size_t)e->method_count + 1;
     e->methods = cli_realloc(e->methods, count * sizeof *e->methods);
-    if (dal_method_parse(&e->methods[e->method_count], name, &error) != DAL_OK)
+    if (dal_method_parse(&e->methods[e->method_count], name, &error) != DAL_STATUS_OK)
         return document_fail(doc, node, "%s", error.message);
     if (!has_method(e, &e->methods[e->method_count])) e->method_count++;
     return CLI_DONE;
@@ -313,7 +313,7 @@ static int check_names(const group_reader *g, const yaml_node_t *node, const cha
     if (!e->system->call.adjoint) spec.options.space = DAL_PHYSICAL;
     const dal_status created = dal_run_create(&run, &spec, &error);
     if (cli_is_ok(created)) dal_run_free(run);
-    if (created != DAL_NAME) return CLI_DONE;
+    if (created != DAL_STATUS_NAME) return CLI_DONE;
     return document_fail(g->doc, node, "%s: %s", what, error.message);
 }
 
@@ -476,7 +476,7 @@ static int read_representatives(study_plan *plan, yaml_node_t *node)
         dal_error error = {0};
         bool is_run = false;
         if (!name) return CLI_USAGE;
-        if (dal_method_parse(method, name, &error) != DAL_OK)
+        if (dal_method_parse(method, name, &error) != DAL_STATUS_OK)
             return document_fail(doc, item, "%s", error.message);
         for (int k = 0; k < plan->case_count; k++) is_run |= has_method(&plan->cases[k], method);
         if (!is_run)

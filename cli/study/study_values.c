@@ -295,9 +295,9 @@ static dal_status find_velocities(const study_case *e, double *v, dal_error *err
             start[spec.start_count++] = e->start.item[i];
     }
     dal_status status = dal_method_parse(&spec.method, "rk4", error);
-    if (status == DAL_OK) status = dal_run_create(&run, &spec, error);
+    if (status == DAL_STATUS_OK) status = dal_run_create(&run, &spec, error);
     const size_t n = (size_t)e->system->n;
-    if (status == DAL_OK) memcpy(v, dal_run_state(run) + n, n * sizeof *v);
+    if (status == DAL_STATUS_OK) memcpy(v, dal_run_state(run) + n, n * sizeof *v);
     dal_run_free(run);
     free(start);
     return status;
@@ -316,7 +316,7 @@ int study_variants_project_start(const study_variants *v, study_case *e)
         request_add_setting(&e->start, name, moved[i]);
         free(name);
     }
-    if (found != DAL_OK)
+    if (found != DAL_STATUS_OK)
         status = document_fail(v->doc, v->start_node, "%s: no start on D = 0 was found: %s",
                                e->label, error.message[0] ? error.message : dal_status_text(found));
     free(moved);

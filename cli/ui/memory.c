@@ -13,8 +13,8 @@
 
 bool cli_is_ok(dal_status status)
 {
-    if (status == DAL_MEMORY) cli_out_of_memory();
-    return status == DAL_OK;
+    if (status == DAL_STATUS_MEMORY) cli_out_of_memory();
+    return status == DAL_STATUS_OK;
 }
 
 static void *checked(void *memory)

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Whether a status is DAL_OK; ends the program where it is DAL_MEMORY. */
+/* Whether a status is DAL_STATUS_OK; ends the program where it is DAL_STATUS_MEMORY. */
 bool cli_is_ok(dal_status status);
 
 /* As in the C library, but these never return NULL, not even for 0 bytes. */

@@ -19,22 +19,22 @@ enum { MESSAGE_SIZE = 8192 }; /* more than the longest path */
 int cli_exit(dal_status status)
 {
     switch (status) {
-    case DAL_OK:
-    case DAL_STOPPED:
+    case DAL_STATUS_OK:
+    case DAL_STATUS_STOPPED:
         return CLI_DONE;
-    case DAL_MEMORY:
-    case DAL_IO:
+    case DAL_STATUS_MEMORY:
+    case DAL_STATUS_IO:
         return CLI_IO;
-    case DAL_INTERRUPTED:
+    case DAL_STATUS_INTERRUPTED:
         return CLI_SIGNAL;
-    case DAL_ARGUMENT:
-    case DAL_SYNTAX:
-    case DAL_NAME:
-    case DAL_MODEL:
-    case DAL_TOO_LARGE:
-    case DAL_INCONSISTENT:
-    case DAL_RANK:
-    case DAL_UNSUPPORTED:
+    case DAL_STATUS_ARGUMENT:
+    case DAL_STATUS_SYNTAX:
+    case DAL_STATUS_NAME:
+    case DAL_STATUS_MODEL:
+    case DAL_STATUS_TOO_LARGE:
+    case DAL_STATUS_INCONSISTENT:
+    case DAL_STATUS_RANK:
+    case DAL_STATUS_UNSUPPORTED:
         return CLI_USAGE;
     default:
         return CLI_FAILED;
@@ -43,7 +43,7 @@ int cli_exit(dal_status status)
 
 int cli_input_exit(dal_status status)
 {
-    return status == DAL_OK || status == DAL_MEMORY ? cli_exit(status) : CLI_USAGE;
+    return status == DAL_STATUS_OK || status == DAL_STATUS_MEMORY ? cli_exit(status) : CLI_USAGE;
 }
 
 /* ---- messages ------------------------------------------------------------------------------ */
@@ -139,7 +139,7 @@ int cli_unknown(const char *what, const char *name, const char *const *names, in
 
 int cli_error(int exit_status, const char *place, const dal_error *error)
 {
-    if (error->status == DAL_MEMORY) exit_status = CLI_IO;
+    if (error->status == DAL_STATUS_MEMORY) exit_status = CLI_IO;
     if (!place) return cli_fail(exit_status, "%s", error->message);
     if (error->line <= 0) return cli_fail(exit_status, "%s: %s", place, error->message);
     if (error->column <= 0)

@@ -44,8 +44,9 @@ const char *cli_renamed_value(const char *option, const char *text)
 int cli_number(const char *what, const char *text, double *number)
 {
     dal_status read = dal_parse_number(text, strlen(text), number);
-    if (read == DAL_TOO_LARGE) return cli_fail(CLI_USAGE, "%s: '%s' is too large", what, text);
-    if (read != DAL_OK) return cli_fail(CLI_USAGE, "%s: '%s' is not a number", what, text);
+    if (read == DAL_STATUS_TOO_LARGE)
+        return cli_fail(CLI_USAGE, "%s: '%s' is too large", what, text);
+    if (read != DAL_STATUS_OK) return cli_fail(CLI_USAGE, "%s: '%s' is not a number", what, text);
     return CLI_DONE;
 }
 

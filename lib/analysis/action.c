@@ -37,27 +37,27 @@ static dal_status lagrangian(dal_evaluator *evaluator, double t, double h, const
     DAL_TRY(dal_evaluator_call(evaluator, s->call.field, t, row, v, NULL, field));
     *value = 0.0;
     for (int i = 0; i < n; i++) *value += (a[i] - field[i]) * (a[i] - field[i]);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
-dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, long long count,
-                              const double *q, double e, double *action)
+dal_status dal_evaluator_measure_action(dal_evaluator *evaluator, double t0, double h,
+                                        long long count, const double *q, double e, double *action)
 {
     DAL_REQUIRE(evaluator && q && action, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
-    if (s->multipliers > 0) return DAL_UNSUPPORTED;
-    if (count < 10 || !(h > 0.0)) return DAL_ARGUMENT;
+    if (s->multipliers > 0) return DAL_STATUS_UNSUPPORTED;
+    if (count < 10 || !(h > 0.0)) return DAL_STATUS_ARGUMENT;
     double *scratch = dal__numbers(3, (size_t)s->n), sum = 0.0, value = 0.0;
-    if (scratch == NULL) return DAL_MEMORY;
-    dal_status status = DAL_OK;
-    for (long long k = 4; k < count - 4 && status == DAL_OK; k++) {
+    if (scratch == NULL) return DAL_STATUS_MEMORY;
+    dal_status status = DAL_STATUS_OK;
+    for (long long k = 4; k < count - 4 && status == DAL_STATUS_OK; k++) {
         status = lagrangian(evaluator, t0 + h * (double)k, h, q + k * s->n, scratch, &value);
         sum += (k == 4 || k == count - 5 ? 0.5 : 1.0) * value;
     }
     *action = 0.5 * e * h * sum;
     free(scratch);
-    if (status != DAL_OK) return status;
-    return isfinite(*action) ? DAL_OK : DAL_NOT_FINITE;
+    if (status != DAL_STATUS_OK) return status;
+    return isfinite(*action) ? DAL_STATUS_OK : DAL_STATUS_NOT_FINITE;
 }
 
 /* ---- the first-order action ---- */
@@ -78,9 +78,9 @@ static double hamiltonian(void *user, const double *z)
     const double *v = z + n, *p = z + w->half, *pi = p + n;
     double e = z[2 * n], mu = 0.0, sum = 0.0, square = 0.0;
     dal_status status = dal_evaluator_call(w->evaluator, s->call.field, w->t, z, v, NULL, w->field);
-    if (status == DAL_OK && s->call.gauge != NULL)
+    if (status == DAL_STATUS_OK && s->call.gauge != NULL)
         status = dal_evaluator_call(w->evaluator, s->call.gauge, w->t, z, v, NULL, &mu);
-    if (status != DAL_OK) w->status = status;
+    if (status != DAL_STATUS_OK) w->status = status;
     for (int i = 0; i < n; i++) {
         square += pi[i] * pi[i];
         sum += pi[i] * w->field[i] + p[i] * v[i];
@@ -104,16 +104,16 @@ static double variation(path *w, const double *row, int inner)
     return max / w->h;
 }
 
-dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
-                                  const double *states, double *defect)
+dal_status dal_evaluator_check_stationarity(dal_evaluator *evaluator, double t0, double h,
+                                            long long count, const double *states, double *defect)
 {
     DAL_REQUIRE(evaluator && states && defect, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
-    if (s->multipliers > 0) return DAL_UNSUPPORTED;
-    if (count < 3 || !(h > 0.0)) return DAL_ARGUMENT;
+    if (s->multipliers > 0) return DAL_STATUS_UNSUPPORTED;
+    if (count < 3 || !(h > 0.0)) return DAL_STATUS_ARGUMENT;
     size_t n = (size_t)s->n, size = 4 * n + 2;
     double *block = dal__numbers(1, 3 * size + n);
-    if (block == NULL) return DAL_MEMORY;
+    if (block == NULL) return DAL_STATUS_MEMORY;
     path w = {.evaluator = evaluator, .n = s->n, .half = 2 * s->n + 1, .h = h, .z = block};
     w.gradient = block + size, w.before = block + 2 * size, w.field = block + 3 * size;
     *defect = 0.0;

@@ -67,7 +67,7 @@ static bool vanishes(survey *w, unsigned directions, int count, const double *we
             w->d[i] = varies ? neighbourhood * dal__uniform(&w->random) : 0.0;
         }
         for (int k = 0; k < count && good; k++)
-            good = values_at(w, k - 1.0, w->value[k]) == DAL_OK &&
+            good = values_at(w, k - 1.0, w->value[k]) == DAL_STATUS_OK &&
                    isfinite(dal__max_abs(w->value[k], (size_t)w->m));
         decided |= good;
         for (int a = 0; a < w->m && good; a++) {
@@ -99,9 +99,9 @@ static int find_parity(survey *w)
     for (int a = 0; a < w->m; a++) w->sign[a] = 2.0;
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
-        if (values_at(w, 0.0, w->value[0]) != DAL_OK) continue;
+        if (values_at(w, 0.0, w->value[0]) != DAL_STATUS_OK) continue;
         reverse(w);
-        if (values_at(w, 0.0, w->value[1]) != DAL_OK) continue;
+        if (values_at(w, 0.0, w->value[1]) != DAL_STATUS_OK) continue;
         for (int a = 0; a < w->m; a++) {
             double x = w->value[0][a], y = w->value[1][a], size = tolerance * fmax(1.0, fabs(x));
             double sign = fabs(x - y) <= size ? 1.0 : fabs(x + y) <= size ? -1.0 : 0.0;
@@ -130,7 +130,7 @@ static double force_defect(survey *w)
         reverse(w);
         dal_status there =
             dal_evaluator_call(w->evaluator, field, w->t, w->x, w->x + w->n, NULL, w->value[1]);
-        if (here != DAL_OK || there != DAL_OK) continue;
+        if (here != DAL_STATUS_OK || there != DAL_STATUS_OK) continue;
         /* dg/dt of a multiplier that changes its sign with v keeps its own, and the reverse. */
         for (int a = 0; a < w->s->multipliers; a++) w->value[1][w->n + a] *= -w->sign[a];
         if (!isfinite(dal__max_abs(w->value[0], (size_t)w->nw))) continue;
@@ -156,7 +156,7 @@ static bool is_homogeneous(survey *w)
         draw_base(w);
         memset(w->d, 0, (size_t)(w->n + w->nw) * sizeof(double));
         memcpy(w->d + w->n, w->x + w->n, (size_t)w->n * sizeof(double));
-        if (values_at(w, 0.0, w->value[0]) != DAL_OK) continue;
+        if (values_at(w, 0.0, w->value[0]) != DAL_STATUS_OK) continue;
         if (dal__differentiate(along_scaling, w, DAL__INCREMENT, w->m, w->value[1], w->rate))
             continue;
         for (int a = 0; a < w->m; a++) {
@@ -173,18 +173,18 @@ static bool is_homogeneous(survey *w)
 
 /* ---- the class ---- */
 
-dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
-                                    dal_constraint_class *out, double *degree)
+dal_status dal_evaluator_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
+                                              dal_constraint_class *out, double *degree)
 {
     static const double first[] = {-1.0, 1.0}, second[] = {1.0, -2.0, 1.0};
     static const double third[] = {-1.0, 3.0, -3.0, 1.0};
     DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
-    if (s->m > 0 && s->constraints == NULL) return DAL_UNSUPPORTED;
+    if (s->m > 0 && s->constraints == NULL) return DAL_STATUS_UNSUPPORTED;
     size_t nw = (size_t)s->n + (size_t)s->multipliers, x = (size_t)s->n + nw;
     size_t rows = nw > (size_t)s->m ? nw : (size_t)s->m;
     double *block = dal__numbers(1, 3 * x + 7 * rows);
-    if (block == NULL) return DAL_MEMORY;
+    if (block == NULL) return DAL_STATUS_MEMORY;
     survey w = {.evaluator = evaluator, .s = s, .n = s->n, .nw = (int)nw, .m = s->m, .at = *at};
     w.random.state = 7;
     w.x = block, w.d = block + x, w.y = block + 2 * x;
@@ -205,7 +205,7 @@ dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *a
     const bool has_parity = w.s->multipliers == 0 || out->parity != 0;
     out->reversible = has_parity && out->force_defect <= 1e-10;
     free(block);
-    return w.undecided ? DAL_NOT_FINITE : DAL_OK;
+    return w.undecided ? DAL_STATUS_NOT_FINITE : DAL_STATUS_OK;
 }
 
 /* ---- the rank of G ---- */
@@ -220,19 +220,20 @@ static dal_status constraint_blocks(dal_evaluator *evaluator, double t, const do
     const dal_system *s = dal_evaluator_system(evaluator);
     size_t count = (size_t)s->m * (1 + 2 * (size_t)s->n);
     DAL_TRY(dal_evaluator_call(evaluator, s->call.constraint, t, q, v, NULL, out));
-    return isfinite(dal__max_abs(out, count)) ? DAL_OK : DAL_NOT_FINITE;
+    return isfinite(dal__max_abs(out, count)) ? DAL_STATUS_OK : DAL_STATUS_NOT_FINITE;
 }
 
-dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank, double *pivot)
+dal_status dal_evaluator_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank,
+                                      double *pivot)
 {
     DAL_REQUIRE(evaluator && dal__has_state(at) && rank && pivot, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     size_t n = (size_t)s->n, m = (size_t)s->m;
     double *block = dal__numbers(1, m * (1 + 2 * n) + m * m + m + m * (m + 2));
-    if (block == NULL) return DAL_MEMORY;
+    if (block == NULL) return DAL_STATUS_MEMORY;
     double *gram = block + m * (1 + 2 * n), *size = gram + m * m;
     dal_status status = constraint_blocks(evaluator, at->t, at->q, at->v, block);
-    if (status == DAL_OK) {
+    if (status == DAL_STATUS_OK) {
         dal__gram_matrix(s->n, s->m, block + m, block + m + m * n, gram);
         /* Scaled by the root of the largest entry of each row: constraints in any units. */
         for (size_t a = 0; a < m; a++) size[a] = sqrt(dal__max_abs(gram + a * m, m));
@@ -279,10 +280,10 @@ static dal_status newton_step(projection *p)
     memcpy(p->right, p->block, (size_t)m * sizeof(double));
     dal__gram_matrix(n, m, p->block + m, p->block + m + m * n, p->gram);
     if (dal__least_squares(m, m, p->gram, p->right, p->step, rank_tolerance, NULL, p->work) < m)
-        return DAL_SINGULAR;
+        return DAL_STATUS_SINGULAR;
     for (int i = 0; i < n; i++)
         for (int a = 0; a < m; a++) p->v[i] -= p->block[m + m * n + i * m + a] * p->step[a];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Iterates until |D| no longer falls; the best v is in p->best. */
@@ -298,18 +299,19 @@ static dal_status stagnate(projection *p)
         if (size == 0.0) break;
         DAL_TRY(newton_step(p));
     }
-    return min <= projection_tolerance * natural_size(p) ? DAL_OK : DAL_NOT_CONVERGED;
+    return min <= projection_tolerance * natural_size(p) ? DAL_STATUS_OK : DAL_STATUS_NOT_CONVERGED;
 }
 
-dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v)
+dal_status dal_evaluator_project_velocity(dal_evaluator *evaluator, double t, const double *q,
+                                          double *v)
 {
     DAL_REQUIRE(evaluator && q && v, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     size_t n = (size_t)s->n, m = (size_t)s->m;
     size_t bytes = (n + (size_t)s->multipliers) * sizeof(double);
-    if (m == 0) return DAL_OK;
+    if (m == 0) return DAL_STATUS_OK;
     double *block = dal__numbers(1, m * (1 + 2 * n) + 2 * m * m + 4 * m + 2 * n + m);
-    if (block == NULL) return DAL_MEMORY;
+    if (block == NULL) return DAL_STATUS_MEMORY;
     double *gram = block + m * (1 + 2 * n), *step = gram + m * m, *best = step + 2 * m;
     double *moved = best + n;
     projection p = {.evaluator = evaluator, .s = s, .t = t, .q = q, .v = moved, .best = best};
@@ -317,7 +319,7 @@ dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double
     p.work = moved + n + (size_t)s->multipliers;
     memcpy(moved, v, bytes);
     dal_status status = stagnate(&p);
-    if (status == DAL_OK) memcpy(v, best, n * sizeof(double));
+    if (status == DAL_STATUS_OK) memcpy(v, best, n * sizeof(double));
     free(block);
     return status;
 }

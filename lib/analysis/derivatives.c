@@ -39,20 +39,20 @@ static dal_status difference(dal__curve *curve, void *user, double d, int count,
     }
     *gap = dal__distance(out, lower, (size_t)count);
     *noise = isfinite(size) ? rounding * size / d : 0.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count, double *scratch,
                               double *out)
 {
     double *best = scratch + 2 * count, min = INFINITY, gap, noise;
-    dal_status failure = DAL_OK;
+    dal_status failure = DAL_STATUS_OK;
     bool good = false;
     for (int i = 0; i < count; i++) best[i] = NAN;
     for (int k = 0; k < ATTEMPTS && !good; k++, d *= shortening) {
         const dal_status status = difference(curve, user, d, count, scratch, out, &gap, &noise);
-        if (status != DAL_OK && failure == DAL_OK) failure = status;
-        if (status != DAL_OK) continue;
+        if (status != DAL_STATUS_OK && failure == DAL_STATUS_OK) failure = status;
+        if (status != DAL_STATUS_OK) continue;
         good = gap <= fmax(close_agreement, noise) ||
                fmax(fmax(gap, min), dal__distance(best, out, (size_t)count)) <= agreement;
         if (!(gap < min)) continue;
@@ -60,7 +60,7 @@ dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count
         memcpy(best, out, (size_t)count * sizeof(double));
     }
     memcpy(out, best, (size_t)count * sizeof(double));
-    return isinf(min) ? failure : DAL_OK;
+    return isinf(min) ? failure : DAL_STATUS_OK;
 }
 
 typedef struct varied {
@@ -116,8 +116,8 @@ static dal_status find_flow(flow *f, double *memory)
     DAL_TRY(dal_evaluator_call(f->evaluator, s->call.field, at->t, at->q, at->v, NULL, f->field));
     return isfinite(dal__max_abs(f->field, (size_t)f->nw)) &&
                    isfinite(dal__max_abs(at->v, (size_t)f->n))
-               ? DAL_OK
-               : DAL_NOT_FINITE;
+               ? DAL_STATUS_OK
+               : DAL_STATUS_NOT_FINITE;
 }
 
 static dal_status rate_in(flow *f, int count, double *scratch, double *out)
@@ -125,22 +125,22 @@ static dal_status rate_in(flow *f, int count, double *scratch, double *out)
     double speed = dal__max_abs(f->field, (size_t)f->nw);
     speed = fmax(1.0, fmax(speed, dal__max_abs(f->at->v, (size_t)f->n)));
     DAL_TRY(dal__differentiate(along_flow, f, DAL__INCREMENT / speed, count, scratch, out));
-    return isfinite(dal__max_abs(out, (size_t)count)) ? DAL_OK : DAL_NOT_FINITE;
+    return isfinite(dal__max_abs(out, (size_t)count)) ? DAL_STATUS_OK : DAL_STATUS_NOT_FINITE;
 }
 
-dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
-                            const dal_point *at, double *out)
+dal_status dal_evaluator_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
+                                      const dal_point *at, double *out)
 {
     DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     DAL_REQUIRE_COUNT(count, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     const size_t n = (size_t)s->n, nw = n + (size_t)s->multipliers;
-    if (callback == NULL) return DAL_UNSUPPORTED;
+    if (callback == NULL) return DAL_STATUS_UNSUPPORTED;
     double *block = dal__numbers(1, n + 2 * nw + 3 * (size_t)count);
-    if (block == NULL) return DAL_MEMORY;
+    if (block == NULL) return DAL_STATUS_MEMORY;
     flow f = {.evaluator = evaluator, .callback = callback, .at = at};
     dal_status status = find_flow(&f, block);
-    if (status == DAL_OK) status = rate_in(&f, count, block + n + 2 * nw, out);
+    if (status == DAL_STATUS_OK) status = rate_in(&f, count, block + n + 2 * nw, out);
     free(block);
     return status;
 }
@@ -158,7 +158,7 @@ static dal_status along_scaled_flow(void *user, double s, double *out)
     scaled_flow *f = user;
     DAL_TRY(along_flow(&f->flow, s * f->time, f->values));
     *out = f->values[f->index] / f->size;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__rate_in_units(const dal__rate *of, const dal_point *at, double *rate)
@@ -166,7 +166,7 @@ dal_status dal__rate_in_units(const dal__rate *of, const dal_point *at, double *
     const dal_system *s = dal_evaluator_system(of->evaluator);
     const size_t n = (size_t)s->n, nw = n + (size_t)s->multipliers;
     double *block = dal__numbers(1, n + 2 * nw + 3 + (size_t)of->count), found[2] = {NAN, NAN};
-    if (block == NULL) return DAL_MEMORY;
+    if (block == NULL) return DAL_STATUS_MEMORY;
     double *scratch = block + n + 2 * nw;
     scaled_flow f = {.flow = {.evaluator = of->evaluator, .callback = of->callback, .at = at},
                      .index = of->index,
@@ -174,15 +174,15 @@ dal_status dal__rate_in_units(const dal__rate *of, const dal_point *at, double *
                      .size = 1.0,
                      .values = scratch + 3};
     dal_status status = find_flow(&f.flow, block);
-    for (int k = 0; k < 2 && status == DAL_OK; k++) /* f may have no value on one side */
+    for (int k = 0; k < 2 && status == DAL_STATUS_OK; k++) /* f may have no value on one side */
         along_scaled_flow(&f, k ? DAL__INCREMENT : -DAL__INCREMENT, &found[k]);
     f.size = fmax(of->size, fmax(fabs(found[0]), fabs(found[1])));
     if (!(f.size > 0.0) || !isfinite(f.size)) f.size = 1.0;
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         status = dal__differentiate(along_scaled_flow, &f, DAL__INCREMENT, 1, scratch, rate);
     *rate *= f.size / f.time;
     free(block);
-    return status != DAL_OK || isfinite(*rate) ? status : DAL_NOT_FINITE;
+    return status != DAL_STATUS_OK || isfinite(*rate) ? status : DAL_STATUS_NOT_FINITE;
 }
 
 /* ---- derivatives ---- */
@@ -217,7 +217,7 @@ static dal_status tabulate(comparison *d, dal_callback *callback, int rows)
         for (int i = 0; i < rows; i++) d->differences[i * columns + j] = out[i];
     }
     const double size = dal__max_abs(d->differences, (size_t)rows * (size_t)columns);
-    return isfinite(size) ? DAL_OK : DAL_NOT_FINITE;
+    return isfinite(size) ? DAL_STATUS_OK : DAL_STATUS_NOT_FINITE;
 }
 
 dal_status dal__gradients(dal_evaluator *evaluator, dal_callback *callback, int rows,
@@ -226,9 +226,9 @@ dal_status dal__gradients(dal_evaluator *evaluator, dal_callback *callback, int 
     const dal_system *s = dal_evaluator_system(evaluator);
     const int nw = s->n + s->multipliers;
     const size_t width = (size_t)(s->n + nw);
-    if (callback == NULL) return DAL_UNSUPPORTED;
+    if (callback == NULL) return DAL_STATUS_UNSUPPORTED;
     double *x = dal__numbers(1, width + 4 * (size_t)rows);
-    if (x == NULL) return DAL_MEMORY;
+    if (x == NULL) return DAL_STATUS_MEMORY;
     memcpy(x, at->q, (size_t)s->n * sizeof(double));
     memcpy(x + s->n, at->v, (size_t)nw * sizeof(double));
     comparison d = {
@@ -257,16 +257,16 @@ static double compare(const comparison *d, const double *given, int rows, int fi
 
 static dal_status compare_jacobian(comparison *d, double *defect)
 {
-    if (d->s->call.jacobian == NULL) return DAL_OK;
+    if (d->s->call.jacobian == NULL) return DAL_STATUS_OK;
     DAL_TRY(call(d, d->s->call.jacobian, d->given));
     *defect = fmax(compare(d, d->given, d->nw, 0, d->n),
                    compare(d, d->given + d->nw * d->n, d->nw, d->n, d->nw));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status compare_adjoint(comparison *d, double *defect)
 {
-    if (d->s->call.adjoint == NULL) return DAL_OK;
+    if (d->s->call.adjoint == NULL) return DAL_STATUS_OK;
     int n = d->n, columns = n + d->nw;
     double *field = d->scratch, *products = d->scratch + d->nw;
     DAL_TRY(call(d, d->s->call.adjoint, d->given));
@@ -277,12 +277,12 @@ static dal_status compare_adjoint(comparison *d, double *defect)
     }
     *defect = fmax(dal__distance(d->given, field, (size_t)n),
                    dal__distance(d->given + n, products, (size_t)(2 * n)));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status compare_constraint(comparison *d, dal_derivatives *out)
 {
-    if (d->m == 0 || d->s->call.constraint == NULL) return DAL_OK;
+    if (d->m == 0 || d->s->call.constraint == NULL) return DAL_STATUS_OK;
     DAL_TRY(tabulate(d, d->s->constraints, d->m));
     DAL_TRY(call(d, d->s->call.constraint, d->given));
     out->constraint_jacobian = compare(d, d->given + d->m, d->m, d->n, d->n);
@@ -293,7 +293,7 @@ static dal_status compare_constraint(comparison *d, dal_derivatives *out)
     for (int i = 0; i < d->m; i++)
         for (int j = 0; j < i; j++) max = fmax(max, fabs(gram[i * d->m + j] - gram[j * d->m + i]));
     out->gram = size > 0.0 ? max / size : 0.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status compare_all(comparison *d, const dal_point *at, dal_derivatives *out)
@@ -309,8 +309,8 @@ static dal_status compare_all(comparison *d, const dal_point *at, dal_derivative
     return compare_constraint(d, out);
 }
 
-dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
-                                 dal_derivatives *out)
+dal_status dal_evaluator_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
+                                           dal_derivatives *out)
 {
     DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
@@ -319,7 +319,7 @@ dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
     size_t given = nw * columns + m * (1 + 2 * n) + 3 * n;
     size_t scratch = 4 * rows + 3 * columns + m * m;
     double *block = dal__numbers(1, columns + rows * columns + given + scratch + n);
-    if (block == NULL) return DAL_MEMORY;
+    if (block == NULL) return DAL_STATUS_MEMORY;
     double *differences = block + columns, *values = differences + rows * columns;
     comparison d = {.evaluator = evaluator,
                     .s = s,

@@ -24,8 +24,9 @@ typedef dal_status dal__values(void *user, double *out);
 dal_status dal__differentiate_by(double *x, dal__values *values, void *user, double d, int count,
                                  double *scratch, double *out);
 
-/* One value of a callback, whose rate along the motion dal__rate_in_units finds as dal_measure_rate
- * does, by increments of the time and to rounding of the size, not of 1. */
+/* One value of a callback, whose rate along the motion dal__rate_in_units finds as
+ * dal_evaluator_measure_rate does, by increments of the time and to rounding of the size, not of
+ * 1. */
 typedef struct dal__rate {
     dal_evaluator *evaluator;
     dal_callback *callback;
@@ -33,7 +34,7 @@ typedef struct dal__rate {
     double time;      /* a positive one, in which the motion changes */
     double size;      /* of the value along the motion so far, 0 or more */
 } dal__rate;
-/* [alloc]  Errors: from the callbacks, DAL_NOT_FINITE, DAL_MEMORY. */
+/* [alloc]  Errors: from the callbacks, DAL_STATUS_NOT_FINITE, DAL_STATUS_MEMORY. */
 dal_status dal__rate_in_units(const dal__rate *of, const dal_point *at, double *rate);
 
 /* The derivatives by (q, v, g), differences[rows * (n + nw)], of the first rows values of a

@@ -27,7 +27,7 @@ static dal_status value_of(void *user, double *out)
 {
     const observable *w = user;
     *out = w->f(w->user, w->z);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 void dal_measure_gradient(dal_observable_function *f, void *user, int count, double *z,
@@ -76,7 +76,8 @@ static double hamiltonian(void *user, const double *z)
     const double *v = z + n, *lambda = z + 2 * n, *pi = z + 4 * n + 1;
     double sum = 0.0, square = 0.0;
     dal_callback *field = dal_evaluator_system(w->evaluator)->call.field;
-    if (dal_evaluator_call(w->evaluator, field, w->t, z, v, NULL, w->field) != DAL_OK) return NAN;
+    if (dal_evaluator_call(w->evaluator, field, w->t, z, v, NULL, w->field) != DAL_STATUS_OK)
+        return NAN;
     for (int i = 0; i < n; i++) {
         square += pi[i] * pi[i];
         sum += pi[i] * w->field[i] + lambda[i] * v[i];
@@ -140,7 +141,7 @@ static dal_status analyse(algebra *w, dal_dirac *out)
 {
     take_gradients(w);
     if (!isfinite(dal__max_abs(w->gradient, (size_t)(w->count + 1) * 2 * (size_t)w->pairs)))
-        return DAL_NOT_FINITE;
+        return DAL_STATUS_NOT_FINITE;
     out->constraints = w->count;
     out->free_multipliers = w->primary - conserve(w, w->count, &out->conservation);
     out->multipliers = 0.0;
@@ -164,18 +165,18 @@ static dal_status analyse(algebra *w, dal_dirac *out)
     }
     take_gradients(w);
     conserve(w, w->primary, &out->secondary);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__dirac_algebra(dal_evaluator *evaluator, const dal_point *at, double e,
                               double (*phi)(void *user, const double *z, int a), dal_dirac *out)
 {
     const dal_system *s = dal_evaluator_system(evaluator);
-    if (s->multipliers > 0) return DAL_UNSUPPORTED;
+    if (s->multipliers > 0) return DAL_STATUS_UNSUPPORTED;
     size_t n = (size_t)s->n, size = 6 * n + 2, count = 4 * n + 1;
     size_t numbers = size + (count + 1) * size + 2 * count * count + 4 * count + n;
     double *block = dal__numbers(1, numbers);
-    if (block == NULL) return DAL_MEMORY;
+    if (block == NULL) return DAL_STATUS_MEMORY;
     algebra w = {.n = s->n, .pairs = 3 * s->n + 1, .count = (int)count, .primary = 2 * s->n + 1};
     w.z = block, w.gradient = block + size, w.matrix = w.gradient + (count + 1) * size;
     w.right = w.matrix + count * count, w.mu = w.right + count, w.scratch = w.mu + count;
@@ -189,7 +190,8 @@ dal_status dal__dirac_algebra(dal_evaluator *evaluator, const dal_point *at, dou
     return status;
 }
 
-dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e, dal_dirac *out)
+dal_status dal_evaluator_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e,
+                                     dal_dirac *out)
 {
     DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     return dal__dirac_algebra(evaluator, at, e, dal__dirac_constraint, out);

@@ -5,8 +5,8 @@
 #include "dalembert_analysis.h"
 
 /* Dirac's algebra with any 4n+1 functions phi(user, z, a) on 6n+2 as constraints, the first 2n+1
- * the primary ones; user is the dal__dirac_space.  dal_check_dirac takes the theory's functions,
- * and a test takes a wrong one. */
+ * the primary ones; user is the dal__dirac_space.  dal_evaluator_check_dirac takes the theory's
+ * functions, and a test takes a wrong one. */
 typedef struct dal__dirac_space {
     dal_evaluator *evaluator;
     int n;

@@ -23,8 +23,8 @@ enum { FURTHER = 2 }; /* iterations */
 typedef struct comparisons {
     dal_error_budget *of;
     const dal_error_budget_observer *observer;
-    dal_statistics *series; /* [DAL__SERIES][observables] */
-    dal_trend *trends;      /* [DAL__SERIES][observables] */
+    dal_statistics *series; /* [DAL__COMPARED_SERIES][observables] */
+    dal_trend *trends;      /* [DAL__COMPARED_SERIES][observables] */
     double *values;         /* [TOGETHER + 1][observables] */
     int *conserved;         /* [observables] */
     double work, done;
@@ -77,7 +77,8 @@ static const char *change_projection(dal_run_spec *spec)
     }
     if (spec->system->m == 0) return "there is no constraint";
     if (end == DAL_LAYERS) return "the method has no room for one more modifier";
-    if (dal_method_parse(&projected, "rk4+project", NULL) != DAL_OK) return "there is no +project";
+    if (dal_method_parse(&projected, "rk4+project", NULL) != DAL_STATUS_OK)
+        return "there is no +project";
     method->layer[end] = projected.layer[1];
     return NULL;
 }
@@ -129,9 +130,10 @@ static dal_status report_progress(comparisons *w, double work)
 {
     const dal_error_budget_observer *o = w->observer;
     w->done += work;
-    if (!o || !o->step) return DAL_OK;
+    if (!o || !o->step) return DAL_STATUS_OK;
     const dal_status status = o->step(o->user, fmin(w->done / w->work, 1.0));
-    return status == DAL_OK ? status : dal__fail(w->error, status, "%s", dal_status_text(status));
+    return status == DAL_STATUS_OK ? status
+                                   : dal__fail(w->error, status, "%s", dal_status_text(status));
 }
 
 static dal_statistics *series(const comparisons *w, int which)
@@ -150,7 +152,7 @@ static dal_status create(comparisons *w, const dal_run_spec *spec, long long ste
     DAL_TRY(dal_run_create(run, spec, error));
     const dal_error_budget_observer *o = w->observer;
     if (o && o->begin && spec->options.precision == DAL_DOUBLE) o->begin(o->user, *run, steps);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Steps between two samples of a run. */
@@ -159,7 +161,7 @@ static long long stride_of(long long steps) { return (steps + SAMPLES - 1) / SAM
 static dal_status observe(dal_run *run, double *values, dal_error *error)
 {
     const dal_status status = dal_run_observe(run, values);
-    if (status == DAL_OK) return DAL_OK;
+    if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     return dal__fail(error, status, "the observables at t = %.17g: %s", dal_run_time(run),
                      dal_status_text(status));
 }
@@ -179,9 +181,10 @@ static dal_status sample_run(comparisons *w, dal_run *run, int which, int per, d
         if (at > 0) DAL_TRY(dal_run_advance(run, stride * per, error));
         DAL_TRY(observe(run, w->values, error));
         add_values(w, which, (double)at * w->of->spec.options.step, w->values, dal_run_scales(run));
-        if (report_progress(w, (double)(stride * per)) != DAL_OK) return DAL_INTERRUPTED;
+        if (report_progress(w, (double)(stride * per)) != DAL_STATUS_OK)
+            return DAL_STATUS_INTERRUPTED;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static void leave_out(comparisons *w, dal_comparison_run comparison, const char *reason)
@@ -192,8 +195,8 @@ static void leave_out(comparisons *w, dal_comparison_run comparison, const char 
 /* An interruption and a lack of memory end all of it; any other failure concerns one run only. */
 static bool ends_all(const comparisons *w, dal_status status, const dal_error *error)
 {
-    if (status == DAL_MEMORY && w->error) *w->error = *error;
-    return status == DAL_INTERRUPTED || status == DAL_MEMORY;
+    if (status == DAL_STATUS_MEMORY && w->error) *w->error = *error;
+    return status == DAL_STATUS_INTERRUPTED || status == DAL_STATUS_MEMORY;
 }
 
 static dal_status run_comparison(comparisons *w, dal_comparison_run comparison)
@@ -203,18 +206,18 @@ static dal_status run_comparison(comparisons *w, dal_comparison_run comparison)
     dal_error error = {0};
     const int per = comparison == DAL_COMPARISON_HALVED ? 2 : 1;
     const char *reason = change_spec(&spec, comparison);
-    if (reason) return leave_out(w, comparison, reason), DAL_OK;
+    if (reason) return leave_out(w, comparison, reason), DAL_STATUS_OK;
     dal_status status = create(w, &spec, w->of->steps * per, &run, &error);
-    if (status == DAL_OK && dal_run_observables(run) != w->of->observables) {
+    if (status == DAL_STATUS_OK && dal_run_observables(run) != w->of->observables) {
         leave_out(w, comparison, "it has other observables");
-        return dal_run_free(run), DAL_OK;
+        return dal_run_free(run), DAL_STATUS_OK;
     }
-    if (status == DAL_OK) status = sample_run(w, run, 1 + (int)comparison, per, &error);
+    if (status == DAL_STATUS_OK) status = sample_run(w, run, 1 + (int)comparison, per, &error);
     dal_run_free(run);
-    w->of->ran[comparison] = status == DAL_OK;
+    w->of->ran[comparison] = status == DAL_STATUS_OK;
     if (ends_all(w, status, &error)) return status;
-    if (status != DAL_OK) leave_out(w, comparison, error.message);
-    return DAL_OK;
+    if (status != DAL_STATUS_OK) leave_out(w, comparison, error.message);
+    return DAL_STATUS_OK;
 }
 
 static dal_status sample_reference(comparisons *w, dal__reference *reference, dal_error *error)
@@ -226,9 +229,9 @@ static dal_status sample_reference(comparisons *w, dal__reference *reference, da
         DAL_TRY(observe(run, w->values, error));
         add_values(w, 1 + DAL_COMPARISON_EXACT, (double)at * w->of->spec.options.step, w->values,
                    dal_run_scales(run));
-        if (report_progress(w, (double)stride) != DAL_OK) return DAL_INTERRUPTED;
+        if (report_progress(w, (double)stride) != DAL_STATUS_OK) return DAL_STATUS_INTERRUPTED;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status run_reference(comparisons *w)
@@ -236,13 +239,13 @@ static dal_status run_reference(comparisons *w)
     dal__reference *reference = NULL;
     dal_error error = {0};
     dal_status status = dal__reference_create(&reference, &w->of->spec, &error);
-    if (status == DAL_OK) status = sample_reference(w, reference, &error);
-    if (status == DAL_OK) w->of->exact_steps = dal__reference_steps(reference);
+    if (status == DAL_STATUS_OK) status = sample_reference(w, reference, &error);
+    if (status == DAL_STATUS_OK) w->of->exact_steps = dal__reference_steps(reference);
     dal__reference_free(reference);
-    w->of->ran[DAL_COMPARISON_EXACT] = status == DAL_OK;
+    w->of->ran[DAL_COMPARISON_EXACT] = status == DAL_STATUS_OK;
     if (ends_all(w, status, &error)) return status;
-    if (status != DAL_OK) leave_out(w, DAL_COMPARISON_EXACT, error.message);
-    return DAL_OK;
+    if (status != DAL_STATUS_OK) leave_out(w, DAL_COMPARISON_EXACT, error.message);
+    return DAL_STATUS_OK;
 }
 
 /* ---- the beginning ---- */
@@ -305,9 +308,10 @@ static dal_status sample_beginning(comparisons *w, const beginning *b, dal_error
             DAL_TRY(dal_run_observe(dal__reference_run(b->exact), w->values + TOGETHER * count));
         add_beginning(w, (double)at * w->of->spec.options.step, dal_run_scales(b->run[RUN]),
                       b->exact != NULL);
-        if (report_progress(w, 3.0 * QUAD_COST * (double)stride) != DAL_OK) return DAL_INTERRUPTED;
+        if (report_progress(w, 3.0 * QUAD_COST * (double)stride) != DAL_STATUS_OK)
+            return DAL_STATUS_INTERRUPTED;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status run_beginning(comparisons *w)
@@ -316,25 +320,25 @@ static dal_status run_beginning(comparisons *w)
         DAL_COMPARISONS, DAL_COMPARISON_TIGHTER, DAL_COMPARISON_QUAD, DAL_COMPARISON_QUAD_HALVED};
     beginning b = {.exact = NULL};
     dal_error error = {0};
-    dal_status status = DAL_OK;
-    for (int k = 0; k < TOGETHER && status == DAL_OK; k++) {
+    dal_status status = DAL_STATUS_OK;
+    for (int k = 0; k < TOGETHER && status == DAL_STATUS_OK; k++) {
         dal_run_spec spec = w->of->spec;
         if (k != RUN) change_spec(&spec, comparison[k]);
         status = create(w, &spec, w->of->quad_steps, &b.run[k], &error);
     }
-    if (status == DAL_OK && w->of->ran[DAL_COMPARISON_EXACT])
+    if (status == DAL_STATUS_OK && w->of->ran[DAL_COMPARISON_EXACT])
         status = dal__reference_create(&b.exact, &w->of->spec, &error);
-    if (status == DAL_OK) status = sample_beginning(w, &b, &error);
+    if (status == DAL_STATUS_OK) status = sample_beginning(w, &b, &error);
     for (int k = 0; k < TOGETHER; k++) dal_run_free(b.run[k]);
     dal__reference_free(b.exact);
-    const int ran = status == DAL_OK;
+    const int ran = status == DAL_STATUS_OK;
     w->of->ran[DAL_COMPARISON_QUAD] = w->of->ran[DAL_COMPARISON_QUAD_HALVED] = ran;
     if (ends_all(w, status, &error)) return status;
-    if (ran) return DAL_OK;
+    if (ran) return DAL_STATUS_OK;
     leave_out(w, DAL_COMPARISON_QUAD, error.message);
     leave_out(w, DAL_COMPARISON_QUAD_HALVED, error.message);
     w->of->quad_steps = 0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the whole ---- */
@@ -350,7 +354,7 @@ static double rate_of_line(const comparisons *w, int which, int i)
 
 static void make_rates_linear(comparisons *w)
 {
-    for (int which = 0; which < DAL__SERIES; which++)
+    for (int which = 0; which < DAL__COMPARED_SERIES; which++)
         for (int i = 0; i < w->of->observables && is_of_beginning(which); i++) {
             dal_trend *const f = trends(w, which) + i;
             f->rate = rate_of_line(w, which, i);
@@ -377,7 +381,7 @@ static void collect_trends(const comparisons *w, int i, dal_shares *s)
 
 static void find_shares(comparisons *w, dal_run *run)
 {
-    for (int which = 0; which < DAL__SERIES; which++)
+    for (int which = 0; which < DAL__COMPARED_SERIES; which++)
         if (w->of->observables > 0 && series(w, which)->count > 0)
             dal_run_classify(run, series(w, which), 0, trends(w, which));
     make_rates_linear(w);
@@ -396,16 +400,16 @@ static dal_status allocate(comparisons *w, const dal_run *run)
     const size_t rows = count > 0 ? (size_t)count : 1;
     w->of->observables = count;
     w->of->shares = calloc(rows, sizeof *w->of->shares);
-    w->series = calloc(rows * DAL__SERIES, sizeof *w->series);
-    w->trends = calloc(rows * DAL__SERIES, sizeof *w->trends);
+    w->series = calloc(rows * DAL__COMPARED_SERIES, sizeof *w->series);
+    w->trends = calloc(rows * DAL__COMPARED_SERIES, sizeof *w->trends);
     w->values = dal__numbers(rows, TOGETHER + 1);
     w->conserved = calloc(rows, sizeof *w->conserved);
     if (!w->of->shares || !w->series || !w->trends || !w->values || !w->conserved)
-        return dal__fail(w->error, DAL_MEMORY, "out of memory");
+        return dal__fail(w->error, DAL_STATUS_MEMORY, "out of memory");
     for (int i = 0; i < count; i++)
         dal_run_observable_name(run, i, w->of->shares[i].name, sizeof w->of->shares[i].name);
-    dal_statistics_start(w->series, count * DAL__SERIES);
-    return DAL_OK;
+    dal_statistics_start(w->series, count * DAL__COMPARED_SERIES);
+    return DAL_STATUS_OK;
 }
 
 static dal_status run_all(comparisons *w)
@@ -413,14 +417,15 @@ static dal_status run_all(comparisons *w)
     dal_run *run;
     DAL_TRY(create(w, &w->of->spec, w->of->steps, &run, w->error));
     dal_status status = allocate(w, run);
-    if (status == DAL_OK) status = dal__find_conserved(&w->of->spec, run, w->conserved, w->error);
-    if (status == DAL_OK) status = sample_run(w, run, DAL__WHOLE_RUN, 1, w->error);
+    if (status == DAL_STATUS_OK)
+        status = dal__find_conserved(&w->of->spec, run, w->conserved, w->error);
+    if (status == DAL_STATUS_OK) status = sample_run(w, run, DAL__WHOLE_RUN, 1, w->error);
     /* The observer may use the run that was begun last: here `run`. */
-    if (status == DAL_OK) status = run_reference(w);
-    for (int k = 0; k < DAL_COMPARISON_EXACT && status == DAL_OK; k++)
+    if (status == DAL_STATUS_OK) status = run_reference(w);
+    for (int k = 0; k < DAL_COMPARISON_EXACT && status == DAL_STATUS_OK; k++)
         status = run_comparison(w, (dal_comparison_run)k);
-    if (status == DAL_OK && w->of->quad_steps > 0) status = run_beginning(w);
-    if (status == DAL_OK) find_shares(w, run);
+    if (status == DAL_STATUS_OK && w->of->quad_steps > 0) status = run_beginning(w);
+    if (status == DAL_STATUS_OK) find_shares(w, run);
     dal_run_free(run);
     return status;
 }
@@ -434,14 +439,14 @@ dal_status dal_error_budget_create(dal_error_budget **budget, const dal_run_spec
     DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(dal__refuse_events(spec->system, "error budgets", error));
     if (steps < 1 || quad_steps < 0)
-        return dal__fail(error, DAL_ARGUMENT, "%lld steps, %lld of them in quad precision", steps,
-                         quad_steps);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "%lld steps, %lld of them in quad precision",
+                         steps, quad_steps);
     if (spec->options.precision != DAL_DOUBLE)
-        return dal__fail(error, DAL_ARGUMENT,
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "an error budget needs a run in doubles; quad precision is one of "
                          "its comparisons");
     dal_error_budget *made = calloc(1, sizeof *made);
-    if (!made) return dal__fail(error, DAL_MEMORY, "out of memory");
+    if (!made) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
     made->spec = *spec;
     made->steps = steps / stride_of(steps) * stride_of(steps);
     quad_steps = quad_steps < made->steps ? quad_steps : made->steps;
@@ -458,7 +463,7 @@ dal_status dal_error_budget_create(dal_error_budget **budget, const dal_run_spec
     free(w.trends);
     free(w.values);
     free(w.conserved);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         *budget = made;
     else
         dal_error_budget_free(made);

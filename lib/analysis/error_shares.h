@@ -14,7 +14,7 @@ typedef enum dal__series_of_run {
     DAL__FIRST_MOTION,
     DAL__FIRST_ERROR,
     DAL__FIRST_ERROR_HALVED,
-    DAL__SERIES
+    DAL__COMPARED_SERIES
 } dal__series_of_run;
 
 /* Finds the shares from the trends of all these series and from is_conserved; rate[1 +

@@ -26,18 +26,18 @@ dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *sys
     const size_t size = system->workspace > values ? system->workspace : values;
     dal_evaluator *made =
         calloc(1, sizeof *made + (size + system->scale_memory) * sizeof *made->work);
-    if (made == NULL) return dal__fail(error, DAL_MEMORY, "%s: out of memory", system->name);
+    if (made == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "%s: out of memory", system->name);
     made->system = system;
     made->scale_memory = made->work + size;
-    dal_status status =
-        dal__set_parameters(system, parameters, parameter_count, DAL_NOT_FINITE, made->work, error);
-    if (status == DAL_OK && system->prepare != NULL) {
+    dal_status status = dal__set_parameters(system, parameters, parameter_count,
+                                            DAL_STATUS_NOT_FINITE, made->work, error);
+    if (status == DAL_STATUS_OK && system->prepare != NULL) {
         status = system->prepare(system, &(dal_point){.work = made->work}, NULL);
-        if (status != DAL_OK)
+        if (status != DAL_STATUS_OK)
             dal__fail(error, status, "%s: the parameters cannot be used: %s", system->name,
                       dal_status_text(status));
     }
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         *evaluator = made;
     else
         free(made);
@@ -57,7 +57,7 @@ dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, 
                               const double *q, const double *v, const double *pi, double *out)
 {
     DAL_REQUIRE(evaluator && q && v && out, NULL);
-    if (callback == NULL) return DAL_UNSUPPORTED;
+    if (callback == NULL) return DAL_STATUS_UNSUPPORTED;
     if (callback == evaluator->system->call.adjoint) DAL_REQUIRE(pi, NULL);
     return callback(evaluator->system, &(dal_point){t, q, v, pi, evaluator->work, NULL}, out);
 }
@@ -74,7 +74,7 @@ dal_status dal_evaluator_scales(dal_evaluator *evaluator, double t, const double
     if (s->energy) DAL_TRY(s->energy(s, &at, out + s->m));
     if (s->invariant_values) DAL_TRY(s->invariant_values(s, &at, out + s->m + 1));
     for (int i = 0; i < s->m + 1 + s->invariants; i++) out[i] = fabs(out[i]);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the start ---- */
@@ -107,7 +107,7 @@ static dal_status set_start(const dal_system *s, const dal_setting *setting, dou
         start_name(s, i, name);
         if (strcmp(name, setting->name) == 0) {
             out[i] = setting->value;
-            return DAL_OK;
+            return DAL_STATUS_OK;
         }
         shown[kept] = name;
         if (kept < NAMES_SHOWN - 1) kept++;
@@ -132,12 +132,12 @@ dal_status dal_evaluator_start_at(dal_evaluator *evaluator, double t, const dal_
     for (int i = 0; i < count; i++) out[i] = i == count - 1 ? 1.0 : 0.0;
     if (s->start != NULL) {
         dal_status status = s->start(s, &(dal_point){.t = t, .work = evaluator->work}, out);
-        if (status != DAL_OK)
+        if (status != DAL_STATUS_OK)
             return dal__fail(error, status, "%s: no start: %s", s->name, dal_status_text(status));
     }
     for (int i = 0; i < start_count; i++) DAL_TRY(set_start(s, &start[i], out, error));
     double *memory = calloc(dal__solve_size(s) + 1, sizeof *memory);
-    if (memory == NULL) return dal__fail(error, DAL_MEMORY, "%s: out of memory", s->name);
+    if (memory == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "%s: out of memory", s->name);
     const dal_status solved =
         dal__solve_velocities(s, t, out, out + s->n, evaluator->work, memory, error);
     free(memory);

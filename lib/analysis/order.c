@@ -60,11 +60,11 @@ static dal_status advance_polled(const measurement *m, dal_run *run, long long s
     for (; steps > 0; steps -= POLL) {
         DAL_TRY(dal_run_advance(run, steps < POLL ? steps : POLL, m->error));
         const dal_status status = o->poll(o->user, run);
-        if (status != DAL_OK)
+        if (status != DAL_STATUS_OK)
             return dal__fail(m->error, status, "%s at t = %.17g", dal_status_text(status),
                              dal_run_time(run));
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The state of a run of the spec at T into out[dimension]. */
@@ -76,13 +76,13 @@ static dal_status state_at(const measurement *m, const dal_run_spec *spec, doubl
     dal_error *error = m->error;
     const long long steps = dal_whole_steps(spec->start_time, T, spec->options.step);
     if (steps == 0)
-        return dal__fail(error, DAL_ARGUMENT, "time %g is not a whole number of steps of %g", T,
-                         spec->options.step);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "time %g is not a whole number of steps of %g",
+                         T, spec->options.step);
     DAL_TRY(dal__refuse_events(spec->system, "tables of the order", error));
     DAL_TRY(dal_run_create(&run, spec, error));
     const dal_status status = advance_polled(m, run, steps);
     size_t count = (size_t)dal_run_dimension(run);
-    if (status == DAL_OK) memcpy(out, dal_run_state(run), count * sizeof(double));
+    if (status == DAL_STATUS_OK) memcpy(out, dal_run_state(run), count * sizeof(double));
     *evaluations = dal_run_evaluations(run);
     dal_run_free(run);
     return status;
@@ -141,16 +141,18 @@ dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double 
     DAL_TRY(dal__check_spec(spec, error));
     dal_run *run;
     if (levels < 2 || levels > DAL_ORDER_LEVELS)
-        return dal__fail(error, DAL_ARGUMENT, "levels = %d is not in 2..%d", levels,
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "levels = %d is not in 2..%d", levels,
                          DAL_ORDER_LEVELS);
     DAL_TRY(dal_run_create(&run, spec, error));
     const size_t count = (size_t)dal_run_dimension(run);
     dal_status status = dal_scaled_create_at(&scaled, run, error);
     dal_run_free(run);
-    double *block = status == DAL_OK ? dal__numbers(2, count) : NULL;
+    double *block = status == DAL_STATUS_OK ? dal__numbers(2, count) : NULL;
     if (block == NULL) {
         dal_scaled_free(scaled);
-        return status != DAL_OK ? status : dal__fail(error, DAL_MEMORY, "order: out of memory");
+        return status != DAL_STATUS_OK
+                   ? status
+                   : dal__fail(error, DAL_STATUS_MEMORY, "order: out of memory");
     }
     m.units = dal_scaled_units(scaled) + 1;
     m.numbers = 2 * spec->system->n + spec->system->multipliers;
@@ -163,16 +165,16 @@ dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double 
             accurate.method = *reference_method;
         else
             status = dal_method_parse(&accurate.method, "gauss12", error);
-        if (status == DAL_OK) status = state_at(&m, &accurate, block, &evaluations);
+        if (status == DAL_STATUS_OK) status = state_at(&m, &accurate, block, &evaluations);
         reference = block;
     }
-    for (int i = 0; i < levels && status == DAL_OK; i++) {
+    for (int i = 0; i < levels && status == DAL_STATUS_OK; i++) {
         dal_run_spec level = *spec;
         order->step[i] = level.options.step = ldexp(spec->options.step, -i);
         status = state_at(&m, &level, block + count, &order->evaluations[i]);
-        if (status == DAL_OK) order->error[i] = max_error(&m, reference, block + count);
+        if (status == DAL_STATUS_OK) order->error[i] = max_error(&m, reference, block + count);
     }
-    if (status == DAL_OK) dal_order_slopes(order, 0.0);
+    if (status == DAL_STATUS_OK) dal_order_slopes(order, 0.0);
     free(block);
     dal_scaled_free(scaled);
     return status;

@@ -80,18 +80,18 @@ dal_status dal__reference_create(dal__reference **reference, const dal_run_spec 
     const dal_system *s = spec->system;
     dal__reference *r = calloc(1, sizeof *r);
     *reference = NULL;
-    if (!r) return dal__fail(error, DAL_MEMORY, "out of memory");
+    if (!r) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
     r->state = dal__numbers(1, (size_t)(4 * s->n + 2 + s->multipliers));
     dal_status status = r->state ? dal_run_create(&r->observed, spec, error)
-                                 : dal__fail(error, DAL_MEMORY, "out of memory");
-    if (status == DAL_OK && !is_on_motion(r->observed))
-        status = dal__fail(error, DAL_UNSUPPORTED, "p and pi are not 0");
-    if (status == DAL_OK) status = dal_scaled_create(&r->scaled, spec, error);
-    if (status == DAL_OK) {
+                                 : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (status == DAL_STATUS_OK && !is_on_motion(r->observed))
+        status = dal__fail(error, DAL_STATUS_UNSUPPORTED, "p and pi are not 0");
+    if (status == DAL_STATUS_OK) status = dal_scaled_create(&r->scaled, spec, error);
+    if (status == DAL_STATUS_OK) {
         r->start_time = dal_run_time(r->observed);
         status = create_motion(r, spec, error);
     }
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         *reference = r;
     else
         dal__reference_free(r);
@@ -130,11 +130,13 @@ static dal_status try_point(start *w, dal__random *random, int *conserved)
         w->point[i] = w->state[i] + neighbourhood * dal__uniform(random);
     const dal_point at = {
         .t = w->t + fabs(dal__uniform(random)), .q = w->point, .v = w->point + s->n};
-    if (s->m > 0) DAL_TRY(dal_project_velocity(w->evaluator, at.t, w->point, w->point + s->n));
-    DAL_TRY(dal_measure_rate(w->evaluator, s->invariant_values, s->invariants, &at, w->rate));
+    if (s->m > 0)
+        DAL_TRY(dal_evaluator_project_velocity(w->evaluator, at.t, w->point, w->point + s->n));
+    DAL_TRY(
+        dal_evaluator_measure_rate(w->evaluator, s->invariant_values, s->invariants, &at, w->rate));
     for (int i = 0; i < s->invariants; i++)
         if (!(fabs(w->rate[i]) <= no_rate)) conserved[i] = 0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status find_invariants(start *w, const dal_run_spec *spec, const dal_run *run,
@@ -148,7 +150,7 @@ static dal_status find_invariants(start *w, const dal_run_spec *spec, const dal_
     DAL_TRY(dal_evaluator_create(&w->evaluator, dal_scaled_system(w->scaled), spec->parameters,
                                  spec->parameter_count, NULL));
     w->state = dal__numbers(1, (size_t)(2 * w->size + s->invariants));
-    if (!w->state) return DAL_MEMORY;
+    if (!w->state) return DAL_STATUS_MEMORY;
     w->point = w->state + w->size;
     w->rate = w->point + w->size;
     w->t = dal_run_time(run) / dal_scaled_units(w->scaled)[0];
@@ -156,11 +158,11 @@ static dal_status find_invariants(start *w, const dal_run_spec *spec, const dal_
     for (int i = 0; i < s->invariants; i++) conserved[i] = 1;
     for (int k = 0; k < POINTS; k++) {
         const dal_status status = try_point(w, &random, conserved);
-        if (status == DAL_MEMORY) return status;
-        known += status == DAL_OK;
+        if (status == DAL_STATUS_MEMORY) return status;
+        known += status == DAL_STATUS_OK;
     }
     for (int i = 0; i < s->invariants && known <= POINTS / 2; i++) conserved[i] = 0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int *conserved,
@@ -171,7 +173,7 @@ dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int
     const int has_energy = s->energy != NULL, is_lifted = dal_run_dimension(run) == 4 * s->n + 2;
     const int invariants = m + has_energy + (is_lifted ? LIFT_OBSERVABLES : 0);
     start w = {.system = s};
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     const bool is_pushed = !is_on_motion(run);
     const bool moves = is_pushed && isfinite(dal_run_state(run)[2 * s->n]); /* q, by pi/e */
     for (int i = 0; i < count; i++) conserved[i] = i < m || (i < invariants && !is_pushed);
@@ -179,11 +181,12 @@ dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int
     if (is_lifted && s->properties & DAL_AUTONOMOUS) conserved[m + has_energy] = 1;
     if (s->invariant_values && s->invariants > 0 && !moves) {
         status = find_invariants(&w, spec, run, conserved + invariants);
-        if (status != DAL_OK)
+        if (status != DAL_STATUS_OK)
             for (int i = 0; i < s->invariants; i++) conserved[invariants + i] = 0;
     }
     free(w.state);
     dal_evaluator_free(w.evaluator);
     dal_scaled_free(w.scaled);
-    return status == DAL_MEMORY ? dal__fail(error, DAL_MEMORY, "out of memory") : DAL_OK;
+    return status == DAL_STATUS_MEMORY ? dal__fail(error, DAL_STATUS_MEMORY, "out of memory")
+                                       : DAL_STATUS_OK;
 }

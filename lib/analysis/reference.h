@@ -10,8 +10,8 @@ typedef struct dal__reference dal__reference;
 /* The tolerance of its substeps, in units of the system's own. */
 #define DAL__REFERENCE_TOLERANCE 1e-16
 
-/* Makes the motion of a spec, at its start. [alloc]  Errors: as of runs; DAL_UNSUPPORTED: p and
- * pi are not 0, so that they move (q, v), too. */
+/* Makes the motion of a spec, at its start. [alloc]  Errors: as of runs; DAL_STATUS_UNSUPPORTED: p
+ * and pi are not 0, so that they move (q, v), too. */
 dal_status dal__reference_create(dal__reference **reference, const dal_run_spec *spec,
                                  dal_error *error);
 /* Frees it; NULL is allowed. */
@@ -24,7 +24,7 @@ long long dal__reference_steps(const dal__reference *reference);
 dal_run *dal__reference_run(dal__reference *reference);
 
 /* Finds which observables of a run of the spec the exact motion from its start is known to
- * conserve, conserved[observables]. [alloc]  Errors: DAL_MEMORY. */
+ * conserve, conserved[observables]. [alloc]  Errors: DAL_STATUS_MEMORY. */
 dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int *conserved,
                                dal_error *error);
 

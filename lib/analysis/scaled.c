@@ -185,7 +185,7 @@ static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
         const dal_scaled *s = system->data;                                                        \
         const dal_point point = to_user(s, at, pi_units);                                          \
         const dal_status status = s->plain->member(s->plain, &point, out);                         \
-        if (status == DAL_OK) scale(s, out);                                                       \
+        if (status == DAL_STATUS_OK) scale(s, out);                                                \
         return status;                                                                             \
     }
 SCALED_LIST(CALLBACK)
@@ -197,7 +197,7 @@ static dal_status start(const dal_system *system, const dal_point *at, double *o
     const dal_scaled *s = system->data;
     (void)at;
     memcpy(out, s->start, (size_t)(s->n + s->nw + 1) * sizeof *out);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status prepare_plain(const dal_system *system, const dal_point *at, double *out)
@@ -255,7 +255,7 @@ static void find_formula_units(survey *w, double *unit)
             x[i] = w->x[i] + neighbourhood * size * dal__uniform(&random);
         }
         const double t = w->t + s->time * dal__uniform(&random);
-        if (dal_evaluator_scales(w->evaluator, t, x, x + s->n, scale) != DAL_OK) continue;
+        if (dal_evaluator_scales(w->evaluator, t, x, x + s->n, scale) != DAL_STATUS_OK) continue;
         for (int i = 0; i < count; i++)
             if (isfinite(scale[i])) unit[i] = fmax(unit[i], scale[i]);
     }
@@ -298,7 +298,7 @@ static dal_status make_scaled(dal_scaled **scaled, const dal_system *p, survey *
     if (!s || !block) {
         free(block);
         free(s);
-        return dal__fail(error, DAL_MEMORY, "out of memory");
+        return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
     }
     s->plain = p;
     s->n = p->n, s->nw = (int)nw, s->m = p->m;
@@ -323,7 +323,7 @@ static dal_status make_scaled(dal_scaled **scaled, const dal_system *p, survey *
     s->numbers[0] = s->time;
     make_system(s);
     *scaled = s;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_error *error)
@@ -336,11 +336,11 @@ dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_
     survey w = {.sizes.step = spec->options.step, .t = spec->start_time};
     DAL_TRY(dal_evaluator_create(&w.evaluator, p, spec->parameters, spec->parameter_count, error));
     w.x = dal__numbers(1, (size_t)(2 * p->n + p->multipliers + 1));
-    dal_status status = w.x ? DAL_OK : dal__fail(error, DAL_MEMORY, "out of memory");
-    if (status == DAL_OK)
+    dal_status status = w.x ? DAL_STATUS_OK : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (status == DAL_STATUS_OK)
         status =
             dal_evaluator_start_at(w.evaluator, w.t, spec->start, spec->start_count, w.x, error);
-    if (status == DAL_OK) status = make_scaled(scaled, p, &w, error);
+    if (status == DAL_STATUS_OK) status = make_scaled(scaled, p, &w, error);
     free(w.x);
     dal_evaluator_free(w.evaluator);
     return status;
@@ -353,7 +353,7 @@ static dal_status evaluator_of_run(dal_evaluator **evaluator, const dal_system *
 {
     const double *value = dal_run_parameters(run);
     dal_setting *settings = calloc((size_t)system->parameters + 1, sizeof *settings);
-    if (!settings) return dal__fail(error, DAL_MEMORY, "out of memory");
+    if (!settings) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
     for (int i = 0; i < system->parameters; i++)
         settings[i] = (dal_setting){system->parameter[i], value[i]};
     const dal_status status =
@@ -378,8 +378,8 @@ dal_status dal_scaled_create_at(dal_scaled **scaled, const dal_run *run, dal_err
     survey w = {.sizes.step = dal_run_step_size(run), .t = dal_run_time(run)};
     DAL_TRY(evaluator_of_run(&w.evaluator, p, run, error));
     w.x = dal__numbers(1, (size_t)(2 * p->n + p->multipliers + 1));
-    dal_status status = w.x ? DAL_OK : dal__fail(error, DAL_MEMORY, "out of memory");
-    if (status == DAL_OK) {
+    dal_status status = w.x ? DAL_STATUS_OK : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (status == DAL_STATUS_OK) {
         memcpy(w.x, dal_run_state(run), x * sizeof *w.x);
         status = make_scaled(scaled, p, &w, error);
     }

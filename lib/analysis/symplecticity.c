@@ -31,7 +31,7 @@ static dal_status step_from(stepmap *m, double t, const double *z, double *out)
     DAL_TRY(dal_run_set_state(m->run, t, z, m->error));
     DAL_TRY(dal_run_step(m->run, m->error));
     memcpy(out, dal_run_state(m->run), (size_t)m->dimension * sizeof(double));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* A run of the spec; z is a copy of state, or of the run's start, with rows further vectors of the
@@ -48,11 +48,11 @@ static dal_status open_map(stepmap *m, const dal_run_spec *spec, double t, const
     m->z = dal__numbers(rows + 1, (size_t)m->dimension);
     if (m->z == NULL) {
         dal_run_free(m->run);
-        return dal__fail(error, DAL_MEMORY, "step map: out of memory");
+        return dal__fail(error, DAL_STATUS_MEMORY, "step map: out of memory");
     }
     if (state == NULL) state = dal_run_state(m->run);
     memcpy(m->z, state, (size_t)m->dimension * sizeof(double));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The unit of number i of the state by the units of the system; the products of canonical pairs
@@ -103,7 +103,7 @@ static dal_status differentiate_step(stepmap *m, double increment, double *colum
         DAL_TRY(dal__differentiate_by(&m->z[j], step_of, m, d, m->dimension, scratch, out));
         for (int i = 0; i < m->dimension; i++) out[i] *= unit / unit_of(m, i);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static double omega_defect(const double *columns, int dimension)
@@ -129,13 +129,14 @@ dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const dou
     DAL_TRY(dal__check_spec(spec, error));
     stepmap m;
     if (spec->options.space != DAL_LIFTED)
-        return dal__fail(error, DAL_UNSUPPORTED, "symplecticity is a property of the lifted space");
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "symplecticity is a property of the lifted space");
     if (!(increment > 0.0)) increment = DAL__INCREMENT;
     size_t dimension = 4 * (size_t)spec->system->n + 2;
     DAL_TRY(open_map(&m, spec, t, state, dimension + 3, error));
     double *columns = m.z + dimension;
     dal_status status = differentiate_step(&m, increment, columns, columns + dimension * dimension);
-    if (status == DAL_OK) *defect = omega_defect(columns, m.dimension);
+    if (status == DAL_STATUS_OK) *defect = omega_defect(columns, m.dimension);
     close_map(&m);
     return status;
 }
@@ -149,14 +150,14 @@ static dal_status multiplier_sign(const dal_run_spec *spec, const stepmap *m, do
     dal_evaluator *evaluator;
     dal_constraint_class class;
     *sign = 1.0;
-    if (spec->system->multipliers == 0) return DAL_OK;
+    if (spec->system->multipliers == 0) return DAL_STATUS_OK;
     DAL_TRY(dal_evaluator_create(&evaluator, spec->system, spec->parameters, spec->parameter_count,
                                  error));
     dal_point at = {.t = m->t, .q = m->z, .v = m->z + spec->system->n};
-    dal_status status = dal_classify_constraints(evaluator, &at, &class, NULL);
-    if (status == DAL_OK && class.parity == -1) *sign = -1.0;
+    dal_status status = dal_evaluator_classify_constraints(evaluator, &at, &class, NULL);
+    if (status == DAL_STATUS_OK && class.parity == -1) *sign = -1.0;
     dal_evaluator_free(evaluator);
-    if (status == DAL_OK) return DAL_OK;
+    if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     return dal__fail(error, status, "t = %g: the parity of D cannot be found: %s", m->t,
                      dal_status_text(status));
 }
@@ -181,11 +182,11 @@ dal_status dal_check_reversibility(const dal_run_spec *spec, double t, const dou
     DAL_TRY(open_map(&m, spec, t, state, 1, error));
     double *z = m.z + m.dimension;
     dal_status status = multiplier_sign(spec, &m, &sign, error);
-    if (status == DAL_OK) status = step_from(&m, m.t, m.z, z);
+    if (status == DAL_STATUS_OK) status = step_from(&m, m.t, m.z, z);
     reverse_time(spec->system->n, m.dimension, sign, z);
-    if (status == DAL_OK) status = step_from(&m, -dal_run_time(m.run), z, z);
+    if (status == DAL_STATUS_OK) status = step_from(&m, -dal_run_time(m.run), z, z);
     reverse_time(spec->system->n, m.dimension, sign, z);
-    if (status == DAL_OK) *defect = distance_in_units(&m, m.z, z);
+    if (status == DAL_STATUS_OK) *defect = distance_in_units(&m, m.z, z);
     close_map(&m);
     return status;
 }
@@ -217,7 +218,7 @@ static dal_status add_pairings(pairing *w, long long steps, dal_statistics *stat
         const double value = pair(w);
         dal_statistics_add(statistics, 1, dal_run_time(w->lifted), &value);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The tangent run starts where the lifted one does, with direction as (dq, dv). */
@@ -226,7 +227,7 @@ static dal_status start_tangent(pairing *w, const double *direction, dal_error *
     size_t n = (size_t)w->n, bytes = n * sizeof(double);
     const double *z = dal_run_state(w->lifted);
     double *x = dal__numbers(4, n);
-    if (x == NULL) return dal__fail(error, DAL_MEMORY, "pairing: out of memory");
+    if (x == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "pairing: out of memory");
     memcpy(x, z, bytes);
     memcpy(x + n, direction, bytes);
     memcpy(x + 2 * n, z + n, bytes);
@@ -240,7 +241,7 @@ static dal_status open_pairing(pairing *w, const dal_run_spec *spec, const dal_s
                                dal_error *error)
 {
     dal_setting *start = calloc((size_t)spec->start_count + 1, sizeof *start);
-    if (start == NULL) return dal__fail(error, DAL_MEMORY, "pairing: out of memory");
+    if (start == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "pairing: out of memory");
     dal_run_spec adjoint = *spec, physical = *spec;
     /* e = infinity instead of any other e. */
     int count = 0;
@@ -254,7 +255,7 @@ static dal_status open_pairing(pairing *w, const dal_run_spec *spec, const dal_s
     physical.options.space = DAL_PHYSICAL;
     physical.start_count = 0;
     dal_status status = dal_run_create(&w->lifted, &adjoint, error);
-    if (status == DAL_OK) status = dal_run_create(&w->tangent, &physical, error);
+    if (status == DAL_STATUS_OK) status = dal_run_create(&w->tangent, &physical, error);
     free(start);
     return status;
 }
@@ -270,13 +271,13 @@ dal_status dal_adjoint_pairing(const dal_run_spec *spec, const dal_system *tange
     DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(dal__refuse_events(spec->system, "adjoint pairings", error));
     if (tangent->n != 2 * spec->system->n)
-        return dal__fail(error, DAL_ARGUMENT,
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "a tangent system of %d coordinates for a system of %d", tangent->n,
                          spec->system->n);
     pairing w = {.n = spec->system->n};
     dal_status status = open_pairing(&w, spec, tangent, error);
-    if (status == DAL_OK) status = start_tangent(&w, direction, error);
-    if (status == DAL_OK) status = add_pairings(&w, steps, statistics, error);
+    if (status == DAL_STATUS_OK) status = start_tangent(&w, direction, error);
+    if (status == DAL_STATUS_OK) status = add_pairings(&w, steps, statistics, error);
     dal_run_free(w.lifted);
     dal_run_free(w.tangent);
     return status;

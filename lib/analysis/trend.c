@@ -74,7 +74,7 @@ typedef struct description {
     dal__bins bins;
     dal__evidence evidence;
     dal__interval drift; /* over the whole series */
-    dal__growth growth;
+    dal__amplitude_growth growth;
     double spread;    /* of x: deviation within and between bins */
     bool has_memory;  /* differences show it */
     double wandering; /* max distance of a mean of bins from the mean of all, with tones */

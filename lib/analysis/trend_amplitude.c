@@ -153,11 +153,11 @@ static double limited(const double *z, double probability)
     return last > top + min_jump ? fmax(probability, with_jump) : probability;
 }
 
-dal__growth dal__trend_growth(const dal__trend_series *s)
+dal__amplitude_growth dal__trend_growth(const dal__trend_series *s)
 {
     double z[DAL__BINS], wave[DAL__WAVES], square = 0.0, xx = 0.0, xy = 0.0;
     weights w = {0};
-    dal__growth g = {0};
+    dal__amplitude_growth g = {0};
     if (!fill_logarithms(s, z)) return g;
     g.rise = mean_of(z, DAL__BINS - EIGHTH, EIGHTH) - mean_of(z, 0, EIGHTH);
     if (g.rise <= 0.0) return g;

@@ -4,13 +4,13 @@
 
 #include "analysis/trend_series.h"
 
-typedef struct dal__growth {
+typedef struct dal__amplitude_growth {
     double probability; /* that the amplitude grows, by a power of t or exponentially */
     double exponential; /* of this, the share of exponentials */
     double rise;        /* of the logarithm of the amplitude, from the first to the last eighth */
-} dal__growth;
+} dal__amplitude_growth;
 
 /* Of a series with its tones. */
-dal__growth dal__trend_growth(const dal__trend_series *series);
+dal__amplitude_growth dal__trend_growth(const dal__trend_series *series);
 
 #endif

@@ -113,7 +113,7 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
     }
     dal__buffer_print(&g->text, "        dal__mask_singular(all, %d, %d, out);\n", outputs,
                       p->checked);
-    if (p->left > 0 && g->layout.pivots > 0 && g->product != DAL__OBSERVE)
+    if (p->left > 0 && g->layout.pivots > 0 && g->product != DAL__PRODUCT_OBSERVE)
         dal__buffer_print(&g->text,
                           "        if (pivots)\n            DAL_EACH(i, %d) "
                           "pivots[i * DAL_STEP_GROUPS] = all[%d + i];\n",
@@ -183,7 +183,7 @@ static void write_orders(dal__generation *g, bool first, int outputs, int end)
     dal__buffer_append(text, "}\n");
 }
 
-/* dal_eval_series; what dal__series in model/programs_wide.c does. */
+/* dal_eval_series; what dal__call_series in model/programs_wide.c does. */
 static void write_series(dal__generation *g)
 {
     if (!(g->kernel & DAL_KERNEL_SERIES)) return;
@@ -248,7 +248,7 @@ void dal__write_start(dal__generation *g)
         first + 1, first + (k->lifted ? 1 : 0));
     for (int i = 0; i < g->spec->start_count; i++) {
         dal__buffer_print(&g->text, "    y[%d] = dal_num(",
-                          dal_run_index(g->run, g->spec->start[i].name));
+                          dal_run_component_index(g->run, g->spec->start[i].name));
         dal__buffer_number(&g->text, g->spec->start[i].value);
         dal__buffer_append(&g->text, ");\n");
     }
@@ -280,8 +280,8 @@ void dal__emit_callbacks(dal__generation *g)
 #define PROGRAM(code, name, ...) write_program(g, DAL__PROGRAM_##code, #name);
     DAL_CALLBACK_LIST(PROGRAM)
 #undef PROGRAM
-    if (g->product == DAL__FILE) write_program(g, DAL__PROGRAM_START, "start_values");
-    if (g->product == DAL__FILE || g->product == DAL__OBSERVE) {
+    if (g->product == DAL__PRODUCT_FILE) write_program(g, DAL__PROGRAM_START, "start_values");
+    if (g->product == DAL__PRODUCT_FILE || g->product == DAL__PRODUCT_OBSERVE) {
         write_program(g, DAL__PROGRAM_CONSTRAINTS, "constraints");
         write_program(g, DAL__PROGRAM_ENERGY, "energy");
         write_program(g, DAL__PROGRAM_INVARIANTS, "invariant_values");

@@ -25,15 +25,15 @@ static dal_status check_method(dal__generation *g, dal_error *error)
     for (int i = 0; i < g->layout.depth; i++) {
         const dal_integrator *layer = g->spec->method.layer[i];
         if (!dal__find_source(layer, &g->identifier[i], &g->source[i]))
-            return dal__fail(error, DAL_UNSUPPORTED,
+            return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                              "'%s' is not an integrator of the library: its source is not known",
                              layer->name ? layer->name : "?");
         for (int j = 0; j < i; j++)
             if (g->source[j] == g->source[i])
-                return dal__fail(error, DAL_UNSUPPORTED,
+                return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                                  "'%s' twice in a method cannot be generated", layer->name);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Series in the memory of a step; packed ones come after the others, and one more is for their
@@ -41,7 +41,7 @@ static dal_status check_method(dal__generation *g, dal_error *error)
 static int count_series(const dal__generation *g)
 {
     const dal__taylor *taylor = g->programs->taylor[g->layout.lifted];
-    if (g->product == DAL__OBSERVE || !(g->kernel & DAL_KERNEL_SERIES)) return 0;
+    if (g->product == DAL__PRODUCT_OBSERVE || !(g->kernel & DAL_KERNEL_SERIES)) return 0;
     return taylor->slots + (g->lanes == 1 ? dal__taylor_packed(taylor) + 1 : 0);
 }
 
@@ -49,24 +49,25 @@ static dal_status check_size(const dal__generation *g, dal_error *error)
 {
     const double series = 8.0 * g->lanes * count_series(g) * (g->layout.taylor_order + 1.0);
     const double width = (double)g->layout.stages * g->layout.nw;
-    const bool newton = g->product != DAL__OBSERVE && dal__uses_newton(g);
+    const bool newton = g->product != DAL__PRODUCT_OBSERVE && dal__uses_newton(g);
     const double stack = newton ? 4.0 * 8.0 * g->lanes * width * width : 0.0;
     if (stack > MAX_STACK)
-        return dal__fail(error, DAL_TOO_LARGE,
+        return dal__fail(error, DAL_STATUS_TOO_LARGE,
                          "Newton's matrices of '%.80s' take %.0f bytes of stack (%d at most); "
                          "solver fixed-point needs none",
                          g->layout.system->name, stack, MAX_STACK);
     if (series > MAX_STACK)
-        return dal__fail(error, DAL_TOO_LARGE,
+        return dal__fail(error, DAL_STATUS_TOO_LARGE,
                          "the Taylor series of '%.80s' take %.0f bytes of stack (%d at most)",
                          g->layout.system->name, series, MAX_STACK);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status check_steps(dal__generation *g, dal_error *error)
 {
     if (g->spec->options.precision != DAL_DOUBLE)
-        return dal__fail(error, DAL_UNSUPPORTED, "steps in quad precision are not generated");
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "steps in quad precision are not generated");
     g->kernel = dal__kernel_of(&g->spec->method);
     return check_method(g, error);
 }
@@ -74,11 +75,11 @@ static dal_status check_steps(dal__generation *g, dal_error *error)
 /* Compiled observables read the state (q, v, ..) alone. */
 static dal_status check_multipliers(const dal__generation *g, dal_error *error)
 {
-    const bool observes = g->product == DAL__FILE || g->product == DAL__OBSERVE;
+    const bool observes = g->product == DAL__PRODUCT_FILE || g->product == DAL__PRODUCT_OBSERVE;
     char name[128];
     if (!observes || dal__observable_count(&g->layout, DAL__OBSERVE_MULTIPLIERS, false) == 0)
-        return DAL_OK;
-    return dal__fail(error, DAL_UNSUPPORTED,
+        return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                      "the multipliers lambda1.. of %s are not observed in generated code",
                      dal_method_name(&g->layout.method, name, sizeof name));
 }
@@ -86,14 +87,15 @@ static dal_status check_multipliers(const dal__generation *g, dal_error *error)
 dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_error *error)
 {
     if (g->lanes < 1 || g->lanes > 16 || (g->lanes & (g->lanes - 1)))
-        return dal__fail(error, DAL_ARGUMENT, "%d lanes: 1, 2, 4, 8 or 16 are possible", g->lanes);
-    if (g->product != DAL__OBSERVE) DAL_TRY(dal__layout_init(&g->layout, g->spec, error));
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "%d lanes: 1, 2, 4, 8 or 16 are possible",
+                         g->lanes);
+    if (g->product != DAL__PRODUCT_OBSERVE) DAL_TRY(dal__layout_init(&g->layout, g->spec, error));
     g->programs = dal__programs_of(g->layout.system);
     if (!g->programs)
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "'%.80s' is not made from a model: its formulas are not known",
                          g->layout.system->name ? g->layout.system->name : "this system");
-    if (g->product != DAL__OBSERVE) DAL_TRY(check_steps(g, error));
+    if (g->product != DAL__PRODUCT_OBSERVE) DAL_TRY(check_steps(g, error));
     DAL_TRY(check_multipliers(g, error));
     DAL_TRY(check_size(g, error));
     return dal__choose_prefix(g, prefix, error);
@@ -114,7 +116,8 @@ static bool steps_together(const dal__generation *g)
 /* Whether steps compare numbers in units of the system. */
 static bool has_units(const dal__generation *g)
 {
-    return g->product != DAL__OBSERVE && (dal__is_controlled(g) || g->kernel & DAL_KERNEL_SOLVE);
+    return g->product != DAL__PRODUCT_OBSERVE &&
+           (dal__is_controlled(g) || g->kernel & DAL_KERNEL_SOLVE);
 }
 
 /* The kinds of elementary functions that the programs in the file call. */
@@ -162,7 +165,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_SERIES", kernel & DAL_KERNEL_SERIES},
         {"DAL_WITH_CONTROL", dal__is_controlled(g)},
         {"DAL_WITH_TIMES", dal__has_times(g)},
-        {"DAL_WITH_TRACE", g->product == DAL__TRACE},
+        {"DAL_WITH_TRACE", g->product == DAL__PRODUCT_TRACE},
         {"DAL_WITH_UNITS", has_units(g)},
     };
     g->conditions = sizeof list / sizeof *list;
@@ -217,9 +220,9 @@ static void write_units(dal__generation *g)
         dal__unit_list list;
         const char *constants;
     } lists[] = {
-        {"DAL_UNITS", DAL__UNITS, "dal__units"},
-        {"DAL_SPEEDS", DAL__SPEEDS, "(dal__units + DAL_FIXED_N)"},
-        {"DAL_LEVELS", DAL__LEVELS, "(dal__units + DAL_FIXED_N + DAL_FIXED_NW)"},
+        {"DAL_UNITS", DAL__UNITS_OF_STATE, "dal__units"},
+        {"DAL_SPEEDS", DAL__UNITS_OF_SPEEDS, "(dal__units + DAL_FIXED_N)"},
+        {"DAL_LEVELS", DAL__UNITS_OF_LEVELS, "(dal__units + DAL_FIXED_N + DAL_FIXED_NW)"},
     };
     const dal__layout *k = &g->layout;
     bool is_used = false;
@@ -230,7 +233,7 @@ static void write_units(dal__generation *g)
         is_used |= has;
     }
     dal__buffer_print(&g->text, "#define DAL_FIXED_SPEEDS %d\n",
-                      dal__units(k, DAL__SPEEDS) != NULL);
+                      dal__units(k, DAL__UNITS_OF_SPEEDS) != NULL);
     if (!is_used) return;
     dal__buffer_append(&g->text, "static const double dal__units[] __attribute__((unused)) = {");
     for (int i = 0; i < k->n + k->nw + k->m + 1; i++) {
@@ -361,8 +364,13 @@ void dal__write_unrolling(dal__generation *g)
 /* The types of the public header that the kernel needs. */
 static void write_enums(dal__generation *g)
 {
+    char item[64];
     dal__buffer_append(&g->text, "typedef enum dal_status {\n   ");
-#define STATUS(code, words) dal__write_item(g, "DAL_" #code ",");
+#define STATUS(code, words)                                                                        \
+    if (dal__is_status_of_step(DAL_STATUS_##code)) {                                               \
+        snprintf(item, sizeof item, "DAL_STATUS_" #code " = %d,", DAL_STATUS_##code);              \
+        dal__write_item(g, item);                                                                  \
+    }
     DAL_STATUS_LIST(STATUS)
 #undef STATUS
     dal__buffer_append(&g->text, "\n} dal_status;\n");
@@ -435,10 +443,10 @@ dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *er
 {
     if (g->text.out_of_memory) {
         dal__buffer_free(&g->text);
-        return dal__fail(error, DAL_MEMORY, "no memory for a generated file");
+        return dal__fail(error, DAL_STATUS_MEMORY, "no memory for a generated file");
     }
     *text = g->text.bytes;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,

@@ -5,7 +5,7 @@ bool dal__is_controlled(const dal__generation *g) { return g->layout.options.tol
 
 bool dal__has_times(const dal__generation *g)
 {
-    return g->product == DAL__OBSERVE || (g->lanes > 1 && dal__is_controlled(g));
+    return g->product == DAL__PRODUCT_OBSERVE || (g->lanes > 1 && dal__is_controlled(g));
 }
 
 bool dal__uses_newton(const dal__generation *g)
@@ -29,6 +29,11 @@ static bool observes(const dal__generation *g, dal__program_code code)
            (code == DAL__PROGRAM_REACTIONS && g->layout.options.reactions);
 }
 
+bool dal__is_status_of_step(dal_status status)
+{
+    return status == DAL_STATUS_OK || (status >= DAL_STATUS_SINGULAR && status <= DAL_STATUS_GAUGE);
+}
+
 bool dal__has_lift(const dal__generation *g)
 {
     return g->layout.lifted ||
@@ -38,7 +43,7 @@ bool dal__has_lift(const dal__generation *g)
 bool dal__evaluates(const dal__generation *g, dal__program_code code)
 {
     const unsigned kernel = g->kernel;
-    if (g->product == DAL__OBSERVE) return observes(g, code);
+    if (g->product == DAL__PRODUCT_OBSERVE) return observes(g, code);
     switch (code) {
     case DAL__PROGRAM_ADJOINT:
     case DAL__PROGRAM_GAUGE:

@@ -19,7 +19,12 @@ enum { DAL__PREFIX_SIZE = 64 };
 
 /* A whole file; or, for lib/jit, the steps of some lanes, the steps of one lane with a trace of its
  * states, or the observables of many states. */
-typedef enum dal__product { DAL__FILE, DAL__LANES, DAL__TRACE, DAL__OBSERVE } dal__product;
+typedef enum dal__product {
+    DAL__PRODUCT_FILE,
+    DAL__PRODUCT_LANES,
+    DAL__PRODUCT_TRACE,
+    DAL__PRODUCT_OBSERVE
+} dal__product;
 
 /* A name that lines #if of a source are decided by, see preprocessor.c. */
 typedef struct dal__condition {
@@ -56,6 +61,8 @@ bool dal__follows_tangents(const dal__generation *g);
 bool dal__evaluates(const dal__generation *g, dal__program_code code);
 /* Whether a program goes into the file. */
 bool dal__wants(const dal__generation *g, dal__program_code code);
+/* Whether a generated function may return a status. */
+bool dal__is_status_of_step(dal_status status);
 /* Whether the file has the code of the canonical variables, of which some methods have calls on any
  * space. */
 bool dal__has_lift(const dal__generation *g);

@@ -219,17 +219,17 @@ dal_status dal__choose_prefix(dal__generation *g, const char *prefix, dal_error 
     const char *fault = NULL;
     if (!prefix) {
         default_prefix(g);
-        return DAL_OK;
+        return DAL_STATUS_OK;
     }
     if (strlen(prefix) >= sizeof g->prefix)
-        return dal__fail(error, DAL_ARGUMENT, "prefix '%.60s...' is too long", prefix);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "prefix '%.60s...' is too long", prefix);
     for (const char *c = prefix; *c; c++)
         if (!is_word(*c)) fault = "is not a C name";
     if (!fault && !is_letter(prefix[0])) fault = "does not begin with a letter";
-    if (is_kernels(prefix) && g->product == DAL__FILE) fault = "is the kernel's own";
-    if (fault) return dal__fail(error, DAL_ARGUMENT, "prefix '%s' %s", prefix, fault);
+    if (is_kernels(prefix) && g->product == DAL__PRODUCT_FILE) fault = "is the kernel's own";
+    if (fault) return dal__fail(error, DAL_STATUS_ARGUMENT, "prefix '%s' %s", prefix, fault);
     snprintf(g->prefix, sizeof g->prefix, "%s", prefix);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- names and values, at the end ---- */
@@ -254,7 +254,7 @@ static void write_list(dal__generation *g, const char *declaration, name_functio
         snprintf(item, sizeof item, "\"%s\",", buffer);
         dal__write_item(g, item);
     }
-    if (name != dal_run_name) dal__write_item(g, "0,");
+    if (name != dal_run_component_name) dal__write_item(g, "0,");
     dal__buffer_append(&g->text, "\n};\n");
 }
 
@@ -262,8 +262,8 @@ static void write_text_function(dal__generation *g)
 {
     dal__write_template(g, "const char *PREFIX_text(int status)\n{\n    switch (status) {\n");
 #define STATUS(code, words)                                                                        \
-    if (DAL_##code == DAL_OK || (DAL_##code >= DAL_SINGULAR && DAL_##code <= DAL_GAUGE))           \
-        dal__buffer_append(&g->text, "    case DAL_" #code ": return \"" words "\";\n");
+    if (dal__is_status_of_step(DAL_STATUS_##code))                                                 \
+        dal__buffer_append(&g->text, "    case DAL_STATUS_" #code ": return \"" words "\";\n");
     DAL_STATUS_LIST(STATUS)
 #undef STATUS
     dal__buffer_append(&g->text, "    default: return \"unknown status\";\n    }\n}\n");
@@ -288,7 +288,7 @@ static void write_defaults(dal__generation *g)
 
 void dal__write_names(dal__generation *g)
 {
-    write_list(g, "const char *const PREFIX_component[PREFIX_DIMENSION]", dal_run_name);
+    write_list(g, "const char *const PREFIX_component[PREFIX_DIMENSION]", dal_run_component_name);
     write_list(g, "const char *const PREFIX_parameter[PREFIX_PARAMETERS + 1]", parameter_name);
     write_list(g, "const char *const PREFIX_observable[PREFIX_OBSERVABLES + 1]",
                dal_run_observable_name);

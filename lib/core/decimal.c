@@ -272,10 +272,10 @@ dal_status dal_parse_number(const char *text, size_t length, double *value)
     const size_t sign = length > 0 && (text[0] == '+' || text[0] == '-');
     double size;
     const size_t read = dal__read_decimal(text + sign, length - sign, &size);
-    if (read == 0 || read != length - sign) return DAL_SYNTAX;
-    if (!isfinite(size)) return DAL_TOO_LARGE;
+    if (read == 0 || read != length - sign) return DAL_STATUS_SYNTAX;
+    if (!isfinite(size)) return DAL_STATUS_TOO_LARGE;
     *value = sign && text[0] == '-' ? -size : size;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- writing ------------------------------------------------------------------------------- */

@@ -107,37 +107,40 @@ dal_status dal__unknown_at(dal_error *error, int line, int column, const char *w
 {
     const char *nearest = dal_nearest(name, names, count);
     if (!nearest)
-        return dal__fail_at(error, DAL_NAME, line, column, "unknown %s '%.*s'", what, MAX_LETTERS,
-                            name);
-    return dal__fail_at(error, DAL_NAME, line, column, "unknown %s '%s'; did you mean '%s'?", what,
-                        name, nearest);
+        return dal__fail_at(error, DAL_STATUS_NAME, line, column, "unknown %s '%.*s'", what,
+                            MAX_LETTERS, name);
+    return dal__fail_at(error, DAL_STATUS_NAME, line, column, "unknown %s '%s'; did you mean '%s'?",
+                        what, name, nearest);
 }
 
 /* ---- arguments ---- */
 
 dal_status dal__missing(dal_error *error, const char *function, const char *argument)
 {
-    return dal__fail(error, DAL_ARGUMENT, "%s: %s is NULL", function, argument);
+    return dal__fail(error, DAL_STATUS_ARGUMENT, "%s: %s is NULL", function, argument);
 }
 
 dal_status dal__negative(dal_error *error, const char *function, const char *argument,
                          long long value)
 {
-    return dal__fail(error, DAL_ARGUMENT, "%s: %s is negative: %lld", function, argument, value);
+    return dal__fail(error, DAL_STATUS_ARGUMENT, "%s: %s is negative: %lld", function, argument,
+                     value);
 }
 
 dal_status dal__check_settings(const dal_setting *settings, int count, const char *what,
                                dal_error *error)
 {
     if (count < 0)
-        return dal__fail(error, DAL_ARGUMENT, "the number of %s is negative: %d", what, count);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "the number of %s is negative: %d", what,
+                         count);
     if (count > 0 && !settings)
-        return dal__fail(error, DAL_ARGUMENT, "the %s are NULL, their number is %d", what, count);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "the %s are NULL, their number is %d", what,
+                         count);
     for (int i = 0; i < count; i++)
         if (!settings[i].name)
-            return dal__fail(error, DAL_ARGUMENT, "the name of number %d of the %s is NULL", i + 1,
-                             what);
-    return DAL_OK;
+            return dal__fail(error, DAL_STATUS_ARGUMENT, "the name of number %d of the %s is NULL",
+                             i + 1, what);
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__find_parameter(const dal_system *s, const char *name, int *number, dal_error *error)
@@ -145,7 +148,7 @@ dal_status dal__find_parameter(const dal_system *s, const char *name, int *numbe
     const int names = s->parameter ? s->parameters : 0;
     for (int i = 0; i < names; i++) {
         *number = i;
-        if (strcmp(s->parameter[i], name) == 0) return DAL_OK;
+        if (strcmp(s->parameter[i], name) == 0) return DAL_STATUS_OK;
     }
     if (names == 0 || dal_nearest(name, s->parameter, names))
         return dal__unknown(error, "parameter", name, s->parameter, names);
@@ -154,8 +157,8 @@ dal_status dal__find_parameter(const dal_system *s, const char *name, int *numbe
     for (int i = 0; i < names && n + MAX_LETTERS + 6 < sizeof list; i++)
         n += (size_t)snprintf(list + n, sizeof list - n, "%s%.*s", i > 0 ? ", " : "", MAX_LETTERS,
                               s->parameter[i]);
-    return dal__fail(error, DAL_NAME, "unknown parameter '%.*s'; there is %s", MAX_LETTERS, name,
-                     list);
+    return dal__fail(error, DAL_STATUS_NAME, "unknown parameter '%.*s'; there is %s", MAX_LETTERS,
+                     name, list);
 }
 
 const char *dal__mass_words(const dal_system *s)
@@ -177,20 +180,20 @@ dal_status dal__set_parameters(const dal_system *s, const dal_setting *settings,
                              settings[k].name, settings[k].value);
         value[i] = settings[k].value;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error)
 {
-    if (!spec) return dal__fail(error, DAL_ARGUMENT, "the spec of a run is NULL");
-    if (!spec->system) return dal__fail(error, DAL_ARGUMENT, "a run needs a system");
+    if (!spec) return dal__fail(error, DAL_STATUS_ARGUMENT, "the spec of a run is NULL");
+    if (!spec->system) return dal__fail(error, DAL_STATUS_ARGUMENT, "a run needs a system");
     DAL_TRY(dal__check_settings(spec->parameters, spec->parameter_count, "parameters", error));
     return dal__check_settings(spec->start, spec->start_count, "start values", error);
 }
 
 dal_status dal__refuse_events(const dal_system *system, const char *what, dal_error *error)
 {
-    if (system->events == 0) return DAL_OK;
-    return dal__fail(error, DAL_UNSUPPORTED, "%.80s has events: %s would pass over them",
+    if (system->events == 0) return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_UNSUPPORTED, "%.80s has events: %s would pass over them",
                      system->name ? system->name : "the system", what);
 }

@@ -16,25 +16,26 @@
 #define DAL_TRY(expression)                                                                        \
     do {                                                                                           \
         dal_status dal__s = (expression);                                                          \
-        if (__builtin_expect(dal__s != DAL_OK, 0)) return dal__s;                                  \
+        if (__builtin_expect(dal__s != DAL_STATUS_OK, 0)) return dal__s;                           \
     } while (0)
 
 /* Fills *error (may be NULL) and returns status, so that a caller can write
- *     return dal__fail(error, DAL_MEMORY, "no memory for a batch");
+ *     return dal__fail(error, DAL_STATUS_MEMORY, "no memory for a batch");
  * The error is about no text: its line and column are 0. */
 #define dal__fail(error, status, ...) dal__fail_at(error, status, 0, 0, __VA_ARGS__)
 /* The same for an error at a place of the user's text, where lines and columns begin with 1. */
 dal_status dal__fail_at(dal_error *error, dal_status status, int line, int column,
                         const char *format, ...) DAL__PRINTF(5, 6);
 
-/* "unknown WHAT 'NAME'; did you mean 'NEAREST'?" with the status DAL_NAME; see dal_nearest. */
+/* "unknown WHAT 'NAME'; did you mean 'NEAREST'?" with the status DAL_STATUS_NAME; see
+ * dal_nearest. */
 #define dal__unknown(error, ...) dal__unknown_at(error, 0, 0, __VA_ARGS__)
 dal_status dal__unknown_at(dal_error *error, int line, int column, const char *what,
                            const char *name, const char *const *names, int count);
 
 /* ---- arguments of public functions ---- */
 
-/* The errors that an argument is NULL, or negative; they return DAL_ARGUMENT. */
+/* The errors that an argument is NULL, or negative; they return DAL_STATUS_ARGUMENT. */
 dal_status dal__missing(dal_error *error, const char *function, const char *argument);
 dal_status dal__negative(dal_error *error, const char *function, const char *argument,
                          long long value);
@@ -56,18 +57,18 @@ static inline bool dal__has_state(const dal_point *at) { return at && at->q && a
  * plural. */
 dal_status dal__check_settings(const dal_setting *settings, int count, const char *what,
                                dal_error *error);
-/* Finds the number of a parameter, from 0.  Errors: DAL_NAME with the nearest name. */
+/* Finds the number of a parameter, from 0.  Errors: DAL_STATUS_NAME with the nearest name. */
 dal_status dal__find_parameter(const dal_system *system, const char *name, int *number,
                                dal_error *error);
 /* How messages call the W that must be regular. */
 const char *dal__mass_words(const dal_system *system);
-/* Sets the values of all parameters: the system's, and settings over them.  Errors: DAL_NAME
+/* Sets the values of all parameters: the system's, and settings over them.  Errors: DAL_STATUS_NAME
  * with the nearest name, not_finite where a value is not finite. */
 dal_status dal__set_parameters(const dal_system *system, const dal_setting *settings, int count,
                                dal_status not_finite, double *value, dal_error *error);
 /* Checks that a spec has a system and its settings; ignores the rest of it. */
 dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error);
-/* Refuses a system with events, DAL_UNSUPPORTED; what: that which does not know them, in the
+/* Refuses a system with events, DAL_STATUS_UNSUPPORTED; what: that which does not know them, in the
  * plural. */
 dal_status dal__refuse_events(const dal_system *system, const char *what, dal_error *error);
 

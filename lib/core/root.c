@@ -20,7 +20,7 @@ dal_status dal__find_root(dal__function *function, void *user, dal__value_at a, 
         const bool is_first = fabs(a.f) < fabs(b.f);
         const double width = fabs(b.s - a.s), resolution = DBL_EPSILON * fmax(fabs(a.s), fabs(b.s));
         *root = is_first ? (dal__root){a, b} : (dal__root){b, a};
-        if (root->best.f == 0.0 || width <= 2.0 * resolution) return DAL_OK;
+        if (root->best.f == 0.0 || width <= 2.0 * resolution) return DAL_STATUS_OK;
         dal__value_at x = {.s = a.s + fraction * (b.s - a.s)};
         DAL_TRY(function(user, x.s, &x.f));
         const int same = sign(x.f) == sign(a.f);
@@ -36,5 +36,5 @@ dal_status dal__find_root(dal__function *function, void *user, dal__value_at a, 
                 (dropped.s - a.s) / (b.s - a.s) * a.f / (dropped.f - a.f) * b.f / (dropped.f - b.f);
         fraction = fmin(fmax(fraction, min), 1.0 - min);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }

@@ -21,7 +21,7 @@ static bool call(const dal__sizes *w, dal_callback *callback, double t, const do
                  const double *v, double *out)
 {
     const dal_point at = {.t = t, .q = x, .v = v, .work = w->work};
-    return callback && callback(w->system, &at, out) == DAL_OK;
+    return callback && callback(w->system, &at, out) == DAL_STATUS_OK;
 }
 
 static bool field_at(const dal__sizes *w, double t, const double *x, double *f)

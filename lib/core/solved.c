@@ -63,15 +63,15 @@ static dal_status undetermined(const newton *k, int column, dal_error *error)
         if (fabs(k->matrix[a * k->width + column]) > fabs(k->matrix[row * k->width + column]))
             row = a;
     if (column > 0 && k->matrix[row * k->width + column] != 0.0)
-        return dal__fail_at(error, DAL_RANK, place->line, place->column,
+        return dal__fail_at(error, DAL_STATUS_RANK, place->line, place->column,
                             "the start cannot be solved for both %s and %s, which constraint %d "
                             "restricts: name fewer velocities",
                             name_of(k, row, other), name,
                             (int)k->matrix[row * k->width + k->columns + 1] + 1);
     if (k->system->properties & DAL_D_LINEAR)
-        return dal__fail_at(error, DAL_RANK, place->line, place->column,
+        return dal__fail_at(error, DAL_STATUS_RANK, place->line, place->column,
                             "the start cannot be solved for %s: no constraint restricts it", name);
-    return dal__fail_at(error, DAL_RANK, place->line, place->column,
+    return dal__fail_at(error, DAL_STATUS_RANK, place->line, place->column,
                         "the start cannot be solved for %s: no constraint restricts it at the "
                         "first guess %g; give another one",
                         name, k->v[place->velocity]);
@@ -129,7 +129,7 @@ static dal_status eliminate(const newton *k, dal_error *error)
             for (int i = j; i <= k->columns; i++) M[a * width + i] -= factor * M[j * width + i];
         }
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* max |u' - u| of one step, in units. */
@@ -148,7 +148,7 @@ static dal_status take_step(newton *k, double *change, dal_error *error)
         *change = fmax(*change, fabs(*x));
         *v = *v + *x * k->unit[velocity] + 0.0; /* no -0: see lib/kernel/step.h */
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Whether the system can be solved for the velocities it names. */
@@ -158,11 +158,11 @@ static dal_status check_solved(const dal_system *s, dal_error *error)
     for (int j = 0; is_usable && j < s->solved_velocities; j++)
         is_usable = s->solved[j].velocity >= 0 && s->solved[j].velocity < s->n;
     if (!is_usable)
-        return dal__fail(error, DAL_ARGUMENT,
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "%d velocities to be solved from %d constraints, of %d velocities",
                          s->solved_velocities, s->m, s->n);
-    if (s->call.constraint) return DAL_OK;
-    return dal__fail_at(error, DAL_UNSUPPORTED, s->solved[0].line, s->solved[0].column,
+    if (s->call.constraint) return DAL_STATUS_OK;
+    return dal__fail_at(error, DAL_STATUS_UNSUPPORTED, s->solved[0].line, s->solved[0].column,
                         "the start cannot be solved for velocities: the mass matrix has no "
                         "inverse");
 }
@@ -179,7 +179,7 @@ dal_status dal__solve_velocities(const dal_system *s, double t, const double *q,
     double change = INFINITY, before;
     char name[NAME_SIZE];
     int max = 0;
-    if (s->solved_velocities == 0) return DAL_OK;
+    if (s->solved_velocities == 0) return DAL_STATUS_OK;
     DAL_TRY(check_solved(s, error));
     k.unit = k.A + 2 * m * n;
     k.matrix = k.unit + n;
@@ -187,15 +187,16 @@ dal_status dal__solve_velocities(const dal_system *s, double t, const double *q,
     k.width = k.columns + 2;
     for (int i = 0; i < MAX_STEPS; i++) {
         const dal_status status = s->call.constraint(s, &k.at, memory);
-        if (status != DAL_OK)
+        if (status != DAL_STATUS_OK)
             return dal__fail(error, status, "the constraints cannot be evaluated at the start");
         max = dal__find_max_abs(k.D, m);
         if (!isfinite(k.D[max])) break;
         before = change;
         DAL_TRY(take_step(&k, &change, error));
-        if (dal__is_converged(change, before, dal__max_in_units(n, v, k.unit))) return DAL_OK;
+        if (dal__is_converged(change, before, dal__max_in_units(n, v, k.unit)))
+            return DAL_STATUS_OK;
     }
-    return dal__fail_at(error, isfinite(k.D[max]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
+    return dal__fail_at(error, isfinite(k.D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
                         s->solved[0].line, s->solved[0].column,
                         "the start cannot be solved for %s%s: no root of constraint %d was found "
                         "from these first guesses, D%d = %.6g",

@@ -11,10 +11,10 @@ size_t dal__solve_size(const dal_system *system);
 
 /* Replaces those velocities in v[n], and after them multipliers, that the start of the system
  * solves from D(q,v,t) = 0; their values are the first guess.  Constraints that these velocities
- * cannot satisfy may remain.  Errors, with the place of the velocity in the file, and then v is
- * not defined: DAL_ARGUMENT (more velocities than constraints, or one that is none), DAL_RANK (D
- * does not determine it), DAL_INCONSISTENT (no root is found), DAL_NOT_FINITE, DAL_UNSUPPORTED (W
- * has no inverse), errors of the constraints. */
+ * cannot satisfy may remain.  Errors, with the place of the velocity in the file, and then v is not
+ * defined: DAL_STATUS_ARGUMENT (more velocities than constraints, or one that is none),
+ * DAL_STATUS_RANK (D does not determine it), DAL_STATUS_INCONSISTENT (no root is found),
+ * DAL_STATUS_NOT_FINITE, DAL_STATUS_UNSUPPORTED (W has no inverse), errors of the constraints. */
 dal_status dal__solve_velocities(const dal_system *system, double t, const double *q, double *v,
                                  double *work, double *memory, dal_error *error);
 

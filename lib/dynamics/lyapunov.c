@@ -77,7 +77,7 @@ static dal_status move_exactly(dal_lyapunov *s, double *vector)
         vector[i] = y[n + i] / s->unit[i];
         vector[n + i] = y[3 * n + i] / s->unit[n + i];
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Puts the auxiliary run at z + size * direction: what rounding takes from y goes to its remainder
@@ -109,7 +109,7 @@ static dal_status step_along(void *user, double size, double *out)
     for (int i = 0; i < d; i++) out[i] = y[i] - s->z[i];
     for (int i = 0; i < d && s->has_remainder; i++) out[i] += r[i] - s->memory[d + i];
     for (int i = 0; i < d; i++) out[i] /= s->unit[i];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* By how much the vector exceeds what its components are measured by. */
@@ -131,7 +131,7 @@ static dal_status move_by_differences(dal_lyapunov *s, double *vector)
     s->direction = vector;
     DAL_TRY(dal__differentiate(step_along, s, size, s->dimension, value, out));
     memcpy(vector, out, count * sizeof(double));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- Gram-Schmidt ---- */
@@ -144,11 +144,11 @@ static dal_status orthonormalise(dal_lyapunov *s, int count)
         if (s->growth[j] > 0.0 && isfinite(s->growth[j]))
             s->growth[j] *= dal__orthonormalise_row(s->vectors, j, d);
         if (!(s->growth[j] > 0.0) || !isfinite(s->growth[j]))
-            return dal__fail(s->error, DAL_SINGULAR,
+            return dal__fail(s->error, DAL_STATUS_SINGULAR,
                              "t = %g: the derivative of the step takes a vector to %g", s->t,
                              s->growth[j]);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status move_vectors(dal_lyapunov *s, int count)
@@ -157,7 +157,7 @@ static dal_status move_vectors(dal_lyapunov *s, int count)
         double *vector = s->vectors + j * s->dimension;
         DAL_TRY(s->exact ? move_exactly(s, vector) : move_by_differences(s, vector));
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- a step ---- */
@@ -187,17 +187,17 @@ static dal_status find_divergence(dal_lyapunov *s)
     const dal_system *system = dal_evaluator_system(s->evaluator);
     const double *by_v = s->scratch + s->nw * s->n;
     s->divergence = s->rate = NAN;
-    if (system->call.jacobian == NULL) return DAL_OK;
+    if (system->call.jacobian == NULL) return DAL_STATUS_OK;
     const dal_point at = scale_point(s);
     const dal_status status =
         dal_evaluator_call(s->evaluator, system->call.jacobian, at.t, at.q, at.v, NULL, s->scratch);
-    if (status != DAL_OK)
+    if (status != DAL_STATUS_OK)
         return dal__fail(s->error, status, "t = %g: no jacobian: %s", dal_run_time(s->run),
                          dal_status_text(status));
     s->divergence = 0.0;
     for (int i = 0; i < s->nw; i++) s->divergence += by_v[i * s->nw + i] / s->time;
     s->rate = fmax(sqrt(row_norm(s->scratch, s->nw, s->n)), row_norm(by_v, s->nw, s->nw)) / s->time;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Where a run is. */
@@ -227,16 +227,16 @@ static dal_status step_vectors(dal_lyapunov *s)
     sum[2] = x < 1.0 ? s->dimension * s->rate * pow(x, s->order) / (1.0 - x) : INFINITY;
     sum[3] = s->divergence - before;
     dal_statistics_add(s->statistics, s->count + EXTRA_MEANS, dal_run_time(s->run), s->growth);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_lyapunov_advance(dal_lyapunov *s, long long steps, dal_error *error)
 {
     DAL_REQUIRE(s, error);
     DAL_REQUIRE_COUNT(steps, error);
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     s->error = error;
-    for (; steps > 0 && status == DAL_OK; steps--) status = step_vectors(s);
+    for (; steps > 0 && status == DAL_STATUS_OK; steps--) status = step_vectors(s);
     s->error = NULL;
     return status;
 }
@@ -250,15 +250,15 @@ static double find_gradients(dal_lyapunov *s)
     const dal_system *system = dal_evaluator_system(s->evaluator);
     const dal_point at = scale_point(s);
     double size = 0.0;
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     if (s->enforced > 0)
         status = dal__gradients(s->evaluator, system->constraints, system->m, &at, s->gradients);
-    if (status == DAL_OK && s->enforced > system->m)
+    if (status == DAL_STATUS_OK && s->enforced > system->m)
         status = dal__gradients(s->evaluator, system->energy, 1, &at,
                                 s->gradients + system->m * s->dimension);
-    for (int j = 0; j < s->enforced && status == DAL_OK; j++)
+    for (int j = 0; j < s->enforced && status == DAL_STATUS_OK; j++)
         size += log(dal__orthonormalise_row(s->gradients, j, s->dimension));
-    return status == DAL_OK ? size : NAN;
+    return status == DAL_STATUS_OK ? size : NAN;
 }
 
 void dal_lyapunov_discard_transient(dal_lyapunov *s)
@@ -279,28 +279,30 @@ dal_status dal_lyapunov_balance(dal_lyapunov *s, dal_balance *balance, dal_error
     dal_statistics_mean(&s->statistics[s->count + 1], &divergence);
     dal_statistics_mean(&s->statistics[s->count + 2], &step);
     if (s->count < s->rank)
-        return dal__fail(error, DAL_UNSUPPORTED, "%d of %d exponents have no sum to compare",
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED, "%d of %d exponents have no sum to compare",
                          s->count, s->rank);
     if (s->rank + s->enforced < s->dimension)
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "the step map loses %d directions: more than constraints explain",
                          s->dimension - s->rank);
     if (s->turns_D)
-        return dal__fail(error, DAL_UNSUPPORTED, "the method turns D into -D, the motion does not");
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "the method turns D into -D, the motion does not");
     if (isnan(divergence.mean))
-        return dal__fail(error, DAL_UNSUPPORTED, "there is no divergence: no step, or no jacobian");
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "there is no divergence: no step, or no jacobian");
     if (isnan(step.mean))
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "the step is too long: h max(|F_q|^(1/2), |F_v|) reaches 1");
     const double noise = s->exact ? 1e-13 : 1e-7;
     const double jump = dal_statistics_max_abs(&s->statistics[s->count + 3]);
     balance->surface = (find_gradients(s) - s->log_from) / T;
     if (isnan(balance->surface))
-        return dal__fail(error, DAL_UNSUPPORTED, "the gradient of D or E is not finite");
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED, "the gradient of D or E is not finite");
     balance->difference = sum.mean - divergence.mean - balance->surface;
     balance->margin = step.mean + s->h * jump / T + noise * s->count / s->h;
     balance->holds = fabs(balance->difference) <= balance->margin;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- making one ---- */
@@ -310,17 +312,17 @@ static dal_status check_map(const dal_run_spec *spec, const dal_system *tangent,
     char name[128];
     dal_method_name(&spec->method, name, sizeof name);
     if (tangent && tangent->n != 2 * spec->system->n)
-        return dal__fail(error, DAL_ARGUMENT,
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "a tangent system of %d coordinates for a system of %d", tangent->n,
                          spec->system->n);
     if (dal_method_properties(&spec->method) & DAL_PERSISTENT_MULTIPLIER)
         return dal__fail(
-            error, DAL_UNSUPPORTED,
+            error, DAL_STATUS_UNSUPPORTED,
             "%s has a multiplier as persistent state: its step is no map of (q,v) alone", name);
     if (spec->options.tolerance > 0.0)
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "%s with a tolerance divides its step: it is no smooth map", name);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const dal_system *tangent,
@@ -329,7 +331,7 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
     dal_run_spec spec = *given;
     spec.options.space = DAL_PHYSICAL;
     if (spec.options.step < 0.0)
-        return dal__fail(error, DAL_ARGUMENT, "exponents need a positive step; it is %g",
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "exponents need a positive step; it is %g",
                          spec.options.step);
     DAL_TRY(dal__refuse_events(spec.system, "tangent vectors", error));
     DAL_TRY(dal_run_create(&s->run, &spec, error));
@@ -352,7 +354,7 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
     DAL_TRY(dal__evaluator_of_run(&s->evaluator, s->scaled, s->run, error));
     s->time = dal_scaled_units(s->scaled)[0];
     s->unit = dal_scaled_units(s->scaled) + 1;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
@@ -366,7 +368,7 @@ static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
     s->vectors = block;
     s->statistics = calloc(d + EXTRA_MEANS, sizeof *s->statistics);
     if (block == NULL || s->statistics == NULL)
-        return dal__fail(error, DAL_MEMORY, "Lyapunov exponents: out of memory");
+        return dal__fail(error, DAL_STATUS_MEMORY, "Lyapunov exponents: out of memory");
     s->z = block + d * d;
     s->growth = s->z + d;
     s->scratch = s->growth + d + EXTRA_MEANS;
@@ -374,7 +376,7 @@ static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
     s->place = s->gradients + gradients;
     s->memory = s->place + d;
     s->displaced = s->memory + memory;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* How many directions a step leaves: after them R_ii is 0, or noise.  The vectors stay as that
@@ -396,7 +398,7 @@ static dal_status find_rank(dal_lyapunov *s, unsigned properties)
     orthonormalise(s, s->dimension);
     s->error = error;
     while (s->rank < s->dimension && s->growth[s->rank] > lost_direction) s->rank++;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
@@ -414,7 +416,7 @@ static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
     s->turns_D = m > 0 && lost == 0 && properties & DAL_PRESERVES_D_MIDPOINT;
     DAL_TRY(find_divergence(s));
     if (count < 0 || count > s->rank)
-        return dal__fail(error, DAL_ARGUMENT,
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "%d exponents are requested; the step map has %d directions", count,
                          s->rank);
     s->count = count > 0 ? count : s->rank;
@@ -436,9 +438,9 @@ dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec
     DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(check_map(spec, tangent, error));
     dal_lyapunov *s = calloc(1, sizeof *s);
-    if (s == NULL) return dal__fail(error, DAL_MEMORY, "Lyapunov exponents: out of memory");
+    if (s == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "Lyapunov exponents: out of memory");
     const dal_status status = start_vectors(s, spec, tangent, count, error);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         *lyapunov = s;
     else
         dal_lyapunov_free(s);

@@ -23,7 +23,7 @@ typedef struct search {
     dal_crossings *found;
     dal_error *error;
     dal_evaluator *evaluator;
-    dal__crossing zeros;
+    dal__zero_search zeros;
     double *values; /* [count] of the callback */
     double max_g;   /* max |g| */
     dal_crossing crossing;
@@ -33,7 +33,7 @@ typedef struct search {
 
 static dal_status no_value(double t, double value, dal_status status, dal_error *error)
 {
-    return dal__fail(error, status == DAL_OK ? DAL_NOT_FINITE : status,
+    return dal__fail(error, status == DAL_STATUS_OK ? DAL_STATUS_NOT_FINITE : status,
                      "the section has no value at t = %.17g: %g", t, value);
 }
 
@@ -45,9 +45,9 @@ static dal_status value_of(void *user, dal_run *run, double *value, dal_error *e
     const dal_status status =
         dal_evaluator_call(w->evaluator, p->callback, at.t, at.q, at.v, NULL, w->values);
     *value = w->values[p->index];
-    if (status != DAL_OK || !isfinite(*value)) return no_value(at.t, *value, status, error);
+    if (status != DAL_STATUS_OK || !isfinite(*value)) return no_value(at.t, *value, status, error);
     w->max_g = fmax(w->max_g, fabs(*value));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The rate of g; NaN where it has none. */
@@ -63,8 +63,8 @@ static dal_status rate_of(void *user, dal_run *run, double *rate, dal_error *err
                           .time = many_steps * dal_run_step_size(run),
                           .size = w->max_g};
     const dal_status status = dal__rate_in_units(&of, &at, rate);
-    if (status != DAL_OK) *rate = NAN;
-    if (status == DAL_OK || status == DAL_NOT_FINITE) return DAL_OK;
+    if (status != DAL_STATUS_OK) *rate = NAN;
+    if (status == DAL_STATUS_OK || status == DAL_STATUS_NOT_FINITE) return DAL_STATUS_OK;
     return no_value(at.t, *rate, status, error);
 }
 
@@ -78,11 +78,11 @@ static dal_status rounding_of(void *user, dal_run *run, double *value, double *r
     (void)error;
     *value = touching * w->max_g;
     *rate = 0.0;
-    if (!scales) return DAL_OK;
+    if (!scales) return DAL_STATUS_OK;
     for (int group = 0; group < DAL__OBSERVE_INVARIANTS; group++)
         scales += dal__observable_count(&run->layout, group, run->exact);
     *value = fmax(*value, roundings * DBL_EPSILON * scales[p->index]);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static int both_directions(void *user, const dal_run *run, int k)
@@ -105,20 +105,20 @@ static dal_status report_crossing(void *user, dal_run *run)
 /* The crossing at a distance in the step. */
 static dal_status cross(search *w, double distance)
 {
-    dal__crossing *c = &w->zeros;
+    dal__zero_search *c = &w->zeros;
     const int to = -dal__side_sign(c->zero[0].side), wanted = w->section->direction;
     *(to > 0 ? &w->found->up : &w->found->down) += 1;
-    if (wanted && wanted != to) return DAL_OK;
+    if (wanted && wanted != to) return DAL_STATUS_OK;
     w->crossing.direction = to;
     w->crossing.number++;
-    if (!w->section->cross) return DAL_OK;
+    if (!w->section->cross) return DAL_STATUS_OK;
     return distance > 0.0 ? dal__observe_part(c->run, c->h, distance, report_crossing, w, w->error)
                           : report_crossing(w, c->run);
 }
 
 static dal_status search_step(search *w)
 {
-    dal__crossing *c = &w->zeros;
+    dal__zero_search *c = &w->zeros;
     double distance = 0.0;
     DAL_TRY(dal__crossing_begin(c, dal_run_step_size(c->run), w->error));
     for (;;) {
@@ -127,16 +127,16 @@ static dal_status search_step(search *w)
         DAL_TRY(cross(w, distance));
     }
     dal__crossing_take(c);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status search_steps(search *w, long long steps)
 {
     const dal_poincare *p = w->section;
-    dal_status status = DAL_OK;
-    for (long long step = 1; step <= steps && status == DAL_OK; step++) {
+    dal_status status = DAL_STATUS_OK;
+    for (long long step = 1; step <= steps && status == DAL_STATUS_OK; step++) {
         status = search_step(w);
-        if (status == DAL_OK && p->poll && step % POLL == 0)
+        if (status == DAL_STATUS_OK && p->poll && step % POLL == 0)
             status = p->poll(p->user, w->zeros.run);
     }
     w->found->touches = w->zeros.touches;
@@ -151,10 +151,11 @@ static dal_status check_section(const dal_run *run, const dal_poincare *section,
 {
     const double h = dal_run_step_size(run);
     if (section->callback == NULL || section->index < 0 || section->index >= section->count)
-        return dal__fail(error, DAL_ARGUMENT, "the section is value %d of %d", section->index + 1,
-                         section->callback == NULL ? 0 : section->count);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "the section is value %d of %d",
+                         section->index + 1, section->callback == NULL ? 0 : section->count);
     if (h < 0.0)
-        return dal__fail(error, DAL_ARGUMENT, "a section needs a positive step; it is %g", h);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "a section needs a positive step; it is %g",
+                         h);
     return dal__refuse_events(dal_run_system(run), "sections", error);
 }
 
@@ -176,16 +177,17 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
     const double h = dal_run_step_size(run);
     const long long steps = dal_whole_steps(dal_run_time(run), T, h);
     if (steps == 0)
-        return dal__fail(error, DAL_ARGUMENT, "time %g is not a whole number of steps of %g", T, h);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "time %g is not a whole number of steps of %g",
+                         T, h);
     size_t stored;
     dal_run_save(run, &stored);
     const size_t numbers = dal__crossing_numbers(1, stored);
     double *block = dal__numbers(1, numbers + (size_t)section->count);
-    if (block == NULL) return dal__fail(error, DAL_MEMORY, "section: out of memory");
+    if (block == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "section: out of memory");
     w.values = block + numbers;
     dal__crossing_init(&w.zeros, run, &functions, block);
     dal_status status = dal__evaluator_of_run(&w.evaluator, NULL, run, error);
-    if (status == DAL_OK) status = search_steps(&w, steps);
+    if (status == DAL_STATUS_OK) status = search_steps(&w, steps);
     dal_evaluator_free(w.evaluator);
     free(block);
     return status;

@@ -50,8 +50,8 @@ void dal__expand_angles(dal__graph *graph, dal__node *nodes, int count)
         for (int k = 0; k < count; k++) out[k] = image[nodes[k]];
         if (dal__cost(graph, out, count) < dal__cost(graph, nodes, count))
             for (int k = 0; k < count; k++) nodes[k] = out[k];
-    } else if (graph->status == DAL_OK) {
-        graph->status = DAL_MEMORY;
+    } else if (graph->status == DAL_STATUS_OK) {
+        graph->status = DAL_STATUS_MEMORY;
     }
     free(mark);
     free(image);

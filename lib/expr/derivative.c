@@ -197,14 +197,14 @@ void dal__gradient(dal__graph *graph, dal__node f, const int *symbols, int count
         branches += active[i] && is_branch(&graph->node[i]);
     const size_t width = 1 + (size_t)count, numbers = (size_t)branches * width + 3 * width;
     if (branches) memory = calloc(numbers, sizeof *memory);
-    if (branches && !memory) graph->status = DAL_MEMORY;
+    if (branches && !memory) graph->status = DAL_STATUS_MEMORY;
     if (memory) {
         s.branch = memory;
         s.gradient = memory + branches;
         differentiate_branches(graph, &s, f, memory + (size_t)branches * width);
     }
     for (int k = 0; k < count; k++) out[k] = 0;
-    if (active && graph->status == DAL_OK) gradient_of(graph, &s, f, out);
+    if (active && graph->status == DAL_STATUS_OK) gradient_of(graph, &s, f, out);
     const dal__node zero = number(graph, 0.0);
     for (int k = 0; k < count; k++)
         if (!out[k]) out[k] = zero;

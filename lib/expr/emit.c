@@ -294,7 +294,7 @@ void dal__tapes_write_tables(const dal__tapes *tapes, dal__buffer *text)
     note_tables(&tapes->hoisted, used);
     for (int i = 0; i < tapes->count; i++) note_tables(&tapes->tape[i], used);
     for (int k = 0; k < tapes->table_count; k++) {
-        const dal__table *table = &tapes->tables[k];
+        const dal__tape_table *table = &tapes->tables[k];
         const size_t size = dal__table_size(table->knots);
         if (!used[k]) continue;
         dal__buffer_print(text, "static const double dal__table%d[] DAL_UNUSED = {", k);

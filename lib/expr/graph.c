@@ -81,9 +81,9 @@ static dal__node keep(dal__graph *graph, dal__record r)
     if (graph->status) return 0;
     dal__node *at = place(graph, &r);
     if (*at) return *at;
-    if (graph->count >= graph->limit) return fail(graph, DAL_TOO_LARGE);
+    if (graph->count >= graph->limit) return fail(graph, DAL_STATUS_TOO_LARGE);
     if (graph->count + 1 == graph->capacity) {
-        if (!grow(graph)) return fail(graph, DAL_MEMORY);
+        if (!grow(graph)) return fail(graph, DAL_STATUS_MEMORY);
         at = place(graph, &r);
     }
     graph->node[++graph->count] = r;
@@ -137,7 +137,7 @@ dal__node dal__find_symbol(const dal__graph *graph, int symbol)
 void *dal__per_node(dal__graph *graph, dal__node node, size_t size)
 {
     void *zeros = calloc((size_t)node + 1, size);
-    if (!zeros && graph->status == DAL_OK) graph->status = DAL_MEMORY;
+    if (!zeros && graph->status == DAL_STATUS_OK) graph->status = DAL_STATUS_MEMORY;
     return zeros;
 }
 

@@ -81,10 +81,10 @@ typedef struct dal__graph {
     int count, capacity, table_bits; /* count: of nodes, the last index */
     int limit;                       /* of count */
     int parameters;
-    int depth;                       /* of simplifications under way */
-    const struct dal__table *tables; /* [table_count] of points, the caller's */
+    int depth;                            /* of simplifications under way */
+    const struct dal__tape_table *tables; /* [table_count] of points, the caller's */
     int table_count;
-    dal_status status; /* DAL_OK, DAL_MEMORY or DAL_TOO_LARGE */
+    dal_status status; /* DAL_STATUS_OK, DAL_STATUS_MEMORY or DAL_STATUS_TOO_LARGE */
 } dal__graph;
 
 /* Symbols below parameters are constant along a run: nodes that depend on them alone are collected
@@ -108,8 +108,8 @@ dal__node dal__find_symbol(const dal__graph *graph, int symbol);
 dal__record dal__inspect(const dal__graph *graph, dal__node node);
 bool dal__is_number(const dal__graph *graph, dal__node node, double value);
 
-/* Zeros for each node up to this one, [node + 1] of size bytes; NULL, and the status is DAL_MEMORY,
- * when there are none. [alloc] */
+/* Zeros for each node up to this one, [node + 1] of size bytes; NULL, and the status is
+ * DAL_STATUS_MEMORY, when there are none. [alloc] */
 void *dal__per_node(dal__graph *graph, dal__node node, size_t size);
 
 #endif

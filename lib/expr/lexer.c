@@ -20,7 +20,7 @@ size_t dal__name_length(const char *text, size_t length)
 
 /* An error at the place of a token. */
 #define SYNTAX_ERROR(p, at, ...)                                                                   \
-    dal__fail_at((p)->error, DAL_SYNTAX, (at)->line, (at)->column, __VA_ARGS__)
+    dal__fail_at((p)->error, DAL_STATUS_SYNTAX, (at)->line, (at)->column, __VA_ARGS__)
 
 int dal__token_shown(const dal__token *t)
 {
@@ -36,7 +36,7 @@ static dal_status read_number(dal__lexer *l, dal__token *t)
     if (t->length == 0) return SYNTAX_ERROR(l, t, "unexpected '.'");
     if (!isfinite(t->value))
         return SYNTAX_ERROR(l, t, "the number %.*s is too large", dal__token_shown(t), t->text);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status read_name(dal__lexer *l, dal__token *t)
@@ -46,10 +46,10 @@ static dal_status read_name(dal__lexer *l, dal__token *t)
     const char *c = t->text + t->length;
     t->prime = c < l->end && *c == '\'';
     l->at = c + t->prime;
-    if (!t->prime || l->at == l->end || *l->at != '\'') return DAL_OK;
+    if (!t->prime || l->at == l->end || *l->at != '\'') return DAL_STATUS_OK;
     const int column = (int)(l->at - l->line_start) + 1;
     t->prime = false; /* it belongs to the message */
-    return dal__fail_at(l->error, DAL_SYNTAX, l->line, column,
+    return dal__fail_at(l->error, DAL_STATUS_SYNTAX, l->line, column,
                         "%.*s'' is a second derivative; a formula knows only %.*s and %.*s'",
                         dal__token_shown(t), t->text, dal__token_shown(t), t->text,
                         dal__token_shown(t), t->text);
@@ -72,13 +72,13 @@ static bool read_comparison(dal__lexer *l, dal__token *t)
 static dal_status read_other(dal__lexer *l, dal__token *t)
 {
     unsigned char c = (unsigned char)*t->text;
-    if (read_comparison(l, t)) return DAL_OK;
+    if (read_comparison(l, t)) return DAL_STATUS_OK;
     t->kind = (char)c;
     t->length = 1;
     l->at++;
     if (c == '*' && l->at < l->end && *l->at == '*')
         return SYNTAX_ERROR(l, t, "a power is written ^, not **");
-    if (c && strchr("+-*/^(),<>[]", c)) return DAL_OK;
+    if (c && strchr("+-*/^(),<>[]", c)) return DAL_STATUS_OK;
     if (c == '=') return SYNTAX_ERROR(l, t, "unexpected '='; a comparison is written ==");
     if (c == '\'') {
         return SYNTAX_ERROR(l, t, "unexpected '; a prime follows a name without a blank, as in x'");
@@ -96,7 +96,7 @@ dal_status dal__next_token(dal__lexer *l, dal__token *t)
                       .line = l->line,
                       .column = (int)(l->at - l->line_start) + 1,
                       .text = l->at};
-    if (l->at == l->end) return DAL_OK;
+    if (l->at == l->end) return DAL_STATUS_OK;
     char c = *l->at;
     if (is_digit(c) || c == '.') return read_number(l, t);
     return is_letter(c) ? read_name(l, t) : read_other(l, t);

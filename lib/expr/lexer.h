@@ -37,7 +37,7 @@ typedef struct dal__lexer {
     dal_error *error;
 } dal__lexer;
 
-/* The next token.  Errors: DAL_SYNTAX. */
+/* The next token.  Errors: DAL_STATUS_SYNTAX. */
 dal_status dal__next_token(dal__lexer *lexer, dal__token *token);
 /* How many characters of a token messages show, with its prime. */
 int dal__token_shown(const dal__token *token);

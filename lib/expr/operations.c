@@ -29,17 +29,17 @@ const char *dal__function_name(dal__op op, int *arity)
     return functions[op].name;
 }
 
-bool dal__is_young(dal__op function) { return function >= DAL__SIGN; }
+bool dal__may_be_hidden(dal__op function) { return function >= DAL__SIGN; }
 
 bool dal__is_function(const char *name, size_t length)
 {
     const dal__op function = dal__function_named(name, length);
-    return function && !dal__is_young(function);
+    return function && !dal__may_be_hidden(function);
 }
 
 bool dal__hides_function(const char *name)
 {
-    return dal__is_young(dal__function_named(name, strlen(name))) || strcmp(name, "sum") == 0;
+    return dal__may_be_hidden(dal__function_named(name, strlen(name))) || strcmp(name, "sum") == 0;
 }
 
 double dal__operate(int op, double a, double b, double c)

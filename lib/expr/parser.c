@@ -17,7 +17,7 @@
 
 /* An error at the place of a token or frame. */
 #define SYNTAX_ERROR(p, at, ...)                                                                   \
-    dal__fail_at((p)->error, DAL_SYNTAX, (at)->line, (at)->column, __VA_ARGS__)
+    dal__fail_at((p)->error, DAL_STATUS_SYNTAX, (at)->line, (at)->column, __VA_ARGS__)
 
 /* ---- what the parser holds ---- */
 
@@ -107,7 +107,7 @@ static dal_status graph_fault(const parser *p)
 {
     dal_status status = p->graph->status;
     return dal__fail_at(p->error, status, p->token.line, p->token.column,
-                        status == DAL_MEMORY ? "out of memory" : "the formula is too large");
+                        status == DAL_STATUS_MEMORY ? "out of memory" : "the formula is too large");
 }
 
 /* previous: the token before the present one. */
@@ -142,7 +142,7 @@ static dal_status unknown_function(const parser *p)
     const char *names[DAL__OP_COUNT + OWN];
     char name[64];
     int count = DAL__OP_COUNT;
-    dal_error ignored = {.status = DAL_OK};
+    dal_error ignored = {.status = DAL_STATUS_OK};
     if (resolve(p, t, &ignored)) {
         return SYNTAX_ERROR(p, t, "%.*s is not a function: write %.*s*(...) for a product",
                             dal__token_shown(t), t->text, dal__token_shown(t), t->text);
@@ -164,7 +164,7 @@ static dal_status push(parser *p, char kind, dal__node left)
     if (p->depth == p->capacity) {
         size_t capacity = p->capacity ? 2 * p->capacity : 32;
         frame *stack = realloc(p->stack, capacity * sizeof *stack);
-        if (!stack) return dal__fail(p->error, DAL_MEMORY, "out of memory");
+        if (!stack) return dal__fail(p->error, DAL_STATUS_MEMORY, "out of memory");
         p->stack = stack;
         p->capacity = capacity;
     }
@@ -173,7 +173,7 @@ static dal_status push(parser *p, char kind, dal__node left)
                                    .left = left,
                                    .line = p->token.line,
                                    .column = p->token.column};
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status push_argument(parser *p, dal__node value)
@@ -181,12 +181,12 @@ static dal_status push_argument(parser *p, dal__node value)
     if (p->arguments == p->argument_capacity) {
         size_t capacity = p->argument_capacity ? 2 * p->argument_capacity : 16;
         dal__node *argument = realloc(p->argument, capacity * sizeof *argument);
-        if (!argument) return dal__fail(p->error, DAL_MEMORY, "out of memory");
+        if (!argument) return dal__fail(p->error, DAL_STATUS_MEMORY, "out of memory");
         p->argument = argument;
         p->argument_capacity = capacity;
     }
     p->argument[p->arguments++] = value;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status next(parser *p) { return dal__next_token(&p->lexer, &p->token); }
@@ -222,7 +222,7 @@ static dal_status reduce(parser *p, int power, dal__node *value)
     for (;;) {
         const frame *f = &p->stack[p->depth - 1];
         const struct binding *top = find_operator(f->kind);
-        if (!top || top->power < power) return DAL_OK;
+        if (!top || top->power < power) return DAL_STATUS_OK;
         p->depth--;
         if (divides_by_zero(p->graph, f, *value)) return SYNTAX_ERROR(p, f, "division by zero");
         *value = operate(p->graph, top, f->left, *value);
@@ -241,7 +241,7 @@ static dal_status whole_number(const parser *p, const frame *at, dal__node node,
         return SYNTAX_ERROR(p, at, "an index is a whole number, of numbers, sizes and indices");
     if (fabs(r.value) > MAX_INDEX) return SYNTAX_ERROR(p, at, "an index is beyond %d", MAX_INDEX);
     *n = (int)r.value;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The loop whose index has the present name, or NULL. */
@@ -268,10 +268,10 @@ static dal_status close_index(parser *p, dal__node *value)
     name.prime = p->lexer.at < p->lexer.end && *p->lexer.at == '\'';
     p->lexer.at += name.prime;
     if (length >= (int)sizeof text) return SYNTAX_ERROR(p, &f, "a name is too long");
-    dal_error fault = {.status = DAL_OK};
+    dal_error fault = {.status = DAL_STATUS_OK};
     *value = resolve(p, &name, &fault);
-    if (*value) return DAL_OK;
-    if (fault.status == DAL_OK) return graph_fault(p);
+    if (*value) return DAL_STATUS_OK;
+    if (fault.status == DAL_STATUS_OK) return graph_fault(p);
     return dal__fail_at(p->error, fault.status, f.line, f.column, "%s", fault.message);
 }
 
@@ -289,7 +289,7 @@ static dal_status open_sum(parser *p, dal__lexer lexer)
     f->name = index.text;
     f->length = index.length;
     p->lexer = lexer;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Skips to the bracket that closes a sum without terms. */
@@ -301,12 +301,12 @@ static dal_status skip_body(parser *p)
         open += (p->token.kind == '(') - (p->token.kind == ')');
         if (p->token.kind == DAL__TOKEN_END) return SYNTAX_ERROR(p, &f, "a '(' is never closed");
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status too_many_terms(const parser *p, const frame *f)
 {
-    return dal__fail_at(p->error, DAL_TOO_LARGE, f->line, f->column,
+    return dal__fail_at(p->error, DAL_STATUS_TOO_LARGE, f->line, f->column,
                         "sums of more than %d terms in a formula", (int)MAX_TERMS);
 }
 
@@ -337,7 +337,7 @@ static dal_status begin_terms(parser *p, dal__node *value, bool *empty)
         p->depth--;
         p->arguments = f.first;
         *value = dal__number(p->graph, 0.0);
-        return *value ? DAL_OK : graph_fault(p);
+        return *value ? DAL_STATUS_OK : graph_fault(p);
     }
     if (p->loops == MAX_LOOPS)
         return SYNTAX_ERROR(p, &f, "sums nest deeper than %d", (int)MAX_LOOPS);
@@ -365,7 +365,7 @@ static dal_status end_term(parser *p, dal__node *value, bool *more)
     p->loops--;
     p->depth--;
     p->arguments = f.first;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the grammar ---- */
@@ -376,23 +376,23 @@ static dal_status symbol(parser *p, dal__node *value)
     const loop *l = loop_of(p);
     if (l) {
         *value = dal__number(p->graph, l->at);
-        return *value ? DAL_OK : graph_fault(p);
+        return *value ? DAL_STATUS_OK : graph_fault(p);
     }
     if (t->length == 2 && memcmp(t->text, "pi", 2) == 0 && !t->prime) {
         *value = dal__number(p->graph, 3.14159265358979323846);
-        return *value ? DAL_OK : graph_fault(p);
+        return *value ? DAL_STATUS_OK : graph_fault(p);
     }
     const dal__op function = t->prime ? (dal__op)0 : dal__function_named(t->text, t->length);
-    dal_error fault = {.status = DAL_OK};
-    if (dal__is_young(function)) *value = resolve(p, t, &fault);
-    if (dal__is_young(function) && *value) return DAL_OK;
+    dal_error fault = {.status = DAL_STATUS_OK};
+    if (dal__may_be_hidden(function)) *value = resolve(p, t, &fault);
+    if (dal__may_be_hidden(function) && *value) return DAL_STATUS_OK;
     if (function || own_function(p) >= 0) {
         return SYNTAX_ERROR(p, t, "%.*s is a function: write %.*s(...)", dal__token_shown(t),
                             t->text, dal__token_shown(t), t->text);
     }
     *value = resolve(p, t, &fault);
-    if (*value) return DAL_OK;
-    if (fault.status == DAL_OK) return graph_fault(p);
+    if (*value) return DAL_STATUS_OK;
+    if (fault.status == DAL_STATUS_OK) return graph_fault(p);
     return dal__fail_at(p->error, fault.status, t->line, t->column, "%s", fault.message);
 }
 
@@ -400,7 +400,7 @@ static dal_status symbol(parser *p, dal__node *value)
 static bool is_hidden(const parser *p, dal__op function)
 {
     dal_error ignored;
-    return dal__is_young(function) && resolve(p, &p->token, &ignored);
+    return dal__may_be_hidden(function) && resolve(p, &p->token, &ignored);
 }
 
 /* Whether the present name is `sum`, and no name of the system. */
@@ -418,14 +418,14 @@ static dal_status name(parser *p, dal__node *value)
     dal__lexer ahead = p->lexer;
     dal__token bracket;
     ahead.error = NULL;
-    const bool read = dal__next_token(&ahead, &bracket) == DAL_OK;
+    const bool read = dal__next_token(&ahead, &bracket) == DAL_STATUS_OK;
     if (read && bracket.kind == '[' && !p->token.prime) {
         DAL_TRY(push(p, '[', 0));
         p->stack[p->depth - 1].name = p->token.text;
         p->stack[p->depth - 1].length = p->token.length;
         ahead.error = p->error;
         p->lexer = ahead;
-        return DAL_OK;
+        return DAL_STATUS_OK;
     }
     if (!read || bracket.kind != '(') return symbol(p, value);
     const int own = own_function(p);
@@ -438,7 +438,7 @@ static dal_status name(parser *p, dal__node *value)
     p->stack[p->depth - 1].own = own;
     ahead.error = p->error;
     p->lexer = ahead;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Everything up to the next value: signs, brackets, functions, and the value. */
@@ -470,9 +470,9 @@ static dal_status read_operand(parser *p, dal__node *value)
             return SYNTAX_ERROR(p, &p->token, "a value is missing before '%.*s'",
                                 dal__token_shown(&p->token), p->token.text);
         }
-        DAL_TRY(*value ? DAL_OK : next(p));
+        DAL_TRY(*value ? DAL_STATUS_OK : next(p));
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The value of a function of the language with its arguments. */
@@ -498,12 +498,12 @@ static dal_status call(parser *p, const frame *f, dal__node *value)
         names->function(names->user, f->own, &arity);
     if (given < arity || (given > arity && !is_chained(f->function)))
         return wrong_arguments(p, f, given);
-    dal_error fault = {.status = DAL_OK};
+    dal_error fault = {.status = DAL_STATUS_OK};
     *value = f->function ? apply(p, f->function, argument, given)
                          : names->call(names->user, f->own, argument, &fault);
     p->arguments = f->first;
-    if (*value) return DAL_OK;
-    if (fault.status == DAL_OK) return graph_fault(p);
+    if (*value) return DAL_STATUS_OK;
+    if (fault.status == DAL_STATUS_OK) return graph_fault(p);
     return dal__fail_at(p->error, fault.status, f->line, f->column, "%s", fault.message);
 }
 
@@ -518,7 +518,7 @@ static dal_status close(parser *p, dal__node *value, bool *more)
     if (f.kind == '[') return SYNTAX_ERROR(p, &f, "a '[' is never closed");
     if (f.kind == 0) return SYNTAX_ERROR(p, &p->token, "')' closes no '('");
     p->depth--;
-    if (f.kind == '(') return DAL_OK;
+    if (f.kind == '(') return DAL_STATUS_OK;
     DAL_TRY(push_argument(p, *value));
     return call(p, &f, value);
 }
@@ -553,7 +553,7 @@ static dal_status read_operators(parser *p, dal__node *value, bool *more)
             if (f->kind == 'f' || given == 1) return next(p);
             if (given > 2) return SYNTAX_ERROR(p, f, "a sum is written sum(i, 1, N, formula in i)");
             DAL_TRY(begin_terms(p, value, &empty));
-            if (!empty) return DAL_OK;
+            if (!empty) return DAL_STATUS_OK;
             continue;
         }
         if (kind == DAL__TOKEN_END) {
@@ -562,11 +562,11 @@ static dal_status read_operators(parser *p, dal__node *value, bool *more)
             const frame *f = &p->stack[p->depth - 1];
             return f->kind
                        ? SYNTAX_ERROR(p, f, "a '%c' is never closed", f->kind == '[' ? '[' : '(')
-                       : DAL_OK;
+                       : DAL_STATUS_OK;
         }
         if (kind != ')' && kind != ']') return operator_missing(p, &previous);
         DAL_TRY(kind == ')' ? close(p, value, more) : close_index(p, value));
-        if (kind == ')' && *more) return DAL_OK;
+        if (kind == ')' && *more) return DAL_STATUS_OK;
     }
 }
 
@@ -575,12 +575,12 @@ static dal_status parse(parser *p, dal__node *value)
     DAL_TRY(push(p, 0, 0));
     DAL_TRY(next(p));
     if (p->token.kind == DAL__TOKEN_END)
-        return dal__fail_at(p->error, DAL_SYNTAX, 1, 1, "the formula is empty");
+        return dal__fail_at(p->error, DAL_STATUS_SYNTAX, 1, 1, "the formula is empty");
     for (bool more = true; more;) {
         DAL_TRY(read_operand(p, value));
         DAL_TRY(read_operators(p, value, &more));
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__parse(dal__graph *graph, const char *text, size_t length, const dal__names *names,
@@ -591,10 +591,10 @@ dal_status dal__parse(dal__graph *graph, const char *text, size_t length, const 
                 .names = names,
                 .error = error};
     if (length >= INT_MAX)
-        return dal__fail_at(error, DAL_TOO_LARGE, 1, 1, "the formula is too long");
+        return dal__fail_at(error, DAL_STATUS_TOO_LARGE, 1, 1, "the formula is too long");
     dal_status status = parse(&p, node);
     free(p.stack);
     free(p.argument);
-    if (status != DAL_OK) *node = 0;
+    if (status != DAL_STATUS_OK) *node = 0;
     return status;
 }

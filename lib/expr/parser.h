@@ -19,8 +19,9 @@ typedef struct dal__names {
     void *user;
 } dal__names;
 
-/* Parses one formula.  error->line and column are relative to text, from 1.  Errors: DAL_SYNTAX,
- * DAL_NAME (also what resolve returns), DAL_TOO_LARGE, DAL_MEMORY. */
+/* Parses one formula.  error->line and column are relative to text, from 1.  Errors:
+ * DAL_STATUS_SYNTAX, DAL_STATUS_NAME (also what resolve returns), DAL_STATUS_TOO_LARGE,
+ * DAL_STATUS_MEMORY. */
 dal_status dal__parse(dal__graph *graph, const char *text, size_t length, const dal__names *names,
                       dal__node *node, dal_error *error);
 

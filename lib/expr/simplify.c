@@ -516,7 +516,7 @@ dal__node dal__node_if(dal__graph *graph, dal__node a, dal__node b, dal__node c)
 dal__node dal__node_table(dal__graph *graph, int symbol, dal__node a)
 {
     if (!a) return 0;
-    const dal__table *table = &graph->tables[symbol / DAL__TABLE_ORDERS];
+    const dal__tape_table *table = &graph->tables[symbol / DAL__TABLE_ORDERS];
     const dal__record r = graph->node[a];
     if (symbol % DAL__TABLE_ORDERS > table->degree) return dal__number(graph, 0.0);
     const double value =

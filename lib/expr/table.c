@@ -93,13 +93,13 @@ bool dal__table_is_finite(const dal_table *t, const double *data)
     return true;
 }
 
-const double *dal__table_piece(const dal__table *table, int k)
+const double *dal__table_piece(const dal__tape_table *table, int k)
 {
     return table->data + LIMITS + table->knots + PIECE * k;
 }
 
-double dal__table_value(const dal__table *tables, int symbol, double x)
+double dal__table_value(const dal__tape_table *tables, int symbol, double x)
 {
-    const dal__table *table = &tables[symbol / DAL__TABLE_ORDERS];
+    const dal__tape_table *table = &tables[symbol / DAL__TABLE_ORDERS];
     return dal_piecewise(x, table->data, table->knots, symbol % DAL__TABLE_ORDERS);
 }

@@ -9,11 +9,11 @@
 enum { DAL__TABLE_ORDERS = 5 /* a cubic, its three derivatives, and 0 */ };
 
 /* A piecewise polynomial, with the data of dal_piecewise (kernel/elementary.h). */
-typedef struct dal__table {
+typedef struct dal__tape_table {
     int knots;
     int degree;
     const double *data; /* [dal__table_size(knots)] */
-} dal__table;
+} dal__tape_table;
 
 /* How many numbers the data of some points are; fills them in.  at[] ascends; the arguments of
  * dal_table otherwise. */
@@ -24,9 +24,9 @@ void dal__table_fill(const dal_table *table, double *data);
 bool dal__table_is_finite(const dal_table *table, const double *data);
 /* Piece number k, from 0 before the first point to the number of points after the last one: its
  * origin and its coefficients c[4]. */
-const double *dal__table_piece(const dal__table *table, int k);
+const double *dal__table_piece(const dal__tape_table *table, int k);
 /* The value or a derivative at x, by the symbol of its node, with the bits of a tape; NaN outside
  * the range. */
-double dal__table_value(const dal__table *tables, int symbol, double x);
+double dal__table_value(const dal__tape_table *tables, int symbol, double x);
 
 #endif

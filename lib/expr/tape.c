@@ -85,7 +85,7 @@ static dal_status begin_schedule(schedule *s, const dal__tapes *tapes)
 {
     *s = (schedule){.graph = tapes->graph, .last_node = tapes->graph->count};
     node_use *use = s->use = calloc((size_t)s->last_node + 1, sizeof *use);
-    if (!use) return DAL_MEMORY;
+    if (!use) return DAL_STATUS_MEMORY;
     for (dal__node i = 1; i <= s->last_node; i++) {
         const dal__record r = dal__inspect(s->graph, i);
         const bool operands =
@@ -99,12 +99,12 @@ static dal_status begin_schedule(schedule *s, const dal__tapes *tapes)
         const dal__tape *tape = &tapes->tape[p];
         for (int k = 0; k < tape->outputs; k++) use[tape->output[k]].reached = true;
     }
-    if (use[0].reached) return DAL_ARGUMENT;
+    if (use[0].reached) return DAL_STATUS_ARGUMENT;
     for (dal__node i = s->last_node; i > 0; i--) {
         const dal__record r = dal__inspect(s->graph, i);
         if (use[i].reached) use[r.a].reached = use[r.b].reached = use[r.c].reached = true;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- instructions ---- */
@@ -122,13 +122,13 @@ static dal_status schedule_hoisted(schedule *s, dal__tapes *tapes)
 {
     dal__tape *tape = &tapes->hoisted;
     tape->code = malloc((tapes->first_input + 1) * sizeof *tape->code);
-    if (!tape->code) return DAL_MEMORY;
+    if (!tape->code) return DAL_STATUS_MEMORY;
     for (dal__node i = 1; i <= s->last_node; i++) {
         dal__lowered l = dal__lower(s->graph, i);
         if (!s->use[i].reached || !s->use[i].constant || !l.a) continue;
         tape->code[tape->length++] = instruction(s, i, l);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Whether a node is computed by the program: neither constant nor an input. */
@@ -239,7 +239,7 @@ static dal_status schedule_tape(schedule *s, dal__tapes *tapes, dal__tape *tape)
     const bool may_hold = tape->may_hold && tapes->points > 0;
     tape->code = malloc(computed * sizeof *tape->code);
     tape->held = may_hold ? malloc(computed * sizeof *tape->held) : NULL;
-    if (!tape->code || (may_hold && !tape->held)) return DAL_MEMORY;
+    if (!tape->code || (may_hold && !tape->held)) return DAL_STATUS_MEMORY;
     s->vacancies = s->used = 0;
     for (dal__node i = 1; i <= top; i++) {
         if (!is_computed(s, i)) continue;
@@ -251,7 +251,7 @@ static dal_status schedule_tape(schedule *s, dal__tapes *tapes, dal__tape *tape)
     for (int k = 0; k < tape->outputs; k++) tape->place[k] = s->use[tape->output[k]].place;
     for (dal__node i = 1; i <= top; i++)
         if (s->use[i].place >= tapes->temporaries) s->use[i].place = NOWHERE;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the layout ---- */
@@ -276,12 +276,12 @@ static dal_status lay_out(dal__tapes *tapes, schedule *s)
     for (dal__node i = 1; i <= s->last_node; i++) {
         dal__record r = dal__inspect(tapes->graph, i);
         if (r.op != DAL__SYMBOL || !s->use[i].reached) continue;
-        if (r.symbol >= tapes->parameters + tapes->inputs) return DAL_ARGUMENT;
+        if (r.symbol >= tapes->parameters + tapes->inputs) return DAL_STATUS_ARGUMENT;
         s->use[i].place = r.symbol < tapes->parameters
                               ? (uint32_t)r.symbol
                               : place + (uint32_t)(r.symbol - tapes->parameters);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status compile_all(dal__tapes *tapes, schedule *s)
@@ -290,12 +290,12 @@ static dal_status compile_all(dal__tapes *tapes, schedule *s)
     for (dal__node i = 1; i <= s->last_node; i++)
         numbers += dal__inspect(tapes->graph, i).op == DAL__NUMBER && s->use[i].reached;
     tapes->number = malloc((numbers + 1) * sizeof *tapes->number);
-    if (!tapes->number) return DAL_MEMORY;
+    if (!tapes->number) return DAL_STATUS_MEMORY;
     DAL_TRY(lay_out(tapes, s));
     tapes->workspace = tapes->temporaries;
     DAL_TRY(schedule_hoisted(s, tapes));
     for (int i = 0; i < tapes->count; i++) DAL_TRY(schedule_tape(s, tapes, &tapes->tape[i]));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__tapes_finish(dal__tapes *tapes)
@@ -303,7 +303,7 @@ dal_status dal__tapes_finish(dal__tapes *tapes)
     DAL_TRY(tapes->graph->status);
     schedule s;
     dal_status status = begin_schedule(&s, tapes);
-    if (status == DAL_OK) status = compile_all(tapes, &s);
+    if (status == DAL_STATUS_OK) status = compile_all(tapes, &s);
     free(s.use);
     return status;
 }

@@ -42,7 +42,7 @@ enum { DAL__HELD_NUMBERS = 5 /* of a point */ };
 
 typedef struct dal__tapes {
     const dal__graph *graph;
-    const struct dal__table *tables; /* [table_count] the graph's */
+    const struct dal__tape_table *tables; /* [table_count] the graph's */
     int table_count;
     int parameters, inputs;
     int points;                   /* at which nodes may be held */
@@ -62,8 +62,9 @@ dal__tapes *dal__tapes_create(const dal__graph *graph, int parameters, int input
 void dal__tapes_free(dal__tapes *tapes);
 /* Adds a program with these outputs and returns its number, from 0 (-1: out of memory). */
 int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count);
-/* Completes the set; afterwards it is constant and needs the graph no more.  Errors: DAL_MEMORY,
- * DAL_TOO_LARGE, DAL_ARGUMENT (an output is no node, or has a symbol that is neither). */
+/* Completes the set; afterwards it is constant and needs the graph no more.  Errors:
+ * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE, DAL_STATUS_ARGUMENT (an output is no node, or has a
+ * symbol that is neither). */
 dal_status dal__tapes_finish(dal__tapes *tapes);
 
 /* Lets program number i have held nodes. */

@@ -5,7 +5,7 @@
 #include "expr/tape.h"
 
 static __attribute__((flatten, noinline)) void execute(const dal__instruction *code, int length,
-                                                       const dal__table *tables, double *work)
+                                                       const dal__tape_table *tables, double *work)
 {
     num *w = (num *)work;
     for (int k = 0; k < length; k++) {
@@ -23,11 +23,11 @@ static __attribute__((flatten, noinline)) void execute(const dal__instruction *c
             dal_sincos(w[i.a], &w[i.d], &w[i.b]);
             break;
         case DAL__TABLE: {
-            const dal__table *t = &tables[i.b / DAL__TABLE_ORDERS];
+            const dal__tape_table *t = &tables[i.b / DAL__TABLE_ORDERS];
             w[i.d] = dal_piecewise(w[i.a], t->data, t->knots, (int)(i.b % DAL__TABLE_ORDERS));
         } break;
         case DAL__PIECE: {
-            const dal__table *t = &tables[i.b / DAL__TABLE_ORDERS];
+            const dal__tape_table *t = &tables[i.b / DAL__TABLE_ORDERS];
             const int order = (int)(i.b % DAL__TABLE_ORDERS);
             w[i.d] = dal_piece_at(w[i.c], w[i.a], t->data, t->knots, order);
         } break;

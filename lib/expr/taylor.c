@@ -296,5 +296,5 @@ dal_status dal__taylor_add(dal__taylor *taylor, const dal__tapes *tapes, int pro
     free(c.depth);
     free(c.turn);
     free(needed);
-    return good ? DAL_OK : DAL_MEMORY;
+    return good ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
 }

@@ -55,7 +55,7 @@ dal__taylor *dal__taylor_create(int inputs, int coordinates);
 void dal__taylor_free(dal__taylor *taylor);
 /* Adds the outputs of a finished tape, count of them with all orders and the others by their values
  * alone; places[inputs]: where the inputs are in work.  An operation without a recurrence that
- * one of those count needs leaves its name in refused.  Errors: DAL_MEMORY. [alloc] */
+ * one of those count needs leaves its name in refused.  Errors: DAL_STATUS_MEMORY. [alloc] */
 dal_status dal__taylor_add(dal__taylor *taylor, const dal__tapes *tapes, int program, int count,
                            const uint32_t *places);
 

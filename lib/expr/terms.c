@@ -26,7 +26,7 @@ typedef struct terms_formula {
 } terms_formula;
 
 struct dal__terms {
-    const struct dal__table *tables;
+    const struct dal__tape_table *tables;
     terms_formula *formula; /* [formulas] */
     int formulas, max_places;
 };
@@ -103,8 +103,8 @@ size_t dal__terms_memory(const dal__terms *t) { return 2 * (size_t)t->max_places
 #define OF(function, x)  dal__operate(DAL__##function, x, 0.0, 0.0)
 
 /* Adds k times the derivatives of a node, whose value is y, to the adjoints of its operands. */
-static void add_partials(const struct dal__table *tables, const dal__record *r, double y, double k,
-                         const double *value, double *adjoint)
+static void add_partials(const struct dal__tape_table *tables, const dal__record *r, double y,
+                         double k, const double *value, double *adjoint)
 {
     const double a = value[r->a], b = value[r->b];
     double *const to_a = &adjoint[r->a], *const to_b = &adjoint[r->b];
@@ -137,8 +137,8 @@ static void add_partials(const struct dal__table *tables, const dal__record *r, 
 
 /* ---- both sweeps ---- */
 
-static void forward(const struct dal__table *tables, const terms_formula *f, const double *symbol,
-                    double *value)
+static void forward(const struct dal__tape_table *tables, const terms_formula *f,
+                    const double *symbol, double *value)
 {
     value[0] = NAN;
     for (int i = 1; i < f->places; i++) {
@@ -158,8 +158,8 @@ static bool counts(double adjoint, double x)
     return adjoint != 0.0 && (x != 0.0 || isfinite(adjoint));
 }
 
-static double reverse(const struct dal__table *tables, const terms_formula *f, const double *value,
-                      double *adjoint)
+static double reverse(const struct dal__tape_table *tables, const terms_formula *f,
+                      const double *value, double *adjoint)
 {
     const int last = f->places - 1;
     double scale = fabs(value[last]);

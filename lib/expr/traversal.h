@@ -5,7 +5,7 @@
 #include "expr/operations.h"
 
 /* Marks node and all nodes it depends on, [node + 1]; NULL, and the status of the graph is
- * DAL_MEMORY, when memory is out. [alloc] */
+ * DAL_STATUS_MEMORY, when memory is out. [alloc] */
 uint8_t *dal__reach(dal__graph *graph, dal__node node);
 /* The same of several nodes, up to the last of them. [alloc] */
 uint8_t *dal__reach_all(dal__graph *graph, const dal__node *nodes, int count);

@@ -75,7 +75,7 @@ static command begin_command(const char *compiler)
 
 static dal_status failed(dal_error *error, const char *what, const char *path)
 {
-    return dal__fail(error, DAL_IO, "cannot %s '%.200s': %s", what, path, strerror(errno));
+    return dal__fail(error, DAL_STATUS_IO, "cannot %s '%.200s': %s", what, path, strerror(errno));
 }
 
 static dal_status make_private(const char *directory, dal_error *error)
@@ -85,9 +85,9 @@ static dal_status make_private(const char *directory, dal_error *error)
         return failed(error, "make the directory", directory);
     if (lstat(directory, &s) != 0) return failed(error, "record at", directory);
     if (!S_ISDIR(s.st_mode) || s.st_uid != geteuid() || (s.st_mode & 077) != 0)
-        return dal__fail(error, DAL_IO,
+        return dal__fail(error, DAL_STATUS_IO,
                          "'%.200s' is not a directory of this user alone (mode 0700)", directory);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- whole files ---- */
@@ -175,12 +175,12 @@ static dal_status start_compiler(dal__compilation *c, dal_error *error)
     add_words(&full, files);
     const int refused = start_process(&full, c->folder, c->lock, &process);
     if (refused)
-        return dal__fail(error, DAL_UNSUPPORTED, "no compiler '%.200s': %s", c->compiler,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED, "no compiler '%.200s': %s", c->compiler,
                          strerror(refused));
     if (c->nice > 0) setpriority(PRIO_PGRP, (id_t)process, getpriority(PRIO_PROCESS, 0) + c->nice);
     c->process = process;
     c->last = now() + c->patience;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Whether the compiler runs no more; *exit_status is -1 where a signal ended it. */
@@ -243,7 +243,7 @@ static dal_status seal(const char *path, dal_error *error)
     const bool sealed = bytes && write_all(file, &sum, sizeof sum);
     free(bytes);
     const bool closed = file >= 0 && close(file) == 0;
-    return sealed && closed ? DAL_OK : failed(error, "seal", path);
+    return sealed && closed ? DAL_STATUS_OK : failed(error, "seal", path);
 }
 
 /* A path that no compiler takes for an option, and no loader for a name to record for. */
@@ -256,8 +256,8 @@ static dal_status name_object(const command *c, const char *directory, const cha
     const int written =
         snprintf(path, size, "%s%s/%016llx%016llx.so", directory[0] == '/' ? "" : "./", directory,
                  (unsigned long long)one, (unsigned long long)two);
-    if (written > 0 && (size_t)written < size) return DAL_OK;
-    return dal__fail(error, DAL_ARGUMENT, "the path '%.80s...' is too long", directory);
+    if (written > 0 && (size_t)written < size) return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_ARGUMENT, "the path '%.80s...' is too long", directory);
 }
 
 /* ---- folders of compilations ---- */
@@ -346,13 +346,14 @@ static dal_status start(dal__compilation *c, const char *text, dal_error *error)
     struct stat s;
     bool made = false;
     if (lstat(c->path, &s) == 0 && S_ISDIR(s.st_mode)) /* a rename replaces all else */
-        return dal__fail(error, DAL_IO, "'%.200s' is in the way: it is a directory", c->path);
+        return dal__fail(error, DAL_STATUS_IO, "'%.200s' is in the way: it is a directory",
+                         c->path);
     for (int i = 0; i < TRIALS && !made; i++) made = make_source(c);
     if (!made) return failed(error, "make the directory", c->folder);
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     if (!write_all(c->lock, text, strlen(text))) status = failed(error, "write", c->source);
-    if (status == DAL_OK) status = start_compiler(c, error);
-    if (status != DAL_OK) clean_up(c);
+    if (status == DAL_STATUS_OK) status = start_compiler(c, error);
+    if (status != DAL_STATUS_OK) clean_up(c);
     return status;
 }
 
@@ -360,19 +361,19 @@ dal_status dal__compilation_begin(dal__compilation *c, const dal_native_options 
                                   const char *text, dal_error *error)
 {
     if (!options || !options->cache || !options->cache[0])
-        return dal__fail(error, DAL_ARGUMENT, "no directory for compiled steps");
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "no directory for compiled steps");
     const char *const compiler = options->compiler ? options->compiler : "cc";
     *c = (dal__compilation){.patience = options->patience > 0 ? options->patience : PATIENCE,
                             .nice = options->nice,
                             .lock = -1};
     if (strlen(compiler) >= sizeof c->compiler)
-        return dal__fail(error, DAL_ARGUMENT, "the path '%.80s...' is too long", compiler);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "the path '%.80s...' is too long", compiler);
     snprintf(c->compiler, sizeof c->compiler, "%s", compiler);
     const command words = begin_command(c->compiler);
     DAL_TRY(name_object(&words, options->cache, text, c->path, DAL__OBJECT_PATH, error));
     DAL_TRY(make_private(options->cache, error));
     remove_all_abandoned(options->cache);
-    return is_usable(c->path) ? DAL_OK : start(c, text, error);
+    return is_usable(c->path) ? DAL_STATUS_OK : start(c, text, error);
 }
 
 void dal__compilation_forget(const dal__compilation *c) { unlink(c->path); }
@@ -386,27 +387,27 @@ dal_status dal__compilation_repeat(dal__compilation *c, const char *text, dal_er
 static dal_status keep_object(const dal__compilation *c, int exit_status, dal_error *error)
 {
     if (exit_status != 0)
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          exit_status == 127 ? "no compiler '%.200s'"
                                             : "the compiler '%.200s' failed",
                          c->compiler);
     DAL_TRY(seal(c->object, error));
-    return rename(c->object, c->path) == 0 ? DAL_OK : failed(error, "write", c->path);
+    return rename(c->object, c->path) == 0 ? DAL_STATUS_OK : failed(error, "write", c->path);
 }
 
 dal_status dal__compilation_poll(dal__compilation *c, dal_error *error)
 {
     int exit_status;
-    if (!c->process) return DAL_OK;
+    if (!c->process) return DAL_STATUS_OK;
     if (has_ended(c, &exit_status)) {
         const dal_status status = keep_object(c, exit_status, error);
         clean_up(c);
         return status;
     }
-    if (now() < c->last) return DAL_OK;
+    if (now() < c->last) return DAL_STATUS_OK;
     dal__compilation_end(c);
-    return dal__fail(error, DAL_UNSUPPORTED, "the compiler '%.200s' was ended after %d seconds",
-                     c->compiler, c->patience);
+    return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                     "the compiler '%.200s' was ended after %d seconds", c->compiler, c->patience);
 }
 
 void dal__compilation_end(dal__compilation *c)

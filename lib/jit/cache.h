@@ -20,8 +20,8 @@ typedef struct dal__compilation {
     long process; /* the compiler; 0: none runs */
 } dal__compilation;
 
-/* Finds the object in the cache, or else starts a compiler.  Errors: DAL_ARGUMENT, DAL_IO (cache),
- * DAL_UNSUPPORTED (no compiler). */
+/* Finds the object in the cache, or else starts a compiler.  Errors: DAL_STATUS_ARGUMENT,
+ * DAL_STATUS_IO (cache), DAL_STATUS_UNSUPPORTED (no compiler). */
 dal_status dal__compilation_begin(dal__compilation *c, const dal_native_options *options,
                                   const char *text, dal_error *error);
 /* Loads the object, if it is whole, a regular file of this user, and not writable by others: a
@@ -30,8 +30,8 @@ void *dal__compilation_load(const dal__compilation *c);
 /* Removes an object that could not be loaded; repeat then starts a compiler again. */
 void dal__compilation_forget(const dal__compilation *c);
 dal_status dal__compilation_repeat(dal__compilation *c, const char *text, dal_error *error);
-/* DAL_OK with c->process == 0: the object is there; with another: the compiler runs.  Errors:
- * DAL_UNSUPPORTED (the compiler failed or hung), DAL_IO (cache). */
+/* DAL_STATUS_OK with c->process == 0: the object is there; with another: the compiler runs.
+ * Errors: DAL_STATUS_UNSUPPORTED (the compiler failed or hung), DAL_STATUS_IO (cache). */
 dal_status dal__compilation_poll(dal__compilation *c, dal_error *error);
 /* Ends a compiler that runs, with all that it started, and removes its folder. */
 void dal__compilation_end(dal__compilation *c);

@@ -80,9 +80,9 @@ static void release(void *handle) { dlclose(handle); }
  * conversion from what dlsym finds. */
 static bool load(dal_native *native)
 {
-    static const char *const symbols[] = {[DAL__LANES] = PREFIX "_lanes",
-                                          [DAL__TRACE] = PREFIX "_traced",
-                                          [DAL__OBSERVE] = PREFIX "_observables"};
+    static const char *const symbols[] = {[DAL__PRODUCT_LANES] = PREFIX "_lanes",
+                                          [DAL__PRODUCT_TRACE] = PREFIX "_traced",
+                                          [DAL__PRODUCT_OBSERVE] = PREFIX "_observables"};
     dal__native_code *code = &native->code;
     void *handle = dal__compilation_load(&native->compilation);
     void *found = handle ? dlsym(handle, symbols[native->product]) : NULL;
@@ -90,9 +90,9 @@ static bool load(dal_native *native)
         if (handle) dlclose(handle);
         return false;
     }
-    if (native->product == DAL__LANES) memcpy(&code->steps, &found, sizeof found);
-    if (native->product == DAL__TRACE) memcpy(&code->traced, &found, sizeof found);
-    if (native->product == DAL__OBSERVE) memcpy(&code->observables, &found, sizeof found);
+    if (native->product == DAL__PRODUCT_LANES) memcpy(&code->steps, &found, sizeof found);
+    if (native->product == DAL__PRODUCT_TRACE) memcpy(&code->traced, &found, sizeof found);
+    if (native->product == DAL__PRODUCT_OBSERVE) memcpy(&code->observables, &found, sizeof found);
     code->handle = handle;
     code->release = release;
     return true;
@@ -103,14 +103,14 @@ static dal_status advance(dal_native *native, dal_error *error)
 {
     dal__compilation *c = &native->compilation;
     DAL_TRY(dal__compilation_poll(c, error));
-    if (c->process) return DAL_OK;
+    if (c->process) return DAL_STATUS_OK;
     if (load(native)) {
         native->state = DAL_NATIVE_READY;
-        return DAL_OK;
+        return DAL_STATUS_OK;
     }
     if (native->again) {
         dal__compilation_forget(c);
-        return dal__fail(error, DAL_IO, "'%.200s' cannot be loaded", c->path);
+        return dal__fail(error, DAL_STATUS_IO, "'%.200s' cannot be loaded", c->path);
     }
     native->again = true;
     return dal__compilation_repeat(c, native->text, error);
@@ -119,7 +119,7 @@ static dal_status advance(dal_native *native, dal_error *error)
 dal_native_state dal_native_poll(dal_native *native, dal_error *error)
 {
     if (!native) return dal__missing(error, __func__, "native"), DAL_NATIVE_FAILED;
-    if (native->state == DAL_NATIVE_PENDING && advance(native, &native->error) != DAL_OK)
+    if (native->state == DAL_NATIVE_PENDING && advance(native, &native->error) != DAL_STATUS_OK)
         native->state = DAL_NATIVE_FAILED;
     if (native->state != DAL_NATIVE_PENDING) {
         free(native->text);
@@ -133,7 +133,7 @@ void dal_native_free(dal_native *native)
 {
     if (!native) return;
     dal__compilation_end(&native->compilation);
-    dal__native_free(&native->code);
+    dal__compiled_free(&native->code);
     free(native->text);
     free(native);
 }
@@ -143,16 +143,17 @@ static dal_status wait_for(dal_native *native, const dal_native_options *options
 {
     while (dal_native_poll(native, error) == DAL_NATIVE_PENDING) {
         if (options->stop && options->stop(options->user))
-            return dal__fail(error, DAL_INTERRUPTED, "the compiler '%.200s' was stopped",
+            return dal__fail(error, DAL_STATUS_INTERRUPTED, "the compiler '%.200s' was stopped",
                              native->compilation.compiler);
         dal__compilation_pause();
     }
-    return native->state == DAL_NATIVE_READY ? DAL_OK : native->error.status;
+    return native->state == DAL_NATIVE_READY ? DAL_STATUS_OK : native->error.status;
 }
 
 /* ---- texts of objects ---- */
 
-/* The steps alone, DAL__LANES or DAL__TRACE: the function PREFIX_lanes or PREFIX_traced. */
+/* The steps alone, DAL__PRODUCT_LANES or DAL__PRODUCT_TRACE: the function PREFIX_lanes or
+ * PREFIX_traced. */
 static dal_status write_steps(dal_native *native, dal_error *error)
 {
     const dal__layout *k = &native->layout;
@@ -160,7 +161,7 @@ static dal_status write_steps(dal_native *native, dal_error *error)
     dal__generation g = {.spec = &spec, .lanes = native->lanes, .product = native->product};
     DAL_TRY(dal__generation_check(&g, PREFIX, error));
     write_declarations(&g);
-    dal__write_template(&g, g.product == DAL__TRACE
+    dal__write_template(&g, g.product == DAL__PRODUCT_TRACE
                                 ? "long long PREFIX_traced(double *, const double *, double, long "
                                   "long, unsigned *, int *, double *, long long);\n"
                                 : "long long PREFIX_lanes(double *, const double *, double, long "
@@ -172,9 +173,11 @@ static dal_status write_steps(dal_native *native, dal_error *error)
 /* The observables of a run, wherever it is: the function PREFIX_observables. */
 static dal_status write_observables(dal_native *native, const dal_run *run, dal_error *error)
 {
-    dal__generation g = {.run = run, .layout = run->layout, .lanes = 8, .product = DAL__OBSERVE};
+    dal__generation g = {
+        .run = run, .layout = run->layout, .lanes = 8, .product = DAL__PRODUCT_OBSERVE};
     if (g.layout.options.precision != DAL_DOUBLE)
-        return dal__fail(error, DAL_UNSUPPORTED, "observables in quad precision are not generated");
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "observables in quad precision are not generated");
     DAL_TRY(dal__generation_check(&g, PREFIX, error));
     write_declarations(&g);
     dal__write_template(
@@ -200,16 +203,16 @@ static dal_status begin(dal_native **native, dal__product product, int lanes,
 {
     dal_native *made = calloc(1, sizeof *made);
     *native = NULL;
-    if (!made) return dal__fail(error, DAL_MEMORY, "no memory for compiled steps");
+    if (!made) return dal__fail(error, DAL_STATUS_MEMORY, "no memory for compiled steps");
     made->product = product;
     made->layout = *layout;
     made->lanes = lanes;
     made->exact = run && run->exact;
-    dal_status status =
-        product == DAL__OBSERVE ? write_observables(made, run, error) : write_steps(made, error);
-    if (status == DAL_OK)
+    dal_status status = product == DAL__PRODUCT_OBSERVE ? write_observables(made, run, error)
+                                                        : write_steps(made, error);
+    if (status == DAL_STATUS_OK)
         status = dal__compilation_begin(&made->compilation, options, made->text, error);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         *native = made;
     else
         dal_native_free(made);
@@ -222,7 +225,7 @@ dal_status dal_native_begin(dal_native **native, const dal_run *run,
     DAL_REQUIRE(native, error);
     *native = NULL;
     DAL_REQUIRE(run, error);
-    return begin(native, DAL__TRACE, 1, &run->layout, NULL, options, error);
+    return begin(native, DAL__PRODUCT_TRACE, 1, &run->layout, NULL, options, error);
 }
 
 dal_status dal_native_begin_observables(dal_native **native, const dal_run *run,
@@ -231,7 +234,7 @@ dal_status dal_native_begin_observables(dal_native **native, const dal_run *run,
     DAL_REQUIRE(native, error);
     *native = NULL;
     DAL_REQUIRE(run, error);
-    return begin(native, DAL__OBSERVE, 8, &run->layout, run, options, error);
+    return begin(native, DAL__PRODUCT_OBSERVE, 8, &run->layout, run, options, error);
 }
 
 dal_status dal_native_begin_batch(dal_native **native, const dal_batch *batch,
@@ -240,8 +243,8 @@ dal_status dal_native_begin_batch(dal_native **native, const dal_batch *batch,
     DAL_REQUIRE(native, error);
     *native = NULL;
     DAL_REQUIRE(batch, error);
-    return begin(native, DAL__LANES, dal__batch_native_lanes(batch), dal__batch_layout(batch), NULL,
-                 options, error);
+    return begin(native, DAL__PRODUCT_LANES, dal__batch_native_lanes(batch),
+                 dal__batch_layout(batch), NULL, options, error);
 }
 
 /* ---- which runs it is for ---- */
@@ -267,17 +270,17 @@ static bool has_same_observables(const dal_native *native, const dal_run *run)
 
 bool dal_native_fits(const dal_native *native, const dal_run *run)
 {
-    if (!native || !run || native->product == DAL__LANES) return 0;
-    return native->product == DAL__OBSERVE ? has_same_observables(native, run)
-                                           : has_same_steps(&native->layout, &run->layout);
+    if (!native || !run || native->product == DAL__PRODUCT_LANES) return 0;
+    return native->product == DAL__PRODUCT_OBSERVE ? has_same_observables(native, run)
+                                                   : has_same_steps(&native->layout, &run->layout);
 }
 
 static dal_status check_use(const dal_native *native, bool fits, dal_error *error)
 {
     if (native->state != DAL_NATIVE_READY)
-        return dal__fail(error, DAL_ARGUMENT, "the compiled code is not ready");
-    if (!fits) return dal__fail(error, DAL_ARGUMENT, "the compiled code is for other steps");
-    return DAL_OK;
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "the compiled code is not ready");
+    if (!fits) return dal__fail(error, DAL_STATUS_ARGUMENT, "the compiled code is for other steps");
+    return DAL_STATUS_OK;
 }
 
 /* ---- runs ---- */
@@ -298,13 +301,14 @@ static dal_status allocate_observations(dal__observations *observations, int dim
     const int capacity = most > MAX ? MAX : most < REGISTER ? REGISTER : most;
     const size_t bytes = sizeof(double) * (size_t)numbers * (size_t)capacity;
     double *const memory = aligned_alloc(REGISTER * sizeof(double), bytes);
-    if (!memory) return dal__fail(error, DAL_MEMORY, "no memory for %d observations", capacity);
+    if (!memory)
+        return dal__fail(error, DAL_STATUS_MEMORY, "no memory for %d observations", capacity);
     memset(memory, 0, bytes);
     observations->capacity = capacity;
     observations->states = memory;
     observations->times = memory + (size_t)dimension * (size_t)capacity;
     observations->values = observations->times + capacity;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The code without its handle, which stays with its owner. */
@@ -320,13 +324,13 @@ static dal_status use_in_run(dal_run *run, const dal_native *native, dal__native
 {
     const int observables = dal_run_observables(run);
     DAL_TRY(check_use(native, dal_native_fits(native, run), error));
-    if (native->product == DAL__TRACE) {
+    if (native->product == DAL__PRODUCT_TRACE) {
         if (!dal_run_is_native(run)) run->native = code;
     } else if (!run->observations.states && observables > 0) {
         DAL_TRY(allocate_observations(&run->observations, run->layout.dim, observables, error));
         run->observations.code = code;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_run_use_native(dal_run *run, const dal_native *native, dal_error *error)
@@ -342,10 +346,11 @@ static dal_status use_in_batch(dal_batch *batch, const dal_native *native, dal__
                                dal_error *error)
 {
     const int lanes = dal__batch_native_lanes(batch);
-    const bool fits = native->product == DAL__LANES && native->lanes == lanes &&
+    const bool fits = native->product == DAL__PRODUCT_LANES && native->lanes == lanes &&
                       has_same_steps(&native->layout, dal__batch_layout(batch));
     DAL_TRY(check_use(native, fits, error));
-    return dal_batch_is_native(batch) ? DAL_OK : dal__batch_install(batch, lanes, &code, error);
+    return dal_batch_is_native(batch) ? DAL_STATUS_OK
+                                      : dal__batch_install(batch, lanes, &code, error);
 }
 
 dal_status dal_batch_use_native(dal_batch *batch, const dal_native *native, dal_error *error)
@@ -362,10 +367,10 @@ static dal_status wait_and_give(dal_native *native, const dal_native_options *op
                                 dal_batch *batch, dal_error *error)
 {
     dal_status status = wait_for(native, options, error);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         status = run ? use_in_run(run, native, native->code, error)
                      : use_in_batch(batch, native, native->code, error);
-    if (status == DAL_OK) native->code.release = NULL;
+    if (status == DAL_STATUS_OK) native->code.release = NULL;
     dal_native_free(native);
     return status;
 }
@@ -374,7 +379,7 @@ dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_e
 {
     dal_native *native;
     DAL_REQUIRE(run, error);
-    if (dal_run_is_native(run)) return DAL_OK;
+    if (dal_run_is_native(run)) return DAL_STATUS_OK;
     DAL_TRY(dal_native_begin(&native, run, options, error));
     return wait_and_give(native, options, run, NULL, error);
 }
@@ -384,7 +389,7 @@ dal_status dal_run_native_observables(dal_run *run, const dal_native_options *op
 {
     dal_native *native;
     DAL_REQUIRE(run, error);
-    if (run->observations.states || dal_run_observables(run) == 0) return DAL_OK;
+    if (run->observations.states || dal_run_observables(run) == 0) return DAL_STATUS_OK;
     DAL_TRY(dal_native_begin_observables(&native, run, options, error));
     return wait_and_give(native, options, run, NULL, error);
 }
@@ -393,7 +398,7 @@ dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options,
 {
     dal_native *native;
     DAL_REQUIRE(batch, error);
-    if (dal_batch_is_native(batch)) return DAL_OK;
+    if (dal_batch_is_native(batch)) return DAL_STATUS_OK;
     DAL_TRY(dal_native_begin_batch(&native, batch, options, error));
     return wait_and_give(native, options, NULL, batch, error);
 }

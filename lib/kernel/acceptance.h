@@ -31,11 +31,11 @@ typedef struct dal_checks {
 /* Why a lane failed in a step that returned status: the first check it did not pass. */
 DAL_INLINE dal_status dal_rejection(const dal_checks *c, dal_status status, int lane)
 {
-    if (status != DAL_OK && status != DAL_NOT_CONVERGED) return status;
-    if (!dal_mask_lane(c->solved, lane)) return DAL_NOT_CONVERGED;
-    if (!dal_mask_lane(c->gauge, lane)) return DAL_GAUGE;
-    if (!dal_mask_lane(c->finite, lane)) return DAL_NOT_FINITE;
-    return dal_mask_lane(c->regular, lane) ? DAL_OK : DAL_SINGULAR;
+    if (status != DAL_STATUS_OK && status != DAL_STATUS_NOT_CONVERGED) return status;
+    if (!dal_mask_lane(c->solved, lane)) return DAL_STATUS_NOT_CONVERGED;
+    if (!dal_mask_lane(c->gauge, lane)) return DAL_STATUS_GAUGE;
+    if (!dal_mask_lane(c->finite, lane)) return DAL_STATUS_NOT_FINITE;
+    return dal_mask_lane(c->regular, lane) ? DAL_STATUS_OK : DAL_STATUS_SINGULAR;
 }
 
 /* 0, or NaN where one of count numbers of a group is not finite. */

@@ -179,10 +179,10 @@ DAL_INLINE dal_status dal_control_status(dal_step *s, const dal_control *c)
     const double left = dal_lane(c->left, 0);
     if (dal_any(c->alive & ~failed) || !dal_any(failed)) {
         s->t = c->start + c->direction * c->whole;
-        return DAL_OK;
+        return DAL_STATUS_OK;
     }
     s->t = c->start + c->direction * (c->whole - left);
-    return DAL_NOT_CONVERGED;
+    return DAL_STATUS_NOT_CONVERGED;
 }
 #endif
 

@@ -82,8 +82,8 @@ DAL_INLINE dal_mask dal__counts_until_trial(const dal_step *s, const dal_newton_
 
 /* Chooses in the solved lanes of group j, `by_newton` some of them, what the next equation is
  * solved by; taken: the iterations. */
-DAL_INLINE void dal__choose(dal_step *s, const dal_newton_cost *cost, int j, dal_mask solved,
-                            dal_mask by_newton, num taken)
+DAL_INLINE void dal__choose_solver(dal_step *s, const dal_newton_cost *cost, int j, dal_mask solved,
+                                   dal_mask by_newton, num taken)
 {
     num *const last = s->choice + j, *const remaining = last + DAL_STEP_GROUPS,
                *const interval = remaining + DAL_STEP_GROUPS;

@@ -44,7 +44,7 @@ typedef struct dal_stages {
 } dal_stages;
 
 /* The eigensystem that splits Newton's matrix, NULL: it stays whole, as with a single stage. */
-DAL_INLINE const dal_eigensystem *dal__eigensystem(const dal_tableau *method)
+DAL_INLINE const dal_eigensystem *dal__eigensystem_of(const dal_tableau *method)
 {
     return DAL_STAGES(method) > 1 ? method->eigensystem : NULL;
 }
@@ -157,7 +157,7 @@ DAL_INLINE void dal__collocation_matrix(dal_step *s, dal_equation *eq)
     DAL_VECTOR(s, m,
                DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s) /
                    DAL_STEP_GROUPS);
-    const dal_eigensystem *eigensystem = dal__eigensystem(method);
+    const dal_eigensystem *eigensystem = dal__eigensystem_of(method);
     if (!eigensystem) {
         dal__rounded(stages * stages, method->a, method->a_tail, a);
         dal__rounded(stages * stages, method->partner, method->partner_tail, b);
@@ -237,7 +237,7 @@ DAL_INLINE void dal__save_predictor_errors(dal_block *b, const dal_mask *lanes,
 /* Solves the stages in the lanes tried; leaves those that were solved. */
 DAL_COLD dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tried)
 {
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     DAL_EACH(j, DAL_STEP_GROUPS) s->unconverged[j] &= ~tried[j];
     DAL_EACH(j, DAL_STEP_GROUPS) s->alive[j] = tried[j];
     if (dal__any_group(tried))
@@ -287,7 +287,7 @@ DAL_INLINE void dal__solve_from_predictor(dal_step *s, const dal_stages *k, dal_
 DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     dal_mask accepted[DAL_STEP_GROUPS], rest[DAL_STEP_GROUPS];
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     DAL_EACH(j, DAL_STEP_GROUPS) rest[j] = s->alive[j];
     DAL_EACH(j, DAL_STEP_GROUPS) accepted[j] = ~dal_all();
     if (DAL_STAGE_DERIVATIVES(s)) dal__solve_from_predictor(s, k, eq, accepted);
@@ -297,7 +297,7 @@ DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_eq
         status = dal__try_guess(s, eq, rest);
     }
     DAL_EACH(j, DAL_STEP_GROUPS) s->alive[j] = accepted[j] | rest[j];
-    return dal__any_group(s->alive) ? DAL_OK : status;
+    return dal__any_group(s->alive) ? DAL_STATUS_OK : status;
 }
 
 /* Chooses the solver of the next step where the number of iterations matters for that. */
@@ -306,17 +306,17 @@ DAL_INLINE void dal__choose_after_fixed_point(dal_step *s, const dal_equation *e
     DAL_EACH(j, DAL_STEP_GROUPS) {
         const dal_mask counts = dal__counts_until_trial(s, &eq->cost, j, eq->taken[j]);
         if (DAL_RARELY(dal_any(s->alive[j] & counts)))
-            dal__choose(s, &eq->cost, j, s->alive[j], ~dal_all(), eq->taken[j]);
+            dal__choose_solver(s, &eq->cost, j, s->alive[j], ~dal_all(), eq->taken[j]);
     }
 }
 
-/* The same where the fixed point from the predictor suffices in all lanes; else DAL_NOT_CONVERGED,
- * and nothing has changed. */
+/* The same where the fixed point from the predictor suffices in all lanes; else
+ * DAL_STATUS_NOT_CONVERGED, and nothing has changed. */
 DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     dal_mask solved[DAL_STEP_GROUPS], left[DAL_STEP_GROUPS];
     if (!DAL_STAGE_DERIVATIVES(s) || (DAL_MAY_NEWTON(s) && DAL_SOLVER(s) == DAL_NEWTON))
-        return DAL_NOT_CONVERGED;
+        return DAL_STATUS_NOT_CONVERGED;
     DAL_EACH(j, DAL_STEP_GROUPS) {
         left[j] = s->alive[j] & ~dal_equal(s->derivatives_h[j], dal_num(k->h));
         if (DAL_MAY_NEWTON(s))
@@ -325,15 +325,15 @@ DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal
         if (DAL_MAY_NEWTON(s)) eq->limit[j] = dal__fixed_point_limit(s, &eq->cost, j, ~dal_all());
         solved[j] = s->alive[j];
     }
-    if (DAL_RARELY(dal__any_group(left))) return DAL_NOT_CONVERGED;
+    if (DAL_RARELY(dal__any_group(left))) return DAL_STATUS_NOT_CONVERGED;
     dal__predict(s, k, eq);
     dal__save_guess(eq);
     dal__iterate(s, eq, dal__collocation_map, solved, 0, DAL_MAY_NEWTON(s));
     DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
-    if (DAL_RARELY(dal__any_group(left))) return DAL_NOT_CONVERGED;
+    if (DAL_RARELY(dal__any_group(left))) return DAL_STATUS_NOT_CONVERGED;
     if (DAL_MAY_NEWTON(s)) dal__choose_after_fixed_point(s, eq);
     dal__record_predictor_errors(s, k, eq, solved, solved);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Saves the derivatives for the next predictor. */
@@ -407,7 +407,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
                     f,      force, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
     DAL_EQUATION(eq, 1 + DAL_LIFTED(s), &k, derivatives, momenta);
     eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_NW(s) / DAL_STEP_GROUPS,
-                                 dal__eigensystem(method) != NULL);
+                                 dal__eigensystem_of(method) != NULL);
     eq.block[0].weight = eq.block[1].weight = fabs(s->h);
     dal_set_speeds(s, &eq.block[0], DAL_NW(s));
     DAL_EACH(j, DAL_STEP_GROUPS) eq.block[0].scale[j] = dal_velocity_scale(s, s->h, j);
@@ -417,7 +417,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
         eq.block[1].scale[0] = dal_momentum_scale(s, s->h, 0);
     }
     if (dal_failed(predicted ? dal__solve_predicted(s, &k, &eq) : dal__solve_stages(s, &k, &eq)))
-        return DAL_NOT_CONVERGED;
+        return DAL_STATUS_NOT_CONVERGED;
     dal__save_derivatives(s, &k, &eq);
     return dal__collocation_end(s, &k, &eq);
 }
@@ -432,7 +432,7 @@ DAL_COLD dal_status dal__collocate_again(dal_step *s, const dal_tableau *method)
 DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method)
 {
     const long long evaluations = s->evaluations;
-    if (dal__collocate(s, method, 1) == DAL_OK) return DAL_OK;
+    if (dal__collocate(s, method, 1) == DAL_STATUS_OK) return DAL_STATUS_OK;
     s->evaluations = evaluations;
     dal_step again = *s;
     const dal_status status = dal__collocate_again(&again, method);

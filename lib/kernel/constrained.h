@@ -171,7 +171,7 @@ DAL_INLINE_EARLY dal_status dal_enforce(dal_step *s, dal_equation *eq, dal_itera
     eq->active[0] = s->alive[0];
     map(s, eq);
     DAL_EACH(i, DAL_N(s)) eq->block[0].u[i] = eq->block[0].image[i];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Whether a and B do not depend on v, and D is linear in v. */

@@ -415,7 +415,8 @@ DAL_INLINE_EARLY void dal__solve_rest(dal_step *s, dal_equation *eq, dal_iterati
         if (eq->follows)
             s->uses_newton[j] = dal_select(by_newton[j], dal_num(1.0), s->uses_newton[j]);
         else
-            dal__choose(s, &eq->cost, j, s->alive[j] & solved[j], by_newton[j], eq->taken[j]);
+            dal__choose_solver(s, &eq->cost, j, s->alive[j] & solved[j], by_newton[j],
+                               eq->taken[j]);
     }
 }
 
@@ -439,7 +440,7 @@ DAL_SHARED_EARLY dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iterati
         s->unconverged[j] |= s->alive[j] & ~solved[j];
         s->alive[j] &= solved[j];
     }
-    return dal__any_group(s->alive) ? DAL_OK : DAL_NOT_CONVERGED;
+    return dal__any_group(s->alive) ? DAL_STATUS_OK : DAL_STATUS_NOT_CONVERGED;
 }
 #endif
 

@@ -233,7 +233,7 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
     dal__product(DAL_STAGES(method), method->a, method->ahat, product);
     dal__spark_begin(s, &k, &eq);
     if (dal_failed(dal_solve(s, &eq, dal__spark_map, dal_constrained_matrix)))
-        return DAL_NOT_CONVERGED;
+        return DAL_STATUS_NOT_CONVERGED;
     return dal__spark_end(s, &k, eq.block[0].u);
 }
 #endif

@@ -234,7 +234,7 @@ static DAL_UNUSED __attribute__((noinline, cold)) num *dal__exhausted(dal_step *
 
 /* count numbers of scratch, valid until the step ends or DAL__RELEASE; their values are undefined.
  * The stages of the descriptor determine how many there are.  Where that is too few the step fails
- * with DAL_MEMORY when it ends; until then numbers share their memory. */
+ * with DAL_STATUS_MEMORY when it ends; until then numbers share their memory. */
 DAL_INLINE num *dal_scratch(dal_step *s, int count)
 {
     num *const vector = s->scratch + s->used;
@@ -293,7 +293,7 @@ DAL_INLINE int dal_leaves_pivots(dal_callback_code code)
 
 /* Whether a step, or a part of it, has failed in all lanes.  Without the hint a compiler takes the
  * code after several returns for cold and leaves it slow. */
-DAL_INLINE int dal_failed(dal_status status) { return DAL_RARELY(status != DAL_OK); }
+DAL_INLINE int dal_failed(dal_status status) { return DAL_RARELY(status != DAL_STATUS_OK); }
 
 #if DAL_WITH_TANGENT
 /* Selects whether dal_field moves a tangent vector stored in p and pi. */
@@ -457,7 +457,7 @@ DAL_INLINE dal_status dal_update_multiple(dal_step *s, double h, double factor, 
 {
     dal_update_lanes(s, dal_num(factor), d);
     s->t += h;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 /* Ends a (sub)step of size h: y + r += d, d[dim], and t += h. */
 DAL_INLINE dal_status dal_update(dal_step *s, double h, const num *d)

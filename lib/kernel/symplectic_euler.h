@@ -123,7 +123,7 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
         eq.block[0].scale[0] = dal_velocity_scale(s, k->h, 0);
         DAL_EACH(i, nw) eq.block[0].u[i] = s->y[n + i];
         if (dal_failed(dal_solve(s, &eq, dal__euler_map_v, dal__euler_matrix)))
-            return DAL_NOT_CONVERGED;
+            return DAL_STATUS_NOT_CONVERGED;
         DAL_EACH(i, nw) k->v[i] = eq.block[0].u[i];
     } else {
         eq.follows = 1; /* there is no such equation on the physical space */
@@ -131,10 +131,10 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
         eq.block[0].scale[0] = dal_momentum_scale(s, k->h, 0);
         DAL_EACH(i, n) eq.block[0].u[i] = s->y[pi + i];
         if (dal_failed(dal_solve(s, &eq, dal__euler_map_pi, dal__euler_matrix)))
-            return DAL_NOT_CONVERGED;
+            return DAL_STATUS_NOT_CONVERGED;
         DAL_EACH(i, n) k->pi[i] = eq.block[0].u[i];
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The rates d of the momenta. */
@@ -182,7 +182,8 @@ DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, dou
         DAL_EACH(i, n) pi[i] = s->y[dal_at_pi(s) + i];
     }
     dal__euler_q(s, &k);
-    if ((at.v || DAL_LIFTED(s)) && dal_failed(dal__euler_solve(s, &k))) return DAL_NOT_CONVERGED;
+    if ((at.v || DAL_LIFTED(s)) && dal_failed(dal__euler_solve(s, &k)))
+        return DAL_STATUS_NOT_CONVERGED;
     dal__euler_q(s, &k);
     dal__euler_rates(s, &k, mu, d);
     DAL__RELEASE(s);

@@ -89,7 +89,7 @@ typedef struct dal__reciprocal {
     num rounded, rest;
 } dal__reciprocal;
 
-DAL_INLINE dal__reciprocal dal__invert(const dal_step *s, int k)
+DAL_INLINE dal__reciprocal dal__reciprocal_of(const dal_step *s, int k)
 {
     dal__reciprocal inverse = {dal_inverse(k), dal_num(0.0)};
     if (DAL__IS_FINE_SERIES(s)) inverse.rest = dal_num(__builtin_fma(-1.0 / k, k, 1.0) / k);
@@ -110,7 +110,7 @@ DAL_INLINE num dal__divide(const dal_step *s, num x, const dal__reciprocal *k)
 DAL_INLINE void dal__expand_order(dal_step *s, num t, int k, num *x, const dal_expansion *e)
 {
     const int n = DAL_N(s), nw = DAL_NW(s), dim = DAL_DIM(s);
-    const dal__reciprocal inverse = dal__invert(s, k + 1);
+    const dal__reciprocal inverse = dal__reciprocal_of(s, k + 1);
     const num *now = x + k * dim;
     num *next = x + (k + 1) * dim;
     DAL__MARK(s);

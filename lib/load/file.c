@@ -8,7 +8,7 @@
 
 static dal_status io_error(dal_error *error)
 {
-    return dal__fail(error, DAL_IO, "%s", errno ? strerror(errno) : "cannot be read");
+    return dal__fail(error, DAL_STATUS_IO, "%s", errno ? strerror(errno) : "cannot be read");
 }
 
 char *dal__read_file(const char *path, size_t *length, dal_error *error)
@@ -22,9 +22,9 @@ char *dal__read_file(const char *path, size_t *length, dal_error *error)
     if (text) *length = fread(text, 1, DAL__MAX_BYTES + 1, file);
     const dal_status status = !text          ? dal__memory_error(error)
                               : ferror(file) ? io_error(error)
-                                             : DAL_OK;
+                                             : DAL_STATUS_OK;
     fclose(file);
-    if (status == DAL_OK) return text;
+    if (status == DAL_STATUS_OK) return text;
     free(text);
     return NULL;
 }

@@ -4,8 +4,8 @@
 
 #include "dalembert.h"
 
-/* The bytes of a file, up to one more than DAL__MAX_BYTES; NULL after an error, DAL_IO or
- * DAL_MEMORY. [alloc] */
+/* The bytes of a file, up to one more than DAL__MAX_BYTES; NULL after an error, DAL_STATUS_IO or
+ * DAL_STATUS_MEMORY. [alloc] */
 char *dal__read_file(const char *path, size_t *length, dal_error *error);
 
 #endif

@@ -44,7 +44,7 @@ static dal_status read_from_disk(loader *l, const dal__entry *name, csv_file *fi
 {
     dal_error reason;
     if (!l->system->directory)
-        return dal__fail_at(l->error, DAL_MODEL, DAL__AT_TEXT(name),
+        return dal__fail_at(l->error, DAL_STATUS_MODEL, DAL__AT_TEXT(name),
                             "'%.80s' is not under files, and the text has no directory",
                             name->text);
     const char *path = *name->text == '/'
@@ -53,13 +53,14 @@ static dal_status read_from_disk(loader *l, const dal__entry *name, csv_file *fi
     if (!path) return dal__memory_error(l->error);
     char *bytes = dal__read_file(path, &file->length, &reason);
     if (!bytes)
-        return dal__fail_at(l->error, reason.status == DAL_IO ? DAL_MODEL : reason.status,
+        return dal__fail_at(l->error,
+                            reason.status == DAL_STATUS_IO ? DAL_STATUS_MODEL : reason.status,
                             DAL__AT_TEXT(name), "cannot read '%.160s': %s", path, reason.message);
     char *text = dal__model_allocate(l->model, file->length + 1, 1);
     if (text) memcpy(text, bytes, file->length);
     free(bytes);
     file->text = text;
-    return text ? DAL_OK : dal__memory_error(l->error);
+    return text ? DAL_STATUS_OK : dal__memory_error(l->error);
 }
 
 /* The file that a table names, read once. */
@@ -67,7 +68,7 @@ static dal_status find_file(loader *l, const dal__entry *name, const csv_file **
 {
     static const char mark[] = "\xEF\xBB\xBF"; /* a byte order mark is no text */
     for (*found = l->files; *found; *found = (*found)->next)
-        if (strcmp((*found)->name, name->text) == 0) return DAL_OK;
+        if (strcmp((*found)->name, name->text) == 0) return DAL_STATUS_OK;
     csv_file *file = dal__model_allocate(l->model, 1, sizeof *file);
     if (!file) return dal__memory_error(l->error);
     file->name = name->text;
@@ -78,8 +79,8 @@ static dal_status find_file(loader *l, const dal__entry *name, const csv_file **
         file->text = entry->text;
         file->length = strlen(entry->text);
     } else if (dal__model_count(l->model, DAL_SECTION_FILES) > 0) {
-        return dal__fail_at(l->error, DAL_MODEL, DAL__AT_TEXT(name), "'%.80s' is not under files",
-                            name->text);
+        return dal__fail_at(l->error, DAL_STATUS_MODEL, DAL__AT_TEXT(name),
+                            "'%.80s' is not under files", name->text);
     } else {
         DAL_TRY(read_from_disk(l, name, file));
     }
@@ -87,7 +88,7 @@ static dal_status find_file(loader *l, const dal__entry *name, const csv_file **
     file->next = l->files;
     l->files = file;
     *found = file;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- rows and columns ---- */
@@ -101,8 +102,9 @@ typedef struct cursor {
 
 /* An error at a place of the file of a table, and at the place that names the file. */
 #define CSV_ERROR(c, place, format, ...)                                                           \
-    dal__fail_at((c)->loader->error, DAL_SYNTAX, DAL__AT_TEXT((c)->name), "%.80s:%d:%d: " format,  \
-                 (c)->name->text, (c)->number, (int)((place) - (c)->line) + 1, __VA_ARGS__)
+    dal__fail_at((c)->loader->error, DAL_STATUS_SYNTAX, DAL__AT_TEXT((c)->name),                   \
+                 "%.80s:%d:%d: " format, (c)->name->text, (c)->number,                             \
+                 (int)((place) - (c)->line) + 1, __VA_ARGS__)
 
 static bool at_line_end(const cursor *c) { return c->at == c->end || *c->at == '\n'; }
 
@@ -150,7 +152,7 @@ static dal_status check_heads(const cursor *first, int *columns)
         const char *name = next_field(&c, &length);
         if (length == 0) return CSV_ERROR(&c, name, "column %d has no head", i + 1);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The number of a column in the first line, from 0. */
@@ -175,7 +177,7 @@ static dal_status find_column(const cursor *first, const dal__entry *key, int *c
         known[count] = names[count];
         count++;
     }
-    if (*column >= 0) return DAL_OK;
+    if (*column >= 0) return DAL_STATUS_OK;
     char what[200];
     snprintf(what, sizeof what, "column of '%.80s'", first->name->text);
     return dal__unknown_at(first->loader->error, DAL__AT_TEXT(key), what, key->text, known, count);
@@ -192,7 +194,7 @@ static dal_status read_line(cursor *c, int columns, const int column[2], double 
                              i == 1 ? "" : "s", last + 1);
         const char *text = next_field(c, &length);
         for (int k = 0; k < 2; k++)
-            if (column[k] == i && dal_parse_number(text, length, number[k]) != DAL_OK)
+            if (column[k] == i && dal_parse_number(text, length, number[k]) != DAL_STATUS_OK)
                 return CSV_ERROR(c, text, "'%.*s' is not a number", length < 60 ? (int)length : 60,
                                  text);
     }
@@ -201,7 +203,7 @@ static dal_status read_line(cursor *c, int columns, const int column[2], double 
         const char *text = next_field(c, &length);
         if (i == columns) return CSV_ERROR(c, text, "column %d has no head", i + 1);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Fills in the points of a table. */
@@ -245,7 +247,7 @@ static dal_status read_csv(loader *l, const dal__table_request *request, const c
         return CSV_ERROR(&c, c.line, "a table needs two points or more, not %d", table->points);
     table->at = at;
     table->value = value;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- one table ---- */
@@ -253,9 +255,9 @@ static dal_status read_csv(loader *l, const dal__table_request *request, const c
 static dal_status read_word(loader *l, const dal__entry *key, const char *what,
                             const char *const *words, int count, int *i)
 {
-    if (!key->text) return DAL_OK;
+    if (!key->text) return DAL_STATUS_OK;
     for (*i = 0; *i < count; ++*i)
-        if (strcmp(words[*i], key->text) == 0) return DAL_OK;
+        if (strcmp(words[*i], key->text) == 0) return DAL_STATUS_OK;
     return dal__unknown_at(l->error, DAL__AT_TEXT(key), what, key->text, words, count);
 }
 
@@ -269,7 +271,7 @@ static dal_status load_table(loader *l, const dal__table_request *request)
     int form = DAL_LINEAR, extend = DAL_EXTEND_NONE;
     for (int i = DAL__TABLE_FILE; i <= DAL__TABLE_VALUE; i++)
         if (!key[i].text)
-            return dal__fail_at(l->error, DAL_MODEL, DAL__AT_TEXT(&entry),
+            return dal__fail_at(l->error, DAL_STATUS_MODEL, DAL__AT_TEXT(&entry),
                                 "table %.80s has no '%s'; it needs file, at and value", entry.name,
                                 keys[i]);
     DAL_TRY(read_word(l, &key[DAL__TABLE_INTERPOLATION], "interpolation", forms, 2, &form));
@@ -330,10 +332,10 @@ static dal_status make_source(loader *l, size_t offset)
     dal__buffer_free(&source);
     if (!good) return dal__memory_error(l->error);
     if (model->source_length > DAL__MAX_BYTES)
-        return dal__fail(l->error, DAL_TOO_LARGE,
+        return dal__fail(l->error, DAL_STATUS_TOO_LARGE,
                          "more than %d bytes in a system file, tables included",
                          (int)DAL__MAX_BYTES);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__load_tables(dal_model *model, const dal__table_request *first,

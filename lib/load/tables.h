@@ -34,8 +34,8 @@ typedef struct dal__table_request {
 } dal__table_request;
 
 /* Adds the tables to a model, and sets its source: the text with the files put into it at the
- * offset where its mapping begins (in a flow mapping, after the bracket).  Errors: DAL_SYNTAX,
- * DAL_NAME, DAL_MODEL, DAL_TOO_LARGE, DAL_MEMORY. */
+ * offset where its mapping begins (in a flow mapping, after the bracket).  Errors:
+ * DAL_STATUS_SYNTAX, DAL_STATUS_NAME, DAL_STATUS_MODEL, DAL_STATUS_TOO_LARGE, DAL_STATUS_MEMORY. */
 dal_status dal__load_tables(dal_model *model, const dal__table_request *first,
                             const dal__system_text *system, size_t offset, dal_error *error);
 

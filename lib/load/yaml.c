@@ -49,12 +49,12 @@ static dal_status parser_error(reader *r)
     const char *problem = p->problem ? p->problem : "malformed";
     if (p->error == YAML_MEMORY_ERROR) return dal__memory_error(r->error);
     if (p->error != YAML_READER_ERROR)
-        return dal__fail_at(r->error, DAL_SYNTAX, line_of(p->problem_mark),
+        return dal__fail_at(r->error, DAL_STATUS_SYNTAX, line_of(p->problem_mark),
                             column_of(p->problem_mark), "malformed YAML: %s", problem);
     int line, column;
     find_place(r->text, p->problem_offset < r->length ? p->problem_offset : r->length, &line,
                &column);
-    return dal__fail_at(r->error, DAL_SYNTAX, line, column, "malformed YAML: %s", problem);
+    return dal__fail_at(r->error, DAL_STATUS_SYNTAX, line, column, "malformed YAML: %s", problem);
 }
 
 /* An error at the present event. */
@@ -76,8 +76,9 @@ static dal_status next(reader *r)
     if (r->holding) yaml_event_delete(&r->event);
     r->holding = yaml_parser_parse(&r->parser, &r->event);
     if (!r->holding) return parser_error(r);
-    if (has_anchor(&r->event)) return HERE(r, DAL_SYNTAX, "anchors and aliases are not supported");
-    return DAL_OK;
+    if (has_anchor(&r->event))
+        return HERE(r, DAL_STATUS_SYNTAX, "anchors and aliases are not supported");
+    return DAL_STATUS_OK;
 }
 
 /* ---- scalars ---- */
@@ -110,11 +111,11 @@ static dal_status check_characters(reader *r)
     for (size_t i = 0; i < length; i++) {
         const bool is_c1 = text[i] == 0xc2 && i + 1 < length && text[i + 1] < 0xa0; /* UTF-8 */
         const unsigned code = is_c1 ? text[i + 1] : text[i];
-        if (code == 0) return HERE(r, DAL_SYNTAX, "a text holds a NUL character");
+        if (code == 0) return HERE(r, DAL_STATUS_SYNTAX, "a text holds a NUL character");
         if (is_c1 || code == 0x7f || (code < ' ' && !strchr("\t\n\r", (int)code)))
-            return HERE(r, DAL_SYNTAX, "a text holds the control character U+%04X", code);
+            return HERE(r, DAL_STATUS_SYNTAX, "a text holds the control character U+%04X", code);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Text and place of the present scalar. */
@@ -146,30 +147,31 @@ static dal_status read_scalar(reader *r, dal__entry *entry)
         for (char *c = text; c && single && (c = strstr(c, "''")) != NULL; c += 2) c[1] = ' ';
         entry->text = text;
     }
-    return entry->text ? DAL_OK : dal__memory_error(r->error);
+    return entry->text ? DAL_STATUS_OK : dal__memory_error(r->error);
 }
 
 static dal_status read_key(reader *r, dal__entry *entry)
 {
     const char *value = (const char *)r->event.data.scalar.value;
     size_t length = r->event.data.scalar.length;
-    if (r->event.type != YAML_SCALAR_EVENT) return HERE(r, DAL_SYNTAX, "a name is expected here");
+    if (r->event.type != YAML_SCALAR_EVENT)
+        return HERE(r, DAL_STATUS_SYNTAX, "a name is expected here");
     DAL_TRY(check_characters(r));
     entry->name = copy(r->model, value, length);
     entry->name_line = line_of(r->event.start_mark);
     entry->name_column = column_of(r->event.start_mark);
-    return entry->name ? DAL_OK : dal__memory_error(r->error);
+    return entry->name ? DAL_STATUS_OK : dal__memory_error(r->error);
 }
 
 /* ---- sections ---- */
 
 static dal_status wrong_form(reader *r, dal_section section)
 {
-    static const char *const forms[] = {[DAL__SCALAR] = "one text",
-                                        [DAL__LIST] = "a list",
-                                        [DAL__MAPPING] = "a mapping of names",
-                                        [DAL__MAPPINGS] = "a list of mappings"};
-    return HERE(r, DAL_SYNTAX, "%s must be %s", dal__section_name(section),
+    static const char *const forms[] = {[DAL__FORM_SCALAR] = "one text",
+                                        [DAL__FORM_LIST] = "a list",
+                                        [DAL__FORM_MAPPING] = "a mapping of names",
+                                        [DAL__FORM_MAPPINGS] = "a list of mappings"};
+    return HERE(r, DAL_STATUS_SYNTAX, "%s must be %s", dal__section_name(section),
                 forms[dal__sections[section].form]);
 }
 
@@ -187,14 +189,14 @@ static dal_status read_range(reader *r, dal__entry entry)
         const bool is_formula = strcmp(key.name, "is") == 0;
         if (!is_formula && strcmp(key.name, "for") != 0) break;
         if ((is_formula ? &entry : &range)->text)
-            return dal__fail_at(r->error, DAL_MODEL, DAL__AT_NAME(&key), "duplicate key '%s'",
-                                key.name);
+            return dal__fail_at(r->error, DAL_STATUS_MODEL, DAL__AT_NAME(&key),
+                                "duplicate key '%s'", key.name);
         DAL_TRY(next(r));
         if (r->event.type != YAML_SCALAR_EVENT) break;
         DAL_TRY(read_scalar(r, is_formula ? &entry : &range));
     }
     if (r->event.type != YAML_MAPPING_END_EVENT || !entry.text || !range.text)
-        return dal__fail_at(r->error, DAL_SYNTAX, line, column,
+        return dal__fail_at(r->error, DAL_STATUS_SYNTAX, line, column,
                             "a text is expected in %s, or {for: i = 1..N, is: \"formula in i\"}",
                             dal__section_name(entry.section));
     entry.text = dal__model_print(r->model, "for %s: %s", range.text, entry.text);
@@ -223,18 +225,18 @@ static dal_status read_table(reader *r, dal__entry entry)
     for (;;) {
         dal__entry key = {.section = entry.section};
         DAL_TRY(next(r));
-        if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
+        if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_STATUS_OK;
         DAL_TRY(read_key(r, &key));
         const int i = dal__index_of(key.name, strlen(key.name), keys, DAL__TABLE_KEYS);
         if (i < 0)
             return dal__unknown_at(r->error, DAL__AT_NAME(&key), "key of a table", key.name, keys,
                                    DAL__TABLE_KEYS);
         if (table->key[i].text)
-            return dal__fail_at(r->error, DAL_MODEL, DAL__AT_NAME(&key), "duplicate key '%s'",
-                                key.name);
+            return dal__fail_at(r->error, DAL_STATUS_MODEL, DAL__AT_NAME(&key),
+                                "duplicate key '%s'", key.name);
         DAL_TRY(next(r));
         if (r->event.type != YAML_SCALAR_EVENT)
-            return HERE(r, DAL_SYNTAX, "a text is expected for '%s' of a table", keys[i]);
+            return HERE(r, DAL_STATUS_SYNTAX, "a text is expected for '%s' of a table", keys[i]);
         DAL_TRY(read_scalar(r, &key));
         table->key[i] = key;
     }
@@ -245,15 +247,16 @@ static dal_status read_entry(reader *r, dal__entry entry)
 {
     const dal__model_section *section = &dal__sections[entry.section];
     const bool may_range =
-        section->label &&
-        (section->form == DAL__LIST || section->form == DAL__MAPPING || dal__set_name(&entry));
+        section->label && (section->form == DAL__FORM_LIST || section->form == DAL__FORM_MAPPING ||
+                           dal__set_name(&entry));
     if (r->event.type == YAML_MAPPING_START_EVENT && may_range) return read_range(r, entry);
     const bool is_table = entry.section == DAL_SECTION_TABLES;
     if (is_table && r->event.type == YAML_MAPPING_START_EVENT) return read_table(r, entry);
     if (is_table)
-        return HERE(r, DAL_SYNTAX, "a table is {file: data.csv, at: column, value: column}");
+        return HERE(r, DAL_STATUS_SYNTAX, "a table is {file: data.csv, at: column, value: column}");
     if (r->event.type != YAML_SCALAR_EVENT)
-        return HERE(r, DAL_SYNTAX, "a text is expected in %s", dal__section_name(entry.section));
+        return HERE(r, DAL_STATUS_SYNTAX, "a text is expected in %s",
+                    dal__section_name(entry.section));
     DAL_TRY(read_scalar(r, &entry));
     if (!entry.name) {
         entry.name_line = entry.line;
@@ -266,12 +269,12 @@ static dal_status read_entry(reader *r, dal__entry entry)
 static dal_status read_list(reader *r, dal_section section, const char *prefix)
 {
     if (r->event.type != YAML_SEQUENCE_START_EVENT && *prefix)
-        return HERE(r, DAL_SYNTAX, "solve must be a list of velocities, as [x', y']");
+        return HERE(r, DAL_STATUS_SYNTAX, "solve must be a list of velocities, as [x', y']");
     if (r->event.type != YAML_SEQUENCE_START_EVENT) return wrong_form(r, section);
     for (;;) {
         dal__entry entry = {.section = section, .text = ""};
         DAL_TRY(next(r));
-        if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_OK;
+        if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_STATUS_OK;
         if (!*prefix) {
             DAL_TRY(read_entry(r, entry));
             continue;
@@ -287,14 +290,14 @@ static dal_status read_list(reader *r, dal_section section, const char *prefix)
 static dal_status read_mapping(reader *r, dal_section section, int item, const char *prefix)
 {
     if (r->event.type != YAML_MAPPING_START_EVENT && *prefix)
-        return HERE(r, DAL_SYNTAX, "set must be a mapping of names, as {x': -x'}");
+        return HERE(r, DAL_STATUS_SYNTAX, "set must be a mapping of names, as {x': -x'}");
     if (r->event.type != YAML_MAPPING_START_EVENT) return wrong_form(r, section);
     for (int count = 0;; count++) {
         dal__entry entry = {.section = section, .item = item};
         DAL_TRY(next(r));
         if (r->event.type == YAML_MAPPING_END_EVENT && item && count == 0)
-            return HERE(r, DAL_SYNTAX, "this mapping is empty");
-        if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
+            return HERE(r, DAL_STATUS_SYNTAX, "this mapping is empty");
+        if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_STATUS_OK;
         DAL_TRY(read_key(r, &entry));
         const bool is_set = section == DAL_SECTION_EVENTS && strcmp(entry.name, "set") == 0;
         const bool is_solve = section == DAL_SECTION_START && strcmp(entry.name, "solve") == 0;
@@ -316,8 +319,8 @@ static dal_status read_mappings(reader *r, dal_section section)
     for (int item = 1;; item++) {
         DAL_TRY(next(r));
         if (r->event.type == YAML_SEQUENCE_END_EVENT && item == 1)
-            return HERE(r, DAL_SYNTAX, "this list is empty");
-        if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_OK;
+            return HERE(r, DAL_STATUS_SYNTAX, "this list is empty");
+        if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_STATUS_OK;
         DAL_TRY(read_mapping(r, section, item, ""));
     }
 }
@@ -325,11 +328,11 @@ static dal_status read_mappings(reader *r, dal_section section)
 static dal_status read_section(reader *r, dal_section section)
 {
     switch (dal__sections[section].form) {
-    case DAL__LIST:
+    case DAL__FORM_LIST:
         return read_list(r, section, "");
-    case DAL__MAPPING:
+    case DAL__FORM_MAPPING:
         return read_mapping(r, section, 0, "");
-    case DAL__MAPPINGS:
+    case DAL__FORM_MAPPINGS:
         return read_mappings(r, section);
     default:
         if (r->event.type != YAML_SCALAR_EVENT) return wrong_form(r, section);
@@ -346,11 +349,11 @@ static dal_status find_section(reader *r, const dal__entry *key, dal_section *se
         return dal__unknown_at(r->error, key->name_line, key->name_column, "key", key->name, names,
                                DAL_SECTION_COUNT);
     if (r->seen & 1u << i)
-        return dal__fail_at(r->error, DAL_MODEL, key->name_line, key->name_column,
+        return dal__fail_at(r->error, DAL_STATUS_MODEL, key->name_line, key->name_column,
                             "duplicate key '%s'", key->name);
     r->seen |= 1u << i;
     *section = (dal_section)i;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status read_sections(reader *r)
@@ -359,7 +362,7 @@ static dal_status read_sections(reader *r)
         dal__entry key = {.name = NULL};
         dal_section section = DAL_SECTION_TITLE;
         DAL_TRY(next(r));
-        if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
+        if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_STATUS_OK;
         DAL_TRY(read_key(r, &key));
         DAL_TRY(find_section(r, &key, &section));
         DAL_TRY(next(r));
@@ -373,29 +376,30 @@ static dal_status read_document(reader *r)
 {
     DAL_TRY(next(r)); /* the stream */
     DAL_TRY(next(r));
-    if (r->event.type == YAML_STREAM_END_EVENT) return HERE(r, DAL_SYNTAX, "the file is empty");
+    if (r->event.type == YAML_STREAM_END_EVENT)
+        return HERE(r, DAL_STATUS_SYNTAX, "the file is empty");
     DAL_TRY(next(r));
     if (r->event.type != YAML_MAPPING_START_EVENT)
-        return HERE(r, DAL_SYNTAX, "a system file is a mapping, as 'coordinates: [x, y]'");
+        return HERE(r, DAL_STATUS_SYNTAX, "a system file is a mapping, as 'coordinates: [x, y]'");
     const bool is_flow = r->event.data.mapping_start.style == YAML_FLOW_MAPPING_STYLE;
     r->first = offset_of(r, r->event.start_mark) + is_flow;
     DAL_TRY(read_sections(r));
     DAL_TRY(next(r)); /* the end of the document */
     DAL_TRY(next(r));
-    if (r->event.type == YAML_STREAM_END_EVENT) return DAL_OK;
-    return HERE(r, DAL_SYNTAX, "a second document begins here: a system file has one");
+    if (r->event.type == YAML_STREAM_END_EVENT) return DAL_STATUS_OK;
+    return HERE(r, DAL_STATUS_SYNTAX, "a second document begins here: a system file has one");
 }
 
 static dal_status check_text(const char *text, size_t length, dal_error *error)
 {
     if (length > DAL__MAX_BYTES)
-        return dal__fail(error, DAL_TOO_LARGE, "more than %d bytes in a system file",
+        return dal__fail(error, DAL_STATUS_TOO_LARGE, "more than %d bytes in a system file",
                          (int)DAL__MAX_BYTES);
     const char *nul = memchr(text, 0, length);
-    if (!nul) return DAL_OK;
+    if (!nul) return DAL_STATUS_OK;
     int line, column;
     find_place(text, (size_t)(nul - text), &line, &column);
-    return dal__fail_at(error, DAL_SYNTAX, line, column, "the file holds a NUL byte");
+    return dal__fail_at(error, DAL_STATUS_SYNTAX, line, column, "the file holds a NUL byte");
 }
 
 static dal_status read_text(dal_model *model, const dal__system_text *system, size_t mark,
@@ -412,7 +416,7 @@ static dal_status read_text(dal_model *model, const dal__system_text *system, si
     dal_status status = read_document(&r);
     if (r.holding) yaml_event_delete(&r.event);
     yaml_parser_delete(&r.parser);
-    if (status != DAL_OK) return status;
+    if (status != DAL_STATUS_OK) return status;
     return dal__load_tables(model, r.tables, system, mark + r.first, error);
 }
 
@@ -425,7 +429,7 @@ static dal_status read_system(dal_model **model, const dal__system_text *system,
     dal_model *made = dal_model_create(system->name);
     if (!made) return dal__memory_error(error);
     dal_status status = read_text(made, system, skip, error);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         *model = made;
     else
         dal_model_free(made);
@@ -437,7 +441,7 @@ dal_status dal_model_read(dal_model **model, const char *name, const char *text,
 {
     DAL_REQUIRE(model, error);
     *model = NULL;
-    if (!text) return dal__fail(error, DAL_ARGUMENT, "there is no text to read");
+    if (!text) return dal__fail(error, DAL_STATUS_ARGUMENT, "there is no text to read");
     return read_system(model, &(dal__system_text){name, NULL, text, length}, error);
 }
 

@@ -271,7 +271,7 @@ static dal_status factor_forces(dal_model *model, dal__bordered *s)
     dal__node *A = dal__model_nodes(model, m * f, 0), *B = dal__model_nodes(model, m * f, 0);
     dal__node *R = dal__model_nodes(model, m * f, 0);
     int *whose = dal__model_allocate(model, (size_t)m, sizeof *whose); /* a pair's: the later */
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int a = 0; a < m; a++) {
         s->partner[a] = a;
         for (int i = 0; i < f; i++) {
@@ -279,11 +279,13 @@ static dal_status factor_forces(dal_model *model, dal__bordered *s)
             B[a * f + i] = e->B[s->left[a] * e->n + s->free[i]];
         }
     }
-    if (s->way & DAL__PAIRED && !e->servo && !pair_constraints(model, s, A)) return DAL_MEMORY;
+    if (s->way & DAL__PAIRED && !e->servo && !pair_constraints(model, s, A))
+        return DAL_STATUS_MEMORY;
     for (int a = 0; a < m; a++) whose[a] = s->left[s->partner[a] > a ? s->partner[a] : a];
-    if (!dal__factors_allocate(model, &s->forces, m, whose)) return DAL_MEMORY;
-    DAL_TRY(dal__solve(model, &s->mass, false, m, e->servo ? B : A, R));
-    if (!compress(model, &s->A, m, f, A) || !compress(model, &s->R, m, f, R)) return DAL_MEMORY;
+    if (!dal__factors_allocate(model, &s->forces, m, whose)) return DAL_STATUS_MEMORY;
+    DAL_TRY(dal__factors_solve(model, &s->mass, false, m, e->servo ? B : A, R));
+    if (!compress(model, &s->A, m, f, A) || !compress(model, &s->R, m, f, R))
+        return DAL_STATUS_MEMORY;
     for (int a = 0; a < m; a++)
         for (int b = 0; b < m; b++) {
             const bool known = b < a && !e->servo;
@@ -322,18 +324,18 @@ static dal_status solve_free(dal_model *model, const dal__bordered *s, bool forw
                              const dal__node *bottom, vectors *w)
 {
     const dal__equations *e = &model->equations;
-    DAL_TRY(dal__solve(model, &s->mass, forward, 1, w->t, w->y));
+    DAL_TRY(dal__factors_solve(model, &s->mass, forward, 1, w->t, w->y));
     for (int a = 0; a < s->lefts; a++) w->pull[a] = bottom[s->left[a]];
     combine_pairs(e, s, w->pull);
     for (int a = 0; a < s->lefts; a++) {
         if (s->partner[a] != a) w->pull[a] = collect(e, s, w->pull[a]);
         w->pull[a] = dal__node_sub(e->graph, w->pull[a], row_product(e, &s->A, a, w->y));
     }
-    DAL_TRY(dal__solve(model, &s->forces, forward, 1, w->pull, w->force));
+    DAL_TRY(dal__factors_solve(model, &s->forces, forward, 1, w->pull, w->force));
     for (int a = 0; a < s->lefts; a++)
         for (int x = s->R.first[a]; x < s->R.first[a + 1]; x++)
             add_product(e, &w->y[s->R.column[x]], s->R.value[x], w->force[a]);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* All multipliers: of the constraints that remain and, from row d of W x - A^T h, of the
@@ -359,7 +361,7 @@ static dal_status collect_dependent(dal_model *model, const dal__bordered *s, co
     int *symbol = dal__model_allocate(model, (size_t)s->frees, sizeof *symbol);
     dal__node *out = dal__model_nodes(model, s->solved, 0);
     dal__node *y = dal__model_nodes(model, s->frees, 0);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < s->frees; i++) {
         symbol[i] = e->symbols + i;
         y[i] = dal__symbol(e->graph, symbol[i]);
@@ -400,7 +402,7 @@ dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int 
     const int n = model->equations.n, m = model->equations.m;
     dal__bordered *s = *bordered = dal__model_allocate(model, 1, sizeof *s);
     *singular = -1;
-    if (!s) return DAL_MEMORY;
+    if (!s) return DAL_STATUS_MEMORY;
     s->way = way;
     s->scratch = (vectors){.s = dal__model_nodes(model, m, 0),
                            .u = dal__model_nodes(model, m, 0),
@@ -408,15 +410,15 @@ dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int 
                            .y = dal__model_nodes(model, n, 0),
                            .pull = dal__model_nodes(model, m, 0),
                            .force = dal__model_nodes(model, m, 0)};
-    if (model->out_of_memory || !choose_dependent(model, s)) return DAL_MEMORY;
+    if (model->out_of_memory || !choose_dependent(model, s)) return DAL_STATUS_MEMORY;
     if (s->solved == 0) {
         s->mass = *mass;
     } else {
-        if (!dal__factors_allocate(model, &s->mass, s->frees, NULL)) return DAL_MEMORY;
+        if (!dal__factors_allocate(model, &s->mass, s->frees, NULL)) return DAL_STATUS_MEMORY;
         reduce_mass(&model->equations, s, s->mass.matrix);
         DAL_TRY(dal__factor(model, &s->mass));
     }
     const dal_status status = factor_forces(model, s);
-    if (status == DAL_SINGULAR) *singular = s->forces.constraint[s->forces.singular] - 1;
+    if (status == DAL_STATUS_SINGULAR) *singular = s->forces.constraint[s->forces.singular] - 1;
     return status;
 }

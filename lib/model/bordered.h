@@ -12,8 +12,9 @@ enum { DAL__SOLVED = 1, DAL__PAIRED = 2, DAL__COLLECTED = 4, DAL__FORWARD = 8 };
 /* The system of one model, solved as far as that does not depend on the right-hand side. */
 typedef struct dal__bordered dal__bordered;
 
-/* Factors the system in one way; mass: the factors of W.  singular: on DAL_SINGULAR the constraint,
- * from 0, that depends on others, or -1.  Errors: DAL_MEMORY, DAL_SINGULAR, DAL_TOO_LARGE. */
+/* Factors the system in one way; mass: the factors of W.  singular: on DAL_STATUS_SINGULAR the
+ * constraint, from 0, that depends on others, or -1.  Errors: DAL_STATUS_MEMORY,
+ * DAL_STATUS_SINGULAR, DAL_STATUS_TOO_LARGE. */
 dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int way,
                                 dal__bordered **bordered, int *singular);
 /* Whether any constraint is solved for a coordinate first. */
@@ -25,7 +26,7 @@ bool dal__bordered_keeps_rank(const dal__bordered *bordered);
 void dal__bordered_record_pivots(dal__equations *equations, const dal__bordered *bordered,
                                  const dal__factors *mass);
 /* W x - B^T h = top [n], A x = bottom [m]; h is NULL where it is not wanted.  collected: as its way
- * says.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+ * says.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__bordered_solve(dal_model *model, dal__bordered *bordered, bool collected,
                                const dal__node *top, const dal__node *bottom, dal__node *x,
                                dal__node *h);

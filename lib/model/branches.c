@@ -45,7 +45,7 @@ typedef struct surface {
 /* ---- what a node switches on ---- */
 
 /* The knot of a table where its highest derivative jumps most; -1: nowhere. */
-static int find_corner(const dal__table *table)
+static int find_corner(const dal__tape_table *table)
 {
     const bool bounded = isnan(dal__table_value(table, 0, INFINITY));
     double max = 0.0;
@@ -61,7 +61,7 @@ static int find_corner(const dal__table *table)
 /* A derivative of a table at a, continued from one side of the corner. */
 static dal__node table_side(dal__graph *graph, int symbol, dal__node a, int sign)
 {
-    const dal__table *table = &graph->tables[symbol / DAL__TABLE_ORDERS];
+    const dal__tape_table *table = &graph->tables[symbol / DAL__TABLE_ORDERS];
     const double *piece = dal__table_piece(table, find_corner(table) + (sign > 0));
     const dal__node d = dal__node_sub(graph, a, dal__number(graph, piece[0]));
     const int order = symbol % DAL__TABLE_ORDERS;
@@ -82,7 +82,7 @@ static dal__node switch_of(dal__graph *graph, dal__node i, int *sign)
     if (s == 0) return 0;
     if (r.op == DAL__FLOOR) s = dal__node_sub(graph, s, dal__number(graph, 1.0));
     if (r.op == DAL__TABLE) {
-        const dal__table *table = &graph->tables[r.symbol / DAL__TABLE_ORDERS];
+        const dal__tape_table *table = &graph->tables[r.symbol / DAL__TABLE_ORDERS];
         const int corner = find_corner(table);
         if (corner < 0) return 0;
         s = dal__node_sub(graph, s, dal__number(graph, dal__table_piece(table, corner + 1)[0]));
@@ -318,7 +318,7 @@ static bool place_surface(surface *f, dal_model *model)
     if (!f->normal || !f->point) return false;
     f->moved = f->point + POINTS * symbols;
     f->unit = f->moved + 2 * symbols;
-    return dal__model_units(model, f->unit) == DAL_OK;
+    return dal__model_units(model, f->unit) == DAL_STATUS_OK;
 }
 
 static void free_surface(surface *f)
@@ -346,7 +346,7 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
         dal__entry_title(model, entry, to->formula, sizeof to->formula);
     }
     free_surface(&f);
-    return model->out_of_memory ? DAL_MEMORY : e->graph->status;
+    return model->out_of_memory ? DAL_STATUS_MEMORY : e->graph->status;
 }
 
 /* ---- motions that meet a jump ---- */
@@ -395,7 +395,7 @@ static double branch_of(const dal_jumps *jumps, dal__node i)
     const double a = dal__evaluate(graph, r.a, jumps->x);
     if (r.op == DAL__FLOOR) return floor(a);
     if (r.op == DAL__TABLE) {
-        const dal__table *table = &graph->tables[r.symbol / DAL__TABLE_ORDERS];
+        const dal__tape_table *table = &graph->tables[r.symbol / DAL__TABLE_ORDERS];
         int piece = 0;
         while (piece < table->knots && a > dal__table_piece(table, piece + 1)[0]) piece++;
         return piece;
@@ -424,16 +424,16 @@ static dal_status add_switches(dal_jumps *jumps, surface *f, const dal__entry *e
 {
     dal__graph *graph = f->model->equations.graph;
     uint8_t *mark = dal__reach(graph, formula);
-    dal_status status = mark ? DAL_OK : DAL_MEMORY;
-    for (dal__node i = 1; status == DAL_OK && i <= formula; i++) {
+    dal_status status = mark ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
+    for (dal__node i = 1; status == DAL_STATUS_OK && i <= formula; i++) {
         int sign;
         f->s = mark[i] ? switch_of(graph, i, &sign) : 0;
         if (!f->s || !jumps_in_tangent(f, (dal__op)dal__inspect(graph, i).op)) continue;
-        if (!add_switch(jumps, i, entry)) status = DAL_MEMORY;
+        if (!add_switch(jumps, i, entry)) status = DAL_STATUS_MEMORY;
     }
     free(mark);
-    if (f->model->out_of_memory) return DAL_MEMORY;
-    return status == DAL_OK ? graph->status : status;
+    if (f->model->out_of_memory) return DAL_STATUS_MEMORY;
+    return status == DAL_STATUS_OK ? graph->status : status;
 }
 
 dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model)
@@ -442,17 +442,17 @@ dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model)
     const dal__equations *e = &model->equations;
     surface f;
     *jumps = calloc(1, sizeof **jumps);
-    if (!*jumps) return DAL_MEMORY;
+    if (!*jumps) return DAL_STATUS_MEMORY;
     (*jumps)->model = model;
     (*jumps)->x = calloc((size_t)e->symbols, sizeof(double));
-    dal_status status = place_surface(&f, model) && (*jumps)->x ? DAL_OK : DAL_MEMORY;
-    for (int k = 0; k < model->count && status == DAL_OK; k++) {
+    dal_status status = place_surface(&f, model) && (*jumps)->x ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
+    for (int k = 0; k < model->count && status == DAL_STATUS_OK; k++) {
         const dal__node formula = formula_of(model, &model->entries[k]);
         if (formula && dal__reaches(e->graph, formula, DAL__ROUGH))
             status = add_switches(*jumps, &f, &model->entries[k], formula);
     }
     free_surface(&f);
-    if (status == DAL_OK) return DAL_OK;
+    if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     dal_jumps_free(*jumps);
     *jumps = NULL;
     return status;

@@ -49,13 +49,13 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
         e->c[a] = dal__time_derivative(e, e->constraint[a]);
         for (int i = 0; i < e->n; i++)
             depends |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0);
-        if (!depends && e->graph->status == DAL_OK)
-            return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
+        if (!depends && e->graph->status == DAL_STATUS_OK)
+            return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
                                 "constraint %d does not depend on the velocities; of f(q) = 0 "
                                 "write the time derivative, as 2*x*x' + 2*y*y' of x^2 + y^2",
                                 a + 1);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- vakonomic ---- */
@@ -67,7 +67,7 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     derive_lagrangian(e, e->lagrangian);
     /* W^-1 A^T of L alone, for projections.  A singular W means that there are none: U stays 0. */
     dal_status status = dal__solve_mass(model);
-    if (status != DAL_OK && status != DAL_SINGULAR) return exhausted(model, error);
+    if (status != DAL_STATUS_OK && status != DAL_STATUS_SINGULAR) return exhausted(model, error);
     dal__node L = e->lagrangian;
     for (int a = 0; a < e->m; a++) {
         dal__node g = dal__symbol(e->graph, e->g + a);
@@ -92,13 +92,13 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     }
     for (int a = 0; a < e->m; a++) rhs[n + a] = dal__node_neg(e->graph, e->c[a]);
     status = dal__factor(model, &f);
-    if (status == DAL_SINGULAR)
+    if (status == DAL_STATUS_SINGULAR)
         return f.singular < e->n ? dal__singular_mass(model, f.singular, error)
                                  : dal__dependent_constraints(model, f.singular - e->n, error);
-    if (status != DAL_OK) return exhausted(model, error);
+    if (status != DAL_STATUS_OK) return exhausted(model, error);
     dal__record_pivots(e, &f, false, true);
-    status = dal__solve(model, &f, false, 1, rhs, e->F);
-    return status == DAL_OK ? DAL_OK : exhausted(model, error);
+    status = dal__factors_solve(model, &f, false, 1, rhs, e->F);
+    return status == DAL_STATUS_OK ? DAL_STATUS_OK : exhausted(model, error);
 }
 
 /* ---- the reactions in invariants and events ---- */
@@ -122,7 +122,7 @@ dal_status dal__insert_reactions(dal_model *model)
     if (!used) return e->graph->status;
     dal__node *by = dal__model_nodes(model, count, dal__number(e->graph, 0.0));
     int *symbol = dal__model_allocate(model, (size_t)count, sizeof *symbol);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < count; i++) symbol[i] = e->reaction + i;
     for (int a = 0; a < m; a++) {
         by[a] = e->h[a];
@@ -158,7 +158,7 @@ static dal_status expand_angles(dal_model *model)
     int total = 0, at = 0;
     for (int k = 0; k < PARTS; k++) total += parts[k].count;
     dal__node *all = dal__model_nodes(model, total, 0);
-    if (!all) return DAL_MEMORY;
+    if (!all) return DAL_STATUS_MEMORY;
     for (int k = 0; k < PARTS; k++)
         for (int i = 0; i < parts[k].count; i++) all[at++] = parts[k].list[i];
     dal__expand_angles(e->graph, all, total);
@@ -180,8 +180,8 @@ dal_status dal__equations_derive(dal_model *model, dal_error *error)
             e->W[i * e->n + i] = dal__number(e->graph, 1.0);
             e->b[i] = e->force[i];
         }
-        if (expand_angles(model) != DAL_OK) return exhausted(model, error);
+        if (expand_angles(model) != DAL_STATUS_OK) return exhausted(model, error);
         DAL_TRY(dal__motion_derive(model, error));
     }
-    return dal__insert_reactions(model) == DAL_OK ? DAL_OK : exhausted(model, error);
+    return dal__insert_reactions(model) == DAL_STATUS_OK ? DAL_STATUS_OK : exhausted(model, error);
 }

@@ -4,11 +4,11 @@
 
 #include "model/model.h"
 
-/* Derives everything but the given formulas.  Errors: DAL_RANK, DAL_SINGULAR_MASS, DAL_MEMORY,
- * DAL_TOO_LARGE. */
+/* Derives everything but the given formulas.  Errors: DAL_STATUS_RANK, DAL_STATUS_SINGULAR_MASS,
+ * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__equations_derive(dal_model *model, dal_error *error);
 /* Replaces h and R = B^T h in invariants and events by their formulas, whose nodes are made where
- * they are used alone.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+ * they are used alone.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__insert_reactions(dal_model *model);
 
 #endif

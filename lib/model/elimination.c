@@ -162,12 +162,12 @@ static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
                 .entries = dal__model_allocate(model, n, sizeof *p->entries),
                 .row = f->row,
                 .column = f->column};
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     evaluate(p, e, f->matrix, e->value);
     f->positive = dal__is_positive_definite(f->n, p->value, DAL__PIVOT_LEAST, scratch);
     f->singular = order(p, e->graph->limit);
-    if (p->updates > e->graph->limit) return DAL_TOO_LARGE;
-    if (f->singular < 0) return DAL_OK;
+    if (p->updates > e->graph->limit) return DAL_STATUS_TOO_LARGE;
+    if (f->singular < 0) return DAL_STATUS_OK;
     const double golden = 0.6180339887498949;
     DAL_TRY(dal__model_units(model, point));
     for (int i = 0; i < e->symbols; i++) {
@@ -177,8 +177,8 @@ static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
     evaluate(p, e, f->matrix, point);
     f->singular = order(p, e->graph->limit);
     DAL_TRY(e->graph->status);
-    if (p->updates > e->graph->limit) return DAL_TOO_LARGE;
-    return f->singular < 0 ? DAL_OK : DAL_SINGULAR;
+    if (p->updates > e->graph->limit) return DAL_STATUS_TOO_LARGE;
+    return f->singular < 0 ? DAL_STATUS_OK : DAL_STATUS_SINGULAR;
 }
 
 /* ---- the elimination ---- */
@@ -318,12 +318,12 @@ dal_status dal__factor(dal_model *model, dal__factors *f)
     bool symmetric = true;
     plan p;
     for (size_t i = 0; i < n * n; i++) entries += !is_zero(e->graph, f->matrix[i]);
-    if (f->n > MAX_FULL && entries > coupled) return DAL_TOO_LARGE;
+    if (f->n > MAX_FULL && entries > coupled) return DAL_STATUS_TOO_LARGE;
     f->given = dal__model_nodes(model, f->n * f->n, 0);
     int *below = dal__model_allocate(model, n, sizeof *below);
     f->row = dal__model_allocate(model, n, sizeof *f->row);
     f->column = dal__model_allocate(model, n, sizeof *f->column);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (size_t i = 0; i < n * n; i++) f->given[i] = f->matrix[i];
     DAL_TRY(make_plan(model, f, &p));
     for (int i = 0; i < f->n; i++) {
@@ -332,7 +332,7 @@ dal_status dal__factor(dal_model *model, dal__factors *f)
             symmetric = f->matrix[i * f->n + j] == f->matrix[j * f->n + i];
     }
     for (int k = 0; k < f->n; k++) eliminate(e->graph, f, k, symmetric, below);
-    if (!list_entries(model, f)) return DAL_MEMORY;
+    if (!list_entries(model, f)) return DAL_STATUS_MEMORY;
     return e->graph->status;
 }
 
@@ -362,12 +362,12 @@ static void solve_one(dal__graph *graph, const dal__factors *f, bool collect, co
     }
 }
 
-dal_status dal__solve(dal_model *model, const dal__factors *f, bool collect, int columns,
-                      const dal__node *rhs, dal__node *x)
+dal_status dal__factors_solve(dal_model *model, const dal__factors *f, bool collect, int columns,
+                              const dal__node *rhs, dal__node *x)
 {
     dal__graph *graph = model->equations.graph;
     dal__node *y = dal__model_nodes(model, f->n, 0);
-    if (!y) return DAL_MEMORY;
+    if (!y) return DAL_STATUS_MEMORY;
     for (int c = 0; c < columns; c++) solve_one(graph, f, collect, rhs + c * f->n, x + c * f->n, y);
     return graph->status;
 }

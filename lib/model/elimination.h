@@ -10,7 +10,7 @@ typedef struct dal__factors {
     int n;
     dal__node *matrix;     /* [n*n]; factored in place */
     const int *constraint; /* [n]: whose row and column it is, from 1; 0: of the mass matrix */
-    int singular;          /* on DAL_SINGULAR: the row without a pivot */
+    int singular;          /* on DAL_STATUS_SINGULAR: the row without a pivot */
     bool positive;         /* the matrix, being symmetric, is positive definite at the start */
     dal__node *given;      /* [n*n] the matrix as it was */
     int *row, *column;     /* [n] of the pivots, in their order */
@@ -20,8 +20,8 @@ typedef struct dal__factors {
 /* Sets up to be factored a matrix of n rows that belong to the mass matrix (NULL) or to these
  * constraints; its nodes are 0.  False: out of memory. */
 bool dal__factors_allocate(dal_model *model, dal__factors *factors, int n, const int *constraints);
-/* Factors the matrix.  Errors: DAL_MEMORY, DAL_SINGULAR, DAL_TOO_LARGE (too many
- * unknowns are coupled, directly or by the elimination). */
+/* Factors the matrix.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_SINGULAR, DAL_STATUS_TOO_LARGE (too
+ * many unknowns are coupled, directly or by the elimination). */
 dal_status dal__factor(dal_model *model, dal__factors *factors);
 /* Appends the pivots to the equations' own. */
 void dal__record_pivots(dal__equations *equations, const dal__factors *factors, bool of_mass,
@@ -30,8 +30,8 @@ void dal__record_pivots(dal__equations *equations, const dal__factors *factors, 
 double dal__pivot_product(const dal__equations *equations, const dal__factors *factors,
                           const double *values);
 /* Solves for right-hand sides [columns*n], one after the other, into x[columns*n]; collect: with
- * sums in few operations (collect.h).  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
-dal_status dal__solve(dal_model *model, const dal__factors *factors, bool collect, int columns,
-                      const dal__node *rhs, dal__node *x);
+ * sums in few operations (collect.h).  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
+dal_status dal__factors_solve(dal_model *model, const dal__factors *factors, bool collect,
+                              int columns, const dal__node *rhs, dal__node *x);
 
 #endif

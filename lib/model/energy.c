@@ -56,7 +56,7 @@ static bool find_units(identity *id)
 {
     if (id->unit) return true;
     id->unit = dal__model_allocate(id->model, (size_t)id->e->symbols, sizeof *id->unit);
-    return id->unit && dal__model_units(id->model, id->unit) == DAL_OK;
+    return id->unit && dal__model_units(id->model, id->unit) == DAL_STATUS_OK;
 }
 
 /* Moves the point off the start by multiples of the golden ratio, each number to another place. */
@@ -216,13 +216,13 @@ dal_status dal__energy_properties(dal_model *model)
 {
     dal__equations *e = &model->equations;
     identity id = {.model = model, .e = e, .max_terms = e->n + e->m + 2};
-    if (e->accelerations) return DAL_OK;
+    if (e->accelerations) return DAL_STATUS_OK;
     id.point = dal__model_allocate(model, (size_t)e->symbols, sizeof *id.point);
     id.term = dal__model_nodes(model, id.max_terms, 0);
     id.scale = dal__model_allocate(model, (size_t)id.max_terms, sizeof *id.scale);
     dal__node *E_v = dal__model_nodes(model, e->n, 0);
     double *scratch = dal__model_allocate(model, (size_t)((e->m + 1) * e->n), sizeof *scratch);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     unsigned found = by_parts(&id);
     if (!found && e->m > 0 && !e->vakonomic) {
         id.terms = 0; /* dE/dt = E_q v + E_t + E_v F */
@@ -232,7 +232,7 @@ dal_status dal__energy_properties(dal_model *model)
         found = vanishes(&id) ? DAL_E_EXACT : vanishes_at_points(&id, scratch) ? DAL_E_ON_D : 0;
     }
     e->properties |= found;
-    return model->out_of_memory ? DAL_MEMORY : e->graph->status;
+    return model->out_of_memory ? DAL_STATUS_MEMORY : e->graph->status;
 }
 
 /* ---- a conserved energy ---- */
@@ -243,7 +243,7 @@ static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta)
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
     dal__node *G = dal__model_nodes(model, m * m, 0);
-    if (!G) return DAL_MEMORY;
+    if (!G) return DAL_STATUS_MEMORY;
     for (int a = 0; a < m; a++) {
         along[a] = dal__dot(e->graph, n, e->A + a * n, e->flow + 1);
         for (int b = a; b < m; b++) {
@@ -264,9 +264,10 @@ static dal_status extend(dal_model *model)
     const int n = e->n, m = e->m;
     dal__node *along = dal__model_nodes(model, m, 0), *beta = dal__model_nodes(model, m, 0);
     dal__node *extended = dal__model_nodes(model, n, 0);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     dal_status status = find_beta(model, along, beta);
-    if (status != DAL_OK) return status == DAL_SINGULAR ? DAL_OK : status; /* B is not A */
+    if (status != DAL_STATUS_OK)
+        return status == DAL_STATUS_SINGULAR ? DAL_STATUS_OK : status; /* B is not A */
     const dal__node *v = e->flow + 1;
     const dal__node *E_v = e->normal + 1 + n;
     dal__node free = dal__dot(graph, n, v, E_v);
@@ -296,17 +297,17 @@ dal_status dal__conserved_energy(dal_model *model)
 {
     dal__equations *e = &model->equations;
     e->normal = e->extended = NULL;
-    if (!(e->properties & (DAL_E_EXACT | DAL_E_ON_D)) || e->vakonomic) return DAL_OK;
+    if (!(e->properties & (DAL_E_EXACT | DAL_E_ON_D)) || e->vakonomic) return DAL_STATUS_OK;
     const int n = e->n;
     dal__node *normal = dal__model_nodes(model, 1 + 3 * n, 0);
-    if (!normal) return DAL_MEMORY;
+    if (!normal) return DAL_STATUS_MEMORY;
     normal[0] = e->energy;
     dal__gradient(e->graph, e->energy, e->symbol + e->q, n, normal + 1);
     dal__gradient(e->graph, e->energy, e->symbol + e->v, n, normal + 1 + n);
     e->normal = normal;
     DAL_TRY(dal__solve_force(model, normal + 1, normal + 1 + 2 * n));
     /* F~ couples all coordinates, so its derivatives have the square of their number. */
-    return e->properties & DAL_E_ON_D && n <= MAX_EXTENDED ? extend(model) : DAL_OK;
+    return e->properties & DAL_E_ON_D && n <= MAX_EXTENDED ? extend(model) : DAL_STATUS_OK;
 }
 
 /* ---- the potential, block by block ---- */
@@ -393,14 +394,14 @@ dal_status dal__potential(dal_model *model)
 {
     dal__equations *e = &model->equations;
     e->potential = NULL;
-    if (e->vakonomic || !e->energy || !(e->properties & DAL_MASS_CONSTANT)) return DAL_OK;
+    if (e->vakonomic || !e->energy || !(e->properties & DAL_MASS_CONSTANT)) return DAL_STATUS_OK;
     blocks b = {.model = model};
     dal__node *out = dal__model_nodes(model, 3 * e->n, 0);
     b.block = dal__model_allocate(model, (size_t)e->n, sizeof *b.block);
     b.U_q = dal__model_nodes(model, e->n, 0);
     b.row = dal__model_nodes(model, e->n, dal__number(e->graph, 0.0));
     b.other = dal__model_nodes(model, e->n, 0);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     /* L is a polynomial of degree 2 in v: U is what remains of -L without v. */
     b.U = dal__node_neg(e->graph,
                         dal__substitute(e->graph, e->lagrangian, e->symbol + e->v, e->n, b.row));

@@ -4,13 +4,13 @@
 
 #include "dalembert.h"
 
-/* Adds what is known of E to the properties.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+/* Adds what is known of E to the properties.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__energy_properties(dal_model *model);
 /* After the properties: the normal of a conserved energy, and F continued off D = 0.  Errors:
- * DAL_MEMORY, DAL_TOO_LARGE. */
+ * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__conserved_energy(dal_model *model);
-/* What a discrete gradient needs of the potential, where W is constant.  Errors: DAL_MEMORY,
- * DAL_TOO_LARGE. */
+/* What a discrete gradient needs of the potential, where W is constant.  Errors: DAL_STATUS_MEMORY,
+ * DAL_STATUS_TOO_LARGE. */
 dal_status dal__potential(dal_model *model);
 
 #endif

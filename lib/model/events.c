@@ -54,7 +54,7 @@ static dal_status parse_entry(dal_model *model, const dal__entry *entry, unsigne
         DAL_TRY(dal__find_word(entry->text, DAL__AT_TEXT(entry), "direction", directions, 3, &i,
                                error));
         event->direction = i - 1;
-        return DAL_OK;
+        return DAL_STATUS_OK;
     case KEY_RESTITUTION:
         event->actions |= DAL_EVENT_IMPACT;
         return dal__parse_entry(model, entry, everything(e),
@@ -63,12 +63,12 @@ static dal_status parse_entry(dal_model *model, const dal__entry *entry, unsigne
         DAL_TRY(dal__find_word(entry->text, DAL__AT_TEXT(entry), "value of stop", truths, 2, &i,
                                error));
         if (i) event->actions |= DAL_EVENT_STOPS;
-        return DAL_OK;
+        return DAL_STATUS_OK;
     case KEY_FOR: /* expand.c has made the events of it */
-        return DAL_OK;
+        return DAL_STATUS_OK;
     default:
         if (!name)
-            return dal__fail_at(error, DAL_SYNTAX, DAL__AT_NAME(entry),
+            return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_NAME(entry),
                                 "set is given by coordinate, as %d.set.x", entry->item);
         const size_t length = strlen(name);
         const bool velocity = length > 0 && name[length - 1] == '\'';
@@ -101,9 +101,10 @@ static dal_status check_event(dal_model *model, int number, unsigned seen, dal_e
     const dal__entry *any = find_entry(model, number + 1, NULL);
     const int line = any ? any->name_line : 0, column = any ? any->name_column : 0;
     if (!when)
-        return dal__fail_at(error, DAL_MODEL, line, column, "event %d has no 'when'", number + 1);
+        return dal__fail_at(error, DAL_STATUS_MODEL, line, column, "event %d has no 'when'",
+                            number + 1);
     if (seen & 1u << KEY_SET && seen & 1u << KEY_RESTITUTION)
-        return dal__fail_at(error, DAL_MODEL, line, column,
+        return dal__fail_at(error, DAL_STATUS_MODEL, line, column,
                             "event %d has both 'set' and 'restitution'", number + 1);
     const char *dots = strlen(when->text) > IN_MESSAGES ? "..." : "";
     char *name = when->index
@@ -115,7 +116,7 @@ static dal_status check_event(dal_model *model, int number, unsigned seen, dal_e
     for (char *c = name; *c; c++)
         if ((unsigned char)*c < ' ') *c = ' ';
     e->event[number].name = name;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__parse_events(dal_model *model, dal_error *error)
@@ -127,8 +128,8 @@ dal_status dal__parse_events(dal_model *model, dal_error *error)
     for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_EVENTS, k)) != NULL; k++)
         if (entry->item > e->events) e->events = entry->item;
     if (e->events > DAL__MAX_EVENTS)
-        return dal__fail(error, DAL_TOO_LARGE, "%d events; at most %d are possible", e->events,
-                         (int)DAL__MAX_EVENTS);
+        return dal__fail(error, DAL_STATUS_TOO_LARGE, "%d events; at most %d are possible",
+                         e->events, (int)DAL__MAX_EVENTS);
     const dal__node zero = dal__number(e->graph, 0.0);
     e->event = dal__model_allocate(model, (size_t)e->events, sizeof *e->event);
     e->event_value = dal__model_nodes(model, e->events, zero);
@@ -143,7 +144,7 @@ dal_status dal__parse_events(dal_model *model, dal_error *error)
     for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_EVENTS, k)) != NULL; k++)
         DAL_TRY(parse_entry(model, entry, seen, error));
     for (int i = 0; i < e->events; i++) DAL_TRY(check_event(model, i, seen[i], error));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- derived ---- */
@@ -155,7 +156,7 @@ dal_status dal__derive_events(dal_model *model, dal_error *error)
         const dal__node f = e->event_value[k];
         const dal__entry *entry = find_entry(model, k + 1, "when");
         if (!dal__depends(e->graph, f, e->parameters, e->symbols))
-            return dal__fail_at(error, DAL_MODEL, DAL__AT_TEXT(entry),
+            return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(entry),
                                 "event %d, when: it does not change along a run", k + 1);
         dal__node *normal = e->event_normal + (size_t)k * (1 + 2 * (size_t)e->n) + 1;
         dal__node rate = dal__time_derivative(e, f);
@@ -177,16 +178,16 @@ dal_status dal__derive_events(dal_model *model, dal_error *error)
                              : !is_steady ? "the mass matrix contains velocities"
                                           : NULL;
         if (reason)
-            return dal__fail_at(error, DAL_UNSUPPORTED, DAL__AT_NAME(entry),
+            return dal__fail_at(error, DAL_STATUS_UNSUPPORTED, DAL__AT_NAME(entry),
                                 "event %d cannot have a restitution: %s", k + 1, reason);
         const bool varies = dal__depends(e->graph, normal[-1], e->parameters, e->symbols);
         const double c = varies ? 0.0 : dal__evaluate(e->graph, normal[-1], e->value);
         if (!isfinite(c)) return dal__not_finite(model, entry, error);
         if (c < 0.0)
-            return dal__fail_at(error, DAL_MODEL, DAL__AT_TEXT(entry),
+            return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(entry),
                                 "event %d: the restitution %g is negative", k + 1, c);
         const dal_status status = dal__solve_force(model, normal, normal + e->n);
-        if (status != DAL_OK) return dal__size_error(status, error);
+        if (status != DAL_STATUS_OK) return dal__size_error(status, error);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }

@@ -4,10 +4,11 @@
 
 #include "dalembert.h"
 
-/* Parses the section events, after all other formulas.  Errors: DAL_SYNTAX, DAL_NAME, DAL_MODEL,
- * DAL_TOO_LARGE, DAL_MEMORY. */
+/* Parses the section events, after all other formulas.  Errors: DAL_STATUS_SYNTAX, DAL_STATUS_NAME,
+ * DAL_STATUS_MODEL, DAL_STATUS_TOO_LARGE, DAL_STATUS_MEMORY. */
 dal_status dal__parse_events(dal_model *model, dal_error *error);
-/* After the equations: the rates and the normals of events.  Errors: DAL_MODEL, DAL_MEMORY. */
+/* After the equations: the rates and the normals of events.  Errors: DAL_STATUS_MODEL,
+ * DAL_STATUS_MEMORY. */
 dal_status dal__derive_events(dal_model *model, dal_error *error);
 
 #endif

@@ -34,7 +34,7 @@ static dal__node resolve_size(void *user, const char *name, size_t length, bool 
     for (int i = 0; i < e->sizes && !prime; i++)
         if (strlen(e->size_name[i]) == length && memcmp(e->size_name[i], name, length) == 0)
             return dal__number(s->graph, e->size[i]);
-    dal__fail(error, DAL_NAME, "'%.*s' is no size%s", (int)(length < 60 ? length : 60), name,
+    dal__fail(error, DAL_STATUS_NAME, "'%.*s' is no size%s", (int)(length < 60 ? length : 60), name,
               s->index ? " and no index" : "");
     return 0;
 }
@@ -45,23 +45,23 @@ static dal_status whole_number(dal_model *model, const dal__entry *entry, const 
 {
     scope s = {.model = model, .index = index ? index->index : NULL, .at = at};
     const dal__names names = {.resolve = resolve_size, .user = &s};
-    dal_error inner = {.status = DAL_OK};
+    dal_error inner = {.status = DAL_STATUS_OK};
     dal__node node = 0;
     s.graph = dal__graph_create(0);
     if (!s.graph) return dal__memory_error(error);
     const dal_status status = dal__parse(s.graph, text, length, &names, &node, &inner);
     const dal__record r = dal__inspect(s.graph, node);
     dal__graph_free(s.graph);
-    if (status != DAL_OK)
+    if (status != DAL_STATUS_OK)
         return dal__fail_at(error, status, DAL__AT_NAME(entry), "%.*s: %s",
                             (int)(length < 60 ? length : 60), text, inner.message);
     const bool whole = r.op == DAL__NUMBER && r.value == floor(r.value) && r.value >= 0.0;
     if (!whole || r.value > MAX_SIZE)
-        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
+        return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(entry),
                             "'%.*s' is not a whole number from 0 to %d",
                             (int)(length < 60 ? length : 60), text, (int)MAX_SIZE);
     *n = (int)r.value;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status read_sizes(dal_model *model, dal_error *error)
@@ -77,7 +77,7 @@ static dal_status read_sizes(dal_model *model, dal_error *error)
         DAL_TRY(whole_number(model, entry, NULL, 0, entry->text, length, &e->size[i], error));
         e->size_name[e->sizes++] = entry->name;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- ranges ---- */
@@ -88,7 +88,7 @@ static dal_status read_range(dal_model *model, const dal__entry *entry, const ch
 {
     const char *dots = strstr(text, "..");
     if (!dots || dots >= text + length)
-        return dal__fail_at(error, DAL_SYNTAX, DAL__AT_NAME(entry),
+        return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_NAME(entry),
                             "'%.*s' is not a range, as 1..N", (int)(length < 60 ? length : 60),
                             text);
     const size_t left = (size_t)(dots - text);
@@ -120,7 +120,7 @@ static dal_status read_for(dal_model *model, const dal__entry *entry, range *r, 
     if (!r->index) return dal__memory_error(error);
     at += length + strspn(at + length, " \t\r\n");
     if (*at != '=')
-        return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(entry),
+        return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(entry),
                             "a range is written for i = 1..N");
     return read_range(model, entry, at + 1, strcspn(at + 1, ":"), r, error);
 }
@@ -130,7 +130,7 @@ static dal_status read_for(dal_model *model, const dal__entry *entry, range *r, 
 static dal_status append(dal_model *model, dal__entry entry, dal_error *error)
 {
     if (model->expanded_count == MAX_EXPANDED)
-        return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_NAME(&entry),
+        return dal__fail_at(error, DAL_STATUS_TOO_LARGE, DAL__AT_NAME(&entry),
                             "the indices make more than %d entries", (int)MAX_EXPANDED);
     if (model->expanded_count == model->expanded_capacity) {
         const int capacity = model->expanded_capacity ? 2 * model->expanded_capacity : 256;
@@ -141,7 +141,7 @@ static dal_status append(dal_model *model, dal__entry entry, dal_error *error)
         model->expanded_capacity = capacity;
     }
     model->expanded[model->expanded_count++] = entry;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The name of an entry, or of a coordinate, with number n for its bracket, text[length]. */
@@ -154,11 +154,11 @@ static dal_status put_name(dal_model *model, dal__entry *entry, const char *brac
         dal__model_print(model, "%.*s%d%s", (int)(bracket - text), text, n, bracket + length);
     if (!name) return dal__memory_error(error);
     if (strlen(name) > DAL__MAX_LETTERS)
-        return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_NAME(entry),
+        return dal__fail_at(error, DAL_STATUS_TOO_LARGE, DAL__AT_NAME(entry),
                             "'%.40s...' in %s has more than %d characters", name,
                             dal__section_name(entry->section), (int)DAL__MAX_LETTERS);
     *(named ? &entry->name : &entry->text) = name;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static bool has_range(const char *text, size_t length)
@@ -182,7 +182,7 @@ static dal_status expand_entry(dal_model *model, const dal__entry *given, dal_er
     if (skip && !given->apart) entry.column += (int)skip;
     const bool by_name = has_range(open, length);
     if (by_name && skip)
-        return dal__fail_at(error, DAL_SYNTAX, DAL__AT_NAME(given),
+        return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_NAME(given),
                             "'%.80s' has a range, and its formula another one", name);
     if (by_name) DAL_TRY(read_range(model, given, open + 1, length - 2, &r, error));
     for (int i = r.first; i <= r.last; i++) {
@@ -196,7 +196,7 @@ static dal_status expand_entry(dal_model *model, const dal__entry *given, dal_er
         if (open) DAL_TRY(put_name(model, &made, open, length, n, error));
         DAL_TRY(append(model, made, error));
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- events ---- */
@@ -226,13 +226,13 @@ static dal_status read_event_ranges(dal_model *model, event_range *events, int i
         entry.text = dal__model_print(model, "for %s:", entry.text);
         if (!entry.text) return dal__memory_error(error);
         if (!dal__range_length(entry.text))
-            return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(&entry),
+            return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(&entry),
                                 "the range of an event is written i = 1..N");
         DAL_TRY(read_for(model, &entry, &event->r, error));
         event->is_many = true;
         event->count = event->r.last < event->r.first ? 0 : event->r.last - event->r.first + 1;
         if (event->count > DAL__MAX_EVENTS)
-            return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_TEXT(&entry),
+            return dal__fail_at(error, DAL_STATUS_TOO_LARGE, DAL__AT_TEXT(&entry),
                                 "%d events; at most %d are possible", event->count,
                                 (int)DAL__MAX_EVENTS);
     }
@@ -240,16 +240,16 @@ static dal_status read_event_ranges(dal_model *model, event_range *events, int i
         events[k].first = next;
         next += events[k].count;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* An entry of an event for each number of its range. */
 static dal_status expand_event(dal_model *model, const dal__entry *given, const event_range *event,
                                dal_error *error)
 {
-    if (is_event_range(given)) return DAL_OK;
+    if (is_event_range(given)) return DAL_STATUS_OK;
     if (event->is_many && dal__range_length(given->text) > 0)
-        return dal__fail_at(error, DAL_SYNTAX, DAL__AT_NAME(given),
+        return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_NAME(given),
                             "the event has a range, and '%.80s' another one", given->name);
     for (int i = 0; i < event->count; i++) {
         dal__entry made = *given;
@@ -262,7 +262,7 @@ static dal_status expand_event(dal_model *model, const dal__entry *given, const 
         if (!made.text) return dal__memory_error(error);
         DAL_TRY(expand_entry(model, &made, error));
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- all ---- */
@@ -281,7 +281,7 @@ static dal_status check_duplicates(const dal_model *model, dal_error *error)
                 return dal__duplicate(entry, error);
         }
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Whether an entry stands for others. */
@@ -305,7 +305,7 @@ dal_status dal__expand(dal_model *model, dal_error *error)
         compact |= is_compact(&model->given[i]);
         items = items < model->given[i].item ? model->given[i].item : items;
     }
-    if (!compact) return DAL_OK;
+    if (!compact) return DAL_STATUS_OK;
     event_range *events = dal__model_allocate(model, (size_t)items, sizeof *events);
     if (!events) return dal__memory_error(error);
     DAL_TRY(read_event_ranges(model, events, items, error));
@@ -320,5 +320,5 @@ dal_status dal__expand(dal_model *model, dal_error *error)
     DAL_TRY(check_duplicates(model, error));
     model->entries = model->expanded;
     model->count = model->expanded_count;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }

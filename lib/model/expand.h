@@ -12,7 +12,8 @@
  *     x[N]                             one name
  *     an event with for: i = 1..N      an event for each i, i being known in its formulas
  *
- * Errors: DAL_SYNTAX and DAL_NAME with place, DAL_MODEL, DAL_TOO_LARGE, DAL_MEMORY. */
+ * Errors: DAL_STATUS_SYNTAX and DAL_STATUS_NAME with place, DAL_STATUS_MODEL, DAL_STATUS_TOO_LARGE,
+ * DAL_STATUS_MEMORY. */
 dal_status dal__expand(dal_model *model, dal_error *error);
 /* The length of "for i = 1..N:" and the blanks behind it, with which a text begins; or 0. */
 size_t dal__range_length(const char *text);

@@ -44,7 +44,7 @@ static dal_status by_coordinate(dal_model *model, dal_section section, dal__scop
         if (entry->item) i += (entry->item - 1) * e->n;
         out[i] = dal__node_add(e->graph, out[i], node);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- sections in order ---- */
@@ -61,7 +61,7 @@ static dal_status parse_parameters(dal_model *model, dal_error *error)
         e->value[i] = dal__evaluate(e->graph, node, e->value);
         if (!isfinite(e->value[i])) return dal__not_finite(model, entry, error);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Tables come first.  A function knows parameters, tables, the functions before it and its
@@ -83,7 +83,7 @@ static dal_status parse_functions(dal_model *model, dal_error *error)
         const dal__scope scope = {.parameters = e->parameters, .functions = i, .inside = f};
         DAL_TRY(dal__parse_entry(model, entry, scope, &f->body, error));
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status parse_each(dal_model *model, dal_section section, dal__scope scope, int count,
@@ -92,7 +92,7 @@ static dal_status parse_each(dal_model *model, dal_section section, dal__scope s
     for (int i = 0; i < count; i++)
         DAL_TRY(
             dal__parse_entry(model, dal__model_entry(model, section, i), scope, &out[i], error));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status parse_dynamics(dal_model *model, dal_error *error)
@@ -121,7 +121,7 @@ dal_status dal__parse_observed(dal_model *model, dal_error *error)
     for (int i = e->invariants - e->observed; i < e->invariants; i++)
         DAL_TRY(dal__parse_entry(model, dal__model_entry(model, DAL_SECTION_INVARIANTS, i), scope,
                                  &e->invariant[i], error));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- gauge, start, exact ---- */
@@ -139,7 +139,7 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
         DAL_TRY(
             dal__parse_entry(model, entry, dal__scope_of(e, k ? DAL__MAY_T : 0), out[k], error));
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Adds what an entry of a start names to the velocities that are solved, unless it names none. */
@@ -149,16 +149,16 @@ static dal_status add_solved(dal_model *model, const dal__entry *entry, const ch
     dal__equations *e = &model->equations;
     const char *name = dal__solved_name(entry);
     dal_solved solved = {.line = entry->name_line, .column = entry->name_column};
-    if (!name) return DAL_OK;
+    if (!name) return DAL_STATUS_OK;
     DAL_TRY(dal__find_word(name, DAL__AT_NAME(entry), "velocity in solve", names, e->n,
                            &solved.velocity, error));
     if (e->solved_velocities == e->m)
-        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
+        return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(entry),
                             "the start cannot be solved for %s: there %s %d constraint%s, and as "
                             "many velocities before it",
                             name, e->m == 1 ? "is" : "are", e->m, e->m == 1 ? "" : "s");
     e->solved[e->solved_velocities++] = solved;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status parse_start(dal_model *model, dal_error *error)
@@ -184,10 +184,10 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++) {
         if (dal__solved_name(entry)) continue;
         if (strcmp(entry->name, "solve") == 0 && dal__index_of("solve", 5, names, count) < 0)
-            return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(entry),
+            return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(entry),
                                 "solve must be a list of velocities, as [x', y']");
         if (strcmp(entry->name, "e") == 0)
-            return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
+            return dal__fail_at(error, DAL_STATUS_NAME, DAL__AT_NAME(entry),
                                 "the start of e belongs under gauge, as 'gauge: {e: 1}'");
         DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "name in start", names, count, &i,
                                error));
@@ -197,7 +197,7 @@ static dal_status parse_start(dal_model *model, dal_error *error)
         if (!isfinite(dal__evaluate(e->graph, e->start[i], e->value)))
             return dal__not_finite(model, entry, error);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Velocities of the exact solution are derivatives by t. */
@@ -205,19 +205,19 @@ static dal_status parse_exact(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     int given = dal__model_count(model, DAL_SECTION_EXACT);
-    if (given == 0) return DAL_OK;
+    if (given == 0) return DAL_STATUS_OK;
     for (int i = 0; i < e->n; i++) e->exact[i] = dal__number(e->graph, 0.0);
     DAL_TRY(by_coordinate(model, DAL_SECTION_EXACT, dal__scope_of(e, DAL__MAY_T), e->exact, error));
     if (given < e->n) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_EXACT, 0);
-        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
+        return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(entry),
                             "exact has %d of %d coordinates: it needs a formula for each", given,
                             e->n);
     }
     dal__node one = dal__number(e->graph, 1.0);
     for (int i = 0; i < e->n; i++)
         e->exact[e->n + i] = dal__tangent(e->graph, e->exact[i], &e->t, 1, &one);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the picture ---- */
@@ -247,9 +247,9 @@ static dal_status parse_picture(dal_model *model, dal_error *error)
     }
     for (int i = DAL_PICTURE_X; first && i <= DAL_PICTURE_Y; i++)
         if (!(seen & 1u << i))
-            return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(first),
+            return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(first),
                                 "picture has no %s: it needs x and y", names[i]);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the defaults of a run ---- */
@@ -263,13 +263,13 @@ static dal_status check_defaults(const dal_model *model, dal_error *error)
         double value = 0.0;
         DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "entry of defaults", names, 3, &i,
                                error));
-        if (i > 0 && (dal_parse_number(entry->text, strlen(entry->text), &value) != DAL_OK ||
+        if (i > 0 && (dal_parse_number(entry->text, strlen(entry->text), &value) != DAL_STATUS_OK ||
                       !(value > 0.0)))
-            return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(entry),
+            return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(entry),
                                 "%s in defaults: '%.80s' is not a positive number", names[i],
                                 entry->text);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the whole ---- */
@@ -288,20 +288,20 @@ static dal_status check_reactions(dal_model *model, dal_error *error)
     e->servo = first != NULL;
     if (e->servo && e->vakonomic)
         return dal__fail_at(
-            error, DAL_MODEL, DAL__AT_NAME(first),
+            error, DAL_STATUS_MODEL, DAL__AT_NAME(first),
             "vakonomic mechanics has no reactions: its multipliers take their place");
     for (int i = 0; (entry = dal__model_entry(model, DAL_SECTION_REACTIONS, i)) != NULL; i++)
         if (entry->item > e->m)
-            return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
+            return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(entry),
                                 "reaction %d has no constraint: there are %d", entry->item, e->m);
     for (int a = 1; e->servo && a <= e->m; a++) {
         for (int i = 0; (entry = dal__model_entry(model, DAL_SECTION_REACTIONS, i)) != NULL; i++)
             if (entry->item == a) break;
         if (!entry)
-            return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(first),
+            return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(first),
                                 "constraint %d has no reaction: the list needs one for each", a);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status check_equations(dal_model *model, dal_error *error)
@@ -310,23 +310,24 @@ static dal_status check_equations(dal_model *model, dal_error *error)
     const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
     const dal__entry *F = dal__model_entry(model, DAL_SECTION_ACCELERATIONS, 0);
     const dal__entry *excess = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, e->n);
-    if (e->n == 0) return dal__fail(error, DAL_MODEL, "the system has no coordinates");
+    if (e->n == 0) return dal__fail(error, DAL_STATUS_MODEL, "the system has no coordinates");
     if (e->n > DAL__MAX_COORDINATES)
-        return dal__fail(error, DAL_TOO_LARGE, "%d coordinates; at most %d are possible", e->n,
-                         (int)DAL__MAX_COORDINATES);
+        return dal__fail(error, DAL_STATUS_TOO_LARGE, "%d coordinates; at most %d are possible",
+                         e->n, (int)DAL__MAX_COORDINATES);
     if (excess)
-        return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(excess),
+        return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(excess),
                             "%d constraints on %d coordinates", e->m, e->n);
     if (!L && !F)
-        return dal__fail(error, DAL_MODEL, "the system has neither a lagrangian nor accelerations");
+        return dal__fail(error, DAL_STATUS_MODEL,
+                         "the system has neither a lagrangian nor accelerations");
     if (L && F)
-        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(F),
+        return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(F),
                             "the system has both a lagrangian and accelerations");
     if (F && e->vakonomic)
-        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(F),
+        return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(F),
                             "vakonomic mechanics needs a lagrangian, not accelerations");
     e->accelerations = F != NULL;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Numbers the symbols and allocates all nodes. */
@@ -375,7 +376,7 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     if (model->out_of_memory) return dal__memory_error(error);
     for (int i = 0; i < e->symbols; i++) e->symbol[i] = i;
     for (int i = 0; i < n; i++) e->flow[1 + i] = dal__symbol(e->graph, e->v + i);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__parse_model(dal_model *model, dal_error *error)
@@ -416,5 +417,5 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     for (int a = 0; a < e->multipliers; a++)
         e->value[e->g + a] = dal__evaluate(e->graph, e->start[2 * e->n + a], e->value);
     dal_status status = e->graph->status;
-    return status == DAL_OK ? DAL_OK : dal__size_error(status, error);
+    return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
 }

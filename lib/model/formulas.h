@@ -5,8 +5,8 @@
 #include "model/model.h"
 
 /* Parses all entries into nodes and evaluates the default parameters and start.  Errors:
- * DAL_SYNTAX, DAL_NAME, DAL_MODEL, DAL_RANK (more constraints than coordinates), DAL_MEMORY,
- * DAL_TOO_LARGE. */
+ * DAL_STATUS_SYNTAX, DAL_STATUS_NAME, DAL_STATUS_MODEL, DAL_STATUS_RANK (more constraints than
+ * coordinates), DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__parse_model(dal_model *model, dal_error *error);
 /* Parses the formulas that are observed alone, once all else has its nodes: operands are ordered by
  * the numbers of nodes, and so the bits of a trajectory stay. */

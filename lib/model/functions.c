@@ -30,7 +30,7 @@ dal_status dal__read_signature(dal_model *model, const dal__entry *entry, dal__f
         const char *word = read_word(model, &at);
         for (int i = 0; word && i < function->arity; i++)
             if (strcmp(function->argument[i], word) == 0)
-                return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
+                return dal__fail_at(error, DAL_STATUS_NAME, DAL__AT_NAME(entry),
                                     "function %s has two arguments '%s'", function->name, word);
         if (!word) break;
         function->argument[function->arity++] = word;
@@ -38,11 +38,11 @@ dal_status dal__read_signature(dal_model *model, const dal__entry *entry, dal__f
     }
     if (model->out_of_memory) return dal__memory_error(error);
     if (*at == ',' && function->arity == DAL__MAX_ARGUMENTS)
-        return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_NAME(entry),
+        return dal__fail_at(error, DAL_STATUS_TOO_LARGE, DAL__AT_NAME(entry),
                             "function %s has more than %d arguments", function->name,
                             (int)DAL__MAX_ARGUMENTS);
-    if (function->arity > 0 && *at == ')' && *skip_blanks(at + 1) == 0) return DAL_OK;
-    return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
+    if (function->arity > 0 && *at == ')' && *skip_blanks(at + 1) == 0) return DAL_STATUS_OK;
+    return dal__fail_at(error, DAL_STATUS_NAME, DAL__AT_NAME(entry),
                         "'%.80s' in functions is not a function with its arguments, as V(r)",
                         entry->name);
 }
@@ -61,18 +61,18 @@ dal_status dal__model_insert_table(dal_model *model, dal__entry entry, const dal
                                    dal_error *error)
 {
     if (table->points < 2)
-        return dal__fail_at(error, DAL_MODEL, DAL__AT_TEXT(&entry),
+        return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(&entry),
                             "table %s has %d point%s; it needs two or more", entry.name,
                             table->points, table->points == 1 ? "" : "s");
     if (table->points > DAL__MAX_POINTS)
-        return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_TEXT(&entry),
+        return dal__fail_at(error, DAL_STATUS_TOO_LARGE, DAL__AT_TEXT(&entry),
                             "table %s has more than %d points", entry.name, (int)DAL__MAX_POINTS);
     for (int i = 0; i < table->points; i++) {
         if (!isfinite(table->at[i]) || !isfinite(table->value[i]))
-            return dal__fail_at(error, DAL_MODEL, DAL__AT_TEXT(&entry),
+            return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(&entry),
                                 "point %d of table %s is not finite", i + 1, entry.name);
         if (i > 0 && !(table->at[i] > table->at[i - 1]))
-            return dal__fail_at(error, DAL_MODEL, DAL__AT_TEXT(&entry),
+            return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(&entry),
                                 "point %d of table %s is not above the one before", i + 1,
                                 entry.name);
     }
@@ -80,22 +80,22 @@ dal_status dal__model_insert_table(dal_model *model, dal__entry entry, const dal
     if (!data) return dal__memory_error(error);
     dal__table_fill(table, data);
     if (!dal__table_is_finite(table, data))
-        return dal__fail_at(error, DAL_MODEL, DAL__AT_TEXT(&entry),
+        return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(&entry),
                             "table %s: its %s overflows: points are too large, or too close",
                             entry.name,
                             table->interpolation == DAL_CUBIC ? "cubic spline" : "slope");
     DAL_TRY(dal__model_insert(model, entry, error));
     if (model->tables == model->table_capacity) {
         const int capacity = model->tables ? 2 * model->tables : 4;
-        dal__table *more = dal__model_allocate(model, (size_t)capacity, sizeof *more);
+        dal__tape_table *more = dal__model_allocate(model, (size_t)capacity, sizeof *more);
         if (!more) return dal__memory_error(error);
         if (model->tables) memcpy(more, model->table, (size_t)model->tables * sizeof *more);
         model->table = more;
         model->table_capacity = capacity;
     }
-    model->table[model->tables++] = (dal__table){
+    model->table[model->tables++] = (dal__tape_table){
         .knots = table->points, .degree = table->interpolation == DAL_CUBIC ? 3 : 1, .data = data};
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_model_add_table(dal_model *model, const char *name, const dal_table *table, int line,

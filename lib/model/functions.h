@@ -17,7 +17,8 @@ typedef struct dal__function {
     int table; /* of the model, from 1; 0: it has a body */
 } dal__function;
 
-/* Reads the name of an entry, "V(r)" or "f(x, y)".  Errors: DAL_NAME, DAL_TOO_LARGE, DAL_MEMORY. */
+/* Reads the name of an entry, "V(r)" or "f(x, y)".  Errors: DAL_STATUS_NAME, DAL_STATUS_TOO_LARGE,
+ * DAL_STATUS_MEMORY. */
 dal_status dal__read_signature(dal_model *model, const dal__entry *entry, dal__function *function,
                                dal_error *error);
 /* The value of a function at arguments, [arity]. */

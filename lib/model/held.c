@@ -33,11 +33,11 @@ dal__node dal__switch_argument(dal__graph *graph, dal__node node)
 }
 
 /* The branch of a node; sign: 1 where both have one argument, -1 opposite ones; false: none. */
-static bool find_branch(dal__graph *graph, dal__node node, dal__branch *branch, int *sign)
+static bool find_branch(dal__graph *graph, dal__node node, dal__switch_point *branch, int *sign)
 {
     const dal__record r = dal__inspect(graph, node);
     const dal__node s = dal__switch_argument(graph, node);
-    *branch = (dal__branch){s, DAL__BRANCH_AT_ZERO};
+    *branch = (dal__switch_point){s, DAL__BRANCH_AT_ZERO};
     *sign = 1;
     if (s == 0) return false;
     if (r.op == DAL__FLOOR) branch->table = DAL__BRANCH_AT_INTEGERS;
@@ -83,7 +83,7 @@ static uint8_t *mark_nodes(dal_model *model, const dal__programs *p, dal__node *
 }
 
 /* The number of a branch among those found, from 0; how many these are: it is a new one. */
-static int branch_number(const dal__programs *p, const dal__branch *branch)
+static int branch_number(const dal__programs *p, const dal__switch_point *branch)
 {
     int k = 0;
     while (k < p->branches.count &&
@@ -97,7 +97,7 @@ static dal_status find_branches(dal_model *model, dal__programs *p)
 {
     dal__graph *graph = model->equations.graph;
     dal__node last;
-    dal__branch branch;
+    dal__switch_point branch;
     int nodes = 0, sign;
     uint8_t *mark = mark_nodes(model, p, &last);
     for (dal__node i = 1; mark && i <= last; i++)
@@ -111,7 +111,7 @@ static dal_status find_branches(dal_model *model, dal__programs *p)
     }
     const bool has_memory = mark && p->branch;
     free(mark);
-    return has_memory ? graph->status : DAL_MEMORY;
+    return has_memory ? graph->status : DAL_STATUS_MEMORY;
 }
 
 /* sqrt(sum (ds/dx x)^2). */
@@ -136,7 +136,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p)
     dal__node *rates = dal__model_nodes(model, count, 0);
     dal__node *slope = dal__model_nodes(model, e->pi - e->t, 0);
     const dal__node *F = p->tapes->tape[p->program[DAL__PROGRAM_FIELD].tape].output;
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int k = 0; k < count; k++) {
         const dal__node s = p->branch[k].argument;
         const dal__node by_v = dal__tangent(e->graph, s, e->symbol + e->v, e->n, F);
@@ -157,7 +157,7 @@ static dal_status place_points(dal_model *model, dal__programs *p)
 {
     dal__graph *graph = model->equations.graph;
     dal__node last;
-    dal__branch branch;
+    dal__switch_point branch;
     int sign;
     uint8_t *mark = mark_nodes(model, p, &last);
     for (dal__node i = 1; mark && i <= last; i++)
@@ -172,14 +172,14 @@ static dal_status place_points(dal_model *model, dal__programs *p)
     p->tapes->point = point;
     const bool has_memory = mark && point;
     free(mark);
-    return has_memory ? graph->status : DAL_MEMORY;
+    return has_memory ? graph->status : DAL_STATUS_MEMORY;
 }
 
 dal_status dal__programs_add_branches(dal_model *model, dal__programs *programs)
 {
     let_hold(programs);
     DAL_TRY(find_branches(model, programs));
-    if (programs->branches.count == 0) return DAL_OK;
+    if (programs->branches.count == 0) return DAL_STATUS_OK;
     DAL_TRY(add_programs(model, programs));
     let_hold(programs);
     return place_points(model, programs);

@@ -18,29 +18,29 @@ const char *dal__section_name(dal_section section)
 }
 
 const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
-    [DAL_SECTION_TITLE] = {DAL__SCALAR, NULL},
-    [DAL_SECTION_REFERENCE] = {DAL__SCALAR, NULL},
-    [DAL_SECTION_COORDINATES] = {DAL__LIST, NULL},
-    [DAL_SECTION_SIZES] = {DAL__MAPPING, "size"},
-    [DAL_SECTION_PARAMETERS] = {DAL__MAPPING, "parameter"},
-    [DAL_SECTION_FILES] = {DAL__MAPPING, NULL},
-    [DAL_SECTION_TABLES] = {DAL__MAPPING, NULL},
-    [DAL_SECTION_FUNCTIONS] = {DAL__MAPPING, "function"},
-    [DAL_SECTION_LET] = {DAL__MAPPING, "let"},
-    [DAL_SECTION_LAGRANGIAN] = {DAL__SCALAR, "lagrangian"},
-    [DAL_SECTION_ACCELERATIONS] = {DAL__MAPPING, "acceleration of"},
-    [DAL_SECTION_FORCES] = {DAL__MAPPING, "force on"},
-    [DAL_SECTION_CONSTRAINTS] = {DAL__LIST, "constraint"},
-    [DAL_SECTION_REACTIONS] = {DAL__MAPPINGS, "reaction"},
-    [DAL_SECTION_MECHANICS] = {DAL__SCALAR, NULL},
-    [DAL_SECTION_GAUGE] = {DAL__MAPPING, "gauge"},
-    [DAL_SECTION_START] = {DAL__MAPPING, "start of"},
-    [DAL_SECTION_INVARIANTS] = {DAL__MAPPING, "invariant"},
-    [DAL_SECTION_EVENTS] = {DAL__MAPPINGS, "event"},
-    [DAL_SECTION_EXACT] = {DAL__MAPPING, "exact solution for"},
-    [DAL_SECTION_TAGS] = {DAL__LIST, NULL},
-    [DAL_SECTION_PICTURE] = {DAL__MAPPING, "picture"},
-    [DAL_SECTION_DEFAULTS] = {DAL__MAPPING, NULL},
+    [DAL_SECTION_TITLE] = {DAL__FORM_SCALAR, NULL},
+    [DAL_SECTION_REFERENCE] = {DAL__FORM_SCALAR, NULL},
+    [DAL_SECTION_COORDINATES] = {DAL__FORM_LIST, NULL},
+    [DAL_SECTION_SIZES] = {DAL__FORM_MAPPING, "size"},
+    [DAL_SECTION_PARAMETERS] = {DAL__FORM_MAPPING, "parameter"},
+    [DAL_SECTION_FILES] = {DAL__FORM_MAPPING, NULL},
+    [DAL_SECTION_TABLES] = {DAL__FORM_MAPPING, NULL},
+    [DAL_SECTION_FUNCTIONS] = {DAL__FORM_MAPPING, "function"},
+    [DAL_SECTION_LET] = {DAL__FORM_MAPPING, "let"},
+    [DAL_SECTION_LAGRANGIAN] = {DAL__FORM_SCALAR, "lagrangian"},
+    [DAL_SECTION_ACCELERATIONS] = {DAL__FORM_MAPPING, "acceleration of"},
+    [DAL_SECTION_FORCES] = {DAL__FORM_MAPPING, "force on"},
+    [DAL_SECTION_CONSTRAINTS] = {DAL__FORM_LIST, "constraint"},
+    [DAL_SECTION_REACTIONS] = {DAL__FORM_MAPPINGS, "reaction"},
+    [DAL_SECTION_MECHANICS] = {DAL__FORM_SCALAR, NULL},
+    [DAL_SECTION_GAUGE] = {DAL__FORM_MAPPING, "gauge"},
+    [DAL_SECTION_START] = {DAL__FORM_MAPPING, "start of"},
+    [DAL_SECTION_INVARIANTS] = {DAL__FORM_MAPPING, "invariant"},
+    [DAL_SECTION_EVENTS] = {DAL__FORM_MAPPINGS, "event"},
+    [DAL_SECTION_EXACT] = {DAL__FORM_MAPPING, "exact solution for"},
+    [DAL_SECTION_TAGS] = {DAL__FORM_LIST, NULL},
+    [DAL_SECTION_PICTURE] = {DAL__FORM_MAPPING, "picture"},
+    [DAL_SECTION_DEFAULTS] = {DAL__FORM_MAPPING, NULL},
 };
 
 const char dal__set_prefix[] = "set.", dal__solve_prefix[] = "solve.";
@@ -63,7 +63,10 @@ const char *dal__solved_name(const dal__entry *entry)
     return behind(dal__solve_prefix, entry, DAL_SECTION_START);
 }
 
-bool dal__section_named(dal_section section) { return dal__sections[section].form >= DAL__MAPPING; }
+bool dal__section_named(dal_section section)
+{
+    return dal__sections[section].form >= DAL__FORM_MAPPING;
+}
 
 /* ---- memory ---- */
 
@@ -123,12 +126,12 @@ const char *dal_model_warning(const dal_model *model, int i, int *line, int *col
 
 dal_status dal__memory_error(dal_error *error)
 {
-    return dal__fail(error, DAL_MEMORY, "out of memory while the model was made");
+    return dal__fail(error, DAL_STATUS_MEMORY, "out of memory while the model was made");
 }
 
 dal_status dal__size_error(dal_status status, dal_error *error)
 {
-    if (status != DAL_TOO_LARGE) return dal__memory_error(error);
+    if (status != DAL_STATUS_TOO_LARGE) return dal__memory_error(error);
     return dal__fail(error, status, "the equations of the system are too large");
 }
 
@@ -188,22 +191,22 @@ static dal_status check_observed(const dal__entry *entry, dal_error *error)
     const size_t length = strlen(text), letters = dal__name_length(text, length);
     const bool is_name = letters > 0 && letters + (text[letters] == '\'') == length;
     if (length > DAL__MAX_LETTERS)
-        return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_TEXT(entry),
+        return dal__fail_at(error, DAL_STATUS_TOO_LARGE, DAL__AT_TEXT(entry),
                             "'%.40s...' has more than %d characters: an invariant of the system "
                             "file may be longer",
                             text, (int)DAL__MAX_LETTERS);
     if (length == 0)
-        return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(entry),
+        return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(entry),
                             "a formula to observe is missing");
     if (text[0] == ' ' || text[length - 1] == ' ' || strcspn(text, "\n\r\t;\"") < length)
-        return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(entry),
+        return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(entry),
                             "a formula to observe is one line, without quotes or semicolons, and "
                             "without blanks at its ends");
     if (is_name)
-        return dal__fail_at(error, DAL_NAME, DAL__AT_TEXT(entry),
+        return dal__fail_at(error, DAL_STATUS_NAME, DAL__AT_TEXT(entry),
                             "'%s' is a name; as a formula to observe it is written (%s)", text,
                             text);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Checks the name of an entry, or the text of a coordinate.  A start, or what an event sets, may
@@ -212,7 +215,7 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
 {
     const char *name = entry->section == DAL_SECTION_COORDINATES ? entry->text : entry->name;
     if (entry->observed) return check_observed(entry, error);
-    if (!name || entry->section == DAL_SECTION_FILES) return DAL_OK;
+    if (!name || entry->section == DAL_SECTION_FILES) return DAL_STATUS_OK;
     const char *set = dal__set_name(entry), *solved = dal__solved_name(entry);
     if (set || solved) name = set ? set : solved;
     size_t length = strlen(name);
@@ -220,7 +223,7 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
     const bool velocity = entry->section == DAL_SECTION_START || set;
     if (velocity && length && name[length - 1] == '\'') length--;
     if (length > DAL__MAX_LETTERS && entry->section != DAL_SECTION_START)
-        return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_NAME(entry),
+        return dal__fail_at(error, DAL_STATUS_TOO_LARGE, DAL__AT_NAME(entry),
                             "'%.40s...' in %s has more than %d characters", name,
                             dal__section_name(entry->section), (int)DAL__MAX_LETTERS);
     size_t letters = dal__name_length(name, length);
@@ -228,12 +231,12 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
     if (letters > 0 && may_index && name[letters] == '[' && length > letters &&
         strcspn(name, "]") == length - 1)
         letters = length;
-    if (length > 0 && letters == length) return DAL_OK;
+    if (length > 0 && letters == length) return DAL_STATUS_OK;
     const char *hint = strchr(name, '(') || strchr(name, ')')
                            ? "; a formula with commas within {} or [] needs quotes"
                        : strchr(name, ' ') ? "; is a bracket not closed?"
                                            : "";
-    return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
+    return dal__fail_at(error, DAL_STATUS_NAME, DAL__AT_NAME(entry),
                         "'%.80s' in %s is not a name: a letter, then letters, digits and _%s", name,
                         dal__section_name(entry->section), hint);
 }
@@ -243,9 +246,9 @@ dal_status dal__duplicate(const dal__entry *entry, dal_error *error)
     const char *section = entry->observed ? "what is observed" : dal__section_name(entry->section);
     const char *solved = dal__solved_name(entry);
     const char *name = entry->name ? entry->name : entry->text;
-    if (dal__sections[entry->section].form == DAL__SCALAR)
-        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate %s", section);
-    return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate '%.80s' in %s",
+    if (dal__sections[entry->section].form == DAL__FORM_SCALAR)
+        return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(entry), "duplicate %s", section);
+    return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(entry), "duplicate '%.80s' in %s",
                         solved ? solved : name, solved ? "solve" : section);
 }
 
@@ -253,35 +256,35 @@ static dal_status check_duplicate(const dal_model *model, const dal__entry *entr
 {
     bool named = dal__section_named(entry->section);
     const char *name = named ? entry->name : entry->text;
-    if (entry->section == DAL_SECTION_CONSTRAINTS) return DAL_OK;
+    if (entry->section == DAL_SECTION_CONSTRAINTS) return DAL_STATUS_OK;
     for (int k = 0; k < model->given_count; k++) {
         const dal__entry *other = &model->given[k];
         if (other->section != entry->section || other->item != entry->item) continue;
-        if (dal__sections[entry->section].form == DAL__SCALAR ||
+        if (dal__sections[entry->section].form == DAL__FORM_SCALAR ||
             strcmp(named ? other->name : other->text, name) == 0)
             return dal__duplicate(entry, error);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *error)
 {
     int line = entry.name_line, column = entry.name_column;
     if (entry.section >= DAL_SECTION_COUNT)
-        return dal__fail_at(error, DAL_ARGUMENT, line, column, "no section has the number %d",
-                            (int)entry.section);
+        return dal__fail_at(error, DAL_STATUS_ARGUMENT, line, column,
+                            "no section has the number %d", (int)entry.section);
     if (model->made)
-        return dal__fail_at(error, DAL_ARGUMENT, line, column,
+        return dal__fail_at(error, DAL_STATUS_ARGUMENT, line, column,
                             "'%.80s' already has its system: nothing can be added", model->name);
     if (model->given_count && model->given[model->given_count - 1].observed && !entry.observed)
-        return dal__fail_at(error, DAL_ARGUMENT, line, column,
+        return dal__fail_at(error, DAL_STATUS_ARGUMENT, line, column,
                             "formulas to observe come after all other entries");
     if (model->given_count == DAL__MAX_ENTRIES)
-        return dal__fail_at(error, DAL_TOO_LARGE, line, column, "more than %d entries",
+        return dal__fail_at(error, DAL_STATUS_TOO_LARGE, line, column, "more than %d entries",
                             (int)DAL__MAX_ENTRIES);
     const bool named = dal__section_named(entry.section);
     if (!entry.text || named != (entry.name != NULL))
-        return dal__fail_at(error, DAL_ARGUMENT, line, column, "an entry of %s has %s",
+        return dal__fail_at(error, DAL_STATUS_ARGUMENT, line, column, "an entry of %s has %s",
                             dal__section_name(entry.section),
                             named ? "a name and a text" : "a text and no name");
     DAL_TRY(check_name(&entry, error));
@@ -299,7 +302,7 @@ dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *erro
     model->given[model->given_count++] = entry;
     model->entries = model->given;
     model->count = model->given_count;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
@@ -309,15 +312,15 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
     dal__entry entry = {section, name, text, line, column, line, column, .item = 0};
     if (section >= DAL_SECTION_COUNT) return dal__model_insert(model, entry, error);
     if (section == DAL_SECTION_TABLES)
-        return dal__fail_at(error, DAL_ARGUMENT, line, column,
+        return dal__fail_at(error, DAL_STATUS_ARGUMENT, line, column,
                             "tables are added by dal_model_add_table");
-    if (dal__sections[section].form == DAL__MAPPINGS && name) { /* "2.x" is x of item 2 */
+    if (dal__sections[section].form == DAL__FORM_MAPPINGS && name) { /* "2.x" is x of item 2 */
         const char *c = name;
         while (*c >= '0' && *c <= '9' && entry.item <= DAL__MAX_COORDINATES)
             entry.item = 10 * entry.item + (*c++ - '0');
         if (*c != '.' || entry.item < 1)
-            return dal__fail_at(error, DAL_NAME, line, column, "'%.80s' in %s is not %s", name,
-                                dal__section_name(section),
+            return dal__fail_at(error, DAL_STATUS_NAME, line, column, "'%.80s' in %s is not %s",
+                                name, dal__section_name(section),
                                 section == DAL_SECTION_EVENTS
                                     ? "an event and a key, as 1.when"
                                     : "a constraint and a coordinate, as 1.x");

@@ -21,7 +21,12 @@ enum {
 };
 
 /* How the entries of a section stand in a file; in mappings each has a name and a text. */
-typedef enum dal__form { DAL__SCALAR, DAL__LIST, DAL__MAPPING, DAL__MAPPINGS } dal__form;
+typedef enum dal__form {
+    DAL__FORM_SCALAR,
+    DAL__FORM_LIST,
+    DAL__FORM_MAPPING,
+    DAL__FORM_MAPPINGS
+} dal__form;
 
 typedef struct dal__model_section {
     dal__form form;
@@ -69,7 +74,7 @@ struct dal_model {
     int expanded_count, expanded_capacity;
     const dal__entry *entries; /* [count]: one of the two */
     int count;
-    dal__table *table; /* [tables], in the order of their entries */
+    dal__tape_table *table; /* [tables], in the order of their entries */
     int tables, table_capacity;
     const char *source; /* [source_length] the text of a file; NULL: none */
     size_t source_length;
@@ -91,7 +96,7 @@ char *dal__model_print(dal_model *model, const char *format, ...) DAL__PRINTF(2,
 void dal__model_discard(dal_model *model);
 /* Adds a warning at the name of an entry; text lives as long as the model. */
 void dal__model_warn(dal_model *model, const dal__entry *entry, const char *text);
-/* The errors DAL_MEMORY, and DAL_MEMORY or DAL_TOO_LARGE of a graph. */
+/* The errors DAL_STATUS_MEMORY, and DAL_STATUS_MEMORY or DAL_STATUS_TOO_LARGE of a graph. */
 dal_status dal__memory_error(dal_error *error);
 dal_status dal__size_error(dal_status status, dal_error *error);
 /* The error that an entry is given twice. */

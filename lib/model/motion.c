@@ -29,7 +29,7 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
     const dal__equations *e = &model->equations;
     const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
     return dal__fail_at(
-        error, DAL_SINGULAR_MASS, L ? L->line : 0, L ? L->column : 0,
+        error, DAL_STATUS_SINGULAR_MASS, L ? L->line : 0, L ? L->column : 0,
         e->restricted ? "the mass matrix is singular on the velocities that the constraints allow: "
                         "with them it does not determine the acceleration of '%s'"
                       : "the mass matrix is singular: it does not determine the acceleration of "
@@ -89,17 +89,17 @@ dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *erro
     double *rows = dal__model_allocate(model, before + (size_t)e->symbols, sizeof *rows);
     char list[128] = ", others";
     if (e->servo)
-        return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
+        return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
                             "constraint %d is not held by the reactions: A W^-1 B^T is singular",
                             row + 1);
-    const bool has_units = rows && dal__model_units(model, rows + before) == DAL_OK;
+    const bool has_units = rows && dal__model_units(model, rows + before) == DAL_STATUS_OK;
     const double left = has_units ? list_dependence(e, row, rows, list, sizeof list) : 0.0;
     if (left > nothing_left && isfinite(left))
-        return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
+        return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
                             "constraint %d nearly depends on %s: they differ by %.1g of its "
                             "coefficients, and A W^-1 A^T is singular in double precision",
                             row + 1, list + 2, left);
-    return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
+    return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
                         "constraint %d is redundant, it depends on %s: A W^-1 A^T is singular",
                         row + 1, list + 2);
 }
@@ -109,7 +109,7 @@ static dal_status unsolved(const dal_model *model, dal_status status, const char
                            dal_error *error)
 {
     const dal__equations *e = &model->equations;
-    if (status == DAL_TOO_LARGE && e->graph->status == DAL_OK)
+    if (status == DAL_STATUS_TOO_LARGE && e->graph->status == DAL_STATUS_OK)
         return dal__fail(error, status, "%s of %d coordinates couples too many of them", matrix,
                          e->n);
     return dal__size_error(e->graph->status, error);
@@ -121,10 +121,10 @@ dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, c
                              dal__node *x)
 {
     dal__factors f;
-    if (!dal__factors_allocate(model, &f, n, NULL)) return DAL_MEMORY;
+    if (!dal__factors_allocate(model, &f, n, NULL)) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n * n; i++) f.matrix[i] = matrix[i];
     DAL_TRY(dal__factor(model, &f));
-    return dal__solve(model, &f, false, 1, rhs, x);
+    return dal__factors_solve(model, &f, false, 1, rhs, x);
 }
 
 dal_status dal__solve_mass(dal_model *model)
@@ -134,14 +134,14 @@ dal_status dal__solve_mass(dal_model *model)
     dal__factors *mass = e->mass = dal__model_allocate(model, 1, sizeof *mass);
     dal__node *rhs = dal__model_nodes(model, columns * n, 0);
     dal__node *x = dal__model_nodes(model, columns * n, 0);
-    if (!mass || !dal__factors_allocate(model, mass, n, NULL)) return DAL_MEMORY;
+    if (!mass || !dal__factors_allocate(model, mass, n, NULL)) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n * n; i++) mass->matrix[i] = e->W[i];
     for (int i = 0; i < n; i++) rhs[i] = e->b[i];
     for (int i = 0; i < m * n; i++) rhs[n + i] = e->A[i];
     for (int i = 0; i < m * n && e->servo; i++) rhs[n + m * n + i] = e->B[i];
     DAL_TRY(dal__factor(model, mass));
     e->mass_positive = mass->positive;
-    DAL_TRY(dal__solve(model, mass, false, columns, rhs, x));
+    DAL_TRY(dal__factors_solve(model, mass, false, columns, rhs, x));
     for (int i = 0; i < n; i++) {
         e->a[i] = x[i];
         for (int a = 0; a < m; a++) {
@@ -149,7 +149,7 @@ dal_status dal__solve_mass(dal_model *model)
             e->R[i * m + a] = x[(columns - m + a) * n + i];
         }
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__solve_force(dal_model *model, const dal__node *force, dal__node *x)
@@ -157,7 +157,7 @@ dal_status dal__solve_force(dal_model *model, const dal__node *force, dal__node 
     const dal__equations *e = &model->equations;
     dal__node *zero = dal__model_nodes(model, e->m, dal__number(e->graph, 0.0));
     if (!e->restricted) return dal__solve_vector(model, e->n, e->W, force, x);
-    if (!zero) return DAL_MEMORY;
+    if (!zero) return DAL_STATUS_MEMORY;
     return dal__restricted_solve(model, e->restricted, force, zero, x, NULL);
 }
 
@@ -170,7 +170,7 @@ dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
     dal__node *u = dal__model_nodes(model, n, 0), *x = dal__model_nodes(model, n * m, 0);
     const dal__node *from = e->restricted ? e->W : e->mass->matrix;
     mass.matrix = dal__model_nodes(model, n * n, 0);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n * n; i++) mass.matrix[i] = from[i];
     for (int i = 0; i < n; i++) {
         v[i] = e->v + i;
@@ -182,12 +182,12 @@ dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
         for (int i = 0; i < n; i++) e->value[e->pi + i] = e->value[e->v + i];
         const dal_status status = dal__restricted_factor(model, mass.matrix, &r);
         for (int i = 0; i < n; i++) e->value[e->pi + i] = 0.0;
-        return status == DAL_OK ? dal__restricted_directions(model, &r, U) : status;
+        return status == DAL_STATUS_OK ? dal__restricted_directions(model, &r, U) : status;
     }
-    DAL_TRY(dal__solve(model, &mass, false, m, e->A, x));
+    DAL_TRY(dal__factors_solve(model, &mass, false, m, e->A, x));
     for (int i = 0; i < n; i++)
         for (int a = 0; a < m; a++) U[i * m + a] = x[a * n + i];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- F and h ---- */
@@ -211,7 +211,7 @@ static dal_status derive_by(dal_model *model, const dal__factors *mass, int way,
 {
     dal__equations *e = &model->equations;
     dal__node *bottom = dal__model_nodes(model, e->m, 0);
-    if (!bottom) return DAL_MEMORY;
+    if (!bottom) return DAL_STATUS_MEMORY;
     DAL_TRY(dal__bordered_factor(model, mass, way, &e->bordered, singular));
     dal__bordered_record_pivots(e, e->bordered, mass);
     for (int a = 0; a < e->m; a++) bottom[a] = dal__node_neg(e->graph, e->c[a]);
@@ -228,13 +228,13 @@ static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, in
     int least = INT_MAX, best = 0, last = 0;
     if (e->n > MAX_COMPARED) {
         const dal_status status = derive_by(model, mass, DAL__SOLVED, singular);
-        return status == DAL_SINGULAR ? derive_by(model, mass, 0, singular) : status;
+        return status == DAL_STATUS_SINGULAR ? derive_by(model, mass, 0, singular) : status;
     }
     for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
         const dal_status status = derive_by(model, mass, last = ways[k], singular);
-        if (status != DAL_OK && (status != DAL_SINGULAR || k == 0)) return status;
+        if (status != DAL_STATUS_OK && (status != DAL_STATUS_SINGULAR || k == 0)) return status;
         if (last & DAL__SOLVED && !dal__bordered_is_reduced(e->bordered)) break;
-        const int cost = status == DAL_OK ? cost_of_F(model) : INT_MAX;
+        const int cost = status == DAL_STATUS_OK ? cost_of_F(model) : INT_MAX;
         if (cost >= least) continue;
         least = cost;
         best = last;
@@ -278,7 +278,7 @@ static dal_status derive_restricted(dal_model *model)
     const dal__node none = dal__number(e->graph, 0.0);
     dal__node *bottom = dal__model_nodes(model, e->m, none);
     dal__restricted *r = e->restricted = dal__model_allocate(model, 1, sizeof *r);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     DAL_TRY(dal__restricted_factor(model, e->W, r));
     e->mass_positive = r->V.positive;
     dal__restricted_record_pivots(e, r);
@@ -293,20 +293,21 @@ dal_status dal__motion_derive(dal_model *model, dal_error *error)
     dal__equations *e = &model->equations;
     int singular;
     dal_status status = dal__solve_mass(model);
-    const bool fails = status == DAL_SINGULAR, may_restrict = e->m > 0 && !e->servo;
+    const bool fails = status == DAL_STATUS_SINGULAR, may_restrict = e->m > 0 && !e->servo;
     if (fails && !may_restrict) return dal__singular_mass(model, e->mass->singular, error);
-    if (status != DAL_OK && !fails) return unsolved(model, status, "the mass matrix", error);
+    if (status != DAL_STATUS_OK && !fails) return unsolved(model, status, "the mass matrix", error);
     if (may_restrict && (fails || may_turn_singular(model))) {
         status = derive_restricted(model);
-        if (status == DAL_SINGULAR)
+        if (status == DAL_STATUS_SINGULAR)
             return e->restricted->singular < 0
                        ? dal__singular_mass(model, e->restricted->V.singular, error)
                        : dal__dependent_constraints(model, e->restricted->singular, error);
-        return status == DAL_OK ? DAL_OK : unsolved(model, status, "W on ker A", error);
+        return status == DAL_STATUS_OK ? DAL_STATUS_OK
+                                       : unsolved(model, status, "W on ker A", error);
     }
     status = derive_cheapest(model, e->mass, &singular);
-    if (status == DAL_SINGULAR) return dal__dependent_constraints(model, singular, error);
-    return status == DAL_OK ? DAL_OK : unsolved(model, status, "A W^-1 A^T", error);
+    if (status == DAL_STATUS_SINGULAR) return dal__dependent_constraints(model, singular, error);
+    return status == DAL_STATUS_OK ? DAL_STATUS_OK : unsolved(model, status, "A W^-1 A^T", error);
 }
 
 /* ---- derivatives ---- */
@@ -364,7 +365,7 @@ static dal_status insert(dal_model *model, int count, dal__node *nodes, const da
     const int size = e->n + e->m, symbols = w ? NAMED * size : size;
     int *symbol = dal__model_allocate(model, (size_t)symbols, sizeof *symbol);
     dal__node *by = dal__model_nodes(model, symbols, 0);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < symbols; i++) {
         symbol[i] = e->symbols + i;
         by[i] = i < e->n ? e->F[i] : i < size ? e->h[i - e->n] : w[i - size];
@@ -393,7 +394,7 @@ dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by
     const dal__node *residual = residuals(model);
     dal__node *row = dal__model_nodes(model, columns, 0), *x = dal__model_nodes(model, n, 0);
     dal__node *rhs = dal__model_nodes(model, columns * size, 0); /* column by column */
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < size; i++) {
         dal__gradient(e->graph, residual[i], symbol, columns, row);
         for (int c = 0; c < columns; c++) rhs[c * size + i] = row[c];
@@ -416,7 +417,7 @@ dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_
     const dal__node *pi = name(model, e->pi, n);
     dal__node *weight = dal__model_nodes(model, size, 0), *out = dal__model_nodes(model, 2 * n, 0);
     dal__node *zero = dal__model_nodes(model, m, dal__number(e->graph, 0.0));
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     DAL_TRY(solve_motion(model, pi, zero, weight, weight + n));
     for (int a = 0; a < m; a++) weight[n + a] = dal__node_neg(e->graph, weight[n + a]);
     dal__gradient(e->graph, dal__dot(e->graph, size, w, residual), symbol, 2 * n, out);

@@ -5,17 +5,18 @@
 #include "model/elimination.h"
 #include "model/equations.h"
 
-/* Derives U, R, a, h and F from W, b, A, B and c.  Errors: DAL_RANK, DAL_SINGULAR_MASS, DAL_MEMORY,
- * DAL_TOO_LARGE. */
+/* Derives U, R, a, h and F from W, b, A, B and c.  Errors: DAL_STATUS_RANK,
+ * DAL_STATUS_SINGULAR_MASS, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_derive(dal_model *model, dal_error *error);
 
 /* The first part of it: mass, the factors of W, a = W^-1 b, U = W^-1 A^T, R = W^-1 B^T.  Errors:
- * DAL_SINGULAR, DAL_MEMORY, DAL_TOO_LARGE. */
+ * DAL_STATUS_SINGULAR, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__solve_mass(dal_model *model);
 /* W^-1 force [n]; where W is restricted to ker A, the x of ker A with W x - A^T h = force for some
- * h.  Errors: DAL_SINGULAR, DAL_MEMORY, DAL_TOO_LARGE. */
+ * h.  Errors: DAL_STATUS_SINGULAR, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__solve_force(dal_model *model, const dal__node *force, dal__node *x);
-/* W(q,u)^-1 A^T [n*m], u being the symbols of pi.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+/* W(q,u)^-1 A^T [n*m], u being the symbols of pi.  Errors: DAL_STATUS_MEMORY,
+ * DAL_STATUS_TOO_LARGE. */
 dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U);
 
 /* matrix x = rhs for one right-hand side, without a record of the pivots.  Errors: those above. */
@@ -24,9 +25,9 @@ dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, c
 
 /* Whether the two below apply: to what dal__motion_derive has derived by Chetaev's rule. */
 bool dal__motion_is_symmetric(const dal__equations *e);
-/* F_q [n*n] and F_v [n*n], row by row.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+/* F_q [n*n] and F_v [n*n], row by row.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by_v);
-/* F_q^T pi [n] and F_v^T pi [n].  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+/* F_q^T pi [n] and F_v^T pi [n].  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_v);
 
 /* The error of a mass matrix, or of constraints, without a pivot in this row (from 0). */

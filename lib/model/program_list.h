@@ -44,10 +44,10 @@ typedef struct dal__program {
 /* A branch: the argument of nodes that switch, and the table at whose points they do, or one of
  * these. */
 enum { DAL__BRANCH_AT_ZERO = -1, DAL__BRANCH_AT_INTEGERS = -2 };
-typedef struct dal__branch {
+typedef struct dal__switch_point {
     dal__node argument;
     int table;
-} dal__branch;
+} dal__switch_point;
 
 /* Evaluates a program on what it reads of *at. */
 typedef dal_status dal__run_program(const dal_system *system, const dal_point *at, double *out,
@@ -69,7 +69,7 @@ typedef struct dal__programs {
     const dal__terms *terms;          /* of D, E, invariants; the model's, as the next */
     const dal__terms *reaction_terms; /* of h, R; NULL: not made */
     dal_picture picture;
-    dal__branch *branch; /* [branches.count] those that may be held; the model's */
+    dal__switch_point *branch; /* [branches.count] those that may be held; the model's */
     dal_branches branches;
     dal__run_program *run; /* a program of one lane */
 } dal__programs;

@@ -26,7 +26,7 @@ dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs,
     dal__programs_free(programs);
     *programs = (dal__programs){.equations = e, .n = n, .multipliers = multipliers};
     programs->tapes = dal__tapes_create(e->graph, e->parameters, e->symbols - e->parameters);
-    return programs->tapes ? DAL_OK : DAL_MEMORY;
+    return programs->tapes ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
 }
 
 /* Whether a pivot of A W^-1 B^T varies along a run. */
@@ -51,7 +51,7 @@ dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
     int total = 3 * e->pivots;
     for (int k = 0; k < count; k++) total += lists[k].count;
     dal__node *all = dal__model_nodes(model, total, 0);
-    if (!all) return DAL_MEMORY;
+    if (!all) return DAL_STATUS_MEMORY;
     total = 0;
     for (int k = 0; k < count; k++)
         for (int i = 0; i < lists[k].count; i++) all[total++] = lists[k].list[i];
@@ -76,7 +76,7 @@ dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
     }
     program->tape = dal__tapes_add(programs->tapes, all, total);
     program->present = program->tape >= 0;
-    return program->present ? DAL_OK : DAL_MEMORY;
+    return program->present ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
 }
 
 dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__program_code code,
@@ -116,7 +116,7 @@ static dal_status add_adjoint(dal_model *model, dal__programs *programs, const d
     const int n = programs->n;
     dal__node *swept = is_swept(e, F, n) ? dal__model_nodes(model, 3 * n, 0) : NULL;
     dal__node *solved = has_equations(e, F) ? dal__model_nodes(model, 3 * n, 0) : NULL;
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     dal__node product = dal__number(e->graph, 0.0);
     for (int i = 0; i < n; i++) {
         dal__node pi = dal__symbol(e->graph, e->pi + i);
@@ -140,7 +140,7 @@ static dal_status add_jacobian(dal_model *model, dal__programs *programs, const 
     const int n = programs->n, nw = n + programs->multipliers, count = nw * (n + nw);
     dal__node *swept = is_swept(e, F, nw) ? dal__model_nodes(model, count, 0) : NULL;
     dal__node *solved = has_equations(e, F) ? dal__model_nodes(model, count, 0) : NULL;
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; swept && i < nw; i++) {
         dal__node *by_q = swept + i * n, *by_v = swept + nw * n + i * nw;
         dal__gradient(e->graph, F[i], e->symbol + e->q, n, by_q);
@@ -157,7 +157,7 @@ dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, c
     int nw = programs->n + programs->multipliers;
     DAL_TRY(dal__programs_add(model, programs, DAL__PROGRAM_FIELD, F, nw));
     DAL_TRY(add_jacobian(model, programs, F));
-    return programs->multipliers ? DAL_OK : add_adjoint(model, programs, F);
+    return programs->multipliers ? DAL_STATUS_OK : add_adjoint(model, programs, F);
 }
 
 /* ---- callbacks of one lane only ---- */
@@ -177,7 +177,7 @@ CALLBACK(BRANCH_RATES, branch_rates, tqv)
 /* ---- branches ---- */
 
 /* The values between which a branch at a point stays. */
-static void branch_bounds(const dal__branch *branch, const dal__tapes *tapes, double point,
+static void branch_bounds(const dal__switch_point *branch, const dal__tapes *tapes, double point,
                           double *lower, double *upper)
 {
     if (branch->table == DAL__BRANCH_AT_ZERO) {
@@ -187,7 +187,7 @@ static void branch_bounds(const dal__branch *branch, const dal__tapes *tapes, do
         *lower = floor(point);
         *upper = *lower + 1.0;
     } else {
-        const dal__table *table = &tapes->tables[branch->table];
+        const dal__tape_table *table = &tapes->tables[branch->table];
         int first = 0, last = table->knots; /* of the knots from which the next one is chosen */
         while (first < last) {
             const int middle = first + (last - first) / 2;
@@ -240,7 +240,7 @@ static dal_status scale(const dal_system *system, const dal__terms *terms, const
     memcpy(memory + e->v, at->v, (size_t)e->n * sizeof *memory);
     memcpy(memory + e->g, at->v + e->n, (size_t)e->multipliers * sizeof *memory);
     dal__terms_scales(terms, memory, memory + e->symbols, out);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status scales(const dal_system *system, const dal_point *at, double *memory, double *out)
@@ -286,24 +286,24 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
     DAL_TRY(p->run(system, at, value, DAL__PROGRAM_DIAGNOSE, DAL__READS_tqv));
     out[0] = 0.0;
     for (int k = 0; k < e->pivots && !e->restricted; k++)
-        if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_SINGULAR_MASS;
+        if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_STATUS_SINGULAR_MASS;
     for (int a = 0; a < e->m; a++) {
         out[0] = a + 1;
-        if (!isfinite(value[2 * e->pivots + a])) return DAL_SINGULAR;
+        if (!isfinite(value[2 * e->pivots + a])) return DAL_STATUS_SINGULAR;
     }
     for (int k = 0; k < e->pivots; k++) {
         out[0] = e->pivot[k].constraint;
-        if (e->pivot[k].constraint && vanished(value + 2 * k)) return DAL_SINGULAR;
+        if (e->pivot[k].constraint && vanished(value + 2 * k)) return DAL_STATUS_SINGULAR;
     }
     for (int k = 0; k < e->pivots && e->restricted; k++) /* whose other pivots need A's */
-        if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_SINGULAR_MASS;
+        if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_STATUS_SINGULAR_MASS;
     const double *lookup = value + 2 * e->pivots + e->m; /* argument, value */
     for (int k = 0; k < e->lookups; k++) {
         out[0] = e->lookup[k] + 1;
-        if (isfinite(lookup[2 * k]) && !isfinite(lookup[2 * k + 1])) return DAL_NOT_FINITE;
+        if (isfinite(lookup[2 * k]) && !isfinite(lookup[2 * k + 1])) return DAL_STATUS_NOT_FINITE;
     }
     out[0] = 0.0;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- Taylor coefficients ---- */
@@ -313,7 +313,7 @@ static dal_status add_series(dal__programs *programs, int lifted, dal__program_c
                              const uint32_t *places)
 {
     const dal__program *program = &programs->program[code];
-    if (!program->present) return DAL_OK;
+    if (!program->present) return DAL_STATUS_OK;
     return dal__taylor_add(programs->taylor[lifted], programs->tapes, program->tape,
                            program->outputs, places);
 }
@@ -323,7 +323,7 @@ static dal_status make_series(dal_model *model, dal__programs *programs)
 {
     const int n = programs->n, inputs = 1 + 2 * n + programs->multipliers;
     uint32_t *places = dal__model_allocate(model, (size_t)(inputs + n), sizeof *places);
-    if (!places) return DAL_MEMORY;
+    if (!places) return DAL_STATUS_MEMORY;
     places[0] = (uint32_t)programs->t;
     for (int i = 0; i < n; i++) {
         places[1 + i] = (uint32_t)(programs->q + i);
@@ -334,7 +334,7 @@ static dal_status make_series(dal_model *model, dal__programs *programs)
         places[1 + 2 * n + i] = (uint32_t)(programs->g + i);
     for (int lifted = 0; lifted < 2; lifted++) {
         programs->taylor[lifted] = dal__taylor_create(inputs + lifted * n, n);
-        if (!programs->taylor[lifted]) return DAL_MEMORY;
+        if (!programs->taylor[lifted]) return DAL_STATUS_MEMORY;
     }
     DAL_TRY(add_series(programs, 0, DAL__PROGRAM_FIELD, places));
     DAL_TRY(add_series(programs, 1, DAL__PROGRAM_ADJOINT, places));
@@ -344,7 +344,7 @@ static dal_status make_series(dal_model *model, dal__programs *programs)
 static void point_to_series(dal__programs *programs)
 {
     dal_series *series = &programs->series;
-    *series = (dal_series){.call = dal__series_x1};
+    *series = (dal_series){.call = dal__call_series_x1};
     for (int lifted = 0; lifted < 2; lifted++) {
         const dal__taylor *taylor = programs->taylor[lifted];
         series->size[lifted] = (size_t)taylor->slots;
@@ -353,7 +353,7 @@ static void point_to_series(dal__programs *programs)
 #define CALLBACK(name, variant, lanes, set)                                                        \
     if (dal__machine_has(DAL__##set)) *at[lanes == 4 ? 1 : lanes == 8 ? 2 : 0] = name##_##variant;
     dal_series_callback **const at[] = {&series->call, &series->wide4, &series->wide8};
-    DAL__VARIANT_LIST(CALLBACK, dal__series)
+    DAL__VARIANT_LIST(CALLBACK, dal__call_series)
 #undef CALLBACK
 }
 
@@ -378,7 +378,7 @@ static dal_status prepare(const dal_system *system, const dal_point *at, double 
     const dal__programs *programs = system->data;
     (void)out;
     dal__tapes_prepare_x1(programs->tapes, at->work);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status prepare_quad(const dal_system *system, const dal_point *at, double *out)
@@ -386,18 +386,18 @@ static dal_status prepare_quad(const dal_system *system, const dal_point *at, do
     const dal__programs *programs = system->data;
     (void)out;
     dal__tapes_prepare_x1_QUAD(programs->tapes, at->work);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The same programs in quad precision, as a system of its own. */
 static dal_status make_quad(dal_model *model, const dal__programs *programs, dal_system *system)
 {
-    if (DAL_QUAD_DIGITS <= DBL_MANT_DIG) return DAL_OK;
+    if (DAL_QUAD_DIGITS <= DBL_MANT_DIG) return DAL_STATUS_OK;
     dal__quad_system *k = dal__model_allocate(model, 1, sizeof *k);
-    if (!k) return DAL_MEMORY;
+    if (!k) return DAL_STATUS_MEMORY;
     k->programs = *programs;
     k->programs.run = dal__fill_callbacks_x1_QUAD(&k->programs, &k->programs.wide1);
-    k->programs.series.call = dal__series_x1_QUAD;
+    k->programs.series.call = dal__call_series_x1_QUAD;
     k->system = *system;
     k->system.data = &k->programs;
     k->system.series = &k->programs.series;
@@ -407,7 +407,7 @@ static dal_status make_quad(dal_model *model, const dal__programs *programs, dal
     k->system.call = k->programs.wide1;
     k->system.wide4 = k->system.wide8 = NULL;
     system->quad = &k->system;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 const dal__programs *dal__programs_of(const dal_system *system)

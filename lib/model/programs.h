@@ -31,10 +31,10 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
 /* Sets *call to the callbacks of a variant; what runs its programs. */
 #define DAL__CALLBACKS(name, variant, lanes, set)                                                  \
     dal__run_program *name##_##variant(const dal__programs *programs, dal_callbacks *call);
-#define DAL__SERIES(name, variant, lanes, set) extern dal_series_callback name##_##variant;
+#define DAL__DECLARE_SERIES(name, variant, lanes, set) extern dal_series_callback name##_##variant;
 DAL__CALLBACKS(dal__fill_callbacks, x1, 1, BASE)
 DAL__VARIANT_LIST(DAL__CALLBACKS, dal__fill_callbacks)
-DAL__SERIES(dal__series, x1, 1, BASE)
-DAL__VARIANT_LIST(DAL__SERIES, dal__series)
+DAL__DECLARE_SERIES(dal__call_series, x1, 1, BASE)
+DAL__VARIANT_LIST(DAL__DECLARE_SERIES, dal__call_series)
 
 #endif

@@ -49,7 +49,7 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     if (reads >= DAL__READS_tqvpi) load_lanes(at->work, p->pi, at->pi, p->n);
     if (program->checked + program->left == 0) {
         DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);
-        return DAL_OK;
+        return DAL_STATUS_OK;
     }
     double *scratch = at->work + p->scratch * WIDTH;
     DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, scratch);
@@ -58,7 +58,7 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     const dal_mask ok = pivots_hold(all + program->outputs, program->checked);
     for (int i = 0; i < program->outputs; i++) to[i] = dal_select(ok, all[i], dal_num(NAN));
     leave_pivots(p, program, all + program->outputs, at->work);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 #define CALLBACK(code, name, reads, numbers)                                                       \
@@ -70,8 +70,8 @@ DAL_CALLBACK_LIST(CALLBACK)
 #undef CALLBACK
 
 /* Coefficient k of F and its like; at order 0 also what run_program leaves. */
-dal_status DAL_WIDE(dal__series)(const dal_system *system, int lifted, int k, int stride,
-                                 const double *in, double *work, double *memory, double *out)
+dal_status DAL_WIDE(dal__call_series)(const dal_system *system, int lifted, int k, int stride,
+                                      const double *in, double *work, double *memory, double *out)
 {
     const dal__programs *p = system->data;
     const dal__taylor *taylor = p->taylor[lifted];
@@ -85,13 +85,13 @@ dal_status DAL_WIDE(dal__series)(const dal_system *system, int lifted, int k, in
     if (lifted) to[outputs] = dal_num(0.0);
     if (taylor->outputs > behind) DAL_WIDE(dal__taylor_read)
     (taylor, behind, 1, k, stride, work, memory, (double *)(to + outputs));
-    if (k > 0 || behind == outputs) return DAL_OK;
+    if (k > 0 || behind == outputs) return DAL_STATUS_OK;
     DAL_WIDE(dal__taylor_read)
     (taylor, outputs, behind - outputs, k, stride, work, memory, scratch);
     leave_pivots(p, program, (const num *)scratch, work);
     const dal_mask ok = pivots_hold((const num *)scratch, program->checked);
     for (int i = 0; i < outputs; i++) to[i] = dal_select(ok, to[i], dal_num(NAN));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal__run_program *DAL_WIDE(dal__fill_callbacks)(const dal__programs *programs, dal_callbacks *call)

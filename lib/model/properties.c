@@ -110,7 +110,7 @@ dal_status dal__properties(dal_model *model)
     dal__equations *e = &model->equations;
     dal__node *first = dal__model_nodes(model, 2 * e->n, 0);
     dal__node *second = dal__model_nodes(model, 2 * e->n, 0);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     bool autonomous = true, constant = true;
     for (int i = 0; i < e->n + e->multipliers; i++)
         autonomous = autonomous && !dal__depends(e->graph, e->F[i], e->t, e->t + 1);
@@ -253,10 +253,10 @@ dal_status dal__guards(dal_model *model)
         for (dal__node node = e->constraint[a]; node > 0; node--)
             if (s.flag[node]) visit(&s, node);
     }
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     if (e->servo) guard_determinant(&s, false, "the reactions: det A W^-1 B^T");
     const char *name =
         e->restricted ? "the mass matrix on ker A: its determinant" : "the mass matrix: det W";
     if (guard_determinant(&s, true, name)) e->mass_guard = e->guards;
-    return s.full ? DAL_TOO_LARGE : e->graph->status;
+    return s.full ? DAL_STATUS_TOO_LARGE : e->graph->status;
 }

@@ -4,10 +4,10 @@
 
 #include "dalembert.h"
 
-/* Sets the properties of the equations.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+/* Sets the properties of the equations.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__properties(dal_model *model);
-/* Collects the guards of the constraints and of the mass matrix.  Errors: DAL_MEMORY,
- * DAL_TOO_LARGE. */
+/* Collects the guards of the constraints and of the mass matrix.  Errors: DAL_STATUS_MEMORY,
+ * DAL_STATUS_TOO_LARGE. */
 dal_status dal__guards(dal_model *model);
 
 #endif

@@ -136,7 +136,8 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
     const size_t n = (size_t)e->n, m = (size_t)e->m, symbols = (size_t)e->symbols;
     *out = (dal_ranks){.mass = -1};
     if (e->vakonomic || e->servo)
-        return dal__fail(error, DAL_UNSUPPORTED, "the motion does not follow Chetaev's rule");
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "the motion does not follow Chetaev's rule");
     matrices k = {.n = e->n,
                   .m = e->m,
                   .A = dal__model_allocate(model, m * n + 1, sizeof(double)),
@@ -149,17 +150,17 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
     if (model->out_of_memory) return dal__memory_error(error);
     for (size_t i = 0; i <= n; i++) ones[i] = 1.0;
     memcpy(value, e->value, symbols * sizeof *value);
-    DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_NOT_FINITE, value,
-                                error));
+    DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
+                                value, error));
     value[e->t] = at->t;
     memcpy(value + e->q, at->q, n * sizeof *value);
     memcpy(value + e->v, at->v, n * sizeof *value);
     const bool is_finite = fill_matrices(&k, e, value, units ? units : ones);
-    if (e->graph->status == DAL_MEMORY) return dal__memory_error(error);
+    if (e->graph->status == DAL_STATUS_MEMORY) return dal__memory_error(error);
     if (!is_finite)
-        return dal__fail(error, DAL_NOT_FINITE, "A or W is not finite at t = %.17g", at->t);
+        return dal__fail(error, DAL_STATUS_NOT_FINITE, "A or W is not finite at t = %.17g", at->t);
     find_ranks(&k, out);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the growth vector ---- */
@@ -253,7 +254,7 @@ static dal_status make_fields(distribution *d, const dal__node *A, double *x)
     double *per_row = dal__model_allocate(d->model, (size_t)m, sizeof *per_row);
     dal__node *matrix = dal__model_nodes(d->model, m * m, 0);
     dal__node *side = dal__model_nodes(d->model, 2 * m, 0), *solution = side + m;
-    if (d->model->out_of_memory) return DAL_MEMORY;
+    if (d->model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < m * dim; i++)
         x[i] = dal__evaluate(e->graph, A[i], d->point) * d->unit[i % dim];
     for (int a = 0; a < m; a++) {
@@ -266,7 +267,7 @@ static dal_status make_fields(distribution *d, const dal__node *A, double *x)
         int best = d->fixed;
         for (int j = d->fixed; j < dim; j++)
             if (fabs(row[j]) > fabs(row[best])) best = j;
-        if (!(fabs(row[best]) > ROUNDING)) return DAL_SINGULAR;
+        if (!(fabs(row[best]) > ROUNDING)) return DAL_STATUS_SINGULAR;
         pivot[best] = true;
         for (int b = a + 1; b < m; b++) {
             const double factor = x[b * dim + best] / row[best];
@@ -342,7 +343,7 @@ static dal_status make_matrix(distribution *d, dal__node *A, const double *value
     bool has_t = false;
     for (int i = 0; i < e->m * e->n; i++) {
         if (dal__depends(e->graph, e->A[i], e->v, e->v + e->n))
-            return dal__fail(error, DAL_UNSUPPORTED, "constraint %d is not linear in v",
+            return dal__fail(error, DAL_STATUS_UNSUPPORTED, "constraint %d is not linear in v",
                              i / e->n + 1);
         has_t |= dal__depends(e->graph, e->A[i], e->t, e->t + 1);
     }
@@ -365,7 +366,7 @@ static dal_status make_matrix(distribution *d, dal__node *A, const double *value
         d->points += isfinite(sum);
     }
     if (d->points == 0)
-        return dal__fail(error, DAL_NOT_FINITE, "A has no finite values about the start");
+        return dal__fail(error, DAL_STATUS_NOT_FINITE, "A has no finite values about the start");
     return e->graph->status;
 }
 
@@ -379,27 +380,27 @@ dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int
     const dal__equations *e = &model->equations;
     distribution d = {.model = model};
     *out = (dal_growth){.levels = 0};
-    if (e->m == 0) return dal__fail(error, DAL_UNSUPPORTED, "the system has no constraints");
+    if (e->m == 0) return dal__fail(error, DAL_STATUS_UNSUPPORTED, "the system has no constraints");
     const size_t dim = 1 + (size_t)e->n, symbols = (size_t)e->symbols;
     dal__node *A =
         dal__model_nodes(model, (int)((size_t)e->m * dim) + e->n, dal__number(e->graph, 0.0));
     double *value = dal__model_allocate(model, symbols, sizeof *value);
     double *x = dal__model_allocate(model, (size_t)e->m * dim, sizeof *x);
     double *ones = dal__model_allocate(model, dim, sizeof *ones);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (size_t i = 0; i < dim; i++) ones[i] = 1.0;
     memcpy(value, e->value, symbols * sizeof *value);
-    DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_NOT_FINITE, value,
-                                error));
+    DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
+                                value, error));
     d.field = dal__model_nodes(model, (int)((POINTS * dim + 1) * dim), 0);
     d.weight = dal__model_allocate(model, POINTS * dim + 1, sizeof *d.weight);
     d.basis = dal__model_allocate(model, POINTS * dim * dim, sizeof *d.basis);
     d.point = dal__model_allocate(model, POINTS * symbols, sizeof *d.point);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     dal_status status = make_matrix(&d, A, value, units ? units : ones, error);
-    if (status == DAL_OK) status = make_fields(&d, A, x);
-    if (e->graph->status == DAL_MEMORY) return dal__memory_error(error);
-    if (status == DAL_SINGULAR)
+    if (status == DAL_STATUS_OK) status = make_fields(&d, A, x);
+    if (e->graph->status == DAL_STATUS_MEMORY) return dal__memory_error(error);
+    if (status == DAL_STATUS_SINGULAR)
         return dal__fail(error, status, "the constraints are dependent about the start");
     DAL_TRY(status);
     out->dimension = d.dim;

@@ -74,9 +74,9 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
     int *whose = dal__model_allocate(model, (size_t)m, sizeof *whose);
-    if (!whose) return DAL_MEMORY;
+    if (!whose) return DAL_STATUS_MEMORY;
     for (int a = 0; a < m; a++) whose[a] = a;
-    if (!dal__factors_allocate(model, &r->S, m, whose)) return DAL_MEMORY;
+    if (!dal__factors_allocate(model, &r->S, m, whose)) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n; i++)
         for (int a = 0; a < m; a++)
             lifted[i * m + a] =
@@ -90,9 +90,9 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
             if (b < a) *sum = r->S.matrix[b * m + a];
         }
     const dal_status status = dal__factor(model, &r->S);
-    if (status == DAL_SINGULAR) r->singular = r->S.constraint[r->S.singular] - 1;
+    if (status == DAL_STATUS_SINGULAR) r->singular = r->S.constraint[r->S.singular] - 1;
     DAL_TRY(status);
-    DAL_TRY(dal__solve(model, &r->S, false, n, lifted, r->N));
+    DAL_TRY(dal__factors_solve(model, &r->S, false, n, lifted, r->N));
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             dal__node sum = dal__number(e->graph, 0.0);
@@ -111,7 +111,7 @@ dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__res
     r->P = dal__model_nodes(model, n * n, 0);
     dal__node *scratch = dal__model_nodes(model, n * n, 0);
     double *g = dal__model_allocate(model, (size_t)(n + m * n), sizeof *g);
-    if (!dal__factors_allocate(model, &r->V, n, NULL)) return DAL_MEMORY;
+    if (!dal__factors_allocate(model, &r->V, n, NULL)) return DAL_STATUS_MEMORY;
     find_weights(e, W, g, g + n);
     DAL_TRY(make_projector(model, r, g, scratch));
     dal__node *V = r->V.matrix, *WP = scratch;
@@ -171,7 +171,7 @@ dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, con
     const dal__node zero = dal__number(e->graph, 0.0);
     dal__node *rest = dal__model_nodes(model, n, zero), *rhs = dal__model_nodes(model, n, zero);
     dal__node *y = dal__model_nodes(model, n, zero), *out = dal__model_nodes(model, m, zero);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n; i++) x[i] = zero;
     add_lift(e, r, bottom, x);
     apply_mass(e, r, x, top, rest);
@@ -179,7 +179,7 @@ dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, con
         for (int k = 0; k < n; k++) add_product(e, &rhs[i], r->P[k * n + i], rest[k]);
         rhs[i] = dal__node_neg(e->graph, rhs[i]);
     }
-    DAL_TRY(dal__solve(model, &r->V, false, 1, rhs, y));
+    DAL_TRY(dal__factors_solve(model, &r->V, false, 1, rhs, y));
     for (int a = 0; a < m; a++) {
         for (int i = 0; i < n; i++) add_product(e, &out[a], e->A[a * n + i], y[i]);
         out[a] = dal__node_neg(e->graph, out[a]);
@@ -202,7 +202,7 @@ dal_status dal__restricted_directions(dal_model *model, const dal__restricted *r
     dal__node *zeros = dal__model_nodes(model, n, dal__number(e->graph, 0.0));
     dal__node *unit = dal__model_nodes(model, m, dal__number(e->graph, 0.0));
     dal__node *column = dal__model_nodes(model, n, 0);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int a = 0; a < m; a++) {
         unit[a] = dal__number(e->graph, 1.0);
         DAL_TRY(dal__restricted_solve(model, r, zeros, unit, column, NULL));

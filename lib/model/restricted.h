@@ -10,15 +10,15 @@ typedef struct dal__restricted {
     const dal__node *W; /* [n*n] */
     dal__node *N, *P;   /* [n*m], [n*n] */
     dal__factors S, V;
-    int singular; /* on DAL_SINGULAR: the constraint, from 0, that depends on others; -1: W is
-                   * singular on ker A */
+    int singular; /* on DAL_STATUS_SINGULAR: the constraint, from 0, that depends on others;
+                   * -1: W is singular on ker A */
 } dal__restricted;
 
-/* Factors the system with this W [n*n], which must outlive it.  Errors: DAL_MEMORY, DAL_SINGULAR,
- * DAL_TOO_LARGE. */
+/* Factors the system with this W [n*n], which must outlive it.  Errors: DAL_STATUS_MEMORY,
+ * DAL_STATUS_SINGULAR, DAL_STATUS_TOO_LARGE. */
 dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__restricted *r);
-/* W x - A^T h = top [n], A x = bottom [m]; h is NULL where it is not wanted.  Errors: DAL_MEMORY,
- * DAL_TOO_LARGE. */
+/* W x - A^T h = top [n], A x = bottom [m]; h is NULL where it is not wanted.  Errors:
+ * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, const dal__node *top,
                                  const dal__node *bottom, dal__node *x, dal__node *h);
 /* The x [n*m] of top = 0 and A x = 1: they span the directions of W^-1 A^T.  Errors: as above. */

@@ -22,7 +22,7 @@ dal_status dal__find_word(const char *word, int line, int column, const char *wh
                           const char *const *words, int count, int *i, dal_error *error)
 {
     *i = dal__index_of(word, strlen(word), words, count);
-    return *i >= 0 ? DAL_OK : dal__unknown_at(error, line, column, what, word, words, count);
+    return *i >= 0 ? DAL_STATUS_OK : dal__unknown_at(error, line, column, what, word, words, count);
 }
 
 /* ---- clashes ---- */
@@ -90,11 +90,11 @@ static dal_status check_clash(dal_model *model, int k, const dal__entry *entry, 
                                          kinds[k].what, name));
     for (int i = 0; i < FORMULA_WORDS && !dal__hides_function(name); i++)
         if (formula_words[i] && strcmp(formula_words[i], name) == 0)
-            return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
+            return dal__fail_at(error, DAL_STATUS_NAME, DAL__AT_NAME(entry),
                                 "%s '%.80s': this name is reserved in formulas", kinds[k].what,
                                 name);
     if (kinds[k].column && is_column(&model->equations, name))
-        return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
+        return dal__fail_at(error, DAL_STATUS_NAME, DAL__AT_NAME(entry),
                             "%s '%.80s': this name is reserved for a column of the output",
                             kinds[k].what, name);
     const bool by_bracket = kinds[k].section == DAL_SECTION_FUNCTIONS; /* V(r) and V(x) clash */
@@ -105,12 +105,12 @@ static dal_status check_clash(dal_model *model, int k, const dal__entry *entry, 
             const dal__entry *other = &model->entries[i];
             if (other == entry) break;
             if (other->section == kinds[j].section && same_name(other, entry))
-                return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
+                return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(entry),
                                     "%s '%.80s': a %s already has this name", kinds[k].what, name,
                                     kinds[j].what);
         }
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- collecting ---- */
@@ -139,7 +139,7 @@ dal_status dal__collect_names(dal_model *model, dal_error *error)
         for (int i = 0; i < model->count; i++)
             if (model->entries[i].section == kinds[k].section && !model->entries[i].observed)
                 DAL_TRY(check_clash(model, k, &model->entries[i], error));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- meaning ---- */
@@ -147,8 +147,8 @@ dal_status dal__collect_names(dal_model *model, dal_error *error)
 static dal__node misplaced(const dal__scope *scope, const char *what, const char *name,
                            dal_error *error)
 {
-    dal__fail(error, DAL_NAME, "%s '%.80s' may not stand here: only %sparameters%s", what, name,
-              scope->inside ? "arguments and " : "",
+    dal__fail(error, DAL_STATUS_NAME, "%s '%.80s' may not stand here: only %sparameters%s", what,
+              name, scope->inside ? "arguments and " : "",
               scope->given              ? ", t and what start gives before"
               : scope->may & DAL__MAY_T ? " and t"
                                         : "");
@@ -220,11 +220,11 @@ static dal__node reaction(const dal__scope *scope, const char *name, int i, dal_
 {
     const dal__equations *e = &scope->model->equations;
     if (e->vakonomic)
-        dal__fail(error, DAL_NAME,
+        dal__fail(error, DAL_STATUS_NAME,
                   "vakonomic motion has no reaction '%.80s'; its multipliers are g1, g2, ..", name);
     else if (!(scope->may & DAL__MAY_REACTIONS))
-        dal__fail(error, DAL_NAME, "the reaction '%.80s' may stand in invariants and events only",
-                  name);
+        dal__fail(error, DAL_STATUS_NAME,
+                  "the reaction '%.80s' may stand in invariants and events only", name);
     else
         return dal__symbol(e->graph, e->reaction + i);
     return 0;
@@ -254,7 +254,7 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
         return is_allowed ? let : misplaced(scope, "let", name, error);
     }
     if (strcmp(name, "e") == 0) {
-        dal__fail(error, DAL_NAME, "e is the gauge variable; exp(1) is Euler's number");
+        dal__fail(error, DAL_STATUS_NAME, "e is the gauge variable; exp(1) is Euler's number");
         return 0;
     }
     char g[16];
@@ -273,7 +273,7 @@ static dal__node resolve_name(void *user, const char *text, size_t length, bool 
     const dal__equations *e = &scope->model->equations;
     char name[128];
     if (length >= sizeof name) {
-        dal__fail(error, DAL_NAME, "unknown name '%.40s...'", text);
+        dal__fail(error, DAL_STATUS_NAME, "unknown name '%.40s...'", text);
         return 0;
     }
     memcpy(name, text, length);
@@ -286,7 +286,7 @@ static dal__node resolve_name(void *user, const char *text, size_t length, bool 
     if (i >= 0) return state(scope, e->n + i, "the velocity of", name, error);
     if (dal__index_of(name, length, e->parameter, e->parameters) < 0)
         return unknown(scope, name, error);
-    dal__fail(error, DAL_NAME, "parameter '%.80s' has no velocity", name);
+    dal__fail(error, DAL_STATUS_NAME, "parameter '%.80s' has no velocity", name);
     return 0;
 }
 
@@ -322,7 +322,7 @@ void dal__entry_title(const dal_model *model, const dal__entry *entry, char *tit
                  entry->item, entry->name);
     else if (entry->name && !entry->observed)
         snprintf(title, size, "%s %.80s", label, entry->name);
-    else if (dal__sections[entry->section].form == DAL__LIST)
+    else if (dal__sections[entry->section].form == DAL__FORM_LIST)
         snprintf(title, size, "%s %d", label, number);
     else
         snprintf(title, size, "%s", label);
@@ -350,14 +350,15 @@ dal_status dal__parse_entry(dal_model *model, const dal__entry *entry, dal__scop
     const dal__names names = {resolve_name, scope_function, scope_call, &scope};
     dal_status status =
         dal__parse(model->equations.graph, entry->text, strlen(entry->text), &names, node, &inner);
-    return status == DAL_OK ? DAL_OK : locate(model, entry, error, &inner);
+    return status == DAL_STATUS_OK ? DAL_STATUS_OK : locate(model, entry, error, &inner);
 }
 
 dal_status dal__not_finite(const dal_model *model, const dal__entry *entry, dal_error *error)
 {
-    const dal_error inner = {DAL_MODEL, 1, 1, "the value is not finite"};
+    const dal_error inner = {DAL_STATUS_MODEL, 1, 1, "the value is not finite"};
     const dal_status status = model->equations.graph->status;
-    return status != DAL_OK ? dal__size_error(status, error) : locate(model, entry, error, &inner);
+    return status != DAL_STATUS_OK ? dal__size_error(status, error)
+                                   : locate(model, entry, error, &inner);
 }
 
 dal__scope dal__scope_of(const dal__equations *e, unsigned may)

@@ -21,9 +21,9 @@ static dal_status add_constraint(dal_model *model, dal__programs *programs)
     const dal__equations *e = &model->equations;
     const int m = e->m, mn = m * e->n;
     const dal__nodes lists[] = {{e->constraint, m}, {e->A, mn}, {e->U, mn}};
-    if (m == 0) return DAL_OK;
+    if (m == 0) return DAL_STATUS_OK;
     DAL_TRY(dal__programs_add(model, programs, DAL__PROGRAM_CONSTRAINTS, e->constraint, m));
-    if (!e->U[0]) return DAL_OK;
+    if (!e->U[0]) return DAL_STATUS_OK;
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_CONSTRAINT, lists, 3);
 }
 
@@ -33,13 +33,13 @@ static dal_status add_projection(dal_model *model, dal__programs *programs)
     const dal__equations *e = &model->equations;
     const int m = e->m, n = e->n;
     bool depends = false;
-    if (m == 0 || !e->U[0]) return DAL_OK;
+    if (m == 0 || !e->U[0]) return DAL_STATUS_OK;
     for (int i = 0; i < n * n && !depends; i++)
         depends = dal__depends(e->graph, e->mass->given[i], e->v, e->v + n);
-    if (!depends) return DAL_OK;
+    if (!depends) return DAL_STATUS_OK;
     dal__node *U = dal__model_nodes(model, m * n, 0);
     const dal__nodes lists[] = {{e->constraint, m}, {e->A, m * n}, {U, m * n}};
-    if (!U) return DAL_MEMORY;
+    if (!U) return DAL_STATUS_MEMORY;
     DAL_TRY(dal__solve_mass_at_pi(model, U));
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_PROJECTION, lists, 3);
 }
@@ -49,7 +49,7 @@ static dal_status add_reactions(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
     const dal__nodes lists[] = {{e->h, e->m}, {e->B, e->m * e->n}};
-    if (e->m == 0 || e->vakonomic) return DAL_OK;
+    if (e->m == 0 || e->vakonomic) return DAL_STATUS_OK;
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_REACTIONS, lists, 2);
 }
 
@@ -59,7 +59,7 @@ static dal_status add_blocks(dal_model *model, dal__programs *programs)
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m, mn = m * n;
     const dal__nodes lists[] = {{e->constraint, m}, {e->A, mn}, {e->R, mn}, {e->a, n}, {e->c, m}};
-    if (e->vakonomic) return DAL_OK;
+    if (e->vakonomic) return DAL_STATUS_OK;
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_BLOCKS, lists, 5);
 }
 
@@ -87,7 +87,7 @@ static dal_status add_diagnosis(dal_model *model, dal__programs *programs)
     dal__node *out = dal__model_nodes(model, first + 2 * lookups, 0);
     e->lookup = dal__model_allocate(model, (size_t)lookups + 1, sizeof *e->lookup);
     e->lookups = lookups;
-    if (!out || !e->lookup) return DAL_MEMORY;
+    if (!out || !e->lookup) return DAL_STATUS_MEMORY;
     list_lookups(e, out + first);
     for (int k = 0; k < e->pivots; k++) {
         out[2 * k] = e->pivot[k].pivot;
@@ -104,7 +104,7 @@ static dal_status add_diagnosis(dal_model *model, dal__programs *programs)
 static dal_status add_if(dal_model *model, dal__programs *programs, bool present,
                          dal__program_code code, const dal__node *outputs, int count)
 {
-    return present ? dal__programs_add(model, programs, code, outputs, count) : DAL_OK;
+    return present ? dal__programs_add(model, programs, code, outputs, count) : DAL_STATUS_OK;
 }
 
 /* All programs of a system whose accelerations are F. */
@@ -150,7 +150,7 @@ static dal_status describe(dal_model *model)
     const dal__equations *e = &model->equations;
     const int units = 2 * e->n + e->multipliers + e->m + 1;
     model->units = dal__model_allocate(model, (size_t)units, sizeof *model->units);
-    if (!model->units) return DAL_MEMORY;
+    if (!model->units) return DAL_STATUS_MEMORY;
     for (int i = 0; i < units; i++) model->units[i] = 1.0;
     model->system = (dal_system){
         .name = model->name,
@@ -180,7 +180,7 @@ static dal_status describe(dal_model *model)
         .table = e->table_name,
         .units = model->units,
     };
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The last program of the system and of the extended one. */
@@ -202,7 +202,7 @@ static dal_status add_terms(dal_model *model)
     const int n = e->n, m = e->m, count = m + 1 + e->invariants;
     dal__node *formula = dal__model_nodes(model, count, dal__number(e->graph, 0.0));
     dal__node *reaction = dal__model_nodes(model, m + n, dal__number(e->graph, 0.0));
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     dal__terms_free(model->terms);
     dal__terms_free(model->reaction_terms);
     model->reaction_terms = NULL;
@@ -210,7 +210,7 @@ static dal_status add_terms(dal_model *model)
     if (e->energy) formula[m] = e->energy;
     for (int i = 0; i < e->invariants; i++) formula[m + 1 + i] = e->invariant[i];
     model->terms = dal__terms_create(e->graph, formula, count);
-    if (!model->terms) return DAL_MEMORY;
+    if (!model->terms) return DAL_STATUS_MEMORY;
     if (m > 0 && !e->vakonomic) {
         for (int a = 0; a < m; a++) reaction[a] = e->h[a];
         for (int i = 0; i < n; i++)
@@ -218,7 +218,7 @@ static dal_status add_terms(dal_model *model)
                 reaction[m + i] = dal__node_add(e->graph, reaction[m + i],
                                                 dal__node_mul(e->graph, e->B[a * n + i], e->h[a]));
         model->reaction_terms = dal__terms_create(e->graph, reaction, m + n);
-        if (!model->reaction_terms) return DAL_MEMORY;
+        if (!model->reaction_terms) return DAL_STATUS_MEMORY;
     }
     model->programs.terms = model->extended_programs.terms = model->terms;
     model->programs.reaction_terms = model->extended_programs.reaction_terms =
@@ -237,12 +237,12 @@ static dal_status make_extended(dal_model *model)
 {
     const dal__equations *e = &model->equations;
     if (e->properties & DAL_E_EXACT) model->system.extended = &model->system;
-    if (!e->extended) return DAL_OK;
+    if (!e->extended) return DAL_STATUS_OK;
     model->extended = model->system;
     model->extended.properties ^= DAL_E_ON_D | DAL_E_EXACT;
     DAL_TRY(finish_programs(model, &model->extended_programs, &model->extended));
     model->system.extended = model->extended.extended = &model->extended;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error)
@@ -250,31 +250,31 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     DAL_REQUIRE(system, error);
     *system = NULL;
     DAL_REQUIRE(model, error);
-    if (model->made) return *system = &model->system, DAL_OK;
+    if (model->made) return *system = &model->system, DAL_STATUS_OK;
     model->out_of_memory = false;
     DAL_TRY(dal__parse_model(model, error));
     DAL_TRY(dal__equations_derive(model, error));
     DAL_TRY(dal__derive_events(model, error));
     dal_status status = dal__guards(model);
-    if (status == DAL_OK) status = dal__properties(model);
-    if (status == DAL_OK) status = dal__conserved_energy(model);
-    if (status == DAL_OK) status = dal__potential(model);
-    if (status == DAL_OK) status = describe(model);
-    if (status == DAL_OK) status = add_programs(model, &model->programs, model->equations.F);
-    if (status == DAL_OK) status = add_reactions(model, &model->programs);
-    if (status == DAL_OK && model->equations.extended)
+    if (status == DAL_STATUS_OK) status = dal__properties(model);
+    if (status == DAL_STATUS_OK) status = dal__conserved_energy(model);
+    if (status == DAL_STATUS_OK) status = dal__potential(model);
+    if (status == DAL_STATUS_OK) status = describe(model);
+    if (status == DAL_STATUS_OK) status = add_programs(model, &model->programs, model->equations.F);
+    if (status == DAL_STATUS_OK) status = add_reactions(model, &model->programs);
+    if (status == DAL_STATUS_OK && model->equations.extended)
         status = add_programs(model, &model->extended_programs, model->equations.extended);
-    if (status == DAL_OK) DAL_TRY(dal__parse_observed(model, error));
-    if (status == DAL_OK) status = dal__insert_reactions(model);
-    if (status == DAL_OK) status = add_invariants(model);
-    if (status == DAL_OK) status = add_terms(model);
-    if (status == DAL_OK) status = finish_programs(model, &model->programs, &model->system);
-    if (status == DAL_OK) status = dal__system_units(model, &model->system, model->units);
-    if (status == DAL_OK) status = make_extended(model);
-    if (status != DAL_OK) return dal__size_error(status, error);
+    if (status == DAL_STATUS_OK) DAL_TRY(dal__parse_observed(model, error));
+    if (status == DAL_STATUS_OK) status = dal__insert_reactions(model);
+    if (status == DAL_STATUS_OK) status = add_invariants(model);
+    if (status == DAL_STATUS_OK) status = add_terms(model);
+    if (status == DAL_STATUS_OK) status = finish_programs(model, &model->programs, &model->system);
+    if (status == DAL_STATUS_OK) status = dal__system_units(model, &model->system, model->units);
+    if (status == DAL_STATUS_OK) status = make_extended(model);
+    if (status != DAL_STATUS_OK) return dal__size_error(status, error);
     model->made = true;
     *system = &model->system;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the tangent system ---- */
@@ -286,7 +286,7 @@ static dal_status add_tangent_programs(dal_model *model)
     int n = e->n;
     dal__node *F = dal__model_nodes(model, 2 * n, 0), *seed = dal__model_nodes(model, 2 * n, 0);
     int *along = dal__model_allocate(model, 2 * (size_t)n, sizeof *along);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n; i++) {
         along[i] = e->q + i;
         along[n + i] = e->v + i;
@@ -312,7 +312,7 @@ static dal_status make_tangent(dal_model *model)
         names[i] = e->coordinate[i];
         names[e->n + i] = dal__model_print(model, "dq_%s", e->coordinate[i]);
     }
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     model->tangent = (dal_system){.name = name,
                                   .title = model->system.title,
                                   .reference = model->system.reference,
@@ -332,16 +332,16 @@ dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_er
     *system = NULL;
     DAL_REQUIRE(model, error);
     const dal_system *plain;
-    if (model->tangent_made) return *system = &model->tangent, DAL_OK;
+    if (model->tangent_made) return *system = &model->tangent, DAL_STATUS_OK;
     DAL_TRY(dal_model_system(model, &plain, error));
     if (model->equations.multipliers)
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "'%.80s' has multipliers: there is no tangent system for it", model->name);
     dal_status status = make_tangent(model);
-    if (status != DAL_OK) return dal__size_error(status, error);
+    if (status != DAL_STATUS_OK) return dal__size_error(status, error);
     model->tangent_made = true;
     *system = &model->tangent;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 void dal_model_free(dal_model *model)

@@ -108,7 +108,7 @@ static dal_status find_symbols(dal_model *model, double *unit, double *levels)
     s.x = dal__model_allocate(model, (size_t)e->symbols, sizeof *s.x);
     s.node = dal__model_nodes(model, s.formulas, e->lagrangian);
     s.scale = dal__model_allocate(model, 2 * (size_t)s.formulas, sizeof *s.scale);
-    if (model->out_of_memory) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     memcpy(s.x, e->value, (size_t)e->symbols * sizeof *s.x);
     for (int a = 0; a < m; a++) s.node[1 + a] = e->constraint[a];
     for (int i = 0; i < n; i++) s.node[1 + m + i] = e->force[i];
@@ -128,7 +128,7 @@ static dal_status find_symbols(dal_model *model, double *unit, double *levels)
     }
     dal__terms_free(s.terms);
     model->out_of_memory |= !s.memory;
-    return s.memory ? DAL_OK : DAL_MEMORY;
+    return s.memory ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
 }
 
 dal_status dal__model_units(dal_model *model, double *unit)
@@ -172,12 +172,12 @@ static bool find_start(const dal_system *s, double *x, double *work, double *mem
 {
     const size_t nw = (size_t)(s->n + s->multipliers);
     const dal_point at = {.work = work};
-    if (s->prepare && s->prepare(s, &at, NULL) != DAL_OK) return false;
-    if (s->start(s, &at, x) != DAL_OK) return false;
+    if (s->prepare && s->prepare(s, &at, NULL) != DAL_STATUS_OK) return false;
+    if (s->start(s, &at, x) != DAL_STATUS_OK) return false;
     if (s->solved_velocities == 0) return true;
     double *const guess = memory + dal__solve_size(s);
     memcpy(guess, x + s->n, nw * sizeof *x);
-    if (dal__solve_velocities(s, 0.0, x, x + s->n, work, memory, NULL) != DAL_OK)
+    if (dal__solve_velocities(s, 0.0, x, x + s->n, work, memory, NULL) != DAL_STATUS_OK)
         memcpy(x + s->n, guess, nw * sizeof *x);
     return true;
 }
@@ -202,18 +202,18 @@ dal_status dal__system_units(dal_model *model, const dal_system *system, double 
                            system->workspace + dal__sizes_memory(system) + dal__solve_size(system) +
                            (size_t)nw;
     double *unit = calloc(numbers, sizeof *unit);
-    if (!unit) return DAL_MEMORY;
+    if (!unit) return DAL_STATUS_MEMORY;
     double *ratio = unit + symbols, *x = ratio + n, *work = x + 2 * n + e->multipliers + 1;
     double *memory = work + system->workspace;
     memcpy(work, system->value, (size_t)system->parameters * sizeof *work);
     const dal_status status = find_symbols(model, unit, units + n + nw);
     find_ratios(e, ratio);
-    if (status == DAL_OK && find_start(system, x, work, memory)) {
+    if (status == DAL_STATUS_OK && find_start(system, x, work, memory)) {
         dal__sizes sizes = {.system = system, .work = work, .step = default_step(model), .x = x};
         dal__find_sizes(&sizes, memory);
         find_lengths(&sizes, ratio, units);
     }
     for (int a = 0; a < e->multipliers; a++) units[2 * n + a] = unit[e->g + a];
     free(unit);
-    return status == DAL_OK ? e->graph->status : status;
+    return status == DAL_STATUS_OK ? e->graph->status : status;
 }

@@ -176,11 +176,11 @@ static dal_status allocate(dal_batch *batch, const engine_choice *from, dal_erro
         batch->memory = malloc(engines + bytes + ALIGNMENT);
     }
     if (!batch->group || !batch->error || !batch->memory)
-        return dal__fail(error, DAL_MEMORY, "no memory for a batch of %d", batch->count);
+        return dal__fail(error, DAL_STATUS_MEMORY, "no memory for a batch of %d", batch->count);
     char *aligned = (char *)batch->memory + (ALIGNMENT - (uintptr_t)batch->memory % ALIGNMENT);
     place_engines(batch, from, aligned);
     place_groups(batch, from, aligned + engines, &bytes);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__batch_of_variant(dal_batch **batch, const dal_run_spec *spec, int count, int width,
@@ -188,18 +188,19 @@ dal_status dal__batch_of_variant(dal_batch **batch, const dal_run_spec *spec, in
 {
     dal_batch *made = calloc(1, sizeof *made);
     *batch = NULL;
-    if (!made) return dal__fail(error, DAL_MEMORY, "no memory for a batch");
+    if (!made) return dal__fail(error, DAL_STATUS_MEMORY, "no memory for a batch");
     dal_status status = dal_run_create(&made->scalar, spec, error);
-    if (status == DAL_OK && only != DAL__VARIANTS && !dal__engine_can(&made->scalar->layout, only))
-        status = dal__fail(error, DAL_UNSUPPORTED, "variant %d cannot run here", (int)only);
-    if (status == DAL_OK) {
+    if (status == DAL_STATUS_OK && only != DAL__VARIANTS &&
+        !dal__engine_can(&made->scalar->layout, only))
+        status = dal__fail(error, DAL_STATUS_UNSUPPORTED, "variant %d cannot run here", (int)only);
+    if (status == DAL_STATUS_OK) {
         const engine_choice one = {{&dal__engine_kinds[only % DAL__VARIANTS]}, 1};
         const engine_choice from =
             only == DAL__VARIANTS ? choose(&made->scalar->layout, width) : one;
         made->count = count;
         status = allocate(made, &from, error);
     }
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         *batch = made;
     else
         dal_batch_free(made);
@@ -212,12 +213,13 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
     DAL_REQUIRE(batch, error);
     *batch = NULL;
     DAL_TRY(dal__check_spec(spec, error));
-    if (count < 1) return dal__fail(error, DAL_ARGUMENT, "a batch of %d runs is empty", count);
+    if (count < 1)
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "a batch of %d runs is empty", count);
     bool known = width == 0;
     for (int i = 0; i < WIDTHS; i++) known |= width == widths[i];
-    if (!known) return dal__fail(error, DAL_ARGUMENT, "width %d is not 0, 1, 4 or 8", width);
+    if (!known) return dal__fail(error, DAL_STATUS_ARGUMENT, "width %d is not 0, 1, 4 or 8", width);
     if (spec->options.precision != DAL_DOUBLE)
-        return dal__fail(error, DAL_UNSUPPORTED, "a batch has no lanes in quad precision");
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED, "a batch has no lanes in quad precision");
     DAL_TRY(dal__refuse_events(spec->system, "batches", error));
     return dal__batch_of_variant(batch, spec, count, width, DAL__VARIANTS, error);
 }
@@ -233,7 +235,7 @@ void dal_batch_free(dal_batch *batch)
 {
     if (!batch) return;
     dal_run_free(batch->scalar);
-    dal__native_free(&batch->native);
+    dal__compiled_free(&batch->native);
     free_groups(batch);
     free(batch);
 }
@@ -283,7 +285,7 @@ dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native_cod
     dal_batch made = {.scalar = batch->scalar, .count = batch->count, .stepped = batch->stepped};
     if (!has_width(batch, lanes)) {
         const dal_status status = allocate(&made, &one, error);
-        if (status != DAL_OK) {
+        if (status != DAL_STATUS_OK) {
             free_groups(&made);
             return status;
         }
@@ -293,7 +295,7 @@ dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native_cod
         for (int i = 0; i < batch->groups; i++) batch->group[i].engine = batch->engine;
     }
     batch->native = *native;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 bool dal_batch_is_native(const dal_batch *batch) { return batch && batch->native.steps != NULL; }
@@ -307,25 +309,26 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
     DAL_REQUIRE(batch, error);
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
     DAL_TRY(dal__check_settings(start, start_count, "start values", error));
-    return dal__batch_start(batch, lane, parameters, parameter_count, start, start_count, NULL,
-                            error);
+    return dal__batch_start_varied(batch, lane, parameters, parameter_count, start, start_count,
+                                   NULL, error);
 }
 
-dal_status dal__batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
-                            int parameter_count, const dal_setting *start, int start_count,
-                            const double *added, dal_error *error)
+dal_status dal__batch_start_varied(dal_batch *batch, int lane, const dal_setting *parameters,
+                                   int parameter_count, const dal_setting *start, int start_count,
+                                   const double *added, dal_error *error)
 {
     if (lane < 0 || lane >= batch->count)
-        return dal__fail(error, DAL_ARGUMENT, "lane %d of %d does not exist", lane, batch->count);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "lane %d of %d does not exist", lane,
+                         batch->count);
     if (batch->stepped)
-        return dal__fail(error, DAL_ARGUMENT,
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "lane %d cannot be started again: its batch has been stepped", lane);
     DAL_TRY(dal__run_start(batch->scalar, parameters, parameter_count, start, start_count, added,
                            error));
     group *b = group_of(batch, lane);
     scatter_lane(batch, b, lane - b->first);
     b->alive |= (dal__lanes)1 << (lane - b->first);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 void dal__batch_refuse(dal_batch *batch, int lane, const dal_error *reason)
@@ -338,9 +341,10 @@ dal_status dal_batch_clear(dal_batch *batch)
     DAL_REQUIRE(batch, NULL);
     for (int i = 0; i < batch->groups; i++) batch->group[i].alive = 0;
     for (int lane = 0; lane < batch->count; lane++)
-        if (batch->error[lane].status != DAL_OK) batch->error[lane] = (dal_error){.status = DAL_OK};
+        if (batch->error[lane].status != DAL_STATUS_OK)
+            batch->error[lane] = (dal_error){.status = DAL_STATUS_OK};
     batch->stepped = false;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_batch_set_parameter(dal_batch *batch, int lane, const char *name, double value,
@@ -351,7 +355,8 @@ dal_status dal_batch_set_parameter(dal_batch *batch, int lane, const char *name,
     const group *b = group_of(batch, lane);
     gather_lane(batch, b, lane - b->first);
     const dal_status status = dal_run_set_parameter(batch->scalar, name, value, error);
-    if (status == DAL_OK || status == DAL_INCONSISTENT) scatter_lane(batch, b, lane - b->first);
+    if (status == DAL_STATUS_OK || status == DAL_STATUS_INCONSISTENT)
+        scatter_lane(batch, b, lane - b->first);
     return status;
 }
 
@@ -395,7 +400,7 @@ dal_status dal_batch_advance(dal_batch *batch, long long count)
     DAL_REQUIRE(batch, NULL);
     DAL_REQUIRE_COUNT(count, NULL);
     const double h = batch->scalar->layout.options.step;
-    dal_status reason[DAL__MAX_LANES] = {DAL_OK}, last = DAL_OK;
+    dal_status reason[DAL__MAX_LANES] = {DAL_STATUS_OK}, last = DAL_STATUS_OK;
     dal__lanes failed = 0;
     bool alive = false;
     batch->stepped = batch->stepped || count > 0;
@@ -408,7 +413,7 @@ dal_status dal_batch_advance(dal_batch *batch, long long count)
         alive |= b->alive != 0;
         if (!b->alive) last = batch->error[b->first].status;
     }
-    return alive ? DAL_OK : last;
+    return alive ? DAL_STATUS_OK : last;
 }
 
 int dal_batch_count(const dal_batch *batch) { return batch ? batch->count : 0; }
@@ -417,7 +422,8 @@ dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error)
 {
     DAL_REQUIRE(batch, error);
     if (lane < 0 || lane >= batch->count)
-        return dal__fail(error, DAL_ARGUMENT, "lane %d of %d does not exist", lane, batch->count);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "lane %d of %d does not exist", lane,
+                         batch->count);
     if (error) *error = batch->error[lane];
     return batch->error[lane].status;
 }

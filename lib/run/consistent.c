@@ -48,8 +48,8 @@ dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error)
     const dal__condition *last = k->condition;
     dal_callback *const callback = u && s->projection ? s->projection : s->call.constraint;
     k->at.pi = u;
-    const dal_status status = m > 0 ? callback(s, &k->at, k->out) : DAL_OK;
-    if (status != DAL_OK)
+    const dal_status status = m > 0 ? callback(s, &k->at, k->out) : DAL_STATUS_OK;
+    if (status != DAL_STATUS_OK)
         return dal__fail(error, status, "the constraints cannot be evaluated at %s", k->place);
     memcpy(k->D, k->out, (size_t)m * sizeof *k->D);
     memcpy(k->A, k->out + m, (size_t)(m * n) * sizeof *k->A);
@@ -61,17 +61,17 @@ dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error)
         k->B[i * rows + m] = last->lifted[i];
         k->D[m] += last->normal[i] * k->v[i];
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__check_mass(const dal__linearised *k, dal_error *error)
 {
     const dal_system *system = k->system;
     double number;
-    if (!system->diagnose || system->diagnose(system, &k->at, &number) != DAL_SINGULAR_MASS)
-        return DAL_OK;
-    return dal__fail(error, DAL_SINGULAR_MASS, "%s is singular at %s", dal__mass_words(system),
-                     k->place);
+    if (!system->diagnose || system->diagnose(system, &k->at, &number) != DAL_STATUS_SINGULAR_MASS)
+        return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_SINGULAR_MASS, "%s is singular at %s",
+                     dal__mass_words(system), k->place);
 }
 
 void dal__constraint_sizes(dal__linearised *k, const double *scales)
@@ -79,7 +79,7 @@ void dal__constraint_sizes(dal__linearised *k, const double *scales)
     const int n = k->system->n;
     double *energy = k->given, kinetic = 0.0; /* E, E_q, E_v = W v, and n more */
     dal_callback *const energy_normal = k->system->call.energy_normal;
-    if (!energy_normal || energy_normal(k->system, &k->at, energy) != DAL_OK) kinetic = NAN;
+    if (!energy_normal || energy_normal(k->system, &k->at, energy) != DAL_STATUS_OK) kinetic = NAN;
     for (int i = 0; i < n && !isnan(kinetic); i++) kinetic += fabs(k->v[i] * energy[1 + n + i]);
     for (int a = 0; a < k->rows; a++) {
         double G = 0.0, sum = 0.0;
@@ -98,34 +98,34 @@ static dal_status dependent(const dal__linearised *k, int a, double pivot, dal_e
     const double size = dal__max_abs(k->A + a * system->n, (size_t)system->n);
     DAL_TRY(dal__check_mass(k, error));
     if (a == system->m)
-        return dal__fail(error, DAL_RANK,
+        return dal__fail(error, DAL_STATUS_RANK,
                          "%s changes no velocity that the constraints leave free (pivot %g of G)",
                          k->place, pivot);
     if (size == 0.0)
-        return dal__fail(error, DAL_RANK,
+        return dal__fail(error, DAL_STATUS_RANK,
                          "constraint %d restricts no velocity at %s: its derivatives by the "
                          "velocities are 0",
                          a + 1, k->place);
     if (isinf(size))
-        return dal__fail(error, DAL_RANK,
+        return dal__fail(error, DAL_STATUS_RANK,
                          "constraint %d has infinite derivatives by the velocities at %s", a + 1,
                          k->place);
     if (system->properties & DAL_MASS_ON_KERNEL && isnan(pivot))
-        return dal__fail(error, DAL_RANK,
+        return dal__fail(error, DAL_STATUS_RANK,
                          "the constraints are dependent at %s: constraint %d restricts only "
                          "velocities that others restrict",
                          k->place, a + 1);
     if (size * size < DBL_MIN || isinf(size * size))
-        return dal__fail(error, DAL_RANK,
+        return dal__fail(error, DAL_STATUS_RANK,
                          "constraint %d is badly scaled: its derivatives by the velocities reach "
                          "%g at %s, and G = A W^-1 A^T has their squares; multiply it by a number",
                          a + 1, size, k->place);
     if (!(k->out[a] > 0.0) || a == 0)
-        return dal__fail(error, DAL_RANK,
+        return dal__fail(error, DAL_STATUS_RANK,
                          "constraint %d has %g on the diagonal of G = A W^-1 A^T at %s", a + 1,
                          k->out[a], k->place);
     return dal__fail(
-        error, DAL_RANK,
+        error, DAL_STATUS_RANK,
         "constraint %d restricts, except for rounding, only velocities that earlier ones "
         "restrict at %s: of its %g on the diagonal of G they leave %.2g",
         a + 1, k->place, k->out[a], pivot);
@@ -149,10 +149,10 @@ static dal_status solve(dal__linearised *k, dal_error *error)
         for (int b = a + 1; b < rows; b++) x[a] -= G[a * rows + b] * x[b];
         x[a] /= G[a * rows + a];
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
-dal_status dal__check_rank(dal__linearised *k, dal_error *error)
+dal_status dal__linearised_check_rank(dal__linearised *k, dal_error *error)
 {
     memset(k->x, 0, (size_t)k->rows * sizeof *k->x);
     return solve(k, error);
@@ -177,7 +177,7 @@ static dal_status move(dal__linearised *k, double part, double *change, dal_erro
         if (part < 1.0) moved = v[i] + part * (moved - v[i]);
         v[i] = moved + 0.0; /* no -0: see lib/kernel/step.h */
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
@@ -185,9 +185,9 @@ dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
     const int n = k->system->n, m = k->system->m;
     double change = INFINITY, before, part = 1.0;
     int max = 0;
-    if (k->rows == 0) return DAL_OK;
+    if (k->rows == 0) return DAL_STATUS_OK;
     if (m > 0 && !k->system->call.constraint)
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "velocities cannot be moved to D = 0: the mass matrix has no inverse");
     memcpy(k->given, k->v, (size_t)n * sizeof *k->v);
     for (int i = 0; i < MAX_MOVES; i++) {
@@ -196,11 +196,12 @@ dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
         if (m > 0 && !isfinite(k->D[max])) break;
         before = change;
         DAL_TRY(move(k, part, &change, error));
-        if (dal__is_converged(change, before, dal__max_in_units(n, k->v, k->unit))) return DAL_OK;
+        if (dal__is_converged(change, before, dal__max_in_units(n, k->v, k->unit)))
+            return DAL_STATUS_OK;
         if (change > before) part = fmax(0.5 * part, min_damping);
     }
     return dal__fail(
-        error, isfinite(k->D[max]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
+        error, isfinite(k->D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
         "no velocities near the velocities of %s were found that satisfy constraint %d: "
         "D%d = %.6g",
         k->place, max + 1, max + 1, k->D[max]);

@@ -33,7 +33,8 @@ dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition
  * of the constraints. */
 dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error);
 
-/* The error of a mass matrix that is singular at the point; DAL_OK: it is not, or is not known. */
+/* The error of a mass matrix that is singular at the point; DAL_STATUS_OK: it is not, or is not
+ * known. */
 dal_status dal__check_mass(const dal__linearised *k, dal_error *error);
 /* Stores in x[rows] the sizes of the constraints, S(D_a) + sqrt(A_a W^-1 A_a^T v.W v): the terms of
  * D_a, scales[m] (NULL: not known), and what velocities of the same energy add to it at most; where
@@ -41,13 +42,13 @@ dal_status dal__check_mass(const dal__linearised *k, dal_error *error);
 void dal__constraint_sizes(dal__linearised *k, const double *scales);
 
 /* Whether the rows are independent: no pivot of G = A B is below 1e-12 of its diagonal entry,
- * without exchanges of rows.  Errors: DAL_RANK, DAL_SINGULAR_MASS. */
-dal_status dal__check_rank(dal__linearised *k, dal_error *error);
+ * without exchanges of rows.  Errors: DAL_STATUS_RANK, DAL_STATUS_SINGULAR_MASS. */
+dal_status dal__linearised_check_rank(dal__linearised *k, dal_error *error);
 
 /* Replaces the velocities u of the state by those, v, on D(q,v,t) = 0 and the condition for which
  * (v - u).W(q,u) (v - u) is stationary: in one step where D is linear.  Errors, and then v is not
- * defined: DAL_RANK, DAL_SINGULAR_MASS, DAL_INCONSISTENT (no such v is found near u),
- * DAL_UNSUPPORTED (W has no inverse), as of the constraints. */
+ * defined: DAL_STATUS_RANK, DAL_STATUS_SINGULAR_MASS, DAL_STATUS_INCONSISTENT (no such v is found
+ * near u), DAL_STATUS_UNSUPPORTED (W has no inverse), as of the constraints. */
 dal_status dal__make_consistent(dal__linearised *k, dal_error *error);
 
 #endif

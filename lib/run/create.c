@@ -35,7 +35,7 @@ static size_t total_bytes(const dal__layout *k)
 size_t dal_run_size(const dal_run_spec *spec)
 {
     dal__layout layout;
-    return dal__layout_init(&layout, spec, NULL) == DAL_OK ? total_bytes(&layout) : 0;
+    return dal__layout_init(&layout, spec, NULL) == DAL_STATUS_OK ? total_bytes(&layout) : 0;
 }
 
 static dal_run *place(const dal__layout *layout, void *memory)
@@ -73,7 +73,7 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
     DAL_REQUIRE(memory, error);
     DAL_TRY(dal__layout_init(&layout, spec, error));
     if (bytes < total_bytes(&layout))
-        return dal__fail(error, DAL_MEMORY, "a run of %s needs %zu bytes, not %zu",
+        return dal__fail(error, DAL_STATUS_MEMORY, "a run of %s needs %zu bytes, not %zu",
                          layout.system->name ? layout.system->name : "this system",
                          total_bytes(&layout), bytes);
     dal_run *made = place(&layout, memory);
@@ -82,7 +82,7 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
     if (made->quad.engine) dal__quad_push(&made->quad, made->persistent, 0);
     DAL_TRY(dal__check_events(made, error));
     *run = made;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *error)
@@ -93,9 +93,9 @@ dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *er
     DAL_TRY(dal__layout_init(&layout, spec, error));
     const size_t bytes = total_bytes(&layout);
     void *memory = malloc(bytes);
-    if (!memory) return dal__fail(error, DAL_MEMORY, "no %zu bytes for a run", bytes);
+    if (!memory) return dal__fail(error, DAL_STATUS_MEMORY, "no %zu bytes for a run", bytes);
     const dal_status status = dal_run_init(run, memory, bytes, spec, error);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         (*run)->owned = memory;
     else
         free(memory);
@@ -105,8 +105,8 @@ dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *er
 void dal_run_free(dal_run *run)
 {
     if (!run) return;
-    dal__native_free(&run->native);
-    dal__native_free(&run->observations.code);
+    dal__compiled_free(&run->native);
+    dal__compiled_free(&run->observations.code);
     free(run->observations.states);
     free(run->owned);
 }

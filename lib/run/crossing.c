@@ -63,14 +63,14 @@ static double *place_end(dal__part_end *end, double *at, size_t count)
     return at + ARRAYS * count;
 }
 
-void dal__crossing_init(dal__crossing *c, dal_run *run, const dal__functions *functions,
+void dal__crossing_init(dal__zero_search *c, dal_run *run, const dal__functions *functions,
                         double *memory)
 {
     const size_t count = (size_t)functions->count;
-    *c = (dal__crossing){.run = run,
-                         .functions = *functions,
-                         .zero = (dal__zero *)(void *)memory,
-                         .first_unresolved = NAN};
+    *c = (dal__zero_search){.run = run,
+                            .functions = *functions,
+                            .zero = (dal__zero *)(void *)memory,
+                            .first_unresolved = NAN};
     for (size_t k = 0; k < count; k++) c->zero[k] = (dal__zero){DAL__SIDE_UNKNOWN, INFINITY, 0.0};
     double *at = place_end(&c->begin, memory + zero_numbers(count), count);
     for (int i = 0; i < DAL__PART_ENDS; i++) at = place_end(&c->end[i], at, count);
@@ -83,18 +83,18 @@ void dal__crossing_init(dal__crossing *c, dal_run *run, const dal__functions *fu
 
 /* ---- values ---- */
 
-double dal__crossing_resolution(const dal__crossing *c)
+double dal__crossing_resolution(const dal__zero_search *c)
 {
     return 4.0 * DBL_EPSILON * fmax(fabs(dal_run_time(c->run)), fabs(c->h));
 }
 
-bool dal__counts_from(const dal__crossing *c, int k, dal__side side)
+bool dal__counts_from(const dal__zero_search *c, int k, dal__side side)
 {
     const int direction = c->functions.direction(c->functions.user, c->run, k);
     return direction == 0 || direction == -dal__side_sign(side);
 }
 
-static dal_status evaluate_end(const dal__crossing *c, dal__part_end *end)
+static dal_status evaluate_end(const dal__zero_search *c, dal__part_end *end)
 {
     const dal__functions *f = &c->functions;
     DAL_TRY(f->values(f->user, c->run, end->f, c->error));
@@ -104,7 +104,7 @@ static dal_status evaluate_end(const dal__crossing *c, dal__part_end *end)
 /* The functions at the present state, which is the top end. */
 static dal_status evaluate_top(void *user, dal_run *run)
 {
-    dal__crossing *c = user;
+    dal__zero_search *c = user;
     const dal__functions *f = &c->functions;
     dal__part_end *top = &c->end[c->ends - 1];
     const double size = fabs(top->s - c->begin.s);
@@ -115,15 +115,15 @@ static dal_status evaluate_top(void *user, dal_run *run)
         has_just_left = has_just_left || dal__is_just(c->zero[k].side);
         c->zero[k].size = fmax(c->zero[k].size, fabs(top->f[k]));
     }
-    if (!has_just_left) return DAL_OK;
+    if (!has_just_left) return DAL_STATUS_OK;
     DAL_TRY(f->roundings(f->user, run, top->slack, c->there, c->error));
     for (int k = 0; k < f->count; k++)
         top->slack[k] = certain * (top->slack[k] + size * c->there[k]);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Puts an end, the next one, before those that are known. */
-static dal_status add_part_end(dal__crossing *c, double s, int halvings)
+static dal_status add_part_end(dal__zero_search *c, double s, int halvings)
 {
     dal__part_end *end = &c->end[c->ends++];
     end->s = s;
@@ -133,7 +133,7 @@ static dal_status add_part_end(dal__crossing *c, double s, int halvings)
 
 static dal_status evaluate_there(void *user, dal_run *run)
 {
-    const dal__crossing *c = user;
+    const dal__zero_search *c = user;
     const dal__functions *f = &c->functions;
     return (c->by_rate ? f->rates : f->values)(f->user, run, c->there, c->error);
 }
@@ -141,31 +141,31 @@ static dal_status evaluate_there(void *user, dal_run *run)
 /* Function k, or its rate, a step of size s from here. */
 static dal_status value_at(void *user, double s, double *value)
 {
-    dal__crossing *c = user;
+    dal__zero_search *c = user;
     if (s == 0.0)
         DAL_TRY(evaluate_there(c, c->run));
     else
         DAL_TRY(dal__observe_part(c->run, c->h, s, evaluate_there, c, c->error));
     *value = c->there[c->k];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* What is rounding of function k at the begin of the step. */
-static dal_status rounding_of(dal__crossing *c, int k, double *rounding)
+static dal_status rounding_of(dal__zero_search *c, int k, double *rounding)
 {
     const dal__functions *f = &c->functions;
     if (!c->has_roundings)
         DAL_TRY(f->roundings(f->user, c->run, c->value_rounding, c->rate_rounding, c->error));
     c->has_roundings = true;
     *rounding = c->value_rounding[k];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- parts ---- */
 
 /* Whether function k has a rate with which it may turn more than once in the part, or changes by
  * more than its rates explain; neither counts where it is only rounding. */
-static dal_status examine(dal__crossing *c, int k, bool *is_fast, bool *jumps)
+static dal_status examine(dal__zero_search *c, int k, bool *is_fast, bool *jumps)
 {
     const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
     const double s = b->s - a->s, change = b->f[k] - a->f[k], size = c->zero[k].size;
@@ -174,17 +174,17 @@ static dal_status examine(dal__crossing *c, int k, bool *is_fast, bool *jumps)
     double rounding;
     *is_fast = most > pi * size;
     *jumps = unexplained > max_jump * size;
-    if (!*is_fast && !*jumps) return DAL_OK;
+    if (!*is_fast && !*jumps) return DAL_STATUS_OK;
     DAL_TRY(rounding_of(c, k, &rounding));
     rounding = certain * (rounding + fabs(s) * c->rate_rounding[k]);
     const bool is_rounding = fmax(fabs(change), most) <= rounding;
     *is_fast = *is_fast && !is_rounding;
     *jumps = *jumps && !is_rounding;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Halves the part where a function is not resolved in it. */
-static dal_status halve(dal__crossing *c, bool *is_divided)
+static dal_status halve(dal__zero_search *c, bool *is_divided)
 {
     dal__part_end *end = &c->end[c->ends - 1];
     const double middle = c->begin.s + 0.5 * (end->s - c->begin.s);
@@ -196,27 +196,27 @@ static dal_status halve(dal__crossing *c, bool *is_divided)
         any_fast = any_fast || is_fast;
         any_jump = any_jump || jumps;
     }
-    if (!any_fast && !any_jump) return DAL_OK;
+    if (!any_fast && !any_jump) return DAL_STATUS_OK;
     *is_divided = end->halvings > 0 && c->ends < DAL__PART_ENDS &&
                   fabs(middle - c->begin.s) > dal__crossing_resolution(c);
     if (*is_divided) return add_part_end(c, middle, --end->halvings);
     if (any_fast && !c->is_unresolved && c->unresolved++ == 0)
         c->first_unresolved = dal_run_time(c->run);
     c->is_unresolved = c->is_unresolved || any_fast;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Whether |f| falls at the begin of the part and does not at its end, f having one sign there. */
-static bool turns(const dal__crossing *c, int k)
+static bool turns(const dal__zero_search *c, int k)
 {
     const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
-    const int side = dal__side_sign(c->zero[k].side), toward = side * dal__sign(c->h);
+    const int side = dal__side_sign(c->zero[k].side), toward = side * dal__sign_of(c->h);
     return side != 0 && !dal__is_just(c->zero[k].side) && side * a->f[k] >= 0.0 &&
            side * b->f[k] >= 0.0 && toward * a->rate[k] < 0.0 && toward * b->rate[k] >= 0.0;
 }
 
 /* The extremum of function k, which turns in the part, and whether that is beyond 0. */
-static dal_status find_extremum(dal__crossing *c, int k, double *s, bool *is_beyond)
+static dal_status find_extremum(dal__zero_search *c, int k, double *s, bool *is_beyond)
 {
     const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
     double f, rounding;
@@ -232,11 +232,11 @@ static dal_status find_extremum(dal__crossing *c, int k, double *s, bool *is_bey
     DAL_TRY(rounding_of(c, k, &rounding));
     *is_beyond = dal__side_sign(c->zero[k].side) * f < -rounding;
     c->touches += fabs(f) <= rounding;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Divides the part at the first extremum that is beyond 0. */
-static dal_status divide(dal__crossing *c, bool *is_divided)
+static dal_status divide(dal__zero_search *c, bool *is_divided)
 {
     const dal__part_end *end = &c->end[c->ends - 1];
     double first = INFINITY, s;
@@ -248,20 +248,20 @@ static dal_status divide(dal__crossing *c, bool *is_divided)
     }
     *is_divided =
         isfinite(first) && first != c->begin.s && first != end->s && c->ends < DAL__PART_ENDS;
-    return *is_divided ? add_part_end(c, first, end->halvings) : DAL_OK;
+    return *is_divided ? add_part_end(c, first, end->halvings) : DAL_STATUS_OK;
 }
 
-dal_status dal__zero_accuracy(dal__crossing *c, int k, double *accuracy)
+dal_status dal__zero_accuracy(dal__zero_search *c, int k, double *accuracy)
 {
     const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
     DAL_TRY(rounding_of(c, k, accuracy));
     *accuracy += fmax(fabs(a->rate[k]), fabs(b->rate[k])) * dal__crossing_resolution(c);
     *accuracy *= certain;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The zero of function k between two places; where f jumps there, the place beyond the jump. */
-static dal_status locate_between(dal__crossing *c, int k, dal__value_at begin, dal__value_at end)
+static dal_status locate_between(dal__zero_search *c, int k, dal__value_at begin, dal__value_at end)
 {
     const int side = dal__side_sign(c->zero[k].side);
     double accuracy;
@@ -270,11 +270,11 @@ static dal_status locate_between(dal__crossing *c, int k, dal__value_at begin, d
     DAL_TRY(dal__zero_accuracy(c, k, &accuracy));
     const bool is_before_jump = side * root.best.f > accuracy;
     c->zero[k].s = fabs(is_before_jump ? root.other.s : root.best.s);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The zero of function k in the part, if one counts. */
-static dal_status locate(dal__crossing *c, int k)
+static dal_status locate(dal__zero_search *c, int k)
 {
     const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
     dal__zero *zero = &c->zero[k];
@@ -282,8 +282,8 @@ static dal_status locate(dal__crossing *c, int k)
     const bool has_just_left = dal__is_just(zero->side);
     dal__value_at begin = {a->s, a->f[k]}, end = {b->s, b->f[k]}, middle = end;
     zero->s = INFINITY;
-    if (!(side * end.f < 0.0) || !dal__counts_from(c, k, zero->side)) return DAL_OK;
-    if (has_just_left && -side * end.f <= b->slack[k]) return DAL_OK;
+    if (!(side * end.f < 0.0) || !dal__counts_from(c, k, zero->side)) return DAL_STATUS_OK;
+    if (has_just_left && -side * end.f <= b->slack[k]) return DAL_STATUS_OK;
     c->k = k;
     while (has_just_left && side * middle.f <= 0.0) {
         end = middle;
@@ -294,13 +294,13 @@ static dal_status locate(dal__crossing *c, int k)
     }
     if (side * begin.f > 0.0) return locate_between(c, k, begin, end);
     zero->s = fabs(a->s);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
-dal__side dal__side_at(const dal__crossing *c, int k, double f, double slack)
+dal__side dal__side_at(const dal__zero_search *c, int k, double f, double slack)
 {
     const dal__side side = c->zero[k].side;
-    const int from = dal__side_sign(side), to = dal__sign(f);
+    const int from = dal__side_sign(side), to = dal__sign_of(f);
     if (dal__is_just(side) && (fabs(f) <= slack || (to == -from && dal__counts_from(c, k, side))))
         return side;
     if (to == 0 || to == from || dal__counts_from(c, k, side)) return (dal__side)from;
@@ -308,7 +308,7 @@ dal__side dal__side_at(const dal__crossing *c, int k, double f, double slack)
 }
 
 /* Goes to the end of the part, which has been searched. */
-static void leave_part(dal__crossing *c)
+static void leave_part(dal__zero_search *c)
 {
     dal__part_end *end = &c->end[--c->ends];
     const dal__part_end begin = c->begin;
@@ -316,7 +316,7 @@ static void leave_part(dal__crossing *c)
         dal__zero *zero = &c->zero[k];
         const dal__side across = (dal__side)-dal__side_sign(zero->side);
         zero->side = isfinite(zero->s) ? across : dal__side_at(c, k, end->f[k], end->slack[k]);
-        if (zero->side == DAL__SIDE_UNKNOWN) zero->side = (dal__side)dal__sign(end->f[k]);
+        if (zero->side == DAL__SIDE_UNKNOWN) zero->side = (dal__side)dal__sign_of(end->f[k]);
         zero->s = INFINITY;
     }
     c->begin = *end;
@@ -328,13 +328,13 @@ static void leave_part(dal__crossing *c)
 
 /* The sides at the begin of the step that are not known.  Where f is 0, a zero of one direction is
  * there if f leads that way. */
-static void choose_sides(dal__crossing *c)
+static void choose_sides(dal__zero_search *c)
 {
-    const int toward = dal__sign(c->h);
+    const int toward = dal__sign_of(c->h);
     for (int k = 0; k < c->functions.count; k++) {
         dal__zero *zero = &c->zero[k];
         const int direction = c->functions.direction(c->functions.user, c->run, k);
-        const int rate = toward * dal__sign(c->begin.rate[k]), f = dal__sign(c->begin.f[k]);
+        const int rate = toward * dal__sign_of(c->begin.rate[k]), f = dal__sign_of(c->begin.f[k]);
         zero->s = INFINITY;
         zero->size = fabs(c->begin.f[k]);
         if (zero->side != DAL__SIDE_UNKNOWN) continue;
@@ -352,7 +352,7 @@ static void save_into(const dal_run *run, double *copy)
     memcpy(copy, run->storage, run->stored * sizeof *copy);
 }
 
-dal_status dal__crossing_begin(dal__crossing *c, double h, dal_error *error)
+dal_status dal__crossing_begin(dal__zero_search *c, double h, dal_error *error)
 {
     const long long evaluations = dal_run_evaluations(c->run);
     c->h = h;
@@ -366,7 +366,7 @@ dal_status dal__crossing_begin(dal__crossing *c, double h, dal_error *error)
     choose_sides(c);
     save_into(c->run, c->before);
     dal_status status = dal__step_run(c->run, h, 1);
-    if (status != DAL_OK) return dal__failure_reason(c->run, h, status, error);
+    if (status != DAL_STATUS_OK) return dal__failure_reason(c->run, h, status, error);
     save_into(c->run, c->after);
     c->end[0].s = h;
     c->end[0].halvings = DAL__HALVINGS;
@@ -378,19 +378,19 @@ dal_status dal__crossing_begin(dal__crossing *c, double h, dal_error *error)
     if (c->run->layout.options.tolerance > 0.0 && evaluated > PART_EVALUATIONS)
         c->parts = evaluated / PART_EVALUATIONS;
     if (c->parts > MAX_PARTS) c->parts = MAX_PARTS;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Leaves the part that was searched, and adds the next one of those at first where none is left. */
-static dal_status next_part(dal__crossing *c)
+static dal_status next_part(dal__zero_search *c)
 {
     if (c->is_searched) leave_part(c);
-    if (c->ends != 1 || c->part + 1 >= c->parts) return DAL_OK;
+    if (c->ends != 1 || c->part + 1 >= c->parts) return DAL_STATUS_OK;
     c->part++;
     return add_part_end(c, c->h * ((double)c->part / (double)c->parts), DAL__HALVINGS);
 }
 
-dal_status dal__crossing_next(dal__crossing *c, double *distance)
+dal_status dal__crossing_next(dal__zero_search *c, double *distance)
 {
     *distance = INFINITY;
     for (;;) {
@@ -405,25 +405,25 @@ dal_status dal__crossing_next(dal__crossing *c, double *distance)
             *distance = fmin(*distance, c->zero[k].s);
         }
         c->is_searched = true;
-        if (isfinite(*distance)) return DAL_OK;
+        if (isfinite(*distance)) return DAL_STATUS_OK;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
-void dal__crossing_keep(dal__crossing *c, double distance)
+void dal__crossing_keep(dal__zero_search *c, double distance)
 {
     c->is_kept = true;
     c->distance = distance;
 }
 
-bool dal__crossing_is_kept(const dal__crossing *c, double *distance)
+bool dal__crossing_is_kept(const dal__zero_search *c, double *distance)
 {
     const dal_run *run = c->run;
     *distance = c->distance;
     return c->is_kept && memcmp(c->before, run->storage, run->stored * sizeof *c->before) == 0;
 }
 
-void dal__crossing_take(dal__crossing *c)
+void dal__crossing_take(dal__zero_search *c)
 {
     dal__run_load(c->run, c->after);
     c->is_kept = false;

@@ -13,7 +13,7 @@ typedef enum dal__side {
     DAL__JUST_ABOVE = 2
 } dal__side;
 
-static inline int dal__sign(double x) { return (x > 0.0) - (x < 0.0); }
+static inline int dal__sign_of(double x) { return (x > 0.0) - (x < 0.0); }
 static inline int dal__side_sign(dal__side side) { return (side > 0) - (side < 0); }
 static inline bool dal__is_just(dal__side side)
 {
@@ -55,7 +55,7 @@ typedef struct dal__zero {
 } dal__zero;
 
 /* The search of a step. */
-typedef struct dal__crossing {
+typedef struct dal__zero_search {
     dal_run *run;
     dal_error *error;
     dal__functions functions;
@@ -79,34 +79,34 @@ typedef struct dal__crossing {
     long long unresolved;    /* steps in which |f'| times a part is more than pi max |f| */
     double first_unresolved; /* begin of the first of them; NaN: there is none */
     bool is_unresolved;      /* whether the present step is one */
-} dal__crossing;
+} dal__zero_search;
 
 /* Numbers of memory for a search of `count` functions. */
 size_t dal__crossing_numbers(size_t count, size_t stored);
 /* Makes a search with every side unknown; the memory must outlive it. */
-void dal__crossing_init(dal__crossing *c, dal_run *run, const dal__functions *functions,
+void dal__crossing_init(dal__zero_search *c, dal_run *run, const dal__functions *functions,
                         double *memory);
 
 /* Begins to search a step of size h from the present state, which stays.  Sides that are known are
  * in zero[].  Errors: as for a step, and of the functions. */
-dal_status dal__crossing_begin(dal__crossing *c, double h, dal_error *error);
+dal_status dal__crossing_begin(dal__zero_search *c, double h, dal_error *error);
 /* The distance of the next zero that counts, the first of all functions; infinite: none in the rest
  * of the step.  zero[].s has the zeros of the same part. */
-dal_status dal__crossing_next(dal__crossing *c, double *distance);
+dal_status dal__crossing_next(dal__zero_search *c, double *distance);
 /* Keeps a distance as the result of the search until the run changes; and whether one is kept. */
-void dal__crossing_keep(dal__crossing *c, double distance);
-bool dal__crossing_is_kept(const dal__crossing *c, double *distance);
+void dal__crossing_keep(dal__zero_search *c, double distance);
+bool dal__crossing_is_kept(const dal__zero_search *c, double *distance);
 /* Takes the step, which has been searched to its end. */
-void dal__crossing_take(dal__crossing *c);
+void dal__crossing_take(dal__zero_search *c);
 
 /* Whether a zero that leaves this side counts. */
-bool dal__counts_from(const dal__crossing *c, int k, dal__side side);
+bool dal__counts_from(const dal__zero_search *c, int k, dal__side side);
 /* The side at a value f of function k that has not passed a zero that counts, slack being rounding
  * there. */
-dal__side dal__side_at(const dal__crossing *c, int k, double f, double slack);
+dal__side dal__side_at(const dal__zero_search *c, int k, double f, double slack);
 /* What |f| of function k is at most where a zero was found, unless it jumps. */
-dal_status dal__zero_accuracy(dal__crossing *c, int k, double *accuracy);
+dal_status dal__zero_accuracy(dal__zero_search *c, int k, double *accuracy);
 /* The least time that the clock resolves. */
-double dal__crossing_resolution(const dal__crossing *c);
+double dal__crossing_resolution(const dal__zero_search *c);
 
 #endif

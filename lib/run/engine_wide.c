@@ -63,7 +63,7 @@ static void trace(engine *e, dal_callback_code code, const dal_point *at, dal_st
     dal__failure *failure = e->failure;
     double sum = 0.0;
     for (int i = 0; i < dal__eval_size(&e->layout, code); i++) sum += out[i] - out[i];
-    if (failure->not_finite || (sum == 0.0 && status == DAL_OK)) return;
+    if (failure->not_finite || (sum == 0.0 && status == DAL_STATUS_OK)) return;
     failure->not_finite = true;
     failure->status = status;
     failure->t = at->t;
@@ -106,7 +106,7 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
 #endif
     };
     const dal_status status = call(e->layout.system, &at, (double *)out);
-    if (status != DAL_OK) fill(e, code, NAN, out);
+    if (status != DAL_STATUS_OK) fill(e, code, NAN, out);
     if (DAL_LANES == 1 && e->failure) trace(e, code, &at, status, (const double *)out);
     if (DAL_RARELY(!s->pivots_known[0]) && dal_leaves_pivots(code)) keep_pivots(e);
 }
@@ -121,7 +121,7 @@ static void eval_series(dal_step *s, int k, int stride, const num *in, num *memo
                                                        : series->call;
     const dal_status status = call(layout->system, layout->lifted, k, stride, (const double *)in,
                                    (double *)e->work, (double *)memory, (double *)out);
-    if (status != DAL_OK) fill(e, DAL_EVAL_FIELD, NAN, out);
+    if (status != DAL_STATUS_OK) fill(e, DAL_EVAL_FIELD, NAN, out);
     if (DAL_RARELY(!s->pivots_known[0])) keep_pivots(e);
     if (DAL_LANES > 1 || k > 0 || !e->failure) return;
     const double *first = (const double *)in;
@@ -190,9 +190,9 @@ static void prepare_step(engine *e)
     s->rank_checked = dal__checks_rank(k->system);
     s->pivot_count = k->pivots;
     s->tolerance = k->options.tolerance;
-    s->units = dal__units(k, DAL__UNITS);
-    s->speeds = dal__units(k, DAL__SPEEDS);
-    s->levels = dal__units(k, DAL__LEVELS);
+    s->units = dal__units(k, DAL__UNITS_OF_STATE);
+    s->speeds = dal__units(k, DAL__UNITS_OF_SPEEDS);
+    s->levels = dal__units(k, DAL__UNITS_OF_LEVELS);
     s->capacity = k->scratch;
     place_method_state(e);
     s->layer = e->layer;
@@ -216,7 +216,7 @@ static dal_status evaluate_polynomial(dal_step *s)
     DAL_EACH(i, s->dim) s->r[i] = d->r[i];
     dal_update_lanes(s, s->h < 0.0 ? -size : size, rate);
     s->t += s->h;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 static const dal_integrator polynomial = {.step = evaluate_polynomial};
 
@@ -272,7 +272,7 @@ static dal_status eval_engine(void *engine_, int code, double t, const double *s
 {
     engine *e = engine_;
     const int n = e->layout.n, width = (int)(sizeof(num) / sizeof(double));
-    if (!e->call[code]) return DAL_UNSUPPORTED;
+    if (!e->call[code]) return DAL_STATUS_UNSUPPORTED;
     const dal_point at = {.t = t,
                           .q = state,
                           .v = state + n * width,
@@ -324,12 +324,12 @@ static dal_status observe_engine(void *engine_, bool exact_known, double *out)
         const int count = dal__observable_count(&e->layout, group, exact_known);
         if (count == 0) continue;
         num *values = scratch;
-        dal_status status = DAL_OK;
+        dal_status status = DAL_STATUS_OK;
         if (group == DAL__OBSERVE_LIFT)
             observe_lift(e, at.t, values);
         else
             status = formulas[group](system, &at, (double *)values);
-        if (status != DAL_OK) return status;
+        if (status != DAL_STATUS_OK) return status;
         if (group == DAL__OBSERVE_REACTIONS) {
             values += e->layout.m * (1 + e->layout.n);
             dal_reaction_observables(scratch, e->layout.m, e->layout.n, values);
@@ -339,7 +339,7 @@ static dal_status observe_engine(void *engine_, bool exact_known, double *out)
             values[0] = changed ? dal_num(NAN) : dal_max_distance(values, q, e->layout.n);
         for (int i = 0; i < count; i++) *out++ = (double)values[i] + 0.0; /* no -0 */
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 #else
 #define observe_engine NULL
@@ -356,7 +356,7 @@ static dal__lanes check_step(engine *e, dal_mask *left, dal_status status, dal_s
     dal_checks c = {~s->unconverged[0], dal_check_gauge(s, e->backup), dal_finite_state(s, 0),
                     dal_all()};
     *left &= c.solved & c.gauge & c.finite;
-    if (status != DAL_OK && status != DAL_NOT_CONVERGED) *left = ~dal_all();
+    if (status != DAL_STATUS_OK && status != DAL_STATUS_NOT_CONVERGED) *left = ~dal_all();
     s->used = 0;
     if (dal_any(*left))
         c.regular = dal_check_regular(s, 0, e->backup, failure ? &failure->guard : NULL,
@@ -404,7 +404,7 @@ static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_sta
     dal_mask moved = mask_of(alive);
     begin_step(e, h, alive, moved);
     dal_status status = e->step.layer[e->step.depth]->step(&e->step);
-    if (e->step.exhausted) status = DAL_MEMORY;
+    if (e->step.exhausted) status = DAL_STATUS_MEMORY;
     if (e->failure) {
         e->failure->reached = e->step.t;
         e->failure->substep = dal_lane(e->step.substep[0], 0);
@@ -425,7 +425,7 @@ static dal_status find_substep(engine *e, double h, double part)
     dal_dense *d = &e->dense;
     const size_t bytes = dal__saved_count(&e->layout) * sizeof(num);
     const size_t half = (size_t)s->dim * sizeof(num);
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     if (e->dense_h != h || !(part > d->from) || memcmp(e->dense_from, e->persistent, bytes) != 0) {
         memcpy(e->dense_from, e->persistent, bytes);
         memcpy(e->dense_to, e->persistent, bytes);
@@ -436,16 +436,16 @@ static dal_status find_substep(engine *e, double h, double part)
     memcpy(e->persistent, e->dense_to, bytes);
     s->depth = 0;
     s->dense = d;
-    while (status == DAL_OK && part > d->from + d->size) {
+    while (status == DAL_STATUS_OK && part > d->from + d->size) {
         memcpy(d->y, s->y, half);
         memcpy(d->r, s->r, half);
         d->terms = 0;
         s->used = 0;
         status = e->layer[0]->step(s);
-        if (d->terms == 0 || s->exhausted) status = DAL_UNSUPPORTED;
+        if (d->terms == 0 || s->exhausted) status = DAL_STATUS_UNSUPPORTED;
     }
     s->dense = NULL;
-    if (status != DAL_OK) e->dense_h = 0.0;
+    if (status != DAL_STATUS_OK) e->dense_h = 0.0;
     memcpy(e->dense_to, e->persistent, bytes);
     memcpy(e->persistent, e->dense_from, bytes);
     return status;
@@ -455,7 +455,7 @@ static dal__lanes part_engine(void *engine_, double h, double part, dal_status *
 {
     engine *e = engine_;
     if (has_dense(&e->layout) && part / h > 0.0 && part / h < 1.0 &&
-        find_substep(e, h, fabs(part)) == DAL_OK)
+        find_substep(e, h, fabs(part)) == DAL_STATUS_OK)
         e->step.layer = e->dense_layer;
     const dal__lanes failed = step_engine(e, part, 1u, reason);
     e->step.layer = e->layer;

@@ -87,7 +87,7 @@ static piece trim(const char *from, const char *to)
 static dal_status parse_number(piece text, double *x, dal_error *error)
 {
     const dal_status status = dal_parse_number(text.at, text.length, x);
-    if (status == DAL_OK) return DAL_OK;
+    if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     return dal__fail(error, status, "'%.*s' is not a number", (int)text.length, text.at);
 }
 
@@ -97,10 +97,10 @@ static dal_status parse_distribution(dal_variation *v, piece word, dal_error *er
     snprintf(name, sizeof name, "%.*s", (int)word.length, word.at);
     for (int i = 0; i < DISTRIBUTIONS; i++) {
         v->distribution = (dal_distribution)i;
-        if (strcmp(distribution_word[i], name) == 0) return DAL_OK;
+        if (strcmp(distribution_word[i], name) == 0) return DAL_STATUS_OK;
     }
 #define LISTED(code, word) " " word
-    return dal__fail(error, DAL_NAME,
+    return dal__fail(error, DAL_STATUS_NAME,
                      "unknown distribution '%s', not one of" DAL_DISTRIBUTION_LIST(LISTED), name);
 #undef LISTED
 }
@@ -108,15 +108,16 @@ static dal_status parse_distribution(dal_variation *v, piece word, dal_error *er
 static dal_status check_variation(const dal_variation *v, dal_error *error)
 {
     if (!isfinite(v->first) || !isfinite(v->second))
-        return dal__fail(error, DAL_ARGUMENT, "%s: the distribution is not one of finite numbers",
-                         v->name);
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
+                         "%s: the distribution is not one of finite numbers", v->name);
     if (v->distribution == DAL_UNIFORM && !(v->first < v->second))
-        return dal__fail(error, DAL_ARGUMENT, "%s: uniform needs LOW < HIGH; %g is not below %g",
-                         v->name, v->first, v->second);
-    if (v->distribution != DAL_UNIFORM && v->second < 0.0)
-        return dal__fail(error, DAL_ARGUMENT, "%s: the standard deviation %g is negative", v->name,
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
+                         "%s: uniform needs LOW < HIGH; %g is not below %g", v->name, v->first,
                          v->second);
-    return DAL_OK;
+    if (v->distribution != DAL_UNIFORM && v->second < 0.0)
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "%s: the standard deviation %g is negative",
+                         v->name, v->second);
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_variation_parse(dal_variation *variation, const char *text, dal_error *error)
@@ -128,10 +129,10 @@ dal_status dal_variation_parse(dal_variation *variation, const char *text, dal_e
     const char *const comma = open ? strchr(open, ',') : NULL;
     const char *const close = comma ? strchr(comma, ')') : NULL;
     if (!close || trim(close + 1, end).length > 0)
-        return dal__fail(error, DAL_SYNTAX, "'%.200s' is not NAME=DISTRIBUTION(A,B)", text);
+        return dal__fail(error, DAL_STATUS_SYNTAX, "'%.200s' is not NAME=DISTRIBUTION(A,B)", text);
     const piece name = trim(text, equals);
     if (name.length == 0 || name.length >= sizeof variation->name)
-        return dal__fail(error, DAL_SYNTAX, "'%.200s' does not begin with a name", text);
+        return dal__fail(error, DAL_STATUS_SYNTAX, "'%.200s' does not begin with a name", text);
     *variation = (dal_variation){.distribution = DAL_UNIFORM};
     memcpy(variation->name, name.at, name.length);
     DAL_TRY(parse_distribution(variation, trim(equals + 1, open), error));
@@ -167,14 +168,14 @@ static dal_status find_varied(dal_ensemble *e, const dal_run *run, varied *v, da
     const dal_system *system = run->layout.system;
     char name[DAL__NAME_SIZE];
     v->parameter = -1;
-    v->state = dal_run_index(run, v->variation.name);
-    if (v->state >= 0) return DAL_OK;
-    if (dal__find_parameter(system, v->variation.name, &v->parameter, NULL) == DAL_OK) {
+    v->state = dal_run_component_index(run, v->variation.name);
+    if (v->state >= 0) return DAL_STATUS_OK;
+    if (dal__find_parameter(system, v->variation.name, &v->parameter, NULL) == DAL_STATUS_OK) {
         e->parameters[e->parameter_count++].name = system->parameter[v->parameter];
-        return DAL_OK;
+        return DAL_STATUS_OK;
     }
     const char *nearest = dal_nearest(v->variation.name, system->parameter, system->parameters);
-    for (int i = 0; !nearest && dal_run_name(run, i, name, sizeof name); i++)
+    for (int i = 0; !nearest && dal_run_component_name(run, i, name, sizeof name); i++)
         nearest = dal_nearest(v->variation.name, (const char *const[]){name}, 1);
     return dal__unknown(error, "start value or parameter", v->variation.name, &nearest,
                         nearest != NULL);
@@ -190,11 +191,12 @@ static dal_status add_variations(dal_ensemble *e, const dal_variation *variation
         DAL_TRY(check_variation(&v->variation, error));
         for (int k = 0; k < i; k++)
             if (strcmp(e->varied[k].variation.name, v->variation.name) == 0)
-                return dal__fail(error, DAL_ARGUMENT, "%s is varied twice", v->variation.name);
+                return dal__fail(error, DAL_STATUS_ARGUMENT, "%s is varied twice",
+                                 v->variation.name);
         DAL_TRY(find_varied(e, dal__batch_scalar(e->batch), v, error));
         v->key = dal_random_key(v->variation.name, seed);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static void copy_settings(dal_setting *to, const dal_setting *from, int count, char **names)
@@ -225,10 +227,10 @@ static dal_status allocate_ensemble(dal_ensemble *e, const dal_run_spec *spec, d
     char *names = e->names =
         malloc(name_bytes(spec->parameters, p) + name_bytes(spec->start, s) + 1);
     if (!e->varied || !e->parameters || !e->start || !e->added || !e->names)
-        return dal__fail(error, DAL_MEMORY, "no memory for an ensemble");
+        return dal__fail(error, DAL_STATUS_MEMORY, "no memory for an ensemble");
     copy_settings(e->parameters, spec->parameters, p, &names);
     copy_settings(e->start, spec->start, s, &names);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_ensemble_create(dal_ensemble **ensemble, const dal_run_spec *spec,
@@ -244,12 +246,12 @@ dal_status dal_ensemble_create(dal_ensemble **ensemble, const dal_run_spec *spec
     dal_ensemble *made = calloc(1, sizeof *made);
     if (!made) {
         dal_batch_free(batch);
-        return dal__fail(error, DAL_MEMORY, "no memory for an ensemble");
+        return dal__fail(error, DAL_STATUS_MEMORY, "no memory for an ensemble");
     }
     *made = (dal_ensemble){.batch = batch, .lanes = lanes, .variations = count};
     dal_status status = allocate_ensemble(made, spec, error);
-    if (status == DAL_OK) status = add_variations(made, variations, seed, error);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK) status = add_variations(made, variations, seed, error);
+    if (status == DAL_STATUS_OK)
         *ensemble = made;
     else
         dal_ensemble_free(made);
@@ -291,23 +293,23 @@ static dal_status start_lane(dal_ensemble *e, int lane, dal_error *error)
         else
             (parameter++)->value = parameter_base(e, v->parameter) + amount;
     }
-    return dal__batch_start(e->batch, lane, e->parameters, e->parameter_count, e->start,
-                            e->start_count, e->added, error);
+    return dal__batch_start_varied(e->batch, lane, e->parameters, e->parameter_count, e->start,
+                                   e->start_count, e->added, error);
 }
 
 dal_status dal_ensemble_start(dal_ensemble *ensemble, unsigned long long first, int count)
 {
     DAL_REQUIRE(ensemble, NULL);
-    if (count < 0 || count > ensemble->lanes) return DAL_ARGUMENT;
+    if (count < 0 || count > ensemble->lanes) return DAL_STATUS_ARGUMENT;
     dal_batch_clear(ensemble->batch);
     ensemble->first = first;
     ensemble->started = count;
     for (int lane = 0; lane < count; lane++) {
-        dal_error error = {.status = DAL_OK};
-        if (start_lane(ensemble, lane, &error) != DAL_OK)
+        dal_error error = {.status = DAL_STATUS_OK};
+        if (start_lane(ensemble, lane, &error) != DAL_STATUS_OK)
             dal__batch_refuse(ensemble->batch, lane, &error);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_batch *dal_ensemble_batch(dal_ensemble *ensemble) { return ensemble ? ensemble->batch : NULL; }
@@ -324,7 +326,7 @@ void dal_ensemble_states(const dal_ensemble *ensemble, double *states)
 {
     const int dimension = ensemble ? dal__batch_layout(ensemble->batch)->dim : 0;
     for (int lane = 0; ensemble && states && lane < ensemble->started; lane++) {
-        if (dal_batch_status(ensemble->batch, lane, NULL) == DAL_OK)
+        if (dal_batch_status(ensemble->batch, lane, NULL) == DAL_STATUS_OK)
             dal_batch_state(ensemble->batch, lane, states);
         else
             for (int i = 0; i < dimension; i++) states[i] = NAN;

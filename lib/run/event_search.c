@@ -13,10 +13,10 @@ enum { MAX_HALVES = 12 };
 
 enum { ARRAYS = 3 /* f, rate, there */ };
 
-/* Numbers that hold a dal__crossing. */
+/* Numbers that hold a dal__zero_search. */
 static size_t crossing_numbers(void)
 {
-    return (sizeof(dal__crossing) + sizeof(double) - 1) / sizeof(double);
+    return (sizeof(dal__zero_search) + sizeof(double) - 1) / sizeof(double);
 }
 
 static int branch_count(const dal__layout *k)
@@ -50,7 +50,7 @@ static dal__held_places held_places(const dal__layout *k, size_t stored, double 
     double *arrays = at + crossing_numbers() + dal__crossing_numbers(events + branches, stored);
     if (branches == 0) return (dal__held_places){.crossing = NULL};
     return (dal__held_places){
-        .crossing = (dal__crossing *)(void *)at,
+        .crossing = (dal__zero_search *)(void *)at,
         .point = arrays,
         .value = arrays + branches,
         .rate = arrays + 3 * branches,
@@ -92,10 +92,10 @@ static dal_status evaluate(dal_run *run, dal_callback *callback, double *out, da
     const dal_point at = dal__here(run);
     const dal_status status = callback(system, &at, out);
     for (int k = 0; k < system->events; k++)
-        if (status != DAL_OK || !isfinite(out[k]))
-            return dal__fail(error, status == DAL_OK ? DAL_NOT_FINITE : status,
+        if (status != DAL_STATUS_OK || !isfinite(out[k]))
+            return dal__fail(error, status == DAL_STATUS_OK ? DAL_STATUS_NOT_FINITE : status,
                              "%s has no value at t = %.17g", dal__event_name(system, k), at.t);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status values_of(void *user, dal_run *run, double *out, dal_error *error)
@@ -125,7 +125,7 @@ dal_status dal__evaluate_event_normals(const dal__event_search *w)
 {
     const dal_point at = dal__here(w->run);
     const dal_status status = w->system->event_normals(w->system, &at, w->m.normals);
-    if (status == DAL_OK) return DAL_OK;
+    if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     return dal__fail(w->error, status, "the events have no normals at t = %.17g", at.t);
 }
 
@@ -158,7 +158,7 @@ static dal_status roundings_of(void *user, dal_run *run, double *value, double *
         value[k] = dal__event_rounding(&w, k);
         rate[k] = dal__event_rate_rounding(&w, k);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static int direction_of(void *user, const dal_run *run, int k)
@@ -203,8 +203,8 @@ static dal_status evaluate_branches(const dal__event_search *w, dal_callback *ca
     const dal_point at = dal__here(w->run);
     DAL_TRY(callback(w->system, &at, out));
     for (int j = 0; j < count; j++)
-        if (!isfinite(out[j])) return DAL_NOT_FINITE;
-    return DAL_OK;
+        if (!isfinite(out[j])) return DAL_STATUS_NOT_FINITE;
+    return DAL_STATUS_OK;
 }
 
 static dal_status branch_values(const dal__event_search *w)
@@ -227,7 +227,7 @@ static dal_status held_rates(const dal__event_search *w, double *out)
     DAL_TRY(rates_of(NULL, w->run, held->event_rate, NULL));
     for (int k = 0; k < w->system->events; k++)
         held->event_scale[k] = fmax(held->event_scale[k], fabs(held->event_rate[k]));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Holds branch j at an end, which no side leads away from. */
@@ -239,7 +239,7 @@ static dal_status hold_at_end(const dal__event_search *w, int j, double end)
     w->held.point[j] = end;
     DAL_TRY(held_rates(w, w->held.rate));
     b->is_sliding = fabs(w->held.rate[j]) > branch_factor * DBL_EPSILON * b->scale;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* At an end the side of branch j is the one to which its rate there leads, if both do the one that
@@ -255,18 +255,18 @@ static dal_status choose_side(const dal__event_search *w, int j)
     const dal__held_branch own = *b;
     set_bounds(w, j, across);
     /* Where the formulas of the other side have no values here, it is not near. */
-    const bool has_other = held_rates(w, w->held.across) == DAL_OK;
+    const bool has_other = held_rates(w, w->held.across) == DAL_STATUS_OK;
     const double inner = w->held.rate[j], outer = has_other ? w->held.across[j] : 0.0;
     b->scale = fmax(fabs(inner), fabs(outer));
     b->is_at_end = fabs(s - end) <= branch_factor * DBL_EPSILON * (b->size + fabs(h) * b->scale);
     const bool stays = outwards * inner < 0.0;
     const bool leaves = outwards * outer > 0.0;
-    if (b->is_at_end && !stays && leaves) return DAL_OK;
+    if (b->is_at_end && !stays && leaves) return DAL_STATUS_OK;
     if (b->is_at_end && !stays) return hold_at_end(w, j, end);
     b->lower = own.lower;
     b->upper = own.upper;
     w->held.point[j] = point;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The arguments here, and the ends between which they are. */
@@ -278,7 +278,7 @@ static dal_status place_branches(const dal__event_search *w)
         w->held.branch[j] = (dal__held_branch){.size = w->held.value[count + j]};
         set_bounds(w, j, w->held.value[j]);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Chooses at the present state where the branches are held, and holds them. */
@@ -294,7 +294,7 @@ static dal_status choose_branches(const dal__event_search *w)
     }
     for (int k = 0; k < w->system->events && !is_at_end; k++) w->held.event_scale[k] = 0.0;
     dal__run_hold(w->run, w->held.point);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* How far inside of its ends a branch is, for the argument s: positive there, with simple zeros;
@@ -314,7 +314,7 @@ static bool may_meet_end(const dal__event_search *w)
 {
     const int count = w->system->branches->count;
     const double h = w->run->layout.options.step;
-    if (branch_rates(w, w->held.rate) != DAL_OK) return true;
+    if (branch_rates(w, w->held.rate) != DAL_STATUS_OK) return true;
     for (int j = 0; j < count; j++) {
         const dal__held_branch *b = &w->held.branch[j];
         const double s = w->held.value[j], distance = fmin(s - b->lower, b->upper - s);
@@ -327,9 +327,9 @@ static bool may_meet_end(const dal__event_search *w)
 static bool is_near(const dal__event_search *w)
 {
     const bool is_long = w->run->layout.options.tolerance > 0.0;
-    if (is_long || place_branches(w) != DAL_OK || may_meet_end(w)) return true;
+    if (is_long || place_branches(w) != DAL_STATUS_OK || may_meet_end(w)) return true;
     dal__run_load(w->run, w->free->after);
-    const bool is_near = branch_values(w) != DAL_OK || may_meet_end(w);
+    const bool is_near = branch_values(w) != DAL_STATUS_OK || may_meet_end(w);
     dal__run_load(w->run, w->free->before);
     return is_near;
 }
@@ -344,7 +344,7 @@ static dal_status held_values_of(void *user, dal_run *run, double *out, dal_erro
     DAL_TRY(branch_values(&w));
     for (int j = 0; j < w.system->branches->count; j++)
         out[w.system->events + j] = inside(&w.held.branch[j], w.held.value[j], &slope);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status held_rates_of(void *user, dal_run *run, double *out, dal_error *error)
@@ -358,7 +358,7 @@ static dal_status held_rates_of(void *user, dal_run *run, double *out, dal_error
         inside(&w.held.branch[j], w.held.value[j], &slope);
         out[w.system->events + j] = slope * w.held.rate[j];
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status held_roundings_of(void *user, dal_run *run, double *value, double *rate,
@@ -374,7 +374,7 @@ static dal_status held_roundings_of(void *user, dal_run *run, double *value, dou
         value[events + j] = unit * (b->size + h * b->scale);
         rate[events + j] = unit * b->scale;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static int held_direction_of(void *user, const dal_run *run, int k)
@@ -384,12 +384,12 @@ static int held_direction_of(void *user, const dal_run *run, int k)
 
 /* ---- the search ---- */
 
-static dal__crossing *free_crossing(const dal_run *run, const dal__event_places *m)
+static dal__zero_search *free_crossing(const dal_run *run, const dal__event_places *m)
 {
-    return (dal__crossing *)(void *)(m->observed + dal__max_observables(&run->layout));
+    return (dal__zero_search *)(void *)(m->observed + dal__max_observables(&run->layout));
 }
 
-const dal__crossing *dal__event_crossing(const dal_run *run)
+const dal__zero_search *dal__event_crossing(const dal_run *run)
 {
     const dal__event_places m = dal__event_places_of(run);
     return run->has_search ? free_crossing(run, &m) : NULL;
@@ -404,7 +404,7 @@ dal__event_search dal__event_search_begin(dal_run *run, dal_error *error)
                                 .roundings = roundings_of,
                                 .direction = direction_of};
     const dal__event_places m = dal__event_places_of(run);
-    dal__crossing *const free = free_crossing(run, &m);
+    dal__zero_search *const free = free_crossing(run, &m);
     double *at = (double *)free + crossing_numbers();
     double *end = at + dal__crossing_numbers((size_t)k->system->events, run->stored);
     const dal__held_places held = held_places(k, run->stored, end);
@@ -434,9 +434,9 @@ dal_status dal__events_endless(const dal__event_search *w, int k)
     const char *name = dal__event_name(w->system, k);
     const double t = dal_run_time(w->run);
     if (w->m.count[k] == 0.0)
-        return dal__fail(w->error, DAL_EVENT, "%s happens infinitely often from t = %.17g on", name,
-                         t);
-    return dal__fail(w->error, DAL_EVENT,
+        return dal__fail(w->error, DAL_STATUS_EVENT,
+                         "%s happens infinitely often from t = %.17g on", name, t);
+    return dal__fail(w->error, DAL_STATUS_EVENT,
                      "%s happens infinitely often: number %lld is at t = %.17g, and the next ones "
                      "follow closer than can be resolved",
                      name, (long long)w->m.count[k], t);
@@ -447,7 +447,7 @@ typedef dal_status search_function(const dal__event_search *w, double h, double 
                                    dal_error *error);
 
 /* Whether the run is where the last step ended, whose values are known there. */
-static bool is_at_last_end(const dal__crossing *c)
+static bool is_at_last_end(const dal__zero_search *c)
 {
     const dal_run *run = c->run;
     const size_t width = run->stored / dal__saved_count(&run->layout), bytes = sizeof *c->after;
@@ -461,7 +461,7 @@ static bool is_at_last_end(const dal__crossing *c)
 static dal_status search_free(const dal__event_search *w, double h, double *distance,
                               dal_error *error)
 {
-    dal__crossing *c = w->free;
+    dal__zero_search *c = w->free;
     for (int k = 0; k < w->system->events; k++) c->zero[k].side = (dal__side)w->m.side[k];
     c->is_begun = is_at_last_end(c);
     DAL_TRY(dal__crossing_begin(c, h, error));
@@ -472,7 +472,7 @@ static dal_status search_free(const dal__event_search *w, double h, double *dist
  * end of a branch rounding may make them so. */
 static bool is_as_free(const dal__event_search *w)
 {
-    const dal__crossing *c = w->held.crossing;
+    const dal__zero_search *c = w->held.crossing;
     for (int j = 0; j < w->system->branches->count; j++)
         if (w->held.branch[j].is_at_end) return false;
     return c->h == w->free->h && !w->has_failed &&
@@ -484,7 +484,7 @@ static bool is_as_free(const dal__event_search *w)
 static dal_status search_held(const dal__event_search *w, double h, double *distance,
                               dal_error *error)
 {
-    dal__crossing *c = w->held.crossing;
+    dal__zero_search *c = w->held.crossing;
     const int events = w->system->events, count = c->functions.count;
     double change = INFINITY, event = INFINITY;
     for (int k = 0; k < events; k++) c->zero[k].side = (dal__side)w->m.side[k];
@@ -493,13 +493,13 @@ static dal_status search_held(const dal__event_search *w, double h, double *dist
     c->is_begun = false;
     *distance = NAN;
     DAL_TRY(dal__crossing_begin(c, h, error));
-    if (is_as_free(w)) return DAL_OK;
+    if (is_as_free(w)) return DAL_STATUS_OK;
     DAL_TRY(dal__crossing_next(c, distance));
     for (int k = 0; k < events; k++) event = fmin(event, c->zero[k].s);
     for (int k = events; k < count; k++) change = fmin(change, c->zero[k].s);
     const double first = change + same * fabs(h) + dal__crossing_resolution(c);
     *distance = isfinite(change) && event > first ? NAN : event;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The same of the next step.  Where it fails, as beyond a wall, a shorter one may have an event. */
@@ -509,15 +509,15 @@ static dal_status search_next(const dal__event_search *w, search_function *searc
     const double h = w->run->layout.options.step;
     const dal_status status = search(w, h, distance, reason);
     double low = 0.0, high = h;
-    bool found = status == DAL_OK;
+    bool found = status == DAL_STATUS_OK;
     for (int i = 0; i < MAX_HALVES && !found; i++) {
         const double middle = 0.5 * (low + high);
         dal_error ignored = {0};
         const dal_status shorter = search(w, middle, distance, &ignored);
-        found = shorter == DAL_OK && isfinite(*distance);
-        *(shorter == DAL_OK ? &low : &high) = middle;
+        found = shorter == DAL_STATUS_OK && isfinite(*distance);
+        *(shorter == DAL_STATUS_OK ? &low : &high) = middle;
     }
-    return found ? DAL_OK : status;
+    return found ? DAL_STATUS_OK : status;
 }
 
 /* Searches the next step with the branches held, and whether the result counts. */
@@ -528,23 +528,24 @@ static bool repeat_held(const dal__event_search *w, double *distance)
     dal_status status = choose_branches(w);
     for (int j = 0; j < w->system->branches->count; j++)
         slides = slides || w->held.branch[j].is_sliding;
-    if (status == DAL_OK && !slides) status = search_next(w, search_held, distance, &ignored);
+    if (status == DAL_STATUS_OK && !slides)
+        status = search_next(w, search_held, distance, &ignored);
     dal__run_hold(w->run, NULL);
-    return status == DAL_OK && !slides && !isnan(*distance);
+    return status == DAL_STATUS_OK && !slides && !isnan(*distance);
 }
 
 dal_status dal__search_events(dal__event_search *w, double *distance)
 {
-    dal__crossing *const free = w->free, *const held = w->held.crossing;
+    dal__zero_search *const free = w->free, *const held = w->held.crossing;
     const long long unresolved = free->unresolved;
     const double first_unresolved = free->first_unresolved;
     dal_error reason = {0};
     double repeated;
     w->crossing = free;
-    if (dal__crossing_is_kept(free, distance)) return DAL_OK;
-    if (held && dal__crossing_is_kept(held, distance)) return w->crossing = held, DAL_OK;
+    if (dal__crossing_is_kept(free, distance)) return DAL_STATUS_OK;
+    if (held && dal__crossing_is_kept(held, distance)) return w->crossing = held, DAL_STATUS_OK;
     const dal_status status = search_next(w, search_free, distance, &reason);
-    w->has_failed = status != DAL_OK;
+    w->has_failed = status != DAL_STATUS_OK;
     if (held && (w->has_failed || is_near(w)) && repeat_held(w, &repeated)) {
         w->crossing = held;
         *distance = repeated;
@@ -556,7 +557,7 @@ dal_status dal__search_events(dal__event_search *w, double *distance)
         return status;
     }
     dal__crossing_keep(w->crossing, *distance);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- holding ---- */
@@ -576,7 +577,7 @@ void dal__hold_as_kept(dal_run *run)
 
 bool dal__event_slides(const dal__event_search *w, int k)
 {
-    const dal__crossing *c = w->crossing;
+    const dal__zero_search *c = w->crossing;
     for (int j = 0; c == w->held.crossing && j < w->system->branches->count; j++) {
         const double apart = fabs(c->zero[w->system->events + j].s - c->zero[k].s);
         if (w->held.branch[j].is_sliding && apart <= same * fabs(c->h)) return true;
@@ -587,7 +588,7 @@ bool dal__event_slides(const dal__event_search *w, int k)
 dal_status dal__evaluate_event_rates(const dal__event_search *w)
 {
     if (!w->held.crossing) return rates_of(NULL, w->run, w->m.rate, w->error);
-    if (choose_branches(w) != DAL_OK) dal__run_hold(w->run, NULL);
+    if (choose_branches(w) != DAL_STATUS_OK) dal__run_hold(w->run, NULL);
     const dal_status status = rates_of(NULL, w->run, w->m.rate, w->error);
     dal__run_hold(w->run, NULL);
     return status;

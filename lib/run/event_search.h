@@ -26,13 +26,13 @@ typedef struct dal__held_branch {
 
 /* What a search with the branches held needs; B branches, E events. */
 typedef struct dal__held_places {
-    dal__crossing *crossing;  /* of the E formulas `when`, and of how far the B branches hold */
-    dal__held_branch *branch; /* [B] */
-    double *point;            /* [B] where they decide */
-    double *value;            /* [2B] arguments, and sizes */
-    double *rate, *across;    /* [B] rates of the arguments; with one of them on its other side */
-    double *event_rate;       /* [E] */
-    double *event_scale;      /* [E] max |rate| of `when` on both sides of an end; 0: at none */
+    dal__zero_search *crossing; /* of the E formulas `when`, and of how far the B branches hold */
+    dal__held_branch *branch;   /* [B] */
+    double *point;              /* [B] where they decide */
+    double *value;              /* [2B] arguments, and sizes */
+    double *rate, *across;      /* [B] rates of the arguments; with one of them on its other side */
+    double *event_rate;         /* [E] */
+    double *event_scale;        /* [E] max |rate| of `when` on both sides of an end; 0: at none */
 } dal__held_places;
 
 typedef struct dal__event_search {
@@ -40,9 +40,9 @@ typedef struct dal__event_search {
     dal_error *error;
     const dal_system *system;
     dal__event_places m;
-    dal__held_places held; /* branch is NULL where the system has no branches */
-    dal__crossing *free;   /* of the formulas `when`, in a step as it is */
-    dal__crossing
+    dal__held_places held;  /* branch is NULL where the system has no branches */
+    dal__zero_search *free; /* of the formulas `when`, in a step as it is */
+    dal__zero_search
         *crossing;   /* free or held.crossing: sides, and sizes of the steps to the events */
     double toward;   /* the sign of the step */
     bool has_failed; /* the step as it is */
@@ -53,12 +53,12 @@ size_t dal__event_scratch(const dal__layout *layout, size_t stored);
 /* The memory and scratch of a run. */
 dal__event_places dal__event_places_of(const dal_run *run);
 /* The search of the next step as it is; NULL: none was begun. */
-const dal__crossing *dal__event_crossing(const dal_run *run);
+const dal__zero_search *dal__event_crossing(const dal_run *run);
 dal__event_search dal__event_search_begin(dal_run *run, dal_error *error);
 
 /* Finds the first event within the next step: its distance, infinite where there is none.  The run
  * stays as it is, and the result is kept until the run changes.  Errors: as for a step,
- * DAL_NOT_FINITE. */
+ * DAL_STATUS_NOT_FINITE. */
 dal_status dal__search_events(dal__event_search *w, double *distance);
 
 /* Holds the branches as the search did that was kept for the present state, if any were held; and

@@ -40,14 +40,14 @@ static dal_status change(const dal__event_search *w, int k)
     const bool is_impact = actions & DAL_EVENT_IMPACT;
     dal__condition condition = {normal + 1, normal + 1 + n, -(1.0 + c) * w->m.rate[k]};
     if (is_impact && (!(c >= 0.0) || !isfinite(c)))
-        return dal__fail(w->error, DAL_EVENT, "%s has the restitution %g at t = %.17g",
+        return dal__fail(w->error, DAL_STATUS_EVENT, "%s has the restitution %g at t = %.17g",
                          dal__event_name(w->system, k), c, at.t);
     for (size_t i = 0; is_impact && i < n; i++) condition.value += normal[1 + i] * at.v[i];
     if (actions & DAL_EVENT_SETS) {
         const dal_status status = w->system->event_states(w->system, &at, w->m.states);
         for (size_t i = 0; i < 2 * n; i++)
-            if (status != DAL_OK || !isfinite(set[i]))
-                return dal__fail(w->error, status == DAL_OK ? DAL_NOT_FINITE : status,
+            if (status != DAL_STATUS_OK || !isfinite(set[i]))
+                return dal__fail(w->error, status == DAL_STATUS_OK ? DAL_STATUS_NOT_FINITE : status,
                                  "%s sets a value that is not finite at t = %.17g",
                                  dal__event_name(w->system, k), at.t);
         memcpy(run->persistent, set, 2 * n * sizeof *set);
@@ -57,8 +57,8 @@ static dal_status change(const dal__event_search *w, int k)
         snprintf(place, sizeof place, "%.80s at t = %.17g", dal__event_name(w->system, k), at.t);
         dal__linearised D = dal__linearised_of(run, is_impact ? &condition : NULL, place);
         const dal_status status = dal__make_consistent(&D, w->error);
-        if (status != DAL_OK && w->error) w->error->status = DAL_EVENT;
-        if (status != DAL_OK) return DAL_EVENT;
+        if (status != DAL_STATUS_OK && w->error) w->error->status = DAL_STATUS_EVENT;
+        if (status != DAL_STATUS_OK) return DAL_STATUS_EVENT;
     }
     for (size_t i = 0; i < 2 * n; i++) {
         run->persistent[i] += 0.0; /* no -0: see lib/kernel/step.h */
@@ -68,7 +68,7 @@ static dal_status change(const dal__event_search *w, int k)
         dal__quad_set(&run->quad, run->persistent, i);
         dal__quad_set(&run->quad, run->persistent, dim + i);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The events up to the distance `last`, which are at one time, act in the order of the file; an
@@ -107,10 +107,10 @@ static dal_status act_in_rounds(const dal__event_search *w, double last,
     for (int k = 0; any && k < events; k++)
         if (w->crossing->zero[k].s <= last && w->system->event[k].actions & DAL_EVENT_IMPACT)
             return dal__events_endless(w, k);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
-/* Sets the side that event k has left to.  Error: DAL_EVENT where that is out of a wall. */
+/* Sets the side that event k has left to.  Error: DAL_STATUS_EVENT where that is out of a wall. */
 static dal_status leave_event(const dal__event_search *w, int k)
 {
     const dal_event *event = &w->system->event[k];
@@ -126,15 +126,16 @@ static dal_status leave_event(const dal__event_search *w, int k)
     const bool leaves = fabs(rate) > dal__event_rate_rounding(w, k);
     const int across = is_wall ? from : -from;
     const dal__side to =
-        is_off ? (dal__side)dal__sign(f) : dal__just(leaves ? dal__sign(rate) : across);
+        is_off ? (dal__side)dal__sign_of(f) : dal__just(leaves ? dal__sign_of(rate) : across);
     w->m.side[k] = to;
     if (dal__event_slides(w, k) && !(event->actions & DAL_EVENT_STOPS))
-        return dal__fail(w->error, DAL_EVENT,
+        return dal__fail(w->error, DAL_STATUS_EVENT,
                          "%s at t = %.17g: on both sides of it F leads back, so that the motion "
                          "would slide along it, which no step does",
                          dal__event_name(w->system, k), dal_run_time(w->run));
-    if (!is_wall || dal__side_sign(to) == from || event->actions & DAL_EVENT_STOPS) return DAL_OK;
-    return dal__fail(w->error, DAL_EVENT,
+    if (!is_wall || dal__side_sign(to) == from || event->actions & DAL_EVENT_STOPS)
+        return DAL_STATUS_OK;
+    return dal__fail(w->error, DAL_STATUS_EVENT,
                      "%s at t = %.17g: the velocities after it still lead out, d(when)/dt = %.6g",
                      dal__event_name(w->system, k), dal_run_time(w->run), w->m.rate[k]);
 }
@@ -144,7 +145,7 @@ static dal__side side_beside(const dal__event_search *w, int k)
 {
     const double f = w->m.f[k], rounding = dal__event_rounding(w, k);
     const double slack = rounding + fabs(w->crossing->h) * dal__event_rate_rounding(w, k);
-    if (f != w->m.there[k] && fabs(f) > rounding) return (dal__side)dal__sign(f);
+    if (f != w->m.there[k] && fabs(f) > rounding) return (dal__side)dal__sign_of(f);
     return dal__side_at(w->crossing, k, f, slack);
 }
 
@@ -157,7 +158,7 @@ static dal_status add_jump(const dal__event_search *w, double factor)
     const dal__layout *k = &w->run->layout;
     double *values = w->m.observed;
     const dal_status status = dal_run_observe(w->run, values);
-    if (status != DAL_OK)
+    if (status != DAL_STATUS_OK)
         return dal__fail(w->error, status,
                          "the observables have no values at the event at t = %.17g",
                          dal_run_time(w->run));
@@ -168,7 +169,7 @@ static dal_status add_jump(const dal__event_search *w, double factor)
             if (jumps && !(group == DAL__OBSERVE_INVARIANTS && i >= end - k->system->observed))
                 w->m.jump[i] += factor * values[i];
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Values, rates and normals of the present state. */
@@ -183,9 +184,9 @@ static dal_status evaluate_all(const dal__event_search *w)
 static dal_status act(const dal__event_search *w, double distance,
                       const dal__event_listener *listener)
 {
-    const dal__crossing *c = w->crossing;
+    const dal__zero_search *c = w->crossing;
     double last = distance;
-    dal_status left = DAL_OK;
+    dal_status left = DAL_STATUS_OK;
     DAL_TRY(evaluate_all(w));
     memcpy(w->m.there, w->m.f, (size_t)w->system->events * sizeof(double));
     for (int k = 0; k < w->system->events; k++) {
@@ -199,7 +200,7 @@ static dal_status act(const dal__event_search *w, double distance,
     DAL_TRY(act_in_rounds(w, last, listener));
     DAL_TRY(evaluate_all(w));
     DAL_TRY(add_jump(w, 1.0));
-    for (int k = 0; k < w->system->events && left == DAL_OK; k++) {
+    for (int k = 0; k < w->system->events && left == DAL_STATUS_OK; k++) {
         if (c->zero[k].s <= last)
             left = leave_event(w, k);
         else
@@ -213,7 +214,7 @@ static dal_status act(const dal__event_search *w, double distance,
 static dal_status take_events(const dal__event_search *w, double distance,
                               const dal__event_listener *listener)
 {
-    const dal__crossing *c = w->crossing;
+    const dal__zero_search *c = w->crossing;
     const double s = w->toward * distance;
     const bool is_stalled = distance <= dal__crossing_resolution(c);
     DAL_TRY(dal__evaluate_event_normals(w));
@@ -228,13 +229,13 @@ static dal_status take_events(const dal__event_search *w, double distance,
     if (distance > 0.0) {
         dal__hold_as_searched(w, true);
         dal_status status = dal__step_part(w->run, c->h, s);
-        if (status != DAL_OK) status = dal__failure_reason(w->run, s, status, w->error);
+        if (status != DAL_STATUS_OK) status = dal__failure_reason(w->run, s, status, w->error);
         dal__hold_as_searched(w, false);
         DAL_TRY(status);
     }
     *w->m.stalled = is_stalled ? *w->m.stalled + 1.0 : 0.0;
     const dal_status status = act(w, distance, listener);
-    if (status == DAL_OK)
+    if (status == DAL_STATUS_OK)
         commit_events(w);
     else
         dal__run_revert(w->run);
@@ -246,17 +247,17 @@ static dal_status take_events(const dal__event_search *w, double distance,
 dal_status dal__check_events(const dal_run *run, dal_error *error)
 {
     const dal__layout *layout = &run->layout;
-    if (layout->system->events == 0) return DAL_OK;
+    if (layout->system->events == 0) return DAL_STATUS_OK;
     const int k = (int)*dal__event_places_of(run).stopped - 1;
     const char *name = k >= 0 ? layout->system->event[k].name : NULL;
     if (k >= 0)
-        return dal__fail(error, DAL_STOPPED, "%s stopped the run at t = %.17g",
+        return dal__fail(error, DAL_STATUS_STOPPED, "%s stopped the run at t = %.17g",
                          name ? name : "an event", dal_run_time(run));
     for (int i = 2 * layout->n + 1; layout->lifted && i < layout->dim; i++)
         if (run->persistent[i] != 0.0)
-            return dal__fail(error, DAL_UNSUPPORTED,
+            return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                              "events act on p = pi = 0 only: p, pi or pi_e is not 0");
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__advance_events(dal_run *run, long long count, const dal__event_listener *listener,
@@ -277,17 +278,18 @@ dal_status dal__advance_events(dal_run *run, long long count, const dal__event_l
         *w.m.stalled = 0.0;
         commit_events(&w);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
 {
     DAL_REQUIRE(run, error);
     const double h = run->layout.options.step;
-    if (count < 0) return dal__fail(error, DAL_ARGUMENT, "%lld steps: a run goes forward", count);
+    if (count < 0)
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "%lld steps: a run goes forward", count);
     if (run->layout.system->events > 0) return dal__advance_events(run, count, NULL, error);
     const dal_status status = dal__step_run(run, h, count);
-    return status == DAL_OK ? DAL_OK : dal__failure_reason(run, h, status, error);
+    return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__failure_reason(run, h, status, error);
 }
 
 dal_status dal_run_step(dal_run *run, dal_error *error) { return dal_run_advance(run, 1, error); }
@@ -296,7 +298,7 @@ double dal__next_event(dal_run *run)
 {
     double distance = INFINITY;
     dal__event_search w = dal__event_search_begin(run, NULL);
-    return dal__search_events(&w, &distance) == DAL_OK ? distance : INFINITY;
+    return dal__search_events(&w, &distance) == DAL_STATUS_OK ? distance : INFINITY;
 }
 
 /* ---- a parameter between steps ---- */
@@ -307,10 +309,10 @@ static void change_sides(dal_run *run)
 {
     if (run->layout.system->events == 0) return;
     const dal__event_search w = dal__event_search_begin(run, NULL);
-    if (evaluate_all(&w) != DAL_OK) return;
+    if (evaluate_all(&w) != DAL_STATUS_OK) return;
     for (int k = 0; k < w.system->events; k++) {
         const bool is_off = fabs(w.m.f[k]) > dal__event_rounding(&w, k);
-        if (is_off && w.m.side[k] != DAL__SIDE_UNKNOWN) w.m.side[k] = dal__sign(w.m.f[k]);
+        if (is_off && w.m.side[k] != DAL__SIDE_UNKNOWN) w.m.side[k] = dal__sign_of(w.m.f[k]);
     }
     *w.m.stalled = 0.0;
     commit_events(&w);
@@ -321,7 +323,7 @@ dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, d
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(name, error);
     const dal_status status = dal__change_parameter(run, name, value, error);
-    if (status == DAL_OK || status == DAL_INCONSISTENT) change_sides(run);
+    if (status == DAL_STATUS_OK || status == DAL_STATUS_INCONSISTENT) change_sides(run);
     return status;
 }
 
@@ -340,12 +342,12 @@ int dal_run_stopped(const dal_run *run)
 
 long long dal_run_unresolved(const dal_run *run, double *from)
 {
-    const dal__crossing *c = run ? dal__event_crossing(run) : NULL;
+    const dal__zero_search *c = run ? dal__event_crossing(run) : NULL;
     if (from) *from = c ? c->first_unresolved : NAN;
     return c ? c->unresolved : 0;
 }
 
-double dal_run_jump(const dal_run *run, int observable)
+double dal_run_event_jump(const dal_run *run, int observable)
 {
     if (!run || run->layout.system->events == 0) return 0.0;
     const bool is_one = observable >= 0 && observable < dal_run_observables(run);

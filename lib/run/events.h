@@ -24,15 +24,16 @@ typedef struct dal__event_listener {
 } dal__event_listener;
 
 /* Takes count steps; one that would pass an event ends there, and the event acts.  listener may be
- * NULL.  Errors: as for a step, what the listener returns, DAL_EVENT, DAL_STOPPED,
- * DAL_UNSUPPORTED where p, pi or pi_e is not 0. */
+ * NULL.  Errors: as for a step, what the listener returns, DAL_STATUS_EVENT, DAL_STATUS_STOPPED,
+ * DAL_STATUS_UNSUPPORTED where p, pi or pi_e is not 0. */
 dal_status dal__advance_events(dal_run *run, long long count, const dal__event_listener *listener,
                                dal_error *error);
 /* The distance of the first event within the next step; infinite where there is none, or the step
  * fails.  The run stays as it is. */
 double dal__next_event(dal_run *run);
-/* DAL_STOPPED with its message where an event has ended the run; DAL_UNSUPPORTED on the lifted
- * space off p = pi = 0: an event acts on (q, v) alone, p and pi would need its derivatives. */
+/* DAL_STATUS_STOPPED with its message where an event has ended the run; DAL_STATUS_UNSUPPORTED on
+ * the lifted space off p = pi = 0: an event acts on (q, v) alone, p and pi would need its
+ * derivatives. */
 dal_status dal__check_events(const dal_run *run, dal_error *error);
 
 #endif

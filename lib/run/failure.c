@@ -6,7 +6,7 @@
 /* max |x_i| of numbers of (q, v, g) from first on, in units of the system. */
 static double max_in_units(const dal__layout *k, const double *x, int first, int count)
 {
-    const double *const units = dal__units(k, DAL__UNITS);
+    const double *const units = dal__units(k, DAL__UNITS_OF_STATE);
     double max = 0.0;
     for (int i = 0; i < count; i++)
         max = dal_max(max, dal_abs(dal_in_units(x[i], units, first + i)));
@@ -23,26 +23,26 @@ static bool is_far_away(const dal_run *run, const dal__failure *failure)
            max_in_units(k, failure->v, k->n, k->nw) > far;
 }
 
-/* The reason that the system gives for the point; DAL_OK: none. */
+/* The reason that the system gives for the point; DAL_STATUS_OK: none. */
 static dal_status diagnose(dal_run *run, const dal__failure *failure, dal_error *error)
 {
     const dal_system *system = run->layout.system;
     const dal_point at = {.t = failure->t, .q = failure->q, .v = failure->v, .work = run->work};
     double number = 0.0;
-    if (!system->diagnose || is_far_away(run, failure)) return DAL_OK;
+    if (!system->diagnose || is_far_away(run, failure)) return DAL_STATUS_OK;
     const dal_status status = system->diagnose(system, &at, &number);
-    if (status == DAL_SINGULAR)
+    if (status == DAL_STATUS_SINGULAR)
         return dal__fail(
             error, status,
             "constraint %d became singular near t = %.17g: G = A W^-1 A^T has no inverse",
             (int)number, failure->t);
-    if (status == DAL_SINGULAR_MASS)
+    if (status == DAL_STATUS_SINGULAR_MASS)
         return dal__fail(error, status, "%s became singular near t = %.17g",
                          dal__mass_words(system), failure->t);
-    if (status == DAL_NOT_FINITE)
+    if (status == DAL_STATUS_NOT_FINITE)
         return dal__fail(error, status, "table %.80s is read outside its points near t = %.17g",
                          system->table[(int)number - 1], failure->t);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Whether e would pass zero in the step; a stage may have reached it. */
@@ -53,7 +53,7 @@ static bool gauge_crosses(dal_run *run, double t, double h)
     double mu[2] = {0.0, 0.0};
     for (int i = 0; i < 2; i++)
         if (run->kind->engine->eval(run->engine, DAL_EVAL_GAUGE, t + i * h, run->persistent,
-                                    &mu[i]) != DAL_OK)
+                                    &mu[i]) != DAL_STATUS_OK)
             return false;
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
@@ -63,7 +63,8 @@ static double pivot_of(dal_run *run, int constraint, double t)
 {
     const int m = run->layout.m, n = run->layout.n;
     double *c = run->scratch, *g = c + m + 2 * m * n, pivot = NAN;
-    if (run->kind->engine->eval(run->engine, DAL_EVAL_CONSTRAINT, t, run->persistent, c) != DAL_OK)
+    if (run->kind->engine->eval(run->engine, DAL_EVAL_CONSTRAINT, t, run->persistent, c) !=
+        DAL_STATUS_OK)
         return NAN;
     dal_gram(c + m, c + m + m * n, m, n, g);
     for (int k = 0; k < constraint; k++) pivot = fabs(dal_eliminate(g, m, k));
@@ -78,7 +79,7 @@ static bool passes_in_parts(dal_run *run, int constraint, double t, double h)
     enum { PARTS = 64 };
     const double least = 0.1;
     const size_t bytes = run->layout.persistent * sizeof *run->persistent;
-    dal_status reason = DAL_OK;
+    dal_status reason = DAL_STATUS_OK;
     double min = pivot_of(run, constraint, t), max = min;
     bool passes = true;
     memcpy(run->shadow, run->persistent, bytes);
@@ -98,16 +99,17 @@ static dal_status turned(dal_run *run, const dal__failure *failure, double t, do
     const dal_system *system = run->layout.system;
     if (failure->guard)
         return dal__fail(error,
-                         failure->guard == system->mass_guard ? DAL_SINGULAR_MASS : DAL_SINGULAR,
+                         failure->guard == system->mass_guard ? DAL_STATUS_SINGULAR_MASS
+                                                              : DAL_STATUS_SINGULAR,
                          "%s goes to zero between t = %.17g and %.17g: singular there",
                          system->guard ? system->guard[failure->guard - 1] : "a guard", t, t + h);
     if (passes_in_parts(run, failure->constraint, t, h))
-        return dal__fail(error, DAL_NOT_CONVERGED,
+        return dal__fail(error, DAL_STATUS_NOT_CONVERGED,
                          "the gradient of constraint %d by the velocities turns by more than a "
                          "right angle in the step of %g from t = %.17g, though G = A W^-1 A^T is "
                          "regular; take a smaller step",
                          failure->constraint, h, t);
-    return dal__fail(error, DAL_SINGULAR,
+    return dal__fail(error, DAL_STATUS_SINGULAR,
                      "constraint %d becomes singular between t = %.17g and %.17g: its normal "
                      "shrinks or turns round, so that G = A W^-1 A^T vanishes",
                      failure->constraint, t, t + h);
@@ -126,7 +128,8 @@ static bool predict(dal_run *run, double t, double dt)
 {
     const dal__layout *k = &run->layout;
     double *f = run->scratch;
-    if (run->kind->engine->eval(run->engine, DAL_EVAL_FIELD, t, run->persistent, f) != DAL_OK)
+    if (run->kind->engine->eval(run->engine, DAL_EVAL_FIELD, t, run->persistent, f) !=
+        DAL_STATUS_OK)
         return false;
     for (int i = 0; i < k->n; i++)
         run->shadow[i] = run->persistent[i] + dt * run->persistent[k->n + i];
@@ -139,8 +142,8 @@ static double *eval_both_ends(dal_run *run, int code, int size, double t, double
 {
     double *first = run->scratch, *second = first + size;
     const bool good =
-        run->kind->engine->eval(run->engine, code, t, run->persistent, first) == DAL_OK &&
-        run->kind->engine->eval(run->engine, code, t + dt, run->shadow, second) == DAL_OK;
+        run->kind->engine->eval(run->engine, code, t, run->persistent, first) == DAL_STATUS_OK &&
+        run->kind->engine->eval(run->engine, code, t + dt, run->shadow, second) == DAL_STATUS_OK;
     return good ? second : NULL;
 }
 
@@ -178,7 +181,7 @@ static bool vanishes(dal_run *run, double t, double h, dal__failure *failure)
 static dal_status unsolved(dal_run *run, double t, double h, dal_error *error)
 {
     char name[128];
-    return dal__fail(error, DAL_NOT_CONVERGED,
+    return dal__fail(error, DAL_STATUS_NOT_CONVERGED,
                      "the implicit equations of %s did not converge in the step of %g from "
                      "t = %.17g (at most %d iterations); take a smaller step",
                      dal_method_name(&run->layout.method, name, sizeof name), h, t,
@@ -191,11 +194,11 @@ static dal_status undivided(dal_run *run, const dal__failure *failure, double t,
 {
     const double tolerance = run->layout.options.tolerance;
     if (failure->substep > 0.0)
-        return dal__fail(error, DAL_NOT_CONVERGED,
+        return dal__fail(error, DAL_STATUS_NOT_CONVERGED,
                          "too many substeps (more than %d) for tolerance %g in the step of %g from "
                          "t = %.17g: at t = %.17g their size is %g",
                          DAL__MAX_TRIALS, tolerance, h, t, failure->reached, failure->substep);
-    return dal__fail(error, DAL_NOT_CONVERGED,
+    return dal__fail(error, DAL_STATUS_NOT_CONVERGED,
                      "the step size went to zero at t = %.17g in the step of %g from t = %.17g: "
                      "no substep there keeps the error within tolerance %g",
                      failure->reached, h, t, tolerance);
@@ -206,7 +209,7 @@ static dal_status undivided(dal_run *run, const dal__failure *failure, double t,
 static void repeat(dal_run *run, double h, dal__failure *failure)
 {
     const size_t bytes = run->layout.persistent * sizeof *run->persistent;
-    dal_status reason = DAL_OK;
+    dal_status reason = DAL_STATUS_OK;
     memcpy(run->shadow, run->persistent, bytes);
     run->kind->engine->trace(run->engine, failure);
     run->kind->engine->step(run->engine, h, 1u, &reason);
@@ -220,25 +223,25 @@ dal_status dal__failure_reason(dal_run *run, double h, dal_status status, dal_er
     const double t = dal_run_time(run);
     dal__failure failure = {.q = run->point, .v = run->point + k->n};
     repeat(run, h, &failure);
-    if (status == DAL_GAUGE || (status != DAL_SINGULAR && gauge_crosses(run, t, h)))
-        return dal__fail(error, DAL_GAUGE,
+    if (status == DAL_STATUS_GAUGE || (status != DAL_STATUS_SINGULAR && gauge_crosses(run, t, h)))
+        return dal__fail(error, DAL_STATUS_GAUGE,
                          "e reached zero between t = %.17g and %.17g: 1/e is not defined", t,
                          t + h);
     if (failure.guard || failure.constraint) return turned(run, &failure, t, h, error);
     if (failure.not_finite) {
         const dal_status said = diagnose(run, &failure, error);
-        if (said != DAL_OK) return said;
-        if (failure.status != DAL_OK)
+        if (said != DAL_STATUS_OK) return said;
+        if (failure.status != DAL_STATUS_OK)
             return dal__fail(error, failure.status, "the system failed at t = %.17g: %s", failure.t,
                              dal_status_text(failure.status));
     }
-    if (status == DAL_NOT_CONVERGED && vanishes(run, t, h, &failure))
+    if (status == DAL_STATUS_NOT_CONVERGED && vanishes(run, t, h, &failure))
         return turned(run, &failure, t, h, error);
-    if (status == DAL_NOT_CONVERGED && k->options.tolerance > 0.0 &&
+    if (status == DAL_STATUS_NOT_CONVERGED && k->options.tolerance > 0.0 &&
         fabs(failure.reached - t) < fabs(h))
         return undivided(run, &failure, t, h, error);
-    if (status == DAL_NOT_CONVERGED) return unsolved(run, t, h, error);
-    if (status == DAL_NOT_FINITE)
+    if (status == DAL_STATUS_NOT_CONVERGED) return unsolved(run, t, h, error);
+    if (status == DAL_STATUS_NOT_FINITE)
         return dal__fail(error, status, "a value is not finite in the step of %g from t = %.17g", h,
                          t);
     return dal__fail(error, status, "%s in the step of %g from t = %.17g", dal_status_text(status),

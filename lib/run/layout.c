@@ -30,13 +30,13 @@ static const char *energy_fault(const dal_system *system)
 static dal_status choose_system(dal__layout *k, dal_error *error)
 {
     const char *fault = energy_fault(k->system), *name = k->system->name;
-    if (!k->options.extend_energy) return DAL_OK;
+    if (!k->options.extend_energy) return DAL_STATUS_OK;
     if (!fault && !k->system->extended) fault = "the system has no such extension";
     if (fault)
-        return dal__fail(error, DAL_UNSUPPORTED, "extend-energy cannot act on %s: %s",
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED, "extend-energy cannot act on %s: %s",
                          name ? name : "this system", fault);
     k->system = k->system->extended;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The reason why method, space or solver cannot act on the system; NULL: they can. */
@@ -77,8 +77,8 @@ static dal_status check_needs(const dal__layout *k, dal_error *error)
 {
     const char *fault = misfit(k), *name = k->system->name;
     char method[128];
-    if (!fault) return DAL_OK;
-    return dal__fail(error, DAL_UNSUPPORTED, "%s cannot act on %s: %s",
+    if (!fault) return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_UNSUPPORTED, "%s cannot act on %s: %s",
                      dal_method_name(&k->method, method, sizeof method),
                      name ? name : "this system", fault);
 }
@@ -86,35 +86,36 @@ static dal_status check_needs(const dal__layout *k, dal_error *error)
 static dal_status check_system(const dal_system *system, dal_error *error)
 {
     if (system->n < 1)
-        return dal__fail(error, DAL_ARGUMENT, "a system needs coordinates; n is %d", system->n);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "a system needs coordinates; n is %d",
+                         system->n);
     if (system->m < 0 || system->parameters < 0 || system->guards < 0 || system->invariants < 0 ||
         system->pivots < 0)
-        return dal__fail(error, DAL_ARGUMENT, "a dimension of the system is negative");
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "a dimension of the system is negative");
     if (system->multipliers != 0 && system->multipliers != system->m)
-        return dal__fail(error, DAL_ARGUMENT, "%d multipliers for %d constraints",
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "%d multipliers for %d constraints",
                          system->multipliers, system->m);
     if (system->workspace && system->workspace < (size_t)system->parameters)
-        return dal__fail(error, DAL_ARGUMENT, "%d parameters in a workspace of %zu numbers",
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "%d parameters in a workspace of %zu numbers",
                          system->parameters, system->workspace);
     if (system->workspace < (size_t)system->pivots)
-        return dal__fail(error, DAL_ARGUMENT, "%d pivots in a workspace of %zu numbers",
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "%d pivots in a workspace of %zu numbers",
                          system->pivots, system->workspace);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status check_options(const dal_options *o, dal_error *error)
 {
     if (o->step == 0.0 || !isfinite(o->step))
-        return dal__fail(error, DAL_ARGUMENT, "the step must be finite and not 0; it is %g",
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "the step must be finite and not 0; it is %g",
                          o->step);
 #define OPTION(type, name, word, initial, min, max, value, help)                                   \
     if (!((double)o->name >= min && (double)o->name <= max))                                       \
-        return dal__fail(error, DAL_ARGUMENT, "option %s: %g is not from %g to %g", word,          \
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "option %s: %g is not from %g to %g", word,   \
                          (double)o->name, (double)min, (double)max);
     DAL_OPTION_LIST(OPTION)
 #undef OPTION
-    if (o->tolerance == 0.0 || o->tolerance >= dal_min_tolerance(o)) return DAL_OK;
-    return dal__fail(error, DAL_ARGUMENT,
+    if (o->tolerance == 0.0 || o->tolerance >= dal_min_tolerance(o)) return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_ARGUMENT,
                      "option tolerance: %g is below %.2g, the smallest in %s precision; 0: none",
                      o->tolerance, dal_min_tolerance(o),
                      o->precision == DAL_QUAD ? "quad" : "double");
@@ -130,26 +131,27 @@ static dal_status check_inside(const dal_method *method, int depth, dal_error *e
     dal_method_name(&inside, name, sizeof name);
     const int order = dal_method_order(&inside);
     if ((outer->needs & DAL_NEEDS_SYMMETRIC) && !(dal_method_properties(&inside) & DAL_SYMMETRIC))
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "+%s needs a symmetric method: %s is not symmetric", outer->name, name);
     if ((outer->needs & DAL_NEEDS_SYMMETRIC) && (outer->needs & DAL_NEEDS_CONSTRAINT) &&
         (dal_method_properties(&inside) & (DAL_PRESERVES_D | DAL_PRESERVES_D_MIDPOINT)) ==
             DAL_PRESERVES_D_MIDPOINT)
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "+%s has no solution around %s, which turns D into -D in every step",
                          outer->name, name);
     if ((outer->needs & DAL_NEEDS_ORDER_2) && order != 2)
-        return dal__fail(error, DAL_UNSUPPORTED, "+%s needs a method of order 2: %s is of order %d",
-                         outer->name, name, order);
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "+%s needs a method of order 2: %s is of order %d", outer->name, name,
+                         order);
     /* Symplectic methods treat p and pi unlike q and v. */
     const unsigned explicit_rk = DAL_EXPLICIT | DAL_COMPONENTWISE;
     if ((outer->needs & DAL_NEEDS_RUNGE_KUTTA) &&
         (dal_method_properties(&inside) & (explicit_rk | DAL_SYMPLECTIC)) != explicit_rk)
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "+%s needs an explicit Runge-Kutta method that is not symplectic by "
                          "itself: %s is not one",
                          outer->name, name);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status check_layers(dal__layout *k, dal_error *error)
@@ -159,7 +161,8 @@ static dal_status check_layers(dal__layout *k, dal_error *error)
         const dal_integrator *layer = method->layer[k->depth];
         const int modifier = (layer->properties & DAL_MODIFIER) != 0;
         if (!layer->step || layer->stages < 0 || modifier != (k->depth > 0))
-            return dal__fail(error, DAL_ARGUMENT, "'%s' is not usable as layer %d of a method",
+            return dal__fail(error, DAL_STATUS_ARGUMENT,
+                             "'%s' is not usable as layer %d of a method",
                              layer->name ? layer->name : "?", k->depth + 1);
         if (modifier) DAL_TRY(check_inside(method, k->depth, error));
         if (layer->stages > k->stages) k->stages = layer->stages;
@@ -167,19 +170,19 @@ static dal_status check_layers(dal__layout *k, dal_error *error)
     }
     for (int i = k->depth + 1; i < DAL_LAYERS; i++)
         if (method->layer[i])
-            return dal__fail(error, DAL_ARGUMENT,
+            return dal__fail(error, DAL_STATUS_ARGUMENT,
                              "layer %d of the method is missing: layer %d is '%s'", k->depth + 1,
                              i + 1, method->layer[i]->name ? method->layer[i]->name : "?");
-    if (k->depth == 0) return dal__fail(error, DAL_ARGUMENT, "a run needs an integrator");
-    return DAL_OK;
+    if (k->depth == 0) return dal__fail(error, DAL_STATUS_ARGUMENT, "a run needs an integrator");
+    return DAL_STATUS_OK;
 }
 
 static dal_status check_control(const dal__layout *k, dal_error *error)
 {
     char name[128];
     if (k->options.tolerance == 0.0 || dal_method_properties(&k->method) & DAL_ADAPTIVE)
-        return DAL_OK;
-    return dal__fail(error, DAL_UNSUPPORTED,
+        return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                      "%s has no control of its step size: the tolerance must be 0",
                      dal_method_name(&k->method, name, sizeof name));
 }
@@ -262,18 +265,18 @@ static dal_status check_reactions(const dal__layout *k, dal_error *error)
                               : k->options.extend_energy
                                   ? "F continued off D = 0 is not made of them"
                                   : "the system has no callback for them";
-    if (!k->options.reactions) return DAL_OK;
+    if (!k->options.reactions) return DAL_STATUS_OK;
     if (fault)
-        return dal__fail(error, DAL_UNSUPPORTED, "the reactions of %s cannot be observed: %s",
-                         system, fault);
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "the reactions of %s cannot be observed: %s", system, fault);
     for (int j = 0; j < 2; j++)
         for (int i = 0; names[j] && i < count[j]; i++)
             if (is_reaction(s, names[j][i]))
-                return dal__fail(error, DAL_NAME,
+                return dal__fail(error, DAL_STATUS_NAME,
                                  "the reactions of %s cannot be observed: '%.80s' is also the name "
                                  "of %s",
                                  system, names[j][i], j == 0 ? "a coordinate" : "an invariant");
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 int dal__max_observables(const dal__layout *k)
@@ -290,8 +293,9 @@ static dal_status check_series(const dal__layout *k, dal_error *error)
     const dal_series *series = k->system->series;
     const char *name = k->system->name;
     char method[128];
-    if (!(dal_method_needs(&k->method) & DAL_NEEDS_SERIES) || !series->refused) return DAL_OK;
-    return dal__fail(error, DAL_UNSUPPORTED,
+    if (!(dal_method_needs(&k->method) & DAL_NEEDS_SERIES) || !series->refused)
+        return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                      "%s cannot act on %s: the equations contain %s, which has no Taylor series at "
                      "its jump or kink",
                      dal_method_name(&k->method, method, sizeof method),
@@ -302,18 +306,18 @@ static dal_status check_series(const dal__layout *k, dal_error *error)
 static dal_status check_quad(const dal__layout *k, dal_error *error)
 {
     if (DAL_QUAD_DIGITS < 113)
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "quad precision: this machine has no type of 113 binary digits");
     if (!k->system->quad)
-        return dal__fail(error, DAL_UNSUPPORTED,
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "quad precision: %.80s has no form in it, not being made from a model",
                          k->system->name ? k->system->name : "this system");
     for (int i = 0; i < k->depth; i++)
         if (!dal__integrator_wide(k->method.layer[i], DAL__VARIANT_x1_QUAD))
-            return dal__fail(error, DAL_UNSUPPORTED,
+            return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                              "quad precision: '%.80s' has no form in it, not being the library's",
                              k->method.layer[i]->name ? k->method.layer[i]->name : "?");
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Numbers of the persistent state that events need, see events.h. */
@@ -343,12 +347,12 @@ static dal_status measure(dal__layout *k, dal_error *error)
                            parts + 2.0 * k->system->guards + k->system->invariants + 16 * n + 64 +
                            series;
     if (scratch > MAX_NUMBERS || k->stages > 1000)
-        return dal__fail(error, DAL_TOO_LARGE, "a run with n = %d, m = %d needs %g numbers", k->n,
-                         k->m, scratch);
+        return dal__fail(error, DAL_STATUS_TOO_LARGE, "a run with n = %d, m = %d needs %g numbers",
+                         k->n, k->m, scratch);
     k->scratch = (size_t)scratch;
     k->workspace = k->system->workspace ? k->system->workspace : (size_t)k->system->parameters;
     if (k->workspace > MAX_NUMBERS)
-        return dal__fail(error, DAL_TOO_LARGE, "a workspace of %zu numbers", k->workspace);
+        return dal__fail(error, DAL_STATUS_TOO_LARGE, "a workspace of %zu numbers", k->workspace);
     const bool remembers = k->method.layer[0]->properties & DAL_EXTRAPOLATES_STAGES;
     k->derivatives = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
     k->multiplier = dal_method_properties(&k->method) & DAL_PERSISTENT_MULTIPLIER ? k->m : 0;
@@ -359,16 +363,18 @@ static dal_status measure(dal__layout *k, dal_error *error)
 #undef MEMBER
     k->event_memory = event_memory(k);
     k->persistent += k->event_memory;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 const double *dal__units(const dal__layout *k, dal__unit_list list)
 {
     const double *const units = k->system->units;
-    const int first = list == DAL__UNITS ? 0 : list == DAL__SPEEDS ? k->n : k->n + k->nw;
-    const int end = list == DAL__LEVELS ? k->n + k->nw + k->m + 1 : k->n + k->nw;
+    const int first = list == DAL__UNITS_OF_STATE    ? 0
+                      : list == DAL__UNITS_OF_SPEEDS ? k->n
+                                                     : k->n + k->nw;
+    const int end = list == DAL__UNITS_OF_LEVELS ? k->n + k->nw + k->m + 1 : k->n + k->nw;
     for (int i = first; units && i < end; i++)
-        if (units[i] != (list == DAL__UNITS ? 1.0 : units[first])) return units + first;
+        if (units[i] != (list == DAL__UNITS_OF_STATE ? 1.0 : units[first])) return units + first;
     return NULL;
 }
 
@@ -388,8 +394,8 @@ dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error 
     DAL_TRY(check_system(spec->system, error));
     DAL_TRY(check_options(&spec->options, error));
     if (!isfinite(spec->start_time))
-        return dal__fail(error, DAL_ARGUMENT, "the time of the start must be finite; it is %g",
-                         spec->start_time);
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
+                         "the time of the start must be finite; it is %g", spec->start_time);
     *k = (dal__layout){.system = spec->system,
                        .method = spec->method,
                        .options = spec->options,
@@ -400,7 +406,7 @@ dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error 
     k->nw = k->n + spec->system->multipliers;
     k->lifted = spec->options.space == DAL_LIFTED;
     if (k->n > 100000 || k->m > k->n)
-        return dal__fail(error, DAL_TOO_LARGE, "%d coordinates, %d constraints", k->n, k->m);
+        return dal__fail(error, DAL_STATUS_TOO_LARGE, "%d coordinates, %d constraints", k->n, k->m);
     k->dim = k->lifted ? 4 * k->n + 2 : k->n + k->nw;
     guess_operations(k);
     DAL_TRY(check_layers(k, error));
@@ -452,16 +458,17 @@ static dal_status parse(const option *k, const char *text, double *value, dal_er
 {
     if (k->is_choice) {
         *value = choice(k->value, text);
-        if (*value >= 0) return DAL_OK;
-        return dal__fail(error, DAL_ARGUMENT, "option %s: '%.60s' is not one of %s", k->name, text,
-                         k->value);
+        if (*value >= 0) return DAL_STATUS_OK;
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "option %s: '%.60s' is not one of %s", k->name,
+                         text, k->value);
     }
-    if (dal_parse_number(text, strlen(text), value) != DAL_OK)
-        return dal__fail(error, DAL_SYNTAX, "option %s: '%.60s' is not a number", k->name, text);
+    if (dal_parse_number(text, strlen(text), value) != DAL_STATUS_OK)
+        return dal__fail(error, DAL_STATUS_SYNTAX, "option %s: '%.60s' is not a number", k->name,
+                         text);
     const bool is_in_range = *value >= k->min && *value <= k->max;
-    if (is_in_range && (!k->is_whole || *value == floor(*value))) return DAL_OK;
-    return dal__fail(error, DAL_ARGUMENT, "option %s: %.60s is not %s from %g to %g", k->name, text,
-                     k->is_whole ? "a whole number" : "a number", k->min, k->max);
+    if (is_in_range && (!k->is_whole || *value == floor(*value))) return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_ARGUMENT, "option %s: %.60s is not %s from %g to %g",
+                     k->name, text, k->is_whole ? "a whole number" : "a number", k->min, k->max);
 }
 
 /* of each type of options: is_whole, is_choice */
@@ -503,7 +510,7 @@ dal_status dal_options_set(dal_options *options, const char *name, const char *t
         if (strcmp(name, names[i]) != 0) continue;
         DAL_TRY(parse(&table[i], text, &value, error));
         set_option(options, i, value);
-        return DAL_OK;
+        return DAL_STATUS_OK;
     }
     return dal__unknown(error, "option", name, names, COUNT);
 }

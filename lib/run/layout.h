@@ -66,7 +66,11 @@ static inline bool dal__is_possible(const dal__layout *k, size_t i, double x)
 
 /* The units of a system: of q, v and g, where one is not 1; of v and g, and of D and E, where they
  * differ among each other.  Else NULL. */
-typedef enum dal__unit_list { DAL__UNITS, DAL__SPEEDS, DAL__LEVELS } dal__unit_list;
+typedef enum dal__unit_list {
+    DAL__UNITS_OF_STATE,
+    DAL__UNITS_OF_SPEEDS,
+    DAL__UNITS_OF_LEVELS
+} dal__unit_list;
 const double *dal__units(const dal__layout *layout, dal__unit_list list);
 
 /* Checks a spec and computes its layout; errors as dal_run_init. */

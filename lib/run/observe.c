@@ -38,16 +38,16 @@ static char *state_name(const dal_system *system, bool lifted, int i, char *buff
     return NULL;
 }
 
-char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size)
+char *dal_run_component_name(const dal_run *run, int i, char *buffer, size_t size)
 {
     if (!run || !buffer) return NULL;
     return state_name(run->layout.system, run->layout.lifted, i, buffer, size);
 }
 
-int dal_run_index(const dal_run *run, const char *name)
+int dal_run_component_index(const dal_run *run, const char *name)
 {
     char other[DAL__NAME_SIZE];
-    for (int i = 0; name && dal_run_name(run, i, other, sizeof other); i++)
+    for (int i = 0; name && dal_run_component_name(run, i, other, sizeof other); i++)
         if (strcmp(other, name) == 0) return i;
     return -1;
 }
@@ -103,7 +103,7 @@ dal_status dal__observe_part(dal_run *run, double h, double part,
 {
     dal__run_back_up(run);
     dal_status status = dal__step_part(run, h, part);
-    if (status != DAL_OK) return dal__failure_reason(run, part, status, error);
+    if (status != DAL_STATUS_OK) return dal__failure_reason(run, part, status, error);
     status = observe(user, run);
     dal__run_revert(run);
     return status;

@@ -70,7 +70,7 @@ dal_status dal__quad_prepare(const dal__quad_run *run, double t)
     const size_t at_v = (size_t)run->layout.n * dal__quad_width();
     const dal_point at = {
         .t = t, .q = run->persistent, .v = run->persistent + at_v, .work = run->work};
-    return system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
+    return system->prepare ? system->prepare(system, &at, NULL) : DAL_STATUS_OK;
 }
 
 void dal__quad_hold(const dal__quad_run *run, const double *point)
@@ -80,14 +80,14 @@ void dal__quad_hold(const dal__quad_run *run, const double *point)
 
 dal_status dal__quad_step(const dal__quad_run *run, double h)
 {
-    dal_status reason = DAL_OK;
-    return kind()->engine->step(run->engine, h, 1u, &reason) ? reason : DAL_OK;
+    dal_status reason = DAL_STATUS_OK;
+    return kind()->engine->step(run->engine, h, 1u, &reason) ? reason : DAL_STATUS_OK;
 }
 
 dal_status dal__quad_step_part(const dal__quad_run *run, double h, double part)
 {
-    dal_status reason = DAL_OK;
-    return kind()->engine->step_part(run->engine, h, part, &reason) ? reason : DAL_OK;
+    dal_status reason = DAL_STATUS_OK;
+    return kind()->engine->step_part(run->engine, h, part, &reason) ? reason : DAL_STATUS_OK;
 }
 
 dal_status dal__quad_observe(const dal__quad_run *run, bool exact_known, double *out)

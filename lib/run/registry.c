@@ -45,7 +45,7 @@ static dal_status find(const char *name, bool modifier, const dal_integrator **f
         for (int j = 2 * i; j < 2 * i + 2; j++) {
             if (!names[j] || strcmp(names[j], name) != 0) continue;
             *found = k;
-            return DAL_OK;
+            return DAL_STATUS_OK;
         }
     }
     return dal__unknown(error, modifier ? "modifier" : "integrator", name, names, 2 * COUNT);
@@ -73,16 +73,17 @@ dal_status dal_method_parse(dal_method *method, const char *name, dal_error *err
     *method = (dal_method){{NULL}};
     for (int i = 0;; i++) {
         if (i == DAL_LAYERS)
-            return dal__fail(error, DAL_ARGUMENT, "integrator '%.60s': at most %d modifiers", name,
-                             DAL_LAYERS - 1);
+            return dal__fail(error, DAL_STATUS_ARGUMENT, "integrator '%.60s': at most %d modifiers",
+                             name, DAL_LAYERS - 1);
         if (!next_part(&rest, part))
-            return dal__fail(error, DAL_NAME, "integrator name '%.60s...' is too long", name);
+            return dal__fail(error, DAL_STATUS_NAME, "integrator name '%.60s...' is too long",
+                             name);
         DAL_TRY(find(part, i > 0, &method->layer[i], error));
         for (int k = 1; k < i; k++)
             if (method->layer[k] == method->layer[i])
-                return dal__fail(error, DAL_ARGUMENT, "integrator '%.60s': +%s comes twice", name,
-                                 method->layer[i]->name);
-        if (*rest == '\0') return DAL_OK;
+                return dal__fail(error, DAL_STATUS_ARGUMENT, "integrator '%.60s': +%s comes twice",
+                                 name, method->layer[i]->name);
+        if (*rest == '\0') return DAL_STATUS_OK;
         rest++;
     }
 }

@@ -12,27 +12,27 @@ void dal__run_hold(dal_run *run, const double *point)
 
 dal_status dal__step_run(dal_run *run, double h, long long count)
 {
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     if (run->native.traced && !run->is_held) {
         unsigned failed = 0;
-        int reason = DAL_OK;
+        int reason = DAL_STATUS_OK;
         run->native.traced(run->persistent, run->work, h, count, &failed, &reason, NULL, 0);
-        return failed ? (dal_status)reason : DAL_OK;
+        return failed ? (dal_status)reason : DAL_STATUS_OK;
     }
     if (run->quad.engine) {
-        for (long long i = 0; i < count && status == DAL_OK; i++)
+        for (long long i = 0; i < count && status == DAL_STATUS_OK; i++)
             status = dal__quad_step(&run->quad, h);
         dal__quad_pull(&run->quad, run->persistent);
         return status;
     }
     for (long long i = 0; i < count; i++)
         if (run->kind->engine->step(run->engine, h, 1u, &status)) return status;
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__step_part(dal_run *run, double h, double part)
 {
-    dal_status status = DAL_OK;
+    dal_status status = DAL_STATUS_OK;
     if (run->layout.options.tolerance == 0.0 || part == h) return dal__step_run(run, part, 1);
     if (!run->quad.engine) {
         run->kind->engine->step_part(run->engine, h, part, &status);
@@ -74,15 +74,15 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
     const dal__layout *k = &run->layout;
     for (int i = 0; i < k->dim; i++)
         if (!dal__is_possible(k, (size_t)i, state[i]))
-            return dal__fail(error, DAL_NOT_FINITE, "state component %d is not finite: %g", i + 1,
-                             state[i]);
-    if (!isfinite(t)) return dal__fail(error, DAL_NOT_FINITE, "time %g is not finite", t);
+            return dal__fail(error, DAL_STATUS_NOT_FINITE, "state component %d is not finite: %g",
+                             i + 1, state[i]);
+    if (!isfinite(t)) return dal__fail(error, DAL_STATUS_NOT_FINITE, "time %g is not finite", t);
     memset(run->persistent, 0, dal__at_changed(k) * sizeof *run->persistent);
     memset(run->persistent + dal__at_events(k), 0, k->event_memory * sizeof *run->persistent);
     for (int i = 0; i < k->dim; i++) run->persistent[i] = state[i] + 0.0;
     run->persistent[dal__at(k, DAL__TIME)] = t;
     if (run->quad.engine) dal__quad_push(&run->quad, run->persistent, 0);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__run_prepare(dal_run *run)
@@ -90,7 +90,7 @@ dal_status dal__run_prepare(dal_run *run)
     const dal__layout *k = &run->layout;
     const dal_point at = dal__here(run);
     if (k->system->prepare) DAL_TRY(k->system->prepare(k->system, &at, NULL));
-    if (!run->quad.engine) return DAL_OK;
+    if (!run->quad.engine) return DAL_STATUS_OK;
     dal__quad_push(&run->quad, run->persistent, k->persistent);
     return dal__quad_prepare(&run->quad, dal_run_time(run));
 }
@@ -103,7 +103,7 @@ dal_status dal__run_load(dal_run *run, const double *saved)
         memcmp(run->storage + first, saved + first, (run->stored - first) * bytes) == 0;
     memcpy(run->storage, saved, run->stored * bytes);
     if (run->quad.engine) dal__quad_pull(&run->quad, run->persistent);
-    return same ? DAL_OK : dal__run_prepare(run);
+    return same ? DAL_STATUS_OK : dal__run_prepare(run);
 }
 
 void dal__run_back_up(dal_run *run)

@@ -75,7 +75,7 @@ dal_status dal__run_load(dal_run *run, const double *saved);
 void dal__run_back_up(dal_run *run);
 void dal__run_revert(dal_run *run);
 
-static inline void dal__native_free(dal__native_code *native)
+static inline void dal__compiled_free(dal__native_code *native)
 {
     if (native->release) native->release(native->handle);
 }

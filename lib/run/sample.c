@@ -31,10 +31,10 @@ typedef struct sampling {
     long long since_poll;
 } sampling;
 
-/* The status of an observer, which ends the run unless it is DAL_OK. */
+/* The status of an observer, which ends the run unless it is DAL_STATUS_OK. */
 static dal_status observed(const sampling *k, dal_status status)
 {
-    if (status == DAL_OK) return DAL_OK;
+    if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     return dal__fail(k->error, status, "%s at t = %.17g", dal_status_text(status),
                      dal_run_time(k->run));
 }
@@ -49,7 +49,7 @@ static dal_status store_observation(dal_run *run, int i)
     if (!o->states) return dal_run_observe(run, o->values);
     for (int c = 0; c < run->layout.dim; c++)
         o->states[(size_t)c * (size_t)o->capacity + (size_t)i] = run->persistent[c];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Evaluates the observables of count stored states together. */
@@ -67,7 +67,7 @@ static void leave_out_jumps(const dal_run *run)
 {
     const dal__observations *o = &run->observations;
     for (int i = 0; i < dal_run_observables(run); i++)
-        o->values[(size_t)i * (size_t)o->capacity] -= dal_run_jump(run, i);
+        o->values[(size_t)i * (size_t)o->capacity] -= dal_run_event_jump(run, i);
 }
 
 /* The scales at each of the last count observations where they are due. */
@@ -76,18 +76,18 @@ static dal_status deliver_scales(const sampling *k, int count)
     dal_run *run = k->run;
     const long long last = dal_run_steps(run) / k->observer->every + 1, before = last - count;
     for (long long due = dal__scales_due(before); due <= last; due = dal__scales_due(due)) {
-        dal_status status = DAL_OK;
+        dal_status status = DAL_STATUS_OK;
         const double *scales = dal__scales_observed(run, (int)(due - before - 1), &status);
         if (scales) status = k->observer->scales(k->observer->user, run, scales);
         DAL_TRY(observed(k, status));
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status deliver(const sampling *k, int count)
 {
     const dal__observations *o = &k->run->observations;
-    if (count == 0) return DAL_OK;
+    if (count == 0) return DAL_STATUS_OK;
     if (k->observer->scales) DAL_TRY(deliver_scales(k, count));
     if (o->states) evaluate_states(k->run, count);
     if (k->run->layout.system->events > 0) leave_out_jumps(k->run);
@@ -106,19 +106,19 @@ static dal_status collect(dal_run *run, long long every, long long count, int *m
         *made += steps == due;
         count -= steps;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The same where every step is observed and compiled steps leave a trace. */
 static dal_status collect_trace(dal_run *run, long long count, int *made)
 {
     unsigned failed = 0;
-    int reason = DAL_OK;
+    int reason = DAL_STATUS_OK;
     const long long tried =
         run->native.traced(run->persistent, run->work, run->layout.options.step, count, &failed,
                            &reason, run->observations.states, run->observations.capacity);
     *made = (int)(failed ? tried - 1 : tried);
-    return failed ? (dal_status)reason : DAL_OK;
+    return failed ? (dal_status)reason : DAL_STATUS_OK;
 }
 
 static dal_status observe_steps(const sampling *k, long long count)
@@ -134,18 +134,18 @@ static dal_status observe_steps(const sampling *k, long long count)
         const dal_status status =
             traced ? collect_trace(run, steps, &stored) : collect(run, every, steps, &stored);
         DAL_TRY(deliver(k, stored));
-        if (status != DAL_OK)
+        if (status != DAL_STATUS_OK)
             return dal__failure_reason(run, run->layout.options.step, status, k->error);
         count -= steps;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status observe_start(const sampling *k)
 {
     const dal_observer *o = k->observer;
-    if (o->every < 1) return DAL_OK;
-    if (!o->values) return o->step ? observed(k, o->step(o->user, k->run)) : DAL_OK;
+    if (o->every < 1) return DAL_STATUS_OK;
+    if (!o->values) return o->step ? observed(k, o->step(o->user, k->run)) : DAL_STATUS_OK;
     DAL_TRY(observed(k, store_observation(k->run, 0)));
     return deliver(k, 1);
 }
@@ -166,7 +166,7 @@ static dal_status advance(const sampling *k, long long count)
     for (; count > 0 && k->run->layout.system->events > 0; count--) {
         const long long made = dal_run_steps(k->run);
         const dal_status status = dal__advance_events(k->run, 1, &listener, k->error);
-        if (status != DAL_OK && status != DAL_STOPPED) return status;
+        if (status != DAL_STATUS_OK && status != DAL_STATUS_STOPPED) return status;
         const bool is_due =
             o->every > 0 && dal_run_steps(k->run) > made && dal_run_steps(k->run) % o->every == 0;
         if (is_due && o->values) {
@@ -186,7 +186,7 @@ static dal_status advance(const sampling *k, long long count)
         if (steps == due) DAL_TRY(observed(k, o->step(o->user, k->run)));
         count -= steps;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- rows ---- */
@@ -198,7 +198,8 @@ dal_status dal_run_intermediate(dal_run *run, double h,
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(observe, error);
     if (!isfinite(h))
-        return dal__fail(error, DAL_ARGUMENT, "an intermediate step must be finite; it is %g", h);
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
+                         "an intermediate step must be finite; it is %g", h);
     const double step = run->layout.options.step, part = h / step;
     const double whole = part > 0.0 && part < 1.0 ? step : h;
     dal__hold_as_kept(run);
@@ -218,7 +219,7 @@ static long long polling(const sampling *k)
 
 static dal_status poll(sampling *k)
 {
-    if (++k->since_poll < polling(k) || !k->observer->poll) return DAL_OK;
+    if (++k->since_poll < polling(k) || !k->observer->poll) return DAL_STATUS_OK;
     k->since_poll = 0;
     return observed(k, k->observer->poll(k->observer->user, k->run));
 }
@@ -233,7 +234,7 @@ static dal_status sample_row(void *user, dal_run *run)
 {
     const sampled_row *r = user;
     const dal_observer *o = r->k->observer;
-    return o->sample ? observed(r->k, o->sample(o->user, run, r->row, r->t)) : DAL_OK;
+    return o->sample ? observed(r->k, o->sample(o->user, run, r->row, r->t)) : DAL_STATUS_OK;
 }
 
 /* Steps that surely end before a row at distance `left`, the last two excepted, and not after the
@@ -281,19 +282,20 @@ static dal_status check_observer(const dal_run *run, const dal_observer *o, doub
     const double direction = copysign(1.0, run->layout.options.step);
     double before = row_time(run, o, T, first_row, samples);
     if (o->every < 0 || (double)o->every > MAX_STEPS)
-        return dal__fail(error, DAL_ARGUMENT, "observations every %lld steps cannot be made",
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "observations every %lld steps cannot be made",
                          o->every);
     if (o->polling < 0)
-        return dal__fail(error, DAL_ARGUMENT, "polls every %lld steps cannot be made", o->polling);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "polls every %lld steps cannot be made",
+                         o->polling);
     for (long long row = first_row; o->row_time && row <= samples; row++) {
         const double t = row_time(run, o, T, row, samples);
         if (!(direction * (t - before) >= 0.0) || !isfinite(t))
-            return dal__fail(error, DAL_ARGUMENT,
+            return dal__fail(error, DAL_STATUS_ARGUMENT,
                              "row %lld is at t = %.17g, the row before it at %.17g", row, t,
                              before);
         before = t;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status check_arguments(const dal_run *run, const dal_observer *observer, double T,
@@ -301,25 +303,27 @@ static dal_status check_arguments(const dal_run *run, const dal_observer *observ
 {
     const double h = run->layout.options.step, from = run->layout.start_time, whole = T - from;
     if (!isfinite(T) || !isfinite(whole))
-        return dal__fail(error, DAL_ARGUMENT, "the time must be finite; it is %g", T);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "the time must be finite; it is %g", T);
     if (!(whole * copysign(1.0, h) > 0.0))
-        return dal__fail(error, DAL_ARGUMENT, "a step of %g does not lead from t = %g to %g", h,
-                         from, T);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "a step of %g does not lead from t = %g to %g",
+                         h, from, T);
     if (fabs(h) - fabs(whole) > DBL_EPSILON * fmax(fabs(from), fabs(T)))
-        return dal__fail(error, DAL_ARGUMENT, "the step %g is larger than the time %g", h, whole);
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "the step %g is larger than the time %g", h,
+                         whole);
     if (whole / h > MAX_STEPS)
-        return dal__fail(error, DAL_ARGUMENT, "%g steps of %g are more than can be counted (2^53)",
-                         whole / h, h);
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
+                         "%g steps of %g are more than can be counted (2^53)", whole / h, h);
     if (samples < 1 || (double)samples > MAX_STEPS)
-        return dal__fail(error, DAL_ARGUMENT, "samples must be at least 1; it is %lld", samples);
-    if (first_row < 0 || first_row > samples)
-        return dal__fail(error, DAL_ARGUMENT, "there is no row %lld among 0..%lld", first_row,
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "samples must be at least 1; it is %lld",
                          samples);
+    if (first_row < 0 || first_row > samples)
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "there is no row %lld among 0..%lld",
+                         first_row, samples);
     const double first = row_time(run, observer, T, first_row, samples);
     if (copysign(1.0, h) * (first - dal_run_time(run)) < -fabs(h))
-        return dal__fail(error, DAL_ARGUMENT, "row %lld lies before the present t = %g", first_row,
-                         dal_run_time(run));
-    return DAL_OK;
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "row %lld lies before the present t = %g",
+                         first_row, dal_run_time(run));
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
@@ -337,11 +341,12 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
     for (long long row = first_row; row <= samples; row++, last = t) {
         t = row_time(run, observer, T, row, samples);
         const dal_status status = advance_to_row(&k, row, t);
-        const bool is_endless = status == DAL_EVENT && dal_run_time(run) != last;
-        if ((is_endless || status == DAL_STOPPED) && observer->sample) /* the last row is there */
+        const bool is_endless = status == DAL_STATUS_EVENT && dal_run_time(run) != last;
+        if ((is_endless || status == DAL_STATUS_STOPPED) &&
+            observer->sample) /* the last row is there */
             DAL_TRY(observed(&k, observer->sample(observer->user, run, row, dal_run_time(run))));
-        if (status == DAL_STOPPED) return dal__check_events(run, error);
+        if (status == DAL_STATUS_STOPPED) return dal__check_events(run, error);
         DAL_TRY(status);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }

@@ -47,8 +47,8 @@ static double next(saved *s) { return number_at(s, s->at++); }
 
 static dal_status fail(const saved *s, const char *name, double x, const char *possible)
 {
-    return dal__fail(s->error, DAL_ARGUMENT, "persistent number %zu, %s, is %.17g, not %s", s->at,
-                     name, x, possible);
+    return dal__fail(s->error, DAL_STATUS_ARGUMENT, "persistent number %zu, %s, is %.17g, not %s",
+                     s->at, name, x, possible);
 }
 
 /* The next count numbers, all of one kind. */
@@ -58,7 +58,7 @@ static dal_status check(saved *s, const char *name, kind possible, size_t count)
         const double x = next(s);
         if (!is_of_kind(possible, x)) return fail(s, name, x, kind_text[possible]);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* The clock, and the state of the method. */
@@ -112,7 +112,7 @@ static dal_status check_jumps(saved *s, bool any)
         }
     }
     s->at = first + (size_t)dal__max_observables(k);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status check_events(saved *s)
@@ -139,17 +139,18 @@ static dal_status check_events(saved *s)
     return check_jumps(s, any);
 }
 
-/* Checks the numbers of a checkpoint of a run, memory[stored].  Errors: DAL_NOT_FINITE,
- * DAL_ARGUMENT. */
+/* Checks the numbers of a checkpoint of a run, memory[stored].  Errors: DAL_STATUS_NOT_FINITE,
+ * DAL_STATUS_ARGUMENT. */
 static dal_status check_saved(const dal_run *run, const double *memory, dal_error *error)
 {
     const dal__layout *k = &run->layout;
     saved s = {run, memory, 0, error};
     for (size_t i = 0; i < dal__saved_count(k); i++)
         if (!dal__is_possible(k, i, number_at(&s, i)))
-            return dal__fail(error, DAL_NOT_FINITE, "persistent number %zu is not finite", i + 1);
+            return dal__fail(error, DAL_STATUS_NOT_FINITE, "persistent number %zu is not finite",
+                             i + 1);
     DAL_TRY(check_steps(&s));
-    return k->event_memory > 0 ? check_events(&s) : DAL_OK;
+    return k->event_memory > 0 ? check_events(&s) : DAL_STATUS_OK;
 }
 
 const double *dal_run_save(const dal_run *run, size_t *count)
@@ -163,13 +164,13 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(memory, error);
     if (count != run->stored)
-        return dal__fail(error, DAL_ARGUMENT,
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "the persistent state of this run has %zu numbers, not %zu", run->stored,
                          count);
     DAL_TRY(check_saved(run, memory, error));
     dal__run_back_up(run);
     const dal_status status = dal__run_load(run, memory);
-    if (status == DAL_OK) return DAL_OK;
+    if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     dal__run_revert(run);
     return dal__fail(error, status, "the system cannot be prepared with the saved parameters");
 }

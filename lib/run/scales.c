@@ -81,7 +81,7 @@ static dal_status estimate_formulas(const dal_run *run, const dal_point *at, dou
         out[s->m] = fabs(block[0]) + sum_of_products(s->n, block + 1, at->q) +
                     sum_of_products(s->n, block + 1 + s->n, at->v);
     }
-    return s->invariant_values ? s->invariant_values(s, at, out + s->m + 1) : DAL_OK;
+    return s->invariant_values ? s->invariant_values(s, at, out + s->m + 1) : DAL_STATUS_OK;
 }
 
 static dal_status estimate_reactions(const dal_run *run, const dal_point *at, double *out)
@@ -94,7 +94,7 @@ static dal_status estimate_reactions(const dal_run *run, const dal_point *at, do
         out[s->m + i] = 0.0;
         for (int a = 0; a < s->m; a++) out[s->m + i] += fabs(B[a * s->n + i] * h[a]);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- one group of observables ---- */
@@ -111,10 +111,10 @@ static dal_status scale_lift(const dal_run *run, const dal_point *at, double *F,
         out[0] = fmax(out[0], fmax(fabs(p[i] * at->v[i]), 0.5 * pi[i] * pi[i] / fabs(*e)));
     }
     out[3] = fabs(y[4 * n + 1]);
-    if (out[2] == 0.0) return DAL_OK;
+    if (out[2] == 0.0) return DAL_STATUS_OK;
     DAL_TRY(run->layout.system->call.field(run->layout.system, at, F));
     for (int i = 0; i < n; i++) out[0] = fmax(out[0], fabs(pi[i] * F[i]));
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- all of them ---- */
@@ -137,7 +137,7 @@ static const double *group_scales(const dal_run *run, const places *p, const dal
         return p->lift;
     case DAL__OBSERVE_ERROR: /* of the coordinate where the error is largest */
         *status = s->exact(s, at, p->vector);
-        for (int i = 1; i < s->n && *status == DAL_OK; i++)
+        for (int i = 1; i < s->n && *status == DAL_STATUS_OK; i++)
             if (fabs(p->vector[i] - at->q[i]) > fabs(p->vector[largest] - at->q[largest]))
                 largest = i;
         return p->vector + largest;
@@ -154,15 +154,15 @@ static const double *scales_at(const dal_run *run, const places *p, double t, co
     const dal_system *s = run->layout.system;
     *status = s->scales ? s->scales(s, &at, p->memory, p->formulas)
                         : estimate_formulas(run, &at, p->formulas);
-    if (*status == DAL_OK && run->layout.options.reactions)
+    if (*status == DAL_STATUS_OK && run->layout.options.reactions)
         *status = s->reaction_scales ? s->reaction_scales(s, &at, p->memory, p->reactions)
                                      : estimate_reactions(run, &at, p->reactions);
-    for (int group = 0; group < DAL__OBSERVABLE_GROUPS && *status == DAL_OK; group++) {
+    for (int group = 0; group < DAL__OBSERVABLE_GROUPS && *status == DAL_STATUS_OK; group++) {
         const int count = dal__observable_count(&run->layout, group, run->exact);
         const double *scales = count > 0 ? group_scales(run, p, &at, group, status) : NULL;
         for (int i = 0; i < count; i++) *out++ = fabs(scales[i]);
     }
-    return *status == DAL_OK ? p->out : NULL;
+    return *status == DAL_STATUS_OK ? p->out : NULL;
 }
 
 const double *dal__scales_observed(dal_run *run, int i, dal_status *status)
@@ -191,5 +191,6 @@ const double *dal__constraint_scales(dal_run *run)
     const dal_point at = dal__here(run);
     places p;
     lay_out(&run->layout, run->scales, &p);
-    return s->scales && s->scales(s, &at, p.memory, p.formulas) == DAL_OK ? p.formulas : NULL;
+    return s->scales && s->scales(s, &at, p.memory, p.formulas) == DAL_STATUS_OK ? p.formulas
+                                                                                 : NULL;
 }

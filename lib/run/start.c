@@ -19,7 +19,7 @@ static dal_status prepare(dal_run *run, dal_error *error)
 {
     const char *name = run->layout.system->name;
     const dal_status status = dal__run_prepare(run);
-    if (status == DAL_OK) return DAL_OK;
+    if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     return dal__fail(error, status, "%s cannot be prepared with these parameters",
                      name ? name : "the system");
 }
@@ -28,7 +28,7 @@ static dal_status prepare(dal_run *run, dal_error *error)
 static dal_status unknown_start(const dal_run *run, const char *name, dal_error *error)
 {
     char best[DAL__NAME_SIZE] = "", other[DAL__NAME_SIZE];
-    for (int i = 0; dal_run_name(run, i, other, sizeof other); i++) {
+    for (int i = 0; dal_run_component_name(run, i, other, sizeof other); i++) {
         const char *pair[] = {*best ? best : NULL, other};
         if (dal_nearest(name, pair, 2) == other) memcpy(best, other, sizeof best);
     }
@@ -40,14 +40,14 @@ static dal_status unknown_start(const dal_run *run, const char *name, dal_error 
 static dal_status override(dal_run *run, const dal_setting *settings, int count, dal_error *error)
 {
     for (int k = 0; k < count; k++) {
-        const int i = dal_run_index(run, settings[k].name);
+        const int i = dal_run_component_index(run, settings[k].name);
         if (i < 0) return unknown_start(run, settings[k].name, error);
         if (!dal__is_possible(&run->layout, (size_t)i, settings[k].value))
-            return dal__fail(error, DAL_ARGUMENT, "start %s: %g is not a finite number",
+            return dal__fail(error, DAL_STATUS_ARGUMENT, "start %s: %g is not a finite number",
                              settings[k].name, settings[k].value);
         run->persistent[i] = settings[k].value;
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* q, v, g and e of the system; momenta are 0. */
@@ -60,12 +60,12 @@ static dal_status default_start(dal_run *run, dal_error *error)
     double *out = run->scratch;
     for (int i = 0; i <= first; i++) out[i] = i == first;
     const dal_point at = dal__here(run);
-    if (k->system->start && k->system->start(k->system, &at, out) != DAL_OK)
-        return dal__fail(error, DAL_NOT_FINITE, "%s has no start with these parameters",
+    if (k->system->start && k->system->start(k->system, &at, out) != DAL_STATUS_OK)
+        return dal__fail(error, DAL_STATUS_NOT_FINITE, "%s has no start with these parameters",
                          k->system->name ? k->system->name : "the system");
     memcpy(run->persistent, out, (size_t)first * sizeof *out);
     if (k->lifted) run->persistent[2 * k->n] = out[first];
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static dal_status check_finite(dal_run *run, dal_error *error)
@@ -75,13 +75,13 @@ static dal_status check_finite(dal_run *run, dal_error *error)
     for (int i = 0; i < run->layout.dim; i++) {
         run->persistent[i] += 0.0; /* no -0: see lib/kernel/step.h */
         if (i == e && isinf(1.0 / run->persistent[i]))
-            return dal__fail(error, DAL_GAUGE, "start e = %g: e must not vanish",
+            return dal__fail(error, DAL_STATUS_GAUGE, "start e = %g: e must not vanish",
                              run->persistent[i]);
         if (!dal__is_possible(&run->layout, (size_t)i, run->persistent[i]))
-            return dal__fail(error, DAL_NOT_FINITE, "start %s is not finite: %g",
-                             dal_run_name(run, i, name, sizeof name), run->persistent[i]);
+            return dal__fail(error, DAL_STATUS_NOT_FINITE, "start %s is not finite: %g",
+                             dal_run_component_name(run, i, name, sizeof name), run->persistent[i]);
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* What helps a start that violates constraint a: names the velocity that it restricts most, of
@@ -100,7 +100,7 @@ static const char *suggest(const dal__linearised *k, const dal_run *run, int a, 
     }
     *hint = 0;
     if (best < 0) return hint;
-    dal_run_name(run, n + best, name, sizeof name);
+    dal_run_component_name(run, n + best, name, sizeof name);
     if (count > 0)
         snprintf(hint, size, "; solve under start can name one more velocity, as %.60s", name);
     else
@@ -122,14 +122,14 @@ static dal_status check_consistent(dal_run *run, dal__linearised *k, const doubl
         const double small = CONSISTENT * k->x[i];
         const bool is_regular = isfinite(dal__max_abs(k->A + i * n, (size_t)n));
         if (fabs(k->D[i]) <= small) continue;
-        if (isfinite(k->D[i]) && !is_regular) continue;             /* dal__check_rank says so */
+        if (isfinite(k->D[i]) && !is_regular) continue; /* dal__linearised_check_rank says so */
         if (before && fabs(k->D[i] - before[i]) <= small) continue; /* the drift of a run */
         if (!isfinite(k->D[i])) DAL_TRY(dal__check_mass(k, error));
-        return dal__fail(error, isfinite(k->D[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
+        return dal__fail(error, isfinite(k->D[i]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
                          "%s violates constraint %d: D%d = %.6g%s", k->place, i + 1, i + 1, k->D[i],
                          before ? hint : suggest(k, run, i, hint, sizeof hint));
     }
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 static bool has_constraints(const dal_run *run)
@@ -141,13 +141,13 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
 {
     dal__linearised k = dal__linearised_of(run, NULL, "the start");
     const bool is_solved_for = run->layout.system->solved_velocities != 0;
-    if (!has_constraints(run) && !is_solved_for) return DAL_OK;
+    if (!has_constraints(run) && !is_solved_for) return DAL_STATUS_OK;
     DAL_TRY(dal__solve_velocities(run->layout.system, k.at.t, k.at.q, k.v, run->work, run->scratch,
                                   error));
     if (run->layout.options.consistent) DAL_TRY(dal__make_consistent(&k, error));
     DAL_TRY(dal__linearise(&k, NULL, error));
     DAL_TRY(check_consistent(run, &k, NULL, error));
-    return dal__check_rank(&k, error);
+    return dal__linearised_check_rank(&k, error);
 }
 
 /* Whether the exact solution has the start of this run, each number relative to its largest value
@@ -158,11 +158,11 @@ static bool exact_agrees(dal_run *run)
     const dal__layout *k = &run->layout;
     dal_point at = dal__here(run);
     double *exact = run->scratch, *size = exact + 2 * k->n, *other = size + 2 * k->n;
-    if (!k->system->exact || k->system->exact(k->system, &at, exact) != DAL_OK) return false;
+    if (!k->system->exact || k->system->exact(k->system, &at, exact) != DAL_STATUS_OK) return false;
     for (int i = 0; i < 2 * k->n; i++) size[i] = fabs(run->persistent[i]);
     for (int time = 0; time < TIMES; time++) {
         at.t = dal_run_time(run) + ldexp(k->options.step, time);
-        if (k->system->exact(k->system, &at, other) != DAL_OK) break;
+        if (k->system->exact(k->system, &at, other) != DAL_STATUS_OK) break;
         for (int i = 0; i < 2 * k->n; i++)
             size[i] = isfinite(other[i]) ? fmax(size[i], fabs(other[i])) : size[i];
     }
@@ -175,8 +175,8 @@ dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int param
                           const dal_setting *start, int start_count, const double *added,
                           dal_error *error)
 {
-    DAL_TRY(dal__set_parameters(run->layout.system, parameters, parameter_count, DAL_ARGUMENT,
-                                run->work, error));
+    DAL_TRY(dal__set_parameters(run->layout.system, parameters, parameter_count,
+                                DAL_STATUS_ARGUMENT, run->work, error));
     DAL_TRY(prepare(run, error));
     DAL_TRY(default_start(run, error));
     DAL_TRY(override(run, start, start_count, error));
@@ -184,7 +184,7 @@ dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int param
     DAL_TRY(check_finite(run, error));
     DAL_TRY(check_constraints(run, error));
     run->exact = exact_agrees(run);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* ---- a parameter between steps ---- */
@@ -195,43 +195,46 @@ static dal_status check_field(dal_run *run, dal_error *error)
     const dal_system *system = run->layout.system;
     const dal_point at = dal__here(run);
     double number = 0.0, *f = run->scratch;
-    const dal_status fault = system->diagnose ? system->diagnose(system, &at, &number) : DAL_OK;
-    if (fault == DAL_SINGULAR_MASS)
+    const dal_status fault =
+        system->diagnose ? system->diagnose(system, &at, &number) : DAL_STATUS_OK;
+    if (fault == DAL_STATUS_SINGULAR_MASS)
         return dal__fail(error, fault, "%s is singular at the present state",
                          dal__mass_words(system));
-    if (fault == DAL_SINGULAR)
+    if (fault == DAL_STATUS_SINGULAR)
         return dal__fail(error, fault, "constraint %d is singular at the present state",
                          (int)number);
-    if (fault == DAL_NOT_FINITE)
+    if (fault == DAL_STATUS_NOT_FINITE)
         return dal__fail(error, fault,
                          "table %.80s is read outside its points at the present state",
                          system->table[(int)number - 1]);
     const dal_status status = system->call.field(system, &at, f);
-    if (status != DAL_OK) return dal__fail(error, status, "the system fails at the present state");
+    if (status != DAL_STATUS_OK)
+        return dal__fail(error, status, "the system fails at the present state");
     for (int i = 0; i < run->layout.nw; i++)
         if (!isfinite(f[i]))
-            return dal__fail(error, DAL_NOT_FINITE,
+            return dal__fail(error, DAL_STATUS_NOT_FINITE,
                              "acceleration %d is not finite at the present state: %g", i + 1, f[i]);
-    return DAL_OK;
+    return DAL_STATUS_OK;
 }
 
 /* Stores D of the present state; NaN where it cannot be evaluated. */
 static void note_constraints(dal_run *run, double *D)
 {
     dal__linearised k = dal__linearised_of(run, NULL, "the present state");
-    const bool known = has_constraints(run) && dal__linearise(&k, NULL, NULL) == DAL_OK;
+    const bool known = has_constraints(run) && dal__linearise(&k, NULL, NULL) == DAL_STATUS_OK;
     for (int i = 0; i < run->layout.m; i++) D[i] = known ? k.D[i] : NAN;
 }
 
-/* DAL_INCONSISTENT: the parameters can be used, but D, which was `before`, is not 0 with them. */
+/* DAL_STATUS_INCONSISTENT: the parameters can be used, but D, which was `before`, is not 0 with
+ * them. */
 static dal_status check_parameters(dal_run *run, const double *before, dal_error *error)
 {
     dal__linearised k = dal__linearised_of(run, NULL, "the present state");
     DAL_TRY(prepare(run, error));
     DAL_TRY(check_field(run, error));
-    if (!has_constraints(run)) return DAL_OK;
+    if (!has_constraints(run)) return DAL_STATUS_OK;
     DAL_TRY(dal__linearise(&k, NULL, error));
-    DAL_TRY(dal__check_rank(&k, error));
+    DAL_TRY(dal__linearised_check_rank(&k, error));
     return check_consistent(run, &k, before, error);
 }
 
@@ -256,18 +259,18 @@ dal_status dal__change_parameter(dal_run *run, const char *name, double value, d
     int i;
     DAL_TRY(dal__find_parameter(run->layout.system, name, &i, error));
     if (!isfinite(value))
-        return dal__fail(error, DAL_NOT_FINITE, "parameter %s: %g is not a finite number", name,
-                         value);
+        return dal__fail(error, DAL_STATUS_NOT_FINITE, "parameter %s: %g is not a finite number",
+                         name, value);
     const double before = run->work[i];
     note_constraints(run, run->point);
     run->work[i] = value;
     const dal_status status = check_parameters(run, run->point, &reason);
-    if (status == DAL_OK || status == DAL_INCONSISTENT) {
+    if (status == DAL_STATUS_OK || status == DAL_STATUS_INCONSISTENT) {
         begin_again(run);
     } else {
         run->work[i] = before;
         dal__run_prepare(run);
     }
-    if (status == DAL_OK) return DAL_OK;
+    if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     return dal__fail(error, status, "parameter %s = %g: %s", name, value, reason.message);
 }

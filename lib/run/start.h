@@ -12,7 +12,7 @@ dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int param
                           const dal_setting *start, int start_count, const double *added,
                           dal_error *error);
 /* dal_run_set_parameter of a run whose events do not matter; the parameter was changed where it
- * returns DAL_OK or DAL_INCONSISTENT. */
+ * returns DAL_STATUS_OK or DAL_STATUS_INCONSISTENT. */
 dal_status dal__change_parameter(dal_run *run, const char *name, double value, dal_error *error);
 
 #endif

@@ -113,11 +113,11 @@ def trend(system: SystemLike, integrator: str | None = None, time: float | None 
     statistics, trends = ffi.new('dal_statistics[]', len(names)), ffi.new('dal_trend[]', len(names))
     record = ffi.new('dal_error *')
     status = lib.python_follow(run, spec.time(time), every, statistics, record)
-    has_ended = status in (lib.DAL_OK, lib.DAL_STOPPED)
+    has_ended = status in (lib.DAL_STATUS_OK, lib.DAL_STATUS_STOPPED)
     lib.dal_run_classify(run, statistics, not has_ended, trends)
     found = {name: make_trend(trends[i]) for i, name in enumerate(names)}
     try:
-        check(lib.DAL_OK if has_ended else status, record, stepping=True)
+        check(lib.DAL_STATUS_OK if has_ended else status, record, stepping=True)
     except Error as error:
         error.partial = found
         raise
@@ -249,12 +249,12 @@ def lyapunov(system: SystemLike, integrator: str | None = None, time: float | No
         call_steps(lib.dal_lyapunov_advance, study, steps)
     balance, record = ffi.new('dal_balance *'), ffi.new('dal_error *')
     status = lib.dal_lyapunov_balance(study, balance, record)
-    if status not in (lib.DAL_OK, lib.DAL_UNSUPPORTED):
+    if status not in (lib.DAL_STATUS_OK, lib.DAL_STATUS_UNSUPPORTED):
         check(status, record, stepping=True)
     return Lyapunov(
         tuple(average(lib.dal_lyapunov_exponent, study, i) for i in range(lib.dal_lyapunov_count(study))),
         average(lib.dal_lyapunov_sum, study), average(lib.dal_lyapunov_divergence, study),
-        bool(lib.dal_lyapunov_is_exact(study)), bool(balance.holds) if status == lib.DAL_OK else None)
+        bool(lib.dal_lyapunov_is_exact(study)), bool(balance.holds) if status == lib.DAL_STATUS_OK else None)
 
 
 # ---- sections ----------------------------------------------------------------------------------
@@ -282,13 +282,13 @@ class Section:
     unresolved: int
 
 
-@ffi.def_extern(error=lib.DAL_INTERRUPTED, onerror=keep_exception)
+@ffi.def_extern(error=lib.DAL_STATUS_INTERRUPTED, onerror=keep_exception)
 def python_cross(user: Any, run: Any, crossing: Any) -> int:
     """Adds a row to the list that user is a handle of."""
     rows, dimension = ffi.from_handle(user)
     rows.append((len(rows) + 1, crossing.t, crossing.direction,
                  *ffi.unpack(lib.dal_run_state(run), dimension)))
-    return lib.DAL_OK
+    return lib.DAL_STATUS_OK
 
 
 def section(system: SystemLike, on: str, integrator: str | None = None, time: float | None = None, *,

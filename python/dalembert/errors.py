@@ -51,23 +51,24 @@ def refuse_nul(text: bytes) -> bytes:
     return text
 
 
-STEP = {lib.DAL_SINGULAR, lib.DAL_SINGULAR_MASS, lib.DAL_NOT_FINITE, lib.DAL_NOT_CONVERGED, lib.DAL_GAUGE,
-        lib.DAL_RANK, lib.DAL_INCONSISTENT, lib.DAL_EVENT, lib.DAL_STOPPED}
-OTHER = {lib.DAL_IO, lib.DAL_INTERRUPTED}
+STEP = {lib.DAL_STATUS_SINGULAR, lib.DAL_STATUS_SINGULAR_MASS, lib.DAL_STATUS_NOT_FINITE,
+        lib.DAL_STATUS_NOT_CONVERGED, lib.DAL_STATUS_GAUGE, lib.DAL_STATUS_RANK, lib.DAL_STATUS_INCONSISTENT,
+        lib.DAL_STATUS_EVENT, lib.DAL_STATUS_STOPPED}
+OTHER = {lib.DAL_STATUS_IO, lib.DAL_STATUS_INTERRUPTED}
 
 # The exception that ended a callback, to be raised when the library has returned.
 _raised = threading.local()
 
 
 def keep_exception(kind: Any, exception: BaseException, traceback: Any) -> None:
-    """For callbacks: the library ends with DAL_INTERRUPTED, and check raises the exception."""
+    """For callbacks: the library ends with DAL_STATUS_INTERRUPTED, and check raises the exception."""
     _raised.exception = exception
 
 
 def make_error(record: Any, stepping: bool) -> Exception:
     """The exception for a dal_error, of a function that takes steps or of another."""
     status, message = record.status, ffi.string(record.message).decode(errors='replace')
-    if status == lib.DAL_MEMORY:
+    if status == lib.DAL_STATUS_MEMORY:
         return MemoryError(message)
     kind = StepError if stepping and status in STEP else Error if status in OTHER else InputError
     if not message:
@@ -78,11 +79,11 @@ def make_error(record: Any, stepping: bool) -> Exception:
 
 def check(status: int, record: Any, stepping: bool = False) -> None:
     """Raises what a status says, with the record that the function filled."""
-    if status == lib.DAL_OK:
+    if status == lib.DAL_STATUS_OK:
         return
     exception = getattr(_raised, 'exception', None)
     _raised.exception = None
-    if exception is not None and status == lib.DAL_INTERRUPTED:
+    if exception is not None and status == lib.DAL_STATUS_INTERRUPTED:
         raise exception
     record.status = status
     raise make_error(record, stepping)
@@ -100,16 +101,16 @@ def call_steps(function: Any, *arguments: Any) -> None:
     check(function(*arguments, record), record, stepping=True)
 
 
-@ffi.def_extern(error=lib.DAL_INTERRUPTED, onerror=keep_exception)
+@ffi.def_extern(error=lib.DAL_STATUS_INTERRUPTED, onerror=keep_exception)
 def python_poll(user: Any, run: Any) -> int:
     """Lets Python handle signals, an exception of which ends the run."""
-    return lib.DAL_OK
+    return lib.DAL_STATUS_OK
 
 
-@ffi.def_extern(error=lib.DAL_INTERRUPTED, onerror=keep_exception)
+@ffi.def_extern(error=lib.DAL_STATUS_INTERRUPTED, onerror=keep_exception)
 def python_progress(user: Any, done: float) -> int:
     """The same for a budget of errors."""
-    return lib.DAL_OK
+    return lib.DAL_STATUS_OK
 
 
 @ffi.def_extern(error=True, onerror=keep_exception)

@@ -114,7 +114,7 @@ def ensemble(system: SystemLike, integrator: str | None = None, *, members: int,
             lib.dal_ensemble_states(owned, doubles(states[i, first:first + lanes]))
         record = ffi.new('dal_error *')
         for i in range(lanes):
-            if lib.dal_batch_status(batch, i, record) != lib.DAL_OK:
+            if lib.dal_batch_status(batch, i, record) != lib.DAL_STATUS_OK:
                 failures[first + i] = make_error(record, stepping=True)
     labels = [ffi.string(variations[i].name).decode() for i in range(count)]
     return Ensemble(names, when, states, {name: draws[:, i] for i, name in enumerate(labels)}, failures)

@@ -38,9 +38,9 @@ def native_options(cache: str | os.PathLike[str] | None, compiler: str) -> tuple
 
 def is_consistent(status: int, record: Any) -> bool:
     """What the status of a parameter that was set says; others are raised."""
-    if status != lib.DAL_INCONSISTENT:
+    if status != lib.DAL_STATUS_INCONSISTENT:
         check(status, record)
-    return status != lib.DAL_INCONSISTENT
+    return status != lib.DAL_STATUS_INCONSISTENT
 
 
 @dataclass(frozen=True)
@@ -73,13 +73,13 @@ def state_at(numbers: Any, dimension: int) -> Array:
     return np.frombuffer(ffi.buffer(numbers, 8 * dimension), dtype=np.float64).copy()
 
 
-@ffi.def_extern(error=lib.DAL_INTERRUPTED, onerror=keep_exception)
+@ffi.def_extern(error=lib.DAL_STATUS_INTERRUPTED, onerror=keep_exception)
 def python_event(user: Any, run: Any, event: Any) -> int:
     """Adds an event to the list that user is a handle of."""
     found, names, dimension = ffi.from_handle(user)
     found.append(Event(event.event, names[event.event], event.t, event.direction,
                        state_at(event.before, dimension), state_at(lib.dal_run_state(run), dimension)))
-    return lib.DAL_OK
+    return lib.DAL_STATUS_OK
 
 
 class Run(Fixed):
@@ -180,7 +180,7 @@ class Run(Fixed):
 
     def index(self, name: str) -> int:
         """The place in `state` of a component, ``"phi'"``."""
-        place = lib.dal_run_index(self._run, encode(name))
+        place = lib.dal_run_component_index(self._run, encode(name))
         if place < 0:
             raise InputError('DAL_NAME', f"no component of the state is named '{name}'")
         return place
@@ -257,7 +257,7 @@ class Run(Fixed):
     @property
     def jumps(self) -> Array:
         """What events have added to E and to the invariants, 0 elsewhere; ordered as `observables`."""
-        return np.array([lib.dal_run_jump(self._run, i) for i in range(len(self.observable_names))])
+        return np.array([lib.dal_run_event_jump(self._run, i) for i in range(len(self.observable_names))])
 
     def trajectory(self, times: npt.ArrayLike) -> npt.NDArray[np.void]:
         """Advances the run and gives a row at each time.
@@ -436,7 +436,7 @@ class Batch(Fixed):
             When no lane is left.
         """
         for count in chunks(count_of(steps), max(100, CHUNK // self.count)):
-            if lib.dal_batch_advance(self._batch, count) != lib.DAL_OK:
+            if lib.dal_batch_advance(self._batch, count) != lib.DAL_STATUS_OK:
                 raise next(error for error in self.errors if error is not None)
 
     def state(self) -> Array:
@@ -455,7 +455,7 @@ class Batch(Fixed):
         """For each lane why its step failed, or None."""
         record, found = ffi.new('dal_error *'), []
         for i in range(self.count):
-            failed = lib.dal_batch_status(self._batch, i, record) != lib.DAL_OK
+            failed = lib.dal_batch_status(self._batch, i, record) != lib.DAL_STATUS_OK
             found.append(make_error(record, stepping=True) if failed else None)
         return found
 

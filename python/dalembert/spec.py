@@ -81,7 +81,7 @@ class Spec:
         made = ffi.new('dal_run **')
         call(lib.dal_run_create, made, self.c)
         run = owned(made[0], lib.dal_run_free, self._system)
-        return (run, names_of(lib.dal_run_name, run, lib.dal_run_dimension(run)),
+        return (run, names_of(lib.dal_run_component_name, run, lib.dal_run_dimension(run)),
                 names_of(lib.dal_run_observable_name, run, lib.dal_run_observables(run)))
 
     @property

@@ -213,7 +213,7 @@ int main(int argc, char **argv)
                     {DAL_SECTION_DEFAULTS, "defaults"},
                     {DAL_SECTION_PARAMETERS, "parameters"}}; /* after the factors are known */
     dal_model *model;
-    if (argc < 3 || dal_model_builtin(&model, argv[1], NULL) != DAL_OK) return 2;
+    if (argc < 3 || dal_model_builtin(&model, argv[1], NULL) != DAL_STATUS_OK) return 2;
     if (dal_model_text(model, DAL_SECTION_FUNCTIONS, 0, NULL, NULL, NULL) ||
         dal_model_text(model, DAL_SECTION_REACTIONS, 0, NULL, NULL, NULL) ||
         dal_model_text(model, DAL_SECTION_EVENTS, 0, NULL, NULL, NULL)) {

@@ -145,7 +145,7 @@ function dropped(    at, end) {
 
 function returned(    at, end) {
     if (!match(code, /return [^;]+;/)) return
-    if (substr(code, RSTART, RLENGTH) !~ /^return (0|NULL|false|DAL_OK|CLI_DONE);$/)
+    if (substr(code, RSTART, RLENGTH) !~ /^return (0|NULL|false|DAL_STATUS_OK|CLI_DONE);$/)
         emit("return", replaced(RSTART, RLENGTH, "return 0;"))
 }
 
