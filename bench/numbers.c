@@ -5,12 +5,13 @@
  * By the library and by the C library; nanoseconds per character, so that 4 are 250 MB/s. */
 #include "bench.h"
 #include "dalembert.h"
+#include "dalembert_program.h"
 
 enum { COUNT = 4096, CHECKED = 64 };
 
 typedef struct numbers {
     double value[COUNT];
-    char text[COUNT][DAL_NUMBER_SIZE];
+    char text[COUNT][DAL__NUMBER_SIZE];
 } numbers;
 
 static int check(const numbers *n, double *end)
@@ -22,14 +23,14 @@ static int check(const numbers *n, double *end)
 static int by_library(void *self, double *end)
 {
     numbers *n = self;
-    for (int i = 0; i < COUNT; i++) dal_format_number(n->text[i], n->value[i]);
+    for (int i = 0; i < COUNT; i++) dal__format_number(n->text[i], n->value[i]);
     return check(n, end);
 }
 
 static int by_printf(void *self, double *end)
 {
     numbers *n = self;
-    for (int i = 0; i < COUNT; i++) snprintf(n->text[i], DAL_NUMBER_SIZE, "%.17g", n->value[i]);
+    for (int i = 0; i < COUNT; i++) snprintf(n->text[i], DAL__NUMBER_SIZE, "%.17g", n->value[i]);
     return check(n, end);
 }
 
@@ -37,7 +38,7 @@ static int read_by_library(void *self, double *end)
 {
     numbers *n = self;
     for (int i = 0; i < COUNT; i++)
-        if (dal_parse_number(n->text[i], strlen(n->text[i]), &n->value[i]) != DAL_STATUS_OK)
+        if (dal__parse_number(n->text[i], strlen(n->text[i]), &n->value[i]) != DAL_STATUS_OK)
             return 1;
     return check(n, end);
 }
@@ -62,7 +63,7 @@ int main(int argc, char **argv)
     double characters = 0.0;
     for (int i = 0; i < COUNT; i++) {
         n.value[i] = 10.0 * sin(i + 1.0);
-        characters += dal_format_number(n.text[i], n.value[i]);
+        characters += dal__format_number(n.text[i], n.value[i]);
     }
     for (size_t i = 0; i < sizeof contenders / sizeof *contenders; i++)
         if (bench_is(argc, argv, contenders[i].name))

@@ -439,9 +439,6 @@ dal_status dal_variation_parse(dal_variation *variation, const char *text, dal_e
  * lib/run/ensemble.c. */
 double dal_variation_draw(const dal_variation *variation, unsigned long long seed,
                           unsigned long long member);
-/* 64 random bits of a name and a seed, from which the draws are made. */
-unsigned long long dal_random_key(const char *name, unsigned long long seed);
-
 /* Members of an ensemble, any number of which are stepped by one batch, one chunk after the other:
  *
  *     for (first = 0; first < members; first += lanes) {
@@ -484,12 +481,6 @@ void dal_spread_measure(dal_spread *spread, const double *values, long long coun
  * NaN without values. */
 void dal_measure_quantiles(double *values, long long count, const double *p, int quantiles,
                            double *quantile);
-/* Adds (x_i - mean_i) (x_j - mean_j) of each row x[columns] of rows[count*columns] to
- * sums[columns*columns], which begin with 0; rows with a number that is not finite are left
- * out.  Returns how many were added. */
-long long dal_add_products(int columns, const double *mean, const double *rows, long long count,
-                           double *sums);
-
 #ifdef __cplusplus
 }
 #endif

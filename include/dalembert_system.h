@@ -57,21 +57,6 @@ typedef struct dal_error {
     char message[DAL_MESSAGE_SIZE]; /* names the object and the value; no newline */
 } dal_error;
 
-/* Returns the element of names[count] with the fewest edits from name, for "did you mean" (distance
- * of Damerau and Levenshtein); NULL when none has a letter in common with it and is within a third
- * of its length, or within two edits.  Elements of names may be NULL. */
-const char *dal_nearest(const char *name, const char *const *names, int count);
-/* Reads a decimal number from text[length]: sign, digits, one point, exponent, and nothing else;
- * correctly rounded, in every locale the same.  Errors: DAL_STATUS_SYNTAX, DAL_STATUS_TOO_LARGE
- * (overflow). */
-dal_status dal_parse_number(const char *text, size_t length, double *value);
-/* Room for the text of a number. */
-#define DAL_NUMBER_SIZE 32
-/* Writes x with 17 significant digits to text[DAL_NUMBER_SIZE] as %.17g of printf does, in every
- * locale the same, infinity as inf or -inf, and NaN as nan.  Returns the number of characters
- * before the NUL; dal_parse_number gives x again where it is finite. */
-int dal_format_number(char *text, double x);
-
 /* ---- systems ------------------------------------------------------------------------------- */
 
 typedef struct dal_system dal_system;
@@ -267,41 +252,6 @@ struct dal_system {
     int field_operations, jacobian_operations; /* arithmetic operations of these callbacks, which
                                                   the solver auto weighs; 0: unknown */
 };
-
-/* ---- pictures ------------------------------------------------------------------------------ */
-
-/* The numbers of a picture, NUMBER(code, name); 0 where a system gives none. */
-#define DAL_PICTURE_LIST(NUMBER)                                                                   \
-    NUMBER(X, "x")         /* place on the abscissa */                                             \
-    NUMBER(Y, "y")         /* place on the ordinate */                                             \
-    NUMBER(ANGLE, "angle") /* heading, from x to y */                                              \
-    NUMBER(STEER, "steer") /* angle of a board's front axle (minus the other's), or arm */         \
-    NUMBER(WIDTH, "width") /* of a disk: breadth over length as seen */
-/* The bodies that are drawn, BODY(code, name). */
-#define DAL_BODY_LIST(BODY)                                                                        \
-    BODY(POINT, "point")                                                                           \
-    BODY(SLEIGH, "sleigh")                                                                         \
-    BODY(BLADE, "blade")                                                                           \
-    BODY(DISK, "disk")                                                                             \
-    BODY(BALL, "ball") BODY(ROBOT, "robot") BODY(BOARD, "board") BODY(RACER, "racer")
-/* Places of the numbers of a picture. */
-enum {
-#define CODE(code, name) DAL_PICTURE_##code,
-    DAL_PICTURE_LIST(CODE) DAL_PICTURE_COUNT
-#undef CODE
-};
-/* The body that is drawn at the place of a system. */
-typedef enum dal_body {
-#define CODE(code, name) DAL_BODY_##code,
-    DAL_BODY_LIST(CODE) DAL_BODY_COUNT
-#undef CODE
-} dal_body;
-
-/* How a system is drawn in the plane; without effect on its motion. */
-typedef struct dal_picture {
-    dal_callback *evaluate; /* out[DAL_PICTURE_COUNT]: the numbers of the picture */
-    dal_body body;          /* what is drawn there */
-} dal_picture;
 
 /* ---- models: systems from formulas --------------------------------------------------------- */
 

@@ -1,5 +1,6 @@
 /* test_decimal.c - decimal numbers, written and read, beside printf and strtod of the C library. */
 #include "dalembert.h"
+#include "dalembert_program.h"
 
 #include <CUnit/Basic.h>
 #include <float.h>
@@ -17,7 +18,7 @@ static void reads(const char *text)
 {
     double value = NAN;
     const double right = strtod(text, NULL);
-    const dal_status status = dal_parse_number(text, strlen(text), &value);
+    const dal_status status = dal__parse_number(text, strlen(text), &value);
     const bool agrees = isinf(right) ? status == DAL_STATUS_TOO_LARGE
                                      : status == DAL_STATUS_OK && is_same(value, right);
     if (!agrees) printf("reads '%s' as %a, not %a\n", text, value, right);
@@ -26,8 +27,8 @@ static void reads(const char *text)
 
 static void writes(double x)
 {
-    char text[DAL_NUMBER_SIZE], right[64];
-    const int length = dal_format_number(text, x);
+    char text[DAL__NUMBER_SIZE], right[64];
+    const int length = dal__format_number(text, x);
     snprintf(right, sizeof right, "%.17g", x);
     const bool agrees = strcmp(text, right) == 0 && (size_t)length == strlen(right);
     if (!agrees) printf("writes %a as '%s', not '%s'\n", x, text, right);
@@ -134,14 +135,14 @@ static void test_drawn_numbers(void)
 
 static void test_what_is_no_ordinary_number(void)
 {
-    char text[DAL_NUMBER_SIZE];
+    char text[DAL__NUMBER_SIZE];
     writes(0.0);
     writes(-0.0);
     writes(INFINITY);
     writes(-INFINITY);
-    CU_ASSERT(dal_format_number(text, -NAN) == 3);
+    CU_ASSERT(dal__format_number(text, -NAN) == 3);
     CU_ASSERT_STRING_EQUAL(text, "nan");
-    CU_ASSERT(dal_format_number(text, -DBL_MIN) == 24);
+    CU_ASSERT(dal__format_number(text, -DBL_MIN) == 24);
     CU_ASSERT_STRING_EQUAL(text, "-2.2250738585072014e-308");
 }
 
@@ -150,9 +151,9 @@ static void test_texts_that_are_no_numbers(void)
     const char *const texts[] = {"", ".", "e5", "1.2.3", "1e", "1e+", "--1", "1 ", "0x1", "nan"};
     double value = 5.0;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        CU_ASSERT(dal_parse_number(texts[i], strlen(texts[i]), &value) == DAL_STATUS_SYNTAX);
+        CU_ASSERT(dal__parse_number(texts[i], strlen(texts[i]), &value) == DAL_STATUS_SYNTAX);
     CU_ASSERT(value == 5.0);
-    CU_ASSERT(dal_parse_number("1e309", 5, &value) == DAL_STATUS_TOO_LARGE);
+    CU_ASSERT(dal__parse_number("1e309", 5, &value) == DAL_STATUS_TOO_LARGE);
     reads("5.");
     reads(".5");
     reads("-000.00000e-99999999999999999999");

@@ -1,5 +1,6 @@
 /* test_ensemble.c - ensembles: draws against their distributions, members against single runs, the
  * transport of a covariance against its closed form, and statistics against brute force. */
+#include "dalembert_program.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -36,7 +37,7 @@ static void test_generator(void)
     CU_ASSERT_EQUAL(next(&state), 3203168211198807973u);
     state = 0xaf63dc4c8601ec8cu + (uint64_t)6 * 0x9e3779b97f4a7c15u;
     uint64_t key = next(&state); /* of seed 7: one more increment */
-    CU_ASSERT_EQUAL(dal_random_key("a", 7), key);
+    CU_ASSERT_EQUAL(dal__random_key("a", 7), key);
     const dal_variation v = parsed("a=uniform(0,1)");
     for (int member = 0; member < 5; member++) {
         const double u = ((double)(next(&key) >> 11) + 0.5) / 9007199254740992.0;
@@ -176,7 +177,7 @@ static void test_covariance(void)
         if (time == 1) dal_batch_advance(dal_ensemble_batch(e), 46); /* t = 2.3 */
         dal_ensemble_states(e, states);
         for (int i = 0; i < 2 * COUNT; i++) mean[time][i % 2] += states[i] / COUNT;
-        CU_ASSERT_EQUAL(dal_add_products(2, mean[time], states, COUNT, time ? after : before),
+        CU_ASSERT_EQUAL(dal__add_products(2, mean[time], states, COUNT, time ? after : before),
                         COUNT);
     }
     const double c = cos(2.3), s = sin(2.3), R[4] = {c, s, -s, c};

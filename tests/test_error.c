@@ -1,5 +1,6 @@
 /* test_error.c - statuses, error records, the nearest name. */
 #include "core/error.h"
+#include "dalembert_program.h"
 
 #include <CUnit/Basic.h>
 #include <stdio.h>
@@ -66,7 +67,7 @@ static const char *nearest(const char *name)
     static const char *const names[] = {"rk4",  "gauss4", NULL,     "stormer-verlet",
                                         "m",    "y1'",    "gauss8", "implicit-midpoint",
                                         "omega"};
-    const char *found = dal_nearest(name, names, sizeof names / sizeof names[0]);
+    const char *found = dal__nearest_name(name, names, sizeof names / sizeof names[0]);
     return found ? found : "none";
 }
 
@@ -94,8 +95,8 @@ static void test_nearest_of_long_names(void)
     memset(text, 'g', sizeof text);
     text[sizeof text - 1] = 0;
     const char *const names[] = {text, "g"};
-    CU_ASSERT(dal_nearest(text, names, 2) == NULL);
-    CU_ASSERT_STRING_EQUAL(dal_nearest("gg", names, 2), "g");
+    CU_ASSERT(dal__nearest_name(text, names, 2) == NULL);
+    CU_ASSERT_STRING_EQUAL(dal__nearest_name("gg", names, 2), "g");
 }
 
 static void test_unknown(void)

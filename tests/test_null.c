@@ -1,5 +1,6 @@
 /* test_null.c - NULL, nameless settings and negative counts, given to systems, methods, runs and
  * batches. */
+#include "dalembert_program.h"
 #include "null.h"
 #include <stdlib.h>
 #include <string.h>
@@ -29,23 +30,6 @@ static int close_objects(void) { return close_runs(model, run, batch); }
 
 static void null_dal_status_name(void) { CU_ASSERT_PTR_NOT_NULL(dal_status_name((dal_status)-1)); }
 static void null_dal_status_text(void) { CU_ASSERT_PTR_NOT_NULL(dal_status_text((dal_status)-1)); }
-
-static void null_dal_nearest(void)
-{
-    const char *const names[] = {"a", NULL};
-    CU_ASSERT_PTR_NULL(dal_nearest(NULL, names, 2));
-    CU_ASSERT_PTR_NULL(dal_nearest("a", NULL, 2));
-    CU_ASSERT_PTR_NULL(dal_nearest("a", names, -1));
-    CU_ASSERT_PTR_EQUAL(dal_nearest("a", names, 2), names[0]);
-}
-
-static void null_dal_parse_number(void)
-{
-    REFUSED_STATUS(dal_parse_number(NULL, 1, numbers));
-    REFUSED_STATUS(dal_parse_number("1", 1, NULL));
-}
-
-static void null_dal_format_number(void) { CU_ASSERT(dal_format_number(NULL, 1.0) == 0); }
 
 static void null_dal_options_default(void) { CU_ASSERT(dal_options_default().step > 0.0); }
 
@@ -287,11 +271,6 @@ static void null_dal_variation_parse(void)
     REFUSED(dal_variation_parse(&v, NULL, error));
 }
 static void null_dal_variation_draw(void) { CU_ASSERT(isnan(dal_variation_draw(NULL, 1, 1))); }
-static void null_dal_random_key(void)
-{
-    CU_ASSERT_EQUAL(dal_random_key(NULL, 3), dal_random_key("", 3));
-}
-
 static void null_dal_ensemble_create(void)
 {
     dal_ensemble *made;
@@ -326,14 +305,6 @@ static void null_dal_measure_quantiles(void)
     CU_ASSERT(isnan(q));
     dal_measure_quantiles(numbers, 1, NULL, 1, &q);
     dal_measure_quantiles(numbers, 1, numbers, 1, NULL);
-}
-
-static void null_dal_add_products(void)
-{
-    CU_ASSERT_EQUAL(dal_add_products(1, NULL, numbers, 1, numbers), 0);
-    CU_ASSERT_EQUAL(dal_add_products(1, numbers, NULL, 1, numbers), 0);
-    CU_ASSERT_EQUAL(dal_add_products(1, numbers, numbers, 1, NULL), 0);
-    CU_ASSERT_EQUAL(dal_add_products(1, numbers, numbers, -1, numbers), 0);
 }
 
 static void null_dal_batch_clear(void)
@@ -545,8 +516,27 @@ static void null_dal_model_ranks(void)
     REFUSED(dal_model_ranks(model, &(dal_setting){NULL, 1.0}, 1, &at, NULL, &ranks, error));
 }
 
+/* What the program alone uses. */
+static void test_program(void)
+{
+    const char *const names[] = {"a", NULL};
+    CU_ASSERT_PTR_NULL(dal__nearest_name(NULL, names, 2));
+    CU_ASSERT_PTR_NULL(dal__nearest_name("a", NULL, 2));
+    CU_ASSERT_PTR_NULL(dal__nearest_name("a", names, -1));
+    CU_ASSERT_PTR_EQUAL(dal__nearest_name("a", names, 2), names[0]);
+    REFUSED_STATUS(dal__parse_number(NULL, 1, numbers));
+    REFUSED_STATUS(dal__parse_number("1", 1, NULL));
+    CU_ASSERT_EQUAL(dal__format_number(NULL, 1.0), 0);
+    CU_ASSERT_EQUAL(dal__random_key(NULL, 3), dal__random_key("", 3));
+    CU_ASSERT_EQUAL(dal__add_products(1, NULL, numbers, 1, numbers), 0);
+    CU_ASSERT_EQUAL(dal__add_products(1, numbers, NULL, 1, numbers), 0);
+    CU_ASSERT_EQUAL(dal__add_products(1, numbers, numbers, 1, NULL), 0);
+    CU_ASSERT_EQUAL(dal__add_products(1, numbers, numbers, -1, numbers), 0);
+}
+
 void suite_null(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and negative counts", open_objects, close_objects);
     FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_system(ADD_NULL_TEST)
+        CU_add_test(suite, "what the program alone uses", test_program);
 }

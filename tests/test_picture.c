@@ -1,4 +1,5 @@
 /* test_picture.c - how systems say they are drawn. */
+#include "dalembert_program.h"
 #include "reference.h"
 
 #include <CUnit/Basic.h>

@@ -4,7 +4,7 @@ FNR == 1 {
     gsub("^.*/|[.]h$", "", name)
     printf "%s#define FUNCTIONS_%s(X)", (NR > 1 ? "\n" : ""), name
 }
-/^[a-z]/ && !/^(typedef|static|extern)/ && match($0, "[ *]dal_[a-z0-9_]+[(]") {
+/^[a-z]/ && !/^(typedef|static|extern)/ && match($0, "[ *]dal_[a-z0-9][a-z0-9_]*[(]") {
     printf " X(%s)", substr($0, RSTART + 1, RLENGTH - 2)
 }
 END { print "" }

@@ -1,5 +1,6 @@
 /* main.c - the program `dalembert`: runs a command. */
 #include "dalembert.h"
+#include "dalembert_program.h"
 #include "ui/commands.h"
 #include "ui/message.h"
 #include "ui/options.h"
@@ -49,6 +50,7 @@ int main(int argc, char **argv)
         names[i] = commands[i]->name;
         if (strcmp(names[i], first) == 0) return commands[i]->run(argc - 1, argv + 1);
     }
-    if (dal_nearest(first, names, COMMANDS)) return cli_unknown("command", first, names, COMMANDS);
+    if (dal__nearest_name(first, names, COMMANDS))
+        return cli_unknown("command", first, names, COMMANDS);
     return cli_fail(CLI_USAGE, "unknown command '%s'; 'dalembert help' lists the commands", first);
 }

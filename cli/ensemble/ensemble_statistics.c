@@ -3,6 +3,7 @@
  *
  * One column at one time is read at once: 8 bytes for each member and thread. */
 #include "ensemble_statistics.h"
+#include "dalembert_program.h"
 #include "io/file.h"
 #include "run/pool.h"
 #include "ui/memory.h"
@@ -81,7 +82,7 @@ typedef struct product_reader {
 static void take_products(void *user, const double *rows, long long count)
 {
     product_reader *r = user;
-    r->count += dal_add_products(r->columns, r->mean, rows, count, r->sums);
+    r->count += dal__add_products(r->columns, r->mean, rows, count, r->sums);
 }
 
 /* ---- one component, one covariance ---- */

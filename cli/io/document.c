@@ -1,6 +1,7 @@
 /* document.c - nodes of a parsed YAML text, with messages that name their place. */
 #include "document.h"
 #include "dalembert.h"
+#include "dalembert_program.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/options.h"
@@ -29,7 +30,7 @@ int document_fail(const document *doc, const yaml_node_t *node, const char *form
 int document_fail_unknown(const document *doc, const yaml_node_t *node, const char *what,
                           const char *name, const char *const *names, int count)
 {
-    const char *nearest = dal_nearest(name, names, count);
+    const char *nearest = dal__nearest_name(name, names, count);
     if (!nearest) return document_fail(doc, node, "unknown %s '%s'", what, name);
     return document_fail(doc, node, "unknown %s '%s'; did you mean '%s'?", what, name, nearest);
 }

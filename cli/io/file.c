@@ -5,6 +5,7 @@
 #include "ui/message.h"
 #include "ui/signals.h"
 
+#include "dalembert_program.h"
 #include "text.h"
 
 #include <dirent.h>
@@ -343,8 +344,8 @@ void cli_put(FILE *out, double x)
     } else if (isnan(x)) {
         fputs("nan", out);
     } else {
-        char text[DAL_NUMBER_SIZE];
-        fwrite(text, 1, (size_t)dal_format_number(text, x), out);
+        char text[DAL__NUMBER_SIZE];
+        fwrite(text, 1, (size_t)dal__format_number(text, x), out);
     }
 }
 

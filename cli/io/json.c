@@ -1,6 +1,7 @@
 /* json.c - the JSON that the program writes, and reads of its own files. */
 #include "json.h"
 #include "dalembert.h"
+#include "dalembert_program.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -118,7 +119,7 @@ void json_put_number(json_writer *w, const char *name, double x)
     double read = NAN;
     for (int digits = fabs(x) < DBL_MIN ? 1 : DBL_DIG; isfinite(x) && read != x; digits++) {
         const int length = snprintf(text, sizeof text, "%.*g", digits, x + 0.0);
-        dal_parse_number(text, (size_t)length, &read);
+        dal__parse_number(text, (size_t)length, &read);
     }
     fputs(text, json_put_name(w, name));
 }
@@ -172,7 +173,7 @@ void json_put_given(json_writer *w, const char *name, const char *number)
     const size_t length = number_length(number);
     if (length > 0 && !number[length])
         json_put_source(w, name, number);
-    else if (dal_parse_number(number, strlen(number), &x) == DAL_STATUS_OK)
+    else if (dal__parse_number(number, strlen(number), &x) == DAL_STATUS_OK)
         json_put_number(w, name, x);
     else
         json_put_text(w, name, number);

@@ -6,6 +6,7 @@
 #define DAL_CLI_REPORT_BODY_H
 
 #include "dalembert.h"
+#include "dalembert_program.h"
 
 #include <stdbool.h>
 

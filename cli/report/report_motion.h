@@ -6,6 +6,7 @@
 #define DAL_CLI_REPORT_MOTION_H
 
 #include "dalembert.h"
+#include "dalembert_program.h"
 #include "io/json.h"
 
 #include <stdbool.h>

@@ -4,6 +4,7 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
+#include "dalembert_program.h"
 #include "report_body.h"
 #include "report_plot.h"
 #include "report_pose.h"

@@ -3,6 +3,7 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
+#include "dalembert_program.h"
 #include "run/columns.h"
 #include "run/manifest.h"
 

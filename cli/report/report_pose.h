@@ -6,6 +6,7 @@
 #define DAL_CLI_REPORT_POSE_H
 
 #include "dalembert.h"
+#include "dalembert_program.h"
 #include "io/trajectory.h"
 #include "run/request.h"
 #include "run/run_directory.h"

@@ -1,6 +1,7 @@
 /* report_system.c - what moves, and how, as a list on a page. */
 #include "report_system.h"
 
+#include "dalembert_program.h"
 #include "report_page.h"
 
 #include <string.h>
@@ -46,7 +47,7 @@ static const dal_setting *find_setting(const request_settings *settings, const c
 static bool is_number(const char *text, double x)
 {
     double value;
-    return dal_parse_number(text, strlen(text), &value) == DAL_STATUS_OK && value == x;
+    return dal__parse_number(text, strlen(text), &value) == DAL_STATUS_OK && value == x;
 }
 
 /* "m = 1, v0 = 0.1 instead of 1", then what the request alone has. */

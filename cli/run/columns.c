@@ -1,5 +1,6 @@
 /* columns.c - the columns of a run: their names, and which of them --columns selects. */
 #include "columns.h"
+#include "dalembert_program.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -120,7 +121,7 @@ static int unknown_item(const run_columns *c, const run_request *request, const 
     for (int i = 0; i < c->values; i++)
         if (!is_hidden(c->name[i])) names[count++] = c->name[i];
     for (int k = 0; k < COLUMN_GROUPS; k++) names[count++] = group_words[k];
-    const char *nearest = dal_nearest(item, names, count);
+    const char *nearest = dal__nearest_name(item, names, count);
     const bool is_other = nearest && strcmp(nearest, item) != 0;
     cli_fail(CLI_USAGE, "--columns: the run has no column '%s'%s%s%s", item,
              is_other ? "; did you mean '" : "", is_other ? nearest : "", is_other ? "'?" : "");

@@ -1,5 +1,6 @@
 /* system.c - reads the system of a command. */
 #include "system.h"
+#include "dalembert_program.h"
 #include "io/file.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -49,7 +50,7 @@ static int read_builtin(const char *name, dal_model **model)
         const bool is_there = stat(path, &status) == 0;
         const int failed =
             is_there ? cli_fail(CLI_USAGE, "unknown system '%s'; there is '%s'", name, path)
-            : dal_nearest(name, names, count)
+            : dal__nearest_name(name, names, count)
                 ? cli_unknown("system", name, names, count)
                 : cli_fail(CLI_USAGE,
                            "unknown system '%s', and no such file; 'dalembert list systems' names "

@@ -16,6 +16,7 @@
  * and so is a size or a trend of E where no system of the label conserves it. */
 #include "study_expect.h"
 
+#include "dalembert_program.h"
 #include "io/file.h"
 #include "run/columns.h"
 #include "ui/memory.h"
@@ -271,7 +272,7 @@ static int refuse_label(const expect_reader *r, const yaml_node_t *node, const c
     const char **names = cli_calloc((size_t)plan->case_count, sizeof *names);
     for (int i = 0; i < plan->case_count; i++) names[i] = plan->cases[i].label;
     const size_t length = strlen(label);
-    const char *hint = dal_nearest(label, names, plan->case_count);
+    const char *hint = dal__nearest_name(label, names, plan->case_count);
     for (int i = 0; i < plan->case_count; i++)
         if (strncmp(names[i], label, length) == 0 && names[i][length] == '.') hint = names[i];
     char *labels = screen_list_names(names, plan->case_count, LABELS);

@@ -3,7 +3,7 @@
  * Value k of a range {from: a, to: b, count: n} is a + k (b - a)/(n - 1), the last exactly b; of
  * {from: a, to: b, by: d} it is a + k d, as long as that is not beyond b by more than d/1e9.
  *
- * A draw needs no state: the upper 53 bits u of the key of name and seed (dal_random_key, of which
+ * A draw needs no state: the upper 53 bits u of the key of name and seed (dal__random_key, of which
  * ensembles draw as well) give low + (high - low) u/2^53.  So what is drawn for one name does not
  * depend on what else is drawn.
  *
@@ -13,6 +13,7 @@
 #include "study_values.h"
 
 #include "dalembert.h"
+#include "dalembert_program.h"
 #include "io/file.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -117,7 +118,7 @@ void study_values_free(study_values *values)
 /* The draw of a name ("set:mass") for a seed, uniform in [low, high). */
 static double draw(const char *name, uint64_t seed, double low, double high)
 {
-    return low + (high - low) * ((double)(dal_random_key(name, seed) >> 11) * 0x1p-53);
+    return low + (high - low) * ((double)(dal__random_key(name, seed) >> 11) * 0x1p-53);
 }
 
 typedef struct variant_setting {

@@ -1,6 +1,7 @@
 /* arguments.c - reads arguments by the rows of options. */
 #include "arguments.h"
 #include "dalembert.h"
+#include "dalembert_program.h"
 #include "help.h"
 #include "memory.h"
 #include "message.h"
@@ -54,7 +55,7 @@ static int unknown_option(reader *r, const char *argument, size_t length)
             if (r->groups[g].options[k].name && !(r->groups[g].without >> k & 1))
                 names[count++] = r->groups[g].options[k].name;
     names[count++] = "help";
-    const char *nearest = dal_nearest(bare, names, count), *synonym = cli_synonym(bare);
+    const char *nearest = dal__nearest_name(bare, names, count), *synonym = cli_synonym(bare);
     bool has_synonym = false;
     for (int k = 0; k < count; k++) has_synonym |= synonym && strcmp(names[k], synonym) == 0;
     if (has_synonym) nearest = synonym;

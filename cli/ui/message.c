@@ -1,6 +1,7 @@
 /* message.c - messages on stderr, and the exit statuses that go with them. */
 #include "message.h"
 #include "clock.h"
+#include "dalembert_program.h"
 #include "signals.h"
 #include "wrap.h"
 
@@ -131,7 +132,7 @@ void cli_note(const char *format, ...)
 
 int cli_unknown(const char *what, const char *name, const char *const *names, int count)
 {
-    const char *nearest = dal_nearest(name, names, count);
+    const char *nearest = dal__nearest_name(name, names, count);
     if (nearest)
         return cli_fail(CLI_USAGE, "unknown %s '%s'; did you mean '%s'?", what, name, nearest);
     return cli_fail(CLI_USAGE, "unknown %s '%s'", what, name);

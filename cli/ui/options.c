@@ -1,6 +1,7 @@
 /* options.c - what is given for options: the parsers of values, and defaults. */
 #include "options.h"
 #include "dalembert.h"
+#include "dalembert_program.h"
 #include "message.h"
 
 #include <math.h>
@@ -43,7 +44,7 @@ const char *cli_renamed_value(const char *option, const char *text)
 
 int cli_number(const char *what, const char *text, double *number)
 {
-    dal_status read = dal_parse_number(text, strlen(text), number);
+    dal_status read = dal__parse_number(text, strlen(text), number);
     if (read == DAL_STATUS_TOO_LARGE)
         return cli_fail(CLI_USAGE, "%s: '%s' is too large", what, text);
     if (read != DAL_STATUS_OK) return cli_fail(CLI_USAGE, "%s: '%s' is not a number", what, text);

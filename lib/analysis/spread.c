@@ -3,6 +3,7 @@
  * The mean of a first sum is corrected by the mean of the differences from it, so that its error is
  * a few roundings whatever the count (Neely 1966, DOI 10.1145/365719.365958). */
 #include "dalembert.h"
+#include "dalembert_program.h"
 #include <math.h>
 #include <stdbool.h>
 
@@ -61,8 +62,8 @@ void dal_measure_quantiles(double *values, long long count, const double *p, int
     }
 }
 
-long long dal_add_products(int columns, const double *mean, const double *rows, long long count,
-                           double *sums)
+long long dal__add_products(int columns, const double *mean, const double *rows, long long count,
+                            double *sums)
 {
     long long added = 0;
     if (!mean || !rows || !sums) return 0;

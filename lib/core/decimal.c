@@ -13,6 +13,7 @@
  * that it matters only whether one is not 0: a last digit 1 represents them. */
 #include "core/decimal.h"
 #include "core/error.h"
+#include "dalembert_program.h"
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -266,7 +267,7 @@ size_t dal__read_decimal(const char *text, size_t length, double *value)
     return end;
 }
 
-dal_status dal_parse_number(const char *text, size_t length, double *value)
+dal_status dal__parse_number(const char *text, size_t length, double *value)
 {
     DAL_REQUIRE(text && value, NULL);
     const size_t sign = length > 0 && (text[0] == '+' || text[0] == '-');
@@ -357,7 +358,7 @@ static int put_word(char *text, const char *word)
     return (int)strlen(word);
 }
 
-int dal_format_number(char *text, double x)
+int dal__format_number(char *text, double x)
 {
     int exponent, count = DIGITS;
     char digit[DIGITS], *at = text;

@@ -7,6 +7,7 @@
  * letter. */
 #include "core/error.h"
 #include "core/words.h"
+#include "dalembert_program.h"
 #include <limits.h>
 #include <math.h>
 #include <stdarg.h>
@@ -83,7 +84,7 @@ static bool spells_velocity(const char *name, const char *other)
     return false;
 }
 
-const char *dal_nearest(const char *name, const char *const *names, int count)
+const char *dal__nearest_name(const char *name, const char *const *names, int count)
 {
     size_t length = name && names ? strlen(name) : MAX_LETTERS + 1;
     if (length > MAX_LETTERS) return NULL;
@@ -105,7 +106,7 @@ const char *dal_nearest(const char *name, const char *const *names, int count)
 dal_status dal__unknown_at(dal_error *error, int line, int column, const char *what,
                            const char *name, const char *const *names, int count)
 {
-    const char *nearest = dal_nearest(name, names, count);
+    const char *nearest = dal__nearest_name(name, names, count);
     if (!nearest)
         return dal__fail_at(error, DAL_STATUS_NAME, line, column, "unknown %s '%.*s'", what,
                             MAX_LETTERS, name);
@@ -150,7 +151,7 @@ dal_status dal__find_parameter(const dal_system *s, const char *name, int *numbe
         *number = i;
         if (strcmp(s->parameter[i], name) == 0) return DAL_STATUS_OK;
     }
-    if (names == 0 || dal_nearest(name, s->parameter, names))
+    if (names == 0 || dal__nearest_name(name, s->parameter, names))
         return dal__unknown(error, "parameter", name, s->parameter, names);
     char list[160] = "";
     size_t n = 0;

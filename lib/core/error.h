@@ -28,7 +28,7 @@ dal_status dal__fail_at(dal_error *error, dal_status status, int line, int colum
                         const char *format, ...) DAL__PRINTF(5, 6);
 
 /* "unknown WHAT 'NAME'; did you mean 'NEAREST'?" with the status DAL_STATUS_NAME; see
- * dal_nearest. */
+ * dal__nearest_name. */
 #define dal__unknown(error, ...) dal__unknown_at(error, 0, 0, __VA_ARGS__)
 dal_status dal__unknown_at(dal_error *error, int line, int column, const char *what,
                            const char *name, const char *const *names, int count);

@@ -12,6 +12,7 @@
  * so that a copy of the text is the whole system. */
 #include "load/tables.h"
 #include "core/buffer.h"
+#include "dalembert_program.h"
 #include "load/file.h"
 #include "model/functions.h"
 #include <stdio.h>
@@ -194,7 +195,7 @@ static dal_status read_line(cursor *c, int columns, const int column[2], double 
                              i == 1 ? "" : "s", last + 1);
         const char *text = next_field(c, &length);
         for (int k = 0; k < 2; k++)
-            if (column[k] == i && dal_parse_number(text, length, number[k]) != DAL_STATUS_OK)
+            if (column[k] == i && dal__parse_number(text, length, number[k]) != DAL_STATUS_OK)
                 return CSV_ERROR(c, text, "'%.*s' is not a number", length < 60 ? (int)length : 60,
                                  text);
     }

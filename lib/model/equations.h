@@ -2,6 +2,7 @@
 #ifndef DAL_MODEL_EQUATIONS_H
 #define DAL_MODEL_EQUATIONS_H
 
+#include "dalembert_program.h"
 #include "expr/derivative.h"
 
 /* A pivot of the elimination.  It must not be small compared with the terms it was subtracted

@@ -6,6 +6,7 @@
  * formulas are known (derive.c). */
 #include "model/formulas.h"
 #include "core/solved.h"
+#include "dalembert_program.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
@@ -263,8 +264,9 @@ static dal_status check_defaults(const dal_model *model, dal_error *error)
         double value = 0.0;
         DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "entry of defaults", names, 3, &i,
                                error));
-        if (i > 0 && (dal_parse_number(entry->text, strlen(entry->text), &value) != DAL_STATUS_OK ||
-                      !(value > 0.0)))
+        if (i > 0 &&
+            (dal__parse_number(entry->text, strlen(entry->text), &value) != DAL_STATUS_OK ||
+             !(value > 0.0)))
             return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(entry),
                                 "%s in defaults: '%.80s' is not a positive number", names[i],
                                 entry->text);

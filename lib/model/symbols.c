@@ -1,6 +1,7 @@
 /* symbols.c - the names of a model, what a name means in a formula, and the parsing of one formula.
  * Names are distinct, and none is a function or another column of the output. */
 #include "model/symbols.h"
+#include "dalembert_program.h"
 #include "expr/lexer.h"
 #include "expr/operations.h"
 #include "expr/parser.h"
@@ -176,7 +177,7 @@ static dal__node unknown(const dal__scope *scope, const char *name, dal_error *e
         const char *pair[] = {e->coordinate[i], velocity};
         names[count++] = e->coordinate[i];
         snprintf(velocity, sizeof velocity, "%s'", e->coordinate[i]);
-        if (dal_nearest(name, pair, 2) != velocity) continue;
+        if (dal__nearest_name(name, pair, 2) != velocity) continue;
         dal__unknown(error, "name", name, pair + 1, 1);
         return 0;
     }

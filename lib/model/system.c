@@ -1,4 +1,5 @@
 /* system.c - the dal_system of a model, and of its tangent map. */
+#include "dalembert_program.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"

@@ -21,6 +21,7 @@
 #include "core/sizes.h"
 #include "core/solved.h"
 #include "core/vectors.h"
+#include "dalembert_program.h"
 #include "expr/terms.h"
 #include "expr/traversal.h"
 #include <math.h>
@@ -162,7 +163,7 @@ static double default_step(const dal_model *model)
     double step = 0.0;
     for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_DEFAULTS, k)) != NULL; k++)
         if (strcmp(entry->name, "step") == 0)
-            dal_parse_number(entry->text, strlen(entry->text), &step);
+            dal__parse_number(entry->text, strlen(entry->text), &step);
     return step;
 }
 

@@ -16,6 +16,7 @@
  * so that it depends neither on other members nor on other names. */
 #include "core/error.h"
 #include "core/hash.h"
+#include "dalembert_program.h"
 #include "run/batch.h"
 #include "run/start.h"
 #include <math.h>
@@ -34,7 +35,7 @@ static uint64_t mix(uint64_t z)
     return z ^ z >> 31;
 }
 
-unsigned long long dal_random_key(const char *name, unsigned long long seed)
+unsigned long long dal__random_key(const char *name, unsigned long long seed)
 {
     const uint64_t hash = dal__hash(DAL__HASH_START, name, name ? strlen(name) : 0);
     return mix(hash + seed * increment);
@@ -59,7 +60,7 @@ double dal_variation_draw(const dal_variation *variation, unsigned long long see
                           unsigned long long member)
 {
     if (!variation) return NAN;
-    return draw(variation, dal_random_key(variation->name, seed), member);
+    return draw(variation, dal__random_key(variation->name, seed), member);
 }
 
 /* ---- variations as texts ---- */
@@ -86,7 +87,7 @@ static piece trim(const char *from, const char *to)
 
 static dal_status parse_number(piece text, double *x, dal_error *error)
 {
-    const dal_status status = dal_parse_number(text.at, text.length, x);
+    const dal_status status = dal__parse_number(text.at, text.length, x);
     if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     return dal__fail(error, status, "'%.*s' is not a number", (int)text.length, text.at);
 }
@@ -174,9 +175,10 @@ static dal_status find_varied(dal_ensemble *e, const dal_run *run, varied *v, da
         e->parameters[e->parameter_count++].name = system->parameter[v->parameter];
         return DAL_STATUS_OK;
     }
-    const char *nearest = dal_nearest(v->variation.name, system->parameter, system->parameters);
+    const char *nearest =
+        dal__nearest_name(v->variation.name, system->parameter, system->parameters);
     for (int i = 0; !nearest && dal_run_component_name(run, i, name, sizeof name); i++)
-        nearest = dal_nearest(v->variation.name, (const char *const[]){name}, 1);
+        nearest = dal__nearest_name(v->variation.name, (const char *const[]){name}, 1);
     return dal__unknown(error, "start value or parameter", v->variation.name, &nearest,
                         nearest != NULL);
 }
@@ -194,7 +196,7 @@ static dal_status add_variations(dal_ensemble *e, const dal_variation *variation
                 return dal__fail(error, DAL_STATUS_ARGUMENT, "%s is varied twice",
                                  v->variation.name);
         DAL_TRY(find_varied(e, dal__batch_scalar(e->batch), v, error));
-        v->key = dal_random_key(v->variation.name, seed);
+        v->key = dal__random_key(v->variation.name, seed);
     }
     return DAL_STATUS_OK;
 }

@@ -1,6 +1,7 @@
 /* layout.c - the dimensions and sizes of a run, and whether system, method and options fit. */
 #include "run/layout.h"
 #include "core/error.h"
+#include "dalembert_program.h"
 #include "kernel/quad.h"
 #include "run/registry.h"
 #include <dalembert_kernel.h>
@@ -462,7 +463,7 @@ static dal_status parse(const option *k, const char *text, double *value, dal_er
         return dal__fail(error, DAL_STATUS_ARGUMENT, "option %s: '%.60s' is not one of %s", k->name,
                          text, k->value);
     }
-    if (dal_parse_number(text, strlen(text), value) != DAL_STATUS_OK)
+    if (dal__parse_number(text, strlen(text), value) != DAL_STATUS_OK)
         return dal__fail(error, DAL_STATUS_SYNTAX, "option %s: '%.60s' is not a number", k->name,
                          text);
     const bool is_in_range = *value >= k->min && *value <= k->max;

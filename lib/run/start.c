@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/solved.h"
 #include "core/vectors.h"
+#include "dalembert_program.h"
 #include "run/consistent.h"
 #include "run/scales.h"
 #include <dalembert_kernel.h>
@@ -30,7 +31,7 @@ static dal_status unknown_start(const dal_run *run, const char *name, dal_error 
     char best[DAL__NAME_SIZE] = "", other[DAL__NAME_SIZE];
     for (int i = 0; dal_run_component_name(run, i, other, sizeof other); i++) {
         const char *pair[] = {*best ? best : NULL, other};
-        if (dal_nearest(name, pair, 2) == other) memcpy(best, other, sizeof best);
+        if (dal__nearest_name(name, pair, 2) == other) memcpy(best, other, sizeof best);
     }
     const char *names[] = {*best ? best : NULL};
     return dal__unknown(error, run->layout.lifted ? "start name" : "start name (q, v space)", name,

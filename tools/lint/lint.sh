@@ -100,7 +100,7 @@ memory() {
 
 exported() { nm -D --defined-only "$BUILD/libdalembert.so" | awk '{ print $3 }' | sort; }
 declared() {
-    ctags -x --c-kinds=p --_xformat='%N' include/dalembert.h include/dalembert_[!k]*.h
+    ctags -x --c-kinds=p --_xformat='%N' include/dalembert.h include/dalembert_[!k]*.h | grep -v '^dal__'
     sed -n 's/^INTEGRATOR(\(.*\),.*/dal_integrator_\1/p' integrators/integrators.def
 }
 exports() {
