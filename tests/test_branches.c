@@ -47,6 +47,10 @@ static const struct {
     {"", "forces: {y: x^2 + floor(x) - floor(x)}", NO_BRANCH},
     {"", "forces: {y: \"if(k > 1, x, y)\"}", NO_BRANCH},
     {"force on y", "forces: {y: abs(x^2 + 1)}", DAL_JUMP_UNKNOWN},
+    /* Of several surfaces, whichever comes first, the one with the lowest. */
+    {"force on y", "forces: {y: abs(x) + sign(y)}", 0},
+    {"force on y", "forces: {y: sign(x) + abs(y)}", 0},
+    {"force on y", "forces: {y: \"max(0, x)^3 + max(0, y)^2 + abs(x' - y)\"}", 1},
     {"force on y", "forces: {y: f(x)}\n" TABLE("linear"), 1},
     {"force on y", "forces: {y: x'*f(t)}\n" TABLE("linear"), 1},
     {"force on y", "forces: {y: f(x)}\n" TABLE("cubic"), 3},

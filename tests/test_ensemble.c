@@ -264,6 +264,14 @@ static void test_errors(void)
     CU_ASSERT_EQUAL(dal_ensemble_create(&e, &spec, twice, 2, 0, 8, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "y1 is varied twice"));
     CU_ASSERT_EQUAL(dal_ensemble_create(&e, &spec, twice, 1, 0, 0, &error), DAL_STATUS_ARGUMENT);
+    /* What a caller wrote and nothing has parsed. */
+    const dal_variation wrong[] = {{"y1", DAL_NORMAL, 0.0, -1.0},
+                                   {"y1", DAL_UNIFORM, 2.0, 1.0},
+                                   {"y1", DAL_NORMAL, NAN, 1.0},
+                                   {"y1", DAL_UNIFORM, 0.0, INFINITY}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        CU_ASSERT_EQUAL(dal_ensemble_create(&e, &spec, &wrong[i], 1, 0, 8, &error),
+                        DAL_STATUS_ARGUMENT);
 }
 
 /* ---- statistics ---- */

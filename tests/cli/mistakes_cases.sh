@@ -34,6 +34,7 @@ case: options of other programs
 2 | run skate.yaml --tmax 1 | says unknown option '--tmax'; did you mean '--time'\?$
 2 | run skate.yaml --tol 1 | says unknown option '--tol'; did you mean '--tolerance'\?$
 2 | run skate.yaml --seed 1 | says unknown option '--seed': it draws no random numbers, as 'ensemble' does$
+2 | study --progress json | says ^dalembert: study: unknown option '--progress'$
 2 | check skate.yaml --dt 1 | says unknown option '--dt'; did you mean '--set'
 2 | simulate | says ^dalembert: unknown command 'simulate'; 'dalembert help' lists the commands$
 case: velocities

@@ -66,7 +66,7 @@ try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --statistics 50 --out
 expect "another rate" awk -F, '$1 == "E" && ($7 + 0.09999546) ^ 2 < 1e-12 { found = 1 }
     END { exit !found }' seldom/summary.csv
 
-if needs 9 "no terminal (script, stty)" terminal; then
+if needs 10 "no terminal (script, stty)" terminal; then
     case_is "progress on a terminal fits its width"
     for width in 70 40 20; do
         script -qec "stty cols $width; '$program' run ./line.yaml --integrator gauss4 --step 0.01 \
@@ -77,6 +77,11 @@ if needs 9 "no terminal (script, stty)" terminal; then
         [ $width -gt 20 ] && expect "no time to go, $width" grep -q ' %), [0-9]* s to go' lines.txt
         [ $width -gt 40 ] && expect "no drift" grep -q ', moved: E 0\.[0-9]*' lines.txt
     done
+    # H comes before |p| and |pi| and the invariants after them.
+    script -qec "stty cols 150; '$program' run chaplygin-sleigh --integrator gauss4 --step 0.01 \
+        --time 3000 --native off --output typed --force" /dev/null >typed.txt </dev/null
+    expect "norms in the line, or no invariants" grep -qE \
+        ', moved: D1 [-0-9.e+]*, E [-0-9.e+]*, H [-0-9.e+]*, speed [-0-9.e+]*, spin ' typed.txt
     counted
 fi
 

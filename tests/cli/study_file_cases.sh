@@ -110,6 +110,8 @@ expecting '  line: {all: {c: {max: {at most: 2}, final: {at least: 0.9}}, E: {at
 try 0 study expect.yaml --output there --force
 prints '^Expectations: 18 of 18 are met\.$'
 expect "18 rows and a head" test "$(wc -l <there/expectations.csv)" -eq 19
+expect "another head" test "$(head -1 there/expectations.csv)" = \
+    label,integrator,start,step,quantity,expected,found,met
 expect "all met" test "$(column met there/expectations.csv | sort -u)" = yes
 # E of x' = exp(-t) falls from 1/2 to exp(-6)/2: by 0.49876
 expecting '  line_k=1: {rk4: {E: {deviation: {at most: 0.4987}, final: {at least: 0.01}}, c: power law}}

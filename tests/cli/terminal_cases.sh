@@ -19,7 +19,7 @@ fits() {
 }
 
 sleigh="run chaplygin-sleigh --integrator rk4 --step 0.05 --time 1000"
-if needs 25 "no terminal (script, stty)" terminal; then
+if needs 26 "no terminal (script, stty)" terminal; then
     case_is "run: a screen instead of rows"
     shown 80 $sleigh
     fits 80
@@ -28,7 +28,8 @@ if needs 25 "no terminal (script, stty)" terminal; then
     # The exact motion turns at phi' = 1.
     prints "phi' = 1$"
     prints '^  D1  .*linear.*  grows like t: 5\.2e-8 per unit of time,$'
-    prints '^  E  .*not stated.*conserved on D = 0 only'
+    prints '^  E  .*not stated.*conserved on D = 0 only, and D is not 0;$'
+    prints '^ +moved by [0-9][-0-9.e]*$'
     prints '^  H, .*exact'
     prints '^Rows:  -o FILE\.csv, or a pipe$'
     prints '^  dalembert explain chaplygin-sleigh --integrator rk4 '
