@@ -425,15 +425,27 @@ static int measure_means(lyapunov_settings *settings)
     return status;
 }
 
-int lyapunov_command(const cli_command *command, bool is_volume, int argc, char **argv)
+static int run_measurement(lyapunov_settings *s, const cli_command *command, int argc, char **argv)
 {
-    lyapunov_settings s = {.request = request_default(), .is_volume = is_volume};
+    s->request = request_default();
     const cli_group groups[] = {
-        lyapunov_group(&s),
-        request_group(&s.request, request_options, LYAPUNOV_WITHOUT),
+        lyapunov_group(s),
+        request_group(&s->request, request_options, LYAPUNOV_WITHOUT),
     };
     int status = cli_read_arguments(command, argc, argv, groups, 2);
-    if (status == CLI_GO_ON) status = measure_means(&s);
-    request_free(&s.request);
+    if (status == CLI_GO_ON) status = measure_means(s);
+    request_free(&s->request);
     return status;
+}
+
+int lyapunov_measure(const cli_command *command, int argc, char **argv)
+{
+    lyapunov_settings s = {0};
+    return run_measurement(&s, command, argc, argv);
+}
+
+int lyapunov_measure_volume(const cli_command *command, int argc, char **argv)
+{
+    lyapunov_settings s = {.is_volume = true};
+    return run_measurement(&s, command, argc, argv);
 }

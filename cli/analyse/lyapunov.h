@@ -4,11 +4,9 @@
 
 #include "ui/options.h"
 
-#include <stdbool.h>
-
-/* The commands lyapunov and, with is_volume, volume: reads the arguments, prints the means, writes
- * a table of the means so far and a figure.  Returns CLI_DONE or prints and returns an exit
- * status. */
-int lyapunov_command(const cli_command *command, bool is_volume, int argc, char **argv);
+/* The commands lyapunov and volume: read the arguments, print the means, write a table of the means
+ * so far and a figure.  Return CLI_DONE or print and return an exit status. */
+int lyapunov_measure(const cli_command *command, int argc, char **argv);
+int lyapunov_measure_volume(const cli_command *command, int argc, char **argv);
 
 #endif

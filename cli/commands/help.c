@@ -45,19 +45,19 @@ static int print_usage(void)
 }
 
 /* The options of a command are known to the command alone, which prints them. */
-static int print_command(const cli_command *command, bool markdown)
+static char text_help[] = "--help", markdown_help[] = CLI_HELP_MARKDOWN;
+static int print_command(const cli_command *command, char *help_option)
 {
-    static char text_help[] = "--help", markdown_help[] = CLI_HELP_MARKDOWN;
     char name[24];
     snprintf(name, sizeof name, "%s", command->name);
-    return command->run(2, (char *[]){name, markdown ? markdown_help : text_help, NULL});
+    return command->run(2, (char *[]){name, help_option, NULL});
 }
 
 static int print_reference(void)
 {
     int status = CLI_DONE;
     for (int i = 0; i < COMMANDS && status == CLI_DONE; i++)
-        status = print_command(commands[i], true);
+        status = print_command(commands[i], markdown_help);
     puts("## Exit status\n");
     print_exits("- `%d`: %s\n");
     const int closed = cli_close(stdout, "standard output");
@@ -74,7 +74,8 @@ static int help(int argc, char **argv)
     const char *names[COMMANDS];
     for (int i = 0; i < COMMANDS; i++) {
         names[i] = commands[i]->name;
-        if (strcmp(names[i], s.command) == 0) return print_command(commands[i], s.markdown);
+        if (strcmp(names[i], s.command) == 0)
+            return print_command(commands[i], s.markdown ? markdown_help : text_help);
     }
     return cli_unknown("command", s.command, names, COMMANDS);
 }

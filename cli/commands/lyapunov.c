@@ -4,7 +4,7 @@
 
 static int lyapunov(int argc, char **argv)
 {
-    return lyapunov_command(&command_lyapunov, false, argc, argv);
+    return lyapunov_measure(&command_lyapunov, argc, argv);
 }
 
 const cli_command command_lyapunov = {

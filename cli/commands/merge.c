@@ -62,7 +62,7 @@ static int merge(int argc, char **argv)
         status = merge_ensemble(&s);
     } else if (status == CLI_GO_ON) {
         status = study_merge(s.source, s.sources, s.output, (int)s.threads, s.force);
-        if (!s.no_page) status = report_after_study(s.output, status, true);
+        if (!s.no_page) status = report_after_study(s.output, status, REPORT_NAMED);
     }
     for (int i = 0; i < s.sources; i++) study_directory_close(&s.source[i]);
     free(s.source);

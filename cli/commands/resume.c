@@ -58,10 +58,12 @@ static int resume(int argc, char **argv)
     const bool is_study = study_directory_has_study(&dir);
     study_directory_close(&dir);
     if (!is_study) return resume_run(s.directory, &s.run);
-    const study_run_options how = {(int)s.threads, s.run.interval, s.run.native, false,
-                                   s.run.details};
+    const study_run_options how = {.threads = (int)s.threads,
+                                   .interval = s.run.interval,
+                                   .native = s.run.native,
+                                   .shows_matrices = s.run.details};
     const int ended = study_resume(s.directory, &how);
-    return s.no_page ? ended : report_after_study(s.directory, ended, true);
+    return s.no_page ? ended : report_after_study(s.directory, ended, REPORT_NAMED);
 }
 
 const cli_command command_resume = {

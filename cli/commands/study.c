@@ -105,8 +105,11 @@ static int run_study(const settings *s, const char *text, size_t length)
 {
     study_plan plan;
     study_directory dir;
-    const study_run_options how = {(int)s->threads, s->run.interval, s->run.native, s->tables,
-                                   s->details};
+    const study_run_options how = {.threads = (int)s->threads,
+                                   .interval = s->run.interval,
+                                   .native = s->run.native,
+                                   .shows_tables = s->tables,
+                                   .shows_matrices = s->details};
     study_directory_open(&dir, s->output ? s->output : default_directory);
     int status = study_plan_read(&plan, s->study ? s->study : builtin_name, text, length, NULL);
     const int force = s->run.force || (!s->output && study_directory_is_finished(&dir));
@@ -114,7 +117,8 @@ static int run_study(const settings *s, const char *text, size_t length)
         status = study_directory_begin(&dir, &plan, text, length, s->shard, force);
     if (status == CLI_DONE) status = study_directory_run(&dir, &plan, &how);
     study_plan_free(&plan);
-    if (!s->no_page) status = report_after_study(dir.path, status, !s->tables);
+    if (!s->no_page)
+        status = report_after_study(dir.path, status, s->tables ? REPORT_UNNAMED : REPORT_NAMED);
     study_directory_close(&dir);
     return status;
 }

@@ -4,7 +4,7 @@
 
 static int volume(int argc, char **argv)
 {
-    return lyapunov_command(&command_volume, true, argc, argv);
+    return lyapunov_measure_volume(&command_volume, argc, argv);
 }
 
 const cli_command command_volume = {

@@ -108,18 +108,24 @@ static void write_json_progress(const pool_state *p, double seconds)
     fputc('\n', w.out);
 }
 
-/* The line of a terminal, or JSON for scripts, which always has the end. */
-static void show_members(pool_state *p, bool at_the_end)
+/* The line of a terminal, or JSON for scripts. */
+static void show_members(pool_state *p)
 {
     const bool is_json = p->progress == PROGRESS_JSON;
     const double now = cli_seconds();
-    if (p->progress == PROGRESS_OFF || (at_the_end && !is_json)) return;
-    if (!at_the_end && now - p->shown <= (is_json ? json_interval : line_interval)) return;
+    if (p->progress == PROGRESS_OFF) return;
+    if (now - p->shown <= (is_json ? json_interval : line_interval)) return;
     p->shown = now;
     if (is_json)
         write_json_progress(p, now - p->start);
     else
         cli_progress("ensemble: %lld of %lld members, %.0f s", p->done, p->members, now - p->start);
+}
+
+/* Scripts always get the end. */
+static void show_end(const pool_state *p)
+{
+    if (p->progress == PROGRESS_JSON) write_json_progress(p, cli_seconds() - p->start);
 }
 
 typedef struct chunk_end {
@@ -140,7 +146,7 @@ static void add_end(void *user)
     }
     p->dir->done[end->chunk] = 1;
     p->done += ensemble_chunk_members(p->e, end->chunk);
-    show_members(p, false);
+    show_members(p);
     if (cli_seconds() - p->saved < p->interval) return;
     const int saved = ensemble_directory_save(p->dir, p->e);
     if (p->status == CLI_DONE) p->status = saved;
@@ -293,7 +299,7 @@ int ensemble_run(ensemble *e, ensemble_directory *dir, const ensemble_run_option
         pool_run(ensemble_chunks(e), options->threads, run_task, &p);
     }
     cli_progress_end();
-    show_members(&p, true);
+    show_end(&p);
     free_workers(&p);
     const int saved = ensemble_directory_save(dir, e);
     if (p.status != CLI_DONE && p.status != CLI_SIGNAL) return p.status;

@@ -71,23 +71,23 @@ FILE *json_put_name(json_writer *w, const char *name)
     return w->out;
 }
 
-static void open_level(json_writer *w, const char *name, json_layout layout, bool list)
+static void open_level(json_writer *w, const char *name, json_layout layout, char bracket)
 {
-    fputc(list ? '[' : '{', json_put_name(w, name));
+    fputc(bracket, json_put_name(w, name));
     w->depth++;
-    w->lists = (w->lists & ~(1u << w->depth)) | (unsigned)list << w->depth;
+    w->lists = (w->lists & ~(1u << w->depth)) | (unsigned)(bracket == '[') << w->depth;
     if (layout == JSON_LINES) w->lines = w->depth;
     w->is_empty = true;
 }
 
 void json_open(json_writer *w, const char *name, json_layout layout)
 {
-    open_level(w, name, layout, false);
+    open_level(w, name, layout, '{');
 }
 
 void json_open_list(json_writer *w, const char *name, json_layout layout)
 {
-    open_level(w, name, layout, true);
+    open_level(w, name, layout, '[');
 }
 
 void json_close(json_writer *w)

@@ -16,11 +16,14 @@
 enum { BLOCK = 8192 /* numbers that are converted at a time */ };
 
 /* Writes or reads all bytes; false after an error, or at the end of the file. */
-static bool transfer(int descriptor, unsigned char *bytes, size_t length, off_t at, bool writes)
+typedef enum transfer_way { READ, WRITE } transfer_way;
+
+static bool transfer(int descriptor, unsigned char *bytes, size_t length, off_t at,
+                     transfer_way way)
 {
     while (length) {
-        const ssize_t n =
-            writes ? pwrite(descriptor, bytes, length, at) : pread(descriptor, bytes, length, at);
+        const ssize_t n = way == WRITE ? pwrite(descriptor, bytes, length, at)
+                                       : pread(descriptor, bytes, length, at);
         if (n < 0 && errno == EINTR) continue;
         if (n == 0) errno = EIO;
         if (n <= 0) return false;
@@ -39,10 +42,10 @@ static int prepare(const npy_table *table, char *header, off_t length, bool is_n
     int status = CLI_DONE;
     if (is_new) {
         if (ftruncate(table->descriptor, 0) != 0 || ftruncate(table->descriptor, length) != 0 ||
-            !transfer(table->descriptor, (unsigned char *)header, table->header, 0, true))
+            !transfer(table->descriptor, (unsigned char *)header, table->header, 0, WRITE))
             status = cli_io("write", table->path);
     } else if (fstat(table->descriptor, &info) != 0 || info.st_size != length ||
-               !transfer(table->descriptor, found, table->header, 0, false) ||
+               !transfer(table->descriptor, found, table->header, 0, READ) ||
                memcmp(found, header, table->header) != 0) {
         status = cli_fail(CLI_USAGE, "'%s' is not the file that was begun", table->path);
     }
@@ -75,20 +78,20 @@ int npy_table_open(npy_table *table, char *path, char *const *names, int columns
 }
 
 static int transfer_rows(const npy_table *table, long long first, long long count, double *values,
-                         bool writes)
+                         transfer_way way)
 {
     unsigned char bytes[BLOCK * WORD];
     off_t at = (off_t)table->header + (off_t)first * table->columns * WORD;
     for (long long left = count * table->columns; left > 0;) {
         const size_t n = left < BLOCK ? (size_t)left : BLOCK;
         uint64_t bits;
-        for (size_t i = 0; writes && i < n; i++) {
+        for (size_t i = 0; way == WRITE && i < n; i++) {
             memcpy(&bits, &values[i], sizeof bits);
             write_le64(bytes + i * WORD, bits);
         }
-        if (!transfer(table->descriptor, bytes, n * WORD, at, writes))
-            return cli_io(writes ? "write" : "read", table->path);
-        for (size_t i = 0; !writes && i < n; i++) {
+        if (!transfer(table->descriptor, bytes, n * WORD, at, way))
+            return cli_io(way == WRITE ? "write" : "read", table->path);
+        for (size_t i = 0; way == READ && i < n; i++) {
             bits = read_le64(bytes + i * WORD);
             memcpy(&values[i], &bits, sizeof bits);
         }
@@ -101,12 +104,12 @@ static int transfer_rows(const npy_table *table, long long first, long long coun
 
 int npy_table_write(const npy_table *table, long long first, long long count, const double *values)
 {
-    return transfer_rows(table, first, count, (double *)values, true);
+    return transfer_rows(table, first, count, (double *)values, WRITE);
 }
 
 int npy_table_read(const npy_table *table, long long first, long long count, double *values)
 {
-    return transfer_rows(table, first, count, values, false);
+    return transfer_rows(table, first, count, values, READ);
 }
 
 int npy_table_sync(const npy_table *table)

@@ -31,7 +31,9 @@
 
 /* ---- expectations -------------------------------------------------------------------------- */
 
-static void write_expectations(FILE *page, const report_csv *csv, bool only_unmet)
+typedef enum which_expectations { ALL_EXPECTATIONS, UNMET_EXPECTATIONS } which_expectations;
+
+static void write_expectations(FILE *page, const report_csv *csv, which_expectations which)
 {
     static const char *const heads[] = {"integrator", "start",    "step",
                                         "quantity",   "expected", "found"};
@@ -40,7 +42,7 @@ static void write_expectations(FILE *page, const report_csv *csv, bool only_unme
           page);
     for (int row = 1; row < csv->rows; row++) {
         const bool is_met = report_csv_is(csv, row, "met", "yes");
-        if (only_unmet && is_met) continue;
+        if (which == UNMET_EXPECTATIONS && is_met) continue;
         char title[STEP_TITLE];
         const char *step = report_csv_get(csv, row, "step");
         report_row(page, report_csv_get(csv, row, "label"));
@@ -82,9 +84,9 @@ static int report_expectations(report *r)
     for (int row = 1; row < csv.rows; row++) met += report_csv_is(&csv, row, "met", "yes");
     if (csv.rows > 1) {
         write_met(r->page, &csv, met);
-        if (met < csv.rows - 1) write_expectations(r->page, &csv, true);
+        if (met < csv.rows - 1) write_expectations(r->page, &csv, UNMET_EXPECTATIONS);
         fputs("<details><summary>all of them</summary>\n", r->page);
-        write_expectations(r->page, &csv, false);
+        write_expectations(r->page, &csv, ALL_EXPECTATIONS);
         fputs("</details>\n", r->page);
     }
     report_csv_free(&csv);
@@ -208,6 +210,7 @@ static int draw_errors(const label_figures *f, error_axis axis)
                    {"tolerance", "Tolerance", "tolerance",
                     "An error that follows the tolerance is a line of slope 1."}};
     const report_csv *cells = &f->s->cells;
+    const bool is_displaced = false;
     char name[PLOT_NAME];
     report_plot plot = {.name = name_plot(name, f, figures[axis].name, 0),
                         .title = figures[axis].title,
@@ -224,7 +227,7 @@ static int draw_errors(const label_figures *f, error_axis axis)
         plot_curve *curve = add_method(f, &plot, method);
         for (int h = 0; h < f->steps.count; h++) {
             const char *step = f->steps.word[h];
-            const int row = find_cell(f->s, f->label, method, step, false);
+            const int row = find_cell(f->s, f->label, method, step, is_displaced);
             if (row == 0 || !is_cell(f->s, row, "state", "done")) continue;
             const double size = fabs(strtod(step, NULL)), tolerance = step_tolerance(step);
             if (axis != OVER_WORK && (tolerance > 0.0) != (axis == OVER_TOLERANCE)) continue;
@@ -575,7 +578,7 @@ int report_study(report *r)
     return status;
 }
 
-int report_after_study(const char *directory, int status, bool names_page)
+int report_after_study(const char *directory, int status, report_naming naming)
 {
     report r = {.directory = directory, .format = "svg"};
     char *cells = cli_join(directory, "cells.csv");
@@ -585,9 +588,9 @@ int report_after_study(const char *directory, int status, bool names_page)
     if (!has_results || cli_interrupted()) return status;
     if (gnuplot_is_there()) {
         const int made = report_make(&r, report_study);
-        if (made == CLI_DONE && names_page) printf("Page: %s\n", r.page_path);
+        if (made == CLI_DONE && naming == REPORT_NAMED) printf("Page: %s\n", r.page_path);
         if (status == CLI_DONE) status = made;
-    } else if (names_page) {
+    } else if (naming == REPORT_NAMED) {
         printf("Page: 'dalembert report %s' makes it, with figures by gnuplot\n", directory);
     }
     free(r.place);

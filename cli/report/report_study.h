@@ -12,9 +12,10 @@ int report_study(report *r);
     {                                                                                              \
         "no-page", NULL, NULL, "writes no page of the study", CLI_FLAG(settings, no_page)          \
     }
+typedef enum report_naming { REPORT_UNNAMED, REPORT_NAMED } report_naming;
+
 /* After a study that ended with this exit status: writes its page where there is gnuplot, and says
- * where that is where names_page is set.  Returns that status, or the page's where the page
- * failed. */
-int report_after_study(const char *directory, int status, bool names_page);
+ * where it is if it is to be named.  Returns that status, or the page's where the page failed. */
+int report_after_study(const char *directory, int status, report_naming naming);
 
 #endif

@@ -125,9 +125,12 @@ static native_code *begin_code(const native_run *n, const dal_native_options *op
     return memory->native ? (codes = memory) : NULL;
 }
 
+typedef enum compiler_place { BESIDE_THE_RUN, BEFORE_THE_RUN } compiler_place;
+
 /* Begins to compile the next part of a run, unless that is done already. */
-static native_code *start_compiler(const native_run *n, bool is_awaited)
+static native_code *start_compiler(const native_run *n, compiler_place place)
 {
+    const bool is_awaited = place == BEFORE_THE_RUN;
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     dal_error error = {.message = "no directory to keep compiled ones in"};
     native_code *const memory = cli_calloc(1, sizeof *memory);
@@ -191,7 +194,7 @@ void native_poll(native_run *n)
         is_free = !compiles();
         pthread_mutex_unlock(&mutex);
     }
-    if (!n->code && is_free && is_worth_it(n) && !(n->code = start_compiler(n, false)))
+    if (!n->code && is_free && is_worth_it(n) && !(n->code = start_compiler(n, BESIDE_THE_RUN)))
         begin_part(n, n->part + 1);
     if (n->code) use_code(n);
 }
@@ -201,7 +204,7 @@ static void compile_now(native_run *n)
 {
     const struct timespec pause = {0, 1000000};
     while (n->part < n->parts && !cli_interrupted()) {
-        if (!n->code && !(n->code = start_compiler(n, true)))
+        if (!n->code && !(n->code = start_compiler(n, BEFORE_THE_RUN)))
             begin_part(n, n->part + 1);
         else if (!use_code(n))
             nanosleep(&pause, NULL);

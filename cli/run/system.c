@@ -104,7 +104,7 @@ static int refuse(dal_model **model, const dal_system **made, dal_status reason,
 }
 
 /* Makes the system of a model; an error of a formula that it observes names another place. */
-static int make_system(const char *system, const char *formulas, bool is_known, dal_model **model,
+static int make_system(const char *system, const char *formulas, dal_model **model,
                        const dal_system **made)
 {
     static const char prefix[] = "observed: ";
@@ -119,7 +119,6 @@ static int make_system(const char *system, const char *formulas, bool is_known, 
         error.line = line;
         error.column = column;
     }
-    if (make == DAL_STATUS_OK && !is_known) print_warnings(system, *model);
     if (make == DAL_STATUS_OK) return CLI_DONE;
     const bool is_formula = strncmp(error.message, prefix, length) == 0;
     if (is_formula)
@@ -129,7 +128,9 @@ static int make_system(const char *system, const char *formulas, bool is_known, 
 
 int cli_make(const char *place, dal_model **model, const dal_system **made)
 {
-    return make_system(place, place, false, model, made);
+    const int status = make_system(place, place, model, made);
+    if (status == CLI_DONE) print_warnings(place, *model);
+    return status;
 }
 
 int cli_load(const char *system, dal_model **model, const dal_system **made)
@@ -144,12 +145,14 @@ int cli_observe(const char *system, const char *place, const cli_formula *formul
     dal_error error = {0};
     const bool is_known = *model != NULL;
     dal_model_free(*model);
-    const int status = cli_read(system, model);
+    int status = cli_read(system, model);
     if (status != CLI_DONE) return status;
     for (int i = 0; i < count; i++) {
         const cli_formula *f = &formulas[i];
         const dal_status added = dal_model_observe(*model, f->text, f->line, f->column, &error);
         if (added != DAL_STATUS_OK) return refuse(model, made, added, place, &error);
     }
-    return make_system(system, place, is_known, model, made);
+    status = make_system(system, place, model, made);
+    if (status == CLI_DONE && !is_known) print_warnings(system, *model);
+    return status;
 }

@@ -125,17 +125,21 @@ static void put_found(FILE *out, const study_expectation *x, const study_cell *c
                 has_trend ? dal_trend_text(trend->trend) : "");
 }
 
-void study_print_comparison(FILE *out, const study_comparison *comparison, bool in_columns)
+/* Least widths of the label, the integrator, the start and the step. */
+typedef struct widths {
+    int label, integrator, start, step;
+} widths;
+
+static void print_comparison(FILE *out, const study_comparison *comparison, widths least)
 {
     char name[STUDY_NAME], division[STUDY_DIVISION];
-    const int width = in_columns ? 24 : 0;
     const study_expectation *x = comparison->expectation;
     const study_cell *c = comparison->cell;
-    fprintf(out, "  %-*s %-*s ", width, c ? c->of_case->label : x->label, width,
+    fprintf(out, "  %-*s %-*s ", least.label, c ? c->of_case->label : x->label, least.integrator,
             c ? dal_method_name(c->method, name, sizeof name) : x->method);
     if (c)
-        fprintf(out, "%-*s %-*s ", in_columns ? 9 : 0, study_start_words[c->start],
-                in_columns ? 12 : 0, study_division(division, c->step, c->tolerance));
+        fprintf(out, "%-*s %-*s ", least.start, study_start_words[c->start], least.step,
+                study_division(division, c->step, c->tolerance));
     fprintf(out, "%s: expected ", x->quantity);
     put_expected(out, x);
     fputs(", found ", out);
@@ -148,7 +152,7 @@ char *study_comparison_text(const study_comparison *comparison)
     char *line;
     size_t length;
     FILE *text = cli_memstream_open(&line, &length);
-    study_print_comparison(text, comparison, false);
+    print_comparison(text, comparison, (widths){0});
     cli_memstream_close(text);
     line[strcspn(line, "\n")] = '\0';
     return line;
@@ -251,7 +255,7 @@ void study_print_expectations(FILE *out, const study_plan *plan)
         study_print_met(out, &all);
     }
     for (int i = 0; i < all.count; i++)
-        if (!all.item[i].is_met) study_print_comparison(out, &all.item[i], true);
+        if (!all.item[i].is_met) print_comparison(out, &all.item[i], (widths){24, 24, 9, 12});
     free(all.item);
 }
 

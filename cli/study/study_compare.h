@@ -28,10 +28,8 @@ typedef struct study_comparisons {
 study_comparisons study_compare(const study_plan *plan);
 /* "Expectations: 3 of 5 are met; 1 failed, 2 refused." */
 void study_print_met(FILE *out, const study_comparisons *comparisons);
-/* A line about one, in columns of a table or with single blanks:
+/* A line about one, without its end, allocated:
  *     LABEL METHOD START h = STEP QUANTITY: expected X, found Y (line N) */
-void study_print_comparison(FILE *out, const study_comparison *comparison, bool in_columns);
-/* Such a line with single blanks and without its end, allocated. */
 char *study_comparison_text(const study_comparison *comparison);
 /* The number of those that are met, and lines about the others; nothing where nothing is expected.
  */

@@ -32,8 +32,8 @@ static const struct {
 
 /* ---- the matrix ---------------------------------------------------------------------------- */
 
-/* The text as far as it fits, with a ~ where it ends early. */
-static void put_cut(FILE *out, const char *text, int width, bool is_filled)
+/* The text as far as it fits, with a ~ where it ends early; returns what is left of the width. */
+static int put_cut(FILE *out, const char *text, int width)
 {
     int length = (int)strlen(text), spaces = width - length;
     if (length > width) {
@@ -42,7 +42,13 @@ static void put_cut(FILE *out, const char *text, int width, bool is_filled)
         spaces = width - length - 1;
     }
     fprintf(out, "%.*s%s", length, text, text[length] ? "~" : "");
-    if (is_filled && spaces > 0) fprintf(out, "%*s", spaces, "");
+    return spaces;
+}
+
+static void put_filled(FILE *out, const char *text, int width)
+{
+    const int spaces = put_cut(out, text, width);
+    if (spaces > 0) fprintf(out, "%*s", spaces, "");
 }
 
 /* The colours of the page: kept, bounded, small, drifting; the rest is faint. */
@@ -100,7 +106,7 @@ static void print_matrix(FILE *out, const study_matrix *s, int quantity, bool in
     }
     if (width > WIDTH - CELL * shown) width = WIDTH - CELL * shown;
     for (int i = -1; i < s->rows; i++) {
-        put_cut(out, i < 0 ? quantities[quantity].heading : s->row[i]->name, width, true);
+        put_filled(out, i < 0 ? quantities[quantity].heading : s->row[i]->name, width);
         for (int k = 0; k < s->columns; k++) {
             if (!is_shown[k]) continue;
             if (i < 0)
@@ -116,15 +122,17 @@ static void print_matrix(FILE *out, const study_matrix *s, int quantity, bool in
 
 static void print_systems(FILE *out, const study_matrix *s)
 {
-    put_cut(out, s->plan->title, WIDTH, false);
+    put_cut(out, s->plan->title, WIDTH);
     for (int k = 0; k < s->columns; k++) {
         const study_case *e = s->column[k];
         char *text = cli_format("%2d %s%s", k + 1, e->label,
                                 study_first_start(e) == STUDY_DISPLACED ? " displaced" : "");
         const bool ends = k % 2 == 1 || k == s->columns - 1;
         if (k % 2 == 0) fputc('\n', out);
-        put_cut(out, text, ITEM - 1, !ends);
-        if (!ends) fputc(' ', out);
+        if (ends)
+            put_cut(out, text, ITEM - 1);
+        else
+            put_filled(out, text, ITEM);
         free(text);
     }
     fputc('\n', out);
@@ -287,7 +295,7 @@ static void say_speed(FILE *out, const study_matrix *s)
         "A step takes %.2g us (%s) to %.2g us (%s).", 1e6 * seconds_per_step(fastest),
         dal_method_name(fastest->method, fast, sizeof fast), 1e6 * seconds_per_step(slowest),
         dal_method_name(slowest->method, slow, sizeof slow));
-    put_cut(out, line, WIDTH, false);
+    put_cut(out, line, WIDTH);
     fputc('\n', out);
     free(line);
 }
@@ -311,7 +319,7 @@ static void print_expectations(FILE *out, const study_plan *plan)
     for (int i = 0, shown = 0; i < all.count && shown < UNMET; i++) {
         if (all.item[i].is_met) continue;
         char *line = study_comparison_text(&all.item[i]);
-        put_cut(out, line, WIDTH, false);
+        put_cut(out, line, WIDTH);
         fputc('\n', out);
         free(line);
         shown++;

@@ -11,16 +11,17 @@
 /* Expectations that are not met and are shown. */
 enum { MAX_UNMET = 2 };
 
-/* Whether a part of the label of a column between hyphens and underscores is in no other label; the
- * first such part becomes the name, or else the last one. */
-static bool find_name(const study_matrix *m, int column, bool is_cut, char name[STUDY_SHORT_NAME])
+/* Whether a part of the label of a column between hyphens and underscores, of the longest length at
+ * most, is in no other label; the first such part, cut, becomes the name, or else the last one. */
+static bool find_name(const study_matrix *m, int column, size_t longest,
+                      char name[STUDY_SHORT_NAME])
 {
     bool found = false;
     const char *part = m->column[column]->label;
     for (size_t length; !found && *part; part += length + (part[length] != '\0')) {
         length = strcspn(part, "-_");
         if (strcmp(part + strcspn(part, "."), ".yaml") == 0) length = strcspn(part, ".");
-        if (length >= STUDY_SHORT_NAME && !is_cut) continue;
+        if (length > longest) continue;
         snprintf(name, STUDY_SHORT_NAME, "%.*s", (int)length, part);
         int k = 0;
         while (k < m->columns && (k == column || !strstr(m->column[k]->label, name))) k++;
@@ -32,7 +33,8 @@ static bool find_name(const study_matrix *m, int column, bool is_cut, char name[
 void study_name_columns(const study_matrix *m, char (*name)[STUDY_SHORT_NAME])
 {
     for (int i = 0; i < m->columns; i++) {
-        const bool found = find_name(m, i, false, name[i]) || find_name(m, i, true, name[i]);
+        const bool found =
+            find_name(m, i, STUDY_SHORT_NAME - 1, name[i]) || find_name(m, i, SIZE_MAX, name[i]);
         for (int k = 0; !found && k < i; k++)
             if (strcmp(name[i], name[k]) == 0)
                 snprintf(name[i], STUDY_SHORT_NAME, "%.4s%d", name[k], (i + 1) % 100);

@@ -160,7 +160,7 @@ static void describe(description *p)
             p->has_memory = false;
         }
     }
-    p->drift = dal__trend_drift(&p->evidence, interval_level, false);
+    p->drift = dal__trend_drift(&p->evidence, interval_level, DAL__ALL_NOISES);
 }
 
 /* ---- powers ---- */
@@ -236,7 +236,7 @@ static decision not_enough(const description *p, dal_trend_class likeliest, doub
 /* No drift that noise without a trend admits is large. */
 static decision decide_none(const description *p, double weight)
 {
-    const dal__interval drift = dal__trend_drift(&p->evidence, 0.95, true);
+    const dal__interval drift = dal__trend_drift(&p->evidence, 0.95, DAL__NOISES_WITHOUT_TREND);
     const double admitted = max_abs(&drift) / p->spread;
     const double small = p->has_memory ? small_beside_memory : small_drift;
     const double large = p->has_memory ? large_beside_memory : large_drift;

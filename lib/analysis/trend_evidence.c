@@ -263,15 +263,16 @@ typedef struct mixture {
     double at[DAL__SHAPE_NOISES], deviation[DAL__SHAPE_NOISES], weight[DAL__SHAPE_NOISES];
 } mixture;
 
-static mixture mixture_of(const dal__evidence *e, bool no_trend)
+static mixture mixture_of(const dal__evidence *e, dal__noises noises)
 {
     mixture m = {.freedom = e->freedom - 1.0};
     double largest = 0.0;
     for (int k = 0; k < DAL__SHAPE_NOISES; k++) largest = fmax(largest, e->drift_weight[k]);
-    for (int pass = no_trend ? 0 : 1; pass < 2 && m.count == 0; pass++)
+    for (int pass = noises; pass < 2 && m.count == 0; pass++)
         for (int k = 0; k < DAL__SHAPE_NOISES; k++) {
-            if (pass == 0 && dal__noise_list[k].meaning != DAL__MEANS_NONE) continue;
-            if (!(e->drift_weight[k] > negligible * largest) && pass == 1) continue;
+            if (pass == DAL__NOISES_WITHOUT_TREND && dal__noise_list[k].meaning != DAL__MEANS_NONE)
+                continue;
+            if (!(e->drift_weight[k] > negligible * largest) && pass == DAL__ALL_NOISES) continue;
             m.at[m.count] = e->drift[k];
             m.deviation[m.count] = fmax(e->drift_deviation[k], 1e-300);
             m.weight[m.count++] = e->drift_weight[k];
@@ -317,9 +318,9 @@ static double quantile(const mixture *m, double p)
     return 0.5 * (a + b);
 }
 
-dal__interval dal__trend_drift(const dal__evidence *e, double level, bool no_trend)
+dal__interval dal__trend_drift(const dal__evidence *e, double level, dal__noises noises)
 {
-    const mixture m = mixture_of(e, no_trend);
+    const mixture m = mixture_of(e, noises);
     double middle = 0.0;
     for (int k = 0; k < m.count; k++) middle += m.weight[k] / m.sum * m.at[k];
     const double low = quantile(&m, 0.5 * (1.0 - level)), high = quantile(&m, 0.5 * (1.0 + level));

@@ -28,8 +28,9 @@ typedef struct dal__interval {
     double low, middle, high;
 } dal__interval;
 
-/* The drift over the whole series; between the quantiles (1 -+ level)/2, under all noises or under
- * those alone that say there is no trend. */
-dal__interval dal__trend_drift(const dal__evidence *evidence, double level, bool no_trend);
+typedef enum dal__noises { DAL__NOISES_WITHOUT_TREND, DAL__ALL_NOISES } dal__noises;
+
+/* The drift over the whole series, between the quantiles (1 -+ level)/2, under these noises. */
+dal__interval dal__trend_drift(const dal__evidence *evidence, double level, dal__noises noises);
 
 #endif

@@ -76,8 +76,10 @@ static dal_status check_steps(dal__generation *g, dal_error *error)
 static dal_status check_multipliers(const dal__generation *g, dal_error *error)
 {
     const bool observes = g->product == DAL__PRODUCT_FILE || g->product == DAL__PRODUCT_OBSERVE;
+    const bool is_exact_known = false; /* of this group no part */
     char name[128];
-    if (!observes || dal__observable_count(&g->layout, DAL__OBSERVE_MULTIPLIERS, false) == 0)
+    if (!observes ||
+        dal__observable_count(&g->layout, DAL__OBSERVE_MULTIPLIERS, is_exact_known) == 0)
         return DAL_STATUS_OK;
     return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                      "the multipliers lambda1.. of %s are not observed in generated code",

@@ -37,23 +37,23 @@ static bool is_number(const dal__tapes *tapes, uint32_t place)
            place < (uint32_t)(tapes->parameters + tapes->numbers);
 }
 
-void dal__constant_write(const dal__tapes *tapes, uint32_t place, bool bare, dal__buffer *text)
+void dal__constant_write(const dal__tapes *tapes, uint32_t place, dal__number_form form,
+                         dal__buffer *text)
 {
     if (!is_number(tapes, place)) {
         dal__buffer_print(text, "DAL_WORK(%u)", place);
         return;
     }
-    if (!bare) dal__buffer_append(text, "dal_num(");
+    if (form == DAL__AS_NUM) dal__buffer_append(text, "dal_num(");
     dal__buffer_number(text, tapes->number[place - (uint32_t)tapes->parameters]);
-    if (!bare) dal__buffer_append(text, ")");
+    if (form == DAL__AS_NUM) dal__buffer_append(text, ")");
 }
 
-/* bare: a number may stay a double. */
-static void write_operand(const writer *w, uint32_t place, bool bare)
+static void write_operand(const writer *w, uint32_t place, dal__number_form form)
 {
     const dal__tapes *tapes = w->tapes;
     if (place < tapes->first_input) {
-        dal__constant_write(tapes, place, bare, w->text);
+        dal__constant_write(tapes, place, form, w->text);
     } else if (place < tapes->temporaries) {
         dal__buffer_append(w->text, w->input[place - tapes->first_input].text);
     } else {
@@ -85,14 +85,14 @@ void dal__expression_write(const char *expression, dal__name_writer *write, cons
 typedef struct operands {
     const writer *w;
     uint32_t place[3];
-    bool bare;
+    dal__number_form form;
 } operands;
 
 static const char *write_place(const void *user, const char *name, size_t length)
 {
     const operands *o = user;
     if (length > 1 || *name < 'a' || *name > 'c') return NULL;
-    write_operand(o->w, o->place[*name - 'a'], o->bare);
+    write_operand(o->w, o->place[*name - 'a'], o->form);
     return name + 1;
 }
 
@@ -101,15 +101,15 @@ static void write_expression(const writer *w, const dal__instruction *i)
     if (i->op == DAL__TABLE) {
         const uint32_t table = i->b / DAL__TABLE_ORDERS, order = i->b % DAL__TABLE_ORDERS;
         dal__buffer_append(w->text, "dal_piecewise(");
-        write_operand(w, i->a, false);
+        write_operand(w, i->a, DAL__AS_NUM);
         dal__buffer_print(w->text, ", dal__table%u, %d, %u)", table, w->tapes->tables[table].knots,
                           order);
         return;
     }
     /* Operators take a double beside a num; functions, and two doubles, need a num. */
     const bool numbers = is_number(w->tapes, i->a) && is_number(w->tapes, i->b);
-    const bool bare = !numbers && !strstr(expressions[i->op], "dal_") && i->op != DAL__NEG;
-    const operands o = {w, {i->a, i->b, i->c}, bare};
+    const bool may_be_double = !numbers && !strstr(expressions[i->op], "dal_") && i->op != DAL__NEG;
+    const operands o = {w, {i->a, i->b, i->c}, may_be_double ? DAL__AS_DOUBLE : DAL__AS_NUM};
     dal__expression_write(expressions[i->op], write_place, &o, w->text);
 }
 
@@ -118,7 +118,7 @@ static void write_instruction(writer *w, const dal__instruction *i)
     if (i->op == DAL__SINCOS) {
         const uint32_t sine = ++w->results, cosine = ++w->results;
         dal__buffer_print(w->text, "    num x%u, x%u;\n    dal_sincos(", sine, cosine);
-        write_operand(w, i->a, false);
+        write_operand(w, i->a, DAL__AS_NUM);
         dal__buffer_print(w->text, ", &x%u, &x%u);\n", sine, cosine);
         w->result[i->d] = sine;
         w->result[i->b] = cosine;
@@ -235,7 +235,7 @@ bool dal__tape_write_chunk(writer *w, int instructions)
             continue;
         if (w->zeros >= MANY_ZEROS && is_zero_number(w->tapes, place)) continue;
         dal__buffer_print(w->text, "    out[%d] = ", k);
-        write_operand(w, place, false);
+        write_operand(w, place, DAL__AS_NUM);
         dal__buffer_append(w->text, ";\n");
     }
     return !is_last;

@@ -29,8 +29,11 @@ void dal__tapes_write_hoisted(const dal__tapes *tapes, const bool *is_written, d
 /* Writes the data of the tables, as arrays that the statements name. */
 void dal__tapes_write_tables(const dal__tapes *tapes, dal__buffer *text);
 
-/* Writes what is constant along a run, by its place in work; bare: a number may stay a double. */
-void dal__constant_write(const dal__tapes *tapes, uint32_t place, bool bare, dal__buffer *text);
+/* Whether a number is written as a num, or may stay a double beside one. */
+typedef enum dal__number_form { DAL__AS_NUM, DAL__AS_DOUBLE } dal__number_form;
+/* Writes what is constant along a run, by its place in work. */
+void dal__constant_write(const dal__tapes *tapes, uint32_t place, dal__number_form form,
+                         dal__buffer *text);
 /* Writes what a name of an expression means, and returns the end of what it has read of it; NULL:
  * the name stays. */
 typedef const char *dal__name_writer(const void *user, const char *name, size_t length);

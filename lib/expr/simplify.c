@@ -410,26 +410,27 @@ static dal__node signed_sum(dal__graph *graph, term x, term y)
     return sum ? sum : join(graph, x, y);
 }
 
-static dal__node add(dal__graph *graph, dal__node a, dal__node b, bool minus)
+/* a + sign b */
+static dal__node add(dal__graph *graph, dal__node a, int sign, dal__node b)
 {
     if (!a || !b) return 0;
     dal__record r = graph->node[a], s = graph->node[b];
     if (r.op == DAL__NUMBER && s.op == DAL__NUMBER) {
-        double sum = minus ? r.value - s.value : r.value + s.value;
+        double sum = r.value + sign * s.value;
         if (isfinite(sum)) return dal__number(graph, sum);
     }
     term x = split(graph, a), y = split(graph, b);
-    y.negative = y.negative != minus;
+    y.negative = y.negative != (sign < 0);
     return signed_sum(graph, x, y);
 }
 
 dal__node dal__node_add(dal__graph *graph, dal__node a, dal__node b)
 {
-    return add(graph, a, b, false);
+    return add(graph, a, +1, b);
 }
 dal__node dal__node_sub(dal__graph *graph, dal__node a, dal__node b)
 {
-    return add(graph, a, b, true);
+    return add(graph, a, -1, b);
 }
 
 /* ---- functions and powers ---- */

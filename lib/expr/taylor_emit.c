@@ -21,7 +21,7 @@ static void write_coefficient(const writer *w, uint32_t a, const char *order)
     if (!dal__is_constant(a))
         dal__buffer_print(w->text, "c[%u][%s]", a, order);
     else if (*order == '0')
-        dal__constant_write(w->tapes, a & ~DAL__TAYLOR_CONSTANT, false, w->text);
+        dal__constant_write(w->tapes, a & ~DAL__TAYLOR_CONSTANT, DAL__AS_NUM, w->text);
     else
         dal__buffer_append(w->text, "dal_num(0.0)");
 }

@@ -217,9 +217,9 @@ void dal__bordered_record_pivots(dal__equations *e, const dal__bordered *s,
                                  const dal__factors *mass)
 {
     e->pivots = 0;
-    dal__record_pivots(e, mass, true, s->solved == 0);
-    if (s->solved > 0) dal__record_pivots(e, &s->mass, false, true);
-    dal__record_pivots(e, &s->forces, false, true);
+    dal__record_pivots(e, mass, DAL__DIVIDES_MASS | (s->solved == 0 ? DAL__DIVIDES_MOTION : 0));
+    if (s->solved > 0) dal__record_pivots(e, &s->mass, DAL__DIVIDES_MOTION);
+    dal__record_pivots(e, &s->forces, DAL__DIVIDES_MOTION);
 }
 
 /* Half the sum and half the difference of two nodes. */
@@ -283,7 +283,7 @@ static dal_status factor_forces(dal_model *model, dal__bordered *s)
         return DAL_STATUS_MEMORY;
     for (int a = 0; a < m; a++) whose[a] = s->left[s->partner[a] > a ? s->partner[a] : a];
     if (!dal__factors_allocate(model, &s->forces, m, whose)) return DAL_STATUS_MEMORY;
-    DAL_TRY(dal__factors_solve(model, &s->mass, false, m, e->servo ? B : A, R));
+    DAL_TRY(dal__factors_solve(model, &s->mass, DAL__SUMS_PLAIN, m, e->servo ? B : A, R));
     if (!compress(model, &s->A, m, f, A) || !compress(model, &s->R, m, f, R))
         return DAL_STATUS_MEMORY;
     for (int a = 0; a < m; a++)
@@ -320,18 +320,18 @@ static void reduce_rhs(const dal__equations *e, const dal__bordered *s, const da
 }
 
 /* The free coordinates and the forces left, from b' in t. */
-static dal_status solve_free(dal_model *model, const dal__bordered *s, bool forward,
+static dal_status solve_free(dal_model *model, const dal__bordered *s, dal__sums sums,
                              const dal__node *bottom, vectors *w)
 {
     const dal__equations *e = &model->equations;
-    DAL_TRY(dal__factors_solve(model, &s->mass, forward, 1, w->t, w->y));
+    DAL_TRY(dal__factors_solve(model, &s->mass, sums, 1, w->t, w->y));
     for (int a = 0; a < s->lefts; a++) w->pull[a] = bottom[s->left[a]];
     combine_pairs(e, s, w->pull);
     for (int a = 0; a < s->lefts; a++) {
         if (s->partner[a] != a) w->pull[a] = collect(e, s, w->pull[a]);
         w->pull[a] = dal__node_sub(e->graph, w->pull[a], row_product(e, &s->A, a, w->y));
     }
-    DAL_TRY(dal__factors_solve(model, &s->forces, forward, 1, w->pull, w->force));
+    DAL_TRY(dal__factors_solve(model, &s->forces, sums, 1, w->pull, w->force));
     for (int a = 0; a < s->lefts; a++)
         for (int x = s->R.first[a]; x < s->R.first[a + 1]; x++)
             add_product(e, &w->y[s->R.column[x]], s->R.value[x], w->force[a]);
@@ -373,15 +373,16 @@ static dal_status collect_dependent(dal_model *model, const dal__bordered *s, co
     return e->graph->status;
 }
 
-dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, bool collected,
+dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sums sums,
                                const dal__node *top, const dal__node *bottom, dal__node *x,
                                dal__node *h)
 {
     const dal__equations *e = &model->equations;
+    const bool collected = sums == DAL__SUMS_COLLECTED;
     vectors *w = &s->scratch;
     reduce_rhs(e, s, top, bottom, w);
     for (int i = 0; collected && i < s->frees; i++) w->t[i] = collect(e, s, w->t[i]);
-    DAL_TRY(solve_free(model, s, collected && s->way & DAL__FORWARD, bottom, w));
+    DAL_TRY(solve_free(model, s, s->way & DAL__FORWARD ? sums : DAL__SUMS_PLAIN, bottom, w));
     for (int i = 0; i < s->frees; i++) x[s->free[i]] = w->y[i];
     for (int k = 0; k < s->solved; k++)
         x[s->dependent[k]] = dal__node_add(e->graph, w->s[k], row_product(e, &s->S, k, w->y));

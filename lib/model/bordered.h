@@ -25,9 +25,9 @@ bool dal__bordered_keeps_rank(const dal__bordered *bordered);
 /* Replaces the pivots of the equations by the pivots of W and of this system. */
 void dal__bordered_record_pivots(dal__equations *equations, const dal__bordered *bordered,
                                  const dal__factors *mass);
-/* W x - B^T h = top [n], A x = bottom [m]; h is NULL where it is not wanted.  collected: as its way
- * says.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
-dal_status dal__bordered_solve(dal_model *model, dal__bordered *bordered, bool collected,
+/* W x - B^T h = top [n], A x = bottom [m]; h is NULL where it is not wanted.  Sums are
+ * collected as far as its way says.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
+dal_status dal__bordered_solve(dal_model *model, dal__bordered *bordered, dal__sums sums,
                                const dal__node *top, const dal__node *bottom, dal__node *x,
                                dal__node *h);
 

@@ -96,8 +96,8 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
         return f.singular < e->n ? dal__singular_mass(model, f.singular, error)
                                  : dal__dependent_constraints(model, f.singular - e->n, error);
     if (status != DAL_STATUS_OK) return exhausted(model, error);
-    dal__record_pivots(e, &f, false, true);
-    status = dal__factors_solve(model, &f, false, 1, rhs, e->F);
+    dal__record_pivots(e, &f, DAL__DIVIDES_MOTION);
+    status = dal__factors_solve(model, &f, DAL__SUMS_PLAIN, 1, rhs, e->F);
     return status == DAL_STATUS_OK ? DAL_STATUS_OK : exhausted(model, error);
 }
 

@@ -247,7 +247,7 @@ static dal__node pivot_size(dal__graph *graph, const dal__factors *f, dal__node 
     return size;
 }
 
-void dal__record_pivots(dal__equations *e, const dal__factors *f, bool of_mass, bool of_motion)
+void dal__record_pivots(dal__equations *e, const dal__factors *f, unsigned divides)
 {
     enum { DEPTH = 8 };
     for (int k = 0; k < f->n; k++) {
@@ -259,8 +259,7 @@ void dal__record_pivots(dal__equations *e, const dal__factors *f, bool of_mass, 
                          .size = pivot_size(e->graph, f, entry, k),
                          .constraint = by_row > by_column ? by_row : by_column,
                          .checked = pivot != entry && !is_product(e->graph, pivot, DEPTH),
-                         .of_mass = of_mass,
-                         .of_motion = of_motion};
+                         .divides = divides};
     }
 }
 
@@ -339,8 +338,8 @@ dal_status dal__factor(dal_model *model, dal__factors *f)
 /* One right-hand side; y[n] is scratch.  The last division has one rounding: the rounding of a
  * multiplied reciprocal would be the same in every step where the pivot is constant, and make D
  * drift. */
-static void solve_one(dal__graph *graph, const dal__factors *f, bool collect, const dal__node *rhs,
-                      dal__node *x, dal__node *y)
+static void solve_one(dal__graph *graph, const dal__factors *f, dal__sums sums,
+                      const dal__node *rhs, dal__node *x, dal__node *y)
 {
     for (int k = 0; k < f->n; k++) {
         y[k] = rhs[f->row[k]];
@@ -349,7 +348,8 @@ static void solve_one(dal__graph *graph, const dal__factors *f, bool collect, co
             if (!is_zero(graph, y[j]))
                 y[k] = dal__node_sub(graph, y[k], dal__node_mul(graph, *at(f, k, j), y[j]));
         }
-        if (collect && f->first[2 * k] < f->first[2 * k + 1]) y[k] = dal__collect(graph, y[k]);
+        if (sums == DAL__SUMS_COLLECTED && f->first[2 * k] < f->first[2 * k + 1])
+            y[k] = dal__collect(graph, y[k]);
     }
     for (int k = f->n; k-- > 0;) {
         for (int l = f->first[2 * k + 1]; l < f->first[2 * k + 2]; l++) {
@@ -362,12 +362,12 @@ static void solve_one(dal__graph *graph, const dal__factors *f, bool collect, co
     }
 }
 
-dal_status dal__factors_solve(dal_model *model, const dal__factors *f, bool collect, int columns,
+dal_status dal__factors_solve(dal_model *model, const dal__factors *f, dal__sums sums, int columns,
                               const dal__node *rhs, dal__node *x)
 {
     dal__graph *graph = model->equations.graph;
     dal__node *y = dal__model_nodes(model, f->n, 0);
     if (!y) return DAL_STATUS_MEMORY;
-    for (int c = 0; c < columns; c++) solve_one(graph, f, collect, rhs + c * f->n, x + c * f->n, y);
+    for (int c = 0; c < columns; c++) solve_one(graph, f, sums, rhs + c * f->n, x + c * f->n, y);
     return graph->status;
 }

@@ -23,15 +23,16 @@ bool dal__factors_allocate(dal_model *model, dal__factors *factors, int n, const
 /* Factors the matrix.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_SINGULAR, DAL_STATUS_TOO_LARGE (too
  * many unknowns are coupled, directly or by the elimination). */
 dal_status dal__factor(dal_model *model, dal__factors *factors);
-/* Appends the pivots to the equations' own. */
-void dal__record_pivots(dal__equations *equations, const dal__factors *factors, bool of_mass,
-                        bool of_motion);
+/* Appends the pivots to the equations' own; divides: a set of DAL__DIVIDES_... */
+void dal__record_pivots(dal__equations *equations, const dal__factors *factors, unsigned divides);
 /* The product of the pivots at values of the symbols: the determinant, except for its sign. */
 double dal__pivot_product(const dal__equations *equations, const dal__factors *factors,
                           const double *values);
-/* Solves for right-hand sides [columns*n], one after the other, into x[columns*n]; collect: with
- * sums in few operations (collect.h).  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
-dal_status dal__factors_solve(dal_model *model, const dal__factors *factors, bool collect,
+/* How sums are written: as they arise, or in few operations (collect.h). */
+typedef enum dal__sums { DAL__SUMS_PLAIN, DAL__SUMS_COLLECTED } dal__sums;
+/* Solves for right-hand sides [columns*n], one after the other, into x[columns*n].  Errors:
+ * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
+dal_status dal__factors_solve(dal_model *model, const dal__factors *factors, dal__sums sums,
                               int columns, const dal__node *rhs, dal__node *x);
 
 #endif

@@ -5,14 +5,16 @@
 #include "dalembert_program.h"
 #include "expr/derivative.h"
 
+/* What divides by a pivot: W^-1, F. */
+enum { DAL__DIVIDES_MASS = 1, DAL__DIVIDES_MOTION = 2 };
+
 /* A pivot of the elimination.  It must not be small compared with the terms it was subtracted
  * from. */
 typedef struct dal__pivot {
     dal__node pivot, size;
-    int constraint; /* whose, from 1; 0: of the mass matrix */
-    bool checked;   /* by the programs that divide by it; the others only by the diagnosis */
-    bool of_mass;   /* W^-1 divides by it */
-    bool of_motion; /* F divides by it */
+    int constraint;   /* whose, from 1; 0: of the mass matrix */
+    bool checked;     /* by the programs that divide by it; the others only by the diagnosis */
+    unsigned divides; /* DAL__DIVIDES_MASS, DAL__DIVIDES_MOTION */
 } dal__pivot;
 
 /* The equations of one model.  Every array lies in the model's memory; a missing node is 0 only in

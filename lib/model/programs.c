@@ -63,7 +63,8 @@ dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
                               code == DAL__PROGRAM_ENERGY_NORMAL;
     for (int k = 0; k < e->pivots; k++) {
         const dal__pivot *p = &e->pivot[k];
-        const bool divides = (motion && p->of_motion) || (inverts_mass && p->of_mass);
+        const bool divides = (motion && p->divides & DAL__DIVIDES_MOTION) ||
+                             (inverts_mass && p->divides & DAL__DIVIDES_MASS);
         if (!p->checked || !divides) continue;
         all[total++] = p->pivot;
         all[total++] = p->size;

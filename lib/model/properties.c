@@ -226,15 +226,21 @@ static void visit(search *s, dal__node node)
     if (exponent.op == DAL__NUMBER && exponent.value < 0.0) s->flag[r.a] |= FACTOR;
 }
 
-/* The product of the pivots of W or of A W^-1 B^T, where it varies along a run: the matrix is
- * singular where it passes through zero, and a step can pass that, too. */
-static bool guard_determinant(search *s, bool mass, const char *name)
+/* Whether it is a pivot of W, or of A W^-1 B^T. */
+static bool is_of_mass(const dal__pivot *p)
+{
+    return p->divides & DAL__DIVIDES_MASS && p->constraint == 0;
+}
+static bool is_of_constraints(const dal__pivot *p) { return p->constraint > 0; }
+
+/* The product of these pivots, where it varies along a run: the matrix is singular where it passes
+ * through zero, and a step can pass that, too. */
+static bool guard_determinant(search *s, bool (*is_factor)(const dal__pivot *p), const char *name)
 {
     dal__equations *e = &s->model->equations;
     dal__node det = dal__number(e->graph, 1.0);
     for (int k = 0; k < e->pivots; k++)
-        if (mass ? e->pivot[k].of_mass && e->pivot[k].constraint == 0 : e->pivot[k].constraint > 0)
-            det = dal__node_mul(e->graph, det, e->pivot[k].pivot);
+        if (is_factor(&e->pivot[k])) det = dal__node_mul(e->graph, det, e->pivot[k].pivot);
     return !e->vakonomic && append_guard(s, det, name);
 }
 
@@ -254,9 +260,9 @@ dal_status dal__guards(dal_model *model)
             if (s.flag[node]) visit(&s, node);
     }
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    if (e->servo) guard_determinant(&s, false, "the reactions: det A W^-1 B^T");
+    if (e->servo) guard_determinant(&s, is_of_constraints, "the reactions: det A W^-1 B^T");
     const char *name =
         e->restricted ? "the mass matrix on ker A: its determinant" : "the mass matrix: det W";
-    if (guard_determinant(&s, true, name)) e->mass_guard = e->guards;
+    if (guard_determinant(&s, is_of_mass, name)) e->mass_guard = e->guards;
     return s.full ? DAL_STATUS_TOO_LARGE : e->graph->status;
 }

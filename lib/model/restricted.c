@@ -92,7 +92,7 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
     const dal_status status = dal__factor(model, &r->S);
     if (status == DAL_STATUS_SINGULAR) r->singular = r->S.constraint[r->S.singular] - 1;
     DAL_TRY(status);
-    DAL_TRY(dal__factors_solve(model, &r->S, false, n, lifted, r->N));
+    DAL_TRY(dal__factors_solve(model, &r->S, DAL__SUMS_PLAIN, n, lifted, r->N));
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             dal__node sum = dal__number(e->graph, 0.0);
@@ -138,8 +138,8 @@ dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__res
 void dal__restricted_record_pivots(dal__equations *e, const dal__restricted *r)
 {
     e->pivots = 0;
-    dal__record_pivots(e, &r->S, true, true);
-    dal__record_pivots(e, &r->V, true, true);
+    dal__record_pivots(e, &r->S, DAL__DIVIDES_MASS | DAL__DIVIDES_MOTION);
+    dal__record_pivots(e, &r->V, DAL__DIVIDES_MASS | DAL__DIVIDES_MOTION);
 }
 
 /* ---- a right-hand side ---- */
@@ -179,7 +179,7 @@ dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, con
         for (int k = 0; k < n; k++) add_product(e, &rhs[i], r->P[k * n + i], rest[k]);
         rhs[i] = dal__node_neg(e->graph, rhs[i]);
     }
-    DAL_TRY(dal__factors_solve(model, &r->V, false, 1, rhs, y));
+    DAL_TRY(dal__factors_solve(model, &r->V, DAL__SUMS_PLAIN, 1, rhs, y));
     for (int a = 0; a < m; a++) {
         for (int i = 0; i < n; i++) add_product(e, &out[a], e->A[a * n + i], y[i]);
         out[a] = dal__node_neg(e->graph, out[a]);

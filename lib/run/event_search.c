@@ -562,9 +562,14 @@ dal_status dal__search_events(dal__event_search *w, double *distance)
 
 /* ---- holding ---- */
 
-void dal__hold_as_searched(const dal__event_search *w, bool is_held)
+void dal__hold_as_searched(const dal__event_search *w)
 {
-    if (w->crossing == w->held.crossing) dal__run_hold(w->run, is_held ? w->held.point : NULL);
+    if (w->crossing == w->held.crossing) dal__run_hold(w->run, w->held.point);
+}
+
+void dal__let_go_as_searched(const dal__event_search *w)
+{
+    if (w->crossing == w->held.crossing) dal__run_hold(w->run, NULL);
 }
 
 void dal__hold_as_kept(dal_run *run)

@@ -62,9 +62,10 @@ dal__event_search dal__event_search_begin(dal_run *run, dal_error *error);
 dal_status dal__search_events(dal__event_search *w, double *distance);
 
 /* Holds the branches as the search did that was kept for the present state, if any were held; and
- * the same where the caller has that search, or no longer. */
+ * the same where the caller has that search, until they are let go. */
 void dal__hold_as_kept(dal_run *run);
-void dal__hold_as_searched(const dal__event_search *w, bool is_held);
+void dal__hold_as_searched(const dal__event_search *w);
+void dal__let_go_as_searched(const dal__event_search *w);
 /* Whether the rates lead back, from both sides, to a branch that is where event k was found. */
 bool dal__event_slides(const dal__event_search *w, int k);
 

@@ -282,9 +282,10 @@ static dal_status check_reactions(const dal__layout *k, dal_error *error)
 
 int dal__max_observables(const dal__layout *k)
 {
+    const bool is_exact_known = true;
     int count = 0;
     for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++)
-        count += dal__observable_count(k, group, true);
+        count += dal__observable_count(k, group, is_exact_known);
     return count;
 }
 
