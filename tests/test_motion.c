@@ -153,6 +153,7 @@ static const char *const collected[][2] = {
     {"x*(y + z) - y*x", "x*z"},
     {"a*x*(y - z) + z*a*x - a*x*y", "0"},
     {"x'*y'*z + x'*y'*x + x'*x*z", "x'*(y'*(x + z) + x*z)"},
+    {"x*z*y + x*z*x' + z*y' + x*(y + x') - x*y - x*x'", "z*(x*(y + x') + y')"},
     {"sin(x)^2*y + cos(x)^2*z", "sin(x)^2*y + cos(x)^2*z"},
     {"(x + y)*(x - y)", "(x + y)*(x - y)"},
 };
