@@ -10,14 +10,14 @@
 #include "dalembert_analysis.h"
 #include "io/file.h"
 #include "io/gnuplot.h"
-#include "io/json.h"
 #include "io/trajectory.h"
+#include "lyapunov_results.h"
 #include "run/request.h"
-#include "run/request_json.h"
 #include "run/row_times.h"
 #include "ui/arguments.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 #include "ui/signals.h"
 
 #include <math.h>
@@ -25,15 +25,12 @@
 #include <stdlib.h>
 
 typedef struct lyapunov_settings {
-    bool is_volume, json, force;
+    bool is_volume, json, details, force;
     run_request request;
     const char *output;
     double transient;
     long long rows, exponents; /* exponents: 0 for all */
 } lyapunov_settings;
-
-/* The options of a run that the commands do not take. */
-#define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(space))
 
 /* Steps between two polls of the signals. */
 enum { CHUNK = 200, MAX_ROWS = 100000000, MAX_COLUMN_NAME = 24 };
@@ -205,167 +202,6 @@ static int run_with_table(tangent_study *s)
     return status;
 }
 
-/* ---- the results --------------------------------------------------------------------------- */
-
-/* The sum of the exponents against the divergence; the reason is "" where they are compared. */
-typedef struct balance {
-    dal_balance found;
-    const char *reason;
-} balance;
-
-/* What cannot be distinguished from 0 after this time: exponents of regular motion are about
- * log(1 + T/tau)/T. */
-static double resolution(const tangent_study *s)
-{
-    const double tau = dal_lyapunov_time_unit(s->spectrum);
-    const double T = fmax((dal_run_time(dal_lyapunov_run(s->spectrum)) - s->begin) / tau, 1.0);
-    return log(T + 1.0) / T / tau;
-}
-
-static const char *exponent_word(const tangent_study *s, const dal_average *a)
-{
-    if (a->low > resolution(s)) return "positive";
-    return a->high < -resolution(s) ? "negative" : "may be 0";
-}
-
-/* A mean divergence is decided by its interval alone: it is a mean of known values, and log(T)/T is
- * for exponents. */
-static const char *volume_word(const tangent_study *s, const dal_average *a)
-{
-    const double rounding = 1e-11 / dal_lyapunov_time_unit(s->spectrum);
-    if (fabs(a->low) <= rounding && fabs(a->high) <= rounding) return "preserved at every step";
-    if (a->low > 0.0) return "grows";
-    return a->high < 0.0 ? "shrinks" : "may be 0";
-}
-
-/* ---- in words ------------------------------------------------------------------------------ */
-
-static void print_mean(const char *name, const dal_average *a, const char *word)
-{
-    printf("%-15s %12.6g %12.5g %12.5g  %s\n", name, a->mean, a->low, a->high, word);
-}
-
-static void print_exponents(const tangent_study *s)
-{
-    dal_average a;
-    for (int i = 0; i < dal_lyapunov_count(s->spectrum); i++) {
-        char name[32];
-        snprintf(name, sizeof name, "exponent %d", i + 1);
-        dal_lyapunov_exponent(s->spectrum, i, &a);
-        print_mean(name, &a, exponent_word(s, &a));
-    }
-    dal_lyapunov_sum(s->spectrum, &a);
-    print_mean("their sum", &a, dal_lyapunov_is_whole(s->spectrum) ? "all" : "not all");
-    dal_lyapunov_divergence(s->spectrum, &a);
-    print_mean("divergence of F", &a, "exact, at every step");
-    printf("\nexponents of regular motion may reach about log(1 + T/tau)/T = %.2g\n",
-           resolution(s));
-}
-
-static void print_volume(const tangent_study *s)
-{
-    dal_average motion, step;
-    dal_lyapunov_divergence(s->spectrum, &motion);
-    dal_lyapunov_sum(s->spectrum, &step);
-    print_mean("divergence of F", &motion, volume_word(s, &motion));
-    print_mean("log|det J|/h", &step, volume_word(s, &step));
-    printf("\n%d of %d directions; step less motion: %.2g\n", dal_lyapunov_count(s->spectrum),
-           dal_run_dimension(dal_lyapunov_run(s->spectrum)), step.mean - motion.mean);
-}
-
-static void print_balance(const balance *b)
-{
-    if (b->reason[0]) {
-        printf("sum less divergence: not compared: %s\n", b->reason);
-        return;
-    }
-    printf("sum less divergence: %.2g; the error of the method is at most about %.2g\n",
-           b->found.difference, b->found.margin);
-    if (b->found.surface != 0.0)
-        printf("(the surface that the method enforces accounts for %.2g more)\n", b->found.surface);
-}
-
-static void print_means(const tangent_study *s, const balance *b)
-{
-    char method[128];
-    const dal_run *run = dal_lyapunov_run(s->spectrum);
-    dal_method_name(&s->request->method, method, sizeof method);
-    printf("%s, %s, h = %g: means over t = %g .. %g\n", s->request->system_name, method,
-           s->request->options.step, s->begin, dal_run_time(run));
-    printf("the derivative of the step %s\n\n", dal_lyapunov_is_exact(s->spectrum)
-                                                    ? "exact, by the tangent system"
-                                                    : "by differences of order 8");
-    printf("%-15s %12s %25s\n", "", "mean", "95 % interval");
-    (s->set->is_volume ? print_volume : print_exponents)(s);
-    print_balance(b);
-}
-
-/* ---- as JSON ------------------------------------------------------------------------------- */
-
-static void put_mean(json_writer *w, const char *name, const dal_average *a, const char *word)
-{
-    json_open(w, name, JSON_ON_ONE_LINE);
-    json_put_number(w, "mean", a->mean);
-    json_put_number(w, "low", a->low);
-    json_put_number(w, "high", a->high);
-    if (word) json_put_text(w, "result", word);
-    json_close(w);
-}
-
-static void put_exponents(json_writer *w, const tangent_study *s)
-{
-    dal_average a;
-    json_open_list(w, "exponents", JSON_LINES);
-    for (int i = 0; i < dal_lyapunov_count(s->spectrum); i++) {
-        dal_lyapunov_exponent(s->spectrum, i, &a);
-        put_mean(w, NULL, &a, exponent_word(s, &a));
-    }
-    json_close(w);
-    dal_lyapunov_sum(s->spectrum, &a);
-    put_mean(w, "sum", &a, NULL);
-    json_put_flag(w, "sum_is_of_all", dal_lyapunov_is_whole(s->spectrum));
-    dal_lyapunov_divergence(s->spectrum, &a);
-    put_mean(w, "divergence", &a, NULL);
-}
-
-static void put_volume(json_writer *w, const tangent_study *s)
-{
-    dal_average motion, step;
-    dal_lyapunov_divergence(s->spectrum, &motion);
-    dal_lyapunov_sum(s->spectrum, &step);
-    put_mean(w, "divergence", &motion, volume_word(s, &motion));
-    put_mean(w, "step", &step, volume_word(s, &step));
-    json_put_integer(w, "directions", dal_lyapunov_count(s->spectrum));
-    json_put_integer(w, "dimension", dal_run_dimension(dal_lyapunov_run(s->spectrum)));
-}
-
-static void put_balance(json_writer *w, const balance *b)
-{
-    const bool is_compared = !b->reason[0];
-    json_open(w, "balance", JSON_LINES);
-    json_put_number(w, "difference", is_compared ? b->found.difference : NAN);
-    json_put_number(w, "margin", is_compared ? b->found.margin : NAN);
-    json_put_number(w, "surface", is_compared ? b->found.surface : NAN);
-    json_put_text(w, "reason", is_compared ? NULL : b->reason);
-    json_close(w);
-}
-
-static void put_means(const tangent_study *s, const balance *b)
-{
-    json_writer w = json_begin_results(s->name);
-    request_open_json(&w, s->request, LYAPUNOV_WITHOUT);
-    json_put_number(&w, "transient", s->set->transient);
-    json_close(&w);
-    json_put_text(&w, "state", analysis_state(s->status));
-    json_put_number(&w, "from", s->begin);
-    json_put_number(&w, "to", dal_run_time(dal_lyapunov_run(s->spectrum)));
-    json_put_text(&w, "derivative", dal_lyapunov_is_exact(s->spectrum) ? "exact" : "differences");
-    json_put_number(&w, "resolution", s->set->is_volume ? NAN : resolution(s));
-    (s->set->is_volume ? put_volume : put_exponents)(&w, s);
-    put_balance(&w, b);
-    json_end_results(&w);
-}
-
 /* ---- all ----------------------------------------------------------------------------------- */
 
 static const cli_option options[] = {
@@ -378,6 +214,7 @@ static const cli_option options[] = {
      CLI_ROW(cli_parse_output, lyapunov_settings, output)},
     ANALYSIS_FORCE_OPTION(lyapunov_settings),
     JSON_OPTION(lyapunov_settings),
+    SCREEN_DETAILS_OPTION(lyapunov_settings),
     {"exponents", "K", NULL, "computes the K largest only",
      CLI_INTEGER(lyapunov_settings, exponents, 1, 1e6)},
 };
@@ -390,20 +227,32 @@ static cli_group lyapunov_group(lyapunov_settings *settings)
     return group;
 }
 
+static int print_results(const lyapunov_results *r, const lyapunov_settings *set)
+{
+    if (!set->json && !set->details && screen_has_reader()) return lyapunov_print_screen(r);
+    (set->json ? lyapunov_put : lyapunov_print)(r);
+    return cli_close(stdout, "standard output");
+}
+
 /* Prints the means, which after a failure are those so far. */
 static int report_means(const tangent_study *s)
 {
     dal_error error = {0};
-    balance b = {.reason = ""};
-    if (dal_lyapunov_balance(s->spectrum, &b.found, &error) != DAL_STATUS_OK)
-        b.reason = error.message;
-    (s->set->json ? put_means : print_means)(s, &b);
-    const int closed = cli_close(stdout, "standard output");
-    if (closed != CLI_DONE || b.reason[0] || b.found.holds) return closed;
+    lyapunov_results r = {.is_volume = s->set->is_volume,
+                          .request = s->request,
+                          .spectrum = s->spectrum,
+                          .transient = s->set->transient,
+                          .begin = s->begin,
+                          .status = s->status,
+                          .reason = ""};
+    if (dal_lyapunov_balance(s->spectrum, &r.balance, &error) != DAL_STATUS_OK)
+        r.reason = error.message;
+    const int printed = print_results(&r, s->set);
+    if (printed != CLI_DONE || r.reason[0] || r.balance.holds) return printed;
     return cli_fail(CLI_FAILED,
                     "%s: the sum of the exponents differs from the mean divergence by %g, more "
                     "than %g: the derivative of the steps is not reliable",
-                    s->request->system_name, b.found.difference, b.found.margin);
+                    s->request->system_name, r.balance.difference, r.balance.margin);
 }
 
 static int measure_means(lyapunov_settings *settings)

@@ -136,7 +136,7 @@ static int request_cell(void)
     return cell;
 }
 
-static int must_stop(void *user)
+static bool must_stop(void *user)
 {
     serve_requests(user);
     return cli_interrupted();

@@ -186,6 +186,40 @@ if needs 15 "no terminal (script, stty)" terminal; then
     prints '^integrator +stated  found '
     counted
 fi
+# x'' = x has the exponents 1 and -1, x'' = -x - x'/5 twice -1/10; div F is 0 and -1/5.
+printf '%s\n' "coordinates: [x]" "lagrangian: x'^2/2 + x^2/2" "start: {x: 1}" >unstable.yaml
+printf '%s\n' "coordinates: [x]" "lagrangian: x'^2/2 - x^2/2" "forces: {x: -x'/5}" "start: {x: 1}" >damped.yaml
+spectrum="--integrator gauss8 --step 0.1 --time 100"
+if needs 22 "no terminal (script, stty)" terminal; then
+    case_is "lyapunov: the largest exponent and its sign, and how many others have it"
+    shown 80 lyapunov unstable.yaml $spectrum
+    fits 80
+    prints '^The largest exponent is 1 per unit of t \('
+    prints '^It is positive: the motion is chaotic if it is bounded$'
+    prints '^2 exponents: 1 positive, 0 may be 0, 1 negative$'
+    prints '^exponent 2  +-1 '
+    prints '^The sum agrees with the divergence: '
+    shown 60 lyapunov damped.yaml $spectrum
+    fits 60
+    prints '^The largest exponent is -0\.1 per unit of t \('
+    prints '^2 exponents: 0 positive, 0 may be 0, 2 negative$'
+    case_is "lyapunov: a pipe and --details have all of them"
+    shown 80 lyapunov chaotic-oscillators --integrator rk4 --step 0.1 --time 10
+    fits 80
+    prints '^\.\.\. and 2 more \(--details\)$'
+    try 0 lyapunov damped.yaml $spectrum
+    mv out piped
+    shown 80 lyapunov damped.yaml $spectrum --details
+    expect "other bytes" cmp piped out
+    case_is "volume: what becomes of it in the motion and in the steps"
+    for columns in 80 60; do
+        shown $columns volume damped.yaml $spectrum
+        fits $columns
+    done
+    prints '^The volume of \(q, v\) in the motion: shrinks; in'
+    prints '^divergence of F +-0\.2 .*shrinks$'
+    counted
+fi
 if needs 7 "no terminal (script, stty)" terminal; then
     case_is "list: the names alone"
     for columns in 80 60; do
