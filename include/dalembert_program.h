@@ -7,6 +7,9 @@
 
 #include "dalembert.h"
 
+#include <stddef.h>
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -27,6 +30,17 @@ dal_status dal__parse_number(const char *text, size_t length, double *value);
  * locale the same, infinity as inf or -inf, and NaN as nan.  Returns the number of characters
  * before the NUL; dal__parse_number gives x again where it is finite. */
 int dal__format_number(char *text, double x);
+
+/* ---- hashes -------------------------------------------------------------------------------- */
+
+/* FNV-1a with 64 bits (Fowler, Noll, Vo; draft-eastlake-fnv): continues a hash by these bytes. */
+#define DAL__HASH_START UINT64_C(0xcbf29ce484222325)
+static inline uint64_t dal__hash(uint64_t hash, const void *bytes, size_t length)
+{
+    const unsigned char *byte = (const unsigned char *)bytes;
+    for (size_t i = 0; i < length; i++) hash = (hash ^ byte[i]) * UINT64_C(0x100000001b3);
+    return hash;
+}
 
 /* ---- ensembles ----------------------------------------------------------------------------- */
 

@@ -1,5 +1,6 @@
 /* ensemble_directory.c - an ensemble in a directory: begun, read, marked. */
 #include "ensemble_directory.h"
+#include "dalembert_program.h"
 #include "io/endian.h"
 #include "io/file.h"
 #include "io/json.h"
@@ -181,13 +182,13 @@ static int find_fingerprint(ensemble_directory *dir, const ensemble *e)
     const char *builtin = dal_builtin_text(e->request.system_name);
     size_t length = builtin ? strlen(builtin) : 0;
     const int64_t counts[] = {e->members, e->seed};
-    uint64_t hash = file_hash(FILE_HASH_START, input, strlen(input));
-    hash = file_hash(hash, counts, sizeof counts);
+    uint64_t hash = dal__hash(DAL__HASH_START, input, strlen(input));
+    hash = dal__hash(hash, counts, sizeof counts);
     for (int i = 0; i < e->variations; i++)
-        hash = file_hash(hash, e->vary_text[i], strlen(e->vary_text[i]) + 1);
+        hash = dal__hash(hash, e->vary_text[i], strlen(e->vary_text[i]) + 1);
     free(input);
     if (!builtin && !(copy = file_read(dir->system, &length))) return CLI_IO;
-    dir->fingerprint = file_hash(hash, builtin ? builtin : copy, length);
+    dir->fingerprint = dal__hash(hash, builtin ? builtin : copy, length);
     free(copy);
     return CLI_DONE;
 }

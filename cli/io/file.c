@@ -329,13 +329,6 @@ int file_remove(const char *path)
     return unlink(path) == 0 || errno == ENOENT ? CLI_DONE : cli_io("remove", path);
 }
 
-uint64_t file_hash(uint64_t hash, const void *bytes, size_t length)
-{
-    const unsigned char *byte = bytes;
-    for (size_t i = 0; i < length; i++) hash = (hash ^ byte[i]) * UINT64_C(0x100000001b3);
-    return hash;
-}
-
 void cli_put(FILE *out, double x)
 {
     /* Zero of either sign is common (p = pi = 0 on the surface) and quick to write. */

@@ -6,7 +6,6 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 
 /* The bytes of a file and a NUL, allocated; NULL after a message. */
@@ -51,10 +50,6 @@ int file_create(const char *path, const void *bytes, size_t length);
 
 /* Removes a file that may be absent. */
 int file_remove(const char *path);
-
-/* FNV-1a, 64 bits, going on from hash. */
-#define FILE_HASH_START UINT64_C(0xcbf29ce484222325)
-uint64_t file_hash(uint64_t hash, const void *bytes, size_t length);
 
 /* Writes x with 17 digits, as a double reads it back; minus zero as 0. */
 void cli_put(FILE *out, double x);

@@ -15,6 +15,7 @@
  * with events or compared pivots both are refused: what they have of these differs.  Statistics of
  * layout 3 have no root mean squares: earlier_statistics.c completes them. */
 #include "checkpoint.h"
+#include "dalembert_program.h"
 #include "earlier_statistics.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -80,7 +81,7 @@ int checkpoint_save(const run_directory *dir, const run_position *position, cons
     copy_words(bytes, &header, HEADER_WORDS);
     copy_words(body, state, state_words);
     copy_words(body + state_words * WORD, statistics, (size_t)count * STATISTICS_WORDS);
-    const uint64_t sum = file_hash(FILE_HASH_START, bytes, words * WORD);
+    const uint64_t sum = dal__hash(DAL__HASH_START, bytes, words * WORD);
     copy_words(bytes + words * WORD, &sum, 1);
     cli_hold_exit();
     int status = file_write(dir->fresh, bytes, (words + 1) * WORD, dir->sync);
@@ -114,7 +115,7 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
     copy_words(&sum, bytes + words * WORD, 1);
     if (h->magic != magic && h->magic != magic_04 && h->magic != magic_03)
         return damaged(path, "it does not begin as one");
-    if (sum != file_hash(FILE_HASH_START, bytes, words * WORD))
+    if (sum != dal__hash(DAL__HASH_START, bytes, words * WORD))
         return damaged(path, "its check sum is wrong");
     if (h->fingerprint != fingerprint)
         return cli_fail(CLI_USAGE,

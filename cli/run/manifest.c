@@ -12,6 +12,7 @@
  * The text of the input never changes, whatever else is written.  Its hash, continued over the
  * text of the system, is in each checkpoint, so that a checkpoint belongs to one request alone. */
 #include "manifest.h"
+#include "dalembert_program.h"
 #include "request_json.h"
 #include "system.h"
 #include "ui/memory.h"
@@ -126,8 +127,8 @@ static int find_fingerprint(run_directory *dir, const char *builtin)
         return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->system);
     char *copy = builtin ? NULL : file_read(dir->system, &length);
     if (!builtin && !copy) return CLI_IO;
-    const uint64_t hash = file_hash(FILE_HASH_START, dir->input, strlen(dir->input));
-    dir->fingerprint = file_hash(hash, builtin ? builtin : copy, length);
+    const uint64_t hash = dal__hash(DAL__HASH_START, dir->input, strlen(dir->input));
+    dir->fingerprint = dal__hash(hash, builtin ? builtin : copy, length);
     free(copy);
     return CLI_DONE;
 }

@@ -7,6 +7,7 @@
  * both ends. */
 #include "study_cell.h"
 
+#include "dalembert_program.h"
 #include "io/file.h"
 #include "io/trajectory.h"
 #include "run/manifest.h"
@@ -253,7 +254,7 @@ static int read_rows(const cell_run *r)
     if (status != CLI_DONE) return status;
     tracked_column *column = cli_calloc((size_t)reader.columns, sizeof *column);
     choose_tracks(c, reader.columns, column);
-    c->bits = FILE_HASH_START;
+    c->bits = DAL__HASH_START;
     for (long long k = 0; k <= r->request.samples && (more = reader_next(&reader)) > 0; k++) {
         for (int i = 0; k == 0 && i < reader.columns; i++)
             if (column[i].measure != MAX_ABS) column[i].first = reader.row[i];
@@ -261,7 +262,7 @@ static int read_rows(const cell_run *r)
         const int window = (int)(part * STUDY_WINDOWS);
         raise_tracks(column, reader.row, reader.columns, c->windows[window]);
         c->window_count = window + 1;
-        c->bits = file_hash(c->bits, reader.row + 1, 2 * n * sizeof(double));
+        c->bits = dal__hash(c->bits, reader.row + 1, 2 * n * sizeof(double));
     }
     free(column);
     reader_close(&reader);
@@ -356,7 +357,7 @@ static dal_status add_end(void *user, dal_run *run, long long row, double t)
     (void)t;
     for (int i = 0; i < 2 * c->of_case->system->n; i++) {
         const double x = dal_run_state(run)[i] + 0.0;
-        c->bits = file_hash(c->bits, &x, sizeof x);
+        c->bits = dal__hash(c->bits, &x, sizeof x);
     }
     return DAL_STATUS_OK;
 }
@@ -403,7 +404,7 @@ static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
                  start = cli_thread_seconds();
     s->native = native_begin(request->run, request->time,
                              alike * steps / (double)request->statistics, alike, r->plan->native);
-    c->bits = FILE_HASH_START;
+    c->bits = DAL__HASH_START;
     const dal_status status = dal_run_sample(request->run, request->time, 1, 0, &observer, error);
     const bool has_ended = status == DAL_STATUS_OK || status == DAL_STATUS_STOPPED;
     dal_run_classify(request->run, s->statistics, !has_ended, c->trend);

@@ -1,5 +1,6 @@
 /* study_directory.c - a study in a directory: begun, read, finished. */
 #include "study_directory.h"
+#include "dalembert_program.h"
 
 #include "io/file.h"
 #include "io/json.h"
@@ -99,14 +100,14 @@ static int write_manifest(const study_directory *dir, const study_plan *plan, co
 /* A hash of the study and of the systems in it. */
 static int hash_study(const study_plan *plan, const char *text, size_t length, uint64_t *hash)
 {
-    *hash = file_hash(FILE_HASH_START, text, length);
+    *hash = dal__hash(DAL__HASH_START, text, length);
     for (int i = 0; i < plan->case_count; i++) {
         const study_case *e = &plan->cases[i];
         if (!e->is_first) continue;
         char *copy = e->copy ? file_read(e->copy, &length) : NULL;
         if (e->copy && !copy) return CLI_IO;
         const char *system = copy ? copy : dal_builtin_text(e->name);
-        *hash = file_hash(*hash, system, copy ? length : strlen(system));
+        *hash = dal__hash(*hash, system, copy ? length : strlen(system));
         free(copy);
     }
     return CLI_DONE;

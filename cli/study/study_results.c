@@ -10,6 +10,7 @@
  * Records are only ever added, so a file that is cut off anywhere has all records before. */
 #include "study_results.h"
 
+#include "dalembert_program.h"
 #include "io/endian.h"
 #include "io/file.h"
 #include "io/store.h"
@@ -121,7 +122,7 @@ static size_t check_record(const unsigned char *bytes, size_t size, int cells)
     const uint64_t words = read_le64(bytes);
     if (words <= RECORD_WORDS || words > size / WORD) return 0;
     const size_t length = ((size_t)words - 1) * WORD;
-    if (file_hash(FILE_HASH_START, bytes, length) != read_le64(bytes + length)) return 0;
+    if (dal__hash(DAL__HASH_START, bytes, length) != read_le64(bytes + length)) return 0;
     if (read_le64(bytes + WORD) >= (uint64_t)cells) return 0;
     return words == RECORD_WORDS + observables_of(bytes) * TREND_WORDS + MESSAGE_WORDS + 1
                ? (size_t)words
@@ -257,7 +258,7 @@ static unsigned char *make_record(int number, const study_cell *cell)
     }
     memcpy(at, cell->error.message, DAL_MESSAGE_SIZE);
     write_le64(at + DAL_MESSAGE_SIZE,
-               file_hash(FILE_HASH_START, bytes, (size_t)(at - bytes) + DAL_MESSAGE_SIZE));
+               dal__hash(DAL__HASH_START, bytes, (size_t)(at - bytes) + DAL_MESSAGE_SIZE));
     return bytes;
 }
 

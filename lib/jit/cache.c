@@ -9,8 +9,8 @@
  * is locked as long as the compiler or the process that waits for it lives.  A folder whose source
  * nobody has locked was left by processes that were killed; the next compilation removes it. */
 #include "jit/cache.h"
-#include "core/hash.h"
 #include "core/machine.h"
+#include "dalembert_program.h"
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>

@@ -15,7 +15,6 @@
  *
  * so that it depends neither on other members nor on other names. */
 #include "core/error.h"
-#include "core/hash.h"
 #include "dalembert_program.h"
 #include "run/batch.h"
 #include "run/start.h"
