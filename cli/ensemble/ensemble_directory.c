@@ -19,9 +19,7 @@ void ensemble_directory_open(ensemble_directory *dir, const char *path)
 {
     *dir = (ensemble_directory){.path = path, .marks = -1, .descriptor = -1};
     dir->members.descriptor = dir->final.descriptor = dir->rows.descriptor = -1;
-#define MAKE_PATH(name, file) dir->name = cli_join(path, file);
-    ENSEMBLE_FILE_LIST(MAKE_PATH)
-#undef MAKE_PATH
+    STORE_MAKE_PATHS(dir, ENSEMBLE_FILE_LIST);
 }
 
 static void detach(ensemble_directory *dir)
@@ -47,9 +45,7 @@ void ensemble_directory_close(ensemble_directory *dir)
 {
     detach(dir);
     unlock(dir);
-#define FREE_PATH(name, file) free(dir->name);
-    ENSEMBLE_FILE_LIST(FREE_PATH)
-#undef FREE_PATH
+    store_free_paths(dir->file, ENSEMBLE_FILES);
     if (dir->doc) yaml_document_delete(&dir->doc->yaml);
     free(dir->doc);
     *dir = (ensemble_directory){.marks = -1, .descriptor = -1};
@@ -330,10 +326,8 @@ static int begin_new(ensemble_directory *dir, const ensemble *e)
 {
     int status = CLI_DONE;
     char *rows = cli_join(dir->path, "rows.npy");
-#define REMOVE(name, file)                                                                         \
-    if (status == CLI_DONE) status = file_remove(dir->name);
-    ENSEMBLE_RESULT_LIST(REMOVE)
-#undef REMOVE
+    for (int i = 0; i < ENSEMBLE_RESULTS && status == CLI_DONE; i++)
+        status = file_remove(dir->file[i]);
     if (status == CLI_DONE) status = file_remove(rows);
     free(rows);
     const char *system = e->request.system_name;

@@ -35,15 +35,17 @@
     ENSEMBLE_RESULT_LIST(PATH)                                                                     \
     PATH(system, "system.yaml")                                                                    \
     PATH(messages, "messages")
+enum {
+    ENSEMBLE_RESULTS = 0 ENSEMBLE_RESULT_LIST(STORE_ONE),
+    ENSEMBLE_FILES = 0 ENSEMBLE_FILE_LIST(STORE_ONE)
+};
 
 /* The columns of members.npy before what was drawn. */
 enum { MEMBER_STATUS, MEMBER_TIME, MEMBER_DRAWN };
 
 typedef struct ensemble_directory {
     const char *path; /* the caller's */
-#define PATH_MEMBER(name, file) char *name;
-    ENSEMBLE_FILE_LIST(PATH_MEMBER)
-#undef PATH_MEMBER
+    STORE_PATHS(ENSEMBLE_FILE_LIST);
     document *doc; /* manifest.json as it was read */
     npy_table members, final, rows;
     bool has_rows;

@@ -14,6 +14,37 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* ---- files --------------------------------------------------------------------------------- */
+
+void store_make_paths(const char *directory, const char *const *names, char **file, int count)
+{
+    for (int i = 0; i < count; i++) file[i] = cli_join(directory, names[i]);
+}
+
+void store_free_paths(char **file, int count)
+{
+    for (int i = 0; i < count; i++) free(file[i]);
+}
+
+int store_remove(const char *path, int depth)
+{
+    struct stat info;
+    if (lstat(path, &info) != 0) return errno == ENOENT ? CLI_DONE : cli_io("remove", path);
+    if (!S_ISDIR(info.st_mode) || depth == 0) return file_remove(path);
+    DIR *directory = opendir(path);
+    if (!directory) return cli_io("remove", path);
+    int status = CLI_DONE;
+    for (struct dirent *entry; status == CLI_DONE && (entry = readdir(directory));) {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        char *inner = cli_join(path, entry->d_name);
+        status = store_remove(inner, depth - 1);
+        free(inner);
+    }
+    closedir(directory);
+    if (status != CLI_DONE) return status;
+    return rmdir(path) == 0 ? CLI_DONE : cli_io("remove", path);
+}
+
 /* ---- locks --------------------------------------------------------------------------------- */
 
 /* Some network file systems have no locks. */
@@ -128,25 +159,4 @@ int store_end_manifest(store_manifest *manifest, const char *path, int sync)
     const int status = file_replace(path, manifest->text, manifest->length, sync);
     free(manifest->text);
     return status;
-}
-
-/* ---- removal ------------------------------------------------------------------------------- */
-
-int store_remove(const char *path, int depth)
-{
-    struct stat info;
-    if (lstat(path, &info) != 0) return errno == ENOENT ? CLI_DONE : cli_io("remove", path);
-    if (!S_ISDIR(info.st_mode) || depth == 0) return file_remove(path);
-    DIR *directory = opendir(path);
-    if (!directory) return cli_io("remove", path);
-    int status = CLI_DONE;
-    for (struct dirent *entry; status == CLI_DONE && (entry = readdir(directory));) {
-        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
-        char *inner = cli_join(path, entry->d_name);
-        status = store_remove(inner, depth - 1);
-        free(inner);
-    }
-    closedir(directory);
-    if (status != CLI_DONE) return status;
-    return rmdir(path) == 0 ? CLI_DONE : cli_io("remove", path);
 }

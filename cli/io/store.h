@@ -1,5 +1,5 @@
-/* store.h - what the directories of runs, studies and ensembles have in common: locks, shards,
- * manifests, removal. */
+/* store.h - what the directories of runs, studies and ensembles have in common: files, locks,
+ * shards, manifests. */
 #ifndef DAL_CLI_STORE_H
 #define DAL_CLI_STORE_H
 
@@ -7,6 +7,30 @@
 #include "ui/options.h"
 
 #include <stdbool.h>
+
+/* ---- files --------------------------------------------------------------------------------- */
+
+/* The paths of the files that LIST(FILE) names by FILE(member, name): members of a struct, and all
+ * of them as file[]. */
+#define STORE_PATHS(LIST)                                                                          \
+    union {                                                                                        \
+        struct {                                                                                   \
+            LIST(STORE_PATH)                                                                       \
+        };                                                                                         \
+        char *file[0 LIST(STORE_ONE)];                                                             \
+    }
+#define STORE_PATH(member, name) char *member;
+#define STORE_ONE(member, name) +1
+/* Allocates them and frees them. */
+#define STORE_MAKE_PATHS(dir, LIST)                                                                \
+    store_make_paths((dir)->path, (const char *const[]){LIST(STORE_NAME)}, (dir)->file,            \
+                     0 LIST(STORE_ONE))
+#define STORE_NAME(member, name) name,
+void store_make_paths(const char *directory, const char *const *names, char **file, int count);
+void store_free_paths(char **file, int count);
+/* Removes a file, or a directory with what is in it, down to that depth; either may be absent.
+ * Returns CLI_DONE, or prints and returns CLI_IO. */
+int store_remove(const char *path, int depth);
 
 /* ---- locks --------------------------------------------------------------------------------- */
 
@@ -63,11 +87,5 @@ typedef struct store_manifest {
  * returns CLI_IO. */
 void store_begin_manifest(store_manifest *manifest);
 int store_end_manifest(store_manifest *manifest, const char *path, int sync);
-
-/* ---- removal ------------------------------------------------------------------------------- */
-
-/* Removes a file, or a directory with what is in it, down to that depth; either may be absent.
- * Returns CLI_DONE, or prints and returns CLI_IO. */
-int store_remove(const char *path, int depth);
 
 #endif

@@ -138,11 +138,9 @@ int manifest_begin(run_directory *dir, const run_request *request)
     const int is_path = cli_is_path(request->system_name);
     int status = CLI_DONE;
     /* The writer begins the rows again, and the run may be made from the copy of the system. */
-#define REMOVE(name, file)                                                                         \
-    if (status == CLI_DONE && dir->name != dir->rows && dir->name != dir->system)                  \
-        status = file_remove(dir->name);
-    RUN_FILE_LIST(REMOVE)
-#undef REMOVE
+    for (int i = 0; i < RUN_FILES && status == CLI_DONE; i++)
+        if (dir->file[i] != dir->rows && dir->file[i] != dir->system)
+            status = file_remove(dir->file[i]);
     if (status == CLI_DONE)
         status = is_path
                      ? cli_copy_system(request->system_name, request->model, dir->system, dir->sync)

@@ -3,7 +3,6 @@
 #include "ui/message.h"
 
 #include "io/file.h"
-#include "io/store.h"
 
 #include <fcntl.h>
 #include <stdbool.h>
@@ -14,16 +13,12 @@
 void run_directory_open(run_directory *dir, const char *path)
 {
     *dir = (run_directory){.path = path, .descriptor = -1, .sync = 1};
-#define FILE_PATH(name, file) dir->name = cli_join(path, file);
-    RUN_FILE_LIST(FILE_PATH)
-#undef FILE_PATH
+    STORE_MAKE_PATHS(dir, RUN_FILE_LIST);
 }
 
 void run_directory_close(run_directory *dir)
 {
-#define FREE_PATH(name, file) free(dir->name);
-    RUN_FILE_LIST(FREE_PATH)
-#undef FREE_PATH
+    store_free_paths(dir->file, RUN_FILES);
     if (dir->doc) yaml_document_delete(&dir->doc->yaml);
     free(dir->doc);
     free(dir->input);
@@ -35,10 +30,8 @@ void run_directory_close(run_directory *dir)
 const char *run_directory_find_file(const run_directory *dir)
 {
     struct stat status;
-#define RETURN_IF_FILLED(name, file)                                                               \
-    if (stat(dir->name, &status) == 0 && status.st_size > 0) return dir->name;
-    RUN_FILE_LIST(RETURN_IF_FILLED)
-#undef RETURN_IF_FILLED
+    for (int i = 0; i < RUN_FILES; i++)
+        if (stat(dir->file[i], &status) == 0 && status.st_size > 0) return dir->file[i];
     return NULL;
 }
 

@@ -15,6 +15,7 @@
 
 #include "dalembert_analysis.h"
 #include "io/document.h"
+#include "io/store.h"
 #include "io/trajectory.h"
 
 #include <stdbool.h>
@@ -29,12 +30,11 @@
     PATH(before, "checkpoint.before")                                                              \
     PATH(fresh, "checkpoint.new")                                                                  \
     PATH(summary, "summary.csv")
+enum { RUN_FILES = 0 RUN_FILE_LIST(STORE_ONE) };
 
 typedef struct run_directory {
     const char *path; /* the caller's */
-#define FILE_MEMBER(name, file) char *name;
-    RUN_FILE_LIST(FILE_MEMBER)
-#undef FILE_MEMBER
+    STORE_PATHS(RUN_FILE_LIST);
     document *doc;        /* manifest.json as it was read; the request points to its texts */
     char *input;          /* the request as it stands in manifest.json */
     uint64_t fingerprint; /* of the request and of the system */

@@ -25,16 +25,12 @@
 void study_directory_open(study_directory *dir, const char *path)
 {
     *dir = (study_directory){.path = path};
-#define MAKE_PATH(name, file) dir->name = cli_join(path, file);
-    STUDY_FILE_LIST(MAKE_PATH)
-#undef MAKE_PATH
+    STORE_MAKE_PATHS(dir, STUDY_FILE_LIST);
 }
 
 void study_directory_close(study_directory *dir)
 {
-#define FREE_PATH(name, file) free(dir->name);
-    STUDY_FILE_LIST(FREE_PATH)
-#undef FREE_PATH
+    store_free_paths(dir->file, STUDY_FILES);
     free(dir->text);
     *dir = (study_directory){0};
 }
@@ -138,10 +134,8 @@ int study_directory_open_results(const study_directory *dir, const study_plan *p
 static int clear(const study_directory *dir)
 {
     int status = CLI_DONE;
-#define REMOVE(name, file)                                                                         \
-    if (status == CLI_DONE) status = store_remove(dir->name, 2);
-    STUDY_FILE_LIST(REMOVE)
-#undef REMOVE
+    for (int i = 0; i < STUDY_FILES && status == CLI_DONE; i++)
+        status = store_remove(dir->file[i], 2);
     return status == CLI_DONE ? store_remove_shards(dir->path, manifest_file) : status;
 }
 

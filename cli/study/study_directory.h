@@ -31,12 +31,11 @@
     PATH(cells, "cells.csv")                                                                       \
     PATH(quantities, "quantities.csv")                                                             \
     PATH(expectations, "expectations.csv")
+enum { STUDY_FILES = 0 STUDY_FILE_LIST(STORE_ONE) };
 
 typedef struct study_directory {
     const char *path; /* the caller's */
-#define PATH_MEMBER(name, file) char *name;
-    STUDY_FILE_LIST(PATH_MEMBER)
-#undef PATH_MEMBER
+    STORE_PATHS(STUDY_FILE_LIST);
     char *text; /* of study.yaml, as it was read */
     size_t length;
     store_shard shard; /* what of the study is run; STORE_ALL_SHARDS: those that are there */

@@ -125,10 +125,8 @@ static int copy_run(const char *source, const char *target)
     run_directory_open(&from, source);
     run_directory_open(&to, target);
     int status = cli_directory(target);
-#define COPY(name, file)                                                                           \
-    if (status == CLI_DONE && from.name != from.manifest) status = copy_file(from.name, to.name);
-    RUN_FILE_LIST(COPY)
-#undef COPY
+    for (int i = 0; i < RUN_FILES && status == CLI_DONE; i++)
+        if (from.file[i] != from.manifest) status = copy_file(from.file[i], to.file[i]);
     if (status == CLI_DONE) status = copy_file(from.manifest, to.manifest);
     run_directory_close(&from);
     run_directory_close(&to);
