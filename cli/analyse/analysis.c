@@ -62,11 +62,6 @@ int analysis_check_output(const char *output, bool json)
     return cli_fail(CLI_USAGE, "--json and --output - would both write to standard output");
 }
 
-const char *analysis_state(int status)
-{
-    return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
-}
-
 /* What a branch leaves of the order, into text[size]. */
 static void describe_branch(const dal_branch *b, char *text, size_t size)
 {

@@ -41,9 +41,6 @@ int analysis_describe(const analysis_output *output, const char *name, const run
  * CLI_DONE, or prints and returns CLI_USAGE. */
 int analysis_check_output(const char *output, bool json);
 
-/* The word for how a run ended that returned this exit status: done, failed, interrupted. */
-const char *analysis_state(int status);
-
 /* Calls add for each formula of a model with branches: what it is, and what they leave of the order
  * of a step across one of them.  model may be NULL. */
 void analysis_list_branches(dal_model *model,

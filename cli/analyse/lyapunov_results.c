@@ -2,6 +2,7 @@
 #include "lyapunov_results.h"
 #include "analysis.h"
 #include "io/json.h"
+#include "io/store.h"
 #include "run/request_json.h"
 #include "ui/screen.h"
 
@@ -155,7 +156,7 @@ void lyapunov_put(const lyapunov_results *r)
     request_open_json(&w, r->request, LYAPUNOV_WITHOUT);
     json_put_number(&w, "transient", r->transient);
     json_close(&w);
-    json_put_text(&w, "state", analysis_state(r->status));
+    json_put_text(&w, "state", store_state_words[store_end_state(r->status)]);
     json_put_number(&w, "from", r->begin);
     json_put_number(&w, "to", dal_run_time(dal_lyapunov_run(r->spectrum)));
     json_put_text(&w, "derivative", dal_lyapunov_is_exact(r->spectrum) ? "exact" : "differences");

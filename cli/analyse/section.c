@@ -5,6 +5,7 @@
 #include "section.h"
 #include "analysis.h"
 #include "dalembert_analysis.h"
+#include "io/store.h"
 #include "io/trajectory.h"
 #include "run/columns.h"
 #include "run/request_json.h"
@@ -246,7 +247,7 @@ static void put_run(json_writer *w, const section *s)
     json_put_text(w, "direction", directions[s->set->direction + 1]);
     json_put_number(w, "transient", s->set->transient);
     json_close(w);
-    json_put_text(w, "state", analysis_state(s->status));
+    json_put_text(w, "state", store_state_words[store_end_state(s->status)]);
     json_put_number(w, "to", dal_run_time(s->request->run));
     json_put_integer(w, "up", s->found.up);
     json_put_integer(w, "down", s->found.down);

@@ -46,8 +46,7 @@ void ensemble_directory_close(ensemble_directory *dir)
     detach(dir);
     unlock(dir);
     store_free_paths(dir->file, ENSEMBLE_FILES);
-    if (dir->doc) yaml_document_delete(&dir->doc->yaml);
-    free(dir->doc);
+    store_free_manifest(dir->doc);
     *dir = (ensemble_directory){.marks = -1, .descriptor = -1};
 }
 
@@ -79,7 +78,7 @@ static void put_ensemble(json_writer *w, const ensemble *e)
 }
 
 int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensemble *e,
-                                      const char *state)
+                                      store_state state)
 {
     char method[256], *input = manifest_input(&e->request);
     store_manifest m;
@@ -88,7 +87,7 @@ int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensem
     put_ensemble(&m.json, e);
     manifest_put_machine(&m.json);
     json_put_text(&m.json, "method", dal_method_name(&e->request.method, method, sizeof method));
-    json_put_text(&m.json, "status", state);
+    json_put_text(&m.json, "status", store_state_words[state]);
     free(input);
     return store_end_manifest(&m, dir->manifest, 1);
 }
@@ -152,18 +151,16 @@ static const document_key keys[] = {{"members", read_integer, offsetof(ensemble,
 
 int ensemble_directory_read(ensemble_directory *dir, ensemble *e)
 {
-    size_t length;
+    char *bytes;
     if (!file_exists(dir->manifest))
         return cli_fail(CLI_USAGE, "'%s' holds no ensemble", dir->path);
-    char *bytes = file_read(dir->manifest, &length);
-    if (!bytes) return CLI_IO;
-    document *doc = dir->doc = cli_calloc(1, sizeof *doc);
-    int status = json_parse(doc, dir->manifest, bytes, length);
+    int status = store_read_manifest(dir->manifest, &dir->doc, &bytes);
     free(bytes);
     if (status != CLI_DONE) return status;
-    const yaml_node_t *root = document_node(doc, 1), *node = document_value(doc, root, "ensemble");
+    const document *doc = dir->doc;
+    const yaml_node_t *node = document_value(doc, document_node(doc, 1), "ensemble");
     if (!node) return cli_fail(CLI_USAGE, "'%s' holds no ensemble", dir->path);
-    status = manifest_read_input(&e->request, doc, root, dir->system);
+    status = manifest_read_input(&e->request, doc, dir->system);
     if (status == CLI_DONE)
         status = document_read_mapping(doc, node, "ensemble", keys, sizeof keys / sizeof *keys, e);
     if (status == CLI_DONE && !(e->members >= 1 && e->members <= ENSEMBLE_MAX_MEMBERS))
@@ -174,19 +171,16 @@ int ensemble_directory_read(ensemble_directory *dir, ensemble *e)
 /* Of what the members depend on: request, variations, system. */
 static int find_fingerprint(ensemble_directory *dir, const ensemble *e)
 {
-    char *input = manifest_input(&e->request), *copy = NULL;
-    const char *builtin = dal_builtin_text(e->request.system_name);
-    size_t length = builtin ? strlen(builtin) : 0;
+    char *input = manifest_input(&e->request);
     const int64_t counts[] = {e->members, e->seed};
     uint64_t hash = dal__hash(DAL__HASH_START, input, strlen(input));
     hash = dal__hash(hash, counts, sizeof counts);
     for (int i = 0; i < e->variations; i++)
         hash = dal__hash(hash, e->vary_text[i], strlen(e->vary_text[i]) + 1);
     free(input);
-    if (!builtin && !(copy = file_read(dir->system, &length))) return CLI_IO;
-    dir->fingerprint = dal__hash(hash, builtin ? builtin : copy, length);
-    free(copy);
-    return CLI_DONE;
+    dir->fingerprint = hash;
+    return store_hash_system(&dir->fingerprint, dal_builtin_text(e->request.system_name),
+                             dir->system);
 }
 
 /* ---- messages ------------------------------------------------------------------------------ */
@@ -336,7 +330,7 @@ static int begin_new(ensemble_directory *dir, const ensemble *e)
                                      : file_remove(dir->system);
     if (status == CLI_DONE) status = open_tables(dir, e, true);
     detach(dir);
-    return status == CLI_DONE ? ensemble_directory_write_manifest(dir, e, "running") : status;
+    return status == CLI_DONE ? ensemble_directory_write_manifest(dir, e, STORE_RUNNING) : status;
 }
 
 /* A shard joins an ensemble that is there; that it is the same one, its marks show. */
@@ -360,9 +354,7 @@ static int begin_or_join(ensemble_directory *dir, const ensemble *e, store_shard
 int ensemble_directory_begin(ensemble_directory *dir, const ensemble *e, store_shard shard,
                              bool force)
 {
-    int status = force ? CLI_DONE : file_check_directory(dir->path);
-    if (status == CLI_DONE) status = cli_directory(dir->path);
-    if (status == CLI_DONE) status = ensemble_directory_lock(dir);
+    int status = store_begin(dir->path, force, &dir->descriptor);
     if (status == CLI_DONE) status = begin_or_join(dir, e, shard, force);
     if (status == CLI_DONE) status = ensemble_directory_attach(dir, e, shard);
     unlock(dir);

@@ -89,8 +89,7 @@ char *ensemble_directory_read_messages(const ensemble_directory *dir, int chunk)
 int ensemble_directory_save(const ensemble_directory *dir, const ensemble *e);
 /* Reads which chunks other processes have done; whether all are. */
 int ensemble_directory_update(ensemble_directory *dir, const ensemble *e, bool *is_complete);
-/* state: running, interrupted, failed, done. */
 int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensemble *e,
-                                      const char *state);
+                                      store_state state);
 
 #endif

@@ -310,8 +310,8 @@ int ensemble_end(const ensemble *e, ensemble_directory *dir, int status, int thr
 {
     bool is_complete;
     if (status == CLI_SIGNAL) {
-        ensemble_directory_write_manifest(dir, e, "interrupted");
-        return cli_fail(status, "interrupted; resume with: dalembert resume %s", dir->path);
+        ensemble_directory_write_manifest(dir, e, STORE_INTERRUPTED);
+        return store_interrupt(dir->path);
     }
     /* Of shards that end together one after the other finds all done and writes the same bytes. */
     if (status == CLI_DONE) status = ensemble_directory_lock(dir);

@@ -333,7 +333,7 @@ static int write_files(const statistics *s, long long *counts)
     if (status == CLI_DONE) status = write_table(s, s->dir->histograms, put_histograms);
     if (status == CLI_DONE) status = write_table(s, s->dir->cloud, put_cloud);
     if (status == CLI_DONE) status = write_failures(s, counts);
-    if (status == CLI_DONE) status = ensemble_directory_write_manifest(s->dir, s->e, "done");
+    if (status == CLI_DONE) status = ensemble_directory_write_manifest(s->dir, s->e, STORE_DONE);
     return status == CLI_DONE ? print_table(s) : status;
 }
 

@@ -1,6 +1,6 @@
 /* store.c - what the directories of runs, studies and ensembles have in common. */
 #include "store.h"
-#include "dalembert.h"
+#include "dalembert_program.h"
 #include "file.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -71,6 +71,13 @@ int store_wait(const char *directory, int *descriptor)
     if (status == CLI_DONE) lock_file(*descriptor, F_SETLKW);
     free(path);
     return status;
+}
+
+int store_begin(const char *directory, bool force, int *descriptor)
+{
+    int status = force ? CLI_DONE : file_check_directory(directory);
+    if (status == CLI_DONE) status = cli_directory(directory);
+    return status == CLI_DONE ? store_wait(directory, descriptor) : status;
 }
 
 /* ---- shards -------------------------------------------------------------------------------- */
@@ -159,4 +166,58 @@ int store_end_manifest(store_manifest *manifest, const char *path, int sync)
     const int status = file_replace(path, manifest->text, manifest->length, sync);
     free(manifest->text);
     return status;
+}
+
+int store_read_manifest(const char *path, document **manifest, char **bytes)
+{
+    size_t length;
+    *manifest = cli_calloc(1, sizeof **manifest);
+    *bytes = file_read(path, &length);
+    return *bytes ? json_parse(*manifest, path, *bytes, length) : CLI_IO;
+}
+
+void store_free_manifest(document *manifest)
+{
+    if (manifest) yaml_document_delete(&manifest->yaml);
+    free(manifest);
+}
+
+int store_hash_system(uint64_t *hash, const char *builtin, const char *copy)
+{
+    size_t length = builtin ? strlen(builtin) : 0;
+    char *bytes = builtin ? NULL : file_read(copy, &length);
+    if (!builtin && !bytes) return CLI_IO;
+    *hash = dal__hash(*hash, builtin ? builtin : bytes, length);
+    free(bytes);
+    return CLI_DONE;
+}
+
+/* ---- states -------------------------------------------------------------------------------- */
+
+const char *const store_state_words[STORE_STATES] = {
+#define STORE_WORD(code, word) word,
+    STORE_STATE_LIST(STORE_WORD)
+#undef STORE_WORD
+};
+
+store_state store_end_state(int exit_status)
+{
+    return exit_status == CLI_DONE     ? STORE_DONE
+           : exit_status == CLI_CHECK  ? STORE_UNMET
+           : exit_status == CLI_SIGNAL ? STORE_INTERRUPTED
+                                       : STORE_FAILED;
+}
+
+store_state store_read_state(const char *manifest)
+{
+    char *word = json_file_text(manifest, "status");
+    int state = word ? 0 : STORE_STATES;
+    while (state < STORE_STATES && strcmp(word, store_state_words[state]) != 0) state++;
+    free(word);
+    return (store_state)state;
+}
+
+int store_interrupt(const char *directory)
+{
+    return cli_fail(CLI_SIGNAL, "interrupted; resume with: dalembert resume %s", directory);
 }

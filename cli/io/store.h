@@ -7,6 +7,7 @@
 #include "ui/options.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 /* ---- files --------------------------------------------------------------------------------- */
 
@@ -20,7 +21,7 @@
         char *file[0 LIST(STORE_ONE)];                                                             \
     }
 #define STORE_PATH(member, name) char *member;
-#define STORE_ONE(member, name) +1
+#define STORE_ONE(member, name)  +1
 /* Allocates them and frees them. */
 #define STORE_MAKE_PATHS(dir, LIST)                                                                \
     store_make_paths((dir)->path, (const char *const[]){LIST(STORE_NAME)}, (dir)->file,            \
@@ -42,6 +43,9 @@ int store_remove(const char *path, int depth);
 int store_lock(int descriptor, const char *path);
 /* Waits for the file DIR/lock, and locks it until *descriptor is closed; -1: it was not opened. */
 int store_wait(const char *directory, int *descriptor);
+/* Before something new is written: makes the directory, which without force must be the program's
+ * or empty, and waits as above. */
+int store_begin(const char *directory, bool force, int *descriptor);
 
 /* ---- shards -------------------------------------------------------------------------------- */
 
@@ -87,5 +91,35 @@ typedef struct store_manifest {
  * returns CLI_IO. */
 void store_begin_manifest(store_manifest *manifest);
 int store_end_manifest(store_manifest *manifest, const char *path, int sync);
+/* Reads one, *bytes being its text; both are to be freed after a failure, too.  Returns CLI_DONE,
+ * or prints and returns an exit status. */
+int store_read_manifest(const char *path, document **manifest, char **bytes);
+void store_free_manifest(document *manifest);
+/* Continues a hash by the text of a system, the library's unless that is NULL, or a copy's. */
+int store_hash_system(uint64_t *hash, const char *builtin, const char *copy);
+
+/* ---- states -------------------------------------------------------------------------------- */
+
+/* How far something is: code, what its manifest says. */
+#define STORE_STATE_LIST(STATE)                                                                    \
+    STATE(RUNNING, "running")                                                                      \
+    STATE(INTERRUPTED, "interrupted")                                                              \
+    STATE(FAILED, "failed")                                                                        \
+    STATE(UNMET, "unmet") /* done, and not as it was expected */                                   \
+    STATE(DONE, "done")
+typedef enum store_state {
+#define STORE_STATE(code, word) STORE_##code,
+    STORE_STATE_LIST(STORE_STATE)
+#undef STORE_STATE
+        STORE_STATES
+} store_state;
+
+extern const char *const store_state_words[STORE_STATES];
+/* What an exit status leaves. */
+store_state store_end_state(int exit_status);
+/* What a manifest says; STORE_STATES: nothing. */
+store_state store_read_state(const char *manifest);
+/* Says how an interrupted directory is resumed; returns CLI_SIGNAL. */
+int store_interrupt(const char *directory);
 
 #endif

@@ -166,8 +166,7 @@ static int run_cells(cell_queue *q)
 
 static int finish(study_plan *plan, const study_directory *dir, int status)
 {
-    if (status == CLI_SIGNAL)
-        return cli_fail(status, "interrupted; resume with: dalembert resume %s", dir->path);
+    if (status == CLI_SIGNAL) return store_interrupt(dir->path);
     if (status != CLI_DONE) return status;
     /* The results of the other ranks are in their files now. */
     status = study_directory_open_results(dir, plan, dir->text, dir->length, &plan->results);

@@ -189,19 +189,17 @@ static int write_facts(const ensemble_page *p, const run_request *request, const
 
 static int describe_ensemble(const ensemble_page *p)
 {
-    size_t length;
-    document doc = {0};
+    document *doc;
     run_request request = request_default();
     char *place = cli_join(p->r->directory, "manifest.json");
-    char *copy = cli_join(p->r->directory, "system.yaml"), *bytes = file_read(place, &length);
-    int status = bytes ? json_parse(&doc, place, bytes, length) : CLI_IO;
+    char *copy = cli_join(p->r->directory, "system.yaml"), *bytes;
+    int status = store_read_manifest(place, &doc, &bytes);
     free(bytes);
-    if (status == CLI_DONE)
-        status = manifest_read_input(&request, &doc, document_node(&doc, 1), copy);
+    if (status == CLI_DONE) status = manifest_read_input(&request, doc, copy);
     if (status == CLI_DONE) status = cli_read(request.system_name, &request.model);
-    if (status == CLI_DONE) status = write_facts(p, &request, &doc);
+    if (status == CLI_DONE) status = write_facts(p, &request, doc);
     request_free(&request);
-    yaml_document_delete(&doc.yaml);
+    store_free_manifest(doc);
     free(copy);
     free(place);
     return status;

@@ -352,26 +352,25 @@ static void write_head(const run_page *run, const char *manifest)
 {
     const run_request *request = run->request;
     FILE *page = run->r->page;
-    char *state = json_file_text(manifest, "status");
+    const store_state state = store_read_state(manifest);
     char *message = json_file_text(manifest, "message");
     fputs(REPORT_FACTS, page);
     report_fact(page, "system", request->system_name);
     report_system(page, request->model, request);
     report_method(page, request);
     fputs(REPORT_FACTS_END, page);
-    if (state && message && strcmp(state, "done") == 0) {
+    if (state == STORE_DONE && message) {
         report_element(page, "p", message);
         fputc('\n', page);
-    } else if (state && strcmp(state, "done") != 0) {
+    } else if (state < STORE_DONE) {
         fprintf(page, "<p><strong>The run %s",
-                strcmp(state, "failed") == 0        ? "failed"
-                : strcmp(state, "interrupted") == 0 ? "was interrupted"
-                                                    : "is not finished");
+                state == STORE_FAILED        ? "failed"
+                : state == STORE_INTERRUPTED ? "was interrupted"
+                                             : "is not finished");
         fputs(message ? ": " : "", page);
         report_text(page, message ? message : "");
         fputs(".</strong></p>\n", page);
     }
-    free(state);
     free(message);
 }
 

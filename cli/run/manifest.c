@@ -64,7 +64,7 @@ void manifest_put_machine(json_writer *w)
 }
 
 int manifest_write(const run_directory *dir, const run_request *request,
-                   const run_position *position, const char *state, const char *message)
+                   const run_position *position, store_state state, const char *message)
 {
     char method[256];
     store_manifest m;
@@ -73,7 +73,7 @@ int manifest_write(const run_directory *dir, const run_request *request,
     json_put_source(&m.json, "input", dir->input);
     manifest_put_machine(&m.json);
     json_put_text(&m.json, "method", dal_method_name(&request->method, method, sizeof method));
-    json_put_text(&m.json, "status", state);
+    json_put_text(&m.json, "status", store_state_words[state]);
     json_put_number(&m.json, "t", dal_run_time(run));
     json_put_integer(&m.json, "rows", position->row);
     json_put_integer(&m.json, "steps", dal_run_steps(run));
@@ -86,10 +86,8 @@ int manifest_write(const run_directory *dir, const run_request *request,
 
 bool manifest_has_ended(const char *path)
 {
-    char *state = json_file_text(path, "status");
-    const int ended = state && (strcmp(state, "done") == 0 || strcmp(state, "failed") == 0);
-    free(state);
-    return ended;
+    const store_state state = store_read_state(path);
+    return state == STORE_DONE || state == STORE_FAILED;
 }
 
 /* ---- the request --------------------------------------------------------------------------- */
@@ -122,15 +120,10 @@ char *manifest_input(const run_request *request)
 /* The text of a built-in system is the library's, of any other the copy's. */
 static int find_fingerprint(run_directory *dir, const char *builtin)
 {
-    size_t length = builtin ? strlen(builtin) : 0;
     if (!builtin && !file_exists(dir->system))
         return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->system);
-    char *copy = builtin ? NULL : file_read(dir->system, &length);
-    if (!builtin && !copy) return CLI_IO;
-    const uint64_t hash = dal__hash(DAL__HASH_START, dir->input, strlen(dir->input));
-    dir->fingerprint = dal__hash(hash, builtin ? builtin : copy, length);
-    free(copy);
-    return CLI_DONE;
+    dir->fingerprint = dal__hash(DAL__HASH_START, dir->input, strlen(dir->input));
+    return store_hash_system(&dir->fingerprint, builtin, dir->system);
 }
 
 int manifest_begin(run_directory *dir, const run_request *request)
@@ -149,7 +142,7 @@ int manifest_begin(run_directory *dir, const run_request *request)
     dir->input = manifest_input(request);
     status = find_fingerprint(dir, is_path ? NULL : dal_builtin_text(request->system_name));
     const run_position start = {.row = 0};
-    return status == CLI_DONE ? manifest_write(dir, request, &start, "running", "") : status;
+    return status == CLI_DONE ? manifest_write(dir, request, &start, STORE_RUNNING, "") : status;
 }
 
 int manifest_compare(const run_directory *dir, const run_request *held, const run_request *request)
@@ -219,10 +212,9 @@ static int read_member(run_request *request, const document *doc, const document
     return CLI_DONE;
 }
 
-int manifest_read_input(run_request *request, const document *doc, const yaml_node_t *root,
-                        const char *copy)
+int manifest_read_input(run_request *request, const document *doc, const char *copy)
 {
-    const yaml_node_t *input = document_value(doc, root, "input");
+    const yaml_node_t *root = document_node(doc, 1), *input = document_value(doc, root, "input");
     if (!input || input->type != YAML_MAPPING_NODE)
         return document_fail(doc, root, "there is no input of a run");
     int status = check_version(doc, root);
@@ -233,28 +225,18 @@ int manifest_read_input(run_request *request, const document *doc, const yaml_no
     return document_fail(doc, input, "the system is missing");
 }
 
-static int parse_manifest(run_directory *dir, run_request *request, const char *bytes,
-                          size_t length)
-{
-    document *doc = dir->doc = cli_calloc(1, sizeof *doc);
-    int status = json_parse(doc, dir->manifest, bytes, length);
-    if (status != CLI_DONE) return status;
-    const yaml_node_t *root = yaml_document_get_root_node(&doc->yaml);
-    status = manifest_read_input(request, doc, root, dir->system);
-    if (status == CLI_DONE) dir->input = json_source(bytes, document_value(doc, root, "input"));
-    return status;
-}
-
 int manifest_read(run_directory *dir, run_request *request)
 {
-    size_t length;
     struct stat info;
+    char *bytes;
     if (stat(dir->manifest, &info) != 0)
         return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", dir->path, dir->manifest);
     if (S_ISDIR(info.st_mode)) return cli_fail(CLI_USAGE, "'%s' is a directory", dir->manifest);
-    char *bytes = file_read(dir->manifest, &length);
-    if (!bytes) return CLI_IO;
-    const int status = parse_manifest(dir, request, bytes, length);
+    int status = store_read_manifest(dir->manifest, &dir->doc, &bytes);
+    if (status == CLI_DONE) status = manifest_read_input(request, dir->doc, dir->system);
+    if (status == CLI_DONE)
+        dir->input =
+            json_source(bytes, document_value(dir->doc, document_node(dir->doc, 1), "input"));
     free(bytes);
     return status == CLI_DONE ? find_fingerprint(dir, dal_builtin_text(request->system_name))
                               : status;

@@ -17,14 +17,13 @@ int manifest_begin(run_directory *dir, const run_request *request);
 int manifest_read(run_directory *dir, run_request *request);
 /* Compares the request that was read with another one: CLI_USAGE where they differ. */
 int manifest_compare(const run_directory *dir, const run_request *held, const run_request *request);
-/* Writes how far the run is.  state: running, done, failed, interrupted; message: why, or "". */
+/* Writes how far the run is; message: why, or "". */
 int manifest_write(const run_directory *dir, const run_request *request,
-                   const run_position *position, const char *state, const char *message);
+                   const run_position *position, store_state state, const char *message);
 /* "input" of a request, allocated, as it stands one level deep in a manifest; and read from one,
  * the copy being the path of its system where that is a file. */
 char *manifest_input(const run_request *request);
-int manifest_read_input(run_request *request, const document *doc, const yaml_node_t *root,
-                        const char *copy);
+int manifest_read_input(run_request *request, const document *doc, const char *copy);
 /* Whether a manifest states that its run is done or has failed. */
 bool manifest_has_ended(const char *path);
 /* Writes the member "machine". */

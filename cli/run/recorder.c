@@ -62,7 +62,7 @@ static bool is_interrupted(void *user)
     return cli_interrupted();
 }
 
-static int write_state(run_recorder *r, const char *state, const char *message)
+static int write_state(run_recorder *r, store_state state, const char *message)
 {
     return manifest_write(r->dir, r->request, &r->position, state, message);
 }
@@ -80,7 +80,7 @@ int recorder_open(run_recorder *r, const run_request *request, run_directory *di
     if (status != CLI_DONE || !recorder_is_finished(r)) return status;
     dal_run_classify(request->run, r->statistics, 0, r->trend);
     /* The run may have been killed between its last checkpoint and the manifest. */
-    return manifest_has_ended(dir->manifest) ? CLI_DONE : write_state(r, "done", "");
+    return manifest_has_ended(dir->manifest) ? CLI_DONE : write_state(r, STORE_DONE, "");
 }
 
 void recorder_close(run_recorder *r)
@@ -288,7 +288,7 @@ static int save_and_sync(run_recorder *r)
     if (!r->dir->sync) {
         status = writer_sync(&r->writer, 0);
         r->dir->sync = 1;
-        if (status == CLI_DONE) status = write_state(r, "running", "");
+        if (status == CLI_DONE) status = write_state(r, STORE_RUNNING, "");
     }
     return status == CLI_DONE ? save(r) : status;
 }
@@ -357,11 +357,7 @@ static int write_end(run_recorder *r, int status, const char *message)
         if (written == CLI_DONE) written = save(r);
     }
     if (r->dir && written == CLI_DONE && status != CLI_IO)
-        written = write_state(r,
-                              status == CLI_DONE     ? "done"
-                              : status == CLI_SIGNAL ? "interrupted"
-                                                     : "failed",
-                              message);
+        written = write_state(r, store_end_state(status), message);
     const int closed = writer_close(&r->writer), logged = event_log_close(&r->events);
     if (status != CLI_DONE) return status;
     if (logged != CLI_DONE) return logged;
@@ -388,7 +384,8 @@ int recorder_run(run_recorder *r, dal_error *error)
                                  .row_time = request->row_time ? row_time : NULL,
                                  .polling = 1};
     *error = (dal_error){0};
-    if (r->dir && r->position.row > 0 && write_state(r, "running", "") != CLI_DONE) return CLI_IO;
+    if (r->dir && r->position.row > 0 && write_state(r, STORE_RUNNING, "") != CLI_DONE)
+        return CLI_IO;
     r->saved = cli_seconds();
     r->start_time = dal_run_time(run);
     r->start_step = dal_run_steps(run);

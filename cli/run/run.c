@@ -48,7 +48,7 @@ cli_group run_group(run_settings *settings, uint64_t without)
 static void print_end(const run_recorder *r, int status, const dal_error *error)
 {
     if (status == CLI_SIGNAL && r->dir)
-        cli_fail(status, "interrupted; resume with: dalembert resume %s", r->dir->path);
+        store_interrupt(r->dir->path);
     else if (status == CLI_SIGNAL)
         cli_fail(status, "interrupted; %lld rows are kept", r->position.row);
     else if (status != CLI_DONE && error->message[0])

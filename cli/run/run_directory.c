@@ -19,8 +19,7 @@ void run_directory_open(run_directory *dir, const char *path)
 void run_directory_close(run_directory *dir)
 {
     store_free_paths(dir->file, RUN_FILES);
-    if (dir->doc) yaml_document_delete(&dir->doc->yaml);
-    free(dir->doc);
+    store_free_manifest(dir->doc);
     free(dir->input);
     if (dir->descriptor >= 0) close(dir->descriptor);
     *dir = (run_directory){.descriptor = -1};

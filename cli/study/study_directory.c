@@ -39,11 +39,9 @@ bool study_directory_has_study(const study_directory *dir) { return file_exists(
 
 bool study_directory_is_finished(const study_directory *dir)
 {
-    if (!file_exists(dir->study)) return 0;
-    char *state = json_file_text(dir->manifest, "status");
-    const int finished = state && (strcmp(state, "done") == 0 || strcmp(state, "unmet") == 0);
-    free(state);
-    return finished;
+    if (!file_exists(dir->study)) return false;
+    const store_state state = store_read_state(dir->manifest);
+    return state == STORE_DONE || state == STORE_UNMET;
 }
 
 /* ---- shards -------------------------------------------------------------------------------- */
@@ -53,7 +51,7 @@ static const store_shard_file manifest_file = {"manifest.json", "shard", ".json"
 /* ---- the manifest -------------------------------------------------------------------------- */
 
 static int write_shard_manifest(const study_directory *dir, store_shard shard,
-                                const study_plan *plan, const char *state)
+                                const study_plan *plan, store_state state)
 {
     char *path = store_shard_path(dir->path, manifest_file, shard);
     store_manifest m;
@@ -67,7 +65,7 @@ static int write_shard_manifest(const study_directory *dir, store_shard shard,
     store_begin_manifest(&m);
     json_put_text(&m.json, "study", plan->title);
     manifest_put_machine(&m.json);
-    json_put_text(&m.json, "status", state);
+    json_put_text(&m.json, "status", store_state_words[state]);
     json_open(&m.json, "cells", JSON_ON_ONE_LINE);
     for (int i = 0; i < STUDY_STATES; i++)
         json_put_integer(&m.json, study_state_words[i], count[i]);
@@ -78,8 +76,7 @@ static int write_shard_manifest(const study_directory *dir, store_shard shard,
     return status;
 }
 
-/* state: running, interrupted, failed, unmet, done. */
-static int write_manifest(const study_directory *dir, const study_plan *plan, const char *state)
+static int write_manifest(const study_directory *dir, const study_plan *plan, store_state state)
 {
     store_shard *shards;
     int count;
@@ -96,17 +93,14 @@ static int write_manifest(const study_directory *dir, const study_plan *plan, co
 /* A hash of the study and of the systems in it. */
 static int hash_study(const study_plan *plan, const char *text, size_t length, uint64_t *hash)
 {
+    int status = CLI_DONE;
     *hash = dal__hash(DAL__HASH_START, text, length);
-    for (int i = 0; i < plan->case_count; i++) {
+    for (int i = 0; i < plan->case_count && status == CLI_DONE; i++) {
         const study_case *e = &plan->cases[i];
-        if (!e->is_first) continue;
-        char *copy = e->copy ? file_read(e->copy, &length) : NULL;
-        if (e->copy && !copy) return CLI_IO;
-        const char *system = copy ? copy : dal_builtin_text(e->name);
-        *hash = dal__hash(*hash, system, copy ? length : strlen(system));
-        free(copy);
+        if (e->is_first)
+            status = store_hash_system(hash, e->copy ? NULL : dal_builtin_text(e->name), e->copy);
     }
-    return CLI_DONE;
+    return status;
 }
 
 int study_directory_open_results(const study_directory *dir, const study_plan *plan,
@@ -195,10 +189,8 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
                           store_shard shard, int force)
 {
     const bool is_own = file_owns_directory(dir->path);
-    int descriptor = -1, status = force ? CLI_DONE : file_check_directory(dir->path);
-    if (status == CLI_DONE) status = cli_directory(dir->path);
     /* Shards that begin in one directory at the same time come one after the other. */
-    if (status == CLI_DONE) status = store_wait(dir->path, &descriptor);
+    int descriptor, status = store_begin(dir->path, force, &descriptor);
     if (status != CLI_DONE) return status;
     plan->runs = dir->runs;
     dir->shard = shard;
@@ -210,7 +202,7 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
         status = check_place(dir, text, length, shard.count > 0);
     if (status == CLI_DONE) status = cli_directory(dir->runs);
     if (status == CLI_DONE) status = copy_systems(dir, plan);
-    if (status == CLI_DONE) status = write_manifest(dir, plan, "running");
+    if (status == CLI_DONE) status = write_manifest(dir, plan, STORE_RUNNING);
     if (status == CLI_DONE) status = file_replace(dir->study, text, length, 1);
     if (status == CLI_DONE)
         status = study_directory_open_results(dir, plan, text, length, &plan->results);
@@ -327,15 +319,11 @@ int study_directory_finish(const study_directory *dir, const study_plan *plan, i
     }
     const int result = status == CLI_DONE ? result_status(plan) : status;
     const int is_whole = dir->shard.count == 0;
-    const char *word = result == CLI_DONE || result == CLI_FAILED ? "done"
-                       : result == CLI_CHECK                      ? "unmet"
-                       : result == CLI_SIGNAL                     ? "interrupted"
-                                                                  : "failed";
+    const store_state state = result == CLI_FAILED ? STORE_DONE : store_end_state(result);
     int written = is_whole ? write_files(dir, plan) : CLI_DONE;
-    if (written == CLI_DONE) written = write_manifest(dir, plan, word);
+    if (written == CLI_DONE) written = write_manifest(dir, plan, state);
     if (status != CLI_DONE && status != CLI_SIGNAL) return status;
     const int printed = print_results(dir, plan);
-    if (status == CLI_SIGNAL)
-        return cli_fail(status, "interrupted; resume with: dalembert resume %s", dir->path);
+    if (status == CLI_SIGNAL) return store_interrupt(dir->path);
     return written != CLI_DONE ? written : printed != CLI_DONE ? printed : result;
 }
