@@ -1,4 +1,5 @@
-/* dalembert_codegen.h - steps compiled for one system and method: as a C file, or within a run.
+/* dalembert_codegen.h - steps compiled for one system and method, as a C file or within a run; and
+ * equations typeset.
  *
  * The conventions of dalembert.h hold here. */
 #ifndef DALEMBERT_CODEGEN_H
@@ -21,6 +22,15 @@ extern "C" {
  * DAL_STATUS_UNSUPPORTED, DAL_STATUS_TOO_LARGE (Newton's matrices). */
 dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
                         dal_error *error);
+
+/* ---- equations typeset --------------------------------------------------------------------- */
+
+/* Writes the equations of a model as LaTeX, one align* of amsmath: the Lagrangian L, forces Q, the
+ * constraints D = 0, the accelerations F derived from them, what several of these share as s_1, s_2,
+ * .., and the Hamiltonian H of the lift; *text, to be freed with free().  Names as theta1 become
+ * Greek letters with subscripts. [alloc]  Errors: as dal_model_system; DAL_STATUS_TOO_LARGE where a
+ * formula is longer than a megabyte. */
+dal_status dal_model_latex(dal_model *model, char **text, dal_error *error);
 
 /* ---- compiled runs and batches ------------------------------------------------------------- */
 

@@ -4,6 +4,7 @@
  * are compared with numbers at the start and at random points about it. */
 #include "check.h"
 #include "check_screen.h"
+#include "dalembert_codegen.h"
 #include "io/json.h"
 #include "run/request_json.h"
 #include "ui/memory.h"
@@ -234,10 +235,24 @@ static void free_check(check *c)
     dal_scaled_free(c->scaled);
 }
 
+static int print_latex(const run_request *request)
+{
+    char *text;
+    dal_error error = {0};
+    const dal_status status = dal_model_latex(request->model, &text, &error);
+    if (!cli_is_ok(status)) return cli_error(cli_input_exit(status), request->system_name, &error);
+    fputs(text, stdout);
+    free(text);
+    return cli_close(stdout, "standard output");
+}
+
 int check_system(check_settings *settings)
 {
     run_request *request = &settings->request;
     check c = {.request = request, .preservers = -1};
+    if (settings->latex && (settings->json || settings->details))
+        return cli_fail(CLI_USAGE, "check: --latex excludes --json and --details");
+    if (settings->latex) return print_latex(request);
     int status = prepare_check(&c);
     if (status == CLI_DONE) {
         examine(&c);

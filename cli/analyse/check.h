@@ -8,10 +8,10 @@
 
 typedef struct check_settings {
     run_request request;
-    bool json, details;
+    bool json, details, latex;
 } check_settings;
 
-/* Prints the report, as text or as JSON.  Returns CLI_DONE, CLI_CHECK where an item failed or was
+/* Prints the report, as text or as JSON, or the equations as LaTeX.  Returns CLI_DONE, CLI_CHECK where an item failed or was
  * not measured, or prints and returns an exit status. */
 int check_system(check_settings *settings);
 

@@ -8,6 +8,9 @@
 #include <string.h>
 
 static const cli_option options[] = {SCREEN_DETAILS_OPTION(check_settings),
+                                     {"latex", NULL, NULL,
+                                      "prints L, Q, D, F and H of the lift as LaTeX instead",
+                                      CLI_FLAG(check_settings, latex)},
                                      JSON_OPTION(check_settings)};
 
 static int check_command(int argc, char **argv)
@@ -35,6 +38,10 @@ const cli_command command_check = {
         "where it has no value, and 'info' otherwise.  The command evaluates the system at its "
         "start and at random points about it, and does not rely on the properties that the system "
         "states.  It compares derivatives with central differences of order 8.  The exit status "
-        "is 1 when an item failed or was not measured.\n",
+        "is 1 when an item failed or was not measured.\n"
+        "\n"
+        "--latex prints an align* of amsmath: the equations as the file has them, and the "
+        "accelerations derived from them.  Long terms that occur several times are named s_1, "
+        "s_2, ...\n",
     .run = check_command,
 };

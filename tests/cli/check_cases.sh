@@ -234,6 +234,15 @@ try 2 check knife-egde
 says "did you mean 'knife-edge'\?"
 empty
 
+case_is "equations for a paper"
+try 0 check damped-oscillator --latex
+expect "no align*" test "$(sed -n '1p;$p' out | tr -d '\n')" = '\begin{align*}\end{align*}'
+prints '  \\ddot\{x\} = F_\{x\} &= '
+table <<'END'
+2 | check skate --latex | says skate
+2 | check chaplygin-sleigh --latex --json | says --latex excludes --json and --details
+END
+
 case_is "no constraint, no word of D = 0"
 try 0 check damped-oscillator
 prints '^  points about the start +ok +8$'
