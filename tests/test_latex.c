@@ -1,5 +1,5 @@
-/* test_latex.c - equations in LaTeX: read again as a mathematician reads them, they have the values of
- * the system; names, numbers and brackets. */
+/* test_latex.c - equations in LaTeX: read again as a mathematician reads them, they have the values
+ * of the system; names, numbers and brackets. */
 #include "allocation.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"

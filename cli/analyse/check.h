@@ -11,8 +11,8 @@ typedef struct check_settings {
     bool json, details, latex;
 } check_settings;
 
-/* Prints the report, as text or as JSON, or the equations as LaTeX.  Returns CLI_DONE, CLI_CHECK where an item failed or was
- * not measured, or prints and returns an exit status. */
+/* Prints the report, as text or as JSON, or the equations as LaTeX.  Returns CLI_DONE, CLI_CHECK
+ * where an item failed or was not measured, or prints and returns an exit status. */
 int check_system(check_settings *settings);
 
 #endif
