@@ -261,6 +261,7 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
     for (int i = 0; i < r->columns.count; i++) r->row[i] = r->values[r->columns.index[i]];
     r->position.row++;
     if (r->shows_rows) cli_progress_end();
+    if (r->add_row) r->add_row(r->row_user, r->row);
     status = library_status(r, writer_append(&r->writer, r->row));
     /* In a directory the next poll ends the run: only there may a checkpoint be taken, and not
      * within a step that has a row between its ends. */

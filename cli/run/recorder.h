@@ -45,6 +45,8 @@ typedef struct run_recorder {
     double seconds;       /* seconds in steps and rows since then */
     double shown;         /* when progress was last shown */
     progress_mode progress;
+    void (*add_row)(void *user, const double *row /* [columns.count] */); /* a row, as it comes */
+    void *row_user;
     bool (*stop)(void *user); /* whether to end the run; cli_interrupted by default */
     void *stop_user;
     int no_line;    /* no line of progress: no terminal */

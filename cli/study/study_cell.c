@@ -1,10 +1,9 @@
 /* study_cell.c - one cell of a study: its run in a directory, and its results.
  *
- * The results are read from that directory, whether the run was made now, resumed, or finished
- * before: trends from the statistics in its checkpoint, tracks from its rows.  Rows are taken after
- * whole numbers of steps, so that the trajectory consists of the steps alone.  A cell that keeps no
- * rows has no directory: its results go to the results of the study, and its bits are taken at
- * both ends. */
+ * Its tracks follow the rows that the recorder hands on; where the run was begun before, its
+ * directory has the first ones.  Rows are taken after whole numbers of steps, so that the
+ * trajectory consists of the steps alone.  A cell that keeps no rows has no directory: its results
+ * go to the results of the study, and its bits are taken at both ends. */
 #include "study_cell.h"
 
 #include "dalembert_program.h"
@@ -29,12 +28,25 @@ static double cells_alike(const study_cell *c)
     return *study_cell_method_steps(c) / study_cell_length(c);
 }
 
+/* What of a column is on a track: its size, or its change since the start. */
+typedef enum column_measure { NOT_TRACKED, MAX_ABS, CHANGE } column_measure;
+
+typedef struct tracked_column {
+    column_measure measure;
+    int track;
+    int observable; /* the number of one */
+    double first;
+    double max[STUDY_WINDOWS]; /* NaN: no rows */
+} tracked_column;
+
 typedef struct cell_run {
     const study_plan *plan;
     study_cell *cell;
     run_request request;
     run_directory dir;
     run_recorder recorder;
+    tracked_column *column; /* [columns of the recorder] */
+    long long rows;         /* that are on the tracks */
 } cell_run;
 
 /* ---- the request ---- */
@@ -175,98 +187,106 @@ static int create_run(cell_run *r)
 
 /* ---- results ---- */
 
-static void take_names(study_cell *c, const dal_run *run)
+static void begin_results(study_cell *c, const dal_run *run)
 {
     c->observables = dal_run_observables(run);
     c->names = cli_calloc((size_t)c->observables, sizeof *c->names);
+    c->trend = cli_calloc((size_t)c->observables, sizeof *c->trend);
+    c->bits = DAL__HASH_START;
     for (int i = 0; i < c->observables; i++)
         dal_run_observable_name(run, i, c->names[i], sizeof c->names[i]);
 }
 
-static void take_trends(study_cell *c, const run_recorder *recorder)
+/* Adds (q,v) as it is in files: zero has no sign, and what is not a number has one form. */
+static void add_bits(study_cell *c, const double *state)
 {
-    take_names(c, recorder->request->run);
-    c->trend = cli_calloc((size_t)c->observables, sizeof *c->trend);
-    memcpy(c->trend, recorder->trend, (size_t)c->observables * sizeof *c->trend);
-    c->windows = cli_calloc(STUDY_WINDOWS, sizeof *c->windows);
-    for (int i = 0; i < STUDY_WINDOWS * STUDY_TRACKS; i++)
-        c->windows[i / STUDY_TRACKS][i % STUDY_TRACKS] = NAN;
+    for (int i = 0; i < 2 * c->of_case->system->n; i++) {
+        const double x = isnan(state[i]) ? (double)NAN : state[i] + 0.0;
+        c->bits = dal__hash(c->bits, &x, sizeof x);
+    }
 }
-
-/* What of a column is on a track: its size, or its change since the start. */
-typedef enum column_measure { NOT_TRACKED, MAX_ABS, CHANGE } column_measure;
-
-typedef struct tracked_column {
-    column_measure measure;
-    int track;
-    double scale; /* by which it is divided: 1, or the scale of an invariant */
-    double first;
-} tracked_column;
 
 /* The columns of p and pi, and of observables, which come last and without |p|, |pi|,
  * |pi_e|.  Reactions and formulas that are observed need not be conserved. */
-static void choose_tracks(const study_cell *c, int columns, tracked_column *column)
+static void choose_tracks(cell_run *r)
 {
+    const study_cell *c = r->cell;
     const dal_system *s = c->of_case->system;
     const int error = c->observables - (study_cell_trend(c, "error") != NULL);
+    const int columns = r->recorder.columns.count;
     const bool is_lifted = study_cell_trend(c, "|p|") != NULL;
     int reactions = error; /* the first of them */
     while (c->of_case->options.reactions && strcmp(c->names[reactions], "h1") != 0) reactions--;
-    for (int i = 0; is_lifted && i < 2 * s->n; i++)
-        column[2 + 2 * s->n + i] =
-            (tracked_column){MAX_ABS, i < s->n ? STUDY_TRACK_P : STUDY_TRACK_PI, 1.0, 0.0};
-    tracked_column *next = column + columns - c->observables + (is_lifted ? 3 : 0);
+    r->column = cli_calloc((size_t)columns, sizeof *r->column);
+    for (int i = 0; i < columns * STUDY_WINDOWS; i++)
+        r->column[i / STUDY_WINDOWS].max[i % STUDY_WINDOWS] = NAN;
+    for (int i = 0; is_lifted && i < 2 * s->n; i++) {
+        r->column[2 + 2 * s->n + i].measure = MAX_ABS;
+        r->column[2 + 2 * s->n + i].track = i < s->n ? STUDY_TRACK_P : STUDY_TRACK_PI;
+    }
+    tracked_column *next = r->column + columns - c->observables + (is_lifted ? 3 : 0);
     for (int i = 0; i < c->observables; i++) {
         const char *name = c->names[i];
         if (name[0] == '|') continue;
-        if (i >= reactions - s->observed && i < error) {
-            *next++ = (tracked_column){NOT_TRACKED, 0, 1.0, 0.0};
-            continue;
-        }
-        const double scale = c->trend[i].scale;
-        *next++ = i < s->m     ? (tracked_column){MAX_ABS, STUDY_TRACK_D, 1.0, 0.0}
-                  : i == error ? (tracked_column){MAX_ABS, STUDY_TRACK_ERROR, 1.0, 0.0}
-                  : i >= reactions - s->invariants
-                      ? (tracked_column){CHANGE, STUDY_TRACK_INVARIANTS,
-                                         scale > 0.0 && isfinite(scale) ? scale : 1.0, 0.0}
-                  : strcmp(name, "E") == 0 ? (tracked_column){CHANGE, STUDY_TRACK_E, 1.0, 0.0}
-                                           : (tracked_column){CHANGE, STUDY_TRACK_H, 1.0, 0.0};
+        next->observable = i;
+        next->measure = i < s->m || i == error                      ? MAX_ABS
+                        : i >= reactions - s->observed && i < error ? NOT_TRACKED
+                                                                    : CHANGE;
+        next->track = i < s->m                         ? STUDY_TRACK_D
+                      : i == error                     ? STUDY_TRACK_ERROR
+                      : i >= reactions - s->invariants ? STUDY_TRACK_INVARIANTS
+                      : strcmp(name, "E") == 0         ? STUDY_TRACK_E
+                                                       : STUDY_TRACK_H;
+        next++;
     }
 }
 
-/* Not a number counts as infinite. */
-static void raise_tracks(const tracked_column *column, const double *row, int columns, double *max)
+/* A row of the run.  Not a number counts as infinite. */
+static void track_row(void *user, const double *row)
 {
-    for (int i = 0; i < columns; i++) {
-        const tracked_column *c = &column[i];
-        const double x = fabs(row[i] - c->first) / c->scale;
-        if (c->measure == NOT_TRACKED) continue;
-        if (!(x <= max[c->track])) max[c->track] = isnan(x) ? INFINITY : x;
+    cell_run *r = user;
+    const double part = (double)r->rows / ((double)r->request.samples + 1.0);
+    const int window = (int)(part * STUDY_WINDOWS);
+    for (int i = 0; i < r->recorder.columns.count; i++) {
+        tracked_column *c = &r->column[i];
+        if (r->rows == 0 && c->measure == CHANGE) c->first = row[i];
+        const double x = fabs(row[i] - c->first);
+        if (!(x <= c->max[window])) c->max[window] = isnan(x) ? INFINITY : x;
     }
+    add_bits(r->cell, row + 1);
+    r->cell->window_count = window + 1;
+    r->rows++;
 }
 
-static int read_rows(const cell_run *r)
+/* The rows of a run that was begun before. */
+static int read_rows(cell_run *r)
 {
     trajectory_reader reader;
-    study_cell *c = r->cell;
-    const size_t n = (size_t)c->of_case->system->n;
-    int status = reader_open(&reader, r->dir.path), more = 1;
+    int status = reader_open(&reader, r->dir.path), more = 0;
     if (status != CLI_DONE) return status;
-    tracked_column *column = cli_calloc((size_t)reader.columns, sizeof *column);
-    choose_tracks(c, reader.columns, column);
-    c->bits = DAL__HASH_START;
-    for (long long k = 0; k <= r->request.samples && (more = reader_next(&reader)) > 0; k++) {
-        for (int i = 0; k == 0 && i < reader.columns; i++)
-            if (column[i].measure != MAX_ABS) column[i].first = reader.row[i];
-        const double part = (double)k / ((double)r->request.samples + 1.0);
-        const int window = (int)(part * STUDY_WINDOWS);
-        raise_tracks(column, reader.row, reader.columns, c->windows[window]);
-        c->window_count = window + 1;
-        c->bits = dal__hash(c->bits, reader.row + 1, 2 * n * sizeof(double));
-    }
-    free(column);
+    while (r->rows <= r->request.samples && (more = reader_next(&reader)) > 0)
+        track_row(r, reader.row);
     reader_close(&reader);
     return more < 0 ? CLI_IO : CLI_DONE;
+}
+
+/* The maxima of the columns, of an invariant divided by its scale. */
+static void take_tracks(const cell_run *r)
+{
+    study_cell *c = r->cell;
+    c->windows = cli_calloc(STUDY_WINDOWS, sizeof *c->windows);
+    for (int i = 0; i < STUDY_WINDOWS * STUDY_TRACKS; i++)
+        c->windows[i / STUDY_TRACKS][i % STUDY_TRACKS] = NAN;
+    for (int i = 0; i < r->recorder.columns.count; i++) {
+        const tracked_column *column = &r->column[i];
+        const bool has_scale = column->track == STUDY_TRACK_INVARIANTS;
+        const double scale = has_scale ? c->trend[column->observable].scale : 1.0;
+        for (int k = 0; k < c->window_count && column->measure != NOT_TRACKED; k++) {
+            const double x = column->max[k] / (scale > 0.0 && isfinite(scale) ? scale : 1.0);
+            double *max = &c->windows[k][column->track];
+            if (!isnan(x) && !(x <= *max)) *max = x;
+        }
+    }
 }
 
 static void take_end(cell_run *r, const dal_error *error, bool has_failed)
@@ -281,14 +301,13 @@ static void take_end(cell_run *r, const dal_error *error, bool has_failed)
     if (has_failed) set_failure(c, STUDY_FAILED, error->status);
 }
 
-static int take_results(cell_run *r, const dal_error *error, int ended)
+static void take_results(cell_run *r, const dal_error *error, int ended)
 {
-    take_trends(r->cell, &r->recorder);
-    const int status = read_rows(r);
-    if (status != CLI_DONE) return status;
-    r->cell->seconds = r->recorder.position.seconds;
+    study_cell *c = r->cell;
+    memcpy(c->trend, r->recorder.trend, (size_t)c->observables * sizeof *c->trend);
+    take_tracks(r);
+    c->seconds = r->recorder.position.seconds;
     take_end(r, error, ended == CLI_FAILED);
-    return CLI_DONE;
 }
 
 /* ---- the run ---- */
@@ -311,7 +330,13 @@ static int open_recorder(cell_run *r)
     } else if (status == CLI_DONE) {
         status = manifest_begin(dir, &r->request);
     }
-    return status == CLI_DONE ? recorder_open(&r->recorder, &r->request, dir, dir->path) : status;
+    if (status == CLI_DONE) status = recorder_open(&r->recorder, &r->request, dir, dir->path);
+    if (status != CLI_DONE) return status;
+    begin_results(r->cell, r->request.run);
+    choose_tracks(r);
+    r->recorder.row_user = r;
+    r->recorder.add_row = track_row;
+    return r->recorder.position.row > 0 ? read_rows(r) : CLI_DONE;
 }
 
 static int run_in_directory(cell_run *r, const study_stop_check *check)
@@ -330,7 +355,9 @@ static int run_in_directory(cell_run *r, const study_stop_check *check)
                                         r->plan->native);
         ended = recorder_run(recorder, &error);
     }
-    return ended == CLI_DONE || ended == CLI_FAILED ? take_results(r, &error, ended) : ended;
+    if (ended != CLI_DONE && ended != CLI_FAILED) return ended;
+    take_results(r, &error, ended);
+    return CLI_DONE;
 }
 
 /* ---- the run of a cell that keeps no rows ---- */
@@ -349,16 +376,11 @@ static double end_time(void *user, long long row)
     return ((short_run *)user)->of_cell->request.row_time[row];
 }
 
-/* Minus zero counts as zero, as in rows. */
 static dal_status add_end(void *user, dal_run *run, long long row, double t)
 {
-    study_cell *c = ((short_run *)user)->of_cell->cell;
     (void)row;
     (void)t;
-    for (int i = 0; i < 2 * c->of_case->system->n; i++) {
-        const double x = dal_run_state(run)[i] + 0.0;
-        c->bits = dal__hash(c->bits, &x, sizeof x);
-    }
+    add_bits(((short_run *)user)->of_cell->cell, dal_run_state(run));
     return DAL_STATUS_OK;
 }
 
@@ -404,7 +426,6 @@ static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
                  start = cli_thread_seconds();
     s->native = native_begin(request->run, request->time,
                              alike * steps / (double)request->statistics, alike, r->plan->native);
-    c->bits = DAL__HASH_START;
     const dal_status status = dal_run_sample(request->run, request->time, 1, 0, &observer, error);
     const bool has_ended = status == DAL_STATUS_OK || status == DAL_STATUS_STOPPED;
     dal_run_classify(request->run, s->statistics, !has_ended, c->trend);
@@ -417,12 +438,10 @@ static int run_without_rows(cell_run *r, const study_stop_check *check)
     study_cell *c = r->cell;
     const int number = (int)(c - r->plan->cells);
     dal_error error = {0};
-    take_names(c, r->request.run);
-    const size_t count = (size_t)c->observables;
-    c->trend = cli_calloc(count, sizeof *c->trend);
+    begin_results(c, r->request.run);
     if (study_results_get(r->plan->results, number, c)) return CLI_DONE;
     short_run s = {.of_cell = r, .check = check};
-    s.statistics = cli_calloc(count, sizeof *s.statistics);
+    s.statistics = cli_calloc((size_t)c->observables, sizeof *s.statistics);
     dal_statistics_start(s.statistics, c->observables);
     const dal_status status = integrate(r, &s, &error);
     free(s.statistics);
@@ -441,6 +460,7 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_ch
         char *directory = cli_join(plan->runs, cell->name);
         run_directory_open(&r.dir, directory);
         status = run_in_directory(&r, check);
+        free(r.column);
         recorder_close(&r.recorder);
         run_directory_close(&r.dir);
         free(directory);
