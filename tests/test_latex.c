@@ -315,7 +315,7 @@ static void compare(double found, double expected, const char *what)
     CU_ASSERT(is_equal);
 }
 
-/* F and D of the rows at a point about the start are those of the callbacks. */
+/* F and D of the rows at a point about the start are what the callbacks return. */
 static void check_system(dal_model *model)
 {
     const dal_system *s;

@@ -1,7 +1,7 @@
 /* typeset.c - nodes of a graph as formulas in LaTeX.
  *
  * Operands come before the nodes that have them, so one loop gives each node its text.  A level
- * says how tightly a text holds together: an operand below the level that its place asks for gets
+ * says how tightly a text holds together: an operand below the level that its place needs gets
  * brackets. */
 #include "codegen/typeset.h"
 #include "core/error.h"
