@@ -31,7 +31,7 @@ static int run_ensemble(settings *s)
 {
     ensemble *e = &s->common.ensemble;
     const ensemble_run_options how = {(int)s->threads, s->common.interval, s->common.native,
-                                      s->progress};
+                                      s->progress,     work_on_threads,    1};
     ensemble_directory dir;
     int status = ensemble_complete(e);
     if (status != CLI_DONE) return status;

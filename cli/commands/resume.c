@@ -48,8 +48,8 @@ static int resume(int argc, char **argv)
     const int status = cli_read_arguments(&command_resume, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;
     if (ensemble_directory_has_ensemble(s.directory)) {
-        const ensemble_run_options how = {(int)s.threads, s.run.interval, s.run.native,
-                                          s.run.progress};
+        const ensemble_run_options how = {(int)s.threads, s.run.interval,  s.run.native,
+                                          s.run.progress, work_on_threads, 1};
         const int ended = ensemble_resume(s.directory, &how);
         return s.no_page ? ended : report_after_ensemble(s.directory, ended);
     }

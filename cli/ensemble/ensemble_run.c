@@ -1,8 +1,8 @@
-/* ensemble_run.c - the members of an ensemble on several threads.
+/* ensemble_run.c - the members of an ensemble, run.
  *
- * A chunk of members is one task: a batch is started with them, stepped to each time, and its
- * states are written.  Each thread uses one batch again and again, so that memory does not grow
- * with the number of members; no number depends on which thread takes a chunk, or when. */
+ * A chunk of members is one item of work: a batch is started with them, stepped to each time, and
+ * its states are written.  Each thread uses one batch again and again, so that memory does not grow
+ * with the number of members. */
 #include "ensemble_run.h"
 #include "dalembert_codegen.h"
 #include "ensemble_statistics.h"
@@ -17,8 +17,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-/* Steps of a batch between two checks for signals; seconds between two lines of progress. */
-enum { SLICE = 256 };
+/* Steps of a batch between two checks whether to stop; seconds between two lines of progress. */
+enum { SLICE = 64 };
 static const double line_interval = 0.2, json_interval = 1.0;
 
 /* Stages times coordinates, of all steps, from which on steps are compiled: interpreted, each takes
@@ -37,7 +37,6 @@ typedef struct pool_state {
     ensemble_directory *dir;
     dal_native *native; /* NULL: interpreted */
     worker *idle;
-    int status;              /* CLI_DONE, or the first failure's of the program's own */
     long long done, members; /* members of this shard that are done, and all of them */
     long long begun;         /* those that were done before */
     double start, shown, saved, interval;
@@ -70,7 +69,8 @@ static void use_native(pool_state *p, worker *w)
 
 typedef struct worker_request {
     pool_state *pool;
-    worker *worker; /* NULL: there is none, and nothing is left to do where status is set */
+    worker *worker;
+    int status; /* CLI_DONE, or why there is none */
 } worker_request;
 
 static void take_worker(void *user)
@@ -79,7 +79,6 @@ static void take_worker(void *user)
     pool_state *p = r->pool;
     dal_error error = {0};
     dal_ensemble *made;
-    if (p->status != CLI_DONE) return;
     if (p->idle) {
         r->worker = p->idle;
         p->idle = r->worker->next;
@@ -88,7 +87,7 @@ static void take_worker(void *user)
                                              &error))) {
         r->worker = make_worker(p->e, made);
     } else {
-        p->status = cli_error(CLI_USAGE, p->e->request.system_name, &error);
+        r->status = cli_error(CLI_USAGE, p->e->request.system_name, &error);
         return;
     }
     use_native(p, r->worker);
@@ -109,8 +108,9 @@ static void write_json_progress(const pool_state *p, double seconds)
 }
 
 /* The line of a terminal, or JSON for scripts. */
-static void show_members(pool_state *p)
+static void show_members(void *user)
 {
+    pool_state *p = user;
     const bool is_json = p->progress == PROGRESS_JSON;
     const double now = cli_seconds();
     if (p->progress == PROGRESS_OFF) return;
@@ -128,37 +128,32 @@ static void show_end(const pool_state *p)
     if (p->progress == PROGRESS_JSON) write_json_progress(p, cli_seconds() - p->start);
 }
 
-typedef struct chunk_end {
-    pool_state *pool;
-    worker *worker;
-    int chunk, status;
-} chunk_end;
-
-static void add_end(void *user)
+static void return_worker(void *user)
 {
-    const chunk_end *end = user;
-    pool_state *p = end->pool;
-    end->worker->next = p->idle;
-    p->idle = end->worker;
-    if (end->status != CLI_DONE) {
-        if (p->status == CLI_DONE) p->status = end->status;
-        return;
-    }
-    p->dir->done[end->chunk] = 1;
-    p->done += ensemble_chunk_members(p->e, end->chunk);
+    const worker_request *r = user;
+    r->worker->next = r->pool->idle;
+    r->pool->idle = r->worker;
+}
+
+static int end_chunk(void *user, int chunk, int status)
+{
+    pool_state *p = user;
+    if (status != CLI_DONE) return status;
+    p->dir->done[chunk] = 1;
+    p->done += ensemble_chunk_members(p->e, chunk);
     show_members(p);
-    if (cli_seconds() - p->saved < p->interval) return;
-    const int saved = ensemble_directory_save(p->dir, p->e);
-    if (p->status == CLI_DONE) p->status = saved;
+    if (cli_seconds() - p->saved < p->interval) return CLI_DONE;
+    status = ensemble_directory_save(p->dir, p->e);
     p->saved = cli_seconds();
+    return status;
 }
 
 /* ---- chunks ---- */
 
-static int advance(dal_batch *batch, long long steps)
+static int advance(dal_batch *batch, long long steps, const work_stop *stop)
 {
     for (; steps > 0; steps -= SLICE) {
-        if (cli_interrupted()) return CLI_SIGNAL;
+        if (stop->stop(stop->user)) return CLI_SIGNAL;
         dal_batch_advance(batch, steps < SLICE ? steps : SLICE);
     }
     return CLI_DONE;
@@ -200,7 +195,7 @@ static int write_messages(const pool_state *p, const worker *w, int chunk, int c
     return status;
 }
 
-static int run_chunk(const pool_state *p, const worker *w, int chunk)
+static int step_chunk(const pool_state *p, const worker *w, int chunk, const work_stop *stop)
 {
     const ensemble *e = p->e;
     const long long first = (long long)chunk * ENSEMBLE_CHUNK;
@@ -212,7 +207,7 @@ static int run_chunk(const pool_state *p, const worker *w, int chunk)
     dal_ensemble_start(w->ensemble, (unsigned long long)first, count);
     for (int i = 0; i < count; i++) started[i] = dal_batch_status(batch, i, NULL) == DAL_STATUS_OK;
     for (int t = 0; t < e->times && status == CLI_DONE; t++) {
-        status = advance(batch, e->steps[t] - step);
+        status = advance(batch, e->steps[t] - step, stop);
         step = e->steps[t];
         dal_ensemble_states(w->ensemble, w->rows);
         if (status == CLI_DONE && p->dir->has_rows)
@@ -223,33 +218,39 @@ static int run_chunk(const pool_state *p, const worker *w, int chunk)
     return status == CLI_DONE ? write_messages(p, w, chunk, count) : status;
 }
 
-static void run_task(void *user, int chunk)
+static bool is_due(void *user, int chunk)
 {
-    pool_state *p = user;
-    if (!store_shard_has(p->dir->shard, chunk) || p->dir->done[chunk] || cli_interrupted()) return;
-    worker_request request = {.pool = p};
+    const ensemble_directory *dir = ((pool_state *)user)->dir;
+    return store_shard_has(dir->shard, chunk) && !dir->done[chunk];
+}
+
+static int run_chunk(void *user, int chunk, const work_stop *stop)
+{
+    worker_request request = {.pool = user};
     pool_exclude(take_worker, &request);
-    if (!request.worker) return;
-    chunk_end end = {p, request.worker, chunk, run_chunk(p, request.worker, chunk)};
-    pool_exclude(add_end, &end);
+    if (!request.worker) return request.status;
+    const int status = step_chunk(user, request.worker, chunk, stop);
+    pool_exclude(return_worker, &request);
+    return status;
 }
 
 /* ---- all ---- */
 
 /* Begins to compile the steps, and with NATIVE_ON waits for them. */
-static void begin_native(pool_state *p, native_mode mode)
+static void begin_native(pool_state *p, const ensemble_run_options *options)
 {
     const ensemble *e = p->e;
+    const native_mode mode = options->native;
     const struct timespec pause = {0, 1000000};
     dal_error error = {0};
     const dal_integrator *inner = e->request.method.layer[0];
     const double stages = inner->stages > 0 ? inner->stages : 1;
-    const double cost = (double)(p->members - p->done) * (double)e->steps[e->times - 1] * stages *
-                        e->spec.system->n;
+    const double cost = (double)(p->members - p->done) / options->processes *
+                        (double)e->steps[e->times - 1] * stages * e->spec.system->n;
     if (mode == NATIVE_OFF || (mode == NATIVE_AUTO && cost < worth_compiling)) return;
     char *cache = native_cache();
-    const dal_native_options options = {.cache = cache};
-    if (dal_native_begin_batch(&p->native, dal_ensemble_batch(e->first), &options, &error) !=
+    const dal_native_options cached = {.cache = cache};
+    if (dal_native_begin_batch(&p->native, dal_ensemble_batch(e->first), &cached, &error) !=
         DAL_STATUS_OK) {
         p->native = NULL;
         cli_note("steps are interpreted: %s", error.message);
@@ -290,20 +291,28 @@ int ensemble_run(ensemble *e, ensemble_directory *dir, const ensemble_run_option
                     .saved = cli_seconds(),
                     .interval = options->interval,
                     .progress = options->progress};
+    const work_list list = {.user = &p,
+                            .count = ensemble_chunks(e),
+                            .is_due = is_due,
+                            .run = run_chunk,
+                            .end = end_chunk,
+                            .show = show_members,
+                            .ends_early = true};
+    int status = CLI_DONE;
     cli_catch_signals();
     count_members(&p);
     if (p.done < p.members) {
-        begin_native(&p, options->native);
+        begin_native(&p, options);
         p.idle = make_worker(e, e->first);
         e->first = NULL;
-        pool_run(ensemble_chunks(e), options->threads, run_task, &p);
+        status = options->runner(&list, options->threads);
     }
     cli_progress_end();
     show_end(&p);
     free_workers(&p);
     const int saved = ensemble_directory_save(dir, e);
-    if (p.status != CLI_DONE && p.status != CLI_SIGNAL) return p.status;
-    return saved == CLI_DONE && cli_interrupted() ? CLI_SIGNAL : saved;
+    if (status != CLI_DONE && status != CLI_SIGNAL) return status;
+    return saved == CLI_DONE ? status : saved;
 }
 
 int ensemble_end(const ensemble *e, ensemble_directory *dir, int status, int threads)

@@ -1,14 +1,17 @@
-/* ensemble_run.h - the members of an ensemble on several threads. */
+/* ensemble_run.h - the members of an ensemble, run. */
 #ifndef DAL_CLI_ENSEMBLE_RUN_H
 #define DAL_CLI_ENSEMBLE_RUN_H
 
 #include "ensemble_directory.h"
+#include "run/work.h"
 
 typedef struct ensemble_run_options {
     int threads;
     double interval; /* seconds between checkpoints */
     native_mode native;
     progress_mode progress;
+    work_runner *runner;
+    int processes; /* that share the members */
 } ensemble_run_options;
 
 /* Runs the members of the shard that is attached.  Returns CLI_DONE, CLI_SIGNAL after an

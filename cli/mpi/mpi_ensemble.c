@@ -1,9 +1,7 @@
 /* mpi_ensemble.c - an ensemble on the processes of a cluster.
  *
- * Each process is a shard of the ensemble, whose members all take about the same time.  Processes
- * exchange nothing but their exit statuses; all else is in the directory, so that the ensemble can
- * be resumed after an interruption, by any number of processes or by `dalembert resume`, to the
- * same bytes.  Rank 0 makes the statistics when the others have closed their files. */
+ * Each process marks the chunks that it has done in a file of its own, as a shard does.  Rank 0
+ * makes the statistics when the others have closed their files. */
 #include "mpi_ensemble.h"
 #include "ensemble/ensemble_run.h"
 #include "run/pool.h"
@@ -65,10 +63,13 @@ static void close_shard(ensemble *e, ensemble_directory *dir)
 
 int mpi_ensemble_run(const mpi_request *request)
 {
-    const ensemble_run_options how = {1, request->interval, request->native, PROGRESS_OFF};
+    const ensemble_run_options how = {
+        1, request->interval, request->native, PROGRESS_OFF, mpi_run_list, request->size};
+    const store_shard own = {request->rank + 1, request->size};
     ensemble e;
     ensemble_directory dir;
-    int status = open_shard(request, (store_shard){request->rank + 1, request->size}, &e, &dir);
+    int status = mpi_max_status(open_shard(request, own, &e, &dir));
+    dir.shard = (store_shard){0}; /* any process runs any chunk */
     if (status == CLI_DONE) status = ensemble_run(&e, &dir, &how);
     close_shard(&e, &dir);
     status = mpi_max_status(status);

@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_MPI_ENSEMBLE_H
 #define DAL_CLI_MPI_ENSEMBLE_H
 
-#include "mpi_request.h"
+#include "mpi_work.h"
 
 /* On rank 0: reads the arguments, begins the ensemble in its directory and fills the request.
  * Returns CLI_GO_ON, or an exit status after --help or a message. */

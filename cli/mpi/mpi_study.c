@@ -1,10 +1,6 @@
 /* mpi_study.c - a study on the processes of a cluster.
  *
- * Rank 0 begins the study in its directory and hands out the cells, the costliest first, while it
- * runs cells itself: it serves requests between steps.  Processes exchange only numbers of cells;
- * all else is in the directory, so that the study can be resumed after an interruption, by this
- * program or by `dalembert resume`, to the same bytes.  At the end rank 0 reads them and makes the
- * tables. */
+ * Rank 0 begins the study in its directory, where all read it, and makes the tables at the end. */
 #include "mpi_study.h"
 #include "io/file.h"
 #include "run/pool.h"
@@ -89,112 +85,40 @@ int mpi_study_begin(mpi_request *request, int argc, char **argv)
     return status == CLI_DONE ? CLI_GO_ON : status;
 }
 
-/* ---- handing out cells ---- */
+/* ---- on all ranks ---- */
 
-typedef struct cell_queue {
-    study_plan *plan;
-    int *order;
-    int rank;
-    int next;    /* of rank 0: the place in order of the next cell */
-    int waiting; /* of rank 0: how many other ranks have not been refused a cell */
-} cell_queue;
-
-enum { REQUEST_CELL, SEND_CELL };
-
-static int next_cell(cell_queue *q)
+/* On rank 0: reads what all have done, and makes the tables. */
+static int finish(study_plan *plan, const study_directory *dir)
 {
-    while (q->next < q->plan->cell_count && !cli_interrupted()) {
-        const int cell = q->order[q->next++];
-        if (!q->plan->cells[cell].other_shard) return cell;
-    }
-    return -1;
+    int status = study_directory_open_results(dir, plan, dir->text, dir->length, &plan->results);
+    for (int i = 0; i < plan->cell_count; i++) study_cell_free(&plan->cells[i]);
+    if (status != CLI_DONE) return status;
+    const int threads = pool_threads();
+    return study_directory_finish(dir, plan, study_pool_run(plan, work_on_threads, threads));
 }
 
-static void serve_request(cell_queue *q)
+static int run_cells(study_plan *plan)
 {
-    MPI_Status from;
-    int nothing, cell = next_cell(q);
-    MPI_Recv(&nothing, 1, MPI_INT, MPI_ANY_SOURCE, REQUEST_CELL, MPI_COMM_WORLD, &from);
-    MPI_Send(&cell, 1, MPI_INT, from.MPI_SOURCE, SEND_CELL, MPI_COMM_WORLD);
-    if (cell < 0) q->waiting--;
-}
-
-/* Serves the requests that have arrived, on rank 0. */
-static void serve_requests(cell_queue *q)
-{
-    for (int arrived = 1; q->rank == 0 && arrived && q->waiting > 0;) {
-        MPI_Iprobe(MPI_ANY_SOURCE, REQUEST_CELL, MPI_COMM_WORLD, &arrived, MPI_STATUS_IGNORE);
-        if (arrived) serve_request(q);
-    }
-}
-
-static int request_cell(void)
-{
-    int cell = -1;
-    MPI_Send(&cell, 1, MPI_INT, 0, REQUEST_CELL, MPI_COMM_WORLD);
-    MPI_Recv(&cell, 1, MPI_INT, 0, SEND_CELL, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    return cell;
-}
-
-static bool must_stop(void *user)
-{
-    serve_requests(user);
-    return cli_interrupted();
-}
-
-/* After a failure of a rank's own the other ranks run the cells that are left. */
-static int run_cells(cell_queue *q)
-{
-    const study_stop_check check = {must_stop, q};
-    int status = CLI_DONE;
-    while (status == CLI_DONE) {
-        const int cell = q->rank == 0 ? next_cell(q) : request_cell();
-        if (cell < 0) break;
-        status = study_cell_run(q->plan, &q->plan->cells[cell], &check);
-        study_cell_free(&q->plan->cells[cell]);
-        serve_requests(q);
-    }
-    if (q->rank > 0 && status != CLI_DONE)
-        while (request_cell() >= 0) continue;
-    while (q->rank == 0 && q->waiting > 0) serve_request(q);
-    if (!q->plan->results || status == CLI_IO) return status;
-    const int saved = study_results_save(q->plan->results);
+    cli_catch_signals();
+    const int status = study_pool_run(plan, mpi_run_list, 1);
+    if (!plan->results || status == CLI_IO) return status;
+    const int saved = study_results_save(plan->results);
     return status == CLI_DONE ? saved : status;
-}
-
-/* ---- all ---- */
-
-static int finish(study_plan *plan, const study_directory *dir, int status)
-{
-    if (status == CLI_SIGNAL) return store_interrupt(dir->path);
-    if (status != CLI_DONE) return status;
-    /* The results of the other ranks are in their files now. */
-    status = study_directory_open_results(dir, plan, dir->text, dir->length, &plan->results);
-    if (status != CLI_DONE) return status;
-    return study_directory_finish(dir, plan, study_pool_run(plan, pool_threads()));
 }
 
 int mpi_study_run(const mpi_request *request)
 {
     study_plan plan = {0};
     study_directory dir;
-    cell_queue q = {.plan = &plan, .rank = request->rank, .waiting = request->size - 1};
     study_directory_open(&dir, request->output);
     dir.writer = request->rank + 1;
-    int status = study_directory_read(&dir, &plan);
-    q.order = study_sort_cells(&plan);
-    study_plan_add_steps(&plan);
+    int status = mpi_max_status(study_directory_read(&dir, &plan));
     plan.interval = request->interval;
     plan.native = request->native;
     plan.shows_matrices = true; /* mpirun gives a rank a terminal, wherever its own output goes */
-    status = mpi_max_status(status);
-    if (status == CLI_DONE) {
-        cli_catch_signals();
-        status = mpi_max_status(run_cells(&q));
-        if (status == CLI_DONE && cli_interrupted()) status = CLI_SIGNAL;
-        if (request->rank == 0) status = finish(&plan, &dir, status);
-    }
-    free(q.order);
+    if (status == CLI_DONE) status = mpi_max_status(run_cells(&plan));
+    if (request->rank == 0 && status == CLI_SIGNAL) status = store_interrupt(dir.path);
+    if (request->rank == 0 && status == CLI_DONE) status = finish(&plan, &dir);
     study_plan_free(&plan);
     study_directory_close(&dir);
     return status;

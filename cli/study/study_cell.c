@@ -339,16 +339,14 @@ static int open_recorder(cell_run *r)
     return r->recorder.position.row > 0 ? read_rows(r) : CLI_DONE;
 }
 
-static int run_in_directory(cell_run *r, const study_stop_check *check)
+static int run_in_directory(cell_run *r, const work_stop *stop)
 {
     run_recorder *recorder = &r->recorder;
     dal_error error = {0};
     int ended = open_recorder(r);
     if (ended == CLI_DONE && !recorder_is_finished(recorder)) {
-        if (check) {
-            recorder->stop = check->stop;
-            recorder->stop_user = check->user;
-        }
+        recorder->stop = stop->stop;
+        recorder->stop_user = stop->user;
         recorder->interval = r->plan->interval;
         recorder->progress = PROGRESS_OFF;
         recorder->native = native_begin(r->request.run, r->request.time, 0.0, cells_alike(r->cell),
@@ -366,7 +364,7 @@ enum { POLLING = 124 /* steps */ };
 
 typedef struct short_run {
     cell_run *of_cell;
-    const study_stop_check *check;
+    const work_stop *stop;
     dal_statistics *statistics; /* [observables] */
     native_run native;
 } short_run;
@@ -404,9 +402,7 @@ static dal_status poll_short_run(void *user, dal_run *run)
     short_run *s = user;
     (void)run;
     native_poll(&s->native);
-    return (s->check && s->check->stop(s->check->user)) || cli_interrupted()
-               ? DAL_STATUS_INTERRUPTED
-               : DAL_STATUS_OK;
+    return s->stop->stop(s->stop->user) ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
 /* Runs the cell from its start to its end, however often it was begun. */
@@ -433,14 +429,14 @@ static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
     return has_ended ? DAL_STATUS_OK : status;
 }
 
-static int run_without_rows(cell_run *r, const study_stop_check *check)
+static int run_without_rows(cell_run *r, const work_stop *stop)
 {
     study_cell *c = r->cell;
     const int number = (int)(c - r->plan->cells);
     dal_error error = {0};
     begin_results(c, r->request.run);
     if (study_results_get(r->plan->results, number, c)) return CLI_DONE;
-    short_run s = {.of_cell = r, .check = check};
+    short_run s = {.of_cell = r, .stop = stop};
     s.statistics = cli_calloc((size_t)c->observables, sizeof *s.statistics);
     dal_statistics_start(s.statistics, c->observables);
     const dal_status status = integrate(r, &s, &error);
@@ -450,16 +446,16 @@ static int run_without_rows(cell_run *r, const study_stop_check *check)
     return study_results_add(r->plan->results, number, c, r->plan->interval);
 }
 
-int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *check)
+int study_cell_run(const study_plan *plan, study_cell *cell, const work_stop *stop)
 {
     cell_run r = {.plan = plan, .cell = cell, .request = request_default()};
     int status = create_run(&r);
     if (status == CLI_DONE && r.request.run && cell->of_case->rows == STUDY_ROWS_NONE) {
-        status = run_without_rows(&r, check);
+        status = run_without_rows(&r, stop);
     } else if (status == CLI_DONE && r.request.run) {
         char *directory = cli_join(plan->runs, cell->name);
         run_directory_open(&r.dir, directory);
-        status = run_in_directory(&r, check);
+        status = run_in_directory(&r, stop);
         free(r.column);
         recorder_close(&r.recorder);
         run_directory_close(&r.dir);

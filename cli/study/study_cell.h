@@ -2,21 +2,16 @@
 #ifndef DAL_CLI_STUDY_CELL_H
 #define DAL_CLI_STUDY_CELL_H
 
+#include "run/work.h"
 #include "study_data.h"
 
 #include <stdbool.h>
 
-/* Called now and then while a run goes: whether to stop it, with a checkpoint. */
-typedef struct study_stop_check {
-    bool (*stop)(void *user);
-    void *user;
-} study_stop_check;
-
-/* Runs a cell in its directory, resumes it there, or reads its results when it is finished; without
- * a check interruptions alone stop it.  How the run ended is in the cell; its state stays
- * STUDY_WAITING when it was stopped.  Returns CLI_DONE; CLI_SIGNAL when it was stopped; or prints
- * and returns an exit status.  Different cells may be run by different threads. */
-int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *check);
+/* Runs a cell in its directory, resumes it there, or reads its results when it is finished.  How
+ * the run ended is in the cell; its state stays STUDY_WAITING when it was stopped.  Returns
+ * CLI_DONE; CLI_SIGNAL when it was stopped; or prints and returns an exit status.  Different cells
+ * may be run by different threads. */
+int study_cell_run(const study_plan *plan, study_cell *cell, const work_stop *stop);
 /* Whether the run of a cell can be made: a refused one has none. */
 bool study_cell_is_runnable(study_cell *cell);
 

@@ -244,7 +244,8 @@ int study_directory_run(const study_directory *dir, study_plan *plan,
     plan->native = options->native;
     plan->shows_tables = options->shows_tables;
     plan->shows_matrices = options->shows_matrices;
-    return study_directory_finish(dir, plan, study_pool_run(plan, options->threads));
+    return study_directory_finish(dir, plan,
+                                  study_pool_run(plan, work_on_threads, options->threads));
 }
 
 int study_resume(const char *path, const study_run_options *options)

@@ -198,7 +198,8 @@ int study_merge(study_directory *sources, int count, const char *output, int thr
     if (status == CLI_DONE) status = read_results(&m, &m.target, &m.plan.results);
     if (status == CLI_DONE) {
         cli_catch_signals();
-        status = study_directory_finish(&m.target, &m.plan, study_pool_run(&m.plan, threads));
+        status = study_directory_finish(&m.target, &m.plan,
+                                        study_pool_run(&m.plan, work_on_threads, threads));
     }
     study_directory_close(&m.target);
     study_plan_free(&m.plan);

@@ -1,15 +1,13 @@
-/* study_pool.c - the cells of a study on several threads.
+/* study_pool.c - the cells of a study, run.
  *
  * The costliest cells are taken first, so that none is left for the end; a cell depends on nothing
  * but itself, so results do not depend on the number of threads. */
 #include "study_pool.h"
 
-#include "run/pool.h"
 #include "study_cell.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"
-#include "ui/signals.h"
 
 #include <stdlib.h>
 
@@ -39,7 +37,8 @@ static int compare_costs(const void *a, const void *b)
     return x->cell < y->cell ? -1 : x->cell > y->cell;
 }
 
-int *study_sort_cells(const study_plan *plan)
+/* By falling cost, so that none is left for the end; allocated. */
+static int *sort_cells(const study_plan *plan)
 {
     const size_t count = (size_t)plan->cell_count;
     cell_cost *list = cli_calloc(count + 1, sizeof *list);
@@ -56,9 +55,7 @@ int *study_sort_cells(const study_plan *plan)
 
 typedef struct pool_state {
     study_plan *plan;
-    int *order;
     int done, count;
-    int status; /* CLI_DONE, or the status of the program's own first failure */
     double start, shown;
 } pool_state;
 
@@ -71,46 +68,44 @@ static void show_progress(void *user)
     cli_progress("study: %d of %d cells, %.0f s", p->done, p->count, now - p->start);
 }
 
-typedef struct cell_end {
-    pool_state *pool;
-    int status;
-} cell_end;
-
-static void add_end(void *user)
+static bool is_due(void *user, int item)
 {
-    const cell_end *end = user;
-    pool_state *p = end->pool;
-    if (end->status == CLI_DONE) p->done++;
-    if (p->status == CLI_DONE && end->status != CLI_SIGNAL) p->status = end->status;
-    p->shown = 0.0;
-    show_progress(p);
+    return !((pool_state *)user)->plan->cells[item].other_shard;
 }
 
-static bool must_stop(void *user)
+static int run_cell(void *user, int item, const work_stop *stop)
 {
-    pool_exclude(show_progress, user);
-    return cli_interrupted();
+    const study_plan *plan = ((pool_state *)user)->plan;
+    return study_cell_run(plan, &plan->cells[item], stop);
 }
 
-static void run_cell(void *user, int i)
+static int end_cell(void *user, int item, int status)
 {
     pool_state *p = user;
-    study_cell *cell = &p->plan->cells[p->order[i]];
-    if (cell->other_shard || cli_interrupted()) return;
-    cell_end end = {p, study_cell_run(p->plan, cell, &(study_stop_check){must_stop, p})};
-    pool_exclude(add_end, &end);
+    (void)item;
+    p->done += status == CLI_DONE;
+    p->shown = 0.0;
+    show_progress(p);
+    return status;
 }
 
-int study_pool_run(study_plan *plan, int threads)
+int study_pool_run(study_plan *plan, work_runner *runner, int threads)
 {
-    pool_state p = {.plan = plan, .order = study_sort_cells(plan), .start = cli_seconds()};
+    pool_state p = {.plan = plan, .start = cli_seconds()};
+    int *order = sort_cells(plan);
+    const work_list list = {.user = &p,
+                            .count = plan->cell_count,
+                            .order = order,
+                            .is_due = is_due,
+                            .run = run_cell,
+                            .end = end_cell,
+                            .show = show_progress};
     study_plan_add_steps(plan);
-    for (int i = 0; i < plan->cell_count; i++) p.count += !plan->cells[i].other_shard;
-    pool_run(plan->cell_count, threads, run_cell, &p);
+    for (int i = 0; i < plan->cell_count; i++) p.count += is_due(&p, i);
+    const int status = runner(&list, threads);
     native_end();
     plan->seconds = cli_seconds() - p.start;
     cli_progress_end();
-    free(p.order);
-    if (p.status != CLI_DONE) return p.status;
-    return cli_interrupted() ? CLI_SIGNAL : CLI_DONE;
+    free(order);
+    return status;
 }

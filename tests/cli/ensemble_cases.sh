@@ -188,13 +188,13 @@ if needs 33 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
     mpi_ensemble 0 1 "" ensemble --help
     prints '^usage: mpirun dalembert-mpi ensemble SYSTEM'
     silent
-    # Rank 0 in its second chunk; rank 1 ends by itself.
+    # A rank in its second chunk.
     for killed_by in 9:137 2:130; do
         rm -rf stopped
         mpi_ensemble ${killed_by#*:} 2 "-x LD_PRELOAD=$top/raise_signal.so -x RAISE=${killed_by%:*} -x RAISE_AT=12
             -x RAISE_WRITE=1" $words --output stopped --checkpoint 0
         expect "it is finished" test ! -e stopped/statistics.csv
-        expect "no chunk is done" grep -qa "$(printf '\001')" stopped/chunks-1-of-2
+        expect "no chunk is done" grep -qa "$(printf '\001')" stopped/chunks-1-of-2 stopped/chunks-2-of-2
         cp -r stopped stopped-too
         mpi_ensemble 0 3 "" --resume --output stopped
         expect "other bytes, resumed by MPI" same_ensemble whole stopped

@@ -1,10 +1,9 @@
-/* mpi_request.h - what all processes of a job know; the rest they read from the directory. */
-#ifndef DAL_CLI_MPI_REQUEST_H
-#define DAL_CLI_MPI_REQUEST_H
+/* mpi_work.h - a list of work on the processes of a job, and what all of them know. */
+#ifndef DAL_CLI_MPI_WORK_H
+#define DAL_CLI_MPI_WORK_H
 
 #include "run/native.h"
-
-#include <stdbool.h>
+#include "run/work.h"
 
 enum { MPI_MAX_PATH = 4096 };
 
@@ -20,5 +19,8 @@ typedef struct mpi_request {
 int mpi_set_output(mpi_request *request, const char *path);
 /* The largest exit status of all processes. */
 int mpi_max_status(int status);
+/* Runs a list, of which all processes know the same, on one thread each.  After a failure of one of
+ * them the others run what is left. */
+work_runner mpi_run_list;
 
 #endif
