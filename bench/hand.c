@@ -3,7 +3,9 @@
  *
  *     hand rk4 A|B3|B101       classical Runge-Kutta, libm's sin and cos, plain sums
  *     hand-own rk4 A           the same with this project's sine and cosine (HAND_OWN_SINCOS)
- *     hand midpoint A          implicit midpoint, k <- f(y + h/2 k) until k stagnates */
+ *     hand midpoint A          implicit midpoint, k <- f(y + h/2 k) until k stagnates
+ *     hand leapfrog HH|four_bodies
+ *                              half a step of q, a step of v, half a step of q */
 #define _POSIX_C_SOURCE 200809L
 #include "../examples/contact_chain.h"
 #include "bench.h"
@@ -76,16 +78,72 @@ static int midpoint_sleigh(void *start, double *end)
     return 0;
 }
 
+/* ---- leapfrog ---- */
+
+enum { HH_N = 2, BODIES = 4, BODIES_N = 3 * BODIES };
+
+/* Henon-Heiles, U = (x^2 + y^2)/2 + x^2 y - y^3/3. */
+static inline void henon_heiles_force(const double *q, double *f)
+{
+    f[0] = -q[0] - 2.0 * q[0] * q[1];
+    f[1] = -q[1] - q[0] * q[0] + q[1] * q[1];
+}
+
+/* Accelerations of bodies that attract each other, G = 1. */
+static inline void bodies_force(const double *q, double *f)
+{
+    static const double mass[BODIES] = {1, 0.02, 0.015, 0.01};
+    for (int i = 0; i < BODIES_N; i++) f[i] = 0.0;
+    for (int a = 0; a < BODIES; a++)
+        for (int b = a + 1; b < BODIES; b++) {
+            double d[3], square = 0.0;
+            for (int i = 0; i < 3; i++) d[i] = q[3 * b + i] - q[3 * a + i];
+            for (int i = 0; i < 3; i++) square += d[i] * d[i];
+            const double w = 1.0 / (square * sqrt(square));
+            for (int i = 0; i < 3; i++) f[3 * a + i] += mass[b] * w * d[i];
+            for (int i = 0; i < 3; i++) f[3 * b + i] -= mass[a] * w * d[i];
+        }
+}
+
+#define LEAPFROG(name, N, force)                                                                   \
+    static int name(void *start, double *end)                                                      \
+    {                                                                                              \
+        const double h = BENCH_H_STEP;                                                             \
+        double q[N], v[N], f[N];                                                                   \
+        memcpy(q, start, sizeof q);                                                                \
+        memcpy(v, (double *)start + (N), sizeof v);                                                \
+        for (int step = 0; step < SMALL_STEPS; step++) {                                           \
+            for (int i = 0; i < (N); i++) q[i] += 0.5 * h * v[i];                                  \
+            force(q, f);                                                                           \
+            for (int i = 0; i < (N); i++) v[i] += h * f[i];                                        \
+            for (int i = 0; i < (N); i++) q[i] += 0.5 * h * v[i];                                  \
+        }                                                                                          \
+        memcpy(end, q, sizeof q);                                                                  \
+        memcpy(end + (N), v, sizeof v);                                                            \
+        return 0;                                                                                  \
+    }
+LEAPFROG(leapfrog_henon_heiles, HH_N, henon_heiles_force)
+LEAPFROG(leapfrog_bodies, BODIES_N, bodies_force)
+
+/* As in bench/systems. */
+static double henon_heiles_y[2 * HH_N] = {0.1, -0.2, 0.3, 0.1};
+static double bodies_y[2 * BODIES_N] = {
+    0, 0, 0, 0.267499,  0.963558, 0.10, -1.456711, 0.876352,  0.20, -1.887424, -1.788192, 0.30,
+    0, 0, 0, -0.963558, 0.267499, 0.05, -0.395372, -0.657204, 0.10, 0.426534,  -0.450204, 0.15};
+
 int main(int argc, char **argv)
 {
     static double chain[LARGE_DIM + 1], sleigh[SMALL_DIM], chain3[SMALL_DIM];
     const struct {
         const char *name;
         bench_contender timed;
-    } contender[] = {{"rk4 A", {SMALL_STEPS, SMALL_DIM, rk4_sleigh, sleigh}},
-                     {"rk4 B3", {SMALL_STEPS, SMALL_DIM, rk4_chain3, chain3}},
-                     {"rk4 B101", {LARGE_STEPS, LARGE_DIM, rk4_chain101, chain}},
-                     {"midpoint A", {SMALL_STEPS, SMALL_DIM, midpoint_sleigh, sleigh}}};
+    } contender[] = {
+        {"rk4 A", {SMALL_STEPS, SMALL_DIM, rk4_sleigh, sleigh}},
+        {"rk4 B3", {SMALL_STEPS, SMALL_DIM, rk4_chain3, chain3}},
+        {"rk4 B101", {LARGE_STEPS, LARGE_DIM, rk4_chain101, chain}},
+        {"midpoint A", {SMALL_STEPS, SMALL_DIM, midpoint_sleigh, sleigh}},
+        {"leapfrog HH", {SMALL_STEPS, 2 * HH_N, leapfrog_henon_heiles, henon_heiles_y}},
+        {"leapfrog four_bodies", {SMALL_STEPS, 2 * BODIES_N, leapfrog_bodies, bodies_y}}};
     memcpy(sleigh, sleigh_y, sizeof sleigh);
     memcpy(chain3, chain3_y, sizeof chain3);
     chain_start(&chain_system, NULL, chain);

@@ -147,7 +147,8 @@ enum {
     DAL_BLOCKS_POSITIONAL = 1 << 11, /* every D linear, W^-1 b and A without v */
     DAL_D_ISOKINETIC = 1 << 12,      /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
     DAL_WIDE_TIMES = 1 << 13,        /* the wide sets read dal_point.times, or no time at all */
-    DAL_MASS_ON_KERNEL = 1 << 14     /* W need be regular on ker A only, see dal_callbacks */
+    DAL_MASS_ON_KERNEL = 1 << 14,    /* W need be regular on ker A only, see dal_callbacks */
+    DAL_F_POSITIONAL = 1 << 15       /* F depends on neither v nor g */
 };
 
 /* ---- events -------------------------------------------------------------------------------- */

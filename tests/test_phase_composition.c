@@ -197,6 +197,42 @@ static void test_sum(void)
     }
 }
 
+/* ---- evaluations ---- */
+
+/* Where F depends on q and t alone, a half step (1,0) and the (0,1) after it share their one
+ * evaluation, and the momenta cost none. */
+static void test_evaluations(void)
+{
+    enum { STEPS = 10 };
+    static const struct {
+        const char *method;
+        int evaluations;
+    } counted[] = {{"stormer-verlet", 1},
+                   {"stormer-verlet+yoshida4", 3},
+                   {"stormer-verlet+sofroniou10", 35},
+                   {"mclachlan4", 5},
+                   {"bm4", 6},
+                   {"bm6", 10},
+                   {"symplectic-euler-10", 1},
+                   {"symplectic-euler-01", 1}};
+    const char *const positional = "coordinates: [x, y]\n"
+                                   "lagrangian: (x'^2 + y'^2)/2 - x^2*y + x*cos(t)\n"
+                                   "gauge: {e: 2, mu_e: sin(t)}\n"
+                                   "start: {x: 0.3, y': 0.4}\n";
+    const dal_system *system = fixture_system(positional);
+    for (size_t i = 0; i < sizeof counted / sizeof *counted; i++) {
+        for (int space = 0; space < 2; space++) {
+            const dal_run_spec spec =
+                fixture_spec(system, counted[i].method, (dal_space)space, 0.01);
+            dal_run *run = fixture_run(&spec);
+            if (space == DAL_LIFTED) fixture_perturb(run, 0.02);
+            CU_ASSERT_EQUAL(dal_run_advance(run, STEPS, NULL), DAL_STATUS_OK);
+            CU_ASSERT_EQUAL(dal_run_evaluations(run), STEPS * counted[i].evaluations);
+            dal_run_free(run);
+        }
+    }
+}
+
 /* ---- what cannot be composed ---- */
 
 static void refused(const dal_system *system, const char *name, const char *reason)
@@ -226,5 +262,6 @@ void suite_phase_composition(void)
     CU_add_test(suite, "D bilinear and D quadratic", test_keeps);
     CU_add_test(suite, "on the surface: equal bits", test_surface);
     CU_add_test(suite, "the steps make up h", test_sum);
+    CU_add_test(suite, "one evaluation of forces without v", test_evaluations);
     CU_add_test(suite, "what is refused, and why", test_refused);
 }

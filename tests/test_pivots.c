@@ -210,13 +210,15 @@ static void test_constraint_properties(void)
     }
 }
 
+enum { POSITIONAL = DAL_BLOCKS_POSITIONAL | DAL_F_POSITIONAL };
+
 static const struct {
     const char *rest;
     unsigned properties;
 } motions[] = {
     {"lagrangian: (x'^2 + y'^2)/2 - x*y",
-     DAL_BLOCKS_POSITIONAL | DAL_E_EXACT | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
-    {"lagrangian: (x'^2 + y'^2)/2 - x*cos(t)", DAL_BLOCKS_POSITIONAL | DAL_MASS_CONSTANT},
+     POSITIONAL | DAL_E_EXACT | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
+    {"lagrangian: (x'^2 + y'^2)/2 - x*cos(t)", POSITIONAL | DAL_MASS_CONSTANT},
     {"lagrangian: (x'^2 + (1 + x^2)*y'^2)/2", DAL_E_EXACT | DAL_AUTONOMOUS},
     {"lagrangian: (x'^2 + y'^2)/2\nforces: {x: -x'}", DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
     /* A magnetic force does no work; this is seen by numbers only. */
@@ -226,8 +228,12 @@ static const struct {
     {"lagrangian: (x'^2 + y'^2)/2\nforces: {x: \"0.01*sin(x)*(y'^2 + y' - 1)/x'\"}\n"
      "start: {x': 1, y': 0.618}\nconstraints: [\"y'^2 + y' - 1\"]",
      DAL_D_QUADRATIC | DAL_D_RANK_CHECKED | DAL_E_ON_D | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
-    {"accelerations: {x: -x, y: -y}", DAL_BLOCKS_POSITIONAL | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
-    {"accelerations: {x: -x*t}", DAL_BLOCKS_POSITIONAL | DAL_MASS_CONSTANT},
+    {"accelerations: {x: -x, y: -y}", POSITIONAL | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
+    {"accelerations: {x: -x*t}", POSITIONAL | DAL_MASS_CONSTANT},
+    /* A constant: no rate of A, which would be quadratic in v. */
+    {"lagrangian: (x'^2 + y'^2)/2 - x*y\nstart: {x': 2, y': 1}\nconstraints: [\"x' - 2*y'\"]",
+     DAL_D_LINEAR | DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC | POSITIONAL | DAL_E_ON_D |
+         DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
 };
 
 static void test_motion_properties(void)
@@ -238,6 +244,8 @@ static void test_motion_properties(void)
         strcat(text, motions[k].rest);
         reference b = reference_of_text(text);
         CU_ASSERT(b.system->properties == (motions[k].properties | DAL_WIDE_TIMES));
+        const dal_system *exact = b.system->extended; /* its F has a part of D */
+        CU_ASSERT(!exact || exact == b.system || !(exact->properties & DAL_F_POSITIONAL));
         reference_free(&b);
     }
 }

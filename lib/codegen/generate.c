@@ -378,8 +378,10 @@ static void write_enums(dal__generation *g)
     dal__buffer_append(&g->text, "\n} dal_status;\n");
     if (!(g->kernel & DAL_KERNEL_SOLVE)) return;
     dal__buffer_append(&g->text, "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
-    dal__buffer_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d, DAL_MASS_ON_KERNEL = %d };\n",
-                      DAL_BLOCKS_POSITIONAL, DAL_MASS_ON_KERNEL);
+    dal__buffer_print(&g->text,
+                      "enum { DAL_BLOCKS_POSITIONAL = %d, DAL_MASS_ON_KERNEL = %d, "
+                      "DAL_F_POSITIONAL = %d };\n",
+                      DAL_BLOCKS_POSITIONAL, DAL_MASS_ON_KERNEL, DAL_F_POSITIONAL);
 }
 
 static void write_method(dal__generation *g)

@@ -15,7 +15,10 @@
  *
  * Symplectic for every choice, as sum dX1 dP1 - dX dP = h d(dH) = 0; order 1.  The adjoint of
  * (s_q, s_v) is (1-s_q, 1-s_v).  The physical space has the first line only, and v
- * means (v, g) there. */
+ * means (v, g) there.
+ *
+ * Where F depends on q and t alone, F_v = 0 and (1,0) and (0,1) are explicit, with one evaluation
+ * each; (1,0) and then (0,1) have q* and t* in common, and evaluate F once. */
 #ifndef DAL_KERNEL_SYMPLECTIC_EULER_H
 #define DAL_KERNEL_SYMPLECTIC_EULER_H
 
@@ -33,6 +36,8 @@ DAL_INLINE dal_polarisation DAL_POLARISATION(int q, int v)
 
 #define dal_symplectic_euler DAL_WIDE(dal_symplectic_euler)
 DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, double h);
+#define dal_symplectic_euler_pair DAL_WIDE(dal_symplectic_euler_pair)
+DAL_SHARED dal_status dal_symplectic_euler_pair(dal_step *s, double h, double adjoint_h);
 
 #ifndef DAL_LINKED
 /* The starred arguments of one step. */
@@ -43,6 +48,12 @@ typedef struct dal_euler {
     num *f;              /* [3n] or [nw]: the field or adjoint of the last evaluation */
     num w;               /* 1/e* */
 } dal_euler;
+
+/* Whether F depends on q and t alone. */
+DAL_INLINE int dal__force_is_positional(const dal_step *s)
+{
+    return (DAL_PROPERTIES(s) & DAL_F_POSITIONAL) != 0;
+}
 
 /* q* for the velocity v*. */
 DAL_INLINE void dal__euler_q(dal_step *s, dal_euler *k)
@@ -111,6 +122,14 @@ DAL_INLINE void dal__euler_matrix(dal_step *s, dal_equation *eq)
     dal_stage_inverse(s, &matrix, jacobian, m, &eq->block[0], 0);
 }
 
+/* pi1 for p* = p and F_v = 0. */
+DAL_INLINE void dal__euler_explicit_pi(const dal_step *s, dal_euler *k)
+{
+    const int p = dal_at_p(s), pi = dal_at_pi(s);
+    DAL_EACH(i, DAL_N(s))
+        k->pi[i] = s->y[pi + i] + dal_fma(dal_num(-k->h), s->y[p + i], s->r[pi + i]);
+}
+
 /* Solves for v1 (s_v = 1) or pi1 (s_v = 0). */
 DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
 {
@@ -149,28 +168,28 @@ DAL_INLINE void dal__euler_momenta(dal_step *s, const dal_euler *k, num mu, num 
     d[dal_at_pi_e(s)] = dal_gauge_rate(k->pi, n, k->w);
 }
 
-/* The field at the starred arguments and the rates of all components. */
-DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, num mu, num *d)
+/* The field at the starred arguments, unless it is known, and the rates of all components. */
+DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, int known, num mu, num *d)
 {
     const int n = DAL_N(s);
-    if (DAL_LIFTED(s)) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
-    if (!DAL_LIFTED(s)) dal_force(s, k->t, k->q, k->v, k->f);
+    if (DAL_LIFTED(s) && !known) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
+    if (!DAL_LIFTED(s) && !known) dal_force(s, k->t, k->q, k->v, k->f);
     if (DAL_LIFTED(s)) dal__euler_p(s, k);
     DAL_EACH(i, DAL_NW(s)) d[n + i] = dal__euler_rate_v(s, k, i);
     DAL_EACH(i, n) d[i] = k->at.v ? dal__euler_v1(s, k, i, d[n + i]) : k->v[i];
     if (DAL_LIFTED(s)) dal__euler_momenta(s, k, mu, d);
 }
 
-/* One step of size h from the present state and time. */
-DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, double h)
+/* One step of size h from the present state and time; f, [3n] or [nw], is the field at the starred
+ * arguments where it is known, and else becomes it. */
+DAL_INLINE dal_status dal__euler_step(dal_step *s, dal_polarisation at, double h, num *f, int known)
 {
     DAL__MARK(s);
-    const int n = DAL_N(s);
+    const int n = DAL_N(s), is_explicit = dal__force_is_positional(s) && at.q != at.v;
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, v, DAL_NW(s));
     DAL_VECTOR(s, p, DAL_N(s));
     DAL_VECTOR(s, pi, DAL_N(s));
-    DAL_VECTOR(s, f, 2 * DAL_N(s) + DAL_NW(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     dal_euler k = {at, h, at.q ? s->t + h : s->t, q, v, p, pi, f, dal_num(0.0)};
     num mu = dal_num(0.0);
@@ -182,12 +201,36 @@ DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, dou
         DAL_EACH(i, n) pi[i] = s->y[dal_at_pi(s) + i];
     }
     dal__euler_q(s, &k);
-    if ((at.v || DAL_LIFTED(s)) && dal_failed(dal__euler_solve(s, &k)))
+    if (is_explicit && DAL_LIFTED(s) && !at.v) dal__euler_explicit_pi(s, &k);
+    if (!is_explicit && (at.v || DAL_LIFTED(s)) && dal_failed(dal__euler_solve(s, &k)))
         return DAL_STATUS_NOT_CONVERGED;
-    dal__euler_q(s, &k);
-    dal__euler_rates(s, &k, mu, d);
+    if (!is_explicit) dal__euler_q(s, &k);
+    dal__euler_rates(s, &k, known, mu, d);
     DAL__RELEASE(s);
     return dal_update_multiple(s, h, h, d);
+}
+
+/* One step of size h from the present state and time. */
+DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, double h)
+{
+    DAL__MARK(s);
+    DAL_VECTOR(s, f, 2 * DAL_N(s) + DAL_NW(s));
+    const dal_status status = dal__euler_step(s, at, h, f, 0);
+    DAL__RELEASE(s);
+    return status;
+}
+
+/* (1,0) of size h, then (0,1) of size adjoint_h. */
+DAL_SHARED dal_status dal_symplectic_euler_pair(dal_step *s, double h, double adjoint_h)
+{
+    DAL__MARK(s);
+    DAL_VECTOR(s, f, 2 * DAL_N(s) + DAL_NW(s));
+    if (dal_failed(dal__euler_step(s, DAL_POLARISATION(1, 0), h, f, 0)))
+        return DAL_STATUS_NOT_CONVERGED;
+    const int known = dal__force_is_positional(s);
+    const dal_status status = dal__euler_step(s, DAL_POLARISATION(0, 1), adjoint_h, f, known);
+    DAL__RELEASE(s);
+    return status;
 }
 #endif
 

@@ -131,6 +131,7 @@ dal_status dal__properties(dal_model *model)
                      (e->restricted ? DAL_MASS_ON_KERNEL : 0u);
     DAL_TRY(dal__energy_properties(model));
     e->properties |= parts_properties(e, first);
+    if (!e->vakonomic && !depends_on_v(e, e->F, e->n)) e->properties |= DAL_F_POSITIONAL;
     return e->graph->status;
 }
 

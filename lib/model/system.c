@@ -241,6 +241,7 @@ static dal_status make_extended(dal_model *model)
     if (!e->extended) return DAL_STATUS_OK;
     model->extended = model->system;
     model->extended.properties ^= DAL_E_ON_D | DAL_E_EXACT;
+    model->extended.properties &= ~(unsigned)DAL_F_POSITIONAL;
     DAL_TRY(finish_programs(model, &model->extended_programs, &model->extended));
     model->system.extended = model->extended.extended = &model->extended;
     return DAL_STATUS_OK;
