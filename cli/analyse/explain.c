@@ -439,7 +439,6 @@ int explain_run(explain_settings *s)
     dal_error_budget *e = NULL;
     dal_error error = {0};
     int status = analysis_check_output(s->output, s->json);
-    request_choose_step(&s->request);
     if (status == CLI_DONE) status = request_check_forward(&s->request);
     if (status == CLI_DONE) status = request_create_run(&s->request);
     if (status == CLI_DONE) status = request_make_spec(&s->request, &spec);

@@ -352,7 +352,6 @@ int section_find(section_settings *settings)
     analysis_output output = {0};
     int status = load_section(&s);
     if (status != CLI_DONE) return status;
-    request_choose_step(s.request);
     status = request_create_run(s.request);
     if (status != CLI_DONE) return status;
     if (settings->transient >= s.request->time && s.request->options.step > 0.0)

@@ -21,7 +21,7 @@ static int explain(int argc, char **argv)
     explain_settings s = {.request = request_default()};
     const cli_group groups[] = {CLI_GROUP(options, &s),
                                 request_group(&s.request, request_options, EXPLAIN_WITHOUT)};
-    s.request.chooses_step = true;
+    s.request.step_rule = REQUEST_STEP_CHOSEN;
     int status = cli_read_arguments(&command_explain, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = explain_run(&s);
     request_free(&s.request);

@@ -16,7 +16,7 @@
 static int parse_levels(void *user, const cli_option *option, const char *text)
 {
     order_settings *s = user;
-    s->request.typed |= REQUEST_OPTION(step); /* no default for it is needed */
+    s->request.step_rule = REQUEST_STEP_UNUSED;
     return cli_parse_text(user, option, text);
 }
 

@@ -35,12 +35,11 @@ static int run(int argc, char **argv)
 {
     run_request request = request_default();
     run_settings settings = {0};
-    request.chooses_step = true;
+    request.step_rule = REQUEST_STEP_CHOSEN;
     const cli_group groups[] = {request_group(&request, request_options, 0),
                                 run_group(&settings, 0)};
     int status = cli_read_arguments(&command_run, argc, argv, groups, 2);
     if (status == CLI_GO_ON) {
-        request_choose_step(&request);
         status = request_create_run(&request);
         if (status == CLI_DONE)
             status = cli_is_directory(settings.output) ? run_in_directory(&request, &settings)

@@ -31,7 +31,7 @@ static const cli_option options[] = {
 static int section(int argc, char **argv)
 {
     section_settings s = {.request = request_default()};
-    s.request.chooses_step = true;
+    s.request.step_rule = REQUEST_STEP_CHOSEN;
     const cli_group groups[] = {CLI_GROUP(options, &s),
                                 request_group(&s.request, request_options, SECTION_WITHOUT)};
     int status = cli_read_arguments(&command_section, argc, argv, groups, 2);

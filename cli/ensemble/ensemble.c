@@ -15,7 +15,7 @@ enum { MAX_NAME = 128 };
 ensemble ensemble_default(void)
 {
     ensemble e = {.request = request_default()};
-    e.request.chooses_step = true;
+    e.request.step_rule = REQUEST_STEP_CHOSEN;
     return e;
 }
 
@@ -163,7 +163,6 @@ int ensemble_complete(ensemble *e)
     dal_error error = {0};
     if (e->variations == 0) return cli_fail(CLI_USAGE, "--vary is missing: nothing would vary");
     if (!request_has(&e->request, REQUEST_consistent)) e->request.options.consistent = 1;
-    request_choose_step(&e->request);
     int status = request_create_run(&e->request);
     if (status == CLI_DONE) status = request_make_spec(&e->request, &e->spec);
     if (status == CLI_DONE) status = fill_times(e);

@@ -113,15 +113,21 @@ void json_put_flag(json_writer *w, const char *name, bool flag)
 }
 
 /* Zero has no sign.  All doubles keep 15 digits, except the ones so small that they have fewer. */
-void json_put_number(json_writer *w, const char *name, double x)
+const char *json_format_number(char text[JSON_NUMBER], double x)
 {
-    char text[32] = "null";
     double read = NAN;
+    strcpy(text, "null");
     for (int digits = fabs(x) < DBL_MIN ? 1 : DBL_DIG; isfinite(x) && read != x; digits++) {
-        const int length = snprintf(text, sizeof text, "%.*g", digits, x + 0.0);
+        const int length = snprintf(text, JSON_NUMBER, "%.*g", digits, x + 0.0);
         dal__parse_number(text, (size_t)length, &read);
     }
-    fputs(text, json_put_name(w, name));
+    return text;
+}
+
+void json_put_number(json_writer *w, const char *name, double x)
+{
+    char text[JSON_NUMBER];
+    fputs(json_format_number(text, x), json_put_name(w, name));
 }
 
 void json_put_rounded(json_writer *w, const char *name, double x)

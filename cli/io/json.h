@@ -34,6 +34,9 @@ void json_close(json_writer *writer);
 /* Members of the present object or list. */
 void json_put_text(json_writer *writer, const char *name, const char *text); /* NULL: null */
 void json_put_flag(json_writer *writer, const char *name, bool flag);
+/* The fewest digits, 15 or more, that are read back as x; "null" where it is not finite. */
+enum { JSON_NUMBER = 32 };
+const char *json_format_number(char text[JSON_NUMBER], double x);
 void json_put_number(json_writer *writer, const char *name, double x);
 void json_put_integer(json_writer *writer, const char *name, long long x);
 /* A number of nine digits, where more would only make a page longer. */

@@ -102,9 +102,9 @@ char *manifest_input(const run_request *request)
     json_put_text(&w, "system", cli_is_path(system) ? copy_name : system);
     for (int i = 0; i < REQUEST_system; i++) {
         const char *given = request->text[i], *name = request_options[i].name;
-        if (i == REQUEST_set || i == REQUEST_start || !request_has(request, i)) continue;
+        if (i == REQUEST_set || i == REQUEST_start || (!given && i != REQUEST_step)) continue;
         if (!given)
-            request_put_value(&w, request, i); /* see study_cell.c */
+            json_put_number(&w, name, request->options.step); /* which was chosen */
         else if (request_option_is_number(i))
             json_put_given(&w, name, given);
         else

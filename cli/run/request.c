@@ -123,8 +123,7 @@ const cli_option request_options[REQUEST_OPTIONS] = {
          .parse = cli_parse_text, .offset = FIELD(system_name)}};
 
 /* The options that a system file may give. */
-static const int default_options[REQUEST_DEFAULTS] = {REQUEST_integrator, REQUEST_step,
-                                                      REQUEST_time};
+static const int default_options[] = {REQUEST_integrator, REQUEST_step, REQUEST_time};
 
 /* Whether the run ends at a time that follows from other options. */
 static bool gives_end(const run_request *request)
@@ -132,11 +131,11 @@ static bool gives_end(const run_request *request)
     return request_has(request, REQUEST_times) || request_has(request, REQUEST_steps);
 }
 
-/* Whether a step may be left out: under a tolerance, where neither rows nor the end count steps. */
 static bool needs_no_step(const run_request *request)
 {
-    return request->chooses_step && request->options.tolerance > 0.0 &&
-           !request_has(request, REQUEST_steps) && request->sampling == REQUEST_SAMPLING_LINEAR;
+    if (request->step_rule != REQUEST_STEP_CHOSEN) return request->step_rule == REQUEST_STEP_UNUSED;
+    return request->options.tolerance > 0.0 && !request_has(request, REQUEST_steps) &&
+           request->sampling == REQUEST_SAMPLING_LINEAR;
 }
 
 int request_check_forward(const run_request *request)
@@ -178,7 +177,7 @@ static int take_defaults(const cli_group *group, int status)
     if (!request->system_name) return CLI_DONE;
     int found = load_system(request);
     if (found != CLI_DONE) return found;
-    for (int i = 0; i < REQUEST_DEFAULTS; i++) {
+    for (size_t i = 0; i < sizeof default_options / sizeof *default_options; i++) {
         const int k = default_options[i];
         const cli_option *option = &group->options[k];
         const char *text = cli_default(request->model, option->name, NULL, NULL);
@@ -191,8 +190,7 @@ static int take_defaults(const cli_group *group, int status)
                              option->name, request->system_name);
         if (!text) continue;
         snprintf(taken + length, sizeof taken - length, " --%s %s", option->name, text);
-        request->taken[i] = cli_strdup(text);
-        const int parsed = request_parse_option(request, k, request->taken[i]);
+        const int parsed = request_give(request, k, cli_strdup(text));
         if (found == CLI_DONE) found = parsed;
     }
     if (taken[0] && found == CLI_DONE && status == CLI_DONE)
@@ -213,6 +211,13 @@ int request_parse_option(run_request *request, int option, const char *text)
 {
     request->text[option] = text;
     return request_options[option].parse(request, &request_options[option], text);
+}
+
+int request_give(run_request *request, int option, char *text)
+{
+    free(request->made[option]);
+    request->made[option] = text;
+    return request_parse_option(request, option, text);
 }
 
 bool request_option_is_number(int option)
@@ -245,9 +250,8 @@ void request_free(run_request *request)
     request_free_settings(&request->set);
     request_free_settings(&request->start);
     free(request->row_time);
-    free(request->list);
-    for (int i = 0; i < REQUEST_DEFAULTS; i++) free(request->taken[i]);
-    *request = request_default();
+    for (int i = 0; i < REQUEST_OPTIONS; i++) free(request->made[i]);
+    *request = (run_request){0};
 }
 
 int request_parse_setting(request_settings *settings, const char *what, const char *name,
@@ -287,27 +291,22 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
     return CLI_DONE;
 }
 
-void request_choose_step(run_request *request)
-{
-    const bool has_time = request_has(request, REQUEST_time), is_listed = request->times > 0;
-    if (request_has(request, REQUEST_step) || !needs_no_step(request)) return;
-    if (!has_time && !is_listed) return;
-    const double end = has_time ? request->time : request->row_time[request->times - 1];
-    request->options.step = (end - request->from) / REQUEST_CHOSEN_STEPS;
-    request->typed |= REQUEST_OPTION(step);
-}
-
 int request_complete(run_request *request, dal_run_spec *spec)
 {
     if (!request->system_name) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
     if (!request_has(request, REQUEST_integrator))
         return cli_fail(CLI_USAGE, "--integrator is missing");
-    if (!request_has(request, REQUEST_step)) return cli_fail(CLI_USAGE, "--step is missing");
-    if (!request_has(request, REQUEST_time) && !gives_end(request))
-        return cli_fail(CLI_USAGE, "--time is missing");
-    if (request->options.step == 0.0 && !request->text[REQUEST_step])
+    const bool has_step = request_has(request, REQUEST_step);
+    const bool has_time = request_has(request, REQUEST_time);
+    if (!has_step && !needs_no_step(request)) return cli_fail(CLI_USAGE, "--step is missing");
+    if (!has_time && !gives_end(request)) return cli_fail(CLI_USAGE, "--time is missing");
+    if (!has_step) {
+        const double end = has_time ? request->time : request->row_time[request->times - 1];
+        request->options.step = (end - request->from) / REQUEST_CHOSEN_STEPS;
+    }
+    if (request->options.step == 0.0 && !has_step)
         return cli_fail(CLI_USAGE, "--%s: the run ends where it begins, at t = %.15g",
-                        request_has(request, REQUEST_time) ? "time" : "times", request->from);
+                        has_time ? "time" : "times", request->from);
     if (request->options.step == 0.0) return cli_fail(CLI_USAGE, "--step: it must not be 0");
     const int status = row_times_fill(request);
     return status == CLI_DONE ? request_make_spec(request, spec) : status;

@@ -27,16 +27,16 @@ int request_find_option(const char *name);
 
 /* Parses the value of one option; request points to the text. */
 int request_parse_option(run_request *request, int option, const char *text);
+/* The same of an allocated text, which the request then owns. */
+int request_give(run_request *request, int option, char *text);
 /* Parses the value of a setting, e = inf being the one infinite value, and adds it; what names it
  * in a message. */
 int request_parse_setting(request_settings *settings, const char *what, const char *name,
                           const char *text);
 /* Loads the system, chooses the space and makes the spec of the run. */
 int request_make_spec(run_request *request, dal_run_spec *spec);
-/* Under a tolerance a step that is missing becomes a hundredth of the time. */
-enum { REQUEST_CHOSEN_STEPS = 100 };
-void request_choose_step(run_request *request);
-/* After the last option: checks that none is missing and makes the spec; and the run as well. */
+/* After the last option: checks that none is missing, chooses a step that need not be given, and
+ * makes the spec; and the run as well. */
 int request_complete(run_request *request, dal_run_spec *spec);
 int request_create_run(run_request *request);
 

@@ -5,10 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool request_has(const run_request *request, int option)
-{
-    return request->text[option] || request->typed >> option & 1;
-}
+bool request_has(const run_request *request, int option) { return request->text[option] != NULL; }
 
 size_t request_find_formula(const char **list, const char **end)
 {

@@ -34,8 +34,6 @@ enum {
             REQUEST_system,
     REQUEST_OPTIONS
 };
-enum { REQUEST_DEFAULTS = 3 }; /* the options that a system file may give */
-
 typedef struct request_settings {
     dal_setting *item; /* with names of their own */
     int count;
@@ -51,23 +49,28 @@ typedef enum request_sampling {
 /* The words of --names. */
 typedef enum request_names { REQUEST_NAMES_SYSTEM, REQUEST_NAMES_PLAIN } request_names;
 
+/* Whether a command needs --step: always, not under a tolerance where neither rows nor the end
+ * count steps, or never. */
+typedef enum request_step {
+    REQUEST_STEP_NEEDED,
+    REQUEST_STEP_CHOSEN,
+    REQUEST_STEP_UNUSED
+} request_step;
+enum { REQUEST_CHOSEN_STEPS = 100 }; /* a chosen step is this part of the time */
+
 typedef struct run_request {
     const char *system_name; /* a built-in name or a path; the caller's, as all texts here */
     const char *columns;     /* --columns; NULL: all */
     const char *observe;     /* --observe, formulas between semicolons; NULL: none */
-    const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given as a text */
-    uint64_t typed;    /* set of options whose values below were given without a text */
-    bool chooses_step; /* under a tolerance the step may be left out; set beforehand */
+    const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given */
+    char *made[REQUEST_OPTIONS];       /* of these texts those that the request owns, or NULL */
+    request_step step_rule;            /* set beforehand */
     double from, time;
     long long steps, samples, statistics; /* steps: 0: not given */
     request_sampling sampling;
     request_names names;
-    double given_time; /* these two before they are rounded to whole steps */
-    long long given_samples;
-    double *row_time;              /* [samples + 1]; NULL: at equal distances */
-    long long times;               /* number of times that were given */
-    char *list;                    /* those as a text */
-    char *taken[REQUEST_DEFAULTS]; /* texts that came from the system file */
+    double *row_time; /* [samples + 1]; NULL: at equal distances */
+    long long times;  /* number of times that were given */
     dal_options options;
     request_settings set, start;
     dal_method method;

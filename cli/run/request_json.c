@@ -22,31 +22,13 @@ static void put_choice(json_writer *w, int option, int choice)
 #define PUT_dal_sums             put_choice
 #define PUT_dal_precision        put_choice
 
-void request_put_value(json_writer *w, const run_request *request, int option)
+static void put_value(json_writer *w, const run_request *request, int option)
 {
     char method[256];
     const char *name = request_options[option].name;
     switch (option) {
     case REQUEST_integrator:
         json_put_text(w, name, dal_method_name(&request->method, method, sizeof method));
-        break;
-    case REQUEST_time:
-        json_put_number(w, name, request->given_time);
-        break;
-    case REQUEST_from:
-        json_put_number(w, name, request->from);
-        break;
-    case REQUEST_steps:
-        json_put_integer(w, name, request->steps);
-        break;
-    case REQUEST_samples:
-        json_put_integer(w, name, request->given_samples);
-        break;
-    case REQUEST_statistics:
-        json_put_integer(w, name, request->statistics);
-        break;
-    case REQUEST_sampling:
-        put_choice(w, option, (int)request->sampling);
         break;
 #define PUT(type, member, ...)                                                                     \
     case REQUEST_##member:                                                                         \
@@ -91,8 +73,8 @@ void request_open_json(json_writer *w, const run_request *request, uint64_t with
     json_put_text(w, "system", request->system_name);
     put_parameters(w, request);
     request_put_settings(w, "start", &request->start);
-    if (!(without & REQUEST_OPTION(integrator))) request_put_value(w, request, REQUEST_integrator);
+    if (!(without & REQUEST_OPTION(integrator))) put_value(w, request, REQUEST_integrator);
     if (!(without & REQUEST_OPTION(time))) json_put_number(w, "time", request->time);
     for (int option = REQUEST_step; option < REQUEST_system; option++)
-        if (!(without >> option & 1)) request_put_value(w, request, option);
+        if (!(without >> option & 1)) put_value(w, request, option);
 }

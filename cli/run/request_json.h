@@ -1,4 +1,4 @@
-/* request_json.h - a request, and values of it, as JSON. */
+/* request_json.h - a request, and settings of it, as JSON. */
 #ifndef DAL_CLI_REQUEST_JSON_H
 #define DAL_CLI_REQUEST_JSON_H
 
@@ -6,8 +6,6 @@
 
 #include "request.h"
 
-/* The member of an option: a number or a word. */
-void request_put_value(json_writer *writer, const run_request *request, int option);
 /* An object of names and values; the infinite e is the text "inf", since JSON has no such number.
  */
 void request_put_settings(json_writer *writer, const char *name, const request_settings *settings);

@@ -109,21 +109,21 @@ int row_times_parse(void *user, const cli_option *option, const char *given)
     char *text = is_file ? file_read(given, &length) : cli_strdup(given);
     if (!text) return CLI_IO;
     free(request->row_time);
-    free(request->list);
+    free(request->made[REQUEST_times]);
     request->row_time = NULL;
-    request->list = NULL;
+    request->made[REQUEST_times] = NULL;
     request->times = 0;
     const int status = parse_list(request, text);
     free(text);
     if (status != CLI_DONE) return status;
     /* The manifest has the times themselves, and needs no file. */
-    FILE *out = cli_memstream_open(&request->list, &length);
+    FILE *out = cli_memstream_open(&request->made[REQUEST_times], &length);
     for (long long i = 0; i < request->times; i++) {
         if (i) fputc(',', out);
         cli_put(out, request->row_time[i]);
     }
     cli_memstream_close(out);
-    request->text[REQUEST_times] = request->list;
+    request->text[REQUEST_times] = request->made[REQUEST_times];
     return CLI_DONE;
 }
 
@@ -205,8 +205,6 @@ static int check_end(const run_request *request)
 int row_times_fill(run_request *request)
 {
     int status = find_end(request);
-    request->given_time = request->time;
-    request->given_samples = request->samples;
     if (status == CLI_DONE && request->times > 0) status = finish_list(request);
     if (status == CLI_DONE) status = check_end(request);
     if (status != CLI_DONE || request->times > 0) return status;

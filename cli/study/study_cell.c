@@ -127,40 +127,45 @@ static void add_displacement(cell_run *r)
     free(size);
 }
 
-static void make_request(cell_run *r)
+/* Gives an option a number. */
+static int give_number(run_request *request, int option, double x)
 {
-#define START_SPACE(code, word, space, about) space,
-    static const dal_space space[] = {STUDY_START_LIST(START_SPACE)};
+    char text[JSON_NUMBER];
+    return request_give(request, option, cli_strdup(json_format_number(text, x)));
+}
+
+static int make_request(cell_run *r)
+{
+    char method[256];
+#define START_SPACE(code, word, space, about) space == DAL_LIFTED ? "lifted" : "physical",
+    static const char *const space[] = {STUDY_START_LIST(START_SPACE)};
 #undef START_SPACE
     const study_cell *c = r->cell;
     const study_case *e = c->of_case;
     run_request *request = &r->request;
     request->system = e->system;
     request->system_name = study_case_system(e);
-    request->method = *c->method;
     request->options = e->options;
-    request->options.step = c->step;
-    request->options.space = space[c->start];
-    request->from = e->from;
-    request->time = e->time;
-    request->samples = e->rows == STUDY_ROWS_NONE ? 1 : e->samples;
-    request->steps = e->run_steps;
-    request->sampling = REQUEST_SAMPLING_STEPS;
-    request->statistics = e->statistics;
-    request->typed = REQUEST_OPTION(integrator) | REQUEST_OPTION(step) | REQUEST_OPTION(space) |
-                     REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) |
-                     REQUEST_OPTION(statistics) |
-                     (e->run_steps > 0 ? REQUEST_OPTION(steps) : REQUEST_OPTION(time)) |
-                     (e->from != 0.0 ? REQUEST_OPTION(from) : 0);
     memcpy(request->text, e->option, sizeof request->text);
-    if (c->tolerance > 0.0) {
-        request->options.tolerance = c->tolerance;
-        request->typed |= REQUEST_OPTION(tolerance);
-    }
-    request->observe = request->text[REQUEST_observe] = e->observe;
+    dal_method_name(c->method, method, sizeof method);
+    const long long samples = e->rows == STUDY_ROWS_NONE ? 1 : e->samples;
+    int status = request_give(request, REQUEST_integrator, cli_strdup(method));
+    status |= give_number(request, REQUEST_step, c->step);
+    status |= request_parse_option(request, REQUEST_space, space[c->start]);
+    status |= request_give(request, REQUEST_samples, cli_format("%lld", samples));
+    status |= request_parse_option(request, REQUEST_sampling, "steps");
+    status |= request_give(request, REQUEST_statistics, cli_format("%lld", e->statistics));
+    status |= e->run_steps > 0
+                  ? request_give(request, REQUEST_steps, cli_format("%lld", e->run_steps))
+                  : give_number(request, REQUEST_time, e->time);
+    if (e->from != 0.0) status |= give_number(request, REQUEST_from, e->from);
+    if (c->tolerance > 0.0) status |= give_number(request, REQUEST_tolerance, c->tolerance);
+    if (e->observe) status |= request_parse_option(request, REQUEST_observe, e->observe);
+    if (status != CLI_DONE) return CLI_USAGE;
     add_settings(&request->set, &e->set, 1.0);
     add_settings(&request->start, &e->start, 1.0);
     if (c->start == STUDY_DISPLACED) add_displacement(r);
+    return CLI_DONE;
 }
 
 static void set_failure(study_cell *c, study_state state, dal_status status)
@@ -175,8 +180,8 @@ static void set_failure(study_cell *c, study_state state, dal_status status)
 static int create_run(cell_run *r)
 {
     dal_run_spec spec;
-    make_request(r);
-    const int status = request_complete(&r->request, &spec);
+    int status = make_request(r);
+    if (status == CLI_DONE) status = request_complete(&r->request, &spec);
     if (status != CLI_DONE) return status;
     const dal_status created = dal_run_create(&r->request.run, &spec, &r->cell->error);
     if (cli_is_ok(created)) return CLI_DONE;
