@@ -147,7 +147,7 @@ int check_print_screen(const check *c)
     const check_entry *growth = find_entry(c, "growth vector of D = 0");
     const char *choice = NULL;
     screen s;
-    screen_open(&s, stdout);
+    screen_open(&s, stdout, SCREEN_TEXT);
     screen_say(&s, 2, "%s%s%s", system->name, system->title ? ": " : "",
                system->title ? system->title : "");
     screen_say(&s, 2, "%d coordinate%s, %d constraint%s%s%s", c->n, c->n == 1 ? "" : "s", c->m,

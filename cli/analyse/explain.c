@@ -143,6 +143,12 @@ static int width_of(const dal_error_budget *e, int source)
     return width > MIN_COLUMN ? width : MIN_COLUMN;
 }
 
+static const char *cell_text(const dal_shares *a, int source, char cell[CELL_SIZE])
+{
+    return source == DAL_SOURCE_PROJECTION ? ratio_text(projected_ratio(a), cell)
+                                           : share_text(a->share[source], cell);
+}
+
 static void print_shares(const dal_error_budget *e, const int *list, int count)
 {
     int shown[DAL_ERROR_SOURCES], columns = 0, left = LINE - 2;
@@ -160,9 +166,7 @@ static void print_shares(const dal_error_budget *e, const int *list, int count)
         if (printf("  %-*s", width - 2, a->name) > width) printf("\n%*s", width, "");
         for (int c = 0; c < columns; c++) {
             char cell[CELL_SIZE];
-            printf("  %*s", width_of(e, shown[c]),
-                   shown[c] == DAL_SOURCE_PROJECTION ? ratio_text(projected_ratio(a), cell)
-                                                     : share_text(a->share[shown[c]], cell));
+            printf("  %*s", width_of(e, shown[c]), cell_text(a, shown[c], cell));
         }
         putchar('\n');
     }
@@ -271,6 +275,37 @@ static void print_runs(const explain_settings *s, const dal_error_budget *e)
                             s->details ? "" : ".  The runs compared: --details");
     cli_wrap(stdout, text, 0, 4);
     free(text);
+}
+
+/* The sentences and the shares for a document. */
+static void print_document(const explain_settings *s, const dal_error_budget *e)
+{
+    screen out;
+    screen_table t = {.columns = 1, .heads = 1};
+    int *list = cli_calloc((size_t)e->observables + 1, sizeof *list), count = 0;
+    for (int i = 0; i < e->observables; i++)
+        if (is_changed(e, i)) list[count++] = i;
+    screen_open(&out, stdout, s->format);
+    screen_add_cell(&t, SCREEN_PLAIN, "quantity");
+    for (int k = 0; k < DAL_ERROR_SOURCES; k++) {
+        if (!has_column(e, list, count, k)) continue;
+        screen_add_cell(&t, SCREEN_PLAIN, "%s", head_of(e, k));
+        t.columns++;
+    }
+    for (int i = 0; i < count; i++) {
+        const dal_shares *a = &e->shares[list[i]];
+        char words[512], cell[CELL_SIZE];
+        screen_say(&out, 0, "%s %s.", a->name,
+                   dal_error_budget_summarise(e, list[i], words, sizeof words));
+        screen_add_cell(&t, SCREEN_PLAIN, "%s", a->name);
+        for (int k = 0; k < DAL_ERROR_SOURCES; k++)
+            if (has_column(e, list, count, k))
+                screen_add_cell(&t, SCREEN_PLAIN, "%s", cell_text(a, k, cell));
+    }
+    screen_add_table(&out, &t, "lr", 0);
+    screen_free_table(&t);
+    free(list);
+    screen_close(&out, NULL);
 }
 
 static void print_budget(const explain_settings *s, const dal_error_budget *e)
@@ -439,6 +474,7 @@ int explain_run(explain_settings *s)
     dal_error_budget *e = NULL;
     dal_error error = {0};
     int status = analysis_check_output(s->output, s->json);
+    if (status == CLI_DONE) status = screen_check_format(s->format, s->json, s->details);
     if (status == CLI_DONE) status = request_check_forward(&s->request);
     if (status == CLI_DONE) status = request_create_run(&s->request);
     if (status == CLI_DONE) status = request_make_spec(&s->request, &spec);
@@ -455,8 +491,8 @@ int explain_run(explain_settings *s)
     cli_progress_end();
     if (done != DAL_STATUS_OK) return cli_error(cli_exit(done), s->request.system_name, &error);
     status = s->output ? write_budget(s->output, e) : CLI_DONE;
-    if (status == CLI_DONE && (s->json || !s->output)) {
-        (s->json ? put_budget : print_budget)(s, e);
+    if (status == CLI_DONE && (s->json || s->format != SCREEN_TEXT || !s->output)) {
+        (s->json ? put_budget : s->format != SCREEN_TEXT ? print_document : print_budget)(s, e);
         status = cli_close(stdout, "standard output");
     }
     dal_error_budget_free(e);

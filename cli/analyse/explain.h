@@ -4,6 +4,7 @@
 
 #include "run/native.h"
 #include "run/request.h"
+#include "ui/screen.h"
 
 enum { EXPLAIN_MAX_STEPS = 2000000000 };
 
@@ -17,6 +18,7 @@ typedef struct explain_settings {
     native_mode native;
     bool details; /* prints the runs that were compared, too */
     bool json;    /* to stdout, instead of sentences */
+    screen_format format;
 } explain_settings;
 
 /* Returns CLI_DONE or prints and returns an exit status. */

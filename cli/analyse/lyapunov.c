@@ -26,6 +26,7 @@
 
 typedef struct lyapunov_settings {
     bool is_volume, json, details, force;
+    screen_format format;
     run_request request;
     const char *output;
     double transient;
@@ -213,6 +214,7 @@ static const cli_option options[] = {
      "writes the means so far: .csv, .npy, or a directory with a figure",
      CLI_ROW(cli_parse_output, lyapunov_settings, output)},
     ANALYSIS_FORCE_OPTION(lyapunov_settings),
+    SCREEN_FORMAT_OPTION(lyapunov_settings),
     JSON_OPTION(lyapunov_settings),
     SCREEN_DETAILS_OPTION(lyapunov_settings),
     {"exponents", "K", NULL, "computes the K largest only",
@@ -229,7 +231,8 @@ static cli_group lyapunov_group(lyapunov_settings *settings)
 
 static int print_results(const lyapunov_results *r, const lyapunov_settings *set)
 {
-    if (!set->json && !set->details && screen_has_reader()) return lyapunov_print_screen(r);
+    if (screen_is_wanted(set->format, set->json, set->details))
+        return lyapunov_print_screen(r, set->format);
     (set->json ? lyapunov_put : lyapunov_print)(r);
     return cli_close(stdout, "standard output");
 }
@@ -259,6 +262,8 @@ static int measure_means(lyapunov_settings *settings)
 {
     tangent_study s = {.set = settings, .request = &settings->request};
     int status = analysis_check_output(settings->output, settings->json);
+    if (status == CLI_DONE)
+        status = screen_check_format(settings->format, settings->json, settings->details);
     if (status == CLI_DONE && !settings->force) status = analysis_check_directory(settings->output);
     if (status == CLI_DONE) status = create_spectrum(&s);
     if (status == CLI_DONE) {

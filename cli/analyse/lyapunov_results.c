@@ -213,11 +213,11 @@ static void say_exponents(screen *out, const lyapunov_results *r)
 
 static void add_exponents(screen *out, const lyapunov_results *r)
 {
-    const int count = dal_lyapunov_count(r->spectrum);
-    screen_table t = {.columns = 5};
+    const int count = dal_lyapunov_count(r->spectrum), shown = screen_limit(out, ROWS);
+    screen_table t = {.columns = 5, .heads = 1};
     dal_average a;
     add_heads(&t);
-    for (int i = 0; i < count && i < ROWS; i++) {
+    for (int i = 0; i < count && i < shown; i++) {
         char name[32];
         snprintf(name, sizeof name, "exponent %d", i + 1);
         dal_lyapunov_exponent(r->spectrum, i, &a);
@@ -229,7 +229,7 @@ static void add_exponents(screen *out, const lyapunov_results *r)
     add_mean(&t, "divergence of F", &a, "");
     screen_add_table(out, &t, "lrrrl", 0);
     screen_free_table(&t);
-    if (count > ROWS) screen_say(out, 2, "... and %d more (--details)", count - ROWS);
+    if (count > shown) screen_say(out, 2, "... and %d more (--details)", count - shown);
 }
 
 static void say_volume(screen *out, const lyapunov_results *r)
@@ -243,7 +243,7 @@ static void say_volume(screen *out, const lyapunov_results *r)
 
 static void add_volume(screen *out, const lyapunov_results *r)
 {
-    screen_table t = {.columns = 5};
+    screen_table t = {.columns = 5, .heads = 1};
     dal_average a;
     add_heads(&t);
     dal_lyapunov_divergence(r->spectrum, &a);
@@ -269,12 +269,12 @@ static void say_balance(screen *out, const lyapunov_results *r)
                screen_number(x[1], r->balance.margin, 2));
 }
 
-int lyapunov_print_screen(const lyapunov_results *r)
+int lyapunov_print_screen(const lyapunov_results *r, screen_format format)
 {
     const dal_run *run = dal_lyapunov_run(r->spectrum);
     char method[128], x[3][SCREEN_NUMBER];
     screen out;
-    screen_open(&out, stdout);
+    screen_open(&out, stdout, format);
     dal_method_name(&r->request->method, method, sizeof method);
     screen_say(&out, 2, "%s by %s, h = %s, t = %s .. %s", r->request->system_name, method,
                screen_number(x[0], r->request->options.step, 4), screen_number(x[1], r->begin, 4),

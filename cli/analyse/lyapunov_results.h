@@ -4,6 +4,7 @@
 
 #include "dalembert_analysis.h"
 #include "run/request.h"
+#include "ui/screen.h"
 
 /* The options of a run that the commands do not take. */
 #define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(space))
@@ -24,6 +25,6 @@ void lyapunov_print(const lyapunov_results *r);
 void lyapunov_put(const lyapunov_results *r);
 /* Prints the result and the largest exponents on a terminal.  Returns CLI_DONE, or prints and
  * returns CLI_IO. */
-int lyapunov_print_screen(const lyapunov_results *r);
+int lyapunov_print_screen(const lyapunov_results *r, screen_format format);
 
 #endif

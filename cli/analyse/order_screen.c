@@ -60,15 +60,34 @@ static void add_cells(screen_table *t, const order_study *s, const order_method 
         screen_add_cell(t, SCREEN_PLAIN, "%s", succeeded ? screen_number(x, cost[i], 2) : "-");
 }
 
+/* The headings of a table that stands by itself, in one line. */
+static void add_document_heads(screen_table *t, const order_study *s)
+{
+    static const char *const first[] = {"integrator", "order", "order found"};
+    char x[SCREEN_NUMBER];
+    const bool is_controlled = s->set->tolerances != NULL;
+    for (int i = 0; i < 3; i++) screen_add_cell(t, SCREEN_PLAIN, "%s", first[i]);
+    for (int i = 0; i < s->levels; i++)
+        screen_add_cell(t, SCREEN_PLAIN, "%s = %s", is_controlled ? "error at tol" : "error at h",
+                        screen_number(x, is_controlled ? s->tolerance[i] : s->step[i], 3));
+    screen_add_cell(t, SCREEN_PLAIN, "F per step");
+    screen_add_cell(t, SCREEN_PLAIN, "us per step");
+}
+
 int order_print_screen(const order_study *s)
 {
     const order_method *end = s->methods + s->method_count, *best = NULL;
     int left_out = 0, best_level = 0, rows = 0;
     bool is_mixed = false;
     char space[80], x[SCREEN_NUMBER], h[SCREEN_NUMBER];
-    screen_table t = {.columns = s->levels + 5, .gap = 1};
+    screen_table t = {
+        .columns = s->levels + 5, .gap = 1, .heads = s->set->format == SCREEN_TEXT ? 2 : 1};
     screen out;
-    for (int line = 0; line < 2; line++) add_cells(&t, s, NULL, line);
+    screen_open(&out, stdout, s->set->format);
+    if (t.heads == 1)
+        add_document_heads(&t, s);
+    else
+        for (int line = 0; line < 2; line++) add_cells(&t, s, NULL, line);
     for (const order_method *m = s->methods; m < end; m++) {
         int level;
         const double seconds = seconds_to_target(s, m, &level);
@@ -79,12 +98,12 @@ int order_print_screen(const order_study *s)
         }
         is_mixed |= order_space(s, m) != s->spec.options.space;
         if (m->state == ORDER_REFUSED) continue;
-        if (rows++ < ROWS)
+        if (rows++ < screen_limit(&out, ROWS))
             add_cells(&t, s, m, 0);
         else
             left_out++;
     }
-    screen_open(&out, stdout);
+
     snprintf(space, sizeof space, "%s%s",
              s->spec.options.space == DAL_LIFTED ? "on the lift" : "in (q, v)",
              is_mixed ? ", in (q, v) where a method has none" : "");

@@ -4,6 +4,7 @@
 
 #include "dalembert_analysis.h"
 #include "run/request.h"
+#include "ui/screen.h"
 
 #include <stdbool.h>
 
@@ -13,7 +14,8 @@ typedef struct order_settings {
     const char *tolerances;          /* a list; NULL: none, else the step stays the same */
     const char *output;
     long long level_count, threads;
-    bool json;       /* to stdout, instead of a table */
+    bool json; /* to stdout, instead of a table */
+    screen_format format;
     bool details;    /* on a terminal, too, what a pipe gets */
     bool force;      /* into any directory */
     bool is_written; /* set when output has the table */

@@ -165,7 +165,7 @@ static int print_screen(const section *s)
     const long long rows = s->rows < SCREEN_ROWS ? s->rows : SCREEN_ROWS;
     char method[MAX_NAME], count[SCREEN_NUMBER], x[SCREEN_NUMBER];
     screen out;
-    screen_open(&out, stdout);
+    screen_open(&out, stdout, SCREEN_TEXT);
     screen_say(&out, 2, "%s by %s crosses %s%s %s times until t = %.6g", s->request->system_name,
                dal_method_name(&s->request->method, method, sizeof method), s->set->on,
                strchr(s->set->on, '=') ? "" : " = 0", screen_count(count, s->rows),

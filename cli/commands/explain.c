@@ -12,6 +12,7 @@ static const cli_option options[] = {
      CLI_ROW(cli_parse_output, explain_settings, output)},
     {"details", NULL, NULL, "prints the runs that are compared, and how each share was found",
      CLI_FLAG(explain_settings, details)},
+    SCREEN_FORMAT_OPTION(explain_settings),
     JSON_OPTION(explain_settings),
     NATIVE_OPTION(explain_settings),
 };

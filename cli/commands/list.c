@@ -370,7 +370,7 @@ static int print_names(const selection *list)
                  {"Integrators", "list integrators", integrator[0], count[0]},
                  {"Modifiers, as in rk4+project", "list integrators", integrator[1], count[1]}};
     screen s;
-    screen_open(&s, stdout);
+    screen_open(&s, stdout, SCREEN_TEXT);
     for (int i = 0; i < 3; i++) {
         char *names = screen_list_names(lists[i].names, lists[i].count, MAX_NAMES * MAX_NAMES);
         screen_say(&s, 2, "%s (dalembert %s):", lists[i].head, lists[i].more);

@@ -35,6 +35,7 @@ static const cli_option options[] = {
     {"output", "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets a page, too",
      CLI_ROW(cli_parse_output, order_settings, output)},
     ANALYSIS_FORCE_OPTION(order_settings),
+    SCREEN_FORMAT_OPTION(order_settings),
     JSON_OPTION(order_settings),
     SCREEN_DETAILS_OPTION(order_settings),
 };

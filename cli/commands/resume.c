@@ -61,7 +61,8 @@ static int resume(int argc, char **argv)
     const study_run_options how = {.threads = (int)s.threads,
                                    .interval = s.run.interval,
                                    .native = s.run.native,
-                                   .shows_matrices = s.run.details};
+                                   .shows_matrices = s.run.details,
+                                   .format = s.run.format};
     const int ended = study_resume(s.directory, &how);
     return s.no_page ? ended : report_after_study(s.directory, ended, REPORT_NAMED);
 }

@@ -6,6 +6,8 @@
 #include "ui/commands.h"
 #include "ui/message.h"
 
+#include <string.h>
+
 /* Whether nothing is in the directory that a new run would overwrite, or that is not of a run. */
 static int check_directory(const run_directory *dir)
 {
@@ -15,6 +17,14 @@ static int check_directory(const run_directory *dir)
                     "'%s' exists already: 'dalembert resume' continues a run, --force overwrites "
                     "it",
                     file);
+}
+
+static int check_format(const run_settings *s)
+{
+    const char *output = s->text[RUN_output];
+    if (s->format != SCREEN_TEXT && output && strcmp(output, "-") == 0)
+        return cli_fail(CLI_USAGE, "--format: standard output has the rows");
+    return screen_check_format(s->format, false, s->details);
 }
 
 static int run_in_directory(const run_request *request, const run_settings *settings)
@@ -39,6 +49,7 @@ static int run(int argc, char **argv)
     const cli_group groups[] = {request_group(&request, request_options, 0),
                                 run_group(&settings, 0)};
     int status = cli_read_arguments(&command_run, argc, argv, groups, 2);
+    if (status == CLI_GO_ON && check_format(&settings) != CLI_DONE) status = CLI_USAGE;
     if (status == CLI_GO_ON) {
         status = request_create_run(&request);
         if (status == CLI_DONE)

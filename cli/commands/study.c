@@ -23,6 +23,7 @@ typedef struct settings {
     long long threads;
     store_shard shard;
     bool show, tables, details, no_page;
+    screen_format format;
     run_settings run;
 } settings;
 
@@ -34,6 +35,7 @@ static const cli_option options[] = {
     {"details", NULL, NULL, "prints the matrices that a pipe gets on a terminal, too",
      CLI_FLAG(settings, details)},
     {"tables", NULL, NULL, "prints the tables, not a screenful", CLI_FLAG(settings, tables)},
+    SCREEN_FORMAT_OPTION(settings),
     REPORT_NO_PAGE_OPTION(settings),
     {"show", NULL, NULL, "prints the study file itself and runs nothing", CLI_FLAG(settings, show)},
     {NULL, "STUDY.yaml", NULL, "a study file; by default the built-in study",
@@ -109,7 +111,8 @@ static int run_study(const settings *s, const char *text, size_t length)
                                    .interval = s->run.interval,
                                    .native = s->run.native,
                                    .shows_tables = s->tables,
-                                   .shows_matrices = s->details};
+                                   .shows_matrices = s->details,
+                                   .format = s->format};
     study_directory_open(&dir, s->output ? s->output : default_directory);
     int status = study_plan_read(&plan, s->study ? s->study : builtin_name, text, length, NULL);
     const int force = s->run.force || (!s->output && study_directory_is_finished(&dir));
@@ -129,7 +132,7 @@ static int study(int argc, char **argv)
     const cli_group groups[] = {
         CLI_GROUP(options, &s),
         run_group(&s.run, RUN_OPTION(output) | RUN_OPTION(events) | RUN_OPTION(summary) |
-                              RUN_OPTION(details) | RUN_OPTION(progress)),
+                              RUN_OPTION(details) | RUN_OPTION(format) | RUN_OPTION(progress)),
     };
     int status = cli_read_arguments(&command_study, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;

@@ -34,6 +34,7 @@ static const cli_option options[RUN_OPTIONS] = {
     [RUN_details] = {"details", NULL, NULL,
                      "prints the summary with what the rate of a line may be in a longer run",
                      .parse = cli_parse_flag, .offset = offsetof(run_settings, details)},
+    [RUN_format] = SCREEN_FORMAT_OPTION(run_settings),
     [RUN_progress] = PROGRESS_OPTION(run_settings),
     [RUN_native] = NATIVE_OPTION(run_settings),
     [RUN_force] = {"force", NULL, NULL, "overwrites what the directory holds",
@@ -94,7 +95,8 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
     run_recorder recorder;
     dal_error error;
     dal_run *run = request->run;
-    const bool is_screen_alone = screen_has_reader() && !settings->text[RUN_output];
+    const bool has_format = settings->format != SCREEN_TEXT;
+    const bool is_screen_alone = (has_format || screen_has_reader()) && !settings->text[RUN_output];
     const char *output = is_screen_alone ? "/dev/null" : settings->output;
     int status = recorder_open(&recorder, request, dir, output);
     if (status == CLI_DONE) status = open_events(&recorder, request, dir, settings);
@@ -114,9 +116,9 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
         print_end(&recorder, status, &error);
         print_unresolved(run);
         /* A terminal gets a screen; what is no terminal, the table of all numbers on request. */
-        FILE *terminal = screen_terminal();
-        if (terminal && !settings->details)
-            run_screen_print(terminal, &recorder, is_screen_alone ? NULL : output);
+        FILE *reader = has_format ? stdout : screen_terminal();
+        if (reader && !settings->details)
+            run_screen_print(reader, &recorder, is_screen_alone ? NULL : output, settings->format);
         if (settings->details || (settings->summary && !isatty(STDERR_FILENO)))
             summary_print(stderr, &recorder);
         if (settings->details) summary_print_details(stderr, &recorder);

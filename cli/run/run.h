@@ -7,12 +7,14 @@
 #include "request.h"
 #include "run_directory.h"
 #include "ui/options.h"
+#include "ui/screen.h"
 
 /* The options of a run that do not concern the trajectory. */
 #define RUN_OPTION_LIST(OPTION)                                                                    \
     OPTION(output)                                                                                 \
     OPTION(events)                                                                                 \
-    OPTION(checkpoint) OPTION(summary) OPTION(details) OPTION(progress) OPTION(native) OPTION(force)
+    OPTION(checkpoint)                                                                             \
+    OPTION(summary) OPTION(details) OPTION(format) OPTION(progress) OPTION(native) OPTION(force)
 
 enum {
 #define NUMBER(name) RUN_##name,
@@ -25,6 +27,7 @@ typedef struct run_settings {
     const char *output, *events; /* events: a file, or NULL */
     double interval;             /* between checkpoints, in seconds */
     bool summary, details, force;
+    screen_format format; /* of the summary, on standard output; text: on a terminal */
     native_mode native;
     progress_mode progress;
     const char *text[RUN_OPTIONS]; /* as given; NULL: not given */

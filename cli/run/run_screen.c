@@ -24,9 +24,11 @@ static bool are_alike(const run_recorder *r, int i, int k)
 static int say_verdicts(screen *s, const run_recorder *r)
 {
     const int n = r->observables;
-    screen_table t = {.columns = 3};
+    screen_table t = {.columns = 3, .heads = s->format != SCREEN_TEXT};
     const char **alike = cli_calloc((size_t)n + 1, sizeof *alike);
     int moving = -1, left_out = 0;
+    static const char *const heads[] = {"quantity", "trend", ""};
+    for (int i = 0; i < t.heads * t.columns; i++) screen_add_cell(&t, SCREEN_PLAIN, "%s", heads[i]);
     for (int k = 0; k < 2 * n; k++) {
         const int i = k % n;
         const dal_trend *trend = &r->trend[i];
@@ -37,7 +39,7 @@ static int say_verdicts(screen *s, const run_recorder *r)
         if (is_exact != (k >= n) || first < i) continue;
         if (moving < 0 && trend->conservation == DAL_CONSERVED && trend->size == DAL_SIZE_LARGER)
             moving = i;
-        if (t.cells / t.columns == OBSERVABLES) {
+        if (t.cells / t.columns == screen_limit(s, OBSERVABLES)) {
             left_out++;
             continue;
         }
@@ -56,7 +58,7 @@ static int say_verdicts(screen *s, const run_recorder *r)
     return moving;
 }
 
-void run_screen_print(FILE *to, const run_recorder *r, const char *output)
+void run_screen_print(FILE *to, const run_recorder *r, const char *output, screen_format format)
 {
     const run_request *request = r->request;
     const dal_run *run = request->run;
@@ -64,7 +66,7 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output)
     const char *path = r->dir ? r->dir->rows : output;
     char method[128], h[SCREEN_NUMBER], count[SCREEN_NUMBER], seconds[SCREEN_NUMBER], space[64];
     screen s;
-    screen_open(&s, to);
+    screen_open(&s, to, format);
     snprintf(space, sizeof space, "in (q, v)");
     if (request->options.space == DAL_LIFTED)
         snprintf(space, sizeof space, "on the lift (%d variables)", r->dimension);
@@ -89,6 +91,10 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output)
     screen_skip(&s);
     const int moving = say_verdicts(&s, r);
     screen_skip(&s);
+    if (format != SCREEN_TEXT) {
+        screen_close(&s, NULL);
+        return;
+    }
     if (!path)
         screen_say(&s, 7, "Rows:  -o FILE.csv, or a pipe");
     else if (strcmp(path, "-") != 0)

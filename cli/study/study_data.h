@@ -6,6 +6,7 @@
 #include "io/document.h"
 #include "run/native.h"
 #include "run/request_data.h"
+#include "ui/screen.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -145,6 +146,7 @@ typedef struct study_plan {
     double seconds;      /* that the runs have taken */
     bool has_tolerances; /* a case has the key tolerance: files have that column */
     bool shows_tables, shows_matrices;
+    screen_format format;
 } study_plan;
 
 /* Forgets the results. */

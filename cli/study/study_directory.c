@@ -244,6 +244,7 @@ int study_directory_run(const study_directory *dir, study_plan *plan,
     plan->native = options->native;
     plan->shows_tables = options->shows_tables;
     plan->shows_matrices = options->shows_matrices;
+    plan->format = options->format;
     return study_directory_finish(dir, plan,
                                   study_pool_run(plan, work_on_threads, options->threads));
 }
@@ -292,8 +293,8 @@ static int write_files(const study_directory *dir, const study_plan *plan)
 static int print_results(const study_directory *dir, const study_plan *plan)
 {
     const char *tables = dir->shard.count == 0 ? dir->tables : NULL;
-    if (screen_has_reader() && !plan->shows_tables && !plan->shows_matrices)
-        return study_print_overview(stdout, plan, tables);
+    if (screen_is_wanted(plan->format, false, plan->shows_tables || plan->shows_matrices))
+        return study_print_overview(stdout, plan, tables, plan->format);
     if (plan->shows_tables)
         print_tables(stdout, plan);
     else

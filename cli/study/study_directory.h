@@ -49,6 +49,7 @@ typedef struct study_run_options {
     native_mode native;
     bool shows_tables;   /* prints the tables, not the screen */
     bool shows_matrices; /* on a terminal, too, prints what a pipe gets */
+    screen_format format;
 } study_run_options;
 
 /* Makes the names of the files in a directory. */

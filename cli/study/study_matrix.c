@@ -44,23 +44,27 @@ static bool has_family(const study_matrix *s, const char *name)
 }
 
 /* Those that the study lists; else all or, where these are too many, the first of each family. */
-static void choose_rows(study_matrix *s)
+static void choose_rows(study_matrix *s, study_scope scope)
 {
     const study_plan *plan = s->plan;
-    for (; s->rows < plan->representatives; s->rows++)
+    const bool are_listed = scope == STUDY_SOME && plan->representatives > 0;
+    const bool are_many = scope == STUDY_SOME && s->method_count > STUDY_REPRESENTATIVES;
+    s->row = cli_calloc((size_t)s->method_count + STUDY_REPRESENTATIVES, sizeof *s->row);
+    for (; are_listed && s->rows < plan->representatives; s->rows++)
         s->row[s->rows] = find_method(s, &plan->representative[s->rows]);
-    for (int i = 0; plan->representatives == 0 && i < s->method_count; i++)
-        if (s->rows < STUDY_REPRESENTATIVES &&
-            (s->method_count <= STUDY_REPRESENTATIVES || !has_family(s, s->methods[i].name)))
+    for (int i = 0; !are_listed && i < s->method_count; i++)
+        if (!are_many || (s->rows < STUDY_REPRESENTATIVES && !has_family(s, s->methods[i].name)))
             s->row[s->rows++] = &s->methods[i];
 }
 
 /* Systems with constraints come first; where these are too many, one of each group. */
-static void choose_columns(study_matrix *s)
+static void choose_columns(study_matrix *s, study_scope scope)
 {
-    const bool are_many = s->plan->case_count > STUDY_COLUMNS;
+    const int limit = scope == STUDY_SOME ? STUDY_COLUMNS : s->plan->case_count;
+    const bool are_many = s->plan->case_count > limit;
+    s->column = cli_calloc((size_t)limit + 1, sizeof *s->column);
     for (int rank = 0; rank < 4; rank++)
-        for (int i = 0; i < s->plan->case_count && s->columns < STUDY_COLUMNS; i++) {
+        for (int i = 0; i < s->plan->case_count && s->columns < limit; i++) {
             const study_case *e = &s->plan->cases[i];
             if ((e->system->m == 0) * 2 + (are_many && !e->is_first) == rank)
                 s->column[s->columns++] = e;
@@ -91,6 +95,7 @@ static void count_runs(const study_matrix *s)
 /* The cells of the matrix: of each system those from its first start with its first step. */
 static void choose_cells(study_matrix *s)
 {
+    s->cell = cli_calloc((size_t)s->rows * (size_t)s->columns + 1, sizeof *s->cell);
     for (int k = 0; k < s->columns; k++) {
         const study_case *e = s->column[k];
         for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
@@ -99,26 +104,29 @@ static void choose_cells(study_matrix *s)
             while (row >= 0 && s->row[row] != s->of_cell[i]) row--;
             if (row >= 0 && c->start == study_first_start(e) && c->step == e->step[0] &&
                 (c->tolerance == 0.0 || c->tolerance == e->tolerance[0]))
-                s->cell[row][k] = c;
+                s->cell[row * s->columns + k] = c;
         }
     }
 }
 
-void study_matrix_make(study_matrix *s, const study_plan *plan)
+void study_matrix_make(study_matrix *s, const study_plan *plan, study_scope scope)
 {
     *s = (study_matrix){.plan = plan};
     list_methods(s);
     s->of_cell = cli_calloc((size_t)plan->cell_count + 1, sizeof *s->of_cell);
     for (int i = 0; i < plan->cell_count; i++)
         s->of_cell[i] = find_method(s, plan->cells[i].method);
-    choose_rows(s);
-    choose_columns(s);
+    choose_rows(s, scope);
+    choose_columns(s, scope);
     choose_cells(s);
     count_runs(s);
 }
 
 void study_matrix_free(study_matrix *s)
 {
+    free(s->cell);
+    free(s->column);
+    free(s->row);
     free(s->of_cell);
     free(s->methods);
 }

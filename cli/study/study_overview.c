@@ -20,8 +20,8 @@ typedef struct overview {
     const study_plan *plan;
     study_matrix matrix;
     screen screen;
-    char name[STUDY_COLUMNS][STUDY_SHORT_NAME];
-    bool has[STUDY_COLUMNS][QUANTITIES];
+    char (*name)[STUDY_SHORT_NAME]; /* [columns of the matrix], as the next */
+    bool (*has)[QUANTITIES];
     int columns; /* systems that fit; the others are in the counts */
 } overview;
 
@@ -36,7 +36,7 @@ static void fit_systems(overview *o)
     for (int i = 0; i < m->columns; i++) {
         bool *has = o->has[i];
         for (int k = 0; k < m->rows * QUANTITIES; k++) {
-            const study_cell *c = m->cell[k / QUANTITIES][i];
+            const study_cell *c = study_matrix_cell(m, k / QUANTITIES, i);
             has[k % QUANTITIES] |= c && study_get_trend(c, k % QUANTITIES);
         }
         has[CONSTRAINT] |= m->column[i]->system->m > 0;
@@ -54,25 +54,29 @@ static void add_table(overview *o, int rows)
     static const char *const heads[QUANTITIES] = {"D", "E", "error"};
     const study_matrix *m = &o->matrix;
     const bool has_counts = o->columns < o->plan->case_count;
-    screen_table t = {.gap = 1};
+    screen_table t = {.gap = 1, .heads = 2};
     for (int k = 0; k < (rows + 2) * (o->columns + 1) * QUANTITIES; k++) {
         const int row = k / QUANTITIES / (o->columns + 1) - 2;
         const int i = k / QUANTITIES % (o->columns + 1), q = k % QUANTITIES;
-        const bool is_count = i == o->columns, is_first = q == CONSTRAINT || !o->has[i][CONSTRAINT];
+        const bool is_count = i == o->columns;
+        /* A document has whole labels, each beside its quantity. */
+        const bool is_labelled = o->screen.format != SCREEN_TEXT;
+        const bool is_first = !is_count && (q == CONSTRAINT || !o->has[i][CONSTRAINT]);
         if (i == 0 && q == 0)
             screen_add_cell(&t, SCREEN_PLAIN, "%s", row < 0 ? "" : m->row[row]->name);
         if (is_count ? !has_counts || q == ERROR : !o->has[i][q]) continue;
         if (row == -2)
             screen_add_cell(&t, SCREEN_PLAIN, "%s",
-                            is_count   ? (q == CONSTRAINT ? "ok in" : "all")
-                            : is_first ? o->name[i]
-                                       : "");
+                            is_count      ? (q == CONSTRAINT ? "ok in" : "all")
+                            : is_labelled ? m->column[i]->label
+                            : is_first    ? o->name[i]
+                                          : "");
         else if (row == -1)
             screen_add_cell(&t, SCREEN_PLAIN, "%s", heads[q]);
         else if (is_count)
             study_add_count(&t, m->row[row], q);
         else
-            study_add_size(&t, m->cell[row][i], q);
+            study_add_size(&t, study_matrix_cell(m, row, i), q);
         if (row == -2) t.columns = t.cells;
     }
     screen_add_table(&o->screen, &t, "l", 0);
@@ -129,7 +133,7 @@ static void say_take(overview *o)
     free(is_in);
 }
 
-int study_print_overview(FILE *to, const study_plan *plan, const char *tables)
+int study_print_overview(FILE *to, const study_plan *plan, const char *tables, screen_format format)
 {
     /* Lines after the rows, and how many of them are the key's. */
     enum { BELOW = 10, BELOW_NARROW = 12, KEY_LINES = 8 };
@@ -138,8 +142,10 @@ int study_print_overview(FILE *to, const study_plan *plan, const char *tables)
                                       "? too short to say", "( ) not stated: D is not 0",
                                       "x failed",           "n/a refused"};
     overview o = {.plan = plan};
-    study_matrix_make(&o.matrix, plan);
-    screen_open(&o.screen, to);
+    study_matrix_make(&o.matrix, plan, format == SCREEN_TEXT ? STUDY_SOME : STUDY_ALL);
+    o.name = cli_calloc((size_t)o.matrix.columns + 1, sizeof *o.name);
+    o.has = cli_calloc((size_t)o.matrix.columns + 1, sizeof *o.has);
+    screen_open(&o.screen, to, format);
     study_name_columns(&o.matrix, o.name);
     fit_systems(&o);
     char *range = study_describe_range(plan);
@@ -149,9 +155,10 @@ int study_print_overview(FILE *to, const study_plan *plan, const char *tables)
     study_say_expectations(&o.screen, plan);
     const int room = LINES - screen_count_lines(&o.screen) -
                      (o.screen.width < SCREEN_COLUMNS ? BELOW_NARROW : BELOW);
-    const int rows = o.matrix.rows <= room ? o.matrix.rows : room > 1 ? room - 1 : 1;
+    const int shown = o.matrix.rows <= room ? o.matrix.rows : room > 1 ? room - 1 : 1;
+    const int rows = format == SCREEN_TEXT ? shown : o.matrix.rows;
     add_table(&o, rows);
-    const int systems = plan->case_count - o.columns, methods = o.matrix.rows - rows;
+    const int systems = plan->case_count - o.columns, methods = o.matrix.method_count - rows;
     if (systems > 0 && methods > 0)
         screen_say(&o.screen, 2, "... and %d more systems, %d more methods (--details)", systems,
                    methods);
@@ -163,7 +170,7 @@ int study_print_overview(FILE *to, const study_plan *plan, const char *tables)
     /* The first cell of the table that drifts. */
     const study_cell *next = NULL;
     for (int k = 0; k < o.matrix.rows * o.columns && !next; k++) {
-        const study_cell *c = o.matrix.cell[k / o.columns][k % o.columns];
+        const study_cell *c = study_matrix_cell(&o.matrix, k / o.columns, k % o.columns);
         const dal_trend *trend = c ? study_get_trend(c, CONSTRAINT) : NULL;
         if (trend && !study_is_at_rounding(trend) && study_is_drifting(trend)) next = c;
     }
@@ -176,6 +183,8 @@ int study_print_overview(FILE *to, const study_plan *plan, const char *tables)
     if (next) screen_say_command(&o.screen, "Next:", command);
     free(command);
     screen_say(&o.screen, 2, "Tables: %s", tables ? tables : "'dalembert merge' makes them");
+    free(o.name);
+    free(o.has);
     study_matrix_free(&o.matrix);
     return screen_close(&o.screen, "--details");
 }

@@ -88,7 +88,7 @@ static bool has_column(const study_matrix *s, int column, int quantity)
 {
     bool has = quantity == CONSTRAINT && s->column[column]->system->m > 0;
     for (int i = 0; i < s->rows && !has; i++) {
-        const study_cell *c = s->cell[i][column];
+        const study_cell *c = study_matrix_cell(s, i, column);
         has = c && study_get_trend(c, quantity);
     }
     return has;
@@ -112,7 +112,7 @@ static void print_matrix(FILE *out, const study_matrix *s, int quantity, bool in
             if (i < 0)
                 fprintf(out, " %*d", CELL - 1, k + 1);
             else
-                put_cell(out, in_colour, s->cell[i][k], quantity);
+                put_cell(out, in_colour, study_matrix_cell(s, i, k), quantity);
         }
         fputc('\n', out);
     }
@@ -145,7 +145,7 @@ static bool has_energy_alone(const study_matrix *s)
 {
     for (int i = 0; i < s->rows; i++)
         for (int k = 0; k < s->columns; k++) {
-            const study_cell *c = s->cell[i][k];
+            const study_cell *c = study_matrix_cell(s, i, k);
             if (c && study_find_fate(c, ENERGY) == OFF_SURFACE) return true;
         }
     return false;
@@ -387,7 +387,7 @@ static int count_lines(const char *text)
 void study_print_screen(FILE *out, const study_plan *plan, const char *tables, bool in_colour)
 {
     study_matrix s;
-    study_matrix_make(&s, plan);
+    study_matrix_make(&s, plan, STUDY_SOME);
     char *text[PARTS];
     size_t length;
     int lines = 0;

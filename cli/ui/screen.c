@@ -1,8 +1,10 @@
 /* screen.c - what a person reads on a terminal: at most 24 lines of at most 80 columns. */
 #include "screen.h"
 #include "memory.h"
+#include "screen_format.h"
 #include "wrap.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -26,13 +28,28 @@ bool screen_is_in_colour(FILE *to)
            !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
+int screen_check_format(screen_format format, bool has_json, bool has_details)
+{
+    if (format == SCREEN_TEXT || !(has_json || has_details)) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "--format excludes %s", has_json ? "--json" : "--details");
+}
+
+bool screen_is_wanted(screen_format format, bool has_json, bool has_details)
+{
+    return format != SCREEN_TEXT || (!has_json && !has_details && screen_has_reader());
+}
+
 /* ---- a screen ------------------------------------------------------------------------------ */
 
-void screen_open(screen *s, FILE *to)
+void screen_open(screen *s, FILE *to, screen_format format)
 {
+    enum { ANY_WIDTH = 1 << 15 };
     const int width = to == stderr ? cli_width() : cli_output_width();
-    *s = (screen){.to = to, .in_colour = screen_is_in_colour(to)};
-    s->width = width > 0 && width < SCREEN_COLUMNS ? width : SCREEN_COLUMNS;
+    *s = (screen){.to = to, .format = format};
+    s->in_colour = format == SCREEN_TEXT && screen_is_in_colour(to);
+    s->width = format != SCREEN_TEXT                 ? ANY_WIDTH
+               : width > 0 && width < SCREEN_COLUMNS ? width
+                                                     : SCREEN_COLUMNS;
     s->out = cli_memstream_open(&s->text, &s->length);
 }
 
@@ -46,12 +63,14 @@ int screen_close(screen *s, const char *more)
         if (lines == SCREEN_LINES - 1) cut = line;
         line = strchr(line, '\n') + 1;
     }
-    const bool is_cut = more && lines > SCREEN_LINES;
+    const bool is_cut = more && lines > SCREEN_LINES && s->format == SCREEN_TEXT;
     fwrite(s->text, 1, is_cut ? (size_t)(cut - s->text) : s->length, s->to);
     if (is_cut) fprintf(s->to, "... and %d more lines (%s)\n", lines - SCREEN_LINES + 1, more);
     free(s->text);
     return s->to == stdout ? cli_close(stdout, "standard output") : CLI_DONE;
 }
+
+int screen_limit(const screen *s, int rows) { return s->format == SCREEN_TEXT ? rows : INT_MAX; }
 
 void screen_say(screen *s, int hanging, const char *format, ...)
 {
@@ -60,14 +79,19 @@ void screen_say(screen *s, int hanging, const char *format, ...)
     char *text = cli_format_list(format, list);
     va_end(list);
     const int indent = (int)strspn(text, " ");
-    fprintf(s->out, "%*s", indent, "");
-    cli_wrap_to(s->out, text + indent, indent, hanging, s->width);
+    if (s->format != SCREEN_TEXT) {
+        screen_format_sentence(s, text + indent);
+    } else {
+        fprintf(s->out, "%*s", indent, "");
+        cli_wrap_to(s->out, text + indent, indent, hanging, s->width);
+    }
     free(text);
 }
 
 void screen_say_command(screen *s, const char *head, const char *command)
 {
     enum { INDENT = 2 };
+    if (s->format != SCREEN_TEXT) return;
     int column = fprintf(s->out, "%s", head);
     if (column + GAP + (int)strlen(command) <= s->width) {
         column += fprintf(s->out, "%*s", GAP, "");
@@ -94,6 +118,12 @@ void screen_say_items(screen *s, const char *const *items, int count, int lines,
 {
     enum { INDENT = 2, SPACES = 3 };
     int column = 0, line = 1;
+    if (s->format != SCREEN_TEXT) {
+        char *sentence = screen_list_names(items, count, INT_MAX / 2);
+        screen_format_sentence(s, sentence);
+        free(sentence);
+        return;
+    }
     const int width = s->width - (int)strlen(more) - (int)sizeof "   ... and 999 more ()";
     for (int i = 0; i < count; i++) {
         const int length = (int)strlen(items[i]);
@@ -120,7 +150,10 @@ int screen_count_lines(screen *s)
     return lines;
 }
 
-void screen_skip(screen *s) { fputc('\n', s->out); }
+void screen_skip(screen *s)
+{
+    if (s->format == SCREEN_TEXT) fputc('\n', s->out);
+}
 
 char *screen_list_names(const char *const *names, int count, int columns)
 {
@@ -159,7 +192,7 @@ void screen_free_table(screen_table *t)
     free(t->cell);
 }
 
-static char align_of(const char *align, int column)
+char screen_align_of(const char *align, int column)
 {
     const int last = (int)strlen(align) - 1;
     return align[column < last ? column : last];
@@ -185,8 +218,8 @@ static void put_row(const screen *s, const screen_table *t, const screen_cell *r
     int column = fprintf(s->out, "%*s", indent, ""), blanks = 0;
     for (int i = 0; i < shown; i++) {
         const int spaces = widths[i] - count_characters(row[i].text);
-        const bool is_right = align_of(align, i) == 'r';
-        if (align_of(align, i) == 'w' && row[i].text[0]) {
+        const bool is_right = screen_align_of(align, i) == 'r';
+        if (screen_align_of(align, i) == 'w' && row[i].text[0]) {
             if (column + blanks + LEAST_TEXT > s->width) { /* on the next line */
                 fputc('\n', s->out);
                 column = 0;
@@ -214,6 +247,10 @@ static void put_row(const screen *s, const screen_table *t, const screen_cell *r
 
 int screen_add_table(screen *s, const screen_table *t, const char *align, int indent)
 {
+    if (s->format != SCREEN_TEXT) {
+        screen_format_table(s, t, align);
+        return 0;
+    }
     int *widths = cli_calloc((size_t)t->columns + 1, sizeof *widths);
     for (int k = 0; k < t->cells; k++) {
         const int width = count_characters(t->cell[k].text), i = k % t->columns;
@@ -221,7 +258,7 @@ int screen_add_table(screen *s, const screen_table *t, const char *align, int in
     }
     int shown = 0, used = indent;
     for (; shown < t->columns; shown++) {
-        const bool is_wrapped = align_of(align, shown) == 'w';
+        const bool is_wrapped = screen_align_of(align, shown) == 'w';
         if (shown > 0 && !is_wrapped && used + widths[shown] > s->width) break;
         used += widths[shown] + (t->gap ? t->gap : GAP);
     }

@@ -23,10 +23,15 @@ typedef enum screen_colour {
     SCREEN_COLOURS
 } screen_colour;
 
+/* How the tables of a screen are printed, whole: for a person, or for a document.  LaTeX has the
+ * sentences as comments, Markdown as paragraphs, CSV has none. */
+typedef enum screen_format { SCREEN_TEXT, SCREEN_LATEX, SCREEN_MARKDOWN, SCREEN_CSV } screen_format;
+
 typedef struct screen {
     FILE *out; /* the text as it is made; whatever is written there is printed in the end */
-    FILE *to;  /* a terminal */
+    FILE *to;  /* a terminal, or any stream where it is no text */
     int width; /* columns */
+    screen_format format;
     bool in_colour;
     char *text;
     size_t length;
@@ -46,11 +51,25 @@ bool screen_is_in_colour(FILE *to);
             CLI_FLAG(settings, details)                                                            \
     }
 
+/* Returns CLI_DONE, or prints that a format excludes other forms and returns CLI_USAGE. */
+int screen_check_format(screen_format format, bool has_json, bool has_details);
+/* Whether results are printed as a screen, or its table, and not as data or in detail. */
+bool screen_is_wanted(screen_format format, bool has_json, bool has_details);
+
+/* The row of --format in a table of options. */
+#define SCREEN_FORMAT_OPTION(settings)                                                             \
+    {                                                                                              \
+        "format", "text|latex|markdown|csv", "text",                                               \
+            "prints the table of the screen, whole, for a document", CLI_WORD(settings, format)    \
+    }
+
 /* Begins a screen; screen_close prints it and ends it.  more is the option that prints what does
  * not fit; NULL: the screen may have any number of lines.  Returns CLI_DONE, or prints and returns
  * CLI_IO. */
-void screen_open(screen *s, FILE *to);
+void screen_open(screen *s, FILE *to, screen_format format);
 int screen_close(screen *s, const char *more);
+/* How many rows of a table are shown: this many on a terminal, else all. */
+int screen_limit(const screen *s, int rows);
 
 /* Adds a paragraph, whose second and later lines begin in column hanging. */
 void screen_say(screen *s, int hanging, const char *format, ...) CLI_PRINTF(3, 4);
@@ -75,16 +94,19 @@ typedef struct screen_cell {
 
 typedef struct screen_table {
     int columns, cells, capacity;
-    int gap; /* blanks between columns; 0: 2 */
+    int heads; /* the first rows, which are headings */
+    int gap;   /* blanks between columns; 0: 2 */
     screen_cell *cell;
 } screen_table;
 
 void screen_add_cell(screen_table *t, screen_colour colour, const char *format, ...)
     CLI_PRINTF(3, 4);
-/* Adds a table to a screen.  align has a letter for each column, the last one for all others: l, r,
+/* Adds a table to a screen; outside text only that.  align has a letter for each column, the last one for all others: l, r,
  * and w for a last column whose text is wrapped.  Columns that do not fit are left out: returns how
  * many. */
 int screen_add_table(screen *s, const screen_table *t, const char *align, int indent);
+/* The letter of a column. */
+char screen_align_of(const char *align, int column);
 void screen_free_table(screen_table *t);
 
 /* A number with some significant digits, without zeros in its exponent: 5.2e-8, 12.3, 20000.
