@@ -192,12 +192,6 @@ void screen_free_table(screen_table *t)
     free(t->cell);
 }
 
-char screen_align_of(const char *align, int column)
-{
-    const int last = (int)strlen(align) - 1;
-    return align[column < last ? column : last];
-}
-
 /* Characters, not bytes, of a UTF-8 text. */
 static int count_characters(const char *text)
 {

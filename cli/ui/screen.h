@@ -6,36 +6,7 @@
 #ifndef DAL_CLI_SCREEN_H
 #define DAL_CLI_SCREEN_H
 
-#include "message.h"
-
-#include <stdbool.h>
-
-enum { SCREEN_LINES = 24, SCREEN_COLUMNS = 80, SCREEN_NUMBER = 32 };
-
-/* The palette: rounding, then larger sizes by decades; faint is what is not stated. */
-typedef enum screen_colour {
-    SCREEN_PLAIN,
-    SCREEN_ROUNDING,
-    SCREEN_SMALL,
-    SCREEN_MEDIUM,
-    SCREEN_LARGE,
-    SCREEN_FAINT,
-    SCREEN_COLOURS
-} screen_colour;
-
-/* How the tables of a screen are printed, whole: for a person, or for a document.  LaTeX has the
- * sentences as comments, Markdown as paragraphs, CSV has none. */
-typedef enum screen_format { SCREEN_TEXT, SCREEN_LATEX, SCREEN_MARKDOWN, SCREEN_CSV } screen_format;
-
-typedef struct screen {
-    FILE *out; /* the text as it is made; whatever is written there is printed in the end */
-    FILE *to;  /* a terminal, or any stream where it is no text */
-    int width; /* columns */
-    screen_format format;
-    bool in_colour;
-    char *text;
-    size_t length;
-} screen;
+#include "screen_data.h"
 
 /* Whether a person reads standard output: it is a terminal. */
 bool screen_has_reader(void);
@@ -85,28 +56,13 @@ void screen_skip(screen *s);
 /* Names between commas, as many as fit into columns, then "... and 12 more"; allocated. */
 char *screen_list_names(const char *const *names, int count, int columns);
 
-/* A table of texts: rows of the same number of cells, added one by one.  Begin with
- * {.columns = n}; free it. */
-typedef struct screen_cell {
-    char *text;
-    screen_colour colour;
-} screen_cell;
-
-typedef struct screen_table {
-    int columns, cells, capacity;
-    int heads; /* the first rows, which are headings */
-    int gap;   /* blanks between columns; 0: 2 */
-    screen_cell *cell;
-} screen_table;
-
+/* Adds a cell to a table. */
 void screen_add_cell(screen_table *t, screen_colour colour, const char *format, ...)
     CLI_PRINTF(3, 4);
-/* Adds a table to a screen; outside text only that.  align has a letter for each column, the last one for all others: l, r,
+/* Adds a table to a screen.  align has a letter for each column, the last one for all others: l, r,
  * and w for a last column whose text is wrapped.  Columns that do not fit are left out: returns how
  * many. */
 int screen_add_table(screen *s, const screen_table *t, const char *align, int indent);
-/* The letter of a column. */
-char screen_align_of(const char *align, int column);
 void screen_free_table(screen_table *t);
 
 /* A number with some significant digits, without zeros in its exponent: 5.2e-8, 12.3, 20000.

@@ -1,7 +1,6 @@
 /* screen_format.c - the tables of a screen as LaTeX, Markdown and CSV. */
 #include "screen_format.h"
 
-#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,18 +29,20 @@ static void put_latex(FILE *out, const char *text)
     }
 }
 
+static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /* The length of a number at the beginning of a text, up to its exponent; 0: there is none. */
 static size_t number_length(const char *text, size_t *mantissa)
 {
     size_t n = *text == '-' || *text == '+';
     const size_t first = n;
-    while (isdigit((unsigned char)text[n]) || text[n] == '.') n++;
+    while (is_digit(text[n]) || text[n] == '.') n++;
     *mantissa = n;
     if (n == first || text[first] == '.') return 0;
     if (text[n] == 'e') {
         size_t k = n + 1 + (text[n + 1] == '-' || text[n + 1] == '+');
-        if (!isdigit((unsigned char)text[k])) return 0;
-        while (isdigit((unsigned char)text[k])) k++;
+        if (!is_digit(text[k])) return 0;
+        while (is_digit(text[k])) k++;
         n = k;
     }
     return text[n] && !strchr(" )/^~?", text[n]) ? 0 : n; /* the marks of a study */
@@ -89,7 +90,7 @@ static void put_markdown(FILE *out, const char *text)
     for (; *text; text++) fprintf(out, "%s%c", strchr("|\\`*_<", *text) ? "\\" : "", *text);
 }
 
-/* Markdown has one row of headings: of several, those of a column are joined. */
+/* Markdown and CSV have one row of headings: the headings of a column in one cell. */
 static void put_heads(screen *s, const screen_table *t, int column,
                       void (*put)(FILE *out, const char *text))
 {

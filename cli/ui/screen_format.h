@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_SCREEN_FORMAT_H
 #define DAL_CLI_SCREEN_FORMAT_H
 
-#include "screen.h"
+#include "screen_data.h"
 
 /* Writes a sentence, or nothing, to a screen whose format is not text. */
 void screen_format_sentence(screen *s, const char *text);

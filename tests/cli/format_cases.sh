@@ -22,7 +22,7 @@ case_is "format: a run"
 run="run chaplygin-sleigh --integrator rk4 --step 0.05 --time 1000"
 try 0 $run --format latex
 latex_is_whole
-# The exponent of a number in words stays; that of a cell is a power of 10.
+# The exponent of a number in words stays; the exponent of a cell is a power of 10.
 prints '^  D1 & linear & grows like t: 5\.2e-8 per unit of time, 5\.2e-5 so far'
 prints 'grows like t\\textasciicircum\{\}2'
 prints '\$\|\$p\$\|\$'
