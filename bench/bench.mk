@@ -28,7 +28,7 @@ BENCH_PEERS  = $(call BENCH_HAVE,gsl/gsl_odeiv2.h,$(CC) -x c,gsl) \
                $(if $(BENCH_PYTHON),python)
 BENCH_PYTHON = $(shell for python in python3 /usr/bin/python3; do \
     $$python -c 'import cffi, ensurepip, numpy, setuptools' 2>/dev/null && echo $$python && break; done)
-BENCH_HEADERS = $(wildcard bench/*.h bench/*.inc examples/*.h lib/kernel/*.h) include/dalembert.h
+BENCH_HEADERS = $(wildcard bench/*.h bench/*.inc examples/*.h lib/kernel/*.h include/*.h)
 
 $(BENCH)/lib/libdalembert.a: FORCE
 	@$(MAKE) -s --no-print-directory BUILD=$(BENCH)/lib CFLAGS="-O3 -march=native" $@

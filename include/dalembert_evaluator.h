@@ -1,11 +1,12 @@
 /* dalembert_evaluator.h - a system at a point, in units of its own, and checks of it.
  *
- * The conventions of dalembert.h, which it includes, hold here.  Derivatives are compared with
+ * The conventions of dalembert.h hold here.  Derivatives are compared with
  * central differences of order 8, whose noise is near 1e-12. */
 #ifndef DALEMBERT_EVALUATOR_H
 #define DALEMBERT_EVALUATOR_H
 
-#include "dalembert.h"
+#include "dalembert_model.h"
+#include "dalembert_run.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -58,7 +58,7 @@
 #include "../lib/kernel/symplectic_euler.h"
 #include "../lib/kernel/tableau.h"
 #include "../lib/kernel/taylor.h"
-#include "dalembert.h"
+#include "dalembert_method.h"
 
 #ifndef DAL_VARIANT_NAME
 /* DAL_INTEGRATOR(NAME, step function, the descriptor's other members) defines the constant

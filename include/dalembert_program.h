@@ -5,7 +5,7 @@
 #ifndef DALEMBERT_PROGRAM_H
 #define DALEMBERT_PROGRAM_H
 
-#include "dalembert.h"
+#include "dalembert_system.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -17,8 +17,7 @@ import sys
 import cffi
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-HEADERS = ('dalembert_system.h', 'dalembert.h', 'dalembert_evaluator.h', 'dalembert_analysis.h',
-           'dalembert_codegen.h')
+HEADERS = ('dalembert.h', 'dalembert_analysis.h', 'dalembert_codegen.h')  # and what they include
 STATIC = 'libdalembert.a'
 
 # What observers.c adds, and free for texts that the library allocates.
@@ -83,11 +82,17 @@ def find_library():
     return installed(prefix)
 
 
-def read_headers(directory):
-    texts = []
-    for name in HEADERS:
+def read_headers(directory, names=HEADERS, read=None):
+    """The texts of headers, each once and after those that it includes."""
+    read, texts = set() if read is None else read, []
+    for name in names:
+        if name in read:
+            continue
+        read.add(name)
         with open(os.path.join(directory, name), encoding='utf-8') as file:
-            texts.append(file.read())
+            text = file.read()
+        included = re.findall(r'^#include "(.*)"$', text, re.M)
+        texts += [read_headers(directory, included, read), text]
     return '\n'.join(texts)
 
 

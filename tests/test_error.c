@@ -1,5 +1,6 @@
 /* test_error.c - statuses, error records, the nearest name. */
 #include "core/error.h"
+#include "dalembert.h"
 #include "dalembert_program.h"
 
 #include <CUnit/Basic.h>

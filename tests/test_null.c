@@ -5,11 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-FUNCTIONS_dalembert(DECLARE_NULL_TEST) FUNCTIONS_dalembert_system(DECLARE_NULL_TEST)
+/* What dalembert.h includes. */
+#define FUNCTIONS_OF_RUNS(X)                                                                       \
+    FUNCTIONS_dalembert_status(X) FUNCTIONS_dalembert_system(X) FUNCTIONS_dalembert_model(X)       \
+        FUNCTIONS_dalembert_method(X) FUNCTIONS_dalembert_run(X) FUNCTIONS_dalembert_batch(X)
+FUNCTIONS_OF_RUNS(DECLARE_NULL_TEST)
 
-    /* ---- what the functions are given where they are given anything ---- */
+/* ---- what the functions are given where they are given anything ---- */
 
-    static dal_model *model;
+static dal_model *model;
 static dal_run_spec spec;
 static dal_run *run;
 static dal_batch *batch;
@@ -537,6 +541,6 @@ static void test_program(void)
 void suite_null(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and negative counts", open_objects, close_objects);
-    FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_system(ADD_NULL_TEST)
-        CU_add_test(suite, "what the program alone uses", test_program);
+    FUNCTIONS_OF_RUNS(ADD_NULL_TEST)
+    CU_add_test(suite, "what the program alone uses", test_program);
 }

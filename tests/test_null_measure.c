@@ -2,11 +2,15 @@
 #include "dalembert_analysis.h"
 #include "null.h"
 
-FUNCTIONS_dalembert_analysis(DECLARE_NULL_TEST) FUNCTIONS_dalembert_evaluator(DECLARE_NULL_TEST)
+/* What dalembert_analysis.h includes. */
+#define FUNCTIONS_OF_MEASURES(X)                                                                   \
+    FUNCTIONS_dalembert_statistics(X) FUNCTIONS_dalembert_evaluator(X)                             \
+        FUNCTIONS_dalembert_order(X) FUNCTIONS_dalembert_budget(X) FUNCTIONS_dalembert_dynamics(X)
+FUNCTIONS_OF_MEASURES(DECLARE_NULL_TEST)
 
-    /* ---- what the functions are given where they are given anything ---- */
+/* ---- what the functions are given where they are given anything ---- */
 
-    static dal_model *model;
+static dal_model *model;
 static const dal_system *system, *tangent;
 static dal_run_spec spec, no_system, bad_count;
 static dal_run *run;
@@ -567,5 +571,5 @@ void suite_null_measure(void)
 {
     CU_pSuite suite =
         CU_add_suite("NULL and negative counts: measures", open_objects, close_objects);
-    FUNCTIONS_dalembert_analysis(ADD_NULL_TEST) FUNCTIONS_dalembert_evaluator(ADD_NULL_TEST)
+    FUNCTIONS_OF_MEASURES(ADD_NULL_TEST)
 }

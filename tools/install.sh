@@ -74,8 +74,14 @@ template "$LIBDIR/pkgconfig" dalembert.pc
 template "$LIBDIR/cmake/dalembert" dalembert-config.cmake
 template "$LIBDIR/cmake/dalembert" dalembert-config-version.cmake
 
-files 644 "$INCLUDEDIR" include/dalembert.h include/dalembert_system.h \
-    include/dalembert_evaluator.h include/dalembert_analysis.h include/dalembert_codegen.h "$BUILD/generated/dalembert_kernel.h"
+# The kernel's header is made from lib/kernel; dalembert_program.h is the program's own.
+for header in include/*.h; do
+    case $header in
+    *_kernel.h) files 644 "$INCLUDEDIR" "$BUILD/generated/dalembert_kernel.h" ;;
+    *_program.h) ;;
+    *) files 644 "$INCLUDEDIR" "$header" ;;
+    esac
+done
 files 644 "$MANDIR/man1" "$BUILD/dalembert.1"
 files 644 "$DATADIR/bash-completion/completions" "$BUILD/dalembert.bash"
 files 644 "$DATADIR/dalembert/systems" systems/*.yaml

@@ -1,6 +1,6 @@
 /* analysis.c - outputs and distances of the commands that examine a system or a motion. */
 #include "analysis.h"
-#include "dalembert_analysis.h"
+#include "dalembert_evaluator.h"
 #include "io/file.h"
 #include "run/system.h"
 #include "ui/memory.h"

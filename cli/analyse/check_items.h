@@ -4,7 +4,7 @@
 #define DAL_CLI_CHECK_ITEMS_H
 
 #include "analysis.h"
-#include "dalembert_analysis.h"
+#include "dalembert_evaluator.h"
 #include "run/request.h"
 #include "ui/message.h"
 

@@ -10,7 +10,7 @@
 #include "check_sections.h"
 #include "analysis.h"
 #include "check_methods.h"
-#include "dalembert.h"
+#include "dalembert_order.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

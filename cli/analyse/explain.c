@@ -1,7 +1,7 @@
 /* explain.c - the error sources of the drift of a run, in words, as CSV and as JSON. */
 #include "explain.h"
 #include "analysis.h"
-#include "dalembert.h"
+#include "dalembert_budget.h"
 #include "io/file.h"
 #include "io/trend.h"
 #include "run/request_json.h"

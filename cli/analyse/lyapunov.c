@@ -7,7 +7,7 @@
  * level, and the densities of the levels differ by a total derivative. */
 #include "lyapunov.h"
 #include "analysis.h"
-#include "dalembert_analysis.h"
+#include "dalembert_evaluator.h"
 #include "io/file.h"
 #include "io/gnuplot.h"
 #include "io/trajectory.h"

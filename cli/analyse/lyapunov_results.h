@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_LYAPUNOV_RESULTS_H
 #define DAL_CLI_LYAPUNOV_RESULTS_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_dynamics.h"
 #include "run/request.h"
 #include "ui/screen.h"
 

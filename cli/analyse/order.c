@@ -4,7 +4,6 @@
  * and two diagrams. */
 #include "order.h"
 #include "analysis.h"
-#include "dalembert_analysis.h"
 #include "io/file.h"
 #include "order_screen.h"
 #include "run/pool.h"

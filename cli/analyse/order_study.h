@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_ORDER_STUDY_H
 #define DAL_CLI_ORDER_STUDY_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_order.h"
 #include "run/request.h"
 #include "ui/screen.h"
 

@@ -4,7 +4,8 @@
  * invariant may, and is evaluated as invariants are. */
 #include "section.h"
 #include "analysis.h"
-#include "dalembert_analysis.h"
+#include "dalembert_dynamics.h"
+#include "dalembert_evaluator.h"
 #include "io/store.h"
 #include "io/trajectory.h"
 #include "run/columns.h"

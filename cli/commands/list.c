@@ -1,7 +1,7 @@
 /* list.c - `dalembert list`: the built-in systems, integrators and modifiers.
  *
  * What is listed is selected first, and then written as tables or as JSON. */
-#include "dalembert.h"
+#include "dalembert_method.h"
 #include "io/json.h"
 #include "run/system.h"
 #include "ui/arguments.h"

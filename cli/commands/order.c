@@ -1,7 +1,6 @@
 /* order.c - `dalembert order`: the error of many methods against step and against work. */
 #include "analyse/order.h"
 #include "analyse/analysis.h"
-#include "dalembert_analysis.h"
 #include "io/file.h"
 #include "io/json.h"
 #include "report/report_order.h"

@@ -1,7 +1,7 @@
 /* ensemble.c - an ensemble: the run that its members share, what varies, and when they are
  * observed. */
 #include "ensemble.h"
-#include "dalembert_analysis.h"
+#include "dalembert_order.h"
 #include "io/file.h"
 #include "ui/memory.h"
 #include "ui/message.h"

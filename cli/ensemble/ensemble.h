@@ -3,6 +3,7 @@
 #ifndef DAL_CLI_ENSEMBLE_H
 #define DAL_CLI_ENSEMBLE_H
 
+#include "dalembert_batch.h"
 #include "run/request.h"
 #include "run/run.h"
 

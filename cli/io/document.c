@@ -1,6 +1,5 @@
 /* document.c - nodes of a parsed YAML text, with messages that name their place. */
 #include "document.h"
-#include "dalembert.h"
 #include "dalembert_program.h"
 #include "ui/memory.h"
 #include "ui/message.h"

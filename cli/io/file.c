@@ -1,11 +1,11 @@
 /* file.c - files, outputs and directories, and the numbers and texts of CSV. */
 #include "file.h"
+#include "dalembert_program.h"
 
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/signals.h"
 
-#include "dalembert_program.h"
 #include "text.h"
 
 #include <dirent.h>

@@ -1,5 +1,6 @@
 /* store.c - what the directories of runs, studies and ensembles have in common. */
 #include "store.h"
+#include "dalembert.h"
 #include "dalembert_program.h"
 #include "file.h"
 #include "ui/memory.h"

@@ -2,8 +2,7 @@
 #ifndef DAL_CLI_TREND_H
 #define DAL_CLI_TREND_H
 
-#include "dalembert_analysis.h"
-
+#include "dalembert_statistics.h"
 #include "json.h"
 
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #ifndef DAL_CLI_VERDICT_H
 #define DAL_CLI_VERDICT_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_statistics.h"
 #include "ui/screen.h"
 
 enum { VERDICT_TEXT = 160 };

@@ -1,6 +1,5 @@
 /* report_body.c - the outlines of bodies, as the path of a run and its motion show them. */
 #include "report_body.h"
-#include "dalembert_program.h"
 
 #include <stddef.h>
 

@@ -5,7 +5,6 @@
 #ifndef DAL_CLI_REPORT_BODY_H
 #define DAL_CLI_REPORT_BODY_H
 
-#include "dalembert.h"
 #include "dalembert_program.h"
 
 #include <stdbool.h>

@@ -5,7 +5,6 @@
  * 32768 + 256 log2 x, so that neighbouring ones are 0.3 % apart; 0 is x = 0 and 65535 is what is
  * not finite. */
 #include "report_data.h"
-#include "dalembert.h"
 #include "ui/memory.h"
 
 #include "io/file.h"

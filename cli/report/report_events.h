@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_REPORT_EVENTS_H
 #define DAL_CLI_REPORT_EVENTS_H
 
-#include "dalembert.h"
+#include "dalembert_system.h"
 
 #include <stdio.h>
 

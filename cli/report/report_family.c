@@ -3,7 +3,7 @@
  * A projection makes a method projected, whatever it is; other modifiers leave the family as it
  * is.  Symplectic ones that preserve quadratic invariants are the Gauss methods. */
 #include "report_family.h"
-#include "dalembert.h"
+#include "dalembert_method.h"
 
 #include <string.h>
 

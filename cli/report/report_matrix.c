@@ -1,6 +1,6 @@
 /* report_matrix.c - the tables of sizes and trends of a study: methods against systems. */
 #include "report_matrix.h"
-#include "dalembert.h"
+#include "dalembert_method.h"
 #include "ui/memory.h"
 
 #include "report_family.h"

@@ -9,7 +9,6 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
-#include "dalembert_program.h"
 #include "report_body.h"
 #include "report_page.h"
 #include "report_pose.h"

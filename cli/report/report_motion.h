@@ -5,7 +5,6 @@
 #ifndef DAL_CLI_REPORT_MOTION_H
 #define DAL_CLI_REPORT_MOTION_H
 
-#include "dalembert.h"
 #include "dalembert_program.h"
 #include "io/json.h"
 

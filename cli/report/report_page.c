@@ -2,8 +2,8 @@
  * light or dark as its reader prefers, on wide screens and on narrow ones.  It is complete without
  * the script at its end, which adds what can be pressed. */
 #include "report_page.h"
-
 #include "dalembert.h"
+
 #include "io/file.h"
 #include "io/gnuplot.h"
 #include "io/svg.h"

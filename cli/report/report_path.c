@@ -4,7 +4,6 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
-#include "dalembert_program.h"
 #include "report_body.h"
 #include "report_plot.h"
 #include "report_pose.h"

@@ -3,7 +3,6 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
-#include "dalembert_program.h"
 #include "run/columns.h"
 #include "run/manifest.h"
 

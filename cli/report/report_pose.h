@@ -5,7 +5,7 @@
 #ifndef DAL_CLI_REPORT_POSE_H
 #define DAL_CLI_REPORT_POSE_H
 
-#include "dalembert.h"
+#include "dalembert_evaluator.h"
 #include "dalembert_program.h"
 #include "io/trajectory.h"
 #include "run/request.h"

@@ -2,7 +2,6 @@
  * coordinates, and what should not change, over t and as envelopes over log t; then the command
  * that makes the run. */
 #include "report_run.h"
-#include "dalembert.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

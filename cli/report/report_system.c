@@ -1,6 +1,5 @@
 /* report_system.c - what moves, and how, as a list on a page. */
 #include "report_system.h"
-
 #include "dalembert_program.h"
 #include "report_page.h"
 

@@ -2,7 +2,6 @@
 #ifndef DAL_CLI_REPORT_SYSTEM_H
 #define DAL_CLI_REPORT_SYSTEM_H
 
-#include "dalembert.h"
 #include "run/request.h"
 
 #include <stdbool.h>

@@ -15,6 +15,7 @@
  * with events or compared pivots both are refused: what they have of these differs.  Statistics of
  * layout 3 have no root mean squares: earlier_statistics.c completes them. */
 #include "checkpoint.h"
+#include "dalembert.h"
 #include "dalembert_program.h"
 #include "earlier_statistics.h"
 #include "ui/memory.h"

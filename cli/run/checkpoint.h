@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_CHECKPOINT_H
 #define DAL_CLI_CHECKPOINT_H
 
-#include "dalembert.h"
+#include "dalembert_statistics.h"
 #include "run_directory.h"
 
 /* Both return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */

@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_EARLIER_STATISTICS_H
 #define DAL_CLI_EARLIER_STATISTICS_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_statistics.h"
 
 #include <stdint.h>
 

@@ -12,13 +12,14 @@
  * The text of the input never changes, whatever else is written.  Its hash, continued over the
  * text of the system, is in each checkpoint, so that a checkpoint belongs to one request alone. */
 #include "manifest.h"
+#include "dalembert.h"
+#include "dalembert_codegen.h"
 #include "dalembert_program.h"
 #include "request_json.h"
 #include "system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
-#include "dalembert_codegen.h"
 #include "io/file.h"
 #include "io/store.h"
 

@@ -4,12 +4,12 @@
  * share it.  A compiler is started when a run has shown, by its clock, that it takes about as long
  * as compiling, and one at a time: whatever it costs, the steps go on beside it. */
 #include "native.h"
+#include "dalembert_codegen.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/signals.h"
 
-#include "dalembert_codegen.h"
 #include "io/file.h"
 
 #include <pthread.h>

@@ -5,7 +5,7 @@
 #ifndef DAL_CLI_NATIVE_H
 #define DAL_CLI_NATIVE_H
 
-#include "dalembert.h"
+#include "dalembert_run.h"
 #include "ui/options.h"
 
 /* The words of --native, "auto|on|off". */

@@ -2,7 +2,6 @@
 #include "recorder.h"
 
 #include "checkpoint.h"
-#include "dalembert.h"
 #include "io/file.h"
 #include "io/json.h"
 #include "io/trend.h"

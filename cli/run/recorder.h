@@ -3,7 +3,7 @@
 #define DAL_CLI_RECORDER_H
 
 #include "columns.h"
-#include "dalembert.h"
+#include "dalembert_statistics.h"
 #include "event_log.h"
 #include "io/trajectory.h"
 #include "native.h"

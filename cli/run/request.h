@@ -2,7 +2,6 @@
 #ifndef DAL_CLI_REQUEST_H
 #define DAL_CLI_REQUEST_H
 
-#include "dalembert.h"
 #include "request_data.h"
 #include "ui/options.h"
 

@@ -2,7 +2,8 @@
 #ifndef DAL_CLI_REQUEST_DATA_H
 #define DAL_CLI_REQUEST_DATA_H
 
-#include "dalembert.h"
+#include "dalembert_model.h"
+#include "dalembert_run.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,5 @@
 /* run.c - the integration of one run, as `dalembert run` and `dalembert resume` do it. */
 #include "run.h"
-#include "dalembert.h"
 #include "io/file.h"
 #include "ui/message.h"
 #include "ui/signals.h"

@@ -13,7 +13,6 @@
 #ifndef DAL_CLI_RUN_DIRECTORY_H
 #define DAL_CLI_RUN_DIRECTORY_H
 
-#include "dalembert_analysis.h"
 #include "io/document.h"
 #include "io/store.h"
 #include "io/trajectory.h"

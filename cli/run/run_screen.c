@@ -1,6 +1,5 @@
 /* run_screen.c - the result of a run on a terminal. */
 #include "run_screen.h"
-#include "dalembert.h"
 #include "io/verdict.h"
 #include "request_command.h"
 #include "ui/memory.h"

@@ -1,6 +1,5 @@
 /* summary.c - size and trend of each observable over a run. */
 #include "summary.h"
-#include "dalembert.h"
 
 #include "io/trend.h"
 

@@ -1,5 +1,6 @@
 /* system.c - reads the system of a command. */
 #include "system.h"
+#include "dalembert_method.h"
 #include "dalembert_program.h"
 #include "io/file.h"
 #include "ui/memory.h"

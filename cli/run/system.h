@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_SYSTEM_H
 #define DAL_CLI_SYSTEM_H
 
-#include "dalembert.h"
+#include "dalembert_model.h"
 
 #include <stdbool.h>
 

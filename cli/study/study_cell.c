@@ -5,6 +5,7 @@
  * trajectory consists of the steps alone.  A cell that keeps no rows has no directory: its results
  * go to the results of the study, and its bits are taken at both ends. */
 #include "study_cell.h"
+#include "dalembert_evaluator.h"
 
 #include "dalembert_program.h"
 #include "io/file.h"

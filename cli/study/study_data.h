@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_STUDY_DATA_H
 #define DAL_CLI_STUDY_DATA_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_statistics.h"
 #include "io/document.h"
 #include "run/native.h"
 #include "run/request_data.h"

@@ -15,8 +15,8 @@
  * see study_observe.c.  An expectation about something that the study does not contain is an error,
  * and so is a size or a trend of E where no system of the label conserves it. */
 #include "study_expect.h"
-
 #include "dalembert_program.h"
+
 #include "io/file.h"
 #include "run/columns.h"
 #include "ui/memory.h"

@@ -11,9 +11,8 @@
  * LABEL_a=1_b=0 and so on; where something is drawn there is one for each of the seeds, called
  * .._seed=7.  What has one value alone is not in the label. */
 #include "study_values.h"
-
-#include "dalembert.h"
 #include "dalembert_program.h"
+
 #include "io/file.h"
 #include "ui/memory.h"
 #include "ui/message.h"

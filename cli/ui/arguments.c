@@ -1,6 +1,5 @@
 /* arguments.c - reads arguments by the rows of options. */
 #include "arguments.h"
-#include "dalembert.h"
 #include "dalembert_program.h"
 #include "help.h"
 #include "memory.h"

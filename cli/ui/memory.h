@@ -2,7 +2,6 @@
 #ifndef DAL_CLI_MEMORY_H
 #define DAL_CLI_MEMORY_H
 
-#include "dalembert.h"
 #include "message.h"
 
 #include <stdarg.h>

@@ -3,7 +3,7 @@
 #ifndef DAL_CLI_MESSAGE_H
 #define DAL_CLI_MESSAGE_H
 
-#include "dalembert.h"
+#include "dalembert_status.h"
 
 #include <stdio.h>
 

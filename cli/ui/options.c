@@ -1,6 +1,5 @@
 /* options.c - what is given for options: the parsers of values, and defaults. */
 #include "options.h"
-#include "dalembert.h"
 #include "dalembert_program.h"
 #include "message.h"
 

@@ -8,7 +8,7 @@
  *     dS_d/dX_k = P_(k-1) - P_k - h/2 (H_X of interval k-1 + H_X of interval k). */
 #include "core/error.h"
 #include "core/vectors.h"
-#include "dalembert_analysis.h"
+#include "dalembert_order.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

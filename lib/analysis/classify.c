@@ -5,7 +5,7 @@
  * H changes at the rate pi.F_t, and nothing conserves reactions.  A quantity that the motion need
  * not conserve has no drift that is due to the method. */
 #include "core/words.h"
-#include "dalembert_analysis.h"
+#include "dalembert_statistics.h"
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>

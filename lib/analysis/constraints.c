@@ -9,6 +9,7 @@
  *     G = A W^-1 A^T;     v <- v - W^-1 A^T G^-1 D until D = 0 (Newton) */
 #include "analysis/derivatives.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/vectors.h"
 #include <math.h>
 #include <stdbool.h>

@@ -4,6 +4,7 @@
  *     d/dt f(q,v,t) along the motion = d/ds f(q + s v, v + s F, t + s) at s = 0 */
 #include "analysis/derivatives.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/vectors.h"
 #include <math.h>
 #include <stdbool.h>

@@ -2,7 +2,7 @@
 #ifndef DAL_DERIVATIVES_H
 #define DAL_DERIVATIVES_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_evaluator.h"
 
 /* The increment to begin with, relative to the scale of a quantity: the error of order 8 at a
  * function whose nearest singularity is 0.3 away, 576 (2e-3/0.3)^8 / 0.3 = 7e-15, stays below the

@@ -9,6 +9,7 @@
 #include "analysis/dirac.h"
 #include "analysis/derivatives.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/vectors.h"
 #include <math.h>
 #include <stdlib.h>

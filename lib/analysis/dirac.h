@@ -2,7 +2,7 @@
 #ifndef DAL_DIRAC_H
 #define DAL_DIRAC_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_order.h"
 
 /* Dirac's algebra with any 4n+1 functions phi(user, z, a) on 6n+2 as constraints, the first 2n+1
  * the primary ones; user is the dal__dirac_space.  dal_evaluator_check_dirac takes the theory's

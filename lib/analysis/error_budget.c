@@ -7,6 +7,7 @@
 #include "analysis/reference.h"
 #include "analysis/statistics.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/vectors.h"
 #include "core/words.h"
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef DAL_ERROR_SHARES_H
 #define DAL_ERROR_SHARES_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_budget.h"
 
 /* Series of every observable: of the whole run, of the comparisons, and of the beginning. */
 typedef enum dal__series_of_run {

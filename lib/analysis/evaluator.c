@@ -1,8 +1,8 @@
 /* evaluator.c - a system with its parameters in force and memory to evaluate it in. */
 #include "analysis/evaluator.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/solved.h"
-#include "dalembert_analysis.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

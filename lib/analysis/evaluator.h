@@ -2,7 +2,7 @@
 #ifndef DAL_ANALYSIS_EVALUATOR_H
 #define DAL_ANALYSIS_EVALUATOR_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_evaluator.h"
 
 /* The workspace of an evaluator, [workspace], with its parameters. */
 double *dal__evaluator_work(dal_evaluator *evaluator);

@@ -15,8 +15,9 @@
  * (for halved steps their difference; a third of it, and overestimated, where the next term is
  * a h^2).  An order is stated where that is small. */
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/vectors.h"
-#include "dalembert_analysis.h"
+#include "dalembert_order.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>

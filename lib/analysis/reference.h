@@ -2,7 +2,7 @@
 #ifndef DAL_REFERENCE_H
 #define DAL_REFERENCE_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_run.h"
 
 /* The exact motion from the start of a run, beside that run. */
 typedef struct dal__reference dal__reference;

@@ -2,7 +2,7 @@
 #ifndef DAL_ANALYSIS_SCALED_H
 #define DAL_ANALYSIS_SCALED_H
 
-#include "dalembert_analysis.h"
+#include "dalembert_evaluator.h"
 
 /* (q, v, g), [n + n + multipliers], in units of the system's own. */
 void dal__scaled_from_user(const dal_scaled *scaled, const double *state, double *out);

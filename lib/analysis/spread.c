@@ -2,7 +2,7 @@
  *
  * The mean of a first sum is corrected by the mean of the differences from it, so that its error is
  * a few roundings whatever the count (Neely 1966, DOI 10.1145/365719.365958). */
-#include "dalembert.h"
+#include "dalembert_batch.h"
 #include "dalembert_program.h"
 #include <math.h>
 #include <stdbool.h>

@@ -3,7 +3,7 @@
 #define DAL_STATISTICS_INTERNAL_H
 
 #include "core/machine.h"
-#include "dalembert_analysis.h"
+#include "dalembert_statistics.h"
 
 enum { DAL__CYCLE = 4 }; /* packs: in each, one difference of packs is squared */
 

@@ -11,8 +11,9 @@
  * for (dx, P) is then one tangent vector and one covector moved by the same map. */
 #include "analysis/derivatives.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/vectors.h"
-#include "dalembert_analysis.h"
+#include "dalembert_order.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #define DAL_TREND_SERIES_H
 
 #include "analysis/trend_tables.h"
-#include "dalembert_analysis.h"
+#include "dalembert_statistics.h"
 #include <stdbool.h>
 
 enum { DAL__TONES = 3 };

@@ -5,6 +5,7 @@
 #include "codegen/parts.h"
 #include "codegen/preprocessor.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "dalembert_codegen.h"
 #include "expr/taylor_emit.h"
 #include "run/run.h"

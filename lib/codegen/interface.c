@@ -2,6 +2,7 @@
 #include "codegen/interface.h"
 #include "codegen/parts.h"
 #include "codegen/preprocessor.h"
+#include "dalembert.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef DAL_DECIMAL_H
 #define DAL_DECIMAL_H
 
-#include "dalembert.h"
+#include <stddef.h>
 
 /* Reads the longest decimal number [digits][.digits][e[+-]digits] at the start of text: how many
  * characters it has (0: none there) and its nearest double, infinite when it is too large.  The

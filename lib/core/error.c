@@ -1,5 +1,5 @@
-/* error.c - statuses and their words, the caller's error record, the nearest name, and what public
- * functions require of their arguments (see dalembert.h, conventions).
+/* error.c - statuses and their words, the caller's error record, the nearest name, and the
+ * errors of arguments that are NULL or negative (see dalembert.h, conventions).
  *
  * The distance of two names is Damerau and Levenshtein's in its "optimal string alignment"
  * form: the smallest number of insertions, deletions, substitutions and swaps of neighbours.  It is
@@ -41,15 +41,15 @@ dal_status dal__fail_at(dal_error *error, dal_status status, int line, int colum
     return status;
 }
 
-enum { MAX_LETTERS = 63, CASE = 1, EDIT = 4, MIN_LIMIT = 2 * EDIT };
+enum { CASE = 1, EDIT = 4, MIN_LIMIT = 2 * EDIT };
 
 static int min_of(int a, int b) { return a < b ? a : b; }
 
-/* Quarter edits from a to b, neither longer than MAX_LETTERS.  row[k] holds the distances of the
+/* Quarter edits from a to b, neither longer than DAL__MAX_SHOWN.  row[k] holds the distances of the
  * first i - k letters of a to every beginning of b. */
 static int distance(const char *a, const char *b)
 {
-    int row[3][MAX_LETTERS + 1] = {{0}}, la = (int)strlen(a), lb = (int)strlen(b);
+    int row[3][DAL__MAX_SHOWN + 1] = {{0}}, la = (int)strlen(a), lb = (int)strlen(b);
     for (int j = 0; j <= lb; j++) row[0][j] = j * EDIT;
     for (int i = 1; i <= la; i++) {
         memcpy(row[2], row[1], sizeof row[1]);
@@ -86,14 +86,14 @@ static bool spells_velocity(const char *name, const char *other)
 
 const char *dal__nearest_name(const char *name, const char *const *names, int count)
 {
-    size_t length = name && names ? strlen(name) : MAX_LETTERS + 1;
-    if (length > MAX_LETTERS) return NULL;
+    size_t length = name && names ? strlen(name) : DAL__MAX_SHOWN + 1;
+    if (length > DAL__MAX_SHOWN) return NULL;
     int limit = (int)length * EDIT / 3, best = INT_MAX;
     if (limit < MIN_LIMIT) limit = MIN_LIMIT;
     const char *nearest = NULL;
     for (int i = 0; i < count; i++) {
-        size_t other = names[i] ? strlen(names[i]) : MAX_LETTERS + 1;
-        if (other > MAX_LETTERS) continue;
+        size_t other = names[i] ? strlen(names[i]) : DAL__MAX_SHOWN + 1;
+        if (other > DAL__MAX_SHOWN) continue;
         if (spells_velocity(name, names[i])) return names[i];
         int d = distance(name, names[i]);
         int everything = EDIT * (int)(other > length ? other : length);
@@ -109,7 +109,7 @@ dal_status dal__unknown_at(dal_error *error, int line, int column, const char *w
     const char *nearest = dal__nearest_name(name, names, count);
     if (!nearest)
         return dal__fail_at(error, DAL_STATUS_NAME, line, column, "unknown %s '%.*s'", what,
-                            MAX_LETTERS, name);
+                            DAL__MAX_SHOWN, name);
     return dal__fail_at(error, DAL_STATUS_NAME, line, column, "unknown %s '%s'; did you mean '%s'?",
                         what, name, nearest);
 }
@@ -126,75 +126,4 @@ dal_status dal__negative(dal_error *error, const char *function, const char *arg
 {
     return dal__fail(error, DAL_STATUS_ARGUMENT, "%s: %s is negative: %lld", function, argument,
                      value);
-}
-
-dal_status dal__check_settings(const dal_setting *settings, int count, const char *what,
-                               dal_error *error)
-{
-    if (count < 0)
-        return dal__fail(error, DAL_STATUS_ARGUMENT, "the number of %s is negative: %d", what,
-                         count);
-    if (count > 0 && !settings)
-        return dal__fail(error, DAL_STATUS_ARGUMENT, "the %s are NULL, their number is %d", what,
-                         count);
-    for (int i = 0; i < count; i++)
-        if (!settings[i].name)
-            return dal__fail(error, DAL_STATUS_ARGUMENT, "the name of number %d of the %s is NULL",
-                             i + 1, what);
-    return DAL_STATUS_OK;
-}
-
-dal_status dal__find_parameter(const dal_system *s, const char *name, int *number, dal_error *error)
-{
-    const int names = s->parameter ? s->parameters : 0;
-    for (int i = 0; i < names; i++) {
-        *number = i;
-        if (strcmp(s->parameter[i], name) == 0) return DAL_STATUS_OK;
-    }
-    if (names == 0 || dal__nearest_name(name, s->parameter, names))
-        return dal__unknown(error, "parameter", name, s->parameter, names);
-    char list[160] = "";
-    size_t n = 0;
-    for (int i = 0; i < names && n + MAX_LETTERS + 6 < sizeof list; i++)
-        n += (size_t)snprintf(list + n, sizeof list - n, "%s%.*s", i > 0 ? ", " : "", MAX_LETTERS,
-                              s->parameter[i]);
-    return dal__fail(error, DAL_STATUS_NAME, "unknown parameter '%.*s'; there is %s", MAX_LETTERS,
-                     name, list);
-}
-
-const char *dal__mass_words(const dal_system *s)
-{
-    return s->properties & DAL_MASS_ON_KERNEL
-               ? "the mass matrix, on the velocities that the constraints allow,"
-               : "the mass matrix";
-}
-
-dal_status dal__set_parameters(const dal_system *s, const dal_setting *settings, int count,
-                               dal_status not_finite, double *value, dal_error *error)
-{
-    for (int i = 0; i < s->parameters; i++) value[i] = s->value ? s->value[i] : 0.0;
-    for (int k = 0; k < count; k++) {
-        int i;
-        DAL_TRY(dal__find_parameter(s, settings[k].name, &i, error));
-        if (!isfinite(settings[k].value))
-            return dal__fail(error, not_finite, "parameter %s: %g is not a finite number",
-                             settings[k].name, settings[k].value);
-        value[i] = settings[k].value;
-    }
-    return DAL_STATUS_OK;
-}
-
-dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error)
-{
-    if (!spec) return dal__fail(error, DAL_STATUS_ARGUMENT, "the spec of a run is NULL");
-    if (!spec->system) return dal__fail(error, DAL_STATUS_ARGUMENT, "a run needs a system");
-    DAL_TRY(dal__check_settings(spec->parameters, spec->parameter_count, "parameters", error));
-    return dal__check_settings(spec->start, spec->start_count, "start values", error);
-}
-
-dal_status dal__refuse_events(const dal_system *system, const char *what, dal_error *error)
-{
-    if (system->events == 0) return DAL_STATUS_OK;
-    return dal__fail(error, DAL_STATUS_UNSUPPORTED, "%.80s has events: %s would pass over them",
-                     system->name ? system->name : "the system", what);
 }

@@ -2,8 +2,10 @@
 #ifndef DAL_ERROR_H
 #define DAL_ERROR_H
 
-#include "dalembert.h"
+#include "dalembert_status.h"
 #include <stdbool.h>
+
+enum { DAL__MAX_SHOWN = 63 /* letters of a name in a message; others are cut */ };
 
 #if defined(__GNUC__)
 #define DAL__PRINTF(f, a) __attribute__((format(printf, f, a)))
@@ -49,27 +51,5 @@ dal_status dal__negative(dal_error *error, const char *function, const char *arg
     do {                                                                                           \
         if ((count) < 0) return dal__negative(error, __func__, #count, count);                     \
     } while (0)
-
-/* Whether a point has coordinates and velocities. */
-static inline bool dal__has_state(const dal_point *at) { return at && at->q && at->v; }
-
-/* Checks that count settings are there and have names; what: how a message calls them, in the
- * plural. */
-dal_status dal__check_settings(const dal_setting *settings, int count, const char *what,
-                               dal_error *error);
-/* Finds the number of a parameter, from 0.  Errors: DAL_STATUS_NAME with the nearest name. */
-dal_status dal__find_parameter(const dal_system *system, const char *name, int *number,
-                               dal_error *error);
-/* How messages call the W that must be regular. */
-const char *dal__mass_words(const dal_system *system);
-/* Sets the values of all parameters: the system's, and settings over them.  Errors: DAL_STATUS_NAME
- * with the nearest name, not_finite where a value is not finite. */
-dal_status dal__set_parameters(const dal_system *system, const dal_setting *settings, int count,
-                               dal_status not_finite, double *value, dal_error *error);
-/* Checks that a spec has a system and its settings; ignores the rest of it. */
-dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error);
-/* Refuses a system with events, DAL_STATUS_UNSUPPORTED; what: that which does not know them, in the
- * plural. */
-dal_status dal__refuse_events(const dal_system *system, const char *what, dal_error *error);
 
 #endif

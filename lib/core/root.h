@@ -2,7 +2,7 @@
 #ifndef DAL_CORE_ROOT_H
 #define DAL_CORE_ROOT_H
 
-#include "dalembert.h"
+#include "dalembert_status.h"
 
 /* A function and its value at s. */
 typedef dal_status dal__function(void *user, double s, double *value);

@@ -3,6 +3,7 @@
 #define DAL_CORE_SIZES_H
 
 #include "core/error.h"
+#include "dalembert_system.h"
 
 /* A state, and what is found there. */
 typedef struct dal__sizes {

@@ -3,6 +3,7 @@
 #define DAL_CORE_SOLVED_H
 
 #include "core/error.h"
+#include "dalembert_system.h"
 
 /* Whether a velocity is among the ones of a start that are solved. */
 bool dal__is_solved(const dal_solved *solved, int count, int velocity);

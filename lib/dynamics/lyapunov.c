@@ -17,7 +17,9 @@
 #include "analysis/derivatives.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/vectors.h"
+#include "dalembert_dynamics.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

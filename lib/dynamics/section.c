@@ -2,7 +2,10 @@
 #include "analysis/derivatives.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/vectors.h"
+#include "dalembert_dynamics.h"
+#include "dalembert_order.h"
 #include "run/crossing.h"
 #include "run/observe.h"
 #include <float.h>

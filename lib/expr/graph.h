@@ -17,7 +17,7 @@
 #ifndef DAL_EXPR_GRAPH_H
 #define DAL_EXPR_GRAPH_H
 
-#include "dalembert.h"
+#include "dalembert_status.h"
 #include <stdbool.h>
 #include <stdint.h>
 

@@ -8,7 +8,7 @@
 #ifndef DAL_EXPR_LEXER_H
 #define DAL_EXPR_LEXER_H
 
-#include "dalembert.h"
+#include "dalembert_status.h"
 #include <stdbool.h>
 
 typedef struct dal__token {

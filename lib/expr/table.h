@@ -2,7 +2,7 @@
 #ifndef DAL_EXPR_TABLE_H
 #define DAL_EXPR_TABLE_H
 
-#include "dalembert.h"
+#include "dalembert_model.h"
 #include <stdbool.h>
 #include <stddef.h>
 

@@ -8,7 +8,7 @@
 #ifndef DAL_KERNEL_STEP_H
 #define DAL_KERNEL_STEP_H
 
-#include "../../include/dalembert.h"
+#include "../../include/dalembert_method.h"
 #include "num.h"
 #include "parts.h"
 #include "persistent.h"

@@ -1,6 +1,7 @@
 /* builtin.c - the systems that are embedded in the library. */
 #include "load/builtin.h"
 #include "core/error.h"
+#include "dalembert_model.h"
 #include <string.h>
 
 const char *dal_builtin_name(int i)

@@ -2,7 +2,7 @@
 #ifndef DAL_LOAD_FILE_H
 #define DAL_LOAD_FILE_H
 
-#include "dalembert.h"
+#include "dalembert_status.h"
 
 /* The bytes of a file, up to one more than DAL__MAX_BYTES; NULL after an error, DAL_STATUS_IO or
  * DAL_STATUS_MEMORY. [alloc] */

@@ -12,7 +12,6 @@
  * so that a copy of the text is the whole system. */
 #include "load/tables.h"
 #include "core/buffer.h"
-#include "dalembert_program.h"
 #include "load/file.h"
 #include "model/functions.h"
 #include <stdio.h>

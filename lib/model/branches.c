@@ -15,7 +15,7 @@
  * Derivatives are taken branch by branch, so a jump of D or of the momentum L_v, which needs an
  * impulse, is not in F. */
 #include "core/vectors.h"
-#include "dalembert_analysis.h"
+#include "dalembert_evaluator.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/terms.h"

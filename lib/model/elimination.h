@@ -2,6 +2,7 @@
 #ifndef DAL_MODEL_ELIMINATION_H
 #define DAL_MODEL_ELIMINATION_H
 
+#include "dalembert_model.h"
 #include "model/equations.h"
 
 /* A matrix of nodes and, after dal__factor, its triangular factors.  All lies in the model's

@@ -2,7 +2,7 @@
 #ifndef DAL_MODEL_ENERGY_H
 #define DAL_MODEL_ENERGY_H
 
-#include "dalembert.h"
+#include "dalembert_model.h"
 
 /* Adds what is known of E to the properties.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__energy_properties(dal_model *model);

@@ -2,7 +2,7 @@
 #ifndef DAL_MODEL_EVENTS_H
 #define DAL_MODEL_EVENTS_H
 
-#include "dalembert.h"
+#include "dalembert_model.h"
 
 /* Parses the section events, after all other formulas.  Errors: DAL_STATUS_SYNTAX, DAL_STATUS_NAME,
  * DAL_STATUS_MODEL, DAL_STATUS_TOO_LARGE, DAL_STATUS_MEMORY. */

@@ -6,7 +6,6 @@
  * formulas are known (derive.c). */
 #include "model/formulas.h"
 #include "core/solved.h"
-#include "dalembert_program.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"

@@ -2,7 +2,6 @@
 #ifndef DAL_MODEL_PROGRAM_LIST_H
 #define DAL_MODEL_PROGRAM_LIST_H
 
-#include "dalembert_program.h"
 #include "expr/taylor.h"
 #include "expr/terms.h"
 #include "model/equations.h"

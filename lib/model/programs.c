@@ -4,7 +4,6 @@
  * check them lane by lane and leave NaN where one has vanished.  Field and adjoint leave the pivots
  * of A W^-1 B^T at the end of work, for the rank check. */
 #include "model/programs.h"
-#include "dalembert_program.h"
 #include "expr/collect.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"

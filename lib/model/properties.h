@@ -2,7 +2,7 @@
 #ifndef DAL_MODEL_PROPERTIES_H
 #define DAL_MODEL_PROPERTIES_H
 
-#include "dalembert.h"
+#include "dalembert_model.h"
 
 /* Sets the properties of the equations.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__properties(dal_model *model);

@@ -17,8 +17,8 @@
  * formulas; ranks are numerical, at points about the start.
  *
  * R. Montgomery, A Tour of Subriemannian Geometries, AMS 2002, ch. 2. */
+#include "core/settings.h"
 #include "core/vectors.h"
-#include "dalembert.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"

@@ -1,7 +1,6 @@
 /* symbols.c - the names of a model, what a name means in a formula, and the parsing of one formula.
  * Names are distinct, and none is a function or another column of the output. */
 #include "model/symbols.h"
-#include "dalembert_program.h"
 #include "expr/lexer.h"
 #include "expr/operations.h"
 #include "expr/parser.h"

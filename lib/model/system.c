@@ -1,5 +1,4 @@
 /* system.c - the dal_system of a model, and of its tangent map. */
-#include "dalembert_program.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"

@@ -21,7 +21,6 @@
 #include "core/sizes.h"
 #include "core/solved.h"
 #include "core/vectors.h"
-#include "dalembert_program.h"
 #include "expr/terms.h"
 #include "expr/traversal.h"
 #include <math.h>

@@ -10,6 +10,7 @@
  *
  *     engines   one of each width | groups   persistent state | workspace, interleaved by lanes */
 #include "run/batch.h"
+#include "core/settings.h"
 #include "dalembert_codegen.h"
 #include "run/failure.h"
 #include "run/start.h"

@@ -2,6 +2,7 @@
 #ifndef DAL_BATCH_H
 #define DAL_BATCH_H
 
+#include "dalembert_batch.h"
 #include "run/run.h"
 
 /* As dal_batch_create, all blocks of this variant (DAL__VARIANTS: chosen as there).

@@ -9,6 +9,7 @@
  * D = 0 curves away from u, are damped: along D = 0 the error is multiplied by a number below 1
  * where v is nearest, but that may be below -1.  A condition is one more row of A. */
 #include "run/consistent.h"
+#include "core/settings.h"
 #include "core/vectors.h"
 #include <dalembert_kernel.h>
 #include <float.h>

@@ -15,6 +15,7 @@
  *
  * so that it depends neither on other members nor on other names. */
 #include "core/error.h"
+#include "core/settings.h"
 #include "dalembert_program.h"
 #include "run/batch.h"
 #include "run/start.h"

@@ -1,6 +1,7 @@
 /* failure.c - the reason why a step failed: the step is repeated and its evaluations are
  * recorded. */
 #include "run/failure.h"
+#include "core/settings.h"
 #include <dalembert_kernel.h>
 
 /* max |x_i| of numbers of (q, v, g) from first on, in units of the system. */

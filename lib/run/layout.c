@@ -1,6 +1,7 @@
 /* layout.c - the dimensions and sizes of a run, and whether system, method and options fit. */
 #include "run/layout.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "dalembert_program.h"
 #include "kernel/quad.h"
 #include "run/registry.h"

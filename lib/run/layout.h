@@ -3,6 +3,7 @@
 #define DAL_LAYOUT_H
 
 #include "core/error.h"
+#include "dalembert_run.h"
 #include "kernel/persistent.h"
 #include <math.h>
 

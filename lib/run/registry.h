@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/machine.h"
-#include "dalembert.h"
+#include "dalembert_method.h"
 
 typedef enum dal__variant {
     DAL__VARIANT_x1,

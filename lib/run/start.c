@@ -5,6 +5,7 @@
  * independent (run/consistent.h). */
 #include "run/start.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/solved.h"
 #include "core/vectors.h"
 #include "dalembert_program.h"

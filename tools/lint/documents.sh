@@ -28,7 +28,7 @@ listed() {
 }
 names=$program.names
 listed functions formulas 'OP([A-Z0-9]*, [123], "\([a-z0-9]*\)")' lib/expr/graph.h
-listed 'system keys' formats ' SECTION([A-Z]*, "\([a-z]*\)")' include/dalembert_system.h
+listed 'system keys' formats ' SECTION([A-Z]*, "\([a-z]*\)")' include/dalembert_model.h
 
 # The names of the headings of a document, as links have them.
 headings() {

@@ -1,13 +1,14 @@
 # includes.awk - reads includes.txt, then sources, and names every include that is not allowed.
 BEGIN {
     libc = "<(errno|float|inttypes|limits|math|stdarg|stdbool|stddef|stdint|stdio|stdlib|string)\\.h>"
+    public = "\"dalembert(_(status|system|model|method|run|batch|statistics|evaluator|order|budget|dynamics|codegen|program))?\\.h\""
     posix = "<(fcntl|fnmatch|pthread|signal|stdatomic|strings|termios|time|unistd|sys/[a-z]+)\\.h>"
 }
 FILENAME ~ /includes\.txt$/ {
     if (/^#/ || NF == 0) next
     rule = ""
     for (i = 2; i <= NF; i++) {
-        pattern = $i == "LIBC" ? libc : $i == "POSIX" ? posix : $i
+        pattern = $i == "LIBC" ? libc : $i == "POSIX" ? posix : $i == "PUBLIC" ? public : $i
         rule = rule (i > 2 ? "|" : "") "(" pattern ")"
     }
     allowed[$1] = "^(" rule ")$"

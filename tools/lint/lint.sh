@@ -26,7 +26,11 @@ format() {
         clang-format --dry-run -Werror "$file" >/dev/null 2>&1 || echo "$file: run clang-format -i"
     done
 }
-includes() { sources | xargs awk -f $here/includes.awk $here/includes.txt; }
+includes() {
+    sources | xargs awk -f $here/includes.awk $here/includes.txt
+    grep -lr '#include "dalembert.h"' lib cli | xargs grep -L DAL_VERSION |
+        sed 's/$/: dalembert.h is for DAL_VERSION here; include the headers of the topics/'
+}
 sizes() { sources | xargs awk 'length > 100 { print FILENAME ":" FNR ": longer than 100 columns" }
     FNR == 601 { print FILENAME ": longer than 600 lines" }'; }
 functions() {

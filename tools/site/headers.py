@@ -239,6 +239,7 @@ class Writer:
             if code == '#ifdef __cplusplus':
                 self.end_group()
             self.declare(code, comment)
+        self.end_group()
         return '\n'.join(self.out) + '\n'
 
 
@@ -256,7 +257,7 @@ def main(path):
         section = '/* ---- %s.h ---- */\n/* %s */\n\n' % (stem, head)
         writer.stem = 'dalembert_kernel'
         part = source[source.index('*/') + 2:] if stem == 'parts' else kernel_part(source, names)
-        text = writer.header(section + part) + '/** @} */\n' if part else ''
+        text = writer.header(section + part) if part else ''
     sys.stdout.write(text)
 
 

@@ -1,0 +1,159 @@
+/* dalembert_model.h - models: systems from formulas.
+ *
+ * A part of dalembert.h, which has the conventions. */
+#ifndef DALEMBERT_MODEL_H
+#define DALEMBERT_MODEL_H
+
+#include "dalembert_system.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- models: systems from formulas --------------------------------------------------------- */
+
+/* A system as formulas, from a file or added one by one. */
+typedef struct dal_model dal_model;
+/* The sections of a system file, SECTION(code, name).  A comment says what the names and texts of
+ * dal_model_add are; lists and single values have no names. */
+#define DAL_SECTION_LIST(SECTION)                                                                  \
+    SECTION(TITLE, "title")                                                                        \
+    SECTION(REFERENCE, "reference")                                                                \
+    SECTION(COORDINATES, "coordinates")     /* text: a name */                                     \
+    SECTION(SIZES, "sizes")                 /* name, text: a whole number */                       \
+    SECTION(PARAMETERS, "parameters")       /* name, text: a number */                             \
+    SECTION(FILES, "files")                 /* name of a file, its text; see tables */             \
+    SECTION(TABLES, "tables")               /* by dal_model_add_table */                           \
+    SECTION(FUNCTIONS, "functions")         /* name with arguments, as V(r); formula */            \
+    SECTION(LET, "let")                     /* name, formula */                                    \
+    SECTION(LAGRANGIAN, "lagrangian")       /* formula */                                          \
+    SECTION(ACCELERATIONS, "accelerations") /* coordinate, formula; instead of a Lagrangian */     \
+    SECTION(FORCES, "forces")               /* coordinate, formula */                              \
+    SECTION(CONSTRAINTS, "constraints")     /* formula */                                          \
+    SECTION(REACTIONS, "reactions")   /* constraint.coordinate, as 2.x: formula; see below */      \
+    SECTION(MECHANICS, "mechanics")   /* lagrange-d'alembert (default) or vakonomic */             \
+    SECTION(GAUGE, "gauge")           /* e or mu_e, formula in t and parameters */                 \
+    SECTION(START, "start")           /* name, formula; solve.x' and any text: x' from D = 0 */    \
+    SECTION(INVARIANTS, "invariants") /* name, formula */                                          \
+    SECTION(EVENTS, "events")         /* event.key, as 1.when, 1.set.x': formula or word */        \
+    SECTION(EXACT, "exact")           /* coordinate, formula in t and parameters */                \
+    SECTION(TAGS, "tags")             /* a word */                                                 \
+    SECTION(PICTURE, "picture")       /* x, y, angle, ..: formula; body: a word */                 \
+    SECTION(DEFAULTS, "defaults")     /* integrator: a method; step, time: a number */
+
+/* A section of a system file.  Reactions are along B_a = dD_a/dv (Chetaev's rule), unless the file
+ * gives B_a(q,v,t), as for an actuator that enforces a servo constraint:
+ *     W dv/dt = b + B^T h,   (A W^-1 B^T) h = -(c + A W^-1 b)
+ * A component of B_a that is not named is 0. */
+typedef enum dal_section {
+#define CODE(code, text) DAL_SECTION_##code,
+    DAL_SECTION_LIST(CODE)
+#undef CODE
+        DAL_SECTION_COUNT
+} dal_section;
+
+/* Makes an empty model; NULL when out of memory.  A NULL name is "". [alloc] */
+dal_model *dal_model_create(const char *name);
+/* Frees a model and its systems. */
+void dal_model_free(dal_model *model);
+/* Adds an entry to a section, in any order.  Its text is copied, and parsed by dal_model_system;
+ * line and column (from 1 or 0) are its place. [alloc]  Errors: DAL_STATUS_NAME, DAL_STATUS_SYNTAX,
+ * DAL_STATUS_MODEL. */
+dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
+                         int line, int column, dal_error *error);
+/* Adds a formula that runs observe, after all other entries: it may contain what an invariant may,
+ * is the last of the system's invariants, has its own text as name and need not be conserved.  No
+ * other equation changes.  [alloc]  Errors: DAL_STATUS_NAME (a name alone, which as a formula is
+ * written (x)), DAL_STATUS_SYNTAX (no text, line breaks, quotes, blanks at an end),
+ * DAL_STATUS_TOO_LARGE (more than 100 characters), DAL_STATUS_MODEL (given twice). */
+dal_status dal_model_observe(dal_model *model, const char *formula, int line, int column,
+                             dal_error *error);
+/* Between two points a table is a straight line, or the natural cubic spline: smooth up to its
+ * second derivative, which is 0 at both ends. */
+typedef enum dal_interpolation { DAL_LINEAR, DAL_CUBIC } dal_interpolation;
+/* Outside its points a table is no number, the value at the end, or the line that continues it. */
+typedef enum dal_extend { DAL_EXTEND_NONE, DAL_EXTEND_CONSTANT, DAL_EXTEND_LINEAR } dal_extend;
+/* A function of one argument, given by points. */
+typedef struct dal_table {
+    const double *at, *value;        /* [points]; at ascends */
+    int points;                      /* >= 2 */
+    dal_interpolation interpolation; /* between the points */
+    dal_extend extend;               /* outside of them */
+} dal_table;
+/* Adds a table, whose points are copied; formulas call it by its name, as torque(t). [alloc]
+ * Errors: DAL_STATUS_NAME, DAL_STATUS_MODEL (points that do not ascend or are not finite),
+ * DAL_STATUS_TOO_LARGE (more than 100,000 points). */
+dal_status dal_model_add_table(dal_model *model, const char *name, const dal_table *table, int line,
+                               int column, dal_error *error);
+/* Text number i of a section, from 0, and where not NULL its name and place; NULL past the last. */
+const char *dal_model_text(const dal_model *model, dal_section section, int i, const char **name,
+                           int *line, int *column);
+/* Warning number i about a model that has its system, and where not NULL its place; NULL: none. */
+const char *dal_model_warning(const dal_model *model, int i, int *line, int *column);
+/* Makes *model from the YAML text of a system file, text[length].  name is for messages and may be
+ * NULL.  Files of its tables are in the text, under "files". [alloc]  Errors: DAL_STATUS_SYNTAX,
+ * DAL_STATUS_NAME and DAL_STATUS_MODEL, with place. */
+dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
+                          dal_error *error);
+/* Makes *model from the file at path, which tables name their files from. [alloc]  Errors:
+ * DAL_STATUS_IO, as for dal_model_read. */
+dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error);
+/* The YAML text that a model was read from, with the files of its tables in it, so that
+ * dal_model_read makes the same model anywhere; NULL where it was not read.  *length without the
+ * NUL after it. */
+const char *dal_model_source(const dal_model *model, size_t *length);
+/* Makes *model from a system of the library, "chaplygin-sleigh". [alloc]  Errors: DAL_STATUS_NAME
+ * with the nearest name. */
+dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *error);
+/* Name of system number i of the library, from 0; NULL past the last. */
+const char *dal_builtin_name(int i);
+/* The YAML text of a system of the library; NULL where there is none of this name. */
+const char *dal_builtin_text(const char *name);
+
+/* Gives the system of a complete model, made at the first call and owned by the model: the formulas
+ * are parsed and F is derived, with exact derivatives. [alloc]  Errors: DAL_STATUS_SYNTAX and
+ * DAL_STATUS_NAME with place, DAL_STATUS_MODEL, DAL_STATUS_TOO_LARGE. */
+dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error);
+/* Gives the tangent system, owned by the model: 2n coordinates (q, dq), accelerations F and
+ * F_q dq + F_v dv, no constraints.  A Runge-Kutta or partitioned method applied to it is that
+ * method's exact tangent map. [alloc]  Errors: as for dal_model_system. */
+dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error);
+
+enum { DAL_GROWTH_LEVELS = 64 /* max ranks of dal_growth */ };
+/* The growth vector of the velocities that D = 0 allows, a distribution V_1 on the space of q:
+ * rank[k] is the rank of V_(k+1) = V_k + [V_1, V_k] at generic points.  V_1 alone: D is integrable,
+ * that is holonomic; a last rank below the dimension: a part of it is. */
+typedef struct dal_growth {
+    int dimension;               /* n; where D has terms without v, or t: n + 1, of (t, q) */
+    int levels;                  /* ranks */
+    bool is_complete;            /* false: further brackets are too large */
+    int rank[DAL_GROWTH_LEVELS]; /* [levels] */
+} dal_growth;
+/* Finds the growth vector of a model whose system is made, by exact brackets at points near the
+ * start, with parameters[parameter_count].  units[1 + n] of t and q, from dal_scaled_units, say how
+ * far the points are and what components are compared with; NULL: 1.  [alloc]  Errors:
+ * DAL_STATUS_UNSUPPORTED (no constraints, or one that is not linear in v), DAL_STATUS_NAME,
+ * DAL_STATUS_SINGULAR, DAL_STATUS_NOT_FINITE, DAL_STATUS_TOO_LARGE. */
+dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,
+                            const double *units, dal_growth *out, dal_error *error);
+
+/* Numerical ranks at a point.  The motion is determined there where constraints is m and mass is
+ * n - m: W = L_vv alone may be singular. */
+typedef struct dal_ranks {
+    int constraints;          /* of A = D_v [m*n] */
+    int mass;                 /* of W on ker A; -1 where constraints is below m */
+    double constraints_pivot; /* the smallest pivot over the largest, 0 below full rank */
+    double mass_pivot;        /* likewise */
+} dal_ranks;
+/* Finds the ranks of a model whose system is made, with parameters[parameter_count], at a point of
+ * which t, q[n] and v[n] are read.  Entries are compared in units[1 + n] of t and q, as from
+ * dal_scaled_units; NULL: 1.  [alloc]  Errors: DAL_STATUS_UNSUPPORTED (vakonomic motion, reactions
+ * given), DAL_STATUS_NAME, DAL_STATUS_NOT_FINITE. */
+dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int parameter_count,
+                           const dal_point *at, const double *units, dal_ranks *out,
+                           dal_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
