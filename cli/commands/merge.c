@@ -7,15 +7,12 @@
 #include "study/study_merge.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
-#include "ui/memory.h"
 #include "ui/message.h"
-
-#include <stdlib.h>
 
 enum { MAX_SOURCES = 1024 };
 
 typedef struct settings {
-    study_directory *source;
+    const char *source[MAX_SOURCES];
     int sources;
     const char *output;
     long long threads;
@@ -28,7 +25,7 @@ static int parse_source(void *user, const cli_option *option, const char *text)
     (void)option;
     if (s->sources == MAX_SOURCES)
         return cli_fail(CLI_USAGE, "merge: more than %d directories", MAX_SOURCES);
-    study_directory_open(&s->source[s->sources++], text);
+    s->source[s->sources++] = text;
     return CLI_DONE;
 }
 
@@ -44,29 +41,18 @@ static const cli_option options[] = {
      .parse = parse_source},
 };
 
-static int merge_ensemble(const settings *s)
-{
-    const char **paths = cli_calloc((size_t)s->sources, sizeof *paths);
-    for (int i = 0; i < s->sources; i++) paths[i] = s->source[i].path;
-    const int status = ensemble_merge(paths, s->sources, s->output, (int)s->threads, s->force);
-    free(paths);
-    return s->no_page ? status : report_after_ensemble(s->output, status);
-}
-
 static int merge(int argc, char **argv)
 {
-    settings s = {.source = cli_calloc(MAX_SOURCES, sizeof *s.source), .threads = pool_threads()};
+    settings s = {.threads = pool_threads()};
     const cli_group group = CLI_GROUP(options, &s);
     int status = cli_read_arguments(&command_merge, argc, argv, &group, 1);
-    if (status == CLI_GO_ON && ensemble_directory_has_ensemble(s.source[0].path)) {
-        status = merge_ensemble(&s);
-    } else if (status == CLI_GO_ON) {
-        status = study_merge(s.source, s.sources, s.output, (int)s.threads, s.force);
-        if (!s.no_page) status = report_after_study(s.output, status, REPORT_NAMED);
-    }
-    for (int i = 0; i < s.sources; i++) study_directory_close(&s.source[i]);
-    free(s.source);
-    return status;
+    if (status != CLI_GO_ON) return status;
+    const bool is_ensemble = ensemble_directory_has_ensemble(s.source[0]);
+    status = is_ensemble ? ensemble_merge(s.source, s.sources, s.output, (int)s.threads, s.force)
+                         : study_merge(s.source, s.sources, s.output, (int)s.threads, s.force);
+    if (s.no_page) return status;
+    return is_ensemble ? report_after_ensemble(s.output, status)
+                       : report_after_study(s.output, status, REPORT_NAMED);
 }
 
 const cli_command command_merge = {

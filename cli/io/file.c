@@ -267,14 +267,18 @@ int file_output_open(file_output *o, const char *path)
     return status == CLI_DONE ? CLI_DONE : end_output(o, status, 0);
 }
 
-int file_output_close(file_output *o, int status)
+static int close_output(file_output *o, int status, int sync)
 {
+    if (status == CLI_DONE && sync && (fflush(o->stream) != 0 || fsync(fileno(o->stream)) != 0))
+        status = cli_io("write", o->name);
     if (status == CLI_DONE)
         status = cli_close(o->stream, o->name);
     else if (o->stream != stdout)
         fclose(o->stream);
-    return end_output(o, status, 0);
+    return end_output(o, status, sync);
 }
+
+int file_output_close(file_output *o, int status) { return close_output(o, status, 0); }
 
 int file_open_output(const char *path, int *descriptor)
 {
@@ -317,10 +321,18 @@ int file_create(const char *path, const void *bytes, size_t length)
 
 int file_copy(const char *from, const char *to, int sync)
 {
-    size_t length;
-    char *bytes = file_read(from, &length);
-    const int status = bytes ? file_replace(to, bytes, length, sync) : CLI_IO;
-    free(bytes);
+    char block[1 << 16];
+    file_output output;
+    FILE *source = fopen(from, "rb");
+    if (!source) return cli_io("read", from);
+    int status = file_output_open(&output, to);
+    if (status == CLI_DONE) {
+        for (size_t n; (n = fread(block, 1, sizeof block, source)) > 0;)
+            if (fwrite(block, 1, n, output.stream) != n) break;
+        status = close_output(&output, ferror(source) ? cli_io("read", from) : CLI_DONE,
+                              sync && output.fresh);
+    }
+    fclose(source);
     return status;
 }
 

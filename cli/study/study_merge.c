@@ -8,19 +8,19 @@
 #include "io/file.h"
 #include "run/manifest.h"
 #include "study_cell.h"
+#include "study_directory.h"
 #include "study_pool.h"
 #include "study_results.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/signals.h"
 
-#include <errno.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct merge {
-    study_directory *source;
+    study_directory *source; /* [sources] */
     int sources;
     study_directory target;
     study_plan plan;
@@ -101,24 +101,8 @@ static int find_run(merge *m, int cell)
     return status;
 }
 
-/* A file that is not there is not copied: of system files there are copies only where needed. */
-static int copy_file(const char *source, const char *target)
-{
-    char block[1 << 16];
-    FILE *from = fopen(source, "rb");
-    if (!from) return errno == ENOENT ? CLI_DONE : cli_io("read", source);
-    file_output to;
-    int status = file_output_open(&to, target);
-    if (status == CLI_DONE) {
-        for (size_t n; (n = fread(block, 1, sizeof block, from)) > 0;)
-            if (fwrite(block, 1, n, to.stream) != n) break;
-        status = file_output_close(&to, ferror(from) ? cli_io("read", source) : CLI_DONE);
-    }
-    fclose(from);
-    return status;
-}
-
-/* The manifest comes last: with it the run is complete. */
+/* A file that is not there is not copied: of system files there are copies only where needed.  The
+ * manifest comes last: with it the run is complete. */
 static int copy_run(const char *source, const char *target)
 {
     run_directory from, to;
@@ -126,8 +110,9 @@ static int copy_run(const char *source, const char *target)
     run_directory_open(&to, target);
     int status = cli_directory(target);
     for (int i = 0; i < RUN_FILES && status == CLI_DONE; i++)
-        if (from.file[i] != from.manifest) status = copy_file(from.file[i], to.file[i]);
-    if (status == CLI_DONE) status = copy_file(from.manifest, to.manifest);
+        if (from.file[i] != from.manifest && file_exists(from.file[i]))
+            status = file_copy(from.file[i], to.file[i], 0);
+    if (status == CLI_DONE) status = file_copy(from.manifest, to.manifest, 0);
     run_directory_close(&from);
     run_directory_close(&to);
     return status;
@@ -179,17 +164,19 @@ static int begin_target(merge *m, int force)
                                  whole, force);
 }
 
-int study_merge(study_directory *sources, int count, const char *output, int threads, int force)
+int study_merge(const char *const *sources, int count, const char *output, int threads, bool force)
 {
-    merge m = {.source = sources, .sources = count};
+    merge m = {.sources = count};
+    m.source = cli_calloc((size_t)count, sizeof *m.source);
+    for (int i = 0; i < count; i++) study_directory_open(&m.source[i], sources[i]);
     study_directory_open(&m.target, output);
     /* The first directory has the plan, the others must agree with it. */
-    int status = study_directory_read(&sources[0], &m.plan);
+    int status = study_directory_read(&m.source[0], &m.plan);
     for (int i = 1; i < count && status == CLI_DONE; i++) status = check_source(&m, i);
     m.from = cli_calloc((size_t)m.plan.cell_count + 1, sizeof *m.from);
     m.results = cli_calloc((size_t)count, sizeof *m.results);
     for (int i = 0; i < count && status == CLI_DONE; i++)
-        status = read_results(&m, &sources[i], &m.results[i]);
+        status = read_results(&m, &m.source[i], &m.results[i]);
     for (int i = 0; i < m.plan.cell_count; i++) m.plan.cells[i].other_shard = 0;
     for (int i = 0; i < m.plan.cell_count && status == CLI_DONE; i++) status = find_run(&m, i);
     if (status == CLI_DONE) status = begin_target(&m, force);
@@ -203,7 +190,11 @@ int study_merge(study_directory *sources, int count, const char *output, int thr
     }
     study_directory_close(&m.target);
     study_plan_free(&m.plan);
-    for (int i = 0; i < count; i++) study_results_free(m.results[i]);
+    for (int i = 0; i < count; i++) {
+        study_results_free(m.results[i]);
+        study_directory_close(&m.source[i]);
+    }
+    free(m.source);
     free(m.results);
     free(m.from);
     return status;

@@ -2,10 +2,10 @@
 #ifndef DAL_CLI_STUDY_MERGE_H
 #define DAL_CLI_STUDY_MERGE_H
 
-#include "study_directory.h"
+#include <stdbool.h>
 
 /* Merges the studies in count directories into one, which may be one of them; force writes over
  * what another directory holds.  Returns the exit status. */
-int study_merge(study_directory *sources, int count, const char *output, int threads, int force);
+int study_merge(const char *const *sources, int count, const char *output, int threads, bool force);
 
 #endif
