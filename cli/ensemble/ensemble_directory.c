@@ -1,7 +1,6 @@
 /* ensemble_directory.c - an ensemble in a directory: begun, read, marked. */
 #include "ensemble_directory.h"
 #include "dalembert_program.h"
-#include "io/endian.h"
 #include "io/file.h"
 #include "io/json.h"
 #include "run/manifest.h"
@@ -17,7 +16,7 @@
 
 void ensemble_directory_open(ensemble_directory *dir, const char *path)
 {
-    *dir = (ensemble_directory){.path = path, .marks = -1, .descriptor = -1};
+    *dir = (ensemble_directory){.path = path, .descriptor = -1};
     dir->members.descriptor = dir->final.descriptor = dir->rows.descriptor = -1;
     STORE_MAKE_PATHS(dir, ENSEMBLE_FILE_LIST);
 }
@@ -27,12 +26,7 @@ static void detach(ensemble_directory *dir)
     npy_table_close(&dir->members);
     npy_table_close(&dir->final);
     npy_table_close(&dir->rows);
-    if (dir->marks >= 0) close(dir->marks);
-    free(dir->marks_path);
-    free(dir->done);
-    dir->marks = -1;
-    dir->marks_path = NULL;
-    dir->done = NULL;
+    store_close_marks(&dir->marks);
 }
 
 static void unlock(ensemble_directory *dir)
@@ -47,7 +41,7 @@ void ensemble_directory_close(ensemble_directory *dir)
     unlock(dir);
     store_free_paths(dir->file, ENSEMBLE_FILES);
     store_free_manifest(dir->doc);
-    *dir = (ensemble_directory){.marks = -1, .descriptor = -1};
+    *dir = (ensemble_directory){.descriptor = -1};
 }
 
 int ensemble_member_columns(const ensemble *e) { return MEMBER_DRAWN + e->variations; }
@@ -178,8 +172,8 @@ static int find_fingerprint(ensemble_directory *dir, const ensemble *e)
     for (int i = 0; i < e->variations; i++)
         hash = dal__hash(hash, e->vary_text[i], strlen(e->vary_text[i]) + 1);
     free(input);
-    dir->fingerprint = hash;
-    return store_hash_system(&dir->fingerprint, dal_builtin_text(e->request.system_name),
+    dir->marks.fingerprint = hash;
+    return store_hash_system(&dir->marks.fingerprint, dal_builtin_text(e->request.system_name),
                              dir->system);
 }
 
@@ -207,65 +201,17 @@ char *ensemble_directory_read_messages(const ensemble_directory *dir, int chunk)
 
 static const store_shard_file marks_file = {"chunks", "chunks", ""};
 
-/* Adds the chunks that one shard has done. */
-static int read_marks(ensemble_directory *dir, const ensemble *e, store_shard shard)
-{
-    size_t length;
-    const size_t chunks = (size_t)ensemble_chunks(e);
-    char *path = store_shard_path(dir->path, marks_file, shard), *bytes = file_read(path, &length);
-    int status = bytes ? CLI_DONE : CLI_IO;
-    /* A process that was killed before it wrote the word has done nothing. */
-    const bool is_new = bytes && length < WORD;
-    if (bytes && !is_new &&
-        (length != WORD + chunks || read_le64((unsigned char *)bytes) != dir->fingerprint))
-        status = cli_fail(CLI_USAGE, "'%s' belongs to another ensemble", path);
-    for (size_t i = 0; status == CLI_DONE && !is_new && i < chunks; i++)
-        dir->done[i] |= bytes[WORD + i] == 1;
-    free(bytes);
-    free(path);
-    return status;
-}
-
 int ensemble_directory_shards(const ensemble_directory *dir, store_shard **shards, int *count)
 {
     return store_find_shards(dir->path, marks_file, shards, count);
 }
 
-int ensemble_directory_update(ensemble_directory *dir, const ensemble *e, bool *is_complete)
-{
-    store_shard *shards;
-    int count, status = ensemble_directory_shards(dir, &shards, &count);
-    for (int i = 0; i < count && status == CLI_DONE; i++) status = read_marks(dir, e, shards[i]);
-    *is_complete = status == CLI_DONE;
-    for (int i = 0; i < ensemble_chunks(e); i++) *is_complete &= dir->done[i] == 1;
-    free(shards);
-    return status;
-}
-
-static bool write_marks(const ensemble_directory *dir, const ensemble *e)
-{
-    const size_t length = WORD + (size_t)ensemble_chunks(e);
-    unsigned char *bytes = cli_malloc(length);
-    write_le64(bytes, dir->fingerprint);
-    memcpy(bytes + WORD, dir->done, length - WORD);
-    size_t written = 0;
-    while (written < length) {
-        const ssize_t n = pwrite(dir->marks, bytes + written, length - written, (off_t)written);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) break;
-        written += (size_t)n;
-    }
-    free(bytes);
-    return written == length;
-}
-
-int ensemble_directory_save(const ensemble_directory *dir, const ensemble *e)
+int ensemble_directory_save(const ensemble_directory *dir)
 {
     int status = npy_table_sync(&dir->members);
     if (status == CLI_DONE) status = npy_table_sync(&dir->final);
     if (status == CLI_DONE && dir->has_rows) status = npy_table_sync(&dir->rows);
-    if (status == CLI_DONE && !write_marks(dir, e)) status = cli_io("write", dir->marks_path);
-    return status;
+    return status == CLI_DONE ? store_save_marks(&dir->marks) : status;
 }
 
 int ensemble_directory_lock(ensemble_directory *dir)
@@ -297,20 +243,15 @@ static int open_tables(ensemble_directory *dir, const ensemble *e, bool is_new)
 
 int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, store_shard shard)
 {
-    bool is_complete;
     detach(dir);
-    dir->shard = shard;
+    dir->marks = (store_marks){.what = "ensemble",
+                               .directory = dir->path,
+                               .file = marks_file,
+                               .shard = shard,
+                               .count = ensemble_chunks(e)};
     int status = find_fingerprint(dir, e);
     if (status == CLI_DONE) status = open_tables(dir, e, false);
-    if (status != CLI_DONE) return status;
-    dir->done = cli_calloc((size_t)ensemble_chunks(e), 1);
-    if (shard.count < 0) return ensemble_directory_update(dir, e, &is_complete);
-    dir->marks_path = store_shard_path(dir->path, marks_file, shard);
-    dir->marks = open(dir->marks_path, O_RDWR | O_CREAT, 0666);
-    if (dir->marks < 0) return cli_io("write", dir->marks_path);
-    /* Reading the file would lose the lock. */
-    status = ensemble_directory_update(dir, e, &is_complete);
-    return status == CLI_DONE ? store_lock(dir->marks, dir->marks_path) : status;
+    return status == CLI_DONE ? store_open_marks(&dir->marks) : status;
 }
 
 /* ---- beginning ----------------------------------------------------------------------------- */

@@ -10,10 +10,7 @@
  *     DIR/messages/K       why members of chunk K failed, a line for each; absent where none did
  *     DIR/lock             empty; locked while a shard begins
  *
- * and, when all members are done, what ensemble_statistics.h makes of them.
- *
- * A file of chunks has a word of 64 bits, a hash of the request, and a byte for each chunk: 1 where
- * its rows are on the disk, 0 where they are to be made again. */
+ * and, when all members are done, what ensemble_statistics.h makes of them. */
 #ifndef DAL_CLI_ENSEMBLE_DIRECTORY_H
 #define DAL_CLI_ENSEMBLE_DIRECTORY_H
 
@@ -49,12 +46,8 @@ typedef struct ensemble_directory {
     document *doc; /* manifest.json as it was read */
     npy_table members, final, rows;
     bool has_rows;
-    uint64_t fingerprint;
-    store_shard shard;
-    int marks;      /* descriptor of the file of chunks, locked; -1: not open */
-    int descriptor; /* of the lock of the directory; -1: not held */
-    char *marks_path;
-    unsigned char *done; /* [chunks] of all shards */
+    store_marks marks; /* of the chunks */
+    int descriptor;    /* of the lock of the directory; -1: not held */
 } ensemble_directory;
 
 void ensemble_directory_open(ensemble_directory *dir, const char *path);
@@ -86,9 +79,7 @@ int ensemble_directory_lock(ensemble_directory *dir);
 int ensemble_directory_write_messages(const ensemble_directory *dir, int chunk, const char *text);
 char *ensemble_directory_read_messages(const ensemble_directory *dir, int chunk);
 /* Brings all rows to the disk, and then which chunks are done. */
-int ensemble_directory_save(const ensemble_directory *dir, const ensemble *e);
-/* Reads which chunks other processes have done; whether all are. */
-int ensemble_directory_update(ensemble_directory *dir, const ensemble *e, bool *is_complete);
+int ensemble_directory_save(const ensemble_directory *dir);
 int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensemble *e,
                                       store_state state);
 

@@ -55,15 +55,15 @@ static int copy_chunk(const merge *m, const ensemble_directory *from, int chunk)
 static int merge_chunk(merge *m, int chunk)
 {
     int i = 0;
-    if (m->target.done[chunk]) return CLI_DONE;
-    while (i < m->sources && !m->source[i].done[chunk]) i++;
+    if (m->target.marks.done[chunk]) return CLI_DONE;
+    while (i < m->sources && !m->source[i].marks.done[chunk]) i++;
     if (i == m->sources)
         return cli_fail(CLI_USAGE,
                         "member %lld is done in none of the directories: a shard is missing or "
                         "not finished",
                         (long long)chunk * ENSEMBLE_CHUNK);
     const int status = copy_chunk(m, &m->source[i], chunk);
-    m->target.done[chunk] = status == CLI_DONE;
+    m->target.marks.done[chunk] = status == CLI_DONE;
     return status;
 }
 
@@ -77,7 +77,7 @@ static int merge_all(merge *m, int threads, bool force)
     m->rows = ensemble_allocate_rows(&m->e);
     for (int i = 0; i < ensemble_chunks(&m->e) && status == CLI_DONE; i++)
         status = merge_chunk(m, i);
-    if (status == CLI_DONE) status = ensemble_directory_save(&m->target, &m->e);
+    if (status == CLI_DONE) status = ensemble_directory_save(&m->target);
     return status == CLI_DONE ? ensemble_finish(&m->e, &m->target, threads) : status;
 }
 

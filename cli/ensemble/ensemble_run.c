@@ -139,11 +139,11 @@ static int end_chunk(void *user, int chunk, int status)
 {
     pool_state *p = user;
     if (status != CLI_DONE) return status;
-    p->dir->done[chunk] = 1;
+    p->dir->marks.done[chunk] = 1;
     p->done += ensemble_chunk_members(p->e, chunk);
     show_members(p);
     if (cli_seconds() - p->saved < p->interval) return CLI_DONE;
-    status = ensemble_directory_save(p->dir, p->e);
+    status = ensemble_directory_save(p->dir);
     p->saved = cli_seconds();
     return status;
 }
@@ -221,7 +221,7 @@ static int step_chunk(const pool_state *p, const worker *w, int chunk, const wor
 static bool is_due(void *user, int chunk)
 {
     const ensemble_directory *dir = ((pool_state *)user)->dir;
-    return store_shard_has(dir->shard, chunk) && !dir->done[chunk];
+    return store_shard_has(dir->marks.shard, chunk) && !dir->marks.done[chunk];
 }
 
 static int run_chunk(void *user, int chunk, const work_stop *stop)
@@ -264,9 +264,9 @@ static void begin_native(pool_state *p, const ensemble_run_options *options)
 static void count_members(pool_state *p)
 {
     for (int i = 0; i < ensemble_chunks(p->e); i++) {
-        if (!store_shard_has(p->dir->shard, i)) continue;
+        if (!store_shard_has(p->dir->marks.shard, i)) continue;
         p->members += ensemble_chunk_members(p->e, i);
-        if (p->dir->done[i]) p->done += ensemble_chunk_members(p->e, i);
+        if (p->dir->marks.done[i]) p->done += ensemble_chunk_members(p->e, i);
     }
     p->begun = p->done;
 }
@@ -310,7 +310,7 @@ int ensemble_run(ensemble *e, ensemble_directory *dir, const ensemble_run_option
     cli_progress_end();
     show_end(&p);
     free_workers(&p);
-    const int saved = ensemble_directory_save(dir, e);
+    const int saved = ensemble_directory_save(dir);
     if (status != CLI_DONE && status != CLI_SIGNAL) return status;
     return saved == CLI_DONE ? status : saved;
 }
@@ -324,7 +324,7 @@ int ensemble_end(const ensemble *e, ensemble_directory *dir, int status, int thr
     }
     /* Of shards that end together one after the other finds all done and writes the same bytes. */
     if (status == CLI_DONE) status = ensemble_directory_lock(dir);
-    if (status == CLI_DONE) status = ensemble_directory_update(dir, e, &is_complete);
+    if (status == CLI_DONE) status = store_update_marks(&dir->marks, &is_complete);
     if (status != CLI_DONE) return status;
     if (is_complete) return ensemble_finish(e, dir, threads);
     cli_note(

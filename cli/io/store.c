@@ -2,6 +2,7 @@
 #include "store.h"
 #include "dalembert.h"
 #include "dalembert_program.h"
+#include "endian.h"
 #include "file.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -149,6 +150,75 @@ int store_remove_shards(const char *directory, store_shard_file file)
     }
     free(shards);
     return status;
+}
+
+/* ---- marks --------------------------------------------------------------------------------- */
+
+/* Adds the items that one shard has done. */
+static int read_marks(store_marks *m, store_shard shard)
+{
+    size_t length;
+    char *path = store_shard_path(m->directory, m->file, shard), *bytes = file_read(path, &length);
+    int status = bytes ? CLI_DONE : CLI_IO;
+    /* A process that was killed before it wrote the word has done nothing. */
+    const bool is_new = bytes && length < WORD;
+    if (bytes && !is_new &&
+        (length != WORD + (size_t)m->count || read_le64((unsigned char *)bytes) != m->fingerprint))
+        status = cli_fail(CLI_USAGE, "'%s' belongs to another %s", path, m->what);
+    for (int i = 0; status == CLI_DONE && !is_new && i < m->count; i++)
+        m->done[i] |= bytes[WORD + i] == 1;
+    free(bytes);
+    free(path);
+    return status;
+}
+
+int store_update_marks(store_marks *m, bool *is_complete)
+{
+    store_shard *shards;
+    int count, status = store_find_shards(m->directory, m->file, &shards, &count);
+    for (int i = 0; i < count && status == CLI_DONE; i++) status = read_marks(m, shards[i]);
+    *is_complete = status == CLI_DONE;
+    for (int i = 0; i < m->count; i++) *is_complete &= m->done[i] == 1;
+    free(shards);
+    return status;
+}
+
+int store_open_marks(store_marks *m)
+{
+    bool is_complete;
+    m->done = cli_calloc((size_t)m->count, 1);
+    if (m->shard.count < 0) return store_update_marks(m, &is_complete);
+    m->path = store_shard_path(m->directory, m->file, m->shard);
+    m->descriptor = open(m->path, O_RDWR | O_CREAT, 0666);
+    if (m->descriptor < 0) return cli_io("write", m->path);
+    /* Reading the file would lose the lock. */
+    const int status = store_update_marks(m, &is_complete);
+    return status == CLI_DONE ? store_lock(m->descriptor, m->path) : status;
+}
+
+int store_save_marks(const store_marks *m)
+{
+    const size_t length = WORD + (size_t)m->count;
+    unsigned char *bytes = cli_malloc(length);
+    write_le64(bytes, m->fingerprint);
+    memcpy(bytes + WORD, m->done, length - WORD);
+    size_t written = 0;
+    while (written < length) {
+        const ssize_t n = pwrite(m->descriptor, bytes + written, length - written, (off_t)written);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) break;
+        written += (size_t)n;
+    }
+    free(bytes);
+    return written == length ? CLI_DONE : cli_io("write", m->path);
+}
+
+void store_close_marks(store_marks *m)
+{
+    if (m->path && m->descriptor >= 0) close(m->descriptor);
+    free(m->path);
+    free(m->done);
+    *m = (store_marks){0};
 }
 
 /* ---- manifests ----------------------------------------------------------------------------- */

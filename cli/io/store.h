@@ -78,6 +78,31 @@ int store_find_shards(const char *directory, store_shard_file file, store_shard 
 /* Removes their files. */
 int store_remove_shards(const char *directory, store_shard_file file);
 
+/* ---- marks --------------------------------------------------------------------------------- */
+
+/* Which items are done: a file for each shard with a word of 64 bits, the fingerprint of what they
+ * belong to, and a byte for each item, 1 where what it has made is on the disk, 0 where it is to be
+ * made again. */
+typedef struct store_marks {
+    const char *what, *directory; /* what has the items, for messages, and where it is */
+    store_shard_file file;
+    store_shard shard; /* whose file is written */
+    int count;
+    uint64_t fingerprint;
+    unsigned char *done; /* [count] of all shards */
+    char *path;          /* of the file that is written; */
+    int descriptor;      /* locked */
+} store_marks;
+
+/* Reads what all shards have done and takes the file of one for this process alone; of
+ * STORE_ALL_SHARDS nothing can be saved.  All return CLI_DONE, or print and return an exit status;
+ * a closed one may be closed again. */
+int store_open_marks(store_marks *marks);
+/* Reads what other processes have done by now; whether that is all. */
+int store_update_marks(store_marks *marks, bool *is_complete);
+int store_save_marks(const store_marks *marks);
+void store_close_marks(store_marks *marks);
+
 /* ---- manifests ----------------------------------------------------------------------------- */
 
 /* A manifest that is written: an object that begins with the version of the program. */

@@ -69,14 +69,14 @@ int mpi_ensemble_run(const mpi_request *request)
     ensemble e;
     ensemble_directory dir;
     int status = mpi_max_status(open_shard(request, own, &e, &dir));
-    dir.shard = (store_shard){0}; /* any process runs any chunk */
+    dir.marks.shard = (store_shard){0}; /* any process runs any chunk */
     if (status == CLI_DONE) status = ensemble_run(&e, &dir, &how);
     close_shard(&e, &dir);
     status = mpi_max_status(status);
     if (request->rank > 0 || (status != CLI_DONE && status != CLI_SIGNAL)) return status;
     /* The whole has the marks of all shards now. */
     int opened = open_shard(request, (store_shard){0}, &e, &dir);
-    if (opened == CLI_DONE) opened = ensemble_directory_save(&dir, &e);
+    if (opened == CLI_DONE) opened = ensemble_directory_save(&dir);
     status = opened == CLI_DONE ? ensemble_end(&e, &dir, status, pool_threads()) : opened;
     close_shard(&e, &dir);
     return status;
