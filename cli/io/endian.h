@@ -4,6 +4,7 @@
 #define DAL_CLI_ENDIAN_H
 
 #include <stdint.h>
+#include <string.h>
 
 enum { WORD = 8 };
 
@@ -24,6 +25,22 @@ static inline void write_le64(unsigned char *b, uint64_t word)
     b[5] = (unsigned char)(word >> 40);
     b[6] = (unsigned char)(word >> 48);
     b[7] = (unsigned char)(word >> 56);
+}
+
+/* Doubles by their bits. */
+static inline double read_le_double(const unsigned char *b)
+{
+    const uint64_t word = read_le64(b);
+    double x;
+    memcpy(&x, &word, sizeof x);
+    return x;
+}
+
+static inline void write_le_double(unsigned char *b, double x)
+{
+    uint64_t word;
+    memcpy(&word, &x, sizeof word);
+    write_le64(b, word);
 }
 
 #endif

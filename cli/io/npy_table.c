@@ -84,17 +84,10 @@ static int transfer_rows(const npy_table *table, long long first, long long coun
     off_t at = (off_t)table->header + (off_t)first * table->columns * WORD;
     for (long long left = count * table->columns; left > 0;) {
         const size_t n = left < BLOCK ? (size_t)left : BLOCK;
-        uint64_t bits;
-        for (size_t i = 0; way == WRITE && i < n; i++) {
-            memcpy(&bits, &values[i], sizeof bits);
-            write_le64(bytes + i * WORD, bits);
-        }
+        for (size_t i = 0; way == WRITE && i < n; i++) write_le_double(bytes + i * WORD, values[i]);
         if (!transfer(table->descriptor, bytes, n * WORD, at, way))
             return cli_io(way == WRITE ? "write" : "read", table->path);
-        for (size_t i = 0; way == READ && i < n; i++) {
-            bits = read_le64(bytes + i * WORD);
-            memcpy(&values[i], &bits, sizeof bits);
-        }
+        for (size_t i = 0; way == READ && i < n; i++) values[i] = read_le_double(bytes + i * WORD);
         values += n;
         left -= (long long)n;
         at += (off_t)(n * WORD);

@@ -314,10 +314,7 @@ int writer_continue(trajectory_writer *writer, long long rows, const row_sum *su
 /* Zero has no sign in the file and not a number one form, so that equal runs give equal files. */
 static void encode(unsigned char *bytes, double value)
 {
-    const double x = isnan(value) ? (double)NAN : value + 0.0;
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    write_le64(bytes, bits);
+    write_le_double(bytes, isnan(value) ? (double)NAN : value + 0.0);
 }
 
 int writer_create(trajectory_writer *writer, const char *path, char *const *names, int columns)
@@ -418,10 +415,8 @@ int reader_next(trajectory_reader *reader)
         cli_io("read", reader->path);
         return -1;
     }
-    for (int i = 0; i < reader->columns; i++) {
-        const uint64_t bits = read_le64(reader->bytes + WORD * i);
-        memcpy(&reader->row[i], &bits, sizeof bits);
-    }
+    for (int i = 0; i < reader->columns; i++)
+        reader->row[i] = read_le_double(reader->bytes + WORD * i);
     return 1;
 }
 
@@ -432,10 +427,7 @@ double reader_last_time(trajectory_reader *reader)
     const off_t place = ftello(reader->file),
                 last = (off_t)reader->offset + (off_t)(reader->count - 1) * reader->columns * WORD;
     if (place < 0 || fseeko(reader->file, last, SEEK_SET) != 0) return NAN;
-    if (fread(bytes, 1, WORD, reader->file) == WORD) {
-        const uint64_t bits = read_le64(bytes);
-        memcpy(&t, &bits, sizeof t);
-    }
+    if (fread(bytes, 1, WORD, reader->file) == WORD) t = read_le_double(bytes);
     return fseeko(reader->file, place, SEEK_SET) == 0 ? t : NAN;
 }
 

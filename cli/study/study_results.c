@@ -86,9 +86,7 @@ static void put_integer(unsigned char **at, long long value)
 
 static void put_real(unsigned char **at, double value)
 {
-    uint64_t word;
-    memcpy(&word, &value, sizeof word);
-    write_le64(*at, word);
+    write_le_double(*at, value);
     *at += WORD;
 }
 
@@ -101,9 +99,7 @@ static long long get_integer(const unsigned char **at)
 
 static double get_real(const unsigned char **at)
 {
-    double value;
-    const uint64_t word = read_le64(*at);
-    memcpy(&value, &word, sizeof value);
+    const double value = read_le_double(*at);
     *at += WORD;
     return value;
 }
