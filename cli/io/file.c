@@ -77,6 +77,22 @@ bool file_is_same(const char *path, const char *other)
            x.st_ino == y.st_ino;
 }
 
+size_t file_transfer(int descriptor, void *bytes, size_t length, off_t place, file_way way)
+{
+    size_t done = 0;
+    while (done < length) {
+        char *at = (char *)bytes + done;
+        const ssize_t n = way == FILE_WRITE
+                              ? pwrite(descriptor, at, length - done, place + (off_t)done)
+                              : pread(descriptor, at, length - done, place + (off_t)done);
+        if (n < 0 && errno == EINTR) continue;
+        if (n == 0) errno = EIO;
+        if (n <= 0) break;
+        done += (size_t)n;
+    }
+    return done;
+}
+
 static int write_all(int descriptor, const void *bytes, size_t length, int sync)
 {
     const char *from = bytes;

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <sys/types.h>
 
 /* The bytes of a file and a NUL, allocated; NULL after a message. */
 char *file_read(const char *path, size_t *length);
@@ -20,6 +21,11 @@ bool file_is_same(const char *path, const char *other);
  * a power cut and not only the process. */
 int file_write(const char *path, const void *bytes, size_t length, int sync);
 int file_rename(const char *from, const char *to, int sync);
+
+/* Reads or writes at a place of a file; returns how many bytes were transferred for sure, fewer
+ * than length after an error or at the end of the file. */
+typedef enum file_way { FILE_READ, FILE_WRITE } file_way;
+size_t file_transfer(int descriptor, void *bytes, size_t length, off_t place, file_way way);
 
 /* Outputs: one rule for what a user names and for the files of a directory.  A regular file is
  * written beside its place, as .NAME.new, and renamed; its symbolic links, owner and permissions

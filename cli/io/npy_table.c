@@ -1,6 +1,7 @@
 /* npy_table.c - rows of doubles in a .npy file that are written and read at any place. */
 #include "npy_table.h"
 #include "endian.h"
+#include "file.h"
 #include "trajectory.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -15,25 +16,6 @@
 
 enum { BLOCK = 8192 /* numbers that are converted at a time */ };
 
-/* Writes or reads all bytes; false after an error, or at the end of the file. */
-typedef enum transfer_way { READ, WRITE } transfer_way;
-
-static bool transfer(int descriptor, unsigned char *bytes, size_t length, off_t at,
-                     transfer_way way)
-{
-    while (length) {
-        const ssize_t n = way == WRITE ? pwrite(descriptor, bytes, length, at)
-                                       : pread(descriptor, bytes, length, at);
-        if (n < 0 && errno == EINTR) continue;
-        if (n == 0) errno = EIO;
-        if (n <= 0) return false;
-        bytes += n;
-        length -= (size_t)n;
-        at += n;
-    }
-    return true;
-}
-
 /* A new file gets its header and its length, an old one must have them. */
 static int prepare(const npy_table *table, char *header, off_t length, bool is_new)
 {
@@ -42,10 +24,11 @@ static int prepare(const npy_table *table, char *header, off_t length, bool is_n
     int status = CLI_DONE;
     if (is_new) {
         if (ftruncate(table->descriptor, 0) != 0 || ftruncate(table->descriptor, length) != 0 ||
-            !transfer(table->descriptor, (unsigned char *)header, table->header, 0, WRITE))
+            file_transfer(table->descriptor, header, table->header, 0, FILE_WRITE) < table->header)
             status = cli_io("write", table->path);
     } else if (fstat(table->descriptor, &info) != 0 || info.st_size != length ||
-               !transfer(table->descriptor, found, table->header, 0, READ) ||
+               file_transfer(table->descriptor, found, table->header, 0, FILE_READ) <
+                   table->header ||
                memcmp(found, header, table->header) != 0) {
         status = cli_fail(CLI_USAGE, "'%s' is not the file that was begun", table->path);
     }
@@ -78,16 +61,18 @@ int npy_table_open(npy_table *table, char *path, char *const *names, int columns
 }
 
 static int transfer_rows(const npy_table *table, long long first, long long count, double *values,
-                         transfer_way way)
+                         file_way way)
 {
     unsigned char bytes[BLOCK * WORD];
     off_t at = (off_t)table->header + (off_t)first * table->columns * WORD;
     for (long long left = count * table->columns; left > 0;) {
         const size_t n = left < BLOCK ? (size_t)left : BLOCK;
-        for (size_t i = 0; way == WRITE && i < n; i++) write_le_double(bytes + i * WORD, values[i]);
-        if (!transfer(table->descriptor, bytes, n * WORD, at, way))
-            return cli_io(way == WRITE ? "write" : "read", table->path);
-        for (size_t i = 0; way == READ && i < n; i++) values[i] = read_le_double(bytes + i * WORD);
+        for (size_t i = 0; way == FILE_WRITE && i < n; i++)
+            write_le_double(bytes + i * WORD, values[i]);
+        if (file_transfer(table->descriptor, bytes, n * WORD, at, way) < n * WORD)
+            return cli_io(way == FILE_WRITE ? "write" : "read", table->path);
+        for (size_t i = 0; way == FILE_READ && i < n; i++)
+            values[i] = read_le_double(bytes + i * WORD);
         values += n;
         left -= (long long)n;
         at += (off_t)(n * WORD);
@@ -97,12 +82,12 @@ static int transfer_rows(const npy_table *table, long long first, long long coun
 
 int npy_table_write(const npy_table *table, long long first, long long count, const double *values)
 {
-    return transfer_rows(table, first, count, (double *)values, WRITE);
+    return transfer_rows(table, first, count, (double *)values, FILE_WRITE);
 }
 
 int npy_table_read(const npy_table *table, long long first, long long count, double *values)
 {
-    return transfer_rows(table, first, count, values, READ);
+    return transfer_rows(table, first, count, values, FILE_READ);
 }
 
 int npy_table_sync(const npy_table *table)

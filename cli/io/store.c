@@ -202,13 +202,7 @@ int store_save_marks(const store_marks *m)
     unsigned char *bytes = cli_malloc(length);
     write_le64(bytes, m->fingerprint);
     memcpy(bytes + WORD, m->done, length - WORD);
-    size_t written = 0;
-    while (written < length) {
-        const ssize_t n = pwrite(m->descriptor, bytes + written, length - written, (off_t)written);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) break;
-        written += (size_t)n;
-    }
+    const size_t written = file_transfer(m->descriptor, bytes, length, 0, FILE_WRITE);
     free(bytes);
     return written == length ? CLI_DONE : cli_io("write", m->path);
 }

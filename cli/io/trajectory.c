@@ -212,41 +212,28 @@ static off_t place_of(const trajectory_writer *writer, long long row)
     return (off_t)(writer->header_length + (size_t)row * row_bytes(writer));
 }
 
-/* Writes at a place; *written bytes are surely there afterwards. */
-static int write_at(int descriptor, const void *bytes, size_t length, off_t place, size_t *written)
-{
-    for (*written = 0; *written < length;) {
-        const ssize_t n = pwrite(descriptor, (const char *)bytes + *written, length - *written,
-                                 place + (off_t)*written);
-        if (n < 0 && errno != EINTR) return 0;
-        if (n > 0) *written += (size_t)n;
-    }
-    return 1;
-}
-
 /* Writes the number of rows into the last line of the header, which alone changes. */
 static int write_rows_number(trajectory_writer *writer)
 {
     const size_t place = writer->header_length - NPY_LINE;
-    size_t written;
     set_rows(writer, writer->rows);
-    return write_at(writer->descriptor, writer->header + place, NPY_LINE, (off_t)place, &written);
+    return file_transfer(writer->descriptor, writer->header + place, NPY_LINE, (off_t)place,
+                         FILE_WRITE) == NPY_LINE;
 }
 
 /* Writes the pending rows.  Of a write that fails the whole rows count. */
 static int flush(trajectory_writer *writer)
 {
-    size_t written;
-    const int done =
-        write_at(writer->descriptor, writer->buffer, (size_t)writer->pending * row_bytes(writer),
-                 place_of(writer, writer->rows), &written);
+    const size_t length = (size_t)writer->pending * row_bytes(writer);
+    const size_t written = file_transfer(writer->descriptor, writer->buffer, length,
+                                         place_of(writer, writer->rows), FILE_WRITE);
     const int reason = errno;
     const long long whole = (long long)(written / row_bytes(writer));
     add_words(&writer->sum, writer->rows * writer->columns, writer->buffer,
               whole * writer->columns);
     writer->rows += whole;
     writer->pending = 0;
-    if (done) return CLI_DONE;
+    if (written == length) return CLI_DONE;
     write_rows_number(writer);
     errno = reason;
     return failed(writer);
@@ -298,13 +285,13 @@ int writer_verify(const trajectory_writer *writer, long long rows, const row_sum
 
 int writer_continue(trajectory_writer *writer, long long rows, const row_sum *sum)
 {
-    size_t written;
     writer->rows = rows;
     writer->sum = *sum;
     const off_t end = rows > 0 ? place_of(writer, rows) : 0;
     set_rows(writer, rows);
     if (ftruncate(writer->descriptor, end) != 0 ||
-        !write_at(writer->descriptor, writer->header, writer->header_length, 0, &written))
+        file_transfer(writer->descriptor, writer->header, writer->header_length, 0, FILE_WRITE) <
+            writer->header_length)
         return failed(writer);
     return CLI_DONE;
 }
