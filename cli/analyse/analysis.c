@@ -35,7 +35,8 @@ void analysis_close(analysis_output *output, int exit_status)
     free(output->table);
 }
 
-int analysis_describe(const analysis_output *output, const char *name, const run_request *request,
+int analysis_describe(const analysis_output *output, const char *name,
+                      const run_simulation *simulation,
                       void (*put)(json_writer *writer, const void *results), const void *results)
 {
     char *text, *json = cli_format("%s/%s.json", output->directory, name);
@@ -47,8 +48,8 @@ int analysis_describe(const analysis_output *output, const char *name, const run
     cli_memstream_close(w.out);
     int status = file_replace(json, text, length, 0);
     if (status == CLI_DONE)
-        status = cli_is_path(request->system_name)
-                     ? cli_copy_system(request->system_name, request->model, copy, 0)
+        status = cli_is_path(simulation->request.system_name)
+                     ? cli_copy_system(simulation->request.system_name, simulation->model, copy, 0)
                      : file_remove(copy);
     free(text);
     free(json);

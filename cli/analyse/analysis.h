@@ -4,7 +4,7 @@
 #define DAL_CLI_ANALYSIS_H
 
 #include "io/json.h"
-#include "run/request.h"
+#include "run/simulation.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -34,7 +34,8 @@ void analysis_close(analysis_output *output, int exit_status);
 /* Writes what the table in a directory was made with, for `report`: NAME.json with the members that
  * put writes, and NAME.yaml, the copy of a system that is no built-in one.  Returns CLI_DONE or
  * prints and returns CLI_IO. */
-int analysis_describe(const analysis_output *output, const char *name, const run_request *request,
+int analysis_describe(const analysis_output *output, const char *name,
+                      const run_simulation *simulation,
                       void (*put)(json_writer *writer, const void *results), const void *results);
 
 /* Whether stdout is free for JSON: --output, NULL where there is none, must not go there.  Returns

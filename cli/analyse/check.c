@@ -75,8 +75,8 @@ static void choose_points(check *c, double *memory)
 
 static int scale_system(check *c)
 {
-    const run_request *request = c->request;
-    const dal_run_spec spec = {.system = request->system,
+    const run_request *request = &c->simulation->request;
+    const dal_run_spec spec = {.system = c->simulation->system,
                                .parameters = request->set.item,
                                .parameter_count = request->set.count,
                                .start = request->start.item,
@@ -94,7 +94,7 @@ static int prepare_check(check *c)
     const int scaled = scale_system(c);
     if (scaled != CLI_DONE) return scaled;
     const dal_system *s = c->system;
-    const run_request *request = c->request;
+    const run_request *request = &c->simulation->request;
     dal_error error = {0};
     c->n = s->n, c->m = s->m, c->nw = s->n + s->multipliers, c->size = c->n + c->nw;
     const size_t n = (size_t)c->n, m = (size_t)c->m, nw = (size_t)c->nw, size = (size_t)c->size;
@@ -185,7 +185,7 @@ static void put_check(const check *c)
 {
     const dal_system *s = c->system;
     json_writer w = json_begin_results("check");
-    request_open_json(&w, c->request, ~UINT64_C(0));
+    request_open_json(&w, c->simulation, ~UINT64_C(0));
     json_close(&w);
     json_put_text(&w, "title", s->title);
     json_put_text(&w, "reference", s->reference);
@@ -235,12 +235,13 @@ static void free_check(check *c)
     dal_scaled_free(c->scaled);
 }
 
-static int print_latex(const run_request *request)
+static int print_latex(const run_simulation *simulation)
 {
     char *text;
     dal_error error = {0};
-    const dal_status status = dal_model_latex(request->model, &text, &error);
-    if (!cli_is_ok(status)) return cli_error(cli_input_exit(status), request->system_name, &error);
+    const dal_status status = dal_model_latex(simulation->model, &text, &error);
+    if (!cli_is_ok(status))
+        return cli_error(cli_input_exit(status), simulation->request.system_name, &error);
     fputs(text, stdout);
     free(text);
     return cli_close(stdout, "standard output");
@@ -248,11 +249,10 @@ static int print_latex(const run_request *request)
 
 int check_system(check_settings *settings)
 {
-    run_request *request = &settings->request;
-    check c = {.request = request, .preservers = -1};
+    check c = {.simulation = &settings->simulation, .preservers = -1};
     if (settings->latex && (settings->json || settings->details))
         return cli_fail(CLI_USAGE, "check: --latex excludes --json and --details");
-    if (settings->latex) return print_latex(request);
+    if (settings->latex) return print_latex(c.simulation);
     int status = prepare_check(&c);
     if (status == CLI_DONE) {
         examine(&c);

@@ -2,12 +2,12 @@
 #ifndef DAL_CLI_CHECK_H
 #define DAL_CLI_CHECK_H
 
-#include "run/request.h"
+#include "run/simulation.h"
 
 #include <stdbool.h>
 
 typedef struct check_settings {
-    run_request request;
+    run_simulation simulation;
     bool json, details, latex;
 } check_settings;
 

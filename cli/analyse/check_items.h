@@ -5,7 +5,7 @@
 
 #include "analysis.h"
 #include "dalembert_evaluator.h"
-#include "run/request.h"
+#include "run/simulation.h"
 #include "ui/message.h"
 
 #include <stdbool.h>
@@ -58,7 +58,7 @@ typedef struct check_method {
 typedef struct check {
     dal_scaled *scaled; /* the system of the request in units of its own: */
     const dal_system *system;
-    run_request *request; /* the arguments, its system made */
+    run_simulation *simulation; /* of the arguments, its system made */
     dal_evaluator *evaluator;
     double *start;                   /* [2n + multipliers + 1] q, v, g, e */
     int n, m, nw, size;              /* nw = n + multipliers, size = n + nw */

@@ -10,13 +10,13 @@
 /* Whether `run` accepts a method: the run is created. */
 static bool is_accepted(check *c, const char *method, dal_error *error)
 {
-    run_request *request = c->request;
+    run_request *request = &c->simulation->request;
     dal_run_spec spec;
     dal_run *run = NULL;
     request->options = dal_options_default();
     request->options.step = 0.01;
     if (dal_method_parse(&request->method, method, error) != DAL_STATUS_OK) return false;
-    if (request_make_spec(request, &spec) != CLI_DONE) return false;
+    if (simulation_make_spec(c->simulation, &spec) != CLI_DONE) return false;
     const bool accepted = cli_is_ok(dal_run_create(&run, &spec, error));
     dal_run_free(run);
     return accepted;

@@ -101,7 +101,7 @@ static void check_rank(check *c, const char *what, int rank, int full, double pi
 /* The ranks of A and of W on ker A, at the start of the run in the units of the file. */
 static void check_ranks(check *c)
 {
-    const request_settings *set = &c->request->set;
+    const request_settings *set = &c->simulation->request.set;
     const double *units = dal_scaled_units(c->scaled);
     double *q = cli_calloc(2 * (size_t)c->n, sizeof *q), *v = q + c->n;
     dal_ranks ranks;
@@ -109,9 +109,9 @@ static void check_ranks(check *c)
         q[i] = c->start[i] * units[1 + i];
         v[i] = c->start[c->n + i] * units[1 + i] / units[0];
     }
-    const dal_point at = {.t = c->request->from, .q = q, .v = v};
+    const dal_point at = {.t = c->simulation->request.from, .q = q, .v = v};
     const dal_status status =
-        dal_model_ranks(c->request->model, set->item, set->count, &at, units, &ranks, NULL);
+        dal_model_ranks(c->simulation->model, set->item, set->count, &at, units, &ranks, NULL);
     free(q);
     if (!cli_is_ok(status)) {
         if (status != DAL_STATUS_UNSUPPORTED)
@@ -193,14 +193,14 @@ static void check_classes(check *c, const dal_constraint_class *d)
 static void check_growth(check *c)
 {
     static const char what[] = "growth vector of D = 0";
-    const request_settings *set = &c->request->set;
+    const request_settings *set = &c->simulation->request.set;
     dal_error error;
     char text[256] = "";
     size_t length = 0;
     dal_growth *g = &c->growth;
     const double *units = dal_scaled_units(c->scaled);
     const dal_status status =
-        dal_model_growth(c->request->model, set->item, set->count, units, g, &error);
+        dal_model_growth(c->simulation->model, set->item, set->count, units, g, &error);
     if (!cli_is_ok(status)) {
         check_item(c, CHECK_INFO, what, "none: %s", error.message);
         return;
@@ -360,7 +360,7 @@ static void check_derivatives(check *c)
                  {"symmetry of G = A W^-1 A^T", max.gram}};
     for (size_t k = 0; k < sizeof items / sizeof items[0]; k++)
         if (!isnan(items[k].value)) check_bound(c, items[k].what, items[k].value, limit);
-    analysis_list_branches(c->request->model, add_branch, c);
+    analysis_list_branches(c->simulation->model, add_branch, c);
 }
 
 /* ---- the exact solution ---- */
@@ -411,7 +411,7 @@ static void check_exact(check *c)
     const double t0 = c->origin.t;
     char start[64];
     if (!c->system->exact) return;
-    snprintf(start, sizeof start, "exact solution at t = %.6g", c->request->from);
+    snprintf(start, sizeof start, "exact solution at t = %.6g", c->simulation->request.from);
     const double distance = exact_at(c, t0, c->values)
                                 ? analysis_distance(c->values, c->start, NULL, 2 * c->n)
                                 : INFINITY;
@@ -475,8 +475,8 @@ static bool sample_path(check *c, const sampled_path *path, const double *start)
     dal_system smooth = *c->system;
     dal_run_spec spec = {.system = &smooth,
                          .options = dal_options_default(),
-                         .parameters = c->request->set.item,
-                         .parameter_count = c->request->set.count,
+                         .parameters = c->simulation->request.set.item,
+                         .parameter_count = c->simulation->request.set.count,
                          .start_time = c->origin.t};
     dal_run *run = NULL;
     smooth.events = 0;

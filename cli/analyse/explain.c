@@ -260,7 +260,7 @@ static void print_observable(const dal_error_budget *e, int i)
 static void print_runs(const explain_settings *s, const dal_error_budget *e)
 {
     char method[128], tolerance[32] = "", quad[64] = "";
-    const run_request *request = &s->request;
+    const run_request *request = &s->simulation.request;
     if (request->options.tolerance > 0.0)
         snprintf(tolerance, sizeof tolerance, ", tolerance %g", request->options.tolerance);
     if (e->quad_steps > 0)
@@ -447,7 +447,7 @@ static void put_observable(json_writer *w, const dal_error_budget *e, int i)
 static void put_budget(const explain_settings *s, const dal_error_budget *e)
 {
     json_writer w = json_begin_results("explain");
-    request_open_json(&w, &s->request, EXPLAIN_WITHOUT);
+    request_open_json(&w, &s->simulation, EXPLAIN_WITHOUT);
     json_close(&w);
     json_put_integer(&w, "steps", e->steps);
     json_put_integer(&w, "quad_steps", e->quad_steps);
@@ -475,11 +475,12 @@ int explain_run(explain_settings *s)
     dal_error error = {0};
     int status = analysis_check_output(s->output, s->json);
     if (status == CLI_DONE) status = screen_check_format(s->format, s->json, s->details);
-    if (status == CLI_DONE) status = request_check_forward(&s->request);
-    if (status == CLI_DONE) status = request_create_run(&s->request);
-    if (status == CLI_DONE) status = request_make_spec(&s->request, &spec);
+    if (status == CLI_DONE) status = request_check_forward(&s->simulation.request);
+    if (status == CLI_DONE) status = simulation_create(&s->simulation);
+    if (status == CLI_DONE) status = simulation_make_spec(&s->simulation, &spec);
     if (status != CLI_DONE) return status;
-    const double steps = nearbyint((s->request.time - s->request.from) / s->request.options.step);
+    const double steps = nearbyint((s->simulation.end - s->simulation.request.from) /
+                                   s->simulation.request.options.step);
     if (!(steps <= EXPLAIN_MAX_STEPS))
         return cli_fail(CLI_USAGE, "%.3g steps: explain takes at most %d", steps,
                         EXPLAIN_MAX_STEPS);
@@ -489,7 +490,8 @@ int explain_run(explain_settings *s)
     const dal_status done =
         dal_error_budget_create(&e, &spec, (long long)steps, s->quad_steps, &observer, &error);
     cli_progress_end();
-    if (done != DAL_STATUS_OK) return cli_error(cli_exit(done), s->request.system_name, &error);
+    if (done != DAL_STATUS_OK)
+        return cli_error(cli_exit(done), s->simulation.request.system_name, &error);
     status = s->output ? write_budget(s->output, e) : CLI_DONE;
     if (status == CLI_DONE && (s->json || s->format != SCREEN_TEXT || !s->output)) {
         (s->json ? put_budget : s->format != SCREEN_TEXT ? print_document : print_budget)(s, e);

@@ -3,7 +3,7 @@
 #define DAL_CLI_EXPLAIN_H
 
 #include "run/native.h"
-#include "run/request.h"
+#include "run/simulation.h"
 #include "ui/screen.h"
 
 enum { EXPLAIN_MAX_STEPS = 2000000000 };
@@ -12,7 +12,7 @@ enum { EXPLAIN_MAX_STEPS = 2000000000 };
 #define EXPLAIN_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(precision))
 
 typedef struct explain_settings {
-    run_request request;
+    run_simulation simulation;
     long long quad_steps;
     const char *output; /* of CSV; NULL: sentences to stdout */
     native_mode native;

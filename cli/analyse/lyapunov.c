@@ -12,8 +12,8 @@
 #include "io/gnuplot.h"
 #include "io/trajectory.h"
 #include "lyapunov_results.h"
-#include "run/request.h"
 #include "run/row_times.h"
+#include "run/simulation.h"
 #include "ui/arguments.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -27,7 +27,7 @@
 typedef struct lyapunov_settings {
     bool is_volume, json, details, force;
     screen_format format;
-    run_request request;
+    run_simulation simulation;
     const char *output;
     double transient;
     long long rows, exponents; /* exponents: 0 for all */
@@ -38,7 +38,7 @@ enum { CHUNK = 200, MAX_ROWS = 100000000, MAX_COLUMN_NAME = 24 };
 
 typedef struct tangent_study {
     const lyapunov_settings *set;
-    run_request *request;
+    run_simulation *simulation;
     dal_lyapunov *spectrum;
     dal_jumps *jumps; /* of F, which end the means */
     double begin;     /* t at the beginning of the means */
@@ -56,22 +56,23 @@ typedef struct tangent_study {
 
 static int create_spectrum(tangent_study *s)
 {
-    run_request *request = s->request;
+    run_request *request = &s->simulation->request;
     const dal_system *tangent = NULL;
     dal_error error = {0};
     dal_run_spec spec;
     request->options.space = DAL_PHYSICAL;
     /* Creating a run of its own finds what is wrong with the options. */
     int status = request_check_forward(request);
-    if (status == CLI_DONE) status = request_create_run(request);
-    if (status == CLI_DONE) status = request_make_spec(request, &spec);
+    if (status == CLI_DONE) status = simulation_create(s->simulation);
+    if (status == CLI_DONE) status = simulation_make_spec(s->simulation, &spec);
     if (status == CLI_DONE)
-        status = row_times_check_step(request, request->from, s->set->transient + request->time);
+        status =
+            row_times_check_step(request, request->from, s->set->transient + s->simulation->end);
     if (status != CLI_DONE) return status;
     /* A vakonomic system has no tangent system; its derivatives are differences. */
-    if (dal_jumps_create(&s->jumps, request->model) != DAL_STATUS_OK)
+    if (dal_jumps_create(&s->jumps, s->simulation->model) != DAL_STATUS_OK)
         return cli_fail(CLI_IO, "%s: out of memory", request->system_name);
-    dal_status made = dal_model_tangent(request->model, &tangent, &error);
+    dal_status made = dal_model_tangent(s->simulation->model, &tangent, &error);
     if (made == DAL_STATUS_OK || made == DAL_STATUS_UNSUPPORTED)
         made = dal_lyapunov_create(&s->spectrum, &spec, tangent, (int)s->set->exponents, &error);
     return made == DAL_STATUS_OK ? CLI_DONE
@@ -124,7 +125,7 @@ static int advance_spectrum(tangent_study *s, long long steps)
     dal_jumps_passed(s->jumps, run);
     for (; steps > 0 && status == DAL_STATUS_OK; steps -= chunk) {
         if (cli_interrupted()) return CLI_SIGNAL;
-        cli_progress("t = %.6g of %.6g", dal_run_time(run), s->set->transient + s->request->time);
+        cli_progress("t = %.6g of %.6g", dal_run_time(run), s->set->transient + s->simulation->end);
         const double t = dal_run_time(run);
         status = dal_lyapunov_advance(s->spectrum, steps < chunk ? steps : chunk, &error);
         const char *passed = dal_jumps_passed(s->jumps, run);
@@ -132,18 +133,19 @@ static int advance_spectrum(tangent_study *s, long long steps)
             return cli_fail(CLI_USAGE,
                             "%s: a branch of the %s changes between t = %g and %g, where F or its "
                             "derivative by a velocity jumps: tangent vectors do not pass it",
-                            s->request->system_name, passed, t, dal_run_time(run));
+                            s->simulation->request.system_name, passed, t, dal_run_time(run));
     }
-    return status == DAL_STATUS_OK ? CLI_DONE
-                                   : cli_error(cli_exit(status), s->request->system_name, &error);
+    return status == DAL_STATUS_OK
+               ? CLI_DONE
+               : cli_error(cli_exit(status), s->simulation->request.system_name, &error);
 }
 
 /* The transient, then the rows at equal distances; after a failure or a signal the means so far are
  * good. */
 static int run_to_end(tangent_study *s)
 {
-    const double h = s->request->options.step;
-    const long long total = llround((s->request->time - s->request->from) / h),
+    const double h = s->simulation->request.options.step;
+    const long long total = llround((s->simulation->end - s->simulation->request.from) / h),
                     rows = s->set->rows < total ? s->set->rows : total;
     int status = advance_spectrum(s, llround(s->set->transient / h));
     dal_lyapunov_discard_transient(s->spectrum);
@@ -165,9 +167,9 @@ static int draw_means(const tangent_study *s, const char *directory)
     char *path, title[256], method[128];
     FILE *script = gnuplot_open(directory, s->name, "svg", 800, 500, &path);
     if (!script) return CLI_IO;
-    dal_method_name(&s->request->method, method, sizeof method);
-    snprintf(title, sizeof title, "%.80s, %.80s, h = %g", s->request->system_name, method,
-             s->request->options.step);
+    dal_method_name(&s->simulation->request.method, method, sizeof method);
+    snprintf(title, sizeof title, "%.80s, %.80s, h = %g", s->simulation->request.system_name,
+             method, s->simulation->request.options.step);
     gnuplot_set(script, "title", title);
     fprintf(script,
             "set xlabel 't'\nset ylabel '%s'\nset xrange [*:*] noextend\n"
@@ -242,7 +244,7 @@ static int report_means(const tangent_study *s)
 {
     dal_error error = {0};
     lyapunov_results r = {.is_volume = s->set->is_volume,
-                          .request = s->request,
+                          .simulation = s->simulation,
                           .spectrum = s->spectrum,
                           .transient = s->set->transient,
                           .begin = s->begin,
@@ -255,12 +257,12 @@ static int report_means(const tangent_study *s)
     return cli_fail(CLI_FAILED,
                     "%s: the sum of the exponents differs from the mean divergence by %g, more "
                     "than %g: the derivative of the steps is not reliable",
-                    s->request->system_name, r.balance.difference, r.balance.margin);
+                    s->simulation->request.system_name, r.balance.difference, r.balance.margin);
 }
 
 static int measure_means(lyapunov_settings *settings)
 {
-    tangent_study s = {.set = settings, .request = &settings->request};
+    tangent_study s = {.set = settings, .simulation = &settings->simulation};
     int status = analysis_check_output(settings->output, settings->json);
     if (status == CLI_DONE)
         status = screen_check_format(settings->format, settings->json, settings->details);
@@ -281,14 +283,14 @@ static int measure_means(lyapunov_settings *settings)
 
 static int run_measurement(lyapunov_settings *s, const cli_command *command, int argc, char **argv)
 {
-    s->request = request_default();
+    s->simulation = simulation_default();
     const cli_group groups[] = {
         lyapunov_group(s),
-        request_group(&s->request, request_options, LYAPUNOV_WITHOUT),
+        simulation_group(&s->simulation, request_options, LYAPUNOV_WITHOUT),
     };
     int status = cli_read_arguments(command, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = measure_means(s);
-    request_free(&s->request);
+    simulation_free(&s->simulation);
     return status;
 }
 

@@ -89,9 +89,9 @@ void lyapunov_print(const lyapunov_results *r)
 {
     char method[128];
     const dal_run *run = dal_lyapunov_run(r->spectrum);
-    dal_method_name(&r->request->method, method, sizeof method);
-    printf("%s, %s, h = %g: means over t = %g .. %g\n", r->request->system_name, method,
-           r->request->options.step, r->begin, dal_run_time(run));
+    dal_method_name(&r->simulation->request.method, method, sizeof method);
+    printf("%s, %s, h = %g: means over t = %g .. %g\n", r->simulation->request.system_name, method,
+           r->simulation->request.options.step, r->begin, dal_run_time(run));
     printf("the derivative of the step %s\n\n", dal_lyapunov_is_exact(r->spectrum)
                                                     ? "exact, by the tangent system"
                                                     : "by differences of order 8");
@@ -153,7 +153,7 @@ static void put_balance(json_writer *w, const lyapunov_results *r)
 void lyapunov_put(const lyapunov_results *r)
 {
     json_writer w = json_begin_results(r->is_volume ? "volume" : "lyapunov");
-    request_open_json(&w, r->request, LYAPUNOV_WITHOUT);
+    request_open_json(&w, r->simulation, LYAPUNOV_WITHOUT);
     json_put_number(&w, "transient", r->transient);
     json_close(&w);
     json_put_text(&w, "state", store_state_words[store_end_state(r->status)]);
@@ -275,10 +275,10 @@ int lyapunov_print_screen(const lyapunov_results *r, screen_format format)
     char method[128], x[3][SCREEN_NUMBER];
     screen out;
     screen_open(&out, stdout, format);
-    dal_method_name(&r->request->method, method, sizeof method);
-    screen_say(&out, 2, "%s by %s, h = %s, t = %s .. %s", r->request->system_name, method,
-               screen_number(x[0], r->request->options.step, 4), screen_number(x[1], r->begin, 4),
-               screen_number(x[2], dal_run_time(run), 4));
+    dal_method_name(&r->simulation->request.method, method, sizeof method);
+    screen_say(&out, 2, "%s by %s, h = %s, t = %s .. %s", r->simulation->request.system_name,
+               method, screen_number(x[0], r->simulation->request.options.step, 4),
+               screen_number(x[1], r->begin, 4), screen_number(x[2], dal_run_time(run), 4));
     (r->is_volume ? say_volume : say_exponents)(&out, r);
     screen_skip(&out);
     (r->is_volume ? add_volume : add_exponents)(&out, r);

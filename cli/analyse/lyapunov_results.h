@@ -3,7 +3,7 @@
 #define DAL_CLI_LYAPUNOV_RESULTS_H
 
 #include "dalembert_dynamics.h"
-#include "run/request.h"
+#include "run/simulation.h"
 #include "ui/screen.h"
 
 /* The options of a run that the commands do not take. */
@@ -11,7 +11,7 @@
 
 typedef struct lyapunov_results {
     bool is_volume;
-    const run_request *request;
+    const run_simulation *simulation;
     const dal_lyapunov *spectrum;
     double transient, begin; /* begin: t at the beginning of the means */
     int status;              /* of the run */

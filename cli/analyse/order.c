@@ -87,7 +87,7 @@ static int add_step(order_study *s, const char *text)
 /* The step is one and the same; where it is not given it is the whole time. */
 static int add_tolerance(order_study *s, const char *text)
 {
-    const run_request *r = s->request;
+    const run_request *r = &s->simulation->request;
     s->divides = !r->text[REQUEST_step];
     const int status = add_level(s, "--tolerances", text, s->tolerance);
     if (status == CLI_DONE)
@@ -114,28 +114,28 @@ static int add_items(order_study *s, const char *list, const char *option,
 
 static int list_steps(order_study *s)
 {
-    const double T = s->request->time;
+    const double T = s->simulation->request.time;
     const order_settings *set = s->set;
     const char *levels = set->tolerances ? "tolerances" : "steps";
     int status = CLI_DONE;
-    if (set->tolerances && (set->steps || request_has(s->request, REQUEST_tolerance)))
+    if (set->tolerances && (set->steps || request_has(&s->simulation->request, REQUEST_tolerance)))
         return cli_fail(CLI_USAGE, "--tolerances excludes --steps and --tolerance");
     if (set->tolerances) status = add_items(s, set->tolerances, "--tolerances", add_tolerance);
     if (set->steps) status = add_items(s, set->steps, "--steps", add_step);
     if (status != CLI_DONE) return status;
     for (int i = 0; !set->steps && !set->tolerances && i < set->level_count; i++)
-        s->step[s->levels++] = ldexp(s->request->options.step, -i);
+        s->step[s->levels++] = ldexp(s->simulation->request.options.step, -i);
     if (!(s->step[0] > 0.0)) return cli_fail(CLI_USAGE, "--step: it must be positive");
     if (s->tolerance[0] > 1.0)
         return cli_fail(CLI_USAGE, "--tolerances: %g is larger than 1", s->tolerance[0]);
-    const double min = dal_min_tolerance(&s->request->options);
+    const double min = dal_min_tolerance(&s->simulation->request.options);
     if (set->tolerances && s->levels > 0 && s->tolerance[s->levels - 1] < min)
         return cli_fail(CLI_USAGE, "--tolerances: %g is below %.2g, the smallest in this precision",
                         s->tolerance[s->levels - 1], min);
     if (s->levels < 2)
         return cli_fail(CLI_USAGE, "--%s: a slope needs two %s at least", levels, levels);
     for (int i = 0; i < s->levels; i++)
-        if (dal_whole_steps(s->request->from, T, s->step[i]) == 0)
+        if (dal_whole_steps(s->simulation->request.from, T, s->step[i]) == 0)
             return cli_fail(CLI_USAGE, "the time %g is not a whole number of steps of %.9g", T,
                             s->step[i]);
     return CLI_DONE;
@@ -202,7 +202,7 @@ static bool find_start(const order_study *s, double *start)
 static bool use_exact_solution(order_study *s)
 {
     const dal_system *system = s->spec.system;
-    const run_request *request = s->request;
+    const run_request *request = &s->simulation->request;
     double *start = s->reference + s->numbers;
     dal_evaluator *evaluator;
     if (!system->exact || system->multipliers || !find_start(s, start) ||
@@ -364,8 +364,8 @@ static void print_orders(const order_study *s)
     bool is_mixed = false;
     for (int i = 0; i < s->method_count; i++)
         is_mixed |= order_space(s, &s->methods[i]) != s->spec.options.space;
-    printf("%s, error of (q,v) at t = %g, %s%s\nagainst ", s->request->system_name,
-           s->request->time, s->spec.options.space == DAL_LIFTED ? "lifted" : "physical",
+    printf("%s, error of (q,v) at t = %g, %s%s\nagainst ", s->simulation->request.system_name,
+           s->simulation->request.time, s->spec.options.space == DAL_LIFTED ? "lifted" : "physical",
            is_mixed ? ", physical where a method has no lift" : "");
     if (s->reference_method)
         printf("%s with %s = %g, itself within %.0e\n\n", s->reference_method,
@@ -397,7 +397,7 @@ static void print_orders(const order_study *s)
     for (const order_method *m = s->methods; m < s->methods + s->method_count; m++)
         if (m->state != ORDER_DONE)
             printf("\n%s: %s: %s", m->name, state_words[m->state], order_failure_message(s, m));
-    analysis_list_branches(s->request->model, print_branch, NULL);
+    analysis_list_branches(s->simulation->model, print_branch, NULL);
     putchar('\n');
 }
 
@@ -439,7 +439,7 @@ static void put_reference(json_writer *w, const void *results)
 {
     const order_study *s = results;
     const bool is_controlled = s->set->tolerances != NULL;
-    request_open_json(w, s->request,
+    request_open_json(w, s->simulation,
                       ORDER_WITHOUT | REQUEST_OPTION(step) |
                           (is_controlled ? REQUEST_OPTION(tolerance) : 0));
     json_close(w);
@@ -475,7 +475,7 @@ static void write_level(FILE *out, const order_study *s, const order_method *m, 
         has_run ? (double)order_count_steps(s, h) : NAN, has_run ? m->order.error[level] : NAN,
         has_run ? m->order.slope[level] : NAN,
         succeeded ? (double)m->order.evaluations[level] : NAN, succeeded ? m->seconds[level] : NAN};
-    cli_put_text(out, s->request->system_name);
+    cli_put_text(out, s->simulation->request.system_name);
     fputc(',', out);
     cli_put_text(out, m->name);
     fprintf(out, ",%d", dal_method_order(&m->method));
@@ -514,11 +514,11 @@ static int measure(order_study *s)
     if (status == CLI_DONE) status = list_steps(s);
     if (status == CLI_DONE)
         status = add_items(s, s->set->integrators, "--integrators", add_methods);
-    if (status == CLI_DONE) status = request_make_spec(s->request, &s->spec);
+    if (status == CLI_DONE) status = simulation_make_spec(s->simulation, &s->spec);
     if (status == CLI_DONE && s->spec.system->events > 0)
         status =
             cli_fail(CLI_USAGE, "%s has events: the order is measured on a motion without them",
-                     s->request->system_name);
+                     s->simulation->request.system_name);
     if (status != CLI_DONE) return status;
     cli_catch_signals();
     status = make_reference(s);
@@ -537,7 +537,7 @@ static int measure(order_study *s)
         if (status == CLI_DONE) status = write_orders(s, output.table);
         s->set->is_written = status == CLI_DONE;
         if (status == CLI_DONE && output.directory)
-            status = analysis_describe(&output, "order", s->request, put_reference, s);
+            status = analysis_describe(&output, "order", s->simulation, put_reference, s);
         analysis_close(&output, status);
     }
     for (int i = 0; status == CLI_DONE && i < s->method_count; i++)
@@ -547,7 +547,7 @@ static int measure(order_study *s)
 
 int order_measure(order_settings *settings)
 {
-    order_study s = {.set = settings, .request = &settings->request};
+    order_study s = {.set = settings, .simulation = &settings->simulation};
     const int status = measure(&s);
     free(s.methods);
     free(s.reference);

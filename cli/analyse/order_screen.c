@@ -107,8 +107,8 @@ int order_print_screen(const order_study *s)
     snprintf(space, sizeof space, "%s%s",
              s->spec.options.space == DAL_LIFTED ? "on the lift" : "in (q, v)",
              is_mixed ? ", in (q, v) where a method has none" : "");
-    screen_say(&out, 2, "%s: error of (q, v) at t = %g %s, against %s%s%s", s->request->system_name,
-               s->request->time, space,
+    screen_say(&out, 2, "%s: error of (q, v) at t = %g %s, against %s%s%s",
+               s->simulation->request.system_name, s->simulation->request.time, space,
                s->reference_method ? s->reference_method : "the exact solution",
                s->reference_method ? ", itself within " : "",
                s->reference_method ? screen_number(x, s->noise, 1) : "");

@@ -7,7 +7,7 @@ const char *const order_outcome_words[] = {DAL_ORDER_OUTCOME_LIST(OUTCOME_WORD)}
 
 long long order_count_steps(const order_study *s, double h)
 {
-    return dal_whole_steps(s->request->from, s->request->time, h);
+    return dal_whole_steps(s->simulation->request.from, s->simulation->request.time, h);
 }
 
 const char *order_failure_message(const order_study *s, const order_method *m)
@@ -20,6 +20,6 @@ const char *order_failure_message(const order_study *s, const order_method *m)
 dal_space order_space(const order_study *s, const order_method *m)
 {
     const bool has_lift = !(dal_method_needs(&m->method) & DAL_NEEDS_BLOCKS);
-    return has_lift || request_has(s->request, REQUEST_space) ? s->spec.options.space
-                                                              : DAL_PHYSICAL;
+    return has_lift || request_has(&s->simulation->request, REQUEST_space) ? s->spec.options.space
+                                                                           : DAL_PHYSICAL;
 }

@@ -3,13 +3,13 @@
 #define DAL_CLI_ORDER_STUDY_H
 
 #include "dalembert_order.h"
-#include "run/request.h"
+#include "run/simulation.h"
 #include "ui/screen.h"
 
 #include <stdbool.h>
 
 typedef struct order_settings {
-    run_request request;
+    run_simulation simulation;
     const char *integrators, *steps; /* lists between commas; steps NULL: step and level_count */
     const char *tolerances;          /* a list; NULL: none, else the step stays the same */
     const char *output;
@@ -44,7 +44,7 @@ typedef struct order_method {
 
 typedef struct order_study {
     order_settings *set;
-    run_request *request;
+    run_simulation *simulation;
     dal_run_spec spec;                                          /* except method and step */
     double step[DAL_ORDER_LEVELS], tolerance[DAL_ORDER_LEVELS]; /* tolerance: 0 unless it falls */
     int levels;

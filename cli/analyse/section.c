@@ -29,7 +29,7 @@ enum { COLUMN_CROSSING, COLUMN_T, COLUMN_DIRECTION, FIRST_STATE_COLUMN };
 
 typedef struct section {
     const section_settings *set;
-    run_request *request;
+    run_simulation *simulation;
     trajectory_writer table; /* where rows go, unless they go to stdout as JSON */
     int columns;
     char **names;            /* [columns], then their texts */
@@ -55,16 +55,17 @@ static bool is_name_used(const dal_system *system, const char *name)
 }
 
 /* Reads the model and makes it with one more invariant, whose text begins in a column of --on. */
-static int load_with_invariant(run_request *request, const char *name, const char *formula,
+static int load_with_invariant(run_simulation *simulation, const char *name, const char *formula,
                                int column)
 {
     dal_error error = {0};
-    dal_model_free(request->model);
-    const int status = cli_read(request->system_name, &request->model);
+    dal_model_free(simulation->model);
+    const int status = cli_read(simulation->request.system_name, &simulation->model);
     if (status != CLI_DONE) return status;
     dal_status made =
-        dal_model_add(request->model, DAL_SECTION_INVARIANTS, name, formula, 1, column, &error);
-    if (made == DAL_STATUS_OK) made = dal_model_system(request->model, &request->system, &error);
+        dal_model_add(simulation->model, DAL_SECTION_INVARIANTS, name, formula, 1, column, &error);
+    if (made == DAL_STATUS_OK)
+        made = dal_model_system(simulation->model, &simulation->system, &error);
     if (made == DAL_STATUS_OK) return CLI_DONE;
     /* The user knows --on, not the invariant. */
     char prefix[MAX_NAME + 16];
@@ -76,24 +77,24 @@ static int load_with_invariant(run_request *request, const char *name, const cha
 
 static int load_section(section *s)
 {
-    run_request *request = s->request;
+    run_simulation *simulation = s->simulation;
     char name[MAX_NAME] = "section_1";
     const char *equals = strchr(s->set->on, '=');
-    if (request->system->events > 0)
+    if (simulation->system->events > 0)
         return cli_fail(CLI_USAGE, "%s: %s has events: sections would pass over them",
-                        request->system_name, request->system->name);
+                        simulation->request.system_name, simulation->system->name);
     /* The system has been loaded without the section: any error is one of the section. */
-    for (int k = 2; is_name_used(request->system, name); k++)
+    for (int k = 2; is_name_used(simulation->system, name); k++)
         snprintf(name, sizeof name, "section_%d", k);
-    if (!equals) return load_with_invariant(request, name, s->set->on, 1);
+    if (!equals) return load_with_invariant(simulation, name, s->set->on, 1);
     /* "A = B" means (A) - (B).  Each side is made alone first, so that an error names its column in
      * --on. */
     const int length = (int)(equals - s->set->on);
     char *left = cli_format("%.*s", length, s->set->on);
     char *difference = cli_format("(%s)-(%s)", left, equals + 1);
-    int status = load_with_invariant(request, name, left, 1);
-    if (status == CLI_DONE) status = load_with_invariant(request, name, equals + 1, length + 2);
-    if (status == CLI_DONE) status = load_with_invariant(request, name, difference, 1);
+    int status = load_with_invariant(simulation, name, left, 1);
+    if (status == CLI_DONE) status = load_with_invariant(simulation, name, equals + 1, length + 2);
+    if (status == CLI_DONE) status = load_with_invariant(simulation, name, difference, 1);
     free(left);
     free(difference);
     return status;
@@ -104,7 +105,7 @@ static int load_section(section *s)
 static void name_row(section *s)
 {
     static const char *const first[FIRST_STATE_COLUMN] = {"crossing", "t", "direction"};
-    s->columns = FIRST_STATE_COLUMN + dal_run_dimension(s->request->run);
+    s->columns = FIRST_STATE_COLUMN + dal_run_dimension(s->simulation->run);
     const size_t columns = (size_t)s->columns;
     s->names = cli_calloc(columns, sizeof *s->names + MAX_NAME);
     s->row = cli_calloc(3 * columns, sizeof *s->row);
@@ -117,7 +118,8 @@ static void name_row(section *s)
         if (i < FIRST_STATE_COLUMN)
             snprintf(s->names[i], MAX_NAME, "%s", first[i]);
         else
-            dal_run_component_name(s->request->run, i - FIRST_STATE_COLUMN, s->names[i], MAX_NAME);
+            dal_run_component_name(s->simulation->run, i - FIRST_STATE_COLUMN, s->names[i],
+                                   MAX_NAME);
     }
 }
 
@@ -154,7 +156,8 @@ static dal_status poll_signals(void *user, dal_run *run)
 {
     section *s = user;
     native_poll(&s->native);
-    cli_progress("t = %.6g of %.6g, %lld crossings", dal_run_time(run), s->request->time, s->rows);
+    cli_progress("t = %.6g of %.6g, %lld crossings", dal_run_time(run), s->simulation->end,
+                 s->rows);
     return cli_interrupted() ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
@@ -167,10 +170,11 @@ static int print_screen(const section *s)
     char method[MAX_NAME], count[SCREEN_NUMBER], x[SCREEN_NUMBER];
     screen out;
     screen_open(&out, stdout, SCREEN_TEXT);
-    screen_say(&out, 2, "%s by %s crosses %s%s %s times until t = %.6g", s->request->system_name,
-               dal_method_name(&s->request->method, method, sizeof method), s->set->on,
+    screen_say(&out, 2, "%s by %s crosses %s%s %s times until t = %.6g",
+               s->simulation->request.system_name,
+               dal_method_name(&s->simulation->request.method, method, sizeof method), s->set->on,
                strchr(s->set->on, '=') ? "" : " = 0", screen_count(count, s->rows),
-               dal_run_time(s->request->run));
+               dal_run_time(s->simulation->run));
     screen_say(&out, 2, "%lld upwards, %lld downwards, %lld touches", s->found.up, s->found.down,
                s->found.touches);
     screen_skip(&out);
@@ -198,7 +202,7 @@ static int print_screen(const section *s)
 
 static int run_section(section *s, const char *path)
 {
-    run_request *r = s->request;
+    const run_simulation *r = s->simulation;
     dal_error error = {0};
     const dal_poincare poincare = {.callback = r->system->invariant_values,
                                    .count = r->system->invariants,
@@ -207,14 +211,15 @@ static int run_section(section *s, const char *path)
                                    .user = s,
                                    .cross = write_crossing,
                                    .poll = poll_signals};
-    for (int i = 0; i < s->columns; i++) columns_rename(r, s->names[i]); /* --axes is read */
+    for (int i = 0; i < s->columns; i++)
+        columns_rename(&r->request, s->names[i]); /* --axes is read */
     const bool is_stdout = strcmp(path, "-") == 0,
                has_table = !((s->set->json || s->set->is_screen) && is_stdout);
     int status = has_table ? writer_create(&s->table, path, s->names, s->columns) : CLI_DONE;
     if (status == CLI_DONE) {
         cli_catch_signals();
-        s->native = native_begin(r->run, r->time, 0.0, 1.0, s->set->native);
-        const dal_status done = dal_run_crossings(r->run, r->time, &poincare, &s->found, &error);
+        s->native = native_begin(r->run, r->end, 0.0, 1.0, s->set->native);
+        const dal_status done = dal_run_crossings(r->run, r->end, &poincare, &s->found, &error);
         cli_progress_end();
         if (s->write_status != CLI_DONE)
             status = s->write_status;
@@ -222,7 +227,7 @@ static int run_section(section *s, const char *path)
             status = cli_fail(CLI_SIGNAL, "interrupted; %lld rows are kept", s->rows);
         else if (done != DAL_STATUS_OK)
             status = cli_error(done == DAL_STATUS_ARGUMENT ? CLI_USAGE : cli_exit(done),
-                               r->system_name, &error);
+                               r->request.system_name, &error);
     }
     const int closed = has_table ? writer_close(&s->table) : CLI_DONE;
     if (s->found.unresolved > 0)
@@ -243,13 +248,13 @@ static int run_section(section *s, const char *path)
 static void put_run(json_writer *w, const section *s)
 {
     static const char *const directions[] = {"down", "both", "up"};
-    request_open_json(w, s->request, SECTION_WITHOUT);
+    request_open_json(w, s->simulation, SECTION_WITHOUT);
     json_put_text(w, "on", s->set->on);
     json_put_text(w, "direction", directions[s->set->direction + 1]);
     json_put_number(w, "transient", s->set->transient);
     json_close(w);
     json_put_text(w, "state", store_state_words[store_end_state(s->status)]);
-    json_put_number(w, "to", dal_run_time(s->request->run));
+    json_put_number(w, "to", dal_run_time(s->simulation->run));
     json_put_integer(w, "up", s->found.up);
     json_put_integer(w, "down", s->found.down);
     json_put_integer(w, "touches", s->found.touches);
@@ -314,12 +319,13 @@ static bool varies(const section *s, int column, const double *units)
  * vary; else t and the one that does. */
 static int choose_axes(section *s)
 {
-    const int n = s->request->system->n, q = FIRST_STATE_COLUMN;
+    const int n = s->simulation->system->n, q = FIRST_STATE_COLUMN;
     int *axis = s->axis, i = q + n - 1;
     dal_scaled *scaled;
     dal_error error = {0};
-    const dal_status made = dal_scaled_create_at(&scaled, s->request->run, &error);
-    if (made != DAL_STATUS_OK) return cli_error(cli_exit(made), s->request->system_name, &error);
+    const dal_status made = dal_scaled_create_at(&scaled, s->simulation->run, &error);
+    if (made != DAL_STATUS_OK)
+        return cli_error(cli_exit(made), s->simulation->request.system_name, &error);
     const double *units = dal_scaled_units(scaled) + 1;
     while (i >= q && !(varies(s, i, units) && varies(s, i + n, units))) i--;
     axis[0] = i;
@@ -349,15 +355,15 @@ static void put_figure(json_writer *w, const void *results)
 
 int section_find(section_settings *settings)
 {
-    section s = {.set = settings, .request = &settings->request};
+    section s = {.set = settings, .simulation = &settings->simulation};
     analysis_output output = {0};
     int status = load_section(&s);
     if (status != CLI_DONE) return status;
-    status = request_create_run(s.request);
+    status = simulation_create(s.simulation);
     if (status != CLI_DONE) return status;
-    if (settings->transient >= s.request->time && s.request->options.step > 0.0)
+    if (settings->transient >= s.simulation->end && s.simulation->request.options.step > 0.0)
         return cli_fail(CLI_USAGE, "--transient %g: no crossing is left, the run ends at t = %g",
-                        settings->transient, s.request->time);
+                        settings->transient, s.simulation->end);
     name_row(&s);
     status = find_axes(&s);
     if (status == CLI_DONE && !settings->force) status = analysis_check_directory(settings->output);
@@ -370,7 +376,7 @@ int section_find(section_settings *settings)
     if ((status == CLI_DONE || status == CLI_SIGNAL) && output.directory) {
         int written = s.axis[0] < 0 ? choose_axes(&s) : CLI_DONE;
         if (written == CLI_DONE)
-            written = analysis_describe(&output, "section", s.request, put_figure, &s);
+            written = analysis_describe(&output, "section", s.simulation, put_figure, &s);
         if (status == CLI_DONE) status = written;
     }
     analysis_close(&output, status);

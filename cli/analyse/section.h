@@ -3,12 +3,12 @@
 #define DAL_CLI_SECTION_H
 
 #include "run/native.h"
-#include "run/request.h"
+#include "run/simulation.h"
 
 #include <stdbool.h>
 
 typedef struct section_settings {
-    run_request request;
+    run_simulation simulation;
     const char *on, *axes, *output;
     int direction; /* of crossings: -1 down, 0 both, 1 up */
     double transient;

@@ -17,15 +17,15 @@ static int check_command(int argc, char **argv)
 {
     static const uint64_t taken =
         REQUEST_OPTION(set) | REQUEST_OPTION(start) | REQUEST_OPTION(from) | REQUEST_OPTION(system);
-    check_settings s = {.request = request_default()};
+    check_settings s = {.simulation = simulation_default()};
     cli_option of_request[REQUEST_OPTIONS];
     memcpy(of_request, request_options, sizeof of_request);
     of_request[REQUEST_start].help = "sets a start value: x, x', e or g1; may be repeated";
     const cli_group groups[] = {CLI_GROUP(options, &s),
-                                request_group(&s.request, of_request, ~taken)};
+                                simulation_group(&s.simulation, of_request, ~taken)};
     int status = cli_read_arguments(&command_check, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = check_system(&s);
-    request_free(&s.request);
+    simulation_free(&s.simulation);
     return status;
 }
 

@@ -47,11 +47,11 @@ static int run_ensemble(settings *s)
 static int run_command(int argc, char **argv)
 {
     settings s = {.common = {.ensemble = ensemble_default()}, .threads = pool_threads()};
-    run_request *request = &s.common.ensemble.request;
+    run_simulation *simulation = &s.common.ensemble.simulation;
     const cli_group groups[] = {
         ensemble_group(&s.common),
         CLI_GROUP(options, &s),
-        request_group(request, request_options, ENSEMBLE_WITHOUT),
+        simulation_group(simulation, request_options, ENSEMBLE_WITHOUT),
     };
     int status = cli_read_arguments(&command_ensemble, argc, argv, groups, 3);
     if (status == CLI_GO_ON) status = run_ensemble(&s);

@@ -19,13 +19,13 @@ static const cli_option options[] = {
 
 static int explain(int argc, char **argv)
 {
-    explain_settings s = {.request = request_default()};
+    explain_settings s = {.simulation = simulation_default()};
     const cli_group groups[] = {CLI_GROUP(options, &s),
-                                request_group(&s.request, request_options, EXPLAIN_WITHOUT)};
-    s.request.step_rule = REQUEST_STEP_CHOSEN;
+                                simulation_group(&s.simulation, request_options, EXPLAIN_WITHOUT)};
+    s.simulation.request.step_rule = REQUEST_STEP_CHOSEN;
     int status = cli_read_arguments(&command_explain, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = explain_run(&s);
-    request_free(&s.request);
+    simulation_free(&s.simulation);
     return status;
 }
 

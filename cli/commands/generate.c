@@ -1,7 +1,7 @@
 /* generate.c - `dalembert generate`: writes one C file that steps one system. */
 #include "dalembert_codegen.h"
 #include "io/file.h"
-#include "run/request.h"
+#include "run/simulation.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/message.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 
 typedef struct settings {
-    run_request request;
+    run_simulation simulation;
     const char *output, *prefix;
     long long lanes;
 } settings;
@@ -34,13 +34,13 @@ static const uint64_t taken =
 static int generate_text(settings *s)
 {
     dal_run_spec spec;
-    int status = request_make_spec(&s->request, &spec);
+    int status = simulation_make_spec(&s->simulation, &spec);
     if (status != CLI_DONE) return status;
     dal_error error = {0};
     char *text = NULL;
     dal_status made = dal_generate(&spec, (int)s->lanes, s->prefix, &text, &error);
     if (made != DAL_STATUS_OK)
-        return cli_error(cli_input_exit(made), s->request.system_name, &error);
+        return cli_error(cli_input_exit(made), s->simulation.request.system_name, &error);
     if (strcmp(s->output, "-") != 0) {
         status = file_replace(s->output, text, strlen(text), 1);
     } else {
@@ -53,14 +53,14 @@ static int generate_text(settings *s)
 
 static int generate(int argc, char **argv)
 {
-    settings s = {.request = request_default()};
+    settings s = {.simulation = simulation_default()};
     const cli_group groups[] = {
         CLI_GROUP(options, &s),
-        request_group(&s.request, request_options, ~taken),
+        simulation_group(&s.simulation, request_options, ~taken),
     };
     int status = cli_read_arguments(&command_generate, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = generate_text(&s);
-    request_free(&s.request);
+    simulation_free(&s.simulation);
     return status;
 }
 

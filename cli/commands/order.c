@@ -15,7 +15,7 @@
 static int parse_levels(void *user, const cli_option *option, const char *text)
 {
     order_settings *s = user;
-    s->request.step_rule = REQUEST_STEP_UNUSED;
+    s->simulation.request.step_rule = REQUEST_STEP_UNUSED;
     return cli_parse_text(user, option, text);
 }
 
@@ -42,18 +42,18 @@ static const cli_option options[] = {
 static int order(int argc, char **argv)
 {
     order_settings s = {
-        .request = request_default(), .integrators = "all", .threads = pool_threads()};
+        .simulation = simulation_default(), .integrators = "all", .threads = pool_threads()};
     cli_option of_request[REQUEST_OPTIONS];
     memcpy(of_request, request_options, sizeof of_request);
     of_request[REQUEST_step].initial = "0.1";
     of_request[REQUEST_time].initial = "10";
     const cli_group groups[] = {CLI_GROUP(options, &s),
-                                request_group(&s.request, of_request, ORDER_WITHOUT)};
+                                simulation_group(&s.simulation, of_request, ORDER_WITHOUT)};
     int status = cli_read_arguments(&command_order, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = order_measure(&s);
     if (s.is_written && status != CLI_IO && cli_is_directory(s.output))
         status = report_after(s.output, status, report_order);
-    request_free(&s.request);
+    simulation_free(&s.simulation);
     return status;
 }
 

@@ -5,6 +5,7 @@
 #include "run/manifest.h"
 #include "run/pool.h"
 #include "run/run.h"
+#include "run/simulation.h"
 #include "study/study_directory.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
@@ -13,13 +14,13 @@
 static int resume_run(const char *directory, const run_settings *settings)
 {
     run_directory dir;
-    run_request request = request_default();
+    run_simulation simulation = simulation_default();
     run_directory_open(&dir, directory);
-    int status = manifest_read(&dir, &request);
-    if (status == CLI_DONE) status = request_create_run(&request);
+    int status = manifest_read(&dir, &simulation.request);
+    if (status == CLI_DONE) status = simulation_create(&simulation);
     if (status == CLI_DONE) status = run_directory_lock(&dir, 0);
-    if (status == CLI_DONE) status = run_integrate(&request, &dir, settings);
-    request_free(&request);
+    if (status == CLI_DONE) status = run_integrate(&simulation, &dir, settings);
+    simulation_free(&simulation);
     run_directory_close(&dir);
     return status;
 }

@@ -2,6 +2,7 @@
 #include "run/run.h"
 #include "io/file.h"
 #include "run/manifest.h"
+#include "run/simulation.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/message.h"
@@ -27,15 +28,15 @@ static int check_format(const run_settings *s)
     return screen_check_format(s->format, false, s->details);
 }
 
-static int run_in_directory(const run_request *request, const run_settings *settings)
+static int run_in_directory(const run_simulation *simulation, const run_settings *settings)
 {
     run_directory dir;
     run_directory_open(&dir, settings->output);
     int status = settings->force ? CLI_DONE : check_directory(&dir);
     if (status == CLI_DONE) status = cli_directory(dir.path);
     if (status == CLI_DONE) status = run_directory_lock(&dir, 1);
-    if (status == CLI_DONE) status = manifest_begin(&dir, request);
-    if (status == CLI_DONE) status = run_integrate(request, &dir, settings);
+    if (status == CLI_DONE) status = manifest_begin(&dir, simulation);
+    if (status == CLI_DONE) status = run_integrate(simulation, &dir, settings);
     file_report_directory(dir.path, status);
     run_directory_close(&dir);
     return status;
@@ -43,20 +44,21 @@ static int run_in_directory(const run_request *request, const run_settings *sett
 
 static int run(int argc, char **argv)
 {
-    run_request request = request_default();
+    run_simulation simulation = simulation_default();
     run_settings settings = {0};
-    request.step_rule = REQUEST_STEP_CHOSEN;
-    const cli_group groups[] = {request_group(&request, request_options, 0),
+    simulation.request.step_rule = REQUEST_STEP_CHOSEN;
+    const cli_group groups[] = {simulation_group(&simulation, request_options, 0),
                                 run_group(&settings, 0)};
     int status = cli_read_arguments(&command_run, argc, argv, groups, 2);
     if (status == CLI_GO_ON && check_format(&settings) != CLI_DONE) status = CLI_USAGE;
     if (status == CLI_GO_ON) {
-        status = request_create_run(&request);
+        status = simulation_create(&simulation);
         if (status == CLI_DONE)
-            status = cli_is_directory(settings.output) ? run_in_directory(&request, &settings)
-                                                       : run_integrate(&request, NULL, &settings);
+            status = cli_is_directory(settings.output)
+                         ? run_in_directory(&simulation, &settings)
+                         : run_integrate(&simulation, NULL, &settings);
     }
-    request_free(&request);
+    simulation_free(&simulation);
     return status;
 }
 

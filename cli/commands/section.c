@@ -30,17 +30,17 @@ static const cli_option options[] = {
 
 static int section(int argc, char **argv)
 {
-    section_settings s = {.request = request_default()};
-    s.request.step_rule = REQUEST_STEP_CHOSEN;
+    section_settings s = {.simulation = simulation_default()};
+    s.simulation.request.step_rule = REQUEST_STEP_CHOSEN;
     const cli_group groups[] = {CLI_GROUP(options, &s),
-                                request_group(&s.request, request_options, SECTION_WITHOUT)};
+                                simulation_group(&s.simulation, request_options, SECTION_WITHOUT)};
     int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
     s.direction--; /* -1, 0 or 1 */
     s.is_screen = screen_has_reader() && !s.json && !s.details;
     if (status == CLI_GO_ON) status = section_find(&s);
     if ((status == CLI_DONE || status == CLI_SIGNAL) && cli_is_directory(s.output))
         status = report_after(s.output, status, report_section);
-    request_free(&s.request);
+    simulation_free(&s.simulation);
     return status;
 }
 

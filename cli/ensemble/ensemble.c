@@ -14,8 +14,8 @@ enum { MAX_NAME = 128 };
 
 ensemble ensemble_default(void)
 {
-    ensemble e = {.request = request_default()};
-    e.request.step_rule = REQUEST_STEP_CHOSEN;
+    ensemble e = {.simulation = simulation_default()};
+    e.simulation.request.step_rule = REQUEST_STEP_CHOSEN;
     return e;
 }
 
@@ -29,7 +29,7 @@ void ensemble_free(ensemble *e)
     free(e->column);
     free(e->time);
     free(e->steps);
-    request_free(&e->request);
+    simulation_free(&e->simulation);
     *e = ensemble_default();
 }
 
@@ -110,13 +110,14 @@ int ensemble_chunk_members(const ensemble *e, int chunk)
 /* Members are observed after whole steps: all lanes of a batch have one time. */
 static int fill_times(ensemble *e)
 {
-    const run_request *r = &e->request;
+    const run_simulation *s = &e->simulation;
+    const run_request *r = &s->request;
     const double h = r->options.step;
-    e->times = r->times > 0 ? (int)r->samples + 1 : 1;
+    e->times = r->times > 0 ? (int)s->samples + 1 : 1;
     e->time = cli_calloc((size_t)e->times, sizeof *e->time);
     e->steps = cli_calloc((size_t)e->times, sizeof *e->steps);
     for (int i = 0; i < e->times; i++) {
-        e->time[i] = r->times > 0 ? r->row_time[i] : r->time;
+        e->time[i] = r->times > 0 ? s->row_time[i] : s->end;
         e->steps[i] = dal_whole_steps(r->from, e->time[i], h);
         if (e->steps[i] == 0 && e->time[i] != r->from)
             return cli_fail(CLI_USAGE,
@@ -152,19 +153,20 @@ static int find_axes(ensemble *e)
 static void name_columns(ensemble *e)
 {
     char name[MAX_NAME];
-    e->columns = dal_run_dimension(e->request.run);
+    e->columns = dal_run_dimension(e->simulation.run);
     e->column = cli_calloc((size_t)e->columns, sizeof *e->column);
     for (int i = 0; i < e->columns; i++)
-        e->column[i] = cli_strdup(dal_run_component_name(e->request.run, i, name, sizeof name));
+        e->column[i] = cli_strdup(dal_run_component_name(e->simulation.run, i, name, sizeof name));
 }
 
 int ensemble_complete(ensemble *e)
 {
     dal_error error = {0};
     if (e->variations == 0) return cli_fail(CLI_USAGE, "--vary is missing: nothing would vary");
-    if (!request_has(&e->request, REQUEST_consistent)) e->request.options.consistent = 1;
-    int status = request_create_run(&e->request);
-    if (status == CLI_DONE) status = request_make_spec(&e->request, &e->spec);
+    run_request *request = &e->simulation.request;
+    if (!request_has(request, REQUEST_consistent)) request->options.consistent = 1;
+    int status = simulation_create(&e->simulation);
+    if (status == CLI_DONE) status = simulation_make_spec(&e->simulation, &e->spec);
     if (status == CLI_DONE) status = fill_times(e);
     if (status != CLI_DONE) return status;
     name_columns(e);
@@ -175,5 +177,5 @@ int ensemble_complete(ensemble *e)
                             (unsigned long long)e->seed, ENSEMBLE_CHUNK, &error);
     if (made == DAL_STATUS_OK) return CLI_DONE;
     return cli_error(cli_input_exit(made),
-                     made == DAL_STATUS_NAME ? "--vary" : e->request.system_name, &error);
+                     made == DAL_STATUS_NAME ? "--vary" : request->system_name, &error);
 }

@@ -4,8 +4,8 @@
 #define DAL_CLI_ENSEMBLE_H
 
 #include "dalembert_batch.h"
-#include "run/request.h"
 #include "run/run.h"
+#include "run/simulation.h"
 
 /* Members that one batch steps together; what is written and marked as done together.  It belongs
  * to the files: another number would not resume them. */
@@ -15,7 +15,7 @@ enum { ENSEMBLE_CHUNK = 256, ENSEMBLE_QUANTILES = 16, ENSEMBLE_MAX_MEMBERS = 100
 #define ENSEMBLE_WITHOUT (REQUEST_ROW_OPTIONS & ~REQUEST_OPTION(times))
 
 typedef struct ensemble {
-    run_request request;
+    run_simulation simulation;
     long long members, seed;
     dal_variation *vary; /* [variations] */
     char **vary_text;    /* [variations] as they were given */

@@ -74,13 +74,14 @@ static void put_ensemble(json_writer *w, const ensemble *e)
 int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensemble *e,
                                       store_state state)
 {
-    char method[256], *input = manifest_input(&e->request);
+    char method[256], *input = manifest_input(&e->simulation.request);
     store_manifest m;
     store_begin_manifest(&m);
     json_put_source(&m.json, "input", input);
     put_ensemble(&m.json, e);
     manifest_put_machine(&m.json);
-    json_put_text(&m.json, "method", dal_method_name(&e->request.method, method, sizeof method));
+    json_put_text(&m.json, "method",
+                  dal_method_name(&e->simulation.request.method, method, sizeof method));
     json_put_text(&m.json, "status", store_state_words[state]);
     free(input);
     return store_end_manifest(&m, dir->manifest, 1);
@@ -154,7 +155,7 @@ int ensemble_directory_read(ensemble_directory *dir, ensemble *e)
     const document *doc = dir->doc;
     const yaml_node_t *node = document_value(doc, document_node(doc, 1), "ensemble");
     if (!node) return cli_fail(CLI_USAGE, "'%s' holds no ensemble", dir->path);
-    status = manifest_read_input(&e->request, doc, dir->system);
+    status = manifest_read_input(&e->simulation.request, doc, dir->system);
     if (status == CLI_DONE)
         status = document_read_mapping(doc, node, "ensemble", keys, sizeof keys / sizeof *keys, e);
     if (status == CLI_DONE && !(e->members >= 1 && e->members <= ENSEMBLE_MAX_MEMBERS))
@@ -165,7 +166,7 @@ int ensemble_directory_read(ensemble_directory *dir, ensemble *e)
 /* Of what the members depend on: request, variations, system. */
 static int find_fingerprint(ensemble_directory *dir, const ensemble *e)
 {
-    char *input = manifest_input(&e->request);
+    char *input = manifest_input(&e->simulation.request);
     const int64_t counts[] = {e->members, e->seed};
     uint64_t hash = dal__hash(DAL__HASH_START, input, strlen(input));
     hash = dal__hash(hash, counts, sizeof counts);
@@ -173,8 +174,8 @@ static int find_fingerprint(ensemble_directory *dir, const ensemble *e)
         hash = dal__hash(hash, e->vary_text[i], strlen(e->vary_text[i]) + 1);
     free(input);
     dir->marks.fingerprint = hash;
-    return store_hash_system(&dir->marks.fingerprint, dal_builtin_text(e->request.system_name),
-                             dir->system);
+    return store_hash_system(&dir->marks.fingerprint,
+                             dal_builtin_text(e->simulation.request.system_name), dir->system);
 }
 
 /* ---- messages ------------------------------------------------------------------------------ */
@@ -228,7 +229,7 @@ static int open_tables(ensemble_directory *dir, const ensemble *e, bool is_new)
     char first[MEMBER_DRAWN][8] = {"status", "t"};
     for (int i = 0; i < columns; i++)
         names[i] = i < MEMBER_DRAWN ? first[i] : e->vary[i - MEMBER_DRAWN].name;
-    dir->has_rows = e->request.times > 0;
+    dir->has_rows = e->simulation.request.times > 0;
     int status = npy_table_open(&dir->members, cli_join(dir->path, "members.npy"), names, columns,
                                 0, e->members, is_new);
     free(names);
@@ -265,9 +266,9 @@ static int begin_new(ensemble_directory *dir, const ensemble *e)
         status = file_remove(dir->file[i]);
     if (status == CLI_DONE) status = file_remove(rows);
     free(rows);
-    const char *system = e->request.system_name;
+    const char *system = e->simulation.request.system_name;
     if (status == CLI_DONE)
-        status = cli_is_path(system) ? cli_copy_system(system, e->request.model, dir->system, 1)
+        status = cli_is_path(system) ? cli_copy_system(system, e->simulation.model, dir->system, 1)
                                      : file_remove(dir->system);
     if (status == CLI_DONE) status = open_tables(dir, e, true);
     detach(dir);

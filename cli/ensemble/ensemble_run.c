@@ -87,7 +87,7 @@ static void take_worker(void *user)
                                              &error))) {
         r->worker = make_worker(p->e, made);
     } else {
-        r->status = cli_error(CLI_USAGE, p->e->request.system_name, &error);
+        r->status = cli_error(CLI_USAGE, p->e->simulation.request.system_name, &error);
         return;
     }
     use_native(p, r->worker);
@@ -243,7 +243,7 @@ static void begin_native(pool_state *p, const ensemble_run_options *options)
     const native_mode mode = options->native;
     const struct timespec pause = {0, 1000000};
     dal_error error = {0};
-    const dal_integrator *inner = e->request.method.layer[0];
+    const dal_integrator *inner = e->simulation.request.method.layer[0];
     const double stages = inner->stages > 0 ? inner->stages : 1;
     const double cost = (double)(p->members - p->done) / options->processes *
                         (double)e->steps[e->times - 1] * stages * e->spec.system->n;

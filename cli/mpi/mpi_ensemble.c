@@ -38,7 +38,7 @@ int mpi_ensemble_begin(mpi_request *request, int argc, char **argv)
     ensemble_settings s = {.ensemble = ensemble_default()};
     const cli_group groups[] = {
         ensemble_group(&s),
-        request_group(&s.ensemble.request, request_options, ENSEMBLE_WITHOUT),
+        simulation_group(&s.ensemble.simulation, request_options, ENSEMBLE_WITHOUT),
     };
     int status = cli_read_arguments(&command, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = begin_directory(request, &s);

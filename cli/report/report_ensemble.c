@@ -8,6 +8,7 @@
 #include "report_plot.h"
 #include "report_system.h"
 #include "run/manifest.h"
+#include "run/simulation.h"
 #include "run/system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -172,13 +173,15 @@ static int write_member(FILE *page, const document *doc, const char *name, const
 }
 
 /* What moves and how, how many members there are, and in what they differ. */
-static int write_facts(const ensemble_page *p, const run_request *request, const document *doc)
+static int write_facts(const ensemble_page *p, const run_simulation *simulation,
+                       const document *doc)
 {
+    const run_request *request = &simulation->request;
     FILE *page = p->r->page;
-    report_title(p->r, report_model_title(request->model, "An ensemble"));
+    report_title(p->r, report_model_title(simulation->model, "An ensemble"));
     fputs(REPORT_FACTS, page);
     report_fact(page, "system", request->system_name);
-    report_system(page, request->model, request);
+    report_system(page, simulation->model, request);
     report_method(page, request);
     int status = write_member(page, doc, "members", "members");
     if (status == CLI_DONE) status = write_member(page, doc, "seed", "seed");
@@ -190,15 +193,15 @@ static int write_facts(const ensemble_page *p, const run_request *request, const
 static int describe_ensemble(const ensemble_page *p)
 {
     document *doc;
-    run_request request = request_default();
+    run_simulation simulation = simulation_default();
     char *place = cli_join(p->r->directory, "manifest.json");
     char *copy = cli_join(p->r->directory, "system.yaml"), *bytes;
     int status = store_read_manifest(place, &doc, &bytes);
     free(bytes);
-    if (status == CLI_DONE) status = manifest_read_input(&request, doc, copy);
-    if (status == CLI_DONE) status = cli_read(request.system_name, &request.model);
-    if (status == CLI_DONE) status = write_facts(p, &request, doc);
-    request_free(&request);
+    if (status == CLI_DONE) status = manifest_read_input(&simulation.request, doc, copy);
+    if (status == CLI_DONE) status = cli_read(simulation.request.system_name, &simulation.model);
+    if (status == CLI_DONE) status = write_facts(p, &simulation, doc);
+    simulation_free(&simulation);
     store_free_manifest(doc);
     free(copy);
     free(place);

@@ -128,9 +128,9 @@ int motion_read(motion *m, const char *run, int max_frames)
         if (count < 0) status = CLI_IO;
         m->body = p.body;
         memcpy(m->axis, p.axis, sizeof m->axis);
-        const char *method = p.request.text[REQUEST_integrator];
+        const char *method = p.simulation.request.text[REQUEST_integrator];
         snprintf(m->method, sizeof m->method, "%s", method ? method : "");
-        m->step = p.request.options.step;
+        m->step = p.simulation.request.options.step;
         if (count > 1) order_in_time(row, count);
         if (count > 1) make_frames(m, row, count, max_frames);
         free(row);

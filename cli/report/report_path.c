@@ -111,7 +111,7 @@ static void break_path(const body_path *p, plot_curve *curve)
 static void draw_events(body_path *p, report_plot *plot)
 {
     double pose[DAL_PICTURE_COUNT];
-    const int n = p->poses.request.system->n;
+    const int n = p->poses.simulation.system->n;
     event_reader events;
     event_reader_open(&events, p->poses.dir.events, 2 * n);
     plot_curve *curve = report_curve(plot, "events");

@@ -39,13 +39,13 @@ static bool find_pair(const dal_system *system, const char *axis[2], int pair[2]
 /* Poses need all of q and v, which a run with --columns may not have. */
 static bool has_state(const pose_reader *p)
 {
-    const dal_system *system = p->request.system;
+    const dal_system *system = p->simulation.system;
     const int n = system->n;
     if (p->rows.columns <= 2 * n) return false;
     for (int i = 0; i < n; i++) {
         const char *coordinate = system->coordinate[i], *velocity = p->rows.name[1 + n + i];
         if (strcmp(p->rows.name[1 + i], coordinate) != 0 ||
-            !columns_is_velocity(&p->request, velocity, coordinate))
+            !columns_is_velocity(&p->simulation.request, velocity, coordinate))
             return false;
     }
     return true;
@@ -56,13 +56,13 @@ int pose_open(pose_reader *p, const char *run)
 {
     dal_run_spec spec;
     dal_error error;
-    *p = (pose_reader){.request = request_default(), .dir = {.descriptor = -1}};
+    *p = (pose_reader){.simulation = simulation_default(), .dir = {.descriptor = -1}};
     run_directory_open(&p->dir, run);
     if (access(p->dir.manifest, F_OK) != 0) return CLI_DONE;
-    int status = manifest_read(&p->dir, &p->request);
-    if (status == CLI_DONE) status = request_make_spec(&p->request, &spec);
+    int status = manifest_read(&p->dir, &p->simulation.request);
+    if (status == CLI_DONE) status = simulation_make_spec(&p->simulation, &spec);
     if (status != CLI_DONE) return status;
-    const dal_system *system = p->request.system;
+    const dal_system *system = p->simulation.system;
     if (system->picture) {
         p->body = system->picture->body;
         p->axis[0] = "x";
@@ -70,21 +70,22 @@ int pose_open(pose_reader *p, const char *run)
     } else if (!find_pair(system, p->axis, p->pair)) {
         return CLI_DONE;
     }
-    if (dal_evaluator_create(&p->evaluator, system, p->request.set.item, p->request.set.count,
-                             &error))
+    if (dal_evaluator_create(&p->evaluator, system, p->simulation.request.set.item,
+                             p->simulation.request.set.count, &error))
         return cli_error(CLI_USAGE, run, &error);
     status = reader_open(&p->rows, run);
     if (status != CLI_DONE) return status;
     p->is_open = true;
     p->q = cli_calloc((size_t)system->n, sizeof *p->q);
     p->has_poses = p->rows.count > 0 && has_state(p);
-    p->small_time = small_part * (p->request.time - p->request.from) / (double)(p->rows.count + 1);
+    const run_request *request = &p->simulation.request;
+    p->small_time = small_part * (request->time - request->from) / (double)(p->rows.count + 1);
     return CLI_DONE;
 }
 
 void pose_of(pose_reader *p, double t, const double *q, const double *v, double *pose)
 {
-    const dal_system *system = p->request.system;
+    const dal_system *system = p->simulation.system;
     for (int i = 0; i < DAL_PICTURE_COUNT; i++) pose[i] = 0.0;
     if (!system->picture)
         for (int k = 0; k < 2; k++) pose[k] = q[p->pair[k]];
@@ -95,7 +96,7 @@ void pose_of(pose_reader *p, double t, const double *q, const double *v, double 
 /* The pose a while after the present row, while q changes by v alone. */
 static void find_pose(pose_reader *p, double after, double *pose)
 {
-    const int n = p->request.system->n;
+    const int n = p->simulation.system->n;
     const double *q = p->rows.row + 1, *v = q + n;
     for (int i = 0; i < n; i++) p->q[i] = q[i] + after * v[i];
     pose_of(p, p->t + after, p->q, v, pose);
@@ -120,6 +121,6 @@ void pose_close(pose_reader *p)
     if (p->is_open) reader_close(&p->rows);
     dal_evaluator_free(p->evaluator);
     free(p->q);
-    request_free(&p->request);
+    simulation_free(&p->simulation);
     run_directory_close(&p->dir);
 }

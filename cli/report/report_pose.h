@@ -8,14 +8,14 @@
 #include "dalembert_evaluator.h"
 #include "dalembert_program.h"
 #include "io/trajectory.h"
-#include "run/request.h"
 #include "run/run_directory.h"
+#include "run/simulation.h"
 
 #include <stdbool.h>
 
 typedef struct pose_reader {
     run_directory dir;
-    run_request request;
+    run_simulation simulation;
     trajectory_reader rows;
     dal_evaluator *evaluator;
     double *q;           /* [n] */

@@ -33,7 +33,7 @@ static bool is_default(const cli_option *option, const char *text)
  * not know are not of a run. */
 static int read_member(report_results *results, const document_pair *member)
 {
-    run_request *request = &results->request;
+    run_request *request = &results->simulation.request;
     if (strcmp(member->name, "parameters") == 0)
         return read_settings(results, member->value, &request->set);
     if (strcmp(member->name, "start") == 0)
@@ -50,10 +50,11 @@ static int read_member(report_results *results, const document_pair *member)
 /* The copy of its file, or a built-in system; of an unknown one the formulas are left out. */
 static int read_model(report_results *results)
 {
-    run_request *request = &results->request;
-    if (file_exists(results->copy)) return cli_read(results->copy, &request->model);
+    const run_request *request = &results->simulation.request;
+    dal_model **model = &results->simulation.model;
+    if (file_exists(results->copy)) return cli_read(results->copy, model);
     return request->system_name && dal_builtin_text(request->system_name)
-               ? cli_read(request->system_name, &request->model)
+               ? cli_read(request->system_name, model)
                : CLI_DONE;
 }
 
@@ -62,7 +63,7 @@ int results_read(report_results *results, const char *directory, const char *nam
     size_t length;
     *results = (report_results){.place = cli_format("%s/%s.json", directory, name),
                                 .copy = cli_format("%s/%s.yaml", directory, name),
-                                .request = request_default()};
+                                .simulation = simulation_default()};
     if (!file_exists(results->place)) return CLI_DONE;
     char *bytes = file_read(results->place, &length);
     if (!bytes) return CLI_IO;
@@ -85,7 +86,7 @@ int results_read(report_results *results, const char *directory, const char *nam
 
 void results_free(report_results *results)
 {
-    request_free(&results->request);
+    simulation_free(&results->simulation);
     if (results->root) yaml_document_delete(&results->doc.yaml);
     free(results->place);
     free(results->copy);
@@ -103,15 +104,15 @@ const char *results_text(const report_results *results, const char *mapping, con
 
 const char *results_title(const report_results *results, const char *otherwise)
 {
-    const char *name = results->request.system_name;
-    return report_model_title(results->request.model, name ? name : otherwise);
+    const char *name = results->simulation.request.system_name;
+    return report_model_title(results->simulation.model, name ? name : otherwise);
 }
 
 void results_begin_facts(FILE *page, const report_results *results)
 {
-    const run_request *request = &results->request;
+    const run_request *request = &results->simulation.request;
     fputs(REPORT_FACTS, page);
     if (request->system_name) report_fact(page, "system", request->system_name);
-    if (request->model) report_system(page, request->model, request);
+    if (results->simulation.model) report_system(page, results->simulation.model, request);
     report_method(page, request);
 }

@@ -4,14 +4,14 @@
 
 #include "io/document.h"
 #include "report_page.h"
-#include "run/request.h"
+#include "run/simulation.h"
 
 typedef struct report_results {
     char *place; /* of NAME.json, */
     document doc;
-    const yaml_node_t *root; /* NULL: there is none */
-    char *copy;              /* NAME.yaml */
-    run_request request;     /* with the model where its file is known */
+    const yaml_node_t *root;   /* NULL: there is none */
+    char *copy;                /* NAME.yaml */
+    run_simulation simulation; /* with the model where its file is known */
 } report_results;
 
 /* Reads DIR/NAME.json, which may be missing.  Returns CLI_DONE, or prints and returns an exit

@@ -16,6 +16,7 @@
 #include "report_system.h"
 #include "run/columns.h"
 #include "run/manifest.h"
+#include "run/simulation.h"
 #include "run/system.h"
 
 #include <math.h>
@@ -70,6 +71,7 @@ typedef struct run_column {
 typedef struct run_page {
     report *r;
     const run_request *request;
+    const dal_model *model;
     trajectory_reader reader;
     report_csv summary;       /* no rows unless the run is over */
     const dal_system *system; /* where the run has not all columns; otherwise NULL */
@@ -85,7 +87,7 @@ typedef struct run_page {
 
 static bool is_angle(const run_page *run, const char *name)
 {
-    return run->request->model && report_is_angle(run->request->model, name);
+    return run->model && report_is_angle(run->model, name);
 }
 
 static int observable_group(const run_page *run, const char *name)
@@ -355,7 +357,7 @@ static void write_head(const run_page *run, const char *manifest)
     char *message = json_file_text(manifest, "message");
     fputs(REPORT_FACTS, page);
     report_fact(page, "system", request->system_name);
-    report_system(page, request->model, request);
+    report_system(page, run->model, request);
     report_method(page, request);
     fputs(REPORT_FACTS_END, page);
     if (state == STORE_DONE && message) {
@@ -376,7 +378,8 @@ static void write_head(const run_page *run, const char *manifest)
 int report_run(report *r)
 {
     run_directory dir = {.descriptor = -1};
-    run_request request = request_default();
+    run_simulation simulation = simulation_default();
+    run_request *request = &simulation.request;
     run_page *run = cli_calloc(1, sizeof *run);
     char *summary = cli_join(r->directory, "summary.csv"); /* written when the run is over */
     run->r = r;
@@ -386,34 +389,36 @@ int report_run(report *r)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", run->reader.path);
     run_directory_open(&dir, r->directory);
     if (status == CLI_DONE && access(dir.manifest, F_OK) == 0)
-        status = manifest_read(&dir, &request);
-    if (status == CLI_DONE && request.system_name)
-        status = cli_read(request.system_name, &request.model);
-    const bool has_events =
-        request.model && dal_model_text(request.model, DAL_SECTION_EVENTS, 0, NULL, NULL, NULL);
-    if (status == CLI_DONE && (request.columns || has_events))
-        status = cli_make(request.system_name, &request.model, &request.system);
-    run->system = request.columns ? request.system : NULL;
-    report_events_read(&run->events, dir.events, has_events ? request.system : NULL, request.from);
-    run->request = &request;
+        status = manifest_read(&dir, request);
+    if (status == CLI_DONE && request->system_name)
+        status = cli_read(request->system_name, &simulation.model);
+    const bool has_events = simulation.model && dal_model_text(simulation.model, DAL_SECTION_EVENTS,
+                                                               0, NULL, NULL, NULL);
+    if (status == CLI_DONE && (request->columns || has_events))
+        status = cli_make(request->system_name, &simulation.model, &simulation.system);
+    run->system = request->columns ? simulation.system : NULL;
+    report_events_read(&run->events, dir.events, has_events ? simulation.system : NULL,
+                       request->from);
+    run->request = request;
+    run->model = simulation.model;
     if (status == CLI_DONE && access(summary, F_OK) == 0)
         status = report_csv_read(&run->summary, summary);
     if (status == CLI_DONE && run->summary.rows > 0)
         status = report_csv_require(&run->summary, summary, "trend");
     if (status == CLI_DONE) {
-        report_title(r, report_model_title(request.model, "A run"));
-        if (request.model) write_head(run, dir.manifest);
-        write_summary(run, fabs(reader_last_time(&run->reader) - request.from));
-        if (request.system_name) status = data_write_run(r);
+        report_title(r, report_model_title(simulation.model, "A run"));
+        if (simulation.model) write_head(run, dir.manifest);
+        write_summary(run, fabs(reader_last_time(&run->reader) - request->from));
+        if (request->system_name) status = data_write_run(r);
         report_events_write(r->page, &run->events);
         fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
         if (run->reader.count < 2)
             fputs("<p>The run has one row, too few for figures.</p>\n", r->page);
-        else if (request.system_name && status == CLI_DONE)
+        else if (request->system_name && status == CLI_DONE)
             status = report_path(r, r->directory, "path", "");
         if (status == CLI_DONE && run->reader.count > 1) status = draw_figures(run);
         fputs("</div>\n", r->page);
-        if (request.system_name) write_command(r->page, &request);
+        if (request->system_name) write_command(r->page, request);
         report_file(r, "manifest.json", "what it was made with: manifest.json");
     }
     if (is_open) reader_close(&run->reader);
@@ -423,7 +428,7 @@ int report_run(report *r)
     free(run->column);
     free(run);
     free(summary);
-    request_free(&request);
+    simulation_free(&simulation);
     run_directory_close(&dir);
     return status;
 }

@@ -44,11 +44,11 @@ static bool is_hidden(const char *name) { return name[0] == '|'; }
 /* Value i is t, q, v, g or the lift, then D1.., E, H and the norms, the invariants, h1.., R_x..,
  * lambda1.., error.  Formulas that are observed are the last of the invariants.  An
  * invariant may be called E or H. */
-static column_group group_of(const run_columns *c, const run_request *request, int i)
+static column_group group_of(const run_columns *c, const run_simulation *s, int i)
 {
-    const dal_system *system = request->system;
-    const int n = system->n, observable = i - 1 - dal_run_dimension(request->run);
-    const bool is_lifted = request->options.space == DAL_LIFTED;
+    const dal_system *system = s->system;
+    const int n = system->n, observable = i - 1 - dal_run_dimension(s->run);
+    const bool is_lifted = s->request.options.space == DAL_LIFTED;
     if (i == 0) return COLUMN_GROUPS;
     if (i <= 2 * n) return i <= n ? COLUMNS_Q : COLUMNS_V;
     if (observable < 0) return is_lifted ? COLUMNS_LIFT : COLUMN_GROUPS;
@@ -61,8 +61,8 @@ static column_group group_of(const run_columns *c, const run_request *request, i
         {COLUMNS_LIFT, is_lifted ? LIFT_OBSERVABLES : 0},
         {COLUMNS_INVARIANTS, system->invariant_values ? system->invariants - system->observed : 0},
         {COLUMNS_OBSERVED, system->observed},
-        {COLUMNS_H, request->options.reactions ? system->m : 0},
-        {COLUMNS_R, request->options.reactions ? system->n : 0}};
+        {COLUMNS_H, s->request.options.reactions ? system->m : 0},
+        {COLUMNS_R, s->request.options.reactions ? system->n : 0}};
     int end = 0;
     for (size_t k = 0; k < sizeof groups / sizeof *groups; k++)
         if (observable < (end += groups[k].count)) return groups[k].group;
@@ -88,20 +88,20 @@ static void name_values(run_columns *c, const dal_run *run)
 /* How an item selects: by the first of these that any column satisfies. */
 typedef enum match { BY_NAME, BY_GROUP, BY_PATTERN, MATCHES } match;
 
-static bool is_match(const run_columns *c, const run_request *request, int i, const char *item,
+static bool is_match(const run_columns *c, const run_simulation *s, int i, const char *item,
                      match how)
 {
-    const column_group group = group_of(c, request, i);
+    const column_group group = group_of(c, s, i);
     if (how == BY_NAME) return strcmp(item, c->name[i]) == 0;
     if (how == BY_PATTERN) return fnmatch(item, c->name[i], 0) == 0;
     return group < COLUMN_GROUPS && strcmp(item, group_words[group]) == 0;
 }
 
 /* lambda, lambda1, .. of a method that has none. */
-static int without_multipliers(const run_request *request, const char *item)
+static int without_multipliers(const run_simulation *s, const char *item)
 {
     char method[NAME_SIZE];
-    if (request->system->properties & DAL_MASS_ON_KERNEL)
+    if (s->system->properties & DAL_MASS_ON_KERNEL)
         return cli_fail(CLI_USAGE,
                         "--columns: no column '%s': where W is used on ker A alone, methods carry "
                         "no multipliers; F has h1..",
@@ -109,13 +109,13 @@ static int without_multipliers(const run_request *request, const char *item)
     return cli_fail(CLI_USAGE,
                     "--columns: no column '%s': %s has no multipliers of its own, which are "
                     "lambda1..; F has h1..",
-                    item, dal_method_name(&request->method, method, sizeof method));
+                    item, dal_method_name(&s->request.method, method, sizeof method));
 }
 
-static int unknown_item(const run_columns *c, const run_request *request, const char *item)
+static int unknown_item(const run_columns *c, const run_simulation *s, const char *item)
 {
-    if (request->options.reactions && strncmp(item, "lambda", 6) == 0)
-        return without_multipliers(request, item);
+    if (s->request.options.reactions && strncmp(item, "lambda", 6) == 0)
+        return without_multipliers(s, item);
     const char **names = cli_calloc((size_t)c->values + COLUMN_GROUPS, sizeof *names);
     int count = 0;
     for (int i = 0; i < c->values; i++)
@@ -129,18 +129,18 @@ static int unknown_item(const run_columns *c, const run_request *request, const 
     return CLI_USAGE;
 }
 
-static int select_item(const run_columns *c, const run_request *request, const char *item,
+static int select_item(const run_columns *c, const run_simulation *s, const char *item,
                        bool *selected)
 {
     for (match how = BY_NAME; how < MATCHES; how++) {
         bool any = false;
         for (int i = 0; i < c->values; i++) {
-            if (is_hidden(c->name[i]) || !is_match(c, request, i, item, how)) continue;
+            if (is_hidden(c->name[i]) || !is_match(c, s, i, item, how)) continue;
             selected[i] = any = true;
         }
         if (any) return CLI_DONE;
     }
-    return unknown_item(c, request, item);
+    return unknown_item(c, s, item);
 }
 
 /* Whether an item is about reactions, which are observed on request only. */
@@ -177,13 +177,13 @@ bool columns_need_reactions(const dal_system *system, const char *list)
 }
 
 /* All that is wrong in the list is named. */
-static int select_items(const run_columns *c, const run_request *request, bool *selected)
+static int select_items(const run_columns *c, const run_simulation *s, bool *selected)
 {
     int status = CLI_DONE;
-    for (const char *item = request->columns, *end; item; item = *end ? end + 1 : NULL) {
+    for (const char *item = s->request.columns, *end; item; item = *end ? end + 1 : NULL) {
         end = item + strcspn(item, ",");
         char *text = cli_strndup(item, (size_t)(end - item));
-        const int found = select_item(c, request, text, selected);
+        const int found = select_item(c, s, text, selected);
         if (status == CLI_DONE) status = found;
         free(text);
     }
@@ -207,12 +207,12 @@ bool columns_is_velocity(const run_request *request, const char *name, const cha
 }
 
 /* vx may be a coordinate, an invariant or any other column.  A formula keeps its text. */
-static int rename_all(run_columns *c, const run_request *request)
+static int rename_all(run_columns *c, const run_simulation *s)
 {
     for (int i = 0; i < c->values; i++) {
-        if (group_of(c, request, i) == COLUMNS_OBSERVED) continue;
+        if (group_of(c, s, i) == COLUMNS_OBSERVED) continue;
         const bool is_velocity = strchr(c->name[i], '\'') != NULL;
-        columns_rename(request, c->name[i]);
+        columns_rename(&s->request, c->name[i]);
         for (int k = 0; is_velocity && k < c->values; k++)
             if (k != i && strcmp(c->name[i], c->name[k]) == 0)
                 return cli_fail(CLI_USAGE, "--names plain: %s' would be '%s', another column",
@@ -221,19 +221,19 @@ static int rename_all(run_columns *c, const run_request *request)
     return CLI_DONE;
 }
 
-int columns_make(run_columns *columns, const run_request *request)
+int columns_make(run_columns *columns, const run_simulation *s)
 {
     *columns = (run_columns){0};
-    name_values(columns, request->run);
+    name_values(columns, s->run);
     const size_t values = (size_t)columns->values;
     bool *selected = cli_calloc(values, sizeof *selected);
     columns->index = cli_calloc(values, sizeof *columns->index);
-    const int status = select_items(columns, request, selected);
+    const int status = select_items(columns, s, selected);
     for (int i = 0; i < columns->values; i++)
-        if (i == 0 || (request->columns ? selected[i] : !is_hidden(columns->name[i])))
+        if (i == 0 || (s->request.columns ? selected[i] : !is_hidden(columns->name[i])))
             columns->index[columns->count++] = i;
     free(selected);
-    const int renamed = rename_all(columns, request);
+    const int renamed = rename_all(columns, s);
     return status == CLI_DONE ? renamed : status;
 }
 

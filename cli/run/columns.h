@@ -16,10 +16,10 @@ typedef struct run_columns {
     int *index; /* [count] which of the values a column is */
 } run_columns;
 
-/* Makes the columns of the run of a request.  Returns CLI_DONE, or prints and returns CLI_USAGE
+/* Makes the columns of a run.  Returns CLI_DONE, or prints and returns CLI_USAGE
  * where an item of --columns matches none, or a plain name is another column's; free them in
  * any case. */
-int columns_make(run_columns *columns, const run_request *request);
+int columns_make(run_columns *columns, const run_simulation *simulation);
 /* Whether a list of --columns has names, groups or patterns of h1.., R_x.. or lambda1.. that are
  * not names of the system. */
 bool columns_need_reactions(const dal_system *system, const char *list);

@@ -24,12 +24,12 @@ static long long events_so_far(const dal_run *run)
 
 static void write_event_head(const event_log *log)
 {
-    const dal_run *run = log->request->run;
+    const dal_run *run = log->simulation->run;
     char name[NAME_SIZE];
     fputs("t,event", log->file);
     for (int i = 0; i < dal_run_dimension(run); i++) {
         dal_run_component_name(run, i, name, sizeof name);
-        columns_rename(log->request, name);
+        columns_rename(&log->simulation->request, name);
         fputc(',', log->file);
         cli_put_text(log->file, name);
     }
@@ -64,10 +64,10 @@ static int keep_events(event_log *log, long long count)
     return log->file ? CLI_DONE : cli_io("write", log->path);
 }
 
-int event_log_open(event_log *log, const run_request *request, const char *path)
+int event_log_open(event_log *log, const run_simulation *simulation, const char *path)
 {
-    *log = (event_log){.path = path, .request = request};
-    const long long count = events_so_far(request->run);
+    *log = (event_log){.path = path, .simulation = simulation};
+    const long long count = events_so_far(simulation->run);
     if (count > 0) return keep_events(log, count);
     const int status = file_stream_output(path, &log->file);
     if (status == CLI_DONE) write_event_head(log);
@@ -77,7 +77,7 @@ int event_log_open(event_log *log, const run_request *request, const char *path)
 int event_log_add(event_log *log, const dal_occurrence *event)
 {
     if (!log->file) return CLI_DONE;
-    const dal_run *run = log->request->run;
+    const dal_run *run = log->simulation->run;
     const double *state = dal_run_state(run);
     cli_put(log->file, event->t);
     fprintf(log->file, ",%d", event->event + 1);

@@ -3,7 +3,7 @@
 #ifndef DAL_CLI_EVENT_LOG_H
 #define DAL_CLI_EVENT_LOG_H
 
-#include "request.h"
+#include "request_data.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -11,12 +11,12 @@
 typedef struct event_log {
     FILE *file; /* NULL: none is written */
     const char *path;
-    const run_request *request;
+    const run_simulation *simulation;
 } event_log;
 
 /* Creates a file; or, for a run that continues, cuts off what is behind the events that it has
  * had.  These return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
-int event_log_open(event_log *log, const run_request *request, const char *path);
+int event_log_open(event_log *log, const run_simulation *simulation, const char *path);
 /* Writes an event that has just happened. */
 int event_log_add(event_log *log, const dal_occurrence *event);
 /* Brings what is written to the file; with sync to the disk. */

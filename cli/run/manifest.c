@@ -64,16 +64,16 @@ void manifest_put_machine(json_writer *w)
     json_close(w);
 }
 
-int manifest_write(const run_directory *dir, const run_request *request,
-                   const run_position *position, store_state state, const char *message)
+int manifest_write(const run_directory *dir, const run_simulation *s, const run_position *position,
+                   store_state state, const char *message)
 {
     char method[256];
     store_manifest m;
-    const dal_run *run = request->run;
+    const dal_run *run = s->run;
     store_begin_manifest(&m);
     json_put_source(&m.json, "input", dir->input);
     manifest_put_machine(&m.json);
-    json_put_text(&m.json, "method", dal_method_name(&request->method, method, sizeof method));
+    json_put_text(&m.json, "method", dal_method_name(&s->request.method, method, sizeof method));
     json_put_text(&m.json, "status", store_state_words[state]);
     json_put_number(&m.json, "t", dal_run_time(run));
     json_put_integer(&m.json, "rows", position->row);
@@ -127,23 +127,22 @@ static int find_fingerprint(run_directory *dir, const char *builtin)
     return store_hash_system(&dir->fingerprint, builtin, dir->system);
 }
 
-int manifest_begin(run_directory *dir, const run_request *request)
+int manifest_begin(run_directory *dir, const run_simulation *s)
 {
-    const int is_path = cli_is_path(request->system_name);
+    const int is_path = cli_is_path(s->request.system_name);
     int status = CLI_DONE;
     /* The writer begins the rows again, and the run may be made from the copy of the system. */
     for (int i = 0; i < RUN_FILES && status == CLI_DONE; i++)
         if (dir->file[i] != dir->rows && dir->file[i] != dir->system)
             status = file_remove(dir->file[i]);
     if (status == CLI_DONE)
-        status = is_path
-                     ? cli_copy_system(request->system_name, request->model, dir->system, dir->sync)
-                     : file_remove(dir->system);
+        status = is_path ? cli_copy_system(s->request.system_name, s->model, dir->system, dir->sync)
+                         : file_remove(dir->system);
     if (status != CLI_DONE) return status;
-    dir->input = manifest_input(request);
-    status = find_fingerprint(dir, is_path ? NULL : dal_builtin_text(request->system_name));
+    dir->input = manifest_input(&s->request);
+    status = find_fingerprint(dir, is_path ? NULL : dal_builtin_text(s->request.system_name));
     const run_position start = {.row = 0};
-    return status == CLI_DONE ? manifest_write(dir, request, &start, STORE_RUNNING, "") : status;
+    return status == CLI_DONE ? manifest_write(dir, s, &start, STORE_RUNNING, "") : status;
 }
 
 int manifest_compare(const run_directory *dir, const run_request *held, const run_request *request)

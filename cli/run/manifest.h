@@ -12,13 +12,13 @@
 
 /* Writes the manifest of a new run and the copy of its system, and removes the files of an older
  * run. */
-int manifest_begin(run_directory *dir, const run_request *request);
+int manifest_begin(run_directory *dir, const run_simulation *simulation);
 /* Reads the request into a new one, which points to texts of dir. */
 int manifest_read(run_directory *dir, run_request *request);
 /* Compares the request that was read with another one: CLI_USAGE where they differ. */
 int manifest_compare(const run_directory *dir, const run_request *held, const run_request *request);
 /* Writes how far the run is; message: why, or "". */
-int manifest_write(const run_directory *dir, const run_request *request,
+int manifest_write(const run_directory *dir, const run_simulation *simulation,
                    const run_position *position, store_state state, const char *message);
 /* "input" of a request, allocated, as it stands one level deep in a manifest; and read from one,
  * the copy being the path of its system where that is a file. */

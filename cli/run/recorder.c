@@ -23,9 +23,9 @@
 
 static int allocate_values(run_recorder *r)
 {
-    const int status = columns_make(&r->columns, r->request);
-    r->dimension = dal_run_dimension(r->request->run);
-    r->observables = dal_run_observables(r->request->run);
+    const int status = columns_make(&r->columns, r->simulation);
+    r->dimension = dal_run_dimension(r->simulation->run);
+    r->observables = dal_run_observables(r->simulation->run);
     const size_t count = (size_t)r->columns.values;
     r->values = cli_calloc(count, sizeof *r->values);
     r->row = cli_calloc(count, sizeof *r->row);
@@ -49,7 +49,7 @@ static int open_writer(run_recorder *r, const char *output)
     free(names);
     if (!dir) return status;
     dir->descriptor = -1;
-    status = checkpoint_load(dir, &r->writer, &r->position, r->request->run, r->statistics,
+    status = checkpoint_load(dir, &r->writer, &r->position, r->simulation->run, r->statistics,
                              r->observables);
     if (status != CLI_DONE) return status;
     return writer_continue(&r->writer, r->position.row, &r->position.sum);
@@ -63,21 +63,21 @@ static bool is_interrupted(void *user)
 
 static int write_state(run_recorder *r, store_state state, const char *message)
 {
-    return manifest_write(r->dir, r->request, &r->position, state, message);
+    return manifest_write(r->dir, r->simulation, &r->position, state, message);
 }
 
-int recorder_open(run_recorder *r, const run_request *request, run_directory *dir,
+int recorder_open(run_recorder *r, const run_simulation *simulation, run_directory *dir,
                   const char *output)
 {
-    *r = (run_recorder){.request = request, .dir = dir, .stop = is_interrupted};
+    *r = (run_recorder){.simulation = simulation, .dir = dir, .stop = is_interrupted};
     r->no_line = !isatty(STDERR_FILENO);
     r->shows_rows = !dir && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO);
     int status = allocate_values(r);
     if (status == CLI_DONE) status = open_writer(r, output);
-    if (status == CLI_DONE && dir && request->system->events > 0)
-        status = event_log_open(&r->events, request, dir->events);
+    if (status == CLI_DONE && dir && simulation->system->events > 0)
+        status = event_log_open(&r->events, simulation, dir->events);
     if (status != CLI_DONE || !recorder_is_finished(r)) return status;
-    dal_run_classify(request->run, r->statistics, 0, r->trend);
+    dal_run_classify(simulation->run, r->statistics, 0, r->trend);
     /* The run may have been killed between its last checkpoint and the manifest. */
     return manifest_has_ended(dir->manifest) ? CLI_DONE : write_state(r, STORE_DONE, "");
 }
@@ -95,7 +95,7 @@ void recorder_close(run_recorder *r)
 
 bool recorder_is_finished(const run_recorder *r)
 {
-    return r->position.row > r->request->samples || dal_run_stopped(r->request->run) > 0;
+    return r->position.row > r->simulation->samples || dal_run_stopped(r->simulation->run) > 0;
 }
 
 const char *recorder_observable_name(const run_recorder *r, int i)
@@ -138,7 +138,7 @@ static CLI_PRINTF(2, 3) int append_piece(progress_line *line, const char *format
 static double remaining(const run_recorder *r, double t)
 {
     const double done = t - r->start_time;
-    return done != 0.0 ? r->seconds * (r->request->time - t) / done : INFINITY;
+    return done != 0.0 ? r->seconds * (r->simulation->end - t) / done : INFINITY;
 }
 
 static void append_remaining(progress_line *line, double seconds)
@@ -157,8 +157,9 @@ static void show_line(const run_recorder *r, double t)
 {
     const int width = cli_width() - 1;
     progress_line line = {.capacity = width < LINE ? width : LINE - 1};
-    const long long steps = dal_run_steps(r->request->run) - r->start_step;
-    const double part = (t - r->request->from) / (r->request->time - r->request->from);
+    const long long steps = dal_run_steps(r->simulation->run) - r->start_step;
+    const double part =
+        (t - r->simulation->request.from) / (r->simulation->end - r->simulation->request.from);
     append_piece(&line, "t = %.6g (%.0f %%)", t, floor(100.0 * part));
     append_remaining(&line, remaining(r, t));
     if (r->seconds > 0.0) append_piece(&line, ", %.2e steps/s", (double)steps / r->seconds);
@@ -179,8 +180,8 @@ static void show_json(const run_recorder *r, double t)
     json_writer w = {.out = stderr};
     json_open(&w, NULL, JSON_ON_ONE_LINE);
     json_put_number(&w, "t", t);
-    json_put_number(&w, "time", r->request->time);
-    json_put_integer(&w, "steps", dal_run_steps(r->request->run));
+    json_put_number(&w, "time", r->simulation->end);
+    json_put_integer(&w, "steps", dal_run_steps(r->simulation->run));
     json_put_integer(&w, "rows", r->position.row);
     json_put_number(&w, "seconds", r->position.seconds);
     json_put_number(&w, "remaining", fmax(0.0, remaining(r, t)));
@@ -274,8 +275,8 @@ static int save(run_recorder *r)
     if (status == CLI_DONE) status = event_log_flush(&r->events, r->dir->sync);
     r->position.sum = r->writer.sum;
     if (status == CLI_DONE)
-        status =
-            checkpoint_save(r->dir, &r->position, r->request->run, r->statistics, r->observables);
+        status = checkpoint_save(r->dir, &r->position, r->simulation->run, r->statistics,
+                                 r->observables);
     r->saved = cli_seconds();
     return status;
 }
@@ -367,21 +368,21 @@ static int write_end(run_recorder *r, int status, const char *message)
 static double row_time(void *user, long long row)
 {
     const run_recorder *r = user;
-    return r->request->row_time[row];
+    return r->simulation->row_time[row];
 }
 
 int recorder_run(run_recorder *r, dal_error *error)
 {
-    const run_request *request = r->request;
-    dal_run *run = request->run;
+    const run_simulation *s = r->simulation;
+    dal_run *run = s->run;
     r->observer = (dal_observer){.user = r,
                                  .sample = add_row,
                                  .poll = poll,
                                  .values = add_values,
                                  .scales = add_scales,
                                  .event = add_event,
-                                 .every = request->statistics,
-                                 .row_time = request->row_time ? row_time : NULL,
+                                 .every = s->request.statistics,
+                                 .row_time = s->row_time ? row_time : NULL,
                                  .polling = 1};
     *error = (dal_error){0};
     if (r->dir && r->position.row > 0 && write_state(r, STORE_RUNNING, "") != CLI_DONE)
@@ -391,7 +392,7 @@ int recorder_run(run_recorder *r, dal_error *error)
     r->start_step = dal_run_steps(run);
     r->clock = cli_seconds();
     const dal_status status =
-        dal_run_sample(run, request->time, request->samples, r->position.row, &r->observer, error);
+        dal_run_sample(run, s->end, s->samples, r->position.row, &r->observer, error);
     stop_clock(r);
     if (r->progress != PROGRESS_OFF) cli_progress_end();
     show_progress(r, dal_run_time(run), 1);

@@ -7,7 +7,7 @@
 #include "event_log.h"
 #include "io/trajectory.h"
 #include "native.h"
-#include "request.h"
+#include "request_data.h"
 #include "run_directory.h"
 
 #include <stdbool.h>
@@ -24,7 +24,7 @@ typedef enum progress_mode { PROGRESS_AUTO, PROGRESS_JSON, PROGRESS_OFF } progre
     }
 
 typedef struct run_recorder {
-    const run_request *request;
+    const run_simulation *simulation;
     run_directory *dir; /* NULL: rows go to a file or to stdout, and nothing else is written */
     trajectory_writer writer;
     int dimension, observables;
@@ -56,7 +56,7 @@ typedef struct run_recorder {
 
 /* Opens the writer: output is a file or "-"; in a directory trajectory.npy, with the run standing
  * where the checkpoint says.  Call recorder_close in any case. */
-int recorder_open(run_recorder *recorder, const run_request *request, run_directory *dir,
+int recorder_open(run_recorder *recorder, const run_simulation *simulation, run_directory *dir,
                   const char *output);
 void recorder_close(run_recorder *recorder);
 /* Integrates to the end.  Returns CLI_DONE; CLI_FAILED and the like with the reason in *error;

@@ -1,7 +1,5 @@
 /* request.c - what a run is made from: its options, parsed and checked. */
 #include "request.h"
-#include "columns.h"
-#include "system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -122,20 +120,20 @@ const cli_option request_options[REQUEST_OPTIONS] = {
          "a built-in system ('dalembert list systems') or the path of a file",
          .parse = cli_parse_text, .offset = FIELD(system_name)}};
 
-/* The options that a system file may give. */
-static const int default_options[] = {REQUEST_integrator, REQUEST_step, REQUEST_time};
-
-/* Whether the run ends at a time that follows from other options. */
-static bool gives_end(const run_request *request)
+/* Under a tolerance, where neither rows nor the end count steps, a step may be chosen. */
+static bool needs_step(const run_request *request)
 {
-    return request_has(request, REQUEST_times) || request_has(request, REQUEST_steps);
+    if (request->step_rule != REQUEST_STEP_CHOSEN) return request->step_rule == REQUEST_STEP_NEEDED;
+    return !(request->options.tolerance > 0.0) || request_has(request, REQUEST_steps) ||
+           request->sampling != REQUEST_SAMPLING_LINEAR;
 }
 
-static bool needs_no_step(const run_request *request)
+bool request_lacks(const run_request *request, int option)
 {
-    if (request->step_rule != REQUEST_STEP_CHOSEN) return request->step_rule == REQUEST_STEP_UNUSED;
-    return request->options.tolerance > 0.0 && !request_has(request, REQUEST_steps) &&
-           request->sampling == REQUEST_SAMPLING_LINEAR;
+    if (request_has(request, option)) return false;
+    if (option == REQUEST_step) return needs_step(request);
+    return option != REQUEST_time ||
+           !(request_has(request, REQUEST_times) || request_has(request, REQUEST_steps));
 }
 
 int request_check_forward(const run_request *request)
@@ -148,63 +146,6 @@ int request_check_forward(const run_request *request)
                    : cli_fail(CLI_USAGE, "--time: %g does not come after --from %g", request->time,
                               request->from);
     return CLI_DONE;
-}
-
-/* The system, with the formulas of --observe. */
-static int load_system(run_request *request)
-{
-    const char *list = request->observe;
-    cli_formula *formula = NULL;
-    int count = 0;
-    if (!list) return cli_load(request->system_name, &request->model, &request->system);
-    for (const char *at = list, *end; at; at = *end ? end + 1 : NULL) {
-        const size_t length = request_find_formula(&at, &end);
-        formula = cli_realloc(formula, ((size_t)count + 1) * sizeof *formula);
-        formula[count++] = (cli_formula){cli_strndup(at, length), 1, (int)(at - list) + 1};
-    }
-    const int status = cli_observe(request->system_name, "--observe", formula, count,
-                                   &request->model, &request->system);
-    for (int i = 0; i < count; i++) free((char *)formula[i].text);
-    free(formula);
-    return status;
-}
-
-/* Takes those that the command needs and does not have; a line says which. */
-static int take_defaults(const cli_group *group, int status)
-{
-    run_request *request = group->settings;
-    char taken[512] = "";
-    if (!request->system_name) return CLI_DONE;
-    int found = load_system(request);
-    if (found != CLI_DONE) return found;
-    for (size_t i = 0; i < sizeof default_options / sizeof *default_options; i++) {
-        const int k = default_options[i];
-        const cli_option *option = &group->options[k];
-        const char *text = cli_default(request->model, option->name, NULL, NULL);
-        const size_t length = strlen(taken);
-        if (group->without >> k & 1 || request_has(request, k)) continue;
-        if (k == REQUEST_time && gives_end(request)) continue;
-        if (k == REQUEST_step && needs_no_step(request)) continue;
-        if (!text && !option->initial)
-            found = cli_fail(CLI_USAGE, "--%s is missing, and %s has no default for it",
-                             option->name, request->system_name);
-        if (!text) continue;
-        snprintf(taken + length, sizeof taken - length, " --%s %s", option->name, text);
-        const int parsed = request_give(request, k, cli_strdup(text));
-        if (found == CLI_DONE) found = parsed;
-    }
-    if (taken[0] && found == CLI_DONE && status == CLI_DONE)
-        cli_note("%s gives%s", request->system_name, taken);
-    /* A command that does not take --from goes from t = 0 forwards. */
-    const bool is_forward = group->without & REQUEST_OPTION(from);
-    const int forward = is_forward ? request_check_forward(request) : CLI_DONE;
-    return found == CLI_DONE ? forward : found;
-}
-
-cli_group request_group(run_request *request, const cli_option *options, uint64_t without)
-{
-    return (cli_group){options, REQUEST_OPTIONS, request,      request->text,
-                       without, "run",           take_defaults};
 }
 
 int request_parse_option(run_request *request, int option, const char *text)
@@ -245,11 +186,9 @@ run_request request_default(void)
 
 void request_free(run_request *request)
 {
-    dal_run_free(request->run);
-    dal_model_free(request->model);
     request_free_settings(&request->set);
     request_free_settings(&request->start);
-    free(request->row_time);
+    free(request->listed);
     for (int i = 0; i < REQUEST_OPTIONS; i++) free(request->made[i]);
     *request = (run_request){0};
 }
@@ -264,68 +203,4 @@ int request_parse_setting(request_settings *settings, const char *what, const ch
     const int status = isinf(value) ? CLI_DONE : cli_number(what, text, &value);
     if (status == CLI_DONE) request_add_setting(settings, name, value);
     return status;
-}
-
-int request_make_spec(run_request *request, dal_run_spec *spec)
-{
-    const int status = request->system ? CLI_DONE : load_system(request);
-    if (status != CLI_DONE) return status;
-    const double min = dal_min_tolerance(&request->options);
-    if (request->options.tolerance > 0.0 && request->options.tolerance < min)
-        return cli_fail(CLI_USAGE, "--tolerance: %g is below %.2g, the smallest in this precision",
-                        request->options.tolerance, min);
-    /* Where the system or the method has no lift there is one space alone; only an explicit
-     * --space=lifted is an error. */
-    const int has_lift =
-        request->system->call.adjoint && !(dal_method_needs(&request->method) & DAL_NEEDS_BLOCKS);
-    if (!request_has(request, REQUEST_space) && !has_lift) request->options.space = DAL_PHYSICAL;
-    if (columns_need_reactions(request->system, request->columns)) request->options.reactions = 1;
-    *spec = (dal_run_spec){.system = request->system,
-                           .method = request->method,
-                           .options = request->options,
-                           .parameters = request->set.item,
-                           .parameter_count = request->set.count,
-                           .start = request->start.item,
-                           .start_count = request->start.count,
-                           .start_time = request->from};
-    return CLI_DONE;
-}
-
-int request_complete(run_request *request, dal_run_spec *spec)
-{
-    if (!request->system_name) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
-    if (!request_has(request, REQUEST_integrator))
-        return cli_fail(CLI_USAGE, "--integrator is missing");
-    const bool has_step = request_has(request, REQUEST_step);
-    const bool has_time = request_has(request, REQUEST_time);
-    if (!has_step && !needs_no_step(request)) return cli_fail(CLI_USAGE, "--step is missing");
-    if (!has_time && !gives_end(request)) return cli_fail(CLI_USAGE, "--time is missing");
-    if (!has_step) {
-        const double end = has_time ? request->time : request->row_time[request->times - 1];
-        request->options.step = (end - request->from) / REQUEST_CHOSEN_STEPS;
-    }
-    if (request->options.step == 0.0 && !has_step)
-        return cli_fail(CLI_USAGE, "--%s: the run ends where it begins, at t = %.15g",
-                        has_time ? "time" : "times", request->from);
-    if (request->options.step == 0.0) return cli_fail(CLI_USAGE, "--step: it must not be 0");
-    const int status = row_times_fill(request);
-    return status == CLI_DONE ? request_make_spec(request, spec) : status;
-}
-
-int request_create_run(run_request *request)
-{
-    dal_run_spec spec;
-    dal_error error = {0};
-    run_columns columns;
-    const int status = request_complete(request, &spec);
-    if (status != CLI_DONE) return status;
-    const dal_status made = dal_run_create(&request->run, &spec, &error);
-    if (made != DAL_STATUS_OK) {
-        request->run = NULL;
-        return cli_error(cli_input_exit(made), request->system_name, &error);
-    }
-    /* --columns is checked before any file is made. */
-    const int selected = columns_make(&columns, request);
-    columns_free(&columns);
-    return selected;
 }

@@ -1,4 +1,4 @@
-/* request.h - the options of a run as rows, and the run that they make. */
+/* request.h - the options of a run as rows. */
 #ifndef DAL_CLI_REQUEST_H
 #define DAL_CLI_REQUEST_H
 
@@ -10,10 +10,9 @@
 /* An empty request; release it with request_free. */
 run_request request_default(void);
 void request_free(run_request *request);
-/* All options; and as a group for a command, which may change their defaults and help in options,
- * and does not take some.  A command that has read its arguments has loaded the system. */
 extern const cli_option request_options[REQUEST_OPTIONS];
-cli_group request_group(run_request *request, const cli_option *options, uint64_t without);
+/* Whether --integrator, --step or --time is missing; --times and --steps give the end, too. */
+bool request_lacks(const run_request *request, int option);
 /* Whether the step is positive and the end after the start, where they were given.  Returns
  * CLI_DONE, or prints and returns CLI_USAGE. */
 int request_check_forward(const run_request *request);
@@ -32,11 +31,5 @@ int request_give(run_request *request, int option, char *text);
  * in a message. */
 int request_parse_setting(request_settings *settings, const char *what, const char *name,
                           const char *text);
-/* Loads the system, chooses the space and makes the spec of the run. */
-int request_make_spec(run_request *request, dal_run_spec *spec);
-/* After the last option: checks that none is missing, chooses a step that need not be given, and
- * makes the spec; and the run as well. */
-int request_complete(run_request *request, dal_run_spec *spec);
-int request_create_run(run_request *request);
 
 #endif

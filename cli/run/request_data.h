@@ -1,4 +1,5 @@
-/* request_data.h - what a run is made from, as the command line or a manifest.json gives it. */
+/* request_data.h - what a run is made from, as a command line or a manifest.json gives it, and the
+ * simulation that is made from it. */
 #ifndef DAL_CLI_REQUEST_DATA_H
 #define DAL_CLI_REQUEST_DATA_H
 
@@ -70,15 +71,22 @@ typedef struct run_request {
     long long steps, samples, statistics; /* steps: 0: not given */
     request_sampling sampling;
     request_names names;
-    double *row_time; /* [samples + 1]; NULL: at equal distances */
-    long long times;  /* number of times that were given */
+    double *listed;  /* [times] of --times */
+    long long times; /* 0: no list */
     dal_options options;
     request_settings set, start;
     dal_method method;
+} run_request;
+
+typedef struct run_simulation {
+    run_request request;
     dal_model *model;
     const dal_system *system; /* may be set beforehand; nothing is loaded then */
     dal_run *run;
-} run_request;
+    double end;        /* where the run ends, and */
+    long long samples; /* its rows after the first, */
+    double *row_time;  /* [samples + 1]; NULL: at equal distances */
+} run_simulation;
 
 /* A set of options; those that concern rows only; those without which time begins at 0, is given
  * as such and increases. */

@@ -54,27 +54,30 @@ void request_put_settings(json_writer *w, const char *name, const request_settin
     json_close(w);
 }
 
-static void put_parameters(json_writer *w, const run_request *request)
+static void put_parameters(json_writer *w, const run_simulation *s)
 {
-    const dal_system *system = request->system;
+    const dal_system *system = s->system;
+    const request_settings *set = &s->request.set;
     json_open(w, "parameters", JSON_ON_ONE_LINE);
     for (int i = 0; i < system->parameters; i++) {
         dal_setting value = {system->parameter[i], system->value[i]};
-        for (int k = 0; k < request->set.count; k++)
-            if (strcmp(request->set.item[k].name, value.name) == 0) value = request->set.item[k];
+        for (int k = 0; k < set->count; k++)
+            if (strcmp(set->item[k].name, value.name) == 0) value = set->item[k];
         put_setting(w, &value);
     }
     json_close(w);
 }
 
-void request_open_json(json_writer *w, const run_request *request, uint64_t without)
+void request_open_json(json_writer *w, const run_simulation *s, uint64_t without)
 {
+    const run_request *request = &s->request;
+    const double end = s->run ? s->end : request->time;
     json_open(w, "request", JSON_LINES);
     json_put_text(w, "system", request->system_name);
-    put_parameters(w, request);
+    put_parameters(w, s);
     request_put_settings(w, "start", &request->start);
     if (!(without & REQUEST_OPTION(integrator))) put_value(w, request, REQUEST_integrator);
-    if (!(without & REQUEST_OPTION(time))) json_put_number(w, "time", request->time);
+    if (!(without & REQUEST_OPTION(time))) json_put_number(w, "time", end);
     for (int option = REQUEST_step; option < REQUEST_system; option++)
         if (!(without >> option & 1)) put_value(w, request, option);
 }

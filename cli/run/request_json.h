@@ -11,6 +11,6 @@
 void request_put_settings(json_writer *writer, const char *name, const request_settings *settings);
 /* Begins the object "request" of the results of a command: the system, the value of each parameter,
  * the start values that were given, and all options but those that the command does not take. */
-void request_open_json(json_writer *writer, const run_request *request, uint64_t without);
+void request_open_json(json_writer *writer, const run_simulation *simulation, uint64_t without);
 
 #endif

@@ -21,49 +21,50 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static int allocate_times(run_request *request, const char *sampling)
+static int allocate_times(run_simulation *s, const char *sampling)
 {
-    if (request->samples > ROW_TIMES_MAX)
-        return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling %s",
-                        request->samples, sampling);
-    request->row_time = cli_malloc(((size_t)request->samples + 2) * sizeof *request->row_time);
+    if (s->samples > ROW_TIMES_MAX)
+        return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling %s", s->samples,
+                        sampling);
+    s->row_time = cli_malloc(((size_t)s->samples + 2) * sizeof *s->row_time);
     return CLI_DONE;
 }
 
-static int fill_log(run_request *request)
+static int fill_log(run_simulation *s)
 {
-    const double h = request->options.step, whole = request->time - request->from;
+    const run_request *request = &s->request;
+    const double h = request->options.step, whole = s->end - request->from;
     const double steps = floor(whole / h * (1.0 + 1e-12));
-    const long long rows = request->samples;
+    const long long rows = s->samples;
     double before = 0.0;
-    if (allocate_times(request, "log") != CLI_DONE) return CLI_USAGE;
-    request->samples = 0;
-    request->row_time[0] = request->from;
+    if (allocate_times(s, "log") != CLI_DONE) return CLI_USAGE;
+    s->samples = 0;
+    s->row_time[0] = request->from;
     for (long long k = 1; k <= rows; k++) {
         const double part = rows > 1 ? (double)(k - 1) / (double)(rows - 1) : 1.0;
         const double step = fmin(floor(exp(part * log(steps)) + 0.5), steps);
-        if (step > before && step < whole / h)
-            request->row_time[++request->samples] = request->from + step * h;
+        if (step > before && step < whole / h) s->row_time[++s->samples] = request->from + step * h;
         before = fmax(before, step);
     }
-    double *last = &request->row_time[request->samples];
-    if (fabs(*last - request->from) < fabs(whole) * (1.0 - 1e-9) || request->samples == 0)
-        last = &request->row_time[++request->samples];
-    *last = request->time;
+    double *last = &s->row_time[s->samples];
+    if (fabs(*last - request->from) < fabs(whole) * (1.0 - 1e-9) || s->samples == 0)
+        last = &s->row_time[++s->samples];
+    *last = s->end;
     return CLI_DONE;
 }
 
-static int fill_steps(run_request *request)
+static int fill_steps(run_simulation *s)
 {
+    const run_request *request = &s->request;
     const double h = request->options.step;
-    const long long steps = llround((request->time - request->from) / h);
-    if (request->samples > steps) request->samples = steps;
-    if (allocate_times(request, "steps") != CLI_DONE) return CLI_USAGE;
-    for (long long k = 0; k <= request->samples; k++) {
-        const double part = (double)k / (double)request->samples;
-        request->row_time[k] = request->from + (double)llround(part * (double)steps) * h;
+    const long long steps = llround((s->end - request->from) / h);
+    if (s->samples > steps) s->samples = steps;
+    if (allocate_times(s, "steps") != CLI_DONE) return CLI_USAGE;
+    for (long long k = 0; k <= s->samples; k++) {
+        const double part = (double)k / (double)s->samples;
+        s->row_time[k] = request->from + (double)llround(part * (double)steps) * h;
     }
-    request->time = request->row_time[request->samples];
+    s->end = s->row_time[s->samples];
     return CLI_DONE;
 }
 
@@ -74,14 +75,13 @@ static int add_time(run_request *request, const char *text)
     double t;
     if (cli_number("--times", text, &t) != CLI_DONE) return CLI_USAGE;
     const long long count = request->times;
-    const double *before = request->row_time;
+    const double *before = request->listed;
     const bool repeats = count > 0 && t == before[count - 1];
     if (repeats || (count > 1 && (t > before[count - 1]) != (before[1] > before[0])))
         return cli_fail(CLI_USAGE, "--times: %s does not come after the time before", text);
     if (count == ROW_TIMES_MAX) return cli_fail(CLI_USAGE, "--times: too many");
-    request->row_time =
-        cli_realloc(request->row_time, ((size_t)count + 2) * sizeof *request->row_time);
-    request->row_time[request->times++] = t;
+    request->listed = cli_realloc(request->listed, ((size_t)count + 1) * sizeof *request->listed);
+    request->listed[request->times++] = t;
     return CLI_DONE;
 }
 
@@ -108,9 +108,9 @@ int row_times_parse(void *user, const cli_option *option, const char *given)
     const int is_file = stat(given, &info) == 0 && S_ISREG(info.st_mode);
     char *text = is_file ? file_read(given, &length) : cli_strdup(given);
     if (!text) return CLI_IO;
-    free(request->row_time);
+    free(request->listed);
     free(request->made[REQUEST_times]);
-    request->row_time = NULL;
+    request->listed = NULL;
     request->made[REQUEST_times] = NULL;
     request->times = 0;
     const int status = parse_list(request, text);
@@ -120,38 +120,41 @@ int row_times_parse(void *user, const cli_option *option, const char *given)
     FILE *out = cli_memstream_open(&request->made[REQUEST_times], &length);
     for (long long i = 0; i < request->times; i++) {
         if (i) fputc(',', out);
-        cli_put(out, request->row_time[i]);
+        cli_put(out, request->listed[i]);
     }
     cli_memstream_close(out);
     request->text[REQUEST_times] = request->made[REQUEST_times];
     return CLI_DONE;
 }
 
-static int finish_list(run_request *request)
+static int finish_list(run_simulation *s)
 {
-    const double last = request->row_time[request->times - 1], from = request->from;
+    const run_request *request = &s->request;
+    const double first = request->listed[0], last = request->listed[request->times - 1],
+                 from = request->from;
     const double direction = copysign(1.0, request->options.step);
     if (request_has(request, REQUEST_samples) || request_has(request, REQUEST_sampling))
         return cli_fail(CLI_USAGE, "--times excludes --samples and --sampling");
-    if (!request_has(request, REQUEST_time) && request->steps == 0) request->time = last;
-    if (direction * (request->row_time[0] - from) < 0.0)
-        return cli_fail(CLI_USAGE, "--times: %.17g lies before the start at t = %g",
-                        request->row_time[0], from);
-    if (direction * (last - request->row_time[0]) < 0.0 && !request->text[REQUEST_step])
+    if (!request_has(request, REQUEST_time) && request->steps == 0) s->end = last;
+    if (direction * (first - from) < 0.0)
+        return cli_fail(CLI_USAGE, "--times: %.17g lies before the start at t = %g", first, from);
+    if (direction * (last - first) < 0.0 && !request->text[REQUEST_step])
         return cli_fail(CLI_USAGE, "--times: from t = %.17g, %.17g does not come after %.17g", from,
-                        last, request->row_time[0]);
-    if (direction * (last - request->row_time[0]) < 0.0)
+                        last, first);
+    if (direction * (last - first) < 0.0)
         return cli_fail(CLI_USAGE, "--times: a step of %g does not lead from %.17g to %.17g",
-                        request->options.step, request->row_time[0], last);
-    if (direction * (request->time - last) < 0.0)
-        return cli_fail(CLI_USAGE, "--times: %.17g is later than T = %g", last, request->time);
-    request->samples = request->times - 1;
-    if (request->time != last) request->row_time[++request->samples] = request->time;
-    if (request->samples > 0) return CLI_DONE;
+                        request->options.step, first, last);
+    if (direction * (s->end - last) < 0.0)
+        return cli_fail(CLI_USAGE, "--times: %.17g is later than T = %g", last, s->end);
+    s->row_time = cli_malloc(((size_t)request->times + 2) * sizeof *s->row_time);
+    memcpy(s->row_time, request->listed, (size_t)request->times * sizeof *s->row_time);
+    s->samples = request->times - 1;
+    if (s->end != last) s->row_time[++s->samples] = s->end;
+    if (s->samples > 0) return CLI_DONE;
     /* A run has two rows at least: the start is the other. */
-    request->row_time[1] = request->row_time[0];
-    request->row_time[0] = from;
-    request->samples = 1;
+    s->row_time[1] = first;
+    s->row_time[0] = from;
+    s->samples = 1;
     return CLI_DONE;
 }
 
@@ -180,34 +183,39 @@ int row_times_check_step(const run_request *request, double from, double end)
 }
 
 /* --steps determines the end; the sign of the step must lead there. */
-static int find_end(run_request *request)
+static int find_end(run_simulation *s)
 {
+    const run_request *request = &s->request;
     const double h = request->options.step, from = request->from;
     if (request->steps > 0 && request_has(request, REQUEST_time))
         return cli_fail(CLI_USAGE, "--steps excludes --time");
-    if (request->steps > 0) request->time = from + (double)request->steps * h;
+    if (request->steps > 0) s->end = from + (double)request->steps * h;
     return CLI_DONE;
 }
 
-static int check_end(const run_request *request)
+static int check_end(const run_simulation *s)
 {
-    const double h = request->options.step, whole = request->time - request->from;
+    const run_request *request = &s->request;
+    const double h = request->options.step, whole = s->end - request->from;
     if (copysign(1.0, h) * whole > 0.0 && isfinite(whole))
-        return row_times_check_step(request, request->from, request->time);
+        return row_times_check_step(request, request->from, s->end);
     if (request->steps > 0)
         return cli_fail(CLI_USAGE,
                         "--steps: %lld steps of %g from t = %.15g lead to no other finite time",
                         request->steps, h, request->from);
     return cli_fail(CLI_USAGE, "--time: a step of %g does not lead from t = %.15g to t = %.15g", h,
-                    request->from, request->time);
+                    request->from, s->end);
 }
 
-int row_times_fill(run_request *request)
+int row_times_fill(run_simulation *s)
 {
-    int status = find_end(request);
-    if (status == CLI_DONE && request->times > 0) status = finish_list(request);
-    if (status == CLI_DONE) status = check_end(request);
+    const run_request *request = &s->request;
+    s->end = request->time;
+    s->samples = request->samples;
+    int status = find_end(s);
+    if (status == CLI_DONE && request->times > 0) status = finish_list(s);
+    if (status == CLI_DONE) status = check_end(s);
     if (status != CLI_DONE || request->times > 0) return status;
-    if (request->sampling == REQUEST_SAMPLING_LOG) return fill_log(request);
-    return request->sampling == REQUEST_SAMPLING_STEPS ? fill_steps(request) : CLI_DONE;
+    if (request->sampling == REQUEST_SAMPLING_LOG) return fill_log(s);
+    return request->sampling == REQUEST_SAMPLING_STEPS ? fill_steps(s) : CLI_DONE;
 }

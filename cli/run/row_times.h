@@ -17,7 +17,8 @@ const char *step_error(double step, double from, double end, char text[STEP_ERRO
 int row_times_check_step(const run_request *request, double from, double end);
 /* Parses the value of --times, a list or a file with one, for a request. */
 int row_times_parse(void *request, const cli_option *option, const char *given);
-/* Fills row_time of a request that has all its options, and checks the step. */
-int row_times_fill(run_request *request);
+/* Fills the end and the rows of a simulation whose request has all its options, and checks the
+ * step. */
+int row_times_fill(run_simulation *simulation);
 
 #endif

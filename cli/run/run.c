@@ -52,25 +52,25 @@ static void print_end(const run_recorder *r, int status, const dal_error *error)
     else if (status == CLI_SIGNAL)
         cli_fail(status, "interrupted; %lld rows are kept", r->position.row);
     else if (status != CLI_DONE && error->message[0])
-        cli_error(status, r->request->system_name, error);
+        cli_error(status, r->simulation->request.system_name, error);
     else if (error->message[0])
-        cli_note("%s: %s", r->request->system_name, error->message);
+        cli_note("%s: %s", r->simulation->request.system_name, error->message);
     if (status == CLI_FAILED && error->status == DAL_STATUS_NOT_FINITE)
-        cli_note("a smaller step may help: --step %g", r->request->options.step / 10.0);
+        cli_note("a smaller step may help: --step %g", r->simulation->request.options.step / 10.0);
 }
 
 /* Where --events is to be: the file itself, unless a directory has its own, which is copied. */
-static int open_events(run_recorder *recorder, const run_request *request, const run_directory *dir,
-                       const run_settings *settings)
+static int open_events(run_recorder *recorder, const run_simulation *simulation,
+                       const run_directory *dir, const run_settings *settings)
 {
     if (!settings->events) return CLI_DONE;
-    if (request->system->events == 0)
-        return cli_fail(CLI_USAGE, "--events: %s has no events", request->system_name);
+    if (simulation->system->events == 0)
+        return cli_fail(CLI_USAGE, "--events: %s has no events", simulation->request.system_name);
     const char *reason = strcmp(settings->events, "-") == 0 ? "standard output has the rows"
                          : strcmp(settings->events, settings->output) == 0 ? "the rows go there"
                                                                            : NULL;
     if (reason) return cli_fail(CLI_USAGE, "--events %s: %s", settings->events, reason);
-    return dir ? CLI_DONE : event_log_open(&recorder->events, request, settings->events);
+    return dir ? CLI_DONE : event_log_open(&recorder->events, simulation, settings->events);
 }
 
 static void print_unresolved(const dal_run *run)
@@ -89,16 +89,17 @@ static int copy_events(const run_directory *dir, const run_settings *settings)
     return dir && settings->events ? file_copy(dir->events, settings->events, 0) : CLI_DONE;
 }
 
-int run_integrate(const run_request *request, run_directory *dir, const run_settings *settings)
+int run_integrate(const run_simulation *simulation, run_directory *dir,
+                  const run_settings *settings)
 {
     run_recorder recorder;
     dal_error error;
-    dal_run *run = request->run;
+    dal_run *run = simulation->run;
     const bool has_format = settings->format != SCREEN_TEXT;
     const bool is_screen_alone = (has_format || screen_has_reader()) && !settings->text[RUN_output];
     const char *output = is_screen_alone ? "/dev/null" : settings->output;
-    int status = recorder_open(&recorder, request, dir, output);
-    if (status == CLI_DONE) status = open_events(&recorder, request, dir, settings);
+    int status = recorder_open(&recorder, simulation, dir, output);
+    if (status == CLI_DONE) status = open_events(&recorder, simulation, dir, settings);
     recorder.interval = settings->interval;
     recorder.progress = settings->progress;
     const long long row = recorder.position.row;
@@ -108,9 +109,11 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
         cli_catch_signals();
         if (row > 0)
             cli_note("'%s' resumes at t = %g with row %lld", dir->path, dal_run_time(run), row);
-        const double steps = (request->time - dal_run_time(run)) / request->options.step;
-        recorder.native = native_begin(run, request->time, steps / (double)request->statistics, 1.0,
-                                       settings->native);
+        const double steps =
+            (simulation->end - dal_run_time(run)) / simulation->request.options.step;
+        recorder.native =
+            native_begin(run, simulation->end, steps / (double)simulation->request.statistics, 1.0,
+                         settings->native);
         status = recorder_run(&recorder, &error);
         print_end(&recorder, status, &error);
         print_unresolved(run);

@@ -4,7 +4,7 @@
 
 #include "native.h"
 #include "recorder.h"
-#include "request.h"
+#include "request_data.h"
 #include "run_directory.h"
 #include "ui/options.h"
 #include "ui/screen.h"
@@ -36,7 +36,8 @@ typedef struct run_settings {
 /* As a group for a command, which does not take some: a set of RUN_OPTION(name). */
 #define RUN_OPTION(name) (UINT64_C(1) << RUN_##name)
 cli_group run_group(run_settings *settings, uint64_t without);
-/* Integrates the run of a request, in its directory unless dir is NULL; returns the exit status. */
-int run_integrate(const run_request *request, run_directory *dir, const run_settings *settings);
+/* Integrates a run, in its directory unless dir is NULL; returns the exit status. */
+int run_integrate(const run_simulation *simulation, run_directory *dir,
+                  const run_settings *settings);
 
 #endif

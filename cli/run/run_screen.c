@@ -59,8 +59,8 @@ static int say_verdicts(screen *s, const run_recorder *r)
 
 void run_screen_print(FILE *to, const run_recorder *r, const char *output, screen_format format)
 {
-    const run_request *request = r->request;
-    const dal_run *run = request->run;
+    const run_request *request = &r->simulation->request;
+    const dal_run *run = r->simulation->run;
     const long long steps = dal_run_steps(run);
     const char *path = r->dir ? r->dir->rows : output;
     char method[128], h[SCREEN_NUMBER], count[SCREEN_NUMBER], seconds[SCREEN_NUMBER], space[64];
@@ -79,7 +79,7 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output, scree
                                          : "; the run did not reach its end");
     screen_skip(&s);
     /* The coordinates and velocities, as many as fit a few lines. */
-    const int values = 2 * request->system->n;
+    const int values = 2 * r->simulation->system->n;
     char **items = cli_calloc((size_t)values + 1, sizeof *items);
     for (int i = 0; i < values; i++)
         items[i] = cli_format("%s = %s", r->columns.name[1 + i],

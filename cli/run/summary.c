@@ -7,16 +7,16 @@
 
 void summary_print(FILE *out, const run_recorder *r)
 {
-    const run_request *request = r->request;
-    const long long steps = dal_run_steps(request->run);
+    const run_request *request = &r->simulation->request;
+    const dal_run *run = r->simulation->run;
+    const long long steps = dal_run_steps(run);
     char method[128];
     dal_method_name(&request->method, method, sizeof method);
     fprintf(out, "%s, %s, %s, h = %g: t = %g, %lld rows\n", request->system_name, method,
             request->options.space == DAL_LIFTED ? "lifted" : "physical", request->options.step,
-            dal_run_time(request->run), r->position.row);
+            dal_run_time(run), r->position.row);
     fprintf(out, "%lld steps, %lld evaluations, %.1f ns per step\n", steps,
-            dal_run_evaluations(request->run),
-            steps > 0 ? 1e9 * r->position.seconds / (double)steps : 0.0);
+            dal_run_evaluations(run), steps > 0 ? 1e9 * r->position.seconds / (double)steps : 0.0);
     fprintf(out, "%-12s %14s %10s %10s %10s %21s %8s %9s  %s\n", "", "final", "max | |",
             "amplitude", "rate", "", "exponent", "size", "trend");
     for (int i = 0; i < r->observables; i++) {

@@ -12,6 +12,7 @@
 #include "io/trajectory.h"
 #include "run/manifest.h"
 #include "run/recorder.h"
+#include "run/simulation.h"
 #include "study_results.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
@@ -43,7 +44,7 @@ typedef struct tracked_column {
 typedef struct cell_run {
     const study_plan *plan;
     study_cell *cell;
-    run_request request;
+    run_simulation simulation;
     run_directory dir;
     run_recorder recorder;
     tracked_column *column; /* [columns of the recorder] */
@@ -66,10 +67,11 @@ static void add_settings(request_settings *to, const request_settings *from, dou
  * and p_i and pi_i change under the adjoint equations as 1/l_i.  size[2n], p first. */
 static void find_momentum_units(const cell_run *r, double *size)
 {
-    const run_request *request = &r->request;
-    const int n = request->system->n;
+    const run_request *request = &r->simulation.request;
+    const dal_system *system = r->simulation.system;
+    const int n = system->n;
     dal_setting *start = cli_calloc((size_t)request->start.count + 1, sizeof *start);
-    dal_run_spec spec = {.system = request->system,
+    dal_run_spec spec = {.system = system,
                          .options = request->options,
                          .parameters = request->set.item,
                          .parameter_count = request->set.count,
@@ -103,7 +105,7 @@ static void add_in_units(cell_run *r, const double *size, const char *name, doub
         if (strcmp(momentum, name) == 0) d *= size[k];
         free(momentum);
     }
-    request_add_setting(&r->request.start, name, d * value);
+    request_add_setting(&r->simulation.request.start, name, d * value);
 }
 
 /* By default p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ... in their units: no two alike, and
@@ -143,8 +145,8 @@ static int make_request(cell_run *r)
 #undef START_SPACE
     const study_cell *c = r->cell;
     const study_case *e = c->of_case;
-    run_request *request = &r->request;
-    request->system = e->system;
+    run_request *request = &r->simulation.request;
+    r->simulation.system = e->system;
     request->system_name = study_case_system(e);
     request->options = e->options;
     memcpy(request->text, e->option, sizeof request->text);
@@ -182,11 +184,11 @@ static int create_run(cell_run *r)
 {
     dal_run_spec spec;
     int status = make_request(r);
-    if (status == CLI_DONE) status = request_complete(&r->request, &spec);
+    if (status == CLI_DONE) status = simulation_complete(&r->simulation, &spec);
     if (status != CLI_DONE) return status;
-    const dal_status created = dal_run_create(&r->request.run, &spec, &r->cell->error);
+    const dal_status created = dal_run_create(&r->simulation.run, &spec, &r->cell->error);
     if (cli_is_ok(created)) return CLI_DONE;
-    r->request.run = NULL;
+    r->simulation.run = NULL;
     set_failure(r->cell, created == DAL_STATUS_UNSUPPORTED ? STUDY_REFUSED : STUDY_FAILED, created);
     return CLI_DONE;
 }
@@ -251,7 +253,7 @@ static void choose_tracks(cell_run *r)
 static void track_row(void *user, const double *row)
 {
     cell_run *r = user;
-    const double part = (double)r->rows / ((double)r->request.samples + 1.0);
+    const double part = (double)r->rows / ((double)r->simulation.samples + 1.0);
     const int window = (int)(part * STUDY_WINDOWS);
     for (int i = 0; i < r->recorder.columns.count; i++) {
         tracked_column *c = &r->column[i];
@@ -270,7 +272,7 @@ static int read_rows(cell_run *r)
     trajectory_reader reader;
     int status = reader_open(&reader, r->dir.path), more = 0;
     if (status != CLI_DONE) return status;
-    while (r->rows <= r->request.samples && (more = reader_next(&reader)) > 0)
+    while (r->rows <= r->simulation.samples && (more = reader_next(&reader)) > 0)
         track_row(r, reader.row);
     reader_close(&reader);
     return more < 0 ? CLI_IO : CLI_DONE;
@@ -298,7 +300,7 @@ static void take_tracks(const cell_run *r)
 static void take_end(cell_run *r, const dal_error *error, bool has_failed)
 {
     study_cell *c = r->cell;
-    const dal_run *run = r->request.run;
+    const dal_run *run = r->simulation.run;
     c->time = dal_run_time(run);
     c->steps = dal_run_steps(run);
     c->evaluations = dal_run_evaluations(run);
@@ -331,14 +333,14 @@ static int open_recorder(cell_run *r)
     if (status == CLI_DONE && has_run) {
         run_request held = request_default();
         status = manifest_read(dir, &held);
-        if (status == CLI_DONE) status = manifest_compare(dir, &held, &r->request);
+        if (status == CLI_DONE) status = manifest_compare(dir, &held, &r->simulation.request);
         request_free(&held);
     } else if (status == CLI_DONE) {
-        status = manifest_begin(dir, &r->request);
+        status = manifest_begin(dir, &r->simulation);
     }
-    if (status == CLI_DONE) status = recorder_open(&r->recorder, &r->request, dir, dir->path);
+    if (status == CLI_DONE) status = recorder_open(&r->recorder, &r->simulation, dir, dir->path);
     if (status != CLI_DONE) return status;
-    begin_results(r->cell, r->request.run);
+    begin_results(r->cell, r->simulation.run);
     choose_tracks(r);
     r->recorder.row_user = r;
     r->recorder.add_row = track_row;
@@ -355,8 +357,8 @@ static int run_in_directory(cell_run *r, const work_stop *stop)
         recorder->stop_user = stop->user;
         recorder->interval = r->plan->interval;
         recorder->progress = PROGRESS_OFF;
-        recorder->native = native_begin(r->request.run, r->request.time, 0.0, cells_alike(r->cell),
-                                        r->plan->native);
+        recorder->native = native_begin(r->simulation.run, r->simulation.end, 0.0,
+                                        cells_alike(r->cell), r->plan->native);
         ended = recorder_run(recorder, &error);
     }
     if (ended != CLI_DONE && ended != CLI_FAILED) return ended;
@@ -377,7 +379,7 @@ typedef struct short_run {
 
 static double end_time(void *user, long long row)
 {
-    return ((short_run *)user)->of_cell->request.row_time[row];
+    return ((short_run *)user)->of_cell->simulation.row_time[row];
 }
 
 static dal_status add_end(void *user, dal_run *run, long long row, double t)
@@ -414,23 +416,25 @@ static dal_status poll_short_run(void *user, dal_run *run)
 /* Runs the cell from its start to its end, however often it was begun. */
 static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
 {
-    const run_request *request = &r->request;
+    const run_simulation *simulation = &r->simulation;
     study_cell *c = r->cell;
     const dal_observer observer = {.user = s,
                                    .sample = add_end,
                                    .poll = poll_short_run,
                                    .values = add_values,
                                    .scales = add_scales,
-                                   .every = request->statistics,
-                                   .row_time = request->row_time ? end_time : NULL,
+                                   .every = simulation->request.statistics,
+                                   .row_time = simulation->row_time ? end_time : NULL,
                                    .polling = POLLING};
-    const double alike = cells_alike(c), steps = request->time / c->step,
+    const double alike = cells_alike(c), steps = simulation->end / c->step,
                  start = cli_thread_seconds();
-    s->native = native_begin(request->run, request->time,
-                             alike * steps / (double)request->statistics, alike, r->plan->native);
-    const dal_status status = dal_run_sample(request->run, request->time, 1, 0, &observer, error);
+    s->native = native_begin(simulation->run, simulation->end,
+                             alike * steps / (double)simulation->request.statistics, alike,
+                             r->plan->native);
+    const dal_status status =
+        dal_run_sample(simulation->run, simulation->end, 1, 0, &observer, error);
     const bool has_ended = status == DAL_STATUS_OK || status == DAL_STATUS_STOPPED;
-    dal_run_classify(request->run, s->statistics, !has_ended, c->trend);
+    dal_run_classify(simulation->run, s->statistics, !has_ended, c->trend);
     c->seconds = cli_thread_seconds() - start;
     return has_ended ? DAL_STATUS_OK : status;
 }
@@ -440,7 +444,7 @@ static int run_without_rows(cell_run *r, const work_stop *stop)
     study_cell *c = r->cell;
     const int number = (int)(c - r->plan->cells);
     dal_error error = {0};
-    begin_results(c, r->request.run);
+    begin_results(c, r->simulation.run);
     if (study_results_get(r->plan->results, number, c)) return CLI_DONE;
     short_run s = {.of_cell = r, .stop = stop};
     s.statistics = cli_calloc((size_t)c->observables, sizeof *s.statistics);
@@ -454,11 +458,11 @@ static int run_without_rows(cell_run *r, const work_stop *stop)
 
 int study_cell_run(const study_plan *plan, study_cell *cell, const work_stop *stop)
 {
-    cell_run r = {.plan = plan, .cell = cell, .request = request_default()};
+    cell_run r = {.plan = plan, .cell = cell, .simulation = simulation_default()};
     int status = create_run(&r);
-    if (status == CLI_DONE && r.request.run && cell->of_case->rows == STUDY_ROWS_NONE) {
+    if (status == CLI_DONE && r.simulation.run && cell->of_case->rows == STUDY_ROWS_NONE) {
         status = run_without_rows(&r, stop);
-    } else if (status == CLI_DONE && r.request.run) {
+    } else if (status == CLI_DONE && r.simulation.run) {
         char *directory = cli_join(plan->runs, cell->name);
         run_directory_open(&r.dir, directory);
         status = run_in_directory(&r, stop);
@@ -468,15 +472,15 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const work_stop *st
         free(directory);
     }
     if (status != CLI_DONE) study_cell_free(cell);
-    request_free(&r.request);
+    simulation_free(&r.simulation);
     return status;
 }
 
 bool study_cell_is_runnable(study_cell *cell)
 {
-    cell_run r = {.cell = cell, .request = request_default()};
-    const int can = create_run(&r) == CLI_DONE && r.request.run;
-    request_free(&r.request);
+    cell_run r = {.cell = cell, .simulation = simulation_default()};
+    const int can = create_run(&r) == CLI_DONE && r.simulation.run;
+    simulation_free(&r.simulation);
     study_cell_free(cell);
     return can;
 }

@@ -1,0 +1,23 @@
+/* simulation.h - the system, the run and the rows of a request. */
+#ifndef DAL_CLI_SIMULATION_H
+#define DAL_CLI_SIMULATION_H
+
+#include "request.h"
+
+/* Of an empty request; release it with simulation_free. */
+run_simulation simulation_default(void);
+void simulation_free(run_simulation *simulation);
+/* The options of its request as a group for a command, which may change their defaults and help in
+ * options, and does not take some.  A command that has read its arguments has loaded the system. */
+cli_group simulation_group(run_simulation *simulation, const cli_option *options, uint64_t without);
+
+/* All below return CLI_DONE, or print and return an exit status. */
+
+/* Loads the system, chooses the space and makes the spec of the run. */
+int simulation_make_spec(run_simulation *simulation, dal_run_spec *spec);
+/* After the last option: checks that none is missing, chooses a step that need not be given, and
+ * makes the spec; and the run as well. */
+int simulation_complete(run_simulation *simulation, dal_run_spec *spec);
+int simulation_create(run_simulation *simulation);
+
+#endif
