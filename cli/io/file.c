@@ -464,6 +464,33 @@ static bool is_mark(const char *directory, const char *name)
     return found;
 }
 
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+int file_list(const char *path, file_names *names)
+{
+    DIR *directory = opendir(path);
+    *names = (file_names){NULL, 0};
+    if (!directory) return cli_io("read", path);
+    for (struct dirent *entry; (entry = readdir(directory));) {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        names->name = cli_realloc(names->name, ((size_t)names->count + 1) * sizeof *names->name);
+        names->name[names->count++] = cli_strdup(entry->d_name);
+    }
+    closedir(directory);
+    if (names->count > 0)
+        qsort(names->name, (size_t)names->count, sizeof *names->name, compare_names);
+    return CLI_DONE;
+}
+
+void file_free_names(file_names *names)
+{
+    for (int i = 0; i < names->count; i++) free(names->name[i]);
+    free(names->name);
+}
+
 bool file_owns_directory(const char *path)
 {
     DIR *directory = opendir(path);

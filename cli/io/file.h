@@ -67,6 +67,14 @@ void cli_put_text(FILE *out, const char *text);
 int cli_ends_in(const char *text, const char *ending);
 /* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
 int cli_directory(const char *path);
+/* What is in a directory, by name.  Returns CLI_DONE, or prints and returns an exit status; to be
+ * freed in any case. */
+typedef struct file_names {
+    char **name; /* [count] */
+    int count;
+} file_names;
+int file_list(const char *path, file_names *names);
+void file_free_names(file_names *names);
 /* Whether a directory holds results of this program, or nothing, or is not there. */
 bool file_owns_directory(const char *path);
 /* Returns CLI_DONE for such a directory, else prints and returns CLI_USAGE: others are written into

@@ -103,7 +103,8 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output, scree
     else
         screen_say(&s, 7, "Page:  -o DIR, then dalembert report DIR");
     if (moving >= 0) {
-        char *command = request_format_command(request, "explain");
+        char *command =
+            request_format_command(request, "explain", request->system_name, REQUEST_ROW_OPTIONS);
         char *head = cli_format("Why %s moves:", recorder_observable_name(r, moving));
         screen_say_command(&s, head, command);
         free(command);

@@ -27,6 +27,7 @@
     COMMAND(explain)                                                                               \
     COMMAND(generate)                                                                              \
     COMMAND(report)                                                                                \
+    COMMAND(pack)                                                                                  \
     COMMAND(help)
 
 #define DECLARE_COMMAND(name) extern const cli_command command_##name;

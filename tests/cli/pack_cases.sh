@@ -1,0 +1,88 @@
+# dalembert pack: what is unpacked makes the same results again.
+
+case_is "pack: a run, made again from its archive"
+try 0 run falling-disk --integrator gauss4+project --time 1 --step 0.05 --set m=1.25 --samples 7 --observe "theta^2" -o disk
+try 0 pack disk
+says "packed 2 files into 'disk\.tar'"
+mkdir unpacked
+expect "tar" tar xf disk.tar -C unpacked
+expect "rows without --all" test ! -e unpacked/disk/trajectory.npy
+expect "the built-in system" test -s unpacked/disk/builtin/falling-disk.yaml
+try 0 show falling-disk
+expect "another file of the system" cmp -s out unpacked/disk/builtin/falling-disk.yaml
+command=$(sed -n 's/^ *dalembert run //p' unpacked/disk/README.txt)
+(cd unpacked && eval "'$program' run $command" >/dev/null 2>&1)
+expect "other rows: $command" cmp -s disk/trajectory.npy unpacked/again/trajectory.npy
+
+case_is "pack: a run of a file, whose name and values need quotes"
+cat >"a file.yaml" <<'END'
+coordinates: [x]
+parameters: {k: 4}
+lagrangian: x'^2/2 - k*x^2/2
+start: {x: 1}
+END
+try 0 run "a file.yaml" --integrator rk4 --time 2 --step 0.1 --set k=2.25 --start "x'=0.5" --observe "x^2 + x'^2" -o "of file"
+try 0 pack "of file" -o file.tar
+expect "tar" tar xf file.tar -C unpacked
+command=$(sed -n 's/^ *dalembert run //p' "unpacked/of file/README.txt" | sed 's/ --output .*//')
+(cd "unpacked/of file" && eval "'$program' run $command -o again" >/dev/null 2>&1)
+expect "other rows: $command" cmp -s "of file/trajectory.npy" "unpacked/of file/again/trajectory.npy"
+
+case_is "pack: a study, made again from its archive"
+cat >pair.yaml <<'END'
+title: A pair
+systems: [damped-oscillator, ./a file.yaml]
+integrators: [rk4, gauss4]
+step: 0.1
+time: 1
+END
+try 0 study pair.yaml -o pair --no-page
+try 0 pack pair
+expect "the system that is built in" test "$(tar tf pair.tar | grep -c builtin/damped-oscillator.yaml)" -eq 1
+expect "tar" tar xf pair.tar -C unpacked
+expect "a page, rows or a lock" test -z "$(find unpacked/pair -name '*.npy' -o -name report -o -name lock)"
+(cd unpacked/pair && "$program" study study.yaml -o again --no-page >/dev/null 2>&1)
+expect "other tables" cmp -s pair/tables.txt unpacked/pair/again/tables.txt
+
+case_is "pack: equal files make equal archives, and --all everything but locks"
+cp -r disk copied
+touch -d "2001-02-03" copied/summary.csv
+mkdir elsewhere
+mv copied elsewhere/disk
+try 0 pack elsewhere/disk -o second.tar
+expect "another archive" cmp -s disk.tar second.tar
+try 0 pack pair --all -o -
+expect "tar of standard output" tar tf out
+expect "rows" sh -c "tar tf out | grep -q 'trajectory\.npy$'"
+refute "a lock" sh -c "tar tf out | grep -q '/lock$'"
+tar xf out -C elsewhere
+expect "other bytes" diff -r -x lock -x README.txt -x builtin -x "a file.yaml" pair elsewhere/pair
+
+case_is "pack: long names, links, and files of others"
+long=$(printf '%0120d' 0)
+mkdir -p "disk/$long/$long"
+echo 2 >"disk/$long/short.csv"
+ln -s /etc/passwd disk/passwd.txt
+try 0 pack disk --force
+expect "tar" sh -c "tar tf disk.tar >listed"
+expect "a long name" grep -q "$long/short.csv" listed
+refute "a link" grep -q passwd listed
+echo 1 >"disk/$long/$long.csv"
+try 2 pack disk -o other.tar
+says "too long a name"
+refute "half an archive" test -e other.tar
+
+case_is "pack: errors"
+mkdir foreign
+echo "not ours" >foreign/notes.txt
+table <<'END'
+2 | pack nodir | says there is no directory 'nodir'
+2 | pack foreign | says 'foreign' holds no results of dalembert
+2 | pack second.tar | says 'second.tar' is no directory
+2 | pack pair | says 'pair.tar' exists; --force overwrites it
+2 | pack | says DIR is missing
+END
+if needs 1 "no /dev/full" test -c /dev/full; then
+    try 4 pack pair -o /dev/full
+    counted
+fi
