@@ -1,4 +1,5 @@
 /* pack.c - `dalembert pack DIR`: an archive of what was asked for, and of the tables. */
+#include "dalembert.h"
 #include "io/file.h"
 #include "io/tar.h"
 #include "run/manifest.h"
