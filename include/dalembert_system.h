@@ -72,7 +72,8 @@ typedef struct dal_callbacks {
  * and the lower ones in memory[size[lifted]*stride], k < stride, follows coefficient k of
  *     out[n + multipliers]           F, dg/dt
  *     out[3n + 1]                    F, F_q^T pi, F_v^T pi, mu_e, on the lifted space
- * All arrays are interleaved by lanes as for a callback; work is as in dal_point. */
+ * of the powers of time in the system's own unit, units[0]/units[n].  All arrays are interleaved by
+ * lanes as for a callback; work is as in dal_point. */
 typedef dal_status dal_series_callback(const dal_system *system, int lifted, int k, int stride,
                                        const double *in, double *work, double *memory, double *out);
 /* Those callbacks of a system. */

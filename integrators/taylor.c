@@ -9,9 +9,9 @@
  * With a tolerance each substep has the order for it (lib/kernel/taylor.h) and the size at which
  * its last coefficients leave the polynomial with that error, relative to max(1, |x|):
  *
- *     h = tolerance^(1/p) min (max(1, |x|)/|x_m|)^(1/m),   m = p-3 .. p,
+ *     h = tau tolerance^(1/p) min (max(1, |x|)/|x_m|)^(1/m),   m = p-3 .. p,
  *
- * in the units of x that the system has;
+ * in the units of x and t that the system has, x_m in t/tau;
  *
  * four of them, since odd or even motions lack every other one, and some motions more.  Last
  * coefficients may vanish all the same, as they do for x'' = t^50 at t = 0; so the polynomial must
@@ -81,7 +81,8 @@ DAL_INLINE dal_mask max_bits(const num *x, const double *unit, int count)
     return bits;
 }
 
-/* h/tolerance^(1/p) for count components from first on, 0 where a coefficient is not finite. */
+/* h/(tau tolerance^(1/p)) for count components from first on, 0 where a coefficient is not
+ * finite. */
 DAL_INLINE num radius(const dal_step *s, const num *x, int first, int count)
 {
     const double *units = units_from(s, first);
@@ -106,11 +107,11 @@ DAL_INLINE num next_size(const dal_step *s, const num *x)
 {
     num size = radius(s, x, 0, DAL_N(s) + DAL_NW(s));
     if (DAL_LIFTED(s)) size = dal_min(size, radius(s, x, dal_at_p(s), 2 * DAL_N(s)));
-    return DAL_TOLERANCE_ROOT(s) * size;
+    return DAL_UNIT_OF_TIME(s) * (DAL_TOLERANCE_ROOT(s) * size);
 }
 
-/* Lanes where the defect of some components is small after a substep h to `end`, where the field is
- * `field` and the polynomial's rate `rate`. */
+/* Lanes where the defect of some components is small after a substep h tau to `end`, where the
+ * derivative by t/tau is `field`, and by the polynomial `rate`. */
 DAL_INLINE dal_mask satisfies(const dal_step *s, num h, const num *end, const num *field,
                               const num *rate, int first, int count)
 {
@@ -128,12 +129,12 @@ DAL_INLINE dal_mask satisfies(const dal_step *s, num h, const num *end, const nu
 }
 
 /* Lanes where the polynomial satisfies the equations at its end; z[2][dim]: the state there and its
- * rate of change by the equations, derivative[dim]: that by the polynomial. */
+ * derivative by t/tau from the equations, derivative[dim]: the same from the polynomial. */
 DAL_INLINE dal_mask is_accepted(const dal_step *s, dal_times h, const num *z, const num *derivative)
 {
-    const num *field = z + DAL_DIM(s);
-    dal_mask good = satisfies(s, h, z, field, derivative, 0, DAL_N(s) + DAL_NW(s));
-    if (DAL_LIFTED(s)) good &= satisfies(s, h, z, field, derivative, dal_at_p(s), 2 * DAL_N(s));
+    const num *field = z + DAL_DIM(s), size = h / DAL_UNIT_OF_TIME(s);
+    dal_mask good = satisfies(s, size, z, field, derivative, 0, DAL_N(s) + DAL_NW(s));
+    if (DAL_LIFTED(s)) good &= satisfies(s, size, z, field, derivative, dal_at_p(s), 2 * DAL_N(s));
     return good;
 }
 
@@ -142,9 +143,10 @@ DAL_INLINE dal_mask is_accepted(const dal_step *s, dal_times h, const num *z, co
 DAL_INLINE void store_series(const dal_step *s, num h, const num *x)
 {
     const int dim = DAL_DIM(s);
-    num power = dal_num(1.0);
+    const num size = h / DAL_UNIT_OF_TIME(s);
+    num power = dal_num(1.0 / DAL_UNIT_OF_TIME(s));
     s->dense->terms = DAL_TAYLOR_ORDER(s);
-    for (int k = 0; k < s->dense->terms; k++, power *= h)
+    for (int k = 0; k < s->dense->terms; k++, power *= size)
         DAL_EACH(i, dim) s->dense->rate[k * dim + i] = power * x[(k + 1) * dim + i];
 }
 #endif

@@ -41,6 +41,18 @@ static dal_run_spec spec_in_units(const char *text, const units *u, const char *
     return spec;
 }
 
+static dal_run *run_in_units(const char *text, const units *u, const char *method, double h,
+                             long long steps, const dal_options *options)
+{
+    dal_run_spec spec = spec_in_units(text, u, method, h);
+    if (options) {
+        spec.options.tolerance = options->tolerance;
+        spec.options.solver = options->solver;
+        spec.options.precision = options->precision;
+    }
+    return fixture_stepped(&spec, steps);
+}
+
 /* Whether two runs have the same state up to their units, to a number of roundings. */
 static bool is_same(const dal_run *run, const units *u, const dal_run *plain, int n,
                     double roundings)
@@ -56,19 +68,14 @@ static bool is_same(const dal_run *run, const units *u, const dal_run *plain, in
 }
 
 /* The same bits, and as many evaluations, by a method in all units. */
-static void check_units(const char *text, const char *method, double h, long long steps,
-                        const dal_options *options, const units *list, int count)
+static void check_same_with(const char *text, const char *method, double h, long long steps,
+                            const dal_options *options)
 {
-    dal_run_spec spec = spec_in_units(text, &one, method, h);
-    const int n = spec.system->n;
-    if (options) spec.options.tolerance = options->tolerance, spec.options.solver = options->solver;
-    dal_run *plain = fixture_stepped(&spec, steps);
-    for (int i = 0; i < count; i++) {
-        spec = spec_in_units(text, &list[i], method, h);
-        if (options)
-            spec.options.tolerance = options->tolerance, spec.options.solver = options->solver;
-        dal_run *run = fixture_stepped(&spec, steps);
-        if (!run || !is_same(run, &list[i], plain, n, 0.0)) {
+    dal_run *plain = run_in_units(text, &one, method, h, steps, options);
+    const int n = dal_run_dimension(plain) / 2;
+    for (int i = 0; i < OTHERS; i++) {
+        dal_run *run = run_in_units(text, &others[i], method, h, steps, options);
+        if (!run || !is_same(run, &others[i], plain, n, 0.0)) {
             CU_FAIL("other bits in other units");
             printf("\n  %s in units %d", method, i + 1);
         }
@@ -76,12 +83,6 @@ static void check_units(const char *text, const char *method, double h, long lon
         dal_run_free(run);
     }
     dal_run_free(plain);
-}
-
-static void check_same_with(const char *text, const char *method, double h, long long steps,
-                            const dal_options *options)
-{
-    check_units(text, method, h, steps, options, others, OTHERS);
 }
 
 static void check_same(const char *text, const char *method, double h, long long steps)
@@ -156,19 +157,35 @@ static void test_solvers(void)
     for (int i = 0; i < 4; i++) check_same_with(texts[i], "implicit-midpoint", 0x1p-2, 30, &newton);
 }
 
-/* Substeps have the same sizes: the absolute part of a tolerance has the units of x.  With taylor
- * they have where the time is the same, whose powers are in its coefficients. */
+/* Substeps have the same sizes: the absolute part of a tolerance has the units of x, and the series
+ * of taylor are in a unit of t. */
 static void test_tolerances(void)
 {
     static const char *const texts[] = {pendulum, crossed, triangle, partly, rolling, unlike};
-    const units lengths = {{0x1p-30, 0x1p40, 0x1p3}, 1.0, 0x1p5, 0x1p-9};
     dal_options options = dal_options_default();
     for (int i = 0; i < 6; i++) {
         options.tolerance = 1e-6;
         check_same_with(texts[i], "dop853", 1.0, 8, &options);
         options.tolerance = 1e-12;
         check_same_with(texts[i], "dop853", 1.0, 8, &options);
-        check_units(texts[i], "taylor", 1.0, 8, &options, &lengths, 1);
+        check_same_with(texts[i], "taylor", 1.0, 8, &options);
+        options.tolerance = 1e-15;
+        check_same_with(texts[i], "taylor", 1.0, 8, &options);
+        check_same(texts[i], "taylor", 0x1p-5, 8);
+        options.precision = DAL_QUAD;
+        check_same_with(texts[i], "taylor", 1.0, 1, &options);
+        options.precision = DAL_DOUBLE;
+    }
+}
+
+/* Lanes and single runs have the same bits in other units, too. */
+static void test_lanes(void)
+{
+    for (int i = 0; i < OTHERS; i++) {
+        const units *u = &others[i];
+        dal_run_spec spec = spec_in_units(pendulum, u, "taylor", 0.5);
+        spec.options.tolerance = 1e-10;
+        fixture_lanes(spec, 5, 4, "x", 1.0 / u->s[0], 0.25 / u->s[0]);
     }
 }
 
@@ -270,6 +287,7 @@ void suite_units(void)
     CU_add_test(suite, "pivots", test_pivots);
     CU_add_test(suite, "solvers", test_solvers);
     CU_add_test(suite, "tolerances", test_tolerances);
+    CU_add_test(suite, "lanes of series", test_lanes);
     CU_add_test(suite, "reversibility", test_reversibility);
     CU_add_test(suite, "tolerance of starts", test_start_tolerance);
     CU_add_test(suite, "consistent starts", test_consistent_starts);

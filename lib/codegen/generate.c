@@ -6,6 +6,7 @@
 #include "codegen/preprocessor.h"
 #include "core/error.h"
 #include "core/settings.h"
+#include "core/sizes.h"
 #include "dalembert_codegen.h"
 #include "expr/taylor_emit.h"
 #include "run/run.h"
@@ -246,6 +247,16 @@ static void write_units(dal__generation *g)
     dal__buffer_append(&g->text, "};\n");
 }
 
+/* The number of series, their order, and the unit of time of their coefficients. */
+static void write_series_constants(dal__generation *g)
+{
+    const dal__layout *k = &g->layout;
+    dal__buffer_print(&g->text, "#define DAL_FIXED_SERIES %d\n", count_series(g));
+    dal__buffer_print(&g->text, "#define DAL_FIXED_TAYLOR_ORDER %d\n", k->taylor_order);
+    write_number(g, "DAL_FIXED_TOLERANCE_ROOT", k->tolerance_root);
+    write_number(g, "DAL_FIXED_UNIT_OF_TIME", dal__unit_of_time(k->system));
+}
+
 static void write_constants(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
@@ -298,11 +309,7 @@ static void write_constants(dal__generation *g)
         if (list[i].solver && g->kernel & DAL_KERNEL_SOLVE)
             dal__buffer_print(&g->text, "#define DAL_FIXED_%s %d\n", list[i].name, list[i].value);
     if (dal__is_controlled(g)) write_number(g, "DAL_FIXED_TOLERANCE", k->options.tolerance);
-    if (g->kernel & DAL_KERNEL_SERIES) {
-        dal__buffer_print(&g->text, "#define DAL_FIXED_SERIES %d\n", count_series(g));
-        dal__buffer_print(&g->text, "#define DAL_FIXED_TAYLOR_ORDER %d\n", k->taylor_order);
-        write_number(g, "DAL_FIXED_TOLERANCE_ROOT", k->tolerance_root);
-    }
+    if (g->kernel & DAL_KERNEL_SERIES) write_series_constants(g);
     if (g->kernel & DAL_KERNEL_SOLVE)
         write_number(g, "DAL_FIXED_SOLVER_TOLERANCE", k->options.solver_tolerance);
 }

@@ -26,6 +26,12 @@ size_t dal__sizes_memory(const dal_system *system);
  * which change with the units of the user as t and q do. */
 void dal__find_sizes(dal__sizes *sizes, double *memory);
 
+/* The unit of time of a system, a power of two: the unit of a coordinate over its velocity's. */
+static inline double dal__unit_of_time(const dal_system *system)
+{
+    return system->units ? system->units[0] / system->units[system->n] : 1.0;
+}
+
 /* A power of two near x; 0, or 1 for what is not finite.  Numbers that are usual, as 1, sqrt(2) and
  * 2, are far from where it changes. */
 double dal__near_power_of_two(double x);

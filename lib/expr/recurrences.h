@@ -1,6 +1,6 @@
 /* recurrences.h - the recurrences of Taylor coefficients.
  *
- * u_k is coefficient k of u; sums run over j.  With (a b)_k = sum a_j b_(k-j) and, from
+ * u_k is coefficient k of u, in t/tau; sums run over j.  With (a b)_k = sum a_j b_(k-j) and, from
  * u' = g a',   [a, g]_k = (1/k) sum_(j=1..k) j a_j g_(k-j):
  *
  *     u = a b            u_k = (a b)_k
@@ -9,7 +9,7 @@
  *     u = a^r            u_k = (r [a, u]_k - (1/k) sum_(0<j<k) j u_j a_(k-j)) / a_0
  *     u = exp a          u_k = [a, u]_k
  *     u = sin, w = cos   u_k = [a, w]_k,  w_k = -[a, u]_k             (sinh, cosh without the sign)
- *                        of a coordinate: k u_k = (a' w)_(k-1),  k w_k = -(a' u)_(k-1)
+ *                        of a coordinate: k u_k = tau (a' w)_(k-1),  k w_k = -tau (a' u)_(k-1)
  *     u = tan, w = u^2   u_k = a_k + [a, w]_k,  w_k = (u u)_k         (tanh: a_k - [a, w]_k)
  *     u' w = g a'        u_k = ([a, g]_k - (1/k) sum_(0<j<k) j u_j w_(k-j)) / w_0:
  *         log a          g = 1, w = a
@@ -32,6 +32,7 @@
  *     a_0, .., w_0        coefficient 0
  *     b_before, c_before  coefficient k - 1
  *     inverse             1/k
+ *     unit_inverse        tau/k
  *     reciprocal          of what is divided by
  *     INNER(j)            inner sum j
  *     PRODUCT(a, b, j)    (a b)_k, by inner sum j
@@ -87,9 +88,12 @@ enum { DAL__TAYLOR_SUMS = 5 };
          INTEGRAL(a, w, 1), -1.0 * INTEGRAL(a, u, 0))                                              \
     PAIR(COS, SUMS({SLOPE_A, U}, {SLOPE_A, W}), dal_sin(a_0),                                      \
          -1.0 * INTEGRAL(a, w, 1), INTEGRAL(a, u, 0))                                              \
-    PAIR(SIN_TURN, NO_SUMS, dal_cos(a_0), inverse * b_before, -1.0 * (inverse * c_before))         \
-    PAIR(SINCOS_TURN, NO_SUMS, dal_cos(a_0), inverse * b_before, -1.0 * (inverse * c_before))      \
-    PAIR(COS_TURN, NO_SUMS, dal_sin(a_0), -1.0 * (inverse * c_before), inverse * b_before)         \
+    PAIR(SIN_TURN, NO_SUMS, dal_cos(a_0), unit_inverse * b_before,                                 \
+         -1.0 * (unit_inverse * c_before))                                                         \
+    PAIR(SINCOS_TURN, NO_SUMS, dal_cos(a_0), unit_inverse * b_before,                              \
+         -1.0 * (unit_inverse * c_before))                                                         \
+    PAIR(COS_TURN, NO_SUMS, dal_sin(a_0), -1.0 * (unit_inverse * c_before),                        \
+         unit_inverse * b_before)                                                                  \
     PAIR(SINH, SUMS({SLOPE_A, U}, {SLOPE_A, W}), dal_cosh(a_0),                                    \
          INTEGRAL(a, w, 1), INTEGRAL(a, u, 0))                                                     \
     PAIR(COSH, SUMS({SLOPE_A, U}, {SLOPE_A, W}), dal_sinh(a_0),                                    \

@@ -1,6 +1,9 @@
 /* taylor.h - the Taylor coefficients of expressions along a motion, order by order.
  *
- *     inputs x(t) = x_0 + x_1 t + x_2 t^2 + ..   ->   outputs f(x(t)) = f_0 + f_1 t + f_2 t^2 + ..
+ *     inputs x = x_0 + x_1 s + x_2 s^2 + ..   ->   outputs f(x) = f_0 + f_1 s + f_2 s^2 + ..
+ *
+ * in s = t/tau.  The unit of time tau is a power of two: with one of the motion no coefficient
+ * leaves the range of numbers, and none has other digits than with tau = 1.
  *
  * One recurrence per operation (recurrences.h) gives coefficient k of its result from coefficients
  * 0..k of its operands and 0..k-1 of itself.  A series program is made from tapes that are
@@ -60,11 +63,11 @@ dal_status dal__taylor_add(dal__taylor *taylor, const dal__tapes *tapes, int pro
                            const uint32_t *places);
 
 /* Coefficient k of all series, from the inputs' in[inputs] and from the lower ones in
- * memory; k < stride.  Coefficient k of outputs first.. first + count - 1.  All arrays are
- * interleaved by lanes. */
+ * memory; k < stride; unit: tau.  Coefficient k of outputs first.. first + count - 1.  All arrays
+ * are interleaved by lanes. */
 #define DAL__TAYLOR_RUN(name, variant, lanes, set)                                                 \
-    void name##_##variant(const dal__taylor *taylor, int k, int stride, const double *in,          \
-                          const double *work, double *memory);
+    void name##_##variant(const dal__taylor *taylor, double unit, int k, int stride,               \
+                          const double *in, const double *work, double *memory);
 #define DAL__TAYLOR_READ(name, variant, lanes, set)                                                \
     void name##_##variant(const dal__taylor *taylor, int first, int count, int k, int stride,      \
                           const double *work, const double *memory, double *out);

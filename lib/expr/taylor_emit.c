@@ -243,7 +243,8 @@ void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, bool 
     writer w = {.taylor = taylor, .tapes = tapes, .order = first ? "0" : "k", .text = text};
     if (!first) {
         dal__buffer_append(text, "    const num inverse = dal_inverse(k);\n"
-                                 "    (void)inverse;\n");
+                                 "    const num unit_inverse = DAL_FIXED_UNIT_OF_TIME * inverse;\n"
+                                 "    (void)inverse, (void)unit_inverse;\n");
         if (packed)
             write_packed_sums(&w);
         else

@@ -8,7 +8,7 @@
 /* Writes the program as C statements over num for order 0, or for an order k >= 1, with the same
  * bits.  Coefficient k < DAL_FIXED_TAYLOR_ORDER of series i is c[i][k], in
  * c[slots][DAL_FIXED_TAYLOR_ORDER + 1]; what is constant along a run is DAL_WORK(place), or a
- * number; the functions that are called are in kernel/series.h.
+ * number; tau is DAL_FIXED_UNIT_OF_TIME; the functions that are called are in kernel/series.h.
  * packed: for one lane.  Inner sums are formed in packs, for which their operands are stored a
  * second time, at l[dal__taylor_packed][DAL_FIXED_TAYLOR_ORDER + 1], and the last column of c is
  * 0. */

@@ -10,7 +10,7 @@ typedef struct expansion {
     const num *work;
     num *memory;
     int k, stride;
-    num inverse; /* 1/k */
+    num inverse, unit_inverse; /* 1/k, tau/k */
 } expansion;
 
 static inline num *series(const expansion *x, uint32_t slot)
@@ -123,8 +123,9 @@ static num convolve(const expansion *x, dal__convolution form, uint32_t first, u
     const num b_0 = coefficient(x, i->b, 0), u_0 = *series(x, i->u);                               \
     const num b_before = coefficient(x, i->b, k - 1), c_before = coefficient(x, i->c, k - 1);      \
     const num reciprocal = *series(x, i->reciprocal), inverse = x->inverse;                        \
+    const num unit_inverse = x->unit_inverse;                                                      \
     (void)a, (void)b, (void)c, (void)a_0, (void)b_0, (void)u_0, (void)b_before, (void)c_before;    \
-    (void)reciprocal, (void)inverse
+    (void)reciprocal, (void)inverse, (void)unit_inverse
 
 static void compute_next(const expansion *x, const dal__taylor_operation *i)
 {
@@ -151,11 +152,12 @@ static void compute_next(const expansion *x, const dal__taylor_operation *i)
     }
 }
 
-void DAL_WIDE(dal__taylor_run)(const dal__taylor *taylor, int k, int stride, const double *in,
-                               const double *work, double *memory)
+void DAL_WIDE(dal__taylor_run)(const dal__taylor *taylor, double unit, int k, int stride,
+                               const double *in, const double *work, double *memory)
 {
     const num inverse = dal_inverse(k + (k == 0)); /* order 0 does not use it */
-    const expansion x = {taylor, (const num *)work, (num *)memory, k, stride, inverse};
+    const expansion x = {taylor, (const num *)work, (num *)memory, k,
+                         stride, inverse,           unit * inverse};
     for (int i = 0; i < taylor->inputs; i++) series(&x, (uint32_t)i)[k] = ((const num *)in)[i];
     for (int n = 0; n < taylor->length; n++) {
         const dal__taylor_operation *i = &taylor->code[n];
@@ -169,6 +171,10 @@ void DAL_WIDE(dal__taylor_run)(const dal__taylor *taylor, int k, int stride, con
 void DAL_WIDE(dal__taylor_read)(const dal__taylor *taylor, int first, int count, int k, int stride,
                                 const double *work, const double *memory, double *out)
 {
-    const expansion x = {taylor, (const num *)work, (num *)memory, k, stride, dal_num(0.0)};
+    const expansion x = {.taylor = taylor,
+                         .work = (const num *)work,
+                         .memory = (num *)memory,
+                         .k = k,
+                         .stride = stride};
     for (int i = 0; i < count; i++) ((num *)out)[i] = coefficient(&x, taylor->output[first + i], k);
 }

@@ -66,6 +66,7 @@ typedef enum dal_callback_code {
 #define DAL_SERIES(s)         DAL_FIXED_SERIES
 #define DAL_TAYLOR_ORDER(s)   DAL_FIXED_TAYLOR_ORDER
 #define DAL_TOLERANCE_ROOT(s) DAL_FIXED_TOLERANCE_ROOT
+#define DAL_UNIT_OF_TIME(s)   DAL_FIXED_UNIT_OF_TIME
 #endif
 #define DAL_PLAIN(s)             DAL_FIXED_PLAIN
 #define DAL_TANGENT(s)           DAL_FIXED_TANGENT
@@ -109,9 +110,10 @@ enum { DAL_STEP_GROUPS = 1 };
 #define DAL_SERIES(s)                 ((s)->series_count)
 #define DAL_TAYLOR_ORDER(s)           ((s)->taylor_order)
 #define DAL_TOLERANCE_ROOT(s)         ((s)->tolerance_root)
-#define DAL_UNITS(s)                  ((s)->units)  /* [n + nw] of q, v, g; NULL: 1 */
-#define DAL_SPEEDS(s)                 ((s)->speeds) /* [nw] of v, g; NULL: all are the same */
-#define DAL_LEVELS(s)                 ((s)->levels) /* [m + 1] of D, E; NULL: likewise */
+#define DAL_UNIT_OF_TIME(s)           ((s)->unit_of_time) /* of series: a power of two */
+#define DAL_UNITS(s)                  ((s)->units)        /* [n + nw] of q, v, g; NULL: 1 */
+#define DAL_SPEEDS(s)                 ((s)->speeds)       /* [nw] of v, g; NULL: all are the same */
+#define DAL_LEVELS(s)                 ((s)->levels)       /* [m + 1] of D, E; NULL: likewise */
 
 #endif
 
@@ -174,6 +176,7 @@ struct dal_step {
     int series_count;        /* in memory */
     int taylor_order;        /* for the tolerance */
     double tolerance_root;   /* tolerance^(1/taylor_order) */
+    double unit_of_time;     /* of the system */
     struct dal_dense *dense; /* where to store the polynomial of a substep; NULL: nowhere */
     void *owner;             /* of eval and series */
 #endif

@@ -1,9 +1,11 @@
 /* taylor.h - the Taylor polynomial of the motion at the present state.
  *
- *     x(t + s) = x_0 + x_1 s + .. + x_p s^p,     x_(k+1) = f_k/(k+1)
+ *     x(t + tau s) = x_0 + x_1 s + .. + x_p s^p,     x_(k+1) = tau f_k/(k+1)
  *
  * with f_k coefficient k of the field along the motion, from x_0 .. x_k: dal_step.series has the
- * recurrences of F, the canonical variables follow here.  With w = 1/e, as series:
+ * recurrences of F, the canonical variables follow here.  The unit of time tau, a power of two,
+ * changes no digit; without it x_p would leave the range of numbers where the motion is slow or
+ * fast.  With w = 1/e, as series:
  *
  *     q' = v   v' = F + pi w   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi
  *     pi_e' = (pi pi)(w w)/2,   w_k = -w_0 sum_(j=1..k) e_j w_(k-j)
@@ -84,20 +86,20 @@ DAL_INLINE void dal__lifted_series(const dal_step *s, int k, const num *x, const
 #define DAL__IS_FINE_SERIES(s) 0
 #endif
 
-/* 1/k, and what its rounding took from it. */
+/* tau/k, and what its rounding took from it. */
 typedef struct dal__reciprocal {
     num rounded, rest;
 } dal__reciprocal;
 
 DAL_INLINE dal__reciprocal dal__reciprocal_of(const dal_step *s, int k)
 {
-    dal__reciprocal inverse = {dal_inverse(k), dal_num(0.0)};
-    if (DAL__IS_FINE_SERIES(s)) inverse.rest = dal_num(__builtin_fma(-1.0 / k, k, 1.0) / k);
-    (void)s;
+    const double unit = DAL_UNIT_OF_TIME(s);
+    dal__reciprocal inverse = {unit * dal_inverse(k), dal_num(0.0)};
+    if (DAL__IS_FINE_SERIES(s)) inverse.rest = dal_num(unit * __builtin_fma(-1.0 / k, k, 1.0) / k);
     return inverse;
 }
 
-/* x/k */
+/* tau x/k */
 DAL_INLINE num dal__divide(const dal_step *s, num x, const dal__reciprocal *k)
 {
     (void)s;
@@ -146,7 +148,7 @@ static DAL_UNUSED __attribute__((noinline)) void
 dal__expand_orders(dal_step *s, num *DAL_RESTRICT x, const dal_expansion *e)
 {
     for (int k = 1; k < DAL_TAYLOR_ORDER(s); k++)
-        dal__expand_order(s, dal_num(k == 1 ? 1.0 : 0.0), k, x, e);
+        dal__expand_order(s, dal_num(k == 1 ? DAL_UNIT_OF_TIME(s) : 0.0), k, x, e);
 }
 
 /* The same, after dal_expand_first. */
@@ -156,21 +158,22 @@ DAL_INLINE void dal_expand_rest(dal_step *s, num *x, const dal_expansion *e)
     dal__expand_orders(s, x, e);
 }
 
-/* By Horner's rule, rate = sum_(k=1..order) x_k h^(k-1), the mean rate of change over h, and the
- * derivative at its end, sum k x_k h^(k-1).  x, rate[dim] and derivative[dim] must have DAL__PACK
- * more numbers, since whole registers are read and written. */
+/* By Horner's rule, with s = h/tau: rate = sum_(k=1..order) x_k s^(k-1)/tau, the mean rate of
+ * change over h, and the derivative by s at its end, sum k x_k s^(k-1).  x, rate[dim] and
+ * derivative[dim] must have DAL__PACK more numbers, since whole registers are read and written. */
 DAL_INLINE void dal_evaluate_polynomial(const dal_step *s, dal_times h, const num *x,
                                         num *DAL_RESTRICT rate, num *DAL_RESTRICT derivative)
 {
     const int dim = DAL_DIM(s);
-    const dal__terms zero = {0}, size = (num)h - zero;
+    const double per_unit = 1.0 / DAL_UNIT_OF_TIME(s);
+    const dal__terms zero = {0}, size = per_unit * (num)h - zero;
     for (int i = 0; i < dim; i += DAL__TERMS) {
         dal__terms sum = zero, slope = zero;
         for (int k = DAL_TAYLOR_ORDER(s); k > 0; k--) {
             slope = DAL__FUSE_TERMS(size, slope, sum);
             sum = DAL__FUSE_TERMS(size, sum, *(const dal__terms *)(x + k * dim + i));
         }
-        *(dal__terms *)(rate + i) = sum;
+        *(dal__terms *)(rate + i) = per_unit * sum;
         *(dal__terms *)(derivative + i) = DAL__FUSE_TERMS(size, slope, sum);
     }
 }

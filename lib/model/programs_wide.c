@@ -1,5 +1,6 @@
 /* programs_wide.c - the callbacks of a model's system, over num: they load the inputs of a
  * tape, run it, and leave NaN in the lanes where a checked pivot has vanished. */
+#include "core/sizes.h"
 #include "kernel/num.h"
 #include "model/programs.h"
 
@@ -80,7 +81,7 @@ dal_status DAL_WIDE(dal__call_series)(const dal_system *system, int lifted, int 
     const int behind = outputs + checked + program->left; /* place of mu_e */
     double *scratch = work + p->scratch * WIDTH;
     num *to = (num *)out;
-    DAL_WIDE(dal__taylor_run)(taylor, k, stride, in, work, memory);
+    DAL_WIDE(dal__taylor_run)(taylor, dal__unit_of_time(system), k, stride, in, work, memory);
     DAL_WIDE(dal__taylor_read)(taylor, 0, outputs, k, stride, work, memory, out);
     if (lifted) to[outputs] = dal_num(0.0);
     if (taylor->outputs > behind) DAL_WIDE(dal__taylor_read)

@@ -2,6 +2,7 @@
  *
  * After the integrator has stepped, the engine accepts or rejects lane by lane, see
  * kernel/acceptance.h. */
+#include "core/sizes.h"
 #include "kernel/acceptance.h"
 #include "kernel/observables.h"
 #include "run/engine.h"
@@ -201,6 +202,7 @@ static void prepare_step(engine *e)
     s->series_count = k->system->series ? (int)k->system->series->size[k->lifted] : 0;
     s->taylor_order = k->taylor_order;
     s->tolerance_root = k->tolerance_root;
+    s->unit_of_time = dal__unit_of_time(k->system);
     s->owner = e;
 }
 

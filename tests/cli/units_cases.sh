@@ -227,3 +227,17 @@ END
 try 0 run atom.yaml --integrator rk4 --step 2e-15 --time 2e-13 --output atom
 sizes atom/summary.csv >sizes
 expect "E is rounding: $(grep '^E ' sizes)" grep -q '^E larger ' sizes
+
+# x = 1e-11 cos(w t), w = sqrt(k/m): the powers of w in its coefficients are beyond the numbers.
+case_is "the atom by Taylor series"
+try 0 run atom.yaml --integrator taylor --tolerance 1e-14 --step 2e-15 --time 2e-13 --native off --output off.csv
+expect "not the closed form: $(tail -n 1 off.csv)" awk -F, '
+    function off(x, y, size) { return x < y - 1e-12*size || x > y + 1e-12*size }
+    NR > 1 { w = sqrt(500/1.67e-27) }
+    NR > 1 && (off($2, 1e-11*cos(w*$1), 1e-11) || off($3, -1e-11*w*sin(w*$1), 1e-11*w)) { bad = 1 }
+    END { exit bad || NR < 100 }' off.csv
+if needs 2 "no compiler" there cc; then
+    try 0 run atom.yaml --integrator taylor --tolerance 1e-14 --step 2e-15 --time 2e-13 --native on --output on.csv
+    expect "compiled steps have other bits" cmp off.csv on.csv
+    counted
+fi
