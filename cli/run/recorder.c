@@ -19,19 +19,56 @@
 #include <string.h>
 #include <unistd.h>
 
+/* ---- results -------------------------------------------------------------------------------- */
+
+void run_results_begin(run_results *r, const dal_run *run)
+{
+    *r = (run_results){.observables = dal_run_observables(run)};
+    r->statistics = cli_calloc((size_t)r->observables + 1, sizeof *r->statistics);
+    r->trend = cli_calloc((size_t)r->observables + 1, sizeof *r->trend);
+    dal_statistics_start(r->statistics, r->observables);
+}
+
+void run_results_free(run_results *r)
+{
+    free(r->statistics);
+    free(r->trend);
+}
+
+static dal_status add_values(void *user, dal_run *run, int count, const double *t,
+                             const double *values, size_t stride)
+{
+    const run_results *r = user;
+    (void)run;
+    dal_statistics_add_many(r->statistics, r->observables, count, t, values, stride);
+    return DAL_STATUS_OK;
+}
+
+static dal_status add_scales(void *user, dal_run *run, const double *scales)
+{
+    const run_results *r = user;
+    (void)run;
+    dal_statistics_add_scales(r->statistics, r->observables, scales);
+    return DAL_STATUS_OK;
+}
+
+void run_results_observe(dal_observer *observer)
+{
+    observer->values = add_values;
+    observer->scales = add_scales;
+}
+
 /* ---- opening -------------------------------------------------------------------------------- */
 
 static int allocate_values(run_recorder *r)
 {
     const int status = columns_make(&r->columns, r->simulation);
     r->dimension = dal_run_dimension(r->simulation->run);
-    r->observables = dal_run_observables(r->simulation->run);
     const size_t count = (size_t)r->columns.values;
     r->values = cli_calloc(count, sizeof *r->values);
     r->row = cli_calloc(count, sizeof *r->row);
-    r->statistics = cli_calloc((size_t)r->observables + 1, sizeof *r->statistics);
-    r->trend = cli_calloc((size_t)r->observables + 1, sizeof *r->trend);
-    dal_statistics_start(r->statistics, r->observables);
+    run_results_begin(&r->results, r->simulation->run);
+    r->results.names = (const char *const *)r->columns.name + 1 + r->dimension;
     return status;
 }
 
@@ -49,10 +86,10 @@ static int open_writer(run_recorder *r, const char *output)
     free(names);
     if (!dir) return status;
     dir->descriptor = -1;
-    status = checkpoint_load(dir, &r->writer, &r->position, r->simulation->run, r->statistics,
-                             r->observables);
+    status = checkpoint_load(dir, &r->writer, &r->results.position, r->simulation->run,
+                             r->results.statistics, r->results.observables);
     if (status != CLI_DONE) return status;
-    return writer_continue(&r->writer, r->position.row, &r->position.sum);
+    return writer_continue(&r->writer, r->results.position.row, &r->results.position.sum);
 }
 
 static bool is_interrupted(void *user)
@@ -63,7 +100,7 @@ static bool is_interrupted(void *user)
 
 static int write_state(run_recorder *r, store_state state, const char *message)
 {
-    return manifest_write(r->dir, r->simulation, &r->position, state, message);
+    return manifest_write(r->dir, r->simulation, &r->results.position, state, message);
 }
 
 int recorder_open(run_recorder *r, const run_simulation *simulation, run_directory *dir,
@@ -77,7 +114,7 @@ int recorder_open(run_recorder *r, const run_simulation *simulation, run_directo
     if (status == CLI_DONE && dir && simulation->system->events > 0)
         status = event_log_open(&r->events, simulation, dir->events);
     if (status != CLI_DONE || !recorder_is_finished(r)) return status;
-    dal_run_classify(simulation->run, r->statistics, 0, r->trend);
+    dal_run_classify(simulation->run, r->results.statistics, 0, r->results.trend);
     /* The run may have been killed between its last checkpoint and the manifest. */
     return manifest_has_ended(dir->manifest) ? CLI_DONE : write_state(r, STORE_DONE, "");
 }
@@ -88,19 +125,14 @@ void recorder_close(run_recorder *r)
     free(r->values);
     free(r->row);
     columns_free(&r->columns);
-    free(r->statistics);
-    free(r->trend);
+    run_results_free(&r->results);
     event_log_close(&r->events);
 }
 
 bool recorder_is_finished(const run_recorder *r)
 {
-    return r->position.row > r->simulation->samples || dal_run_stopped(r->simulation->run) > 0;
-}
-
-const char *recorder_observable_name(const run_recorder *r, int i)
-{
-    return r->columns.name[1 + r->dimension + i];
+    return r->results.position.row > r->simulation->samples ||
+           dal_run_stopped(r->simulation->run) > 0;
 }
 
 /* ---- progress ------------------------------------------------------------------------------ */
@@ -164,11 +196,11 @@ static void show_line(const run_recorder *r, double t)
     append_remaining(&line, remaining(r, t));
     if (r->seconds > 0.0) append_piece(&line, ", %.2e steps/s", (double)steps / r->seconds);
     const char *before = ", moved: ";
-    for (int i = 0; i < r->observables; i++) {
-        const char *name = recorder_observable_name(r, i);
+    for (int i = 0; i < r->results.observables; i++) {
+        const char *name = r->results.names[i];
         if (name[0] == '|') continue; /* the norms of p and pi are for the summary */
         if (!append_piece(&line, "%s%s %.2g", before, name,
-                          dal_statistics_deviation(&r->statistics[i])))
+                          dal_statistics_deviation(&r->results.statistics[i])))
             break;
         before = ", ";
     }
@@ -182,13 +214,13 @@ static void show_json(const run_recorder *r, double t)
     json_put_number(&w, "t", t);
     json_put_number(&w, "time", r->simulation->end);
     json_put_integer(&w, "steps", dal_run_steps(r->simulation->run));
-    json_put_integer(&w, "rows", r->position.row);
-    json_put_number(&w, "seconds", r->position.seconds);
+    json_put_integer(&w, "rows", r->results.position.row);
+    json_put_number(&w, "seconds", r->results.position.seconds);
     json_put_number(&w, "remaining", fmax(0.0, remaining(r, t)));
     json_open(&w, "deviation", JSON_ON_ONE_LINE);
-    for (int i = 0; i < r->observables; i++)
-        json_put_number(&w, recorder_observable_name(r, i),
-                        dal_statistics_deviation(&r->statistics[i]));
+    for (int i = 0; i < r->results.observables; i++)
+        json_put_number(&w, r->results.names[i],
+                        dal_statistics_deviation(&r->results.statistics[i]));
     json_close(&w);
     json_close(&w);
     fputc('\n', w.out);
@@ -214,7 +246,7 @@ static void show_progress(run_recorder *r, double t, int at_the_end)
 static double stop_clock(run_recorder *r)
 {
     const double seconds = cli_seconds() - r->clock;
-    r->position.seconds += seconds;
+    r->results.position.seconds += seconds;
     r->seconds += seconds;
     return seconds;
 }
@@ -232,23 +264,6 @@ static dal_status add_event(void *user, dal_run *run, const dal_occurrence *even
     return library_status(r, event_log_add(&r->events, event));
 }
 
-static dal_status add_values(void *user, dal_run *run, int count, const double *t,
-                             const double *values, size_t stride)
-{
-    run_recorder *r = user;
-    (void)run;
-    dal_statistics_add_many(r->statistics, r->observables, count, t, values, stride);
-    return DAL_STATUS_OK;
-}
-
-static dal_status add_scales(void *user, dal_run *run, const double *scales)
-{
-    run_recorder *r = user;
-    (void)run;
-    dal_statistics_add_scales(r->statistics, r->observables, scales);
-    return DAL_STATUS_OK;
-}
-
 static dal_status add_row(void *user, dal_run *run, long long row, double t)
 {
     run_recorder *r = user;
@@ -259,7 +274,7 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
     dal_status status = dal_run_observe(run, state + r->dimension);
     if (status != DAL_STATUS_OK) return status;
     for (int i = 0; i < r->columns.count; i++) r->row[i] = r->values[r->columns.index[i]];
-    r->position.row++;
+    r->results.position.row++;
     if (r->shows_rows) cli_progress_end();
     if (r->add_row) r->add_row(r->row_user, r->row);
     status = library_status(r, writer_append(&r->writer, r->row));
@@ -273,10 +288,10 @@ static int save(run_recorder *r)
 {
     int status = writer_sync(&r->writer, r->dir->sync);
     if (status == CLI_DONE) status = event_log_flush(&r->events, r->dir->sync);
-    r->position.sum = r->writer.sum;
+    r->results.position.sum = r->writer.sum;
     if (status == CLI_DONE)
-        status = checkpoint_save(r->dir, &r->position, r->simulation->run, r->statistics,
-                                 r->observables);
+        status = checkpoint_save(r->dir, &r->results.position, r->simulation->run,
+                                 r->results.statistics, r->results.observables);
     r->saved = cli_seconds();
     return status;
 }
@@ -336,9 +351,9 @@ static int write_summary(const run_recorder *r)
     size_t length;
     FILE *out = cli_memstream_open(&text, &length);
     fprintf(out, "observable,first,final,maximum,deviation,%s\n", cli_trend_heads);
-    for (int i = 0; i < r->observables; i++) {
-        cli_put_text(out, recorder_observable_name(r, i));
-        cli_put_values(out, &r->trend[i]);
+    for (int i = 0; i < r->results.observables; i++) {
+        cli_put_text(out, r->results.names[i]);
+        cli_put_values(out, &r->results.trend[i]);
         fputc('\n', out);
     }
     cli_memstream_close(out);
@@ -378,25 +393,24 @@ int recorder_run(run_recorder *r, dal_error *error)
     r->observer = (dal_observer){.user = r,
                                  .sample = add_row,
                                  .poll = poll,
-                                 .values = add_values,
-                                 .scales = add_scales,
                                  .event = add_event,
                                  .every = s->request.statistics,
                                  .row_time = s->row_time ? row_time : NULL,
                                  .polling = 1};
+    run_results_observe(&r->observer);
     *error = (dal_error){0};
-    if (r->dir && r->position.row > 0 && write_state(r, STORE_RUNNING, "") != CLI_DONE)
+    if (r->dir && r->results.position.row > 0 && write_state(r, STORE_RUNNING, "") != CLI_DONE)
         return CLI_IO;
     r->saved = cli_seconds();
     r->start_time = dal_run_time(run);
     r->start_step = dal_run_steps(run);
     r->clock = cli_seconds();
     const dal_status status =
-        dal_run_sample(run, s->end, s->samples, r->position.row, &r->observer, error);
+        dal_run_sample(run, s->end, s->samples, r->results.position.row, &r->observer, error);
     stop_clock(r);
     if (r->progress != PROGRESS_OFF) cli_progress_end();
     show_progress(r, dal_run_time(run), 1);
-    dal_run_classify(run, r->statistics, status != DAL_STATUS_OK && status != DAL_STATUS_STOPPED,
-                     r->trend);
+    dal_run_classify(run, r->results.statistics,
+                     status != DAL_STATUS_OK && status != DAL_STATUS_STOPPED, r->results.trend);
     return write_end(r, end_status(r, status, error), error->message);
 }

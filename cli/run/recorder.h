@@ -23,18 +23,30 @@ typedef enum progress_mode { PROGRESS_AUTO, PROGRESS_JSON, PROGRESS_OFF } progre
             .parse = cli_parse_word, .offset = offsetof(settings, progress)                        \
     }
 
+/* What a run yields, beside its rows. */
+typedef struct run_results {
+    int observables;
+    const char *const *names;   /* [observables] the columns', or NULL */
+    dal_statistics *statistics; /* [observables] */
+    dal_trend *trend;           /* [observables] when the run is finished or has failed */
+    run_position position;
+} run_results;
+
+void run_results_begin(run_results *results, const dal_run *run);
+/* Has an observer add the values and scales of observables.  Its user begins with the results. */
+void run_results_observe(dal_observer *observer);
+void run_results_free(run_results *results);
+
 typedef struct run_recorder {
+    run_results results;
     const run_simulation *simulation;
     run_directory *dir; /* NULL: rows go to a file or to stdout, and nothing else is written */
     trajectory_writer writer;
-    int dimension, observables;
+    int dimension;
     run_columns columns;
-    double *values;             /* [1 + dimension + observables] t, state, all observables */
-    double *row;                /* the values that are columns */
-    dal_statistics *statistics; /* [observables] */
-    dal_trend *trend;           /* [observables] when the run is finished or has failed */
+    double *values; /* [1 + dimension + observables] t, state, all observables */
+    double *row;    /* the values that are columns */
     event_log events;
-    run_position position;
     dal_observer observer;
     native_run native;    /* set by who opens it; all 0: interpreted */
     double interval;      /* seconds between checkpoints */
@@ -63,6 +75,5 @@ void recorder_close(run_recorder *recorder);
  * CLI_SIGNAL; or CLI_IO and the like after a message, *error then having none. */
 int recorder_run(run_recorder *recorder, dal_error *error);
 bool recorder_is_finished(const run_recorder *recorder);
-const char *recorder_observable_name(const run_recorder *recorder, int i);
 
 #endif

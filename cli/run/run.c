@@ -50,7 +50,7 @@ static void print_end(const run_recorder *r, int status, const dal_error *error)
     if (status == CLI_SIGNAL && r->dir)
         store_interrupt(r->dir->path);
     else if (status == CLI_SIGNAL)
-        cli_fail(status, "interrupted; %lld rows are kept", r->position.row);
+        cli_fail(status, "interrupted; %lld rows are kept", r->results.position.row);
     else if (status != CLI_DONE && error->message[0])
         cli_error(status, r->simulation->request.system_name, error);
     else if (error->message[0])
@@ -102,7 +102,7 @@ int run_integrate(const run_simulation *simulation, run_directory *dir,
     if (status == CLI_DONE) status = open_events(&recorder, simulation, dir, settings);
     recorder.interval = settings->interval;
     recorder.progress = settings->progress;
-    const long long row = recorder.position.row;
+    const long long row = recorder.results.position.row;
     if (status == CLI_DONE && recorder_is_finished(&recorder)) {
         cli_note("'%s' is finished: %lld rows", dir->path, row);
     } else if (status == CLI_DONE) {
@@ -122,8 +122,8 @@ int run_integrate(const run_simulation *simulation, run_directory *dir,
         if (reader && !settings->details)
             run_screen_print(reader, &recorder, is_screen_alone ? NULL : output, settings->format);
         if (settings->details || (settings->summary && !isatty(STDERR_FILENO)))
-            summary_print(stderr, &recorder);
-        if (settings->details) summary_print_details(stderr, &recorder);
+            summary_print(stderr, simulation, &recorder.results);
+        if (settings->details) summary_print_details(stderr, &recorder.results);
     }
     recorder_close(&recorder);
     const int copied = copy_events(dir, settings);

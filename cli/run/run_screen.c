@@ -12,7 +12,7 @@
 enum { STATE_LINES = 3, OBSERVABLES = 11 };
 
 /* Whether two quantities share a line: they have the same verdict, without numbers. */
-static bool are_alike(const run_recorder *r, int i, int k)
+static bool are_alike(const run_results *r, int i, int k)
 {
     const verdict a = verdict_of(&r->trend[i]), b = verdict_of(&r->trend[k]);
     return !a.text[0] && !b.text[0] && strcmp(a.word, b.word) == 0;
@@ -20,7 +20,7 @@ static bool are_alike(const run_recorder *r, int i, int k)
 
 /* A line for each quantity, what is exact in the end.  Returns the first quantity that moves; -1:
  * none. */
-static int say_verdicts(screen *s, const run_recorder *r)
+static int say_verdicts(screen *s, const run_results *r)
 {
     const int n = r->observables;
     screen_table t = {.columns = 3, .heads = s->format != SCREEN_TEXT};
@@ -43,7 +43,7 @@ static int say_verdicts(screen *s, const run_recorder *r)
             continue;
         }
         for (int j = i; j < n; j++)
-            if (j == i || are_alike(r, i, j)) alike[count++] = recorder_observable_name(r, j);
+            if (j == i || are_alike(r, i, j)) alike[count++] = r->names[j];
         char *names = screen_list_names(alike, count, 3 * s->width / 8);
         screen_add_cell(&t, SCREEN_PLAIN, "%s", names);
         screen_add_cell(&t, v.colour, "%s", v.word);
@@ -73,7 +73,7 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output, scree
                dal_method_name(&request->method, method, sizeof method), space,
                screen_number(h, request->options.step, 4), request->from, dal_run_time(run));
     screen_say(&s, 2, "%s step%s in %s%s", screen_count(count, steps), steps == 1 ? "" : "s",
-               screen_seconds(seconds, r->position.seconds),
+               screen_seconds(seconds, r->results.position.seconds),
                dal_run_stopped(run) > 0  ? "; an event ended the run"
                : recorder_is_finished(r) ? ""
                                          : "; the run did not reach its end");
@@ -88,7 +88,7 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output, scree
     for (int i = 0; i < values; i++) free(items[i]);
     free(items);
     screen_skip(&s);
-    const int moving = say_verdicts(&s, r);
+    const int moving = say_verdicts(&s, &r->results);
     screen_skip(&s);
     if (format != SCREEN_TEXT) {
         screen_close(&s, NULL);
@@ -97,7 +97,7 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output, scree
     if (!path)
         screen_say(&s, 7, "Rows:  -o FILE.csv, or a pipe");
     else if (strcmp(path, "-") != 0)
-        screen_say(&s, 7, "Rows:  %lld in %s", r->position.row, path);
+        screen_say(&s, 7, "Rows:  %lld in %s", r->results.position.row, path);
     if (r->dir)
         screen_say(&s, 7, "Page:  dalembert report %s", r->dir->path);
     else
@@ -105,7 +105,7 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output, scree
     if (moving >= 0) {
         char *command =
             request_format_command(request, "explain", request->system_name, REQUEST_ROW_OPTIONS);
-        char *head = cli_format("Why %s moves:", recorder_observable_name(r, moving));
+        char *head = cli_format("Why %s moves:", r->results.names[moving]);
         screen_say_command(&s, head, command);
         free(command);
         free(head);

@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-void summary_print(FILE *out, const run_recorder *r)
+void summary_print(FILE *out, const run_simulation *simulation, const run_results *r)
 {
-    const run_request *request = &r->simulation->request;
-    const dal_run *run = r->simulation->run;
+    const run_request *request = &simulation->request;
+    const dal_run *run = simulation->run;
     const long long steps = dal_run_steps(run);
     char method[128];
     dal_method_name(&request->method, method, sizeof method);
@@ -25,14 +25,13 @@ void summary_print(FILE *out, const run_recorder *r)
         const int is_stated = f->conservation == DAL_CONSERVED;
         if (is_stated && !isnan(f->exponent))
             snprintf(exponent, sizeof exponent, "%.2f", f->exponent);
-        fprintf(out, "%-12s %14.7g %10.3g %10.3g %+10.2e (%+.1e %+.1e) %8s %9s  %s\n",
-                recorder_observable_name(r, i), f->last, f->max_abs, f->amplitude, f->rate,
-                f->rate_low, f->rate_high, exponent, is_stated ? dal_size_text(f->size) : "-",
-                cli_trend_text(f, text, sizeof text));
+        fprintf(out, "%-12s %14.7g %10.3g %10.3g %+10.2e (%+.1e %+.1e) %8s %9s  %s\n", r->names[i],
+                f->last, f->max_abs, f->amplitude, f->rate, f->rate_low, f->rate_high, exponent,
+                is_stated ? dal_size_text(f->size) : "-", cli_trend_text(f, text, sizeof text));
     }
 }
 
-void summary_print_details(FILE *out, const run_recorder *r)
+void summary_print_details(FILE *out, const run_results *r)
 {
     enum { TIMES = 50 };
     int found = 0;
@@ -44,8 +43,8 @@ void summary_print_details(FILE *out, const run_recorder *r)
         if (found++ == 0)
             fprintf(out, "rates in a run %d times as long, if the line bends on as in this one:\n",
                     TIMES);
-        fprintf(out, "%-12s %+.1e to %+.1e\n", recorder_observable_name(r, i),
-                f->rate - (TIMES - 1) * range, f->rate + (TIMES - 1) * range);
+        fprintf(out, "%-12s %+.1e to %+.1e\n", r->names[i], f->rate - (TIMES - 1) * range,
+                f->rate + (TIMES - 1) * range);
     }
     if (found == 0) fprintf(out, "rates in a longer run: no trend is linear\n");
 }

@@ -312,9 +312,9 @@ static void take_end(cell_run *r, const dal_error *error, bool has_failed)
 static void take_results(cell_run *r, const dal_error *error, int ended)
 {
     study_cell *c = r->cell;
-    memcpy(c->trend, r->recorder.trend, (size_t)c->observables * sizeof *c->trend);
+    memcpy(c->trend, r->recorder.results.trend, (size_t)c->observables * sizeof *c->trend);
     take_tracks(r);
-    c->seconds = r->recorder.position.seconds;
+    c->seconds = r->recorder.results.position.seconds;
     take_end(r, error, ended == CLI_FAILED);
 }
 
@@ -344,7 +344,7 @@ static int open_recorder(cell_run *r)
     choose_tracks(r);
     r->recorder.row_user = r;
     r->recorder.add_row = track_row;
-    return r->recorder.position.row > 0 ? read_rows(r) : CLI_DONE;
+    return r->recorder.results.position.row > 0 ? read_rows(r) : CLI_DONE;
 }
 
 static int run_in_directory(cell_run *r, const work_stop *stop)
@@ -371,9 +371,9 @@ static int run_in_directory(cell_run *r, const work_stop *stop)
 enum { POLLING = 124 /* steps */ };
 
 typedef struct short_run {
+    run_results results;
     cell_run *of_cell;
     const work_stop *stop;
-    dal_statistics *statistics; /* [observables] */
     native_run native;
 } short_run;
 
@@ -390,21 +390,6 @@ static dal_status add_end(void *user, dal_run *run, long long row, double t)
     return DAL_STATUS_OK;
 }
 
-static dal_status add_values(void *user, dal_run *run, int count, const double *t,
-                             const double *values, size_t stride)
-{
-    const short_run *s = user;
-    dal_statistics_add_many(s->statistics, dal_run_observables(run), count, t, values, stride);
-    return DAL_STATUS_OK;
-}
-
-static dal_status add_scales(void *user, dal_run *run, const double *scales)
-{
-    const short_run *s = user;
-    dal_statistics_add_scales(s->statistics, dal_run_observables(run), scales);
-    return DAL_STATUS_OK;
-}
-
 static dal_status poll_short_run(void *user, dal_run *run)
 {
     short_run *s = user;
@@ -418,23 +403,22 @@ static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
 {
     const run_simulation *simulation = &r->simulation;
     study_cell *c = r->cell;
-    const dal_observer observer = {.user = s,
-                                   .sample = add_end,
-                                   .poll = poll_short_run,
-                                   .values = add_values,
-                                   .scales = add_scales,
-                                   .every = simulation->request.statistics,
-                                   .row_time = simulation->row_time ? end_time : NULL,
-                                   .polling = POLLING};
+    dal_observer observer = {.user = s,
+                             .sample = add_end,
+                             .poll = poll_short_run,
+                             .every = simulation->request.statistics,
+                             .row_time = simulation->row_time ? end_time : NULL,
+                             .polling = POLLING};
     const double alike = cells_alike(c), steps = simulation->end / c->step,
                  start = cli_thread_seconds();
     s->native = native_begin(simulation->run, simulation->end,
                              alike * steps / (double)simulation->request.statistics, alike,
                              r->plan->native);
+    run_results_observe(&observer);
     const dal_status status =
         dal_run_sample(simulation->run, simulation->end, 1, 0, &observer, error);
     const bool has_ended = status == DAL_STATUS_OK || status == DAL_STATUS_STOPPED;
-    dal_run_classify(simulation->run, s->statistics, !has_ended, c->trend);
+    dal_run_classify(simulation->run, s->results.statistics, !has_ended, c->trend);
     c->seconds = cli_thread_seconds() - start;
     return has_ended ? DAL_STATUS_OK : status;
 }
@@ -447,10 +431,9 @@ static int run_without_rows(cell_run *r, const work_stop *stop)
     begin_results(c, r->simulation.run);
     if (study_results_get(r->plan->results, number, c)) return CLI_DONE;
     short_run s = {.of_cell = r, .stop = stop};
-    s.statistics = cli_calloc((size_t)c->observables, sizeof *s.statistics);
-    dal_statistics_start(s.statistics, c->observables);
+    run_results_begin(&s.results, r->simulation.run);
     const dal_status status = integrate(r, &s, &error);
-    free(s.statistics);
+    run_results_free(&s.results);
     if (status == DAL_STATUS_INTERRUPTED) return CLI_SIGNAL;
     take_end(r, &error, status != DAL_STATUS_OK);
     return study_results_add(r->plan->results, number, c, r->plan->interval);
