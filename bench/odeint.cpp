@@ -44,7 +44,7 @@ static inline void real_sincos(real x, real *s, real *c)
 
 constexpr int DIM = scalar::SMALL_DIM, STEPS = 1000;
 
-template <class Real, void (*field)(const Real *, Real *)> int work(void *self, double *end)
+template <class Real, void (*field)(const Real *, Real *)> int integrate(void *self, double *end)
 {
     using state = std::array<Real, DIM>;
     odeint::runge_kutta4<state, double, state, double, odeint::array_algebra> stepper;
@@ -67,12 +67,12 @@ int main(int argc, char **argv)
         const char *name;
         bench_contender timed;
     } contender[] = {
-        {"rk4 A", {STEPS, DIM, work<double, scalar::sleigh_field>, A}},
-        {"rk4 B3", {STEPS, DIM, work<double, scalar::chain3_field>, B3}},
-        {"rk4x8 A", {8.0 * STEPS, DIM, work<num, wide::sleigh_field>, A}},
-        {"rk4x8 B3", {8.0 * STEPS, DIM, work<num, wide::chain3_field>, B3}},
-        {"rk4x16 A", {16.0 * STEPS, DIM, work<wider::real, wider::sleigh_field>, A}},
-        {"rk4x16 B3", {16.0 * STEPS, DIM, work<wider::real, wider::chain3_field>, B3}},
+        {"rk4 A", {STEPS, DIM, integrate<double, scalar::sleigh_field>, A}},
+        {"rk4 B3", {STEPS, DIM, integrate<double, scalar::chain3_field>, B3}},
+        {"rk4x8 A", {8.0 * STEPS, DIM, integrate<num, wide::sleigh_field>, A}},
+        {"rk4x8 B3", {8.0 * STEPS, DIM, integrate<num, wide::chain3_field>, B3}},
+        {"rk4x16 A", {16.0 * STEPS, DIM, integrate<wider::real, wider::sleigh_field>, A}},
+        {"rk4x16 B3", {16.0 * STEPS, DIM, integrate<wider::real, wider::chain3_field>, B3}},
     };
     for (const auto &c : contender)
         if (bench_is(argc, argv, c.name)) return bench_measure(&c.timed);

@@ -85,7 +85,7 @@ static dal_status check_needs(const dal__layout *k, dal_error *error)
                      name ? name : "this system", fault);
 }
 
-static dal_status check_system(const dal_system *system, dal_error *error)
+static dal_status check_system_sizes(const dal_system *system, dal_error *error)
 {
     if (system->n < 1)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "a system needs coordinates; n is %d",
@@ -394,7 +394,7 @@ static void guess_operations(dal__layout *k)
 dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error *error)
 {
     DAL_TRY(dal__check_spec(spec, error));
-    DAL_TRY(check_system(spec->system, error));
+    DAL_TRY(check_system_sizes(spec->system, error));
     DAL_TRY(check_options(&spec->options, error));
     if (!isfinite(spec->start_time))
         return dal__fail(error, DAL_STATUS_ARGUMENT,
