@@ -1,6 +1,7 @@
 /* list.c - `dalembert list`: the built-in systems, integrators and modifiers.
  *
  * What is listed is selected first, and then written as tables or as JSON. */
+#include "dalembert_evaluator.h"
 #include "dalembert_method.h"
 #include "io/json.h"
 #include "run/system.h"
@@ -25,7 +26,8 @@ typedef struct settings {
     int width; /* what the tables fit into; 0: any */
 } settings;
 
-enum { SYSTEMS, INTEGRATORS, TABLES };
+/* Without a word the first two are listed. */
+enum { SYSTEMS, INTEGRATORS, LISTED, MODIFIERS = LISTED, UNITS, TABLES };
 
 /* What is listed. */
 typedef struct selection {
@@ -196,6 +198,8 @@ static const char *list_properties(char line[LINE], const dal_integrator *k, con
 
 static bool is_selected(const dal_integrator *k, const settings *s)
 {
+    const bool has_modifiers_alone = s->table && strcmp(s->table, "modifiers") == 0;
+    if (has_modifiers_alone && !(k->properties & DAL_MODIFIER)) return false;
     if (s->order > 0 && k->order != s->order) return false;
     if (s->preserves < 0) return true;
     const property *p = &invariants[s->preserves];
@@ -264,6 +268,60 @@ static void put_integrators(json_writer *w, const selection *list)
     }
 }
 
+/* ---- units --------------------------------------------------------------------------------- */
+
+/* The units of a system at its start: of time, then of each coordinate. */
+static double *find_units(const dal_system *system)
+{
+    dal_scaled *scaled = NULL;
+    const dal_run_spec spec = {.system = system, .options = dal_options_default()};
+    const size_t bytes = (1 + (size_t)system->n) * sizeof(double);
+    double *units = cli_calloc(1, bytes);
+    for (int i = 0; i <= system->n; i++) units[i] = NAN;
+    if (cli_is_ok(dal_scaled_create(&scaled, &spec, NULL)))
+        memcpy(units, dal_scaled_units(scaled), bytes);
+    dal_scaled_free(scaled);
+    return units;
+}
+
+static void print_units(const selection *list, const settings *s)
+{
+    cli_table table = {.text = 2};
+    cli_table_append(&table, "system\ttime\tcoordinates");
+    for (int i = 0; i < list->systems; i++) {
+        const dal_system *system = list->system[i];
+        const char *tick = s->markdown ? "`" : "";
+        double *units = find_units(system);
+        char *lengths = cli_strdup("");
+        for (int k = 0; k < system->n; k++) {
+            char *longer = cli_format("%s%s%s %.10g", lengths, k > 0 ? ", " : "",
+                                      system->coordinate[k], units[1 + k]);
+            free(lengths);
+            lengths = longer;
+        }
+        cli_table_append(&table, "%s%s%s\t%.10g\t%s", tick, list->name[i], tick, units[0], lengths);
+        free(lengths);
+        free(units);
+    }
+    end_table(&table, s);
+}
+
+static void put_units(json_writer *w, const selection *list)
+{
+    for (int i = 0; i < list->systems; i++) {
+        const dal_system *system = list->system[i];
+        double *units = find_units(system);
+        json_open(w, NULL, JSON_LINES);
+        json_put_text(w, "system", list->name[i]);
+        json_put_number(w, "time", units[0]);
+        json_open(w, "coordinates", JSON_ON_ONE_LINE);
+        for (int k = 0; k < system->n; k++) json_put_number(w, system->coordinate[k], units[1 + k]);
+        json_close(w);
+        json_close(w);
+        free(units);
+    }
+}
+
 /* ---- the command --------------------------------------------------------------------------- */
 
 static const struct {
@@ -273,7 +331,10 @@ static const struct {
     void (*put)(json_writer *w, const selection *list);
 } tables[TABLES] = {{"systems", "--tag selects", select_systems, print_systems, put_systems},
                     {"integrators", "--order and --preserves select", select_integrators,
-                     print_integrators, put_integrators}};
+                     print_integrators, put_integrators},
+                    {"modifiers", "--order and --preserves select", select_integrators,
+                     print_integrators, put_integrators},
+                    {"units", "--tag selects", select_systems, print_units, put_units}};
 
 static const cli_option options[] = {
     {"long", NULL, NULL, "prints everything, on a terminal too; also tags of systems",
@@ -285,7 +346,8 @@ static const cli_option options[] = {
      CLI_WORD(settings, preserves)},
     {"markdown", NULL, NULL, "prints Markdown tables", CLI_FLAG(settings, markdown)},
     JSON_OPTION(settings),
-    {NULL, "TABLE", NULL, "systems or integrators; both when it is not given",
+    {NULL, "TABLE", NULL,
+     "systems, integrators, modifiers or units; the first two when it is not given",
      CLI_TEXT(settings, table)},
 };
 
@@ -302,19 +364,23 @@ static int check_table(const char *table)
 /* Without a table's name those that are filtered, or both. */
 static int select_tables(selection *list, const settings *s)
 {
-    const bool filtered[TABLES] = {s->tag != NULL, s->order > 0 || s->preserves >= 0};
+    const bool has_tag = s->tag != NULL, has_kind = s->order > 0 || s->preserves >= 0;
+    const bool is_of_systems[TABLES] = {[SYSTEMS] = true, [UNITS] = true};
     int status = s->table ? check_table(s->table) : CLI_DONE;
     for (int i = 0; i < TABLES && status == CLI_DONE; i++) {
         const bool is_named = s->table && strcmp(s->table, tables[i].name) == 0;
-        const bool is_wanted = filtered[i] || filtered[0] == filtered[1];
-        if (s->table && !is_named && filtered[i])
-            return cli_fail(CLI_USAGE, "list %s: %s %s", s->table, tables[i].filters,
-                            tables[i].name);
+        const bool is_filtered = is_of_systems[i] ? has_tag : has_kind;
+        const bool is_wanted = i < LISTED && (is_filtered || has_tag == has_kind);
+        const int other = is_of_systems[i] ? INTEGRATORS : SYSTEMS;
+        if (is_named && (is_of_systems[i] ? has_kind : has_tag))
+            return cli_fail(CLI_USAGE, "list %s: %s %s", s->table, tables[other].filters,
+                            tables[other].name);
         list->has[i] = s->table ? is_named : is_wanted;
         if (list->has[i]) status = tables[i].select(list, s);
     }
-    const bool is_empty = (list->has[SYSTEMS] && list->systems == 0) ||
-                          (list->has[INTEGRATORS] && list->integrators == 0);
+    bool is_empty = false;
+    for (int i = 0; i < TABLES; i++)
+        is_empty |= list->has[i] && (is_of_systems[i] ? list->systems : list->integrators) == 0;
     if (status != CLI_DONE || !is_empty) return status;
     return cli_fail(CLI_USAGE, "list: nothing matches; 'dalembert list --long' shows orders, "
                                "what is preserved, and tags");
@@ -341,6 +407,7 @@ static void put_tables(const selection *list, const settings *s)
     json_put_text(&w, "preserves", s->preserves < 0 ? NULL : invariants[s->preserves].word);
     json_close(&w);
     for (int i = 0; i < TABLES; i++) {
+        if (i >= LISTED && !list->has[i]) continue;
         json_open_list(&w, tables[i].name, JSON_LINES);
         if (list->has[i]) tables[i].put(&w, list);
         json_close(&w);
@@ -368,7 +435,7 @@ static int print_names(const selection *list)
         int count;
     } lists[] = {{"Systems", "list systems", system, systems},
                  {"Integrators", "list integrators", integrator[0], count[0]},
-                 {"Modifiers, as in rk4+project", "list integrators", integrator[1], count[1]}};
+                 {"Modifiers, as in rk4+project", "list modifiers", integrator[1], count[1]}};
     screen s;
     screen_open(&s, stdout, SCREEN_TEXT);
     for (int i = 0; i < 3; i++) {
@@ -403,8 +470,8 @@ static int list(int argc, char **argv)
 
 const cli_command command_list = {
     .name = "list",
-    .synopsis = "dalembert list [systems|integrators] [OPTION]...",
-    .about = "lists the built-in systems, integrators and modifiers",
+    .synopsis = "dalembert list [systems|integrators|modifiers|units] [OPTION]...",
+    .about = "lists the built-in systems and their units, integrators and modifiers",
     .notes =
         "Systems: n coordinates, m constraints D; the class of D as a function of (q,v); whether "
         "the motion conserves the energy E = L_v.v - L; whether an exact solution is known.\n"
@@ -413,6 +480,10 @@ const cli_command command_list = {
         "nothing about D or the energy; '... D' names the constraints, 'energy' the energy, that "
         "are preserved to rounding on D = 0.  A modifier +WORD follows an integrator, NAME+WORD: "
         "rk4+project.  'as NAME' means the properties of NAME.  'adaptive' takes --tolerance.\n"
+        "\n"
+        "Units: the time and the lengths by which the program compares numbers of a system, powers "
+        "of "
+        "two that follow from its motion near the start.\n"
         "\n"
         "A terminal gets the names alone where no TABLE is given.  On a terminal, or where the "
         "environment has COLUMNS, tables have the columns that fit, "

@@ -8,6 +8,7 @@
 #include "run/pool.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 #include "ui/table.h"
 
 #include <math.h>
@@ -310,6 +311,58 @@ static long long print_failures(const ensemble *e, const long long *counts)
     return failed;
 }
 
+/* The last time on a terminal: what differs between members as mean +- deviation, the rest as
+ * values. */
+static int print_screen(const statistics *s, const long long *counts)
+{
+    enum { ROWS_SHOWN = 12, CONSTANT_LINES = 2 };
+    const ensemble *e = s->e;
+    static const char *const heads[] = {"", "mean", "deviation", "from", "to"};
+    screen_table t = {.columns = sizeof heads / sizeof *heads};
+    char **constant = cli_calloc((size_t)e->columns + 1, sizeof *constant);
+    char x[SCREEN_NUMBER], count[SCREEN_NUMBER], method[128];
+    long long failed = 0;
+    int constants = 0, left_out = 0;
+    screen out;
+    screen_open(&out, stdout, SCREEN_TEXT);
+    for (int i = 0; i < t.columns; i++) screen_add_cell(&t, SCREEN_PLAIN, "%s", heads[i]);
+    for (int i = 0; i < e->columns; i++) {
+        const dal_spread *spread = &s->component[(e->times - 1) * e->columns + i].spread;
+        const double numbers[] = {spread->mean, spread->deviation, spread->min, spread->max};
+        if (spread->min == spread->max) {
+            constant[constants++] =
+                cli_format("%s = %s", e->column[i], screen_number(x, spread->min, 4));
+        } else if (t.cells / t.columns > ROWS_SHOWN) {
+            left_out++;
+        } else {
+            screen_add_cell(&t, SCREEN_PLAIN, "%s", e->column[i]);
+            for (int k = 0; k < 4; k++)
+                screen_add_cell(&t, k < 2 ? SCREEN_PLAIN : SCREEN_FAINT, "%s",
+                                screen_number(x, numbers[k], k == 1 ? 2 : 4));
+        }
+    }
+    for (int i = 0; i < DAL_STATUS_COUNT; i++) failed += counts[i];
+    screen_say(&out, 2, "%s by %s, h = %s: %s members until t = %.6g",
+               e->simulation.request.system_name,
+               dal_method_name(&e->spec.method, method, sizeof method),
+               screen_number(x, e->spec.options.step, 4), screen_count(count, e->members),
+               e->time[e->times - 1]);
+    if (failed == 0) screen_say(&out, 2, "All of them reached the end");
+    screen_skip(&out);
+    screen_add_table(&out, &t, "lr", 2);
+    if (left_out > 0) screen_say(&out, 2, "  ... and %d more (statistics.csv)", left_out);
+    screen_skip(&out);
+    if (constants > 0) screen_say(&out, 2, "In all members:");
+    screen_say_items(&out, (const char *const *)constant, constants, CONSTANT_LINES, "");
+    screen_say(&out, 7, "States: %s in %s", s->dir->has_rows ? "rows.npy, final.npy" : "final.npy",
+               s->dir->path);
+    screen_say(&out, 7, "Page:   dalembert report %s", s->dir->path);
+    for (int i = 0; i < constants; i++) free(constant[i]);
+    free(constant);
+    screen_free_table(&t);
+    return screen_close(&out, NULL);
+}
+
 static int print_table(const statistics *s)
 {
     const ensemble *e = s->e;
@@ -334,7 +387,8 @@ static int write_files(const statistics *s, long long *counts)
     if (status == CLI_DONE) status = write_table(s, s->dir->cloud, put_cloud);
     if (status == CLI_DONE) status = write_failures(s, counts);
     if (status == CLI_DONE) status = ensemble_directory_write_manifest(s->dir, s->e, STORE_DONE);
-    return status == CLI_DONE ? print_table(s) : status;
+    if (status != CLI_DONE) return status;
+    return screen_has_reader() ? print_screen(s, counts) : print_table(s);
 }
 
 int ensemble_finish(const ensemble *e, const ensemble_directory *dir, int threads)

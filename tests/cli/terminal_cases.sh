@@ -232,6 +232,45 @@ if needs 7 "no terminal (script, stty)" terminal; then
     prints '^  appell-hamel, '
     counted
 fi
+if needs 15 "no terminal (script, stty)" terminal; then
+    case_is "ensemble: what differs between members, and where their states are"
+    # Uniform circular motion: phi = phi' t, so that deviations at t = 2 have the ratio 2; phi' is conserved.
+    ensemble="ensemble chaplygin-sleigh --members 100 --seed 3 --vary \"phi'=uniform(1,2)\" --time 2 --step 0.05"
+    shown 80 "$ensemble" -o members
+    fits 80
+    prints '^chaplygin-sleigh by gauss4\+project, h = 0\.05: 100 members until t = 2$'
+    prints '^All of them reached the end$'
+    prints '^  +mean +deviation +from +to$'
+    expect "deviations of phi and phi'" awk '
+        $1 == "phi" { angle = $3 } $1 == "phi\047" { speed = $3 }
+        END { exit !(speed > 0.2 && speed < 0.4 && angle > 1.9 * speed && angle < 2.1 * speed) }' plain
+    prints '^In all members:$'
+    prints ' e = 1 '
+    prints '^States: final\.npy in members$'
+    prints '^Page:   dalembert report members$'
+    shown 60 "$ensemble" -o members60
+    fits 60
+    shown 80 "ensemble nonholonomic-particle --integrator rk4 --members 8 --seed 1 --vary \"x'=uniform(1,2)\" --step 1e200 --time 1e201" -o failing
+    refute "all reached the end" grep -q "All of them" out
+
+    case_is "list: modifiers, and units as powers of two"
+    shown 80 list modifiers
+    prints '^\+suzuki4 '
+    refute "an integrator" grep -q '^gauss4 ' out
+    counted
+fi
+case_is "list: units are powers of two"
+try 0 list units
+expect "no system" has_lines out "$(($("$program" list systems | wc -l)))"
+expect "no powers of two" awk 'NR > 2 { for (i = 2; i <= NF; i++) { x = $i + 0
+        if ($i !~ /^[0-9.e+-]+,?$/) continue
+        power = log(x) / log(2)
+        if (power - sprintf("%.0f", power) > 1e-6 || power - sprintf("%.0f", power) < -1e-6) exit 1 } }' out
+table <<'END'
+2 | list units --order 4 | says list units: --order and --preserves select integrators
+2 | list modifiers --tag integrable | says list modifiers: --tag selects systems
+END
+
 case_is "order: the space is the default of run"
 try 0 order chaplygin-sleigh --integrators rk4,gni --json
 expect "another space" grep -q '^    "space": "lifted",$' out
