@@ -1,4 +1,4 @@
-/* pack.c - `dalembert pack DIR`: an archive of what was asked for, and of the tables. */
+/* pack.c - `dalembert pack DIR`: an archive of the request and the tables of a result. */
 #include "dalembert.h"
 #include "io/file.h"
 #include "io/tar.h"
