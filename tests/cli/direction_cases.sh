@@ -66,6 +66,7 @@ table <<'END'
 2 | run $run --step -3 --from 2 --time 1 | says --step: -3 is larger than the time -1
 2 | lyapunov $run --step -0.125 --time 1 | says --step: -0.125 is not positive
 2 | lyapunov $run --step 0.125 --time -1 | says --time: -1 is not positive
+2 | explain chaplygin-sleigh --integrator dop853 --tolerance 1e-8 --time -1 | says --time: -1 is not positive
 END
 
 case_is "a directory of a run backwards is resumed"
