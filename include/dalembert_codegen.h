@@ -42,6 +42,7 @@ typedef struct dal_native_options {
     int nice;             /* by how much its priority is lower, 0..19 */
     bool (*stop)(void *); /* called often while a compiler runs: true kills it; NULL: never */
     void *user;           /* the argument of stop */
+    bool only_cached;     /* no compiler is started: code that is not there is unsupported */
 } dal_native_options;
 
 /* Compiles the steps of a run: generates them, compiles them for this machine and loads them, or

@@ -36,6 +36,11 @@ static int tear_down(void)
 static const char falling[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y^2/2\n"
                               "start: {x: 1, y: 1}\n";
 
+static const char cached_model[] = "coordinates: [x, z]\nlagrangian: (x'^2 + z'^2)/2 - 3*z^2/2\n"
+                                   "start: {x: 1, z: 1}\n";
+static const char cached_rival[] = "coordinates: [x, z]\nlagrangian: (x'^2 + z'^2)/2 - 5*z^2/2\n"
+                                   "start: {x: 1, z: 1}\n";
+
 static dal_run *new_run(const char *model)
 {
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.01);
@@ -111,6 +116,35 @@ static void use_cache(const char *model)
     CU_ASSERT_EQUAL(folder_files(kept), 1);
 }
 
+/* Starts no compiler, and takes what others have compiled, of other parameters too. */
+static void test_only_cached(void)
+{
+    const dal_native_options only = {.cache = kept, .compiler = "./fake", .only_cached = true};
+    compiler_fake("printf x >>called; exec cc \"$@\"");
+    char path[512];
+    dal_run *run = new_run(cached_model);
+    dal_error error;
+    dal_native *native;
+    CU_ASSERT_EQUAL(dal_native_begin(&native, run, &only, &error), DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT_STRING_EQUAL(error.message, "the cache has no such code");
+    CU_ASSERT_PTR_NULL(native);
+    CU_ASSERT_EQUAL(compilations(), 0);
+    use_cache(cached_model);
+    CU_ASSERT_EQUAL(compilations(), 1);
+    CU_ASSERT_EQUAL(dal_run_native(run, &only, NULL), DAL_STATUS_OK);
+    CU_ASSERT(dal_run_is_native(run));
+    CU_ASSERT_EQUAL(compilations(), 1);
+    dal_run_free(run);
+    /* Of the same names and sizes, but another text. */
+    run = new_run(cached_rival);
+    CU_ASSERT_EQUAL(dal_native_begin(&native, run, &only, &error), DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT_EQUAL(compilations(), 1);
+    dal_run_free(run);
+    unlink(only_object(path, sizeof path));
+    unlink("called");
+    unlink("fake");
+}
+
 /* Any byte of it, of what the loader never reads too; cut short, or longer, or empty. */
 static void test_changed_object(void)
 {
@@ -178,7 +212,7 @@ static void test_object_of_others(void)
  * a compiler that waits for a pipe, as a run does that was killed while it runs. */
 static void test_abandoned(void)
 {
-    enum { HASH = 32 };
+    enum { HASH = 48 };
     const dal_native_options waiting = {.cache = kept, .compiler = "./fake", .patience = 600};
     char folder[64], file[80];
     dal_native *native = NULL;
@@ -247,6 +281,7 @@ void suite_cache(void)
 {
     CU_pSuite suite = CU_add_suite("cache", set_up, tear_down);
     if (!compiler_there()) return;
+    CU_add_test(suite, "code of the cache alone", test_only_cached);
     CU_add_test(suite, "an object that was changed", test_changed_object);
     CU_add_test(suite, "objects of other texts and commands", test_objects_apart);
     CU_add_test(suite, "objects that others may write", test_object_of_others);

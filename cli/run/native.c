@@ -26,13 +26,25 @@
  * is left nothing is to be gained by it. */
 static const double measured = 0.002, left_alone = 0.5, left_together = 10.0;
 
-/* A compiler beside a run has a lower priority, and more time than one that is waited for. */
+/* Seconds that it takes to search the cache, where it has code for such a system, measured: a text
+ * is written and hashed, at a microsecond an operation of F and its Jacobian, an object read and
+ * loaded.  Where the cache has none it takes some 10 microseconds. */
+static const double search = 0.001, search_operation = 1e-6;
+/* Twice that must be left: compiled steps take a third and less of the time. */
+#define SEARCH_WORTH 2.0
+
+/* A compiler beside a run has more time than one that is waited for.  It has a lower priority where
+ * the run may end before it pays: at a lower one it may not run at all between other processes.
+ * Where more than URGENT interpreted steps are left, several times what it takes, it has the same,
+ * since each second that it waits the run is interpreted. */
 enum { NICE = 10, PATIENCE = 600 /* seconds */ };
+#define URGENT 2e6
 
 /* Interpreted, the observables of a sample take about this time per coordinate; so much must be
- * spent on them to compile them. */
+ * spent on them to compile them, and so much to search for them. */
 #define NS_SAMPLE 50.0
 #define NS_WORTH  1e8
+#define NS_SEARCH 5e6
 
 /* ---- the code of all runs ---- */
 
@@ -125,19 +137,20 @@ static native_code *begin_code(const native_run *n, const dal_native_options *op
     return memory->native ? (codes = memory) : NULL;
 }
 
-typedef enum compiler_place { BESIDE_THE_RUN, BEFORE_THE_RUN } compiler_place;
+/* Where code comes from: the cache alone, or else a compiler. */
+typedef enum code_source { CACHE, BESIDE_THE_RUN, URGENTLY_BESIDE, BEFORE_THE_RUN } code_source;
 
 /* Begins to compile the next part of a run, unless that is done already. */
-static native_code *start_compiler(const native_run *n, compiler_place place)
+static native_code *get_code(const native_run *n, code_source source)
 {
-    const bool is_awaited = place == BEFORE_THE_RUN;
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     dal_error error = {.message = "no directory to keep compiled ones in"};
     native_code *const memory = cli_calloc(1, sizeof *memory);
     char *directory = native_cache();
     const dal_native_options options = {.cache = directory,
-                                        .patience = is_awaited ? 0 : PATIENCE,
-                                        .nice = is_awaited || n->alike > 1.0 ? 0 : NICE};
+                                        .patience = source == BEFORE_THE_RUN ? 0 : PATIENCE,
+                                        .nice = source == BESIDE_THE_RUN ? NICE : 0,
+                                        .only_cached = source == CACHE};
     pthread_once(&once, at_exit);
     pthread_mutex_lock(&mutex);
     native_code *c = find_code(n);
@@ -145,9 +158,8 @@ static native_code *start_compiler(const native_run *n, compiler_place place)
     pthread_mutex_unlock(&mutex);
     if (c != memory) free(memory);
     free(directory);
-    if (c) return c;
-    print_failure(n->part, &error);
-    return NULL;
+    if (!c && source != CACHE) print_failure(n->part, &error);
+    return c;
 }
 
 /* ---- runs ---- */
@@ -156,8 +168,10 @@ static void begin_part(native_run *n, native_part part)
 {
     n->part = part;
     n->code = NULL;
+    n->has_searched = false;
     n->clock = cli_thread_seconds();
     n->time = dal_run_time(n->run);
+    n->steps = dal_run_steps(n->run);
 }
 
 /* Whether the part is there or failed: then the run uses it, or does without, and begins the
@@ -176,12 +190,40 @@ static bool use_code(native_run *n)
     return true;
 }
 
-/* Whether a compiler is worth starting beside the run: so much of it is left, as fast as it was. */
-static bool is_worth_it(const native_run *n)
+/* What of the run is left, and of those that take such steps, if it stays as fast as it was. */
+typedef struct rest {
+    double seconds, steps; /* 0 where that is not known yet */
+} rest;
+
+static rest estimate_rest(const native_run *n)
 {
     const double seconds = cli_thread_seconds() - n->clock, t = dal_run_time(n->run);
-    const double left = n->alike * seconds * (n->end - t) / (t - n->time);
-    return seconds >= measured && left >= (n->alike > 1.0 ? left_together : left_alone);
+    const double times = n->alike * (n->end - t) / (t - n->time);
+    if (!(seconds >= measured && times > 0.0)) return (rest){0.0, 0.0};
+    return (rest){times * seconds, times * (double)(dal_run_steps(n->run) - n->steps)};
+}
+
+/* Takes the next part from the cache, once, where more of the run is left than that takes. */
+static native_code *search_cache(native_run *n, const rest *left)
+{
+    const dal_system *s = dal_run_system(n->run);
+    const double operations = (double)s->field_operations + (double)s->jacobian_operations;
+    if (n->has_searched || left->seconds < SEARCH_WORTH * (search + search_operation * operations))
+        return NULL;
+    n->has_searched = true;
+    return get_code(n, CACHE);
+}
+
+/* Starts a compiler beside the run where it is worth it: so much is left.  A part that cannot be
+ * compiled is left out. */
+static native_code *compile_beside(native_run *n, const rest *left)
+{
+    if (n->part == NATIVE_OBSERVABLES && !n->observes) return NULL;
+    if (left->seconds < (n->alike > 1.0 ? left_together : left_alone)) return NULL;
+    const bool is_urgent = n->alike > 1.0 || left->steps >= URGENT;
+    native_code *const c = get_code(n, is_urgent ? URGENTLY_BESIDE : BESIDE_THE_RUN);
+    if (!c) begin_part(n, n->part + 1);
+    return c;
 }
 
 void native_poll(native_run *n)
@@ -194,8 +236,11 @@ void native_poll(native_run *n)
         is_free = !compiles();
         pthread_mutex_unlock(&mutex);
     }
-    if (!n->code && is_free && is_worth_it(n) && !(n->code = start_compiler(n, BESIDE_THE_RUN)))
-        begin_part(n, n->part + 1);
+    if (!n->code) {
+        const rest left = estimate_rest(n);
+        n->code = search_cache(n, &left);
+        if (!n->code && is_free) n->code = compile_beside(n, &left);
+    }
     if (n->code) use_code(n);
 }
 
@@ -204,7 +249,7 @@ static void compile_now(native_run *n)
 {
     const struct timespec pause = {0, 1000000};
     while (n->part < n->parts && !cli_interrupted()) {
-        if (!n->code && !(n->code = start_compiler(n, BEFORE_THE_RUN)))
+        if (!n->code && !(n->code = get_code(n, BEFORE_THE_RUN)))
             begin_part(n, n->part + 1);
         else if (!use_code(n))
             nanosleep(&pause, NULL);
@@ -213,9 +258,9 @@ static void compile_now(native_run *n)
 
 native_run native_begin(dal_run *run, double end, double samples, double alike, native_mode mode)
 {
-    native_run n = {.run = run, .end = end, .alike = alike};
     const double cost = samples * NS_SAMPLE * dal_run_system(run)->n;
-    const bool observes = samples > 0.0 && (mode == NATIVE_ON || cost > NS_WORTH);
+    const bool observes = samples > 0.0 && (mode == NATIVE_ON || cost > NS_SEARCH);
+    native_run n = {.run = run, .end = end, .alike = alike, .observes = cost > NS_WORTH};
     n.parts = mode == NATIVE_OFF ? NATIVE_STEPS : observes ? NATIVE_PARTS : NATIVE_OBSERVABLES;
     begin_part(&n, NATIVE_STEPS);
     if (mode == NATIVE_ON) compile_now(&n);

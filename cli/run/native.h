@@ -1,12 +1,14 @@
 /* native.h - compiled steps for a run: when they pay, and where they are cached.
  *
  * Where --native is auto a run is interpreted at once, and changes over to compiled steps between
- * two steps when a compiler beside it has made them.  No bit depends on where that is. */
+ * two steps when it finds them in the cache, or when a compiler beside it has made them.  No bit
+ * depends on where that is. */
 #ifndef DAL_CLI_NATIVE_H
 #define DAL_CLI_NATIVE_H
 
 #include "dalembert_run.h"
 #include "ui/options.h"
+#include <stdbool.h>
 
 /* The words of --native, "auto|on|off". */
 typedef enum native_mode { NATIVE_AUTO, NATIVE_ON, NATIVE_OFF } native_mode;
@@ -31,6 +33,9 @@ typedef struct native_run {
     native_part part;         /* the next, NATIVE_PARTS: there is none */
     native_part parts;        /* where it ends */
     double clock, time;       /* when the last part was there: of the thread, and of the run */
+    long long steps;          /* of the run, then */
+    bool has_searched;        /* the cache, for the part */
+    bool observes;            /* enough to compile its observables */
     struct native_code *code; /* of the part, or NULL */
 } native_run;
 

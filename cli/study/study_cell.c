@@ -30,6 +30,17 @@ static double cells_alike(const study_cell *c)
     return *study_cell_method_steps(c) / study_cell_length(c);
 }
 
+/* Interpreted steps that take as long as to compile them. */
+#define STEPS_WORTH 500000.0
+
+/* --native of a cell: `on` compiles before the first of the cells that take such steps where that
+ * takes less time than they do. */
+static native_mode cell_native(const study_plan *plan, const study_cell *c)
+{
+    const bool is_long = *study_cell_method_steps(c) >= STEPS_WORTH;
+    return plan->native == NATIVE_ON && !is_long ? NATIVE_AUTO : plan->native;
+}
+
 /* What of a column is on a track: its size, or its change since the start. */
 typedef enum column_measure { NOT_TRACKED, MAX_ABS, CHANGE } column_measure;
 
@@ -358,7 +369,7 @@ static int run_in_directory(cell_run *r, const work_stop *stop)
         recorder->interval = r->plan->interval;
         recorder->progress = PROGRESS_OFF;
         recorder->native = native_begin(r->simulation.run, r->simulation.end, 0.0,
-                                        cells_alike(r->cell), r->plan->native);
+                                        cells_alike(r->cell), cell_native(r->plan, r->cell));
         ended = recorder_run(recorder, &error);
     }
     if (ended != CLI_DONE && ended != CLI_FAILED) return ended;
@@ -413,7 +424,7 @@ static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
                  start = cli_thread_seconds();
     s->native = native_begin(simulation->run, simulation->end,
                              alike * steps / (double)simulation->request.statistics, alike,
-                             r->plan->native);
+                             cell_native(r->plan, c));
     run_results_observe(&observer);
     const dal_status status =
         dal_run_sample(simulation->run, simulation->end, 1, 0, &observer, error);

@@ -1,8 +1,9 @@
 /* cache.c - compiled code in a private directory.
  *
- * The name of an object is a hash of its text and of the command that compiles it.  A hash of its
- * own bytes follows at its end, where loaders do not read, so that a truncated or changed object is
- * compiled again; so is one that is no regular file, or that another user owns or may write.
+ * The name of an object is a key, by which one finds whether making its text is worth it, and a
+ * hash of its text and of the command that compiles it.  A hash of its own bytes follows at its
+ * end, where loaders do not read, so that a truncated or changed object is compiled again; so is
+ * one that is no regular file, or that another user owns or may write.
  *
  * An object is written elsewhere and renamed, so that no process sees a part of it: in a folder of
  * its compilation alone, OBJECT.so.XXXXXX, with the compiler's temporary files.  The source there
@@ -246,17 +247,19 @@ static dal_status seal(const char *path, dal_error *error)
     return sealed && closed ? DAL_STATUS_OK : failed(error, "seal", path);
 }
 
+enum { KEY_DIGITS = 16, NAME_DIGITS = 48 }; /* of names, the key included */
+
 /* A path that no compiler takes for an option, and no loader for a name to record for. */
-static dal_status name_object(const command *c, const char *directory, const char *text, char *path,
-                              size_t size, dal_error *error)
+static dal_status name_object(const command *c, const char *directory, uint64_t key,
+                              const char *text, char *path, dal_error *error)
 {
     const size_t length = strlen(text);
     uint64_t one = dal__hash(DAL__HASH_START, text, length), two = dal__hash(1, text, length);
     for (int i = 0; i < c->words; i++) one = dal__hash(one, c->word[i], strlen(c->word[i]) + 1);
-    const int written =
-        snprintf(path, size, "%s%s/%016llx%016llx.so", directory[0] == '/' ? "" : "./", directory,
-                 (unsigned long long)one, (unsigned long long)two);
-    if (written > 0 && (size_t)written < size) return DAL_STATUS_OK;
+    const int written = snprintf(
+        path, DAL__OBJECT_PATH, "%s%s/%016llx%016llx%016llx.so", directory[0] == '/' ? "" : "./",
+        directory, (unsigned long long)key, (unsigned long long)one, (unsigned long long)two);
+    if (written > 0 && written < DAL__OBJECT_PATH) return DAL_STATUS_OK;
     return dal__fail(error, DAL_STATUS_ARGUMENT, "the path '%.80s...' is too long", directory);
 }
 
@@ -303,14 +306,17 @@ static void remove_abandoned(const char *folder)
     if (lock >= 0) close(lock);
 }
 
+static size_t digits_of(const char *name) { return strspn(name, "0123456789abcdef"); }
+
 /* Removes the folders that processes left which were killed, named by a hash, ".so." and more. */
 static void remove_all_abandoned(const char *directory)
 {
     char path[DAL__OBJECT_PATH + 40];
     DIR *cache = opendir(directory);
     for (const struct dirent *entry; cache && (entry = readdir(cache));) {
-        const size_t hash_length = strspn(entry->d_name, "0123456789abcdef");
-        if (hash_length != 32 || strncmp(entry->d_name + 32, ".so.", 4) != 0) continue;
+        if (digits_of(entry->d_name) != NAME_DIGITS ||
+            strncmp(entry->d_name + NAME_DIGITS, ".so.", 4) != 0)
+            continue;
         const int length = snprintf(path, sizeof path, "%s/%s", directory, entry->d_name);
         if (length > 0 && (size_t)length < sizeof path) remove_abandoned(path);
     }
@@ -357,8 +363,27 @@ static dal_status start(dal__compilation *c, const char *text, dal_error *error)
     return status;
 }
 
+uint64_t dal__compilation_key(uint64_t key, const void *bytes, size_t length)
+{
+    return dal__hash(key, bytes, length);
+}
+
+bool dal__compilation_is_likely(const dal_native_options *options, uint64_t key)
+{
+    char digits[KEY_DIGITS + 1];
+    snprintf(digits, sizeof digits, "%016llx", (unsigned long long)key);
+    DIR *cache = options && options->cache ? opendir(options->cache) : NULL;
+    bool found = false;
+    for (const struct dirent *entry; cache && !found && (entry = readdir(cache));)
+        found = strncmp(entry->d_name, digits, KEY_DIGITS) == 0 &&
+                digits_of(entry->d_name) == NAME_DIGITS &&
+                strcmp(entry->d_name + NAME_DIGITS, ".so") == 0;
+    if (cache) closedir(cache);
+    return found;
+}
+
 dal_status dal__compilation_begin(dal__compilation *c, const dal_native_options *options,
-                                  const char *text, dal_error *error)
+                                  uint64_t key, const char *text, dal_error *error)
 {
     if (!options || !options->cache || !options->cache[0])
         return dal__fail(error, DAL_STATUS_ARGUMENT, "no directory for compiled steps");
@@ -370,10 +395,13 @@ dal_status dal__compilation_begin(dal__compilation *c, const dal_native_options 
         return dal__fail(error, DAL_STATUS_ARGUMENT, "the path '%.80s...' is too long", compiler);
     snprintf(c->compiler, sizeof c->compiler, "%s", compiler);
     const command words = begin_command(c->compiler);
-    DAL_TRY(name_object(&words, options->cache, text, c->path, DAL__OBJECT_PATH, error));
+    DAL_TRY(name_object(&words, options->cache, key, text, c->path, error));
     DAL_TRY(make_private(options->cache, error));
     remove_all_abandoned(options->cache);
-    return is_usable(c->path) ? DAL_STATUS_OK : start(c, text, error);
+    if (is_usable(c->path)) return DAL_STATUS_OK;
+    return options->only_cached
+               ? dal__fail(error, DAL_STATUS_UNSUPPORTED, "the cache has no such code")
+               : start(c, text, error);
 }
 
 void dal__compilation_forget(const dal__compilation *c) { unlink(c->path); }

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "dalembert_codegen.h"
+#include <stdint.h>
 
 enum { DAL__OBJECT_PATH = 1024 };
 
@@ -20,10 +21,14 @@ typedef struct dal__compilation {
     long process; /* the compiler; 0: none runs */
 } dal__compilation;
 
+/* A key with more bytes; 0 at first.  Texts that are likely the same have one in common. */
+uint64_t dal__compilation_key(uint64_t key, const void *bytes, size_t length);
+/* Whether the cache has objects of a key.  Takes less time than making a text. */
+bool dal__compilation_is_likely(const dal_native_options *options, uint64_t key);
 /* Finds the object in the cache, or else starts a compiler.  Errors: DAL_STATUS_ARGUMENT,
- * DAL_STATUS_IO (cache), DAL_STATUS_UNSUPPORTED (no compiler). */
+ * DAL_STATUS_IO (cache), DAL_STATUS_UNSUPPORTED (no compiler, or only_cached). */
 dal_status dal__compilation_begin(dal__compilation *c, const dal_native_options *options,
-                                  const char *text, dal_error *error);
+                                  uint64_t key, const char *text, dal_error *error);
 /* Loads the object, if it is whole, a regular file of this user, and not writable by others: a
  * handle of dlopen, or NULL. */
 void *dal__compilation_load(const dal__compilation *c);

@@ -196,6 +196,34 @@ static dal_status write_observables(dal_native *native, const dal_run *run, dal_
     return dal__generation_finish(&g, &native->text, error);
 }
 
+static uint64_t add_name(uint64_t key, const char *name)
+{
+    return name ? dal__compilation_key(key, name, strlen(name) + 1) : key;
+}
+
+/* A number that differs where texts differ in most cases, at once: the text of a large system takes
+ * a second. */
+static uint64_t key_of(const dal_native *native)
+{
+    const dal__layout *k = &native->layout;
+    const dal_system *s = k->system;
+    const int numbers[] = {(int)native->product,
+                           native->lanes,
+                           native->exact,
+                           k->n,
+                           k->m,
+                           k->nw,
+                           k->lifted,
+                           s->parameters,
+                           s->field_operations,
+                           s->jacobian_operations};
+    uint64_t key = dal__compilation_key(0, numbers, sizeof numbers);
+    for (int i = 0; native->product != DAL__PRODUCT_OBSERVE && i < k->depth; i++)
+        key = add_name(key, k->method.layer[i]->name);
+    for (int i = 0; s->coordinate && i < k->n; i++) key = add_name(key, s->coordinate[i]);
+    return add_name(key, s->name);
+}
+
 /* Writes the text of a product for a layout, of observables for a run, and begins to compile it. */
 static dal_status begin(dal_native **native, dal__product product, int lanes,
                         const dal__layout *layout, const dal_run *run,
@@ -208,10 +236,15 @@ static dal_status begin(dal_native **native, dal__product product, int lanes,
     made->layout = *layout;
     made->lanes = lanes;
     made->exact = run && run->exact;
-    dal_status status = product == DAL__PRODUCT_OBSERVE ? write_observables(made, run, error)
-                                                        : write_steps(made, error);
+    const uint64_t key = key_of(made);
+    dal_status status = DAL_STATUS_OK;
+    if (options && options->only_cached && !dal__compilation_is_likely(options, key))
+        status = dal__fail(error, DAL_STATUS_UNSUPPORTED, "the cache has no such code");
     if (status == DAL_STATUS_OK)
-        status = dal__compilation_begin(&made->compilation, options, made->text, error);
+        status = product == DAL__PRODUCT_OBSERVE ? write_observables(made, run, error)
+                                                 : write_steps(made, error);
+    if (status == DAL_STATUS_OK)
+        status = dal__compilation_begin(&made->compilation, options, key, made->text, error);
     if (status == DAL_STATUS_OK)
         *native = made;
     else

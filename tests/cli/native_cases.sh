@@ -8,7 +8,7 @@ case_is "native: interpreted, for comparison"
 try 0 run $motion --native off --output tape.csv
 silent
 expect "off made a cache" test ! -e cache
-if needs 94 "no compiler" there cc; then
+if needs 103 "no compiler" there cc; then
     case_is "native: the same bytes"
     try 0 run $motion --native on --output native.csv
     silent
@@ -74,8 +74,9 @@ if needs 94 "no compiler" there cc; then
     try 0 run $motion --native off --output tape.csv
 
     case_is "native: a study"
-    printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: [0.1, 0.05]' 'time: 2' \
-        'systems: [chaplygin-sleigh]' >native.yaml
+    # Long enough for a compiler: half a million steps of each method and space.
+    printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: [0.01, 0.005]' 'time: 1700' 'samples: 10' \
+        'statistics: 1000' 'systems: [chaplygin-sleigh]' >native.yaml
     try 0 study native.yaml --output native-study --native on
     silent
     try 0 study native.yaml --output tape-study --native off
@@ -95,15 +96,33 @@ if needs 94 "no compiler" there cc; then
     expect "not the steps of two methods on two spaces" test "$(wc -l <gate/begun)" -eq 4
     cmp -s native-study/quantities.csv tape-study/quantities.csv || fail "other bytes"
 
+    case_is "native: short cells of a study are not compiled"
+    sed 's/time:.*/time: 20/' native.yaml >short.yaml
+    rm -rf cache gate/begun native-study
+    PATH=$PWD/gate:$PATH try 0 study short.yaml --output native-study --native on --threads 4
+    silent
+    expect "something is compiled" test ! -e gate/begun
+
     case_is "native: nothing is compiled again for other parameters and starts"
     sed "s/systems:.*/systems: [{system: chaplygin-sleigh, set: {m: [0.5, 2, 3]}, start: {phi': [1, 2]}}]/" \
-        native.yaml >grid.yaml
+        native.yaml | sed 's/time:.*/time: 290/' >grid.yaml
     rm -rf cache gate/begun native-study tape-study
     PATH=$PWD/gate:$PATH try 0 study grid.yaml --output native-study --native on --threads 4
     silent
     expect "not the steps of two methods on two spaces" test "$(wc -l <gate/begun)" -eq 4
     try 0 study grid.yaml --output tape-study --native off
     cmp -s native-study/quantities.csv tape-study/quantities.csv || fail "other bytes"
+
+    case_is "native: auto takes from the cache what is there"
+    cached="chaplygin-sleigh --integrator gauss4 --step 0.01 --samples 10"
+    rm -rf cache gate/begun
+    try 0 run $cached --time 1 --native on --output cached
+    PATH=$PWD/gate:$PATH try 0 run $cached --time 5000 --output cached --force
+    expect "not native" grep -q '"native": true' cached/manifest.json
+    expect "something is compiled" test ! -e gate/begun
+    cp cached/trajectory.npy native.npy
+    try 0 run $cached --time 5000 --native off --output cached --force
+    expect "other bytes" cmp -s native.npy cached/trajectory.npy
 
     case_is "native: changed over to while the run goes on"
     size() { wc -c <"$1"; }
