@@ -30,6 +30,18 @@ dal_status dal__parse_number(const char *text, size_t length, double *value);
  * locale the same, infinity as inf or -inf, and NaN as nan.  Returns the number of characters
  * before the NUL; dal__parse_number gives x again where it is finite. */
 int dal__format_number(char *text, double x);
+/* A number as the sum of its nearest double and the rest. */
+typedef struct dal__decimal {
+    double value, rest;
+} dal__decimal;
+/* The decimal number of at most 15 digits that reads as x, 0.1 where x is 0.1 + 5.6e-18; x itself
+ * where there is none.  The difference of two such numbers, and a multiple of one. */
+dal__decimal dal__as_decimal(double x);
+dal__decimal dal__decimal_difference(double a, double b);
+dal__decimal dal__decimal_multiple(double x, double factor);
+/* The double nearest to from + length part/whole, to 2^-98, with from as a decimal.  That is 0.3
+ * for 3 parts of 10 in 1, of 30 in 3, and of 300 in 30. */
+double dal__add_share(double from, dal__decimal length, double part, double whole);
 
 /* ---- hashes -------------------------------------------------------------------------------- */
 

@@ -149,11 +149,13 @@ typedef struct dal_observer {
 } dal_observer;
 
 /* Advances the run to time T and samples rows first_row..samples, T0 = start_time, at t = T0 +
- * row*(T - T0)/samples, the last at T exactly.  The trajectory consists of steps h, which must lead
- * to T; dal_run_intermediate gives a row between two of them.  After an interruption between rows
- * pass the first row not sampled.  observer may be NULL.  A step that would pass an event of the
- * system ends at it, to rounding; the next one has size h again.  Where an event ends the run, or
- * cannot be passed, the last row is there, at the time that is reached.  Errors: as for a step;
+ * row*(T - T0)/samples, rounded once, where T0 and T are the decimal numbers of at most 15 digits
+ * that read as these doubles, where there are such: a run to 3 T with 3 samples has its first rows
+ * at the same times.  The trajectory consists of steps h, which must lead to T;
+ * dal_run_intermediate gives a row between two of them.  After an interruption between rows pass
+ * the first row not sampled.  observer may be NULL.  A step that would pass an event of the system
+ * ends at it, to rounding; the next one has size h again.  Where an event ends the run, or cannot
+ * be passed, the last row is there, at the time that is reached.  Errors: as for a step;
  * DAL_STATUS_STOPPED where an event ends the run; DAL_STATUS_EVENT where one cannot be passed: it
  * happens infinitely often, as when a ball comes to rest, or leaves velocities that lead out of the
  * allowed side; DAL_STATUS_UNSUPPORTED with events on the lifted space off p = pi = 0;

@@ -160,6 +160,52 @@ static void test_texts_that_are_no_numbers(void)
     reads("0000000000000000000000000000.00000000000000000000000000000000000012345e40");
 }
 
+static double decimal(int digits, int exponent)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%de-%d", digits, exponent);
+    return strtod(text, NULL);
+}
+
+/* Rows at a distance of d 10^-e, from 0 on and up to 0: the doubles nearest to the decimal numbers,
+ * however many rows there are. */
+static void rows_are_decimal(int d, int e, int count)
+{
+    const dal__decimal length = dal__decimal_difference(decimal(d * count, e), 0.0);
+    const dal__decimal multiple = dal__decimal_multiple(decimal(d, e), count);
+    bool agrees = true;
+    for (int k = 0; k < 10; k++)
+        agrees &= dal__add_share(0.0, length, k, count) == decimal(d * k, e) &&
+                  dal__add_share(0.0, multiple, k, count) == decimal(d * k, e) &&
+                  dal__add_share(-length.value, length, k, count) == -decimal(d * (count - k), e);
+    CU_ASSERT(agrees);
+}
+
+static void test_rows_at_decimal_times(void)
+{
+    for (int e = 1; e < 25; e += 3)
+        for (int d = 1; d < 40; d += 2) {
+            rows_are_decimal(d, e, 10);
+            rows_are_decimal(d, e, 300);
+            rows_are_decimal(d, e, 700);
+        }
+}
+
+/* What 15 digits do not read as is itself, to the bit. */
+static void test_numbers_as_decimals(void)
+{
+    const double third = 1.0 / 3.0, pi = acos(-1.0);
+    CU_ASSERT(dal__as_decimal(third).rest == 0.0 && dal__as_decimal(-pi).rest == 0.0);
+    CU_ASSERT(dal__as_decimal(0.5).rest == 0.0 && dal__as_decimal(1e22).rest == 0.0);
+    /* 0.1 = 3602879701896397 2^-55 - 0.2 2^-55 */
+    CU_ASSERT(fabs(dal__as_decimal(0.1).rest / 0x1p-55 + 0.2) < 1e-15);
+    CU_ASSERT(isnan(dal__as_decimal(NAN).value) && isinf(dal__as_decimal(INFINITY).value));
+    CU_ASSERT(dal__as_decimal(4e-320).value == 4e-320);
+    for (int k = 0; k < 100; k++)
+        CU_ASSERT(dal__add_share(0.0, dal__decimal_difference(pi, 0.0), k, 100) ==
+                  dal__add_share(0.0, dal__decimal_difference(4.0 * pi, 0.0), k, 400));
+}
+
 void suite_decimal(void);
 void suite_decimal(void)
 {
@@ -169,6 +215,8 @@ void suite_decimal(void)
     CU_add_test(suite, "near the middle of two numbers of 17 digits", test_middles_of_digits);
     CU_add_test(suite, "near the middle of two doubles", test_middles_of_doubles);
     CU_add_test(suite, "drawn numbers", test_drawn_numbers);
+    CU_add_test(suite, "rows at decimal times", test_rows_at_decimal_times);
+    CU_add_test(suite, "numbers as decimals", test_numbers_as_decimals);
     CU_add_test(suite, "zero, infinity, NaN", test_what_is_no_ordinary_number);
     CU_add_test(suite, "texts that are no numbers", test_texts_that_are_no_numbers);
 }

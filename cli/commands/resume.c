@@ -2,6 +2,7 @@
 #include "ensemble/ensemble_run.h"
 #include "report/report_ensemble.h"
 #include "report/report_study.h"
+#include "run/extension.h"
 #include "run/manifest.h"
 #include "run/pool.h"
 #include "run/run.h"
@@ -11,13 +12,14 @@
 #include "ui/commands.h"
 #include "ui/message.h"
 
-static int resume_run(const char *directory, const run_settings *settings)
+static int resume_run(const char *directory, const run_extension *extension,
+                      const run_settings *settings)
 {
     run_directory dir;
     run_simulation simulation = simulation_default();
     run_directory_open(&dir, directory);
     int status = manifest_read(&dir, &simulation.request);
-    if (status == CLI_DONE) status = simulation_create(&simulation);
+    if (status == CLI_DONE) status = extension_create(&dir, &simulation, extension);
     if (status == CLI_DONE) status = run_directory_lock(&dir, 0);
     if (status == CLI_DONE) status = run_integrate(&simulation, &dir, settings);
     simulation_free(&simulation);
@@ -29,12 +31,14 @@ typedef struct settings {
     const char *directory;
     long long threads;
     bool no_page;
+    run_extension extension;
     run_settings run;
 } settings;
 
 static const cli_option options[] = {
     POOL_THREADS_OPTION(settings, "cells of a study, or chunks of an ensemble, at a time"),
     REPORT_NO_PAGE_OPTION(settings),
+    EXTENSION_OPTIONS(settings, extension),
     {NULL, "DIR", CLI_REQUIRED, "what 'run', 'study' or 'ensemble' wrote with --output DIR",
      CLI_TEXT(settings, directory)},
 };
@@ -58,7 +62,7 @@ static int resume(int argc, char **argv)
     study_directory_open(&dir, s.directory);
     const bool is_study = study_directory_has_study(&dir);
     study_directory_close(&dir);
-    if (!is_study) return resume_run(s.directory, &s.run);
+    if (!is_study) return resume_run(s.directory, &s.extension, &s.run);
     const study_run_options how = {.threads = (int)s.threads,
                                    .interval = s.run.interval,
                                    .native = s.run.native,
@@ -71,9 +75,13 @@ static int resume(int argc, char **argv)
 const cli_command command_resume = {
     .name = "resume",
     .synopsis = "dalembert resume DIR [OPTION]...",
-    .about = "continues a run, a study or an ensemble that was interrupted",
+    .about = "continues or extends a run, a study or an ensemble",
     .notes = "The rows are, byte for byte, what the same version writes without an interruption.  "
-             "A finished run is left alone.  Of a study, the unfinished runs are "
+             "A finished run is left alone, unless --time or --steps names a later end: then its "
+             "rows go on at the same distance, its statistics and events go on, and the directory "
+             "is as if the run had been to that end from the beginning.  The new end is a whole "
+             "number of the distances of the rows.  A run that failed, or that an event stopped, "
+             "has no later end.  Of a study, the unfinished runs are "
              "continued and the tables and the page made; of shards, those that were begun in DIR. "
              " --threads is for "
              "studies and ensembles, --summary and --details are for runs, --progress for runs and "

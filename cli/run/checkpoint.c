@@ -105,7 +105,7 @@ static int damaged(const char *path, const char *reason)
 /* Reads and checks the header.  Statistics of another layout are refused: statistics of half a
  * run would pass for statistics of the whole. */
 static int check_bytes(const char *path, const unsigned char *bytes, size_t length,
-                       uint64_t fingerprint, int count, checkpoint_header *h)
+                       const run_directory *dir, int count, checkpoint_header *h)
 {
     uint64_t sum;
     const uint64_t too_many = UINT64_C(1) << 32;
@@ -118,7 +118,7 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
         return damaged(path, "it does not begin as one");
     if (sum != dal__hash(DAL__HASH_START, bytes, words * WORD))
         return damaged(path, "its check sum is wrong");
-    if (h->fingerprint != fingerprint)
+    if (h->fingerprint != dir->fingerprint && h->fingerprint != dir->earlier_fingerprint)
         return cli_fail(CLI_USAGE,
                         "%s: belongs to another run: its description or the system was changed",
                         path);
@@ -219,7 +219,7 @@ static int load_file(const run_directory *dir, const char *path, const trajector
     checkpoint_header header;
     unsigned char *bytes = (unsigned char *)file_read(path, &length);
     if (!bytes) return CLI_IO;
-    int status = check_bytes(path, bytes, length, dir->fingerprint, count, &header);
+    int status = check_bytes(path, bytes, length, dir, count, &header);
     if (status == CLI_DONE) status = writer_verify(writer, header.row, &header.sum);
     if (status == CLI_DONE)
         status = read_statistics(path, &header, bytes + (HEADER_WORDS + header.state) * WORD,

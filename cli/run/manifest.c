@@ -9,8 +9,9 @@
  *       "start": {"e": "inf"}                    JSON has no infinite number
  *     },
  *
- * The text of the input never changes, whatever else is written.  Its hash, continued over the
- * text of the system, is in each checkpoint, so that a checkpoint belongs to one request alone. */
+ * The text of the input never changes, whatever else is written, unless the run is extended; then
+ * the one before is kept as "extends".  Its hash, continued over the text of the system, is in each
+ * checkpoint, so that a checkpoint belongs to one request, or to what it extends, alone. */
 #include "manifest.h"
 #include "dalembert.h"
 #include "dalembert_codegen.h"
@@ -72,6 +73,7 @@ int manifest_write(const run_directory *dir, const run_simulation *s, const run_
     const dal_run *run = s->run;
     store_begin_manifest(&m);
     json_put_source(&m.json, "input", dir->input);
+    if (dir->earlier) json_put_source(&m.json, "extends", dir->earlier);
     manifest_put_machine(&m.json);
     json_put_text(&m.json, "method", dal_method_name(&s->request.method, method, sizeof method));
     json_put_text(&m.json, "status", store_state_words[state]);
@@ -123,8 +125,14 @@ static int find_fingerprint(run_directory *dir, const char *builtin)
 {
     if (!builtin && !file_exists(dir->system))
         return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->system);
-    dir->fingerprint = dal__hash(DAL__HASH_START, dir->input, strlen(dir->input));
-    return store_hash_system(&dir->fingerprint, builtin, dir->system);
+    const char *const inputs[] = {dir->input, dir->earlier ? dir->earlier : dir->input};
+    uint64_t *const hashes[] = {&dir->fingerprint, &dir->earlier_fingerprint};
+    int status = CLI_DONE;
+    for (int i = 0; i < 2 && status == CLI_DONE; i++) {
+        *hashes[i] = dal__hash(DAL__HASH_START, inputs[i], strlen(inputs[i]));
+        status = store_hash_system(hashes[i], builtin, dir->system);
+    }
+    return status;
 }
 
 int manifest_begin(run_directory *dir, const run_simulation *s)
@@ -143,6 +151,18 @@ int manifest_begin(run_directory *dir, const run_simulation *s)
     status = find_fingerprint(dir, is_path ? NULL : dal_builtin_text(s->request.system_name));
     const run_position start = {.row = 0};
     return status == CLI_DONE ? manifest_write(dir, s, &start, STORE_RUNNING, "") : status;
+}
+
+int manifest_extend(run_directory *dir, const run_simulation *simulation,
+                    const run_position *position)
+{
+    const run_request *request = &simulation->request;
+    free(dir->earlier);
+    dir->earlier = dir->input;
+    dir->input = manifest_input(request);
+    const int status = find_fingerprint(dir, dal_builtin_text(request->system_name));
+    return status == CLI_DONE ? manifest_write(dir, simulation, position, STORE_RUNNING, "")
+                              : status;
 }
 
 int manifest_compare(const run_directory *dir, const run_request *held, const run_request *request)
@@ -237,6 +257,9 @@ int manifest_read(run_directory *dir, run_request *request)
     if (status == CLI_DONE)
         dir->input =
             json_source(bytes, document_value(dir->doc, document_node(dir->doc, 1), "input"));
+    const yaml_node_t *earlier =
+        status == CLI_DONE ? document_value(dir->doc, document_node(dir->doc, 1), "extends") : NULL;
+    if (earlier) dir->earlier = json_source(bytes, earlier);
     free(bytes);
     return status == CLI_DONE ? find_fingerprint(dir, dal_builtin_text(request->system_name))
                               : status;

@@ -15,6 +15,9 @@
 int manifest_begin(run_directory *dir, const run_simulation *simulation);
 /* Reads the request into a new one, which points to texts of dir. */
 int manifest_read(run_directory *dir, run_request *request);
+/* Replaces the input by a request that extends it, and writes how far the run is. */
+int manifest_extend(run_directory *dir, const run_simulation *simulation,
+                    const run_position *position);
 /* Compares the request that was read with another one: CLI_USAGE where they differ. */
 int manifest_compare(const run_directory *dir, const run_request *held, const run_request *request);
 /* Writes how far the run is; message: why, or "". */

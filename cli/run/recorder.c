@@ -6,6 +6,7 @@
 #include "io/json.h"
 #include "io/trend.h"
 #include "manifest.h"
+#include "row_times.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -383,7 +384,7 @@ static int write_end(run_recorder *r, int status, const char *message)
 static double row_time(void *user, long long row)
 {
     const run_recorder *r = user;
-    return r->simulation->row_time[row];
+    return row_times_get(r->simulation, row);
 }
 
 int recorder_run(run_recorder *r, dal_error *error)
@@ -395,7 +396,7 @@ int recorder_run(run_recorder *r, dal_error *error)
                                  .poll = poll,
                                  .event = add_event,
                                  .every = s->request.statistics,
-                                 .row_time = s->row_time ? row_time : NULL,
+                                 .row_time = s->row_time || s->request.steps > 0 ? row_time : NULL,
                                  .polling = 1};
     run_results_observe(&r->observer);
     *error = (dal_error){0};

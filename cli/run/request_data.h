@@ -4,6 +4,7 @@
 #define DAL_CLI_REQUEST_DATA_H
 
 #include "dalembert_model.h"
+#include "dalembert_program.h"
 #include "dalembert_run.h"
 
 #include <stdbool.h>
@@ -83,9 +84,10 @@ typedef struct run_simulation {
     dal_model *model;
     const dal_system *system; /* may be set beforehand; nothing is loaded then */
     dal_run *run;
-    double end;        /* where the run ends, and */
-    long long samples; /* its rows after the first, */
-    double *row_time;  /* [samples + 1]; NULL: at equal distances */
+    double end;          /* where the run ends, and */
+    dal__decimal length; /* which is as far from the start, */
+    long long samples;   /* its rows after the first, */
+    double *row_time;    /* [samples + 1]; NULL: at equal distances */
 } run_simulation;
 
 /* A set of options; those that concern rows only; those without which time begins at 0, is given

@@ -2,7 +2,7 @@
  *
  * From t = 0; with --from T0 all is shifted by that, and h < 0 where the run goes backwards.
  *
- *     linear   t_k = k T/N                                     k = 0..N (needs no list)
+ *     linear   t_k = k T/N, T and h as decimals                k = 0..N (needs no list)
  *     log      t_0 = 0, t_k = h round((T/h)^((k-1)/(N-1)))     equal times are one row
  *     steps    t_k = h round(k N/S)                            k = 0..S, N = round(T/h), T = h N
  *     times    as they were given, and T behind them when it is later */
@@ -61,8 +61,9 @@ static int fill_steps(run_simulation *s)
     if (s->samples > steps) s->samples = steps;
     if (allocate_times(s, "steps") != CLI_DONE) return CLI_USAGE;
     for (long long k = 0; k <= s->samples; k++) {
-        const double part = (double)k / (double)s->samples;
-        s->row_time[k] = request->from + (double)llround(part * (double)steps) * h;
+        const dal__decimal all = {(double)steps, 0.0};
+        const double step = round(dal__add_share(0.0, all, (double)k, (double)s->samples));
+        s->row_time[k] = request->from + step * h;
     }
     s->end = s->row_time[s->samples];
     return CLI_DONE;
@@ -158,6 +159,20 @@ static int finish_list(run_simulation *s)
     return CLI_DONE;
 }
 
+/* ---- equal distances ------------------------------------------------------------------------ */
+
+double step_end(double from, double step, long long steps)
+{
+    return dal__add_share(from, dal__decimal_multiple(step, (double)steps), 1.0, 1.0);
+}
+
+double row_times_get(const run_simulation *s, long long row)
+{
+    if (s->row_time) return s->row_time[row];
+    if (row == s->samples) return s->end;
+    return dal__add_share(s->request.from, s->length, (double)row, (double)s->samples);
+}
+
 /* ---- all ----------------------------------------------------------------------------------- */
 
 const char *step_error(double step, double from, double end, char text[STEP_ERROR_SIZE])
@@ -189,7 +204,9 @@ static int find_end(run_simulation *s)
     const double h = request->options.step, from = request->from;
     if (request->steps > 0 && request_has(request, REQUEST_time))
         return cli_fail(CLI_USAGE, "--steps excludes --time");
-    if (request->steps > 0) s->end = from + (double)request->steps * h;
+    if (request->steps > 0) s->end = step_end(from, h, request->steps);
+    s->length = request->steps > 0 ? dal__decimal_multiple(h, (double)request->steps)
+                                   : dal__decimal_difference(s->end, from);
     return CLI_DONE;
 }
 

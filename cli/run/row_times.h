@@ -8,7 +8,12 @@
 /* Times that are not equally distant are kept in memory. */
 enum { ROW_TIMES_MAX = 100000000, STEP_ERROR_SIZE = 128 };
 
-/* All functions but the first return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
+/* T0 + N h, the numbers being decimals: 0.3 for 3 steps of 0.1. */
+double step_end(double from, double step, long long steps);
+/* The time of a row of a simulation that is filled. */
+double row_times_get(const run_simulation *simulation, long long row);
+
+/* All below, except step_error, return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
 
 /* Why the time between two cannot be divided into such steps: there is none in it, or more than a
  * double counts; NULL where it can. */

@@ -4,6 +4,7 @@
 #include "ui/message.h"
 #include "ui/signals.h"
 
+#include "extension.h"
 #include "run_screen.h"
 #include "summary.h"
 #include "ui/options.h"
@@ -100,6 +101,7 @@ int run_integrate(const run_simulation *simulation, run_directory *dir,
     const char *output = is_screen_alone ? "/dev/null" : settings->output;
     int status = recorder_open(&recorder, simulation, dir, output);
     if (status == CLI_DONE) status = open_events(&recorder, simulation, dir, settings);
+    if (status == CLI_DONE && dir && dir->extends) status = extension_commit(&recorder);
     recorder.interval = settings->interval;
     recorder.progress = settings->progress;
     const long long row = recorder.results.position.row;

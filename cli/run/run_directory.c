@@ -21,6 +21,7 @@ void run_directory_close(run_directory *dir)
     store_free_paths(dir->file, RUN_FILES);
     store_free_manifest(dir->doc);
     free(dir->input);
+    free(dir->earlier);
     if (dir->descriptor >= 0) close(dir->descriptor);
     *dir = (run_directory){.descriptor = -1};
 }

@@ -34,10 +34,12 @@ enum { RUN_FILES = 0 RUN_FILE_LIST(STORE_ONE) };
 typedef struct run_directory {
     const char *path; /* the caller's */
     STORE_PATHS(RUN_FILE_LIST);
-    document *doc;        /* manifest.json as it was read; the request points to its texts */
-    char *input;          /* the request as it stands in manifest.json */
-    uint64_t fingerprint; /* of the request and of the system */
-    int sync;             /* whether to wait until what is written is on the disk */
+    document *doc; /* manifest.json as it was read; the request points to its texts */
+    char *input;   /* the request as it stands in manifest.json */
+    char *earlier; /* the request before it was extended, or NULL */
+    uint64_t fingerprint, earlier_fingerprint; /* of either and of the system */
+    bool extends;   /* the request is to replace the one of manifest.json: see extension.h */
+    int sync;       /* whether to wait until what is written is on the disk */
     int descriptor; /* of trajectory.npy, locked; -1 before, and after a writer has taken it */
 } run_directory;
 

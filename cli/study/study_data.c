@@ -1,5 +1,6 @@
 /* study_data.c - what follows from the cases and cells of a study. */
 #include "study_data.h"
+#include "run/row_times.h"
 #include "ui/memory.h"
 
 #include <stdlib.h>
@@ -120,7 +121,7 @@ const char *study_case_system(const study_case *e)
 
 double study_case_end(const study_case *e, double step)
 {
-    return e->run_steps > 0 ? e->from + (double)e->run_steps * step : e->time;
+    return e->run_steps > 0 ? step_end(e->from, step, e->run_steps) : e->time;
 }
 
 int study_count_states(const study_plan *plan, int *count, const study_cell **failed)

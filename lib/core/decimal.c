@@ -378,3 +378,63 @@ int dal__format_number(char *text, double x)
     *at = '\0';
     return (int)(at - text);
 }
+
+/* ---- numbers as decimals ------------------------------------------------------------------- */
+
+/* n 10^k - x for an n that has x > 0 as its nearest double.  The power of ten is the sum of two
+ * doubles, right to 2^-98; n is exact. */
+static double find_rest(double x, double n, int k)
+{
+    double power = 1.0, rest = 0.0;
+    for (int i = abs(k); i > 0; i--) {
+        const double high = 10.0 * power, low = fma(10.0, power, -high) + 10.0 * rest;
+        power = high + low;
+        rest = low - (power - high);
+    }
+    const double difference =
+        k < 0 ? (fma(-x, power, n) - x * rest) / power : fma(n, power, -x) + n * rest;
+    return isfinite(difference) ? difference : 0.0;
+}
+
+dal__decimal dal__as_decimal(double x)
+{
+    const uint64_t unit = 100; /* of the last of 15 digits */
+    int exponent;
+    double value;
+    if (!(fabs(x) >= DBL_MIN && isfinite(x))) return (dal__decimal){x, 0.0};
+    uint64_t n = (find_digits(fabs(x), &exponent) + unit / 2) / unit;
+    int k = exponent - DBL_DIG + 1;
+    if (!find_nearest(n, k, &value) || value != fabs(x)) return (dal__decimal){x, 0.0};
+    for (; n % 10 == 0; k++) n /= 10;
+    return (dal__decimal){x, copysign(1.0, x) * find_rest(fabs(x), (double)n, k)};
+}
+
+/* The sum, with its rest below the last digit of its value. */
+static dal__decimal add_decimals(dal__decimal a, dal__decimal b)
+{
+    const double sum = a.value + b.value, part = sum - a.value;
+    const double rest = (a.value - (sum - part)) + (b.value - part) + (a.rest + b.rest);
+    return (dal__decimal){sum + rest, rest - ((sum + rest) - sum)};
+}
+
+dal__decimal dal__decimal_difference(double a, double b)
+{
+    const dal__decimal x = dal__as_decimal(a), y = dal__as_decimal(b);
+    return add_decimals(x, (dal__decimal){-y.value, -y.rest});
+}
+
+dal__decimal dal__decimal_multiple(double x, double factor)
+{
+    const dal__decimal one = dal__as_decimal(x);
+    const double high = one.value * factor;
+    return add_decimals((dal__decimal){high, fma(one.value, factor, -high)},
+                        (dal__decimal){one.rest * factor, 0.0});
+}
+
+double dal__add_share(double from, dal__decimal length, double part, double whole)
+{
+    const double high = length.value * part,
+                 low = fma(length.value, part, -high) + length.rest * part;
+    const double share = high / whole, rest = (fma(-share, whole, high) + low) / whole;
+    return add_decimals(dal__as_decimal(from), (dal__decimal){share, rest}).value;
+}

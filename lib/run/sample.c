@@ -10,6 +10,7 @@
  * of the capacity, wherever a run was begun or interrupted, so that sums in parts find whole parts.
  */
 #include "core/error.h"
+#include "dalembert_program.h"
 #include "run/event_search.h"
 #include "run/events.h"
 #include "run/failure.h"
@@ -267,28 +268,44 @@ static dal_status advance_to_row(sampling *k, long long row, double t)
     }
 }
 
-static double row_time(const dal_run *run, const dal_observer *o, double T, long long row,
-                       long long samples)
+/* When rows are, as decimal numbers: how many there are changes no row that two runs share. */
+typedef struct row_times {
+    const dal_observer *observer;
+    double from, last;
+    dal__decimal length;
+    long long samples;
+} row_times;
+
+static row_times make_row_times(const dal_run *run, const dal_observer *o, double T,
+                                long long samples)
 {
     const double from = run->layout.start_time;
-    if (o->row_time && row < samples) return o->row_time(o->user, row);
-    return row == samples ? T : from + (T - from) * ((double)row / (double)samples);
+    return (row_times){o, from, T, dal__decimal_difference(T, from), samples};
+}
+
+static double row_time(const row_times *r, long long row)
+{
+    const dal_observer *o = r->observer;
+    if (row == r->samples) return r->last;
+    return o->row_time ? o->row_time(o->user, row)
+                       : dal__add_share(r->from, r->length, (double)row, (double)r->samples);
 }
 
 /* The counts of an observer, and the times of its rows, which may repeat. */
-static dal_status check_observer(const dal_run *run, const dal_observer *o, double T,
-                                 long long samples, long long first_row, dal_error *error)
+static dal_status check_observer(const dal_run *run, const row_times *times, long long first_row,
+                                 dal_error *error)
 {
+    const dal_observer *o = times->observer;
     const double direction = copysign(1.0, run->layout.options.step);
-    double before = row_time(run, o, T, first_row, samples);
+    double before = row_time(times, first_row);
     if (o->every < 0 || (double)o->every > MAX_STEPS)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "observations every %lld steps cannot be made",
                          o->every);
     if (o->polling < 0)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "polls every %lld steps cannot be made",
                          o->polling);
-    for (long long row = first_row; o->row_time && row <= samples; row++) {
-        const double t = row_time(run, o, T, row, samples);
+    for (long long row = first_row; o->row_time && row <= times->samples; row++) {
+        const double t = row_time(times, row);
         if (!(direction * (t - before) >= 0.0) || !isfinite(t))
             return dal__fail(error, DAL_STATUS_ARGUMENT,
                              "row %lld is at t = %.17g, the row before it at %.17g", row, t,
@@ -298,9 +315,11 @@ static dal_status check_observer(const dal_run *run, const dal_observer *o, doub
     return DAL_STATUS_OK;
 }
 
-static dal_status check_arguments(const dal_run *run, const dal_observer *observer, double T,
-                                  long long samples, long long first_row, dal_error *error)
+static dal_status check_arguments(const dal_run *run, const row_times *times, long long first_row,
+                                  dal_error *error)
 {
+    const double T = times->last;
+    const long long samples = times->samples;
     const double h = run->layout.options.step, from = run->layout.start_time, whole = T - from;
     if (!isfinite(T) || !isfinite(whole))
         return dal__fail(error, DAL_STATUS_ARGUMENT, "the time must be finite; it is %g", T);
@@ -319,7 +338,7 @@ static dal_status check_arguments(const dal_run *run, const dal_observer *observ
     if (first_row < 0 || first_row > samples)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "there is no row %lld among 0..%lld",
                          first_row, samples);
-    const double first = row_time(run, observer, T, first_row, samples);
+    const double first = row_time(times, first_row);
     if (copysign(1.0, h) * (first - dal_run_time(run)) < -fabs(h))
         return dal__fail(error, DAL_STATUS_ARGUMENT, "row %lld lies before the present t = %g",
                          first_row, dal_run_time(run));
@@ -332,14 +351,15 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
     static const dal_observer nobody = {0};
     DAL_REQUIRE(run, error);
     if (!observer) observer = &nobody;
-    DAL_TRY(check_arguments(run, observer, T, samples, first_row, error));
-    DAL_TRY(check_observer(run, observer, T, samples, first_row, error));
+    const row_times times = make_row_times(run, observer, T, samples);
+    DAL_TRY(check_arguments(run, &times, first_row, error));
+    DAL_TRY(check_observer(run, &times, first_row, error));
     DAL_TRY(dal__check_events(run, error));
     sampling k = {run, observer, error, 0};
     if (first_row == 0 && dal_run_steps(run) == 0) DAL_TRY(observe_start(&k));
     double last = dal_run_time(run), t; /* the time of the last row, or of the start */
     for (long long row = first_row; row <= samples; row++, last = t) {
-        t = row_time(run, observer, T, row, samples);
+        t = row_time(&times, row);
         const dal_status status = advance_to_row(&k, row, t);
         const bool is_endless = status == DAL_STATUS_EVENT && dal_run_time(run) != last;
         if ((is_endless || status == DAL_STATUS_STOPPED) &&

@@ -231,6 +231,14 @@ dalembert $present resumes what 0\.3 or later wrote$"
     says "taken/checkpoint: its statistics have layout $layout; dalembert $present reads layout"
 done
 
+# same_but_digits_of_t ONE TWO: the rows have the same bytes except the last digit of t, which earlier versions
+# rounded twice; a row is as long as from one t to the next.
+same_but_digits_of_t() {
+    bytes=$(($(od -A n -t u2 -j 8 -N 2 "$1") + 10))
+    [ "$(wc -c <"$1")" = "$(wc -c <"$2")" ] && cmp -l "$1" "$2" |
+        awk -v head=$bytes -v row="$3" '(($1 - 1 - head) % row) > 1 { bad = 1 } END { exit bad }'
+}
+
 # continues_format NUMBER TIME ROW END ROWS: a directory of an earlier format goes on, to the same bytes.
 continues_format() {
     rm -rf taken never
@@ -241,7 +249,8 @@ continues_format() {
     expect "the format of now" [ "$(head -c 8 taken/checkpoint)" = DALCHK05 ]
     try 0 run taken/system.yaml --integrator gauss4 --step 0.01 --time $4 --samples $5 --space physical \
         --set k=9 --output never
-    expect "not the rows of a run never interrupted" cmp taken/trajectory.npy never/trajectory.npy
+    expect "not the rows of a run never interrupted" \
+        same_but_digits_of_t taken/trajectory.npy never/trajectory.npy 32
     expect "not the summary of a run never interrupted" cmp taken/summary.csv never/summary.csv
 }
 
