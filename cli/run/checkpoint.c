@@ -17,7 +17,7 @@
 #include "checkpoint.h"
 #include "dalembert.h"
 #include "dalembert_program.h"
-#include "earlier_statistics.h"
+#include "io/earlier_statistics.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
