@@ -298,11 +298,16 @@ trends: $(BUILD)/tests/suite
 	@$< --trends $(SERIES)
 
 # For the memory alone, and what crashes: tests/valgrind.sh.  As it takes a second to begin, it has
-# VALGRIND_SUITES suites at a time.
-VALGRIND_SUITES ?= 8
+# VALGRIND_SUITES suites at a time; those that take longest come first, each by itself, so that no processor
+# waits for one of them at the end.
+VALGRIND_SUITES  ?= 8
+VALGRIND_LONGEST = integrators phase_composition event_branches model_errors trend conformance error_budget batch \
+                   adaptive functions generate_native
+check-valgrind: CHOSEN = $(or $(SUITE),$(SUITES))
 check-valgrind: $(BUILD)/tests/suite
 	@BUILD="$(BUILD)" RUN_SUITE="sh tests/valgrind.sh" SUITE_OPTIONS=--quick sh tests/run.sh "$(MAKE)" \
-	    $$(echo $(or $(SUITE),$(SUITES)) | xargs -n $(VALGRIND_SUITES) | sed 's/ /+/g; s/^/suite-/')
+	    $(patsubst %,suite-%,$(filter $(CHOSEN),$(VALGRIND_LONGEST))) \
+	    $$(echo $(filter-out $(VALGRIND_LONGEST),$(CHOSEN)) | xargs -r -n $(VALGRIND_SUITES) | sed 's/ /+/g; s/^/suite-/')
 
 # No fuzzer takes a batch: the library needs no variants with lanes.
 fuzz:

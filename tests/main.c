@@ -26,6 +26,8 @@ static int quick;
 
 long long long_run(long long count) { return quick ? (count + 99) / 100 : count; }
 
+int large_size(int size) { return quick ? (size + 7) / 8 : size; }
+
 static int add(const char *name)
 {
     for (int i = 0; i < SUITES; i++)

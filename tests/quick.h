@@ -4,5 +4,7 @@
 
 /* count, or a hundredth of it in a quick run. */
 long long long_run(long long count);
+/* Of a system whose cost grows with the square of its size: that, or an eighth in a quick run. */
+int large_size(int size);
 
 #endif

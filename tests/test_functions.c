@@ -1,4 +1,5 @@
 /* test_functions.c - what a system file defines for its own formulas: functions, sizes, indices. */
+#include "quick.h"
 #include "reference.h"
 
 #include <CUnit/Basic.h>
@@ -176,18 +177,27 @@ static void test_cluster(void)
     close_large(&z);
 }
 
+static reference reference_of_size(int size, const char *text)
+{
+    char sized[1024];
+    snprintf(sized, sizeof sized, "sizes: {N: %d}\n%s", size, text);
+    return reference_of_text(sized);
+}
+
 /* The equations of 1,023 coordinates that few springs couple, in a fraction of a minute. */
 static void test_thousand(void)
 {
+    enum { N = 1023 };
     static const char text[] =
-        "sizes: {N: 1023}\ncoordinates: [\"x[1..N]\"]\n"
+        "coordinates: [\"x[1..N]\"]\n"
         "lagrangian: sum(i, 1, N, x[i]'^2)/2 - sum(i, 2, N, (x[i] - x[i-1])^4)\n"
         "start: {\"x[i]\": {for: i = 1..N, is: i^2/N}}\n";
-    double F[1023], q[1023], v[1023] = {0.0};
-    reference b = reference_of_text(text);
-    for (int i = 0; i < 1023; i++) q[i] = 0.1 * i * i;
+    const int n = large_size(N);
+    double F[N], q[N], v[N] = {0.0};
+    reference b = reference_of_size(n, text);
+    for (int i = 0; i < n; i++) q[i] = 0.1 * i * i;
     CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.0, q, v, F), DAL_STATUS_OK);
-    for (int i = 1; i < 1022; i++) {
+    for (int i = 1; i < n - 1; i++) {
         const double left = q[i] - q[i - 1], right = q[i + 1] - q[i];
         const double expected = 4 * (right * right * right - left * left * left);
         CU_ASSERT_DOUBLE_EQUAL(F[i], expected, 1e-12 * fabs(expected));
@@ -200,15 +210,16 @@ static void test_thousand(void)
 static void test_sparse(void)
 {
     enum { N = 1024 };
-    static const char text[] = "sizes: {N: 1024}\ncoordinates: [\"x[1..N]\"]\n"
+    static const char text[] = "coordinates: [\"x[1..N]\"]\n"
                                "lagrangian: sum(i, 1, N, x[i]'^2 - x[i]^2/2) + sum(i, 1, N/2, "
                                "cos(x[2*i-1])*x[2*i-1]'*x[2*i]')/4\n"
                                "start: {\"x[i]\": {for: i = 1..N, is: i/N}}\n";
+    const int n = large_size(N);
     double F[N], q[N], v[N] = {0.0};
-    reference b = reference_of_text(text);
-    for (int i = 0; i < N; i++) q[i] = sin(1.0 + i);
+    reference b = reference_of_size(n, text);
+    for (int i = 0; i < n; i++) q[i] = sin(1.0 + i);
     CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.0, q, v, F), DAL_STATUS_OK);
-    for (int i = 0; i < N; i++) {
+    for (int i = 0; i < n; i++) {
         const int first = i / 2 * 2, other = 2 * first + 1 - i;
         CU_ASSERT_DOUBLE_EQUAL(2 * F[i] + cos(q[first]) / 4 * F[other], -q[i], 1e-14);
     }
