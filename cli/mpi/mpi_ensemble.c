@@ -12,7 +12,8 @@ static const cli_command command = {
     .name = "dalembert-mpi ensemble",
     .synopsis = "mpirun dalembert-mpi ensemble SYSTEM --members N --seed S --vary "
                 "NAME=DISTRIBUTION --output DIR [OPTION]...",
-    .about = "runs an ensemble, as 'dalembert ensemble' does, whose shards are the processes",
+    .about = "runs an ensemble, as 'dalembert ensemble' does, with a process for each 256 members "
+             "at a time",
     .notes = "mpirun starts the processes.  All of them must see DIR.  The results are the same "
              "bytes.  'mpirun dalembert-mpi --resume --output DIR' continues, with any number of "
              "processes, and 'dalembert report DIR' makes the page.\n",
