@@ -11,6 +11,7 @@
 #include "mpi_study.h"
 #include "ui/arguments.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 
 #include <mpi.h>
 #include <string.h>
@@ -30,6 +31,7 @@ int main(int argc, char **argv)
     int rank, status = CLI_DONE;
     mpi_request request = {.interval = 0.0};
     MPI_Init(&argc, &argv);
+    screen_ignore_terminal();
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     if (rank == 0) status = begin(&request, argc, argv);
     MPI_Bcast(&status, 1, MPI_INT, 0, MPI_COMM_WORLD);

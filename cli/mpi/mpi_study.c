@@ -115,7 +115,6 @@ int mpi_study_run(const mpi_request *request)
     int status = mpi_max_status(study_directory_read(&dir, &plan));
     plan.interval = request->interval;
     plan.native = request->native;
-    plan.shows_matrices = true; /* mpirun gives a rank a terminal, wherever its own output goes */
     if (status == CLI_DONE) status = mpi_max_status(run_cells(&plan));
     if (request->rank == 0 && status == CLI_SIGNAL) status = store_interrupt(dir.path);
     if (request->rank == 0 && status == CLI_DONE) status = finish(&plan, &dir);

@@ -13,7 +13,11 @@
 
 enum { GAP = 2 /* between columns */, LEAST_TEXT = 20 };
 
-bool screen_has_reader(void) { return isatty(STDOUT_FILENO); }
+static bool is_ignored;
+
+bool screen_has_reader(void) { return !is_ignored && isatty(STDOUT_FILENO); }
+
+void screen_ignore_terminal(void) { is_ignored = true; }
 
 FILE *screen_terminal(void)
 {

@@ -10,6 +10,8 @@
 
 /* Whether a person reads standard output: it is a terminal. */
 bool screen_has_reader(void);
+/* From now on nobody does: mpirun gives each process a terminal, wherever its own output goes. */
+void screen_ignore_terminal(void);
 /* The terminal for a summary: standard output, or else standard error; NULL: neither is one. */
 FILE *screen_terminal(void);
 /* Whether a terminal gets colours (https://no-color.org). */
