@@ -1,4 +1,4 @@
-/* The system files of examples/, with every method that accepts them. */
+/* test_example_systems.c - the system files of examples/, with every method that accepts them. */
 #include "dalembert.h"
 #include "quick.h"
 

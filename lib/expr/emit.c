@@ -102,7 +102,7 @@ static void write_expression(const writer *w, const dal__instruction *i)
         const uint32_t table = i->b / DAL__TABLE_ORDERS, order = i->b % DAL__TABLE_ORDERS;
         dal__buffer_append(w->text, "dal_piecewise(");
         write_operand(w, i->a, DAL__AS_NUM);
-        dal__buffer_print(w->text, ", dal__table%u, %d, %u)", table, w->tapes->tables[table].knots,
+        dal__buffer_print(w->text, ", dal__knots%u, %d, %u)", table, w->tapes->tables[table].knots,
                           order);
         return;
     }
@@ -297,7 +297,7 @@ void dal__tapes_write_tables(const dal__tapes *tapes, dal__buffer *text)
         const dal__tape_table *table = &tapes->tables[k];
         const size_t size = dal__table_size(table->knots);
         if (!used[k]) continue;
-        dal__buffer_print(text, "static const double dal__table%d[] DAL_UNUSED = {", k);
+        dal__buffer_print(text, "static const double dal__knots%d[] DAL_UNUSED = {", k);
         for (size_t i = 0; i < size; i++) {
             dal__buffer_append(text, i % 8 ? ", " : i ? ",\n    " : "\n    ");
             dal__buffer_number(text, table->data[i]);

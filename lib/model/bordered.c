@@ -283,7 +283,7 @@ static dal_status factor_forces(dal_model *model, dal__bordered *s)
         return DAL_STATUS_MEMORY;
     for (int a = 0; a < m; a++) whose[a] = s->left[s->partner[a] > a ? s->partner[a] : a];
     if (!dal__factors_allocate(model, &s->forces, m, whose)) return DAL_STATUS_MEMORY;
-    DAL_TRY(dal__factors_solve(model, &s->mass, DAL__SUMS_PLAIN, m, e->servo ? B : A, R));
+    DAL_TRY(dal__factors_solve(model, &s->mass, DAL__SUMS_UNCHANGED, m, e->servo ? B : A, R));
     if (!compress(model, &s->A, m, f, A) || !compress(model, &s->R, m, f, R))
         return DAL_STATUS_MEMORY;
     for (int a = 0; a < m; a++)
@@ -320,7 +320,7 @@ static void reduce_rhs(const dal__equations *e, const dal__bordered *s, const da
 }
 
 /* The free coordinates and the forces left, from b' in t. */
-static dal_status solve_free(dal_model *model, const dal__bordered *s, dal__sums sums,
+static dal_status solve_free(dal_model *model, const dal__bordered *s, dal__sum_form sums,
                              const dal__node *bottom, vectors *w)
 {
     const dal__equations *e = &model->equations;
@@ -373,7 +373,7 @@ static dal_status collect_dependent(dal_model *model, const dal__bordered *s, co
     return e->graph->status;
 }
 
-dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sums sums,
+dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sum_form sums,
                                const dal__node *top, const dal__node *bottom, dal__node *x,
                                dal__node *h)
 {
@@ -382,7 +382,7 @@ dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sums sum
     vectors *w = &s->scratch;
     reduce_rhs(e, s, top, bottom, w);
     for (int i = 0; collected && i < s->frees; i++) w->t[i] = collect(e, s, w->t[i]);
-    DAL_TRY(solve_free(model, s, s->way & DAL__FORWARD ? sums : DAL__SUMS_PLAIN, bottom, w));
+    DAL_TRY(solve_free(model, s, s->way & DAL__FORWARD ? sums : DAL__SUMS_UNCHANGED, bottom, w));
     for (int i = 0; i < s->frees; i++) x[s->free[i]] = w->y[i];
     for (int k = 0; k < s->solved; k++)
         x[s->dependent[k]] = dal__node_add(e->graph, w->s[k], row_product(e, &s->S, k, w->y));

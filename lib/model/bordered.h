@@ -27,7 +27,7 @@ void dal__bordered_record_pivots(dal__equations *equations, const dal__bordered 
                                  const dal__factors *mass);
 /* W x - B^T h = top [n], A x = bottom [m]; h is NULL where it is not wanted.  Sums are
  * collected as far as its way says.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
-dal_status dal__bordered_solve(dal_model *model, dal__bordered *bordered, dal__sums sums,
+dal_status dal__bordered_solve(dal_model *model, dal__bordered *bordered, dal__sum_form sums,
                                const dal__node *top, const dal__node *bottom, dal__node *x,
                                dal__node *h);
 

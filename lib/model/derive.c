@@ -97,7 +97,7 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
                                  : dal__dependent_constraints(model, f.singular - e->n, error);
     if (status != DAL_STATUS_OK) return exhausted(model, error);
     dal__record_pivots(e, &f, DAL__DIVIDES_MOTION);
-    status = dal__factors_solve(model, &f, DAL__SUMS_PLAIN, 1, rhs, e->F);
+    status = dal__factors_solve(model, &f, DAL__SUMS_UNCHANGED, 1, rhs, e->F);
     return status == DAL_STATUS_OK ? DAL_STATUS_OK : exhausted(model, error);
 }
 

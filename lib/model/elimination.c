@@ -338,7 +338,7 @@ dal_status dal__factor(dal_model *model, dal__factors *f)
 /* One right-hand side; y[n] is scratch.  The last division has one rounding: the rounding of a
  * multiplied reciprocal would be the same in every step where the pivot is constant, and make D
  * drift. */
-static void solve_one(dal__graph *graph, const dal__factors *f, dal__sums sums,
+static void solve_one(dal__graph *graph, const dal__factors *f, dal__sum_form sums,
                       const dal__node *rhs, dal__node *x, dal__node *y)
 {
     for (int k = 0; k < f->n; k++) {
@@ -362,8 +362,8 @@ static void solve_one(dal__graph *graph, const dal__factors *f, dal__sums sums,
     }
 }
 
-dal_status dal__factors_solve(dal_model *model, const dal__factors *f, dal__sums sums, int columns,
-                              const dal__node *rhs, dal__node *x)
+dal_status dal__factors_solve(dal_model *model, const dal__factors *f, dal__sum_form sums,
+                              int columns, const dal__node *rhs, dal__node *x)
 {
     dal__graph *graph = model->equations.graph;
     dal__node *y = dal__model_nodes(model, f->n, 0);

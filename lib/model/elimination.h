@@ -30,10 +30,10 @@ void dal__record_pivots(dal__equations *equations, const dal__factors *factors, 
 double dal__pivot_product(const dal__equations *equations, const dal__factors *factors,
                           const double *values);
 /* How sums are written: as they arise, or in few operations (collect.h). */
-typedef enum dal__sums { DAL__SUMS_PLAIN, DAL__SUMS_COLLECTED } dal__sums;
+typedef enum dal__sum_form { DAL__SUMS_UNCHANGED, DAL__SUMS_COLLECTED } dal__sum_form;
 /* Solves for right-hand sides [columns*n], one after the other, into x[columns*n].  Errors:
  * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
-dal_status dal__factors_solve(dal_model *model, const dal__factors *factors, dal__sums sums,
+dal_status dal__factors_solve(dal_model *model, const dal__factors *factors, dal__sum_form sums,
                               int columns, const dal__node *rhs, dal__node *x);
 
 #endif

@@ -124,7 +124,7 @@ dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, c
     if (!dal__factors_allocate(model, &f, n, NULL)) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n * n; i++) f.matrix[i] = matrix[i];
     DAL_TRY(dal__factor(model, &f));
-    return dal__factors_solve(model, &f, DAL__SUMS_PLAIN, 1, rhs, x);
+    return dal__factors_solve(model, &f, DAL__SUMS_UNCHANGED, 1, rhs, x);
 }
 
 dal_status dal__solve_mass(dal_model *model)
@@ -141,7 +141,7 @@ dal_status dal__solve_mass(dal_model *model)
     for (int i = 0; i < m * n && e->servo; i++) rhs[n + m * n + i] = e->B[i];
     DAL_TRY(dal__factor(model, mass));
     e->mass_positive = mass->positive;
-    DAL_TRY(dal__factors_solve(model, mass, DAL__SUMS_PLAIN, columns, rhs, x));
+    DAL_TRY(dal__factors_solve(model, mass, DAL__SUMS_UNCHANGED, columns, rhs, x));
     for (int i = 0; i < n; i++) {
         e->a[i] = x[i];
         for (int a = 0; a < m; a++) {
@@ -184,7 +184,7 @@ dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
         for (int i = 0; i < n; i++) e->value[e->pi + i] = 0.0;
         return status == DAL_STATUS_OK ? dal__restricted_directions(model, &r, U) : status;
     }
-    DAL_TRY(dal__factors_solve(model, &mass, DAL__SUMS_PLAIN, m, e->A, x));
+    DAL_TRY(dal__factors_solve(model, &mass, DAL__SUMS_UNCHANGED, m, e->A, x));
     for (int i = 0; i < n; i++)
         for (int a = 0; a < m; a++) U[i * m + a] = x[a * n + i];
     return DAL_STATUS_OK;
@@ -335,7 +335,7 @@ static dal_status solve_motion(dal_model *model, const dal__node *top, const dal
     const dal__equations *e = &model->equations;
     return e->restricted
                ? dal__restricted_solve(model, e->restricted, top, bottom, x, h)
-               : dal__bordered_solve(model, e->bordered, DAL__SUMS_PLAIN, top, bottom, x, h);
+               : dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, top, bottom, x, h);
 }
 
 /* What is differentiated: b - W F + A^T h [n] and -c - A F [m], F and h being symbols. */

@@ -92,7 +92,7 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
     const dal_status status = dal__factor(model, &r->S);
     if (status == DAL_STATUS_SINGULAR) r->singular = r->S.constraint[r->S.singular] - 1;
     DAL_TRY(status);
-    DAL_TRY(dal__factors_solve(model, &r->S, DAL__SUMS_PLAIN, n, lifted, r->N));
+    DAL_TRY(dal__factors_solve(model, &r->S, DAL__SUMS_UNCHANGED, n, lifted, r->N));
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             dal__node sum = dal__number(e->graph, 0.0);
@@ -179,7 +179,7 @@ dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, con
         for (int k = 0; k < n; k++) add_product(e, &rhs[i], r->P[k * n + i], rest[k]);
         rhs[i] = dal__node_neg(e->graph, rhs[i]);
     }
-    DAL_TRY(dal__factors_solve(model, &r->V, DAL__SUMS_PLAIN, 1, rhs, y));
+    DAL_TRY(dal__factors_solve(model, &r->V, DAL__SUMS_UNCHANGED, 1, rhs, y));
     for (int a = 0; a < m; a++) {
         for (int i = 0; i < n; i++) add_product(e, &out[a], e->A[a * n + i], y[i]);
         out[a] = dal__node_neg(e->graph, out[a]);

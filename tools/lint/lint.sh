@@ -42,6 +42,17 @@ nesting() {
     sources | xargs awk '/^                +(} )?(if|for|while|do|switch|else)[ ({]/ {
         print FILENAME ":" FNR ": more than 3 levels deep" }'
 }
+# The first line of a file has its name and what it is for.
+heads() {
+    find include lib integrators cli python tests examples bench -name '*.[ch]' -o -name '*.inc' | while read -r file; do
+        head -n 1 "$file" | grep -q "^/\* ${file##*/} - " || echo "$file: does not begin with /* ${file##*/} - what it is for"
+    done
+}
+# Names that differ by an underscore only.
+underscores() {
+    git ls-files lib include integrators cli | grep '\.[ch]$\|\.inc$' | xargs cat | grep -o '[A-Za-z_][A-Za-z_0-9]*__*[A-Za-z0-9_]*' |
+        sort -u | awk '{ if (/_$/) next; key = $0; gsub(/__+/, "_", key); if (key in first) print first[key] " and " $0; first[key] = $0 }'
+}
 # Files and names that comments speak of.
 # Two files with one comment have one thought: it is in one of them, or has one name.
 twice() {
@@ -174,6 +185,8 @@ check "dependencies of directories and files" dependencies
 check "lines and files" sizes
 check "functions" functions
 check "nesting" nesting
+check "first lines of files" heads
+check "names an underscore apart" underscores
 check "words" words
 check "headers compile on their own" alone
 check "headers declare what their files define" headers
