@@ -221,7 +221,7 @@ static bool write_file(const expansion *e, const char *path)
         dal__buffer_print(&text, "void %s(const double *w, int k, double (*c)[%d], double *l)\n{\n",
                           body_names[body / 2][body % 2], STRIDE + 1);
         dal__buffer_append(&text, "    (void)w, (void)k, (void)l;\n");
-        dal__taylor_write(e->taylor, e->tapes, body % 2, body / 2, &text);
+        dal__taylor_write(e->taylor, e->tapes, body % 2 ? DAL__FIRST : DAL__NEXT, body / 2, &text);
         dal__buffer_append(&text, "}\n");
     }
     FILE *file = fopen(path, "w");

@@ -20,7 +20,7 @@ static int resume_run(const char *directory, const run_extension *extension,
     run_directory_open(&dir, directory);
     int status = manifest_read(&dir, &simulation.request);
     if (status == CLI_DONE) status = extension_create(&dir, &simulation, extension);
-    if (status == CLI_DONE) status = run_directory_lock(&dir, 0);
+    if (status == CLI_DONE) status = run_directory_lock(&dir, RUN_EXISTING);
     if (status == CLI_DONE) status = run_integrate(&simulation, &dir, settings);
     simulation_free(&simulation);
     run_directory_close(&dir);

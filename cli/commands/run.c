@@ -34,7 +34,7 @@ static int run_in_directory(const run_simulation *simulation, const run_settings
     run_directory_open(&dir, settings->output);
     int status = settings->force ? CLI_DONE : check_directory(&dir);
     if (status == CLI_DONE) status = cli_directory(dir.path);
-    if (status == CLI_DONE) status = run_directory_lock(&dir, 1);
+    if (status == CLI_DONE) status = run_directory_lock(&dir, RUN_NEW);
     if (status == CLI_DONE) status = manifest_begin(&dir, simulation);
     if (status == CLI_DONE) status = run_integrate(simulation, &dir, settings);
     file_report_directory(dir.path, status);

@@ -222,7 +222,7 @@ int ensemble_directory_lock(ensemble_directory *dir)
 
 /* ---- tables -------------------------------------------------------------------------------- */
 
-static int open_tables(ensemble_directory *dir, const ensemble *e, bool is_new)
+static int open_tables(ensemble_directory *dir, const ensemble *e, npy_state state)
 {
     const int columns = ensemble_member_columns(e);
     char **names = cli_calloc((size_t)columns, sizeof *names);
@@ -231,14 +231,14 @@ static int open_tables(ensemble_directory *dir, const ensemble *e, bool is_new)
         names[i] = i < MEMBER_DRAWN ? first[i] : e->vary[i - MEMBER_DRAWN].name;
     dir->has_rows = e->simulation.request.times > 0;
     int status = npy_table_open(&dir->members, cli_join(dir->path, "members.npy"), names, columns,
-                                0, e->members, is_new);
+                                0, e->members, state);
     free(names);
     if (status == CLI_DONE)
         status = npy_table_open(&dir->final, cli_join(dir->path, "final.npy"), e->column,
-                                e->columns, 0, e->members, is_new);
+                                e->columns, 0, e->members, state);
     if (status == CLI_DONE && dir->has_rows)
         status = npy_table_open(&dir->rows, cli_join(dir->path, "rows.npy"), e->column, e->columns,
-                                e->times, e->members, is_new);
+                                e->times, e->members, state);
     return status;
 }
 
@@ -251,7 +251,7 @@ int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, store_
                                .shard = shard,
                                .count = ensemble_chunks(e)};
     int status = find_fingerprint(dir, e);
-    if (status == CLI_DONE) status = open_tables(dir, e, false);
+    if (status == CLI_DONE) status = open_tables(dir, e, NPY_EXISTING);
     return status == CLI_DONE ? store_open_marks(&dir->marks) : status;
 }
 
@@ -270,7 +270,7 @@ static int begin_new(ensemble_directory *dir, const ensemble *e)
     if (status == CLI_DONE)
         status = cli_is_path(system) ? cli_copy_system(system, e->simulation.model, dir->system, 1)
                                      : file_remove(dir->system);
-    if (status == CLI_DONE) status = open_tables(dir, e, true);
+    if (status == CLI_DONE) status = open_tables(dir, e, NPY_NEW);
     detach(dir);
     return status == CLI_DONE ? ensemble_directory_write_manifest(dir, e, STORE_RUNNING) : status;
 }

@@ -17,12 +17,12 @@
 enum { BLOCK = 8192 /* numbers that are converted at a time */ };
 
 /* A new file gets its header and its length, an old one must have them. */
-static int prepare(const npy_table *table, char *header, off_t length, bool is_new)
+static int prepare(const npy_table *table, char *header, off_t length, npy_state state)
 {
     struct stat info;
     unsigned char *found = cli_malloc(table->header);
     int status = CLI_DONE;
-    if (is_new) {
+    if (state == NPY_NEW) {
         if (ftruncate(table->descriptor, 0) != 0 || ftruncate(table->descriptor, length) != 0 ||
             file_transfer(table->descriptor, header, table->header, 0, FILE_WRITE) < table->header)
             status = cli_io("write", table->path);
@@ -37,7 +37,7 @@ static int prepare(const npy_table *table, char *header, off_t length, bool is_n
 }
 
 int npy_table_open(npy_table *table, char *path, char *const *names, int columns, long long blocks,
-                   long long rows, bool is_new)
+                   long long rows, npy_state state)
 {
     char shape[64];
     if (blocks > 0)
@@ -45,8 +45,8 @@ int npy_table_open(npy_table *table, char *path, char *const *names, int columns
     else
         snprintf(shape, sizeof shape, "(%lld,)", rows);
     *table = (npy_table){.path = path, .columns = columns};
-    table->descriptor = open(path, O_RDWR | (is_new ? O_CREAT : 0), 0666);
-    if (table->descriptor < 0 && !is_new && errno == ENOENT)
+    table->descriptor = open(path, O_RDWR | (state == NPY_NEW ? O_CREAT : 0), 0666);
+    if (table->descriptor < 0 && state == NPY_EXISTING && errno == ENOENT)
         return cli_fail(CLI_USAGE, "'%s' is missing: the ensemble cannot be continued", path);
     if (table->descriptor < 0) return cli_io("write", path);
     char *header = npy_make_header(names, columns, shape, &table->header);
@@ -55,7 +55,7 @@ int npy_table_open(npy_table *table, char *path, char *const *names, int columns
     if (bytes > 0x1p62)
         status = cli_fail(CLI_USAGE, "'%s' would have %g bytes", path, bytes);
     else
-        status = prepare(table, header, (off_t)table->header + (off_t)bytes, is_new);
+        status = prepare(table, header, (off_t)table->header + (off_t)bytes, state);
     free(header);
     return status;
 }

@@ -37,11 +37,11 @@ const char *run_directory_find_file(const run_directory *dir)
 
 bool run_directory_has_run(const run_directory *dir) { return file_exists(dir->manifest); }
 
-int run_directory_lock(run_directory *dir, int is_new)
+int run_directory_lock(run_directory *dir, run_files files)
 {
-    if (!is_new && !file_exists(dir->rows))
+    if (files == RUN_EXISTING && !file_exists(dir->rows))
         return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->rows);
-    dir->descriptor = open(dir->rows, O_RDWR | (is_new ? O_CREAT : 0), 0666);
+    dir->descriptor = open(dir->rows, O_RDWR | (files == RUN_NEW ? O_CREAT : 0), 0666);
     if (dir->descriptor < 0) return cli_io("write", dir->rows);
     return store_lock(dir->descriptor, dir->rows);
 }

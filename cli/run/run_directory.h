@@ -9,7 +9,7 @@
  *     DIR/summary.csv        at the end: one row per observable
  *
  * Every file but trajectory.npy is replaced as a whole, so each is old or new and never half of
- * either.  Rows of trajectory.npy behind the checkpoint are cut off before the run is resumed. */
+ * either.  Rows of trajectory.npy after the checkpoint are cut off before the run is resumed. */
 #ifndef DAL_CLI_RUN_DIRECTORY_H
 #define DAL_CLI_RUN_DIRECTORY_H
 
@@ -35,7 +35,7 @@ typedef struct run_directory {
     const char *path; /* the caller's */
     STORE_PATHS(RUN_FILE_LIST);
     document *doc; /* manifest.json as it was read; the request points to its texts */
-    char *input;   /* the request as it stands in manifest.json */
+    char *input;   /* the request as it is in manifest.json */
     char *earlier; /* the request before it was extended, or NULL */
     uint64_t fingerprint, earlier_fingerprint; /* of either and of the system */
     bool extends;   /* the request is to replace the one of manifest.json: see extension.h */
@@ -56,8 +56,10 @@ void run_directory_close(run_directory *dir);
 /* A file in the directory that a new run would write over, or NULL. */
 const char *run_directory_find_file(const run_directory *dir);
 bool run_directory_has_run(const run_directory *dir);
+typedef enum run_files { RUN_EXISTING, RUN_NEW } run_files;
+
 /* Opens trajectory.npy for this process alone, creating it for a new run.  Returns CLI_DONE, or
  * prints and returns CLI_USAGE where another process has it or a run has lost it, or CLI_IO. */
-int run_directory_lock(run_directory *dir, int is_new);
+int run_directory_lock(run_directory *dir, run_files files);
 
 #endif

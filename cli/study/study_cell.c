@@ -340,7 +340,7 @@ static int open_recorder(cell_run *r)
     const int has_run = run_directory_has_run(dir);
     dir->sync = 0;
     int status = cli_directory(dir->path);
-    if (status == CLI_DONE) status = run_directory_lock(dir, !has_run);
+    if (status == CLI_DONE) status = run_directory_lock(dir, has_run ? RUN_EXISTING : RUN_NEW);
     if (status == CLI_DONE && has_run) {
         run_request held = request_default();
         status = manifest_read(dir, &held);

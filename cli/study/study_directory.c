@@ -186,7 +186,7 @@ static bool is_incomplete(const study_directory *dir)
 }
 
 int study_directory_begin(study_directory *dir, study_plan *plan, const char *text, size_t length,
-                          store_shard shard, int force)
+                          store_shard shard, bool force)
 {
     const bool is_own = file_owns_directory(dir->path);
     /* Shards that begin in one directory at the same time come one after the other. */

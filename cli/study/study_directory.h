@@ -65,7 +65,7 @@ bool study_directory_is_finished(const study_directory *dir);
  * written over with force alone; a shard of the same study joins it.  The cells of the plan then
  * have their place there. */
 int study_directory_begin(study_directory *dir, study_plan *plan, const char *text, size_t length,
-                          store_shard shard, int force);
+                          store_shard shard, bool force);
 /* Reads the plan of the study, or of the shards of it that exist. */
 int study_directory_read(study_directory *dir, study_plan *plan);
 /* Reads the results of cells without rows in place of those before, *results being NULL where all

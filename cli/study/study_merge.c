@@ -152,7 +152,7 @@ static int read_results(merge *m, const study_directory *dir, study_results **re
 /* ---- all ---- */
 
 /* A target that is one of the sources is complete except for the runs of the others. */
-static int begin_target(merge *m, int force)
+static int begin_target(merge *m, bool force)
 {
     const store_shard whole = {0};
     for (int i = 0; i < m->sources; i++) {

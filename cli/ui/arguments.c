@@ -15,7 +15,7 @@ typedef struct reader {
     int group_count;
     int argc, next;
     char **argv;
-    bool plain;                 /* behind -- */
+    bool plain;                 /* after -- */
     uint64_t given[MAX_GROUPS]; /* bit k: option k was given */
 } reader;
 
@@ -108,17 +108,18 @@ static bool is_missing(const reader *r, int group, int k)
     return g->options[k].initial == CLI_REQUIRED && !((r->given[group] | g->without) >> k & 1);
 }
 
-/* Names what is required and was not given: options, or arguments that are none.  The first message
- * has the synopsis. */
-static int report_missing(const reader *r, bool of_options, const char *synopsis)
+typedef enum row_kind { ARGUMENTS, OPTIONS } row_kind;
+
+/* Names the required rows of a kind that were not given.  The first message has the synopsis. */
+static int report_missing(const reader *r, row_kind kind, const char *synopsis)
 {
     int status = CLI_DONE;
     for (int g = 0; g < r->group_count; g++)
         for (int k = 0; k < r->groups[g].count; k++) {
             const cli_option *option = &r->groups[g].options[k];
-            if (!is_missing(r, g, k) || (option->name != NULL) != of_options) continue;
-            status = cli_fail(CLI_USAGE, "%s%s is missing%s%s", of_options ? "--" : "the ",
-                              of_options ? option->name : option->value,
+            if (!is_missing(r, g, k) || (option->name != NULL) != (kind == OPTIONS)) continue;
+            status = cli_fail(CLI_USAGE, "%s%s is missing%s%s", kind == OPTIONS ? "--" : "the ",
+                              kind == OPTIONS ? option->name : option->value,
                               synopsis ? "; usage: " : "", synopsis ? synopsis : "");
             synopsis = NULL;
         }
@@ -158,8 +159,8 @@ int cli_read_arguments(const cli_command *command, int argc, char **argv, const 
         const int read = read_argument(&r, argument);
         if (status == CLI_DONE) status = read;
     }
-    const int argument = report_missing(&r, false, command->synopsis);
-    const int option = report_missing(&r, true, argument == CLI_DONE ? command->synopsis : NULL);
+    const int argument = report_missing(&r, ARGUMENTS, command->synopsis);
+    const int option = report_missing(&r, OPTIONS, argument == CLI_DONE ? command->synopsis : NULL);
     if (status == CLI_DONE) status = argument != CLI_DONE ? argument : option;
     for (int g = 0; g < count; g++) {
         const cli_group *group = &groups[g];

@@ -163,7 +163,7 @@ static void write_dispatch(dal__generation *g)
 /* The body of the recurrences for order 0, with all outputs, or for an order k, without those that
  * are needed by their values alone: pivots.  That for k is inlined into the loop over orders; for 0
  * it would take compilers more time than it saves. */
-static void write_orders(dal__generation *g, bool first, int outputs, int end)
+static void write_orders(dal__generation *g, dal__coefficient which, int outputs, int end)
 {
     const dal__taylor *taylor = g->programs->taylor[g->layout.lifted];
     dal__buffer *text = &g->text;
@@ -171,13 +171,14 @@ static void write_orders(dal__generation *g, bool first, int outputs, int end)
                       "%s void dal__series_%s(const dal_stored *w, int k,\n    num "
                       "(*DAL_RESTRICT c)[DAL_FIXED_TAYLOR_ORDER + 1], num *DAL_RESTRICT l, num "
                       "*out)\n{\n",
-                      first ? "static DAL_UNUSED __attribute__((noinline))" : "DAL_INLINE",
-                      first ? "first" : "next");
-    dal__taylor_write(taylor, g->programs->tapes, first, g->lanes == 1, text);
+                      which == DAL__FIRST ? "static DAL_UNUSED __attribute__((noinline))"
+                                          : "DAL_INLINE",
+                      which == DAL__FIRST ? "first" : "next");
+    dal__taylor_write(taylor, g->programs->tapes, which, g->lanes == 1, text);
     for (int i = 0; i < taylor->outputs; i++) {
-        if (!first && i >= outputs && i < end) continue;
+        if (which == DAL__NEXT && i >= outputs && i < end) continue;
         dal__buffer_print(text, "    out[%d] = ", i);
-        dal__taylor_write_output(taylor, g->programs->tapes, i, first, text);
+        dal__taylor_write_output(taylor, g->programs->tapes, i, which, text);
         dal__buffer_append(text, ";\n");
     }
     dal__buffer_append(text, "}\n");
@@ -193,8 +194,8 @@ static void write_series(dal__generation *g)
         &g->programs->program[lifted ? DAL__PROGRAM_ADJOINT : DAL__PROGRAM_FIELD];
     const int outputs = p->outputs, pivots = outputs + 2 * p->checked, end = pivots + p->left;
     dal__buffer *text = &g->text;
-    write_orders(g, true, outputs, end);
-    write_orders(g, false, outputs, end);
+    write_orders(g, DAL__FIRST, outputs, end);
+    write_orders(g, DAL__NEXT, outputs, end);
     dal__buffer_print(text,
                       "DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num "
                       "*in, num *memory, num *out)\n{\n"
@@ -242,7 +243,7 @@ void dal__write_start(dal__generation *g)
         ";\n"
         "static void dal__start(const dal_stored *work, num *y)\n{\n"
         "    num out[%d];\n"
-        "    dal__start_values(work, DAL_TIME(dal__start_time), NULL, NULL, NULL, out);\n"
+        "    dal__start_values(work, DAL_TIMES(dal__start_time), NULL, NULL, NULL, out);\n"
         "    for (int i = 0; i < DAL_FIXED_DIM; i++) y[i] = i < %d ? out[i] : "
         "dal_num(0.0);\n",
         first + 1, first + (k->lifted ? 1 : 0));
@@ -269,10 +270,10 @@ void dal__emit_callbacks(dal__generation *g)
                        dal__has_times(g)
                            ? "/* Each lane has its time. */\n"
                              "typedef num dal_time;\n#define DAL_NUM_TIME(t) (t)\n"
-                             "#define DAL_TIME(t) dal_num(t)\n"
+                             "#define DAL_TIMES(t) dal_num(t)\n"
                            : "/* All lanes have one time. */\n"
                              "typedef double dal_time;\n#define DAL_NUM_TIME(t) dal_num(t)\n"
-                             "#define DAL_TIME(t) (t)\n");
+                             "#define DAL_TIMES(t) (t)\n");
     dal__buffer_append(&g->text, "/* ---- the system ---- */\n"
                                  "#define DAL__ARGUMENTS const dal_stored *w, dal_time t, const "
                                  "num *q, const num *v, \\\n    const num *pi, num *out\n");

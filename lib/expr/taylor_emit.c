@@ -149,24 +149,26 @@ static void write_next(const writer *w)
 
 static bool is_square(const dal__taylor_sum *sum) { return sum->a == sum->b; }
 
-/* Sums of products, or of squares, that are needed. */
-static int count_sums(const dal__taylor *taylor, bool squares)
+typedef enum sum_kind { PRODUCTS, SQUARES } sum_kind;
+
+/* The sums of a kind that are needed. */
+static int count_sums(const dal__taylor *taylor, sum_kind kind)
 {
     int count = 0;
     for (int k = 0; k < taylor->sums; k++)
-        count += taylor->sum[k].needed && is_square(&taylor->sum[k]) == squares;
+        count += taylor->sum[k].needed && is_square(&taylor->sum[k]) == (kind == SQUARES);
     return count;
 }
 
 /* The same, rounded up to whole packs. */
-static int count_packed(const dal__taylor *taylor, bool squares)
+static int count_packed(const dal__taylor *taylor, sum_kind kind)
 {
-    return (count_sums(taylor, squares) + DAL__PACK - 1) / DAL__PACK * DAL__PACK;
+    return (count_sums(taylor, kind) + DAL__PACK - 1) / DAL__PACK * DAL__PACK;
 }
 
 int dal__taylor_packed(const dal__taylor *taylor)
 {
-    return 2 * count_packed(taylor, false) + count_packed(taylor, true);
+    return 2 * count_packed(taylor, PRODUCTS) + count_packed(taylor, SQUARES);
 }
 
 /* Sums of lanes, each by itself. */
@@ -186,7 +188,8 @@ static void write_sums(const writer *w)
  * for k <= 2 there are none, and p is the column of zeros. */
 static void write_packed_sums(const writer *w)
 {
-    const int products = count_packed(w->taylor, false), squares = count_packed(w->taylor, true);
+    const int products = count_packed(w->taylor, PRODUCTS),
+              squares = count_packed(w->taylor, SQUARES);
     int next[2] = {0, products};
     dal__buffer_print(w->text,
                       "    enum { products = %d, squares = %d };\n"
@@ -237,11 +240,12 @@ static void write_operands(const writer *w)
                       next[0], next[1]);
 }
 
-void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, bool first, bool packed,
-                       dal__buffer *text)
+void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, dal__coefficient which,
+                       bool packed, dal__buffer *text)
 {
-    writer w = {.taylor = taylor, .tapes = tapes, .order = first ? "0" : "k", .text = text};
-    if (!first) {
+    writer w = {
+        .taylor = taylor, .tapes = tapes, .order = which == DAL__FIRST ? "0" : "k", .text = text};
+    if (which == DAL__NEXT) {
         dal__buffer_append(text, "    const num inverse = dal_inverse(k);\n"
                                  "    const num unit_inverse = DAL_FIXED_UNIT_OF_TIME * inverse;\n"
                                  "    (void)inverse, (void)unit_inverse;\n");
@@ -252,12 +256,12 @@ void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, bool 
     }
     for (int n = 0; n < taylor->length; n++) {
         w.operation = &taylor->code[n];
-        if (first)
+        if (which == DAL__FIRST)
             write_first(&w);
         else
             write_next(&w);
     }
-    if (packed && first)
+    if (packed && which == DAL__FIRST)
         dal__buffer_print(text,
                           "    for (int i = 0; i < %d; i++)\n"
                           "        c[i][1] = c[i][DAL_FIXED_TAYLOR_ORDER] = dal_num(0.0);\n",
@@ -267,8 +271,8 @@ void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, bool 
 }
 
 void dal__taylor_write_output(const dal__taylor *taylor, const dal__tapes *tapes, int output,
-                              bool first, dal__buffer *text)
+                              dal__coefficient which, dal__buffer *text)
 {
-    const writer w = {.tapes = tapes, .order = first ? "0" : "k", .text = text};
+    const writer w = {.tapes = tapes, .order = which == DAL__FIRST ? "0" : "k", .text = text};
     write_coefficient(&w, taylor->output[output], w.order);
 }

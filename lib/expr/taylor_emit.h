@@ -5,6 +5,9 @@
 #include "core/buffer.h"
 #include "expr/taylor.h"
 
+/* Which coefficients a text computes: number 0, or each one after it. */
+typedef enum dal__coefficient { DAL__FIRST, DAL__NEXT } dal__coefficient;
+
 /* Writes the program as C statements over num for order 0, or for an order k >= 1, with the same
  * bits.  Coefficient k < DAL_FIXED_TAYLOR_ORDER of series i is c[i][k], in
  * c[slots][DAL_FIXED_TAYLOR_ORDER + 1]; what is constant along a run is DAL_WORK(place), or a
@@ -12,12 +15,12 @@
  * packed: for one lane.  Inner sums are formed in packs, for which their operands are stored a
  * second time, at l[dal__taylor_packed][DAL_FIXED_TAYLOR_ORDER + 1], and the last column of c is
  * 0. */
-void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, bool first, bool packed,
-                       dal__buffer *text);
+void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, dal__coefficient which,
+                       bool packed, dal__buffer *text);
 /* The series that are stored a second time, in whole packs. */
 int dal__taylor_packed(const dal__taylor *taylor);
 /* Writes that coefficient of an output. */
 void dal__taylor_write_output(const dal__taylor *taylor, const dal__tapes *tapes, int output,
-                              bool first, dal__buffer *text);
+                              dal__coefficient which, dal__buffer *text);
 
 #endif
