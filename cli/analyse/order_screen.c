@@ -60,7 +60,7 @@ static void add_cells(screen_table *t, const order_study *s, const order_method 
         screen_add_cell(t, SCREEN_PLAIN, "%s", succeeded ? screen_number(x, cost[i], 2) : "-");
 }
 
-/* The headings of a table that stands by itself, in one line. */
+/* The headings of a table by itself, in one line. */
 static void add_document_heads(screen_table *t, const order_study *s)
 {
     static const char *const first[] = {"integrator", "order", "order found"};

@@ -148,8 +148,8 @@ static bool read_earlier(const checkpoint_header *header, const unsigned char *b
     const size_t absent = header->magic == magic_04 ? CHOICE : CHOICE + 1 + parameters;
     if (pivots || system->events > 0 || present >= count) return false;
     if (missing != absent && missing != 2 * absent) return false;
-    const size_t behind = (1 + parameters) * (missing / absent);
-    const size_t before = header->magic == magic_04 ? present - behind : present;
+    const size_t added = (1 + parameters) * (missing / absent);
+    const size_t before = header->magic == magic_04 ? present - added : present;
     copy_words(state, body, before);
     copy_words(state + before + missing, body + before * WORD, present - before);
     return true;

@@ -48,7 +48,7 @@ static long long bytes_of(const char *text, size_t length, long long count)
     return at - text;
 }
 
-/* Cuts off what is behind the events that the run has had. */
+/* Cuts off what is after the events that the run has had. */
 static int keep_events(event_log *log, long long count)
 {
     size_t length;
@@ -117,7 +117,7 @@ void event_reader_open(event_reader *r, const char *path, int dimension)
     if (r->text) r->at = strchr(r->text, '\n');
 }
 
-/* Reads the cell behind a place, where `before` stands, and moves the place to its end. */
+/* Reads the cell after a place, where `before` is, and moves the place to its end. */
 static bool read_cell(const char **at, char before, double *x)
 {
     char *end;

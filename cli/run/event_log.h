@@ -14,7 +14,7 @@ typedef struct event_log {
     const run_simulation *simulation;
 } event_log;
 
-/* Creates a file; or, for a run that continues, cuts off what is behind the events that it has
+/* Creates a file; or, for a run that continues, cuts off what is after the events that it has
  * had.  These return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
 int event_log_open(event_log *log, const run_simulation *simulation, const char *path);
 /* Writes an event that has just happened. */
@@ -35,7 +35,7 @@ typedef struct event_reader {
 
 /* Opens a file, which may be missing: then there are no events. */
 void event_reader_open(event_reader *r, const char *path, int dimension);
-/* Reads an event; false behind the last one, and behind the last whole line of a file that a killed
+/* Reads an event; false after the last one, and after the last whole line of a file that a killed
  * run has left. */
 bool event_reader_next(event_reader *r);
 void event_reader_close(event_reader *r);

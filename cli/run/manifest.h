@@ -23,7 +23,7 @@ int manifest_compare(const run_directory *dir, const run_request *held, const ru
 /* Writes how far the run is; message: why, or "". */
 int manifest_write(const run_directory *dir, const run_simulation *simulation,
                    const run_position *position, store_state state, const char *message);
-/* "input" of a request, allocated, as it stands one level deep in a manifest; and read from one,
+/* "input" of a request, allocated, as it is one level deep in a manifest; and read from one,
  * the copy being the path of its system where that is a file. */
 char *manifest_input(const run_request *request);
 int manifest_read_input(run_request *request, const document *doc, const char *copy);

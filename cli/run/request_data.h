@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What the run itself does not know; the library's options come behind, then the SYSTEM. */
+/* What the run itself does not know; the library's options come next, then the SYSTEM. */
 #define REQUEST_OPTION_LIST(OPTION)                                                                \
     OPTION(integrator)                                                                             \
     OPTION(time)                                                                                   \

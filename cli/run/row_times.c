@@ -5,7 +5,7 @@
  *     linear   t_k = k T/N, T and h as decimals                k = 0..N (needs no list)
  *     log      t_0 = 0, t_k = h round((T/h)^((k-1)/(N-1)))     equal times are one row
  *     steps    t_k = h round(k N/S)                            k = 0..S, N = round(T/h), T = h N
- *     times    as they were given, and T behind them when it is later */
+ *     times    as they were given, and T after them when it is later */
 #include "row_times.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -86,7 +86,7 @@ static int add_time(run_request *request, const char *text)
     return CLI_DONE;
 }
 
-/* Times between commas and white space; in a file a line may end in a remark behind #. */
+/* Times between commas and white space; in a file a line may end in a remark after #. */
 static int parse_list(run_request *request, char *text)
 {
     int status = CLI_DONE;

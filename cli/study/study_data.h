@@ -124,7 +124,7 @@ typedef struct study_case {
     dal_method *methods;
     int method_count;
     double (*method_steps)[2]; /* [method_count] that the cells of the group take, on each space */
-    int first_cell, cells;     /* its cells stand together */
+    int first_cell, cells;     /* its cells are consecutive */
 } study_case;
 
 typedef struct study_plan {

@@ -2,7 +2,7 @@
  *
  *     expect: {sleigh: {rk4: {"abs(h1) - 0.3*m": {final: {at most: 0}}}}}
  *
- * What stands where a quantity is named and is no name is a formula, unless the system has a
+ * What is given where a quantity is named and is no name is a formula, unless the system has a
  * quantity of this name.  Cases of a group share their model, so all their runs observe it, as
  * `run --observe` does, and the quantity has the text of the formula as its name. */
 #include "study_observe.h"

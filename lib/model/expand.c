@@ -167,7 +167,7 @@ static bool has_range(const char *text, size_t length)
     return dots && dots < text + length;
 }
 
-/* All entries that one stands for: of a range in its name, and of its index. */
+/* All entries that one means: of a range in its name, and of its index. */
 static dal_status expand_entry(dal_model *model, const dal__entry *given, dal_error *error)
 {
     const bool is_name = given->section == DAL_SECTION_COORDINATES;
@@ -201,7 +201,7 @@ static dal_status expand_entry(dal_model *model, const dal__entry *given, dal_er
 
 /* ---- events ---- */
 
-/* An event as it is given: the events that it stands for, from number `first` on. */
+/* An event as it is given: the events that it means, from number `first` on. */
 typedef struct event_range {
     range r;
     bool is_many; /* it has a range */
@@ -284,7 +284,7 @@ static dal_status check_duplicates(const dal_model *model, dal_error *error)
     return DAL_STATUS_OK;
 }
 
-/* Whether an entry stands for others. */
+/* Whether an entry means others. */
 static bool is_compact(const dal__entry *entry)
 {
     const bool formula = dal__sections[entry->section].label != NULL;

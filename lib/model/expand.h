@@ -5,7 +5,7 @@
 #include "model/model.h"
 
 /* Evaluates the sizes, and makes of every given entry with an index or a range the entries that it
- * stands for:
+ * means:
  *
  *     x[1..N]                          x1, x2, ...
  *     x[i] with "for i = 1..N: ..."    an entry for each i, i being known in its formula
@@ -15,7 +15,7 @@
  * Errors: DAL_STATUS_SYNTAX and DAL_STATUS_NAME with place, DAL_STATUS_MODEL, DAL_STATUS_TOO_LARGE,
  * DAL_STATUS_MEMORY. */
 dal_status dal__expand(dal_model *model, dal_error *error);
-/* The length of "for i = 1..N:" and the blanks behind it, with which a text begins; or 0. */
+/* The length of "for i = 1..N:" and the blanks after it, with which a text begins; or 0. */
 size_t dal__range_length(const char *text);
 
 #endif

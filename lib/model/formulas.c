@@ -65,7 +65,7 @@ static dal_status parse_parameters(dal_model *model, dal_error *error)
 }
 
 /* Tables come first.  A function knows parameters, tables, the functions before it and its
- * arguments, whose symbols are behind all others. */
+ * arguments, whose symbols are after all others. */
 static dal_status parse_functions(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;

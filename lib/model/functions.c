@@ -10,7 +10,7 @@
 
 static const char *skip_blanks(const char *text) { return text + strspn(text, " \t\r\n"); }
 
-/* A name at *text, which is moved behind it and the blanks after it; NULL: there is none. */
+/* A name at *text, which is moved past it and the blanks after it; NULL: there is none. */
 static const char *read_word(dal_model *model, const char **text)
 {
     const size_t length = dal__name_length(*text, strlen(*text));

@@ -45,7 +45,7 @@ const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
 
 const char dal__set_prefix[] = "set.", dal__solve_prefix[] = "solve.";
 
-static const char *behind(const char *prefix, const dal__entry *entry, dal_section section)
+static const char *text_after(const char *prefix, const dal__entry *entry, dal_section section)
 {
     const size_t length = strlen(prefix);
     const bool begins =
@@ -55,12 +55,12 @@ static const char *behind(const char *prefix, const dal__entry *entry, dal_secti
 
 const char *dal__set_name(const dal__entry *entry)
 {
-    return behind(dal__set_prefix, entry, DAL_SECTION_EVENTS);
+    return text_after(dal__set_prefix, entry, DAL_SECTION_EVENTS);
 }
 
 const char *dal__solved_name(const dal__entry *entry)
 {
-    return behind(dal__solve_prefix, entry, DAL_SECTION_START);
+    return text_after(dal__solve_prefix, entry, DAL_SECTION_START);
 }
 
 bool dal__section_named(dal_section section)

@@ -52,7 +52,7 @@ typedef struct dal__entry {
 #define DAL__AT_TEXT(entry) (entry)->line, (entry)->column
 
 /* What the entries of a list or mapping within a section are called: what an event sets, "set.x'",
- * and what a start solves, "solve.x'".  The name behind that, "x'"; NULL: the entry is no such. */
+ * and what a start solves, "solve.x'".  The name after that, "x'"; NULL: the entry is no such. */
 extern const char dal__set_prefix[], dal__solve_prefix[];
 const char *dal__set_name(const dal__entry *entry);
 const char *dal__solved_name(const dal__entry *entry);

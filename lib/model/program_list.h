@@ -38,7 +38,7 @@ typedef struct dal__program {
     int tape;    /* number in the tapes */
     int outputs; /* for the caller */
     int checked; /* pivots, each with its size, that follow the outputs */
-    int left;    /* pivots for the rank check, behind these */
+    int left;    /* pivots for the rank check, after these */
 } dal__program;
 
 /* A branch: the argument of nodes that switch, and the table at whose points they do, or one of

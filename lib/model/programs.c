@@ -360,7 +360,7 @@ static void point_to_series(dal__programs *programs)
 
 /* ---- the whole ---- */
 
-/* Numbers behind scratch: the most that a program with pivots, or the diagnosis, writes. */
+/* Numbers after scratch: the most that a program with pivots, or the diagnosis, writes. */
 static size_t scratch_size(const dal__programs *programs)
 {
     size_t max = 0;

@@ -25,7 +25,7 @@ static dal_mask pivots_hold(const num *checked, int pivots)
     return ok;
 }
 
-/* Leaves pivots for the rank check; they stand behind those that were checked. */
+/* Leaves pivots for the rank check; they are after those that were checked. */
 static void leave_pivots(const dal__programs *p, const dal__program *program, const num *checked,
                          double *work)
 {
@@ -78,17 +78,17 @@ dal_status DAL_WIDE(dal__call_series)(const dal_system *system, int lifted, int 
     const dal__taylor *taylor = p->taylor[lifted];
     const dal__program *program = &p->program[lifted ? DAL__PROGRAM_ADJOINT : DAL__PROGRAM_FIELD];
     const int outputs = program->outputs, checked = 2 * program->checked;
-    const int behind = outputs + checked + program->left; /* place of mu_e */
+    const int further = outputs + checked + program->left; /* place of mu_e */
     double *scratch = work + p->scratch * WIDTH;
     num *to = (num *)out;
     DAL_WIDE(dal__taylor_run)(taylor, dal__unit_of_time(system), k, stride, in, work, memory);
     DAL_WIDE(dal__taylor_read)(taylor, 0, outputs, k, stride, work, memory, out);
     if (lifted) to[outputs] = dal_num(0.0);
-    if (taylor->outputs > behind) DAL_WIDE(dal__taylor_read)
-    (taylor, behind, 1, k, stride, work, memory, (double *)(to + outputs));
-    if (k > 0 || behind == outputs) return DAL_STATUS_OK;
+    if (taylor->outputs > further) DAL_WIDE(dal__taylor_read)
+    (taylor, further, 1, k, stride, work, memory, (double *)(to + outputs));
+    if (k > 0 || further == outputs) return DAL_STATUS_OK;
     DAL_WIDE(dal__taylor_read)
-    (taylor, outputs, behind - outputs, k, stride, work, memory, scratch);
+    (taylor, outputs, further - outputs, k, stride, work, memory, scratch);
     leave_pivots(p, program, (const num *)scratch, work);
     const dal_mask ok = pivots_hold((const num *)scratch, program->checked);
     for (int i = 0; i < outputs; i++) to[i] = dal_select(ok, to[i], dal_num(NAN));

@@ -209,7 +209,7 @@ static bool extend_basis(distribution *d, int point, double *x)
     return true;
 }
 
-/* Adds the field behind the others where it is independent of them at a point. */
+/* Adds the field after the others where it is independent of them at a point. */
 static void add_field(distribution *d, double weight, double *x)
 {
     dal__graph *graph = d->model->equations.graph;
@@ -332,7 +332,7 @@ static dal__node at_rest(const dal__equations *e, dal__node D, const dal__node *
     return dal__substitute(e->graph, D, e->symbol + e->v, e->n, zeros);
 }
 
-/* A[m*dim] of a distribution, behind it n zeros, the first column for t; and irregular points about
+/* A[m*dim] of a distribution, after it n zeros, the first column for t; and irregular points about
  * the start, value[symbols], at which it is finite. */
 static dal_status make_matrix(distribution *d, dal__node *A, const double *value,
                               const double *units, dal_error *error)

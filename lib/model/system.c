@@ -63,7 +63,7 @@ static dal_status add_blocks(dal_model *model, dal__programs *programs)
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_BLOCKS, lists, 5);
 }
 
-/* The nodes that read tables, each behind its argument, into out[2*lookups] where not NULL. */
+/* The nodes that read tables, each after its argument, into out[2*lookups] where not NULL. */
 static int list_lookups(dal__equations *e, dal__node *out)
 {
     int count = 0;

@@ -29,7 +29,7 @@ typedef struct engine_choice {
 /* The engine of all groups of one width. */
 typedef struct lane_engine {
     void *engine;
-    double *persistent; /* its own, and behind it the workspace */
+    double *persistent; /* its own, and after it the workspace */
 } lane_engine;
 
 typedef struct group {

@@ -31,7 +31,7 @@ static inline size_t dal__align(size_t bytes) { return (bytes + 63) / 64 * 64; }
 typedef struct dal__engine {
     /* Bytes of an engine, to be aligned to 64 bytes and to 8 bytes a lane. */
     size_t (*bytes)(const dal__layout *layout);
-    /* Makes an engine; *persistent and, behind it, *work receive its interleaved arrays (zeroed),
+    /* Makes an engine; *persistent and, after it, *work receive its interleaved arrays (zeroed),
      * *scratch (unless NULL) what is free between steps. */
     void *(*place)(const dal__layout *layout, void *memory, double **persistent, double **work,
                    double **scratch);

@@ -151,7 +151,7 @@ static num *allocate(char **at, size_t count)
     return p;
 }
 
-/* Number `place` behind y and r. */
+/* Number `place` after y and r. */
 static num *persistent_at(const engine *e, int place)
 {
     return e->persistent + dal__at(&e->layout, place);
@@ -420,7 +420,7 @@ static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_sta
 
 #if DAL_LANES == 1
 /* Divides a step of size h up to the substep that contains `part`, for its polynomial; continues
- * from the substep found last where that belongs to the same step and does not lie behind. */
+ * from the substep found last where that belongs to the same step and is not past. */
 static dal_status find_substep(engine *e, double h, double part)
 {
     dal_step *s = &e->step;

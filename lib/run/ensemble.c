@@ -156,7 +156,7 @@ struct dal_ensemble {
     int lanes, variations, started;
     uint64_t first; /* the member in lane 0 */
     varied *varied; /* [variations] */
-    /* Settings of the spec, with names of their own, and behind the parameters those that vary. */
+    /* Settings of the spec, with names of their own, and after the parameters those that vary. */
     dal_setting *parameters, *start;
     int spec_parameters, parameter_count, start_count;
     char *names;

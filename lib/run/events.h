@@ -1,6 +1,6 @@
 /* events.h - steps of a run whose system has events.
  *
- * Memory of events, behind all else in the persistent state:
+ * Memory of events, after all else in the persistent state:
  *
  *     side[events] | count[events] | stopped | stalled | jump[observables]
  *

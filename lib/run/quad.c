@@ -1,4 +1,4 @@
-/* quad.c - a run in quad precision: an engine of the variant x1_QUAD behind a run in double.
+/* quad.c - a run in quad precision: an engine of the variant x1_QUAD that a run in double holds.
  *
  * The run in double makes the start, explains failures and shows the state; after every step it
  * receives time, state and all other persistent state rounded.  The engine computes observables in

@@ -14,7 +14,7 @@ typedef struct dal__native_code {
     long long (*steps)(double *persistent, const double *work, double h, long long count,
                        unsigned lanes, unsigned *failed, int *reason);
     /* The same for one lane.  Component i of the state after step k goes to states[i*stride + k],
-     * the time behind the last component.  states may be NULL. */
+     * the time after the last component.  states may be NULL. */
     long long (*traced)(double *persistent, const double *work, double h, long long count,
                         unsigned *failed, int *reason, double *states, long long stride);
     /* The observables of such states: observable i of state k goes to values[i*stride + k]. */
@@ -29,7 +29,7 @@ typedef struct dal__native_code {
 typedef struct dal__observations {
     int capacity;
     double *states; /* [dim*capacity], evaluated together; NULL: each is evaluated at once */
-    double *times;  /* [capacity], behind states */
+    double *times;  /* [capacity], after states */
     double *values; /* [observables*capacity] */
     dal__native_code code;
 } dal__observations;
