@@ -52,7 +52,12 @@ static int resume(int argc, char **argv)
     };
     const int status = cli_read_arguments(&command_resume, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;
-    if (ensemble_directory_has_ensemble(s.directory)) {
+    const char *end = s.extension.time ? "time" : s.extension.steps ? "steps" : NULL;
+    const bool is_ensemble = ensemble_directory_has_ensemble(s.directory);
+    if (end && is_ensemble)
+        return cli_fail(CLI_USAGE, "--%s: '%s' holds an ensemble; a run can be extended", end,
+                        s.directory);
+    if (is_ensemble) {
         const ensemble_run_options how = {(int)s.threads, s.run.interval,  s.run.native,
                                           s.run.progress, work_on_threads, 1};
         const int ended = ensemble_resume(s.directory, &how);
@@ -62,6 +67,9 @@ static int resume(int argc, char **argv)
     study_directory_open(&dir, s.directory);
     const bool is_study = study_directory_has_study(&dir);
     study_directory_close(&dir);
+    if (end && is_study)
+        return cli_fail(CLI_USAGE, "--%s: '%s' holds a study: change '%s/study.yaml' and resume it",
+                        end, s.directory, s.directory);
     if (!is_study) return resume_run(s.directory, &s.extension, &s.run);
     const study_run_options how = {.threads = (int)s.threads,
                                    .interval = s.run.interval,

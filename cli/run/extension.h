@@ -17,8 +17,7 @@ typedef struct run_extension {
 
 /* Their rows in a table of options. */
 #define EXTENSION_OPTIONS(settings, member)                                                        \
-    {"time", "T2", NULL, "extends the run, or the ensemble, to t = T2",                            \
-     CLI_TEXT(settings, member.time)},                                                             \
+    {"time", "T2", NULL, "extends the run to t = T2", CLI_TEXT(settings, member.time)},            \
     {                                                                                              \
         "steps", "N2", NULL, "extends it to N2 steps since the start; excludes --time",            \
             CLI_TEXT(settings, member.steps)                                                       \

@@ -331,6 +331,23 @@ static void take_results(cell_run *r, const dal_error *error, int ended)
 
 /* ---- the run ---- */
 
+/* Whether a run differs from the one that is held in a later end alone: the study was given more
+ * time, and the rows of the run are at other distances then. */
+static bool lasts_longer(const run_request *request, const run_request *held)
+{
+    static const int ends[] = {REQUEST_time, REQUEST_steps};
+    const double more = copysign(1.0, held->options.step) * (request->time - held->time);
+    const bool is_later =
+        held->steps > 0 ? request->steps > held->steps : request->steps == 0 && more > 0.0;
+    run_request longer = *held;
+    for (int i = 0; i < 2; i++) longer.text[ends[i]] = request->text[ends[i]];
+    char *one = manifest_input(&longer), *other = manifest_input(request);
+    const bool is_same = strcmp(one, other) == 0;
+    free(one);
+    free(other);
+    return is_later && is_same;
+}
+
 /* Begins the run in its directory, or compares it with the run that is there.  Nothing waits for
  * the disk until the run is longer than the interval of checkpoints: what a power cut takes of a
  * shorter one is computed again. */
@@ -339,14 +356,20 @@ static int open_recorder(cell_run *r)
     run_directory *dir = &r->dir;
     const int has_run = run_directory_has_run(dir);
     dir->sync = 0;
+    bool is_longer = false;
     int status = cli_directory(dir->path);
     if (status == CLI_DONE) status = run_directory_lock(dir, has_run ? RUN_EXISTING : RUN_NEW);
     if (status == CLI_DONE && has_run) {
         run_request held = request_default();
         status = manifest_read(dir, &held);
-        if (status == CLI_DONE) status = manifest_compare(dir, &held, &r->simulation.request);
+        is_longer = status == CLI_DONE && lasts_longer(&r->simulation.request, &held);
+        if (status == CLI_DONE && !is_longer)
+            status = manifest_compare(dir, &held, &r->simulation.request);
         request_free(&held);
-    } else if (status == CLI_DONE) {
+    }
+    if (status == CLI_DONE && (!has_run || is_longer)) {
+        free(dir->input);
+        dir->input = NULL;
         status = manifest_begin(dir, &r->simulation);
     }
     if (status == CLI_DONE) status = recorder_open(&r->recorder, &r->simulation, dir, dir->path);

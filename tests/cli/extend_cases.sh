@@ -157,3 +157,44 @@ sed -e 's/"status": "done"/"status": "running"/' -e '/"message"/d' stopped/manif
 sed 's/\("seconds": [^,]*\),$/\1/' manifest >stopped/manifest.json
 try 2 resume stopped --time 6
 says "^dalembert: 'stopped' cannot be extended: event 1 stopped the run at t = 0\.47"
+
+# grows KEYS: a study whose file gets other integrators, steps, systems and a longer time is the study of that file.
+grows() {
+    rm -rf small grown
+    printf "title: A\nintegrators: [rk4]\nstep: 0.05\ntime: 4\nsystems: [chaplygin-sleigh]\n$1" >small.yaml
+    printf "title: A\nintegrators: [gauss4, rk4]\nstep: [0.025, 0.05]\ntime: $2\n\
+systems: [pendulum-cvt, chaplygin-sleigh]\n$1" >grown.yaml
+    try 0 study small.yaml --no-page --output small
+    cp grown.yaml small/study.yaml
+    try 0 resume small --no-page
+    try 0 study grown.yaml --no-page --output grown
+    for file in tables.txt quantities.csv; do
+        expect "not the $file of the study" cmp small/$file grown/$file
+    done
+}
+
+case_is "a study that grows"
+grows '' 4
+before=$(cat small/runs/chaplygin-sleigh_rk4_surface_0.05/manifest.json)
+expect "other runs" [ "$(ls small/runs)" = "$(ls grown/runs)" ]
+try 0 resume small --no-page
+expect "a finished run was run again" \
+    [ "$before" = "$(cat small/runs/chaplygin-sleigh_rk4_surface_0.05/manifest.json)" ]
+case_is "a study that gets more time"
+grows '' 6
+for run in grown/runs/*; do
+    expect "other rows" cmp "$run/trajectory.npy" "small/runs/${run##*/}/trajectory.npy"
+done
+
+case_is "what a study and an ensemble refuse"
+cp small/study.yaml long.yaml
+sed 's/time: 6/time: 5/' long.yaml >small/study.yaml
+try 2 resume small --no-page
+says "holds another run: its input differs"
+cp long.yaml small/study.yaml
+try 0 ensemble chaplygin-sleigh --members 2 --seed 1 --vary 'm=uniform(0,0.1)' --integrator rk4 --step 0.1 --time 1 \
+    --no-page --output members
+table <<'END'
+2 | resume small --time 9    | says ^dalembert: --time: 'small' holds a study: change 'small/study\.yaml' and resume it$
+2 | resume members --steps 9 | says ^dalembert: --steps: 'members' holds an ensemble; a run can be extended$
+END
