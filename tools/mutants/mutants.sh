@@ -14,8 +14,8 @@
 #
 # Each is built below BUILD/mutants by JOBS processes, at -O1 and with few variants, since a source of
 # several widths must be changed in all of them; one is for AVX2, so that code for it runs as well.
-# The suites of the module (suites.txt) run until one fails, then the parts of the command line, one
-# by one; for a file in cli/ only these.  A part that fails must pass with the sources themselves.  A
+# The suites of the module (suites.txt) run until one fails, the fastest first, then the parts of the
+# command line, one by one; for a file in cli/ only these.  A part that fails must pass with the sources themselves.  A
 # mutant that takes LIMIT times as long as the sources themselves is ended and counts as noticed, as
 # one that crashes does.
 #
@@ -35,10 +35,11 @@ LIMIT=${LIMIT:-6}
 BUILD=${BUILD:-build}
 place=$root/$BUILD/mutants
 case $BUILD in /*) place=$BUILD/mutants ;; esac
-flags=-O1
+# What is no C, such as arguments exchanged that have other types, is no mutant.
+flags="-O1 -Werror=incompatible-pointer-types -Werror=int-conversion"
 if [ -n "$SANITIZE" ]; then
     place=$place-sanitize
-    flags="-O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=address,undefined"
+    flags="$flags -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=address,undefined"
 fi
 tree=$place/tree
 variants="x1 x1_QUAD x4"
@@ -91,11 +92,13 @@ limited() {
     (cd "$tree" && { [ -n "$SANITIZE" ] || ulimit -v 8000000; } && TMPDIR=$place/tmp exec timeout -k 2 "$seconds" "$@") \
         >"$place/test.log" 2>&1
 }
-# The suites there are: suites of the list that this version does not have are passed over.
-known() { for suite in $1; do grep -qx "$suite" "$place/suites" && echo "$suite"; done; }
+# known SUITE...: those that this version has.
+known() { for suite; do grep -x "$suite" "$place/suites"; done; }
+# fastest_first SUITE...: those that this version has, by the time that they took with the sources themselves.
+fastest_first() { known "$@" | sort -u | join - "$place/times" | sort -n -k 2 | cut -d ' ' -f 1; }
 # passes FILE SECONDS: whether all tests of a file pass; names the test that does not.
 passes() {
-    for suite in $(known "$(tests_of "$1" suites)"); do
+    for suite in $(fastest_first $(tests_of "$1" suites)); do
         noticed=$suite
         limited "$2" build/tests/suite --quick "$suite" || return
     done
@@ -147,10 +150,12 @@ find $module -name '*.[ch]' | sort | xargs awk -v operators="$OPERATORS" -f "$he
 began=$(date +%s)
 for file in $(cut -f1 "$place/candidates" | sort -u); do tests_of "$file" suites; done | sort -u \
     >"$place/needed"
-for suite in $(known "$(cat "$place/needed")"); do
+for suite in $(known $(cat "$place/needed")); do
+    started=$(date +%s%N)
     limited 600 build/tests/suite --quick "$suite" ||
-        { cat "$place/test.log"; echo "mutants: $suite fails without a mutant"; exit 2; }
-done
+        { { cat "$place/test.log"; echo "mutants: $suite fails without a mutant"; } >&2; exit 2; }
+    echo "$suite $(($(date +%s%N) - started))"
+done >"$place/times"
 limit=$((LIMIT * ($(date +%s) - began) / 4 + 10))
 
 # ---- mutants ----
