@@ -36,7 +36,8 @@ const char *compiler_machine(void)
 static const char folders[] = "/tmp/dal-compiled-XXXXXX";
 char compiler_folder[sizeof folders];
 bool compiler_works;
-const dal_native_options compiler_options = {.cache = compiler_folder};
+/* However busy the machine is, the compiler ends. */
+const dal_native_options compiler_options = {.cache = compiler_folder, .patience = 3600};
 
 int compiler_set_up(void)
 {

@@ -109,7 +109,7 @@ static long compilations(void)
 static void use_cache(const char *model)
 {
     dal_run *run = new_run(model);
-    const dal_native_options counted = {.cache = kept, .compiler = "./fake"};
+    const dal_native_options counted = {.cache = kept, .compiler = "./fake", .patience = 3600};
     CU_ASSERT_EQUAL(dal_run_native(run, &counted, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
     dal_run_free(run);
@@ -235,16 +235,18 @@ static void test_abandoned(void)
     }
     CU_ASSERT_EQUAL(folders_in(kept), 2);
     dal_run *other = new_run("vertical-disk");
-    CU_ASSERT_EQUAL(dal_run_native(other, &(dal_native_options){.cache = kept}, NULL),
-                    DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(
+        dal_run_native(other, &(dal_native_options){.cache = kept, .patience = 3600}, NULL),
+        DAL_STATUS_OK);
     CU_ASSERT_NOT_EQUAL(access(folder, F_OK), 0);
     CU_ASSERT_EQUAL(folders_in(kept), 1);
     CU_ASSERT_EQUAL(write(pipe, "\n", 1), 1); /* the compiler goes on, and ends */
     for (int i = 0; i < 600 && folders_in(kept) > 0; i++) {
         nanosleep(&(struct timespec){0, 100000000}, NULL);
         dal_run *next = new_run("vertical-disk");
-        CU_ASSERT_EQUAL(dal_run_native(next, &(dal_native_options){.cache = kept}, NULL),
-                        DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(
+            dal_run_native(next, &(dal_native_options){.cache = kept, .patience = 3600}, NULL),
+            DAL_STATUS_OK);
         dal_run_free(next);
     }
     CU_ASSERT_EQUAL(folders_in(kept), 0);
@@ -263,7 +265,8 @@ static void test_objects_apart(void)
     compiler_fake("exec cc \"$@\"");
     CU_ASSERT_EQUAL(symlink("fake", "same"), 0);
     for (int i = 0; i < 4; i++) {
-        const dal_native_options with = {.cache = kept, .compiler = compilers[i % 2]};
+        const dal_native_options with = {
+            .cache = kept, .compiler = compilers[i % 2], .patience = 3600};
         const dal_run_spec spec = fixture_spec(fixture_system(falling),
                                                i < 2 ? "rk4" : "stormer-verlet", DAL_PHYSICAL, 0.1);
         dal_run *run = fixture_run(&spec);

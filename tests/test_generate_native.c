@@ -19,7 +19,7 @@
 static char place[] = "/tmp/dal-native-XXXXXX";
 static int before; /* the directory that was */
 static bool compiles;
-static const dal_native_options options = {.cache = "cache"};
+static const dal_native_options options = {.cache = "cache", .patience = 3600};
 
 static int set_up(void)
 {
@@ -73,7 +73,7 @@ static void same_run(const dal_run_spec *of)
 /* The same steps by the tape and compiled, without optimisation, which takes less time. */
 static void same_steps(const dal_system *system, const char *method)
 {
-    const dal_native_options plain = {.cache = "cache", .compiler = "./fake"};
+    const dal_native_options plain = {.cache = "cache", .compiler = "./fake", .patience = 3600};
     dal_run_spec spec = fixture_spec(system, method, DAL_LIFTED, 0.01);
     spec.options.solver = DAL_NEWTON;
     dal_run *const tape = fixture_run(&spec), *const native = fixture_run(&spec);
@@ -333,8 +333,9 @@ static void test_cache_names(void)
                                         "-o"};
     for (int i = 0; i < 3 && compiles; i++) {
         dal_run *run = new_run(falling);
-        CU_ASSERT_EQUAL(dal_run_native(run, &(dal_native_options){.cache = names[i]}, NULL),
-                        DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(
+            dal_run_native(run, &(dal_native_options){.cache = names[i], .patience = 3600}, NULL),
+            DAL_STATUS_OK);
         CU_ASSERT_EQUAL(folder_files(names[i]), 1);
         dal_run_free(run);
         folder_remove(names[i]);
@@ -415,7 +416,7 @@ static void test_compiler_stopped(void)
 /* An object without the function, as another version might have left it, is made once again. */
 static void test_foreign_object(void)
 {
-    const dal_native_options fake = {.cache = "cache", .compiler = "./fake"};
+    const dal_native_options fake = {.cache = "cache", .compiler = "./fake", .patience = 3600};
     dal_run *run = new_run(falling);
     compiler_fake("if [ -e seen ]; then exec cc \"$@\"; fi; : >seen\n"
                   "echo 'int other;' >other.c; while [ $# -gt 2 ]; do shift; done\n"

@@ -19,7 +19,7 @@
 /* Tests run in a directory of their own. */
 static char place[] = "/tmp/dal-change-XXXXXX";
 static int before; /* the directory that was */
-static const dal_native_options options = {.cache = "cache"};
+static const dal_native_options options = {.cache = "cache", .patience = 3600};
 static const dal_native_options gated = {.cache = "gated", .compiler = "./fake", .patience = 600};
 
 static int set_up(void)
