@@ -106,13 +106,14 @@ passes() {
     [ -z "$parts" ] || build build/dalembert || return
     for part in $parts; do
         noticed="cli $part"
-        run_part "$((10 * $2 + 300))" build/dalembert "$part"
+        run_part "$((10 * $2 + 5 * PATIENCE))" build/dalembert "$part"
         ends=$?
         [ $ends -eq 0 ] || { confirm "$part"; return $ends; }
     done
 }
 # run_part SECONDS PROGRAM PART: PATIENCE ends commands that hang; a machine with other work needs more of it.
-run_part() { limited "$1" env PATIENCE="${PATIENCE:-60}" FIRST_FAILURE=1 sh tests/cli/run.sh "$2" "$3"; }
+PATIENCE=${PATIENCE:-60}
+run_part() { limited "$1" env PATIENCE="$PATIENCE" FIRST_FAILURE=1 sh tests/cli/run.sh "$2" "$3"; }
 # A part that fails with the sources themselves would notice nothing.
 confirm() {
     grep -qx "$1" "$place/confirmed" && return
