@@ -63,7 +63,7 @@ try 0 resume stopped
 says "'stopped' is finished: 6 rows"
 
 # Every number of the state, with the right sum: none crashes, and what no run has is named.
-if there python3; then
+if needs 281 "no python3" there python3; then
     case_is "a checkpoint whose numbers were changed"
     change="python3 $here/change_checkpoint.py changed/checkpoint"
     try 0 run $ball --time 1 --samples 10 --space physical --output ended
@@ -93,6 +93,7 @@ the checkpoint is damaged: persistent number" err
         expect "no word of $name" grep -Eq "persistent number [0-9]+(, .*$name, is | is not finite)" messages
     done
     rm -rf changed
+    counted
 fi
 
 case_is "infinitely many events"

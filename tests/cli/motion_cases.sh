@@ -40,10 +40,13 @@ expect "not all 14" awk -F, 'NR > 1 { t = (NR - 1.5)*3.14159265358979324/7; if (
     END { exit NR != 15 }' out
 try 0 section even.yaml --on "cos(1e5*x)" $coarse
 says '^dalembert: 9 steps may hide crossings, the first from t = 0: '
-try 0 section even.yaml --on "cos(1e5*x)" $coarse --output fast.csv --json
-expect "not in the JSON" json out "d['unresolved'] == 9 and d['first_unresolved'] == 0"
-try 0 section even.yaml --on "cos(7*x)" $coarse --output slow.csv --json
-expect "not in the JSON" json out "d['unresolved'] == 0 and d['first_unresolved'] is None"
+if needs 4 "no python3" there python3; then
+    try 0 section even.yaml --on "cos(1e5*x)" $coarse --output fast.csv --json
+    expect "not in the JSON" json out "d['unresolved'] == 9 and d['first_unresolved'] == 0"
+    try 0 section even.yaml --on "cos(7*x)" $coarse --output slow.csv --json
+    expect "not in the JSON" json out "d['unresolved'] == 0 and d['first_unresolved'] is None"
+    counted
+fi
 for transient in 6.3 7; do
     try 2 section even.yaml --on x-1 $coarse --transient $transient
     says "^dalembert: --transient $transient: no crossing is left, the run ends at t = 6.3$"
@@ -52,11 +55,12 @@ try 0 section even.yaml --on x-6 $coarse --transient 5.9
 expect "not the crossing after the transient" test "$(wc -l <out)" -eq 2
 
 case_is "a directory of crossings"
-if command -v gnuplot >/dev/null 2>&1; then
+if needs 4 "no gnuplot" there gnuplot; then
     try 0 section osc.yaml --on x $fine --output crossed --axes "t,x'"
     prints '^t = 20: 3 upwards, 3 downwards, 0 touches; 6 rows$'
     expect "other rows" cmp both.csv crossed/section.csv
     expect "no picture" grep -q '<svg' crossed/report/section.svg
+    counted
 fi
 
 # The columns of the picture vary on the section, and not by rounding.
@@ -71,7 +75,7 @@ varied() { # DIR
         END { exit !(FNR > 3 && x && y && x != y && high[x] - low[x] > 1e-3 && high[y] - low[y] > 1e-3) }' \
         axes "$1/section.csv"
 }
-if command -v gnuplot >/dev/null 2>&1; then
+if needs 8 "no gnuplot" there gnuplot; then
     case_is "the picture of a section"
     # The section of docs/program.md; on it D makes y' = 0.
     readme=$(sed -n 's/^    build\/dalembert section //p' "$here/../../docs/program.md")
@@ -85,6 +89,7 @@ if command -v gnuplot >/dev/null 2>&1; then
     try 0 section chaplygin-sleigh --on "cos(phi) = 0.5" --integrator gauss4 --step 0.1 --time 100 \
         --output on-phi
     expect "axes that do not vary, cos(phi) = 1/2" varied on-phi
+    counted
 fi
 
 # A = B is wrong where A or B is, in the columns of --on, and the program's own names stay its own.
@@ -252,7 +257,8 @@ expect "no rows" reaches $! has_lines early.csv 3
 ends_by INT 130 $!
 says '^dalembert: interrupted; the means so far are kept$'
 prints '^exponent 2 '
-if command -v gnuplot >/dev/null 2>&1; then
+if needs 2 "no gnuplot" there gnuplot; then
     try 0 volume line.yaml --integrator rk4 --step 0.1 --time 10 --output volumes
     expect "no picture" grep -q '<svg' volumes/volume.svg
+    counted
 fi

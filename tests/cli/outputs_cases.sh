@@ -221,7 +221,8 @@ case_is "another user"
 chmod 711 "$top"
 mkdir other && cp "$program" line.yaml bounce.yaml other && chmod 755 other && chown -R 65534:65534 other
 as="setpriv --reuid=65534 --regid=65534 --clear-groups"
-if there setpriv && $as test -r "$work/other/line.yaml" 2>err; then
+reads_as_other() { there setpriv && $as test -r "$work/other/line.yaml" 2>err; }
+if reads_as_other; then
     cd other || exit 1
     own=$program program=$work/other/${program##*/}
     [ ! -c ../device ] || { mknod device c 1 3 && chmod 666 device; }

@@ -86,7 +86,7 @@ start: {x2: 3, x1'"'"': 1}\n' >pair.yaml
     counted
 fi
 
-if command -v gnuplot >/dev/null 2>&1; then
+if needs 152 "no gnuplot" there gnuplot; then
     case_is "the report of a study"
     try 0 report drawn
     silent
@@ -360,6 +360,7 @@ END_OF_SYSTEM
     try 0 run burst.yaml --integrator rk4 --step 0.1 --time 1 --output burst
     try 0 report burst
     expect "no figure of the others" grep -q '<svg' burst/report/coordinates.svg
+    counted
 fi
 
 # outline DIR EXPECTED...: the page of a directory is HTML, every element closed and known; EXPECTED are

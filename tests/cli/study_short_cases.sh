@@ -117,7 +117,10 @@ expect "no results" reaches $! has_bytes long/results/all $((5 * 800))
 ends_by INT 130 $!
 says 'interrupted; resume with: dalembert resume long'
 expect "results are lost" test "$(grep -c ',done,' long/cells.csv)" -eq 5
-expect "the manifest" json long/manifest.json 'd["status"] == "interrupted" and d["cells"]["done"] == 5'
+if needs 1 "no python3" there python3; then
+    expect "the manifest" json long/manifest.json 'd["status"] == "interrupted" and d["cells"]["done"] == 5'
+    counted
+fi
 
 case_is "short runs: bad values"
 bad 'integrators: [rk4]\nstep: 1\ntime: 1\nrows: some\nsystems: [plane.yaml]\n' \

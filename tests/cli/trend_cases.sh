@@ -66,7 +66,7 @@ try 0 study stated.yaml --output energies --force
 # sentences PAGE: the paragraphs of a page, except in its head and end.
 sentences() { grep -o '<p>[^<]*</p>' "$1"; }
 
-if command -v gnuplot >/dev/null 2>&1; then
+if needs 27 "no gnuplot" there gnuplot; then
     case_is "a page of a system that lacks nearly all"
     printf "coordinates: [x]\naccelerations: {x: -x}\n" >bare.yaml
     try 0 run bare.yaml --integrator rk4 --step 0.1 --time 5 --space physical --output bare
@@ -121,6 +121,7 @@ invariants: {${invariants}moves: x}\n" >many.yaml
     sed '1s/E_trend/E_verdict/' bares/cells.csv >elder/cells.csv
     try 2 report elder
     says "elder/cells.csv: there is no column 'E_trend': another version"
+    counted
 fi
 
 # x = t + 5e-5 t^2: the rate is 1.005, the rates of the quarters of 100 are 0.0025 apart, 49 * 0.0075

@@ -144,11 +144,12 @@ if [ -x "$units" ]; then
     done
     rm -rf plain
 else
-    echo "cli: units: skipped: no $units (make check builds it)"
+    skips 206 "no $units: make check builds it"
 fi
 
 case_is "explain in other units"
-if [ -x "$units" ] && needs 8 "no python3" there python3; then
+changes_and_reads() { [ -x "$units" ] && there python3; }
+if needs 8 "no $units, or no python3" changes_and_reads; then
     for system in chaplygin-sleigh contact-oscillator damped-oscillator isokinetic; do
         for seed in 0 3; do
             mkdir -p explain-$seed

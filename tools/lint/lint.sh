@@ -67,6 +67,12 @@ cplusplus() {
     printf "#include <%s>\n" dalembert.h dalembert_analysis.h dalembert_codegen.h |
         clang -x c++ -std=c++11 -Wall -Wextra -Wpedantic -fsyntax-only -Iinclude -
 }
+# What a missing tool skips is counted, by needs or skips.
+skipped() {
+    find tests/cli -name '*_cases.sh' ! -name checks_cases.sh | sort |
+        xargs grep -nE '^ *(el)?if (! )?(there|command -v) |echo .*skipped' | grep -v ' skips [0-9]' |
+        sed 's/$/: use needs or skips/'
+}
 scripts() {
     for script in $(find tools tests .ci -name '*.sh' -o -path .ci/run); do
         case $(head -n 1 "$script") in
@@ -197,6 +203,7 @@ check "names in comments" comments
 check "the public header in C++" cplusplus
 check "comments that two files have" twice
 check "scripts" scripts
+check "tests that are skipped" skipped
 check "shellcheck" shell
 check "symbol prefix" prefix
 check "no changeable globals" globals
