@@ -40,6 +40,8 @@ static void each(void (*check)(const reference *b))
 
 static void check_energy(const reference *b)
 {
+    expect(b->system, !b->system->call.potential || b->system->properties & DAL_MASS_CONSTANT,
+           "a potential beside a W that is not constant");
     const dal_system *s = b->system;
     bool exact = s->properties & DAL_E_EXACT, weak = s->properties & DAL_E_ON_D;
     expect_tag(s, "energy-exact", exact);

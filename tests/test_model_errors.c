@@ -51,6 +51,8 @@ static const bad_file yaml[] = {
     {DAL_STATUS_SYNTAX, "a text is expected in coordinates", "coordinates: [@[x]]\n"},
     {DAL_STATUS_SYNTAX, "a text is expected in start, or {for: i = 1..N, is: \"formula in i\"}",
      "start: {x: @{y: 1}}\n"},
+    {DAL_STATUS_SYNTAX, "a text is expected in start, or {for: i = 1..N, is: \"formula in i\"}",
+     "start: {x: @{is: {for: i = 1..2, is: 1}}}\n"},
     {DAL_STATUS_SYNTAX, "a name is expected here", "start: {@[x]: 1}\n"},
     {DAL_STATUS_SYNTAX, "reactions must be a list of mappings", "reactions: @{x: 1}\n"},
     {DAL_STATUS_SYNTAX, "reactions must be a list of mappings", "reactions: [{x: 1}, @y]\n"},

@@ -131,7 +131,8 @@ done
 motion="--integrator rk4 --step 0.1 --time 1"
 for arguments in "check line.yaml" "show benenti" "generate line.yaml --integrator rk4" "explain line.yaml $motion" \
     "order line.yaml --integrators rk4 --time 1" "lyapunov line.yaml $motion" "section line.yaml --on x-0.1 $motion" \
-    "explain line.yaml $motion --json" "order line.yaml --integrators rk4 --time 1 --output -" "list --json"; do
+    "explain line.yaml $motion --json" "order line.yaml --integrators rk4 --time 1 --output -" "list --json" \
+    "help --markdown"; do
     "$program" $arguments >/dev/full 2>err
     status=$?
     expect "exit $status, not 4: $arguments" [ $status -eq 4 ]

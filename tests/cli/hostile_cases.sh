@@ -82,6 +82,14 @@ for way in fails draws stops dies; do
     done
 done
 
+# Of many methods each family has figures of its own.
+mkdir -p family
+printf '#!/bin/sh\ncase $1 in *-[0-9]*-1.gp) exit 1 ;; esac\necho "<svg></svg>" >"${1%%.gp}.svg"\n' >family/gnuplot
+chmod +x family/gnuplot
+PATH=$PWD/family:$PATH try 4 order line.yaml --levels 2 --time 1 --output families
+says "^dalembert: gnuplot failed on '(.*/)?order-[0-9]+-1\.gp'$"
+expect "the next families are drawn" test "$(grep -c 'gnuplot failed' err)" -eq 1
+
 # hostile PART...: a part of hostile.py, in a directory of its own.
 hostile() {
     rm -rf hostile && mkdir hostile

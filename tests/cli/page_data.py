@@ -45,8 +45,8 @@ def compare_envelope(found, times, rows, column):
     """Whether values are the maxima of the rows up to each time, within half a level."""
     for level, time in zip(found, times):
         wanted = max(float(r[column] or 0) for r in rows if float(r["until"]) <= time * (1 + 1e-5))
-        if wanted == 0 or level == 0:
-            same = wanted == 0 and level == 0
+        if wanted in (0, math.inf) or level == 0:
+            same = value(level) == wanted
         else:
             same = abs(math.log2(value(level) / wanted)) < 0.51 / 256
         if not same:
@@ -62,6 +62,9 @@ def compare_envelopes(parts, directory):
         with open(f"{directory}/series/{part['label']}.csv", encoding="utf-8") as file:
             series = list(csv.DictReader(file))
         for cell in part["cells"]:
+            if cell["step"] not in range(len(part["steps"])):
+                print(f"{part['label']}, {cell['method']}: step {cell['step']}")
+                continue
             step = part["steps"][cell["step"]]
             starts = ("displaced",) if "H" in cell else ("physical", "surface")
             for name in columns.keys() & cell.keys():

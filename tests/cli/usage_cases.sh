@@ -332,8 +332,9 @@ for integrator in symplectic-euler-00 symplectic-euler-10 symplectic-euler-01 \
     gauss12 '\+project'; do
     prints "^${integrator}[ ,]"
 done
-prints '^rk4 +4 '
+prints '^rk4 +4 +explicit +- '
 prints '^gauss12 +12 '
+prints '^\+yoshida4 +4 +as NAME +as NAME '
 try 0 list --markdown
 prints '^\| `chaplygin-sleigh` +\|'
 prints '^\|-+\|'
