@@ -58,7 +58,8 @@ typedef dal_status dal_scale_callback(const dal_system *system, const dal_point 
     CALLBACK(GUARDS, guards, tqv, guards) /* denominators; NULL: none */ \
     CALLBACK(BLOCKS, blocks, tqv, 2 * (m + m * n) + n) /* D, A, R = W^-1 B^T, a = W^-1 b, */ \
         /* c = D_q v + D_t (methods that enforce D) */ \
-    CALLBACK(POTENTIAL, potential, tqv, 3 * n) /* U, U_q.v, v.Wv (discrete-gradient) */
+    CALLBACK(POTENTIAL, potential, tqv, 3 * n) /* U, U_q.v, v.Wv (discrete-gradient) */ \
+    CALLBACK(CORRECTION, correction, tqv, n) /* x, W x = A^T l, A x = -D; NULL: by constraint */
 /* clang-format on */
 typedef struct dal_callbacks {
 #define MEMBER(code, member, ...) dal_callback *member;

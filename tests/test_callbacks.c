@@ -33,6 +33,7 @@ static bool fails(void) { return ++calls == failing; }
     MEMBER(call.guards, guards)                                                                    \
     MEMBER(call.blocks, blocks)                                                                    \
     MEMBER(call.potential, potential)                                                              \
+    MEMBER(call.correction, correction)                                                            \
     MEMBER(prepare, prepare)                                                                       \
     MEMBER(start, start)                                                                           \
     MEMBER(constraints, constraints)                                                               \

@@ -151,6 +151,11 @@ static void scale_reactions(const dal_scaled *s, double *out)
     multiply(out, 1.0, s->m, s->per_constraint, s->n, s->speed);
 }
 
+static void scale_correction(const dal_scaled *s, double *out)
+{
+    multiply(out, 1.0, 1, NULL, s->n, s->per_speed);
+}
+
 static void scale_exact(const dal_scaled *s, double *out)
 {
     out = multiply(out, 1.0, 1, NULL, s->n, s->per_length);
@@ -171,6 +176,7 @@ static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
     SCALED(guards, call.guards, NULL, keep)                                                        \
     SCALED(blocks, call.blocks, NULL, scale_blocks)                                                \
     SCALED(potential, call.potential, NULL, scale_potential)                                       \
+    SCALED(correction, call.correction, NULL, scale_correction)                                    \
     SCALED(constraints, constraints, NULL, scale_constraints)                                      \
     SCALED(energy, energy, NULL, scale_energy)                                                     \
     SCALED(invariant_values, invariant_values, NULL, scale_invariants)                             \

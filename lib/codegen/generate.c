@@ -157,6 +157,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_SOLVE", kernel & DAL_KERNEL_SOLVE},
         {"DAL_WITH_METHOD_STATE", kernel & DAL_KERNEL_METHOD_STATE},
         {"DAL_WITH_CONSTRAINT", kernel & DAL_KERNEL_CONSTRAINT},
+        {"DAL_WITH_PROJECTION", kernel & (DAL_KERNEL_CONSTRAINT | DAL_KERNEL_CORRECTION)},
         {"DAL_WITH_GAUGE", g->layout.lifted && dal__wants(g, DAL__PROGRAM_GAUGE)},
         {"DAL_WITH_GUARDS", guards},
         {"DAL_WITH_RANK", rank},
@@ -387,9 +388,9 @@ static void write_enums(dal__generation *g)
     if (!(g->kernel & DAL_KERNEL_SOLVE)) return;
     dal__buffer_append(&g->text, "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
     dal__buffer_print(&g->text,
-                      "enum { DAL_BLOCKS_POSITIONAL = %d, DAL_MASS_ON_KERNEL = %d, "
-                      "DAL_F_POSITIONAL = %d };\n",
-                      DAL_BLOCKS_POSITIONAL, DAL_MASS_ON_KERNEL, DAL_F_POSITIONAL);
+                      "enum { DAL_D_LINEAR = %d, DAL_BLOCKS_POSITIONAL = %d, "
+                      "DAL_MASS_ON_KERNEL = %d,\n       DAL_F_POSITIONAL = %d };\n",
+                      DAL_D_LINEAR, DAL_BLOCKS_POSITIONAL, DAL_MASS_ON_KERNEL, DAL_F_POSITIONAL);
 }
 
 static void write_method(dal__generation *g)

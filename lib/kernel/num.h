@@ -35,6 +35,7 @@
 #define DAL_WITH_METHOD_STATE 1 /* saved within a step */
 #define DAL_WITH_GAUGE        1 /* e changes */
 #define DAL_WITH_CONSTRAINT   1 /* the callback */
+#define DAL_WITH_PROJECTION   1 /* dal_clear_momenta */
 #define DAL_WITH_GUARDS       1
 #define DAL_WITH_RANK         1 /* the rank check */
 #define DAL_WITH_PIVOTS       1 /* which compares pivots first */

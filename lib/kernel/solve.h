@@ -7,7 +7,8 @@
  *   - d = 0, or
  *   - d at rounding level that no longer decreases (Hairer, McLachlan, Razakarivony, BIT 48 (2008)
  *     231), or
- *   - a small d that twice in a row does not decrease ("small" excludes divergence).
+ *   - a small d that twice in a row does not decrease ("small" excludes divergence),
+ *   - a d below what the equation says is enough: of an iteration that converges quadratically.
  * After several iterations two more ends count: d far below rounding level (components smaller than
  * the rounding of others may let d decrease without end), and a small d that several iterations
  * have not decreased (cycles of roundings).  Each lane ends by itself and is then left alone, so
@@ -56,6 +57,7 @@ typedef struct dal_block {
     int stages;                         /* with an eigensystem */
     const double *unit;                 /* [width] of the unknowns, again and again; NULL: equal */
     int width;                          /* units before they repeat */
+    double enough; /* an increment of this share of the state ends the iteration; 0: see above */
 } dal_block;
 
 /* An implicit equation u = map(u), of one or two blocks. */
@@ -115,7 +117,8 @@ typedef void dal_matrix(dal_step *step, dal_equation *equation);
                       NULL,                                                                        \
                       1,                                                                           \
                       NULL,                                                                        \
-                      1}
+                      1,                                                                           \
+                      0.0}
 
 /* Declares an equation of `count` blocks; where Newton's method may solve it, its cost is set. */
 #define DAL_EQUATION(name, count, context, ...)                                                    \
@@ -277,7 +280,8 @@ DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k
 {
     const num now = b->now[j];
     if (DAL_LANES == 1 && k < DAL__MANY_ITERATIONS && !(DAL_SOLVER_TOLERANCE(s) > 0.0) &&
-        dal_any(dal_less(dal_num(0.0), now)) && dal_any(dal_less(now, b->best[0][j]))) {
+        !(b->enough > 0.0) && dal_any(dal_less(dal_num(0.0), now)) &&
+        dal_any(dal_less(now, b->best[0][j]))) {
         b->best[0][j] = now;
         b->best[1][j] = b->stagnations[j] = dal_num(0.0);
         return ~dal_all();
@@ -287,9 +291,9 @@ DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k
         dal_select(dal_less_equal(b->before[j], now), b->stagnations[j] + 1.0, dal_num(0.0));
     const dal_mask once = dal_less(dal_num(0.5), b->stagnations[j]),
                    twice = dal_less(dal_num(1.5), b->stagnations[j]);
-    const dal_mask stagnates = dal__negligible(b, j, k, now, size) |
-                               (once & dal_less_equal(now, DAL__ROUNDING * size)) |
-                               (twice & dal_less_equal(now, DAL__SMALL * size));
+    const dal_mask stagnates =
+        dal__negligible(b, j, k, now, size) | (once & dal_less_equal(now, DAL__ROUNDING * size)) |
+        (twice & dal_less_equal(now, DAL__SMALL * size)) | dal_less_equal(now, b->enough * size);
     if (DAL_RARELY(DAL_SOLVER_TOLERANCE(s) > 0.0))
         return stagnates | dal_less_equal(now, DAL_SOLVER_TOLERANCE(s) * size);
     return stagnates;

@@ -318,7 +318,7 @@ DAL_INLINE int dal_at_p(const dal_step *s) { return 2 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi(const dal_step *s) { return 3 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi_e(const dal_step *s) { return 4 * DAL_N(s) + 1; }
 
-#if DAL_WITH_CONSTRAINT
+#if DAL_WITH_PROJECTION
 /* p = pi = pi_e = 0, after a projection. */
 DAL_INLINE void dal_clear_momenta(dal_step *s)
 {

@@ -338,6 +338,34 @@ static dal_status solve_motion(dal_model *model, const dal__node *top, const dal
                : dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, top, bottom, x, h);
 }
 
+/* The same where no such factors are: by the factors of A W^-1 A^T. */
+static dal_status solve_by_directions(dal_model *model, const dal__node *bottom, dal__node *x)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m;
+    const dal__node zero = dal__number(e->graph, 0.0);
+    dal__node *G = dal__model_nodes(model, m * m, zero), *l = dal__model_nodes(model, m, 0);
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    for (int k = 0; k < m * m; k++)
+        for (int i = 0; i < n; i++)
+            G[k] = dal__node_add(e->graph, G[k],
+                                 dal__node_mul(e->graph, e->A[k / m * n + i], e->U[i * m + k % m]));
+    DAL_TRY(dal__solve_vector(model, m, G, bottom, l));
+    for (int i = 0; i < n; i++) x[i] = dal__dot(e->graph, m, e->U + i * m, l);
+    return e->graph->status;
+}
+
+dal_status dal__motion_correct(dal_model *model, dal__node *x)
+{
+    const dal__equations *e = &model->equations;
+    const dal__node zero = dal__number(e->graph, 0.0);
+    dal__node *top = dal__model_nodes(model, e->n, zero), *D = dal__model_nodes(model, e->m, 0);
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    for (int a = 0; a < e->m; a++) D[a] = dal__node_neg(e->graph, e->constraint[a]);
+    return dal__motion_is_symmetric(e) ? solve_motion(model, top, D, x, NULL)
+                                       : solve_by_directions(model, D, x);
+}
+
 /* What is differentiated: b - W F + A^T h [n] and -c - A F [m], F and h being symbols. */
 static dal__node *residuals(dal_model *model)
 {

@@ -30,6 +30,10 @@ dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by
 /* F_q^T pi [n] and F_v^T pi [n].  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_v);
 
+/* x [n] with W x = A^T l for some l and A x = -D: what brings v to D = 0 to first order.  Errors:
+ * DAL_STATUS_SINGULAR, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
+dal_status dal__motion_correct(dal_model *model, dal__node *x);
+
 /* The error of a mass matrix, or of constraints, without a pivot in this row (from 0). */
 dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error);
 dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *error);

@@ -194,6 +194,22 @@ static dal_status add_invariants(dal_model *model)
     return e->graph->status;
 }
 
+/* The correction by which v returns to D = 0; nothing where W, or A W^-1 A^T, has no inverse. */
+static dal_status add_correction(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    dal__programs *const programs[] = {&model->programs, &model->extended_programs};
+    dal__node *x = dal__model_nodes(model, e->n, 0);
+    if (!x) return DAL_STATUS_MEMORY;
+    if (e->m == 0 || !e->U[0]) return DAL_STATUS_OK;
+    const dal_status status = dal__motion_correct(model, x);
+    if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
+    DAL_TRY(status);
+    for (int k = 0; k < (e->extended ? 2 : 1); k++)
+        DAL_TRY(dal__programs_add(model, programs[k], DAL__PROGRAM_CORRECTION, x, e->n));
+    return e->graph->status;
+}
+
 /* What the scales of D, E, invariants, h and R = B^T h are made from.  Nodes are made after all
  * programs, so that those do not depend on it. */
 static dal_status add_terms(dal_model *model)
@@ -268,6 +284,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_STATUS_OK) DAL_TRY(dal__parse_observed(model, error));
     if (status == DAL_STATUS_OK) status = dal__insert_reactions(model);
     if (status == DAL_STATUS_OK) status = add_invariants(model);
+    if (status == DAL_STATUS_OK) status = add_correction(model);
     if (status == DAL_STATUS_OK) status = add_terms(model);
     if (status == DAL_STATUS_OK) status = finish_programs(model, &model->programs, &model->system);
     if (status == DAL_STATUS_OK) status = dal__system_units(model, &model->system, model->units);

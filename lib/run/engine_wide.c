@@ -87,13 +87,34 @@ static void keep_pivots(engine *e)
     s->pivots_known[0] = 1;
 }
 
+/* x with W x = A^T l and A x = -D, by D, A and W^-1 A^T. */
+static void correct_by_constraint(dal_step *s, double t, const num *q, const num *v, num *x)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    DAL__MARK(s);
+    DAL_VECTOR(s, out, DAL_CONSTRAINT_SIZE(s));
+    DAL_VECTOR(s, g, DAL_SQUARE_M(s));
+    DAL_VECTOR(s, inverse, DAL_SQUARE_M(s));
+    DAL_VECTOR(s, shift, DAL_M(s));
+    dal_eval(s, DAL_EVAL_CONSTRAINT, t, q, v, NULL, out);
+    dal_gram(out + m, out + m + m * n, m, n, g);
+    dal_invert_in_units(g, inverse, m, DAL_LEVELS(s), m);
+    dal_multiply(inverse, m, m, out, shift);
+    dal_multiply(out + m + m * n, n, m, shift, x);
+    DAL_EACH(i, n) x[i] = -x[i];
+    DAL__RELEASE(s);
+}
+
 static void eval_callback(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
                           const num *pi, num *out)
 {
     engine *e = s->owner;
     dal_callback *const call = e->call[code];
-    if (!call) { /* only the gauge may be missing */
-        fill(e, code, 0.0, out);
+    if (DAL_RARELY(!call)) { /* only the gauge, which is 0, and corrections may be missing */
+        if (code == DAL_EVAL_CORRECTION)
+            correct_by_constraint(s, t, q, v, out);
+        else
+            fill(e, code, 0.0, out);
         return;
     }
     const dal_point at = {
