@@ -81,10 +81,41 @@ static void test_eliminate(void)
     }
 }
 
+/* m x = y for x = m^-1 y, to rounding, whatever the zeros; the same bits in other units of rows. */
+static void test_solve(void)
+{
+    double m[M * M], kept[M * M], x[M], other[M], y[M], unit[M];
+    state = 1;
+    for (int i = 0; i < M; i++) unit[i] = ldexp(1.0, i % 7 - 3);
+    for (int k = 0; k < 40; k++) {
+        fill(m, M * M, k % 8 + 1);
+        for (int i = 0; i < M; i++) m[i * M + (i + 1) % M] += 4.0; /* no pivot on the diagonal */
+        fill(y, M, 1);
+        memcpy(kept, m, sizeof m);
+        memcpy(x, y, sizeof x);
+        dal_eliminate_in_units(m, x, M, NULL, 1);
+        for (int i = 0; i < M; i++) {
+            double rest = -y[i], size = fabs(y[i]);
+            for (int j = 0; j < M; j++) {
+                rest += kept[i * M + j] * x[j];
+                size += fabs(kept[i * M + j] * x[j]);
+            }
+            CU_ASSERT(fabs(rest) <= 1e-13 * size);
+        }
+        for (int i = 0; i < M; i++) {
+            other[i] = unit[i] * y[i];
+            for (int j = 0; j < M; j++) m[i * M + j] = unit[i] * kept[i * M + j];
+        }
+        dal_eliminate_in_units(m, other, M, unit, M);
+        CU_ASSERT(same(x, other, M));
+    }
+}
+
 void suite_algebra(void);
 void suite_algebra(void)
 {
     CU_pSuite suite = CU_add_suite("algebra", NULL, NULL);
     CU_add_test(suite, "A B with zeros", test_gram);
     CU_add_test(suite, "eliminations with zeros", test_eliminate);
+    CU_add_test(suite, "solutions with zeros", test_solve);
 }

@@ -286,6 +286,56 @@ static void test_walk(void)
     dal_batch_free(batch);
 }
 
+/* ---- large systems ---- */
+
+/* Copies of a sleigh on a slope, side by side: COPIES * 3 coordinates. */
+static void write_sleighs(char *text, size_t size, int copies)
+{
+    size_t at = (size_t)snprintf(text, size, "coordinates: [");
+#define ADD(...) at += (size_t)snprintf(text + at, size - at, __VA_ARGS__)
+    for (int i = 0; i < copies; i++) ADD("%sx%d, y%d, a%d", i ? ", " : "", i, i, i);
+    ADD("]\nlagrangian: ");
+    for (int i = 0; i < copies; i++)
+        ADD("%s(x%d'^2 + y%d'^2 + 0.5*a%d'^2 + 0.2*x%d'*a%d')/2 - y%d", i ? " + " : "", i, i, i, i,
+            i, i);
+    ADD("\nconstraints:\n");
+    for (int i = 0; i < copies; i++) ADD("  - x%d'*sin(a%d) - y%d'*cos(a%d)\n", i, i, i, i);
+    ADD("start: {");
+    for (int i = 0; i < copies; i++) ADD("%sa%d: 0.3, a%d': 1.1", i ? ", " : "", i, i);
+    ADD("}\n");
+#undef ADD
+    CU_ASSERT(at < size);
+}
+
+/* Systems beside each other move as each alone: what skips zeros of many coordinates agrees with
+ * what does not. */
+static void test_copies(void)
+{
+    enum { COPIES = 17, STEPS = 10 };
+    static const char *const methods[] = {"gni",          "dla",        "mclachlan-perlmutter",
+                                          "spark4",       "spark6",     "lobatto-nonholonomic4",
+                                          "gauss-spark4", "rk4+project"};
+    static char one[4096], many[1 << 14];
+    write_sleighs(one, sizeof one, 1);
+    write_sleighs(many, sizeof many, COPIES);
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
+        const dal_run_spec small = fixture_spec(fixture_system(one), methods[k], DAL_PHYSICAL, 0.1);
+        const dal_run_spec large =
+            fixture_spec(fixture_system(many), methods[k], DAL_PHYSICAL, 0.1);
+        dal_run *alone = fixture_stepped(&small, STEPS), *all = fixture_stepped(&large, STEPS);
+        const double *x = dal_run_state(alone), *y = dal_run_state(all);
+        double error = 0.0;
+        for (int i = 0; i < 3 * COPIES; i++) {
+            error = fmax(error, fabs(y[i] - x[i % 3]));
+            error = fmax(error, fabs(y[3 * COPIES + i] - x[3 + i % 3]));
+        }
+        if (!(error <= 1e-13)) printf("\n  %s: %.2g\n", methods[k], error);
+        CU_ASSERT(error <= 1e-13);
+        dal_run_free(alone);
+        dal_run_free(all);
+    }
+}
+
 void suite_constrained(void)
 {
     CU_pSuite suite = CU_add_suite("constrained", NULL, NULL);
@@ -296,4 +346,5 @@ void suite_constrained(void)
     CU_add_test(suite, "a driven transmission", test_transmission);
     CU_add_test(suite, "bounded energy", test_bounded);
     CU_add_test(suite, "energies that walk", test_walk);
+    CU_add_test(suite, "copies of a system beside each other", test_copies);
 }

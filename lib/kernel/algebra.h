@@ -75,14 +75,15 @@ DAL_INLINE void dal__swap_rows(num *m, int columns, int a, int b, dal_mask mask)
     }
 }
 
-/* Brings the largest entry of column k at or below the diagonal to the diagonal, in each lane. */
-DAL_INLINE void dal__pivot(num *m, num *inverse, int n, int k)
+/* Brings the largest entry of column k at or below the diagonal to the diagonal, in each lane; and
+ * the rows of other[n*columns] with it. */
+DAL_INLINE void dal__pivot(num *m, num *other, int n, int columns, int k)
 {
     for (int i = k + 1; i < n; i++) {
         const dal_mask larger = dal_less(dal_abs(m[k * n + k]), dal_abs(m[i * n + k]));
         if (!dal_any(larger)) continue;
         dal__swap_rows(m, n, k, i, larger);
-        dal__swap_rows(inverse, n, k, i, larger);
+        dal__swap_rows(other, columns, k, i, larger);
     }
 }
 
@@ -109,7 +110,7 @@ DAL_SEPARATE void dal_invert_in_units(num *m, num *inverse, int n, const double 
     dal__scale_rows(m, n, n, unit, period);
     dal__scale_rows(inverse, n, n, unit, period);
     for (int k = 0; k < n; k++) {
-        dal__pivot(m, inverse, n, k);
+        dal__pivot(m, inverse, n, n, k);
         const num scale = 1.0 / m[k * n + k];
         for (int j = 0; j < n; j++) {
             m[k * n + j] *= scale;
@@ -128,6 +129,28 @@ DAL_SEPARATE void dal_invert_in_units(num *m, num *inverse, int n, const double 
 DAL_INLINE void dal_invert(num *m, num *inverse, int n)
 {
     dal_invert_in_units(m, inverse, n, NULL, 1);
+}
+
+/* x <- m^-1 x for a vector x[n] by elimination with the same pivots; m is destroyed.  Rows with
+ * 0 below the pivot are left alone, as most have where constraints couple a few neighbours. */
+DAL_SEPARATE void dal_eliminate_in_units(num *m, num *x, int n, const double *unit, int period)
+{
+    dal__scale_rows(m, n, n, unit, period);
+    dal__scale_rows(x, n, 1, unit, period);
+    for (int k = 0; k < n; k++) {
+        dal__pivot(m, x, n, 1, k);
+        for (int i = k + 1; i < n; i++) {
+            if (dal__is_zero(m[i * n + k])) continue;
+            const num factor = m[i * n + k] / m[k * n + k];
+            for (int j = k + 1; j < n; j++)
+                m[i * n + j] = dal_fma(-factor, m[k * n + j], m[i * n + j]);
+            x[i] = dal_fma(-factor, x[k], x[i]);
+        }
+    }
+    for (int k = n; k-- > 0;) {
+        for (int j = k + 1; j < n; j++) x[k] = dal_fma(-m[k * n + j], x[j], x[k]);
+        x[k] /= m[k * n + k];
+    }
 }
 
 #endif

@@ -25,10 +25,16 @@
 DAL_SHARED void dal_continuous_multipliers(dal_step *s, const num *blocks, num *h);
 
 #ifndef DAL_LINKED
-/* x = g^-1 rhs; g[size*size], which has rows of all D again and again, is destroyed. */
+/* x = g^-1 rhs; g[size*size], which has rows of all D again and again, is destroyed.  inverse is
+ * scratch.  Large systems are sparse, and their inverses are not. */
 DAL_INLINE void dal_solve_small(const dal_step *s, num *g, num *inverse, int size, const num *rhs,
                                 num *x)
 {
+    if (size >= DAL__SPARSE) {
+        DAL_EACH(i, size) x[i] = rhs[i];
+        dal_eliminate_in_units(g, x, size, DAL_LEVELS(s), DAL_M(s));
+        return;
+    }
     if (size == 1)
         inverse[0] = 1.0 / g[0];
     else
@@ -55,7 +61,10 @@ DAL_SHARED void dal_continuous_multipliers(dal_step *s, const num *blocks, num *
 DAL_INLINE void dal_restore_multipliers(dal_step *s, const num *blocks, num *h)
 {
     const dal_mask known = dal_less(dal_num(0.5), *s->has_multiplier);
-    dal_continuous_multipliers(s, blocks, h);
+    if (dal_any(~known))
+        dal_continuous_multipliers(s, blocks, h);
+    else
+        DAL_EACH(i, DAL_M(s)) h[i] = dal_num(0.0);
     DAL_EACH(i, DAL_PERSISTENT_MULTIPLIERS(s)) h[i] = dal_select(known, s->multiplier[i], h[i]);
 }
 DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)

@@ -109,7 +109,12 @@ DAL_INLINE void dal__spark_entries(const dal_step *s, const dal_spark_step *k, c
 {
     const int n = DAL_N(s), m = DAL_M(s);
     const num *B = k->blocks + j * DAL_BLOCKS_SIZE(s) + dal_blocks_B(s);
-    for (int b = 0; b < m; b++) {
+    for (int c = 0; n >= DAL__SPARSE && weight != 0.0 && c < n; c++) {
+        const num x = weight * A[c];
+        if (dal__is_zero(x)) continue;
+        for (int b = 0; b < m; b++) row[b] = dal_fma(x, B[c * m + b], row[b]);
+    }
+    for (int b = 0; n < DAL__SPARSE && b < m; b++) {
         num entry = A[0] * B[b];
         for (int c = 1; c < n; c++) entry += A[c] * B[c * m + b];
         row[b] += weight * entry;
