@@ -117,7 +117,7 @@ static void test_bits(void)
 
         run = fixture_run(&spec);
         for (int row = 8; row >= 1; row -= 2) {
-            const double part = 10.0 * (row / 33.0);
+            const double part = 10.0 * row / 33.0; /* rounded once */
             double state[NUMBERS] = {0};
             if (part >= 2.5) continue;
             state_at(run, part, state);
