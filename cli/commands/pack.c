@@ -233,13 +233,9 @@ static char *name_of(const char *path)
 
 static int check_input(const settings *s)
 {
-    if (!file_exists(s->directory))
-        return cli_fail(CLI_USAGE, "there is no directory '%s'", s->directory);
-    struct stat state;
-    if (stat(s->directory, &state) == 0 && !S_ISDIR(state.st_mode))
-        return cli_fail(CLI_USAGE, "'%s' is no directory", s->directory);
-    file_names names;
-    int status = file_list(s->directory, &names);
+    file_names names = {0};
+    int status = file_find_directory(s->directory);
+    if (status == CLI_DONE) status = file_list(s->directory, &names);
     if (status == CLI_DONE && (names.count == 0 || !file_owns_directory(s->directory)))
         status = cli_fail(CLI_USAGE, "'%s' holds no results of dalembert", s->directory);
     file_free_names(&names);

@@ -58,8 +58,7 @@ static int write_report(report *r)
                         "'%s' holds a study that is not finished: 'dalembert resume' continues it, "
                         "'dalembert merge' merges shards",
                         r->directory);
-    if (kind == KINDS && !file_exists(r->directory))
-        return cli_fail(CLI_USAGE, "there is no directory '%s'", r->directory);
+    if (kind == KINDS && file_find_directory(r->directory) != CLI_DONE) return CLI_USAGE;
     if (kind == KINDS)
         return cli_fail(
             CLI_USAGE,

@@ -1,5 +1,6 @@
 /* resume.c - `dalembert resume`: continues the run, the study or the ensemble of a directory. */
 #include "ensemble/ensemble_run.h"
+#include "io/file.h"
 #include "report/report_ensemble.h"
 #include "report/report_study.h"
 #include "run/extension.h"
@@ -52,6 +53,7 @@ static int resume(int argc, char **argv)
     };
     const int status = cli_read_arguments(&command_resume, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;
+    if (file_find_directory(s.directory) != CLI_DONE) return CLI_USAGE;
     const char *end = s.extension.time ? "time" : s.extension.steps ? "steps" : NULL;
     const bool is_ensemble = ensemble_directory_has_ensemble(s.directory);
     if (end && is_ensemble)

@@ -464,6 +464,16 @@ static bool is_mark(const char *directory, const char *name)
     return found;
 }
 
+int file_find_directory(const char *path)
+{
+    struct stat state;
+    if (stat(path, &state) != 0 && errno == ENOENT)
+        return cli_fail(CLI_USAGE, "there is no directory '%s'", path);
+    if (stat(path, &state) == 0 && !S_ISDIR(state.st_mode))
+        return cli_fail(CLI_USAGE, "'%s' is no directory", path);
+    return CLI_DONE;
+}
+
 static int compare_names(const void *a, const void *b)
 {
     return strcmp(*(char *const *)a, *(char *const *)b);

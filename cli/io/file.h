@@ -67,6 +67,8 @@ void cli_put_text(FILE *out, const char *text);
 int cli_ends_in(const char *text, const char *ending);
 /* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
 int cli_directory(const char *path);
+/* Returns CLI_DONE where a directory is there, else prints and returns CLI_USAGE. */
+int file_find_directory(const char *path);
 /* What is in a directory, by name.  Returns CLI_DONE, or prints and returns an exit status; to be
  * freed in any case. */
 typedef struct file_names {

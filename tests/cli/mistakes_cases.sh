@@ -52,5 +52,7 @@ case: files
 2 | study nearly.yaml --output there | says unknown label of this study 'skate'; did you mean 'skate.yaml'\?$
 2 | study nowhere.yaml --output there | says unknown label of this study 'knife'; there is 'skate.yaml'$
 2 | report nodir | says ^dalembert: there is no directory 'nodir'$
+2 | resume nodir | says ^dalembert: there is no directory 'nodir'$
+2 | resume skate.yaml | says ^dalembert: 'skate.yaml' is no directory$
 3 | run blow.yaml --integrator rk4 --step 0.5 --time 10 | says ^dalembert: a smaller step may help: --step 0.05$
 END

@@ -143,7 +143,7 @@ ends_by KILL 137 $other
 
 case_is "what cannot be resumed"
 try 2 resume missing
-says "'missing' holds no run"
+says "there is no directory 'missing'"
 cp -r whole damaged
 printf 'x' | dd of=damaged/checkpoint bs=1 seek=100 conv=notrunc 2>/dev/null
 cp -r killed older
