@@ -1,5 +1,6 @@
 /* explain.c - `dalembert explain`: the error sources of the drift of a run. */
 #include "analyse/explain.h"
+#include "analyse/rerun.h"
 #include "io/file.h"
 #include "io/json.h"
 #include "ui/arguments.h"
@@ -21,7 +22,7 @@ static int explain(int argc, char **argv)
 {
     explain_settings s = {.simulation = simulation_default()};
     const cli_group groups[] = {CLI_GROUP(options, &s),
-                                simulation_group(&s.simulation, request_options, EXPLAIN_WITHOUT)};
+                                rerun_group(&s.simulation, request_options, EXPLAIN_WITHOUT)};
     s.simulation.request.step_rule = REQUEST_STEP_CHOSEN;
     int status = cli_read_arguments(&command_explain, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = explain_run(&s);
@@ -31,7 +32,7 @@ static int explain(int argc, char **argv)
 
 const cli_command command_explain = {
     .name = "explain",
-    .synopsis = "dalembert explain SYSTEM [OPTION]...",
+    .synopsis = "dalembert explain SYSTEM|DIR [OPTION]...",
     .about = "finds the error sources of the drift of a run",
     .notes =
         "Runs the system again in several ways that differ in one thing each: half the step, a "
@@ -52,6 +53,10 @@ const cli_command command_explain = {
         "of the drift.  --details prints the runs and how each share was found.\n"
         "\n"
         "The shares hold for the first --quad-steps steps, since quad precision is a hundred times "
-        "slower.  With --tolerance, --step may be left out: it is a hundredth of the time.\n",
+        "slower.  With --tolerance, --step may be left out: it is a hundredth of the time.\n"
+        "\n"
+        "DIR is a directory that 'run --output DIR' wrote.  System, method, step, end, parameters, "
+        "start and the further options of the run are taken from it, where no others are given; a "
+        "line says which.\n",
     .run = explain,
 };

@@ -1,6 +1,7 @@
 /* section.c - `dalembert section`: where a motion crosses a surface. */
 #include "analyse/section.h"
 #include "analyse/analysis.h"
+#include "analyse/rerun.h"
 #include "io/file.h"
 #include "io/json.h"
 #include "report/report_section.h"
@@ -33,7 +34,7 @@ static int section(int argc, char **argv)
     section_settings s = {.simulation = simulation_default()};
     s.simulation.request.step_rule = REQUEST_STEP_CHOSEN;
     const cli_group groups[] = {CLI_GROUP(options, &s),
-                                simulation_group(&s.simulation, request_options, SECTION_WITHOUT)};
+                                rerun_group(&s.simulation, request_options, SECTION_WITHOUT)};
     int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
     s.direction--; /* -1, 0 or 1 */
     s.is_screen = screen_has_reader() && !s.json && !s.details;
@@ -46,7 +47,7 @@ static int section(int argc, char **argv)
 
 const cli_command command_section = {
     .name = "section",
-    .synopsis = "dalembert section SYSTEM --on FORMULA [OPTION]...",
+    .synopsis = "dalembert section SYSTEM|DIR --on FORMULA [OPTION]...",
     .about = "finds where a motion crosses a surface",
     .notes =
         "The formula may name "
@@ -63,6 +64,11 @@ const cli_command command_section = {
         "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the "
         "state as in "
         "'dalembert run'.  A directory gets section.csv, section.json (the request) and, by "
-        "gnuplot, the page of 'dalembert report'.\n",
+        "gnuplot, the page of 'dalembert report'.\n"
+        "\n"
+        "The first DIR is a directory that 'run --output DIR' wrote.  System, method, step, end, "
+        "parameters, start and the further options of the run are taken from it, where no others "
+        "are "
+        "given; a line says which.\n",
     .run = section,
 };
