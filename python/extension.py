@@ -6,11 +6,13 @@ the compiler then compares them with the headers.
     DALEMBERT_BUILD    a directory that `make` made, the library of which is linked statically
     DALEMBERT_PREFIX   where `make install` put the library
 
-Without them ../build is taken where it has a library, else what pkg-config knows.
+Without them ../build is taken where it has a library; else the library is made from its sources,
+in the tree or, in a source distribution, in library/.
 """
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 
@@ -19,6 +21,11 @@ import cffi
 HERE = os.path.dirname(os.path.abspath(__file__))
 HEADERS = ('dalembert.h', 'dalembert_analysis.h', 'dalembert_codegen.h')  # and what they include
 STATIC = 'libdalembert.a'
+
+# Where the sources of the library are, and which of them make it.
+SOURCES = next((directory for directory in (os.path.join(HERE, 'library'), os.path.dirname(HERE))
+                if os.path.exists(os.path.join(directory, 'include', HEADERS[0]))), None)
+MAKING = ('Makefile', 'LICENSE', 'bench/bench.mk', 'include', 'integrators', 'lib', 'systems', 'tools')
 
 # What observers.c adds, and free for texts that the library allocates.
 ADDED = '''
@@ -47,39 +54,67 @@ def fail(reason):
     sys.exit(f'dalembert: {reason}: run make, or set DALEMBERT_BUILD or DALEMBERT_PREFIX')
 
 
-def in_tree(build):
-    """How to compile and link with a build of the source tree."""
-    if not os.path.exists(os.path.join(build, STATIC)):
+def copy_sources(directory):
+    """Copies what makes the library into a new directory."""
+    for name in MAKING:
+        source, copy = os.path.join(SOURCES, name), os.path.join(directory, name)
+        if os.path.isdir(source):
+            shutil.copytree(source, copy)
+        else:
+            os.makedirs(os.path.dirname(copy), exist_ok=True)
+            shutil.copy(source, copy)
+
+
+def make_library(directory):
+    """Makes the static library in a new directory; its path."""
+    copy_sources(directory)
+    # BUILD is relative: make has no paths with blanks.
+    made = os.path.join('build', STATIC)
+    try:
+        subprocess.run(['make', 'BUILD=build', made], check=True, cwd=directory)
+    except (OSError, subprocess.CalledProcessError):
+        sys.exit('dalembert: the library cannot be made: it needs make, a C compiler and libyaml')
+    return os.path.join(directory, made)
+
+
+def in_tree(build=None):
+    """How to compile and link with a build of the source tree, or with one that is still to be made."""
+    if build and not os.path.exists(os.path.join(build, STATIC)):
         fail(f'no {STATIC} in {build}')
-    include = os.path.join(os.path.dirname(HERE), 'include')
-    return {'include_dirs': [include], 'extra_objects': [os.path.join(build, STATIC)],
+    return {'include_dirs': [os.path.join(SOURCES, 'include')],
+            'extra_objects': [os.path.join(build, STATIC)] if build else [],
             'libraries': ['yaml', 'm'], 'extra_link_args': ['-pthread', '-Wl,--exclude-libs,ALL']}
 
 
-def installed(prefix=None):
+def installed(prefix):
     """How to compile and link with an installed library, by pkg-config."""
-    environment = dict(os.environ)
-    if prefix:
-        found = [directory for directory, _, names in os.walk(prefix) if 'dalembert.pc' in names]
-        if not found:
-            fail(f'no dalembert.pc below {prefix}')
-        environment['PKG_CONFIG_PATH'] = os.pathsep.join(found)
+    found = [directory for directory, _, names in os.walk(prefix) if 'dalembert.pc' in names]
+    if not found:
+        fail(f'no dalembert.pc below {prefix}')
+    environment = dict(os.environ, PKG_CONFIG_PATH=os.pathsep.join(found))
     try:
         flags = shlex.split(run('pkg-config', '--cflags', '--libs', 'dalembert', env=environment))
         include, libraries = (run('pkg-config', '--variable=' + name, 'dalembert', env=environment).strip()
                               for name in ('includedir', 'libdir'))
     except (OSError, subprocess.CalledProcessError):
-        fail('no library')
+        fail(f'pkg-config does not find the library below {prefix}')
     return {'include_dirs': [include], 'extra_link_args': flags,
             'runtime_library_dirs': [libraries]}
 
 
 def find_library():
     build, prefix = os.environ.get('DALEMBERT_BUILD'), os.environ.get('DALEMBERT_PREFIX')
-    beside = os.path.join(os.path.dirname(HERE), 'build')
-    if build or not prefix and os.path.exists(os.path.join(beside, STATIC)):
-        return in_tree(build or beside)
-    return installed(prefix)
+    if prefix and not build:
+        return installed(prefix)
+    if not SOURCES:
+        fail('no sources of the library')
+    beside = os.path.join(SOURCES, 'build')
+    return in_tree(build or (beside if os.path.exists(os.path.join(beside, STATIC)) else None))
+
+
+def is_made():
+    """Whether there is a library; else make_library makes it."""
+    return bool(LIBRARY.get('extra_objects') or LIBRARY.get('runtime_library_dirs'))
 
 
 def read_headers(directory, names=HEADERS, read=None):
