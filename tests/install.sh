@@ -26,7 +26,7 @@ export PKG_CONFIG_PATH
 # Each example against the shared and against the static library.
 for name in embed by_hand own_integrator path_following contact_chain isokinetic_fluid; do
     flags="-std=c11 -Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $CFLAGS examples/$name.c"
-    logged $cc $flags $(pkg-config --cflags --libs dalembert) -lm -o "$root/$name"
+    logged $cc $flags $(pkg-config --cflags --libs dalembert) -o "$root/$name"
     logged $cc $flags $(pkg-config --static --cflags --libs dalembert | sed 's/-ldalembert/-l:libdalembert.a/') \
         -o "$root/$name-static"
     LD_LIBRARY_PATH=$lib "$root/$name" >"$root/$name.txt" || fail "$name failed"
