@@ -134,6 +134,15 @@ static void test_runs(void)
     same_run(&spec);
 }
 
+/* A tolerance at which series add what the rounding of 1/k took from their coefficients. */
+static void test_fine_series(void)
+{
+    dal_run_spec spec =
+        fixture_spec(fixture_system("chaotic-oscillators"), "taylor", DAL_PHYSICAL, 0.25);
+    spec.options.tolerance = 1e-15;
+    same_run(&spec);
+}
+
 /* Friction with which auto tries Newton's method and takes it. */
 static void test_solver(void)
 {
@@ -435,6 +444,7 @@ void suite_generate_native(void)
 {
     CU_pSuite suite = CU_add_suite("generate_native", set_up, tear_down);
     CU_add_test(suite, "runs: same bits", test_runs);
+    CU_add_test(suite, "series at the smallest tolerances: same bits", test_fine_series);
     CU_add_test(suite, "The solver auto, changing over", test_solver);
     CU_add_test(suite, "programs of many functions", test_long);
     CU_add_test(suite, "matrices of zeros", test_sparse);

@@ -79,7 +79,9 @@ DAL_INLINE void dal__lifted_series(const dal_step *s, int k, const num *x, const
 
 /* Below this tolerance the rounding of 1/k counts: it is the same in all steps, and moved the
  * amplitude of an oscillator by 1e-16 in each step of 2.  The rest of 1/k is added then. */
-#if DAL_WITH_CONTROL && !defined DAL_NUM_QUAD
+#ifdef DAL_NUM_QUAD
+#define DAL__IS_FINE_SERIES(s) 0
+#elif DAL_WITH_CONTROL
 #define DAL__FINE_SERIES       1e-14
 #define DAL__IS_FINE_SERIES(s) (DAL_CONTROLLED(s) && DAL_TOLERANCE(s) < DAL__FINE_SERIES)
 #else
