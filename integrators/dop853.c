@@ -76,7 +76,7 @@ enum { STAGES_853 = 12 };
 
 /* Below this tolerance the rounding of coefficients and of y counts: stages begin from y + r, and
  * coefficients have the digits of two doubles.  What is left then is the rounding of F. */
-#if DAL_WITH_CONTROL
+#if DAL_WITH(CONTROL)
 #define FINE_853       1e-14
 #define IS_FINE_853(s) (DAL_CONTROLLED(s) && DAL_TOLERANCE(s) < FINE_853)
 #else
@@ -120,7 +120,7 @@ DAL_INLINE void derivatives(dal_step *s, dal_times t, dal_times size, int known,
     combine(dim, STAGES_853, b853, b853_low, is_fine, k, sum);
 }
 
-#if DAL_WITH_CONTROL
+#if DAL_WITH(CONTROL)
 /* clang-format off */
 /* The weights of the embedded method of order 3 (bhh in dop853.f), and order 8 less order 5
  * (er); their differences from order 8 vanish up to h^3 and h^5. */
@@ -328,7 +328,7 @@ DAL_INLINE dal_status step(dal_step *s)
 {
     DAL_VECTOR(s, k, STAGES_853 * DAL_DIM(s));
     DAL_VECTOR(s, sum, DAL_DIM(s));
-#if DAL_WITH_CONTROL
+#if DAL_WITH(CONTROL)
     if (DAL_CONTROLLED(s)) return divided(s, k, sum);
 #endif
     const num t = dal_num(s->t), h = dal_num(s->h);

@@ -18,7 +18,7 @@
  * satisfy the equations at the end of the substep, else h is halved. */
 #include <dalembert_kernel.h>
 
-#if DAL_WITH_CONTROL
+#if DAL_WITH(CONTROL)
 enum { ESTIMATES = 4 };
 
 /* The defect |f(y1) - x'(h)| h of a polynomial with an error of the tolerance is some p times that;
@@ -205,7 +205,7 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, x, (DAL_TAYLOR_ORDER(s) + 1) * DAL_DIM(s) + DAL__PACK);
     DAL_VECTOR(s, rate, 2 * (DAL_DIM(s) + DAL__PACK));
     DAL_EXPANSION(s, e);
-#if DAL_WITH_CONTROL
+#if DAL_WITH(CONTROL)
     if (DAL_CONTROLLED(s)) return divided(s, x, rate, &e);
 #endif
     DAL_EACH(i, DAL_DIM(s)) x[i] = s->y[i];

@@ -1,8 +1,9 @@
 /* test_generate_parts.c - the parts of the kernel that descriptors declare.  Each integrator
  * compiles with these alone, so none is missing, and without one of them it does not, so none is
- * superfluous. */
+ * superfluous.  And the conditions that their sources have. */
 #include "codegen/generate.h"
 #include "codegen/parts.h"
+#include "codegen/preprocessor.h"
 #include "compiler.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
@@ -84,9 +85,60 @@ static void test_parts(void)
     }
 }
 
+/* A directive with DAL_WITH that the preprocessor leaves to the compiler, be it that no condition
+ * has the name or that the test has another form, would be 1 in the library, and an error in
+ * generated files alone. */
+static void check_directive(dal__generation *g, const char *file, const char *line)
+{
+    const int length = (int)strcspn(line, "\n");
+    char chain[256];
+    const bool follows = strncmp(line, "#elif", 5) == 0;
+    snprintf(chain, sizeof chain, "%s%.*s\n#endif\n", follows ? "#ifdef DAL_NUM_QUAD\n" : "",
+             length, line);
+    g->text.length = 0;
+    dal__preprocess(g, chain);
+    if (g->text.length == 0) return;
+    printf("\n  %s: %.*s is not decided\n", file, length, line);
+    CU_FAIL("a condition that the preprocessor does not decide");
+}
+
+/* Notes which conditions a source has. */
+static void check_source(dal__generation *g, const dal__source *source, bool *used)
+{
+    for (const char *line = source->text, *end; *line; line = end + (*end == '\n')) {
+        char directive[128];
+        end = line + strcspn(line, "\n");
+        if (strncmp(line, "#if", 3) != 0 && strncmp(line, "#elif", 5) != 0) continue;
+        snprintf(directive, sizeof directive, "%.*s", (int)(end - line), line);
+        for (int i = 0; i < g->conditions; i++)
+            used[i] |= strstr(directive, g->condition[i].name) != NULL;
+        if (strstr(directive, "DAL_WITH(")) check_directive(g, source->name, line);
+    }
+}
+
+static void test_conditions(void)
+{
+    char name[64];
+    dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh"),
+                                     fixture_method(0, name, sizeof name), DAL_LIFTED, 0.01);
+    dal__generation g = {.spec = &spec, .lanes = 1, .product = DAL__PRODUCT_LANES};
+    bool used[DAL__MAX_CONDITIONS] = {false};
+    CU_ASSERT_EQUAL_FATAL(dal__generation_check(&g, "steps", NULL), DAL_STATUS_OK);
+    dal__decide_conditions(&g);
+    for (const dal__source *source = dal__sources; source->name; source++)
+        check_source(&g, source, used);
+    for (int i = 0; i < g.conditions; i++) {
+        if (used[i]) continue;
+        printf("\n  no source has %s\n", g.condition[i].name);
+        CU_FAIL("a condition that no source has");
+    }
+    dal__buffer_free(&g.text);
+}
+
 void suite_generate_parts(void);
 void suite_generate_parts(void)
 {
     CU_pSuite suite = CU_add_suite("generate parts", set_up, NULL);
     CU_add_test(suite, "integrators compile with what they declare", test_parts);
+    CU_add_test(suite, "conditions in sources are decided, and no others", test_conditions);
 }

@@ -8,7 +8,8 @@
  *                 { "#elif" test text } [ "#else" text ] "#endif"
  *     test      = factor { "&&" factor }
  *     factor    = [ "!" ] name
- *     name      = a capital letter or "_", and more of them
+ *     name      = word | "DAL_WITH(" word ")"
+ *     word      = a capital letter or "_", and more of them
  *
  * A "#" of a chain begins its line, and chains are at most 15 deep.  A test is known where each of
  * its names is one of the conditions of the generation.  Of a known chain neither the directives
@@ -32,16 +33,24 @@ static int value_of(const dal__generation *g, const char *name, size_t length)
     return UNKNOWN;
 }
 
+static size_t name_length(const char *name)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+    const size_t word = strspn(name, letters);
+    if (name[word] != '(') return word;
+    const size_t end = word + 1 + strspn(name + word + 1, letters);
+    return name[end] == ')' ? end + 1 : word;
+}
+
 /* NAME, !NAME, and several of these with && between: UNKNOWN where it is anything else. */
 static int evaluate(const dal__generation *g, const char *at)
 {
-    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ_";
     int all = 1;
     for (;;) {
         while (*at == ' ') at++;
         const bool negated = *at == '!';
         at += negated;
-        const size_t length = strspn(at, letters);
+        const size_t length = name_length(at);
         const int value = value_of(g, at, length);
         if (value == UNKNOWN) return UNKNOWN;
         all &= value ^ negated;

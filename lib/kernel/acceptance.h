@@ -39,7 +39,7 @@ DAL_INLINE dal_status dal_rejection(const dal_checks *c, dal_status status, int 
 }
 
 /* 0, or NaN where one of count numbers of a group is not finite. */
-#if DAL_WITH_GROUPS
+#if DAL_HAS_GROUPS
 DAL_INLINE num dal_group_nonfinite(const num *x, int count, int group)
 {
     num nonfinite = dal_num(0.0);
@@ -61,7 +61,7 @@ DAL_INLINE dal_mask dal_finite_state(const dal_step *s, int group)
                      dal_num(0.0));
 }
 
-#if DAL_WITH_GAUGE
+#if DAL_WITH(GAUGE)
 /* Lanes in which e keeps its sign; an infinite one has none to lose. */
 DAL_INLINE dal_mask dal_check_gauge(const dal_step *s, const num *y0)
 {
@@ -71,7 +71,7 @@ DAL_INLINE dal_mask dal_check_gauge(const dal_step *s, const num *y0)
 }
 #endif
 
-#if DAL_WITH_REGULAR
+#if DAL_WITH(REGULAR)
 /* Evaluates a callback for a group before and after the step. */
 DAL_INLINE void dal_eval_both_ends(dal_step *s, int group, dal_callback_code code, const num *y0,
                                    num *before, num *after)
@@ -89,7 +89,7 @@ DAL_INLINE void dal_keep_positive(num x, int number, dal_mask *good, int *first)
 }
 #endif
 
-#if DAL_WITH_GUARDS
+#if DAL_WITH(GUARDS)
 /* Lanes where the guards keep their signs. */
 DAL_INLINE dal_mask dal_check_guards(dal_step *s, int group, const num *y0, int *first)
 {
@@ -102,7 +102,7 @@ DAL_INLINE dal_mask dal_check_guards(dal_step *s, int group, const num *y0, int 
 }
 #endif
 
-#if DAL_WITH_PIVOTS
+#if DAL_WITH(PIVOTS)
 #define DAL__PIVOT_CHANGE 1.25
 
 /* Lanes where a pivot differs in sign or size from the step before, in this step or in the
@@ -126,12 +126,12 @@ DAL_INLINE dal_mask dal_pivots_warn(dal_step *s, int group)
 }
 #endif
 
-#if DAL_WITH_RANK
+#if DAL_WITH(RANK)
 /* Lanes where the rank check holds. */
 DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *first)
 {
     dal_mask warned = dal_all();
-#if DAL_WITH_PIVOTS
+#if DAL_WITH(PIVOTS)
     if (DAL_PIVOTS(s) > 0) warned = dal_pivots_warn(s, group);
     if (!DAL_RARELY(dal_any(warned))) return dal_all();
 #endif
@@ -150,16 +150,16 @@ DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *f
 }
 #endif
 
-#if DAL_WITH_REGULAR
+#if DAL_WITH(REGULAR)
 /* Lanes where the constraints stay independent; *guard, *constraint as *first above. */
 DAL_INLINE dal_mask dal_check_regular(dal_step *s, int group, const num *y0, int *guard,
                                       int *constraint)
 {
     dal_mask good = dal_all();
-#if DAL_WITH_GUARDS
+#if DAL_WITH(GUARDS)
     if (DAL_GUARDS(s) > 0) good &= dal_check_guards(s, group, y0, guard);
 #endif
-#if DAL_WITH_RANK
+#if DAL_WITH(RANK)
     if (DAL_RANK_CHECKED(s)) good &= dal_check_rank(s, group, y0, constraint);
 #endif
     return good;

@@ -31,7 +31,7 @@
 /* dal_field at a time of each lane. */
 DAL_INLINE void dal_field_at(dal_step *s, dal_times t, const num *y, num *DAL_RESTRICT dy)
 {
-#if DAL_WITH_TIMES
+#if DAL_HAS_TIMES
     s->times = t;
     s->has_times = 1;
     dal_field(s, s->t, y, dy);
@@ -41,7 +41,7 @@ DAL_INLINE void dal_field_at(dal_step *s, dal_times t, const num *y, num *DAL_RE
 #endif
 }
 
-#if DAL_WITH_CONTROL
+#if DAL_WITH(CONTROL)
 #define DAL__SAFE    0.9
 #define DAL__FASTEST 6.0
 #define DAL__SLOWEST (1.0 / 0.333)

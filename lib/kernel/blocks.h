@@ -19,7 +19,7 @@ DAL_INLINE void dal_eval_blocks(dal_step *s, double t, const num *q, const num *
     dal_eval(s, DAL_EVAL_BLOCKS, t, q, v, NULL, out);
 }
 
-#if DAL_WITH_CONSTRAINT
+#if DAL_WITH(CONSTRAINT)
 /* Without constraints there is no such callback. */
 DAL_INLINE void dal_constraint(dal_step *s, double t, const num *q, const num *v, num *out)
 {

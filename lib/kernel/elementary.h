@@ -27,7 +27,7 @@
 
 #include "num.h"
 
-#if DAL_WITH_SINCOS
+#if DAL_WITH(SINCOS)
 #ifndef DAL_NUM_QUAD
 
 #if DAL_SCALAR
@@ -143,7 +143,7 @@ DAL_INLINE void dal_sincos(num x, num *s, num *c)
 #endif
 #endif
 
-#if DAL_WITH_SIN
+#if DAL_WITH(SIN)
 /* sin x, wrong by less than one unit in the last place. */
 DAL_INLINE num dal_sin(num x)
 {
@@ -161,7 +161,7 @@ DAL_INLINE num dal_cos(num x)
 }
 #endif
 
-#if DAL_WITH_BRANCHES
+#if DAL_WITH(BRANCHES)
 /* -1, 0 or 1; zeros and NaN stay what they are. */
 DAL_INLINE num dal_sign(num x)
 {
@@ -205,7 +205,7 @@ DAL_INLINE num dal_floor(num x)
 #endif
 #endif
 
-#if DAL_WITH_TABLES
+#if DAL_WITH(TABLES)
 /* A derivative, of order 0 to 3, of a piecewise polynomial; NaN outside its limits:
  *
  *     f(x) = c[0] + c[1] d + c[2] d^2 + c[3] d^3,   d = x - origin
@@ -252,7 +252,7 @@ DAL_INLINE num dal_piecewise(num x, const double *data, int knots, int order)
 }
 #endif
 
-#if DAL_WITH_LIBM
+#if DAL_WITH(LIBM)
 #define DAL__LIBM_UNARY(FUNCTION)                                                                  \
     FUNCTION(tan)                                                                                  \
     FUNCTION(asin)                                                                                 \

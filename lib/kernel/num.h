@@ -17,36 +17,16 @@
 #include "quad.h"
 #endif
 
-/* A generated file (DAL_SPECIALISED) has the parts that it needs, and no others. */
+/* A generated file (DAL_SPECIALISED) has the parts that it needs, and no others: the NAMEs of
+ * DAL_WITH(NAME) are listed in lib/codegen/generate.c. */
 #ifndef DAL_SPECIALISED
 #ifndef DAL_LANES
 #define DAL_LANES 1
 #endif
-#define DAL_SCALAR            (DAL_LANES == 1)
-#define DAL_WITH_SINCOS       1 /* sine and cosine together */
-#define DAL_WITH_SIN          1 /* one of them */
-#define DAL_WITH_LIBM         1 /* the functions of libm */
-#define DAL_WITH_BRANCHES     1 /* sign, floor, comparisons and the like */
-#define DAL_WITH_TABLES       1 /* functions given by points */
-#define DAL_WITH_LIFT         1 /* the canonical variables */
-#define DAL_WITH_TANGENT      1 /* tangent vectors in their place */
-#define DAL_WITH_SOLVE        1 /* implicit equations */
-#define DAL_WITH_UNITS        1 /* units of the system: these, or a tolerance */
-#define DAL_WITH_METHOD_STATE 1 /* saved within a step */
-#define DAL_WITH_GAUGE        1 /* e changes */
-#define DAL_WITH_CONSTRAINT   1 /* the callback */
-#define DAL_WITH_PROJECTION   1 /* dal_clear_momenta */
-#define DAL_WITH_GUARDS       1
-#define DAL_WITH_RANK         1 /* the rank check */
-#define DAL_WITH_PIVOTS       1 /* which compares pivots first */
-#define DAL_WITH_REGULAR      1 /* one of these */
-#define DAL_WITH_EXACT        1 /* an exact solution */
-#define DAL_WITH_REACTIONS    1 /* observed reactions */
-#define DAL_WITH_GROUPS       0 /* of lanes, stepped as one larger system */
-#define DAL_WITH_EVAL_GROUP   1
-#define DAL_WITH_SERIES       1           /* Taylor coefficients of F */
-#define DAL_WITH_CONTROL      1           /* substeps under a tolerance */
-#define DAL_WITH_TIMES        !DAL_SCALAR /* lanes with times of their own */
+#define DAL_SCALAR     (DAL_LANES == 1)
+#define DAL_WITH(name) 1
+#define DAL_HAS_GROUPS 0           /* of lanes, stepped as one larger system */
+#define DAL_HAS_TIMES  !DAL_SCALAR /* lanes with times of their own */
 #ifdef DAL_NUM_QUAD
 #define DAL_PACKS 0
 #else
@@ -57,7 +37,7 @@
 /* The name of a function that exists once per variant: DAL_WIDE(f) is f_x1, f_x8, f_x8_AVX512, ...
  */
 #ifdef DAL_SPECIALISED
-#if DAL_WITH_SOLVE
+#if DAL_WITH(SOLVE)
 #define DAL_WIDE(name) name##_once
 #endif
 #else
@@ -79,7 +59,7 @@
  * since the map itself can be inlined only where its call names it. */
 #ifdef DAL_SPECIALISED
 #define DAL_COLD static DAL_UNUSED __attribute__((noinline, cold))
-#if DAL_WITH_SOLVE
+#if DAL_WITH(SOLVE)
 #define DAL_INLINE_EARLY static inline DAL_UNUSED __attribute__((always_inline))
 #define DAL_SHARED       DAL_INLINE
 #define DAL_SHARED_EARLY DAL_INLINE_EARLY
@@ -316,7 +296,7 @@ DAL_INLINE void dal__square_packs(const num *u, int count, num *part)
 #define dal__nonfinite_packs(x, count, nonfinite) 0
 #endif
 
-#if DAL_WITH_UNITS
+#if DAL_WITH(UNITS)
 /* x/unit_i; unit NULL: 1. */
 DAL_INLINE num dal_in_units(num x, const double *unit, int i)
 {
@@ -325,7 +305,7 @@ DAL_INLINE num dal_in_units(num x, const double *unit, int i)
 }
 #endif
 
-#if DAL_WITH_SOLVE
+#if DAL_WITH(SOLVE)
 /* max |x_i|, of x[count] */
 DAL_INLINE num dal_max_norm(const num *x, int count)
 {
@@ -345,7 +325,7 @@ DAL_INLINE num dal_nonfinite(const num *x, int count)
     return nonfinite;
 }
 
-#if DAL_WITH_LIFT
+#if DAL_WITH(LIFT)
 /* |u|^2 */
 DAL_INLINE num dal_square(const num *u, int count)
 {

@@ -5,7 +5,7 @@
 
 #include "num.h"
 
-#if DAL_WITH_LIFT
+#if DAL_WITH(LIFT)
 /* H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e and the max norms of p, pi, pi_e, out[4], of the state
  * y[4n + 2], where f[n] is F and mu is mu_e. */
 DAL_INLINE void dal_lift_observables(const num *y, int n, const num *f, num mu, num *out)
@@ -23,7 +23,7 @@ DAL_INLINE void dal_lift_observables(const num *y, int n, const num *f, num mu, 
 }
 #endif
 
-#if DAL_WITH_REACTIONS
+#if DAL_WITH(REACTIONS)
 /* out[m + n]: h and R = B^T h, from h[m] and, after it, B[m*n]. */
 DAL_INLINE void dal_reaction_observables(const num *h, int m, int n, num *out)
 {
@@ -37,7 +37,7 @@ DAL_INLINE void dal_reaction_observables(const num *h, int m, int n, num *out)
 }
 #endif
 
-#if DAL_WITH_EXACT
+#if DAL_WITH(EXACT)
 /* max |a_i - b_i| */
 DAL_INLINE num dal_max_distance(const num *a, const num *b, int count)
 {

@@ -35,7 +35,7 @@ typedef enum dal_callback_code {
 #define DAL_M(s)      DAL_FIXED_M
 #define DAL_DIM(s)    (DAL_FIXED_DIM * DAL_STEP_GROUPS)
 #define DAL_LIFTED(s) DAL_FIXED_LIFTED
-#if DAL_WITH_SOLVE
+#if DAL_WITH(SOLVE)
 #define DAL_SOLVER(s)                 DAL_FIXED_SOLVER
 #define DAL_ITERATIONS(s)             DAL_FIXED_ITERATIONS
 #define DAL_SOLVER_TOLERANCE(s)       DAL_FIXED_SOLVER_TOLERANCE
@@ -51,18 +51,18 @@ typedef enum dal_callback_code {
 #else
 #define DAL__COUNT_DERIVATIVES 0
 #endif
-#if DAL_WITH_REGULAR
+#if DAL_WITH(REGULAR)
 #define DAL_GUARDS(s)       DAL_FIXED_GUARDS
 #define DAL_RANK_CHECKED(s) DAL_FIXED_RANK_CHECKED
 #endif
-#if DAL_WITH_PIVOTS
+#if DAL_WITH(PIVOTS)
 #define DAL_PIVOTS(s) (DAL__COUNT_PIVOTS - 1)
 #endif
-#if DAL_WITH_CONTROL
+#if DAL_WITH(CONTROL)
 #define DAL_CONTROLLED(s) 1
 #define DAL_TOLERANCE(s)  DAL_FIXED_TOLERANCE
 #endif
-#if DAL_WITH_SERIES
+#if DAL_WITH(SERIES)
 #define DAL_SERIES(s)         DAL_FIXED_SERIES
 #define DAL_TAYLOR_ORDER(s)   DAL_FIXED_TAYLOR_ORDER
 #define DAL_TOLERANCE_ROOT(s) DAL_FIXED_TOLERANCE_ROOT
@@ -131,11 +131,11 @@ struct dal_step {
     DAL__METHOD_STATE_LIST(DAL__METHOD_NUMBERS)
 
     dal_mask alive[DAL_STEP_GROUPS], unconverged[DAL_STEP_GROUPS]; /* not failed; not solved */
-#if DAL_WITH_TIMES
+#if DAL_HAS_TIMES
     int has_times; /* 1: callbacks are evaluated at these times, not at a common one */
     dal_times times;
 #endif
-#if DAL_WITH_PIVOTS
+#if DAL_WITH(PIVOTS)
     num DAL__NUMBERS(pivots, DAL__COUNT_PIVOTS - 1); /* of the first evaluation of F in the step */
     int pivots_known[DAL_STEP_GROUPS]; /* 1: there was one, or they are not compared */
 #endif
@@ -185,7 +185,7 @@ struct dal_step {
 
 #ifdef DAL_SPECIALISED
 
-#if DAL_WITH_METHOD_STATE
+#if DAL_WITH(METHOD_STATE)
 /* Copies the state of the method; restores it in some lanes. */
 enum {
     DAL__METHOD_STATE_SIZE = 0
@@ -215,12 +215,12 @@ DAL_INLINE void dal_restore_method_state(dal_step *s, dal_mask lanes, const num 
 /* The system as straight-line code, further down. */
 DAL_INLINE void dal_eval(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
                          const num *pi, num *out);
-#if DAL_WITH_EVAL_GROUP
+#if DAL_WITH(EVAL_GROUP)
 /* The same for one group of lanes. */
 DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, double t,
                                const num *q, const num *v, num *out);
 #endif
-#if DAL_WITH_SERIES
+#if DAL_WITH(SERIES)
 /* Coefficient k of F and its like from in, see dal_series. */
 DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num *in, num *memory,
                                 num *out);
@@ -283,11 +283,11 @@ DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num *in, n
 
 #endif
 
-#if DAL_WITH_PIVOTS
+#if DAL_WITH(PIVOTS)
 /* Whether a callback evaluates F, and leaves its pivots. */
 DAL_INLINE int dal_leaves_pivots(dal_callback_code code)
 {
-#if DAL_WITH_LIFT
+#if DAL_WITH(LIFT)
     if (code == DAL_EVAL_ADJOINT) return 1;
 #endif
     return code == DAL_EVAL_FIELD;
@@ -298,7 +298,7 @@ DAL_INLINE int dal_leaves_pivots(dal_callback_code code)
  * code after several returns for cold and leaves it slow. */
 DAL_INLINE int dal_failed(dal_status status) { return DAL_RARELY(status != DAL_STATUS_OK); }
 
-#if DAL_WITH_TANGENT
+#if DAL_WITH(TANGENT)
 /* Selects whether dal_field moves a tangent vector stored in p and pi. */
 DAL_INLINE void dal_set_tangent(dal_step *s, int on)
 {
@@ -318,7 +318,7 @@ DAL_INLINE int dal_at_p(const dal_step *s) { return 2 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi(const dal_step *s) { return 3 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi_e(const dal_step *s) { return 4 * DAL_N(s) + 1; }
 
-#if DAL_WITH_PROJECTION
+#if DAL_WITH(PROJECTION)
 /* p = pi = pi_e = 0, after a projection. */
 DAL_INLINE void dal_clear_momenta(dal_step *s)
 {
@@ -336,7 +336,7 @@ DAL_INLINE void dal_force(dal_step *s, double t, const num *q, const num *v, num
     s->evaluations++;
     dal_eval(s, DAL_EVAL_FIELD, t, q, v, NULL, out);
 }
-#if DAL_WITH_LIFT
+#if DAL_WITH(LIFT)
 DAL_INLINE void dal_adjoint(dal_step *s, double t, const num *q, const num *v, const num *pi,
                             num *out)
 {
@@ -357,7 +357,7 @@ DAL_INLINE num dal_gauge_rate(const num *pi, int n, num w)
 }
 #endif
 
-#if DAL_WITH_TANGENT
+#if DAL_WITH(TANGENT)
 /* The field of x' = f, dx' = Df dx, with the tangent vector dx stored in p and pi. */
 DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
@@ -379,7 +379,7 @@ DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL
 }
 #endif
 
-#if DAL_WITH_LIFT
+#if DAL_WITH(LIFT)
 /* The field of the canonical variables, without q' = v. */
 DAL_INLINE void dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
@@ -406,10 +406,10 @@ DAL_INLINE void dal_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT
     const int n = DAL_N(s);
     DAL_EACH(i, n) dy[i] = y[n + i];
     if (!DAL_LIFTED(s)) dal_force(s, t, y, y + n, dy + n);
-#if DAL_WITH_TANGENT
+#if DAL_WITH(TANGENT)
     if (DAL_LIFTED(s) && DAL_TANGENT(s)) dal__tangent_field(s, t, y, dy);
 #endif
-#if DAL_WITH_LIFT
+#if DAL_WITH(LIFT)
     if (DAL_LIFTED(s) && !DAL_TANGENT(s)) dal__lifted_field(s, t, y, dy);
 #endif
 }

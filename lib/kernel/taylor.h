@@ -46,7 +46,7 @@ typedef struct dal_expansion {
     const dal_expansion name = {memory, gauge, gauge + DAL_TAYLOR_ORDER(s) + 1,                    \
                                 gauge + 2 * (DAL_TAYLOR_ORDER(s) + 1)}
 
-#if DAL_WITH_LIFT
+#if DAL_WITH(LIFT)
 /* sum a_j b_(k-j) over j = first..k; coefficients of a, of b, are `a_stride`, `b_stride` apart. */
 DAL_INLINE num dal__convolve(const num *a, int a_stride, const num *b, int b_stride, int first,
                              int k)
@@ -81,7 +81,7 @@ DAL_INLINE void dal__lifted_series(const dal_step *s, int k, const num *x, const
  * amplitude of an oscillator by 1e-16 in each step of 2.  The rest of 1/k is added then. */
 #ifdef DAL_NUM_QUAD
 #define DAL__IS_FINE_SERIES(s) 0
-#elif DAL_WITH_CONTROL
+#elif DAL_WITH(CONTROL)
 #define DAL__FINE_SERIES       1e-14
 #define DAL__IS_FINE_SERIES(s) (DAL_CONTROLLED(s) && DAL_TOLERANCE(s) < DAL__FINE_SERIES)
 #else
@@ -128,7 +128,7 @@ DAL_INLINE void dal__expand_order(dal_step *s, num t, int k, num *x, const dal_e
     DAL_EACH(i, n) next[i] = dal__divide(s, now[n + i], &inverse);
     if (!DAL_LIFTED(s))
         DAL_EACH(i, nw) next[n + i] = dal__divide(s, f[i], &inverse);
-#if DAL_WITH_LIFT
+#if DAL_WITH(LIFT)
     if (DAL_LIFTED(s)) {
         dal__lifted_series(s, k, x, f, e, next);
         DAL_EACH(i, dim - n) next[n + i] = dal__divide(s, next[n + i], &inverse);

@@ -123,7 +123,7 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
         .v = (const double *)v,
         .pi = (const double *)pi,
         .work = (double *)e->work,
-#if DAL_WITH_TIMES
+#if DAL_HAS_TIMES
         .times = s->has_times ? (const double *)&s->times : NULL
 #endif
     };
