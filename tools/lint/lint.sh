@@ -18,7 +18,8 @@ check() { # TITLE COMMAND...: a violation is a line of output, or a command that
     fi
 }
 
-sources() { find include lib integrators cli python tests examples bench -name '*.[ch]' | sort; }
+# The templates (.inc), too.
+sources() { find include lib integrators cli python tests examples bench -name '*.[ch]' -o -name '*.inc' | sort; }
 objects() { find "$BUILD/lib" "$BUILD/integrators" -name '*.o' | sort; }
 
 format() {
@@ -34,7 +35,7 @@ includes() {
 sizes() { sources | xargs awk 'length > 100 { print FILENAME ":" FNR ": longer than 100 columns" }
     FNR == 601 { print FILENAME ": longer than 600 lines" }'; }
 functions() {
-    sources | xargs ctags -x --c-kinds=f --_xformat='%F %{line} %{end} %N' |
+    sources | xargs ctags -x --map-C=+.inc --c-kinds=f --_xformat='%F %{line} %{end} %N' |
         awk '$3 - $2 >= 60 { print $1 ":" $2 ": " $4 " has " $3 - $2 + 1 " lines (60 at most)" }'
 }
 # clang-format indents by four columns: a fourth level of control begins in column 17.
@@ -44,7 +45,7 @@ nesting() {
 }
 # The first line of a file has its name and what it is for.
 heads() {
-    find include lib integrators cli python tests examples bench -name '*.[ch]' -o -name '*.inc' | while read -r file; do
+    sources | while read -r file; do
         head -n 1 "$file" | grep -q "^/\* ${file##*/} - " || echo "$file: does not begin with /* ${file##*/} - what it is for"
     done
 }
