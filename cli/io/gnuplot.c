@@ -7,6 +7,7 @@
 #include "gnuplot.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/signals.h"
 
 #include "file.h"
 #include "svg.h"
@@ -130,8 +131,12 @@ static int run(const char *directory, const char *path, char axes[AXES_SIZE], bo
         fclose(printed);
     else
         close(ends[0]);
-    while (waitpid(child, &state, 0) < 0)
+    if (cli_interrupted()) kill(child, SIGTERM);
+    while (waitpid(child, &state, 0) < 0) {
         if (errno != EINTR) return cli_io("wait for", "gnuplot");
+        if (cli_interrupted()) kill(child, SIGTERM);
+    }
+    if (cli_interrupted()) return cli_fail(CLI_SIGNAL, "interrupted while gnuplot drew '%s'", path);
     if (WIFEXITED(state) && WEXITSTATUS(state) == 0)
         return is_read ? CLI_DONE : cli_fail(CLI_IO, "cannot read what gnuplot prints");
     const bool is_missing = WIFEXITED(state) && WEXITSTATUS(state) == NOT_FOUND;

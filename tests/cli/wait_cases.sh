@@ -16,8 +16,10 @@ alone() {
     PATH="$work/wait/bin:$PATH" HOME=$work/wait/home XDG_CACHE_HOME=$work/wait/home \
         "$program" "$@" >out 2>err &
 }
-printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 1' \
+# Steps are compiled where a cell has half a million of them.
+printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 1e5' \
     'systems: [chaplygin-sleigh]' >wait/study.yaml
+sed 's/1e5/1/' wait/study.yaml >wait/short.yaml
 
 case_is "SIGTERM while a compiler runs"
 motion="chaplygin-sleigh --integrator rk4 --step 0.1 --time 1"
@@ -36,6 +38,11 @@ alone report wait/drawn
 expect "gnuplot was not started" reaches $! test -e wait/number
 ends_by TERM 143 $!
 if [ "$(uname)" = Linux ]; then stopped wait/number; else kill "$(cat wait/number)"; fi
+alone study wait/short.yaml --output wait/short
+expect "gnuplot was not started" reaches $! test -e wait/number
+ends_by TERM 130 $!
+stopped wait/number
+says '^dalembert: interrupted while gnuplot drew '
 
 case_is "SIGTERM while nobody reads"
 for command in "run" "run --progress json"; do
