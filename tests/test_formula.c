@@ -438,10 +438,9 @@ static void test_many_terms(void)
     CU_ASSERT(many < 8.0 * few);
 }
 
-static void test_out_of_memory(void)
+static void check_memory(const char *text, bool is_single)
 {
-    char *text = repeated("", "(sin(x)+", "y", ")", 500);
-    allocation_trial trial = {0};
+    allocation_trial trial = {.is_single = is_single};
     while (allocation_next(&trial)) {
         dal__node node = 0;
         dal_error error;
@@ -451,7 +450,19 @@ static void test_out_of_memory(void)
                        graph ? formula_parse(graph, text, &node, &error) : DAL_STATUS_MEMORY);
         dal__graph_free(graph);
     }
-    free(text);
+}
+
+/* No argument is lost where memory runs out for one alone: the first, or the 17th, for which the
+ * list of arguments grows. */
+static void test_out_of_memory(void)
+{
+    char *deep = repeated("", "(sin(x)+", "y", ")", 500);
+    char *wide = repeated("max(", "x, ", "y)", "", 16);
+    check_memory(deep, false);
+    check_memory("atan2(x, y)", true);
+    check_memory(wide, true);
+    free(deep);
+    free(wide);
 }
 
 /* x[1] is x. */
