@@ -25,12 +25,14 @@ for seeds in hello '[]' '[[1]]' '[1, [2]]' '{between: [0, 1]}' '[-1]' 1.5; do
 done
 for line in 'integrators: []' 'integrators: [[rk4]]' 'step: [[0.1]]' 'step: []' 'starts: []' \
     'starts: [[physical]]' 'systems: []' 'systems: [[line.yaml]]' 'options: []' 'set: [1]' \
-    'start: [1]' 'displace: [1]' 'samples: [1, 2]' 'time: [1]' 'expect: [1]' 'title: [a]'; do
+    'start: [1]' 'displace: [1]' 'samples: [1, 2]' 'time: [1]' 'title: [a]' 'expect: [1]' \
+    'expect: {line.yaml: [1]}' 'expect: {line.yaml: {rk4: [1]}}' 'expect: {line.yaml: {rk4: {x*z: {final: exact}}}}'; do
     key=${line%%:*}
     printf "$common"'systems: [line.yaml]\n' | grep -v "^$key:" >bad.yaml
     echo "$line" >>bad.yaml
     try 2 study bad.yaml --output there --force
     says "^dalembert: bad\.yaml:[0-9]+:[0-9]+: "
+    expect "more is printed than what is wrong first" test "$(wc -l <err)" -eq 1
 done
 for modifier in project project-energy symmetric-project; do
     try 2 run chaplygin-sleigh --integrator implicit-midpoint+$modifier+$modifier --step 0.1 --time 1
