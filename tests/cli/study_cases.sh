@@ -40,6 +40,17 @@ sed 's/,[^,]*$//' one/cells.csv >one.cells
 sed 's/,[^,]*$//' four/cells.csv >four.cells
 expect "cells.csv differs" cmp -s one.cells four.cells
 
+case_is "tables hold no times"
+if needs 5 "no compiler for a fast clock" shared_object fast_clock; then
+    expect "exit $?" env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
+        LD_PRELOAD="$top/fast_clock.so" "$program" study small.yaml --output fast --no-page
+    expect "no fast clock" awk -F, 'NR > 1 && $NF <= 1 { slow = 1 } END { exit slow || NR < 2 }' fast/cells.csv
+    for file in tables.txt quantities.csv series/plane.csv; do
+        expect "$file differs" cmp -s "one/$file" "fast/$file"
+    done
+    counted
+fi
+
 case_is "numbers with closed forms"
 cat >closed.yaml <<'END'
 integrators: [symplectic-euler-00]
