@@ -19,13 +19,16 @@
 static int check_directory(const run_directory *dir)
 {
     char *study = cli_join(dir->path, "study.yaml");
-    const bool is_study = file_exists(study) && !json_file_has(dir->manifest, "input");
+    const bool has_study = file_exists(study);
+    bool is_ensemble, is_run;
     free(study);
-    if (is_study)
+    int status = json_file_find(dir->manifest, "ensemble", &is_ensemble);
+    if (status == CLI_DONE) status = json_file_find(dir->manifest, "input", &is_run);
+    if (status != CLI_DONE) return status;
+    if (has_study && !is_run)
         return cli_fail(CLI_USAGE, "'%s' holds a study: name one of its runs, '%s/runs/...'",
                         dir->path, dir->path);
-    if (json_file_has(dir->manifest, "ensemble"))
-        return cli_fail(CLI_USAGE, "'%s' holds an ensemble, not a run", dir->path);
+    if (is_ensemble) return cli_fail(CLI_USAGE, "'%s' holds an ensemble, not a run", dir->path);
     if (file_exists(dir->manifest)) return CLI_DONE;
     return cli_fail(CLI_USAGE, "'%s' holds no run: there is no '%s'", dir->path, dir->manifest);
 }

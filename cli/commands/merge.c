@@ -47,7 +47,9 @@ static int merge(int argc, char **argv)
     const cli_group group = CLI_GROUP(options, &s);
     int status = cli_read_arguments(&command_merge, argc, argv, &group, 1);
     if (status != CLI_GO_ON) return status;
-    const bool is_ensemble = ensemble_directory_has_ensemble(s.source[0]);
+    bool is_ensemble;
+    status = ensemble_directory_find(s.source[0], &is_ensemble);
+    if (status != CLI_DONE) return status;
     status = is_ensemble ? ensemble_merge(s.source, s.sources, s.output, (int)s.threads, s.force)
                          : study_merge(s.source, s.sources, s.output, (int)s.threads, s.force);
     if (s.no_page) return status;

@@ -51,11 +51,13 @@ static int resume(int argc, char **argv)
         run_group(&s.run, RUN_OPTION(output) | RUN_OPTION(force)),
         CLI_GROUP(options, &s),
     };
-    const int status = cli_read_arguments(&command_resume, argc, argv, groups, 2);
+    int status = cli_read_arguments(&command_resume, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;
     if (file_find_directory(s.directory) != CLI_DONE) return CLI_USAGE;
     const char *end = s.extension.time ? "time" : s.extension.steps ? "steps" : NULL;
-    const bool is_ensemble = ensemble_directory_has_ensemble(s.directory);
+    bool is_ensemble;
+    status = ensemble_directory_find(s.directory, &is_ensemble);
+    if (status != CLI_DONE) return status;
     if (end && is_ensemble)
         return cli_fail(CLI_USAGE, "--%s: '%s' holds an ensemble; a run can be extended", end,
                         s.directory);

@@ -115,7 +115,9 @@ static int run_study(const settings *s, const char *text, size_t length)
                                    .format = s->format};
     study_directory_open(&dir, s->output ? s->output : default_directory);
     int status = study_plan_read(&plan, s->study ? s->study : builtin_name, text, length, NULL);
-    const int force = s->run.force || (!s->output && study_directory_is_finished(&dir));
+    bool has_ended = false;
+    if (status == CLI_DONE && !s->output) status = study_directory_read_end(&dir, &has_ended);
+    const bool force = s->run.force || has_ended;
     if (status == CLI_DONE)
         status = study_directory_begin(&dir, &plan, text, length, s->shard, force);
     if (status == CLI_DONE) status = study_directory_run(&dir, &plan, &how);

@@ -87,12 +87,12 @@ int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensem
     return store_end_manifest(&m, dir->manifest, 1);
 }
 
-bool ensemble_directory_has_ensemble(const char *path)
+int ensemble_directory_find(const char *path, bool *is_there)
 {
     char *manifest = cli_join(path, "manifest.json");
-    const bool found = json_file_has(manifest, "ensemble");
+    const int status = json_file_find(manifest, "ensemble", is_there);
     free(manifest);
-    return found;
+    return status;
 }
 
 static int read_vary(void *user, const document *doc, yaml_node_t *value, const document_key *key)
@@ -189,13 +189,14 @@ int ensemble_directory_write_messages(const ensemble_directory *dir, int chunk, 
     return status;
 }
 
-char *ensemble_directory_read_messages(const ensemble_directory *dir, int chunk)
+int ensemble_directory_read_messages(const ensemble_directory *dir, int chunk, char **text)
 {
     size_t length;
     char *path = cli_format("%s/%d", dir->messages, chunk);
-    char *text = file_exists(path) ? file_read(path, &length) : NULL;
+    const bool is_there = file_exists(path);
+    *text = is_there ? file_read(path, &length) : NULL;
     free(path);
-    return text;
+    return is_there && !*text ? CLI_IO : CLI_DONE;
 }
 
 /* ---- marks --------------------------------------------------------------------------------- */
@@ -278,7 +279,9 @@ static int begin_new(ensemble_directory *dir, const ensemble *e)
 /* A shard joins an ensemble that is there; that it is the same one, its marks show. */
 static int begin_or_join(ensemble_directory *dir, const ensemble *e, store_shard shard, bool force)
 {
-    const bool is_there = ensemble_directory_has_ensemble(dir->path);
+    bool is_there;
+    int status = ensemble_directory_find(dir->path, &is_there);
+    if (status != CLI_DONE) return status;
     if (!is_there && file_exists(dir->manifest))
         return cli_fail(CLI_USAGE, "'%s' holds something else: '%s' is not of an ensemble",
                         dir->path, dir->manifest);
@@ -288,7 +291,7 @@ static int begin_or_join(ensemble_directory *dir, const ensemble *e, store_shard
                         "'%s' holds an ensemble: 'dalembert resume %s' continues it, --force "
                         "overwrites it",
                         dir->path, dir->path);
-    int status = is_there ? store_remove_shards(dir->path, marks_file) : CLI_DONE;
+    if (is_there) status = store_remove_shards(dir->path, marks_file);
     if (status == CLI_DONE && is_there) status = store_remove(dir->messages, 1);
     return status == CLI_DONE ? begin_new(dir, e) : status;
 }

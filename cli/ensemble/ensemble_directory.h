@@ -57,7 +57,7 @@ int ensemble_member_columns(const ensemble *e);
 /* Memory for the rows of a chunk in any of the tables, zeroed; the caller frees it. */
 double *ensemble_allocate_rows(const ensemble *e);
 /* Whether a directory holds an ensemble. */
-bool ensemble_directory_has_ensemble(const char *path);
+int ensemble_directory_find(const char *path, bool *is_there);
 
 /* All below return CLI_DONE, or print and return an exit status. */
 
@@ -74,10 +74,10 @@ int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, store_
 int ensemble_directory_shards(const ensemble_directory *dir, store_shard **shards, int *count);
 /* Waits until no other shard begins or ends, and keeps others waiting until dir is closed. */
 int ensemble_directory_lock(ensemble_directory *dir);
-/* Brings to the disk why members of a chunk failed; reads that, allocated, NULL where there is
- * none. */
+/* Brings to the disk why members of a chunk failed; reads that, allocated, NULL where no file is
+ * there. */
 int ensemble_directory_write_messages(const ensemble_directory *dir, int chunk, const char *text);
-char *ensemble_directory_read_messages(const ensemble_directory *dir, int chunk);
+int ensemble_directory_read_messages(const ensemble_directory *dir, int chunk, char **text);
 /* Brings all rows to the disk, and then which chunks are done. */
 int ensemble_directory_save(const ensemble_directory *dir);
 int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensemble *e,

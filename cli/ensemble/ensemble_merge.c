@@ -45,7 +45,8 @@ static int copy_chunk(const merge *m, const ensemble_directory *from, int chunk)
     if (status == CLI_DONE) status = copy_rows(m, &from->final, &to->final, first, count);
     for (int t = 0; to->has_rows && t < m->e.times && status == CLI_DONE; t++)
         status = copy_rows(m, &from->rows, &to->rows, t * m->e.members + first, count);
-    char *messages = ensemble_directory_read_messages(from, chunk);
+    char *messages = NULL;
+    if (status == CLI_DONE) status = ensemble_directory_read_messages(from, chunk, &messages);
     if (status == CLI_DONE && messages)
         status = ensemble_directory_write_messages(to, chunk, messages);
     free(messages);

@@ -264,13 +264,16 @@ static int write_chunk_failures(const statistics *s, int chunk, double *rows, FI
     const ensemble *e = s->e;
     const int columns = ensemble_member_columns(e), count = ensemble_chunk_members(e, chunk);
     const long long first = (long long)chunk * ENSEMBLE_CHUNK;
-    const int status = npy_table_read(&s->dir->members, first, count, rows);
+    int status = npy_table_read(&s->dir->members, first, count, rows);
     char *messages = NULL, *message = NULL;
     for (int i = 0; i < count && status == CLI_DONE; i++) {
         const double *row = rows + i * columns, code = row[MEMBER_STATUS];
         if (!(code > 0.0 && code < DAL_STATUS_COUNT)) continue;
         counts[(int)code]++;
-        if (!messages) message = messages = ensemble_directory_read_messages(s->dir, chunk);
+        if (!messages) {
+            status = ensemble_directory_read_messages(s->dir, chunk, &messages);
+            message = messages;
+        }
         char *next = message ? strchr(message, '\n') : NULL;
         if (next) *next++ = '\0';
         put_failure(out, e, first + i, row, message ? message : "");

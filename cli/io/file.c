@@ -52,22 +52,22 @@ char *file_read(const char *path, size_t *length)
 
 bool file_exists(const char *path) { return access(path, F_OK) == 0; }
 
-bool file_equals(const char *path, const void *bytes, size_t length)
+int file_equals(const char *path, const void *bytes, size_t length, bool *is_same)
 {
     size_t n;
     char *text = file_read(path, &n);
-    const int same = text && n == length && memcmp(text, bytes, n) == 0;
+    *is_same = text && n == length && memcmp(text, bytes, n) == 0;
     free(text);
-    return same;
+    return text ? CLI_DONE : CLI_IO;
 }
 
-bool file_is_copy(const char *path, const char *other)
+int file_is_copy(const char *path, const char *other, bool *is_same)
 {
     size_t length;
     char *text = file_read(other, &length);
-    const int same = text && file_equals(path, text, length);
+    const int status = text ? file_equals(path, text, length, is_same) : CLI_IO;
     free(text);
-    return same;
+    return status;
 }
 
 bool file_is_same(const char *path, const char *other)

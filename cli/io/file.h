@@ -13,8 +13,8 @@
 char *file_read(const char *path, size_t *length);
 bool file_exists(const char *path);
 /* Whether a file has exactly these bytes, or the same as another. */
-bool file_equals(const char *path, const void *bytes, size_t length);
-bool file_is_copy(const char *path, const char *other);
+int file_equals(const char *path, const void *bytes, size_t length, bool *is_same);
+int file_is_copy(const char *path, const char *other, bool *is_same);
 /* Whether two paths lead to one file or directory. */
 bool file_is_same(const char *path, const char *other);
 /* Writes a file; renames one.  With sync they wait until that is on the disk, so that it outlives

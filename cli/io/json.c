@@ -396,35 +396,41 @@ char *json_source(const char *bytes, const yaml_node_t *value)
                        value->end_mark.index - value->start_mark.index);
 }
 
-/* place: for messages, as in json_parse. */
-static bool parse_file(document *doc, const char *path, const char *place)
+/* place: for messages, as in json_parse.  The document is to be deleted in any case. */
+static int parse_file(document *doc, const char *path, const char *place, bool *is_parsed)
 {
     size_t length;
-    char *bytes = file_exists(path) ? file_read(path, &length) : NULL;
-    const bool is_parsed = bytes && json_parse(doc, place, bytes, length) == CLI_DONE;
+    *is_parsed = false;
+    if (!file_exists(path)) return CLI_DONE;
+    char *bytes = file_read(path, &length);
+    if (!bytes) return CLI_IO;
+    *is_parsed = json_parse(doc, place, bytes, length) == CLI_DONE;
     free(bytes);
-    return is_parsed;
+    return CLI_DONE;
 }
 
-char *json_file_text(const char *path, const char *name)
+int json_file_text(const char *path, const char *name, char **text)
 {
     document doc = {0};
-    char *copy = NULL;
-    if (parse_file(&doc, path, path)) {
+    bool is_parsed;
+    const int status = parse_file(&doc, path, path, &is_parsed);
+    *text = NULL;
+    if (is_parsed) {
         const yaml_node_t *root = yaml_document_get_root_node(&doc.yaml);
         const yaml_node_t *node = document_value(&doc, root, name);
         const char *value = node ? document_scalar(&doc, node, name) : NULL;
-        if (value) copy = cli_strdup(value);
+        if (value) *text = cli_strdup(value);
     }
     yaml_document_delete(&doc.yaml);
-    return copy;
+    return status;
 }
 
-bool json_file_has(const char *path, const char *name)
+int json_file_find(const char *path, const char *name, bool *is_there)
 {
     document doc = {0};
-    const bool found = parse_file(&doc, path, NULL) &&
-                       document_value(&doc, yaml_document_get_root_node(&doc.yaml), name);
+    const int status = parse_file(&doc, path, NULL, is_there);
+    if (*is_there)
+        *is_there = document_value(&doc, yaml_document_get_root_node(&doc.yaml), name) != NULL;
     yaml_document_delete(&doc.yaml);
-    return found;
+    return status;
 }

@@ -273,13 +273,15 @@ store_state store_end_state(int exit_status)
                                        : STORE_FAILED;
 }
 
-store_state store_read_state(const char *manifest)
+int store_read_state(const char *manifest, store_state *state)
 {
-    char *word = json_file_text(manifest, "status");
-    int state = word ? 0 : STORE_STATES;
-    while (state < STORE_STATES && strcmp(word, store_state_words[state]) != 0) state++;
+    char *word;
+    const int status = json_file_text(manifest, "status", &word);
+    int i = word ? 0 : STORE_STATES;
+    while (i < STORE_STATES && strcmp(word, store_state_words[i]) != 0) i++;
     free(word);
-    return (store_state)state;
+    *state = (store_state)i;
+    return status;
 }
 
 int store_interrupt(const char *directory)

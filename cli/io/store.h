@@ -143,7 +143,7 @@ extern const char *const store_state_words[STORE_STATES];
 /* What an exit status leaves. */
 store_state store_end_state(int exit_status);
 /* What a manifest says; STORE_STATES: nothing. */
-store_state store_read_state(const char *manifest);
+int store_read_state(const char *manifest, store_state *state);
 /* Says how an interrupted directory is resumed; returns CLI_SIGNAL. */
 int store_interrupt(const char *directory);
 

@@ -19,11 +19,12 @@
 /* On rank 0: begins a study or an ensemble; what is resumed is known by its directory. */
 static int begin(mpi_request *request, int argc, char **argv)
 {
-    const int status = argc > 1 && strcmp(argv[1], "ensemble") == 0
-                           ? mpi_ensemble_begin(request, argc - 1, argv + 1)
-                           : mpi_study_begin(request, argc, argv);
-    request->is_ensemble = status == CLI_GO_ON && ensemble_directory_has_ensemble(request->output);
-    return status;
+    int status = argc > 1 && strcmp(argv[1], "ensemble") == 0
+                     ? mpi_ensemble_begin(request, argc - 1, argv + 1)
+                     : mpi_study_begin(request, argc, argv);
+    if (status != CLI_GO_ON) return status;
+    status = ensemble_directory_find(request->output, &request->is_ensemble);
+    return status == CLI_DONE ? CLI_GO_ON : status;
 }
 
 int main(int argc, char **argv)

@@ -10,13 +10,13 @@
 
 enum { BEGIN_CAPACITY = 64 };
 
-void report_events_read(report_events *e, const char *path, const dal_system *system, double from)
+int report_events_read(report_events *e, const char *path, const dal_system *system, double from)
 {
     *e = (report_events){.system = system};
-    if (!system) return;
+    if (!system) return CLI_DONE;
     e->kind = cli_calloc((size_t)system->events, sizeof *e->kind);
     event_reader reader;
-    event_reader_open(&reader, path, 0);
+    const int status = event_reader_open(&reader, path, 0);
     while (event_reader_next(&reader)) {
         if (reader.event >= system->events) continue;
         event_kind *kind = &e->kind[reader.event];
@@ -31,6 +31,7 @@ void report_events_read(report_events *e, const char *path, const dal_system *sy
         e->t[e->count++] = reader.t;
     }
     event_reader_close(&reader);
+    return status;
 }
 
 void report_events_free(report_events *e)

@@ -20,7 +20,7 @@ typedef struct report_events {
 } report_events;
 
 /* Reads the events of a run that began at `from`; free them in any case. */
-void report_events_read(report_events *e, const char *path, const dal_system *system, double from);
+int report_events_read(report_events *e, const char *path, const dal_system *system, double from);
 void report_events_free(report_events *e);
 /* A table of the events of the system: how often each happened, first and last. */
 void report_events_write(FILE *page, const report_events *e);

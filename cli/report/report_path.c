@@ -108,12 +108,12 @@ static void break_path(const body_path *p, plot_curve *curve)
 }
 
 /* Rings where the events happened, the first of them. */
-static void draw_events(body_path *p, report_plot *plot)
+static int draw_events(body_path *p, report_plot *plot)
 {
     double pose[DAL_PICTURE_COUNT];
     const int n = p->poses.simulation.system->n;
     event_reader events;
-    event_reader_open(&events, p->poses.dir.events, 2 * n);
+    const int status = event_reader_open(&events, p->poses.dir.events, 2 * n);
     plot_curve *curve = report_curve(plot, "events");
     curve->has_rings = true;
     curve->colour = 1;
@@ -123,6 +123,7 @@ static void draw_events(body_path *p, report_plot *plot)
     }
     event_reader_close(&events);
     if (curve->count == 0) plot->count--;
+    return status;
 }
 
 static int draw_path(body_path *p, report *r, const char *name, const char *caption)
@@ -142,7 +143,7 @@ static int draw_path(body_path *p, report *r, const char *name, const char *capt
     if (more < 0) status = CLI_IO;
     break_path(p, curve);
     draw_bodies(p, &plot);
-    draw_events(p, &plot);
+    if (status == CLI_DONE) status = draw_events(p, &plot);
     if (p->instants > 0 && body != DAL_BODY_POINT)
         snprintf(text, sizeof text, "The %s, not to scale, at %d of the rows.", body_name[body],
                  p->instants);

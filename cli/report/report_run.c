@@ -349,12 +349,15 @@ static void write_command(FILE *page, const run_request *request)
 /* ---- the page ------------------------------------------------------------------------------ */
 
 /* What moves and how, and why the run ended where it did not reach its end. */
-static void write_head(const run_page *run, const char *manifest)
+static int write_head(const run_page *run, const char *manifest)
 {
     const run_request *request = run->request;
     FILE *page = run->r->page;
-    const store_state state = store_read_state(manifest);
-    char *message = json_file_text(manifest, "message");
+    store_state state;
+    char *message;
+    int status = store_read_state(manifest, &state);
+    if (status == CLI_DONE) status = json_file_text(manifest, "message", &message);
+    if (status != CLI_DONE) return status;
     fputs(REPORT_FACTS, page);
     report_fact(page, "system", request->system_name);
     report_system(page, run->model, request);
@@ -373,6 +376,7 @@ static void write_head(const run_page *run, const char *manifest)
         fputs(".</strong></p>\n", page);
     }
     free(message);
+    return CLI_DONE;
 }
 
 int report_run(report *r)
@@ -397,8 +401,9 @@ int report_run(report *r)
     if (status == CLI_DONE && (request->columns || has_events))
         status = cli_make(request->system_name, &simulation.model, &simulation.system);
     run->system = request->columns ? simulation.system : NULL;
-    report_events_read(&run->events, dir.events, has_events ? simulation.system : NULL,
-                       request->from);
+    if (status == CLI_DONE)
+        status = report_events_read(&run->events, dir.events, has_events ? simulation.system : NULL,
+                                    request->from);
     run->request = request;
     run->model = simulation.model;
     if (status == CLI_DONE && access(summary, F_OK) == 0)
@@ -407,9 +412,9 @@ int report_run(report *r)
         status = report_csv_require(&run->summary, summary, "trend");
     if (status == CLI_DONE) {
         report_title(r, report_model_title(simulation.model, "A run"));
-        if (simulation.model) write_head(run, dir.manifest);
+        if (simulation.model) status = write_head(run, dir.manifest);
         write_summary(run, fabs(reader_last_time(&run->reader) - request->from));
-        if (request->system_name) status = data_write_run(r);
+        if (status == CLI_DONE && request->system_name) status = data_write_run(r);
         report_events_write(r->page, &run->events);
         fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
         if (run->reader.count < 2)

@@ -108,13 +108,16 @@ int event_log_close(event_log *log)
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-void event_reader_open(event_reader *r, const char *path, int dimension)
+int event_reader_open(event_reader *r, const char *path, int dimension)
 {
     size_t length;
     *r = (event_reader){.dimension = dimension};
     r->state = cli_calloc((size_t)dimension, sizeof *r->state);
-    r->text = file_exists(path) ? file_read(path, &length) : NULL;
-    if (r->text) r->at = strchr(r->text, '\n');
+    if (!file_exists(path)) return CLI_DONE;
+    r->text = file_read(path, &length);
+    if (!r->text) return CLI_IO;
+    r->at = strchr(r->text, '\n');
+    return CLI_DONE;
 }
 
 /* Reads the cell after a place, where `before` is, and moves the place to its end. */

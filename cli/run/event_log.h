@@ -33,8 +33,8 @@ typedef struct event_reader {
     double *state; /* [dimension] the first components of the state after it */
 } event_reader;
 
-/* Opens a file, which may be missing: then there are no events. */
-void event_reader_open(event_reader *r, const char *path, int dimension);
+/* Opens a file, which may be missing: then there are no events.  Close it in any case. */
+int event_reader_open(event_reader *r, const char *path, int dimension);
 /* Reads an event; false after the last one, and after the last whole line of a file that a killed
  * run has left. */
 bool event_reader_next(event_reader *r);

@@ -87,10 +87,12 @@ int manifest_write(const run_directory *dir, const run_simulation *s, const run_
     return store_end_manifest(&m, dir->manifest, dir->sync);
 }
 
-bool manifest_has_ended(const char *path)
+int manifest_read_end(const char *path, bool *has_ended)
 {
-    const store_state state = store_read_state(path);
-    return state == STORE_DONE || state == STORE_FAILED;
+    store_state state;
+    const int status = store_read_state(path, &state);
+    *has_ended = state == STORE_DONE || state == STORE_FAILED;
+    return status;
 }
 
 /* ---- the request --------------------------------------------------------------------------- */

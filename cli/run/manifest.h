@@ -28,7 +28,7 @@ int manifest_write(const run_directory *dir, const run_simulation *simulation,
 char *manifest_input(const run_request *request);
 int manifest_read_input(run_request *request, const document *doc, const char *copy);
 /* Whether a manifest states that its run is done or has failed. */
-bool manifest_has_ended(const char *path);
+int manifest_read_end(const char *path, bool *has_ended);
 /* Writes the member "machine". */
 void manifest_put_machine(json_writer *writer);
 

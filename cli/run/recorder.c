@@ -117,17 +117,19 @@ int recorder_open(run_recorder *r, const run_simulation *simulation, run_directo
     if (status != CLI_DONE || !recorder_is_finished(r)) return status;
     dal_run_classify(simulation->run, r->results.statistics, 0, r->results.trend);
     /* The run may have been killed between its last checkpoint and the manifest. */
-    return manifest_has_ended(dir->manifest) ? CLI_DONE : write_state(r, STORE_DONE, "");
+    bool has_ended;
+    status = manifest_read_end(dir->manifest, &has_ended);
+    return status != CLI_DONE || has_ended ? status : write_state(r, STORE_DONE, "");
 }
 
-void recorder_close(run_recorder *r)
+int recorder_close(run_recorder *r)
 {
-    writer_close(&r->writer);
+    const int closed = writer_close(&r->writer), logged = event_log_close(&r->events);
     free(r->values);
     free(r->row);
     columns_free(&r->columns);
     run_results_free(&r->results);
-    event_log_close(&r->events);
+    return closed != CLI_DONE ? closed : logged;
 }
 
 bool recorder_is_finished(const run_recorder *r)

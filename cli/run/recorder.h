@@ -67,10 +67,11 @@ typedef struct run_recorder {
 } run_recorder;
 
 /* Opens the writer: output is a file or "-"; in a directory trajectory.npy, with the run standing
- * where the checkpoint says.  Call recorder_close in any case. */
+ * where the checkpoint says.  Call recorder_close in any case,
+ * which returns CLI_IO where what is open cannot be closed. */
 int recorder_open(run_recorder *recorder, const run_simulation *simulation, run_directory *dir,
                   const char *output);
-void recorder_close(run_recorder *recorder);
+int recorder_close(run_recorder *recorder);
 /* Integrates to the end.  Returns CLI_DONE; CLI_FAILED and the like with the reason in *error;
  * CLI_SIGNAL; or CLI_IO and the like after a message, *error then having none. */
 int recorder_run(run_recorder *recorder, dal_error *error);

@@ -127,7 +127,7 @@ int run_integrate(const run_simulation *simulation, run_directory *dir,
             summary_print(stderr, simulation, &recorder.results);
         if (settings->details) summary_print_details(stderr, &recorder.results);
     }
-    recorder_close(&recorder);
-    const int copied = copy_events(dir, settings);
-    return status == CLI_DONE ? copied : status;
+    const int closed = recorder_close(&recorder), copied = copy_events(dir, settings);
+    if (status != CLI_DONE) return status;
+    return closed != CLI_DONE ? closed : copied;
 }

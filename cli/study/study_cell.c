@@ -484,7 +484,8 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const work_stop *st
         run_directory_open(&r.dir, directory);
         status = run_in_directory(&r, stop);
         free(r.column);
-        recorder_close(&r.recorder);
+        const int closed = recorder_close(&r.recorder);
+        if (status == CLI_DONE) status = closed;
         run_directory_close(&r.dir);
         free(directory);
     }

@@ -37,11 +37,12 @@ void study_directory_close(study_directory *dir)
 
 bool study_directory_has_study(const study_directory *dir) { return file_exists(dir->study); }
 
-bool study_directory_is_finished(const study_directory *dir)
+int study_directory_read_end(const study_directory *dir, bool *has_ended)
 {
-    if (!file_exists(dir->study)) return false;
-    const store_state state = store_read_state(dir->manifest);
-    return state == STORE_DONE || state == STORE_UNMET;
+    store_state state = STORE_STATES;
+    const int status = file_exists(dir->study) ? store_read_state(dir->manifest, &state) : CLI_DONE;
+    *has_ended = state == STORE_DONE || state == STORE_UNMET;
+    return status;
 }
 
 /* ---- shards -------------------------------------------------------------------------------- */
@@ -140,10 +141,11 @@ static int copy_system(const study_directory *dir, study_case *e)
     const char *source = dal_model_source(e->model, &length);
     if (!e->copy && !e->path) return CLI_DONE;
     char *path = study_plan_copy_path(dir->systems, e);
+    bool is_same;
     int status = CLI_DONE;
     if (!file_exists(path))
         status = cli_copy_system(e->path, e->model, path, 1);
-    else if (!file_equals(path, source, length))
+    else if ((status = file_equals(path, source, length, &is_same)) == CLI_DONE && !is_same)
         status = cli_fail(CLI_USAGE, "'%s' is of another study: '%s' differs", dir->path, path);
     free(e->copy);
     e->copy = path;
@@ -167,7 +169,9 @@ static int check_place(const study_directory *dir, const char *text, size_t leng
     const char *held = file_exists(dir->study) ? dir->study : dir->manifest;
     if (!file_exists(held)) return CLI_DONE;
     if (is_shard && held == dir->study && !file_exists(dir->manifest)) {
-        if (file_equals(dir->study, text, length)) return CLI_DONE;
+        bool is_same;
+        const int status = file_equals(dir->study, text, length, &is_same);
+        if (status != CLI_DONE || is_same) return status;
         return cli_fail(CLI_USAGE, "'%s' is another study; --force writes over it", held);
     }
     return cli_fail(CLI_USAGE,
@@ -177,12 +181,14 @@ static int check_place(const study_directory *dir, const char *text, size_t leng
 }
 
 /* Whether the study was killed while it was begun or written over: nothing of it can be resumed. */
-static bool is_incomplete(const study_directory *dir)
+static int find_incomplete(const study_directory *dir, bool *is_incomplete)
 {
-    char *title = file_exists(dir->study) ? NULL : json_file_text(dir->manifest, "study");
-    const bool has_title = title != NULL;
+    char *title = NULL;
+    const int status =
+        file_exists(dir->study) ? CLI_DONE : json_file_text(dir->manifest, "study", &title);
+    *is_incomplete = title != NULL;
     free(title);
-    return has_title;
+    return status;
 }
 
 int study_directory_begin(study_directory *dir, study_plan *plan, const char *text, size_t length,
@@ -196,9 +202,11 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
     dir->shard = shard;
     for (int i = 0; i < plan->cell_count; i++)
         plan->cells[i].other_shard = !store_shard_has(shard, i);
-    if (is_incomplete(dir) || (force && is_own))
+    bool is_incomplete;
+    status = find_incomplete(dir, &is_incomplete);
+    if (status == CLI_DONE && (is_incomplete || (force && is_own)))
         status = clear(dir);
-    else if (!force)
+    else if (status == CLI_DONE && !force)
         status = check_place(dir, text, length, shard.count > 0);
     if (status == CLI_DONE) status = cli_directory(dir->runs);
     if (status == CLI_DONE) status = copy_systems(dir, plan);

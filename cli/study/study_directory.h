@@ -57,7 +57,7 @@ void study_directory_open(study_directory *dir, const char *path);
 void study_directory_close(study_directory *dir);
 bool study_directory_has_study(const study_directory *dir);
 /* Whether a whole study is there and has ended. */
-bool study_directory_is_finished(const study_directory *dir);
+int study_directory_read_end(const study_directory *dir, bool *has_ended);
 
 /* All below return CLI_DONE, or print and return an exit status. */
 

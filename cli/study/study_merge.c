@@ -33,7 +33,9 @@ typedef struct merge {
 /* Compares a file of source i with the same file of the first. */
 static int compare_files(const merge *m, int i, const char *path, const char *first)
 {
-    if (file_is_copy(path, first)) return CLI_DONE;
+    bool is_same;
+    const int status = file_is_copy(path, first, &is_same);
+    if (status != CLI_DONE || is_same) return status;
     return cli_fail(CLI_USAGE, "'%s' and '%s' are of two studies: '%s' and '%s' differ",
                     m->source[i].path, m->source[0].path, path, first);
 }
@@ -76,8 +78,10 @@ static int find_in_source(merge *m, int cell, int source, const char *name)
     char *run = cli_join(s->runs, name), *manifest = cli_join(run, "manifest.json");
     int status = CLI_DONE;
     if (file_exists(manifest)) {
+        bool has_ended;
         status = note_source(m, cell, source, name);
-        if (status == CLI_DONE && !manifest_has_ended(manifest))
+        if (status == CLI_DONE) status = manifest_read_end(manifest, &has_ended);
+        if (status == CLI_DONE && !has_ended)
             status = cli_fail(CLI_USAGE, "'%s' is not finished: dalembert resume %s", run, s->path);
     }
     free(manifest);
