@@ -1,10 +1,13 @@
 #!/bin/sh
 # dist.sh MAKE BUILD - makes the tarball of the last commit, here and in a clone, which gives the same
-# bytes; elsewhere and without git it builds, passes a part of its tests and installs.
+# bytes; elsewhere, in a directory whose name has a blank, and without git it builds, passes a part of its
+# tests and installs.
 # CC and CFLAGS are as in its build.
 make="$1 --no-print-directory" build=$2
-root=$(mktemp -d) || exit 1
-trap 'rm -rf "$root"' EXIT
+top=$(mktemp -d) || exit 1
+root="$top/of a user"
+trap 'rm -rf "$top"' EXIT
+mkdir "$root" || exit 1
 fail() { echo "dist: $*" >&2; exit 1; }
 logged() { "$@" >"$root/log" 2>&1 || { cat "$root/log" >&2; fail "$* failed"; }; }
 
@@ -31,7 +34,8 @@ cd "$root"/dalembert-[0-9]* || fail "it has no directory of its name"
 make="$make BUILD=build"
 logged $make CC="$CC" CFLAGS="$CFLAGS"
 ! grep -q 'git is called' "$root/log" || fail "the build calls git"
-logged sh tests/cli/run.sh build/dalembert usage check
+logged env CC="$CC" CFLAGS="$CFLAGS" BUILD=build PROGRAM=build/dalembert \
+    sh tests/run.sh "$1" cli-usage cli-check install python
 logged $make CC="$CC" CFLAGS="$CFLAGS" PREFIX=/usr DESTDIR="$root/stage" install
 logged "$root/stage/usr/bin/dalembert" check "$root/stage/usr/share/dalembert/systems/knife-edge.yaml"
 logged $make PREFIX=/usr DESTDIR="$root/stage" uninstall
