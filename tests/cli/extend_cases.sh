@@ -137,7 +137,7 @@ table <<'END'
 2 | resume short --steps 0    | says ^dalembert: --steps: 0 is not in 1\.\.
 2 | resume short --time 20 --steps 700 | says ^dalembert: --steps excludes --time$
 2 | resume log --time 20      | says ^dalembert: --time: the rows of --sampling log have no distance at which they could go on$
-2 | resume nothing --time 20  | says ^dalembert: 'nothing' holds no run
+2 | resume nothing --time 20  | says ^dalembert: there is no directory 'nothing'$
 END
 expect "it was changed" diff -r short kept
 
