@@ -50,6 +50,19 @@ static void test_closed_motion(void)
     }
 }
 
+/* One step of 1 along a circle is a single substep at 1e-6, of order 11: what it lacks of cos 1 and
+ * -sin 1 are the terms 1/12! and -1/13! of their series, and 1/182 and 1/210 of these. */
+static void test_order(void)
+{
+    static const double factorial_12 = 479001600.0, factorial_13 = 6227020800.0;
+    dal_run_spec spec = spec_of(oscillator, DAL_PHYSICAL, 1.0, 1e-6);
+    dal_run *run = fixture_stepped(&spec, 1);
+    const double *state = dal_run_state(run);
+    CU_ASSERT_DOUBLE_EQUAL((cos(1.0) - state[0]) * factorial_12, 1.0, 0.01);
+    CU_ASSERT_DOUBLE_EQUAL((-sin(1.0) - state[1]) * factorial_13, -1.0, 0.01);
+    dal_run_free(run);
+}
+
 /* Against gauss12 in quad precision: time-dependent and velocity-dependent forces, a full mass
  * matrix, nonlinear constraints; displaced momenta on the lifted space. */
 static void test_quad_reference(void)
@@ -251,6 +264,7 @@ void suite_taylor(void)
 {
     CU_pSuite suite = CU_add_suite("taylor", NULL, NULL);
     CU_add_test(suite, "motions in closed form", test_closed_motion);
+    CU_add_test(suite, "the order for a tolerance", test_order);
     CU_add_test(suite, "quad references", test_quad_reference);
     CU_add_test(suite, "quad precision", test_quad);
     CU_add_test(suite, "the surface, whatever the space", test_surface);
