@@ -1,4 +1,5 @@
 /* resume.c - `dalembert resume`: continues the run, the study or the ensemble of a directory. */
+#include "ensemble/ensemble_growth.h"
 #include "ensemble/ensemble_run.h"
 #include "io/file.h"
 #include "report/report_ensemble.h"
@@ -32,14 +33,16 @@ typedef struct settings {
     const char *directory;
     long long threads;
     bool no_page;
-    run_extension extension;
+    ensemble_growth growth;
     run_settings run;
 } settings;
 
 static const cli_option options[] = {
     POOL_THREADS_OPTION(settings, "cells of a study, or chunks of an ensemble, at a time"),
     REPORT_NO_PAGE_OPTION(settings),
-    EXTENSION_OPTIONS(settings, extension),
+    EXTENSION_OPTIONS(settings, growth.later),
+    {"members", "N2", NULL, "more members of an ensemble: N2 in all",
+     CLI_INTEGER(settings, growth.members, 1, ENSEMBLE_MAX_MEMBERS)},
     {NULL, "DIR", CLI_REQUIRED, "what 'run', 'study' or 'ensemble' wrote with --output DIR",
      CLI_TEXT(settings, directory)},
 };
@@ -54,13 +57,16 @@ static int resume(int argc, char **argv)
     int status = cli_read_arguments(&command_resume, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;
     if (file_find_directory(s.directory) != CLI_DONE) return CLI_USAGE;
-    const char *end = s.extension.time ? "time" : s.extension.steps ? "steps" : NULL;
+    const char *end = s.growth.later.time ? "time" : s.growth.later.steps ? "steps" : NULL;
     bool is_ensemble;
     status = ensemble_directory_find(s.directory, &is_ensemble);
     if (status != CLI_DONE) return status;
-    if (end && is_ensemble)
-        return cli_fail(CLI_USAGE, "--%s: '%s' holds an ensemble; a run can be extended", end,
-                        s.directory);
+    if (s.growth.members > 0 && !is_ensemble)
+        return cli_fail(CLI_USAGE, "--members: '%s' holds no ensemble", s.directory);
+    if (is_ensemble && (end || s.growth.members > 0)) {
+        status = ensemble_grow(s.directory, &s.growth);
+        if (status != CLI_DONE) return status;
+    }
     if (is_ensemble) {
         const ensemble_run_options how = {(int)s.threads, s.run.interval,  s.run.native,
                                           s.run.progress, work_on_threads, 1};
@@ -74,7 +80,7 @@ static int resume(int argc, char **argv)
     if (end && is_study)
         return cli_fail(CLI_USAGE, "--%s: '%s' holds a study: change '%s/study.yaml' and resume it",
                         end, s.directory, s.directory);
-    if (!is_study) return resume_run(s.directory, &s.extension, &s.run);
+    if (!is_study) return resume_run(s.directory, &s.growth.later, &s.run);
     const study_run_options how = {.threads = (int)s.threads,
                                    .interval = s.run.interval,
                                    .native = s.run.native,
@@ -93,7 +99,10 @@ const cli_command command_resume = {
              "rows go on at the same distance, its statistics and events go on, and the directory "
              "is as if the run had been to that end from the beginning.  The new end is a whole "
              "number of the distances of the rows.  A run that failed, or that an event stopped, "
-             "has no later end.  Of a study, the unfinished runs are "
+             "has no later end.  --members adds members to an ensemble, and --time or --steps "
+             "gives it a later "
+             "end, to which all members run again; the files are as if it had been so from the "
+             "beginning.  Of a study, the unfinished runs are "
              "continued and the tables and the page made; of shards, those that were begun in DIR. "
              " --threads is for "
              "studies and ensembles, --summary and --details are for runs, --progress for runs and "

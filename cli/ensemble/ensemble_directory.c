@@ -1,6 +1,7 @@
 /* ensemble_directory.c - an ensemble in a directory: begun, read, marked. */
 #include "ensemble_directory.h"
 #include "dalembert_program.h"
+#include "io/endian.h"
 #include "io/file.h"
 #include "io/json.h"
 #include "run/manifest.h"
@@ -144,7 +145,7 @@ static const document_key keys[] = {{"members", read_integer, offsetof(ensemble,
                                     {"quantiles", read_quantiles, 0},
                                     {"axes", read_axes, 0}};
 
-int ensemble_directory_read(ensemble_directory *dir, ensemble *e)
+int ensemble_directory_read_request(ensemble_directory *dir, ensemble *e)
 {
     char *bytes;
     if (!file_exists(dir->manifest))
@@ -160,6 +161,12 @@ int ensemble_directory_read(ensemble_directory *dir, ensemble *e)
         status = document_read_mapping(doc, node, "ensemble", keys, sizeof keys / sizeof *keys, e);
     if (status == CLI_DONE && !(e->members >= 1 && e->members <= ENSEMBLE_MAX_MEMBERS))
         status = document_fail(doc, node, "%lld members", e->members);
+    return status;
+}
+
+int ensemble_directory_read(ensemble_directory *dir, ensemble *e)
+{
+    const int status = ensemble_directory_read_request(dir, e);
     return status == CLI_DONE ? ensemble_complete(e) : status;
 }
 
@@ -223,24 +230,50 @@ int ensemble_directory_lock(ensemble_directory *dir)
 
 /* ---- tables -------------------------------------------------------------------------------- */
 
-static int open_tables(ensemble_directory *dir, const ensemble *e, npy_state state)
+/* The tables; a larger ensemble has others beside them until they replace them. */
+enum { TABLES = 3 };
+static const char *const table_names[TABLES] = {"members.npy", "final.npy", "rows.npy"};
+static const char grown[] = "%s/%s.grown";
+
+static const char in_place[] = "%s/%s";
+
+static int open_tables(ensemble_directory *dir, const ensemble *e, npy_state state,
+                       const char *place)
 {
+    char *path[TABLES];
     const int columns = ensemble_member_columns(e);
     char **names = cli_calloc((size_t)columns, sizeof *names);
     char first[MEMBER_DRAWN][8] = {"status", "t"};
     for (int i = 0; i < columns; i++)
         names[i] = i < MEMBER_DRAWN ? first[i] : e->vary[i - MEMBER_DRAWN].name;
+    for (int i = 0; i < TABLES; i++) path[i] = cli_format(place, dir->path, table_names[i]);
     dir->has_rows = e->simulation.request.times > 0;
-    int status = npy_table_open(&dir->members, cli_join(dir->path, "members.npy"), names, columns,
-                                0, e->members, state);
+    dir->member_count = e->members;
+    int status = npy_table_open(&dir->members, path[0], names, columns, 0, e->members, state);
     free(names);
     if (status == CLI_DONE)
-        status = npy_table_open(&dir->final, cli_join(dir->path, "final.npy"), e->column,
-                                e->columns, 0, e->members, state);
+        status = npy_table_open(&dir->final, path[1], e->column, e->columns, 0, e->members, state);
+    else
+        free(path[1]);
     if (status == CLI_DONE && dir->has_rows)
-        status = npy_table_open(&dir->rows, cli_join(dir->path, "rows.npy"), e->column, e->columns,
-                                e->times, e->members, state);
+        status =
+            npy_table_open(&dir->rows, path[2], e->column, e->columns, e->times, e->members, state);
+    else
+        free(path[2]);
     return status;
+}
+
+/* Whether the grown chunks belong to the manifest. */
+static int is_committed(const ensemble_directory *dir, const char *chunks, bool *committed)
+{
+    size_t length;
+    *committed = false;
+    if (!file_exists(chunks)) return CLI_DONE;
+    char *bytes = file_read(chunks, &length);
+    if (!bytes) return CLI_IO;
+    *committed = length >= WORD && read_le64((unsigned char *)bytes) == dir->marks.fingerprint;
+    free(bytes);
+    return CLI_DONE;
 }
 
 int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, store_shard shard)
@@ -251,9 +284,115 @@ int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, store_
                                .file = marks_file,
                                .shard = shard,
                                .count = ensemble_chunks(e)};
+    bool is_growing = false;
+    char *chunks = cli_format(grown, dir->path, marks_file.whole);
     int status = find_fingerprint(dir, e);
-    if (status == CLI_DONE) status = open_tables(dir, e, NPY_EXISTING);
+    if (status == CLI_DONE) status = is_committed(dir, chunks, &is_growing);
+    free(chunks);
+    if (is_growing)
+        return cli_fail(CLI_USAGE, "'%s' is not whole: 'dalembert resume %s' continues it",
+                        dir->path, dir->path);
+    if (status == CLI_DONE) status = open_tables(dir, e, NPY_EXISTING, in_place);
     return status == CLI_DONE ? store_open_marks(&dir->marks) : status;
+}
+
+static int copy_rows(const npy_table *from, const npy_table *to, const long long first[2],
+                     int count, double *rows)
+{
+    const int status = npy_table_read(from, first[0], count, rows);
+    return status == CLI_DONE ? npy_table_write(to, first[1], count, rows) : status;
+}
+
+int ensemble_directory_copy_chunk(const ensemble_directory *from, const ensemble_directory *to,
+                                  const ensemble *e, int chunk, double *rows)
+{
+    const long long start = (long long)chunk * ENSEMBLE_CHUNK, first[2] = {start, start};
+    const int count = ensemble_chunk_members(e, chunk);
+    int status = copy_rows(&from->members, &to->members, first, count, rows);
+    if (status == CLI_DONE) status = copy_rows(&from->final, &to->final, first, count, rows);
+    for (int t = 0; to->has_rows && t < e->times && status == CLI_DONE; t++) {
+        const long long row[2] = {t * from->member_count + start, t * to->member_count + start};
+        status = copy_rows(&from->rows, &to->rows, row, count, rows);
+    }
+    char *messages = NULL;
+    if (status == CLI_DONE) status = ensemble_directory_read_messages(from, chunk, &messages);
+    if (status == CLI_DONE && messages)
+        status = ensemble_directory_write_messages(to, chunk, messages);
+    free(messages);
+    return status;
+}
+
+/* ---- growth -------------------------------------------------------------------------------- */
+
+/* While there is a file of grown chunks with the fingerprint of the manifest, other grown files
+ * replace the files of the smaller ensemble; with another one, the manifest was not yet written. */
+int ensemble_directory_begin_growth(ensemble_directory *dir, const ensemble *e)
+{
+    char *chunks = cli_format(grown, dir->path, marks_file.whole);
+    int status = file_remove(chunks);
+    free(chunks);
+    if (status == CLI_DONE) status = find_fingerprint(dir, e);
+    return status == CLI_DONE ? open_tables(dir, e, NPY_NEW, grown) : status;
+}
+
+int ensemble_directory_commit_growth(ensemble_directory *dir, const ensemble *e,
+                                     const unsigned char *done)
+{
+    const size_t count = (size_t)ensemble_chunks(e);
+    char *path = cli_format(grown, dir->path, marks_file.whole);
+    unsigned char *bytes = cli_malloc(WORD + count);
+    write_le64(bytes, dir->marks.fingerprint);
+    memcpy(bytes + WORD, done, count);
+    int status = npy_table_sync(&dir->members);
+    if (status == CLI_DONE) status = npy_table_sync(&dir->final);
+    if (status == CLI_DONE && dir->has_rows) status = npy_table_sync(&dir->rows);
+    if (status == CLI_DONE) status = file_replace(path, bytes, WORD + count, 1);
+    if (status == CLI_DONE) status = ensemble_directory_write_manifest(dir, e, STORE_RUNNING);
+    free(bytes);
+    free(path);
+    return status;
+}
+
+static int replace_tables(const ensemble_directory *dir)
+{
+    int status = CLI_DONE;
+    for (int i = 0; i < TABLES && status == CLI_DONE; i++) {
+        char *from = cli_format(grown, dir->path, table_names[i]);
+        char *to = cli_format(in_place, dir->path, table_names[i]);
+        if (file_exists(from)) status = file_rename(from, to, 1);
+        free(from);
+        free(to);
+    }
+    for (int i = 1; i < ENSEMBLE_RESULTS && status == CLI_DONE; i++) /* 0 is the manifest */
+        status = file_remove(dir->file[i]);
+    return status == CLI_DONE ? store_remove_shards(dir->path, marks_file) : status;
+}
+
+static int remove_grown(const ensemble_directory *dir)
+{
+    char *chunks = cli_format(grown, dir->path, marks_file.whole);
+    int status = file_remove(chunks);
+    free(chunks);
+    for (int i = 0; i < TABLES && status == CLI_DONE; i++) {
+        char *path = cli_format(grown, dir->path, table_names[i]);
+        status = file_remove(path);
+        free(path);
+    }
+    return status;
+}
+
+int ensemble_directory_end_growth(ensemble_directory *dir, const ensemble *e)
+{
+    bool committed;
+    char *chunks = cli_format(grown, dir->path, marks_file.whole);
+    char *marks = cli_format(in_place, dir->path, marks_file.whole);
+    int status = find_fingerprint(dir, e);
+    if (status == CLI_DONE) status = is_committed(dir, chunks, &committed);
+    if (status == CLI_DONE && committed) status = replace_tables(dir);
+    if (status == CLI_DONE) status = committed ? file_rename(chunks, marks, 1) : remove_grown(dir);
+    free(chunks);
+    free(marks);
+    return status;
 }
 
 /* ---- beginning ----------------------------------------------------------------------------- */
@@ -266,12 +405,13 @@ static int begin_new(ensemble_directory *dir, const ensemble *e)
     for (int i = 0; i < ENSEMBLE_RESULTS && status == CLI_DONE; i++)
         status = file_remove(dir->file[i]);
     if (status == CLI_DONE) status = file_remove(rows);
+    if (status == CLI_DONE) status = remove_grown(dir);
     free(rows);
     const char *system = e->simulation.request.system_name;
     if (status == CLI_DONE)
         status = cli_is_path(system) ? cli_copy_system(system, e->simulation.model, dir->system, 1)
                                      : file_remove(dir->system);
-    if (status == CLI_DONE) status = open_tables(dir, e, NPY_NEW);
+    if (status == CLI_DONE) status = open_tables(dir, e, NPY_NEW, in_place);
     detach(dir);
     return status == CLI_DONE ? ensemble_directory_write_manifest(dir, e, STORE_RUNNING) : status;
 }

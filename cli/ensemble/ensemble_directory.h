@@ -9,6 +9,7 @@
  *     DIR/chunks-K-of-N    the same of each of them
  *     DIR/messages/K       why members of chunk K failed, a line for each; absent where none did
  *     DIR/lock             empty; locked while a shard begins
+ *     DIR/NAME.grown       of a larger ensemble: tables and chunks until they replace the others
  *
  * and, when all members are done, what ensemble_statistics.h makes of them. */
 #ifndef DAL_CLI_ENSEMBLE_DIRECTORY_H
@@ -46,8 +47,9 @@ typedef struct ensemble_directory {
     document *doc; /* manifest.json as it was read */
     npy_table members, final, rows;
     bool has_rows;
-    store_marks marks; /* of the chunks */
-    int descriptor;    /* of the lock of the directory; -1: not held */
+    long long member_count; /* in a row of the tables */
+    store_marks marks;      /* of the chunks */
+    int descriptor;         /* of the lock of the directory; -1: not held */
 } ensemble_directory;
 
 void ensemble_directory_open(ensemble_directory *dir, const char *path);
@@ -67,11 +69,23 @@ int ensemble_directory_begin(ensemble_directory *dir, const ensemble *e, store_s
                              bool force);
 /* Reads the ensemble of a directory, and completes it. */
 int ensemble_directory_read(ensemble_directory *dir, ensemble *e);
+/* The same without completing it. */
+int ensemble_directory_read_request(ensemble_directory *dir, ensemble *e);
 /* Opens the tables and the marks of a shard that was begun, for this process alone; of
  * STORE_ALL_SHARDS all that is there is read, and nothing marked. */
 int ensemble_directory_attach(ensemble_directory *dir, const ensemble *e, store_shard shard);
 /* The shards that were begun in a directory, allocated; one of count 0 where it is not divided. */
 int ensemble_directory_shards(const ensemble_directory *dir, store_shard **shards, int *count);
+/* Copies the rows and the messages of a chunk; rows: see ensemble_allocate_rows. */
+int ensemble_directory_copy_chunk(const ensemble_directory *from, const ensemble_directory *to,
+                                  const ensemble *e, int chunk, double *rows);
+/* A larger ensemble in the directory of another: makes its tables beside the others; makes it the
+ * ensemble of the directory, where done[chunks] is on the disk; and ends that, also after a process
+ * that was killed, or removes what was not made one. */
+int ensemble_directory_begin_growth(ensemble_directory *dir, const ensemble *e);
+int ensemble_directory_commit_growth(ensemble_directory *dir, const ensemble *e,
+                                     const unsigned char *done);
+int ensemble_directory_end_growth(ensemble_directory *dir, const ensemble *e);
 /* Waits until no other shard begins or ends, and keeps others waiting until dir is closed. */
 int ensemble_directory_lock(ensemble_directory *dir);
 /* Brings to the disk why members of a chunk failed; reads that, allocated, NULL where no file is

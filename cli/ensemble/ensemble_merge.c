@@ -29,30 +29,6 @@ static int begin_target(merge *m, bool force)
     return ensemble_directory_begin(&m->target, &m->e, whole, force);
 }
 
-static int copy_rows(const merge *m, const npy_table *from, const npy_table *to, long long first,
-                     int count)
-{
-    const int status = npy_table_read(from, first, count, m->rows);
-    return status == CLI_DONE ? npy_table_write(to, first, count, m->rows) : status;
-}
-
-static int copy_chunk(const merge *m, const ensemble_directory *from, int chunk)
-{
-    const ensemble_directory *to = &m->target;
-    const long long first = (long long)chunk * ENSEMBLE_CHUNK;
-    const int count = ensemble_chunk_members(&m->e, chunk);
-    int status = copy_rows(m, &from->members, &to->members, first, count);
-    if (status == CLI_DONE) status = copy_rows(m, &from->final, &to->final, first, count);
-    for (int t = 0; to->has_rows && t < m->e.times && status == CLI_DONE; t++)
-        status = copy_rows(m, &from->rows, &to->rows, t * m->e.members + first, count);
-    char *messages = NULL;
-    if (status == CLI_DONE) status = ensemble_directory_read_messages(from, chunk, &messages);
-    if (status == CLI_DONE && messages)
-        status = ensemble_directory_write_messages(to, chunk, messages);
-    free(messages);
-    return status;
-}
-
 static int merge_chunk(merge *m, int chunk)
 {
     int i = 0;
@@ -63,7 +39,8 @@ static int merge_chunk(merge *m, int chunk)
                         "member %lld is done in none of the directories: a shard is missing or "
                         "not finished",
                         (long long)chunk * ENSEMBLE_CHUNK);
-    const int status = copy_chunk(m, &m->source[i], chunk);
+    const int status =
+        ensemble_directory_copy_chunk(&m->source[i], &m->target, &m->e, chunk, m->rows);
     m->target.marks.done[chunk] = status == CLI_DONE;
     return status;
 }

@@ -357,6 +357,7 @@ int ensemble_resume(const char *path, const ensemble_run_options *options)
     int count = 0;
     ensemble_directory_open(&dir, path);
     int status = ensemble_directory_read(&dir, &e);
+    if (status == CLI_DONE) status = ensemble_directory_end_growth(&dir, &e);
     if (status == CLI_DONE) status = ensemble_directory_shards(&dir, &shards, &count);
     /* One that was killed before its first mark has no shard. */
     if (status == CLI_DONE && count == 0)

@@ -55,9 +55,9 @@ static int replace(run_request *request, int option, const char *text)
     return text ? request_give(request, option, cli_strdup(text)) : CLI_DONE;
 }
 
-/* The new end in the request; *end: where it is. */
-static int replace_end(run_request *request, const run_extension *e, double *end)
+int extension_replace_end(run_request *request, const run_extension *e, double *end)
 {
+    if (e->time && e->steps) return cli_fail(CLI_USAGE, "--steps excludes --time");
     int status = replace(request, REQUEST_steps, e->steps);
     if (status == CLI_DONE) status = replace(request, REQUEST_time, e->time);
     *end = request->steps > 0 ? step_end(request->from, request->options.step, request->steps)
@@ -85,8 +85,7 @@ static int find_samples(const run_simulation *before, double later, const char *
         option, distance, from + floor(count) * distance, from + ceil(count) * distance, later);
 }
 
-/* A list of times gets the end of the run before, where that was after the last one. */
-static int extend_list(run_request *request, const run_simulation *before)
+int extension_extend_list(run_request *request, const run_simulation *before)
 {
     const char *list = before->request.text[REQUEST_times];
     char *text = before->end == request->listed[request->times - 1]
@@ -99,7 +98,7 @@ static int extend_rows(run_request *request, const run_simulation *before, doubl
                        const char *option)
 {
     long long samples;
-    if (request->times > 0) return extend_list(request, before);
+    if (request->times > 0) return extension_extend_list(request, before);
     if (request->sampling == REQUEST_SAMPLING_LOG)
         return cli_fail(CLI_USAGE,
                         "--%s: the rows of --sampling log have no distance at which they could "
@@ -131,7 +130,7 @@ static int extend(run_directory *dir, run_request *request, const run_simulation
 {
     const char *option = e->time ? "time" : "steps";
     double end;
-    const int status = replace_end(request, e, &end);
+    const int status = extension_replace_end(request, e, &end);
     if (status != CLI_DONE) return status;
     if (!(copysign(1.0, request->options.step) * (end - before->end) >= 0.0))
         return cli_fail(CLI_USAGE,
@@ -174,7 +173,6 @@ int extension_create(run_directory *dir, run_simulation *simulation, const run_e
 {
     run_simulation before = simulation_default();
     if (!e->time && !e->steps) return simulation_create(simulation);
-    if (e->time && e->steps) return cli_fail(CLI_USAGE, "--steps excludes --time");
     const int status = create_longer(dir, simulation, &before, e);
     simulation_free(&before);
     return status;

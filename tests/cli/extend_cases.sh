@@ -196,5 +196,10 @@ try 0 ensemble chaplygin-sleigh --members 2 --seed 1 --vary 'm=uniform(0,0.1)' -
     --no-page --output members
 table <<'END'
 2 | resume small --time 9    | says ^dalembert: --time: 'small' holds a study: change 'small/study\.yaml' and resume it$
-2 | resume members --steps 9 | says ^dalembert: --steps: 'members' holds an ensemble; a run can be extended$
+2 | resume members --steps 9 | says ^dalembert: --steps: 'members' goes to t = 1 already, and t = 0\.9 is not later$
+2 | resume members --time 1.23 | says ^dalembert: --time: 1\.23 is not a whole number of steps of 0\.1 from t = 0$
+2 | resume members --time 2 --steps 30 | says ^dalembert: --steps excludes --time$
+2 | resume members --members 1 | says ^dalembert: --members: 'members' has 2 members already, and 1 are fewer$
+2 | resume small --members 9 | says ^dalembert: --members: 'small' holds no ensemble$
+2 | resume log --members 9   | says ^dalembert: --members: 'log' holds no ensemble$
 END
