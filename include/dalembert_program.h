@@ -32,12 +32,15 @@ dal_status dal__parse_number(const char *text, size_t length, double *value);
 int dal__format_number(char *text, double x);
 /* A number as the sum of its nearest double and the rest. */
 typedef struct dal__decimal {
-    double value, rest;
+    double value; /* the nearest double */
+    double rest;  /* what it lacks */
 } dal__decimal;
 /* The decimal number of at most 15 digits that reads as x, 0.1 where x is 0.1 + 5.6e-18; x itself
- * where there is none.  The difference of two such numbers, and a multiple of one. */
+ * where there is none. */
 dal__decimal dal__as_decimal(double x);
+/* a - b, both as such decimals. */
 dal__decimal dal__decimal_difference(double a, double b);
+/* factor x, x as such a decimal. */
 dal__decimal dal__decimal_multiple(double x, double factor);
 /* The double nearest to from + length part/whole, to 2^-98, with from as a decimal.  That is 0.3
  * for 3 parts of 10 in 1, of 30 in 3, and of 300 in 30. */
