@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <fnmatch.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -205,6 +206,46 @@ static int open_special(const char *path, mode_t mode)
     return S_ISDIR(mode) ? -1 : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
 }
 
+/* Files that are not complete, which the end of the program removes: where memory runs out, that is
+ * in the middle of one. */
+typedef struct unfinished {
+    const char *path; /* the output's */
+    struct unfinished *next;
+} unfinished;
+static unfinished *all_unfinished;
+static pthread_mutex_t unfinished_mutex = PTHREAD_MUTEX_INITIALIZER;
+static pthread_once_t unfinished_once = PTHREAD_ONCE_INIT;
+
+static void remove_unfinished(void)
+{
+    pthread_mutex_lock(&unfinished_mutex);
+    for (const unfinished *u = all_unfinished; u; u = u->next) unlink(u->path);
+    pthread_mutex_unlock(&unfinished_mutex);
+}
+
+static void watch_end(void) { atexit(remove_unfinished); }
+
+static void add_unfinished(const char *path)
+{
+    unfinished *u = cli_malloc(sizeof *u);
+    pthread_once(&unfinished_once, watch_end);
+    pthread_mutex_lock(&unfinished_mutex);
+    *u = (unfinished){path, all_unfinished};
+    all_unfinished = u;
+    pthread_mutex_unlock(&unfinished_mutex);
+}
+
+static void forget_unfinished(const char *path)
+{
+    pthread_mutex_lock(&unfinished_mutex);
+    unfinished **at = &all_unfinished;
+    while (*at && (*at)->path != path) at = &(*at)->next;
+    unfinished *u = *at;
+    if (u) *at = u->next;
+    pthread_mutex_unlock(&unfinished_mutex);
+    free(u);
+}
+
 /* A new file beside o->path, where held[1] is, with its owner and permissions; held NULL: nothing
  * is there yet.  A file in a directory where none can be made is written in place. */
 static int open_beside(file_output *o, const struct stat *held)
@@ -214,6 +255,7 @@ static int open_beside(file_output *o, const struct stat *held)
     if (held && access(o->path, W_OK) != 0) return -1;
     o->fresh = cli_format("%.*s.%s.new", folder, o->path, o->path + folder);
     unlink(o->fresh); /* of a process that was killed */
+    add_unfinished(o->fresh);
     const int descriptor = open(o->fresh, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0 && held) { /* as far as this user may set them */
         if (fchown(descriptor, held->st_uid, held->st_gid) != 0 &&
@@ -223,6 +265,7 @@ static int open_beside(file_output *o, const struct stat *held)
     }
     if (descriptor >= 0) return descriptor;
     const int reason = errno;
+    forget_unfinished(o->fresh);
     free(o->fresh);
     o->fresh = NULL;
     errno = reason;
@@ -255,6 +298,7 @@ static int end_output(file_output *o, int status, int sync)
         status = cli_io("write", o->name);
     if (o->fresh && status != CLI_DONE) unlink(o->fresh);
     if (o->fresh && status == CLI_DONE && sync) sync_directory(o->path);
+    if (o->fresh) forget_unfinished(o->fresh);
     free(o->fresh);
     free(o->path);
     *o = (file_output){0};

@@ -13,6 +13,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
@@ -401,7 +402,9 @@ static int parse_file(document *doc, const char *path, const char *place, bool *
 {
     size_t length;
     *is_parsed = false;
-    if (!file_exists(path)) return CLI_DONE;
+    struct stat info;
+    if (stat(path, &info) != 0) return CLI_DONE;
+    if (S_ISDIR(info.st_mode)) return cli_fail(CLI_USAGE, "'%s' is a directory", path);
     char *bytes = file_read(path, &length);
     if (!bytes) return CLI_IO;
     *is_parsed = json_parse(doc, place, bytes, length) == CLI_DONE;
