@@ -57,6 +57,18 @@ static bool is_wanted(const pack *p, const char *name)
     return p->set->all;
 }
 
+/* Adds a file under a name inside the directory. */
+static int add_file(pack *p, const char *inside, const char *from)
+{
+    struct stat state;
+    char *packed = cli_format("%s/%s", p->name, inside);
+    const int status =
+        stat(from, &state) == 0 ? tar_add_file(p->out, packed, from) : cli_io("read", from);
+    free(packed);
+    if (status == CLI_DONE) fprintf(p->names, "    %10lld  %s\n", (long long)state.st_size, inside);
+    return status;
+}
+
 static int add_directory(pack *p, const char *path, const char *inside, int depth);
 
 static int add_entry(pack *p, const char *path, const char *inside, const char *name, int depth)
@@ -72,10 +84,7 @@ static int add_entry(pack *p, const char *path, const char *inside, const char *
         if (!is_page) done = add_directory(p, from, below, depth + 1);
         free(below);
     } else if (S_ISREG(status.st_mode) && is_wanted(p, name)) {
-        char *packed = cli_format("%s/%s", p->name, to);
-        done = tar_add_file(p->out, packed, from);
-        free(packed);
-        fprintf(p->names, "    %10lld  %s\n", (long long)status.st_size, to);
+        done = add_file(p, to, from);
         p->files++;
     }
     free(from);
@@ -159,12 +168,7 @@ static int add_system(pack *p, FILE *readme, const study_case *e)
         fprintf(readme, "The study names '%s': that is systems/%s.yaml.\n\n", e->name, e->label);
         return CLI_DONE;
     }
-    size_t length;
-    char *text = file_read(e->copy, &length);
-    if (!text) return CLI_IO;
-    const int status = add_text(p, name, text, length);
-    free(text);
-    return status;
+    return add_file(p, name, e->copy);
 }
 
 static int describe_study(pack *p, FILE *readme)

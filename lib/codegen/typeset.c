@@ -168,8 +168,8 @@ void dal__typeset_name(const char *name, const char *accent, dal__buffer *text)
 
 /* ---- operations ---------------------------------------------------------------------------- */
 
-/* How an operation is written: #1, #2, #3 are its operands, which get brackets where their level is
- * below the given one. */
+/* How an operation is written, sums, products and tables excepted: #1, #2, #3 are its operands,
+ * which get brackets where their level is below the given one. */
 typedef struct style {
     const char *text;
     level level, least[3];
@@ -189,9 +189,7 @@ typedef struct style {
     }
 
 static const style styles[DAL__OP_COUNT] = {
-    [DAL__ADD] = {"#1 + #2", LEVEL_SUM, {LEVEL_SUM, LEVEL_SUM}},
     [DAL__SUB] = {"#1 - #2", LEVEL_SUM, {LEVEL_SUM, LEVEL_PRODUCT}},
-    [DAL__MUL] = {"#1 #2", LEVEL_PRODUCT, {LEVEL_NEGATIVE, LEVEL_PRODUCT}},
     [DAL__DIV] = {"\\frac{#1}{#2}", LEVEL_FACTOR, {LEVEL_ANY, LEVEL_ANY}},
     [DAL__NEG] = {"-#1", LEVEL_NEGATIVE, {LEVEL_PRODUCT}},
     [DAL__POW] = {"#1^{#2}", LEVEL_FACTOR, {LEVEL_ATOM, LEVEL_ANY}},
@@ -270,10 +268,10 @@ static void put_power(const dal__typesetter *t, dal__node base, int power, level
                       dal__buffer *text)
 {
     const formula *f = &t->formula[base];
+    const int op = dal__inspect(t->graph, base).op;
     if (power == 1) {
         put_operand(f, least, text);
-    } else if (dal__inspect(t->graph, base).op == DAL__SIN ||
-               dal__inspect(t->graph, base).op == DAL__COS) {
+    } else if (op == DAL__SIN || op == DAL__COS) {
         const size_t name = strcspn(f->text, "(");
         dal__buffer_append_bytes(text, f->text, name);
         dal__buffer_print(text, "^{%d}", power);
