@@ -2,6 +2,7 @@
 #include "analysis.h"
 #include "dalembert_evaluator.h"
 #include "io/file.h"
+#include "io/file_output.h"
 #include "run/system.h"
 #include "ui/memory.h"
 #include "ui/message.h"

@@ -3,6 +3,7 @@
 #include "analysis.h"
 #include "dalembert_budget.h"
 #include "io/file.h"
+#include "io/file_output.h"
 #include "io/trend.h"
 #include "run/request_json.h"
 #include "ui/memory.h"

@@ -5,6 +5,7 @@
 #include "order.h"
 #include "analysis.h"
 #include "io/file.h"
+#include "io/file_output.h"
 #include "order_screen.h"
 #include "run/pool.h"
 #include "run/request_json.h"

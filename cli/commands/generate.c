@@ -1,6 +1,6 @@
 /* generate.c - `dalembert generate`: writes one C file that steps one system. */
 #include "dalembert_codegen.h"
-#include "io/file.h"
+#include "io/file_output.h"
 #include "run/simulation.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"

@@ -1,5 +1,6 @@
 /* new.c - `dalembert new`: a system file to begin with. */
 #include "io/file.h"
+#include "io/file_output.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/memory.h"

@@ -1,6 +1,7 @@
 /* pack.c - `dalembert pack DIR`: an archive of the request and the tables of a result. */
 #include "dalembert.h"
 #include "io/file.h"
+#include "io/file_output.h"
 #include "io/tar.h"
 #include "run/manifest.h"
 #include "run/request_command.h"

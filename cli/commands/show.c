@@ -1,5 +1,5 @@
 /* show.c - `dalembert show`: the file of a built-in system. */
-#include "io/file.h"
+#include "io/file_output.h"
 #include "run/system.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"

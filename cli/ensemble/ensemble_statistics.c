@@ -5,6 +5,7 @@
 #include "ensemble_statistics.h"
 #include "dalembert_program.h"
 #include "io/file.h"
+#include "io/file_output.h"
 #include "run/pool.h"
 #include "ui/memory.h"
 #include "ui/message.h"

@@ -1,4 +1,4 @@
-/* file.h - files, outputs and directories, and the numbers and texts of CSV. */
+/* file.h - files and directories, and the numbers and texts of CSV. */
 #ifndef DAL_CLI_FILE_H
 #define DAL_CLI_FILE_H
 
@@ -21,38 +21,15 @@ bool file_is_same(const char *path, const char *other);
  * a power cut and not only the process. */
 int file_write(const char *path, const void *bytes, size_t length, int sync);
 int file_rename(const char *from, const char *to, int sync);
+/* The two halves: writes and closes a descriptor of the file `path`; waits for what was renamed. */
+int file_write_and_close(int descriptor, const char *path, const void *bytes, size_t length,
+                         int sync);
+void file_sync_directory(const char *path);
 
 /* Reads or writes at a place of a file; returns how many bytes were transferred for sure, fewer
  * than length after an error or at the end of the file. */
 typedef enum file_way { FILE_READ, FILE_WRITE } file_way;
 size_t file_transfer(int descriptor, void *bytes, size_t length, off_t place, file_way way);
-
-/* Outputs: one rule for what a user names and for the files of a directory.  A regular file is
- * written beside its place, as .NAME.new, and renamed; its symbolic links, owner and permissions
- * stay.  A device, a FIFO or a socket is opened and written, /dev/stdout and /dev/fd/N are these
- * descriptors, and a directory is an error.  The functions print what fails. */
-
-/* Writes all at once: a file is old or new and never half of either.  Return CLI_DONE or CLI_IO. */
-int file_replace(const char *path, const void *bytes, size_t length, int sync);
-int file_copy(const char *from, const char *to, int sync);
-/* The same piece by piece, "-" being standard output. */
-typedef struct file_output {
-    FILE *stream;
-    const char *name; /* as it was given */
-    char *path;       /* what its symbolic links lead to */
-    char *fresh;      /* a file beside that, to be renamed to it; NULL: it is written in place */
-} file_output;
-int file_output_open(file_output *output, const char *path);
-/* Closes it after the status CLI_DONE; after another the file that was there stays.  Returns the
- * status, or the status of closing. */
-int file_output_close(file_output *output, int status);
-/* For rows, which can be read while they are written: the new, empty file has its name from the
- * beginning.  A descriptor; and a stream, "-" being stdout, NULL after a failure.  Return an exit
- * status. */
-int file_open_output(const char *path, int *descriptor);
-int file_stream_output(const char *path, FILE **stream);
-/* Writes a file that is not there yet, or a device.  Returns CLI_DONE, CLI_USAGE or CLI_IO. */
-int file_create(const char *path, const void *bytes, size_t length);
 
 /* Removes a file that may be absent. */
 int file_remove(const char *path);

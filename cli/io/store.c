@@ -4,6 +4,7 @@
 #include "dalembert_program.h"
 #include "endian.h"
 #include "file.h"
+#include "file_output.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

@@ -6,6 +6,7 @@
 #include "svg.h"
 
 #include "file.h"
+#include "file_output.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

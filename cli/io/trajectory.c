@@ -20,6 +20,7 @@
 #include "trajectory.h"
 #include "endian.h"
 #include "file.h"
+#include "file_output.h"
 #include "text.h"
 #include "ui/memory.h"
 #include "ui/message.h"

@@ -5,6 +5,7 @@
 #include "dalembert.h"
 
 #include "io/file.h"
+#include "io/file_output.h"
 #include "io/gnuplot.h"
 #include "io/svg.h"
 #include "io/text.h"

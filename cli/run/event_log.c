@@ -5,6 +5,7 @@
 #include "ui/message.h"
 
 #include "io/file.h"
+#include "io/file_output.h"
 
 #include <limits.h>
 #include <stdbool.h>

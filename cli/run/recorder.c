@@ -3,6 +3,7 @@
 
 #include "checkpoint.h"
 #include "io/file.h"
+#include "io/file_output.h"
 #include "io/json.h"
 #include "io/trend.h"
 #include "manifest.h"

@@ -1,6 +1,7 @@
 /* run.c - the integration of one run, as `dalembert run` and `dalembert resume` do it. */
 #include "run.h"
 #include "io/file.h"
+#include "io/file_output.h"
 #include "ui/message.h"
 #include "ui/signals.h"
 

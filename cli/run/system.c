@@ -3,6 +3,7 @@
 #include "dalembert_method.h"
 #include "dalembert_program.h"
 #include "io/file.h"
+#include "io/file_output.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

@@ -2,6 +2,7 @@
 #include "study_compare.h"
 
 #include "io/file.h"
+#include "io/file_output.h"
 #include "study_expect.h"
 #include "ui/memory.h"
 

@@ -3,6 +3,7 @@
 #include "dalembert_program.h"
 
 #include "io/file.h"
+#include "io/file_output.h"
 #include "io/json.h"
 #include "run/manifest.h"
 #include "run/system.h"

@@ -6,6 +6,7 @@
 #include "study_merge.h"
 
 #include "io/file.h"
+#include "io/file_output.h"
 #include "run/manifest.h"
 #include "study_cell.h"
 #include "study_directory.h"

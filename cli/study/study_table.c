@@ -5,6 +5,7 @@
 #include "study_table.h"
 
 #include "io/file.h"
+#include "io/file_output.h"
 #include "io/trend.h"
 #include "ui/memory.h"
 #include "ui/message.h"
