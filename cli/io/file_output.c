@@ -143,7 +143,9 @@ static int open_beside(file_output *o, const struct stat *held)
     return open(o->path, O_RDWR | O_TRUNC | O_CLOEXEC);
 }
 
-/* A descriptor, or -1 and the status after a message.  end_output() is due in either case. */
+/* A descriptor, or -1 and the status after a message.  end_output() is due in either case.  Between
+ * cli_hold_exit() and cli_release_exit(), as end_output() is: a thread that ends the program has
+ * then removed this file, or never will. */
 static int begin_output(file_output *o, const char *name, int *descriptor)
 {
     struct stat held;
@@ -191,21 +193,27 @@ int file_output_open(file_output *o, const char *path)
 {
     *o = (file_output){.name = "standard output", .stream = stdout};
     if (strcmp(path, "-") == 0) return CLI_DONE;
+    cli_hold_exit();
     int descriptor, status = begin_output(o, path, &descriptor);
     if (status == CLI_DONE && !(o->stream = fdopen(descriptor, "wb")))
         status = cli_io("write", path);
-    return status == CLI_DONE ? CLI_DONE : end_output(o, status, 0);
+    if (status != CLI_DONE) status = end_output(o, status, 0);
+    cli_release_exit();
+    return status;
 }
 
 static int close_output(file_output *o, int status, int sync)
 {
+    cli_hold_exit();
     if (status == CLI_DONE && sync && (fflush(o->stream) != 0 || fsync(fileno(o->stream)) != 0))
         status = cli_io("write", o->name);
     if (status == CLI_DONE)
         status = cli_close(o->stream, o->name);
     else if (o->stream != stdout)
         fclose(o->stream);
-    return end_output(o, status, sync);
+    status = end_output(o, status, sync);
+    cli_release_exit();
+    return status;
 }
 
 int file_output_close(file_output *o, int status) { return close_output(o, status, 0); }
