@@ -16,11 +16,12 @@ from .analysis import (Average, Lyapunov, Order, Section, Shares, Trend, explain
 from .errors import Error, InputError, StepError
 from .members import Ensemble, ensemble
 from .run import Batch, Event, Run
-from .spec import integrators
+from .spec import integrators, modifiers
 from .system import System, builtin_systems
 
 __version__ = f'{lib.DAL_VERSION_MAJOR}.{lib.DAL_VERSION_MINOR}.{lib.DAL_VERSION_PATCH}'
 
 __all__ = ['Average', 'Batch', 'Ensemble', 'Error', 'Event', 'InputError', 'Lyapunov', 'Order', 'Run',
            'Section', 'Shares', 'StepError', 'System', 'Trend', 'builtin_systems', 'ensemble', 'explain',
-           'generate', 'integrators', 'lyapunov', 'order', 'section', 'trend']
+           'generate', 'integrators', 'lyapunov', 'modifiers', 'order', 'section',
+           'trend']

@@ -11,13 +11,16 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib
-from .errors import Error, InputError, call, call_steps, check, encode, keep_exception
+from .arguments import array, number, refuse, text, whole
+from .errors import Error, call, call_steps, check, encode, keep_exception
 from .run import Array, doubles
-from .spec import Spec, SystemLike, chunks
-from .system import text_of
+from .spec import Spec, SystemLike, chunks, takes_run_options
+from .system import taken_text, text_of
 
 # Steps with tangent vectors between two moments in which Python handles signals.
 TANGENT_CHUNK = 200
+
+MAX_INT = (1 << 31) - 1
 
 
 # ---- trends ------------------------------------------------------------------------------------
@@ -82,6 +85,7 @@ def make_trend(t: Any) -> Trend:
     return Trend(**{**values, **{name: text_of(word(values[name])) for name, word in WORDS.items()}})
 
 
+@takes_run_options
 def trend(system: SystemLike, integrator: str | None = None, time: float | None = None, *, every: int = 1,
           **settings: Any) -> dict[str, Trend]:
     """Runs to a time and classifies how each observable drifts.
@@ -108,8 +112,7 @@ def trend(system: SystemLike, integrator: str | None = None, time: float | None 
     """
     spec = Spec(system, integrator, **settings)
     run, _, names = spec.create_run()
-    if every < 1:
-        raise InputError('DAL_ARGUMENT', f'values every {every} steps cannot be taken')
+    every = whole('every', every, 1)
     statistics, trends = ffi.new('dal_statistics[]', len(names)), ffi.new('dal_trend[]', len(names))
     record = ffi.new('dal_error *')
     status = lib.python_follow(run, spec.time(time), every, statistics, record)
@@ -149,6 +152,7 @@ class Order:
     order: float
 
 
+@takes_run_options
 def order(system: SystemLike, integrator: str | None = None, time: float | None = None, *, levels: int = 4,
           reference: str | npt.ArrayLike | None = None, **settings: Any) -> Order:
     """Measures the order of a method: errors at a time for step, step/2, step/4, ...
@@ -171,13 +175,14 @@ def order(system: SystemLike, integrator: str | None = None, time: float | None 
         method = ffi.new('dal_method *')
         call(lib.dal_method_parse, method, encode(reference))
     elif reference is not None:
-        values = np.ascontiguousarray(reference, dtype=np.float64)
+        values = array('reference', reference)
         dimension = len(spec.create_run()[1])
         if values.shape != (dimension,):
-            raise InputError('DAL_ARGUMENT', f'a state has shape ({dimension},), not {values.shape}')
+            raise refuse('reference', f'a state has shape ({dimension},), not {values.shape}')
         exact = doubles(values)
     observer = ffi.new('dal_observer *', {'poll': lib.python_poll})
-    call_steps(lib.dal_order_measure, found, spec.c, spec.time(time), levels, method, exact, observer)
+    call_steps(lib.dal_order_measure, found, spec.c, spec.time(time), whole('levels', levels, 2, 8), method, exact,
+               observer)
     columns = {name: np.array(list(getattr(found, name)[0:levels]))
                for name in ('step', 'error', 'evaluations', 'slope')}
     return Order(**columns, order=found.order)
@@ -224,6 +229,7 @@ def average(function: Any, *arguments: Any) -> Average:
     return Average(a.mean, a.low, a.high)
 
 
+@takes_run_options
 def lyapunov(system: SystemLike, integrator: str | None = None, time: float | None = None, *,
              transient: float = 0.0, count: int = 0, **settings: Any) -> Lyapunov:
     """Computes the Lyapunov exponents of a motion.
@@ -239,9 +245,9 @@ def lyapunov(system: SystemLike, integrator: str | None = None, time: float | No
     """
     spec = Spec(system, integrator, **settings)
     made = ffi.new('dal_lyapunov **')
-    call(lib.dal_lyapunov_create, made, spec.c, spec.system._tangent(), count)
+    call(lib.dal_lyapunov_create, made, spec.c, spec.system._tangent(), whole('count', count, 0, MAX_INT))
     study = ffi.gc(made[0], lib.dal_lyapunov_free)
-    before = spec.steps(transient) if transient else 0
+    before = spec.steps(number('transient', transient)) if transient else 0
     for steps in chunks(before, TANGENT_CHUNK):
         call_steps(lib.dal_lyapunov_advance, study, steps)
     lib.dal_lyapunov_discard_transient(study)
@@ -291,6 +297,7 @@ def python_cross(user: Any, run: Any, crossing: Any) -> int:
     return lib.DAL_STATUS_OK
 
 
+@takes_run_options
 def section(system: SystemLike, on: str, integrator: str | None = None, time: float | None = None, *,
             direction: int = 0, **settings: Any) -> Section:
     """Finds where a motion crosses a surface.
@@ -307,7 +314,7 @@ def section(system: SystemLike, on: str, integrator: str | None = None, time: fl
         1: upwards, -1: downwards, 0: both.
     """
     spec = Spec(system, integrator, **settings)
-    changed = spec.system._with_invariant(on)
+    changed = spec.system._with_invariant(text('on', on))
     spec.use(changed)
     run, names, _ = spec.create_run()
     count = changed._system.invariants
@@ -315,7 +322,7 @@ def section(system: SystemLike, on: str, integrator: str | None = None, time: fl
     handle = ffi.new_handle((rows, len(names)))
     surface = ffi.new('dal_poincare *', {
         'callback': changed._system.invariant_values, 'count': count, 'index': count - 1,
-        'direction': direction, 'user': handle, 'cross': lib.python_cross, 'poll': lib.python_poll})
+        'direction': whole('direction', direction, -1, 1), 'user': handle, 'cross': lib.python_cross, 'poll': lib.python_poll})
     found = ffi.new('dal_crossings *')
     call_steps(lib.dal_run_crossings, run, spec.time(time), surface, found)
     columns = [('crossing', 'i8'), ('t', 'f8'), ('direction', 'i8'), *((name, 'f8') for name in names)]
@@ -368,6 +375,7 @@ def describe(budget: Any, observable: int, source: int) -> str:
     return text_of(lib.dal_error_budget_describe(budget, observable, source, buffer, len(buffer)))
 
 
+@takes_run_options
 def explain(system: SystemLike, integrator: str | None = None, time: float | None = None, *,
             quad_steps: int = 10000, **settings: Any) -> dict[str, Shares]:
     """Finds how much of the drift of every observable is truncation, solver, rounding, projection.
@@ -389,7 +397,8 @@ def explain(system: SystemLike, integrator: str | None = None, time: float | Non
     spec = Spec(system, integrator, **settings)
     made = ffi.new('dal_error_budget **')
     observer = ffi.new('dal_error_budget_observer *', {'step': lib.python_progress})
-    call_steps(lib.dal_error_budget_create, made, spec.c, spec.steps(spec.time(time)), quad_steps, observer)
+    call_steps(lib.dal_error_budget_create, made, spec.c, spec.steps(spec.time(time)), whole('quad_steps', quad_steps, 0),
+               observer)
     budget = ffi.gc(made[0], lib.dal_error_budget_free)
     sources = {i: text_of(lib.dal_error_source_name(i)) for i in range(lib.DAL_ERROR_SOURCES)}
     found = {}
@@ -405,6 +414,7 @@ def explain(system: SystemLike, integrator: str | None = None, time: float | Non
 
 # ---- generated C -------------------------------------------------------------------------------
 
+@takes_run_options
 def generate(system: SystemLike, integrator: str | None = None, *, lanes: int = 1,
              prefix: str | None = None, **settings: Any) -> str:
     """Writes one C file that steps a system by a method, with the bits of a `Run`.
@@ -424,9 +434,5 @@ def generate(system: SystemLike, integrator: str | None = None, *, lanes: int = 
         The file; its first comment explains its use.
     """
     spec = Spec(system, integrator, **settings)
-    text = ffi.new('char **')
-    call(lib.dal_generate, spec.c, lanes, ffi.NULL if prefix is None else encode(prefix), text)
-    try:
-        return text_of(text[0])
-    finally:
-        lib.free(text[0])
+    return taken_text(lib.dal_generate, spec.c, whole('lanes', lanes, 1, MAX_INT),
+                      ffi.NULL if prefix is None else encode(text('prefix', prefix)))

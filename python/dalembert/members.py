@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib
-from .errors import InputError, call, encode, make_error
+from .arguments import array, refuse, text, whole
+from .errors import call, encode, make_error
 from .run import CHUNK, Array, doubles, native_options
-from .spec import Settings, Spec, SystemLike, chunks
+from .spec import Settings, Spec, SystemLike, chunks, takes_options
 
 # Members that are stepped together.
 LANES = 256
@@ -55,14 +56,15 @@ class Ensemble:
 
 def make_variations(vary: Mapping[str, str] | Iterable[str]) -> tuple[Any, int]:
     """An array of dal_variation, and its length."""
-    items = vary.items() if isinstance(vary, Mapping) else (tuple(text.split('=', 1)) for text in vary)
-    texts = ['='.join(item) for item in items]
-    array = ffi.new('dal_variation[]', max(1, len(texts)))
-    for i, text in enumerate(texts):
-        call(lib.dal_variation_parse, ffi.addressof(array, i), encode(text))
-    return array, len(texts)
+    items = vary.items() if isinstance(vary, Mapping) else (tuple(text('vary', one).split('=', 1)) for one in vary)
+    texts = ['='.join(text(f'vary[{item[0]!r}]', part) for part in item) for item in items]
+    made = ffi.new('dal_variation[]', max(1, len(texts)))
+    for i, one in enumerate(texts):
+        call(lib.dal_variation_parse, ffi.addressof(made, i), encode(one))
+    return made, len(texts)
 
 
+@takes_options
 def ensemble(system: SystemLike, integrator: str | None = None, *, members: int, seed: int,
              vary: Mapping[str, str] | Iterable[str], times: Union[float, npt.ArrayLike],
              step: float | None = None, parameters: Settings | None = None, start: Settings | None = None,
@@ -84,12 +86,11 @@ def ensemble(system: SystemLike, integrator: str | None = None, *, members: int,
     """
     spec = Spec(system, integrator, step, parameters, start, start_time,
                 **{'consistent': True, **options})
-    when = np.atleast_1d(np.asarray(times, dtype=np.float64))
-    if members < 1 or seed < 0:
-        raise InputError('DAL_ARGUMENT', f'an ensemble needs members and a seed from 0, not {members} and {seed}')
+    when = array('times', times)
+    members, seed = whole('members', members, 1), whole('seed', seed, 0)
     steps = np.array([0 if t == start_time else spec.steps(t) for t in when], dtype=np.int64)
     if len(when) == 0 or np.any(np.diff(steps) <= 0):
-        raise InputError('DAL_ARGUMENT', 'times must lead away from the start, one after the other')
+        raise refuse('times', 'they must lead away from the start, one after the other')
     variations, count = make_variations(vary)
     made = ffi.new('dal_ensemble **')
     call(lib.dal_ensemble_create, made, spec.c, variations, count, seed, min(members, LANES))

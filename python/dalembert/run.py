@@ -9,9 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib
+from .arguments import array, number, refuse, text, whole
 from .errors import Error, InputError, call, call_steps, check, encode, keep_exception, make_error, refuse_nul
 from .fixed import Fixed, owned
-from .spec import Settings, Spec, SystemLike, chunks, count_of, make_settings
+from .spec import Settings, Spec, SystemLike, chunks, make_settings, takes_options, takes_run_options
 from .system import System, text_of
 
 Array = npt.NDArray[np.float64]
@@ -124,12 +125,17 @@ class Run(Fixed):
     observable_names: tuple[str, ...]
     dimension: int
     _run: Any
+    _arguments: tuple[tuple[System, str], dict[str, Any]]
 
+    @takes_options
     def __init__(self, system: SystemLike, integrator: str | None = None, *, step: float | None = None,
                  parameters: Settings | None = None, start: Settings | None = None,
                  start_time: float = 0.0, **options: Any):
         spec = Spec(system, integrator, step, parameters, start, start_time, **options)
         self.system, self.integrator = spec.system, spec.integrator
+        self._arguments = (self.system, self.integrator), {
+            'step': spec.step, 'parameters': dict(parameters or {}), 'start': dict(start or {}),
+            'start_time': start_time, **options}
         self._run, self.names, self.observable_names = spec.create_run()
         self.dimension = len(self.names)
 
@@ -160,10 +166,10 @@ class Run(Fixed):
 
     def set_state(self, state: npt.ArrayLike, time: float | None = None) -> None:
         """Replaces the state and, where it is given, the time; clears all other memory of steps."""
-        values = np.ascontiguousarray(state, dtype=np.float64)
+        values = array('state', state)
         if values.shape != (self.dimension,):
-            raise InputError('DAL_ARGUMENT', f'a state has shape ({self.dimension},), not {values.shape}')
-        call(lib.dal_run_set_state, self._run, self.time if time is None else float(time), doubles(values))
+            raise refuse('state', f'it has shape ({self.dimension},), not {values.shape}')
+        call(lib.dal_run_set_state, self._run, self.time if time is None else number('time', time), doubles(values))
 
     @property
     def observables(self) -> Array:
@@ -180,7 +186,7 @@ class Run(Fixed):
 
     def index(self, name: str) -> int:
         """The place in `state` of a component, ``"phi'"``."""
-        place = lib.dal_run_component_index(self._run, encode(name))
+        place = lib.dal_run_component_index(self._run, encode(text('name', name)))
         if place < 0:
             raise InputError('DAL_NAME', f"no component of the state is named '{name}'")
         return place
@@ -199,7 +205,8 @@ class Run(Fixed):
             The value cannot be used; nothing is changed.
         """
         record = ffi.new('dal_error *')
-        return is_consistent(lib.dal_run_set_parameter(self._run, encode(name), value, record), record)
+        return is_consistent(lib.dal_run_set_parameter(
+            self._run, encode(text('name', name)), number('value', value), record), record)
 
     def advance(self, steps: int = 1) -> None:
         """Takes a number of steps, or those before the first that fails.
@@ -211,7 +218,7 @@ class Run(Fixed):
         StepError
             Names the constraint and the time; the run is as it was before that step.
         """
-        for count in chunks(count_of(steps), CHUNK):
+        for count in chunks(whole('steps', steps, 0), CHUNK):
             self._call(lib.dal_run_advance, self._run, count)
             if self.stopped is not None:
                 return
@@ -238,7 +245,7 @@ class Run(Fixed):
         found: list[Event] = []
         handle = ffi.new_handle((found, self.system.events, self.dimension))
         try:
-            self._call(lib.python_events, self._run, float(time), handle)
+            self._call(lib.python_events, self._run, number('time', time), handle)
         except Error as error:
             error.partial = found
             raise
@@ -281,13 +288,13 @@ class Run(Fixed):
         StepError
             Its ``partial`` has the rows before the failure.
         """
-        when = np.ascontiguousarray(times, dtype=np.float64)
+        when = array('times', times)
         direction = np.sign(self.step)
         if when.ndim != 1 or len(when) == 0 or not np.all(direction * np.diff(when) > 0):
             order = 'increasing' if direction > 0 else 'decreasing'
-            raise InputError('DAL_ARGUMENT', f'times must be {order} numbers, one at least')
+            raise refuse('times', f'they must be {order} numbers, one at least')
         if not direction * (when[0] - self.time) >= -1e-9 * abs(self.step):
-            raise InputError('DAL_ARGUMENT', f'time {when[0]:g} lies before the present t = {self.time:g}')
+            raise refuse('times', f'{when[0]:g} lies before the present t = {self.time:g}')
         names = ('t',) + self.names + self.observable_names
         table = np.empty((len(when), len(names)))
         made = ffi.new('long long *')
@@ -310,10 +317,13 @@ class Run(Fixed):
 
     def restore(self, saved: bytes) -> None:
         """Continues where a run of the same system, method and options was saved, with the same bits."""
-        if len(saved) % 8:
-            raise InputError('DAL_ARGUMENT', f'{len(saved)} bytes are not a saved run')
+        if not isinstance(saved, bytes) or len(saved) % 8:
+            raise refuse('saved', f'{saved!r:.40} is not what save gives')
         numbers = np.frombuffer(saved, dtype=np.float64)
         call(lib.dal_run_restore, self._run, doubles(numbers), len(numbers))
+
+    def __reduce__(self) -> Any:
+        return continued, (type(self), *self._arguments, self.save())
 
     def compile(self, cache: str | os.PathLike[str] | None = None, compiler: str = 'cc') -> None:
         """Compiles the steps, with the same bits; for runs of a second and more.
@@ -337,25 +347,33 @@ class Run(Fixed):
         return f'<Run of {self.system.name} by {self.integrator}, h = {self.step:g}, t = {self.time:g}>'
 
 
+def continued(kind: type[Run], arguments: Any, options: dict[str, Any], saved: bytes) -> Run:
+    """A run that continues where another one was saved: a copy, or one from a pickle."""
+    run = kind(*arguments, **options)
+    run.restore(saved)
+    return run
+
+
 LaneValues = Mapping[str, Union[float, npt.ArrayLike]]
 
 
 def count_lanes(count: int | None, *values: LaneValues | None) -> int:
     """The length of the arrays among the values, which must be one."""
+    count = None if count is None else whole('count', count, 1)
     lengths = {len(np.atleast_1d(value)) for group in values for value in (group or {}).values()
                if np.ndim(value) > 0}
     lengths |= set() if count is None else {count}
     if len(lengths) > 1:
-        raise InputError('DAL_ARGUMENT', f'values have different numbers of lanes: {sorted(lengths)}')
+        raise refuse('parameters, start', f'they have different numbers of lanes: {sorted(lengths)}')
     lanes = lengths.pop() if lengths else 1
     if lanes < 1:
-        raise InputError('DAL_ARGUMENT', 'a batch has one lane at least')
+        raise refuse('parameters, start', 'a batch has one lane at least')
     return lanes
 
 
 def lane(values: LaneValues | None, i: int) -> dict[str, float]:
     """The values of one lane."""
-    return {name: float(np.asarray(value)[i] if np.ndim(value) else value)  # type: ignore[arg-type]
+    return {name: np.asarray(value)[i] if np.ndim(value) else value  # type: ignore[misc]
             for name, value in (values or {}).items()}
 
 
@@ -394,6 +412,7 @@ class Batch(Fixed):
     dimension: int
     _batch: Any
 
+    @takes_run_options
     def __init__(self, system: SystemLike, integrator: str | None = None, count: int | None = None, *,
                  step: float | None = None, parameters: LaneValues | None = None,
                  start: LaneValues | None = None, width: int = 0, **options: Any):
@@ -403,13 +422,13 @@ class Batch(Fixed):
         self.names = spec.create_run()[1]
         self.dimension = len(self.names)
         batch = ffi.new('dal_batch **')
-        call(lib.dal_batch_create, batch, spec.c, self.count, width)
+        call(lib.dal_batch_create, batch, spec.c, self.count, whole('width', width, 0, 1 << 20))
         self._batch = owned(batch[0], lib.dal_batch_free, self.system._system)
         for i in range(1, self.count):
             self._start(i, lane(parameters, i), lane(start, i))
 
     def _start(self, i: int, parameters: Settings, start: Settings) -> None:
-        p, s = make_settings(parameters), make_settings(start)
+        p, s = make_settings('parameters', parameters), make_settings('start', start)
         call(lib.dal_batch_start, self._batch, i, p[0], p[1], s[0], s[1])
 
     def set_parameter(self, name: str, values: float | npt.ArrayLike) -> npt.NDArray[np.bool_]:
@@ -421,10 +440,13 @@ class Batch(Fixed):
             Whether the constraints of a lane hold at its present state.
         """
         record = ffi.new('dal_error *')
-        numbers = np.broadcast_to(np.asarray(values, dtype=np.float64), self.count)
-        text = encode(name)
-        statuses = (lib.dal_batch_set_parameter(self._batch, i, text, number, record)
-                    for i, number in enumerate(numbers))
+        try:
+            numbers = np.broadcast_to(array('values', values).squeeze(), self.count)
+        except ValueError:
+            raise refuse('values', f'a number or {self.count} of them') from None
+        of = encode(text('name', name))
+        statuses = (lib.dal_batch_set_parameter(self._batch, i, of, value, record)
+                    for i, value in enumerate(numbers))
         return np.array([is_consistent(status, record) for status in statuses])
 
     def advance(self, steps: int = 1) -> None:
@@ -435,7 +457,7 @@ class Batch(Fixed):
         StepError
             When no lane is left.
         """
-        for count in chunks(count_of(steps), max(100, CHUNK // self.count)):
+        for count in chunks(whole('steps', steps, 0), max(100, CHUNK // self.count)):
             if lib.dal_batch_advance(self._batch, count) != lib.DAL_STATUS_OK:
                 raise next(error for error in self.errors if error is not None)
 
@@ -471,6 +493,9 @@ class Batch(Fixed):
 
     def __len__(self) -> int:
         return self.count
+
+    def __reduce__(self) -> Any:
+        raise TypeError('a Batch cannot be copied: keep its arguments and its state()')
 
     def __repr__(self) -> str:
         return f'<Batch of {self.count} lanes of {self.system.name} by {self.integrator}, h = {self.step:g}>'

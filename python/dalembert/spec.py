@@ -1,11 +1,11 @@
 """What a run is made from: system, method, options, parameters, start."""
 from __future__ import annotations
 
-import operator
-from typing import Any, Iterator, Mapping, Union
+from typing import Any, Iterator, Literal, Mapping, Optional, TypedDict, Union, get_args
 
 from ._library import ffi, lib
-from .errors import InputError, call, encode
+from .arguments import keywords, number, refuse, text
+from .errors import call, encode
 from .fixed import owned
 from .system import System, text_of
 
@@ -13,23 +13,72 @@ SystemLike = Union[System, str]
 Settings = Mapping[str, float]
 
 
-def integrators() -> list[str]:
-    """Names of the integrators of the library; modifiers are ``'+project'`` and the like."""
+class Options(TypedDict, total=False):
+    """Options of a run, as on the command line, with underscores."""
+
+    space: Literal['lifted', 'physical']
+    solver: Literal['auto', 'fixed-point', 'newton']
+    iterations: int
+    extend_energy: bool
+    reactions: bool
+    consistent: bool
+    tolerance: float
+    solver_tolerance: float
+    extra_iterations: int
+    sums: Literal['compensated', 'plain']
+    precision: Literal['double', 'quad']
+
+
+class RunOptions(Options, total=False):
+    """What a run takes beside system and integrator."""
+
+    step: Optional[float]
+    parameters: Optional[Mapping[str, float]]
+    start: Optional[Mapping[str, float]]
+    start_time: float
+
+
+def default_of(name: str, hint: Any) -> Any:
+    """The default of an option, by the library."""
+    if name not in Options.__annotations__:
+        return 0.0 if name == 'start_time' else None
+    value = getattr(lib.dal_options_default(), name)
+    return get_args(hint)[int(value)] if get_args(hint) else value
+
+
+takes_options = keywords(Options, default_of)
+takes_run_options = keywords(RunOptions, default_of)
+
+
+def names_where(modifier: bool) -> list[str]:
+    """Names of the modifiers of the library, or of its integrators."""
     found, i = [], 0
     while (integrator := lib.dal_integrator_at(i)) != ffi.NULL:
-        modifier = integrator.properties & lib.DAL_MODIFIER
-        found.append(('+' if modifier else '') + text_of(integrator.name))
+        if bool(integrator.properties & lib.DAL_MODIFIER) == modifier:
+            found.append(text_of(integrator.name))
         i += 1
     return found
 
 
-def make_settings(values: Settings | None) -> tuple[Any, int, list[Any]]:
+def integrators() -> list[str]:
+    """Names of the integrators of the library; see `modifiers`."""
+    return names_where(modifier=False)
+
+
+def modifiers() -> list[str]:
+    """Names of the modifiers of the library, ``'project'``: a method is ``'rk4+project'``."""
+    return names_where(modifier=True)
+
+
+def make_settings(what: str, values: Settings | None) -> tuple[Any, int, list[Any]]:
     """An array of dal_setting, its length, and the texts that must live as long."""
+    if values is not None and not isinstance(values, Mapping):
+        raise refuse(what, f'{values!r} is not a mapping of names to numbers')
     items = list((values or {}).items())
     array = ffi.new('dal_setting[]', max(1, len(items)))
-    texts = [ffi.new('char[]', encode(name)) for name, _ in items]
-    for i, (_, value) in enumerate(items):
-        array[i].name, array[i].value = texts[i], float(value)
+    texts = [ffi.new('char[]', encode(text(what, name))) for name, _ in items]
+    for i, (name, value) in enumerate(items):
+        array[i].name, array[i].value = texts[i], number(f'{what}[{name!r}]', value)
     return array, len(items), texts
 
 
@@ -50,24 +99,24 @@ class Spec:
     def __init__(self, system: SystemLike, integrator: str | None, step: float | None = None,
                  parameters: Settings | None = None, start: Settings | None = None,
                  start_time: float = 0.0, **options: Any):
-        self.system = system if isinstance(system, System) else System.builtin(system)
+        self.system = system if isinstance(system, System) else System.builtin(text('system', system))
         defaults = self.system.defaults
         integrator = integrator or defaults.get('integrator')
         if integrator is None:
-            raise InputError('DAL_ARGUMENT', f'{self.system.name} has no default integrator: give one')
+            raise refuse('integrator', f'{self.system.name} has no default: give one')
         self.c = ffi.new('dal_run_spec *')
         self.use(self.system)
         self.c.options = lib.dal_options_default()
-        call(lib.dal_method_parse, ffi.addressof(self.c, 'method'), encode(integrator))
+        call(lib.dal_method_parse, ffi.addressof(self.c, 'method'), encode(text('integrator', integrator)))
         if step is None and 'step' in defaults:
             step = float(defaults['step'])
-        for name, value in {**({} if step is None else {'step': float(step)}), **options}.items():
+        for name, value in {**({} if step is None else {'step': number('step', step)}), **options}.items():
             call(lib.dal_options_set, ffi.addressof(self.c, 'options'), encode(name.replace('_', '-')),
                  encode(option_text(value)))
-        self.c.start_time = float(start_time)
+        self.c.start_time = number('start_time', start_time)
         # Both must live as long as the spec.
-        self._parameters = make_settings(parameters)
-        self._start = make_settings(start)
+        self._parameters = make_settings('parameters', parameters)
+        self._start = make_settings('start', start)
         self.c.parameters, self.c.parameter_count = self._parameters[:2]
         self.c.start, self.c.start_count = self._start[:2]
 
@@ -97,15 +146,15 @@ class Spec:
         """A time, or the default one of the system."""
         if time is None:
             if 'time' not in self.system.defaults:
-                raise InputError('DAL_ARGUMENT', f'{self.system.name} has no default time: give one')
+                raise refuse('time', f'{self.system.name} has no default: give one')
             time = float(self.system.defaults['time'])
-        return float(time)
+        return number('time', time)
 
     def steps(self, time: float) -> int:
         """The number of steps to a time, which it must be a whole number of."""
         steps = lib.dal_whole_steps(self.c.start_time, time, self.step)
         if steps == 0:
-            raise InputError('DAL_ARGUMENT', f'time {time:g} is not a whole number of steps of {self.step:g}')
+            raise refuse('time', f'{time:g} is not a whole number of steps of {self.step:g}')
         return steps
 
 
@@ -114,14 +163,3 @@ def chunks(count: int, size: int) -> Iterator[int]:
     while count > 0:
         yield min(count, size)
         count -= size
-
-
-def count_of(steps: Any) -> int:
-    """A number of steps that can be taken."""
-    try:
-        count = operator.index(steps)
-    except TypeError:
-        count = -1
-    if not 0 <= count < 1 << 53:
-        raise InputError('DAL_ARGUMENT', f'{steps} steps cannot be taken')
-    return count

@@ -5,6 +5,7 @@ import os
 from typing import Any, Iterator
 
 from ._library import ffi, lib
+from .arguments import text as argument
 from .errors import Error, InputError, call, encode
 from .fixed import Fixed, borrowed, owned
 
@@ -17,6 +18,16 @@ def text_of(chars: Any) -> str:
     return ffi.string(chars).decode() if chars else ''
 
 
+def taken_text(function: Any, *arguments: Any) -> str:
+    """The text that a function of the library allocates."""
+    made = ffi.new('char **')
+    call(function, *arguments, made)
+    try:
+        return text_of(made[0])
+    finally:
+        lib.free(made[0])
+
+
 def builtin_systems() -> list[str]:
     """Names of the systems of the library."""
     return list(_names(lib.dal_builtin_name))
@@ -27,6 +38,13 @@ def _names(name_at: Any) -> Iterator[str]:
     while (name := name_at(i)) != ffi.NULL:
         yield text_of(name)
         i += 1
+
+
+def observed_system(text: str, name: str, observed: tuple[str, ...]) -> System:
+    """A system that observes these formulas: a copy, or one from a pickle."""
+    system = object.__new__(System)
+    system._make(text, name, observed)
+    return system
 
 
 class System(Fixed):
@@ -49,6 +67,8 @@ class System(Fixed):
     name, title, reference, text : str
     n, m : int
         Coordinates; constraints.
+    lagrangian : str
+        Its formula; '' where the text gives accelerations.
     coordinates, invariants, observed, tags, events : tuple of str
         An event is named ``'event 1 (y - r)'``; what is observed, by its formula.
     parameters : dict of str to float
@@ -69,6 +89,7 @@ class System(Fixed):
     text: str
     n: int
     m: int
+    lagrangian: str
     coordinates: tuple[str, ...]
     invariants: tuple[str, ...]
     observed: tuple[str, ...]
@@ -81,7 +102,7 @@ class System(Fixed):
     _system: Any
 
     def __init__(self, text: str, name: str = 'system'):
-        self._make(text, name, ())
+        self._make(argument('text', text), argument('name', name), ())
 
     def _make(self, text: str, name: str, observed: tuple[str, ...]) -> None:
         self.name, self.text, self.observed = name, text, observed
@@ -92,6 +113,7 @@ class System(Fixed):
         s = self._system
         self.title, self.reference = text_of(s.title), text_of(s.reference)
         self.n, self.m = s.n, s.m
+        self.lagrangian = text_of(lib.dal_model_text(self._model, lib.DAL_SECTION_LAGRANGIAN, 0, *[ffi.NULL] * 3))
         self.coordinates = tuple(text_of(s.coordinate[i]) for i in range(s.n))
         self.invariants = tuple(text_of(s.invariant[i]) for i in range(s.invariants - s.observed))
         self.tags = tuple(text_of(s.tag[i]) for i in range(s.tags))
@@ -103,7 +125,7 @@ class System(Fixed):
     @classmethod
     def builtin(cls, name: str) -> System:
         """A system of the library, ``'chaplygin-sleigh'``; see `builtin_systems`."""
-        text = lib.dal_builtin_text(encode(name))
+        text = lib.dal_builtin_text(encode(argument('name', name)))
         if not text:  # the message has the nearest name
             model = ffi.new('dal_model **')
             call(lib.dal_model_builtin, model, encode(name))
@@ -139,9 +161,18 @@ class System(Fixed):
         for formula in formulas:
             if not isinstance(formula, str):
                 raise TypeError(f'a formula to observe is a str, not {formula!r}')
-        other = object.__new__(System)
-        other._make(self.text, self.name, self.observed + formulas)
-        return other
+        return observed_system(self.text, self.name, self.observed + formulas)
+
+    def latex(self) -> str:
+        """The equations as LaTeX, one align* of amsmath.
+
+        They are L, the forces Q, the constraints D = 0, the accelerations F derived from them, and
+        the Hamiltonian H of the lift.
+        """
+        return taken_text(lib.dal_model_latex, self._model)
+
+    def __reduce__(self) -> Any:
+        return observed_system, (self.text, self.name, self.observed)
 
     def _read(self) -> Any:
         model, text = ffi.new('dal_model **'), self.text.encode()

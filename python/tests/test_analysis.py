@@ -118,8 +118,3 @@ def test_generate(program):
     for arguments in ({'prefix': '1'}, {'lanes': 3}):
         with pytest.raises(dalembert.InputError):
             dalembert.generate('chaplygin-sleigh', 'rk4', **arguments)
-
-
-def test_names():
-    names = dalembert.integrators()
-    assert {'rk4', 'gauss8', '+project'} <= set(names) and len(names) == len(set(names))

@@ -177,7 +177,7 @@ def test_attributes_are_read_only(make):
 @pytest.mark.parametrize('steps', [-1, float('nan'), float('inf'), 2.5, '3', None])
 def test_bad_steps(oscillator, steps):
     for stepped in dalembert.Run(oscillator, 'rk4'), dalembert.Batch(oscillator, 'rk4', 2):
-        with pytest.raises(dalembert.InputError, match='cannot be taken'):
+        with pytest.raises(dalembert.InputError, match='^steps: '):
             stepped.advance(steps)
         assert np.all(stepped.time == 0)
 

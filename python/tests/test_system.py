@@ -67,3 +67,12 @@ def test_lives_as_long_as_its_runs():
     run = dalembert.Run(dalembert.System(OSCILLATOR), 'rk4')
     run.advance(10)
     assert run.time == pytest.approx(0.1)
+
+
+def test_formulas():
+    oscillator = dalembert.System(OSCILLATOR)
+    assert oscillator.lagrangian == "(x'^2 - k*x^2)/2"
+    assert dalembert.System('coordinates: [x]\naccelerations: {x: -x}\n').lagrangian == ''
+    latex = oscillator.latex()
+    assert latex.startswith('\\begin{align*}') and latex.rstrip().endswith('\\end{align*}')
+    assert '\\ddot{x}' in latex or '\\dot{x}^{2}' in latex
