@@ -32,6 +32,11 @@ dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix,
  * DAL_STATUS_TOO_LARGE where a formula is longer than a megabyte. */
 dal_status dal_model_latex(dal_model *model, char **text, dal_error *error);
 
+/* Writes the equations of dal_model_latex as MathML, a math element with a table of them, for pages
+ * and for XML; *text, to be freed with free(). [alloc]  Errors: as dal_model_latex;
+ * DAL_STATUS_TOO_LARGE, too, where brackets and scripts are nested more than 400 deep. */
+dal_status dal_model_mathml(dal_model *model, char **text, dal_error *error);
+
 /* ---- compiled runs and batches ------------------------------------------------------------- */
 
 /* How steps are compiled and where compiled code is cached; 0 and NULL have the stated meaning. */

@@ -1,6 +1,7 @@
 /* test_latex.c - equations in LaTeX: read again as a mathematician reads them, they have the values
  * of the system; names, numbers and brackets. */
 #include "allocation.h"
+#include "core/buffer.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
@@ -456,7 +457,38 @@ static void latex_limits(void)
         allocation_end(&trial, dal_model_latex(model, &text, NULL));
         free(text);
     }
+    for (trial = (allocation_trial){0}; allocation_next(&trial);) {
+        allocation_start(&trial);
+        allocation_end(&trial, dal_model_mathml(model, &text, NULL));
+        free(text);
+    }
     dal_model_free(model);
+}
+
+/* MathML of a sine of a sine of .. x; its brackets nest as often. */
+static dal_status nested_status(int times)
+{
+    dal__buffer yaml = {0};
+    char *text;
+    dal__buffer_append(&yaml, "coordinates: [x]\naccelerations: {x: \"");
+    for (int i = 0; i < times; i++) dal__buffer_append(&yaml, "sin(");
+    dal__buffer_append(&yaml, "x");
+    for (int i = 0; i < times; i++) dal__buffer_append(&yaml, ")");
+    dal__buffer_append(&yaml, "\"}\nstart: {x: 0.1}\n");
+    dal_model *model = model_of(yaml.bytes);
+    const dal_status status = dal_model_mathml(model, &text, NULL);
+    CU_ASSERT_EQUAL(text == NULL, status != DAL_STATUS_OK);
+    free(text);
+    dal_model_free(model);
+    dal__buffer_free(&yaml);
+    return status;
+}
+
+/* The documented 400 levels: the row itself and 399 brackets, but not one more. */
+static void latex_depth(void)
+{
+    CU_ASSERT_EQUAL(nested_status(399), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(nested_status(400), DAL_STATUS_TOO_LARGE);
 }
 
 void suite_latex(void)
@@ -466,4 +498,5 @@ void suite_latex(void)
     CU_add_test(suite, "every function and bracket", latex_functions);
     CU_add_test(suite, "texts written by hand", latex_texts);
     CU_add_test(suite, "long formulas, no lift, no memory", latex_limits);
+    CU_add_test(suite, "deep formulas as MathML", latex_depth);
 }

@@ -35,6 +35,14 @@ static void null_dal_model_latex(void)
     CU_ASSERT_PTR_NULL(text);
 }
 
+static void null_dal_model_mathml(void)
+{
+    char *text = buffer;
+    REFUSED(dal_model_mathml(NULL, &text, error));
+    REFUSED(dal_model_mathml(model, NULL, error));
+    CU_ASSERT_PTR_NULL(text);
+}
+
 static const dal_native_options nowhere = {.cache = NULL};
 
 static void null_dal_run_native(void)

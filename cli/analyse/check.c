@@ -235,11 +235,13 @@ static void free_check(check *c)
     dal_scaled_free(c->scaled);
 }
 
-static int print_latex(const run_simulation *simulation)
+typedef dal_status equations_writer(dal_model *model, char **text, dal_error *error);
+
+static int print_equations(const run_simulation *simulation, equations_writer *write)
 {
     char *text;
     dal_error error = {0};
-    const dal_status status = dal_model_latex(simulation->model, &text, &error);
+    const dal_status status = write(simulation->model, &text, &error);
     if (!cli_is_ok(status))
         return cli_error(cli_input_exit(status), simulation->request.system_name, &error);
     fputs(text, stdout);
@@ -250,9 +252,14 @@ static int print_latex(const run_simulation *simulation)
 int check_system(check_settings *settings)
 {
     check c = {.simulation = &settings->simulation, .preservers = -1};
-    if (settings->latex && (settings->json || settings->details))
-        return cli_fail(CLI_USAGE, "check: --latex excludes --json and --details");
-    if (settings->latex) return print_latex(c.simulation);
+    const bool is_typeset = settings->latex || settings->mathml;
+    if (is_typeset && (settings->json || settings->details))
+        return cli_fail(CLI_USAGE, "check: --%s excludes --json and --details",
+                        settings->latex ? "latex" : "mathml");
+    if (settings->latex && settings->mathml)
+        return cli_fail(CLI_USAGE, "check: --latex excludes --mathml");
+    if (is_typeset)
+        return print_equations(c.simulation, settings->latex ? dal_model_latex : dal_model_mathml);
     int status = prepare_check(&c);
     if (status == CLI_DONE) {
         examine(&c);

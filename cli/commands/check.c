@@ -7,11 +7,12 @@
 
 #include <string.h>
 
-static const cli_option options[] = {SCREEN_DETAILS_OPTION(check_settings),
-                                     {"latex", NULL, NULL,
-                                      "prints L, Q, D, F and H of the lift as LaTeX instead",
-                                      CLI_FLAG(check_settings, latex)},
-                                     JSON_OPTION(check_settings)};
+static const cli_option options[] = {
+    SCREEN_DETAILS_OPTION(check_settings),
+    {"latex", NULL, NULL, "prints L, Q, D, F and H of the lift as LaTeX instead",
+     CLI_FLAG(check_settings, latex)},
+    {"mathml", NULL, NULL, "prints them as MathML instead", CLI_FLAG(check_settings, mathml)},
+    JSON_OPTION(check_settings)};
 
 static int check_command(int argc, char **argv)
 {
@@ -42,6 +43,6 @@ const cli_command command_check = {
         "\n"
         "--latex prints an align* of amsmath: the equations as the file has them, and the "
         "accelerations derived from them.  Long terms that occur several times are named s_1, "
-        "s_2, ...\n",
+        "s_2, ...  --mathml prints the same as an element of a web page.\n",
     .run = check_command,
 };

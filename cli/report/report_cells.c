@@ -1,8 +1,10 @@
 /* report_cells.c - the cells of a study, and the quantities that its tables and figures show. */
 #include "report_cells.h"
-#include "ui/message.h"
-
+#include "io/file.h"
 #include "io/text.h"
+#include "run/system.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -89,4 +91,21 @@ int check_cell_names(const study_page *s, const char *path, int row)
     if (!run[0] || (is_run && text_is_file_name(run + sizeof runs - 1))) return CLI_DONE;
     return cli_fail(CLI_USAGE, "%s:%d: the run '%s' is no directory of the study", path, row + 1,
                     run);
+}
+
+int read_label_model(const study_page *s, const char *label, dal_model **model)
+{
+    int row = 1;
+    *model = NULL;
+    while (!is_cell(s, row, "label", label)) row++;
+    const char *system = get_cell(s, row, "system");
+    for (int i = 1; i < s->cells.rows; i++) {
+        if (!is_cell(s, i, "system", system)) continue;
+        char *copy = cli_format("%s/systems/%s.yaml", s->r->directory, get_cell(s, i, "label"));
+        const bool is_found = file_exists(copy);
+        const int status = is_found ? cli_read(copy, model) : CLI_DONE;
+        free(copy);
+        if (is_found) return status;
+    }
+    return dal_builtin_text(system) ? cli_read(system, model) : CLI_DONE;
 }

@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_REPORT_CELLS_H
 #define DAL_CLI_REPORT_CELLS_H
 
+#include "dalembert_model.h"
 #include "report_csv.h"
 #include "report_page.h"
 
@@ -27,6 +28,10 @@ const char *get_cell(const study_page *s, int row, const char *head);
 bool is_cell(const study_page *s, int row, const char *head, const char *text);
 /* The label of a row names files of the study, and its run a directory of it: an exit status. */
 int check_cell_names(const study_page *s, const char *path, int row);
+
+/* The system of a label: the copy of its file, which is under the first label that has it, or a
+ * built-in one; *model is NULL where there is neither. */
+int read_label_model(const study_page *s, const char *label, dal_model **model);
 
 /* What tables and figures are about: its column in series/LABEL.csv, those in cells.csv, of which
  * the first is empty where a system lacks it; the texts of its figures; and the title of its table,

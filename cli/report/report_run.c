@@ -71,7 +71,7 @@ typedef struct run_column {
 typedef struct run_page {
     report *r;
     const run_request *request;
-    const dal_model *model;
+    dal_model *model;
     trajectory_reader reader;
     report_csv summary;       /* no rows unless the run is over */
     const dal_system *system; /* where the run has not all columns; otherwise NULL */

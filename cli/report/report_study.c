@@ -458,34 +458,24 @@ static int begin_study(study_page *s)
     return status;
 }
 
-/* The system of a label: the copy of its file, which is under the first label that has it, or a
- * built-in one; *model is NULL where there is neither. */
-static int read_model(const study_page *s, const char *label, dal_model **model)
-{
-    int row = 1;
-    *model = NULL;
-    while (!is_cell(s, row, "label", label)) row++;
-    const char *system = get_cell(s, row, "system");
-    for (int i = 1; i < s->cells.rows; i++) {
-        if (!is_cell(s, i, "system", system)) continue;
-        char *copy = cli_format("%s/systems/%s.yaml", s->r->directory, get_cell(s, i, "label"));
-        const bool is_found = file_exists(copy);
-        const int status = is_found ? cli_read(copy, model) : CLI_DONE;
-        free(copy);
-        if (is_found) return status;
-    }
-    return dal_builtin_text(system) ? cli_read(system, model) : CLI_DONE;
-}
-
 static int read_titles(study_page *s)
 {
     int status = CLI_DONE;
     for (int i = 0; i < s->labels.count && status == CLI_DONE; i++) {
         dal_model *model;
-        status = read_model(s, s->labels.word[i], &model);
+        status = read_label_model(s, s->labels.word[i], &model);
         s->title[i] = cli_strdup(report_model_title(model, s->labels.word[i]));
         dal_model_free(model);
     }
+    return status;
+}
+
+static int write_equations(const study_page *s, const char *label)
+{
+    dal_model *model;
+    const int status = read_label_model(s, label, &model);
+    if (model) report_folded_equations(s->r->page, model);
+    dal_model_free(model);
     return status;
 }
 
@@ -542,8 +532,9 @@ static int write_study(study_page *s)
         fprintf(r->page, "<h2 id=\"s%d\">", i + 1);
         write_name(s, i);
         fputs("</h2>\n", r->page);
+        const int typeset = write_equations(s, s->labels.word[i]);
         const int drawn = report_label(s, i);
-        if (status == CLI_DONE) status = drawn;
+        if (status == CLI_DONE) status = typeset == CLI_DONE ? drawn : typeset;
     }
     fputs("<h2>How to make it again</h2>\n"
           "<pre>dalembert study study.yaml --output DIR\ndalembert report DIR</pre>\n",

@@ -1,8 +1,10 @@
 /* report_system.c - what moves, and how, as a list on a page. */
 #include "report_system.h"
+#include "dalembert_codegen.h"
 #include "dalembert_program.h"
 #include "report_page.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- the system ---------------------------------------------------------------------------- */
@@ -19,6 +21,22 @@ void report_fact(FILE *page, const char *name, const char *text)
     report_element(page, "dt", name);
     report_element(page, "dd", text);
     fputc('\n', page);
+}
+
+bool report_equations(FILE *page, dal_model *model)
+{
+    char *equations;
+    if (dal_model_mathml(model, &equations, NULL) != DAL_STATUS_OK) return false;
+    fprintf(page, "<div class=\"equations\" tabindex=\"0\">%s</div>\n", equations);
+    free(equations);
+    return true;
+}
+
+void report_folded_equations(FILE *page, dal_model *model)
+{
+    fputs("<details><summary>Equations</summary>\n", page);
+    if (!report_equations(page, model)) report_element(page, "p", "They cannot be typeset.");
+    fputs("</details>\n", page);
 }
 
 /* The formulas of a section, each with what comes before its name and after its text. */
@@ -82,26 +100,29 @@ static void write_settings(FILE *page, const dal_model *model, dal_section secti
     if (count > 0) fputs("</dd>\n", page);
 }
 
-void report_system(FILE *page, const dal_model *model, const run_request *request)
+/* L, Q, D and F typeset, or as the file has them where that fails. */
+static void write_equations(FILE *page, dal_model *model)
 {
-    static const struct {
-        dal_section section;
-        const char *heading, *prefix, *suffix;
-    } formulas[] = {
-        {DAL_SECTION_LAGRANGIAN, "Lagrangian", "L", ""},
-        {DAL_SECTION_ACCELERATIONS, "accelerations", "", ""},
-        {DAL_SECTION_CONSTRAINTS, "constraints", "", " = 0"},
-        {DAL_SECTION_FORCES, "forces", "Q_", ""},
-        {DAL_SECTION_REACTIONS, "reactions", "B", ""},
-        {DAL_SECTION_LET, "where", "", ""},
-        {DAL_SECTION_FUNCTIONS, "functions", "", ""},
-        {DAL_SECTION_MECHANICS, "mechanics", "", ""},
-        {DAL_SECTION_GAUGE, "gauge", "", ""},
-    };
+    report_element(page, "dt", "equations");
+    fputs("<dd>", page);
+    const bool are_typeset = report_equations(page, model);
+    fputs("</dd>\n", page);
+    if (are_typeset) return;
+    write_formulas(page, model, DAL_SECTION_LAGRANGIAN, "Lagrangian", "L", "");
+    write_formulas(page, model, DAL_SECTION_ACCELERATIONS, "accelerations", "", "");
+    write_formulas(page, model, DAL_SECTION_CONSTRAINTS, "constraints", "", " = 0");
+    write_formulas(page, model, DAL_SECTION_FORCES, "forces", "Q_", "");
+}
+
+void report_system(FILE *page, dal_model *model, const run_request *request)
+{
     const char *reference = dal_model_text(model, DAL_SECTION_REFERENCE, 0, NULL, NULL, NULL);
-    for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++)
-        write_formulas(page, model, formulas[i].section, formulas[i].heading, formulas[i].prefix,
-                       formulas[i].suffix);
+    write_equations(page, model);
+    write_formulas(page, model, DAL_SECTION_REACTIONS, "reactions", "B", "");
+    write_formulas(page, model, DAL_SECTION_LET, "where", "", "");
+    write_formulas(page, model, DAL_SECTION_FUNCTIONS, "functions", "", "");
+    write_formulas(page, model, DAL_SECTION_MECHANICS, "mechanics", "", "");
+    write_formulas(page, model, DAL_SECTION_GAUGE, "gauge", "", "");
     write_settings(page, model, DAL_SECTION_PARAMETERS, "parameters", &request->set);
     write_settings(page, model, DAL_SECTION_START, "start", &request->start);
     if (reference) report_fact(page, "source", reference);

@@ -9,11 +9,15 @@
 
 /* The title of a model, or another text where it has none. */
 const char *report_model_title(const dal_model *model, const char *otherwise);
-/* A list between REPORT_FACTS and REPORT_FACTS_END: the formulas of a model as they were given,
- * parameters and start as a request changes them, its method and its options. */
+/* The equations of a model as MathML; false: they cannot be typeset, and nothing is written. */
+bool report_equations(FILE *page, dal_model *model);
+/* The same below a summary that shows them. */
+void report_folded_equations(FILE *page, dal_model *model);
+/* A list between REPORT_FACTS and REPORT_FACTS_END: the equations of a model, other formulas as
+ * they were given, parameters and start as a request changes them, its method and its options. */
 #define REPORT_FACTS     "<dl class=\"facts\">\n"
 #define REPORT_FACTS_END "</dl>\n"
-void report_system(FILE *page, const dal_model *model, const run_request *request);
+void report_system(FILE *page, dal_model *model, const run_request *request);
 void report_method(FILE *page, const run_request *request);
 /* One more item. */
 void report_fact(FILE *page, const char *name, const char *text);

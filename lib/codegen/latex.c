@@ -117,7 +117,7 @@ static void put_shared(dal__buffer *text, const dal__typesetter *t)
 /* L, Q and D = 0 as they are given, with what they name. */
 static void put_given(dal__buffer *text, const dal__equations *e, const dal__typesetter *t)
 {
-    if (e->lagrangian) {
+    if (e->lagrangian && !(e->accelerations && dal__is_number(e->graph, e->lagrangian, 0.0))) {
         begin_row(text);
         put_letter(text, e, "L");
         put_row(text, t, e->lagrangian, "");

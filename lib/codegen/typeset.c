@@ -128,16 +128,23 @@ void dal__typeset_number(double x, dal__buffer *text)
     if (!is_plain) dal__buffer_print(text, " \\cdot 10^{%d}", exponent - 1);
 }
 
-static bool is_greek(const char *name, size_t length)
+int dal__greek_letter(const char *name, size_t length)
 {
-    static const char *const letters[] = {
-        "alpha", "beta",    "gamma",  "delta", "epsilon", "zeta",  "eta",   "theta",
-        "iota",  "kappa",   "lambda", "mu",    "nu",      "xi",    "rho",   "sigma",
-        "tau",   "upsilon", "phi",    "chi",   "psi",     "omega", "Gamma", "Delta",
-        "Theta", "Lambda",  "Xi",     "Sigma", "Phi",     "Psi",   "Omega", "pi"};
+    static const struct {
+        const char *name;
+        int code;
+    } letters[] = {{"alpha", 0x3B1},   {"beta", 0x3B2},  {"gamma", 0x3B3},   {"delta", 0x3B4},
+                   {"epsilon", 0x3B5}, {"zeta", 0x3B6},  {"eta", 0x3B7},     {"theta", 0x3B8},
+                   {"iota", 0x3B9},    {"kappa", 0x3BA}, {"lambda", 0x3BB},  {"mu", 0x3BC},
+                   {"nu", 0x3BD},      {"xi", 0x3BE},    {"pi", 0x3C0},      {"rho", 0x3C1},
+                   {"sigma", 0x3C3},   {"tau", 0x3C4},   {"upsilon", 0x3C5}, {"phi", 0x3C6},
+                   {"chi", 0x3C7},     {"psi", 0x3C8},   {"omega", 0x3C9},   {"Gamma", 0x393},
+                   {"Delta", 0x394},   {"Theta", 0x398}, {"Lambda", 0x39B},  {"Xi", 0x39E},
+                   {"Sigma", 0x3A3},   {"Phi", 0x3A6},   {"Psi", 0x3A8},     {"Omega", 0x3A9}};
     for (size_t i = 0; i < sizeof letters / sizeof *letters; i++)
-        if (strlen(letters[i]) == length && memcmp(letters[i], name, length) == 0) return true;
-    return false;
+        if (strlen(letters[i].name) == length && memcmp(letters[i].name, name, length) == 0)
+            return letters[i].code;
+    return 0;
 }
 
 void dal__typeset_name(const char *name, const char *accent, dal__buffer *text)
@@ -145,7 +152,7 @@ void dal__typeset_name(const char *name, const char *accent, dal__buffer *text)
     const size_t length = strcspn(name, "_0123456789");
     const char *subscript = name + length + (name[length] == '_' && name[length + 1]);
     if (accent) dal__buffer_print(text, "%s{", accent);
-    if (is_greek(name, length)) {
+    if (dal__greek_letter(name, length)) {
         const bool is_phi = length == 3 && memcmp(name, "phi", 3) == 0;
         dal__buffer_print(text, "\\%s%.*s", is_phi ? "var" : "", (int)length, name);
     } else {
@@ -154,7 +161,7 @@ void dal__typeset_name(const char *name, const char *accent, dal__buffer *text)
     if (accent) dal__buffer_append(text, "}");
     if (!*subscript) return;
     dal__buffer_append(text, "_{");
-    if (is_greek(subscript, strlen(subscript))) {
+    if (dal__greek_letter(subscript, strlen(subscript))) {
         dal__typeset_name(subscript, NULL, text);
     } else {
         const bool is_word = strspn(subscript, "0123456789") < strlen(subscript) && subscript[1];
@@ -282,7 +289,7 @@ static void put_power(const dal__typesetter *t, dal__node base, int power, level
     }
 }
 
-/* A product, numbers first. */
+/* A product, numbers first, then what begins with a minus. */
 static void put_product(const dal__typesetter *t, dal__node node, formula *f, dal__buffer *text)
 {
     factors all = {.count = 0};
@@ -292,11 +299,11 @@ static void put_product(const dal__typesetter *t, dal__node node, formula *f, da
     }
     f->level = all.count == 1 ? LEVEL_FACTOR : LEVEL_PRODUCT;
     int written = 0;
-    for (int pass = 0; pass < 2; pass++)
+    for (int pass = 0; pass < 3; pass++)
         for (int k = 0; k < all.count; k++) {
             const formula *factor = &t->formula[all.base[k]];
             const bool is_number = dal__inspect(t->graph, all.base[k]).op == DAL__NUMBER;
-            if (is_number != (pass == 0)) continue;
+            if (pass != (is_number ? 0 : factor->level == LEVEL_NEGATIVE ? 1 : 2)) continue;
             const bool has_digit =
                 factor->level >= LEVEL_PRODUCT && factor->text[0] >= '0' && factor->text[0] <= '9';
             if (written > 0) dal__buffer_append(text, has_digit ? " \\cdot " : "\\,");

@@ -39,4 +39,7 @@ void dal__typeset_number(double x, dal__buffer *text);
  * put on the letters; NULL: none. */
 void dal__typeset_name(const char *name, const char *accent, dal__buffer *text);
 
+/* The code point of a Greek letter that is named in full; 0: it is none. */
+int dal__greek_letter(const char *name, size_t length);
+
 #endif

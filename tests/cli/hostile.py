@@ -101,7 +101,8 @@ def check_page(directory, script, about):
 
 
 TAGS = ('html head meta style title body h1 h2 h3 p dl dt dd ol ul li a table thead tbody tr th td div figure img '
-        'figcaption details summary pre small strong code br script span').split()
+        'figcaption details summary pre small strong code br script span math mtable mtr mtd mrow mi mn mo mtext '
+        'mspace mfrac msqrt msub msup msubsup mover').split()
 
 
 def check_figures(directory, about):

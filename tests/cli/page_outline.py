@@ -19,6 +19,7 @@ SVG = set(
     "svg g path line polyline polygon rect circle ellipse text tspan title desc defs clippath use "
     "marker lineargradient stop".split()
 )
+MATH = set("math mtable mtr mtd mrow mi mn mo mtext mspace mfrac msqrt msub msup msubsup mover".split())
 OWN = {
     "a": {"href", "download"},
     "img": {"src", "alt", "loading", "width", "height", "decoding"},
@@ -51,10 +52,11 @@ class Outline(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         in_svg = "svg" in self.open or tag == "svg"
-        if tag not in (SVG if in_svg else HTML):
+        in_math = "math" in self.open or tag == "math"
+        if tag not in (SVG if in_svg else MATH if in_math else HTML):
             self.fault(f"<{tag}>")
         for name, _ in attrs:
-            known = in_svg or name in GLOBAL | OWN.get(tag, set())
+            known = in_svg or in_math or name in GLOBAL | OWN.get(tag, set())
             if not known and not name.startswith(("data-", "aria-")):
                 self.fault(f"<{tag} {name}=>")
         if tag not in VOID:

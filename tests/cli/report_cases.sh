@@ -180,8 +180,8 @@ END_OF_SYSTEM
         --output pulled
     try 0 report pulled
     for fact in "<h1>A &lt;weight&gt; on a spring &amp; a turn</h1>" \
-        "<code>L = m/2\*(x'^2 + s'^2) + phi'^2/2 - k\*x^2/2</code>" \
-        "<code>s' - sin(phi)\*x' = 0</code>" "<code>Q_x = -pull\*x'</code>" \
+        "<mi>L</mi></mtd><mtd[^>]*><mo>=</mo><mfrac" "<msub><mi>D</mi><mn>1</mn></msub></mtd>" \
+        "<msub><mi>Q</mi><mi>x</mi></msub></mtd><mtd[^>]*><mo>=</mo><mo>&#x2212;</mo><mi>k</mi>" \
         "<code>pull = k\*cos(phi)</code>" "<code>k = 0.5</code> instead of <code>1</code>" \
         "<code>m = 2</code>" "<code>x = k</code>, <code>phi' = 3</code>" \
         "<dd>rk4+project, order 4: classical Runge-Kutta; after each step" "<dt>step h</dt><dd>0.1</dd>" \
@@ -327,7 +327,7 @@ END_OF_STUDY
     mv moved.yaml moved-back.yaml
     rm -r found/report
     try 0 report found
-    for fact in "<h1>friction on a line: order, work and precision</h1>" "<code>Q_x = -k\*x'</code>" \
+    for fact in "<h1>friction on a line: order, work and precision</h1>" "<msub><mi>Q</mi><mi>x</mi></msub></mtd>" \
         "<code>k = 0.5</code> instead of <code>1</code>" "<code>x' = 3</code> instead of" \
         "<dt>time T</dt><dd>2</dd>" "<dt>space</dt><dd>lifted</dd>" \
         "at t = 2 from gauss12 with h = 0.025, itself within [0-9]e-1[0-9]</dd>"; do
@@ -403,7 +403,7 @@ if needs 35 "no python3 or no gnuplot" drawn_and_read; then
     try 0 study outline.yaml --output outline-study
     try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6 --samples 40 --output outline-run
     outline outline-run \
-        'dt system|dt Lagrangian|dt constraints|dt parameters|dt start|dt source|dt method|dt step h|dt time T|dt samples' \
+        'dt system|dt equations|dt parameters|dt start|dt source|dt method|dt step h|dt time T|dt samples' \
         'h2 Size and trend|th size, trend|th confidence|th first|th final|th max |x||th max |x − first|' \
         'th rate|th rate, from|th to (95 %)|th exponent|th D1|th E|th H' \
         'h2 Figures|h2 How to make it again|summary what it was made with: manifest.json'
