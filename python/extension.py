@@ -25,7 +25,8 @@ STATIC = 'libdalembert.a'
 # Where the sources of the library are, and which of them make it.
 SOURCES = next((directory for directory in (os.path.join(HERE, 'library'), os.path.dirname(HERE))
                 if os.path.exists(os.path.join(directory, 'include', HEADERS[0]))), None)
-MAKING = ('Makefile', 'LICENSE', 'bench/bench.mk', 'include', 'integrators', 'lib', 'systems', 'tools')
+MAKING = ('Makefile', 'LICENSE', 'bench/bench.mk', 'include', 'integrators', 'lib', 'systems', 'tools',
+          'cli/report/report_body.c', 'cli/report/report_body.h')
 
 # What observers.c adds, and free for texts that the library allocates.
 ADDED = '''
@@ -34,11 +35,28 @@ extern "Python" dal_status python_event(void *user, dal_run *run, const dal_occu
 extern "Python" dal_status python_cross(void *user, dal_run *run, const dal_crossing *crossing);
 extern "Python" dal_status python_progress(void *user, double done);
 extern "Python" bool python_stop(void *user);
-dal_status python_rows(dal_run *run, long long count, const double *times, double *rows,
-                       long long *made, dal_error *error);
-dal_status python_events(dal_run *run, double T, void *user, dal_error *error);
-dal_status python_follow(dal_run *run, double T, long long every, dal_statistics *statistics,
-                         dal_error *error);
+typedef struct python_request {
+    void *user;
+    const double *times;
+    double *rows;
+    dal_statistics *statistics;
+    long long every;
+    long long made;
+} python_request;
+dal_status python_sample(dal_run *run, double T, long long count, python_request *request, dal_error *error);
+void python_evaluate(dal_evaluator *evaluator, dal_callback *callback, long long count, const double *t,
+                     const double *q, const double *v, int width, int size, double *out);
+typedef struct body_part {
+    double pivot[2], turn;
+    bool is_narrowed;
+    double radius;
+    int count;
+    double at[6][2];
+    ...;
+} body_part;
+dal_callback *python_picture(const dal_system *system);
+const body_part *python_part(const dal_system *system, const body_part *part);
+#define DAL_PICTURE_COUNT ...
 void free(void *text);
 #define DAL_VERSION_MAJOR ...
 #define DAL_VERSION_MINOR ...
@@ -81,7 +99,7 @@ def in_tree(build=None):
     """How to compile and link with a build of the source tree, or with one that is still to be made."""
     if build and not os.path.exists(os.path.join(build, STATIC)):
         fail(f'no {STATIC} in {build}')
-    return {'include_dirs': [os.path.join(SOURCES, 'include')],
+    return {'include_dirs': [os.path.join(SOURCES, 'include'), SOURCES],
             'extra_objects': [os.path.join(build, STATIC)] if build else [],
             'libraries': ['yaml', 'm'], 'extra_link_args': ['-pthread', '-Wl,--exclude-libs,ALL']}
 
@@ -98,16 +116,16 @@ def installed(prefix):
                               for name in ('includedir', 'libdir'))
     except (OSError, subprocess.CalledProcessError):
         fail(f'pkg-config does not find the library below {prefix}')
-    return {'include_dirs': [include], 'extra_link_args': flags,
+    return {'include_dirs': [include, os.path.join(SOURCES, 'include'), SOURCES], 'extra_link_args': flags,
             'runtime_library_dirs': [libraries]}
 
 
 def find_library():
     build, prefix = os.environ.get('DALEMBERT_BUILD'), os.environ.get('DALEMBERT_PREFIX')
-    if prefix and not build:
-        return installed(prefix)
     if not SOURCES:
         fail('no sources of the library')
+    if prefix and not build:
+        return installed(prefix)
     beside = os.path.join(SOURCES, 'build')
     return in_tree(build or (beside if os.path.exists(os.path.join(beside, STATIC)) else None))
 

@@ -55,8 +55,8 @@ done
 # A source distribution, made where no library is, and a wheel from it: one that has the library, here with
 # the fewest variants, and moves with the same bits.
 tree="$root/a tree"
-mkdir -p "$tree/bench" && cp -R Makefile LICENSE include integrators lib python systems tools "$tree" &&
-    cp bench/bench.mk "$tree/bench" || fail "no copy of the sources"
+mkdir -p "$tree/bench" "$tree/cli/report" && cp -R Makefile LICENSE include integrators lib python systems tools "$tree" &&
+    cp bench/bench.mk "$tree/bench" && cp cli/report/report_body.[ch] "$tree/cli/report" || fail "no copy of the sources"
 (cd "$tree/python" && logged env PYTHONPATH=. "$root/V/bin/python" -c \
     'import sys, backend; backend.build_sdist(sys.argv[1])' "$root/made") || exit 1
 rm -rf "$tree"

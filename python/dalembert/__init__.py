@@ -1,14 +1,13 @@
 """dalembert - geometric integrators for nonholonomic mechanics.
 
 >>> import dalembert
->>> run = dalembert.Run('chaplygin-sleigh', 'gauss4+project', step=0.01)
->>> run.advance(1000)
->>> run.time
-10.0
+>>> run = dalembert.simulate('chaplygin-sleigh', 'gauss4+project', 10, step=0.01)
+>>> float(run['t'][-1]), run.trends['D1'].size
+(10.0, 'rounding')
 
-Systems come from YAML text (`System`), files and the library; a `Run` steps one motion, a `Batch`
-many, `ensemble` many with drawn starts; `trend`, `order`, `lyapunov`, `section` and `explain` measure
-them; `generate` writes C.
+Systems come from YAML text (`System`), files and the library; `simulate` runs one to a time, a `Run`
+steps one motion, a `Batch` many, `ensemble` many with drawn starts; `trend`, `order`, `lyapunov`,
+`section` and `explain` measure them; `generate` writes C.
 """
 from ._library import lib
 from .analysis import (Average, Lyapunov, Order, Section, Shares, Trend, explain, generate, lyapunov,
@@ -16,12 +15,13 @@ from .analysis import (Average, Lyapunov, Order, Section, Shares, Trend, explain
 from .errors import Error, InputError, StepError
 from .members import Ensemble, ensemble
 from .run import Batch, Event, Run
+from .simulate import Trajectory, simulate
 from .spec import integrators, modifiers
 from .system import System, builtin_systems
 
 __version__ = f'{lib.DAL_VERSION_MAJOR}.{lib.DAL_VERSION_MINOR}.{lib.DAL_VERSION_PATCH}'
 
 __all__ = ['Average', 'Batch', 'Ensemble', 'Error', 'Event', 'InputError', 'Lyapunov', 'Order', 'Run',
-           'Section', 'Shares', 'StepError', 'System', 'Trend', 'builtin_systems', 'ensemble', 'explain',
-           'generate', 'integrators', 'lyapunov', 'modifiers', 'order', 'section',
-           'trend']
+           'Section', 'Shares', 'StepError', 'System', 'Trajectory', 'Trend', 'builtin_systems',
+           'ensemble', 'explain', 'generate', 'integrators', 'lyapunov', 'modifiers', 'order', 'section',
+           'simulate', 'trend']

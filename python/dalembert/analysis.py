@@ -85,6 +85,13 @@ def make_trend(t: Any) -> Trend:
     return Trend(**{**values, **{name: text_of(word(values[name])) for name, word in WORDS.items()}})
 
 
+def classify(run: Any, names: tuple[str, ...], statistics: Any, has_ended: bool) -> dict[str, Trend]:
+    """The trends of the observables of a run by their statistics."""
+    trends = ffi.new('dal_trend[]', len(names))
+    lib.dal_run_classify(run, statistics, not has_ended, trends)
+    return {name: make_trend(trends[i]) for i, name in enumerate(names)}
+
+
 @takes_run_options
 def trend(system: SystemLike, integrator: str | None = None, time: float | None = None, *, every: int = 1,
           **settings: Any) -> dict[str, Trend]:
@@ -113,12 +120,12 @@ def trend(system: SystemLike, integrator: str | None = None, time: float | None 
     spec = Spec(system, integrator, **settings)
     run, _, names = spec.create_run()
     every = whole('every', every, 1)
-    statistics, trends = ffi.new('dal_statistics[]', len(names)), ffi.new('dal_trend[]', len(names))
+    statistics = ffi.new('dal_statistics[]', len(names))
     record = ffi.new('dal_error *')
-    status = lib.python_follow(run, spec.time(time), every, statistics, record)
+    status = lib.python_sample(run, spec.time(time), 1,
+                               ffi.new('python_request *', {'statistics': statistics, 'every': every}), record)
     has_ended = status in (lib.DAL_STATUS_OK, lib.DAL_STATUS_STOPPED)
-    lib.dal_run_classify(run, statistics, not has_ended, trends)
-    found = {name: make_trend(trends[i]) for i, name in enumerate(names)}
+    found = classify(run, names, statistics, has_ended)
     try:
         check(lib.DAL_STATUS_OK if has_ended else status, record, stepping=True)
     except Error as error:
@@ -322,7 +329,8 @@ def section(system: SystemLike, on: str, integrator: str | None = None, time: fl
     handle = ffi.new_handle((rows, len(names)))
     surface = ffi.new('dal_poincare *', {
         'callback': changed._system.invariant_values, 'count': count, 'index': count - 1,
-        'direction': whole('direction', direction, -1, 1), 'user': handle, 'cross': lib.python_cross, 'poll': lib.python_poll})
+        'direction': whole('direction', direction, -1, 1), 'user': handle, 'cross': lib.python_cross,
+        'poll': lib.python_poll})
     found = ffi.new('dal_crossings *')
     call_steps(lib.dal_run_crossings, run, spec.time(time), surface, found)
     columns = [('crossing', 'i8'), ('t', 'f8'), ('direction', 'i8'), *((name, 'f8') for name in names)]
@@ -397,8 +405,8 @@ def explain(system: SystemLike, integrator: str | None = None, time: float | Non
     spec = Spec(system, integrator, **settings)
     made = ffi.new('dal_error_budget **')
     observer = ffi.new('dal_error_budget_observer *', {'step': lib.python_progress})
-    call_steps(lib.dal_error_budget_create, made, spec.c, spec.steps(spec.time(time)), whole('quad_steps', quad_steps, 0),
-               observer)
+    call_steps(lib.dal_error_budget_create, made, spec.c, spec.steps(spec.time(time)),
+               whole('quad_steps', quad_steps, 0), observer)
     budget = ffi.gc(made[0], lib.dal_error_budget_free)
     sources = {i: text_of(lib.dal_error_source_name(i)) for i in range(lib.DAL_ERROR_SOURCES)}
     found = {}

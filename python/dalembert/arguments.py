@@ -5,12 +5,15 @@ import difflib
 import functools
 import inspect
 import operator
-from typing import Any, Callable, TypeVar, get_type_hints
+from typing import Any, Callable, Mapping, TypeVar, get_type_hints
 
 import numpy as np
 import numpy.typing as npt
 
-from .errors import InputError
+from ._library import ffi
+from .errors import InputError, encode
+
+Settings = Mapping[str, float]
 
 Function = TypeVar('Function', bound=Callable[..., Any])
 
@@ -53,6 +56,18 @@ def array(name: str, values: Any) -> npt.NDArray[np.float64]:
         return np.ascontiguousarray(values, dtype=np.float64)
     except (TypeError, ValueError):
         raise refuse(name, f'{values!r:.60} is not an array of numbers') from None
+
+
+def make_settings(what: str, values: Settings | None) -> tuple[Any, int, list[Any]]:
+    """An array of dal_setting, its length, and the texts that must live as long."""
+    if values is not None and not isinstance(values, Mapping):
+        raise refuse(what, f'{values!r} is not a mapping of names to numbers')
+    items = list((values or {}).items())
+    array = ffi.new('dal_setting[]', max(1, len(items)))
+    texts = [ffi.new('char[]', encode(text(what, name))) for name, _ in items]
+    for i, (name, value) in enumerate(items):
+        array[i].name, array[i].value = texts[i], number(f'{what}[{name!r}]', value)
+    return array, len(items), texts
 
 
 def keywords(options: type, default: Callable[[str, Any], Any]) -> Callable[[Function], Function]:

@@ -109,7 +109,9 @@ def python_poll(user: Any, run: Any) -> int:
 
 @ffi.def_extern(error=lib.DAL_STATUS_INTERRUPTED, onerror=keep_exception)
 def python_progress(user: Any, done: float) -> int:
-    """The same for a budget of errors."""
+    """The same, and shows how far it is."""
+    if user != ffi.NULL:
+        ffi.from_handle(user).show(done)
     return lib.DAL_STATUS_OK
 
 

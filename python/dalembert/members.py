@@ -8,10 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib
-from .arguments import array, refuse, text, whole
+from .arguments import Settings, array, refuse, text, whole
 from .errors import call, encode, make_error
 from .run import CHUNK, Array, doubles, native_options
-from .spec import Settings, Spec, SystemLike, chunks, takes_options
+from .spec import Spec, SystemLike, chunks, takes_options
 
 # Members that are stepped together.
 LANES = 256

@@ -9,10 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib
-from .arguments import array, number, refuse, text, whole
+from .arguments import Settings, array, make_settings, number, refuse, text, whole
 from .errors import Error, InputError, call, call_steps, check, encode, keep_exception, make_error, refuse_nul
 from .fixed import Fixed, owned
-from .spec import Settings, Spec, SystemLike, chunks, make_settings, takes_options, takes_run_options
+from .progress import Progress
+from .spec import Spec, SystemLike, chunks, takes_options, takes_run_options
 from .system import System, text_of
 
 Array = npt.NDArray[np.float64]
@@ -74,13 +75,41 @@ def state_at(numbers: Any, dimension: int) -> Array:
     return np.frombuffer(ffi.buffer(numbers, 8 * dimension), dtype=np.float64).copy()
 
 
+class Watch:
+    """What keeps the events of a run, and a bar that follows its time."""
+
+    def __init__(self, names: tuple[str, ...], dimension: int, bar: Progress | None = None):
+        self.events: list[Event] = []
+        self.show = bar.show if bar else lambda time: None
+        self._names, self._dimension = names, dimension
+
+    def add(self, run: Any, event: Any) -> None:
+        """Adds an event."""
+        self.events.append(Event(event.event, self._names[event.event], event.t, event.direction,
+                                 state_at(event.before, self._dimension),
+                                 state_at(lib.dal_run_state(run), self._dimension)))
+
+
 @ffi.def_extern(error=lib.DAL_STATUS_INTERRUPTED, onerror=keep_exception)
 def python_event(user: Any, run: Any, event: Any) -> int:
-    """Adds an event to the list that user is a handle of."""
-    found, names, dimension = ffi.from_handle(user)
-    found.append(Event(event.event, names[event.event], event.t, event.direction,
-                       state_at(event.before, dimension), state_at(lib.dal_run_state(run), dimension)))
+    """Adds an event to the watch that user is a handle of."""
+    ffi.from_handle(user).add(run, event)
     return lib.DAL_STATUS_OK
+
+
+class Table:
+    """Rows of t, state and observables that a run fills."""
+
+    def __init__(self, run: Run, rows: int):
+        self.names = ('t',) + run.names + run.observable_names
+        self.values = np.empty((rows, len(self.names)))
+
+    def rows(self, made: int) -> npt.NDArray[np.void]:
+        """The first rows, as a structured array with the columns of ``dalembert run``."""
+        kept = [i for i, name in enumerate(self.names) if not name.startswith('|')]
+        columns = np.dtype({'names': [self.names[i] for i in kept], 'formats': ['f8'] * len(kept),
+                            'offsets': [8 * i for i in kept], 'itemsize': 8 * len(self.names)})
+        return self.values.view(columns)[:made, 0]
 
 
 class Run(Fixed):
@@ -242,14 +271,15 @@ class Run(Fixed):
         StepError
             Its ``partial`` has the events before the failure, as of a ball that comes to rest.
         """
-        found: list[Event] = []
-        handle = ffi.new_handle((found, self.system.events, self.dimension))
+        watch = Watch(self.system.events, self.dimension)
+        handle = ffi.new_handle(watch)
         try:
-            self._call(lib.python_events, self._run, number('time', time), handle)
+            self._call(lib.python_sample, self._run, number('time', time), 1,
+                       ffi.new('python_request *', {'user': handle}))
         except Error as error:
-            error.partial = found
+            error.partial = watch.events
             raise
-        return found
+        return watch.events
 
     @property
     def event_counts(self) -> tuple[int, ...]:
@@ -295,19 +325,14 @@ class Run(Fixed):
             raise refuse('times', f'they must be {order} numbers, one at least')
         if not direction * (when[0] - self.time) >= -1e-9 * abs(self.step):
             raise refuse('times', f'{when[0]:g} lies before the present t = {self.time:g}')
-        names = ('t',) + self.names + self.observable_names
-        table = np.empty((len(when), len(names)))
-        made = ffi.new('long long *')
-        kept = [i for i, name in enumerate(names) if not name.startswith('|')]
-        columns = np.dtype({'names': [names[i] for i in kept], 'formats': ['f8'] * len(kept),
-                            'offsets': [8 * i for i in kept], 'itemsize': 8 * len(names)})
-        rows = table.view(columns)[:, 0]
+        table = Table(self, len(when))
+        request = ffi.new('python_request *', {'times': doubles(when), 'rows': doubles(table.values)})
         try:
-            self._call(lib.python_rows, self._run, len(when), doubles(when), doubles(table), made)
+            self._call(lib.python_sample, self._run, when[-1], len(when), request)
         except Error as error:
-            error.partial = rows[:made[0]]
+            error.partial = table.rows(request.made)
             raise
-        return rows[:made[0]]
+        return table.rows(request.made)
 
     def save(self) -> bytes:
         """All that passes from one step to the next."""

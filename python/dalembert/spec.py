@@ -4,13 +4,12 @@ from __future__ import annotations
 from typing import Any, Iterator, Literal, Mapping, Optional, TypedDict, Union, get_args
 
 from ._library import ffi, lib
-from .arguments import keywords, number, refuse, text
+from .arguments import Settings, keywords, make_settings, number, refuse, text
 from .errors import call, encode
 from .fixed import owned
 from .system import System, text_of
 
 SystemLike = Union[System, str]
-Settings = Mapping[str, float]
 
 
 class Options(TypedDict, total=False):
@@ -70,18 +69,6 @@ def modifiers() -> list[str]:
     return names_where(modifier=True)
 
 
-def make_settings(what: str, values: Settings | None) -> tuple[Any, int, list[Any]]:
-    """An array of dal_setting, its length, and the texts that must live as long."""
-    if values is not None and not isinstance(values, Mapping):
-        raise refuse(what, f'{values!r} is not a mapping of names to numbers')
-    items = list((values or {}).items())
-    array = ffi.new('dal_setting[]', max(1, len(items)))
-    texts = [ffi.new('char[]', encode(text(what, name))) for name, _ in items]
-    for i, (name, value) in enumerate(items):
-        array[i].name, array[i].value = texts[i], number(f'{what}[{name!r}]', value)
-    return array, len(items), texts
-
-
 def option_text(value: Any) -> str:
     if isinstance(value, bool):
         return 'on' if value else 'off'
@@ -91,6 +78,15 @@ def option_text(value: Any) -> str:
 def names_of(name_at: Any, run: Any, count: int) -> tuple[str, ...]:
     buffer = ffi.new('char[]', 256)
     return tuple(text_of(name_at(run, i, buffer, len(buffer))) for i in range(count))
+
+
+def time_or_default(system: System, time: float | None) -> float:
+    """A time, or the default one of the system."""
+    if time is None:
+        if 'time' not in system.defaults:
+            raise refuse('time', f'{system.name} has no default: give one')
+        time = float(system.defaults['time'])
+    return number('time', time)
 
 
 class Spec:
@@ -144,11 +140,7 @@ class Spec:
 
     def time(self, time: float | None) -> float:
         """A time, or the default one of the system."""
-        if time is None:
-            if 'time' not in self.system.defaults:
-                raise refuse('time', f'{self.system.name} has no default: give one')
-            time = float(self.system.defaults['time'])
-        return number('time', time)
+        return time_or_default(self.system, time)
 
     def steps(self, time: float) -> int:
         """The number of steps to a time, which it must be a whole number of."""

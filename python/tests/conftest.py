@@ -29,3 +29,15 @@ def program():
     if 'DALEMBERT_PROGRAM' not in os.environ:
         pytest.skip('DALEMBERT_PROGRAM names no program to compare with')
     return run
+
+
+@pytest.fixture
+def pyplot():
+    """matplotlib.pyplot, drawing into memory; where CI is true it must be there."""
+    if os.environ.get('CI') != 'true':
+        pytest.importorskip('matplotlib')
+    import matplotlib
+    matplotlib.use('Agg')
+    from matplotlib import pyplot as plotting
+    yield plotting
+    plotting.close('all')

@@ -70,7 +70,7 @@ def test_unknown_keywords():
 def test_options_are_explicit():
     """All of the library's, with its defaults, wherever a run is made."""
     library = {name for name, _ in ffi.typeof('dal_options').fields}
-    functions = [dalembert.Run, dalembert.Batch, dalembert.ensemble, dalembert.explain, dalembert.generate,
+    functions = [dalembert.Run, dalembert.Batch, dalembert.simulate, dalembert.ensemble, dalembert.explain, dalembert.generate,
                  dalembert.lyapunov, dalembert.order, dalembert.section, dalembert.trend]
     for function in functions:
         parameters = inspect.signature(function).parameters

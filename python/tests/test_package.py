@@ -59,4 +59,12 @@ def test_installed_metadata(declared):
     found = metadata.metadata('dalembert')
     assert found['Version'] == dalembert.__version__
     assert found['Requires-Python'] == declared['project']['requires-python']
-    assert names(metadata.requires('dalembert')) == names(declared['project']['dependencies'])
+    required = [name for name in metadata.requires('dalembert') if 'extra ==' not in name]
+    assert names(required) == names(declared['project']['dependencies'])
+
+
+def test_extras_are_what_functions_import(declared):
+    extras = names(sum(declared['project']['optional-dependencies'].values(), []))
+    text = ''.join(path.read_text(encoding='utf-8') for path in (HERE / 'dalembert').glob('*.py'))
+    found = {name.split('.')[0] for name in re.findall(r'^ +from ([a-z.]+) import', text, re.M)}
+    assert found == extras
