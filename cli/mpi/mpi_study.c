@@ -90,7 +90,7 @@ int mpi_study_begin(mpi_request *request, int argc, char **argv)
 /* On rank 0: reads what all have done, and makes the tables. */
 static int finish(study_plan *plan, const study_directory *dir)
 {
-    int status = study_directory_open_results(dir, plan, dir->text, dir->length, &plan->results);
+    int status = study_directory_open_results(dir, plan, &plan->results);
     for (int i = 0; i < plan->cell_count; i++) study_cell_free(&plan->cells[i]);
     if (status != CLI_DONE) return status;
     const int threads = pool_threads();

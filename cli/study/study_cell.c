@@ -148,16 +148,14 @@ static int give_number(run_request *request, int option, double x)
     return request_give(request, option, cli_strdup(json_format_number(text, x)));
 }
 
-static int make_request(cell_run *r)
+/* All but the displacement. */
+static int give_options(run_request *request, const study_cell *c)
 {
     char method[256];
 #define START_SPACE(code, word, space, about) space == DAL_LIFTED ? "lifted" : "physical",
     static const char *const space[] = {STUDY_START_LIST(START_SPACE)};
 #undef START_SPACE
-    const study_cell *c = r->cell;
     const study_case *e = c->of_case;
-    run_request *request = &r->simulation.request;
-    r->simulation.system = e->system;
     request->system_name = study_case_system(e);
     request->options = e->options;
     memcpy(request->text, e->option, sizeof request->text);
@@ -178,8 +176,31 @@ static int make_request(cell_run *r)
     if (status != CLI_DONE) return CLI_USAGE;
     add_settings(&request->set, &e->set, 1.0);
     add_settings(&request->start, &e->start, 1.0);
-    if (c->start == STUDY_DISPLACED) add_displacement(r);
     return CLI_DONE;
+}
+
+static int make_request(cell_run *r)
+{
+    r->simulation.system = r->cell->of_case->system;
+    const int status = give_options(&r->simulation.request, r->cell);
+    if (status == CLI_DONE && r->cell->start == STUDY_DISPLACED) add_displacement(r);
+    return status;
+}
+
+uint64_t study_cell_key(const study_cell *cell, uint64_t system)
+{
+    const study_case *e = cell->of_case;
+    run_request request = request_default();
+    if (give_options(&request, cell) == CLI_DONE && cell->start == STUDY_DISPLACED) {
+        request_add_setting(&request.start, "displacement", e->displacement);
+        add_settings(&request.start, &e->displace, 1.0);
+    }
+    char *input = manifest_input(&request);
+    uint64_t key = dal__hash(system, cell->name, strlen(cell->name) + 1);
+    key = dal__hash(key, input, strlen(input));
+    free(input);
+    request_free(&request);
+    return key;
 }
 
 static void set_failure(study_cell *c, study_state state, dal_status status)

@@ -7,6 +7,7 @@
 #include "io/json.h"
 #include "run/manifest.h"
 #include "run/system.h"
+#include "study_cell.h"
 #include "study_compare.h"
 #include "study_overview.h"
 #include "study_pool.h"
@@ -92,23 +93,28 @@ static int write_manifest(const study_directory *dir, const study_plan *plan, st
 
 /* ---- the results of cells without rows ---------------------------------------------------- */
 
-/* A hash of the study and of the systems in it. */
-static int hash_study(const study_plan *plan, const char *text, size_t length, uint64_t *hash)
+/* The keys of the cells, key[cell_count]. */
+static int find_keys(const study_plan *plan, uint64_t *key)
 {
+    uint64_t system = 0;
     int status = CLI_DONE;
-    *hash = dal__hash(DAL__HASH_START, text, length);
     for (int i = 0; i < plan->case_count && status == CLI_DONE; i++) {
         const study_case *e = &plan->cases[i];
-        if (e->is_first)
-            status = store_hash_system(hash, e->copy ? NULL : dal_builtin_text(e->name), e->copy);
+        if (e->rows != STUDY_ROWS_NONE) continue;
+        if (e->is_first) {
+            system = DAL__HASH_START;
+            status =
+                store_hash_system(&system, e->copy ? NULL : dal_builtin_text(e->name), e->copy);
+        }
+        for (int k = e->first_cell; k < e->first_cell + e->cells && status == CLI_DONE; k++)
+            key[k] = study_cell_key(&plan->cells[k], system);
     }
     return status;
 }
 
 int study_directory_open_results(const study_directory *dir, const study_plan *plan,
-                                 const char *text, size_t length, study_results **results)
+                                 study_results **results)
 {
-    uint64_t hash;
     bool has_any = false;
     for (int i = 0; i < plan->case_count; i++) has_any |= plan->cases[i].rows == STUDY_ROWS_NONE;
     study_results_free(*results);
@@ -118,8 +124,11 @@ int study_directory_open_results(const study_directory *dir, const study_plan *p
                        ? cli_format("%lld-of-%lld", dir->shard.number, dir->shard.count)
                    : dir->writer > 0 ? cli_format("writer-%d", dir->writer)
                                      : cli_strdup("all");
-    int status = hash_study(plan, text, length, &hash);
-    if (status == CLI_DONE) status = study_results_open(results, dir->results, writer, plan, hash);
+    uint64_t *key = cli_calloc((size_t)plan->cell_count + 1, sizeof *key);
+    int status = find_keys(plan, key);
+    if (status == CLI_DONE)
+        status = study_results_open(results, dir->results, writer, key, plan->cell_count);
+    free(key);
     free(writer);
     return status;
 }
@@ -213,13 +222,26 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
     if (status == CLI_DONE) status = copy_systems(dir, plan);
     if (status == CLI_DONE) status = write_manifest(dir, plan, STORE_RUNNING);
     if (status == CLI_DONE) status = file_replace(dir->study, text, length, 1);
-    if (status == CLI_DONE)
-        status = study_directory_open_results(dir, plan, text, length, &plan->results);
+    if (status == CLI_DONE) status = study_directory_open_results(dir, plan, &plan->results);
     close(descriptor);
     return status;
 }
 
 /* ---- reading and running ------------------------------------------------------------------- */
+
+int study_directory_find_cells(const study_directory *dir, int cells, bool *has)
+{
+    store_shard *shards = NULL;
+    int count = 0, status = CLI_DONE;
+    const bool is_whole = file_exists(dir->manifest);
+    if (!is_whole) status = store_find_shards(dir->path, manifest_file, &shards, &count);
+    for (int i = 0; i < cells; i++) {
+        has[i] = is_whole;
+        for (int k = 0; k < count; k++) has[i] |= store_shard_has(shards[k], i);
+    }
+    free(shards);
+    return status;
+}
 
 int study_directory_read(study_directory *dir, study_plan *plan)
 {
@@ -229,19 +251,13 @@ int study_directory_read(study_directory *dir, study_plan *plan)
     if (!dir->text) return CLI_IO;
     int status = study_plan_read(plan, dir->study, dir->text, dir->length, dir->systems);
     plan->runs = dir->runs;
-    if (status == CLI_DONE)
-        status = study_directory_open_results(dir, plan, dir->text, dir->length, &plan->results);
+    if (status == CLI_DONE) status = study_directory_open_results(dir, plan, &plan->results);
     if (status != CLI_DONE || file_exists(dir->manifest)) return status;
-    store_shard *shards;
-    int count;
     dir->shard = STORE_ALL_SHARDS;
-    status = store_find_shards(dir->path, manifest_file, &shards, &count);
-    for (int i = 0; i < plan->cell_count; i++) {
-        plan->cells[i].other_shard = 1;
-        for (int k = 0; k < count; k++)
-            if (store_shard_has(shards[k], i)) plan->cells[i].other_shard = 0;
-    }
-    free(shards);
+    bool *has = cli_calloc((size_t)plan->cell_count + 1, sizeof *has);
+    status = study_directory_find_cells(dir, plan->cell_count, has);
+    for (int i = 0; i < plan->cell_count; i++) plan->cells[i].other_shard = !has[i];
+    free(has);
     return status;
 }
 

@@ -66,12 +66,14 @@ int study_directory_read_end(const study_directory *dir, bool *has_ended);
  * have their place there. */
 int study_directory_begin(study_directory *dir, study_plan *plan, const char *text, size_t length,
                           store_shard shard, bool force);
+/* Whether each cell is of the whole study, or of a shard, that the directory holds, has[cells]. */
+int study_directory_find_cells(const study_directory *dir, int cells, bool *has);
 /* Reads the plan of the study, or of the shards of it that exist. */
 int study_directory_read(study_directory *dir, study_plan *plan);
 /* Reads the results of cells without rows in place of those before, *results being NULL where all
- * cells keep some; text is the study's. */
+ * cells keep some. */
 int study_directory_open_results(const study_directory *dir, const study_plan *plan,
-                                 const char *text, size_t length, struct study_results **results);
+                                 struct study_results **results);
 /* Runs the cells, then finishes; and reads the study before. */
 int study_directory_run(const study_directory *dir, study_plan *plan,
                         const study_run_options *options);

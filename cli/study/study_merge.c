@@ -1,8 +1,9 @@
 /* study_merge.c - the shards of a study, from wherever they were run, made one.
  *
- * Each cell that can have a run must have a finished one in one of the directories, and in one
- * alone.  The runs are copied, unless they are already in the directory of the whole, and the study
- * is then finished as if it had been run there. */
+ * Each cell that can have a run must have a finished one in one of the directories whose shard it
+ * is of, and in one alone; what a shard ran before it grew may be another's now.  The runs are
+ * copied, unless they are already in the directory of the whole, and the study is then finished as
+ * if it had been run there. */
 #include "study_merge.h"
 
 #include "io/file.h"
@@ -26,6 +27,7 @@ typedef struct merge {
     study_directory target;
     study_plan plan;
     int *from;               /* [cells] which source has the run, -1: none */
+    bool **has;              /* [sources][cells] whether the cell is of its shards */
     study_results **results; /* [sources] of cells that keep no rows; NULL: all keep some */
 } merge;
 
@@ -96,7 +98,9 @@ static int find_run(merge *m, int cell)
     int status = CLI_DONE;
     m->from[cell] = -1;
     for (int i = 0; i < m->sources && status == CLI_DONE; i++)
-        if (c->of_case->rows == STUDY_ROWS_KEPT)
+        if (!m->has[i][cell])
+            continue;
+        else if (c->of_case->rows == STUDY_ROWS_KEPT)
             status = find_in_source(m, cell, i, c->name);
         else if (study_results_has(m->results[i], cell))
             status = note_source(m, cell, i, c->name);
@@ -150,8 +154,7 @@ static int copy_runs(const merge *m)
 /* Reads the results that are in all directories of the plan now. */
 static int read_results(merge *m, const study_directory *dir, study_results **results)
 {
-    return study_directory_open_results(dir, &m->plan, m->source[0].text, m->source[0].length,
-                                        results);
+    return study_directory_open_results(dir, &m->plan, results);
 }
 
 /* ---- all ---- */
@@ -180,8 +183,12 @@ int study_merge(const char *const *sources, int count, const char *output, int t
     for (int i = 1; i < count && status == CLI_DONE; i++) status = check_source(&m, i);
     m.from = cli_calloc((size_t)m.plan.cell_count + 1, sizeof *m.from);
     m.results = cli_calloc((size_t)count, sizeof *m.results);
-    for (int i = 0; i < count && status == CLI_DONE; i++)
-        status = read_results(&m, &m.source[i], &m.results[i]);
+    m.has = cli_calloc((size_t)count, sizeof *m.has);
+    for (int i = 0; i < count && status == CLI_DONE; i++) {
+        m.has[i] = cli_calloc((size_t)m.plan.cell_count + 1, sizeof *m.has[i]);
+        status = study_directory_find_cells(&m.source[i], m.plan.cell_count, m.has[i]);
+        if (status == CLI_DONE) status = read_results(&m, &m.source[i], &m.results[i]);
+    }
     for (int i = 0; i < m.plan.cell_count; i++) m.plan.cells[i].other_shard = 0;
     for (int i = 0; i < m.plan.cell_count && status == CLI_DONE; i++) status = find_run(&m, i);
     if (status == CLI_DONE) status = begin_target(&m, force);
@@ -197,9 +204,11 @@ int study_merge(const char *const *sources, int count, const char *output, int t
     study_plan_free(&m.plan);
     for (int i = 0; i < count; i++) {
         study_results_free(m.results[i]);
+        free(m.has[i]);
         study_directory_close(&m.source[i]);
     }
     free(m.source);
+    free(m.has);
     free(m.results);
     free(m.from);
     return status;

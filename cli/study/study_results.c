@@ -2,10 +2,10 @@
  *
  * A file has little-endian words of 64 bits, doubles by their bits:
  *
- *     header  the word DALRES01, the fingerprint of the study
- *     record  its number of words, the cell, state, status, time, steps, evaluations, seconds,
- *             bits, the number of observables; for each of them the members of a dal_trend; the
- *             message of a failure; FNV-1a of all before it in the record
+ *     header  the word DALRES02
+ *     record  its number of words, the key of the cell (study_cell_key), state, status, time,
+ *             steps, evaluations, seconds, bits, the number of observables; for each of them the
+ *             members of a dal_trend; the message of a failure; FNV-1a of all before it
  *
  * Records are only ever added, so a file that is cut off anywhere has all records before. */
 #include "study_results.h"
@@ -48,14 +48,14 @@
 
 #define ONE(kind, member) +1
 enum {
-    HEADER_WORDS = 2,
     RECORD_WORDS = 10, /* before the trends */
     TREND_WORDS = 0 TREND_LIST(ONE),
     MESSAGE_WORDS = DAL_MESSAGE_SIZE / WORD
 };
 #undef ONE
 
-static const uint64_t magic = UINT64_C(0x31305345524c4144); /* "DALRES01" */
+static const uint64_t magic = UINT64_C(0x32305345524c4144);         /* "DALRES02" */
+static const uint64_t earlier_magic = UINT64_C(0x31305345524c4144); /* "DALRES01" */
 
 /* What was read of a file, or written to it. */
 typedef struct results_file {
@@ -65,11 +65,18 @@ typedef struct results_file {
     size_t valid;         /* bytes of whole records in it */
 } results_file;
 
+/* A cell and its results. */
+typedef struct cell_record {
+    uint64_t key;
+    int number;
+    const unsigned char *record; /* in a file, or NULL */
+} cell_record;
+
 struct study_results {
     results_file *file; /* [files], the first is this process's own */
     int files, cells;
-    const unsigned char **record; /* [cells] in a file, or NULL */
-    uint64_t fingerprint;
+    cell_record *of_key; /* [cells] by key */
+    cell_record **cell;  /* [cells] in of_key, by number */
     char *directory;
     FILE *out;    /* NULL until a result is added */
     double saved; /* when results were last brought to the disk */
@@ -112,17 +119,31 @@ static uint64_t observables_of(const unsigned char *record)
 /* ---- reading ------------------------------------------------------------------------------- */
 
 /* The words of a record that begins in bytes[size]; 0 where none is whole there. */
-static size_t check_record(const unsigned char *bytes, size_t size, int cells)
+static size_t check_record(const unsigned char *bytes, size_t size)
 {
     if (size < WORD) return 0;
     const uint64_t words = read_le64(bytes);
     if (words <= RECORD_WORDS || words > size / WORD) return 0;
     const size_t length = ((size_t)words - 1) * WORD;
     if (dal__hash(DAL__HASH_START, bytes, length) != read_le64(bytes + length)) return 0;
-    if (read_le64(bytes + WORD) >= (uint64_t)cells) return 0;
     return words == RECORD_WORDS + observables_of(bytes) * TREND_WORDS + MESSAGE_WORDS + 1
                ? (size_t)words
                : 0;
+}
+
+static int compare_keys(const void *x, const void *y)
+{
+    const cell_record *one = x, *other = y;
+    return (one->key > other->key) - (one->key < other->key);
+}
+
+/* Other records are of cells that the study had before it was changed. */
+static void keep_record(study_results *r, const unsigned char *record)
+{
+    const cell_record wanted = {.key = read_le64(record + WORD)};
+    cell_record *cell =
+        bsearch(&wanted, r->of_key, (size_t)r->cells, sizeof *r->of_key, compare_keys);
+    if (cell) cell->record = record;
 }
 
 static int read_file(study_results *r, results_file *f)
@@ -130,15 +151,16 @@ static int read_file(study_results *r, results_file *f)
     if (!file_exists(f->path)) return CLI_DONE;
     f->bytes = (unsigned char *)file_read(f->path, &f->size);
     if (!f->bytes) return CLI_IO;
-    if (f->size < HEADER_WORDS * WORD) return CLI_DONE;
+    if (f->size < WORD) return CLI_DONE;
+    if (read_le64(f->bytes) == earlier_magic)
+        return cli_fail(CLI_USAGE,
+                        "%s: results of an earlier version; begin the study again with --force",
+                        f->path);
     if (read_le64(f->bytes) != magic)
         return cli_fail(CLI_USAGE, "%s: it does not begin as a file of results", f->path);
-    if (read_le64(f->bytes + WORD) != r->fingerprint)
-        return cli_fail(
-            CLI_USAGE, "%s: belongs to another study: study.yaml or a system was changed", f->path);
-    f->valid = HEADER_WORDS * WORD;
-    for (size_t words; (words = check_record(f->bytes + f->valid, f->size - f->valid, r->cells));) {
-        r->record[read_le64(f->bytes + f->valid + WORD)] = f->bytes + f->valid;
+    f->valid = WORD;
+    for (size_t words; (words = check_record(f->bytes + f->valid, f->size - f->valid));) {
+        keep_record(r, f->bytes + f->valid);
         f->valid += words * WORD;
     }
     return CLI_DONE;
@@ -151,16 +173,23 @@ static results_file *add_file(study_results *r, const char *name)
     return &r->file[r->files++];
 }
 
+static void sort_cells(study_results *r, const uint64_t *key)
+{
+    r->of_key = cli_calloc((size_t)r->cells + 1, sizeof *r->of_key);
+    r->cell = cli_calloc((size_t)r->cells + 1, sizeof *r->cell);
+    for (int i = 0; i < r->cells; i++) r->of_key[i] = (cell_record){.key = key[i], .number = i};
+    qsort(r->of_key, (size_t)r->cells, sizeof *r->of_key, compare_keys);
+    for (int i = 0; i < r->cells; i++) r->cell[r->of_key[i].number] = &r->of_key[i];
+}
+
 int study_results_open(study_results **results, const char *directory, const char *writer,
-                       const study_plan *plan, uint64_t fingerprint)
+                       const uint64_t *key, int cells)
 {
     study_results *r = *results = cli_calloc(1, sizeof *r);
-    *r = (study_results){.cells = plan->cell_count,
-                         .fingerprint = fingerprint,
-                         .directory = cli_strdup(directory),
-                         .saved = cli_seconds()};
+    *r =
+        (study_results){.cells = cells, .directory = cli_strdup(directory), .saved = cli_seconds()};
     pthread_mutex_init(&r->mutex, NULL);
-    r->record = cli_calloc((size_t)r->cells + 1, sizeof *r->record);
+    sort_cells(r, key);
     int status = read_file(r, add_file(r, writer));
     DIR *list = opendir(directory);
     if (!list) return status != CLI_DONE || errno == ENOENT ? status : cli_io("read", directory);
@@ -181,12 +210,16 @@ void study_results_free(study_results *r)
     }
     pthread_mutex_destroy(&r->mutex);
     free(r->file);
-    free(r->record);
+    free(r->of_key);
+    free(r->cell);
     free(r->directory);
     free(r);
 }
 
-bool study_results_has(const study_results *r, int number) { return r->record[number] != NULL; }
+bool study_results_has(const study_results *r, int number)
+{
+    return r->cell[number]->record != NULL;
+}
 
 /* Whether it is the result of a run: a file may hold anything. */
 static bool is_result(const study_cell *cell)
@@ -203,7 +236,7 @@ static bool is_result(const study_cell *cell)
 
 bool study_results_get(const study_results *r, int number, study_cell *cell)
 {
-    const unsigned char *at = r->record[number];
+    const unsigned char *at = r->cell[number]->record;
     if (!at || observables_of(at) != (uint64_t)cell->observables) return false;
     study_cell read = *cell;
     at += 2 * WORD;
@@ -231,13 +264,13 @@ bool study_results_get(const study_results *r, int number, study_cell *cell)
 /* ---- adding -------------------------------------------------------------------------------- */
 
 /* The record of a cell, allocated. */
-static unsigned char *make_record(int number, const study_cell *cell)
+static unsigned char *make_record(uint64_t key, const study_cell *cell)
 {
     const size_t words = RECORD_WORDS + (size_t)cell->observables * TREND_WORDS + MESSAGE_WORDS + 1;
     unsigned char *bytes = cli_malloc(words * WORD);
     unsigned char *at = bytes;
     put_integer(&at, (long long)words);
-    put_integer(&at, number);
+    put_integer(&at, (long long)key);
     put_integer(&at, cell->state);
     put_integer(&at, cell->error.status);
     put_real(&at, cell->time);
@@ -274,7 +307,7 @@ static int take_file(int descriptor, const results_file *f)
 static int open_file(study_results *r)
 {
     const results_file *f = &r->file[0];
-    unsigned char header[HEADER_WORDS * WORD];
+    unsigned char header[WORD];
     int status = cli_directory(r->directory);
     if (status != CLI_DONE) return status;
     const int descriptor = open(f->path, O_WRONLY | O_CREAT | O_APPEND, 0666);
@@ -287,7 +320,6 @@ static int open_file(study_results *r)
         return status;
     }
     write_le64(header, magic);
-    write_le64(header + WORD, r->fingerprint);
     if (f->valid == 0) fwrite(header, 1, sizeof header, r->out);
     return CLI_DONE;
 }
@@ -315,7 +347,7 @@ static int append(study_results *r, const unsigned char *record, double interval
 
 int study_results_add(study_results *r, int number, const study_cell *cell, double interval)
 {
-    unsigned char *record = make_record(number, cell);
+    unsigned char *record = make_record(r->cell[number]->key, cell);
     const int status = append(r, record, interval);
     free(record);
     return status;
@@ -323,7 +355,7 @@ int study_results_add(study_results *r, int number, const study_cell *cell, doub
 
 int study_results_copy(study_results *to, const study_results *from, int number)
 {
-    return append(to, from->record[number], INFINITY);
+    return append(to, from->cell[number]->record, INFINITY);
 }
 
 int study_results_save(study_results *r)

@@ -3,7 +3,7 @@
  *     DIR/results/WRITER   a header, then a record for each cell, in the order of their ends
  *
  * Every process that runs cells of a study writes a file of its own and reads all files: WRITER
- * is `all`, `K-of-N` of a shard, or `rank-R` with MPI.  A record that was not written to its end,
+ * is `all`, `K-of-N` of a shard, or `writer-R` with MPI.  A record that was not written to its end,
  * because the process was killed, is left out, and its cell is run again. */
 #ifndef DAL_CLI_STUDY_RESULTS_H
 #define DAL_CLI_STUDY_RESULTS_H
@@ -11,14 +11,16 @@
 #include "study_data.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct study_results study_results;
 
-/* Reads the results in a directory, which may be absent, of the study with a fingerprint; writer
- * names the file of this process.  Returns CLI_DONE, or prints and returns CLI_USAGE or CLI_IO;
- * call study_results_free in any case. */
+/* Reads the results in a directory, which may be absent, of cells with these keys, key[cells];
+ * writer names the file of this process.  What the files hold of other cells stays there, unused.
+ * Returns CLI_DONE, or prints and returns CLI_USAGE or CLI_IO; call study_results_free in any
+ * case. */
 int study_results_open(study_results **results, const char *directory, const char *writer,
-                       const study_plan *plan, uint64_t fingerprint);
+                       const uint64_t *key, int cells);
 void study_results_free(study_results *results);
 /* Whether there is a result of a cell. */
 bool study_results_has(const study_results *results, int cell);

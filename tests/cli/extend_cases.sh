@@ -186,7 +186,39 @@ for run in grown/runs/*; do
     expect "other rows" cmp "$run/trajectory.npy" "small/runs/${run##*/}/trajectory.npy"
 done
 
+# Cells without rows are run once: the record of one that was there before stays the first.
+case_is "a study without rows that grows"
+first_record() { head -c 160 small/results/all | od -An -tx1; }
+grows 'rows: none\n' 4
+begun=$(first_record)
+size=$(wc -c <small/results/all)
+try 0 resume small --no-page
+expect "finished cells were run again" [ "$size" -eq "$(wc -c <small/results/all)" -a "$begun" = "$(first_record)" ]
+grows 'rows: none\n' 6
+
+# A shard of a study and of one that grew from it have the same cells to run only by name.
+case_is "shards of a study that grow"
+for keys in '' 'rows: none\n'; do
+    rm -rf one two whole
+    printf "title: A\nintegrators: [rk4]\nstep: 0.05\ntime: 4\nsystems: [chaplygin-sleigh]\n$keys" >small.yaml
+    printf "title: A\nintegrators: [gauss4, rk4]\nstep: 0.05\ntime: 4\nsystems: [pendulum-cvt, chaplygin-sleigh]\n$keys" >grown.yaml
+    for shard in one:1/2 two:2/2; do
+        try 0 study small.yaml --no-page --output ${shard%:*} --shard ${shard#*:}
+        cp grown.yaml ${shard%:*}/study.yaml
+        try 0 resume ${shard%:*} --no-page
+    done
+    try 0 merge one two --output whole --no-page
+    rm -rf grown
+    try 0 study grown.yaml --no-page --output grown
+    for file in tables.txt quantities.csv; do
+        expect "'$keys': not the $file of the study" cmp whole/$file grown/$file
+    done
+done
+
 case_is "what a study and an ensemble refuse"
+rm -rf small
+printf "title: A\nintegrators: [rk4]\nstep: 0.05\ntime: 6\nsystems: [chaplygin-sleigh]\n" >small.yaml
+try 0 study small.yaml --no-page --output small
 cp small/study.yaml long.yaml
 sed 's/time: 6/time: 5/' long.yaml >small/study.yaml
 try 2 resume small --no-page

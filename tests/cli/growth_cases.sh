@@ -56,6 +56,16 @@ try 0 resume small --members 700 --no-page
 try 0 $members --members 700 --time 1 --output whole
 expect "other bytes" same_ensemble whole small
 
+case_is "made by MPI"
+if needs 4 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
+    rm -rf small whole
+    by_mpi 0 -n 3 "$mpi_program" ${members%--no-page} --members 600 --time 1 --output small
+    try 0 resume small --members 700 --no-page
+    try 0 $members --members 700 --time 1 --output whole
+    expect "other bytes" same_ensemble whole small
+    counted
+fi
+
 if needs 58 "no compiler for signals at given places" raises; then
     # At every rename: of the grown chunks, the manifest, the tables, what is made of them.
     case_is "killed while it grows"
