@@ -335,6 +335,18 @@ static void test_deep_nesting(void)
     check_repeated("", "if(x<1,", "y", ",x)", 10000, 2.5);
 }
 
+/* The first terms do not show how many there are: 1 + (1 + 2 + ... + 2900) = 4 206 451. */
+static void test_sums_that_grow(void)
+{
+    dal__graph *graph = formula_graph();
+    dal__node node;
+    dal_error error = {.status = DAL_STATUS_OK};
+    const char *text = "sum(i, 1, 2901, sum(j, 2, i, 1))";
+    CU_ASSERT_EQUAL(formula_parse(graph, text, &node, &error), DAL_STATUS_TOO_LARGE);
+    CU_ASSERT_STRING_EQUAL(error.message, "sums of more than 4000000 terms in a formula");
+    dal__graph_free(graph);
+}
+
 static void test_deep_sums(void)
 {
     check_repeated("", "sum(i,1,1,", "x", ")", 16, 0.3);
@@ -531,6 +543,7 @@ void suite_formula(void)
     CU_add_test(suite, "names of functions", test_function_names);
     CU_add_test(suite, "deep nesting", test_deep_nesting);
     CU_add_test(suite, "sums in sums", test_deep_sums);
+    CU_add_test(suite, "sums that grow", test_sums_that_grow);
     CU_add_test(suite, "functions of the caller", test_own_functions);
     CU_add_test(suite, "long formulas", test_long_formulas);
     CU_add_test(suite, "a graph that is full at each node", test_every_node);

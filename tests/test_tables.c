@@ -232,16 +232,18 @@ static void test_errors(void)
     }
 }
 
-/* A text holds its files after it was read from a directory, in block and in flow form; what it
- * makes is the same. */
+/* A text holds its files after it was read from a directory, in block, flow and indented form; what
+ * it makes is the same. */
 static void test_source(void)
 {
     static const char *const texts[] = {
         "# a comment\ncoordinates: [x]\nlagrangian: x'^2/2\nforces: {x: f(t)}\n"
         "tables: {f: {file: ../examples/torque.csv, at: t, value: right}}\n",
         "{coordinates: [x], lagrangian: \"x'^2/2\", forces: {x: f(t)},\n"
-        " tables: {f: {file: ../examples/torque.csv, at: t, value: right}}}\n"};
-    for (int i = 0; i < 2; i++) {
+        " tables: {f: {file: ../examples/torque.csv, at: t, value: right}}}\n",
+        "  coordinates: [x]\n  lagrangian: x'^2/2\n  forces: {x: f(t)}\n"
+        "  tables: {f: {file: ../examples/torque.csv, at: t, value: right}}\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         const char *path = "build/table-of-a-test.yaml";
         size_t length = 0;
         dal_model *model = NULL, *copy = NULL;
