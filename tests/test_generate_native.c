@@ -212,9 +212,11 @@ static void test_batches(void)
     const dal_system *falls = fixture_system(falling);
     const dal_run_spec simple = fixture_spec(falls, "rk4", DAL_PHYSICAL, 0.001);
     const dal_run_spec lifted = fixture_spec(falls, "implicit-midpoint", DAL_LIFTED, 0.001);
+    const dal_run_spec implicit = fixture_spec(falls, "gauss4", DAL_PHYSICAL, 0.001);
     for (int i = 0; i < 5; i++) same_batch(&simple, counts[i], 0);
     same_batch(&simple, MAX_LANES, 700);
     same_batch(&lifted, MAX_LANES, 700);
+    same_batch(&implicit, MAX_LANES, 700);
 }
 
 /* A batch that is native already may still be given its starts, and is not compiled again. */
