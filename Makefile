@@ -13,6 +13,7 @@
 #     make check-valgrind   the CUnit suites under valgrind
 #     make check-browser    the report's pages in headless Chromium; a part of check
 #     make check-dist       the tarball: it builds, passes a part of its tests and installs
+#     make check-packages   the packages of debian/: they build, satisfy lintian and work in a new Debian
 #     make check-kill       runs killed at KILLS random moments and resumed
 #     make check-bits       generated code against the interpreter, all cases, hours; BITS_JOBS at a time
 #     make units            every built-in system in the units drawn by UNITS (1 2 3 4)
@@ -47,7 +48,7 @@ WARN = -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototype
 # No contraction and no reassociation: the bits of a trajectory are promised.
 EXACT = -ffp-contract=off -fno-math-errno
 ALL   = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(EXACT) -fPIC -pthread -Iinclude $(PLACE) \
-        -I$(BUILD)/generated $(CFLAGS)
+        -I$(BUILD)/generated $(CPPFLAGS) $(CFLAGS)
 PLACE = -Ilib
 LIBS  = -lyaml -lm -pthread
 
@@ -134,7 +135,8 @@ $(SHARED): $(SHARED).$(VERSION)
 	@ln -sf $(<F) $(BUILD)/$(SONAME)
 	@ln -sf $(SONAME) $@
 
-$(BUILD)/cli/run/manifest.o: ALL += -DCLI_FLAGS='"$(strip $(EXACT) $(CFLAGS))"'
+# Where it was built is none of the flags that manifests name.
+$(BUILD)/cli/run/manifest.o: ALL += -DCLI_FLAGS='"$(strip $(EXACT) $(filter-out -ffile-prefix-map=%,$(CFLAGS)))"'
 $(PROGRAM): $(CLI_OBJ) $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) -o $@
 
@@ -276,6 +278,10 @@ check-sanitize:
 check-dist:
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/dist.sh "$(MAKE)" $(BUILD)
 
+# Not a part of check, either, and as root or with user namespaces: a new Debian by mmdebstrap.
+check-packages:
+	@sh tests/packages.sh "$(MAKE)" $(BUILD)
+
 KILLS ?= 1000
 check-kill: all
 	@CALLS=1 KILLS=$(KILLS) sh tests/cli/run.sh $(PROGRAM) kill
@@ -377,7 +383,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all help check check-bits check-browser check-dist check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers $(FUZZERS:%=run-%) gallery references lint mutants trends units install uninstall clean FORCE mpi
+.PHONY: all help check check-bits check-browser check-dist check-packages check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers $(FUZZERS:%=run-%) gallery references lint mutants trends units install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

@@ -4,7 +4,7 @@ The declarations come from the public headers, as the compiler's preprocessor wr
 the compiler then compares them with the headers.
 
     DALEMBERT_BUILD    a directory that `make` made, the library of which is linked statically
-    DALEMBERT_PREFIX   where `make install` put the library
+    DALEMBERT_PREFIX   where `make install` put the library, below DESTDIR
 
 Without them ../build is taken where it has a library; else the library is made from its sources,
 in the tree or, in a source distribution, in library/.
@@ -106,18 +106,21 @@ def in_tree(build=None):
 
 def installed(prefix):
     """How to compile and link with an installed library, by pkg-config."""
-    found = [directory for directory, _, names in os.walk(prefix) if 'dalembert.pc' in names]
+    stage = os.environ.get('DESTDIR', '')
+    found = [directory for directory, _, names in os.walk(stage + prefix) if 'dalembert.pc' in names]
     if not found:
-        fail(f'no dalembert.pc below {prefix}')
+        fail(f'no dalembert.pc below {stage + prefix}')
     environment = dict(os.environ, PKG_CONFIG_PATH=os.pathsep.join(found))
     try:
         flags = shlex.split(run('pkg-config', '--cflags', '--libs', 'dalembert', env=environment))
         include, libraries = (run('pkg-config', '--variable=' + name, 'dalembert', env=environment).strip()
                               for name in ('includedir', 'libdir'))
     except (OSError, subprocess.CalledProcessError):
-        fail(f'pkg-config does not find the library below {prefix}')
-    return {'include_dirs': [include, os.path.join(SOURCES, 'include'), SOURCES], 'extra_link_args': flags,
-            'runtime_library_dirs': [libraries]}
+        fail(f'pkg-config does not find the library below {stage + prefix}')
+    # In /usr the loader searches by itself.
+    return {'include_dirs': [stage + include, os.path.join(SOURCES, 'include'), SOURCES],
+            'library_dirs': [stage + libraries], 'extra_link_args': flags,
+            'runtime_library_dirs': [] if prefix == '/usr' else [libraries]}
 
 
 def find_library():
@@ -132,7 +135,7 @@ def find_library():
 
 def is_made():
     """Whether there is a library; else make_library makes it."""
-    return bool(LIBRARY.get('extra_objects') or LIBRARY.get('runtime_library_dirs'))
+    return bool(LIBRARY.get('extra_objects') or LIBRARY.get('library_dirs'))
 
 
 def read_headers(directory, names=HEADERS, read=None):

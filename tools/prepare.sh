@@ -1,7 +1,7 @@
 #!/bin/sh
-# prepare.sh [lint|bench] - installs, on Debian, the packages that building and testing need, with
+# prepare.sh [lint|bench|packages] - installs, on Debian, the packages that building and testing need, with
 # `lint` also what the whole continuous check needs, with `bench` also the libraries that `make
-# bench` compares with; does nothing when all are there.
+# bench` compares with, with `packages` also what `make check-packages` needs; does nothing when all are there.
 set -e
 packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev libjansson-dev locales gnuplot-nox g++ cmake groff-base'
 packages="$packages python3 python3-cffi python3-dev python3-numpy python3-pytest python3-setuptools python3-venv python3-wheel"
@@ -12,6 +12,9 @@ if [ "$1" = lint ]; then
 fi
 if [ "$1" = bench ]; then
     packages="$packages libgsl-dev libsundials-dev libboost-dev"
+fi
+if [ "$1" = packages ]; then
+    packages="$packages debhelper dh-python dpkg-dev lintian mmdebstrap pybuild-plugin-pyproject python3-all-dev"
 fi
 missing=
 for package in $packages; do

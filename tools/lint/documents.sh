@@ -51,3 +51,5 @@ grep -q "one of $count integrators" README.md || echo "README.md: there are $cou
 [ "$(wc -m <README.md)" -le 8000 ] || echo "README.md: longer than 8000 characters"
 version=$("$program" --version | sed 's/.* //')
 grep -qx "version: $version" CITATION.cff || echo "CITATION.cff: the version is not $version"
+[ "$(sed -n '1s/^dalembert (\(.*\)) .*/\1/p' debian/changelog)" = "$version" ] || echo "debian/changelog: the version is not $version"
+grep -qx "Package: libdalembert${version%.*}" debian/control || echo "debian/control: no libdalembert${version%.*}"
