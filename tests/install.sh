@@ -24,7 +24,7 @@ export PKG_CONFIG_PATH
     fail "dalembert.pc and dalembert --version do not agree"
 
 # Each example against the shared and against the static library.
-for name in embed by_hand own_integrator path_following contact_chain isokinetic_fluid; do
+for name in embed by_hand own_integrator path_following contact_chain isokinetic_fluid kalman; do
     flags="-std=c11 -Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $CFLAGS examples/$name.c"
     logged $cc $flags $(pkg-config --cflags --libs dalembert) -o "$root/$name"
     logged $cc $flags $(pkg-config --static --cflags --libs dalembert | sed 's/-ldalembert/-l:libdalembert.a/') \
@@ -155,6 +155,12 @@ awk "$near"'
       }
       near($1, FNR - 1, 1e-9); near($2, state[1], 1e-9); near($3, state[2], 1e-9); near($4, e, 1e-10)
       near($5, 0, 1e-15) }' rows=23 "$root/path_following.txt" || fail "path_following is wrong"
+
+# The filter begins 0.5 beside the circle phi = t, (y1', y2') = (cos t, sin t); from t = 10 on its heading
+# errs by at most 3 of its standard deviations, which is below 0.05, as far as a position errs.
+awk "$near"' { near($1, 2 * FNR, 1e-12); near(FNR < 5 ? 0 : $2 - $1, 0, 3 * $6); near($6 < 0.05 || FNR < 2, 1, 0)
+    near($3, cos($1), FNR < 5 ? 1 : 0.1); near($4, sin($1), FNR < 5 ? 1 : 0.1); near($5, 1, FNR < 5 ? 1 : 0.05) }' \
+    rows=10 "$root/kalman.txt" || fail "kalman is wrong"
 
 # The program finds its built-in systems wherever it is, and reads the installed files.
 "$prefix/bin/dalembert" check "$prefix/share/dalembert/systems/chaplygin-sleigh.yaml" \

@@ -1,12 +1,18 @@
 """Systems from text, from files and built-in."""
 from __future__ import annotations
 
+import math
 import os
-from typing import Any, Iterator
+from typing import Any, Iterator, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from ._library import ffi, lib
+from .arguments import Settings
 from .arguments import text as argument
 from .errors import Error, InputError, call, encode
+from .evaluate import Array, evaluate
 from .fixed import Fixed, borrowed, owned
 
 PROPERTIES = tuple(name for name in dir(lib) if name.startswith(('DAL_D_', 'DAL_E_'))
@@ -38,6 +44,14 @@ def _names(name_at: Any) -> Iterator[str]:
     while (name := name_at(i)) != ffi.NULL:
         yield text_of(name)
         i += 1
+
+
+class Constraints(NamedTuple):
+    """D = 0 at points; see `System.constraints`."""
+
+    D: Array
+    A: Array
+    reactions: Array
 
 
 def observed_system(text: str, name: str, observed: tuple[str, ...]) -> System:
@@ -162,6 +176,69 @@ class System(Fixed):
             if not isinstance(formula, str):
                 raise TypeError(f'a formula to observe is a str, not {formula!r}')
         return observed_system(self.text, self.name, self.observed + formulas)
+
+    def _at(self, name: str, callback: Any, shape: tuple[int, ...], q: ArrayLike, v: ArrayLike, t: ArrayLike,
+            parameters: Settings | None) -> Any:
+        """The numbers of a callback at points, of a shape."""
+        if callback == ffi.NULL:
+            raise InputError('DAL_UNSUPPORTED', f'{self.name} has no {name}')
+        values = evaluate(self._system, callback, math.prod(shape), q, v, t, parameters)
+        return values.reshape(values.shape[:-1] + shape)
+
+    def field(self, q: ArrayLike, v: ArrayLike, t: ArrayLike = 0.0, *, parameters: Settings | None = None) -> Array:
+        """The accelerations F, of the second-order system dv/dt = F(q, v, t).
+
+        Parameters
+        ----------
+        q, v : array_like, (..., n)
+            Coordinates and velocities; of a vakonomic system v has the multipliers g, too.
+        t : array_like, (...)
+        parameters : mapping of str to float, optional
+            Those that differ from their default.
+
+        Returns
+        -------
+        ndarray, (..., n)
+            NaN where F has no value; of a vakonomic system with dg/dt.  The shapes before the last
+            axis are broadcast, here and in the functions below.
+        """
+        s = self._system
+        return self._at('field', s.call.field, (s.n + s.multipliers,), q, v, t, parameters)
+
+    def jacobian(self, q: ArrayLike, v: ArrayLike, t: ArrayLike = 0.0, *,
+                 parameters: Settings | None = None) -> Array:
+        """The derivatives of F by q and v: (..., n, 2 n), [F_q F_v]; see `field`."""
+        s = self._system
+        width = s.n + s.multipliers
+        values = self._at('jacobian', s.call.jacobian, (width * (s.n + width),), q, v, t, parameters)
+        by_q, by_v = np.split(values, [width * s.n], axis=-1)
+        return np.concatenate([by_q.reshape(values.shape[:-1] + (width, s.n)),
+                               by_v.reshape(values.shape[:-1] + (width, width))], axis=-1)
+
+    def energy(self, q: ArrayLike, v: ArrayLike, t: ArrayLike = 0.0, *, parameters: Settings | None = None) -> Array:
+        """The energy E = L_v.v - L: (...); see `field`."""
+        return self._at('energy', self._system.energy, (), q, v, t, parameters)
+
+    def energy_gradient(self, q: ArrayLike, v: ArrayLike, t: ArrayLike = 0.0, *,
+                        parameters: Settings | None = None) -> Array:
+        """The derivatives of E by q and v: (..., 2 n), [E_q E_v]; see `field`."""
+        n = self.n
+        return self._at('energy', self._system.call.energy_normal, (1 + 3 * n,), q, v, t, parameters)[..., 1:1 + 2 * n]
+
+    def constraints(self, q: ArrayLike, v: ArrayLike, t: ArrayLike = 0.0, *,
+                    parameters: Settings | None = None) -> Constraints:
+        """D(q, v, t), A = D_v, and W^-1 A^T, the accelerations by unit multipliers; see `field`.
+
+        Returns
+        -------
+        Constraints
+            A named tuple of ``D`` (..., m), ``A`` (..., m, n), ``reactions`` (..., n, m).
+        """
+        n, m = self.n, self.m
+        values = self._at('constraints', self._system.call.constraint, (m + 2 * m * n,), q, v, t, parameters)
+        D, A, R = np.split(values, [m, m + m * n], axis=-1)
+        shape = values.shape[:-1]
+        return Constraints(D, A.reshape(shape + (m, n)), R.reshape(shape + (n, m)))
 
     def latex(self) -> str:
         """The equations as LaTeX, one align* of amsmath.
