@@ -1,5 +1,5 @@
-/* dalembert_analysis.h - statistics, trends, checks, order, error budgets, Lyapunov exponents and
- * sections, each in a header of its own.
+/* dalembert_analysis.h - statistics, trends, checks, order, error budgets, Lyapunov exponents,
+ * sections and invariants, each in a header of its own.
  *
  * The conventions of dalembert.h hold here.  All of it is made of the public functions of
  * dalembert.h. */
@@ -10,6 +10,7 @@
 #include "dalembert_budget.h"
 #include "dalembert_dynamics.h"
 #include "dalembert_evaluator.h"
+#include "dalembert_invariants.h"
 #include "dalembert_order.h"
 #include "dalembert_statistics.h"
 

@@ -313,9 +313,9 @@ static dal__node scope_call(void *user, int i, const dal__node *argument, dal_er
 void dal__entry_title(const dal_model *model, const dal__entry *entry, char *title, size_t size)
 {
     const char *label = entry->observed ? "observed" : dal__sections[entry->section].label;
-    int number = 1;
-    for (const dal__entry *other = model->entries; other < entry; other++)
-        number += other->section == entry->section;
+    int number = 1; /* a formula that is no entry of the model has a name */
+    for (int i = 0; i < model->count && &model->entries[i] != entry; i++)
+        number += model->entries[i].section == entry->section;
     if (entry->item)
         snprintf(title, size,
                  entry->section == DAL_SECTION_EVENTS ? "%s %d, %.80s" : "%s %d on %.80s", label,
