@@ -24,6 +24,7 @@
     COMMAND(section)                                                                               \
     COMMAND(lyapunov)                                                                              \
     COMMAND(volume)                                                                                \
+    COMMAND(invariants)                                                                            \
     COMMAND(explain)                                                                               \
     COMMAND(generate)                                                                              \
     COMMAND(report)                                                                                \

@@ -221,6 +221,19 @@ if needs 23 "no terminal (script, stty)" terminal; then
     prints '^divergence of F +-0\.2 .*shrinks$'
     counted
 fi
+if needs 9 "no terminal (script, stty)" terminal; then
+    case_is "invariants: a table"
+    for columns in 80 60; do
+        shown $columns invariants snakeboard
+        fits $columns
+    done
+    prints '^snakeboard: 6 invariants, 3 independent, of degree 2 in'
+    prints '^known +exact +any parameters +phi.$'
+    prints '^A block for the system file: --details, or a pipe$'
+    shown 80 invariants suslov --degree 1
+    fits 80
+    counted
+fi
 if needs 7 "no terminal (script, stty)" terminal; then
     case_is "list: the names alone"
     for columns in 80 60; do

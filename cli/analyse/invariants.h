@@ -1,0 +1,21 @@
+/* invariants.h - invariants of a system's motion, found from its formulas. */
+#ifndef DAL_CLI_INVARIANTS_H
+#define DAL_CLI_INVARIANTS_H
+
+#include "run/simulation.h"
+
+#include <stdbool.h>
+
+typedef struct invariants_settings {
+    run_simulation simulation;
+    long long degree;
+    const char *with; /* further atoms, with commas between them; NULL: none */
+    bool measure, json, details;
+} invariants_settings;
+
+/* Finds the invariants and prints them, as an `invariants:` block for a system file, as JSON, or on
+ * a terminal as a table.  Returns CLI_DONE, CLI_CHECK where none is found, or prints and returns an
+ * exit status. */
+int invariants_find(invariants_settings *settings);
+
+#endif
