@@ -5,7 +5,7 @@ Every function makes runs of its own from a system, a method and the other argum
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ from ._library import ffi, lib
 from .arguments import array, number, refuse, text, whole
 from .errors import Error, call, call_steps, check, encode, keep_exception
 from .run import Array, doubles
-from .spec import Spec, SystemLike, chunks, takes_run_options
+from .spec import Settings, Spec, SystemLike, chunks, takes_run_options
 from .system import taken_text, text_of
 
 # Steps with tangent vectors between two moments in which Python handles signals.
@@ -336,6 +336,122 @@ def section(system: SystemLike, on: str, integrator: str | None = None, time: fl
     columns = [('crossing', 'i8'), ('t', 'f8'), ('direction', 'i8'), *((name, 'f8') for name in names)]
     return Section(np.array(rows, dtype=columns), found.up, found.down, found.touches,
                    found.unresolved)
+
+
+# ---- invariants --------------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class Invariant:
+    """What a motion conserves on D = 0.
+
+    Attributes
+    ----------
+    formula : str
+        With the names of the system.
+    terms : int
+        Products that it adds up.
+    independent : bool
+        Functionally, of those before it.
+    is_new : bool
+        Likewise of E and of the invariants of the system, too.
+    exact : bool
+        Its rate vanishes to the digits of quad precision, not only of doubles.
+    at_any_parameters : bool
+        It is conserved with other parameters, too.
+    """
+
+    formula: str
+    terms: int
+    independent: bool
+    is_new: bool
+    exact: bool
+    at_any_parameters: bool
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A density rho(q), rho dq dv being an invariant measure on D = 0.
+
+    Attributes
+    ----------
+    formula : str
+        Of rho**power.
+    power : float
+        1, -1, 2, -2, 0.5 or 4.
+    exact, at_any_parameters : bool
+        As of an `Invariant`.
+    """
+
+    formula: str
+    power: float
+    exact: bool
+    at_any_parameters: bool
+
+
+@dataclass(frozen=True)
+class Invariants:
+    """Invariants of a motion among sums of products.
+
+    Attributes
+    ----------
+    invariants : tuple of Invariant
+        A basis, simple ones of low degree first.
+    measure : Measure or None
+        None: it was not sought, or there is none.
+    atoms : tuple of str
+        Factors of the products.
+    products, functions : int
+        Products, and how many independent functions they are on D = 0.
+    independent : int
+        How many of the invariants are functionally independent.
+    least_change, largest_zero : float
+        The singular values on both sides of the gap, relative to the largest; NaN: there is none.
+    """
+
+    invariants: tuple[Invariant, ...]
+    measure: Measure | None
+    atoms: tuple[str, ...]
+    products: int
+    functions: int
+    independent: int
+    least_change: float
+    largest_zero: float
+
+
+def invariants(system: SystemLike, degree: int = 2, *, factors: Sequence[str] = (), measure: bool = False,
+               parameters: Settings | None = None, start: Settings | None = None,
+               start_time: float = 0.0) -> Invariants:
+    """Finds what a motion conserves, from its formulas.
+
+    Parameters
+    ----------
+    system, parameters, start, start_time
+        As of a `Run`.
+    degree : int
+        The highest degree of the products, 1 to 8.
+    factors : sequence of str
+        Further factors of the products, ``'1/hypot(x, y)'``.
+    measure : bool
+        Finds an invariant measure, too.
+    """
+    spec = Spec(system, 'rk4', parameters=parameters, start=start, start_time=start_time)
+    texts = [ffi.new('char[]', encode(text('factors', formula))) for formula in factors]
+    listed = ffi.new('char *[]', texts)
+    settings = ffi.new('dal_invariants_settings *', {
+        'degree': whole('degree', degree, 1, 8), 'with': ffi.cast('const char *const *', listed), 'with_count': len(texts),
+        'measures': measure})
+    made = ffi.new('dal_invariants **')
+    call(lib.dal_find_invariants, made, spec.system._model, spec.c, settings)
+    found = ffi.gc(made[0], lib.dal_invariants_free)
+    listed_invariants = tuple(
+        Invariant(text_of(i.formula), i.terms, bool(i.independent), bool(i.is_new), bool(i.exact),
+                  bool(i.at_any_parameters)) for i in found.invariant[0:found.count])
+    density = found.measure if found.measures else None
+    return Invariants(
+        listed_invariants, density and Measure(text_of(density.formula), density.power, bool(density.exact),
+                                               bool(density.at_any_parameters)),
+        tuple(text_of(found.atom[i]) for i in range(found.atoms)), found.products, found.functions,
+        found.independent, found.least_change, found.largest_zero)
 
 
 # ---- error sources -----------------------------------------------------------------------------

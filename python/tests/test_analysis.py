@@ -118,3 +118,39 @@ def test_generate(program):
     for arguments in ({'prefix': '1'}, {'lanes': 3}):
         with pytest.raises(dalembert.InputError):
             dalembert.generate('chaplygin-sleigh', 'rk4', **arguments)
+
+
+def test_invariants():
+    """Two oscillators of one frequency conserve four quadratic forms; with friction they conserve none."""
+    text = """
+coordinates: [x, y]
+parameters: {k: 2, c: 2, f: 0}
+lagrangian: (x'^2 + y'^2 - k*x^2 - c*y^2)/2
+forces: {x: -f*x', y: -f*y'}
+start: {x: 1, y': 1}
+"""
+    pair = dalembert.System(text)
+    found = dalembert.invariants(pair, measure=True)
+    formulas = [i.formula for i in found.invariants]
+    assert len(formulas) == 4 and "x*y' - y*x'" in formulas and found.independent == 3
+    assert found.atoms == ('x', 'y', "x'", "y'") and found.products == found.functions == 14
+    assert all(i.exact for i in found.invariants) and found.largest_zero < 1e-12 < found.least_change
+    assert found.measure == dalembert.Measure('1', 1.0, True, False)  # f is not 0 in general
+    other = dalembert.invariants(pair, parameters={'c': 3})
+    assert {i.formula for i in other.invariants} == {"k*x^2 + x'^2", "c*y^2 + y'^2"}
+    assert other.measure is None and [i.is_new for i in other.invariants] == [True, False]
+    assert dalembert.invariants(pair, parameters={'f': 0.5}).invariants == ()
+
+
+def test_factors_of_invariants():
+    kepler = dalembert.System("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + 1/hypot(x, y)\n"
+                              "start: {x: 1, y': 1}\n")
+    assert len(dalembert.invariants(kepler).invariants) == 1
+    assert len(dalembert.invariants(kepler, factors=['1/hypot(x, y)']).invariants) == 2
+    with pytest.raises(dalembert.InputError, match="'z'") as caught:
+        dalembert.invariants(kepler, factors=['x', '2*z'])
+    assert (caught.value.line, caught.value.column) == (2, 3)
+    with pytest.raises(dalembert.InputError, match='degree'):
+        dalembert.invariants(kepler, 0)
+    with pytest.raises(dalembert.InputError, match='factors'):
+        dalembert.invariants(kepler, factors=[1])
