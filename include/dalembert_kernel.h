@@ -16,6 +16,7 @@
  *
  *     num.h               num dal_mask dal_num dal_all dal_select dal_any dal_less dal_equal
  *                         dal_max dal_min dal_abs dal_sqrt dal_fma dal_max_norm
+ *     lanes.h             dal_lane_set DAL_LANES_AT
  *     elementary.h        dal_sin dal_cos
  *     step.h              dal_step dal_failed dal_field dal_force dal_eval
  *                         dal_add dal_add_multiple dal_update dal_update_multiple
@@ -50,6 +51,7 @@
 #include "../lib/kernel/constrained.h"
 #include "../lib/kernel/eigensystem.h"
 #include "../lib/kernel/elementary.h"
+#include "../lib/kernel/lanes.h"
 #include "../lib/kernel/num.h"
 #include "../lib/kernel/parts.h"
 #include "../lib/kernel/solve.h"

@@ -21,19 +21,19 @@ DAL_INLINE void drift(dal_step *s, double h)
     num rate = h * dal_gauge_rate(pi, n, w);
     DAL_VECTOR(s, d, DAL_N(s));
     DAL_EACH(i, n) d[i] = h * (pi[i] * w);
-    const dal_mask alive = s->alive[0];
-    s->alive[0] &= ~dal_equal(rate, dal_num(0.0));
+    const dal_mask alive = s->alive;
+    s->alive &= ~dal_equal(rate, dal_num(0.0));
     dal_add(s, n, n, d);
     dal_add(s, dal_at_pi_e(s), 1, &rate);
-    s->alive[0] = alive;
+    s->alive = alive;
 }
 
 /* Puts numbers into the state, in the lanes alive. */
 DAL_INLINE void put(dal_step *s, int first, int count, const num *y, const num *r)
 {
     DAL_EACH(i, count) {
-        s->y[first + i] = dal_select(s->alive[0], y[i], s->y[first + i]);
-        s->r[first + i] = dal_select(s->alive[0], r[i], s->r[first + i]);
+        s->y[first + i] = dal_select(s->alive, y[i], s->y[first + i]);
+        s->r[first + i] = dal_select(s->alive, r[i], s->r[first + i]);
     }
 }
 

@@ -40,9 +40,9 @@ DAL_INLINE dal_status project_velocity(dal_step *s)
     DAL_VECTOR(s, v, DAL_N(s));
     DAL_BLOCK(s, change, DAL_N(s), 0);
     projection p = {s->y + n, v};
-    DAL_EQUATION(eq, 1, &p, change);
+    DAL_EQUATION(s, eq, 1, &p, change);
     dal_set_speeds(s, &eq.block[0], n);
-    eq.block[0].scale[0] = dal_speed_norm(s, s->y + n);
+    eq.block[0].progress->scale = dal_speed_norm(s, s->y + n);
     eq.block[0].enough = DAL_PROPERTIES(s) & DAL_D_LINEAR ? ENOUGH_IF_LINEAR : DAL__ROUNDING;
     DAL_EACH(i, n) eq.block[0].u[i] = dal_num(0.0);
     if (dal_failed(dal_solve(s, &eq, projection_map, NULL))) return DAL_STATUS_NOT_CONVERGED;

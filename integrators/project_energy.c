@@ -119,7 +119,7 @@ DAL_INLINE void freeze_directions(dal_step *s, level *k, dal_equation *eq)
     }
     find_missing(s, k);
     set_directions(s, k, matrix);
-    eq->block[0].scale[0] = level_scale(s, k, matrix[levels * levels - 1]);
+    eq->block[0].progress->scale = level_scale(s, k, matrix[levels * levels - 1]);
     dal_invert_in_units(matrix, k->inverse, levels, DAL_LEVELS(s), levels);
 }
 
@@ -138,7 +138,7 @@ DAL_INLINE dal_status to_level(dal_step *s)
     DAL_VECTOR(s, shift, LEVELS(s));
     DAL_BLOCK(s, change, 2 * DAL_N(s), 0); /* of v and of q/h */
     level k = {q0, v0, q, v, constraint, energy, directions, normal, inverse, missing, shift};
-    DAL_EQUATION(eq, 1, &k, change);
+    DAL_EQUATION(s, eq, 1, &k, change);
     dal_set_speeds(s, &eq.block[0], DAL_N(s));
     freeze_directions(s, &k, &eq);
     if (dal_failed(dal_solve(s, &eq, level_map, NULL))) return DAL_STATUS_NOT_CONVERGED;
@@ -151,7 +151,7 @@ DAL_INLINE dal_status to_level(dal_step *s)
 /* level: E0 and, once it is known, 1. */
 DAL_INLINE void note_energy(dal_step *s)
 {
-    const dal_mask fresh = s->alive[0] & dal_less(s->level[1], dal_num(0.5));
+    const dal_mask fresh = s->alive & dal_less(s->level[1], dal_num(0.5));
     DAL_VECTOR(s, energy, 1 + 3 * DAL_N(s));
     if (!dal_any(fresh)) return;
     dal_eval(s, DAL_EVAL_ENERGY_NORMAL, s->t, s->y, s->y + DAL_N(s), NULL, energy);

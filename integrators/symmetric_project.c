@@ -31,20 +31,20 @@ DAL_INLINE void push_velocity(dal_step *s, const reflection *k, const num *B, co
 /* The step of NAME from (q0, v0 + B0 mu), in the active lanes. */
 DAL_INLINE void step_inside(dal_step *s, reflection *k, const num *mu, dal_mask active)
 {
-    const dal_mask alive = s->alive[0];
-    const dal_mask unconverged = s->unconverged[0];
+    const dal_mask alive = s->alive;
+    const dal_mask unconverged = s->unconverged;
     DAL_EACH(i, DAL_DIM(s)) s->y[i] = dal_select(active, k->y0[i], s->y[i]);
     DAL_EACH(i, DAL_DIM(s)) s->r[i] = dal_select(active, k->r0[i], s->r[i]);
     dal_restore_method_state(s, active, k->method_state0);
     s->t = k->t0;
-    s->alive[0] = active;
+    s->alive = active;
     push_velocity(s, k, k->B0, mu);
     const dal_status status = dal_inner(s, s->h);
     if (status != DAL_STATUS_OK && status != DAL_STATUS_NOT_CONVERGED) k->status = status;
-    k->failed = active & ~s->alive[0];
+    k->failed = active & ~s->alive;
     s->t = k->t0 + s->h;
-    s->alive[0] = alive;
-    s->unconverged[0] = unconverged;
+    s->alive = alive;
+    s->unconverged = unconverged;
 }
 
 DAL_INLINE void reflection_map(dal_step *s, dal_equation *eq)
@@ -52,16 +52,16 @@ DAL_INLINE void reflection_map(dal_step *s, dal_equation *eq)
     reflection *k = (reflection *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
     const num *mu = eq->block[0].u, *v1 = eq->block[1].u, *v = s->y + n;
-    const dal_mask alive = s->alive[0];
-    step_inside(s, k, mu, eq->active[0]);
-    s->alive[0] = eq->active[0];
+    const dal_mask alive = s->alive;
+    step_inside(s, k, mu, eq->active);
+    s->alive = eq->active;
     dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, v1, NULL, k->out);
     push_velocity(s, k, k->out + m + m * n, mu);
     dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, v, NULL, k->out);
     dal_multiply(k->inverse, m, m, k->out, k->shift);
     DAL_EACH(a, m) eq->block[0].image[a] = dal_select(k->failed, dal_num(NAN), mu[a] - k->shift[a]);
     DAL_EACH(i, n) eq->block[1].image[i] = v[i];
-    s->alive[0] = alive;
+    s->alive = alive;
 }
 
 /* All that a step from here may change, and the constraint here. */
@@ -81,8 +81,8 @@ DAL_INLINE void begin_reflection(dal_step *s, reflection *k, dal_equation *eq)
     num norm = dal_num(0.0);
     DAL_EACH(i, n) norm = dal_max(norm, dal_in_units(dal_max_norm(B + i * m, m), DAL_SPEEDS(s), i));
     dal_set_speeds(s, &eq->block[1], n);
-    eq->block[1].scale[0] = dal_velocity_scale(s, s->h, 0);
-    eq->block[0].scale[0] = eq->block[1].scale[0] / norm;
+    eq->block[1].progress->scale = dal_velocity_scale(s, s->h, 0);
+    eq->block[0].progress->scale = eq->block[1].progress->scale / norm;
     DAL_EACH(a, m) eq->block[0].u[a] = dal_num(0.0);
     DAL_EACH(i, n) eq->block[1].u[i] = s->y[n + i];
 }
@@ -101,7 +101,7 @@ DAL_INLINE dal_status reflect(dal_step *s)
     DAL_BLOCK(s, v1, DAL_N(s), 0);
     reflection k = {s->t, y0,   r0,    method_state0, B0,           inverse,
                     out,  push, shift, ~dal_all(),    DAL_STATUS_OK};
-    DAL_EQUATION(eq, 2, &k, mu, v1);
+    DAL_EQUATION(s, eq, 2, &k, mu, v1);
     begin_reflection(s, &k, &eq);
     const dal_status status = dal_solve(s, &eq, reflection_map, NULL);
     return k.status == DAL_STATUS_OK ? status : k.status;

@@ -48,6 +48,7 @@ static const struct {
     {"num.h", ALWAYS, 0},
     {"elementary.h", DAL_KERNEL_FUNCTIONS, 0},
     {"persistent.h", ALWAYS, 0},
+    {"lanes.h", ALWAYS, 0},
     {"step.h", ALWAYS, 0},
     {"algebra.h", DAL_KERNEL_ALGEBRA, 0},
     {"acceptance.h", ALWAYS, 0},

@@ -53,7 +53,7 @@ DAL_INLINE num dal_group_nonfinite(const num *x, int count, int group)
 /* Lanes in which every component of the state is finite; 1/e is tested instead of e. */
 DAL_INLINE dal_mask dal_finite_state(const dal_step *s, int group)
 {
-    const int dim = DAL_DIM(s) / DAL_STEP_GROUPS;
+    const int dim = DAL_PER_GROUP(DAL_DIM(s));
     if (!DAL_LIFTED(s)) return dal_equal(dal_group_nonfinite(s->y, dim, group), dal_num(0.0));
     const int at_e = dal_at_e(s), at_p = dal_at_p(s);
     const num w = 1.0 / s->y[at_e]; /* the lifted space has one group */
@@ -110,7 +110,7 @@ DAL_INLINE dal_mask dal_check_guards(dal_step *s, int group, const num *y0, int 
 DAL_INLINE dal_mask dal_pivots_warn(dal_step *s, int group)
 {
     const int known = s->pivots_known[group];
-    const dal_mask alive = s->alive[group];
+    const dal_mask alive = DAL_LANES_AT(s->alive, group);
     num *const unsteady = s->last_pivots + group;
     dal_mask steady = dal_all();
     DAL_EACH(i, DAL_PIVOTS(s)) {
@@ -135,7 +135,7 @@ DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *f
     if (DAL_PIVOTS(s) > 0) warned = dal_pivots_warn(s, group);
     if (!DAL_RARELY(dal_any(warned))) return dal_all();
 #endif
-    const int m = DAL_M(s), n = DAL_N(s) / DAL_STEP_GROUPS;
+    const int m = DAL_M(s), n = DAL_PER_GROUP(DAL_N(s));
     DAL_VECTOR(s, c0, DAL_CONSTRAINT_SIZE(s));
     DAL_VECTOR(s, c1, DAL_CONSTRAINT_SIZE(s));
     DAL_VECTOR(s, g0, DAL_SQUARE_M(s));

@@ -103,14 +103,14 @@ DAL_INLINE dal_control dal_control_begin(const dal_step *s)
     c.t = c.h = c.left;
     c.trials = 0;
     c.again = ~dal_all();
-    c.active = c.alive = s->alive[0];
+    c.active = c.alive = s->alive;
     return c;
 }
 
 /* Ends some lanes, which fail at the time that they have reached. */
 DAL_INLINE void dal__control_fail(dal_step *s, dal_control *c, dal_mask lanes)
 {
-    s->unconverged[0] |= lanes;
+    s->unconverged |= lanes;
     c->active &= ~lanes;
 }
 
@@ -153,9 +153,9 @@ DAL_INLINE void dal_control_end(dal_step *s, dal_control *c, dal_times ratio, co
     c->planned = (dal_times)dal_select(c->active, plan, planned);
     *s->substep = dal_select(c->active, plan, *s->substep);
     c->again = c->active & ~good;
-    s->alive[0] = accepted;
+    s->alive = accepted;
     dal_update_lanes(s, c->h, derivative);
-    s->alive[0] = c->alive;
+    s->alive = c->alive;
 #ifndef DAL_SPECIALISED
     const double from = c->whole - dal_lane(c->left, 0);
 #endif
@@ -175,7 +175,7 @@ DAL_INLINE void dal_control_end(dal_step *s, dal_control *c, dal_times ratio, co
  * the size planned last, 0 if below the last place. */
 DAL_INLINE dal_status dal_control_status(dal_step *s, const dal_control *c)
 {
-    const dal_mask failed = c->alive & s->unconverged[0];
+    const dal_mask failed = c->alive & s->unconverged;
     const double left = dal_lane(c->left, 0);
     if (dal_any(c->alive & ~failed) || !dal_any(failed)) {
         s->t = c->start + c->direction * c->whole;

@@ -12,7 +12,7 @@
  * twice as many, at most DAL__MAX_INTERVAL.  A fixed point that hardly contracts, or that takes
  * more iterations than it may, is given up for Newton's method at once.
  *
- * The decision is kept in the persistent state: uses_newton, and choice[3][DAL_STEP_GROUPS]:
+ * The decision is kept in the persistent state: uses_newton, and choice, of each lane:
  *
  *     last        iterations of the last equation that counted
  *     remaining   equations until the next trial
@@ -54,6 +54,12 @@ DAL_INLINE dal_newton_cost dal_cost_of_newton(const dal_step *s, int stages, int
     return cost;
 }
 
+/* Lanes of group j in which Newton's method is in use. */
+DAL_INLINE dal_mask dal__newton_in_use(const dal_step *s, int j)
+{
+    return dal_less(dal_num(0.5), s->uses_newton[j]);
+}
+
 /* Lanes of group j in which the method not in use is tried. */
 DAL_INLINE dal_mask dal__trial_is_due(const dal_step *s, int j)
 {
@@ -76,7 +82,7 @@ DAL_INLINE num dal__fixed_point_limit(const dal_step *s, const dal_newton_cost *
 DAL_INLINE dal_mask dal__counts_until_trial(const dal_step *s, const dal_newton_cost *cost, int j,
                                             num taken)
 {
-    return dal_less(dal_num(0.5), s->uses_newton[j]) |
+    return dal__newton_in_use(s, j) |
            dal_less(dal_num(cost->matrix + cost->iteration * DAL__NEWTON_MIN), taken);
 }
 
@@ -87,7 +93,7 @@ DAL_INLINE void dal__choose_solver(dal_step *s, const dal_newton_cost *cost, int
 {
     num *const last = s->choice + j, *const remaining = last + DAL_STEP_GROUPS,
                *const interval = remaining + DAL_STEP_GROUPS;
-    const dal_mask newton = dal_less(dal_num(0.5), s->uses_newton[j]);
+    const dal_mask newton = dal__newton_in_use(s, j);
     const dal_mask due = dal__trial_is_due(s, j), other = by_newton ^ newton;
     const num before = dal_select(newton, cost->matrix + cost->iteration * *last, *last);
     const num now = dal_select(by_newton, cost->matrix + cost->iteration * taken, taken);

@@ -126,7 +126,7 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     if (DAL_LIFTED(s)) dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
     dal__eval_stages(s, k, image);
     if (!DAL_LIFTED(s)) return;
-    dal__save_forces(s, k, eq->active[0]);
+    dal__save_forces(s, k, DAL_LANES_AT(eq->active, 0));
     DAL_EACH(i, DAL_STAGES(k->method))
         DAL_EACH(j, n)
             image[i * n + j] = dal_fma(k->pi[i * n + j], k->w[i], k->f[i * k->stride + j]);
@@ -153,10 +153,9 @@ DAL_INLINE void dal__collocation_matrix(dal_step *s, dal_equation *eq)
     double a[MAX], b[MAX], ab[MAX], ba[MAX];
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, v, DAL_NW(s));
-    DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)) / DAL_STEP_GROUPS);
-    DAL_VECTOR(s, m,
-               DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s) /
-                   DAL_STEP_GROUPS);
+    DAL_VECTOR(s, jacobian, DAL_PER_GROUP(DAL_NW(s) * (DAL_N(s) + DAL_NW(s))));
+    DAL_VECTOR(
+        s, m, DAL_PER_GROUP(DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s)));
     const dal_eigensystem *eigensystem = dal__eigensystem_of(method);
     if (!eigensystem) {
         dal__rounded(stages * stages, method->a, method->a_tail, a);
@@ -167,7 +166,7 @@ DAL_INLINE void dal__collocation_matrix(dal_step *s, dal_equation *eq)
     const dal_stage_matrix x = {stages, k->h, b, ab, 0, eigensystem};
     const dal_stage_matrix p = {stages, -k->h, a, ba, 1, eigensystem};
     dal__guess_middle(s, k, q, v);
-    for (int j = 0; j < DAL_STEP_GROUPS; j++) {
+    DAL_EACH_GROUP(j) {
         dal_jacobian(s, j, s->t + 0.5 * k->h, q, v, jacobian);
         dal_stage_inverse(s, &x, jacobian, m, &eq->block[0], j);
         if (DAL_LIFTED(s)) dal_stage_inverse(s, &p, jacobian, m, &eq->block[1], j);
@@ -175,13 +174,12 @@ DAL_INLINE void dal__collocation_matrix(dal_step *s, dal_equation *eq)
 }
 
 /* Guesses the field at the present state for every stage, in the given lanes. */
-DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *derivative,
-                                 const dal_mask *lanes)
+DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *derivative, dal_lane_set lanes)
 {
     DAL_EACH(i, DAL_SIZE(b))
-        b->u[i] = dal_select(lanes[i % DAL_STEP_GROUPS], derivative[i % width], b->u[i]);
+        b->u[i] = dal_select(DAL_LANES_AT(lanes, i), derivative[i % width], b->u[i]);
 }
-DAL_INLINE void dal__guess_from_field(dal_step *s, dal_equation *eq, const dal_mask *lanes)
+DAL_INLINE void dal__guess_from_field(dal_step *s, dal_equation *eq, dal_lane_set lanes)
 {
     DAL_VECTOR(s, dy, DAL_DIM(s));
     dal_field(s, s->t, s->y, dy);
@@ -217,9 +215,8 @@ DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, 
 
 /* Saves the predictor errors and their differences where the predictor was accepted, else 0.  They
  * replace the first guess, which is no longer needed. */
-DAL_INLINE void dal__save_predictor_errors(dal_block *b, const dal_mask *lanes,
-                                           const dal_mask *accepted, num *DAL_RESTRICT last,
-                                           int stride)
+DAL_INLINE void dal__save_predictor_errors(dal_block *b, dal_lane_set lanes, dal_lane_set accepted,
+                                           num *DAL_RESTRICT last, int stride)
 {
     num *const error = b->start;
     DAL_EACH(i, DAL_SIZE(b)) error[i] = b->u[i] - error[i];
@@ -227,22 +224,23 @@ DAL_INLINE void dal__save_predictor_errors(dal_block *b, const dal_mask *lanes,
         DAL_EACH(i, DAL_SIZE(b)) error[i] += last[(d + 1) * stride + i];
     DAL_EACH(d, DAL__DIFFERENCES)
         DAL_EACH(i, DAL_SIZE(b)) {
-            const int j = i % DAL_STEP_GROUPS;
             num *const kept = last + (d + 1) * stride + i, before = *kept;
-            *kept = dal_select(lanes[j], dal_select(accepted[j], error[i], dal_num(0.0)), before);
+            *kept =
+                dal_select(DAL_LANES_AT(lanes, i),
+                           dal_select(DAL_LANES_AT(accepted, i), error[i], dal_num(0.0)), before);
             error[i] -= before;
         }
 }
 
-/* Solves the stages in the lanes tried; leaves those that were solved. */
-DAL_COLD dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tried)
+/* Solves the stages in the lanes tried, which are then those solved, and alive. */
+DAL_COLD dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_lane_set *tried)
 {
     dal_status status = DAL_STATUS_OK;
-    DAL_EACH(j, DAL_STEP_GROUPS) s->unconverged[j] &= ~tried[j];
-    DAL_EACH(j, DAL_STEP_GROUPS) s->alive[j] = tried[j];
-    if (dal__any_group(tried))
+    s->unconverged = dal_lanes_without(s->unconverged, *tried);
+    s->alive = *tried;
+    if (dal_any_lanes(*tried))
         status = dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
-    DAL_EACH(j, DAL_STEP_GROUPS) tried[j] = s->alive[j];
+    *tried = s->alive;
     return status;
 }
 
@@ -260,7 +258,7 @@ DAL_INLINE void dal__predict(dal_step *s, const dal_stages *k, dal_equation *eq)
                          stride);
 }
 DAL_INLINE void dal__record_predictor_errors(dal_step *s, const dal_stages *k, dal_equation *eq,
-                                             const dal_mask *lanes, const dal_mask *accepted)
+                                             dal_lane_set lanes, dal_lane_set accepted)
 {
     const int stride = dal__stride(s, DAL_STAGES(k->method));
     dal__save_predictor_errors(&eq->block[0], lanes, accepted, s->derivatives, stride);
@@ -269,44 +267,51 @@ DAL_INLINE void dal__record_predictor_errors(dal_step *s, const dal_stages *k, d
                                    dal__momentum_derivatives_kept(s, k), stride);
 }
 
-/* Solves from the predictor, where there is one; *accepted: the lanes solved. */
-DAL_INLINE void dal__solve_from_predictor(dal_step *s, const dal_stages *k, dal_equation *eq,
-                                          dal_mask *accepted)
+/* Lanes alive that have a predictor for steps of this size. */
+DAL_INLINE dal_lane_set dal__predicted_lanes(const dal_step *s, const dal_stages *k)
 {
-    dal_mask lanes[DAL_STEP_GROUPS];
-    DAL_EACH(j, DAL_STEP_GROUPS) lanes[j] = s->alive[j];
-    DAL_EACH(j, DAL_STEP_GROUPS)
-        accepted[j] = lanes[j] & dal_equal(s->derivatives_h[j], dal_num(k->h));
+    dal_lane_set lanes = s->alive;
+    DAL_EACH_GROUP(j) DAL_LANES_AT(lanes, j) &= dal_equal(s->derivatives_h[j], dal_num(k->h));
+    return lanes;
+}
+
+/* Solves from the predictor, where there is one; returns the lanes solved. */
+DAL_INLINE dal_lane_set dal__solve_from_predictor(dal_step *s, const dal_stages *k,
+                                                  dal_equation *eq)
+{
+    const dal_lane_set lanes = s->alive;
+    dal_lane_set accepted = dal__predicted_lanes(s, k);
     dal__predict(s, k, eq);
     dal__save_guess(eq); /* the predictor errors need it even where nothing is tried */
-    dal__try_guess(s, eq, accepted);
+    dal__try_guess(s, eq, &accepted);
     dal__record_predictor_errors(s, k, eq, lanes, accepted);
+    return accepted;
 }
 
 /* Solves the stages; where the predictor fails, from the field at the present state. */
 DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
-    dal_mask accepted[DAL_STEP_GROUPS], rest[DAL_STEP_GROUPS];
     dal_status status = DAL_STATUS_OK;
-    DAL_EACH(j, DAL_STEP_GROUPS) rest[j] = s->alive[j];
-    DAL_EACH(j, DAL_STEP_GROUPS) accepted[j] = ~dal_all();
-    if (DAL_STAGE_DERIVATIVES(s)) dal__solve_from_predictor(s, k, eq, accepted);
-    DAL_EACH(j, DAL_STEP_GROUPS) rest[j] &= ~accepted[j];
-    if (dal__any_group(rest)) {
+    const dal_lane_set lanes = s->alive;
+    const dal_lane_set accepted = DAL_STAGE_DERIVATIVES(s) ? dal__solve_from_predictor(s, k, eq)
+                                                           : dal_lanes_without(lanes, lanes);
+    dal_lane_set rest = dal_lanes_without(lanes, accepted);
+    if (dal_any_lanes(rest)) {
         dal__guess_from_field(s, eq, rest);
-        status = dal__try_guess(s, eq, rest);
+        status = dal__try_guess(s, eq, &rest);
     }
-    DAL_EACH(j, DAL_STEP_GROUPS) s->alive[j] = accepted[j] | rest[j];
-    return dal__any_group(s->alive) ? DAL_STATUS_OK : status;
+    s->alive = dal_lanes_or(accepted, rest);
+    return dal_any_lanes(s->alive) ? DAL_STATUS_OK : status;
 }
 
 /* Chooses the solver of the next step where the number of iterations matters for that. */
 DAL_INLINE void dal__choose_after_fixed_point(dal_step *s, const dal_equation *eq)
 {
-    DAL_EACH(j, DAL_STEP_GROUPS) {
+    DAL_EACH_GROUP(j) {
         const dal_mask counts = dal__counts_until_trial(s, &eq->cost, j, eq->taken[j]);
-        if (DAL_RARELY(dal_any(s->alive[j] & counts)))
-            dal__choose_solver(s, &eq->cost, j, s->alive[j], ~dal_all(), eq->taken[j]);
+        const dal_mask alive = DAL_LANES_AT(s->alive, j);
+        if (DAL_RARELY(dal_any(alive & counts)))
+            dal__choose_solver(s, &eq->cost, j, alive, ~dal_all(), eq->taken[j]);
     }
 }
 
@@ -314,23 +319,22 @@ DAL_INLINE void dal__choose_after_fixed_point(dal_step *s, const dal_equation *e
  * DAL_STATUS_NOT_CONVERGED, and nothing has changed. */
 DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
-    dal_mask solved[DAL_STEP_GROUPS], left[DAL_STEP_GROUPS];
     if (!DAL_STAGE_DERIVATIVES(s) || (DAL_MAY_NEWTON(s) && DAL_SOLVER(s) == DAL_NEWTON))
         return DAL_STATUS_NOT_CONVERGED;
-    DAL_EACH(j, DAL_STEP_GROUPS) {
-        left[j] = s->alive[j] & ~dal_equal(s->derivatives_h[j], dal_num(k->h));
-        if (DAL_MAY_NEWTON(s))
-            left[j] |=
-                s->alive[j] & (dal_less(dal_num(0.5), s->uses_newton[j]) | dal__trial_is_due(s, j));
-        if (DAL_MAY_NEWTON(s)) eq->limit[j] = dal__fixed_point_limit(s, &eq->cost, j, ~dal_all());
-        solved[j] = s->alive[j];
-    }
-    if (DAL_RARELY(dal__any_group(left))) return DAL_STATUS_NOT_CONVERGED;
+    dal_lane_set solved = dal__predicted_lanes(s, k);
+    if (DAL_MAY_NEWTON(s))
+        DAL_EACH_GROUP(j) {
+            DAL_LANES_AT(solved, j) &= ~(dal__newton_in_use(s, j) | dal__trial_is_due(s, j));
+            eq->limit[j] = dal__fixed_point_limit(s, &eq->cost, j, ~dal_all());
+        }
+    if (DAL_RARELY(dal_any_lanes(dal_lanes_without(s->alive, solved))))
+        return DAL_STATUS_NOT_CONVERGED;
     dal__predict(s, k, eq);
     dal__save_guess(eq);
-    dal__iterate(s, eq, dal__collocation_map, solved, 0, DAL_MAY_NEWTON(s));
-    DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
-    if (DAL_RARELY(dal__any_group(left))) return DAL_STATUS_NOT_CONVERGED;
+    dal__iterate(s, eq, dal__collocation_map,
+                 DAL_MAY_NEWTON(s) ? DAL__TRY_FIXED_POINT : DAL__ITERATE_FIXED_POINT, &solved);
+    if (DAL_RARELY(dal_any_lanes(dal_lanes_without(s->alive, solved))))
+        return DAL_STATUS_NOT_CONVERGED;
     if (DAL_MAY_NEWTON(s)) dal__choose_after_fixed_point(s, eq);
     dal__record_predictor_errors(s, k, eq, solved, solved);
     return DAL_STATUS_OK;
@@ -339,16 +343,16 @@ DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal
 /* Saves the derivatives for the next predictor. */
 DAL_INLINE void dal__save_unknowns(const dal_step *s, const dal_block *b, num *DAL_RESTRICT last)
 {
-    const num *u = b->u;
-    DAL_EACH(i, DAL_SIZE(b)) last[i] = dal_select(s->alive[i % DAL_STEP_GROUPS], u[i], last[i]);
+    dal_copy_lanes(s->alive, last, b->u, DAL_SIZE(b));
 }
 DAL_INLINE void dal__save_derivatives(dal_step *s, const dal_stages *k, const dal_equation *eq)
 {
     if (!DAL_STAGE_DERIVATIVES(s)) return;
     dal__save_unknowns(s, &eq->block[0], s->derivatives);
     if (DAL_LIFTED(s)) dal__save_unknowns(s, &eq->block[1], dal__momentum_derivatives_kept(s, k));
-    DAL_EACH(j, DAL_STEP_GROUPS)
-        s->derivatives_h[j] = dal_select(s->alive[j], dal_num(k->h), s->derivatives_h[j]);
+    DAL_EACH_GROUP(j)
+        s->derivatives_h[j] =
+            dal_select(DAL_LANES_AT(s->alive, j), dal_num(k->h), s->derivatives_h[j]);
 }
 
 /* Stage values of the gauge variable, which is a function of time alone. */
@@ -405,16 +409,16 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
     DAL_BLOCK(s, momenta, DAL_LIFTED(s) * DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
     dal_stages k = {method, s->h,  v, q,  pi,
                     f,      force, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
-    DAL_EQUATION(eq, 1 + DAL_LIFTED(s), &k, derivatives, momenta);
-    eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_NW(s) / DAL_STEP_GROUPS,
+    DAL_EQUATION(s, eq, 1 + DAL_LIFTED(s), &k, derivatives, momenta);
+    eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_PER_GROUP(DAL_NW(s)),
                                  dal__eigensystem_of(method) != NULL);
     eq.block[0].weight = eq.block[1].weight = fabs(s->h);
     dal_set_speeds(s, &eq.block[0], DAL_NW(s));
-    DAL_EACH(j, DAL_STEP_GROUPS) eq.block[0].scale[j] = dal_velocity_scale(s, s->h, j);
+    DAL_EACH_GROUP(j) eq.block[0].progress[j].scale = dal_velocity_scale(s, s->h, j);
     if (DAL_LIFTED(s)) {
         dal__gauge_stages(s, &k);
         DAL_EACH(i, DAL_STAGES(method) * DAL_N(s)) force[i] = dal_num(0.0);
-        eq.block[1].scale[0] = dal_momentum_scale(s, s->h, 0);
+        eq.block[1].progress->scale = dal_momentum_scale(s, s->h, 0);
     }
     if (dal_failed(predicted ? dal__solve_predicted(s, &k, &eq) : dal__solve_stages(s, &k, &eq)))
         return DAL_STATUS_NOT_CONVERGED;

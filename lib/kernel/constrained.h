@@ -70,8 +70,8 @@ DAL_INLINE void dal_restore_multipliers(dal_step *s, const num *blocks, num *h)
 DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)
 {
     DAL_EACH(i, DAL_PERSISTENT_MULTIPLIERS(s))
-        s->multiplier[i] = dal_select(s->alive[0], h[i], s->multiplier[i]);
-    *s->has_multiplier = dal_select(s->alive[0], dal_num(1.0), *s->has_multiplier);
+        s->multiplier[i] = dal_select(s->alive, h[i], s->multiplier[i]);
+    *s->has_multiplier = dal_select(s->alive, dal_num(1.0), *s->has_multiplier);
 }
 
 /* ---- one velocity ---- */
@@ -128,7 +128,7 @@ DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
     }
     dal_gram(A, k->directions, m, n, k->g);
     dal_solve_small(s, k->g, k->inverse, m, k->rhs, k->fresh);
-    DAL_EACH(i, m) k->mu[i] = DAL_IF_ACTIVE(eq->active[0], k->fresh[i], k->mu[i]);
+    DAL_EACH(i, m) k->mu[i] = DAL_IF_ACTIVE(eq->active, k->fresh[i], k->mu[i]);
     DAL_EACH(i, n)
         DAL_EACH(j, m) image[i] += k->directions[i * m + j] * k->fresh[j];
 }
@@ -177,7 +177,7 @@ DAL_INLINE_EARLY dal_status dal_enforce(dal_step *s, dal_equation *eq, dal_itera
                                         int direct)
 {
     if (!direct) return dal_solve(s, eq, map, dal_constrained_matrix);
-    eq->active[0] = s->alive[0];
+    eq->active = s->alive;
     map(s, eq);
     DAL_EACH(i, DAL_N(s)) eq->block[0].u[i] = eq->block[0].image[i];
     return DAL_STATUS_OK;
@@ -192,10 +192,10 @@ DAL_INLINE int dal_positional(const dal_step *s)
 /* An equation for the increment w of v, started from w = 0. */
 DAL_INLINE dal_equation dal_velocity_equation(const dal_step *s, dal_block block, void *context)
 {
-    DAL_EQUATION(eq, 1, context, block);
+    DAL_EQUATION(s, eq, 1, context, block);
     eq.cost = dal_cost_of_newton(s, 1, DAL_N(s), 0);
     dal_set_speeds(s, &eq.block[0], DAL_N(s));
-    eq.block[0].scale[0] = dal_velocity_scale(s, s->h, 0);
+    eq.block[0].progress->scale = dal_velocity_scale(s, s->h, 0);
     DAL_EACH(i, block.size) eq.block[0].u[i] = dal_num(0.0);
     return eq;
 }

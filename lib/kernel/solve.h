@@ -15,9 +15,6 @@
  * its bits do not depend on its neighbours.  For experiments DAL_SOLVER_TOLERANCE ends the
  * iteration earlier, DAL_EXTRA_ITERATIONS continues it.
  *
- * Groups of lanes that are stepped as one system (DAL_STEP_GROUPS) have norms and masks of their
- * own.
- *
  * With the solver "auto" each lane chooses between the two by what they cost, see choice.h. */
 #ifndef DAL_KERNEL_SOLVE_H
 #define DAL_KERNEL_SOLVE_H
@@ -41,15 +38,20 @@ enum { DAL_MAX_STAGES = 16 };
 #define DAL__CYCLE_LENGTH    6
 #define DAL__CYCLE_SIZE      (1e-10 * DAL_ULP_RATIO)
 
+/* How far the iteration of a block is, in each lane. */
+typedef struct dal_progress {
+    num scale;       /* size of the state that the block moves */
+    num now, before; /* norms of the last two increments */
+    num stagnations; /* successive iterations without decrease of the norm */
+    num best, since; /* the min norm, and the iterations since then */
+} dal_progress;
+
 /* One block of unknowns, [size]. */
 typedef struct dal_block {
-    num scale[DAL_STEP_GROUPS];                        /* size of the state it moves */
-    num now[DAL_STEP_GROUPS], before[DAL_STEP_GROUPS]; /* norms of the last two increments */
-    num stagnations[DAL_STEP_GROUPS];   /* successive iterations without decrease of the norm */
-    num best[2][DAL_STEP_GROUPS];       /* the min norm, and the iterations since then */
-    double weight;                      /* a change of u by d moves the state by weight*d */
-    int size;                           /* unknowns */
-    num *u, *image;                     /* the unknowns; what map made of them */
+    dal_progress DAL_OF_GROUPS(progress); /* of each group of lanes */
+    double weight;                        /* a change of u by d moves the state by weight*d */
+    int size;                             /* unknowns */
+    num *u, *image;                       /* the unknowns; what map made of them */
     num *start;                         /* [size] a copy of the first guess, for a second attempt */
     num *inverse;                       /* [size*size] M^-1 (of each group), Newton only */
     num *scratch;                       /* [3*size], Newton only */
@@ -62,14 +64,14 @@ typedef struct dal_block {
 
 /* An implicit equation u = map(u), of one or two blocks. */
 typedef struct dal_equation {
-    dal_block block[2];               /* the unknowns */
-    int blocks;                       /* 1 or 2 */
-    void *context;                    /* of the map */
-    dal_mask active[DAL_STEP_GROUPS]; /* the lanes that still iterate */
-    num taken[DAL_STEP_GROUPS];       /* with the solver auto: iterations of each lane, */
-    num limit[DAL_STEP_GROUPS];       /* and how many the fixed point may take; */
-    dal_newton_cost cost;             /* and of Newton's method */
-    int follows; /* 1: takes the method that other equations of the step chose */
+    dal_block block[2];       /* the unknowns */
+    int blocks;               /* 1 or 2 */
+    void *context;            /* of the map */
+    dal_lane_set active;      /* the lanes that still iterate */
+    num DAL_OF_GROUPS(taken); /* with the solver auto: iterations of each lane, */
+    num DAL_OF_GROUPS(limit); /* and how many the fixed point may take; */
+    dal_newton_cost cost;     /* and of Newton's method */
+    int follows;              /* 1: takes the method that other equations of the step chose */
 } dal_equation;
 
 /* A map may store values for the end of the step: of a lane's own last iteration, which
@@ -80,16 +82,22 @@ typedef struct dal_equation {
 #define DAL_IF_ACTIVE(active, fresh, old) dal_select(active, fresh, old)
 #endif
 
+/* The fixed point to its end; as far as it costs no more than Newton's method; that method. */
+typedef enum dal__iteration {
+    DAL__ITERATE_FIXED_POINT,
+    DAL__TRY_FIXED_POINT,
+    DAL__ITERATE_NEWTON
+} dal__iteration;
+
 /* Computes the image of u, for all blocks. */
 typedef void dal_iteration_map(dal_step *step, dal_equation *equation);
 /* Computes the inverse of Newton's matrix, for all blocks. */
 typedef void dal_matrix(dal_step *step, dal_equation *equation);
 
-/* The size of a block.  Compilers do not see the constant where several groups are stepped as one
- * system; such a file has blocks of one size only. */
-#ifdef DAL_SPECIALISED
-#define DAL_SIZE(b)                                                                                \
-    (DAL_STEP_GROUPS > 1 ? DAL_FIXED_STAGES * DAL_FIXED_NW * DAL_STEP_GROUPS : (b)->size)
+/* The size of a block.  Compilers do not see the constant where several groups of lanes are stepped
+ * as one system; such a file has blocks of one size only. */
+#if DAL_HAS_GROUPS
+#define DAL_SIZE(b) (DAL_FIXED_STAGES * DAL_NW(b))
 #else
 #define DAL_SIZE(b) ((b)->size)
 #endif
@@ -100,37 +108,28 @@ typedef void dal_matrix(dal_step *step, dal_equation *equation);
     DAL_VECTOR(step, name##_u, count);                                                             \
     DAL_VECTOR(step, name##_image, count);                                                         \
     DAL_VECTOR(step, name##_start, count);                                                         \
-    DAL_VECTOR(step, name##_inverse, (newton) ? (count) * (count) / DAL_STEP_GROUPS : 0);          \
+    DAL_VECTOR(step, name##_inverse, (newton) ? DAL_PER_GROUP((count) * (count)) : 0);             \
     DAL_VECTOR(step, name##_scratch, (newton) ? 3 * (count) : 0);                                  \
-    dal_block name = {{dal_num(0.0)},                                                              \
-                      {dal_num(0.0)},                                                              \
-                      {dal_num(0.0)},                                                              \
-                      {dal_num(0.0)},                                                              \
-                      {{dal_num(0.0)}},                                                            \
-                      1.0,                                                                         \
-                      (count),                                                                     \
-                      name##_u,                                                                    \
-                      name##_image,                                                                \
-                      name##_start,                                                                \
-                      name##_inverse,                                                              \
-                      name##_scratch,                                                              \
-                      NULL,                                                                        \
-                      1,                                                                           \
-                      NULL,                                                                        \
-                      1,                                                                           \
-                      0.0}
+    dal_block name = {                                                                             \
+        {{dal_num(0.0), dal_num(0.0), dal_num(0.0), dal_num(0.0), dal_num(0.0), dal_num(0.0)}},    \
+        1.0,                                                                                       \
+        (count),                                                                                   \
+        name##_u,                                                                                  \
+        name##_image,                                                                              \
+        name##_start,                                                                              \
+        name##_inverse,                                                                            \
+        name##_scratch,                                                                            \
+        NULL,                                                                                      \
+        1,                                                                                         \
+        NULL,                                                                                      \
+        1,                                                                                         \
+        0.0}
 
-/* Declares an equation of `count` blocks; where Newton's method may solve it, its cost is set. */
-#define DAL_EQUATION(name, count, context, ...)                                                    \
-    dal_equation name = {{__VA_ARGS__},  (count),        (context),  {dal_all()},                  \
+/* Declares an equation of `count` blocks for the lanes alive; where Newton's method may solve it,
+ * its cost is set. */
+#define DAL_EQUATION(step, name, count, context, ...)                                              \
+    dal_equation name = {{__VA_ARGS__},  (count),        (context),  (step)->alive,                \
                          {dal_num(0.0)}, {dal_num(0.0)}, {0.0, 0.0}, 0}
-
-DAL_INLINE int dal__any_group(const dal_mask *lanes)
-{
-    dal_mask some = lanes[0];
-    DAL_EACH(j, DAL_STEP_GROUPS - 1) some |= lanes[j + 1];
-    return dal_any(some);
-}
 
 /* The units of a block.  Compilers see in files without units that there are none. */
 #ifdef DAL_SPECIALISED
@@ -139,21 +138,9 @@ DAL_INLINE int dal__any_group(const dal_mask *lanes)
 #define DAL_BLOCK_UNIT(b) ((b)->unit)
 #endif
 
-/* The max norm over group j, in units[width] that repeat; NULL: 1. */
-DAL_INLINE num dal__group_norm(const num *x, int count, const double *unit, int width, int j)
-{
-    if (DAL_STEP_GROUPS == 1 && !unit) return dal_max_norm(x, count);
-    const int all = count / DAL_STEP_GROUPS, period = unit ? width : all;
-    num norm = dal_num(0.0);
-    for (int first = 0; first < all; first += period)
-        DAL_EACH(i, period)
-            norm =
-                dal_max(norm, dal_abs(dal_in_units(x[(first + i) * DAL_STEP_GROUPS + j], unit, i)));
-    return norm;
-}
 DAL_INLINE num dal__block_norm(const dal_block *b, const num *x, int j)
 {
-    return dal__group_norm(x, DAL_SIZE(b), DAL_BLOCK_UNIT(b), b->width, j);
+    return dal_group_norm(x, DAL_SIZE(b), DAL_BLOCK_UNIT(b), b->width, j);
 }
 
 /* Sizes of a group's state for blocks that move v or pi, with the effect of rounding in q or p
@@ -162,24 +149,24 @@ DAL_INLINE num dal_velocity_scale(const dal_step *s, double h, int group)
 {
     const double *unit = DAL_SPEEDS(s);
     const int n = DAL_N(s), nw = DAL_NW(s);
-    return dal__group_norm(s->y + n, nw, unit, nw / DAL_STEP_GROUPS, group) +
-           dal__group_norm(s->y, n, unit, n / DAL_STEP_GROUPS, group) / dal_num(fabs(h));
+    return dal_group_norm(s->y + n, nw, unit, DAL_PER_GROUP(nw), group) +
+           dal_group_norm(s->y, n, unit, DAL_PER_GROUP(n), group) / dal_num(fabs(h));
 }
 /* The max norm of a velocity of all lanes, v[n]. */
 DAL_INLINE num dal_speed_norm(const dal_step *s, const num *v)
 {
-    return dal__group_norm(v, DAL_N(s), DAL_SPEEDS(s), DAL_N(s), 0);
+    return dal_group_norm(v, DAL_N(s), DAL_SPEEDS(s), DAL_N(s), 0);
 }
 /* Declares the unknowns of a block velocities, or their rates, of count numbers each stage. */
 DAL_INLINE void dal_set_speeds(const dal_step *s, dal_block *b, int count)
 {
     b->unit = DAL_SPEEDS(s);
-    b->width = count / DAL_STEP_GROUPS;
+    b->width = DAL_PER_GROUP(count);
 }
 DAL_INLINE num dal_momentum_scale(const dal_step *s, double h, int group)
 {
-    return dal__group_norm(s->y + dal_at_pi(s), DAL_N(s), NULL, 1, group) +
-           fabs(h) * dal__group_norm(s->y + dal_at_p(s), DAL_N(s), NULL, 1, group);
+    return dal_group_norm(s->y + dal_at_pi(s), DAL_N(s), NULL, 1, group) +
+           fabs(h) * dal_group_norm(s->y + dal_at_p(s), DAL_N(s), NULL, 1, group);
 }
 
 #define dal_solve DAL_WIDE(dal_solve)
@@ -210,67 +197,56 @@ DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num 
 /* image <- M^-1 image, in group j. */
 DAL_INLINE void dal__apply_inverse(const dal_step *s, dal_block *b, int j)
 {
-    const int rows = DAL_SIZE(b) / DAL_STEP_GROUPS;
+    const int rows = DAL_PER_GROUP(DAL_SIZE(b));
     const num *inverse = b->inverse + j * rows * rows;
-    num *const image = b->image + j;
-    if (b->eigensystem) {
-        dal_apply_eigensystem(b->eigensystem, DAL_STAGES(b), DAL_NW(s) / DAL_STEP_GROUPS, inverse,
-                              image, DAL_STEP_GROUPS, b->scratch);
-        return;
-    }
-    for (int i = 0; i < rows; i++) {
-        num sum = dal_num(0.0);
-        for (int k = 0; k < rows; k++)
-            sum = dal_fma(inverse[i * rows + k], image[k * DAL_STEP_GROUPS], sum);
-        b->scratch[i] = sum;
-    }
-    for (int i = 0; i < rows; i++) image[i * DAL_STEP_GROUPS] = b->scratch[i];
+    if (b->eigensystem)
+        dal_apply_eigensystem(b->eigensystem, DAL_STAGES(b), DAL_PER_GROUP(DAL_NW(s)), inverse,
+                              b->image + j, DAL_STEP_GROUPS, b->scratch);
+    else
+        dal_group_multiply(inverse, rows, b->image, j, b->scratch);
 }
 
-/* u += d (or M^-1 d) in the active lanes; b->now: the norm of the increment, NaN if not finite.
+/* u += d (or M^-1 d) in the active lanes; now: the norm of the increment, NaN if not finite.
  * Packs exist for one lane only, which is then active. */
-DAL_INLINE void dal__advance(const dal_step *s, dal_block *b, const dal_mask *active, int newton)
+DAL_INLINE void dal__advance(const dal_step *s, dal_block *b, dal_lane_set active,
+                             dal__iteration method)
 {
-    num norm[DAL_STEP_GROUPS], nonfinite[DAL_STEP_GROUPS];
-    DAL_EACH(j, DAL_STEP_GROUPS) norm[j] = nonfinite[j] = dal_num(0.0);
+    const int newton = method == DAL__ITERATE_NEWTON;
+    num DAL_OF_GROUPS(norm), DAL_OF_GROUPS(nonfinite);
+    DAL_EACH_GROUP(j) norm[j] = nonfinite[j] = dal_num(0.0);
     const int seen = newton ? 0 : dal__advance_packs(b->u, b->image, DAL_SIZE(b), norm, nonfinite);
     num *u = b->u + seen, *image = b->image + seen;
     DAL_EACH(i, DAL_SIZE(b) - seen) image[i] -= u[i];
     if (newton)
-        DAL_EACH(j, DAL_STEP_GROUPS) dal__apply_inverse(s, b, j);
-    DAL_EACH(i, DAL_SIZE(b) - seen) {
-        const int j = i % DAL_STEP_GROUPS;
-        const num d = image[i];
-        norm[j] = dal_max(norm[j], dal_abs(d));
-        nonfinite[j] += d - d;
-        u[i] = dal_select(active[j], u[i] + d, u[i]);
-    }
+        DAL_EACH_GROUP(j) dal__apply_inverse(s, b, j);
+    dal_add_increment(active, u, image, DAL_SIZE(b) - seen, norm, nonfinite);
     if (DAL_BLOCK_UNIT(b) != NULL)
-        DAL_EACH(j, DAL_STEP_GROUPS) norm[j] = dal__block_norm(b, b->image, j);
-    DAL_EACH(j, DAL_STEP_GROUPS) {
-        b->before[j] = b->now[j];
-        b->now[j] = b->weight * norm[j] + nonfinite[j];
+        DAL_EACH_GROUP(j) norm[j] = dal__block_norm(b, b->image, j);
+    DAL_EACH_GROUP(j) {
+        dal_progress *const p = &b->progress[j];
+        p->before = p->now;
+        p->now = b->weight * norm[j] + nonfinite[j];
     }
 }
 
 DAL_INLINE num dal__size(const dal_block *b, int j)
 {
-    return b->scale[j] + b->weight * dal__block_norm(b, b->u, j);
+    return b->progress[j].scale + b->weight * dal__block_norm(b, b->u, j);
 }
 
 /* Lanes where an increment is zero, or small enough after several iterations. */
-DAL_INLINE dal_mask dal__negligible(dal_block *b, int j, int k, num now, num size)
+DAL_INLINE dal_mask dal__negligible(dal_progress *p, int k, num size)
 {
     const double faint = k < DAL__MANY_ITERATIONS       ? 0.0
                          : k < 2 * DAL__MANY_ITERATIONS ? DAL__FAINT
                                                         : DAL__LATE_FAINT;
     const double cycle = k < DAL__MANY_ITERATIONS ? 0.0 : DAL__CYCLE_SIZE;
-    num *min = &b->best[0][j], *since = &b->best[1][j];
-    const dal_mask less = dal_less(now, *min);
-    *min = dal_select(less, now, *min);
-    *since = dal_select(less, dal_num(0.0), *since + 1.0);
-    return dal_less_equal(now, faint * size) |
-           (dal_less_equal(now, cycle * size) & dal_less(dal_num(DAL__CYCLE_LENGTH - 0.5), *since));
+    const dal_mask less = dal_less(p->now, p->best);
+    p->best = dal_select(less, p->now, p->best);
+    p->since = dal_select(less, dal_num(0.0), p->since + 1.0);
+    return dal_less_equal(p->now, faint * size) |
+           (dal_less_equal(p->now, cycle * size) &
+            dal_less(dal_num(DAL__CYCLE_LENGTH - 0.5), p->since));
 }
 
 /* Lanes of a group where the increment of iteration k is zero, stagnates, or is below the
@@ -278,21 +254,21 @@ DAL_INLINE dal_mask dal__negligible(dal_block *b, int j, int k, num now, num siz
  * the size of the state is not needed there. */
 DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k)
 {
-    const num now = b->now[j];
+    dal_progress *const p = &b->progress[j];
+    const num now = p->now;
     if (DAL_LANES == 1 && k < DAL__MANY_ITERATIONS && !(DAL_SOLVER_TOLERANCE(s) > 0.0) &&
         !(b->enough > 0.0) && dal_any(dal_less(dal_num(0.0), now)) &&
-        dal_any(dal_less(now, b->best[0][j]))) {
-        b->best[0][j] = now;
-        b->best[1][j] = b->stagnations[j] = dal_num(0.0);
+        dal_any(dal_less(now, p->best))) {
+        p->best = now;
+        p->since = p->stagnations = dal_num(0.0);
         return ~dal_all();
     }
     const num size = dal__size(b, j);
-    b->stagnations[j] =
-        dal_select(dal_less_equal(b->before[j], now), b->stagnations[j] + 1.0, dal_num(0.0));
-    const dal_mask once = dal_less(dal_num(0.5), b->stagnations[j]),
-                   twice = dal_less(dal_num(1.5), b->stagnations[j]);
+    p->stagnations = dal_select(dal_less_equal(p->before, now), p->stagnations + 1.0, dal_num(0.0));
+    const dal_mask once = dal_less(dal_num(0.5), p->stagnations),
+                   twice = dal_less(dal_num(1.5), p->stagnations);
     const dal_mask stagnates =
-        dal__negligible(b, j, k, now, size) | (once & dal_less_equal(now, DAL__ROUNDING * size)) |
+        dal__negligible(p, k, size) | (once & dal_less_equal(now, DAL__ROUNDING * size)) |
         (twice & dal_less_equal(now, DAL__SMALL * size)) | dal_less_equal(now, b->enough * size);
     if (DAL_RARELY(DAL_SOLVER_TOLERANCE(s) > 0.0))
         return stagnates | dal_less_equal(now, DAL_SOLVER_TOLERANCE(s) * size);
@@ -301,26 +277,28 @@ DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k
 
 DAL_INLINE dal_mask dal__slow(const dal_block *b, int j)
 {
-    const dal_mask slow = dal_less(DAL__SLOW_CONTRACTION * b->before[j], b->now[j]);
+    const dal_progress *const p = &b->progress[j];
+    const dal_mask slow = dal_less(DAL__SLOW_CONTRACTION * p->before, p->now);
     if (!dal_any(slow)) return slow;
-    return slow & dal_less(DAL__NOISE * dal__size(b, j), b->now[j]);
+    return slow & dal_less(DAL__NOISE * dal__size(b, j), p->now);
 }
 
 DAL_INLINE void dal__begin_block(dal_block *b)
 {
-    DAL_EACH(j, DAL_STEP_GROUPS) b->now[j] = dal_num(INFINITY);
-    DAL_EACH(j, DAL_STEP_GROUPS) b->stagnations[j] = dal_num(0.0);
-    DAL_EACH(j, DAL_STEP_GROUPS) b->best[0][j] = dal_num(INFINITY);
-    DAL_EACH(j, DAL_STEP_GROUPS) b->best[1][j] = dal_num(0.0);
+    DAL_EACH_GROUP(j) {
+        dal_progress *const p = &b->progress[j];
+        p->now = p->best = dal_num(INFINITY);
+        p->stagnations = p->since = dal_num(0.0);
+    }
 }
 
 /* One iteration of all blocks in the active lanes. */
 DAL_INLINE_EARLY void dal__iterate_once(dal_step *s, dal_equation *eq, dal_iteration_map *map,
-                                        int newton)
+                                        dal__iteration method)
 {
     map(s, eq);
-    dal__advance(s, &eq->block[0], eq->active, newton);
-    if (eq->blocks > 1) dal__advance(s, &eq->block[1], eq->active, newton);
+    dal__advance(s, &eq->block[0], eq->active, method);
+    if (eq->blocks > 1) dal__advance(s, &eq->block[1], eq->active, method);
 }
 
 /* Lanes in which the fixed point is given up after iteration k. */
@@ -333,37 +311,35 @@ DAL_INLINE dal_mask dal__gives_up(const dal_equation *eq, int j, int k)
 
 /* After iteration k: removes the lanes of a group that have failed, or in which the fixed point is
  * given up, from `lanes`, and those and the converged ones from the active lanes. */
-DAL_INLINE void dal__update_active(dal_step *s, dal_equation *eq, int j, int may_give_up, int k,
-                                   dal_mask *lanes)
+DAL_INLINE void dal__update_active(dal_step *s, dal_equation *eq, int j, dal__iteration method,
+                                   int k, dal_lane_set *lanes)
 {
-    const dal_mask active = eq->active[j];
+    const dal_mask active = DAL_LANES_AT(eq->active, j);
     dal_mask converged = dal__converged(s, &eq->block[0], j, k),
-             going = dal_finite(eq->block[0].now[j]);
+             going = dal_finite(eq->block[0].progress[j].now);
     if (eq->blocks > 1) {
         converged &= dal__converged(s, &eq->block[1], j, k);
-        going &= dal_finite(eq->block[1].now[j]);
+        going &= dal_finite(eq->block[1].progress[j].now);
     }
     eq->taken[j] = dal_select(active, dal_num(k + 1), eq->taken[j]);
-    if (may_give_up) going &= converged | ~dal__gives_up(eq, j, k);
-    *lanes &= going | ~active;
-    eq->active[j] = active & going & ~converged;
+    if (method == DAL__TRY_FIXED_POINT) going &= converged | ~dal__gives_up(eq, j, k);
+    DAL_LANES_AT(*lanes, j) &= going | ~active;
+    DAL_LANES_AT(eq->active, j) = active & going & ~converged;
 }
 
-/* Iterates in the given lanes and leaves those that converged in `lanes`.  may_give_up: the fixed
- * point need not be iterated to its end. */
+/* Iterates in the given lanes; removes from them those that do not converge. */
 DAL_INLINE_EARLY void dal__iterate(dal_step *s, dal_equation *eq, dal_iteration_map *map,
-                                   dal_mask *lanes, int newton, int may_give_up)
+                                   dal__iteration method, dal_lane_set *lanes)
 {
     dal__begin_block(&eq->block[0]);
     if (eq->blocks > 1) dal__begin_block(&eq->block[1]);
-    DAL_EACH(j, DAL_STEP_GROUPS) eq->active[j] = lanes[j];
-    for (int k = 0; k < DAL_ITERATIONS(s) && dal__any_group(eq->active); k++) {
-        dal__iterate_once(s, eq, map, newton);
-        DAL_EACH(j, DAL_STEP_GROUPS) dal__update_active(s, eq, j, may_give_up, k, &lanes[j]);
+    eq->active = *lanes;
+    for (int k = 0; k < DAL_ITERATIONS(s) && dal_any_lanes(eq->active); k++) {
+        dal__iterate_once(s, eq, map, method);
+        DAL_EACH_GROUP(j) dal__update_active(s, eq, j, method, k, lanes);
     }
-    DAL_EACH(j, DAL_STEP_GROUPS) lanes[j] &= ~eq->active[j];
-    DAL_EACH(j, DAL_STEP_GROUPS) eq->active[j] = lanes[j];
-    for (int k = 0; k < DAL_EXTRA_ITERATIONS(s); k++) dal__iterate_once(s, eq, map, newton);
+    eq->active = *lanes = dal_lanes_without(*lanes, eq->active);
+    for (int k = 0; k < DAL_EXTRA_ITERATIONS(s); k++) dal__iterate_once(s, eq, map, method);
 }
 
 DAL_INLINE void dal__save_block(dal_block *b)
@@ -375,51 +351,54 @@ DAL_INLINE void dal__save_guess(dal_equation *eq)
     dal__save_block(&eq->block[0]);
     if (eq->blocks > 1) dal__save_block(&eq->block[1]);
 }
-DAL_INLINE void dal__restore_block(dal_block *b, const dal_mask *lanes)
+DAL_INLINE void dal__restore_block(dal_block *b, dal_lane_set lanes)
 {
-    DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_select(lanes[i % DAL_STEP_GROUPS], b->start[i], b->u[i]);
+    dal_copy_lanes(lanes, b->u, b->start, DAL_SIZE(b));
 }
 
-/* Iterates again from the first guess in the lanes left, and leaves those that converged. */
+/* Iterates again from the first guess in the given lanes; removes those that do not converge. */
 DAL_INLINE_EARLY void dal__solve_again(dal_step *s, dal_equation *eq, dal_iteration_map *map,
-                                       dal_matrix *matrix, dal_mask *left)
+                                       dal_matrix *matrix, dal_lane_set *lanes)
 {
-    dal__restore_block(&eq->block[0], left);
-    if (eq->blocks > 1) dal__restore_block(&eq->block[1], left);
+    dal__restore_block(&eq->block[0], *lanes);
+    if (eq->blocks > 1) dal__restore_block(&eq->block[1], *lanes);
     if (matrix) matrix(s, eq);
-    dal__iterate(s, eq, map, left, matrix != NULL, 0);
+    dal__iterate(s, eq, map, matrix ? DAL__ITERATE_NEWTON : DAL__ITERATE_FIXED_POINT, lanes);
 }
 
-/* Lanes of group j that are solved by Newton's method at first. */
-DAL_INLINE dal_mask dal__begins_with_newton(const dal_step *s, const dal_equation *eq, int j)
+/* Lanes that are solved by Newton's method at first. */
+DAL_INLINE dal_lane_set dal__begins_with_newton(const dal_step *s, const dal_equation *eq)
 {
-    const dal_mask newton = dal_less(dal_num(0.5), s->uses_newton[j]);
-    if (DAL_SOLVER(s) == DAL_NEWTON) return s->alive[j];
-    if (eq->follows) return s->alive[j] & newton;
-    return s->alive[j] & (newton ^ dal__trial_is_due(s, j));
+    dal_lane_set lanes = s->alive;
+    if (DAL_SOLVER(s) == DAL_NEWTON) return lanes;
+    DAL_EACH_GROUP(j) {
+        dal_mask newton = dal__newton_in_use(s, j);
+        if (!eq->follows) newton ^= dal__trial_is_due(s, j);
+        DAL_LANES_AT(lanes, j) &= newton;
+    }
+    return lanes;
 }
 
 /* Solves with Newton's method the lanes that the fixed point did not, `solved`; then by the fixed
  * point after all those in which Newton's method was only tried. */
 DAL_INLINE_EARLY void dal__solve_rest(dal_step *s, dal_equation *eq, dal_iteration_map *map,
-                                      dal_matrix *matrix, dal_mask *solved)
+                                      dal_matrix *matrix, dal_lane_set *solved)
 {
-    dal_mask left[DAL_STEP_GROUPS], by_newton[DAL_STEP_GROUPS];
-    DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
-    DAL_EACH(j, DAL_STEP_GROUPS) by_newton[j] = left[j];
-    if (dal__any_group(left)) dal__solve_again(s, eq, map, matrix, by_newton);
-    DAL_EACH(j, DAL_STEP_GROUPS) solved[j] |= by_newton[j];
+    dal_lane_set by_newton = dal_lanes_without(s->alive, *solved);
+    if (dal_any_lanes(by_newton)) dal__solve_again(s, eq, map, matrix, &by_newton);
+    *solved = dal_lanes_or(*solved, by_newton);
     if (DAL_SOLVER(s) == DAL_NEWTON) return;
-    DAL_EACH(j, DAL_STEP_GROUPS)
-        left[j] = s->alive[j] & ~solved[j] & dal__begins_with_newton(s, eq, j) &
-                  ~dal_less(dal_num(0.5), s->uses_newton[j]);
-    if (dal__any_group(left)) dal__solve_again(s, eq, map, NULL, left);
-    DAL_EACH(j, DAL_STEP_GROUPS) solved[j] |= left[j];
-    DAL_EACH(j, DAL_STEP_GROUPS) {
+    dal_lane_set tried = dal_lanes_without(dal__begins_with_newton(s, eq), *solved);
+    DAL_EACH_GROUP(j) DAL_LANES_AT(tried, j) &= ~dal__newton_in_use(s, j);
+    if (dal_any_lanes(tried)) dal__solve_again(s, eq, map, NULL, &tried);
+    *solved = dal_lanes_or(*solved, tried);
+    DAL_EACH_GROUP(j) {
+        const dal_mask newton = DAL_LANES_AT(by_newton, j);
         if (eq->follows)
-            s->uses_newton[j] = dal_select(by_newton[j], dal_num(1.0), s->uses_newton[j]);
+            s->uses_newton[j] = dal_select(newton, dal_num(1.0), s->uses_newton[j]);
         else
-            dal__choose_solver(s, &eq->cost, j, s->alive[j] & solved[j], by_newton[j],
+            dal__choose_solver(s, &eq->cost, j,
+                               DAL_LANES_AT(s->alive, j) & DAL_LANES_AT(*solved, j), newton,
                                eq->taken[j]);
     }
 }
@@ -430,21 +409,18 @@ DAL_SHARED_EARLY dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iterati
                                       dal_matrix *matrix)
 {
     const int may_newton = matrix && DAL_MAY_NEWTON(s);
-    dal_mask solved[DAL_STEP_GROUPS];
-    DAL_EACH(j, DAL_STEP_GROUPS) {
-        const dal_mask newton = dal_less(dal_num(0.5), s->uses_newton[j]);
-        solved[j] = s->alive[j];
-        if (may_newton) solved[j] &= ~dal__begins_with_newton(s, eq, j);
-        eq->limit[j] = may_newton ? dal__fixed_point_limit(s, &eq->cost, j, newton) : dal_num(0.0);
+    dal_lane_set solved = s->alive;
+    if (may_newton) {
+        solved = dal_lanes_without(solved, dal__begins_with_newton(s, eq));
+        DAL_EACH_GROUP(j)
+            eq->limit[j] = dal__fixed_point_limit(s, &eq->cost, j, dal__newton_in_use(s, j));
     }
     dal__save_guess(eq);
-    dal__iterate(s, eq, map, solved, 0, may_newton);
-    if (may_newton) dal__solve_rest(s, eq, map, matrix, solved);
-    DAL_EACH(j, DAL_STEP_GROUPS) {
-        s->unconverged[j] |= s->alive[j] & ~solved[j];
-        s->alive[j] &= solved[j];
-    }
-    return dal__any_group(s->alive) ? DAL_STATUS_OK : DAL_STATUS_NOT_CONVERGED;
+    dal__iterate(s, eq, map, may_newton ? DAL__TRY_FIXED_POINT : DAL__ITERATE_FIXED_POINT, &solved);
+    if (may_newton) dal__solve_rest(s, eq, map, matrix, &solved);
+    s->unconverged = dal_lanes_or(s->unconverged, dal_lanes_without(s->alive, solved));
+    s->alive = dal_lanes_and(s->alive, solved);
+    return dal_any_lanes(s->alive) ? DAL_STATUS_OK : DAL_STATUS_NOT_CONVERGED;
 }
 #endif
 
@@ -470,7 +446,7 @@ DAL_SHARED void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const 
 DAL_INLINE num dal__newton_entry(const dal_step *s, const dal_stage_matrix *k, const num *jacobian,
                                  int i, int j, double diagonal, double x, double y)
 {
-    const int n = DAL_N(s) / DAL_STEP_GROUPS, nw = DAL_NW(s) / DAL_STEP_GROUPS;
+    const int n = DAL_PER_GROUP(DAL_N(s)), nw = DAL_PER_GROUP(DAL_NW(s));
     const int row = k->transposed ? j : i, column = k->transposed ? i : j;
     const num fq = column < n ? jacobian[row * n + column] : dal_num(0.0);
     return diagonal - x * jacobian[nw * n + row * nw + column] - y * fq;
@@ -480,7 +456,7 @@ DAL_INLINE num dal__newton_entry(const dal_step *s, const dal_stage_matrix *k, c
 DAL_INLINE void dal__eigen_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
                                    num *m, num *inverse)
 {
-    const int width = DAL_NW(s) / DAL_STEP_GROUPS;
+    const int width = DAL_PER_GROUP(DAL_NW(s));
     const double *unit = k->transposed ? NULL : DAL_SPEEDS(s);
     for (int e = 0; e < (DAL_STAGES(k) + 1) / 2; e++) {
         const double *value = k->eigensystem->value + 2 * e;
@@ -509,7 +485,7 @@ DAL_INLINE void dal__eigen_inverse(dal_step *s, const dal_stage_matrix *k, const
 DAL_SHARED void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
                                   num *m, dal_block *block, int group)
 {
-    const int size = DAL_SIZE(block) / DAL_STEP_GROUPS, width = size / k->stages;
+    const int size = DAL_PER_GROUP(DAL_SIZE(block)), width = size / k->stages;
     num *const inverse = block->inverse + group * size * size;
     block->eigensystem = k->eigensystem;
     block->stages = k->stages;

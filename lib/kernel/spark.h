@@ -170,7 +170,7 @@ DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
                 image[(i + first) * n + c] += B[c * m + a] * k->L[i * m + a];
     }
     for (int a = 0; a < m; a++)
-        k->last[a] = DAL_IF_ACTIVE(eq->active[0], k->L[(count - 1) * m + a], k->last[a]);
+        k->last[a] = DAL_IF_ACTIVE(eq->active, k->L[(count - 1) * m + a], k->last[a]);
 }
 
 /* L_1, where it is known, and the first guess: F at the present state for every K. */
@@ -230,11 +230,11 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
                         inverse,
                         rhs,
                         L};
-    DAL_EQUATION(eq, 1, &k, block);
+    DAL_EQUATION(s, eq, 1, &k, block);
     eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_N(s), 0);
     eq.block[0].weight = fabs(s->h);
     dal_set_speeds(s, &eq.block[0], DAL_N(s));
-    eq.block[0].scale[0] = dal_velocity_scale(s, s->h, 0);
+    eq.block[0].progress->scale = dal_velocity_scale(s, s->h, 0);
     dal__product(DAL_STAGES(method), method->a, method->ahat, product);
     dal__spark_begin(s, &k, &eq);
     if (dal_failed(dal_solve(s, &eq, dal__spark_map, dal_constrained_matrix)))

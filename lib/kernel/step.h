@@ -9,7 +9,7 @@
 #define DAL_KERNEL_STEP_H
 
 #include "../../include/dalembert_method.h"
-#include "num.h"
+#include "lanes.h"
 #include "parts.h"
 #include "persistent.h"
 
@@ -28,8 +28,7 @@ typedef enum dal_callback_code {
 
 #ifdef DAL_SPECIALISED
 
-/* In a generated file dimensions are constants, memory is local.  DAL_STEP_GROUPS groups of lanes
- * are stepped as one larger system: component i of group j is number i*DAL_STEP_GROUPS + j. */
+/* In a generated file dimensions are constants, memory is local. */
 #define DAL_N(s)      (DAL_FIXED_N * DAL_STEP_GROUPS)
 #define DAL_NW(s)     (DAL_FIXED_NW * DAL_STEP_GROUPS)
 #define DAL_M(s)      DAL_FIXED_M
@@ -82,8 +81,6 @@ typedef enum dal_callback_code {
 
 #else
 
-enum { DAL_STEP_GROUPS = 1 };
-
 #define DAL_N(s)                      ((s)->n)   /* coordinates */
 #define DAL_NW(s)                     ((s)->nw)  /* velocities and vakonomic multipliers */
 #define DAL_M(s)                      ((s)->m)   /* constraints */
@@ -130,14 +127,14 @@ struct dal_step {
 #define DAL__METHOD_NUMBERS(member, count) num DAL__NUMBERS(member, DAL__COUNT_##count);
     DAL__METHOD_STATE_LIST(DAL__METHOD_NUMBERS)
 
-    dal_mask alive[DAL_STEP_GROUPS], unconverged[DAL_STEP_GROUPS]; /* not failed; not solved */
+    dal_lane_set alive, unconverged; /* not failed; not solved */
 #if DAL_HAS_TIMES
     int has_times; /* 1: callbacks are evaluated at these times, not at a common one */
     dal_times times;
 #endif
 #if DAL_WITH(PIVOTS)
     num DAL__NUMBERS(pivots, DAL__COUNT_PIVOTS - 1); /* of the first evaluation of F in the step */
-    int pivots_known[DAL_STEP_GROUPS]; /* 1: there was one, or they are not compared */
+    int DAL_OF_GROUPS(pivots_known); /* 1: there was one, or they are not compared */
 #endif
 #ifdef DAL_SPECIALISED
     const dal_stored *work; /* parameters, and values that depend on them alone */
@@ -310,7 +307,7 @@ DAL_INLINE void dal_set_tangent(dal_step *s, int on)
 #endif
 
 /* The output of DAL_EVAL_CONSTRAINT for a group: D, A, B. */
-#define DAL_CONSTRAINT_SIZE(s) (DAL_M(s) + 2 * DAL_M(s) * (DAL_N(s) / DAL_STEP_GROUPS))
+#define DAL_CONSTRAINT_SIZE(s) (DAL_M(s) + 2 * DAL_M(s) * DAL_PER_GROUP(DAL_N(s)))
 
 /* Places of e, p, pi, pi_e in a state. */
 DAL_INLINE int dal_at_e(const dal_step *s) { return 2 * DAL_N(s); }
@@ -324,8 +321,8 @@ DAL_INLINE void dal_clear_momenta(dal_step *s)
 {
     const int first = dal_at_p(s);
     DAL_EACH(i, DAL_LIFTED(s) * (2 * DAL_N(s) + 1)) {
-        s->y[first + i] = dal_select(s->alive[0], dal_num(0.0), s->y[first + i]);
-        s->r[first + i] = dal_select(s->alive[0], dal_num(0.0), s->r[first + i]);
+        s->y[first + i] = dal_select(s->alive, dal_num(0.0), s->y[first + i]);
+        s->r[first + i] = dal_select(s->alive, dal_num(0.0), s->r[first + i]);
     }
 }
 #endif
@@ -420,17 +417,16 @@ DAL_INLINE void dal_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT
 DAL_INLINE void dal_add_lanes(dal_step *s, int first, int count, num factor, const num *d)
 {
     num *const DAL_RESTRICT y = s->y + first, *const DAL_RESTRICT r = s->r + first;
-    dal_mask alive[DAL_STEP_GROUPS];
-    DAL_EACH(j, DAL_STEP_GROUPS) alive[j] = s->alive[j];
+    const dal_lane_set alive = s->alive;
     DAL_EACH(i, count) {
-        const dal_mask lanes = alive[i % DAL_STEP_GROUPS];
+        const dal_mask lanes = DAL_LANES_AT(alive, i);
         const num a = y[i], b = d[i], before = r[i];
         const num sum = a + dal_fma(factor, b, before);
         y[i] = dal_select(lanes, sum, a);
         r[i] = dal_select(lanes, dal_fma(factor, b, a - sum) + before, before);
     }
     if (DAL_RARELY(DAL_PLAIN(s)))
-        DAL_EACH(i, count) r[i] = dal_select(alive[i % DAL_STEP_GROUPS], dal_num(0.0), r[i]);
+        DAL_EACH(i, count) r[i] = dal_select(DAL_LANES_AT(alive, i), dal_num(0.0), r[i]);
 }
 
 /* The same with one factor for all lanes. */

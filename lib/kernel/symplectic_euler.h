@@ -79,7 +79,8 @@ DAL_INLINE num dal__euler_v1(const dal_step *s, const dal_euler *k, int i, num r
 DAL_INLINE void dal__euler_map_v(dal_step *s, dal_equation *eq)
 {
     dal_euler *k = (dal_euler *)eq->context;
-    DAL_EACH(i, DAL_NW(s)) k->v[i] = DAL_IF_ACTIVE(eq->active[0], eq->block[0].u[i], k->v[i]);
+    DAL_EACH(i, DAL_NW(s))
+        k->v[i] = DAL_IF_ACTIVE(DAL_LANES_AT(eq->active, 0), eq->block[0].u[i], k->v[i]);
     dal__euler_q(s, k);
     dal_force(s, k->t, k->q, k->v, k->f);
     DAL_EACH(i, DAL_NW(s))
@@ -135,11 +136,11 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
 {
     const int n = DAL_N(s), nw = DAL_NW(s), pi = dal_at_pi(s);
     DAL_BLOCK(s, block, DAL_NW(s), DAL_MAY_NEWTON(s));
-    DAL_EQUATION(eq, 1, k, block);
+    DAL_EQUATION(s, eq, 1, k, block);
     eq.cost = dal_cost_of_newton(s, 1, DAL_NW(s), 0);
     if (k->at.v) {
         dal_set_speeds(s, &eq.block[0], nw);
-        eq.block[0].scale[0] = dal_velocity_scale(s, k->h, 0);
+        eq.block[0].progress->scale = dal_velocity_scale(s, k->h, 0);
         DAL_EACH(i, nw) eq.block[0].u[i] = s->y[n + i];
         if (dal_failed(dal_solve(s, &eq, dal__euler_map_v, dal__euler_matrix)))
             return DAL_STATUS_NOT_CONVERGED;
@@ -147,7 +148,7 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
     } else {
         eq.follows = 1; /* there is no such equation on the physical space */
         eq.block[0].size = n;
-        eq.block[0].scale[0] = dal_momentum_scale(s, k->h, 0);
+        eq.block[0].progress->scale = dal_momentum_scale(s, k->h, 0);
         DAL_EACH(i, n) eq.block[0].u[i] = s->y[pi + i];
         if (dal_failed(dal_solve(s, &eq, dal__euler_map_pi, dal__euler_matrix)))
             return DAL_STATUS_NOT_CONVERGED;

@@ -376,7 +376,7 @@ static dal__lanes check_step(engine *e, dal_mask *left, dal_status status, dal_s
     dal_step *s = &e->step;
     dal__failure *failure = e->failure;
     const dal_mask alive = *left;
-    dal_checks c = {~s->unconverged[0], dal_check_gauge(s, e->backup), dal_finite_state(s, 0),
+    dal_checks c = {~s->unconverged, dal_check_gauge(s, e->backup), dal_finite_state(s, 0),
                     dal_all()};
     *left &= c.solved & c.gauge & c.finite;
     if (status != DAL_STATUS_OK && status != DAL_STATUS_NOT_CONVERGED) *left = ~dal_all();
@@ -412,8 +412,8 @@ static void begin_step(engine *e, double h, dal__lanes alive, dal_mask lanes)
     while (first < DAL_LANES - 1 && !(alive >> first & 1)) first++;
     s->t = dal_lane(*persistent_at(e, DAL__TIME), first);
     s->h = h;
-    s->alive[0] = lanes;
-    s->unconverged[0] = ~dal_all();
+    s->alive = lanes;
+    s->unconverged = ~dal_all();
     s->used = 0;
     s->exhausted = 0;
     s->evaluations = 0;
