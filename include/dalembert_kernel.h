@@ -33,7 +33,7 @@
  *     taylor.h            dal_taylor_order dal_expand_first dal_expand_rest
  *                         dal_evaluate_polynomial
  *     blocks.h            dal_eval_blocks
- *     constrained.h       dal_positional dal_velocity_equation dal_enforce
+ *     constrained.h       dal_positional dal_velocity_equation dal_enforce dal_enforce_once
  *     spark.h             dal_spark dal_spark_advance
  *
  * A file ends with one DAL_INTEGRATOR for each method in it, whose member kernel names what the

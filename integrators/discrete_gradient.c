@@ -72,7 +72,7 @@ DAL_INLINE dal_status step(dal_step *s)
     gradient k = {elimination, q, vb, blocks, U0, mid, end};
     dal_equation eq = dal_velocity_equation(s, block, &k);
     dal_eval(s, DAL_EVAL_POTENTIAL, s->t + 0.5 * s->h, s->y, s->y + n, NULL, U0);
-    if (dal_failed(dal_enforce(s, &eq, gradient_map, 0))) return DAL_STATUS_NOT_CONVERGED;
+    if (dal_failed(dal_enforce(s, &eq, gradient_map))) return DAL_STATUS_NOT_CONVERGED;
     DAL_EACH(i, n) d[i] = s->h * dal_moved_v(s, i, eq.block[0].u[i]);
     DAL_EACH(i, n) d[n + i] = 2.0 * eq.block[0].u[i];
     return dal_update(s, s->h, d);

@@ -53,7 +53,7 @@ DAL_INLINE dal_status step_to_midpoint(dal_step *s, midpoint *k)
     dal_equation eq = dal_velocity_equation(s, block, k);
     dal_eval_blocks(s, s->t, s->y, s->y + n, k->blocks);
     DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->blocks[dal_blocks_B(s) + i];
-    if (dal_failed(dal_enforce(s, &eq, map_midpoint, 0))) return DAL_STATUS_NOT_CONVERGED;
+    if (dal_failed(dal_enforce(s, &eq, map_midpoint))) return DAL_STATUS_NOT_CONVERGED;
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq.block[0].u[i]);
     DAL_EACH(i, n) k->qb[i] = dal_moved_q(s, i, 0.5 * s->h * k->vb[i]);
     dal_eval_blocks(s, s->t + 0.5 * s->h, k->qb, k->vb, k->blocks);

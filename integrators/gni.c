@@ -60,7 +60,8 @@ DAL_INLINE dal_status step(dal_step *s)
     rattle_begin(s, kick);
     DAL_EACH(i, n) d[i] = h * dal_moved_v(s, i, kick[i]);
     DAL_EACH(i, n) q1[i] = dal_moved_q(s, i, d[i]);
-    if (dal_failed(dal_enforce(s, &eq, rattle_map, dal_positional(s))))
+    if (dal_failed(dal_positional(s) ? dal_enforce_once(s, &eq, rattle_map)
+                                     : dal_enforce(s, &eq, rattle_map)))
         return DAL_STATUS_NOT_CONVERGED;
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
     dal_save_multipliers(s, k.elimination.mu);

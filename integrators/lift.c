@@ -44,9 +44,9 @@ DAL_INLINE dal_status differentiate(dal_step *s, int j, num *unit, num *zero, nu
     for (int i = 0; i < size; i++) unit[i] = dal_num(i == j);
     for (int i = 0; i < size; i++) zero[i] = dal_num(0.0);
     put(s, p, size, unit, zero);
-    dal_set_tangent(s, 1);
+    dal_begin_tangent(s);
     const dal_status status = dal_inner(s, s->h);
-    dal_set_tangent(s, 0);
+    dal_end_tangent(s);
     for (int i = 0; i < size; i++) column[i] = (s->y[p + i] - unit[i]) + s->r[p + i];
     return status;
 }

@@ -60,7 +60,8 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_EACH(i, n) qh[i] = dal_moved_q(s, i, 0.5 * h * s->y[n + i]);
     dal_eval_blocks(s, s->t + 0.5 * h, qh, s->y + n, before);
     set_mean_directions(s, &k);
-    if (dal_failed(dal_enforce(s, &eq, leap_map, DAL_M(s) == 0 && dal_positional(s))))
+    if (dal_failed(DAL_M(s) == 0 && dal_positional(s) ? dal_enforce_once(s, &eq, leap_map)
+                                                      : dal_enforce(s, &eq, leap_map)))
         return DAL_STATUS_NOT_CONVERGED;
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
     DAL_EACH(i, n) d[i] = 0.5 * h * (s->y[n + i] + dal_moved_v(s, i, d[n + i]));

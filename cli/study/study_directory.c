@@ -173,21 +173,25 @@ static int copy_systems(const study_directory *dir, study_plan *plan)
     return status;
 }
 
-/* Whether this study may be written there: a new one, or one more shard. */
-static int check_place(const study_directory *dir, const char *text, size_t length, int is_shard)
+/* Whether a new study may be written there. */
+static int check_is_free(const study_directory *dir)
 {
     const char *held = file_exists(dir->study) ? dir->study : dir->manifest;
     if (!file_exists(held)) return CLI_DONE;
-    if (is_shard && held == dir->study && !file_exists(dir->manifest)) {
-        bool is_same;
-        const int status = file_equals(dir->study, text, length, &is_same);
-        if (status != CLI_DONE || is_same) return status;
-        return cli_fail(CLI_USAGE, "'%s' is another study; --force writes over it", held);
-    }
     return cli_fail(CLI_USAGE,
                     "'%s' exists already: 'dalembert resume %s' resumes it, --force writes over "
                     "it",
                     held, dir->path);
+}
+
+/* Whether one more shard of this study may be written there. */
+static int check_shares(const study_directory *dir, const char *text, size_t length)
+{
+    if (!file_exists(dir->study) || file_exists(dir->manifest)) return check_is_free(dir);
+    bool is_same;
+    const int status = file_equals(dir->study, text, length, &is_same);
+    if (status != CLI_DONE || is_same) return status;
+    return cli_fail(CLI_USAGE, "'%s' is another study; --force writes over it", dir->study);
 }
 
 /* Whether the study was killed while it was begun or written over: nothing of it can be resumed. */
@@ -217,7 +221,7 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
     if (status == CLI_DONE && (is_incomplete || (force && is_own)))
         status = clear(dir);
     else if (status == CLI_DONE && !force)
-        status = check_place(dir, text, length, shard.count > 0);
+        status = shard.count > 0 ? check_shares(dir, text, length) : check_is_free(dir);
     if (status == CLI_DONE) status = cli_directory(dir->runs);
     if (status == CLI_DONE) status = copy_systems(dir, plan);
     if (status == CLI_DONE) status = write_manifest(dir, plan, STORE_RUNNING);

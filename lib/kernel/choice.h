@@ -20,6 +20,7 @@
 #ifndef DAL_KERNEL_CHOICE_H
 #define DAL_KERNEL_CHOICE_H
 
+#include "eigensystem.h"
 #include "step.h"
 
 /* Equations from one trial of the other method to the next. */
@@ -38,11 +39,12 @@ typedef struct dal_newton_cost {
     double matrix, iteration;
 } dal_newton_cost;
 
-/* The cost for stages of `width` unknowns each; split: the matrix is inverted by eigenvalues
- * (eigensystem.h).  The terms are counts of multiplications, except terms of lower order, which
- * represent the rest and were fitted to timings.  Both spaces are charged for (q, v), so that a
- * motion has the same bits there. */
-DAL_INLINE dal_newton_cost dal_cost_of_newton(const dal_step *s, int stages, int width, int split)
+/* The cost for stages of `width` unknowns each; split: the eigensystem by which the matrix is
+ * inverted, NULL: whole.  The terms are counts of multiplications, except terms of lower order,
+ * which represent the rest and were fitted to timings.  Both spaces are charged for (q, v), so that
+ * a motion has the same bits there. */
+DAL_INLINE dal_newton_cost dal_cost_of_newton(const dal_step *s, int stages, int width,
+                                              const dal_eigensystem *split)
 {
     const double w = width, size = (double)stages * w, pairs = 0.5 * (stages + 1);
     const double map = stages * (DAL_FIELD_OPERATIONS(s) + (4.0 * stages + 8.0) * w);

@@ -56,26 +56,28 @@ DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int coun
                       out);
 }
 
-/* Stage values base + (r + h sum a x) for count components, by the coefficients a or their
- * partner's; out must not overlap x. */
-DAL_INLINE void dal__stage_value(const dal_step *s, const dal_stages *k, int partner, int i,
-                                 int first, int count, const num *x, int stride,
+/* Which coefficients give stage values: the method's, or its partner's. */
+typedef enum dal__coefficients { DAL__OF_METHOD, DAL__OF_PARTNER } dal__coefficients;
+
+/* Stage values base + (r + h sum a x) for count components; out must not overlap x. */
+DAL_INLINE void dal__stage_value(const dal_step *s, const dal_stages *k, dal__coefficients of,
+                                 int i, int first, int count, const num *x, int stride,
                                  num *DAL_RESTRICT out)
 {
     const dal_tableau *m = k->method;
     const int stages = DAL_STAGES(m);
-    const double *a = (partner ? m->partner : m->a) + i * stages;
-    const double *tail = dal__tail(partner ? m->partner_tail : m->a_tail, i * stages);
+    const double *a = (of == DAL__OF_PARTNER ? m->partner : m->a) + i * stages;
+    const double *tail = dal__tail(of == DAL__OF_PARTNER ? m->partner_tail : m->a_tail, i * stages);
     const num *y = s->y + first, *r = s->r + first, h = dal_num(k->h);
     DAL__BY_STAGES(stages,
                    DAL_EACH(c, count) out[c] =
                        y[c] + dal_fma(h, dal__weighted(a, tail, STAGES, x + c, stride), r[c]));
 }
-DAL_INLINE void dal__stage_values(const dal_step *s, const dal_stages *k, int partner, int first,
-                                  int count, const num *x, int stride, num *out)
+DAL_INLINE void dal__stage_values(const dal_step *s, const dal_stages *k, dal__coefficients of,
+                                  int first, int count, const num *x, int stride, num *out)
 {
     DAL_EACH(i, DAL_STAGES(k->method))
-        dal__stage_value(s, k, partner, i, first, count, x, stride, out + i * count);
+        dal__stage_value(s, k, of, i, first, count, x, stride, out + i * count);
 }
 
 /* The derivatives of pi: L_i = -(p + r - h sum a F_q^T Pi) - F_v^T Pi. */
@@ -121,9 +123,10 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     const dal_stages *k = (const dal_stages *)eq->context;
     const int n = DAL_N(s), nw = DAL_NW(s);
     num *const image = eq->block[0].image;
-    dal__stage_values(s, k, 1, n, nw, eq->block[0].u, nw, k->v);
-    dal__stage_values(s, k, 0, 0, n, k->v, nw, k->q);
-    if (DAL_LIFTED(s)) dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
+    dal__stage_values(s, k, DAL__OF_PARTNER, n, nw, eq->block[0].u, nw, k->v);
+    dal__stage_values(s, k, DAL__OF_METHOD, 0, n, k->v, nw, k->q);
+    if (DAL_LIFTED(s))
+        dal__stage_values(s, k, DAL__OF_METHOD, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
     dal__eval_stages(s, k, image);
     if (!DAL_LIFTED(s)) return;
     dal__save_forces(s, k, DAL_LANES_AT(eq->active, 0));
@@ -388,15 +391,19 @@ DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, con
 {
     const int n = DAL_N(s), nw = DAL_NW(s);
     DAL_VECTOR(s, d, DAL_DIM(s));
-    dal__stage_values(s, k, 1, n, nw, eq->block[0].u, nw, k->v);
-    if (DAL_LIFTED(s)) dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
+    dal__stage_values(s, k, DAL__OF_PARTNER, n, nw, eq->block[0].u, nw, k->v);
+    if (DAL_LIFTED(s))
+        dal__stage_values(s, k, DAL__OF_METHOD, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
     dal__end(k, k->v, nw, n, d);
     dal__end(k, eq->block[0].u, nw, nw, d + n);
     if (DAL_LIFTED(s)) dal__collocation_momenta(s, k, eq, d);
     return dal_update_multiple(s, k->h, k->h, d);
 }
 
-DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int predicted)
+/* Solves the stages from the predictor alone, or from any guess. */
+typedef enum dal__guess { DAL__FROM_PREDICTOR, DAL__FROM_ANY_GUESS } dal__guess;
+
+DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, dal__guess guess)
 {
     DAL_VECTOR(s, v, DAL_STAGES(method) * DAL_NW(s));
     DAL_VECTOR(s, q, DAL_STAGES(method) * DAL_N(s));
@@ -411,7 +418,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
                     f,      force, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
     DAL_EQUATION(s, eq, 1 + DAL_LIFTED(s), &k, derivatives, momenta);
     eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_PER_GROUP(DAL_NW(s)),
-                                 dal__eigensystem_of(method) != NULL);
+                                 dal__eigensystem_of(method));
     eq.block[0].weight = eq.block[1].weight = fabs(s->h);
     dal_set_speeds(s, &eq.block[0], DAL_NW(s));
     DAL_EACH_GROUP(j) eq.block[0].progress[j].scale = dal_velocity_scale(s, s->h, j);
@@ -420,7 +427,8 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
         DAL_EACH(i, DAL_STAGES(method) * DAL_N(s)) force[i] = dal_num(0.0);
         eq.block[1].progress->scale = dal_momentum_scale(s, s->h, 0);
     }
-    if (dal_failed(predicted ? dal__solve_predicted(s, &k, &eq) : dal__solve_stages(s, &k, &eq)))
+    if (dal_failed(guess == DAL__FROM_PREDICTOR ? dal__solve_predicted(s, &k, &eq)
+                                                : dal__solve_stages(s, &k, &eq)))
         return DAL_STATUS_NOT_CONVERGED;
     dal__save_derivatives(s, &k, &eq);
     return dal__collocation_end(s, &k, &eq);
@@ -430,13 +438,13 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
 /* The rare case is a function of its own, so that the usual one fits into registers. */
 DAL_COLD dal_status dal__collocate_again(dal_step *s, const dal_tableau *method)
 {
-    return dal__collocate(s, method, 0);
+    return dal__collocate(s, method, DAL__FROM_ANY_GUESS);
 }
 
 DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method)
 {
     const long long evaluations = s->evaluations;
-    if (dal__collocate(s, method, 1) == DAL_STATUS_OK) return DAL_STATUS_OK;
+    if (dal__collocate(s, method, DAL__FROM_PREDICTOR) == DAL_STATUS_OK) return DAL_STATUS_OK;
     s->evaluations = evaluations;
     dal_step again = *s;
     const dal_status status = dal__collocate_again(&again, method);
@@ -446,7 +454,7 @@ DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method)
 #else
 DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method)
 {
-    return dal__collocate(s, method, 0);
+    return dal__collocate(s, method, DAL__FROM_ANY_GUESS);
 }
 #endif
 #endif

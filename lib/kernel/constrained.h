@@ -171,12 +171,14 @@ DAL_SHARED void dal_constrained_matrix(dal_step *s, dal_equation *eq)
 }
 #endif
 
-/* Solves an equation for a velocity w, as dal_velocity_equation makes it.  direct: the map depends
- * on w through D only, and linearly, so that one iteration solves. */
-DAL_INLINE_EARLY dal_status dal_enforce(dal_step *s, dal_equation *eq, dal_iteration_map *map,
-                                        int direct)
+/* Solves an equation for a velocity w, as dal_velocity_equation makes it. */
+DAL_INLINE_EARLY dal_status dal_enforce(dal_step *s, dal_equation *eq, dal_iteration_map *map)
 {
-    if (!direct) return dal_solve(s, eq, map, dal_constrained_matrix);
+    return dal_solve(s, eq, map, dal_constrained_matrix);
+}
+/* The same where the map depends on w through D only, and linearly: one iteration solves. */
+DAL_INLINE_EARLY dal_status dal_enforce_once(dal_step *s, dal_equation *eq, dal_iteration_map *map)
+{
     eq->active = s->alive;
     map(s, eq);
     DAL_EACH(i, DAL_N(s)) eq->block[0].u[i] = eq->block[0].image[i];
@@ -193,7 +195,7 @@ DAL_INLINE int dal_positional(const dal_step *s)
 DAL_INLINE dal_equation dal_velocity_equation(const dal_step *s, dal_block block, void *context)
 {
     DAL_EQUATION(s, eq, 1, context, block);
-    eq.cost = dal_cost_of_newton(s, 1, DAL_N(s), 0);
+    eq.cost = dal_cost_of_newton(s, 1, DAL_N(s), NULL);
     dal_set_speeds(s, &eq.block[0], DAL_N(s));
     eq.block[0].progress->scale = dal_velocity_scale(s, s->h, 0);
     DAL_EACH(i, block.size) eq.block[0].u[i] = dal_num(0.0);

@@ -17,7 +17,7 @@ enum {
     DAL_KERNEL_ENFORCE = 1 << 7,        /* dal_enforce */
     DAL_KERNEL_SPARK = 1 << 8,          /* dal_spark_advance */
     DAL_KERNEL_METHOD_STATE = 1 << 9,   /* dal_save_method_state */
-    DAL_KERNEL_TANGENT = 1 << 10,       /* dal_set_tangent */
+    DAL_KERNEL_TANGENT = 1 << 10,       /* dal_begin_tangent */
     DAL_KERNEL_CONSTRAINT = 1 << 11,    /* DAL_EVAL_CONSTRAINT */
     DAL_KERNEL_ENERGY_NORMAL = 1 << 12, /* DAL_EVAL_ENERGY_NORMAL */
     DAL_KERNEL_POTENTIAL = 1 << 13,     /* DAL_EVAL_POTENTIAL */

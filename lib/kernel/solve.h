@@ -20,7 +20,6 @@
 #define DAL_KERNEL_SOLVE_H
 
 #include "choice.h"
-#include "eigensystem.h"
 
 enum { DAL_MAX_STAGES = 16 };
 

@@ -231,7 +231,7 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
                         rhs,
                         L};
     DAL_EQUATION(s, eq, 1, &k, block);
-    eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_N(s), 0);
+    eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_N(s), NULL);
     eq.block[0].weight = fabs(s->h);
     dal_set_speeds(s, &eq.block[0], DAL_N(s));
     eq.block[0].progress->scale = dal_velocity_scale(s, s->h, 0);

@@ -296,13 +296,20 @@ DAL_INLINE int dal_leaves_pivots(dal_callback_code code)
 DAL_INLINE int dal_failed(dal_status status) { return DAL_RARELY(status != DAL_STATUS_OK); }
 
 #if DAL_WITH(TANGENT)
-/* Selects whether dal_field moves a tangent vector stored in p and pi. */
-DAL_INLINE void dal_set_tangent(dal_step *s, int on)
+/* Between the two dal_field moves a tangent vector stored in p and pi. */
+DAL_INLINE void dal_begin_tangent(dal_step *s)
 {
 #ifndef DAL_SPECIALISED
-    s->tangent = on;
+    s->tangent = 1;
 #endif
-    (void)s, (void)on;
+    (void)s;
+}
+DAL_INLINE void dal_end_tangent(dal_step *s)
+{
+#ifndef DAL_SPECIALISED
+    s->tangent = 0;
+#endif
+    (void)s;
 }
 #endif
 

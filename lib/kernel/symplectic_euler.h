@@ -137,7 +137,7 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
     const int n = DAL_N(s), nw = DAL_NW(s), pi = dal_at_pi(s);
     DAL_BLOCK(s, block, DAL_NW(s), DAL_MAY_NEWTON(s));
     DAL_EQUATION(s, eq, 1, k, block);
-    eq.cost = dal_cost_of_newton(s, 1, DAL_NW(s), 0);
+    eq.cost = dal_cost_of_newton(s, 1, DAL_NW(s), NULL);
     if (k->at.v) {
         dal_set_speeds(s, &eq.block[0], nw);
         eq.block[0].progress->scale = dal_velocity_scale(s, k->h, 0);
