@@ -18,18 +18,16 @@
 /* A study has many runs in directories of their own, an ensemble has none. */
 static int check_directory(const run_directory *dir)
 {
+    const yaml_node_t *root = dir->doc ? document_node(dir->doc, 1) : NULL;
     char *study = cli_join(dir->path, "study.yaml");
     const bool has_study = file_exists(study);
-    bool is_ensemble, is_run;
     free(study);
-    int status = json_file_find(dir->manifest, "ensemble", &is_ensemble);
-    if (status == CLI_DONE) status = json_file_find(dir->manifest, "input", &is_run);
-    if (status != CLI_DONE) return status;
-    if (has_study && !is_run)
+    if (has_study && !document_value(dir->doc, root, "input"))
         return cli_fail(CLI_USAGE, "'%s' holds a study: name one of its runs, '%s/runs/...'",
                         dir->path, dir->path);
-    if (is_ensemble) return cli_fail(CLI_USAGE, "'%s' holds an ensemble, not a run", dir->path);
-    if (file_exists(dir->manifest)) return CLI_DONE;
+    if (document_value(dir->doc, root, "ensemble"))
+        return cli_fail(CLI_USAGE, "'%s' holds an ensemble, not a run", dir->path);
+    if (dir->doc) return CLI_DONE;
     return cli_fail(CLI_USAGE, "'%s' holds no run: there is no '%s'", dir->path, dir->manifest);
 }
 
@@ -112,8 +110,9 @@ static int complete_from(run_request *request, const char *directory, uint64_t w
     run_request held = request_default();
     char *bytes = NULL;
     run_directory_open(&dir, directory);
-    int status = check_directory(&dir);
-    if (status == CLI_DONE) status = store_read_manifest(dir.manifest, &dir.doc, &bytes);
+    int status =
+        file_exists(dir.manifest) ? store_read_manifest(dir.manifest, &dir.doc, &bytes) : CLI_DONE;
+    if (status == CLI_DONE) status = check_directory(&dir);
     if (status == CLI_DONE) status = manifest_read_input(&held, dir.doc, dir.system);
     if (status == CLI_DONE) status = take_request(request, &held, without, directory, line);
     free(bytes);

@@ -412,18 +412,19 @@ static int parse_file(document *doc, const char *path, const char *place, bool *
     return CLI_DONE;
 }
 
+const char *json_text(const document *doc, const char *name)
+{
+    const yaml_node_t *node = document_value(doc, document_node(doc, 1), name);
+    return node ? document_scalar(doc, node, name) : NULL;
+}
+
 int json_file_text(const char *path, const char *name, char **text)
 {
     document doc = {0};
     bool is_parsed;
     const int status = parse_file(&doc, path, path, &is_parsed);
-    *text = NULL;
-    if (is_parsed) {
-        const yaml_node_t *root = yaml_document_get_root_node(&doc.yaml);
-        const yaml_node_t *node = document_value(&doc, root, name);
-        const char *value = node ? document_scalar(&doc, node, name) : NULL;
-        if (value) *text = cli_strdup(value);
-    }
+    const char *value = is_parsed ? json_text(&doc, name) : NULL;
+    *text = value ? cli_strdup(value) : NULL;
     yaml_document_delete(&doc.yaml);
     return status;
 }

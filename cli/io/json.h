@@ -68,6 +68,8 @@ void json_end_results(json_writer *writer);
 int json_parse(document *doc, const char *place, const char *bytes, size_t length);
 /* The text of a value in the bytes that were parsed, allocated. */
 char *json_source(const char *bytes, const yaml_node_t *value);
+/* A text of the object; NULL where it is not there, or after a message where it is no text. */
+const char *json_text(const document *doc, const char *name);
 /* A text of the object in a file, allocated; NULL where the file or the text is not there, or after
  * a message where the file holds no object.  A file that cannot be read is CLI_IO. */
 int json_file_text(const char *path, const char *name, char **text);

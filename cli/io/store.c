@@ -237,7 +237,11 @@ int store_end_manifest(store_manifest *manifest, const char *path, int sync)
 int store_read_manifest(const char *path, document **manifest, char **bytes)
 {
     size_t length;
+    struct stat info;
     *manifest = cli_calloc(1, sizeof **manifest);
+    *bytes = NULL;
+    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
+        return cli_fail(CLI_USAGE, "'%s' is a directory", path);
     *bytes = file_read(path, &length);
     return *bytes ? json_parse(*manifest, path, *bytes, length) : CLI_IO;
 }
@@ -274,14 +278,25 @@ store_state store_end_state(int exit_status)
                                        : STORE_FAILED;
 }
 
-int store_read_state(const char *manifest, store_state *state)
+static store_state find_state(const char *word)
 {
-    char *word;
-    const int status = json_file_text(manifest, "status", &word);
     int i = word ? 0 : STORE_STATES;
     while (i < STORE_STATES && strcmp(word, store_state_words[i]) != 0) i++;
+    return (store_state)i;
+}
+
+store_state store_stated(const document *manifest, const char **message)
+{
+    *message = json_text(manifest, "message");
+    return find_state(json_text(manifest, "status"));
+}
+
+int store_read_state(const char *path, store_state *state)
+{
+    char *word;
+    const int status = json_file_text(path, "status", &word);
+    *state = find_state(word);
     free(word);
-    *state = (store_state)i;
     return status;
 }
 

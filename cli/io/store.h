@@ -142,8 +142,10 @@ typedef enum store_state {
 extern const char *const store_state_words[STORE_STATES];
 /* What an exit status leaves. */
 store_state store_end_state(int exit_status);
-/* What a manifest says; STORE_STATES: nothing. */
-int store_read_state(const char *manifest, store_state *state);
+/* What a manifest says, STORE_STATES: nothing, and why: a text of its own, NULL: nothing; the state
+ * of one that is a file. */
+store_state store_stated(const document *manifest, const char **message);
+int store_read_state(const char *path, store_state *state);
 /* Says how an interrupted directory is resumed; returns CLI_SIGNAL. */
 int store_interrupt(const char *directory);
 

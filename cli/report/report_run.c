@@ -349,15 +349,12 @@ static void write_command(FILE *page, const run_request *request)
 /* ---- the page ------------------------------------------------------------------------------ */
 
 /* What moves and how, and why the run ended where it did not reach its end. */
-static int write_head(const run_page *run, const char *manifest)
+static void write_head(const run_page *run, const document *manifest)
 {
     const run_request *request = run->request;
     FILE *page = run->r->page;
-    store_state state;
-    char *message;
-    int status = store_read_state(manifest, &state);
-    if (status == CLI_DONE) status = json_file_text(manifest, "message", &message);
-    if (status != CLI_DONE) return status;
+    const char *message;
+    const store_state state = store_stated(manifest, &message);
     fputs(REPORT_FACTS, page);
     report_fact(page, "system", request->system_name);
     report_system(page, run->model, request);
@@ -375,8 +372,6 @@ static int write_head(const run_page *run, const char *manifest)
         report_text(page, message ? message : "");
         fputs(".</strong></p>\n", page);
     }
-    free(message);
-    return CLI_DONE;
 }
 
 int report_run(report *r)
@@ -412,9 +407,9 @@ int report_run(report *r)
         status = report_csv_require(&run->summary, summary, "trend");
     if (status == CLI_DONE) {
         report_title(r, report_model_title(simulation.model, "A run"));
-        if (simulation.model) status = write_head(run, dir.manifest);
+        if (simulation.model) write_head(run, dir.doc);
         write_summary(run, fabs(reader_last_time(&run->reader) - request->from));
-        if (status == CLI_DONE && request->system_name) status = data_write_run(r);
+        if (request->system_name) status = data_write_run(r);
         report_events_write(r->page, &run->events);
         fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
         if (run->reader.count < 2)

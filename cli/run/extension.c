@@ -29,22 +29,14 @@ static const int row_options[] = {REQUEST_time,    REQUEST_from,     REQUEST_ste
 /* A run that failed, or that an event stopped, has no continuation. */
 static int check_end(const run_directory *dir)
 {
-    char *reason;
-    store_state state;
-    int status = json_file_text(dir->manifest, "message", &reason);
-    if (status == CLI_DONE) status = store_read_state(dir->manifest, &state);
-    if (status != CLI_DONE) {
-        free(reason);
-        return status;
-    }
+    const char *reason;
+    const store_state state = store_stated(dir->doc, &reason);
     const char *end = state == STORE_FAILED           ? "the run failed"
                       : state == STORE_DONE && reason ? "an event stopped the run"
                                                       : NULL;
-    if (end)
-        status = cli_fail(CLI_USAGE, "'%s' cannot be extended: %s%s%s", dir->path, end,
-                          reason ? ": " : "", reason ? reason : "");
-    free(reason);
-    return status;
+    if (!end) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "'%s' cannot be extended: %s%s%s", dir->path, end,
+                    reason ? ": " : "", reason ? reason : "");
 }
 
 /* Replaces --time or --steps, or takes it away. */

@@ -28,7 +28,6 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/utsname.h>
 
 #if defined(__clang__)
@@ -249,11 +248,9 @@ int manifest_read_input(run_request *request, const document *doc, const char *c
 
 int manifest_read(run_directory *dir, run_request *request)
 {
-    struct stat info;
     char *bytes;
-    if (stat(dir->manifest, &info) != 0)
+    if (!file_exists(dir->manifest))
         return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", dir->path, dir->manifest);
-    if (S_ISDIR(info.st_mode)) return cli_fail(CLI_USAGE, "'%s' is a directory", dir->manifest);
     int status = store_read_manifest(dir->manifest, &dir->doc, &bytes);
     if (status == CLI_DONE) status = manifest_read_input(request, dir->doc, dir->system);
     if (status == CLI_DONE)
