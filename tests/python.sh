@@ -1,7 +1,7 @@
 #!/bin/sh
 # python.sh MAKE BUILD - installs the package of python/ into an environment of its own, with the library of
 # BUILD, with an installed one, and as a wheel made from a source distribution; runs its tests and what
-# docs/python.md shows, and executes the notebook.  CC and CFLAGS are as in the build.
+# docs/python.md shows, and executes the notebooks.  CC and CFLAGS are as in the build.
 # Where CI is true it fails without Python and what the tests need.
 # make gets BUILD as it was given: a path that begins with the tree's has the blanks of that.
 make=$1 given=$2 build=$(realpath "$2") || exit 1
@@ -80,14 +80,12 @@ logged $python -m venv "$root/bare"
 grep -q 'dalembert: missing to build it: .*cffi: pip installs them' "$root/log" ||
     { cat "$root/log" >&2; fail "an empty environment: no reason"; }
 
-# The kernel of the notebook may be any python3.
-if "$root/V/bin/python" -c 'import nbconvert, ipykernel, matplotlib' 2>/dev/null; then
-    logged env PYTHONPATH="$package" "$root/V/bin/python" -m nbconvert --to notebook --execute \
-        --output-dir "$root" --output executed python/examples/drift.ipynb
-    pictures=$(grep -c '"image/png"' "$root/executed.ipynb")
-    [ "$pictures" -eq 4 ] || fail "the notebook draws $pictures pictures, not 4"
+# The kernel of the notebooks may be any python3.
+if "$root/V/bin/python" -c 'import nbclient, ipykernel, matplotlib' 2>/dev/null; then
+    printf '%s\n' python/examples/*.ipynb | PYTHONPATH=$package xargs -n 5 -P 2 "$root/V/bin/python" tools/notebooks.py \
+        >"$root/log" 2>&1 || { cat "$root/log" >&2; fail "notebooks failed"; }
 else
-    echo "python: the notebook is skipped: no nbconvert, ipykernel and matplotlib"
+    echo "python: $(printf '%s\n' python/examples/*.ipynb | grep -c .) notebooks are skipped: no nbclient, ipykernel and matplotlib"
     [ "${CI:-}" != true ] || fail "skipped though CI is true"
 fi
 left=$(git ls-files --others --exclude-standard python 2>/dev/null)

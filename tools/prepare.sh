@@ -7,7 +7,7 @@ packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev li
 packages="$packages python3 python3-cffi python3-dev python3-numpy python3-pytest python3-setuptools python3-venv python3-wheel"
 if [ "$1" = lint ]; then
     packages="$packages binutils clang clang-format shellcheck libclang-rt-14-dev universal-ctags valgrind openmpi-bin libopenmpi-dev chromium"
-    packages="$packages python3-ipykernel python3-matplotlib python3-nbconvert" # for the notebook
+    packages="$packages python3-ipykernel python3-matplotlib python3-nbclient" # for the notebooks
     packages="$packages doxygen graphviz mkdocs mkdocs-material linkchecker"
 fi
 if [ "$1" = bench ]; then

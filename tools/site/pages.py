@@ -2,8 +2,9 @@
 
 The documents keep the links that they have in the repository.  Here a link to another document
 leads to its page, one to a public header to the reference, one to any other file to a page that
-shows it.  The pages have the order of docs/index.md, which must name every document.
+shows it, a notebook with its outputs.  The pages have the order of docs/index.md, which must name every document.
 """
+import base64
 import glob
 import json
 import os
@@ -49,8 +50,37 @@ class Site:
         with open(document, encoding='utf-8') as file:
             self.write(name, LINK.sub(link, file.read()))
 
+    def output(self, data, name):
+        """An output of a notebook as Markdown; its picture goes beside the page."""
+        text = {kind: ''.join(value) for kind, value in data.items()}
+        if 'image/png' in text:
+            path = '%s_%d.png' % (name[:-len('.md')], len(glob.glob(os.path.join(self.out, name[:-3] + '_*.png'))))
+            with open(os.path.join(self.out, path), 'wb') as file:
+                file.write(base64.b64decode(text['image/png']))
+            return '![](%s)' % os.path.basename(path)
+        if 'text/html' in text:
+            return text['text/html']
+        return '```text\n%s\n```' % text.get('text/latex', text.get('text/plain', '')).rstrip('\n')
+
+    def show_notebook(self, path, name):
+        """Writes a page of the cells of a notebook and their outputs."""
+        with open(path, encoding='utf-8') as file:
+            cells = json.load(file)['cells']
+        os.makedirs(os.path.dirname(os.path.join(self.out, name)), exist_ok=True)
+        parts = []
+        for cell in cells:
+            source = ''.join(cell['source'])
+            parts.append(source if cell['cell_type'] == 'markdown' else '```python\n%s\n```' % source)
+            for output in cell.get('outputs', ()):
+                parts.append(self.output(output.get('data') or {'text/plain': output.get('text', '')}, name))
+        parts.append('*The notebook: `%s`.*' % path)
+        self.write(name, '\n\n'.join(parts) + '\n')
+
     def show(self, path, name):
         """Writes a page that shows a file, or the names in a directory."""
+        if path.endswith('.ipynb'):
+            self.show_notebook(path, name)
+            return
         if os.path.isdir(path):
             text = '\n'.join(sorted(os.listdir(path)))
         else:
