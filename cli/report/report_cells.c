@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-int read_steps(report_csv *csv, const char *path)
+int read_steps(csv_table *csv, const char *path)
 {
-    const int status = report_csv_read(csv, path);
-    if (status == CLI_DONE) report_csv_append(csv, "step", "tolerance");
+    const int status = csv_table_read(csv, path);
+    if (status == CLI_DONE) csv_table_append(csv, "step", "tolerance");
     return status;
 }
 
@@ -35,12 +35,12 @@ const char *step_title(char title[STEP_TITLE], const char *step)
 
 const char *get_cell(const study_page *s, int row, const char *head)
 {
-    return report_csv_get(&s->cells, row, head);
+    return csv_table_get(&s->cells, row, head);
 }
 
 bool is_cell(const study_page *s, int row, const char *head, const char *text)
 {
-    return report_csv_is(&s->cells, row, head, text);
+    return csv_table_is(&s->cells, row, head, text);
 }
 
 const quantity quantities[QUANTITIES] = {

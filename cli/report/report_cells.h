@@ -3,21 +3,21 @@
 #define DAL_CLI_REPORT_CELLS_H
 
 #include "dalembert_model.h"
-#include "report_csv.h"
+#include "io/csv_table.h"
 #include "report_page.h"
 
 #include <stdbool.h>
 
 typedef struct study_page {
     report *r;
-    report_csv cells; /* cells.csv */
-    report_words labels, methods, representatives;
-    char *title[REPORT_WORDS]; /* of the system of each label, or the label */
+    csv_table cells; /* cells.csv */
+    csv_words labels, methods, representatives;
+    char *title[CSV_WORDS]; /* of the system of each label, or the label */
 } study_page;
 
 /* Reads a table of cells or orders, in which a step and its tolerance become one text under "step":
- * "0.1 1e-6"; otherwise as report_csv_read. */
-int read_steps(report_csv *csv, const char *path);
+ * "0.1 1e-6"; otherwise as csv_table_read. */
+int read_steps(csv_table *csv, const char *path);
 /* Such a text on the page: "h = 0.1", or "h = 0.1, tolerance 1e-06"; its tolerance, 0 for none. */
 enum { STEP_TITLE = 80 };
 const char *step_title(char title[STEP_TITLE], const char *step);

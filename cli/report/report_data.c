@@ -58,11 +58,11 @@ typedef struct cell_rows {
     int first, count;
 } cell_rows;
 
-static bool is_same_cell(const report_csv *series, int a, int b)
+static bool is_same_cell(const csv_table *series, int a, int b)
 {
     static const char *const heads[] = {"integrator", "start", "step"};
     for (int k = 0; k < 3; k++)
-        if (!report_csv_is(series, a, heads[k], report_csv_get(series, b, heads[k]))) return false;
+        if (!csv_table_is(series, a, heads[k], csv_table_get(series, b, heads[k]))) return false;
     return true;
 }
 
@@ -83,7 +83,7 @@ static uint16_t level_of(double x)
     return (uint16_t)fmin(fmax(lround(ONE_LEVEL + OCTAVE * log2(x)), 1), INFINITE_LEVEL - 1);
 }
 
-static void write_envelope(json_writer *data, const char *name, const report_csv *series,
+static void write_envelope(json_writer *data, const char *name, const csv_table *series,
                            cell_rows cell, const char *column)
 {
     int chosen[MAX_TIMES];
@@ -91,7 +91,7 @@ static void write_envelope(json_writer *data, const char *name, const report_csv
     const int count = choose_times(cell.count, chosen);
     double max = 0.0;
     for (int i = 0, next = 0; i < cell.count; i++) {
-        const double x = report_csv_number(series, cell.first + i, column);
+        const double x = csv_table_number(series, cell.first + i, column);
         if (x > max) max = x; /* a part of the time may be without rows */
         if (i + 1 == chosen[next]) level[next++] = level_of(max);
     }
@@ -100,7 +100,7 @@ static void write_envelope(json_writer *data, const char *name, const report_csv
 
 /* The cell of a row of cells.csv, with the quantities that are shown of its start. */
 static void write_cell(json_writer *data, const study_page *s, int row, int step,
-                       const report_csv *series, cell_rows rows)
+                       const csv_table *series, cell_rows rows)
 {
     const char *run = get_cell(s, row, "run");
     const bool is_displaced = is_cell(s, row, "start", "displaced");
@@ -119,7 +119,7 @@ static void write_cell(json_writer *data, const study_page *s, int row, int step
     free(path);
 }
 
-static int find_word(const report_words *words, const char *text)
+static int find_word(const csv_words *words, const char *text)
 {
     int i = 0;
     while (i < words->count && strcmp(words->word[i], text) != 0) i++;
@@ -127,8 +127,8 @@ static int find_word(const report_words *words, const char *text)
 }
 
 /* The times of each step, from its longest cell. */
-static void write_times(json_writer *data, const report_csv *series, const cell_rows *longest,
-                        const report_words *steps)
+static void write_times(json_writer *data, const csv_table *series, const cell_rows *longest,
+                        const csv_words *steps)
 {
     int chosen[MAX_TIMES];
     char title[STEP_TITLE];
@@ -143,7 +143,7 @@ static void write_times(json_writer *data, const report_csv *series, const cell_
         json_open_list(data, "t", JSON_ON_ONE_LINE);
         for (int i = 0; i < count; i++)
             json_put_rounded(data, NULL,
-                             report_csv_number(series, longest[h].first + chosen[i] - 1, "until"));
+                             csv_table_number(series, longest[h].first + chosen[i] - 1, "until"));
         json_close(data);
         json_close(data);
     }
@@ -151,18 +151,18 @@ static void write_times(json_writer *data, const report_csv *series, const cell_
 }
 
 void data_write_envelopes(json_writer *data, const study_page *s, const char *label,
-                          const report_words *steps, const report_csv *series)
+                          const csv_words *steps, const csv_table *series)
 {
-    cell_rows longest[REPORT_WORDS] = {{0, 0}};
+    cell_rows longest[CSV_WORDS] = {{0, 0}};
     json_put_text(data, "label", label);
     json_open_list(data, "cells", JSON_LINES);
     for (int first = 1, end; first < series->rows; first = end) {
         for (end = first + 1; end < series->rows && is_same_cell(series, first, end);) end++;
         const cell_rows rows = {first, end - first};
-        const char *start = report_csv_get(series, first, "start");
-        const char *step = report_csv_get(series, first, "step");
+        const char *start = csv_table_get(series, first, "start");
+        const char *step = csv_table_get(series, first, "step");
         const int h = find_word(steps, step);
-        const int row = find_cell(s, label, report_csv_get(series, first, "integrator"), step,
+        const int row = find_cell(s, label, csv_table_get(series, first, "integrator"), step,
                                   strcmp(start, "displaced") == 0);
         if (h == steps->count || row == 0 || !is_cell(s, row, "start", start)) continue;
         if (rows.count > longest[h].count) longest[h] = rows;

@@ -17,7 +17,7 @@ void data_end(json_writer *data);
 void data_write_motions(json_writer *data, const motion *motions, int count);
 /* Of a label, with series/LABEL.csv, the steps, the times and the cells. */
 void data_write_envelopes(json_writer *data, const study_page *s, const char *label,
-                          const report_words *steps, const report_csv *series);
+                          const csv_words *steps, const csv_table *series);
 
 /* The element of the page of a run, with its motion; nothing where there is none.  Returns
  * CLI_DONE, or prints and returns an exit status. */

@@ -2,9 +2,9 @@
  * state that does, its quantiles along t, and the cloud of members in a plane at each time. */
 #include "report_ensemble.h"
 
+#include "io/csv_table.h"
 #include "io/file.h"
 #include "io/json.h"
-#include "report_csv.h"
 #include "report_plot.h"
 #include "report_system.h"
 #include "run/manifest.h"
@@ -22,8 +22,8 @@ enum { HISTOGRAMS = 4, CLOUDS = 12 };
 
 typedef struct ensemble_page {
     report *r;
-    report_csv statistics, histograms, cloud;
-    report_words times, columns; /* as they are in the files */
+    csv_table statistics, histograms, cloud;
+    csv_words times, columns; /* as they are in the files */
 } ensemble_page;
 
 /* Number k of at most `most` of the times, the first and the last among them. */
@@ -42,17 +42,17 @@ static int chosen_times(const ensemble_page *p, int most)
 /* Whether the members differ in a column at any time. */
 static bool varies(const ensemble_page *p, int column)
 {
-    const report_csv *csv = &p->statistics;
+    const csv_table *csv = &p->statistics;
     for (int row = 1; row < csv->rows; row++)
-        if (report_csv_is(csv, row, "column", p->columns.word[column]) &&
-            report_csv_number(csv, row, "min") < report_csv_number(csv, row, "max"))
+        if (csv_table_is(csv, row, "column", p->columns.word[column]) &&
+            csv_table_number(csv, row, "min") < csv_table_number(csv, row, "max"))
             return true;
     return false;
 }
 
 static int draw_histogram(const ensemble_page *p, int column)
 {
-    const report_csv *csv = &p->histograms;
+    const csv_table *csv = &p->histograms;
     char name[PLOT_NAME], *ylabel = cli_strdup("members");
     snprintf(name, sizeof name, "histogram-%d", column + 1);
     report_plot plot = {.name = name,
@@ -66,12 +66,12 @@ static int draw_histogram(const ensemble_page *p, int column)
         snprintf(title, sizeof title, "t = %.6g", strtod(t, NULL));
         plot_curve *curve = report_curve(&plot, title);
         for (int row = 1; row < csv->rows; row++) {
-            if (!report_csv_is(csv, row, "t", t) ||
-                !report_csv_is(csv, row, "column", p->columns.word[column]))
+            if (!csv_table_is(csv, row, "t", t) ||
+                !csv_table_is(csv, row, "column", p->columns.word[column]))
                 continue;
-            const double count = report_csv_number(csv, row, "count");
-            report_point(&plot, curve, report_csv_number(csv, row, "low"), count);
-            report_point(&plot, curve, report_csv_number(csv, row, "high"), count);
+            const double count = csv_table_number(csv, row, "count");
+            report_point(&plot, curve, csv_table_number(csv, row, "low"), count);
+            report_point(&plot, curve, csv_table_number(csv, row, "high"), count);
         }
     }
     const int status = report_draw(p->r, &plot);
@@ -82,7 +82,7 @@ static int draw_histogram(const ensemble_page *p, int column)
 /* The first and the last quantile as a band, the mean as a line. */
 static int draw_band(const ensemble_page *p, int column)
 {
-    const report_csv *csv = &p->statistics;
+    const csv_table *csv = &p->statistics;
     const int first = 6, last = csv->columns - 2; /* between min and max */
     char name[PLOT_NAME], caption[96];
     snprintf(name, sizeof name, "band-%d", column + 1);
@@ -97,18 +97,18 @@ static int draw_band(const ensemble_page *p, int column)
     plot_curve *mean = report_curve(&plot, "mean");
     band->is_band = true;
     for (int row = 1; row < csv->rows; row++) {
-        if (!report_csv_is(csv, row, "column", p->columns.word[column])) continue;
-        const double t = report_csv_number(csv, row, "t");
-        report_band(&plot, band, t, report_csv_number(csv, row, csv->cell[first]),
-                    report_csv_number(csv, row, csv->cell[last]));
-        report_point(&plot, mean, t, report_csv_number(csv, row, "mean"));
+        if (!csv_table_is(csv, row, "column", p->columns.word[column])) continue;
+        const double t = csv_table_number(csv, row, "t");
+        report_band(&plot, band, t, csv_table_number(csv, row, csv->cell[first]),
+                    csv_table_number(csv, row, csv->cell[last]));
+        report_point(&plot, mean, t, csv_table_number(csv, row, "mean"));
     }
     return report_draw(p->r, &plot);
 }
 
 static int draw_cloud(const ensemble_page *p, int number)
 {
-    const report_csv *csv = &p->cloud;
+    const csv_table *csv = &p->cloud;
     const char *t = p->times.word[chosen_time(p, number, CLOUDS)];
     char name[PLOT_NAME], title[PLOT_TITLE];
     snprintf(name, sizeof name, "cloud-%d", number + 1);
@@ -121,9 +121,9 @@ static int draw_cloud(const ensemble_page *p, int number)
     plot_curve *curve = report_curve(&plot, "");
     curve->has_dots = true;
     for (int row = 1; row < csv->rows; row++)
-        if (report_csv_is(csv, row, "t", t))
-            report_point(&plot, curve, report_csv_number(csv, row, csv->cell[2]),
-                         report_csv_number(csv, row, csv->cell[3]));
+        if (csv_table_is(csv, row, "t", t))
+            report_point(&plot, curve, csv_table_number(csv, row, csv->cell[2]),
+                         csv_table_number(csv, row, csv->cell[3]));
     return report_draw(p->r, &plot);
 }
 
@@ -210,7 +210,7 @@ static int describe_ensemble(const ensemble_page *p)
 
 static void write_statistics(const ensemble_page *p)
 {
-    const report_csv *csv = &p->statistics;
+    const csv_table *csv = &p->statistics;
     FILE *page = p->r->page;
     char *title =
         cli_format("Statistics at t = %.6g", strtod(p->times.word[p->times.count - 1], NULL));
@@ -220,9 +220,9 @@ static void write_statistics(const ensemble_page *p)
     for (int k = 1; k < csv->columns; k++) report_element(page, "th", csv->cell[k]);
     fputs(REPORT_ROWS, page);
     for (int row = csv->rows - p->columns.count; row < csv->rows; row++) {
-        report_row(page, report_csv_get(csv, row, "column"));
+        report_row(page, csv_table_get(csv, row, "column"));
         for (int k = 2; k < csv->columns; k++)
-            report_number(page, "%.6g", report_csv_number(csv, row, csv->cell[k]));
+            report_number(page, "%.6g", csv_table_number(csv, row, csv->cell[k]));
         fputs("</tr>\n", page);
     }
     fputs(REPORT_TABLE_END, page);
@@ -246,12 +246,12 @@ static int write_page(ensemble_page *p)
 }
 
 /* The last of its heads in the files of this version, and the time that all rows have. */
-static int read_table(const ensemble_page *p, report_csv *csv, const char *name, const char *head)
+static int read_table(const ensemble_page *p, csv_table *csv, const char *name, const char *head)
 {
     char *path = cli_join(p->r->directory, name);
-    int status = report_csv_read(csv, path);
-    if (status == CLI_DONE) status = report_csv_require(csv, path, "t");
-    if (status == CLI_DONE) status = report_csv_require(csv, path, head);
+    int status = csv_table_read(csv, path);
+    if (status == CLI_DONE) status = csv_table_require(csv, path, "t");
+    if (status == CLI_DONE) status = csv_table_require(csv, path, head);
     free(path);
     return status;
 }
@@ -264,15 +264,15 @@ int report_ensemble(report *r)
     if (status == CLI_DONE) status = read_table(p, &p->histograms, "histograms.csv", "count");
     if (status == CLI_DONE) status = read_table(p, &p->cloud, "cloud.csv", "member");
     for (int row = 1; status == CLI_DONE && row < p->statistics.rows; row++) {
-        report_add_word(&p->times, report_csv_get(&p->statistics, row, "t"));
-        report_add_word(&p->columns, report_csv_get(&p->statistics, row, "column"));
+        csv_add_word(&p->times, csv_table_get(&p->statistics, row, "t"));
+        csv_add_word(&p->columns, csv_table_get(&p->statistics, row, "column"));
     }
     if (status == CLI_DONE && (p->times.count == 0 || p->cloud.columns != 4))
         status = cli_fail(CLI_USAGE, "'%s' has no statistics of an ensemble", r->directory);
     if (status == CLI_DONE) status = write_page(p);
-    report_csv_free(&p->statistics);
-    report_csv_free(&p->histograms);
-    report_csv_free(&p->cloud);
+    csv_table_free(&p->statistics);
+    csv_table_free(&p->histograms);
+    csv_table_free(&p->cloud);
     free(p);
     return status;
 }

@@ -29,7 +29,7 @@ method_family method_family_of(const char *name)
 }
 
 /* A member among some methods; NULL: there is none. */
-static const char *find_member(method_family family, const report_words *methods)
+static const char *find_member(method_family family, const csv_words *methods)
 {
     static const char *const known[METHOD_FAMILIES] = {
 #define FAMILY_MEMBER(code, name, member) member,
@@ -45,12 +45,11 @@ static const char *find_member(method_family family, const report_words *methods
     return first;
 }
 
-void method_family_members(const report_words *all, const report_words *preferred,
-                           report_words *members)
+void method_family_members(const csv_words *all, const csv_words *preferred, csv_words *members)
 {
     for (int family = 0; family < METHOD_FAMILIES; family++) {
         const char *member = find_member((method_family)family, preferred);
         if (!member) member = find_member((method_family)family, all);
-        if (member) report_add_word(members, member);
+        if (member) csv_add_word(members, member);
     }
 }

@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_REPORT_FAMILY_H
 #define DAL_CLI_REPORT_FAMILY_H
 
-#include "report_csv.h"
+#include "io/csv_table.h"
 
 /* code, name on a page, a member that is known well */
 #define METHOD_FAMILY_LIST(FAMILY)                                                                 \
@@ -26,7 +26,6 @@ extern const char *const method_family_name[METHOD_FAMILIES];
 method_family method_family_of(const char *method);
 /* Adds one method of each family: of those that are preferred, if there are any, and else of all,
  * the one that is known well, or the first. */
-void method_family_members(const report_words *all, const report_words *preferred,
-                           report_words *members);
+void method_family_members(const csv_words *all, const csv_words *preferred, csv_words *members);
 
 #endif

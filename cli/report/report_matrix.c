@@ -16,7 +16,7 @@ typedef struct table_column {
 } table_column;
 
 typedef struct table_columns {
-    table_column at[REPORT_WORDS];
+    table_column at[CSV_WORDS];
     int count;
 } table_columns;
 
@@ -28,7 +28,7 @@ static void add_column(table_columns *all, const char *label, const char *step)
         if (strcmp(all->at[i].step, step) == 0) return;
         is_alone = all->at[i].is_alone = false;
     }
-    if (all->count < REPORT_WORDS) all->at[all->count++] = (table_column){label, step, is_alone};
+    if (all->count < CSV_WORDS) all->at[all->count++] = (table_column){label, step, is_alone};
 }
 
 static bool has_value(const study_page *s, const table_column *column, const quantity *t)
@@ -103,7 +103,7 @@ static void write_matrix(const study_page *s, const table_columns *all, const qu
     }
     fputs(REPORT_ROWS, page);
     for (int m = 0; m < s->methods.count; m++) {
-        int rows[REPORT_WORDS];
+        int rows[CSV_WORDS];
         bool is_found = false;
         for (int i = 0; i < shown.count; i++) {
             rows[i] = find_cell(s, shown.at[i].label, s->methods.word[m], shown.at[i].step,

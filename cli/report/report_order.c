@@ -2,9 +2,9 @@
  * errors and cost of every method, and the error over step and work. */
 #include "report_order.h"
 
+#include "io/csv_table.h"
 #include "io/file.h"
 #include "report_cells.h"
-#include "report_csv.h"
 #include "report_family.h"
 #include "report_plot.h"
 #include "report_results.h"
@@ -18,17 +18,17 @@
 
 typedef struct order_page {
     report *r;
-    report_csv csv;
+    csv_table csv;
     report_results results;
-    report_words methods, steps; /* methods that have errors */
+    csv_words methods, steps; /* methods that have errors */
 } order_page;
 
 /* The row of a method, and of a step unless that is NULL; 0: there is none. */
 static int find_row(const order_page *o, const char *method, const char *step)
 {
     for (int row = 1; row < o->csv.rows; row++)
-        if (report_csv_is(&o->csv, row, "integrator", method) &&
-            (!step || report_csv_is(&o->csv, row, "step", step)))
+        if (csv_table_is(&o->csv, row, "integrator", method) &&
+            (!step || csv_table_is(&o->csv, row, "step", step)))
             return row;
     return 0;
 }
@@ -42,9 +42,9 @@ static void write_head(const order_page *o)
     const char *tolerance = results_text(&o->results, "reference", "tolerance");
     results_begin_facts(page, &o->results);
     if (!o->results.root) {
-        const double steps = report_csv_number(&o->csv, 1, "steps");
+        const double steps = csv_table_number(&o->csv, 1, "steps");
         fprintf(page, "<dt>time T</dt><dd>%.9g</dd>\n",
-                steps * report_csv_number(&o->csv, 1, "step"));
+                steps * csv_table_number(&o->csv, 1, "step"));
     } else {
         fputs("<dt>error</dt><dd>largest difference in q and v at t = ", page);
         report_text(page, time);
@@ -73,17 +73,17 @@ static void write_orders_table(const order_page *o)
     for (int m = 0; m < o->methods.count; m++) {
         const int first = find_row(o, o->methods.word[m], NULL);
         report_row(page, o->methods.word[m]);
-        report_number(page, "%g", report_csv_number(&o->csv, first, "stated_order"));
-        report_number(page, "%.2f", report_csv_number(&o->csv, first, "observed_order"));
+        report_number(page, "%g", csv_table_number(&o->csv, first, "stated_order"));
+        report_number(page, "%.2f", csv_table_number(&o->csv, first, "observed_order"));
         for (int h = 0; h < o->steps.count; h++) {
             const int row = find_row(o, o->methods.word[m], o->steps.word[h]);
-            report_number(page, "%.1e", row > 0 ? report_csv_number(&o->csv, row, "error") : NAN);
+            report_number(page, "%.1e", row > 0 ? csv_table_number(&o->csv, row, "error") : NAN);
         }
         /* At the smallest step, as the command prints it. */
         const int last = find_row(o, o->methods.word[m], o->steps.word[o->steps.count - 1]);
-        const double steps = last > 0 ? report_csv_number(&o->csv, last, "steps") : NAN;
-        report_number(page, "%.1f", report_csv_number(&o->csv, last, "evaluations") / steps);
-        report_number(page, "%.2f", 1e6 * report_csv_number(&o->csv, last, "seconds") / steps);
+        const double steps = last > 0 ? csv_table_number(&o->csv, last, "steps") : NAN;
+        report_number(page, "%.1f", csv_table_number(&o->csv, last, "evaluations") / steps);
+        report_number(page, "%.2f", 1e6 * csv_table_number(&o->csv, last, "seconds") / steps);
         fputs("</tr>\n", page);
     }
     fputs(REPORT_TABLE_END
@@ -97,19 +97,19 @@ static void write_failures(const order_page *o)
     FILE *page = o->r->page;
     int failures = 0;
     for (int row = 1; row < o->csv.rows; row++) {
-        if (report_csv_is(&o->csv, row, "message", "")) continue;
+        if (csv_table_is(&o->csv, row, "message", "")) continue;
         fputs(failures++ ? "" : "<details><summary>methods without errors</summary>\n<ul>\n", page);
         fputs("<li>", page);
-        report_text(page, report_csv_get(&o->csv, row, "integrator"));
+        report_text(page, csv_table_get(&o->csv, row, "integrator"));
         fputs(": ", page);
-        report_text(page, report_csv_get(&o->csv, row, "message"));
+        report_text(page, csv_table_get(&o->csv, row, "message"));
         fputs("</li>\n", page);
     }
     if (failures > 0) fputs("</ul></details>\n", page);
 }
 
 /* The error of some methods over a column; suffix distinguishes the files. */
-static int draw_errors(const order_page *o, int figure, const report_words *methods,
+static int draw_errors(const order_page *o, int figure, const csv_words *methods,
                        const char *suffix)
 {
     static const struct {
@@ -139,14 +139,14 @@ static int draw_errors(const order_page *o, int figure, const report_words *meth
     for (int m = 0; m < methods->count; m++) {
         plot_curve *curve = report_curve(&plot, methods->word[m]);
         for (int row = 1; row < o->csv.rows; row++)
-            if (report_csv_is(&o->csv, row, "integrator", methods->word[m]))
-                report_point(&plot, curve, report_csv_number(&o->csv, row, figures[figure].column),
-                             report_csv_number(&o->csv, row, "error"));
+            if (csv_table_is(&o->csv, row, "integrator", methods->word[m]))
+                report_point(&plot, curve, csv_table_number(&o->csv, row, figures[figure].column),
+                             csv_table_number(&o->csv, row, "error"));
     }
     return report_draw(o->r, &plot);
 }
 
-static int draw_methods(const order_page *o, const report_words *methods, const char *suffix)
+static int draw_methods(const order_page *o, const csv_words *methods, const char *suffix)
 {
     int status = CLI_DONE;
     fputs("<div class=\"figures\">\n", o->r->page);
@@ -159,14 +159,14 @@ static int draw_methods(const order_page *o, const report_words *methods, const 
 /* The members of a family, folded, PLOT_METHODS at a time. */
 static int draw_family(const order_page *o, method_family family)
 {
-    report_words some = {.count = 0};
+    csv_words some = {.count = 0};
     int status = CLI_DONE, parts = 0, found = 0;
     for (int m = 0; m < o->methods.count && status == CLI_DONE; m++) {
         char suffix[32];
         if (method_family_of(o->methods.word[m]) != family) continue;
         if (found++ == 0)
             fprintf(o->r->page, "<details><summary>%s</summary>\n", method_family_name[family]);
-        report_add_word(&some, o->methods.word[m]);
+        csv_add_word(&some, o->methods.word[m]);
         if (some.count < PLOT_METHODS) continue;
         snprintf(suffix, sizeof suffix, "-%d-%d", (int)family + 1, ++parts);
         status = draw_methods(o, &some, suffix);
@@ -182,7 +182,7 @@ static int draw_family(const order_page *o, method_family family)
 /* All methods in the figures; of many one of each family, and each family in figures of its own. */
 static int draw_figures(const order_page *o)
 {
-    report_words members = {.count = 0}, none = {.count = 0};
+    csv_words members = {.count = 0}, none = {.count = 0};
     fputs("<h2>Figures</h2>\n", o->r->page);
     if (o->methods.count <= PLOT_METHODS) return draw_methods(o, &o->methods, "");
     method_family_members(&o->methods, &none, &members);
@@ -203,13 +203,13 @@ int report_order(report *r)
     if (status == CLI_DONE && o->csv.rows < 2)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
     for (int row = 1; status == CLI_DONE && row < o->csv.rows; row++) {
-        if (report_csv_is(&o->csv, row, "error", "")) continue;
-        report_add_word(&o->methods, report_csv_get(&o->csv, row, "integrator"));
-        report_add_word(&o->steps, report_csv_get(&o->csv, row, "step"));
+        if (csv_table_is(&o->csv, row, "error", "")) continue;
+        csv_add_word(&o->methods, csv_table_get(&o->csv, row, "integrator"));
+        csv_add_word(&o->steps, csv_table_get(&o->csv, row, "step"));
     }
     if (status == CLI_DONE) {
         char *title = cli_format("%s: order, work and precision",
-                                 results_title(&o->results, report_csv_get(&o->csv, 1, "label")));
+                                 results_title(&o->results, csv_table_get(&o->csv, 1, "label")));
         report_title(r, title);
         free(title);
         write_head(o);
@@ -221,7 +221,7 @@ int report_order(report *r)
         if (o->methods.count > 0) status = draw_figures(o);
         report_file(r, "order.json", "what it was made with: order.json");
     }
-    report_csv_free(&o->csv);
+    csv_table_free(&o->csv);
     results_free(&o->results);
     free(o);
     free(path);

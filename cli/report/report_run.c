@@ -5,9 +5,9 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
+#include "io/csv_table.h"
 #include "io/file.h"
 #include "io/trajectory.h"
-#include "report_csv.h"
 #include "report_data.h"
 #include "report_events.h"
 #include "report_path.h"
@@ -73,7 +73,7 @@ typedef struct run_page {
     const run_request *request;
     dal_model *model;
     trajectory_reader reader;
-    report_csv summary;       /* no rows unless the run is over */
+    csv_table summary;        /* no rows unless the run is over */
     const dal_system *system; /* where the run has not all columns; otherwise NULL */
     run_column *column;       /* [columns of the reader] */
     report_events events;
@@ -162,8 +162,8 @@ static void place_columns(run_page *run)
         /* Of E and H the summary knows: it gives a trend to what should not change. */
         bool has_trend = c->group != GROUP_E && c->group != GROUP_H;
         for (int row = 1; row < run->summary.rows; row++)
-            has_trend |= report_csv_is(&run->summary, row, "observable", name) &&
-                         !report_csv_is(&run->summary, row, "trend", "");
+            has_trend |= csv_table_is(&run->summary, row, "observable", name) &&
+                         !csv_table_is(&run->summary, row, "trend", "");
         c->is_conserved = i >= observables && has_trend && c->group != GROUP_OBSERVED &&
                           c->group != GROUP_REACTIONS;
         if (c->group != NO_GROUP) c->curve = add_curve(&run->plot[c->group], name);
@@ -269,7 +269,7 @@ static void write_summary(const run_page *run, double time)
     static const char *const columns[] = {"confidence", "first",     "final",
                                           "maximum",    "deviation", "rate",
                                           "rate_low",   "rate_high", "exponent"};
-    const report_csv *csv = &run->summary;
+    const csv_table *csv = &run->summary;
     FILE *page = run->r->page;
     if (csv->rows < 2) return;
     fputs("<h2>Size and trend</h2>\n" REPORT_TABLE "<td></td><th>size, "
@@ -280,22 +280,22 @@ static void write_summary(const run_page *run, double time)
     for (int row = 1; row < csv->rows; row++) {
         /* Without a trend: the largest drift that the interval of the rate admits. */
         char drift[64] = "";
-        const double max_rate = fmax(fabs(report_csv_number(csv, row, "rate_low")),
-                                     fabs(report_csv_number(csv, row, "rate_high")));
-        if (report_csv_is(csv, row, "trend", "none") && !report_csv_is(csv, row, "size", "exact"))
+        const double max_rate = fmax(fabs(csv_table_number(csv, row, "rate_low")),
+                                     fabs(csv_table_number(csv, row, "rate_high")));
+        if (csv_table_is(csv, row, "trend", "none") && !csv_table_is(csv, row, "size", "exact"))
             snprintf(drift, sizeof drift, "|drift| ≤ %.1e", max_rate * time);
-        report_row(page, report_csv_get(csv, row, "observable"));
-        report_trend(page, report_csv_get(csv, row, "size"), report_csv_get(csv, row, "trend"),
+        report_row(page, csv_table_get(csv, row, "observable"));
+        report_trend(page, csv_table_get(csv, row, "size"), csv_table_get(csv, row, "trend"),
                      drift);
         for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
-            report_number(page, "%.4g", report_csv_number(csv, row, columns[k]));
+            report_number(page, "%.4g", csv_table_number(csv, row, columns[k]));
         fputs("</tr>\n", page);
     }
     fputs(REPORT_TABLE_END, page);
     for (int row = 1; row < csv->rows; row++)
-        if (report_csv_is(csv, row, "trend", "")) {
+        if (csv_table_is(csv, row, "trend", "")) {
             fputs("<p>", page);
-            report_text(page, report_csv_get(csv, row, "observable"));
+            report_text(page, csv_table_get(csv, row, "observable"));
             fputs(" has neither size nor trend: the motion of this run need not conserve it.</p>\n",
                   page);
         }
@@ -402,9 +402,9 @@ int report_run(report *r)
     run->request = request;
     run->model = simulation.model;
     if (status == CLI_DONE && access(summary, F_OK) == 0)
-        status = report_csv_read(&run->summary, summary);
+        status = csv_table_read(&run->summary, summary);
     if (status == CLI_DONE && run->summary.rows > 0)
-        status = report_csv_require(&run->summary, summary, "trend");
+        status = csv_table_require(&run->summary, summary, "trend");
     if (status == CLI_DONE) {
         report_title(r, report_model_title(simulation.model, "A run"));
         if (simulation.model) write_head(run, dir.doc);
@@ -422,7 +422,7 @@ int report_run(report *r)
         report_file(r, "manifest.json", "what it was made with: manifest.json");
     }
     if (is_open) reader_close(&run->reader);
-    report_csv_free(&run->summary);
+    csv_table_free(&run->summary);
     report_events_free(&run->events);
     free(run->drift_caption);
     free(run->column);

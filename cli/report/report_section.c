@@ -2,8 +2,8 @@
  * the crossings in the plane of two columns. */
 #include "report_section.h"
 
+#include "io/csv_table.h"
 #include "io/file.h"
-#include "report_csv.h"
 #include "report_plot.h"
 #include "report_results.h"
 #include "report_system.h"
@@ -18,7 +18,7 @@
 enum { MAX_POINTS = 3000 };
 
 /* The columns of the figure: those that the command chose, or the last two. */
-static void find_axes(const report_csv *csv, const report_results *results, const char *axis[2])
+static void find_axes(const csv_table *csv, const report_results *results, const char *axis[2])
 {
     yaml_node_t *axes = results->root ? document_value(&results->doc, results->root, "axes") : NULL;
     for (int i = 0; i < 2; i++) {
@@ -26,11 +26,11 @@ static void find_axes(const report_csv *csv, const report_results *results, cons
         if (!axes || document_count(axes) != 2) continue;
         const char *name =
             document_scalar(&results->doc, document_item(&results->doc, axes, i), "axes");
-        if (name && report_csv_is(csv, 0, name, name)) axis[i] = name;
+        if (name && csv_table_is(csv, 0, name, name)) axis[i] = name;
     }
 }
 
-static int draw_crossings(report *r, const report_csv *csv, const report_results *results)
+static int draw_crossings(report *r, const csv_table *csv, const report_results *results)
 {
     static const struct {
         const char *title, *direction;
@@ -48,11 +48,11 @@ static int draw_crossings(report *r, const report_csv *csv, const report_results
     for (int side = 0; side < 2; side++) {
         plot_curve *curve = NULL;
         for (int row = 1; row < csv->rows; row += stride) {
-            if (!report_csv_is(csv, row, "direction", sides[side].direction)) continue;
+            if (!csv_table_is(csv, row, "direction", sides[side].direction)) continue;
             if (!curve) curve = report_curve(&plot, sides[side].title);
             curve->has_dots = true;
-            report_point(&plot, curve, report_csv_number(csv, row, axis[0]),
-                         report_csv_number(csv, row, axis[1]));
+            report_point(&plot, curve, csv_table_number(csv, row, axis[0]),
+                         csv_table_number(csv, row, axis[1]));
         }
     }
     fputs("<h2>Figure</h2>\n<div class=\"figures\">\n", r->page);
@@ -61,27 +61,27 @@ static int draw_crossings(report *r, const report_csv *csv, const report_results
     return status;
 }
 
-static void write_counts(report *r, const report_csv *csv)
+static void write_counts(report *r, const csv_table *csv)
 {
     int up = 0;
-    for (int row = 1; row < csv->rows; row++) up += report_csv_is(csv, row, "direction", "1");
+    for (int row = 1; row < csv->rows; row++) up += csv_table_is(csv, row, "direction", "1");
     fprintf(r->page, "<p>%d crossings: %d upwards, %d downwards", csv->rows - 1, up,
             csv->rows - 1 - up);
     if (csv->rows > 1)
-        fprintf(r->page, ", from t = %.6g to t = %.6g", report_csv_number(csv, 1, "t"),
-                report_csv_number(csv, csv->rows - 1, "t"));
+        fprintf(r->page, ", from t = %.6g to t = %.6g", csv_table_number(csv, 1, "t"),
+                csv_table_number(csv, csv->rows - 1, "t"));
     fputs(".</p>\n", r->page);
 }
 
 int report_section(report *r)
 {
-    report_csv csv = {.text = NULL};
+    csv_table csv = {.text = NULL};
     report_results results;
     char *path = cli_join(r->directory, "section.csv");
     int status = results_read(&results, r->directory, "section");
-    if (status == CLI_DONE) status = report_csv_read(&csv, path);
-    if (status == CLI_DONE) status = report_csv_require(&csv, path, "t");
-    if (status == CLI_DONE) status = report_csv_require(&csv, path, "direction");
+    if (status == CLI_DONE) status = csv_table_read(&csv, path);
+    if (status == CLI_DONE) status = csv_table_require(&csv, path, "t");
+    if (status == CLI_DONE) status = csv_table_require(&csv, path, "direction");
     if (status == CLI_DONE) {
         const char *on = results_text(&results, "request", "on");
         char *title = cli_format("%s: section", results_title(&results, "A motion"));
@@ -94,7 +94,7 @@ int report_section(report *r)
         if (csv.rows > 1) status = draw_crossings(r, &csv, &results);
         report_file(r, "section.json", "what it was made with: section.json");
     }
-    report_csv_free(&csv);
+    csv_table_free(&csv);
     results_free(&results);
     free(path);
     return status;

@@ -9,11 +9,11 @@
 #include "ui/message.h"
 #include "ui/signals.h"
 
+#include "io/csv_table.h"
 #include "io/document.h"
 #include "io/file.h"
 #include "io/gnuplot.h"
 #include "report_cells.h"
-#include "report_csv.h"
 #include "report_data.h"
 #include "report_family.h"
 #include "report_matrix.h"
@@ -33,7 +33,7 @@
 
 typedef enum which_expectations { ALL_EXPECTATIONS, UNMET_EXPECTATIONS } which_expectations;
 
-static void write_expectations(FILE *page, const report_csv *csv, which_expectations which)
+static void write_expectations(FILE *page, const csv_table *csv, which_expectations which)
 {
     static const char *const heads[] = {"integrator", "start",    "step",
                                         "quantity",   "expected", "found"};
@@ -41,16 +41,16 @@ static void write_expectations(FILE *page, const report_csv *csv, which_expectat
                        "<th>quantity</th><th>expected</th><th>found</th><th></th>" REPORT_ROWS,
           page);
     for (int row = 1; row < csv->rows; row++) {
-        const bool is_met = report_csv_is(csv, row, "met", "yes");
+        const bool is_met = csv_table_is(csv, row, "met", "yes");
         if (which == UNMET_EXPECTATIONS && is_met) continue;
         char title[STEP_TITLE];
-        const char *step = report_csv_get(csv, row, "step");
-        report_row(page, report_csv_get(csv, row, "label"));
+        const char *step = csv_table_get(csv, row, "step");
+        report_row(page, csv_table_get(csv, row, "label"));
         for (size_t k = 0; k < sizeof heads / sizeof heads[0]; k++)
             if (strcmp(heads[k], "step") == 0)
                 report_element(page, "td", step[0] ? step_title(title, step) + 4 : "–");
             else
-                report_element(page, "td", report_csv_get(csv, row, heads[k]));
+                report_element(page, "td", csv_table_get(csv, row, heads[k]));
         fprintf(page, "<td class=\"%s\">%s</td></tr>\n", is_met ? "kept" : "drift",
                 is_met ? "met" : "not met");
     }
@@ -58,16 +58,16 @@ static void write_expectations(FILE *page, const report_csv *csv, which_expectat
 }
 
 /* Those that are met; those that are not since a run failed, or a value was not finite. */
-static void write_met(FILE *page, const report_csv *csv, int met)
+static void write_met(FILE *page, const csv_table *csv, int met)
 {
     static const char *const words[] = {"failed", "aborted"};
     fprintf(page, "<h2>Expectations</h2>\n<p>%d of %d are met", met, csv->rows - 1);
     for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
         int count = 0;
         for (int row = 1; row < csv->rows; row++)
-            count += report_csv_is(csv, row, "found", words[k]) &&
-                     report_csv_is(csv, row, "met", "no") &&
-                     !report_csv_is(csv, row, "quantity", "state");
+            count += csv_table_is(csv, row, "found", words[k]) &&
+                     csv_table_is(csv, row, "met", "no") &&
+                     !csv_table_is(csv, row, "quantity", "state");
         if (count > 0) fprintf(page, "; %d %s", count, words[k]);
     }
     fputs(".</p>\n", page);
@@ -77,11 +77,11 @@ static void write_met(FILE *page, const report_csv *csv, int met)
  * of all. */
 static int report_expectations(report *r)
 {
-    report_csv csv = {.text = NULL};
+    csv_table csv = {.text = NULL};
     char *path = cli_join(r->directory, "expectations.csv");
     const int status = access(path, F_OK) == 0 ? read_steps(&csv, path) : CLI_DONE;
     int met = 0;
-    for (int row = 1; row < csv.rows; row++) met += report_csv_is(&csv, row, "met", "yes");
+    for (int row = 1; row < csv.rows; row++) met += csv_table_is(&csv, row, "met", "yes");
     if (csv.rows > 1) {
         write_met(r->page, &csv, met);
         if (met < csv.rows - 1) write_expectations(r->page, &csv, UNMET_EXPECTATIONS);
@@ -89,7 +89,7 @@ static int report_expectations(report *r)
         write_expectations(r->page, &csv, ALL_EXPECTATIONS);
         fputs("</details>\n", r->page);
     }
-    report_csv_free(&csv);
+    csv_table_free(&csv);
     free(path);
     return status;
 }
@@ -100,10 +100,10 @@ typedef struct label_figures {
     const study_page *s;
     const char *label;
     int number; /* of the label on the page, from 1 */
-    report_csv series;
-    report_words methods; /* those drawn: of many one of each family */
+    csv_table series;
+    csv_words methods; /* those drawn: of many one of each family */
     bool are_families;
-    report_words steps;
+    csv_words steps;
     const char *accuracy; /* the column of errors, or NULL */
 } label_figures;
 
@@ -156,16 +156,16 @@ static void add_envelope(const label_figures *f, report_plot *plot, const char *
     double max = 0.0;
     /* The rows of a cell are together. */
     for (int row = 1; row < f->series.rows; row++) {
-        if (!report_csv_is(&f->series, row, "integrator", method) ||
-            !report_csv_is(&f->series, row, "step", step) ||
-            !report_csv_is(&f->series, row, "start", start)) {
+        if (!csv_table_is(&f->series, row, "integrator", method) ||
+            !csv_table_is(&f->series, row, "step", step) ||
+            !csv_table_is(&f->series, row, "start", start)) {
             if (curve) break;
             continue;
         }
         if (!curve) curve = add_method(f, plot, method);
-        const double x = report_csv_number(&f->series, row, t->column);
+        const double x = csv_table_number(&f->series, row, t->column);
         if (x > max) max = x;
-        report_point(plot, curve, report_csv_number(&f->series, row, "until"), max);
+        report_point(plot, curve, csv_table_number(&f->series, row, "until"), max);
     }
     if (curve) report_title_envelope(curve);
 }
@@ -209,7 +209,7 @@ static int draw_errors(const label_figures *f, error_axis axis)
                    {"order", "Order", "step h", "A method of order p is a line of slope p."},
                    {"tolerance", "Tolerance", "tolerance",
                     "An error that follows the tolerance is a line of slope 1."}};
-    const report_csv *cells = &f->s->cells;
+    const csv_table *cells = &f->s->cells;
     const bool is_displaced = false;
     char name[PLOT_NAME];
     report_plot plot = {.name = name_plot(name, f, figures[axis].name, 0),
@@ -231,13 +231,13 @@ static int draw_errors(const label_figures *f, error_axis axis)
             if (row == 0 || !is_cell(f->s, row, "state", "done")) continue;
             const double size = fabs(strtod(step, NULL)), tolerance = step_tolerance(step);
             if (axis != OVER_WORK && (tolerance > 0.0) != (axis == OVER_TOLERANCE)) continue;
-            const double work = report_csv_number(cells, row, "evaluations") /
-                                (report_csv_number(cells, row, "steps") * size);
+            const double work = csv_table_number(cells, row, "evaluations") /
+                                (csv_table_number(cells, row, "steps") * size);
             report_point(&plot, curve,
                          axis == OVER_WORK   ? work
                          : axis == OVER_STEP ? size
                                              : tolerance,
-                         report_csv_number(cells, row, f->accuracy));
+                         csv_table_number(cells, row, f->accuracy));
         }
     }
     return report_draw(f->s->r, &plot);
@@ -252,7 +252,7 @@ static bool is_kept(const label_figures *f, int row)
 
 static double error_of(const label_figures *f, int row)
 {
-    return f->accuracy ? report_csv_number(&f->s->cells, row, f->accuracy) : 0.0;
+    return f->accuracy ? csv_table_number(&f->s->cells, row, f->accuracy) : 0.0;
 }
 
 /* The row of the most accurate run among those that were kept, or 0. */
@@ -356,14 +356,14 @@ static int draw_label(const label_figures *f)
 static void choose_methods(label_figures *f)
 {
     const study_page *s = f->s;
-    report_words all = {.count = 0}, preferred = {.count = 0};
+    csv_words all = {.count = 0}, preferred = {.count = 0};
     for (int row = 1; row < s->cells.rows; row++)
-        if (is_of_label(f, row) && report_csv_number(&s->cells, row, "steps") > 0.0)
-            report_add_word(&all, get_cell(s, row, "integrator"));
+        if (is_of_label(f, row) && csv_table_number(&s->cells, row, "steps") > 0.0)
+            csv_add_word(&all, get_cell(s, row, "integrator"));
     for (int i = 0; i < all.count; i++)
         for (int k = 0; k < s->representatives.count; k++)
             if (strcmp(all.word[i], s->representatives.word[k]) == 0)
-                report_add_word(&preferred, all.word[i]);
+                csv_add_word(&preferred, all.word[i]);
     f->are_families = all.count > PLOT_METHODS;
     if (f->are_families)
         method_family_members(&all, &preferred, &f->methods);
@@ -379,7 +379,7 @@ static int report_label(const study_page *s, int i)
     *f = (label_figures){.s = s, .label = label, .number = i + 1};
     f->accuracy = find_accuracy(f);
     for (int row = 1; row < s->cells.rows; row++)
-        if (is_of_label(f, row)) report_add_word(&f->steps, get_cell(s, row, "step"));
+        if (is_of_label(f, row)) csv_add_word(&f->steps, get_cell(s, row, "step"));
     choose_methods(f);
     char *path = cli_format("%s/series/%s.csv", s->r->directory, label);
     int status = CLI_DONE;
@@ -393,7 +393,7 @@ static int report_label(const study_page *s, int i)
         if (status == CLI_DONE) status = draw_label(f);
     }
     free(path);
-    report_csv_free(&f->series);
+    csv_table_free(&f->series);
     free(f);
     return status;
 }
@@ -433,7 +433,7 @@ static void list_representatives(study_page *s, const document *doc, yaml_node_t
         const char *name = document_scalar(doc, document_item(doc, list, i), "representatives");
         for (int m = 0; name && m < s->methods.count; m++)
             if (strcmp(s->methods.word[m], name) == 0)
-                report_add_word(&s->representatives, s->methods.word[m]);
+                csv_add_word(&s->representatives, s->methods.word[m]);
     }
 }
 
@@ -553,17 +553,17 @@ int report_study(report *r)
     int status = read_steps(&s->cells, path);
     for (int row = 1; status == CLI_DONE && row < s->cells.rows; row++) {
         status = check_cell_names(s, path, row);
-        report_add_word(&s->labels, get_cell(s, row, "label"));
-        report_add_word(&s->methods, get_cell(s, row, "integrator"));
+        csv_add_word(&s->labels, get_cell(s, row, "label"));
+        csv_add_word(&s->methods, get_cell(s, row, "integrator"));
     }
     if (status == CLI_DONE && s->labels.count == 0)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
     for (int k = 0; status == CLI_DONE && k < QUANTITIES; k++)
-        if (quantities[k].trend) status = report_csv_require(&s->cells, path, quantities[k].trend);
+        if (quantities[k].trend) status = csv_table_require(&s->cells, path, quantities[k].trend);
     if (status == CLI_DONE) status = read_titles(s);
     if (status == CLI_DONE) status = write_study(s);
     for (int i = 0; i < s->labels.count; i++) free(s->title[i]);
-    report_csv_free(&s->cells);
+    csv_table_free(&s->cells);
     free(s);
     free(path);
     return status;

@@ -1,8 +1,8 @@
-/* report_csv.c - CSV files in memory, for the report. */
-#include "report_csv.h"
+/* csv_table.c - CSV files in memory */
+#include "csv_table.h"
 
-#include "io/file.h"
-#include "io/text.h"
+#include "file.h"
+#include "text.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -30,7 +30,7 @@ static char *cut_cell(char *text, char *separator)
 }
 
 /* Counts rows, and columns of the first one.  All of them are whole. */
-static int count_cells(report_csv *csv, const char *path, size_t length)
+static int count_cells(csv_table *csv, const char *path, size_t length)
 {
     bool quoted = false;
     char before = '\0';
@@ -49,7 +49,7 @@ static int count_cells(report_csv *csv, const char *path, size_t length)
 }
 
 /* Cuts a row into cells, one for each head, and moves to the next row. */
-static int cut_row(const report_csv *csv, const char *path, int row, char **next)
+static int cut_row(const csv_table *csv, const char *path, int row, char **next)
 {
     char separator, **cell = csv->cell + (size_t)row * (size_t)csv->columns;
     int count = 0;
@@ -65,7 +65,7 @@ static int cut_row(const report_csv *csv, const char *path, int row, char **next
 }
 
 /* A head is a text, and nothing has a control character. */
-static int check_cell(const report_csv *csv, const char *path, int row, int column)
+static int check_cell(const csv_table *csv, const char *path, int row, int column)
 {
     const char *text = csv->cell[row * csv->columns + column];
     const long control = text_find_control(text, "");
@@ -76,7 +76,7 @@ static int check_cell(const report_csv *csv, const char *path, int row, int colu
                     row + 1, column + 1, csv->cell[column], (unsigned long)control);
 }
 
-static int cut_rows(report_csv *csv, const char *path)
+static int cut_rows(csv_table *csv, const char *path)
 {
     int status = CLI_DONE;
     char *next = csv->text;
@@ -89,72 +89,71 @@ static int cut_rows(report_csv *csv, const char *path)
     return status;
 }
 
-int report_csv_read(report_csv *csv, const char *path)
+int csv_table_read(csv_table *csv, const char *path)
 {
     size_t length;
-    *csv = (report_csv){.text = file_read(path, &length)};
+    *csv = (csv_table){.text = file_read(path, &length)};
     if (!csv->text) return CLI_IO;
     int status = count_cells(csv, path, length);
     if (status == CLI_DONE) status = cut_rows(csv, path);
-    if (status != CLI_DONE) report_csv_free(csv);
+    if (status != CLI_DONE) csv_table_free(csv);
     return status;
 }
 
-void report_csv_free(report_csv *csv)
+void csv_table_free(csv_table *csv)
 {
     free(csv->text);
     free(csv->cell);
     free(csv->appended);
-    *csv = (report_csv){0};
+    *csv = (csv_table){0};
 }
 
-const char *report_csv_get(const report_csv *csv, int row, const char *head)
+const char *csv_table_get(const csv_table *csv, int row, const char *head)
 {
     for (int column = 0; column < csv->columns; column++)
         if (strcmp(csv->cell[column], head) == 0) return csv->cell[row * csv->columns + column];
     return "";
 }
 
-void report_csv_append(report_csv *csv, const char *head, const char *other)
+void csv_table_append(csv_table *csv, const char *head, const char *other)
 {
     size_t size = 1;
     int column = 0;
     while (column < csv->columns && strcmp(csv->cell[column], head) != 0) column++;
     if (column == csv->columns) return;
     for (int row = 1; row < csv->rows; row++)
-        size +=
-            strlen(report_csv_get(csv, row, head)) + strlen(report_csv_get(csv, row, other)) + 2;
+        size += strlen(csv_table_get(csv, row, head)) + strlen(csv_table_get(csv, row, other)) + 2;
     char *next = csv->appended = cli_calloc(size, 1);
     for (int row = 1; row < csv->rows; row++) {
-        const char *text = report_csv_get(csv, row, head);
-        if (!(report_csv_number(csv, row, other) > 0.0)) continue;
-        const int length = sprintf(next, "%s %s", text, report_csv_get(csv, row, other));
+        const char *text = csv_table_get(csv, row, head);
+        if (!(csv_table_number(csv, row, other) > 0.0)) continue;
+        const int length = sprintf(next, "%s %s", text, csv_table_get(csv, row, other));
         csv->cell[row * csv->columns + column] = next;
         next += length + 1;
     }
 }
 
-int report_csv_require(const report_csv *csv, const char *path, const char *head)
+int csv_table_require(const csv_table *csv, const char *path, const char *head)
 {
-    if (report_csv_is(csv, 0, head, head)) return CLI_DONE;
+    if (csv_table_is(csv, 0, head, head)) return CLI_DONE;
     return cli_fail(CLI_USAGE, "%s: there is no column '%s': another version of dalembert wrote it",
                     path, head);
 }
 
-double report_csv_number(const report_csv *csv, int row, const char *head)
+double csv_table_number(const csv_table *csv, int row, const char *head)
 {
-    const char *text = report_csv_get(csv, row, head);
+    const char *text = csv_table_get(csv, row, head);
     return *text ? strtod(text, NULL) : NAN;
 }
 
-bool report_csv_is(const report_csv *csv, int row, const char *head, const char *text)
+bool csv_table_is(const csv_table *csv, int row, const char *head, const char *text)
 {
-    return strcmp(report_csv_get(csv, row, head), text) == 0;
+    return strcmp(csv_table_get(csv, row, head), text) == 0;
 }
 
-void report_add_word(report_words *words, const char *text)
+void csv_add_word(csv_words *words, const char *text)
 {
     for (int i = 0; i < words->count; i++)
         if (strcmp(words->word[i], text) == 0) return;
-    if (words->count < REPORT_WORDS) words->word[words->count++] = text;
+    if (words->count < CSV_WORDS) words->word[words->count++] = text;
 }
