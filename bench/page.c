@@ -203,7 +203,7 @@ static void write_ratios(FILE *page, const results *all, int begin, int end)
         fprintf(page, "</td><td%s>%s</td></tr>\n",
                 !*met    ? ""
                 : is_met ? " class=\"kept\""
-                         : " class=\"drift\"",
+                         : " class=\"large\"",
                 a && !*a                 ? "not reached"
                 : !get(all, i, "median") ? "not measured"
                 : !*met                  ? ""

@@ -393,30 +393,32 @@ int reader_open(trajectory_reader *reader, const char *directory)
     return CLI_DONE;
 }
 
-int reader_next(trajectory_reader *reader)
+static bool read_row(trajectory_reader *reader)
 {
     const size_t length = (size_t)reader->columns * WORD;
+    if (fread(reader->bytes, 1, length, reader->file) != length) return false;
+    for (int i = 0; i < reader->columns; i++)
+        reader->row[i] = read_le_double(reader->bytes + WORD * i);
+    return true;
+}
+
+int reader_next(trajectory_reader *reader)
+{
     if (reader->next >= reader->count) return 0;
     reader->next++;
     errno = EIO; /* of a file that was cut since its header was read */
-    if (fread(reader->bytes, 1, length, reader->file) != length) {
-        cli_io("read", reader->path);
-        return -1;
-    }
-    for (int i = 0; i < reader->columns; i++)
-        reader->row[i] = read_le_double(reader->bytes + WORD * i);
-    return 1;
+    if (read_row(reader)) return 1;
+    cli_io("read", reader->path);
+    return -1;
 }
 
-double reader_last_time(trajectory_reader *reader)
+bool reader_peek_last(trajectory_reader *reader)
 {
-    unsigned char bytes[WORD];
-    double t = NAN;
     const off_t place = ftello(reader->file),
                 last = (off_t)reader->offset + (off_t)(reader->count - 1) * reader->columns * WORD;
-    if (place < 0 || fseeko(reader->file, last, SEEK_SET) != 0) return NAN;
-    if (fread(bytes, 1, WORD, reader->file) == WORD) t = read_le_double(bytes);
-    return fseeko(reader->file, place, SEEK_SET) == 0 ? t : NAN;
+    if (place < 0 || fseeko(reader->file, last, SEEK_SET) != 0) return false;
+    const bool is_read = read_row(reader);
+    return fseeko(reader->file, place, SEEK_SET) == 0 && is_read;
 }
 
 void reader_close(trajectory_reader *reader)

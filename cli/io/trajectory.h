@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_TRAJECTORY_H
 #define DAL_CLI_TRAJECTORY_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -61,8 +62,8 @@ typedef struct trajectory_reader {
 int reader_open(trajectory_reader *reader, const char *directory);
 /* Returns 1 with the next row in row, 0 after the last row, -1 after a failure and its message. */
 int reader_next(trajectory_reader *reader);
-/* The time of the last of count > 0 rows, without moving to it; NaN where it cannot be read. */
-double reader_last_time(trajectory_reader *reader);
+/* The last of count > 0 rows in row, without moving to it; false where it cannot be read. */
+bool reader_peek_last(trajectory_reader *reader);
 void reader_close(trajectory_reader *reader);
 
 #endif

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
 const char cli_trend_heads[] = "amplitude,rate,rate_low,rate_high,exponent,size,trend,confidence";
 
@@ -23,6 +24,31 @@ void cli_put_values(FILE *out, const dal_trend *t)
     }
     fprintf(out, ",%s,%s,", cli_size_word(t), cli_trend_word(t));
     if (is_stated(t)) cli_put_known(out, t->confidence);
+}
+
+dal_trend cli_get_trend(const csv_table *t, int row)
+{
+    const char *size = csv_table_get(t, row, "size"), *trend = csv_table_get(t, row, "trend");
+    int size_class = 0, trend_class = 0;
+    while (size_class < DAL_SIZE_LARGER &&
+           strcmp(dal_size_text((dal_size_class)size_class), size) != 0)
+        size_class++;
+    while (trend_class < DAL_TREND_COUNT - 1 &&
+           strcmp(dal_trend_text((dal_trend_class)trend_class), trend) != 0)
+        trend_class++;
+    /* summary.csv names two of the columns in another way. */
+    return (dal_trend){
+        .count = 1,
+        .first = csv_table_number(t, row, "first"),
+        .last = fmax(csv_table_number(t, row, "last"), csv_table_number(t, row, "final")),
+        .max_abs = fmax(csv_table_number(t, row, "max"), csv_table_number(t, row, "maximum")),
+        .deviation = csv_table_number(t, row, "deviation"),
+        .rate = csv_table_number(t, row, "rate"),
+        .exponent = csv_table_number(t, row, "exponent"),
+        .size = (dal_size_class)size_class,
+        .trend = (dal_trend_class)trend_class,
+        .conservation = trend[0] ? DAL_CONSERVED : DAL_NOT_CONSERVED,
+    };
 }
 
 void cli_put_trend(json_writer *w, const dal_trend *t)

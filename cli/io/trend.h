@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_TREND_H
 #define DAL_CLI_TREND_H
 
+#include "csv_table.h"
 #include "dalembert_statistics.h"
 #include "json.h"
 
@@ -12,6 +13,8 @@
  * what cannot be stated is empty. */
 extern const char cli_trend_heads[];
 void cli_put_values(FILE *out, const dal_trend *trend);
+/* The trend in a row of a table with such columns; not conserved where none is stated. */
+dal_trend cli_get_trend(const csv_table *table, int row);
 /* The same as members of an object: amplitude to confidence; what cannot be stated is null. */
 void cli_put_trend(json_writer *writer, const dal_trend *trend);
 /* Size and trend as words; "" where the motion need not conserve the quantity. */

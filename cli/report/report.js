@@ -165,18 +165,15 @@ const TRENDS = ['none', 'settles', 'random walk', 'linear', 'power law', 'growin
 
 // A cell of a table: its words and its number.
 function readCell(td) {
-    const words = [...td.childNodes].filter(n => n.nodeType === Node.TEXT_NODE).map(n => n.textContent);
-    const number = td.querySelector('small') || (isNaN(parseFloat(td.textContent)) ? null : td);
-    return {td, size: words.find(w => SIZES.includes(w)) || '',
-        trend: words.find(w => TRENDS.includes(w)) || (words.includes('exact') ? 'none' : ''),
-        value: number ? Number(number.textContent) : NaN};
+    const {size = '', trend = '', value} = td.dataset;
+    return {td, size, trend: size === 'exact' ? 'none' : trend, value: value ? Number(value) : NaN};
 }
 
 class Matrix {
     constructor(table) {
         this.table = table;
         this.heads = [...table.tHead.rows[0].querySelectorAll('th')];
-        this.rows = [...table.tBodies[0].rows].map(tr => ({tr, detail: null, method: tr.cells[0].textContent,
+        this.rows = [...table.tBodies[0].rows].map(tr => ({tr, method: tr.cells[0].textContent,
             family: tr.dataset.family, order: Number(tr.dataset.order),
             cells: [...tr.cells].slice(1).map(readCell)}));
         this.heads.forEach((head, i) => this.addSort(head, i));
@@ -204,22 +201,24 @@ class Matrix {
         cell.td.append(button);
     }
 
-    // Opens a row with the curves of a cell below its own, or closes it.
+    // Opens the curves of a cell beside the table in place of another one, or closes them.
     unfold(row, button, system, cell) {
-        const wasOpen = button.getAttribute('aria-expanded') === 'true';
-        for (const b of row.tr.querySelectorAll('[aria-expanded]')) b.setAttribute('aria-expanded', 'false');
-        if (row.detail) row.detail.remove();
-        row.detail = null;
+        const wasOpen = button.getAttribute('aria-expanded') === 'true', place = this.table.closest('.beside');
+        for (const b of this.table.querySelectorAll('[aria-expanded=true]')) b.setAttribute('aria-expanded', 'false');
+        place.querySelector('.unfolded')?.remove();
+        place.classList.toggle('open', !wasOpen);
         if (wasOpen) return;
         const holder = html('div', {class: 'plot-holder'}), h = system.steps[cell.step].h;
         const link = cell.page
             ? html('a', {href: `../${encodeURI(cell.run)}/report/index.html`}, 'page of this run')
             : html('code', {}, `dalembert report DIR/${cell.run}`);
-        row.detail = html('tr', {class: 'unfolded'}, html('td', {colspan: this.heads.length + 1},
-            html('div', {class: 'unfolded-cell'},
-                html('strong', {}, `${cell.method}, ${system.label}, h = ${h}`),
-                holder, html('p', {}, cell.page ? 'The ' : 'Its page is made by ', link))));
-        row.tr.after(row.detail);
+        place.append(html('section', {class: 'unfolded', 'aria-label': `${cell.method}, ${system.label}`},
+            html('strong', {}, `${cell.method}, ${system.label}, h = ${h}`), ' ',
+            html('button', {type: 'button', click: () => {
+                this.unfold(row, button, system, cell);
+                button.focus();
+            }}, 'Close'),
+            holder, html('p', {}, cell.page ? 'The ' : 'Its page is made by ', link)));
         button.setAttribute('aria-expanded', 'true');
         const names = Object.keys(QUANTITIES).filter(q => cell[q]);
         plot(holder, names.map(q => system.curve(cell, q, QUANTITIES[q])), 'Maxima up to t');
@@ -228,7 +227,7 @@ class Matrix {
     sort(order) {
         this.heads.forEach(head => head.removeAttribute('aria-sort'));
         const sorted = order ? [...this.rows].sort(order) : this.rows;
-        this.table.tBodies[0].append(...sorted.flatMap(row => row.detail ? [row.tr, row.detail] : [row.tr]));
+        this.table.tBodies[0].append(...sorted.map(row => row.tr));
     }
 
     // Hides the rows without a match and dims the cells that are none; the number of rows shown.
@@ -239,7 +238,6 @@ class Matrix {
             const isShown = (!family || row.family === family) && (!order || row.order === Number(order)) &&
                 (!(size || trend) || row.cells.some(isMatch));
             row.tr.hidden = !isShown;
-            if (row.detail) row.detail.hidden = !isShown;
             for (const cell of row.cells) cell.td.classList.toggle('dim', !isMatch(cell));
             count += isShown;
         }
@@ -272,7 +270,7 @@ function addTools() {
         count.textContent = `${Math.max(...shown)} of ${all} methods`;
     };
     const filter = (label, name, options) => choice(label, [['', 'any'], ...options], choose(name));
-    const first = matrices[0].table.closest('.wide').previousElementSibling;
+    const first = matrices[0].table.closest('.beside').previousElementSibling;
     first.before(html('div', {class: 'tools', role: 'group', 'aria-label': 'Tables'},
         filter('Family', 'family', distinct(rows.map(r => r.family))),
         filter('Order', 'order', distinct(rows.map(r => r.order)).sort((a, b) => a - b)),

@@ -43,7 +43,7 @@ bool is_cell(const study_page *s, int row, const char *head, const char *text)
     return csv_table_is(&s->cells, row, head, text);
 }
 
-const quantity quantities[QUANTITIES] = {
+const quantity quantities[REPORT_QUANTITIES] = {
     {"D", "D_max", "D_size", "D_trend", "D", "Constraints", "max |D|", "Constraints: max |D|",
      false},
     {"E", "E_deviation", "E_size", "E_trend", "E", "Energy", "max |E - E(0)|",

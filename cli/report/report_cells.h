@@ -12,7 +12,8 @@ typedef struct study_page {
     report *r;
     csv_table cells; /* cells.csv */
     csv_words labels, methods, representatives;
-    char *title[CSV_WORDS]; /* of the system of each label, or the label */
+    char *title[CSV_WORDS];            /* of the system of each label, or the label */
+    const char *short_name[CSV_WORDS]; /* of each label, as the screen has it */
 } study_page;
 
 /* Reads a table of cells or orders, in which a step and its tolerance become one text under "step":
@@ -41,8 +42,8 @@ typedef struct quantity {
     bool is_displaced; /* shown of runs that start off p = pi = 0 */
 } quantity;
 
-enum { QUANTITIES = 5 };
-extern const quantity quantities[QUANTITIES];
+enum { REPORT_QUANTITIES = 5 };
+extern const quantity quantities[REPORT_QUANTITIES];
 
 /* Whether a cell starts as a quantity is shown. */
 bool is_shown(const study_page *s, int row, const quantity *t);

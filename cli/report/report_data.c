@@ -110,7 +110,7 @@ static void write_cell(json_writer *data, const study_page *s, int row, int step
     json_put_integer(data, "step", step);
     json_put_text(data, "run", run);
     if (file_exists(path)) json_put_flag(data, "page", true);
-    for (int k = 0; k < QUANTITIES; k++) {
+    for (int k = 0; k < REPORT_QUANTITIES; k++) {
         const quantity *t = &quantities[k];
         if (t->is_displaced == is_displaced && !is_cell(s, row, t->value, ""))
             write_envelope(data, t->name, series, rows, t->column);

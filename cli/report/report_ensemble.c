@@ -127,17 +127,17 @@ static int draw_cloud(const ensemble_page *p, int number)
     return report_draw(p->r, &plot);
 }
 
-static void begin_section(FILE *page, const char *title, const char *text)
+static void begin_section(report *r, const char *id, const char *title, const char *text)
 {
-    report_element(page, "h2", title);
-    report_element(page, "p", text);
-    fputs("<div class=\"figures\">\n", page);
+    report_heading(r, id, title);
+    report_element(r->page, "p", text);
+    fputs("<div class=\"figures\">\n", r->page);
 }
 
 static int draw_clouds(const ensemble_page *p)
 {
     int status = CLI_DONE;
-    begin_section(p->r->page, "Clouds", "The first members in the plane of two components.");
+    begin_section(p->r, "clouds", "Clouds", "The first members in the plane of two components.");
     for (int i = 0; i < chosen_times(p, CLOUDS) && status == CLI_DONE; i++)
         status = draw_cloud(p, i);
     fputs("</div>\n", p->r->page);
@@ -145,11 +145,11 @@ static int draw_clouds(const ensemble_page *p)
 }
 
 /* A section with a figure for each component in which the members differ. */
-static int draw_components(const ensemble_page *p, const char *title, const char *text,
-                           int (*draw)(const ensemble_page *p, int column))
+static int draw_components(const ensemble_page *p, const char *id, const char *title,
+                           const char *text, int (*draw)(const ensemble_page *p, int column))
 {
     int status = CLI_DONE;
-    begin_section(p->r->page, title, text);
+    begin_section(p->r, id, title, text);
     for (int i = 0; i < p->columns.count && status == CLI_DONE; i++)
         if (varies(p, i)) status = draw(p, i);
     fputs("</div>\n", p->r->page);
@@ -214,7 +214,7 @@ static void write_statistics(const ensemble_page *p)
     FILE *page = p->r->page;
     char *title =
         cli_format("Statistics at t = %.6g", strtod(p->times.word[p->times.count - 1], NULL));
-    report_element(page, "h2", title);
+    report_heading(p->r, "statistics", title);
     free(title);
     fputs(REPORT_TABLE, page);
     for (int k = 1; k < csv->columns; k++) report_element(page, "th", csv->cell[k]);
@@ -235,11 +235,11 @@ static int write_page(ensemble_page *p)
     write_statistics(p);
     status = draw_clouds(p);
     if (status == CLI_DONE)
-        status = draw_components(p, "Histograms", "Members in 40 intervals between the extremes.",
-                                 draw_histogram);
+        status = draw_components(p, "histograms", "Histograms",
+                                 "Members in 40 intervals between the extremes.", draw_histogram);
     if (status == CLI_DONE && p->times.count > 2 && p->statistics.columns > 8)
-        status =
-            draw_components(p, "Along t", "Each component at the times of observation.", draw_band);
+        status = draw_components(p, "along", "Along t",
+                                 "Each component at the times of observation.", draw_band);
     report_file(p->r, "failures.csv", "members that failed: failures.csv");
     report_file(p->r, "manifest.json", "what it was made with: manifest.json");
     return status;

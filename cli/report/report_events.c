@@ -55,10 +55,12 @@ static void write_actions(FILE *page, unsigned actions)
                                       : "");
 }
 
-void report_events_write(FILE *page, const report_events *e)
+void report_events_write(report *r, const report_events *e)
 {
+    FILE *page = r->page;
     if (!e->system) return;
-    fputs("<h2>Events</h2>\n" REPORT_TABLE
+    report_heading(r, "events", "Events");
+    fputs(REPORT_TABLE
           "<td></td><th>action</th><th>how often</th><th>first t</th><th>last t</th>" REPORT_ROWS,
           page);
     for (int k = 0; k < e->system->events; k++) {

@@ -3,6 +3,7 @@
 #define DAL_CLI_REPORT_EVENTS_H
 
 #include "dalembert_system.h"
+#include "report_page.h"
 
 #include <stdio.h>
 
@@ -23,6 +24,6 @@ typedef struct report_events {
 int report_events_read(report_events *e, const char *path, const dal_system *system, double from);
 void report_events_free(report_events *e);
 /* A table of the events of the system: how often each happened, first and last. */
-void report_events_write(FILE *page, const report_events *e);
+void report_events_write(report *r, const report_events *e);
 
 #endif

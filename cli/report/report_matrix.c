@@ -5,6 +5,7 @@
 
 #include "report_family.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,16 +44,13 @@ static bool has_value(const study_page *s, const table_column *column, const qua
 static void write_trend_cell(const study_page *s, int row, const quantity *t)
 {
     FILE *page = s->r->page;
-    char number[32] = "";
-    const char *value = row > 0 ? get_cell(s, row, t->value) : "";
-    const double size = strtod(value, NULL);
-    if (value[0]) snprintf(number, sizeof number, size == 0.0 ? "0" : "%.1e", size);
+    const double x = row > 0 ? csv_table_number(&s->cells, row, t->value) : NAN;
     if (row > 0 && is_cell(s, row, "state", "failed"))
-        report_trend(page, "", "failed", number);
-    else if (!value[0])
+        report_trend(page, "", "failed", x, "");
+    else if (isnan(x))
         fputs("<td>–</td>", page);
     else
-        report_trend(page, get_cell(s, row, t->size), get_cell(s, row, t->trend), number);
+        report_trend(page, get_cell(s, row, t->size), get_cell(s, row, t->trend), x, "");
 }
 
 /* Begins a row, with what it may be sorted by. */
@@ -66,11 +64,20 @@ static void write_method(FILE *page, const char *name)
     report_element(page, "th scope=\"row\"", name);
 }
 
-static const char *get_title(const study_page *s, const char *label)
+/* The full name of a label, "line: a point on a line", as the title of its short one. */
+static void write_names(const study_page *s, const char *label)
 {
+    FILE *page = s->r->page;
     int i = 0;
     while (strcmp(s->labels.word[i], label) != 0) i++;
-    return s->title[i];
+    fputs(" title=\"", page);
+    report_text(page, label);
+    if (strcmp(label, s->title[i]) != 0) {
+        fputs(": ", page);
+        report_text(page, s->title[i]);
+    }
+    fputs("\">", page);
+    report_text(page, s->short_name[i]);
 }
 
 /* Labels without a value and methods that apply to none of the others are left out. */
@@ -83,20 +90,22 @@ static void write_matrix(const study_page *s, const table_columns *all, const qu
     for (int i = 0; i < all->count; i++)
         if (has_value(s, &all->at[i], t)) shown.at[shown.count++] = all->at[i];
     if (shown.count == 0) return;
+    char *id = cli_format("all-%s", t->name);
+    report_subheading(s->r, id, t->title);
     fprintf(page,
-            "<h3>%s</h3>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"%s\">"
+            "<h3 id=\"%s\">%s</h3>\n<div class=\"beside\"><div class=\"wide tall\" tabindex=\"0\" "
+            "role=\"region\" aria-label=\"%s\">"
             "<table class=\"matrix\" data-quantity=\"%s\"><thead><tr><td></td>",
-            t->heading, t->title, t->name);
+            id, t->heading, t->title, t->name);
+    free(id);
     for (int i = 0; i < shown.count; i++) {
         fputs("<th scope=\"col\" data-label=\"", page);
         report_text(page, shown.at[i].label);
         if (step_tolerance(shown.at[i].step) > 0.0)
-            fprintf(page, "\" data-step=\"%s\" title=\"", step_title(title, shown.at[i].step) + 4);
+            fprintf(page, "\" data-step=\"%s\"", step_title(title, shown.at[i].step) + 4);
         else
-            fprintf(page, "\" data-step=\"%.9g\" title=\"", strtod(shown.at[i].step, NULL));
-        report_text(page, get_title(s, shown.at[i].label));
-        fputs("\">", page);
-        report_text(page, shown.at[i].label);
+            fprintf(page, "\" data-step=\"%.9g\"", strtod(shown.at[i].step, NULL));
+        write_names(s, shown.at[i].label);
         if (!shown.at[i].is_alone)
             fprintf(page, "<br><small>%s</small>", step_title(title, shown.at[i].step));
         fputs("</th>", page);
@@ -115,14 +124,16 @@ static void write_matrix(const study_page *s, const table_columns *all, const qu
         for (int i = 0; i < shown.count; i++) write_trend_cell(s, rows[i], t);
         fputs("</tr>\n", page);
     }
-    fputs(REPORT_TABLE_END, page);
+    fputs(REPORT_TABLE_END "</div>\n", page);
 }
 
 void report_matrices(const study_page *s)
 {
     table_columns *all = cli_calloc(1, sizeof *all);
-    for (int row = 1; row < s->cells.rows; row++)
-        add_column(all, get_cell(s, row, "label"), get_cell(s, row, "step"));
-    for (int k = 0; k < QUANTITIES; k++) write_matrix(s, all, &quantities[k]);
+    for (int i = 0; i < s->labels.count; i++)
+        for (int row = 1; row < s->cells.rows; row++)
+            if (is_cell(s, row, "label", s->labels.word[i]))
+                add_column(all, s->labels.word[i], get_cell(s, row, "step"));
+    for (int k = 0; k < REPORT_QUANTITIES; k++) write_matrix(s, all, &quantities[k]);
     free(all);
 }

@@ -183,7 +183,7 @@ static int draw_family(const order_page *o, method_family family)
 static int draw_figures(const order_page *o)
 {
     csv_words members = {.count = 0}, none = {.count = 0};
-    fputs("<h2>Figures</h2>\n", o->r->page);
+    report_heading(o->r, "figures", "Figures");
     if (o->methods.count <= PLOT_METHODS) return draw_methods(o, &o->methods, "");
     method_family_members(&o->methods, &none, &members);
     fputs("<p>One method of each family; all of them below.</p>\n", o->r->page);

@@ -11,6 +11,7 @@
 #include "io/text.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 
 #include <errno.h>
 #include <math.h>
@@ -58,28 +59,47 @@ void report_number(FILE *page, const char *format, double x)
     report_element(page, "td", text);
 }
 
-void report_trend(FILE *page, const char *size, const char *trend, const char *number)
+const char *report_colour(screen_colour colour)
 {
-    const bool is_exact = strcmp(size, "exact") == 0, is_larger = strcmp(size, "larger") == 0;
-    /* A trend that grows never has the colour of no trend, whatever its size. */
-    const char *colour = is_larger ? "drift" : "small";
-    if (!*trend || strcmp(trend, "failed") == 0 || strcmp(trend, "aborted") == 0 ||
-        strcmp(trend, "undecided") == 0)
-        colour = "off";
-    else if (strcmp(trend, "none") == 0 || strcmp(trend, "settles") == 0)
-        colour = is_larger ? "bounded" : "kept";
-    fprintf(page, "<td class=\"trend %s\">", colour);
-    if (size[0] && !is_exact) {
-        report_text(page, size);
-        fputs("<br>", page);
-    }
-    report_text(page, is_exact ? "exact" : trend);
-    if (!trend[0] && !number[0]) fputs("–", page);
-    if (number[0]) {
-        fputs(trend[0] ? "<br>" : "", page);
-        report_element(page, "small", number);
-    }
-    fputs("</td>", page);
+    static const char *const classes[SCREEN_COLOURS] = {
+        [SCREEN_PLAIN] = "",        [SCREEN_ROUNDING] = "kept", [SCREEN_SMALL] = "small",
+        [SCREEN_MEDIUM] = "medium", [SCREEN_LARGE] = "large",   [SCREEN_FAINT] = "off"};
+    return classes[colour];
+}
+
+static void write_attribute(FILE *page, const char *name, const char *text)
+{
+    fprintf(page, " %s=\"", name);
+    report_text(page, text);
+    fputc('"', page);
+}
+
+void report_trend(FILE *page, const char *size, const char *trend, double x, const char *note)
+{
+    char number[SCREEN_NUMBER] = "";
+    const bool has_words = size[0] || trend[0] || note[0];
+    const bool has_trend = trend[0] && strcmp(trend, "none") != 0 && strcmp(size, "exact") != 0;
+    /* A size that is stated has the colour of the screen; grey is for what is not stated. */
+    const screen_colour colour = strcmp(trend, "failed") == 0 || strcmp(trend, "aborted") == 0
+                                     ? SCREEN_LARGE
+                                 : !size[0] && !trend[0]       ? SCREEN_FAINT
+                                 : strcmp(size, "larger") != 0 ? SCREEN_ROUNDING
+                                                               : screen_colour_of(x);
+    if (!isnan(x)) screen_number(number, x, 2);
+    fprintf(page, "<td class=\"trend %s\"", report_colour(colour));
+    write_attribute(page, "data-size", size);
+    write_attribute(page, "data-trend", trend);
+    write_attribute(page, "data-value", number);
+    fputc('>', page);
+    if (number[0]) report_element(page, "b", number);
+    if (!number[0] && !has_words) fputs("–", page);
+    if (has_words) fputs("<small>", page);
+    report_text(page, size);
+    if (has_trend) fputs(size[0] ? ", " : "", page);
+    if (has_trend) report_text(page, trend);
+    if (note[0]) fputs("<br>", page);
+    report_text(page, note);
+    fputs(has_words ? "</small></td>" : "</td>", page);
 }
 
 void report_file(report *r, const char *name, const char *summary)
@@ -165,8 +185,10 @@ int report_open(report *r)
     const int status = cli_directory(r->place);
     if (status != CLI_DONE) return status;
     r->page_path = cli_join(r->place, "index.html");
-    r->page = cli_memstream_open(&r->text, &r->length);
-    fprintf(r->page,
+    r->head = cli_memstream_open(&r->text[REPORT_HEAD], &r->length[REPORT_HEAD]);
+    r->contents = cli_memstream_open(&r->text[REPORT_CONTENTS], &r->length[REPORT_CONTENTS]);
+    r->page = cli_memstream_open(&r->text[REPORT_PAGE], &r->length[REPORT_PAGE]);
+    fprintf(r->head,
             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
             "<style>\n%s</style>\n",
@@ -176,10 +198,29 @@ int report_open(report *r)
 
 void report_title(report *r, const char *title)
 {
-    report_element(r->page, "title", title);
-    fputs("</head><body>\n", r->page);
-    report_element(r->page, "h1", title);
+    report_element(r->head, "title", title);
+    report_element(r->page, "h1 id=\"top\"", title);
     fputc('\n', r->page);
+}
+
+static void add_contents(report *r, const char *id, const char *heading, const char *style)
+{
+    fprintf(r->contents, "<a href=\"#%s\"%s>", id, style);
+    report_text(r->contents, heading);
+    fputs("</a>\n", r->contents);
+}
+
+void report_heading(report *r, const char *id, const char *heading)
+{
+    add_contents(r, id, heading, "");
+    fprintf(r->page, "<h2 id=\"%s\">", id);
+    report_text(r->page, heading);
+    fputs("</h2>\n", r->page);
+}
+
+void report_subheading(report *r, const char *id, const char *heading)
+{
+    add_contents(r, id, heading, " class=\"part\"");
 }
 
 int report_close(report *r)
@@ -191,12 +232,26 @@ int report_close(report *r)
                 " Every figure is beside this page, as NAME.%s and as the gnuplot script "
                 "NAME.gp with its data.",
                 r->format);
-    fprintf(r->page, "</p>\n<script type=\"module\">\n%s</script>\n</body></html>\n",
-            report_script);
+    fputs("</p>\n", r->page);
+    cli_memstream_close(r->head);
+    cli_memstream_close(r->contents);
     cli_memstream_close(r->page);
-    int status = r->read;
-    if (status == CLI_DONE) status = file_replace(r->page_path, r->text, r->length, 0);
-    free(r->text);
+    /* The contents are at the side of the page, or where it is narrow above it. */
+    char *text;
+    size_t length;
+    FILE *page = cli_memstream_open(&text, &length);
+    fprintf(page, "%s</head><body>\n", r->text[REPORT_HEAD]);
+    if (r->length[REPORT_CONTENTS] > 0)
+        fprintf(page,
+                "<nav class=\"contents\" aria-label=\"Contents\" tabindex=\"0\">\n"
+                "<a href=\"#top\">Top</a>\n%s</nav>\n",
+                r->text[REPORT_CONTENTS]);
+    fprintf(page, "<main>\n%s</main>\n<script type=\"module\">\n%s</script>\n</body></html>\n",
+            r->text[REPORT_PAGE], report_script);
+    cli_memstream_close(page);
+    const int status = r->read == CLI_DONE ? file_replace(r->page_path, text, length, 0) : r->read;
+    free(text);
+    for (int i = 0; i < REPORT_PARTS; i++) free(r->text[i]);
     return status;
 }
 

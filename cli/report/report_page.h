@@ -10,6 +10,7 @@
 #define DAL_CLI_REPORT_PAGE_H
 
 #include "io/json.h"
+#include "ui/screen_data.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -17,13 +18,16 @@
 
 extern const char report_style[], report_script[]; /* report.css and report.js, embedded */
 
+enum { REPORT_HEAD, REPORT_CONTENTS, REPORT_PAGE, REPORT_PARTS };
+
 typedef struct report {
-    const char *directory; /* of the study or run */
-    char *place;           /* DIR/report */
-    const char *format;    /* "svg" or "png" */
-    FILE *page;            /* in memory until it is closed */
-    char *text;            /* what is on it, and how much, when it is closed */
-    size_t length;
+    const char *directory;    /* of the study or run */
+    char *place;              /* DIR/report */
+    const char *format;       /* "svg" or "png" */
+    FILE *page;               /* what is below the title, in memory until it is closed */
+    FILE *head, *contents;    /* what is above it; the items of the contents */
+    char *text[REPORT_PARTS]; /* of those three when they are closed */
+    size_t length[REPORT_PARTS];
     char *page_path;
     int read;           /* the exit status of reading the files that are on the page */
     bool lacks_gnuplot; /* scripts are written, figures are not */
@@ -40,6 +44,10 @@ int report_make(report *r, int (*write)(report *r));
 int report_after(const char *directory, int status, int (*write)(report *r));
 /* Ends the head and begins the body with the title as its heading. */
 void report_title(report *r, const char *title);
+/* A part of the page under a heading, to which the contents lead by its id; the same for a part of
+ * the last such part, whose heading is the caller's. */
+void report_heading(report *r, const char *id, const char *heading);
+void report_subheading(report *r, const char *id, const char *heading);
 /* A text with &, <, > and quotes escaped, and blanks for its control characters except tabs and
  * line ends; the same in an element. */
 void report_text(FILE *page, const char *text);
@@ -54,9 +62,11 @@ void report_put_levels(json_writer *data, const char *name, const uint16_t *leve
 void report_row(FILE *page, const char *name);
 /* A cell of a table with a number; "–" for NaN. */
 void report_number(FILE *page, const char *format, double x);
-/* A cell of a table with a size and a trend, in words and in colour, and a number below them.
- * Without both it holds the number alone. */
-void report_trend(FILE *page, const char *size, const char *trend, const char *number);
+/* The class of an element that has a colour of the palette; "": none. */
+const char *report_colour(screen_colour colour);
+/* A cell of a table with a number x, and in words and colour the size and the trend that are stated
+ * of it.  Without both it holds the number alone; without x (NaN) the words; note: beside them. */
+void report_trend(FILE *page, const char *size, const char *trend, double x, const char *note);
 /* A file of the directory, word for word, folded; nothing where there is none.  Without one that
  * cannot be read report_close fails. */
 void report_file(report *r, const char *name, const char *summary);

@@ -4,10 +4,12 @@
 #include "report_run.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 
 #include "io/csv_table.h"
 #include "io/file.h"
 #include "io/trajectory.h"
+#include "io/trend.h"
 #include "report_data.h"
 #include "report_events.h"
 #include "report_path.h"
@@ -16,6 +18,8 @@
 #include "report_system.h"
 #include "run/columns.h"
 #include "run/manifest.h"
+#include "run/request_command.h"
+#include "run/run_screen.h"
 #include "run/simulation.h"
 #include "run/system.h"
 
@@ -237,9 +241,18 @@ static void add_row(run_page *run, long long k)
 
 static int draw_figures(run_page *run)
 {
+    report *r = run->r;
     int more, status = CLI_DONE;
-    name_plots(run);
-    place_columns(run);
+    report_heading(r, "figures", "Figures");
+    fputs("<div class=\"figures\">\n", r->page);
+    if (run->reader.count < 2)
+        fputs("<p>The run has one row, too few for figures.</p>\n", r->page);
+    else if (run->request->system_name)
+        status = report_path(r, r->directory, "path", "");
+    if (status != CLI_DONE || run->reader.count < 2) {
+        fputs("</div>\n", r->page);
+        return status;
+    }
     for (long long k = 0; (more = reader_next(&run->reader)) > 0; k++) add_row(run, k);
     if (more < 0) status = CLI_IO;
     bool is_sparse = false;
@@ -248,7 +261,6 @@ static int draw_figures(run_page *run)
     for (int i = 1; i < run->reader.columns; i++) {
         run_column *c = &run->column[i];
         if (c->series) row_series_draw(c->series, &run->plot[c->group], c->curve, is_sparse);
-        free(c->series);
         if (c->envelope) report_title_envelope(c->envelope);
         /* A sentence about all values needs all columns and all rows; figures leave some out. */
         if (c->group != NO_GROUP && c->max_abs != 0.0) run->plot[c->group].zero_text = NULL;
@@ -259,6 +271,7 @@ static int draw_figures(run_page *run)
         if (status == CLI_DONE) status = drawn;
         drawn = report_draw(run->r, &run->plot[g]);
     }
+    fputs("</div>\n", r->page);
     return status == CLI_DONE ? drawn : status;
 }
 
@@ -272,7 +285,9 @@ static void write_summary(const run_page *run, double time)
     const csv_table *csv = &run->summary;
     FILE *page = run->r->page;
     if (csv->rows < 2) return;
-    fputs("<h2>Size and trend</h2>\n" REPORT_TABLE "<td></td><th>size, "
+    report_heading(run->r, "trends", "Size and trend");
+    fputs(REPORT_TABLE
+          "<td></td><th>size, "
           "trend</th><th>confi&shy;dence</th><th>first</th><th>final</th><th>max |x|</th>"
           "<th>max |x − first|</th><th>rate</th><th>rate, from</th><th>to (95 %)</th>"
           "<th>exponent</th>" REPORT_ROWS,
@@ -286,7 +301,7 @@ static void write_summary(const run_page *run, double time)
             snprintf(drift, sizeof drift, "|drift| ≤ %.1e", max_rate * time);
         report_row(page, csv_table_get(csv, row, "observable"));
         report_trend(page, csv_table_get(csv, row, "size"), csv_table_get(csv, row, "trend"),
-                     drift);
+                     csv_table_number(csv, row, "deviation"), drift);
         for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
             report_number(page, "%.4g", csv_table_number(csv, row, columns[k]));
         fputs("</tr>\n", page);
@@ -299,6 +314,86 @@ static void write_summary(const run_page *run, double time)
             fputs(" has neither size nor trend: the motion of this run need not conserve it.</p>\n",
                   page);
         }
+}
+
+/* ---- the verdicts --------------------------------------------------------------------------- */
+
+static void write_value(const run_page *run, int i)
+{
+    char number[SCREEN_NUMBER];
+    fputs(" <span>", run->r->page);
+    report_text(run->r->page, run->reader.name[i]);
+    fprintf(run->r->page, " = %s</span>", screen_number(number, run->reader.row[i], 4));
+}
+
+/* What was run, and the present row: "t = 1000 x = 12.31 y = -4.02 x' = 0.61 y' = -0.79". */
+static void write_state(const run_page *run)
+{
+    const run_request *request = run->request;
+    char number[SCREEN_NUMBER];
+    if (request->system_name) {
+        fputs("<p class=\"lead\">", run->r->page);
+        report_text(run->r->page, request->system_name);
+        fputs(" by ", run->r->page);
+        report_text(run->r->page,
+                    request->text[REQUEST_integrator] ? request->text[REQUEST_integrator] : "");
+        fprintf(run->r->page, ", h = %s, t = %.6g .. %.6g</p>\n",
+                screen_number(number, request->options.step, 4), request->from, run->reader.row[0]);
+    }
+    fputs("<p class=\"numbers\">", run->r->page);
+    write_value(run, 0);
+    for (int i = 1; i < run->reader.columns; i++)
+        if (run->column[i].group == GROUP_COORDINATES || run->column[i].group == GROUP_ANGLES)
+            write_value(run, i);
+    for (int i = 1; i < run->reader.columns; i++)
+        if (run->column[i].velocity > 0) write_value(run, run->column[i].velocity);
+    fputs("</p>\n", run->r->page);
+}
+
+/* The words of the screen of a run: a row for each quantity, and what explains the first that
+ * moves. */
+static void write_verdicts(const run_page *run, const dal_system *system)
+{
+    const csv_table *csv = &run->summary;
+    const int n = csv->rows - 1;
+    FILE *page = run->r->page;
+    if (n < 1) return;
+    dal_trend *trend = cli_calloc((size_t)n, sizeof *trend);
+    const char **names = cli_calloc((size_t)n, sizeof *names);
+    const run_quantities shown = {trend, names, n, 2 * n, 80};
+    screen_table t = {.columns = 3};
+    int left_out;
+    for (int i = 0; i < n; i++) {
+        trend[i] = cli_get_trend(csv, i + 1);
+        names[i] = csv_table_get(csv, i + 1, "observable");
+        if (system && trend[i].conservation != DAL_CONSERVED && strcmp(names[i], "E") == 0 &&
+            system->properties & (DAL_E_EXACT | DAL_E_ON_D))
+            trend[i].conservation = DAL_OFF_SURFACE;
+    }
+    const int moving = run_add_verdicts(&t, &shown, &left_out);
+    fputs("<div class=\"wide\" tabindex=\"0\"><table class=\"verdicts\"><tbody>\n", page);
+    for (int i = 0; i < t.cells; i += t.columns) {
+        report_row(page, t.cell[i].text);
+        fprintf(page, "<td class=\"%s\">", report_colour(t.cell[i + 1].colour));
+        report_element(page, "b", t.cell[i + 1].text);
+        fputs("</td>", page);
+        report_element(page, "td class=\"words\"", t.cell[i + 2].text);
+        fputs("</tr>\n", page);
+    }
+    fputs(REPORT_TABLE_END, page);
+    if (moving >= 0 && run->request->system_name) {
+        char *command = request_format_command(run->request, "explain", run->request->system_name,
+                                               REQUEST_ROW_OPTIONS);
+        fputs("<p>Why ", page);
+        report_text(page, names[moving]);
+        fputs(" moves: ", page);
+        report_element(page, "code", command);
+        fputs("</p>\n", page);
+        free(command);
+    }
+    screen_free_table(&t);
+    free(names);
+    free(trend);
 }
 
 /* ---- the command --------------------------------------------------------------------------- */
@@ -332,9 +427,11 @@ static void write_settings(FILE *page, const char *option, const request_setting
     }
 }
 
-static void write_command(FILE *page, const run_request *request)
+static void write_command(report *r, const run_request *request)
 {
-    fputs("<h2>How to make it again</h2>\n<pre tabindex=\"0\">dalembert run ", page);
+    FILE *page = r->page;
+    report_heading(r, "again", "How to make it again");
+    fputs("<pre tabindex=\"0\">dalembert run ", page);
     write_word(page, request->system_name);
     for (int i = 0; i < REQUEST_system; i++) {
         if (!request->text[i] || i == REQUEST_set || i == REQUEST_start) continue;
@@ -390,11 +487,8 @@ int report_run(report *r)
     if (status == CLI_DONE && access(dir.manifest, F_OK) == 0)
         status = manifest_read(&dir, request);
     if (status == CLI_DONE && request->system_name)
-        status = cli_read(request->system_name, &simulation.model);
-    const bool has_events = simulation.model && dal_model_text(simulation.model, DAL_SECTION_EVENTS,
-                                                               0, NULL, NULL, NULL);
-    if (status == CLI_DONE && (request->columns || has_events))
-        status = cli_make(request->system_name, &simulation.model, &simulation.system);
+        status = cli_load(request->system_name, &simulation.model, &simulation.system);
+    const bool has_events = simulation.system && simulation.system->events > 0;
     run->system = request->columns ? simulation.system : NULL;
     if (status == CLI_DONE)
         status = report_events_read(&run->events, dir.events, has_events ? simulation.system : NULL,
@@ -407,20 +501,20 @@ int report_run(report *r)
         status = csv_table_require(&run->summary, summary, "trend");
     if (status == CLI_DONE) {
         report_title(r, report_model_title(simulation.model, "A run"));
+        const double last = reader_peek_last(&run->reader) ? run->reader.row[0] : NAN;
+        name_plots(run);
+        place_columns(run);
+        write_state(run);
+        write_verdicts(run, simulation.system);
         if (simulation.model) write_head(run, dir.doc);
-        write_summary(run, fabs(reader_last_time(&run->reader) - request->from));
+        write_summary(run, fabs(last - request->from));
         if (request->system_name) status = data_write_run(r);
-        report_events_write(r->page, &run->events);
-        fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
-        if (run->reader.count < 2)
-            fputs("<p>The run has one row, too few for figures.</p>\n", r->page);
-        else if (request->system_name && status == CLI_DONE)
-            status = report_path(r, r->directory, "path", "");
-        if (status == CLI_DONE && run->reader.count > 1) status = draw_figures(run);
-        fputs("</div>\n", r->page);
-        if (request->system_name) write_command(r->page, request);
+        report_events_write(r, &run->events);
+        if (status == CLI_DONE) status = draw_figures(run);
+        if (request->system_name) write_command(r, request);
         report_file(r, "manifest.json", "what it was made with: manifest.json");
     }
+    for (int i = 1; run->column && i < run->reader.columns; i++) free(run->column[i].series);
     if (is_open) reader_close(&run->reader);
     csv_table_free(&run->summary);
     report_events_free(&run->events);

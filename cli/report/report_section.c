@@ -55,7 +55,8 @@ static int draw_crossings(report *r, const csv_table *csv, const report_results 
                          csv_table_number(csv, row, axis[1]));
         }
     }
-    fputs("<h2>Figure</h2>\n<div class=\"figures\">\n", r->page);
+    report_heading(r, "figure", "Figure");
+    fputs("<div class=\"figures\">\n", r->page);
     const int status = report_draw(r, &plot);
     fputs("</div>\n", r->page);
     return status;

@@ -18,6 +18,7 @@
 #include "report_family.h"
 #include "report_matrix.h"
 #include "report_motion.h"
+#include "report_overview.h"
 #include "report_path.h"
 #include "report_plot.h"
 #include "report_system.h"
@@ -51,17 +52,19 @@ static void write_expectations(FILE *page, const csv_table *csv, which_expectati
                 report_element(page, "td", step[0] ? step_title(title, step) + 4 : "–");
             else
                 report_element(page, "td", csv_table_get(csv, row, heads[k]));
-        fprintf(page, "<td class=\"%s\">%s</td></tr>\n", is_met ? "kept" : "drift",
+        fprintf(page, "<td class=\"%s\">%s</td></tr>\n", is_met ? "kept" : "large",
                 is_met ? "met" : "not met");
     }
     fputs(REPORT_TABLE_END, page);
 }
 
 /* Those that are met; those that are not since a run failed, or a value was not finite. */
-static void write_met(FILE *page, const csv_table *csv, int met)
+static void write_met(report *r, const csv_table *csv, int met)
 {
+    FILE *page = r->page;
     static const char *const words[] = {"failed", "aborted"};
-    fprintf(page, "<h2>Expectations</h2>\n<p>%d of %d are met", met, csv->rows - 1);
+    report_heading(r, "expectations", "Expectations");
+    fprintf(page, "<p>%d of %d are met", met, csv->rows - 1);
     for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
         int count = 0;
         for (int row = 1; row < csv->rows; row++)
@@ -83,7 +86,7 @@ static int report_expectations(report *r)
     int met = 0;
     for (int row = 1; row < csv.rows; row++) met += csv_table_is(&csv, row, "met", "yes");
     if (csv.rows > 1) {
-        write_met(r->page, &csv, met);
+        write_met(r, &csv, met);
         if (met < csv.rows - 1) write_expectations(r->page, &csv, UNMET_EXPECTATIONS);
         fputs("<details><summary>all of them</summary>\n", r->page);
         write_expectations(r->page, &csv, ALL_EXPECTATIONS);
@@ -340,8 +343,8 @@ static int draw_label(const label_figures *f)
     FILE *page = f->s->r->page;
     fputs("<div class=\"figures\">\n", page);
     int status = draw_best_path(f);
-    for (int i = 0; i < f->steps.count * QUANTITIES && status == CLI_DONE; i++)
-        status = draw_quantity(f, &quantities[i % QUANTITIES], i / QUANTITIES);
+    for (int i = 0; i < f->steps.count * REPORT_QUANTITIES && status == CLI_DONE; i++)
+        status = draw_quantity(f, &quantities[i % REPORT_QUANTITIES], i / REPORT_QUANTITIES);
     int levels[] = {2, 0, 0}; /* the work is drawn of one step, too */
     for (int i = 0; i < f->steps.count; i++)
         levels[step_tolerance(f->steps.word[i]) > 0.0 ? OVER_TOLERANCE : OVER_STEP]++;
@@ -401,30 +404,29 @@ static int report_label(const study_page *s, int i)
 /* ---- the page ------------------------------------------------------------------------------ */
 
 static const char introduction[] =
-    "<p>Each cell has a size, a trend and the number that the heading names; – means that the "
+    "<details><summary>What sizes, trends and colours mean</summary>\n"
+    "<p>Each cell has the number that the heading names, a size and a trend; – means that the "
     "method needs what the system lacks.</p>\n"
     "<ul class=\"key\">\n"
     "<li class=\"kept\">exact: never changed; rounding: no larger than the roundings of as many "
-    "steps, and no trend: it stays about one value, or changes once (settles)</li>\n"
-    "<li class=\"small\">rounding, and a trend: a random walk, or a drift of roundings to one "
-    "side</li>\n"
-    "<li class=\"bounded\">larger, none: larger than roundings, about one value; settles: changes "
-    "once</li>\n"
-    "<li class=\"drift\">larger, and random walk, linear, power law, exponential or growing "
-    "oscillation: grows in that way</li>\n"
-    "<li class=\"off\">failed, aborted: the run ended early; undecided: too few samples, or too "
-    "slow an oscillation, to decide; a number alone: E where the motion of the run need not "
-    "conserve it</li>\n"
-    "</ul>\n";
+    "steps. With a trend, as a random walk, roundings add up.</li>\n"
+    "<li class=\"small\">larger, below 1e-9. Without a trend it is about one value; settles: it "
+    "changes once; random walk, linear, power law, exponential, growing oscillation: it grows so; "
+    "undecided: too few samples, or too slow an oscillation, to decide</li>\n"
+    "<li class=\"medium\">larger, below 1e-4</li>\n"
+    "<li class=\"large\">larger, from 1e-4 on; or failed, aborted: the run ended early</li>\n"
+    "<li class=\"off\">not stated: E where the motion of the run need not conserve it</li>\n"
+    "</ul></details>\n";
 
 static const char about_lift[] =
-    "<p>On p = π = 0 a lifted method is the same method on (q,v), bit for bit. That a method is\n"
+    "<details><summary>What the lift adds</summary>\n<p>On p = π = 0 a lifted method is the same "
+    "method on (q,v), bit for bit. That a method is\n"
     "symplectic on the lift has no consequence there for D or the energy: every one-step method\n"
     "whose step is locally invertible, explicit Euler included, is the restriction of a\n"
     "symplectic one. D and E are preserved, or not, for other reasons: the form of D, whether D\n"
     "is enforced or projected, reversibility. What symplecticity does preserve shows off\n"
     "p = π = 0, in H. A step that lands in D = 0 has no lift of 4n+2 variables; restricted to\n"
-    "D = 0 it lifts to T*{D = 0}, of dimension 2(2n − m).</p>\n";
+    "D = 0 it lifts to T*{D = 0}, of dimension 2(2n − m).</p></details>\n";
 
 /* The methods that the study file has among its representatives. */
 static void list_representatives(study_page *s, const document *doc, yaml_node_t *list)
@@ -479,90 +481,82 @@ static int write_equations(const study_page *s, const char *label)
     return status;
 }
 
-/* "Nonholonomic particle nonholonomic-particle-long" */
-static void write_name(const study_page *s, int i)
-{
-    FILE *page = s->r->page;
-    report_text(page, s->title[i]);
-    if (strcmp(s->title[i], s->labels.word[i]) == 0) return;
-    fputc(' ', page);
-    report_element(page, "small", s->labels.word[i]);
-}
-
-/* ": 5 done, 1 failed" */
-static void write_states(const study_page *s)
-{
-    static const char *const states[] = {"not run", "done", "failed", "refused"};
-    const char *separator = ": ";
-    for (size_t k = 0; k < sizeof states / sizeof states[0]; k++) {
-        int count = 0;
-        for (int row = 1; row < s->cells.rows; row++) count += is_cell(s, row, "state", states[k]);
-        if (count == 0) continue;
-        fprintf(s->r->page, "%s%d %s", separator, count, states[k]);
-        separator = ", ";
-    }
-}
-
-static int write_study(study_page *s)
+static int write_study(study_page *s, const report_overview *overview)
 {
     report *r = s->r;
     int status = begin_study(s);
     if (status != CLI_DONE) return status;
     bool is_lifted = false;
-    fprintf(r->page, "<p>%d runs, %d systems, %d methods", s->cells.rows - 1, s->labels.count,
-            s->methods.count);
-    write_states(s);
-    fputs(".</p>\n<ol>\n", r->page);
-    for (int i = 0; i < s->labels.count; i++) {
-        fprintf(r->page, "<li><a href=\"#s%d\">", i + 1);
-        write_name(s, i);
-        fputs("</a></li>\n", r->page);
-    }
-    fprintf(r->page, "</ol>\n%s", introduction);
+    report_overview_write(r, overview);
+    status = report_expectations(r);
+    report_heading(r, "methods", "All methods");
+    fputs(introduction, r->page);
     for (int row = 1; row < s->cells.rows; row++)
         is_lifted |= !is_cell(s, row, "start", "physical");
     if (is_lifted) fputs(about_lift, r->page);
     report_matrices(s);
-    status = report_expectations(r);
+    report_heading(r, "systems", "Systems");
     for (int i = 0; i < s->labels.count && status != CLI_IO; i++) {
         if (cli_interrupted())
             return cli_fail(CLI_SIGNAL, "interrupted; 'dalembert report %s' makes the page",
                             r->directory);
         cli_progress("report: %s", s->labels.word[i]);
-        fprintf(r->page, "<h2 id=\"s%d\">", i + 1);
-        write_name(s, i);
-        fputs("</h2>\n", r->page);
+        char *id = cli_format("s%d", i + 1);
+        report_subheading(r, id, s->short_name[i]);
+        fprintf(r->page, "<h3 id=\"%s\">", id);
+        report_text(r->page, s->title[i]);
+        if (strcmp(s->title[i], s->labels.word[i]) != 0) {
+            fputc(' ', r->page);
+            report_element(r->page, "small", s->labels.word[i]);
+        }
+        fputs("</h3>\n", r->page);
+        free(id);
         const int typeset = write_equations(s, s->labels.word[i]);
         const int drawn = report_label(s, i);
         if (status == CLI_DONE) status = typeset == CLI_DONE ? drawn : typeset;
     }
-    fputs("<h2>How to make it again</h2>\n"
-          "<pre>dalembert study study.yaml --output DIR\ndalembert report DIR</pre>\n",
-          r->page);
+    report_heading(r, "again", "How to make it again");
+    fputs("<pre>dalembert study study.yaml --output DIR\ndalembert report DIR</pre>\n", r->page);
     report_file(r, "study.yaml", "study.yaml");
     report_file(r, "manifest.json", "what it was made with: manifest.json");
     report_file(r, "tables.txt", "the tables: tables.txt");
     return status;
 }
 
+/* Systems in the order of the screen, those with a constraint first, then what it does not know. */
+static void list_labels(study_page *s, const report_overview *overview)
+{
+    for (int i = 0; i < overview->matrix.columns; i++)
+        for (int row = 1; row < s->cells.rows; row++)
+            if (is_cell(s, row, "label", overview->matrix.column[i]->label))
+                csv_add_word(&s->labels, get_cell(s, row, "label"));
+    for (int row = 1; row < s->cells.rows; row++)
+        csv_add_word(&s->labels, get_cell(s, row, "label"));
+    for (int i = 0; i < s->labels.count; i++)
+        s->short_name[i] = report_short_name(overview, s->labels.word[i]);
+}
+
 int report_study(report *r)
 {
     study_page *s = cli_calloc(1, sizeof *s);
+    report_overview overview = {.name = NULL};
     char *path = cli_join(r->directory, "cells.csv");
     s->r = r;
     int status = read_steps(&s->cells, path);
     for (int row = 1; status == CLI_DONE && row < s->cells.rows; row++) {
         status = check_cell_names(s, path, row);
-        csv_add_word(&s->labels, get_cell(s, row, "label"));
         csv_add_word(&s->methods, get_cell(s, row, "integrator"));
     }
-    if (status == CLI_DONE && s->labels.count == 0)
+    if (status == CLI_DONE && s->cells.rows < 2)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
-    for (int k = 0; status == CLI_DONE && k < QUANTITIES; k++)
+    for (int k = 0; status == CLI_DONE && k < REPORT_QUANTITIES; k++)
         if (quantities[k].trend) status = csv_table_require(&s->cells, path, quantities[k].trend);
+    if (status == CLI_DONE) status = report_overview_read(&overview, r->directory, &s->cells);
+    if (status == CLI_DONE) list_labels(s, &overview);
     if (status == CLI_DONE) status = read_titles(s);
-    if (status == CLI_DONE) status = write_study(s);
+    if (status == CLI_DONE) status = write_study(s, &overview);
     for (int i = 0; i < s->labels.count; i++) free(s->title[i]);
+    report_overview_free(&overview);
     csv_table_free(&s->cells);
     free(s);
     free(path);

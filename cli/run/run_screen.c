@@ -12,48 +12,57 @@
 enum { STATE_LINES = 3, OBSERVABLES = 11 };
 
 /* Whether two quantities share a line: they have the same verdict, without numbers. */
-static bool are_alike(const run_results *r, int i, int k)
+static bool are_alike(const run_quantities *q, int i, int k)
 {
-    const verdict a = verdict_of(&r->trend[i]), b = verdict_of(&r->trend[k]);
+    const verdict a = verdict_of(&q->trend[i]), b = verdict_of(&q->trend[k]);
     return !a.text[0] && !b.text[0] && strcmp(a.word, b.word) == 0;
 }
 
-/* A line for each quantity, what is exact in the end.  Returns the first quantity that moves; -1:
- * none. */
-static int say_verdicts(screen *s, const run_results *r)
+int run_add_verdicts(screen_table *t, const run_quantities *q, int *left_out)
 {
-    const int n = r->observables;
-    screen_table t = {.columns = 3, .heads = s->format != SCREEN_TEXT};
+    const int n = q->count;
     const char **alike = cli_calloc((size_t)n + 1, sizeof *alike);
-    int moving = -1, left_out = 0;
-    static const char *const heads[] = {"quantity", "trend", ""};
-    for (int i = 0; i < t.heads * t.columns; i++) screen_add_cell(&t, SCREEN_PLAIN, "%s", heads[i]);
+    int moving = -1;
+    *left_out = 0;
     for (int k = 0; k < 2 * n; k++) {
         const int i = k % n;
-        const dal_trend *trend = &r->trend[i];
+        const dal_trend *trend = &q->trend[i];
         const verdict v = verdict_of(trend);
         const bool is_exact = strcmp(v.word, dal_size_text(DAL_SIZE_EXACT)) == 0;
         int count = 0, first = 0;
-        while (first < i && !are_alike(r, first, i)) first++;
+        while (first < i && !are_alike(q, first, i)) first++;
         if (is_exact != (k >= n) || first < i) continue;
         if (moving < 0 && trend->conservation == DAL_CONSERVED && trend->size == DAL_SIZE_LARGER)
             moving = i;
-        if (t.cells / t.columns == screen_limit(s, OBSERVABLES)) {
-            left_out++;
+        if (t->cells / t->columns == q->max_rows) {
+            ++*left_out;
             continue;
         }
         for (int j = i; j < n; j++)
-            if (j == i || are_alike(r, i, j)) alike[count++] = r->names[j];
-        char *names = screen_list_names(alike, count, 3 * s->width / 8);
-        screen_add_cell(&t, SCREEN_PLAIN, "%s", names);
-        screen_add_cell(&t, v.colour, "%s", v.word);
-        screen_add_cell(&t, SCREEN_PLAIN, "%s", v.text);
+            if (j == i || are_alike(q, i, j)) alike[count++] = q->names[j];
+        char *names = screen_list_names(alike, count, q->columns);
+        screen_add_cell(t, SCREEN_PLAIN, "%s", names);
+        screen_add_cell(t, v.colour, "%s", v.word);
+        screen_add_cell(t, SCREEN_PLAIN, "%s", v.text);
         free(names);
     }
+    free(alike);
+    return moving;
+}
+
+/* Returns the first quantity that moves; -1: none. */
+static int say_verdicts(screen *s, const run_results *r)
+{
+    static const char *const heads[] = {"quantity", "trend", ""};
+    const run_quantities quantities = {r->trend, r->names, r->observables,
+                                       screen_limit(s, OBSERVABLES), 3 * s->width / 8};
+    screen_table t = {.columns = 3, .heads = s->format != SCREEN_TEXT};
+    int left_out;
+    for (int i = 0; i < t.heads * t.columns; i++) screen_add_cell(&t, SCREEN_PLAIN, "%s", heads[i]);
+    const int moving = run_add_verdicts(&t, &quantities, &left_out);
     screen_add_table(s, &t, "llw", 2);
     if (left_out > 0) screen_say(s, 2, "  ... and %d more (--details)", left_out);
     screen_free_table(&t);
-    free(alike);
     return moving;
 }
 

@@ -7,7 +7,6 @@
 #include "study_matrix.h"
 #include "study_sentences.h"
 #include "ui/memory.h"
-#include "ui/name_groups.h"
 #include "ui/screen.h"
 
 #include <stdlib.h>
@@ -108,29 +107,15 @@ static void say_runs(overview *o)
 /* Which integrators keep D, E, and both in all of their runs. */
 static void say_take(overview *o)
 {
-    static const char *const heads[] = {"Take for D:   ", "  for E (1 %): ", "  for both:   "};
-    const study_matrix *m = &o->matrix;
-    const char **names = cli_calloc((size_t)m->method_count + 1, sizeof *names);
-    bool *is_in = cli_calloc((size_t)m->method_count + 1, sizeof *is_in);
-    for (int k = 0; k < 3; k++) {
-        int count = 0;
-        bool applies = false;
-        for (int i = 0; i < m->method_count; i++) {
-            const fate D = study_method_fate(&m->methods[i], CONSTRAINT),
-                       E = study_method_fate(&m->methods[i], ENERGY);
-            const bool keeps_D = D == AT_ROUNDING, keeps_E = E == AT_ROUNDING;
-            if (D == REFUSED || (k != 1 && D == FATES) || (k != 0 && E == FATES)) continue;
-            names[count] = m->methods[i].name;
-            is_in[count++] = k == 0 ? keeps_D : k == 1 ? keeps_E : keeps_D && keeps_E;
-            applies = true;
-        }
-        if (!applies) continue;
-        char *text = name_groups(names, is_in, count, o->screen.width - (int)strlen(heads[k]));
-        screen_say(&o->screen, (int)strlen(heads[k]), "%s%s", heads[k], text);
+    static const char *const heads[STUDY_AIMS] = {
+        "Take for D:   ", "  for E (1 %): ", "  for both:   "};
+    for (int k = 0; k < STUDY_AIMS; k++) {
+        const int hanging = (int)strlen(heads[k]);
+        char *text =
+            study_list_keepers(&o->matrix, (study_aim)k, o->screen.width - hanging, NULL, NULL);
+        if (text) screen_say(&o->screen, hanging, "%s%s", heads[k], text);
         free(text);
     }
-    free(names);
-    free(is_in);
 }
 
 int study_print_overview(FILE *to, const study_plan *plan, const char *tables, screen_format format)
@@ -167,20 +152,8 @@ int study_print_overview(FILE *to, const study_plan *plan, const char *tables, s
                    systems > 0 ? "systems" : "methods");
     screen_say_items(&o.screen, key, sizeof key / sizeof *key, KEY_LINES, "");
     say_take(&o);
-    /* The first cell of the table that drifts. */
-    const study_cell *next = NULL;
-    for (int k = 0; k < o.matrix.rows * o.columns && !next; k++) {
-        const study_cell *c = study_matrix_cell(&o.matrix, k / o.columns, k % o.columns);
-        const dal_trend *trend = c ? study_get_trend(c, CONSTRAINT) : NULL;
-        if (trend && !study_is_at_rounding(trend) && study_is_drifting(trend)) next = c;
-    }
-    char method[STUDY_NAME], *command = NULL;
-    if (next)
-        command = cli_format("dalembert explain %s --integrator %s --step %g --time %g",
-                             study_case_system(next->of_case),
-                             dal_method_name(next->method, method, sizeof method), next->step,
-                             study_case_end(next->of_case, next->step));
-    if (next) screen_say_command(&o.screen, "Next:", command);
+    char *command = study_format_explain(&o.matrix, o.columns);
+    if (command) screen_say_command(&o.screen, "Next:", command);
     free(command);
     screen_say(&o.screen, 2, "Tables: %s", tables ? tables : "'dalembert merge' makes them");
     free(o.name);

@@ -3,6 +3,7 @@
 
 #include "study_compare.h"
 #include "ui/memory.h"
+#include "ui/name_groups.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,32 +42,46 @@ void study_name_columns(const study_matrix *m, char (*name)[STUDY_SHORT_NAME])
     }
 }
 
-void study_add_size(screen_table *t, const study_cell *c, int quantity)
+const char *study_mark(const dal_trend *trend)
 {
-    static const char *const states[STUDY_STATES] = {
-        [STUDY_WAITING] = "...", [STUDY_FAILED] = "x", [STUDY_REFUSED] = "n/a"};
     static const char *const marks[DAL_TREND_COUNT] = {
         [DAL_TREND_NONE] = "",     [DAL_TREND_SETTLES] = "",    [DAL_TREND_RANDOM_WALK] = "~",
         [DAL_TREND_LINEAR] = "/",  [DAL_TREND_POWER] = "^",     [DAL_TREND_EXPONENTIAL] = "^",
         [DAL_TREND_GROWING] = "^", [DAL_TREND_UNDECIDED] = "?", [DAL_TREND_ABORTED] = "x"};
+    const bool is_slow = trend->trend == DAL_TREND_POWER && trend->exponent < 1.0;
+    return is_slow ? "~" : marks[trend->trend];
+}
+
+screen_colour study_describe_size(const study_cell *c, int quantity, char text[STUDY_SIZE_TEXT])
+{
+    static const char *const states[STUDY_STATES] = {
+        [STUDY_WAITING] = "...", [STUDY_FAILED] = "x", [STUDY_REFUSED] = "n/a"};
     const char *state = c ? states[c->state] : "-";
     const dal_trend *trend = c && !state ? study_get_trend(c, quantity) : NULL;
     char size[SCREEN_NUMBER];
     if (!trend) {
-        screen_add_cell(t, c && c->state == STUDY_FAILED ? SCREEN_LARGE : SCREEN_FAINT, "%s",
-                        state ? state : "-");
-        return;
+        snprintf(text, STUDY_SIZE_TEXT, "%s", state ? state : "-");
+        return c && c->state == STUDY_FAILED ? SCREEN_LARGE : SCREEN_FAINT;
     }
     const double x = quantity == ENERGY ? trend->deviation : trend->max_abs;
     screen_number(size, x, 1);
     if (!study_is_stated(trend)) {
-        screen_add_cell(t, SCREEN_FAINT, "(%s)", size);
-    } else if (study_is_at_rounding(trend)) {
-        screen_add_cell(t, SCREEN_ROUNDING, "ok");
-    } else {
-        const bool is_slow = trend->trend == DAL_TREND_POWER && trend->exponent < 1.0;
-        screen_add_cell(t, screen_colour_of(x), "%s%s", size, is_slow ? "~" : marks[trend->trend]);
+        snprintf(text, STUDY_SIZE_TEXT, "(%s)", size);
+        return SCREEN_FAINT;
     }
+    if (study_is_at_rounding(trend)) {
+        snprintf(text, STUDY_SIZE_TEXT, "ok");
+        return SCREEN_ROUNDING;
+    }
+    snprintf(text, STUDY_SIZE_TEXT, "%s%s", size, study_mark(trend));
+    return screen_colour_of(x);
+}
+
+void study_add_size(screen_table *t, const study_cell *c, int quantity)
+{
+    char text[STUDY_SIZE_TEXT];
+    const screen_colour colour = study_describe_size(c, quantity, text);
+    screen_add_cell(t, colour, "%s", text);
 }
 
 void study_add_count(screen_table *t, const study_method *m, int quantity)
@@ -78,6 +93,48 @@ void study_add_count(screen_table *t, const study_method *m, int quantity)
         screen_add_cell(t, SCREEN_FAINT, "-");
     else
         screen_add_cell(t, ok == runs ? SCREEN_ROUNDING : SCREEN_PLAIN, "%d/%d", ok, runs);
+}
+
+char *study_list_keepers(const study_matrix *m, study_aim aim, int columns, int *kept, int *all)
+{
+    const char **names = cli_calloc((size_t)m->method_count + 1, sizeof *names);
+    bool *is_in = cli_calloc((size_t)m->method_count + 1, sizeof *is_in), applies = false;
+    int count = 0, keepers = 0;
+    for (int i = 0; i < m->method_count; i++) {
+        const fate D = study_method_fate(&m->methods[i], CONSTRAINT),
+                   E = study_method_fate(&m->methods[i], ENERGY);
+        const bool keeps_D = D == AT_ROUNDING, keeps_E = E == AT_ROUNDING;
+        if (D == REFUSED || (aim != STUDY_AIM_E && D == FATES) ||
+            (aim != STUDY_AIM_D && E == FATES))
+            continue;
+        names[count] = m->methods[i].name;
+        is_in[count] = aim == STUDY_AIM_D   ? keeps_D
+                       : aim == STUDY_AIM_E ? keeps_E
+                                            : keeps_D && keeps_E;
+        keepers += is_in[count++];
+        applies = true;
+    }
+    char *text = applies ? name_groups(names, is_in, count, columns) : NULL;
+    if (kept) *kept = keepers;
+    if (all) *all = count;
+    free(names);
+    free(is_in);
+    return text;
+}
+
+char *study_format_explain(const study_matrix *m, int columns)
+{
+    char method[STUDY_NAME];
+    for (int k = 0; k < m->rows * columns; k++) {
+        const study_cell *c = study_matrix_cell(m, k / columns, k % columns);
+        const dal_trend *trend = c ? study_get_trend(c, CONSTRAINT) : NULL;
+        if (trend && !study_is_at_rounding(trend) && study_is_drifting(trend))
+            return cli_format("dalembert explain %s --integrator %s --step %g --time %g",
+                              study_case_system(c->of_case),
+                              dal_method_name(c->method, method, sizeof method), c->step,
+                              study_case_end(c->of_case, c->step));
+    }
+    return NULL;
 }
 
 char *study_describe_range(const study_plan *plan)

@@ -33,7 +33,7 @@ addEventListener('load', async () => {
         const box = e.getBoundingClientRect(), style = getComputedStyle(e);
         const name = `<${e.tagName.toLowerCase()}> "${e.textContent.trim().slice(0, 40)}"`;
         count.texts++;
-        if (!e.closest('.wide') && (box.left < 0 || box.right > innerWidth + 0.5)) fault(`${name} is cut off`);
+        if (!e.closest('.wide, .contents') && (box.left < 0 || box.right > innerWidth + 0.5)) fault(`${name} is cut off`);
         if (e.tagName !== 'PRE' && !e.closest('.wide') && e.scrollWidth > e.clientWidth + 1 &&
             style.display !== 'inline') fault(`${name} flows over`);
         if (e.textContent.trim() && contrast(style.color, ground(e)) < 4.5)

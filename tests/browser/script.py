@@ -64,13 +64,13 @@ def check_layout(browser, where):
 
 
 MATRIX = "document.querySelector('table.matrix')"
-ROWS = f"[...{MATRIX}.tBodies[0].rows].filter(row => !row.hidden && !row.matches('.unfolded'))"
+ROWS = f"[...{MATRIX}.tBodies[0].rows].filter(row => !row.hidden)"
 
 
 def numbers_of(browser, column):
     """The numbers of a column of the first table, from above; none is left out."""
-    return browser.run(f"{ROWS}.map(row => row.cells[{column}].querySelector('small'))"
-                       ".filter(Boolean).map(small => Number(small.textContent))")
+    return browser.run(f"{ROWS}.map(row => row.cells[{column}].dataset.value)"
+                       ".filter(Boolean).map(Number)")
 
 
 def check_sort(browser):
@@ -93,8 +93,8 @@ def check_sort(browser):
         wanted = sorted(shown, key=lambda value: value.lower() if name != "order" else value)
         expect(shown == wanted, f"sort: not by {name}: {shown}")
     browser.press("ArrowDown")
-    worst = browser.run(f"{ROWS}.map(row => Math.max(...[...row.querySelectorAll('small')]"
-                        ".map(small => Number(small.textContent))))")
+    worst = browser.run(f"{ROWS}.map(row => Math.max(...[...row.cells].slice(1)"
+                        ".map(td => Number(td.dataset.value || 0))))")
     expect(worst == sorted(worst), "sort: not by size")
 
 
@@ -116,18 +116,21 @@ def check_filter(browser):
     shown = browser.run(f"{ROWS}.map(row => row.textContent.includes('rounding'))")
     expect(shown and all(shown) and len(shown) < total, "filter: rows without the size are shown")
     dim = browser.run(f"{ROWS}.flatMap(row => [...row.cells].slice(1)).filter(td => "
-                      "td.matches('.dim') === td.textContent.startsWith('rounding')).length")
+                      "td.matches('.dim') === td.textContent.includes('rounding')).length")
     expect(dim == 0, "filter: other cells than those without the size are dim")
     browser.press("Home")
     expect(len(browser.run(f"{ROWS}.map(row => 1)")) == total, "filter: some rows stay hidden")
 
 
 def check_unfold(browser):
-    """A cell unfolds its curves below its row, and folds them."""
+    """A cell opens its curves beside the table, or below where there is no place, and closes them."""
     button = f"{ROWS}[0].querySelector('td button')"
     browser.click(button)
     expect(browser.run(f"{button}.getAttribute('aria-expanded')") == "true", "unfold: nothing is expanded")
     curves = browser.run("document.querySelectorAll('.unfolded .curve').length")
+    beside = browser.run("document.querySelector('.unfolded').getBoundingClientRect().left >="
+                         f"{MATRIX}.closest('.wide').getBoundingClientRect().right")
+    expect(beside == (browser.run("innerWidth") > 1000), f"unfold: beside the table: {beside}")
     expect(curves >= 3, f"unfold: {curves} curves")
     expect(browser.run("document.querySelector('.unfolded').textContent.includes('dalembert report DIR/runs/')"),
            "unfold: no word of the run's page")
@@ -137,8 +140,46 @@ def check_unfold(browser):
     hidden = browser.run("[...document.querySelectorAll('.unfolded .curve')].map(c => c.style.display)")
     expect(hidden[0] == "none" and "none" not in hidden[1:], "unfold: not the first curve is hidden")
     check_layout(browser, "unfolded")
-    browser.click(button)
+    browser.click("document.querySelector('.unfolded button')")
     expect(browser.run("!document.querySelector('.unfolded')"), "unfold: it does not fold")
+
+
+def check_first_screen(browser, where):
+    """The result is on the first screen of 800 pixels; the contents stay beside it."""
+    shown = browser.run("[...document.querySelectorAll('.lead, .families, .verdicts')]"
+                        ".map(e => e.getBoundingClientRect().bottom)")
+    expect(len(shown) > 1, f"{where}: no result")
+    if browser.run("innerWidth") < 1000:
+        return
+    expect(max(shown) <= 800, f"{where}: the result ends {max(shown):.0f} pixels below the top")
+    browser.run("scrollTo(0, document.body.scrollHeight)")
+    top, right, left = browser.run("""[document.querySelector('.contents').getBoundingClientRect().top,
+        document.querySelector('.contents').getBoundingClientRect().right,
+        document.querySelector('main').getBoundingClientRect().left]""")
+    expect(0 <= top < 100 and right <= left, f"{where}: the contents are at {top}, {right}, not left of {left}")
+    browser.run("scrollTo(0, 0)")
+
+
+def check_heads(browser):
+    """Heads and first column of a long table stay in view; every link of the contents leads to a part."""
+    wide = f"{MATRIX}.closest('.wide')"
+    browser.run(f"{wide}.scrollTo(300, 400)")
+    inside = f"(e => [e.top - {wide}.getBoundingClientRect().top, e.left - {wide}.getBoundingClientRect().left])"
+    head = browser.run(f"{inside}({MATRIX}.tHead.rows[0].cells[1].getBoundingClientRect())")
+    name = browser.run(f"{inside}({ROWS}.at(-1).cells[0].getBoundingClientRect())")
+    expect(abs(head[0]) < 3, f"heads: a head is {head[0]} pixels below the top of its table")
+    expect(abs(name[1]) < 3, f"heads: a name is {name[1]} pixels from the left of its table")
+    browser.run(f"{wide}.scrollTo(0, 0)")
+    lost = browser.run("[...document.querySelectorAll('.contents a')].map(a => a.hash)"
+                       ".filter(hash => !document.getElementById(hash.slice(1)))")
+    expect(not lost, f"contents: {lost} lead nowhere")
+    grey = browser.run("[...document.querySelectorAll('td.off')].filter(td => td.dataset.size || "
+                       "['x', 'n/a', '-'].includes(td.textContent)).map(td => td.textContent)")
+    expect(not grey, f"heads: grey cells state something: {grey[:3]}")
+    smaller = browser.run("[...document.querySelectorAll('td.trend')].filter(td => td.querySelector('b') && "
+                          "td.querySelector('small') && parseFloat(getComputedStyle(td.querySelector('b')).fontSize)"
+                          " <= parseFloat(getComputedStyle(td.querySelector('small')).fontSize)).length")
+    expect(smaller == 0, f"heads: {smaller} numbers are not larger than their words")
 
 
 def check_link(browser):
@@ -258,6 +299,8 @@ def main(program, directory, gallery):
         browser.open(page["study"], width, dark)
         controls = check_names(browser, "study")
         check_layout(browser, "study")
+        check_first_screen(browser, "study")
+        check_heads(browser)
         check_sort(browser)
         check_filter(browser)
         check_unfold(browser)
@@ -268,6 +311,7 @@ def main(program, directory, gallery):
         browser.open(page["run"], width, dark)
         controls += check_names(browser, "run")
         check_layout(browser, "run")
+        check_first_screen(browser, "run")
         check_play(browser, "run", 1)
         check_enlarge(browser, "run", "Energy")
         browser.open(page["orders"], width, dark)

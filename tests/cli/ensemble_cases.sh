@@ -349,7 +349,7 @@ if needs 18 "no gnuplot" there gnuplot; then
         expect "no $figure" grep -q '</svg>' whole/report/$figure.svg
     done
     expect "no table" grep -q 'Statistics at t = 2' whole/report/index.html
-    expect "nothing about the system" grep -q "<h1>Chaplygin.*s symmetric sleigh, linear" whole/report/index.html
+    expect "nothing about the system" grep -q "<h1 id=.top.>Chaplygin.*s symmetric sleigh, linear" whole/report/index.html
     expect "nothing about what varies" grep -q '<dt>added to each</dt>' whole/report/index.html
     # Moved along y1 the members have the same phi, which has no figure.
     try 0 ensemble chaplygin-sleigh --members 20 --seed 3 --vary "y1=uniform(0,1)" --time 1 --space physical \

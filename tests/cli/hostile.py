@@ -100,7 +100,7 @@ def check_page(directory, script, about):
     return page
 
 
-TAGS = ('html head meta style title body h1 h2 h3 p dl dt dd ol ul li a table thead tbody tr th td div figure img '
+TAGS = ('html head meta style title body nav main b h1 h2 h3 p dl dt dd ol ul li a table thead tbody tr th td div figure img '
         'figcaption details summary pre small strong code br script span math mtable mtr mtd mrow mi mn mo mtext '
         'mspace mfrac msqrt msub msup msubsup mover').split()
 

@@ -100,28 +100,33 @@ start: {x2: 3, x1'"'"': 1}\n' >pair.yaml
     counted
 fi
 
-if needs 152 "no gnuplot" there gnuplot; then
+if needs 162 "no gnuplot" there gnuplot; then
     case_is "the report of a study"
     try 0 report drawn
     silent
     prints '^drawn/report/index.html$'
     expect "no figure" grep -q '<svg' drawn/report/1-E.svg
     expect "no script" grep -q '^plot' drawn/report/1-E.gp
-    expect "no figure of a study with refused cells" grep -q '<svg' drawn/report/3-D.svg
+    expect "no figure of a study with refused cells" grep -q '<svg' drawn/report/2-D.svg
+    expect "no result" grep -q '<p class="lead"><b>1 of 3</b> methods keep D at rounding in every run; ' $page
+    expect "no methods to take" grep -q '<dt>Take for D</dt><dd>gauss4+project</dd>' $page
+    expect "a table is before the sentences" sh -c "sed '/class=.lead/q' $page | grep '<table' | wc -l | grep -qx 0"
+    expect "no worst of a family" grep -q '<th scope="row">projected <small>1</small></th><td class="kept" title="gauss4+project"><b>ok</b></td>' $page
+    expect "a system without a constraint comes early" test "$(grep -o '<a href="#s[0-9]" class="part">[^<]*' $page | sed 's/.*>//' | tail -1)" = line
     expect "no word of a study of refused cells" grep -q 'No run has numbers' $page
-    expect "no figure of the line" grep -q '<svg' drawn/report/2-E.svg
-    expect "no order diagram" grep -q '<svg' drawn/report/2-order.svg
-    expect "no work-precision diagram" grep -q '<svg' drawn/report/2-work.svg
-    expect "the label is not text" grep -q "<small>a &lt;b&gt; &quot;c&quot; 'd'</small></h2>" $page
-    expect "no title of a built-in system" grep -q "<h2 id=\"s1\">Chaplygin's symmetric sleigh, linear constraint " $page
-    expect "no title of a system file" grep -q '<h2 id="s2">friction on a line <small>line.yaml</small></h2>' $page
-    expect "no sizes and trends in words and colour" grep -q '<td class="trend [a-z]*">rounding<br>[a-z ]*<br>' $page
-    expect "no title" grep -q '<h1>Three &amp; more</h1>' $page
+    expect "no figure of the line" grep -q '<svg' drawn/report/4-E.svg
+    expect "no order diagram" grep -q '<svg' drawn/report/4-order.svg
+    expect "no work-precision diagram" grep -q '<svg' drawn/report/4-work.svg
+    expect "the label is not text" grep -q "<small>a &lt;b&gt; &quot;c&quot; 'd'</small></h3>" $page
+    expect "no title of a built-in system" grep -q "<h3 id=\"s1\">Chaplygin's symmetric sleigh, linear constraint " $page
+    expect "no title of a system file" grep -q '<h3 id="s4">friction on a line <small>line.yaml</small></h3>' $page
+    expect "no sizes and trends in words and colour" grep -q '<td class="trend kept" data-size="rounding" data-trend="[a-z ]*" data-value="[^"]*"><b>[^<]*</b><small>rounding' $page
+    expect "no title" grep -q '<h1 id="top">Three &amp; more</h1>' $page
     # With both steps, from three starts: both methods go to the end, E of rk4 is not that small.
     expect "no count of expectations" grep -q '<p>12 of 18 are met.</p>' $page
-    expect "no failed expectation" grep -q '<td>E</td><td>.*1e-30</td><td>.*<td class="drift">not met' $page
+    expect "no failed expectation" grep -q '<td>E</td><td>.*1e-30</td><td>.*<td class="large">not met' $page
     expect "no path of the best run" grep -q '<svg' drawn/report/1-path.svg
-    expect "no column for each step" grep -q '<th scope="col" data-label="line.yaml" data-step="0.05" title="friction on a line">line.yaml<br><small>h = 0.05' $page
+    expect "no column for each step" grep -q '<th scope="col" data-label="line.yaml" data-step="0.05" title="line.yaml: friction on a line">line<br><small>h = 0.05' $page
     expect "no study file" grep -q 'integrators: \[rk4, gauss4, gauss4+project\]' $page
     expect "no tables" grep -q 'What this shows' $page
 
@@ -136,12 +141,21 @@ if needs 152 "no gnuplot" there gnuplot; then
     expect "no words of a figure" grep -q '<img alt="Energy, h = 0.1: max |E - E(0)| over t' $page
     grep 'alt="Constraints, h = 0.1' $page | tail -1 | grep -o "src='data:image/svg+xml,[^']*" |
         sed "s/[^,]*,//; s/%23/#/g; s/%26/\&/g; s/%27/'/g; s/%25/%/g" | tr "'" '"' >decoded
-    tr "\n'" ' "' <drawn/report/3-D.svg | sed 's/$/\n/' >beside
+    tr "\n'" ' "' <drawn/report/2-D.svg | sed 's/$/\n/' >beside
     expect "a figure is not the file beside it" cmp decoded beside
+
+    case_is "the page of a study says what explains a drift"
+    printf '%s\n' 'integrators: [gauss4+project, rk4]' 'step: 0.05' 'time: 100' 'systems: [chaplygin-sleigh]' >drift.yaml
+    try 0 study drift.yaml --no-page --output drift
+    try 0 report drift
+    expect "no command" grep -q '<code>dalembert explain chaplygin-sleigh --integrator rk4 --step 0.05 --time 100</code>' \
+        drift/report/index.html
+    expect "no growth of a family" grep -q '<th scope="row">Runge-Kutta <small>1</small></th><td class="medium" title="rk4"><b>[1-9]e-[0-9]/</b>' \
+        drift/report/index.html
 
     # An error c h^4 is on a line of slope 4.
     case_is "the order diagram holds the errors of the cells"
-    expect "points" sh -c "grep -A2 'curve1 <<' drawn/report/2-order.gp | tail -2 |
+    expect "points" sh -c "grep -A2 'curve1 <<' drawn/report/4-order.gp | tail -2 |
         awk -F, '{ x[NR] = log(\$1); y[NR] = log(\$2) }
             END { s = (y[2] - y[1])/(x[2] - x[1]); exit !(s > 3.8 && s < 4.2) }'"
 
@@ -151,6 +165,9 @@ if needs 152 "no gnuplot" there gnuplot; then
     expect "no path" grep -q '<svg' ran/report/path.svg
     expect "no drift" grep -q '<svg' ran/report/drift.svg
     expect "no trends" grep -q '<th scope="row">D1</th><td class="trend ' ran/report/index.html
+    # phi = t.
+    expect "no result" sh -c "sed -n '/<p class=.lead/,/<dl/p' ran/report/index.html | tr -d '\n' | grep -q \
+        'chaplygin-sleigh by gauss4, h = 0.1, t = 0 .. 6.2[0-9]*</p>.*phi = 6.283</span>.*<table class=.verdicts.*>exact<'"
     expect "no command" grep -q 'dalembert run chaplygin-sleigh --integrator gauss4 .*--set v0=0.1' \
         ran/report/index.html
     # The sleigh goes round a circle of radius v0/omega = 0.1 about (0, 0.1).
@@ -179,7 +196,7 @@ END_OF_SYSTEM
     try 0 run pulled.yaml --integrator rk4+project --step 0.1 --time 2 --set k=0.5 --start "phi'=3" \
         --output pulled
     try 0 report pulled
-    for fact in "<h1>A &lt;weight&gt; on a spring &amp; a turn</h1>" \
+    for fact in "<h1 id=\"top\">A &lt;weight&gt; on a spring &amp; a turn</h1>" \
         "<mi>L</mi></mtd><mtd[^>]*><mo>=</mo><mfrac" "<msub><mi>D</mi><mn>1</mn></msub></mtd>" \
         "<msub><mi>Q</mi><mi>x</mi></msub></mtd><mtd[^>]*><mo>=</mo><mo>&#x2212;</mo><mi>k</mi>" \
         "<code>pull = k\*cos(phi)</code>" "<code>k = 0.5</code> instead of <code>1</code>" \
@@ -327,7 +344,7 @@ END_OF_STUDY
     mv moved.yaml moved-back.yaml
     rm -r found/report
     try 0 report found
-    for fact in "<h1>friction on a line: order, work and precision</h1>" "<msub><mi>Q</mi><mi>x</mi></msub></mtd>" \
+    for fact in "<h1 id=\"top\">friction on a line: order, work and precision</h1>" "<msub><mi>Q</mi><mi>x</mi></msub></mtd>" \
         "<code>k = 0.5</code> instead of <code>1</code>" "<code>x' = 3</code> instead of" \
         "<dt>time T</dt><dd>2</dd>" "<dt>space</dt><dd>lifted</dd>" \
         "at t = 2 from gauss12 with h = 0.025, itself within [0-9]e-1[0-9]</dd>"; do
