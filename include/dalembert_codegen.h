@@ -13,14 +13,22 @@ extern "C" {
 
 /* ---- generated C files --------------------------------------------------------------------- */
 
-/* Writes a self-contained C file that steps this system by this method on this space, lanes (1, 2,
- * 4, 8 or 16) at a time: *text, to be freed with free(); its first comment explains its use.  It
- * gives the bits of a run of the same spec.  The system must come from a model, the integrators
- * from the library.  Parameters and start of the spec are the defaults of the file; solver and
- * iterations are fixed in it, the step size is not.  prefix begins every public name (NULL:
- * SYSTEM_METHOD). [alloc]  Errors: as dal_run_create, DAL_STATUS_ARGUMENT (lanes, prefix),
- * DAL_STATUS_UNSUPPORTED, DAL_STATUS_TOO_LARGE (Newton's matrices). */
-dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
+/* What a generated file has; 0 and NULL have the stated meaning. */
+typedef struct dal_generate_options {
+    int lanes;          /* systems at a time: 1, 2, 4, 8 or 16; 0: 1 */
+    const char *prefix; /* begins every public name; NULL: SYSTEM_METHOD */
+    bool with_field;    /* functions of a point, too: PREFIX_field, .._jacobian, .._constraint and
+                           .._energy, which fill out as the callbacks field, jacobian, constraint
+                           and energy_normal of a system do */
+} dal_generate_options;
+
+/* Writes a self-contained C file that steps this system by this method on this space: *text, to be
+ * freed with free(); its first comment explains its use.  It gives the bits of a run of the same
+ * spec.  The system must come from a model, the integrators from the library.  Parameters and start
+ * of the spec are the defaults of the file; solver and iterations are fixed in it, the step size is
+ * not.  options may be NULL. [alloc]  Errors: as dal_run_create, DAL_STATUS_ARGUMENT (lanes,
+ * prefix), DAL_STATUS_UNSUPPORTED, DAL_STATUS_TOO_LARGE (Newton's matrices, or a Jacobian). */
+dal_status dal_generate(const dal_run_spec *spec, const dal_generate_options *options, char **text,
                         dal_error *error);
 
 /* ---- equations typeset --------------------------------------------------------------------- */

@@ -279,7 +279,8 @@ static void compare_generated(motion *m, int lanes, int build)
     build_name(build, name);
     snprintf(way, sizeof way, "generated, %d lanes, %s", lanes, name);
     if (!there_is(build) || !mkdtemp(folder)) return;
-    const dal_status status = dal_generate(&m->spec, lanes, "bits", &text, &error);
+    const dal_generate_options options = {.lanes = lanes, .prefix = "bits"};
+    const dal_status status = dal_generate(&m->spec, &options, &text, &error);
     void *handle = status == DAL_STATUS_OK ? load(text, folder, name) : NULL;
     if (handle) {
         compare_loaded(m, lanes, handle, way);

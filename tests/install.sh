@@ -105,10 +105,12 @@ fi
 
 # A generated file needs no library at all.
 logged "$prefix/bin/dalembert" generate chaplygin-sleigh --integrator gauss4+project \
-    --prefix sleigh -o "$root/sleigh.c"
-logged $cc -std=c11 -Wall -Wextra -Wpedantic -Werror -Wno-psabi $CFLAGS -I"$root" \
-    examples/generated.c -lm -o "$root/generated"
-"$root/generated" >"$root/generated.txt" || fail "generated failed"
+    --prefix sleigh --with field -o "$root/sleigh.c"
+for name in generated measured_state; do
+    logged $cc -std=c11 -Wall -Wextra -Wpedantic -Werror -Wno-psabi $CFLAGS -I"$root" \
+        examples/$name.c -lm -o "$root/$name"
+    "$root/$name" >"$root/$name.txt" || fail "$name failed"
+done
 
 near='function near(a, b, tolerance) { d = a - b; if (d < 0) d = -d; if (!(d <= tolerance)) {
     print FILENAME ": line " FNR ": " a " should be " b; bad = 1 } }
@@ -121,6 +123,9 @@ awk "$near"' { near($1, FNR, 1e-12); near($2, sin($1), 1e-10); near($3, 1 - cos(
 awk "$near"' { near($1, FNR, 1e-12); near($2, sin($1), 1e-10); near($3, 1 - cos($1), 1e-10)
     near($4, $1, 1e-12); near($5, 0, 1e-14) }' rows=10 "$root/generated.txt" ||
     fail "generated is wrong"
+# The same 0.2 later, where the acceleration to the left is v0 omega = 1.
+awk "$near"' { t = FNR + 0.2; near($2, sin(t), 1e-10); near($3, 1 - cos(t), 1e-10); near($4, t, 1e-12)
+    near($5, 1, 1e-10) }' rows=10 "$root/measured_state.txt" || fail "measured_state is wrong"
 # The guided oscillator: x = c + (1 - c) cos t + 2 sin t, c = k^2/(1 + k^2), y = k (x - 1).
 awk "$near"' { x = 0.2 + 0.8 * cos(10) + 2 * sin(10); near($1, 10, 1e-12); near($2, x, 1e-7)
     near($3, (x - 1) / 2, 1e-7); near($4, 0, 1e-13) }' rows=1 "$root/by_hand.txt" || fail "by_hand is wrong"

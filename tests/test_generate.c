@@ -30,7 +30,8 @@ static int tear_down(void)
 static dal_status generate(const dal_run_spec *of, int lanes, const char *prefix, dal_error *error)
 {
     char *text;
-    dal_status status = dal_generate(of, lanes, prefix, &text, error);
+    const dal_generate_options options = {.lanes = lanes, .prefix = prefix};
+    dal_status status = dal_generate(of, &options, &text, error);
     CU_ASSERT_EQUAL(text == NULL, status != DAL_STATUS_OK);
     free(text);
     return status;
@@ -93,12 +94,38 @@ static void test_length(void)
     char *text = NULL;
     int lines = 0;
     CU_ASSERT_EQUAL(dal_method_parse(&rk4.method, "rk4", NULL), DAL_STATUS_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_generate(&rk4, 1, NULL, &text, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_generate(&rk4, NULL, &text, NULL), DAL_STATUS_OK);
     for (const char *c = text; *c; c++) lines += *c == '\n';
     CU_ASSERT(lines <= MAX_LINES);
     CU_ASSERT_PTR_NULL(strstr(text, "dal_solve"));
     CU_ASSERT_PTR_NULL(strstr(text, "dal_invert"));
     free(text);
+}
+
+/* A Jacobian of 700 coordinates does not fit on the stack; without functions of a point the file is
+ * made. */
+static void test_large_jacobian(void)
+{
+    const dal_generate_options with = {.with_field = true};
+    dal_model *large = dal_model_create("large");
+    dal_run_spec other = spec;
+    dal_error error;
+    char *text = NULL;
+    CU_ASSERT_EQUAL(dal_model_add(large, DAL_SECTION_SIZES, "N", "700", 1, 1, &error), 0);
+    CU_ASSERT_EQUAL(dal_model_add(large, DAL_SECTION_COORDINATES, NULL, "x[1..N]", 1, 1, &error),
+                    0);
+    CU_ASSERT_EQUAL(dal_model_add(large, DAL_SECTION_LAGRANGIAN, NULL,
+                                  "sum(i, 1, N, x[i]'^2 - x[i]^2)/2", 1, 1, &error),
+                    0);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(large, &other.system, &error), DAL_STATUS_OK);
+    other.options.space = DAL_PHYSICAL;
+    CU_ASSERT_EQUAL(dal_method_parse(&other.method, "rk4", NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_generate(&other, &with, &text, &error), DAL_STATUS_TOO_LARGE);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "Jacobian"));
+    CU_ASSERT_PTR_NULL(text);
+    CU_ASSERT_EQUAL(dal_generate(&other, NULL, &text, &error), DAL_STATUS_OK);
+    free(text);
+    dal_model_free(large);
 }
 
 /* Whatever a file, and so a system, is called: the names in the text are C. */
@@ -114,7 +141,7 @@ static void test_unusual_names(void)
         other.name = unusual[i];
         other.title = NULL;
         with.system = &other;
-        CU_ASSERT_EQUAL(dal_generate(&with, 1, NULL, &text, &error), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_generate(&with, NULL, &text, &error), DAL_STATUS_OK);
         if (!text) continue;
         const char *name = strstr(text, "typedef struct ") + strlen("typedef struct ");
         const size_t length = strspn(name, "abcdefghijklmnopqrstuvwxyzADL0123456789_");
@@ -157,6 +184,7 @@ void suite_generate(void)
     CU_add_test(suite, "what cannot be generated is refused", test_refusals);
     CU_add_test(suite, "every integrator", test_every_method);
     CU_add_test(suite, "a file has what it needs", test_length);
+    CU_add_test(suite, "a Jacobian that is too large", test_large_jacobian);
     CU_add_test(suite, "systems with unusual names", test_unusual_names);
     CU_add_test(suite, "memory runs out", test_memory);
     CU_add_test(suite, "numbers keep their bits", test_numbers);

@@ -20,10 +20,10 @@ static int close_objects(void) { return close_runs(model, run, batch); }
 static void null_dal_generate(void)
 {
     char *text = buffer;
-    REFUSED(dal_generate(&spec, 1, NULL, NULL, error));
+    REFUSED(dal_generate(&spec, NULL, NULL, error));
     for (int i = 0; i < BAD_SPECS; i++)
-        REFUSED(dal_generate(spoil_spec(&spec, i), 1, NULL, &text, error));
-    REFUSED(dal_generate(&spec, -1, NULL, &text, error));
+        REFUSED(dal_generate(spoil_spec(&spec, i), NULL, &text, error));
+    REFUSED(dal_generate(&spec, &(dal_generate_options){.lanes = -1}, &text, error));
     CU_ASSERT_PTR_NULL(text);
 }
 

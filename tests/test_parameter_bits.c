@@ -122,7 +122,8 @@ static object load(const dal_run_spec *spec, const dal_run *run, int lanes)
     snprintf(command, sizeof command,
              "cc -std=c11 -O0 -Wall -Wextra -Wno-psabi -Werror -shared -fPIC -o %s %s -lm", path,
              source);
-    CU_ASSERT_EQUAL_FATAL(dal_generate(spec, lanes, "g", &text, NULL), DAL_STATUS_OK);
+    const dal_generate_options options = {.lanes = lanes, .prefix = "g"};
+    CU_ASSERT_EQUAL_FATAL(dal_generate(spec, &options, &text, NULL), DAL_STATUS_OK);
     FILE *file = fopen(source, "w");
     CU_ASSERT_PTR_NOT_NULL_FATAL(file);
     fputs(text, file);

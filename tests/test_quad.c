@@ -268,7 +268,7 @@ static void test_refused(void)
     spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
     spec.options.precision = DAL_QUAD;
     CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 4, 0, &error), DAL_STATUS_UNSUPPORTED);
-    CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_generate(&spec, NULL, &text, &error), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "quad precision"));
     CU_ASSERT(error.line == 0 && error.column == 0);
     dal_integrator outside = *spec.method.layer[0];

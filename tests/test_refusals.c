@@ -177,8 +177,8 @@ static void test_lengths(void)
     dal_method method;
     char *text = NULL, expected[DAL_MESSAGE_SIZE];
     snprintf(expected, sizeof expected, "prefix '%.60s...' is too long", long_name);
-    refused(dal_generate(&spec, 1, long_name, &text, &error), DAL_STATUS_ARGUMENT, &error,
-            expected);
+    refused(dal_generate(&spec, &(dal_generate_options){.prefix = long_name}, &text, &error),
+            DAL_STATUS_ARGUMENT, &error, expected);
     CU_ASSERT_PTR_NULL(text);
     snprintf(expected, sizeof expected, "integrator name '%.60s...' is too long", long_name);
     refused(dal_method_parse(&method, long_name, &error), DAL_STATUS_NAME, &error, expected);

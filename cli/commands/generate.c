@@ -14,7 +14,10 @@ typedef struct settings {
     run_simulation simulation;
     const char *output, *prefix;
     long long lanes;
+    int with;
 } settings;
+
+enum { WITH_NONE, WITH_FIELD };
 
 static const cli_option options[] = {
     {"output", "FILE|-", "-", "writes there, or to standard output", CLI_TEXT(settings, output)},
@@ -22,6 +25,8 @@ static const cli_option options[] = {
      CLI_INTEGER(settings, lanes, 1, 16)},
     {"prefix", "NAME", NULL, "public names begin with it (SYSTEM_INTEGRATOR)",
      CLI_TEXT(settings, prefix)},
+    {"with", "none|field", "none", "adds functions of a point: F, its Jacobian, D and A, E",
+     CLI_WORD(settings, with)},
 };
 
 /* The options of a run that a generated file needs. */
@@ -38,7 +43,9 @@ static int generate_text(settings *s)
     if (status != CLI_DONE) return status;
     dal_error error = {0};
     char *text = NULL;
-    dal_status made = dal_generate(&spec, (int)s->lanes, s->prefix, &text, &error);
+    const dal_generate_options options_of_file = {
+        .lanes = (int)s->lanes, .prefix = s->prefix, .with_field = s->with == WITH_FIELD};
+    dal_status made = dal_generate(&spec, &options_of_file, &text, &error);
     if (made != DAL_STATUS_OK)
         return cli_error(cli_input_exit(made), s->simulation.request.system_name, &error);
     if (strcmp(s->output, "-") != 0) {

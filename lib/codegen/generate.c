@@ -58,6 +58,12 @@ static dal_status check_size(const dal__generation *g, dal_error *error)
                          "Newton's matrices of '%.80s' take %.0f bytes of stack (%d at most); "
                          "solver fixed-point needs none",
                          g->layout.system->name, stack, MAX_STACK);
+    /* Twice: before and after the pivots are checked. */
+    const int outputs = g->programs->program[DAL__PROGRAM_JACOBIAN].outputs;
+    if (g->with_field && 2.0 * 8.0 * g->lanes * outputs > MAX_STACK)
+        return dal__fail(error, DAL_STATUS_TOO_LARGE,
+                         "the Jacobian of '%.80s' takes %.0f bytes of stack (%d at most)",
+                         g->layout.system->name, 2.0 * 8.0 * g->lanes * outputs, MAX_STACK);
     if (series > MAX_STACK)
         return dal__fail(error, DAL_STATUS_TOO_LARGE,
                          "the Taylor series of '%.80s' take %.0f bytes of stack (%d at most)",
@@ -180,7 +186,13 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH(EXACT)", g->run && g->run->exact},
         {"DAL_WITH(REACTIONS)", g->layout.options.reactions},
         {"DAL_WITH(TRACE)", g->product == DAL__PRODUCT_TRACE},
+        /* functions of a point */
+        {"DAL_WITH(POINTS)", g->with_field},
+        {"DAL_WITH(POINT_JACOBIAN)", dal__has_function(g, DAL__PROGRAM_JACOBIAN)},
+        {"DAL_WITH(POINT_CONSTRAINT)", dal__has_function(g, DAL__PROGRAM_CONSTRAINT)},
+        {"DAL_WITH(POINT_ENERGY)", dal__has_function(g, DAL__PROGRAM_ENERGY_NORMAL)},
     };
+    _Static_assert(sizeof list <= sizeof g->condition, "DAL__MAX_CONDITIONS is too small");
     g->conditions = sizeof list / sizeof *list;
     memcpy(g->condition, list, sizeof list);
 }
@@ -470,15 +482,17 @@ dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *er
     return DAL_STATUS_OK;
 }
 
-dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
+dal_status dal_generate(const dal_run_spec *spec, const dal_generate_options *options, char **text,
                         dal_error *error)
 {
     DAL_REQUIRE(text, error);
-    dal__generation g = {.spec = spec, .lanes = lanes};
+    const dal_generate_options used = options ? *options : (dal_generate_options){.lanes = 1};
+    dal__generation g = {
+        .spec = spec, .lanes = used.lanes == 0 ? 1 : used.lanes, .with_field = used.with_field};
     *text = NULL;
     DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(dal__refuse_events(spec->system, "generated steps", error));
-    DAL_TRY(dal__generation_check(&g, prefix, error));
+    DAL_TRY(dal__generation_check(&g, used.prefix, error));
     dal_run *run;
     DAL_TRY(dal_run_create(&run, spec, error));
     g.run = run;

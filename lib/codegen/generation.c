@@ -40,9 +40,17 @@ bool dal__has_lift(const dal__generation *g)
            g->kernel & (DAL_KERNEL_EULER | DAL_KERNEL_COLLOCATION | DAL_KERNEL_TANGENT);
 }
 
+bool dal__has_function(const dal__generation *g, dal__program_code code)
+{
+    const bool is_one = code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_JACOBIAN ||
+                        code == DAL__PROGRAM_CONSTRAINT || code == DAL__PROGRAM_ENERGY_NORMAL;
+    return g->with_field && is_one && g->programs->program[code].present;
+}
+
 bool dal__evaluates(const dal__generation *g, dal__program_code code)
 {
     const unsigned kernel = g->kernel;
+    if (dal__has_function(g, code)) return true;
     if (g->product == DAL__PRODUCT_OBSERVE) return observes(g, code);
     switch (code) {
     case DAL__PROGRAM_ADJOINT:
@@ -81,6 +89,7 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
 {
     const bool lift = code == DAL__PROGRAM_ADJOINT || code == DAL__PROGRAM_GAUGE;
     if (!g->programs->program[code].present || !dal__evaluates(g, code)) return false;
+    if (dal__has_function(g, code)) return true;
     if (code == DAL__PROGRAM_JACOBIAN) return dal__uses_newton(g) || dal__follows_tangents(g);
     return g->layout.lifted || !lift;
 }

@@ -31,7 +31,7 @@ typedef struct dal__condition {
     const char *name;
     bool value;
 } dal__condition;
-enum { DAL__MAX_CONDITIONS = 32 };
+enum { DAL__MAX_CONDITIONS = 48 };
 
 typedef struct dal__generation {
     const dal_run_spec *spec;
@@ -43,6 +43,7 @@ typedef struct dal__generation {
     const char *source[DAL_LAYERS];     /* its text */
     dal__input_name *input;             /* names of the inputs in the programs */
     int lanes;
+    bool with_field; /* functions of a point */
     dal__product product;
     char prefix[DAL__PREFIX_SIZE];
     dal__condition condition[DAL__MAX_CONDITIONS];
@@ -61,6 +62,8 @@ bool dal__follows_tangents(const dal__generation *g);
 bool dal__evaluates(const dal__generation *g, dal__program_code code);
 /* Whether a program goes into the file. */
 bool dal__wants(const dal__generation *g, dal__program_code code);
+/* Whether the file has the function of a point that evaluates a program. */
+bool dal__has_function(const dal__generation *g, dal__program_code code);
 /* Whether a generated function may return a status. */
 bool dal__is_status_of_step(dal_status status);
 /* Whether the file has the code of the canonical variables, of which some methods have calls on any

@@ -137,6 +137,31 @@ static void write_sizes(dal__generation *g)
     dal__buffer_append(&g->text, "\n};\n");
 }
 
+/* The functions of a point; by the parameters of a state, which they do not move. */
+static void write_point_functions(dal__generation *g)
+{
+    static const struct {
+        dal__program_code code;
+        const char *name, *comment;
+    } list[] = {
+        {DAL__PROGRAM_FIELD, "field", "F of dv/dt = F(q, v, t)"},
+        {DAL__PROGRAM_JACOBIAN, "jacobian", "F_q, then F_v, row by row"},
+        {DAL__PROGRAM_CONSTRAINT, "constraint", "D, A = D_v [m*n], W^-1 A^T [n*m]"},
+        {DAL__PROGRAM_ENERGY_NORMAL, "energy", "E, E_q, E_v, W^-1 E_q"},
+    };
+    if (g->with_field)
+        dal__buffer_append(&g->text, "/* Of a point, with the parameters of the state; 0, or a "
+                                     "status where a number is not finite. */\n");
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        if (dal__has_function(g, list[i].code)) {
+            dal__write_template(g, "int PREFIX_");
+            dal__buffer_append(&g->text, list[i].name);
+            dal__write_template(g, "(const PREFIX_state *state, double t, const double *q, const "
+                                   "double *v,\n    double *out); ");
+            dal__buffer_print(&g->text, "/* %s */\n", list[i].comment);
+        }
+}
+
 static void write_structs(dal__generation *g)
 {
     dal__write_template(g, "typedef struct PREFIX_parameters {\n");
@@ -167,8 +192,10 @@ static void write_structs(dal__generation *g)
            "int PREFIX_step(PREFIX_state *state, double h);\n"
            "int PREFIX_advance(PREFIX_state *state, double h, long long count);\n"
            "double PREFIX_time(const PREFIX_state *state, int lane);\n"
-           "void PREFIX_observe(const PREFIX_state *state, double *out);\n"
-           "/* The inside of PREFIX_advance: up to count steps of the lanes in the mask, until one "
+           "void PREFIX_observe(const PREFIX_state *state, double *out);\n");
+    write_point_functions(g);
+    dal__write_template(
+        g, "/* The inside of PREFIX_advance: up to count steps of the lanes in the mask, until one "
            "fails;\n"
            " * the number of steps tried.  The lanes in *failed did not make the last one; "
            "reason[lane]. "

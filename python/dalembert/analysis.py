@@ -540,7 +540,7 @@ def explain(system: SystemLike, integrator: str | None = None, time: float | Non
 
 @takes_run_options
 def generate(system: SystemLike, integrator: str | None = None, *, lanes: int = 1,
-             prefix: str | None = None, **settings: Any) -> str:
+             prefix: str | None = None, field: bool = False, **settings: Any) -> str:
     """Writes one C file that steps a system by a method, with the bits of a `Run`.
 
     Parameters
@@ -551,6 +551,8 @@ def generate(system: SystemLike, integrator: str | None = None, *, lanes: int = 
         Systems at a time: 1, 2, 4, 8 or 16.
     prefix : str, optional
         Begins every public name.
+    field : bool
+        Adds functions of a point: F, its Jacobian, D and A, E.
 
     Returns
     -------
@@ -558,5 +560,6 @@ def generate(system: SystemLike, integrator: str | None = None, *, lanes: int = 
         The file; its first comment explains its use.
     """
     spec = Spec(system, integrator, **settings)
-    return taken_text(lib.dal_generate, spec.c, whole('lanes', lanes, 1, MAX_INT),
-                      ffi.NULL if prefix is None else encode(text('prefix', prefix)))
+    name = ffi.NULL if prefix is None else ffi.new('char[]', encode(text('prefix', prefix)))
+    return taken_text(lib.dal_generate, spec.c, ffi.new('dal_generate_options *', {
+        'lanes': whole('lanes', lanes, 1, MAX_INT), 'prefix': name, 'with_field': bool(field)}))

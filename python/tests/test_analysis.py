@@ -115,6 +115,9 @@ def test_generate(program):
     assert text == program('generate', 'chaplygin-sleigh', '--integrator', 'gauss4+project',
                            '--prefix', 'sleigh')
     assert 'rk4_advance' in dalembert.generate('falling-disk', 'rk4', lanes=4, prefix='rk4')
+    text = dalembert.generate('chaplygin-sleigh', 'rk4', prefix='sleigh', field=True)
+    assert text == program('generate', 'chaplygin-sleigh', '--integrator', 'rk4', '--prefix', 'sleigh', '--with', 'field')
+    assert 'int sleigh_jacobian(' in text
     for arguments in ({'prefix': '1'}, {'lanes': 3}):
         with pytest.raises(dalembert.InputError):
             dalembert.generate('chaplygin-sleigh', 'rk4', **arguments)

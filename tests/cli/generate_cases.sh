@@ -166,3 +166,97 @@ case_is "no room for a file"
 )
 expect "exit 4" [ $? -eq 4 ]
 says "cannot write 'large.c': File too large"
+
+# Functions of a point, against the formulas by hand: F = a + R l, a = (0, -1, 0), R = W^-1 A^T, A F + dA/dt v = 0.
+cat >blade.yaml <<'END'
+coordinates: [x, y, phi]
+parameters: {m: 2, J: 5, a: 0.5}
+lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 - m*y
+constraints: [x'*sin(phi) - y'*cos(phi) + a*phi']
+END
+cat >points.c <<'END'
+#include "g.c"
+#include <stdio.h>
+enum { L = g_LANES };
+static int wrong;
+static void near(double found, double expected, double tolerance)
+{
+    if (!(fabs(found - expected) <= tolerance)) wrong = printf("%.17g, not %.17g\n", found, expected);
+}
+static void field(const double *q, const double *v, double m, double *F)
+{
+    const double A[3] = {sin(q[2]), -cos(q[2]), 0.5}, w[3] = {m, m, 5};
+    const double c = (v[0] * cos(q[2]) + v[1] * sin(q[2])) * v[2];
+    double G = 0;
+    for (int i = 0; i < 3; i++) G += A[i] * A[i] / w[i];
+    for (int i = 0; i < 3; i++) F[i] = (i == 1 ? -1 : 0) - A[i] / w[i] * (c - A[1]) / G;
+}
+int main(void)
+{
+    static g_state s;
+    g_parameters p = g_defaults();
+    double q[3 * L], v[3 * L], F[3 * L], J[18 * L], C[7 * L], E[10 * L];
+    if (g_start(&s, &p)) return 2;
+    p.m = 3;
+    g_set(&s, L - 1, &p);
+    for (int i = 0; i < 3 * L; i++) q[i] = sin(1 + i), v[i] = cos(2 + i);
+    if (g_field(&s, 0, q, v, F) || g_jacobian(&s, 0, q, v, J) || g_constraint(&s, 0, q, v, C) || g_energy(&s, 0, q, v, E))
+        return 3;
+    for (int l = 0; l < L; l++) {
+        const double m = l == L - 1 ? 3 : 2, h = 1e-4, w[3] = {m, m, 5};
+        double z[6], expected[3], above[3], below[3];
+        for (int i = 0; i < 3; i++) z[i] = q[i * L + l], z[3 + i] = v[i * L + l];
+        const double A[3] = {sin(z[2]), -cos(z[2]), 0.5};
+        field(z, z + 3, m, expected);
+        near(C[l], A[0] * z[3] + A[1] * z[4] + A[2] * z[5], 1e-14);
+        near(E[l], m * (z[3] * z[3] + z[4] * z[4]) / 2 + 2.5 * z[5] * z[5] + m * z[1], 1e-13);
+        for (int i = 0; i < 3; i++) {
+            near(F[i * L + l], expected[i], 1e-13);
+            near(C[(1 + i) * L + l], A[i], 1e-15);
+            near(C[(4 + i) * L + l], A[i] / w[i], 1e-15);
+            near(E[(1 + i) * L + l], i == 1 ? m : 0, 1e-15);
+            near(E[(4 + i) * L + l], w[i] * z[3 + i], 1e-14);
+            near(E[(7 + i) * L + l], i == 1 ? 1 : 0, 1e-15);
+        }
+        for (int k = 0; k < 6; k++) {
+            const double x = z[k];
+            z[k] = x + h, field(z, z + 3, m, above);
+            z[k] = x - h, field(z, z + 3, m, below);
+            z[k] = x;
+            for (int i = 0; i < 3; i++)
+                near(J[(k < 3 ? 3 * i + k : 9 + 3 * i + k - 3) * L + l], (above[i] - below[i]) / (2 * h), 1e-6);
+        }
+    }
+    q[0] = NAN;
+    for (int i = 0; i < 3; i++) v[i * L] = NAN;
+    if (g_field(&s, 0, q, v, F) != DAL_STATUS_NOT_FINITE) wrong = 1;
+    return wrong != 0;
+}
+END
+for way in "rk4 physical 1" "gauss4+project lifted 1" "gauss4 physical 4" "rk4 lifted 8"; do
+    case_is "functions of a point: $way lanes"
+    needs 5 "no gcc" there gcc || continue
+    set -- $way
+    try 0 generate blade.yaml --integrator "$1" --space "$2" --lanes "$3" --prefix g --with field -o g.c
+    silent
+    empty
+    expect "it does not compile: $(cat cc.log)" sh -c "gcc -std=c11 -O1 $strict points.c -o points -lm >cc.log 2>&1"
+    expect "other numbers" ./points
+    counted
+done
+case_is "functions of a point in C++, and where the system has no constraints and no energy"
+if needs 6 "no g++" there g++; then
+    try 0 generate blade.yaml --integrator dop853 --tolerance 1e-9 --space physical --lanes 2 --prefix g --with field -o g.c
+    expect "it does not compile" g++ -x c++ -std=c++17 -O1 $strict points.c -o points -lm
+    expect "other numbers" ./points
+    printf 'coordinates: [x]\naccelerations: {x: -x}\n' >bare.yaml
+    try 0 generate bare.yaml --integrator rk4 --prefix g --with field -o g.c
+    expect "it has a constraint" sh -c "! grep -q g_constraint g.c && ! grep -q g_energy g.c && grep -q g_jacobian g.c"
+    expect "it does not compile" g++ -x c++ -std=c++17 -O1 $strict drive.c -o drive -lm
+    counted
+fi
+case_is "without --with field they are not there"
+try 0 generate blade.yaml --integrator rk4 --prefix g -o -
+expect "it has them" sh -c '! grep -q g_jacobian out'
+try 2 generate blade.yaml --integrator rk4 --with jacobian
+says "--with"
