@@ -1,5 +1,6 @@
 /* check_screen.c - the report of `check` on a terminal. */
 #include "check_screen.h"
+#include "check_invariants.h"
 #include "ui/memory.h"
 #include "ui/name_groups.h"
 #include "ui/screen.h"
@@ -8,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_FAILED = 4, MAX_REASONS = 2, HEAD = 22 };
+enum { MAX_FAILED = 4, MAX_REASONS = 2, MAX_PROPOSED = 3, HEAD = 22 };
 
 /* Where in the file the cause of a failure is likely to be: by what an item begins with. */
 static const struct {
@@ -122,6 +123,15 @@ static void add_properties(screen_table *t, const check *c)
     }
     screen_add_cell(t, SCREEN_PLAIN, "Conserved");
     screen_add_cell(t, SCREEN_PLAIN, "%s", text[0] ? text : "nothing that is known");
+    for (int i = 0, rows = 0; i < c->items; i++) {
+        const check_entry *e = &c->entry[i];
+        const size_t length = sizeof CHECK_PROPOSED_INVARIANT - 1;
+        if (!e->what || strncmp(e->what, CHECK_PROPOSED_INVARIANT, length) != 0 ||
+            rows++ >= MAX_PROPOSED)
+            continue;
+        screen_add_cell(t, SCREEN_PLAIN, rows == 1 ? "Conserved, too" : "");
+        screen_add_cell(t, SCREEN_PLAIN, "%s: %s", e->what + length, e->text);
+    }
     n = 0;
     text[0] = '\0';
     if (reversal)

@@ -9,6 +9,7 @@
  * implicit-midpoint, and on none of another method. */
 #include "check_sections.h"
 #include "analysis.h"
+#include "check_invariants.h"
 #include "check_methods.h"
 #include "dalembert_order.h"
 #include "ui/memory.h"
@@ -301,6 +302,7 @@ static void check_energy(check *c)
             measure_rate(c, s->invariant_values, s->invariants, i, c->surface, c->surface_count);
         check_motion_rate(c, what, &rate, zero);
     }
+    check_further_invariants(c);
 }
 
 static void check_reversal(check *c)

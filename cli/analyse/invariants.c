@@ -62,16 +62,21 @@ static int refuse(const run_simulation *s, dal_status status, dal_error *error)
     return exit_status;
 }
 
+dal_run_spec invariants_spec(const run_simulation *simulation)
+{
+    const run_request *request = &simulation->request;
+    return (dal_run_spec){.system = simulation->system,
+                          .parameters = request->set.item,
+                          .parameter_count = request->set.count,
+                          .start = request->start.item,
+                          .start_count = request->start.count,
+                          .start_time = request->from};
+}
+
 static int search(const invariants_settings *settings, dal_invariants **found)
 {
     const run_simulation *s = &settings->simulation;
-    const run_request *request = &s->request;
-    const dal_run_spec spec = {.system = s->system,
-                               .parameters = request->set.item,
-                               .parameter_count = request->set.count,
-                               .start = request->start.item,
-                               .start_count = request->start.count,
-                               .start_time = request->from};
+    const dal_run_spec spec = invariants_spec(s);
     formulas with = split_list(settings->with);
     dal_invariants_settings set = dal_invariants_settings_default();
     dal_error error = {0};
@@ -108,10 +113,9 @@ static bool is_name_used(const dal_system *system, const char *name)
     return false;
 }
 
-/* The next name I1, I2, .. that the system does not use. */
-static void next_name(const dal_system *system, int *number, char name[16])
+void invariants_next_name(const dal_system *system, int *number, char name[INVARIANTS_NAME])
 {
-    do snprintf(name, 16, "I%d", ++*number);
+    do snprintf(name, INVARIANTS_NAME, "I%d", ++*number);
     while (is_name_used(system, name));
 }
 
@@ -136,12 +140,12 @@ static void print_search(const run_simulation *s, const dal_invariants *found)
 static int print_block(const invariants_settings *settings, const dal_invariants *found)
 {
     const run_simulation *s = &settings->simulation;
-    char name[16];
+    char name[INVARIANTS_NAME];
     int number = 0;
     print_search(s, found);
     if (found->count > 0) puts("invariants:");
     for (const dal_invariant *i = found->invariant; i < found->invariant + found->count; i++) {
-        if (i->independent) next_name(s->system, &number, name);
+        if (i->independent) invariants_next_name(s->system, &number, name);
         printf("  %s%s: %s  # %s, %s, %s\n", i->independent ? "" : "# ",
                i->independent ? name : "and", i->formula, kind_of(i), digits_of(i->exact),
                parameters_of(i->at_any_parameters));

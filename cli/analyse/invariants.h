@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_INVARIANTS_H
 #define DAL_CLI_INVARIANTS_H
 
+#include "dalembert_run.h"
 #include "run/simulation.h"
 
 #include <stdbool.h>
@@ -13,6 +14,11 @@ typedef struct invariants_settings {
     bool measure, json, details;
 } invariants_settings;
 
+/* The system, parameters and start of a request, for dal_find_invariants. */
+dal_run_spec invariants_spec(const run_simulation *simulation);
+/* The next name I1, I2, .. that the system does not use, after the one of *number. */
+enum { INVARIANTS_NAME = 16 };
+void invariants_next_name(const dal_system *system, int *number, char name[INVARIANTS_NAME]);
 /* Finds the invariants and prints them, as an `invariants:` block for a system file, as JSON, or on
  * a terminal as a table.  Returns CLI_DONE, CLI_CHECK where none is found, or prints and returns an
  * exit status. */

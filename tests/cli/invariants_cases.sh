@@ -54,3 +54,14 @@ table <<'END_OF_TABLE'
 2 | invariants chaotic-oscillators --degree 5 | says 14 atoms have 11627 products
 2 | invariants chaplygin-sleigh-vakonomic --measure | says no measure is sought
 END_OF_TABLE
+
+case_is "check proposes what the file does not have"
+try 0 check pair.yaml
+prints '^  further invariants +info +2 of degree 2; see'
+prints "^  proposed invariant I2 +info +k\*x\^2 \+ x'\^2$"
+prints "^  proposed invariant I3 +info +.*[xy].*[xy]"
+try 0 check whole.yaml
+prints '^  further invariants +info +none of degree 2$'
+try 0 check chaotic-oscillators --json
+expect "a proposal" json out "[i['text'] for i in d['items'] if i['item'] == 'further invariants'] == ['none of degree 2']
+    and not [i for i in d['items'] if i['item'].startswith('proposed')]"
