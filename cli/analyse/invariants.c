@@ -2,6 +2,7 @@
 #include "invariants.h"
 #include "dalembert_invariants.h"
 #include "io/json.h"
+#include "run/request.h"
 #include "run/request_json.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -248,6 +249,49 @@ static int put_invariants(const invariants_settings *settings, const dal_invaria
     if (settings->measure) json_close(&w);
     json_end_results(&w);
     return cli_close(stdout, "standard output");
+}
+
+/* ---- of a run ------------------------------------------------------------------------------ */
+
+/* A formula as one of --observe, where a name alone is in parentheses; allocated. */
+static char *observed_formula(const char *formula)
+{
+    static const char letters[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_'";
+    return cli_format(strspn(formula, letters) == strlen(formula) ? "(%s)" : "%s", formula);
+}
+
+int invariants_observe(run_simulation *simulation)
+{
+    enum { MAX_OBSERVED = 100 /* characters of a formula, as of dal_model_observe */ };
+    run_request *request = &simulation->request;
+    const dal_run_spec spec = invariants_spec(simulation);
+    dal_invariants *found = NULL;
+    dal_error error = {0};
+    const dal_status status = dal_find_invariants(&found, simulation->model, &spec, NULL, &error);
+    if (!cli_is_ok(status)) return cli_error(cli_input_exit(status), request->system_name, &error);
+    char *list = cli_strdup(request->observe ? request->observe : ""), *added = cli_strdup("");
+    for (const dal_invariant *i = found->invariant; i < found->invariant + found->count; i++) {
+        char *formula = observed_formula(i->formula);
+        if (i->is_new && strlen(formula) <= MAX_OBSERVED && !request_observes(request, formula)) {
+            char *longer = cli_format("%s%s%s", list, list[0] ? "; " : "", formula);
+            char *more = cli_format("%s%s%s", added, added[0] ? "; " : "", formula);
+            free(list);
+            free(added);
+            list = longer;
+            added = more;
+        }
+        free(formula);
+    }
+    dal_invariants_free(found);
+    cli_note("%s %s %s", request->system_name, added[0] ? "conserves" : "has no further invariants",
+             added[0] ? added : "of degree 2");
+    simulation->system = NULL; /* it is made again, with these formulas */
+    const int given =
+        added[0] ? request_give(request, REQUEST_observe, cli_strdup(list)) : CLI_DONE;
+    free(list);
+    free(added);
+    return given;
 }
 
 /* ---- all ----------------------------------------------------------------------------------- */

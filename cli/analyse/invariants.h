@@ -19,6 +19,10 @@ dal_run_spec invariants_spec(const run_simulation *simulation);
 /* The next name I1, I2, .. that the system does not use, after the one of *number. */
 enum { INVARIANTS_NAME = 16 };
 void invariants_next_name(const dal_system *system, int *number, char name[INVARIANTS_NAME]);
+/* Lets the run of a simulation, whose system is loaded, observe each new invariant of degree 2; a
+ * line says which.  Returns CLI_DONE, or prints and returns an exit status. */
+int invariants_observe(run_simulation *simulation);
+
 /* Finds the invariants and prints them, as an `invariants:` block for a system file, as JSON, or on
  * a terminal as a table.  Returns CLI_DONE, CLI_CHECK where none is found, or prints and returns an
  * exit status. */

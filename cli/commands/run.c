@@ -1,5 +1,6 @@
 /* run.c - `dalembert run`: integrates one system and writes rows. */
 #include "run/run.h"
+#include "analyse/invariants.h"
 #include "io/file.h"
 #include "run/manifest.h"
 #include "run/simulation.h"
@@ -42,17 +43,31 @@ static int run_in_directory(const run_simulation *simulation, const run_settings
     return status;
 }
 
+/* Which invariants a run observes. */
+typedef struct invariants_option {
+    enum { INVARIANTS_GIVEN, INVARIANTS_AUTO } of;
+} invariants_option;
+
+static const cli_option options[] = {
+    {"invariants", "given|auto", "given",
+     "auto: observes what the motion conserves and the file does not have, as by 'dalembert "
+     "invariants'",
+     CLI_WORD(invariants_option, of)},
+};
+
 static int run(int argc, char **argv)
 {
+    invariants_option invariants = {INVARIANTS_GIVEN};
     run_simulation simulation = simulation_default();
     run_settings settings = {0};
     simulation.request.step_rule = REQUEST_STEP_CHOSEN;
     const cli_group groups[] = {simulation_group(&simulation, request_options, 0),
-                                run_group(&settings, 0)};
-    int status = cli_read_arguments(&command_run, argc, argv, groups, 2);
+                                run_group(&settings, 0), CLI_GROUP(options, &invariants)};
+    int status = cli_read_arguments(&command_run, argc, argv, groups, 3);
     if (status == CLI_GO_ON && check_format(&settings) != CLI_DONE) status = CLI_USAGE;
     if (status == CLI_GO_ON) {
-        status = simulation_create(&simulation);
+        status = invariants.of == INVARIANTS_AUTO ? invariants_observe(&simulation) : CLI_DONE;
+        if (status == CLI_DONE) status = simulation_create(&simulation);
         if (status == CLI_DONE)
             status = cli_is_directory(settings.output)
                          ? run_in_directory(&simulation, &settings)

@@ -65,3 +65,22 @@ prints '^  further invariants +info +none of degree 2$'
 try 0 check chaotic-oscillators --json
 expect "a proposal" json out "[i['text'] for i in d['items'] if i['item'] == 'further invariants'] == ['none of degree 2']
     and not [i for i in d['items'] if i['item'].startswith('proposed')]"
+
+case_is "a run observes them"
+motion="--integrator gauss4 --step 0.1 --time 2 --samples 2"
+try 0 run pair.yaml $motion --invariants auto --observe "x + y" --columns observed -o -
+says "^dalembert: pair.yaml conserves k\*x\^2 \+ x'\^2; "
+prints "^t,x \+ y,k\*x\^2 \+ x'\^2,"
+expect "they are not conserved" awk -F, 'NR == 2 { x = $3; y = $4 } NR > 2 && (($3 - x)^2 > 1e-24 || ($4 - y)^2 > 1e-24) { exit 1 }
+    END { exit NR != 4 }' out
+try 0 run knife-edge-reaction $motion --invariants auto --columns observed -o -
+prints "^t,\(phi'\)$"
+try 0 run pair.yaml $motion --invariants auto -o observed
+expect "the formulas are not in the manifest" json observed/manifest.json \
+    "d['input']['observe'].startswith(\"k*x^2 + x'^2; \")"
+try 2 run pair.yaml $motion --invariants given --columns observed -o -
+says "no column 'observed'"
+try 0 run whole.yaml $motion --invariants auto -o -
+says '^dalembert: whole.yaml has no further invariants of degree 2$'
+try 2 run pair.yaml $motion --invariants all
+try 2 run pair.yaml $motion --invariants auto --set nope=1
