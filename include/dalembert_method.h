@@ -51,10 +51,13 @@ typedef dal_status dal_step_function(struct dal_step *step);
 
 /* A constant descriptor; its file in integrators/ holds the mathematics. */
 typedef struct dal_integrator {
-    const char *name;        /* lower case, "rk4"; of a modifier the part after the + */
-    const char *alias;       /* another name, or NULL */
-    const char *summary;     /* what it is, in a few words */
-    const char *reference;   /* where it is from */
+    const char *name;      /* lower case, "rk4"; of a modifier the part after the + */
+    const char *alias;     /* another name, or NULL */
+    const char *summary;   /* what it is, in a few words */
+    const char *reference; /* where it is from */
+    const char
+        *documentation;      /* a paragraph of Markdown about its family: equations as LaTeX between
+                                  dollars, order, source, what is preserved; or NULL */
     int order;               /* 0 for a modifier: the inner method's */
     int stages;              /* solved together or stored at once; determines scratch and, with
                                 DAL_EXTRAPOLATES_STAGES, persistent state */

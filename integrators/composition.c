@@ -54,6 +54,17 @@ DAL_INLINE dal_status compose(dal_step *s, int substeps, const double *c)
     return DAL_STATUS_OK;
 }
 
+#define ABOUT_COMPOSITION                                                                          \
+    "Symmetric compositions of a symmetric method $\\Phi_h$ of order 2,\n"                         \
+    "$$\\Psi_h = \\Phi_{c_1 h} \\circ \\Phi_{c_2 h} \\circ \\cdots \\circ \\Phi_{c_2 h} \\circ "   \
+    "\\Phi_{c_1 h}, \\qquad \\sum c_i = 1,$$\n"                                                    \
+    "where the $c_i$ annihilate the terms of the error up to the order in the name; with three "   \
+    "substeps $c_1 = 1/(2 - 2^{1/3})$ gives order 4 (Yoshida 1990; Suzuki 1990; Suzuki, Umeno "    \
+    "1993; McLachlan 1995; Kahan, Li 1997; Sofroniou, Spaletta 2005). What $\\Phi_h$ preserves "   \
+    "is preserved: symmetry, symplecticity"                                                        \
+    " on the lift, its $D$ and its energy. Each has negative $c_i$: strong friction grows in "     \
+    "these substeps."
+
 /* Defines a modifier of substeps_ substeps. */
 #define COMPOSITION(identifier, substeps_, order_, name_, reference_)                              \
     DAL_INLINE dal_status step_##identifier(dal_step *s)                                           \
@@ -62,8 +73,8 @@ DAL_INLINE dal_status compose(dal_step *s, int substeps, const double *c)
     }                                                                                              \
     DAL_INTEGRATOR(identifier, step_##identifier, .name = name_,                                   \
                    .summary = "composition of " #substeps_ " steps of a symmetric method",         \
-                   .reference = reference_, .order = order_, .properties = DAL_MODIFIER,           \
-                   .needs = DAL_NEEDS_SYMMETRIC | DAL_NEEDS_ORDER_2,                               \
+                   .reference = reference_, .documentation = ABOUT_COMPOSITION, .order = order_,   \
+                   .properties = DAL_MODIFIER, .needs = DAL_NEEDS_SYMMETRIC | DAL_NEEDS_ORDER_2,   \
                    .kernel = DAL_KERNEL_COMPOSITION,                                               \
                    .inherits = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR |           \
                                DAL_PRESERVES_QUADRATIC | DAL_PRESERVES_D | DAL_EXPLICIT |          \

@@ -82,7 +82,17 @@ DAL_INLINE dal_status step(dal_step *s)
     return dal_update(s, s->h, d);
 }
 
+#define ABOUT_DLA                                                                                  \
+    "The discrete Lagrange-d'Alembert equations of the midpoint rule (Cortes, Martinez 2001),\n"   \
+    "$$D_1 L_d(q_k, q_{k+1}) + D_2 L_d(q_{k-1}, q_k) + h\\,A(q_k)^T \\lambda_k = 0, \\qquad "      \
+    "D\\left(\\tfrac{q_k + q_{k+1}}{2},\\, \\tfrac{q_{k+1} - q_k}{h}\\right) = 0,$$\n"             \
+    "with $L_d(q_0, q_1) = h\\,L\\left(\\tfrac{q_0 + q_1}{2}, \\tfrac{q_1 - q_0}{h}\\right)$, "    \
+    "here as a map of $(q, v)$ on $D = 0$: the impulse at a node is divided between the two "      \
+    "steps that meet there. The order is 2; it is symmetric and preserves every $D$, at the "      \
+    "ends of steps and at their midpoints."
+
 DAL_INTEGRATOR(dla, step, .name = "dla", .summary = "discrete Lagrange-d'Alembert, midpoint",
-               .reference = "Cortes, Martinez 2001", .order = 2, .stages = 1,
+               .reference = "Cortes, Martinez 2001", .documentation = ABOUT_DLA, .order = 2,
+               .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PRESERVES_D_MIDPOINT,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_ENFORCE);

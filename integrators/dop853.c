@@ -336,7 +336,17 @@ DAL_INLINE dal_status step(dal_step *s)
     return dal_update_multiple(s, s->h, s->h, sum);
 }
 
+#define ABOUT_DOP853                                                                               \
+    "The explicit Runge-Kutta method of Dormand and Prince of order 8 with twelve stages "         \
+    "(Hairer, Norsett, Wanner 1993, II.5),\n"                                                      \
+    "$$k_i = f\\left(t + c_i h,\\; y_0 + h \\sum_{j < i} a_{ij}\\,k_j\\right), \\qquad y_1 = "     \
+    "y_0 + h \\sum_{i=1}^{12} b_i\\,k_i.$$\n"                                                      \
+    "With `--tolerance` two embedded estimates of the error choose the sizes of substeps. It "     \
+    "preserves only linear $D$ with constant coefficients; with a tolerance near rounding its "    \
+    "drifts are as small as rounding permits."
+
 DAL_INTEGRATOR(dop853, step, .name = "dop853", .summary = "Dormand-Prince, 12 stages",
-               .reference = "Hairer, Norsett, Wanner 1993, II.5", .order = 8, .stages = 2,
+               .reference = "Hairer, Norsett, Wanner 1993, II.5", .documentation = ABOUT_DOP853,
+               .order = 8, .stages = 2,
                .properties = DAL_EXPLICIT | DAL_COMPONENTWISE | DAL_ADAPTIVE,
                .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_CONTROL);

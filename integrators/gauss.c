@@ -178,6 +178,15 @@ static const double vectors6[] = {1.62379837253232641958e-1, -3.0985830425980007
 
 /* clang-format on */
 
+#define ABOUT_GAUSS                                                                                \
+    "Collocation at the zeros $c_i$ of the shifted Legendre polynomial,\n"                         \
+    "$$Y_i = y_0 + h \\sum_{j=1}^{s} a_{ij}\\,f(t + c_j h, Y_j), \\qquad y_1 = y_0 + h "           \
+    "\\sum_{i=1}^{s} b_i\\,f(t + c_i h, Y_i),$$\n"                                                 \
+    "with $s$ = 2 to 6 stages and the order $2s$, the highest that $s$ stages can have "           \
+    "(Kuntzmann 1961; Butcher 1964; Hairer, Lubich, Wanner 2006, II.1.3). The methods are "        \
+    "symmetric, symplectic on the lift, and preserve $D$ that is quadratic in $(q, v)$, as all "   \
+    "methods with $b_i a_{ij} + b_j a_{ji} = b_i b_j$ do. The stages are solved to rounding."
+
 /* The method with s stages under its name. */
 #define GAUSS(s, order_, name_)                                                                    \
     static const dal_eigensystem eigensystem##s = {values##s, vectors##s, b##s, b##s##_tail};      \
@@ -185,12 +194,13 @@ static const double vectors6[] = {1.62379837253232641958e-1, -3.0985830425980007
         s, c##s, b##s, b##s##_tail, a##s, a##s##_tail, e##s, a##s, a##s##_tail, &eigensystem##s,   \
     };                                                                                             \
     DAL_INLINE dal_status step##s(dal_step *step) { return dal_collocation(step, &tableau##s); }   \
-    DAL_INTEGRATOR(                                                                                \
-        gauss##order_, step##s, .name = name_, .summary = "Gauss-Legendre, " #s " stages",         \
-        .reference = "Hairer, Lubich, Wanner 2006, II.1.3", .order = order_, .stages = s,          \
-        .properties =                                                                              \
-            DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_QUADRATIC | DAL_EXTRAPOLATES_STAGES,    \
-        .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_COLLOCATION)
+    DAL_INTEGRATOR(gauss##order_, step##s, .name = name_,                                          \
+                   .summary = "Gauss-Legendre, " #s " stages",                                     \
+                   .reference = "Hairer, Lubich, Wanner 2006, II.1.3",                             \
+                   .documentation = ABOUT_GAUSS, .order = order_, .stages = s,                     \
+                   .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_QUADRATIC |        \
+                                 DAL_EXTRAPOLATES_STAGES,                                          \
+                   .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_COLLOCATION)
 
 GAUSS(2, 4, "gauss4");
 GAUSS(3, 6, "gauss6");

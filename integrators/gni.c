@@ -68,8 +68,20 @@ DAL_INLINE dal_status step(dal_step *s)
     return dal_update(s, h, d);
 }
 
+#define ABOUT_GNI                                                                                  \
+    "RATTLE with the constraint on velocities:\n"                                                  \
+    "$$v_h = v_0 + \\tfrac{h}{2}\\left(a(q_0, v_0) + B(q_0, v_0)\\,\\lambda_0\\right), \\quad "    \
+    "q_1 = q_0 + h\\,v_h, \\quad v_1 = v_h + \\tfrac{h}{2}\\left(a(q_1, v_1) + B(q_1, "            \
+    "v_1)\\,\\lambda_1\\right), \\quad D(q_1, v_1) = 0,$$\n"                                       \
+    "where $\\lambda_1$ is the $\\lambda_0$ of the next step (Ferraro, Iglesias, Martin de "       \
+    "Diego 2008 and 2009). The order is 2; it is symmetric in $(q, v, \\lambda)$ and preserves "   \
+    "every $D$. Without forces, and with constant $W$, the kinetic energy of $v_h$ is "            \
+    "preserved. An error of the multipliers changes its sign from step to step, and grows where"   \
+    " the motion contracts."
+
 DAL_INTEGRATOR(gni, step, .name = "gni", .alias = "nonholonomic-rattle",
                .summary = "RATTLE with D on the velocities",
-               .reference = "Ferraro, Iglesias, Martin de Diego 2008", .order = 2, .stages = 1,
+               .reference = "Ferraro, Iglesias, Martin de Diego 2008", .documentation = ABOUT_GNI,
+               .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_ENFORCE);

@@ -12,9 +12,17 @@ static const dal_tableau tableau = {1, half, one, NULL, half, NULL, one, half, N
 
 DAL_INLINE dal_status step(dal_step *s) { return dal_collocation(s, &tableau); }
 
+#define ABOUT_IMPLICIT_MIDPOINT                                                                    \
+    "The Gauss method with one stage,\n"                                                           \
+    "$$y_1 = y_0 + h\\,f\\left(t + \\tfrac{h}{2},\\; \\tfrac{1}{2}(y_0 + y_1)\\right),$$\n"        \
+    "solved to rounding (Hairer, Lubich, Wanner 2006, II.1). The order is 2; the method is "       \
+    "symmetric, symplectic on the lift, and preserves every $D$ that is quadratic in $(q, v)$. "   \
+    "The energy is not preserved, not even a quadratic one, because the stage has $D \\ne 0$."
+
 DAL_INTEGRATOR(implicit_midpoint, step, .name = "implicit-midpoint",
                .summary = "implicit midpoint rule",
-               .reference = "Hairer, Lubich, Wanner 2006, II.1", .order = 2, .stages = 1,
+               .reference = "Hairer, Lubich, Wanner 2006, II.1",
+               .documentation = ABOUT_IMPLICIT_MIDPOINT, .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_QUADRATIC |
                              DAL_EXTRAPOLATES_STAGES,
                .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_COLLOCATION);

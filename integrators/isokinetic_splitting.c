@@ -72,9 +72,20 @@ DAL_INLINE dal_status step(dal_step *s)
     return dal_update(s, h, d);
 }
 
+#define ABOUT_ISOKINETIC_SPLITTING                                                                 \
+    "Exact pieces of a motion whose kinetic energy is constant, $D = k\\,(v \\cdot W v/2 - K)$:"   \
+    " half a drift, a turn of $v$ under the frozen force $f(q_h)$, half a drift. With $a = "       \
+    "W^{-1} f$, $\\alpha = f \\cdot v/2K$ and $b = f \\cdot a/2K$ the turn is\n"                   \
+    "$$v_1 = \\frac{v_0 + s\\,a}{1 + r}, \\qquad s = h\\left(\\tfrac{\\alpha h}{2}\\,g(x)^2 + "    \
+    "g(2x)\\right), \\qquad r = \\alpha h\\,g(2x) + 2 x^2 g(x)^2, \\qquad x = "                    \
+    "\\tfrac{h}{2}\\sqrt{b}, \\quad g(x) = \\frac{\\sinh x}{x}$$\n"                                \
+    "(Minary, Martyna, Tuckerman 2003). The order is 2; the method is explicit and symmetric "     \
+    "and preserves this $D$. It is refused for any other constraint."
+
 DAL_INTEGRATOR(isokinetic_splitting, step, .name = "isokinetic-splitting",
                .summary = "exact turns and drifts at constant kinetic energy",
-               .reference = "Minary, Martyna, Tuckerman 2003", .order = 2, .stages = 1,
+               .reference = "Minary, Martyna, Tuckerman 2003",
+               .documentation = ABOUT_ISOKINETIC_SPLITTING, .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_EXPLICIT,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS | DAL_NEEDS_ISOKINETIC,
                .kernel = DAL_KERNEL_FUNCTIONS | DAL_KERNEL_BLOCKS | DAL_KERNEL_CONSTRAINT);

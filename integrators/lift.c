@@ -98,9 +98,19 @@ DAL_INLINE dal_status step(dal_step *s)
     return DAL_STATUS_OK;
 }
 
+#define ABOUT_LIFT                                                                                 \
+    "The cotangent lift of an explicit Runge-Kutta step $\\Phi$, with $x = (q, v)$ and $P = (p,"   \
+    " \\pi)$:\n"                                                                                   \
+    "$$x_1 = \\Phi(x_0), \\qquad P_1 = D\\Phi(x_0)^{-T} P_0.$$\n"                                  \
+    "It is symplectic for every $\\Phi$ whose derivative has an inverse (Sanz-Serna 2016), and "   \
+    "has the bits of $\\Phi$ where $P = 0$: that is why symplecticity on the lift says nothing "   \
+    "about the motion. The lift has the order of $\\Phi$ on $p = \\pi = 0$, and order 2 "          \
+    "elsewhere unless $1/e = 0$."
+
 DAL_INTEGRATOR(
     lift, step, .name = "lift",
     .summary = "cotangent lift of an explicit Runge-Kutta method; order 2 off p = pi = 0",
-    .reference = "Sanz-Serna 2016", .stages = 4, .properties = DAL_MODIFIER | DAL_SYMPLECTIC,
+    .reference = "Sanz-Serna 2016", .documentation = ABOUT_LIFT, .stages = 4,
+    .properties = DAL_MODIFIER | DAL_SYMPLECTIC,
     .needs = DAL_NEEDS_RUNGE_KUTTA | DAL_NEEDS_JACOBIAN,
     .kernel = DAL_KERNEL_ALGEBRA | DAL_KERNEL_TANGENT, .inherits = DAL_EXPLICIT);

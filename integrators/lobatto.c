@@ -103,18 +103,28 @@ static const double e5[] = {0.0, 0.0, 0.0, 0.0, 1.00000000000000000000e+0,
 
 /* clang-format on */
 
+#define ABOUT_LOBATTO                                                                              \
+    "A pair of Runge-Kutta methods with the same nodes, IIIA for $q$ and IIIB for $v$,\n"          \
+    "$$V_i = v_0 + h \\sum_j \\hat a_{ij}\\,F(Q_j, V_j), \\qquad Q_i = q_0 + h \\sum_j "           \
+    "a_{ij}\\,V_j, \\qquad \\hat a_{ij} = b_j\\left(1 - a_{ji}/b_i\\right),$$\n"                   \
+    "with $s$ = 3 to 5 stages and the order $2s - 2$ (Sun 1993; Jay 1996; Hairer, Lubich, "        \
+    "Wanner 2006, II.2.2); $s = 2$ is Stormer-Verlet. The methods are symmetric, symplectic on "   \
+    "the lift, and preserve $D$ that is bilinear in $(q, v)$: $q$ and $v$ are of different "       \
+    "kinds."
+
 /* The method with s stages under its name. */
 #define LOBATTO(s, order_, name_)                                                                  \
     static const dal_tableau tableau##s = {                                                        \
         s, c##s, b##s, b##s##_tail, a##s, a##s##_tail, e##s, p##s, p##s##_tail, NULL,              \
     };                                                                                             \
     DAL_INLINE dal_status step##s(dal_step *step) { return dal_collocation(step, &tableau##s); }   \
-    DAL_INTEGRATOR(                                                                                \
-        lobatto##order_, step##s, .name = name_, .summary = "Lobatto IIIA-IIIB, " #s " stages",    \
-        .reference = "Hairer, Lubich, Wanner 2006, II.2.2", .order = order_, .stages = s,          \
-        .properties =                                                                              \
-            DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR | DAL_EXTRAPOLATES_STAGES,     \
-        .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_COLLOCATION)
+    DAL_INTEGRATOR(lobatto##order_, step##s, .name = name_,                                        \
+                   .summary = "Lobatto IIIA-IIIB, " #s " stages",                                  \
+                   .reference = "Hairer, Lubich, Wanner 2006, II.2.2",                             \
+                   .documentation = ABOUT_LOBATTO, .order = order_, .stages = s,                   \
+                   .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR |         \
+                                 DAL_EXTRAPOLATES_STAGES,                                          \
+                   .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_COLLOCATION)
 
 LOBATTO(3, 4, "lobatto4");
 LOBATTO(4, 6, "lobatto6");

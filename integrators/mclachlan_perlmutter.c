@@ -68,8 +68,18 @@ DAL_INLINE dal_status step(dal_step *s)
     return dal_update(s, h, d);
 }
 
+#define ABOUT_MCLACHLAN_PERLMUTTER                                                                 \
+    "A leapfrog step whose multipliers make $D = 0$ at the end of the step:\n"                     \
+    "$$q_h = q_0 + \\tfrac{h}{2}\\,v_0, \\qquad v_1 - v_0 = h\\,\\bar a(q_h) + h\\,\\bar "         \
+    "B(q_h)\\,\\lambda, \\qquad q_1 = q_h + \\tfrac{h}{2}\\,v_1, \\qquad D(q_1, v_1) = 0.$$\n"     \
+    "Bars are means over $v_0$ and $v_1$, $a = W^{-1} b$ and $B = W^{-1} A^T$. McLachlan and "     \
+    "Perlmutter (2006, eq. 4.18) have it for linear $D$; the mean of $B$ extends it to every "     \
+    "$D$. The order is 2, the method is symmetric and keeps no multipliers from step to step. "    \
+    "The energy is not preserved; for many reversible systems its error is bounded."
+
 DAL_INTEGRATOR(mclachlan_perlmutter, step, .name = "mclachlan-perlmutter",
                .summary = "leapfrog with D at its end", .reference = "McLachlan, Perlmutter 2006",
-               .order = 2, .stages = 1, .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,
+               .documentation = ABOUT_MCLACHLAN_PERLMUTTER, .order = 2, .stages = 1,
+               .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS,
                .kernel = DAL_KERNEL_ENFORCE | DAL_KERNEL_CONSTRAINT);

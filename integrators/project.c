@@ -59,10 +59,18 @@ DAL_INLINE dal_status step(dal_step *s)
     return DAL_STATUS_OK;
 }
 
+#define ABOUT_PROJECT                                                                              \
+    "After each step back to $D = 0$, to the nearest velocity in the metric of the masses:\n"      \
+    "$$v_1 = u - W^{-1} A^T c, \\qquad D(q_1, v_1) = 0,$$\n"                                       \
+    "where $(q_1, u)$ is the step of the method inside (Hairer, Lubich, Wanner 2006, IV.4); $p "   \
+    "= \\pi = \\pi_e = 0$ as well. The order stays what it was and every $D$ is preserved. "       \
+    "Symmetry is lost, and so is symplecticity on the lift: a step that lands in $D = 0$ has a "   \
+    "singular derivative on $(q, v)$."
+
 DAL_INTEGRATOR(project, step, .name = "project",
                .summary = "after each step back to D = 0, p = pi = pi_e = 0, in the mass metric",
-               .reference = "Hairer, Lubich, Wanner 2006, IV.4", .stages = 1,
-               .properties = DAL_MODIFIER | DAL_PRESERVES_D, .needs = DAL_NEEDS_CONSTRAINT,
-               .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_CORRECTION,
+               .reference = "Hairer, Lubich, Wanner 2006, IV.4", .documentation = ABOUT_PROJECT,
+               .stages = 1, .properties = DAL_MODIFIER | DAL_PRESERVES_D,
+               .needs = DAL_NEEDS_CONSTRAINT, .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_CORRECTION,
                .inherits = DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC | DAL_EXPLICIT |
                            DAL_ADAPTIVE);

@@ -169,9 +169,19 @@ DAL_INLINE dal_status step(dal_step *s)
     return DAL_STATUS_OK;
 }
 
+#define ABOUT_PROJECT_ENERGY                                                                       \
+    "After each step back to $D = 0$ and to the energy of the start, along the directions of "     \
+    "both in the metric of the masses:\n"                                                          \
+    "$$q_1 = q - h^2 k\\,W^{-1} E_q, \\qquad v_1 = v - k\\,v - W^{-1} A^T c, \\qquad D(q_1, "      \
+    "v_1) = 0, \\quad E(q_1, v_1) = E_0$$\n"                                                       \
+    "(Hairer, Lubich, Wanner 2006, IV.4). The order stays what it was; every $D$ is preserved, "   \
+    "and $E$ where the motion conserves it. Symmetry and symplecticity on the lift are lost. A "   \
+    "right $E$ says nothing about the error of the motion."
+
 DAL_INTEGRATOR(project_energy, step, .name = "project-energy",
                .summary = "after each step back to D = 0, E = E(0), p = pi = pi_e = 0",
-               .reference = "Hairer, Lubich, Wanner 2006, IV.4", .stages = 1,
+               .reference = "Hairer, Lubich, Wanner 2006, IV.4",
+               .documentation = ABOUT_PROJECT_ENERGY, .stages = 1,
                .properties = DAL_MODIFIER | DAL_PRESERVES_D | DAL_PRESERVES_ENERGY,
                .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_ENERGY,
                .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_CONSTRAINT | DAL_KERNEL_ENERGY_NORMAL,

@@ -28,6 +28,14 @@ DAL_INLINE dal_status step(dal_step *s)
     return dal_update_multiple(s, h, h / 6.0, sum);
 }
 
+#define ABOUT_RK4                                                                                  \
+    "The method of Kutta (1901) with four evaluations of $F$,\n"                                   \
+    "$$y_1 = y_0 + \\tfrac{h}{6}\\left(k_1 + 2 k_2 + 2 k_3 + k_4\\right), \\qquad k_2 = "          \
+    "f\\left(t + \\tfrac{h}{2},\\, y_0 + \\tfrac{h}{2}\\,k_1\\right), \\ldots$$\n"                 \
+    "for $y = (q, v)$. The order is 4. It is neither symmetric nor symplectic and preserves "      \
+    "only linear $D$ with constant coefficients; elsewhere $D$ and $E$ drift. It is here for "     \
+    "comparison, and as a base of `+project`."
+
 DAL_INTEGRATOR(rk4, step, .name = "rk4", .summary = "classical Runge-Kutta",
-               .reference = "Kutta 1901", .order = 4, .stages = 4,
+               .reference = "Kutta 1901", .documentation = ABOUT_RK4, .order = 4, .stages = 4,
                .properties = DAL_EXPLICIT | DAL_COMPONENTWISE, .needs = DAL_NEEDS_FIELD);

@@ -103,6 +103,17 @@ static const double unit3[] = {1.0, 0.0, 0.0, 1.0};
 static const double unit4[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 /* clang-format on */
 
+#define ABOUT_SPARK                                                                                \
+    "Lobatto IIIA-IIIB with the reactions at its stages,\n"                                        \
+    "$$V_i = v_0 + h \\sum_j \\hat a_{ij}\\,K_j, \\qquad Q_i = q_0 + h \\sum_j a_{ij}\\,V_j, "     \
+    "\\qquad K_i = a(Q_i, V_i) + B(Q_i, V_i)\\,L_i,$$\n"                                           \
+    "in two forms. `spark2` to `spark6` solve for all multipliers $L_i$ of a step, with "          \
+    "$\\sum_j a_{ij}\\,D(Q_j, V_j) = 0$ for $i \\ge 2$ and $D(q_1, v_1) = 0$ (Jay 2006). "         \
+    "`lobatto-nonholonomic2` to `6` enforce $D$ at the nodes and take $L_1$ from the step "        \
+    "before (Sato Martin de Almagro, Martin de Diego 2018); errors of such multipliers grow "      \
+    "where the motion contracts. Both have the order $2s - 2$ with $s$ stages, are symmetric "     \
+    "and preserve every $D$. Nothing is claimed about $E$."
+
 /* Both methods with s stages. */
 #define LOBATTO(s, order_, spark_, nonholonomic_)                                                  \
     static const dal_spark all##s = {                                                              \
@@ -119,13 +130,13 @@ static const double unit4[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
     }                                                                                              \
     DAL_INTEGRATOR(spark##order_, step_all##s, .name = spark_,                                     \
                    .summary = "Lobatto IIIA-IIIB, " #s " stages, D enforced at them",              \
-                   .reference = "Jay 2006", .order = order_, .stages = s,                          \
-                   .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,                                  \
+                   .reference = "Jay 2006", .documentation = ABOUT_SPARK, .order = order_,         \
+                   .stages = s, .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,                     \
                    .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_SPARK);       \
     DAL_INTEGRATOR(lobatto_nonholonomic##order_, step_next##s, .name = nonholonomic_,              \
                    .summary = "Lobatto IIIA-IIIB, " #s " stages, D enforced at its nodes",         \
-                   .reference = "Sato Martin de Almagro, Martin de Diego 2018", .order = order_,   \
-                   .stages = s,                                                                    \
+                   .reference = "Sato Martin de Almagro, Martin de Diego 2018",                    \
+                   .documentation = ABOUT_SPARK, .order = order_, .stages = s,                     \
                    .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER,      \
                    .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_SPARK)
 

@@ -113,9 +113,17 @@ DAL_INLINE dal_status step(dal_step *s)
     return DAL_M(s) > 0 ? reflect(s) : dal_inner(s, s->h);
 }
 
+#define ABOUT_SYMMETRIC_PROJECT                                                                    \
+    "A reaction with the same multipliers before and after a step of a symmetric method "          \
+    "$\\Phi_h$ (Hairer 2000), in the metric of the masses:\n"                                      \
+    "$$(q_1, \\tilde v) = \\Phi_h\\left(q_0,\\, v_0 + B_0\\,\\mu\\right), \\qquad v_1 = \\tilde"   \
+    " v + B_1\\,\\mu, \\qquad D(q_1, v_1) = 0, \\qquad B = W^{-1} A^T.$$\n"                        \
+    "The order and the symmetry of the method inside stay; every $D$ is preserved. "               \
+    "Symplecticity on the lift is lost."
+
 DAL_INTEGRATOR(symmetric_project, step, .name = "symmetric-project",
                .summary = "a reaction before and after each step, so that D = 0; p = pi = pi_e = 0",
-               .reference = "Hairer 2000", .stages = 1,
+               .reference = "Hairer 2000", .documentation = ABOUT_SYMMETRIC_PROJECT, .stages = 1,
                .properties = DAL_MODIFIER | DAL_SYMMETRIC | DAL_PRESERVES_D,
                .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_SYMMETRIC,
                .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_CONSTRAINT | DAL_KERNEL_METHOD_STATE,

@@ -18,9 +18,20 @@ DAL_INLINE dal_status step_00(dal_step *s)
     return dal_symplectic_euler(s, DAL_POLARISATION(0, 0), s->h);
 }
 
+#define ABOUT_SYMPLECTIC_EULER                                                                     \
+    "One explicit or implicit Euler step for each member of the pairs $(q, p)$ and $(v, \\pi)$;"   \
+    " two digits say whether $F$ is evaluated at the new $q$ and at the new $v$. For 10 these "    \
+    "are\n"                                                                                        \
+    "$$q_1 = q_0 + h\\,v_0, \\qquad v_1 = v_0 + h\\,F(q_1, v_0),$$\n"                              \
+    "for 01 the same with the old $q$ and the new $v$ in $F$, and $q_1 = q_0 + h\\,v_1$. 00 is "   \
+    "the explicit and 11 the implicit Euler method on $(q, v)$. All have order 1 and are "         \
+    "symplectic on the lift (Hairer, Lubich, Wanner 2006, VI.3), which implies nothing about "     \
+    "$D$ or $E$. 10 and 01 preserve $D$ that is bilinear in $(q, v)$; 00 and 11 preserve no "      \
+    "more than linear $D$ with constant coefficients."
+
 DAL_INTEGRATOR(symplectic_euler_00, step_00, .name = "symplectic-euler-00",
                .summary = "symplectic Euler; explicit Euler on (q,v)", .reference = reference,
-               .order = 1, .stages = 1,
+               .documentation = ABOUT_SYMPLECTIC_EULER, .order = 1, .stages = 1,
                .properties = DAL_SYMPLECTIC | DAL_EXPLICIT | DAL_COMPONENTWISE,
                .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_EULER);
 
@@ -31,7 +42,8 @@ DAL_INLINE dal_status step_10(dal_step *s)
 
 DAL_INTEGRATOR(symplectic_euler_10, step_10, .name = "symplectic-euler-10",
                .alias = "symplectic-euler", .summary = "symplectic Euler, new q and old v",
-               .reference = reference, .order = 1, .stages = 1,
+               .reference = reference, .documentation = ABOUT_SYMPLECTIC_EULER, .order = 1,
+               .stages = 1,
                .properties = DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR | DAL_EXPLICIT |
                              DAL_COMPONENTWISE,
                .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_EULER);
@@ -42,9 +54,10 @@ DAL_INLINE dal_status step_01(dal_step *s)
 }
 
 DAL_INTEGRATOR(symplectic_euler_01, step_01, .name = "symplectic-euler-01",
-               .summary = "symplectic Euler, old q and new v", .reference = reference, .order = 1,
-               .stages = 1, .properties = DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR,
-               .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_EULER);
+               .summary = "symplectic Euler, old q and new v", .reference = reference,
+               .documentation = ABOUT_SYMPLECTIC_EULER, .order = 1, .stages = 1,
+               .properties = DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR, .needs = DAL_NEEDS_FIELD,
+               .kernel = DAL_KERNEL_EULER);
 
 DAL_INLINE dal_status step_11(dal_step *s)
 {
@@ -53,5 +66,5 @@ DAL_INLINE dal_status step_11(dal_step *s)
 
 DAL_INTEGRATOR(symplectic_euler_11, step_11, .name = "symplectic-euler-11",
                .summary = "symplectic Euler; implicit Euler on (q,v)", .reference = reference,
-               .order = 1, .stages = 1, .properties = DAL_SYMPLECTIC, .needs = DAL_NEEDS_FIELD,
-               .kernel = DAL_KERNEL_EULER);
+               .documentation = ABOUT_SYMPLECTIC_EULER, .order = 1, .stages = 1,
+               .properties = DAL_SYMPLECTIC, .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_EULER);

@@ -215,8 +215,19 @@ DAL_INLINE dal_status step(dal_step *s)
     return dal_update_multiple(s, s->h, s->h, rate);
 }
 
+#define ABOUT_TAYLOR                                                                               \
+    "The Taylor polynomial of the motion, whose coefficients follow from recurrences over the "    \
+    "formulas of the system, exact except rounding:\n"                                             \
+    "$$y_1 = \\sum_{k=0}^{p} x_k\\,h^k, \\qquad x_k = \\frac{1}{k!}\\,\\frac{d^k "                 \
+    "y}{dt^k}(t_0).$$\n"                                                                           \
+    "With steps of a fixed size the order is $p = 10$; with `--tolerance` order and size of "      \
+    "each substep follow from the last coefficients (Jorba, Zou 2005). No structure is "           \
+    "preserved beyond linear $D$ with constant coefficients, and none is needed where the error"   \
+    " of a step is below rounding."
+
 DAL_INTEGRATOR(taylor, step, .name = "taylor", .summary = "Taylor series of the motion",
-               .reference = "Jorba, Zou 2005", .order = DAL__TAYLOR_FIXED_ORDER, .stages = 2,
+               .reference = "Jorba, Zou 2005", .documentation = ABOUT_TAYLOR,
+               .order = DAL__TAYLOR_FIXED_ORDER, .stages = 2,
                .properties = DAL_EXPLICIT | DAL_ADAPTIVE,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_SERIES,
                .kernel = DAL_KERNEL_CONTROL | DAL_KERNEL_SERIES);

@@ -23,6 +23,26 @@ static void for_each(bool project, visitor *visit, void *user)
     }
 }
 
+/* Each documentation has an equation, closed dollars, and cites the years of the reference. */
+static void test_documentation(void)
+{
+    const dal_integrator *k;
+    for (int i = 0; (k = dal_integrator_at(i)); i++) {
+        int dollars = 0;
+        CU_ASSERT_PTR_NOT_NULL_FATAL(k->documentation);
+        for (const char *c = k->documentation; *c; c++) dollars += *c == '$';
+        CU_ASSERT(dollars % 2 == 0 && strstr(k->documentation, "$$"));
+        for (const char *c = k->reference; *c; c++) {
+            char year[5];
+            if (strspn(c, "0123456789") != 4) continue;
+            snprintf(year, sizeof year, "%.4s", c);
+            if (!strstr(k->documentation, year)) printf("\n  %s: %s", k->name, year);
+            CU_ASSERT_PTR_NOT_NULL(strstr(k->documentation, year));
+            c += 3;
+        }
+    }
+}
+
 /* ---- order: slope between two step counts in the asymptotic range of each order ---- */
 
 typedef struct window {
@@ -264,6 +284,7 @@ static void test_project_preserves(void)
 void suite_integrators(void)
 {
     CU_pSuite suite = CU_add_suite("integrators", NULL, NULL);
+    CU_add_test(suite, "documentation", test_documentation);
     CU_add_test(suite, "order, lifted off the surface and physical", test_order);
     CU_add_test(suite, "order with +project", test_order_projected);
     CU_add_test(suite, "symplectic on 4n+2, or not", test_symplectic);

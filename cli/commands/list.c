@@ -264,6 +264,7 @@ static void put_integrators(json_writer *w, const selection *list)
         json_close(w);
         json_put_text(w, "summary", k->summary);
         json_put_text(w, "reference", k->reference);
+        json_put_text(w, "documentation", k->documentation);
         json_close(w);
     }
 }
