@@ -1,8 +1,10 @@
-"""pages.py OUT - collects the pages of the site in OUT and writes OUT.yml for mkdocs.
+"""pages.py OUT PROGRAM - collects the pages of the site in OUT and writes OUT.yml for mkdocs.
 
 The documents keep the links that they have in the repository.  Here a link to another document
 leads to its page, one to a public header to the reference, one to any other file to a page that
-shows it, a notebook with its outputs.  The pages have the order of docs/index.md, which must name every document.
+shows it, a notebook with its outputs.  The pages have the order of docs/index.md, which must name
+every document.  The program, where there is one, makes the families of methods, the gallery and the
+output on the landing page.
 """
 import base64
 import glob
@@ -12,15 +14,19 @@ import re
 import shutil
 import sys
 
+import generated
+import mathematics
+import python_reference
+
 # Documents outside of docs/, and their pages.
-OUTSIDE = {'README.md': 'index.md', 'CONTRIBUTING.md': 'contributing.md', 'CHANGELOG.md': 'changes.md'}
+OUTSIDE = {'README.md': 'overview.md', 'CONTRIBUTING.md': 'contributing.md', 'CHANGELOG.md': 'changes.md'}
 LANGUAGE = {'.c': 'c', '.h': 'c', '.yaml': 'yaml'}
 LINK = re.compile(r'\]\(((?!https?:|mailto:|#)[^)#\s]+)(#[^)]*)?\)')
 
 
 class Site:
     def __init__(self, out):
-        self.out, self.sources = out, {}
+        self.out, self.sources, self.typesetter = out, {}, mathematics.Typesetter()
 
     def write(self, name, text):
         path = os.path.join(self.out, name)
@@ -48,7 +54,7 @@ class Site:
             target = os.path.relpath(self.target(path), os.path.dirname(name) or '.')
             return '](%s%s)' % (target, match.group(2) or '')
         with open(document, encoding='utf-8') as file:
-            self.write(name, LINK.sub(link, file.read()))
+            self.write(name, self.typesetter.document(LINK.sub(link, file.read())))
 
     def output(self, data, name):
         """An output of a notebook as Markdown; its picture goes beside the page."""
@@ -102,13 +108,30 @@ def navigation(index):
     return groups
 
 
-def main(out):
+def version():
+    """The version of the header."""
+    with open('include/dalembert.h', encoding='utf-8') as file:
+        return '.'.join(re.findall(r'^#define DAL_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)', file.read(), re.M))
+
+
+def write_settings(out, groups, number):
+    """The settings of mkdocs, with the navigation."""
+    with open('tools/site/mkdocs.json', encoding='utf-8') as file:
+        settings = json.load(file)
+    settings['docs_dir'] = os.path.abspath(out)
+    settings['site_name'] += ' ' + number
+    settings['nav'] = [{'Home': 'index.md'}] + [{title: items} for title, items in groups]
+    with open(out + '.yml', 'w', encoding='utf-8') as file:
+        json.dump(settings, file, indent=1)
+
+
+def main(out, path):
     site = Site(out)
+    program = generated.Program(path) if os.access(path, os.X_OK) else None
     for name in sorted(glob.glob('docs/*.md')):
         site.page(name, os.path.basename(name))
     for name, page in OUTSIDE.items():
-        if page != 'index.md':
-            site.page(name, page)
+        site.page(name, page)
     shutil.copytree('docs/gallery', os.path.join(out, 'gallery'), dirs_exist_ok=True)
     shutil.copy('tools/site/site.css', out)
     for path in sorted(site.sources):
@@ -120,12 +143,17 @@ def main(out):
     for name in sorted(glob.glob('docs/*.md')):
         if os.path.basename(name) not in listed | {'index.md'}:
             sys.exit('%s: docs/index.md does not name it' % name)
-    with open('tools/site/mkdocs.json', encoding='utf-8') as file:
-        settings = json.load(file)
-    settings['docs_dir'] = os.path.abspath(out)
-    settings['nav'] = [{'Home': 'index.md'}] + [{title: items} for title, items in groups]
-    with open(out + '.yml', 'w', encoding='utf-8') as file:
-        json.dump(settings, file, indent=1)
+    site.write('python_reference.md', python_reference.page())
+    groups.append(('Python', [{'Python reference': 'python_reference.md'}]))
+    groups[-1][1].append({'Overview': 'overview.md'})
+    if program:
+        generated.gallery_page(program, site.write)
+        groups.insert(1, ('Families of methods', generated.family_pages(program, site.typesetter, site.write)))
+        groups[0][1].append({'Gallery': 'gallery.md'})
+    number = version()
+    site.write('index.md', site.typesetter.document(generated.landing(program, number)))
+    site.typesetter.save(out + '.formulas')
+    write_settings(out, groups, number)
 
 
-main(sys.argv[1])
+main(*sys.argv[1:])
