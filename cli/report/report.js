@@ -339,10 +339,10 @@ class Motion {
 
 // One motion in a frame that all motions of a system share: map leads from the plane to it.
 class Stage {
-    constructor(motion, map, box) {
+    constructor(motion, map, box, bar) {
         this.motion = motion;
         this.map = map;
-        this.path = svg('path', {class: 'path'});
+        this.path = svg('path', {class: motion.smooth ? 'path' : 'path dots'});
         this.trail = svg('path', {class: 'trail'});
         this.parts = motion.parts.map(part => ({...part, shape: part.radius
             ? svg('circle', {r: part.radius}) : svg('path', {d: 'M' + part.line.join('L')})}));
@@ -350,9 +350,10 @@ class Stage {
         this.path.setAttribute('d', this.line(0, motion.frames - 1));
         this.picture = svg('svg', {viewBox: box.join(' '), role: 'img', class: 'stage',
             'aria-label': `Motion of a ${motion.body} by ${motion.method} over ${motion.axes.join(' and ')}`},
-            this.path, this.trail, this.body);
+            this.path, this.trail, this.body, svg('path', {class: 'scale', d: `M${box[0] + 3} ` +
+                `${box[1] + box[3] - 3}h${map(bar, 0)[0] - map(0, 0)[0]}`}));
         this.figure = html('figure', {}, this.picture,
-            html('figcaption', {}, `${motion.method}, h = ${motion.step}`));
+            html('figcaption', {}, `${motion.method}, h = ${motion.step}; the bar is ${bar} long`));
     }
     place(f) {
         return this.map(this.motion.at('x', f), this.motion.at('y', f));
@@ -389,7 +390,10 @@ function addMotions(system) {
     const edge = 2 * BODY_SIZE;
     const map = (x, y) => [100 * (x - ranges[0][0]) / extent, 100 * (ranges[1][1] - y) / extent];
     const box = [-edge, -edge, 100 * size[0] / extent + 2 * edge, 100 * size[1] / extent + 2 * edge];
-    const stages = motions.map(motion => new Stage(motion, map, box));
+    // 1, 2 or 5 times a power of ten, a tenth to a quarter of the path.
+    const power = 10 ** Math.floor(Math.log10(extent / 4)), times = extent / 4 / power;
+    const bar = Number(((times < 2 ? 1 : times < 5 ? 2 : 5) * power).toPrecision(1));
+    const stages = motions.map(motion => new Stage(motion, map, box, bar));
     const start = Math.min(...motions.map(m => m.start)), end = Math.max(...motions.map(m => m.end));
     const slider = html('input', {type: 'range', min: 0, max: 1000, value: 0, 'aria-label': 'Time',
         input: () => show(start + (end - start) * slider.value / 1000)});

@@ -59,7 +59,8 @@ static int draw_histogram(const ensemble_page *p, int column)
                         .title = p->columns.word[column],
                         .xlabel = p->columns.word[column],
                         .ylabel = ylabel,
-                        .caption = ""};
+                        .caption = "",
+                        .from_zero = true};
     for (int k = 0; k < chosen_times(p, HISTOGRAMS); k++) {
         const char *t = p->times.word[chosen_time(p, k, HISTOGRAMS)];
         char title[PLOT_TITLE];

@@ -116,6 +116,7 @@ static void write_axis(FILE *s, const char *axis, const report_plot *plot, int k
         const double width = min == 0.0 ? 1.0 : 0.1 * fabs(min);
         if (!(max - min > 1e-12 * fmax(fabs(min), fabs(max))))
             fprintf(s, "set %srange [%.17g:%.17g]\n", axis, min - width, max + width);
+        if (k == 1 && plot->from_zero) fprintf(s, "set %srange [0:*]\n", axis);
         return;
     }
     /* Labels are at powers of ten: a range that does not hold two of them becomes one of whole

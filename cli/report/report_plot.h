@@ -26,6 +26,7 @@ typedef struct report_plot {
     bool log_x, log_y;
     bool has_marks;   /* at the points of the curves */
     bool is_to_scale; /* one scale on both axes */
+    bool from_zero;   /* the ordinate begins at 0 */
     plot_curve curve[PLOT_CURVES + 2];
     int count;
     const double *mark; /* [marks] abscissas in their order, the caller's; vertical lines there */

@@ -249,6 +249,18 @@ def check_play(browser, where, motions):
     bodies = f"[...{motion}.querySelectorAll('.body')].map(b => b.getAttribute('transform')).join()"
     time = f"parseFloat({motion}.querySelector('.readout').textContent.split('=')[1])"
     expect(browser.run(f"{motion}.querySelectorAll('svg').length") == motions, f"{where}: not {motions} motions")
+    # The bar of a picture whose longer side is 100 units has the stated length, at most a quarter of it.
+    bar, stated, extent = browser.run(f"""(() => {{
+        const parts = [...document.querySelectorAll('script.data')].map(place => JSON.parse(place.textContent));
+        const {{motions}} = parts.find(part => part.motions.length);
+        const range = name =>
+            Math.max(...motions.map(m => m[name][1] ?? m[name][0])) - Math.min(...motions.map(m => m[name][0]));
+        return [{motion}.querySelector('.scale').getBBox().width,
+            Number({motion}.querySelector('figcaption').textContent.match(/bar is ([-e.\\d]+)/)[1]),
+            Math.max(range('x'), range('y'))];
+    }})()""")
+    expect(abs(bar / 100 * extent - stated) < 1e-4 * stated, f"{where}: the bar is {bar} % of {extent}, not {stated}")
+    expect(0.09 * extent < stated < 0.26 * extent, f"{where}: a bar of {stated} beside {extent}")
     still = browser.run(bodies)
     # The slowest speed: the end is minutes away, however slow the machine is.
     focus(browser, f"[...{motion}.querySelectorAll('label')].find(l => l.textContent.startsWith('Speed')).control")

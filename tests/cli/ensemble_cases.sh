@@ -343,12 +343,13 @@ printf '{\n  "dalembert": "0.5.0"\n}\n' >wrong/manifest.json
 wrong "'wrong' holds something else" $one --vary "k=normal(0,1)"
 
 case_is "the page of an ensemble"
-if needs 18 "no gnuplot" there gnuplot; then
+if needs 19 "no gnuplot" there gnuplot; then
     try 0 report whole
     for figure in cloud-1 cloud-3 histogram-1 histogram-6 band-2; do
         expect "no $figure" grep -q '</svg>' whole/report/$figure.svg
     done
     expect "no table" grep -q 'Statistics at t = 2' whole/report/index.html
+    expect "a histogram does not begin at 0" grep -q '^set yrange \[0:\*\]$' whole/report/histogram-1.gp
     expect "nothing about the system" grep -q "<h1 id=.top.>Chaplygin.*s symmetric sleigh, linear" whole/report/index.html
     expect "nothing about what varies" grep -q '<dt>added to each</dt>' whole/report/index.html
     # Moved along y1 the members have the same phi, which has no figure.
