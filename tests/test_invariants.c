@@ -104,6 +104,18 @@ static void has_size(const dal_invariants *found, int count, int independent)
     CU_ASSERT(isnan(found->least_change) || found->least_change > 1e-7);
 }
 
+/* f, f^2 and cos f are nearly dependent near the start; g'' = -sin g whatever f does. */
+static void test_nearly_dependent_factors(void)
+{
+    dal_invariants *found = find("coordinates: [f, g]\n"
+                                 "lagrangian: (f'^2 + g'^2)/2 + cos(f) + cos(g) - f^4\n"
+                                 "start: {f: 0.3, g: 0.4, f': 0.1, g': 0.5}\n",
+                                 NULL, NULL);
+    CU_ASSERT_EQUAL(found->count, 1);
+    has(found, "2*cos(g) - g'^2");
+    dal_invariants_free(found);
+}
+
 static void test_published(void)
 {
     dal_invariants *found = find("nonholonomic-particle", NULL, NULL);
@@ -377,6 +389,7 @@ void suite_invariants(void)
     CU_add_test(suite, "singular values: Hilbert's matrix", test_hilbert);
     CU_add_test(suite, "singular values: nearly dependent columns", test_nearly_dependent);
     CU_add_test(suite, "published invariants", test_published);
+    CU_add_test(suite, "factors that are nearly dependent", test_nearly_dependent_factors);
     CU_add_test(suite, "degree 4", test_degree);
     CU_add_test(suite, "equal frequencies", test_resonance);
     CU_add_test(suite, "a parameter that is 0", test_without_damping);

@@ -12,13 +12,14 @@
 #include "core/vectors.h"
 #include "invariants/atoms.h"
 #include "invariants/points.h"
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* A function that keeps less than this part of its length depends on those before it; singular
- * values below this part of the largest are 0; coefficients below this part of a row are. */
-static const double dependent = 1e-8, vanishing = 1e-10, absent = 1e-8;
+ * values below this part of the largest are 0. */
+static const double dependent = 1e-8, vanishing = 1e-10;
 
 /* ---- samples ---- */
 
@@ -144,9 +145,10 @@ static void clear_column(double *rows, int count, int width, int row, int at)
         }
 }
 
-static void reduce(double *rows, int count, int width)
+/* Coefficients below the part `absent` of a row are 0. */
+static void reduce(double *rows, int count, int width, double absent)
 {
-    static const double pivot = 1e-6;
+    const double pivot = fmax(1e-6, absent);
     int done = 0;
     for (int at = 0; at < width && done < count; at++) {
         int best = done;
@@ -172,10 +174,14 @@ static void reduce(double *rows, int count, int width)
 /* ---- the null space ---- */
 
 /* The last columns of V as rows of coefficients of functions of length 1, reduced, and then of the
- * functions themselves. */
+ * functions themselves.  Roundings of the rates turn a vector of the null space towards the others
+ * by eps over the least singular value of these, which a coefficient that is 0 may then have; the
+ * formulas are confirmed later, so that too large a part makes none of them wrong. */
 static bool write_rows(const basis *b, const double *vector, int sought, dal__null_space *out)
 {
+    static const double least = 1e-8, most = 1e-4, roundings = 1024.0;
     const int width = b->samples->functions, zeros = out->count;
+    const double part = roundings * DBL_EPSILON / out->least_change; /* NaN: no others are left */
     out->coefficient = dal__numbers((size_t)zeros + 1, (size_t)width);
     if (!out->coefficient) return false;
     for (int i = 0; i < zeros; i++) {
@@ -186,7 +192,7 @@ static bool write_rows(const basis *b, const double *vector, int sought, dal__nu
         for (int k = 0; k < b->first; k++) row[k] = 0.0;
         for (int k = 0; k < width; k++) row[k] *= b->size[k];
     }
-    reduce(out->coefficient, zeros, width);
+    reduce(out->coefficient, zeros, width, part > least ? fmin(part, most) : least);
     for (int i = 0; i < zeros; i++)
         for (int k = 0; k < width; k++)
             if (b->size[k] > 0.0) column(out->coefficient, width, i)[k] /= b->size[k];
