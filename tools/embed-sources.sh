@@ -6,7 +6,11 @@
 set -e
 plain() { # FILE
     case $1 in
-    *.c) grep -v '^#include' "$1" ;;
+    *.c) awk '
+        /^#include/ { next }
+        /^#define ABOUT_/ { about = 1 } # the documentation of a descriptor
+        about { about = /\\$/; next }
+        { print }' "$1" ;;
     *) awk '
         /^#include/ || /^$/ || /^#ifndef DAL_KERNEL_[A-Z_]*_H$/ { next }
         /^#define DAL_KERNEL_[A-Z_]*_H$/ { guarded = 1; next }
