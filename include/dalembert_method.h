@@ -27,7 +27,8 @@ enum {
                                             where also every D is homogeneous in v */
     DAL_PERSISTENT_MULTIPLIER = 1 << 10, /* a reversible map of (q, v, last multipliers) */
     DAL_ADAPTIVE = 1 << 11,              /* divides a step h where the option tolerance is not 0 */
-    DAL_EXTRAPOLATES_STAGES = 1 << 12    /* the first guess of a step is made from the last step */
+    DAL_EXTRAPOLATES_STAGES = 1 << 12,   /* the first guess of a step is made from the last step */
+    DAL_PERSISTENT_ACCELERATION = 1 << 13 /* begins with what the last step ended with */
 };
 
 /* What an integrator needs of the system or, a modifier, of the method inside. */

@@ -59,7 +59,9 @@ typedef dal_status dal_scale_callback(const dal_system *system, const dal_point 
     CALLBACK(BLOCKS, blocks, tqv, 2 * (m + m * n) + n) /* D, A, R = W^-1 B^T, a = W^-1 b, */ \
         /* c = D_q v + D_t (methods that enforce D) */ \
     CALLBACK(POTENTIAL, potential, tqv, 3 * n) /* U, U_q.v, v.Wv (discrete-gradient) */ \
-    CALLBACK(CORRECTION, correction, tqv, n) /* x, W x = A^T l, A x = -D; NULL: by constraint */
+    CALLBACK(CORRECTION, correction, tqv, n) /* x, W x = A^T l, A x = -D; NULL: by constraint */ \
+    CALLBACK(ENFORCEMENT, enforcement, tqvpi, 2 * (n + m)) /* f, x, k, l: W f = b + B^T k, */ \
+        /* A f = 0, W x = B^T l, A x = -(D + A pi); NULL: by blocks (gni) */
 /* clang-format on */
 typedef struct dal_callbacks {
 #define MEMBER(code, member, ...) dal_callback *member;

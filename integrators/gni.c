@@ -13,59 +13,104 @@
 #include <dalembert_kernel.h>
 
 typedef struct rattle {
-    dal_elimination elimination; /* first */
-    num *kick;                   /* [n] h/2 (a0 + B0 lambda0) */
-    num *q1, *v1;                /* [n] */
-    num *after;                  /* blocks at (q1, v1) */
+    dal_stage_matrix newton; /* first, for dal_constrained_matrix */
+    num *kick;               /* [n] h/2 (a0 + B0 lambda0) */
+    num *q1, *v1, *moved;    /* [n]; kick - w */
+    num *out;                /* f, x, k, l of DAL_EVAL_ENFORCEMENT */
+    num *pull, *lambda;      /* [n] a1 + B1 lambda1, [m] lambda1: of a lane's last iteration */
 } rattle;
 
+/* With W f = b + B^T k, A f = 0 and W x = B^T l, A x = -(D + A (kick - w)) at (q1, v0 + w),
+ *
+ *     image = kick + h/2 f + x,   lambda1 = k + 2/h l
+ *
+ * fulfils the equation of v1, and D to first order. */
 DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
 {
-    rattle *k = (rattle *)eq->context;
+    rattle *r = (rattle *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
-    const double half = 0.5 * s->h;
-    DAL_EACH(i, n) k->v1[i] = dal_moved_v(s, i, eq->block[0].u[i]);
-    dal_eval_blocks(s, s->t + s->h, k->q1, k->v1, k->after);
-    DAL_EACH(i, n) k->elimination.free[i] = k->kick[i] + half * k->after[dal_blocks_a(s) + i];
-    DAL_EACH(i, n * m) k->elimination.directions[i] = half * k->after[dal_blocks_B(s) + i];
-    dal_eliminate_multipliers(s, eq, k->after);
+    const num half = dal_num(0.5 * s->h), per_half = dal_num(2.0 / s->h), *w = eq->block[0].u;
+    const num *f = r->out, *x = f + n, *k = x + n, *l = k + m;
+    DAL_EACH(i, n) r->v1[i] = dal_moved_v(s, i, w[i]);
+    DAL_EACH(i, n) r->moved[i] = r->kick[i] - w[i];
+    s->evaluations++;
+    dal_eval(s, DAL_EVAL_ENFORCEMENT, s->t + s->h, r->q1, r->v1, r->moved, r->out);
+    DAL_EACH(i, n) eq->block[0].image[i] = r->kick[i] + dal_fma(half, f[i], x[i]);
+    DAL_EACH(i, n)
+        r->pull[i] = DAL_IF_ACTIVE(eq->active, dal_fma(per_half, x[i], f[i]), r->pull[i]);
+    DAL_EACH(i, m)
+        r->lambda[i] = DAL_IF_ACTIVE(eq->active, dal_fma(per_half, l[i], k[i]), r->lambda[i]);
+}
+
+/* Lanes whose last step ended at this state, so that what it ended with is known. */
+DAL_INLINE dal_mask rattle_known(const dal_step *s)
+{
+    const int n = DAL_N(s), count = dal_positional(s) ? n : 2 * n;
+    const num *last = s->acceleration + 1 + n;
+    dal_mask known = dal_less(dal_num(0.5), *s->acceleration);
+    DAL_EACH(i, count) known &= dal_equal(last[i], s->y[i]);
+    return known;
 }
 
 /* The first half of the step. */
 DAL_INLINE void rattle_begin(dal_step *s, num *kick)
 {
     const int n = DAL_N(s), m = DAL_M(s);
+    const num half = dal_num(0.5 * s->h);
+    const dal_mask known = rattle_known(s);
+    DAL_EACH(i, n) kick[i] = half * s->acceleration[1 + i];
+    if (!DAL_RARELY(dal_any(~known))) return;
     DAL_VECTOR(s, before, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, lambda, DAL_M(s));
     DAL_VECTOR(s, pull, DAL_N(s));
     dal_eval_blocks(s, s->t, s->y, s->y + n, before);
     dal_restore_multipliers(s, before, lambda);
     dal_multiply(before + dal_blocks_B(s), n, m, lambda, pull);
-    DAL_EACH(i, n) kick[i] = 0.5 * s->h * (before[dal_blocks_a(s) + i] + pull[i]);
+    DAL_EACH(i, n)
+        kick[i] = dal_select(known, kick[i], half * (before[dal_blocks_a(s) + i] + pull[i]));
+}
+
+/* What the next step begins with; after an event and at a change of branches it is forgotten, as
+ * all state of the method (lib/run/events.c). */
+DAL_INLINE void rattle_end(dal_step *s, const rattle *r)
+{
+    const int n = DAL_N(s);
+    const dal_mask alive = s->alive;
+    num *const pull = s->acceleration + 1, *const last = pull + n;
+    dal_save_multipliers(s, r->lambda);
+    *s->acceleration = dal_select(alive, dal_num(1.0), *s->acceleration);
+    DAL_EACH(i, n) pull[i] = dal_select(alive, r->pull[i], pull[i]);
+    DAL_EACH(i, 2 * n) last[i] = dal_select(alive, s->y[i], last[i]);
 }
 
 DAL_INLINE dal_status step(dal_step *s)
 {
+    static const double one = 1.0, a2 = 0.0;
     const int n = DAL_N(s);
     const double h = s->h;
     DAL_VECTOR(s, kick, DAL_N(s));
     DAL_VECTOR(s, q1, DAL_N(s));
     DAL_VECTOR(s, v1, DAL_N(s));
-    DAL_VECTOR(s, after, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, moved, DAL_N(s));
+    DAL_VECTOR(s, out, 2 * (DAL_N(s) + DAL_M(s)));
+    DAL_VECTOR(s, pull, DAL_N(s));
+    DAL_VECTOR(s, lambda, DAL_M(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
-    DAL_ELIMINATION(s, elimination, 0.5 * s->h, 0.0);
-    rattle k = {elimination, kick, q1, v1, after};
-    dal_equation eq = dal_velocity_equation(s, block, &k);
+    rattle r = {{1, 0.5 * h, &one, &a2, 0, NULL}, kick, q1, v1, moved, out, pull, lambda};
+    dal_equation eq = dal_velocity_equation(s, block, &r);
     rattle_begin(s, kick);
+    DAL_EACH(i, n) pull[i] = dal_num(0.0);
+    DAL_EACH(i, DAL_M(s)) lambda[i] = dal_num(0.0);
     DAL_EACH(i, n) d[i] = h * dal_moved_v(s, i, kick[i]);
     DAL_EACH(i, n) q1[i] = dal_moved_q(s, i, d[i]);
     if (dal_failed(dal_positional(s) ? dal_enforce_once(s, &eq, rattle_map)
                                      : dal_enforce(s, &eq, rattle_map)))
         return DAL_STATUS_NOT_CONVERGED;
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
-    dal_save_multipliers(s, k.elimination.mu);
-    return dal_update(s, h, d);
+    const dal_status status = dal_update(s, h, d);
+    rattle_end(s, &r);
+    return status;
 }
 
 #define ABOUT_GNI                                                                                  \
@@ -83,5 +128,7 @@ DAL_INTEGRATOR(gni, step, .name = "gni", .alias = "nonholonomic-rattle",
                .summary = "RATTLE with D on the velocities",
                .reference = "Ferraro, Iglesias, Martin de Diego 2008", .documentation = ABOUT_GNI,
                .order = 2, .stages = 1,
-               .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_ENFORCE);
+               .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER |
+                             DAL_PERSISTENT_ACCELERATION,
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS,
+               .kernel = DAL_KERNEL_ENFORCE | DAL_KERNEL_ENFORCEMENT);

@@ -34,6 +34,7 @@ static bool fails(void) { return ++calls == failing; }
     MEMBER(call.blocks, blocks)                                                                    \
     MEMBER(call.potential, potential)                                                              \
     MEMBER(call.correction, correction)                                                            \
+    MEMBER(call.enforcement, enforcement)                                                          \
     MEMBER(prepare, prepare)                                                                       \
     MEMBER(start, start)                                                                           \
     MEMBER(constraints, constraints)                                                               \

@@ -156,6 +156,15 @@ static void scale_correction(const dal_scaled *s, double *out)
     multiply(out, 1.0, 1, NULL, s->n, s->per_speed);
 }
 
+static void scale_enforcement(const dal_scaled *s, double *out)
+{
+    const double per_energy = 1.0 / s->energy;
+    out = multiply(out, 1.0, 1, NULL, s->n, s->field);
+    out = multiply(out, 1.0, 1, NULL, s->n, s->per_speed);
+    out = multiply(out, s->time * per_energy, 1, NULL, s->m, s->constraint);
+    multiply(out, per_energy, 1, NULL, s->m, s->constraint);
+}
+
 static void scale_exact(const dal_scaled *s, double *out)
 {
     out = multiply(out, 1.0, 1, NULL, s->n, s->per_length);
@@ -177,6 +186,7 @@ static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
     SCALED(blocks, call.blocks, NULL, scale_blocks)                                                \
     SCALED(potential, call.potential, NULL, scale_potential)                                       \
     SCALED(correction, call.correction, NULL, scale_correction)                                    \
+    SCALED(enforcement, call.enforcement, s->speed, scale_enforcement)                             \
     SCALED(constraints, constraints, NULL, scale_constraints)                                      \
     SCALED(energy, energy, NULL, scale_energy)                                                     \
     SCALED(invariant_values, invariant_values, NULL, scale_invariants)                             \

@@ -102,7 +102,7 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
     if (is_inlined(g, code)) {
         dal__buffer_print(&g->text, "        dal__%s(w, t, q, v, pi, all);\n", name);
     } else {
-        const bool momenta = code == DAL__PROGRAM_ADJOINT;
+        const bool momenta = code == DAL__PROGRAM_ADJOINT || code == DAL__PROGRAM_ENFORCEMENT;
         dal__buffer_append(&g->text,
                            "        num q_[DAL_FIXED_N], v_[DAL_FIXED_NW], pi_[DAL_FIXED_N];\n"
                            "        DAL_EACH(i, DAL_FIXED_N) q_[i] = q[i];\n"

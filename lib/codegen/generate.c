@@ -173,9 +173,11 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH(CONTROL)", dal__is_controlled(g)},
         {"DAL_WITH(UNITS)", has_units(g)},
         {"DAL_WITH(METHOD_STATE)", kernel & DAL_KERNEL_METHOD_STATE},
-        /* the callback of the constraints, dal_clear_momenta, callbacks for one group of lanes */
+        /* the callback of the constraints, dal_clear_momenta, the callback that enforces D,
+         * callbacks for one group of lanes */
         {"DAL_WITH(CONSTRAINT)", kernel & DAL_KERNEL_CONSTRAINT},
         {"DAL_WITH(PROJECTION)", kernel & (DAL_KERNEL_CONSTRAINT | DAL_KERNEL_CORRECTION)},
+        {"DAL_WITH(ENFORCEMENT)", kernel & DAL_KERNEL_ENFORCEMENT},
         {"DAL_WITH(EVAL_GROUP)", guards || rank || kernel & DAL_KERNEL_SOLVE},
         /* guards, the rank check, which compares pivots first, and one of these */
         {"DAL_WITH(GUARDS)", guards},
@@ -300,6 +302,7 @@ static void write_constants(dal__generation *g)
         {"LIFTED", k->lifted, false},
         {"PLAIN", k->options.sums == DAL_SUMS_PLAIN, false},
         {"MULTIPLIER", k->multiplier, false},
+        {"ACCELERATION", k->acceleration, false},
         {"TANGENT", dal__follows_tangents(g), false},
         {"ALL_ALIVE", all_alive, false},
         {"GUARDS", k->system->guards, false},

@@ -62,6 +62,8 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
         return kernel & DAL_KERNEL_CONSTRAINT || dal__checks_rank(g->layout.system);
     case DAL__PROGRAM_CORRECTION:
         return kernel & DAL_KERNEL_CORRECTION;
+    case DAL__PROGRAM_ENFORCEMENT:
+        return kernel & DAL_KERNEL_ENFORCEMENT;
     case DAL__PROGRAM_BLOCKS:
         return kernel & DAL_KERNEL_BLOCKS;
     case DAL__PROGRAM_POTENTIAL:

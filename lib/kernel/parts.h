@@ -23,7 +23,8 @@ enum {
     DAL_KERNEL_POTENTIAL = 1 << 13,     /* DAL_EVAL_POTENTIAL */
     DAL_KERNEL_CONTROL = 1 << 14,       /* dal_control, with a tolerance */
     DAL_KERNEL_SERIES = 1 << 15,        /* dal_expand_first */
-    DAL_KERNEL_CORRECTION = 1 << 16     /* DAL_EVAL_CORRECTION, dal_clear_momenta */
+    DAL_KERNEL_CORRECTION = 1 << 16,    /* DAL_EVAL_CORRECTION, dal_clear_momenta */
+    DAL_KERNEL_ENFORCEMENT = 1 << 17    /* DAL_EVAL_ENFORCEMENT */
 };
 
 #endif

@@ -17,6 +17,8 @@
  *   derivatives_h   the step size of the derivatives, 0: none
  *   has_multiplier  1 where multiplier is set
  *   multiplier      [m] the multipliers of the last step, with DAL_PERSISTENT_MULTIPLIER
+ *   acceleration    with DAL_PERSISTENT_ACCELERATION: 1 where it is set, then [n] a + B times the
+ *                   multipliers at the end of the last step, and [2n] q and v there
  *   substep         the size planned for the next substep, 0: none
  *   level           the energy of the start, and 1 when it is known
  *   last_pivots     0 where the pivots of the last step are steady, and these; see acceptance.h
@@ -27,6 +29,7 @@
     MEMBER(derivatives_h, ONE)                                                                     \
     MEMBER(has_multiplier, ONE)                                                                    \
     MEMBER(multiplier, MULTIPLIER)                                                                 \
+    MEMBER(acceleration, ACCELERATION)                                                             \
     MEMBER(substep, ONE)                                                                           \
     MEMBER(level, TWO)                                                                             \
     MEMBER(last_pivots, PIVOTS) MEMBER(derivatives, DERIVATIVES) MEMBER(choice, THREE)

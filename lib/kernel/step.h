@@ -74,6 +74,7 @@ typedef enum dal_callback_code {
 #define DAL__COUNT_TWO           2
 #define DAL__COUNT_THREE         3
 #define DAL__COUNT_MULTIPLIER    DAL_FIXED_MULTIPLIER
+#define DAL__COUNT_ACCELERATION  DAL_FIXED_ACCELERATION
 
 #define DAL_VECTOR(step, name, count) num name[DAL__AT_LEAST_ONE(count)]
 #define DAL__MARK(step)               (void)0
@@ -281,11 +282,14 @@ DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num *in, n
 #endif
 
 #if DAL_WITH(PIVOTS)
-/* Whether a callback evaluates F, and leaves its pivots. */
+/* Whether a callback solves the equations of F, and leaves their pivots. */
 DAL_INLINE int dal_leaves_pivots(dal_callback_code code)
 {
 #if DAL_WITH(LIFT)
     if (code == DAL_EVAL_ADJOINT) return 1;
+#endif
+#if DAL_WITH(ENFORCEMENT)
+    if (code == DAL_EVAL_ENFORCEMENT) return 1;
 #endif
     return code == DAL_EVAL_FIELD;
 }

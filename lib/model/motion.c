@@ -366,6 +366,33 @@ dal_status dal__motion_correct(dal_model *model, dal__node *x)
                                        : solve_by_directions(model, D, x);
 }
 
+dal_status dal__motion_enforce(dal_model *model, dal__node *out)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m;
+    const dal__node zero = dal__number(e->graph, 0.0), *pi = name(model, e->pi, n);
+    dal__node *none = dal__model_nodes(model, n + m, zero), *D = dal__model_nodes(model, m, 0);
+    dal__node *f = out, *x = out + n, *k = out + 2 * n, *l = out + 2 * n + m;
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    for (int a = 0; a < m; a++) {
+        const dal__node moved = dal__dot(e->graph, n, e->A + a * n, pi);
+        D[a] = dal__node_neg(e->graph, dal__node_add(e->graph, e->constraint[a], moved));
+    }
+    if (!e->restricted) {
+        DAL_TRY(dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, e->b, none, f, k));
+        return dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, none, D, x, l);
+    }
+    for (int i = 0; i < n; i++) { /* A U = 1 */
+        f[i] = e->a[i];
+        x[i] = dal__dot(e->graph, m, e->U + i * m, D);
+    }
+    for (int a = 0; a < m; a++) {
+        k[a] = zero;
+        l[a] = D[a];
+    }
+    return e->graph->status;
+}
+
 /* What is differentiated: b - W F + A^T h [n] and -c - A F [m], F and h being symbols. */
 static dal__node *residuals(dal_model *model)
 {

@@ -34,6 +34,10 @@ dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_
  * DAL_STATUS_SINGULAR, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_correct(dal_model *model, dal__node *x);
 
+/* f, x [n], k, l [m] of DAL_EVAL_ENFORCEMENT, where W f = b + B^T k, A f = 0 and W x = B^T l,
+ * A x = -(D + A pi).  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
+dal_status dal__motion_enforce(dal_model *model, dal__node *out);
+
 /* The error of a mass matrix, or of constraints, without a pivot in this row (from 0). */
 dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error);
 dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *error);

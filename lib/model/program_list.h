@@ -60,7 +60,7 @@ typedef struct dal__programs {
     int n, multipliers; /* of this system: 2n, 0 for the tangent one */
     int t, q, v, pi, g; /* places of the inputs in work */
     size_t scratch;     /* place in work for outputs and pivots together */
-    size_t pivots_left; /* place in work where field and adjoint write pivots of the rank check */
+    size_t pivots_left; /* place in work for the pivots of the rank check */
     int pivots;         /* how many these are */
     dal__program program[DAL__PROGRAM_COUNT];
     dal_callbacks wide1, wide4, wide8;

@@ -1,8 +1,8 @@
 /* programs.c - the programs of a system: which nodes each computes, which pivots it checks.
  *
  * A program's outputs are followed by the pivots it divides by, each with its size; the callbacks
- * check them lane by lane and leave NaN where one has vanished.  Field and adjoint leave the pivots
- * of A W^-1 B^T at the end of work, for the rank check. */
+ * check them lane by lane and leave NaN where one has vanished.  Field, adjoint and enforcement
+ * leave the pivots of A W^-1 B^T at the end of work, for the rank check. */
 #include "model/programs.h"
 #include "expr/collect.h"
 #include "expr/derivative.h"
@@ -56,8 +56,9 @@ dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
     for (int k = 0; k < count; k++)
         for (int i = 0; i < lists[k].count; i++) all[total++] = lists[k].list[i];
     program->outputs = total;
-    const bool motion =
-        code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_ADJOINT || code == DAL__PROGRAM_JACOBIAN;
+    const bool leaves = code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_ADJOINT ||
+                        code == DAL__PROGRAM_ENFORCEMENT;
+    const bool motion = leaves || code == DAL__PROGRAM_JACOBIAN;
     const bool inverts_mass = code == DAL__PROGRAM_CONSTRAINT || code == DAL__PROGRAM_BLOCKS ||
                               code == DAL__PROGRAM_ENERGY_NORMAL;
     for (int k = 0; k < e->pivots; k++) {
@@ -69,7 +70,6 @@ dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
         all[total++] = p->size;
         program->checked++;
     }
-    const bool leaves = code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_ADJOINT;
     for (int k = 0; k < e->pivots && leaves && programs->pivots > 0; k++) {
         if (!is_left(e, &e->pivot[k])) continue;
         all[total++] = e->pivot[k].pivot;

@@ -210,6 +210,21 @@ static dal_status add_correction(dal_model *model)
     return e->graph->status;
 }
 
+/* What enforces D at a velocity; nothing for vakonomic systems. */
+static dal_status add_enforcement(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    dal__programs *const programs[] = {&model->programs, &model->extended_programs};
+    const int count = 2 * (e->n + e->m);
+    dal__node *out = dal__model_nodes(model, count, 0);
+    if (!out) return DAL_STATUS_MEMORY;
+    if (e->vakonomic) return DAL_STATUS_OK;
+    DAL_TRY(dal__motion_enforce(model, out));
+    for (int k = 0; k < (e->extended ? 2 : 1); k++)
+        DAL_TRY(dal__programs_add(model, programs[k], DAL__PROGRAM_ENFORCEMENT, out, count));
+    return e->graph->status;
+}
+
 /* What the scales of D, E, invariants, h and R = B^T h are made from.  Nodes are made after all
  * programs, so that those do not depend on it. */
 static dal_status add_terms(dal_model *model)
@@ -285,6 +300,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_STATUS_OK) status = dal__insert_reactions(model);
     if (status == DAL_STATUS_OK) status = add_invariants(model);
     if (status == DAL_STATUS_OK) status = add_correction(model);
+    if (status == DAL_STATUS_OK) status = add_enforcement(model);
     if (status == DAL_STATUS_OK) status = add_terms(model);
     if (status == DAL_STATUS_OK) status = finish_programs(model, &model->programs, &model->system);
     if (status == DAL_STATUS_OK) status = dal__system_units(model, &model->system, model->units);

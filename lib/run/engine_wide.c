@@ -105,14 +105,52 @@ static void correct_by_constraint(dal_step *s, double t, const num *q, const num
     DAL__RELEASE(s);
 }
 
+/* One solution of DAL_EVAL_ENFORCEMENT: x = B l with A B l = rhs. */
+static void solve_by_blocks(dal_step *s, const num *blocks, const num *rhs, num *x, num *l)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    const num *A = blocks + dal_blocks_A(s), *B = blocks + dal_blocks_B(s);
+    DAL__MARK(s);
+    DAL_VECTOR(s, g, DAL_SQUARE_M(s));
+    dal_gram(A, B, m, n, g);
+    DAL_EACH(i, m) l[i] = rhs[i];
+    dal_eliminate_in_units(g, l, m, DAL_LEVELS(s), m);
+    dal_multiply(B, n, m, l, x);
+    DAL__RELEASE(s);
+}
+
+/* What DAL_EVAL_ENFORCEMENT gives, by the blocks. */
+static void enforce_by_blocks(dal_step *s, double t, const num *q, const num *v, const num *z,
+                              num *out)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    num *f = out, *x = out + n, *k = out + 2 * n, *l = k + m;
+    DAL__MARK(s);
+    DAL_VECTOR(s, blocks, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, rhs, DAL_M(s));
+    DAL_VECTOR(s, along, DAL_M(s));
+    dal_eval(s, DAL_EVAL_BLOCKS, t, q, v, NULL, blocks);
+    const num *A = blocks + dal_blocks_A(s), *a = blocks + dal_blocks_a(s);
+    dal_multiply(A, m, n, a, along);
+    DAL_EACH(i, m) rhs[i] = -along[i];
+    solve_by_blocks(s, blocks, rhs, f, k);
+    DAL_EACH(i, n) f[i] += a[i];
+    dal_multiply(A, m, n, z, along);
+    DAL_EACH(i, m) rhs[i] = -(blocks[i] + along[i]);
+    solve_by_blocks(s, blocks, rhs, x, l);
+    DAL__RELEASE(s);
+}
+
 static void eval_callback(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
                           const num *pi, num *out)
 {
     engine *e = s->owner;
     dal_callback *const call = e->call[code];
-    if (DAL_RARELY(!call)) { /* only the gauge, which is 0, and corrections may be missing */
+    if (DAL_RARELY(!call)) { /* the gauge, which is 0, and these may be missing */
         if (code == DAL_EVAL_CORRECTION)
             correct_by_constraint(s, t, q, v, out);
+        else if (code == DAL_EVAL_ENFORCEMENT)
+            enforce_by_blocks(s, t, q, v, pi, out);
         else
             fill(e, code, 0.0, out);
         return;

@@ -359,6 +359,8 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const bool remembers = k->method.layer[0]->properties & DAL_EXTRAPOLATES_STAGES;
     k->derivatives = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
     k->multiplier = dal_method_properties(&k->method) & DAL_PERSISTENT_MULTIPLIER ? k->m : 0;
+    k->acceleration =
+        k->method.layer[0]->properties & DAL_PERSISTENT_ACCELERATION ? 1 + 3 * k->n : 0;
     k->pivots = dal__checks_rank(k->system) ? k->system->pivots : 0;
     k->persistent = dal__at(k, DAL__CLOCK_SIZE) + 1; /* changed */
 #define MEMBER(member, count) k->persistent += (size_t)DAL__COUNT_##count(k);

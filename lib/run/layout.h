@@ -7,14 +7,14 @@
 #include "kernel/persistent.h"
 #include <math.h>
 
-/* A run without its values.  derivatives and multiplier count numbers of the method's state; pivots
- * those that the rank check compares. */
+/* A run without its values.  derivatives, multiplier and acceleration count numbers of the method's
+ * state; pivots those that the rank check compares. */
 typedef struct dal__layout {
     const dal_system *system;
     dal_method method;
     dal_options options;
     double start_time;
-    int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier, pivots;
+    int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier, acceleration, pivots;
     int field_operations, jacobian_operations; /* as of the system, or guessed */
     int taylor_order;                          /* of Taylor series, for the tolerance */
     double tolerance_root;                     /* tolerance^(1/taylor_order) */
@@ -23,12 +23,13 @@ typedef struct dal__layout {
 } dal__layout;
 
 /* Sizes for DAL__METHOD_STATE_LIST. */
-#define DAL__COUNT_ONE(layout)         1
-#define DAL__COUNT_TWO(layout)         2
-#define DAL__COUNT_THREE(layout)       3
-#define DAL__COUNT_DERIVATIVES(layout) ((layout)->derivatives)
-#define DAL__COUNT_MULTIPLIER(layout)  ((layout)->multiplier)
-#define DAL__COUNT_PIVOTS(layout)      ((layout)->pivots > 0 ? 1 + (layout)->pivots : 0)
+#define DAL__COUNT_ONE(layout)          1
+#define DAL__COUNT_TWO(layout)          2
+#define DAL__COUNT_THREE(layout)        3
+#define DAL__COUNT_DERIVATIVES(layout)  ((layout)->derivatives)
+#define DAL__COUNT_MULTIPLIER(layout)   ((layout)->multiplier)
+#define DAL__COUNT_ACCELERATION(layout) ((layout)->acceleration)
+#define DAL__COUNT_PIVOTS(layout)       ((layout)->pivots > 0 ? 1 + (layout)->pivots : 0)
 
 /* The place of an item of the clock, or of the method's state, in the persistent state. */
 static inline size_t dal__at(const dal__layout *layout, int place)

@@ -74,6 +74,10 @@ static dal_status check_steps(saved *s)
     DAL_TRY(check(s, "derivatives_h", FINITE, DAL__COUNT_ONE(k)));
     DAL_TRY(check(s, "has_multiplier", FLAG, DAL__COUNT_ONE(k)));
     DAL_TRY(check(s, "a multiplier", FINITE, (size_t)DAL__COUNT_MULTIPLIER(k)));
+    if (k->acceleration > 0) {
+        DAL_TRY(check(s, "whether an acceleration is known", FLAG, 1));
+        DAL_TRY(check(s, "an acceleration", FINITE, (size_t)k->acceleration - 1));
+    }
     DAL_TRY(check(s, "the size of a substep", POSITIVE, DAL__COUNT_ONE(k)));
     DAL_TRY(check(s, "the energy of the start", FINITE, 1));
     DAL_TRY(check(s, "whether that is known", FLAG, 1));

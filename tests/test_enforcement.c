@@ -1,0 +1,245 @@
+/* test_enforcement.c - what enforces D at a velocity, by the factors of F: its equations by the
+ * blocks a, A, R of the same system, and gni, which begins a step with what the last one ended
+ * with. */
+#include "expr/tape.h"
+#include "fixtures.h"
+#include "model/programs.h"
+#include "run/run.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Rounding of the terms of an equation, over the largest of them. */
+static const double SAME = 1e-12;
+
+static const char *const texts[] = {
+    fixture_full,         fixture_gentle, fixture_bilinear,
+    fixture_quadratic,    "snakeboard",   "chaplygin-sleigh",
+    "falling-disk",       "roller-racer", "chaplygin-sleigh-nonlinear",
+    "chaotic-oscillators"};
+enum { TEXTS = sizeof texts / sizeof *texts };
+
+/* ---- at points ---- */
+
+enum { MAX_N = 16, MAX_M = 8 };
+
+/* The largest residual of f = a + R k, A f = 0, x = R l, A x = -(D + A pi), over their terms. */
+static double residual(const dal_system *system, double t, const double *q, const double *v,
+                       const double *pi)
+{
+    const int n = system->n, m = system->m;
+    double blocks[2 * (MAX_M + MAX_M * MAX_N) + MAX_N], out[2 * (MAX_N + MAX_M)];
+    double worst = 0.0, size = 0.0;
+    dal_evaluator *evaluator = fixture_evaluator(system);
+    CU_ASSERT_FATAL(n <= MAX_N && m <= MAX_M);
+    const double *D = blocks, *A = D + m, *R = A + m * n, *a = R + m * n;
+    const double *f = out, *x = f + n, *k = x + n, *l = k + m;
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.blocks, t, q, v, NULL, blocks),
+                    DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.enforcement, t, q, v, pi, out),
+                    DAL_STATUS_OK);
+    for (int i = 0; i < n; i++) {
+        double of_f = a[i] - f[i], of_x = -x[i];
+        for (int b = 0; b < m; b++) {
+            of_f += R[i * m + b] * k[b];
+            of_x += R[i * m + b] * l[b];
+            size = fmax(size, fabs(R[i * m + b] * k[b]) + fabs(R[i * m + b] * l[b]));
+        }
+        size = fmax(size, fabs(a[i]) + fabs(x[i]));
+        worst = fmax(worst, fmax(fabs(of_f), fabs(of_x)));
+    }
+    for (int b = 0; b < m; b++) {
+        double of_f = 0.0, of_x = D[b];
+        for (int i = 0; i < n; i++) {
+            of_f += A[b * n + i] * f[i];
+            of_x += A[b * n + i] * (x[i] + pi[i]);
+            size = fmax(size, fabs(A[b * n + i]) * (fabs(f[i]) + fabs(x[i]) + fabs(pi[i])));
+        }
+        worst = fmax(worst, fmax(fabs(of_f), fabs(of_x)));
+    }
+    dal_evaluator_free(evaluator);
+    CU_ASSERT(size > 0.0);
+    return worst / size;
+}
+
+static void test_equations(void)
+{
+    enum { POINTS = 4 };
+    for (int j = 0; j < TEXTS; j++) {
+        const dal_system *system = fixture_system(texts[j]);
+        const dal_run_spec spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
+        dal_run *run = fixture_run(&spec);
+        const int n = system->n;
+        CU_ASSERT_PTR_NOT_NULL_FATAL(system->call.enforcement);
+        for (int p = 0; p < POINTS; p++) {
+            double y[2 * MAX_N], pi[MAX_N];
+            for (int i = 0; i < 2 * n; i++)
+                y[i] = dal_run_state(run)[i] + 0.1 * sin(1.0 + 3.0 * i + 7.0 * p);
+            for (int i = 0; i < n; i++) pi[i] = cos(2.0 * i + p);
+            const double error = residual(system, 0.1 * p, y, y + n, pi);
+            if (!(error <= SAME)) printf("\n  %d: %.2g\n", j, error);
+            CU_ASSERT(error <= SAME);
+        }
+        dal_run_free(run);
+    }
+}
+
+/* W = diag(1, 4), D = x' - y', b = (2, 0): k = -8/5, l = -4/5 (D + pi_x - pi_y). */
+static void test_closed_form(void)
+{
+    const dal_system *system = fixture_system("coordinates: [x, y]\n"
+                                              "lagrangian: x'^2/2 + 2*y'^2 + 2*x\n"
+                                              "constraints: [x' - y']\n");
+    const double q[] = {0.3, 0.7}, v[] = {2.0, 0.75}, pi[] = {0.5, -0.75};
+    const double expected[] = {0.4, 0.4, -2.0, 0.5, -1.6, -2.0};
+    double out[6];
+    dal_evaluator *evaluator = fixture_evaluator(system);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.enforcement, 0.0, q, v, pi, out),
+                    DAL_STATUS_OK);
+    for (int i = 0; i < 6; i++) CU_ASSERT_DOUBLE_EQUAL(out[i], expected[i], 1e-15);
+    dal_evaluator_free(evaluator);
+}
+
+/* ---- gni ---- */
+
+static double distance(const dal_run *a, const dal_run *b)
+{
+    double max = 0.0;
+    for (int i = 0; i < dal_run_dimension(a); i++)
+        max = fmax(max, fabs(dal_run_state(a)[i] - dal_run_state(b)[i]));
+    return max;
+}
+
+/* Without the callback gni has the blocks. */
+static void test_without(void)
+{
+    for (int j = 0; j < TEXTS; j++) {
+        dal_system other = *fixture_system(texts[j]);
+        const dal_run_spec spec = fixture_spec(&other, "gni", DAL_PHYSICAL, 0.01);
+        dal_run *with = fixture_stepped(&spec, 20);
+        other.call.enforcement = NULL;
+        dal_run *without = fixture_stepped(&spec, 20);
+        CU_ASSERT(distance(with, without) <= SAME);
+        dal_run_free(with);
+        dal_run_free(without);
+    }
+}
+
+/* Steps of which each begins with the multipliers of the last, and evaluates a and B there. */
+static void test_forgotten(void)
+{
+    static const char *const methods[] = {"gni", "gni+yoshida4", "gni+project-energy",
+                                          "gni+symmetric-project"};
+    enum { STEPS = 20, METHODS = sizeof methods / sizeof *methods };
+    for (int j = 0; j < TEXTS * METHODS; j++) {
+        dal_method method;
+        const dal_system *system = fixture_system(texts[j % TEXTS]);
+        CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, methods[j / TEXTS], NULL), DAL_STATUS_OK);
+        if (!fixture_accepts(&method, system, DAL_PHYSICAL)) continue;
+        const dal_run_spec spec = fixture_spec(system, methods[j / TEXTS], DAL_PHYSICAL, 0.01);
+        dal_run *run = fixture_run(&spec), *other = fixture_run(&spec);
+        const size_t has = dal__at(&run->layout, DAL__CLOCK_SIZE) + 3 + (size_t)system->m;
+        for (int i = 0; i < STEPS; i++) {
+            size_t count;
+            CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
+            CU_ASSERT_EQUAL(dal_run_step(other, NULL), DAL_STATUS_OK);
+            const double *saved = dal_run_save(other, &count);
+            double *numbers = malloc(count * sizeof *numbers);
+            CU_ASSERT_PTR_NOT_NULL_FATAL(numbers);
+            memcpy(numbers, saved, count * sizeof *numbers);
+            CU_ASSERT_EQUAL(numbers[has], 1.0);
+            numbers[has] = 0.0;
+            CU_ASSERT_EQUAL(dal_run_restore(other, numbers, count, NULL), DAL_STATUS_OK);
+            free(numbers);
+        }
+        const double error = distance(run, other);
+        if (!(error <= SAME)) printf("\n  %d: %.2g\n", j, error);
+        CU_ASSERT(error <= SAME);
+        dal_run_free(run);
+        dal_run_free(other);
+    }
+}
+
+/* Where forces depend on q alone a step has one evaluation, the first two; a changed parameter
+ * leaves nothing to begin with. */
+static void test_evaluations(void)
+{
+    const dal_system *system = fixture_system("chaotic-oscillators");
+    const dal_run_spec spec = fixture_spec(system, "gni", DAL_PHYSICAL, 0.01);
+    dal_run *run = fixture_stepped(&spec, 10);
+    CU_ASSERT_EQUAL(dal_run_evaluations(run), 11);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, system->parameter[0], 1.5 * system->value[0], NULL),
+                    DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_evaluations(run), 13);
+    dal_run_free(run);
+}
+
+/* x'' = -sign(x), x(0) = 1: beyond x = 0, passed at t = sqrt(2) with the speed sqrt(2), a step does
+ * not begin with the force before it. */
+static void test_jump(void)
+{
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: -sign(x)}\n"
+                                    "start: {x: 1}\nevents: [{when: x}]\n"),
+                     "gni", DAL_PHYSICAL, 0.1);
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(fixture_events(run, 2.5, NULL, NULL, NULL), DAL_STATUS_OK);
+    const double after = dal_run_time(run) - sqrt(2.0);
+    CU_ASSERT_EQUAL(dal_run_event_count(run, 0), 1);
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], after * (0.5 * after - sqrt(2.0)), SAME);
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[1], after - sqrt(2.0), SAME);
+    dal_run_free(run);
+}
+
+static void test_lanes(void)
+{
+    dal_run_spec spec = fixture_spec(fixture_system(fixture_full), "gni", DAL_PHYSICAL, 0.05);
+    spec.options.consistent = true;
+    fixture_lanes(spec, 11, 20, spec.system->coordinate[0], 0.1, 0.05);
+}
+
+/* ---- large systems ---- */
+
+/* A chain of n springs with n/4 constraints whose Jacobian varies, as in bench/dal.c. */
+static int chain_operations(int n)
+{
+    static char text[1 << 14];
+    size_t at = (size_t)snprintf(text, sizeof text, "coordinates: [x0");
+#define ADD(...) at += (size_t)snprintf(text + at, sizeof text - at, __VA_ARGS__)
+    for (int i = 1; i < n; i++) ADD(", x%d", i);
+    ADD("]\nlagrangian: (x0'^2");
+    for (int i = 1; i < n; i++) ADD(" + x%d'^2 - (x%d - x%d)^2", i, i, i - 1);
+    ADD(")/2\nconstraints:\n");
+    for (int i = 0; i < n; i += 4)
+        ADD("  - x%d'*cos(x%d) + x%d'*sin(x%d) - x%d'*x%d\n", i, i + 2, i + 1, i + 2, (i + 4) % n,
+            i + 3);
+#undef ADD
+    CU_ASSERT_FATAL(at < sizeof text);
+    const dal__programs *p = dal__programs_of(fixture_system(text));
+    const dal__program *program = &p->program[DAL__PROGRAM_ENFORCEMENT];
+    return dal__tape_operations(&p->tapes->tape[program->tape]);
+}
+
+/* Constraints that couple neighbours: twice the size is twice the work. */
+static void test_growth(void)
+{
+    const int small = chain_operations(16), middle = chain_operations(32),
+              large = chain_operations(64);
+    CU_ASSERT(large - middle <= 2 * (middle - small) + small / 8);
+}
+
+void suite_enforcement(void)
+{
+    CU_pSuite suite = CU_add_suite("enforcement of D", NULL, NULL);
+    CU_add_test(suite, "equations, by the blocks", test_equations);
+    CU_add_test(suite, "closed form", test_closed_form);
+    CU_add_test(suite, "gni without the callback", test_without);
+    CU_add_test(suite, "gni with nothing kept of the last step", test_forgotten);
+    CU_add_test(suite, "evaluations of gni", test_evaluations);
+    CU_add_test(suite, "gni where the force jumps", test_jump);
+    CU_add_test(suite, "lanes", test_lanes);
+    CU_add_test(suite, "operations of a chain", test_growth);
+}
