@@ -25,9 +25,9 @@ dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *sys
 void dal_evaluator_free(dal_evaluator *evaluator);
 /* The system that is evaluated. */
 const dal_system *dal_evaluator_system(const dal_evaluator *evaluator);
-/* Calls a callback of the system at t, q[n], v[n + multipliers]; pi[n] is read by the adjoint alone
- * and may else be NULL.  Errors: DAL_STATUS_UNSUPPORTED (callback is NULL), errors of the
- * callback. */
+/* Calls a callback of the system at t, q[n], v[n + multipliers]; pi[n] is read by adjoint and
+ * effort alone and may else be NULL.  Errors: DAL_STATUS_UNSUPPORTED (callback is NULL), errors of
+ * the callback. */
 dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
                               const double *q, const double *v, const double *pi, double *out);
 /* The scales of D, E and the invariants at a point, out[m + 1 + invariants], see
@@ -77,6 +77,8 @@ dal_status dal_evaluator_measure_rate(dal_evaluator *evaluator, dal_callback *ca
 typedef struct dal_derivatives {
     double jacobian;            /* F_q, F_(v,g) */
     double adjoint;             /* F_q^T pi, F_v^T pi, and its F against field */
+    double effort;              /* (pi.K pi)_q/2, (pi.K pi)_v/2 */
+    double effort_constraint;   /* A K pi against |A| |K pi|: of an effort with A K = 0 */
     double constraint_jacobian; /* A = dD/dv */
     double gram;                /* asymmetry of G = A W^-1 A^T, relative to its size */
 } dal_derivatives;

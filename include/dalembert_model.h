@@ -32,6 +32,7 @@ typedef struct dal_model dal_model;
     SECTION(CONSTRAINTS, "constraints")     /* formula */                                          \
     SECTION(REACTIONS, "reactions")   /* constraint.coordinate, as 2.x: formula; see below */      \
     SECTION(MECHANICS, "mechanics")   /* lagrange-d'alembert (default) or vakonomic */             \
+    SECTION(CONTROLS, "controls")     /* column.coordinate, as 2.x: formula; of effort controls */ \
     SECTION(GAUGE, "gauge")           /* e or mu_e, formula in t and parameters */                 \
     SECTION(START, "start")           /* name, formula; solve.x' and any text: x' from D = 0 */    \
     SECTION(INVARIANTS, "invariants") /* name, formula */                                          \
@@ -68,6 +69,11 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
  * DAL_STATUS_TOO_LARGE (more than 100 characters), DAL_STATUS_MODEL (given twice). */
 dal_status dal_model_observe(dal_model *model, const char *formula, int line, int column,
                              dal_error *error);
+/* Chooses K of the lift; DAL_EFFORT_IDENTITY where it is not called.  Errors: DAL_STATUS_ARGUMENT
+ * (an unknown effort, a model that has its system).  dal_model_system then has the errors
+ * DAL_STATUS_MODEL (controls, and the model has none) and DAL_STATUS_UNSUPPORTED (vakonomic motion,
+ * which has no lift; mass, and W is singular). */
+dal_status dal_model_set_effort(dal_model *model, dal_effort effort, dal_error *error);
 /* Between two points a table is a straight line, or the natural cubic spline: smooth up to its
  * second derivative, which is 0 at both ends. */
 typedef enum dal_interpolation { DAL_LINEAR, DAL_CUBIC } dal_interpolation;

@@ -14,6 +14,24 @@ extern "C" {
 
 typedef struct dal_system dal_system;
 
+/* The symmetric K of the lift's H = pi.K pi/(2e) + pi.F + p.v + mu_e pi_e: EFFORT(code, name).  Its
+ * trajectories are the extremals of the cost int e/2 |u|^2 dt of steering by dv/dt = F + N u, where
+ * K = N N^T.  On p = pi = 0 the motion has the same bits for every K. */
+#define DAL_EFFORT_LIST(EFFORT)                                                                    \
+    EFFORT(IDENTITY, "identity")     /* 1: the action (nh10) */                                    \
+    EFFORT(MASS, "mass")             /* W^-1: the force, in the mass metric */                     \
+    EFFORT(CONSTRAINT, "constraint") /* P W^-1 P^T, P = 1 - R (A R)^-1 A, R = W^-1 B^T: A K = 0 */ \
+    EFFORT(CONTROLS, "controls")     /* P W^-1 C C^T W^-1 P^T, C[n*k] of the section controls */
+/* The number of an effort. */
+typedef enum dal_effort {
+#define CODE(code, name) DAL_EFFORT_##code,
+    DAL_EFFORT_LIST(CODE)
+#undef CODE
+        DAL_EFFORT_COUNT
+} dal_effort;
+/* The name of an effort, "mass"; "?" for another number. */
+const char *dal_effort_name(dal_effort effort);
+
 /* Where a system is evaluated.  work begins with the parameter values, [system->parameters]; the
  * rest of its system->workspace doubles are the system's own (filled by prepare) and scratch.
  * Functions with a memory of their own, as a dal_evaluator has, read t, q and v alone. */
@@ -51,6 +69,7 @@ typedef dal_status dal_scale_callback(const dal_system *system, const dal_point 
 #define DAL_CALLBACK_LIST(CALLBACK) \
     CALLBACK(FIELD, field, tqv, nw) /* F, then dg/dt */ \
     CALLBACK(ADJOINT, adjoint, tqvpi, 3 * n) /* F, F_q^T pi, F_v^T pi (lifted space) */ \
+    CALLBACK(EFFORT, effort, tqvpi, 3 * n) /* K pi, (pi.K pi)_q/2, (pi.K pi)_v/2; NULL: K = 1 */ \
     CALLBACK(JACOBIAN, jacobian, tqv, nw * (n + nw)) /* F_q, F_(v,g) (Newton) */ \
     CALLBACK(CONSTRAINT, constraint, tqv, m + 2 * m * n) /* D, A, W^-1 A^T (+project) */ \
     CALLBACK(ENERGY_NORMAL, energy_normal, tqv, 1 + 3 * n) /* E, E_q, E_v, W^-1 E_q */ \
@@ -74,7 +93,8 @@ typedef struct dal_callbacks {
  *     in[1 + 2n + multipliers]       t, q, v, g; on the lifted space then pi[n]
  * and the lower ones in memory[size[lifted]*stride], k < stride, follows coefficient k of
  *     out[n + multipliers]           F, dg/dt
- *     out[3n + 1]                    F, F_q^T pi, F_v^T pi, mu_e, on the lifted space
+ *     out[3n + 1]                    F, F_q^T pi, F_v^T pi, mu_e, on the lifted space,
+ *     out[3n]                        and what the callback effort gives, where there is one
  * of the powers of time in the system's own unit, units[0]/units[n].  All arrays are interleaved by
  * lanes as for a callback; work is as in dal_point. */
 typedef dal_status dal_series_callback(const dal_system *system, int lifted, int k, int stride,
@@ -105,7 +125,8 @@ enum {
     DAL_D_ISOKINETIC = 1 << 12,      /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
     DAL_WIDE_TIMES = 1 << 13,        /* the wide sets read dal_point.times, or no time at all */
     DAL_MASS_ON_KERNEL = 1 << 14,    /* W need be regular on ker A only, see dal_callbacks */
-    DAL_F_POSITIONAL = 1 << 15       /* F depends on neither v nor g */
+    DAL_F_POSITIONAL = 1 << 15,      /* F, and K of the effort, depend on neither v nor g */
+    DAL_EFFORT_OF_V = 1 << 16        /* K of the effort depends on v */
 };
 
 /* ---- events -------------------------------------------------------------------------------- */
@@ -162,6 +183,7 @@ struct dal_system {
     const double *value;           /* [parameters] default values */
     const char *const *invariant;  /* [invariants] names */
     const char *const *guard;      /* [guards] "constraint 1: y1'" for messages */
+    dal_effort effort;             /* of the lift: which K call.effort is of */
     int mass_guard;                /* which guard, from 1, is det W; 0: none */
     const char *const *tag;        /* [tags] words that classify the system */
     const char *const *table;      /* [tables] names, for messages */

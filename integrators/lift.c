@@ -8,22 +8,32 @@
  *
  *     (1 + C)^T d = -C^T P,   P1 = P + d
  *
- * The rest of H, pi^2/(2e), is a flow v' = pi/e, pi_e' = pi^2/(2e^2), half before and half after
- * (Strang 1968).  Sanz-Serna, SIAM Rev. 58 (2016) 3, has the principle.  Order: as of NAME on
- * p = pi = 0 and where 1/e = 0, else 2.  Costs 2n steps of NAME with F_q, F_v. */
+ * The rest of H, pi.K pi/(2e), is a flow v' = K pi/e, p' = -(pi.K pi)_q/(2e),
+ * pi_e' = pi.K pi/(2e^2) where K does not depend on v, half before and half after (Strang 1968).
+ * Sanz-Serna, SIAM Rev. 58 (2016) 3, has the principle.  Order: as of NAME on p = pi = 0 and where
+ * 1/e = 0, else 2.  Costs 2n steps of NAME with F_q, F_v. */
 #include <dalembert_kernel.h>
 
-/* The flow of pi^2/(2e) over a time h; where pi = 0, q, v have the bits of NAME. */
+/* The flow of pi.K pi/(2e) over a time h; where pi = 0, q, v have the bits of NAME. */
 DAL_INLINE void drift(dal_step *s, double h)
 {
     const int n = DAL_N(s);
-    const num *pi = s->y + dal_at_pi(s), w = 1.0 / s->y[dal_at_e(s)];
-    num rate = h * dal_gauge_rate(pi, n, w);
+    const num *pi = s->y + dal_at_pi(s), *K_pi = pi, w = 1.0 / s->y[dal_at_e(s)];
     DAL_VECTOR(s, d, DAL_N(s));
-    DAL_EACH(i, n) d[i] = h * (pi[i] * w);
+    DAL_VECTOR(s, effort, 3 * DAL_EFFORT(s) * DAL_N(s));
+#if DAL_WITH(EFFORT)
+    if (DAL_EFFORT(s)) {
+        dal_eval(s, DAL_EVAL_EFFORT, s->t, s->y, s->y + n, pi, effort);
+        K_pi = effort;
+    }
+#endif
+    num rate = h * dal_gauge_rate(pi, K_pi, n, w);
+    DAL_EACH(i, n) d[i] = h * (K_pi[i] * w);
     const dal_mask alive = s->alive;
     s->alive &= ~dal_equal(rate, dal_num(0.0));
     dal_add(s, n, n, d);
+    DAL_EACH(i, DAL_EFFORT(s) * n) d[i] = -h * (effort[n + i] * w);
+    dal_add(s, dal_at_p(s), DAL_EFFORT(s) * n, d);
     dal_add(s, dal_at_pi_e(s), 1, &rate);
     s->alive = alive;
 }

@@ -384,6 +384,22 @@ static void null_dal_model_add_table(void)
     dal_model_free(made);
 }
 
+static void null_dal_effort_name(void)
+{
+    CU_ASSERT_STRING_EQUAL(dal_effort_name(DAL_EFFORT_CONTROLS), "controls");
+    CU_ASSERT_STRING_EQUAL(dal_effort_name((dal_effort)-1), "?");
+    CU_ASSERT_STRING_EQUAL(dal_effort_name(DAL_EFFORT_COUNT), "?");
+}
+
+static void null_dal_model_set_effort(void)
+{
+    dal_model *made = dal_model_create("made");
+    REFUSED(dal_model_set_effort(NULL, DAL_EFFORT_MASS, error));
+    REFUSED(dal_model_set_effort(made, DAL_EFFORT_COUNT, error));
+    REFUSED(dal_model_set_effort(made, (dal_effort)-1, error));
+    dal_model_free(made);
+}
+
 static void null_dal_model_observe(void)
 {
     static const char *const bad[] = {"x", "x'", " x+1", "x\n+1", "x+\"1\"", ""};

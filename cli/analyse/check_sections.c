@@ -333,7 +333,7 @@ static void add_branch(void *user, const char *what, const char *text)
 static void check_derivatives(check *c)
 {
     static const double limit = 1e-8;
-    dal_derivatives max = {NAN, NAN, NAN, NAN}, d;
+    dal_derivatives max = {NAN, NAN, NAN, NAN, NAN, NAN}, d;
     dal_status failure = DAL_STATUS_OK;
     int points = 0;
     for (int k = 0; k < c->near_count; k++) {
@@ -345,6 +345,8 @@ static void check_derivatives(check *c)
         points++;
         max.jacobian = fmax(max.jacobian, d.jacobian);
         max.adjoint = fmax(max.adjoint, d.adjoint);
+        max.effort = fmax(max.effort, d.effort);
+        max.effort_constraint = fmax(max.effort_constraint, d.effort_constraint);
         max.constraint_jacobian = fmax(max.constraint_jacobian, d.constraint_jacobian);
         max.gram = fmax(max.gram, d.gram);
     }
@@ -358,6 +360,8 @@ static void check_derivatives(check *c)
         double value; /* NaN: there is nothing to compare */
     } items[] = {{"F_q, F_v", max.jacobian},
                  {"F_q^T pi, F_v^T pi of the lift", max.adjoint},
+                 {"(pi.K pi)_q, (pi.K pi)_v", max.effort},
+                 {"A K = 0", max.effort_constraint},
                  {"A = dD/dv", max.constraint_jacobian},
                  {"symmetry of G = A W^-1 A^T", max.gram}};
     for (size_t k = 0; k < sizeof items / sizeof items[0]; k++)

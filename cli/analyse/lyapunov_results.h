@@ -7,7 +7,8 @@
 #include "ui/screen.h"
 
 /* The options of a run that the commands do not take. */
-#define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(space))
+#define LYAPUNOV_WITHOUT                                                                           \
+    (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(space) | REQUEST_OPTION(effort))
 
 typedef struct lyapunov_results {
     bool is_volume;

@@ -119,6 +119,7 @@ void report_system(FILE *page, dal_model *model, const run_request *request)
     const char *reference = dal_model_text(model, DAL_SECTION_REFERENCE, 0, NULL, NULL, NULL);
     write_equations(page, model);
     write_formulas(page, model, DAL_SECTION_REACTIONS, "reactions", "B", "");
+    write_formulas(page, model, DAL_SECTION_CONTROLS, "controls", "C", "");
     write_formulas(page, model, DAL_SECTION_LET, "where", "", "");
     write_formulas(page, model, DAL_SECTION_FUNCTIONS, "functions", "", "");
     write_formulas(page, model, DAL_SECTION_MECHANICS, "mechanics", "", "");

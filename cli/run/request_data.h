@@ -24,6 +24,7 @@
     OPTION(columns)                                                                                \
     OPTION(names)                                                                                  \
     OPTION(observe)                                                                                \
+    OPTION(effort)                                                                                 \
     OPTION(set)                                                                                    \
     OPTION(start)
 
@@ -65,6 +66,7 @@ typedef struct run_request {
     const char *system_name; /* a built-in name or a path; the caller's, as all texts here */
     const char *columns;     /* --columns; NULL: all */
     const char *observe;     /* --observe, formulas between semicolons; NULL: none */
+    dal_effort effort;       /* --effort */
     const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given */
     char *made[REQUEST_OPTIONS];       /* of these texts those that the request owns, or NULL */
     request_step step_rule;            /* set beforehand */

@@ -135,20 +135,22 @@ int cli_make(const char *place, dal_model **model, const dal_system **made)
     return status;
 }
 
-int cli_load(const char *system, dal_model **model, const dal_system **made)
+int cli_load(const char *system, dal_effort effort, dal_model **model, const dal_system **made)
 {
     const int status = cli_read(system, model);
+    if (status == CLI_DONE) dal_model_set_effort(*model, effort, NULL);
     return status == CLI_DONE ? cli_make(system, model, made) : status;
 }
 
-int cli_observe(const char *system, const char *place, const cli_formula *formulas, int count,
-                dal_model **model, const dal_system **made)
+int cli_observe(const char *system, dal_effort effort, const char *place,
+                const cli_formula *formulas, int count, dal_model **model, const dal_system **made)
 {
     dal_error error = {0};
     const bool is_known = *model != NULL;
     dal_model_free(*model);
     int status = cli_read(system, model);
     if (status != CLI_DONE) return status;
+    dal_model_set_effort(*model, effort, NULL);
     for (int i = 0; i < count; i++) {
         const cli_formula *f = &formulas[i];
         const dal_status added = dal_model_observe(*model, f->text, f->line, f->column, &error);

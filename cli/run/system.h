@@ -9,9 +9,9 @@
 /* Whether SYSTEM is a path: it has a '/', ends in .yaml or .yml, or names a file and no built-in
  * system. */
 bool cli_is_path(const char *system);
-/* Reads SYSTEM and makes its system, owned by *model.  Returns CLI_DONE, or prints and returns an
- * exit status with *model NULL. */
-int cli_load(const char *system, dal_model **model, const dal_system **made);
+/* Reads SYSTEM and makes its system with an effort, owned by *model.  Returns CLI_DONE, or prints
+ * and returns an exit status with *model NULL. */
+int cli_load(const char *system, dal_effort effort, dal_model **model, const dal_system **made);
 /* The same in two parts, between which something may be added to the model.  cli_make frees it on
  * failure; place is what the message names. */
 int cli_read(const char *system, dal_model **model);
@@ -21,11 +21,11 @@ typedef struct cli_formula {
     const char *text;
     int line, column;
 } cli_formula;
-/* Reads SYSTEM and makes its system with formulas[count] that runs observe; place is what a message
- * about one of them names.  A model that is not NULL is replaced, and then no warnings are printed.
- * Returns as cli_load does. */
-int cli_observe(const char *system, const char *place, const cli_formula *formulas, int count,
-                dal_model **model, const dal_system **made);
+/* Reads SYSTEM and makes its system with an effort and formulas[count] that runs observe; place is
+ * what a message about one of them names.  A model that is not NULL is replaced, and then no
+ * warnings are printed.  Returns as cli_load does. */
+int cli_observe(const char *system, dal_effort effort, const char *place,
+                const cli_formula *formulas, int count, dal_model **model, const dal_system **made);
 /* Writes a copy of a system file, with the files of its tables in it; where model is not NULL, as
  * it was read.  Returns CLI_DONE, or prints and returns CLI_IO. */
 int cli_copy_system(const char *system, const dal_model *model, const char *to, int sync);

@@ -108,6 +108,7 @@ typedef struct study_case {
     int is_first;      /* of its group */
     dal_model *model;
     const dal_system *system;
+    int effort;    /* a dal_effort: of the lift of the group */
     char *observe; /* formulas that the runs of the group observe, as in --observe; NULL: none */
     char *path;    /* of the system file, from the working directory; NULL: there is a copy, or the
                       system is built in */

@@ -105,6 +105,9 @@ static int read_end(void *user, const document *doc, yaml_node_t *value, const d
 
 static int read_option(study_case *e, const document *doc, const document_pair *pair)
 {
+#define WORD(code, name) name,
+    static const char *const efforts[] = {DAL_EFFORT_LIST(WORD)};
+#undef WORD
     dal_error error = {0};
     const char *name = pair->name, *word = document_scalar(doc, pair->value, name);
     if (!word) return CLI_USAGE;
@@ -116,7 +119,10 @@ static int read_option(study_case *e, const document *doc, const document_pair *
     if (cli_renamed_value(name, word))
         return document_fail(doc, pair->key, "options: %s: %s is called %s now", name, word,
                              cli_renamed_value(name, word));
-    if (dal_options_set(&e->options, name, word, &error) != DAL_STATUS_OK)
+    const bool is_effort = strcmp(name, "effort") == 0;
+    if (is_effort) e->effort = document_word(doc, pair->value, name, efforts, DAL_EFFORT_COUNT);
+    if (e->effort < 0) return CLI_USAGE;
+    if (!is_effort && dal_options_set(&e->options, name, word, &error) != DAL_STATUS_OK)
         return document_fail(doc, pair->key, "%s", error.message);
     e->option[request_find_option(name)] = word;
     return CLI_DONE;
@@ -291,7 +297,7 @@ static int load_system(const group_reader *g, study_case *e)
                              "working directory, which has '%s'",
                              e->path, e->name);
     if (e->copy || is_path || dal_builtin_text(e->name))
-        return cli_load(study_case_system(e), &e->model, &e->system);
+        return cli_load(study_case_system(e), e->effort, &e->model, &e->system);
     return document_fail_unknown(g->doc, g->node, "system", e->name, names, cli_builtins(names));
 }
 

@@ -3,9 +3,10 @@
  *     S   = int e/2 |q'' - F(q,q',t)|^2 dt                                             (nh10)
  *     S_d = sum_k P_k.(X_(k+1) - X_k) - h H((X_k + X_(k+1))/2, P_k)                    (nh23)
  *
- * with X = (q,v,e), P = (p,pi,pi_e) at mid-interval and H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e:
+ * with X = (q,v,e), P = (p,pi,pi_e) at mid-interval and H = pi.K pi/(2e) + pi.F + p.v + mu_e pi_e:
  *     dS_d/dP_k = X_(k+1) - X_k - h H_P,
  *     dS_d/dX_k = P_(k-1) - P_k - h/2 (H_X of interval k-1 + H_X of interval k). */
+#include "analysis/evaluator.h"
 #include "core/error.h"
 #include "core/vectors.h"
 #include "dalembert_order.h"
@@ -67,7 +68,7 @@ typedef struct path {
     int n, half; /* half = 2n+1 */
     double t, h;
     dal_status status;
-    double *z, *gradient, *before, *field; /* [2*half] x 3, [n] */
+    double *z, *gradient, *before, *field; /* [2*half] x 3, [3n] */
 } path;
 
 static double hamiltonian(void *user, const double *z)
@@ -77,14 +78,13 @@ static double hamiltonian(void *user, const double *z)
     int n = w->n;
     const double *v = z + n, *p = z + w->half, *pi = p + n;
     double e = z[2 * n], mu = 0.0, sum = 0.0, square = 0.0;
-    dal_status status = dal_evaluator_call(w->evaluator, s->call.field, w->t, z, v, NULL, w->field);
+    dal_status status = dal__evaluator_square(w->evaluator, w->t, z, v, pi, w->field, &square);
+    if (status == DAL_STATUS_OK)
+        status = dal_evaluator_call(w->evaluator, s->call.field, w->t, z, v, NULL, w->field);
     if (status == DAL_STATUS_OK && s->call.gauge != NULL)
         status = dal_evaluator_call(w->evaluator, s->call.gauge, w->t, z, v, NULL, &mu);
     if (status != DAL_STATUS_OK) w->status = status;
-    for (int i = 0; i < n; i++) {
-        square += pi[i] * pi[i];
-        sum += pi[i] * w->field[i] + p[i] * v[i];
-    }
+    for (int i = 0; i < n; i++) sum += pi[i] * w->field[i] + p[i] * v[i];
     return square / (2.0 * e) + sum + mu * pi[n];
 }
 
@@ -112,7 +112,7 @@ dal_status dal_evaluator_check_stationarity(dal_evaluator *evaluator, double t0,
     if (s->multipliers > 0) return DAL_STATUS_UNSUPPORTED;
     if (count < 3 || !(h > 0.0)) return DAL_STATUS_ARGUMENT;
     size_t n = (size_t)s->n, size = 4 * n + 2;
-    double *block = dal__numbers(1, 3 * size + n);
+    double *block = dal__numbers(1, 3 * size + 3 * n);
     if (block == NULL) return DAL_STATUS_MEMORY;
     path w = {.evaluator = evaluator, .n = s->n, .half = 2 * s->n + 1, .h = h, .z = block};
     w.gradient = block + size, w.before = block + 2 * size, w.field = block + 3 * size;

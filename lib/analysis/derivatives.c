@@ -203,7 +203,7 @@ typedef struct comparison {
 static dal_status values_of(void *user, double *out)
 {
     const comparison *d = user;
-    return dal_evaluator_call(d->evaluator, d->callback, d->t, d->x, d->x + d->n, NULL, out);
+    return dal_evaluator_call(d->evaluator, d->callback, d->t, d->x, d->x + d->n, d->pi, out);
 }
 
 /* differences[rows*(n+nw)] of a callback's first rows values. */
@@ -281,6 +281,36 @@ static dal_status compare_adjoint(comparison *d, double *defect)
     return DAL_STATUS_OK;
 }
 
+/* By q and v the derivative of pi.K pi/2 at a fixed pi is the one of K pi times pi/2.  Efforts
+ * along the constraints have A K = 0. */
+static dal_status compare_effort(comparison *d, dal_derivatives *out)
+{
+    const int n = d->n, m = d->m, columns = n + d->nw;
+    if (d->s->call.effort == NULL) return DAL_STATUS_OK;
+    DAL_TRY(tabulate(d, d->s->call.effort, 3 * n));
+    DAL_TRY(call(d, d->s->call.effort, d->given));
+    double *products = d->scratch;
+    for (int j = 0; j < 2 * n; j++) {
+        products[j] = 0.0;
+        for (int i = 0; i < n; i++) products[j] += 0.5 * d->pi[i] * d->differences[i * columns + j];
+    }
+    out->effort = dal__distance(d->given + n, products, (size_t)(2 * n));
+    if (d->s->effort < DAL_EFFORT_CONSTRAINT || m == 0 || !d->s->call.constraint)
+        return DAL_STATUS_OK;
+    const double *A = d->differences + m;
+    DAL_TRY(call(d, d->s->call.constraint, d->differences));
+    out->effort_constraint = 0.0;
+    for (int a = 0; a < m; a++) {
+        double sum = 0.0, size = 0.0;
+        for (int i = 0; i < n; i++) {
+            sum += A[a * n + i] * d->given[i];
+            size += fabs(A[a * n + i] * d->given[i]);
+        }
+        if (size > 0.0) out->effort_constraint = fmax(out->effort_constraint, fabs(sum) / size);
+    }
+    return DAL_STATUS_OK;
+}
+
 static dal_status compare_constraint(comparison *d, dal_derivatives *out)
 {
     if (d->m == 0 || d->s->call.constraint == NULL) return DAL_STATUS_OK;
@@ -300,13 +330,14 @@ static dal_status compare_constraint(comparison *d, dal_derivatives *out)
 static dal_status compare_all(comparison *d, const dal_point *at, dal_derivatives *out)
 {
     dal__random random = {1};
-    *out = (dal_derivatives){NAN, NAN, NAN, NAN};
+    *out = (dal_derivatives){NAN, NAN, NAN, NAN, NAN, NAN};
     memcpy(d->x, at->q, (size_t)d->n * sizeof(double));
     memcpy(d->x + d->n, at->v, (size_t)d->nw * sizeof(double));
     for (int i = 0; i < d->n; i++) d->pi[i] = dal__uniform(&random);
     DAL_TRY(tabulate(d, d->s->call.field, d->nw));
     DAL_TRY(compare_jacobian(d, &out->jacobian));
     DAL_TRY(compare_adjoint(d, &out->adjoint));
+    DAL_TRY(compare_effort(d, out));
     return compare_constraint(d, out);
 }
 
@@ -316,7 +347,8 @@ dal_status dal_evaluator_check_derivatives(dal_evaluator *evaluator, const dal_p
     DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     size_t n = (size_t)s->n, nw = n + (size_t)s->multipliers, m = (size_t)s->m;
-    size_t rows = nw > m ? nw : m, columns = n + nw;
+    size_t rows = m > 3 * n ? m : 3 * n, columns = n + nw;
+    if (rows < nw) rows = nw;
     size_t given = nw * columns + m * (1 + 2 * n) + 3 * n;
     size_t scratch = 4 * rows + 3 * columns + m * m;
     double *block = dal__numbers(1, columns + rows * columns + given + scratch + n);

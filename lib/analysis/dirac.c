@@ -1,13 +1,14 @@
 /* dirac.c - Poisson brackets by differences, and Dirac's algebra in 6n+2.
  *
  *     X = (q, v, lambda, e),   P = (p, pi, pi_lambda, pi_e),   {f,g} = f_X g_P - f_P g_X
- *     H_c = pi.pi/(2e) + pi.F + lambda.v + mu_e pi_e + mu_lambda.pi_lambda + mu_q.(p - lambda)
+ *     H_c = pi.K pi/(2e) + pi.F + lambda.v + mu_e pi_e + mu_lambda.pi_lambda + mu_q.(p - lambda)
  *                                                                                (nh12)-(nh19)
  * Conservation of phi_a on the surface, {phi_a, H_0} + sum_b mu_b {phi_a, phi_b} = 0 over the
  * primary phi_b, is solved for mu by least squares; the residue must vanish.  The rank of
  * {phi_a, phi_b} over all constraints counts the second-class ones. */
 #include "analysis/dirac.h"
 #include "analysis/derivatives.h"
+#include "analysis/evaluator.h"
 #include "core/error.h"
 #include "core/settings.h"
 #include "core/vectors.h"
@@ -75,14 +76,12 @@ static double hamiltonian(void *user, const double *z)
     dal__dirac_space *w = user;
     int n = w->n;
     const double *v = z + n, *lambda = z + 2 * n, *pi = z + 4 * n + 1;
-    double sum = 0.0, square = 0.0;
+    double sum = 0.0, square;
     dal_callback *field = dal_evaluator_system(w->evaluator)->call.field;
-    if (dal_evaluator_call(w->evaluator, field, w->t, z, v, NULL, w->field) != DAL_STATUS_OK)
+    if (dal__evaluator_square(w->evaluator, w->t, z, v, pi, w->field, &square) != DAL_STATUS_OK ||
+        dal_evaluator_call(w->evaluator, field, w->t, z, v, NULL, w->field) != DAL_STATUS_OK)
         return NAN;
-    for (int i = 0; i < n; i++) {
-        square += pi[i] * pi[i];
-        sum += pi[i] * w->field[i] + lambda[i] * v[i];
-    }
+    for (int i = 0; i < n; i++) sum += pi[i] * w->field[i] + lambda[i] * v[i];
     return square / (2.0 * z[3 * n]) + sum;
 }
 
@@ -175,14 +174,14 @@ dal_status dal__dirac_algebra(dal_evaluator *evaluator, const dal_point *at, dou
     const dal_system *s = dal_evaluator_system(evaluator);
     if (s->multipliers > 0) return DAL_STATUS_UNSUPPORTED;
     size_t n = (size_t)s->n, size = 6 * n + 2, count = 4 * n + 1;
-    size_t numbers = size + (count + 1) * size + 2 * count * count + 4 * count + n;
+    size_t numbers = size + (count + 1) * size + 2 * count * count + 4 * count + 3 * n;
     double *block = dal__numbers(1, numbers);
     if (block == NULL) return DAL_STATUS_MEMORY;
     algebra w = {.n = s->n, .pairs = 3 * s->n + 1, .count = (int)count, .primary = 2 * s->n + 1};
     w.z = block, w.gradient = block + size, w.matrix = w.gradient + (count + 1) * size;
     w.right = w.matrix + count * count, w.mu = w.right + count, w.scratch = w.mu + count;
     w.space = (dal__dirac_space){.evaluator = evaluator, .n = s->n, .t = at->t, .phi = phi};
-    w.space.field = block + numbers - n;
+    w.space.field = block + numbers - 3 * n;
     memcpy(w.z, at->q, n * sizeof(double));
     memcpy(w.z + n, at->v, n * sizeof(double));
     w.z[3 * n] = e;

@@ -13,7 +13,7 @@ typedef struct dal__dirac_space {
     double t;
     double (*phi)(void *user, const double *z, int a);
     int a;         /* the constraint to be differentiated */
-    double *field; /* [n] */
+    double *field; /* [3n] F, or K pi and its derivatives */
 } dal__dirac_space;
 double dal__dirac_constraint(void *user, const double *z, int a);
 dal_status dal__dirac_algebra(dal_evaluator *evaluator, const dal_point *at, double e,

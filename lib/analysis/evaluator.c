@@ -58,8 +58,20 @@ dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, 
 {
     DAL_REQUIRE(evaluator && q && v && out, NULL);
     if (callback == NULL) return DAL_STATUS_UNSUPPORTED;
-    if (callback == evaluator->system->call.adjoint) DAL_REQUIRE(pi, NULL);
+    const dal_callbacks *call = &evaluator->system->call;
+    if (callback == call->adjoint || callback == call->effort) DAL_REQUIRE(pi, NULL);
     return callback(evaluator->system, &(dal_point){t, q, v, pi, evaluator->work, NULL}, out);
+}
+
+dal_status dal__evaluator_square(dal_evaluator *evaluator, double t, const double *q,
+                                 const double *v, const double *pi, double *vector, double *out)
+{
+    const dal_system *s = evaluator->system;
+    const double *K_pi = s->call.effort ? vector : pi;
+    *out = 0.0;
+    if (s->call.effort) DAL_TRY(dal_evaluator_call(evaluator, s->call.effort, t, q, v, pi, vector));
+    for (int i = 0; i < s->n; i++) *out += pi[i] * K_pi[i];
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_evaluator_scales(dal_evaluator *evaluator, double t, const double *q,

@@ -6,5 +6,8 @@
 
 /* The workspace of an evaluator, [workspace], with its parameters. */
 double *dal__evaluator_work(dal_evaluator *evaluator);
+/* pi.K pi of the effort; vector[3n] is scratch.  Errors: errors of the callback. */
+dal_status dal__evaluator_square(dal_evaluator *evaluator, double t, const double *q,
+                                 const double *v, const double *pi, double *vector, double *out);
 
 #endif

@@ -178,6 +178,7 @@ static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
 #define SCALED_LIST(SCALED)                                                                        \
     SCALED(field, call.field, NULL, scale_field)                                                   \
     SCALED(adjoint, call.adjoint, s->field, scale_adjoint)                                         \
+    SCALED(effort, call.effort, s->field, scale_adjoint)                                           \
     SCALED(jacobian, call.jacobian, NULL, scale_jacobian)                                          \
     SCALED(constraint, call.constraint, NULL, scale_three_blocks)                                  \
     SCALED(energy_normal, call.energy_normal, NULL, scale_energy_normal)                           \

@@ -102,7 +102,8 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
     if (is_inlined(g, code)) {
         dal__buffer_print(&g->text, "        dal__%s(w, t, q, v, pi, all);\n", name);
     } else {
-        const bool momenta = code == DAL__PROGRAM_ADJOINT || code == DAL__PROGRAM_ENFORCEMENT;
+        const bool momenta = code == DAL__PROGRAM_ADJOINT || code == DAL__PROGRAM_ENFORCEMENT ||
+                             code == DAL__PROGRAM_EFFORT;
         dal__buffer_append(&g->text,
                            "        num q_[DAL_FIXED_N], v_[DAL_FIXED_NW], pi_[DAL_FIXED_N];\n"
                            "        DAL_EACH(i, DAL_FIXED_N) q_[i] = q[i];\n"
@@ -207,10 +208,14 @@ static void write_series(dal__generation *g)
                       "    else dal__series_next(s->work, k, c, packed, all);\n"
                       "    DAL_EACH(i, %d) out[i] = all[i];\n",
                       taylor->slots, taylor->outputs, taylor->inputs, outputs);
-    if (lifted && taylor->outputs > end)
+    const int gauge = g->programs->program[DAL__PROGRAM_GAUGE].present, after = end + gauge;
+    if (lifted && gauge)
         dal__buffer_print(text, "    out[%d] = all[%d];\n", outputs, end);
     else if (lifted)
         dal__buffer_print(text, "    out[%d] = dal_num(0.0);\n", outputs);
+    if (lifted && taylor->outputs > after)
+        dal__buffer_print(text, "    DAL_EACH(i, %d) out[%d + i] = all[%d + i];\n",
+                          taylor->outputs - after, outputs + 1, after);
     if (p->checked > 0)
         dal__buffer_print(text, "    if (k == 0) dal__mask_singular(all, %d, %d, out);\n", outputs,
                           p->checked);
@@ -303,7 +308,7 @@ static const char *const observed[DAL__OBSERVABLE_GROUPS] = {
     [DAL__OBSERVE_LIFT] = "    num f[DAL_FIXED_NW], mu;\n"
                           "    dal__eval_program(w, DAL_EVAL_FIELD, t, q, v, NULL, f, NULL);\n"
                           "    dal__eval_program(w, DAL_EVAL_GAUGE, t, q, v, NULL, &mu, NULL);\n"
-                          "    dal_lift_observables(y, DAL_FIXED_N, f, mu, out + %d);\n",
+                          "    dal_lift_observables(y, DAL_FIXED_N, f, K_pi, mu, out + %d);\n",
     [DAL__OBSERVE_INVARIANTS] = "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n",
     [DAL__OBSERVE_REACTIONS] =
         "    num reactions[DAL_FIXED_M + DAL_FIXED_M * DAL_FIXED_N];\n"
@@ -322,6 +327,13 @@ void dal__write_observe(dal__generation *g)
         "static void dal__observe(const dal_stored *w, dal_time t, const num *y, num *out)\n{\n"
         "    const num *q = y, *v = y + DAL_FIXED_N;\n"
         "    (void)q, (void)v, (void)w, (void)t, (void)out;\n");
+    if (dal__wants(g, DAL__PROGRAM_EFFORT))
+        dal__buffer_append(
+            &g->text, "    num K_pi[3 * DAL_FIXED_N];\n"
+                      "    dal__eval_program(w, DAL_EVAL_EFFORT, t, q, v, y + 3 * DAL_FIXED_N + 1, "
+                      "K_pi, NULL);\n");
+    else if (g->layout.lifted)
+        dal__buffer_append(&g->text, "    const num *const K_pi = y + 3 * DAL_FIXED_N + 1;\n");
     for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
         const int count = dal__observable_count(&g->layout, group, g->run->exact);
         if (count > 0 && observed[group]) dal__buffer_print(&g->text, observed[group], next);

@@ -162,8 +162,10 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH(LIBM)", calls & DAL__CALLS_LIBM},
         {"DAL_WITH(BRANCHES)", calls & DAL__CALLS_BRANCHES},
         {"DAL_WITH(TABLES)", calls & DAL__CALLS_TABLES},
-        /* the canonical variables, e that changes, tangent vectors instead of p, pi */
+        /* the canonical variables, K that is not 1, e that changes, tangent vectors instead of
+         * p, pi */
         {"DAL_WITH(LIFT)", dal__has_lift(g)},
+        {"DAL_WITH(EFFORT)", dal__wants(g, DAL__PROGRAM_EFFORT)},
         {"DAL_WITH(GAUGE)", g->layout.lifted && dal__wants(g, DAL__PROGRAM_GAUGE)},
         {"DAL_WITH(TANGENT)", kernel & DAL_KERNEL_TANGENT},
         /* implicit equations, Taylor coefficients of F, substeps under a tolerance, numbers in
@@ -300,6 +302,7 @@ static void write_constants(dal__generation *g)
         {"M", k->m, false},
         {"DIM", k->dim, false},
         {"LIFTED", k->lifted, false},
+        {"EFFORT", dal__wants(g, DAL__PROGRAM_EFFORT), false},
         {"PLAIN", k->options.sums == DAL_SUMS_PLAIN, false},
         {"MULTIPLIER", k->multiplier, false},
         {"ACCELERATION", k->acceleration, false},
@@ -384,7 +387,8 @@ void dal__write_unrolling(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
     const bool coupled = g->kernel & DAL_KERNEL_COLLOCATION;
-    const int width = k->lifted ? 3 * k->n : k->nw;
+    const bool pushes = dal__wants(g, DAL__PROGRAM_EFFORT);
+    const int width = k->lifted ? (3 + pushes) * k->n : k->nw;
     const int size = coupled ? g->spec->method.layer[0]->stages * width : 0;
     const bool vectors = size > (g->lanes == 1 ? MAX_UNROLLED : MAX_UNROLLED_LANES);
     dal__buffer_append(&g->text, "#if !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)\n");

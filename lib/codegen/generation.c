@@ -23,7 +23,8 @@ bool dal__follows_tangents(const dal__generation *g)
 /* Whether the observables need a program. */
 static bool observes(const dal__generation *g, dal__program_code code)
 {
-    if (code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_GAUGE) return g->layout.lifted;
+    if (code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_GAUGE || code == DAL__PROGRAM_EFFORT)
+        return g->layout.lifted;
     return code == DAL__PROGRAM_CONSTRAINTS || code == DAL__PROGRAM_ENERGY ||
            code == DAL__PROGRAM_INVARIANTS || code == DAL__PROGRAM_EXACT ||
            (code == DAL__PROGRAM_REACTIONS && g->layout.options.reactions);
@@ -56,6 +57,8 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_ADJOINT:
     case DAL__PROGRAM_GAUGE:
         return dal__has_lift(g);
+    case DAL__PROGRAM_EFFORT:
+        return g->layout.lifted && g->programs->program[code].present;
     case DAL__PROGRAM_JACOBIAN:
         return kernel & (DAL_KERNEL_SOLVE | DAL_KERNEL_TANGENT);
     case DAL__PROGRAM_CONSTRAINT:

@@ -155,13 +155,20 @@ static void put_motion(dal__buffer *text, const dal__equations *e, const dal__ty
     put_shared(text, t);
 }
 
-/* H = pi^2/(2e) + pi.F + p.v + mu_e pi_e (nh20); vakonomic motion has no lift. */
-static void put_hamiltonian(dal__buffer *text, const dal__equations *e, const dal__typesetter *t)
+/* H = pi.K pi/(2e) + pi.F + p.v + mu_e pi_e (nh20), and K; vakonomic motion has no lift. */
+static void put_hamiltonian(dal__buffer *text, const dal__equations *e, const dal__typesetter *t,
+                            dal_effort effort)
 {
+    static const char *const K[DAL_EFFORT_COUNT] = {
+        [DAL_EFFORT_MASS] = "K &= W^{-1}",
+        [DAL_EFFORT_CONSTRAINT] = "K &= P\\,W^{-1} P^{\\mathsf T}",
+        [DAL_EFFORT_CONTROLS] = "K &= P\\,W^{-1} C\\,C^{\\mathsf T} W^{-1} P^{\\mathsf T}"};
     dal__buffer sum = {0};
     if (e->vakonomic) return;
-    for (int i = 0; i < e->n; i++) {
-        dal__buffer_append(&sum, i > 0 ? " + " : "\\frac{");
+    dal__buffer_append(&sum, "\\frac{");
+    if (effort != DAL_EFFORT_IDENTITY) dal__buffer_append(&sum, "\\pi^{\\mathsf T} K\\,\\pi");
+    for (int i = 0; effort == DAL_EFFORT_IDENTITY && i < e->n; i++) {
+        if (i > 0) dal__buffer_append(&sum, " + ");
         put_indexed(&sum, "\\pi", e, i);
         dal__buffer_append(&sum, "^{2}");
     }
@@ -185,6 +192,10 @@ static void put_hamiltonian(dal__buffer *text, const dal__equations *e, const da
     if (sum.bytes) put_lines(text, sum.bytes);
     text->out_of_memory |= sum.out_of_memory;
     dal__buffer_free(&sum);
+    if (K[effort]) {
+        begin_row(text);
+        dal__buffer_append(text, K[effort]);
+    }
     if (!e->mu) return;
     begin_row(text);
     dal__buffer_append(text, "\\mu_{e}");
@@ -206,12 +217,12 @@ static bool put_let(const void *user, dal__node node, dal__buffer *text)
 }
 
 static void put_all(dal__buffer *text, const dal__equations *e, const dal__typesetter *given,
-                    const dal__typesetter *motion)
+                    const dal__typesetter *motion, dal_effort effort)
 {
     dal__buffer_append(text, "\\begin{align*}");
     put_given(text, e, given);
     put_motion(text, e, motion);
-    put_hamiltonian(text, e, given);
+    put_hamiltonian(text, e, given, effort);
     dal__buffer_append(text, "\n\\end{align*}\n");
 }
 
@@ -252,7 +263,7 @@ dal_status dal_model_latex(dal_model *model, char **text, dal_error *error)
         options.shared_before = dal__typeset_numbered(given);
         status = dal__typesetter_create(&motion, e->graph, e->F, e->n + e->multipliers, &options);
     }
-    if (status == DAL_STATUS_OK) put_all(&all, e, given, motion);
+    if (status == DAL_STATUS_OK) put_all(&all, e, given, motion, model->effort);
     dal__typesetter_free(given);
     dal__typesetter_free(motion);
     if (status == DAL_STATUS_OK && all.out_of_memory) status = DAL_STATUS_MEMORY;

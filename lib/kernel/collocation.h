@@ -7,11 +7,13 @@
  *     E_i  = e + h sum a_ij mu_j            t_i = t + c_i h
  *     K_i  = F(Q_i, V_i, t_i) + Pi_i/E_i    L_i = -P_i - F_v^T Pi |_i
  *
- * and y1 = y + h sum b_i (derivative)_i.  A partitioned method has other coefficients for w and p
- * than for q, e and pi, each the partner of the other: symplectic where b_i p_ij + b_j a_ji = b_i
- * b_j. For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231): each coefficient is head
- * + tail, the head a multiple of 1/1024, summed apart; stages start from y + r; the iteration runs
- * to stagnation; the step ends with the stage values of the last derivatives.
+ * where an effort K replaces pi/e by K pi/e and adds the derivatives of pi.K pi/(2e) to the other
+ * two, and y1 = y + h sum b_i (derivative)_i.  A partitioned method has other coefficients for w
+ * and p than for q, e and pi, each the partner of the other: symplectic where
+ * b_i p_ij + b_j a_ji = b_i b_j.  For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008)
+ * 231): each coefficient is head + tail, the head a multiple of 1/1024, summed apart; stages start
+ * from y + r; the iteration runs to stagnation; the step ends with the stage values of the last
+ * derivatives.
  *
  * The predictor extrapolates (E) the polynomial through the derivatives K of the last step and
  * corrects it by its earlier errors e_k = K_k - E K_(k-1):
@@ -37,7 +39,7 @@ typedef struct dal_stages {
     const dal_tableau *method;
     double h;
     num *v, *q, *pi; /* [s*nw], [s*n], [s*n] */
-    num *f, *force;  /* [s*3n] or [s*nw]; [s*n] F_q^T Pi */
+    num *f, *force;  /* [s*stride]; [s*n] F_q^T Pi, and with an effort [s*n] K Pi */
     num *w;          /* [s] 1/E_i */
     num *mu;         /* [s] */
     int stride;      /* of f */
@@ -96,15 +98,21 @@ DAL_INLINE void dal__momentum_derivatives(dal_step *s, const dal_stages *k, num 
     }
 }
 
-/* Saves F_q^T Pi of the stages for the end of the step, from a lane's own last iteration. */
+/* Saves F_q^T Pi and K Pi of the stages for the end of the step, from a lane's own last iteration.
+ */
 DAL_INLINE void dal__save_forces(const dal_step *s, const dal_stages *k, dal_mask active)
 {
     (void)active; /* one lane is always active here */
-    const int n = DAL_N(s);
-    DAL_EACH(i, DAL_STAGES(k->method))
+    const int n = DAL_N(s), stages = DAL_STAGES(k->method);
+    DAL_EACH(i, stages)
         DAL_EACH(j, n)
             k->force[i * n + j] =
                 DAL_IF_ACTIVE(active, k->f[i * k->stride + n + j], k->force[i * n + j]);
+    num *const K_pi = k->force + stages * n;
+    DAL_EACH(i, DAL_EFFORT(s) * stages)
+        DAL_EACH(j, n)
+            K_pi[i * n + j] =
+                DAL_IF_ACTIVE(active, k->f[i * k->stride + 3 * n + j], K_pi[i * n + j]);
 }
 
 /* Evaluates the system at every stage; on the physical space F is the image of K. */
@@ -113,7 +121,8 @@ DAL_INLINE void dal__eval_stages(dal_step *s, const dal_stages *k, num *image)
     DAL_EACH(i, DAL_STAGES(k->method)) {
         const double t = s->t + k->method->c[i] * k->h;
         const num *q = k->q + i * DAL_N(s), *v = k->v + i * DAL_NW(s);
-        if (DAL_LIFTED(s)) dal_adjoint(s, t, q, v, k->pi + i * DAL_N(s), k->f + i * k->stride);
+        if (DAL_LIFTED(s))
+            dal_adjoint(s, t, q, v, k->pi + i * DAL_N(s), k->w[i], k->f + i * k->stride);
         if (!DAL_LIFTED(s)) dal_force(s, t, q, v, image + i * DAL_NW(s));
     }
 }
@@ -132,7 +141,8 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     dal__save_forces(s, k, DAL_LANES_AT(eq->active, 0));
     DAL_EACH(i, DAL_STAGES(k->method))
         DAL_EACH(j, n)
-            image[i * n + j] = dal_fma(k->pi[i * n + j], k->w[i], k->f[i * k->stride + j]);
+            image[i * n + j] = dal_fma(dal_push(s, k->f + i * k->stride, k->pi + i * n)[j], k->w[i],
+                                       k->f[i * k->stride + j]);
     dal__momentum_derivatives(s, k, eq->block[1].image);
 }
 
@@ -377,7 +387,9 @@ DAL_INLINE void dal__collocation_momenta(dal_step *s, const dal_stages *k, const
 {
     const int n = DAL_N(s);
     DAL_VECTOR(s, rate, DAL_STAGES(k->method));
-    DAL_EACH(i, DAL_STAGES(k->method)) rate[i] = dal_gauge_rate(k->pi + i * n, n, k->w[i]);
+    const num *K_pi = DAL_EFFORT(s) ? k->force + DAL_STAGES(k->method) * n : k->pi;
+    DAL_EACH(i, DAL_STAGES(k->method))
+        rate[i] = dal_gauge_rate(k->pi + i * n, K_pi + i * n, n, k->w[i]);
     num *const p = d + dal_at_p(s);
     dal__end(k, k->force, n, n, p);
     DAL_EACH(j, n) p[j] = -p[j];
@@ -408,14 +420,14 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, dal
     DAL_VECTOR(s, v, DAL_STAGES(method) * DAL_NW(s));
     DAL_VECTOR(s, q, DAL_STAGES(method) * DAL_N(s));
     DAL_VECTOR(s, pi, DAL_STAGES(method) * DAL_N(s));
-    DAL_VECTOR(s, f, DAL_STAGES(method) * (2 * DAL_N(s) + DAL_NW(s)));
-    DAL_VECTOR(s, force, DAL_STAGES(method) * DAL_N(s));
+    DAL_VECTOR(s, f, DAL_STAGES(method) * ((2 + DAL_EFFORT(s)) * DAL_N(s) + DAL_NW(s)));
+    DAL_VECTOR(s, force, DAL_STAGES(method) * (1 + DAL_EFFORT(s)) * DAL_N(s));
     DAL_VECTOR(s, w, DAL_STAGES(method));
     DAL_VECTOR(s, mu, DAL_STAGES(method));
     DAL_BLOCK(s, derivatives, DAL_STAGES(method) * DAL_NW(s), DAL_MAY_NEWTON(s));
     DAL_BLOCK(s, momenta, DAL_LIFTED(s) * DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
     dal_stages k = {method, s->h,  v, q,  pi,
-                    f,      force, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
+                    f,      force, w, mu, DAL_LIFTED(s) ? DAL_ADJOINT_SIZE(s) : DAL_NW(s)};
     DAL_EQUATION(s, eq, 1 + DAL_LIFTED(s), &k, derivatives, momenta);
     eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_PER_GROUP(DAL_NW(s)),
                                  dal__eigensystem_of(method));
@@ -424,7 +436,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, dal
     DAL_EACH_GROUP(j) eq.block[0].progress[j].scale = dal_velocity_scale(s, s->h, j);
     if (DAL_LIFTED(s)) {
         dal__gauge_stages(s, &k);
-        DAL_EACH(i, DAL_STAGES(method) * DAL_N(s)) force[i] = dal_num(0.0);
+        DAL_EACH(i, DAL_STAGES(method) * (1 + DAL_EFFORT(s)) * DAL_N(s)) force[i] = dal_num(0.0);
         eq.block[1].progress->scale = dal_momentum_scale(s, s->h, 0);
     }
     if (dal_failed(guess == DAL__FROM_PREDICTOR ? dal__solve_predicted(s, &k, &eq)

@@ -6,13 +6,14 @@
 #include "num.h"
 
 #if DAL_WITH(LIFT)
-/* H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e and the max norms of p, pi, pi_e, out[4], of the state
- * y[4n + 2], where f[n] is F and mu is mu_e. */
-DAL_INLINE void dal_lift_observables(const num *y, int n, const num *f, num mu, num *out)
+/* H = pi.K pi/(2e) + pi.F + p.v + mu_e pi_e and the max norms of p, pi, pi_e, out[4], of the state
+ * y[4n + 2], where f[n] is F, K_pi[n] is K pi and mu is mu_e. */
+DAL_INLINE void dal_lift_observables(const num *y, int n, const num *f, const num *K_pi, num mu,
+                                     num *out)
 {
     const num *v = y + n, *p = y + 2 * n + 1, *pi = y + 3 * n + 1;
     num sum = dal_num(0.0);
-    DAL_EACH(i, n) sum += pi[i] * pi[i] * (0.5 / y[2 * n]) + pi[i] * f[i] + p[i] * v[i];
+    DAL_EACH(i, n) sum += pi[i] * K_pi[i] * (0.5 / y[2 * n]) + pi[i] * f[i] + p[i] * v[i];
     out[0] = sum + mu * y[4 * n + 1];
     out[1] = out[2] = dal_num(0.0);
     DAL_EACH(i, n) {

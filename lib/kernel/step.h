@@ -34,6 +34,7 @@ typedef enum dal_callback_code {
 #define DAL_M(s)      DAL_FIXED_M
 #define DAL_DIM(s)    (DAL_FIXED_DIM * DAL_STEP_GROUPS)
 #define DAL_LIFTED(s) DAL_FIXED_LIFTED
+#define DAL_EFFORT(s) DAL_FIXED_EFFORT
 #if DAL_WITH(SOLVE)
 #define DAL_SOLVER(s)                 DAL_FIXED_SOLVER
 #define DAL_ITERATIONS(s)             DAL_FIXED_ITERATIONS
@@ -87,6 +88,7 @@ typedef enum dal_callback_code {
 #define DAL_M(s)                      ((s)->m)   /* constraints */
 #define DAL_DIM(s)                    ((s)->dim) /* numbers in the state */
 #define DAL_LIFTED(s)                 ((s)->lifted)
+#define DAL_EFFORT(s)                 ((s)->effort) /* 1: K of the effort is not 1 */
 #define DAL_SOLVER(s)                 ((s)->solver)
 #define DAL_ITERATIONS(s)             ((s)->iterations)
 #define DAL_SOLVER_TOLERANCE(s)       ((s)->solver_tolerance)
@@ -142,6 +144,7 @@ struct dal_step {
 #else
     int n, nw, m, dim;
     int lifted;        /* 1 on the canonical space */
+    int effort;        /* 1 there with the callback effort */
     int tangent;       /* 1 while p, pi hold a tangent vector (dq, dv) */
     num *method_state; /* [method_state_count] the numbers of the method, one after the other */
     int method_state_count;
@@ -338,18 +341,44 @@ DAL_INLINE void dal_clear_momenta(dal_step *s)
 }
 #endif
 
-/* F(q, v, t), out[nw]; and F, F_q^T pi, F_v^T pi, out[3n]. */
+/* F(q, v, t), out[nw]. */
 DAL_INLINE void dal_force(dal_step *s, double t, const num *q, const num *v, num *out)
 {
     s->evaluations++;
     dal_eval(s, DAL_EVAL_FIELD, t, q, v, NULL, out);
 }
+#if DAL_WITH(EFFORT)
+/* Adds to F_q^T pi and F_v^T pi the derivatives of w pi.K pi/2; then K pi, out[4n]. */
+DAL_INLINE void dal__add_effort(dal_step *s, double t, const num *q, const num *v, const num *pi,
+                                num w, num *out)
+{
+    const int n = DAL_N(s);
+    DAL__MARK(s);
+    DAL_VECTOR(s, effort, 3 * DAL_N(s));
+    dal_eval(s, DAL_EVAL_EFFORT, t, q, v, pi, effort);
+    DAL_EACH(i, 2 * n) out[n + i] = dal_fma(w, effort[n + i], out[n + i]);
+    DAL_EACH(i, n) out[3 * n + i] = effort[i];
+    DAL__RELEASE(s);
+}
+#endif
 #if DAL_WITH(LIFT)
-DAL_INLINE void dal_adjoint(dal_step *s, double t, const num *q, const num *v, const num *pi,
+/* The numbers that dal_adjoint writes. */
+#define DAL_ADJOINT_SIZE(s) ((3 + DAL_EFFORT(s)) * DAL_N(s))
+/* F, and the derivatives by q and v of pi.F + w pi.K pi/2, w = 1/e; where K is not 1 then K pi. */
+DAL_INLINE void dal_adjoint(dal_step *s, double t, const num *q, const num *v, const num *pi, num w,
                             num *out)
 {
     s->evaluations++;
     dal_eval(s, DAL_EVAL_ADJOINT, t, q, v, pi, out);
+#if DAL_WITH(EFFORT)
+    if (DAL_EFFORT(s)) dal__add_effort(s, t, q, v, pi, w, out);
+#endif
+    (void)w;
+}
+/* K pi [n] from what dal_adjoint wrote for pi. */
+DAL_INLINE const num *dal_push(const dal_step *s, const num *adjoint, const num *pi)
+{
+    return DAL_EFFORT(s) ? adjoint + 3 * DAL_N(s) : pi;
 }
 DAL_INLINE num dal_mu_e(dal_step *s, double t)
 {
@@ -358,9 +387,17 @@ DAL_INLINE num dal_mu_e(dal_step *s, double t)
     return mu;
 }
 
-/* pi_e' = |pi/e|^2 / 2, with w = 1/e. */
-DAL_INLINE num dal_gauge_rate(const num *pi, int n, num w)
+/* pi_e' = pi.K pi / (2e^2), with w = 1/e; K_pi may be pi itself. */
+DAL_INLINE num dal_gauge_rate(const num *pi, const num *K_pi, int n, num w)
 {
+#if DAL_WITH(EFFORT)
+    num sum = dal_num(0.0);
+    if (K_pi != pi) {
+        DAL_EACH(i, n) sum = dal_fma(pi[i], K_pi[i], sum);
+        return 0.5 * sum * (w * w);
+    }
+#endif
+    (void)K_pi;
     return 0.5 * dal_square(pi, n) * (w * w);
 }
 #endif
@@ -393,22 +430,23 @@ DAL_INLINE void dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_
 {
     const int n = DAL_N(s);
     DAL__MARK(s);
-    DAL_VECTOR(s, f, 3 * DAL_N(s));
+    DAL_VECTOR(s, f, DAL_ADJOINT_SIZE(s));
     const num *p = y + dal_at_p(s), *pi = y + dal_at_pi(s);
     const num w = 1.0 / y[dal_at_e(s)];
-    dal_adjoint(s, t, y, y + n, pi, f);
-    DAL_EACH(i, n) dy[n + i] = dal_fma(pi[i], w, f[i]);
+    dal_adjoint(s, t, y, y + n, pi, w, f);
+    const num *K_pi = dal_push(s, f, pi);
+    DAL_EACH(i, n) dy[n + i] = dal_fma(K_pi[i], w, f[i]);
     DAL_EACH(i, n) dy[dal_at_p(s) + i] = -f[n + i];
     DAL_EACH(i, n) dy[dal_at_pi(s) + i] = -p[i] - f[2 * n + i];
     dy[dal_at_e(s)] = dal_mu_e(s, t);
-    dy[dal_at_pi_e(s)] = dal_gauge_rate(pi, n, w);
+    dy[dal_at_pi_e(s)] = dal_gauge_rate(pi, K_pi, n, w);
     DAL__RELEASE(s);
 }
 #endif
 
 /* The whole first-order field in the space of the run, dy[dim]:
  *     q' = v   v' = F + pi/e   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi   pi_e' = pi^2/2e^2
- * after (nh20). */
+ * after (nh20); with an effort, by H = pi.K pi/(2e) + pi.F + p.v + mu_e pi_e. */
 DAL_INLINE void dal_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
     const int n = DAL_N(s);

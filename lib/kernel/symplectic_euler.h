@@ -13,6 +13,8 @@
  *     s_v = 1: pi* = pi known, v* = v1 solves
  *              u = v + h (F(q*, u, t*) + pi / e*),   q* = q + [s_q=1] h u
  *
+ * With an effort K(q*, v*, t*) the term pi*.K pi* of H replaces |pi*|^2, with its derivatives.
+ *
  * Symplectic for every choice, as sum dX1 dP1 - dX dP = h d(dH) = 0; order 1.  The adjoint of
  * (s_q, s_v) is (1-s_q, 1-s_v).  The physical space has the first line only, and v
  * means (v, g) there.
@@ -45,11 +47,11 @@ typedef struct dal_euler {
     dal_polarisation at;
     double h, t;
     num *q, *v, *p, *pi; /* [n], [nw], [n], [n] */
-    num *f;              /* [3n] or [nw]: the field or adjoint of the last evaluation */
+    num *f;              /* the field or adjoint of the last evaluation */
     num w;               /* 1/e* */
 } dal_euler;
 
-/* Whether F depends on q and t alone. */
+/* Whether F, and K, depend on q and t alone. */
 DAL_INLINE int dal__force_is_positional(const dal_step *s)
 {
     return (DAL_PROPERTIES(s) & DAL_F_POSITIONAL) != 0;
@@ -65,7 +67,7 @@ DAL_INLINE void dal__euler_q(dal_step *s, dal_euler *k)
 /* F + pi* w, from the last field. */
 DAL_INLINE num dal__euler_rate_v(const dal_step *s, const dal_euler *k, int i)
 {
-    return DAL_LIFTED(s) ? dal_fma(k->pi[i], k->w, k->f[i]) : k->f[i];
+    return DAL_LIFTED(s) ? dal_fma(dal_push(s, k->f, k->pi)[i], k->w, k->f[i]) : k->f[i];
 }
 
 /* v1 for that rate, to the bits of the update. */
@@ -82,7 +84,10 @@ DAL_INLINE void dal__euler_map_v(dal_step *s, dal_equation *eq)
     DAL_EACH(i, DAL_NW(s))
         k->v[i] = DAL_IF_ACTIVE(DAL_LANES_AT(eq->active, 0), eq->block[0].u[i], k->v[i]);
     dal__euler_q(s, k);
-    dal_force(s, k->t, k->q, k->v, k->f);
+    if (DAL_EFFORT(s))
+        dal_adjoint(s, k->t, k->q, k->v, k->pi, k->w, k->f);
+    else
+        dal_force(s, k->t, k->q, k->v, k->f);
     DAL_EACH(i, DAL_NW(s))
         eq->block[0].image[i] = dal__euler_v1(s, k, i, dal__euler_rate_v(s, k, i));
 }
@@ -102,7 +107,7 @@ DAL_INLINE void dal__euler_map_pi(dal_step *s, dal_equation *eq)
     dal_euler *k = (dal_euler *)eq->context;
     const int n = DAL_N(s), pi = dal_at_pi(s);
     DAL_EACH(i, n) k->pi[i] = eq->block[0].u[i];
-    dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
+    dal_adjoint(s, k->t, k->q, k->v, k->pi, k->w, k->f);
     dal__euler_p(s, k);
     DAL_EACH(i, n)
         eq->block[0].image[i] =
@@ -166,14 +171,14 @@ DAL_INLINE void dal__euler_momenta(dal_step *s, const dal_euler *k, num mu, num 
         d[dal_at_pi(s) + i] = -(k->p[i] + k->f[2 * n + i]);
     }
     d[dal_at_e(s)] = mu;
-    d[dal_at_pi_e(s)] = dal_gauge_rate(k->pi, n, k->w);
+    d[dal_at_pi_e(s)] = dal_gauge_rate(k->pi, dal_push(s, k->f, k->pi), n, k->w);
 }
 
 /* The field at the starred arguments, unless it is known, and the rates of all components. */
 DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, int known, num mu, num *d)
 {
     const int n = DAL_N(s);
-    if (DAL_LIFTED(s) && !known) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
+    if (DAL_LIFTED(s) && !known) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->w, k->f);
     if (!DAL_LIFTED(s) && !known) dal_force(s, k->t, k->q, k->v, k->f);
     if (DAL_LIFTED(s)) dal__euler_p(s, k);
     DAL_EACH(i, DAL_NW(s)) d[n + i] = dal__euler_rate_v(s, k, i);
@@ -181,8 +186,11 @@ DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, int known, num mu, n
     if (DAL_LIFTED(s)) dal__euler_momenta(s, k, mu, d);
 }
 
-/* One step of size h from the present state and time; f, [3n] or [nw], is the field at the starred
- * arguments where it is known, and else becomes it. */
+/* The numbers of a field or an adjoint. */
+#define DAL__EULER_FIELD(s) ((2 + DAL_EFFORT(s)) * DAL_N(s) + DAL_NW(s))
+
+/* One step of size h from the present state and time; f, DAL__EULER_FIELD numbers, is the field at
+ * the starred arguments where it is known, and else becomes it. */
 DAL_INLINE dal_status dal__euler_step(dal_step *s, dal_polarisation at, double h, num *f, int known)
 {
     DAL__MARK(s);
@@ -215,7 +223,7 @@ DAL_INLINE dal_status dal__euler_step(dal_step *s, dal_polarisation at, double h
 DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, double h)
 {
     DAL__MARK(s);
-    DAL_VECTOR(s, f, 2 * DAL_N(s) + DAL_NW(s));
+    DAL_VECTOR(s, f, DAL__EULER_FIELD(s));
     const dal_status status = dal__euler_step(s, at, h, f, 0);
     DAL__RELEASE(s);
     return status;
@@ -225,7 +233,7 @@ DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, dou
 DAL_SHARED dal_status dal_symplectic_euler_pair(dal_step *s, double h, double adjoint_h)
 {
     DAL__MARK(s);
-    DAL_VECTOR(s, f, 2 * DAL_N(s) + DAL_NW(s));
+    DAL_VECTOR(s, f, DAL__EULER_FIELD(s));
     if (dal_failed(dal__euler_step(s, DAL_POLARISATION(1, 0), h, f, 0)))
         return DAL_STATUS_NOT_CONVERGED;
     const int known = dal__force_is_positional(s);

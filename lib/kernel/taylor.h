@@ -10,6 +10,8 @@
  *     q' = v   v' = F + pi w   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi
  *     pi_e' = (pi pi)(w w)/2,   w_k = -w_0 sum_(j=1..k) e_j w_(k-j)
  *
+ * or with K pi w for pi w and the like, where there is an effort K.
+ *
  * Order for a tolerance: the error of a step of size h is about (h/R)^p where R is the radius of
  * convergence, the work about p^2 for a length h; it is least for h = R/e^2 and
  * p = 1 - log(tolerance)/2 (Jorba and Zou 2005).  The work is measured to be nearer to p than to
@@ -37,15 +39,17 @@ DAL_INLINE int dal_taylor_order(double tolerance)
 /* What an expansion needs besides x. */
 typedef struct dal_expansion {
     num *memory;          /* [DAL_SERIES][order + 1] series of the system */
-    num *w, *ww, *square; /* [order + 1] coefficients of w = 1/e, w^2 and pi.pi */
+    num *w, *ww, *square; /* [order + 1] coefficients of w = 1/e, w^2 and pi.K pi */
+    num *effort;          /* [3n][order + 1] of K pi, (pi.K pi)_q/2, (pi.K pi)_v/2 */
 } dal_expansion;
 
 /* Declares an expansion `name` in the scratch of a step. */
 #define DAL_EXPANSION(s, name)                                                                     \
     DAL_VECTOR(s, memory, DAL_SERIES(s) * (DAL_TAYLOR_ORDER(s) + 1));                              \
     DAL_VECTOR(s, gauge, 3 * (DAL_TAYLOR_ORDER(s) + 1));                                           \
+    DAL_VECTOR(s, effort, 3 * DAL_EFFORT(s) * DAL_N(s) * (DAL_TAYLOR_ORDER(s) + 1));               \
     const dal_expansion name = {memory, gauge, gauge + DAL_TAYLOR_ORDER(s) + 1,                    \
-                                gauge + 2 * (DAL_TAYLOR_ORDER(s) + 1)}
+                                gauge + 2 * (DAL_TAYLOR_ORDER(s) + 1), effort}
 
 #if DAL_WITH(LIFT)
 /* sum a_j b_(k-j) over j = first..k; coefficients of a, of b, are `a_stride`, `b_stride` apart. */
@@ -57,8 +61,25 @@ DAL_INLINE num dal__convolve(const num *a, int a_stride, const num *b, int b_str
     return sum;
 }
 
+/* The same with pi.K pi/(2e) for pi.pi/(2e); effort: as f, of the callback. */
+DAL_INLINE void dal__effort_series(const dal_step *s, int k, const num *x, const num *effort,
+                                   const dal_expansion *g, num *dx)
+{
+    const int n = DAL_N(s), dim = DAL_DIM(s), order = DAL_TAYLOR_ORDER(s);
+    const num *pi = x + dal_at_pi(s);
+    DAL_EACH(i, 3 * n) g->effort[i * (order + 1) + k] = effort[i];
+    DAL_EACH(i, n) {
+        const num *push = g->effort + i * (order + 1), *by_q = push + n * (order + 1);
+        const num *by_v = by_q + n * (order + 1);
+        g->square[k] += dal__convolve(pi + i, dim, push, 1, 0, k);
+        dx[n + i] += dal__convolve(push, 1, g->w, 1, 0, k);
+        dx[dal_at_p(s) + i] -= dal__convolve(by_q, 1, g->w, 1, 0, k);
+        dx[dal_at_pi(s) + i] -= dal__convolve(by_v, 1, g->w, 1, 0, k);
+    }
+}
+
 /* Coefficient k of the canonical variables' field, from x_0 .. x_k; f holds the one of F,
- * F_q^T pi, F_v^T pi, mu_e. */
+ * F_q^T pi, F_v^T pi, mu_e, and of the callback effort. */
 DAL_INLINE void dal__lifted_series(const dal_step *s, int k, const num *x, const num *f,
                                    const dal_expansion *g, num *dx)
 {
@@ -68,11 +89,16 @@ DAL_INLINE void dal__lifted_series(const dal_step *s, int k, const num *x, const
     g->ww[k] = dal__convolve(g->w, 1, g->w, 1, 0, k);
     g->square[k] = dal_num(0.0);
     DAL_EACH(i, n) {
-        g->square[k] += dal__convolve(pi + i, dim, pi + i, dim, 0, k);
-        dx[n + i] = f[i] + dal__convolve(pi + i, dim, g->w, 1, 0, k);
+        if (DAL_EFFORT(s)) {
+            dx[n + i] = f[i];
+        } else {
+            g->square[k] += dal__convolve(pi + i, dim, pi + i, dim, 0, k);
+            dx[n + i] = f[i] + dal__convolve(pi + i, dim, g->w, 1, 0, k);
+        }
         dx[p + i] = -f[n + i];
         dx[dal_at_pi(s) + i] = -x[k * dim + p + i] - f[2 * n + i];
     }
+    if (DAL_EFFORT(s)) dal__effort_series(s, k, x, f + 3 * n + 1, g, dx);
     dx[dal_at_e(s)] = f[3 * n];
     dx[dal_at_pi_e(s)] = 0.5 * dal__convolve(g->square, 1, g->ww, 1, 0, k);
 }
@@ -120,7 +146,7 @@ DAL_INLINE void dal__expand_order(dal_step *s, num t, int k, num *x, const dal_e
     num *next = x + (k + 1) * dim;
     DAL__MARK(s);
     DAL_VECTOR(s, in, 1 + 2 * DAL_N(s) + DAL_NW(s));
-    DAL_VECTOR(s, f, 3 * DAL_N(s) + 1);
+    DAL_VECTOR(s, f, 3 * (1 + DAL_EFFORT(s)) * DAL_N(s) + 1);
     in[0] = t;
     DAL_EACH(i, n + nw) in[1 + i] = now[i];
     if (DAL_LIFTED(s))

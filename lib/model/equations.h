@@ -44,6 +44,8 @@ typedef struct dal__equations {
     dal__node *invariant;  /* [invariants] */
     dal__node *exact;      /* [2n] or all 0 */
     dal__node mu;          /* mu_e, or 0 */
+    int controls;          /* columns of effort controls, and these: */
+    dal__node *control;    /* [controls*n] */
     dal__node *picture;    /* [DAL_PICTURE_COUNT], or NULL */
     dal_body body;
     int events;

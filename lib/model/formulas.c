@@ -109,6 +109,7 @@ static dal_status parse_dynamics(dal_model *model, dal_error *error)
     DAL_TRY(by_coordinate(model, DAL_SECTION_FORCES, all, e->force, error));
     DAL_TRY(parse_each(model, DAL_SECTION_CONSTRAINTS, all, e->m, e->constraint, error));
     DAL_TRY(by_coordinate(model, DAL_SECTION_REACTIONS, all, e->B, error));
+    DAL_TRY(by_coordinate(model, DAL_SECTION_CONTROLS, all, e->control, error));
     all.may |= OF_INVARIANTS;
     return parse_each(model, DAL_SECTION_INVARIANTS, all, e->invariants - e->observed, e->invariant,
                       error);
@@ -305,6 +306,28 @@ static dal_status check_reactions(dal_model *model, dal_error *error)
     return DAL_STATUS_OK;
 }
 
+/* Counts the columns of controls. */
+static dal_status count_controls(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    const dal__entry *entry;
+    for (int i = 0; (entry = dal__model_entry(model, DAL_SECTION_CONTROLS, i)) != NULL; i++) {
+        if (entry->item > DAL__MAX_COORDINATES)
+            return dal__fail_at(error, DAL_STATUS_TOO_LARGE, DAL__AT_NAME(entry),
+                                "control %d; at most %d are possible", entry->item,
+                                (int)DAL__MAX_COORDINATES);
+        if (entry->item > e->controls) e->controls = entry->item;
+    }
+    if (model->effort == DAL_EFFORT_CONTROLS && e->controls == 0)
+        return dal__fail(error, DAL_STATUS_MODEL,
+                         "effort controls: the system has none; they are columns of forces, as "
+                         "'controls: [{x: cos(phi), y: sin(phi)}, {phi: 1}]'");
+    if (model->effort != DAL_EFFORT_IDENTITY && e->vakonomic)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED, "effort %s: vakonomic motion has no lift",
+                         dal_effort_name(model->effort));
+    return DAL_STATUS_OK;
+}
+
 static dal_status check_equations(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
@@ -365,6 +388,7 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     e->A = dal__model_nodes(model, m * n, zero);
     e->B = e->servo ? dal__model_nodes(model, m * n, zero) : e->A;
     e->c = dal__model_nodes(model, m, zero);
+    e->control = dal__model_nodes(model, e->controls * n, zero);
     e->U = dal__model_nodes(model, n * m, 0);
     e->R = e->servo ? dal__model_nodes(model, n * m, zero) : e->U;
     e->a = dal__model_nodes(model, n, 0);
@@ -400,6 +424,7 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     e->pictured = dal__model_count(model, DAL_SECTION_PICTURE) > 0;
     DAL_TRY(check_equations(model, error));
     DAL_TRY(check_reactions(model, error));
+    DAL_TRY(count_controls(model, error));
     DAL_TRY(begin_equations(model, error));
     e->start[2 * e->n + e->multipliers] = dal__number(e->graph, 1.0);
     DAL_TRY(parse_parameters(model, error));

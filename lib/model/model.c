@@ -33,6 +33,7 @@ const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
     [DAL_SECTION_CONSTRAINTS] = {DAL__FORM_LIST, "constraint"},
     [DAL_SECTION_REACTIONS] = {DAL__FORM_MAPPINGS, "reaction"},
     [DAL_SECTION_MECHANICS] = {DAL__FORM_SCALAR, NULL},
+    [DAL_SECTION_CONTROLS] = {DAL__FORM_MAPPINGS, "control"},
     [DAL_SECTION_GAUGE] = {DAL__FORM_MAPPING, "gauge"},
     [DAL_SECTION_START] = {DAL__FORM_MAPPING, "start of"},
     [DAL_SECTION_INVARIANTS] = {DAL__FORM_MAPPING, "invariant"},
@@ -321,12 +322,31 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
         if (*c != '.' || entry.item < 1)
             return dal__fail_at(error, DAL_STATUS_NAME, line, column, "'%.80s' in %s is not %s",
                                 name, dal__section_name(section),
-                                section == DAL_SECTION_EVENTS
-                                    ? "an event and a key, as 1.when"
+                                section == DAL_SECTION_EVENTS ? "an event and a key, as 1.when"
+                                : section == DAL_SECTION_CONTROLS
+                                    ? "a column and a coordinate, as 1.x"
                                     : "a constraint and a coordinate, as 1.x");
         entry.name = c + 1;
     }
     return dal__model_insert(model, entry, error);
+}
+
+const char *dal_effort_name(dal_effort effort)
+{
+    DAL__RETURN_WORD(DAL_EFFORT_LIST, DAL__SECOND, effort, "?");
+}
+
+dal_status dal_model_set_effort(dal_model *model, dal_effort effort, dal_error *error)
+{
+    DAL_REQUIRE(model, error);
+    if ((unsigned)effort >= DAL_EFFORT_COUNT)
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "no effort has the number %d", (int)effort);
+    if (model->made)
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
+                         "'%.80s' already has its system: its effort is %s", model->name,
+                         dal_effort_name(model->effort));
+    model->effort = effort;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_model_observe(dal_model *model, const char *formula, int line, int column,

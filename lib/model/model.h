@@ -76,6 +76,7 @@ struct dal_model {
     int count;
     dal__tape_table *table; /* [tables], in the order of their entries */
     int tables, table_capacity;
+    dal_effort effort;  /* chosen by dal_model_set_effort */
     const char *source; /* [source_length] the text of a file; NULL: none */
     size_t source_length;
     dal__warning *warning; /* of the last attempt to make the system */

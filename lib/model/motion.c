@@ -484,3 +484,48 @@ dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_
     }
     return e->graph->status;
 }
+
+/* ---- efforts ---- */
+
+/* The columns M c, count of them, of M = P W^-1, which solves W x - B^T h = c, A x = 0. */
+static dal_status push_columns(dal_model *model, int count, const dal__node *column, dal__node *x)
+{
+    const dal__equations *e = &model->equations;
+    dal__node *zero = dal__model_nodes(model, e->m, dal__number(e->graph, 0.0));
+    if (!zero) return DAL_STATUS_MEMORY;
+    for (int k = 0; k < count; k++)
+        DAL_TRY(solve_motion(model, column + k * e->n, zero, x + k * e->n, NULL));
+    return e->graph->status;
+}
+
+dal_status dal__motion_effort(dal_model *model, dal_effort effort, dal__node *out)
+{
+    const dal__equations *e = &model->equations;
+    const bool is_constraint = effort == DAL_EFFORT_CONSTRAINT;
+    const int n = e->n, count = is_constraint ? n : e->controls;
+    const dal__node *pi = name(model, e->pi, n);
+    dal__node *unit = dal__model_nodes(model, n * n, dal__number(e->graph, 0.0));
+    dal__node *x = dal__model_nodes(model, count * n, 0), *g = dal__model_nodes(model, count, 0);
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    for (int i = 0; i < n; i++) unit[i * n + i] = dal__number(e->graph, 1.0);
+    for (int i = 0; i < n; i++) out[i] = dal__number(e->graph, 0.0);
+    if (effort == DAL_EFFORT_MASS && e->restricted) return DAL_STATUS_UNSUPPORTED;
+    if (effort == DAL_EFFORT_MASS) {
+        DAL_TRY(dal__factors_solve(model, e->mass, DAL__SUMS_UNCHANGED, 1, pi, out));
+    } else if (is_constraint && !e->servo) { /* K = P W^-1 by Chetaev's rule, else M W M^T */
+        DAL_TRY(push_columns(model, 1, pi, out));
+    } else {
+        DAL_TRY(push_columns(model, count, is_constraint ? unit : e->control, x));
+        for (int k = 0; k < count; k++) g[k] = dal__dot(e->graph, n, x + k * n, pi);
+        for (int k = 0; k < count; k++) { /* K pi = sum_k x_k g_k, of unit columns x_k (W g)_k */
+            const dal__node by = is_constraint ? dal__dot(e->graph, n, e->W + k * n, g) : g[k];
+            for (int i = 0; i < n; i++)
+                out[i] = dal__node_add(e->graph, out[i], dal__node_mul(e->graph, x[k * n + i], by));
+        }
+    }
+    const dal__node half =
+        dal__node_mul(e->graph, dal__number(e->graph, 0.5), dal__dot(e->graph, n, pi, out));
+    dal__gradient(e->graph, half, e->symbol + e->q, n, out + n);
+    dal__gradient(e->graph, half, e->symbol + e->v, n, out + 2 * n);
+    return e->graph->status;
+}

@@ -30,6 +30,10 @@ dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by
 /* F_q^T pi [n] and F_v^T pi [n].  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_v);
 
+/* K pi, (pi.K pi)_q/2 and (pi.K pi)_v/2 [3n] of an effort.  Errors: DAL_STATUS_UNSUPPORTED (mass
+ * where W may be singular), DAL_STATUS_SINGULAR, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
+dal_status dal__motion_effort(dal_model *model, dal_effort effort, dal__node *out);
+
 /* x [n] with W x = A^T l for some l and A x = -D: what brings v to D = 0 to first order.  Errors:
  * DAL_STATUS_SINGULAR, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_correct(dal_model *model, dal__node *x);

@@ -339,7 +339,8 @@ static dal_status make_series(dal_model *model, dal__programs *programs)
     }
     DAL_TRY(add_series(programs, 0, DAL__PROGRAM_FIELD, places));
     DAL_TRY(add_series(programs, 1, DAL__PROGRAM_ADJOINT, places));
-    return add_series(programs, 1, DAL__PROGRAM_GAUGE, places);
+    DAL_TRY(add_series(programs, 1, DAL__PROGRAM_GAUGE, places));
+    return add_series(programs, 1, DAL__PROGRAM_EFFORT, places);
 }
 
 static void point_to_series(dal__programs *programs)

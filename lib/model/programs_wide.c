@@ -83,9 +83,12 @@ dal_status DAL_WIDE(dal__call_series)(const dal_system *system, int lifted, int 
     num *to = (num *)out;
     DAL_WIDE(dal__taylor_run)(taylor, dal__unit_of_time(system), k, stride, in, work, memory);
     DAL_WIDE(dal__taylor_read)(taylor, 0, outputs, k, stride, work, memory, out);
-    if (lifted) to[outputs] = dal_num(0.0);
-    if (taylor->outputs > further) DAL_WIDE(dal__taylor_read)
+    const int gauge = p->program[DAL__PROGRAM_GAUGE].present, after = further + gauge;
+    if (lifted && gauge) DAL_WIDE(dal__taylor_read)
     (taylor, further, 1, k, stride, work, memory, (double *)(to + outputs));
+    if (lifted && !gauge) to[outputs] = dal_num(0.0);
+    if (lifted && taylor->outputs > after) DAL_WIDE(dal__taylor_read)
+    (taylor, after, taylor->outputs - after, k, stride, work, memory, (double *)(to + outputs + 1));
     if (k > 0 || further == outputs) return DAL_STATUS_OK;
     DAL_WIDE(dal__taylor_read)
     (taylor, outputs, further - outputs, k, stride, work, memory, scratch);

@@ -183,14 +183,14 @@ static dal_status describe(dal_model *model)
     return DAL_STATUS_OK;
 }
 
-/* The last program of the system and of the extended one. */
-static dal_status add_invariants(dal_model *model)
+/* Adds a program to the system and to the extended one. */
+static dal_status add_to_both(dal_model *model, dal__program_code code, const dal__node *outputs,
+                              int count)
 {
     const dal__equations *e = &model->equations;
     dal__programs *const programs[] = {&model->programs, &model->extended_programs};
     for (int k = 0; k < (e->extended ? 2 : 1); k++)
-        DAL_TRY(add_if(model, programs[k], e->invariants, DAL__PROGRAM_INVARIANTS, e->invariant,
-                       e->invariants));
+        DAL_TRY(dal__programs_add(model, programs[k], code, outputs, count));
     return e->graph->status;
 }
 
@@ -198,31 +198,47 @@ static dal_status add_invariants(dal_model *model)
 static dal_status add_correction(dal_model *model)
 {
     const dal__equations *e = &model->equations;
-    dal__programs *const programs[] = {&model->programs, &model->extended_programs};
     dal__node *x = dal__model_nodes(model, e->n, 0);
     if (!x) return DAL_STATUS_MEMORY;
     if (e->m == 0 || !e->U[0]) return DAL_STATUS_OK;
     const dal_status status = dal__motion_correct(model, x);
     if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
-    DAL_TRY(status);
-    for (int k = 0; k < (e->extended ? 2 : 1); k++)
-        DAL_TRY(dal__programs_add(model, programs[k], DAL__PROGRAM_CORRECTION, x, e->n));
-    return e->graph->status;
+    return status == DAL_STATUS_OK ? add_to_both(model, DAL__PROGRAM_CORRECTION, x, e->n) : status;
+}
+
+/* K pi and its derivatives, of an effort that is not the identity.  Nodes are made after all
+ * programs of F, which do not depend on it. */
+static dal_status add_effort(dal_model *model, dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n;
+    model->system.effort = model->effort;
+    if (model->effort == DAL_EFFORT_IDENTITY) return DAL_STATUS_OK;
+    dal__node *out = dal__model_nodes(model, 3 * n, 0);
+    dal_status status = out ? dal__motion_effort(model, model->effort, out) : DAL_STATUS_MEMORY;
+    if (status == DAL_STATUS_UNSUPPORTED)
+        return dal__fail(error, status,
+                         "effort mass: the mass matrix is singular, or may become so; effort "
+                         "constraint needs no W^-1");
+    for (int i = 0; status == DAL_STATUS_OK && i < n; i++)
+        if (dal__depends(e->graph, out[i], e->v, e->v + n))
+            model->system.properties |= DAL_EFFORT_OF_V;
+    if (model->system.properties & DAL_EFFORT_OF_V)
+        model->system.properties &= ~(unsigned)DAL_F_POSITIONAL;
+    if (status == DAL_STATUS_OK) status = add_to_both(model, DAL__PROGRAM_EFFORT, out, 3 * n);
+    return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
 }
 
 /* What enforces D at a velocity; nothing for vakonomic systems. */
 static dal_status add_enforcement(dal_model *model)
 {
     const dal__equations *e = &model->equations;
-    dal__programs *const programs[] = {&model->programs, &model->extended_programs};
     const int count = 2 * (e->n + e->m);
     dal__node *out = dal__model_nodes(model, count, 0);
     if (!out) return DAL_STATUS_MEMORY;
     if (e->vakonomic) return DAL_STATUS_OK;
     DAL_TRY(dal__motion_enforce(model, out));
-    for (int k = 0; k < (e->extended ? 2 : 1); k++)
-        DAL_TRY(dal__programs_add(model, programs[k], DAL__PROGRAM_ENFORCEMENT, out, count));
-    return e->graph->status;
+    return add_to_both(model, DAL__PROGRAM_ENFORCEMENT, out, count);
 }
 
 /* What the scales of D, E, invariants, h and R = B^T h are made from.  Nodes are made after all
@@ -298,9 +314,12 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
         status = add_programs(model, &model->extended_programs, model->equations.extended);
     if (status == DAL_STATUS_OK) DAL_TRY(dal__parse_observed(model, error));
     if (status == DAL_STATUS_OK) status = dal__insert_reactions(model);
-    if (status == DAL_STATUS_OK) status = add_invariants(model);
+    if (status == DAL_STATUS_OK && model->equations.invariants)
+        status = add_to_both(model, DAL__PROGRAM_INVARIANTS, model->equations.invariant,
+                             model->equations.invariants);
     if (status == DAL_STATUS_OK) status = add_correction(model);
     if (status == DAL_STATUS_OK) status = add_enforcement(model);
+    if (status == DAL_STATUS_OK) DAL_TRY(add_effort(model, error));
     if (status == DAL_STATUS_OK) status = add_terms(model);
     if (status == DAL_STATUS_OK) status = finish_programs(model, &model->programs, &model->system);
     if (status == DAL_STATUS_OK) status = dal__system_units(model, &model->system, model->units);

@@ -235,6 +235,7 @@ static void prepare_step(engine *e)
     const dal__layout *k = &e->layout;
     dal_step *s = &e->step;
     *s = (dal_step){.n = k->n, .nw = k->nw, .m = k->m, .dim = k->dim, .lifted = k->lifted};
+    s->effort = k->lifted && k->system->call.effort;
     s->y = e->persistent;
     s->r = e->persistent + s->dim;
     s->solver = k->options.solver;
@@ -349,10 +350,12 @@ static void observe_lift(engine *e, double t, num *out)
 {
     const num *y = e->persistent;
     const int n = e->layout.n;
-    num *f = out + 4, mu;
+    num *f = out + 4, *effort = f + e->layout.nw, mu;
+    const num *pi = y + 3 * n + 1;
     eval_callback(&e->step, DAL_EVAL_FIELD, t, y, y + n, NULL, f);
     eval_callback(&e->step, DAL_EVAL_GAUGE, t, y, y + n, NULL, &mu);
-    dal_lift_observables(y, n, f, mu, out);
+    if (e->step.effort) eval_callback(&e->step, DAL_EVAL_EFFORT, t, y, y + n, pi, effort);
+    dal_lift_observables(y, n, f, e->step.effort ? effort : pi, mu, out);
 }
 
 /* The multipliers of the method's last step; before the first the multipliers of F, which `values`

@@ -57,6 +57,8 @@ static const char *misfit(const dal__layout *k)
     if (needs & DAL_NEEDS_ENERGY && !call->energy_normal) return "the system has no energy_normal";
     if (needs & DAL_NEEDS_JACOBIAN && k->lifted && !call->jacobian)
         return "the system has no jacobian";
+    if (needs & DAL_NEEDS_JACOBIAN && k->lifted && s->properties & DAL_EFFORT_OF_V)
+        return "K of the effort depends on v, and pi.K pi/(2e) has no flow in closed form";
     if (k->options.solver == DAL_NEWTON && !call->jacobian)
         return "the system has no jacobian, which the solver newton needs";
     if (needs & DAL_NEEDS_BLOCKS && k->lifted)
@@ -344,9 +346,9 @@ static dal_status measure(dal__layout *k, dal_error *error)
     k->taylor_order = dal_taylor_order(k->options.tolerance);
     k->tolerance_root = pow(k->options.tolerance, 1.0 / k->taylor_order);
     const double series =
-        expands ? (1 + k->taylor_order) * ((double)k->system->series->size[k->lifted] + dim + 4)
+        expands ? (1 + k->taylor_order) * ((double)k->system->series->size[k->lifted] + 2 * dim + 4)
                 : 0;
-    const double scratch = (16 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
+    const double scratch = (20 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
                            parts + 2.0 * k->system->guards + k->system->invariants + 16 * n + 64 +
                            series;
     if (scratch > MAX_NUMBERS || k->stages > 1000)

@@ -6,15 +6,15 @@
  *     D_a   sum_i |A_ai v_i| + |D_a|              E    sum |E_q q| + sum |E_v v| + |E|
  *     I     |I|                                   h_a  |h_a|,   R_i   sum_a |B_ai h_a|
  *
- * H is the sum of pi_i^2/(2e), pi_i F_i and p_i v_i, of which the largest counts; it is 0, and H
- * exactly 0, where p = pi = 0. */
+ * H is the sum of pi_i (K pi)_i/(2e), pi_i F_i and p_i v_i, of which the largest counts; it is 0,
+ * and H exactly 0, where p = pi = 0. */
 #include "run/scales.h"
 #include <math.h>
 #include <string.h>
 
 /* Where a run keeps its scales: the results [observables]; the scales of D, E, invariants; of h, R;
- * of H and the norms of the lift [4]; a state [dimension]; F or the exact solution; memory of the
- * system. */
+ * of H and the norms of the lift [4]; a state [dimension]; F, the exact solution or K pi; memory of
+ * the system. */
 typedef struct places {
     double *out, *formulas, *reactions, *lift, *state, *vector, *memory;
 } places;
@@ -38,7 +38,7 @@ static size_t lay_out(const dal__layout *k, double *memory, places *p)
                          take(&used, (size_t)(s->m + s->n)),
                          take(&used, 4),
                          take(&used, (size_t)k->dim),
-                         take(&used, (size_t)(2 * s->n + s->multipliers)),
+                         take(&used, (size_t)(3 * s->n + s->multipliers)),
                          take(&used, s->scale_memory)};
     if (p)
         *p = (places){memory + at[0], memory + at[1], memory + at[2], memory + at[3],
@@ -99,21 +99,28 @@ static dal_status estimate_reactions(const dal_run *run, const dal_point *at, do
 
 /* ---- one group of observables ---- */
 
-/* H, |p|, |pi|, |pi_e|, out[4]. */
-static dal_status scale_lift(const dal_run *run, const dal_point *at, double *F, double *out)
+/* H, |p|, |pi|, |pi_e|, out[4]; vector[3n] is scratch. */
+static dal_status scale_lift(const dal_run *run, const dal_point *at, double *vector, double *out)
 {
+    const dal_system *s = run->layout.system;
     const int n = run->layout.n;
-    const double *y = at->q, *e = y + 2 * n, *p = e + 1, *pi = p + n;
+    const double *y = at->q, *e = y + 2 * n, *p = e + 1, *pi = p + n, *K_pi = pi;
+    dal_point lifted = *at;
+    lifted.pi = pi;
+    if (s->call.effort) {
+        DAL_TRY(s->call.effort(s, &lifted, vector));
+        K_pi = vector;
+    }
     memset(out, 0, 4 * sizeof *out);
     for (int i = 0; i < n; i++) {
         out[1] = fmax(out[1], fabs(p[i]));
         out[2] = fmax(out[2], fabs(pi[i]));
-        out[0] = fmax(out[0], fmax(fabs(p[i] * at->v[i]), 0.5 * pi[i] * pi[i] / fabs(*e)));
+        out[0] = fmax(out[0], fmax(fabs(p[i] * at->v[i]), 0.5 * fabs(pi[i] * K_pi[i] / *e)));
     }
     out[3] = fabs(y[4 * n + 1]);
     if (out[2] == 0.0) return DAL_STATUS_OK;
-    DAL_TRY(run->layout.system->call.field(run->layout.system, at, F));
-    for (int i = 0; i < n; i++) out[0] = fmax(out[0], fabs(pi[i] * F[i]));
+    DAL_TRY(s->call.field(s, at, vector));
+    for (int i = 0; i < n; i++) out[0] = fmax(out[0], fabs(pi[i] * vector[i]));
     return DAL_STATUS_OK;
 }
 

@@ -19,6 +19,9 @@ PROPERTIES = tuple(name for name in dir(lib) if name.startswith(('DAL_D_', 'DAL_
                    ) + ('DAL_AUTONOMOUS', 'DAL_MASS_CONSTANT', 'DAL_VAKONOMIC', 'DAL_SERVO')
 
 
+EFFORTS = ('identity', 'mass', 'constraint', 'controls')
+
+
 def text_of(chars: Any) -> str:
     """A text of the library, '' for NULL."""
     return ffi.string(chars).decode() if chars else ''
@@ -54,10 +57,10 @@ class Constraints(NamedTuple):
     reactions: Array
 
 
-def observed_system(text: str, name: str, observed: tuple[str, ...]) -> System:
-    """A system that observes these formulas: a copy, or one from a pickle."""
+def made_system(text: str, name: str, observed: tuple[str, ...], effort: str) -> System:
+    """A system with this effort that observes these formulas: a copy, or one from a pickle."""
     system = object.__new__(System)
-    system._make(text, name, observed)
+    system._make(text, name, observed, effort)
     return system
 
 
@@ -89,6 +92,8 @@ class System(Fixed):
         Default values.
     properties : frozenset of str
         What is known of the constraints and of the energy, as ``'D_LINEAR'``.
+    effort : str
+        Of the lift, see `with_effort`.
     defaults : dict of str to str
         Method, step and time of a run that shows the motion, where the file gives them.
 
@@ -107,6 +112,7 @@ class System(Fixed):
     coordinates: tuple[str, ...]
     invariants: tuple[str, ...]
     observed: tuple[str, ...]
+    effort: str
     tags: tuple[str, ...]
     events: tuple[str, ...]
     parameters: dict[str, float]
@@ -116,11 +122,12 @@ class System(Fixed):
     _system: Any
 
     def __init__(self, text: str, name: str = 'system'):
-        self._make(argument('text', text), argument('name', name), ())
+        self._make(argument('text', text), argument('name', name), (), EFFORTS[0])
 
-    def _make(self, text: str, name: str, observed: tuple[str, ...]) -> None:
-        self.name, self.text, self.observed = name, text, observed
+    def _make(self, text: str, name: str, observed: tuple[str, ...], effort: str) -> None:
+        self.name, self.text, self.observed, self.effort = name, text, observed, effort
         self._model = self._read()
+        call(lib.dal_model_set_effort, self._model, EFFORTS.index(effort))
         for number, formula in enumerate(observed, 1):
             call(lib.dal_model_observe, self._model, encode(formula), number, 1)
         self._system = self._derive(self._model)
@@ -175,7 +182,32 @@ class System(Fixed):
         for formula in formulas:
             if not isinstance(formula, str):
                 raise TypeError(f'a formula to observe is a str, not {formula!r}')
-        return observed_system(self.text, self.name, self.observed + formulas)
+        return made_system(self.text, self.name, self.observed + formulas, self.effort)
+
+    def with_effort(self, effort: str) -> System:
+        """The same system with another K of the lift, H = pi.K pi/(2e) + pi.F + p.v + mu_e pi_e.
+
+        Parameters
+        ----------
+        effort : str
+            ``'identity'``, ``'mass'``, ``'constraint'`` or ``'controls'``, the columns that the
+            system names under ``controls``.
+
+        Returns
+        -------
+        System
+            Where p = pi = 0 its runs have the same bits as runs of this system.
+
+        Raises
+        ------
+        InputError
+            The system has no such effort: no controls, a singular mass matrix, vakonomic motion.
+        ValueError
+            Another word.
+        """
+        if effort not in EFFORTS:
+            raise ValueError(f"effort: {effort!r} is not one of {', '.join(EFFORTS)}")
+        return made_system(self.text, self.name, self.observed, effort)
 
     def _at(self, name: str, callback: Any, shape: tuple[int, ...], q: ArrayLike, v: ArrayLike, t: ArrayLike,
             parameters: Settings | None) -> Any:
@@ -249,7 +281,7 @@ class System(Fixed):
         return taken_text(lib.dal_model_latex, self._model)
 
     def __reduce__(self) -> Any:
-        return observed_system, (self.text, self.name, self.observed)
+        return made_system, (self.text, self.name, self.observed, self.effort)
 
     def _read(self) -> Any:
         model, text = ffi.new('dal_model **'), self.text.encode()
@@ -291,6 +323,7 @@ class System(Fixed):
         other = object.__new__(System)
         other.name, other.text = self.name, self.text
         other._model = other._read()
+        call(lib.dal_model_set_effort, other._model, EFFORTS.index(self.effort))
         try:
             call(lib.dal_model_add, other._model, lib.DAL_SECTION_INVARIANTS, name.encode(),
                  encode(text), 1, 1)

@@ -76,3 +76,27 @@ def test_formulas():
     latex = oscillator.latex()
     assert latex.startswith('\\begin{align*}') and latex.rstrip().endswith('\\end{align*}')
     assert '\\ddot{x}' in latex or '\\dot{x}^{2}' in latex
+
+
+def test_effort():
+    """K of the lift: D is an integral for all p and pi, and on p = pi = 0 no bit changes."""
+    sleigh = dalembert.System.builtin('chaplygin-sleigh')
+    pushed = sleigh.with_effort('constraint')
+    assert (sleigh.effort, pushed.effort, pushed.observe('y1^2').effort) == ('identity', 'constraint', 'constraint')
+    start = {'pi_y1': 0.4, 'p_phi': -0.2}
+    drift = []
+    for system in (sleigh, pushed):
+        run = dalembert.Run(system, 'gauss12', step=0.05, start=start)
+        run.advance(40)
+        drift.append(abs(run.observables[0]))
+    assert drift[0] > 1e-2 and drift[1] < 1e-12
+    ends = []
+    for system in (sleigh, pushed, sleigh.with_effort('mass')):
+        run = dalembert.Run(system, 'gauss4', step=0.05)
+        run.advance(40)
+        ends.append(run.state.tobytes())
+    assert len(set(ends)) == 1
+    with pytest.raises(ValueError, match="'masses' is not one of identity, mass"):
+        sleigh.with_effort('masses')
+    with pytest.raises(dalembert.InputError, match='effort controls: the system has none'):
+        sleigh.with_effort('controls')

@@ -58,6 +58,11 @@ same contact-oscillator rk4 lifted 8 g++ -x c++ -std=c++17 -O2
 same contact-oscillator implicit-midpoint+project physical 1 clang++ -x c++ -std=c++17 -O2
 same nonholonomic-particle stormer-verlet+project lifted 1 gcc -std=c11 -O1
 same isokinetic gauss4 lifted 1 clang -std=c11 -O1 -march=native
+control="--effort constraint --start pi_y1=0.4"
+same chaplygin-sleigh gauss4 lifted 1 gcc -std=c11 -O2 -march=native
+same chaplygin-sleigh stormer-verlet lifted 4 clang -std=c11 -O1 -march=native
+same chaplygin-sleigh taylor lifted 1 g++ -x c++ -std=c++17 -O1
+control=
 same chaplygin-sleigh-vakonomic gauss6 physical 2 gcc -std=c11 -O1
 same appell-hamel symplectic-euler-11 physical 16 gcc -std=c11 -O1 -march=native
 same vertical-disk rk4+project physical 1 gcc -std=c11 -Os -ffreestanding

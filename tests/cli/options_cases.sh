@@ -66,6 +66,67 @@ sed -i 's/solve-to: 1e-9/precision: long/' extended.yaml
 try 2 study extended.yaml --output in-study
 says "extended.yaml:7:55: options: precision: long is called quad now"
 
+case_is "effort: native and generated, same bytes; on p = pi = 0 as without"
+pushed="chaplygin-sleigh --integrator gauss4 --step 0.05 --time 3 --samples 6 --start pi_y1=0.4 --start p_phi=0.1"
+resting="chaplygin-sleigh --integrator gauss4 --step 0.05 --time 3 --samples 6"
+try 0 run $pushed --effort constraint --native off --output pushed.csv
+try 0 run $resting --native off --output resting.csv
+for effort in identity mass constraint; do
+    try 0 run $resting --effort $effort --native off --output other.csv
+    expect "$effort: other bytes" cmp -s resting.csv other.csv
+done
+try 0 run $pushed --native off --output other.csv
+expect "the effort changes nothing" eval '! cmp -s pushed.csv other.csv'
+if needs 15 "no compiler" there cc; then
+    for method in rk4 gauss4 stormer-verlet taylor rk4+lift; do
+        set -- chaplygin-sleigh --integrator $method --step 0.05 --time 3 --samples 6 --start pi_y1=0.4 --effort constraint
+        try 0 run "$@" --native off --output off.csv
+        try 0 run "$@" --native on --output on.csv
+        expect "$method: other bytes" cmp -s off.csv on.csv
+    done
+    counted
+fi
+
+case_is "effort: resumed, in a study, and refused"
+try 0 run $pushed --effort constraint --native off --output pushed.npy
+try 0 run $pushed --effort constraint --native off --output effort-kept
+try 0 resume effort-kept
+expect "not kept in the manifest" grep -q '"effort": "constraint"' effort-kept/manifest.json
+expect "other bytes" cmp -s pushed.npy effort-kept/trajectory.npy
+try 2 resume effort-kept --effort mass
+cat >efforts.yaml <<'END2'
+integrators: [gauss4]
+step: 0.05
+time: 2
+starts: displaced
+displacement: 0.1
+systems:
+  - {system: chaplygin-sleigh, label: identity}
+  - {system: chaplygin-sleigh, label: constraint, options: {effort: constraint}}
+END2
+try 0 study efforts.yaml --output of-efforts
+moved() { awk -F, -v label="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "D_max") k = i }
+                                 $1 == label { print $k }' of-efforts/cells.csv; }
+expect "D_max: $(moved identity), $(moved constraint)" \
+    awk "BEGIN { exit !($(moved identity) > 1e-2 && $(moved constraint) < 1e-5) }"
+sed -i 's/effort: constraint/effort: constrain/' efforts.yaml
+try 2 study efforts.yaml --output of-efforts
+says "efforts.yaml:8:69: unknown effort 'constrain'; did you mean 'constraint'"
+table <<'END2'
+2 | run chaplygin-sleigh --effort masses | says --effort: 'masses' is not one of identity.mass.constraint.controls
+2 | run chaplygin-sleigh --effort controls | says effort controls: the system has none; they are columns of forces
+2 | run chaplygin-sleigh-vakonomic --effort mass | says effort mass: vakonomic motion has no lift
+END2
+
+case_is "effort: check verifies K, Dirac's algebra and H"
+for effort in mass constraint; do
+    try 0 check chaplygin-sleigh --effort $effort --details
+    prints "\(pi\.K pi\)_q, \(pi\.K pi\)_v *ok"
+    prints "H on the surface *ok"
+    prints "d int P\.X' - H, implicit-midpoint *ok"
+done
+prints "A K = 0 *ok"
+
 case_is "a method that cannot serve is refused with the reason"
 refuses() { # REASON SYSTEM INTEGRATOR SPACE
     try 2 run $2 --integrator $3 --step 0.1 --time 1 --space $4

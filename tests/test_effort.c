@@ -1,0 +1,342 @@
+/* test_effort.c - K of the lift: closed forms, D as an integral for all p and pi, symplecticity,
+ * and the same bits on p = pi = 0. */
+#include "fixtures.h"
+#include "quick.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX = 16, WORKSPACE = 4096 };
+
+#define SLEIGH                                                                                     \
+    "coordinates: [x, y, phi]\nparameters: {m: 2, I: 3}\n"                                         \
+    "lagrangian: m/2*(x'^2 + y'^2) + I/2*phi'^2\nconstraints: [x'*sin(phi) - y'*cos(phi)]\n"
+/* One control drives, the other one pushes at the centre: the sideways part of it does nothing. */
+static const char sleigh[] =
+    SLEIGH "controls: [{x: cos(phi), y: sin(phi)}, {phi: 5, x: sin(phi), y: -cos(phi)}]\n"
+           "start: {x': 0.5, phi': 0.3}\n";
+
+static dal_model *model_of(const char *text)
+{
+    dal_model *model = NULL;
+    const dal_status status = strchr(text, '\n')
+                                  ? dal_model_read(&model, "test", text, strlen(text), NULL)
+                                  : dal_model_builtin(&model, text, NULL);
+    CU_ASSERT_EQUAL_FATAL(status, DAL_STATUS_OK);
+    return model;
+}
+
+static const dal_system *system_of(dal_model **model, const char *text, dal_effort effort)
+{
+    const dal_system *system = NULL;
+    *model = model_of(text);
+    CU_ASSERT_EQUAL(dal_model_set_effort(*model, effort, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(*model, &system, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(system->effort, effort);
+    return system;
+}
+
+/* ---- K ---- */
+
+static void evaluate(const char *text, dal_effort effort, const double *q, const double *v,
+                     const double *pi, double *out)
+{
+    dal_model *model;
+    const dal_system *system = system_of(&model, text, effort);
+    dal_evaluator *evaluator = fixture_evaluator(system);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.effort, 0.0, q, v, pi, out),
+                    DAL_STATUS_OK);
+    dal_derivatives d;
+    const dal_point at = {.q = q, .v = v};
+    CU_ASSERT_EQUAL(dal_evaluator_check_derivatives(evaluator, &at, &d), DAL_STATUS_OK);
+    CU_ASSERT(d.effort <= 1e-10);
+    CU_ASSERT(effort == DAL_EFFORT_MASS ? isnan(d.effort_constraint)
+                                        : d.effort_constraint <= 1e-14);
+    dal_evaluator_free(evaluator);
+    dal_model_free(model);
+}
+
+/* With u = (cos, sin) along the sleigh, and n = (sin, -cos) across it, which no reaction lets move:
+ *     mass pi/(m, m, I)      constraint u u^T/m + 1/I      controls u u^T/m^2 + 25/I^2 */
+static void test_closed_forms(void)
+{
+    const double m = 2.0, I = 3.0, phi = 0.7, q[] = {0.2, -0.3, phi}, v[] = {0.5, 0.1, -0.4};
+    const double pi[] = {0.9, -0.6, 0.35}, c = cos(phi), s = sin(phi);
+    const double along = c * pi[0] + s * pi[1], across = -s * pi[0] + c * pi[1];
+    double out[9];
+    evaluate(sleigh, DAL_EFFORT_MASS, q, v, pi, out);
+    for (int i = 0; i < 9; i++)
+        CU_ASSERT_DOUBLE_EQUAL(out[i], i < 2 ? pi[i] / m : i == 2 ? pi[2] / I : 0.0, 1e-15);
+    for (int controls = 0; controls < 2; controls++) {
+        const double by = controls ? 1.0 / (m * m) : 1.0 / m,
+                     turn = controls ? 25.0 / (I * I) : 1 / I;
+        evaluate(sleigh, controls ? DAL_EFFORT_CONTROLS : DAL_EFFORT_CONSTRAINT, q, v, pi, out);
+        CU_ASSERT_DOUBLE_EQUAL(out[0], by * along * c, 1e-15);
+        CU_ASSERT_DOUBLE_EQUAL(out[1], by * along * s, 1e-15);
+        CU_ASSERT_DOUBLE_EQUAL(out[2], turn * pi[2], 1e-15);
+        CU_ASSERT_DOUBLE_EQUAL(out[5], by * along * across, 1e-15);
+        for (int i = 3; i < 9; i++)
+            if (i != 5) CU_ASSERT_DOUBLE_EQUAL(out[i], 0.0, 1e-15);
+    }
+}
+
+/* K = M W M^T with M = P W^-1 for reactions of their own: by hand for one constraint,
+ * P = 1 - R A/(A R) and R = W^-1 B, A = (-y, 0, 1), B = (1, 0, 2), W = diag(1, 2, 4). */
+static void test_reactions(void)
+{
+    static const char text[] =
+        "coordinates: [x, y, z]\nlagrangian: x'^2/2 + y'^2 + 2*z'^2\n"
+        "constraints: [z' - y*x']\nreactions: [{x: 1, z: 2}]\nstart: {y: 0.3}\n";
+    const double q[] = {0.4, -0.7, 0.1}, v[] = {0.2, 0.3, -0.5}, pi[] = {0.5, 0.8, -0.9};
+    const double W[] = {1.0, 2.0, 4.0}, A[] = {-q[1], 0.0, 1.0}, R[] = {1.0, 0.0, 0.5};
+    const double AR = A[0] * R[0] + A[2] * R[2];
+    double P[3][3], K[3][3] = {{0}}, out[9];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) P[i][j] = (i == j) - R[i] * A[j] / AR;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++) K[i][j] += P[i][k] * P[j][k] / W[k];
+    evaluate(text, DAL_EFFORT_CONSTRAINT, q, v, pi, out);
+    for (int i = 0; i < 3; i++) {
+        double sum = 0.0;
+        for (int j = 0; j < 3; j++) sum += K[i][j] * pi[j];
+        CU_ASSERT_DOUBLE_EQUAL(out[i], sum, 1e-14);
+    }
+}
+
+/* W is singular, and on ker A it is not. */
+static void test_restricted(void)
+{
+    static const char text[] = "coordinates: [x, y]\nlagrangian: x'^2/2 - y^2/2\n"
+                               "constraints: [y' - cos(x)*x']\nstart: {x': 0.4}\n";
+    const double q[] = {0.3, 0.2}, v[] = {0.1, 0.4}, pi[] = {0.5, -0.8};
+    const double u[] = {1.0, cos(0.3)}, along = pi[0] + pi[1] * cos(0.3);
+    dal_error error = {0};
+    const dal_system *system;
+    double out[6];
+    evaluate(text, DAL_EFFORT_CONSTRAINT, q, v, pi, out);
+    for (int i = 0; i < 2; i++) CU_ASSERT_DOUBLE_EQUAL(out[i], u[i] * along, 1e-14);
+    dal_model *model = model_of(text);
+    CU_ASSERT_EQUAL(dal_model_set_effort(model, DAL_EFFORT_MASS, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "effort mass: the mass matrix is singular"));
+    dal_model_free(model);
+}
+
+/* ---- runs ---- */
+
+static dal_run *perturbed(const dal_system *system, const char *method, double step)
+{
+    dal_run_spec spec = fixture_spec(system, method, DAL_LIFTED, step);
+    dal_run *run = fixture_run(&spec);
+    fixture_perturb(run, 0.3);
+    return run;
+}
+
+/* The largest change of D within a time 2, p and pi being of order 1. */
+static double change_of_D(const char *text, dal_effort effort, const char *method, double step)
+{
+    dal_model *model;
+    const dal_system *system = system_of(&model, text, effort);
+    dal_run *run = perturbed(system, method, step);
+    double first[64], now[64], max = 0.0;
+    CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_STATUS_OK);
+    for (int k = 0; k < 8; k++) {
+        CU_ASSERT_EQUAL(dal_run_advance(run, (long long)round(0.25 / step), NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_STATUS_OK);
+        for (int a = 0; a < system->m; a++) max = fmax(max, fabs(now[a] - first[a]));
+    }
+    dal_run_free(run);
+    dal_model_free(model);
+    return max;
+}
+
+/* D is kept to rounding by the methods that preserve its kind, else to their order; with the
+ * identity the push pi/e moves it. */
+static void test_constraints_kept(void)
+{
+    const struct {
+        const char *text, *method;
+    } kept[] = {{fixture_constant, "rk4"},
+                {fixture_constant, "stormer-verlet"},
+                {fixture_bilinear, "stormer-verlet"},
+                {fixture_bilinear, "lobatto4"},
+                {fixture_quadratic, "gauss4"}};
+    for (size_t k = 0; k < sizeof kept / sizeof *kept; k++) {
+        const double error = change_of_D(kept[k].text, DAL_EFFORT_CONSTRAINT, kept[k].method, 0.05);
+        if (!(error <= 1e-13)) printf("\n  %zu, %s: D changes by %.2e\n", k, kept[k].method, error);
+        CU_ASSERT(error <= 1e-13);
+        CU_ASSERT(change_of_D(kept[k].text, DAL_EFFORT_IDENTITY, kept[k].method, 0.05) > 1e-3);
+    }
+    const char *const fourth[] = {"rk4", "gauss4", "lobatto4"};
+    for (int k = 0; k < 3; k++)
+        for (int controls = 0; controls < 2; controls++) {
+            const dal_effort effort = controls ? DAL_EFFORT_CONTROLS : DAL_EFFORT_CONSTRAINT;
+            const double order = log2(change_of_D(sleigh, effort, fourth[k], 0.05) /
+                                      change_of_D(sleigh, effort, fourth[k], 0.025));
+            CU_ASSERT(order > 3.5);
+        }
+}
+
+/* The extremal from rest to rest of a free coordinate is a cubic, which these methods integrate
+ * exactly; on the sleigh forwards by d, and turned by theta, at the cost 6 m d^2/T^3 and
+ * 6 I theta^2/T^3, which pi_e accumulates. */
+static void test_rest_to_rest(void)
+{
+    const double T = 1.5, d = 0.8, inertia[] = {2.0, 3.0};
+    const char *const methods[] = {"gauss4", "lobatto4", "taylor"};
+    for (int k = 0; k < 3; k++)
+        for (int turns = 0; turns < 2; turns++) {
+            dal_model *model;
+            dal_run_spec spec = fixture_spec(system_of(&model, SLEIGH, DAL_EFFORT_CONSTRAINT),
+                                             methods[k], DAL_LIFTED, T / 20.0);
+            const double a = 6.0 * inertia[turns] * d / (T * T);
+            const dal_setting start[] = {{turns ? "pi_phi" : "pi_x", a},
+                                         {turns ? "p_phi" : "p_x", 2.0 * a / T}};
+            spec.start = start;
+            spec.start_count = 2;
+            dal_run *run = fixture_stepped(&spec, 20);
+            const double *y = dal_run_state(run);
+            CU_ASSERT_DOUBLE_EQUAL(y[turns ? 2 : 0], d, 1e-14);
+            CU_ASSERT_DOUBLE_EQUAL(y[turns ? 5 : 3], 0.0, 1e-13);
+            CU_ASSERT_DOUBLE_EQUAL(y[13], 6.0 * inertia[turns] * d * d / (T * T * T), 1e-13);
+            dal_run_free(run);
+            dal_model_free(model);
+        }
+}
+
+/* H = pi.K pi/(2e) + .. is the Hamiltonian of the steps: they are symplectic, and the methods of
+ * high order keep it. */
+static void test_hamiltonian(void)
+{
+    const char *const methods[] = {"symplectic-euler-10",
+                                   "symplectic-euler-01",
+                                   "symplectic-euler-00",
+                                   "stormer-verlet",
+                                   "gauss4",
+                                   "rk4+lift"};
+    for (int effort = DAL_EFFORT_MASS; effort < DAL_EFFORT_COUNT; effort++) {
+        dal_model *model;
+        const dal_system *system = system_of(&model, sleigh, (dal_effort)effort);
+        for (int k = 0; k < 6; k++) {
+            const dal_run_spec spec = fixture_spec(system, methods[k], DAL_LIFTED, 0.1);
+            CU_ASSERT(fixture_symplectic_defect(&spec) <= 1e-9);
+        }
+        const char *const exact[] = {"gauss12", "taylor"};
+        for (int k = 0; k < 2; k++) {
+            dal_run *run = perturbed(system, exact[k], 0.02);
+            double first[64], last[64];
+            CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_STATUS_OK);
+            CU_ASSERT_EQUAL(dal_run_advance(run, 50, NULL), DAL_STATUS_OK);
+            CU_ASSERT_EQUAL(dal_run_observe(run, last), DAL_STATUS_OK);
+            CU_ASSERT_DOUBLE_EQUAL(first[2], last[2], 1e-13); /* D1, E, H */
+            CU_ASSERT(fabs(first[2]) > 0.01);
+            dal_run_free(run);
+        }
+        dal_model_free(model);
+    }
+}
+
+/* On p = pi = 0 no effort changes a bit; F may depend on v or not, W may be full. */
+static void test_surface(void)
+{
+    const char *const texts[] = {sleigh, fixture_full, "vertical-disk"};
+    const char *const methods[] = {"rk4",    "dop853",         "gauss4",  "symplectic-euler-10",
+                                   "taylor", "stormer-verlet", "lobatto4"};
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 7; i++) {
+            double states[DAL_EFFORT_COUNT][2 * MAX];
+            for (int effort = 0; effort < DAL_EFFORT_COUNT - (k > 0); effort++) {
+                dal_model *model;
+                const dal_system *system = system_of(&model, texts[k], (dal_effort)effort);
+                dal_run_spec spec = fixture_spec(system, methods[i], DAL_LIFTED, 0.05);
+                dal_run *run = fixture_stepped(&spec, 40);
+                const size_t size = 2 * (size_t)system->n * sizeof(double);
+                memcpy(states[effort], dal_run_state(run), size);
+                CU_ASSERT(memcmp(states[effort], states[0], size) == 0);
+                dal_run_free(run);
+                dal_model_free(model);
+            }
+        }
+}
+
+/* Lanes have the bits of single runs, and quad precision agrees to the rounding of double. */
+static void test_forms(void)
+{
+    const char *const methods[] = {"rk4", "gauss4", "stormer-verlet", "taylor", "dop853"};
+    dal_model *model;
+    const dal_system *system = system_of(&model, sleigh, DAL_EFFORT_CONSTRAINT);
+    for (int k = 0; k < 5; k++) {
+        dal_run_spec spec = fixture_spec(system, methods[k], DAL_LIFTED, 0.05);
+        fixture_lanes(spec, 9, 20, "pi_x", 0.3, 0.02);
+        if (!system->quad) continue;
+        const dal_setting start[] = {{"pi_x", 0.4}, {"p_phi", -0.2}, {"pi_phi", 0.1}};
+        spec.start = start;
+        spec.start_count = 3;
+        dal_run *runs[2];
+        for (int quad = 0; quad < 2; quad++) {
+            spec.options.precision = quad ? DAL_QUAD : DAL_DOUBLE;
+            runs[quad] = fixture_stepped(&spec, 20);
+        }
+        for (int i = 0; i < dal_run_dimension(runs[0]); i++)
+            CU_ASSERT_DOUBLE_EQUAL(dal_run_state(runs[0])[i], dal_run_state(runs[1])[i], 1e-14);
+        dal_run_free(runs[0]);
+        dal_run_free(runs[1]);
+    }
+    dal_model_free(model);
+}
+
+/* ---- refusals ---- */
+
+static void refused(const char *text, dal_effort effort, dal_status status, const char *fragment)
+{
+    dal_model *model = model_of(text);
+    const dal_system *system;
+    dal_error error = {0};
+    CU_ASSERT_EQUAL(dal_model_set_effort(model, effort, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), status);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
+    dal_model_free(model);
+}
+
+static void test_refused(void)
+{
+    dal_model *model;
+    dal_error error = {0};
+    const dal_system *system = system_of(&model, sleigh, DAL_EFFORT_MASS);
+    CU_ASSERT_EQUAL(dal_model_set_effort(model, DAL_EFFORT_IDENTITY, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_STRING_EQUAL(error.message, "'test' already has its system: its effort is mass");
+    CU_ASSERT_PTR_NOT_NULL(system);
+    dal_model_free(model);
+    model = model_of(sleigh);
+    CU_ASSERT_EQUAL(dal_model_set_effort(model, DAL_EFFORT_COUNT, &error), DAL_STATUS_ARGUMENT);
+    dal_model_free(model);
+    refused(SLEIGH, DAL_EFFORT_CONTROLS, DAL_STATUS_MODEL, "effort controls: the system has none");
+    refused("chaplygin-sleigh-vakonomic", DAL_EFFORT_MASS, DAL_STATUS_UNSUPPORTED,
+            "effort mass: vakonomic motion has no lift");
+    refused(SLEIGH "controls: [{z: 1}]\n", DAL_EFFORT_IDENTITY, DAL_STATUS_NAME,
+            "unknown coordinate in controls 'z'");
+    refused(SLEIGH "controls: [{x: u}]\n", DAL_EFFORT_IDENTITY, DAL_STATUS_NAME, "control");
+    /* A mass that depends on v: pi.K pi/2 has no flow in closed form. */
+    system = system_of(&model, "coordinates: [x]\nlagrangian: x'^2/2 + x'^4/4\n", DAL_EFFORT_MASS);
+    dal_run_spec spec = fixture_spec(system, "rk4+lift", DAL_LIFTED, 0.1);
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, "K of the effort depends on v");
+    spec = fixture_spec(system, "symplectic-euler-10", DAL_LIFTED, 0.1);
+    CU_ASSERT(fixture_symplectic_defect(&spec) <= 1e-9);
+    dal_model_free(model);
+}
+
+void suite_effort(void)
+{
+    CU_pSuite suite = CU_add_suite("effort", NULL, NULL);
+    CU_ADD_TEST(suite, test_closed_forms);
+    CU_ADD_TEST(suite, test_reactions);
+    CU_ADD_TEST(suite, test_restricted);
+    CU_ADD_TEST(suite, test_constraints_kept);
+    CU_ADD_TEST(suite, test_rest_to_rest);
+    CU_ADD_TEST(suite, test_hamiltonian);
+    CU_ADD_TEST(suite, test_surface);
+    CU_ADD_TEST(suite, test_forms);
+    CU_ADD_TEST(suite, test_refused);
+}
