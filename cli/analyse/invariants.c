@@ -286,7 +286,7 @@ int invariants_observe(run_simulation *simulation)
     dal_invariants_free(found);
     cli_note("%s %s %s", request->system_name, added[0] ? "conserves" : "has no further invariants",
              added[0] ? added : "of degree 2");
-    simulation->system = NULL; /* it is made again, with these formulas */
+    if (added[0]) simulation->system = NULL; /* it is made again, with these formulas */
     const int given =
         added[0] ? request_give(request, REQUEST_observe, cli_strdup(list)) : CLI_DONE;
     free(list);
