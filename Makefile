@@ -76,7 +76,7 @@ LIB_SRC    = $(filter-out $(WIDE_SRC),$(wildcard lib/*/*.c))
 LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/systems.o \
              $(BUILD)/generated/sources.o $(BUILD)/generated/trend_tables.o \
              $(call WIDE,$(VARIANTS),$(WIDE_SRC) $(METHOD_SRC))
-CLI_SRC    = $(filter-out cli/mpi/%,$(wildcard cli/*/*.c))
+CLI_SRC    = $(filter-out cli/mpi/%,$(wildcard cli/*/*.c cli/commands/*/*.c))
 EMBEDDED   = study report_style report_script template
 CLI_OBJ    = $(CLI_SRC:%.c=$(BUILD)/%.o) $(EMBEDDED:%=$(BUILD)/generated/%.o)
 WIDE       = $(foreach variant,$1,$(2:%.c=$(BUILD)/%_$(variant).o))

@@ -1,7 +1,7 @@
 /* test_brackets.c - measures of the lift: brackets, Dirac's algebra, actions. */
-#include "analysis/dirac.h"
 #include "core/vectors.h"
 #include "fixtures.h"
+#include "lift/dirac.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <string.h>

@@ -6,7 +6,7 @@
  * Conservation of phi_a on the surface, {phi_a, H_0} + sum_b mu_b {phi_a, phi_b} = 0 over the
  * primary phi_b, is solved for mu by least squares; the residue must vanish.  The rank of
  * {phi_a, phi_b} over all constraints counts the second-class ones. */
-#include "analysis/dirac.h"
+#include "lift/dirac.h"
 #include "analysis/derivatives.h"
 #include "analysis/evaluator.h"
 #include "core/error.h"
