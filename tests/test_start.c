@@ -108,6 +108,35 @@ static void test_exact_zero(void)
         }
 }
 
+/* x = 2, and 10^6 from t = 0.5 on; between 0.1 and 0.5 it has no value. */
+static dal_status interrupted(const dal_system *system, const dal_point *at, double *exact)
+{
+    (void)system;
+    if (at->t > 0.1 && at->t < 0.5) return DAL_STATUS_NOT_FINITE;
+    exact[0] = at->t < 0.5 ? 2.0 : 1e6;
+    exact[1] = 0.0;
+    return DAL_STATUS_OK;
+}
+
+/* The size of an exact solution is its largest value as far as it has values: what comes later makes
+ * no start right that is 1e-9 off. */
+static void test_exact_ends(void)
+{
+    static const double off[] = {0.0, 1e-9};
+    for (int i = 0; i < 2; i++) {
+        dal_system system = *fixture_system("coordinates: [x]\naccelerations: {x: 0}\n"
+                                            "start: {x: 2}\nexact: {x: 2}\n");
+        const dal_setting start = {"x", 2.0 + off[i]};
+        system.exact = interrupted;
+        dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.2);
+        spec.start = &start;
+        spec.start_count = 1;
+        dal_run *run = fixture_run(&spec);
+        CU_ASSERT_EQUAL(dal_run_observables(run), i == 0);
+        dal_run_free(run);
+    }
+}
+
 /* A start that the parameters make infinite is named, with its value. */
 static void test_not_finite(void)
 {
@@ -514,4 +543,5 @@ void suite_start(void)
     CU_add_test(suite, "pivots are 1e-12 at least", test_rank);
     CU_add_test(suite, "an exact solution begins there within 1e-10", test_exact);
     CU_add_test(suite, "an exact solution that begins at 0, in all units", test_exact_zero);
+    CU_add_test(suite, "an exact solution that ends", test_exact_ends);
 }

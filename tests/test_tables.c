@@ -232,6 +232,31 @@ static void test_errors(void)
     }
 }
 
+/* Of a head with more columns than a message compares, each can be chosen, and what is not there is
+ * said. */
+static void test_many_columns(void)
+{
+    enum { COLUMNS = 3000 };
+    char *text = malloc(64 * COLUMNS), *end = text;
+    CU_ASSERT_PTR_NOT_NULL_FATAL(text);
+    for (int wanted = COLUMNS - 1; wanted <= COLUMNS; wanted++) {
+        dal_model *model = NULL;
+        dal_error error = {0};
+        end = text + sprintf(text, SYSTEM "tables: {f: {file: f.csv, at: c0, value: c%d}}\n", wanted);
+        end += sprintf(end, "files: {f.csv: \"c0");
+        for (int i = 1; i < COLUMNS; i++) end += sprintf(end, ",c%d", i);
+        for (int row = 0; row < 2; row++)
+            for (int i = 0; i < COLUMNS; i++) end += sprintf(end, "%s%d", i ? "," : "\\n", row);
+        sprintf(end, "\"}\n");
+        const dal_status status = dal_model_read(&model, "f", text, strlen(text), &error);
+        CU_ASSERT_EQUAL(status, wanted < COLUMNS ? DAL_STATUS_OK : DAL_STATUS_NAME);
+        if (wanted == COLUMNS)
+            CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "unknown column of 'f.csv' 'c3000'"));
+        dal_model_free(model);
+    }
+    free(text);
+}
+
 /* A text holds its files after it was read from a directory, in block, flow and indented form; what
  * it makes is the same. */
 static void test_source(void)
@@ -279,5 +304,6 @@ void suite_tables(void)
     CU_add_test(suite, "outside", test_extension);
     CU_add_test(suite, "a robot", test_robot);
     CU_add_test(suite, "errors", test_errors);
+    CU_add_test(suite, "a head of many columns", test_many_columns);
     CU_add_test(suite, "a text with its files", test_source);
 }
