@@ -74,6 +74,25 @@ dal_status dal_model_observe(dal_model *model, const char *formula, int line, in
  * DAL_STATUS_MODEL (controls, and the model has none) and DAL_STATUS_UNSUPPORTED (vakonomic motion,
  * which has no lift; mass, and W is singular). */
 dal_status dal_model_set_effort(dal_model *model, dal_effort effort, dal_error *error);
+/* Which mechanics a model's Lagrangian and constraints are read by: MECHANICS(code, name). */
+#define DAL_MECHANICS_LIST(MECHANICS)                                                              \
+    MECHANICS(SYSTEM, "system")                         /* what its section mechanics names */     \
+    MECHANICS(LAGRANGE_DALEMBERT, "lagrange-dalembert") /* reactions do no virtual work (nh3) */   \
+    MECHANICS(VAKONOMIC, "vakonomic")                   /* extremals of int L - g.D (nh6) */
+/* The number of a mechanics. */
+typedef enum dal_mechanics {
+#define CODE(code, name) DAL_MECHANICS_##code,
+    DAL_MECHANICS_LIST(CODE)
+#undef CODE
+        DAL_MECHANICS_COUNT
+} dal_mechanics;
+/* Chooses the mechanics; DAL_MECHANICS_SYSTEM where it is not called.  Where it is another one than
+ * the model's own, the system has no exact solution, its invariants are observed alone, and the
+ * start has no multipliers g if it is DAL_MECHANICS_LAGRANGE_DALEMBERT.  Errors:
+ * DAL_STATUS_ARGUMENT (an unknown mechanics, a model that has its system).  dal_model_system then
+ * has the errors of a model with this mechanics: DAL_STATUS_MODEL (vakonomic, with accelerations,
+ * reactions or impacts) and DAL_STATUS_NAME (formulas of g in Lagrange-d'Alembert mechanics). */
+dal_status dal_model_set_mechanics(dal_model *model, dal_mechanics mechanics, dal_error *error);
 /* Between two points a table is a straight line, or the natural cubic spline: smooth up to its
  * second derivative, which is 0 at both ends. */
 typedef enum dal_interpolation { DAL_LINEAR, DAL_CUBIC } dal_interpolation;

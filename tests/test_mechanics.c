@@ -2,6 +2,7 @@
  * same mechanics written in C, on systems with all that makes them hard: time, a full mass matrix
  * that depends on q (and one without positive diagonal), forces that depend on velocities, several
  * constraints, linear and not. */
+#include "dalembert_evaluator.h"
 #include "expr/simplify.h"
 #include "model/model.h"
 #include "model/programs.h"
@@ -326,6 +327,86 @@ static void test_vakonomic(void)
     reference_free(&b);
 }
 
+/* What a text is with a mechanics that its file does not name. */
+static dal_status choose(dal_model **model, const dal_system **system, const char *text,
+                         dal_mechanics mechanics, dal_error *error)
+{
+    CU_ASSERT_EQUAL_FATAL(dal_model_read(model, "chosen", text, strlen(text), error),
+                          DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_set_mechanics(*model, mechanics, error), DAL_STATUS_OK);
+    return dal_model_system(*model, system, error);
+}
+
+#define WITH_ANGLE                                                                                 \
+    "coordinates: [x, y, phi]\nlagrangian: (x'^2 + y'^2 + phi'^2)/2\n"                             \
+    "constraints: [y'*cos(phi) - x'*sin(phi)]\n"
+
+/* The sleigh from rest but x' = phi' = 1, g = g0 at phi = 0: (nh32), and (nh36) as corrected with
+ * c = -g0, whose right side is -2 c = 2 g0 there. */
+static void test_chosen_mechanics(void)
+{
+    static const char vakonomic[] =
+        WITH_ANGLE "mechanics: vakonomic\nstart: {x': 1, phi': 1, g1: 0.4}\n";
+    static const char lagrange[] =
+        WITH_ANGLE "mechanics: lagrange-dalembert\nstart: {x': 1, phi': 1}\n"
+                   "exact: {x: sin(t), y: 1 - cos(t), phi: t}\n";
+    const double q[3] = {0.0}, v[4] = {1.0, 0.0, 1.0, 0.4};
+    double F[4];
+    for (int k = 0; k < 4; k++) {
+        const char *text = k % 2 ? vakonomic : lagrange;
+        const bool is_vakonomic = k >= 2;
+        dal_error error = {0};
+        dal_model *model;
+        const dal_system *system;
+        CU_ASSERT_EQUAL_FATAL(
+            choose(&model, &system, text,
+                   is_vakonomic ? DAL_MECHANICS_VAKONOMIC : DAL_MECHANICS_LAGRANGE_DALEMBERT,
+                   &error),
+            DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(system->multipliers, is_vakonomic);
+        CU_ASSERT_EQUAL(system->exact != NULL, k == 0);
+        dal_evaluator *evaluator;
+        CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, &error),
+                              DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.field, 0.0, q, v, NULL, F),
+                        DAL_STATUS_OK);
+        CU_ASSERT_DOUBLE_EQUAL(F[1], 1.0, 1e-15);
+        CU_ASSERT_DOUBLE_EQUAL(F[2], is_vakonomic ? 0.4 : 0.0, 1e-15);
+        CU_ASSERT_EQUAL(dal_model_set_mechanics(model, DAL_MECHANICS_SYSTEM, &error),
+                        DAL_STATUS_ARGUMENT);
+        CU_ASSERT_STRING_EQUAL(error.message,
+                               is_vakonomic
+                                   ? "'chosen' already has its system: its mechanics is vakonomic"
+                                   : "'chosen' already has its system: its mechanics is "
+                                     "lagrange-dalembert");
+        dal_evaluator_free(evaluator);
+        dal_model_free(model);
+    }
+}
+
+static void test_mechanics_refused(void)
+{
+    static const struct {
+        const char *text, *fragment;
+        dal_mechanics mechanics;
+    } cases[] = {
+        {"coordinates: [x]\naccelerations: {x: -x}\n", "needs a lagrangian",
+         DAL_MECHANICS_VAKONOMIC},
+        {WITH_ANGLE "reactions: [{x: 1}]\n", "has no reactions", DAL_MECHANICS_VAKONOMIC},
+        {WITH_ANGLE "mechanics: vakonomic\ninvariants: {p: y' - g1*cos(phi)}\n",
+         "unknown name 'g1'", DAL_MECHANICS_LAGRANGE_DALEMBERT},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        dal_error error = {0};
+        dal_model *model;
+        const dal_system *system;
+        CU_ASSERT_NOT_EQUAL(choose(&model, &system, cases[k].text, cases[k].mechanics, &error),
+                            DAL_STATUS_OK);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.message, cases[k].fragment));
+        dal_model_free(model);
+    }
+}
+
 /* ---- lanes ---- */
 
 typedef struct lanes_case {
@@ -408,6 +489,8 @@ void suite_mechanics(void)
     CU_add_test(suite, "Jacobian and adjoint", test_derivatives);
     CU_add_test(suite, "tangent system", test_tangent);
     CU_add_test(suite, "vakonomic motion", test_vakonomic);
+    CU_add_test(suite, "a mechanics that is chosen", test_chosen_mechanics);
+    CU_add_test(suite, "a mechanics that cannot be", test_mechanics_refused);
     CU_add_test(suite, "lanes have the bits of one", test_lanes);
     CU_add_test(suite, "lanes of multipliers", test_lanes_of_multipliers);
 }

@@ -391,6 +391,15 @@ static void null_dal_effort_name(void)
     CU_ASSERT_STRING_EQUAL(dal_effort_name(DAL_EFFORT_COUNT), "?");
 }
 
+static void null_dal_model_set_mechanics(void)
+{
+    dal_model *made = dal_model_create("made");
+    REFUSED(dal_model_set_mechanics(NULL, DAL_MECHANICS_VAKONOMIC, error));
+    REFUSED(dal_model_set_mechanics(made, DAL_MECHANICS_COUNT, error));
+    REFUSED(dal_model_set_mechanics(made, (dal_mechanics)-1, error));
+    dal_model_free(made);
+}
+
 static void null_dal_model_set_effort(void)
 {
     dal_model *made = dal_model_create("made");

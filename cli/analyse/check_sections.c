@@ -295,7 +295,7 @@ static void check_energy(check *c)
         check_system_energy(c);
     else
         check_item(c, CHECK_INFO, "energy E", "none is known: there is no Lagrangian");
-    for (int i = 0; i < s->invariants; i++) {
+    for (int i = 0; i < s->invariants - s->observed; i++) {
         char what[32];
         snprintf(what, sizeof what, "invariant %.20s", s->invariant[i]);
         const motion_rate rate =

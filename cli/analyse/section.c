@@ -62,7 +62,7 @@ static int load_with_invariant(run_simulation *simulation, const char *name, con
     dal_model_free(simulation->model);
     const int status = cli_read(simulation->request.system_name, &simulation->model);
     if (status != CLI_DONE) return status;
-    dal_model_set_effort(simulation->model, simulation->request.effort, NULL);
+    cli_choose(simulation->model, &simulation->request.choices);
     dal_status made =
         dal_model_add(simulation->model, DAL_SECTION_INVARIANTS, name, formula, 1, column, &error);
     if (made == DAL_STATUS_OK)

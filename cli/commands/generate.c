@@ -30,12 +30,12 @@ static const cli_option options[] = {
 };
 
 /* The options of a run that a generated file needs. */
-static const uint64_t taken = REQUEST_OPTION(integrator) | REQUEST_OPTION(from) |
-                              REQUEST_OPTION(space) | REQUEST_OPTION(solver) |
-                              REQUEST_OPTION(iterations) | REQUEST_OPTION(extend_energy) |
-                              REQUEST_OPTION(reactions) | REQUEST_OPTION(effort) |
-                              REQUEST_OPTION(consistent) | REQUEST_OPTION(tolerance) |
-                              REQUEST_OPTION(set) | REQUEST_OPTION(start) | REQUEST_OPTION(system);
+static const uint64_t taken =
+    REQUEST_OPTION(integrator) | REQUEST_OPTION(from) | REQUEST_OPTION(space) |
+    REQUEST_OPTION(solver) | REQUEST_OPTION(iterations) | REQUEST_OPTION(extend_energy) |
+    REQUEST_OPTION(reactions) | REQUEST_OPTION(mechanics) | REQUEST_OPTION(effort) |
+    REQUEST_OPTION(consistent) | REQUEST_OPTION(tolerance) | REQUEST_OPTION(set) |
+    REQUEST_OPTION(start) | REQUEST_OPTION(system);
 
 static int generate_text(settings *s)
 {

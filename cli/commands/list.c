@@ -78,7 +78,7 @@ static int select_systems(selection *list, const settings *s)
     const char *name;
     for (int i = 0; list->systems < CLI_MAX_BUILTINS && (name = dal_builtin_name(i)); i++) {
         const int k = list->systems;
-        const int status = cli_load(name, DAL_EFFORT_IDENTITY, &list->model[k], &list->system[k]);
+        const int status = cli_load(name, &(cli_choices){0}, &list->model[k], &list->system[k]);
         if (status != CLI_DONE) return status;
         list->name[k] = name;
         if (!s->tag || has_tag(list->system[k], s->tag))

@@ -487,8 +487,8 @@ int report_run(report *r)
     if (status == CLI_DONE && access(dir.manifest, F_OK) == 0)
         status = manifest_read(&dir, request);
     if (status == CLI_DONE && request->system_name)
-        status =
-            cli_load(request->system_name, request->effort, &simulation.model, &simulation.system);
+        status = cli_load(request->system_name, &request->choices, &simulation.model,
+                          &simulation.system);
     const bool has_events = simulation.system && simulation.system->events > 0;
     run->system = request->columns ? simulation.system : NULL;
     if (status == CLI_DONE)

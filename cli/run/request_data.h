@@ -6,6 +6,7 @@
 #include "dalembert_model.h"
 #include "dalembert_program.h"
 #include "dalembert_run.h"
+#include "system.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,6 +25,7 @@
     OPTION(columns)                                                                                \
     OPTION(names)                                                                                  \
     OPTION(observe)                                                                                \
+    OPTION(mechanics)                                                                              \
     OPTION(effort)                                                                                 \
     OPTION(set)                                                                                    \
     OPTION(start)
@@ -66,7 +68,7 @@ typedef struct run_request {
     const char *system_name; /* a built-in name or a path; the caller's, as all texts here */
     const char *columns;     /* --columns; NULL: all */
     const char *observe;     /* --observe, formulas between semicolons; NULL: none */
-    dal_effort effort;       /* --effort */
+    cli_choices choices;     /* --mechanics, --effort */
     const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given */
     char *made[REQUEST_OPTIONS];       /* of these texts those that the request owns, or NULL */
     request_step step_rule;            /* set beforehand */

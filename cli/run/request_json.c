@@ -76,6 +76,9 @@ void request_open_json(json_writer *w, const run_simulation *s, uint64_t without
     json_put_text(w, "system", request->system_name);
     put_parameters(w, s);
     request_put_settings(w, "start", &request->start);
+    if (!(without & REQUEST_OPTION(mechanics)))
+        json_put_text(w, "mechanics",
+                      s->system->properties & DAL_VAKONOMIC ? "vakonomic" : "lagrange-dalembert");
     if (!(without & REQUEST_OPTION(effort)))
         json_put_text(w, "effort", dal_effort_name(s->system->effort));
     if (!(without & REQUEST_OPTION(integrator))) put_value(w, request, REQUEST_integrator);

@@ -24,20 +24,20 @@ void simulation_free(run_simulation *s)
     *s = (run_simulation){.run = NULL};
 }
 
-/* The system, with the effort and the formulas of --observe. */
+/* The system, with what is chosen and the formulas of --observe. */
 static int load_system(run_simulation *s)
 {
     const run_request *request = &s->request;
     const char *list = request->observe;
     cli_formula *formula = NULL;
     int count = 0;
-    if (!list) return cli_load(request->system_name, request->effort, &s->model, &s->system);
+    if (!list) return cli_load(request->system_name, &request->choices, &s->model, &s->system);
     for (const char *at = list, *end; at; at = *end ? end + 1 : NULL) {
         const size_t length = request_find_formula(&at, &end);
         formula = cli_realloc(formula, ((size_t)count + 1) * sizeof *formula);
         formula[count++] = (cli_formula){cli_strndup(at, length), 1, (int)(at - list) + 1};
     }
-    const int status = cli_observe(request->system_name, request->effort, "--observe", formula,
+    const int status = cli_observe(request->system_name, &request->choices, "--observe", formula,
                                    count, &s->model, &s->system);
     for (int i = 0; i < count; i++) free((char *)formula[i].text);
     free(formula);

@@ -135,14 +135,21 @@ int cli_make(const char *place, dal_model **model, const dal_system **made)
     return status;
 }
 
-int cli_load(const char *system, dal_effort effort, dal_model **model, const dal_system **made)
+void cli_choose(dal_model *model, const cli_choices *choices)
+{
+    dal_model_set_effort(model, choices->effort, NULL);
+    dal_model_set_mechanics(model, choices->mechanics, NULL);
+}
+
+int cli_load(const char *system, const cli_choices *choices, dal_model **model,
+             const dal_system **made)
 {
     const int status = cli_read(system, model);
-    if (status == CLI_DONE) dal_model_set_effort(*model, effort, NULL);
+    if (status == CLI_DONE) cli_choose(*model, choices);
     return status == CLI_DONE ? cli_make(system, model, made) : status;
 }
 
-int cli_observe(const char *system, dal_effort effort, const char *place,
+int cli_observe(const char *system, const cli_choices *choices, const char *place,
                 const cli_formula *formulas, int count, dal_model **model, const dal_system **made)
 {
     dal_error error = {0};
@@ -150,7 +157,7 @@ int cli_observe(const char *system, dal_effort effort, const char *place,
     dal_model_free(*model);
     int status = cli_read(system, model);
     if (status != CLI_DONE) return status;
-    dal_model_set_effort(*model, effort, NULL);
+    cli_choose(*model, choices);
     for (int i = 0; i < count; i++) {
         const cli_formula *f = &formulas[i];
         const dal_status added = dal_model_observe(*model, f->text, f->line, f->column, &error);

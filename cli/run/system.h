@@ -9,22 +9,29 @@
 /* Whether SYSTEM is a path: it has a '/', ends in .yaml or .yml, or names a file and no built-in
  * system. */
 bool cli_is_path(const char *system);
-/* Reads SYSTEM and makes its system with an effort, owned by *model.  Returns CLI_DONE, or prints
- * and returns an exit status with *model NULL. */
-int cli_load(const char *system, dal_effort effort, dal_model **model, const dal_system **made);
-/* The same in two parts, between which something may be added to the model.  cli_make frees it on
+/* What is chosen of a system beside its file. */
+typedef struct cli_choices {
+    dal_effort effort;
+    dal_mechanics mechanics;
+} cli_choices;
+/* Reads SYSTEM and makes its system with these choices, owned by *model.  Returns CLI_DONE, or
+ * prints and returns an exit status with *model NULL. */
+int cli_load(const char *system, const cli_choices *choices, dal_model **model,
+             const dal_system **made);
+/* The same in parts, between which something may be added to the model.  cli_make frees it on
  * failure; place is what the message names. */
 int cli_read(const char *system, dal_model **model);
+void cli_choose(dal_model *model, const cli_choices *choices);
 int cli_make(const char *place, dal_model **model, const dal_system **made);
 /* A formula that runs observe, and its place in a file or an option. */
 typedef struct cli_formula {
     const char *text;
     int line, column;
 } cli_formula;
-/* Reads SYSTEM and makes its system with an effort and formulas[count] that runs observe; place is
- * what a message about one of them names.  A model that is not NULL is replaced, and then no
+/* Reads SYSTEM and makes its system with these choices and formulas[count] that runs observe; place
+ * is what a message about one of them names.  A model that is not NULL is replaced, and then no
  * warnings are printed.  Returns as cli_load does. */
-int cli_observe(const char *system, dal_effort effort, const char *place,
+int cli_observe(const char *system, const cli_choices *choices, const char *place,
                 const cli_formula *formulas, int count, dal_model **model, const dal_system **made);
 /* Writes a copy of a system file, with the files of its tables in it; where model is not NULL, as
  * it was read.  Returns CLI_DONE, or prints and returns CLI_IO. */

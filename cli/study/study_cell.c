@@ -158,7 +158,7 @@ static int give_options(run_request *request, const study_cell *c)
     const study_case *e = c->of_case;
     request->system_name = study_case_system(e);
     request->options = e->options;
-    request->effort = (dal_effort)e->effort;
+    request->choices = e->choices;
     memcpy(request->text, e->option, sizeof request->text);
     dal_method_name(c->method, method, sizeof method);
     const long long samples = e->rows == STUDY_ROWS_NONE ? 1 : e->samples;

@@ -108,7 +108,8 @@ typedef struct study_case {
     int is_first;      /* of its group */
     dal_model *model;
     const dal_system *system;
-    int effort;    /* a dal_effort: of the lift of the group */
+    cli_choices choices; /* of the group */
+    char *variant;       /* GROUP_WORD, of the group; NULL: it has one mechanics */
     char *observe; /* formulas that the runs of the group observe, as in --observe; NULL: none */
     char *path;    /* of the system file, from the working directory; NULL: there is a copy, or the
                       system is built in */

@@ -51,7 +51,8 @@ static int add(expect_reader *r, const yaml_node_t *node)
 bool study_label_means(const study_case *e, const char *label)
 {
     return strcmp(label, e->label) == 0 || strcmp(label, e->group) == 0 ||
-           strcmp(label, e->name) == 0 || strcmp(label, "all") == 0;
+           strcmp(label, e->name) == 0 || strcmp(label, "all") == 0 ||
+           (e->variant && strcmp(label, e->variant) == 0);
 }
 
 /* Whether a name means a method: its own, all, or all with exactly its modifiers. */

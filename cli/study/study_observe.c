@@ -70,7 +70,7 @@ static int make_group(study_plan *plan, const observed_group *g)
     size_t length;
     char *text;
     study_case *e = &plan->cases[g->first];
-    const int status = cli_observe(study_case_system(e), e->effort, plan->doc->place, g->formula,
+    const int status = cli_observe(study_case_system(e), &e->choices, plan->doc->place, g->formula,
                                    g->count, &e->model, &e->system);
     FILE *out = cli_memstream_open(&text, &length);
     for (int i = 0; i < g->count; i++) fprintf(out, "%s%s", i ? "; " : "", g->formula[i].text);

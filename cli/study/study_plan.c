@@ -10,6 +10,7 @@
 #include "run/row_times.h"
 #include "run/system.h"
 #include "study_expect.h"
+#include "study_methods.h"
 #include "study_observe.h"
 #include "study_results.h"
 #include "study_values.h"
@@ -111,7 +112,7 @@ static int read_option(study_case *e, const document *doc, const document_pair *
     dal_error error = {0};
     const char *name = pair->name, *word = document_scalar(doc, pair->value, name);
     if (!word) return CLI_USAGE;
-    if (strcmp(name, "step") == 0 || strcmp(name, "space") == 0)
+    if (strcmp(name, "step") == 0 || strcmp(name, "space") == 0 || strcmp(name, "mechanics") == 0)
         return document_fail(doc, pair->key, "options: %s has a key of its own", name);
     if (cli_renamed_option(name))
         return document_fail(doc, pair->key, "options: %s is called %s now", name,
@@ -120,8 +121,10 @@ static int read_option(study_case *e, const document *doc, const document_pair *
         return document_fail(doc, pair->key, "options: %s: %s is called %s now", name, word,
                              cli_renamed_value(name, word));
     const bool is_effort = strcmp(name, "effort") == 0;
-    if (is_effort) e->effort = document_word(doc, pair->value, name, efforts, DAL_EFFORT_COUNT);
-    if (e->effort < 0) return CLI_USAGE;
+    const int effort =
+        is_effort ? document_word(doc, pair->value, name, efforts, DAL_EFFORT_COUNT) : 0;
+    if (effort < 0) return CLI_USAGE;
+    if (is_effort) e->choices.effort = (dal_effort)effort;
     if (!is_effort && dal_options_set(&e->options, name, word, &error) != DAL_STATUS_OK)
         return document_fail(doc, pair->key, "%s", error.message);
     e->option[request_find_option(name)] = word;
@@ -220,55 +223,6 @@ static int read_displacement(study_case *e, const document *doc, const yaml_node
     return status;
 }
 
-static bool has_method(const study_case *e, const dal_method *method)
-{
-    char name[STUDY_NAME], other[STUDY_NAME];
-    dal_method_name(method, name, sizeof name);
-    for (int i = 0; i < e->method_count; i++)
-        if (strcmp(name, dal_method_name(&e->methods[i], other, sizeof other)) == 0) return 1;
-    return 0;
-}
-
-static int add_method(study_case *e, const document *doc, const yaml_node_t *node, const char *name)
-{
-    dal_error error = {0};
-    size_t count = (size_t)e->method_count + 1;
-    e->methods = cli_realloc(e->methods, count * sizeof *e->methods);
-    if (dal_method_parse(&e->methods[e->method_count], name, &error) != DAL_STATUS_OK)
-        return document_fail(doc, node, "%s", error.message);
-    if (!has_method(e, &e->methods[e->method_count])) e->method_count++;
-    return CLI_DONE;
-}
-
-/* "all" and "all+project" stand for every integrator that is no modifier. */
-static int add_methods(study_case *e, const document *doc, const yaml_node_t *node,
-                       const char *name)
-{
-    char full[STUDY_NAME];
-    int status = CLI_DONE;
-    if (strncmp(name, "all", 3) != 0 || (name[3] != '\0' && name[3] != '+'))
-        return add_method(e, doc, node, name);
-    for (int i = 0; dal_integrator_at(i) && status == CLI_DONE; i++) {
-        const dal_integrator *integrator = dal_integrator_at(i);
-        if (integrator->properties & DAL_MODIFIER) continue;
-        snprintf(full, sizeof full, "%s%s", integrator->name, name + 3);
-        status = add_method(e, doc, node, full);
-    }
-    return status;
-}
-
-static int read_methods(study_case *e, const document *doc, yaml_node_t *node)
-{
-    int count = document_count(node), status = CLI_DONE;
-    if (count == 0) return document_fail(doc, node, "integrators: the list is empty");
-    for (int i = 0; i < count && status == CLI_DONE; i++) {
-        const yaml_node_t *item = document_item(doc, node, i);
-        const char *name = document_scalar(doc, item, "integrators");
-        status = name ? add_methods(e, doc, item, name) : CLI_USAGE;
-    }
-    return status;
-}
-
 /* ---- systems ---- */
 
 char *study_plan_copy_path(const char *directory, const study_case *e)
@@ -297,7 +251,7 @@ static int load_system(const group_reader *g, study_case *e)
                              "working directory, which has '%s'",
                              e->path, e->name);
     if (e->copy || is_path || dal_builtin_text(e->name))
-        return cli_load(study_case_system(e), e->effort, &e->model, &e->system);
+        return cli_load(study_case_system(e), &e->choices, &e->model, &e->system);
     return document_fail_unknown(g->doc, g->node, "system", e->name, names, cli_builtins(names));
 }
 
@@ -344,7 +298,7 @@ static int check_chosen_step(const group_reader *g, const study_case *e)
 static int read_first_case(const group_reader *g, study_case *e)
 {
     const parsed_study *p = &g->parsed;
-    int status = read_methods(e, g->doc, p->integrators);
+    int status = study_read_methods(e, g->doc, p->integrators);
     e->method_steps = cli_calloc((size_t)e->method_count + 1, sizeof *e->method_steps);
     if (status == CLI_DONE) status = check_chosen_step(g, e);
     if (status == CLI_DONE) status = load_system(g, e);
@@ -430,12 +384,42 @@ static int add_case(group_reader *g, int i, const study_case *first)
     return status == CLI_DONE ? study_variants_project_start(g->variants, e) : status;
 }
 
+/* The cases of one mechanics, number i of a list, or of the system file's. */
+static int add_cases(group_reader *g, int i)
+{
+#define WORD(code, name) name,
+    static const char *const words[] = {DAL_MECHANICS_LIST(WORD)};
+#undef WORD
+    study_plan *plan = g->plan;
+    study_case *e = &g->parsed.item;
+    yaml_node_t *list = g->parsed.mechanics;
+    int count = 0;
+    e->variant = NULL;
+    if (list) {
+        const int k = document_word(g->doc, document_item(g->doc, list, i), "mechanics", words,
+                                    DAL_MECHANICS_COUNT);
+        if (k < 0) return CLI_USAGE;
+        e->choices.mechanics = (dal_mechanics)k;
+        e->option[REQUEST_mechanics] = words[k];
+        if (document_count(list) > 1) e->variant = cli_format("%s_%s", e->group, words[k]);
+    }
+    int status = study_variants_read(&g->variants, g->doc, &g->parsed, &count);
+    const int first = plan->case_count;
+    if (status == CLI_DONE)
+        plan->cases = cli_realloc(plan->cases, (size_t)(first + count) * sizeof *plan->cases);
+    for (int k = 0; k < count && status == CLI_DONE; k++)
+        status = add_case(g, k, &plan->cases[first]);
+    if (plan->case_count == first) free(e->variant);
+    study_variants_free(g->variants);
+    return status;
+}
+
 /* A path labels its case by the file's name without folders. */
 static int add_group(study_plan *plan, yaml_node_t *node, const parsed_study *base)
 {
     group_reader g = {.plan = plan, .doc = plan->doc, .node = node, .parsed = *base};
     study_case *e = &g.parsed.item;
-    int count = 0, status = read_system(&g.parsed, g.doc, node);
+    int status = read_system(&g.parsed, g.doc, node);
     choose_step(&g);
     if (status == CLI_DONE) status = check_case(&g);
     if (status != CLI_DONE) return status;
@@ -446,15 +430,10 @@ static int add_group(study_plan *plan, yaml_node_t *node, const parsed_study *ba
     if (e->group[0] == '.')
         return document_fail(plan->doc, node, "system: '%s' cannot name a file: give it a label",
                              e->name);
-    status = study_variants_read(&g.variants, g.doc, &g.parsed, &count);
-    if (status == CLI_DONE) {
-        const int first = plan->case_count;
-        const size_t capacity = (size_t)first + (size_t)count;
-        plan->cases = cli_realloc(plan->cases, capacity * sizeof *plan->cases);
-        for (int i = 0; i < count && status == CLI_DONE; i++)
-            status = add_case(&g, i, &plan->cases[first]);
-    }
-    study_variants_free(g.variants);
+    yaml_node_t *mechanics = g.parsed.mechanics;
+    const int variants = mechanics ? document_count(mechanics) : 1;
+    if (variants == 0) return document_fail(plan->doc, mechanics, "mechanics: the list is empty");
+    for (int i = 0; i < variants && status == CLI_DONE; i++) status = add_cases(&g, i);
     return status;
 }
 
@@ -484,7 +463,8 @@ static int read_representatives(study_plan *plan, yaml_node_t *node)
         if (!name) return CLI_USAGE;
         if (dal_method_parse(method, name, &error) != DAL_STATUS_OK)
             return document_fail(doc, item, "%s", error.message);
-        for (int k = 0; k < plan->case_count; k++) is_run |= has_method(&plan->cases[k], method);
+        for (int k = 0; k < plan->case_count; k++)
+            is_run |= study_has_method(&plan->cases[k], method);
         if (!is_run)
             return document_fail(doc, item, "representatives: '%s' is not run in this study", name);
     }
@@ -578,6 +558,7 @@ void study_plan_free(study_plan *plan)
             free(e->copy);
             free(e->path);
             free(e->observe);
+            free(e->variant);
             free(e->methods);
             free(e->method_steps);
         }

@@ -43,6 +43,8 @@ char *study_plan_copy_path(const char *directory, const study_case *item);
         "integers; one case for each where a value is random")                                     \
     KEY(options, "both", read_options, item,                                                       \
         "of the runs, except step and space: {solver: newton, extend-energy: on}")                 \
+    KEY(mechanics, "both", document_read_node, mechanics,                                          \
+        "lagrange-dalembert, vakonomic or both (as the system file says)")                         \
     KEY(starts, "both", read_starts, item, "list of physical, surface, displaced (all three)")     \
     KEY(displacement, "both", document_read_positive, item.displacement,                           \
         "size d of p, pi where displaced (1e-8)")                                                  \

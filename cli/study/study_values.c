@@ -163,12 +163,20 @@ static int read_setting(variant_setting *s, const document *doc, yaml_node_t *va
     return CLI_DONE;
 }
 
-static int read_settings(study_variants *v, yaml_node_t *node, const char *what)
+/* Whether a name is a vakonomic multiplier's, g1, g2, ... */
+static bool is_multiplier(const char *name)
+{
+    return name[0] == 'g' && name[1] != '\0' && strspn(name + 1, "0123456789") == strlen(name + 1);
+}
+
+static int read_settings(study_variants *v, yaml_node_t *node, const char *what,
+                         bool skips_multipliers)
 {
     document_pair pair;
     v->of_set = v->count;
     int status = node ? document_check_mapping(v->doc, node, what, "names and values") : CLI_DONE;
     for (int i = 0; node && status == CLI_DONE && document_get_pair(v->doc, node, i, &pair); i++) {
+        if (skips_multipliers && is_multiplier(pair.name)) continue;
         v->setting = cli_realloc(v->setting, ((size_t)v->count + 1) * sizeof *v->setting);
         variant_setting *s = &v->setting[v->count++];
         *s = (variant_setting){.name = pair.name};
@@ -204,9 +212,13 @@ int study_variants_read(study_variants **variants, const document *doc, const pa
     study_variants *v = *variants = cli_calloc(1, sizeof *v);
     v->doc = doc;
     v->start_node = p->start;
-    int status = read_settings(v, p->set, "set");
+    int status = read_settings(v, p->set, "set", false);
     const int set_drawn = v->drawn;
-    if (status == CLI_DONE) status = read_settings(v, p->start, "start");
+    /* Of a system with several mechanics only the vakonomic ones have multipliers to start. */
+    const study_case *e = &p->item;
+    const bool lacks_multipliers =
+        e->variant && e->choices.mechanics == DAL_MECHANICS_LAGRANGE_DALEMBERT;
+    if (status == CLI_DONE) status = read_settings(v, p->start, "start", lacks_multipliers);
     v->start_drawn = v->drawn - set_drawn;
     if (status == CLI_DONE) status = read_seeds(v, doc, p);
     if (status != CLI_DONE) return status;
@@ -266,7 +278,7 @@ void study_variants_apply(const study_variants *v, int i, study_case *e)
     for (int k = 0; k < v->count; k++)
         request_add_setting(k < v->of_set ? &e->set : &e->start, v->setting[k].name, value[k]);
     FILE *out = cli_memstream_open(&e->label, &length);
-    fputs(e->group, out);
+    fputs(e->variant ? e->variant : e->group, out);
     for (int k = 0; k < v->count; k++)
         if (v->setting[k].values.count > 1) put_label(out, &v->setting[k], value[k]);
     if (v->drawn) put_label(out, &v->seed, seed);

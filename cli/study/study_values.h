@@ -26,7 +26,7 @@ void study_values_free(study_values *values);
 /* A case, the nodes that need its system, and what only the whole study has. */
 typedef struct parsed_study {
     study_case item;
-    yaml_node_t *integrators, *set, *start, *displace, *seeds;
+    yaml_node_t *integrators, *mechanics, *set, *start, *displace, *seeds;
     yaml_node_t *systems, *expect, *representatives;
     const char *title;
 } parsed_study;

@@ -170,6 +170,7 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     dal__node *given = dal__model_nodes(model, count, 0);
     dal__scope scope = dal__scope_of(e, DAL__MAY_T);
     const dal__entry *entry;
+    const bool lacks_multipliers = model->has_other_mechanics && !e->vakonomic;
     scope.given = given;
     e->solved = dal__model_allocate(model, (size_t)e->m, sizeof *e->solved);
     if (!names || !given || !e->solved) return dal__memory_error(error);
@@ -184,6 +185,8 @@ static dal_status parse_start(dal_model *model, dal_error *error)
         DAL_TRY(add_solved(model, entry, names + e->n, error));
     for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++) {
         if (dal__solved_name(entry)) continue;
+        if (lacks_multipliers && entry->name[0] == 'g' && strpbrk(entry->name, "123456789"))
+            continue;
         if (strcmp(entry->name, "solve") == 0 && dal__index_of("solve", 5, names, count) < 0)
             return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(entry),
                                 "solve must be a list of velocities, as [x', y']");
@@ -206,7 +209,7 @@ static dal_status parse_exact(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     int given = dal__model_count(model, DAL_SECTION_EXACT);
-    if (given == 0) return DAL_STATUS_OK;
+    if (given == 0 || model->has_other_mechanics) return DAL_STATUS_OK;
     for (int i = 0; i < e->n; i++) e->exact[i] = dal__number(e->graph, 0.0);
     DAL_TRY(by_coordinate(model, DAL_SECTION_EXACT, dal__scope_of(e, DAL__MAY_T), e->exact, error));
     if (given < e->n) {
@@ -407,19 +410,23 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
 dal_status dal__parse_model(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
-    static const char *const words[] = {"lagrange-d'alembert", "vakonomic"};
-    int vakonomic = 0;
+    static const char *const words[] = {"lagrange-d'alembert", "vakonomic", "lagrange-dalembert"};
+    int word = 0;
     model->warning = NULL;
     *e = (dal__equations){.graph = e->graph};
     DAL_TRY(dal__expand(model, error));
     const dal__entry *mechanics = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
     if (mechanics)
-        DAL_TRY(dal__find_word(mechanics->text, DAL__AT_TEXT(mechanics), "mechanics", words, 2,
-                               &vakonomic, error));
-    e->vakonomic = vakonomic;
+        DAL_TRY(dal__find_word(mechanics->text, DAL__AT_TEXT(mechanics), "mechanics", words, 3,
+                               &word, error));
+    const bool own = word == 1;
+    e->vakonomic = model->mechanics == DAL_MECHANICS_SYSTEM
+                       ? own
+                       : model->mechanics == DAL_MECHANICS_VAKONOMIC;
     DAL_TRY(dal__collect_names(model, error));
     e->functions = model->tables + dal__model_count(model, DAL_SECTION_FUNCTIONS);
     e->m = dal__model_count(model, DAL_SECTION_CONSTRAINTS);
+    model->has_other_mechanics = e->vakonomic != own && e->m > 0;
     e->multipliers = e->vakonomic ? e->m : 0;
     e->pictured = dal__model_count(model, DAL_SECTION_PICTURE) > 0;
     DAL_TRY(check_equations(model, error));

@@ -349,6 +349,20 @@ dal_status dal_model_set_effort(dal_model *model, dal_effort effort, dal_error *
     return DAL_STATUS_OK;
 }
 
+dal_status dal_model_set_mechanics(dal_model *model, dal_mechanics mechanics, dal_error *error)
+{
+    DAL_REQUIRE(model, error);
+    if ((unsigned)mechanics >= DAL_MECHANICS_COUNT)
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "no mechanics has the number %d",
+                         (int)mechanics);
+    if (model->made)
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
+                         "'%.80s' already has its system: its mechanics is %s", model->name,
+                         model->equations.vakonomic ? "vakonomic" : "lagrange-dalembert");
+    model->mechanics = mechanics;
+    return DAL_STATUS_OK;
+}
+
 dal_status dal_model_observe(dal_model *model, const char *formula, int line, int column,
                              dal_error *error)
 {

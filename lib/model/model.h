@@ -76,8 +76,10 @@ struct dal_model {
     int count;
     dal__tape_table *table; /* [tables], in the order of their entries */
     int tables, table_capacity;
-    dal_effort effort;  /* chosen by dal_model_set_effort */
-    const char *source; /* [source_length] the text of a file; NULL: none */
+    dal_effort effort; /* chosen by dal_model_set_effort */
+    dal_mechanics mechanics;
+    bool has_other_mechanics; /* chosen, and not its own */
+    const char *source;       /* [source_length] the text of a file; NULL: none */
     size_t source_length;
     dal__warning *warning; /* of the last attempt to make the system */
     dal__equations equations;

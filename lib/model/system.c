@@ -161,7 +161,7 @@ static dal_status describe(dal_model *model)
         .multipliers = e->multipliers,
         .parameters = e->parameters,
         .invariants = e->invariants,
-        .observed = e->observed,
+        .observed = model->has_other_mechanics ? e->invariants : e->observed,
         .guards = e->guards,
         .mass_guard = e->mass_guard,
         .tags = e->tags,
