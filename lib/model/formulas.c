@@ -185,8 +185,8 @@ static dal_status parse_start(dal_model *model, dal_error *error)
         DAL_TRY(add_solved(model, entry, names + e->n, error));
     for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++) {
         if (dal__solved_name(entry)) continue;
-        if (lacks_multipliers && entry->name[0] == 'g' && strpbrk(entry->name, "123456789"))
-            continue;
+        const char *name = entry->name;
+        if (lacks_multipliers && name[0] == 'g' && name[1] >= '1' && name[1] <= '9') continue;
         if (strcmp(entry->name, "solve") == 0 && dal__index_of("solve", 5, names, count) < 0)
             return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(entry),
                                 "solve must be a list of velocities, as [x', y']");
