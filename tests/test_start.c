@@ -118,14 +118,15 @@ static dal_status interrupted(const dal_system *system, const dal_point *at, dou
     return DAL_STATUS_OK;
 }
 
-/* The size of an exact solution is its largest value as far as it has values: what comes later makes
- * no start right that is 1e-9 off. */
+/* The size of an exact solution is its largest value as far as it has values: what comes later
+ * makes no start right that is 1e-9 off. */
 static void test_exact_ends(void)
 {
+    static const char text[] =
+        "coordinates: [x]\naccelerations: {x: 0}\nstart: {x: 2}\nexact: {x: 2}\n";
     static const double off[] = {0.0, 1e-9};
     for (int i = 0; i < 2; i++) {
-        dal_system system = *fixture_system("coordinates: [x]\naccelerations: {x: 0}\n"
-                                            "start: {x: 2}\nexact: {x: 2}\n");
+        dal_system system = *fixture_system(text);
         const dal_setting start = {"x", 2.0 + off[i]};
         system.exact = interrupted;
         dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.2);

@@ -242,7 +242,8 @@ static void test_many_columns(void)
     for (int wanted = COLUMNS - 1; wanted <= COLUMNS; wanted++) {
         dal_model *model = NULL;
         dal_error error = {0};
-        end = text + sprintf(text, SYSTEM "tables: {f: {file: f.csv, at: c0, value: c%d}}\n", wanted);
+        end =
+            text + sprintf(text, SYSTEM "tables: {f: {file: f.csv, at: c0, value: c%d}}\n", wanted);
         end += sprintf(end, "files: {f.csv: \"c0");
         for (int i = 1; i < COLUMNS; i++) end += sprintf(end, ",c%d", i);
         for (int row = 0; row < 2; row++)
