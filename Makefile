@@ -4,6 +4,7 @@
 #     make help             this list
 #     make install          to PREFIX (/usr/local), below DESTDIR; uninstall removes it (docs/installation.md)
 #     make dist             build/dalembert-VERSION.tar.gz, of the last commit
+#     make MINIMAL=1        build/minimal/libdalembert.a, for small targets; INTEGRATORS="rk4 gauss4+project": with these alone
 #     make mpi              build/dalembert-mpi, where there is Open MPI
 #     make clean            remove build/
 #
@@ -28,10 +29,10 @@
 #
 # BUILD=dir puts everything elsewhere; CFLAGS=-O3\ -march=native changes the speed, never a bit;
 # V=1 shows the commands.  All processors work on a build unless there is a -j.
-BUILD        ?= build
+BUILD        ?= $(if $(MINIMAL),build/minimal,build)
 PREFIX       ?= /usr/local
 CC           ?= cc
-CFLAGS       ?= -O2 -g
+CFLAGS       ?= $(if $(MINIMAL),-Os,-O2 -g)
 FUZZ_SECONDS ?= 10
 FUZZ_CC      ?= clang
 
@@ -48,7 +49,7 @@ WARN = -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototype
 # No contraction and no reassociation: the bits of a trajectory are promised.
 EXACT = -ffp-contract=off -fno-math-errno
 ALL   = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(EXACT) -fPIC -pthread -Iinclude $(PLACE) \
-        -I$(BUILD)/generated $(CPPFLAGS) $(CFLAGS)
+        -I$(BUILD)/generated $(SMALL) $(CPPFLAGS) $(CFLAGS)
 PLACE = -Ilib
 LIBS  = -lyaml -lm -pthread
 
@@ -60,7 +61,7 @@ SONAME  := libdalembert.so.$(basename $(VERSION))
 # number of lanes and an instruction set, chosen when a batch is made.  What each gains is in
 # docs/performance.md.  x1 is what others may call by name.  x1_QUAD has quad precision
 # (lib/kernel/quad.h), which no machine has for an instruction set: it is never chosen for speed.
-VARIANTS        = x1 x1_QUAD $(or $(VARIANTS_$(MACHINE)),x4)
+VARIANTS        = $(if $(MINIMAL),x1,x1 x1_QUAD $(or $(VARIANTS_$(MACHINE)),x4))
 VARIANTS_x86_64 = x1_AVX2 x4_AVX2 x8_AVX512
 FLAGS_AVX2      = -mavx2 -mfma
 FLAGS_AVX512    = -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
@@ -70,11 +71,25 @@ MACHINE        := $(firstword $(subst -, ,$(shell $(CC) -dumpmachine)))
 lanes           = $(patsubst x%,%,$(firstword $(subst _, ,$1)))
 instructions    = $(or $(word 2,$(subst _, ,$1)),BASE)
 
-WIDE_SRC   = $(wildcard lib/*/*_wide.c)
-METHOD_SRC = $(wildcard integrators/*.c)
-LIB_SRC    = $(filter-out $(WIDE_SRC),$(wildcard lib/*/*.c))
-LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/systems.o \
-             $(BUILD)/generated/sources.o $(BUILD)/generated/trend_tables.o \
+# What MINIMAL leaves out, which dalembert.h states; and how it becomes small.
+ifdef MINIMAL
+LEFT_OUT = $(filter-out lib/core/% lib/expr/% lib/model/% lib/run/%,$(wildcard lib/*/*.c)) lib/core/buffer.c lib/core/svd.c \
+           lib/expr/emit.c lib/expr/taylor_emit.c lib/model/branches.c lib/model/ranks.c lib/run/batch.c \
+           lib/run/ensemble.c lib/run/quad.c
+SMALL    = -fPIE -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables -DDAL_MINIMAL -DDAL_LINKED \
+           -Wno-override-init -Wno-missing-prototypes
+else
+EMBEDDED_IN_LIBRARY = systems sources trend_tables
+endif
+# Integrators and modifiers by their names in integrators.def, which INTEGRATORS may join by +.
+METHODS    = $(subst -,_,$(subst +, ,$(INTEGRATORS)))
+METHOD_DEF = $(BUILD)/generated/integrators.def
+
+WIDE_SRC   = $(filter-out $(LEFT_OUT),$(wildcard lib/*/*_wide.c))
+METHOD_SRC = $(or $(sort $(foreach name,$(METHODS),$(shell sed -n \
+             's/^INTEGRATOR.$(name), \(.*\).$$/integrators\/\1.c/p' integrators/integrators.def))),$(wildcard integrators/*.c))
+LIB_SRC    = $(filter-out $(LEFT_OUT) $(WIDE_SRC),$(wildcard lib/*/*.c))
+LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(EMBEDDED_IN_LIBRARY:%=$(BUILD)/generated/%.o) \
              $(call WIDE,$(VARIANTS),$(WIDE_SRC) $(METHOD_SRC))
 CLI_SRC    = $(filter-out cli/mpi/%,$(wildcard cli/*/*.c cli/commands/*/*.c))
 EMBEDDED   = study report_style report_script template
@@ -97,7 +112,11 @@ COMPLETION = $(BUILD)/dalembert.bash
 
 SAY = $(if $(V),,@echo '  $1 $@';)
 
+ifdef MINIMAL
+all: $(STATIC) $(KERNEL)
+else
 all: $(PROGRAM) $(STATIC) $(SHARED) $(KERNEL) $(MANUAL) $(COMPLETION)
+endif
 
 help:
 	@sed -n '3,/^BUILD/{/^BUILD/q; s/^# \{0,1\}//p;}' $(firstword $(MAKEFILE_LIST))
@@ -123,6 +142,7 @@ endef
 $(foreach variant,$(VARIANTS),$(eval $(call COMPILE_VARIANT,$(variant))))
 $(BUILD)/%.o: %.c ; $(COMPILE)
 $(LIB_OBJ) $(TEST_OBJ) $(FUZZERS:%=$(BUILD)/tests/%.o): | $(BUILD)/generated/variants.h
+$(BUILD)/lib/run/registry.o: $(METHOD_DEF)
 $(LIB_OBJ) $(CLI_OBJ) $(TEST_OBJ): | $(START)
 
 $(STATIC): $(LIB_OBJ)
@@ -184,15 +204,23 @@ $(eval $(call EMBED,report_script,report_script,cli/report/report.js))
 $(eval $(call EMBED,template,system_template,cli/commands/template.yaml))
 $(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
 
+# The integrators of the library: all, unless INTEGRATORS names some.
+$(METHOD_DEF): integrators/integrators.def FORCE
+	@mkdir -p $(@D)
+	@for name in $(METHODS); do grep -q "^INTEGRATOR($$name, " $< || \
+	    { echo "INTEGRATORS: '$$name' is not in $<" >&2; exit 1; }; done
+	@grep $(or $(METHODS:%=-e '^INTEGRATOR.%, '),.) $< >$@.tmp
+	@if cmp -s $@.tmp $@; then rm $@.tmp; else mv $@.tmp $@; fi
 # The lists of variants and of instruction sets for lib/core/machine.h.
 $(BUILD)/generated/variants.h: Makefile
 	@mkdir -p $(@D)
-	@{ printf '#define DAL__INSTRUCTIONS_LIST(X)'; \
+	@{ echo '#define DAL__HAS_QUAD $(if $(filter x1_QUAD,$(VARIANTS)),1,0)'; \
+	    printf '#define DAL__INSTRUCTIONS_LIST(X)'; \
 	    printf ' X(%s NULL)' 'BASE,' $(foreach set,$(INSTRUCTIONS),'$(set),$(FLAGS_$(set):%= "%",)'); \
 	    echo; \
 	    printf '#define DAL__VARIANT_LIST(X, name)'; \
-	    printf ' X(name, %s, %s, %s)' $(foreach variant,$(filter-out x1,$(VARIANTS)),\
-	        $(variant) $(call lanes,$(variant)) $(call instructions,$(variant))); echo; } >$@
+	    printf '%s' $(foreach variant,$(filter-out x1,$(VARIANTS)),\
+	        ' X(name, $(variant), $(call lanes,$(variant)), $(call instructions,$(variant)))'); echo; } >$@
 
 # What an integrator outside the tree includes: one file that needs no other.
 $(KERNEL): tools/amalgamate.sh include/dalembert_kernel.h $(wildcard include/*.h lib/kernel/*.h)

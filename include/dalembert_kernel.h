@@ -62,17 +62,28 @@
 #include "../lib/kernel/taylor.h"
 #include "dalembert_method.h"
 
+/* A small library leaves the documentation of methods out; their own functions are not shared. */
+#ifdef DAL_MINIMAL
+#undef DAL_INLINE
+#define DAL_INLINE   static inline DAL_UNUSED
+#define DAL__NO_TEXT , .documentation = 0
+#else
+#define DAL__NO_TEXT
+#endif
+
 #ifndef DAL_VARIANT_NAME
 /* DAL_INTEGRATOR(NAME, step function, the descriptor's other members) defines the constant
  * descriptor dal_integrator_NAME.  Other variants have names of their own for the library's
  * registry. */
 #define DAL_INTEGRATOR(identifier, function, ...)                                                  \
     extern const dal_integrator dal_integrator_##identifier;                                       \
-    const dal_integrator dal_integrator_##identifier = {.step = (function), __VA_ARGS__}
+    const dal_integrator dal_integrator_##identifier = {.step = (function),                        \
+                                                        __VA_ARGS__ DAL__NO_TEXT}
 #else
 #define DAL_INTEGRATOR(identifier, function, ...)                                                  \
     extern const dal_integrator DAL_WIDE(dal__wide_##identifier);                                  \
-    const dal_integrator DAL_WIDE(dal__wide_##identifier) = {.step = (function), __VA_ARGS__}
+    const dal_integrator DAL_WIDE(dal__wide_##identifier) = {.step = (function),                   \
+                                                             __VA_ARGS__ DAL__NO_TEXT}
 #endif
 
 #endif

@@ -2,7 +2,7 @@
 # CUnit suites (suite-NAME, suite-NAME+NAME), install, browser, python.  What they print is recorded.
 # What takes longest begins first.
 LONGEST = suite-generate_bits suite-integrators cli-hostile cli-generate python cli-native suite-trend cli-documents \
-          cli-resume cli-events browser install
+          cli-resume cli-events cli-minimal browser install
 
 all: $(filter $(CHECKS),$(LONGEST)) $(CHECKS)
 

@@ -24,7 +24,7 @@ export PKG_CONFIG_PATH
     fail "dalembert.pc and dalembert --version do not agree"
 
 # Each example against the shared and against the static library.
-for name in embed by_hand own_integrator path_following contact_chain isokinetic_fluid kalman; do
+for name in embed by_hand small_target own_integrator path_following contact_chain isokinetic_fluid kalman; do
     flags="-std=c11 -Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $CFLAGS examples/$name.c"
     logged $cc $flags $(pkg-config --cflags --libs dalembert) -o "$root/$name"
     logged $cc $flags $(pkg-config --static --cflags --libs dalembert | sed 's/-ldalembert/-l:libdalembert.a/') \
@@ -120,6 +120,7 @@ near='function near(a, b, tolerance) { d = a - b; if (d < 0) d = -d; if (!(d <= 
 awk "$near"' { near($1, FNR, 1e-12); near($2, sin($1), 1e-10); near($3, 1 - cos($1), 1e-10)
     near($4, $1, 1e-12); near($5, cos($1), 1e-10); near($6, sin($1), 1e-10); near($7, 1, 1e-12)
     near($8, 0, 1e-14) }' rows=10 "$root/embed.txt" || fail "embed is wrong"
+cmp "$root/embed.txt" "$root/small_target.txt" || fail "small_target differs from embed"
 awk "$near"' { near($1, FNR, 1e-12); near($2, sin($1), 1e-10); near($3, 1 - cos($1), 1e-10)
     near($4, $1, 1e-12); near($5, 0, 1e-14) }' rows=10 "$root/generated.txt" ||
     fail "generated is wrong"

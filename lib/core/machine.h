@@ -10,7 +10,8 @@
  * variants with the same lanes the better one comes later.  The list lacks x1, which every machine
  * has and an integrator outside the library may have alone.  An
  * instruction set comes with its compiler options.  QUAD is no instruction set of a machine:
- * x1_QUAD computes in quad precision (kernel/quad.h) and is requested by name. */
+ * x1_QUAD computes in quad precision (kernel/quad.h) and is requested by name; DAL__HAS_QUAD is 0
+ * where the list lacks it, too. */
 #ifndef DAL_MACHINE_H
 #define DAL_MACHINE_H
 

@@ -9,7 +9,7 @@
 #ifdef DAL_SPECIALISED
 #define DAL_SEPARATE static DAL_UNUSED __attribute__((noinline, hot))
 #else
-#define DAL_SEPARATE static inline DAL_UNUSED
+#define DAL_SEPARATE DAL_INLINE
 #endif
 
 /* y[rows] = M x, M[rows*columns] */

@@ -27,7 +27,7 @@
 #define DAL_WITH(name) 1
 #define DAL_HAS_GROUPS 0           /* of lanes, stepped as one larger system */
 #define DAL_HAS_TIMES  !DAL_SCALAR /* lanes with times of their own */
-#ifdef DAL_NUM_QUAD
+#if defined DAL_NUM_QUAD || defined DAL_MINIMAL
 #define DAL_PACKS 0
 #else
 #define DAL_PACKS DAL_SCALAR
@@ -58,7 +58,8 @@
  * has DAL_INLINE, by the compiler.  Functions that are passed an iteration map are inlined early,
  * since the map itself can be inlined only where its call names it. */
 #ifdef DAL_SPECIALISED
-#define DAL_COLD static DAL_UNUSED __attribute__((noinline, cold))
+#define DAL_COLD     static DAL_UNUSED __attribute__((noinline, cold))
+#define DAL_NOINLINE static DAL_UNUSED __attribute__((noinline))
 #if DAL_WITH(SOLVE)
 #define DAL_INLINE_EARLY static inline DAL_UNUSED __attribute__((always_inline))
 #define DAL_SHARED       DAL_INLINE
@@ -66,9 +67,21 @@
 #endif
 #else
 #define DAL_UNROLL
-#define DAL_INLINE       static inline DAL_UNUSED
+#ifndef DAL_MINIMAL
+#define DAL_INLINE   static inline DAL_UNUSED
+#define DAL_NOINLINE static DAL_UNUSED __attribute__((noinline))
+#else
+/* In a small library all of the kernel is shared, see DAL_SHARED: what a source does not inline is
+ * in lib/run/kernel_wide.c, once. */
+#ifdef DAL_LINKS
+#define DAL_INLINE __attribute__((visibility("hidden")))
+#else
+#define DAL_INLINE inline
+#endif
+#define DAL_NOINLINE DAL_INLINE
+#endif
 #define DAL_INLINE_EARLY DAL_INLINE
-#define DAL_COLD         static inline DAL_UNUSED
+#define DAL_COLD         DAL_INLINE
 /* Large functions that several integrators share are compiled once per variant in the library, by
  * lib/run/kernel_wide.c (DAL_LINKS); its other sources (DAL_LINKED) see their declarations.  In all
  * other files they are a part of the file like the rest of the kernel. */

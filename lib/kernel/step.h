@@ -229,7 +229,7 @@ DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num *in, n
 
 #else
 
-static DAL_UNUSED __attribute__((noinline, cold)) num *dal__exhausted(dal_step *s, int count)
+DAL_NOINLINE __attribute__((cold)) num *dal__exhausted(dal_step *s, int count)
 {
     s->used -= (size_t)count;
     s->exhausted = 1;

@@ -173,8 +173,7 @@ DAL_INLINE void dal_expand_first(dal_step *s, dal_times t, num *x, const dal_exp
 
 /* Coefficients 2 .. order.  The body of a compiled step is too large for compilers to do well with
  * the body of this loop in it, too; nothing but x and the series is written here. */
-static DAL_UNUSED __attribute__((noinline)) void
-dal__expand_orders(dal_step *s, num *DAL_RESTRICT x, const dal_expansion *e)
+DAL_NOINLINE void dal__expand_orders(dal_step *s, num *DAL_RESTRICT x, const dal_expansion *e)
 {
     for (int k = 1; k < DAL_TAYLOR_ORDER(s); k++)
         dal__expand_order(s, dal_num(k == 1 ? DAL_UNIT_OF_TIME(s) : 0.0), k, x, e);

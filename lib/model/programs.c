@@ -214,12 +214,6 @@ static void hold(const dal_system *system, const double *point, double *work)
     dal__tapes_hold_x1(p->tapes, point, work);
 }
 
-static void hold_quad(const dal_system *system, const double *point, double *work)
-{
-    const dal__programs *p = system->data;
-    dal__tapes_hold_x1_QUAD(p->tapes, point, work);
-}
-
 static void point_to_branches(dal__programs *programs, dal_system *system)
 {
     const int count = programs->branches.count;
@@ -355,6 +349,7 @@ static void point_to_series(dal__programs *programs)
 #define CALLBACK(name, variant, lanes, set)                                                        \
     if (dal__machine_has(DAL__##set)) *at[lanes == 4 ? 1 : lanes == 8 ? 2 : 0] = name##_##variant;
     dal_series_callback **const at[] = {&series->call, &series->wide4, &series->wide8};
+    (void)at; /* without lanes the list is empty */
     DAL__VARIANT_LIST(CALLBACK, dal__call_series)
 #undef CALLBACK
 }
@@ -381,6 +376,13 @@ static dal_status prepare(const dal_system *system, const dal_point *at, double 
     (void)out;
     dal__tapes_prepare_x1(programs->tapes, at->work);
     return DAL_STATUS_OK;
+}
+
+#if DAL__HAS_QUAD
+static void hold_quad(const dal_system *system, const double *point, double *work)
+{
+    const dal__programs *p = system->data;
+    dal__tapes_hold_x1_QUAD(p->tapes, point, work);
 }
 
 static dal_status prepare_quad(const dal_system *system, const dal_point *at, double *out)
@@ -411,6 +413,7 @@ static dal_status make_quad(dal_model *model, const dal__programs *programs, dal
     system->quad = &k->system;
     return DAL_STATUS_OK;
 }
+#endif
 
 const dal__programs *dal__programs_of(const dal_system *system)
 {
@@ -472,5 +475,8 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     system->series = &programs->series;
     system->wide4 = if_filled(&programs->wide4);
     system->wide8 = if_filled(&programs->wide8);
-    return make_quad(model, programs, system);
+#if DAL__HAS_QUAD
+    DAL_TRY(make_quad(model, programs, system));
+#endif
+    return DAL_STATUS_OK;
 }

@@ -5,11 +5,14 @@
 #include "run/start.h"
 #include <stdlib.h>
 
+/* Whether a run of the layout has an engine in quad precision. */
+#define HAS_QUAD(layout) (DAL__HAS_QUAD && (layout)->options.precision == DAL_QUAD)
+
 /* Doubles in a checkpoint. */
 static size_t stored_count(const dal__layout *k)
 {
     const size_t count = dal__saved_count(k);
-    return k->options.precision == DAL_DOUBLE ? count : count * dal__quad_width();
+    return HAS_QUAD(k) ? count * dal__quad_width() : count;
 }
 
 /* Doubles beside the engines' own. */
@@ -21,10 +24,7 @@ static size_t own_numbers(const dal__layout *k)
            time_and_observables + reactions + dal__scale_numbers(k);
 }
 
-static size_t quad_bytes(const dal__layout *k)
-{
-    return k->options.precision == DAL_DOUBLE ? 0 : dal__quad_bytes(k);
-}
+static size_t quad_bytes(const dal__layout *k) { return HAS_QUAD(k) ? dal__quad_bytes(k) : 0; }
 
 static size_t total_bytes(const dal__layout *k)
 {
@@ -57,7 +57,7 @@ static dal_run *place(const dal__layout *layout, void *memory)
     run->storage = run->persistent;
     run->stored = stored_count(layout);
     at += dal__align(run->kind->engine->bytes(layout));
-    if (quad_bytes(layout) > 0) {
+    if (HAS_QUAD(layout)) {
         dal__quad_place(&run->quad, layout, at);
         run->storage = run->quad.persistent;
     }
@@ -79,7 +79,7 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
     dal_run *made = place(&layout, memory);
     DAL_TRY(dal__run_start(made, spec->parameters, spec->parameter_count, spec->start,
                            spec->start_count, NULL, error));
-    if (made->quad.engine) dal__quad_push(&made->quad, made->persistent, 0);
+    if (DAL__IS_QUAD(made)) dal__quad_push(&made->quad, made->persistent, 0);
     DAL_TRY(dal__check_events(made, error));
     *run = made;
     return DAL_STATUS_OK;

@@ -11,7 +11,7 @@ bool dal__engine_can(const dal__layout *k, dal__variant variant)
 {
     const int width = dal__engine_kinds[variant].width;
     const dal_system *s = k->system;
-    if (variant == DAL__VARIANT_x1) return true;
+    if (variant == DAL__VARIANT_x1 || DAL__VARIANTS == 1) return true;
     const bool has_times = k->options.tolerance > 0.0; /* each lane its own */
     if (width > 1 && dal_method_needs(&k->method) & DAL_NEEDS_SERIES &&
         !(width == 4 ? s->series->wide4 : s->series->wide8))

@@ -23,7 +23,7 @@ enum { MAX_ROUNDS = 100 };
 /* The memory of events was changed. */
 static void commit_events(const dal__event_search *w)
 {
-    if (w->run->quad.engine)
+    if (DAL__IS_QUAD(w->run))
         dal__quad_push(&w->run->quad, w->run->persistent, dal__at_events(&w->run->layout));
 }
 
@@ -64,7 +64,7 @@ static dal_status change(const dal__event_search *w, int k)
         run->persistent[i] += 0.0; /* no -0: see lib/kernel/step.h */
         if (run->persistent[i] == w->m.before[i]) continue;
         run->persistent[dim + i] = 0.0;
-        if (!run->quad.engine) continue;
+        if (!DAL__IS_QUAD(run)) continue;
         dal__quad_set(&run->quad, run->persistent, i);
         dal__quad_set(&run->quad, run->persistent, dim + i);
     }

@@ -308,6 +308,7 @@ static dal_status check_series(const dal__layout *k, dal_error *error)
 }
 
 /* Whether a run can be in quad precision. */
+#if DAL__HAS_QUAD
 static dal_status check_quad(const dal__layout *k, dal_error *error)
 {
     if (DAL_QUAD_DIGITS < 113)
@@ -324,6 +325,14 @@ static dal_status check_quad(const dal__layout *k, dal_error *error)
                              k->method.layer[i]->name ? k->method.layer[i]->name : "?");
     return DAL_STATUS_OK;
 }
+#else
+static dal_status check_quad(const dal__layout *k, dal_error *error)
+{
+    (void)k;
+    return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                     "quad precision: this library is built without it");
+}
+#endif
 
 /* Numbers of the persistent state that events need, see events.h. */
 static size_t event_memory(const dal__layout *k)

@@ -93,7 +93,7 @@ dal_status dal_run_observe(dal_run *run, double *out)
 {
     DAL_REQUIRE(run, NULL);
     DAL_REQUIRE(out, NULL);
-    if (run->quad.engine) return dal__quad_observe(&run->quad, run->exact, out);
+    if (DAL__IS_QUAD(run)) return dal__quad_observe(&run->quad, run->exact, out);
     return run->kind->engine->observe(run->engine, run->exact, out);
 }
 

@@ -7,13 +7,13 @@
 #define INTEGRATOR(name, file)                                                                     \
     extern const dal_integrator dal_integrator_##name;                                             \
     DAL__VARIANT_LIST(DECLARE, name)
-#include "../integrators/integrators.def"
+#include "integrators.def"
 #undef INTEGRATOR
 
 #define ADDRESS(name, variant, lanes, set) &dal__wide_##name##_##variant,
 static const dal_integrator *const entries[][DAL__VARIANTS] = {
 #define INTEGRATOR(name, file) {&dal_integrator_##name, DAL__VARIANT_LIST(ADDRESS, name)},
-#include "../integrators/integrators.def"
+#include "integrators.def"
 #undef INTEGRATOR
 };
 
@@ -26,7 +26,7 @@ const dal_integrator *dal_integrator_at(int i)
 
 const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, dal__variant variant)
 {
-    if (variant == DAL__VARIANT_x1) return integrator;
+    if (variant == DAL__VARIANT_x1 || DAL__VARIANTS == 1) return integrator;
     for (int i = 0; i < COUNT; i++)
         if (entries[i][DAL__VARIANT_x1] == integrator) return entries[i][variant];
     return NULL;

@@ -6,7 +6,7 @@
 void dal__run_hold(dal_run *run, const double *point)
 {
     run->kind->engine->hold(run->engine, point);
-    if (run->quad.engine) dal__quad_hold(&run->quad, point);
+    if (DAL__IS_QUAD(run)) dal__quad_hold(&run->quad, point);
     run->is_held = point != NULL;
 }
 
@@ -19,7 +19,7 @@ dal_status dal__step_run(dal_run *run, double h, long long count)
         run->native.traced(run->persistent, run->work, h, count, &failed, &reason, NULL, 0);
         return failed ? (dal_status)reason : DAL_STATUS_OK;
     }
-    if (run->quad.engine) {
+    if (DAL__IS_QUAD(run)) {
         for (long long i = 0; i < count && status == DAL_STATUS_OK; i++)
             status = dal__quad_step(&run->quad, h);
         dal__quad_pull(&run->quad, run->persistent);
@@ -34,7 +34,7 @@ dal_status dal__step_part(dal_run *run, double h, double part)
 {
     dal_status status = DAL_STATUS_OK;
     if (run->layout.options.tolerance == 0.0 || part == h) return dal__step_run(run, part, 1);
-    if (!run->quad.engine) {
+    if (!DAL__IS_QUAD(run)) {
         run->kind->engine->step_part(run->engine, h, part, &status);
         return status;
     }
@@ -81,7 +81,7 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
     memset(run->persistent + dal__at_events(k), 0, k->event_memory * sizeof *run->persistent);
     for (int i = 0; i < k->dim; i++) run->persistent[i] = state[i] + 0.0;
     run->persistent[dal__at(k, DAL__TIME)] = t;
-    if (run->quad.engine) dal__quad_push(&run->quad, run->persistent, 0);
+    if (DAL__IS_QUAD(run)) dal__quad_push(&run->quad, run->persistent, 0);
     return DAL_STATUS_OK;
 }
 
@@ -90,7 +90,7 @@ dal_status dal__run_prepare(dal_run *run)
     const dal__layout *k = &run->layout;
     const dal_point at = dal__here(run);
     if (k->system->prepare) DAL_TRY(k->system->prepare(k->system, &at, NULL));
-    if (!run->quad.engine) return DAL_STATUS_OK;
+    if (!DAL__IS_QUAD(run)) return DAL_STATUS_OK;
     dal__quad_push(&run->quad, run->persistent, k->persistent);
     return dal__quad_prepare(&run->quad, dal_run_time(run));
 }
@@ -102,7 +102,7 @@ dal_status dal__run_load(dal_run *run, const double *saved)
     const bool same =
         memcmp(run->storage + first, saved + first, (run->stored - first) * bytes) == 0;
     memcpy(run->storage, saved, run->stored * bytes);
-    if (run->quad.engine) dal__quad_pull(&run->quad, run->persistent);
+    if (DAL__IS_QUAD(run)) dal__quad_pull(&run->quad, run->persistent);
     return same ? DAL_STATUS_OK : dal__run_prepare(run);
 }
 

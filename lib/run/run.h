@@ -56,6 +56,9 @@ struct dal_run {
     dal__observations observations;
 };
 
+/* Constant without quad precision, so that no call of run/quad.h remains. */
+#define DAL__IS_QUAD(run) (DAL__HAS_QUAD && (run)->quad.engine)
+
 /* Holds the branches of the system at points [branches->count], see dal_branches; NULL: no
  * longer. */
 void dal__run_hold(dal_run *run, const double *point);

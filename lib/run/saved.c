@@ -40,7 +40,7 @@ static bool is_of_kind(kind possible, double x)
 
 static double number_at(const saved *s, size_t i)
 {
-    return s->run->quad.engine ? dal__quad_rounded(s->memory, i) : s->memory[i];
+    return DAL__IS_QUAD(s->run) ? dal__quad_rounded(s->memory, i) : s->memory[i];
 }
 
 static double next(saved *s) { return number_at(s, s->at++); }

@@ -245,7 +245,7 @@ void dal__restart_method(dal_run *run)
     const dal__layout *k = &run->layout;
     const size_t first = dal__at(k, DAL__CLOCK_SIZE), changed = dal__at_changed(k);
     memset(run->persistent + first, 0, (changed - first) * sizeof *run->persistent);
-    if (run->quad.engine) dal__quad_push(&run->quad, run->persistent, first);
+    if (DAL__IS_QUAD(run)) dal__quad_push(&run->quad, run->persistent, first);
 }
 
 /* The next step is the method's first, and the solution no longer the exact one. */
