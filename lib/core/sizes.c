@@ -31,21 +31,35 @@ static bool field_at(const dal__sizes *w, double t, const double *x, double *f)
            isfinite(dal__max_abs(f, (size_t)velocities(s)));
 }
 
-/* W_ii = (E(u) + E(-u) - 2 E(0))/u^2 for a velocity u of one coordinate, so large that the kinetic
- * energy prevails. */
-static double kinetic_mass(const dal__sizes *w, int i)
+/* W_ii = (E(u) + E(-u) - 2 E(0))/u^2 for a velocity u of one coordinate; 0 where the kinetic energy
+ * does not prevail, NaN where E is not finite. */
+static double mass_by_velocity(const dal__sizes *w, int i, double u)
 {
     const dal_system *s = w->system;
     double *v = w->scratch, E[3];
-    for (double u = 0x1p-400; u < 0x1p400 && s->energy; u *= 0x1p10) {
-        for (int k = 0; k < 3; k++) {
-            memset(v, 0, (size_t)velocities(s) * sizeof *v);
-            v[i] = (k - 1) * u;
-            if (!call(w, s->energy, w->t, w->x, v, &E[k])) return 0.0;
-        }
-        const double mass = (E[0] - E[1]) + (E[2] - E[1]);
-        if (!isfinite(mass)) return 0.0;
-        if (fabs(mass) > 0x1p20 * fabs(E[1]) && mass / u / u != 0.0) return fabs(mass / u / u);
+    for (int k = 0; k < 3; k++) {
+        memset(v, 0, (size_t)velocities(s) * sizeof *v);
+        v[i] = (k - 1) * u;
+        if (!call(w, s->energy, w->t, w->x, v, &E[k])) return NAN;
+    }
+    const double mass = (E[0] - E[1]) + (E[2] - E[1]);
+    if (!isfinite(mass)) return NAN;
+    return fabs(mass) > 0x1p20 * fabs(E[1]) ? fabs(mass / u / u) : 0.0;
+}
+
+/* W_ii by the first velocity that is so large that the kinetic energy prevails; *u is the one of
+ * another coordinate, most often the same, and becomes this one's. */
+static double kinetic_mass(const dal__sizes *w, int i, double *u)
+{
+    static const double first = 0x1p-400, end = 0x1p400, factor = 0x1p10;
+    double mass = 0.0;
+    if (!w->system->energy) return 0.0;
+    if (*u > first && *u < end && mass_by_velocity(w, i, *u / factor) == 0.0)
+        mass = mass_by_velocity(w, i, *u);
+    if (mass > 0.0) return mass;
+    for (*u = first; *u < end; *u *= factor) {
+        mass = mass_by_velocity(w, i, *u);
+        if (mass != 0.0) return isnan(mass) ? 0.0 : mass;
     }
     return 0.0;
 }
@@ -190,13 +204,14 @@ size_t dal__sizes_memory(const dal_system *system)
 void dal__find_sizes(dal__sizes *w, double *memory)
 {
     const int n = w->system->n, nw = velocities(w->system);
+    double u = 0.0;
     w->length = memory;
     w->mass = w->length + n;
     w->field = w->mass + n;
     w->scratch = w->field + nw;
     w->jacobian = w->scratch + 2 * (n + nw) + nw;
     for (int i = 0; i < n; i++) w->length[i] = 0.0;
-    for (int i = 0; i < n; i++) w->mass[i] = kinetic_mass(w, i);
+    for (int i = 0; i < n; i++) w->mass[i] = kinetic_mass(w, i, &u);
     w->time = field_at(w, w->t, w->x, w->field) ? time_unit(w, rate_of_jacobian(w)) : 1.0;
     follow_motion(w);
     find_lengths(w);

@@ -90,7 +90,7 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
 
 /* Derivatives of e->F follow from its equations; derivatives of another F, by sweeps over F.  Where
  * F is small both are made and the cheaper ones taken. */
-enum { MAX_SWEPT = 1000 };
+enum { MAX_SWEPT = 1000, MAX_COUPLED = 64 };
 
 static bool has_equations(const dal__equations *e, const dal__node *F)
 {
@@ -134,11 +134,13 @@ static dal_status add_adjoint(dal_model *model, dal__programs *programs, const d
     return dal__programs_add(model, programs, DAL__PROGRAM_ADJOINT, out, 3 * n);
 }
 
-/* The derivatives by q of all, then those by v and the multipliers of all, row by row. */
+/* The derivatives by q of all, then those by v and the multipliers of all, row by row.  An F that
+ * couples all coordinates, as one continued off D = 0, has none where these are many. */
 static dal_status add_jacobian(dal_model *model, dal__programs *programs, const dal__node *F)
 {
     const dal__equations *e = &model->equations;
     const int n = programs->n, nw = n + programs->multipliers, count = nw * (n + nw);
+    if (F == e->extended && n > MAX_COUPLED) return DAL_STATUS_OK;
     dal__node *swept = is_swept(e, F, nw) ? dal__model_nodes(model, count, 0) : NULL;
     dal__node *solved = has_equations(e, F) ? dal__model_nodes(model, count, 0) : NULL;
     if (model->out_of_memory) return DAL_STATUS_MEMORY;

@@ -70,35 +70,40 @@ static bool changes(const survey *s, int symbol, double by)
     return found;
 }
 
-/* The unit of a symbol that is 0: 2^k for the smallest k that changes a formula. */
-static double find_change(const survey *s, int symbol)
+/* The unit of a symbol that is 0: 2^k for the smallest k that changes a formula, 1 where none does.
+ * The search begins at *guess, such a k of another symbol, which becomes this one's. */
+static double find_change(const survey *s, int symbol, int *guess)
 {
     enum { MIN = -150, MAX = 150 };
-    int low = MIN, high = MAX;
-    if (!changes(s, symbol, ldexp(1.0, high))) return 1.0;
+    int low = *guess, high = *guess;
+    const bool changed = changes(s, symbol, ldexp(1.0, *guess));
+    for (int step = 1; low == high; step *= 2) {
+        if (!changed && high == MAX) return 1.0;
+        if (changed) low = low - step > MIN ? low - step : MIN;
+        if (!changed) high = high + step < MAX ? high + step : MAX;
+        if (changed && low > MIN && changes(s, symbol, ldexp(1.0, low))) high = low;
+        if (!changed && !changes(s, symbol, ldexp(1.0, high))) low = high;
+    }
     while (high - low > 1) {
         const int middle = low + (high - low) / 2;
         *(changes(s, symbol, ldexp(1.0, middle)) ? &high : &low) = middle;
     }
+    *guess = high;
     return ldexp(1.0, high);
 }
 
+/* The units of t and q. */
 static void find_others(const survey *s)
 {
     const dal__equations *e = s->e;
-    for (int i = 0; i < e->n; i++) s->x[e->v + i] += s->unit[e->v + i];
-    dal__terms_scales(s->terms, s->x, s->memory, s->scale);
+    int guess = 0;
     for (int i = e->t; i < e->q + e->n; i++) {
         s->unit[i] = dal__power_of_two(s->x[i]);
-        if (s->unit[i] == 0.0) s->unit[i] = find_change(s, i);
-    }
-    for (int a = 0; a < e->multipliers; a++) {
-        const double unit = dal__power_of_two(s->scale[0] / s->scale[1 + a]);
-        s->unit[e->g + a] = unit > 0.0 ? unit : 1.0;
+        if (s->unit[i] == 0.0) s->unit[i] = find_change(s, i, &guess);
     }
 }
 
-/* levels[m + 1]: the units of D_a and of E; may be NULL. */
+/* levels[m + 1]: the units of D_a and of E, instead of the units of t and q; or NULL. */
 static dal_status find_symbols(dal_model *model, double *unit, double *levels)
 {
     const dal__equations *e = &model->equations;
@@ -120,7 +125,13 @@ static dal_status find_symbols(dal_model *model, double *unit, double *levels)
         s.scale[n] = s.scale[0];
         find_speeds(&s);
         s.moved = s.scale + s.formulas;
-        find_others(&s);
+        for (int i = 0; i < n; i++) s.x[e->v + i] += unit[e->v + i];
+        dal__terms_scales(s.terms, s.x, s.memory, s.scale);
+        if (!levels) find_others(&s);
+        for (int a = 0; a < e->multipliers; a++) {
+            const double size = dal__power_of_two(s.scale[0] / s.scale[1 + a]);
+            unit[e->g + a] = size > 0.0 ? size : 1.0;
+        }
         for (int a = 0; levels && a <= m; a++) {
             const double level = dal__near_power_of_two(s.scale[a < m ? 1 + a : 0]);
             levels[a] = level > 0.0 ? level : 1.0;

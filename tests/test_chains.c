@@ -1,0 +1,239 @@
+/* test_chains.c - large chains of springs with constraints that couple neighbours.
+ *
+ *     L = sum x_i'^2/2 + gamma x_i' x_(i+1)' - (x_(i+1) - x_i)^2/2
+ *     D_a = x_s' + cos(x_(s+1)) x_(s+1)' + (2 + sin(x_(s+3))) x_(s+2)' + x_(s+2)/2 x_(s+3)'
+ *
+ * with s = stride a.  Their equations are checked coordinate by coordinate, by formulas. */
+#include "fixtures.h"
+#include "model/model.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Rounding of a sum of some ten terms, over the size of the terms of all. */
+static const double SAME = 1e-13;
+enum { WIDTH = 4, MAX_N = 1024 };
+
+typedef struct chain {
+    int n, stride;
+    double gamma;
+} chain;
+
+/* Constraints of disjoint neighbours. */
+static const chain disjoint[] = {{256, WIDTH, 0.0}, {512, WIDTH, 0.0}, {1024, WIDTH, 0.0}};
+
+static int constraints(const chain *c) { return (c->n - WIDTH) / c->stride + 1; }
+
+/* The model, to be freed, and its system. */
+static dal_model *make(const chain *c, const dal_system **system)
+{
+    static const char coordinates[] = "coordinates: ['x[0..%d]']\n"
+                                      "lagrangian: sum(i, 0, %d, x[i]'^2)/2 + %g*sum(i, 0, %d, "
+                                      "x[i]'*x[i+1]') - sum(i, 0, %d, (x[i+1] - x[i])^2)/2\n";
+    static const char rows[] = "constraints: [{for: i = 0..%d, is: \"x[%d*i]' + cos(x[%d*i+1])*"
+                               "x[%d*i+1]' + (2 + sin(x[%d*i+3]))*x[%d*i+2]' + "
+                               "x[%d*i+2]/2*x[%d*i+3]'\"}]\n";
+    char text[1024];
+    const int last = c->n - 1, k = c->stride;
+    int length = snprintf(text, sizeof text, coordinates, last, last, c->gamma, last - 1, last - 1);
+    length += snprintf(text + length, sizeof text - (size_t)length, rows, constraints(c) - 1, k, k,
+                       k, k, k, k, k);
+    dal_model *model = NULL;
+    dal_error error;
+    CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, "chain", text, (size_t)length, &error),
+                          DAL_STATUS_OK);
+    const dal_status status = dal_model_system(model, system, &error);
+    if (status != DAL_STATUS_OK) printf("\n  n = %d: %s\n", c->n, error.message);
+    CU_ASSERT_EQUAL_FATAL(status, DAL_STATUS_OK);
+    CU_ASSERT_EQUAL((*system)->m, constraints(c));
+    return model;
+}
+
+/* ---- the equations by formulas ---- */
+
+/* The coefficients of constraint a. */
+static void coefficients(const chain *c, int a, const double *x, double A[WIDTH])
+{
+    const double *y = x + a * c->stride;
+    A[0] = 1.0;
+    A[1] = cos(y[1]);
+    A[2] = 2.0 + sin(y[3]);
+    A[3] = y[2] / 2.0;
+}
+
+/* What D_a' has besides A_a v'. */
+static double curvature(const chain *c, int a, const double *x, const double *v)
+{
+    const double *y = x + a * c->stride, *u = v + a * c->stride;
+    return -sin(y[1]) * u[1] * u[1] + cos(y[3]) * u[3] * u[2] + u[2] * u[3] / 2.0;
+}
+
+/* Row i of W F - b, and the size of its terms. */
+static double newton(const chain *c, int i, const double *x, const double *F, double *size)
+{
+    double sum = F[i];
+    *size = fabs(F[i]);
+    for (int j = i - 1; j <= i + 1; j += 2) {
+        if (j < 0 || j >= c->n) continue;
+        sum += c->gamma * F[j] + (x[i] - x[j]);
+        *size += fabs(c->gamma * F[j]) + fabs(x[i]) + fabs(x[j]);
+    }
+    return sum;
+}
+
+/* The largest residual of W F - A^T h = b and A F = -c, over the largest size of their terms. */
+static double residual(const chain *c, const double *x, const double *v, const double *F,
+                       const double *h)
+{
+    static double row[MAX_N];
+    double A[WIDTH], size, largest = 0.0, worst = 0.0;
+    for (int i = 0; i < c->n; i++) {
+        row[i] = newton(c, i, x, F, &size);
+        largest = fmax(largest, size);
+    }
+    for (int a = 0; a < constraints(c); a++) {
+        const int first = a * c->stride;
+        double sum = curvature(c, a, x, v);
+        coefficients(c, a, x, A);
+        for (int k = 0; k < WIDTH; k++) {
+            row[first + k] -= A[k] * h[a];
+            sum += A[k] * F[first + k];
+            largest = fmax(largest, fmax(fabs(A[k] * h[a]), fabs(A[k] * F[first + k])));
+        }
+        worst = fmax(worst, fabs(sum));
+    }
+    for (int i = 0; i < c->n; i++) worst = fmax(worst, fabs(row[i]));
+    return worst / largest;
+}
+
+/* The largest |D_a| over the largest of all terms. */
+static double defect(const chain *c, const double *x, const double *v)
+{
+    double A[WIDTH], worst = 0.0, largest = 0.0;
+    for (int a = 0; a < constraints(c); a++) {
+        double sum = 0.0;
+        coefficients(c, a, x, A);
+        for (int k = 0; k < WIDTH; k++) {
+            const double term = A[k] * v[a * c->stride + k];
+            sum += term;
+            largest = fmax(largest, fabs(term));
+        }
+        worst = fmax(worst, fabs(sum));
+    }
+    return worst / largest;
+}
+
+/* A point of no particular kind. */
+static void irregular(int n, double *x, double *v)
+{
+    for (int i = 0; i < n; i++) {
+        x[i] = 0.7 * cos(1.0 + 3.0 * i);
+        v[i] = 0.9 * sin(2.0 + 5.0 * i);
+    }
+}
+
+static void check_equations(const chain *c)
+{
+    static double x[MAX_N], v[MAX_N], F[MAX_N];
+    const dal_system *system;
+    dal_model *model = make(c, &system);
+    const int m = constraints(c);
+    double *h = calloc((size_t)m * (1 + (size_t)c->n), sizeof *h);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(h);
+    dal_evaluator *evaluator = fixture_evaluator(system);
+    irregular(c->n, x, v);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.field, 0.0, x, v, NULL, F),
+                    DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->reactions, 0.0, x, v, NULL, h),
+                    DAL_STATUS_OK);
+    const double error = residual(c, x, v, F, h);
+    if (!(error <= SAME)) printf("\n  n = %d: %.2g\n", c->n, error);
+    CU_ASSERT(error <= SAME);
+    dal_evaluator_free(evaluator);
+    free(h);
+    dal_model_free(model);
+}
+
+/* A few steps from rest, by the forces, end on D = 0. */
+static void check_steps(const chain *c, const char *method)
+{
+    enum { STEPS = 3, STARTS = 16 };
+    static char name[STARTS][8];
+    const dal_system *system;
+    dal_model *model = make(c, &system);
+    dal_setting start[STARTS];
+    for (int i = 0; i < STARTS; i++) {
+        snprintf(name[i], sizeof name[i], "x%d", i * (c->n / STARTS));
+        start[i] = (dal_setting){name[i], 0.5 * cos(i)};
+    }
+    dal_run_spec spec = fixture_spec(system, method, DAL_PHYSICAL, 0.1);
+    spec.start = start;
+    spec.start_count = STARTS;
+    dal_run *run = fixture_stepped(&spec, STEPS);
+    const double *y = dal_run_state(run);
+    CU_ASSERT(fabs(y[c->n]) > 1e-3);
+    CU_ASSERT(defect(c, y, y + c->n) <= SAME);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+static void test_equations(void)
+{
+    for (size_t k = 0; k < sizeof disjoint / sizeof *disjoint; k++) check_equations(&disjoint[k]);
+}
+
+static void test_steps(void)
+{
+    static const char *const methods[] = {"rk4+project", "gni"};
+    for (int k = 0; k < 2; k++) check_steps(&disjoint[0], methods[k]);
+}
+
+/* ---- growth ---- */
+
+static int nodes(int n)
+{
+    const chain c = {n, WIDTH, 0.0};
+    const dal_system *system;
+    dal_model *model = make(&c, &system);
+    const int count = model->equations.graph->count;
+    dal_model_free(model);
+    return count;
+}
+
+/* What n more coordinates add does not depend on how many there are. */
+static void test_nodes(void)
+{
+    const int at_128 = nodes(128), at_256 = nodes(256), at_512 = nodes(512);
+    CU_ASSERT((at_512 - at_256) / 2 < 1.05 * (at_256 - at_128));
+}
+
+/* The numbers of Newton's method, 6 (stages n)^2, are reserved where it may be used. */
+static void test_size(void)
+{
+    const chain c = {256, WIDTH, 0.0};
+    const size_t square = (size_t)c.n * (size_t)c.n * sizeof(double);
+    const dal_system *system;
+    dal_model *model = make(&c, &system);
+    dal_run_spec spec = fixture_spec(system, "gauss4", DAL_PHYSICAL, 0.1);
+    CU_ASSERT(dal_run_size(&spec) > 24 * square);
+    spec.options.solver = DAL_FIXED_POINT;
+    CU_ASSERT(dal_run_size(&spec) < 4 * square);
+    spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
+    CU_ASSERT(dal_run_size(&spec) < 4 * square);
+    spec = fixture_spec(system, "rk4", DAL_LIFTED, 0.1);
+    CU_ASSERT(dal_run_size(&spec) < 6 * square);
+    spec = fixture_spec(system, "symplectic-euler", DAL_LIFTED, 0.1);
+    CU_ASSERT(dal_run_size(&spec) > 6 * square);
+    dal_model_free(model);
+}
+
+void suite_chains(void)
+{
+    CU_pSuite suite = CU_add_suite("large chains with constraints", NULL, NULL);
+    CU_add_test(suite, "accelerations and multipliers by their equations", test_equations);
+    CU_add_test(suite, "steps that enforce D end on D = 0", test_steps);
+    CU_add_test(suite, "expressions in proportion to n", test_nodes);
+    CU_add_test(suite, "memory of Newton's method where it may be used", test_size);
+}
