@@ -341,11 +341,23 @@ static size_t event_memory(const dal__layout *k)
     return events > 0 ? 2 * events + 2 + (size_t)dal__max_observables(k) : 0;
 }
 
+/* Whether steps may be solved by Newton's method. */
+static bool may_solve_by_newton(const dal__layout *k)
+{
+    const unsigned properties = dal_method_properties(&k->method);
+    const bool runge_kutta =
+        (properties & (DAL_COMPONENTWISE | DAL_SYMPLECTIC)) == DAL_COMPONENTWISE;
+    if (dal_method_needs(&k->method) & DAL_NEEDS_JACOBIAN) return true;
+    return k->options.solver != DAL_FIXED_POINT &&
+           !(properties & DAL_EXPLICIT && (runge_kutta || !k->lifted));
+}
+
 /* Sizes, in floating point first so that nothing overflows. */
 static dal_status measure(dal__layout *k, dal_error *error)
 {
     const double dim = k->dim, n = k->n, nw = k->nw, m = k->m, stages = k->stages;
-    const double matrix = (stages * nw) * (stages * nw) * (k->system->call.jacobian ? 6 : 0);
+    const bool inverts = k->system->call.jacobian && may_solve_by_newton(k);
+    const double matrix = inverts ? 6 * (stages * nw) * (stages * nw) + 2 * nw * (n + nw) : 0;
     const double constraint = 4 * (m + 2 * m * n) + 8 * m * m;
     const bool enforces = dal_method_needs(&k->method) & DAL_NEEDS_BLOCKS;
     const double equations = (stages + 1) * m;
@@ -357,9 +369,8 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const double series =
         expands ? (1 + k->taylor_order) * ((double)k->system->series->size[k->lifted] + 2 * dim + 4)
                 : 0;
-    const double scratch = (20 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
-                           parts + 2.0 * k->system->guards + k->system->invariants + 16 * n + 64 +
-                           series;
+    const double scratch = (20 * stages + 16) * dim + matrix + constraint + parts +
+                           2.0 * k->system->guards + k->system->invariants + 16 * n + 64 + series;
     if (scratch > MAX_NUMBERS || k->stages > 1000)
         return dal__fail(error, DAL_STATUS_TOO_LARGE, "a run with n = %d, m = %d needs %g numbers",
                          k->n, k->m, scratch);
