@@ -192,6 +192,7 @@ $(BUILD)/generated/trend_tables.c: tools/trend-tables.c lib/analysis/trend_table
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(HOST_CC) -std=c11 -O2 -Ilib $< -lm -o $(@D)/trend-tables
 	$(@D)/trend-tables >$@.tmp && mv $@.tmp $@
+PAGE_SCRIPTS = $(addprefix cli/report/,report_elements.js report_charts.js report_motion.js report.js)
 # Texts that are parts of the program: the built-in study, style sheet and script of reports, a new system.
 define EMBED
 $(BUILD)/generated/$1.c: tools/embed-text.sh $3
@@ -200,7 +201,7 @@ $(BUILD)/generated/$1.c: tools/embed-text.sh $3
 endef
 $(eval $(call EMBED,study,study_builtin_text,bench/studies/canonical-drift.yaml))
 $(eval $(call EMBED,report_style,report_style,cli/report/report.css))
-$(eval $(call EMBED,report_script,report_script,cli/report/report.js))
+$(eval $(call EMBED,report_script,report_script,$(PAGE_SCRIPTS)))
 $(eval $(call EMBED,template,system_template,cli/commands/template.yaml))
 $(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
 

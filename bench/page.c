@@ -1,6 +1,6 @@
 /* page.c - the page of the bench, made of its results.
  *
- *     page DIR RESULTS...       DIR/report/index.html, with figures by gnuplot
+ *     page DIR RESULTS...       DIR/report/index.html, with charts
  *
  * RESULTS are JSON lines, as run.sh and native_auto.py write them:
  *
@@ -12,7 +12,6 @@
  * The page is made as by `dalembert report` (cli/report/report_page.h). */
 #define _POSIX_C_SOURCE 200809L
 #include "io/file.h"
-#include "io/gnuplot.h"
 #include "io/json.h"
 #include "report/report_plot.h"
 #include "ui/memory.h"
@@ -87,96 +86,49 @@ static int find_end(const results *all, int i, const char *name)
 
 /* ---- ratios -------------------------------------------------------------------------------- */
 
-enum { FIGURE_WIDTH = 360, ROW_HEIGHT = 20, FIGURE_FRAME = 100 };
-
-/* A row each: the place of the goal is empty where there is none.  Returns whether there is one. */
-static bool write_ratio_data(FILE *s, const results *all, int begin, int end)
-{
-    bool has_goals = false;
-    fputs("$results << END\n", s);
-    for (int i = begin; i < end; i++) {
-        const char *goal = get(all, i, "goal");
-        if (!get(all, i, "median")) continue;
-        has_goals |= goal != NULL;
-        fprintf(s, "%d,%s,%s,%s,%s\n", i - begin + 1, get_text(all, i, "median"),
-                get_text(all, i, "min"), get_text(all, i, "max"),
-                goal ? goal + strcspn(goal, "0123456789") : "");
-    }
-    fputs("END\n", s);
-    return has_goals;
-}
-
-/* 1, 2 or 5 times a power of ten, at least x. */
-static double round_up(double x)
-{
-    const double power = pow(10.0, floor(log10(x)));
-    return power * (x <= power ? 1.0 : x <= 2.0 * power ? 2.0 : x <= 5.0 * power ? 5.0 : 10.0);
-}
-
-/* A scale that shows two labels at least: linear within a factor of 4, logarithmic beyond. */
-static void write_ratio_axis(FILE *s, const results *all, int begin, int end)
-{
-    static const char *const keys[] = {"min", "max", "goal"};
-    double min = INFINITY, max = 0.0;
-    for (int i = begin; i < end; i++)
-        for (int k = 0; k < 3; k++) {
-            const char *text = get_text(all, i, keys[k]);
-            const double x = strtod(text + strcspn(text, "0123456789"), NULL);
-            if (x > 0.0) min = fmin(min, x);
-            if (x > 0.0) max = fmax(max, x);
-        }
-    fputs("set format x '%g'\nset grid xtics\nset offsets graph 0.03, graph 0.03, 0, 0\n", s);
-    if (max > 4.0 * min)
-        fputs("set logscale x\nlog_x = 1\n", s);
-    else if (max > min)
-        fprintf(s, "set xtics %.9g\n", round_up((max - min) / 4.0));
-    else
-        fprintf(s, "set xrange [%.9g:%.9g]\n", 0.9 * min, 1.1 * max);
-    if (max > 4.0 * min && max <= 60.0 * min)
-        fputs("set xtics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, "
-              "1000, 2000, 5000, 10000)\n",
-              s);
-}
-
 /* One row a case: the median, a line from the smallest to the largest, and the goal. */
 static int draw_ratios(report *r, const results *all, int section, int begin, int end)
 {
-    char name[MAX_WORD], *path;
-    const double height = FIGURE_FRAME + ROW_HEIGHT * (end - begin + 1);
+    enum { SPREAD, MEDIAN, GOAL, KINDS };
+    static const char *const titles[KINDS] = {"spread", "median", "goal"};
+    const char **names = cli_calloc((size_t)(end - begin) + 1, sizeof *names);
+    char name[MAX_WORD];
+    double min = INFINITY, max = 0.0;
     snprintf(name, sizeof name, "ratios-%d", section);
-    FILE *s = gnuplot_open(r->place, name, r->format, FIGURE_WIDTH, (int)height, &path);
-    if (!s) return CLI_IO;
-    const bool has_goals = write_ratio_data(s, all, begin, end);
-    write_ratio_axis(s, all, begin, end);
-    gnuplot_set(s, "xlabel offset 0,0.4", get_text(all, section, "unit"));
-    fprintf(s,
-            "set yrange [%d.5:0.5]\nset lmargin at screen 0.36\nset rmargin at screen 0.95\n"
-            "set tmargin at screen %.4f\nset bmargin at screen %.4f\n"
-            "set key at screen 0.02, screen %.4f left top Left reverse maxrows 2 "
-            "samplen 2 font ',11.5'\nset ytics (",
-            end - begin, 1.0 - 8.0 / height, (FIGURE_FRAME - 12.0) / height, 42.0 / height);
     for (int i = begin; i < end; i++) {
-        gnuplot_quote(s, get_text(all, i, "case"));
-        fprintf(s, " %d%s", i - begin + 1, i + 1 < end ? ", " : ")\n");
+        names[i - begin] = get_text(all, i, "case");
+        if (!get(all, i, "median")) continue;
+        min = fmin(min, get_number(all, i, "min"));
+        max = fmax(max, get_number(all, i, "max"));
     }
-    fprintf(s,
-            "plot $results using 2:1:3:4 with xerrorbars pt 7 ps 0.6 lw 1.5 lc rgb '%s' "
-            "title 'median and spread'",
-            gnuplot_colour(1));
-    if (has_goals)
-        fprintf(s,
-                ", \\\n  $results using 5:1 with points pt 2 ps 0.9 lw 1.8 lc rgb '%s' "
-                "title 'goal'",
-                gnuplot_colour(0));
-    fputc('\n', s);
-    bool missing = false;
-    int status = gnuplot_draw(r->place, s, path, &missing);
-    free(path);
-    if (missing) return CLI_DONE;
-    char *alt =
-        cli_format("%s: %s", get_text(all, section, "section"), get_text(all, section, "unit"));
-    if (status == CLI_DONE) status = report_embed(r, name, alt, "");
-    free(alt);
+    report_plot plot = {.name = name,
+                        .title = get_text(all, section, "section"),
+                        .xlabel = get_text(all, section, "unit"),
+                        .ylabel = "",
+                        .caption = "",
+                        .log_x = max > 4.0 * min,
+                        .row = names,
+                        .rows = end - begin};
+    for (int k = 0; k < KINDS; k++) {
+        plot_curve *curve = report_curve(&plot, titles[k]);
+        curve->colour = k == GOAL ? 0 : 1;
+        curve->has_dots = k == MEDIAN;
+        curve->has_rings = k == GOAL;
+        for (int i = begin; i < end; i++) {
+            const char *goal = get_text(all, i, "goal");
+            const double row = i - begin + 1;
+            if (!get(all, i, "median")) continue;
+            if (k == MEDIAN) report_point(&plot, curve, get_number(all, i, "median"), row);
+            if (k == GOAL && goal[0])
+                report_point(&plot, curve, strtod(goal + strcspn(goal, "0123456789"), NULL), row);
+            if (k != SPREAD) continue;
+            report_point(&plot, curve, get_number(all, i, "min"), row);
+            report_point(&plot, curve, get_number(all, i, "max"), row);
+            report_lift(curve);
+        }
+    }
+    const int status = report_draw(r, &plot);
+    free(names);
     return status;
 }
 
@@ -451,7 +403,7 @@ static int write_page(report *r, const results *all)
 int main(int argc, char **argv)
 {
     static results all;
-    report r = {.directory = argv[1], .format = "svg"};
+    report r = {.directory = argv[1]};
     if (argc < 3) return cli_fail(CLI_USAGE, "page: DIR and RESULTS are required");
     int status = cli_directory(argv[1]);
     for (int i = 2; i < argc && status == CLI_DONE; i++) status = read_results(&all, argv[i]);

@@ -8,7 +8,8 @@ case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
 command -v gnuplot >/dev/null 2>&1 || { echo "gallery: gnuplot is not installed"; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$2"
+gallery=$2
+mkdir -p "$gallery"
 
 "$program" study bench/studies/gallery.yaml --no-page --output "$work/study" >/dev/null
 "$program" run falling-disk --integrator gauss8 --step 0.01 --time 20 --samples 400 --output "$work/disk"
@@ -24,16 +25,23 @@ awk -f "$top/tools/yaml_blocks.awk" "$top/docs/tutorial.md"
 "$program" run skate.yaml --integrator spark4 --step 0.05 --time 60 --samples 1200 --output skate
 cd "$top"
 for directory in study disk board sleigh skate skate-study; do
-    "$program" report "$work/$directory" >/dev/null
+    "$program" report "$work/$directory" --svg >/dev/null
 done
-cp "$work/study/report/1-E.svg" "$2/drift.svg"
-cp "$work/study/report/2-work.svg" "$2/work.svg"
-cp "$work/disk/report/path.svg" "$2/disk.svg"
-cp "$work/board/report/path.svg" "$2/board.svg"
-cp "$work/section/report/section.svg" "$2/section.svg"
-cp "$work/skate/report/path.svg" "$2/skate_path.svg"
-cp "$work/skate-study/report/1-D.svg" "$2/skate_constraint.svg"
-cp "$work/skate-study/report/1-E.svg" "$2/skate_energy.svg"
+# picture DIRECTORY FIGURE NAME: what is black on paper is light where the reader likes the dark.
+picture() {
+    sed "s|<title>Gnuplot</title>|<style>@media (prefers-color-scheme: dark) {\
+[stroke='black'], [stroke='rgb(  0,   0,   0)'] { stroke: #e4e4e4; }\
+[fill='black'], [fill='rgb(  0,   0,   0)'] { fill: #e4e4e4; }\
+[color='black'] { color: #e4e4e4; } }</style>|; /^<desc>/d" "$work/$1/report/$2.svg" >"$gallery/$3.svg"
+}
+picture study 1-E drift
+picture study 2-work work
+picture disk path disk
+picture board path board
+picture section section section
+picture skate path skate_path
+picture skate-study 1-D skate_constraint
+picture skate-study 1-E skate_energy
 moves() { python3 tools/motion-svg.py "$work/$1/report/index.html" "$2" >"$3"; }
 moves disk "A disk rolls along a ring and leans to and fro" "$2/disk_motion.svg"
 moves board "A snakeboard glides and turns its axles" "$2/board_motion.svg"

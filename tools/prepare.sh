@@ -1,8 +1,43 @@
 #!/bin/sh
-# prepare.sh [lint|bench|packages] - installs, on Debian, the packages that building and testing need, with
+# prepare.sh [lint|bench|packages|charts] - installs, on Debian, the packages that building and testing need, with
 # `lint` also what the whole continuous check needs, with `bench` also the libraries that `make
-# bench` compares with, with `packages` also what `make check-packages` needs; does nothing when all are there.
+# bench` compares with, with `packages` also what `make check-packages` needs; and uPlot, the library of
+# the charts of pages, from the npm registry, with `charts` that alone.  Does nothing when all are there.
 set -e
+# A package of the registry has the same bytes for ever.
+uplot=1.6.32
+package_sum=4b8a8191e425658e3ea8c8c1314b0fc679c861ee3a1af2b20c7b16ba50b5133d
+script_sum=19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f
+place=${DALEMBERT_UPLOT:-/usr/local/share/dalembert/uplot}
+has_charts() {
+    [ -s "$place/LICENSE" ] && [ -s "$place/uPlot.min.css" ] &&
+        echo "$script_sum  $place/uPlot.iife.min.js" | sha256sum -c --status 2>/dev/null
+}
+# By npm where it is installed, or wget.
+download_charts() { # FILE
+    if command -v npm >/dev/null 2>&1; then
+        (cd "$(dirname "$1")" && npm pack --silent "uplot@$uplot" >/dev/null && mv "uplot-$uplot.tgz" "$1")
+    else
+        wget -q -O "$1" "https://registry.npmjs.org/uplot/-/uplot-$uplot.tgz"
+    fi
+}
+install_charts() {
+    has_charts && return
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+    download_charts "$work/package.tgz" || { echo "prepare.sh: cannot download uplot@$uplot" >&2; exit 1; }
+    echo "$package_sum  $work/package.tgz" | sha256sum -c --status ||
+        { echo "prepare.sh: uplot@$uplot has another checksum than $package_sum" >&2; exit 1; }
+    tar -xzf "$work/package.tgz" -C "$work"
+    mkdir -p "$place" 2>/dev/null || $sudo mkdir -p "$place"
+    own=$sudo
+    [ ! -w "$place" ] || own=
+    $own install -m 644 "$work/package/dist/uPlot.iife.min.js" "$work/package/dist/uPlot.min.css" \
+        "$work/package/LICENSE" "$place"
+}
+sudo=
+[ "$(id -u)" -eq 0 ] || sudo=sudo
+[ "$1" != charts ] || { install_charts; exit 0; }
 packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev libjansson-dev locales gnuplot-nox g++ cmake groff-base'
 packages="$packages python3 python3-cffi python3-dev python3-numpy python3-pytest python3-setuptools python3-venv python3-wheel"
 if [ "$1" = lint ]; then
@@ -16,14 +51,13 @@ fi
 if [ "$1" = packages ]; then
     packages="$packages debhelper dh-python dpkg-dev lintian mmdebstrap pybuild-plugin-pyproject python3-all-dev"
 fi
+has_charts || command -v npm >/dev/null 2>&1 || packages="$packages ca-certificates wget"
 missing=
 for package in $packages; do
     dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
         missing="$missing $package"
 done
-[ -n "$missing" ] || exit 0
-sudo=
-[ "$(id -u)" -eq 0 ] || sudo=sudo
+[ -n "$missing" ] || { install_charts; exit 0; }
 export DEBIAN_FRONTEND=noninteractive
 # Another apt may run, as on a machine that has just started: wait for it.  The timeout of apt is for
 # the lock of dpkg alone, not for the lock of the lists.
@@ -36,3 +70,4 @@ until said=$(LC_ALL=C $sudo apt-get update 2>&1); do
     sleep 10
 done
 $sudo apt-get -o DPkg::Lock::Timeout=600 install -y --no-install-recommends $missing
+install_charts

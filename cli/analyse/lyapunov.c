@@ -9,9 +9,9 @@
 #include "analysis.h"
 #include "dalembert_evaluator.h"
 #include "io/file.h"
-#include "io/gnuplot.h"
 #include "io/trajectory.h"
 #include "lyapunov_results.h"
+#include "run/request_json.h"
 #include "run/row_times.h"
 #include "run/simulation.h"
 #include "ui/arguments.h"
@@ -29,6 +29,7 @@ typedef struct lyapunov_settings {
     screen_format format;
     run_simulation simulation;
     const char *output;
+    lyapunov_page *page;
     double transient;
     long long rows, exponents; /* exponents: 0 for all */
 } lyapunov_settings;
@@ -43,9 +44,8 @@ typedef struct tangent_study {
     dal_jumps *jumps; /* of F, which end the means */
     double begin;     /* t at the beginning of the means */
     int status;       /* of the run */
-    /* A table of the means so far: its name, which is the file's and the figure's, and what it has
-     * beside t. */
-    const char *name, *ylabel;
+    /* A table of the means so far: its name, which is the file's, and what it has beside t. */
+    const char *name;
     int columns;
     char **heads;   /* [1 + columns] */
     double *values; /* [1 + columns] */
@@ -106,7 +106,6 @@ static void read_means(tangent_study *s)
 static void allocate_columns(tangent_study *s)
 {
     s->name = s->set->is_volume ? "volume" : "lyapunov";
-    s->ylabel = s->set->is_volume ? "rate, mean so far" : "mean so far";
     s->columns = s->set->is_volume ? 2 : dal_lyapunov_count(s->spectrum) + 1;
     const size_t heads = (size_t)s->columns + 1;
     s->values = cli_calloc(heads, sizeof *s->values);
@@ -162,29 +161,12 @@ static int run_to_end(tangent_study *s)
     return status;
 }
 
-static int draw_means(const tangent_study *s, const char *directory)
+static void put_means(json_writer *w, const void *results)
 {
-    char *path, title[256], method[128];
-    FILE *script = gnuplot_open(directory, s->name, "svg", 800, 500, &path);
-    if (!script) return CLI_IO;
-    dal_method_name(&s->simulation->request.method, method, sizeof method);
-    snprintf(title, sizeof title, "%.80s, %.80s, h = %g", s->simulation->request.system_name,
-             method, s->simulation->request.options.step);
-    gnuplot_set(script, "title", title);
-    fprintf(script,
-            "set xlabel 't'\nset ylabel '%s'\nset xrange [*:*] noextend\n"
-            "set key outside right top Left reverse samplen 2\nplot \\\n",
-            s->ylabel);
-    for (int i = 1; i <= s->columns; i++) {
-        fprintf(script, "  '%s.csv' using 1:%d with lines lw 1.4 dt %d lc rgb '%s' title ", s->name,
-                i + 1, 1 + i / GNUPLOT_COLOURS,
-                gnuplot_colour(GNUPLOT_COLOURS - 1 - i % GNUPLOT_COLOURS));
-        gnuplot_quote(script, s->heads[i]);
-        fputs(i < s->columns ? ", \\\n" : "\n", script);
-    }
-    const int status = gnuplot_draw(directory, script, path, NULL);
-    free(path);
-    return status;
+    const tangent_study *s = results;
+    request_open_json(w, s->simulation, LYAPUNOV_WITHOUT);
+    json_put_number(w, "transient", s->set->transient);
+    json_close(w);
 }
 
 static int run_with_table(tangent_study *s)
@@ -199,8 +181,12 @@ static int run_with_table(tangent_study *s)
         if (status == CLI_SIGNAL) cli_fail(status, "interrupted; the means so far are kept");
     }
     const int closed = s->table.path ? writer_close(&s->table) : CLI_DONE;
+    int written = CLI_DONE;
     if (status == CLI_DONE) status = closed;
-    if (status == CLI_DONE && output.directory) status = draw_means(s, output.directory);
+    if ((status == CLI_DONE || status == CLI_SIGNAL) && output.directory)
+        written = analysis_describe(&output, s->name, s->simulation, put_means, s);
+    if (status == CLI_DONE) status = written;
+    if (status == CLI_DONE && output.directory) status = s->set->page(output.directory, status);
     analysis_close(&output, status);
     return status;
 }
@@ -212,8 +198,7 @@ static const cli_option options[] = {
      CLI_NUMBER(lyapunov_settings, transient, 0.0, INFINITY)},
     {"rows", "N", "100", "rows of the table, at equal distances in t",
      CLI_INTEGER(lyapunov_settings, rows, 1, MAX_ROWS)},
-    {"output", "DIR|FILE", NULL,
-     "writes the means so far: .csv, .npy, or a directory with a figure",
+    {"output", "DIR|FILE", NULL, "writes the means so far: .csv, .npy, or a directory with a page",
      CLI_ROW(cli_parse_output, lyapunov_settings, output)},
     ANALYSIS_FORCE_OPTION(lyapunov_settings),
     SCREEN_FORMAT_OPTION(lyapunov_settings),
@@ -294,14 +279,14 @@ static int run_measurement(lyapunov_settings *s, const cli_command *command, int
     return status;
 }
 
-int lyapunov_measure(const cli_command *command, int argc, char **argv)
+int lyapunov_measure(const cli_command *command, int argc, char **argv, lyapunov_page *page)
 {
-    lyapunov_settings s = {0};
+    lyapunov_settings s = {.page = page};
     return run_measurement(&s, command, argc, argv);
 }
 
-int lyapunov_measure_volume(const cli_command *command, int argc, char **argv)
+int lyapunov_measure_volume(const cli_command *command, int argc, char **argv, lyapunov_page *page)
 {
-    lyapunov_settings s = {.is_volume = true};
+    lyapunov_settings s = {.is_volume = true, .page = page};
     return run_measurement(&s, command, argc, argv);
 }

@@ -1,4 +1,4 @@
-/* report.c - `dalembert report DIR`: a page with figures by gnuplot. */
+/* report.c - `dalembert report DIR`: a page with charts, and its figures for papers. */
 #include "io/file.h"
 #include "report/report_ensemble.h"
 #include "report/report_order.h"
@@ -18,11 +18,10 @@
 static const struct {
     const char *file;
     int (*write)(report *r);
-} kinds[] = {{"cells.csv", report_study},
-             {"trajectory.npy", report_run},
-             {"statistics.csv", report_ensemble},
-             {"order.csv", report_order},
-             {"section.csv", report_section}};
+} kinds[] = {{"cells.csv", report_study},         {"trajectory.npy", report_run},
+             {"statistics.csv", report_ensemble}, {"order.csv", report_order},
+             {"section.csv", report_section},     {"lyapunov.csv", report_lyapunov},
+             {"volume.csv", report_volume}};
 
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
@@ -34,19 +33,20 @@ static bool has_file(const char *directory, const char *name)
     return found;
 }
 
-static int parse_format(void *user, const cli_option *option, const char *text)
-{
-    if (strcmp(text, "svg") != 0 && strcmp(text, "png") != 0)
-        return cli_fail(CLI_USAGE, "--format: '%s' is not svg or png", text);
-    return cli_parse_text(user, option, text);
-}
+typedef struct report_settings {
+    const char *directory;
+    bool svg, pdf;
+} report_settings;
 
 static const cli_option options[] = {
-    {"format", "svg|png", "svg", "format of the figures", .parse = parse_format,
-     .offset = offsetof(report, format)},
+    {"svg", NULL, NULL, "draws each figure by gnuplot, 3.4 inches wide, beside the page",
+     CLI_FLAG(report_settings, svg)},
+    {"pdf", NULL, NULL, "the same as PDF, with labels in a file NAME.tex for TeX",
+     CLI_FLAG(report_settings, pdf)},
     {NULL, "DIR", CLI_REQUIRED,
-     "what 'study', 'run', 'ensemble', 'order' or 'section' wrote with --output DIR",
-     CLI_TEXT(report, directory)},
+     "what 'run', 'study', 'ensemble', 'order', 'section', 'lyapunov' or 'volume' wrote with "
+     "--output DIR",
+     CLI_TEXT(report_settings, directory)},
 };
 
 static int write_report(report *r)
@@ -63,7 +63,8 @@ static int write_report(report *r)
         return cli_fail(
             CLI_USAGE,
             "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy) nor "
-            "an ensemble (statistics.csv) nor orders (order.csv) nor a section (section.csv)",
+            "an ensemble (statistics.csv) nor orders (order.csv) nor a section (section.csv) nor "
+            "exponents (lyapunov.csv) nor a volume (volume.csv)",
             r->directory);
     const int status = report_make(r, kinds[kind].write);
     if (status == CLI_DONE) printf("%s\n", r->page_path);
@@ -74,19 +75,24 @@ static int write_report(report *r)
 
 static int run_report(int argc, char **argv)
 {
-    report r = {0};
-    const cli_group group = CLI_GROUP(options, &r);
+    report_settings s = {0};
+    const cli_group group = CLI_GROUP(options, &s);
     const int status = cli_read_arguments(&command_report, argc, argv, &group, 1);
-    return status == CLI_GO_ON ? write_report(&r) : status;
+    if (status != CLI_GO_ON) return status;
+    if (s.svg && s.pdf)
+        return cli_fail(CLI_USAGE, "--svg and --pdf exclude each other: a figure has one script");
+    report r = {.directory = s.directory, .paper = s.svg ? "svg" : s.pdf ? "pdf" : NULL};
+    return write_report(&r);
 }
 
 const cli_command command_report = {
     .name = "report",
     .synopsis = "dalembert report DIR [OPTION]...",
-    .about = "makes a page with figures of a run, a study, an ensemble, orders or a section",
-    .notes = "The command writes DIR/report/index.html, one page with everything in it; the "
-             "figures, and the gnuplot scripts that draw them, are beside it.  Without gnuplot "
-             "the page "
-             "has no figures.\n",
+    .about = "makes a page with charts of what another command wrote",
+    .notes =
+        "The command writes DIR/report/index.html, one page with everything in it.  Its charts are "
+        "drawn by " CHART_LIBRARY ", which is put into the page where it is installed; otherwise "
+        "the page has tables alone.  Each figure is beside the page as a gnuplot script with its "
+        "data, NAME.gp.  A paper takes NAME.svg, or NAME.tex with NAME.pdf.\n",
     .run = run_report,
 };

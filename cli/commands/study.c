@@ -70,7 +70,7 @@ static const char notes[] =
         "                    with rows after whole numbers of steps\n"
         "  manifest.json     machine and progress; of shards shard-K-of-N.json\n"
         "  tables.txt        a table per system, step and start\n"
-        "  report/           the page, as 'dalembert report' makes it, where there is gnuplot\n"
+        "  report/           the page, as 'dalembert report' makes it\n"
         "  cells.csv         a row per cell\n"
         "  quantities.csv    a row per cell and quantity: first, last, max |x|, max |x - first|, "
         "and\n"

@@ -10,7 +10,6 @@
 #include "ui/signals.h"
 
 #include "file.h"
-#include "svg.h"
 #include "text.h"
 
 #include <errno.h>
@@ -23,15 +22,94 @@
 #endif
 #include <unistd.h>
 
-enum { NOT_FOUND = 127, AXES_SIZE = 256 };
+enum { NOT_FOUND = 127 };
 
-void gnuplot_quote(FILE *script, const char *text) { text_write_quoted(script, '\'', text); }
+/* ---- texts --------------------------------------------------------------------------------- */
 
-void gnuplot_set(FILE *script, const char *what, const char *text)
+static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+static bool is_of_word(char c)
 {
-    fprintf(script, "set %s ", what);
-    gnuplot_quote(script, text);
-    fputc('\n', script);
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || (unsigned char)c >= 0x80;
+}
+
+/* A letter, or one by name, with digits and primes after it is a symbol: theta1' is
+ * $\theta_{1}'$.  Returns the length of the symbol; 0: none begins here. */
+static size_t write_symbol(FILE *out, const char *word)
+{
+    static const char *const greek[] = {"alpha", "beta",  "gamma", "delta",  "epsilon", "zeta",
+                                        "eta",   "theta", "kappa", "lambda", "mu",      "nu",
+                                        "xi",    "pi",    "rho",   "sigma",  "tau",     "phi",
+                                        "chi",   "psi",   "omega"};
+    size_t letters = 0;
+    while (is_letter(word[letters])) letters++;
+    const size_t digits = strspn(word + letters, "0123456789");
+    const size_t primes = strspn(word + letters + digits, "'");
+    const size_t length = letters + digits + primes;
+    bool has_name = false;
+    for (size_t i = 0; i < sizeof greek / sizeof *greek; i++)
+        has_name |= strlen(greek[i]) == letters && strncmp(greek[i], word, letters) == 0;
+    if ((letters != 1 && !has_name) || is_of_word(word[length])) return 0;
+    fprintf(out, "$%s%.*s", has_name ? "\\" : "", (int)letters, word);
+    if (digits > 0) fprintf(out, "_{%.*s}", (int)digits, word + letters);
+    fprintf(out, "%.*s$", (int)primes, word + letters + digits);
+    return length;
+}
+
+/* Every character that TeX does not set as itself is named. */
+static void write_tex(FILE *out, const char *text)
+{
+    static const struct {
+        char character;
+        const char *tex;
+    } special[] = {{'\\', "\\textbackslash{}"},
+                   {'^', "\\textasciicircum{}"},
+                   {'~', "\\textasciitilde{}"},
+                   {'<', "$<$"},
+                   {'>', "$>$"},
+                   {'|', "$|$"},
+                   {'"', "\\textquotedbl{}"},
+                   {'-', "{-}"},
+                   {'`', "\\textasciigrave{}"},
+                   {'*', "$*$"}};
+    enum { COUNT = sizeof special / sizeof special[0] };
+    for (bool is_inside = false; *text;) {
+        const size_t length = is_inside ? 0 : write_symbol(out, text);
+        if (length > 0) {
+            text += length;
+            continue;
+        }
+        size_t k = 0;
+        while (k < COUNT && special[k].character != *text) k++;
+        if (k < COUNT)
+            fputs(special[k].tex, out);
+        else
+            fprintf(out, strchr("{}$&#_%", *text) ? "\\%c" : "%c", *text);
+        is_inside = is_of_word(*text);
+        text++;
+    }
+}
+
+void gnuplot_quote(const gnuplot *g, const char *text)
+{
+    char *tex;
+    size_t length;
+    if (g->format == GNUPLOT_SVG) {
+        text_write_quoted(g->script, '\'', text);
+        return;
+    }
+    FILE *out = cli_memstream_open(&tex, &length);
+    write_tex(out, text);
+    cli_memstream_close(out);
+    text_write_quoted(g->script, '\'', tex);
+    free(tex);
+}
+
+void gnuplot_set(const gnuplot *g, const char *what, const char *text)
+{
+    fprintf(g->script, "set %s ", what);
+    gnuplot_quote(g, text);
+    fputc('\n', g->script);
 }
 
 /* Of middling luminance (0.17 to 0.25), so that each is distinct on white and on black alike, by a
@@ -49,71 +127,65 @@ void gnuplot_style(FILE *script, int i)
     fprintf(script, "lc rgb '%s' dt %s", gnuplot_colour(i), dash[i / GNUPLOT_COLOURS % 3]);
 }
 
-FILE *gnuplot_open(const char *directory, const char *name, const char *format, int width,
-                   int height, char **path)
+/* ---- scripts ------------------------------------------------------------------------------- */
+
+/* The picture of an earlier script would hide that none was drawn. */
+static int remove_pictures(const char *directory, const char *name)
 {
-    char file[512];
-    snprintf(file, sizeof file, "%s.gp", name);
-    *path = cli_join(directory, file);
-    snprintf(file, sizeof file, "./%s.%s", name, format);
-    /* An old picture would hide that none was drawn. */
-    char *picture = cli_join(directory, file);
-    const int removed = file_remove(picture);
-    free(picture);
-    FILE *script = removed == CLI_DONE ? fopen(*path, "w") : NULL;
-    if (!script) {
-        if (removed == CLI_DONE) cli_io("write", *path);
-        free(*path);
-        return NULL;
+    static const char *const suffixes[] = {"svg", "png", "pdf", "tex"};
+    int status = CLI_DONE;
+    for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes && status == CLI_DONE; i++) {
+        char *picture = cli_format("%s/%s.%s", directory, name, suffixes[i]);
+        status = file_remove(picture);
+        free(picture);
     }
-    fprintf(script, "set terminal %s size %d,%d noenhanced font 'sans,12'\n",
-            strcmp(format, "png") == 0 ? "pngcairo background 'white'" : "svg dynamic", width,
-            height);
-    gnuplot_set(script, "output", file);
+    return status;
+}
+
+int gnuplot_open(gnuplot *g, const char *directory, const char *name, gnuplot_format format,
+                 int height)
+{
+    *g = (gnuplot){.format = format};
+    const int removed = remove_pictures(directory, name);
+    if (removed != CLI_DONE) return removed;
+    g->path = cli_format("%s/%s.gp", directory, name);
+    g->script = fopen(g->path, "w");
+    if (!g->script) {
+        const int status = cli_io("write", g->path);
+        free(g->path);
+        return status;
+    }
+    if (format == GNUPLOT_PDF)
+        fprintf(g->script, "set terminal cairolatex pdf size 3.4in,%.2fin\nset output '%s.tex'\n",
+                height / 96.0, name);
+    else
+        fprintf(g->script,
+                "set terminal svg dynamic size %d,%d noenhanced font 'sans,12'\n"
+                "set output './%s.svg'\n",
+                GNUPLOT_WIDTH, height, name);
     fputs("set datafile separator comma\nset datafile missing ''\nset tics nomirror font ',11.5'\n"
-          "set border 3\nset grid back lt 1 lw 1 lc rgb '#c0808080'\nlog_x = 0\nlog_y = 0\n",
-          script);
-    return script;
+          "set border 3\nset grid back lt 1 lw 1 lc rgb '#c0808080'\n",
+          g->script);
+    return CLI_DONE;
 }
 
-bool gnuplot_is_there(void)
+int gnuplot_close(gnuplot *g)
 {
-    const char *place = getenv("PATH");
-    bool found = false;
-    while (place && *place && !found) {
-        const int length = (int)strcspn(place, ":");
-        char *path = cli_format("%.*s/gnuplot", length, place);
-        found = access(path, X_OK) == 0;
-        free(path);
-        place += length + (place[length] == ':');
-    }
-    return found;
+    const int status = cli_close(g->script, g->path);
+    free(g->path);
+    return status;
 }
 
-/* The axes of the last plot: for x and y the pixels of both ends, the values there, and whether it
- * is logarithmic.  Pixels of SVG begin at the top. */
-static const char print_axes[] =
-    "scale = 1.0*GPVAL_TERM_SCALE\n"
-    "height = GPVAL_TERM_YSIZE/scale\n"
-    "set print '-'\n"
-    "print sprintf('%.7g %.7g %.15g %.15g %d', GPVAL_TERM_XMIN, GPVAL_TERM_XMAX, GPVAL_X_MIN, "
-    "GPVAL_X_MAX, log_x), \\\n"
-    "  sprintf(' %.7g %.7g %.15g %.15g %d', height - GPVAL_TERM_YMIN, height - GPVAL_TERM_YMAX, "
-    "GPVAL_Y_MIN, GPVAL_Y_MAX, log_y)\n";
+/* ---- pictures ------------------------------------------------------------------------------ */
 
-/* Runs gnuplot and reads the axes that it prints. */
-static int run(const char *directory, const char *path, char axes[AXES_SIZE], bool *missing)
+static int run(const char *directory, const char *path)
 {
-    int state, ends[2];
+    int state;
     fflush(NULL);
     const pid_t parent = getpid();
-    if (pipe(ends) != 0) return cli_io("run", "gnuplot");
     pid_t child = fork();
     if (child < 0) return cli_io("run", "gnuplot");
     if (child == 0) {
-        dup2(ends[1], STDOUT_FILENO);
-        close(ends[0]);
-        close(ends[1]);
         /* The child ends with its parent. */
 #ifdef __linux__
         prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -123,46 +195,27 @@ static int run(const char *directory, const char *path, char axes[AXES_SIZE], bo
         if (chdir(directory) == 0) execlp("gnuplot", "gnuplot", script, (char *)NULL);
         _exit(errno == ENOENT ? NOT_FOUND : 1);
     }
-    close(ends[1]);
-    FILE *printed = fdopen(ends[0], "r");
-    if (!printed || !fgets(axes, AXES_SIZE, printed)) axes[0] = '\0';
-    const bool is_read = printed && !ferror(printed);
-    if (printed)
-        fclose(printed);
-    else
-        close(ends[0]);
     if (cli_interrupted()) kill(child, SIGTERM);
     while (waitpid(child, &state, 0) < 0) {
         if (errno != EINTR) return cli_io("wait for", "gnuplot");
         if (cli_interrupted()) kill(child, SIGTERM);
     }
     if (cli_interrupted()) return cli_fail(CLI_SIGNAL, "interrupted while gnuplot drew '%s'", path);
-    if (WIFEXITED(state) && WEXITSTATUS(state) == 0)
-        return is_read ? CLI_DONE : cli_fail(CLI_IO, "cannot read what gnuplot prints");
-    const bool is_missing = WIFEXITED(state) && WEXITSTATUS(state) == NOT_FOUND;
-    if (missing) *missing = is_missing;
-    if (is_missing)
-        return cli_fail(CLI_IO, "gnuplot is not installed; the figures need it ('%s' is written)",
-                        path);
+    if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return CLI_DONE;
+    if (WIFEXITED(state) && WEXITSTATUS(state) == NOT_FOUND)
+        return cli_fail(CLI_IO, "gnuplot is not installed; it draws '%s', which is written", path);
     return cli_fail(CLI_IO, "gnuplot failed on '%s'", path);
 }
 
-int gnuplot_draw(const char *directory, FILE *script, const char *path, bool *missing)
+int gnuplot_draw(gnuplot *g, const char *directory)
 {
-    char axes[AXES_SIZE] = "";
-    fputs(print_axes, script);
-    int status = cli_close(script, path);
-    if (missing) *missing = false;
-    if (status == CLI_DONE) status = run(directory, path, axes, missing);
-    if (status != CLI_DONE) return status;
-    /* NAME.gp has drawn NAME.svg or NAME.png. */
-    const int length = (int)strlen(path) - 2;
-    char *svg = cli_format("%.*ssvg", length, path), *png = cli_format("%.*spng", length, path);
-    if (file_exists(svg))
-        status = svg_tidy(svg, axes);
-    else if (!file_exists(png))
-        status = cli_fail(CLI_IO, "gnuplot drew nothing from '%s'", path);
-    free(svg);
-    free(png);
+    int status = cli_close(g->script, g->path);
+    if (status == CLI_DONE) status = run(directory, g->path);
+    char *picture = cli_format("%.*s%s", (int)strlen(g->path) - 2, g->path,
+                               g->format == GNUPLOT_PDF ? "tex" : "svg");
+    if (status == CLI_DONE && !file_exists(picture))
+        status = cli_fail(CLI_IO, "gnuplot drew nothing from '%s'", g->path);
+    free(picture);
+    free(g->path);
     return status;
 }

@@ -1,25 +1,35 @@
-/* gnuplot.h - figures: a script that is kept, and what gnuplot draws by it. */
+/* gnuplot.h - figures for papers: a script with its data, and what gnuplot draws by it. */
 #ifndef DAL_CLI_GNUPLOT_H
 #define DAL_CLI_GNUPLOT_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Begins DIR/NAME.gp with the terminal, the output NAME.FORMAT (svg or png) and the common style;
- * free *path, the script's.  An old picture is removed.  No text of a file is a part of NAME.
- * NULL after a message. */
-FILE *gnuplot_open(const char *directory, const char *name, const char *format, int width,
-                   int height, char **path);
-/* Closes the script and runs gnuplot on it in DIR, which must draw its picture; an SVG figure has
- * no background and is readable in light and dark.  Returns CLI_DONE, or prints and returns an exit
- * status; *missing, unless NULL, is whether there is no gnuplot. */
-int gnuplot_draw(const char *directory, FILE *script, const char *path, bool *missing);
-/* Whether there is a gnuplot to run. */
-bool gnuplot_is_there(void);
-/* Any text as a string of gnuplot, in quotes, blanks for its control characters; the same as
- * a setting: set WHAT 'TEXT'. */
-void gnuplot_quote(FILE *script, const char *text);
-void gnuplot_set(FILE *script, const char *what, const char *text);
+typedef enum gnuplot_format { GNUPLOT_SVG, GNUPLOT_PDF } gnuplot_format;
+
+typedef struct gnuplot {
+    FILE *script;
+    char *path; /* of the script */
+    gnuplot_format format;
+} gnuplot;
+
+/* The width of a column of a paper, 3.4 inches, in units of 1/96 inch. */
+enum { GNUPLOT_WIDTH = 326 };
+
+/* Begins DIR/NAME.gp with the terminal and the common style.  It draws NAME.svg, or NAME.pdf with
+ * NAME.tex, which \input puts into a paper and whose labels TeX sets.  Pictures of an earlier
+ * script are removed.  No text of a file is a part of NAME.  Returns CLI_DONE, or prints and
+ * returns an exit status. */
+int gnuplot_open(gnuplot *g, const char *directory, const char *name, gnuplot_format format,
+                 int height);
+/* Closes the script, and runs gnuplot on it in DIR, which must draw its picture.  Return CLI_DONE,
+ * or print and return an exit status. */
+int gnuplot_close(gnuplot *g);
+int gnuplot_draw(gnuplot *g, const char *directory);
+/* Any text as a string of gnuplot, in quotes, blanks for its control characters, and as words and
+ * symbols of TeX where TeX sets it; the same as a setting: set WHAT 'TEXT'. */
+void gnuplot_quote(const gnuplot *g, const char *text);
+void gnuplot_set(const gnuplot *g, const char *what, const char *text);
 /* The colours of the curves, one after the other; and as "lc rgb C dt D" for more curves than
  * colours, which dashes distinguish. */
 enum { GNUPLOT_COLOURS = 8 };

@@ -6,8 +6,6 @@
 
 #include "io/file.h"
 #include "io/file_output.h"
-#include "io/gnuplot.h"
-#include "io/svg.h"
 #include "io/text.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -17,8 +15,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { MAX_FILE_NAME = 256 };
 
 /* ---- texts --------------------------------------------------------------------------------- */
 
@@ -152,29 +148,28 @@ void report_put_levels(json_writer *data, const char *name, const uint16_t *leve
     free(bytes);
 }
 
-int report_embed(report *r, const char *name, const char *alt, const char *caption)
+static const char no_charts[] =
+    "<p>This page has tables and no charts: " CHART_LIBRARY ", which draws them, was not found. "
+    "<code>docs/installation.md</code> says how to install it; <code>dalembert report DIR</code> "
+    "makes the page again.</p>\n";
+
+bool report_begin_figure(report *r, const char *title, const char *caption)
 {
-    char file[MAX_FILE_NAME];
-    size_t length = 0;
-    snprintf(file, sizeof file, "%s.%s", name, r->format);
-    char *path = cli_join(r->place, file), *bytes = file_read(path, &length);
-    free(path);
-    if (!bytes) return CLI_IO;
-    fputs("<figure><img alt=\"", r->page);
-    report_text(r->page, alt);
-    fputs("\" src='", r->page);
-    if (strcmp(r->format, "svg") == 0) {
-        svg_write_url(r->page, bytes);
-    } else {
-        fprintf(r->page, "data:image/%s;base64,", r->format);
-        report_base64(r->page, bytes, length);
+    const bool is_first = r->figures++ == 0;
+    if (!r->charts.script) {
+        fputs(is_first ? no_charts : "", r->page);
+        return false;
     }
-    fputs("' loading=\"lazy\">", r->page);
-    if (caption[0]) report_element(r->page, "figcaption", caption);
-    fputs("</figure>\n", r->page);
-    r->figures++;
-    free(bytes);
-    return CLI_DONE;
+    if (is_first)
+        fputs("<noscript>The charts need JavaScript; their data are beside this page, as "
+              "gnuplot scripts.</noscript>\n",
+              r->page);
+    fputs("<figure><figcaption>", r->page);
+    report_element(r->page, "strong", title);
+    fputs(caption[0] ? " " : "", r->page);
+    report_text(r->page, caption);
+    fputs("</figcaption>", r->page);
+    return true;
 }
 
 /* ---- the page ------------------------------------------------------------------------------ */
@@ -182,7 +177,8 @@ int report_embed(report *r, const char *name, const char *alt, const char *capti
 int report_open(report *r)
 {
     r->place = cli_join(r->directory, "report");
-    const int status = cli_directory(r->place);
+    int status = cli_directory(r->place);
+    if (status == CLI_DONE) status = chart_library_read(&r->charts);
     if (status != CLI_DONE) return status;
     r->page_path = cli_join(r->place, "index.html");
     r->head = cli_memstream_open(&r->text[REPORT_HEAD], &r->length[REPORT_HEAD]);
@@ -225,13 +221,16 @@ void report_subheading(report *r, const char *id, const char *heading)
 
 int report_close(report *r)
 {
+    const bool has_charts = r->figures > 0 && r->charts.script;
     if (!r->page) return CLI_DONE;
     fputs("<p class=\"faint\">Made by dalembert " DAL_VERSION ".", r->page);
     if (r->figures > 0)
-        fprintf(r->page,
-                " Every figure is beside this page, as NAME.%s and as the gnuplot script "
-                "NAME.gp with its data.",
-                r->format);
+        fputs(" Every figure is beside this page as the gnuplot script NAME.gp with its data; "
+              "<code>dalembert report DIR --svg</code> or <code>--pdf</code> draws it for a paper.",
+              r->page);
+    if (r->figures > 0 && r->charts.script)
+        fputs(" Charts by " CHART_LIBRARY ", whose licence is in the source of this page.",
+              r->page);
     fputs("</p>\n", r->page);
     cli_memstream_close(r->head);
     cli_memstream_close(r->contents);
@@ -240,18 +239,24 @@ int report_close(report *r)
     char *text;
     size_t length;
     FILE *page = cli_memstream_open(&text, &length);
-    fprintf(page, "%s</head><body>\n", r->text[REPORT_HEAD]);
+    fputs(r->text[REPORT_HEAD], page);
+    if (has_charts) fprintf(page, "<style>\n%s</style>\n", r->charts.style);
+    fputs("</head><body>\n", page);
     if (r->length[REPORT_CONTENTS] > 0)
         fprintf(page,
                 "<nav class=\"contents\" aria-label=\"Contents\" tabindex=\"0\">\n"
                 "<a href=\"#top\">Top</a>\n%s</nav>\n",
                 r->text[REPORT_CONTENTS]);
-    fprintf(page, "<main>\n%s</main>\n<script type=\"module\">\n%s</script>\n</body></html>\n",
-            r->text[REPORT_PAGE], report_script);
+    fprintf(page, "<main>\n%s</main>\n", r->text[REPORT_PAGE]);
+    if (has_charts)
+        fprintf(page, "<script>\n/* " CHART_LIBRARY "\n\n%s*/\n%s</script>\n", r->charts.licence,
+                r->charts.script);
+    fprintf(page, "<script type=\"module\">\n%s</script>\n</body></html>\n", report_script);
     cli_memstream_close(page);
     const int status = r->read == CLI_DONE ? file_replace(r->page_path, text, length, 0) : r->read;
     free(text);
     for (int i = 0; i < REPORT_PARTS; i++) free(r->text[i]);
+    chart_library_free(&r->charts);
     return status;
 }
 
@@ -266,8 +271,7 @@ int report_make(report *r, int (*write)(report *r))
 
 int report_after(const char *directory, int status, int (*write)(report *r))
 {
-    report r = {.directory = directory, .format = "svg"};
-    if (!gnuplot_is_there()) return status;
+    report r = {.directory = directory};
     const int made = report_make(&r, write);
     free(r.place);
     free(r.page_path);

@@ -1,14 +1,15 @@
 /* report_page.h - the page of a report.
  *
  *     DIR/report/index.html   the page, which needs no other file
- *     DIR/report/NAME.gp      a gnuplot script with its data, to be edited and run again by hand
- *     DIR/report/NAME.svg     what it draws (or .png)
+ *     DIR/report/NAME.gp      a figure as a gnuplot script with its data
+ *     DIR/report/NAME.svg     what it draws for a paper (or .pdf with .tex), where that is wanted
  *
  * Directories come from others: NAME is made of words of the program and of numbers, and no text of
  * a file becomes a part of HTML, JSON, a script or a file name as it is. */
 #ifndef DAL_CLI_REPORT_PAGE_H
 #define DAL_CLI_REPORT_PAGE_H
 
+#include "io/chart_library.h"
 #include "io/json.h"
 #include "ui/screen_data.h"
 
@@ -16,22 +17,22 @@
 #include <stdint.h>
 #include <stdio.h>
 
-extern const char report_style[], report_script[]; /* report.css and report.js, embedded */
+extern const char report_style[], report_script[]; /* *.css and *.js, embedded */
 
 enum { REPORT_HEAD, REPORT_CONTENTS, REPORT_PAGE, REPORT_PARTS };
 
 typedef struct report {
-    const char *directory;    /* of the study or run */
-    char *place;              /* DIR/report */
-    const char *format;       /* "svg" or "png" */
+    const char *directory; /* of the study or run */
+    char *place;           /* DIR/report */
+    const char *paper;     /* "svg" or "pdf": what gnuplot draws of each figure; or NULL */
+    chart_library charts;
     FILE *page;               /* what is below the title, in memory until it is closed */
     FILE *head, *contents;    /* what is above it; the items of the contents */
     char *text[REPORT_PARTS]; /* of those three when they are closed */
     size_t length[REPORT_PARTS];
     char *page_path;
-    int read;           /* the exit status of reading the files that are on the page */
-    bool lacks_gnuplot; /* scripts are written, figures are not */
-    int figures;        /* on the page so far */
+    int read;    /* the exit status of reading the files that are on the page */
+    int figures; /* so far, on the page where there is the library of charts */
 } report;
 
 /* All that return an int return CLI_DONE, or print and return an exit status. */
@@ -39,8 +40,8 @@ int report_open(report *r);
 int report_close(report *r);
 /* Makes the page of r->directory, opened and closed; the caller frees r->place and r->page_path. */
 int report_make(report *r, int (*write)(report *r));
-/* The page of a directory after a command that wrote it and ended with this exit status; without
- * gnuplot there is none.  Returns that status, or the page's where the page failed. */
+/* The page of a directory after a command that wrote it and ended with this exit status.  Returns
+ * that status, or the page's where the page failed. */
 int report_after(const char *directory, int status, int (*write)(report *r));
 /* Ends the head and begins the body with the title as its heading. */
 void report_title(report *r, const char *title);
@@ -70,7 +71,8 @@ void report_trend(FILE *page, const char *size, const char *trend, double x, con
 /* A file of the directory, word for word, folded; nothing where there is none.  Without one that
  * cannot be read report_close fails. */
 void report_file(report *r, const char *name, const char *summary);
-/* The figure DIR/report/NAME.svg, inside the page; alt describes it in words. */
-int report_embed(report *r, const char *name, const char *alt, const char *caption);
+/* Begins a figure, whose data the caller writes; false: the library of charts is not installed, and
+ * the page says so once. */
+bool report_begin_figure(report *r, const char *title, const char *caption);
 
 #endif

@@ -1,8 +1,9 @@
-/* report_plot.c - figures of curves: the data are part of the gnuplot script, which needs no other
- * file. */
+/* report_plot.c - figures of curves, written twice: as JSON on the page, of which its script makes
+ * a chart, and as a script of gnuplot with its data, for papers. */
 #include "report_plot.h"
 
 #include "io/gnuplot.h"
+#include "io/json.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -11,14 +12,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the figure without its key, and of a row of the key.  A page shows a figure at 0.97 of this
- * width at least, and no letter may be smaller than 11 there.  A letter is about so wide. */
-enum { WIDTH = 360, HEIGHT = 270, KEY_ROW = 17, KEY_SAMPLE = 50 };
+/* In a script, of the figure without its key, of a row of the key and of a row of names.  A letter
+ * is about so wide. */
+enum { WIDTH = GNUPLOT_WIDTH, HEIGHT = 245, KEY_ROW = 17, KEY_SAMPLE = 50, NAME_ROW = 20 };
 static const double letter = 7.0;
 /* Above and below the axes, and the range of the height between them; left and right ends of the
  * axes as parts of the width. */
 enum { ABOVE = 32, BELOW = 54, FRAME = ABOVE + BELOW, MIN_HEIGHT = 100, MAX_HEIGHT = 340 };
-#define LEFT  0.215
+#define LEFT  0.23
+#define NAMES 0.42 /* with names in rows */
 #define RIGHT 0.95
 
 /* ---- points -------------------------------------------------------------------------------- */
@@ -73,7 +75,7 @@ const char report_envelope_caption[] = "The maximum up to t; in brackets its slo
 
 void report_title_envelope(plot_curve *curve)
 {
-    char suffix[32] = "";
+    char suffix[PLOT_NOTE] = "";
     int last = curve->count - 1, first = last;
     if (curve->count == 0)
         snprintf(suffix, sizeof suffix, curve->max_abs == 0.0 ? " (0)" : " (not finite)");
@@ -83,8 +85,7 @@ void report_title_envelope(plot_curve *curve)
         const double slope = log(b[1] / a[1]) / log(b[0] / a[0]);
         if (isfinite(slope)) snprintf(suffix, sizeof suffix, " (%.1f)", fabs(slope));
     }
-    const size_t length = strlen(curve->title), limit = sizeof curve->title - sizeof suffix;
-    snprintf(curve->title + (length < limit ? length : limit), sizeof suffix, "%s", suffix);
+    memcpy(curve->note, suffix, sizeof suffix);
 }
 
 /* ---- the script ---------------------------------------------------------------------------- */
@@ -106,8 +107,10 @@ static int find_range(const report_plot *plot, int k, double *min, double *max)
     return count;
 }
 
-static void write_axis(FILE *s, const char *axis, const report_plot *plot, int k, bool is_log)
+static void write_axis(const gnuplot *g, const char *axis, const report_plot *plot, int k,
+                       bool is_log)
 {
+    FILE *s = g->script;
     double min, max;
     find_range(plot, k, &min, &max);
     if (!is_log) {
@@ -122,12 +125,15 @@ static void write_axis(FILE *s, const char *axis, const report_plot *plot, int k
     /* Labels are at powers of ten: a range that does not hold two of them becomes one of whole
      * decades. */
     const double below = floor(log10(min)), above = fmax(ceil(log10(max)), below + 1.0);
-    fprintf(s, "set logscale %s\nlog_%s = 1\nset %srange ", axis, axis, axis);
+    fprintf(s, "set logscale %s\nset %srange ", axis, axis);
     if (k == 0 && max >= 100.0 * min)
         fprintf(s, "[%.17g:%.17g]\nset format %s '%%g'\n", min, max, axis);
     else
         fprintf(s, "[1e%.0f:1e%.0f]\nset format %s '%s'\n", fmax(below, -307.0), fmin(above, 307.0),
-                axis, below < -3.0 || above > 4.0 ? "%.0e" : "%g");
+                axis,
+                below >= -3.0 && above <= 4.0 ? "%g"
+                : g->format == GNUPLOT_PDF    ? "$10^{%T}$"
+                                              : "%.0e");
 }
 
 /* As many titles side by side as the longest leaves room for. */
@@ -135,7 +141,7 @@ static int key_columns(const report_plot *plot)
 {
     size_t longest = 0;
     for (int i = 0; i < plot->count; i++) {
-        const size_t length = strlen(plot->curve[i].title);
+        const size_t length = strlen(plot->curve[i].title) + strlen(plot->curve[i].note);
         if (length > longest) longest = length;
     }
     return (int)fmax(1.0, WIDTH / (KEY_SAMPLE + letter * (double)longest));
@@ -161,6 +167,7 @@ static int figure_height(const report_plot *plot)
 {
     double low[2], high[2], height = HEIGHT - FRAME;
     for (int k = 0; k < 2; k++) find_range(plot, k, &low[k], &high[k]);
+    if (plot->rows > 0) return FRAME + NAME_ROW * plot->rows + KEY_ROW * key_rows(plot);
     if (plot->is_to_scale && high[0] > low[0])
         height = (RIGHT - LEFT) * WIDTH * (high[1] - low[1]) / (high[0] - low[0]);
     height = fmin(fmax(height, MIN_HEIGHT), MAX_HEIGHT);
@@ -191,43 +198,57 @@ static void write_marks(FILE *s, const report_plot *plot)
                 shown[i], count > MAX_LINES ? 0.95 : 0.0, shown[i]);
 }
 
-static void write_axes(FILE *s, const report_plot *plot)
+/* Tics equally far apart on both axes: 1, 2 or 5 times a power of ten. */
+static void write_scale(FILE *s, const report_plot *plot)
 {
+    double low, high, extent = 0.0;
+    for (int k = 0; k < 2; k++) {
+        find_range(plot, k, &low, &high);
+        extent = fmax(extent, high - low);
+    }
+    const double least = extent / 6.0, power = pow(10.0, floor(log10(least)));
+    const double times = least <= power         ? 1.0
+                         : least <= 2.0 * power ? 2.0
+                         : least <= 5.0 * power ? 5.0
+                                                : 10.0;
+    fputs("set size ratio -1\nset offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n", s);
+    if (extent > 0.0) fprintf(s, "set xtics %.9g\nset ytics %.9g\n", times * power, times * power);
+}
+
+/* Names instead of numbers at the ordinates 1, 2, ..., from above. */
+static void write_rows(const gnuplot *g, const report_plot *plot)
+{
+    fprintf(g->script, "set yrange [%d.5:0.5]\nset grid noytics\nset ytics (", plot->rows);
+    for (int i = 0; i < plot->rows; i++) {
+        gnuplot_quote(g, plot->row[i]);
+        fprintf(g->script, " %d%s", i + 1, i + 1 < plot->rows ? ", " : ")\n");
+    }
+}
+
+static void write_axes(const gnuplot *g, const report_plot *plot)
+{
+    FILE *s = g->script;
     const double height = figure_height(plot), key = KEY_ROW * key_rows(plot);
-    gnuplot_set(s, "title offset 0,-0.4", plot->title);
-    gnuplot_set(s, "xlabel offset 0,0.4", plot->xlabel);
-    write_axis(s, "x", plot, 0, plot->log_x);
-    write_axis(s, "y", plot, 1, plot->log_y);
+    gnuplot_set(g, "title offset 0,-0.4", plot->title);
+    gnuplot_set(g, "xlabel offset 0,0.4", plot->xlabel);
+    write_axis(g, "x", plot, 0, plot->log_x);
+    write_axis(g, "y", plot, 1, plot->log_y);
     write_marks(s, plot);
     /* Dots on the frame would not be seen. */
     if (has_dots(plot)) fputs("set offsets 0, 0, graph 0.04, graph 0.04\n", s);
-    if (plot->is_to_scale) {
-        /* Tics equally far apart on both axes: 1, 2 or 5 times a power of ten. */
-        double low, high, extent = 0.0;
-        for (int k = 0; k < 2; k++) {
-            find_range(plot, k, &low, &high);
-            extent = fmax(extent, high - low);
-        }
-        const double least = extent / 6.0, power = pow(10.0, floor(log10(least)));
-        const double times = least <= power         ? 1.0
-                             : least <= 2.0 * power ? 2.0
-                             : least <= 5.0 * power ? 5.0
-                                                    : 10.0;
-        fputs("set size ratio -1\nset offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n", s);
-        if (extent > 0.0)
-            fprintf(s, "set xtics %.9g\nset ytics %.9g\n", times * power, times * power);
-    }
+    if (plot->is_to_scale) write_scale(s, plot);
+    if (plot->rows > 0) write_rows(g, plot);
     /* The key is below, as wide as the figure; the label of the ordinate is at the edge,
      * however wide the numbers beside it are. */
-    gnuplot_set(s, "label 1", plot->ylabel);
+    gnuplot_set(g, "label 1", plot->ylabel);
     fprintf(s,
             "set label 1 at screen 0.035, graph 0.5 center rotate\n"
             "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"
             "set tmargin at screen %.4f\nset bmargin at screen %.4f\n"
             "set key at screen 0.02, screen %.4f left top Left reverse maxrows %d maxcols %d "
             "samplen 2 width 1 font ',11.5'\n",
-            LEFT, RIGHT, 1.0 - ABOVE / height, (BELOW + key) / height, (key + 3.0) / height,
-            key_rows(plot), key_columns(plot));
+            plot->rows > 0 ? NAMES : LEFT, RIGHT, 1.0 - ABOVE / height, (BELOW + key) / height,
+            (key + 3.0) / height, key_rows(plot), key_columns(plot));
 }
 
 static void write_data(FILE *s, const report_plot *plot)
@@ -247,29 +268,33 @@ static void write_data(FILE *s, const report_plot *plot)
     }
 }
 
-static void write_title(FILE *s, const char *title)
+static void write_title(const gnuplot *g, const plot_curve *curve)
 {
-    fputs(title[0] ? " title " : " notitle", s);
-    if (title[0]) gnuplot_quote(s, title);
+    char title[PLOT_TITLE + PLOT_NOTE];
+    snprintf(title, sizeof title, "%s%s", curve->title, curve->note);
+    fputs(title[0] ? " title " : " notitle", g->script);
+    if (title[0]) gnuplot_quote(g, title);
 }
 
 /* Filled, with both edges. */
-static void write_band(FILE *s, const report_plot *plot, int i)
+static void write_band(const gnuplot *g, const report_plot *plot, int i)
 {
     const char *colour = gnuplot_colour(plot->curve[i].colour);
-    fprintf(s, "  $curve%d using 1:2:3 with filledcurves lc rgb '%s' fs transparent solid 0.4",
-            i + 1, colour);
-    write_title(s, plot->curve[i].title);
+    fprintf(g->script,
+            "  $curve%d using 1:2:3 with filledcurves lc rgb '%s' fs transparent solid 0.4", i + 1,
+            colour);
+    write_title(g, &plot->curve[i]);
     for (int k = 2; k <= 3; k++)
-        fprintf(s, ", \\\n  $curve%d using 1:%d with lines lw 1 lc rgb '%s' notitle", i + 1, k,
-                colour);
+        fprintf(g->script, ", \\\n  $curve%d using 1:%d with lines lw 1 lc rgb '%s' notitle", i + 1,
+                k, colour);
 }
 
 /* A curve without points is in the key only. */
-static void write_curve(FILE *s, const report_plot *plot, int i)
+static void write_curve(const gnuplot *g, const report_plot *plot, int i)
 {
     const plot_curve *curve = &plot->curve[i];
     const char *line = plot->has_marks ? "linespoints" : "lines";
+    FILE *s = g->script;
     if (curve->count)
         fprintf(s, "  $curve%d using 1:2 with %s ", i + 1,
                 curve->has_dots    ? "points pt 7 ps 0.3"
@@ -286,51 +311,111 @@ static void write_curve(FILE *s, const report_plot *plot, int i)
         gnuplot_style(s, curve->colour);
     }
     if (plot->has_marks) fprintf(s, " pt %d ps 0.7", 4 + curve->colour % GNUPLOT_COLOURS);
-    write_title(s, curve->title);
+    write_title(g, curve);
 }
 
-static void write_curves(FILE *s, const report_plot *plot)
+static int write_script(const report *r, const report_plot *plot)
 {
-    write_data(s, plot);
-    fputs("plot \\\n", s);
+    gnuplot g;
+    const bool is_pdf = r->paper && strcmp(r->paper, "pdf") == 0;
+    const int status = gnuplot_open(&g, r->place, plot->name, is_pdf ? GNUPLOT_PDF : GNUPLOT_SVG,
+                                    figure_height(plot));
+    if (status != CLI_DONE) return status;
+    write_axes(&g, plot);
+    write_data(g.script, plot);
+    fputs("plot \\\n", g.script);
     for (int i = 0; i < plot->count; i++) {
         if (plot->curve[i].is_band)
-            write_band(s, plot, i);
+            write_band(&g, plot, i);
         else
-            write_curve(s, plot, i);
-        fputs(i + 1 < plot->count ? ", \\\n" : "\n", s);
+            write_curve(&g, plot, i);
+        fputs(i + 1 < plot->count ? ", \\\n" : "\n", g.script);
     }
+    return r->paper ? gnuplot_draw(&g, r->place) : gnuplot_close(&g);
 }
 
-/* ---- the figure ---------------------------------------------------------------------------- */
+/* ---- the chart ----------------------------------------------------------------------------- */
+
+/* Six digits are more than a chart shows; null ends a line. */
+static void put_coordinate(json_writer *data, double x)
+{
+    char text[JSON_NUMBER];
+    snprintf(text, sizeof text, "%.6g", x);
+    json_put_source(data, NULL, isfinite(x) ? text : "null");
+}
+
+static void put_coordinates(json_writer *data, const char *name, const plot_curve *curve, int k)
+{
+    json_open_list(data, name, JSON_ON_ONE_LINE);
+    for (int j = 0; j < curve->count; j++) put_coordinate(data, curve->at[j][k]);
+    json_close(data);
+}
+
+static bool has_abscissas_of(const plot_curve *curve, const plot_curve *other)
+{
+    bool same = curve->count == other->count;
+    for (int j = 0; same && j < curve->count; j++) same = curve->at[j][0] == other->at[j][0];
+    return same;
+}
+
+/* The abscissas are a list, or the number of an earlier curve that has the same. */
+static void put_curve(json_writer *data, const report_plot *plot, int i)
+{
+    const plot_curve *curve = &plot->curve[i];
+    int same = 0;
+    while (same < i && !has_abscissas_of(curve, &plot->curve[same])) same++;
+    json_open(data, NULL, JSON_ON_ONE_LINE);
+    json_put_text(data, "title", curve->title);
+    if (curve->note[0]) json_put_text(data, "note", curve->note);
+    json_put_text(data, "kind",
+                  curve->is_band     ? "band"
+                  : curve->has_dots  ? "dots"
+                  : curve->has_rings ? "rings"
+                                     : "line");
+    if (curve->is_black)
+        json_put_flag(data, "black", true);
+    else
+        json_put_integer(data, "colour", curve->colour);
+    if (same < i)
+        json_put_integer(data, "x", same);
+    else
+        put_coordinates(data, "x", curve, 0);
+    put_coordinates(data, "y", curve, 1);
+    if (curve->is_band) put_coordinates(data, "upper", curve, 2);
+    json_close(data);
+}
 
 static int make_figure(report *r, const report_plot *plot)
 {
-    char *path, alt[2048];
-    FILE *s = gnuplot_open(r->place, plot->name, r->format, WIDTH, figure_height(plot), &path);
-    if (!s) return CLI_IO;
-    write_axes(s, plot);
-    write_curves(s, plot);
-    /* Without gnuplot the page has no figures; the first one has printed the message. */
-    int status;
-    bool missing = false;
-    if (r->lacks_gnuplot) {
-        status = cli_close(s, path);
-    } else {
-        status = gnuplot_draw(r->place, s, path, &missing);
-        if (missing) status = CLI_DONE;
+    const int status = write_script(r, plot);
+    if (!report_begin_figure(r, plot->title, plot->caption)) return status;
+    fputs("<script type=\"application/json\" class=\"figure\">", r->page);
+    json_writer data = {.out = r->page, .is_in_page = true};
+    json_open(&data, NULL, JSON_ON_ONE_LINE);
+    json_put_text(&data, "name", plot->name);
+    json_put_text(&data, "title", plot->title);
+    json_put_text(&data, "x", plot->xlabel);
+    json_put_text(&data, "y", plot->ylabel);
+    if (plot->log_x) json_put_flag(&data, "logX", true);
+    if (plot->log_y) json_put_flag(&data, "logY", true);
+    if (plot->has_marks) json_put_flag(&data, "marks", true);
+    if (plot->is_to_scale) json_put_flag(&data, "toScale", true);
+    if (plot->from_zero) json_put_flag(&data, "fromZero", true);
+    if (plot->rows > 0) {
+        json_open_list(&data, "rows", JSON_ON_ONE_LINE);
+        for (int i = 0; i < plot->rows; i++) json_put_text(&data, NULL, plot->row[i]);
+        json_close(&data);
     }
-    r->lacks_gnuplot |= missing;
-    free(path);
-    if (r->lacks_gnuplot || status != CLI_DONE) return status;
-    /* "TITLE: YLABEL over XLABEL for A, B, C" */
-    size_t n = (size_t)snprintf(alt, sizeof alt, "%s: %s over %s", plot->title, plot->ylabel,
-                                plot->xlabel);
-    for (int i = 0, named = 0; i < plot->count && n < sizeof alt; i++)
-        if (plot->curve[i].title[0])
-            n += (size_t)snprintf(alt + n, sizeof alt - n, "%s%s", named++ ? ", " : " for ",
-                                  plot->curve[i].title);
-    return report_embed(r, plot->name, alt, plot->caption);
+    json_open_list(&data, "events", JSON_ON_ONE_LINE);
+    for (int i = 0; i < plot->marks; i++) put_coordinate(&data, plot->mark[i]);
+    json_close(&data);
+    json_open_list(&data, "curves", JSON_ON_ONE_LINE);
+    for (int i = 0; i < plot->count; i++)
+        if (plot->curve[i].count > 0) put_curve(&data, plot, i);
+    json_close(&data);
+    json_close(&data);
+    fputs("</script></figure>\n", r->page);
+    return status;
 }
 
 int report_draw(report *r, report_plot *plot)

@@ -5,10 +5,11 @@
 #include "report_page.h"
 
 /* PLOT_METHODS: curves with long names, for which there is room below a figure. */
-enum { PLOT_CURVES = 12, PLOT_METHODS = 8, PLOT_TITLE = 96, PLOT_NAME = 192 };
+enum { PLOT_CURVES = 12, PLOT_METHODS = 8, PLOT_TITLE = 96, PLOT_NOTE = 32, PLOT_NAME = 192 };
 
 typedef struct plot_curve {
     char title[PLOT_TITLE]; /* "" keeps it out of the key */
+    char note[PLOT_NOTE];   /* after the title */
     int colour;             /* its number, 0 for the first curve unless the caller changes it */
     bool is_black;
     bool has_dots;   /* points without lines */
@@ -31,6 +32,8 @@ typedef struct report_plot {
     int count;
     const double *mark; /* [marks] abscissas in their order, the caller's; vertical lines there */
     int marks;
+    const char *const *row; /* [rows] names at the ordinates 1, 2, ..., from above, or none */
+    int rows;
 } report_plot;
 
 /* Begins the next curve. */
@@ -41,11 +44,11 @@ void report_point(const report_plot *plot, plot_curve *curve, double x, double y
 void report_band(const report_plot *plot, plot_curve *curve, double x, double low, double high);
 /* Ends a line; the next point begins another. */
 void report_lift(plot_curve *curve);
-/* Adds to the title of an envelope in brackets the slope of log y over log x between the last point
- * and the one at a tenth of its x, or why there is none. */
+/* Notes in brackets after the title of an envelope the slope of log y over log x between the last
+ * point and the one at a tenth of its x, or why there is none. */
 void report_title_envelope(plot_curve *curve);
 extern const char report_envelope_caption[];
-/* Draws it on the page and frees the points.  Without values it puts nothing there. */
+/* Puts it on the page and beside it, and frees the points; nothing is put there without values. */
 int report_draw(report *r, report_plot *plot);
 
 #endif

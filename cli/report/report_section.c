@@ -1,5 +1,6 @@
-/* report_section.c - the page of `dalembert section --output DIR`: what was cut and how often, and
- * the crossings in the plane of two columns. */
+/* report_section.c - the pages of `section`, `lyapunov` and `volume`, which have NAME.csv and
+ * NAME.json in their directory: what was done and how, crossings in the plane of two columns, or
+ * the means so far over t. */
 #include "report_section.h"
 
 #include "io/csv_table.h"
@@ -100,3 +101,76 @@ int report_section(report *r)
     free(path);
     return status;
 }
+
+/* ---- means --------------------------------------------------------------------------------- */
+
+static void write_means(report *r, const csv_table *csv)
+{
+    FILE *page = r->page;
+    report_heading(r, "means", "Means, per unit of t");
+    fputs(REPORT_TABLE "<td></td><th>mean</th>" REPORT_ROWS, page);
+    for (int k = 0; k < csv->columns; k++) {
+        if (csv_table_is(csv, 0, csv->cell[k], "t")) continue;
+        report_row(page, csv->cell[k]);
+        report_number(page, "%.6g", csv_table_number(csv, csv->rows - 1, csv->cell[k]));
+        fputs("</tr>\n", page);
+    }
+    fputs(REPORT_TABLE_END, page);
+}
+
+/* As many as a figure has colours for, the largest first, and the last, which is the divergence. */
+static int draw_means(report *r, const char *name, const csv_table *csv)
+{
+    const bool has_more = csv->columns - 1 > PLOT_CURVES;
+    report_plot plot = {.name = name,
+                        .title = "Means so far",
+                        .xlabel = "t",
+                        .ylabel = "mean so far",
+                        .caption = has_more ? "The largest exponents, and the divergence." : ""};
+    for (int k = 0; k < csv->columns; k++) {
+        if (csv_table_is(csv, 0, csv->cell[k], "t")) continue;
+        if (plot.count >= PLOT_CURVES - 1 && k != csv->columns - 1) continue;
+        plot_curve *curve = report_curve(&plot, csv->cell[k]);
+        for (int row = 1; row < csv->rows; row++)
+            report_point(&plot, curve, csv_table_number(csv, row, "t"),
+                         csv_table_number(csv, row, csv->cell[k]));
+    }
+    report_heading(r, "figure", "Figure");
+    fputs("<div class=\"figures\">\n", r->page);
+    const int status = report_draw(r, &plot);
+    fputs("</div>\n", r->page);
+    return status;
+}
+
+static int write_means_page(report *r, const char *name, const char *what)
+{
+    csv_table csv = {.text = NULL};
+    report_results results;
+    char *path = cli_format("%s/%s.csv", r->directory, name);
+    int status = results_read(&results, r->directory, name);
+    if (status == CLI_DONE) status = csv_table_read(&csv, path);
+    if (status == CLI_DONE) status = csv_table_require(&csv, path, "t");
+    if (status == CLI_DONE) status = csv_table_require(&csv, path, "divergence");
+    if (status == CLI_DONE) {
+        char *title = cli_format("%s: %s", results_title(&results, "A motion"), what);
+        char *json = cli_format("%s.json", name);
+        report_title(r, title);
+        results_begin_facts(r->page, &results);
+        fputs(REPORT_FACTS_END, r->page);
+        if (csv.rows > 1) {
+            write_means(r, &csv);
+            status = draw_means(r, name, &csv);
+        }
+        report_file(r, json, "what it was made with");
+        free(json);
+        free(title);
+    }
+    csv_table_free(&csv);
+    results_free(&results);
+    free(path);
+    return status;
+}
+
+int report_lyapunov(report *r) { return write_means_page(r, "lyapunov", "Lyapunov exponents"); }
+
+int report_volume(report *r) { return write_means_page(r, "volume", "volume of the phase space"); }

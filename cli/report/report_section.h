@@ -1,10 +1,12 @@
-/* report_section.h - the page of `dalembert section --output DIR`. */
+/* report_section.h - the pages of `section`, `lyapunov` and `volume` with --output DIR. */
 #ifndef DAL_CLI_REPORT_SECTION_H
 #define DAL_CLI_REPORT_SECTION_H
 
 #include "report_page.h"
 
-/* Returns CLI_DONE or prints and returns an exit status. */
+/* Return CLI_DONE or print and return an exit status. */
 int report_section(report *r);
+int report_lyapunov(report *r);
+int report_volume(report *r);
 
 #endif

@@ -12,7 +12,6 @@
 #include "io/csv_table.h"
 #include "io/document.h"
 #include "io/file.h"
-#include "io/gnuplot.h"
 #include "report_cells.h"
 #include "report_data.h"
 #include "report_family.h"
@@ -565,19 +564,15 @@ int report_study(report *r)
 
 int report_after_study(const char *directory, int status, report_naming naming)
 {
-    report r = {.directory = directory, .format = "svg"};
+    report r = {.directory = directory};
     char *cells = cli_join(directory, "cells.csv");
     const bool has_results =
         (status == CLI_DONE || status == CLI_CHECK || status == CLI_FAILED) && file_exists(cells);
     free(cells);
     if (!has_results || cli_interrupted()) return status;
-    if (gnuplot_is_there()) {
-        const int made = report_make(&r, report_study);
-        if (made == CLI_DONE && naming == REPORT_NAMED) printf("Page: %s\n", r.page_path);
-        if (status == CLI_DONE) status = made;
-    } else if (naming == REPORT_NAMED) {
-        printf("Page: 'dalembert report %s' makes it, with figures by gnuplot\n", directory);
-    }
+    const int made = report_make(&r, report_study);
+    if (made == CLI_DONE && naming == REPORT_NAMED) printf("Page: %s\n", r.page_path);
+    if (status == CLI_DONE) status = made;
     free(r.place);
     free(r.page_path);
     const int printed = cli_close(stdout, "standard output");

@@ -14,8 +14,8 @@ int report_study(report *r);
     }
 typedef enum report_naming { REPORT_UNNAMED, REPORT_NAMED } report_naming;
 
-/* After a study that ended with this exit status: writes its page where there is gnuplot, and says
- * where it is if it is to be named.  Returns that status, or the page's where the page failed. */
+/* After a study that ended with this exit status: writes its page, and says where it is if
+ * it is to be named.  Returns that status, or the page's where the page failed. */
 int report_after_study(const char *directory, int status, report_naming naming);
 
 #endif

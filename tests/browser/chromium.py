@@ -103,25 +103,36 @@ class Chromium:
 
     def press(self, key, text=""):
         """Presses a key where the focus is."""
-        codes = {"Enter": 13, "Escape": 27, " ": 32, "Tab": 9, "End": 35, "Home": 36,
+        codes = {"+": 187, "-": 189, "0": 48, "Enter": 13, "Escape": 27, " ": 32, "Tab": 9, "End": 35, "Home": 36,
                  "ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40}
         text = {"Enter": "\r", " ": " "}.get(key, text)
         for kind in "keyDown", "keyUp":
             self.call("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=codes[key],
                       **({"text": text} if text and kind == "keyDown" else {}))
 
-    def _centre(self, element):
+    def _place(self, element, part=0.5):
         return self.run(f"(() => {{ const e = {element}; e.scrollIntoView({{block: 'center'}});"
                         "const b = e.getBoundingClientRect();"
-                        "return [b.left + b.width / 2, b.top + b.height / 2]; })()")
+                        f"return [b.left + b.width * {part}, b.top + b.height / 2]; }})()")
+
+    def _mouse(self, kind, x, y, **more):
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
 
     def click(self, element):
         """Clicks the middle of an element, given as an expression."""
-        x, y = self._centre(element)
+        x, y = self._place(element)
         for kind in "mouseMoved", "mousePressed", "mouseReleased":
-            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+            self._mouse(kind, x, y, button="left", clickCount=1)
 
-    def point(self, element):
-        """Moves the pointer to the middle of an element."""
-        x, y = self._centre(element)
-        self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+    def point(self, element, part=0.5):
+        """Moves the pointer to a part of the width of an element, half way down."""
+        self._mouse("mouseMoved", *self._place(element, part))
+
+    def drag(self, element, begin, end):
+        """Drags from a part of the width of an element to another one."""
+        (x0, y), (x1, _) = self._place(element, begin), self._place(element, end)
+        self._mouse("mouseMoved", x0, y)
+        self._mouse("mousePressed", x0, y, button="left", clickCount=1)
+        for step in range(1, 6):
+            self._mouse("mouseMoved", x0 + (x1 - x0) * step / 5, y, button="left", buttons=1)
+        self._mouse("mouseReleased", x1, y, button="left", clickCount=1)

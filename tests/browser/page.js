@@ -41,55 +41,34 @@ addEventListener('load', async () => {
         if (parseFloat(style.fontSize) < 11) fault(`${name} has letters of ${style.fontSize}`);
     }
 
-    // A figure is unpacked and laid out as it is on the page, so that its letters have boxes.
-    const look = (image, name) => {
-        const box = image.getBoundingClientRect(), holder = document.createElement('div');
-        holder.style = `position: absolute; left: 0; top: 0; width: ${box.width}px`;
-        holder.innerHTML = decodeURIComponent(image.src.slice(image.src.indexOf(',') + 1));
-        document.body.append(holder);
-        const frame = holder.querySelector('svg').getBoundingClientRect();
-        const texts = [...holder.querySelectorAll('text')].filter(t => t.textContent.trim());
-        const scale = frame.width / holder.querySelector('svg').viewBox.baseVal.width;
-        const boxes = texts.map(t => t.getBoundingClientRect());
-        texts.forEach((t, i) => {
-            const b = boxes[i], what = `${name}: "${t.textContent.trim()}"`;
-            count.letters++;
-            if (b.left < frame.left - 0.5 || b.right > frame.right + 0.5 || b.top < frame.top - 0.5 ||
-                b.bottom > frame.bottom + 0.5) fault(`${what} is cut off`);
-            if (contrast(getComputedStyle(t).fill, paper) < 4.5) fault(`${what} is faint`);
-            const size = scale * parseFloat(getComputedStyle(t).fontSize);
-            if (!(size >= 11)) fault(`${what} has letters of ${size.toFixed(1)}px`);
-            for (let j = 0; j < i; j++) {
-                const o = boxes[j];
-                if (Math.min(b.right, o.right) - Math.max(b.left, o.left) > 1 &&
-                    Math.min(b.bottom, o.bottom) - Math.max(b.top, o.top) > 2.5)
-                    fault(`${what} covers "${texts[j].textContent.trim()}"`);
-            }
-        });
-        // The key is beside the curves: no name of a curve lies between the axes.
-        const [x0, x1, , , , y0, y1] = holder.querySelector('metadata').textContent.split(' ').filter(Boolean)
-            .map(x => scale * x);
-        for (const t of holder.querySelectorAll('g[id^=gnuplot_plot] text')) {
-            const b = t.getBoundingClientRect();
-            if (Math.min(b.right, x1) - Math.max(b.left, x0) > 1 && Math.min(b.bottom, y0) - Math.max(b.top, y1) > 1)
-                fault(`${name}: "${t.textContent}" in the key covers a curve`);
-        }
-        for (const line of holder.querySelectorAll('g[id^=gnuplot_plot] path[stroke]')) {
-            const colour = getComputedStyle(line).stroke;
-            if (contrast(colour, paper) < 3) fault(`${name}: a line of ${colour} is faint`);
-        }
-        holder.remove();
-    };
-    // Those far below are drawn when they come into view.
-    for (const image of document.images) image.loading = 'eager';
-    await Promise.all([...document.images].map(image => image.decode().catch(() => fault('an image is broken'))));
-    for (const image of document.images) {
-        const name = image.alt.slice(0, 60);
+    // A chart is drawn, has a name, and nothing of it is cut off at its edges; what is in its legend can be seen.
+    const look = figure => {
+        const name = figure.querySelector('figcaption strong').textContent.slice(0, 60), canvas = figure.querySelector('canvas');
+        const words = figure.querySelector('.chart').getAttribute('aria-label') || '';
         count.figures++;
-        if (!image.alt) fault('a figure without words');
-        if (!image.complete || !image.naturalWidth) fault(`${name}: is not drawn`);
-        else look(image, name);
+        if (!words.startsWith(name.slice(0, 40))) fault(`${name}: a chart without words`);
+        if (!canvas) return fault(`${name}: is not drawn`);
+        const {width, height} = canvas, box = canvas.getBoundingClientRect();
+        if (box.left < 0 || box.right > innerWidth + 0.5) fault(`${name}: is cut off`);
+        const {data} = canvas.getContext('2d').getImageData(0, 0, width, height);
+        let inked = 0, cut = 0;
+        for (let y = 0; y < height; y++)
+            for (let x = 0; x < width; x++) {
+                if (data[4 * (y * width + x) + 3] < 40) continue;
+                inked++;
+                cut += x === 0 || x === width - 1 || y === 0 || y === height - 1;
+            }
+        if (inked < 500) fault(`${name}: has ${inked} points of ink`);
+        if (cut) fault(`${name}: ${cut} points of ink at the edge`);
+    };
+    dispatchEvent(new Event('beforeprint')); // those far below are drawn when they come into view
+    await new Promise(done => setTimeout(done, 50));
+    document.querySelectorAll('.figures figure').forEach(look);
+    for (const sample of document.querySelectorAll('.legend .sample')) {
+        const colour = getComputedStyle(sample).borderTopColor;
+        count.letters++;
+        if (contrast(colour, paper) < 3) fault(`a curve of ${colour} is faint`);
     }
     say(`examined: ${scheme}, ${page}, ${width} pixels: ` +
-        `${count.texts} texts, ${count.figures} figures with ${count.letters} labels`);
+        `${count.texts} texts, ${count.figures} charts, ${count.letters} names of curves`);
 });

@@ -9,12 +9,14 @@ for browser in chromium chromium-browser google-chrome; do
     command -v $browser >/dev/null 2>&1 && break
     browser=
 done
-for tool in ${browser:-chromium} gnuplot; do
-    command -v $tool >/dev/null 2>&1 && continue
-    echo "browser: 32 pages and the script are skipped: no $tool"
+skip_without() {
+    echo "browser: 32 pages and the script are skipped: no $1"
     [ "${CI:-}" != true ]
     exit
-done
+}
+[ -n "$browser" ] || skip_without chromium
+[ -s "${DALEMBERT_UPLOT:-/usr/local/share/dalembert/uplot}/uPlot.iife.min.js" ] ||
+    skip_without 'uPlot (tools/prepare.sh)'
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1

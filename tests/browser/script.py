@@ -5,6 +5,7 @@ input.  Every fault is a line "fault: ..."; nothing depends on how fast the mach
 """
 import glob
 import os
+import re
 import sys
 
 from chromium import Chromium
@@ -127,18 +128,22 @@ def check_unfold(browser):
     button = f"{ROWS}[0].querySelector('td button')"
     browser.click(button)
     expect(browser.run(f"{button}.getAttribute('aria-expanded')") == "true", "unfold: nothing is expanded")
-    curves = browser.run("document.querySelectorAll('.unfolded .curve').length")
+    curves = browser.run("document.querySelectorAll('.unfolded .legend input').length")
     beside = browser.run("document.querySelector('.unfolded').getBoundingClientRect().left >="
                          f"{MATRIX}.closest('.wide').getBoundingClientRect().right")
     expect(beside == (browser.run("innerWidth") > 1000), f"unfold: beside the table: {beside}")
     expect(curves >= 3, f"unfold: {curves} curves")
     expect(browser.run("document.querySelector('.unfolded').textContent.includes('dalembert report DIR/runs/')"),
            "unfold: no word of the run's page")
-    browser.point("document.querySelector('.unfolded svg.plot')")
-    check_readout(browser, "unfold", "document.querySelector('.unfolded .readout')")
-    browser.click("document.querySelector('.unfolded input')")
-    hidden = browser.run("[...document.querySelectorAll('.unfolded .curve')].map(c => c.style.display)")
-    expect(hidden[0] == "none" and "none" not in hidden[1:], "unfold: not the first curve is hidden")
+    browser.point("document.querySelector('.unfolded .u-over')")
+    read = "document.querySelector('.unfolded .readout').textContent"
+    wait_until(browser, f"{read}.startsWith('t = ')")
+    check_readout(browser, "unfold", read)
+    before = browser.run(read).count(", ")
+    browser.click("document.querySelector('.unfolded .legend input')")
+    browser.point("document.querySelector('.unfolded .u-over')", 0.6)
+    wait_until(browser, f"{read}.startsWith('t = ')")
+    expect(browser.run(read).count(", ") == before - 1, "unfold: not one curve is hidden")
     check_layout(browser, "unfolded")
     browser.click("document.querySelector('.unfolded button')")
     expect(browser.run("!document.querySelector('.unfolded')"), "unfold: it does not fold")
@@ -192,14 +197,11 @@ def check_link(browser):
     expect("rk4+project" in facts, f"link: not the page of the run by rk4+project: {facts}")
 
 
-def check_readout(browser, where, readout):
-    """A readout shows a name and two numbers."""
-    text = browser.run(f"{readout}.textContent")
-    values = text.rpartition(": ")[2].split(", ")
-    try:
-        expect(len([float(value) for value in values]) == 2, f"{where}: the readout is '{text}'")
-    except ValueError:
-        expect(False, f"{where}: the readout is '{text}'")
+def check_readout(browser, where, text):
+    """A readout shows a number of the axis and a number of each curve."""
+    text = browser.run(text)
+    values = re.findall(r"(?:^|[ =])-?[0-9.]+(?:e-?[0-9]+)?(?=$|[,:])", text)
+    expect(len(values) >= 2, f"{where}: the readout is '{text}'")
 
 
 def check_compare(browser):
@@ -207,40 +209,102 @@ def check_compare(browser):
     details = "document.querySelector('details.compare')"
     focus(browser, f"{details}.querySelector('summary')")
     browser.press("Enter")
-    wait_until(browser, f"{details}.querySelector('.curve')")
-    before = browser.run(f"{details}.querySelectorAll('.curve').length")
+    wait_until(browser, f"{details}.querySelector('.legend')")
+    before = browser.run(f"{details}.querySelectorAll('.legend input').length")
     box = f"[...{details}.querySelectorAll('fieldset label')].find(l => l.textContent.trim() === 'METHOD').control"
     checked = browser.run(box.replace("METHOD", "rk4+project") + ".checked")
     focus(browser, box.replace("METHOD", "rk4+project"))
     browser.press(" ")
-    after = browser.run(f"{details}.querySelectorAll('.curve').length")
+    after = browser.run(f"{details}.querySelectorAll('.legend input').length")
     expect(after - before == (-1 if checked else 1), f"compare: {before} curves, then {after}")
-    focus(browser, f"{details}.querySelector('svg.plot')")
+    focus(browser, f"{details}.querySelector('.chart')")
     browser.press("ArrowRight")
-    check_readout(browser, "compare", f"{details}.querySelector('.readout')")
+    check_readout(browser, "compare", f"{details}.querySelector('.readout').textContent")
     check_layout(browser, "compare")
 
 
-def check_enlarge(browser, where, figure):
-    """A figure enlarges, hides a curve and shows values; Escape closes it."""
-    image = ("[...document.querySelectorAll('.enlarge')].find(b => "
-             f"b.getAttribute('aria-label').startsWith('Enlarge: {figure}'))")
-    focus(browser, image)
-    browser.press("Enter")
-    expect(browser.run("document.querySelector('dialog')?.open"), f"{where}: no figure is enlarged")
-    larger = browser.run(f"document.querySelector('dialog svg').getBoundingClientRect().width /"
-                         f"{image}.getBoundingClientRect().width")
-    expect(larger > 1 or browser.run("innerWidth") < 600, f"{where}: the figure is {larger:.2f} times as large")
-    browser.click("document.querySelector('dialog input')")
-    expect(browser.run("document.querySelector('dialog g[id^=gnuplot_plot]').style.display") == "none",
-           f"{where}: no curve of the figure is hidden")
-    browser.click("document.querySelector('dialog input')")
-    browser.point("document.querySelector('dialog svg')")
-    check_readout(browser, where, "document.querySelector('dialog .readout')")
-    check_names(browser, f"{where}, enlarged")
-    browser.press("Escape")
-    wait_until(browser, "!document.querySelector('dialog')")
-    expect(browser.run(f"document.activeElement === {image}"), f"{where}: the focus is lost after a figure")
+def find_figure(title):
+    """The figure with a title, as an expression."""
+    return ("[...document.querySelectorAll('.figures figure')].find(f => "
+            f"f.querySelector('strong').textContent.startsWith('{title}'))")
+
+
+def check_chart(browser, where, title):
+    """A chart is drawn in view, reads values by keys and pointer, zooms, grows, and gives its data."""
+    figure = find_figure(title)
+    chart, read = f"{figure}.querySelector('.chart')", f"{figure}.querySelector('.readout').textContent"
+    browser.run(f"{figure}.scrollIntoView()")
+    wait_until(browser, f"{figure}.querySelector('canvas')")
+    focus(browser, chart)
+    for _ in range(3):
+        browser.press("ArrowRight")
+    check_readout(browser, f"{where}, {title}", read)
+    third = browser.run(read)
+    browser.press("ArrowLeft")
+    expect(browser.run(read) != third, f"{where}: keys do not move the point of {title}")
+    expect(browser.run(f"{figure}.querySelectorAll('.mark').length") > 0, f"{where}: no marks in {title}")
+
+    def middle(part):
+        browser.point(f"{figure}.querySelector('.u-over')", 0.5)
+        browser.point(f"{figure}.querySelector('.u-over')", part)
+        wait_until(browser, f"{read}.includes(' = ')")
+        return float(browser.run(read).split(" = ")[1].split(":")[0])
+    whole = middle(0.9)
+    button = "[...FIGURE.querySelectorAll('button')].find(b => b.textContent === 'WORDS')".replace("FIGURE", figure)
+    for _ in range(3):
+        browser.press("+")
+    close = middle(0.9)
+    expect(close < whole, f"{where}: at nine tenths of {title} are {whole} and closer {close}")
+    browser.click(button.replace("WORDS", "All"))
+    expect(middle(0.9) == whole, f"{where}: 'All' does not show all of {title}")
+    browser.drag(f"{figure}.querySelector('.u-over')", 0.2, 0.5)
+    expect(middle(0.9) < whole, f"{where}: dragging does not zoom {title}")
+    focus(browser, chart)
+    browser.press("0")
+    width = browser.run(f"{chart}.clientWidth")
+    browser.click(button.replace("WORDS", "Large"))
+    larger = browser.run(f"{chart}.clientWidth")
+    expect(larger > width or browser.run("innerWidth") < 800, f"{where}: {title} stays {width} wide")
+    check_layout(browser, f"{where}, {title} large")
+    browser.click(button.replace("WORDS", "Large"))
+    browser.run("URL.createObjectURL = blob => { window.saved = blob; return '#top'; }")
+    browser.click(button.replace("WORDS", "CSV"))
+    lines = browser.run("saved.text()").splitlines()
+    expect(lines[0].startswith('"curve","') and len(lines) > 3, f"{where}: the data of {title} begin {lines[:2]}")
+
+
+def check_linked(browser):
+    """Charts over t show values at one time, are zoomed together, and have one legend."""
+    one, other = find_figure("Coordinates"), find_figure("Angles")
+    for figure in one, other:
+        browser.run(f"{figure}.scrollIntoView()")
+        wait_until(browser, f"{figure}.querySelector('canvas')")
+    readout = "FIGURE.querySelector('.readout').textContent"
+    times = [f"parseFloat({readout.replace('FIGURE', figure)}.split(' = ')[1])" for figure in (one, other)]
+    focus(browser, f"{one}.querySelector('.chart')")
+    for _ in range(5):
+        browser.press("ArrowRight")
+    expect(browser.run(times[0]) == browser.run(times[1]), "linked: two charts show two times")
+    for _ in range(2):
+        browser.press("+")
+    browser.point(f"{other}.querySelector('.u-over')", 0.5)
+    browser.point(f"{other}.querySelector('.u-over')", 0.99)
+    wait_until(browser, f"{times[1]} > 1")
+    end = browser.run(times[1])
+    expect(end < 4, f"linked: the other chart ends at t = {end}, not zoomed")
+    focus(browser, f"{one}.querySelector('.chart')")
+    browser.press("0")
+    legends = browser.run("document.querySelectorAll('.figures > .legend').length === document.querySelectorAll('.figures').length")
+    expect(legends, "linked: not one legend for the charts of a part")
+    box = "[...document.querySelectorAll('.figures > .legend label')].find(l => l.textContent.trim() === 'x').control"
+    focus(browser, box)
+    browser.press(" ")
+    focus(browser, f"{one}.querySelector('.chart')")
+    browser.press("ArrowRight")
+    shown = browser.run(readout.replace("FIGURE", one))
+    expect(" x " not in shown and " y " in shown, f"linked: without x the chart shows '{shown}'")
+    focus(browser, box)
+    browser.press(" ")
 
 
 def check_play(browser, where, motions):
@@ -284,7 +348,7 @@ def check_play(browser, where, motions):
 
 def check_without(browser, address, width):
     """Without its script a page has the same tables and figures, and nothing to press."""
-    count = "['img', 'table', 'tbody tr', 'h2'].map(what => document.querySelectorAll(what).length)"
+    count = "['figcaption strong', '.wide table', '.wide tbody tr', 'h2'].map(what => document.querySelectorAll(what).length)"
     browser.open(address, width)
     wanted = browser.run(count)
     browser.open(address, width, script=False)
@@ -307,7 +371,7 @@ def main(program, directory, gallery):
     """All checks, in a wide and a narrow window, light and dark."""
     browser = Chromium(program, f"{directory}/profile-script")
     page = {name: f"file://{directory}/{name}/report/index.html" for name in ("study", "run", "orders")}
-    for width, dark in [(1280, False), (400, True)]:
+    for width, dark in [(1280, False), (1280, True), (400, False), (400, True)]:
         browser.open(page["study"], width, dark)
         controls = check_names(browser, "study")
         check_layout(browser, "study")
@@ -317,7 +381,7 @@ def main(program, directory, gallery):
         check_filter(browser)
         check_unfold(browser)
         check_compare(browser)
-        check_enlarge(browser, "study", "Energy")
+        check_chart(browser, "study", "Energy")
         check_play(browser, "study", 2)
         check_link(browser)
         browser.open(page["run"], width, dark)
@@ -325,10 +389,11 @@ def main(program, directory, gallery):
         check_layout(browser, "run")
         check_first_screen(browser, "run")
         check_play(browser, "run", 1)
-        check_enlarge(browser, "run", "Energy")
+        check_chart(browser, "run", "Energy")
+        check_linked(browser)
         browser.open(page["orders"], width, dark)
         controls += check_names(browser, "orders")
-        check_enlarge(browser, "orders", "Order")
+        check_chart(browser, "orders", "Order")
         for address in page.values():
             check_without(browser, address, width)
         expect(not browser.exceptions, f"the script fails: {browser.exceptions[:1]}")

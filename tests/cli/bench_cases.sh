@@ -98,8 +98,7 @@ sh "$bench/sizes.sh" >sizes.txt
 expect "not every size" test "$(grep -c '^gni-tape-.* dal tape gni physical R' sizes.txt)" -eq 7
 
 maker=${program%/*}/bench/page
-makes_pages() { test -x "$maker" && there gnuplot; }
-if needs 24 "no gnuplot, or no ${maker##*/bench/} of the bench" makes_pages; then
+if needs 24 "no ${maker##*/bench/} of the bench" test -x "$maker"; then
     # makes STATUS RESULTS...: the page of results, by its own program.
     makes() {
         expected=$1
@@ -123,7 +122,7 @@ END_OF_RESULTS
     prints '^paged/report/index.html$'
     silent
     page=paged/report/index.html
-    expect "no figures" test "$(grep -c '<figure><img' $page)" -eq 4
+    expect "no figures" test "$(grep -c '<figure>' $page)" -eq 4
     expect "no heads" test "$(grep -o '<h2>[A-Z][a-z]*</h2>' $page | tr -d '\n')" = \
         "<h2>First</h2><h2>Second</h2><h2>Sizes</h2><h2>Runs</h2>"
     expect "no text of a section" grep -q '<p>A text of two lines.</p>' $page
@@ -132,7 +131,7 @@ END_OF_RESULTS
     expect "no sizes" grep -q '<td>interpreted</td><td>1.5</td><td>6.5</td></tr>$' $page
     expect "no sizes of compiled steps" grep -q '<td>compiled</td><td>0.25</td><td>–</td></tr>$' $page
     expect "no run" grep -q '<td>rk4</td><td>10</td><td>1.5 s</td><td>2.5 s</td><td>0.5 s</td><td>1.25 s</td><td>–</td></tr>$' $page
-    expect "no data of the figure" grep -q '^1,4,3,10,3$' paged/report/ratios-1.gp
+    expect "no data of the figure" sh -c "tr '\n' ' ' <paged/report/ratios-1.gp | grep -q 'curve1 << END 3,1 10,1 .*curve2 << END 4,1 .*curve3 << END 3,1 '"
 
     case_is "a section of which nothing was measured"
     printf '%s\n' '{"section":"A","text":"-"}' '{"case":"a","what":"w","median":null,"goal":"<= 2","met":null}' >skipped.jsonl

@@ -43,74 +43,71 @@ is_ellipse() {
     }' outline
 }
 
-if needs 42 "no gnuplot" there gnuplot; then
-    case_is "a blade: its edge and an arrow"
-    draws blade
-    is_outline '-1.000,0.000 1.000,0.000' '0.500,0.300 1.000,0.000 0.500,-0.300'
+case_is "a blade: its edge and an arrow"
+draws blade
+is_outline '-1.000,0.000 1.000,0.000' '0.500,0.300 1.000,0.000 0.500,-0.300'
 
-    case_is "a sleigh: its hull and the blade in its middle"
-    draws sleigh
-    is_outline '1.200,0.000 0.400,0.550 -0.900,0.550 -0.900,-0.550 0.400,-0.550 1.200,0.000' \
-        '-0.500,0.000 0.500,0.000'
+case_is "a sleigh: its hull and the blade in its middle"
+draws sleigh
+is_outline '1.200,0.000 0.400,0.550 -0.900,0.550 -0.900,-0.550 0.400,-0.550 1.200,0.000' \
+    '-0.500,0.000 0.500,0.000'
 
-    case_is "a disk: as wide as width says, with its axle"
-    draws disk
-    is_ellipse 1 0.4
-    expect "no axle" test "$(tail -n +2 outline)" = '0.000,-0.350 0.000,0.350'
+case_is "a disk: as wide as width says, with its axle"
+draws disk
+is_ellipse 1 0.4
+expect "no axle" test "$(tail -n +2 outline)" = '0.000,-0.350 0.000,0.350'
 
-    case_is "a ball: a circle"
-    draws ball
-    is_ellipse 0.7 0.7
-    expect "more than that" test "$(wc -l <outline)" -eq 1
+case_is "a ball: a circle"
+draws ball
+is_ellipse 0.7 0.7
+expect "more than that" test "$(wc -l <outline)" -eq 1
 
-    case_is "a robot: a circle and its direction"
-    draws robot
-    is_ellipse 0.9 0.9
-    expect "no front" test "$(tail -n +2 outline)" = '0.000,0.000 0.900,0.000'
+case_is "a robot: a circle and its direction"
+draws robot
+is_ellipse 0.9 0.9
+expect "no front" test "$(tail -n +2 outline)" = '0.000,0.000 0.900,0.000'
 
-    # Axles of half length 0.45, wheels of half length 0.3.  Turned by 0.3 about (1, 0), the axle
-    # ends at (1 -+ 0.45 sin 0.3, +-0.45 cos 0.3), a wheel reaches 0.3 (cos 0.3, sin 0.3) from there;
-    # about (-1, 0) the turn is -0.3.
-    case_is "a board: its axles turn against each other"
-    draws board
-    is_outline '-1.000,0.000 1.000,0.000' \
-        '0.867,0.430 1.133,-0.430' '0.580,0.341 1.154,0.519' '0.846,-0.519 1.420,-0.341' \
-        '-0.867,0.430 -1.133,-0.430' '-1.154,0.519 -0.580,0.341' '-1.420,-0.341 -0.846,-0.519'
+# Axles of half length 0.45, wheels of half length 0.3.  Turned by 0.3 about (1, 0), the axle
+# ends at (1 -+ 0.45 sin 0.3, +-0.45 cos 0.3), a wheel reaches 0.3 (cos 0.3, sin 0.3) from there;
+# about (-1, 0) the turn is -0.3.
+case_is "a board: its axles turn against each other"
+draws board
+is_outline '-1.000,0.000 1.000,0.000' \
+    '0.867,0.430 1.133,-0.430' '0.580,0.341 1.154,0.519' '0.846,-0.519 1.420,-0.341' \
+    '-0.867,0.430 -1.133,-0.430' '-1.154,0.519 -0.580,0.341' '-1.420,-0.341 -0.846,-0.519'
 
-    # The arm, 0.7 long, turns by 0.3 about (1.2, 0) with the axle at its end.
-    case_is "a racer: its arm turns"
-    draws racer
-    is_outline '0.000,0.000 1.200,0.000' '1.200,0.000 1.869,0.207' \
-        '0.000,0.450 0.000,-0.450' '-0.300,0.450 0.300,0.450' '-0.300,-0.450 0.300,-0.450' \
-        '1.736,0.637 2.002,-0.223' '1.449,0.548 2.022,0.725' '1.715,-0.312 2.288,-0.134'
+# The arm, 0.7 long, turns by 0.3 about (1.2, 0) with the axle at its end.
+case_is "a racer: its arm turns"
+draws racer
+is_outline '0.000,0.000 1.200,0.000' '1.200,0.000 1.869,0.207' \
+    '0.000,0.450 0.000,-0.450' '-0.300,0.450 0.300,0.450' '-0.300,-0.450 0.300,-0.450' \
+    '1.736,0.637 2.002,-0.223' '1.449,0.548 2.022,0.725' '1.715,-0.312 2.288,-0.134'
 
-    # From 0 to 10 along x, a body is 0.55 long on either side: circles of radius 0.385 at nine
-    # instants, 1.25 apart.
-    case_is "nine bodies along a path, as large as suits it"
-    printf 'coordinates: [x]\naccelerations: {x: 0}\nstart: {x'"'"': 1}
+# From 0 to 10 along x, a body is 0.55 long on either side: circles of radius 0.385 at nine
+# instants, 1.25 apart.
+case_is "nine bodies along a path, as large as suits it"
+printf 'coordinates: [x]\naccelerations: {x: 0}\nstart: {x'"'"': 1}
 picture: {x: x, y: 3, body: ball}\n' >moving.yaml
-    rm -rf moving
-    try 0 run ./moving.yaml --integrator rk4 --step 0.1 --time 10 --samples 80 --output moving
-    try 0 report moving
-    lines moving/report/path.gp | awk -F, 'NF < 2 { next }
-        { d = ($1 - 1.25*int(n / 33))^2 + ($2 - 3)^2; n++
-          if (d > 0.1484 || d < 0.1481) { n = 0; exit } }
-        END { exit n != 9*33 }'
-    expect "other circles" test $? -eq 0
-    lines moving/report/path.gp 1 >way
-    expect "not from (0, 3) to (10, 3)" test "$(sed -n '1p; $p' way | tr '\n' ' ')" = "0,3 10,3 "
+rm -rf moving
+try 0 run ./moving.yaml --integrator rk4 --step 0.1 --time 10 --samples 80 --output moving
+try 0 report moving
+lines moving/report/path.gp | awk -F, 'NF < 2 { next }
+    { d = ($1 - 1.25*int(n / 33))^2 + ($2 - 3)^2; n++
+      if (d > 0.1484 || d < 0.1481) { n = 0; exit } }
+    END { exit n != 9*33 }'
+expect "other circles" test $? -eq 0
+lines moving/report/path.gp 1 >way
+expect "not from (0, 3) to (10, 3)" test "$(sed -n '1p; $p' way | tr '\n' ' ')" = "0,3 10,3 "
 
-    # x = t passes 5 once and never reaches 50; curves are the path, the bodies and the rings.
-    case_is "rings where events happened, and no curve where none did"
-    for place in 5 50; do
-        { cat moving.yaml && printf 'events: [{when: x - %s}]\n' $place; } >passing.yaml
-        rm -rf passing
-        try 0 run ./passing.yaml --integrator rk4 --step 0.1 --time 10 --samples 80 --output passing
-        try 0 report passing
-        curves=2
-        [ $place -eq 50 ] || curves=3
-        expect "curves with an event at $place" test "$(grep -c '^$curve[0-9]* <<' passing/report/path.gp)" -eq $curves
-        [ $place -eq 50 ] || expect "other rings" test "$(lines passing/report/path.gp 3)" = 5,3
-    done
-    counted
-fi
+# x = t passes 5 once and never reaches 50; curves are the path, the bodies and the rings.
+case_is "rings where events happened, and no curve where none did"
+for place in 5 50; do
+    { cat moving.yaml && printf 'events: [{when: x - %s}]\n' $place; } >passing.yaml
+    rm -rf passing
+    try 0 run ./passing.yaml --integrator rk4 --step 0.1 --time 10 --samples 80 --output passing
+    try 0 report passing
+    curves=2
+    [ $place -eq 50 ] || curves=3
+    expect "curves with an event at $place" test "$(grep -c '^$curve[0-9]* <<' passing/report/path.gp)" -eq $curves
+    [ $place -eq 50 ] || expect "other rings" test "$(lines passing/report/path.gp 3)" = 5,3
+done

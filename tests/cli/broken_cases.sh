@@ -73,24 +73,23 @@ done
 
 # Each column that a page needs of a table.
 case_is "tables of an older version"
-if needs 26 "no gnuplot" there gnuplot; then
-    printf 'coordinates: [x]\nlagrangian: (x'"'"'^2 - x^2)/2\nstart: {x'"'"': 1}\n' >swing.yaml
-    printf '%s\n' 'integrators: rk4' 'step: 0.1' 'time: 1' 'starts: physical' 'systems: [line.yaml]' >few.yaml
-    try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --output a-run
-    try 0 section swing.yaml --on x --integrator rk4 --step 0.1 --time 10 --output a-section
-    try 0 study few.yaml --output a-study --no-page
-    try 0 ensemble line.yaml --integrator rk4 --step 0.5 --times 1 --members 20 --seed 1 --vary "k=uniform(1,2)" \
-        --output an-ensemble --no-page
-    while read -r from table heads; do
-        for head in $heads; do
-            rm -rf older
-            cp -r "$from" older
-            awk -F, -v OFS=, -v head="$head" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == head) $i = "old" } 1' \
-                "$from/$table" >"older/$table"
-            try 2 report older
-            says "^dalembert: older/$table: there is no column '$head': another version of dalembert wrote it$"
-        done
-    done <<'EOF'
+printf 'coordinates: [x]\nlagrangian: (x'"'"'^2 - x^2)/2\nstart: {x'"'"': 1}\n' >swing.yaml
+printf '%s\n' 'integrators: rk4' 'step: 0.1' 'time: 1' 'starts: physical' 'systems: [line.yaml]' >few.yaml
+try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --output a-run
+try 0 section swing.yaml --on x --integrator rk4 --step 0.1 --time 10 --output a-section
+try 0 study few.yaml --output a-study --no-page
+try 0 ensemble line.yaml --integrator rk4 --step 0.5 --times 1 --members 20 --seed 1 --vary "k=uniform(1,2)" \
+    --output an-ensemble --no-page
+while read -r from table heads; do
+    for head in $heads; do
+        rm -rf older
+        cp -r "$from" older
+        awk -F, -v OFS=, -v head="$head" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == head) $i = "old" } 1' \
+            "$from/$table" >"older/$table"
+        try 2 report older
+        says "^dalembert: older/$table: there is no column '$head': another version of dalembert wrote it$"
+    done
+done <<'EOF'
 a-run summary.csv trend
 a-section section.csv t direction
 a-study cells.csv E_trend D_trend
@@ -98,5 +97,3 @@ an-ensemble statistics.csv t deviation
 an-ensemble histograms.csv t count
 an-ensemble cloud.csv t member
 EOF
-    counted
-fi

@@ -117,7 +117,7 @@ EOF
     fails_openly $few --output place --threads 1 --force --no-page
     if sanitized; then
         cannot 4 "sanitizers make calls of their own beside the page's"
-    elif needs 4 "no gnuplot" there gnuplot; then
+    else
         FAILING_CALLS=25
         prepare() { cp -R run place; }
         fails_openly report place
@@ -127,7 +127,6 @@ EOF
         fails_openly report place
         prepare() { cp -R whole-ensemble place; }
         fails_openly report place
-        counted
     fi
     rm -rf run
     cut_off 137 9 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --checkpoint 0 --output run

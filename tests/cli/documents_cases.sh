@@ -15,9 +15,6 @@ for document in "$here/../../README.md" "$here"/../../docs/*.md; do
         expect "there are commands" test "$(wc -l <commands)" -ge 2 ;;
     esac
     while read -r command <&3; do
-        case $command in
-        report*) there gnuplot || { skips 1 "no gnuplot" && continue; } ;;
-        esac
         eval "try 0 $command"
         cat out err >>printed
     done 3<commands

@@ -7,6 +7,7 @@
 
 Prints what is wrong, a line for each, and ends with 1 if anything is.  The commands in the texts make
 files named canary; there must be none.  Works in the present directory."""
+import glob
 import html.parser
 import json
 import os
@@ -94,43 +95,51 @@ def check_page(directory, script, about):
     for kind, text in page.scripts:
         if kind == 'application/json':
             json.loads(text)
-        elif kind != 'module' or (script and text != script):
+        elif kind == 'module' and script and text != script or kind is None and text != library() or \
+                kind not in ('module', None):
             fail('another script on a page:', text, about)
     check_figures(directory + '/report', about)
     return page
 
 
-TAGS = ('html head meta style title body nav main b h1 h2 h3 p dl dt dd ol ul li a table thead tbody tr th td div figure img '
+def library():
+    """The script of charts as a page has it."""
+    parts = [read(os.path.join(os.environ['DALEMBERT_UPLOT'], name)).decode() for name in ('LICENSE', 'uPlot.iife.min.js')]
+    return '\n/* uPlot 1.6.32\n\n%s*/\n%s' % tuple(parts)
+
+
+TAGS = ('html head meta style title body nav main b h1 h2 h3 p dl dt dd ol ul li a table thead tbody tr th td div figure noscript '
         'figcaption details summary pre small strong code br script span math mtable mtr mtd mrow mi mn mo mtext '
         'mspace mfrac msqrt msub msup msubsup mover').split()
 
 
 def check_figures(directory, about):
     """Scripts are statements of the program, with all texts in single quotes; pictures are drawn things."""
-    statement = re.compile(r"(set |plot \\$|  \$curve\d+ |  keyentry |  '' using |\$curve\d+ << END$|END$|scale = |height = |print |"
-                           r"log_[xy] = |[-+.,0-9einfa]*$)")
+    statement = re.compile(r"(set |plot \\$|  \$curve\d+ |  keyentry |  '' using |\$curve\d+ << END$|END$|[-+.,0-9einfa]*$)")
     for name in sorted(os.listdir(directory)):
-        if name != 'index.html' and not re.fullmatch(r'[A-Za-z0-9-]+\.(gp|svg|png)', name):
+        if name != 'index.html' and not re.fullmatch(r'[A-Za-z0-9-]+\.(gp|svg|pdf|tex)', name):
             fail('a file is named', name, about)
         path = os.path.join(directory, name)
         if name.endswith('.svg'):
             for element in xml.parse(path).iter():
                 if element.tag.rsplit('}')[-1] in ('script', 'canary', 'foreignObject', 'a'):
                     fail('markup in %s:' % path, element.tag, about)
+        if name.endswith('.tex') and re.search(r'\\(input|write)', read(path).decode('utf-8', 'replace')):
+            fail('a command of TeX in %s' % path, about)
         if not name.endswith('.gp'):
             continue
         with open(path, encoding='utf-8', errors='replace') as file:
             text = re.sub(r"'(?:[^'\n]|'')*'", "''", file.read())
         for line in text.splitlines():
-            if not statement.match(line) and not line.startswith("  sprintf(''"):
+            if not statement.match(line):
                 fail('no statement of ours in %s:' % path, line, about)
             if re.search(r'["`!;@|]|<(?!< END)', line.replace('<<', '<< ', 0)) and not re.fullmatch(r'\$curve\d+ << END', line):
                 fail('a text outside of quotes in %s:' % path, line, about)
 
 
-def report(directory, about, allowed=(0,), script=None):
+def report(directory, about, allowed=(0,), script=None, paper=()):
     shutil.rmtree(directory + '/report', ignore_errors=True)
-    status, out, messages = run('report', directory, allowed=allowed)
+    status, out, messages = run('report', directory, *paper, allowed=allowed)
     no_canary(about)
     return status, (check_page(directory, script, about) if status == 0 else None), messages
 
@@ -207,9 +216,8 @@ def systems():
         write(path, SYSTEM)
         shutil.rmtree('exponents', ignore_errors=True)
         shutil.rmtree('orders', ignore_errors=True)
-        status = run('lyapunov', path, *MOTION, '--output', 'exponents', allowed=(0, 4))[0]
-        if status == 4 and shutil.which('gnuplot'):
-            fail('no figure:', text)
+        run('lyapunov', path, *MOTION, '--output', 'exponents')
+        report('exponents', text)
         run('order', path, '--integrators', 'rk4', '--levels', '2', '--time', '1', '--output', 'orders')
         report('orders', text)
         run('generate', path, '--integrator', 'rk4', '--output', 'hostile.c')
@@ -243,7 +251,8 @@ def studies():
     for text in labels + [PLAIN[0]]:
         if ' '.join(text.split()) not in ' '.join(page.words.split()):
             fail('no such text on the page:', text)
-    found = [json.loads(text)['label'] for kind, text in page.scripts if kind == 'application/json']
+    data = [json.loads(text) for kind, text in page.scripts if kind == 'application/json']
+    found = [part['label'] for part in data if 'label' in part]
     if found != labels:
         fail('other labels in the data:', found)
     for text in CONTROL:
@@ -273,20 +282,12 @@ def make_directories():
         '--output', 'a-section')
     run('ensemble', 'motion.yaml', '--integrator', 'rk4', '--step', '0.25', '--times', '0.5,1,1.5', '--members', '20',
         '--seed', '1', '--vary', 'x=normal(0,0.1)', '--output', 'an-ensemble', '--no-page')
-    return {'a-study': ['cells.csv', 'expectations.csv', 'series/one.csv', 'study.yaml', 'manifest.json'],
+    run('lyapunov', 'motion.yaml', *MOTION, '--output', 'exponents')
+    return {'exponents': ['lyapunov.csv', 'lyapunov.json', 'lyapunov.yaml'], 'a-study': ['cells.csv', 'expectations.csv', 'series/one.csv', 'study.yaml', 'manifest.json'],
             'a-run': ['trajectory.npy', 'summary.csv', 'events.csv', 'manifest.json', 'system.yaml'],
             'an-order': ['order.csv', 'order.json', 'order.yaml'],
             'a-section': ['section.csv', 'section.json'],
             'an-ensemble': ['statistics.csv', 'histograms.csv', 'cloud.csv', 'manifest.json']}
-
-
-def draw_nothing():
-    """From here on every picture is empty, which takes no time."""
-    os.makedirs('bin', exist_ok=True)
-    write('bin/gnuplot', "#!/bin/sh\nwhile read -r word what name; do [ \"$word $what\" = 'set output' ] && break; done <\"$1\"\n"
-          "name=${name#?}\necho '<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>' >\"${name%?}\"\n")
-    os.chmod('bin/gnuplot', 0o755)
-    os.environ['PATH'] = os.path.abspath('bin') + ':' + os.environ['PATH']
 
 
 def read(path):
@@ -355,11 +356,9 @@ def change_file(directory, name, bytes, about, script):
 
 
 def directories():
-    """Every text of every file alone, without pictures; then those that are drawn, by gnuplot."""
+    """Every text of every file alone; then those that are drawn, by gnuplot."""
     forms = {'.csv': hostile_tables, '.json': hostile_json, '.npy': hostile_heads, '.yaml': hostile_yaml}
     made = make_directories()
-    path = os.environ['PATH']
-    draw_nothing()
     for directory, files in made.items():
         script = [text for kind, text in report(directory, 'as it was')[1].scripts if kind == 'module'][0]
         for name in files:
@@ -371,7 +370,6 @@ def directories():
                     is_refused = text == CONTROL[0] and name.endswith(('.csv', '.npy')) and name != 'events.csv'
                     if is_refused and (status != 2 or 'control character U+00' not in messages):
                         fail('a control character was read:', about, messages)
-    os.environ['PATH'] = path
     if shutil.which('gnuplot'):
         pictures()
 
@@ -395,11 +393,14 @@ def pictures():
                     is_head = name in ('section.csv', 'cloud.csv')
                     changed = list(hostile_tables(bytes, text))[2 * heads.index(column or heads[-1]) + (not is_head)]
                 write(os.path.join(directory, name), changed, 'wb')
-            report(directory, (directory, text))
+            report(directory, (directory, text), paper=['--svg'])
             drawn = [file for file in os.listdir(directory + '/report') if file.endswith('.svg')
                      and 'touch canary' in ''.join(xml.parse(directory + '/report/' + file).getroot().itertext())]
             if not drawn:
                 fail('the text is in no picture:', directory, column, text)
+            report(directory, (directory, text), paper=['--pdf'])
+            if not any(b'touch canary' in read(file) for file in glob.glob(directory + '/report/*.tex')):
+                fail('the text is in no labels of TeX:', directory, column, text)
             for name, bytes in whole.items():
                 write(os.path.join(directory, name), bytes, 'wb')
 
@@ -436,7 +437,6 @@ def change(random, bytes):
 def damage():
     choices = random.Random(int(sys.argv[3]))
     count = int(sys.argv[4])
-    draw_nothing()
     made = 0
     for directory, files in make_directories().items():
         if report(directory, 'as it was')[0] != 0:

@@ -74,11 +74,8 @@ elif needs 23 "no compiler for allocations that fail" fails_allocations; then
     fails_cleanly resume place --threads 2 --no-page
     prepare() { cp -R scarce/halves place; }
     fails_cleanly merge place/one place/two --output place/all --no-page
-    if needs 1 "no gnuplot" there gnuplot; then
-        prepare() { cp -R scarce/whole place; }
-        fails_cleanly report place
-        counted
-    fi
+    prepare() { cp -R scarce/whole place; }
+    fails_cleanly report place
 
     case_is "no memory: a run that failed for it is resumed"
     long="line.yaml --integrator rk4 --step 1e-3 --time 5000 --native off"

@@ -55,13 +55,10 @@ try 0 section even.yaml --on x-6 $coarse --transient 5.9
 expect "not the crossing after the transient" test "$(wc -l <out)" -eq 2
 
 case_is "a directory of crossings"
-if needs 4 "no gnuplot" there gnuplot; then
-    try 0 section osc.yaml --on x $fine --output crossed --axes "t,x'"
-    prints '^t = 20: 3 upwards, 3 downwards, 0 touches; 6 rows$'
-    expect "other rows" cmp both.csv crossed/section.csv
-    expect "no picture" grep -q '<svg' crossed/report/section.svg
-    counted
-fi
+try 0 section osc.yaml --on x $fine --output crossed --axes "t,x'"
+prints '^t = 20: 3 upwards, 3 downwards, 0 touches; 6 rows$'
+expect "other rows" cmp both.csv crossed/section.csv
+expect "no picture" grep -q '^plot' crossed/report/section.gp
 
 # The columns of the picture vary on the section, and not by rounding.
 varied() { # DIR
@@ -75,22 +72,19 @@ varied() { # DIR
         END { exit !(FNR > 3 && x && y && x != y && high[x] - low[x] > 1e-3 && high[y] - low[y] > 1e-3) }' \
         axes "$1/section.csv"
 }
-if needs 8 "no gnuplot" there gnuplot; then
-    case_is "the picture of a section"
-    # The section of docs/program.md; on it D makes y' = 0.
-    readme=$(sed -n 's/^    build\/dalembert section //p' "$here/../../docs/program.md")
-    eval "try 0 section $readme --output of-readme"
-    expect "axes that do not vary" varied of-readme
-    try 0 section contact-oscillator --on y --integrator gauss4 --step 0.1 --time 300 --output on-y
-    expect "axes that do not vary, y = 0" varied on-y
-    try 0 section osc.yaml --on "x - 0.5*cos(0.3*t)" $fine --output modulated
-    expect "axes that do not vary, x = cos(0.3 t)/2" varied modulated
-    # The sleigh goes round its circle: there phi and y2' vary, not phi', y2.
-    try 0 section chaplygin-sleigh --on "cos(phi) = 0.5" --integrator gauss4 --step 0.1 --time 100 \
-        --output on-phi
-    expect "axes that do not vary, cos(phi) = 1/2" varied on-phi
-    counted
-fi
+case_is "the picture of a section"
+# The section of docs/program.md; on it D makes y' = 0.
+readme=$(sed -n 's/^    build\/dalembert section //p' "$here/../../docs/program.md")
+eval "try 0 section $readme --output of-readme"
+expect "axes that do not vary" varied of-readme
+try 0 section contact-oscillator --on y --integrator gauss4 --step 0.1 --time 300 --output on-y
+expect "axes that do not vary, y = 0" varied on-y
+try 0 section osc.yaml --on "x - 0.5*cos(0.3*t)" $fine --output modulated
+expect "axes that do not vary, x = cos(0.3 t)/2" varied modulated
+# The sleigh goes round its circle: there phi and y2' vary, not phi', y2.
+try 0 section chaplygin-sleigh --on "cos(phi) = 0.5" --integrator gauss4 --step 0.1 --time 100 \
+    --output on-phi
+expect "axes that do not vary, cos(phi) = 1/2" varied on-phi
 
 # A = B is wrong where A or B is, in the columns of --on, and the program's own names stay its own.
 case_is "what is wrong with a section"
@@ -257,8 +251,5 @@ expect "no rows" reaches $! has_lines early.csv 3
 ends_by INT 130 $!
 says '^dalembert: interrupted; the means so far are kept$'
 prints '^exponent 2 '
-if needs 2 "no gnuplot" there gnuplot; then
-    try 0 volume line.yaml --integrator rk4 --step 0.1 --time 10 --output volumes
-    expect "no picture" grep -q '<svg' volumes/volume.svg
-    counted
-fi
+try 0 volume line.yaml --integrator rk4 --step 0.1 --time 10 --output volumes
+expect "no picture" grep -q '^plot' volumes/report/volume.gp

@@ -97,18 +97,15 @@ expect "not in the manifest" grep -q '^    "columns": "phi,E",$' kept/manifest.j
 expect "another number of columns" test "$(columns_of kept/trajectory.npy)" -eq 3
 expect "other bytes" cmp all.npy kept/trajectory.npy
 expect "the summary lacks what is no column" grep -q '^speed,' kept/summary.csv
-if needs 9 "no gnuplot" there gnuplot; then
-    try 0 report kept
-    expect "the energy is no figure" test -s kept/report/E.svg
-    refute "a coordinate that is none" grep -q ">E<" kept/report/coordinates.svg
-    try 0 run $circle --columns 'phi,v,D,lift' --output pathless
-    try 0 report pathless
-    expect "a path without q" test ! -e pathless/report/path.svg
-    try 0 run $circle --columns 'q,v' --output path
-    try 0 report path
-    expect "no path with q and v" test -s path/report/path.svg
-    counted
-fi
+try 0 report kept
+expect "the energy is no figure" test -s kept/report/E.gp
+refute "a coordinate that is none" grep -q "'E'" kept/report/coordinates.gp
+try 0 run $circle --columns 'phi,v,D,lift' --output pathless
+try 0 report pathless
+expect "a path without q" test ! -e pathless/report/path.gp
+try 0 run $circle --columns 'q,v' --output path
+try 0 report path
+expect "no path with q and v" test -s path/report/path.gp
 
 if needs 5 "no terminal (script, stty)" terminal; then
     case_is "progress on a terminal while rows go to standard output"

@@ -13,7 +13,7 @@ VOID = {"meta", "link", "img", "br", "hr", "input", "col"}
 HTML = VOID | set(
     "html head title style script body header main section footer nav div span p a b i em strong "
     "code pre h1 h2 h3 h4 dl dt dd ul ol li table caption colgroup thead tbody tr th td details "
-    "summary figure figcaption button label select option canvas sub sup small var time".split()
+    "summary figure figcaption noscript button label select option canvas sub sup small var time".split()
 )
 SVG = set(
     "svg g path line polyline polygon rect circle ellipse text tspan title desc defs clippath use "

@@ -1,4 +1,4 @@
-# tools/prepare.sh waits for another apt, and for that alone.
+# tools/prepare.sh waits for another apt, and for that alone; it installs the library of charts once, and no other bytes.
 
 mkdir -p apt/bin
 printf '#!/bin/sh\nexit 1\n' >apt/bin/dpkg-query # nothing is installed
@@ -13,7 +13,22 @@ cat apt/fault >&2
 exit 100
 APT
 chmod +x apt/bin/*
-prepares() { PATH="$work/apt/bin:$PATH" sh "$here/../../tools/prepare.sh" >out 2>err; }
+# A registry whose package has the right checksum where there is a file `right`.
+cat >apt/bin/npm <<'NPM'
+#!/bin/sh
+echo "npm $*" >>"$REGISTRY/log"
+[ -e "$REGISTRY/package.tgz" ] && cp "$REGISTRY/package.tgz" uplot-1.6.32.tgz
+NPM
+printf '#!/bin/sh\ncat >/dev/null\n[ -e "$REGISTRY/right" ]\n' >apt/bin/sha256sum
+chmod +x apt/bin/npm apt/bin/sha256sum
+mkdir -p apt/package/dist
+for part in dist/uPlot.iife.min.js dist/uPlot.min.css LICENSE; do echo "$part" >apt/package/$part; done
+tar -czf apt/package.tgz -C apt package
+touch apt/right
+prepares() {
+    PATH="$work/apt/bin:$PATH" REGISTRY=$work/apt DALEMBERT_UPLOT=$work/apt/uplot \
+        sh "$here/../../tools/prepare.sh" "$@" >out 2>err
+}
 
 case_is "another apt is running"
 echo 'E: Could not get lock /var/lib/apt/lists/lock. It is held by process 1 (apt-get)' >apt/fault
@@ -24,8 +39,24 @@ expect "the lock of dpkg" grep -q 'DPkg::Lock::Timeout=[1-9][0-9]* install -y' a
 case_is "apt that fails otherwise"
 rm apt/log
 echo 'E: The repository does not have a Release file.' >apt/fault
-refute "it succeeds" env PATH="$work/apt/bin:$PATH" sh "$here/../../tools/prepare.sh"
+refute "it succeeds" prepares
 expect "updates" [ "$(grep -c update apt/log)" -eq 1 ]
-prepares
 says 'does not have a Release file'
+
+case_is "the library of charts"
+rm -rf apt/uplot apt/log
+expect "it fails" prepares charts
+expect "other files" test "$(cat apt/uplot/uPlot.iife.min.js apt/uplot/uPlot.min.css apt/uplot/LICENSE)" = \
+    "$(cd apt/package && cat dist/uPlot.iife.min.js dist/uPlot.min.css LICENSE)"
+expect "no version" grep -qx 'npm pack --silent uplot@1\.6\.32' apt/log
+rm apt/log
+expect "it fails the second time" prepares charts
+refute "it downloads a second time, or calls apt" test -e apt/log
+rm -r apt/right apt/uplot
+refute "other bytes are installed" prepares charts
+says 'uplot@1\.6\.32 has another checksum than [0-9a-f]+$'
+refute "other bytes are there" test -e apt/uplot
+rm apt/package.tgz
+refute "nothing is installed" prepares charts
+says 'cannot download uplot@1\.6\.32$'
 rm -rf apt

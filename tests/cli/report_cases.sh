@@ -5,13 +5,14 @@ try 2 report
 says 'the DIR is missing'
 mkdir -p hollow
 try 2 report hollow
-says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\) nor an ensemble \(statistics.csv\) nor orders \(order.csv\) nor a section \(section.csv\)"
+says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\) nor an ensemble \(statistics.csv\) nor orders \(order.csv\) nor a section \(section.csv\) nor exponents \(lyapunov.csv\) nor a volume \(volume.csv\)"
 try 2 report nowhere
 says "^dalembert: there is no directory 'nowhere'$"
 mkdir -p begun && touch begun/study.yaml
 table <<'END'
 2 | report begun | says 'begun' holds a study that is not finished: 'dalembert resume' continues it
-2 | report hollow --format gif | says 'gif' is not svg or png
+2 | report hollow --format png | says unknown option '--format'
+2 | report hollow --svg --pdf | says --svg and --pdf exclude each other
 END
 
 cat >drawn.yaml <<'END_OF_STUDY'
@@ -100,90 +101,84 @@ start: {x2: 3, x1'"'"': 1}\n' >pair.yaml
     counted
 fi
 
-if needs 162 "no gnuplot" there gnuplot; then
-    case_is "the report of a study"
-    try 0 report drawn
-    silent
-    prints '^drawn/report/index.html$'
-    expect "no figure" grep -q '<svg' drawn/report/1-E.svg
-    expect "no script" grep -q '^plot' drawn/report/1-E.gp
-    expect "no figure of a study with refused cells" grep -q '<svg' drawn/report/2-D.svg
-    expect "no result" grep -q '<p class="lead"><b>1 of 3</b> methods keep D at rounding in every run; ' $page
-    expect "no methods to take" grep -q '<dt>Take for D</dt><dd>gauss4+project</dd>' $page
-    expect "a table is before the sentences" sh -c "sed '/class=.lead/q' $page | grep '<table' | wc -l | grep -qx 0"
-    expect "no worst of a family" grep -q '<th scope="row">projected <small>1</small></th><td class="kept" title="gauss4+project"><b>ok</b></td>' $page
-    expect "a system without a constraint comes early" test "$(grep -o '<a href="#s[0-9]" class="part">[^<]*' $page | sed 's/.*>//' | tail -1)" = line
-    expect "no word of a study of refused cells" grep -q 'No run has numbers' $page
-    expect "no figure of the line" grep -q '<svg' drawn/report/4-E.svg
-    expect "no order diagram" grep -q '<svg' drawn/report/4-order.svg
-    expect "no work-precision diagram" grep -q '<svg' drawn/report/4-work.svg
-    expect "the label is not text" grep -q "<small>a &lt;b&gt; &quot;c&quot; 'd'</small></h3>" $page
-    expect "no title of a built-in system" grep -q "<h3 id=\"s1\">Chaplygin's symmetric sleigh, linear constraint " $page
-    expect "no title of a system file" grep -q '<h3 id="s4">friction on a line <small>line.yaml</small></h3>' $page
-    expect "no sizes and trends in words and colour" grep -q '<td class="trend kept" data-size="rounding" data-trend="[a-z ]*" data-value="[^"]*"><b>[^<]*</b><small>rounding' $page
-    expect "no title" grep -q '<h1 id="top">Three &amp; more</h1>' $page
-    # With both steps, from three starts: both methods go to the end, E of rk4 is not that small.
-    expect "no count of expectations" grep -q '<p>12 of 18 are met.</p>' $page
-    expect "no failed expectation" grep -q '<td>E</td><td>.*1e-30</td><td>.*<td class="large">not met' $page
-    expect "no path of the best run" grep -q '<svg' drawn/report/1-path.svg
-    expect "no column for each step" grep -q '<th scope="col" data-label="line.yaml" data-step="0.05" title="line.yaml: friction on a line">line<br><small>h = 0.05' $page
-    expect "no study file" grep -q 'integrators: \[rk4, gauss4, gauss4+project\]' $page
-    expect "no tables" grep -q 'What this shows' $page
+case_is "the report of a study"
+try 0 report drawn
+silent
+prints '^drawn/report/index.html$'
+expect "no figure" grep -q '^plot' drawn/report/1-E.gp
+expect "no script" grep -q '^plot' drawn/report/1-E.gp
+expect "no figure of a study with refused cells" grep -q '^plot' drawn/report/2-D.gp
+expect "no result" grep -q '<p class="lead"><b>1 of 3</b> methods keep D at rounding in every run; ' $page
+expect "no methods to take" grep -q '<dt>Take for D</dt><dd>gauss4+project</dd>' $page
+expect "a table is before the sentences" sh -c "sed '/class=.lead/q' $page | grep '<table' | wc -l | grep -qx 0"
+expect "no worst of a family" grep -q '<th scope="row">projected <small>1</small></th><td class="kept" title="gauss4+project"><b>ok</b></td>' $page
+expect "a system without a constraint comes early" test "$(grep -o '<a href="#s[0-9]" class="part">[^<]*' $page | sed 's/.*>//' | tail -1)" = line
+expect "no word of a study of refused cells" grep -q 'No run has numbers' $page
+expect "no figure of the line" grep -q '^plot' drawn/report/4-E.gp
+expect "no order diagram" grep -q '^plot' drawn/report/4-order.gp
+expect "no work-precision diagram" grep -q '^plot' drawn/report/4-work.gp
+expect "the label is not text" grep -q "<small>a &lt;b&gt; &quot;c&quot; 'd'</small></h3>" $page
+expect "no title of a built-in system" grep -q "<h3 id=\"s1\">Chaplygin's symmetric sleigh, linear constraint " $page
+expect "no title of a system file" grep -q '<h3 id="s4">friction on a line <small>line.yaml</small></h3>' $page
+expect "no sizes and trends in words and colour" grep -q '<td class="trend kept" data-size="rounding" data-trend="[a-z ]*" data-value="[^"]*"><b>[^<]*</b><small>rounding' $page
+expect "no title" grep -q '<h1 id="top">Three &amp; more</h1>' $page
+# With both steps, from three starts: both methods go to the end, E of rk4 is not that small.
+expect "no count of expectations" grep -q '<p>12 of 18 are met.</p>' $page
+expect "no failed expectation" grep -q '<td>E</td><td>.*1e-30</td><td>.*<td class="large">not met' $page
+expect "no path of the best run" grep -q '^plot' drawn/report/1-path.gp
+expect "no column for each step" grep -q '<th scope="col" data-label="line.yaml" data-step="0.05" title="line.yaml: friction on a line">line<br><small>h = 0.05' $page
+expect "no study file" grep -q 'integrators: \[rk4, gauss4, gauss4+project\]' $page
+expect "no tables" grep -q 'What this shows' $page
 
-    case_is "the page is one file"
-    expect "it refers to others" sh -c "! grep -Eo '(src|href)=[\"'\''][^\"'\'']{0,20}' $page | grep -Ev 'data:|#|%23'"
-    # The data of each of three systems with numbers, and one script, which refers to nothing.
-    expect "other scripts" test "$(grep -c '<script type="application/json"' $page)" -eq 3 -a \
-        "$(grep -c '<script' $page)" -eq 4
-    expect "its script is another" sh -c "grep -qxF \"systems.forEach(addChooser);\" $page"
-    expect "its script refers to others" sh -c "! grep -E '(fetch|import|XMLHttpRequest|WebSocket|url)\(' $page"
-    expect "a figure without words" sh -c "! grep -q '<img alt=\"\"' $page"
-    expect "no words of a figure" grep -q '<img alt="Energy, h = 0.1: max |E - E(0)| over t' $page
-    grep 'alt="Constraints, h = 0.1' $page | tail -1 | grep -o "src='data:image/svg+xml,[^']*" |
-        sed "s/[^,]*,//; s/%23/#/g; s/%26/\&/g; s/%27/'/g; s/%25/%/g" | tr "'" '"' >decoded
-    tr "\n'" ' "' <drawn/report/2-D.svg | sed 's/$/\n/' >beside
-    expect "a figure is not the file beside it" cmp decoded beside
+case_is "the page is one file"
+expect "it refers to others" sh -c "! grep -Eo '(src|href)=[\"'\''][^\"'\'']{0,20}' $page | grep -v '\"#'"
+# The data of each of three systems with numbers and of each chart, the library and the script of the page.
+figures=$(grep -c '<figure>' $page)
+expect "other scripts" test "$(grep -c '<script type="application/json" class="data"' $page)" -eq 3 -a \
+    "$(grep -c '<script' $page)" -eq $((figures + 5)) -a \
+    "$(ls drawn/report/*.gp | wc -l)" -eq "$figures"
+expect "its script is another" sh -c "grep -qxF \"systems.forEach(addMotions);\" $page"
+expect "its script refers to others" sh -c "! grep -E '(fetch|import|XMLHttpRequest|WebSocket|url)\(' $page"
+expect "no title of a figure" grep -q '<figcaption><strong>Energy, h = 0.1</strong>' $page
+expect "no library of charts with its licence" sh -c "tr -d '\n' <$page | grep -q '/\* uPlot [0-9.]*A licence\*/function uPlot() {}</script>' &&
+    grep -q '^.uplot {}' $page"
 
-    case_is "the page of a study says what explains a drift"
-    printf '%s\n' 'integrators: [gauss4+project, rk4]' 'step: 0.05' 'time: 100' 'systems: [chaplygin-sleigh]' >drift.yaml
-    try 0 study drift.yaml --no-page --output drift
-    try 0 report drift
-    expect "no command" grep -q '<code>dalembert explain chaplygin-sleigh --integrator rk4 --step 0.05 --time 100</code>' \
-        drift/report/index.html
-    expect "no growth of a family" grep -q '<th scope="row">Runge-Kutta <small>1</small></th><td class="medium" title="rk4"><b>[1-9]e-[0-9]/</b>' \
-        drift/report/index.html
+case_is "the page of a study says what explains a drift"
+printf '%s\n' 'integrators: [gauss4+project, rk4]' 'step: 0.05' 'time: 100' 'systems: [chaplygin-sleigh]' >drift.yaml
+try 0 study drift.yaml --no-page --output drift
+try 0 report drift
+expect "no command" grep -q '<code>dalembert explain chaplygin-sleigh --integrator rk4 --step 0.05 --time 100</code>' \
+    drift/report/index.html
+expect "no growth of a family" grep -q '<th scope="row">Runge-Kutta <small>1</small></th><td class="medium" title="rk4"><b>[1-9]e-[0-9]/</b>' \
+    drift/report/index.html
 
-    # An error c h^4 is on a line of slope 4.
-    case_is "the order diagram holds the errors of the cells"
-    expect "points" sh -c "grep -A2 'curve1 <<' drawn/report/4-order.gp | tail -2 |
-        awk -F, '{ x[NR] = log(\$1); y[NR] = log(\$2) }
-            END { s = (y[2] - y[1])/(x[2] - x[1]); exit !(s > 3.8 && s < 4.2) }'"
+# An error c h^4 is on a line of slope 4.
+case_is "the order diagram holds the errors of the cells"
+expect "points" sh -c "grep -A2 'curve1 <<' drawn/report/4-order.gp | tail -2 |
+    awk -F, '{ x[NR] = log(\$1); y[NR] = log(\$2) }
+        END { s = (y[2] - y[1])/(x[2] - x[1]); exit !(s > 3.8 && s < 4.2) }'"
 
-    case_is "the report of a run"
-    try 0 report ran
-    silent
-    expect "no path" grep -q '<svg' ran/report/path.svg
-    expect "no drift" grep -q '<svg' ran/report/drift.svg
-    expect "no trends" grep -q '<th scope="row">D1</th><td class="trend ' ran/report/index.html
-    # phi = t.
-    expect "no result" sh -c "sed -n '/<p class=.lead/,/<dl/p' ran/report/index.html | tr -d '\n' | grep -q \
-        'chaplygin-sleigh by gauss4, h = 0.1, t = 0 .. 6.2[0-9]*</p>.*phi = 6.283</span>.*<table class=.verdicts.*>exact<'"
-    expect "no command" grep -q 'dalembert run chaplygin-sleigh --integrator gauss4 .*--set v0=0.1' \
-        ran/report/index.html
-    # The sleigh goes round a circle of radius v0/omega = 0.1 about (0, 0.1).
-    expect "the path is no circle" sh -c "sed -n '/curve1 <</,/^END/p' ran/report/path.gp |
-        awk -F, 'NF == 2 { r = \$1^2 + (\$2 - 0.1)^2; n += (r > 0.0099999 && r < 0.0100001) }
-            END { exit n != 81 }'"
-    # Of the nine bodies the third has turned by a quarter: its bow, the first point, points to +y.
-    expect "the body is not turned" sh -c "sed -n '/curve2 <</,/^END/p' ran/report/path.gp |
-        awk -F, 'BEGIN { RS = \"\" } NR == 5 { split(\$0, line, \"\\n\"); split(line[1], bow, \",\")
-            exit !(bow[1] > 0.0999 && bow[1] < 0.1001 && bow[2] > 0.105) }'"
-    try 0 report ran --format png
-    expect "no picture" test -s ran/report/path.png
-    expect "no picture on the page" grep -q 'data:image/png;base64,iVBOR' ran/report/index.html
-
-    case_is "the page of a run says what moves and how"
-    cat >pulled.yaml <<'END_OF_SYSTEM'
+case_is "the report of a run"
+try 0 report ran
+silent
+expect "no path" grep -q '^plot' ran/report/path.gp
+expect "no drift" grep -q '^plot' ran/report/drift.gp
+expect "no trends" grep -q '<th scope="row">D1</th><td class="trend ' ran/report/index.html
+# phi = t.
+expect "no result" sh -c "sed -n '/<p class=.lead/,/<dl/p' ran/report/index.html | tr -d '\n' | grep -q \
+    'chaplygin-sleigh by gauss4, h = 0.1, t = 0 .. 6.2[0-9]*</p>.*phi = 6.283</span>.*<table class=.verdicts.*>exact<'"
+expect "no command" grep -q 'dalembert run chaplygin-sleigh --integrator gauss4 .*--set v0=0.1' \
+    ran/report/index.html
+# The sleigh goes round a circle of radius v0/omega = 0.1 about (0, 0.1).
+expect "the path is no circle" sh -c "sed -n '/curve1 <</,/^END/p' ran/report/path.gp |
+    awk -F, 'NF == 2 { r = \$1^2 + (\$2 - 0.1)^2; n += (r > 0.0099999 && r < 0.0100001) }
+        END { exit n != 81 }'"
+# Of the nine bodies the third has turned by a quarter: its bow, the first point, points to +y.
+expect "the body is not turned" sh -c "sed -n '/curve2 <</,/^END/p' ran/report/path.gp |
+    awk -F, 'BEGIN { RS = \"\" } NR == 5 { split(\$0, line, \"\\n\"); split(line[1], bow, \",\")
+        exit !(bow[1] > 0.0999 && bow[1] < 0.1001 && bow[2] > 0.105) }'"
+case_is "the page of a run says what moves and how"
+cat >pulled.yaml <<'END_OF_SYSTEM'
 title: A <weight> on a spring & a turn
 coordinates: [x, phi, s]
 parameters: {k: 1, m: 2}
@@ -193,35 +188,35 @@ constraints: [s' - sin(phi)*x']
 forces: {x: -pull*x'}
 start: {x: k}
 END_OF_SYSTEM
-    try 0 run pulled.yaml --integrator rk4+project --step 0.1 --time 2 --set k=0.5 --start "phi'=3" \
-        --output pulled
-    try 0 report pulled
-    for fact in "<h1 id=\"top\">A &lt;weight&gt; on a spring &amp; a turn</h1>" \
-        "<mi>L</mi></mtd><mtd[^>]*><mo>=</mo><mfrac" "<msub><mi>D</mi><mn>1</mn></msub></mtd>" \
-        "<msub><mi>Q</mi><mi>x</mi></msub></mtd><mtd[^>]*><mo>=</mo><mo>&#x2212;</mo><mi>k</mi>" \
-        "<code>pull = k\*cos(phi)</code>" "<code>k = 0.5</code> instead of <code>1</code>" \
-        "<code>m = 2</code>" "<code>x = k</code>, <code>phi' = 3</code>" \
-        "<dd>rk4+project, order 4: classical Runge-Kutta; after each step" "<dt>step h</dt><dd>0.1</dd>" \
-        "<dt>time T</dt><dd>2</dd>"; do
-        expect "it lacks $fact" grep -q "$fact" pulled/report/index.html
-    done
+try 0 run pulled.yaml --integrator rk4+project --step 0.1 --time 2 --set k=0.5 --start "phi'=3" \
+    --output pulled
+try 0 report pulled
+for fact in "<h1 id=\"top\">A &lt;weight&gt; on a spring &amp; a turn</h1>" \
+    "<mi>L</mi></mtd><mtd[^>]*><mo>=</mo><mfrac" "<msub><mi>D</mi><mn>1</mn></msub></mtd>" \
+    "<msub><mi>Q</mi><mi>x</mi></msub></mtd><mtd[^>]*><mo>=</mo><mo>&#x2212;</mo><mi>k</mi>" \
+    "<code>pull = k\*cos(phi)</code>" "<code>k = 0.5</code> instead of <code>1</code>" \
+    "<code>m = 2</code>" "<code>x = k</code>, <code>phi' = 3</code>" \
+    "<dd>rk4+project, order 4: classical Runge-Kutta; after each step" "<dt>step h</dt><dd>0.1</dd>" \
+    "<dt>time T</dt><dd>2</dd>"; do
+    expect "it lacks $fact" grep -q "$fact" pulled/report/index.html
+done
 
-    # x = cos t; nothing else of this system is observed.
-    case_is "observed formulas on the page of a run"
-    printf 'coordinates: [x]\naccelerations: {x: -x}\nstart: {x: 1}\n' >swing.yaml
-    try 0 run swing.yaml --integrator gauss8 --step 0.05 --time 3 --samples 30 --output swing \
-        --observe "x^2 + 3; 2 - hypot(x, x')"
-    try 0 report swing
-    expect "no values" sh -c "sed -n '/curve1 <</,/^END/p' swing/report/observed.gp |
-        awk -F, 'NF == 2 { n++; bad += (\$2 - 3 - cos(\$1)^2)^2 > 1e-14 } END { exit bad || n != 31 }'"
-    expect "no values" sh -c "sed -n '/curve2 <</,/^END/p' swing/report/observed.gp |
-        awk -F, 'NF == 2 { n++; bad += (\$2 - 1)^2 > 1e-14 } END { exit bad || n != 31 }'"
-    expect "no figure" grep -q '<img alt="Observed formulas: value over t' swing/report/index.html
-    expect "formulas are conserved" [ ! -e swing/report/drift.gp -a ! -e swing/report/I.gp ]
+# x = cos t; nothing else of this system is observed.
+case_is "observed formulas on the page of a run"
+printf 'coordinates: [x]\naccelerations: {x: -x}\nstart: {x: 1}\n' >swing.yaml
+try 0 run swing.yaml --integrator gauss8 --step 0.05 --time 3 --samples 30 --output swing \
+    --observe "x^2 + 3; 2 - hypot(x, x')"
+try 0 report swing
+expect "no values" sh -c "sed -n '/curve1 <</,/^END/p' swing/report/observed.gp |
+    awk -F, 'NF == 2 { n++; bad += (\$2 - 3 - cos(\$1)^2)^2 > 1e-14 } END { exit bad || n != 31 }'"
+expect "no values" sh -c "sed -n '/curve2 <</,/^END/p' swing/report/observed.gp |
+    awk -F, 'NF == 2 { n++; bad += (\$2 - 1)^2 > 1e-14 } END { exit bad || n != 31 }'"
+expect "no figure" grep -q '"title":"Observed formulas","x":"t","y":"value"' swing/report/index.html
+expect "formulas are conserved" [ ! -e swing/report/drift.gp -a ! -e swing/report/I.gp ]
 
-    # Bounces at t_1 (1 + 2 c (1 - c^k)/(1 - c)), t_1 = sqrt(2/g), of a ball that moves along x with u.
-    case_is "events on the page of a run"
-    cat >bounces.yaml <<'END_OF_SYSTEM'
+# Bounces at t_1 (1 + 2 c (1 - c^k)/(1 - c)), t_1 = sqrt(2/g), of a ball that moves along x with u.
+case_is "events on the page of a run"
+cat >bounces.yaml <<'END_OF_SYSTEM'
 coordinates: [x, y]
 parameters: {g: 9.81, c: 0.8, u: 0.5}
 lagrangian: (x'^2 + y'^2)/2 - g*y
@@ -231,84 +226,84 @@ events:
   - {when: x - 1.25, stop: true}
   - {when: x - 9, direction: up, set: {x: 0}}
 END_OF_SYSTEM
-    times='function bounce(k) { return sqrt(2/9.81)*(1 + 2*0.8*(1 - 0.8^k)/0.2) }'
-    for sign in "" -; do
-        rm -rf bounces
-        try 0 run bounces.yaml --integrator gauss4 --step ${sign}0.01 --time ${sign}3 --set u=${sign}0.5 --output bounces
-        try 0 report bounces
-        for figure in coordinates E drift; do
-            expect "$figure: other lines${sign:+, backwards}" awk "$times"'
-                /^set arrow/ { t = $5 + 0; d = $5 < 0 ? -t : t; end += (d - 2.5)^2 < 1e-14
-                    for (k = 0; k < 5; k++) met += (d - bounce(k))^2 < 1e-14; lines++ }
-                END { exit lines != 5 || met != 4 || end != 1 }' bounces/report/$figure.gp
-        done
-        expect "other rings${sign:+, backwards}" sh -c "sed -n '/curve3 <</,/^END/p' bounces/report/path.gp | awk -F, '$times
-            NF == 2 { if ((\$1 - 0.5*bounce(rings++))^2 < 1e-14 && \$2^2 < 1e-14) met++ } END { exit rings != 5 || met != 4 }'"
-        expect "what events change is drift${sign:+, backwards}" sh -c "sed -n '/curve1 <</,/^END/p' bounces/report/drift.gp |
-            awk -F, 'NF == 2 { n++; if (\$2 > 1e-11) bad++ } END { exit bad || n < 1 }'"
-        expect "E does not jump${sign:+, backwards}" sh -c "sed -n '/curve1 <</,/^END/p' bounces/report/E.gp |
-            awk -F, 'NF == 2 { E = \$2 } END { exit (E - 9.81*(0.8^8 - 1))^2 > 1e-16 }'"
-    done
-    for fact in '<th scope="row">event 1 (y)</th><td>impact</td><td>4</td>' \
-        '<th scope="row">event 2 (x - 1.25)</th><td>stops the run</td><td>1</td><td>-2.5</td><td>-2.5</td>' \
-        '<th scope="row">event 3 (x - 9)</th><td>sets values</td><td>0</td><td>–</td><td>–</td>' \
-        '<p>event 2 (x - 1.25) stopped the run at t = -2.5</p>' 'Vertical lines mark events\.'; do
-        expect "it lacks $fact" grep -q "$fact" bounces/report/index.html
-    done
-    printf '2,1,0' >>bounces/events.csv
+times='function bounce(k) { return sqrt(2/9.81)*(1 + 2*0.8*(1 - 0.8^k)/0.2) }'
+for sign in "" -; do
+    rm -rf bounces
+    try 0 run bounces.yaml --integrator gauss4 --step ${sign}0.01 --time ${sign}3 --set u=${sign}0.5 --output bounces
     try 0 report bounces
-    expect "half a line is an event" grep -q '<td>impact</td><td>4</td>' bounces/report/index.html
-    try 0 run bounces.yaml --integrator gauss4 --step 0.01 --time 2 --columns x,E --output bounces --force
-    try 0 report bounces
-    expect "no events of a run with few columns" grep -q '<td>impact</td><td>3</td>' bounces/report/index.html
-    sed 's/restitution: c/restitution: 1/' bounces.yaml >endless.yaml
-    try 0 run endless.yaml --integrator gauss4 --step 0.01 --time 200 --set u=0 --output many-bounces
-    try 0 report many-bounces
-    expect "long lines at many events" sh -c "! grep -q 'graph 0 to' many-bounces/report/E.gp"
-    expect "too many lines" test "$(grep -c '^set arrow.*graph 0.95 to' many-bounces/report/E.gp)" -le 251
+    for figure in coordinates E drift; do
+        expect "$figure: other lines${sign:+, backwards}" awk "$times"'
+            /^set arrow/ { t = $5 + 0; d = $5 < 0 ? -t : t; end += (d - 2.5)^2 < 1e-14
+                for (k = 0; k < 5; k++) met += (d - bounce(k))^2 < 1e-14; lines++ }
+            END { exit lines != 5 || met != 4 || end != 1 }' bounces/report/$figure.gp
+    done
+    expect "other rings${sign:+, backwards}" sh -c "sed -n '/curve3 <</,/^END/p' bounces/report/path.gp | awk -F, '$times
+        NF == 2 { if ((\$1 - 0.5*bounce(rings++))^2 < 1e-14 && \$2^2 < 1e-14) met++ } END { exit rings != 5 || met != 4 }'"
+    expect "what events change is drift${sign:+, backwards}" sh -c "sed -n '/curve1 <</,/^END/p' bounces/report/drift.gp |
+        awk -F, 'NF == 2 { n++; if (\$2 > 1e-11) bad++ } END { exit bad || n < 1 }'"
+    expect "E does not jump${sign:+, backwards}" sh -c "sed -n '/curve1 <</,/^END/p' bounces/report/E.gp |
+        awk -F, 'NF == 2 { E = \$2 } END { exit (E - 9.81*(0.8^8 - 1))^2 > 1e-16 }'"
+done
+for fact in '<th scope="row">event 1 (y)</th><td>impact</td><td>4</td>' \
+    '<th scope="row">event 2 (x - 1.25)</th><td>stops the run</td><td>1</td><td>-2.5</td><td>-2.5</td>' \
+    '<th scope="row">event 3 (x - 9)</th><td>sets values</td><td>0</td><td>–</td><td>–</td>' \
+    '<p>event 2 (x - 1.25) stopped the run at t = -2.5</p>' 'Vertical lines mark events\.'; do
+    expect "it lacks $fact" grep -q "$fact" bounces/report/index.html
+done
+printf '2,1,0' >>bounces/events.csv
+try 0 report bounces
+expect "half a line is an event" grep -q '<td>impact</td><td>4</td>' bounces/report/index.html
+try 0 run bounces.yaml --integrator gauss4 --step 0.01 --time 2 --columns x,E --output bounces --force
+try 0 report bounces
+expect "no events of a run with few columns" grep -q '<td>impact</td><td>3</td>' bounces/report/index.html
+sed 's/restitution: c/restitution: 1/' bounces.yaml >endless.yaml
+try 0 run endless.yaml --integrator gauss4 --step 0.01 --time 200 --set u=0 --output many-bounces
+try 0 report many-bounces
+expect "long lines at many events" sh -c "! grep -q 'graph 0 to' many-bounces/report/E.gp"
+expect "too many lines" test "$(grep -c '^set arrow.*graph 0.95 to' many-bounces/report/E.gp)" -le 251
 
-    case_is "the page of a run that failed"
-    try 3 run pursuit --integrator rk4 --step 0.01 --time 10 --output aborted
-    try 0 report aborted
-    expect "no reason" grep -q '<strong>The run failed: constraint [12] becomes singular between t = 3\.' \
-        aborted/report/index.html
-    try 3 run pursuit --integrator rk4 --step 0.01 --time 1000 --output alone
-    try 0 report alone
-    expect "figures of one row" sh -c "grep -q 'has one row' alone/report/index.html &&
-        ! grep -q '<img' alone/report/index.html"
+case_is "the page of a run that failed"
+try 3 run pursuit --integrator rk4 --step 0.01 --time 10 --output aborted
+try 0 report aborted
+expect "no reason" grep -q '<strong>The run failed: constraint [12] becomes singular between t = 3\.' \
+    aborted/report/index.html
+try 3 run pursuit --integrator rk4 --step 0.01 --time 1000 --output alone
+try 0 report alone
+expect "figures of one row" sh -c "grep -q 'has one row' alone/report/index.html &&
+    ! grep -q '<figure' alone/report/index.html"
 
-    case_is "angles and positions have axes of their own"
-    expect "other curves among the angles" test "$(sed -n 's/.*title [^a-z]\([a-z]*\)[^a-z].*/\1/p' pulled/report/angles.gp)" = phi
-    expect "other curves among the positions" test \
-        "$(sed -n 's/.*title [^a-z]\([a-z]*\)[^a-z].*/\1/p' pulled/report/coordinates.gp | tr '\n' ' ')" = "x s "
+case_is "angles and positions have axes of their own"
+expect "other curves among the angles" test "$(sed -n 's/.*title [^a-z]\([a-z]*\)[^a-z].*/\1/p' pulled/report/angles.gp)" = phi
+expect "other curves among the positions" test \
+    "$(sed -n 's/.*title [^a-z]\([a-z]*\)[^a-z].*/\1/p' pulled/report/coordinates.gp | tr '\n' ' ')" = "x s "
 
-    # x = cos t: 16,000 rows in 637 half periods; rows a period apart, where x is 1 and x' is 0 but
-    # y = sin t is not at rest; and 64 rows in a period.
-    case_is "bands, dots and lines"
-    cat >round.yaml <<'END_OF_SYSTEM'
+# x = cos t: 16,000 rows in 637 half periods; rows a period apart, where x is 1 and x' is 0 but
+# y = sin t is not at rest; and 64 rows in a period.
+case_is "bands, dots and lines"
+cat >round.yaml <<'END_OF_SYSTEM'
 coordinates: [x, y]
 lagrangian: (x'^2 + y'^2 - x^2 - y^2)/2
 start: {x: 1, y': 1}
 END_OF_SYSTEM
-    try 0 run round.yaml --integrator gauss8 --step 0.125 --time 2000 --samples 16000 --output many
-    try 0 run round.yaml --integrator gauss8 --step 0.19634954084936207 --time 125.66370614359172 \
-        --samples 20 --output few
-    try 0 run round.yaml --integrator gauss8 --step 0.19634954084936207 --time 6.283185307179586 \
-        --samples 32 --output enough
-    for run in many few enough; do try 0 report $run; done
-    expect "no band" grep -q 'curve1 using 1:2:3 with filledcurves' many/report/coordinates.gp
-    expect "the band is not from -1 to 1" sh -c "sed -n '/curve1 <</,/^END/p' many/report/coordinates.gp |
-        awk -F, 'NF == 3 { n++; if (\$2 > -0.99 || \$2 < -1.0001 || \$3 < 0.99 || \$3 > 1.0001) bad++
-            if (n == 1 && \$1 != 0) bad++; last = \$1 } END { exit bad || n < 20 || last != 2000 }'"
-    expect "a line through rows far apart" grep -q 'curve2 using 1:2 with points' few/report/coordinates.gp
-    expect "no line through rows close together" grep -q 'curve2 using 1:2 with lines' \
-        enough/report/coordinates.gp
+try 0 run round.yaml --integrator gauss8 --step 0.125 --time 2000 --samples 16000 --output many
+try 0 run round.yaml --integrator gauss8 --step 0.19634954084936207 --time 125.66370614359172 \
+    --samples 20 --output few
+try 0 run round.yaml --integrator gauss8 --step 0.19634954084936207 --time 6.283185307179586 \
+    --samples 32 --output enough
+for run in many few enough; do try 0 report $run; done
+expect "no band" grep -q 'curve1 using 1:2:3 with filledcurves' many/report/coordinates.gp
+expect "the band is not from -1 to 1" sh -c "sed -n '/curve1 <</,/^END/p' many/report/coordinates.gp |
+    awk -F, 'NF == 3 { n++; if (\$2 > -0.99 || \$2 < -1.0001 || \$3 < 0.99 || \$3 > 1.0001) bad++
+        if (n == 1 && \$1 != 0) bad++; last = \$1 } END { exit bad || n < 20 || last != 2000 }'"
+expect "a line through rows far apart" grep -q 'curve2 using 1:2 with points' few/report/coordinates.gp
+expect "no line through rows close together" grep -q 'curve2 using 1:2 with lines' \
+    enough/report/coordinates.gp
 
-    expect "a path through rows far apart" grep -q 'curve1 using 1:2 with points' few/report/path.gp
-    expect "no path through rows close together" grep -q 'curve1 using 1:2 with lines' enough/report/path.gp
+expect "a path through rows far apart" grep -q 'curve1 using 1:2 with points' few/report/path.gp
+expect "no path through rows close together" grep -q 'curve1 using 1:2 with lines' enough/report/path.gp
 
-    case_is "of many methods one of each family"
-    cat >families.yaml <<'END_OF_STUDY'
+case_is "of many methods one of each family"
+cat >families.yaml <<'END_OF_STUDY'
 integrators: [symplectic-euler-10, stormer-verlet, dop853, rk4, gauss6, gauss4, spark2, dla, gni,
               discrete-gradient, gauss4+project, gauss4+yoshida6]
 representatives: [gni, symplectic-euler-10, gauss6]
@@ -317,82 +312,80 @@ time: 2
 starts: physical
 systems: [nonholonomic-particle]
 END_OF_STUDY
-    try 0 study families.yaml --no-page --output families
-    try 0 report families
-    expect "other curves" test "$(sed -n 's/^ .*title [^a-z]\([^(]*\) (.*/\1/p' \
-        families/report/1-D.gp | tr '\n' ,)" = \
-        "Runge-Kutta: rk4,Gauss: gauss6,symplectic: symplectic-euler-10,constraint form: gni,projected: gauss4+project,energy-preserving: discrete-gradient,"
+try 0 study families.yaml --no-page --output families
+try 0 report families
+expect "other curves" test "$(sed -n 's/^ .*title [^a-z]\([^(]*\) (.*/\1/p' \
+    families/report/1-D.gp | tr '\n' ,)" = \
+    "Runge-Kutta: rk4,Gauss: gauss6,symplectic: symplectic-euler-10,constraint form: gni,projected: gauss4+project,energy-preserving: discrete-gradient,"
 
-    case_is "the report of orders"
-    try 0 order line.yaml --integrators rk4,gauss4,isokinetic-splitting --levels 3 --time 1 \
-        --output orders
-    try 0 report orders
-    silent
-    expect "no row of a method" sh -c "grep '<th scope=\"row\">rk4</th><td>4</td>' \
-        orders/report/index.html | grep -Eq '<td>(3.9|4.0)[0-9]</td>(<td>[0-9.]+e-[0-9]+</td>){3}<td>4\.0</td><td>[0-9.]+</td></tr>'"
-    expect "no reason" grep -q '<li>isokinetic-splitting: ' orders/report/index.html
-    for figure in order work time; do
-        expect "no figure $figure" grep -q '<svg' orders/report/$figure.svg
-    done
+case_is "the report of orders"
+try 0 order line.yaml --integrators rk4,gauss4,isokinetic-splitting --levels 3 --time 1 \
+    --output orders
+try 0 report orders
+silent
+expect "no row of a method" sh -c "grep '<th scope=\"row\">rk4</th><td>4</td>' \
+    orders/report/index.html | grep -Eq '<td>(3.9|4.0)[0-9]</td>(<td>[0-9.]+e-[0-9]+</td>){3}<td>4\.0</td><td>[0-9.]+</td></tr>'"
+expect "no reason" grep -q '<li>isokinetic-splitting: ' orders/report/index.html
+for figure in order work time; do
+    expect "no figure $figure" grep -q '^plot' orders/report/$figure.gp
+done
 
-    # The directory is enough, wherever the system file has gone.
-    case_is "what orders were found with"
-    cp line.yaml moved.yaml
-    try 0 order moved.yaml --integrators rk4,gauss4 --levels 3 --step 0.2 --time 2 --set k=0.5 \
-        --start "x'=3" --space lifted --output found
-    prints '^against gauss12 with h = 0\.025, itself within'
-    mv moved.yaml moved-back.yaml
-    rm -r found/report
-    try 0 report found
-    for fact in "<h1 id=\"top\">friction on a line: order, work and precision</h1>" "<msub><mi>Q</mi><mi>x</mi></msub></mtd>" \
-        "<code>k = 0.5</code> instead of <code>1</code>" "<code>x' = 3</code> instead of" \
-        "<dt>time T</dt><dd>2</dd>" "<dt>space</dt><dd>lifted</dd>" \
-        "at t = 2 from gauss12 with h = 0.025, itself within [0-9]e-1[0-9]</dd>"; do
-        expect "it lacks $fact" grep -q "$fact" found/report/index.html
-    done
-    expect "defaults of the solver" sh -c "! grep -q '<dt>solver' found/report/index.html"
-    try 0 order moved-back.yaml --integrators rk4 --levels 2 --time 2 --set k=1.0 --output same
-    expect "the value of the file is not that" grep -q '<code>k = 1</code>' same/report/index.html
-    rm found/order.json found/order.yaml
-    try 0 report found
-    expect "no T from the table" grep -q '<dt>time T</dt><dd>2</dd>' found/report/index.html
+# The directory is enough, wherever the system file has gone.
+case_is "what orders were found with"
+cp line.yaml moved.yaml
+try 0 order moved.yaml --integrators rk4,gauss4 --levels 3 --step 0.2 --time 2 --set k=0.5 \
+    --start "x'=3" --space lifted --output found
+prints '^against gauss12 with h = 0\.025, itself within'
+mv moved.yaml moved-back.yaml
+rm -r found/report
+try 0 report found
+for fact in "<h1 id=\"top\">friction on a line: order, work and precision</h1>" "<msub><mi>Q</mi><mi>x</mi></msub></mtd>" \
+    "<code>k = 0.5</code> instead of <code>1</code>" "<code>x' = 3</code> instead of" \
+    "<dt>time T</dt><dd>2</dd>" "<dt>space</dt><dd>lifted</dd>" \
+    "at t = 2 from gauss12 with h = 0.025, itself within [0-9]e-1[0-9]</dd>"; do
+    expect "it lacks $fact" grep -q "$fact" found/report/index.html
+done
+expect "defaults of the solver" sh -c "! grep -q '<dt>solver' found/report/index.html"
+try 0 order moved-back.yaml --integrators rk4 --levels 2 --time 2 --set k=1.0 --output same
+expect "the value of the file is not that" grep -q '<code>k = 1</code>' same/report/index.html
+rm found/order.json found/order.yaml
+try 0 report found
+expect "no T from the table" grep -q '<dt>time T</dt><dd>2</dd>' found/report/index.html
 
-    # x = cos t crosses 0 at t = pi/2 downwards, at 3 pi/2 upwards, with x' = -1 and 1.
-    case_is "the report of a section"
-    try 0 section round.yaml --on x --integrator gauss8 --step 0.1 --time 20 --transient 3 \
-        --axes "y,x'" --output cut
-    expect "no page after the command" grep -q '<img' cut/report/index.html
-    rm -r cut/report
-    try 0 report cut
-    silent
-    prints '^cut/report/index.html$'
-    for fact in '<dt>section</dt><dd>x</dd>' '<dd>gauss8, order 8' '<dt>step h</dt><dd>0.1</dd>' \
-        '<p>5 crossings: 3 upwards, 2 downwards, from t = 4.71239 to t = 17.2788.</p>'; do
-        expect "it lacks $fact" grep -q "$fact" cut/report/index.html
-    done
-    expect "other crossings" sh -c "sed -n '/curve1 <</,/^END/p' cut/report/section.gp |
-        awk -F, 'NF == 2 { n++; if ((\$1 + 1)^2 + (\$2 - 1)^2 > 1e-12) bad++ } END { exit bad || n != 3 }'"
-    rm cut/section.json
-    try 0 report cut
-    expect "no figure of a table alone" grep -q '<img' cut/report/index.html
+# x = cos t crosses 0 at t = pi/2 downwards, at 3 pi/2 upwards, with x' = -1 and 1.
+case_is "the report of a section"
+try 0 section round.yaml --on x --integrator gauss8 --step 0.1 --time 20 --transient 3 \
+    --axes "y,x'" --output cut
+expect "no page after the command" grep -q '<figure' cut/report/index.html
+rm -r cut/report
+try 0 report cut
+silent
+prints '^cut/report/index.html$'
+for fact in '<dt>section</dt><dd>x</dd>' '<dd>gauss8, order 8' '<dt>step h</dt><dd>0.1</dd>' \
+    '<p>5 crossings: 3 upwards, 2 downwards, from t = 4.71239 to t = 17.2788.</p>'; do
+    expect "it lacks $fact" grep -q "$fact" cut/report/index.html
+done
+expect "other crossings" sh -c "sed -n '/curve1 <</,/^END/p' cut/report/section.gp |
+    awk -F, 'NF == 2 { n++; if ((\$1 + 1)^2 + (\$2 - 1)^2 > 1e-12) bad++ } END { exit bad || n != 3 }'"
+rm cut/section.json
+try 0 report cut
+expect "no figure of a table alone" grep -q '<figure' cut/report/index.html
 
-    case_is "the runs of a study are gone"
-    rm -rf drawn/runs
-    try 0 report drawn
-    silent
+case_is "the runs of a study are gone"
+rm -rf drawn/runs
+try 0 report drawn
+silent
 
-    case_is "a column that is not finite everywhere"
-    cat >burst.yaml <<'END_OF_SYSTEM'
+case_is "a column that is not finite everywhere"
+cat >burst.yaml <<'END_OF_SYSTEM'
 coordinates: [x]
 lagrangian: x'^2/2
 start: {x': 1}
 invariants: {never: log(-1 - x^2), later: log(0.5 - x)}
 END_OF_SYSTEM
-    try 0 run burst.yaml --integrator rk4 --step 0.1 --time 1 --output burst
-    try 0 report burst
-    expect "no figure of the others" grep -q '<svg' burst/report/coordinates.svg
-    counted
-fi
+try 0 run burst.yaml --integrator rk4 --step 0.1 --time 1 --output burst
+try 0 report burst
+expect "no figure of the others" grep -q '^plot' burst/report/coordinates.gp
 
 # outline DIR EXPECTED...: the page of a directory is HTML, every element closed and known; EXPECTED are
 # pieces of the list of its headings, terms and heads of columns, in their order.
@@ -408,8 +401,7 @@ outline() {
         case "|$heads" in *"|$piece|"*) pass ;; *) fail "$directory: no $piece in $heads" ;; esac
     done
 }
-drawn_and_read() { there python3 && there gnuplot; }
-if needs 35 "no python3 or no gnuplot" drawn_and_read; then
+if needs 35 "no python3" there python3; then
     case_is "pages are HTML with the headings of their kind"
     try 0 order line.yaml --integrators rk4,gauss4 --levels 2 --time 1 --output outline-orders
     try 0 section chaplygin-sleigh-full-turn --on phi=1 --integrator rk4 --step 0.05 --time 20 --output outline-section
@@ -439,12 +431,46 @@ if needs 35 "no python3 or no gnuplot" drawn_and_read; then
     counted
 fi
 
-case_is "no gnuplot"
+case_is "no library of charts"
 rm -rf ran/report
-PATH=/nonexistent "$program" report ran >out 2>err
-status=$?
-expect "exit $status, not 0" test $status -eq 0
-says 'gnuplot is not installed'
-expect "it is said more than once" test "$(grep -c gnuplot err)" -eq 1
-expect "no page" grep -q '<th scope="row">D1</th>' ran/report/index.html
+DALEMBERT_UPLOT=/nonexistent try 0 report ran
+silent
+expect "no tables" grep -q '<th scope="row">D1</th>' ran/report/index.html
+expect "no word of it" test "$(grep -c 'This page has tables and no charts: uPlot 1.6.32, which draws them, was not found' ran/report/index.html)" -eq 1
+refute "figures" grep -q '<figure' ran/report/index.html
 expect "no scripts" test -s ran/report/path.gp -a -s ran/report/drift.gp
+unset DALEMBERT_UPLOT
+mkdir -p home/data/dalembert
+XDG_DATA_HOME=$PWD/home/data HOME=$PWD/home try 0 report ran
+cp -r "$top/charts" home/data/dalembert/uplot
+XDG_DATA_HOME=$PWD/home/data try 0 report ran
+expect "it is not found in XDG_DATA_HOME" grep -q '<figure' ran/report/index.html
+mkdir -p home/.local/share
+mv home/data/dalembert home/.local/share
+XDG_DATA_HOME='' HOME=$PWD/home try 0 report ran
+expect "it is not found in HOME" grep -q '<figure' ran/report/index.html
+DALEMBERT_UPLOT=$top/charts
+export DALEMBERT_UPLOT
+
+case_is "figures for papers"
+PATH=/nonexistent "$program" report ran --svg >out 2>err
+status=$?
+expect "exit $status, not 4" test $status -eq 4
+says '^dalembert: gnuplot is not installed'
+expect "it is said more than once" test "$(grep -c gnuplot err)" -eq 1
+# A name with all that TeX does not set as itself; letters by name and with digits are symbols.
+printf '%s\n' 'coordinates: [theta1, x_y]' "lagrangian: (theta1'^2 + x_y'^2)/2" "start: {theta1': 1}" \
+    'invariants: {"a_b": x_y}' >symbols.yaml
+try 0 run symbols.yaml --integrator rk4 --step 0.1 --time 1 --output symbols --observe 'theta1^2; x_y*2'
+if needs 9 "no gnuplot" there gnuplot; then
+    try 0 report symbols --svg
+    silent
+    expect "no picture of 3.4 inches" grep -q 'viewBox="0 0 326 ' symbols/report/angles.svg
+    try 0 report symbols --pdf
+    silent
+    expect "no picture" sh -c "head -c 5 symbols/report/angles.pdf | grep -q %PDF- && test ! -e symbols/report/angles.svg"
+    expect "no labels of TeX" grep -Fq '$\theta_{1}$' symbols/report/angles.tex
+    expect "an index that is none" grep -Fq 'x\_y' symbols/report/coordinates.tex
+    expect "a power without an escape" grep -Fq '$\theta_{1}$\textasciicircum{}2' symbols/report/observed.tex
+    counted
+fi

@@ -24,6 +24,13 @@ trap 'exit 130' INT
 trap 'exit 143' TERM HUP
 cd "$top" || exit 1
 mkdir home
+# A library of charts, as far as the program knows: browser/ has the real one.
+mkdir charts
+echo 'function uPlot() {}' >charts/uPlot.iife.min.js
+echo '.uplot {}' >charts/uPlot.min.css
+echo 'A licence' >charts/LICENSE
+DALEMBERT_UPLOT=$top/charts
+export DALEMBERT_UPLOT
 LC_ALL=C
 export LC_ALL HOME
 unset COLUMNS NO_COLOR OMP_NUM_THREADS

@@ -66,63 +66,60 @@ try 0 study stated.yaml --output energies --force
 # sentences PAGE: the paragraphs of a page, except in its head and end.
 sentences() { grep -o '<p>[^<]*</p>' "$1"; }
 
-if needs 27 "no gnuplot" there gnuplot; then
-    case_is "a page of a system that lacks nearly all"
-    printf "coordinates: [x]\naccelerations: {x: -x}\n" >bare.yaml
-    try 0 run bare.yaml --integrator rk4 --step 0.1 --time 5 --space physical --output bare
-    try 0 report bare
-    expect "sentences" test -z "$(sentences bare/report/index.html)"
-    printf 'integrators: [rk4, gauss4]\nstep: 0.1\ntime: 5\nstarts: [physical, surface]\nsystems: [bare.yaml]\n' \
-        >bares.yaml
-    try 0 study bares.yaml --output bares
-    try 0 report bares
-    refute "sentences on a study" grep -Eq "(is|stays) 0" bares/report/index.html
+case_is "a page of a system that lacks nearly all"
+printf "coordinates: [x]\naccelerations: {x: -x}\n" >bare.yaml
+try 0 run bare.yaml --integrator rk4 --step 0.1 --time 5 --space physical --output bare
+try 0 report bare
+expect "sentences" test -z "$(sentences bare/report/index.html)"
+printf 'integrators: [rk4, gauss4]\nstep: 0.1\ntime: 5\nstarts: [physical, surface]\nsystems: [bare.yaml]\n' \
+    >bares.yaml
+try 0 study bares.yaml --output bares
+try 0 report bares
+refute "sentences on a study" grep -Eq "(is|stays) 0" bares/report/index.html
 
-    case_is "a page of what never changes"
-    printf "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [y']
+case_is "a page of what never changes"
+printf "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [y']
 start: {x': 1}\ninvariants: {still: y'}\n" >even.yaml
-    try 0 run even.yaml --integrator gauss4 --step 0.1 --time 5 --output even
-    try 0 report even
-    for sentence in 'D is 0 at all rows' 'H is the same at all rows' \
-        'The invariants are the same at all rows'; do
-        expect "$sentence" grep -q "<p>$sentence.</p>" even/report/index.html
-    done
-    printf 'integrators: [rk4, gauss4]\nstep: 0.1\ntime: 5\nstarts: physical\nsystems: [even.yaml]\n' \
-        >evens.yaml
-    try 0 study evens.yaml --output evens
-    try 0 report evens
-    expect "of which methods" grep -q '<p>max |D| is 0 at all rows with rk4, gauss4.</p>' \
-        evens/report/index.html
+try 0 run even.yaml --integrator gauss4 --step 0.1 --time 5 --output even
+try 0 report even
+for sentence in 'D is 0 at all rows' 'H is the same at all rows' \
+    'The invariants are the same at all rows'; do
+    expect "$sentence" grep -q "<p>$sentence.</p>" even/report/index.html
+done
+printf 'integrators: [rk4, gauss4]\nstep: 0.1\ntime: 5\nstarts: physical\nsystems: [even.yaml]\n' \
+    >evens.yaml
+try 0 study evens.yaml --output evens
+try 0 report evens
+expect "of which methods" grep -q '<p>max |D| is 0 at all rows with rk4, gauss4.</p>' \
+    evens/report/index.html
 
-    # The figure has room for twelve curves; the thirteenth changes.
-    case_is "a page of thirteen invariants"
-    invariants=
-    for i in 1 2 3 4 5 6 7 8 9 10 11 12; do invariants="${invariants}i$i: y', "; done
-    printf "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nstart: {x': 1}
+# The figure has room for twelve curves; the thirteenth changes.
+case_is "a page of thirteen invariants"
+invariants=
+for i in 1 2 3 4 5 6 7 8 9 10 11 12; do invariants="${invariants}i$i: y', "; done
+printf "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nstart: {x': 1}
 invariants: {${invariants}moves: x}\n" >many.yaml
-    try 0 run many.yaml --integrator gauss4 --step 0.1 --time 5 --space physical --output many
-    try 0 report many
-    refute "a sentence" grep -q "invariants are the same" many/report/index.html
-    refute "another one" grep -q "Nothing that should not change" many/report/index.html
+try 0 run many.yaml --integrator gauss4 --step 0.1 --time 5 --space physical --output many
+try 0 report many
+refute "a sentence" grep -q "invariants are the same" many/report/index.html
+refute "another one" grep -q "Nothing that should not change" many/report/index.html
 
-    case_is "a page of E that the motion does not conserve"
-    try 0 report damped
-    refute "the drift of E" grep -q "title .E" damped/report/drift.gp
-    expect "E itself" test -s damped/report/E.gp
-    try 0 report stays
-    expect "no drift of E" grep -q "title .E" stays/report/drift.gp
+case_is "a page of E that the motion does not conserve"
+try 0 report damped
+refute "the drift of E" grep -q "title .E" damped/report/drift.gp
+expect "E itself" test -s damped/report/E.gp
+try 0 report stays
+expect "no drift of E" grep -q "title .E" stays/report/drift.gp
 
-    case_is "an older version's columns"
-    cp -r bare older
-    sed '1s/,trend/,verdict/' bare/summary.csv >older/summary.csv
-    try 2 report older
-    says "older/summary.csv: there is no column 'trend': another version"
-    cp -r bares elder
-    sed '1s/E_trend/E_verdict/' bares/cells.csv >elder/cells.csv
-    try 2 report elder
-    says "elder/cells.csv: there is no column 'E_trend': another version"
-    counted
-fi
+case_is "an older version's columns"
+cp -r bare older
+sed '1s/,trend/,verdict/' bare/summary.csv >older/summary.csv
+try 2 report older
+says "older/summary.csv: there is no column 'trend': another version"
+cp -r bares elder
+sed '1s/E_trend/E_verdict/' bares/cells.csv >elder/cells.csv
+try 2 report elder
+says "elder/cells.csv: there is no column 'E_trend': another version"
 
 # x = t + 5e-5 t^2: the rate is 1.005, the rates of the quarters of 100 are 0.0025 apart, 49 * 0.0075
 # is 0.37.

@@ -1,10 +1,16 @@
 /* lyapunov.c - `dalembert lyapunov`: the Lyapunov exponents of a motion. */
 #include "analyse/lyapunov.h"
+#include "report/report_section.h"
 #include "ui/commands.h"
+
+static int make_lyapunov_page(const char *directory, int status)
+{
+    return report_after(directory, status, report_lyapunov);
+}
 
 static int lyapunov(int argc, char **argv)
 {
-    return lyapunov_measure(&command_lyapunov, argc, argv);
+    return lyapunov_measure(&command_lyapunov, argc, argv, make_lyapunov_page);
 }
 
 const cli_command command_lyapunov = {

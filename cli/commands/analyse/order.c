@@ -84,7 +84,7 @@ const cli_command command_order = {
         "Without --step the step is T, or a part of it where T takes more substeps than a step may "
         "have, or a constraint turns too far in it.\n"
         "\n"
-        "DIR gets order.csv, order.json (the request and the reference) and, by gnuplot, the page "
+        "DIR gets order.csv, order.json (the request and the reference) and the page "
         "of 'dalembert report': error against step, evaluations of F and processor time.  Only the "
         "times differ between two runs of the command.\n",
     .run = order,

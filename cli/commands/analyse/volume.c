@@ -1,10 +1,16 @@
 /* volume.c - `dalembert volume`: the rate at which the volume of the phase space changes. */
 #include "analyse/lyapunov.h"
+#include "report/report_section.h"
 #include "ui/commands.h"
+
+static int make_volume_page(const char *directory, int status)
+{
+    return report_after(directory, status, report_volume);
+}
 
 static int volume(int argc, char **argv)
 {
-    return lyapunov_measure_volume(&command_volume, argc, argv);
+    return lyapunov_measure_volume(&command_volume, argc, argv, make_volume_page);
 }
 
 const cli_command command_volume = {
