@@ -1,5 +1,5 @@
 /* dalembert_analysis.h - statistics, trends, checks, order, error budgets, Lyapunov exponents,
- * sections and invariants, each in a header of its own.
+ * sections, invariants and actions, each in a header of its own.
  *
  * The conventions of dalembert.h hold here.  All of it is made of the public functions of
  * dalembert.h. */
@@ -7,6 +7,7 @@
 #define DALEMBERT_ANALYSIS_H
 
 #include "dalembert.h"
+#include "dalembert_action.h"
 #include "dalembert_budget.h"
 #include "dalembert_dynamics.h"
 #include "dalembert_evaluator.h"

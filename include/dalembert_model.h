@@ -93,9 +93,11 @@ typedef enum dal_mechanics {
  * has the errors of a model with this mechanics: DAL_STATUS_MODEL (vakonomic, with accelerations,
  * reactions or impacts) and DAL_STATUS_NAME (formulas of g in Lagrange-d'Alembert mechanics). */
 dal_status dal_model_set_mechanics(dal_model *model, dal_mechanics mechanics, dal_error *error);
-/* Between two points a table is a straight line, or the natural cubic spline: smooth up to its
- * second derivative, which is 0 at both ends. */
-typedef enum dal_interpolation { DAL_LINEAR, DAL_CUBIC } dal_interpolation;
+/* Between two points a table is a straight line, the natural cubic spline: smooth up to its second
+ * derivative, which is 0 at both ends; or the cubic spline without knots at the second and the last
+ * but one point: through points of a cubic it is that cubic, and its second derivative has the same
+ * order of error at the ends as elsewhere. */
+typedef enum dal_interpolation { DAL_LINEAR, DAL_CUBIC, DAL_NOT_A_KNOT } dal_interpolation;
 /* Outside its points a table is no number, the value at the end, or the line that continues it. */
 typedef enum dal_extend { DAL_EXTEND_NONE, DAL_EXTEND_CONSTANT, DAL_EXTEND_LINEAR } dal_extend;
 /* A function of one argument, given by points. */

@@ -77,6 +77,27 @@ static void test_cubic(void)
     }
 }
 
+/* Without knots beside the ends the spline through points of a cubic is the cubic; through three
+ * points it is the parabola, through two the line. */
+static void test_not_a_knot(void)
+{
+    static const double at[] = {-1.0, -0.7, 0.2, 0.5, 1.4, 2.0};
+    double value[6];
+    for (int points = 2; points <= 6; points++) {
+        const double cubic = points > 3 ? 0.8 : 0.0, square = points > 2 ? -0.6 : 0.0;
+        for (int i = 0; i < points; i++)
+            value[i] = ((cubic * at[i] + square) * at[i] + 1.1) * at[i] - 0.3;
+        const dal_table table = {at, value, points, DAL_NOT_A_KNOT, DAL_EXTEND_NONE};
+        for (int i = 0; i <= 10; i++) {
+            const double u = at[0] + 0.1 * i * (at[points - 1] - at[0]);
+            double slope;
+            CU_ASSERT_DOUBLE_EQUAL(value_at(&table, u, &slope),
+                                   ((cubic * u + square) * u + 1.1) * u - 0.3, 2e-14);
+            CU_ASSERT_DOUBLE_EQUAL(slope, (3.0 * cubic * u + 2.0 * square) * u + 1.1, 2e-13);
+        }
+    }
+}
+
 /* Away from the ends a spline through points of sin differs from it by 5/384 h^4 at most (Hall
  * 1968), and its slope by h^3/24. */
 static void test_sine(void)
@@ -301,6 +322,7 @@ void suite_tables(void)
     CU_pSuite suite = CU_add_suite("tables", NULL, NULL);
     CU_add_test(suite, "straight lines", test_linear);
     CU_add_test(suite, "the natural spline", test_cubic);
+    CU_add_test(suite, "splines without knots beside the ends", test_not_a_knot);
     CU_add_test(suite, "a spline near a sine", test_sine);
     CU_add_test(suite, "outside", test_extension);
     CU_add_test(suite, "a robot", test_robot);

@@ -46,4 +46,28 @@ moves() { python3 tools/motion-svg.py "$work/$1/report/index.html" "$2" >"$3"; }
 moves disk "A disk rolls along a ring and leans to and fro" "$2/disk_motion.svg"
 moves board "A snakeboard glides and turns its axles" "$2/board_motion.svg"
 moves sleigh "A sleigh slides down a slope, turns in a cusp and goes on" "$2/sleigh_motion.svg"
+# The action of the sleigh's motion against a perturbation.
+for h in 0.1 0.05 0.025; do
+    "$program" run chaplygin-sleigh --integrator gauss8 --step $h --time 5 --samples "$(awk "BEGIN { print 5 / $h }")" \
+        --output "$work/curve.csv"
+    for A in 1e-5 3e-5 1e-4 3e-4 1e-3 3e-3 1e-2 3e-2 1e-1; do
+        "$program" action chaplygin-sleigh "$work/curve.csv" --perturb $A --json |
+            awk -v A=$A -F'[:,}]' '/"nh10"/ { print A, $8 }'
+    done >"$work/action-$h"
+done
+gnuplot <<END
+set terminal svg size 420,280 dynamic font 'sans,12'
+set output '$work/action.svg'
+set logscale
+set format '10^{%T}'
+set key left top
+set xlabel 'size A of the perturbation'
+set ylabel 'action (nh10)'
+plot for [h in '0.1 0.05 0.025'] '$work/action-'.h using 1:2 with linespoints title 'h = '.h
+END
+awk '{ print } /^>$/ { print "<style>@media (prefers-color-scheme: dark) {"
+    print "[stroke=\047black\047], [stroke=\047rgb(  0,   0,   0)\047] { stroke: #e4e4e4; }"
+    print "[fill=\047black\047], [fill=\047rgb(  0,   0,   0)\047], text { fill: #e4e4e4; }"
+    print "[color=\047black\047], [color=\047rgb(  0,   0,   0)\047] { color: #e4e4e4; } }</style>" }
+    ' "$work/action.svg" >"$2/action.svg"
 ls -l "$2"/*.svg | awk '{ print "gallery: " $9 ", " $5 " bytes" }'

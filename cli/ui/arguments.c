@@ -126,6 +126,20 @@ static int report_missing(const reader *r, row_kind kind, const char *synopsis)
     return status;
 }
 
+/* The first argument that is no option and was not given yet; where all were given, the last. */
+static bool find_argument(const reader *r, int *group, int *k)
+{
+    bool is_found = false;
+    for (int g = 0; g < r->group_count; g++)
+        for (int i = 0; i < r->groups[g].count; i++) {
+            if (r->groups[g].options[i].name || r->groups[g].without >> i & 1) continue;
+            *group = g, *k = i;
+            is_found = true;
+            if (!(r->given[g] >> i & 1)) return true;
+        }
+    return is_found;
+}
+
 static int read_argument(reader *r, const char *argument)
 {
     int group, k;
@@ -137,7 +151,7 @@ static int read_argument(reader *r, const char *argument)
         find(r, CLI_OUTPUT, strlen(CLI_OUTPUT), &group, &k))
         argument = "--" CLI_OUTPUT;
     if (!r->plain && argument[0] == '-' && argument[1]) return read_option(r, argument);
-    if (find(r, "", 0, &group, &k)) return parse(r, group, k, argument);
+    if (find_argument(r, &group, &k)) return parse(r, group, k, argument);
     return cli_fail(CLI_USAGE, "%s: unexpected argument '%s'", r->argv[0], argument);
 }
 

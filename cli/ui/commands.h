@@ -25,6 +25,7 @@
     COMMAND(lyapunov)                                                                              \
     COMMAND(volume)                                                                                \
     COMMAND(invariants)                                                                            \
+    COMMAND(action)                                                                                \
     COMMAND(explain)                                                                               \
     COMMAND(generate)                                                                              \
     COMMAND(report)                                                                                \

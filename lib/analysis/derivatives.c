@@ -24,8 +24,8 @@ static const double order_6[4] = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0, 0.0};
 
 /* The derivative by the increment d into out; by how much order 8 and order 6 differ, relative to
  * max(1, |derivative|), and how much of that the roundings of the values may be. */
-static dal_status difference(dal__curve *curve, void *user, double d, int count, double *scratch,
-                             double *out, double *gap, double *noise)
+static dal_status difference(dal__vector_function *curve, void *user, double d, int count,
+                             double *scratch, double *out, double *gap, double *noise)
 {
     double *lower = scratch + count, size = 0.0;
     for (int i = 0; i < count; i++) out[i] = lower[i] = 0.0;
@@ -43,8 +43,8 @@ static dal_status difference(dal__curve *curve, void *user, double d, int count,
     return DAL_STATUS_OK;
 }
 
-dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count, double *scratch,
-                              double *out)
+dal_status dal__differentiate(dal__vector_function *curve, void *user, double d, int count,
+                              double *scratch, double *out)
 {
     double *best = scratch + 2 * count, min = INFINITY, gap, noise;
     dal_status failure = DAL_STATUS_OK;

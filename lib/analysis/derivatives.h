@@ -15,9 +15,9 @@
  *     x' = sum_(k=1..4) c_k (x(k d) - x(-k d)) / d,   c = 4/5, -1/5, 4/105, -1/280.
  * d is shortened where order 6, from the same values, does not agree, or where the curve has no
  * value. scratch[3*count].  Errors: as for the curve, when it has no values for any d. */
-typedef dal_status dal__curve(void *user, double s, double *out);
-dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count, double *scratch,
-                              double *out);
+typedef dal_status dal__vector_function(void *user, double s, double *out);
+dal_status dal__differentiate(dal__vector_function *curve, void *user, double d, int count,
+                              double *scratch, double *out);
 
 /* The derivative of values by *x, which is varied in place. */
 typedef dal_status dal__values(void *user, double *out);

@@ -8,7 +8,8 @@
  *
  *     h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (D_i - D_{i-1}),
  *
- * the natural spline, M = f'' = 0 at both ends.  The system for M is diagonally dominant, so that
+ * the natural spline, M = f'' = 0 at both ends, or the one without knots at x_1 and at the last but
+ * one point, where f''' is continuous.  The system for M is diagonally dominant, so that
  * elimination needs no pivots.  C. de Boor, A Practical Guide to Splines, 1978, chapter IV. */
 #include "expr/table.h"
 #include "kernel/elementary.h"
@@ -26,22 +27,42 @@ static double slope(const dal_table *t, int i)
     return (t->value[i + 1] - t->value[i]) / (t->at[i + 1] - t->at[i]);
 }
 
-/* Stores M_i in c[2] of the piece after point i; c[3] holds the eliminated diagonal meanwhile. */
+/* Stores M_i in c[2] of the piece after point i; c[3] holds the eliminated diagonal meanwhile.
+ * Without knots beside the ends M_0 = M_1 + h_0 (M_1 - M_2)/h_1 is eliminated from the first
+ * equation, and M at the other end from the last one. */
 static void solve_spline(const dal_table *t, double *piece)
 {
     const int last = t->points - 1;
+    const bool extends = t->interpolation == DAL_NOT_A_KNOT && last > 2;
+    double upper = 0.0, first_upper = 0.0; /* of the equation before, and of the first one */
     piece[3] = piece[last * PIECE + 3] = 0.0;
     for (int i = 1; i < last; i++) {
         double *p = piece + i * PIECE, *before = p - PIECE;
         const double h = t->at[i] - t->at[i - 1], next = t->at[i + 1] - t->at[i];
-        const double factor = i > 1 ? h / before[4] : 0.0;
-        p[4] = 2.0 * (h + next) - factor * h;
+        const double lower = extends && i == last - 1 ? h - next * next / h : h;
+        const double factor = i > 1 ? lower / before[4] : 0.0;
+        double diagonal = 2.0 * (h + next);
+        if (extends && i == 1) diagonal += h + h * h / next;
+        if (extends && i == last - 1) diagonal += next + next * next / h;
+        p[4] = diagonal - factor * upper;
         p[3] = 6.0 * (slope(t, i) - slope(t, i - 1)) - factor * before[3];
+        upper = extends && i == 1 ? next - h * h / next : next;
+        if (i == 1) first_upper = upper;
     }
     for (int i = last - 1; i > 0; i--) {
         double *p = piece + i * PIECE;
-        p[3] = (p[3] - (t->at[i + 1] - t->at[i]) * p[PIECE + 3]) / p[4];
+        const double next = i == 1 ? first_upper : t->at[i + 1] - t->at[i];
+        p[3] = (p[3] - next * p[PIECE + 3]) / p[4];
     }
+    for (int end = 0; extends && end < 2; end++) {
+        const int away = end ? -1 : 1, i = end ? last : 0, next = i + away;
+        const double M = piece[next * PIECE + 3], further = piece[(next + away) * PIECE + 3];
+        const double ratio = (t->at[i] - t->at[next]) / (t->at[next] - t->at[next + away]);
+        piece[i * PIECE + 3] = M + ratio * (M - further);
+    }
+    if (t->interpolation == DAL_NOT_A_KNOT && last == 2) /* the parabola */
+        piece[3] = piece[PIECE + 3] = piece[2 * PIECE + 3] =
+            2.0 * (slope(t, 1) - slope(t, 0)) / (t->at[2] - t->at[0]);
 }
 
 /* A line through an end. */
@@ -64,7 +85,7 @@ void dal__table_fill(const dal_table *t, double *data)
         knot[i] = t->at[i];
         for (int k = 0; k < PIECE; k++) piece[i * PIECE + k] = 0.0;
     }
-    if (t->interpolation == DAL_CUBIC) solve_spline(t, piece);
+    if (t->interpolation != DAL_LINEAR) solve_spline(t, piece);
     for (int i = 0; i < last; i++) {
         double *c = piece + i * PIECE + 1;
         const double h = t->at[i + 1] - t->at[i], M = c[2], next = c[PIECE + 2];

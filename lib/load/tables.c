@@ -263,7 +263,7 @@ static dal_status read_word(loader *l, const dal__entry *key, const char *what,
 
 static dal_status load_table(loader *l, const dal__table_request *request)
 {
-    static const char *const forms[] = {"linear", "cubic"};
+    static const char *const forms[] = {"linear", "cubic", "not-a-knot"};
     static const char *const extensions[] = {"none", "constant", "linear"};
     const dal__entry *key = request->key;
     dal__entry entry = request->entry;
@@ -274,7 +274,7 @@ static dal_status load_table(loader *l, const dal__table_request *request)
             return dal__fail_at(l->error, DAL_STATUS_MODEL, DAL__AT_TEXT(&entry),
                                 "table %.80s has no '%s'; it needs file, at and value", entry.name,
                                 keys[i]);
-    DAL_TRY(read_word(l, &key[DAL__TABLE_INTERPOLATION], "interpolation", forms, 2, &form));
+    DAL_TRY(read_word(l, &key[DAL__TABLE_INTERPOLATION], "interpolation", forms, 3, &form));
     DAL_TRY(read_word(l, &key[DAL__TABLE_EXTEND], "extension", extensions, 3, &extend));
     DAL_TRY(find_file(l, &key[DAL__TABLE_FILE], &file));
     dal_table table = {.interpolation = (dal_interpolation)form, .extend = (dal_extend)extend};

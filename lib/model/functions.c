@@ -83,7 +83,7 @@ dal_status dal__model_insert_table(dal_model *model, dal__entry entry, const dal
         return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(&entry),
                             "table %s: its %s overflows: points are too large, or too close",
                             entry.name,
-                            table->interpolation == DAL_CUBIC ? "cubic spline" : "slope");
+                            table->interpolation == DAL_LINEAR ? "slope" : "cubic spline");
     DAL_TRY(dal__model_insert(model, entry, error));
     if (model->tables == model->table_capacity) {
         const int capacity = model->tables ? 2 * model->tables : 4;
@@ -94,7 +94,7 @@ dal_status dal__model_insert_table(dal_model *model, dal__entry entry, const dal
         model->table_capacity = capacity;
     }
     model->table[model->tables++] = (dal__tape_table){
-        .knots = table->points, .degree = table->interpolation == DAL_CUBIC ? 3 : 1, .data = data};
+        .knots = table->points, .degree = table->interpolation == DAL_LINEAR ? 1 : 3, .data = data};
     return DAL_STATUS_OK;
 }
 
@@ -109,7 +109,7 @@ dal_status dal_model_add_table(dal_model *model, const char *name, const dal_tab
         .section = DAL_SECTION_TABLES,
         .name = name,
         .text = dal__model_print(model, "%d points, %s", table->points,
-                                 table->interpolation == DAL_CUBIC ? "cubic" : "linear"),
+                                 table->interpolation == DAL_LINEAR ? "linear" : "cubic"),
         .line = line,
         .column = column,
         .name_line = line,

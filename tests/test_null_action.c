@@ -1,0 +1,62 @@
+/* test_null_action.c - NULL and curves without rows, given to actions. */
+#include "dalembert_analysis.h"
+#include "null.h"
+
+FUNCTIONS_dalembert_action(DECLARE_NULL_TEST)
+
+    static dal_model *model;
+static dal_run_spec spec;
+static dal_evaluator *evaluator;
+static double numbers[64];
+
+static int open_objects(void)
+{
+    if (open_spec(&model, &spec) != DAL_STATUS_OK) return 1;
+    return dal_evaluator_create(&evaluator, spec.system, NULL, 0, NULL) != DAL_STATUS_OK;
+}
+
+static int close_objects(void)
+{
+    dal_evaluator_free(evaluator);
+    dal_model_free(model);
+    return 0;
+}
+
+/* A curve of the evaluator's system. */
+static const double curve_t[7] = {0, 1, 2, 3, 4, 5, 6};
+static const dal_curve curve = {.rows = 7, .t = curve_t, .q = numbers, .v = numbers};
+
+static void null_dal_evaluator_integrate_action(void)
+{
+    const dal_action_form form = DAL_ACTION_SECOND_ORDER;
+    dal_action action;
+    REFUSED(dal_evaluator_integrate_action(NULL, &curve, form, &action, error));
+    REFUSED(dal_evaluator_integrate_action(evaluator, NULL, form, &action, error));
+    REFUSED(dal_evaluator_integrate_action(evaluator, &curve, form, NULL, error));
+    REFUSED(dal_evaluator_integrate_action(evaluator, &curve, DAL_ACTIONS, &action, error));
+    REFUSED(
+        dal_evaluator_integrate_action(evaluator, &(dal_curve){.rows = 7}, form, &action, error));
+}
+
+static void null_dal_evaluator_measure_curve(void)
+{
+    double D;
+    REFUSED(dal_evaluator_measure_curve(NULL, &curve, &D, error));
+    REFUSED(dal_evaluator_measure_curve(evaluator, NULL, &D, error));
+    REFUSED(dal_evaluator_measure_curve(evaluator, &curve, NULL, error));
+}
+
+static void null_dal_check_discrete_action(void)
+{
+    dal_discrete_action action;
+    REFUSED(dal_check_discrete_action(NULL, &curve, &action, error));
+    REFUSED(dal_check_discrete_action(&(dal_run_spec){.system = NULL}, &curve, &action, error));
+    REFUSED(dal_check_discrete_action(&spec, NULL, &action, error));
+    REFUSED(dal_check_discrete_action(&spec, &curve, NULL, error));
+}
+
+void suite_null_action(void)
+{
+    CU_pSuite suite = CU_add_suite("NULL and missing rows: actions", open_objects, close_objects);
+    FUNCTIONS_dalembert_action(ADD_NULL_TEST)
+}
