@@ -77,3 +77,25 @@ for system in $(awk '$4 ~ /linear/ && $4 !~ /nonlinear/ { print $1 }' systems.tx
     fi
 done
 expect "$known problems" test $known -eq "$(grep -c '^  - ' "$studies/mechanics.yaml")"
+
+case_is "the commands of the table of equations"
+sed -n '/^## The equations of the paper/,/^## The systems/p' "$here/../../docs/theory.md" >table
+for number in $(seq 1 23) 25; do
+    expect "(nh$number) is missing" awk -v n="$number" '/^\| \(nh/ {
+        cell = $0; sub(/^\| /, "", cell); sub(/ \|.*/, "", cell)
+        count = split(cell, list, ", ")
+        for (i = 1; i <= count; i++) {
+            ends = split(list[i], range, "\342\200\223")
+            for (k = 1; k <= ends; k++) gsub(/[^0-9]/, "", range[k])
+            if (n >= range[1] + 0 && n <= range[ends] + 0) found = 1
+        } } END { exit !found }' table
+done
+run="--integrator gauss4 --step 0.1 --time 2 --samples 20"
+try 0 run chaplygin-sleigh $run --output curve.csv
+grep -o '`dalembert [^`]*`' table | tr -d '`' | sort -u >commands
+expect "there are commands" test "$(wc -l <commands)" -ge 10
+while read -r dalembert command <&3; do
+    command=$(echo "$command" | sed 's/SYSTEM/chaplygin-sleigh/; s/CURVE\.csv/curve.csv/')
+    case $command in run*) command="$command $run" ;; esac
+    try 0 $command
+done 3<commands
