@@ -1,8 +1,9 @@
 # checks.mk - runs CHECKS beside each other, called by tests/run.sh: parts of the command line (cli-PART),
 # CUnit suites (suite-NAME, suite-NAME+NAME), install, browser, python.  What they print is recorded.
 # What takes longest begins first.
-LONGEST = suite-generate_bits suite-integrators cli-hostile cli-generate python cli-native suite-trend cli-documents \
-          cli-resume cli-events cli-minimal browser install
+LONGEST = python cli-generate cli-minimal suite-generate_bits cli-native cli-calls suite-integrators cli-hostile \
+          cli-documents cli-study cli-events suite-trend install cli-memory cli-options suite-adaptive cli-study_shard \
+          suite-batch browser cli-resume
 
 all: $(filter $(CHECKS),$(LONGEST)) $(CHECKS)
 

@@ -34,7 +34,7 @@ cd "$root"/dalembert-[0-9]* || fail "it has no directory of its name"
 make="$make BUILD=build"
 logged $make CC="$CC" CFLAGS="$CFLAGS"
 ! grep -q 'git is called' "$root/log" || fail "the build calls git"
-logged env CC="$CC" CFLAGS="$CFLAGS" BUILD=build PROGRAM=build/dalembert \
+logged env CC="$CC" CFLAGS="$CFLAGS" BRIEFLY=1 BUILD=build PROGRAM=build/dalembert \
     sh tests/run.sh "$1" cli-usage cli-check install python
 logged $make CC="$CC" CFLAGS="$CFLAGS" PREFIX=/usr DESTDIR="$root/stage" install
 logged "$root/stage/usr/bin/dalembert" check "$root/stage/usr/share/dalembert/systems/knife-edge.yaml"

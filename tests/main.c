@@ -28,6 +28,8 @@ long long long_run(long long count) { return quick ? (count + 99) / 100 : count;
 
 int large_size(int size) { return quick ? (size + 7) / 8 : size; }
 
+int case_stride(int stride) { return quick ? stride : 1; }
+
 static int add(const char *name)
 {
     for (int i = 0; i < SUITES; i++)

@@ -1,7 +1,8 @@
 #!/bin/sh
 # python.sh MAKE BUILD - installs the package of python/ into an environment of its own, with the library of
 # BUILD, with an installed one, and as a wheel made from a source distribution; runs its tests and what
-# docs/python.md shows, and executes the notebooks.  CC and CFLAGS are as in the build.
+# docs/python.md shows, and executes the notebooks.  CC and CFLAGS are as in the build.  With BRIEFLY=1 it ends
+# after the tests of the package.
 # Where CI is true it fails without Python and what the tests need.
 # make gets BUILD as it was given: a path that begins with the tree's has the blanks of that.
 make=$1 given=$2 build=$(realpath "$2") || exit 1
@@ -37,6 +38,9 @@ logged env DALEMBERT_BUILD="$build" "$root/V/bin/pip" install --no-build-isolati
 (cd python/tests && timeout --foreground 1200 "$root/V/bin/python" -m pytest -q -p no:cacheprovider . ../../docs/python.md \
     --doctest-glob='*.md' --doctest-modules --pyargs dalembert) >"$root/tests" 2>&1 ||
     { cat "$root/tests" >&2; fail "tests failed"; }
+
+ends() { tail -n 1 "$root/tests" | sed 's/^/python: /' && echo "python: ok"; }
+[ -z "${BRIEFLY:-}" ] || { ends; exit; }
 
 # The installed library, a shared one, wherever it is.
 logged $make --no-print-directory BUILD="$given" PREFIX="$root/usr" DESTDIR= install
@@ -90,5 +94,4 @@ else
 fi
 left=$(git ls-files --others --exclude-standard python 2>/dev/null)
 [ -z "$left" ] || fail "files are left in the sources: $left"
-tail -n 1 "$root/tests" | sed 's/^/python: /'
-echo "python: ok"
+ends

@@ -3,6 +3,7 @@
 #include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
+#include "quick.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdio.h>
@@ -320,7 +321,8 @@ static void test_native(void)
                  {fixture_full, "dop853", DAL_LIFTED, 0.7, 1e-16},
                  {fixture_full, "dop853", DAL_LIFTED, 0.7, 1e-9},
                  {"knife-edge", "dop853+project", DAL_PHYSICAL, 5.0, 1e-9}};
-    for (size_t i = 0; compiler_works && i < sizeof cases / sizeof *cases; i++) {
+    enum { CASES = sizeof cases / sizeof *cases };
+    for (int i = 0; compiler_works && i < CASES; i += case_stride(3)) {
         dal_run_spec spec = fixture_spec(fixture_system(cases[i].text), cases[i].method,
                                          cases[i].space, cases[i].step);
         spec.options.tolerance = cases[i].tolerance;

@@ -6,6 +6,7 @@
 #include "codegen/preprocessor.h"
 #include "compiler.h"
 #include "fixtures.h"
+#include "quick.h"
 #include <CUnit/CUnit.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,9 +67,10 @@ static bool accepts_with(int number, unsigned parts, int lanes, dal_space space)
     return accepted;
 }
 
+/* The compiler reads the same files under valgrind and the sanitizers: a quick run has some. */
 static void test_parts(void)
 {
-    for (int i = 0; compiles && dal_integrator_at(i); i++) {
+    for (int i = 0; compiles && dal_integrator_at(i); i += case_stride(8)) {
         const dal_integrator *integrator = dal_integrator_at(i);
         const unsigned parts = integrator->kernel;
         for (int way = 0; way < 4; way++) {

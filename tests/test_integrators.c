@@ -11,9 +11,9 @@
 /* Every integrator that is not a modifier, or, with project, with +project after its name. */
 typedef void visitor(const char *name, const dal_method *method, void *user);
 
-static void for_each(bool project, visitor *visit, void *user)
+static void for_each_of(int stride, bool project, visitor *visit, void *user)
 {
-    for (int i = 0; dal_integrator_at(i); i++) {
+    for (int i = 0; dal_integrator_at(i); i += stride) {
         char name[64];
         if (dal_integrator_at(i)->properties & DAL_MODIFIER) continue;
         snprintf(name, sizeof name, "%s%s", dal_integrator_at(i)->name, project ? "+project" : "");
@@ -21,6 +21,11 @@ static void for_each(bool project, visitor *visit, void *user)
         CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_STATUS_OK);
         visit(name, &method, user);
     }
+}
+
+static void for_each(bool project, visitor *visit, void *user)
+{
+    for_each_of(1, project, visit, user);
 }
 
 /* Each documentation has an equation, closed dollars, and cites the years of the reference. */
@@ -85,8 +90,12 @@ static void check_order(const char *name, const dal_method *method, void *user)
     }
 }
 
-static void test_order(void) { for_each(false, check_order, NULL); }
-static void test_order_projected(void) { for_each(true, check_order, (void *)windows); }
+/* In a quick run some: that every method takes steps without a fault the other tests see. */
+static void test_order(void) { for_each_of(case_stride(4), false, check_order, NULL); }
+static void test_order_projected(void)
+{
+    for_each_of(case_stride(5), true, check_order, (void *)windows);
+}
 
 /* ---- symplecticity and reversibility of the step map ---- */
 

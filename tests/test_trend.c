@@ -138,18 +138,20 @@ static void test_matrix(void)
 
 /* ---- shapes ---- */
 
-/* Twenty series of each shape, length and noise: few, so that a sure error may occur. */
+/* Twenty series, four in a quick run, of each shape, length and noise: few, so that a sure error
+ * may occur. */
 static void test_shapes(void)
 {
-    enum { COUNT = 20, LENGTHS = 2 };
+    enum { LENGTHS = 2 };
     static const int lengths[LENGTHS] = {300, 3000};
+    const int drawn = 20 / case_stride(5);
     int kinds_with_errors = 0;
     for (int i = 0; i < shape_kind_count; i++) {
         const series_kind *const kind = &shape_kinds[i];
         trend_cell all = {0};
         for (int k = 0; k < LENGTHS * SERIES_NOISES; k++)
             if (kind->noises >> k / LENGTHS & 1)
-                trend_cell_fill(&all, kind, COUNT, lengths[k % LENGTHS], series_noise[k / LENGTHS],
+                trend_cell_fill(&all, kind, drawn, lengths[k % LENGTHS], series_noise[k / LENGTHS],
                                 x, t);
         CU_ASSERT_EQUAL(all.outside, 0);
         if (kind->accepts & HARD) continue;

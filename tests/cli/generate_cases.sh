@@ -30,22 +30,25 @@ try 0 generate line.yaml --integrator dop853 --tolerance 1e-9
 try 0 generate plane.yaml --integrator gauss4 --reactions on
 
 strict="-Wall -Wextra -Wpedantic -Werror -Wno-psabi"
+# Compilers read the same file whether or not the program that wrote it has sanitizers.
+if sanitized; then compiles=false; else compiles=true; fi
 # same SYSTEM INTEGRATOR SPACE LANES COMPILER FLAGS...
 same() {
     system=$1 method=$2 space=$3 lanes=$4 compiler=$5
     shift 5
     case_is "$system $method $space, $lanes lanes, $compiler $*"
-    needs 6 "no $compiler" there "$compiler" || return 0
     try 0 generate "$system" --integrator "$method" --space "$space" --lanes "$lanes" $control \
         --prefix g -o g.c
     silent
     empty
-    expect "it does not compile: $(cat cc.log)" sh -c \
-        "$compiler $* $strict drive.c -o driven -lm >cc.log 2>&1"
-    ./driven >generated.csv
     try 0 run "$system" --integrator "$method" --space "$space" --step 0.0625 --time 6.25 --samples 1 \
         $control
     sed -n '3p' out >interpreted.csv
+    $compiles || return 0
+    needs 2 "no $compiler" there "$compiler" || return 0
+    expect "it does not compile: $(cat cc.log)" sh -c \
+        "$compiler $* $strict drive.c -o driven -lm >cc.log 2>&1"
+    ./driven >generated.csv
     expect "other digits: $(cat generated.csv) not $(cat interpreted.csv)" \
         cmp -s generated.csv interpreted.csv
     counted
