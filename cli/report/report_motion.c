@@ -127,7 +127,8 @@ int motion_read(motion *m, const char *run, int max_frames)
         const int count = read_rows(&p, row);
         if (count < 0) status = CLI_IO;
         m->body = p.body;
-        memcpy(m->axis, p.axis, sizeof m->axis);
+        m->is_plane = p.is_plane;
+        for (int k = 0; k < 2; k++) snprintf(m->axis[k], sizeof m->axis[k], "%s", p.axis[k]);
         const char *method = p.simulation.request.text[REQUEST_integrator];
         snprintf(m->method, sizeof m->method, "%s", method ? method : "");
         m->step = p.simulation.request.options.step;
@@ -208,6 +209,7 @@ void motion_write(json_writer *data, const motion *m)
     json_put_rounded(data, "end", m->end);
     json_put_integer(data, "frames", m->frames);
     json_put_flag(data, "smooth", m->is_smooth);
+    json_put_flag(data, "plane", m->is_plane);
     json_open_list(data, "axes", JSON_ON_ONE_LINE);
     for (int i = 0; i < 2; i++) json_put_text(data, NULL, m->axis[i]);
     json_close(data);

@@ -16,9 +16,10 @@ enum { MOTION_STUDY_FRAMES = 1500, MOTION_RUN_FRAMES = 6000 };
 
 typedef struct motion {
     dal_body body;
-    const char *axis[2];
+    char axis[2][64];
     char method[128];
     double step, start, end; /* the times of the first and the last frame */
+    bool is_plane;           /* the axes have one scale */
     bool is_smooth;          /* the path may be drawn through the frames; otherwise they are rows */
     int frames;              /* 0: there is nothing to show */
     double (*pose)[DAL_PICTURE_COUNT];

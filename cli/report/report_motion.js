@@ -25,63 +25,154 @@ class Motion {
     }
 }
 
-// One motion in a frame that all motions of a system share: map leads from the plane to it.
-class Stage {
-    constructor(motion, map, box, bar) {
-        this.motion = motion;
-        this.map = map;
+// The plane of motions, 100 units wide, seen from above or in perspective from where the reader turned it.
+class View {
+    constructor(motions) {
+        const ranges = ['x', 'y'].map(name => {
+            const all = motions.flatMap(m => m[name]);
+            return [all.reduce((a, b) => Math.min(a, b)), all.reduce((a, b) => Math.max(a, b))];
+        });
+        const size = ranges.map(([low, high]) => high - low);
+        this.isPlane = motions.every(m => m.plane);
+        this.extent = Math.max(...size) || 1;
+        this.scale = this.isPlane ? [100 / this.extent, 100 / this.extent] : [100 / (size[0] || 1), 60 / (size[1] || 1)];
+        this.middle = ranges.map(([low, high]) => (low + high) / 2);
+        this.half = size.map((width, k) => Math.max(width * this.scale[k] / 2, this.isPlane ? 0 : 20) + 2 * BODY_SIZE);
+        Object.assign(this, {is3D: motions.some(m => ['disk', 'ball'].includes(m.body)), azimuth: -25, elevation: 35});
+        // 1, 2 or 5 times a power of ten, a tenth to a quarter of the path.
+        const power = 10 ** Math.floor(Math.log10(this.extent / 4)), times = this.extent / 4 / power;
+        this.bar = Number(((times < 2 ? 1 : times < 5 ? 2 : 5) * power).toPrecision(1));
+    }
+    place(x, y) {
+        return [(x - this.middle[0]) * this.scale[0], (y - this.middle[1]) * this.scale[1], 0];
+    }
+    // A point of the plane, or above it, in the picture.
+    project([x, y, z]) {
+        if (!this.is3D) return [x, -y];
+        const turn = this.azimuth * Math.PI / 180, rise = this.elevation * Math.PI / 180, distance = 3.2 * Math.hypot(...this.half);
+        const u = x * Math.cos(turn) - y * Math.sin(turn), v = x * Math.sin(turn) + y * Math.cos(turn);
+        const near = distance / (distance + v * Math.cos(rise) - z * Math.sin(rise));
+        return [u * near, -(v * Math.sin(rise) + z * Math.cos(rise)) * near];
+    }
+    box() {
+        const [a, b] = this.half, r = Math.hypot(a, b);
+        return this.is3D ? [-r, -0.8 * r, 2 * r, 1.6 * r] : [-a, -b, 2 * a, 2 * b];
+    }
+    turn(azimuth, elevation) {
+        this.azimuth = (this.azimuth + azimuth) % 360;
+        this.elevation = Math.min(Math.max(this.elevation + elevation, 5), 90);
+    }
+}
+
+const ROUND = Array.from({length: 33}, (_, i) => [Math.cos(i * Math.PI / 16), Math.sin(i * Math.PI / 16)]);
+
+// One motion on a stage: its path, its trail and its body.
+class Actor {
+    constructor(motion, view, colour, isAlone) {
+        Object.assign(this, {motion, view, colour});
         this.path = svg('path', {class: motion.smooth ? 'path' : 'path dots'});
-        this.trail = svg('path', {class: 'trail'});
-        this.parts = motion.parts.map(part => ({...part, shape: part.radius
-            ? svg('circle', {r: part.radius}) : svg('path', {d: 'M' + part.line.join('L')})}));
-        this.body = svg('g', {class: 'body'}, ...this.parts.map(part => part.shape));
-        this.path.setAttribute('d', this.line(0, motion.frames - 1));
-        this.picture = svg('svg', {viewBox: box.join(' '), role: 'img', class: 'stage',
-            'aria-label': `Motion of a ${motion.body} by ${motion.method} over ${motion.axes.join(' and ')}`},
-            this.path, this.trail, this.body, svg('path', {class: 'scale', d: `M${box[0] + 3} ` +
-                `${box[1] + box[3] - 3}h${map(bar, 0)[0] - map(0, 0)[0]}`}));
-        this.figure = html('figure', {}, this.picture,
-            html('figcaption', {}, `${motion.method}, h = ${motion.step}; the bar is ${bar} long`));
+        this.trail = svg('path', {class: 'trail', style: `stroke: ${colour}`});
+        this.shapes = motion.parts.map(() => svg('path', isAlone ? {} : {style: `stroke: ${colour}`}));
+        this.body = svg('g', {class: 'body'}, ...this.shapes);
     }
     place(f) {
-        return this.map(this.motion.at('x', f), this.motion.at('y', f));
+        return this.view.place(this.motion.at('x', f), this.motion.at('y', f));
+    }
+    write(points) {
+        return points.map(p => this.view.project(p).map(c => c.toFixed(2)).join(' '));
     }
     // The path from one frame to another; dots where it is not known between them.
     line(from, to) {
         const points = [];
         for (let f = from; f < to; f++) points.push(this.place(f));
         points.push(this.place(to));
-        const texts = points.map(p => p.map(c => c.toFixed(2)).join(' '));
+        const texts = this.write(points);
         return this.motion.smooth ? 'M' + texts.join('L') : texts.map(p => `M${p}h0`).join('');
     }
+    // The points of a part of the body.  A disk is upright or leans: seen from above it is as broad as its
+    // width says; its axle is across it.  All else lies in the plane.
+    outline({pivot, turn, narrowed, radius, line}, f) {
+        const m = this.motion, [x, y, z] = this.place(f), angle = m.at('angle', f), steer = turn * m.at('steer', f);
+        const lean = Math.min(Math.max(m.at('width', f), -1), 1), isDisk = m.body === 'disk' && this.view.is3D;
+        const height = isDisk ? Math.sqrt(1 - lean * lean) : m.body === 'ball' && this.view.is3D ? radius : 0;
+        return (radius ? ROUND.map(([a, b]) => [radius * a, radius * b]) : line).map(([a, b]) => {
+            const across = narrowed ? lean * b : isDisk ? b * height : b, up = !isDisk ? 0 : narrowed ? height * b : -lean * b;
+            const u = pivot[0] + Math.cos(steer) * a - Math.sin(steer) * across;
+            const v = pivot[1] + Math.sin(steer) * a + Math.cos(steer) * across;
+            return [x + BODY_SIZE * (Math.cos(angle) * u - Math.sin(angle) * v),
+                y + BODY_SIZE * (Math.sin(angle) * u + Math.cos(angle) * v), z + BODY_SIZE * (height + up)];
+        });
+    }
+    // A ball has one outline from everywhere.
+    ball(f, radius) {
+        const [x, y] = this.place(f), middle = this.view.project([x, y, BODY_SIZE * radius]);
+        return ROUND.map(([a, b]) => [middle[0] + BODY_SIZE * radius * a, middle[1] + BODY_SIZE * radius * b]
+            .map(c => c.toFixed(2)).join(' '));
+    }
+    drawPath() {
+        this.path.setAttribute('d', this.line(0, this.motion.frames - 1));
+    }
     show(t, trail) {
-        const m = this.motion, f = m.frame(t), [x, y] = this.place(f), degrees = 180 / Math.PI;
-        this.body.setAttribute('transform', `translate(${x} ${y}) scale(${BODY_SIZE} ${-BODY_SIZE}) ` +
-            `rotate(${m.at('angle', f) * degrees})`);
-        for (const {shape, pivot, turn, narrowed} of this.parts)
-            shape.setAttribute('transform', `translate(${pivot.join(' ')}) ` +
-                `rotate(${turn * m.at('steer', f) * degrees}) scale(1 ${narrowed ? m.at('width', f) : 1})`);
-        const from = Math.max(0, Math.ceil(f - trail * m.frames));
+        const m = this.motion, f = m.frame(t), from = Math.max(0, Math.ceil(f - trail * m.frames));
+        m.parts.forEach((part, i) => this.shapes[i].setAttribute('d', 'M' + (m.body === 'ball' && this.view.is3D
+            ? this.ball(f, part.radius) : this.write(this.outline(part, f))).join('L')));
         this.trail.setAttribute('d', trail > 0 ? this.line(from, f) : '');
     }
 }
 
-// Plays the motions of a system side by side, in SECONDS at speed 1.
+// Motions on one another in a picture, which the pointer and keys turn in 3D.
+class Stage {
+    constructor(motions, view, colours, redraw) {
+        this.view = view;
+        this.actors = motions.map((motion, i) => new Actor(motion, view, colours[i], motions.length === 1));
+        this.scale = svg('path', {class: 'scale'});
+        const names = motions.map(m => m.method).join(' and '), {body, axes} = motions[0];
+        this.picture = svg('svg', {role: 'img', class: 'stage', tabindex: 0,
+            'aria-label': `Motion of a ${body} by ${names} over ${axes.join(' and ')}`,
+            keydown: event => this.press(event, redraw), pointerdown: event => view.is3D && this.picture.setPointerCapture(event.pointerId),
+            pointermove: event => {
+                if (!view.is3D || !event.buttons) return;
+                view.turn(event.movementX / 2, event.movementY / 2);
+                redraw();
+            }},
+            ...this.actors.map(a => a.path), ...this.actors.map(a => a.trail), ...this.actors.map(a => a.body), this.scale);
+        const samples = motions.flatMap((m, i) => [html('span', {class: 'control'},
+            html('span', {class: 'sample', style: `border-top: 3px solid ${colours[i]}`}), ` ${m.method}, h = ${m.step}`), ' ']);
+        this.figure = html('figure', {}, this.picture, html('figcaption', {}, ...samples,
+            view.isPlane ? `The bar is ${view.bar} long.` : `${axes[1]} over ${axes[0]}, not to scale.`));
+    }
+    press(event, redraw) {
+        const azimuth = {ArrowLeft: -10, ArrowRight: 10}[event.key], elevation = {ArrowUp: 10, ArrowDown: -10}[event.key];
+        if (!this.view.is3D || !(azimuth || elevation)) return;
+        event.preventDefault();
+        this.view.turn(azimuth || 0, elevation || 0);
+        redraw();
+    }
+    draw() {
+        const {view} = this, [a, b] = view.half, length = view.bar * view.scale[0], begin = [3 - a, 3 - b, 0];
+        fill(this.picture, {viewBox: view.box().map(c => c.toFixed(2)).join(' ')});
+        this.actors.forEach(actor => actor.drawPath());
+        this.scale.setAttribute('d', view.isPlane ? 'M' + [begin, [begin[0] + length, begin[1], 0]]
+            .map(p => view.project(p).join(' ')).join('L') : '');
+    }
+}
+
+// Plays the motions of a system on one another or side by side, in SECONDS at speed 1.
 function addMotions(system) {
     const SECONDS = 20, motions = system.motions.map(data => new Motion(data));
     if (!motions.length) return;
-    const ranges = ['x', 'y'].map(name => {
-        const all = motions.flatMap(m => m[name]);
-        return [Math.min(...all), Math.max(...all)];
-    });
-    const size = ranges.map(([low, high]) => high - low), extent = Math.max(...size) || 1;
-    const edge = 2 * BODY_SIZE;
-    const map = (x, y) => [100 * (x - ranges[0][0]) / extent, 100 * (ranges[1][1] - y) / extent];
-    const box = [-edge, -edge, 100 * size[0] / extent + 2 * edge, 100 * size[1] / extent + 2 * edge];
-    // 1, 2 or 5 times a power of ten, a tenth to a quarter of the path.
-    const power = 10 ** Math.floor(Math.log10(extent / 4)), times = extent / 4 / power;
-    const bar = Number(((times < 2 ? 1 : times < 5 ? 2 : 5) * power).toPrecision(1));
-    const stages = motions.map(motion => new Stage(motion, map, box, bar));
+    const view = new View(motions), colours = motions.map((_, i) => COLOURS[1 - i % 2]);
+    const holder = html('div', {class: 'stages'}), redraw = () => {
+        stages.forEach(stage => stage.draw());
+        show(now);
+    };
+    let stages = [], isApart = false;
+    const build = () => {
+        stages = isApart ? motions.map((m, i) => new Stage([m], view, [colours[i]], redraw))
+            : [new Stage(motions, view, colours, redraw)];
+        holder.replaceChildren(...stages.map(stage => stage.figure));
+        redraw();
+    };
     const start = Math.min(...motions.map(m => m.start)), end = Math.max(...motions.map(m => m.end));
     const slider = html('input', {type: 'range', min: 0, max: 1000, value: 0, 'aria-label': 'Time',
         input: () => show(start + (end - start) * slider.value / 1000)});
@@ -91,13 +182,13 @@ function addMotions(system) {
     const apart = t => {
         const [a, b] = motions.map(m => [m.at('x', m.frame(t)), m.at('y', m.frame(t))]);
         if (!b) return '';
-        const distance = Math.hypot(a[0] - b[0], a[1] - b[1]), least = extent * 1e-4;
+        const distance = Math.hypot(a[0] - b[0], a[1] - b[1]), least = view.extent * 1e-4;
         return distance < least ? `, less than ${short(least)} apart` : `, ${short(distance)} apart`;
     };
     const show = t => {
         now = t;
         slider.value = 1000 * (t - start) / (end - start);
-        stages.forEach(stage => stage.show(t, trail));
+        stages.forEach(stage => stage.actors.forEach(actor => actor.show(t, trail)));
         readout.textContent = `t = ${t.toFixed(2)}${apart(t)}`;
     };
     const play = wanted => {
@@ -121,9 +212,19 @@ function addMotions(system) {
         show(now);
     });
     speeds.querySelector('select').value = 1;
-    system.place.before(html('section', {class: 'motion', 'aria-label': `Motion ${system.label}`},
-        html('div', {class: 'stages'}, ...stages.map(stage => stage.figure)),
-        html('div', {class: 'tools'}, button, slider, speeds, trails, readout)));
-    show(start);
+    const choices = [];
+    if (motions.length > 1)
+        choices.push(tick('Side by side', false, isOn => {
+            isApart = isOn;
+            build();
+        }));
+    if (view.isPlane)
+        choices.push(tick('3D', view.is3D, isOn => {
+            view.is3D = isOn;
+            redraw();
+        }));
+    system.place.before(html('section', {class: 'motion', 'aria-label': `Motion ${system.label}`}, holder,
+        html('div', {class: 'tools'}, button, slider, speeds, trails, ...choices, readout)));
+    build();
 }
 

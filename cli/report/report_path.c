@@ -158,7 +158,8 @@ int report_path(report *r, const char *run, const char *name, const char *captio
 {
     body_path p = {.low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
     int status = pose_open(&p.poses, run);
-    if (status == CLI_DONE && p.poses.has_poses) status = draw_path(&p, r, name, caption);
+    if (status == CLI_DONE && p.poses.has_poses && p.poses.is_plane)
+        status = draw_path(&p, r, name, caption);
     pose_close(&p.poses);
     return status;
 }

@@ -358,12 +358,13 @@ static bool has_abscissas_of(const plot_curve *curve, const plot_curve *other)
     return same;
 }
 
-/* The abscissas are a list, or the number of an earlier curve that has the same. */
+/* The abscissas are a list, or the number of an earlier curve with points that has the same. */
 static void put_curve(json_writer *data, const report_plot *plot, int i)
 {
     const plot_curve *curve = &plot->curve[i];
-    int same = 0;
-    while (same < i && !has_abscissas_of(curve, &plot->curve[same])) same++;
+    int same = 0, number = 0;
+    for (; same < i && !has_abscissas_of(curve, &plot->curve[same]); same++)
+        number += plot->curve[same].count > 0;
     json_open(data, NULL, JSON_ON_ONE_LINE);
     json_put_text(data, "title", curve->title);
     if (curve->note[0]) json_put_text(data, "note", curve->note);
@@ -377,7 +378,7 @@ static void put_curve(json_writer *data, const report_plot *plot, int i)
     else
         json_put_integer(data, "colour", curve->colour);
     if (same < i)
-        json_put_integer(data, "x", same);
+        json_put_integer(data, "x", number);
     else
         put_coordinates(data, "x", curve, 0);
     put_coordinates(data, "y", curve, 1);

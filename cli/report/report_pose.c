@@ -22,7 +22,8 @@ static int find_coordinate(const dal_system *system, const char *name)
     return i;
 }
 
-/* The first pair of which a system has both, or false. */
+/* The first pair of which a system has both: a plane, with one scale.  Otherwise the first two
+ * coordinates, or a single one over t, whose number is -1. */
 static bool find_pair(const dal_system *system, const char *axis[2], int pair[2])
 {
     static const char *const pairs[][2] = {{"x", "y"}, {"x1", "x2"}, {"y1", "y2"}};
@@ -32,6 +33,11 @@ static bool find_pair(const dal_system *system, const char *axis[2], int pair[2]
             pair[side] = find_coordinate(system, axis[side]);
         }
         if (pair[0] >= 0 && pair[1] >= 0) return true;
+    }
+    const bool is_single = system->n == 1;
+    for (int side = 0; side < 2; side++) {
+        pair[side] = side - is_single;
+        axis[side] = pair[side] < 0 ? "t" : system->coordinate[pair[side]];
     }
     return false;
 }
@@ -63,12 +69,13 @@ int pose_open(pose_reader *p, const char *run)
     if (status == CLI_DONE) status = simulation_make_spec(&p->simulation, &spec);
     if (status != CLI_DONE) return status;
     const dal_system *system = p->simulation.system;
-    if (system->picture) {
+    p->is_plane = system->picture != NULL;
+    if (!p->is_plane) {
+        p->is_plane = find_pair(system, p->axis, p->pair);
+    } else {
         p->body = system->picture->body;
         p->axis[0] = "x";
         p->axis[1] = "y";
-    } else if (!find_pair(system, p->axis, p->pair)) {
-        return CLI_DONE;
     }
     if (dal_evaluator_create(&p->evaluator, system, p->simulation.request.set.item,
                              p->simulation.request.set.count, &error))
@@ -88,7 +95,7 @@ void pose_of(pose_reader *p, double t, const double *q, const double *v, double 
     const dal_system *system = p->simulation.system;
     for (int i = 0; i < DAL_PICTURE_COUNT; i++) pose[i] = 0.0;
     if (!system->picture)
-        for (int k = 0; k < 2; k++) pose[k] = q[p->pair[k]];
+        for (int k = 0; k < 2; k++) pose[k] = p->pair[k] < 0 ? t : q[p->pair[k]];
     else if (dal_evaluator_call(p->evaluator, system->picture->evaluate, t, q, v, NULL, pose))
         pose[DAL_PICTURE_X] = NAN;
 }

@@ -1,7 +1,8 @@
 /* report_pose.h - where the body of a run is at each of its rows.
  *
- * A system file says so under `picture`.  Of a system without one a point is shown: the first of
- * the pairs (x, y), (x1, x2), (y1, y2) of which both are coordinates. */
+ * A system file says so under `picture`.  Of a system without one a point is shown: over the first
+ * of the pairs (x, y), (x1, x2), (y1, y2) of which both are coordinates, or the first two
+ * coordinates, or t and the only one. */
 #ifndef DAL_CLI_REPORT_POSE_H
 #define DAL_CLI_REPORT_POSE_H
 
@@ -23,8 +24,9 @@ typedef struct pose_reader {
     bool has_poses;      /* there are rows, and they have q and v */
     dal_body body;       /* what is shown, */
     const char *axis[2]; /* over what, */
-    int pair[2];         /* and the two coordinates that a system without a picture has for it */
-    double small_time;   /* for differences */
+    int pair[2];       /* the two coordinates that a system without a picture has for it (-1: t), */
+    bool is_plane;     /* and whether they have one scale */
+    double small_time; /* for differences */
     double t, pose[DAL_PICTURE_COUNT], rate[DAL_PICTURE_COUNT]; /* rate: the change of the pose */
 } pose_reader;
 

@@ -46,6 +46,10 @@ END_OF_STUDY
     "$program" report failed
     "$program" run pendulum-cvt --integrator gni --step 0.1 --time 2000 --samples 5000 --output bands
     "$program" report bands
+    "$program" run falling-disk --integrator gauss8 --step 0.05 --time 5 --output disk
+    "$program" report disk
+    "$program" run damped-oscillator --integrator gauss4 --step 0.05 --time 5 --output single
+    "$program" report single
     "$program" run "$here/../../examples/ball-on-incline.yaml" --output bounces
     "$program" report bounces
     "${program%/*}/bench/page" bench "$here/bench.jsonl"

@@ -1,6 +1,6 @@
 """script.py BROWSER DIRECTORY GALLERY - the pages of reports as they are used, in headless Chromium.
 
-DIRECTORY has the reports study, run and orders, GALLERY moving pictures.  Keys, clicks and the pointer are the browser's own
+DIRECTORY has the reports study, run, orders, disk and single, GALLERY moving pictures.  Keys, clicks and the pointer are the browser's own
 input.  Every fault is a line "fault: ..."; nothing depends on how fast the machine is.
 """
 import glob
@@ -310,9 +310,19 @@ def check_linked(browser):
 def check_play(browser, where, motions):
     """A motion plays, pauses, and follows the slider."""
     motion = "document.querySelector('.motion')"
-    bodies = f"[...{motion}.querySelectorAll('.body')].map(b => b.getAttribute('transform')).join()"
+    bodies = f"[...{motion}.querySelectorAll('.body path')].map(b => b.getAttribute('d')).join()"
     time = f"parseFloat({motion}.querySelector('.readout').textContent.split('=')[1])"
-    expect(browser.run(f"{motion}.querySelectorAll('svg').length") == motions, f"{where}: not {motions} motions")
+    pictures = f"{motion}.querySelectorAll('svg').length"
+    expect(browser.run(f"{motion}.querySelectorAll('svg .body').length") == motions, f"{where}: not {motions} motions")
+    expect(browser.run(pictures) == 1, f"{where}: the motions are not on one another")
+    colours = browser.run(f"[...{motion}.querySelectorAll('.trail')].map(t => getComputedStyle(t).stroke)")
+    expect(len(set(colours)) == motions, f"{where}: trails of one colour: {colours}")
+    if motions > 1:
+        box = f"[...{motion}.querySelectorAll('label')].find(l => l.textContent.includes('Side by side')).control"
+        for wanted in motions, 1:
+            focus(browser, box)
+            browser.press(" ")
+            expect(browser.run(pictures) == wanted, f"{where}: {wanted} pictures are not side by side")
     # The bar of a picture whose longer side is 100 units has the stated length, at most a quarter of it.
     bar, stated, extent = browser.run(f"""(() => {{
         const parts = [...document.querySelectorAll('script.data')].map(place => JSON.parse(place.textContent));
@@ -346,6 +356,42 @@ def check_play(browser, where, motions):
     expect(browser.run(bodies) == still, f"{where}: the body does not come back")
 
 
+def check_turn(browser):
+    """A disk is shown in perspective, which keys and the pointer turn; the plane does not turn."""
+    stage = "document.querySelector('.motion svg')"
+    body = f"[...{stage}.querySelectorAll('.body path')].map(b => b.getAttribute('d')).join()"
+    box = "[...document.querySelectorAll('.motion label')].find(l => l.textContent.includes('3D')).control"
+    expect(browser.run(f"{box}.checked"), "turn: a disk is not in 3D")
+    seen = browser.run(body)
+    focus(browser, stage)
+    for there, back in [("ArrowRight", "ArrowLeft"), ("ArrowUp", "ArrowDown")]:
+        browser.press(there)
+        expect(browser.run(body) != seen, f"turn: {there} does not turn it")
+        browser.press(back)
+        expect(browser.run(body) == seen, f"turn: {back} does not turn it back")
+    browser.drag(stage, 0.3, 0.6)
+    expect(browser.run(body) != seen, "turn: the pointer does not turn it")
+    focus(browser, box)
+    browser.press(" ")
+    flat = browser.run(body)
+    focus(browser, stage)
+    browser.press("ArrowRight")
+    expect(browser.run(body) == flat, "turn: the plane turns")
+
+
+def check_single(browser):
+    """A system with one coordinate moves over t."""
+    caption = browser.run("document.querySelector('.motion figcaption').textContent")
+    expect(caption.endswith("x over t, not to scale."), f"single: the motion is '{caption}'")
+    places = []
+    slider = "document.querySelector('.motion input[type=range]')"
+    focus(browser, slider)
+    for key in "Home", "End":
+        browser.press(key)
+        places.append(browser.run("document.querySelector('.motion .body').getBBox().x"))
+    expect(places[1] - places[0] > 90, f"single: the point moves from {places[0]} to {places[1]} of 100")
+
+
 def check_without(browser, address, width):
     """Without its script a page has the same tables and figures, and nothing to press."""
     count = "['figcaption strong', '.wide table', '.wide tbody tr', 'h2'].map(what => document.querySelectorAll(what).length)"
@@ -370,7 +416,7 @@ def check_gallery(browser, gallery):
 def main(program, directory, gallery):
     """All checks, in a wide and a narrow window, light and dark."""
     browser = Chromium(program, f"{directory}/profile-script")
-    page = {name: f"file://{directory}/{name}/report/index.html" for name in ("study", "run", "orders")}
+    page = {name: f"file://{directory}/{name}/report/index.html" for name in ("study", "run", "orders", "disk", "single")}
     for width, dark in [(1280, False), (1280, True), (400, False), (400, True)]:
         browser.open(page["study"], width, dark)
         controls = check_names(browser, "study")
@@ -391,6 +437,12 @@ def main(program, directory, gallery):
         check_play(browser, "run", 1)
         check_chart(browser, "run", "Energy")
         check_linked(browser)
+        browser.open(page["disk"], width, dark)
+        controls += check_names(browser, "disk")
+        check_turn(browser)
+        check_layout(browser, "disk")
+        browser.open(page["single"], width, dark)
+        check_single(browser)
         browser.open(page["orders"], width, dark)
         controls += check_names(browser, "orders")
         check_chart(browser, "orders", "Order")

@@ -44,7 +44,7 @@ expect "no drift" test -s "drift--time 200"
 expect "no drift of 0" sh -c "! grep '0\.0e+00' 'drift--steps 4000'"
 expect "another drift" cmp "drift--steps 4000" "drift--time 200"
 
-if needs 18 "no python3" there python3; then
+if needs 25 "no python3" there python3; then
     case_is "the envelopes of a page are the maxima of series/"
     # Of three methods with two steps: D, E, I, H and the error of the sleigh, D, E and I of the
     # vakonomic one, all but D of the line.
@@ -97,7 +97,19 @@ start: {x2: 3, x1'"'"': 1}\n' >pair.yaml
     rm -rf pair
     try 0 run ./pair.yaml --integrator rk4 --step 0.1 --time 2 --output pair
     try 0 report pair
-    expect "a motion without a pair" sh -c "! grep -q '\"motions\"' pair/report/index.html"
+    expect "not the first two coordinates" grep -q '"plane":false,"axes":\["x","z"\],"body":"point"' pair/report/index.html
+    refute "their path is a figure" test -e pair/report/path.gp
+    # x = t^2/2 - t
+    printf "coordinates: [x]\naccelerations: {x: 1}\nstart: {x': -1}\n" >single.yaml
+    try 0 run ./single.yaml --integrator gauss4 --step 0.1 --time 2 --output single
+    try 0 report single
+    python3 "$here/page_data.py" motions single/report/index.html >motion
+    expect "not x over t" awk '($3 - $2)^2 > 1e-8 || ($4 - $2^2/2 + $2)^2 > 1e-6 { wrong = 1 } END { exit wrong || NR < 20 }' motion
+    # max |E - E(0)| is 0 in one curve: the abscissas of a later one are still its own.
+    printf '%s\n' 'coordinates: [x]' 'accelerations: {x: 1}' 'invariants: {a: 0*x, b: x, c: 2*x}' >shared.yaml
+    try 0 run ./shared.yaml --integrator rk4 --step 0.1 --time 2 --output shared
+    try 0 report shared
+    expect "no abscissas of an earlier curve" grep -q '"name":"drift".*"title":"b",[^]]*"x":\[.*"title":"c",[^[]*"x":0,' shared/report/index.html
     counted
 fi
 
