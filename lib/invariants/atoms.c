@@ -153,7 +153,7 @@ static bool is_primary(const char *text)
     return name > 0 && depth == 0;
 }
 
-dal_status dal__search_atoms(dal__search *s, const dal_invariants_settings *settings, bool of_q,
+dal_status dal__search_atoms(dal__search *s, const dal_invariants_settings *settings,
                              dal_error *error)
 {
     const dal__equations *e = &s->model->equations;
@@ -175,11 +175,15 @@ dal_status dal__search_atoms(dal__search *s, const dal_invariants_settings *sett
             add_atom(s, dal__model_print(s->model, is_primary(text) ? "%s" : "(%s)", text), node);
         if (added != DAL_STATUS_OK) return dal__size_error(added, error);
     }
+    return DAL_STATUS_OK;
+}
+
+void dal__search_keep_coordinates(dal__search *s)
+{
     int kept = 0;
     for (int i = 0; i < s->atoms; i++)
-        if (!of_q || s->atom[i].is_of_q) s->atom[kept++] = s->atom[i];
+        if (s->atom[i].is_of_q) s->atom[kept++] = s->atom[i];
     s->atoms = kept;
-    return DAL_STATUS_OK;
 }
 
 dal_status dal__search_products(dal__search *s, dal_error *error)

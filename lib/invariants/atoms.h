@@ -4,11 +4,12 @@
 
 #include "invariants/search.h"
 
-/* Adds the atoms that the equations of motion contain, and the further ones of the settings; of_q:
- * only what depends on coordinates alone.  Memory is the model's.  Errors: as of
- * dal_find_invariants. */
+/* Adds the atoms that the equations of motion contain, and the further ones of the settings.
+ * Memory is the model's.  Errors: as of dal_find_invariants. */
 dal_status dal__search_atoms(dal__search *search, const dal_invariants_settings *settings,
-                             bool of_q, dal_error *error);
+                             dal_error *error);
+/* Removes the atoms that depend on more than coordinates. */
+void dal__search_keep_coordinates(dal__search *search);
 /* Makes their products.  Errors: DAL_STATUS_TOO_LARGE, DAL_STATUS_MEMORY. */
 dal_status dal__search_products(dal__search *search, dal_error *error);
 /* df/dt along the motion; f is a node of the model. */

@@ -159,17 +159,21 @@ static bool adds_direction(gradients *g, const double *row, int *held)
     return true;
 }
 
-static void mark_independent(gradients *g, dal__candidate *candidate, bool of_known)
+/* Of what candidates are to be independent beside the constraints: earlier candidates, or those and
+ * the invariants that are known. */
+typedef enum others { CANDIDATES, KNOWN_TOO } others;
+
+static void mark_independent(gradients *g, dal__candidate *candidate, others of)
 {
     const size_t width = (size_t)g->moving;
     int held = 0;
     for (int i = 0; i < g->constraints; i++) adds_direction(g, g->value + (size_t)i * width, &held);
-    for (int i = g->constraints; of_known && i < g->constraints + g->known; i++)
+    for (int i = g->constraints; of == KNOWN_TOO && i < g->constraints + g->known; i++)
         adds_direction(g, g->value + (size_t)i * width, &held);
     for (int k = 0; k < g->count; k++) {
         const size_t at = (size_t)(g->constraints + g->known + k);
         const bool adds = adds_direction(g, g->value + at * width, &held);
-        bool *const result = of_known ? &candidate[k].is_new : &candidate[k].independent;
+        bool *const result = of == KNOWN_TOO ? &candidate[k].is_new : &candidate[k].independent;
         *result = *result || adds;
     }
 }
@@ -221,8 +225,8 @@ dal_status dal__find_independent(const dal__search *s, dal__candidate *candidate
         status = dal__points_next(points, g.value);
         if (status != DAL_STATUS_OK) break;
         for (size_t k = 0; k < values; k++) g.value[k] *= s->region.reach[g.symbol[k % width]];
-        mark_independent(&g, candidate, false);
-        mark_independent(&g, candidate, true);
+        mark_independent(&g, candidate, CANDIDATES);
+        mark_independent(&g, candidate, KNOWN_TOO);
     }
     dal__points_free(points);
     free(node);

@@ -247,7 +247,8 @@ static dal_status find_measure(dal_invariants *out, const dal__search *search,
                         .region = search->region,
                         .parameter = search->parameter,
                         .degree = search->degree};
-    DAL_TRY(dal__search_atoms(&of_q, settings, true, error));
+    DAL_TRY(dal__search_atoms(&of_q, settings, error));
+    dal__search_keep_coordinates(&of_q);
     DAL_TRY(dal__search_products(&of_q, error));
     for (size_t k = 0; k < sizeof powers / sizeof *powers && out->measures == 0; k++) {
         const dal__condition condition = {.power = powers[k], .has_constants = true};
@@ -269,7 +270,7 @@ static dal_status search_all(dal_invariants *out, dal__search *search, const dal
     double *centre = numbers, *reach = centre + e->symbols, *parameter = reach + e->symbols;
     search->region = (dal__region){centre, reach};
     search->parameter = parameter;
-    dal_status status = dal__search_atoms(search, settings, false, error);
+    dal_status status = dal__search_atoms(search, settings, error);
     if (status == DAL_STATUS_OK) status = dal__search_products(search, error);
     if (status == DAL_STATUS_OK) status = find_region(search, spec, centre, reach, error);
     if (status == DAL_STATUS_OK) {
