@@ -5,7 +5,7 @@
  * Dormand, Prince; Hairer, Norsett, Wanner, Solving ODEs I (1993), II.5, II.10.  Digits as in
  * Hairer's dop853.f and Williams' dop853 (BSD).  Order 8, explicit, twelve evaluations; preserves D
  * with constant coefficients, no other.  With a tolerance the sizes of substeps follow the two
- * estimates of the error in dop853.f; below FINE_853 only the rounding of F is left. */
+ * estimates of the error in dop853.f; below LOW_BELOW_853 only the rounding of F is left. */
 #include <dalembert_kernel.h>
 
 /* clang-format off */
@@ -77,10 +77,10 @@ enum { STAGES_853 = 12 };
 /* Below this tolerance the rounding of coefficients and of y counts: stages begin from y + r, and
  * coefficients have the digits of two doubles.  What is left then is the rounding of F. */
 #if DAL_WITH(CONTROL)
-#define FINE_853       1e-14
-#define IS_FINE_853(s) (DAL_CONTROLLED(s) && DAL_TOLERANCE(s) < FINE_853)
+#define LOW_BELOW_853   1e-14
+#define USES_LOW_853(s) (DAL_CONTROLLED(s) && DAL_TOLERANCE(s) < LOW_BELOW_853)
 #else
-#define IS_FINE_853(s) 0
+#define USES_LOW_853(s) 0
 #endif
 
 /* out += weight_1 k_1 + .. + weight_count k_count */
@@ -94,30 +94,30 @@ DAL_INLINE void add_derivatives(int dim, int count, const double *weight, const 
 }
 
 /* sum = weight_1 k_1 + .. + weight_count k_count, the digits after the doubles first. */
-DAL_INLINE void combine(int dim, int count, const double *weight, const double *low, int is_fine,
+DAL_INLINE void combine(int dim, int count, const double *weight, const double *low, int uses_low,
                         const num *k, num *DAL_RESTRICT sum)
 {
     DAL_EACH(l, dim) sum[l] = dal_num(0.0);
-    if (is_fine) add_derivatives(dim, count, low, k, sum);
+    if (uses_low) add_derivatives(dim, count, low, k, sum);
     add_derivatives(dim, count, weight, k, sum);
 }
 
 /* All k_i of a step from t but the first ones that are `known`, and the sum of b_i k_i. */
 DAL_INLINE void derivatives(dal_step *s, dal_times t, dal_times size, int known, num *k, num *sum)
 {
-    const int dim = DAL_DIM(s), is_fine = IS_FINE_853(s);
+    const int dim = DAL_DIM(s), uses_low = USES_LOW_853(s);
     const num h = size;
     DAL_EACH(before, STAGES_853) {
         if (before < known) continue;
         const int i = before + 1;
-        combine(dim, before, a853 + ROW_853(i), a853_low + ROW_853(i), is_fine, k, sum);
-        if (is_fine)
+        combine(dim, before, a853 + ROW_853(i), a853_low + ROW_853(i), uses_low, k, sum);
+        if (uses_low)
             DAL_EACH(l, dim) sum[l] = s->y[l] + dal_fma(h, sum[l], s->r[l]);
         else
             DAL_EACH(l, dim) sum[l] = dal_fma(h, sum[l], s->y[l]);
         dal_field_at(s, t + c853[i - 1] * size, sum, K_853(k, dim, i));
     }
-    combine(dim, STAGES_853, b853, b853_low, is_fine, k, sum);
+    combine(dim, STAGES_853, b853, b853_low, uses_low, k, sum);
 }
 
 #if DAL_WITH(CONTROL)

@@ -101,14 +101,14 @@ typedef void dal_matrix(dal_step *step, dal_equation *equation);
 #define DAL_SIZE(b) ((b)->size)
 #endif
 
-/* Declares a block of count unknowns with its memory; newton: with an inverse.  Its members have no
- * names here, since generated files are C++17, too. */
-#define DAL_BLOCK(step, name, count, newton)                                                       \
+/* Declares a block of count unknowns with its memory; has_inverse: also for the inverse of Newton's
+ * matrix.  Its members have no names here, since generated files are C++17, too. */
+#define DAL_BLOCK(step, name, count, has_inverse)                                                  \
     DAL_VECTOR(step, name##_u, count);                                                             \
     DAL_VECTOR(step, name##_image, count);                                                         \
     DAL_VECTOR(step, name##_start, count);                                                         \
-    DAL_VECTOR(step, name##_inverse, (newton) ? DAL_PER_GROUP((count) * (count)) : 0);             \
-    DAL_VECTOR(step, name##_scratch, (newton) ? 3 * (count) : 0);                                  \
+    DAL_VECTOR(step, name##_inverse, (has_inverse) ? DAL_PER_GROUP((count) * (count)) : 0);        \
+    DAL_VECTOR(step, name##_scratch, (has_inverse) ? 3 * (count) : 0);                             \
     dal_block name = {                                                                             \
         {{dal_num(0.0), dal_num(0.0), dal_num(0.0), dal_num(0.0), dal_num(0.0), dal_num(0.0)}},    \
         1.0,                                                                                       \
