@@ -337,8 +337,8 @@ trends: $(BUILD)/tests/suite
 # VALGRIND_SUITES suites at a time; those that take longest come first, each by itself, so that no processor
 # waits for one of them at the end.
 VALGRIND_SUITES  ?= 8
-VALGRIND_LONGEST = integrators phase_composition event_branches model_errors trend conformance error_budget batch \
-                   adaptive functions generate_native
+VALGRIND_LONGEST = integrators error_budget rank_check phase_volume trend batch conformance model_errors event_branches \
+                   adaptive generate_native example_systems phase_composition functions formula
 check-valgrind: CHOSEN = $(or $(SUITE),$(SUITES))
 check-valgrind: $(BUILD)/tests/suite
 	@BUILD="$(BUILD)" RUN_SUITE="sh tests/valgrind.sh" SUITE_OPTIONS=--quick sh tests/run.sh "$(MAKE)" \
