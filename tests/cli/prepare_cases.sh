@@ -19,8 +19,14 @@ cat >apt/bin/npm <<'NPM'
 echo "npm $*" >>"$REGISTRY/log"
 [ -e "$REGISTRY/package.tgz" ] && cp "$REGISTRY/package.tgz" uplot-1.6.32.tgz
 NPM
+cat >apt/bin/wget <<'WGET'
+#!/bin/sh
+echo "wget $*" >>"$REGISTRY/log"
+while [ $# -gt 1 ] && [ "$1" != -O ]; do shift; done
+[ -e "$REGISTRY/elsewhere.tgz" ] && cp "$REGISTRY/elsewhere.tgz" "$2"
+WGET
 printf '#!/bin/sh\ncat >/dev/null\n[ -e "$REGISTRY/right" ]\n' >apt/bin/sha256sum
-chmod +x apt/bin/npm apt/bin/sha256sum
+chmod +x apt/bin/npm apt/bin/wget apt/bin/sha256sum
 mkdir -p apt/package/dist
 for part in dist/uPlot.iife.min.js dist/uPlot.min.css LICENSE; do echo "$part" >apt/package/$part; done
 tar -czf apt/package.tgz -C apt package
@@ -52,6 +58,14 @@ expect "no version" grep -qx 'npm pack --silent uplot@1\.6\.32' apt/log
 rm apt/log
 expect "it fails the second time" prepares charts
 refute "it downloads a second time, or calls apt" test -e apt/log
+case_is "the library of charts where npm fails"
+rm -r apt/uplot
+mv apt/package.tgz apt/elsewhere.tgz
+expect "it fails" prepares charts
+expect "neither npm nor wget is called" [ "$(cut -d " " -f 1 apt/log | tr "\n" " ")" = "npm wget " ]
+mv apt/elsewhere.tgz apt/package.tgz
+
+case_is "the library of charts is not there, or another"
 rm -r apt/right apt/uplot
 refute "other bytes are installed" prepares charts
 says 'uplot@1\.6\.32 has another checksum than [0-9a-f]+$'
@@ -59,4 +73,9 @@ refute "other bytes are there" test -e apt/uplot
 rm apt/package.tgz
 refute "nothing is installed" prepares charts
 says 'cannot download uplot@1\.6\.32$'
+printf '#!/bin/sh\nexit 0\n' >apt/bin/apt-get
+prepares_in() { (export CI="$1"; prepares lint); }
+expect "the rest is not installed" prepares_in ""
+says 'tables without charts; later: sh tools/prepare\.sh charts$'
+refute "the continuous check goes on without charts" prepares_in true
 rm -rf apt
