@@ -15,6 +15,7 @@
 #     make check-browser    the report's pages in headless Chromium; a part of check
 #     make check-dist       the tarball: it builds, passes a part of its tests and installs
 #     make check-packages   the packages of debian/: they build, satisfy lintian and work in a new Debian
+#     make check-cross      for aarch64 by Debian's compiler: every method and some suites under qemu-user
 #     make check-kill       runs killed at KILLS random moments and resumed
 #     make check-bits       generated code against the interpreter, all cases, hours; BITS_JOBS at a time
 #     make units            every built-in system in the units drawn by UNITS (1 2 3 4)
@@ -312,6 +313,12 @@ check-dist:
 check-packages:
 	@sh tests/packages.sh "$(MAKE)" $(BUILD)
 
+# Nor is this: everything for aarch64, under qemu-user.  SUITE names other suites.
+CROSS_SUITES = algebra checkpoints closed_forms decimal elementary end_states generate_native literature parameter_bits \
+               quad restricted run tape taylor
+check-cross: all
+	@CC="$(CC)" CFLAGS="$(CFLAGS)" SUITES="$(or $(SUITE),$(CROSS_SUITES))" sh tests/cross.sh "$(MAKE)" $(BUILD)
+
 KILLS ?= 1000
 check-kill: all
 	@CALLS=1 KILLS=$(KILLS) sh tests/cli/run.sh $(PROGRAM) kill
@@ -413,7 +420,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all help check check-bits check-browser check-dist check-packages check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers $(FUZZERS:%=run-%) gallery references lint mutants trends units install uninstall clean FORCE mpi
+.PHONY: all help check check-bits check-browser check-cross check-dist check-packages check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers $(FUZZERS:%=run-%) gallery references lint mutants trends units install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

@@ -1,8 +1,9 @@
 #!/bin/sh
-# prepare.sh [lint|bench|packages|charts] - installs, on Debian, the packages that building and testing need, with
+# prepare.sh [lint|bench|packages|cross|charts] - installs, on Debian, the packages that building and testing need, with
 # `lint` also what the whole continuous check needs, with `bench` also the libraries that `make
-# bench` compares with, with `packages` also what `make check-packages` needs; and uPlot, the library of
-# the charts of pages, from the npm registry, with `charts` that alone.  Does nothing when all are there.
+# bench` compares with, with `packages` or `cross` also what `make check-packages` or `make check-cross` needs; and
+# uPlot, the library of the charts of pages, from the npm registry, with `charts` that alone.  Does nothing when all are
+# there.
 set -e
 # A package of the registry has the same bytes for ever.
 uplot=1.6.32
@@ -54,6 +55,9 @@ if [ "$1" = bench ]; then
 fi
 if [ "$1" = packages ]; then
     packages="$packages debhelper dh-python dpkg-dev lintian mmdebstrap pybuild-plugin-pyproject python3-all-dev"
+fi
+if [ "$1" = cross ]; then
+    packages="$packages gcc-aarch64-linux-gnu libc6-dev-arm64-cross mmdebstrap qemu-user"
 fi
 has_charts || command -v npm >/dev/null 2>&1 || packages="$packages ca-certificates wget"
 missing=
