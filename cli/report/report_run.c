@@ -16,6 +16,7 @@
 #include "report_plot.h"
 #include "report_rows.h"
 #include "report_system.h"
+#include "run/checkpoint.h"
 #include "run/columns.h"
 #include "run/manifest.h"
 #include "run/request_command.h"
@@ -78,6 +79,7 @@ typedef struct run_page {
     dal_model *model;
     trajectory_reader reader;
     csv_table summary;        /* no rows unless the run is over */
+    dal_statistics *steps;    /* [summary.rows - 1] of all steps, or NULL */
     const dal_system *system; /* where the run has not all columns; otherwise NULL */
     run_column *column;       /* [columns of the reader] */
     report_events events;
@@ -239,6 +241,30 @@ static void add_row(run_page *run, long long k)
     if (has_envelope) run->envelope_time = passed;
 }
 
+/* Of many more steps than rows the rows show what happens to be at them: a band has the least and
+ * the greatest value of all steps, in up to 64 parts of the time.  Whether it is drawn. */
+static bool draw_steps(const run_page *run, run_column *c, const char *name)
+{
+    report_plot band = run->plot[c->group];
+    const dal_statistics *s = NULL;
+    for (int row = 1; row < run->summary.rows && run->steps; row++)
+        if (csv_table_is(&run->summary, row, "observable", name)) s = &run->steps[row - 1];
+    if (!s || s->blocks < 2 || s->count <= 4 * run->reader.count) return false;
+    const bool is_change = c->group != GROUP_D && c->group != GROUP_ERROR;
+    const double first = is_change ? c->first : 0.0;
+    for (long long k = 0; k < s->blocks; k++) {
+        const dal_statistics_block *b = &s->block[k];
+        const double low = b->min - first, high = b->max - first;
+        if (k == 0) report_band(&band, c->curve, s->from, low, high);
+        report_band(&band, c->curve, b->t, low, high);
+        if (k == s->blocks - 1) report_band(&band, c->curve, s->to, low, high);
+    }
+    c->max_abs = fmax(c->max_abs, c->curve->max_abs);
+    c->curve->is_band = true;
+    snprintf(c->curve->note, sizeof c->curve->note, " (%.3g steps)", (double)s->count);
+    return true;
+}
+
 static int draw_figures(run_page *run)
 {
     report *r = run->r;
@@ -260,7 +286,10 @@ static int draw_figures(run_page *run)
         is_sparse |= row_distance_is_sparse(&run->column[i].distance);
     for (int i = 1; i < run->reader.columns; i++) {
         run_column *c = &run->column[i];
-        if (c->series) row_series_draw(c->series, &run->plot[c->group], c->curve, is_sparse);
+        const bool is_observable =
+            c->group >= GROUP_D && c->group != GROUP_REACTIONS && c->group != GROUP_OBSERVED;
+        if (c->series && !(is_observable && draw_steps(run, c, run->reader.name[i])))
+            row_series_draw(c->series, &run->plot[c->group], c->curve, is_sparse);
         if (c->envelope) report_title_envelope(c->envelope);
         /* A sentence about all values needs all columns and all rows; figures leave some out. */
         if (c->group != NO_GROUP && c->max_abs != 0.0) run->plot[c->group].zero_text = NULL;
@@ -471,6 +500,15 @@ static void write_head(const run_page *run, const document *manifest)
     }
 }
 
+static void read_step_statistics(run_page *run, const run_directory *dir)
+{
+    const int count = run->summary.rows - 1;
+    run->steps = count > 0 ? cli_calloc((size_t)count, sizeof *run->steps) : NULL;
+    if (run->steps && checkpoint_read_statistics(dir, run->steps, count)) return;
+    free(run->steps);
+    run->steps = NULL;
+}
+
 int report_run(report *r)
 {
     run_directory dir = {.descriptor = -1};
@@ -500,6 +538,7 @@ int report_run(report *r)
         status = csv_table_read(&run->summary, summary);
     if (status == CLI_DONE && run->summary.rows > 0)
         status = csv_table_require(&run->summary, summary, "trend");
+    if (status == CLI_DONE) read_step_statistics(run, &dir);
     if (status == CLI_DONE) {
         report_title(r, report_model_title(simulation.model, "A run"));
         const double last = reader_peek_last(&run->reader) ? run->reader.row[0] : NAN;
@@ -520,6 +559,7 @@ int report_run(report *r)
     csv_table_free(&run->summary);
     report_events_free(&run->events);
     free(run->drift_caption);
+    free(run->steps);
     free(run->column);
     free(run);
     free(summary);

@@ -245,3 +245,30 @@ int checkpoint_load(const run_directory *dir, const trajectory_writer *writer,
     if (has_newer) cli_note("%s is read instead", dir->before);
     return load_file(dir, dir->before, writer, position, run, statistics, count);
 }
+
+bool checkpoint_read_statistics(const run_directory *dir, dal_statistics *statistics, int count)
+{
+    size_t length;
+    uint64_t sum;
+    checkpoint_header h;
+    unsigned char *bytes =
+        file_exists(dir->checkpoint) ? (unsigned char *)file_read(dir->checkpoint, &length) : NULL;
+    bool is_good = bytes && length % WORD == 0 && length >= (HEADER_WORDS + 1) * WORD;
+    if (is_good) {
+        const size_t words = length / WORD - 1, body = words - HEADER_WORDS;
+        copy_words(&h, bytes, HEADER_WORDS);
+        copy_words(&sum, bytes + words * WORD, 1);
+        is_good = h.magic == magic && sum == dal__hash(DAL__HASH_START, bytes, words * WORD) &&
+                  h.fingerprint == dir->fingerprint && h.layout == DAL_STATISTICS_LAYOUT &&
+                  h.words == STATISTICS_WORDS && h.statistics == (uint64_t)count &&
+                  h.state <= body && body - h.state == h.statistics * h.words;
+    }
+    for (int i = 0; i < count && is_good; i++) {
+        copy_words(&statistics[i],
+                   bytes + (HEADER_WORDS + h.state + (size_t)i * STATISTICS_WORDS) * WORD,
+                   STATISTICS_WORDS);
+        is_good = can_be_statistics(&statistics[i]);
+    }
+    free(bytes);
+    return is_good;
+}

@@ -314,6 +314,21 @@ expect "no line through rows close together" grep -q 'curve2 using 1:2 with line
 expect "a path through rows far apart" grep -q 'curve1 using 1:2 with points' few/report/path.gp
 expect "no path through rows close together" grep -q 'curve1 using 1:2 with lines' enough/report/path.gp
 
+# x = cos t has the value 1 at the rows, a period apart, and goes from -1 to 1 between them.
+case_is "all steps of a run with few rows"
+printf '%s\n' 'coordinates: [x]' "lagrangian: x'^2/2 - x^2/2" 'start: {x: 1}' 'invariants: {c: x}' >aliased.yaml
+try 0 run aliased.yaml --integrator gauss8 --step 0.019634954084936207 --time 628.3185307179587 --samples 10 \
+    --space physical --output aliased
+try 0 report aliased
+expect "the band is not from -2 to 0" sh -c "sed -n '/curve1 <</,/^END/p' aliased/report/I.gp | awk -F, 'NF == 3 {
+    n++; if (\$2 < -2.0001 || \$2 > -1.999 || \$3 < -0.001 || \$3 > 0.0001) bad++; if (n == 1 && \$1 != 0) bad++; last = \$1 }
+    END { exit bad || n < 20 || last < 628 || last > 629 }'"
+expect "no number of steps" grep -q "title 'c (3.2e+04 steps)'" aliased/report/I.gp
+printf x >>aliased/checkpoint
+try 0 report aliased
+silent
+refute "a band by a damaged checkpoint" grep -q filledcurves aliased/report/I.gp
+
 case_is "of many methods one of each family"
 cat >families.yaml <<'END_OF_STUDY'
 integrators: [symplectic-euler-10, stormer-verlet, dop853, rk4, gauss6, gauss4, spark2, dla, gni,
