@@ -111,9 +111,9 @@ static uint8_t *between(dal__graph *graph, dal__node f, const int *symbols, int 
 {
     uint8_t *mark = dal__reach(graph, f);
     if (!mark) return NULL;
-    for (dal__node i = 1; i <= f; i++) {
+    for (dal__node i = dal__first_marked(mark, 1, f); i > 0;
+         i = dal__first_marked(mark, i + 1, f)) {
         const dal__record *r = &graph->node[i];
-        if (!mark[i]) continue;
         const bool condition = r->op == DAL__IF;
         mark[i] = r->op == DAL__SYMBOL ? position(symbols, count, r->symbol) < count
                   : is_step(r)         ? 0
@@ -126,8 +126,8 @@ static uint8_t *between(dal__graph *graph, dal__node f, const int *symbols, int 
 static void reverse(dal__graph *graph, dal__node f, const uint8_t *active, dal__node *adjoint)
 {
     adjoint[f] = number(graph, 1.0);
-    for (dal__node i = f; i > 0; i--) {
-        if (!active[i] || !adjoint[i] || graph->node[i].op == DAL__SYMBOL) continue;
+    for (dal__node i = dal__last_marked(active, f); i > 0; i = dal__last_marked(active, i - 1)) {
+        if (!adjoint[i] || graph->node[i].op == DAL__SYMBOL) continue;
         if (is_branch(&graph->node[i])) continue;
         dal__node operand[2] = {graph->node[i].a, graph->node[i].b};
         for (int k = 0; k < 2; k++) {
@@ -193,8 +193,9 @@ void dal__gradient(dal__graph *graph, dal__node f, const int *symbols, int count
     uint8_t *active = between(graph, f, symbols, count);
     sweep s = {.symbols = symbols, .count = count, .active = active};
     dal__node branches = 0, *memory = NULL;
-    for (dal__node i = 1; active && i <= f; i++)
-        branches += active[i] && is_branch(&graph->node[i]);
+    for (dal__node i = active ? dal__first_marked(active, 1, f) : 0; i > 0;
+         i = dal__first_marked(active, i + 1, f))
+        branches += is_branch(&graph->node[i]);
     const size_t width = 1 + (size_t)count, numbers = (size_t)branches * width + 3 * width;
     if (branches) memory = calloc(numbers, sizeof *memory);
     if (branches && !memory) graph->status = DAL_STATUS_MEMORY;

@@ -70,10 +70,11 @@ static const struct {
 /* What is known while a tape is converted. */
 typedef struct conversion {
     dal__taylor *taylor;
-    int first;       /* number of the first operation of this tape */
-    uint32_t *slot;  /* [workspace] the operand that is in a place of work now */
-    uint32_t *depth; /* [slots] operations of the same order that must precede the series' own */
-    uint32_t *turn;  /* [slots] of a coordinate's sine or cosine: 1 + number of its operation */
+    int first;        /* number of the first operation of this tape */
+    uint32_t *slot;   /* [workspace] the operand that is in a place of work now */
+    uint32_t *depth;  /* [slots] operations of the same order that must precede the series' own */
+    uint32_t *latest; /* [slots] 1 + number of the last sum of it with an earlier slot, or 0 */
+    uint32_t *turn;   /* [slots] of a coordinate's sine or cosine: 1 + number of its operation */
 } conversion;
 
 static dal__taylor_operation *append_operation(const conversion *c, dal__taylor_operation own)
@@ -112,15 +113,18 @@ static uint32_t slope(const conversion *c, uint32_t a)
 
 /* The number of the inner sum of a and b; DAL__TAYLOR_CONSTANT where one of them is constant along
  * a run, so that no sum is needed. */
-static uint32_t find_sum(dal__taylor *taylor, uint32_t a, uint32_t b)
+static uint32_t find_sum(const conversion *c, uint32_t a, uint32_t b)
 {
+    dal__taylor *taylor = c->taylor;
     if (dal__is_constant(a) || dal__is_constant(b)) return DAL__TAYLOR_CONSTANT;
-    for (int k = 0; k < taylor->sums; k++) {
-        const dal__taylor_sum *sum = &taylor->sum[k];
-        if ((sum->a == a && sum->b == b) || (sum->a == b && sum->b == a)) return (uint32_t)k;
+    uint32_t *const latest = &c->latest[a > b ? a : b];
+    for (uint32_t k = *latest; k > 0; k = taylor->sum[k - 1].next) {
+        const dal__taylor_sum *sum = &taylor->sum[k - 1];
+        if ((sum->a == a && sum->b == b) || (sum->a == b && sum->b == a)) return k - 1;
     }
-    taylor->sum[taylor->sums] = (dal__taylor_sum){.a = a, .b = b};
-    return (uint32_t)taylor->sums++;
+    taylor->sum[taylor->sums] = (dal__taylor_sum){.a = a, .b = b, .next = *latest};
+    *latest = (uint32_t)++taylor->sums;
+    return *latest - 1;
 }
 
 /* One of the series of an operation, or a constant: for NONE, and for the slope of a constant. */
@@ -140,8 +144,7 @@ static dal__taylor_operation *append_recurrence(const conversion *c, dal__taylor
         if (pair[j][0] < SLOPE_U) series_of(c, &own, pair[j][0]);
     dal__taylor_operation *i = append_operation(c, own);
     for (int j = 0; j < DAL__TAYLOR_SUMS && pair[j][0]; j++)
-        i->sum[i->sums++] =
-            find_sum(c->taylor, series_of(c, i, pair[j][0]), series_of(c, i, pair[j][1]));
+        i->sum[i->sums++] = find_sum(c, series_of(c, i, pair[j][0]), series_of(c, i, pair[j][1]));
     return i;
 }
 
@@ -283,17 +286,23 @@ dal_status dal__taylor_add(dal__taylor *taylor, const dal__tapes *tapes, int pro
                           .first = taylor->length,
                           .slot = calloc(tapes->workspace + 1, sizeof *c.slot),
                           .depth = calloc(slots, sizeof *c.depth),
+                          .latest = calloc(slots, sizeof *c.latest),
                           .turn = calloc(slots, sizeof *c.turn)};
     bool *needed = calloc(slots, sizeof *needed);
-    const bool good = c.slot && c.depth && c.turn && needed && reserve(taylor, tape);
+    const bool good = c.slot && c.depth && c.latest && c.turn && needed && reserve(taylor, tape);
     if (good) {
         for (size_t i = 0; i < tapes->first_input; i++)
             c.slot[i] = DAL__TAYLOR_CONSTANT | (uint32_t)i;
+        for (int k = 0; k < taylor->sums; k++) {
+            const dal__taylor_sum *sum = &taylor->sum[k];
+            c.latest[sum->a > sum->b ? sum->a : sum->b] = (uint32_t)k + 1;
+        }
         for (int i = 0; i < taylor->inputs; i++) c.slot[places[i]] = (uint32_t)i;
         convert_tape(&c, tape, count, needed);
     }
     free(c.slot);
     free(c.depth);
+    free(c.latest);
     free(c.turn);
     free(needed);
     return good ? DAL_STATUS_OK : DAL_STATUS_MEMORY;

@@ -41,7 +41,8 @@ typedef struct dal__taylor_operation {
 /* sum_(j=1..k-1) a_j b_(k-j) of two slots. */
 typedef struct dal__taylor_sum {
     uint32_t a, b;
-    bool needed; /* beyond order 0 */
+    bool needed;   /* beyond order 0 */
+    uint32_t next; /* 1 + number of an earlier sum with the same later slot; 0: none */
 } dal__taylor_sum;
 
 typedef struct dal__taylor {

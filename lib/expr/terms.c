@@ -43,9 +43,9 @@ static void copy_nodes(terms_formula *f, const dal__graph *graph, dal__node last
                        const uint8_t *mark, int *image)
 {
     f->places = 1;
-    for (dal__node i = 1; i <= last; i++) {
+    for (dal__node i = dal__first_marked(mark, 1, last); i > 0;
+         i = dal__first_marked(mark, i + 1, last)) {
         dal__record r = dal__inspect(graph, i);
-        if (!mark[i]) continue;
         r.a = image[r.a];
         r.b = image[r.b];
         r.c = image[r.c];
@@ -59,7 +59,7 @@ static bool copy_formula(terms_formula *f, dal__graph *graph, dal__node node)
     uint8_t *mark = dal__reach(graph, node);
     int *image = dal__per_node(graph, node, sizeof *image);
     size_t count = 1;
-    for (dal__node i = 1; mark && i <= node; i++) count += mark[i] != 0;
+    for (dal__node i = mark ? node : 0; i > 0; i = dal__last_marked(mark, i - 1)) count++;
     f->place = calloc(count, sizeof *f->place);
     const bool made = mark && image && f->place;
     if (made) copy_nodes(f, graph, node, mark, image);

@@ -7,6 +7,29 @@
 #include "expr/table.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+/* Whether 8 nodes from i on are all unmarked. */
+static bool are_unmarked(const uint8_t *mark, dal__node i)
+{
+    uint64_t word;
+    memcpy(&word, mark + i, sizeof word);
+    return word == 0;
+}
+
+dal__node dal__last_marked(const uint8_t *mark, dal__node i)
+{
+    while (i > 8 && are_unmarked(mark, i - 7)) i -= 8;
+    while (i > 0 && !mark[i]) i--;
+    return i;
+}
+
+dal__node dal__first_marked(const uint8_t *mark, dal__node i, dal__node last)
+{
+    while (i + 7 <= last && are_unmarked(mark, i)) i += 8;
+    while (i <= last && !mark[i]) i++;
+    return i <= last ? i : 0;
+}
 
 uint8_t *dal__reach_all(dal__graph *graph, const dal__node *nodes, int count)
 {
@@ -15,8 +38,7 @@ uint8_t *dal__reach_all(dal__graph *graph, const dal__node *nodes, int count)
     uint8_t *mark = dal__per_node(graph, last, 1);
     if (!mark) return NULL;
     for (int k = 0; k < count; k++) mark[nodes[k]] = 1;
-    for (dal__node i = last; i > 0; i--) {
-        if (!mark[i]) continue;
+    for (dal__node i = dal__last_marked(mark, last); i > 0; i = dal__last_marked(mark, i - 1)) {
         const dal__record *r = &graph->node[i];
         mark[r->a] = mark[r->b] = mark[r->c] = 1;
     }
@@ -32,9 +54,9 @@ bool dal__depends(dal__graph *graph, dal__node node, int first, int end)
     uint8_t *mark = dal__reach(graph, node);
     if (!mark) return true;
     bool found = false;
-    for (dal__node i = node; i > 0 && !found; i--) {
+    for (dal__node i = node; i > 0 && !found; i = dal__last_marked(mark, i - 1)) {
         const dal__record *r = &graph->node[i];
-        found = mark[i] && r->op == DAL__SYMBOL && r->symbol >= first && r->symbol < end;
+        found = r->op == DAL__SYMBOL && r->symbol >= first && r->symbol < end;
     }
     free(mark);
     return found;
@@ -44,8 +66,8 @@ bool dal__reaches(dal__graph *graph, dal__node node, uint64_t operations)
 {
     uint8_t *mark = dal__reach(graph, node);
     bool found = !mark;
-    for (dal__node i = node; i > 0 && !found; i--)
-        found = mark[i] && !graph->node[i].fixed && operations >> graph->node[i].op & 1;
+    for (dal__node i = node; i > 0 && !found; i = dal__last_marked(mark, i - 1))
+        found = !graph->node[i].fixed && operations >> graph->node[i].op & 1;
     free(mark);
     return found;
 }
@@ -67,25 +89,33 @@ dal__lowered dal__lower(const dal__graph *graph, dal__node node)
     return (dal__lowered){op, product->a, product->b, later ? r->a : r->b};
 }
 
-double dal__evaluate(dal__graph *graph, dal__node node, const double *values)
+bool dal__evaluate_all(dal__graph *graph, const dal__node *nodes, int count, const double *values,
+                       double *out)
 {
-    uint8_t *mark = dal__reach(graph, node);
-    double *x = dal__per_node(graph, node, sizeof *x), value = NAN;
-    if (mark && x) {
-        x[0] = NAN;
-        for (dal__node i = 1; i <= node; i++) {
-            const dal__record *r = &graph->node[i];
-            const dal__lowered l = dal__lower(graph, i);
-            if (!mark[i]) continue;
-            x[i] = r->op == DAL__NUMBER   ? r->value
-                   : r->op == DAL__SYMBOL ? values[r->symbol]
-                   : r->op == DAL__TABLE  ? dal__table_value(graph->tables, r->symbol, x[r->a])
-                                          : dal__operate(l.op, x[l.a], x[l.b], x[l.c]);
-        }
-        value = x[node];
+    dal__node last = 0;
+    for (int k = 0; k < count; k++) last = nodes[k] > last ? nodes[k] : last;
+    uint8_t *mark = dal__reach_all(graph, nodes, count);
+    double *x = dal__per_node(graph, last, sizeof *x);
+    const bool in_memory = mark && x;
+    for (dal__node i = in_memory ? dal__first_marked(mark, 1, last) : 0; i > 0;
+         i = dal__first_marked(mark, i + 1, last)) {
+        const dal__record *r = &graph->node[i];
+        const dal__lowered l = dal__lower(graph, i);
+        x[i] = r->op == DAL__NUMBER   ? r->value
+               : r->op == DAL__SYMBOL ? values[r->symbol]
+               : r->op == DAL__TABLE  ? dal__table_value(graph->tables, r->symbol, x[r->a])
+                                      : dal__operate(l.op, x[l.a], x[l.b], x[l.c]);
     }
+    for (int k = 0; k < count; k++) out[k] = in_memory && nodes[k] ? x[nodes[k]] : NAN;
     free(mark);
     free(x);
+    return in_memory;
+}
+
+double dal__evaluate(dal__graph *graph, dal__node node, const double *values)
+{
+    double value;
+    dal__evaluate_all(graph, &node, 1, values, &value);
     return value;
 }
 

@@ -9,6 +9,10 @@
 uint8_t *dal__reach(dal__graph *graph, dal__node node);
 /* The same of several nodes, up to the last of them. [alloc] */
 uint8_t *dal__reach_all(dal__graph *graph, const dal__node *nodes, int count);
+/* The last marked node up to i, the first from i to last; 0 where there is none.  Most nodes of a
+ * large graph are not reached from one of them. */
+dal__node dal__last_marked(const uint8_t *mark, dal__node i);
+dal__node dal__first_marked(const uint8_t *mark, dal__node i, dal__node last);
 /* Whether node depends on a symbol with first <= symbol < end; true when memory is out, as
  * above. */
 bool dal__depends(dal__graph *graph, dal__node node, int first, int end);
@@ -38,6 +42,9 @@ dal__lowered dal__lower(const dal__graph *graph, dal__node node);
 /* The value of a node; values[symbol].  Slow, for single values (pivots, starts); NaN when memory
  * is out, as above. [alloc] */
 double dal__evaluate(dal__graph *graph, dal__node node, const double *values);
+/* The same of several nodes, out[count], in one sweep.  False: out of memory, as above. [alloc] */
+bool dal__evaluate_all(dal__graph *graph, const dal__node *nodes, int count, const double *values,
+                       double *out);
 
 /* Node i again, with each operand x replaced by image[x]. */
 dal__node dal__rebuild(dal__graph *graph, dal__node i, const dal__node *image);
