@@ -24,6 +24,10 @@ typedef struct chain {
 /* Constraints of disjoint neighbours. */
 static const chain disjoint[] = {{256, WIDTH, 0.0}, {512, WIDTH, 0.0}, {1024, WIDTH, 0.0}};
 
+/* Constraints that share coordinates, a mass matrix that couples neighbours, and both. */
+static const chain coupled[] = {
+    {256, 2, 0.0}, {512, 2, 0.0}, {256, WIDTH, 0.2}, {512, WIDTH, 0.2}, {128, 2, 0.2}};
+
 static int constraints(const chain *c) { return (c->n - WIDTH) / c->stride + 1; }
 
 /* The model, to be freed, and its system. */
@@ -125,16 +129,20 @@ static double defect(const chain *c, const double *x, const double *v)
     return worst / largest;
 }
 
-/* A point of no particular kind. */
-static void irregular(int n, double *x, double *v)
+/* A point of no particular kind; or one where of the coefficients of each constraint, or of each
+ * other one, two are 0, which a pivot must not be. */
+static void choose_point(int n, bool is_regular, double *x, double *v)
 {
     for (int i = 0; i < n; i++) {
         x[i] = 0.7 * cos(1.0 + 3.0 * i);
         v[i] = 0.9 * sin(2.0 + 5.0 * i);
+        if (is_regular) continue;
+        if (i % WIDTH == 1) x[i] = acos(0.0);
+        if (i % WIDTH == 2) x[i] = 0.0;
     }
 }
 
-static void check_equations(const chain *c)
+static void check_equations(const chain *c, bool is_regular)
 {
     static double x[MAX_N], v[MAX_N], F[MAX_N];
     const dal_system *system;
@@ -143,7 +151,7 @@ static void check_equations(const chain *c)
     double *h = calloc((size_t)m * (1 + (size_t)c->n), sizeof *h);
     CU_ASSERT_PTR_NOT_NULL_FATAL(h);
     dal_evaluator *evaluator = fixture_evaluator(system);
-    irregular(c->n, x, v);
+    choose_point(c->n, is_regular, x, v);
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.field, 0.0, x, v, NULL, F),
                     DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->reactions, 0.0, x, v, NULL, h),
@@ -160,7 +168,7 @@ static void check_equations(const chain *c)
 static void check_steps(const chain *c, const char *method)
 {
     enum { STEPS = 3, STARTS = 16 };
-    static char name[STARTS][8];
+    static char name[STARTS][16];
     const dal_system *system;
     dal_model *model = make(c, &system);
     dal_setting start[STARTS];
@@ -181,13 +189,22 @@ static void check_steps(const chain *c, const char *method)
 
 static void test_equations(void)
 {
-    for (size_t k = 0; k < sizeof disjoint / sizeof *disjoint; k++) check_equations(&disjoint[k]);
+    for (size_t k = 0; k < sizeof disjoint / sizeof *disjoint; k++)
+        check_equations(&disjoint[k], true);
+    for (size_t k = 0; k < sizeof coupled / sizeof *coupled; k++) {
+        check_equations(&coupled[k], true);
+        if (coupled[k].n <= 256) check_equations(&coupled[k], false);
+    }
 }
 
 static void test_steps(void)
 {
     static const char *const methods[] = {"rk4+project", "gni"};
-    for (int k = 0; k < 2; k++) check_steps(&disjoint[0], methods[k]);
+    for (int k = 0; k < 2; k++) {
+        check_steps(&disjoint[0], methods[k]);
+        check_steps(&coupled[0], methods[k]);
+        check_steps(&coupled[2], methods[k]);
+    }
 }
 
 /* ---- growth ---- */
@@ -207,6 +224,19 @@ static void test_nodes(void)
 {
     const int at_128 = nodes(128), at_256 = nodes(256), at_512 = nodes(512);
     CU_ASSERT((at_512 - at_256) / 2 < 1.05 * (at_256 - at_128));
+}
+
+/* Numbers of a workspace, and the bound of what the rank check compares, grow with n. */
+static void test_workspace(void)
+{
+    for (size_t k = 0; k < 2; k++) {
+        const dal_system *system;
+        dal_model *model = make(&coupled[k], &system);
+        CU_ASSERT(system->workspace < 64 * (size_t)coupled[k].n);
+        CU_ASSERT(system->pivots > 0);
+        CU_ASSERT(system->pivots <= system->m);
+        dal_model_free(model);
+    }
 }
 
 /* The numbers of Newton's method, 6 (stages n)^2, are reserved where it may be used. */
@@ -235,5 +265,6 @@ void suite_chains(void)
     CU_add_test(suite, "accelerations and multipliers by their equations", test_equations);
     CU_add_test(suite, "steps that enforce D end on D = 0", test_steps);
     CU_add_test(suite, "expressions in proportion to n", test_nodes);
+    CU_add_test(suite, "workspaces in proportion to n", test_workspace);
     CU_add_test(suite, "memory of Newton's method where it may be used", test_size);
 }

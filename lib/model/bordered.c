@@ -15,7 +15,11 @@
  *     G = A W'^-1 B^T,   G h = -(c + A W'^-1 b'),   F_f = W'^-1 (b' + B^T h)        (nh3)-(nh5)
  *
  * Two constraints may be replaced by half their sum and half their difference (as for a board on
- * two axles), which changes neither singularities nor conditioning. */
+ * two axles), which changes neither singularities nor conditioning.
+ *
+ * Where W couples neighbours W'^-1 is full, and so is what is made of it.  The bordered matrix is
+ * factored as a whole then, as ( W  A^T ) over ( A  0 ) of x and -h: with W positive definite, and
+ * each constraint eliminated after its coordinates, its pivots vanish with W and G alone. */
 #include "model/bordered.h"
 #include "expr/collect.h"
 #include "expr/simplify.h"
@@ -48,6 +52,7 @@ struct dal__bordered {
     int *partner;              /* [lefts] with which a constraint is paired; itself: with none */
     sparse S, A, R;            /* [solved] by frees; [lefts] by frees; R = W'^-1 B^T */
     dal__factors mass, forces; /* W', G */
+    dal__factors whole;        /* of the bordered matrix, of x and -h, where the way is WHOLE */
 };
 
 static bool is_zero(const dal__equations *e, dal__node node)
@@ -217,6 +222,11 @@ void dal__bordered_record_pivots(dal__equations *e, const dal__bordered *s,
                                  const dal__factors *mass)
 {
     e->pivots = 0;
+    if (s->way & DAL__WHOLE) {
+        dal__record_pivots(e, mass, DAL__DIVIDES_MASS);
+        dal__record_pivots(e, &s->whole, DAL__DIVIDES_MOTION);
+        return;
+    }
     dal__record_pivots(e, mass, DAL__DIVIDES_MASS | (s->solved == 0 ? DAL__DIVIDES_MOTION : 0));
     if (s->solved > 0) dal__record_pivots(e, &s->mass, DAL__DIVIDES_MOTION);
     dal__record_pivots(e, &s->forces, DAL__DIVIDES_MOTION);
@@ -380,6 +390,16 @@ dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sum_form
     const dal__equations *e = &model->equations;
     const bool collected = sums == DAL__SUMS_COLLECTED;
     vectors *w = &s->scratch;
+    if (s->way & DAL__WHOLE) {
+        const int n = e->n, m = e->m;
+        dal__node *const rhs = dal__model_nodes(model, 2 * (n + m), 0), *const all = rhs + n + m;
+        if (!rhs) return DAL_STATUS_MEMORY;
+        for (int k = 0; k < n + m; k++) rhs[k] = k < n ? top[k] : bottom[k - n];
+        DAL_TRY(dal__factors_solve(model, &s->whole, DAL__SUMS_UNCHANGED, 1, rhs, all));
+        for (int i = 0; i < n; i++) x[i] = all[i];
+        for (int a = 0; a < m && h; a++) h[a] = dal__node_neg(e->graph, all[n + a]);
+        return e->graph->status;
+    }
     reduce_rhs(e, s, top, bottom, w);
     for (int i = 0; collected && i < s->frees; i++) w->t[i] = collect(e, s, w->t[i]);
     DAL_TRY(solve_free(model, s, s->way & DAL__FORWARD ? sums : DAL__SUMS_UNCHANGED, bottom, w));
@@ -412,6 +432,25 @@ dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int 
                            .pull = dal__model_nodes(model, m, 0),
                            .force = dal__model_nodes(model, m, 0)};
     if (model->out_of_memory || !choose_dependent(model, s)) return DAL_STATUS_MEMORY;
+    if (way & DAL__WHOLE) {
+        const dal__equations *e = &model->equations;
+        const int size = n + m;
+        int *whose = dal__model_allocate(model, (size_t)size, sizeof *whose);
+        for (int k = 0; whose && k < size; k++) whose[k] = k < n ? -1 : k - n;
+        if (!whose || !dal__factors_allocate(model, &s->whole, size, whose))
+            return DAL_STATUS_MEMORY;
+        for (int k = 0; k < size * size; k++) {
+            const int i = k / size, j = k % size;
+            s->whole.matrix[k] = i < n && j < n ? e->W[i * n + j]
+                                 : i < n        ? e->A[(j - n) * n + i]
+                                 : j < n        ? e->A[(i - n) * n + j]
+                                                : dal__number(e->graph, 0.0);
+        }
+        s->whole.saddle = n;
+        const dal_status status = dal__factor(model, &s->whole);
+        if (status == DAL_STATUS_SINGULAR) *singular = s->whole.constraint[s->whole.singular] - 1;
+        return status;
+    }
     if (s->solved == 0) {
         s->mass = *mass;
     } else {

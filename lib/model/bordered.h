@@ -6,8 +6,9 @@
 
 /* Ways to solve it: SOLVED, with all constraints solved for a coordinate first that can be; PAIRED,
  * with constraints paired; COLLECTED, with the sums of the reduced equations in few operations;
- * FORWARD, the sums of the elimination, too. */
-enum { DAL__SOLVED = 1, DAL__PAIRED = 2, DAL__COLLECTED = 4, DAL__FORWARD = 8 };
+ * FORWARD, the sums of the elimination, too; WHOLE, by the factors of the bordered matrix, sparse
+ * where W^-1 is not. */
+enum { DAL__SOLVED = 1, DAL__PAIRED = 2, DAL__COLLECTED = 4, DAL__FORWARD = 8, DAL__WHOLE = 16 };
 
 /* The system of one model, solved as far as that does not depend on the right-hand side. */
 typedef struct dal__bordered dal__bordered;

@@ -23,9 +23,12 @@
 
 enum { VARYING = 1, TOUCHED = 2, PRESENT = 4 };
 
+/* Beyond this size the pivots that fill few entries come first. */
+enum { MAX_DENSE = 16 };
+
 /* The elimination in numbers. */
 typedef struct plan {
-    int n;
+    int n, saddle;
     double *value;       /* [n*n] */
     unsigned char *flag; /* [n*n] */
     double *size;        /* [n] of the row and the column of each, as a diagonal entry has it */
@@ -33,6 +36,8 @@ typedef struct plan {
     int *place;          /* [n] of a column in column */
     int *entry;          /* [n*n] the columns of the entries of each row, entries[n] of them */
     int *entries;
+    int *given;   /* [n] of these, those that are not filled in */
+    int *counts;  /* [2n] of the entries that are left in rows, and in columns */
     long updates; /* of entries that vary along a run */
 } plan;
 
@@ -55,40 +60,60 @@ static void swap(int *a, int *b)
     *b = c;
 }
 
-/* The best score of all entries that are left. */
-static double max_score(const plan *p, int k)
+/* The best score of all entries that are left; counts these in each row and in each column. */
+static double survey_entries(plan *p, int k)
 {
     double max = 0.0;
+    for (int i = 0; i < 2 * p->n; i++) p->counts[i] = 0;
     for (int i = k; i < p->n; i++) {
         const int row = p->row[i];
-        for (int l = 0; l < p->entries[row]; l++)
-            if (p->place[p->entry[row * p->n + l]] >= k)
-                max = fmax(max, score(p, row, p->entry[row * p->n + l]));
+        for (int l = 0; l < p->entries[row]; l++) {
+            const int column = p->entry[row * p->n + l];
+            if (p->place[column] < k) continue;
+            max = fmax(max, score(p, row, column));
+            p->counts[row]++;
+            p->counts[p->n + column]++;
+        }
     }
     return max;
 }
 
-/* Brings the best pivot to place k, of equal ones the first; false when none is left. */
+/* Whether a row of a saddle point may have its diagonal pivot: a constraint after all coordinates
+ * that it holds, so that the pivot vanishes only where the rank of the constraints falls. */
+static bool is_ready(const plan *p, int row, int column, int k)
+{
+    if (row != column) return false;
+    for (int l = 0; row >= p->saddle && l < p->given[row]; l++)
+        if (p->place[p->entry[row * p->n + l]] >= k) return false;
+    return true;
+}
+
+/* Brings the best pivot to place k, of equal ones the first; false when none is left.  In large
+ * matrices the best ones are those that fill few entries (Markowitz). */
 static bool choose(plan *p, int k)
 {
-    const double max = max_score(p, k);
-    double best_score = 0.0;
-    int best = -1, best_i = k, best_j = k;
-    if (max <= DAL__PIVOT_LEAST * DAL__PIVOT_LEAST) return false;
+    enum { KINDS = 8 };
+    const double max = survey_entries(p, k), least = DAL__PIVOT_LEAST * DAL__PIVOT_LEAST;
+    double best_score = 0.0, best = -INFINITY;
+    int best_i = k, best_j = k;
+    if (max <= least) return false;
     for (int i = k; i < p->n; i++) {
         const int row = p->row[i];
         for (int l = 0; l < p->entries[row]; l++) {
             const int column = p->entry[row * p->n + l], j = p->place[column];
             const double s = score(p, row, column);
-            if (j < k || s < 0.01 * max) continue;
+            if (j < k || s < (p->saddle ? least : 0.01 * max)) continue;
+            if (p->saddle && !is_ready(p, row, column, k)) continue;
             const unsigned char flag = p->flag[row * p->n + column];
-            const int preferred =
-                (flag & VARYING ? 0 : 4) + (flag & TOUCHED ? 0 : 2) + (row == column);
+            const double fill = (p->counts[row] - 1.0) * (p->counts[p->n + column] - 1.0);
+            const double preferred = (flag & VARYING ? 0 : 4) + (flag & TOUCHED ? 0 : 2) +
+                                     (row == column) - (p->n > MAX_DENSE ? KINDS * fill : 0.0);
             const bool first = s == best_score && i == best_i && j < best_j;
             if (preferred < best || (preferred == best && s <= best_score && !first)) continue;
             best = preferred, best_score = s, best_i = i, best_j = j;
         }
     }
+    if (best == -INFINITY) return false;
     swap(&p->row[k], &p->row[best_i]);
     swap(&p->column[k], &p->column[best_j]);
     p->place[p->column[k]] = k;
@@ -125,10 +150,11 @@ static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, 
     for (int i = 0; i < p->n * p->n; i++) {
         bool present = !dal__is_number(e->graph, matrix[i], 0.0);
         bool varying = dal__depends(e->graph, matrix[i], e->parameters, e->symbols);
-        p->value[i] = present ? dal__evaluate(e->graph, matrix[i], at) : 0.0;
         p->flag[i] = (unsigned char)((present ? PRESENT : 0) | (varying ? VARYING : 0));
         if (present) p->entry[i / p->n * p->n + p->entries[i / p->n]++] = i % p->n;
     }
+    for (int i = 0; i < p->n; i++) p->given[i] = p->entries[i];
+    dal__evaluate_all(e->graph, matrix, p->n * p->n, at, p->value);
     dal__jacobi_sizes(p->n, p->value, p->size);
 }
 
@@ -154,12 +180,15 @@ static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
     double *point = dal__model_allocate(model, (size_t)e->symbols, sizeof *point);
     double *scratch = dal__model_allocate(model, n * n, sizeof *scratch);
     *p = (plan){.n = f->n,
+                .saddle = f->saddle,
+                .given = dal__model_allocate(model, n, sizeof *p->given),
                 .value = dal__model_allocate(model, n * n, sizeof *p->value),
                 .flag = dal__model_allocate(model, n * n, sizeof *p->flag),
                 .size = dal__model_allocate(model, n, sizeof *p->size),
                 .place = dal__model_allocate(model, n, sizeof *p->place),
                 .entry = dal__model_allocate(model, n * n, sizeof *p->entry),
                 .entries = dal__model_allocate(model, n, sizeof *p->entries),
+                .counts = dal__model_allocate(model, 2 * n, sizeof *p->counts),
                 .row = f->row,
                 .column = f->column};
     if (model->out_of_memory) return DAL_STATUS_MEMORY;

@@ -11,6 +11,7 @@ typedef struct dal__factors {
     int n;
     dal__node *matrix;     /* [n*n]; factored in place */
     const int *constraint; /* [n]: whose row and column it is, from 1; 0: of the mass matrix */
+    int saddle;            /* rows from here on border a positive definite matrix; 0: none do */
     int singular;          /* on DAL_STATUS_SINGULAR: the row without a pivot */
     bool positive;         /* the matrix, being symmetric, is positive definite at the start */
     dal__node *given;      /* [n*n] the matrix as it was */

@@ -27,6 +27,7 @@
 #include "expr/simplify.h"
 #include "expr/terms.h"
 #include "expr/traversal.h"
+#include "model/bordered.h"
 #include "model/model.h"
 #include "model/motion.h"
 #include "model/units.h"
@@ -237,13 +238,20 @@ dal_status dal__energy_properties(dal_model *model)
 
 /* ---- a conserved energy ---- */
 
-/* A v and beta. */
-static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta)
+/* A v and beta; of many coordinates by the factors of F, which are sparse, and with U beta. */
+static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta, dal__node *pushed)
 {
+    enum { MAX_DENSE = 16 };
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
     dal__node *G = dal__model_nodes(model, m * m, 0);
-    if (!G) return DAL_STATUS_MEMORY;
+    dal__node *none = dal__model_nodes(model, n, dal__number(e->graph, 0.0));
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (n > MAX_DENSE && e->bordered && !e->servo) {
+        for (int a = 0; a < m; a++) along[a] = dal__dot(e->graph, n, e->A + a * n, e->flow + 1);
+        return dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, none, along, pushed,
+                                   beta);
+    }
     for (int a = 0; a < m; a++) {
         along[a] = dal__dot(e->graph, n, e->A + a * n, e->flow + 1);
         for (int b = a; b < m; b++) {
@@ -263,9 +271,9 @@ static dal_status extend(dal_model *model)
     dal__graph *graph = e->graph;
     const int n = e->n, m = e->m;
     dal__node *along = dal__model_nodes(model, m, 0), *beta = dal__model_nodes(model, m, 0);
-    dal__node *extended = dal__model_nodes(model, n, 0);
+    dal__node *extended = dal__model_nodes(model, n, 0), *push = dal__model_nodes(model, n, 0);
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    dal_status status = find_beta(model, along, beta);
+    dal_status status = find_beta(model, along, beta, push);
     if (status != DAL_STATUS_OK)
         return status == DAL_STATUS_SINGULAR ? DAL_STATUS_OK : status; /* B is not A */
     const dal__node *v = e->flow + 1;
@@ -286,7 +294,8 @@ static dal_status extend(dal_model *model)
     }
     dal__node alpha = dal__node_neg(graph, dal__node_div(graph, rate, divisor));
     for (int i = 0; i < n; i++) {
-        dal__node along_free = dal__node_sub(graph, v[i], dal__dot(graph, m, e->U + i * m, beta));
+        dal__node pushed = push[i] ? push[i] : dal__dot(graph, m, e->U + i * m, beta);
+        dal__node along_free = dal__node_sub(graph, v[i], pushed);
         extended[i] = dal__node_add(graph, e->F[i], dal__node_mul(graph, alpha, along_free));
     }
     e->extended = extended;

@@ -218,7 +218,7 @@ static dal_status derive_by(dal_model *model, const dal__factors *mass, int way,
     return dal__bordered_solve(model, e->bordered, DAL__SUMS_COLLECTED, e->b, bottom, e->F, e->h);
 }
 
-/* The cheapest way; of many coordinates, SOLVED without a comparison. */
+/* The cheapest way; of many coordinates, WHOLE or SOLVED without a comparison. */
 static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, int *singular)
 {
     enum { MAX_COMPARED = 16, REDUCED = DAL__SOLVED | DAL__COLLECTED };
@@ -227,7 +227,12 @@ static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, in
     const dal__equations *e = &model->equations;
     int least = INT_MAX, best = 0, last = 0;
     if (e->n > MAX_COMPARED) {
-        const dal_status status = derive_by(model, mass, DAL__SOLVED, singular);
+        bool coupled = false; /* coordinates by W */
+        for (int i = 0; i < e->n * e->n && !coupled; i++)
+            coupled = i % (e->n + 1) && !dal__is_number(e->graph, e->W[i], 0.0);
+        const bool whole = coupled && e->mass_positive && !e->servo;
+        const int way = whole ? DAL__SOLVED | DAL__WHOLE : DAL__SOLVED;
+        const dal_status status = derive_by(model, mass, way, singular);
         return status == DAL_STATUS_SINGULAR ? derive_by(model, mass, 0, singular) : status;
     }
     for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
@@ -444,9 +449,10 @@ static int *state_symbols(dal_model *model)
 
 dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by_v)
 {
+    enum { MAX_NODES = 250000 };
     const dal__equations *e = &model->equations;
     const int n = e->n, size = e->n + e->m, columns = 2 * n;
-    const int *symbol = state_symbols(model);
+    const int *symbol = state_symbols(model), first = e->graph->count;
     const dal__node *residual = residuals(model);
     dal__node *row = dal__model_nodes(model, columns, 0), *x = dal__model_nodes(model, n, 0);
     dal__node *rhs = dal__model_nodes(model, columns * size, 0); /* column by column */
@@ -459,6 +465,7 @@ dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by
     for (int c = 0; c < columns; c++) {
         const dal__node *top = rhs + c * size;
         DAL_TRY(solve_motion(model, top, top + n, x, NULL));
+        if (e->graph->count - first > MAX_NODES) return DAL_STATUS_TOO_LARGE;
         for (int i = 0; i < n; i++) *(c < n ? &by_q[i * n + c] : &by_v[i * n + c - n]) = x[i];
     }
     return e->graph->status;

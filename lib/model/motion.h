@@ -25,7 +25,8 @@ dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, c
 
 /* Whether the two below apply: to what dal__motion_derive has derived by Chetaev's rule. */
 bool dal__motion_is_symmetric(const dal__equations *e);
-/* F_q [n*n] and F_v [n*n], row by row.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
+/* F_q [n*n] and F_v [n*n], row by row.  Errors: DAL_STATUS_MEMORY; DAL_STATUS_TOO_LARGE, also where
+ * they are full and large, since constraints or masses couple many coordinates. */
 dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by_v);
 /* F_q^T pi [n] and F_v^T pi [n].  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_v);

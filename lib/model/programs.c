@@ -134,8 +134,8 @@ static dal_status add_adjoint(dal_model *model, dal__programs *programs, const d
     return dal__programs_add(model, programs, DAL__PROGRAM_ADJOINT, out, 3 * n);
 }
 
-/* The derivatives by q of all, then those by v and the multipliers of all, row by row.  An F that
- * couples all coordinates, as one continued off D = 0, has none where these are many. */
+/* The derivatives by q of all, then those by v and the multipliers of all, row by row; not where
+ * these are many and F couples them all, as one continued off D = 0 does. */
 static dal_status add_jacobian(dal_model *model, dal__programs *programs, const dal__node *F)
 {
     const dal__equations *e = &model->equations;
@@ -150,7 +150,11 @@ static dal_status add_jacobian(dal_model *model, dal__programs *programs, const 
         dal__gradient(e->graph, F[i], e->symbol + e->v, n, by_v);
         dal__gradient(e->graph, F[i], e->symbol + e->g, nw - n, by_v + n);
     }
-    if (solved) DAL_TRY(dal__motion_jacobian(model, solved, solved + n * n));
+    const dal_status status =
+        solved ? dal__motion_jacobian(model, solved, solved + n * n) : DAL_STATUS_OK;
+    if (status == DAL_STATUS_TOO_LARGE && e->graph->status == DAL_STATUS_OK && !swept)
+        return DAL_STATUS_OK;
+    DAL_TRY(status);
     const dal__node *out = cheaper(e, count, swept, solved);
     return dal__programs_add(model, programs, DAL__PROGRAM_JACOBIAN, out, count);
 }
