@@ -24,6 +24,7 @@ enum { DAL_CURVE_ROWS = 7 };
 
 /* The actions: ACTION(code, label, text). */
 #define DAL_ACTION_LIST(ACTION)                                                                    \
+    ACTION(EQUATIONS, "nh8", "int e/2 sum (S^i)^2 dt")                                             \
     ACTION(SECOND_ORDER, "nh10", "int e/2 |q'' - F|^2 dt")                                         \
     ACTION(FIRST_ORDER, "nh11", "int e/2 |v' - F|^2 + lambda.(q' - v) dt")                         \
     ACTION(HAMILTONIAN, "nh23", "int p.q' + pi.v' + pi_e e' - H dt")
@@ -39,11 +40,13 @@ typedef struct dal_action {
     double value, error;
 } dal_action;
 
-/* An action of a curve, by Gauss quadrature with four nodes between two rows; F(q, q', t) in
- * DAL_ACTION_SECOND_ORDER, F(q, v, t) in the others, H with the effort of the system.  The value
+/* An action of a curve, by Gauss quadrature with four nodes between two rows; S(q, q', q'', t) of
+ * the section equations in DAL_ACTION_EQUATIONS, F(q, q', t) in DAL_ACTION_SECOND_ORDER, F(q, v, t)
+ * in the others, H with the effort of the system.  The value
  * converges with the rows: where the curve is a motion the first one vanishes like h^4, elsewhere
  * its error is of the order h^2. [alloc]  Errors: DAL_STATUS_ARGUMENT (too few rows, times that do
- * not ascend, numbers that are not finite), DAL_STATUS_UNSUPPORTED (vakonomic motion),
+ * not ascend, numbers that are not finite), DAL_STATUS_UNSUPPORTED (vakonomic motion, no
+ * equations),
  * DAL_STATUS_NOT_FINITE with the time, errors of the callbacks. */
 dal_status dal_evaluator_integrate_action(dal_evaluator *evaluator, const dal_curve *curve,
                                           dal_action_form form, dal_action *action,

@@ -33,6 +33,7 @@ typedef struct dal_model dal_model;
     SECTION(REACTIONS, "reactions")   /* constraint.coordinate, as 2.x: formula; see below */      \
     SECTION(MECHANICS, "mechanics")   /* lagrange-d'alembert (default) or vakonomic */             \
     SECTION(CONTROLS, "controls")     /* column.coordinate, as 2.x: formula; of effort controls */ \
+    SECTION(EQUATIONS, "equations")   /* formula in q, q' and q'', as x'': 0 on the motions */     \
     SECTION(GAUGE, "gauge")           /* e or mu_e, formula in t and parameters */                 \
     SECTION(START, "start")           /* name, formula; solve.x' and any text: x' from D = 0 */    \
     SECTION(INVARIANTS, "invariants") /* name, formula */                                          \

@@ -209,15 +209,17 @@ struct dal_system {
     const double *units; /* [n + nw + m + 1] how large each q, v, g, D and E is, powers of two: a
                             tolerance is relative to |x| plus the unit of q and v, equations are
                             solved and pivots chosen in units of v, D and E; NULL: all are 1 */
-    dal_callback *projection;   /* out[m + 2*m*n]: D, A, W(q,u)^-1 A^T, u being at->pi; NULL: W does
+    dal_callback *projection; /* out[m + 2*m*n]: D, A, W(q,u)^-1 A^T, u being at->pi; NULL: W does
                                  not depend on v, call.constraint gives the same */
-    dal_callback *exact;        /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
-    int events;                 /* how many there are, in the order in which they act */
-    const dal_event *event;     /* [events] */
-    dal_callback *event_values; /* out[events]: when; this and the next three need events */
-    dal_callback *event_rates;  /* out[events]: d(when)/dt along the motion */
-    dal_callback *event_states; /* out[2n*events]: q, v as each sets them; NULL: none does */
-    dal_callback *event_normals; /* out[(1 + 2n)*events]: restitution, when_q, W^-1 when_q */
+    int equations;            /* how many the section equations has */
+    dal_callback *equation_values; /* out[equations]: S(q, v, q''), q'' being at->pi; NULL: none */
+    dal_callback *exact;           /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
+    int events;                    /* how many there are, in the order in which they act */
+    const dal_event *event;        /* [events] */
+    dal_callback *event_values;    /* out[events]: when; this and the next three need events */
+    dal_callback *event_rates;     /* out[events]: d(when)/dt along the motion */
+    dal_callback *event_states;    /* out[2n*events]: q, v as each sets them; NULL: none does */
+    dal_callback *event_normals;   /* out[(1 + 2n)*events]: restitution, when_q, W^-1 when_q */
     dal_callback
         *diagnose; /* out[1]: why field is not finite here: returns DAL_STATUS_SINGULAR with the
                                number of the constraint (from 1), DAL_STATUS_SINGULAR_MASS,

@@ -60,6 +60,29 @@ static void test_closed_forms(void)
                            1e-12);
 }
 
+/* General equations: S1 = 2 x'' - c, S2 = x' y'' - y - t; on x = t^2, y = 3 t they are 4 - c and
+ * -4 t, so that S = int ((4 - c)^2 + 16 t^2)/2 dt. */
+static void test_equations(void)
+{
+    static const char text[] = "coordinates: [x, y]\nparameters: {c: 1.5}\n"
+                               "accelerations: {x: c/2, y: 0}\n"
+                               "equations: [2*x'' - c, x'*y'' - y - t]\n";
+    const double T = 1.2;
+    double t[ROWS], q[2 * ROWS];
+    times(t, T);
+    for (int k = 0; k < ROWS; k++) q[2 * k] = t[k] * t[k], q[2 * k + 1] = 3.0 * t[k];
+    const dal_curve curve = {.rows = ROWS, .t = t, .q = q};
+    const dal_action got = action_of(text, &curve, DAL_ACTION_EQUATIONS);
+    CU_ASSERT_DOUBLE_EQUAL(got.value, 0.5 * 2.5 * 2.5 * T + 8.0 / 3.0 * T * T * T, 1e-11);
+    CU_ASSERT_EQUAL(fixture_system(text)->equations, 2);
+    dal_evaluator *evaluator = fixture_evaluator(fixture_system(free_particle));
+    dal_action action;
+    CU_ASSERT_EQUAL(
+        dal_evaluator_integrate_action(evaluator, &curve, DAL_ACTION_EQUATIONS, &action, NULL),
+        DAL_STATUS_UNSUPPORTED);
+    dal_evaluator_free(evaluator);
+}
+
 /* With F = -x + sin t and e = 1 on x = t^3, which the spline is: int (6 t + t^3 - sin t)^2/2 dt. */
 static void test_field(void)
 {
@@ -258,6 +281,7 @@ void suite_action(void)
 {
     CU_pSuite suite = CU_add_suite("action", NULL, NULL);
     CU_ADD_TEST(suite, test_closed_forms);
+    CU_ADD_TEST(suite, test_equations);
     CU_ADD_TEST(suite, test_field);
     CU_ADD_TEST(suite, test_sleigh);
     CU_ADD_TEST(suite, test_constraint);

@@ -399,7 +399,7 @@ static void test_own_functions(void)
         {"2*nest(x)", 100, DAL_STATUS_NAME, 3, "unknown function 'nest'; did you mean 'next'?"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         dal__graph *graph = formula_graph();
-        const dal__names names = {formula_resolve, own_name, call_own, graph};
+        const dal__names names = {formula_resolve, own_name, call_own, graph, false};
         dal__node node = 0;
         dal_error error = {.status = DAL_STATUS_OK};
         graph->limit = cases[i].limit;

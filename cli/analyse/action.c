@@ -130,10 +130,16 @@ static int read_curve(results *r)
 
 /* ---- evaluation ---------------------------------------------------------------------------- */
 
+/* (nh8) is of systems with equations alone. */
+static int first_form(const results *r)
+{
+    return r->system->equations > 0 ? DAL_ACTION_EQUATIONS : DAL_ACTION_SECOND_ORDER;
+}
+
 static int integrate(results *r, const dal_curve *curve, dal_action action[DAL_ACTIONS])
 {
     dal_error error = {0};
-    for (int form = 0; form < DAL_ACTIONS; form++) {
+    for (int form = first_form(r); form < DAL_ACTIONS; form++) {
         const dal_status status = dal_evaluator_integrate_action(
             r->evaluator, curve, (dal_action_form)form, &action[form], &error);
         if (!cli_is_ok(status))
@@ -236,7 +242,7 @@ static int put_json(const results *r)
     json_put_number(&w, "step", r->step > 0.0 ? r->step : NAN);
     json_put_number(&w, "max_constraint", r->max_constraint);
     json_open_list(&w, "actions", JSON_LINES);
-    for (int form = 0; form < DAL_ACTIONS; form++) {
+    for (int form = first_form(r); form < DAL_ACTIONS; form++) {
         json_open(&w, NULL, JSON_ON_ONE_LINE);
         json_put_text(&w, "equation", labels[form]);
         json_put_number(&w, "value", r->action[0][form].value);
@@ -269,9 +275,9 @@ static int print_text(const results *r)
     if (r->system->m > 0) printf("max |D(q, q')| on the curve: %.2g\n", r->max_constraint);
     printf("\n%-50s%11s%9s%10s\n", "action", "value", "error",
            s->perturb != 0.0 ? "perturbed" : "");
-    for (int form = 0; form < DAL_ACTIONS; form++) {
-        printf("(%s) %-43s%11.3g%9.1g", labels[form], texts[form], r->action[0][form].value,
-               r->action[0][form].error);
+    for (int form = first_form(r); form < DAL_ACTIONS; form++) {
+        printf("(%s) %-*s%11.3g%9.1g", labels[form], 47 - (int)strlen(labels[form]), texts[form],
+               r->action[0][form].value, r->action[0][form].error);
         if (s->perturb != 0.0) printf("%10.3g", r->action[1][form].value);
         putchar('\n');
     }

@@ -240,6 +240,8 @@ static void make_system(dal_scaled *s)
     s->system.solved_velocities = 0;
     s->system.start = start;
     s->system.scales = s->system.reaction_scales = NULL;
+    s->system.equation_values = NULL;
+    s->system.equations = 0;
     s->system.prepare = p->prepare ? prepare_plain : NULL;
 #define SET(name, member, ...) s->system.member = p->member ? name : NULL;
     SCALED_LIST(SET)

@@ -47,6 +47,11 @@ static dal_status read_name(dal__lexer *l, dal__token *t)
     t->prime = c < l->end && *c == '\'';
     l->at = c + t->prime;
     if (!t->prime || l->at == l->end || *l->at != '\'') return DAL_STATUS_OK;
+    if (l->has_second_derivatives) {
+        t->length++;
+        l->at++;
+        return DAL_STATUS_OK;
+    }
     const int column = (int)(l->at - l->line_start) + 1;
     t->prime = false; /* it belongs to the message */
     return dal__fail_at(l->error, DAL_STATUS_SYNTAX, l->line, column,

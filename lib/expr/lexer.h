@@ -35,6 +35,7 @@ typedef struct dal__lexer {
     int line;
     const char *line_start;
     dal_error *error;
+    bool has_second_derivatives; /* x'' is the name x' with a prime */
 } dal__lexer;
 
 /* The next token.  Errors: DAL_STATUS_SYNTAX. */

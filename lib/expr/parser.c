@@ -587,7 +587,7 @@ dal_status dal__parse(dal__graph *graph, const char *text, size_t length, const 
                       dal__node *node, dal_error *error)
 {
     parser p = {.graph = graph,
-                .lexer = {text, text + length, 1, text, error},
+                .lexer = {text, text + length, 1, text, error, names->has_second_derivatives},
                 .names = names,
                 .error = error};
     if (length >= INT_MAX)

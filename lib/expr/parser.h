@@ -17,6 +17,7 @@ typedef struct dal__names {
     const char *(*function)(void *user, int i, int *arity);
     dal__node (*call)(void *user, int i, const dal__node *argument, dal_error *error);
     void *user;
+    bool has_second_derivatives; /* x'' is resolved as x' with a prime */
 } dal__names;
 
 /* Parses one formula.  error->line and column are relative to text, from 1.  Errors:

@@ -1,5 +1,6 @@
 /* curve.c - the actions of the theory on a curve given by rows.
  *
+ *     S = int e/2 sum_i (S^i(q,q',q'',t))^2 dt                                        (nh8)
  *     S = int e/2 |q'' - F(q,q',t)|^2 dt                                             (nh10)
  *     S = int e/2 |v' - F(q,v,t)|^2 + lambda.(q' - v) dt                             (nh11)
  *     S = int p.q' + pi.v' + pi_e e' - H dt,                                         (nh23)
@@ -17,6 +18,7 @@
 #include "kernel/elementary.h"
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 enum { VALUE, FIRST, SECOND };
@@ -30,7 +32,7 @@ typedef struct splines {
     size_t size;
     int first[KINDS];         /* number of the first spline of a kind; -1: it is not given */
     double *t;                /* [knots] */
-    double *x, *rate, *field; /* scratch, [3n] each */
+    double *x, *rate, *field; /* scratch, [3n] each, field[3n + equations] */
 } splines;
 
 static int width_of(const splines *s, int kind) { return kind < E ? s->n : 1; }
@@ -77,6 +79,7 @@ static dal_status make_splines(splines *s, const dal_curve *c, int stride)
 {
     const double *const list[KINDS] = {c->q, c->v, c->lambda, c->p, c->pi, c->e, c->pi_e};
     const int last = (c->rows - 1) / stride + ((c->rows - 1) % stride != 0);
+    const dal_system *system = dal_evaluator_system(s->evaluator);
     int count = 0;
     s->knots = last + 1;
     s->size = dal__table_size(s->knots);
@@ -84,7 +87,7 @@ static dal_status make_splines(splines *s, const dal_curve *c, int stride)
         s->first[kind] = list[kind] ? count : -1;
         if (list[kind]) count += width_of(s, kind);
     }
-    const size_t knots = (size_t)s->knots, vectors = 9 * (size_t)s->n;
+    const size_t knots = (size_t)s->knots, vectors = 9 * (size_t)s->n + (size_t)system->equations;
     s->data = dal__numbers(1, s->size * (size_t)count + 2 * knots + vectors);
     if (!s->data) return dal__fail(s->error, DAL_STATUS_MEMORY, "out of memory");
     double *t = s->t = s->data + s->size * (size_t)count, *column = t + knots;
@@ -127,17 +130,19 @@ static dal_status hamiltonian(const splines *s, double t, double *out)
 static dal_status integrand(const splines *s, dal_action_form form, double t, double *out)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
-    const int kind = form == DAL_ACTION_SECOND_ORDER ? Q : V, order = kind == Q ? FIRST : VALUE;
+    const int kind = form <= DAL_ACTION_SECOND_ORDER ? Q : V, order = kind == Q ? FIRST : VALUE;
+    const bool has_equations = form == DAL_ACTION_EQUATIONS;
+    dal_callback *callback = has_equations ? system->equation_values : system->call.field;
     double *v = s->x + s->n, sum = 0.0;
     for (int i = 0; i < s->n; i++) {
         s->x[i] = spline_at(s, Q, i, VALUE, t);
         v[i] = spline_at(s, kind, i, order, t);
         s->rate[i] = spline_at(s, kind, i, order + 1, t);
     }
-    DAL_TRY(dal_evaluator_call(s->evaluator, system->call.field, t, s->x, v, NULL, s->field));
+    DAL_TRY(dal_evaluator_call(s->evaluator, callback, t, s->x, v, s->rate, s->field));
     if (form == DAL_ACTION_HAMILTONIAN) return hamiltonian(s, t, out);
-    for (int i = 0; i < s->n; i++) {
-        const double residual = s->rate[i] - s->field[i];
+    for (int i = 0; i < (has_equations ? system->equations : s->n); i++) {
+        const double residual = has_equations ? s->field[i] : s->rate[i] - s->field[i];
         sum += residual * residual;
     }
     *out = 0.5 * spline_at(s, E, 0, VALUE, t) * sum;
@@ -180,6 +185,8 @@ dal_status dal_evaluator_integrate_action(dal_evaluator *evaluator, const dal_cu
     DAL_REQUIRE(evaluator && curve && action, error);
     if ((unsigned)form >= DAL_ACTIONS)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "no action has the number %d", (int)form);
+    if (form == DAL_ACTION_EQUATIONS && !dal_evaluator_system(evaluator)->equation_values)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED, "the system has no equations S^i = 0");
     splines s;
     double value[2] = {0.0};
     DAL_TRY(check_curve(&s, evaluator, curve, error));

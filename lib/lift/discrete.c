@@ -26,14 +26,6 @@ static const double aligned = 1e-9;
 
 enum { GROUPS = 6 }; /* q, v, e, p, pi, pi_e */
 
-static void copy_state(const dal_curve *c, int n, int k, double *state)
-{
-    const double *const list[GROUPS] = {c->q, c->v, c->e, c->p, c->pi, c->pi_e};
-    for (int g = 0, i = 0; g < GROUPS; g++)
-        for (int j = 0, width = g % 3 == 2 ? 1 : n; j < width; j++)
-            state[i++] = list[g] ? list[g][k * width + j] : g == 2 ? 1.0 : 0.0;
-}
-
 /* The largest |a - b| of each group; b may be NULL. */
 static void enlarge(double max[GROUPS], int n, const double *a, const double *b)
 {
@@ -70,6 +62,8 @@ dal_status dal_check_discrete_action(const dal_run_spec *spec, const dal_curve *
     DAL_TRY(check_rows(spec, curve, error));
     const int n = spec->system->n, pi_e = 4 * n + 1;
     const double h = spec->options.step;
+    const double *const list[GROUPS] = {curve->q, curve->v,  curve->e,
+                                        curve->p, curve->pi, curve->pi_e};
     double size[GROUPS] = {0.0}, distance[GROUPS] = {0.0}, sum = 0.0;
     dal_system smooth = *spec->system;
     dal_run_spec own = *spec;
@@ -81,7 +75,9 @@ dal_status dal_check_discrete_action(const dal_run_spec *spec, const dal_curve *
     double *row = dal__numbers(2, (size_t)pi_e + 1), *next = row ? row + pi_e + 1 : NULL;
     dal_status status = row ? DAL_STATUS_OK : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
     for (int k = 0; k < curve->rows && status == DAL_STATUS_OK; k++) {
-        copy_state(curve, n, k, next);
+        for (int g = 0, i = 0; g < GROUPS; g++)
+            for (int j = 0, width = g % 3 == 2 ? 1 : n; j < width; j++)
+                next[i++] = list[g] ? list[g][k * width + j] : g == 2 ? 1.0 : 0.0;
         enlarge(size, n, next, NULL);
         if (k > 0) status = dal_run_set_state(run, curve->t[k - 1], row, error);
         if (k > 0 && status == DAL_STATUS_OK) status = dal_run_step(run, error);

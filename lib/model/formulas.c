@@ -125,6 +125,13 @@ dal_status dal__parse_observed(dal_model *model, dal_error *error)
     return DAL_STATUS_OK;
 }
 
+dal_status dal__parse_motion_equations(dal_model *model, dal__node *out, dal_error *error)
+{
+    const dal__scope scope = dal__scope_of(&model->equations, MAY_ALL | DAL__MAY_ACCELERATIONS);
+    return parse_each(model, DAL_SECTION_EQUATIONS, scope,
+                      dal__model_count(model, DAL_SECTION_EQUATIONS), out, error);
+}
+
 /* ---- gauge, start, exact ---- */
 
 static dal_status parse_gauge(dal_model *model, dal_error *error)

@@ -11,5 +11,7 @@ dal_status dal__parse_model(dal_model *model, dal_error *error);
 /* Parses the formulas that are observed alone, once all else has its nodes: operands are ordered by
  * the numbers of nodes, and so the bits of a trajectory stay. */
 dal_status dal__parse_observed(dal_model *model, dal_error *error);
+/* Parses the section equations, S(q, q', q'') with q'' in the places of pi, to out. */
+dal_status dal__parse_motion_equations(dal_model *model, dal__node *out, dal_error *error);
 
 #endif

@@ -34,6 +34,7 @@ const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
     [DAL_SECTION_REACTIONS] = {DAL__FORM_MAPPINGS, "reaction"},
     [DAL_SECTION_MECHANICS] = {DAL__FORM_SCALAR, NULL},
     [DAL_SECTION_CONTROLS] = {DAL__FORM_MAPPINGS, "control"},
+    [DAL_SECTION_EQUATIONS] = {DAL__FORM_LIST, "equation"},
     [DAL_SECTION_GAUGE] = {DAL__FORM_MAPPING, "gauge"},
     [DAL_SECTION_START] = {DAL__FORM_MAPPING, "start of"},
     [DAL_SECTION_INVARIANTS] = {DAL__FORM_MAPPING, "invariant"},
@@ -257,7 +258,8 @@ static dal_status check_duplicate(const dal_model *model, const dal__entry *entr
 {
     bool named = dal__section_named(entry->section);
     const char *name = named ? entry->name : entry->text;
-    if (entry->section == DAL_SECTION_CONSTRAINTS) return DAL_STATUS_OK;
+    if (entry->section == DAL_SECTION_CONSTRAINTS || entry->section == DAL_SECTION_EQUATIONS)
+        return DAL_STATUS_OK;
     for (int k = 0; k < model->given_count; k++) {
         const dal__entry *other = &model->given[k];
         if (other->section != entry->section || other->item != entry->item) continue;

@@ -16,6 +16,7 @@ enum { DAL__READS_none, DAL__READS_t, DAL__READS_tqv, DAL__READS_tqvpi };
     PROGRAM(INVARIANTS, invariant_values, tqv)                                                     \
     PROGRAM(REACTIONS, reactions, tqv)                                                             \
     PROGRAM(PROJECTION, projection, tqvpi)                                                         \
+    PROGRAM(EQUATIONS, equation_values, tqvpi)                                                     \
     PROGRAM(EXACT, exact, t)                                                                       \
     PROGRAM(EVENT_VALUES, event_values, tqv)                                                       \
     PROGRAM(EVENT_RATES, event_rates, tqv)                                                         \

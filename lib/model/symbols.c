@@ -282,7 +282,9 @@ static dal__node resolve_name(void *user, const char *text, size_t length, bool 
         if (strcmp(scope->inside->argument[i], name) == 0)
             return dal__symbol(e->graph, scope->inside->symbol[i]);
     if (!prime) return plain(scope, name, length, error);
-    const int i = dal__index_of(name, length, e->coordinate, e->n);
+    const bool is_second = length > 0 && name[length - 1] == '\''; /* x'', in equations alone */
+    const int i = dal__index_of(name, length - is_second, e->coordinate, e->n);
+    if (i >= 0 && is_second) return dal__symbol(e->graph, e->pi + i);
     if (i >= 0) return state(scope, e->n + i, "the velocity of", name, error);
     if (dal__index_of(name, length, e->parameter, e->parameters) < 0)
         return unknown(scope, name, error);
@@ -347,7 +349,8 @@ dal_status dal__parse_entry(dal_model *model, const dal__entry *entry, dal__scop
     scope.model = model;
     scope.index = entry->index;
     scope.at = entry->at;
-    const dal__names names = {resolve_name, scope_function, scope_call, &scope};
+    const dal__names names = {resolve_name, scope_function, scope_call, &scope,
+                              (scope.may & DAL__MAY_ACCELERATIONS) != 0};
     dal_status status =
         dal__parse(model->equations.graph, entry->text, strlen(entry->text), &names, node, &inner);
     return status == DAL_STATUS_OK ? DAL_STATUS_OK : locate(model, entry, error, &inner);

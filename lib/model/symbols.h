@@ -10,7 +10,13 @@ dal_status dal__collect_names(dal_model *model, dal_error *error);
 int dal__index_of(const char *name, size_t length, const char *const *names, int count);
 
 /* What a formula may contain; MULTIPLIERS: of vakonomic motion. */
-enum { DAL__MAY_T = 1, DAL__MAY_STATE = 2, DAL__MAY_MULTIPLIERS = 4, DAL__MAY_REACTIONS = 8 };
+enum {
+    DAL__MAY_T = 1,
+    DAL__MAY_STATE = 2,
+    DAL__MAY_MULTIPLIERS = 4,
+    DAL__MAY_REACTIONS = 8,
+    DAL__MAY_ACCELERATIONS = 16
+};
 typedef struct dal__scope {
     const dal_model *model;
     unsigned may;

@@ -229,6 +229,19 @@ static dal_status add_effort(dal_model *model, dal_error *error)
     return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
 }
 
+/* The section equations, where q'' has the places of pi. */
+static dal_status add_motion_equations(dal_model *model, dal_error *error)
+{
+    const int count = dal__model_count(model, DAL_SECTION_EQUATIONS);
+    dal__node *out = dal__model_nodes(model, count, 0);
+    model->system.equations = count;
+    if (!out) return dal__memory_error(error);
+    DAL_TRY(dal__parse_motion_equations(model, out, error));
+    const dal_status status =
+        count > 0 ? add_to_both(model, DAL__PROGRAM_EQUATIONS, out, count) : DAL_STATUS_OK;
+    return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
+}
+
 /* What enforces D at a velocity; nothing for vakonomic systems. */
 static dal_status add_enforcement(dal_model *model)
 {
@@ -320,6 +333,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_STATUS_OK) status = add_correction(model);
     if (status == DAL_STATUS_OK) status = add_enforcement(model);
     if (status == DAL_STATUS_OK) DAL_TRY(add_effort(model, error));
+    if (status == DAL_STATUS_OK) DAL_TRY(add_motion_equations(model, error));
     if (status == DAL_STATUS_OK) status = add_terms(model);
     if (status == DAL_STATUS_OK) status = finish_programs(model, &model->programs, &model->system);
     if (status == DAL_STATUS_OK) status = dal__system_units(model, &model->system, model->units);

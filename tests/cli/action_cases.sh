@@ -41,6 +41,28 @@ prints '^No discrete actions: the file has no velocities\.$'
 try 0 action pushed.yaml bent.csv --set a=0
 expect "$(value nh10 2)" [ "$(value nh10 2)" = 0 ]
 
+case_is "equations of one's own"
+cat >drag.yaml <<'END'
+coordinates: [x]
+parameters: {m: 2, c: 1}
+lagrangian: m*x'^2/2
+forces: {x: -c*x'}
+equations: [m*x'' + c*x']
+END
+try 0 run drag.yaml --start "x'=1" --integrator gauss8 --step 0.1 --time 4 --samples 40 --output drag.csv
+try 0 action drag.yaml drag.csv
+# S = m (x'' - F): m^2 = 4 times the action of x'' - F
+expect "not 4 times the action of x'' - F" awk '/^\(nh8\)/ { a = $(NF - 1) } /^\(nh10\)/ { b = $(NF - 1) }
+     END { exit !(b > 0 && a / b > 3.9 && a / b < 4.1) }' out
+for name in z m; do
+    sed "s/^equations: .*/equations: [$name'']/" drag.yaml >bad.yaml
+    try 2 action bad.yaml drag.csv
+    says '^dalembert: bad\.yaml:5:[0-9]+: '
+done
+sed "s/^forces: .*/forces: {x: -c*x''}/" drag.yaml >bad.yaml
+try 2 action bad.yaml drag.csv
+says "x'' is a second derivative; a formula knows only x and x'"
+
 case_is "JSON"
 if needs 2 "no python3" there python3; then
     try 0 action chaplygin-sleigh lifted.csv --json --perturb 0.1
