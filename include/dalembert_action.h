@@ -37,7 +37,8 @@ typedef enum dal_action_form {
 
 /* A value and an estimate of its error: how far it is from the value with every second row. */
 typedef struct dal_action {
-    double value, error;
+    double value; /* of the action */
+    double error; /* |value - value with every second row| */
 } dal_action;
 
 /* An action of a curve, by Gauss quadrature with four nodes between two rows; S(q, q', q'', t) of
