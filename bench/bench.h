@@ -19,7 +19,7 @@
 
 #define BENCH_H_STEP 0.01 /* h of every contender, except on the fluid */
 
-enum { BENCH_ROUNDS = 5, BENCH_UNKNOWN = 77, BENCH_MAX_SIZE = 2000 };
+enum { BENCH_ROUNDS = 5, BENCH_UNKNOWN = 77, BENCH_MAX_SIZE = 2048 };
 
 /* One contender: work(self, end) makes `steps` steps of all trajectories and writes a state; it
  * returns 0, or else failed. */

@@ -25,7 +25,8 @@ BENCH_CXX   ?= g++
 BENCH_PEERS  = $(call BENCH_HAVE,gsl/gsl_odeiv2.h,$(CC) -x c,gsl) \
                $(call BENCH_HAVE,arkode/arkode_erkstep.h,$(CC) -x c,sundials) \
                $(call BENCH_HAVE,$(BENCH_RK4),$(BENCH_CXX) -x c++,odeint) \
-               $(if $(BENCH_PYTHON),python)
+               $(if $(shell command -v clang),$(BENCH_LINKS:%=clang-links-%)) $(if $(BENCH_PYTHON),python)
+BENCH_LINKS  = 6 12 16 32
 BENCH_PYTHON = $(shell for python in python3 /usr/bin/python3; do \
     $$python -c 'import cffi, ensurepip, numpy, setuptools' 2>/dev/null && echo $$python && break; done)
 BENCH_HEADERS = $(wildcard bench/*.h bench/*.inc examples/*.h lib/kernel/*.h include/*.h)
@@ -67,6 +68,15 @@ $(BENCH)/hand-implicit-own: bench/hand_implicit.c $(BENCH_HEADERS)
 $(BENCH)/hand-implicit-compensated: bench/hand_implicit.c $(BENCH_HEADERS)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) $(BENCH_PEER) $(EXACT) -DHAND_OWN_SINCOS -DHAND_COMPENSATED $< -lm -o $@
+$(BENCH)/hand-links-%: bench/hand_implicit.c $(BENCH_HEADERS)
+	@mkdir -p $(@D)
+	$(call SAY,cc)$(CC) $(BENCH_PEER) -DHAND_LINKS=$* $< -lm -o $@
+$(BENCH)/hand-links-compensated-%: bench/hand_implicit.c $(BENCH_HEADERS)
+	@mkdir -p $(@D)
+	$(call SAY,cc)$(CC) $(BENCH_PEER) $(EXACT) -DHAND_OWN_SINCOS -DHAND_COMPENSATED -DHAND_LINKS=$* $< -lm -o $@
+$(BENCH)/clang-links-%: bench/hand_implicit.c $(BENCH_HEADERS)
+	@mkdir -p $(@D)
+	$(call SAY,cc)clang $(BENCH_PEER) -ffp-contract=fast -DHAND_LINKS=$* $< -lm -o $@
 $(BENCH)/gsl: bench/gsl.c $(BENCH_HEADERS)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) $(BENCH_PEER) $< -lgsl -lgslcblas -lm -o $@
@@ -106,7 +116,8 @@ $(BENCH)/page: bench/page.c $(BUILD)/tests/program.a $(STATIC)
 	$(call SAY,cc)$(CC) $(ALL) -Icli $(LDFLAGS) $^ $(LIBS) -o $@
 
 bench-programs: $(BENCH)/dal $(BENCH)/rows $(BENCH)/numbers $(BENCH)/native $(BENCH)/statistics $(BENCH)/hand $(BENCH)/hand-own $(BENCH)/hand-implicit \
-    $(BENCH)/hand-implicit-own $(BENCH)/hand-implicit-compensated $(BENCH)/peak
+    $(BENCH)/hand-implicit-own $(BENCH)/hand-implicit-compensated $(BENCH)/peak \
+    $(BENCH_LINKS:%=$(BENCH)/hand-links-%) $(BENCH_LINKS:%=$(BENCH)/hand-links-compensated-%)
 	@for gen in $(BENCH_GEN); do $(MAKE) -s --no-print-directory $(BENCH)/$$gen || exit 1; done
 	@for peer in $(BENCH_PEERS); do $(MAKE) -s --no-print-directory $(BENCH)/$$peer || exit 1; done
 # The results, measured where they are missing, one after the other; bench, bench-sizes and bench-runs

@@ -5,10 +5,12 @@
  *     ENGINE   tape: formulas, interpreted; unchecked: without the rank check; native: compiled, in
  *              the cache build/bench/cache; callback: the field as a C callback, written by hand;
  *              batchN: formulas, N trajectories at once; compiledN: the same, compiled
+ *              made: no steps, but the system is made from its formulas
  *     METHOD   as dal_method_parse reads it          SPACE   physical, lifted
  *     SYSTEM   a built-in one, or A, B3, ... (bench/systems), B101, C (examples); C0: the fluid
  *              without pair forces, all that is left of C being the integrator and the thermostat;
- *              RN: N coordinates, N/4 constraints whose Jacobian varies */
+ *              RN: N coordinates, N/4 constraints whose Jacobian varies; LN: N coordinates, N/2
+ *              constraints (links.inc) */
 #define _POSIX_C_SOURCE 200809L
 #include "../examples/contact_chain.h"
 #include "../examples/isokinetic_fluid.h"
@@ -80,7 +82,7 @@ static const dal_system sleigh_by_hand = {.name = "sleigh",
 /* A chain of n springs, four velocities of which each constraint couples. */
 static dal_status make_chain(dal_model **model, int n, dal_error *error)
 {
-    static char text[1 << 16];
+    static char text[1 << 18];
     char *end = text;
     end += sprintf(end, "coordinates: [x0");
     for (int i = 1; i < n; i++) end += sprintf(end, ", x%d", i);
@@ -96,10 +98,32 @@ static dal_status make_chain(dal_model **model, int n, dal_error *error)
     return dal_model_read(model, "chain", text, (size_t)(end - text), error);
 }
 
+/* The chain of links.inc. */
+static dal_status make_links(dal_model **model, int n, dal_error *error)
+{
+    static char text[1 << 18];
+    char *end = text;
+    end += sprintf(end, "coordinates: [x0");
+    for (int i = 1; i < n; i++) end += sprintf(end, ", x%d", i);
+    end += sprintf(end, "]\nlagrangian: (x0'^2");
+    for (int i = 1; i < n; i++) end += sprintf(end, " + x%d'^2 - (x%d - x%d)^2", i, i, i - 1);
+    end += sprintf(end, ")/2\nconstraints:\n");
+    for (int k = 0; k < n; k += 2)
+        end += sprintf(end, "  - x%d' - x%d*x%d'\n", k, (k + 2) % n, k + 1);
+    end += sprintf(end, "start: {x0: 0.1");
+    for (int i = 1; i < n; i++) end += sprintf(end, ", x%d: 0.1*cos(%d)", i, i);
+    for (int k = 0; k < n; k += 2)
+        end += sprintf(end, ", x%d': 0.5*cos(%d), x%d': 0.05*cos(%d)*cos(%d)", k + 1, k, k,
+                       (k + 2) % n, k);
+    end += sprintf(end, "}\n");
+    return dal_model_read(model, "links", text, (size_t)(end - text), error);
+}
+
 /* A model by its formulas: of a chain, or by its name. */
 static dal_status make_model(dal_model **model, const char *name, dal_error *error)
 {
     if (name[0] == 'R') return make_chain(model, atoi(name + 1), error);
+    if (name[0] == 'L') return make_links(model, atoi(name + 1), error);
     return bench_model(model, name, error);
 }
 
@@ -139,6 +163,17 @@ static int work_batch(void *self, double *end)
     dal_batch_state(j->batch, 0, state);
     memcpy(end, state, (size_t)j->shown * sizeof *end);
     return 0;
+}
+
+/* Makes the system of this name. */
+static int work_make(void *name, double *end)
+{
+    const dal_system *system = NULL;
+    dal_model *model = NULL;
+    if (make_model(&model, name, NULL) == DAL_STATUS_OK) dal_model_system(model, &system, NULL);
+    end[0] = system ? system->n : 0;
+    dal_model_free(model);
+    return !system;
 }
 
 /* Lanes have states of their own, as in gen.c. */
@@ -187,6 +222,8 @@ int main(int argc, char **argv)
     static contender j;
     dal_error error = {0};
     if (argc != 5) return bench_unknown(argc, argv);
+    if (strcmp(argv[1], "made") == 0)
+        return bench_measure(&(bench_contender){1.0, 1, work_make, argv[4]});
     if (make(&j, argv, &error)) return fail(&error);
     const int lanes = j.batch ? dal_batch_count(j.batch) : 1;
     const bench_contender measured = {(double)j.steps * lanes, j.shown,

@@ -1,5 +1,5 @@
-/* hand_implicit.c - implicit midpoint and Gauss' method of order 4 as somebody would write them by
- * hand for one small system, with what the library does for speed: the unknowns are the
+/* hand_implicit.c - implicit midpoint and Gauss' methods of order 4 and 8 as somebody would write
+ * them by hand for one system, with what the library does for speed: the unknowns are the
  * accelerations of the stages, the first guess is extrapolated from the last steps, and the
  * iteration ends by the same rule (lib/kernel/collocation.h, solve.h).
  *
@@ -9,15 +9,25 @@
  *                                              also with its arithmetic (HAND_COMPENSATED):
  *                                              compensated sums, coefficients of more than 53 bits,
  *                                              and no contraction by the compiler
+ *     hand-links-N gauss4|gauss8+project LN    a chain of N coordinates (HAND_LINKS) of links.inc;
+ *                                              the projection is a loop over its constraints;
+ *     hand-links-compensated-N                 with this project's arithmetic, except for gauss8's
+ *                                              coefficients
  *
  *     V_i = v + h sum a_ij K_j     Q_i = q + h sum a_ij V_j     K_i = F(Q_i, V_i) */
 #define _POSIX_C_SOURCE 200809L
 #include "bench.h"
 #include "real.inc"
 
+#ifdef HAND_LINKS
+#include "links.inc"
+enum { DIM = LINKS_DIM, MAX_STAGES = 4, STEPS = 200 };
+#else
 #include "fields.inc"
+enum { DIM = SMALL_DIM, MAX_STAGES = 2, STEPS = 1000 };
+#endif
 
-enum { STEPS = 1000, N = SMALL_DIM / 2, MAX_STAGES = 2, DIFFERENCES = 4, MAX_ITERATIONS = 50 };
+enum { N = DIM / 2, DIFFERENCES = 4, MAX_ITERATIONS = 50 };
 
 /* Rounding of an increment, and one that is too small for divergence, relative to the state. */
 static const double ROUNDING = 1.4e-14, SMALL = 1e-12;
@@ -38,13 +48,43 @@ typedef struct tableau {
 
 #define ROOT3 1.7320508075688772
 #define LOW   3.87365405187117745426e-4 /* 1/4 - sqrt(3)/6 + 5/128 */
+#ifndef HAND_LINKS
 static const tableau midpoint = {
     .a = {{0.5}}, .high = {{0.5}}, .b = {1.0}, .extrapolation = {{1.0}}};
+#endif
 static const tableau gauss4 = {.a = {{0.25, 0.25 - ROOT3 / 6.0}, {0.25 + ROOT3 / 6.0, 0.25}},
                                .high = {{0.25, -5.0 / 128.0}, {69.0 / 128.0, 0.25}},
                                .low = {{0.0, LOW}, {-LOW, 0.0}},
                                .b = {0.5, 0.5},
                                .extrapolation = {{1.0 - ROOT3, ROOT3}, {-ROOT3, 1.0 + ROOT3}}};
+#ifdef HAND_LINKS
+/* On the zeros of the Legendre polynomial P4(2x - 1). */
+#define GAUSS8_A                                                                                   \
+    {                                                                                              \
+        {0.086963711284363464343, -0.026604180084998793313, 0.012627462689404724515,               \
+         -0.0035551496857956831569},                                                               \
+            {0.18811811749986807165, 0.16303628871563653566, -0.027880428602470895224,             \
+             0.0067355005945381555154},                                                            \
+            {0.16719192197418877317, 0.35395300603374396654, 0.16303628871563653566,               \
+             -0.014190694931141142964},                                                            \
+        {                                                                                          \
+            0.17748257225452261184, 0.3134451147418683468, 0.35267675751627186463,                 \
+                0.086963711284363464343                                                            \
+        }                                                                                          \
+    }
+static const tableau gauss8 = {.a = GAUSS8_A,
+                               .high = GAUSS8_A,
+                               .b = {0.17392742256872692869, 0.32607257743127307131,
+                                     0.32607257743127307131, 0.17392742256872692869},
+                               .extrapolation = {{-0.30434753228963353155, 1.0425440204501055979,
+                                                  -1.9298963902970090161, 2.1916999021365369498},
+                                                 {-1.9563426110812630434, 6.2464276146547676179,
+                                                  -9.4640124407666893484, 6.1739274371931847739},
+                                                 {-7.352359801851610409, 22.244205449220565329,
+                                                  -29.806813631562519579, 15.914967984193564659},
+                                                 {-14.97189291059041293, 44.096131818793828184,
+                                                  -55.988972457400800747, 27.864733549197385493}}};
+#endif
 
 #define INLINE static inline __attribute__((always_inline))
 typedef void field(const real *y, real *dy);
@@ -52,7 +92,7 @@ typedef double stages[MAX_STAGES][N];
 
 /* The state, and what its sums have lost, which is 0 where they are plain. */
 typedef struct state {
-    double y[SMALL_DIM], lost[SMALL_DIM];
+    double y[DIM], lost[DIM];
 } state;
 
 /* sum a_ij x_j in component c */
@@ -110,7 +150,7 @@ INLINE double iterate(const tableau *m, int s, field *f, const state *z, stages 
     stage_values(m, s, z, N, K, V);
     stage_values(m, s, z, 0, V, Q);
     for (int i = 0; i < s; i++) {
-        double at[SMALL_DIM], image[SMALL_DIM];
+        double at[DIM], image[DIM];
         memcpy(at, Q[i], sizeof Q[i]);
         memcpy(at + N, V[i], sizeof V[i]);
         f(at, image);
@@ -159,9 +199,11 @@ INLINE void record_error(double e, double error[DIFFERENCES])
     }
 }
 
-INLINE int integrate(const tableau *m, int s, field *f, const double *start, double *end)
+/* project, where it is not NULL, ends a step. */
+INLINE int integrate(const tableau *m, int s, field *f, void (*project)(double *y),
+                     const double *start, double *end)
 {
-    double dy[SMALL_DIM], error[MAX_STAGES][N][DIFFERENCES] = {{{0.0}}};
+    double dy[DIM], error[MAX_STAGES][N][DIFFERENCES] = {{{0.0}}};
     state z = {.lost = {0.0}};
     stages K, polynomial, V;
     memcpy(z.y, start, sizeof z.y);
@@ -181,41 +223,64 @@ INLINE int integrate(const tableau *m, int s, field *f, const double *start, dou
         stage_values(m, s, &z, N, K, V);
         add_increment(m, s, V, &z, 0);
         add_increment(m, s, K, &z, N);
+        if (project) project(z.y);
     }
     memcpy(end, z.y, sizeof z.y);
     return 0;
 }
 
-static int midpoint_sleigh(void *start, double *end)
+#ifdef HAND_LINKS
+static int gauss4_links(void *start, double *end)
 {
-    return integrate(&midpoint, 1, sleigh_field, start, end);
+    return integrate(&gauss4, 2, links_field, NULL, start, end);
 }
-static int midpoint_chain3(void *start, double *end)
+static int gauss8_project_links(void *start, double *end)
 {
-    return integrate(&midpoint, 1, chain3_field, start, end);
-}
-static int gauss4_sleigh(void *start, double *end)
-{
-    return integrate(&gauss4, 2, sleigh_field, start, end);
-}
-static int gauss4_chain3(void *start, double *end)
-{
-    return integrate(&gauss4, 2, chain3_field, start, end);
+    return integrate(&gauss8, 4, links_field, links_project, start, end);
 }
 
 int main(int argc, char **argv)
 {
-    static double sleigh[SMALL_DIM], chain3[SMALL_DIM];
+    static double y[DIM];
+    const bench_contender four = {STEPS, DIM, gauss4_links, y},
+                          eight = {STEPS, DIM, gauss8_project_links, y};
+    links_start(y);
+    if (bench_is(argc, argv, "gauss4 L" LINKS_TEXT)) return bench_measure(&four);
+    if (bench_is(argc, argv, "gauss8+project L" LINKS_TEXT)) return bench_measure(&eight);
+    return bench_unknown(argc, argv);
+}
+#else
+static int midpoint_sleigh(void *start, double *end)
+{
+    return integrate(&midpoint, 1, sleigh_field, NULL, start, end);
+}
+static int midpoint_chain3(void *start, double *end)
+{
+    return integrate(&midpoint, 1, chain3_field, NULL, start, end);
+}
+static int gauss4_sleigh(void *start, double *end)
+{
+    return integrate(&gauss4, 2, sleigh_field, NULL, start, end);
+}
+static int gauss4_chain3(void *start, double *end)
+{
+    return integrate(&gauss4, 2, chain3_field, NULL, start, end);
+}
+
+int main(int argc, char **argv)
+{
+    static double sleigh[DIM], chain3[DIM];
     const struct {
         const char *name;
         bench_contender timed;
-    } contender[] = {{"midpoint A", {STEPS, SMALL_DIM, midpoint_sleigh, sleigh}},
-                     {"midpoint B3", {STEPS, SMALL_DIM, midpoint_chain3, chain3}},
-                     {"gauss4 A", {STEPS, SMALL_DIM, gauss4_sleigh, sleigh}},
-                     {"gauss4 B3", {STEPS, SMALL_DIM, gauss4_chain3, chain3}}};
+    } contender[] = {{"midpoint A", {STEPS, DIM, midpoint_sleigh, sleigh}},
+                     {"midpoint B3", {STEPS, DIM, midpoint_chain3, chain3}},
+                     {"gauss4 A", {STEPS, DIM, gauss4_sleigh, sleigh}},
+                     {"gauss4 B3", {STEPS, DIM, gauss4_chain3, chain3}}};
     memcpy(sleigh, sleigh_y, sizeof sleigh);
     memcpy(chain3, chain3_y, sizeof chain3);
     for (size_t i = 0; i < sizeof contender / sizeof *contender; i++)
         if (bench_is(argc, argv, contender[i].name)) return bench_measure(&contender[i].timed);
     return bench_unknown(argc, argv);
 }
+#endif
