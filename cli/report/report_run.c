@@ -500,13 +500,17 @@ static void write_head(const run_page *run, const document *manifest)
     }
 }
 
-static void read_step_statistics(run_page *run, const run_directory *dir)
+static int read_step_statistics(run_page *run, const run_directory *dir)
 {
     const int count = run->summary.rows - 1;
-    run->steps = count > 0 ? cli_calloc((size_t)count, sizeof *run->steps) : NULL;
-    if (run->steps && checkpoint_read_statistics(dir, run->steps, count)) return;
+    bool found = false;
+    if (count < 1) return CLI_DONE;
+    run->steps = cli_calloc((size_t)count, sizeof *run->steps);
+    const int status = checkpoint_read_statistics(dir, run->steps, count, &found);
+    if (found) return status;
     free(run->steps);
     run->steps = NULL;
+    return status;
 }
 
 int report_run(report *r)
@@ -538,7 +542,7 @@ int report_run(report *r)
         status = csv_table_read(&run->summary, summary);
     if (status == CLI_DONE && run->summary.rows > 0)
         status = csv_table_require(&run->summary, summary, "trend");
-    if (status == CLI_DONE) read_step_statistics(run, &dir);
+    if (status == CLI_DONE) status = read_step_statistics(run, &dir);
     if (status == CLI_DONE) {
         report_title(r, report_model_title(simulation.model, "A run"));
         const double last = reader_peek_last(&run->reader) ? run->reader.row[0] : NAN;

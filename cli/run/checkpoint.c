@@ -246,14 +246,17 @@ int checkpoint_load(const run_directory *dir, const trajectory_writer *writer,
     return load_file(dir, dir->before, writer, position, run, statistics, count);
 }
 
-bool checkpoint_read_statistics(const run_directory *dir, dal_statistics *statistics, int count)
+int checkpoint_read_statistics(const run_directory *dir, dal_statistics *statistics, int count,
+                               bool *found)
 {
     size_t length;
     uint64_t sum;
     checkpoint_header h;
-    unsigned char *bytes =
-        file_exists(dir->checkpoint) ? (unsigned char *)file_read(dir->checkpoint, &length) : NULL;
-    bool is_good = bytes && length % WORD == 0 && length >= (HEADER_WORDS + 1) * WORD;
+    *found = false;
+    if (!exists(dir->checkpoint)) return CLI_DONE;
+    unsigned char *bytes = (unsigned char *)file_read(dir->checkpoint, &length);
+    if (!bytes) return CLI_IO;
+    bool is_good = length % WORD == 0 && length >= (HEADER_WORDS + 1) * WORD;
     if (is_good) {
         const size_t words = length / WORD - 1, body = words - HEADER_WORDS;
         copy_words(&h, bytes, HEADER_WORDS);
@@ -270,5 +273,6 @@ bool checkpoint_read_statistics(const run_directory *dir, dal_statistics *statis
         is_good = can_be_statistics(&statistics[i]);
     }
     free(bytes);
-    return is_good;
+    *found = is_good;
+    return CLI_DONE;
 }

@@ -16,8 +16,9 @@ int checkpoint_save(const run_directory *dir, const run_position *position, cons
  * with, reads the checkpoint before it.  Without either *position is the start. */
 int checkpoint_load(const run_directory *dir, const trajectory_writer *writer,
                     run_position *position, dal_run *run, dal_statistics *statistics, int count);
-/* Reads the statistics of a run alone; false without a message where there is no checkpoint of this
- * version that has count of them. */
-bool checkpoint_read_statistics(const run_directory *dir, dal_statistics *statistics, int count);
+/* Reads the statistics of a run alone; *found is false, which is no error, where there is no
+ * checkpoint of this version that has count of them. */
+int checkpoint_read_statistics(const run_directory *dir, dal_statistics *statistics, int count,
+                               bool *found);
 
 #endif
