@@ -1,4 +1,4 @@
-/* dalembert_order.h - order and structure of a method, the action and Dirac's algebra.
+/* dalembert_order.h - order and structure of a method, the action and Dirac's procedure.
  *
  * The conventions of dalembert.h hold here.  Derivatives are compared with central differences of
  * order 8, whose noise is near 1e-12.
@@ -91,7 +91,7 @@ dal_status dal_adjoint_pairing(const dal_run_spec *spec, const dal_system *tange
                                const double *direction, long long steps, dal_statistics *statistics,
                                dal_error *error);
 
-/* ---- the action and Dirac's algebra -------------------------------------------------------- */
+/* ---- the action ---------------------------------------------------------------------------- */
 
 /* S = int e/2 |q'' - F(q,q',t)|^2 dt (nh10) with constant e on the curve q[count*n] given at t0,
  * t0 + h, ...: derivatives by differences of order 8, so the four points at either end serve for
@@ -119,25 +119,114 @@ void dal_measure_gradient(dal_observable_function *f, void *user, int count, dou
 /* {f,g} = sum f_X g_P - f_P g_X from two gradients [2*pairs]. */
 double dal_poisson(const double *f, const double *g, int pairs);
 
-/* Dirac's algebra (nh12)-(nh19) in 6n+2: X = (q, v, lambda, e), P = (p, pi, pi_lambda, pi_e), with
- * constraints pi_e, pi_lambda, p - lambda (primary), pi, lambda (secondary), all brackets by
- * differences of the functions themselves.  Conservation requires, on the surface, multipliers
- * mu of the primary constraints with {phi, H_c} = 0 for every phi. */
+/* ---- Dirac's procedure --------------------------------------------------------------------- */
+
+/* A formula with the names of the system, in the language of system files and in LaTeX. */
+typedef struct dal_formula {
+    const char *text, *latex;
+} dal_formula;
+
+/* What the conservation of a constraint requires: OUTCOME(code, word). */
+#define DAL_DIRAC_OUTCOME_LIST(OUTCOME)                                                            \
+    OUTCOME(HOLDS, "holds")             /* nothing */                                              \
+    OUTCOME(FIXES, "fixes")             /* a multiplier */                                         \
+    OUTCOME(ADDS, "adds")               /* a further constraint */                                 \
+    OUTCOME(IRREGULAR, "irregular")     /* constraints whose squares add up to the condition */    \
+    OUTCOME(CONTRADICTS, "contradicts") /* what holds nowhere: there is no motion */               \
+    OUTCOME(STOPS, "stops")             /* an irregular one of another form, or without a point */
+/* What the conservation of a constraint requires. */
+typedef enum dal_dirac_outcome {
+#define DIRAC_OUTCOME_CODE(code, word) DAL_DIRAC_##code,
+    DAL_DIRAC_OUTCOME_LIST(DIRAC_OUTCOME_CODE)
+#undef DIRAC_OUTCOME_CODE
+        DAL_DIRAC_OUTCOME_COUNT
+} dal_dirac_outcome;
+/* The word of an outcome; "?" of a number that is none. */
+const char *dal_dirac_outcome_name(dal_dirac_outcome outcome);
+
+/* A constraint phi = 0. */
+typedef struct dal_dirac_constraint {
+    dal_formula phi;
+    int stage;        /* that found it; 0: primary */
+    int source;       /* the constraint whose conservation requires it; -1: primary */
+    bool first_class; /* else it is one of the second-class ones that Dirac brackets are made of */
+    dal_formula form; /* phi, where first class less what has brackets with the second class */
+} dal_dirac_constraint;
+
+/* The conservation of one constraint, in one stage. */
+typedef struct dal_dirac_step {
+    int stage, constraint;
+    dal_dirac_outcome outcome;
+    dal_formula condition; /* 0 where the constraint is conserved; the value of a multiplier */
+    int multiplier;        /* fixed; -1: none */
+    int first, count;      /* of the constraints that it adds */
+} dal_dirac_step;
+
+/* The multiplier of a primary constraint. */
+typedef struct dal_dirac_multiplier {
+    dal_formula name, value; /* value: of one that is not free, on the surface */
+    bool is_free;
+} dal_dirac_multiplier;
+
+/* A Dirac bracket {left, right} that is not 0, on the surface. */
+typedef struct dal_dirac_bracket {
+    dal_formula left, right, value;
+} dal_dirac_bracket;
+
+/* The gauge transformation of a free multiplier: {z, generator} is the change of z.  A multiplier
+ * has none here where the series of its primary constraint does not end by itself. */
+typedef struct dal_dirac_generator {
+    int multiplier;
+    int derivatives;       /* the highest of alpha(t) in it */
+    dal_formula generator; /* with alpha, alpha', .. */
+    int changes;
+    dal_formula *changed, *change; /* [changes] variables, and by what, on the surface */
+    dal_formula of_multiplier;     /* the change of the multiplier */
+} dal_dirac_generator;
+
+/* Dirac's procedure from beginning to end.  The phase space has 2*pairs dimensions:
+ *
+ *     lifted      X = (q, v, lambda, e), P = (p, pi, pi_lambda, pi_e), from (nh11),
+ *                 H_0 = pi.K pi/(2e) + pi.F + lambda.v
+ *     vakonomic   X = (q, v, lambda, g), P = (p, pi, pi_lambda, pi_g), from
+ *                 L_1 = L(q,v,t) - g.D(q,v,t) + lambda.(q' - v),   H_0 = lambda.v - L + g.D
+ *
+ * The momenta whose velocities do not occur in L_1 are the primary constraints phi_b, and
+ * H = H_0 + sum_b mu_b phi_b.  Stage by stage every constraint must be conserved on the surface of
+ * those found so far,
+ *
+ *     {phi_a, H_0} + d phi_a/dt + sum_b mu_b {phi_a, phi_b} = 0,
+ *
+ * which is reduced by elimination: rows with a pivot fix multipliers, the others are conditions.
+ * Brackets are expressions with exact derivatives; points about the start decide what vanishes on
+ * the surface.  A condition sum_i c_i s_i^2, or a semidefinite quadratic form in momenta, has no
+ * gradient where it is 0: it is replaced by the s_i, or by the kernel of the form (nh15). */
 typedef struct dal_dirac {
-    int constraints;      /* 4n + 1 */
-    int second_class;     /* rank of the matrix of brackets on the surface; 2n */
-    int first_class;      /* the rest; 2n + 1 */
-    int free_multipliers; /* not determined by conservation; 1, the gauge mu_e */
-    double conservation;  /* min |{phi, H_c}| on the surface over all mu; 0 */
-    double multipliers;   /* distance of those mu from mu_q = v, mu_lambda = 0; 0 */
-    double secondary;     /* the same minimum for the primary ones where pi and lambda
-                             are not 0: positive, so that the secondary constraints are needed */
-    double hamiltonian;   /* |H_c| on the surface; 0 */
+    int pairs, primaries, stages;
+    int constraints;      /* all; a complete chain of the lift has 4n + 1 for a regular K */
+    int second_class;     /* rank of their brackets; 2n for the lift */
+    int first_class;      /* the rest */
+    int free_multipliers; /* 1 for the lift: mu_e, the gauge */
+    int dimension;        /* of the surface less the gauge directions: 2n; -1: not known */
+    bool is_complete;     /* else the last step contradicts or stops, and there is no more */
+    dal_formula hamiltonian, on_surface; /* H_0, and H on the surface */
+    dal_dirac_constraint *constraint;    /* [constraints] */
+    int steps;                           /* conservations */
+    dal_dirac_step *step;                /* [steps] */
+    dal_dirac_multiplier *multiplier;    /* [primaries] */
+    int brackets, generators;            /* listed */
+    dal_dirac_bracket *bracket;          /* [brackets] of (q, v) with (q, v, p, pi) */
+    dal_dirac_generator *generator;      /* [generators] */
 } dal_dirac;
-/* Performs Dirac's algorithm at a point, with a value of e.  [alloc]  Errors:
- * DAL_STATUS_UNSUPPORTED (vakonomic), DAL_STATUS_NOT_FINITE. */
-dal_status dal_evaluator_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e,
-                                     dal_dirac *out);
+
+/* Carries out Dirac's procedure for a model whose system is the one of spec, with its effort; the
+ * parameters and the start of spec say where points are.  [alloc]  Errors: errors of the start;
+ * DAL_STATUS_UNSUPPORTED (vakonomic motion with forces), DAL_STATUS_TOO_LARGE,
+ * DAL_STATUS_NOT_FINITE. */
+dal_status dal_dirac_create(dal_dirac **dirac, dal_model *model, const dal_run_spec *spec,
+                            dal_error *error);
+/* Frees it; NULL is allowed. */
+void dal_dirac_free(dal_dirac *dirac);
 
 #ifdef __cplusplus
 }

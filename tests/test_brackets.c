@@ -1,7 +1,6 @@
-/* test_brackets.c - measures of the lift: brackets, Dirac's algebra, actions. */
+/* test_brackets.c - measures of the lift: brackets, actions. */
 #include "core/vectors.h"
 #include "fixtures.h"
-#include "lift/dirac.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <string.h>
@@ -26,74 +25,6 @@ static void test_brackets(void)
         /* {L_i, L_j} = L_k */
         CU_ASSERT_DOUBLE_EQUAL(dal_poisson(gradient[i], gradient[j], 3), angular(&k, z), 1e-12);
         CU_ASSERT_DOUBLE_EQUAL(dal_poisson(gradient[j], gradient[i], 3), -angular(&k, z), 1e-12);
-    }
-}
-
-static dal_status dirac_of(const char *text, double (*phi)(void *, const double *, int),
-                           dal_dirac *out, int *n)
-{
-    const dal_system *system = fixture_system(text);
-    dal_evaluator *evaluator = fixture_evaluator(system);
-    double x[16];
-    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_STATUS_OK);
-    const dal_point at = {.t = 0.2, .q = x, .v = x + system->n};
-    const dal_status status = phi ? dal__dirac_algebra(evaluator, &at, 1.5, phi, out)
-                                  : dal_evaluator_check_dirac(evaluator, &at, 1.5, out);
-    *n = system->n;
-    dal_evaluator_free(evaluator);
-    return status;
-}
-
-static void test_dirac(void)
-{
-    const char *const texts[] = {fixture_full, "chaplygin-sleigh", "damped-oscillator",
-                                 "vertical-disk", "appell-hamel"};
-    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
-        dal_dirac d;
-        int n;
-        CU_ASSERT_EQUAL_FATAL(dirac_of(texts[k], NULL, &d, &n), DAL_STATUS_OK);
-        CU_ASSERT_EQUAL(d.constraints, 4 * n + 1);
-        CU_ASSERT_EQUAL(d.second_class, 2 * n);
-        CU_ASSERT_EQUAL(d.first_class, 2 * n + 1);
-        CU_ASSERT_EQUAL(d.free_multipliers, 1);
-        CU_ASSERT(d.conservation < 1e-11 && d.multipliers < 1e-11 && d.hamiltonian < 1e-11);
-        CU_ASSERT(d.secondary > 0.01);
-    }
-    dal_dirac d;
-    int n;
-    CU_ASSERT_EQUAL(dirac_of("chaplygin-sleigh-vakonomic", NULL, &d, &n), DAL_STATUS_UNSUPPORTED);
-}
-
-/* z = (q, v, lambda, e; p, pi, pi_lambda, pi_e).  Three ways to get the constraints wrong: p in
- * place of p - lambda; v in place of pi; e pi_e + q in place of pi_e. */
-static double without_lambda(void *user, const double *z, int a)
-{
-    const dal__dirac_space *w = user;
-    const int k = a - 1 - w->n;
-    return k >= 0 && k < w->n ? z[3 * w->n + 1 + k] : dal__dirac_constraint(user, z, a);
-}
-
-static double velocities(void *user, const double *z, int a)
-{
-    const dal__dirac_space *w = user;
-    const int k = a - 1 - 2 * w->n;
-    return k >= 0 && k < w->n ? z[w->n + k] : dal__dirac_constraint(user, z, a);
-}
-
-static double mixed_gauge(void *user, const double *z, int a)
-{
-    return a == 0 ? dal__dirac_constraint(user, z, a) + z[0] : dal__dirac_constraint(user, z, a);
-}
-
-static void test_dirac_finds_wrong_constraints(void)
-{
-    double (*const wrongs[])(void *, const double *, int) = {without_lambda, velocities,
-                                                             mixed_gauge};
-    for (int k = 0; k < 3; k++) {
-        dal_dirac d;
-        int n;
-        CU_ASSERT_EQUAL_FATAL(dirac_of("chaplygin-sleigh", wrongs[k], &d, &n), DAL_STATUS_OK);
-        CU_ASSERT(d.second_class != 2 * n || d.conservation > 0.01 || d.multipliers > 0.01);
     }
 }
 
@@ -183,9 +114,6 @@ void suite_brackets(void)
 {
     CU_pSuite suite = CU_add_suite("measures of the lift", NULL, NULL);
     CU_add_test(suite, "brackets", test_brackets);
-    CU_add_test(suite, "Dirac's algebra", test_dirac);
-    CU_add_test(suite, "Dirac's algebra finds wrong constraints",
-                test_dirac_finds_wrong_constraints);
     CU_add_test(suite, "the action, closed form", test_action_closed_form);
     CU_add_test(suite, "the action of the sleigh", test_action_of_the_sleigh);
     CU_add_test(suite, "the first-order action", test_stationarity);

@@ -386,20 +386,6 @@ static dal_status measure_scales(trial *t)
     return finish(t, evaluator, status);
 }
 
-static dal_status check_dirac(trial *t)
-{
-    dal_evaluator *evaluator = NULL;
-    double x[32];
-    dal_point at;
-    dal_dirac dirac = {0};
-    dal_status status = begin(t, &evaluator, x, &at);
-    if (!status) status = dal_evaluator_check_dirac(evaluator, &at, 1.0, &dirac);
-    const double numbers[] = {dirac.second_class, dirac.free_multipliers, dirac.conservation,
-                              dirac.multipliers,  dirac.secondary,        dirac.hamiltonian};
-    add(t, numbers, 6);
-    return finish(t, evaluator, status);
-}
-
 static dal_status measure_action(trial *t)
 {
     enum { ROWS = 12 };
@@ -525,11 +511,25 @@ static void each_allocation_fails(const char *text, const char *method, dal_spac
 
 static void test_memory(void)
 {
-    static trial_work *const works[] = {
-        create,         step,           sample,           observe,       change,
-        restore,        advance_batch,  measure_lyapunov, measure_rate,  check_derivatives,
-        measure_rank,   measure_scales, project_velocity, scale,         classify_constraints,
-        measure_action, check_dirac,    measure_order,    make_ensemble, observe_reactions};
+    static trial_work *const works[] = {create,
+                                        step,
+                                        sample,
+                                        observe,
+                                        change,
+                                        restore,
+                                        advance_batch,
+                                        measure_lyapunov,
+                                        measure_rate,
+                                        check_derivatives,
+                                        measure_rank,
+                                        measure_scales,
+                                        project_velocity,
+                                        scale,
+                                        classify_constraints,
+                                        measure_action,
+                                        measure_order,
+                                        make_ensemble,
+                                        observe_reactions};
     for (int once = 0; once < 2; once++) {
         for (size_t i = 0; i < sizeof works / sizeof works[0]; i++)
             each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, once, works[i]);
@@ -571,7 +571,6 @@ static void test_measures(void)
         each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, classify_constraints);
         each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_scales);
     }
-    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, check_dirac);
     each_call_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_action);
     each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, measure_order);
     each_call_fails(sleigh, "gauss4", DAL_LIFTED, DIFFERENCES, check_maps);

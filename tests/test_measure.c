@@ -439,7 +439,6 @@ static dal_status all_measures(const dal_system *system)
     int rank;
     dal_derivatives derivatives;
     dal_constraint_class class;
-    dal_dirac dirac;
     dal_status status = dal_evaluator_create(&evaluator, system, NULL, 0, NULL);
     if (status != DAL_STATUS_OK) return status;
     status = dal_evaluator_start(evaluator, NULL, 0, x, NULL);
@@ -449,7 +448,6 @@ static dal_status all_measures(const dal_system *system)
     if (!status) status = dal_evaluator_measure_rank(evaluator, &at, &rank, numbers);
     if (!status) status = dal_evaluator_project_velocity(evaluator, 0.0, x, x + system->n);
     if (!status) status = dal_evaluator_classify_constraints(evaluator, &at, &class, NULL);
-    if (!status) status = dal_evaluator_check_dirac(evaluator, &at, 1.0, &dirac);
     dal_evaluator_free(evaluator);
     return status;
 }

@@ -286,17 +286,17 @@ static void null_dal_measure_gradient(void)
 
 static void null_dal_poisson(void)
 {
-    CU_ASSERT(isnan(dal_poisson(NULL, numbers, 1)));
-    CU_ASSERT(isnan(dal_poisson(numbers, NULL, 1)));
+    CU_ASSERT(isnan(dal_poisson(NULL, numbers, 1)) && isnan(dal_poisson(numbers, NULL, 1)));
     CU_ASSERT(isnan(dal_poisson(numbers, numbers, -1)));
 }
-
-static void null_dal_evaluator_check_dirac(void)
+static void null_dal_dirac_free(void) { dal_dirac_free(NULL); }
+static void null_dal_dirac_outcome_name(void) { CU_ASSERT(*dal_dirac_outcome_name(-1) == '?'); }
+static void null_dal_dirac_create(void)
 {
-    dal_dirac out;
-    REFUSED_STATUS(dal_evaluator_check_dirac(NULL, &at, 1.0, &out));
-    REFUSED_POINTS(bad, dal_evaluator_check_dirac(evaluator, bad, 1.0, &out));
-    REFUSED_STATUS(dal_evaluator_check_dirac(evaluator, &at, 1.0, NULL));
+    dal_dirac *dirac;
+    REFUSED(dal_dirac_create(NULL, model, &spec, error));
+    REFUSED(dal_dirac_create(&dirac, NULL, &spec, error));
+    REFUSED(dal_dirac_create(&dirac, model, NULL, error));
 }
 
 /* ---- what a drift comes from ---- */

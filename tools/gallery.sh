@@ -1,7 +1,7 @@
 #!/bin/sh
 # gallery.sh PROGRAM DIR - the pictures of the README and of docs/, as SVG in DIR: figures of the
 # reports of a study, bench/studies/gallery.yaml, of three runs, a section, and of the study and the run of the
-# tutorial.  NAME_motion.svg moves (python3).
+# tutorial, and the chain of Dirac's procedure (dot).  NAME_motion.svg moves (python3).
 # The same machine draws the same bytes.
 set -e
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
@@ -70,4 +70,6 @@ awk '{ print } /^>$/ { print "<style>@media (prefers-color-scheme: dark) {"
     print "[fill=\047black\047], [fill=\047rgb(  0,   0,   0)\047], text { fill: #e4e4e4; }"
     print "[color=\047black\047], [color=\047rgb(  0,   0,   0)\047] { color: #e4e4e4; } }</style>" }
     ' "$work/action.svg" >"$2/action.svg"
+"$program" dirac chaplygin-sleigh --json >"$work/dirac.json"
+python3 tools/dirac-svg.py "$work/dirac.json" >"$2/dirac.svg"
 ls -l "$2"/*.svg | awk '{ print "gallery: " $9 ", " $5 " bytes" }'

@@ -57,7 +57,7 @@ static void say_result(screen *s, const check *c)
     if (bad > 0)
         screen_say(s, 2, "%d of %d checks failed.", bad, checks);
     else
-        screen_say(s, 2, "ok: %d checks of derivatives, constraints, Dirac's algebra and actions",
+        screen_say(s, 2, "ok: %d checks of derivatives, constraints, Dirac's procedure and actions",
                    checks);
 }
 

@@ -9,6 +9,7 @@
  * implicit-midpoint, and on none of another method. */
 #include "check_sections.h"
 #include "analysis.h"
+#include "check_dirac.h"
 #include "check_invariants.h"
 #include "check_methods.h"
 #include "dalembert_order.h"
@@ -436,35 +437,6 @@ static void check_exact(check *c)
         check_bound(c, equation, max, 1e-8);
 }
 
-/* ---- Dirac's algebra ---- */
-
-static void check_algebra(check *c)
-{
-    dal_dirac d;
-    const int n = c->n;
-    const dal_point *at = c->surface_count > 0 ? &c->surface[0] : &c->origin;
-    const double e = c->start[c->size];
-    if (e == 0.0 || isinf(e)) return;
-    const dal_status status = dal_evaluator_check_dirac(c->evaluator, at, e, &d);
-    if (status == DAL_STATUS_UNSUPPORTED) return;
-    if (!cli_is_ok(status)) {
-        check_item(c, CHECK_UNMEASURED, "brackets", "%s", dal_status_text(status));
-        return;
-    }
-    check_number(c, d.second_class == 2 * n ? CHECK_OK : CHECK_FAIL, "second-class constraints",
-                 d.second_class, 2 * n, 2 * n, "rank %d of %d x %d brackets, 2n = %d",
-                 d.second_class, d.constraints, d.constraints, 2 * n);
-    check_number(c, d.first_class == 2 * n + 1 ? CHECK_OK : CHECK_FAIL, "first-class constraints",
-                 d.first_class, 2 * n + 1, 2 * n + 1, "%d, 2n+1 = %d", d.first_class, 2 * n + 1);
-    check_bound(c, "{phi, H} on the surface", d.conservation, zero);
-    check_bound(c, "mu_q = v, mu_lambda = 0", d.multipliers, zero);
-    check_number(c, d.free_multipliers == 1 ? CHECK_OK : CHECK_FAIL, "free multipliers",
-                 d.free_multipliers, 1, 1, "%d (mu_e, the gauge)", d.free_multipliers);
-    check_number(c, d.secondary > 1e-3 ? CHECK_OK : CHECK_FAIL, "{primary phi, H} off pi = 0",
-                 d.secondary, 1e-3, INFINITY, "%.2g  (more than 1e-03)", d.secondary);
-    check_bound(c, "H on the surface", d.hamiltonian, zero);
-}
-
 /* ---- actions ---- */
 
 enum { NODES = 61, LIFTED_NODES = 21, MAX_REFINEMENTS = 6 };
@@ -583,7 +555,7 @@ const struct check_section check_sections[CHECK_SECTIONS] = {
     {"reversal of the motion", check_reversal},
     {"derivatives against differences", check_derivatives},
     {"exact solution", check_exact},
-    {"Dirac's algebra in 6n+2", check_algebra},
+    {"Dirac's procedure", check_dirac},
     {"actions", check_action},
     {"methods", check_methods},
 };

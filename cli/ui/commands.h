@@ -26,6 +26,7 @@
     COMMAND(volume)                                                                                \
     COMMAND(invariants)                                                                            \
     COMMAND(action)                                                                                \
+    COMMAND(dirac)                                                                                 \
     COMMAND(explain)                                                                               \
     COMMAND(generate)                                                                              \
     COMMAND(report)                                                                                \

@@ -250,7 +250,7 @@ dal_status dal_model_latex(dal_model *model, char **text, dal_error *error)
     const dal__equations *e = &model->equations;
     dal__typeset_options options = {
         put_symbol,   put_table, put_let, e, is_taken(e, "s") ? "\\mathcal{S}" : "s",
-        GIVEN_LENGTH, 0};
+        GIVEN_LENGTH, 0,         false};
     dal__typesetter *given = NULL, *motion = NULL;
     dal__buffer all = {0};
     int count = 0;

@@ -1,4 +1,4 @@
-/* typeset.c - nodes of a graph as formulas in LaTeX.
+/* typeset.c - nodes of a graph as formulas in LaTeX, or as in a system file.
  *
  * Operands come before the nodes that have them, so one loop gives each node its text.  A level
  * says how tightly a text holds together: an operand below the level that its place needs gets
@@ -105,28 +105,33 @@ static int find_digits(double x, char digit[DAL__NUMBER_SIZE], int *exponent)
     return count;
 }
 
-void dal__typeset_number(double x, dal__buffer *text)
+static void put_number(double x, bool is_plain, dal__buffer *text)
 {
     enum { MAX_WHOLE = 7, MAX_ZEROS = 3 };
     char digit[DAL__NUMBER_SIZE];
+    int exponent;
     if (x < 0.0) dal__buffer_append(text, "-");
     if (x == 0.0 || isnan(x) || isinf(x)) {
-        dal__buffer_append(text, isnan(x) ? "\\mathrm{NaN}" : isinf(x) ? "\\infty" : "0");
+        const char *nan = is_plain ? "nan" : "\\mathrm{NaN}";
+        dal__buffer_append(text, isnan(x) ? nan : x == 0.0 ? "0" : is_plain ? "inf" : "\\infty");
         return;
     }
-    if (typeset_fraction(fabs(x), "", text) || typeset_fraction(fabs(x) / PI, "\\pi", text)) return;
-    int exponent;
+    if (!is_plain &&
+        (typeset_fraction(fabs(x), "", text) || typeset_fraction(fabs(x) / PI, "\\pi", text)))
+        return;
     const int count = find_digits(fabs(x), digit, &exponent);
-    const bool is_plain = exponent > -MAX_ZEROS && exponent <= MAX_WHOLE;
-    const int whole = is_plain ? exponent : 1;
+    const bool is_short = exponent > -MAX_ZEROS && exponent <= MAX_WHOLE;
+    const int whole = is_short ? exponent : 1;
     if (whole <= 0) dal__buffer_append(text, "0.");
     for (int i = whole; i < 0; i++) dal__buffer_append(text, "0");
     for (int i = 0; i < count || i < whole; i++) {
         if (i == whole && i > 0) dal__buffer_append(text, ".");
         dal__buffer_append_bytes(text, i < count ? digit + i : "0", 1);
     }
-    if (!is_plain) dal__buffer_print(text, " \\cdot 10^{%d}", exponent - 1);
+    if (!is_short) dal__buffer_print(text, is_plain ? "e%d" : " \\cdot 10^{%d}", exponent - 1);
 }
+
+void dal__typeset_number(double x, dal__buffer *text) { put_number(x, false, text); }
 
 int dal__greek_letter(const char *name, size_t length)
 {
@@ -228,13 +233,31 @@ static const style styles[DAL__OP_COUNT] = {
                  {LEVEL_ANY, LEVEL_ANY, LEVEL_ANY}},
 };
 
+/* The same in the language of formulas, where a power binds tighter than a sign. */
+static const style plain_styles[DAL__OP_COUNT] = {
+    [DAL__SUB] = {"#1 - #2", LEVEL_SUM, {LEVEL_SUM, LEVEL_PRODUCT}},
+    [DAL__DIV] = {"#1/#2", LEVEL_PRODUCT, {LEVEL_PRODUCT, LEVEL_FACTOR}},
+    [DAL__NEG] = {"-#1", LEVEL_NEGATIVE, {LEVEL_PRODUCT}},
+    [DAL__POW] = {"#1^#2", LEVEL_FACTOR, {LEVEL_ATOM, LEVEL_ATOM}},
+    [DAL__LESS] = COMPARISON("<"),
+    [DAL__LESS_EQUAL] = COMPARISON("<="),
+    [DAL__EQUAL] = COMPARISON("=="),
+};
+
+/* The name of an operation in formulas, for a call; NULL: it is written with a sign. */
+static const char *const plain_names[DAL__OP_COUNT] = {
+#define NAME(code, arity, name) [DAL__##code] = name,
+    DAL__OP_LIST(NAME)
+#undef NAME
+};
+
 /* Appends an operand, in brackets where it is below a level. */
-static void put_operand(const formula *f, level least, dal__buffer *text)
+static void put_operand(const dal__typesetter *t, const formula *f, level least, dal__buffer *text)
 {
-    const bool in_brackets = f->level < least;
-    if (in_brackets) dal__buffer_append(text, "\\left(");
+    const bool in_brackets = f->level < least, is_plain = t->options.is_plain;
+    if (in_brackets) dal__buffer_append(text, is_plain ? "(" : "\\left(");
     dal__buffer_append(text, f->text);
-    if (in_brackets) dal__buffer_append(text, "\\right)");
+    if (in_brackets) dal__buffer_append(text, is_plain ? ")" : "\\right)");
 }
 
 enum { MAX_FACTORS = 32 };
@@ -277,15 +300,16 @@ static void put_power(const dal__typesetter *t, dal__node base, int power, level
     const formula *f = &t->formula[base];
     const int op = dal__inspect(t->graph, base).op;
     if (power == 1) {
-        put_operand(f, least, text);
-    } else if (op == DAL__SIN || op == DAL__COS) {
+        put_operand(t, f, least, text);
+    } else if (!t->options.is_plain && (op == DAL__SIN || op == DAL__COS)) {
         const size_t name = strcspn(f->text, "(");
         dal__buffer_append_bytes(text, f->text, name);
         dal__buffer_print(text, "^{%d}", power);
         dal__buffer_append(text, f->text + name);
     } else {
-        put_operand(f, LEVEL_ATOM, text);
-        dal__buffer_print(text, "^{%d}", power);
+        const bool is_call = t->options.is_plain && plain_names[op];
+        put_operand(t, f, is_call ? LEVEL_FACTOR : LEVEL_ATOM, text);
+        dal__buffer_print(text, t->options.is_plain ? "^%d" : "^{%d}", power);
     }
 }
 
@@ -306,7 +330,10 @@ static void put_product(const dal__typesetter *t, dal__node node, formula *f, da
             if (pass != (is_number ? 0 : factor->level == LEVEL_NEGATIVE ? 1 : 2)) continue;
             const bool has_digit =
                 factor->level >= LEVEL_PRODUCT && factor->text[0] >= '0' && factor->text[0] <= '9';
-            if (written > 0) dal__buffer_append(text, has_digit ? " \\cdot " : "\\,");
+            if (written > 0)
+                dal__buffer_append(text, t->options.is_plain ? "*"
+                                         : has_digit         ? " \\cdot "
+                                                             : "\\,");
             if (written == 0 && factor->level == LEVEL_NEGATIVE && all.power[k] == 1)
                 f->level = LEVEL_NEGATIVE;
             put_power(t, all.base[k], all.power[k], written > 0 ? LEVEL_PRODUCT : LEVEL_NEGATIVE,
@@ -321,10 +348,10 @@ static void put_sum(const dal__typesetter *t, const dal__record *r, formula *f, 
     const formula *a = &t->formula[r->a], *b = &t->formula[r->b];
     const bool is_swapped = a->text[0] == '-' && b->text[0] != '-' && b->level >= LEVEL_SUM;
     const formula *first = is_swapped ? b : a, *second = is_swapped ? a : b;
-    put_operand(first, LEVEL_SUM, text);
+    put_operand(t, first, LEVEL_SUM, text);
     if (second->level < LEVEL_SUM || second->text[0] != '-') {
         dal__buffer_append(text, " + ");
-        put_operand(second, LEVEL_SUM, text);
+        put_operand(t, second, LEVEL_SUM, text);
     } else {
         dal__buffer_append(text, " - ");
         dal__buffer_append(text, second->text + 1);
@@ -335,15 +362,25 @@ static void put_sum(const dal__typesetter *t, const dal__record *r, formula *f, 
 static void put_styled(const dal__typesetter *t, const dal__record *r, formula *f,
                        dal__buffer *text)
 {
-    const style *s = &styles[r->op];
+    const style *s = &(t->options.is_plain ? plain_styles : styles)[r->op];
     const dal__node operand[] = {r->a, r->b, r->c};
+    if (!s->text) { /* name(a, b) */
+        dal__buffer_append(text, plain_names[r->op]);
+        for (int i = 0; i < 3 && operand[i]; i++) {
+            dal__buffer_append(text, i == 0 ? "(" : ", ");
+            dal__buffer_append(text, t->formula[operand[i]].text);
+        }
+        dal__buffer_append(text, ")");
+        f->level = LEVEL_FACTOR;
+        return;
+    }
     for (const char *c = s->text; *c; c++) {
         if (*c != '#') {
             dal__buffer_append_bytes(text, c, 1);
             continue;
         }
         const int i = *++c - '1';
-        put_operand(&t->formula[operand[i]], s->least[i], text);
+        put_operand(t, &t->formula[operand[i]], s->least[i], text);
     }
     f->level = s->level;
 }
@@ -353,9 +390,9 @@ static void put_table(const dal__typesetter *t, const dal__record *r, formula *f
 {
     t->options.table(t->options.user, r->symbol / DAL__TABLE_ORDERS, text);
     for (int k = r->symbol % DAL__TABLE_ORDERS; k > 0; k--) dal__buffer_append(text, "'");
-    dal__buffer_append(text, "\\left(");
+    dal__buffer_append(text, t->options.is_plain ? "(" : "\\left(");
     dal__buffer_append(text, t->formula[r->a].text);
-    dal__buffer_append(text, "\\right)");
+    dal__buffer_append(text, t->options.is_plain ? ")" : "\\right)");
     f->level = LEVEL_FACTOR;
 }
 
@@ -364,7 +401,7 @@ static void typeset_node(const dal__typesetter *t, dal__node i, formula *f, dal_
 {
     const dal__record r = dal__inspect(t->graph, i);
     if (r.op == DAL__NUMBER) {
-        dal__typeset_number(r.value, text);
+        put_number(r.value, t->options.is_plain, text);
         const bool is_long = text->bytes && (strchr(text->bytes, ' ') || strchr(text->bytes, '\\'));
         f->level = r.value < 0.0 ? LEVEL_NEGATIVE : is_long ? LEVEL_FACTOR : LEVEL_ATOM;
     } else if (r.op == DAL__SYMBOL) {

@@ -1,4 +1,4 @@
-/* typeset.h - nodes of a graph as formulas in LaTeX. */
+/* typeset.h - nodes of a graph as formulas in LaTeX, or as in a system file. */
 #ifndef DAL_CODEGEN_TYPESET_H
 #define DAL_CODEGEN_TYPESET_H
 
@@ -17,6 +17,7 @@ typedef struct dal__typeset_options {
     const char *letter;   /* of what gets a name: letter_k */
     size_t shared_length; /* that is what occurs several times and is longer */
     int shared_before;    /* the last k that is taken already */
+    bool is_plain;        /* in the language of formulas of a system file instead of LaTeX */
 } dal__typeset_options;
 
 typedef struct dal__typesetter dal__typesetter;

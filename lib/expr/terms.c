@@ -38,6 +38,12 @@ void dal__terms_free(dal__terms *t)
     free(t);
 }
 
+void dal__terms_count_fixed(dal__terms *t)
+{
+    for (int k = 0; k < t->formulas; k++)
+        for (int i = 0; i < t->formula[k].places; i++) t->formula[k].place[i].fixed = false;
+}
+
 /* Copies the marked nodes in their order; image[node] is where each went. */
 static void copy_nodes(terms_formula *f, const dal__graph *graph, dal__node last,
                        const uint8_t *mark, int *image)

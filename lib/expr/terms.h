@@ -10,6 +10,8 @@ typedef struct dal__terms dal__terms;
 /* Copies what formula[count] need of a graph; NULL: out of memory. [alloc] */
 dal__terms *dal__terms_create(dal__graph *graph, const dal__node *formula, int count);
 void dal__terms_free(dal__terms *terms);
+/* Lets scales count what is constant along a run, too: a difference of parameters may be 0. */
+void dal__terms_count_fixed(dal__terms *terms);
 
 /* Doubles of memory that an evaluation takes. */
 size_t dal__terms_memory(const dal__terms *terms);

@@ -11,12 +11,12 @@
  * it is constant along F on every level. */
 #include "core/error.h"
 #include "core/vectors.h"
-#include "dalembert_evaluator.h"
 #include "expr/traversal.h"
 #include "invariants/atoms.h"
 #include "invariants/confirm.h"
 #include "invariants/forms.h"
 #include "invariants/null_space.h"
+#include "invariants/region.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,52 +45,6 @@ static bool is_angle(const dal__search *s, int symbol)
         occurs = true;
     }
     return occurs;
-}
-
-/* The start and the units of the motion there, as a region of all symbols. */
-static dal_status find_region(dal__search *s, const dal_run_spec *spec, double *centre,
-                              double *reach, dal_error *error)
-{
-    const dal__equations *e = &s->model->equations;
-    const size_t state = (size_t)(2 * e->n + e->multipliers + 1);
-    dal_scaled *scaled = NULL;
-    dal_evaluator *evaluator = NULL;
-    double *start = dal__numbers(1, state);
-    dal_status status = start ? dal_scaled_create(&scaled, spec, error) : dal__memory_error(error);
-    if (status == DAL_STATUS_OK)
-        status = dal_evaluator_create(&evaluator, spec->system, spec->parameters,
-                                      spec->parameter_count, error);
-    if (status == DAL_STATUS_OK)
-        status = dal_evaluator_start_at(evaluator, spec->start_time, spec->start, spec->start_count,
-                                        start, error);
-    if (status == DAL_STATUS_OK) {
-        const double *unit = dal_scaled_units(scaled);
-        centre[e->t] = spec->start_time;
-        reach[e->t] = neighbourhood * unit[0];
-        for (int i = 0; i < 2 * e->n + e->multipliers; i++) {
-            const int symbol = i < e->n       ? e->q + i
-                               : i < 2 * e->n ? e->v + i - e->n
-                                              : e->g + i - 2 * e->n;
-            centre[symbol] = start[i];
-            reach[symbol] = neighbourhood * unit[1 + i];
-            if (i < e->n && is_angle(s, symbol)) reach[symbol] = half_turn;
-        }
-    }
-    free(start);
-    dal_evaluator_free(evaluator);
-    dal_scaled_free(scaled);
-    return status;
-}
-
-/* The values of all parameters; their names have been checked. */
-static void set_parameters(const dal__equations *e, const dal_run_spec *spec, double *parameter)
-{
-    for (int i = 0; i < e->parameters; i++) {
-        parameter[i] = e->value[i];
-        for (int k = 0; k < spec->parameter_count; k++)
-            if (strcmp(spec->parameters[k].name, e->parameter[i]) == 0)
-                parameter[i] = spec->parameters[k].value;
-    }
 }
 
 /* ---- formulas of a null space ---- */
@@ -267,14 +221,16 @@ static dal_status search_all(dal_invariants *out, dal__search *search, const dal
     const dal__equations *e = &search->model->equations;
     double *numbers = dal__numbers(1, 2 * (size_t)e->symbols + (size_t)e->parameters);
     if (!numbers) return dal__memory_error(error);
-    double *centre = numbers, *reach = centre + e->symbols, *parameter = reach + e->symbols;
+    double *centre = numbers, *reach = centre + e->symbols;
     search->region = (dal__region){centre, reach};
-    search->parameter = parameter;
+    search->parameter = centre; /* the symbols of parameters are the first */
     dal_status status = dal__search_atoms(search, settings, error);
     if (status == DAL_STATUS_OK) status = dal__search_products(search, error);
-    if (status == DAL_STATUS_OK) status = find_region(search, spec, centre, reach, error);
+    if (status == DAL_STATUS_OK)
+        status = dal__region_find(e, spec, neighbourhood, centre, reach, error);
     if (status == DAL_STATUS_OK) {
-        set_parameters(e, spec, parameter);
+        for (int i = 0; i < e->n; i++)
+            if (is_angle(search, e->q + i)) reach[e->q + i] = half_turn;
         const dal__condition condition = {.power = 0.0};
         solutions s;
         status = solve_condition(search, &condition, &s, error);

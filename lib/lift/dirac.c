@@ -1,198 +1,249 @@
-/* dirac.c - Poisson brackets by differences, and Dirac's algebra in 6n+2.
- *
- *     X = (q, v, lambda, e),   P = (p, pi, pi_lambda, pi_e),   {f,g} = f_X g_P - f_P g_X
- *     H_c = pi.K pi/(2e) + pi.F + lambda.v + mu_e pi_e + mu_lambda.pi_lambda + mu_q.(p - lambda)
- *                                                                                (nh12)-(nh19)
- * Conservation of phi_a on the surface, {phi_a, H_0} + sum_b mu_b {phi_a, phi_b} = 0 over the
- * primary phi_b, is solved for mu by least squares; the residue must vanish.  The rank of
- * {phi_a, phi_b} over all constraints counts the second-class ones. */
+/* dirac.c - Dirac's procedure: its results, with formulas as texts. */
 #include "lift/dirac.h"
-#include "analysis/derivatives.h"
-#include "analysis/evaluator.h"
+#include "codegen/typeset.h"
 #include "core/error.h"
-#include "core/settings.h"
-#include "core/vectors.h"
-#include <math.h>
+#include "core/words.h"
+#include "lift/gauge.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Brackets are 0 or of order 1, with noise near 1e-12. */
-static const double rank_tolerance = 1e-6;
-
-typedef struct observable {
-    dal_observable_function *f;
-    void *user;
-    double *z;
-} observable;
-
-static dal_status value_of(void *user, double *out)
+const char *dal_dirac_outcome_name(dal_dirac_outcome outcome)
 {
-    const observable *w = user;
-    *out = w->f(w->user, w->z);
-    return DAL_STATUS_OK;
+    DAL__RETURN_WORD(DAL_DIRAC_OUTCOME_LIST, DAL__SECOND, outcome, "?");
 }
 
-void dal_measure_gradient(dal_observable_function *f, void *user, int count, double *z,
-                          double *gradient)
+/* The results and their memory. */
+typedef struct results {
+    dal_dirac dirac; /* first: its address is the address of all */
+    dal__pool pool;
+} results;
+
+/* A formula that is to be written; of two for the same place the later one. */
+typedef struct slot {
+    dal_formula *to;
+    dal__node node;
+    struct slot *next;
+} slot;
+
+typedef struct writer {
+    const dal__theory *theory;
+    dal__pool *pool;
+    slot *slots;
+    int count;
+    bool is_plain;
+} writer;
+
+static void write_later(writer *w, dal_formula *to, dal__node node)
 {
-    if (!f || !z || !gradient) return;
-    double scratch[3];
-    observable w = {f, user, z};
-    for (int j = 0; j < count; j++)
-        dal__differentiate_by(&z[j], value_of, &w, DAL__INCREMENT, 1, scratch, &gradient[j]);
+    slot *s = dal__pool_allocate(w->pool, 1, sizeof *s);
+    if (!s) return;
+    *s = (slot){to, node, w->slots};
+    w->slots = s;
+    w->count++;
 }
 
-double dal_poisson(const double *f, const double *g, int pairs)
+static void put_symbol(const void *user, int symbol, dal__buffer *text)
 {
-    if (!f || !g || pairs < 0) return NAN;
-    double sum = 0.0;
-    for (int i = 0; i < pairs; i++) sum += f[i] * g[pairs + i] - f[pairs + i] * g[i];
-    return sum;
+    const writer *w = user;
+    const char *name = (w->is_plain ? w->theory->text : w->theory->latex)[symbol];
+    dal__buffer_append(text, name ? name : "?");
 }
 
-/* ---- the constraints and the Hamiltonian ---- */
-
-double dal__dirac_constraint(void *user, const double *z, int a)
+static void put_table(const void *user, int table, dal__buffer *text)
 {
-    const dal__dirac_space *w = user;
-    int n = w->n, half = 3 * n + 1, k = (a - 1) % n;
-    const double *lambda = z + 2 * n, *p = z + half, *pi = p + n, *pi_lambda = p + 2 * n;
-    if (a == 0) return z[2 * half - 1];
-    switch ((a - 1) / n) {
-    case 0:
-        return pi_lambda[k];
-    case 1:
-        return p[k] - lambda[k];
-    case 2:
-        return pi[k];
-    default:
-        return lambda[k];
+    const writer *w = user;
+    if (w->is_plain)
+        dal__buffer_append(text, w->theory->table[table]);
+    else
+        dal__typeset_name(w->theory->table[table], NULL, text);
+}
+
+/* Writes the formulas of slots up to the end, in one of the two languages; "..." where one of them
+ * is longer than a megabyte. */
+static dal_status write_slots(const writer *w, slot *first, const slot *end, dal__node *nodes)
+{
+    const dal__typeset_options options = {.symbol = put_symbol,
+                                          .table = put_table,
+                                          .user = w,
+                                          .letter = "s",
+                                          .shared_length = SIZE_MAX,
+                                          .is_plain = w->is_plain};
+    dal__typesetter *typesetter = NULL;
+    int count = 0;
+    for (const slot *s = first; s != end; s = s->next) nodes[count++] = s->node;
+    const dal_status status =
+        dal__typesetter_create(&typesetter, w->theory->graph, nodes, count, &options);
+    if (status != DAL_STATUS_OK && (status != DAL_STATUS_TOO_LARGE || count > 1)) return status;
+    for (slot *s = first; s != end; s = s->next) {
+        const char **to = w->is_plain ? &s->to->text : &s->to->latex;
+        const char *text = typesetter ? dal__typeset(typesetter, s->node) : "...";
+        if (!*to) *to = dal__pool_text(w->pool, text, strlen(text));
     }
+    dal__typesetter_free(typesetter);
+    return w->pool->out_of_memory ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
 }
 
-/* H_c without its multipliers. */
-static double hamiltonian(void *user, const double *z)
+/* Writes all formulas together, or one by one where a part of them is too long. */
+static dal_status write_all(writer *w, bool is_plain)
 {
-    dal__dirac_space *w = user;
-    int n = w->n;
-    const double *v = z + n, *lambda = z + 2 * n, *pi = z + 4 * n + 1;
-    double sum = 0.0, square;
-    dal_callback *field = dal_evaluator_system(w->evaluator)->call.field;
-    if (dal__evaluator_square(w->evaluator, w->t, z, v, pi, w->field, &square) != DAL_STATUS_OK ||
-        dal_evaluator_call(w->evaluator, field, w->t, z, v, NULL, w->field) != DAL_STATUS_OK)
-        return NAN;
-    for (int i = 0; i < n; i++) sum += pi[i] * w->field[i] + lambda[i] * v[i];
-    return square / (2.0 * z[3 * n]) + sum;
-}
-
-static double current_constraint(void *user, const double *z)
-{
-    dal__dirac_space *w = user;
-    return w->phi(user, z, w->a);
-}
-
-/* ---- the algebra at one point ---- */
-
-typedef struct algebra {
-    dal__dirac_space space;
-    int n, pairs, count, primary;          /* 3n+1, 4n+1, 2n+1 */
-    double *z;                             /* [2*pairs] */
-    double *gradient;                      /* [(count+1) * 2*pairs]; H's is the last */
-    double *matrix, *right, *mu, *scratch; /* [count^2], [count], [count], [count(count+2)] */
-} algebra;
-
-static const double *gradient_of(const algebra *w, int a) { return w->gradient + a * 2 * w->pairs; }
-
-static void take_gradients(algebra *w)
-{
-    for (w->space.a = 0; w->space.a < w->count; w->space.a++)
-        dal_measure_gradient(current_constraint, &w->space, 2 * w->pairs, w->z,
-                             w->gradient + w->space.a * 2 * w->pairs);
-    dal_measure_gradient(hamiltonian, &w->space, 2 * w->pairs, w->z,
-                         w->gradient + w->count * 2 * w->pairs);
-}
-
-/* {phi_a, phi_b}, a < rows, b < columns.  Most pairs have no derivative of phi_a. */
-static void take_brackets(algebra *w, int rows, int columns)
-{
-    memset(w->matrix, 0, (size_t)rows * (size_t)columns * sizeof *w->matrix);
-    for (int a = 0; a < rows; a++)
-        for (int i = 0; i < w->pairs; i++) {
-            const double x = gradient_of(w, a)[i], p = gradient_of(w, a)[w->pairs + i];
-            for (int b = 0; b < columns && (x != 0.0 || p != 0.0); b++)
-                w->matrix[a * columns + b] +=
-                    x * gradient_of(w, b)[w->pairs + i] - p * gradient_of(w, b)[i];
-        }
-}
-
-/* Least |{phi_a, H_c}| over mu, a < rows; mu stays in w->mu.  Returns the rank. */
-static int conserve(algebra *w, int rows, double *residue)
-{
-    take_brackets(w, rows, w->primary);
-    for (int a = 0; a < rows; a++)
-        w->right[a] = -dal_poisson(gradient_of(w, a), gradient_of(w, w->count), w->pairs);
-    int rank = dal__least_squares(rows, w->primary, w->matrix, w->right, w->mu, rank_tolerance,
-                                  NULL, w->scratch);
-    *residue = dal__max_abs(w->right, (size_t)rows);
-    return rank;
-}
-
-static dal_status analyse(algebra *w, dal_dirac *out)
-{
-    take_gradients(w);
-    if (!isfinite(dal__max_abs(w->gradient, (size_t)(w->count + 1) * 2 * (size_t)w->pairs)))
-        return DAL_STATUS_NOT_FINITE;
-    out->constraints = w->count;
-    out->free_multipliers = w->primary - conserve(w, w->count, &out->conservation);
-    out->multipliers = 0.0;
-    for (int i = 0; i < w->n; i++) {
-        const double mu_q = w->mu[1 + w->n + i], v = w->z[w->n + i];
-        out->multipliers = fmax(out->multipliers, fmax(fabs(w->mu[1 + i]), fabs(mu_q - v)));
-    }
-    double total = hamiltonian(&w->space, w->z);
-    for (int b = 0; b < w->primary; b++) total += w->mu[b] * w->space.phi(&w->space, w->z, b);
-    out->hamiltonian = fabs(total);
-    take_brackets(w, w->count, w->count);
-    out->second_class = dal__least_squares(w->count, w->count, w->matrix, NULL, NULL,
-                                           rank_tolerance, NULL, w->scratch);
-    out->first_class = w->count - out->second_class;
-    /* On the primary surface, off the secondary one: p = lambda and pi of order 1. */
-    dal__random random = {3};
-    double *lambda = w->z + 2 * w->n, *p = w->z + w->pairs, *pi = p + w->n;
-    for (int i = 0; i < w->n; i++) {
-        lambda[i] = p[i] = dal__uniform(&random);
-        pi[i] = 0.5 + 0.25 * dal__uniform(&random);
-    }
-    take_gradients(w);
-    conserve(w, w->primary, &out->secondary);
-    return DAL_STATUS_OK;
-}
-
-dal_status dal__dirac_algebra(dal_evaluator *evaluator, const dal_point *at, double e,
-                              double (*phi)(void *user, const double *z, int a), dal_dirac *out)
-{
-    const dal_system *s = dal_evaluator_system(evaluator);
-    if (s->multipliers > 0) return DAL_STATUS_UNSUPPORTED;
-    size_t n = (size_t)s->n, size = 6 * n + 2, count = 4 * n + 1;
-    size_t numbers = size + (count + 1) * size + 2 * count * count + 4 * count + 3 * n;
-    double *block = dal__numbers(1, numbers);
-    if (block == NULL) return DAL_STATUS_MEMORY;
-    algebra w = {.n = s->n, .pairs = 3 * s->n + 1, .count = (int)count, .primary = 2 * s->n + 1};
-    w.z = block, w.gradient = block + size, w.matrix = w.gradient + (count + 1) * size;
-    w.right = w.matrix + count * count, w.mu = w.right + count, w.scratch = w.mu + count;
-    w.space = (dal__dirac_space){.evaluator = evaluator, .n = s->n, .t = at->t, .phi = phi};
-    w.space.field = block + numbers - 3 * n;
-    memcpy(w.z, at->q, n * sizeof(double));
-    memcpy(w.z + n, at->v, n * sizeof(double));
-    w.z[3 * n] = e;
-    dal_status status = analyse(&w, out);
-    free(block);
+    dal__node *nodes = dal__pool_nodes(w->pool, w->theory->graph, (size_t)w->count);
+    if (!nodes) return DAL_STATUS_MEMORY;
+    w->is_plain = is_plain;
+    dal_status status = write_slots(w, w->slots, NULL, nodes);
+    if (status != DAL_STATUS_TOO_LARGE) return status;
+    status = DAL_STATUS_OK;
+    for (slot *s = w->slots; s && status == DAL_STATUS_OK; s = s->next)
+        status = write_slots(w, s, s->next, nodes);
     return status;
 }
 
-dal_status dal_evaluator_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e,
-                                     dal_dirac *out)
+/* ---- the results --------------------------------------------------------------------------- */
+
+static dal_status put_chain(dal_dirac *out, writer *w, const dal__chain *c)
 {
-    DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
-    return dal__dirac_algebra(evaluator, at, e, dal__dirac_constraint, out);
+    out->pairs = c->theory->pairs;
+    out->primaries = c->theory->primaries;
+    out->stages = c->stage;
+    out->constraints = c->count;
+    out->is_complete = c->is_complete;
+    out->steps = c->steps;
+    out->step = c->step;
+    out->constraint = dal__pool_allocate(w->pool, (size_t)c->count + 1, sizeof *out->constraint);
+    out->multiplier =
+        dal__pool_allocate(w->pool, (size_t)out->primaries + 1, sizeof *out->multiplier);
+    if (w->pool->out_of_memory) return DAL_STATUS_MEMORY;
+    for (int a = 0; a < c->count; a++) {
+        dal_dirac_constraint *to = &out->constraint[a];
+        to->stage = c->constraint[a].stage;
+        to->source = c->constraint[a].source;
+        write_later(w, &to->phi, c->constraint[a].phi);
+        write_later(w, &to->form, c->constraint[a].phi);
+    }
+    for (int i = 0; i < c->steps; i++) write_later(w, &out->step[i].condition, c->condition[i]);
+    for (int b = 0; b < out->primaries; b++) {
+        const dal__node mu = dal__symbol(c->theory->graph, c->theory->mu + b);
+        write_later(w, &out->multiplier[b].name, mu);
+        write_later(w, &out->multiplier[b].value, mu);
+    }
+    write_later(w, &out->hamiltonian, c->theory->shown);
+    write_later(w, &out->on_surface, c->theory->shown);
+    return DAL_STATUS_OK;
+}
+
+static dal_status put_generator(dal_dirac_generator *to, writer *w, const dal__generator *from)
+{
+    const dal__theory *theory = w->theory;
+    const size_t size = 2 * (size_t)theory->pairs + 1;
+    to->multiplier = from->multiplier;
+    to->derivatives = from->derivatives;
+    to->changed = dal__pool_allocate(w->pool, size, sizeof *to->changed);
+    to->change = dal__pool_allocate(w->pool, size, sizeof *to->change);
+    if (w->pool->out_of_memory) return DAL_STATUS_MEMORY;
+    for (int i = 0; i < 2 * theory->pairs; i++) {
+        if (dal__node_is_zero(theory->graph, from->change[i])) continue;
+        write_later(w, &to->changed[to->changes], dal__symbol(theory->graph, theory->variable[i]));
+        write_later(w, &to->change[to->changes++], from->change[i]);
+    }
+    write_later(w, &to->generator, from->G);
+    write_later(w, &to->of_multiplier,
+                dal__symbol(theory->graph, theory->alpha + from->derivatives + 1));
+    return DAL_STATUS_OK;
+}
+
+static dal_status put_classes(dal_dirac *out, writer *w, const dal__chain *c, const dal__classes *k)
+{
+    out->second_class = k->second;
+    out->first_class = c->count - k->second;
+    out->free_multipliers = k->free_multipliers;
+    out->generators = k->generators;
+    out->dimension = k->generators < k->free_multipliers
+                         ? -1
+                         : 2 * out->pairs - out->constraints - k->directions;
+    for (int a = 0; a < c->count; a++) {
+        out->constraint[a].first_class = k->is_first[a];
+        write_later(w, &out->constraint[a].form, k->form[a]);
+    }
+    for (int b = 0; b < out->primaries; b++) {
+        out->multiplier[b].is_free = c->conservation.row[b] < 0;
+        write_later(w, &out->multiplier[b].value, k->value[b]);
+    }
+    write_later(w, &out->on_surface, k->on_surface);
+    out->generator = dal__pool_allocate(w->pool, (size_t)k->generators + 1, sizeof *out->generator);
+    if (!out->generator) return DAL_STATUS_MEMORY;
+    for (int i = 0; i < k->generators; i++)
+        DAL_TRY(put_generator(&out->generator[i], w, &k->generator[i]));
+    const dal__theory *theory = w->theory;
+    const int columns = 2 * k->observables, size = k->observables * columns;
+    out->bracket = dal__pool_allocate(w->pool, (size_t)size + 1, sizeof *out->bracket);
+    for (int ij = 0; out->bracket && ij < size; ij++) {
+        const int i = ij / columns, j = ij % columns;
+        const int other = j < k->observables ? j : theory->pairs + j - k->observables;
+        if (j <= i || dal__node_is_zero(theory->graph, k->bracket[ij])) continue;
+        dal_dirac_bracket *to = &out->bracket[out->brackets++];
+        write_later(w, &to->left, dal__symbol(theory->graph, theory->variable[i]));
+        write_later(w, &to->right, dal__symbol(theory->graph, theory->variable[other]));
+        write_later(w, &to->value, k->bracket[ij]);
+    }
+    return w->pool->out_of_memory ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
+}
+
+dal_status dal__dirac_run(dal_dirac **dirac, const dal__theory *theory, dal__pool *pool)
+{
+    results *made = calloc(1, sizeof *made);
+    dal__chain chain = {.is_complete = false};
+    dal__classes classes;
+    writer w = {.theory = theory, .pool = pool};
+    dal_status status = made ? dal__chain_run(&chain, theory, pool) : DAL_STATUS_MEMORY;
+    if (status == DAL_STATUS_OK) status = put_chain(&made->dirac, &w, &chain);
+    if (status == DAL_STATUS_OK && chain.is_complete) status = dal__classes_find(&classes, &chain);
+    if (status == DAL_STATUS_OK && chain.is_complete) status = dal__gauge_find(&classes, &chain);
+    if (status == DAL_STATUS_OK && chain.is_complete)
+        status = put_classes(&made->dirac, &w, &chain, &classes);
+    if (status == DAL_STATUS_OK) status = theory->graph->status;
+    if (status == DAL_STATUS_OK) status = write_all(&w, true);
+    if (status == DAL_STATUS_OK) status = write_all(&w, false);
+    if (status == DAL_STATUS_OK) {
+        made->pool = *pool;
+        *pool = (dal__pool){.blocks = NULL};
+        *dirac = &made->dirac;
+    } else {
+        free(made);
+    }
+    return status;
+}
+
+void dal_dirac_free(dal_dirac *dirac)
+{
+    results *made = (results *)dirac;
+    if (!made) return;
+    dal__pool_free(&made->pool);
+    free(made);
+}
+
+dal_status dal_dirac_create(dal_dirac **dirac, dal_model *model, const dal_run_spec *spec,
+                            dal_error *error)
+{
+    DAL_REQUIRE(dirac, error);
+    *dirac = NULL;
+    DAL_REQUIRE(model, error);
+    DAL_REQUIRE(spec, error);
+    DAL_REQUIRE(spec->system, error);
+    if (!model->made || spec->system != &model->system)
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "the system is not the model's");
+    dal__pool pool = {.blocks = NULL};
+    dal__theory theory;
+    dal_error local = {0};
+    dal_status status = dal__theory_create(&theory, model, spec, &pool, &local);
+    if (status == DAL_STATUS_OK) status = dal__dirac_run(dirac, &theory, &pool);
+    dal__pool_free(&pool);
+    if (status == DAL_STATUS_OK) return status;
+    if (local.message[0] == '\0') {
+        if (status == DAL_STATUS_NOT_FINITE)
+            dal__fail(&local, status, "a bracket has no value near the start");
+        else
+            dal__size_error(status, &local);
+    }
+    if (error) *error = local;
+    return status;
 }

@@ -1,22 +1,12 @@
-/* dirac.h - Dirac's algebra with constraints of any choice. */
-#ifndef DAL_DIRAC_H
-#define DAL_DIRAC_H
+/* dirac.h - Dirac's procedure for any theory. */
+#ifndef DAL_LIFT_DIRAC_H
+#define DAL_LIFT_DIRAC_H
 
-#include "dalembert_order.h"
+#include "lift/theory.h"
 
-/* Dirac's algebra with any 4n+1 functions phi(user, z, a) on 6n+2 as constraints, the first 2n+1
- * the primary ones; user is the dal__dirac_space.  dal_evaluator_check_dirac takes the theory's
- * functions, and a test takes a wrong one. */
-typedef struct dal__dirac_space {
-    dal_evaluator *evaluator;
-    int n;
-    double t;
-    double (*phi)(void *user, const double *z, int a);
-    int a;         /* the constraint to be differentiated */
-    double *field; /* [3n] F, or K pi and its derivatives */
-} dal__dirac_space;
-double dal__dirac_constraint(void *user, const double *z, int a);
-dal_status dal__dirac_algebra(dal_evaluator *evaluator, const dal_point *at, double e,
-                              double (*phi)(void *user, const double *z, int a), dal_dirac *out);
+/* Dirac's procedure for a theory, of which parts and memory are the pool's.  *dirac is freed with
+ * dal_dirac_free, and owns the pool's memory from then on. [alloc]  Errors: as of
+ * dal__surface_clean. */
+dal_status dal__dirac_run(dal_dirac **dirac, const dal__theory *theory, dal__pool *pool);
 
 #endif

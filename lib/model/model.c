@@ -7,11 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct dal__allocation {
-    struct dal__allocation *next;
-    max_align_t memory[];
-} dal__allocation;
-
 const char *dal__section_name(dal_section section)
 {
     DAL__RETURN_WORD(DAL_SECTION_LIST, DAL__SECOND, section, "?");
@@ -74,16 +69,9 @@ bool dal__section_named(dal_section section)
 
 void *dal__model_allocate(dal_model *model, size_t count, size_t size)
 {
-    dal__allocation *block = NULL;
-    size_t most = SIZE_MAX - sizeof *block;
-    if (size == 0 || count <= most / size) block = calloc(1, sizeof *block + count * size);
-    if (!block) {
-        model->out_of_memory = true;
-        return NULL;
-    }
-    block->next = model->blocks;
-    model->blocks = block;
-    return block->memory;
+    void *memory = dal__pool_allocate(&model->memory, count, size);
+    model->out_of_memory |= !memory;
+    return memory;
 }
 
 dal__node *dal__model_nodes(dal_model *model, int count, dal__node initial)
@@ -139,10 +127,7 @@ dal_status dal__size_error(dal_status status, dal_error *error)
 
 void dal__model_discard(dal_model *model)
 {
-    for (dal__allocation *block = model->blocks, *next; block; block = next) {
-        next = block->next;
-        free(block);
-    }
+    dal__pool_free(&model->memory);
     free(model->given);
     free(model);
 }

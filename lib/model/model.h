@@ -7,6 +7,7 @@
 #define DAL_MODEL_MODEL_H
 
 #include "core/error.h"
+#include "core/pool.h"
 #include "expr/table.h"
 #include "model/equations.h"
 #include "model/program_list.h"
@@ -66,9 +67,9 @@ typedef struct dal__warning {
 
 struct dal_model {
     char *name;
-    struct dal__allocation *blocks; /* all memory */
-    bool out_of_memory;             /* an allocation failed */
-    dal__entry *given;              /* [given_count] */
+    dal__pool memory;   /* all of it */
+    bool out_of_memory; /* an allocation failed */
+    dal__entry *given;  /* [given_count] */
     int given_count, given_capacity;
     dal__entry *expanded; /* [expanded_count]: those with indices and ranges written out */
     int expanded_count, expanded_capacity;

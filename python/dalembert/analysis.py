@@ -454,6 +454,113 @@ def invariants(system: SystemLike, degree: int = 2, *, factors: Sequence[str] = 
         found.independent, found.least_change, found.largest_zero)
 
 
+# ---- Dirac's procedure -------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class DiracConstraint:
+    """A constraint formula = 0.
+
+    Attributes
+    ----------
+    formula : str
+        With the names of the system.
+    stage : int
+        That found it; 0: it is primary.
+    source : str or None
+        The constraint whose conservation requires it.
+    is_first_class : bool
+        Else it is one of the second class.
+    form : str
+        The formula, where first class less what has brackets with the second class.
+    """
+
+    formula: str
+    stage: int
+    source: str | None
+    is_first_class: bool
+    form: str
+
+
+@dataclass(frozen=True)
+class Dirac:
+    """Dirac's procedure for the action of a system.
+
+    Attributes
+    ----------
+    is_complete : bool
+        False: a condition contradicts the others, or is irregular; what follows classes is empty.
+    dimensions, dimension : int
+        Of the phase space; of the motion, -1 where it is not known.
+    stages : int
+        Until no further constraint is found.
+    hamiltonian, on_surface : str
+        Without its multipliers; with them, on the surface.
+    constraints : tuple of DiracConstraint
+        In the order of stages.
+    steps : tuple of (int, str, str, str)
+        Stage, constraint, outcome (``'holds'``, ``'fixes'``, ``'adds'``, ``'irregular'``,
+        ``'contradicts'``, ``'stops'``) and condition of each conservation.
+    multipliers : dict of str to (str or None)
+        Values on the surface; None: free.
+    first_class, second_class : int
+        How many constraints.
+    brackets : dict of (str, str) to str
+        Dirac brackets of q and v that are not 0.
+    gauge : dict of str to dict of str to str
+        Of each free multiplier what its gauge transformation changes, and by what.
+    """
+
+    is_complete: bool
+    dimensions: int
+    dimension: int
+    stages: int
+    hamiltonian: str
+    on_surface: str
+    constraints: tuple[DiracConstraint, ...]
+    steps: tuple[tuple[int, str, str, str], ...]
+    multipliers: dict[str, str | None]
+    first_class: int
+    second_class: int
+    brackets: dict[tuple[str, str], str]
+    gauge: dict[str, dict[str, str]]
+
+
+def dirac(system: SystemLike, *, parameters: Settings | None = None, start: Settings | None = None,
+          start_time: float = 0.0) -> Dirac:
+    """Carries out Dirac's procedure for the action of a system: of the lift with its effort, or of
+    vakonomic motion.
+
+    Parameters
+    ----------
+    system, parameters, start, start_time
+        As of a `Run`; points near the start decide what vanishes on the surface.
+    """
+    spec = Spec(system, 'rk4', parameters=parameters, start=start, start_time=start_time)
+    made = ffi.new('dal_dirac **')
+    call(lib.dal_dirac_create, made, spec.system._model, spec.c)
+    d = ffi.gc(made[0], lib.dal_dirac_free)
+    formulas = [text_of(d.constraint[a].phi.text) for a in range(d.constraints)]
+    names = [text_of(d.multiplier[b].name.text) for b in range(d.primaries)]
+    return Dirac(
+        bool(d.is_complete), 2 * d.pairs, d.dimension, d.stages, text_of(d.hamiltonian.text),
+        text_of(d.on_surface.text),
+        tuple(DiracConstraint(formulas[a], d.constraint[a].stage,
+                              formulas[d.constraint[a].source] if d.constraint[a].source >= 0 else None,
+                              bool(d.constraint[a].first_class), text_of(d.constraint[a].form.text))
+              for a in range(d.constraints)),
+        tuple((s.stage, formulas[s.constraint], text_of(lib.dal_dirac_outcome_name(s.outcome)),
+               text_of(s.condition.text)) for s in d.step[0:d.steps]),
+        {names[b]: None if d.multiplier[b].is_free else text_of(d.multiplier[b].value.text)
+         for b in range(d.primaries)} if d.is_complete else {},
+        d.first_class, d.second_class,
+        {(text_of(b.left.text), text_of(b.right.text)): text_of(b.value.text)
+         for b in d.bracket[0:d.brackets]},
+        {names[g.multiplier]: {**{text_of(g.changed[k].text): text_of(g.change[k].text)
+                                  for k in range(g.changes)},
+                               names[g.multiplier]: text_of(g.of_multiplier.text)}
+         for g in d.generator[0:d.generators]})
+
+
 # ---- error sources -----------------------------------------------------------------------------
 
 @dataclass(frozen=True)

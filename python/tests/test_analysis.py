@@ -123,6 +123,19 @@ def test_generate(program):
             dalembert.generate('chaplygin-sleigh', 'rk4', **arguments)
 
 
+def test_dirac():
+    sleigh = dalembert.dirac('chaplygin-sleigh')
+    assert (sleigh.is_complete, sleigh.dimensions, sleigh.dimension) == (True, 20, 6)
+    assert (sleigh.first_class, sleigh.second_class, sleigh.stages) == (7, 6, 3)
+    assert sleigh.multipliers['mu_e'] is None and sleigh.multipliers['mu_phi'] == "phi'"
+    assert [c.formula for c in sleigh.constraints if c.stage == 1] == ['pi_y1', 'pi_y2', 'pi_phi']
+    assert {c.source for c in sleigh.constraints if c.stage == 1} == {'pi_e'}
+    assert [s[2] for s in sleigh.steps if s[1] == 'pi_e'] == ['irregular']
+    assert sleigh.brackets['y1', 'p_y1'] == '1' and ('y1', 'y2') not in sleigh.brackets
+    vakonomic = dalembert.dirac('chaplygin-sleigh-vakonomic', parameters={'m': 2})
+    assert (vakonomic.first_class, vakonomic.second_class, vakonomic.gauge) == (0, 14, {})
+
+
 def test_invariants():
     """Two oscillators of one frequency conserve four quadratic forms; with friction they conserve none."""
     text = """
