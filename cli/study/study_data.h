@@ -133,7 +133,8 @@ typedef struct study_plan {
     const char *copies;            /* directory with copies of system files, or NULL */
     const char *runs;              /* where the directories of the runs are */
     struct study_results *results; /* of the cells that keep no rows; NULL where all do */
-    double interval;               /* seconds between checkpoints of a run */
+    uint64_t *key;   /* [cells] by which results name them; NULL until results are read */
+    double interval; /* seconds between checkpoints of a run */
     native_mode native;
     const char *title;
     document *doc; /* the parsed text, to which all names point */

@@ -93,9 +93,11 @@ static int write_manifest(const study_directory *dir, const study_plan *plan, st
 
 /* ---- the results of cells without rows ---------------------------------------------------- */
 
-/* The keys of the cells, key[cell_count]. */
-static int find_keys(const study_plan *plan, uint64_t *key)
+/* The keys of the cells, once for all directories of the plan. */
+static int find_keys(study_plan *plan)
 {
+    if (plan->key) return CLI_DONE;
+    uint64_t *key = cli_calloc((size_t)plan->cell_count + 1, sizeof *key);
     uint64_t system = 0;
     int status = CLI_DONE;
     for (int i = 0; i < plan->case_count && status == CLI_DONE; i++) {
@@ -109,10 +111,14 @@ static int find_keys(const study_plan *plan, uint64_t *key)
         for (int k = e->first_cell; k < e->first_cell + e->cells && status == CLI_DONE; k++)
             key[k] = study_cell_key(&plan->cells[k], system);
     }
+    if (status == CLI_DONE)
+        plan->key = key;
+    else
+        free(key);
     return status;
 }
 
-int study_directory_open_results(const study_directory *dir, const study_plan *plan,
+int study_directory_open_results(const study_directory *dir, study_plan *plan,
                                  study_results **results)
 {
     bool has_any = false;
@@ -124,11 +130,9 @@ int study_directory_open_results(const study_directory *dir, const study_plan *p
                        ? cli_format("%lld-of-%lld", dir->shard.number, dir->shard.count)
                    : dir->writer > 0 ? cli_format("writer-%d", dir->writer)
                                      : cli_strdup("all");
-    uint64_t *key = cli_calloc((size_t)plan->cell_count + 1, sizeof *key);
-    int status = find_keys(plan, key);
+    int status = find_keys(plan);
     if (status == CLI_DONE)
-        status = study_results_open(results, dir->results, writer, key, plan->cell_count);
-    free(key);
+        status = study_results_open(results, dir->results, writer, plan->key, plan->cell_count);
     free(writer);
     return status;
 }

@@ -72,7 +72,7 @@ int study_directory_find_cells(const study_directory *dir, int cells, bool *has)
 int study_directory_read(study_directory *dir, study_plan *plan);
 /* Reads the results of cells without rows in place of those before, *results being NULL where all
  * cells keep some. */
-int study_directory_open_results(const study_directory *dir, const study_plan *plan,
+int study_directory_open_results(const study_directory *dir, study_plan *plan,
                                  struct study_results **results);
 /* Runs the cells, then finishes; and reads the study before. */
 int study_directory_run(const study_directory *dir, study_plan *plan,

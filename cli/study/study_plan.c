@@ -568,6 +568,7 @@ void study_plan_free(study_plan *plan)
         request_free_settings(&e->displace);
     }
     study_results_free(plan->results);
+    free(plan->key);
     if (plan->doc) yaml_document_delete(&plan->doc->yaml);
     free(plan->doc);
     free(plan->cases);
