@@ -296,12 +296,17 @@ static int read_motion(const label_figures *f, int row, motion *m)
     return status;
 }
 
+static double step_of(const label_figures *f, int row)
+{
+    return strtod(get_cell(f->s, row, "step"), NULL);
+}
+
 /* The row of the largest error below a bound, with the step of another row; 0: there is none. */
-static int find_worst(const label_figures *f, double bound, const char *step)
+static int find_worst(const label_figures *f, double bound, double step)
 {
     int worst = 0;
     for (int row = 1; row < f->s->cells.rows; row++)
-        if (is_kept(f, row) && is_cell(f->s, row, "step", step) && error_of(f, row) < bound &&
+        if (is_kept(f, row) && step_of(f, row) == step && error_of(f, row) < bound &&
             (worst == 0 || error_of(f, row) > error_of(f, worst)))
             worst = row;
     return worst;
@@ -315,7 +320,7 @@ static int write_motions(const label_figures *f, json_writer *data)
     int status = best > 0 ? read_motion(f, best, &pair[0]) : CLI_DONE, row = best;
     double bound = INFINITY;
     for (int tries = 0; pair[0].frames > 0 && tries < MAX_TRIES && status == CLI_DONE; tries++) {
-        row = find_worst(f, bound, get_cell(f->s, best, "step"));
+        row = find_worst(f, bound, step_of(f, best));
         if (row == 0 || row == best) break;
         status = read_motion(f, row, &pair[1]);
         if (motion_extent(&pair[1]) <= max_extent * motion_extent(&pair[0])) break;

@@ -35,13 +35,9 @@ static const struct {
 /* The text as far as it fits, with a ~ where it ends early; returns what is left of the width. */
 static int put_cut(FILE *out, const char *text, int width)
 {
-    int length = (int)strlen(text), spaces = width - length;
-    if (length > width) {
-        length = width - 1;
-        while (length > 0 && ((unsigned char)text[length] & 0xc0u) == 0x80u) length--;
-        spaces = width - length - 1;
-    }
-    fprintf(out, "%.*s%s", length, text, text[length] ? "~" : "");
+    const int spaces = width - cli_columns(text);
+    fprintf(out, "%.*s%s", cli_fit(text, spaces < 0 ? width - 1 : width), text,
+            spaces < 0 ? "~" : "");
     return spaces;
 }
 

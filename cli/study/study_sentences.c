@@ -4,6 +4,7 @@
 #include "study_compare.h"
 #include "ui/memory.h"
 #include "ui/name_groups.h"
+#include "ui/wrap.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +24,8 @@ static bool find_name(const study_matrix *m, int column, size_t longest,
         length = strcspn(part, "-_");
         if (strcmp(part + strcspn(part, "."), ".yaml") == 0) length = strcspn(part, ".");
         if (length > longest) continue;
-        snprintf(name, STUDY_SHORT_NAME, "%.*s", (int)length, part);
+        const int fits = cli_fit(part, STUDY_SHORT_LETTERS);
+        snprintf(name, STUDY_SHORT_NAME, "%.*s", length < (size_t)fits ? (int)length : fits, part);
         int k = 0;
         while (k < m->columns && (k == column || !strstr(m->column[k]->label, name))) k++;
         found = k == m->columns;
@@ -35,10 +37,11 @@ void study_name_columns(const study_matrix *m, char (*name)[STUDY_SHORT_NAME])
 {
     for (int i = 0; i < m->columns; i++) {
         const bool found =
-            find_name(m, i, STUDY_SHORT_NAME - 1, name[i]) || find_name(m, i, SIZE_MAX, name[i]);
+            find_name(m, i, STUDY_SHORT_LETTERS, name[i]) || find_name(m, i, SIZE_MAX, name[i]);
         for (int k = 0; !found && k < i; k++)
             if (strcmp(name[i], name[k]) == 0)
-                snprintf(name[i], STUDY_SHORT_NAME, "%.4s%d", name[k], (i + 1) % 100);
+                snprintf(name[i], STUDY_SHORT_NAME, "%.*s%d", cli_fit(name[k], 4), name[k],
+                         (i + 1) % 100);
     }
 }
 

@@ -5,7 +5,8 @@
 #include "study_matrix.h"
 #include "ui/screen.h"
 
-enum { STUDY_SHORT_NAME = 8 };
+/* Letters of a short name; its bytes, as many of UTF-8 as they may take, and a zero. */
+enum { STUDY_SHORT_LETTERS = 7, STUDY_SHORT_NAME = 4 * STUDY_SHORT_LETTERS + 1 };
 
 /* A short name for each column: the first part of its label that no other label has, one that need
  * not be cut if there is any; else the last part, with a number where another column has that. */

@@ -196,14 +196,6 @@ void screen_free_table(screen_table *t)
     free(t->cell);
 }
 
-/* Characters, not bytes, of a UTF-8 text. */
-static int count_characters(const char *text)
-{
-    int n = 0;
-    for (; *text; text++) n += ((unsigned char)*text & 0xC0) != 0x80;
-    return n;
-}
-
 /* One row; the last of the columns that are shown leaves no blanks at the end of the line. */
 static void put_row(const screen *s, const screen_table *t, const screen_cell *row,
                     const int *widths, int shown, const char *align, int indent)
@@ -215,7 +207,7 @@ static void put_row(const screen *s, const screen_table *t, const screen_cell *r
     const int gap = t->gap ? t->gap : GAP;
     int column = fprintf(s->out, "%*s", indent, ""), blanks = 0;
     for (int i = 0; i < shown; i++) {
-        const int spaces = widths[i] - count_characters(row[i].text);
+        const int spaces = widths[i] - cli_columns(row[i].text);
         const bool is_right = screen_align_of(align, i) == 'r';
         if (screen_align_of(align, i) == 'w' && row[i].text[0]) {
             if (column + blanks + LEAST_TEXT > s->width) { /* on the next line */
@@ -251,7 +243,7 @@ int screen_add_table(screen *s, const screen_table *t, const char *align, int in
     }
     int *widths = cli_calloc((size_t)t->columns + 1, sizeof *widths);
     for (int k = 0; k < t->cells; k++) {
-        const int width = count_characters(t->cell[k].text), i = k % t->columns;
+        const int width = cli_columns(t->cell[k].text), i = k % t->columns;
         if (width > widths[i]) widths[i] = width;
     }
     int shown = 0, used = indent;

@@ -29,20 +29,12 @@ void cli_table_append(cli_table *t, const char *format, ...)
     free(row);
 }
 
-/* Characters, not bytes, of a UTF-8 text. */
-static int count_characters(const char *text)
-{
-    int n = 0;
-    for (; *text; text++) n += ((unsigned char)*text & 0xC0) != 0x80;
-    return n;
-}
-
 /* Of each column the longest cell. */
 static void measure(const cli_table *t, int widths[CLI_TABLE_COLUMNS])
 {
     memset(widths, 0, CLI_TABLE_COLUMNS * sizeof *widths);
     for (int k = 0; k < t->cells; k++) {
-        const int width = count_characters(t->cell[k]), i = k % t->columns;
+        const int width = cli_columns(t->cell[k]), i = k % t->columns;
         if (width > widths[i]) widths[i] = width;
     }
 }
@@ -58,7 +50,7 @@ void cli_table_print_markdown(const cli_table *t)
     measure(t, widths);
     for (int k = 0; k < t->cells; k++) {
         const int i = k % t->columns;
-        printf("| %s%*s %s", t->cell[k], widths[i] - count_characters(t->cell[k]), "",
+        printf("| %s%*s %s", t->cell[k], widths[i] - cli_columns(t->cell[k]), "",
                i == t->columns - 1 ? "|\n" : "");
         if (k != t->columns - 1) continue;
         for (int j = 0; j < t->columns; j++) {
@@ -76,7 +68,7 @@ static void print_row(const cli_table *t, char **cell, const int *widths, int si
     size_t n = 0;
     const int last = side_by_side - 1;
     for (int i = 0; i < last; i++)
-        printf("%s%*s", cell[i], widths[i] - count_characters(cell[i]) + 2, "");
+        printf("%s%*s", cell[i], widths[i] - cli_columns(cell[i]) + 2, "");
     puts(cell[last]);
     for (int i = last + 1; i < t->columns && n < sizeof rest; i++)
         n += (size_t)snprintf(rest + n, sizeof rest - n, "%s%s", n > 0 ? "; " : "    ", cell[i]);
@@ -121,7 +113,7 @@ void cli_table_print_short(const cli_table *t, int width)
         if (k == t->columns) print_rules(rules, count + 1);
         for (int i = 0; i < count; i++) {
             const char *cell = t->cell[k + shown[i]];
-            printf("%s%*s", cell, rules[i] - count_characters(cell) + 2, "");
+            printf("%s%*s", cell, rules[i] - cli_columns(cell) + 2, "");
         }
         cli_wrap_to(stdout, t->cell[k + t->text], used, used, width);
     }

@@ -5,6 +5,23 @@
 
 enum { LINE = 80, MAX_INDENT = 40 };
 
+static bool begins_character(char byte) { return ((unsigned char)byte & 0xC0) != 0x80; }
+
+int cli_columns(const char *text)
+{
+    int n = 0;
+    for (; *text; text++) n += begins_character(*text);
+    return n;
+}
+
+int cli_fit(const char *text, int columns)
+{
+    int length = 0;
+    for (; text[length]; length++)
+        if (begins_character(text[length]) && columns-- == 0) break;
+    return length;
+}
+
 /* The place of the next word. */
 typedef struct wrapper {
     FILE *out;

@@ -5,6 +5,11 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+/* The columns that a text of UTF-8 takes: its characters, not its bytes. */
+int cli_columns(const char *text);
+/* The bytes of its first characters, as many as fit in some columns. */
+int cli_fit(const char *text, int columns);
+
 /* Prints a text from the present column on; further lines begin at hanging. */
 void cli_wrap(FILE *out, const char *text, int column, int hanging);
 /* The same with lines of WIDTH columns. */

@@ -127,6 +127,10 @@ for arguments in "run $sleigh" "run $sleigh --samples 1" list --help --version "
     expect "exit $status, not 4: $arguments" [ $status -eq 4 ]
     says "cannot write 'standard output': No space left on device"
 done
+# Years of steps are not taken when the first rows are lost.
+timeout $patience "$program" run $sleigh --time 1e9 --samples 1000000 >/dev/full 2>err
+status=$?
+expect "exit $status, not 4: a long run" [ $status -eq 4 ]
 # A stream that is full before its end no longer knows why.
 motion="--integrator rk4 --step 0.1 --time 1"
 for arguments in "check line.yaml" "show benenti" "generate line.yaml --integrator rk4" "explain line.yaml $motion" \

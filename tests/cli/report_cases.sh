@@ -44,7 +44,7 @@ expect "no drift" test -s "drift--time 200"
 expect "no drift of 0" sh -c "! grep '0\.0e+00' 'drift--steps 4000'"
 expect "another drift" cmp "drift--steps 4000" "drift--time 200"
 
-if needs 25 "no python3" there python3; then
+if needs 28 "no python3" there python3; then
     case_is "the envelopes of a page are the maxima of series/"
     # Of three methods with two steps: D, E, I, H and the error of the sleigh, D, E and I of the
     # vakonomic one, all but D of the line.
@@ -110,6 +110,15 @@ start: {x2: 3, x1'"'"': 1}\n' >pair.yaml
     try 0 run ./shared.yaml --integrator rk4 --step 0.1 --time 2 --output shared
     try 0 report shared
     expect "no abscissas of an earlier curve" grep -q '"name":"drift".*"title":"b",[^]]*"x":\[.*"title":"c",[^[]*"x":0,' shared/report/index.html
+
+    # By their orders, 1, 4 and the tolerance, the motions that are farthest apart.
+    case_is "the most and the least accurate motion of a study"
+    printf '%s\n' 'integrators: [rk4, dop853, symplectic-euler-10]' 'step: 0.05' 'tolerance: [1e-6, 1e-8]' 'time: 6' \
+        'starts: physical' 'systems: [chaplygin-sleigh]' >pair-of.yaml
+    try 0 study pair-of.yaml --no-page --output pair-of
+    try 0 report pair-of
+    python3 "$here/page_data.py" motions pair-of/report/index.html | cut -d " " -f 1 | uniq >motion
+    expect "$(cat motion)" test "$(tr '\n' ' ' <motion)" = "dop853 symplectic-euler-10 "
     counted
 fi
 
@@ -345,6 +354,11 @@ expect "other curves" test "$(sed -n 's/^ .*title [^a-z]\([^(]*\) (.*/\1/p' \
     families/report/1-D.gp | tr '\n' ,)" = \
     "Runge-Kutta: rk4,Gauss: gauss6,symplectic: symplectic-euler-10,constraint form: gni,projected: gauss4+project,energy-preserving: discrete-gradient,"
 
+# A method of a later version is of no family that this one knows.
+sed -i 's/gauss6/gauss66/' families/cells.csv families/series/*.csv
+try 0 report families
+expect "no curve of a method that is not known" grep -q 'title .other: gauss66' families/report/1-D.gp
+
 case_is "the report of orders"
 try 0 order line.yaml --integrators rk4,gauss4,isokinetic-splitting --levels 3 --time 1 \
     --output orders
@@ -364,6 +378,11 @@ try 0 order moved.yaml --integrators rk4,gauss4 --levels 3 --step 0.2 --time 2 -
     --start "x'=3" --space lifted --output found
 prints '^against gauss12 with h = 0\.025, itself within'
 mv moved.yaml moved-back.yaml
+rm -rf found/report
+cp -r found wrong
+sed -i 's/"k": *0\.5/"k": "0.5?"/' wrong/order.json
+try 2 report wrong
+says "k: '0.5\?' is not a number$"
 rm -r found/report
 try 0 report found
 for fact in "<h1 id=\"top\">friction on a line: order, work and precision</h1>" "<msub><mi>Q</mi><mi>x</mi></msub></mtd>" \

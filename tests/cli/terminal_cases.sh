@@ -73,7 +73,7 @@ END
         echo "  - $system"
     done
 } >wide.yaml
-if needs 27 "no terminal (script, stty)" terminal; then
+if needs 34 "no terminal (script, stty)" terminal; then
     case_is "study: names, ok or a size, and what to take"
     shown 80 study small.yaml --output there --force --no-page
     fits 80 23
@@ -95,6 +95,16 @@ if needs 27 "no terminal (script, stty)" terminal; then
     expect "another screen" cmp piped plain
     shown 80 study small.yaml --output there --force --no-page --tables
     prints '^chaplygin-sleigh: '
+    # Names have seven letters at most; one of two bytes takes one column.
+    case_is "study: names in UTF-8"
+    for label in abcdefghij äöüßäöüßäö; do
+        sed "s/^systems: .*/systems: [{system: chaplygin-sleigh, label: $label}, knife-edge]/" small.yaml >letters.yaml
+        shown 80 study letters.yaml --output there --force --no-page
+        fits 80 23
+        sed -n '3s/äöüßäöü/abcdefg/; 3p' plain >"$label"
+        expect "$(cat "$label")" grep -Eqx ' +abcdefg +knife' "$label"
+    done
+    expect "$(cat abcdefghij äöüßäöüßäö)" cmp abcdefghij äöüßäöüßäö
     case_is "study: systems that do not fit are counted"
     shown 80 study wide.yaml --output there --force --no-page
     fits 80 23
