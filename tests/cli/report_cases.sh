@@ -383,7 +383,7 @@ cp -r found wrong
 sed -i 's/"k": *0\.5/"k": "0.5?"/' wrong/order.json
 try 2 report wrong
 says "k: '0.5\?' is not a number$"
-rm -r found/report
+rm -rf found/report
 try 0 report found
 for fact in "<h1 id=\"top\">friction on a line: order, work and precision</h1>" "<msub><mi>Q</mi><mi>x</mi></msub></mtd>" \
     "<code>k = 0.5</code> instead of <code>1</code>" "<code>x' = 3</code> instead of" \
