@@ -123,7 +123,8 @@ double dal_poisson(const double *f, const double *g, int pairs);
 
 /* A formula with the names of the system, in the language of system files and in LaTeX. */
 typedef struct dal_formula {
-    const char *text, *latex;
+    const char *text;  /* as in a system file */
+    const char *latex; /* for display mathematics */
 } dal_formula;
 
 /* What the conservation of a constraint requires: OUTCOME(code, word). */
@@ -146,7 +147,7 @@ const char *dal_dirac_outcome_name(dal_dirac_outcome outcome);
 
 /* A constraint phi = 0. */
 typedef struct dal_dirac_constraint {
-    dal_formula phi;
+    dal_formula phi;  /* its left side */
     int stage;        /* that found it; 0: primary */
     int source;       /* the constraint whose conservation requires it; -1: primary */
     bool first_class; /* else it is one of the second-class ones that Dirac brackets are made of */
@@ -155,33 +156,38 @@ typedef struct dal_dirac_constraint {
 
 /* The conservation of one constraint, in one stage. */
 typedef struct dal_dirac_step {
-    int stage, constraint;
-    dal_dirac_outcome outcome;
-    dal_formula condition; /* 0 where the constraint is conserved; the value of a multiplier */
-    int multiplier;        /* fixed; -1: none */
-    int first, count;      /* of the constraints that it adds */
+    int stage;                 /* from 1 */
+    int constraint;            /* that must be conserved, from 0 */
+    dal_dirac_outcome outcome; /* what that requires */
+    dal_formula condition;     /* 0 where the constraint is conserved; the value of a multiplier */
+    int multiplier;            /* fixed; -1: none */
+    int first, count;          /* of the constraints that it adds */
 } dal_dirac_step;
 
 /* The multiplier of a primary constraint. */
 typedef struct dal_dirac_multiplier {
-    dal_formula name, value; /* value: of one that is not free, on the surface */
-    bool is_free;
+    dal_formula name;  /* as in the formulas */
+    dal_formula value; /* of one that is not free, on the surface */
+    bool is_free;      /* whether nothing fixes it */
 } dal_dirac_multiplier;
 
 /* A Dirac bracket {left, right} that is not 0, on the surface. */
 typedef struct dal_dirac_bracket {
-    dal_formula left, right, value;
+    dal_formula left;  /* a coordinate or velocity */
+    dal_formula right; /* a coordinate, velocity or momentum */
+    dal_formula value; /* of the bracket */
 } dal_dirac_bracket;
 
 /* The gauge transformation of a free multiplier: {z, generator} is the change of z.  A multiplier
  * has none here where the series of its primary constraint does not end by itself. */
 typedef struct dal_dirac_generator {
-    int multiplier;
-    int derivatives;       /* the highest of alpha(t) in it */
-    dal_formula generator; /* with alpha, alpha', .. */
-    int changes;
-    dal_formula *changed, *change; /* [changes] variables, and by what, on the surface */
-    dal_formula of_multiplier;     /* the change of the multiplier */
+    int multiplier;            /* from 0 */
+    int derivatives;           /* the highest of alpha(t) in it */
+    dal_formula generator;     /* with alpha, alpha' and so on */
+    int changes;               /* variables that it changes */
+    dal_formula *changed;      /* [changes] these variables */
+    dal_formula *change;       /* [changes] by what, on the surface */
+    dal_formula of_multiplier; /* the change of the multiplier */
 } dal_dirac_generator;
 
 /* Dirac's procedure from beginning to end.  The phase space has 2*pairs dimensions:
@@ -202,21 +208,25 @@ typedef struct dal_dirac_generator {
  * the surface.  A condition sum_i c_i s_i^2, or a semidefinite quadratic form in momenta, has no
  * gradient where it is 0: it is replaced by the s_i, or by the kernel of the form (nh15). */
 typedef struct dal_dirac {
-    int pairs, primaries, stages;
-    int constraints;      /* all; a complete chain of the lift has 4n + 1 for a regular K */
-    int second_class;     /* rank of their brackets; 2n for the lift */
-    int first_class;      /* the rest */
-    int free_multipliers; /* 1 for the lift: mu_e, the gauge */
-    int dimension;        /* of the surface less the gauge directions: 2n; -1: not known */
-    bool is_complete;     /* else the last step contradicts or stops, and there is no more */
-    dal_formula hamiltonian, on_surface; /* H_0, and H on the surface */
-    dal_dirac_constraint *constraint;    /* [constraints] */
-    int steps;                           /* conservations */
-    dal_dirac_step *step;                /* [steps] */
-    dal_dirac_multiplier *multiplier;    /* [primaries] */
-    int brackets, generators;            /* listed */
-    dal_dirac_bracket *bracket;          /* [brackets] of (q, v) with (q, v, p, pi) */
-    dal_dirac_generator *generator;      /* [generators] */
+    int pairs;               /* half of the dimension of the phase space */
+    int primaries;           /* primary constraints, and multipliers */
+    int stages;              /* until nothing is added */
+    int constraints;         /* all; a complete chain of the lift has 4n + 1 for a regular K */
+    int second_class;        /* rank of their brackets; 2n for the lift */
+    int first_class;         /* the rest */
+    int free_multipliers;    /* 1 for the lift: mu_e, the gauge */
+    int dimension;           /* of the surface less the gauge directions: 2n; -1: not known */
+    bool is_complete;        /* else the last step contradicts or stops, and there is no more */
+    dal_formula hamiltonian; /* H_0 */
+    dal_formula on_surface;  /* H on the surface */
+    dal_dirac_constraint *constraint; /* [constraints] */
+    int steps;                        /* conservations */
+    dal_dirac_step *step;             /* [steps] */
+    dal_dirac_multiplier *multiplier; /* [primaries] */
+    int brackets;                     /* listed */
+    int generators;                   /* listed */
+    dal_dirac_bracket *bracket;       /* [brackets] of (q, v) with (q, v, p, pi) */
+    dal_dirac_generator *generator;   /* [generators] */
 } dal_dirac;
 
 /* Carries out Dirac's procedure for a model whose system is the one of spec, with its effort; the

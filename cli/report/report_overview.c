@@ -27,7 +27,7 @@ int report_overview_read(report_overview *a, const char *directory, const csv_ta
         study_restore(&a->plan, cells, &quantities);
         study_matrix_make(&a->matrix, &a->plan, STUDY_ALL);
         a->name = cli_calloc((size_t)a->matrix.columns + 1, sizeof *a->name);
-        study_name_columns(&a->matrix, a->name);
+        study_name_columns(&a->matrix, STUDY_SHORT_LETTERS, a->name);
     }
     csv_table_free(&quantities);
     free(text);

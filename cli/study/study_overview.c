@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LINES = SCREEN_LINES - 1, CELL = 8, COUNTS = 12, ROW_NAME = 20 };
+enum { LINES = SCREEN_LINES - 1, CELL = 8, COUNTS = 12, ROW_NAME = 20, LETTERS = 7 };
 
 /* The systems of the table: short names, and which quantities they have. */
 typedef struct overview {
@@ -131,7 +131,7 @@ int study_print_overview(FILE *to, const study_plan *plan, const char *tables, s
     o.name = cli_calloc((size_t)o.matrix.columns + 1, sizeof *o.name);
     o.has = cli_calloc((size_t)o.matrix.columns + 1, sizeof *o.has);
     screen_open(&o.screen, to, format);
-    study_name_columns(&o.matrix, o.name);
+    study_name_columns(&o.matrix, LETTERS, o.name);
     fit_systems(&o);
     char *range = study_describe_range(plan);
     screen_say(&o.screen, 2, "Largest |D| and |E - E0| %s", range);

@@ -15,7 +15,7 @@ enum { MAX_UNMET = 2 };
 
 /* Whether a part of the label of a column between hyphens and underscores, of the longest length at
  * most, is in no other label; the first such part, cut, becomes the name, or else the last one. */
-static bool find_name(const study_matrix *m, int column, size_t longest,
+static bool find_name(const study_matrix *m, int column, int letters, size_t longest,
                       char name[STUDY_SHORT_NAME])
 {
     bool found = false;
@@ -24,7 +24,7 @@ static bool find_name(const study_matrix *m, int column, size_t longest,
         length = strcspn(part, "-_");
         if (strcmp(part + strcspn(part, "."), ".yaml") == 0) length = strcspn(part, ".");
         if (length > longest) continue;
-        const int fits = cli_fit(part, STUDY_SHORT_LETTERS);
+        const int fits = cli_fit(part, letters);
         snprintf(name, STUDY_SHORT_NAME, "%.*s", length < (size_t)fits ? (int)length : fits, part);
         int k = 0;
         while (k < m->columns && (k == column || !strstr(m->column[k]->label, name))) k++;
@@ -33,15 +33,15 @@ static bool find_name(const study_matrix *m, int column, size_t longest,
     return found;
 }
 
-void study_name_columns(const study_matrix *m, char (*name)[STUDY_SHORT_NAME])
+void study_name_columns(const study_matrix *m, int letters, char (*name)[STUDY_SHORT_NAME])
 {
     for (int i = 0; i < m->columns; i++) {
-        const bool found =
-            find_name(m, i, STUDY_SHORT_LETTERS, name[i]) || find_name(m, i, SIZE_MAX, name[i]);
+        const bool found = find_name(m, i, letters, (size_t)letters, name[i]) ||
+                           find_name(m, i, letters, SIZE_MAX, name[i]);
         for (int k = 0; !found && k < i; k++)
             if (strcmp(name[i], name[k]) == 0)
-                snprintf(name[i], STUDY_SHORT_NAME, "%.*s%d", cli_fit(name[k], 4), name[k],
-                         (i + 1) % 100);
+                snprintf(name[i], STUDY_SHORT_NAME, "%.*s%d", cli_fit(name[k], letters - 3),
+                         name[k], (i + 1) % 100);
     }
 }
 

@@ -354,6 +354,8 @@ expect "other curves" test "$(sed -n 's/^ .*title [^a-z]\([^(]*\) (.*/\1/p' \
     families/report/1-D.gp | tr '\n' ,)" = \
     "Runge-Kutta: rk4,Gauss: gauss6,symplectic: symplectic-euler-10,constraint form: gni,projected: gauss4+project,energy-preserving: discrete-gradient,"
 
+expect "no name in twelve letters" grep -q '<th scope="col" title="nonholonomic-particle">nonholonomic<' \
+    families/report/index.html
 # A method of a later version is of no family that this one knows.
 sed -i 's/gauss6/gauss66/' families/cells.csv families/series/*.csv
 try 0 report families
