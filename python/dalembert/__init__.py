@@ -8,9 +8,11 @@
 Systems come from YAML text (`System`), files and the library; `simulate` runs one to a time, a `Run`
 steps one motion, a `Batch` many, `ensemble` many with drawn starts; `trend`, `order`, `lyapunov`,
 `section` and `explain` measure them, `check` a system, `study` many methods; `load` reads what the
-program left; `invariants` finds what a motion conserves, `dirac` the constraints of its action; `generate` writes C.
+program left; `invariants` finds what a motion conserves, `dirac` the constraints of its action,
+`action` its value on a curve; `generate` writes C.
 """
 from ._library import lib
+from .action import Actions, DiscreteAction, action
 from .analysis import (Average, Dirac, DiracConstraint, Invariant, Invariants, Lyapunov, Measure, Order,
                        Section, Shares, Trend, dirac, explain, generate, invariants, lyapunov, order,
                        section, trend)
@@ -25,8 +27,8 @@ from .system import System, builtin_systems
 
 __version__ = f'{lib.DAL_VERSION_MAJOR}.{lib.DAL_VERSION_MINOR}.{lib.DAL_VERSION_PATCH}'
 
-__all__ = ['Average', 'Batch', 'Check', 'Dirac', 'DiracConstraint', 'Ensemble', 'Error', 'Event',
-           'InputError', 'Invariant', 'Invariants', 'Lyapunov', 'Measure', 'Order', 'Run', 'Section',
-           'Shares', 'StepError', 'Study', 'System', 'Trajectory', 'Trend', 'builtin_systems', 'check',
+__all__ = ['Actions', 'Average', 'Batch', 'Check', 'Dirac', 'DiracConstraint', 'DiscreteAction', 'Ensemble',
+           'Error', 'Event', 'InputError', 'Invariant', 'Invariants', 'Lyapunov', 'Measure', 'Order', 'Run', 'Section',
+           'Shares', 'StepError', 'Study', 'System', 'Trajectory', 'Trend', 'action', 'builtin_systems', 'check',
            'dirac', 'ensemble', 'explain', 'generate', 'integrators', 'invariants', 'load', 'lyapunov', 'modifiers',
            'order', 'section', 'simulate', 'study', 'trend']

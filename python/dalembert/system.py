@@ -20,6 +20,7 @@ PROPERTIES = tuple(name for name in dir(lib) if name.startswith(('DAL_D_', 'DAL_
 
 
 EFFORTS = ('identity', 'mass', 'constraint', 'controls')
+MECHANICS = ('system', 'lagrange-dalembert', 'vakonomic')
 
 
 def text_of(chars: Any) -> str:
@@ -57,10 +58,11 @@ class Constraints(NamedTuple):
     reactions: Array
 
 
-def made_system(text: str, name: str, observed: tuple[str, ...], effort: str) -> System:
-    """A system with this effort that observes these formulas: a copy, or one from a pickle."""
+def made_system(text: str, name: str, observed: tuple[str, ...], effort: str,
+                mechanics: str = MECHANICS[0]) -> System:
+    """A system with this effort and mechanics that observes these formulas: a copy, or one from a pickle."""
     system = object.__new__(System)
-    system._make(text, name, observed, effort)
+    system._make(text, name, observed, effort, mechanics)
     return system
 
 
@@ -94,6 +96,8 @@ class System(Fixed):
         What is known of the constraints and of the energy, as ``'D_LINEAR'``.
     effort : str
         Of the lift, see `with_effort`.
+    mechanics : str
+        By which the text is read, see `with_mechanics`.
     defaults : dict of str to str
         Method, step and time of a run that shows the motion, where the file gives them.
 
@@ -113,6 +117,7 @@ class System(Fixed):
     invariants: tuple[str, ...]
     observed: tuple[str, ...]
     effort: str
+    mechanics: str
     tags: tuple[str, ...]
     events: tuple[str, ...]
     parameters: dict[str, float]
@@ -122,12 +127,12 @@ class System(Fixed):
     _system: Any
 
     def __init__(self, text: str, name: str = 'system'):
-        self._make(argument('text', text), argument('name', name), (), EFFORTS[0])
+        self._make(argument('text', text), argument('name', name), (), EFFORTS[0], MECHANICS[0])
 
-    def _make(self, text: str, name: str, observed: tuple[str, ...], effort: str) -> None:
-        self.name, self.text, self.observed, self.effort = name, text, observed, effort
+    def _make(self, text: str, name: str, observed: tuple[str, ...], effort: str, mechanics: str) -> None:
+        self.name, self.text, self.observed = name, text, observed
+        self.effort, self.mechanics = effort, mechanics
         self._model = self._read()
-        call(lib.dal_model_set_effort, self._model, EFFORTS.index(effort))
         for number, formula in enumerate(observed, 1):
             call(lib.dal_model_observe, self._model, encode(formula), number, 1)
         self._system = self._derive(self._model)
@@ -182,7 +187,7 @@ class System(Fixed):
         for formula in formulas:
             if not isinstance(formula, str):
                 raise TypeError(f'a formula to observe is a str, not {formula!r}')
-        return made_system(self.text, self.name, self.observed + formulas, self.effort)
+        return made_system(self.text, self.name, self.observed + formulas, self.effort, self.mechanics)
 
     def with_effort(self, effort: str) -> System:
         """The same system with another K of the lift, H = pi.K pi/(2e) + pi.F + p.v + mu_e pi_e.
@@ -207,7 +212,32 @@ class System(Fixed):
         """
         if effort not in EFFORTS:
             raise ValueError(f"effort: {effort!r} is not one of {', '.join(EFFORTS)}")
-        return made_system(self.text, self.name, self.observed, effort)
+        return made_system(self.text, self.name, self.observed, effort, self.mechanics)
+
+    def with_mechanics(self, mechanics: str) -> System:
+        """The same Lagrangian and constraints, read by another mechanics.
+
+        Parameters
+        ----------
+        mechanics : str
+            ``'lagrange-dalembert'``, ``'vakonomic'``, or ``'system'``, what the text says.
+
+        Returns
+        -------
+        System
+            Where that is not the mechanics of the text it has no exact solution, and its invariants
+            are observed, not expected to hold.
+
+        Raises
+        ------
+        InputError
+            The system cannot be read so: accelerations, reactions or impacts with ``'vakonomic'``.
+        ValueError
+            Another word.
+        """
+        if mechanics not in MECHANICS:
+            raise ValueError(f"mechanics: {mechanics!r} is not one of {', '.join(MECHANICS)}")
+        return made_system(self.text, self.name, self.observed, self.effort, mechanics)
 
     def _at(self, name: str, callback: Any, shape: tuple[int, ...], q: ArrayLike, v: ArrayLike, t: ArrayLike,
             parameters: Settings | None) -> Any:
@@ -281,12 +311,15 @@ class System(Fixed):
         return taken_text(lib.dal_model_latex, self._model)
 
     def __reduce__(self) -> Any:
-        return made_system, (self.text, self.name, self.observed, self.effort)
+        return made_system, (self.text, self.name, self.observed, self.effort, self.mechanics)
 
     def _read(self) -> Any:
         model, text = ffi.new('dal_model **'), self.text.encode()
         call(lib.dal_model_read, model, encode(self.name), text, len(text))
-        return owned(model[0], lib.dal_model_free)
+        read = owned(model[0], lib.dal_model_free)
+        call(lib.dal_model_set_effort, read, EFFORTS.index(self.effort))
+        call(lib.dal_model_set_mechanics, read, MECHANICS.index(self.mechanics))
+        return read
 
     @staticmethod
     def _derive(model: Any) -> Any:
@@ -321,9 +354,8 @@ class System(Fixed):
         left, equals, right = formula.partition('=')
         text = f'({left})-({right})' if equals else f'({formula})'
         other = object.__new__(System)
-        other.name, other.text = self.name, self.text
+        other.name, other.text, other.effort, other.mechanics = self.name, self.text, self.effort, self.mechanics
         other._model = other._read()
-        call(lib.dal_model_set_effort, other._model, EFFORTS.index(self.effort))
         try:
             call(lib.dal_model_add, other._model, lib.DAL_SECTION_INVARIANTS, name.encode(),
                  encode(text), 1, 1)

@@ -136,6 +136,33 @@ def test_dirac():
     assert (vakonomic.first_class, vakonomic.second_class, vakonomic.gauge) == (0, 14, {})
 
 
+def test_action():
+    """x'' = a: at rest the action is a^2/2 T; the motion has none, and is stationary for its own method."""
+    pushed = dalembert.System("coordinates: [x]\naccelerations: {x: a}\nparameters: {a: 0.5}\n")
+    t = np.cumsum(np.linspace(0.5, 1.5, 9))
+    rest = dalembert.action(pushed, {'t': t, 'x': np.full(9, 3)})
+    assert rest.value['nh10'] == pytest.approx(0.5**2/2*(t[-1] - t[0]), rel=1e-12)
+    assert set(rest.value) == {'nh10', 'nh11', 'nh23'} and rest.discrete == {} and rest.max_constraint == 0
+    fallen = dalembert.action(pushed, {'t': t, 'x': t**2}, parameters={'a': 2})
+    assert abs(fallen.value['nh10']) < 1e-20
+    run = dalembert.simulate('chaplygin-sleigh', 'gauss8', 5, step=0.05, samples=100)
+    curve = {name: run[name] for name in ('t', 'y1', 'y2', 'phi', "y1'", "y2'", "phi'")}
+    sleigh = dalembert.action('chaplygin-sleigh', curve, methods=['gauss8', 'gauss4'])
+    assert sleigh.value['nh10'] < 1e-6 and sleigh.max_constraint < 1e-4
+    assert sleigh.discrete['gauss8'].is_stationary and not sleigh.discrete['gauss4'].is_stationary
+    assert sleigh.discrete['gauss8'].defect < 1e-12 < sleigh.discrete['gauss4'].defect
+    bent = dalembert.action('chaplygin-sleigh', {**curve, 'y1': curve['y1'] + 0.01*np.sin(curve['t'])})
+    assert bent.value['nh10'] > 1e-5
+    for wrong, message in (({'x': t}, 'it has no times t'), ({'t': t}, "no column 'x'"),
+                           ({'t': t, 'x': t[1:]}, 'other lengths'), ({'t': t[:3], 'x': t[:3]}, 'rows')):
+        with pytest.raises(dalembert.InputError, match=message):
+            dalembert.action(pushed, wrong)
+    with pytest.raises(dalembert.InputError, match='no velocities'):
+        dalembert.action(pushed, {'t': t, 'x': t}, methods=['gauss4'])
+    with pytest.raises(dalembert.InputError, match='different distances'):
+        dalembert.action(pushed, {'t': t, 'x': t, "x'": t}, methods=['gauss4'])
+
+
 def test_invariants():
     """Two oscillators of one frequency conserve four quadratic forms; with friction they conserve none."""
     text = """

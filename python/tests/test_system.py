@@ -1,4 +1,5 @@
 """Systems, and the places of errors in their texts."""
+import math
 import pickle
 
 import pytest
@@ -76,6 +77,27 @@ def test_formulas():
     latex = oscillator.latex()
     assert latex.startswith('\\begin{align*}') and latex.rstrip().endswith('\\end{align*}')
     assert '\\ddot{x}' in latex or '\\dot{x}^{2}' in latex
+
+
+def test_mechanics():
+    """The Lagrangian and the constraint of the sleigh make its vakonomic motion, too."""
+    sleigh = dalembert.System.builtin('chaplygin-sleigh')
+    other = sleigh.with_mechanics('vakonomic')
+    assert (sleigh.mechanics, other.mechanics, other.observe('y1^2').mechanics) == ('system', 'vakonomic', 'vakonomic')
+    assert 'VAKONOMIC' in other.properties and 'VAKONOMIC' not in sleigh.properties
+    # The built-in vakonomic sleigh has -D, and so -g.
+    ends = []
+    for system, g1 in ((other, -0.3), (pickle.loads(pickle.dumps(other)), -0.3), ('chaplygin-sleigh-vakonomic', 0.3)):
+        run = dalembert.Run(system, 'gauss8', step=0.05, space='physical',
+                            start={"y1'": 0.1, "phi'": 1, 'g1': g1})
+        run.advance(40)
+        ends.append(run.state * ([1] * 6 + [math.copysign(1, g1)]))
+    assert ends[0].tobytes() == ends[1].tobytes()
+    assert ends[0] == pytest.approx(ends[2], abs=1e-12)
+    with pytest.raises(ValueError, match="'newton' is not one of system, lagrange-dalembert"):
+        sleigh.with_mechanics('newton')
+    with pytest.raises(dalembert.InputError):
+        dalembert.System('coordinates: [x]\naccelerations: {x: -x}\n').with_mechanics('vakonomic')
 
 
 def test_effort():

@@ -52,7 +52,7 @@ cd "$root" || exit 2
 # The sources as they are, below the tree.
 copy_sources() {
     mkdir -p "$tree" "$place/tmp"
-    find Makefile README.md include lib integrators cli tests systems tools examples bench docs man \
+    find Makefile README.md CITATION.cff CHANGELOG.md CONTRIBUTING.md include lib integrators cli tests systems tools examples bench docs man \
         -type f | while read -r file; do
         cmp -s "$file" "$tree/$file" && continue
         mkdir -p "$tree/$(dirname "$file")"
