@@ -227,7 +227,7 @@ static void test_sparse(void)
 }
 
 /* Mass matrices whose elimination would take all memory are refused before: a full one, and one of
- * a cube of 9^3 particles that neighbours couple, which the elimination fills. */
+ * a cube of 10^3 particles that neighbours couple, which the elimination fills. */
 static void test_dense(void)
 {
     static const struct {
@@ -237,11 +237,11 @@ static void test_dense(void)
         {"sizes: {N: 300}\ncoordinates: [\"x[1..N]\"]\n"
          "lagrangian: sum(i, 1, N, x[i]'^2)/2 + sum(i, 1, N, x[i]*x[i]')^2\n",
          300},
-        {"sizes: {N: 9, M: N^3}\ncoordinates: [\"x[1..M]\"]\n"
+        {"sizes: {N: 10, M: N^3}\ncoordinates: [\"x[1..M]\"]\n"
          "lagrangian: >\n  sum(i, 1, M, 3*x[i]'^2) + sum(i, 1, M-1, cos(x[i])*x[i]'*x[i+1]')\n"
          "  + sum(i, 1, M-N, cos(x[i])*x[i]'*x[i+N]')\n"
          "  + sum(i, 1, M-N^2, cos(x[i])*x[i]'*x[i+N^2]')\n",
-         729}};
+         1000}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char message[128];
         dal_error error;

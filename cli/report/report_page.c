@@ -179,7 +179,10 @@ int report_open(report *r)
     r->place = cli_join(r->directory, "report");
     int status = cli_directory(r->place);
     if (status == CLI_DONE) status = chart_library_read(&r->charts);
-    if (status != CLI_DONE) return status;
+    if (status != CLI_DONE) {
+        chart_library_free(&r->charts);
+        return status;
+    }
     r->page_path = cli_join(r->place, "index.html");
     r->head = cli_memstream_open(&r->text[REPORT_HEAD], &r->length[REPORT_HEAD]);
     r->contents = cli_memstream_open(&r->text[REPORT_CONTENTS], &r->length[REPORT_CONTENTS]);

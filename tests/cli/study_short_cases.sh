@@ -141,8 +141,9 @@ fi
 # 80 bytes are as wide as a line may be; a letter of two is not cut in its middle.
 case_is "a title that is too long"
 for first in '' x; do
-    title=$first$(awk 'BEGIN { while (i++ < 60) printf "\303\251" }')
-    short=$first$(awk 'BEGIN { while (i++ < 39) printf "\303\251" }')
+    # 80 columns of letters of two bytes.
+    title=$first$(awk 'BEGIN { while (i++ < 90) printf "\303\251" }')
+    short=$first$(awk -v first="$first" 'BEGIN { while (i++ < 79 - length(first)) printf "\303\251" }')
     printf '%s\n' "title: $title" 'integrators: rk4' 'step: 0.5' 'time: 1' 'starts: physical' \
         'systems: [line.yaml]' >wide.yaml
     rm -rf wide
