@@ -80,7 +80,7 @@ typedef struct run_page {
     trajectory_reader reader;
     csv_table summary;        /* no rows unless the run is over */
     dal_statistics *steps;    /* [summary.rows - 1] of all steps, or NULL */
-    const dal_system *system; /* where the run has not all columns; otherwise NULL */
+    const dal_system *system; /* NULL: it is not known */
     run_column *column;       /* [columns of the reader] */
     report_events events;
     int passed_events;    /* those up to the present row */
@@ -99,7 +99,8 @@ static bool is_angle(const run_page *run, const char *name)
 static int observable_group(const run_page *run, const char *name)
 {
     if (request_observes(run->request, name)) return GROUP_OBSERVED;
-    if (run->system && columns_need_reactions(run->system, name)) return GROUP_REACTIONS;
+    if (run->system && run->request->columns && columns_need_reactions(run->system, name))
+        return GROUP_REACTIONS;
     if (name[0] == 'D' && name[1] && name[1 + strspn(name + 1, "0123456789")] == '\0')
         return GROUP_D;
     return strcmp(name, "E") == 0       ? GROUP_E
@@ -139,19 +140,26 @@ static bool is_rest_of_state(const run_page *run, const char *name)
 
 /* Gives each column its curves.  The columns are t, q, q', the rest of the state, then D1.., E, H,
  * invariants, observed formulas, error.  A coordinate may have the name D1 or E; only after the
- * velocities is a column an observable. */
+ * state is a column an observable.  Without a system and its names the state ends at the first D1,
+ * E or H. */
 static void place_columns(run_page *run)
 {
     const trajectory_reader *t = &run->reader;
-    int n = 0;
-    while (1 + n < t->columns && !columns_is_velocity(run->request, t->name[1 + n], t->name[1]))
-        n++;
-    int observables = 1 + 2 * n;
-    while (observables < t->columns &&
-           observable_group(run, t->name[observables]) >= GROUP_INVARIANTS)
-        observables++;
-    if (run->system) {
-        for (n = 0; 1 + n < t->columns && is_coordinate(run->system, t->name[1 + n]);) n++;
+    const dal_system *system = run->system;
+    int n = 0, observables;
+    if (!system) {
+        while (1 + n < t->columns && !columns_is_velocity(run->request, t->name[1 + n], t->name[1]))
+            n++;
+        observables = 1 + 2 * n;
+        while (observables < t->columns &&
+               observable_group(run, t->name[observables]) >= GROUP_INVARIANTS)
+            observables++;
+    } else if (!run->request->columns) {
+        n = system->n;
+        observables = 1 + (run->request->options.space == DAL_LIFTED ? 4 * n + 2
+                                                                     : 2 * n + system->multipliers);
+    } else {
+        while (1 + n < t->columns && is_coordinate(system, t->name[1 + n])) n++;
         observables = 1 + n;
         while (observables < t->columns && is_rest_of_state(run, t->name[observables]))
             observables++;
@@ -532,7 +540,7 @@ int report_run(report *r)
         status = cli_load(request->system_name, &request->choices, &simulation.model,
                           &simulation.system);
     const bool has_events = simulation.system && simulation.system->events > 0;
-    run->system = request->columns ? simulation.system : NULL;
+    run->system = simulation.system;
     if (status == CLI_DONE)
         status = report_events_read(&run->events, dir.events, has_events ? simulation.system : NULL,
                                     request->from);

@@ -44,6 +44,12 @@ expect "no drift" test -s "drift--time 200"
 expect "no drift of 0" sh -c "! grep '0\.0e+00' 'drift--steps 4000'"
 expect "another drift" cmp "drift--steps 4000" "drift--time 200"
 
+# The reduced disk has an invariant, and neither D nor E nor H before it.
+case_is "figures of observables without D, E and H"
+try 0 run falling-disk-reduced --space physical --integrator rk4 --step 0.1 --time 2 --output reduced
+try 0 report reduced
+expect "no figure of the invariant" grep -q '<strong>Invariants</strong>' reduced/report/index.html
+
 if needs 28 "no python3" there python3; then
     case_is "the envelopes of a page are the maxima of series/"
     # Of three methods with two steps: D, E, I, H and the error of the sleigh, D, E and I of the
