@@ -22,7 +22,10 @@ class Matrix {
             family: tr.dataset.family, order: Number(tr.dataset.order),
             cells: [...tr.cells].slice(1).map(readCell)}));
         this.heads.forEach((head, i) => this.addSort(head, i));
-        for (const row of this.rows) row.cells.forEach((cell, i) => this.addUnfold(row, cell, this.heads[i]));
+        // Thousands of buttons take longer than the rest of the page.
+        whenNear(table, () => {
+            for (const row of this.rows) row.cells.forEach((cell, i) => this.addUnfold(row, cell, this.heads[i]));
+        });
     }
 
     // A head sorts the rows by the numbers below it, then the other way round.

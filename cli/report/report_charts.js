@@ -391,16 +391,12 @@ function plot(holder, curves, ylabel, title) {
 
 // The figures of the page; each is drawn when it comes into view, or when the page is printed.
 function addFigures() {
-    const watch = new IntersectionObserver(entries => entries.filter(e => e.isIntersecting).forEach(({target}) => {
-        watch.unobserve(target);
-        everyChart(chart => chart.element === target && !chart.plot && chart.draw());
-    }), {rootMargin: '300px'});
     for (const holder of document.querySelectorAll('.figures')) {
         const group = new ChartGroup();
         for (const place of holder.querySelectorAll('script.figure')) {
             const figure = place.parentElement;
-            group.add(figure, JSON.parse(place.textContent));
-            watch.observe(figure);
+            const chart = group.add(figure, JSON.parse(place.textContent));
+            whenNear(figure, () => chart.plot || chart.draw());
         }
         if (group.charts.length) holder.prepend(group.legend());
         groups.push(group);
@@ -408,6 +404,5 @@ function addFigures() {
     const redraw = () => everyChart(chart => chart.plot && chart.element.isConnected && chart.draw());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
     addEventListener('resize', redraw);
-    addEventListener('beforeprint', () => everyChart(chart => chart.plot || chart.draw()));
 }
 

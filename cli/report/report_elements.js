@@ -30,6 +30,22 @@ function tick(label, isTicked, change, colour, isDashed) {
     return html('label', {class: 'control'}, box, ...sample, ' ' + label);
 }
 
+// Acts when an element comes near the window, or when the page is printed.
+const waiting = new Map();
+const watch = new IntersectionObserver(entries => entries.filter(e => e.isIntersecting).forEach(e => arrive(e.target)),
+    {rootMargin: '300px'});
+function arrive(element) {
+    const act = waiting.get(element);
+    watch.unobserve(element);
+    waiting.delete(element);
+    if (act) act();
+}
+function whenNear(element, act) {
+    waiting.set(element, act);
+    watch.observe(element);
+}
+addEventListener('beforeprint', () => [...waiting.keys()].forEach(arrive));
+
 // ---- data ----------------------------------------------------------------------------------------
 
 // Integers of 16 bits, little-endian, in base64.

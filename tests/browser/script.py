@@ -26,6 +26,12 @@ def wait_until(browser, condition):
                 f"({condition}) ? done(true) : requestAnimationFrame(look); look(); }})")
 
 
+def bring(browser, element, part):
+    """Scrolls to an element and waits for a part of it, which is made when it comes into view."""
+    browser.run(f"({element}).scrollIntoView({{block: 'center'}})")
+    wait_until(browser, f"({element}).querySelector('{part}')")
+
+
 def focus(browser, element):
     """Gives an element the focus."""
     browser.run(f"({element}).focus()")
@@ -126,6 +132,7 @@ def check_filter(browser):
 def check_unfold(browser):
     """A cell opens its curves beside the table, or below where there is no place, and closes them."""
     button = f"{ROWS}[0].querySelector('td button')"
+    bring(browser, MATRIX, "td button")
     browser.click(button)
     expect(browser.run(f"{button}.getAttribute('aria-expanded')") == "true", "unfold: nothing is expanded")
     curves = browser.run("document.querySelectorAll('.unfolded .legend input').length")
@@ -313,6 +320,7 @@ def check_play(browser, where, motions):
     bodies = f"[...{motion}.querySelectorAll('.body path')].map(b => b.getAttribute('d')).join()"
     time = f"parseFloat({motion}.querySelector('.readout').textContent.split('=')[1])"
     pictures = f"{motion}.querySelectorAll('svg').length"
+    bring(browser, motion, "svg")
     expect(browser.run(f"{motion}.querySelectorAll('svg .body').length") == motions, f"{where}: not {motions} motions")
     expect(browser.run(pictures) == 1, f"{where}: the motions are not on one another")
     colours = browser.run(f"[...{motion}.querySelectorAll('.trail')].map(t => getComputedStyle(t).stroke)")
@@ -361,6 +369,7 @@ def check_turn(browser):
     stage = "document.querySelector('.motion svg')"
     body = f"[...{stage}.querySelectorAll('.body path')].map(b => b.getAttribute('d')).join()"
     box = "[...document.querySelectorAll('.motion label')].find(l => l.textContent.includes('3D')).control"
+    bring(browser, "document.querySelector('.motion')", "svg")
     expect(browser.run(f"{box}.checked"), "turn: a disk is not in 3D")
     seen = browser.run(body)
     focus(browser, stage)
@@ -381,6 +390,7 @@ def check_turn(browser):
 
 def check_single(browser):
     """A system with one coordinate moves over t."""
+    bring(browser, "document.querySelector('.motion')", "svg")
     caption = browser.run("document.querySelector('.motion figcaption').textContent")
     expect(caption.endswith("x over t, not to scale."), f"single: the motion is '{caption}'")
     places = []
