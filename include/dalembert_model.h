@@ -75,6 +75,13 @@ dal_status dal_model_observe(dal_model *model, const char *formula, int line, in
  * DAL_STATUS_MODEL (controls, and the model has none) and DAL_STATUS_UNSUPPORTED (vakonomic motion,
  * which has no lift; mass, and W is singular). */
 dal_status dal_model_set_effort(dal_model *model, dal_effort effort, dal_error *error);
+/* Replaces e and mu_e of the lift, "e = 1, mu_e = 0.1*cos(t)": what is not named is 1, and 0.  On
+ * p = pi = 0 no gauge changes a bit of (q, v).  Places of its formulas are line 1 and a column of
+ * the text.  Call it before dal_model_observe.  [alloc]  Errors: DAL_STATUS_SYNTAX with the column,
+ * DAL_STATUS_NAME (another name), DAL_STATUS_MODEL (a name given twice), DAL_STATUS_ARGUMENT (a
+ * model that has its system).  dal_model_system then has the errors of its formulas, and
+ * DAL_STATUS_MODEL where e is not above 0. */
+dal_status dal_model_set_gauge(dal_model *model, const char *text, dal_error *error);
 /* Which mechanics a model's Lagrangian and constraints are read by: MECHANICS(code, name). */
 #define DAL_MECHANICS_LIST(MECHANICS)                                                              \
     MECHANICS(SYSTEM, "system")                         /* what its section mechanics names */     \

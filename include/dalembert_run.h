@@ -89,9 +89,9 @@ dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, d
  * next.  A copy of it is a checkpoint. */
 const double *dal_run_save(const dal_run *run, size_t *count);
 /* Restores a copy, saved[count], into a run of the same spec, which then continues with the same
- * bits.  Errors, which change nothing: DAL_STATUS_ARGUMENT (a wrong count, or a number that the
- * state cannot have, such as a counter of 1.5), DAL_STATUS_NOT_FINITE, and where the system cannot
- * be prepared with the parameters errors of prepare. */
+ * bits.  Errors, which change nothing: DAL_STATUS_ARGUMENT (a wrong count, another effort or mu_e,
+ * or a number that the state cannot have, such as a counter of 1.5), DAL_STATUS_NOT_FINITE, and
+ * where the system cannot be prepared with the parameters errors of prepare. */
 dal_status dal_run_restore(dal_run *run, const double *saved, size_t count, dal_error *error);
 
 /* The number of observables, in this order: D1..Dm, E (with an energy), H, |p|, |pi|, |pi_e|

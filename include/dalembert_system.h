@@ -184,6 +184,7 @@ struct dal_system {
     const char *const *invariant;  /* [invariants] names */
     const char *const *guard;      /* [guards] "constraint 1: y1'" for messages */
     dal_effort effort;             /* of the lift: which K call.effort is of */
+    const char *gauge;             /* of the lift: the formula of mu_e; NULL: 0, or not known */
     int mass_guard;                /* which guard, from 1, is det W; 0: none */
     const char *const *tag;        /* [tags] words that classify the system */
     const char *const *table;      /* [tables] names, for messages */

@@ -327,6 +327,130 @@ static void test_refused(void)
     dal_model_free(model);
 }
 
+/* ---- gauges ---- */
+
+/* A gauge has the bits of the same one in the file, replaces it, and changes no bit of (q, v)
+ * on p = pi = 0. */
+static void test_gauge(void)
+{
+    const char *const methods[] = {"rk4", "gauss4", "stormer-verlet"};
+    static const char gauge[] = "e = 2 + I/8, mu_e = 0.1*min(cos(t), 2)";
+    static const char in_file[] = SLEIGH "gauge: {e: 2 + I/8, mu_e: '0.1*min(cos(t), 2)'}\n"
+                                         "start: {x': 0.5, phi': 0.3}\n";
+    for (int k = 0; k < 3; k++) {
+        double states[3][14];
+        for (int i = 0; i < 3; i++) {
+            const dal_system *system;
+            dal_model *model = model_of(i < 2 ? in_file : sleigh);
+            if (i != 1)
+                CU_ASSERT_EQUAL(dal_model_set_gauge(model, i == 0 ? "mu_e = -0.01" : gauge, NULL),
+                                DAL_STATUS_OK);
+            CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+            dal_run_spec spec = fixture_spec(system, methods[k], DAL_LIFTED, 0.125);
+            dal_run *run = fixture_stepped(&spec, 8);
+            memcpy(states[i], dal_run_state(run), sizeof states[i]);
+            dal_run_free(run);
+            dal_model_free(model);
+        }
+        CU_ASSERT(memcmp(states[1], states[2], sizeof states[1]) == 0);
+        CU_ASSERT(memcmp(states[0], states[1], 6 * sizeof(double)) == 0);
+        CU_ASSERT_DOUBLE_EQUAL(states[0][6], 0.99, 1e-15);
+        CU_ASSERT_DOUBLE_EQUAL(states[1][6], 2.375 + 0.1 * sin(1.0), 1e-3);
+    }
+}
+
+static void test_gauge_refused(void)
+{
+    const struct {
+        const char *text;
+        dal_status status;
+        int column;
+        const char *fragment;
+    } bad[] = {{"", DAL_STATUS_SYNTAX, 1, "a gauge is 'e = 1, mu_e"},
+               {"e = 1, ", DAL_STATUS_SYNTAX, 8, "a gauge is 'e = 1, mu_e"},
+               {"e = 1,  mu = 2", DAL_STATUS_NAME, 9, "'mu' is not e or mu_e"},
+               {"e = 1, e = 2", DAL_STATUS_MODEL, 8, "duplicate 'e' in gauge"},
+               {"mu_e = 0.1*x", DAL_STATUS_NAME, 12, "gauge mu_e: coordinate 'x'"},
+               {"mu_e = cos(", DAL_STATUS_SYNTAX, 12, "gauge mu_e"},
+               {"e = t", DAL_STATUS_NAME, 5, "gauge e: "},
+               {"mu_e =", DAL_STATUS_SYNTAX, 7, "gauge mu_e"},
+               {"e = I - 3", DAL_STATUS_MODEL, 5, "gauge e: 0 is not above 0"},
+               {"e = -1", DAL_STATUS_MODEL, 5, "gauge e: -1 is not above 0"},
+               {"e = exp(I*1000)", DAL_STATUS_MODEL, 5, "gauge e: "}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        dal_model *model = model_of(sleigh);
+        const dal_system *system;
+        dal_error error = {0};
+        dal_status status = dal_model_set_gauge(model, bad[i].text, &error);
+        if (status == DAL_STATUS_OK) status = dal_model_system(model, &system, &error);
+        CU_ASSERT_EQUAL(status, bad[i].status);
+        if (!strstr(error.message, bad[i].fragment) || error.column != bad[i].column)
+            printf("\n  %s: %d: %s\n", bad[i].text, error.column, error.message);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.message, bad[i].fragment));
+        CU_ASSERT_EQUAL(error.line, 1);
+        CU_ASSERT_EQUAL(error.column, bad[i].column);
+        dal_model_free(model);
+    }
+    dal_model *model;
+    system_of(&model, sleigh, DAL_EFFORT_IDENTITY);
+    CU_ASSERT_EQUAL(dal_model_set_gauge(model, "e = 2", NULL), DAL_STATUS_ARGUMENT);
+    dal_model_free(model);
+}
+
+/* ---- checkpoints ---- */
+
+/* A state of another effort or mu_e is refused by name, and changes nothing. */
+static void test_restored(void)
+{
+    static const struct {
+        dal_effort effort;
+        const char *gauge;
+    } lifts[] = {{DAL_EFFORT_IDENTITY, NULL},
+                 {DAL_EFFORT_CONSTRAINT, NULL},
+                 {DAL_EFFORT_IDENTITY, "e = 2, mu_e = 0.1*cos(t)"},
+                 {DAL_EFFORT_IDENTITY, "e = 2, mu_e = 0.2*cos(t)"}};
+    static const char *const refusal[4][4] = {
+        {NULL, "effort constraint, and the run of effort identity", "whose mu_e is 0",
+         "whose mu_e is 0"},
+        {"effort identity, and the run of effort constraint", NULL, "effort identity",
+         "effort identity"},
+        {"whose mu_e is 0.1*cos(t)", "effort constraint, and the run of effort identity", NULL,
+         "another gauge than the run, whose mu_e is 0.1*cos(t)"},
+        {"whose mu_e is 0.2*cos(t)", "effort constraint", "whose mu_e is 0.2*cos(t)", NULL}};
+    enum { LIFTS = sizeof lifts / sizeof *lifts };
+    for (int quad = 0; quad < 2; quad++) {
+        dal_model *models[LIFTS];
+        dal_run *runs[LIFTS];
+        for (int i = 0; i < LIFTS; i++) {
+            const dal_system *system;
+            models[i] = model_of(sleigh);
+            dal_model_set_effort(models[i], lifts[i].effort, NULL);
+            if (lifts[i].gauge) dal_model_set_gauge(models[i], lifts[i].gauge, NULL);
+            CU_ASSERT_EQUAL_FATAL(dal_model_system(models[i], &system, NULL), DAL_STATUS_OK);
+            dal_run_spec spec = fixture_spec(system, "gauss4", DAL_LIFTED, 0.125);
+            if (quad && system->quad) spec.options.precision = DAL_QUAD;
+            runs[i] = fixture_stepped(&spec, 2 + i);
+        }
+        for (int k = 0; k < LIFTS * LIFTS; k++) {
+            const int from = k % LIFTS, to = k / LIFTS;
+            size_t count;
+            dal_error error = {0};
+            const double *saved = dal_run_save(runs[from], &count), t = dal_run_time(runs[to]);
+            const dal_status status = dal_run_restore(runs[to], saved, count, &error);
+            const char *expected = refusal[to][from];
+            CU_ASSERT_EQUAL(status, expected ? DAL_STATUS_ARGUMENT : DAL_STATUS_OK);
+            if (expected && !strstr(error.message, expected))
+                printf("\n  %d to %d: %s\n", from, to, error.message);
+            CU_ASSERT(!expected || strstr(error.message, expected) != NULL);
+            CU_ASSERT_EQUAL(dal_run_time(runs[to]), t);
+        }
+        for (int i = 0; i < LIFTS; i++) {
+            dal_run_free(runs[i]);
+            dal_model_free(models[i]);
+        }
+    }
+}
+
 void suite_effort(void)
 {
     CU_pSuite suite = CU_add_suite("effort", NULL, NULL);
@@ -339,4 +463,7 @@ void suite_effort(void)
     CU_ADD_TEST(suite, test_surface);
     CU_ADD_TEST(suite, test_forms);
     CU_ADD_TEST(suite, test_refused);
+    CU_ADD_TEST(suite, test_gauge);
+    CU_ADD_TEST(suite, test_gauge_refused);
+    CU_ADD_TEST(suite, test_restored);
 }

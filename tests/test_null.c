@@ -409,6 +409,14 @@ static void null_dal_model_set_effort(void)
     dal_model_free(made);
 }
 
+static void null_dal_model_set_gauge(void)
+{
+    dal_model *made = dal_model_create("made");
+    REFUSED(dal_model_set_gauge(NULL, "e = 1", error));
+    REFUSED(dal_model_set_gauge(made, NULL, error));
+    dal_model_free(made);
+}
+
 static void null_dal_model_observe(void)
 {
     static const char *const bad[] = {"x", "x'", " x+1", "x\n+1", "x+\"1\"", ""};

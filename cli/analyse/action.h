@@ -9,7 +9,7 @@
 /* The options of a run that the command takes. */
 #define ACTION_OPTIONS                                                                             \
     (REQUEST_OPTION(set) | REQUEST_OPTION(mechanics) | REQUEST_OPTION(effort) |                    \
-     REQUEST_OPTION(system))
+     REQUEST_OPTION(gauge) | REQUEST_OPTION(system))
 
 typedef struct action_settings {
     run_simulation simulation;

@@ -8,7 +8,8 @@
 
 /* The options of a run that the commands do not take. */
 #define LYAPUNOV_WITHOUT                                                                           \
-    (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(space) | REQUEST_OPTION(effort))
+    (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(space) |                         \
+     REQUEST_OPTION(effort) | REQUEST_OPTION(gauge))
 
 typedef struct lyapunov_results {
     bool is_volume;

@@ -60,9 +60,9 @@ static int load_with_invariant(run_simulation *simulation, const char *name, con
 {
     dal_error error = {0};
     dal_model_free(simulation->model);
-    const int status = cli_read(simulation->request.system_name, &simulation->model);
+    int status = cli_read(simulation->request.system_name, &simulation->model);
+    if (status == CLI_DONE) status = cli_choose(&simulation->model, &simulation->request.choices);
     if (status != CLI_DONE) return status;
-    cli_choose(simulation->model, &simulation->request.choices);
     dal_status made =
         dal_model_add(simulation->model, DAL_SECTION_INVARIANTS, name, formula, 1, column, &error);
     if (made == DAL_STATUS_OK)

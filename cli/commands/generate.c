@@ -34,8 +34,8 @@ static const uint64_t taken =
     REQUEST_OPTION(integrator) | REQUEST_OPTION(from) | REQUEST_OPTION(space) |
     REQUEST_OPTION(solver) | REQUEST_OPTION(iterations) | REQUEST_OPTION(extend_energy) |
     REQUEST_OPTION(reactions) | REQUEST_OPTION(mechanics) | REQUEST_OPTION(effort) |
-    REQUEST_OPTION(consistent) | REQUEST_OPTION(tolerance) | REQUEST_OPTION(set) |
-    REQUEST_OPTION(start) | REQUEST_OPTION(system);
+    REQUEST_OPTION(gauge) | REQUEST_OPTION(consistent) | REQUEST_OPTION(tolerance) |
+    REQUEST_OPTION(set) | REQUEST_OPTION(start) | REQUEST_OPTION(system);
 
 static int generate_text(settings *s)
 {

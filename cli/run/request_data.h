@@ -27,6 +27,7 @@
     OPTION(observe)                                                                                \
     OPTION(mechanics)                                                                              \
     OPTION(effort)                                                                                 \
+    OPTION(gauge)                                                                                  \
     OPTION(set)                                                                                    \
     OPTION(start)
 
@@ -68,7 +69,7 @@ typedef struct run_request {
     const char *system_name; /* a built-in name or a path; the caller's, as all texts here */
     const char *columns;     /* --columns; NULL: all */
     const char *observe;     /* --observe, formulas between semicolons; NULL: none */
-    cli_choices choices;     /* --mechanics, --effort */
+    cli_choices choices;     /* --mechanics, --effort, --gauge */
     const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given */
     char *made[REQUEST_OPTIONS];       /* of these texts those that the request owns, or NULL */
     request_step step_rule;            /* set beforehand */

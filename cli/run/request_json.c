@@ -81,6 +81,7 @@ void request_open_json(json_writer *w, const run_simulation *s, uint64_t without
                       s->system->properties & DAL_VAKONOMIC ? "vakonomic" : "lagrange-dalembert");
     if (!(without & REQUEST_OPTION(effort)))
         json_put_text(w, "effort", dal_effort_name(s->system->effort));
+    if (request->choices.gauge) json_put_text(w, "gauge", request->choices.gauge);
     if (!(without & REQUEST_OPTION(integrator))) put_value(w, request, REQUEST_integrator);
     if (!(without & REQUEST_OPTION(time))) json_put_number(w, "time", end);
     for (int option = REQUEST_step; option < REQUEST_system; option++)

@@ -95,6 +95,8 @@ static void print_warnings(const char *place, const dal_model *model)
         cli_note("%s:%d:%d: warning: %s", place, line, column, text);
 }
 
+static const char gauge_place[] = "--gauge";
+
 /* Frees a model that cannot be used. */
 static int refuse(dal_model **model, const dal_system **made, dal_status reason, const char *place,
                   const dal_error *error)
@@ -105,9 +107,21 @@ static int refuse(dal_model **model, const dal_system **made, dal_status reason,
     return cli_error(cli_input_exit(reason), place, error);
 }
 
-/* Makes the system of a model; an error of a formula that it observes names another place. */
-static int make_system(const char *system, const char *formulas, dal_model **model,
-                       const dal_system **made)
+int cli_choose(dal_model **model, const cli_choices *choices)
+{
+    dal_error error = {0};
+    const dal_system *made;
+    dal_model_set_effort(*model, choices->effort, NULL);
+    dal_model_set_mechanics(*model, choices->mechanics, NULL);
+    const dal_status status =
+        choices->gauge ? dal_model_set_gauge(*model, choices->gauge, &error) : DAL_STATUS_OK;
+    return status == DAL_STATUS_OK ? CLI_DONE : refuse(model, &made, status, gauge_place, &error);
+}
+
+/* Makes the system of a model; an error of a formula that it observes, or of a gauge that was
+ * chosen, names another place. */
+static int make_system(const char *system, const cli_choices *choices, const char *formulas,
+                       dal_model **model, const dal_system **made)
 {
     static const char prefix[] = "observed: ";
     const size_t length = sizeof prefix - 1;
@@ -122,31 +136,22 @@ static int make_system(const char *system, const char *formulas, dal_model **mod
         error.column = column;
     }
     if (make == DAL_STATUS_OK) return CLI_DONE;
+    if (choices->gauge && strncmp(error.message, "gauge ", strlen("gauge ")) == 0)
+        return refuse(model, made, make, gauge_place, &error);
     const bool is_formula = strncmp(error.message, prefix, length) == 0;
     if (is_formula)
         memmove(error.message, error.message + length, strlen(error.message + length) + 1);
     return refuse(model, made, make, is_formula ? formulas : system, &error);
 }
 
-int cli_make(const char *place, dal_model **model, const dal_system **made)
-{
-    const int status = make_system(place, place, model, made);
-    if (status == CLI_DONE) print_warnings(place, *model);
-    return status;
-}
-
-void cli_choose(dal_model *model, const cli_choices *choices)
-{
-    dal_model_set_effort(model, choices->effort, NULL);
-    dal_model_set_mechanics(model, choices->mechanics, NULL);
-}
-
 int cli_load(const char *system, const cli_choices *choices, dal_model **model,
              const dal_system **made)
 {
-    const int status = cli_read(system, model);
-    if (status == CLI_DONE) cli_choose(*model, choices);
-    return status == CLI_DONE ? cli_make(system, model, made) : status;
+    int status = cli_read(system, model);
+    if (status == CLI_DONE) status = cli_choose(model, choices);
+    if (status == CLI_DONE) status = make_system(system, choices, system, model, made);
+    if (status == CLI_DONE) print_warnings(system, *model);
+    return status;
 }
 
 int cli_observe(const char *system, const cli_choices *choices, const char *place,
@@ -156,14 +161,14 @@ int cli_observe(const char *system, const cli_choices *choices, const char *plac
     const bool is_known = *model != NULL;
     dal_model_free(*model);
     int status = cli_read(system, model);
+    if (status == CLI_DONE) status = cli_choose(model, choices);
     if (status != CLI_DONE) return status;
-    cli_choose(*model, choices);
     for (int i = 0; i < count; i++) {
         const cli_formula *f = &formulas[i];
         const dal_status added = dal_model_observe(*model, f->text, f->line, f->column, &error);
         if (added != DAL_STATUS_OK) return refuse(model, made, added, place, &error);
     }
-    status = make_system(system, place, model, made);
+    status = make_system(system, choices, place, model, made);
     if (status == CLI_DONE && !is_known) print_warnings(system, *model);
     return status;
 }

@@ -13,16 +13,16 @@ bool cli_is_path(const char *system);
 typedef struct cli_choices {
     dal_effort effort;
     dal_mechanics mechanics;
+    const char *gauge; /* NULL: the file's */
 } cli_choices;
 /* Reads SYSTEM and makes its system with these choices, owned by *model.  Returns CLI_DONE, or
  * prints and returns an exit status with *model NULL. */
 int cli_load(const char *system, const cli_choices *choices, dal_model **model,
              const dal_system **made);
-/* The same in parts, between which something may be added to the model.  cli_make frees it on
- * failure; place is what the message names. */
+/* The same in parts, between which something may be added to the model; cli_choose frees it on
+ * failure. */
 int cli_read(const char *system, dal_model **model);
-void cli_choose(dal_model *model, const cli_choices *choices);
-int cli_make(const char *place, dal_model **model, const dal_system **made);
+int cli_choose(dal_model **model, const cli_choices *choices);
 /* A formula that runs observe, and its place in a file or an option. */
 typedef struct cli_formula {
     const char *text;

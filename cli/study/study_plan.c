@@ -120,12 +120,14 @@ static int read_option(study_case *e, const document *doc, const document_pair *
     if (cli_renamed_value(name, word))
         return document_fail(doc, pair->key, "options: %s: %s is called %s now", name, word,
                              cli_renamed_value(name, word));
-    const bool is_effort = strcmp(name, "effort") == 0;
+    const bool is_effort = strcmp(name, "effort") == 0, is_gauge = strcmp(name, "gauge") == 0;
     const int effort =
         is_effort ? document_word(doc, pair->value, name, efforts, DAL_EFFORT_COUNT) : 0;
     if (effort < 0) return CLI_USAGE;
     if (is_effort) e->choices.effort = (dal_effort)effort;
-    if (!is_effort && dal_options_set(&e->options, name, word, &error) != DAL_STATUS_OK)
+    if (is_gauge) e->choices.gauge = word;
+    if (!is_effort && !is_gauge &&
+        dal_options_set(&e->options, name, word, &error) != DAL_STATUS_OK)
         return document_fail(doc, pair->key, "%s", error.message);
     e->option[request_find_option(name)] = word;
     return CLI_DONE;

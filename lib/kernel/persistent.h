@@ -1,11 +1,12 @@
 /* persistent.h - the persistent state of a step: all that passes from one step to the next.
  *
- *     y[dim] | r[dim] | clock | state of the method | changed | events
+ *     y[dim] | r[dim] | clock | state of the method | changed | events | lift
  *
  * All else is scratch.  Stage derivatives, [1 + differences][stages*(nw + n)], are stored for
  * methods with DAL_EXTRAPOLATES_STAGES (collocation.h).  changed is 1 where a parameter was changed
  * between steps: the state of the method was 0 then, as before a first step.  What events need,
- * lib/run/events.h, no step changes. */
+ * lib/run/events.h, no step changes; lift, of another effort or gauge than the paper's, says which
+ * these are. */
 #ifndef DAL_KERNEL_PERSISTENT_H
 #define DAL_KERNEL_PERSISTENT_H
 

@@ -77,6 +77,7 @@ typedef struct dal__equations {
     struct dal__factors *mass;          /* of W */
     struct dal__bordered *bordered;     /* solves for F and h; NULL for vakonomic motion */
     struct dal__restricted *restricted; /* solves instead where W may be singular; or NULL */
+    const char *gauge;                  /* the formula of mu_e; NULL: none */
     double *value;                      /* [symbols]: default parameters, default start */
     int *symbol;     /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
     dal__node *flow; /* [1 + n]: d/dt of (t, q), that is 1 and v */

@@ -146,6 +146,12 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
                                error));
         DAL_TRY(
             dal__parse_entry(model, entry, dal__scope_of(e, k ? DAL__MAY_T : 0), out[k], error));
+        if (k == 1) e->gauge = entry->text;
+        const double start = k == 0 ? dal__evaluate(e->graph, *out[k], e->value) : 1.0;
+        if (!isfinite(start)) return dal__not_finite(model, entry, error);
+        if (model->has_other_gauge && !(start > 0.0))
+            return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(entry),
+                                "gauge e: %g is not above 0", start);
     }
     return DAL_STATUS_OK;
 }

@@ -336,6 +336,45 @@ dal_status dal_model_set_effort(dal_model *model, dal_effort effort, dal_error *
     return DAL_STATUS_OK;
 }
 
+dal_status dal_model_set_gauge(dal_model *model, const char *text, dal_error *error)
+{
+    static const char blanks[] = " \t";
+    DAL_REQUIRE(model, error);
+    DAL_REQUIRE(text, error);
+    if (model->made)
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
+                         "'%.80s' already has its system, with its gauge", model->name);
+    int kept = 0;
+    for (int i = 0; i < model->given_count; i++)
+        if (model->given[i].section != DAL_SECTION_GAUGE) model->given[kept++] = model->given[i];
+    model->given_count = model->count = kept;
+    model->has_other_gauge = true;
+    for (const char *end = text, *name = text;; name = ++end) {
+        name += strspn(name, blanks);
+        for (int depth = 0; *end && (depth > 0 || *end != ','); end++)
+            depth += (*end == '(') - (*end == ')');
+        const char *formula = memchr(name, '=', end > name ? (size_t)(end - name) : 0);
+        const int column = 1 + (int)(name - text);
+        if (!formula)
+            return dal__fail_at(error, DAL_STATUS_SYNTAX, 1, column,
+                                "a gauge is 'e = 1, mu_e = 0.1*cos(t)', of these two or one");
+        for (formula++; formula < end && strchr(blanks, *formula);) formula++;
+        dal__entry entry = {.section = DAL_SECTION_GAUGE,
+                            .line = 1,
+                            .column = 1 + (int)(formula - text),
+                            .name_line = 1,
+                            .name_column = column};
+        entry.name = dal__model_print(model, "%.*s", (int)strcspn(name, " \t="), name);
+        entry.text = dal__model_print(model, "%.*s", (int)(end - formula), formula);
+        if (!entry.name || !entry.text) return dal__memory_error(error);
+        if (strcmp(entry.name, "e") != 0 && strcmp(entry.name, "mu_e") != 0)
+            return dal__fail_at(error, DAL_STATUS_NAME, 1, column,
+                                "'%.40s' is not e or mu_e, which a gauge gives", entry.name);
+        DAL_TRY(dal__model_insert(model, entry, error));
+        if (!*end) return DAL_STATUS_OK;
+    }
+}
+
 dal_status dal_model_set_mechanics(dal_model *model, dal_mechanics mechanics, dal_error *error)
 {
     DAL_REQUIRE(model, error);

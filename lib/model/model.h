@@ -77,7 +77,8 @@ struct dal_model {
     int count;
     dal__tape_table *table; /* [tables], in the order of their entries */
     int tables, table_capacity;
-    dal_effort effort; /* chosen by dal_model_set_effort */
+    dal_effort effort;    /* chosen by dal_model_set_effort */
+    bool has_other_gauge; /* chosen by dal_model_set_gauge */
     dal_mechanics mechanics;
     bool has_other_mechanics; /* chosen, and not its own */
     const char *source;       /* [source_length] the text of a file; NULL: none */

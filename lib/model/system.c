@@ -213,6 +213,7 @@ static dal_status add_effort(dal_model *model, dal_error *error)
     const dal__equations *e = &model->equations;
     const int n = e->n;
     model->system.effort = model->effort;
+    model->system.gauge = e->gauge;
     if (model->effort == DAL_EFFORT_IDENTITY) return DAL_STATUS_OK;
     dal__node *out = dal__model_nodes(model, 3 * n, 0);
     dal_status status = out ? dal__motion_effort(model, model->effort, out) : DAL_STATUS_MEMORY;

@@ -334,11 +334,15 @@ static dal_status check_quad(const dal__layout *k, dal_error *error)
 }
 #endif
 
-/* Numbers of the persistent state that events need, see events.h. */
-static size_t event_memory(const dal__layout *k)
+/* Blanks of a gauge do not count; a hash is cut to 53 bits. */
+double dal__lift_number(const dal_system *system, int i)
 {
-    const size_t events = (size_t)k->system->events;
-    return events > 0 ? 2 * events + 2 + (size_t)dal__max_observables(k) : 0;
+    if (i == DAL__LIFT_EFFORT) return system->effort;
+    if (!system->call.gauge) return 0.0;
+    uint64_t hash = DAL__HASH_START;
+    for (const char *c = system->gauge ? system->gauge : ""; *c; c++)
+        if (*c != ' ') hash = dal__hash(hash, c, 1);
+    return (double)(hash >> 11);
 }
 
 /* Whether steps may be solved by Newton's method. */
@@ -388,8 +392,12 @@ static dal_status measure(dal__layout *k, dal_error *error)
 #define MEMBER(member, count) k->persistent += (size_t)DAL__COUNT_##count(k);
     DAL__METHOD_STATE_LIST(MEMBER)
 #undef MEMBER
-    k->event_memory = event_memory(k);
-    k->persistent += k->event_memory;
+    const size_t events = (size_t)k->system->events;
+    k->event_memory =
+        events > 0 ? 2 * events + 2 + (size_t)dal__max_observables(k) : 0; /* events.h */
+    const bool is_default = !k->lifted || (!k->system->call.effort && !k->system->call.gauge);
+    k->lift_memory = is_default ? 0 : DAL__LIFT_SIZE;
+    k->persistent += k->event_memory + k->lift_memory;
     return DAL_STATUS_OK;
 }
 

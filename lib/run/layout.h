@@ -20,6 +20,7 @@ typedef struct dal__layout {
     double tolerance_root;                     /* tolerance^(1/taylor_order) */
     size_t workspace, persistent, scratch;     /* numbers */
     size_t event_memory; /* numbers of the persistent state that events need, see events.h */
+    size_t lift_memory;  /* numbers of the persistent state that name the lift, see saved.c */
 } dal__layout;
 
 /* Sizes for DAL__METHOD_STATE_LIST. */
@@ -37,12 +38,20 @@ static inline size_t dal__at(const dal__layout *layout, int place)
     return 2 * (size_t)layout->dim + (size_t)place;
 }
 
-/* The place of the memory of events; and, before it, of the number that says whether a parameter
- * was changed between steps. */
+/* The place of the memory of events. */
 static inline size_t dal__at_events(const dal__layout *layout)
 {
-    return layout->persistent - layout->event_memory;
+    return layout->persistent - layout->event_memory - layout->lift_memory;
 }
+/* The place of what names the lift, the last of the persistent state: where it is another one than
+ * the paper's, the effort and the gauge. */
+enum { DAL__LIFT_EFFORT, DAL__LIFT_GAUGE, DAL__LIFT_SIZE };
+static inline size_t dal__at_lift(const dal__layout *layout)
+{
+    return layout->persistent - layout->lift_memory;
+}
+double dal__lift_number(const dal_system *system, int i);
+/* The place, before events, of what says whether a parameter was changed between steps. */
 static inline size_t dal__at_changed(const dal__layout *layout)
 {
     return dal__at_events(layout) - 1;

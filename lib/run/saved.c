@@ -143,18 +143,31 @@ static dal_status check_events(saved *s)
     return check_jumps(s, any);
 }
 
-/* Checks the numbers of a checkpoint of a run, memory[stored].  Errors: DAL_STATUS_NOT_FINITE,
- * DAL_STATUS_ARGUMENT. */
-static dal_status check_saved(const dal_run *run, const double *memory, dal_error *error)
+/* Refuses a state of another effort or gauge; numbers that name a lift are the last before the
+ * parameters, and are missing where it is the paper's. */
+static dal_status check_lift(const dal_run *run, const double *memory, size_t count,
+                             dal_error *error)
 {
     const dal__layout *k = &run->layout;
-    saved s = {run, memory, 0, error};
-    for (size_t i = 0; i < dal__saved_count(k); i++)
-        if (!dal__is_possible(k, i, number_at(&s, i)))
-            return dal__fail(error, DAL_STATUS_NOT_FINITE, "persistent number %zu is not finite",
-                             i + 1);
-    DAL_TRY(check_steps(&s));
-    return k->event_memory > 0 ? check_events(&s) : DAL_STATUS_OK;
+    const saved s = {run, memory, 0, error};
+    const size_t width = run->stored / dal__saved_count(k);
+    const size_t without = run->stored - k->lift_memory * width;
+    const bool has_names = count == without + DAL__LIFT_SIZE * width;
+    if (!k->lifted || (!has_names && count != without)) return DAL_STATUS_OK;
+    const size_t at = dal__at_lift(k);
+    const double effort = has_names ? number_at(&s, at + DAL__LIFT_EFFORT) : DAL_EFFORT_IDENTITY;
+    const double gauge = has_names ? number_at(&s, at + DAL__LIFT_GAUGE) : 0.0;
+    if (!is_count(effort) || effort >= DAL_EFFORT_COUNT || !is_count(gauge)) return DAL_STATUS_OK;
+    if (effort != k->system->effort)
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
+                         "the persistent state is of effort %s, and the run of effort %s",
+                         dal_effort_name((dal_effort)effort), dal_effort_name(k->system->effort));
+    if (gauge == dal__lift_number(k->system, DAL__LIFT_GAUGE)) return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_ARGUMENT,
+                     "the persistent state is of another gauge than the run, whose mu_e is %.80s",
+                     k->system->gauge        ? k->system->gauge
+                     : k->system->call.gauge ? "a callback"
+                                             : "0");
 }
 
 const double *dal_run_save(const dal_run *run, size_t *count)
@@ -167,11 +180,19 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
 {
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(memory, error);
+    DAL_TRY(check_lift(run, memory, count, error));
     if (count != run->stored)
         return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "the persistent state of this run has %zu numbers, not %zu", run->stored,
                          count);
-    DAL_TRY(check_saved(run, memory, error));
+    const dal__layout *k = &run->layout;
+    saved s = {run, memory, 0, error};
+    for (size_t i = 0; i < dal__saved_count(k); i++)
+        if (!dal__is_possible(k, i, number_at(&s, i)))
+            return dal__fail(error, DAL_STATUS_NOT_FINITE, "persistent number %zu is not finite",
+                             i + 1);
+    DAL_TRY(check_steps(&s));
+    if (k->event_memory > 0) DAL_TRY(check_events(&s));
     dal__run_back_up(run);
     const dal_status status = dal__run_load(run, memory);
     if (status == DAL_STATUS_OK) return DAL_STATUS_OK;

@@ -59,6 +59,8 @@ static dal_status default_start(dal_run *run, dal_error *error)
     const int first = k->n + k->nw;
     memset(run->persistent, 0, k->persistent * sizeof *run->persistent);
     run->persistent[dal__at(k, DAL__TIME)] = k->start_time;
+    for (size_t i = 0; i < k->lift_memory; i++)
+        run->persistent[dal__at_lift(k) + i] = dal__lift_number(k->system, (int)i);
     double *out = run->scratch;
     for (int i = 0; i <= first; i++) out[i] = i == first;
     const dal_point at = dal__here(run);

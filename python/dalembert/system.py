@@ -19,9 +19,6 @@ PROPERTIES = tuple(name for name in dir(lib) if name.startswith(('DAL_D_', 'DAL_
                    ) + ('DAL_AUTONOMOUS', 'DAL_MASS_CONSTANT', 'DAL_VAKONOMIC', 'DAL_SERVO')
 
 
-EFFORTS = ('identity', 'mass', 'constraint', 'controls')
-MECHANICS = ('system', 'lagrange-dalembert', 'vakonomic')
-
 
 def text_of(chars: Any) -> str:
     """A text of the library, '' for NULL."""
@@ -50,6 +47,20 @@ def _names(name_at: Any) -> Iterator[str]:
         i += 1
 
 
+EFFORTS = tuple(text_of(lib.dal_effort_name(i)) for i in range(lib.DAL_EFFORT_COUNT))
+MECHANICS = tuple(name[len('DAL_MECHANICS_'):].lower().replace('_', '-') for name in sorted(
+    (name for name in dir(lib) if name.startswith('DAL_MECHANICS_') and name != 'DAL_MECHANICS_COUNT'),
+    key=lambda name: getattr(lib, name)))
+
+
+class Choices(NamedTuple):
+    """What is chosen of a system beside its text."""
+
+    effort: str = EFFORTS[0]
+    mechanics: str = MECHANICS[0]
+    gauge: str = ''
+
+
 class Constraints(NamedTuple):
     """D = 0 at points; see `System.constraints`."""
 
@@ -58,11 +69,10 @@ class Constraints(NamedTuple):
     reactions: Array
 
 
-def made_system(text: str, name: str, observed: tuple[str, ...], effort: str,
-                mechanics: str = MECHANICS[0]) -> System:
-    """A system with this effort and mechanics that observes these formulas: a copy, or one from a pickle."""
+def made_system(text: str, name: str, observed: tuple[str, ...], choices: Choices) -> System:
+    """A system with these choices that observes these formulas: a copy, or one from a pickle."""
     system = object.__new__(System)
-    system._make(text, name, observed, effort, mechanics)
+    system._make(text, name, observed, choices)
     return system
 
 
@@ -98,6 +108,8 @@ class System(Fixed):
         Of the lift, see `with_effort`.
     mechanics : str
         By which the text is read, see `with_mechanics`.
+    gauge : str
+        Of the lift, see `with_gauge`; '' where it is the text's.
     defaults : dict of str to str
         Method, step and time of a run that shows the motion, where the file gives them.
 
@@ -118,6 +130,7 @@ class System(Fixed):
     observed: tuple[str, ...]
     effort: str
     mechanics: str
+    gauge: str
     tags: tuple[str, ...]
     events: tuple[str, ...]
     parameters: dict[str, float]
@@ -127,11 +140,11 @@ class System(Fixed):
     _system: Any
 
     def __init__(self, text: str, name: str = 'system'):
-        self._make(argument('text', text), argument('name', name), (), EFFORTS[0], MECHANICS[0])
+        self._make(argument('text', text), argument('name', name), (), Choices())
 
-    def _make(self, text: str, name: str, observed: tuple[str, ...], effort: str, mechanics: str) -> None:
+    def _make(self, text: str, name: str, observed: tuple[str, ...], choices: Choices) -> None:
         self.name, self.text, self.observed = name, text, observed
-        self.effort, self.mechanics = effort, mechanics
+        self.effort, self.mechanics, self.gauge = choices
         self._model = self._read()
         for number, formula in enumerate(observed, 1):
             call(lib.dal_model_observe, self._model, encode(formula), number, 1)
@@ -159,9 +172,12 @@ class System(Fixed):
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> System:
-        """The system of a file."""
-        with open(path, encoding='utf-8') as file:
-            return cls(file.read(), os.fspath(path))
+        """The system of a file, with the files of its tables in `text`."""
+        model, length = ffi.new('dal_model **'), ffi.new('size_t *')
+        with open(path, encoding='utf-8'):  # an error of Python's own where there is none
+            call(lib.dal_model_read_file, model, os.fsencode(path))
+        read = owned(model[0], lib.dal_model_free)
+        return cls(text_of(lib.dal_model_source(read, length)), os.fspath(path))
 
     def observe(self, *formulas: str) -> System:
         """The same system with formulas that its runs observe, too.
@@ -187,7 +203,7 @@ class System(Fixed):
         for formula in formulas:
             if not isinstance(formula, str):
                 raise TypeError(f'a formula to observe is a str, not {formula!r}')
-        return made_system(self.text, self.name, self.observed + formulas, self.effort, self.mechanics)
+        return made_system(self.text, self.name, self.observed + formulas, self._choices())
 
     def with_effort(self, effort: str) -> System:
         """The same system with another K of the lift, H = pi.K pi/(2e) + pi.F + p.v + mu_e pi_e.
@@ -212,7 +228,7 @@ class System(Fixed):
         """
         if effort not in EFFORTS:
             raise ValueError(f"effort: {effort!r} is not one of {', '.join(EFFORTS)}")
-        return made_system(self.text, self.name, self.observed, effort, self.mechanics)
+        return made_system(self.text, self.name, self.observed, self._choices()._replace(effort=effort))
 
     def with_mechanics(self, mechanics: str) -> System:
         """The same Lagrangian and constraints, read by another mechanics.
@@ -237,7 +253,31 @@ class System(Fixed):
         """
         if mechanics not in MECHANICS:
             raise ValueError(f"mechanics: {mechanics!r} is not one of {', '.join(MECHANICS)}")
-        return made_system(self.text, self.name, self.observed, self.effort, mechanics)
+        return made_system(self.text, self.name, self.observed, self._choices()._replace(mechanics=mechanics))
+
+    def with_gauge(self, gauge: str) -> System:
+        """The same system with another gauge of the lift.
+
+        Parameters
+        ----------
+        gauge : str
+            ``'e = 1, mu_e = 0.1*cos(t)'``: e > 0 at the start, and its rate.  What is not named is 1,
+            and 0; ``''``: as the text has it.
+
+        Returns
+        -------
+        System
+            Where p = pi = 0 its runs have the same bits of q and v as runs of this system.
+
+        Raises
+        ------
+        InputError
+            With line 1 and the column of what cannot be used.
+        """
+        return made_system(self.text, self.name, self.observed, self._choices()._replace(gauge=argument('gauge', gauge)))
+
+    def _choices(self) -> Choices:
+        return Choices(self.effort, self.mechanics, self.gauge)
 
     def _at(self, name: str, callback: Any, shape: tuple[int, ...], q: ArrayLike, v: ArrayLike, t: ArrayLike,
             parameters: Settings | None) -> Any:
@@ -311,7 +351,7 @@ class System(Fixed):
         return taken_text(lib.dal_model_latex, self._model)
 
     def __reduce__(self) -> Any:
-        return made_system, (self.text, self.name, self.observed, self.effort, self.mechanics)
+        return made_system, (self.text, self.name, self.observed, self._choices())
 
     def _read(self) -> Any:
         model, text = ffi.new('dal_model **'), self.text.encode()
@@ -319,6 +359,8 @@ class System(Fixed):
         read = owned(model[0], lib.dal_model_free)
         call(lib.dal_model_set_effort, read, EFFORTS.index(self.effort))
         call(lib.dal_model_set_mechanics, read, MECHANICS.index(self.mechanics))
+        if self.gauge:
+            call(lib.dal_model_set_gauge, read, encode(self.gauge))
         return read
 
     @staticmethod
@@ -354,7 +396,8 @@ class System(Fixed):
         left, equals, right = formula.partition('=')
         text = f'({left})-({right})' if equals else f'({formula})'
         other = object.__new__(System)
-        other.name, other.text, other.effort, other.mechanics = self.name, self.text, self.effort, self.mechanics
+        other.name, other.text = self.name, self.text
+        other.effort, other.mechanics, other.gauge = self._choices()
         other._model = other._read()
         try:
             call(lib.dal_model_add, other._model, lib.DAL_SECTION_INVARIANTS, name.encode(),

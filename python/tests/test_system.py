@@ -122,3 +122,29 @@ def test_effort():
         sleigh.with_effort('masses')
     with pytest.raises(dalembert.InputError, match='effort controls: the system has none'):
         sleigh.with_effort('controls')
+
+
+def test_gauge():
+    """On p = pi = 0 the gauge changes no bit of q and v; e follows it."""
+    sleigh = dalembert.System.builtin('chaplygin-sleigh')
+    other = sleigh.with_gauge('e = 2, mu_e = 0.25')
+    states = []
+    for system in (sleigh, other, pickle.loads(pickle.dumps(other)), other.with_gauge('mu_e = cos(t)')):
+        run = dalembert.Run(system, 'gauss4', step=0.125)
+        run.advance(8)
+        states.append(run.state)
+    assert len({state[:6].tobytes() for state in states}) == 1
+    assert [state[6] for state in states[:3]] == [1, 2.25, 2.25] and other.gauge == 'e = 2, mu_e = 0.25'
+    with pytest.raises(dalembert.InputError, match="'mu' is not e or mu_e") as caught:
+        sleigh.with_gauge('e = 1, mu = 2')
+    assert (caught.value.line, caught.value.column) == (1, 8)
+
+
+def test_tables_of_a_file(tmp_path):
+    """A file with a table in another file is read from anywhere, and the text is enough for a copy."""
+    (tmp_path / 'force.csv').write_text('x,f\n0,1\n1,3\n2,5\n')
+    (tmp_path / 'pushed.yaml').write_text('coordinates: [x]\nlagrangian: x\'^2/2\n'
+                                          'tables: {f: {file: force.csv, at: x, value: f}}\nforces: {x: f(x)}\n')
+    system = dalembert.System.from_file(tmp_path / 'pushed.yaml')
+    for one in (system, pickle.loads(pickle.dumps(system)), dalembert.System(system.text)):
+        assert one.field([0.5], [0.0]) == pytest.approx(2.0)

@@ -127,6 +127,38 @@ for effort in mass constraint; do
 done
 prints "A K = 0 *ok"
 
+case_is "gauge: of a run, a directory and a study; (q, v) has the same bytes"
+moving="chaplygin-sleigh --integrator gauss4 --step 0.125 --time 1 --samples 4 --native off"
+try 0 run $moving --columns "y1,y2,phi,y1',y2',phi'" --output plain.csv
+try 0 run $moving --columns "y1,y2,phi,y1',y2',phi'" --gauge "e = 2, mu_e = 0.25*cos(t)" --output gauged.csv
+expect "other bytes" cmp -s plain.csv gauged.csv
+try 0 run $moving --columns e,pi_e --gauge "e=2,mu_e=0.25"
+prints "^1,2\.25,0$"
+try 0 run $moving --gauge "e = 2, mu_e = 0.25" --output gauge-kept
+try 0 resume gauge-kept
+try 2 resume gauge-kept --gauge "mu_e = 1"
+expect "not kept in the manifest" grep -q '"gauge": "e = 2, mu_e = 0.25"' gauge-kept/manifest.json
+try 0 check chaplygin-sleigh --gauge "e = 2, mu_e = cos(t)"
+try 0 generate chaplygin-sleigh --integrator rk4 --gauge "mu_e = cos(t)" --prefix g
+prints "DAL_EVAL_GAUGE"
+cat >gauges.yaml <<'END2'
+integrators: [gauss4]
+step: 0.125
+time: 1
+starts: [physical, surface]
+systems:
+  - {system: chaplygin-sleigh, options: {gauge: "e = 2, mu_e = 0.25*cos(t)"}}
+END2
+try 0 study gauges.yaml --output of-gauges
+expect "other bits than on (q, v)" eval 'grep -q "surface.*,yes," of-gauges/cells.csv'
+sed -i 's/mu_e = 0.25/mu = 0.25/' gauges.yaml
+try 2 study gauges.yaml --output of-gauges
+says "'mu' is not e or mu_e, which a gauge gives"
+table <<'END2'
+2 | run chaplygin-sleigh --gauge "e = 1, mu_e = y1" | says --gauge:1:15: gauge mu_e: coordinate 'y1' may not stand here: only parameters and t
+2 | run chaplygin-sleigh --gauge "e" | says --gauge:1:1: a gauge is 'e = 1, mu_e = 0.1.cos.t.', of these two or one
+END2
+
 case_is "a method that cannot serve is refused with the reason"
 refuses() { # REASON SYSTEM INTEGRATOR SPACE
     try 2 run $2 --integrator $3 --step 0.1 --time 1 --space $4

@@ -18,7 +18,8 @@ static int check_command(int argc, char **argv)
 {
     static const uint64_t taken = REQUEST_OPTION(set) | REQUEST_OPTION(start) |
                                   REQUEST_OPTION(from) | REQUEST_OPTION(mechanics) |
-                                  REQUEST_OPTION(effort) | REQUEST_OPTION(system);
+                                  REQUEST_OPTION(effort) | REQUEST_OPTION(gauge) |
+                                  REQUEST_OPTION(system);
     check_settings s = {.simulation = simulation_default()};
     cli_option of_request[REQUEST_OPTIONS];
     memcpy(of_request, request_options, sizeof of_request);
