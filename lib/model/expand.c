@@ -161,12 +161,6 @@ static dal_status put_name(dal_model *model, dal__entry *entry, const char *brac
     return DAL_STATUS_OK;
 }
 
-static bool has_range(const char *text, size_t length)
-{
-    const char *dots = text ? strstr(text, "..") : NULL;
-    return dots && dots < text + length;
-}
-
 /* All entries that one means: of a range in its name, and of its index. */
 static dal_status expand_entry(dal_model *model, const dal__entry *given, dal_error *error)
 {
@@ -180,7 +174,8 @@ static dal_status expand_entry(dal_model *model, const dal__entry *given, dal_er
     if (skip) DAL_TRY(read_for(model, given, &r, error));
     entry.text += skip;
     if (skip && !given->apart) entry.column += (int)skip;
-    const bool by_name = has_range(open, length);
+    const char *const dots = open ? strstr(open, "..") : NULL;
+    const bool by_name = dots && dots < open + length;
     if (by_name && skip)
         return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_NAME(given),
                             "'%.80s' has a range, and its formula another one", name);

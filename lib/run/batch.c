@@ -255,8 +255,6 @@ int dal__batch_native_lanes(const dal_batch *batch)
     return batch->count > 4 && dal__engine_best(k, 8) ? 8 : 4;
 }
 
-static bool is_alive(const group *b, int lane) { return b->alive >> (lane - b->first) & 1; }
-
 /* Copies the lanes of a batch to the groups of another, which takes over their errors. */
 static void move_lanes(dal_batch *from, dal_batch *to)
 {
@@ -264,7 +262,7 @@ static void move_lanes(dal_batch *from, dal_batch *to)
         group *a = group_of(from, lane), *b = group_of(to, lane);
         gather_lane(from, a, lane - a->first);
         scatter_lane(to, b, lane - b->first);
-        if (!is_alive(a, lane)) b->alive &= ~((dal__lanes)1 << (lane - b->first));
+        if (!(a->alive >> (lane - a->first) & 1)) b->alive &= ~((dal__lanes)1 << (lane - b->first));
     }
     dal_error *const errors = to->error;
     to->error = from->error;

@@ -24,12 +24,11 @@ static size_t own_numbers(const dal__layout *k)
            time_and_observables + reactions + dal__scale_numbers(k);
 }
 
-static size_t quad_bytes(const dal__layout *k) { return HAS_QUAD(k) ? dal__quad_bytes(k) : 0; }
-
 static size_t total_bytes(const dal__layout *k)
 {
     return 64 + dal__align(sizeof(dal_run)) + dal__align(own_numbers(k) * sizeof(double)) +
-           dal__align(dal__engine_best(k, 1)->engine->bytes(k)) + quad_bytes(k);
+           dal__align(dal__engine_best(k, 1)->engine->bytes(k)) +
+           (HAS_QUAD(k) ? dal__quad_bytes(k) : 0);
 }
 
 size_t dal_run_size(const dal_run_spec *spec)
