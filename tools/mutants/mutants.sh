@@ -14,10 +14,13 @@
 #
 # Each is built below BUILD/mutants by JOBS processes, at -O1 and with few variants, since a source of
 # several widths must be changed in all of them; one is for AVX2, so that code for it runs as well.
-# The suites of the module (suites.txt) run until one fails, the fastest first, then the parts of the
-# command line, one by one; for a file in cli/ only these.  A part that fails must pass with the sources themselves.  A
-# mutant that takes LIMIT times as long as the sources themselves is ended and counts as noticed, as
-# one that crashes does.
+# The suites of the module (suites.txt) and the parts of the command line run one by one until one
+# fails, for a file in cli/ only these.  Those come first that should notice a fault for the least
+# processor time: by their own, over how often they noticed one in the folder of the file; both are
+# kept for later calls.  What fails must pass with the sources themselves.  A process that takes
+# LIMIT times the processor time of its test with the sources, and ten seconds, is ended, and a
+# command of the command line after PATIENCE seconds: such a mutant counts as noticed, as one that
+# crashes does.
 #
 # A mutant that does not compile, or has the same machine code, is drawn again.  Those that no test
 # can notice are listed with their reason in equivalent.txt, by their line, or by function and both
@@ -31,7 +34,8 @@ first | new | all | bounds) ;;
 esac
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
-LIMIT=${LIMIT:-6}
+LIMIT=${LIMIT:-3}
+PATIENCE=${PATIENCE:-300}
 BUILD=${BUILD:-build}
 place=$root/$BUILD/mutants
 case $BUILD in /*) place=$BUILD/mutants ;; esac
@@ -66,60 +70,106 @@ build() {
     make -s -C "$tree" -j"${JOBS:-$(nproc)}" BUILD=build CC="$CC" CFLAGS="$flags" VARIANTS="$variants" "$@" \
         >"$place/make.log" 2>&1
 }
-# tests_of FILE KIND: the suites, or the parts of the command line (KIND cli), of a file.
+# tests_of FILE: the tests of a file, "suite NAME" and "cli PART", in the order of suites.txt.
 tests_of() {
-    awk -v file="$1" -v kind="$2" '/^#/ || NF == 0 { next }
-        $1 == "quick" { for (i = 2; i <= NF; i++) quick = quick " " $i; next }
+    awk -v file="$1" '
+        function add(kind, name) { if (!seen[kind, name]++) print kind, name }
+        FILENAME == ARGV[1] { known[$1]; next }
+        /^#/ || NF == 0 { next }
+        $1 == "quick" { for (i = 2; i <= NF; i++) quick[++quicks] = $i; next }
         index(file, $1) == 1 && length($1) >= best { best = length($1); line = $0 }
         END {
-            parts = suites = ""
             n = split(line, word, " ")
+            kind = "suite"
             for (i = 2; i <= n; i++)
-                if (word[i] == "cli") cli = 1
-                else if (cli) parts = parts " " word[i]
-                else suites = suites " " word[i]
-            if (kind == "cli") { print parts; exit }
-            if (file ~ /^cli\//) exit
-            n = split(suites quick, word, " ")
-            for (i = 1; i <= n; i++) if (!(word[i] in seen)) { seen[word[i]] = 1; print word[i] }
-        }' "$here/suites.txt"
+                if (word[i] == "cli") kind = "cli"
+                else if (kind == "cli") add(kind, word[i])
+                else if (word[i] in known) add(kind, word[i])
+            if (file ~ /^cli[/]/) exit
+            for (i = 1; i <= quicks; i++) if (quick[i] in known) add("suite", quick[i])
+        }' "$place/suites" "$here/suites.txt"
 }
-# limited SECONDS COMMAND...: in the tree, within a time and a memory that faults may not exceed; the
-# sanitizers map much more than they use.
+# cheapest_first FILE: the same by what a noticed fault should cost.  A line of the history is FOLDER, the test,
+# its processor time, "passed" or "noticed".
+cheapest_first() {
+    tests_of "$1" | awk -v folder="$(dirname "$1")" '
+        FILENAME == "-" {
+            test = $1 " " $2
+            cost = 0.05 + (test in time ? time[test] : $1 == "cli" ? 5 : 1) + 0.001 * ++count
+            print cost * (tried[test] + 2) / (noticed[test] + 1), test
+            next
+        }
+        { test = $2 " " $3 }
+        $5 == "passed" && !(test in time && time[test] < $4) { time[test] = $4 }
+        $1 == folder { tried[test]++; noticed[test] += $5 == "noticed" }
+        ' "$place/history" - | sort -n | cut -d ' ' -f 2-
+}
+# limited SECONDS COMMAND...: in the tree, no process with more processor time or memory than faults may take;
+# the sanitizers map much more than they use.  Leaves the processor time in the file spent.
 limited() {
     seconds=$1
     shift
-    (cd "$tree" && { [ -n "$SANITIZE" ] || ulimit -v 8000000; } && TMPDIR=$place/tmp exec timeout -k 2 "$seconds" "$@") \
-        >"$place/test.log" 2>&1
+    (
+        cd "$tree" && { [ -n "$SANITIZE" ] || ulimit -v 8000000; } && ulimit -S -t "$seconds" || exit 2
+        TMPDIR=$place/tmp timeout -k 2 "$((20 * seconds + 10 * PATIENCE))" "$@" >"$place/test.log" 2>&1
+        ended=$?
+        times >"$place/spent"
+        exit $ended
+    )
 }
-# known SUITE...: those that this version has.
-known() { for suite; do grep -x "$suite" "$place/suites"; done; }
-# fastest_first SUITE...: those that this version has, by the time that they took with the sources themselves.
-fastest_first() { known "$@" | sort -u | join - "$place/times" | sort -n -k 2 | cut -d ' ' -f 1; }
-# passes FILE SECONDS: whether all tests of a file pass; names the test that does not.
-passes() {
-    for suite in $(fastest_first $(tests_of "$1" suites)); do
-        noticed=$suite
-        limited "$2" build/tests/suite --quick "$suite" || return
-    done
-    parts=$(tests_of "$1" cli)
-    [ -z "$parts" ] || build build/dalembert || return
-    for part in $parts; do
-        noticed="cli $part"
-        run_part "$((10 * $2 + 5 * PATIENCE))" build/dalembert "$part"
-        ends=$?
-        [ $ends -eq 0 ] || { confirm "$part"; return $ends; }
-    done
+# run_test SECONDS KIND NAME BINARY
+run_test() {
+    if [ "$2" = suite ]; then
+        limited "$1" "$4" --quick "$3"
+    else
+        limited "$1" env PATIENCE="$PATIENCE" FIRST_FAILURE=1 sh tests/cli/run.sh "$4" "$3"
+    fi
 }
-# run_part SECONDS PROGRAM PART: PATIENCE ends commands that hang; a machine with other work needs more of it.
-PATIENCE=${PATIENCE:-60}
-run_part() { limited "$1" env PATIENCE="$PATIENCE" FIRST_FAILURE=1 sh tests/cli/run.sh "$2" "$3"; }
-# A part that fails with the sources themselves would notice nothing.
+# record FOLDER KIND NAME RESULT: a line of the history, with the processor time of the test that ran.
+record() {
+    awk -F '[ms ]+' -v test="$1 $2 $3" -v result="$4" \
+        'END { print test, 60 * $1 + $2 + 60 * $3 + $4, result }' "$place/spent" | tee -a "$place/history"
+}
+# confirm KIND NAME: that the test passes with the sources themselves; one that fails would notice nothing.
 confirm() {
-    grep -qx "$1" "$place/confirmed" && return
-    run_part 3600 "$place/program" "$1" ||
-        { cat "$place/test.log"; echo "mutants: cli $1 fails without a mutant"; exit 2; }
-    echo "$1" >>"$place/confirmed"
+    grep -q "^- $1 $2 " "$place/times" && return
+    cp "$place/test.log" "$place/noticed.log"
+    run_test 3600 "$1" "$2" "$(intact_of "$1")" ||
+        { { cat "$place/test.log"; echo "mutants: $1 $2 fails without a mutant"; } >&2; exit 2; }
+    record - "$1" "$2" passed >>"$place/times"
+    cp "$place/noticed.log" "$place/test.log"
+}
+# seconds_of KIND NAME: its processor time with the sources themselves, or more than most take.
+seconds_of() {
+    awk -v kind="$1" -v name="$2" '$2 == kind && $3 == name { seconds = int($4 + 1) }
+        END { print seconds ? seconds : 20 }' "$place/times"
+}
+# intact_of KIND: the binary of the sources themselves.
+intact_of() { case $1 in cli) echo "$place/program" ;; *) echo "$place/suite" ;; esac; }
+# passes FILE: whether all tests of a file pass; names the test that does not.
+passes() {
+    cheapest_first "$1" >"$place/tests"
+    while read -r kind name <&4; do
+        noticed="$kind $name"
+        binary=build/tests/suite
+        if [ "$kind" = cli ]; then
+            binary=build/dalembert
+            build $binary || return
+        fi
+        run_test "$((LIMIT * $(seconds_of "$kind" "$name") + 10))" "$kind" "$name" $binary
+        ends=$?
+        if [ $ends -ne 0 ]; then
+            record "$(dirname "$1")" "$kind" "$name" noticed >/dev/null
+            confirm "$kind" "$name"
+            return $ends
+        fi
+        record "$(dirname "$1")" "$kind" "$name" passed >/dev/null
+    done 4<"$place/tests"
+}
+# was_ended STATUS: of a test that was noticed, by its time: SIGXCPU is 24.
+was_ended() {
+    case $1 in 124 | 137 | 152) return ;; esac
+    grep -qE 'exit (124|137|152), not' "$place/test.log"
 }
 # What a file is compiled into.
 target_of() { case $1 in cli/*) echo dalembert ;; *) echo tests/suite ;; esac; }
@@ -144,20 +194,13 @@ build build/tests/suite build/dalembert ||
 cp "$tree/build/tests/suite" "$place/suite"
 cp "$tree/build/dalembert" "$place/program"
 "$place/suite" --list >"$place/suites"
-: >"$place/confirmed"
+cksum "$place/suite" "$place/program" >"$place/now"
+find "$tree/tests/cli" -type f | sort | xargs cat | cksum >>"$place/now"
+cmp -s "$place/now" "$place/known" || { : >"$place/times"; cp "$place/now" "$place/known"; }
+touch "$place/history"
 find $module -name '*.[ch]' | sort | xargs awk -v operators="$OPERATORS" -f "$here/candidates.awk" |
     awk -v seed="$seed" 'BEGIN { FS = OFS = "\t"; x = (seed * 48271 + 11) % 2147483646 + 1 }
         { x = (16807 * x) % 2147483647; print x, $0 }' | sort -n | cut -f2- >"$place/candidates"
-began=$(date +%s)
-for file in $(cut -f1 "$place/candidates" | sort -u); do tests_of "$file" suites; done | sort -u \
-    >"$place/needed"
-for suite in $(known $(cat "$place/needed")); do
-    started=$(date +%s%N)
-    limited 600 build/tests/suite --quick "$suite" ||
-        { { cat "$place/test.log"; echo "mutants: $suite fails without a mutant"; } >&2; exit 2; }
-    echo "$suite $(($(date +%s%N) - started))"
-done >"$place/times"
-limit=$((LIMIT * ($(date +%s) - began) / 4 + 10))
 
 # ---- mutants ----
 
@@ -185,13 +228,18 @@ while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
         same=$((same + 1))
     else
         count=$((count + 1))
-        passes "$file" "$limit"
-        case $? in
-        0) survived=$((survived + 1))
-           printf 'survived  %s:%s: %s: %s\n' "$file" "$line" "$operator" "$shown" ;;
-        124 | 137) late=$((late + 1)) ;;
-        *) killed=$((killed + 1)) ;;
-        esac
+        passes "$file"
+        ends=$?
+        if [ $ends -eq 0 ]; then
+            noticed="by none"
+            survived=$((survived + 1))
+            printf 'survived  %s:%s: %s: %s\n' "$file" "$line" "$operator" "$shown"
+        elif was_ended $ends; then
+            late=$((late + 1))
+            noticed="$noticed, by its time"
+        else
+            killed=$((killed + 1))
+        fi
         [ -n "$V" ] && printf '          %s:%s: %s: %s (%s)\n' "$file" "$line" "$operator" "$shown" "$noticed"
     fi
     cp "$file" "$tree/$file"
