@@ -1,11 +1,18 @@
 """page_outline.py - reads a page of `dalembert report` strictly.
 
-    page_outline.py PAGE    prints its headings, terms and heads of columns in their order, without
-                            the places where words may be divided
+    page_outline.py PAGE            prints its headings, terms and heads of columns in their order,
+                                    without the places where words may be divided
+    page_outline.py PAGE skeleton   prints all elements with their attributes and texts, figures and
+                                    gnuplot scripts without their points, each line once and # for
+                                    each number; no files, styles and equations
 
 Every element is one that HTML has, is closed, and has attributes that it may have; anything else is
 an error.
 """
+import glob
+import json
+import os
+import re
 import sys
 from html.parser import HTMLParser
 
@@ -37,6 +44,9 @@ OWN = {
     "canvas": {"width", "height"},
 }
 GLOBAL = {"id", "class", "title", "hidden", "tabindex", "role", "style", "lang", "inert"}
+BLOCKS = set("body main nav h1 h2 h3 p dl dt div table tr details summary figure ul li a noscript".split())
+HIDDEN = {"script", "style", "pre", "math"}
+NUMBER = re.compile(r"(?<![A-Za-z_0-9#])[-+]?[0-9]+(?:[.][0-9]+)?(?:e[-+]?[0-9]+)?")
 SHOWN = {"title", "h1", "h2", "h3", "dt", "th", "summary"}
 
 
@@ -80,8 +90,60 @@ class Outline(HTMLParser):
             self.text[i] += data
 
 
+class Skeleton(HTMLParser):
+    """The elements of the body with their attributes and texts, and figures without their points."""
+
+    def __init__(self):
+        super().__init__(convert_charrefs=True)
+        self.hidden, self.in_body, self.lines = "", False, [""]
+
+    def handle_starttag(self, tag, attrs):
+        self.in_body |= tag == "body"
+        if tag in BLOCKS:
+            self.lines.append("")
+        if self.in_body and not self.hidden:
+            self.lines[-1] += f"<{tag}{''.join(f' {name}={value}' for name, value in attrs)}>"
+        if tag in HIDDEN and not self.hidden:
+            self.hidden = "figure" if ("class", "figure") in attrs else tag
+
+    def handle_endtag(self, tag):
+        if tag == self.hidden or (tag == "script" and self.hidden):
+            self.hidden = ""
+        if tag in BLOCKS:
+            self.lines[-1] += f"</{tag}>"
+            self.lines.append("")
+
+    def handle_data(self, data):
+        if self.hidden == "figure":
+            figure = json.loads(data)
+            for curve in figure["curves"]:
+                for name in ("x", "y", "upper"):
+                    curve.pop(name, None)
+            self.lines += [json.dumps(figure["curves"]), json.dumps(figure | {"events": 0, "curves": 0})]
+        elif self.in_body and not self.hidden:
+            self.lines[-1] += " ".join(data.split())
+
+
+def print_skeleton(path):
+    """What a page and the scripts beside it have, each line once, with # for each number."""
+    skeleton = Skeleton()
+    with open(path, encoding="utf-8") as page:
+        skeleton.feed(page.read())
+    lines = skeleton.lines
+    for script in sorted(glob.glob(os.path.join(os.path.dirname(path), "*.gp"))):
+        if os.path.basename(script).startswith("time"):  # its axis is of measured times
+            continue
+        with open(script, encoding="utf-8") as file:
+            lines += re.sub(r"(<< END\n).*?^END$", r"\1END", file.read(), flags=re.DOTALL | re.MULTILINE).split("\n")
+    for line in dict.fromkeys(NUMBER.sub("#", line) for line in lines if line):
+        print(line)
+
+
 def main():
     sys.stdout.reconfigure(encoding="utf-8")
+    if sys.argv[2:] == ["skeleton"]:
+        print_skeleton(sys.argv[1])
+        return
     outline = Outline()
     with open(sys.argv[1], encoding="utf-8") as page:
         outline.feed(page.read())

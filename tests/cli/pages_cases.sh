@@ -1,0 +1,159 @@
+# `dalembert report`: whole pages of each kind.  Every table and every curve has the values of the files that it is
+# made from (page_values.py), the command on a page of a run makes the same run again, and elements, texts and gnuplot
+# scripts are as in data/pages/NAME.txt, where each number is #.  Where a page is changed on purpose that file changes
+# with it: page_outline.py PAGE skeleton >tests/cli/data/pages/NAME.txt.
+
+# page NAME [scripts]: the directory NAME and its page, of which `scripts` compares the scripts alone.
+page() {
+    try 0 report "$1"
+    silent
+    python3 "$here/page_values.py" "$@" >compared 2>&1
+    expect "$1: $(head -3 compared)" sh -c "grep -Eq '^[1-9][0-9]+ values$' compared && test \$(wc -l <compared) -eq 1"
+    expect "$1: $(python3 "$here/page_outline.py" "$1/report/index.html" 2>&1 >/dev/null)" \
+        python3 "$here/page_outline.py" "$1/report/index.html"
+    python3 "$here/page_outline.py" "$1/report/index.html" skeleton >skeleton
+    diff "$here/data/pages/$1.txt" skeleton >differences 2>&1
+    expect "$1: $(head -4 differences)" test ! -s differences
+}
+# again NAME: what the page of a run says makes it again does so.
+again() {
+    sed -n 's/^<pre tabindex="0">dalembert \(run .*\) --output DIR<\/pre>$/\1/p' "$1/report/index.html" |
+        sed "s/&lt;/</g; s/&gt;/>/g; s/&quot;/\"/g; s/&amp;/\&/g" >command
+    eval "try 0 $(cat command) --output again --force"
+    expect "$1: another run by $(cat command)" cmp "$1/trajectory.npy" again/trajectory.npy
+}
+# full NAME: wherever a file of the page cannot be written since the device is full, the command fails and says which.
+full() {
+    fault=
+    for file in "$1"/report/*; do
+        mv "$file" file && ln -s /dev/full "$file"
+        timeout --foreground $patience "$program" report "$1" >out 2>err
+        status=$?
+        [ $status -eq 4 ] && grep -q '^dalembert: cannot write .*No space left' err || fault="$fault $file:$status"
+        rm "$file" && mv file "$file"
+    done
+    expect "$1: no failure at$fault" test -z "$fault"
+}
+# unreadable NAME: wherever a file that the page is made from cannot be read, the command fails and says so; what it
+# does not read changes no byte of the page.  Of the runs of a study every tenth file is tried.
+unreadable() {
+    fault=
+    cp "$1/report/index.html" page
+    find "$1" -path "$1/report" -prune -o -type f -print | sort |
+        awk '!/[/]runs[/]/ || ++runs % 10 == 1' >files
+    while read -r file; do
+        mv "$file" file && mkdir "$file"
+        timeout --foreground $patience "$program" report "$1" >out 2>err
+        status=$?
+        rmdir "$file" && mv file "$file"
+        if [ $status -eq 0 ]; then
+            cmp -s page "$1/report/index.html" && [ ! -s err ] && continue
+        else
+            { [ $status -eq 2 ] || [ $status -eq 4 ]; } && grep -q '^dalembert: ' err && continue
+        fi
+        fault="$fault $file:$status"
+    done <files
+    expect "$1: no failure at$fault" test -z "$fault"
+}
+
+cat >many.yaml <<'END_OF_SYSTEM'
+title: A <weight> on a spring & a turn
+reference: a book
+coordinates: [x, phi, s]
+parameters: {k: 1, m: 2}
+functions: {square(u): u^2}
+let: {pull: k*cos(phi)}
+lagrangian: m/2*(x'^2 + s'^2) + phi'^2/2 - k*square(x)/2
+constraints: [s' - sin(phi)*x']
+reactions:
+  - {s: 1}
+controls:
+  - {x: 1}
+gauge: {e: 2}
+forces: {x: -pull*x'}
+invariants: {c: phi'}
+start: {x: k, x': 1, phi: 0.5, solve: [s']}
+END_OF_SYSTEM
+cat >falls.yaml <<'END_OF_SYSTEM'
+coordinates: [x, y]
+parameters: {g: 9.81, c: 0.8, u: 0.5}
+lagrangian: (x'^2 + y'^2)/2 - g*y
+start: {y: 1, x': u}
+events:
+  - {when: y, direction: down, restitution: c}
+  - {when: x - 0.3, set: {x': 2*u}}
+  - {when: x - 0.7}
+  - {when: x - 1.25, stop: true}
+END_OF_SYSTEM
+cat >methods.yaml <<'END_OF_STUDY'
+title: Three & more
+integrators: [rk4, gauss4, gauss4+project, dop853]
+step: [0.1, 0.05]
+tolerance: [1e-6, 1e-8]
+time: 2
+systems:
+  - {system: chaplygin-sleigh, label: "a <b> \"c\" 'd'"}
+  - line.yaml
+  - {system: chaplygin-sleigh-vakonomic, label: refused, starts: surface}
+  - {system: pursuit, label: "ends early", time: 10}
+expect:
+  line.yaml: {rk4: {state: done, E: {at most: 1e-30}}, gauss4: {state: done}}
+  ends early: {rk4: {D: {at most: 1}}}
+END_OF_STUDY
+cat >families.yaml <<'END_OF_STUDY'
+integrators: [symplectic-euler-10, stormer-verlet, dop853, rk4, gauss6, gauss4, spark2, dla, gni,
+              discrete-gradient, gauss4+project, gauss4+yoshida6]
+step: 0.1
+time: 2
+starts: physical
+systems: [nonholonomic-particle]
+END_OF_STUDY
+
+if needs 109 "no python3" there python3; then
+    case_is "pages of runs"
+    try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6 --samples 40 --output sleigh
+    page sleigh
+    again sleigh
+    try 0 run many.yaml --integrator rk4+project --step 0.1 --time 2 --set k=0.5 --start "phi'=3" --start x=0.1234567890123 \
+        --observe "x^2 + 3; 2 - hypot(x, x')" --solver-tolerance 1e-9 --columns x,phi,s,R_s,D1,E,c --output many
+    page many
+    again many
+    try 0 run falls.yaml --integrator gauss4 --step 0.01 --time 3 --samples 60 --output falls
+    page falls
+    try 0 run damped-oscillator --integrator gauss4 --step -0.1 --time -4 --from 2 --samples 30 --output backwards
+    page backwards
+    again backwards
+    try 3 run pursuit --integrator rk4 --step 0.01 --time 10 --samples 40 --output failed
+    page failed
+    try 3 run pursuit --integrator rk4 --step 0.01 --time 1000 --output alone
+    page alone
+
+    case_is "pages of studies"
+    "$program" study methods.yaml --no-page --output methods >out 2>err
+    page methods
+    try 0 study families.yaml --no-page --output families
+    page families scripts
+
+    case_is "pages of other commands"
+    try 0 order line.yaml --integrators rk4,gauss4,isokinetic-splitting --levels 3 --time 1 --output orders
+    page orders
+    try 0 order line.yaml --integrators rk4,mclachlan4,bm4,stormer-verlet,symplectic-euler-10,gauss4,gauss6,implicit-midpoint,lobatto4,dla \
+        --levels 2 --time 1 --output many-orders
+    page many-orders
+    try 0 section chaplygin-sleigh-full-turn --on phi=1 --integrator rk4 --step 0.05 --time 20 --output section
+    page section
+    try 0 lyapunov isokinetic --integrator rk4 --step 0.1 --time 4 --output exponents
+    page exponents
+    try 0 volume isokinetic --integrator rk4 --step 0.1 --time 4 --output volume
+    page volume
+    try 0 ensemble knife-edge --members 20 --seed 1 --vary "x'=normal(0,0.1)" --vary "phi=uniform(0,1)" --integrator rk4 \
+        --step 0.1 --times 0.5,1,2 --output ensemble
+    page ensemble
+
+    case_is "pages without what they are made from, and on a full device"
+    for name in sleigh falls failed methods families orders section exponents volume ensemble; do
+        unreadable $name
+        full $name
+    done
+    counted
+fi
