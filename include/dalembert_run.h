@@ -135,6 +135,10 @@ typedef struct dal_observer {
      * them.  The run is not yet at the next of these steps. */
     dal_status (*values)(void *user, dal_run *run, int count, const double *t, const double *values,
                          size_t stride);
+    /* Called before values with the states of the same steps: component i at t[k] is
+     * states[i * stride + k]. */
+    dal_status (*states)(void *user, dal_run *run, int count, const double *t, const double *states,
+                         size_t stride);
     /* Called with the scales of all observables, see dal_run_scales, at the first state that values
      * receives and at later ones at equal distances, which double when there are 32 of them. */
     dal_status (*scales)(void *user, dal_run *run, const double *scales);

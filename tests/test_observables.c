@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_SAMPLES = 1200, MAX_OBSERVABLES = 16, STEPS = 701 };
+enum { MAX_SAMPLES = 1200, MAX_OBSERVABLES = 16, MAX_STATE = 32, STEPS = 701 };
 
 /* ---- systems ---- */
 
@@ -46,8 +46,8 @@ static dal_run *run_of(const subject *s, const dal_system *system)
 /* ---- samples ---- */
 
 typedef struct series {
-    int samples, observables, max_at_once, refuse;
-    double t[MAX_SAMPLES], x[MAX_OBSERVABLES][MAX_SAMPLES];
+    int samples, observables, dimension, max_at_once, refuse;
+    double t[MAX_SAMPLES], x[MAX_OBSERVABLES][MAX_SAMPLES], state[MAX_STATE][MAX_SAMPLES];
     dal_statistics statistics[MAX_OBSERVABLES];
 } series;
 
@@ -56,6 +56,8 @@ static void begin(series *s, const dal_run *run)
     memset(s, 0, sizeof *s);
     s->refuse = MAX_SAMPLES;
     s->observables = dal_run_observables(run);
+    s->dimension = dal_run_dimension(run);
+    CU_ASSERT_FATAL(s->dimension <= MAX_STATE);
     dal_statistics_start(s->statistics, s->observables);
 }
 
@@ -66,9 +68,21 @@ static dal_status take_one(void *user, dal_run *run)
     const dal_status status = dal_run_observe(run, x);
     s->t[s->samples] = dal_run_time(run);
     for (int i = 0; i < s->observables; i++) s->x[i][s->samples] = x[i];
+    for (int i = 0; i < s->dimension; i++) s->state[i][s->samples] = dal_run_state(run)[i];
     dal_statistics_add(s->statistics, s->observables, dal_run_time(run), x);
     s->samples++;
     return status;
+}
+
+static dal_status take_states(void *user, dal_run *run, int samples, const double *t,
+                              const double *x, size_t stride)
+{
+    series *s = user;
+    (void)run, (void)t;
+    CU_ASSERT_FATAL(s->samples + samples <= MAX_SAMPLES && samples > 0);
+    for (int i = 0; i < s->dimension; i++)
+        memcpy(s->state[i] + s->samples, x + (size_t)i * stride, (size_t)samples * sizeof *x);
+    return DAL_STATUS_OK;
 }
 
 static dal_status take_many(void *user, dal_run *run, int samples, const double *t, const double *x,
@@ -93,6 +107,7 @@ static dal_status sample(dal_run *run, series *s, bool many, long long every, lo
     const dal_observer observer = {.user = s,
                                    .step = many ? NULL : take_one,
                                    .values = many ? take_many : NULL,
+                                   .states = many ? take_states : NULL,
                                    .every = every};
     const double T = 0.01 * STEPS * (double)last_row / (double)rows;
     return dal_run_sample(run, T, last_row, first_row, &observer, NULL);
@@ -122,6 +137,7 @@ static void same_series(const subject *of, const dal_system *system, int way)
     CU_ASSERT(one.observables > 0 && one.x[0][0] == one.x[0][0]);
     CU_ASSERT_EQUAL(memcmp(one.t, many.t, sizeof one.t), 0);
     CU_ASSERT_EQUAL(memcmp(one.x, many.x, sizeof one.x), 0);
+    CU_ASSERT_EQUAL(memcmp(one.state, many.state, sizeof one.state), 0);
     CU_ASSERT_EQUAL(memcmp(one.statistics, many.statistics, sizeof one.statistics), 0);
     if (compiler_works && way == 3) CU_ASSERT(many.max_at_once > 100);
     dal_run_free(plain);

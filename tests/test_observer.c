@@ -56,9 +56,9 @@ static void test_calls(void)
 
 typedef struct calls {
     long made, refused; /* the call that is refused, from 1; 0: none */
-    long of[6];         /* of each callback */
+    long of[7];         /* of each callback */
 } calls;
-enum { SAMPLE, POLL, STEP, VALUES, SCALES, EVENT };
+enum { SAMPLE, POLL, STEP, VALUES, STATES, SCALES, EVENT };
 
 static dal_status call(void *user, int callback)
 {
@@ -87,6 +87,12 @@ static dal_status on_values(void *user, dal_run *run, int count, const double *t
     (void)run, (void)count, (void)t, (void)values, (void)stride;
     return call(user, VALUES);
 }
+static dal_status on_states(void *user, dal_run *run, int count, const double *t,
+                            const double *states, size_t stride)
+{
+    (void)run, (void)count, (void)t, (void)states, (void)stride;
+    return call(user, STATES);
+}
 static dal_status on_scales(void *user, dal_run *run, const double *scales)
 {
     (void)run, (void)scales;
@@ -106,6 +112,7 @@ static dal_status sampled(const dal_run_spec *spec, bool by_values, long long ev
                                    .poll = on_poll,
                                    .step = by_values ? NULL : on_step,
                                    .values = by_values ? on_values : NULL,
+                                   .states = by_values ? on_states : NULL,
                                    .scales = by_values ? on_scales : NULL,
                                    .event = on_event,
                                    .every = every,
@@ -134,6 +141,7 @@ static void test_refusals(void)
             CU_ASSERT(all.of[SAMPLE] == 8 && all.of[POLL] > 0);
             if (i == 1) CU_ASSERT_EQUAL(all.of[STEP], by_values ? 0 : 1 + 50 / every);
             CU_ASSERT(!by_values == !all.of[VALUES] && !by_values == !all.of[SCALES]);
+            CU_ASSERT_EQUAL(all.of[STATES], all.of[VALUES]);
             CU_ASSERT_EQUAL(all.of[EVENT] > 0, i == 0);
             for (long refused = 1; refused <= all.made; refused++) {
                 calls c = {.refused = refused};

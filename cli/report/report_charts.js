@@ -26,6 +26,10 @@ function logTicks(low, high, most) {
     return multiples.filter((ticks, i) => i === 0 || ticks.length <= most).at(by > 1 ? 0 : -1);
 }
 
+// Digits that separate values which are that far from each other, at least 5.
+const digitsFor = (high, apart) => Math.min(Math.max(5, Math.ceil(Math.log10(Math.abs(high) / apart)) + 1), 15) || 5;
+const withDigits = (v, digits) => digits > 5 ? String(Number(v.toPrecision(digits))) : short(v);
+
 const colourOf = number => COLOURS[number % COLOURS.length];
 const dashOf = number => DASHES[Math.floor(number / COLOURS.length) % DASHES.length];
 
@@ -66,7 +70,7 @@ class Chart {
             for (const name of ['x', 'y', 'upper']) curve[name] = curve[name] && [...curve[name]].reverse();
         // Over an axis all curves have a value; in a plane a point is the nearest.
         this.isPlane = this.curves.some(c => c.kind === 'rings' || c.x.some((x, i) => x === null || x < c.x[i - 1]));
-        this.link = this.isPlane ? null : `${data.x}, ${data.logX ? 'log' : 'linear'}`;
+        this.link = this.isPlane ? null : `${data.x}, ${data.logX ? 'log' : 'linear'}, ${data.part || 'all'}`;
         this.home = {x: this.findRange('x'), y: this.findRange('y')};
         this.readout = html('output', {class: 'readout'}, this.notes());
         this.over = html('div', {class: 'chart', tabindex: 0, role: 'img', 'aria-label': this.words(),
@@ -95,6 +99,11 @@ class Chart {
 
     // ---- ranges
 
+    // A value as it is read: a thousandth of the axis is seen.
+    text(axis, v) {
+        const [low, high] = this.home[axis];
+        return withDigits(v, this.isLog(axis) ? 5 : digitsFor(Math.max(Math.abs(low), Math.abs(high)), (high - low) / 1000));
+    }
     isLog(axis) {
         return Boolean(axis === 'x' ? this.data.logX : this.data.logY);
     }
@@ -152,7 +161,10 @@ class Chart {
     axis(scale, label) {
         const line = {stroke: ink('--line'), width: 1}, isLog = this.isLog(scale);
         const axis = {scale, label, stroke: ink('--ink'), font: FONT, labelFont: FONT, labelSize: 20, grid: line,
-            ticks: {...line, size: 4}, values: (u, splits) => splits.map(v => v === null ? '' : isLog ? decade(v) : short(v))};
+            ticks: {...line, size: 4}, values: (u, splits) => {
+                const digits = digitsFor(Math.max(...splits.map(Math.abs)), splits[1] - splits[0]);
+                return splits.map(v => v === null ? '' : isLog ? decade(v) : withDigits(v, digits));
+            }};
         const decade = v => Math.abs(Math.log10(v)) < 4 ? short(v) : v.toExponential(0).replace('e+', 'e');
         const most = u => Math.max(2, Math.floor(scale === 'x' ? (u.width - 70) / 64 : (u.height - 50) / 30));
         return {...axis, size: scale === 'y' ? 62 : 34, filter: (u, splits) => splits,
@@ -272,8 +284,8 @@ class Chart {
         this.at = {curve: this.curves.indexOf(curve), point: i};
         if (this.isPlane) {
             this.mark([[curve, i]]);
-            this.readout.textContent = `${curve.title ? curve.title + ': ' : ''}${this.data.x} = ${short(curve.x[i])}, ` +
-                `${this.data.y} = ${this.data.rows ? this.data.rows[curve.y[i] - 1] : short(curve.y[i])}`;
+            this.readout.textContent = `${curve.title ? curve.title + ': ' : ''}${this.data.x} = ${this.text('x', curve.x[i])}, ` +
+                `${this.data.y} = ${this.data.rows ? this.data.rows[curve.y[i] - 1] : this.text('y', curve.y[i])}`;
             return;
         }
         this.read(curve.x[i]);
@@ -282,9 +294,9 @@ class Chart {
     read(x) {
         const left = this.plot.valToPos(x, 'x');
         const near = this.shown().map(c => [c, this.nearest(c, left, null)[0]]).filter(([, i]) => i >= 0);
-        const value = (c, i) => c.upper ? `${short(c.y[i])} to ${short(c.upper[i])}` : short(c.y[i]);
+        const value = (c, i) => c.upper ? `${this.text('y', c.y[i])} to ${this.text('y', c.upper[i])}` : this.text('y', c.y[i]);
         this.mark(near);
-        this.readout.textContent = `${this.data.x} = ${short(x)}: ` +
+        this.readout.textContent = `${this.data.x} = ${this.text('x', x)}: ` +
             near.map(([c, i]) => `${c.title ? c.title + ' ' : ''}${value(c, i)}`).join(', ');
         this.isReading = true;
         this.plot.setCursor({left, top: this.plot.cursor.top >= 0 ? this.plot.cursor.top : 0}, false);

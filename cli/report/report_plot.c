@@ -248,9 +248,9 @@ static void write_data(FILE *s, const report_plot *plot)
             if (isnan(curve->at[j][0]))
                 fputc('\n', s);
             else if (curve->is_band)
-                fprintf(s, "%.9g,%.9g,%.9g\n", curve->at[j][0], curve->at[j][1], curve->at[j][2]);
+                fprintf(s, "%.12g,%.9g,%.9g\n", curve->at[j][0], curve->at[j][1], curve->at[j][2]);
             else
-                fprintf(s, "%.9g,%.9g\n", curve->at[j][0], curve->at[j][1]);
+                fprintf(s, "%.12g,%.9g\n", curve->at[j][0], curve->at[j][1]);
         fputs("END\n", s);
     }
 }
@@ -323,18 +323,32 @@ static int write_script(const report *r, const report_plot *plot)
 
 /* ---- the chart ----------------------------------------------------------------------------- */
 
-/* Six digits are more than a chart shows; null ends a line. */
-static void put_coordinate(json_writer *data, double x)
+/* A millionth of the range of the values is less than a chart shows; digits: of all of them. */
+static int find_digits(const plot_curve *curve, int k)
+{
+    enum { DIGITS = 6, MAX_DIGITS = 16 };
+    double low = INFINITY, high = -INFINITY;
+    for (int j = 0; j < curve->count; j++) {
+        low = fmin(low, curve->at[j][k]);
+        high = fmax(high, curve->at[j][k]);
+    }
+    const double before = log10(fmax(fabs(low), fabs(high)) / (high - low));
+    return before > 0.0 && isfinite(before) ? (int)fmin(DIGITS + ceil(before), MAX_DIGITS) : DIGITS;
+}
+
+/* null ends a line. */
+static void put_coordinate(json_writer *data, double x, int digits)
 {
     char text[JSON_NUMBER];
-    snprintf(text, sizeof text, "%.6g", x);
+    snprintf(text, sizeof text, "%.*g", digits, x);
     json_put_source(data, NULL, isfinite(x) ? text : "null");
 }
 
 static void put_coordinates(json_writer *data, const char *name, const plot_curve *curve, int k)
 {
+    const int digits = find_digits(curve, k);
     json_open_list(data, name, JSON_ON_ONE_LINE);
-    for (int j = 0; j < curve->count; j++) put_coordinate(data, curve->at[j][k]);
+    for (int j = 0; j < curve->count; j++) put_coordinate(data, curve->at[j][k], digits);
     json_close(data);
 }
 
@@ -384,13 +398,14 @@ static int make_figure(report *r, const report_plot *plot)
     json_put_text(&data, "title", plot->title);
     json_put_text(&data, "x", plot->xlabel);
     json_put_text(&data, "y", plot->ylabel);
+    if (plot->part) json_put_text(&data, "part", plot->part);
     if (plot->log_x) json_put_flag(&data, "logX", true);
     if (plot->log_y) json_put_flag(&data, "logY", true);
     if (plot->has_marks) json_put_flag(&data, "marks", true);
     if (plot->is_to_scale) json_put_flag(&data, "toScale", true);
     if (plot->from_zero) json_put_flag(&data, "fromZero", true);
     json_open_list(&data, "events", JSON_ON_ONE_LINE);
-    for (int i = 0; i < plot->marks; i++) put_coordinate(&data, plot->mark[i]);
+    for (int i = 0; i < plot->marks; i++) put_coordinate(&data, plot->mark[i], 9);
     json_close(&data);
     json_open_list(&data, "curves", JSON_ON_ONE_LINE);
     for (int i = 0; i < plot->count; i++)

@@ -23,6 +23,7 @@ typedef struct plot_curve {
 
 typedef struct report_plot {
     const char *name, *title, *xlabel, *ylabel, *caption; /* the caller's */
+    const char *part;      /* of the run, or NULL: all; charts of one part are linked */
     const char *zero_text; /* what the page says instead when all values are 0, or NULL */
     bool log_x, log_y;
     bool has_marks;   /* at the points of the curves */

@@ -1,10 +1,16 @@
 /* report_rows.c - columns of a run as curves over t.
  *
  * Rows are read once, and may be many: they are put into bins, and when all bins are full, each two
- * neighbours become one.  Of a bin its least and its greatest value are drawn, in their order. */
+ * neighbours become one.  Of a bin its least and its greatest value are drawn, in their order.
+ *
+ * Of many more steps than rows the rows show what happens to be at them: then a band has the least
+ * and the greatest value of all steps, and another figure the last steps themselves. */
 #include "report_rows.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A curve that turns oftener than this is a block, and drawn as a band.  A line shows a turn with
@@ -76,7 +82,7 @@ void row_series_draw(const row_series *s, const report_plot *plot, plot_curve *c
         draw_band(s, plot, curve);
         return;
     }
-    curve->has_dots = is_sparse || TURN_ROWS * s->turns > s->rows;
+    curve->has_dots = is_sparse || row_series_is_aliased(s);
     for (int i = 0; i < s->bins; i++) {
         const row_bin *bin = &s->bin[i];
         const bool falls = bin->high[0] < bin->low[0];
@@ -84,6 +90,84 @@ void row_series_draw(const row_series *s, const report_plot *plot, plot_curve *c
         report_point(plot, curve, first[0], first[1]);
         if (second[0] > first[0]) report_point(plot, curve, second[0], second[1]);
     }
+}
+
+bool row_series_is_aliased(const row_series *s) { return TURN_ROWS * s->turns > s->rows; }
+
+/* ---- all steps ----------------------------------------------------------------------------- */
+
+int row_steps_read(row_steps *s, const run_directory *dir, int coordinates, int observables)
+{
+    bool found = false;
+    *s = (row_steps){.record = record_of(coordinates, 2 * coordinates, observables)};
+    if (observables < 1) return CLI_DONE;
+    s->statistics = cli_calloc((size_t)observables, sizeof *s->statistics);
+    const observed_steps observed = {s->statistics, observables, &s->record};
+    const int status = checkpoint_read_observed(dir, &observed, &found);
+    if (!found) row_steps_free(s);
+    return status;
+}
+
+void row_steps_free(row_steps *s)
+{
+    free(s->statistics);
+    s->statistics = NULL;
+    record_free(&s->record);
+}
+
+static void note_steps(plot_curve *curve, long long steps)
+{
+    curve->is_band = true;
+    snprintf(curve->note, sizeof curve->note, " (%.3g steps)", (double)steps);
+}
+
+bool row_steps_draw_coordinate(const row_steps *s, int coordinate, const report_plot *plot,
+                               plot_curve *curve)
+{
+    const step_record *r = &s->record;
+    const int blocks = r->number ? record_blocks(r) : 0;
+    if (blocks < 2) return false;
+    /* The last block is not full, and drawn with the one before it. */
+    const double last = record_value(r, 0, record_last_steps(r) - 1);
+    const step_block open = record_block(r, blocks - 1);
+    for (int b = 0; b < blocks - 1; b++) {
+        const step_block at = record_block(r, b);
+        const bool is_last = b == blocks - 2;
+        const double end = is_last ? last : record_block(r, b + 1).from;
+        double low = at.low[coordinate], high = at.high[coordinate];
+        if (is_last) low = fmin(low, open.low[coordinate]);
+        if (is_last) high = fmax(high, open.high[coordinate]);
+        if (!isfinite(low) || !isfinite(high)) continue;
+        if (b == 0) report_band(plot, curve, at.from, low, high);
+        report_band(plot, curve, 0.5 * (at.from + end), low, high);
+        if (is_last) report_band(plot, curve, end, low, high);
+    }
+    note_steps(curve, record_steps_added(r));
+    return true;
+}
+
+bool row_steps_draw_observable(const row_steps *s, int observable, double less, long long rows,
+                               const report_plot *plot, plot_curve *curve)
+{
+    const dal_statistics *x = s->statistics ? &s->statistics[observable] : NULL;
+    if (!x || x->blocks < 2 || x->count <= 4 * rows) return false;
+    for (long long k = 0; k < x->blocks; k++) {
+        const double low = x->block[k].min - less, high = x->block[k].max - less;
+        if (k == 0) report_band(plot, curve, x->from, low, high);
+        report_band(plot, curve, x->block[k].t, low, high);
+        if (k == x->blocks - 1) report_band(plot, curve, x->to, low, high);
+    }
+    note_steps(curve, x->count);
+    return true;
+}
+
+void row_steps_draw_last(const row_steps *s, int column, double less, const report_plot *plot,
+                         plot_curve *curve)
+{
+    const int count = record_last_steps(&s->record);
+    for (int k = 0; k < count; k++)
+        report_point(plot, curve, record_value(&s->record, 0, k),
+                     record_value(&s->record, column, k) - less);
 }
 
 /* ---- distances ----------------------------------------------------------------------------- */

@@ -3,6 +3,7 @@
 #define DAL_CLI_REPORT_ROWS_H
 
 #include "report_plot.h"
+#include "run/checkpoint.h"
 
 #include <stdbool.h>
 
@@ -30,6 +31,29 @@ void row_series_add(row_series *s, double t, double x);
  * band from the least to the greatest value where turns are too many to be seen. */
 void row_series_draw(const row_series *s, const report_plot *plot, plot_curve *curve,
                      bool is_sparse);
+
+/* Whether rows are too few to show how often it turns. */
+bool row_series_is_aliased(const row_series *s);
+
+/* What the checkpoint of a run has of all its steps: statistics of the observables, and of a run
+ * with many more steps than rows the ranges of the coordinates and the last steps. */
+typedef struct row_steps {
+    dal_statistics *statistics; /* [observables]; NULL: there are none */
+    step_record record;         /* allocated where there is one */
+} row_steps;
+
+/* Returns CLI_DONE, or prints and returns an exit status; free it in any case. */
+int row_steps_read(row_steps *steps, const run_directory *dir, int coordinates, int observables);
+void row_steps_free(row_steps *steps);
+/* Draw a coordinate, or an observable less a number, as the band from the least to the greatest
+ * value of all steps in parts of the time; false: there is none, or the rows are no fewer. */
+bool row_steps_draw_coordinate(const row_steps *steps, int coordinate, const report_plot *plot,
+                               plot_curve *curve);
+bool row_steps_draw_observable(const row_steps *steps, int observable, double less, long long rows,
+                               const report_plot *plot, plot_curve *curve);
+/* Draws a column of the last steps, less a number. */
+void row_steps_draw_last(const row_steps *steps, int column, double less, const report_plot *plot,
+                         plot_curve *curve);
 
 /* How far a coordinate moves from row to row, and how far it has travelled by its velocity. */
 typedef struct row_distance {

@@ -16,7 +16,6 @@
 #include "report_plot.h"
 #include "report_rows.h"
 #include "report_system.h"
-#include "run/checkpoint.h"
 #include "run/columns.h"
 #include "run/manifest.h"
 #include "run/request_command.h"
@@ -79,7 +78,7 @@ typedef struct run_page {
     dal_model *model;
     trajectory_reader reader;
     csv_table summary;        /* no rows unless the run is over */
-    dal_statistics *steps;    /* [summary.rows - 1] of all steps, or NULL */
+    row_steps steps;          /* of the observables in the summary */
     const dal_system *system; /* NULL: it is not known */
     run_column *column;       /* [columns of the reader] */
     report_events events;
@@ -122,11 +121,12 @@ static int find_velocity(const run_page *run, const char *coordinate)
     return 0;
 }
 
-static bool is_coordinate(const dal_system *system, const char *name)
+/* The number of a coordinate, or -1. */
+static int find_coordinate(const dal_system *system, const char *name)
 {
-    for (int i = 0; i < system->n; i++)
-        if (strcmp(name, system->coordinate[i]) == 0) return true;
-    return false;
+    int i = system->n - 1;
+    while (i >= 0 && strcmp(name, system->coordinate[i]) != 0) i--;
+    return i;
 }
 
 /* Of a velocity, a multiplier or the lift. */
@@ -156,10 +156,11 @@ static void place_columns(run_page *run)
             observables++;
     } else if (!run->request->columns) {
         n = system->n;
-        observables = 1 + (run->request->options.space == DAL_LIFTED ? 4 * n + 2
-                                                                     : 2 * n + system->multipliers);
+        const bool is_lifted = t->columns > 4 * n + 2 && strcmp(t->name[1 + 2 * n], "e") == 0 &&
+                               strncmp(t->name[2 + 2 * n], "p_", 2) == 0;
+        observables = 1 + (is_lifted ? 4 * n + 2 : 2 * n + system->multipliers);
     } else {
-        while (1 + n < t->columns && is_coordinate(system, t->name[1 + n])) n++;
+        while (1 + n < t->columns && find_coordinate(system, t->name[1 + n]) >= 0) n++;
         observables = 1 + n;
         while (observables < t->columns && is_rest_of_state(run, t->name[observables]))
             observables++;
@@ -249,28 +250,78 @@ static void add_row(run_page *run, long long k)
     if (has_envelope) run->envelope_time = passed;
 }
 
-/* Of many more steps than rows the rows show what happens to be at them: a band has the least and
- * the greatest value of all steps, in up to 64 parts of the time.  Whether it is drawn. */
-static bool draw_steps(const run_page *run, run_column *c, const char *name)
+/* The row of an observable in the summary, or 0. */
+static int find_observable(const run_page *run, const char *name)
 {
-    report_plot band = run->plot[c->group];
-    const dal_statistics *s = NULL;
-    for (int row = 1; row < run->summary.rows && run->steps; row++)
-        if (csv_table_is(&run->summary, row, "observable", name)) s = &run->steps[row - 1];
-    if (!s || s->blocks < 2 || s->count <= 4 * run->reader.count) return false;
-    const bool is_change = c->group != GROUP_D && c->group != GROUP_ERROR;
-    const double first = is_change ? c->first : 0.0;
-    for (long long k = 0; k < s->blocks; k++) {
-        const dal_statistics_block *b = &s->block[k];
-        const double low = b->min - first, high = b->max - first;
-        if (k == 0) report_band(&band, c->curve, s->from, low, high);
-        report_band(&band, c->curve, b->t, low, high);
-        if (k == s->blocks - 1) report_band(&band, c->curve, s->to, low, high);
-    }
+    int row = run->summary.rows - 1;
+    while (row > 0 && !csv_table_is(&run->summary, row, "observable", name)) row--;
+    return row > 0 ? row : 0;
+}
+
+/* What a figure takes from an observable. */
+static double subtracted(const run_column *c)
+{
+    return c->group == GROUP_E || c->group == GROUP_H || c->group == GROUP_INVARIANTS ? c->first
+                                                                                      : 0.0;
+}
+
+/* Draws a column from all steps; false: its rows show it. */
+static bool draw_steps(const run_page *run, run_column *c, const char *name, bool is_sparse)
+{
+    const report_plot *plot = &run->plot[c->group];
+    const int row = find_observable(run, name);
+    const bool is_coordinate = c->group < GROUP_D;
+    if (is_coordinate && (!run->system || !(is_sparse || row_series_is_aliased(c->series))))
+        return false;
+    if (is_coordinate)
+        return row_steps_draw_coordinate(&run->steps, find_coordinate(run->system, name), plot,
+                                         c->curve);
+    if (row == 0 || c->group == GROUP_REACTIONS || c->group == GROUP_OBSERVED ||
+        !row_steps_draw_observable(&run->steps, row - 1, subtracted(c), run->reader.count, plot,
+                                   c->curve))
+        return false;
     c->max_abs = fmax(c->max_abs, c->curve->max_abs);
-    c->curve->is_band = true;
-    snprintf(c->curve->note, sizeof c->curve->note, " (%.3g steps)", (double)s->count);
     return true;
+}
+
+/* Figures of the last steps, where there are many more than rows. */
+static int draw_last_steps(run_page *run)
+{
+    const step_record *record = &run->steps.record;
+    char title[GROUPS][PLOT_NAME], name[GROUPS][PLOT_NAME], part[PLOT_NOTE];
+    report_plot *last = cli_calloc(GROUPS, sizeof *last);
+    int status = CLI_DONE;
+    if (!record->number || !run->system) {
+        free(last);
+        return status;
+    }
+    snprintf(part, sizeof part, "the last %d steps", record_last_steps(record));
+    for (int g = 0; g < GROUPS; g++) {
+        last[g] = run->plot[g];
+        snprintf(title[g], sizeof title[g], "%s, %s", last[g].title, part);
+        snprintf(name[g], sizeof name[g], "%s-last", last[g].name);
+        last[g].title = title[g];
+        last[g].name = name[g];
+        last[g].part = part;
+        last[g].count = 0;
+        last[g].zero_text = NULL;
+    }
+    for (int i = 1; i < run->reader.columns; i++) {
+        const run_column *c = &run->column[i];
+        const bool is_coordinate = c->group == GROUP_COORDINATES || c->group == GROUP_ANGLES;
+        const int row = find_observable(run, run->reader.name[i]);
+        if (c->group == NO_GROUP || (!is_coordinate && row == 0)) continue;
+        const int column = is_coordinate ? 1 + find_coordinate(run->system, run->reader.name[i])
+                                         : record->state + row;
+        plot_curve *curve = add_curve(&last[c->group], run->reader.name[i]);
+        if (curve) row_steps_draw_last(&run->steps, column, subtracted(c), &last[c->group], curve);
+    }
+    for (int g = 0; g < GROUPS; g++) {
+        const int drawn = report_draw(run->r, &last[g]);
+        if (status == CLI_DONE) status = drawn;
+    }
+    free(last);
+    return status;
 }
 
 static int draw_figures(run_page *run)
@@ -294,9 +345,7 @@ static int draw_figures(run_page *run)
         is_sparse |= row_distance_is_sparse(&run->column[i].distance);
     for (int i = 1; i < run->reader.columns; i++) {
         run_column *c = &run->column[i];
-        const bool is_observable =
-            c->group >= GROUP_D && c->group != GROUP_REACTIONS && c->group != GROUP_OBSERVED;
-        if (c->series && !(is_observable && draw_steps(run, c, run->reader.name[i])))
+        if (c->series && !draw_steps(run, c, run->reader.name[i], is_sparse))
             row_series_draw(c->series, &run->plot[c->group], c->curve, is_sparse);
         if (c->envelope) report_title_envelope(c->envelope);
         /* A sentence about all values needs all columns and all rows; figures leave some out. */
@@ -308,8 +357,10 @@ static int draw_figures(run_page *run)
         if (status == CLI_DONE) status = drawn;
         drawn = report_draw(run->r, &run->plot[g]);
     }
+    if (status == CLI_DONE) status = drawn;
+    if (status == CLI_DONE) status = draw_last_steps(run);
     fputs("</div>\n", r->page);
-    return status == CLI_DONE ? drawn : status;
+    return status;
 }
 
 /* ---- the summary --------------------------------------------------------------------------- */
@@ -433,53 +484,6 @@ static void write_verdicts(const run_page *run, const dal_system *system)
     free(trend);
 }
 
-/* ---- the command --------------------------------------------------------------------------- */
-
-/* A word of a shell's command. */
-static void write_word(FILE *page, const char *word)
-{
-    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
-                                "_-+./,:=@%";
-    if (word[0] && word[strspn(word, plain)] == '\0') {
-        report_text(page, word);
-        return;
-    }
-    fputc('\'', page);
-    for (; *word; word++) report_text(page, *word == '\'' ? "'\\''" : (char[]){*word, '\0'});
-    fputc('\'', page);
-}
-
-/* The shortest digits that are read back as the same number. */
-static void write_settings(FILE *page, const char *option, const request_settings *settings)
-{
-    char text[256];
-    for (int i = 0; i < settings->count; i++) {
-        const dal_setting *s = &settings->item[i];
-        for (int digits = 6; digits <= 17; digits++) {
-            snprintf(text, sizeof text, "%.120s=%.*g", s->name, digits, s->value);
-            if (strtod(strchr(text, '=') + 1, NULL) == s->value) break;
-        }
-        fprintf(page, " --%s ", option);
-        write_word(page, text);
-    }
-}
-
-static void write_command(report *r, const run_request *request)
-{
-    FILE *page = r->page;
-    report_heading(r, "again", "How to make it again");
-    fputs("<pre tabindex=\"0\">dalembert run ", page);
-    write_word(page, request->system_name);
-    for (int i = 0; i < REQUEST_system; i++) {
-        if (!request->text[i] || i == REQUEST_set || i == REQUEST_start) continue;
-        fprintf(page, " --%s ", request_options[i].name);
-        write_word(page, request->text[i]);
-    }
-    write_settings(page, "set", &request->set);
-    write_settings(page, "start", &request->start);
-    fputs(" --output DIR</pre>\n", page);
-}
-
 /* ---- the page ------------------------------------------------------------------------------ */
 
 /* What moves and how, and why the run ended where it did not reach its end. */
@@ -506,19 +510,6 @@ static void write_head(const run_page *run, const document *manifest)
         report_text(page, message ? message : "");
         fputs(".</strong></p>\n", page);
     }
-}
-
-static int read_step_statistics(run_page *run, const run_directory *dir)
-{
-    const int count = run->summary.rows - 1;
-    bool found = false;
-    if (count < 1) return CLI_DONE;
-    run->steps = cli_calloc((size_t)count, sizeof *run->steps);
-    const int status = checkpoint_read_statistics(dir, run->steps, count, &found);
-    if (found) return status;
-    free(run->steps);
-    run->steps = NULL;
-    return status;
 }
 
 int report_run(report *r)
@@ -550,7 +541,9 @@ int report_run(report *r)
         status = csv_table_read(&run->summary, summary);
     if (status == CLI_DONE && run->summary.rows > 0)
         status = csv_table_require(&run->summary, summary, "trend");
-    if (status == CLI_DONE) status = read_step_statistics(run, &dir);
+    if (status == CLI_DONE)
+        status = row_steps_read(&run->steps, &dir, simulation.system ? simulation.system->n : 0,
+                                run->summary.rows - 1);
     if (status == CLI_DONE) {
         report_title(r, report_model_title(simulation.model, "A run"));
         const double last = reader_peek_last(&run->reader) ? run->reader.row[0] : NAN;
@@ -563,7 +556,7 @@ int report_run(report *r)
         if (request->system_name) status = data_write_run(r);
         report_events_write(r, &run->events);
         if (status == CLI_DONE) status = draw_figures(run);
-        if (request->system_name) write_command(r, request);
+        if (request->system_name) report_command(r, request);
         report_file(r, "manifest.json", "what it was made with: manifest.json");
     }
     for (int i = 1; run->column && i < run->reader.columns; i++) free(run->column[i].series);
@@ -571,7 +564,7 @@ int report_run(report *r)
     csv_table_free(&run->summary);
     report_events_free(&run->events);
     free(run->drift_caption);
-    free(run->steps);
+    row_steps_free(&run->steps);
     free(run->column);
     free(run);
     free(summary);

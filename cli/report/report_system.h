@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_REPORT_SYSTEM_H
 #define DAL_CLI_REPORT_SYSTEM_H
 
+#include "report_page.h"
 #include "run/request.h"
 
 #include <stdbool.h>
@@ -24,5 +25,7 @@ void report_fact(FILE *page, const char *name, const char *text);
 /* Whether a coordinate is an angle: it has the name of one, theta or phi1, or is in a sine,
  * cosine or tangent. */
 bool report_is_angle(const dal_model *model, const char *coordinate);
+/* A part of the page with the command that makes a run. */
+void report_command(report *r, const run_request *request);
 
 #endif

@@ -5,6 +5,7 @@
  *     header      the word DALCHK05, then as in the struct below
  *     state       [state] all that the run carries from step to step, and its parameters
  *     statistics  [statistics * words] of each observable, in a layout that has a number
+ *     record      of the steps of a run with many more of them than rows: see step_record.h
  *     sum         FNV-1a of all before
  *
  * The file is written under another name, brought to the disk and renamed, and the previous one is
@@ -63,9 +64,11 @@ static void copy_words(void *to, const void *from, size_t count)
 /* ---- saving -------------------------------------------------------------------------------- */
 
 int checkpoint_save(const run_directory *dir, const run_position *position, const dal_run *run,
-                    const dal_statistics *statistics, int count)
+                    const observed_steps *observed)
 {
     size_t state_words;
+    const size_t statistics_words = (size_t)observed->count * STATISTICS_WORDS;
+    const size_t record_words = observed->record->number ? observed->record->count : 0;
     const double *state = dal_run_save(run, &state_words);
     const checkpoint_header header = {.magic = magic,
                                       .fingerprint = dir->fingerprint,
@@ -73,15 +76,17 @@ int checkpoint_save(const run_directory *dir, const run_position *position, cons
                                       .sum = position->sum,
                                       .seconds = position->seconds,
                                       .state = state_words,
-                                      .statistics = (uint64_t)count,
+                                      .statistics = (uint64_t)observed->count,
                                       .words = STATISTICS_WORDS,
                                       .layout = DAL_STATISTICS_LAYOUT};
-    const size_t words = HEADER_WORDS + state_words + (size_t)count * STATISTICS_WORDS;
+    const size_t words = HEADER_WORDS + state_words + statistics_words + record_words;
     unsigned char *bytes = cli_malloc((words + 1) * WORD);
     unsigned char *body = bytes + HEADER_WORDS * WORD;
     copy_words(bytes, &header, HEADER_WORDS);
     copy_words(body, state, state_words);
-    copy_words(body + state_words * WORD, statistics, (size_t)count * STATISTICS_WORDS);
+    copy_words(body + state_words * WORD, observed->statistics, statistics_words);
+    copy_words(body + (state_words + statistics_words) * WORD, observed->record->number,
+               record_words);
     const uint64_t sum = dal__hash(DAL__HASH_START, bytes, words * WORD);
     copy_words(bytes + words * WORD, &sum, 1);
     cli_hold_exit();
@@ -102,13 +107,27 @@ static int damaged(const char *path, const char *reason)
     return cli_fail(CLI_USAGE, "%s: the checkpoint is damaged: %s", path, reason);
 }
 
+/* Words of the record; false: the sizes in the header do not add up to the body. */
+static bool find_record(const checkpoint_header *h, size_t body, const observed_steps *observed,
+                        size_t *words)
+{
+    const uint64_t too_many = UINT64_C(1) << 32;
+    *words = 0;
+    if (h->state > body || h->words >= too_many || h->statistics != (uint64_t)observed->count ||
+        body - h->state < h->statistics * h->words)
+        return false;
+    *words = body - h->state - h->statistics * h->words;
+    return *words == 0 || *words == observed->record->count;
+}
+
 /* Reads and checks the header.  Statistics of another layout are refused: statistics of half a
  * run would pass for statistics of the whole. */
 static int check_bytes(const char *path, const unsigned char *bytes, size_t length,
-                       const run_directory *dir, int count, checkpoint_header *h)
+                       const run_directory *dir, const observed_steps *observed,
+                       checkpoint_header *h)
 {
     uint64_t sum;
-    const uint64_t too_many = UINT64_C(1) << 32;
+    size_t record_words;
     const size_t words = length / WORD - 1, body = words - HEADER_WORDS;
     if (length % WORD || length < (HEADER_WORDS + 1) * WORD)
         return damaged(path, "it is too short");
@@ -123,8 +142,7 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
                         "%s: belongs to another run: its description or the system was changed",
                         path);
     if (!(h->seconds >= 0.0 && isfinite(h->seconds))) return damaged(path, "its time is wrong");
-    if (h->row < 0 || h->state > body || h->words >= too_many || h->statistics != (uint64_t)count ||
-        body - h->state != h->statistics * h->words)
+    if (h->row < 0 || !find_record(h, body, observed, &record_words))
         return damaged(path, "its size is wrong");
     if (h->layout == DAL_STATISTICS_LAYOUT && h->words == STATISTICS_WORDS) return CLI_DONE;
     if (h->layout == STATISTICS_LAYOUT_3 && h->words == STATISTICS_WORDS_3) return CLI_DONE;
@@ -188,6 +206,16 @@ static int read_statistics(const char *path, const checkpoint_header *header,
     return CLI_DONE;
 }
 
+/* Copies the record, or frees the one that would lack the steps before the checkpoint; false: it
+ * cannot be one. */
+static bool read_record(step_record *record, const unsigned char *bytes, size_t words)
+{
+    if (words == 0) record_free(record);
+    if (!record->number) return true;
+    copy_words(record->number, bytes, words);
+    return record_is_sound(record);
+}
+
 static int restore(const char *path, const checkpoint_header *header, const unsigned char *body,
                    run_position *position, dal_run *run)
 {
@@ -213,17 +241,23 @@ static int restore(const char *path, const checkpoint_header *header, const unsi
 }
 
 static int load_file(const run_directory *dir, const char *path, const trajectory_writer *writer,
-                     run_position *position, dal_run *run, dal_statistics *statistics, int count)
+                     run_position *position, dal_run *run, const observed_steps *observed)
 {
-    size_t length;
+    size_t length, record_words;
     checkpoint_header header;
     unsigned char *bytes = (unsigned char *)file_read(path, &length);
     if (!bytes) return CLI_IO;
-    int status = check_bytes(path, bytes, length, dir, count, &header);
+    int status = check_bytes(path, bytes, length, dir, observed, &header);
     if (status == CLI_DONE) status = writer_verify(writer, header.row, &header.sum);
     if (status == CLI_DONE)
         status = read_statistics(path, &header, bytes + (HEADER_WORDS + header.state) * WORD,
-                                 statistics);
+                                 observed->statistics);
+    if (status == CLI_DONE) {
+        const size_t words = length / WORD - 1;
+        find_record(&header, words - HEADER_WORDS, observed, &record_words);
+        if (!read_record(observed->record, bytes + (words - record_words) * WORD, record_words))
+            status = damaged(path, "the record of its steps cannot be");
+    }
     if (status == CLI_DONE)
         status = restore(path, &header, bytes + HEADER_WORDS * WORD, position, run);
     free(bytes);
@@ -233,44 +267,47 @@ static int load_file(const run_directory *dir, const char *path, const trajector
 static bool exists(const char *path) { return access(path, F_OK) == 0 || errno != ENOENT; }
 
 int checkpoint_load(const run_directory *dir, const trajectory_writer *writer,
-                    run_position *position, dal_run *run, dal_statistics *statistics, int count)
+                    run_position *position, dal_run *run, const observed_steps *observed)
 {
     *position = (run_position){0};
     const int has_newer = exists(dir->checkpoint), has_older = exists(dir->before);
     if (!has_newer && !has_older) return CLI_DONE;
     int status = CLI_USAGE;
-    if (has_newer)
-        status = load_file(dir, dir->checkpoint, writer, position, run, statistics, count);
+    if (has_newer) status = load_file(dir, dir->checkpoint, writer, position, run, observed);
     if (status == CLI_DONE || !has_older) return status;
     if (has_newer) cli_note("%s is read instead", dir->before);
-    return load_file(dir, dir->before, writer, position, run, statistics, count);
+    return load_file(dir, dir->before, writer, position, run, observed);
 }
 
-int checkpoint_read_statistics(const run_directory *dir, dal_statistics *statistics, int count,
-                               bool *found)
+int checkpoint_read_observed(const run_directory *dir, const observed_steps *observed, bool *found)
 {
-    size_t length;
+    size_t length, record_words;
     uint64_t sum;
     checkpoint_header h;
     *found = false;
     if (!exists(dir->checkpoint)) return CLI_DONE;
     unsigned char *bytes = (unsigned char *)file_read(dir->checkpoint, &length);
     if (!bytes) return CLI_IO;
+    const size_t words = length / WORD - 1;
     bool is_good = length % WORD == 0 && length >= (HEADER_WORDS + 1) * WORD;
     if (is_good) {
-        const size_t words = length / WORD - 1, body = words - HEADER_WORDS;
         copy_words(&h, bytes, HEADER_WORDS);
         copy_words(&sum, bytes + words * WORD, 1);
         is_good = h.magic == magic && sum == dal__hash(DAL__HASH_START, bytes, words * WORD) &&
                   h.fingerprint == dir->fingerprint && h.layout == DAL_STATISTICS_LAYOUT &&
-                  h.words == STATISTICS_WORDS && h.statistics == (uint64_t)count &&
-                  h.state <= body && body - h.state == h.statistics * h.words;
+                  h.words == STATISTICS_WORDS &&
+                  find_record(&h, words - HEADER_WORDS, observed, &record_words);
     }
-    for (int i = 0; i < count && is_good; i++) {
-        copy_words(&statistics[i],
+    for (int i = 0; i < observed->count && is_good; i++) {
+        copy_words(&observed->statistics[i],
                    bytes + (HEADER_WORDS + h.state + (size_t)i * STATISTICS_WORDS) * WORD,
                    STATISTICS_WORDS);
-        is_good = can_be_statistics(&statistics[i]);
+        is_good = can_be_statistics(&observed->statistics[i]);
+    }
+    if (is_good && record_words > 0) {
+        record_allocate(observed->record);
+        is_good =
+            read_record(observed->record, bytes + (words - record_words) * WORD, record_words);
     }
     free(bytes);
     *found = is_good;

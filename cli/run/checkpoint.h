@@ -3,22 +3,30 @@
 #define DAL_CLI_CHECKPOINT_H
 
 #include "dalembert_statistics.h"
+#include "io/step_record.h"
 #include "run_directory.h"
 
 #include <stdbool.h>
 
-/* Both return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
+/* What was observed of the steps of a run. */
+typedef struct observed_steps {
+    dal_statistics *statistics; /* [count] of the observables */
+    int count;
+    step_record *record; /* what is kept of the steps themselves, allocated or not */
+} observed_steps;
 
-/* Writes the checkpoint of a run whose observables have statistics[count]. */
+/* All return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
+
+/* Writes the checkpoint of a run. */
 int checkpoint_save(const run_directory *dir, const run_position *position, const dal_run *run,
-                    const dal_statistics *statistics, int count);
-/* Reads it into run and statistics; where it is damaged, or the rows are not those it was written
- * with, reads the checkpoint before it.  Without either *position is the start. */
+                    const observed_steps *observed);
+/* Reads it into run, statistics and record; where it is damaged, or the rows are not those it was
+ * written with, reads the checkpoint before it.  Without either *position is the start.  A record
+ * that the checkpoint does not have is freed. */
 int checkpoint_load(const run_directory *dir, const trajectory_writer *writer,
-                    run_position *position, dal_run *run, dal_statistics *statistics, int count);
-/* Reads the statistics of a run alone; *found is false, which is no error, where there is no
- * checkpoint of this version that has count of them. */
-int checkpoint_read_statistics(const run_directory *dir, dal_statistics *statistics, int count,
-                               bool *found);
+                    run_position *position, dal_run *run, const observed_steps *observed);
+/* Reads what was observed alone; *found is false, which is no error, where there is no checkpoint
+ * of this version that has count statistics.  The record is allocated where there is one. */
+int checkpoint_read_observed(const run_directory *dir, const observed_steps *observed, bool *found);
 
 #endif

@@ -177,12 +177,12 @@ int extension_commit(run_recorder *r)
     run_directory *dir = r->dir;
     const dal_run *run = r->simulation->run;
     const bool has_begun = r->results.position.row > 0;
+    const observed_steps observed = recorder_observed(r);
     if (dal_run_stopped(run) > 0)
         return cli_fail(CLI_USAGE, "'%s' cannot be extended: event %d stopped the run at t = %.15g",
                         dir->path, dal_run_stopped(run), dal_run_time(run));
     int status = has_begun && dir->earlier
-                     ? checkpoint_save(dir, &r->results.position, run, r->results.statistics,
-                                       r->results.observables)
+                     ? checkpoint_save(dir, &r->results.position, run, &observed)
                      : CLI_DONE;
     if (status == CLI_DONE) status = manifest_extend(dir, r->simulation, &r->results.position);
     return status == CLI_DONE ? file_remove(dir->summary) : status;

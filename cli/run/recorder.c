@@ -1,7 +1,6 @@
 /* recorder.c - observes a run: rows, statistics, progress and checkpoints. */
 #include "recorder.h"
 
-#include "checkpoint.h"
 #include "io/file.h"
 #include "io/file_output.h"
 #include "io/json.h"
@@ -35,6 +34,7 @@ void run_results_free(run_results *r)
 {
     free(r->statistics);
     free(r->trend);
+    record_free(&r->record);
 }
 
 static dal_status add_values(void *user, dal_run *run, int count, const double *t,
@@ -60,7 +60,24 @@ void run_results_observe(dal_observer *observer)
     observer->scales = add_scales;
 }
 
+observed_steps recorder_observed(run_recorder *r)
+{
+    return (observed_steps){r->results.statistics, r->results.observables, &r->results.record};
+}
+
 /* ---- opening -------------------------------------------------------------------------------- */
+
+/* Begins the record of a run in a directory whose rows show a part of its steps. */
+static void begin_record(run_recorder *r)
+{
+    const run_simulation *s = r->simulation;
+    const double every = (double)s->request.statistics * fabs(dal_run_step_size(s->run));
+    const double steps = every > 0.0 ? fabs(s->end - s->request.from) / every : 0.0;
+    const int n = s->system->n;
+    r->results.record = record_of(n, 2 * n, r->results.observables);
+    if (r->dir && steps > RECORD_STEPS_A_ROW * (double)s->samples)
+        record_allocate(&r->results.record);
+}
 
 static int allocate_values(run_recorder *r)
 {
@@ -71,6 +88,7 @@ static int allocate_values(run_recorder *r)
     r->row = cli_calloc(count, sizeof *r->row);
     run_results_begin(&r->results, r->simulation->run);
     r->results.names = (const char *const *)r->columns.name + 1 + r->dimension;
+    begin_record(r);
     return status;
 }
 
@@ -88,8 +106,8 @@ static int open_writer(run_recorder *r, const char *output)
     free(names);
     if (!dir) return status;
     dir->descriptor = -1;
-    status = checkpoint_load(dir, &r->writer, &r->results.position, r->simulation->run,
-                             r->results.statistics, r->results.observables);
+    const observed_steps observed = recorder_observed(r);
+    status = checkpoint_load(dir, &r->writer, &r->results.position, r->simulation->run, &observed);
     if (status != CLI_DONE) return status;
     return writer_continue(&r->writer, r->results.position.row, &r->results.position.sum);
 }
@@ -288,14 +306,34 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
                                                                        : status;
 }
 
+/* The states of the steps whose observables come next. */
+static dal_status add_states(void *user, dal_run *run, int count, const double *t,
+                             const double *states, size_t stride)
+{
+    run_recorder *r = user;
+    (void)run;
+    r->steps = (record_steps){.count = count, .t = t, .states = states, .state_stride = stride};
+    return DAL_STATUS_OK;
+}
+
+static dal_status add_steps(void *user, dal_run *run, int count, const double *t,
+                            const double *values, size_t stride)
+{
+    run_recorder *r = user;
+    r->steps.values = values;
+    r->steps.stride = stride;
+    record_add(&r->results.record, &r->steps);
+    return add_values(user, run, count, t, values, stride);
+}
+
 static int save(run_recorder *r)
 {
     int status = writer_sync(&r->writer, r->dir->sync);
     if (status == CLI_DONE) status = event_log_flush(&r->events, r->dir->sync);
     r->results.position.sum = r->writer.sum;
+    const observed_steps observed = recorder_observed(r);
     if (status == CLI_DONE)
-        status = checkpoint_save(r->dir, &r->results.position, r->simulation->run,
-                                 r->results.statistics, r->results.observables);
+        status = checkpoint_save(r->dir, &r->results.position, r->simulation->run, &observed);
     r->saved = cli_seconds();
     return status;
 }
@@ -402,6 +440,10 @@ int recorder_run(run_recorder *r, dal_error *error)
                                  .row_time = s->row_time || s->request.steps > 0 ? row_time : NULL,
                                  .polling = 1};
     run_results_observe(&r->observer);
+    if (r->results.record.number) {
+        r->observer.states = add_states;
+        r->observer.values = add_steps;
+    }
     *error = (dal_error){0};
     if (r->dir && r->results.position.row > 0 && write_state(r, STORE_RUNNING, "") != CLI_DONE)
         return CLI_IO;

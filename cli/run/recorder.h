@@ -2,9 +2,11 @@
 #ifndef DAL_CLI_RECORDER_H
 #define DAL_CLI_RECORDER_H
 
+#include "checkpoint.h"
 #include "columns.h"
 #include "dalembert_statistics.h"
 #include "event_log.h"
+#include "io/step_record.h"
 #include "io/trajectory.h"
 #include "native.h"
 #include "request_data.h"
@@ -29,8 +31,12 @@ typedef struct run_results {
     const char *const *names;   /* [observables] the columns', or NULL */
     dal_statistics *statistics; /* [observables] */
     dal_trend *trend;           /* [observables] when the run is finished or has failed */
+    step_record record;         /* of the steps, where they are many more than rows */
     run_position position;
 } run_results;
+
+/* Of more observed steps than this for each row a record is kept. */
+enum { RECORD_STEPS_A_ROW = 4 };
 
 void run_results_begin(run_results *results, const dal_run *run);
 /* Has an observer add the values and scales of observables.  Its user begins with the results. */
@@ -48,6 +54,7 @@ typedef struct run_recorder {
     double *row;    /* the values that are columns */
     event_log events;
     dal_observer observer;
+    record_steps steps;   /* the present ones, for the record */
     native_run native;    /* set by who opens it; all 0: interpreted */
     double interval;      /* seconds between checkpoints */
     double clock;         /* when the clock of steps and rows was started; */
@@ -75,6 +82,8 @@ int recorder_close(run_recorder *recorder);
 /* Integrates to the end.  Returns CLI_DONE; CLI_FAILED and the like with the reason in *error;
  * CLI_SIGNAL; or CLI_IO and the like after a message, *error then having none. */
 int recorder_run(run_recorder *recorder, dal_error *error);
+/* What it has observed, for checkpoints. */
+observed_steps recorder_observed(run_recorder *recorder);
 bool recorder_is_finished(const run_recorder *recorder);
 
 #endif

@@ -90,6 +90,10 @@ static dal_status deliver(const sampling *k, int count)
     const dal__observations *o = &k->run->observations;
     if (count == 0) return DAL_STATUS_OK;
     if (k->observer->scales) DAL_TRY(deliver_scales(k, count));
+    if (k->observer->states)
+        DAL_TRY(observed(k, k->observer->states(k->observer->user, k->run, count, o->times,
+                                                o->states ? o->states : k->run->persistent,
+                                                (size_t)o->capacity)));
     if (o->states) evaluate_states(k->run, count);
     if (k->run->layout.system->events > 0) leave_out_jumps(k->run);
     return observed(k, k->observer->values(k->observer->user, k->run, count, o->times, o->values,

@@ -2,6 +2,7 @@
 
     page_data.py motions PAGE          prints METHOD T X Y ANGLE STEER WIDTH for each frame
     page_data.py envelopes PAGE DIR    compares each envelope with DIR/series/LABEL.csv
+    page_data.py curves PAGE NAME      prints NAME TITLE KIND X Y UPPER for each point of a figure, between tabs
 """
 import base64
 import csv
@@ -34,6 +35,16 @@ def print_motions(parts):
         for i, pose in enumerate(zip(*poses, strict=True)):
             time = motion["start"] + (motion["end"] - motion["start"]) * i / (frames - 1)
             print(motion["method"], time, *pose)
+
+
+def print_curves(figure):
+    """Prints the points of all curves; UPPER is empty except of a band."""
+    curves = figure["curves"]
+    for curve in curves:
+        x = curve["x"] if isinstance(curve["x"], list) else curves[curve["x"]]["x"]
+        upper = curve.get("upper", [""] * len(x))
+        for point in zip(x, curve["y"], upper, strict=True):
+            print(figure["name"], curve["title"], curve["kind"], *point, sep="\t")
 
 
 def value(level):
@@ -80,9 +91,18 @@ def compare_envelopes(parts, directory):
 
 
 with open(sys.argv[2], encoding="utf-8") as page:
-    found = [json.loads(text) for text in re.findall(
-        r'<script type="application/json" class="data">(.*?)</script>', page.read(), re.DOTALL)]
+    content = page.read()
+
+
+def parts_of(kind):
+    """The JSON of a kind of element."""
+    return [json.loads(text) for text in re.findall(
+        rf'<script type="application/json" class="{kind}">(.*?)</script>', content, re.DOTALL)]
+
+
 if sys.argv[1] == "motions":
-    print_motions(found)
+    print_motions(parts_of("data"))
+elif sys.argv[1] == "curves":
+    print_curves(next(figure for figure in parts_of("figure") if figure["name"] == sys.argv[3]))
 else:
-    compare_envelopes(found, sys.argv[3])
+    compare_envelopes(parts_of("data"), sys.argv[3])

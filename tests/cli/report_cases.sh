@@ -49,6 +49,35 @@ case_is "figures of observables without D, E and H"
 try 0 run falling-disk-reduced --space physical --integrator rk4 --step 0.1 --time 2 --output reduced
 try 0 report reduced
 expect "no figure of the invariant" grep -q '<strong>Invariants</strong>' reduced/report/index.html
+# The space that the method chooses, and the one of the option.
+for options in "--integrator gni" "--integrator gauss4 --space lifted" "--integrator gauss4 --space physical"; do
+    try 0 run pendulum-cvt $options --step 0.1 --time 2 --output spaces --force
+    try 0 report spaces
+    expect "no figure of E: $options" grep -q '<strong>Energy</strong>' spaces/report/index.html
+    refute "p is a quantity: $options" grep -q '"title": "p_x"' spaces/report/index.html
+done
+
+# Of 10000 steps of a harmonic motion x = cos t, 50 rows lie at random phases: the band of all steps has the
+# amplitude all along, and the last 512 steps are there to the step, x at t = h k, with p at its place.
+case_is "figures of all steps of a run with few rows"
+printf 'coordinates: [x]\nlagrangian: x%s^2/2 - x^2/2\nstart: {x: 1}\n' "'" >harmonic.yaml
+try 0 run harmonic.yaml --integrator gauss8 --step 0.125 --steps 10000 --samples 50 --output stepped
+try 0 report stepped
+if needs 2 "no python3" there python3; then
+    python3 "$here/page_data.py" curves stepped/report/index.html coordinates >band
+    expect "no band of width 2" awk -F'\t' '$2 == "x" { n++; wrong += $3 == "line" || $6 < 0.99 || $5 > -0.99 }
+        END { exit n < 64 || wrong }' band
+    python3 "$here/page_data.py" curves stepped/report/index.html coordinates-last >last
+    expect "not the last steps" awk -F'\t' 'function off(x, y) { return (x > y ? x - y : y - x) > 1e-4 }
+        { n++; wrong += off($4, 1250 - 0.125*(512 - n)) || off($5, cos($4)) } END { exit n != 512 || wrong }' last
+    counted
+fi
+# A run that was interrupted keeps them: figures are as of the whole run.
+try 0 run harmonic.yaml --integrator gauss8 --step 0.125 --steps 6000 --samples 30 --output parts
+try 0 resume parts --steps 10000
+try 0 report parts
+expect "other figures than of the whole run" sh -c 'for d in stepped parts; do
+    grep -o "class=.figure.>.*</script>" $d/report/index.html >$d.figures; done; cmp stepped.figures parts.figures'
 
 if needs 28 "no python3" there python3; then
     case_is "the envelopes of a page are the maxima of series/"
@@ -305,7 +334,7 @@ expect "other curves among the positions" test \
     "$(sed -n 's/.*title [^a-z]\([a-z]*\)[^a-z].*/\1/p' pulled/report/coordinates.gp | tr '\n' ' ')" = "x s "
 
 # x = cos t: 16,000 rows in 637 half periods; rows a period apart, where x is 1 and x' is 0 but
-# y = sin t is not at rest; and 64 rows in a period.
+# y = sin t is not at rest, and nothing between them is observed; and 64 rows in a period.
 case_is "bands, dots and lines"
 cat >round.yaml <<'END_OF_SYSTEM'
 coordinates: [x, y]
@@ -314,7 +343,7 @@ start: {x: 1, y': 1}
 END_OF_SYSTEM
 try 0 run round.yaml --integrator gauss8 --step 0.125 --time 2000 --samples 16000 --output many
 try 0 run round.yaml --integrator gauss8 --step 0.19634954084936207 --time 125.66370614359172 \
-    --samples 20 --output few
+    --samples 20 --statistics 32 --output few
 try 0 run round.yaml --integrator gauss8 --step 0.19634954084936207 --time 6.283185307179586 \
     --samples 32 --output enough
 for run in many few enough; do try 0 report $run; done
