@@ -22,10 +22,11 @@ again() {
     eval "try 0 $(cat command) --output again --force"
     expect "$1: another run by $(cat command)" cmp "$1/trajectory.npy" again/trajectory.npy
 }
-# full NAME: wherever a file of the page cannot be written since the device is full, the command fails and says which.
+# full NAME: where a file of the page cannot be written since the device is full, the command fails and says which.
+# Every fourth file is tried.
 full() {
     fault=
-    for file in "$1"/report/*; do
+    for file in $(ls -d "$1"/report/* | awk 'NR % 4 == 1 || /html/'); do
         mv "$file" file && ln -s /dev/full "$file"
         timeout --foreground $patience "$program" report "$1" >out 2>err
         status=$?
@@ -35,12 +36,12 @@ full() {
     expect "$1: no failure at$fault" test -z "$fault"
 }
 # unreadable NAME: wherever a file that the page is made from cannot be read, the command fails and says so; what it
-# does not read changes no byte of the page.  Of the runs of a study every tenth file is tried.
+# does not read changes no byte of the page.  Of the files of a study's runs every thirtieth is tried.
 unreadable() {
     fault=
     cp "$1/report/index.html" page
     find "$1" -path "$1/report" -prune -o -type f -print | sort |
-        awk '!/[/]runs[/]/ || ++runs % 10 == 1' >files
+        awk '!/[/]runs[/]/ || ++runs % 30 == 1' >files
     while read -r file; do
         mv "$file" file && mkdir "$file"
         timeout --foreground $patience "$program" report "$1" >out 2>err
@@ -54,6 +55,22 @@ unreadable() {
         fault="$fault $file:$status"
     done <files
     expect "$1: no failure at$fault" test -z "$fault"
+}
+# renamed FILE: with another name for any member of a JSON file the command fails with a message, or is silent.
+renamed() {
+    fault=
+    cp "$1" file
+    for k in $(awk '/^ *"[a-z_]*":/ { print NR }' file); do
+        sed "$k"'s/"\([a-z_]*\)":/"other-\1":/' file >"$1"
+        timeout --foreground $patience "$program" report "${1%/*}" >out 2>err
+        case $? in
+        0) [ ! -s err ] ;;
+        2 | 4) grep -q '^dalembert: ' err ;;
+        *) false ;;
+        esac || fault="$fault $k:$(head -1 err)"
+    done
+    cp file "$1"
+    expect "$1: lines$fault" test -z "$fault"
 }
 
 cat >many.yaml <<'END_OF_SYSTEM'
@@ -109,7 +126,7 @@ starts: physical
 systems: [nonholonomic-particle]
 END_OF_STUDY
 
-if needs 109 "no python3" there python3; then
+if needs 115 "no python3" there python3; then
     case_is "pages of runs"
     try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6 --samples 40 --output sleigh
     page sleigh
@@ -154,6 +171,10 @@ if needs 109 "no python3" there python3; then
     for name in sleigh falls failed methods families orders section exponents volume ensemble; do
         unreadable $name
         full $name
+    done
+    for file in many/manifest.json falls/manifest.json ensemble/manifest.json orders/order.json section/section.json \
+        exponents/lyapunov.json; do
+        renamed $file
     done
     counted
 fi
