@@ -1,7 +1,7 @@
 """change_checkpoint.py FILE NUMBER VALUE - sets a number of the state in a checkpoint, and the sum.
+change_checkpoint.py FILE all DIRECTORY VALUE... - writes DIRECTORY/NUMBER_VALUE for every number and value.
 
-NUMBER is counted from 0, a negative one from the end of the state; with VALUE 'count' it prints how
-many there are.  The format is in cli/run/checkpoint.c."""
+NUMBER is counted from 0, a negative one from the end of the state.  The format is in cli/run/checkpoint.c."""
 import struct
 import sys
 
@@ -16,14 +16,22 @@ def sum_of(data):
     return h
 
 
-path, number, value = sys.argv[1], int(sys.argv[2]), sys.argv[3]
+def write(path, number, value):
+    changed = bytearray(data)
+    struct.pack_into('<d', changed, 8 * (HEADER + number % count), float(value))
+    struct.pack_into('<Q', changed, len(changed) - 8, sum_of(changed[:-8]))
+    with open(path, 'wb') as file:
+        file.write(changed)
+
+
+path, number = sys.argv[1:3]
 with open(path, 'rb') as file:
-    data = bytearray(file.read())
+    data = file.read()
 assert struct.unpack_from('<Q', data, len(data) - 8)[0] == sum_of(data[:-8]), 'another format'
 count = struct.unpack_from('<Q', data, 8 * STATE)[0]
-if value == 'count':
-    sys.exit(print(count))
-struct.pack_into('<d', data, 8 * (HEADER + (number if number >= 0 else count + number)), float(value))
-struct.pack_into('<Q', data, len(data) - 8, sum_of(data[:-8]))
-with open(path, 'wb') as file:
-    file.write(data)
+if number == 'all':
+    for value in sys.argv[4:]:
+        for k in range(count):
+            write(f'{sys.argv[3]}/{k}_{value}', k, value)
+else:
+    write(path, int(number), sys.argv[3])

@@ -132,8 +132,12 @@ terminal() { there script && there stty && script -qec true /dev/null >/dev/null
 has_rows() { head -c 8192 "$1" | grep -aq "'shape': ($2,), }"; }
 columns_of() { head -c 8192 "$1" | grep -ao "'<f8'" | wc -l; }
 
-# json FILE EXPRESSION: what is true of a JSON document d, read by Python.
-json() { python3 "$here/holds_json.py" "$@"; }
+# json FILE EXPRESSION: what is true of a JSON document d, read by Python.  Where python3 is a script that finds
+# the real one, it does so once: that takes longer than Python.
+json() {
+    : "${python:=$(python3 -c 'import sys; print(sys.executable)')}"
+    "$python" "$here/holds_json.py" "$@"
+}
 
 # awaits COMMAND...: repeats it until it succeeds.
 awaits() {
