@@ -320,7 +320,7 @@ static void test_uneven_sweeps(void)
                                           "gauss12",          "gauss4+project",
                                           "stormer-verlet",   "symplectic-euler-11",
                                           "implicit-midpoint"};
-    for (int i = 0; i < 7; i++) uneven_sweeps(fixture_system(disk), methods[i]);
+    for (int i = 0; i < 7; i += case_stride(3)) uneven_sweeps(fixture_system(disk), methods[i]);
 }
 
 /* A batch that was cleared steps the lanes that are started again as a new one does, those that had

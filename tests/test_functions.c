@@ -242,7 +242,7 @@ static void test_dense(void)
          "  + sum(i, 1, M-N, cos(x[i])*x[i]'*x[i+N]')\n"
          "  + sum(i, 1, M-N^2, cos(x[i])*x[i]'*x[i+N^2]')\n",
          1000}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i += (size_t)case_stride(2)) {
         char message[128];
         dal_error error;
         dal_model *model = NULL;
