@@ -298,7 +298,7 @@ static int read_motion(const label_figures *f, int row, motion *m)
 
 static double step_of(const label_figures *f, int row)
 {
-    return strtod(get_cell(f->s, row, "step"), NULL);
+    return csv_table_number(&f->s->cells, row, "step");
 }
 
 /* The row of the largest error below a bound, with the step of another row; 0: there is none. */

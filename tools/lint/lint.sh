@@ -54,12 +54,12 @@ underscores() {
     git ls-files lib include integrators cli | grep '\.[ch]$\|\.inc$' | xargs cat | grep -o '[A-Za-z_][A-Za-z_0-9]*__*[A-Za-z0-9_]*' |
         sort -u | awk '{ if (/_$/) next; key = $0; gsub(/__+/, "_", key); if (key in first) print first[key] " and " $0; first[key] = $0 }'
 }
-# Files and names that comments speak of.
 # Two files with one comment have one thought: it is in one of them, or has one name.
 twice() {
     git ls-files '*.[ch]' '*.inc' '*.sh' '*.awk' '*.py' '*.mk' Makefile .ci/run |
         xargs awk -v BLOCK=64 -f $here/blocks.awk
 }
+# Files and names that comments speak of.
 comments() {
     find . -name build -prune -o -name .git -prune -o -type f -print >"$BUILD/files.txt"
     sources | xargs awk -f $here/comments.awk "$BUILD/files.txt"
