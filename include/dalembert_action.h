@@ -57,6 +57,10 @@ dal_status dal_evaluator_integrate_action(dal_evaluator *evaluator, const dal_cu
 dal_status dal_evaluator_measure_curve(dal_evaluator *evaluator, const dal_curve *curve,
                                        double *max_constraint, dal_error *error);
 
+/* The step of a run whose rows a curve may be: the distance of its times, equal within 1e-9 of it;
+ * 0 where they have different distances, or there are less than two. */
+double dal_curve_step(const dal_curve *curve);
+
 /* What the discrete action of a method is at rows that are its steps. */
 typedef struct dal_discrete_action {
     double value;       /* of the steps from the rows; NaN where e is not constant */

@@ -277,6 +277,35 @@ static void test_discrete_refused(void)
                     DAL_STATUS_ARGUMENT);
 }
 
+/* Rows may miss their times by 1e-9 h, and no more. */
+static void test_step(void)
+{
+    double t[5];
+    const dal_curve curve = {.rows = 5, .t = t};
+    for (int part = 0; part < 3; part++) {
+        for (int k = 0; k < 5; k++) t[k] = -3.0 + 0.1 * k;
+        t[2] += 0.1 * (part == 0 ? 0.0 : part == 1 ? 0.5e-9 : 2e-9);
+        CU_ASSERT_DOUBLE_EQUAL(dal_curve_step(&curve), part < 2 ? 0.1 : 0.0, 1e-15);
+    }
+    for (int k = 0; k < 5; k++) t[k] = 1.0;
+    CU_ASSERT_EQUAL(dal_curve_step(&curve), 0.0);
+}
+
+/* -H has the term -mu_e pi_e: with mu_e = 0.3 + 0.1 t and pi_e = f the action of a point at rest,
+ * where all else vanishes, is f int e' - mu_e dt. */
+static void test_gauge(void)
+{
+    static const char gauged[] =
+        "coordinates: [x]\naccelerations: {x: 0}\ngauge: {mu_e: 0.3 + 0.1*t}\n";
+    const double f = 0.6, T = 2.0;
+    double t[ROWS], x[ROWS] = {0.0}, e[ROWS], pi_e[ROWS];
+    times(t, T);
+    for (int k = 0; k < ROWS; k++) e[k] = 1.0 + 0.5 * t[k], pi_e[k] = f;
+    const dal_curve curve = {.rows = ROWS, .t = t, .q = x, .v = x, .e = e, .pi_e = pi_e};
+    const dal_action got = action_of(gauged, &curve, DAL_ACTION_HAMILTONIAN);
+    CU_ASSERT_DOUBLE_EQUAL(got.value, f * (0.5 * T - (0.3 * T + 0.05 * T * T)), 1e-12);
+}
+
 void suite_action(void)
 {
     CU_pSuite suite = CU_add_suite("action", NULL, NULL);
@@ -289,4 +318,6 @@ void suite_action(void)
     CU_ADD_TEST(suite, test_discrete_value);
     CU_ADD_TEST(suite, test_recurrences);
     CU_ADD_TEST(suite, test_discrete_refused);
+    CU_ADD_TEST(suite, test_step);
+    CU_ADD_TEST(suite, test_gauge);
 }

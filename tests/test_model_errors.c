@@ -349,6 +349,10 @@ static const bad_file mechanics[] = {
     {DAL_STATUS_MODEL, "the system has no coordinates", L},
     {DAL_STATUS_MODEL, "the system has no coordinates", "coordinates: []\nlagrangian: 1\n"},
     {DAL_STATUS_MODEL, "the system has neither a lagrangian nor accelerations", XY},
+    {DAL_STATUS_MODEL,
+     "the system has neither a lagrangian nor accelerations, which a motion needs: "
+     "equations S^i = 0 are not solved for q''",
+     XY "equations: [x'' + x]\n"},
     {DAL_STATUS_MODEL, "the system has both a lagrangian and accelerations",
      XY L "accelerations: {@x: 1}\n"},
     {DAL_STATUS_MODEL, "vakonomic mechanics needs a lagrangian, not accelerations",

@@ -46,6 +46,14 @@ static void null_dal_evaluator_measure_curve(void)
     REFUSED(dal_evaluator_measure_curve(evaluator, &curve, NULL, error));
 }
 
+static void null_dal_curve_step(void)
+{
+    CU_ASSERT_EQUAL(dal_curve_step(NULL), 0.0);
+    CU_ASSERT_EQUAL(dal_curve_step(&(dal_curve){.rows = 7}), 0.0);
+    CU_ASSERT_EQUAL(dal_curve_step(&(dal_curve){.rows = 1, .t = curve_t}), 0.0);
+    CU_ASSERT_EQUAL(dal_curve_step(&curve), 1.0);
+}
+
 static void null_dal_check_discrete_action(void)
 {
     dal_discrete_action action;

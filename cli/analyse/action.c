@@ -1,19 +1,21 @@
 /* action.c - the actions of the theory on a curve in a file. */
 #include "action.h"
 #include "dalembert_action.h"
+#include "dalembert_program.h"
 #include "io/csv_table.h"
 #include "io/json.h"
 #include "run/request_json.h"
 #include "run/system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_METHODS = 32, METHOD_NAME = 128 };
+enum { MAX_METHODS = 32, METHOD_NAME = 128, SCREEN_METHODS = 9 };
 
 /* A curve with a memory of its own, and what was found. */
 typedef struct results {
@@ -45,10 +47,12 @@ static int read_column(const results *r, int column, double *out, int stride)
 {
     const csv_table *csv = &r->csv;
     for (int row = 1; row < csv->rows; row++) {
-        char *end;
         const char *text = csv->cell[row * csv->columns + column];
-        const double x = strtod(text, &end);
-        if (end == text || end[strspn(end, " \t\r")] || !isfinite(x))
+        const char *first = text + strspn(text, " \t");
+        const size_t length = strcspn(first, " \t\r");
+        double x;
+        if (dal__parse_number(first, length, &x) != DAL_STATUS_OK ||
+            first[length + strspn(first + length, " \t\r")])
             return cli_fail(CLI_USAGE, "%s:%d: column %s: '%.40s' is not a finite number",
                             r->settings->curve, row + 1, csv->cell[column], text);
         out[(row - 1) * stride] = x;
@@ -56,19 +60,28 @@ static int read_column(const results *r, int column, double *out, int stride)
     return CLI_DONE;
 }
 
-/* The columns of one kind, one for each coordinate, all or none of them: name is a format for the
- * coordinate.  *list becomes NULL where there are none. */
-static int read_kind(const results *r, const char *name, const char *plain, const double **list,
-                     double **memory)
+/* The kinds of columns, one for each coordinate: what is before and after its name, what is before
+ * it with --names plain, and the member of dal_curve. */
+typedef struct column_kind {
+    const char *before, *after, *plain;
+    size_t member;
+} column_kind;
+static const column_kind kinds[] = {{"", "", NULL, offsetof(dal_curve, q)},
+                                    {"", "'", "v", offsetof(dal_curve, v)},
+                                    {"lambda_", "", NULL, offsetof(dal_curve, lambda)},
+                                    {"p_", "", NULL, offsetof(dal_curve, p)},
+                                    {"pi_", "", NULL, offsetof(dal_curve, pi)}};
+
+/* Reads the columns of one kind, all or none of them; without them the curve keeps NULL. */
+static int read_kind(results *r, const column_kind *kind, double **memory)
 {
     const int n = r->system->n;
     int found = 0, status = CLI_DONE, column = -1;
     const char *missing = NULL;
     for (int i = 0; i < n && status == CLI_DONE; i++) {
         const char *coordinate = r->system->coordinate[i];
-        char *own = cli_format("%s%s%s", strcmp(name, "'") ? name : "", coordinate,
-                               strcmp(name, "'") ? "" : "'");
-        char *other = plain ? cli_format("%s%s", plain, coordinate) : NULL;
+        char *own = cli_format("%s%s%s", kind->before, coordinate, kind->after);
+        char *other = kind->plain ? cli_format("%s%s", kind->plain, coordinate) : NULL;
         column = find_head(&r->csv, own, other);
         found += column >= 0;
         if (column < 0 && !missing) missing = coordinate;
@@ -79,10 +92,10 @@ static int read_kind(const results *r, const char *name, const char *plain, cons
     if (status != CLI_DONE) return status;
     if (found > 0 && missing)
         return cli_fail(CLI_USAGE, "%s: of the columns %s%s%s there is none of the coordinate %s",
-                        r->settings->curve, strcmp(name, "'") ? name : "", "x",
-                        strcmp(name, "'") ? "" : "'", missing);
-    *list = found ? *memory : NULL;
-    if (found) *memory += (size_t)n * (size_t)(r->csv.rows - 1);
+                        r->settings->curve, kind->before, "x", kind->after, missing);
+    if (!found) return CLI_DONE;
+    *(const double **)((char *)&r->curve + kind->member) = *memory;
+    *memory += (size_t)n * (size_t)(r->csv.rows - 1);
     return CLI_DONE;
 }
 
@@ -112,15 +125,12 @@ static int read_curve(results *r)
         status = read_column(r, column, next, 1);
         next += rows;
     }
-    if (status == CLI_DONE) status = read_kind(r, "", NULL, &c->q, &next);
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds && status == CLI_DONE; k++)
+        status = read_kind(r, &kinds[k], &next);
     if (status == CLI_DONE && !c->q)
         return cli_fail(CLI_USAGE,
                         "%s: the column %s is missing: a curve has t and the coordinates", path,
                         r->system->coordinate[0]);
-    if (status == CLI_DONE) status = read_kind(r, "'", "v", &c->v, &next);
-    if (status == CLI_DONE) status = read_kind(r, "lambda_", NULL, &c->lambda, &next);
-    if (status == CLI_DONE) status = read_kind(r, "p_", NULL, &c->p, &next);
-    if (status == CLI_DONE) status = read_kind(r, "pi_", NULL, &c->pi, &next);
     for (int k = 1; k < c->rows && status == CLI_DONE; k++)
         if (!(c->t[k] > c->t[k - 1]))
             status = cli_fail(CLI_USAGE, "%s:%d: t = %.15g does not come after %.15g", path, k + 2,
@@ -190,7 +200,6 @@ static dal_status check_method(results *r, const char *name, dal_error *error)
 
 static int evaluate_curve(results *r)
 {
-    static const double aligned = 1e-9; /* parts of h by which rows of a run may miss their times */
     dal_error error = {0};
     dal_curve *c = &r->curve;
     const request_settings *set = &r->settings->simulation.request.set;
@@ -201,9 +210,7 @@ static int evaluate_curve(results *r)
     if (!cli_is_ok(made)) return cli_error(cli_input_exit(made), NULL, &error);
     made = dal_evaluator_measure_curve(r->evaluator, &r->curve, &r->max_constraint, &error);
     if (!cli_is_ok(made)) return cli_error(cli_input_exit(made), path, &error);
-    r->step = (c->t[c->rows - 1] - c->t[0]) / (c->rows - 1);
-    for (int k = 0; k < c->rows; k++)
-        if (fabs(c->t[k] - (c->t[0] + k * r->step)) > aligned * r->step) r->step = 0.0;
+    r->step = dal_curve_step(c);
     status = integrate(r, c, r->action[0]);
     if (status == CLI_DONE && r->settings->perturb != 0.0) status = integrate_perturbed(r);
     const char *end = c->v && r->step > 0.0 ? r->settings->methods : "";
@@ -265,6 +272,14 @@ static int put_json(const results *r)
     return cli_close(stdout, "standard output");
 }
 
+/* The reason why no discrete action was tried. */
+static const char *reason_of_none(const results *r)
+{
+    return !r->curve.v              ? "the file has no velocities"
+           : !*r->settings->methods ? "--methods names none"
+                                    : "the rows are at different distances";
+}
+
 static int print_text(const results *r)
 {
     const action_settings *s = r->settings;
@@ -291,17 +306,85 @@ static int print_text(const results *r)
         printf("%14.2g  %s\n", r->discrete[k].defect,
                r->discrete[k].is_stationary ? "stationary" : "not stationary");
     }
-    if (r->methods == 0)
-        printf("\nNo discrete actions: %s.\n",
-               c->v ? "the rows are at different distances" : "the file has no velocities");
+    if (r->methods == 0) printf("\nNo discrete actions: %s.\n", reason_of_none(r));
     return cli_close(stdout, "standard output");
+}
+
+/* The lines above the tables: the curve, and whether it is a motion; a motion's action is below its
+ * error, which is the action with every second row. */
+static void say_result(screen *out, const results *r)
+{
+    const action_settings *s = r->settings;
+    const dal_curve *c = &r->curve;
+    const dal_action *a = &r->action[0][DAL_ACTION_SECOND_ORDER];
+    char x[SCREEN_NUMBER], y[SCREEN_NUMBER];
+    screen_say(out, 2, "%s on %s: %d rows, t = %g to %g%s%s", s->simulation.request.system_name,
+               s->curve, c->rows, c->t[0], c->t[c->rows - 1], r->step > 0.0 ? ", h = " : "",
+               r->step > 0.0 ? screen_number(x, r->step, 6) : "");
+    screen_say(out, 2, "%s: the action (nh10) is %s, with an error of %s",
+               a->value <= a->error ? "A motion of the system, as far as these rows show"
+                                    : "Not a motion of the system",
+               screen_number(x, a->value, 2), screen_number(y, a->error, 1));
+    if (r->system->m > 0)
+        screen_say(out, 2, "max |D(q, q')| on the curve: %s",
+                   screen_number(x, r->max_constraint, 2));
+    screen_skip(out);
+}
+
+static int print_action_screen(const results *r)
+{
+    const bool is_perturbed = r->settings->perturb != 0.0;
+    char x[SCREEN_NUMBER];
+    screen_table actions = {.columns = 4 + is_perturbed, .heads = 1, .gap = 2};
+    screen_table discrete = {.columns = 4, .heads = 1, .gap = 2};
+    static const char *const heads[] = {"", "action", "value", "error", "perturbed"};
+    static const char *const discrete_heads[] = {"discrete action", "value", "|dS_d|/h", ""};
+    screen out;
+    screen_open(&out, stdout, SCREEN_TEXT);
+    say_result(&out, r);
+    for (int i = 0; i < actions.columns; i++)
+        screen_add_cell(&actions, SCREEN_PLAIN, "%s", heads[i]);
+    for (int form = first_form(r); form < DAL_ACTIONS; form++) {
+        const dal_action *a = &r->action[0][form];
+        screen_add_cell(&actions, SCREEN_PLAIN, "%s", labels[form]);
+        screen_add_cell(&actions, SCREEN_PLAIN, "%s", texts[form]);
+        screen_add_cell(&actions, SCREEN_PLAIN, "%s", screen_number(x, a->value, 3));
+        screen_add_cell(&actions, SCREEN_PLAIN, "%s", screen_number(x, a->error, 1));
+        if (is_perturbed)
+            screen_add_cell(&actions, SCREEN_PLAIN, "%s",
+                            screen_number(x, r->action[1][form].value, 3));
+    }
+    screen_add_table(&out, &actions, "llr", 0);
+    screen_free_table(&actions);
+    screen_skip(&out);
+    for (int i = 0; i < 4; i++) screen_add_cell(&discrete, SCREEN_PLAIN, "%s", discrete_heads[i]);
+    for (int k = 0; k < r->methods && k < screen_limit(&out, SCREEN_METHODS); k++) {
+        const dal_discrete_action *d = &r->discrete[k];
+        screen_add_cell(&discrete, SCREEN_PLAIN, "%s", r->method[k]);
+        screen_add_cell(&discrete, SCREEN_PLAIN, "%s",
+                        isnan(d->value) ? "-" : screen_number(x, d->value, 3));
+        screen_add_cell(&discrete, SCREEN_PLAIN, "%s", screen_number(x, d->defect, 2));
+        screen_add_cell(&discrete, SCREEN_PLAIN, "%s",
+                        d->is_stationary ? "stationary" : "not stationary");
+    }
+    if (r->methods > 0) screen_add_table(&out, &discrete, "lrrl", 0);
+    screen_free_table(&discrete);
+    if (r->methods > screen_limit(&out, SCREEN_METHODS))
+        screen_say(&out, 2, "... and %d more methods (--details)",
+                   r->methods - screen_limit(&out, SCREEN_METHODS));
+    if (r->methods == 0) screen_say(&out, 2, "No discrete actions: %s.", reason_of_none(r));
+    return screen_close(&out, "--details");
 }
 
 int action_evaluate(action_settings *settings)
 {
     results r = {.settings = settings, .system = settings->simulation.system};
     int status = evaluate_curve(&r);
-    if (status == CLI_DONE) status = settings->json ? put_json(&r) : print_text(&r);
+    const bool is_screen = screen_is_wanted(SCREEN_TEXT, settings->json, settings->details);
+    if (status == CLI_DONE)
+        status = settings->json ? put_json(&r)
+                 : is_screen    ? print_action_screen(&r)
+                                : print_text(&r);
     dal_evaluator_free(r.evaluator);
     csv_table_free(&r.csv);
     free(r.numbers);

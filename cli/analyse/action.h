@@ -16,7 +16,7 @@ typedef struct action_settings {
     const char *curve;   /* path of a CSV file */
     const char *methods; /* names with commas between them, of discrete actions */
     double perturb;      /* the size of a bump on every coordinate; 0: none */
-    bool json;
+    bool json, details;
 } action_settings;
 
 /* Evaluates the actions and prints them, as text or JSON.  Returns CLI_DONE, or prints and returns

@@ -40,12 +40,6 @@ static formulas split_list(const char *list)
     return f;
 }
 
-static void free_list(formulas *f)
-{
-    for (int i = 0; i < f->count; i++) free(f->text[i]);
-    free(f->text);
-}
-
 /* ---- the search ---------------------------------------------------------------------------- */
 
 /* An error of a formula of --with: the user knows its place in the list. */
@@ -86,7 +80,8 @@ static int search(const invariants_settings *settings, dal_invariants **found)
     set.with = (const char *const *)with.text;
     set.with_count = with.count;
     const dal_status status = dal_find_invariants(found, s->model, &spec, &set, &error);
-    free_list(&with);
+    for (int i = 0; i < with.count; i++) free(with.text[i]);
+    free(with.text);
     return cli_is_ok(status) ? CLI_DONE : refuse(s, status, &error);
 }
 

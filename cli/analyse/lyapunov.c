@@ -208,14 +208,6 @@ static const cli_option options[] = {
      CLI_INTEGER(lyapunov_settings, exponents, 1, 1e6)},
 };
 
-static cli_group lyapunov_group(lyapunov_settings *settings)
-{
-    cli_group group = CLI_GROUP(options, settings);
-    group.owner = "lyapunov";
-    group.count -= settings->is_volume; /* the last one is of lyapunov alone */
-    return group;
-}
-
 static int print_results(const lyapunov_results *r, const lyapunov_settings *set)
 {
     if (screen_is_wanted(set->format, set->json, set->details))
@@ -269,10 +261,12 @@ static int measure_means(lyapunov_settings *settings)
 static int run_measurement(lyapunov_settings *s, const cli_command *command, int argc, char **argv)
 {
     s->simulation = simulation_default();
-    const cli_group groups[] = {
-        lyapunov_group(s),
+    cli_group groups[] = {
+        CLI_GROUP(options, s),
         simulation_group(&s->simulation, request_options, LYAPUNOV_WITHOUT),
     };
+    groups[0].owner = "lyapunov";
+    groups[0].count -= s->is_volume; /* the last one is of lyapunov alone */
     int status = cli_read_arguments(command, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = measure_means(s);
     simulation_free(&s->simulation);

@@ -36,6 +36,22 @@ static void enlarge(double max[GROUPS], int n, const double *a, const double *b)
         }
 }
 
+/* The first row that is not a whole number of steps h after the first one; the number of rows where
+ * there is none. */
+static int first_row_beside(const dal_curve *c, double h)
+{
+    int k = 0;
+    while (k < c->rows && fabs(c->t[k] - (c->t[0] + k * h)) <= aligned * fabs(h)) k++;
+    return k;
+}
+
+double dal_curve_step(const dal_curve *curve)
+{
+    if (!curve || curve->rows < 2 || !curve->t) return 0.0;
+    const double h = (curve->t[curve->rows - 1] - curve->t[0]) / (curve->rows - 1);
+    return h != 0.0 && first_row_beside(curve, h) == curve->rows ? h : 0.0;
+}
+
 static dal_status check_rows(const dal_run_spec *spec, const dal_curve *c, dal_error *error)
 {
     char name[128];
@@ -47,12 +63,11 @@ static dal_status check_rows(const dal_run_spec *spec, const dal_curve *c, dal_e
     if (c->rows < 2 || !c->t || !c->q || !c->v || h == 0.0)
         return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "a discrete action needs a step, and two rows with velocities");
-    for (int k = 0; k < c->rows; k++)
-        if (!(fabs(c->t[k] - (c->t[0] + k * h)) <= aligned * fabs(h)))
-            return dal__fail(error, DAL_STATUS_ARGUMENT,
-                             "row %d: t = %.15g is not %d steps of %.15g after %.15g", k + 1,
-                             c->t[k], k, h, c->t[0]);
-    return DAL_STATUS_OK;
+    const int k = first_row_beside(c, h);
+    if (k == c->rows) return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_ARGUMENT,
+                     "row %d: t = %.15g is not %d steps of %.15g after %.15g", k + 1, c->t[k], k, h,
+                     c->t[0]);
 }
 
 dal_status dal_check_discrete_action(const dal_run_spec *spec, const dal_curve *curve,

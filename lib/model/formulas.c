@@ -359,7 +359,10 @@ static dal_status check_equations(dal_model *model, dal_error *error)
                             "%d constraints on %d coordinates", e->m, e->n);
     if (!L && !F)
         return dal__fail(error, DAL_STATUS_MODEL,
-                         "the system has neither a lagrangian nor accelerations");
+                         "the system has neither a lagrangian nor accelerations%s",
+                         dal__model_count(model, DAL_SECTION_EQUATIONS) > 0
+                             ? ", which a motion needs: equations S^i = 0 are not solved for q''"
+                             : "");
     if (L && F)
         return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(F),
                             "the system has both a lagrangian and accelerations");

@@ -14,9 +14,6 @@ from .fixed import owned
 from .spec import Spec, SystemLike
 from .system import System, text_of
 
-# Parts of h by which rows of a run may miss their times.
-ALIGNED = 1e-9
-
 FORMS = {lib.DAL_ACTION_EQUATIONS: 'nh8', lib.DAL_ACTION_SECOND_ORDER: 'nh10',
          lib.DAL_ACTION_FIRST_ORDER: 'nh11', lib.DAL_ACTION_HAMILTONIAN: 'nh23'}
 
@@ -138,12 +135,11 @@ def action(system: SystemLike, curve: Mapping[str, npt.ArrayLike], *, methods: S
 def try_method(system: System, curve: Any, columns: Mapping[str, npt.NDArray[np.float64]], method: str,
                parameters: Settings | None) -> dict[str, DiscreteAction]:
     """The discrete action of a method, by its name."""
-    t = columns['t']
-    step = (t[-1] - t[0]) / (t.size - 1)
-    if 'v' not in columns or np.max(np.abs(t - t[0] - step * np.arange(t.size))) > ALIGNED * step:
+    t, step = columns['t'], lib.dal_curve_step(curve)
+    if 'v' not in columns or step == 0:
         raise refuse('methods', 'the rows have no velocities' if 'v' not in columns
                      else 'the rows are at different distances')
-    spec = Spec(system, text('methods', method), step=float(step), parameters=parameters, start_time=float(t[0]))
+    spec = Spec(system, text('methods', method), step=step, parameters=parameters, start_time=float(t[0]))
     found = ffi.new('dal_discrete_action *')
     call(lib.dal_check_discrete_action, spec.c, curve, found)
     return {spec.integrator: DiscreteAction(found.value, found.defect, bool(found.is_stationary))}

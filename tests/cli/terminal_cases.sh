@@ -307,3 +307,25 @@ try 0 $sleigh --summary
 prints '^t,y1,y2,phi,'
 expect "not 102 lines" test "$(wc -l <out)" -eq 102
 says ' exponent +size +trend$'
+
+if needs 14 "no terminal (script, stty)" terminal; then
+    case_is "action: whether the curve is a motion, and both tables, in 24 lines"
+    try 0 run chaplygin-sleigh --integrator gauss8 --step 0.05 --time 5 --output motion.csv
+    shown 80 action chaplygin-sleigh motion.csv --perturb 0.01
+    fits 80
+    prints '^chaplygin-sleigh on motion\.csv: 101 rows, t = 0 to 5, h = 0\.05$'
+    prints '^A motion of the system, as far as these rows show: the action \(nh10\) is '
+    prints '^nh10 .* perturbed|^nh10 +int e/2'
+    prints '^gauss4 .*not stationary'
+    shown 60 action chaplygin-sleigh motion.csv --methods gauss8
+    fits 60
+    prints '^gauss8 .* stationary'
+    shown 80 action chaplygin-sleigh motion.csv --set m=2 --details
+    prints '^\(nh10\) '
+    # y1 is pushed off the motion in one row.
+    awk -F, -v OFS=, 'NR == 50 { $2 += 0.1 } { print }' motion.csv >bent.csv
+    shown 80 action chaplygin-sleigh bent.csv
+    prints '^Not a motion of the system: the action \(nh10\) is '
+    fits 80
+    counted
+fi

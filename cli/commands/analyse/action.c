@@ -4,6 +4,7 @@
 #include "run/request.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
+#include "ui/screen.h"
 
 #include <float.h>
 
@@ -17,6 +18,7 @@ static const cli_option options[] = {
     {"perturb", "A", "0", "also evaluates a curve with A sin^4 on every coordinate, ends fixed",
      CLI_NUMBER(action_settings, perturb, -DBL_MAX, DBL_MAX)},
     JSON_OPTION(action_settings),
+    SCREEN_DETAILS_OPTION(action_settings),
 };
 
 static int action(int argc, char **argv)
