@@ -97,5 +97,5 @@ expect "there are commands" test "$(wc -l <commands)" -ge 10
 while read -r dalembert command <&3; do
     command=$(echo "$command" | sed 's/SYSTEM/chaplygin-sleigh/; s/CURVE\.csv/curve.csv/')
     case $command in run*) command="$command $run" ;; esac
-    try 0 $command
+    eval "try 0 $command"
 done 3<commands
