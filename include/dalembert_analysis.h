@@ -1,5 +1,5 @@
-/* dalembert_analysis.h - statistics, trends, checks, order, error budgets, Lyapunov exponents,
- * sections, invariants and actions, each in a header of its own.
+/* dalembert_analysis.h - statistics, trends, checks, order, error budgets, predictions, Lyapunov
+ * exponents, sections, invariants and actions, each in a header of its own.
  *
  * The conventions of dalembert.h hold here.  All of it is made of the public functions of
  * dalembert.h. */
@@ -13,6 +13,7 @@
 #include "dalembert_evaluator.h"
 #include "dalembert_invariants.h"
 #include "dalembert_order.h"
+#include "dalembert_predict.h"
 #include "dalembert_statistics.h"
 
 #endif

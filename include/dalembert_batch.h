@@ -27,6 +27,12 @@ void dal_batch_free(dal_batch *batch);
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
                            dal_error *error);
+/* Replaces time and state of one lane, state[dimension], and clears all other persistent state of
+ * it, as dal_run_set_state; a lane that had failed, or was taken out, is stepped again.  Lanes may
+ * have times of their own: where F or the gauge depends on t, lanes of different times are stepped
+ * one after the other.  Errors: DAL_STATUS_NOT_FINITE, DAL_STATUS_ARGUMENT (lane). */
+dal_status dal_batch_set_state(dal_batch *batch, int lane, double t, const double *state,
+                               dal_error *error);
 /* Takes all lanes out of the batch, which keeps its memory and its compiled steps: only lanes that
  * dal_batch_start starts again, from the start_time, are then stepped. */
 dal_status dal_batch_clear(dal_batch *batch);

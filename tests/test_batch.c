@@ -351,6 +351,52 @@ static void test_cleared(void)
     dal_batch_free(batch);
 }
 
+/* x'' = cos t - x, 4 and 8 lanes of which read one time. */
+static dal_status driven(const dal_system *system, const dal_point *at, double *out)
+{
+    (void)system;
+    out[0] = cos(at->t) - at->q[0];
+    return DAL_STATUS_OK;
+}
+
+/* Lanes with times and states of their own take the steps of single runs, to the bit, whether F
+ * depends on t or not; a lane that had failed is stepped again. */
+static void test_own_times(void)
+{
+    const dal_system by_hand = {.name = "driven", .n = 1, .call.field = driven};
+    const dal_system *const systems[] = {
+        &by_hand, fixture_system("coordinates: [q1]\nlagrangian: (q1'^2 - q1^2)/2 + q1*cos(t)\n"),
+        fixture_system("coordinates: [q1]\nlagrangian: q1'^2/2 + cos(q1)\n")};
+    for (int k = 0; k < 3; k++) {
+        const dal_run_spec spec = fixture_spec(systems[k], "rk4", DAL_PHYSICAL, 0.25);
+        dal_run *run = fixture_run(&spec);
+        dal_batch *batch = NULL;
+        double state[2];
+        CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 11, 0, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_batch_clear(batch), DAL_STATUS_OK);
+        for (int i = 0; i < 11; i++) {
+            const double from[2] = {0.1 * i, 1.0 - 0.3 * i};
+            CU_ASSERT_EQUAL(dal_batch_set_state(batch, i, 0.7 * i, from, NULL), DAL_STATUS_OK);
+        }
+        CU_ASSERT_EQUAL(dal_batch_advance(batch, 3), DAL_STATUS_OK);
+        for (int i = 0; i < 11; i++) {
+            const double from[2] = {0.1 * i, 1.0 - 0.3 * i};
+            CU_ASSERT_EQUAL(dal_run_set_state(run, 0.7 * i, from, NULL), DAL_STATUS_OK);
+            CU_ASSERT_EQUAL(dal_run_advance(run, 3, NULL), DAL_STATUS_OK);
+            dal_batch_state(batch, i, state);
+            CU_ASSERT_EQUAL(dal_batch_time(batch, i), dal_run_time(run));
+            CU_ASSERT_EQUAL(memcmp(state, dal_run_state(run), sizeof state), 0);
+        }
+        const double bad[2] = {NAN, 0.0};
+        CU_ASSERT_EQUAL(dal_batch_set_state(batch, 0, 0.0, bad, NULL), DAL_STATUS_NOT_FINITE);
+        CU_ASSERT_EQUAL(dal_batch_set_state(batch, 0, NAN, state, NULL), DAL_STATUS_NOT_FINITE);
+        CU_ASSERT_EQUAL(dal_batch_set_state(batch, 11, 0.0, state, NULL), DAL_STATUS_ARGUMENT);
+        CU_ASSERT_EQUAL(dal_batch_set_state(batch, -1, 0.0, state, NULL), DAL_STATUS_ARGUMENT);
+        dal_batch_free(batch);
+        dal_run_free(run);
+    }
+}
+
 static void test_out_of_memory(void)
 {
     const dal_run_spec spec = fixture_spec(fixture_system(disk), "gauss4", DAL_PHYSICAL, 0.1);
@@ -377,6 +423,7 @@ void suite_batch(void)
     CU_add_test(suite, "a lane whose constraint turns singular", test_singular_lane);
     CU_add_test(suite, "arguments", test_arguments);
     CU_add_test(suite, "lanes started again", test_cleared);
+    CU_add_test(suite, "lanes with times of their own", test_own_times);
     CU_add_test(suite, "out of memory", test_out_of_memory);
     CU_add_test(suite, "lanes that need different numbers of sweeps", test_uneven_sweeps);
 }

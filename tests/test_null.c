@@ -315,6 +315,11 @@ static void null_dal_batch_clear(void)
 {
     CU_ASSERT_EQUAL(dal_batch_clear(NULL), DAL_STATUS_ARGUMENT);
 }
+static void null_dal_batch_set_state(void)
+{
+    REFUSED(dal_batch_set_state(NULL, 0, 0.0, numbers, error));
+    REFUSED(dal_batch_set_state(batch, 0, 0.0, NULL, error));
+}
 static void null_dal_batch_states(void)
 {
     numbers[0] = 7.0;

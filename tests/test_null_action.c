@@ -1,8 +1,8 @@
-/* test_null_action.c - NULL and curves without rows, given to actions. */
+/* test_null_action.c - NULL and missing rows, given to actions and predictions. */
 #include "dalembert_analysis.h"
 #include "null.h"
 
-FUNCTIONS_dalembert_action(DECLARE_NULL_TEST)
+FUNCTIONS_dalembert_action(DECLARE_NULL_TEST) FUNCTIONS_dalembert_predict(DECLARE_NULL_TEST)
 
     static dal_model *model;
 static dal_run_spec spec;
@@ -63,8 +63,41 @@ static void null_dal_check_discrete_action(void)
     REFUSED(dal_check_discrete_action(&spec, &curve, NULL, error));
 }
 
+static void null_dal_prediction_end_name(void)
+{
+    CU_ASSERT_STRING_EQUAL(dal_prediction_end_name((dal_prediction_end)-1), "?");
+}
+
+static void null_dal_prediction_end_text(void)
+{
+    CU_ASSERT_STRING_EQUAL(dal_prediction_end_text((dal_prediction_end)-1), "?");
+}
+
+static void null_dal_predict_settings_default(void)
+{
+    const dal_predict_settings settings = dal_predict_settings_default();
+    CU_ASSERT(settings.pieces == 0 && settings.rows == 200);
+}
+
+static void null_dal_predict_create(void)
+{
+    dal_prediction *p = NULL;
+    dal_predict_settings settings = dal_predict_settings_default();
+    const double T = spec.options.step;
+    REFUSED(dal_predict_create(NULL, &spec, T, NULL, NULL, error));
+    REFUSED(dal_predict_create(&p, NULL, T, NULL, NULL, error));
+    REFUSED(dal_predict_create(&p, &(dal_run_spec){.system = NULL}, T, NULL, NULL, error));
+    settings.rows = 0;
+    REFUSED(dal_predict_create(&p, &spec, T, &settings, NULL, error));
+    settings = (dal_predict_settings){.pieces = -1, .rows = 1};
+    REFUSED(dal_predict_create(&p, &spec, T, &settings, NULL, error));
+    CU_ASSERT_PTR_NULL(p);
+}
+
+static void null_dal_prediction_free(void) { dal_prediction_free(NULL); }
+
 void suite_null_action(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and missing rows: actions", open_objects, close_objects);
-    FUNCTIONS_dalembert_action(ADD_NULL_TEST)
+    FUNCTIONS_dalembert_action(ADD_NULL_TEST) FUNCTIONS_dalembert_predict(ADD_NULL_TEST)
 }

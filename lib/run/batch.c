@@ -330,6 +330,23 @@ dal_status dal__batch_start_varied(dal_batch *batch, int lane, const dal_setting
     return DAL_STATUS_OK;
 }
 
+dal_status dal_batch_set_state(dal_batch *batch, int lane, double t, const double *state,
+                               dal_error *error)
+{
+    DAL_REQUIRE(batch, error);
+    DAL_REQUIRE(state, error);
+    if (lane < 0 || lane >= batch->count)
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "lane %d of %d does not exist", lane,
+                         batch->count);
+    DAL_TRY(dal_run_set_state(batch->scalar, t, state, error));
+    group *b = group_of(batch, lane);
+    scatter(b->persistent, batch->scalar->persistent, batch->scalar->layout.persistent,
+            b->kind->width, lane - b->first);
+    b->alive |= (dal__lanes)1 << (lane - b->first);
+    batch->error[lane].status = DAL_STATUS_OK;
+    return DAL_STATUS_OK;
+}
+
 void dal__batch_refuse(dal_batch *batch, int lane, const dal_error *reason)
 {
     batch->error[lane] = *reason;
@@ -371,12 +388,41 @@ static void record_failures(dal_batch *batch, group *b, dal__lanes failed, const
     b->alive &= ~failed;
 }
 
+/* Whether the lanes of a group must be stepped one by one: engines and compiled steps read the time
+ * of one of them. */
+static bool has_own_times(const dal_batch *batch, const group *b)
+{
+    const dal__layout *k = &batch->scalar->layout;
+    const size_t width = (size_t)b->kind->width;
+    const double *time = b->persistent + dal__at(k, DAL__TIME) * width;
+    double first = NAN;
+    if (k->system->properties & DAL_AUTONOMOUS && !(k->lifted && k->system->call.gauge))
+        return false;
+    for (size_t i = 0; i < width; i++) {
+        if (!(b->alive >> i & 1)) continue;
+        if (isnan(first)) first = time[i];
+        if (time[i] != first) return true;
+    }
+    return false;
+}
+
 /* Takes up to count steps of a group, until a lane fails; returns the number of steps tried. */
 static long long step_group(dal_batch *batch, group *b, double h, long long count,
                             dal__lanes *failed, dal_status *reason)
 {
     unsigned lanes = 0;
     int reasons[DAL__MAX_LANES];
+    if (has_own_times(batch, b)) { /* lane by lane in the scalar run */
+        *failed = 0;
+        for (int lane = 0; lane < b->kind->width; lane++) {
+            if (!(b->alive >> lane & 1)) continue;
+            gather_lane(batch, b, lane);
+            reason[lane] = dal__step_run(batch->scalar, h, count);
+            scatter_lane(batch, b, lane);
+            if (reason[lane] != DAL_STATUS_OK) *failed |= (dal__lanes)1 << lane;
+        }
+        return count;
+    }
     if (batch->native.steps) {
         count = batch->native.steps(b->persistent, b->work, h, count, (unsigned)b->alive, &lanes,
                                     reasons);

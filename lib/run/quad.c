@@ -94,3 +94,35 @@ dal_status dal__quad_observe(const dal__quad_run *run, bool exact_known, double 
 {
     return kind()->engine->observe(run->engine, exact_known, out);
 }
+
+/* Writes D, E and the invariants; *count of them. */
+static dal_status conserved_values(const dal__quad_run *run, num *out, int *count)
+{
+    const dal_system *s = run->layout.system;
+    const num *y = (const num *)(const void *)run->persistent;
+    const dal_point at = {.t = (double)y[dal__at(&run->layout, DAL__TIME)],
+                          .q = (const double *)(const void *)y,
+                          .v = (const double *)(const void *)(y + run->layout.n),
+                          .work = run->work};
+    dal_callback *const formulas[] = {s->constraints, s->energy, s->invariant_values};
+    const int counts[] = {s->m, 1, s->invariants};
+    *count = 0;
+    for (int i = 0; i < 3; i++) {
+        if (!formulas[i] || counts[i] == 0) continue;
+        DAL_TRY(formulas[i](s, &at, (double *)(void *)(out + *count)));
+        *count += counts[i];
+    }
+    return DAL_STATUS_OK;
+}
+
+dal_status dal__quad_change(const dal__quad_run *run, double h, double *memory, double *out)
+{
+    num *before = (num *)(void *)memory;
+    int count = 0;
+    DAL_TRY(conserved_values(run, before, &count));
+    num *after = before + count;
+    DAL_TRY(dal__quad_step(run, h));
+    DAL_TRY(conserved_values(run, after, &count));
+    for (int i = 0; i < count; i++) out[i] = (double)(after[i] - before[i]);
+    return DAL_STATUS_OK;
+}

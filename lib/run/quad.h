@@ -29,6 +29,9 @@ dal_status dal__quad_step(const dal__quad_run *run, double h);
 dal_status dal__quad_step_part(const dal__quad_run *run, double h, double part);
 /* As dal_run_observe; exact_known as in dal__observable_count. */
 dal_status dal__quad_observe(const dal__quad_run *run, bool exact_known, double *out);
+/* Takes a step of size h and finds what it changes of D, E where there is one, and the invariants,
+ * out[their number], rounded at the end alone; memory holds 2 quad numbers for each. */
+dal_status dal__quad_change(const dal__quad_run *run, double h, double *memory, double *out);
 /* Number i of stored quad numbers, rounded. */
 double dal__quad_rounded(const double *stored, size_t i);
 

@@ -1,0 +1,23 @@
+/* orbit.h - the exact motion from the start of a run, at any time within its steps. */
+#ifndef DAL_ORBIT_H
+#define DAL_ORBIT_H
+
+#include "dalembert_run.h"
+
+/* The exact motion on D = 0, (q, v), at times that ascend. */
+typedef struct dal__orbit dal__orbit;
+
+/* Makes the exact motion from the state of a run of spec. [alloc]
+ * Errors: as of runs. */
+dal_status dal__orbit_create(dal__orbit **orbit, const dal_run_spec *spec, const dal_run *run,
+                             dal_error *error);
+/* Frees it; NULL is allowed. */
+void dal__orbit_free(dal__orbit *orbit);
+/* Whether it is by Taylor series, in steps of its own. */
+bool dal__orbit_has_series(const dal__orbit *orbit);
+/* Gives (q, v) at the time of step k + part, 0 <= part <= 1, in out[2n]; k must not descend, part
+ * may within a step, and is 0 at first.  Errors: as of a step. */
+dal_status dal__orbit_state(dal__orbit *orbit, long long k, double part, double *out,
+                            dal_error *error);
+
+#endif
