@@ -1,7 +1,7 @@
 #!/bin/sh
 # gallery.sh PROGRAM DIR - the pictures of the README and of docs/, as SVG in DIR: figures of the
 # reports of a study, bench/studies/gallery.yaml, of three runs, a section, and of the study and the run of the
-# tutorial, and the chain of Dirac's procedure (dot).  NAME_motion.svg moves (python3).
+# tutorial, the action, predictions, and the chain of Dirac's procedure (dot).  NAME_motion.svg moves (python3).
 # The same machine draws the same bytes.
 set -e
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
@@ -65,11 +65,30 @@ set xlabel 'size A of the perturbation'
 set ylabel 'action (nh10)'
 plot for [h in '0.1 0.05 0.025'] '$work/action-'.h using 1:2 with linespoints title 'h = '.h
 END
-awk '{ print } /^>$/ { print "<style>@media (prefers-color-scheme: dark) {"
-    print "[stroke=\047black\047], [stroke=\047rgb(  0,   0,   0)\047] { stroke: #e4e4e4; }"
-    print "[fill=\047black\047], [fill=\047rgb(  0,   0,   0)\047], text { fill: #e4e4e4; }"
-    print "[color=\047black\047], [color=\047rgb(  0,   0,   0)\047] { color: #e4e4e4; } }</style>" }
-    ' "$work/action.svg" >"$2/action.svg"
+# The energy of the driven transmission, predicted and measured.
+for h in 0.1 0.05; do
+    "$program" predict pendulum-cvt --integrator rk4 --step $h --time 200 --samples 400 --output - |
+        awk -F, 'NR > 1 { print $3, $5 }' >"$work/predicted-$h"
+    "$program" run pendulum-cvt --integrator rk4 --step $h --time 200 --samples 40 --columns E --output - |
+        awk -F, 'NR == 2 { first = $2 } NR > 1 { print $1, $2 - first }' >"$work/run-$h"
+done
+gnuplot <<END
+set terminal svg size 420,280 dynamic font 'sans,12'
+set output '$work/predict.svg'
+set format y '%.0e'
+set key left bottom
+set xlabel 't'
+set ylabel 'E(t) - E(0)'
+plot for [h in '0.1 0.05'] '$work/predicted-'.h using 1:2 with lines title 'h = '.h.', predicted', \
+     for [h in '0.1 0.05'] '$work/run-'.h using 1:2 with points pt 6 ps 0.5 title 'run'
+END
+for name in action predict; do
+    awk '{ print } /^>$/ { print "<style>@media (prefers-color-scheme: dark) {"
+        print "[stroke=\047black\047], [stroke=\047rgb(  0,   0,   0)\047] { stroke: #e4e4e4; }"
+        print "[fill=\047black\047], [fill=\047rgb(  0,   0,   0)\047], text { fill: #e4e4e4; }"
+        print "[color=\047black\047], [color=\047rgb(  0,   0,   0)\047] { color: #e4e4e4; } }</style>" }
+        ' "$work/$name.svg" >"$2/$name.svg"
+done
 "$program" dirac chaplygin-sleigh --json >"$work/dirac.json"
 python3 tools/dirac-svg.py "$work/dirac.json" >"$2/dirac.svg"
 ls -l "$2"/*.svg | awk '{ print "gallery: " $9 ", " $5 " bytes" }'

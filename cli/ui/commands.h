@@ -27,6 +27,7 @@
     COMMAND(invariants)                                                                            \
     COMMAND(action)                                                                                \
     COMMAND(dirac)                                                                                 \
+    COMMAND(predict)                                                                               \
     COMMAND(explain)                                                                               \
     COMMAND(generate)                                                                              \
     COMMAND(report)                                                                                \
