@@ -197,3 +197,21 @@ def test_factors_of_invariants():
         dalembert.invariants(kepler, 0)
     with pytest.raises(dalembert.InputError, match='factors'):
         dalembert.invariants(kepler, factors=[1])
+
+
+def test_predict():
+    # rk4 multiplies the E of x'' = -x by |R(ih)|^2 = 1 - h^6/72 + h^8/576 in each step.
+    oscillator = dalembert.System("coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\n")
+    change = 0.5 * (-0.25 ** 6 / 72 + 0.25 ** 8 / 576)
+    ahead = dalembert.predict(oscillator, 'rk4', 50, step=0.25, samples=10)
+    energy = ahead.observables['E']
+    assert energy.is_conserved and not energy.is_zero and not ahead.leaves_D and ahead.reason == 'time'
+    assert np.allclose(ahead.t, np.linspace(0, 50, 11)) and ahead.end == 50
+    assert np.allclose(energy.curve, change * np.arange(0, 201, 20), rtol=1e-8, atol=0)
+    assert abs(energy.rate / (change / 0.25) - 1) < 1e-8 and np.isnan(energy.walk)
+    pieces = dalembert.predict(oscillator, 'rk4', 2, step=0.25, pieces=6)
+    assert pieces.pieces == 6 and abs(pieces.observables['E'].walk) < 1e-20
+    with pytest.raises(dalembert.Error, match='multipliers pass from step to step'):
+        dalembert.predict('heisenberg', 'gni', 1, step=0.05)
+    with pytest.raises(dalembert.InputError, match='samples'):
+        dalembert.predict(oscillator, 'rk4', 1, step=0.25, samples=0)
