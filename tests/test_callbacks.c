@@ -12,14 +12,15 @@
 enum { NUMBERS = 300, MAX_TRIALS = 600 };
 #define STEP        0.1
 #define DIFFERENCES 1e-6 /* the error of differences is smaller */
+#define MISLEADING  1e6  /* what a callback that fails leaves, which nothing may use */
 
 /* ---- a system of which one call fails ---- */
 
 /* All callbacks but exact: without its value at the start there is no observable error. */
-
 static const dal_system *original;
 static long calls, failing; /* the call that fails, from 1; 0: none */
 static const char *failed;  /* the callback that failed */
+static dal_branches branches;
 
 static bool fails(void) { return ++calls == failing; }
 
@@ -52,11 +53,14 @@ static bool fails(void) { return ++calls == failing; }
         (void)system;                                                                              \
         if (fails()) {                                                                             \
             failed = #name;                                                                        \
+            if (out) out[0] = MISLEADING;                                                          \
             return DAL_STATUS_IO;                                                                  \
         }                                                                                          \
         return original->member(original, at, out);                                                \
     }
 MEMBERS(FAIL)
+FAIL(branches->values, branch_values)
+FAIL(branches->rates, branch_rates)
 #undef FAIL
 
 static dal_system failing_system(const dal_system *system)
@@ -72,6 +76,12 @@ static dal_system failing_system(const dal_system *system)
     if (system->member) copy.member = fail_##name;
     MEMBERS(WRAP)
 #undef WRAP
+    if (system->branches) {
+        branches = *system->branches;
+        branches.values = fail_branch_values;
+        branches.rates = fail_branch_rates;
+        copy.branches = &branches;
+    }
     return copy;
 }
 
@@ -79,7 +89,8 @@ static dal_system failing_system(const dal_system *system)
 
 typedef struct trial {
     dal_run_spec spec;
-    double tolerance; /* of a result that differences with another increment may have */
+    double tolerance; /* of a result that differences with another increment may have; INFINITY:
+                       * of what the library only tries, as to hold a branch, any */
     dal_error error;
     double out[NUMBERS];
     int count;
@@ -98,6 +109,7 @@ static void add_run(trial *t, const dal_run *run)
 
 static bool are_close(const trial *a, const trial *b)
 {
+    if (isinf(a->tolerance)) return true;
     bool is_close = a->count == b->count;
     for (int i = 0; is_close && i < a->count; i++) {
         const double x = a->out[i], y = b->out[i], size = fmax(fabs(x), 1.0);
@@ -125,7 +137,7 @@ static void each_call_fails(const char *text, const char *method, dal_space spac
         failing = k;
         const dal_status seen = work(&other);
         const bool is_seen = seen == DAL_STATUS_IO || seen == DAL_STATUS_NOT_FINITE ||
-                             seen == DAL_STATUS_NOT_CONVERGED;
+                             seen == DAL_STATUS_NOT_CONVERGED || seen == DAL_STATUS_EVENT;
         const bool is_same = seen == DAL_STATUS_OK && are_close(&well, &other);
         CU_ASSERT(!is_seen || other.error.status == seen);
         CU_ASSERT(is_seen || is_same);
@@ -495,6 +507,10 @@ static const char ball[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y
                            "start: {y: 1}\n"
                            "events:\n  - {when: y, direction: down, restitution: 0.5}\n"
                            "  - {when: y - 0.2, direction: up, set: {x: x + 1}}\n";
+/* The force on x jumps at x = 0, and the one on y has a corner at x = 0.5. */
+static const char jump[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                           "forces: {x: -sign(x), y: abs(x - 0.5)}\n"
+                           "start: {x: 1}\nevents: [{when: x}, {when: x - 0.5}]\n";
 
 static void each_allocation_fails(const char *text, const char *method, dal_space space,
                                   bool is_single, trial_work *work)
@@ -511,28 +527,19 @@ static void each_allocation_fails(const char *text, const char *method, dal_spac
 
 static void test_memory(void)
 {
-    static trial_work *const works[] = {create,
-                                        step,
-                                        sample,
-                                        observe,
-                                        change,
-                                        restore,
-                                        advance_batch,
-                                        measure_lyapunov,
-                                        measure_rate,
-                                        check_derivatives,
-                                        measure_rank,
-                                        measure_scales,
-                                        project_velocity,
-                                        scale,
-                                        classify_constraints,
-                                        measure_action,
-                                        measure_order,
-                                        make_ensemble,
-                                        observe_reactions};
+    trial_work *const runs[] = {create, step, sample, observe, change, restore, advance_batch};
+    trial_work *const rates[] = {measure_rate, check_derivatives, measure_rank, measure_scales};
+    trial_work *const others[] = {project_velocity, scale, measure_action, measure_order};
+    trial_work *const last[] = {make_ensemble, observe_reactions, classify_constraints,
+                                measure_lyapunov};
     for (int once = 0; once < 2; once++) {
-        for (size_t i = 0; i < sizeof works / sizeof works[0]; i++)
-            each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, once, works[i]);
+        for (int i = 0; i < 7; i++)
+            each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, once, runs[i]);
+        for (int i = 0; i < 4; i++) {
+            each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, once, rates[i]);
+            each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, once, others[i]);
+            each_allocation_fails(sleigh, "rk4", DAL_PHYSICAL, once, last[i]);
+        }
         each_allocation_fails(sleigh, "gauss4", DAL_LIFTED, once, check_maps);
         each_allocation_fails(sleigh, "gauss4", DAL_PHYSICAL, once, budget);
         each_allocation_fails(swing, "rk4", DAL_PHYSICAL, once, cross);
@@ -540,50 +547,47 @@ static void test_memory(void)
     }
 }
 
+static void each_work_fails(const char *text, const char *method, dal_space space, double tolerance,
+                            trial_work *const *work)
+{
+    for (; *work; work++) each_call_fails(text, method, space, tolerance, *work);
+}
+
 static void test_runs(void)
 {
     static const char *const methods[] = {"rk4", "gauss4", "dla", "gauss4+project", "dop853"};
-    for (int i = 0; i < 5; i++) {
-        each_call_fails(sleigh, methods[i], DAL_PHYSICAL, 0.0, create);
-        each_call_fails(sleigh, methods[i], DAL_PHYSICAL, 0.0, step);
-        each_call_fails(sleigh, methods[i], DAL_PHYSICAL, 0.0, sample);
-        each_call_fails(sleigh, methods[i], DAL_PHYSICAL, 0.0, advance_batch);
-    }
-    each_call_fails(sleigh, "gauss4", DAL_LIFTED, 0.0, create);
-    each_call_fails(sleigh, "gauss4", DAL_LIFTED, 0.0, step);
-    each_call_fails(sleigh, "gauss4", DAL_LIFTED, 0.0, sample);
-    each_call_fails(sleigh, "gauss4", DAL_LIFTED, 0.0, observe);
-    each_call_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, observe);
-    each_call_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, change);
-    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, restore);
-    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, observe_reactions);
+    trial_work *const all[] = {create, step, sample, advance_batch, NULL},
+                      *const lifted[] = {create, step, sample, observe, NULL},
+                      *const implicit[] = {observe, change, NULL},
+                      *const explicit[] = {restore, observe_reactions, NULL};
+    for (int i = 0; i < 5; i++) each_work_fails(sleigh, methods[i], DAL_PHYSICAL, 0.0, all);
+    each_work_fails(sleigh, "gauss4", DAL_LIFTED, 0.0, lifted);
+    each_work_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, implicit);
+    each_work_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, explicit);
     each_call_fails(solved, "rk4", DAL_PHYSICAL, 0.0, create);
 }
 
 static void test_measures(void)
 {
-    static const char *const texts[] = {sleigh, fixture_quadratic};
-    for (int i = 0; i < 2; i++) {
-        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_rate);
-        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, check_derivatives);
-        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_rank);
-        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, project_velocity);
-        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, classify_constraints);
-        each_call_fails(texts[i], "rk4", DAL_PHYSICAL, DIFFERENCES, measure_scales);
-    }
-    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_action);
-    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, measure_order);
+    trial_work *const both[] =
+        {measure_rate,         check_derivatives, measure_rank, project_velocity,
+         classify_constraints, measure_scales,    NULL},
+                      *const exact[] = {measure_order, scale, NULL},
+                      *const close[] = {measure_action, measure_lyapunov, NULL};
+    each_work_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, both);
+    each_work_fails(fixture_quadratic, "rk4", DAL_PHYSICAL, DIFFERENCES, both);
+    each_work_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, close);
+    each_work_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, exact);
     each_call_fails(sleigh, "gauss4", DAL_LIFTED, DIFFERENCES, check_maps);
     each_call_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, budget);
-    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, scale);
     each_call_fails(swing, "rk4", DAL_PHYSICAL, 0.0, measure_scales);
-    each_call_fails(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_lyapunov);
 }
 
 static void test_places(void)
 {
     each_call_fails(swing, "rk4", DAL_PHYSICAL, 0.0, cross);
     each_call_fails(ball, "rk4", DAL_PHYSICAL, 1e-13, pass_events);
+    each_call_fails(jump, "rk4", DAL_PHYSICAL, INFINITY, pass_events);
 }
 
 void suite_callbacks(void)

@@ -251,8 +251,9 @@ static dal_status divide(dal__zero_search *c, bool *is_divided)
     return *is_divided ? add_part_end(c, first, end->halvings) : DAL_STATUS_OK;
 }
 
-dal_status dal__zero_accuracy(dal__zero_search *c, int k, double *accuracy)
+dal_status dal__zero_accuracy(dal__zero_search *c, int k, double *accuracy, dal_error *error)
 {
+    c->error = error; /* the search may have had another, which is gone */
     const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
     DAL_TRY(rounding_of(c, k, accuracy));
     *accuracy += fmax(fabs(a->rate[k]), fabs(b->rate[k])) * dal__crossing_resolution(c);
@@ -267,7 +268,7 @@ static dal_status locate_between(dal__zero_search *c, int k, dal__value_at begin
     double accuracy;
     dal__root root;
     DAL_TRY(dal__find_root(value_at, c, begin, end, &root));
-    DAL_TRY(dal__zero_accuracy(c, k, &accuracy));
+    DAL_TRY(dal__zero_accuracy(c, k, &accuracy, c->error));
     const bool is_before_jump = side * root.best.f > accuracy;
     c->zero[k].s = fabs(is_before_jump ? root.other.s : root.best.s);
     return DAL_STATUS_OK;

@@ -105,7 +105,7 @@ bool dal__counts_from(const dal__zero_search *c, int k, dal__side side);
  * there. */
 dal__side dal__side_at(const dal__zero_search *c, int k, double f, double slack);
 /* What |f| of function k is at most where a zero was found, unless it jumps. */
-dal_status dal__zero_accuracy(dal__zero_search *c, int k, double *accuracy);
+dal_status dal__zero_accuracy(dal__zero_search *c, int k, double *accuracy, dal_error *error);
 /* The least time that the clock resolves. */
 double dal__crossing_resolution(const dal__zero_search *c);
 

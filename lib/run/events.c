@@ -119,7 +119,7 @@ static dal_status leave_event(const dal__event_search *w, int k)
     const bool is_wall = event->actions & (DAL_EVENT_IMPACT | DAL_EVENT_TURNS) &&
                          (event->direction != 0 || event->actions & DAL_EVENT_IMPACT);
     double accuracy;
-    DAL_TRY(dal__zero_accuracy(w->crossing, k, &accuracy));
+    DAL_TRY(dal__zero_accuracy(w->crossing, k, &accuracy, w->error));
     const bool is_set = fabs(f) > dal__event_rounding(w, k) && event->actions & DAL_EVENT_SETS &&
                         f != w->m.there[k];
     const bool is_off = is_set || fabs(w->m.there[k]) > accuracy; /* by a jump of f */
