@@ -32,6 +32,10 @@ END_OF_SYSTEM
 printf '%s\n' 'coordinates: [x, y]' "lagrangian: (x'^2 + y'^2)/2" "constraints: [x' - y', 2*x' - 2*y']" >twice.yaml
 printf '%s\n' 'coordinates: [x]' "lagrangian: (x'^2 - x^2)/2" 'start: {x: 1}' 'invariants: {wrong: x}' >wrong.yaml
 
+awk 'BEGIN { print "t,x,y,x\047,y\047"
+    for (t = 0; t <= 1; t += 0.125) print t "," 2*t "," 2*t ",2,2" }' >curve.csv
+printf '%s\n' t,x,y 0,0,0 1,1,1 >short.csv
+
 # Single blanks, # for a number that is no part of a name, and for units of measured times.
 masked() {
     sed -E -e ':again' -e 's/(^|[^A-Za-z_0-9.#])[-+]?[0-9]+(\.[0-9]+)*(e[-+]?[0-9]+)?/\1#/; tagain' -e 's/  +/ /g; s/ $//' \
