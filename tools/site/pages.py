@@ -114,6 +114,17 @@ def version():
         return '.'.join(re.findall(r'^#define DAL_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)', file.read(), re.M))
 
 
+def write_versions(site, number):
+    """The list of versions, which must have this one, and the script that shows it."""
+    with open('tools/site/versions.json', encoding='utf-8') as file:
+        versions = json.load(file)
+    if number not in versions:
+        sys.exit(f'tools/site/versions.json: version {number} is missing')
+    with open('tools/site/versions.js', encoding='utf-8') as file:
+        site.write('versions.js', f'window.DALEMBERT_VERSION = {json.dumps(number)};\n' + file.read())
+    site.write('versions-list.js', f'showVersions({json.dumps(versions)});\n')
+
+
 def write_settings(out, groups, number):
     """The settings of mkdocs, with the navigation."""
     with open('tools/site/mkdocs.json', encoding='utf-8') as file:
@@ -151,6 +162,7 @@ def main(out, path):
         groups.insert(1, ('Families of methods', generated.family_pages(program, site.typesetter, site.write)))
         groups[0][1].append({'Gallery': 'gallery.md'})
     number = version()
+    write_versions(site, number)
     site.write('index.md', site.typesetter.document(generated.landing(program, number)))
     site.typesetter.save(out + '.formulas')
     write_settings(out, groups, number)
