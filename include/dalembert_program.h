@@ -75,14 +75,19 @@ long long dal__add_products(int columns, const double *mean, const double *rows,
     NUMBER(Y, "y")         /* place on the ordinate */                                             \
     NUMBER(ANGLE, "angle") /* heading, from x to y */                                              \
     NUMBER(STEER, "steer") /* angle of a board's front axle (minus the other's), or arm */         \
-    NUMBER(WIDTH, "width") /* of a disk: breadth over length as seen */
+    NUMBER(WIDTH, "width") /* of a disk: breadth over length as seen */                            \
+    NUMBER(SPIN, "spin")   /* of a disk: the angle that it has rolled forward about its axis */    \
+    NUMBER(WX, "wx")       /* of a ball or a box: its angular velocity in space */                 \
+    NUMBER(WY, "wy")                                                                               \
+    NUMBER(WZ, "wz")
 /* The bodies that are drawn, BODY(code, name). */
 #define DAL_BODY_LIST(BODY)                                                                        \
     BODY(POINT, "point")                                                                           \
     BODY(SLEIGH, "sleigh")                                                                         \
     BODY(BLADE, "blade")                                                                           \
     BODY(DISK, "disk")                                                                             \
-    BODY(BALL, "ball") BODY(ROBOT, "robot") BODY(BOARD, "board") BODY(RACER, "racer")
+    BODY(BALL, "ball")                                                                             \
+    BODY(ROBOT, "robot") BODY(BOARD, "board") BODY(RACER, "racer") BODY(BOX, "box")
 /* Places of the numbers of a picture. */
 enum {
 #define CODE(code, name) DAL_PICTURE_##code,

@@ -12,7 +12,7 @@ static const char drawn[] = "coordinates: [x, theta]\n"
                             "lagrangian: (x'^2 + theta'^2)/2\n"
                             "constraints: [x' - theta']\n"
                             "picture: {width: theta'*t, x: x + bob, y: -l*cos(theta), body: disk,\n"
-                            "          angle: theta/4}\n";
+                            "          angle: theta/4, spin: 2*theta, wz: theta'}\n";
 
 static void test_numbers(void)
 {
@@ -28,6 +28,8 @@ static void test_numbers(void)
     CU_ASSERT(out[DAL_PICTURE_ANGLE] == 0.3 / 4);
     CU_ASSERT(out[DAL_PICTURE_STEER] == 0.0);
     CU_ASSERT(fabs(out[DAL_PICTURE_WIDTH] - 1.4) < 1e-15);
+    CU_ASSERT(out[DAL_PICTURE_SPIN] == 0.6);
+    CU_ASSERT(out[DAL_PICTURE_WX] == 0.0 && out[DAL_PICTURE_WZ] == 0.7);
     reference_free(&b);
 }
 
@@ -101,6 +103,32 @@ static void test_rolling(void)
     CU_ASSERT(found >= 9);
 }
 
+/* The angular velocity in space of Suslov's body has the components R w, R = Rz(alpha) Rx(beta)
+ * Rz(gamma), of the body's w. */
+static void test_turning(void)
+{
+    const double alpha = 0.4, beta = 1.1, gamma = -0.7, q[] = {alpha, beta, gamma};
+    const double v[] = {0.3, -0.5, 0.9};
+    double w[] = {v[0] * sin(beta) * sin(gamma) + v[1] * cos(gamma),
+                  v[0] * sin(beta) * cos(gamma) - v[1] * sin(gamma), v[0] * cos(beta) + v[2]};
+    const struct {
+        int first, second;
+        double angle;
+    } turns[] = {{0, 1, gamma}, {1, 2, beta}, {0, 1, alpha}};
+    for (int k = 0; k < 3; k++) {
+        double *a = &w[turns[k].first], *b = &w[turns[k].second];
+        const double x = *a, y = *b, c = cos(turns[k].angle), s = sin(turns[k].angle);
+        *a = c * x - s * y;
+        *b = s * x + c * y;
+    }
+    double out[DAL_PICTURE_COUNT];
+    reference b = reference_builtin("suslov");
+    CU_ASSERT_FATAL(b.system->picture != NULL && b.system->picture->body == DAL_BODY_BOX);
+    CU_ASSERT(reference_call(&b, b.system->picture->evaluate, 0.0, q, v, out) == DAL_STATUS_OK);
+    for (int i = 0; i < 3; i++) CU_ASSERT(fabs(out[DAL_PICTURE_WX + i] - w[i]) < 1e-15);
+    reference_free(&b);
+}
+
 void suite_picture(void)
 {
     CU_pSuite suite = CU_add_suite("picture", NULL, NULL);
@@ -108,4 +136,5 @@ void suite_picture(void)
     CU_add_test(suite, "no picture", test_absent);
     CU_add_test(suite, "a point", test_point);
     CU_add_test(suite, "bodies move along their heading", test_rolling);
+    CU_add_test(suite, "a body turns by its angular velocity", test_turning);
 }

@@ -38,6 +38,7 @@ static const body_part parts[] = {
     {DAL_BODY_DISK, .is_narrowed = true, .radius = 1},
     {DAL_BODY_DISK, .count = 2, .at = {{0, -0.35}, {0, 0.35}}}, /* the axle; upright, a line */
     {DAL_BODY_BALL, .radius = 0.7},
+    {DAL_BODY_BOX, .count = 5, .at = {{1, 0.6}, {-1, 0.6}, {-1, -0.6}, {1, -0.6}, {1, 0.6}}},
     {DAL_BODY_ROBOT, .radius = 0.9},
     {DAL_BODY_ROBOT, .count = 2, .at = {{0, 0}, {0.9, 0}}},
     {DAL_BODY_BOARD, .count = 2, .at = {{-1, 0}, {1, 0}}},

@@ -4,6 +4,7 @@
  *
  *     x(t0 + s d) = x0 (1 + 2s)(1 - s)^2 + x0' d s (1 - s)^2 + x1 s^2 (3 - 2s) - x1' d s^2 (1 - s),
  *
+ * (an angular velocity is linear, as its rate is not known)
  * unless the rows are so far apart that they do not show the path: then the rows are the frames. */
 #include "report_motion.h"
 #include "ui/memory.h"
@@ -80,8 +81,10 @@ static void interpolate(const pose_row *a, const pose_row *b, double t, double *
 {
     const double d = b->t - a->t, s = d > 0.0 ? (t - a->t) / d : 0.0, u = 1.0 - s;
     for (int i = 0; i < DAL_PICTURE_COUNT; i++)
-        pose[i] = a->pose[i] * (1.0 + 2.0 * s) * u * u + a->rate[i] * d * s * u * u +
-                  b->pose[i] * s * s * (3.0 - 2.0 * s) - b->rate[i] * d * s * s * u;
+        pose[i] = i >= DAL_PICTURE_WX
+                      ? a->pose[i] * u + b->pose[i] * s
+                      : a->pose[i] * (1.0 + 2.0 * s) * u * u + a->rate[i] * d * s * u * u +
+                            b->pose[i] * s * s * (3.0 - 2.0 * s) - b->rate[i] * d * s * s * u;
 }
 
 /* Whether the rows are close enough for the cubics: at nine of ten rows the cubic between both

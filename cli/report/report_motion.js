@@ -8,11 +8,31 @@ const BODY_SIZE = 5.5; // half the length of a body; a path is 100 wide
 class Motion {
     constructor(data) {
         Object.assign(this, data);
-        for (const name of ['x', 'y', 'angle', 'steer', 'width']) {
+        for (const name of ['x', 'y', 'angle', 'steer', 'width', 'spin', 'wx', 'wy', 'wz']) {
             const [low, high, text] = data[name];
             this[name] = text ? levels(text).map(level => low + (high - low) * level / 65535)
                 : new Array(data.frames).fill(low);
         }
+        const rates = ['wx', 'wy', 'wz'].map(name => this[name]);
+        if (this.smooth && rates.some(w => w.some(rate => rate !== 0))) this.turns = this.orient(rates);
+    }
+    // The orientations, quaternions, of the angular velocities: from frame to frame by the turn about their mean.
+    orient(rates) {
+        const half = (this.end - this.start) / (this.frames - 1) / 2, turns = [[1, 0, 0, 0]];
+        for (let i = 1; i < this.frames; i++) {
+            const w = rates.map(rate => (rate[i - 1] + rate[i]) / 2 * half), size = Math.hypot(...w);
+            const c = Math.cos(size), [x, y, z] = w.map(part => part * (size ? Math.sin(size) / size : 1));
+            const [q, a, b, d] = turns[i - 1];
+            turns.push([c * q - x * a - y * b - z * d, c * a + x * q + y * d - z * b,
+                c * b - x * d + y * q + z * a, c * d + x * b - y * a + z * q]);
+        }
+        return turns;
+    }
+    // A point of the body in space, turned as it is at a frame.
+    turned([x, y, z], f) {
+        const [q, a, b, c] = this.turns[Math.round(f)];
+        const u = 2 * (b * z - c * y), v = 2 * (c * x - a * z), w = 2 * (a * y - b * x);
+        return [x + q * u + b * w - c * v, y + q * v + c * u - a * w, z + q * w + a * v - b * u];
     }
     frame(t) {
         const f = (t - this.start) / (this.end - this.start) * (this.frames - 1);
@@ -38,7 +58,7 @@ class View {
         this.scale = this.isPlane ? [100 / this.extent, 100 / this.extent] : [100 / (size[0] || 1), 60 / (size[1] || 1)];
         this.middle = ranges.map(([low, high]) => (low + high) / 2);
         this.half = size.map((width, k) => Math.max(width * this.scale[k] / 2, this.isPlane ? 0 : 20) + 2 * BODY_SIZE);
-        Object.assign(this, {is3D: motions.some(m => ['disk', 'ball'].includes(m.body)), azimuth: -25, elevation: 35});
+        Object.assign(this, {is3D: motions.some(m => ['disk', 'ball', 'box'].includes(m.body)), isPath: Math.max(...size) > 0, azimuth: -25, elevation: 35});
         // 1, 2 or 5 times a power of ten, a tenth to a quarter of the path.
         const power = 10 ** Math.floor(Math.log10(this.extent / 4)), times = this.extent / 4 / power;
         this.bar = Number(((times < 2 ? 1 : times < 5 ? 2 : 5) * power).toPrecision(1));
@@ -58,6 +78,12 @@ class View {
         const [a, b] = this.half, r = Math.hypot(a, b);
         return this.is3D ? [-r, -0.8 * r, 2 * r, 1.6 * r] : [-a, -b, 2 * a, 2 * b];
     }
+    // Which side of a body is seen, as its direction in space.
+    towards() {
+        if (!this.is3D) return [0, 0, 1];
+        const turn = this.azimuth * Math.PI / 180, rise = this.elevation * Math.PI / 180;
+        return [-Math.cos(rise) * Math.sin(turn), -Math.cos(rise) * Math.cos(turn), Math.sin(rise)];
+    }
     turn(azimuth, elevation) {
         this.azimuth = (this.azimuth + azimuth) % 360;
         this.elevation = Math.min(Math.max(this.elevation + elevation, 5), 90);
@@ -66,6 +92,11 @@ class View {
 
 const ROUND = Array.from({length: 33}, (_, i) => [Math.cos(i * Math.PI / 16), Math.sin(i * Math.PI / 16)]);
 
+// Lines on a ball, three circles, and the edges of a box, of half length 1.
+const CIRCLES = [([a, b]) => [a, b, 0], ([a, b]) => [0, a, b], ([a, b]) => [b, 0, a]].map(place => ROUND.map(place));
+const BOX = [1, 0.6, 0.3], CORNERS = [0, 1, 2, 3, 4, 5, 6, 7].map(i => BOX.map((size, k) => i >> k & 1 ? size : -size));
+const EDGES = CORNERS.flatMap((one, i) => [1, 2, 4].filter(bit => !(i & bit)).map(bit => [one, CORNERS[i + bit]]));
+
 // One motion on a stage: its path, its trail and its body.
 class Actor {
     constructor(motion, view, colour, isAlone) {
@@ -73,7 +104,8 @@ class Actor {
         this.path = svg('path', {class: motion.smooth ? 'path' : 'path dots'});
         this.trail = svg('path', {class: 'trail', style: `stroke: ${colour}`});
         this.shapes = motion.parts.map(() => svg('path', isAlone ? {} : {style: `stroke: ${colour}`}));
-        this.body = svg('g', {class: 'body'}, ...this.shapes);
+        this.marks = svg('path', isAlone ? {class: 'marks'} : {class: 'marks', style: `stroke: ${colour}`});
+        this.body = svg('g', {class: 'body'}, ...this.shapes, this.marks);
     }
     place(f) {
         return this.view.place(this.motion.at('x', f), this.motion.at('y', f));
@@ -109,12 +141,36 @@ class Actor {
         return ROUND.map(([a, b]) => [middle[0] + BODY_SIZE * radius * a, middle[1] + BODY_SIZE * radius * b]
             .map(c => c.toFixed(2)).join(' '));
     }
+    // What shows how the body is turned: the spoke of a disk that rolls, lines on the side of a ball that is seen, and
+    // the edges of a box.
+    orientation(f) {
+        const m = this.motion, [x, y, z] = this.place(f), isBall = m.body === 'ball', towards = this.view.towards();
+        if (m.body === 'disk' && m.spin.some(s => s !== m.spin[0])) {
+            const s = m.at('spin', f), rim = [[0, 0], [Math.cos(s), -Math.sin(s)]];
+            return 'M' + this.write(this.outline({pivot: [0, 0], turn: 0, narrowed: true, radius: 0, line: rim}, f)).join('L');
+        }
+        if (!m.turns || !(isBall || m.body === 'box')) return '';
+        const size = BODY_SIZE * (isBall ? 0.7 : 1), rise = isBall && this.view.is3D ? size : 0;
+        return (isBall ? CIRCLES : EDGES).map(line => {
+            let isDown = false;
+            return line.map(point => m.turned(point, f)).map(p => {
+                if (isBall && p[0] * towards[0] + p[1] * towards[1] + p[2] * towards[2] < 0) {
+                    isDown = false;
+                    return '';
+                }
+                const text = (isDown ? 'L' : 'M') + this.write([[x + size * p[0], y + size * p[1], z + rise + size * p[2]]])[0];
+                isDown = true;
+                return text;
+            }).join('');
+        }).join('');
+    }
     drawPath() {
         this.path.setAttribute('d', this.line(0, this.motion.frames - 1));
     }
     show(t, trail) {
         const m = this.motion, f = m.frame(t), from = Math.max(0, Math.ceil(f - trail * m.frames));
-        m.parts.forEach((part, i) => this.shapes[i].setAttribute('d', 'M' + (m.body === 'ball' && this.view.is3D
+        this.marks.setAttribute('d', this.orientation(f));
+        m.parts.forEach((part, i) => this.shapes[i].setAttribute('d', m.body === 'box' && m.turns ? '' : 'M' + (m.body === 'ball' && this.view.is3D
             ? this.ball(f, part.radius) : this.write(this.outline(part, f))).join('L')));
         this.trail.setAttribute('d', trail > 0 ? this.line(from, f) : '');
     }
@@ -139,7 +195,7 @@ class Stage {
         const samples = motions.flatMap((m, i) => [html('span', {class: 'control'},
             html('span', {class: 'sample', style: `border-top: 3px solid ${colours[i]}`}), ` ${m.method}, h = ${m.step}`), ' ']);
         this.figure = html('figure', {}, this.picture, html('figcaption', {}, ...samples,
-            view.isPlane ? `The bar is ${view.bar} long.` : `${axes[1]} over ${axes[0]}, not to scale.`));
+            !view.isPath ? 'It turns in its place.' : view.isPlane ? `The bar is ${view.bar} long.` : `${axes[1]} over ${axes[0]}, not to scale.`));
     }
     press(event, redraw) {
         const azimuth = {ArrowLeft: -10, ArrowRight: 10}[event.key], elevation = {ArrowUp: 10, ArrowDown: -10}[event.key];
@@ -152,7 +208,7 @@ class Stage {
         const {view} = this, [a, b] = view.half, length = view.bar * view.scale[0], begin = [3 - a, 3 - b, 0];
         fill(this.picture, {viewBox: view.box().map(c => c.toFixed(2)).join(' ')});
         this.actors.forEach(actor => actor.drawPath());
-        this.scale.setAttribute('d', view.isPlane ? 'M' + [begin, [begin[0] + length, begin[1], 0]]
+        this.scale.setAttribute('d', view.isPlane && view.isPath ? 'M' + [begin, [begin[0] + length, begin[1], 0]]
             .map(p => view.project(p).join(' ')).join('L') : '');
     }
 }

@@ -141,8 +141,10 @@ static int draw_path(body_path *p, report *r, const char *name, const char *capt
     plot_curve *curve = report_curve(&plot, "");
     for (long long k = 0; (more = pose_next(&p->poses)) > 0; k++) add_row(p, &plot, curve, k);
     if (more < 0) status = CLI_IO;
+    const bool moves = body != DAL_BODY_BOX || p->high[0] > p->low[0] || p->high[1] > p->low[1];
+    if (!moves) curve->count = 0; /* a body that turns in its place has no path */
     break_path(p, curve);
-    draw_bodies(p, &plot);
+    if (moves) draw_bodies(p, &plot);
     if (status == CLI_DONE) status = draw_events(p, &plot);
     if (p->instants > 0 && body != DAL_BODY_POINT)
         snprintf(text, sizeof text, "The %s, not to scale, at %d of the rows.", body_name[body],

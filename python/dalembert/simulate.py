@@ -20,7 +20,7 @@ from .run import Array, Event, Run, Table, Watch, doubles
 from .spec import SystemLike, takes_run_options, time_or_default
 from .system import System
 
-NUMBERS = ('x', 'y', 'angle', 'steer', 'width')  # of a pose, in the order of a picture
+NUMBERS = ('x', 'y', 'angle', 'steer', 'width', 'spin', 'wx', 'wy', 'wz')  # of a pose, in the order of a picture
 PAIRS = (('x', 'y'), ('x1', 'x2'), ('y1', 'y2'))
 FRAMES, PATH_POINTS = 120, 600
 
@@ -78,8 +78,9 @@ class Trajectory:
         Returns
         -------
         dict of str to ndarray, or None
-            ``x``, ``y``, ``angle``, ``steer``, ``width``.  Of a system without a picture the place
-            alone, by the first of (x, y), (x1, x2), (y1, y2) that are coordinates; None without one.
+            ``x``, ``y``, ``angle``, ``steer``, ``width``, ``spin``, ``wx``, ``wy``, ``wz``.  Of a system
+            without a picture the place alone, by the first of (x, y), (x1, x2), (y1, y2) that are
+            coordinates; None without one.
         """
         coordinates = self.system.coordinates
         callback = lib.python_picture(self.system._system)

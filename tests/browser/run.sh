@@ -34,6 +34,12 @@ systems:
   - {system: nonholonomic-particle, label: "a label <that> is \"rather\" long, and has words in it"}
   - {system: damped-oscillator, integrators: [rk4, symplectic-euler-11], step: 0.5, time: 40}
 END_OF_STUDY
+cat >box.yaml <<'END_OF_SYSTEM'
+coordinates: [a]
+lagrangian: a'^2/2
+start: {a': 1}
+picture: {x: 0, y: 0, wz: a', body: box}
+END_OF_SYSTEM
 {
     "$program" study page.yaml --output study || [ $? -eq 1 ]
     "$program" report study/runs/chaplygin-sleigh_rk4+project_physical_0.1
@@ -50,6 +56,10 @@ END_OF_STUDY
     "$program" report disk
     "$program" run damped-oscillator --integrator gauss4 --step 0.05 --time 5 --output single
     "$program" report single
+    "$program" run box.yaml --integrator gauss4 --step 0.01 --time 1.5707963267948966 --output box
+    "$program" report box
+    "$program" run pendulum-cvt --integrator gni --step 0.1 --time 2000 --samples 50 --output few
+    "$program" report few
     "$program" run "$here/../../examples/ball-on-incline.yaml" --output bounces
     "$program" report bounces
     "${program%/*}/bench/page" bench "$here/bench.jsonl"

@@ -1,6 +1,6 @@
 """script.py BROWSER DIRECTORY GALLERY - the pages of reports as they are used, in headless Chromium.
 
-DIRECTORY has the reports study, run, orders, disk and single, GALLERY moving pictures.  Keys, clicks and the pointer are the browser's own
+DIRECTORY has the reports study, run, orders, disk, single, box and few, GALLERY moving pictures.  Keys, clicks and the pointer are the browser's own
 input.  Every fault is a line "fault: ..."; nothing depends on how fast the machine is.
 """
 import glob
@@ -388,6 +388,37 @@ def check_turn(browser):
     expect(browser.run(body) == flat, "turn: the plane turns")
 
 
+def check_box(browser):
+    """A box that turns by wz = 1 up to t = pi/2 has made a quarter turn, as seen from above."""
+    bring(browser, "document.querySelector('.motion')", "svg")
+    box = "[...document.querySelectorAll('.motion label')].find(l => l.textContent.includes('3D')).control"
+    if browser.run(f"{box}.checked"):
+        focus(browser, box)
+        browser.press(" ")
+    slider = "document.querySelector('.motion input[type=range]')"
+    focus(browser, slider)
+    for key, wanted in [("Home", 1 / 0.6), ("End", 0.6)]:
+        browser.press(key)
+        width, height = browser.run("(b => [b.width, b.height])(document.querySelector('.motion .marks').getBBox())")
+        expect(abs(width / height - wanted) < 2e-3, f"box: at {key} it is {width} times {height}")
+    caption = browser.run("document.querySelector('.motion figcaption').textContent")
+    expect(caption.endswith("It turns in its place."), f"box: the caption is '{caption}'")
+
+
+def check_last(browser):
+    """Of a run with few rows the last steps are figures of their own, which zoom together and not with the others."""
+    one, other, whole = find_figure("Coordinates, the last"), find_figure("Energy, the last"), find_figure("Coordinates")
+    for figure in one, other, whole:
+        browser.run(f"{figure}.scrollIntoView()")
+        wait_until(browser, f"{figure}.querySelector('canvas')")
+    read = "FIGURE.querySelector('.readout').textContent"
+    focus(browser, f"{one}.querySelector('.chart')")
+    browser.press("ArrowRight")
+    times = [browser.run(read.replace("FIGURE", figure)).split(":")[0] for figure in (one, other, whole)]
+    expect(times[0] == times[1] == "t = 1948.9", f"last: the first of the last steps are at {times[:2]}")
+    expect(times[2] != times[0], f"last: the chart of the whole run shows {times[2]}")
+
+
 def check_single(browser):
     """A system with one coordinate moves over t."""
     bring(browser, "document.querySelector('.motion')", "svg")
@@ -426,7 +457,7 @@ def check_gallery(browser, gallery):
 def main(program, directory, gallery):
     """All checks, in a wide and a narrow window, light and dark."""
     browser = Chromium(program, f"{directory}/profile-script")
-    page = {name: f"file://{directory}/{name}/report/index.html" for name in ("study", "run", "orders", "disk", "single")}
+    page = {name: f"file://{directory}/{name}/report/index.html" for name in ("study", "run", "orders", "disk", "single", "box", "few")}
     for width, dark in [(1280, False), (1280, True), (400, False), (400, True)]:
         browser.open(page["study"], width, dark)
         controls = check_names(browser, "study")
@@ -453,6 +484,11 @@ def main(program, directory, gallery):
         check_layout(browser, "disk")
         browser.open(page["single"], width, dark)
         check_single(browser)
+        browser.open(page["box"], width, dark)
+        check_box(browser)
+        browser.open(page["few"], width, dark)
+        check_last(browser)
+        check_layout(browser, "few")
         browser.open(page["orders"], width, dark)
         controls += check_names(browser, "orders")
         check_chart(browser, "orders", "Order")

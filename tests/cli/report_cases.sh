@@ -545,7 +545,7 @@ expect "it is said more than once" test "$(grep -c gnuplot err)" -eq 1
 printf '%s\n' 'coordinates: [theta1, x_y]' "lagrangian: (theta1'^2 + x_y'^2)/2" "start: {theta1': 1}" \
     'invariants: {"a_b": x_y}' >symbols.yaml
 try 0 run symbols.yaml --integrator rk4 --step 0.1 --time 1 --output symbols --observe 'theta1^2; x_y*2'
-if needs 9 "no gnuplot" there gnuplot; then
+if needs 12 "no gnuplot" there gnuplot; then
     try 0 report symbols --svg
     silent
     expect "no picture of 3.4 inches" grep -q 'viewBox="0 0 326 ' symbols/report/angles.svg
@@ -555,5 +555,16 @@ if needs 9 "no gnuplot" there gnuplot; then
     expect "no labels of TeX" grep -Fq '$\theta_{1}$' symbols/report/angles.tex
     expect "an index that is none" grep -Fq 'x\_y' symbols/report/coordinates.tex
     expect "a power without an escape" grep -Fq '$\theta_{1}$\textasciicircum{}2' symbols/report/observed.tex
+    if needs 3 "no pdflatex" there pdflatex; then
+        case_is "labels that TeX sets"
+        # Of the study too, whose labels have quotes, < and >.
+        try 0 report drawn --pdf
+        { printf '%s\n' '\documentclass{article}' '\usepackage{graphicx,color}' '\begin{document}'
+          printf '\\input{%s}\n' symbols/report/*.tex drawn/report/*.tex
+          printf '%s\n' '\end{document}'; } >paper.tex
+        expect "TeX fails" env TEXINPUTS=symbols/report:drawn/report: pdflatex -interaction=nonstopmode -halt-on-error paper.tex
+        expect "no pages" sh -c "head -c 5 paper.pdf | grep -q %PDF-"
+        counted
+    fi
     counted
 fi
