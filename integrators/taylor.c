@@ -162,10 +162,10 @@ DAL_INLINE dal_status divided(dal_step *s, num *x, num *rate, const dal_expansio
     DAL_VECTOR(s, z, 2 * DAL_DIM(s));
     dal_control c = dal_control_begin(s);
     int is_trial = 0; /* whether z is the end of a trial: else the state */
-    dal_times left = c.left;
+    dal_times rest = c.rest;
     DAL_EACH(i, dim) z[i] = s->y[i];
     for (;;) {
-        const dal_times t = c.start + c.direction * (c.whole - left);
+        const dal_times t = c.start + c.direction * (c.whole - rest);
         dal_expand_first(s, t, z, e);
         if (is_trial) {
             const dal_mask good = is_accepted(s, c.h, z, derivative);
@@ -176,7 +176,7 @@ DAL_INLINE dal_status divided(dal_step *s, num *x, num *rate, const dal_expansio
             dal_control_end(s, &c, (dal_times)dal_select(good, keeps, halves), rate);
             if (differ && dal_any(c.active & ~c.again)) {
                 DAL_EACH(i, dim) z[i] = s->y[i];
-                left = c.left;
+                rest = c.rest;
                 is_trial = 0;
                 continue;
             }
@@ -191,7 +191,7 @@ DAL_INLINE dal_status divided(dal_step *s, num *x, num *rate, const dal_expansio
             c.planned = (dal_times)dal_select(c.again, c.planned, planned);
         }
         if (!dal_control_next(s, &c)) return dal_control_status(s, &c);
-        left = c.left - c.direction * c.h;
+        rest = c.rest - c.direction * c.h;
         dal_evaluate_polynomial(s, c.h, x, rate, derivative);
         DAL_EACH(i, dim) z[i] = s->y[i] + dal_fma(c.h, rate[i], s->r[i]);
         is_trial = 1;

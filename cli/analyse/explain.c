@@ -152,13 +152,13 @@ static const char *cell_text(const dal_shares *a, int source, char cell[CELL_SIZ
 
 static void print_shares(const dal_error_budget *e, const int *list, int count)
 {
-    int shown[DAL_ERROR_SOURCES], columns = 0, left = LINE - 2;
+    int shown[DAL_ERROR_SOURCES], columns = 0, rest = LINE - 2;
     for (int s = 0; s < DAL_ERROR_SOURCES; s++) {
         if (!has_column(e, list, count, s)) continue;
         shown[columns++] = s;
-        left -= 2 + width_of(e, s);
+        rest -= 2 + width_of(e, s);
     }
-    const int width = 2 + width_of_names(e, list, count, left);
+    const int width = 2 + width_of_names(e, list, count, rest);
     printf("%*s", width, "");
     for (int c = 0; c < columns; c++) printf("  %*s", width_of(e, shown[c]), head_of(e, shown[c]));
     putchar('\n');

@@ -159,10 +159,10 @@ static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, dou
     const double begin = cli_thread_seconds();
     /* A step under a tolerance may take long. */
     const long long chunk = spec->options.tolerance > 0.0 ? 1 : CHUNK;
-    for (long long left = order_count_steps(s, spec->options.step);
-         left > 0 && status == DAL_STATUS_OK; left -= chunk)
+    for (long long rest = order_count_steps(s, spec->options.step);
+         rest > 0 && status == DAL_STATUS_OK; rest -= chunk)
         status = cli_interrupted() ? DAL_STATUS_INTERRUPTED
-                                   : dal_run_advance(run, left < chunk ? left : chunk, error);
+                                   : dal_run_advance(run, rest < chunk ? rest : chunk, error);
     *cost = (run_cost){dal_run_evaluations(run), cli_thread_seconds() - begin};
     memcpy(end, dal_run_state(run), (size_t)s->numbers * sizeof *end);
     dal_run_free(run);

@@ -103,8 +103,8 @@ int ensemble_chunks(const ensemble *e)
 
 int ensemble_chunk_members(const ensemble *e, int chunk)
 {
-    const long long left = e->members - (long long)chunk * ENSEMBLE_CHUNK;
-    return left < ENSEMBLE_CHUNK ? (int)left : ENSEMBLE_CHUNK;
+    const long long rest = e->members - (long long)chunk * ENSEMBLE_CHUNK;
+    return rest < ENSEMBLE_CHUNK ? (int)rest : ENSEMBLE_CHUNK;
 }
 
 /* Members are observed after whole steps: all lanes of a batch have one time. */

@@ -95,14 +95,14 @@ static void take_worker(void *user)
 
 static void write_json_progress(const pool_state *p, double seconds)
 {
-    const double left = (double)(p->members - p->done);
+    const double rest = (double)(p->members - p->done);
     json_writer w = {.out = stderr};
     json_open(&w, NULL, JSON_ON_ONE_LINE);
     json_put_integer(&w, "done", p->done);
     json_put_integer(&w, "members", p->members);
     json_put_number(&w, "seconds", seconds);
     json_put_number(&w, "remaining",
-                    left > 0 ? seconds * left / (double)(p->done - p->begun) : 0.0);
+                    rest > 0 ? seconds * rest / (double)(p->done - p->begun) : 0.0);
     json_close(&w);
     fputc('\n', w.out);
 }

@@ -51,7 +51,7 @@ static int for_rows(const statistics *s, int time,
     double *rows = cli_calloc(ROWS * (size_t)s->e->columns, sizeof *rows);
     int status = CLI_DONE;
     for (long long first = 0; first < s->e->members && status == CLI_DONE; first += ROWS) {
-        const long long left = s->e->members - first, count = left < ROWS ? left : ROWS;
+        const long long rest = s->e->members - first, count = rest < ROWS ? rest : ROWS;
         status = read_states(s, time, first, count, rows);
         if (status == CLI_DONE) use(user, rows, count);
     }

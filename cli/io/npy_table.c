@@ -65,8 +65,8 @@ static int transfer_rows(const npy_table *table, long long first, long long coun
 {
     unsigned char bytes[BLOCK * WORD];
     off_t at = (off_t)table->header + (off_t)first * table->columns * WORD;
-    for (long long left = count * table->columns; left > 0;) {
-        const size_t n = left < BLOCK ? (size_t)left : BLOCK;
+    for (long long rest = count * table->columns; rest > 0;) {
+        const size_t n = rest < BLOCK ? (size_t)rest : BLOCK;
         for (size_t i = 0; way == FILE_WRITE && i < n; i++)
             write_le_double(bytes + i * WORD, values[i]);
         if (file_transfer(table->descriptor, bytes, n * WORD, at, way) < n * WORD)
@@ -74,7 +74,7 @@ static int transfer_rows(const npy_table *table, long long first, long long coun
         for (size_t i = 0; way == FILE_READ && i < n; i++)
             values[i] = read_le_double(bytes + i * WORD);
         values += n;
-        left -= (long long)n;
+        rest -= (long long)n;
         at += (off_t)(n * WORD);
     }
     return CLI_DONE;

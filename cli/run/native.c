@@ -24,7 +24,7 @@
  * the cells of a study, which keep all processors busy, than the third.  Compiling takes as long as
  * 200,000 to 750,000 interpreted steps, of small systems a quarter of a second to two: where less
  * is left nothing is to be gained by it. */
-static const double measured = 0.002, left_alone = 0.5, left_together = 10.0;
+static const double measured = 0.002, min_alone = 0.5, min_together = 10.0;
 
 /* Seconds that it takes to search the cache, where it has code for such a system, measured: a text
  * is written and hashed, at a microsecond an operation of F and its Jacobian, an object read and
@@ -204,11 +204,11 @@ static rest estimate_rest(const native_run *n)
 }
 
 /* Takes the next part from the cache, once, where more of the run is left than that takes. */
-static native_code *search_cache(native_run *n, const rest *left)
+static native_code *search_cache(native_run *n, const rest *ahead)
 {
     const dal_system *s = dal_run_system(n->run);
     const double operations = (double)s->field_operations + (double)s->jacobian_operations;
-    if (n->has_searched || left->seconds < SEARCH_WORTH * (search + search_operation * operations))
+    if (n->has_searched || ahead->seconds < SEARCH_WORTH * (search + search_operation * operations))
         return NULL;
     n->has_searched = true;
     return get_code(n, CACHE);
@@ -216,11 +216,11 @@ static native_code *search_cache(native_run *n, const rest *left)
 
 /* Starts a compiler beside the run where it is worth it: so much is left.  A part that cannot be
  * compiled is left out. */
-static native_code *compile_beside(native_run *n, const rest *left)
+static native_code *compile_beside(native_run *n, const rest *ahead)
 {
     if (n->part == NATIVE_OBSERVABLES && !n->observes) return NULL;
-    if (left->seconds < (n->alike > 1.0 ? left_together : left_alone)) return NULL;
-    const bool is_urgent = n->alike > 1.0 || left->steps >= URGENT;
+    if (ahead->seconds < (n->alike > 1.0 ? min_together : min_alone)) return NULL;
+    const bool is_urgent = n->alike > 1.0 || ahead->steps >= URGENT;
     native_code *const c = get_code(n, is_urgent ? URGENTLY_BESIDE : BESIDE_THE_RUN);
     if (!c) begin_part(n, n->part + 1);
     return c;
@@ -237,9 +237,9 @@ void native_poll(native_run *n)
         pthread_mutex_unlock(&mutex);
     }
     if (!n->code) {
-        const rest left = estimate_rest(n);
-        n->code = search_cache(n, &left);
-        if (!n->code && is_free) n->code = compile_beside(n, &left);
+        const rest ahead = estimate_rest(n);
+        n->code = search_cache(n, &ahead);
+        if (!n->code && is_free) n->code = compile_beside(n, &ahead);
     }
     if (n->code) use_code(n);
 }

@@ -132,8 +132,8 @@ static void print_systems(FILE *out, const study_matrix *s)
         free(text);
     }
     fputc('\n', out);
-    const int left = s->plan->case_count - s->columns;
-    if (left > 0) fprintf(out, "   and %d more, which the tables show\n", left);
+    const int rest = s->plan->case_count - s->columns;
+    if (rest > 0) fprintf(out, "   and %d more, which the tables show\n", rest);
 }
 
 /* Whether a matrix has a number of E without a trend. */

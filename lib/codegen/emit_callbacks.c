@@ -81,7 +81,7 @@ static void write_program(dal__generation *g, dal__program_code code, const char
 static bool is_direct(const dal__generation *g, dal__program_code code)
 {
     const dal__program *p = &g->programs->program[code];
-    return is_inlined(g, code) && p->checked + p->left == 0;
+    return is_inlined(g, code) && p->checked + p->saved == 0;
 }
 
 /* The case of one callback.  A function that is not inlined gets copies, so that the state itself
@@ -90,7 +90,7 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
                        const char *name)
 {
     const dal__program *p = &g->programs->program[code];
-    const int outputs = p->outputs, pivots = outputs + 2 * p->checked, all = pivots + p->left;
+    const int outputs = p->outputs, pivots = outputs + 2 * p->checked, all = pivots + p->saved;
     if (!dal__wants(g, code)) return;
     if (is_direct(g, code)) {
         dal__buffer_print(&g->text, "    case DAL_EVAL_%s: dal__%s(w, t, q, v, pi, out); break;\n",
@@ -114,11 +114,11 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
     }
     dal__buffer_print(&g->text, "        dal__mask_singular(all, %d, %d, out);\n", outputs,
                       p->checked);
-    if (p->left > 0 && g->layout.pivots > 0 && g->product != DAL__PRODUCT_OBSERVE)
+    if (p->saved > 0 && g->layout.pivots > 0 && g->product != DAL__PRODUCT_OBSERVE)
         dal__buffer_print(&g->text,
                           "        if (pivots)\n            DAL_EACH(i, %d) "
                           "pivots[i * DAL_STEP_GROUPS] = all[%d + i];\n",
-                          p->left, pivots);
+                          p->saved, pivots);
     dal__buffer_append(&g->text, "        break;\n    }\n");
 }
 
@@ -193,7 +193,7 @@ static void write_series(dal__generation *g)
     const dal__taylor *taylor = g->programs->taylor[lifted];
     const dal__program *p =
         &g->programs->program[lifted ? DAL__PROGRAM_ADJOINT : DAL__PROGRAM_FIELD];
-    const int outputs = p->outputs, pivots = outputs + 2 * p->checked, end = pivots + p->left;
+    const int outputs = p->outputs, pivots = outputs + 2 * p->checked, end = pivots + p->saved;
     dal__buffer *text = &g->text;
     write_orders(g, DAL__FIRST, outputs, end);
     write_orders(g, DAL__NEXT, outputs, end);
@@ -219,12 +219,12 @@ static void write_series(dal__generation *g)
     if (p->checked > 0)
         dal__buffer_print(text, "    if (k == 0) dal__mask_singular(all, %d, %d, out);\n", outputs,
                           p->checked);
-    if (p->left > 0 && g->layout.pivots > 0)
+    if (p->saved > 0 && g->layout.pivots > 0)
         dal__buffer_print(text,
                           "    if (k == 0 && !s->pivots_known[0]) {\n"
                           "        DAL_EACH(i, %d) s->pivots[i] = all[%d + i];\n"
                           "        s->pivots_known[0] = 1;\n    }\n",
-                          p->left, pivots);
+                          p->saved, pivots);
     dal__buffer_append(text, "}\n");
 }
 

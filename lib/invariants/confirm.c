@@ -152,9 +152,9 @@ static bool adds_direction(gradients *g, const double *row, int *held)
     for (int pass = 0; pass < 2; pass++)
         for (int k = 0; k < *held; k++)
             dal__remove_component(next, g->rows + (size_t)k * width, g->moving);
-    const double left = sqrt(dal__dot_product(g->moving, next, next));
-    if (!(left > dependent)) return false;
-    for (size_t i = 0; i < width; i++) next[i] /= left;
+    const double rest = sqrt(dal__dot_product(g->moving, next, next));
+    if (!(rest > dependent)) return false;
+    for (size_t i = 0; i < width; i++) next[i] /= rest;
     ++*held;
     return true;
 }

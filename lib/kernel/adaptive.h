@@ -57,7 +57,7 @@ typedef struct dal_control {
     dal_mask again;    /* lanes whose trial begins where the last one did */
     dal_mask active;   /* lanes that have not reached the end */
     dal_mask alive;    /* lanes that began */
-    dal_times left;    /* of the step */
+    dal_times rest;    /* of the step */
     double start;      /* t of the step */
     double whole;      /* its size, positive */
     double direction;  /* 1, or -1 backwards in t */
@@ -99,8 +99,8 @@ DAL_INLINE dal_control dal_control_begin(const dal_step *s)
     c.direction = s->h < 0.0 ? -1.0 : 1.0;
     const num before = *s->substep, whole = dal_num(c.whole);
     c.planned = (dal_times)dal_select(dal_less(dal_num(0.0), before), before, whole);
-    c.left = (dal_times)whole;
-    c.t = c.h = c.left;
+    c.rest = (dal_times)whole;
+    c.t = c.h = c.rest;
     c.trials = 0;
     c.again = ~dal_all();
     c.active = c.alive = s->alive;
@@ -118,8 +118,8 @@ DAL_INLINE void dal__control_fail(dal_step *s, dal_control *c, dal_mask lanes)
 DAL_INLINE int dal_control_next(dal_step *s, dal_control *c)
 {
     const double coarse = 4.0 * c->whole;
-    const num left = c->left, planned = c->planned, rounded = (c->planned + coarse) - coarse;
-    const num size = dal_select(dal_less_equal(left, DAL__STRETCH * planned), left, rounded);
+    const num rest = c->rest, planned = c->planned, rounded = (c->planned + coarse) - coarse;
+    const num size = dal_select(dal_less_equal(rest, DAL__STRETCH * planned), rest, rounded);
     const dal_mask stuck = c->active & ~dal_less(dal_num(0.0), size);
     if (DAL_RARELY(dal_any(stuck))) {
         *s->substep = dal_select(stuck, dal_num(0.0), *s->substep);
@@ -127,7 +127,7 @@ DAL_INLINE int dal_control_next(dal_step *s, dal_control *c)
     }
     if (c->trials++ == DAL__MAX_TRIALS) dal__control_fail(s, c, c->active);
     c->h = c->direction * (dal_times)dal_select(c->active, size, dal_num(0.0));
-    c->t = c->start + c->direction * (c->whole - c->left);
+    c->t = c->start + c->direction * (c->whole - c->rest);
     return dal_any(c->active);
 }
 
@@ -157,10 +157,10 @@ DAL_INLINE void dal_control_end(dal_step *s, dal_control *c, dal_times ratio, co
     dal_update_lanes(s, c->h, derivative);
     s->alive = c->alive;
 #ifndef DAL_SPECIALISED
-    const double from = c->whole - dal_lane(c->left, 0);
+    const double from = c->whole - dal_lane(c->rest, 0);
 #endif
-    c->left = (dal_times)dal_select(accepted, c->left - size, c->left);
-    c->active &= dal_less(dal_num(0.0), c->left);
+    c->rest = (dal_times)dal_select(accepted, c->rest - size, c->rest);
+    c->active &= dal_less(dal_num(0.0), c->rest);
 #ifndef DAL_SPECIALISED
     if (DAL_RARELY(s->dense != NULL) && dal_any(accepted)) {
         s->dense->from = from;
@@ -176,12 +176,12 @@ DAL_INLINE void dal_control_end(dal_step *s, dal_control *c, dal_times ratio, co
 DAL_INLINE dal_status dal_control_status(dal_step *s, const dal_control *c)
 {
     const dal_mask failed = c->alive & s->unconverged;
-    const double left = dal_lane(c->left, 0);
+    const double rest = dal_lane(c->rest, 0);
     if (dal_any(c->alive & ~failed) || !dal_any(failed)) {
         s->t = c->start + c->direction * c->whole;
         return DAL_STATUS_OK;
     }
-    s->t = c->start + c->direction * (c->whole - left);
+    s->t = c->start + c->direction * (c->whole - rest);
     return DAL_STATUS_NOT_CONVERGED;
 }
 #endif

@@ -27,8 +27,8 @@ DAL_INLINE void dal_substeps(const dal_composition *k, double h, double *size)
         size[i] = size[last - i] = (k->c[i] * h + coarse) - coarse;
         sum += 2.0 * size[i];
     }
-    const double left = h - sum;
-    size[before] = size[last - before] = k->substeps % 2 ? left : 0.5 * left;
+    const double rest = h - sum;
+    size[before] = size[last - before] = k->substeps % 2 ? rest : 0.5 * rest;
 }
 
 #endif

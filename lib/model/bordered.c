@@ -41,16 +41,16 @@ typedef struct vectors {
 } vectors;
 
 /* Coordinates and constraints are numbered as they are left; their numbers in the model are in free
- * and left. */
+ * and rest. */
 struct dal__bordered {
     int way;
     vectors scratch;
-    int solved, frees, lefts;
+    int solved, frees, rests;
     int *dependent, *by;       /* [solved] the coordinate and its constraint */
     dal__node *alpha;          /* [solved] */
-    int *free, *left;          /* [frees], [lefts] */
-    int *partner;              /* [lefts] with which a constraint is paired; itself: with none */
-    sparse S, A, R;            /* [solved] by frees; [lefts] by frees; R = W'^-1 B^T */
+    int *free, *rest;          /* [frees], [rests] */
+    int *partner;              /* [rests] with which a constraint is paired; itself: with none */
+    sparse S, A, R;            /* [solved] by frees; [rests] by frees; R = W'^-1 B^T */
     dal__factors mass, forces; /* W', G */
     dal__factors whole;        /* of the bordered matrix, of x and -h, where the way is WHOLE */
 };
@@ -149,13 +149,13 @@ static bool choose_dependent(dal_model *model, dal__bordered *s)
     s->by = dal__model_allocate(model, m, sizeof *s->by);
     s->alpha = dal__model_nodes(model, e->m, 0);
     s->free = dal__model_allocate(model, n, sizeof *s->free);
-    s->left = dal__model_allocate(model, m, sizeof *s->left);
+    s->rest = dal__model_allocate(model, m, sizeof *s->rest);
     s->partner = dal__model_allocate(model, m, sizeof *s->partner);
     if (model->out_of_memory) return false;
     for (int a = 0; a < e->m; a++) {
         const int d = s->way & DAL__SOLVED && !e->servo ? find_dependent(e, a) : -1;
         if (d < 0) {
-            s->left[s->lefts++] = a;
+            s->rest[s->rests++] = a;
             continue;
         }
         dependent[d] = true;
@@ -243,7 +243,7 @@ static void combine(const dal__equations *e, dal__node *a, dal__node *b)
 /* The same of all pairs of a vector of the constraints left. */
 static void combine_pairs(const dal__equations *e, const dal__bordered *s, dal__node *x)
 {
-    for (int a = 0; a < s->lefts; a++)
+    for (int a = 0; a < s->rests; a++)
         if (s->partner[a] > a) combine(e, &x[a], &x[s->partner[a]]);
 }
 
@@ -253,8 +253,8 @@ static bool pair_constraints(dal_model *model, dal__bordered *s, dal__node *A)
     const dal__equations *e = &model->equations;
     const int f = s->frees;
     dal__node *row = dal__model_nodes(model, 2 * f, 0), *both = dal__model_nodes(model, 2 * f, 0);
-    for (int a = 0; row && both && a < s->lefts; a++)
-        for (int b = a + 1; b < s->lefts && s->partner[a] == a; b++) {
+    for (int a = 0; row && both && a < s->rests; a++)
+        for (int b = a + 1; b < s->rests && s->partner[a] == a; b++) {
             if (s->partner[b] != b) continue;
             for (int i = 0; i < f; i++) {
                 row[i] = both[i] = A[a * f + i];
@@ -277,7 +277,7 @@ static bool pair_constraints(dal_model *model, dal__bordered *s, dal__node *A)
 static dal_status factor_forces(dal_model *model, dal__bordered *s)
 {
     dal__equations *e = &model->equations;
-    const int f = s->frees, m = s->lefts;
+    const int f = s->frees, m = s->rests;
     dal__node *A = dal__model_nodes(model, m * f, 0), *B = dal__model_nodes(model, m * f, 0);
     dal__node *R = dal__model_nodes(model, m * f, 0);
     int *whose = dal__model_allocate(model, (size_t)m, sizeof *whose); /* a pair's: the later */
@@ -285,13 +285,13 @@ static dal_status factor_forces(dal_model *model, dal__bordered *s)
     for (int a = 0; a < m; a++) {
         s->partner[a] = a;
         for (int i = 0; i < f; i++) {
-            A[a * f + i] = e->A[s->left[a] * e->n + s->free[i]];
-            B[a * f + i] = e->B[s->left[a] * e->n + s->free[i]];
+            A[a * f + i] = e->A[s->rest[a] * e->n + s->free[i]];
+            B[a * f + i] = e->B[s->rest[a] * e->n + s->free[i]];
         }
     }
     if (s->way & DAL__PAIRED && !e->servo && !pair_constraints(model, s, A))
         return DAL_STATUS_MEMORY;
-    for (int a = 0; a < m; a++) whose[a] = s->left[s->partner[a] > a ? s->partner[a] : a];
+    for (int a = 0; a < m; a++) whose[a] = s->rest[s->partner[a] > a ? s->partner[a] : a];
     if (!dal__factors_allocate(model, &s->forces, m, whose)) return DAL_STATUS_MEMORY;
     DAL_TRY(dal__factors_solve(model, &s->mass, DAL__SUMS_UNCHANGED, m, e->servo ? B : A, R));
     if (!compress(model, &s->A, m, f, A) || !compress(model, &s->R, m, f, R))
@@ -335,14 +335,14 @@ static dal_status solve_free(dal_model *model, const dal__bordered *s, dal__sum_
 {
     const dal__equations *e = &model->equations;
     DAL_TRY(dal__factors_solve(model, &s->mass, sums, 1, w->t, w->y));
-    for (int a = 0; a < s->lefts; a++) w->pull[a] = bottom[s->left[a]];
+    for (int a = 0; a < s->rests; a++) w->pull[a] = bottom[s->rest[a]];
     combine_pairs(e, s, w->pull);
-    for (int a = 0; a < s->lefts; a++) {
+    for (int a = 0; a < s->rests; a++) {
         if (s->partner[a] != a) w->pull[a] = collect(e, s, w->pull[a]);
         w->pull[a] = dal__node_sub(e->graph, w->pull[a], row_product(e, &s->A, a, w->y));
     }
     DAL_TRY(dal__factors_solve(model, &s->forces, sums, 1, w->pull, w->force));
-    for (int a = 0; a < s->lefts; a++)
+    for (int a = 0; a < s->rests; a++)
         for (int x = s->R.first[a]; x < s->R.first[a + 1]; x++)
             add_product(e, &w->y[s->R.column[x]], s->R.value[x], w->force[a]);
     return DAL_STATUS_OK;
@@ -354,7 +354,7 @@ static void find_forces(const dal__equations *e, const dal__bordered *s, const v
                         const dal__node *top, const dal__node *x, dal__node *h)
 {
     combine_pairs(e, s, w->force);
-    for (int a = 0; a < s->lefts; a++) h[s->left[a]] = w->force[a];
+    for (int a = 0; a < s->rests; a++) h[s->rest[a]] = w->force[a];
     for (int k = 0; k < s->solved; k++) {
         const int d = s->dependent[k];
         dal__node sum = dal__node_neg(e->graph, top[d]);
@@ -415,7 +415,7 @@ dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sum_form
 
 bool dal__bordered_is_reduced(const dal__bordered *s) { return s->solved > 0; }
 
-bool dal__bordered_keeps_rank(const dal__bordered *s) { return s->lefts == 0; }
+bool dal__bordered_keeps_rank(const dal__bordered *s) { return s->rests == 0; }
 
 dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int way,
                                 dal__bordered **bordered, int *singular)

@@ -79,7 +79,7 @@ static double list_dependence(const dal__equations *e, int row, double *rows, ch
 }
 
 /* Rounding leaves no more of a row that depends on others. */
-static const double nothing_left = 1e-13;
+static const double no_rest = 1e-13;
 
 dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *error)
 {
@@ -93,12 +93,12 @@ dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *erro
                             "constraint %d is not held by the reactions: A W^-1 B^T is singular",
                             row + 1);
     const bool has_units = rows && dal__model_units(model, rows + before) == DAL_STATUS_OK;
-    const double left = has_units ? list_dependence(e, row, rows, list, sizeof list) : 0.0;
-    if (left > nothing_left && isfinite(left))
+    const double rest = has_units ? list_dependence(e, row, rows, list, sizeof list) : 0.0;
+    if (rest > no_rest && isfinite(rest))
         return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
                             "constraint %d nearly depends on %s: they differ by %.1g of its "
                             "coefficients, and A W^-1 A^T is singular in double precision",
-                            row + 1, list + 2, left);
+                            row + 1, list + 2, rest);
     return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
                         "constraint %d is redundant, it depends on %s: A W^-1 A^T is singular",
                         row + 1, list + 2);

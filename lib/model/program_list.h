@@ -39,7 +39,7 @@ typedef struct dal__program {
     int tape;    /* number in the tapes */
     int outputs; /* for the caller */
     int checked; /* pivots, each with its size, that follow the outputs */
-    int left;    /* pivots for the rank check, after these */
+    int saved;   /* pivots for the rank check, after these */
 } dal__program;
 
 /* A branch: the argument of nodes that switch, and the table at whose points they do, or one of
@@ -58,11 +58,11 @@ typedef dal_status dal__run_program(const dal_system *system, const dal_point *a
 typedef struct dal__programs {
     dal__tapes *tapes;
     const dal__equations *equations;
-    int n, multipliers; /* of this system: 2n, 0 for the tangent one */
-    int t, q, v, pi, g; /* places of the inputs in work */
-    size_t scratch;     /* place in work for outputs and pivots together */
-    size_t pivots_left; /* place in work for the pivots of the rank check */
-    int pivots;         /* how many these are */
+    int n, multipliers;  /* of this system: 2n, 0 for the tangent one */
+    int t, q, v, pi, g;  /* places of the inputs in work */
+    size_t scratch;      /* place in work for outputs and pivots together */
+    size_t saved_pivots; /* place in work for the pivots of the rank check */
+    int pivots;          /* how many these are */
     dal__program program[DAL__PROGRAM_COUNT];
     dal_callbacks wide1, wide4, wide8;
     dal__taylor *taylor[2]; /* F in t, q, v, g; and the lift, in pi too; NULL: not made */

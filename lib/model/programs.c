@@ -30,17 +30,17 @@ dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs,
 }
 
 /* Whether a pivot of A W^-1 B^T varies along a run. */
-static bool is_left(const dal__equations *e, const dal__pivot *p)
+static bool is_saved(const dal__equations *e, const dal__pivot *p)
 {
     return p->constraint > 0 && dal__depends(e->graph, p->pivot, e->parameters, e->symbols);
 }
 
 /* Distances in the metric W^-1 say something of the constraints where W is positive definite, which
  * it remains as long as det W, a guard, keeps its sign. */
-void dal__programs_leave_pivots(const dal__equations *e, dal__programs *programs)
+void dal__programs_save_pivots(const dal__equations *e, dal__programs *programs)
 {
     if (!(e->properties & DAL_D_RANK_CHECKED) || e->vakonomic || !e->mass_positive) return;
-    for (int k = 0; k < e->pivots; k++) programs->pivots += is_left(e, &e->pivot[k]);
+    for (int k = 0; k < e->pivots; k++) programs->pivots += is_saved(e, &e->pivot[k]);
 }
 
 dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
@@ -71,9 +71,9 @@ dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
         program->checked++;
     }
     for (int k = 0; k < e->pivots && leaves && programs->pivots > 0; k++) {
-        if (!is_left(e, &e->pivot[k])) continue;
+        if (!is_saved(e, &e->pivot[k])) continue;
         all[total++] = e->pivot[k].pivot;
-        program->left++;
+        program->saved++;
     }
     program->tape = dal__tapes_add(programs->tapes, all, total);
     program->present = program->tape >= 0;
@@ -368,7 +368,7 @@ static size_t scratch_size(const dal__programs *programs)
     size_t max = 0;
     for (int code = 0; code < DAL__PROGRAM_COUNT; code++) {
         const dal__program *program = &programs->program[code];
-        const size_t pivots = 2 * (size_t)program->checked + (size_t)program->left;
+        const size_t pivots = 2 * (size_t)program->checked + (size_t)program->saved;
         const size_t size = (size_t)program->outputs + pivots;
         const bool direct = pivots == 0 && code != DAL__PROGRAM_DIAGNOSE;
         if (!direct && size > max) max = size;
@@ -451,9 +451,9 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     programs->g = inputs + e->g;
     programs->scratch = programs->tapes->workspace;
     system->data = programs;
-    programs->pivots_left = programs->scratch + scratch_size(programs);
+    programs->saved_pivots = programs->scratch + scratch_size(programs);
     system->pivots = programs->pivots;
-    system->workspace = programs->pivots_left + (size_t)programs->pivots;
+    system->workspace = programs->saved_pivots + (size_t)programs->pivots;
     system->prepare = prepare;
     programs->run = dal__fill_callbacks_x1(programs, &programs->wide1);
 #define CALLBACKS(name, variant, lanes, set)                                                       \

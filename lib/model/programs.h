@@ -8,10 +8,10 @@
 /* Frees tapes and series. */
 void dal__programs_free(dal__programs *programs);
 /* Begins the programs of a system whose coordinates and velocities have n symbols each; pivots are
- * left for the rank check once dal__programs_leave_pivots was called. */
+ * saved for the rank check once dal__programs_save_pivots was called. */
 dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
                                int multipliers);
-void dal__programs_leave_pivots(const dal__equations *e, dal__programs *programs);
+void dal__programs_save_pivots(const dal__equations *e, dal__programs *programs);
 /* Adds a program: the nodes of some lists, followed by the pivots it checks; or of one list. */
 typedef struct dal__nodes {
     const dal__node *list;

@@ -26,12 +26,12 @@ static dal_mask pivots_hold(const num *checked, int pivots)
 }
 
 /* Leaves pivots for the rank check; they are after those that were checked. */
-static void leave_pivots(const dal__programs *p, const dal__program *program, const num *checked,
-                         double *work)
+static void save_pivots(const dal__programs *p, const dal__program *program, const num *checked,
+                        double *work)
 {
-    const num *left = checked + 2 * program->checked;
-    num *pivots = (num *)(work + p->pivots_left * WIDTH);
-    for (int i = 0; i < program->left; i++) pivots[i] = left[i];
+    const num *saved = checked + 2 * program->checked;
+    num *pivots = (num *)(work + p->saved_pivots * WIDTH);
+    for (int i = 0; i < program->saved; i++) pivots[i] = saved[i];
 }
 
 /* Leaves NaN in the lanes where a pivot has vanished, and pivots for the rank check. */
@@ -48,7 +48,7 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
         load_lanes(at->work, p->g, at->v + p->n * WIDTH, p->multipliers);
     }
     if (reads >= DAL__READS_tqvpi) load_lanes(at->work, p->pi, at->pi, p->n);
-    if (program->checked + program->left == 0) {
+    if (program->checked + program->saved == 0) {
         DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);
         return DAL_STATUS_OK;
     }
@@ -58,7 +58,7 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     num *to = (num *)out;
     const dal_mask ok = pivots_hold(all + program->outputs, program->checked);
     for (int i = 0; i < program->outputs; i++) to[i] = dal_select(ok, all[i], dal_num(NAN));
-    leave_pivots(p, program, all + program->outputs, at->work);
+    save_pivots(p, program, all + program->outputs, at->work);
     return DAL_STATUS_OK;
 }
 
@@ -78,7 +78,7 @@ dal_status DAL_WIDE(dal__call_series)(const dal_system *system, int lifted, int 
     const dal__taylor *taylor = p->taylor[lifted];
     const dal__program *program = &p->program[lifted ? DAL__PROGRAM_ADJOINT : DAL__PROGRAM_FIELD];
     const int outputs = program->outputs, checked = 2 * program->checked;
-    const int further = outputs + checked + program->left; /* place of mu_e */
+    const int further = outputs + checked + program->saved; /* place of mu_e */
     double *scratch = work + p->scratch * WIDTH;
     num *to = (num *)out;
     DAL_WIDE(dal__taylor_run)(taylor, dal__unit_of_time(system), k, stride, in, work, memory);
@@ -92,7 +92,7 @@ dal_status DAL_WIDE(dal__call_series)(const dal_system *system, int lifted, int 
     if (k > 0 || further == outputs) return DAL_STATUS_OK;
     DAL_WIDE(dal__taylor_read)
     (taylor, outputs, further - outputs, k, stride, work, memory, scratch);
-    leave_pivots(p, program, (const num *)scratch, work);
+    save_pivots(p, program, (const num *)scratch, work);
     const dal_mask ok = pivots_hold((const num *)scratch, program->checked);
     for (int i = 0; i < outputs; i++) to[i] = dal_select(ok, to[i], dal_num(NAN));
     return DAL_STATUS_OK;

@@ -55,9 +55,9 @@ static void complete_basis(const matrices *k)
         double best = -1.0;
         int axis = 0;
         for (int i = 0; i < n; i++) {
-            double left = 1.0;
-            for (int j = 0; j < row; j++) left -= k->basis[j * n + i] * k->basis[j * n + i];
-            if (left > best) best = left, axis = i;
+            double rest = 1.0;
+            for (int j = 0; j < row; j++) rest -= k->basis[j * n + i] * k->basis[j * n + i];
+            if (rest > best) best = rest, axis = i;
         }
         memset(k->basis + row * n, 0, (size_t)n * sizeof *k->basis);
         k->basis[row * n + axis] = 1.0;
@@ -192,7 +192,7 @@ typedef struct distribution {
 static bool extend_basis(distribution *d, int point, double *x)
 {
     double *basis = d->basis + (size_t)(point * d->dim) * (size_t)d->dim;
-    double size = 1.0, left = 0.0;
+    double size = 1.0, rest = 0.0;
     if (d->rank[point] == d->dim) return false;
     for (int j = 0; j < d->dim; j++) size = fmax(size, fabs(x[j]));
     for (int k = 0; k < 2 * d->rank[point]; k++) { /* twice, against rounding */
@@ -201,10 +201,10 @@ static bool extend_basis(distribution *d, int point, double *x)
         for (int j = 0; j < d->dim; j++) product += b[j] * x[j];
         for (int j = 0; j < d->dim; j++) x[j] -= product * b[j];
     }
-    for (int j = 0; j < d->dim; j++) left += x[j] * x[j];
-    left = sqrt(left);
-    if (!(left > ROUNDING * size) || isinf(left)) return false;
-    for (int j = 0; j < d->dim; j++) basis[d->rank[point] * d->dim + j] = x[j] / left;
+    for (int j = 0; j < d->dim; j++) rest += x[j] * x[j];
+    rest = sqrt(rest);
+    if (!(rest > ROUNDING * size) || isinf(rest)) return false;
+    for (int j = 0; j < d->dim; j++) basis[d->rank[point] * d->dim + j] = x[j] / rest;
     d->rank[point]++;
     return true;
 }

@@ -113,7 +113,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     const dal__equations *e = &model->equations;
     int start = 2 * e->n + e->multipliers + 1;
     DAL_TRY(dal__programs_begin(e, p, e->n, e->multipliers));
-    dal__programs_leave_pivots(e, p);
+    dal__programs_save_pivots(e, p);
     DAL_TRY(dal__programs_add_motion(model, p, F));
     DAL_TRY(add_constraint(model, p));
     DAL_TRY(add_projection(model, p));

@@ -149,8 +149,8 @@ static bool place_groups(dal_batch *batch, const engine_choice *from, char *memo
 {
     *bytes = 0;
     batch->groups = 0;
-    for (int left = batch->count; left > 0; batch->groups++) {
-        const int choice = next_kind(from, left), width = from->kind[choice]->width;
+    for (int rest = batch->count; rest > 0; batch->groups++) {
+        const int choice = next_kind(from, rest), width = from->kind[choice]->width;
         const size_t more =
             dal__align(sizeof(double) * group_numbers(&batch->scalar->layout, from->kind[choice]));
         if (more > SIZE_MAX / 4 - *bytes) return false;
@@ -158,11 +158,11 @@ static bool place_groups(dal_batch *batch, const engine_choice *from, char *memo
             group *b = &batch->group[batch->groups];
             *b = (group){.kind = from->kind[choice],
                          .engine = &batch->engine[choice],
-                         .first = batch->count - left};
-            place_group(batch, b, left < width ? left : width, (double *)(void *)(memory + *bytes));
+                         .first = batch->count - rest};
+            place_group(batch, b, rest < width ? rest : width, (double *)(void *)(memory + *bytes));
         }
         *bytes += more;
-        left -= width;
+        rest -= width;
     }
     return true;
 }
@@ -451,8 +451,8 @@ dal_status dal_batch_advance(dal_batch *batch, long long count)
     batch->stepped = batch->stepped || count > 0;
     for (int i = 0; i < batch->groups; i++) {
         group *b = &batch->group[i];
-        for (long long left = count; left > 0 && b->alive;) {
-            left -= step_group(batch, b, h, left, &failed, reason);
+        for (long long rest = count; rest > 0 && b->alive;) {
+            rest -= step_group(batch, b, h, rest, &failed, reason);
             if (failed) record_failures(batch, b, failed, reason);
         }
         alive |= b->alive != 0;

@@ -35,7 +35,7 @@ typedef struct engine {
     const dal_integrator *layer[DAL_LAYERS];
     dal_callback *call[DAL_EVAL_COUNT];
     num *persistent, *backup, *work;
-    const num *left_pivots; /* in work, by the last evaluation of F */
+    const num *saved_pivots; /* in work, by the last evaluation of F */
     dal__failure *failure;
     /* Dense output, where a tolerance is given. */
     const dal_integrator *dense_layer[DAL_LAYERS]; /* the innermost evaluates the polynomial */
@@ -83,7 +83,7 @@ static void fill(const engine *e, dal_callback_code code, double value, num *out
 static void keep_pivots(engine *e)
 {
     dal_step *s = &e->step;
-    memcpy(s->pivots, e->left_pivots, (size_t)s->pivot_count * sizeof(num));
+    memcpy(s->pivots, e->saved_pivots, (size_t)s->pivot_count * sizeof(num));
     s->pivots_known[0] = 1;
 }
 
@@ -313,7 +313,7 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
 #undef CALLBACK
     e->persistent = allocate(&at, k->persistent + k->workspace);
     e->work = e->persistent + k->persistent;
-    e->left_pivots = e->work + k->workspace - k->pivots;
+    e->saved_pivots = e->work + k->workspace - k->pivots;
     e->backup = allocate(&at, k->persistent);
     prepare_step(e);
     e->step.pivots = allocate(&at, (size_t)k->pivots);
@@ -411,22 +411,22 @@ static dal_status observe_engine(void *engine_, bool exact_known, double *out)
 
 /* ---- a step ---- */
 
-/* Removes the lanes that fail from `left`, the alive ones, and returns them. */
-static dal__lanes check_step(engine *e, dal_mask *left, dal_status status, dal_status *reason)
+/* Removes the lanes that fail from `alive`, and returns them. */
+static dal__lanes check_step(engine *e, dal_mask *alive, dal_status status, dal_status *reason)
 {
     dal_step *s = &e->step;
     dal__failure *failure = e->failure;
-    const dal_mask alive = *left;
+    const dal_mask before = *alive;
     dal_checks c = {~s->unconverged, dal_check_gauge(s, e->backup), dal_finite_state(s, 0),
                     dal_all()};
-    *left &= c.solved & c.gauge & c.finite;
-    if (status != DAL_STATUS_OK && status != DAL_STATUS_NOT_CONVERGED) *left = ~dal_all();
+    *alive &= c.solved & c.gauge & c.finite;
+    if (status != DAL_STATUS_OK && status != DAL_STATUS_NOT_CONVERGED) *alive = ~dal_all();
     s->used = 0;
-    if (dal_any(*left))
+    if (dal_any(*alive))
         c.regular = dal_check_regular(s, 0, e->backup, failure ? &failure->guard : NULL,
                                       failure ? &failure->constraint : NULL);
-    *left &= c.regular;
-    const dal__lanes failed = lanes_of(alive & ~*left);
+    *alive &= c.regular;
+    const dal__lanes failed = lanes_of(before & ~*alive);
     for (int i = 0; failed && i < DAL_LANES; i++)
         if (failed >> i & 1) reason[i] = dal_rejection(&c, status, i);
     return failed;

@@ -186,7 +186,7 @@ static dal_status act(const dal__event_search *w, double distance,
 {
     const dal__zero_search *c = w->crossing;
     double last = distance;
-    dal_status left = DAL_STATUS_OK;
+    dal_status status = DAL_STATUS_OK;
     DAL_TRY(evaluate_all(w));
     memcpy(w->m.there, w->m.f, (size_t)w->system->events * sizeof(double));
     for (int k = 0; k < w->system->events; k++) {
@@ -200,13 +200,13 @@ static dal_status act(const dal__event_search *w, double distance,
     DAL_TRY(act_in_rounds(w, last, listener));
     DAL_TRY(evaluate_all(w));
     DAL_TRY(add_jump(w, 1.0));
-    for (int k = 0; k < w->system->events && left == DAL_STATUS_OK; k++) {
+    for (int k = 0; k < w->system->events && status == DAL_STATUS_OK; k++) {
         if (c->zero[k].s <= last)
-            left = leave_event(w, k);
+            status = leave_event(w, k);
         else
             w->m.side[k] = side_beside(w, k);
     }
-    return left;
+    return status;
 }
 
 /* Steps to the event at a distance, and lets it act; where that fails, as for events too close for

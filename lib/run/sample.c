@@ -242,11 +242,11 @@ static dal_status sample_row(void *user, dal_run *run)
     return o->sample ? observed(r->k, o->sample(o->user, run, r->row, r->t)) : DAL_STATUS_OK;
 }
 
-/* Steps that surely end before a row at distance `left`, the last two excepted, and not after the
+/* Steps that surely end before a row at distance `rest`, the last two excepted, and not after the
  * next end of a batch. */
-static long long steps_towards(const sampling *k, double left, double h)
+static long long steps_towards(const sampling *k, double rest, double h)
 {
-    const double steps = left / h - 2.0;
+    const double steps = rest / h - 2.0;
     const long long batch = polling(k), max = batch - (dal_run_steps(k->run) + 1) % batch;
     return steps < 1.0 ? 1 : steps > (double)max ? max : (long long)steps;
 }
@@ -258,13 +258,13 @@ static dal_status advance_to_row(sampling *k, long long row, double t)
     const bool has_events = k->run->layout.system->events > 0;
     sampled_row r = {k, row, t};
     for (;;) {
-        const double left = copysign(1.0, step) * (t - dal_run_time(k->run));
-        if (left <= near) return sample_row(&r, k->run);
-        if (left < h - near && !(has_events && dal__next_event(k->run) <= left)) {
-            DAL_TRY(dal_run_intermediate(k->run, copysign(left, step), sample_row, &r, k->error));
+        const double rest = copysign(1.0, step) * (t - dal_run_time(k->run));
+        if (rest <= near) return sample_row(&r, k->run);
+        if (rest < h - near && !(has_events && dal__next_event(k->run) <= rest)) {
+            DAL_TRY(dal_run_intermediate(k->run, copysign(rest, step), sample_row, &r, k->error));
             return poll(k);
         }
-        const long long steps = steps_towards(k, left, h);
+        const long long steps = steps_towards(k, rest, h);
         DAL_TRY(advance(k, steps));
         const bool batch_ends = (dal_run_steps(k->run) + 1) % polling(k) == 0;
         k->since_poll += batch_ends ? polling(k) : steps - 1;
