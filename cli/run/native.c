@@ -49,7 +49,7 @@ enum { NICE = 10, PATIENCE = 600 /* seconds */ };
 /* ---- the code of all runs ---- */
 
 typedef struct native_code {
-    native_part part;
+    native_code_kind kind;
     dal_native *native; /* NULL: its compiler was ended with the program, or with a study */
     struct native_code *next;
 } native_code;
@@ -60,7 +60,7 @@ static native_code *codes;
 static bool has_ended; /* no more compilers are started */
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 
-/* The library creates the last part. */
+/* The library creates the last kind. */
 char *native_cache(void)
 {
     const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -101,19 +101,19 @@ static void end_program(void)
 
 static void at_exit(void) { atexit(end_program); }
 
-static void print_failure(native_part part, const dal_error *error)
+static void print_failure(native_code_kind kind, const dal_error *error)
 {
-    static atomic_flag printed[NATIVE_PARTS] = {ATOMIC_FLAG_INIT, ATOMIC_FLAG_INIT};
+    static atomic_flag printed[NATIVE_KINDS] = {ATOMIC_FLAG_INIT, ATOMIC_FLAG_INIT};
     if (error->status == DAL_STATUS_MEMORY) cli_out_of_memory();
-    if (!atomic_flag_test_and_set(&printed[part]))
-        cli_note("%s are interpreted: %s", part == NATIVE_STEPS ? "steps" : "observables",
+    if (!atomic_flag_test_and_set(&printed[kind]))
+        cli_note("%s are interpreted: %s", kind == NATIVE_STEPS ? "steps" : "observables",
                  error->message);
 }
 
 static native_code *find_code(const native_run *n)
 {
     native_code *c = codes;
-    while (c && !(c->part == n->part && dal_native_fits(c->native, n->run))) c = c->next;
+    while (c && !(c->kind == n->kind && dal_native_fits(c->native, n->run))) c = c->next;
     return c;
 }
 
@@ -124,13 +124,13 @@ static bool compiles(void)
     return c;
 }
 
-/* Puts the code of the next part into the list; NULL where it cannot be begun. */
+/* Puts the code of the next kind into the list; NULL where it cannot be begun. */
 static native_code *begin_code(const native_run *n, const dal_native_options *options,
                                native_code *memory, dal_error *error)
 {
-    *memory = (native_code){.part = n->part, .next = codes};
+    *memory = (native_code){.kind = n->kind, .next = codes};
     if (has_ended) return codes = memory;
-    if (n->part == NATIVE_STEPS)
+    if (n->kind == NATIVE_STEPS)
         dal_native_begin(&memory->native, n->run, options, error);
     else
         dal_native_begin_observables(&memory->native, n->run, options, error);
@@ -140,7 +140,7 @@ static native_code *begin_code(const native_run *n, const dal_native_options *op
 /* Where code comes from: the cache alone, or else a compiler. */
 typedef enum code_source { CACHE, BESIDE_THE_RUN, URGENTLY_BESIDE, BEFORE_THE_RUN } code_source;
 
-/* Begins to compile the next part of a run, unless that is done already. */
+/* Begins to compile the next code of a run, unless that is done already. */
 static native_code *get_code(const native_run *n, code_source source)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
@@ -158,15 +158,15 @@ static native_code *get_code(const native_run *n, code_source source)
     pthread_mutex_unlock(&mutex);
     if (c != memory) free(memory);
     free(directory);
-    if (!c && source != CACHE) print_failure(n->part, &error);
+    if (!c && source != CACHE) print_failure(n->kind, &error);
     return c;
 }
 
 /* ---- runs ---- */
 
-static void begin_part(native_run *n, native_part part)
+static void begin_kind(native_run *n, native_code_kind kind)
 {
-    n->part = part;
+    n->kind = kind;
     n->code = NULL;
     n->has_searched = false;
     n->clock = cli_thread_seconds();
@@ -174,7 +174,7 @@ static void begin_part(native_run *n, native_part part)
     n->steps = dal_run_steps(n->run);
 }
 
-/* Whether the part is there or failed: then the run uses it, or does without, and begins the
+/* Whether the code is there or failed: then the run uses it, or does without, and begins the
  * next. */
 static bool use_code(native_run *n)
 {
@@ -185,8 +185,8 @@ static bool use_code(native_run *n)
     if (state == DAL_NATIVE_READY) dal_run_use_native(n->run, native, &error);
     pthread_mutex_unlock(&mutex);
     if (state == DAL_NATIVE_PENDING) return false;
-    if (error.status != DAL_STATUS_OK) print_failure(n->part, &error);
-    begin_part(n, n->part + 1);
+    if (error.status != DAL_STATUS_OK) print_failure(n->kind, &error);
+    begin_kind(n, n->kind + 1);
     return true;
 }
 
@@ -203,7 +203,7 @@ static rest estimate_rest(const native_run *n)
     return (rest){times * seconds, times * (double)(dal_run_steps(n->run) - n->steps)};
 }
 
-/* Takes the next part from the cache, once, where more of the run is left than that takes. */
+/* Takes the next code from the cache, once, where more of the run is left than that takes. */
 static native_code *search_cache(native_run *n, const rest *ahead)
 {
     const dal_system *s = dal_run_system(n->run);
@@ -214,21 +214,21 @@ static native_code *search_cache(native_run *n, const rest *ahead)
     return get_code(n, CACHE);
 }
 
-/* Starts a compiler beside the run where it is worth it: so much is left.  A part that cannot be
+/* Starts a compiler beside the run where it is worth it: so much is left.  Code that cannot be
  * compiled is left out. */
 static native_code *compile_beside(native_run *n, const rest *ahead)
 {
-    if (n->part == NATIVE_OBSERVABLES && !n->observes) return NULL;
+    if (n->kind == NATIVE_OBSERVABLES && !n->observes) return NULL;
     if (ahead->seconds < (n->alike > 1.0 ? min_together : min_alone)) return NULL;
     const bool is_urgent = n->alike > 1.0 || ahead->steps >= URGENT;
     native_code *const c = get_code(n, is_urgent ? URGENTLY_BESIDE : BESIDE_THE_RUN);
-    if (!c) begin_part(n, n->part + 1);
+    if (!c) begin_kind(n, n->kind + 1);
     return c;
 }
 
 void native_poll(native_run *n)
 {
-    if (n->part >= n->parts) return;
+    if (n->kind >= n->limit) return;
     bool is_free = false;
     if (!n->code) {
         pthread_mutex_lock(&mutex);
@@ -248,9 +248,9 @@ void native_poll(native_run *n)
 static void compile_now(native_run *n)
 {
     const struct timespec pause = {0, 1000000};
-    while (n->part < n->parts && !cli_interrupted()) {
+    while (n->kind < n->limit && !cli_interrupted()) {
         if (!n->code && !(n->code = get_code(n, BEFORE_THE_RUN)))
-            begin_part(n, n->part + 1);
+            begin_kind(n, n->kind + 1);
         else if (!use_code(n))
             nanosleep(&pause, NULL);
     }
@@ -261,8 +261,8 @@ native_run native_begin(dal_run *run, double end, double samples, double alike, 
     const double cost = samples * NS_SAMPLE * dal_run_system(run)->n;
     const bool observes = samples > 0.0 && (mode == NATIVE_ON || cost > NS_SEARCH);
     native_run n = {.run = run, .end = end, .alike = alike, .observes = cost > NS_WORTH};
-    n.parts = mode == NATIVE_OFF ? NATIVE_STEPS : observes ? NATIVE_PARTS : NATIVE_OBSERVABLES;
-    begin_part(&n, NATIVE_STEPS);
+    n.limit = mode == NATIVE_OFF ? NATIVE_STEPS : observes ? NATIVE_KINDS : NATIVE_OBSERVABLES;
+    begin_kind(&n, NATIVE_STEPS);
     if (mode == NATIVE_ON) compile_now(&n);
     return n;
 }

@@ -23,20 +23,20 @@ typedef enum native_mode { NATIVE_AUTO, NATIVE_ON, NATIVE_OFF } native_mode;
     }
 
 /* What of a run is compiled. */
-typedef enum native_part { NATIVE_STEPS, NATIVE_OBSERVABLES, NATIVE_PARTS } native_part;
+typedef enum native_code_kind { NATIVE_STEPS, NATIVE_OBSERVABLES, NATIVE_KINDS } native_code_kind;
 
 /* A run on its way to compiled code. */
 typedef struct native_run {
     dal_run *run;
     double end;               /* of its time */
     double alike;             /* how many runs of a study take such steps, this one included */
-    native_part part;         /* the next, NATIVE_PARTS: there is none */
-    native_part parts;        /* where it ends */
-    double clock, time;       /* when the last part was there: of the thread, and of the run */
+    native_code_kind kind;    /* the next, NATIVE_KINDS: there is none */
+    native_code_kind limit;   /* where it ends */
+    double clock, time;       /* when the last code was there: of the thread, and of the run */
     long long steps;          /* of the run, then */
-    bool has_searched;        /* the cache, for the part */
+    bool has_searched;        /* the cache, for the kind */
     bool observes;            /* enough to compile its observables */
-    struct native_code *code; /* of the part, or NULL */
+    struct native_code *code; /* of the kind, or NULL */
 } native_run;
 
 /* Where compiled code is cached, $XDG_CACHE_HOME/dalembert or ~/.cache/dalembert, allocated; NULL
