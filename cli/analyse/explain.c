@@ -2,6 +2,7 @@
 #include "explain.h"
 #include "analysis.h"
 #include "dalembert_budget.h"
+#include "dalembert_predict.h"
 #include "io/file.h"
 #include "io/file_output.h"
 #include "io/trend.h"
@@ -25,8 +26,8 @@ typedef struct explanation {
 
 static dal_status show_progress(void *user, double done)
 {
-    explanation *e = user;
-    native_poll(&e->native);
+    explanation *e = user; /* NULL: no run is compiled */
+    if (e) native_poll(&e->native);
     cli_progress("%.0f %%", 100.0 * done);
     return cli_interrupted() ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
@@ -41,6 +42,7 @@ static void compile_run(void *user, dal_run *run, long long steps)
 /* ---- sentences and shares ---- */
 
 /* Observables that are listed without --details: with the rest some 24 lines. */
+enum { MAX_PREDICTED = 1000000 /* steps; more take long */ };
 enum { MAX_LISTED = 6, NAME_WIDTH = 12, CELL_SIZE = 16, MIN_COLUMN = 7, LINE = 80 };
 
 static bool is_changed(const dal_error_budget *e, int i)
@@ -112,6 +114,36 @@ static void print_projection(const dal_error_budget *e, const int *list, int cou
                                   is_rounding ? "rounding" : "",
                                   is_rounding ? "" : ratio_text(projected_ratio(a), cell),
                                   is_rounding ? "" : " of this");
+        free(text);
+        text = longer;
+    }
+    char *sentence = cli_format("%s.", text);
+    if (found > 0) cli_wrap(stdout, sentence, 0, 4);
+    free(sentence);
+    free(text);
+}
+
+/* What `predict` says of a quantity; NULL: nothing. */
+static const dal_predicted *find_predicted(const dal_prediction *from, const char *name)
+{
+    for (int i = 0; from && i < from->observables; i++)
+        if (strcmp(from->predicted[i].name, name) == 0 && from->predicted[i].is_conserved)
+            return &from->predicted[i];
+    return NULL;
+}
+
+/* The changes predicted from single steps, beside the run's. */
+static void print_predicted(const dal_error_budget *e, const dal_prediction *from, const int *list,
+                            int count)
+{
+    char *text = cli_strdup("Predicted by single steps: ");
+    int found = 0;
+    for (int k = 0; k < count; k++) {
+        const dal_shares *a = &e->shares[list[k]];
+        const dal_predicted *q = find_predicted(from, a->name);
+        if (!q || a->whole.size != DAL_SIZE_LARGER) continue;
+        char *longer = cli_format("%s%s%s %.3g (run %.3g)", text, found++ > 0 ? ", " : "", a->name,
+                                  q->change, a->whole.last - a->whole.first);
         free(text);
         text = longer;
     }
@@ -319,6 +351,7 @@ static void print_budget(const explain_settings *s, const dal_error_budget *e)
     print_sentences(e, list, count);
     if (all > count) printf("... and %d more: --details\n", all - count);
     print_projection(e, list, count);
+    print_predicted(e, s->predicted, list, count);
     if (count > 0) {
         putchar('\n');
         print_shares(e, list, count);
@@ -422,7 +455,8 @@ static void put_source(json_writer *w, const dal_error_budget *e, int i, int sou
     json_close(w);
 }
 
-static void put_observable(json_writer *w, const dal_error_budget *e, int i)
+static void put_observable(json_writer *w, const dal_error_budget *e, int i,
+                           const dal_predicted *predicted)
 {
     const dal_shares *a = &e->shares[i];
     json_open(w, NULL, JSON_LINES);
@@ -442,6 +476,7 @@ static void put_observable(json_writer *w, const dal_error_budget *e, int i)
     json_open_list(w, "sources", JSON_LINES);
     for (int k = 0; k < DAL_ERROR_SOURCES; k++) put_source(w, e, i, k);
     json_close(w);
+    json_put_number(w, "predicted", predicted ? predicted->change : NAN);
     json_close(w);
 }
 
@@ -453,7 +488,8 @@ static void put_budget(const explain_settings *s, const dal_error_budget *e)
     json_put_integer(&w, "steps", e->steps);
     json_put_integer(&w, "quad_steps", e->quad_steps);
     json_open_list(&w, "observables", JSON_LINES);
-    for (int i = 0; i < e->observables; i++) put_observable(&w, e, i);
+    for (int i = 0; i < e->observables; i++)
+        put_observable(&w, e, i, find_predicted(s->predicted, e->shares[i].name));
     json_close(&w);
     json_open_list(&w, "not_run", JSON_LINES);
     for (int k = 0; k < DAL_COMPARISONS; k++) {
@@ -490,6 +526,14 @@ int explain_run(explain_settings *s)
     cli_catch_signals();
     const dal_status done =
         dal_error_budget_create(&e, &spec, (long long)steps, s->quad_steps, &observer, &error);
+    const dal_predict_observer ahead = {NULL, show_progress};
+    if (done == DAL_STATUS_OK && steps <= MAX_PREDICTED &&
+        cli_is_ok(
+            dal_predict_create(&s->predicted, &spec, s->simulation.end, NULL, &ahead, NULL)) &&
+        s->predicted->reason != DAL_PREDICTION_TIME) {
+        dal_prediction_free(s->predicted); /* it does not reach the end of the run */
+        s->predicted = NULL;
+    }
     cli_progress_end();
     if (done != DAL_STATUS_OK)
         return cli_error(cli_exit(done), s->simulation.request.system_name, &error);
@@ -498,6 +542,8 @@ int explain_run(explain_settings *s)
         (s->json ? put_budget : s->format != SCREEN_TEXT ? print_document : print_budget)(s, e);
         status = cli_close(stdout, "standard output");
     }
+    dal_prediction_free(s->predicted);
+    s->predicted = NULL;
     dal_error_budget_free(e);
     return status;
 }

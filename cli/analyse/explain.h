@@ -19,6 +19,7 @@ typedef struct explain_settings {
     bool details; /* prints the runs that were compared, too */
     bool json;    /* to stdout, instead of sentences */
     screen_format format;
+    struct dal_prediction *predicted; /* found by explain_run; NULL: it cannot be */
 } explain_settings;
 
 /* Returns CLI_DONE or prints and returns an exit status. */

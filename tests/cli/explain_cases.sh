@@ -153,3 +153,16 @@ case_is "explain: a run that fails"
 try 3 explain chaplygin-sleigh --integrator implicit-midpoint --step 0.1 --time 1 --iterations 1
 says "did not converge"
 empty
+
+case_is "what single steps predict"
+try 0 explain pendulum-cvt --integrator rk4 --step 0.05 --time 20 --quad-steps 0
+prints '^Predicted by single steps: D1 .* \(run '
+try 0 explain pendulum-cvt --integrator rk4 --step 0.05 --time 20 --quad-steps 0 --json
+mv out explained
+try 0 predict pendulum-cvt --integrator rk4 --step 0.05 --time 20 --json
+expect "the changes of predict" json out "
+    [o['change'] for o in d['predictions'][0]['observables']]
+    == [o['predicted'] for o in __import__('json').load(open('explained'))['observables']
+        if o['name'] in ('D1', 'E', 'Hf', 'driver', 'lnHf')]"
+try 0 explain pendulum-cvt --integrator gni --step 0.05 --time 20 --quad-steps 0 --json --space physical
+expect "null where nothing can be predicted" json out "{o['predicted'] for o in d['observables']} == {None}"
