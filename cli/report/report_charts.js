@@ -86,7 +86,7 @@ class Chart {
 
     words() {
         const {title, x, y, curves} = this.data, names = [...new Set(curves.map(c => c.title).filter(Boolean))];
-        return `${title}: ${y} over ${x}${names.length ? ' for ' + names.join(', ') : ''}. ` +
+        return `${title}: ${y || 'rows'} over ${x}${names.length ? ' for ' + names.join(', ') : ''}. ` +
             'Arrow keys read values, plus and minus zoom, 0 shows all.';
     }
     notes() {
@@ -108,7 +108,8 @@ class Chart {
         return Boolean(axis === 'x' ? this.data.logX : this.data.logY);
     }
     findRange(axis) {
-        const {fromZero} = this.data;
+        const {rows, fromZero} = this.data;
+        if (axis === 'y' && rows) return [0.5, rows.length + 0.5];
         const all = this.curves.flatMap(c => axis === 'x' ? c.x : c.upper ? [...c.y, ...c.upper] : c.y)
             .filter(v => v !== null);
         let low = all.reduce((a, b) => Math.min(a, b), Infinity), high = all.reduce((a, b) => Math.max(a, b), -Infinity);
@@ -144,6 +145,7 @@ class Chart {
     }
     magnify(factor) {
         const grown = (axis, [low, high]) => {
+            if (axis === 'y' && this.data.rows) return [low, high];
             if (this.isLog(axis)) return grownBy(Math.log10(low), Math.log10(high)).map(v => 10 ** v);
             return grownBy(low, high);
         };
@@ -155,17 +157,22 @@ class Chart {
 
     height(width) {
         const {x, y} = this.home, large = this.element.classList.contains('large');
+        if (this.data.rows) return 90 + 22 * this.data.rows.length;
         if (!this.data.toScale) return large ? 460 : 270;
         return Math.min(Math.max((width - 70) * (y[1] - y[0]) / (x[1] - x[0]) + 60, 180), large ? 700 : 380);
     }
     axis(scale, label) {
-        const line = {stroke: ink('--line'), width: 1}, isLog = this.isLog(scale);
+        const line = {stroke: ink('--line'), width: 1}, {rows} = this.data, isLog = this.isLog(scale);
         const axis = {scale, label, stroke: ink('--ink'), font: FONT, labelFont: FONT, labelSize: 20, grid: line,
             ticks: {...line, size: 4}, values: (u, splits) => {
                 const digits = digitsFor(Math.max(...splits.map(Math.abs)), splits[1] - splits[0]);
                 return splits.map(v => v === null ? '' : isLog ? decade(v) : withDigits(v, digits));
             }};
         const decade = v => Math.abs(Math.log10(v)) < 4 ? short(v) : v.toExponential(0).replace('e+', 'e');
+        if (scale === 'y' && rows) {
+            const width = 7.2 * rows.reduce((most, name) => Math.max(most, name.length), 0) + 16;
+            return {...axis, size: Math.min(width, 170), splits: () => rows.map((_, i) => i + 1), values: () => rows, label: undefined};
+        }
         const most = u => Math.max(2, Math.floor(scale === 'x' ? (u.width - 70) / 64 : (u.height - 50) / 30));
         return {...axis, size: scale === 'y' ? 62 : 34, filter: (u, splits) => splits,
             splits: (u, i, low, high) => (isLog ? logTicks : linearTicks)(low, high, most(u))};

@@ -12,14 +12,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In a script, of the figure without its key, and of a row of the key.  A letter is about so
- * wide. */
-enum { WIDTH = GNUPLOT_WIDTH, HEIGHT = 245, KEY_ROW = 17, KEY_SAMPLE = 50 };
+/* In a script, of the figure without its key, of a row of the key and of a row of names.  A letter
+ * is about so wide. */
+enum { WIDTH = GNUPLOT_WIDTH, HEIGHT = 245, KEY_ROW = 17, KEY_SAMPLE = 50, NAME_ROW = 20 };
 static const double letter = 7.0;
 /* Above and below the axes, and the range of the height between them; left and right ends of the
  * axes as parts of the width. */
 enum { ABOVE = 32, BELOW = 54, FRAME = ABOVE + BELOW, MIN_HEIGHT = 100, MAX_HEIGHT = 340 };
 #define LEFT  0.23
+#define NAMES 0.42 /* with names in rows */
 #define RIGHT 0.95
 
 /* ---- points -------------------------------------------------------------------------------- */
@@ -166,6 +167,7 @@ static int figure_height(const report_plot *plot)
 {
     double low[2], high[2], height = HEIGHT - FRAME;
     for (int k = 0; k < 2; k++) find_range(plot, k, &low[k], &high[k]);
+    if (plot->rows > 0) return FRAME + NAME_ROW * plot->rows + KEY_ROW * key_rows(plot);
     if (plot->is_to_scale && high[0] > low[0])
         height = (RIGHT - LEFT) * WIDTH * (high[1] - low[1]) / (high[0] - low[0]);
     height = fmin(fmax(height, MIN_HEIGHT), MAX_HEIGHT);
@@ -213,6 +215,16 @@ static void write_scale(FILE *s, const report_plot *plot)
     if (extent > 0.0) fprintf(s, "set xtics %.9g\nset ytics %.9g\n", times * power, times * power);
 }
 
+/* Names instead of numbers at the ordinates 1, 2, ..., from above. */
+static void write_rows(const gnuplot *g, const report_plot *plot)
+{
+    fprintf(g->script, "set yrange [%d.5:0.5]\nset grid noytics\nset ytics (", plot->rows);
+    for (int i = 0; i < plot->rows; i++) {
+        gnuplot_quote(g, plot->row[i]);
+        fprintf(g->script, " %d%s", i + 1, i + 1 < plot->rows ? ", " : ")\n");
+    }
+}
+
 static void write_axes(const gnuplot *g, const report_plot *plot)
 {
     FILE *s = g->script;
@@ -225,6 +237,7 @@ static void write_axes(const gnuplot *g, const report_plot *plot)
     /* Dots on the frame would not be seen. */
     if (has_dots(plot)) fputs("set offsets 0, 0, graph 0.04, graph 0.04\n", s);
     if (plot->is_to_scale) write_scale(s, plot);
+    if (plot->rows > 0) write_rows(g, plot);
     /* The key is below, as wide as the figure; the label of the ordinate is at the edge,
      * however wide the numbers beside it are. */
     gnuplot_set(g, "label 1", plot->ylabel);
@@ -234,8 +247,8 @@ static void write_axes(const gnuplot *g, const report_plot *plot)
             "set tmargin at screen %.4f\nset bmargin at screen %.4f\n"
             "set key at screen 0.02, screen %.4f left top Left reverse maxrows %d maxcols %d "
             "samplen 2 width 1 font ',11.5'\n",
-            LEFT, RIGHT, 1.0 - ABOVE / height, (BELOW + key) / height, (key + 3.0) / height,
-            key_rows(plot), key_columns(plot));
+            plot->rows > 0 ? NAMES : LEFT, RIGHT, 1.0 - ABOVE / height, (BELOW + key) / height,
+            (key + 3.0) / height, key_rows(plot), key_columns(plot));
 }
 
 static void write_data(FILE *s, const report_plot *plot)
@@ -404,6 +417,11 @@ static int make_figure(report *r, const report_plot *plot)
     if (plot->has_marks) json_put_flag(&data, "marks", true);
     if (plot->is_to_scale) json_put_flag(&data, "toScale", true);
     if (plot->from_zero) json_put_flag(&data, "fromZero", true);
+    if (plot->rows > 0) {
+        json_open_list(&data, "rows", JSON_ON_ONE_LINE);
+        for (int i = 0; i < plot->rows; i++) json_put_text(&data, NULL, plot->row[i]);
+        json_close(&data);
+    }
     json_open_list(&data, "events", JSON_ON_ONE_LINE);
     for (int i = 0; i < plot->marks; i++) put_coordinate(&data, plot->mark[i], 9);
     json_close(&data);

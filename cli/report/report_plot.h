@@ -33,6 +33,8 @@ typedef struct report_plot {
     int count;
     const double *mark; /* [marks] abscissas in their order, the caller's; vertical lines there */
     int marks;
+    const char *const *row; /* [rows] names at the ordinates 1, 2, ..., from above, or none */
+    int rows;
 } report_plot;
 
 /* Begins the next curve. */
