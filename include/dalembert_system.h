@@ -73,7 +73,8 @@ typedef dal_status dal_scale_callback(const dal_system *system, const dal_point 
     CALLBACK(JACOBIAN, jacobian, tqv, nw * (n + nw)) /* F_q, F_(v,g) (Newton) */ \
     CALLBACK(CONSTRAINT, constraint, tqv, m + 2 * m * n) /* D, A, W^-1 A^T (+project) */ \
     CALLBACK(ENERGY_NORMAL, energy_normal, tqv, 1 + 3 * n) /* E, E_q, E_v, W^-1 E_q */ \
-    CALLBACK(GAUGE, gauge, t, 1) /* mu_e(t); NULL: 0 */ \
+    CALLBACK(GAUGE, gauge, tqve, 1) /* mu_e, with e at pi; NULL: 0 */ \
+    CALLBACK(GAUGE_GRADIENT, gauge_gradient, tqve, 2 * n + 1) /* of mu_e by q, v, e; NULL: 0 */ \
     CALLBACK(GUARDS, guards, tqv, guards) /* denominators; NULL: none */ \
     CALLBACK(BLOCKS, blocks, tqv, 2 * (m + m * n) + n) /* D, A, R = W^-1 B^T, a = W^-1 b, */ \
         /* c = D_q v + D_t (methods that enforce D) */ \

@@ -77,7 +77,7 @@ static dal_point to_user(const dal_scaled *s, const dal_point *at, const double 
     return (dal_point){.t = s->time * at->t,
                        .q = in_units(at->q, s->length, s->n, q),
                        .v = in_units(at->v, s->speed, s->nw, v),
-                       .pi = pi_units ? in_units(at->pi, pi_units, s->n, pi) : NULL,
+                       .pi = pi_units ? in_units(at->pi, pi_units, s->n, pi) : at->pi,
                        .work = at->work};
 }
 
@@ -124,6 +124,13 @@ static void scale_energy_normal(const dal_scaled *s, double *out)
 }
 
 static void scale_gauge(const dal_scaled *s, double *out) { *out *= s->time; }
+
+static void scale_gauge_gradient(const dal_scaled *s, double *out)
+{
+    out = multiply(out, s->time, 1, NULL, s->n, s->length);
+    out = multiply(out, s->time, 1, NULL, s->n, s->speed);
+    *out *= s->time;
+}
 
 static void scale_potential(const dal_scaled *s, double *out)
 {
@@ -183,6 +190,7 @@ static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
     SCALED(constraint, call.constraint, NULL, scale_three_blocks)                                  \
     SCALED(energy_normal, call.energy_normal, NULL, scale_energy_normal)                           \
     SCALED(gauge, call.gauge, NULL, scale_gauge)                                                   \
+    SCALED(gauge_gradient, call.gauge_gradient, NULL, scale_gauge_gradient)                        \
     SCALED(guards, call.guards, NULL, keep)                                                        \
     SCALED(blocks, call.blocks, NULL, scale_blocks)                                                \
     SCALED(potential, call.potential, NULL, scale_potential)                                       \

@@ -29,6 +29,7 @@ static void name_inputs(dal__generation *g)
     }
     for (int i = 0; i < p->multipliers; i++)
         snprintf(g->input[p->g - first + i].text, sizeof g->input->text, "v[%d]", p->n + i);
+    snprintf(g->input[p->e - first].text, sizeof g->input->text, "pi[0]");
 }
 
 /* ---- programs ---- */
@@ -108,8 +109,11 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
                            "        num q_[DAL_FIXED_N], v_[DAL_FIXED_NW], pi_[DAL_FIXED_N];\n"
                            "        DAL_EACH(i, DAL_FIXED_N) q_[i] = q[i];\n"
                            "        DAL_EACH(i, DAL_FIXED_NW) v_[i] = v[i];\n");
+        const bool gauge = code == DAL__PROGRAM_GAUGE || code == DAL__PROGRAM_GAUGE_GRADIENT;
         dal__buffer_print(&g->text, "        DAL_EACH(i, DAL_FIXED_N) pi_[i] = %s;\n",
-                          momenta ? "pi[i]" : "dal_num(0.0)");
+                          momenta ? "pi[i]"
+                          : gauge ? "pi[0]"
+                                  : "dal_num(0.0)");
         dal__buffer_print(&g->text, "        dal__%s(w, t, q_, v_, pi_, all);\n", name);
     }
     dal__buffer_print(&g->text, "        dal__mask_singular(all, %d, %d, out);\n", outputs,
@@ -208,7 +212,10 @@ static void write_series(dal__generation *g)
                       "    else dal__series_next(s->work, k, c, packed, all);\n"
                       "    DAL_EACH(i, %d) out[i] = all[i];\n",
                       taylor->slots, taylor->outputs, taylor->inputs, outputs);
-    const int gauge = g->programs->program[DAL__PROGRAM_GAUGE].present, after = end + gauge;
+    const dal__program *const program = g->programs->program;
+    const int gauge =
+        program[DAL__PROGRAM_GAUGE].present && !program[DAL__PROGRAM_GAUGE_GRADIENT].present;
+    const int after = end + gauge;
     if (lifted && gauge)
         dal__buffer_print(text, "    out[%d] = all[%d];\n", outputs, end);
     else if (lifted)
@@ -305,10 +312,12 @@ void dal__emit_callbacks(dal__generation *g)
 static const char *const observed[DAL__OBSERVABLE_GROUPS] = {
     [DAL__OBSERVE_D] = "    dal__constraints(w, t, q, v, NULL, out + %d);\n",
     [DAL__OBSERVE_E] = "    dal__energy(w, t, q, v, NULL, out + %d);\n",
-    [DAL__OBSERVE_LIFT] = "    num f[DAL_FIXED_NW], mu;\n"
-                          "    dal__eval_program(w, DAL_EVAL_FIELD, t, q, v, NULL, f, NULL);\n"
-                          "    dal__eval_program(w, DAL_EVAL_GAUGE, t, q, v, NULL, &mu, NULL);\n"
-                          "    dal_lift_observables(y, DAL_FIXED_N, f, K_pi, mu, out + %d);\n",
+    [DAL__OBSERVE_LIFT] =
+        "    num f[DAL_FIXED_NW], mu;\n"
+        "    dal__eval_program(w, DAL_EVAL_FIELD, t, q, v, NULL, f, NULL);\n"
+        "    dal__eval_program(w, DAL_EVAL_GAUGE, t, q, v, y + 2 * DAL_FIXED_N, &mu, "
+        "NULL);\n"
+        "    dal_lift_observables(y, DAL_FIXED_N, f, K_pi, mu, out + %d);\n",
     [DAL__OBSERVE_INVARIANTS] = "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n",
     [DAL__OBSERVE_REACTIONS] =
         "    num reactions[DAL_FIXED_M + DAL_FIXED_M * DAL_FIXED_N];\n"

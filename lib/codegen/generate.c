@@ -162,10 +162,10 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH(LIBM)", calls & DAL__CALLS_LIBM},
         {"DAL_WITH(BRANCHES)", calls & DAL__CALLS_BRANCHES},
         {"DAL_WITH(TABLES)", calls & DAL__CALLS_TABLES},
-        /* the canonical variables, K that is not 1, e that changes, tangent vectors instead of
-         * p, pi */
+        /* the canonical variables, K that is not 1, e that changes, tangent vectors for p, pi */
         {"DAL_WITH(LIFT)", dal__has_lift(g)},
         {"DAL_WITH(EFFORT)", dal__wants(g, DAL__PROGRAM_EFFORT)},
+        {"DAL_WITH(GAUGE_GRADIENT)", dal__wants(g, DAL__PROGRAM_GAUGE_GRADIENT)},
         {"DAL_WITH(GAUGE)", g->layout.lifted && dal__wants(g, DAL__PROGRAM_GAUGE)},
         {"DAL_WITH(TANGENT)", kernel & DAL_KERNEL_TANGENT},
         /* implicit equations, Taylor coefficients of F, substeps under a tolerance, numbers in
@@ -303,6 +303,7 @@ static void write_constants(dal__generation *g)
         {"DIM", k->dim, false},
         {"LIFTED", k->lifted, false},
         {"EFFORT", dal__wants(g, DAL__PROGRAM_EFFORT), false},
+        {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE_GRADIENT), false},
         {"PLAIN", k->options.sums == DAL_SUMS_PLAIN, false},
         {"MULTIPLIER", k->multiplier, false},
         {"ACCELERATION", k->acceleration, false},

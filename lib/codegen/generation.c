@@ -58,6 +58,7 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_GAUGE:
         return dal__has_lift(g);
     case DAL__PROGRAM_EFFORT:
+    case DAL__PROGRAM_GAUGE_GRADIENT:
         return g->layout.lifted && g->programs->program[code].present;
     case DAL__PROGRAM_JACOBIAN:
         return kernel & (DAL_KERNEL_SOLVE | DAL_KERNEL_TANGENT);

@@ -35,6 +35,7 @@ typedef enum dal_callback_code {
 #define DAL_DIM(s)    (DAL_FIXED_DIM * DAL_STEP_GROUPS)
 #define DAL_LIFTED(s) DAL_FIXED_LIFTED
 #define DAL_EFFORT(s) DAL_FIXED_EFFORT
+#define DAL_GAUGE(s)  DAL_FIXED_GAUGE
 #if DAL_WITH(SOLVE)
 #define DAL_SOLVER(s)                 DAL_FIXED_SOLVER
 #define DAL_ITERATIONS(s)             DAL_FIXED_ITERATIONS
@@ -89,6 +90,7 @@ typedef enum dal_callback_code {
 #define DAL_DIM(s)                    ((s)->dim) /* numbers in the state */
 #define DAL_LIFTED(s)                 ((s)->lifted)
 #define DAL_EFFORT(s)                 ((s)->effort) /* 1: K of the effort is not 1 */
+#define DAL_GAUGE(s)                  ((s)->gauge)  /* 1: mu_e is not of t alone */
 #define DAL_SOLVER(s)                 ((s)->solver)
 #define DAL_ITERATIONS(s)             ((s)->iterations)
 #define DAL_SOLVER_TOLERANCE(s)       ((s)->solver_tolerance)
@@ -145,6 +147,7 @@ struct dal_step {
     int n, nw, m, dim;
     int lifted;        /* 1 on the canonical space */
     int effort;        /* 1 there with the callback effort */
+    int gauge;         /* 1 there with the callback gauge_gradient */
     int tangent;       /* 1 while p, pi hold a tangent vector (dq, dv) */
     num *method_state; /* [method_state_count] the numbers of the method, one after the other */
     int method_state_count;
@@ -380,12 +383,14 @@ DAL_INLINE const num *dal_push(const dal_step *s, const num *adjoint, const num 
 {
     return DAL_EFFORT(s) ? adjoint + 3 * DAL_N(s) : pi;
 }
-DAL_INLINE num dal_mu_e(dal_step *s, double t)
+/* mu_e at a state y; where it is of t alone, any. */
+DAL_INLINE num dal_mu_e_at(dal_step *s, double t, const num *y)
 {
     num mu;
-    dal_eval(s, DAL_EVAL_GAUGE, t, s->y, s->y + DAL_N(s), NULL, &mu);
+    dal_eval(s, DAL_EVAL_GAUGE, t, y, y + DAL_N(s), y + dal_at_e(s), &mu);
     return mu;
 }
+DAL_INLINE num dal_mu_e(dal_step *s, double t) { return dal_mu_e_at(s, t, s->y); }
 
 /* pi_e' = pi.K pi / (2e^2), with w = 1/e; K_pi may be pi itself. */
 DAL_INLINE num dal_gauge_rate(const num *pi, const num *K_pi, int n, num w)
@@ -425,6 +430,20 @@ DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL
 #endif
 
 #if DAL_WITH(LIFT)
+#if DAL_WITH(GAUGE_GRADIENT)
+/* Adds to the rates of p, pi, pi_e the derivatives of -mu_e pi_e by q, v, e. */
+DAL_INLINE void dal__add_gauge(dal_step *s, double t, const num *y, num *dy)
+{
+    const int n = DAL_N(s);
+    DAL__MARK(s);
+    DAL_VECTOR(s, gradient, 2 * DAL_N(s) + 1);
+    dal_eval(s, DAL_EVAL_GAUGE_GRADIENT, t, y, y + n, y + dal_at_e(s), gradient);
+    DAL_EACH(i, 2 * n + 1)
+        dy[dal_at_p(s) + i] = dal_fma(-y[dal_at_pi_e(s)], gradient[i], dy[dal_at_p(s) + i]);
+    DAL__RELEASE(s);
+}
+#endif
+
 /* The field of the canonical variables, without q' = v. */
 DAL_INLINE void dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
@@ -438,8 +457,11 @@ DAL_INLINE void dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_
     DAL_EACH(i, n) dy[n + i] = dal_fma(K_pi[i], w, f[i]);
     DAL_EACH(i, n) dy[dal_at_p(s) + i] = -f[n + i];
     DAL_EACH(i, n) dy[dal_at_pi(s) + i] = -p[i] - f[2 * n + i];
-    dy[dal_at_e(s)] = dal_mu_e(s, t);
+    dy[dal_at_e(s)] = dal_mu_e_at(s, t, y);
     dy[dal_at_pi_e(s)] = dal_gauge_rate(pi, K_pi, n, w);
+#if DAL_WITH(GAUGE_GRADIENT)
+    if (DAL_GAUGE(s)) dal__add_gauge(s, t, y, dy);
+#endif
     DAL__RELEASE(s);
 }
 #endif

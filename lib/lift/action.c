@@ -82,7 +82,7 @@ static double hamiltonian(void *user, const double *z)
     if (status == DAL_STATUS_OK)
         status = dal_evaluator_call(w->evaluator, s->call.field, w->t, z, v, NULL, w->field);
     if (status == DAL_STATUS_OK && s->call.gauge != NULL)
-        status = dal_evaluator_call(w->evaluator, s->call.gauge, w->t, z, v, NULL, &mu);
+        status = dal_evaluator_call(w->evaluator, s->call.gauge, w->t, z, v, &e, &mu);
     if (status != DAL_STATUS_OK) w->status = status;
     for (int i = 0; i < n; i++) sum += pi[i] * w->field[i] + p[i] * v[i];
     return square / (2.0 * e) + sum + mu * pi[n];

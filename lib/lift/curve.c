@@ -121,7 +121,7 @@ static dal_status hamiltonian(const splines *s, double t, double *out)
     }
     DAL_TRY(dal__evaluator_square(s->evaluator, t, q, v, pi, s->field, &square));
     if (system->call.gauge)
-        DAL_TRY(dal_evaluator_call(s->evaluator, system->call.gauge, t, q, v, NULL, &mu));
+        DAL_TRY(dal_evaluator_call(s->evaluator, system->call.gauge, t, q, v, &e, &mu));
     *out -= square / (2.0 * e) + mu * pi_e;
     return DAL_STATUS_OK;
 }

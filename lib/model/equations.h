@@ -27,7 +27,7 @@ typedef struct dal__equations {
     bool mass_positive; /* W is positive definite at the default start */
     unsigned properties;
     /* First symbols of the inputs.  Twice the numbers of q, v and pi: the tangent system has 2n. */
-    int t, q, v, pi, g, symbols;
+    int t, q, v, pi, g, e, symbols;
     int reaction; /* first symbol of h, R_x in invariants and events: they stand for formulas */
     /* Formulas as given. */
     int sizes;
@@ -78,6 +78,7 @@ typedef struct dal__equations {
     struct dal__bordered *bordered;     /* solves for F and h; NULL for vakonomic motion */
     struct dal__restricted *restricted; /* solves instead where W may be singular; or NULL */
     const char *gauge;                  /* the formula of mu_e; NULL: none */
+    dal__node *mu_gradient;             /* [2n + 1] by q, v, e; NULL: mu_e is of t alone */
     double *value;                      /* [symbols]: default parameters, default start */
     int *symbol;     /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
     dal__node *flow; /* [1 + n]: d/dt of (t, q), that is 1 and v */

@@ -144,8 +144,8 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
         int k;
         DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "entry of gauge", names, 2, &k,
                                error));
-        DAL_TRY(
-            dal__parse_entry(model, entry, dal__scope_of(e, k ? DAL__MAY_T : 0), out[k], error));
+        const unsigned may = k == 1 ? MAY_ALL | DAL__MAY_GAUGE : 0;
+        DAL_TRY(dal__parse_entry(model, entry, dal__scope_of(e, may), out[k], error));
         if (k == 1) e->gauge = entry->text;
         const double start = k == 0 ? dal__evaluate(e->graph, *out[k], e->value) : 1.0;
         if (!isfinite(start)) return dal__not_finite(model, entry, error);
@@ -153,6 +153,15 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
             return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(entry),
                                 "gauge e: %g is not above 0", start);
     }
+    const int n = e->n;
+    const bool is_of_state = e->mu && (dal__depends(e->graph, e->mu, e->q, e->v + n) ||
+                                       dal__depends(e->graph, e->mu, e->e, e->e + 1));
+    if (!is_of_state) return DAL_STATUS_OK;
+    e->mu_gradient = dal__model_nodes(model, 2 * n + 1, 0);
+    if (!e->mu_gradient) return dal__memory_error(error);
+    dal__gradient(e->graph, e->mu, e->symbol + e->q, n, e->mu_gradient);
+    dal__gradient(e->graph, e->mu, e->symbol + e->v, n, e->mu_gradient + n);
+    dal__gradient(e->graph, e->mu, e->symbol + e->e, 1, e->mu_gradient + 2 * n);
     return DAL_STATUS_OK;
 }
 
@@ -383,7 +392,8 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     e->v = e->q + 2 * n;
     e->pi = e->v + 2 * n;
     e->g = e->pi + 2 * n;
-    e->symbols = e->reaction = e->g + m;
+    e->e = e->g + m;
+    e->symbols = e->reaction = e->e + 1;
     dal__graph_free(e->graph);
     e->graph = dal__graph_create(e->parameters);
     if (!e->graph) return dal__memory_error(error);

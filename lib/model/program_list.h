@@ -8,7 +8,7 @@
 
 /* The programs of a system besides its callbacks (DAL_CALLBACK_LIST): code, name, and the
  * inputs that it reads. */
-enum { DAL__READS_none, DAL__READS_t, DAL__READS_tqv, DAL__READS_tqvpi };
+enum { DAL__READS_none, DAL__READS_t, DAL__READS_tqv, DAL__READS_tqvpi, DAL__READS_tqve };
 #define DAL__SINGLE_LIST(PROGRAM)                                                                  \
     PROGRAM(START, start, t)                                                                       \
     PROGRAM(CONSTRAINTS, constraints, tqv)                                                         \
@@ -58,11 +58,11 @@ typedef dal_status dal__run_program(const dal_system *system, const dal_point *a
 typedef struct dal__programs {
     dal__tapes *tapes;
     const dal__equations *equations;
-    int n, multipliers;  /* of this system: 2n, 0 for the tangent one */
-    int t, q, v, pi, g;  /* places of the inputs in work */
-    size_t scratch;      /* place in work for outputs and pivots together */
-    size_t saved_pivots; /* place in work for the pivots of the rank check */
-    int pivots;          /* how many these are */
+    int n, multipliers;    /* of this system: 2n, 0 for the tangent one */
+    int t, q, v, pi, g, e; /* places of the inputs in work */
+    size_t scratch;        /* place in work for outputs and pivots together */
+    size_t saved_pivots;   /* place in work for the pivots of the rank check */
+    int pivots;            /* how many these are */
     dal__program program[DAL__PROGRAM_COUNT];
     dal_callbacks wide1, wide4, wide8;
     dal__taylor *taylor[2]; /* F in t, q, v, g; and the lift, in pi too; NULL: not made */

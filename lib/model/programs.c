@@ -339,7 +339,8 @@ static dal_status make_series(dal_model *model, dal__programs *programs)
     }
     DAL_TRY(add_series(programs, 0, DAL__PROGRAM_FIELD, places));
     DAL_TRY(add_series(programs, 1, DAL__PROGRAM_ADJOINT, places));
-    DAL_TRY(add_series(programs, 1, DAL__PROGRAM_GAUGE, places));
+    if (!programs->program[DAL__PROGRAM_GAUGE_GRADIENT].present)
+        DAL_TRY(add_series(programs, 1, DAL__PROGRAM_GAUGE, places));
     return add_series(programs, 1, DAL__PROGRAM_EFFORT, places);
 }
 
@@ -449,6 +450,7 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     programs->v = inputs + e->v;
     programs->pi = inputs + e->pi;
     programs->g = inputs + e->g;
+    programs->e = inputs + e->e;
     programs->scratch = programs->tapes->workspace;
     system->data = programs;
     programs->saved_pivots = programs->scratch + scratch_size(programs);

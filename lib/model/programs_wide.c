@@ -47,7 +47,8 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
         load_lanes(at->work, p->v, at->v, p->n);
         load_lanes(at->work, p->g, at->v + p->n * WIDTH, p->multipliers);
     }
-    if (reads >= DAL__READS_tqvpi) load_lanes(at->work, p->pi, at->pi, p->n);
+    if (reads == DAL__READS_tqvpi) load_lanes(at->work, p->pi, at->pi, p->n);
+    if (reads == DAL__READS_tqve && at->pi) load_lanes(at->work, p->e, at->pi, 1);
     if (program->checked + program->saved == 0) {
         DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);
         return DAL_STATUS_OK;
@@ -83,7 +84,9 @@ dal_status DAL_WIDE(dal__call_series)(const dal_system *system, int lifted, int 
     num *to = (num *)out;
     DAL_WIDE(dal__taylor_run)(taylor, dal__unit_of_time(system), k, stride, in, work, memory);
     DAL_WIDE(dal__taylor_read)(taylor, 0, outputs, k, stride, work, memory, out);
-    const int gauge = p->program[DAL__PROGRAM_GAUGE].present, after = further + gauge;
+    const int gauge =
+        p->program[DAL__PROGRAM_GAUGE].present && !p->program[DAL__PROGRAM_GAUGE_GRADIENT].present;
+    const int after = further + gauge;
     if (lifted && gauge) DAL_WIDE(dal__taylor_read)
     (taylor, further, 1, k, stride, work, memory, (double *)(to + outputs));
     if (lifted && !gauge) to[outputs] = dal_num(0.0);

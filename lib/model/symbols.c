@@ -253,6 +253,7 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
             (!has_state || scope->may & DAL__MAY_STATE) && (!has_t || scope->may & DAL__MAY_T);
         return is_allowed ? let : misplaced(scope, "let", name, error);
     }
+    if (strcmp(name, "e") == 0 && scope->may & DAL__MAY_GAUGE) return dal__symbol(e->graph, e->e);
     if (strcmp(name, "e") == 0) {
         dal__fail(error, DAL_STATUS_NAME, "e is the gauge variable; exp(1) is Euler's number");
         return 0;

@@ -15,7 +15,8 @@ enum {
     DAL__MAY_STATE = 2,
     DAL__MAY_MULTIPLIERS = 4,
     DAL__MAY_REACTIONS = 8,
-    DAL__MAY_ACCELERATIONS = 16
+    DAL__MAY_ACCELERATIONS = 16,
+    DAL__MAY_GAUGE = 32 /* e */
 };
 typedef struct dal__scope {
     const dal_model *model;

@@ -122,6 +122,8 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     DAL_TRY(add_diagnosis(model, p));
     DAL_TRY(add_if(model, p, e->normal, DAL__PROGRAM_ENERGY_NORMAL, e->normal, 1 + 3 * e->n));
     DAL_TRY(add_if(model, p, e->mu, DAL__PROGRAM_GAUGE, &e->mu, 1));
+    DAL_TRY(add_if(model, p, e->mu_gradient, DAL__PROGRAM_GAUGE_GRADIENT, e->mu_gradient,
+                   2 * e->n + 1));
     DAL_TRY(add_if(model, p, e->guards, DAL__PROGRAM_GUARDS, e->guard, e->guards));
     DAL_TRY(dal__programs_add(model, p, DAL__PROGRAM_START, e->start, start));
     DAL_TRY(add_if(model, p, e->energy, DAL__PROGRAM_ENERGY, &e->energy, 1));

@@ -236,6 +236,7 @@ static void prepare_step(engine *e)
     dal_step *s = &e->step;
     *s = (dal_step){.n = k->n, .nw = k->nw, .m = k->m, .dim = k->dim, .lifted = k->lifted};
     s->effort = k->lifted && k->system->call.effort;
+    s->gauge = k->lifted && k->system->call.gauge_gradient;
     s->y = e->persistent;
     s->r = e->persistent + s->dim;
     s->solver = k->options.solver;
@@ -338,7 +339,7 @@ static dal_status eval_engine(void *engine_, int code, double t, const double *s
     const dal_point at = {.t = t,
                           .q = state,
                           .v = state + n * width,
-                          .pi = state + (3 * n + 1) * width,
+                          .pi = state + (code == DAL_EVAL_GAUGE ? 2 * n : 3 * n + 1) * width,
                           .work = (double *)e->work};
     return e->call[code](e->layout.system, &at, out);
 }
@@ -353,7 +354,7 @@ static void observe_lift(engine *e, double t, num *out)
     num *f = out + 4, *effort = f + e->layout.nw, mu;
     const num *pi = y + 3 * n + 1;
     eval_callback(&e->step, DAL_EVAL_FIELD, t, y, y + n, NULL, f);
-    eval_callback(&e->step, DAL_EVAL_GAUGE, t, y, y + n, NULL, &mu);
+    eval_callback(&e->step, DAL_EVAL_GAUGE, t, y, y + n, y + 2 * n, &mu);
     if (e->step.effort) eval_callback(&e->step, DAL_EVAL_EFFORT, t, y, y + n, pi, effort);
     dal_lift_observables(y, n, f, e->step.effort ? effort : pi, mu, out);
 }

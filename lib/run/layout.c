@@ -59,6 +59,11 @@ static const char *misfit(const dal__layout *k)
         return "the system has no jacobian";
     if (needs & DAL_NEEDS_JACOBIAN && k->lifted && s->properties & DAL_EFFORT_OF_V)
         return "K of the effort depends on v, and pi.K pi/(2e) has no flow in closed form";
+    const unsigned properties = dal_method_properties(&k->method);
+    const unsigned runge_kutta = DAL_EXPLICIT | DAL_COMPONENTWISE;
+    if (k->lifted && call->gauge_gradient &&
+        (properties & (runge_kutta | DAL_SYMPLECTIC)) != runge_kutta)
+        return "mu_e of the gauge is not of t alone, which explicit Runge-Kutta methods follow";
     if (k->options.solver == DAL_NEWTON && !call->jacobian)
         return "the system has no jacobian, which the solver newton needs";
     if (needs & DAL_NEEDS_BLOCKS && k->lifted)
