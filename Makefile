@@ -33,7 +33,7 @@
 BUILD        ?= $(if $(MINIMAL),build/minimal,build)
 PREFIX       ?= /usr/local
 CC           ?= cc
-CFLAGS       ?= $(if $(MINIMAL),-Os,-O2 -g)
+CFLAGS       ?= $(if $(MINIMAL),-Oz,-O2 -g)
 FUZZ_SECONDS ?= 10
 FUZZ_CC      ?= clang
 

@@ -24,10 +24,10 @@
  * multipliers are members of dal_system, dimension is dal_run_dimension.  Quantities have the units
  * of the system, which are the user's own; angles in formulas are in radians.
  *
- * The library of `make MINIMAL=1` has no quad precision (DAL_STATUS_UNSUPPORTED), and lacks the
- * functions of dalembert_batch.h, dalembert_analysis.h and dalembert_codegen.h; of
- * dalembert_model.h it lacks what reads YAML, built-in systems, dal_model_growth and
- * dal_model_ranks.  To call one of these is an error of the linker.
+ * The library of `make MINIMAL=1` has no quad precision and takes no holonomic constraints
+ * (DAL_STATUS_UNSUPPORTED), and lacks the functions of dalembert_batch.h, dalembert_analysis.h and
+ * dalembert_codegen.h; of dalembert_model.h it lacks what reads YAML, built-in systems,
+ * dal_model_growth and dal_model_ranks.  To call one of these is an error of the linker.
  *
  * Nothing here prints, reads the environment or has global state.  Different objects may be used in
  * different threads. */

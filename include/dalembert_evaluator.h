@@ -30,7 +30,7 @@ const dal_system *dal_evaluator_system(const dal_evaluator *evaluator);
  * the callback. */
 dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
                               const double *q, const double *v, const double *pi, double *out);
-/* The scales of D, E and the invariants at a point, out[m + 1 + invariants], see
+/* The scales of D, E, the invariants and g at a point, out[m + 1 + invariants + holonomic], see
  * dal_scale_callback; their absolute values where the system has no scales. */
 dal_status dal_evaluator_scales(dal_evaluator *evaluator, double t, const double *q,
                                 const double *v, double *out);

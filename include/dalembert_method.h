@@ -28,7 +28,8 @@ enum {
     DAL_PERSISTENT_MULTIPLIER = 1 << 10, /* a reversible map of (q, v, last multipliers) */
     DAL_ADAPTIVE = 1 << 11,              /* divides a step h where the option tolerance is not 0 */
     DAL_EXTRAPOLATES_STAGES = 1 << 12,   /* the first guess of a step is made from the last step */
-    DAL_PERSISTENT_ACCELERATION = 1 << 13 /* begins with what the last step ended with */
+    DAL_PERSISTENT_ACCELERATION = 1 << 13, /* begins with what the last step ended with */
+    DAL_PRESERVES_HOLONOMIC = 1 << 14      /* every holonomic constraint g, with its D */
 };
 
 /* What an integrator needs of the system or, a modifier, of the method inside. */
@@ -130,7 +131,9 @@ typedef enum dal_sums {
     OPTION(bool, reactions, "reactions", false, 0, 1, "off|on",                                    \
            "observes multipliers h1.., reactions R_x.. of F, and a method's own lambda1..")        \
     OPTION(bool, consistent, "consistent", false, 0, 1, "off|on",                                  \
-           "moves the velocities of the start to D = 0, by the least change in the mass metric")   \
+           "moves the start to g = 0 and D = 0, by the least change in the mass metric")           \
+    OPTION(bool, bare, "bare", false, 0, 1, "off|on",                                              \
+           "leaves a method that holonomic constraints drift with as it is, without +project")     \
     OPTION(double, tolerance, "tolerance", 0, 0.0, 1.0, "TOLERANCE",                               \
            "estimated error, absolute and relative, of substeps, dop853 and taylor; 0: none")      \
     OPTION(double, solver_tolerance, "solver-tolerance", 0, 0.0, 1.0, "CHANGE",                    \

@@ -30,6 +30,7 @@ typedef struct dal_model dal_model;
     SECTION(ACCELERATIONS, "accelerations") /* coordinate, formula; instead of a Lagrangian */     \
     SECTION(FORCES, "forces")               /* coordinate, formula */                              \
     SECTION(CONSTRAINTS, "constraints")     /* formula */                                          \
+    SECTION(HOLONOMIC, "holonomic")         /* formula in q, t and parameters */                   \
     SECTION(REACTIONS, "reactions")   /* constraint.coordinate, as 2.x: formula; see below */      \
     SECTION(MECHANICS, "mechanics")   /* lagrange-d'alembert (default) or vakonomic */             \
     SECTION(CONTROLS, "controls")     /* column.coordinate, as 2.x: formula; of effort controls */ \
@@ -46,7 +47,8 @@ typedef struct dal_model dal_model;
 /* A section of a system file.  Reactions are along B_a = dD_a/dv (Chetaev's rule), unless the file
  * gives B_a(q,v,t), as for an actuator that enforces a servo constraint:
  *     W dv/dt = b + B^T h,   (A W^-1 B^T) h = -(c + A W^-1 b)
- * A component of B_a that is not named is 0. */
+ * A component of B_a that is not named is 0.  A holonomic constraint g(q,t) = 0 brings the row
+ * D = g_q v + g_t, after the rows of the section constraints, and a reaction along g_q. */
 typedef enum dal_section {
 #define CODE(code, text) DAL_SECTION_##code,
     DAL_SECTION_LIST(CODE)

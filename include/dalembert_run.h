@@ -28,11 +28,18 @@ typedef struct dal_run_spec {
     double start_time;                /* t of the start; 0 where it is not named */
 } dal_run_spec;
 
+/* Adds +project to a method of F, which lets holonomic constraints g of the system drift, unless
+ * the option bare is on; every run does so with the method of its spec.  *added, which may be NULL:
+ * whether it was added.  Errors: DAL_STATUS_UNSUPPORTED (a method that enforces D alone, or has no
+ * place for another modifier). */
+dal_status dal_method_complete(dal_method *method, const dal_system *system,
+                               const dal_options *options, bool *added, dal_error *error);
+
 /* Bytes that a run needs; 0 when the spec cannot be used. */
 size_t dal_run_size(const dal_run_spec *spec);
 /* Places a run in memory[bytes] of the caller, dal_run_size bytes at least, of any alignment; it
  * need not be freed, unless dal_run_native is used.  Errors: DAL_STATUS_ARGUMENT, DAL_STATUS_NAME
- * with the nearest name, DAL_STATUS_UNSUPPORTED, DAL_STATUS_INCONSISTENT (|D| beyond 1e-10
+ * with the nearest name, DAL_STATUS_UNSUPPORTED, DAL_STATUS_INCONSISTENT (|D| or |g| beyond 1e-10
  * relative), DAL_STATUS_RANK, DAL_STATUS_SINGULAR_MASS, DAL_STATUS_GAUGE, DAL_STATUS_NOT_FINITE,
  * DAL_STATUS_MEMORY (too few bytes). */
 dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
@@ -96,7 +103,8 @@ dal_status dal_run_restore(dal_run *run, const double *saved, size_t count, dal_
 
 /* The number of observables, in this order: D1..Dm, E (with an energy), H, |p|, |pi|, |pi_e|
  * (lifted; max norms), invariants, with the option reactions h1.., R_x.. and lambda1.. (of the
- * last step; h before), error (max over q; with an exact solution from the start). */
+ * last step; h before), C1.. of holonomic constraints, error (max over q; with an exact solution
+ * from the start). */
 int dal_run_observables(const dal_run *run);
 /* Writes the name of observable i into buffer[size]; returns buffer, NULL past the last. */
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size);

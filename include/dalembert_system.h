@@ -81,7 +81,8 @@ typedef dal_status dal_scale_callback(const dal_system *system, const dal_point 
     CALLBACK(POTENTIAL, potential, tqv, 3 * n) /* U, U_q.v, v.Wv (discrete-gradient) */ \
     CALLBACK(CORRECTION, correction, tqv, n) /* x, W x = A^T l, A x = -D; NULL: by constraint */ \
     CALLBACK(ENFORCEMENT, enforcement, tqvpi, 2 * (n + m)) /* f, x, k, l: W f = b + B^T k, */ \
-        /* A f = 0, W x = B^T l, A x = -(D + A pi); NULL: by blocks (gni) */
+        /* A f = 0, W x = B^T l, A x = -(D + A pi); NULL: by blocks (gni) */ \
+    CALLBACK(HOLONOMIC, holonomic, tqv, holonomic) /* g(q,t); NULL: there are none */
 /* clang-format on */
 typedef struct dal_callbacks {
 #define MEMBER(code, member, ...) dal_callback *member;
@@ -162,9 +163,10 @@ typedef struct dal_branches {
     void (*hold)(const dal_system *system, const double *point, double *work);
 } dal_branches;
 
-/* A velocity that a start solves from D = 0, and where a file names it, for messages. */
+/* A coordinate that a start solves from g = 0, or a velocity from D = 0, and where a file names it,
+ * for messages. */
 typedef struct dal_solved {
-    int velocity;     /* its number, from 0 */
+    int number;       /* of the coordinate or velocity, from 0 */
     int line, column; /* from 1, or 0 */
 } dal_solved;
 
@@ -174,8 +176,9 @@ struct dal_system {
     const char *name;              /* for messages and files; may be NULL, as the next two */
     const char *title, *reference; /* a line for people; where the system is from */
     int n;                         /* coordinates, >= 1 */
-    int m;                         /* constraints */
-    int multipliers;               /* first-order variables beside v (vakonomic g); 0 or m */
+    int m;                         /* constraints D */
+    int holonomic;   /* of these, the last: D = g_q v + g_t of holonomic constraints g(q,t) = 0 */
+    int multipliers; /* first-order variables beside v (vakonomic g); 0 or m */
     int parameters, invariants, guards, tags, tables; /* how many there are */
     int observed; /* of the invariants, the last: formulas that dal_model_observe has added */
     unsigned properties;           /* DAL_D_LINEAR | ...: what is known of D and E */
@@ -194,18 +197,19 @@ struct dal_system {
                    they solve; the rank check is spared where these are steady; 0: none */
     dal_callbacks call;                 /* one lane */
     const dal_callbacks *wide4, *wide8; /* of 4 and of 8 lanes, interleaved; may be NULL */
-    dal_callback *prepare; /* completes work after a change of parameters; out unused */
-    dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at the start; NULL: 0, e = 1 */
-    int solved_velocities; /* how many a start solves from D = 0, the other velocities being
-                                kept; `start` has first guesses.  Needs call.constraint */
-    const dal_solved *solved;  /* [solved_velocities] */
+    dal_callback *prepare;  /* completes work after a change of parameters; out unused */
+    dal_callback *start;    /* out[2n + multipliers + 1]: q, v, g, e at the start; NULL: 0, e = 1 */
+    int solved_coordinates; /* how many a start solves from g = 0, then */
+    int solved_velocities;  /* how many from D = 0, the others being kept; `start` has first
+                                guesses.  Needs call.constraint */
+    const dal_solved *solved;  /* [solved_coordinates + solved_velocities], in this order */
     dal_callback *constraints; /* out[m]: D alone; NULL: D is not observed */
     dal_callback
         *energy; /* out[1]: E = L_v.v - L, of L - g.D where multipliers are g; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants]; NULL: no invariants */
     dal_callback *reactions;        /* out[m + m*n]: h, B of the force B^T h in F; NULL: unknown */
-    dal_scale_callback *scales;     /* out[m + 1 + invariants]: of D, E and the invariants; NULL:
-                                   estimated, see dal_run_scales */
+    dal_scale_callback *scales;     /* out[m + 1 + invariants + holonomic]: of D, E, the invariants
+                                   and g; NULL: estimated, see dal_run_scales */
     dal_scale_callback *reaction_scales; /* out[m + n]: of h and R = B^T h; NULL: likewise */
     size_t scale_memory;                 /* doubles that these two need */
     const double *units; /* [n + nw + m + 1] how large each q, v, g, D and E is, powers of two: a

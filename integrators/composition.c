@@ -78,7 +78,7 @@ DAL_INLINE dal_status compose(dal_step *s, int substeps, const double *c)
                    .kernel = DAL_KERNEL_COMPOSITION,                                               \
                    .inherits = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR |           \
                                DAL_PRESERVES_QUADRATIC | DAL_PRESERVES_D | DAL_EXPLICIT |          \
-                               DAL_PRESERVES_ENERGY)
+                               DAL_PRESERVES_ENERGY | DAL_PRESERVES_HOLONOMIC)
 
 COMPOSITION(yoshida4, 3, 4, "yoshida4", "Yoshida 1990");
 COMPOSITION(suzuki4, 5, 4, "suzuki4", "Suzuki 1990");

@@ -28,6 +28,7 @@ static const unsigned verified =
     DAL_PRESERVES_D_MIDPOINT | DAL_PERSISTENT_MULTIPLIER | /* test_constrained.c */
     DAL_ADAPTIVE |                                         /* test_adaptive.c */
     DAL_PERSISTENT_ACCELERATION |                          /* test_enforcement.c */
+    DAL_PRESERVES_HOLONOMIC |                              /* test_holonomic.c */
     DAL_EXTRAPOLATES_STAGES | /* that a checkpoint has the slopes: test_run.c */
     DAL_EXPLICIT | DAL_MODIFIER | DAL_COMPONENTWISE; /* the batches' and the generated steps */
 

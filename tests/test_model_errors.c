@@ -366,8 +366,7 @@ static const bad_file mechanics[] = {
      "the mass matrix is singular: it does not determine the acceleration of 'y'",
      XY "lagrangian: @(x' + x*y')^2/2\n"},
     {DAL_STATUS_RANK,
-     "constraint 1 does not depend on the velocities; of f(q) = 0 write the time derivative, as "
-     "2*x*x' + 2*y*y' of x^2 + y^2",
+     "constraint 1 does not depend on the velocities; f(q) = 0 belongs under holonomic",
      XY L "constraints: [@x - y]\n"},
     {DAL_STATUS_MODEL, "vakonomic mechanics has no reactions: its multipliers take their place",
      XY L "mechanics: vakonomic\nconstraints: [x']\nreactions: [{@x: 1}]\n"},

@@ -345,6 +345,16 @@ static void null_dal_method_name(void)
     CU_ASSERT_PTR_NULL(dal_method_name(&method, NULL, sizeof buffer));
 }
 
+static void null_dal_method_complete(void)
+{
+    const dal_options options = dal_options_default();
+    const dal_system system = {.n = 1};
+    dal_method none = {{NULL}};
+    CU_ASSERT_EQUAL(dal_method_complete(NULL, &system, &options, NULL, NULL), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_method_complete(&none, NULL, &options, NULL, NULL), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_method_complete(&none, &system, NULL, NULL, NULL), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_method_complete(&none, &system, &options, NULL, NULL), DAL_STATUS_OK);
+}
 static void null_dal_method_order(void) { CU_ASSERT_EQUAL(dal_method_order(NULL), 0); }
 static void null_dal_method_properties(void) { CU_ASSERT_EQUAL(dal_method_properties(NULL), 0); }
 static void null_dal_method_needs(void) { CU_ASSERT_EQUAL(dal_method_needs(NULL), 0); }

@@ -426,7 +426,7 @@ static void test_solve_misspelt(void)
 /* Without a file: the names are added to a model, or the system is filled by hand. */
 static void test_solved_by_hand(void)
 {
-    static const dal_solved y = {.velocity = 1};
+    static const dal_solved y = {.number = 1};
     dal_model *model = NULL;
     const dal_system *system = NULL;
     const char text[] = PLANE "constraints: [x' + 2*y' - 4]\nstart: {x': 2}\n";
@@ -435,7 +435,7 @@ static void test_solved_by_hand(void)
                     DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(system->solved_velocities, 1);
-    CU_ASSERT_EQUAL(system->solved[0].velocity, 1);
+    CU_ASSERT_EQUAL(system->solved[0].number, 1);
     dal_system by_hand = *fixture_system(text);
     by_hand.solved_velocities = 1;
     by_hand.solved = &y;
@@ -445,7 +445,7 @@ static void test_solved_by_hand(void)
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[3], 1.0, 1e-15);
         dal_run_free(run);
     }
-    const dal_solved none = {.velocity = 2}, both[] = {{.velocity = 0}, {.velocity = 1}};
+    const dal_solved none = {.number = 2}, both[] = {{.number = 0}, {.number = 1}};
     const dal_run_spec spec = fixture_spec(&by_hand, "rk4", DAL_PHYSICAL, 0.1);
     by_hand.solved = &none;
     fixture_refused(&spec, DAL_STATUS_ARGUMENT,
@@ -497,7 +497,7 @@ static void test_dependent(void)
                                "parameters: {k: 1, l: 2, s: 1}\n"
                                "constraints: [x' + k*y', s*(x' + l*y')]\n";
     static const char few[] = "constraint 2 restricts, except for rounding, only velocities that "
-                              "earlier ones restrict at the start";
+                              "constraint 1 restricts at the start";
     static const char scaled[] = "constraint 2 is badly scaled: its derivatives by the velocities "
                                  "reach ";
     const struct {

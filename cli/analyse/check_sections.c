@@ -461,6 +461,7 @@ static bool sample_path(check *c, const sampled_path *path, const double *start)
     const size_t width = (size_t)path->width;
     spec.options.step = path->h;
     spec.options.space = path->space;
+    spec.options.bare = true;
     bool done = dal_method_parse(&spec.method, path->method, NULL) == DAL_STATUS_OK &&
                 cli_is_ok(dal_run_create(&run, &spec, NULL)) &&
                 dal_run_set_state(run, c->origin.t, start, NULL) == DAL_STATUS_OK;

@@ -16,6 +16,7 @@
     GROUP(V, "v") \
     GROUP(LIFT, "lift") \
     GROUP(D, "D") \
+    GROUP(C, "C") \
     GROUP(E, "E") \
     GROUP(INVARIANTS, "invariants") \
     GROUP(OBSERVED, "observed") \
@@ -42,7 +43,7 @@ enum { NAME_SIZE = 256, LIFT_OBSERVABLES = 4 };
 static bool is_hidden(const char *name) { return name[0] == '|'; }
 
 /* Value i is t, q, v, g or the lift, then D1.., E, H and the norms, the invariants, h1.., R_x..,
- * lambda1.., error.  Formulas that are observed are the last of the invariants.  An
+ * lambda1.., C1.., error.  Formulas that are observed are the last of the invariants.  An
  * invariant may be called E or H. */
 static column_group group_of(const run_columns *c, const run_simulation *s, int i)
 {
@@ -66,7 +67,8 @@ static column_group group_of(const run_columns *c, const run_simulation *s, int 
     int end = 0;
     for (size_t k = 0; k < sizeof groups / sizeof *groups; k++)
         if (observable < (end += groups[k].count)) return groups[k].group;
-    return strcmp(c->name[i], "error") == 0 ? COLUMN_GROUPS : COLUMNS_LAMBDA;
+    if (strcmp(c->name[i], "error") == 0) return COLUMN_GROUPS;
+    return c->name[i][0] == 'C' ? COLUMNS_C : COLUMNS_LAMBDA;
 }
 
 static void name_values(run_columns *c, const dal_run *run)

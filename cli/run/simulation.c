@@ -44,6 +44,17 @@ static int load_system(run_simulation *s)
     return status;
 }
 
+/* Adds +project to a method that lets holonomic constraints drift, and says so; a method that
+ * cannot be used is refused when the run is made. */
+static void complete_method(run_simulation *s)
+{
+    bool added;
+    dal_method_complete(&s->request.method, s->system, &s->request.options, &added, NULL);
+    if (added)
+        cli_note("holonomic constraints drift with this method: +project is added; --bare on "
+                 "leaves it out");
+}
+
 /* Takes those that the command needs and does not have; a line says which. */
 static int take_defaults(const cli_group *group, int status)
 {
@@ -69,6 +80,7 @@ static int take_defaults(const cli_group *group, int status)
     }
     if (taken[0] && found == CLI_DONE && status == CLI_DONE)
         cli_note("%s gives%s", request->system_name, taken);
+    if (found == CLI_DONE && status == CLI_DONE) complete_method(s);
     /* A command that does not take --from goes from t = 0 forwards. */
     const bool is_forward = group->without & REQUEST_OPTION(from);
     const int forward = is_forward ? request_check_forward(request) : CLI_DONE;
@@ -85,6 +97,7 @@ int simulation_make_spec(run_simulation *s, dal_run_spec *spec)
     run_request *request = &s->request;
     const int status = s->system ? CLI_DONE : load_system(s);
     if (status != CLI_DONE) return status;
+    dal_method_complete(&request->method, s->system, &request->options, NULL, NULL);
     const double min = dal_min_tolerance(&request->options);
     if (request->options.tolerance > 0.0 && request->options.tolerance < min)
         return cli_fail(CLI_USAGE, "--tolerance: %g is below %.2g, the smallest in this precision",

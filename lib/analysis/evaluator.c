@@ -81,11 +81,13 @@ dal_status dal_evaluator_scales(dal_evaluator *evaluator, double t, const double
     const dal_system *s = evaluator->system;
     const dal_point at = {.t = t, .q = q, .v = v, .work = evaluator->work};
     if (s->scales) return s->scales(s, &at, evaluator->scale_memory, out);
-    for (int i = 0; i < s->m + 1 + s->invariants; i++) out[i] = 0.0;
+    const int positions = s->m + 1 + s->invariants, count = positions + s->holonomic;
+    for (int i = 0; i < count; i++) out[i] = 0.0;
     if (s->constraints) DAL_TRY(s->constraints(s, &at, out));
     if (s->energy) DAL_TRY(s->energy(s, &at, out + s->m));
     if (s->invariant_values) DAL_TRY(s->invariant_values(s, &at, out + s->m + 1));
-    for (int i = 0; i < s->m + 1 + s->invariants; i++) out[i] = fabs(out[i]);
+    if (s->call.holonomic) DAL_TRY(s->call.holonomic(s, &at, out + positions));
+    for (int i = 0; i < count; i++) out[i] = fabs(out[i]);
     return DAL_STATUS_OK;
 }
 
@@ -150,8 +152,7 @@ dal_status dal_evaluator_start_at(dal_evaluator *evaluator, double t, const dal_
     for (int i = 0; i < start_count; i++) DAL_TRY(set_start(s, &start[i], out, error));
     double *memory = calloc(dal__solve_size(s) + 1, sizeof *memory);
     if (memory == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "%s: out of memory", s->name);
-    const dal_status solved =
-        dal__solve_velocities(s, t, out, out + s->n, evaluator->work, memory, error);
+    const dal_status solved = dal__solve_start(s, t, out, evaluator->work, memory, error);
     free(memory);
     return solved;
 }

@@ -172,6 +172,13 @@ static void scale_enforcement(const dal_scaled *s, double *out)
     multiply(out, per_energy, 1, NULL, s->m, s->constraint);
 }
 
+/* The rows D_g are the time derivatives of g. */
+static void scale_holonomic(const dal_scaled *s, double *out)
+{
+    const double *unit = s->per_constraint + s->m - s->system.holonomic;
+    multiply(out, 1.0 / s->time, 1, NULL, s->system.holonomic, unit);
+}
+
 static void scale_exact(const dal_scaled *s, double *out)
 {
     out = multiply(out, 1.0, 1, NULL, s->n, s->per_length);
@@ -196,6 +203,7 @@ static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
     SCALED(potential, call.potential, NULL, scale_potential)                                       \
     SCALED(correction, call.correction, NULL, scale_correction)                                    \
     SCALED(enforcement, call.enforcement, s->speed, scale_enforcement)                             \
+    SCALED(holonomic, call.holonomic, NULL, scale_holonomic)                                       \
     SCALED(constraints, constraints, NULL, scale_constraints)                                      \
     SCALED(energy, energy, NULL, scale_energy)                                                     \
     SCALED(invariant_values, invariant_values, NULL, scale_invariants)                             \
@@ -245,7 +253,7 @@ static void make_system(dal_scaled *s)
     s->system.picture = NULL;
     s->system.units = NULL;
     s->system.events = 0;
-    s->system.solved_velocities = 0;
+    s->system.solved_coordinates = s->system.solved_velocities = 0;
     s->system.start = start;
     s->system.scales = s->system.reaction_scales = NULL;
     s->system.equation_values = NULL;
@@ -317,7 +325,7 @@ static void find_units(survey *w)
 static dal_status make_scaled(dal_scaled **scaled, const dal_system *p, survey *w, dal_error *error)
 {
     const size_t n = (size_t)p->n, nw = n + (size_t)p->multipliers, m = (size_t)p->m;
-    const size_t formulas = m + 1 + (size_t)p->invariants;
+    const size_t formulas = m + 1 + (size_t)(p->invariants + p->holonomic);
     const size_t numbers = 1 + n + nw + nw + formulas + n + nw + m + n + nw + 1;
     const size_t sizes = dal__sizes_memory(p);
     double *block = dal__numbers(1, sizes + n + nw + formulas);

@@ -265,8 +265,9 @@ void dal__write_start(dal__generation *g)
         dal__buffer_number(&g->text, g->spec->start[i].value);
         dal__buffer_append(&g->text, ");\n");
     }
-    const bool is_moved = k->options.consistent || k->system->solved_velocities > 0;
-    for (int i = k->n; is_moved && i < 2 * k->n; i++) {
+    const bool is_moved = k->options.consistent || k->system->solved_velocities > 0 ||
+                          k->system->solved_coordinates > 0;
+    for (int i = k->system->holonomic > 0 ? 0 : k->n; is_moved && i < 2 * k->n; i++) {
         dal__buffer_print(&g->text, "    y[%d] = dal_num(", i);
         dal__buffer_number(&g->text, dal_run_state(g->run)[i]);
         dal__buffer_append(&g->text, ");\n");
@@ -323,6 +324,8 @@ static const char *const observed[DAL__OBSERVABLE_GROUPS] = {
         "    num reactions[DAL_FIXED_M + DAL_FIXED_M * DAL_FIXED_N];\n"
         "    dal__reactions(w, t, q, v, NULL, reactions);\n"
         "    dal_reaction_observables(reactions, DAL_FIXED_M, DAL_FIXED_N, out + %d);\n",
+    [DAL__OBSERVE_HOLONOMIC] =
+        "    dal__eval_program(w, DAL_EVAL_HOLONOMIC, t, q, v, NULL, out + %d, NULL);\n",
     [DAL__OBSERVE_ERROR] = "    num exact[2 * DAL_FIXED_N];\n"
                            "    dal__exact(w, t, q, v, NULL, exact);\n"
                            "    out[%d] = dal_max_distance(exact, q, DAL_FIXED_N);\n",

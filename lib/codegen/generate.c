@@ -25,7 +25,7 @@ enum { MAX_UNROLLED_DIM = 64, MAX_UNROLLED = 15, MAX_UNROLLED_LANES = 32 };
 static dal_status check_method(dal__generation *g, dal_error *error)
 {
     for (int i = 0; i < g->layout.depth; i++) {
-        const dal_integrator *layer = g->spec->method.layer[i];
+        const dal_integrator *layer = g->layout.method.layer[i];
         if (!dal__find_source(layer, &g->identifier[i], &g->source[i]))
             return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                              "'%s' is not an integrator of the library: its source is not known",
@@ -76,7 +76,7 @@ static dal_status check_steps(dal__generation *g, dal_error *error)
     if (g->spec->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "steps in quad precision are not generated");
-    g->kernel = dal__kernel_of(&g->spec->method);
+    g->kernel = dal__kernel_of(&g->layout.method);
     return check_method(g, error);
 }
 
@@ -175,10 +175,10 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH(CONTROL)", dal__is_controlled(g)},
         {"DAL_WITH(UNITS)", has_units(g)},
         {"DAL_WITH(METHOD_STATE)", kernel & DAL_KERNEL_METHOD_STATE},
-        /* the callback of the constraints, dal_clear_momenta, the callback that enforces D,
-         * callbacks for one group of lanes */
+        /* the constraints, dal_clear_momenta, g, what enforces D, callbacks for one group */
         {"DAL_WITH(CONSTRAINT)", kernel & DAL_KERNEL_CONSTRAINT},
         {"DAL_WITH(PROJECTION)", kernel & (DAL_KERNEL_CONSTRAINT | DAL_KERNEL_CORRECTION)},
+        {"DAL_WITH(HOLONOMIC)", dal__has_holonomic(g)},
         {"DAL_WITH(ENFORCEMENT)", kernel & DAL_KERNEL_ENFORCEMENT},
         {"DAL_WITH(EVAL_GROUP)", guards || rank || kernel & DAL_KERNEL_SOLVE},
         /* guards, the rank check, which compares pivots first, and one of these */
@@ -287,7 +287,7 @@ static void write_constants(dal__generation *g)
     const dal__layout *k = &g->layout;
     const bool solves = g->kernel & (DAL_KERNEL_COLLOCATION | DAL_KERNEL_EULER);
     const bool is_explicit =
-        dal_method_properties(&g->spec->method) & DAL_EXPLICIT && !dal__is_controlled(g);
+        dal_method_properties(&g->layout.method) & DAL_EXPLICIT && !dal__is_controlled(g);
     /* A single lane is stepped only while it is alive; an explicit step of several may include
      * lanes that are not. */
     const bool all_alive =
@@ -300,6 +300,7 @@ static void write_constants(dal__generation *g)
         {"N", k->n, false},
         {"NW", k->nw, false},
         {"M", k->m, false},
+        {"HOLONOMIC", k->system->holonomic, false},
         {"DIM", k->dim, false},
         {"LIFTED", k->lifted, false},
         {"EFFORT", dal__wants(g, DAL__PROGRAM_EFFORT), false},
@@ -311,7 +312,7 @@ static void write_constants(dal__generation *g)
         {"ALL_ALIVE", all_alive, false},
         {"GUARDS", k->system->guards, false},
         {"RANK_CHECKED", dal__checks_rank(g->layout.system), false},
-        {"STAGES", g->spec->method.layer[0]->stages, true},
+        {"STAGES", g->layout.method.layer[0]->stages, true},
         {"STAGE_DERIVATIVES", k->derivatives, true},
         {"SOLVER", k->options.solver, true},
         {"ITERATIONS", k->options.iterations, true},
@@ -390,7 +391,7 @@ void dal__write_unrolling(dal__generation *g)
     const bool coupled = g->kernel & DAL_KERNEL_COLLOCATION;
     const bool pushes = dal__wants(g, DAL__PROGRAM_EFFORT);
     const int width = k->lifted ? (3 + pushes) * k->n : k->nw;
-    const int size = coupled ? g->spec->method.layer[0]->stages * width : 0;
+    const int size = coupled ? g->layout.method.layer[0]->stages * width : 0;
     const bool vectors = size > (g->lanes == 1 ? MAX_UNROLLED : MAX_UNROLLED_LANES);
     dal__buffer_append(&g->text, "#if !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)\n");
     if (vectors) dal__buffer_append(&g->text, "#pragma GCC optimize(\"O3\")\n");

@@ -27,6 +27,7 @@ static bool observes(const dal__generation *g, dal__program_code code)
         return g->layout.lifted;
     return code == DAL__PROGRAM_CONSTRAINTS || code == DAL__PROGRAM_ENERGY ||
            code == DAL__PROGRAM_INVARIANTS || code == DAL__PROGRAM_EXACT ||
+           code == DAL__PROGRAM_HOLONOMIC ||
            (code == DAL__PROGRAM_REACTIONS && g->layout.options.reactions);
 }
 
@@ -48,6 +49,12 @@ bool dal__has_function(const dal__generation *g, dal__program_code code)
     return g->with_field && is_one && g->programs->program[code].present;
 }
 
+bool dal__has_holonomic(const dal__generation *g)
+{
+    const unsigned enforce = DAL_KERNEL_CORRECTION | DAL_KERNEL_CONSTRAINT | DAL_KERNEL_BLOCKS;
+    return g->layout.system->holonomic > 0 && g->kernel & enforce;
+}
+
 bool dal__evaluates(const dal__generation *g, dal__program_code code)
 {
     const unsigned kernel = g->kernel;
@@ -63,7 +70,10 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_JACOBIAN:
         return kernel & (DAL_KERNEL_SOLVE | DAL_KERNEL_TANGENT);
     case DAL__PROGRAM_CONSTRAINT:
-        return kernel & DAL_KERNEL_CONSTRAINT || dal__checks_rank(g->layout.system);
+        return kernel & DAL_KERNEL_CONSTRAINT || dal__checks_rank(g->layout.system) ||
+               (kernel & DAL_KERNEL_CORRECTION && dal__has_holonomic(g));
+    case DAL__PROGRAM_HOLONOMIC:
+        return g->layout.system->holonomic > 0;
     case DAL__PROGRAM_CORRECTION:
         return kernel & DAL_KERNEL_CORRECTION;
     case DAL__PROGRAM_ENFORCEMENT:

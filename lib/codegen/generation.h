@@ -69,5 +69,7 @@ bool dal__is_status_of_step(dal_status status);
 /* Whether the file has the code of the canonical variables, of which some methods have calls on any
  * space. */
 bool dal__has_lift(const dal__generation *g);
+/* Whether steps enforce holonomic constraints. */
+bool dal__has_holonomic(const dal__generation *g);
 
 #endif

@@ -41,6 +41,16 @@ dal_status dal__find_parameter(const dal_system *s, const char *name, int *numbe
                      DAL__MAX_SHOWN, name, list);
 }
 
+const char *dal__name_constraint(int m, int holonomic, int a, char *name, size_t size)
+{
+    const int first = m - holonomic;
+    if (a < first)
+        snprintf(name, size, "constraint %d", a + 1);
+    else
+        snprintf(name, size, "holonomic constraint %d", a - first + 1);
+    return name;
+}
+
 const char *dal__mass_words(const dal_system *s)
 {
     return s->properties & DAL_MASS_ON_KERNEL

@@ -14,6 +14,18 @@ dal_status dal__check_settings(const dal_setting *settings, int count, const cha
 /* Finds the number of a parameter, from 0.  Errors: DAL_STATUS_NAME with the nearest name. */
 dal_status dal__find_parameter(const dal_system *system, const char *name, int *number,
                                dal_error *error);
+/* Writes how messages call row a of D, from 0, of m with the last `holonomic` of holonomic
+ * constraints: "constraint 2", "holonomic constraint 1"; returns name[size]. */
+const char *dal__name_constraint(int m, int holonomic, int a, char *name, size_t size);
+/* How many constraints of a system, or of equations, are holonomic: a small library takes none. */
+#ifdef DAL_MINIMAL
+#define DAL__HOLONOMIC_COUNT(of) 0
+#else
+#define DAL__HOLONOMIC_COUNT(of) ((of)->holonomic)
+#endif
+/* The name of row a of D of a system or of equations, in memory of the block where it is called. */
+#define DAL__CONSTRAINT_NAME(of, a)                                                                \
+    dal__name_constraint((of)->m, DAL__HOLONOMIC_COUNT(of), a, (char[40]){0}, 40)
 /* How messages call the W that must be regular. */
 const char *dal__mass_words(const dal_system *system);
 /* Sets the values of all parameters: the system's, and settings over them.  Errors: DAL_STATUS_NAME

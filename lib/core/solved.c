@@ -1,4 +1,5 @@
-/* solved.c - velocities of a start that are solved from D(q,v,t) = 0.
+/* solved.c - velocities of a start that are solved from D(q,v,t) = 0, and coordinates from
+ * g(q,t) = 0.
  *
  * Newton's method for the velocities named, u, the others being kept:
  *
@@ -6,11 +7,14 @@
  *
  * with as many columns as names, by elimination with pivots from all rows, each relative to its
  * largest entry; velocities are in the units in which constraints move them.  Where D is linear one
- * step solves it.  Rows remain where the velocities named are fewer than the constraints. */
+ * step solves it.  Rows remain where the velocities named are fewer than the constraints.  The same
+ * with g, g_u for coordinates: g_q are the last rows of D_v. */
 #include "core/solved.h"
+#include "core/settings.h"
 #include "core/vectors.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* A pivot below this fraction of its column's largest entry means that columns are dependent. */
 static const double independent = 1e-12;
@@ -21,41 +25,48 @@ enum { MAX_STEPS = 200, NAME_SIZE = 128 };
  * velocity, the right-hand side, and the number of the constraint. */
 typedef struct newton {
     const dal_system *system;
+    const dal_solved *solved; /* [columns] */
     dal_point at;
-    double *v;
-    double *D, *A;  /* [m], [m*n] */
-    double *unit;   /* [n] see dal__velocity_units */
-    double *matrix; /* [m*width] */
+    double *x;         /* [n] the velocities or coordinates */
+    double *out;       /* [m + 2*m*n] D, A, W^-1 A^T */
+    double *D, *A, *B; /* [rows], [rows*n], [n*rows] */
+    double *unit;      /* [n] see dal__velocity_units */
+    double *matrix;    /* [rows*width] */
+    int first, rows;   /* which of the m constraints */
     int columns, width;
+    bool coordinates;
 } newton;
 
-bool dal__is_solved(const dal_solved *solved, int count, int velocity)
+bool dal__is_solved(const dal_solved *solved, int count, int number)
 {
     for (int k = 0; k < count; k++)
-        if (solved[k].velocity == velocity) return true;
+        if (solved[k].number == number) return true;
     return false;
 }
 
 size_t dal__solve_size(const dal_system *s)
 {
     const size_t m = (size_t)s->m, n = (size_t)s->n;
-    return m + 2 * m * n + n + m * ((size_t)s->solved_velocities + 2);
+    const int most =
+        s->solved_velocities > s->solved_coordinates ? s->solved_velocities : s->solved_coordinates;
+    return 2 * (m + 2 * m * n) + n + m * ((size_t)most + 2);
 }
 
 static const char *name_of(const newton *k, int column, char *buffer)
 {
-    const int i = k->system->solved[column].velocity;
+    const int i = k->solved[column].number;
+    const char *const prime = k->coordinates ? "" : "'";
     if (k->system->coordinate)
-        snprintf(buffer, NAME_SIZE, "%s'", k->system->coordinate[i]);
+        snprintf(buffer, NAME_SIZE, "%s%s", k->system->coordinate[i], prime);
     else
-        snprintf(buffer, NAME_SIZE, "q%d'", i + 1);
+        snprintf(buffer, NAME_SIZE, "q%d%s", i + 1, prime);
     return buffer;
 }
 
 /* Reports that a column, before which the equations are triangular, has no pivot. */
 static dal_status undetermined(const newton *k, int column, dal_error *error)
 {
-    const dal_solved *place = &k->system->solved[column];
+    const dal_solved *place = &k->solved[column];
     char name[NAME_SIZE], other[NAME_SIZE];
     int row = 0;
     name_of(k, column, name);
@@ -63,45 +74,47 @@ static dal_status undetermined(const newton *k, int column, dal_error *error)
         if (fabs(k->matrix[a * k->width + column]) > fabs(k->matrix[row * k->width + column]))
             row = a;
     if (column > 0 && k->matrix[row * k->width + column] != 0.0)
-        return dal__fail_at(error, DAL_STATUS_RANK, place->line, place->column,
-                            "the start cannot be solved for both %s and %s, which constraint %d "
-                            "restricts: name fewer velocities",
-                            name_of(k, row, other), name,
-                            (int)k->matrix[row * k->width + k->columns + 1] + 1);
-    if (k->system->properties & DAL_D_LINEAR)
+        return dal__fail_at(
+            error, DAL_STATUS_RANK, place->line, place->column,
+            "the start cannot be solved for both %s and %s, which %s "
+            "restricts: name fewer %s",
+            name_of(k, row, other), name,
+            DAL__CONSTRAINT_NAME(k->system, (int)k->matrix[row * k->width + k->columns + 1]),
+            k->coordinates ? "coordinates" : "velocities");
+    if (k->system->properties & DAL_D_LINEAR && !k->coordinates)
         return dal__fail_at(error, DAL_STATUS_RANK, place->line, place->column,
                             "the start cannot be solved for %s: no constraint restricts it", name);
     return dal__fail_at(error, DAL_STATUS_RANK, place->line, place->column,
-                        "the start cannot be solved for %s: no constraint restricts it at the "
+                        "the start cannot be solved for %s: no %sconstraint restricts it at the "
                         "first guess %g; give another one",
-                        name, k->v[place->velocity]);
+                        name, k->coordinates ? "holonomic " : "", k->x[place->number]);
 }
 
 /* Fills the rows, each relative to its largest entry. */
 static void fill_matrix(const newton *k)
 {
-    const int n = k->system->n, m = k->system->m;
-    dal__velocity_units(n, m, k->A, k->A + m * n, k->unit);
+    const int n = k->system->n;
+    dal__velocity_units(n, k->rows, k->A, k->B, k->unit);
     for (int j = 0; j < n; j++)
         if (!(k->unit[j] > 0.0)) k->unit[j] = 1.0;
-    for (int a = 0; a < m; a++) {
+    for (int a = 0; a < k->rows; a++) {
         double scale = 0.0, *row = &k->matrix[a * k->width];
         for (int j = 0; j < k->columns; j++) {
-            const int i = k->system->solved[j].velocity;
+            const int i = k->solved[j].number;
             row[j] = k->A[a * n + i] * k->unit[i];
             scale = fmax(scale, fabs(row[j]));
         }
         if (scale == 0.0) scale = 1.0;
         for (int j = 0; j < k->columns; j++) row[j] /= scale;
         row[k->columns] = -k->D[a] / scale;
-        row[k->columns + 1] = a;
+        row[k->columns + 1] = k->first + a;
     }
 }
 
 /* The row from number j on with the largest entry of column j; -1: they are negligible. */
 static int find_pivot(const newton *k, int j)
 {
-    const int m = k->system->m, width = k->width;
+    const int m = k->rows, width = k->width;
     double size = 0.0;
     int pivot = j;
     if (j == m) return -1;
@@ -114,7 +127,7 @@ static int find_pivot(const newton *k, int j)
 /* Makes the matrix triangular. */
 static dal_status eliminate(const newton *k, dal_error *error)
 {
-    const int m = k->system->m, width = k->width;
+    const int m = k->rows, width = k->width;
     double *M = k->matrix;
     for (int j = 0; j < k->columns; j++) {
         const int pivot = find_pivot(k, j);
@@ -141,65 +154,112 @@ static dal_status take_step(newton *k, double *change, dal_error *error)
     DAL_TRY(eliminate(k, error));
     *change = 0.0;
     for (int j = last - 1; j >= 0; j--) {
-        const int velocity = k->system->solved[j].velocity;
-        double *x = &M[j * width + last], *v = &k->v[velocity];
+        const int number = k->solved[j].number;
+        double *x = &M[j * width + last], *to = &k->x[number];
         for (int i = j + 1; i < last; i++) *x -= M[j * width + i] * M[i * width + last];
         *x /= M[j * width + j];
         *change = fmax(*change, fabs(*x));
-        *v = *v + *x * k->unit[velocity] + 0.0; /* no -0: see lib/kernel/step.h */
+        *to = *to + *x * k->unit[number] + 0.0; /* no -0: see lib/kernel/step.h */
     }
     return DAL_STATUS_OK;
 }
 
-/* Whether the system can be solved for the velocities it names. */
-static dal_status check_solved(const dal_system *s, dal_error *error)
+/* Evaluates D, A and W^-1 A^T, or g and the rows of its derivatives in these. */
+static dal_status evaluate_rows(newton *k)
 {
-    bool is_usable = s->solved_velocities > 0 && s->solved_velocities <= s->m && s->solved;
-    for (int j = 0; is_usable && j < s->solved_velocities; j++)
-        is_usable = s->solved[j].velocity >= 0 && s->solved[j].velocity < s->n;
+    const dal_system *s = k->system;
+    const int m = s->m, n = s->n, rows = k->rows;
+    DAL_TRY(s->call.constraint(s, &k->at, k->out));
+    memcpy(k->D, k->out + k->first, (size_t)rows * sizeof *k->D);
+    memcpy(k->A, k->out + m + k->first * n, (size_t)(rows * n) * sizeof *k->A);
+    for (int i = 0; i < n; i++)
+        for (int a = 0; a < rows; a++)
+            k->B[i * rows + a] = k->out[m + m * n + i * m + k->first + a];
+    return k->coordinates ? s->call.holonomic(s, &k->at, k->D) : DAL_STATUS_OK;
+}
+
+/* Whether the system can be solved for what it names. */
+static dal_status check_solved(const newton *k, dal_error *error)
+{
+    const dal_system *s = k->system;
+    const char *const what = k->coordinates ? "coordinates" : "velocities";
+    bool is_usable = k->columns > 0 && k->columns <= k->rows && s->solved;
+    for (int j = 0; is_usable && j < k->columns; j++)
+        is_usable = k->solved[j].number >= 0 && k->solved[j].number < s->n;
     if (!is_usable)
         return dal__fail(error, DAL_STATUS_ARGUMENT,
-                         "%d velocities to be solved from %d constraints, of %d velocities",
-                         s->solved_velocities, s->m, s->n);
+                         "%d %s to be solved from %d constraints, of %d %s", k->columns, what,
+                         k->rows, s->n, what);
     if (s->call.constraint) return DAL_STATUS_OK;
-    return dal__fail_at(error, DAL_STATUS_UNSUPPORTED, s->solved[0].line, s->solved[0].column,
-                        "the start cannot be solved for velocities: the mass matrix has no "
-                        "inverse");
+    return dal__fail_at(error, DAL_STATUS_UNSUPPORTED, k->solved[0].line, k->solved[0].column,
+                        "the start cannot be solved for %s: the mass matrix has no inverse", what);
+}
+
+static dal_status solve_named(newton *k, double *memory, dal_error *error)
+{
+    const int m = k->system->m, n = k->system->n, rows = k->rows;
+    double change = INFINITY, before;
+    char name[NAME_SIZE];
+    int max = 0;
+    if (k->columns == 0) return DAL_STATUS_OK;
+    DAL_TRY(check_solved(k, error));
+    k->out = memory;
+    k->D = k->out + m + 2 * m * n;
+    k->A = k->D + rows;
+    k->B = k->A + rows * n;
+    k->unit = k->B + rows * n;
+    k->matrix = k->unit + n;
+    k->width = k->columns + 2;
+    for (int i = 0; i < MAX_STEPS; i++) {
+        const dal_status status = evaluate_rows(k);
+        if (status != DAL_STATUS_OK)
+            return dal__fail(error, status, "the constraints cannot be evaluated at the start");
+        max = dal__find_max_abs(k->D, rows);
+        if (!isfinite(k->D[max])) break;
+        before = change;
+        DAL_TRY(take_step(k, &change, error));
+        if (dal__is_converged(change, before, dal__max_in_units(n, k->x, k->unit)))
+            return DAL_STATUS_OK;
+    }
+    return dal__fail_at(error,
+                        isfinite(k->D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
+                        k->solved[0].line, k->solved[0].column,
+                        "the start cannot be solved for %s%s: no root of %s was found "
+                        "from these first guesses, %c%d = %.6g",
+                        name_of(k, 0, name), k->columns > 1 ? " and others" : "",
+                        DAL__CONSTRAINT_NAME(k->system, k->first + max), k->coordinates ? 'C' : 'D',
+                        max + 1, k->D[max]);
 }
 
 dal_status dal__solve_velocities(const dal_system *s, double t, const double *q, double *v,
                                  double *work, double *memory, dal_error *error)
 {
-    const int m = s->m, n = s->n;
     newton k = {.system = s,
+                .solved = s->solved ? s->solved + s->solved_coordinates : NULL,
                 .at = {.t = t, .q = q, .v = v, .work = work},
-                .v = v,
-                .D = memory,
-                .A = memory + m};
-    double change = INFINITY, before;
-    char name[NAME_SIZE];
-    int max = 0;
-    if (s->solved_velocities == 0) return DAL_STATUS_OK;
-    DAL_TRY(check_solved(s, error));
-    k.unit = k.A + 2 * m * n;
-    k.matrix = k.unit + n;
-    k.columns = s->solved_velocities;
-    k.width = k.columns + 2;
-    for (int i = 0; i < MAX_STEPS; i++) {
-        const dal_status status = s->call.constraint(s, &k.at, memory);
-        if (status != DAL_STATUS_OK)
-            return dal__fail(error, status, "the constraints cannot be evaluated at the start");
-        max = dal__find_max_abs(k.D, m);
-        if (!isfinite(k.D[max])) break;
-        before = change;
-        DAL_TRY(take_step(&k, &change, error));
-        if (dal__is_converged(change, before, dal__max_in_units(n, v, k.unit)))
-            return DAL_STATUS_OK;
-    }
-    return dal__fail_at(error, isfinite(k.D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
-                        s->solved[0].line, s->solved[0].column,
-                        "the start cannot be solved for %s%s: no root of constraint %d was found "
-                        "from these first guesses, D%d = %.6g",
-                        name_of(&k, 0, name), k.columns > 1 ? " and others" : "", max + 1, max + 1,
-                        k.D[max]);
+                .x = v,
+                .rows = s->m,
+                .columns = s->solved_velocities};
+    return solve_named(&k, memory, error);
+}
+
+dal_status dal__solve_coordinates(const dal_system *s, double t, double *q, const double *v,
+                                  double *work, double *memory, dal_error *error)
+{
+    newton k = {.system = s,
+                .solved = s->solved,
+                .at = {.t = t, .q = q, .v = v, .work = work},
+                .x = q,
+                .first = s->m - DAL__HOLONOMIC_COUNT(s),
+                .rows = DAL__HOLONOMIC_COUNT(s),
+                .columns = s->solved_coordinates,
+                .coordinates = true};
+    return solve_named(&k, memory, error);
+}
+
+dal_status dal__solve_start(const dal_system *s, double t, double *state, double *work,
+                            double *memory, dal_error *error)
+{
+    DAL_TRY(dal__solve_coordinates(s, t, state, state + s->n, work, memory, error));
+    return dal__solve_velocities(s, t, state, state + s->n, work, memory, error);
 }

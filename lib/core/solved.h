@@ -1,13 +1,13 @@
-/* solved.h - velocities of a start that are solved from D = 0. */
+/* solved.h - coordinates and velocities of a start that are solved from g = 0 and D = 0. */
 #ifndef DAL_CORE_SOLVED_H
 #define DAL_CORE_SOLVED_H
 
 #include "core/error.h"
 #include "dalembert_system.h"
 
-/* Whether a velocity is among the ones of a start that are solved. */
-bool dal__is_solved(const dal_solved *solved, int count, int velocity);
-/* Numbers of memory that dal__solve_velocities needs. */
+/* Whether a number is among the ones of a list. */
+bool dal__is_solved(const dal_solved *solved, int count, int number);
+/* Numbers of memory that these two need. */
 size_t dal__solve_size(const dal_system *system);
 
 /* Replaces those velocities in v[n], and after them multipliers, that the start of the system
@@ -18,5 +18,11 @@ size_t dal__solve_size(const dal_system *system);
  * DAL_STATUS_NOT_FINITE, DAL_STATUS_UNSUPPORTED (W has no inverse), errors of the constraints. */
 dal_status dal__solve_velocities(const dal_system *system, double t, const double *q, double *v,
                                  double *work, double *memory, dal_error *error);
+/* The same of the coordinates q[n] that the start solves from g(q,t) = 0; v[n] is read. */
+dal_status dal__solve_coordinates(const dal_system *system, double t, double *q, const double *v,
+                                  double *work, double *memory, dal_error *error);
+/* Both, one after the other, in state[n + nw]: q, v and multipliers. */
+dal_status dal__solve_start(const dal_system *system, double t, double *state, double *work,
+                            double *memory, dal_error *error);
 
 #endif

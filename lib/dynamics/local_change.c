@@ -54,7 +54,7 @@ dal_status dal__local_create(dal__local *k, const dal_run_spec *spec, const dal_
     /* Quad numbers of the observables, twice; or vectors and matrices. */
     const size_t n = (size_t)k->n, m = (size_t)k->m;
     k->values = dal__numbers(1, 4 * (size_t)k->count + 12 * n + 2 * m * n + m * (2 * m + 8) + 64);
-    k->scales = dal__numbers(1, (size_t)(s->m + 1 + s->invariants));
+    k->scales = dal__numbers(1, (size_t)(s->m + 1 + s->invariants + s->holonomic));
     if (!k->values || !k->scales) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
     DAL_TRY(dal__evaluator_of_run(&k->evaluator, NULL, run, error));
     DAL_TRY(dal_scaled_create_at(&k->scaled, run, error));

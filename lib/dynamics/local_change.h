@@ -19,7 +19,7 @@ typedef struct dal__local {
     double step;
     bool enforces_D; /* a step ends on D = 0 wherever it begins; its d is D there */
     int n, m, has_energy, invariants, count;
-    double *values, *scales; /* scratch; [m + 1 + invariants] of the system */
+    double *values, *scales; /* scratch; as of dal_evaluator_scales */
 } dal__local;
 
 /* Makes it for a run of spec in double precision and on the physical space; for quad precision

@@ -317,6 +317,10 @@ static dal_status check_map(const dal_run_spec *spec, const dal_system *tangent,
         return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "a tangent system of %d coordinates for a system of %d", tangent->n,
                          spec->system->n);
+    if (spec->system->holonomic > 0)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "the exponents of a system with holonomic constraints are not computed: "
+                         "its steps return to g = 0, and tangent vectors do not");
     if (dal_method_properties(&spec->method) & DAL_PERSISTENT_MULTIPLIER)
         return dal__fail(
             error, DAL_STATUS_UNSUPPORTED,

@@ -27,5 +27,7 @@ dal_status dal__predict_check_method(const dal__prediction_work *w)
         return dal__predict_refuse(w, "runs in quad precision are not predicted");
     if (w->spec.system->properties & DAL_VAKONOMIC)
         return dal__predict_refuse(w, "the motion is vakonomic");
+    if (w->spec.system->holonomic > 0)
+        return dal__predict_refuse(w, "the system has holonomic constraints");
     return dal__refuse_events(w->spec.system, "predictions", w->error);
 }

@@ -29,9 +29,14 @@ typedef enum dal_callback_code {
 #ifdef DAL_SPECIALISED
 
 /* In a generated file dimensions are constants, memory is local. */
-#define DAL_N(s)      (DAL_FIXED_N * DAL_STEP_GROUPS)
-#define DAL_NW(s)     (DAL_FIXED_NW * DAL_STEP_GROUPS)
-#define DAL_M(s)      DAL_FIXED_M
+#define DAL_N(s)  (DAL_FIXED_N * DAL_STEP_GROUPS)
+#define DAL_NW(s) (DAL_FIXED_NW * DAL_STEP_GROUPS)
+#define DAL_M(s)  DAL_FIXED_M
+#if DAL_WITH(HOLONOMIC)
+#define DAL_HOLONOMIC(s) DAL_FIXED_HOLONOMIC
+#else
+#define DAL_HOLONOMIC(s) 0
+#endif
 #define DAL_DIM(s)    (DAL_FIXED_DIM * DAL_STEP_GROUPS)
 #define DAL_LIFTED(s) DAL_FIXED_LIFTED
 #define DAL_EFFORT(s) DAL_FIXED_EFFORT
@@ -84,9 +89,14 @@ typedef enum dal_callback_code {
 
 #else
 
-#define DAL_N(s)                      ((s)->n)   /* coordinates */
-#define DAL_NW(s)                     ((s)->nw)  /* velocities and vakonomic multipliers */
-#define DAL_M(s)                      ((s)->m)   /* constraints */
+#define DAL_N(s)  ((s)->n)  /* coordinates */
+#define DAL_NW(s) ((s)->nw) /* velocities and vakonomic multipliers */
+#define DAL_M(s)  ((s)->m)  /* constraints */
+#ifdef DAL_MINIMAL
+#define DAL_HOLONOMIC(s) 0
+#else
+#define DAL_HOLONOMIC(s) ((s)->holonomic) /* of these, the last */
+#endif
 #define DAL_DIM(s)                    ((s)->dim) /* numbers in the state */
 #define DAL_LIFTED(s)                 ((s)->lifted)
 #define DAL_EFFORT(s)                 ((s)->effort) /* 1: K of the effort is not 1 */
@@ -145,6 +155,7 @@ struct dal_step {
     const dal_stored *work; /* parameters, and values that depend on them alone */
 #else
     int n, nw, m, dim;
+    int holonomic;     /* of the m constraints, the last: derivatives of g */
     int lifted;        /* 1 on the canonical space */
     int effort;        /* 1 there with the callback effort */
     int gauge;         /* 1 there with the callback gauge_gradient */

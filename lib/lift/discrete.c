@@ -86,6 +86,7 @@ dal_status dal_check_discrete_action(const dal_run_spec *spec, const dal_curve *
     smooth.events = 0;
     own.system = &smooth;
     own.options.space = DAL_LIFTED;
+    own.options.bare = true; /* steps of the method alone */
     DAL_TRY(dal_run_create(&run, &own, error));
     double *row = dal__numbers(2, (size_t)pi_e + 1), *next = row ? row + pi_e + 1 : NULL;
     dal_status status = row ? DAL_STATUS_OK : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");

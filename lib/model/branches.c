@@ -303,6 +303,7 @@ static dal__node formula_of(const dal_model *model, const dal__entry *entry)
         number += other->section == entry->section;
     if (entry->section == DAL_SECTION_LAGRANGIAN) return e->lagrangian;
     if (entry->section == DAL_SECTION_CONSTRAINTS) return e->constraint[number];
+    if (entry->section == DAL_SECTION_HOLONOMIC) return e->position[number];
     if (entry->section == DAL_SECTION_FORCES || entry->section == DAL_SECTION_ACCELERATIONS)
         for (int i = 0; i < e->n; i++)
             if (strcmp(e->coordinate[i], entry->name) == 0) return e->force[i];

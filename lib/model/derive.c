@@ -3,13 +3,15 @@
  *     W = L_vv,  b = L_q - L_vq v - L_vt + Q,  A = D_v,  c = D_q v + D_t
  *     G = A W^-1 B^T,  G h = -(c + A W^-1 b),  F = W^-1 (b + B^T h)              (nh3)-(nh5)
  *
- * with B = A by Chetaev's rule, or as given under reactions.  Given accelerations mean W = 1.
- * Vakonomic motion follows from L' = L - g.D with the multipliers g as further variables: (nh6),
- * (nh35)
+ * with B = A by Chetaev's rule, or as given under reactions.  A holonomic constraint g(q,t) = 0 is
+ * the row D = g_q v + g_t: D = const is an integral of F, and g = 0 where D = 0.  Given
+ * accelerations mean W = 1.  Vakonomic motion follows from L' = L - g.D with the multipliers g as
+ * further variables: (nh6), (nh35)
  *
  *     ( L'_vv  -A^T ) (dv/dt)   ( L'_q - L'_vq v - L'_vt + Q )
  *     (   A      0  ) (dg/dt) = (       - D_q v - D_t        )  */
 #include "model/derive.h"
+#include "core/settings.h"
 #include "expr/angles.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
@@ -42,8 +44,11 @@ static void derive_lagrangian(dal__equations *e, dal__node L)
 static dal_status derive_constraints(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
+    for (int j = 0; j < DAL__HOLONOMIC_COUNT(e); j++)
+        e->constraint[e->m - DAL__HOLONOMIC_COUNT(e) + j] = dal__time_derivative(e, e->position[j]);
     for (int a = 0; a < e->m; a++) {
-        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, a);
+        const dal__entry *entry = dal__constraint_entry(model, a);
+        const bool is_holonomic = a >= e->m - DAL__HOLONOMIC_COUNT(e);
         bool depends = false;
         dal__gradient(e->graph, e->constraint[a], e->symbol + e->v, e->n, e->A + a * e->n);
         e->c[a] = dal__time_derivative(e, e->constraint[a]);
@@ -51,9 +56,12 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
             depends |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0);
         if (!depends && e->graph->status == DAL_STATUS_OK)
             return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
-                                "constraint %d does not depend on the velocities; of f(q) = 0 "
-                                "write the time derivative, as 2*x*x' + 2*y*y' of x^2 + y^2",
-                                a + 1);
+                                is_holonomic ? "%s does not depend on the coordinates"
+                                             : "%s does not depend on the velocities; f(q) = 0 "
+                                               "belongs under holonomic",
+                                DAL__CONSTRAINT_NAME(e, a));
+        for (int i = 0; i < e->n && e->servo && is_holonomic; i++)
+            e->B[a * e->n + i] = e->A[a * e->n + i];
     }
     return DAL_STATUS_OK;
 }
@@ -153,6 +161,7 @@ static dal_status expand_angles(dal_model *model)
                  {e->c, m},
                  {&e->energy, e->energy != 0},
                  {e->constraint, m},
+                 {e->position, DAL__HOLONOMIC_COUNT(e)},
                  {e->B, e->servo ? m * n : 0}};
     enum { PARTS = sizeof parts / sizeof *parts };
     int total = 0, at = 0;

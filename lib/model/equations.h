@@ -23,6 +23,7 @@ typedef struct dal__equations {
     dal__graph *graph;
     int observed; /* of the invariants, the last: formulas that come after all equations */
     int parameters, n, m, multipliers, invariants, lets, functions, guards, pivots;
+    int holonomic; /* of the m constraints, the last */
     bool vakonomic, accelerations, servo, pictured;
     bool mass_positive; /* W is positive definite at the default start */
     unsigned properties;
@@ -38,15 +39,16 @@ typedef struct dal__equations {
     dal__node lagrangian;
     dal__node *force;      /* [n]: Q, or the accelerations */
     dal__node *constraint; /* [m]: D */
+    dal__node *position;   /* [holonomic]: g, of which the last D are the time derivatives */
     dal__node *start;      /* [2n + multipliers + 1] */
-    int solved_velocities; /* that the start solves from D = 0 */
-    dal_solved *solved;    /* [solved_velocities] */
-    dal__node *invariant;  /* [invariants] */
-    dal__node *exact;      /* [2n] or all 0 */
-    dal__node mu;          /* mu_e, or 0 */
-    int controls;          /* columns of effort controls, and these: */
-    dal__node *control;    /* [controls*n] */
-    dal__node *picture;    /* [DAL_PICTURE_COUNT], or NULL */
+    int solved_coordinates, solved_velocities; /* that the start solves from g = 0 and D = 0 */
+    dal_solved *solved;                        /* [solved_coordinates + solved_velocities] */
+    dal__node *invariant;                      /* [invariants] */
+    dal__node *exact;                          /* [2n] or all 0 */
+    dal__node mu;                              /* mu_e, or 0 */
+    int controls;                              /* columns of effort controls, and these: */
+    dal__node *control;                        /* [controls*n] */
+    dal__node *picture;                        /* [DAL_PICTURE_COUNT], or NULL */
     dal_body body;
     int events;
     dal_event *event;        /* [events] */

@@ -5,6 +5,7 @@
  * where dq, dv, dpi have a meaning in the tangent system only, and h, R, the reactions, until their
  * formulas are known (derive.c). */
 #include "model/formulas.h"
+#include "core/settings.h"
 #include "core/solved.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
@@ -95,6 +96,22 @@ static dal_status parse_each(dal_model *model, dal_section section, dal__scope s
     return DAL_STATUS_OK;
 }
 
+/* g(q,t) of the holonomic constraints. */
+static dal_status parse_positions(dal_model *model, dal__scope scope, dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    DAL_TRY(parse_each(model, DAL_SECTION_HOLONOMIC, scope, DAL__HOLONOMIC_COUNT(e), e->position,
+                       error));
+    for (int j = 0; j < DAL__HOLONOMIC_COUNT(e); j++)
+        if (dal__depends(e->graph, e->position[j], e->v, e->v + e->n))
+            return dal__fail_at(error, DAL_STATUS_MODEL,
+                                DAL__AT_TEXT(dal__model_entry(model, DAL_SECTION_HOLONOMIC, j)),
+                                "holonomic constraint %d depends on velocities: it belongs under "
+                                "constraints",
+                                j + 1);
+    return DAL_STATUS_OK;
+}
+
 static dal_status parse_dynamics(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
@@ -107,7 +124,9 @@ static dal_status parse_dynamics(dal_model *model, dal_error *error)
         parse_each(model, DAL_SECTION_LAGRANGIAN, all, !e->accelerations, &e->lagrangian, error));
     DAL_TRY(by_coordinate(model, DAL_SECTION_ACCELERATIONS, all, e->force, error));
     DAL_TRY(by_coordinate(model, DAL_SECTION_FORCES, all, e->force, error));
-    DAL_TRY(parse_each(model, DAL_SECTION_CONSTRAINTS, all, e->m, e->constraint, error));
+    DAL_TRY(parse_each(model, DAL_SECTION_CONSTRAINTS, all, e->m - DAL__HOLONOMIC_COUNT(e),
+                       e->constraint, error));
+    DAL_TRY(parse_positions(model, all, error));
     DAL_TRY(by_coordinate(model, DAL_SECTION_REACTIONS, all, e->B, error));
     DAL_TRY(by_coordinate(model, DAL_SECTION_CONTROLS, all, e->control, error));
     all.may |= OF_INVARIANTS;
@@ -165,22 +184,45 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
     return DAL_STATUS_OK;
 }
 
-/* Adds what an entry of a start names to the velocities that are solved, unless it names none. */
+/* Adds what an entry of a start names to the coordinates or velocities that are solved, unless it
+ * names none; the first and second half of names[2n].  All coordinates are added before. */
 static dal_status add_solved(dal_model *model, const dal__entry *entry, const char *const *names,
-                             dal_error *error)
+                             bool velocities, dal_error *error)
 {
     dal__equations *e = &model->equations;
     const char *name = dal__solved_name(entry);
-    dal_solved solved = {.line = entry->name_line, .column = entry->name_column};
+    const int first = DAL__HOLONOMIC_COUNT(e) > 0 ? 0 : e->n,
+              max = velocities ? e->m : DAL__HOLONOMIC_COUNT(e);
+    int *const count = velocities ? &e->solved_velocities : &e->solved_coordinates, i;
     if (!name) return DAL_STATUS_OK;
-    DAL_TRY(dal__find_word(name, DAL__AT_NAME(entry), "velocity in solve", names, e->n,
-                           &solved.velocity, error));
-    if (e->solved_velocities == e->m)
+    DAL_TRY(dal__find_word(name, DAL__AT_NAME(entry),
+                           first == 0 ? "coordinate or velocity in solve" : "velocity in solve",
+                           names + first, 2 * e->n - first, &i, error));
+    i += first;
+    if ((i >= e->n) != velocities) return DAL_STATUS_OK;
+    if (*count == max)
         return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(entry),
-                            "the start cannot be solved for %s: there %s %d constraint%s, and as "
-                            "many velocities before it",
-                            name, e->m == 1 ? "is" : "are", e->m, e->m == 1 ? "" : "s");
-    e->solved[e->solved_velocities++] = solved;
+                            "the start cannot be solved for %s: there %s %d %sconstraint%s, and as "
+                            "many %s before it",
+                            name, max == 1 ? "is" : "are", max, velocities ? "" : "holonomic ",
+                            max == 1 ? "" : "s", velocities ? "velocities" : "coordinates");
+    e->solved[e->solved_coordinates + e->solved_velocities] =
+        (dal_solved){velocities ? i - e->n : i, entry->name_line, entry->name_column};
+    ++*count;
+    return DAL_STATUS_OK;
+}
+
+static dal_status add_all_solved(dal_model *model, const char *const *names, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    const dal__entry *entry;
+    e->solved =
+        dal__model_allocate(model, (size_t)(DAL__HOLONOMIC_COUNT(e) + e->m), sizeof *e->solved);
+    if (!e->solved) return dal__memory_error(error);
+    for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++)
+        DAL_TRY(add_solved(model, entry, names, false, error));
+    for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++)
+        DAL_TRY(add_solved(model, entry, names, true, error));
     return DAL_STATUS_OK;
 }
 
@@ -194,8 +236,7 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     const dal__entry *entry;
     const bool lacks_multipliers = model->has_other_mechanics && !e->vakonomic;
     scope.given = given;
-    e->solved = dal__model_allocate(model, (size_t)e->m, sizeof *e->solved);
-    if (!names || !given || !e->solved) return dal__memory_error(error);
+    if (!names || !given) return dal__memory_error(error);
     for (int i = 0; i < e->n; i++) {
         names[i] = e->coordinate[i];
         names[e->n + i] = dal__model_print(model, "%s'", e->coordinate[i]);
@@ -203,8 +244,7 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     for (int i = 2 * e->n; i < count; i++)
         names[i] = dal__model_print(model, "g%d", i - 2 * e->n + 1);
     if (model->out_of_memory) return dal__memory_error(error);
-    for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++)
-        DAL_TRY(add_solved(model, entry, names + e->n, error));
+    DAL_TRY(add_all_solved(model, names, error));
     for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++) {
         if (dal__solved_name(entry)) continue;
         const char *name = entry->name;
@@ -218,7 +258,9 @@ static dal_status parse_start(dal_model *model, dal_error *error)
         DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "name in start", names, count, &i,
                                error));
         DAL_TRY(dal__parse_entry(model, entry, scope, &e->start[i], error));
-        const bool is_guess = dal__is_solved(e->solved, e->solved_velocities, i - e->n);
+        const bool is_guess = i < e->n ? dal__is_solved(e->solved, e->solved_coordinates, i)
+                                       : dal__is_solved(e->solved + e->solved_coordinates,
+                                                        e->solved_velocities, i - e->n);
         if (!is_guess) given[i] = e->start[i];
         if (!isfinite(dal__evaluate(e->graph, e->start[i], e->value)))
             return dal__not_finite(model, entry, error);
@@ -312,16 +354,18 @@ static dal_status check_reactions(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     const dal__entry *first = dal__model_entry(model, DAL_SECTION_REACTIONS, 0), *entry;
+    const int own =
+        e->m - DAL__HOLONOMIC_COUNT(e); /* reactions of holonomic constraints are along g_q */
     e->servo = first != NULL;
     if (e->servo && e->vakonomic)
         return dal__fail_at(
             error, DAL_STATUS_MODEL, DAL__AT_NAME(first),
             "vakonomic mechanics has no reactions: its multipliers take their place");
     for (int i = 0; (entry = dal__model_entry(model, DAL_SECTION_REACTIONS, i)) != NULL; i++)
-        if (entry->item > e->m)
+        if (entry->item > own)
             return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(entry),
-                                "reaction %d has no constraint: there are %d", entry->item, e->m);
-    for (int a = 1; e->servo && a <= e->m; a++) {
+                                "reaction %d has no constraint: there are %d", entry->item, own);
+    for (int a = 1; e->servo && a <= own; a++) {
         for (int i = 0; (entry = dal__model_entry(model, DAL_SECTION_REACTIONS, i)) != NULL; i++)
             if (entry->item == a) break;
         if (!entry)
@@ -358,7 +402,8 @@ static dal_status check_equations(dal_model *model, dal_error *error)
     dal__equations *e = &model->equations;
     const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
     const dal__entry *F = dal__model_entry(model, DAL_SECTION_ACCELERATIONS, 0);
-    const dal__entry *excess = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, e->n);
+    const dal__entry *excess = dal__constraint_entry(model, e->n);
+    const dal__entry *holonomic = dal__model_entry(model, DAL_SECTION_HOLONOMIC, 0);
     if (e->n == 0) return dal__fail(error, DAL_STATUS_MODEL, "the system has no coordinates");
     if (e->n > DAL__MAX_COORDINATES)
         return dal__fail(error, DAL_STATUS_TOO_LARGE, "%d coordinates; at most %d are possible",
@@ -378,6 +423,13 @@ static dal_status check_equations(dal_model *model, dal_error *error)
     if (F && e->vakonomic)
         return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(F),
                             "vakonomic mechanics needs a lagrangian, not accelerations");
+    if (e->holonomic != DAL__HOLONOMIC_COUNT(e))
+        return dal__fail_at(error, DAL_STATUS_UNSUPPORTED, DAL__AT_TEXT(holonomic),
+                            "a small library takes no holonomic constraints");
+    if (holonomic && e->vakonomic)
+        return dal__fail_at(error, DAL_STATUS_UNSUPPORTED, DAL__AT_TEXT(holonomic),
+                            "vakonomic mechanics takes no holonomic constraints: write the time "
+                            "derivative of each under constraints");
     e->accelerations = F != NULL;
     return DAL_STATUS_OK;
 }
@@ -407,6 +459,7 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     e->table_name = dal__model_allocate(model, (size_t)model->tables, sizeof *e->table_name);
     e->force = dal__model_nodes(model, n, zero);
     e->constraint = dal__model_nodes(model, m, zero);
+    e->position = dal__model_nodes(model, DAL__HOLONOMIC_COUNT(e), zero);
     e->start = dal__model_nodes(model, 2 * n + m + 1, zero);
     e->invariant = dal__model_nodes(model, e->invariants, zero);
     e->exact = dal__model_nodes(model, 2 * n, 0);
@@ -449,9 +502,10 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     e->vakonomic = model->mechanics == DAL_MECHANICS_SYSTEM
                        ? own
                        : model->mechanics == DAL_MECHANICS_VAKONOMIC;
+    e->holonomic = dal__model_count(model, DAL_SECTION_HOLONOMIC);
     DAL_TRY(dal__collect_names(model, error));
     e->functions = model->tables + dal__model_count(model, DAL_SECTION_FUNCTIONS);
-    e->m = dal__model_count(model, DAL_SECTION_CONSTRAINTS);
+    e->m = dal__model_count(model, DAL_SECTION_CONSTRAINTS) + DAL__HOLONOMIC_COUNT(e);
     model->has_other_mechanics = e->vakonomic != own && e->m > 0;
     e->multipliers = e->vakonomic ? e->m : 0;
     e->pictured = dal__model_count(model, DAL_SECTION_PICTURE) > 0;

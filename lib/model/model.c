@@ -26,6 +26,7 @@ const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
     [DAL_SECTION_ACCELERATIONS] = {DAL__FORM_MAPPING, "acceleration of"},
     [DAL_SECTION_FORCES] = {DAL__FORM_MAPPING, "force on"},
     [DAL_SECTION_CONSTRAINTS] = {DAL__FORM_LIST, "constraint"},
+    [DAL_SECTION_HOLONOMIC] = {DAL__FORM_LIST, "holonomic constraint"},
     [DAL_SECTION_REACTIONS] = {DAL__FORM_MAPPINGS, "reaction"},
     [DAL_SECTION_MECHANICS] = {DAL__FORM_SCALAR, NULL},
     [DAL_SECTION_CONTROLS] = {DAL__FORM_MAPPINGS, "control"},
@@ -158,6 +159,13 @@ int dal__model_count(const dal_model *model, dal_section section)
     return count;
 }
 
+const dal__entry *dal__constraint_entry(const dal_model *model, int a)
+{
+    const int first = dal__model_count(model, DAL_SECTION_CONSTRAINTS);
+    return a < first ? dal__model_entry(model, DAL_SECTION_CONSTRAINTS, a)
+                     : dal__model_entry(model, DAL_SECTION_HOLONOMIC, a - first);
+}
+
 const char *dal_model_text(const dal_model *model, dal_section section, int i, const char **name,
                            int *line, int *column)
 {
@@ -243,7 +251,8 @@ static dal_status check_duplicate(const dal_model *model, const dal__entry *entr
 {
     bool named = dal__section_named(entry->section);
     const char *name = named ? entry->name : entry->text;
-    if (entry->section == DAL_SECTION_CONSTRAINTS || entry->section == DAL_SECTION_EQUATIONS)
+    if (entry->section == DAL_SECTION_CONSTRAINTS || entry->section == DAL_SECTION_HOLONOMIC ||
+        entry->section == DAL_SECTION_EQUATIONS)
         return DAL_STATUS_OK;
     for (int k = 0; k < model->given_count; k++) {
         const dal__entry *other = &model->given[k];

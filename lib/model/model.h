@@ -110,6 +110,8 @@ dal_status dal__duplicate(const dal__entry *entry, dal_error *error);
 dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *error);
 /* Entry number i of a section, or NULL past the last; and how many there are. */
 const dal__entry *dal__model_entry(const dal_model *model, dal_section section, int i);
+/* The entry of row a of D, from 0: of constraints, then of holonomic. */
+const dal__entry *dal__constraint_entry(const dal_model *model, int a);
 int dal__model_count(const dal_model *model, dal_section section);
 
 #endif

@@ -9,6 +9,7 @@
  * so each costs a solution by the same factors. */
 #include "model/motion.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/vectors.h"
 #include "expr/collect.h"
 #include "expr/derivative.h"
@@ -74,7 +75,10 @@ static double list_dependence(const dal__equations *e, int row, double *rows, ch
     const double *made = rows + (m - 1) * width + n;
     for (int a = 0, length = 0; a < m && length < (int)size; a++)
         if (a != row && fabs(made[a]) > rounding)
-            length += snprintf(list + length, size - (size_t)length, ", %d", a + 1);
+            length += e->holonomic > 0
+                          ? snprintf(list + length, size - (size_t)length, ", %s",
+                                     DAL__CONSTRAINT_NAME(e, a))
+                          : snprintf(list + length, size - (size_t)length, ", %d", a + 1);
     return dal__max_abs(made - n, (size_t)n);
 }
 
@@ -84,24 +88,24 @@ static const double no_rest = 1e-13;
 dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *error)
 {
     const dal__equations *e = &model->equations;
-    const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, row);
+    const dal__entry *entry = dal__constraint_entry(model, row);
     const size_t before = (size_t)(e->m * (e->n + e->m) + e->symbols);
     double *rows = dal__model_allocate(model, before + (size_t)e->symbols, sizeof *rows);
     char list[128] = ", others";
     if (e->servo)
         return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
-                            "constraint %d is not held by the reactions: A W^-1 B^T is singular",
-                            row + 1);
+                            "%s is not held by the reactions: A W^-1 B^T is singular",
+                            DAL__CONSTRAINT_NAME(e, row));
     const bool has_units = rows && dal__model_units(model, rows + before) == DAL_STATUS_OK;
     const double rest = has_units ? list_dependence(e, row, rows, list, sizeof list) : 0.0;
     if (rest > no_rest && isfinite(rest))
         return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
-                            "constraint %d nearly depends on %s: they differ by %.1g of its "
+                            "%s nearly depends on %s: they differ by %.1g of its "
                             "coefficients, and A W^-1 A^T is singular in double precision",
-                            row + 1, list + 2, rest);
+                            DAL__CONSTRAINT_NAME(e, row), list + 2, rest);
     return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
-                        "constraint %d is redundant, it depends on %s: A W^-1 A^T is singular",
-                        row + 1, list + 2);
+                        "%s is redundant, it depends on %s: A W^-1 A^T is singular",
+                        DAL__CONSTRAINT_NAME(e, row), list + 2);
 }
 
 /* status: of dal__factor. */

@@ -2,6 +2,7 @@
  * properties, and what must keep its sign along a run.  A system without constraints has none of
  * the properties of D. */
 #include "model/properties.h"
+#include "core/settings.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
@@ -181,7 +182,9 @@ static void add_guard(search *s, dal__node node, const char *text)
     if (text && inner.op == DAL__SYMBOL && r.op == DAL__COS)
         text = dal__model_print(s->model, "cos(%s)", text);
     if (text)
-        append_guard(s, node, dal__model_print(s->model, "constraint %d: %s", s->constraint, text));
+        append_guard(
+            s, node,
+            dal__model_print(s->model, "%s: %s", DAL__CONSTRAINT_NAME(e, s->constraint - 1), text));
 }
 
 /* A denominator, or a factor of one or of D: split until it is no product. */

@@ -343,8 +343,8 @@ static dal_status make_matrix(distribution *d, dal__node *A, const double *value
     bool has_t = false;
     for (int i = 0; i < e->m * e->n; i++) {
         if (dal__depends(e->graph, e->A[i], e->v, e->v + e->n))
-            return dal__fail(error, DAL_STATUS_UNSUPPORTED, "constraint %d is not linear in v",
-                             i / e->n + 1);
+            return dal__fail(error, DAL_STATUS_UNSUPPORTED, "%s is not linear in v",
+                             DAL__CONSTRAINT_NAME(e, i / e->n));
         has_t |= dal__depends(e->graph, e->A[i], e->t, e->t + 1);
     }
     for (int a = 0; a < e->m; a++)

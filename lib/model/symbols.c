@@ -44,6 +44,7 @@ static bool is_column(const dal__equations *e, const char *name)
 {
     static const char *const fixed[] = {"E", "H", "error", "pi_e"};
     if (dal__index_of(name, strlen(name), fixed, 4) >= 0 || is_numbered(name, 'D')) return true;
+    if (e->holonomic > 0 && is_numbered(name, 'C')) return true;
     if (e->vakonomic && is_numbered(name, 'g')) return true;
     const size_t prefix = strncmp(name, "p_", 2) == 0 ? 2 : strncmp(name, "pi_", 3) == 0 ? 3 : 0;
     return prefix > 0 &&

@@ -118,6 +118,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     DAL_TRY(add_constraint(model, p));
     DAL_TRY(add_projection(model, p));
     DAL_TRY(add_blocks(model, p));
+    DAL_TRY(add_if(model, p, e->holonomic, DAL__PROGRAM_HOLONOMIC, e->position, e->holonomic));
     DAL_TRY(add_if(model, p, e->potential, DAL__PROGRAM_POTENTIAL, e->potential, 3 * e->n));
     DAL_TRY(add_diagnosis(model, p));
     DAL_TRY(add_if(model, p, e->normal, DAL__PROGRAM_ENERGY_NORMAL, e->normal, 1 + 3 * e->n));
@@ -160,6 +161,7 @@ static dal_status describe(dal_model *model)
         .reference = text_of(model, DAL_SECTION_REFERENCE),
         .n = e->n,
         .m = e->m,
+        .holonomic = e->holonomic,
         .multipliers = e->multipliers,
         .parameters = e->parameters,
         .invariants = e->invariants,
@@ -175,6 +177,7 @@ static dal_status describe(dal_model *model)
         .invariant = e->invariant_name,
         .guard = e->guard_name,
         .tag = e->tag,
+        .solved_coordinates = e->solved_coordinates,
         .solved_velocities = e->solved_velocities,
         .solved = e->solved,
         .events = e->events,
@@ -257,12 +260,13 @@ static dal_status add_enforcement(dal_model *model)
     return add_to_both(model, DAL__PROGRAM_ENFORCEMENT, out, count);
 }
 
-/* What the scales of D, E, invariants, h and R = B^T h are made from.  Nodes are made after all
+/* What the scales of D, E, invariants, g, h and R = B^T h are made from.  Nodes are made after all
  * programs, so that those do not depend on it. */
 static dal_status add_terms(dal_model *model)
 {
     const dal__equations *e = &model->equations;
-    const int n = e->n, m = e->m, count = m + 1 + e->invariants;
+    const int n = e->n, m = e->m, positions = m + 1 + e->invariants;
+    const int count = positions + e->holonomic;
     dal__node *formula = dal__model_nodes(model, count, dal__number(e->graph, 0.0));
     dal__node *reaction = dal__model_nodes(model, m + n, dal__number(e->graph, 0.0));
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
@@ -272,6 +276,7 @@ static dal_status add_terms(dal_model *model)
     for (int a = 0; a < m; a++) formula[a] = e->constraint[a];
     if (e->energy) formula[m] = e->energy;
     for (int i = 0; i < e->invariants; i++) formula[m + 1 + i] = e->invariant[i];
+    for (int j = 0; j < e->holonomic; j++) formula[positions + j] = e->position[j];
     model->terms = dal__terms_create(e->graph, formula, count);
     if (!model->terms) return DAL_STATUS_MEMORY;
     if (m > 0 && !e->vakonomic) {

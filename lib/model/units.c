@@ -185,11 +185,11 @@ static bool find_start(const dal_system *s, double *x, double *work, double *mem
     const dal_point at = {.work = work};
     if (s->prepare && s->prepare(s, &at, NULL) != DAL_STATUS_OK) return false;
     if (s->start(s, &at, x) != DAL_STATUS_OK) return false;
-    if (s->solved_velocities == 0) return true;
+    if (s->solved_coordinates + s->solved_velocities == 0) return true;
     double *const guess = memory + dal__solve_size(s);
-    memcpy(guess, x + s->n, nw * sizeof *x);
-    if (dal__solve_velocities(s, 0.0, x, x + s->n, work, memory, NULL) != DAL_STATUS_OK)
-        memcpy(x + s->n, guess, nw * sizeof *x);
+    const size_t bytes = ((size_t)s->n + nw) * sizeof *x;
+    memcpy(guess, x, bytes);
+    if (dal__solve_start(s, 0.0, x, work, memory, NULL) != DAL_STATUS_OK) memcpy(x, guess, bytes);
     return true;
 }
 
@@ -211,7 +211,7 @@ dal_status dal__system_units(dal_model *model, const dal_system *system, double 
     const int n = e->n, nw = n + e->multipliers, symbols = e->symbols;
     const size_t numbers = (size_t)(symbols + n + (2 * n + e->multipliers + 1)) +
                            system->workspace + dal__sizes_memory(system) + dal__solve_size(system) +
-                           (size_t)nw;
+                           (size_t)(n + nw);
     double *unit = calloc(numbers, sizeof *unit);
     if (!unit) return DAL_STATUS_MEMORY;
     double *ratio = unit + symbols, *x = ratio + n, *work = x + 2 * n + e->multipliers + 1;

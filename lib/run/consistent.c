@@ -7,12 +7,15 @@
  *
  * whose fixed point has W (v - u) = A^T x and D = 0 with A at the solution.  Steps that grow, since
  * D = 0 curves away from u, are damped: along D = 0 the error is multiplied by a number below 1
- * where v is nearest, but that may be below -1.  A condition is one more row of A. */
+ * where v is nearest, but that may be below -1.  A condition is one more row of A.  The same for
+ * coordinates, with g and the rows g_q of A. */
 #include "run/consistent.h"
 #include "core/settings.h"
 #include "core/vectors.h"
 #include <dalembert_kernel.h>
 #include <float.h>
+#include <math.h>
+#include <stdio.h>
 
 /* A pivot of G below this part of its diagonal entry means that rows are dependent. */
 static const double independent = 1e-12;
@@ -21,42 +24,68 @@ static const double min_damping = 1.0 / 16.0;
 
 enum { MAX_MOVES = 1000 };
 
+static void place_numbers(dal__linearised *k, double *memory)
+{
+    const int n = k->system->n, m = k->system->m, rows = k->rows;
+    k->D = memory;
+    k->A = k->D + rows;
+    k->B = k->A + rows * n;
+    k->G = k->B + rows * n;
+    k->x = k->G + rows * rows;
+    k->given = k->x + rows;
+    k->out = k->given + n;
+    k->unit = k->out + m + 2 * m * n + 1;
+}
+
 dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition, const char *place)
 {
     const dal_system *system = run->layout.system;
-    const int n = system->n, rows = system->m + (condition != NULL);
     dal__linearised k = {.system = system,
                          .at = dal__here(run),
-                         .v = run->persistent + n,
+                         .v = run->persistent + system->n,
                          .condition = condition,
                          .place = place,
-                         .rows = rows,
-                         .D = run->scratch};
-    k.A = k.D + rows;
-    k.B = k.A + rows * n;
-    k.G = k.B + rows * n;
-    k.x = k.G + rows * rows;
-    k.given = k.x + rows;
-    k.out = k.given + n;
-    k.unit = k.out + system->m + 2 * system->m * n + 1;
+                         .constraints = system->m,
+                         .rows = system->m + (condition != NULL)};
+    place_numbers(&k, run->scratch);
+    return k;
+}
+
+dal__linearised dal__linearised_coordinates(dal_run *run, const char *place)
+{
+    const dal_system *system = run->layout.system;
+    dal__linearised k = {.system = system,
+                         .at = dal__here(run),
+                         .v = run->persistent,
+                         .of_coordinates = true,
+                         .place = place,
+                         .first = system->m - DAL__HOLONOMIC_COUNT(system),
+                         .constraints = DAL__HOLONOMIC_COUNT(system),
+                         .rows = DAL__HOLONOMIC_COUNT(system)};
+    place_numbers(&k, run->scratch);
     return k;
 }
 
 dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error)
 {
     const dal_system *s = k->system;
-    const int m = s->m, n = s->n, rows = k->rows;
+    const int m = s->m, n = s->n, rows = k->rows, count = k->constraints;
     const dal__condition *last = k->condition;
-    dal_callback *const callback = u && s->projection ? s->projection : s->call.constraint;
+    const bool has_u = u && !k->of_coordinates;
+    dal_callback *const callback = has_u && s->projection ? s->projection : s->call.constraint;
     k->at.pi = u;
     const dal_status status = m > 0 ? callback(s, &k->at, k->out) : DAL_STATUS_OK;
     if (status != DAL_STATUS_OK)
         return dal__fail(error, status, "the constraints cannot be evaluated at %s", k->place);
-    memcpy(k->D, k->out, (size_t)m * sizeof *k->D);
-    memcpy(k->A, k->out + m, (size_t)(m * n) * sizeof *k->A);
+    memcpy(k->D, k->out + k->first, (size_t)count * sizeof *k->D);
+    memcpy(k->A, k->out + m + k->first * n, (size_t)(count * n) * sizeof *k->A);
+    if (k->of_coordinates && s->call.holonomic(s, &k->at, k->D) != DAL_STATUS_OK)
+        return dal__fail(error, DAL_STATUS_NOT_FINITE,
+                         "the holonomic constraints cannot be evaluated at %s", k->place);
     if (last) k->D[m] = -last->value;
     for (int i = 0; i < n; i++) {
-        for (int a = 0; a < m; a++) k->B[i * rows + a] = k->out[m + m * n + i * m + a];
+        for (int a = 0; a < count; a++)
+            k->B[i * rows + a] = k->out[m + m * n + i * m + k->first + a];
         if (!last) continue;
         k->A[m * n + i] = last->normal[i];
         k->B[i * rows + m] = last->lifted[i];
@@ -79,17 +108,41 @@ void dal__constraint_sizes(dal__linearised *k, const double *scales)
 {
     const int n = k->system->n;
     double *energy = k->given, kinetic = 0.0; /* E, E_q, E_v = W v, and n more */
-    dal_callback *const energy_normal = k->system->call.energy_normal;
+    dal_callback *const energy_normal = k->of_coordinates ? NULL : k->system->call.energy_normal;
+    const bool are_known = k->of_coordinates && scales;
     if (!energy_normal || energy_normal(k->system, &k->at, energy) != DAL_STATUS_OK) kinetic = NAN;
     for (int i = 0; i < n && !isnan(kinetic); i++) kinetic += fabs(k->v[i] * energy[1 + n + i]);
     for (int a = 0; a < k->rows; a++) {
         double G = 0.0, sum = 0.0;
         for (int i = 0; i < n; i++) G += k->A[a * n + i] * k->B[i * k->rows + a];
         for (int i = 0; i < n; i++) sum += fabs(k->A[a * n + i]);
-        const double size = sqrt(fabs(G)) * sqrt(kinetic);
+        const double size = are_known ? 0.0 : sqrt(fabs(G)) * sqrt(kinetic);
         k->x[a] = isfinite(size) ? size : sum * dal_max_norm(k->v, n);
         if (scales && isfinite(scales[a])) k->x[a] += scales[a];
     }
+}
+
+/* Lists the rows of which row a, where elimination ended, is a combination, ", constraint 1", and
+ * returns how many they are; where there are none the list is left alone.  x is scratch. */
+static int list_dependence(const dal__linearised *k, int a, char *list, size_t size)
+{
+    static const double part = 1e-6;
+    const int rows = k->rows;
+    int count = 0;
+    size_t length = 0;
+    for (int b = a - 1; b >= 0; b--) {
+        k->x[b] = k->G[b * rows + a];
+        for (int c = b + 1; c < a; c++) k->x[b] -= k->G[b * rows + c] * k->x[c];
+        k->x[b] /= k->G[b * rows + b];
+    }
+    for (int b = 0; b < a; b++) {
+        const double share = fabs(k->x[b]) * sqrt(k->out[b]);
+        if (!(share > part * sqrt(k->out[a])) || length >= size) continue;
+        length += (size_t)snprintf(list + length, size - length, ", %s",
+                                   DAL__CONSTRAINT_NAME(k->system, k->first + b));
+        count++;
+    }
+    return count;
 }
 
 /* The error that row a of G has no pivot; k->out[a] was its entry on the diagonal. */
@@ -97,39 +150,42 @@ static dal_status dependent(const dal__linearised *k, int a, double pivot, dal_e
 {
     const dal_system *system = k->system;
     const double size = dal__max_abs(k->A + a * system->n, (size_t)system->n);
+    const char *const name = DAL__CONSTRAINT_NAME(system, k->first + a);
+    char list[256] = ", earlier ones";
     DAL_TRY(dal__check_mass(k, error));
-    if (a == system->m)
+    if (a == k->constraints)
         return dal__fail(error, DAL_STATUS_RANK,
                          "%s changes no velocity that the constraints leave free (pivot %g of G)",
                          k->place, pivot);
     if (size == 0.0)
         return dal__fail(error, DAL_STATUS_RANK,
-                         "constraint %d restricts no velocity at %s: its derivatives by the "
-                         "velocities are 0",
-                         a + 1, k->place);
+                         "%s restricts no velocity at %s: its derivatives by the velocities are 0",
+                         name, k->place);
     if (isinf(size))
         return dal__fail(error, DAL_STATUS_RANK,
-                         "constraint %d has infinite derivatives by the velocities at %s", a + 1,
-                         k->place);
+                         "%s has infinite derivatives by the velocities at %s", name, k->place);
     if (system->properties & DAL_MASS_ON_KERNEL && isnan(pivot))
         return dal__fail(error, DAL_STATUS_RANK,
-                         "the constraints are dependent at %s: constraint %d restricts only "
-                         "velocities that others restrict",
-                         k->place, a + 1);
+                         "the constraints are dependent at %s: %s restricts only velocities that "
+                         "others restrict",
+                         k->place, name);
     if (size * size < DBL_MIN || isinf(size * size))
-        return dal__fail(error, DAL_STATUS_RANK,
-                         "constraint %d is badly scaled: its derivatives by the velocities reach "
-                         "%g at %s, and G = A W^-1 A^T has their squares; multiply it by a number",
-                         a + 1, size, k->place);
+        return dal__fail(
+            error, DAL_STATUS_RANK,
+            "%s is badly scaled: its derivatives by the velocities reach %g at %s, and "
+            "G = A W^-1 A^T has their squares; multiply it by a number",
+            name, size, k->place);
     if (!(k->out[a] > 0.0) || a == 0)
         return dal__fail(error, DAL_STATUS_RANK,
-                         "constraint %d has %g on the diagonal of G = A W^-1 A^T at %s", a + 1,
-                         k->out[a], k->place);
+                         "%s has %g on the diagonal of G = A W^-1 A^T at %s", name, k->out[a],
+                         k->place);
+    const bool is_one = list_dependence(k, a, list, sizeof list) == 1;
     return dal__fail(
         error, DAL_STATUS_RANK,
-        "constraint %d restricts, except for rounding, only velocities that earlier ones "
-        "restrict at %s: of its %g on the diagonal of G they leave %.2g",
-        a + 1, k->place, k->out[a], pivot);
+        "%s restricts, except for rounding, only velocities that %s restrict%s at %s: of its %g on "
+        "the diagonal of G %s %.2g",
+        name, list + 2, is_one ? "s" : "", k->place, k->out[a], is_one ? "it leaves" : "they leave",
+        pivot);
 }
 
 /* Solves G x = x without exchanges of rows. */
@@ -183,13 +239,16 @@ static dal_status move(dal__linearised *k, double part, double *change, dal_erro
 
 dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
 {
-    const int n = k->system->n, m = k->system->m;
+    const int n = k->system->n, m = k->constraints;
+    const char *const moved = k->of_coordinates ? "coordinates" : "velocities";
+    const char letter = k->of_coordinates ? 'C' : 'D';
     double change = INFINITY, before, part = 1.0;
     int max = 0;
     if (k->rows == 0) return DAL_STATUS_OK;
     if (m > 0 && !k->system->call.constraint)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
-                         "velocities cannot be moved to D = 0: the mass matrix has no inverse");
+                         "%s cannot be moved to %s = 0: the mass matrix has no inverse", moved,
+                         k->of_coordinates ? "g" : "D");
     memcpy(k->given, k->v, (size_t)n * sizeof *k->v);
     for (int i = 0; i < MAX_MOVES; i++) {
         DAL_TRY(dal__linearise(k, k->given, error));
@@ -201,9 +260,8 @@ dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
             return DAL_STATUS_OK;
         if (change > before) part = fmax(0.5 * part, min_damping);
     }
-    return dal__fail(
-        error, isfinite(k->D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
-        "no velocities near the velocities of %s were found that satisfy constraint %d: "
-        "D%d = %.6g",
-        k->place, max + 1, max + 1, k->D[max]);
+    return dal__fail(error, isfinite(k->D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
+                     "no %s near the %s of %s were found that satisfy %s: %c%d = %.6g", moved,
+                     moved, k->place, DAL__CONSTRAINT_NAME(k->system, k->first + max), letter,
+                     max + 1, k->D[max]);
 }

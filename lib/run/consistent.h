@@ -1,4 +1,5 @@
-/* consistent.h - velocities on D = 0, and the independence of the constraints there. */
+/* consistent.h - coordinates on g = 0, velocities on D = 0, and the independence of the constraints
+ * there. */
 #ifndef DAL_RUN_CONSISTENT_H
 #define DAL_RUN_CONSISTENT_H
 
@@ -11,14 +12,17 @@ typedef struct dal__condition {
 } dal__condition;
 
 /* A state, and its constraints linearised in the velocities, D + A (v' - v), with a condition as
- * the last row where there is one.  The numbers lie in the scratch of a run. */
+ * the last row where there is one; or g + g_q (q' - q).  The numbers lie in the scratch of a run.
+ */
 typedef struct dal__linearised {
     const dal_system *system;
     dal_point at;
-    double *v;                       /* [n] velocities of the state */
+    double *v;                       /* [n] velocities of the state; or q */
+    bool of_coordinates;             /* g and g_q in place of D and A */
     const dal__condition *condition; /* or NULL */
     const char *place;               /* the state in messages: "the start" */
-    int rows;                        /* m, and 1 of a condition */
+    int first, constraints;          /* the rows are of these of the m constraints, */
+    int rows;                        /* and 1 of a condition */
     double *D, *A, *B;               /* [rows], [rows*n], [n*rows]: W^-1 A^T */
     double *G, *x;                   /* [rows*rows], [rows] */
     double *given, *out;             /* [n], [m + 2*m*n + 1] */
@@ -29,6 +33,9 @@ typedef struct dal__linearised {
 dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition,
                                    const char *place);
 
+/* The same of g(q,t) = 0. */
+dal__linearised dal__linearised_coordinates(dal_run *run, const char *place);
+
 /* Evaluates D, A and B at the state, with W at the velocities u; NULL: at its own.  Errors: as
  * of the constraints. */
 dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error);
@@ -38,7 +45,8 @@ dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error)
 dal_status dal__check_mass(const dal__linearised *k, dal_error *error);
 /* Stores in x[rows] the sizes of the constraints, S(D_a) + sqrt(A_a W^-1 A_a^T v.W v): the terms of
  * D_a, scales[m] (NULL: not known), and what velocities of the same energy add to it at most; where
- * v.W v is not known, sum |A_ai| max |v_i|. */
+ * v.W v is not known, sum |A_ai| max |v_i|.  Of g_j: its terms; where not known, sum |g_q| max |q|.
+ */
 void dal__constraint_sizes(dal__linearised *k, const double *scales);
 
 /* Whether the rows are independent: no pivot of G = A B is below 1e-12 of its diagonal entry,
@@ -46,7 +54,8 @@ void dal__constraint_sizes(dal__linearised *k, const double *scales);
 dal_status dal__linearised_check_rank(dal__linearised *k, dal_error *error);
 
 /* Replaces the velocities u of the state by those, v, on D(q,v,t) = 0 and the condition for which
- * (v - u).W(q,u) (v - u) is stationary: in one step where D is linear.  Errors, and then v is not
+ * (v - u).W(q,u) (v - u) is stationary: in one step where D is linear; or the coordinates by
+ * those on g = 0.  Errors, and then v is not
  * defined: DAL_STATUS_RANK, DAL_STATUS_SINGULAR_MASS, DAL_STATUS_INCONSISTENT (no such v is found
  * near u), DAL_STATUS_UNSUPPORTED (W has no inverse), as of the constraints. */
 dal_status dal__make_consistent(dal__linearised *k, dal_error *error);

@@ -18,7 +18,8 @@ static size_t stored_count(const dal__layout *k)
 /* Doubles beside the engines' own. */
 static size_t own_numbers(const dal__layout *k)
 {
-    const size_t time_and_observables = 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
+    const size_t time_and_observables =
+        1 + (size_t)k->m + 6 + (size_t)(k->system->invariants + k->system->holonomic);
     const size_t reactions = k->options.reactions ? (size_t)(k->n + 2 * k->m) : 0;
     return stored_count(k) + (size_t)(k->n + k->nw) + dal__event_scratch(k, stored_count(k)) +
            time_and_observables + reactions + dal__scale_numbers(k);

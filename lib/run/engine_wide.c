@@ -235,6 +235,7 @@ static void prepare_step(engine *e)
     const dal__layout *k = &e->layout;
     dal_step *s = &e->step;
     *s = (dal_step){.n = k->n, .nw = k->nw, .m = k->m, .dim = k->dim, .lifted = k->lifted};
+    s->holonomic = k->system->holonomic;
     s->effort = k->lifted && k->system->call.effort;
     s->gauge = k->lifted && k->system->call.gauge_gradient;
     s->y = e->persistent;
@@ -384,6 +385,7 @@ static dal_status observe_engine(void *engine_, bool exact_known, double *out)
                                       [DAL__OBSERVE_INVARIANTS] = system->invariant_values,
                                       [DAL__OBSERVE_REACTIONS] = system->reactions,
                                       [DAL__OBSERVE_MULTIPLIERS] = system->reactions,
+                                      [DAL__OBSERVE_HOLONOMIC] = system->call.holonomic,
                                       [DAL__OBSERVE_ERROR] = system->exact};
     for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
         const int count = dal__observable_count(&e->layout, group, exact_known);

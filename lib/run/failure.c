@@ -33,10 +33,9 @@ static dal_status diagnose(dal_run *run, const dal__failure *failure, dal_error 
     if (!system->diagnose || is_far_away(run, failure)) return DAL_STATUS_OK;
     const dal_status status = system->diagnose(system, &at, &number);
     if (status == DAL_STATUS_SINGULAR)
-        return dal__fail(
-            error, status,
-            "constraint %d became singular near t = %.17g: G = A W^-1 A^T has no inverse",
-            (int)number, failure->t);
+        return dal__fail(error, status,
+                         "%s became singular near t = %.17g: G = A W^-1 A^T has no inverse",
+                         DAL__CONSTRAINT_NAME(system, (int)number - 1), failure->t);
     if (status == DAL_STATUS_SINGULAR_MASS)
         return dal__fail(error, status, "%s became singular near t = %.17g",
                          dal__mass_words(system), failure->t);
@@ -104,16 +103,17 @@ static dal_status turned(dal_run *run, const dal__failure *failure, double t, do
                                                               : DAL_STATUS_SINGULAR,
                          "%s goes to zero between t = %.17g and %.17g: singular there",
                          system->guard ? system->guard[failure->guard - 1] : "a guard", t, t + h);
+    const char *const name = DAL__CONSTRAINT_NAME(system, failure->constraint - 1);
     if (passes_in_parts(run, failure->constraint, t, h))
         return dal__fail(error, DAL_STATUS_NOT_CONVERGED,
-                         "the gradient of constraint %d by the velocities turns by more than a "
+                         "the gradient of %s by the velocities turns by more than a "
                          "right angle in the step of %g from t = %.17g, though G = A W^-1 A^T is "
                          "regular; take a smaller step",
-                         failure->constraint, h, t);
+                         name, h, t);
     return dal__fail(error, DAL_STATUS_SINGULAR,
-                     "constraint %d becomes singular between t = %.17g and %.17g: its normal "
+                     "%s becomes singular between t = %.17g and %.17g: its normal "
                      "shrinks or turns round, so that G = A W^-1 A^T vanishes",
-                     failure->constraint, t, t + h);
+                     name, t, t + h);
 }
 
 /* Where the stages of a small step are not solved, a constraint may be about to become singular: a

@@ -100,6 +100,15 @@ static dal_status check_system_sizes(const dal_system *system, dal_error *error)
     if (system->m < 0 || system->parameters < 0 || system->guards < 0 || system->invariants < 0 ||
         system->pivots < 0)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "a dimension of the system is negative");
+    if (system->holonomic < 0 || system->holonomic > system->m ||
+        (system->holonomic > 0 && !(system->call.holonomic && system->call.constraint)))
+        return dal__fail(error, DAL_STATUS_ARGUMENT,
+                         "%d holonomic constraints among %d need the callbacks holonomic and "
+                         "constraint",
+                         system->holonomic, system->m);
+    if (system->holonomic != DAL__HOLONOMIC_COUNT(system))
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "a small library takes no holonomic constraints");
     if (system->multipliers != 0 && system->multipliers != system->m)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "%d multipliers for %d constraints",
                          system->multipliers, system->m);
@@ -200,6 +209,7 @@ static dal_status check_control(const dal__layout *k, dal_error *error)
 int dal__eval_size(const dal__layout *k, int code)
 {
     const int n = k->n, nw = k->nw, m = k->m, guards = k->system->guards;
+    const int holonomic = DAL__HOLONOMIC_COUNT(k->system);
     switch (code) {
 #define SIZE(code, member, reads, numbers)                                                         \
     case DAL_EVAL_##code:                                                                          \
@@ -229,6 +239,8 @@ int dal__observable_count(const dal__layout *k, int group, bool exact_known)
         /* On ker A alone a method carries rates A v', not multipliers (lib/model/restricted.c). */
         return k->options.reactions && !(system->properties & DAL_MASS_ON_KERNEL) ? k->multiplier
                                                                                   : 0;
+    case DAL__OBSERVE_HOLONOMIC:
+        return system->call.holonomic ? system->holonomic : 0;
     case DAL__OBSERVE_ERROR:
         return exact_known;
     default:
@@ -449,6 +461,7 @@ dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error 
         return dal__fail(error, DAL_STATUS_TOO_LARGE, "%d coordinates, %d constraints", k->n, k->m);
     k->dim = k->lifted ? 4 * k->n + 2 : k->n + k->nw;
     guess_operations(k);
+    DAL_TRY(dal_method_complete(&k->method, k->system, &k->options, NULL, error));
     DAL_TRY(check_layers(k, error));
     DAL_TRY(check_control(k, error));
     DAL_TRY(check_needs(k, error));

@@ -89,7 +89,7 @@ dal_status dal__layout_init(dal__layout *layout, const dal_run_spec *spec, dal_e
 
 /* The groups of observables in their order; LIFT: H, |p|, |pi|, |pi_e|; ERROR: where the exact
  * solution is known to start as the run does; REACTIONS, of F, and MULTIPLIERS, of the method,
- * where they are observed. */
+ * where they are observed; HOLONOMIC: g. */
 typedef enum dal__observable_group {
     DAL__OBSERVE_D,
     DAL__OBSERVE_E,
@@ -97,6 +97,7 @@ typedef enum dal__observable_group {
     DAL__OBSERVE_INVARIANTS,
     DAL__OBSERVE_REACTIONS,
     DAL__OBSERVE_MULTIPLIERS,
+    DAL__OBSERVE_HOLONOMIC,
     DAL__OBSERVE_ERROR,
     DAL__OBSERVABLE_GROUPS
 } dal__observable_group;

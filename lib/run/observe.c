@@ -80,6 +80,8 @@ char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t si
         snprintf(buffer, size, "D%d", i + 1);
     else if (group == DAL__OBSERVE_LIFT)
         snprintf(buffer, size, "%s", lift[i]);
+    else if (group == DAL__OBSERVE_HOLONOMIC)
+        snprintf(buffer, size, "C%d", i + 1);
     else if (group == DAL__OBSERVE_INVARIANTS)
         snprintf(buffer, size, "%s", system->invariant ? system->invariant[i] : "invariant");
     else if (group == DAL__OBSERVE_REACTIONS || group == DAL__OBSERVE_MULTIPLIERS)

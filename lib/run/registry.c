@@ -1,6 +1,9 @@
 /* registry.c - the integrators of the library, and methods by name: BASE+MODIFIER+... */
 #include "run/registry.h"
 
+#include "core/settings.h"
+#include "dalembert_run.h"
+
 #include <string.h>
 
 #define DECLARE(name, variant, lanes, set) extern const dal_integrator dal__wide_##name##_##variant;
@@ -111,6 +114,45 @@ int dal_method_order(const dal_method *method)
     for (int i = 0; method && i < DAL_LAYERS && method->layer[i]; i++)
         if (method->layer[i]->order > 0) order = method->layer[i]->order;
     return order;
+}
+
+/* The reason why holonomic constraints would drift with a method, projected or not; NULL: none. */
+static const char *holonomic_fault(const dal_method *method)
+{
+    const dal_integrator *inner = method->layer[0];
+    if (inner && inner->needs & DAL_NEEDS_BLOCKS && !(inner->properties & DAL_PRESERVES_HOLONOMIC))
+        return "the method enforces D alone, and its holonomic constraints would drift";
+    if (dal_method_needs(method) & DAL_NEEDS_ENERGY)
+        return "+project-energy moves q without regard to its holonomic constraints";
+    return NULL;
+}
+
+dal_status dal_method_complete(dal_method *method, const dal_system *system,
+                               const dal_options *options, bool *added, dal_error *error)
+{
+    char name[128];
+    int layers = 0;
+    if (added) *added = false;
+    DAL_REQUIRE(method, error);
+    DAL_REQUIRE(system, error);
+    DAL_REQUIRE(options, error);
+    if (DAL__HOLONOMIC_COUNT(system) == 0) return DAL_STATUS_OK;
+    const char *const fault = holonomic_fault(method);
+    if (fault)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "%s cannot act on %s: %s; take gauss4+project or another method of F",
+                         dal_method_name(method, name, sizeof name),
+                         system->name ? system->name : "this system", fault);
+    while (layers < DAL_LAYERS && method->layer[layers]) layers++;
+    if (dal_method_properties(method) & DAL_PRESERVES_HOLONOMIC || options->bare || layers == 0)
+        return DAL_STATUS_OK;
+    if (layers == DAL_LAYERS)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "%s has %d modifiers, and +project, which holonomic constraints need, has "
+                         "no place after them",
+                         dal_method_name(method, name, sizeof name), layers - 1);
+    if (added) *added = true;
+    return find("project", true, &method->layer[layers], error);
 }
 
 unsigned dal_method_needs(const dal_method *method)

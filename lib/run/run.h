@@ -45,7 +45,7 @@ struct dal_run {
     double *work;          /* [layout.workspace] parameters, and numbers of the system */
     double *shadow;        /* [stored] the state before an intermediate step */
     double *scratch;       /* of the engine, for outputs of callbacks */
-    double *point;         /* [n + nw] where a step failed; D before a change of parameters */
+    double *point;         /* [n + nw] where a step failed; D and g before a change of parameters */
     double *event_scratch; /* see event_search.c */
     double *scales;        /* see scales.c */
     bool has_search;       /* event_scratch holds a search, see event_search.c */

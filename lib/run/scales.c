@@ -5,6 +5,7 @@
  *
  *     D_a   sum_i |A_ai v_i| + |D_a|              E    sum |E_q q| + sum |E_v v| + |E|
  *     I     |I|                                   h_a  |h_a|,   R_i   sum_a |B_ai h_a|
+ *     g_j   sum_i |g_q q| + |g_j|
  *
  * H is the sum of pi_i (K pi)_i/(2e), pi_i F_i and p_i v_i, of which the largest counts; it is 0,
  * and H exactly 0, where p = pi = 0. */
@@ -12,9 +13,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Where a run keeps its scales: the results [observables]; the scales of D, E, invariants; of h, R;
- * of H and the norms of the lift [4]; a state [dimension]; F, the exact solution or K pi; memory of
- * the system. */
+/* Where a run keeps its scales: the results [observables]; the scales of D, E, invariants, g; of h,
+ * R; of H and the norms of the lift [4]; a state [dimension]; F, the exact solution or K pi; memory
+ * of the system. */
 typedef struct places {
     double *out, *formulas, *reactions, *lift, *state, *vector, *memory;
 } places;
@@ -34,7 +35,7 @@ static size_t lay_out(const dal__layout *k, double *memory, places *p)
     const dal_system *s = k->system;
     size_t used = 0;
     const size_t at[] = {take(&used, (size_t)dal__max_observables(k)),
-                         take(&used, (size_t)(s->m + 1 + s->invariants)),
+                         take(&used, (size_t)(s->m + 1 + s->invariants + s->holonomic)),
                          take(&used, (size_t)(s->m + s->n)),
                          take(&used, 4),
                          take(&used, (size_t)k->dim),
@@ -81,7 +82,15 @@ static dal_status estimate_formulas(const dal_run *run, const dal_point *at, dou
         out[s->m] = fabs(block[0]) + sum_of_products(s->n, block + 1, at->q) +
                     sum_of_products(s->n, block + 1 + s->n, at->v);
     }
-    return s->invariant_values ? s->invariant_values(s, at, out + s->m + 1) : DAL_STATUS_OK;
+    if (s->invariant_values) DAL_TRY(s->invariant_values(s, at, out + s->m + 1));
+    if (s->holonomic == 0) return DAL_STATUS_OK;
+    double *const g = out + s->m + 1 + s->invariants;
+    DAL_TRY(s->call.holonomic(s, at, g));
+    DAL_TRY(s->call.constraint(s, at, run->scratch));
+    for (int j = 0; j < s->holonomic; j++)
+        g[j] = fabs(g[j]) +
+               sum_of_products(s->n, block + s->m + (s->m - s->holonomic + j) * s->n, at->q);
+    return DAL_STATUS_OK;
 }
 
 static dal_status estimate_reactions(const dal_run *run, const dal_point *at, double *out)
@@ -139,6 +148,8 @@ static const double *group_scales(const dal_run *run, const places *p, const dal
         return p->formulas + s->m;
     case DAL__OBSERVE_INVARIANTS:
         return p->formulas + s->m + 1;
+    case DAL__OBSERVE_HOLONOMIC:
+        return p->formulas + s->m + 1 + s->invariants;
     case DAL__OBSERVE_LIFT:
         *status = scale_lift(run, at, p->vector, p->lift);
         return p->lift;

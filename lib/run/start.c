@@ -1,8 +1,8 @@
 /* start.c - parameters and start of a run: set by name, completed by the system, checked; and a
  * parameter set between steps.
  *
- * A start is consistent when |D_a| is at most 1e-10 of its size, and its constraints are
- * independent (run/consistent.h). */
+ * A start is consistent when |g_j| and |D_a| are at most 1e-10 of their sizes, and its constraints
+ * are independent (run/consistent.h). */
 #include "run/start.h"
 #include "core/error.h"
 #include "core/settings.h"
@@ -88,40 +88,46 @@ static dal_status check_finite(dal_run *run, dal_error *error)
     return DAL_STATUS_OK;
 }
 
-/* What helps a start that violates constraint a: names the velocity that it restricts most, of
- * those that are not solved; "" where all are. */
+/* What helps a start that violates row a: names the velocity, or coordinate, that it restricts
+ * most, of those that are not solved; "" where all are. */
 static const char *suggest(const dal__linearised *k, const dal_run *run, int a, char *hint,
                            size_t size)
 {
-    const int n = k->system->n, count = k->system->solved_velocities;
+    const dal_system *s = k->system;
+    const bool of_q = k->of_coordinates;
+    const int n = s->n, count = of_q ? s->solved_coordinates : s->solved_velocities;
+    const dal_solved *solved = s->solved && !of_q ? s->solved + s->solved_coordinates : s->solved;
     char name[DAL__NAME_SIZE];
     double max = 0.0;
     int best = -1;
     for (int i = 0; i < n; i++) {
-        if (dal__is_solved(k->system->solved, count, i) || !(fabs(k->A[a * n + i]) > max)) continue;
+        if (dal__is_solved(solved, count, i) || !(fabs(k->A[a * n + i]) > max)) continue;
         max = fabs(k->A[a * n + i]);
         best = i;
     }
     *hint = 0;
     if (best < 0) return hint;
-    dal_run_component_name(run, n + best, name, sizeof name);
+    dal_run_component_name(run, of_q ? best : n + best, name, sizeof name);
     if (count > 0)
-        snprintf(hint, size, "; solve under start can name one more velocity, as %.60s", name);
+        snprintf(hint, size, "; solve under start can name one more %s, as %.60s",
+                 of_q ? "coordinate" : "velocity", name);
     else
         snprintf(hint, size,
-                 "; the option consistent moves its velocities to D = 0, and 'solve: [%.60s]' "
+                 "; the option consistent moves its %s to %s = 0, and 'solve: [%.60s]' "
                  "under start solves those it names",
-                 name);
+                 of_q ? "coordinates" : "velocities", of_q ? "g" : "D", name);
     return hint;
 }
 
-/* before: D of the parameters before a change; NULL: it is the start of the run. */
+/* before: D, or g, of the parameters before a change; NULL: it is the start of the run. */
 static dal_status check_consistent(dal_run *run, dal__linearised *k, const double *before,
                                    dal_error *error)
 {
     char hint[256] = "";
     const int n = k->system->n;
-    dal__constraint_sizes(k, dal__constraint_scales(run));
+    const double *scales = dal__constraint_scales(run);
+    const int positions = k->system->m + 1 + k->system->invariants;
+    dal__constraint_sizes(k, scales && k->of_coordinates ? scales + positions : scales);
     for (int i = 0; i < k->rows; i++) {
         const double small = CONSISTENT * k->x[i];
         const bool is_regular = isfinite(dal__max_abs(k->A + i * n, (size_t)n));
@@ -130,7 +136,9 @@ static dal_status check_consistent(dal_run *run, dal__linearised *k, const doubl
         if (before && fabs(k->D[i] - before[i]) <= small) continue; /* the drift of a run */
         if (!isfinite(k->D[i])) DAL_TRY(dal__check_mass(k, error));
         return dal__fail(error, isfinite(k->D[i]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
-                         "%s violates constraint %d: D%d = %.6g%s", k->place, i + 1, i + 1, k->D[i],
+                         "%s violates %s: %c%d = %.6g%s", k->place,
+                         DAL__CONSTRAINT_NAME(k->system, k->first + i),
+                         k->of_coordinates ? 'C' : 'D', i + 1, k->D[i],
                          before ? hint : suggest(k, run, i, hint, sizeof hint));
     }
     return DAL_STATUS_OK;
@@ -141,11 +149,44 @@ static bool has_constraints(const dal_run *run)
     return run->layout.m > 0 && run->layout.system->call.constraint;
 }
 
+/* Momenta would be cleared by a projection, and pi/e, of another K, pushes v off D and q off g. */
+static dal_status check_momenta(const dal_run *run, dal_error *error)
+{
+    const dal__layout *k = &run->layout;
+    const double *const e = run->persistent + 2 * k->n;
+    const bool is_projected = dal_method_properties(&k->method) & DAL_PRESERVES_HOLONOMIC;
+    bool any = false;
+    for (int i = 1; k->lifted && i <= 2 * k->n; i++) any = any || e[i] != 0.0;
+    if (!any) return DAL_STATUS_OK;
+    if (is_projected)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "p and pi of the start are not 0, and a projection to holonomic "
+                         "constraints would clear them: take the option bare, with effort "
+                         "constraint");
+    if (k->system->effort == DAL_EFFORT_CONSTRAINT || isinf(*e)) return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                     "p and pi of the start are not 0, and K of effort %s would push the motion "
+                     "off its holonomic constraints: take effort constraint",
+                     dal_effort_name(k->system->effort));
+}
+
+/* q on g = 0, by what the start solves and by the option consistent. */
+static dal_status check_coordinates(dal_run *run, dal_error *error)
+{
+    dal__linearised k = dal__linearised_coordinates(run, "the start");
+    DAL_TRY(check_momenta(run, error));
+    DAL_TRY(dal__solve_coordinates(k.system, k.at.t, k.v, k.at.v, run->work, run->scratch, error));
+    if (run->layout.options.consistent) DAL_TRY(dal__make_consistent(&k, error));
+    DAL_TRY(dal__linearise(&k, NULL, error));
+    return check_consistent(run, &k, NULL, error);
+}
+
 static dal_status check_constraints(dal_run *run, dal_error *error)
 {
     dal__linearised k = dal__linearised_of(run, NULL, "the start");
     const bool is_solved_for = run->layout.system->solved_velocities != 0;
     if (!has_constraints(run) && !is_solved_for) return DAL_STATUS_OK;
+    if (DAL__HOLONOMIC_COUNT(run->layout.system) > 0) DAL_TRY(check_coordinates(run, error));
     DAL_TRY(dal__solve_velocities(run->layout.system, k.at.t, k.at.q, k.v, run->work, run->scratch,
                                   error));
     if (run->layout.options.consistent) DAL_TRY(dal__make_consistent(&k, error));
@@ -205,8 +246,8 @@ static dal_status check_field(dal_run *run, dal_error *error)
         return dal__fail(error, fault, "%s is singular at the present state",
                          dal__mass_words(system));
     if (fault == DAL_STATUS_SINGULAR)
-        return dal__fail(error, fault, "constraint %d is singular at the present state",
-                         (int)number);
+        return dal__fail(error, fault, "%s is singular at the present state",
+                         DAL__CONSTRAINT_NAME(system, (int)number - 1));
     if (fault == DAL_STATUS_NOT_FINITE)
         return dal__fail(error, fault,
                          "table %.80s is read outside its points at the present state",
@@ -221,12 +262,16 @@ static dal_status check_field(dal_run *run, dal_error *error)
     return DAL_STATUS_OK;
 }
 
-/* Stores D of the present state; NaN where it cannot be evaluated. */
+/* Stores D, then g, of the present state; NaN where they cannot be evaluated. */
 static void note_constraints(dal_run *run, double *D)
 {
     dal__linearised k = dal__linearised_of(run, NULL, "the present state");
     const bool known = has_constraints(run) && dal__linearise(&k, NULL, NULL) == DAL_STATUS_OK;
     for (int i = 0; i < run->layout.m; i++) D[i] = known ? k.D[i] : NAN;
+    if (DAL__HOLONOMIC_COUNT(run->layout.system) == 0) return;
+    k = dal__linearised_coordinates(run, "the present state");
+    const bool has = has_constraints(run) && dal__linearise(&k, NULL, NULL) == DAL_STATUS_OK;
+    for (int j = 0; j < k.rows; j++) D[run->layout.m + j] = has ? k.D[j] : NAN;
 }
 
 /* DAL_STATUS_INCONSISTENT: the parameters can be used, but D, which was `before`, is not 0 with
@@ -239,7 +284,11 @@ static dal_status check_parameters(dal_run *run, const double *before, dal_error
     if (!has_constraints(run)) return DAL_STATUS_OK;
     DAL_TRY(dal__linearise(&k, NULL, error));
     DAL_TRY(dal__linearised_check_rank(&k, error));
-    return check_consistent(run, &k, before, error);
+    DAL_TRY(check_consistent(run, &k, before, error));
+    if (DAL__HOLONOMIC_COUNT(k.system) == 0) return DAL_STATUS_OK;
+    k = dal__linearised_coordinates(run, "the present state");
+    DAL_TRY(dal__linearise(&k, NULL, error));
+    return check_consistent(run, &k, before + run->layout.m, error);
 }
 
 void dal__restart_method(dal_run *run)

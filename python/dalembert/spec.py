@@ -21,6 +21,7 @@ class Options(TypedDict, total=False):
     extend_energy: bool
     reactions: bool
     consistent: bool
+    bare: bool
     tolerance: float
     solver_tolerance: float
     extra_iterations: int

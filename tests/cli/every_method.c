@@ -1,7 +1,7 @@
 /* every_method.c - each integrator of the library, alone and with +project, in both spaces.
  *
  * Prints name, status and exact state after some steps on a system of formulas; then the status of
- * a run in quad precision. */
+ * a run in quad precision, and of a system with a holonomic constraint. */
 #include <dalembert.h>
 #include <stdio.h>
 
@@ -53,6 +53,15 @@ int main(void)
     }
     spec.options.precision = DAL_QUAD;
     run_method(&spec, "rk4");
+    dal_model_free(model);
+    model = dal_model_create("pendulum");
+    for (int i = 0; i < 2; i++)
+        if (dal_model_add(model, DAL_SECTION_COORDINATES, NULL, i ? "y" : "x", 0, 0, NULL))
+            return 1;
+    if (dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "(x'^2 + y'^2)/2 - y", 0, 0, NULL) ||
+        dal_model_add(model, DAL_SECTION_HOLONOMIC, NULL, "x^2 + y^2 - 1", 0, 0, NULL))
+        return 1;
+    printf("holonomic %s\n", dal_status_name(dal_model_system(model, &spec.system, NULL)));
     dal_model_free(model);
     return 0;
 }

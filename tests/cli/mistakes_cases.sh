@@ -45,7 +45,7 @@ case: velocities
 case: files
 2 | run comma.yaml $run | says is not a name: .*; a formula with commas within \{\} or \[\] needs quotes$
 2 | run power.yaml $run | says ^dalembert: power.yaml:3:52: lagrangian: a power is written \^, not \*\*$
-2 | run holonomic.yaml $run | says :5:5: constraint 1 does not depend on the velocities; of f\(q\) = 0 write the time derivative
+2 | run holonomic.yaml $run | says :5:5: constraint 1 does not depend on the velocities; f\(q\) = 0 belongs under holonomic
 2 | run bracket.yaml $run | says is not a name: .*; is a bracket not closed\?$
 2 | run skate.yaml $run --set mass=2 | says unknown parameter 'mass'; there is m, J, k$
 2 | study skate.yaml | says ^dalembert: 'skate.yaml' is a system, not a study: 'dalembert run skate.yaml' runs it$

@@ -1,0 +1,71 @@
+# Holonomic constraints: columns, the projection that is added, starts, both spaces, native code.
+
+cat >pendulum.yaml <<'END'
+coordinates: [x, y, z]
+parameters: {l: 1.25, g: 2}
+lagrangian: (x'^2 + y'^2 + z'^2)/2 - g*z
+holonomic: [x^2 + y^2 + z^2 - l^2]
+start: {x: 0.75, z: -1, y': 1.5}
+END
+motion="--integrator gauss4 --step 0.05 --time 2 --samples 4"
+added="holonomic constraints drift with this method: .project is added; --bare on leaves it out"
+
+case_is "holonomic: columns"
+try 0 run pendulum.yaml $motion --space physical
+says "$added"
+expect "header" [ "$(head -1 out)" = "t,x,y,z,x',y',z',D1,E,C1" ]
+try 0 run pendulum.yaml $motion --columns C,D
+expect "group" [ "$(head -1 out)" = "t,D1,C1" ]
+try 0 run pendulum.yaml $motion --reactions on --columns h,C1
+expect "reactions" [ "$(head -1 out)" = "t,h1,C1" ]
+
+case_is "holonomic: +project is added, once and by name"
+try 0 run pendulum.yaml $motion --output own
+expect "said more than once" [ "$(grep -c 'is added' err)" = 1 ]
+expect "the method is not named" grep -q '"gauss4+project"' own/manifest.json
+try 0 run pendulum.yaml $motion --integrator gauss4+project --output named
+expect "said without need" [ "$(grep -c 'is added' err)" = 0 ]
+expect "other rows" cmp -s own/trajectory.npy named/trajectory.npy
+try 0 run pendulum.yaml $motion --bare on --columns C --output bare.csv
+expect "said of a bare method" [ "$(grep -c 'is added' err)" = 0 ]
+expect "no drift" [ "$(tail -1 bare.csv | awk -F, '{ print ($2 * $2 > 1e-20) }')" = 1 ]
+
+case_is "holonomic: resumed and extended"
+try 0 run pendulum.yaml $motion --output short
+try 0 resume short --time 4
+try 0 run pendulum.yaml $motion --time 4 --samples 8 --output long
+expect "other rows" cmp -s short/trajectory.npy long/trajectory.npy
+
+case_is "holonomic: native and generated, same bits"
+if needs 10 "no compiler" there cc; then
+    for method in gauss4 gauss4+symmetric-project; do
+        for native in off on; do
+            try 0 run pendulum.yaml $motion --integrator $method --native $native \
+                --statistics 3 --output "$method-$native"
+        done
+        for file in trajectory.npy summary.csv; do
+            expect "$method: other $file" cmp -s "$method-off/$file" "$method-on/$file"
+        done
+    done
+    try 0 generate pendulum.yaml --integrator gauss4 --prefix pendulum
+    mv out pendulum.c
+    expect "no observable C1" grep -q '"C1"' pendulum.c
+    counted
+fi
+
+case_is "holonomic: refused with the reason"
+table <<'END'
+2 | run pendulum.yaml --integrator gni --step 0.1 --time 1 | says gni cannot act on pendulum: the method enforces D alone
+2 | run pendulum.yaml --integrator rk4+project-energy --step 0.1 --time 1 | says .project-energy moves q without regard to its holonomic constraints
+2 | run pendulum.yaml --integrator rk4 --step 0.1 --time 1 --start z=-1.1 | says the start violates holonomic constraint 1: C1 = 0.21; the option consistent moves its coordinates to g = 0, and 'solve: .z.'
+2 | run pendulum.yaml --integrator rk4 --step 0.1 --time 1 --start pi_x=1 | says take the option bare, with effort constraint
+2 | run pendulum.yaml --integrator rk4 --step 0.1 --time 1 --mechanics vakonomic | says vakonomic mechanics takes no holonomic constraints
+2 | predict pendulum.yaml --integrator rk4 --step 0.1 --time 1 | says no drift of rk4.* can be predicted: the system has holonomic constraints
+2 | lyapunov pendulum.yaml --integrator rk4 --step 0.1 --time 1 | says the exponents of a system with holonomic constraints are not computed
+0 | run pendulum.yaml --integrator rk4 --step 0.1 --time 1 --start z=-1.1 --consistent on | says is added
+END
+
+case_is "holonomic: check, with Dirac's algebra"
+try 0 check pendulum.yaml
+prints "rank 6 of 13 x 13 brackets, 2n = 6"
+prints "7, 2n.1 = 7"
