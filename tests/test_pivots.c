@@ -264,7 +264,7 @@ static void test_gauge_and_start(void)
     CU_ASSERT(b.system->value[1] == 0.5);
     reference_call(&b, b.system->start, 0.0, NULL, NULL, out);
     CU_ASSERT(reference_distance(5, out, expected) < 1e-15);
-    reference_call(&b, b.system->call.gauge, 0.7, NULL, NULL, out);
+    reference_call(&b, b.system->call.gauge, 0.7, expected, expected, out);
     CU_ASSERT(fabs(out[0] - 0.5 * cos(0.7)) < 1e-15);
     reference_free(&b);
 }
