@@ -39,7 +39,8 @@ typedef struct dal_point {
     double t;            /* time */
     const double *q;     /* [n] coordinates */
     const double *v;     /* [n] velocities, then [multipliers] vakonomic multipliers g */
-    const double *pi;    /* [n] momenta of the velocities, of adjoint; of projection, velocities */
+    const double *pi;    /* [n] momenta of the velocities, of adjoint; of projection, velocities; of
+                            enforcement pi[n], c[m] and beta, of reaction l[m] and beta */
     double *work;        /* [workspace] */
     const double *times; /* [lanes] the times in a wide set, where they differ; else NULL */
 } dal_point;
@@ -80,8 +81,10 @@ typedef dal_status dal_scale_callback(const dal_system *system, const dal_point 
         /* c = D_q v + D_t (methods that enforce D) */ \
     CALLBACK(POTENTIAL, potential, tqv, 3 * n) /* U, U_q.v, v.Wv (discrete-gradient) */ \
     CALLBACK(CORRECTION, correction, tqv, n) /* x, W x = A^T l, A x = -D; NULL: by constraint */ \
-    CALLBACK(ENFORCEMENT, enforcement, tqvpi, 2 * (n + m)) /* f, x, k, l: W f = b + B^T k, */ \
-        /* A f = 0, W x = B^T l, A x = -(D + A pi); NULL: by blocks (gni) */ \
+    CALLBACK(ENFORCEMENT, enforcement, tqv_pi_c, n + m) /* y, l: W y = beta b + B^T l, */ \
+        /* A y = A pi + c; NULL: by blocks, or by constraint with beta = 0 */ \
+    CALLBACK(REACTION, reaction, tqv_l, n) /* y, W y = beta b + B^T l; NULL: likewise */ \
+    CALLBACK(CONSTRAINT_VALUE, constraint_value, tqv, m) /* D; NULL: by constraint */ \
     CALLBACK(HOLONOMIC, holonomic, tqv, holonomic) /* g(q,t); NULL: there are none */
 /* clang-format on */
 typedef struct dal_callbacks {

@@ -15,14 +15,14 @@
 typedef struct rattle {
     dal_stage_matrix newton; /* first, for dal_constrained_matrix */
     num *kick;               /* [n] h/2 (a0 + B0 lambda0) */
-    num *q1, *v1, *moved;    /* [n]; kick - w */
-    num *out;                /* f, x, k, l of DAL_EVAL_ENFORCEMENT */
+    num *q1, *v1;            /* [n] */
+    num *in, *out;           /* of DAL_EVAL_ENFORCEMENT */
     num *pull, *lambda;      /* [n] a1 + B1 lambda1, [m] lambda1: of a lane's last iteration */
 } rattle;
 
-/* With W f = b + B^T k, A f = 0 and W x = B^T l, A x = -(D + A (kick - w)) at (q1, v0 + w),
+/* With W y = b + B^T l, A y = 2/h (A (w - kick) - D) at (q1, v0 + w),
  *
- *     image = kick + h/2 f + x,   lambda1 = k + 2/h l
+ *     image = kick + h/2 y,   lambda1 = l
  *
  * fulfils the equation of v1, and D to first order. */
 DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
@@ -30,16 +30,17 @@ DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
     rattle *r = (rattle *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
     const num half = dal_num(0.5 * s->h), per_half = dal_num(2.0 / s->h), *w = eq->block[0].u;
-    const num *f = r->out, *x = f + n, *k = x + n, *l = k + m;
+    num *const c = r->in + n;
+    const num *y = r->out, *l = r->out + n;
     DAL_EACH(i, n) r->v1[i] = dal_moved_v(s, i, w[i]);
-    DAL_EACH(i, n) r->moved[i] = r->kick[i] - w[i];
-    s->evaluations++;
-    dal_eval(s, DAL_EVAL_ENFORCEMENT, s->t + s->h, r->q1, r->v1, r->moved, r->out);
-    DAL_EACH(i, n) eq->block[0].image[i] = r->kick[i] + dal_fma(half, f[i], x[i]);
-    DAL_EACH(i, n)
-        r->pull[i] = DAL_IF_ACTIVE(eq->active, dal_fma(per_half, x[i], f[i]), r->pull[i]);
-    DAL_EACH(i, m)
-        r->lambda[i] = DAL_IF_ACTIVE(eq->active, dal_fma(per_half, l[i], k[i]), r->lambda[i]);
+    DAL_EACH(i, n) r->in[i] = per_half * (w[i] - r->kick[i]);
+    dal_constraint_value(s, s->t + s->h, r->q1, r->v1, c);
+    DAL_EACH(i, m) c[i] = -(per_half * c[i]);
+    c[m] = dal_num(1.0);
+    dal_eval_enforcement(s, s->t + s->h, r->q1, r->v1, r->in, r->out);
+    DAL_EACH(i, n) eq->block[0].image[i] = dal_fma(half, y[i], r->kick[i]);
+    DAL_EACH(i, n) r->pull[i] = DAL_IF_ACTIVE(eq->active, y[i], r->pull[i]);
+    DAL_EACH(i, m) r->lambda[i] = DAL_IF_ACTIVE(eq->active, l[i], r->lambda[i]);
 }
 
 /* Lanes whose last step ended at this state, so that what it ended with is known. */
@@ -52,7 +53,7 @@ DAL_INLINE dal_mask rattle_known(const dal_step *s)
     return known;
 }
 
-/* The first half of the step. */
+/* The first half of the step; without multipliers a0 + B0 lambda0 is F. */
 DAL_INLINE void rattle_begin(dal_step *s, num *kick)
 {
     const int n = DAL_N(s), m = DAL_M(s);
@@ -60,14 +61,16 @@ DAL_INLINE void rattle_begin(dal_step *s, num *kick)
     const dal_mask known = rattle_known(s);
     DAL_EACH(i, n) kick[i] = half * s->acceleration[1 + i];
     if (!DAL_RARELY(dal_any(~known))) return;
-    DAL_VECTOR(s, before, DAL_BLOCKS_SIZE(s));
-    DAL_VECTOR(s, lambda, DAL_M(s));
     DAL_VECTOR(s, pull, DAL_N(s));
-    dal_eval_blocks(s, s->t, s->y, s->y + n, before);
-    dal_restore_multipliers(s, before, lambda);
-    dal_multiply(before + dal_blocks_B(s), n, m, lambda, pull);
-    DAL_EACH(i, n)
-        kick[i] = dal_select(known, kick[i], half * (before[dal_blocks_a(s) + i] + pull[i]));
+    dal_force(s, s->t, s->y, s->y + n, pull);
+    DAL_EACH(i, n) kick[i] = dal_select(known, kick[i], half * pull[i]);
+    const dal_mask has_multiplier = dal_known_multipliers(s) & ~known;
+    if (!dal_any(has_multiplier)) return;
+    DAL_VECTOR(s, lambda, DAL_M(s) + 1);
+    DAL_EACH(i, m) lambda[i] = s->multiplier[i];
+    lambda[m] = dal_num(1.0);
+    dal_eval(s, DAL_EVAL_REACTION, s->t, s->y, s->y + n, lambda, pull);
+    DAL_EACH(i, n) kick[i] = dal_select(has_multiplier, half * pull[i], kick[i]);
 }
 
 /* What the next step begins with; after an event and at a change of branches it is forgotten, as
@@ -91,13 +94,13 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, kick, DAL_N(s));
     DAL_VECTOR(s, q1, DAL_N(s));
     DAL_VECTOR(s, v1, DAL_N(s));
-    DAL_VECTOR(s, moved, DAL_N(s));
-    DAL_VECTOR(s, out, 2 * (DAL_N(s) + DAL_M(s)));
+    DAL_VECTOR(s, in, DAL_N(s) + DAL_M(s) + 1);
+    DAL_VECTOR(s, out, DAL_N(s) + DAL_M(s));
     DAL_VECTOR(s, pull, DAL_N(s));
     DAL_VECTOR(s, lambda, DAL_M(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
-    rattle r = {{1, 0.5 * h, &one, &a2, 0, NULL}, kick, q1, v1, moved, out, pull, lambda};
+    rattle r = {{1, 0.5 * h, &one, &a2, 0, NULL}, kick, q1, v1, in, out, pull, lambda};
     dal_equation eq = dal_velocity_equation(s, block, &r);
     rattle_begin(s, kick);
     DAL_EACH(i, n) pull[i] = dal_num(0.0);
@@ -131,4 +134,4 @@ DAL_INTEGRATOR(gni, step, .name = "gni", .alias = "nonholonomic-rattle",
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER |
                              DAL_PERSISTENT_ACCELERATION,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS,
-               .kernel = DAL_KERNEL_ENFORCE | DAL_KERNEL_ENFORCEMENT);
+               .kernel = DAL_KERNEL_ENFORCE | DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_REACTION);

@@ -7,57 +7,28 @@
  *
  * along the directions of E and D in the metric of the masses, with h as the unit of time between q
  * and v: with v alone E could not be mended where the motion turns round.  Newton's method to
- * stagnation, its derivative frozen, and without what D does with q, which is of order h^2:
+ * stagnation, without what D does with q, which is of order h^2.  An iteration is
  *
- *     M = (  A B        A v              )
- *         ( (A v)^T   v.E_v + h^2 E_q.N  )
+ *     v <- v + x - k (v0 - w),   q <- q - h^2 k N0,    W x = A^T l, A x = -D at (q, v),
+ *     k = (E - E0 + E_v.x)/(E_v.(v0 - w) + h^2 E_q.N0)
  *
- * Where W need be regular on ker A only (lib/model/restricted.c), B are other directions of the
- * same span, E_v.B is the last row, and N has W N = E_q on ker A.
+ * where A w = A v0, W w = A^T l, so that v0 - w keeps D; w and the denominator are frozen at
+ * (q0, v0), what the step of NAME left.
  *
  * Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), IV.4.  Keeps the order, every D,
  * and E where it is a constant of the motion; loses symmetry, and, as in project.c,
  * symplecticity on the lift. */
 #include <dalembert_kernel.h>
 
-/* m + 1 unknowns and equations: m for D, then one for E. */
-#define LEVELS(s) (DAL_M(s) + 1)
-
 typedef struct level {
-    num *q0, *v0;         /* [n] what the step left */
-    num *q, *v;           /* [n] */
-    num *constraint;      /* [m + m*n + n*m] D, A, B */
-    num *energy;          /* [1 + 3n] E, E_q, E_v, N */
-    num *directions;      /* [n*(m + 1)] of v: B and v */
-    num *normal;          /* [n] of q/h: h N */
-    num *inverse;         /* [(m+1)*(m+1)] */
-    num *missing, *shift; /* [m + 1] */
+    num *q0, *v0; /* [n] what the step left */
+    num *q, *v;   /* [n] */
+    num *energy;  /* [1 + 3n] E, E_q, E_v, N */
+    num *along;   /* [n] of v: v0 - w */
+    num *normal;  /* [n] of q/h: h N0 */
+    num *x;       /* [n] */
+    num *rate;    /* [1] what k is divided by */
 } level;
-
-/* What is missing at (q, v): D and E - E0. */
-DAL_INLINE void find_missing(dal_step *s, level *k)
-{
-    const int m = DAL_M(s);
-    if (m > 0) dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, k->q, k->v, NULL, k->constraint);
-    dal_eval(s, DAL_EVAL_ENERGY_NORMAL, s->t, k->q, k->v, NULL, k->energy);
-    DAL_EACH(a, m) k->missing[a] = k->constraint[a];
-    k->missing[m] = k->energy[0] - s->level[0];
-}
-
-DAL_INLINE void level_map(dal_step *s, dal_equation *eq)
-{
-    level *k = (level *)eq->context;
-    const int n = DAL_N(s), levels = LEVELS(s);
-    const num *u = eq->block[0].u;
-    num *const image = eq->block[0].image;
-    DAL_EACH(i, n) k->v[i] = k->v0[i] + u[i];
-    DAL_EACH(i, n) k->q[i] = k->q0[i] + s->h * u[n + i];
-    find_missing(s, k);
-    dal_multiply(k->inverse, levels, levels, k->missing, k->shift);
-    dal_multiply(k->directions, n, levels, k->shift, image);
-    DAL_EACH(i, n) image[n + i] = k->normal[i] * k->shift[levels - 1];
-    DAL_EACH(i, 2 * n) image[i] = u[i] - image[i];
-}
 
 DAL_INLINE num dot(const num *a, const num *b, int count)
 {
@@ -66,38 +37,36 @@ DAL_INLINE num dot(const num *a, const num *b, int count)
     return sum;
 }
 
-/* E_v.B_a */
-DAL_INLINE num energy_rate(const level *k, int n, int m, int a)
+DAL_INLINE void level_map(dal_step *s, dal_equation *eq)
 {
-    const num *B = k->constraint + m + m * n, *Ev = k->energy + 1 + n;
-    num sum = dal_num(0.0);
-    DAL_EACH(i, n) sum += Ev[i] * B[i * m + a];
-    return sum;
+    level *k = (level *)eq->context;
+    const int n = DAL_N(s);
+    const num *u = eq->block[0].u;
+    num *const image = eq->block[0].image;
+    DAL_EACH(i, n) k->v[i] = k->v0[i] + u[i];
+    DAL_EACH(i, n) k->q[i] = k->q0[i] + s->h * u[n + i];
+    dal_eval(s, DAL_EVAL_ENERGY_NORMAL, s->t, k->q, k->v, NULL, k->energy);
+    if (DAL_M(s) > 0) dal_eval(s, DAL_EVAL_CORRECTION, s->t, k->q, k->v, NULL, k->x);
+    const num excess = k->energy[0] - s->level[0] + dot(k->energy + 1 + n, k->x, n);
+    const num share = excess / *k->rate;
+    DAL_EACH(i, n) image[i] = u[i] + (k->x[i] - share * k->along[i]);
+    DAL_EACH(i, n) image[n + i] = u[n + i] - share * k->normal[i];
 }
 
-/* The directions, and M in `matrix`, at (q0, v0). */
-DAL_INLINE void set_directions(dal_step *s, level *k, num *matrix)
+/* v0 - w. */
+DAL_INLINE void find_direction(dal_step *s, level *k)
 {
-    const int n = DAL_N(s), m = DAL_M(s), levels = LEVELS(s);
-    const num *A = k->constraint + m, *B = A + m * n;
-    const num *Eq = k->energy + 1, *Ev = Eq + n, *N = Ev + n;
-    DAL_EACH(i, n) k->normal[i] = s->h * N[i];
-    DAL_EACH(i, n) {
-        DAL_EACH(a, m) k->directions[i * levels + a] = B[i * m + a];
-        k->directions[i * levels + m] = k->v0[i];
-    }
-    DAL_EACH(a, m) {
-        dal_multiply(A + a * n, 1, n, k->v0, &matrix[a * levels + m]);
-        matrix[m * levels + a] = matrix[a * levels + m];
-        if (DAL_PROPERTIES(s) & DAL_MASS_ON_KERNEL)
-            matrix[m * levels + a] = energy_rate(k, n, m, a);
-        DAL_EACH(b, m) {
-            num sum = dal_num(0.0);
-            DAL_EACH(i, n) sum += A[a * n + i] * B[i * m + b];
-            matrix[a * levels + b] = sum;
-        }
-    }
-    matrix[m * levels + m] = dot(Ev, k->v0, n) + s->h * dot(Eq, k->normal, n);
+    const int n = DAL_N(s), m = DAL_M(s);
+    DAL_EACH(i, n) k->along[i] = k->v0[i];
+    if (m == 0) return;
+    DAL__MARK(s);
+    DAL_VECTOR(s, in, DAL_N(s) + DAL_M(s) + 1);
+    DAL_VECTOR(s, out, DAL_N(s) + DAL_M(s));
+    DAL_EACH(i, n) in[i] = k->v0[i];
+    DAL_EACH(a, m + 1) in[n + a] = dal_num(0.0);
+    dal_eval(s, DAL_EVAL_ENFORCEMENT, s->t, k->q0, k->v0, in, out);
+    DAL_EACH(i, n) k->along[i] -= out[i];
+    DAL__RELEASE(s);
 }
 
 /* The size of v, and of q/h, against which rounding in them and in E is small. */
@@ -110,17 +79,19 @@ DAL_INLINE num level_scale(const dal_step *s, const level *k, num whole)
 
 DAL_INLINE void freeze_directions(dal_step *s, level *k, dal_equation *eq)
 {
-    const int n = DAL_N(s), levels = LEVELS(s);
-    DAL_VECTOR(s, matrix, LEVELS(s) * LEVELS(s));
+    const int n = DAL_N(s);
+    const num *Eq = k->energy + 1, *Ev = Eq + n, *N = Ev + n;
     DAL_EACH(i, n) {
-        k->q[i] = k->q0[i] = s->y[i];
-        k->v[i] = k->v0[i] = s->y[n + i];
-        eq->block[0].u[i] = eq->block[0].u[n + i] = dal_num(0.0);
+        k->q0[i] = s->y[i];
+        k->v0[i] = s->y[n + i];
+        k->x[i] = eq->block[0].u[i] = eq->block[0].u[n + i] = dal_num(0.0);
     }
-    find_missing(s, k);
-    set_directions(s, k, matrix);
-    eq->block[0].progress->scale = level_scale(s, k, matrix[levels * levels - 1]);
-    dal_invert_in_units(matrix, k->inverse, levels, DAL_LEVELS(s), levels);
+    dal_eval(s, DAL_EVAL_ENERGY_NORMAL, s->t, k->q0, k->v0, NULL, k->energy);
+    find_direction(s, k);
+    DAL_EACH(i, n) k->normal[i] = s->h * N[i];
+    const num of_q = s->h * dot(Eq, k->normal, n);
+    *k->rate = dot(Ev, k->along, n) + of_q;
+    eq->block[0].progress->scale = level_scale(s, k, dot(Ev, k->v0, n) + of_q);
 }
 
 DAL_INLINE dal_status to_level(dal_step *s)
@@ -129,15 +100,13 @@ DAL_INLINE dal_status to_level(dal_step *s)
     DAL_VECTOR(s, v0, DAL_N(s));
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, v, DAL_N(s));
-    DAL_VECTOR(s, constraint, DAL_M(s) + 2 * DAL_M(s) * DAL_N(s));
     DAL_VECTOR(s, energy, 1 + 3 * DAL_N(s));
-    DAL_VECTOR(s, directions, DAL_N(s) * LEVELS(s));
+    DAL_VECTOR(s, along, DAL_N(s));
     DAL_VECTOR(s, normal, DAL_N(s));
-    DAL_VECTOR(s, inverse, LEVELS(s) * LEVELS(s));
-    DAL_VECTOR(s, missing, LEVELS(s));
-    DAL_VECTOR(s, shift, LEVELS(s));
+    DAL_VECTOR(s, x, DAL_N(s));
+    DAL_VECTOR(s, rate, 1);
     DAL_BLOCK(s, change, 2 * DAL_N(s), 0); /* of v and of q/h */
-    level k = {q0, v0, q, v, constraint, energy, directions, normal, inverse, missing, shift};
+    level k = {q0, v0, q, v, energy, along, normal, x, rate};
     DAL_EQUATION(s, eq, 1, &k, change);
     dal_set_speeds(s, &eq.block[0], DAL_N(s));
     freeze_directions(s, &k, &eq);
@@ -184,6 +153,7 @@ DAL_INTEGRATOR(project_energy, step, .name = "project-energy",
                .documentation = ABOUT_PROJECT_ENERGY, .stages = 1,
                .properties = DAL_MODIFIER | DAL_PRESERVES_D | DAL_PRESERVES_ENERGY,
                .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_ENERGY,
-               .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_CONSTRAINT | DAL_KERNEL_ENERGY_NORMAL,
+               .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_CORRECTION | DAL_KERNEL_ENFORCEMENT |
+                         DAL_KERNEL_ENERGY_NORMAL,
                .inherits = DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC | DAL_EXPLICIT |
                            DAL_ADAPTIVE);

@@ -4,12 +4,14 @@
  *     v^ = v0 + B0 mu,   (q1, v~) = step of NAME from (q0, v^),   v1 = v~ + B1 mu
  *     D(q1, v1, t1) = 0;      B = W^-1 A^T,  B0 at (q0, v0, t0),  B1 at (q1, v1, t1)
  *
- * solved for mu and v1 by Newton's method with the frozen derivative 2 A B, to stagnation.  Where
- * there are holonomic constraints g(q, t) = 0, and their B^ among the columns of B,
+ * solved by Newton's method, to stagnation.  With W x = A^T l and D + A (v~ + x - v1) = 0 at the
+ * last (q1, v1) the next v1 is v~ + x, and the next mu is (mu + l)/2, by the derivative 2 A B of D.
+ * Where there are holonomic constraints g(q, t) = 0, and their B^ among the columns of B,
  *
  *     q^ = q0 + h B^0 nu,   q1 = q~ + h B^1 nu,   g(q1, t1) = 0
  *
- * with B1 at (q1, v1, t1), and v^ = v0 + B0 mu from (q^, v^) as above.
+ * with B1 at (q1, v1, t1), and v^ = v0 + B0 mu from (q^, v^) as above; nu with the frozen
+ * derivative 2 h G B^.
  * E. Hairer, BIT 40 (2000) 726, here in the metric of the masses, for v alone without g.  Keeps
  * symmetry, order, every g and every D; p = pi = pi_e = 0, and symplecticity on the lift is lost
  * (project.c). */
@@ -18,37 +20,17 @@
 typedef struct reflection {
     double t0;
     num *y0, *r0, *method_state0; /* all of the run where the step began */
-    num *B0;                      /* [n*m] */
-    num *inverse;                 /* [m*m] of 2 A0 B0 */
-    num *inverse_g;               /* [holonomic^2] of 2 h G0 B^0 */
-    num *q1;                      /* [n], and g [holonomic]: of the last iteration */
-    num *out;                     /* [m + m*n + n*m] D, A, B */
-    num *push;                    /* [n] B mu */
-    num *shift;                   /* [m] */
+    num *mu;                      /* [m + 1] of a lane's last iteration, and 0 */
+    num *in, *out;                /* of DAL_EVAL_ENFORCEMENT */
+    num *nu;                      /* [m + 1] 0, and [holonomic] before the last 0: likewise */
+    num *inverse;                 /* [holonomic^2] of 2 h G0 B^0 */
+    num *q1, *g, *change;         /* [n] of the last iteration, [holonomic] there, [n] */
     dal_mask failed;              /* lanes that NAME could not step */
     dal_status status;
 } reflection;
 
-/* v += B mu */
-DAL_INLINE void push_velocity(dal_step *s, const reflection *k, const num *B, const num *mu)
-{
-    dal_multiply(B, DAL_N(s), DAL_M(s), mu, k->push);
-    dal_add(s, DAL_N(s), DAL_N(s), k->push);
-}
-
-/* q += h B^ nu, with the last columns of B */
-DAL_INLINE void push_position(dal_step *s, const reflection *k, const num *B, const num *nu)
-{
-    const int n = DAL_N(s), m = DAL_M(s), holonomic = DAL_HOLONOMIC(s), first = m - holonomic;
-    if (holonomic == 0) return;
-    DAL_EACH(i, n) k->push[i] = dal_num(0.0);
-    DAL_EACH(i, n)
-        DAL_EACH(j, holonomic) k->push[i] = dal_fma(B[i * m + first + j], nu[j], k->push[i]);
-    dal_add_multiple(s, 0, n, s->h, k->push);
-}
-
-/* The step of NAME from (q0, v0 + B0 mu), in the active lanes. */
-DAL_INLINE void step_inside(dal_step *s, reflection *k, const num *mu, dal_mask active)
+/* The step of NAME from (q0 + h push^, v0 + push), in the active lanes; push^ after push. */
+DAL_INLINE void step_inside(dal_step *s, reflection *k, const num *push, dal_mask active)
 {
     const dal_mask alive = s->alive;
     const dal_mask unconverged = s->unconverged;
@@ -57,8 +39,8 @@ DAL_INLINE void step_inside(dal_step *s, reflection *k, const num *mu, dal_mask 
     dal_restore_method_state(s, active, k->method_state0);
     s->t = k->t0;
     s->alive = active;
-    push_position(s, k, k->B0, mu + DAL_M(s));
-    push_velocity(s, k, k->B0, mu);
+    if (DAL_HOLONOMIC(s) > 0) dal_add_multiple(s, 0, DAL_N(s), s->h, push + DAL_N(s));
+    dal_add(s, DAL_N(s), DAL_N(s), push);
     const dal_status status = dal_inner(s, s->h);
     if (status != DAL_STATUS_OK && status != DAL_STATUS_NOT_CONVERGED) k->status = status;
     k->failed = active & ~s->alive;
@@ -68,78 +50,82 @@ DAL_INLINE void step_inside(dal_step *s, reflection *k, const num *mu, dal_mask 
 }
 
 #if DAL_WITH(HOLONOMIC)
-/* The images of nu and of the change of q over h. */
-DAL_INLINE void reflect_position(dal_step *s, const reflection *k, dal_equation *eq)
+/* Moves q by h B^1 nu, and gives the images of B^0 nu and of the change of q over h. */
+DAL_INLINE void reflect_position(dal_step *s, reflection *k, dal_equation *eq)
 {
-    const int n = DAL_N(s), m = DAL_M(s), holonomic = DAL_HOLONOMIC(s);
-    num *const g = k->q1 + n, *const image = eq->block[0].image + m;
-    const num *nu = eq->block[0].u + m;
-    dal_eval(s, DAL_EVAL_HOLONOMIC, s->t, s->y, s->y + n, NULL, g);
-    dal_multiply(k->inverse_g, holonomic, holonomic, g, image);
-    DAL_EACH(j, holonomic) image[j] = dal_select(k->failed, dal_num(NAN), nu[j] - image[j]);
+    const int n = DAL_N(s), holonomic = DAL_HOLONOMIC(s);
+    num *const push = eq->block[0].image + n, *const nu = k->nu + DAL_M(s) - holonomic;
+    const num *v1 = eq->block[1].u;
+    DAL_EACH(i, n) k->q1[i] = k->y0[i] + s->h * v1[n + i];
+    dal_eval(s, DAL_EVAL_REACTION, s->t, k->q1, v1, k->nu, k->change);
+    dal_add_multiple(s, 0, n, s->h, k->change);
+    dal_eval(s, DAL_EVAL_HOLONOMIC, s->t, s->y, v1, NULL, k->g);
+    dal_multiply(k->inverse, holonomic, holonomic, k->g, k->change);
+    DAL_EACH(j, holonomic) nu[j] = DAL_IF_ACTIVE(eq->active, nu[j] - k->change[j], nu[j]);
+    dal_eval(s, DAL_EVAL_REACTION, k->t0, k->y0, k->y0 + n, k->nu, push);
+    DAL_EACH(i, n) push[i] = dal_select(k->failed, dal_num(NAN), push[i]);
     DAL_EACH(i, n) eq->block[1].image[n + i] = (s->y[i] - k->y0[i]) / s->h;
 }
 
-/* The inverse of 2 h G B^ at the start, from A B = g. */
-DAL_INLINE void invert_positions(dal_step *s, const reflection *k, const num *g)
+/* The inverse of 2 h G B^ at the start. */
+DAL_INLINE void invert_positions(dal_step *s, reflection *k)
 {
-    const int m = DAL_M(s), holonomic = DAL_HOLONOMIC(s), first = m - holonomic;
+    const int n = DAL_N(s), m = DAL_M(s), holonomic = DAL_HOLONOMIC(s), first = m - holonomic;
+    DAL_VECTOR(s, out, DAL_M(s) + 2 * DAL_M(s) * DAL_N(s));
+    DAL_VECTOR(s, gram, DAL_M(s) * DAL_M(s));
     DAL_VECTOR(s, own, DAL_HOLONOMIC(s) * DAL_HOLONOMIC(s));
+    dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, s->y + n, NULL, out);
+    dal_gram(out + m, out + m + m * n, m, n, gram);
     DAL_EACH(i, holonomic)
-        DAL_EACH(j, holonomic) own[i * holonomic + j] = 2.0 * s->h * g[(first + i) * m + first + j];
-    dal_invert(own, k->inverse_g, holonomic);
+        DAL_EACH(j, holonomic)
+            own[i * holonomic + j] = 2.0 * s->h * gram[(first + i) * m + first + j];
+    dal_invert(own, k->inverse, holonomic);
 }
 #endif
 
+/* The unknowns are B0 mu and v1; of holonomic constraints also B^0 nu and (q1 - q0)/h. */
 DAL_INLINE void reflection_map(dal_step *s, dal_equation *eq)
 {
     reflection *k = (reflection *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
-    const num *mu = eq->block[0].u, *v1 = eq->block[1].u, *v = s->y + n, *q1 = s->y;
+    const num *v1 = eq->block[1].u, *v = s->y + n, *x = k->out, *l = k->out + n;
+    num *const push = eq->block[0].image, *const c = k->in + n;
     const dal_mask alive = s->alive;
-    step_inside(s, k, mu, eq->active);
+    step_inside(s, k, eq->block[0].u, eq->active);
     s->alive = eq->active;
-    if (DAL_HOLONOMIC(s) > 0) {
-        DAL_EACH(i, n) k->q1[i] = k->y0[i] + s->h * v1[n + i];
-        q1 = k->q1;
-    }
-    dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, q1, v1, NULL, k->out);
-    push_position(s, k, k->out + m + m * n, mu + m);
-    push_velocity(s, k, k->out + m + m * n, mu);
 #if DAL_WITH(HOLONOMIC)
     if (DAL_HOLONOMIC(s) > 0) reflect_position(s, k, eq);
 #endif
-    dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, v, NULL, k->out);
-    dal_multiply(k->inverse, m, m, k->out, k->shift);
-    DAL_EACH(a, m) eq->block[0].image[a] = dal_select(k->failed, dal_num(NAN), mu[a] - k->shift[a]);
+    DAL_EACH(i, n) k->in[i] = v1[i] - v[i];
+    dal_constraint_value(s, s->t, s->y, v1, c);
+    DAL_EACH(a, m) c[a] = -c[a];
+    c[m] = dal_num(0.0);
+    dal_eval(s, DAL_EVAL_ENFORCEMENT, s->t, s->y, v1, k->in, k->out);
+    dal_add(s, n, n, x);
+    DAL_EACH(a, m) k->mu[a] = DAL_IF_ACTIVE(eq->active, 0.5 * (k->mu[a] + l[a]), k->mu[a]);
+    dal_eval(s, DAL_EVAL_REACTION, k->t0, k->y0, k->y0 + n, k->mu, push);
+    DAL_EACH(i, n) push[i] = dal_select(k->failed, dal_num(NAN), push[i]);
     DAL_EACH(i, n) eq->block[1].image[i] = v[i];
     s->alive = alive;
 }
 
-/* All that a step from here may change, and the constraint here. */
+/* All that a step from here may change. */
 DAL_INLINE void begin_reflection(dal_step *s, reflection *k, dal_equation *eq)
 {
-    const int n = DAL_N(s), m = DAL_M(s);
-    const num *A = k->out + m, *B = A + m * n;
-    DAL_VECTOR(s, g, DAL_M(s) * DAL_M(s));
+    const int n = DAL_N(s);
     DAL_EACH(i, DAL_DIM(s)) k->y0[i] = s->y[i];
     DAL_EACH(i, DAL_DIM(s)) k->r0[i] = s->r[i];
     dal_save_method_state(s, k->method_state0);
-    dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, s->y + n, NULL, k->out);
-    DAL_EACH(i, n * m) k->B0[i] = B[i];
-    dal_gram(A, B, m, n, g);
-#if DAL_WITH(HOLONOMIC)
-    if (DAL_HOLONOMIC(s) > 0) invert_positions(s, k, g);
-#endif
-    DAL_EACH(i, m * m) g[i] = 2.0 * g[i];
-    dal_invert_in_units(g, k->inverse, m, DAL_LEVELS(s), m);
-    num norm = dal_num(0.0);
-    DAL_EACH(i, n) norm = dal_max(norm, dal_in_units(dal_max_norm(B + i * m, m), DAL_SPEEDS(s), i));
-    dal_set_speeds(s, &eq->block[1], n);
-    eq->block[1].progress->scale = dal_velocity_scale(s, s->h, 0);
-    eq->block[0].progress->scale = eq->block[1].progress->scale / norm;
-    DAL_EACH(a, eq->block[0].size) eq->block[0].u[a] = dal_num(0.0);
+    DAL_EACH(a, DAL_M(s) + 1) k->mu[a] = k->nu[a] = dal_num(0.0);
+    for (int b = 0; b < 2; b++) {
+        dal_set_speeds(s, &eq->block[b], n);
+        eq->block[b].progress->scale = dal_velocity_scale(s, s->h, 0);
+    }
+    DAL_EACH(i, eq->block[0].size) eq->block[0].u[i] = dal_num(0.0);
     DAL_EACH(i, eq->block[1].size) eq->block[1].u[i] = s->y[n + i % n];
+#if DAL_WITH(HOLONOMIC)
+    if (DAL_HOLONOMIC(s) > 0) invert_positions(s, k);
+#endif
 }
 
 DAL_INLINE dal_status reflect(dal_step *s)
@@ -147,18 +133,19 @@ DAL_INLINE dal_status reflect(dal_step *s)
     DAL_VECTOR(s, y0, DAL_DIM(s));
     DAL_VECTOR(s, r0, DAL_DIM(s));
     DAL_VECTOR(s, method_state0, DAL_METHOD_STATE(s));
-    DAL_VECTOR(s, B0, DAL_N(s) * DAL_M(s));
-    DAL_VECTOR(s, inverse, DAL_M(s) * DAL_M(s));
-    DAL_VECTOR(s, out, DAL_M(s) + 2 * DAL_M(s) * DAL_N(s));
-    DAL_VECTOR(s, inverse_g, DAL_HOLONOMIC(s) * DAL_HOLONOMIC(s));
-    DAL_VECTOR(s, q1, DAL_N(s) + DAL_HOLONOMIC(s));
-    DAL_VECTOR(s, push, DAL_N(s));
-    DAL_VECTOR(s, shift, DAL_M(s));
-    DAL_BLOCK(s, mu, DAL_M(s) + DAL_HOLONOMIC(s), 0);
+    DAL_VECTOR(s, mu, DAL_M(s) + 1);
+    DAL_VECTOR(s, in, DAL_N(s) + DAL_M(s) + 1);
+    DAL_VECTOR(s, out, DAL_N(s) + DAL_M(s));
+    DAL_VECTOR(s, nu, DAL_M(s) + 1);
+    DAL_VECTOR(s, inverse, DAL_HOLONOMIC(s) * DAL_HOLONOMIC(s));
+    DAL_VECTOR(s, q1, DAL_N(s));
+    DAL_VECTOR(s, g, DAL_HOLONOMIC(s));
+    DAL_VECTOR(s, change, DAL_N(s));
+    DAL_BLOCK(s, push, DAL_HOLONOMIC(s) > 0 ? 2 * DAL_N(s) : DAL_N(s), 0);
     DAL_BLOCK(s, v1, DAL_HOLONOMIC(s) > 0 ? 2 * DAL_N(s) : DAL_N(s), 0);
-    reflection k = {s->t, y0,  r0,   method_state0, B0,         inverse,      inverse_g,
-                    q1,   out, push, shift,         ~dal_all(), DAL_STATUS_OK};
-    DAL_EQUATION(s, eq, 2, &k, mu, v1);
+    reflection k = {s->t,    y0, r0, method_state0, mu,         in,           out, nu,
+                    inverse, q1, g,  change,        ~dal_all(), DAL_STATUS_OK};
+    DAL_EQUATION(s, eq, 2, &k, push, v1);
     begin_reflection(s, &k, &eq);
     const dal_status status = dal_solve(s, &eq, reflection_map, NULL);
     return k.status == DAL_STATUS_OK ? status : k.status;
@@ -185,5 +172,6 @@ DAL_INTEGRATOR(
     .reference = "Hairer 2000", .documentation = ABOUT_SYMMETRIC_PROJECT, .stages = 1,
     .properties = DAL_MODIFIER | DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PRESERVES_HOLONOMIC,
     .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_SYMMETRIC,
-    .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_CONSTRAINT | DAL_KERNEL_METHOD_STATE,
+    .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_REACTION |
+              DAL_KERNEL_METHOD_STATE,
     .inherits = DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC);

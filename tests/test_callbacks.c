@@ -14,9 +14,7 @@ enum { NUMBERS = 300, MAX_TRIALS = 600 };
 #define DIFFERENCES 1e-6 /* the error of differences is smaller */
 #define MISLEADING  1e6  /* what a callback that fails leaves, which nothing may use */
 
-/* ---- a system of which one call fails ---- */
-
-/* All callbacks but exact: without its value at the start there is no observable error. */
+/* A system of which one call fails: all but exact, since no error is observed without it. */
 static const dal_system *original;
 static long calls, failing; /* the call that fails, from 1; 0: none */
 static const char *failed;  /* the callback that failed */
@@ -36,6 +34,8 @@ static bool fails(void) { return ++calls == failing; }
     MEMBER(call.potential, potential)                                                              \
     MEMBER(call.correction, correction)                                                            \
     MEMBER(call.enforcement, enforcement)                                                          \
+    MEMBER(call.reaction, reaction)                                                                \
+    MEMBER(call.constraint_value, constraint_value)                                                \
     MEMBER(prepare, prepare)                                                                       \
     MEMBER(start, start)                                                                           \
     MEMBER(constraints, constraints)                                                               \

@@ -1,6 +1,6 @@
 /* test_enforcement.c - what enforces D at a velocity, by the factors of F: its equations by the
- * blocks a, A, R of the same system, and gni, which begins a step with what the last one ended
- * with. */
+ * blocks a, A, R of the same system, methods without it, and gni, which begins a step with what the
+ * last one ended with. */
 #include "expr/tape.h"
 #include "fixtures.h"
 #include "model/programs.h"
@@ -25,39 +25,45 @@ enum { TEXTS = sizeof texts / sizeof *texts };
 
 enum { MAX_N = 16, MAX_M = 8 };
 
-/* The largest residual of f = a + R k, A f = 0, x = R l, A x = -(D + A pi), over their terms. */
+/* The largest residual of y = beta a + R l, A y = A pi + c, and of y = beta a + R l for given l,
+ * over their terms; pi[n + m + 1] is pi, c and beta. */
 static double residual(const dal_system *system, double t, const double *q, const double *v,
-                       const double *pi)
+                       double *pi)
 {
     const int n = system->n, m = system->m;
-    double blocks[2 * (MAX_M + MAX_M * MAX_N) + MAX_N], out[2 * (MAX_N + MAX_M)];
+    const double beta = pi[n + m];
+    double blocks[2 * (MAX_M + MAX_M * MAX_N) + MAX_N], out[MAX_N + MAX_M], D[MAX_M], z[MAX_N];
     double worst = 0.0, size = 0.0;
     dal_evaluator *evaluator = fixture_evaluator(system);
     CU_ASSERT_FATAL(n <= MAX_N && m <= MAX_M);
-    const double *D = blocks, *A = D + m, *R = A + m * n, *a = R + m * n;
-    const double *f = out, *x = f + n, *k = x + n, *l = k + m;
+    const double *A = blocks + m, *R = A + m * n, *a = R + m * n, *y = out;
+    double *l = out + n;
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.blocks, t, q, v, NULL, blocks),
                     DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.enforcement, t, q, v, pi, out),
                     DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.constraint_value, t, q, v, NULL, D),
+                    DAL_STATUS_OK);
+    l[m] = beta;
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.reaction, t, q, v, l, z),
+                    DAL_STATUS_OK);
+    for (int b = 0; b < m; b++) CU_ASSERT_EQUAL(D[b], blocks[b]);
     for (int i = 0; i < n; i++) {
-        double of_f = a[i] - f[i], of_x = -x[i];
+        double sum = beta * a[i];
+        size = fmax(size, fabs(sum));
         for (int b = 0; b < m; b++) {
-            of_f += R[i * m + b] * k[b];
-            of_x += R[i * m + b] * l[b];
-            size = fmax(size, fabs(R[i * m + b] * k[b]) + fabs(R[i * m + b] * l[b]));
+            sum += R[i * m + b] * l[b];
+            size = fmax(size, fabs(R[i * m + b] * l[b]));
         }
-        size = fmax(size, fabs(a[i]) + fabs(x[i]));
-        worst = fmax(worst, fmax(fabs(of_f), fabs(of_x)));
+        worst = fmax(worst, fmax(fabs(sum - y[i]), fabs(sum - z[i])));
     }
     for (int b = 0; b < m; b++) {
-        double of_f = 0.0, of_x = D[b];
+        double sum = pi[n + b];
         for (int i = 0; i < n; i++) {
-            of_f += A[b * n + i] * f[i];
-            of_x += A[b * n + i] * (x[i] + pi[i]);
-            size = fmax(size, fabs(A[b * n + i]) * (fabs(f[i]) + fabs(x[i]) + fabs(pi[i])));
+            sum += A[b * n + i] * (pi[i] - y[i]);
+            size = fmax(size, fabs(A[b * n + i]) * (fabs(y[i]) + fabs(pi[i])));
         }
-        worst = fmax(worst, fmax(fabs(of_f), fabs(of_x)));
+        worst = fmax(worst, fabs(sum));
     }
     dal_evaluator_free(evaluator);
     CU_ASSERT(size > 0.0);
@@ -74,10 +80,11 @@ static void test_equations(void)
         const int n = system->n;
         CU_ASSERT_PTR_NOT_NULL_FATAL(system->call.enforcement);
         for (int p = 0; p < POINTS; p++) {
-            double y[2 * MAX_N], pi[MAX_N];
+            double y[2 * MAX_N], pi[MAX_N + MAX_M + 1];
             for (int i = 0; i < 2 * n; i++)
                 y[i] = dal_run_state(run)[i] + 0.1 * sin(1.0 + 3.0 * i + 7.0 * p);
-            for (int i = 0; i < n; i++) pi[i] = cos(2.0 * i + p);
+            for (int i = 0; i < n + system->m; i++) pi[i] = cos(2.0 * i + p);
+            pi[n + system->m] = p % 2 == 0 ? 1.0 : 0.0;
             const double error = residual(system, 0.1 * p, y, y + n, pi);
             if (!(error <= SAME)) printf("\n  %d: %.2g\n", j, error);
             CU_ASSERT(error <= SAME);
@@ -86,23 +93,35 @@ static void test_equations(void)
     }
 }
 
-/* W = diag(1, 4), D = x' - y', b = (2, 0): k = -8/5, l = -4/5 (D + pi_x - pi_y). */
+/* W = diag(1, 4), D = x' - y', b = (2, 0): l = 4/5 (pi_x - pi_y + c - 2 beta). */
 static void test_closed_form(void)
 {
     const dal_system *system = fixture_system("coordinates: [x, y]\n"
                                               "lagrangian: x'^2/2 + 2*y'^2 + 2*x\n"
                                               "constraints: [x' - y']\n");
-    const double q[] = {0.3, 0.7}, v[] = {2.0, 0.75}, pi[] = {0.5, -0.75};
-    const double expected[] = {0.4, 0.4, -2.0, 0.5, -1.6, -2.0};
-    double out[6];
+    const double q[] = {0.3, 0.7}, v[] = {2.0, 0.75};
+    const double pi[][4] = {{0.5, -0.75, 0.25, 1.0}, {0.5, -0.75, 0.25, 0.0}};
+    const double enforced[][3] = {{1.6, 0.1, -0.4}, {1.2, -0.3, 1.2}};
+    const double l[] = {0.8, 0.5}, reaction[] = {1.8, -0.2};
+    double out[3];
     dal_evaluator *evaluator = fixture_evaluator(system);
-    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.enforcement, 0.0, q, v, pi, out),
+    for (int k = 0; k < 2; k++) {
+        CU_ASSERT_EQUAL(
+            dal_evaluator_call(evaluator, system->call.enforcement, 0.0, q, v, pi[k], out),
+            DAL_STATUS_OK);
+        for (int i = 0; i < 3; i++) CU_ASSERT_DOUBLE_EQUAL(out[i], enforced[k][i], 1e-15);
+    }
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.reaction, 0.0, q, v, l, out),
                     DAL_STATUS_OK);
-    for (int i = 0; i < 6; i++) CU_ASSERT_DOUBLE_EQUAL(out[i], expected[i], 1e-15);
+    for (int i = 0; i < 2; i++) CU_ASSERT_DOUBLE_EQUAL(out[i], reaction[i], 1e-15);
+    CU_ASSERT_EQUAL(
+        dal_evaluator_call(evaluator, system->call.constraint_value, 0.0, q, v, NULL, out),
+        DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(out[0], 1.25);
     dal_evaluator_free(evaluator);
 }
 
-/* ---- gni ---- */
+/* ---- methods ---- */
 
 static double distance(const dal_run *a, const dal_run *b)
 {
@@ -112,16 +131,30 @@ static double distance(const dal_run *a, const dal_run *b)
     return max;
 }
 
-/* Without the callback gni has the blocks. */
+/* Without the callbacks methods have the blocks, and modifiers the constraint. */
 static void test_without(void)
 {
-    for (int j = 0; j < TEXTS; j++) {
-        dal_system other = *fixture_system(texts[j]);
-        const dal_run_spec spec = fixture_spec(&other, "gni", DAL_PHYSICAL, 0.01);
+    static const char *const methods[] = {"gni",
+                                          "spark4",
+                                          "gauss-spark4",
+                                          "lobatto-nonholonomic4",
+                                          "gauss4+symmetric-project",
+                                          "rk4+project-energy"};
+    enum { METHODS = sizeof methods / sizeof *methods };
+    for (int j = 0; j < TEXTS * METHODS; j++) {
+        dal_method method;
+        dal_system other = *fixture_system(texts[j % TEXTS]);
+        const bool by_constraint = strchr(methods[j / TEXTS], '+');
+        CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, methods[j / TEXTS], NULL), DAL_STATUS_OK);
+        if (!fixture_accepts(&method, &other, DAL_PHYSICAL)) continue;
+        const dal_run_spec spec = fixture_spec(&other, methods[j / TEXTS], DAL_PHYSICAL, 0.01);
         dal_run *with = fixture_stepped(&spec, 20);
-        other.call.enforcement = NULL;
+        other.call.enforcement = other.call.reaction = other.call.constraint_value = NULL;
+        if (by_constraint) other.call.blocks = other.call.correction = NULL;
         dal_run *without = fixture_stepped(&spec, 20);
-        CU_ASSERT(distance(with, without) <= SAME);
+        const double error = distance(with, without);
+        if (!(error <= SAME)) printf("\n  %s, %d: %.2g\n", methods[j / TEXTS], j % TEXTS, error);
+        CU_ASSERT(error <= SAME);
         dal_run_free(with);
         dal_run_free(without);
     }
@@ -236,7 +269,7 @@ void suite_enforcement(void)
     CU_pSuite suite = CU_add_suite("enforcement of D", NULL, NULL);
     CU_add_test(suite, "equations, by the blocks", test_equations);
     CU_add_test(suite, "closed form", test_closed_form);
-    CU_add_test(suite, "gni without the callback", test_without);
+    CU_add_test(suite, "methods without the callbacks", test_without);
     CU_add_test(suite, "gni with nothing kept of the last step", test_forgotten);
     CU_add_test(suite, "evaluations of gni", test_evaluations);
     CU_add_test(suite, "gni where the force jumps", test_jump);

@@ -31,7 +31,8 @@ struct dal_scaled {
     double *constraint;                              /* [m] */
     double *invariant;                               /* [invariants] */
     double *per_length, *per_speed, *per_constraint; /* their inverses: [n], [nw], [m] */
-    double *start;                                   /* [n + nw + 1] q, v, g, e, scaled */
+    double *enforced; /* [n + m + 1] of what enforcement reads, [m + 1] of what reaction reads */
+    double *start;    /* [n + nw + 1] q, v, g, e, scaled */
     double numbers[];
 };
 
@@ -70,14 +71,15 @@ static const double *in_units(const double *x, const double *unit, int count, do
     return x ? to : NULL;
 }
 
-/* The point in the units of the user; pi has the units given. */
-static dal_point to_user(const dal_scaled *s, const dal_point *at, const double *pi_units)
+/* The point in the units of the user; pi, of count numbers, has the units given. */
+static dal_point to_user(const dal_scaled *s, const dal_point *at, const double *pi_units,
+                         int count)
 {
     double *q = at->work + s->plain->workspace, *v = q + s->n, *pi = v + s->nw;
     return (dal_point){.t = s->time * at->t,
                        .q = in_units(at->q, s->length, s->n, q),
                        .v = in_units(at->v, s->speed, s->nw, v),
-                       .pi = pi_units ? in_units(at->pi, pi_units, s->n, pi) : at->pi,
+                       .pi = pi_units ? in_units(at->pi, pi_units, count, pi) : at->pi,
                        .work = at->work};
 }
 
@@ -163,13 +165,17 @@ static void scale_correction(const dal_scaled *s, double *out)
     multiply(out, 1.0, 1, NULL, s->n, s->per_speed);
 }
 
+/* y and pi are accelerations, c is a rate of D, l are multipliers: with beta = 0 all are smaller by
+ * one unit of time. */
 static void scale_enforcement(const dal_scaled *s, double *out)
 {
-    const double per_energy = 1.0 / s->energy;
     out = multiply(out, 1.0, 1, NULL, s->n, s->field);
-    out = multiply(out, 1.0, 1, NULL, s->n, s->per_speed);
-    out = multiply(out, s->time * per_energy, 1, NULL, s->m, s->constraint);
-    multiply(out, per_energy, 1, NULL, s->m, s->constraint);
+    multiply(out, s->time / s->energy, 1, NULL, s->m, s->constraint);
+}
+
+static void scale_reaction(const dal_scaled *s, double *out)
+{
+    multiply(out, 1.0, 1, NULL, s->n, s->field);
 }
 
 /* The rows D_g are the time derivatives of g. */
@@ -188,35 +194,38 @@ static void scale_exact(const dal_scaled *s, double *out)
 /* Signs of guards and numbers of constraints have no unit. */
 static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
 
-/* A callback of the scaled system, member of the plain one, units of pi, what scales its output. */
+/* A callback of the scaled system, member of the plain one, units of pi and how many numbers it
+ * has, what scales its output. */
 #define SCALED_LIST(SCALED)                                                                        \
-    SCALED(field, call.field, NULL, scale_field)                                                   \
-    SCALED(adjoint, call.adjoint, s->field, scale_adjoint)                                         \
-    SCALED(effort, call.effort, s->field, scale_adjoint)                                           \
-    SCALED(jacobian, call.jacobian, NULL, scale_jacobian)                                          \
-    SCALED(constraint, call.constraint, NULL, scale_three_blocks)                                  \
-    SCALED(energy_normal, call.energy_normal, NULL, scale_energy_normal)                           \
-    SCALED(gauge, call.gauge, NULL, scale_gauge)                                                   \
-    SCALED(gauge_gradient, call.gauge_gradient, NULL, scale_gauge_gradient)                        \
-    SCALED(guards, call.guards, NULL, keep)                                                        \
-    SCALED(blocks, call.blocks, NULL, scale_blocks)                                                \
-    SCALED(potential, call.potential, NULL, scale_potential)                                       \
-    SCALED(correction, call.correction, NULL, scale_correction)                                    \
-    SCALED(enforcement, call.enforcement, s->speed, scale_enforcement)                             \
-    SCALED(holonomic, call.holonomic, NULL, scale_holonomic)                                       \
-    SCALED(constraints, constraints, NULL, scale_constraints)                                      \
-    SCALED(energy, energy, NULL, scale_energy)                                                     \
-    SCALED(invariant_values, invariant_values, NULL, scale_invariants)                             \
-    SCALED(reactions, reactions, NULL, scale_reactions)                                            \
-    SCALED(projection, projection, s->speed, scale_three_blocks)                                   \
-    SCALED(exact, exact, NULL, scale_exact)                                                        \
-    SCALED(diagnose, diagnose, NULL, keep)
+    SCALED(field, call.field, NULL, 0, scale_field)                                                \
+    SCALED(adjoint, call.adjoint, s->field, s->n, scale_adjoint)                                   \
+    SCALED(effort, call.effort, s->field, s->n, scale_adjoint)                                     \
+    SCALED(jacobian, call.jacobian, NULL, 0, scale_jacobian)                                       \
+    SCALED(constraint, call.constraint, NULL, 0, scale_three_blocks)                               \
+    SCALED(energy_normal, call.energy_normal, NULL, 0, scale_energy_normal)                        \
+    SCALED(gauge, call.gauge, NULL, 0, scale_gauge)                                                \
+    SCALED(gauge_gradient, call.gauge_gradient, NULL, 0, scale_gauge_gradient)                     \
+    SCALED(guards, call.guards, NULL, 0, keep)                                                     \
+    SCALED(blocks, call.blocks, NULL, 0, scale_blocks)                                             \
+    SCALED(potential, call.potential, NULL, 0, scale_potential)                                    \
+    SCALED(correction, call.correction, NULL, 0, scale_correction)                                 \
+    SCALED(enforcement, call.enforcement, s->enforced, s->n + s->m + 1, scale_enforcement)         \
+    SCALED(reaction, call.reaction, s->enforced + s->n + s->m + 1, s->m + 1, scale_reaction)       \
+    SCALED(constraint_value, call.constraint_value, NULL, 0, scale_constraints)                    \
+    SCALED(holonomic, call.holonomic, NULL, 0, scale_holonomic)                                    \
+    SCALED(constraints, constraints, NULL, 0, scale_constraints)                                   \
+    SCALED(energy, energy, NULL, 0, scale_energy)                                                  \
+    SCALED(invariant_values, invariant_values, NULL, 0, scale_invariants)                          \
+    SCALED(reactions, reactions, NULL, 0, scale_reactions)                                         \
+    SCALED(projection, projection, s->speed, s->n, scale_three_blocks)                             \
+    SCALED(exact, exact, NULL, 0, scale_exact)                                                     \
+    SCALED(diagnose, diagnose, NULL, 0, keep)
 
-#define CALLBACK(name, member, pi_units, scale)                                                    \
+#define CALLBACK(name, member, pi_units, pi_count, scale)                                          \
     static dal_status name(const dal_system *system, const dal_point *at, double *out)             \
     {                                                                                              \
         const dal_scaled *s = system->data;                                                        \
-        const dal_point point = to_user(s, at, pi_units);                                          \
+        const dal_point point = to_user(s, at, pi_units, pi_count);                                \
         const dal_status status = s->plain->member(s->plain, &point, out);                         \
         if (status == DAL_STATUS_OK) scale(s, out);                                                \
         return status;                                                                             \
@@ -244,7 +253,7 @@ static void make_system(dal_scaled *s)
     const dal_system *p = s->plain;
     s->system = *p;
     s->system.data = s;
-    s->system.workspace = p->workspace + (size_t)(2 * s->n + s->nw);
+    s->system.workspace = p->workspace + (size_t)(2 * s->n + s->nw + s->m + 1);
     s->system.pivots = 0; /* they are at the end of the plain work */
     s->system.wide4 = s->system.wide8 = NULL;
     s->system.extended = s->system.quad = NULL;
@@ -316,6 +325,11 @@ static void find_units(survey *w)
     for (int i = 0; i < s->nw; i++) s->per_speed[i] = 1.0 / s->speed[i];
     for (int i = 0; i < s->nw; i++) s->field[i] = s->time * s->per_speed[i];
     for (int a = 0; a < m; a++) s->per_constraint[a] = 1.0 / s->constraint[a];
+    double *const of_l = s->enforced + n + m + 1;
+    for (int i = 0; i < n; i++) s->enforced[i] = s->speed[i] / s->time;
+    for (int a = 0; a < m; a++) s->enforced[n + a] = s->constraint[a] / s->time;
+    for (int a = 0; a < m; a++) of_l[a] = s->energy / s->time * s->per_constraint[a];
+    s->enforced[n + m] = of_l[m] = 1.0; /* beta */
     for (int i = 0; i < n; i++) s->start[i] = w->x[i] * s->per_length[i];
     for (int i = 0; i < s->nw; i++) s->start[n + i] = w->x[n + i] * s->per_speed[i];
     s->start[n + s->nw] = w->x[n + s->nw]; /* e has no unit */
@@ -326,7 +340,8 @@ static dal_status make_scaled(dal_scaled **scaled, const dal_system *p, survey *
 {
     const size_t n = (size_t)p->n, nw = n + (size_t)p->multipliers, m = (size_t)p->m;
     const size_t formulas = m + 1 + (size_t)(p->invariants + p->holonomic);
-    const size_t numbers = 1 + n + nw + nw + formulas + n + nw + m + n + nw + 1;
+    const size_t enforced = n + m + 1 + m + 1;
+    const size_t numbers = 1 + n + nw + nw + formulas + n + nw + m + enforced + n + nw + 1;
     const size_t sizes = dal__sizes_memory(p);
     double *block = dal__numbers(1, sizes + n + nw + formulas);
     dal_scaled *s = calloc(1, sizeof *s + numbers * sizeof(double));
@@ -345,7 +360,8 @@ static dal_status make_scaled(dal_scaled **scaled, const dal_system *p, survey *
     s->per_length = s->constraint + formulas;
     s->per_speed = s->per_length + n;
     s->per_constraint = s->per_speed + nw;
-    s->start = s->per_constraint + m;
+    s->enforced = s->per_constraint + m;
+    s->start = s->enforced + enforced;
     w->s = s;
     w->sizes.system = p;
     w->sizes.work = dal__evaluator_work(w->evaluator);

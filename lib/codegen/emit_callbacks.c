@@ -25,8 +25,9 @@ static void name_inputs(dal__generation *g)
     for (int i = 0; i < p->n; i++) {
         snprintf(g->input[p->q - first + i].text, sizeof g->input->text, "q[%d]", i);
         snprintf(g->input[p->v - first + i].text, sizeof g->input->text, "v[%d]", i);
-        snprintf(g->input[p->pi - first + i].text, sizeof g->input->text, "pi[%d]", i);
     }
+    for (int i = 0; i < dal__momenta_read(DAL__READS_tqv_pi_c, p->n, e->m); i++)
+        snprintf(g->input[p->pi - first + i].text, sizeof g->input->text, "pi[%d]", i);
     for (int i = 0; i < p->multipliers; i++)
         snprintf(g->input[p->g - first + i].text, sizeof g->input->text, "v[%d]", p->n + i);
     snprintf(g->input[p->e - first].text, sizeof g->input->text, "pi[0]");
@@ -87,7 +88,7 @@ static bool is_direct(const dal__generation *g, dal__program_code code)
 
 /* The case of one callback.  A function that is not inlined gets copies, so that the state itself
  * can stay in registers. */
-static void write_case(dal__generation *g, dal__program_code code, const char *callback,
+static void write_case(dal__generation *g, dal__program_code code, int reads, const char *callback,
                        const char *name)
 {
     const dal__program *p = &g->programs->program[code];
@@ -103,17 +104,15 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
     if (is_inlined(g, code)) {
         dal__buffer_print(&g->text, "        dal__%s(w, t, q, v, pi, all);\n", name);
     } else {
-        const bool momenta = code == DAL__PROGRAM_ADJOINT || code == DAL__PROGRAM_ENFORCEMENT ||
-                             code == DAL__PROGRAM_EFFORT;
-        dal__buffer_append(&g->text,
-                           "        num q_[DAL_FIXED_N], v_[DAL_FIXED_NW], pi_[DAL_FIXED_N];\n"
-                           "        DAL_EACH(i, DAL_FIXED_N) q_[i] = q[i];\n"
-                           "        DAL_EACH(i, DAL_FIXED_NW) v_[i] = v[i];\n");
-        const bool gauge = code == DAL__PROGRAM_GAUGE || code == DAL__PROGRAM_GAUGE_GRADIENT;
-        dal__buffer_print(&g->text, "        DAL_EACH(i, DAL_FIXED_N) pi_[i] = %s;\n",
-                          momenta ? "pi[i]"
-                          : gauge ? "pi[0]"
-                                  : "dal_num(0.0)");
+        const int momenta =
+            reads == DAL__READS_tqve ? 1 : dal__momenta_read(reads, g->layout.n, g->layout.m);
+        dal__buffer_print(&g->text,
+                          "        num q_[DAL_FIXED_N], v_[DAL_FIXED_NW], pi_[%d];\n"
+                          "        DAL_EACH(i, DAL_FIXED_N) q_[i] = q[i];\n"
+                          "        DAL_EACH(i, DAL_FIXED_NW) v_[i] = v[i];\n"
+                          "        DAL_EACH(i, %d) pi_[i] = %s;\n",
+                          momenta > 0 ? momenta : g->layout.n, momenta > 0 ? momenta : g->layout.n,
+                          momenta > 0 ? "pi[i]" : "dal_num(0.0)");
         dal__buffer_print(&g->text, "        dal__%s(w, t, q_, v_, pi_, all);\n", name);
     }
     dal__buffer_print(&g->text, "        dal__mask_singular(all, %d, %d, out);\n", outputs,
@@ -155,7 +154,8 @@ static void write_dispatch(dal__generation *g)
                   "DAL_INLINE void dal__eval_program(const dal_stored *w, dal_callback_code "
                   "code, dal_time t, const num *q,\n    const num *v, const num *pi, num *out, "
                   "num *pivots)\n{\n    switch (code) {\n");
-#define PROGRAM(code, name, ...) write_case(g, DAL__PROGRAM_##code, #code, #name);
+#define PROGRAM(code, name, reads, numbers)                                                        \
+    write_case(g, DAL__PROGRAM_##code, DAL__READS_##reads, #code, #name);
     DAL_CALLBACK_LIST(PROGRAM)
 #undef PROGRAM
     if (dal__evaluates(g, DAL__PROGRAM_GAUGE) && !dal__wants(g, DAL__PROGRAM_GAUGE))

@@ -140,6 +140,9 @@ static unsigned calls_of_programs(const dal__generation *g)
     return g->kernel & DAL_KERNEL_FUNCTIONS ? ~0u : calls;
 }
 
+/* Parts whose users call dal_clear_momenta. */
+enum { PROJECTS = DAL_KERNEL_CONSTRAINT | DAL_KERNEL_CORRECTION | DAL_KERNEL_ENFORCEMENT };
+
 void dal__decide_conditions(dal__generation *g)
 {
     const unsigned calls = calls_of_programs(g);
@@ -177,7 +180,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH(METHOD_STATE)", kernel & DAL_KERNEL_METHOD_STATE},
         /* the constraints, dal_clear_momenta, g, what enforces D, callbacks for one group */
         {"DAL_WITH(CONSTRAINT)", kernel & DAL_KERNEL_CONSTRAINT},
-        {"DAL_WITH(PROJECTION)", kernel & (DAL_KERNEL_CONSTRAINT | DAL_KERNEL_CORRECTION)},
+        {"DAL_WITH(PROJECTION)", kernel & PROJECTS},
         {"DAL_WITH(HOLONOMIC)", dal__has_holonomic(g)},
         {"DAL_WITH(ENFORCEMENT)", kernel & DAL_KERNEL_ENFORCEMENT},
         {"DAL_WITH(EVAL_GROUP)", guards || rank || kernel & DAL_KERNEL_SOLVE},

@@ -51,7 +51,7 @@ bool dal__has_function(const dal__generation *g, dal__program_code code)
 
 bool dal__has_holonomic(const dal__generation *g)
 {
-    const unsigned enforce = DAL_KERNEL_CORRECTION | DAL_KERNEL_CONSTRAINT | DAL_KERNEL_BLOCKS;
+    const unsigned enforce = DAL_KERNEL_CORRECTION | DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_BLOCKS;
     return g->layout.system->holonomic > 0 && g->kernel & enforce;
 }
 
@@ -71,13 +71,16 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
         return kernel & (DAL_KERNEL_SOLVE | DAL_KERNEL_TANGENT);
     case DAL__PROGRAM_CONSTRAINT:
         return kernel & DAL_KERNEL_CONSTRAINT || dal__checks_rank(g->layout.system) ||
-               (kernel & DAL_KERNEL_CORRECTION && dal__has_holonomic(g));
+               (kernel & (DAL_KERNEL_CORRECTION | DAL_KERNEL_REACTION) && dal__has_holonomic(g));
     case DAL__PROGRAM_HOLONOMIC:
         return g->layout.system->holonomic > 0;
     case DAL__PROGRAM_CORRECTION:
         return kernel & DAL_KERNEL_CORRECTION;
     case DAL__PROGRAM_ENFORCEMENT:
+    case DAL__PROGRAM_CONSTRAINT_VALUE:
         return kernel & DAL_KERNEL_ENFORCEMENT;
+    case DAL__PROGRAM_REACTION:
+        return kernel & DAL_KERNEL_REACTION;
     case DAL__PROGRAM_BLOCKS:
         return kernel & DAL_KERNEL_BLOCKS;
     case DAL__PROGRAM_POTENTIAL:

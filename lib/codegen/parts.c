@@ -64,7 +64,8 @@ static const struct {
     {"composition.h", DAL_KERNEL_COMPOSITION, 0},
     {"blocks.h", DAL_KERNEL_BLOCKS, 0},
     {"constrained.h", DAL_KERNEL_ENFORCE, DAL_KERNEL_BLOCKS | DAL_KERNEL_SOLVE},
-    {"spark.h", DAL_KERNEL_SPARK, DAL_KERNEL_ENFORCE | DAL_KERNEL_CONSTRAINT},
+    {"spark.h", DAL_KERNEL_SPARK,
+     DAL_KERNEL_ENFORCE | DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_REACTION},
 };
 enum { PARTS = sizeof parts / sizeof *parts };
 

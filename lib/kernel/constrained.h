@@ -21,9 +21,6 @@
 #include "blocks.h"
 #include "solve.h"
 
-#define dal_continuous_multipliers DAL_WIDE(dal_continuous_multipliers)
-DAL_SHARED void dal_continuous_multipliers(dal_step *s, const num *blocks, num *h);
-
 #ifndef DAL_LINKED
 /* x = g^-1 rhs; g[size*size], which has rows of all D again and again, is destroyed.  inverse is
  * scratch.  Large systems are sparse, and their inverses are not. */
@@ -41,31 +38,12 @@ DAL_INLINE void dal_solve_small(const dal_step *s, num *g, num *inverse, int siz
         dal_invert_in_units(g, inverse, size, DAL_LEVELS(s), DAL_M(s));
     dal_multiply(inverse, size, size, rhs, x);
 }
-
-/* The multipliers of the continuous motion at the point of the blocks: G h = -(c + A a). */
-DAL_SHARED void dal_continuous_multipliers(dal_step *s, const num *blocks, num *h)
-{
-    const int n = DAL_N(s), m = DAL_M(s);
-    const num *A = blocks + dal_blocks_A(s), *c = blocks + dal_blocks_c(s);
-    DAL_VECTOR(s, g, DAL_SQUARE_M(s));
-    DAL_VECTOR(s, inverse, DAL_SQUARE_M(s));
-    DAL_VECTOR(s, rhs, DAL_M(s));
-    dal_multiply(A, m, n, blocks + dal_blocks_a(s), rhs);
-    DAL_EACH(i, m) rhs[i] = -(c[i] + rhs[i]);
-    dal_gram(A, blocks + dal_blocks_B(s), m, n, g);
-    if (m > 0) dal_solve_small(s, g, inverse, m, rhs, h);
-}
 #endif
 
-/* The multipliers of the last step, or the continuous ones where there are none. */
-DAL_INLINE void dal_restore_multipliers(dal_step *s, const num *blocks, num *h)
+/* Lanes that have multipliers of the last step; saves multipliers for the next one. */
+DAL_INLINE dal_mask dal_known_multipliers(const dal_step *s)
 {
-    const dal_mask known = dal_less(dal_num(0.5), *s->has_multiplier);
-    if (dal_any(~known))
-        dal_continuous_multipliers(s, blocks, h);
-    else
-        DAL_EACH(i, DAL_M(s)) h[i] = dal_num(0.0);
-    DAL_EACH(i, DAL_PERSISTENT_MULTIPLIERS(s)) h[i] = dal_select(known, s->multiplier[i], h[i]);
+    return dal_less(dal_num(0.5), *s->has_multiplier);
 }
 DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)
 {

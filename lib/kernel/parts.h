@@ -24,7 +24,8 @@ enum {
     DAL_KERNEL_CONTROL = 1 << 14,       /* dal_control, with a tolerance */
     DAL_KERNEL_SERIES = 1 << 15,        /* dal_expand_first */
     DAL_KERNEL_CORRECTION = 1 << 16,    /* DAL_EVAL_CORRECTION, dal_clear_momenta */
-    DAL_KERNEL_ENFORCEMENT = 1 << 17    /* DAL_EVAL_ENFORCEMENT */
+    DAL_KERNEL_ENFORCEMENT = 1 << 17,   /* dal_eval_enforcement, dal_clear_momenta */
+    DAL_KERNEL_REACTION = 1 << 18       /* DAL_EVAL_REACTION */
 };
 
 #endif

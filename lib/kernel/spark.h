@@ -7,11 +7,15 @@
  *     v1  = v + h sum_j b_j K_j        q1  = q + h sum_j b_j V_j
  *
  * with as many equations e as unknown multipliers L_i: all, or all but L_1, which is then L_s of
- * the last step.  The K_i are iterated; each iteration takes the L_i for which the equations hold
- * to first order, as in constrained.h:
+ * the last step.  The K_i are iterated.  The next K_j are those with
  *
- *     sum_j (h sum_p omega_ep y_pj A_p B_j) L_j
- *         = - sum_p omega_ep (D_p + A_p h sum_j y_pj (a_j - K_j))
+ *     K_j = a_j + B_j L_j,   A_j K_j = A_j (K_j of before) + T_j,
+ *     h sum_j (sum_p omega_ep y_pj) T_j = - sum_p omega_ep D_p
+ *
+ * for which the equations hold to first order, with A_j for A_p, which changes like h from stage
+ * to stage: the iteration contracts like h in any case.  Each K_j with its L_j is then one solution
+ * by the factors of F, and the matrix of the T_j is one of numbers.  K_1 and L_1 that is known come
+ * first, and the points have the new K_1.
  *
  * L. Jay, Math. Comp. 75 (2006) 641; R. Sato Martin de Almagro, D. Martin de Diego,
  * arXiv:1810.10926. */
@@ -37,12 +41,13 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method);
 typedef struct dal_spark_step {
     dal_stage_matrix newton; /* first, for dal_constrained_matrix */
     const dal_spark *method;
-    num *V, *blocks;         /* [s*n], [s] blocks */
-    num *q, *v, *constraint; /* a point, and D, A, B there */
-    num *given, *last;       /* [m] L_1 where it is known; L_s of a lane's last iteration */
-    num *shift;              /* [n] h sum y (a_j - K_j) */
-    num *matrix, *inverse;   /* [(s*m)^2] */
-    num *rhs, *L;            /* [s*m] */
+    num *V;         /* [s*n] */
+    num *q, *v, *D; /* a point, and D there */
+    num *given,
+        *last;     /* [m + 1] L_1 where it is known, and 1; [m] L_s of a lane's last iteration */
+    num *weights;  /* [s*s] -1/h times the inverse of sum_p omega_ep y_pj */
+    num *missing;  /* [s*m] sum_p omega_ep D_p */
+    num *in, *out; /* of DAL_EVAL_ENFORCEMENT */
 } dal_spark_step;
 
 /* h sum_j weight_j x[j*n + i] */
@@ -71,106 +76,97 @@ DAL_INLINE void dal__spark_position(const dal_step *s, const dal_spark_step *k, 
         k->q[c] = dal_moved_q(s, c, dal__stage_sum(x, stages, s->h, k->V, n, c));
 }
 
-/* free_i = a_i, with B_1 L_1 where L_1 is known. */
-DAL_INLINE void dal__spark_stages(dal_step *s, const dal_spark_step *k, num *free)
+/* K_1 = a_1 + B_1 L_1, where L_1 is known. */
+DAL_INLINE void dal__spark_first(dal_step *s, const dal_spark_step *k, num *K1)
+{
+    dal__spark_position(s, k, k->method->a);
+    s->evaluations++;
+    dal_eval(s, DAL_EVAL_REACTION, s->t + k->method->c[0] * s->h, k->q, k->V, k->given, K1);
+}
+
+/* What the equations miss, for these K. */
+DAL_INLINE void dal__spark_missing(dal_step *s, const dal_spark_step *k, const num *K)
 {
     const int n = DAL_N(s), m = DAL_M(s), stages = DAL_STAGES(k->method);
-    for (int i = 0; i < stages; i++) {
-        num *blocks = k->blocks + i * DAL_BLOCKS_SIZE(s);
-        dal__spark_position(s, k, k->method->a + i * stages);
-        dal_eval_blocks(s, s->t + k->method->c[i] * s->h, k->q, k->V + i * n, blocks);
-        for (int c = 0; c < n; c++) free[i * n + c] = blocks[dal_blocks_a(s) + c];
-    }
-    if (!k->method->L1_known) return;
-    const num *B = k->blocks + dal_blocks_B(s);
-    for (int c = 0; c < n; c++)
-        for (int a = 0; a < m; a++) free[c] += B[c * m + a] * k->given[a];
-}
-
-/* The point p, D there, and the change of its velocity by the free accelerations. */
-DAL_INLINE void dal__spark_point(dal_step *s, const dal_spark_step *k, int p, const num *K,
-                                 const num *free)
-{
-    const int n = DAL_N(s), stages = DAL_STAGES(k->method);
-    const double *y = k->method->to_v + p * stages;
-    dal__spark_position(s, k, k->method->to_q + p * stages);
-    for (int c = 0; c < n; c++) {
-        const num now = dal__stage_sum(y, stages, s->h, K, n, c);
-        k->v[c] = dal_moved_v(s, c, now);
-        k->shift[c] = dal__stage_sum(y, stages, s->h, free, n, c) - now;
-    }
-    dal_constraint(s, s->t + k->method->point_c[p] * s->h, k->q, k->v, k->constraint);
-}
-
-/* Adds to a row of the matrix the derivative of a constraint with gradient A with respect to the
- * multipliers of stage j; weight: omega times the coefficient of B L_j in the velocity. */
-DAL_INLINE void dal__spark_entries(const dal_step *s, const dal_spark_step *k, const num *A, int j,
-                                   double weight, num *row)
-{
-    const int n = DAL_N(s), m = DAL_M(s);
-    const num *B = k->blocks + j * DAL_BLOCKS_SIZE(s) + dal_blocks_B(s);
-    for (int c = 0; n >= DAL__SPARSE && weight != 0.0 && c < n; c++) {
-        const num x = weight * A[c];
-        if (dal__is_zero(x)) continue;
-        for (int b = 0; b < m; b++) row[b] = dal_fma(x, B[c * m + b], row[b]);
-    }
-    for (int b = 0; n < DAL__SPARSE && b < m; b++) {
-        num entry = A[0] * B[b];
-        for (int c = 1; c < n; c++) entry += A[c] * B[c * m + b];
-        row[b] += weight * entry;
-    }
-}
-
-/* Adds the constraints at point p, with weight w, to equation e. */
-DAL_INLINE void dal__spark_add(const dal_step *s, const dal_spark_step *k, int p, int e, double w)
-{
-    const int n = DAL_N(s), m = DAL_M(s), stages = DAL_STAGES(k->method);
-    const int first = k->method->L1_known, size = (stages - first) * m;
-    const double *y = k->method->to_v + p * stages;
-    for (int a = 0; a < m; a++) {
-        const num *A = k->constraint + dal_blocks_A(s) + a * n;
-        num *row = k->matrix + (e * m + a) * size, sum = k->constraint[a];
-        for (int c = 0; c < n; c++) sum += A[c] * k->shift[c];
-        k->rhs[e * m + a] -= w * sum;
-        for (int j = first; j < stages; j++)
-            dal__spark_entries(s, k, A, j, w * s->h * y[j], row + (j - first) * m);
-    }
-}
-
-DAL_INLINE void dal__spark_equations(dal_step *s, const dal_spark_step *k, const num *K,
-                                     const num *free)
-{
-    const int m = DAL_M(s), points = k->method->points;
-    const int count = DAL_STAGES(k->method) - k->method->L1_known, size = count * m;
-    for (int i = 0; i < size; i++) k->rhs[i] = dal_num(0.0);
-    for (int i = 0; i < size * size; i++) k->matrix[i] = dal_num(0.0);
+    const int points = k->method->points, count = stages - k->method->L1_known;
+    for (int i = 0; i < count * m; i++) k->missing[i] = dal_num(0.0);
     for (int p = 0; p < points; p++) {
-        dal__spark_point(s, k, p, K, free);
+        const double *y = k->method->to_v + p * stages;
+        dal__spark_position(s, k, k->method->to_q + p * stages);
+        for (int c = 0; c < n; c++)
+            k->v[c] = dal_moved_v(s, c, dal__stage_sum(y, stages, s->h, K, n, c));
+        dal_constraint_value(s, s->t + k->method->point_c[p] * s->h, k->q, k->v, k->D);
         for (int e = 0; e < count; e++)
-            dal__spark_add(s, k, p, e, k->method->omega[e * points + p]);
+            for (int a = 0; a < m; a++)
+                k->missing[e * m + a] += k->method->omega[e * points + p] * k->D[a];
     }
+}
+
+/* The next K_j from the last one, in place; L_j in k->out. */
+DAL_INLINE void dal__spark_stage(dal_step *s, const dal_spark_step *k, int j, num *K)
+{
+    const int n = DAL_N(s), m = DAL_M(s), stages = DAL_STAGES(k->method);
+    const int first = k->method->L1_known, count = stages - first;
+    for (int c = 0; c < n; c++) k->in[c] = K[c];
+    for (int a = 0; a < m; a++) {
+        num sum = dal_num(0.0);
+        for (int e = 0; e < count; e++)
+            sum = dal_fma(k->weights[(j - first) * count + e], k->missing[e * m + a], sum);
+        k->in[n + a] = sum;
+    }
+    k->in[n + m] = dal_num(1.0);
+    dal__spark_position(s, k, k->method->a + j * stages);
+    dal_eval_enforcement(s, s->t + k->method->c[j] * s->h, k->q, k->V + j * n, k->in, k->out);
+    for (int c = 0; c < n; c++) K[c] = k->out[c];
 }
 
 DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
 {
     const dal_spark_step *k = (const dal_spark_step *)eq->context;
-    const int n = DAL_N(s), m = DAL_M(s), first = k->method->L1_known;
-    const int count = DAL_STAGES(k->method) - first;
+    const int n = DAL_N(s), m = DAL_M(s), stages = DAL_STAGES(k->method);
     num *const image = eq->block[0].image;
-    const num *K = eq->block[0].u;
-    dal__spark_velocities(s, k, K);
-    dal__spark_stages(s, k, image);
-    if (m == 0) return;
-    dal__spark_equations(s, k, K, image);
-    dal_solve_small(s, k->matrix, k->inverse, count * m, k->rhs, k->L);
-    for (int i = 0; i < count; i++) {
-        const num *B = k->blocks + (i + first) * DAL_BLOCKS_SIZE(s) + dal_blocks_B(s);
-        for (int c = 0; c < n; c++)
-            for (int a = 0; a < m; a++)
-                image[(i + first) * n + c] += B[c * m + a] * k->L[i * m + a];
+    dal__spark_velocities(s, k, eq->block[0].u);
+    for (int i = 0; i < stages * n; i++) image[i] = eq->block[0].u[i];
+    if (k->method->L1_known) dal__spark_first(s, k, image);
+    if (m > 0) dal__spark_missing(s, k, image);
+    for (int j = k->method->L1_known; j < stages; j++) dal__spark_stage(s, k, j, image + j * n);
+    for (int a = 0; a < m; a++) k->last[a] = DAL_IF_ACTIVE(eq->active, k->out[n + a], k->last[a]);
+}
+
+/* -1/h times the inverse of the matrix of the T_j. */
+DAL_INLINE void dal__spark_weights(dal_step *s, const dal_spark *method, num *weights)
+{
+    const int stages = DAL_STAGES(method), first = method->L1_known, count = stages - first;
+    DAL__MARK(s);
+    DAL_VECTOR(s, matrix, DAL_STAGES(method) * DAL_STAGES(method));
+    for (int e = 0; e < count; e++)
+        for (int j = 0; j < count; j++) {
+            double sum = 0.0;
+            for (int p = 0; p < method->points; p++)
+                sum += method->omega[e * method->points + p] * method->to_v[p * stages + j + first];
+            matrix[e * count + j] = dal_num(-s->h * sum);
+        }
+    dal_invert(matrix, weights, count);
+    DAL__RELEASE(s);
+}
+
+/* The multipliers of the last step, or the continuous ones at the present state where there are
+ * none: A F = -c, so that A y = A F leads to them. */
+DAL_INLINE void dal__restore_multipliers(dal_step *s, num *h)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    const dal_mask known = dal_known_multipliers(s);
+    DAL_EACH(i, m) h[i] = dal_num(0.0);
+    if (dal_any(~known)) {
+        DAL_VECTOR(s, in, DAL_N(s) + DAL_M(s) + 1);
+        DAL_VECTOR(s, out, DAL_N(s) + DAL_M(s));
+        dal_force(s, s->t, s->y, s->y + n, in);
+        DAL_EACH(i, m) in[n + i] = dal_num(0.0);
+        in[n + m] = dal_num(1.0);
+        dal_eval_enforcement(s, s->t, s->y, s->y + n, in, out);
+        DAL_EACH(i, m) h[i] = out[n + i];
     }
-    for (int a = 0; a < m; a++)
-        k->last[a] = DAL_IF_ACTIVE(eq->active, k->L[(count - 1) * m + a], k->last[a]);
+    DAL_EACH(i, DAL_PERSISTENT_MULTIPLIERS(s)) h[i] = dal_select(known, s->multiplier[i], h[i]);
 }
 
 /* L_1, where it is known, and the first guess: F at the present state for every K. */
@@ -180,10 +176,11 @@ DAL_INLINE void dal__spark_begin(dal_step *s, const dal_spark_step *k, dal_equat
     DAL_VECTOR(s, now, DAL_N(s));
     dal_force(s, s->t, s->y, s->y + n, now);
     for (int i = 0; i < eq->block[0].size; i++) eq->block[0].u[i] = now[i % n];
-    for (int a = 0; a < m; a++) k->last[a] = k->given[a] = dal_num(0.0);
+    for (int a = 0; a < m; a++) k->last[a] = dal_num(0.0);
+    dal__spark_weights(s, k->method, k->weights);
     if (!k->method->L1_known) return;
-    dal_eval_blocks(s, s->t, s->y, s->y + n, k->blocks);
-    dal_restore_multipliers(s, k->blocks, k->given);
+    dal__restore_multipliers(s, k->given);
+    k->given[m] = dal_num(1.0);
 }
 
 DAL_INLINE dal_status dal__spark_end(dal_step *s, const dal_spark_step *k, const num *K)
@@ -204,32 +201,28 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
 {
     double product[DAL_MAX_STAGES * DAL_MAX_STAGES];
     DAL_VECTOR(s, V, DAL_STAGES(method) * DAL_N(s));
-    DAL_VECTOR(s, blocks, DAL_STAGES(method) * DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, v, DAL_N(s));
-    DAL_VECTOR(s, constraint, DAL_CONSTRAINT_SIZE(s));
-    DAL_VECTOR(s, given, DAL_M(s));
+    DAL_VECTOR(s, D, DAL_M(s));
+    DAL_VECTOR(s, given, DAL_M(s) + 1);
     DAL_VECTOR(s, last, DAL_M(s));
-    DAL_VECTOR(s, shift, DAL_N(s));
-    DAL_VECTOR(s, matrix, DAL_STAGES(method) * DAL_M(s) * DAL_STAGES(method) * DAL_M(s));
-    DAL_VECTOR(s, inverse, DAL_STAGES(method) * DAL_M(s) * DAL_STAGES(method) * DAL_M(s));
-    DAL_VECTOR(s, rhs, DAL_STAGES(method) * DAL_M(s));
-    DAL_VECTOR(s, L, DAL_STAGES(method) * DAL_M(s));
+    DAL_VECTOR(s, weights, DAL_STAGES(method) * DAL_STAGES(method));
+    DAL_VECTOR(s, missing, DAL_STAGES(method) * DAL_M(s));
+    DAL_VECTOR(s, in, DAL_N(s) + DAL_M(s) + 1);
+    DAL_VECTOR(s, out, DAL_N(s) + DAL_M(s));
     DAL_BLOCK(s, block, DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
     dal_spark_step k = {{DAL_STAGES(method), s->h, method->ahat, product, 0, NULL},
                         method,
                         V,
-                        blocks,
                         q,
                         v,
-                        constraint,
+                        D,
                         given,
                         last,
-                        shift,
-                        matrix,
-                        inverse,
-                        rhs,
-                        L};
+                        weights,
+                        missing,
+                        in,
+                        out};
     DAL_EQUATION(s, eq, 1, &k, block);
     eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_N(s), NULL);
     eq.block[0].weight = fabs(s->h);

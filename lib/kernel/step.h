@@ -361,6 +361,22 @@ DAL_INLINE void dal_force(dal_step *s, double t, const num *q, const num *v, num
     s->evaluations++;
     dal_eval(s, DAL_EVAL_FIELD, t, q, v, NULL, out);
 }
+#if DAL_WITH(ENFORCEMENT)
+/* y and l with W y = beta b + B^T l, A y = A pi + c at a point, out[n + m]; in[n + m + 1] is pi, c
+ * and beta.  Counts as an evaluation of F. */
+DAL_INLINE void dal_eval_enforcement(dal_step *s, double t, const num *q, const num *v,
+                                     const num *in, num *out)
+{
+    s->evaluations++;
+    dal_eval(s, DAL_EVAL_ENFORCEMENT, t, q, v, in, out);
+}
+
+/* D at a point, in D[m]. */
+DAL_INLINE void dal_constraint_value(dal_step *s, double t, const num *q, const num *v, num *D)
+{
+    if (DAL_M(s) > 0) dal_eval(s, DAL_EVAL_CONSTRAINT_VALUE, t, q, v, NULL, D);
+}
+#endif
 #if DAL_WITH(EFFORT)
 /* Adds to F_q^T pi and F_v^T pi the derivatives of w pi.K pi/2; then K pi, out[4n]. */
 DAL_INLINE void dal__add_effort(dal_step *s, double t, const num *q, const num *v, const num *pi,

@@ -443,7 +443,7 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     e->q = e->t + 1;
     e->v = e->q + 2 * n;
     e->pi = e->v + 2 * n;
-    e->g = e->pi + 2 * n;
+    e->g = e->pi + 2 * n + 1;
     e->e = e->g + m;
     e->symbols = e->reaction = e->e + 1;
     dal__graph_free(e->graph);

@@ -347,13 +347,13 @@ static dal_status solve_motion(dal_model *model, const dal__node *top, const dal
                : dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, top, bottom, x, h);
 }
 
-/* The same where no such factors are: by the factors of A W^-1 A^T. */
-static dal_status solve_by_directions(dal_model *model, const dal__node *bottom, dal__node *x)
+/* The same of top = 0 where no such factors are: by the factors of A W^-1 A^T; l [m]. */
+static dal_status solve_by_directions(dal_model *model, const dal__node *bottom, dal__node *x,
+                                      dal__node *l)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
-    const dal__node zero = dal__number(e->graph, 0.0);
-    dal__node *G = dal__model_nodes(model, m * m, zero), *l = dal__model_nodes(model, m, 0);
+    dal__node *G = dal__model_nodes(model, m * m, dal__number(e->graph, 0.0));
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int k = 0; k < m * m; k++)
         for (int i = 0; i < n; i++)
@@ -368,38 +368,59 @@ dal_status dal__motion_correct(dal_model *model, dal__node *x)
 {
     const dal__equations *e = &model->equations;
     const dal__node zero = dal__number(e->graph, 0.0);
-    dal__node *top = dal__model_nodes(model, e->n, zero), *D = dal__model_nodes(model, e->m, 0);
+    dal__node *top = dal__model_nodes(model, e->n, zero), *D = dal__model_nodes(model, 2 * e->m, 0);
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int a = 0; a < e->m; a++) D[a] = dal__node_neg(e->graph, e->constraint[a]);
     return dal__motion_is_symmetric(e) ? solve_motion(model, top, D, x, NULL)
-                                       : solve_by_directions(model, D, x);
+                                       : solve_by_directions(model, D, x, D + e->m);
+}
+
+/* y = beta a + U l, of restricted motion, where A U = 1, and of vakonomic motion, without a. */
+static void react_by_directions(const dal__equations *e, dal__node beta, const dal__node *l,
+                                dal__node *y)
+{
+    for (int i = 0; i < e->n; i++)
+        y[i] = dal__node_add(e->graph, dal__node_mul(e->graph, beta, e->a[i]),
+                             dal__dot(e->graph, e->m, e->U + i * e->m, l));
 }
 
 dal_status dal__motion_enforce(dal_model *model, dal__node *out)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
-    const dal__node zero = dal__number(e->graph, 0.0), *pi = name(model, e->pi, n);
-    dal__node *none = dal__model_nodes(model, n + m, zero), *D = dal__model_nodes(model, m, 0);
-    dal__node *f = out, *x = out + n, *k = out + 2 * n, *l = out + 2 * n + m;
+    const dal__node *pi = name(model, e->pi, n + m + 1);
+    dal__node *top = dal__model_nodes(model, n, 0), *bottom = dal__model_nodes(model, m, 0);
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    for (int a = 0; a < m; a++) {
-        const dal__node moved = dal__dot(e->graph, n, e->A + a * n, pi);
-        D[a] = dal__node_neg(e->graph, dal__node_add(e->graph, e->constraint[a], moved));
-    }
-    if (!e->restricted) {
-        DAL_TRY(dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, e->b, none, f, k));
-        return dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, none, D, x, l);
-    }
-    for (int i = 0; i < n; i++) { /* A U = 1 */
-        f[i] = e->a[i];
-        x[i] = dal__dot(e->graph, m, e->U + i * m, D);
-    }
-    for (int a = 0; a < m; a++) {
-        k[a] = zero;
-        l[a] = D[a];
-    }
+    for (int i = 0; i < n; i++) top[i] = dal__node_mul(e->graph, pi[n + m], e->b[i]);
+    for (int a = 0; a < m; a++)
+        bottom[a] = dal__node_add(e->graph, dal__dot(e->graph, n, e->A + a * n, pi), pi[n + a]);
+    if (e->vakonomic) return solve_by_directions(model, bottom, out, out + n);
+    if (!e->restricted)
+        return dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, top, bottom, out,
+                                   out + n);
+    for (int a = 0; a < m; a++) out[n + a] = bottom[a];
+    react_by_directions(e, pi[n + m], bottom, out);
     return e->graph->status;
+}
+
+dal_status dal__motion_react(dal_model *model, dal__node *y)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m;
+    const dal__node *l = name(model, e->pi, m + 1);
+    dal__node *top = dal__model_nodes(model, n, 0);
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (e->restricted || e->vakonomic) {
+        react_by_directions(e, l[m], l, y);
+        return e->graph->status;
+    }
+    for (int i = 0; i < n; i++) {
+        top[i] = dal__node_mul(e->graph, l[m], e->b[i]);
+        for (int a = 0; a < m; a++)
+            top[i] =
+                dal__node_add(e->graph, top[i], dal__node_mul(e->graph, e->B[a * n + i], l[a]));
+    }
+    return dal__factors_solve(model, e->mass, DAL__SUMS_UNCHANGED, 1, top, y);
 }
 
 /* What is differentiated: b - W F + A^T h [n] and -c - A F [m], F and h being symbols. */

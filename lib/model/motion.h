@@ -39,9 +39,13 @@ dal_status dal__motion_effort(dal_model *model, dal_effort effort, dal__node *ou
  * DAL_STATUS_SINGULAR, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_correct(dal_model *model, dal__node *x);
 
-/* f, x [n], k, l [m] of DAL_EVAL_ENFORCEMENT, where W f = b + B^T k, A f = 0 and W x = B^T l,
- * A x = -(D + A pi).  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
+/* y [n], l [m] of DAL_EVAL_ENFORCEMENT, where W y = beta b + B^T l and A y = A pi + c; the symbols
+ * from e->pi on are pi [n], c [m] and beta.  Errors: DAL_STATUS_SINGULAR (vakonomic motion alone),
+ * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_enforce(dal_model *model, dal__node *out);
+/* y [n] of DAL_EVAL_REACTION, where W y = beta b + B^T l; the symbols from e->pi on are l [m] and
+ * beta.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
+dal_status dal__motion_react(dal_model *model, dal__node *y);
 
 /* The error of a mass matrix, or of constraints, without a pivot in this row (from 0). */
 dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error);

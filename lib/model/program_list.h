@@ -8,7 +8,23 @@
 
 /* The programs of a system besides its callbacks (DAL_CALLBACK_LIST): code, name, and the
  * inputs that it reads. */
-enum { DAL__READS_none, DAL__READS_t, DAL__READS_tqv, DAL__READS_tqvpi, DAL__READS_tqve };
+enum {
+    DAL__READS_none,
+    DAL__READS_t,
+    DAL__READS_tqv,
+    DAL__READS_tqvpi,
+    DAL__READS_tqve,    /* instead of pi e */
+    DAL__READS_tqv_l,   /* instead of pi l[m] and beta */
+    DAL__READS_tqv_pi_c /* pi[n], c[m] and beta */
+};
+/* Numbers read from pi on. */
+static inline int dal__momenta_read(int reads, int n, int m)
+{
+    return reads == DAL__READS_tqv_pi_c ? n + m + 1
+           : reads == DAL__READS_tqv_l  ? m + 1
+           : reads == DAL__READS_tqvpi  ? n
+                                        : 0;
+}
 #define DAL__SINGLE_LIST(PROGRAM)                                                                  \
     PROGRAM(START, start, t)                                                                       \
     PROGRAM(CONSTRAINTS, constraints, tqv)                                                         \

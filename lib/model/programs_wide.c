@@ -47,7 +47,7 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
         load_lanes(at->work, p->v, at->v, p->n);
         load_lanes(at->work, p->g, at->v + p->n * WIDTH, p->multipliers);
     }
-    if (reads == DAL__READS_tqvpi) load_lanes(at->work, p->pi, at->pi, p->n);
+    load_lanes(at->work, p->pi, at->pi, dal__momenta_read(reads, p->n, p->equations->m));
     if (reads == DAL__READS_tqve && at->pi) load_lanes(at->work, p->e, at->pi, 1);
     if (program->checked + program->saved == 0) {
         DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);

@@ -248,16 +248,22 @@ static dal_status add_motion_equations(dal_model *model, dal_error *error)
     return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
 }
 
-/* What enforces D at a velocity; nothing for vakonomic systems. */
+/* What enforces D at a velocity; of vakonomic systems nothing where A W^-1 A^T has no inverse. */
 static dal_status add_enforcement(dal_model *model)
 {
     const dal__equations *e = &model->equations;
-    const int count = 2 * (e->n + e->m);
-    dal__node *out = dal__model_nodes(model, count, 0);
+    const int n = e->n, m = e->m;
+    dal__node *out = dal__model_nodes(model, 2 * n + m, 0), *y = out + n + m;
     if (!out) return DAL_STATUS_MEMORY;
-    if (e->vakonomic) return DAL_STATUS_OK;
-    DAL_TRY(dal__motion_enforce(model, out));
-    return add_to_both(model, DAL__PROGRAM_ENFORCEMENT, out, count);
+    if (e->vakonomic && (m == 0 || !e->U[0])) return DAL_STATUS_OK;
+    const dal_status status = dal__motion_enforce(model, out);
+    if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
+    if (status == DAL_STATUS_OK) DAL_TRY(dal__motion_react(model, y));
+    if (status == DAL_STATUS_OK) DAL_TRY(add_to_both(model, DAL__PROGRAM_ENFORCEMENT, out, n + m));
+    if (status == DAL_STATUS_OK) DAL_TRY(add_to_both(model, DAL__PROGRAM_REACTION, y, n));
+    if (status == DAL_STATUS_OK && m > 0)
+        DAL_TRY(add_to_both(model, DAL__PROGRAM_CONSTRAINT_VALUE, e->constraint, m));
+    return status;
 }
 
 /* What the scales of D, E, invariants, g, h and R = B^T h are made from.  Nodes are made after all

@@ -105,40 +105,85 @@ static void correct_by_constraint(dal_step *s, double t, const num *q, const num
     DAL__RELEASE(s);
 }
 
-/* One solution of DAL_EVAL_ENFORCEMENT: x = B l with A B l = rhs. */
-static void solve_by_blocks(dal_step *s, const num *blocks, const num *rhs, num *x, num *l)
+/* D, A, R at a point, and beta W^-1 b, from blocks or, without them, from the constraint alone. */
+static const num *find_blocks(dal_step *s, double t, const num *q, const num *v, num beta,
+                              num *blocks)
+{
+    const engine *e = s->owner;
+    num *const a = blocks + dal_blocks_a(s);
+    if (e->call[DAL_EVAL_BLOCKS]) {
+        dal_eval(s, DAL_EVAL_BLOCKS, t, q, v, NULL, blocks);
+        DAL_EACH(i, DAL_N(s)) a[i] = beta * a[i];
+    } else {
+        dal_eval(s, DAL_EVAL_CONSTRAINT, t, q, v, NULL, blocks);
+        DAL_EACH(i, DAL_N(s)) a[i] = dal_num(0.0);
+    }
+    return a;
+}
+
+/* What DAL_EVAL_REACTION gives, y = beta a + R l. */
+static void react_by_blocks(dal_step *s, double t, const num *q, const num *v, const num *l, num *y)
 {
     const int n = DAL_N(s), m = DAL_M(s);
-    const num *A = blocks + dal_blocks_A(s), *B = blocks + dal_blocks_B(s);
     DAL__MARK(s);
-    DAL_VECTOR(s, g, DAL_SQUARE_M(s));
-    dal_gram(A, B, m, n, g);
-    DAL_EACH(i, m) l[i] = rhs[i];
-    dal_eliminate_in_units(g, l, m, DAL_LEVELS(s), m);
-    dal_multiply(B, n, m, l, x);
+    DAL_VECTOR(s, blocks, DAL_BLOCKS_SIZE(s));
+    const num *a = find_blocks(s, t, q, v, l[m], blocks);
+    dal_multiply(blocks + dal_blocks_B(s), n, m, l, y);
+    DAL_EACH(i, n) y[i] += a[i];
     DAL__RELEASE(s);
 }
 
-/* What DAL_EVAL_ENFORCEMENT gives, by the blocks. */
-static void enforce_by_blocks(dal_step *s, double t, const num *q, const num *v, const num *z,
-                              num *out)
+/* What DAL_EVAL_ENFORCEMENT gives: the same with A y = A pi + c. */
+static void enforce_by_blocks(dal_step *s, double t, const num *q, const num *v, const num *pi,
+                              num *y)
 {
     const int n = DAL_N(s), m = DAL_M(s);
-    num *f = out, *x = out + n, *k = out + 2 * n, *l = k + m;
+    num *const l = y + n;
     DAL__MARK(s);
     DAL_VECTOR(s, blocks, DAL_BLOCKS_SIZE(s));
-    DAL_VECTOR(s, rhs, DAL_M(s));
-    DAL_VECTOR(s, along, DAL_M(s));
-    dal_eval(s, DAL_EVAL_BLOCKS, t, q, v, NULL, blocks);
-    const num *A = blocks + dal_blocks_A(s), *a = blocks + dal_blocks_a(s);
-    dal_multiply(A, m, n, a, along);
-    DAL_EACH(i, m) rhs[i] = -along[i];
-    solve_by_blocks(s, blocks, rhs, f, k);
-    DAL_EACH(i, n) f[i] += a[i];
-    dal_multiply(A, m, n, z, along);
-    DAL_EACH(i, m) rhs[i] = -(blocks[i] + along[i]);
-    solve_by_blocks(s, blocks, rhs, x, l);
+    DAL_VECTOR(s, g, DAL_SQUARE_M(s));
+    const num *a = find_blocks(s, t, q, v, pi[n + m], blocks);
+    const num *A = blocks + dal_blocks_A(s), *R = blocks + dal_blocks_B(s);
+    DAL_EACH(i, n) y[i] = pi[i] - a[i];
+    dal_multiply(A, m, n, y, l);
+    DAL_EACH(i, m) l[i] += pi[n + i];
+    dal_gram(A, R, m, n, g);
+    dal_eliminate_in_units(g, l, m, DAL_LEVELS(s), m);
+    dal_multiply(R, n, m, l, y);
+    DAL_EACH(i, n) y[i] += a[i];
     DAL__RELEASE(s);
+}
+
+/* D alone. */
+static void value_by_constraint(dal_step *s, double t, const num *q, const num *v, num *D)
+{
+    DAL__MARK(s);
+    DAL_VECTOR(s, out, DAL_CONSTRAINT_SIZE(s));
+    dal_eval(s, DAL_EVAL_CONSTRAINT, t, q, v, NULL, out);
+    DAL_EACH(i, DAL_M(s)) D[i] = out[i];
+    DAL__RELEASE(s);
+}
+
+/* The output of a callback that a system does not have, by others. */
+static void eval_missing(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
+                         const num *pi, num *out)
+{
+    switch (code) {
+    case DAL_EVAL_CORRECTION:
+        correct_by_constraint(s, t, q, v, out);
+        break;
+    case DAL_EVAL_ENFORCEMENT:
+        enforce_by_blocks(s, t, q, v, pi, out);
+        break;
+    case DAL_EVAL_REACTION:
+        react_by_blocks(s, t, q, v, pi, out);
+        break;
+    case DAL_EVAL_CONSTRAINT_VALUE:
+        value_by_constraint(s, t, q, v, out);
+        break;
+    default: /* the gauge, which is 0 */
+        fill(s->owner, code, 0.0, out);
+    }
 }
 
 static void eval_callback(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
@@ -146,13 +191,8 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
 {
     engine *e = s->owner;
     dal_callback *const call = e->call[code];
-    if (DAL_RARELY(!call)) { /* the gauge, which is 0, and these may be missing */
-        if (code == DAL_EVAL_CORRECTION)
-            correct_by_constraint(s, t, q, v, out);
-        else if (code == DAL_EVAL_ENFORCEMENT)
-            enforce_by_blocks(s, t, q, v, pi, out);
-        else
-            fill(e, code, 0.0, out);
+    if (DAL_RARELY(!call)) {
+        eval_missing(s, code, t, q, v, pi, out);
         return;
     }
     const dal_point at = {

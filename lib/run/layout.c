@@ -373,6 +373,16 @@ static bool may_solve_by_newton(const dal__layout *k)
            !(properties & DAL_EXPLICIT && (runge_kutta || !k->lifted));
 }
 
+/* Whether a layer of the method has blocks of each stage; others evaluate what enforces D. */
+static bool has_blocks_of_stages(const dal__layout *k)
+{
+    bool has = false;
+    for (int i = 0; i < k->depth; i++)
+        has |= k->method.layer[i]->needs & DAL_NEEDS_BLOCKS &&
+               !(k->method.layer[i]->kernel & (DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_SPARK));
+    return has;
+}
+
 /* Sizes, in floating point first so that nothing overflows. */
 static dal_status measure(dal__layout *k, dal_error *error)
 {
@@ -380,10 +390,10 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const bool inverts = k->system->call.jacobian && may_solve_by_newton(k);
     const double matrix = inverts ? 6 * (stages * nw) * (stages * nw) + 2 * nw * (n + nw) : 0;
     const double constraint = 4 * (m + 2 * m * n) + 8 * m * m;
-    const bool enforces = dal_method_needs(&k->method) & DAL_NEEDS_BLOCKS;
     const double equations = (stages + 1) * m;
-    const double parts =
-        enforces ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) + 4 * equations * equations : 0;
+    const double parts = has_blocks_of_stages(k) ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) +
+                                                       4 * equations * equations
+                                                 : 0;
     const bool expands = dal_method_needs(&k->method) & DAL_NEEDS_SERIES;
     k->taylor_order = dal_taylor_order(k->options.tolerance);
     k->tolerance_root = pow(k->options.tolerance, 1.0 / k->taylor_order);
