@@ -46,14 +46,16 @@ const char *dal_conservation_text(dal_conservation conservation)
 
 enum { LIFT_OBSERVABLES = 4 };
 
-/* Reactions are the observables between the invariants and the error. */
+/* Reactions are the observables between the invariants and the error, without C1, C2, ..: the
+ * motion conserves g. */
 static void mark_reactions(const dal_run *run, int invariants, dal_trend *trend)
 {
     const dal_system *s = dal_run_system(run);
     char name[16];
     int i = invariants + (s->invariant_values ? s->invariants : 0);
     for (; i < dal_run_observables(run); i++)
-        if (strcmp(dal_run_observable_name(run, i, name, sizeof name), "error") != 0)
+        if (strcmp(dal_run_observable_name(run, i, name, sizeof name), "error") != 0 &&
+            name[0] != 'C')
             trend[i].conservation = DAL_NOT_CONSERVED;
 }
 
