@@ -120,6 +120,7 @@ static int run_study(const settings *s, const char *text, size_t length)
     const bool force = s->run.force || has_ended;
     if (status == CLI_DONE)
         status = study_directory_begin(&dir, &plan, text, length, s->shard, force);
+    if (status == CLI_DONE) study_plan_say_projected(&plan);
     if (status == CLI_DONE) status = study_directory_run(&dir, &plan, &how);
     study_plan_free(&plan);
     if (!s->no_page)

@@ -67,6 +67,7 @@ static int begin_directory(const settings *s)
     study_directory_open(&dir, s->output);
     if (status == CLI_DONE)
         status = study_directory_begin(&dir, &plan, text, length, whole, s->run.force);
+    if (status == CLI_DONE) study_plan_say_projected(&plan);
     study_plan_free(&plan);
     study_directory_close(&dir);
     free(text);

@@ -510,6 +510,21 @@ static int add_cells(study_plan *plan, study_case *e)
     return CLI_DONE;
 }
 
+void study_plan_say_projected(const study_plan *plan)
+{
+    for (const study_case *e = plan->cases; e < plan->cases + plan->case_count; e++) {
+        bool added = false;
+        for (int k = 0; k < e->method_count && e->is_first && !added; k++) {
+            dal_method method = e->methods[k];
+            dal_method_complete(&method, e->system, &e->options, &added, NULL);
+        }
+        if (added)
+            cli_note("%s: holonomic constraints drift with methods of F: +project is added to "
+                     "them; 'options: {bare: on}' leaves it out",
+                     e->group);
+    }
+}
+
 void study_plan_add_steps(study_plan *plan)
 {
     for (int i = 0; i < plan->case_count; i++)

@@ -30,6 +30,22 @@ try 0 run pendulum.yaml $motion --bare on --columns C --output bare.csv
 expect "said of a bare method" [ "$(grep -c 'is added' err)" = 0 ]
 expect "no drift" [ "$(tail -1 bare.csv | awk -F, '{ print ($2 * $2 > 1e-20) }')" = 1 ]
 
+case_is "holonomic: what becomes of g"
+try 0 run pendulum.yaml $motion --time 100 --output kept
+expect "g is not at rounding" grep -q '^C1,.*,rounding,' kept/summary.csv
+try 0 run pendulum.yaml $motion --time 100 --integrator rk4 --bare on --output lost
+expect "g' = D grows like t, and g not like t^2" awk -F, '
+    $1 == "C1" && $10 > 1.9 && $10 < 2.1 { good = 1 } END { exit !good }' lost/summary.csv
+
+case_is "holonomic: studies say that +project is added"
+printf '%s\n' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 2' 'starts: physical' 'systems: [pendulum.yaml]' >grid.yaml
+try 0 study grid.yaml --output grid
+says "^dalembert: pendulum.yaml: holonomic constraints drift with methods of F: .project is added to them"
+expect "said more than once" [ "$(grep -c 'is added' err)" = 1 ]
+echo 'options: {bare: on}' >>grid.yaml
+try 0 study grid.yaml --output bare-grid
+refute "said of bare methods" grep -q 'is added' err
+
 case_is "holonomic: resumed and extended"
 try 0 run pendulum.yaml $motion --output short
 try 0 resume short --time 4
