@@ -18,7 +18,7 @@
 # fails, for a file in cli/ only these.  Those come first that should notice a fault for the least
 # processor time: by their own, over how often they noticed one in the folder of the file; both are
 # kept for later calls.  What fails must pass with the sources themselves.  A process that takes
-# LIMIT times the processor time of its test with the sources, and ten seconds, is ended, and a
+# LIMIT times the longest processor time of its test that passed, and ten seconds, is ended, and a
 # command of the command line after PATIENCE seconds: such a mutant counts as noticed, as one that
 # crashes does.
 #
@@ -139,10 +139,10 @@ confirm() {
     record - "$1" "$2" passed >>"$place/times"
     cp "$place/noticed.log" "$place/test.log"
 }
-# seconds_of KIND NAME: its processor time with the sources themselves, or more than most take.
+# seconds_of KIND NAME: the longest that it took and passed, or more than most take.
 seconds_of() {
-    awk -v kind="$1" -v name="$2" '$2 == kind && $3 == name { seconds = int($4 + 1) }
-        END { print seconds ? seconds : 20 }' "$place/times"
+    awk -v kind="$1" -v name="$2" '$2 == kind && $3 == name && $5 == "passed" && $4 + 1 > seconds { seconds = int($4 + 1) }
+        END { print seconds ? seconds : 20 }' "$place/times" "$place/history"
 }
 # intact_of KIND: the binary of the sources themselves.
 intact_of() { case $1 in cli) echo "$place/program" ;; *) echo "$place/suite" ;; esac; }
