@@ -104,6 +104,8 @@ static const bad_file events[] = {
      XY L "events: [{@when: x, set: {x: 1}, restitution: 1}]\n"},
     {DAL_STATUS_MODEL, "event 1: the restitution -0.5 is negative",
      XY L "events: [{when: x, restitution: @-0.5}]\n"},
+    {DAL_STATUS_MODEL, "event 1, restitution: the value is not finite",
+     XY L "events: [{when: x, restitution: @log(0)}]\n"},
     {DAL_STATUS_UNSUPPORTED, "event 1 cannot have a restitution: its 'when' contains velocities",
      XY L "events: [{when: x + x', @restitution: 1}]\n"},
     {DAL_STATUS_UNSUPPORTED,
