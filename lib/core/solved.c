@@ -10,6 +10,7 @@
  * step solves it.  Rows remain where the velocities named are fewer than the constraints.  The same
  * with g, g_u for coordinates: g_q are the last rows of D_v. */
 #include "core/solved.h"
+#include "core/constraint_rows.h"
 #include "core/settings.h"
 #include "core/vectors.h"
 #include <math.h>
@@ -24,17 +25,12 @@ enum { MAX_STEPS = 200, NAME_SIZE = 128 };
 /* The linear equations of a step, a row for each constraint: [columns] entries, one for each
  * velocity, the right-hand side, and the number of the constraint. */
 typedef struct newton {
-    const dal_system *system;
+    dal__constraint_rows c;
     const dal_solved *solved; /* [columns] */
-    dal_point at;
-    double *x;         /* [n] the velocities or coordinates */
-    double *out;       /* [m + 2*m*n] D, A, W^-1 A^T */
-    double *D, *A, *B; /* [rows], [rows*n], [n*rows] */
-    double *unit;      /* [n] see dal__velocity_units */
-    double *matrix;    /* [rows*width] */
-    int first, rows;   /* which of the m constraints */
+    double *x;                /* [n] the velocities or coordinates */
+    double *unit;             /* [n] see dal__velocity_units */
+    double *matrix;           /* [rows*width] */
     int columns, width;
-    bool coordinates;
 } newton;
 
 bool dal__is_solved(const dal_solved *solved, int count, int number)
@@ -55,9 +51,9 @@ size_t dal__solve_size(const dal_system *s)
 static const char *name_of(const newton *k, int column, char *buffer)
 {
     const int i = k->solved[column].number;
-    const char *const prime = k->coordinates ? "" : "'";
-    if (k->system->coordinate)
-        snprintf(buffer, NAME_SIZE, "%s%s", k->system->coordinate[i], prime);
+    const char *const prime = k->c.of_coordinates ? "" : "'";
+    if (k->c.system->coordinate)
+        snprintf(buffer, NAME_SIZE, "%s%s", k->c.system->coordinate[i], prime);
     else
         snprintf(buffer, NAME_SIZE, "q%d%s", i + 1, prime);
     return buffer;
@@ -79,42 +75,42 @@ static dal_status undetermined(const newton *k, int column, dal_error *error)
             "the start cannot be solved for both %s and %s, which %s "
             "restricts: name fewer %s",
             name_of(k, row, other), name,
-            DAL__CONSTRAINT_NAME(k->system, (int)k->matrix[row * k->width + k->columns + 1]),
-            k->coordinates ? "coordinates" : "velocities");
-    if (k->system->properties & DAL_D_LINEAR && !k->coordinates)
+            DAL__CONSTRAINT_NAME(k->c.system, (int)k->matrix[row * k->width + k->columns + 1]),
+            k->c.of_coordinates ? "coordinates" : "velocities");
+    if (k->c.system->properties & DAL_D_LINEAR && !k->c.of_coordinates)
         return dal__fail_at(error, DAL_STATUS_RANK, place->line, place->column,
                             "the start cannot be solved for %s: no constraint restricts it", name);
     return dal__fail_at(error, DAL_STATUS_RANK, place->line, place->column,
                         "the start cannot be solved for %s: no %sconstraint restricts it at the "
                         "first guess %g; give another one",
-                        name, k->coordinates ? "holonomic " : "", k->x[place->number]);
+                        name, k->c.of_coordinates ? "holonomic " : "", k->x[place->number]);
 }
 
 /* Fills the rows, each relative to its largest entry. */
 static void fill_matrix(const newton *k)
 {
-    const int n = k->system->n;
-    dal__velocity_units(n, k->rows, k->A, k->B, k->unit);
+    const int n = k->c.system->n;
+    dal__velocity_units(n, k->c.rows, k->c.A, k->c.B, k->unit);
     for (int j = 0; j < n; j++)
         if (!(k->unit[j] > 0.0)) k->unit[j] = 1.0;
-    for (int a = 0; a < k->rows; a++) {
+    for (int a = 0; a < k->c.rows; a++) {
         double scale = 0.0, *row = &k->matrix[a * k->width];
         for (int j = 0; j < k->columns; j++) {
             const int i = k->solved[j].number;
-            row[j] = k->A[a * n + i] * k->unit[i];
+            row[j] = k->c.A[a * n + i] * k->unit[i];
             scale = fmax(scale, fabs(row[j]));
         }
         if (scale == 0.0) scale = 1.0;
         for (int j = 0; j < k->columns; j++) row[j] /= scale;
-        row[k->columns] = -k->D[a] / scale;
-        row[k->columns + 1] = k->first + a;
+        row[k->columns] = -k->c.D[a] / scale;
+        row[k->columns + 1] = k->c.first + a;
     }
 }
 
 /* The row from number j on with the largest entry of column j; -1: they are negligible. */
 static int find_pivot(const newton *k, int j)
 {
-    const int m = k->rows, width = k->width;
+    const int m = k->c.rows, width = k->width;
     double size = 0.0;
     int pivot = j;
     if (j == m) return -1;
@@ -127,7 +123,7 @@ static int find_pivot(const newton *k, int j)
 /* Makes the matrix triangular. */
 static dal_status eliminate(const newton *k, dal_error *error)
 {
-    const int m = k->rows, width = k->width;
+    const int m = k->c.rows, width = k->width;
     double *M = k->matrix;
     for (int j = 0; j < k->columns; j++) {
         const int pivot = find_pivot(k, j);
@@ -164,32 +160,18 @@ static dal_status take_step(newton *k, double *change, dal_error *error)
     return DAL_STATUS_OK;
 }
 
-/* Evaluates D, A and W^-1 A^T, or g and the rows of its derivatives in these. */
-static dal_status evaluate_rows(newton *k)
-{
-    const dal_system *s = k->system;
-    const int m = s->m, n = s->n, rows = k->rows;
-    DAL_TRY(s->call.constraint(s, &k->at, k->out));
-    memcpy(k->D, k->out + k->first, (size_t)rows * sizeof *k->D);
-    memcpy(k->A, k->out + m + k->first * n, (size_t)(rows * n) * sizeof *k->A);
-    for (int i = 0; i < n; i++)
-        for (int a = 0; a < rows; a++)
-            k->B[i * rows + a] = k->out[m + m * n + i * m + k->first + a];
-    return k->coordinates ? s->call.holonomic(s, &k->at, k->D) : DAL_STATUS_OK;
-}
-
 /* Whether the system can be solved for what it names. */
 static dal_status check_solved(const newton *k, dal_error *error)
 {
-    const dal_system *s = k->system;
-    const char *const what = k->coordinates ? "coordinates" : "velocities";
-    bool is_usable = k->columns > 0 && k->columns <= k->rows && s->solved;
+    const dal_system *s = k->c.system;
+    const char *const what = k->c.of_coordinates ? "coordinates" : "velocities";
+    bool is_usable = k->columns > 0 && k->columns <= k->c.rows && s->solved;
     for (int j = 0; is_usable && j < k->columns; j++)
         is_usable = k->solved[j].number >= 0 && k->solved[j].number < s->n;
     if (!is_usable)
         return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "%d %s to be solved from %d constraints, of %d %s", k->columns, what,
-                         k->rows, s->n, what);
+                         k->c.rows, s->n, what);
     if (s->call.constraint) return DAL_STATUS_OK;
     return dal__fail_at(error, DAL_STATUS_UNSUPPORTED, k->solved[0].line, k->solved[0].column,
                         "the start cannot be solved for %s: the mass matrix has no inverse", what);
@@ -197,48 +179,47 @@ static dal_status check_solved(const newton *k, dal_error *error)
 
 static dal_status solve_named(newton *k, double *memory, dal_error *error)
 {
-    const int m = k->system->m, n = k->system->n, rows = k->rows;
+    const int m = k->c.system->m, n = k->c.system->n, rows = k->c.rows;
     double change = INFINITY, before;
     char name[NAME_SIZE];
     int max = 0;
     if (k->columns == 0) return DAL_STATUS_OK;
     DAL_TRY(check_solved(k, error));
-    k->out = memory;
-    k->D = k->out + m + 2 * m * n;
-    k->A = k->D + rows;
-    k->B = k->A + rows * n;
-    k->unit = k->B + rows * n;
+    k->c.out = memory;
+    k->c.D = k->c.out + m + 2 * m * n;
+    k->c.A = k->c.D + rows;
+    k->c.B = k->c.A + rows * n;
+    k->unit = k->c.B + rows * n;
     k->matrix = k->unit + n;
     k->width = k->columns + 2;
     for (int i = 0; i < MAX_STEPS; i++) {
-        const dal_status status = evaluate_rows(k);
-        if (status != DAL_STATUS_OK)
-            return dal__fail(error, status, "the constraints cannot be evaluated at the start");
-        max = dal__find_max_abs(k->D, rows);
-        if (!isfinite(k->D[max])) break;
+        DAL_TRY(dal__evaluate_rows(&k->c, k->c.system->call.constraint, "the start", error));
+        max = dal__find_max_abs(k->c.D, rows);
+        if (!isfinite(k->c.D[max])) break;
         before = change;
         DAL_TRY(take_step(k, &change, error));
         if (dal__is_converged(change, before, dal__max_in_units(n, k->x, k->unit)))
             return DAL_STATUS_OK;
     }
     return dal__fail_at(error,
-                        isfinite(k->D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
+                        isfinite(k->c.D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
                         k->solved[0].line, k->solved[0].column,
                         "the start cannot be solved for %s%s: no root of %s was found "
                         "from these first guesses, %c%d = %.6g",
                         name_of(k, 0, name), k->columns > 1 ? " and others" : "",
-                        DAL__CONSTRAINT_NAME(k->system, k->first + max), k->coordinates ? 'C' : 'D',
-                        max + 1, k->D[max]);
+                        DAL__CONSTRAINT_NAME(k->c.system, k->c.first + max),
+                        k->c.of_coordinates ? 'C' : 'D', max + 1, k->c.D[max]);
 }
 
 dal_status dal__solve_velocities(const dal_system *s, double t, const double *q, double *v,
                                  double *work, double *memory, dal_error *error)
 {
-    newton k = {.system = s,
+    newton k = {.c = {.system = s,
+                      .at = {.t = t, .q = q, .v = v, .work = work},
+                      .count = s->m,
+                      .rows = s->m},
                 .solved = s->solved ? s->solved + s->solved_coordinates : NULL,
-                .at = {.t = t, .q = q, .v = v, .work = work},
                 .x = v,
-                .rows = s->m,
                 .columns = s->solved_velocities};
     return solve_named(&k, memory, error);
 }
@@ -246,14 +227,15 @@ dal_status dal__solve_velocities(const dal_system *s, double t, const double *q,
 dal_status dal__solve_coordinates(const dal_system *s, double t, double *q, const double *v,
                                   double *work, double *memory, dal_error *error)
 {
-    newton k = {.system = s,
+    newton k = {.c = {.system = s,
+                      .at = {.t = t, .q = q, .v = v, .work = work},
+                      .of_coordinates = true,
+                      .first = s->m - DAL__HOLONOMIC_COUNT(s),
+                      .count = DAL__HOLONOMIC_COUNT(s),
+                      .rows = DAL__HOLONOMIC_COUNT(s)},
                 .solved = s->solved,
-                .at = {.t = t, .q = q, .v = v, .work = work},
                 .x = q,
-                .first = s->m - DAL__HOLONOMIC_COUNT(s),
-                .rows = DAL__HOLONOMIC_COUNT(s),
-                .columns = s->solved_coordinates,
-                .coordinates = true};
+                .columns = s->solved_coordinates};
     return solve_named(&k, memory, error);
 }
 

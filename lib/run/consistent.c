@@ -26,27 +26,27 @@ enum { MAX_MOVES = 1000 };
 
 static void place_numbers(dal__linearised *k, double *memory)
 {
-    const int n = k->system->n, m = k->system->m, rows = k->rows;
-    k->D = memory;
-    k->A = k->D + rows;
-    k->B = k->A + rows * n;
-    k->G = k->B + rows * n;
+    const int n = k->c.system->n, m = k->c.system->m, rows = k->c.rows;
+    k->c.D = memory;
+    k->c.A = k->c.D + rows;
+    k->c.B = k->c.A + rows * n;
+    k->G = k->c.B + rows * n;
     k->x = k->G + rows * rows;
     k->given = k->x + rows;
-    k->out = k->given + n;
-    k->unit = k->out + m + 2 * m * n + 1;
+    k->c.out = k->given + n;
+    k->unit = k->c.out + m + 2 * m * n + 1;
 }
 
 dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition, const char *place)
 {
     const dal_system *system = run->layout.system;
-    dal__linearised k = {.system = system,
-                         .at = dal__here(run),
+    dal__linearised k = {.c = {.system = system,
+                               .at = dal__here(run),
+                               .count = system->m,
+                               .rows = system->m + (condition != NULL)},
                          .v = run->persistent + system->n,
                          .condition = condition,
-                         .place = place,
-                         .constraints = system->m,
-                         .rows = system->m + (condition != NULL)};
+                         .place = place};
     place_numbers(&k, run->scratch);
     return k;
 }
@@ -54,51 +54,42 @@ dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition
 dal__linearised dal__linearised_coordinates(dal_run *run, const char *place)
 {
     const dal_system *system = run->layout.system;
-    dal__linearised k = {.system = system,
-                         .at = dal__here(run),
+    dal__linearised k = {.c = {.system = system,
+                               .at = dal__here(run),
+                               .of_coordinates = true,
+                               .first = system->m - DAL__HOLONOMIC_COUNT(system),
+                               .count = DAL__HOLONOMIC_COUNT(system),
+                               .rows = DAL__HOLONOMIC_COUNT(system)},
                          .v = run->persistent,
-                         .of_coordinates = true,
-                         .place = place,
-                         .first = system->m - DAL__HOLONOMIC_COUNT(system),
-                         .constraints = DAL__HOLONOMIC_COUNT(system),
-                         .rows = DAL__HOLONOMIC_COUNT(system)};
+                         .place = place};
     place_numbers(&k, run->scratch);
     return k;
 }
 
 dal_status dal__linearise(dal__linearised *k, const double *u, dal_error *error)
 {
-    const dal_system *s = k->system;
-    const int m = s->m, n = s->n, rows = k->rows, count = k->constraints;
+    const dal_system *s = k->c.system;
+    const int m = s->m, n = s->n;
     const dal__condition *last = k->condition;
-    const bool has_u = u && !k->of_coordinates;
+    const bool has_u = u && !k->c.of_coordinates;
     dal_callback *const callback = has_u && s->projection ? s->projection : s->call.constraint;
-    k->at.pi = u;
-    const dal_status status = m > 0 ? callback(s, &k->at, k->out) : DAL_STATUS_OK;
-    if (status != DAL_STATUS_OK)
-        return dal__fail(error, status, "the constraints cannot be evaluated at %s", k->place);
-    memcpy(k->D, k->out + k->first, (size_t)count * sizeof *k->D);
-    memcpy(k->A, k->out + m + k->first * n, (size_t)(count * n) * sizeof *k->A);
-    if (k->of_coordinates && s->call.holonomic(s, &k->at, k->D) != DAL_STATUS_OK)
-        return dal__fail(error, DAL_STATUS_NOT_FINITE,
-                         "the holonomic constraints cannot be evaluated at %s", k->place);
-    if (last) k->D[m] = -last->value;
-    for (int i = 0; i < n; i++) {
-        for (int a = 0; a < count; a++)
-            k->B[i * rows + a] = k->out[m + m * n + i * m + k->first + a];
-        if (!last) continue;
-        k->A[m * n + i] = last->normal[i];
-        k->B[i * rows + m] = last->lifted[i];
-        k->D[m] += last->normal[i] * k->v[i];
+    k->c.at.pi = u;
+    DAL_TRY(dal__evaluate_rows(&k->c, callback, k->place, error));
+    if (last) k->c.D[m] = -last->value;
+    for (int i = 0; last && i < n; i++) {
+        k->c.A[m * n + i] = last->normal[i];
+        k->c.B[i * k->c.rows + m] = last->lifted[i];
+        k->c.D[m] += last->normal[i] * k->v[i];
     }
     return DAL_STATUS_OK;
 }
 
 dal_status dal__check_mass(const dal__linearised *k, dal_error *error)
 {
-    const dal_system *system = k->system;
+    const dal_system *system = k->c.system;
     double number;
-    if (!system->diagnose || system->diagnose(system, &k->at, &number) != DAL_STATUS_SINGULAR_MASS)
+    if (!system->diagnose ||
+        system->diagnose(system, &k->c.at, &number) != DAL_STATUS_SINGULAR_MASS)
         return DAL_STATUS_OK;
     return dal__fail(error, DAL_STATUS_SINGULAR_MASS, "%s is singular at %s",
                      dal__mass_words(system), k->place);
@@ -106,16 +97,18 @@ dal_status dal__check_mass(const dal__linearised *k, dal_error *error)
 
 void dal__constraint_sizes(dal__linearised *k, const double *scales)
 {
-    const int n = k->system->n;
+    const int n = k->c.system->n;
     double *energy = k->given, kinetic = 0.0; /* E, E_q, E_v = W v, and n more */
-    dal_callback *const energy_normal = k->of_coordinates ? NULL : k->system->call.energy_normal;
-    const bool are_known = k->of_coordinates && scales;
-    if (!energy_normal || energy_normal(k->system, &k->at, energy) != DAL_STATUS_OK) kinetic = NAN;
+    dal_callback *const energy_normal =
+        k->c.of_coordinates ? NULL : k->c.system->call.energy_normal;
+    const bool are_known = k->c.of_coordinates && scales;
+    if (!energy_normal || energy_normal(k->c.system, &k->c.at, energy) != DAL_STATUS_OK)
+        kinetic = NAN;
     for (int i = 0; i < n && !isnan(kinetic); i++) kinetic += fabs(k->v[i] * energy[1 + n + i]);
-    for (int a = 0; a < k->rows; a++) {
+    for (int a = 0; a < k->c.rows; a++) {
         double G = 0.0, sum = 0.0;
-        for (int i = 0; i < n; i++) G += k->A[a * n + i] * k->B[i * k->rows + a];
-        for (int i = 0; i < n; i++) sum += fabs(k->A[a * n + i]);
+        for (int i = 0; i < n; i++) G += k->c.A[a * n + i] * k->c.B[i * k->c.rows + a];
+        for (int i = 0; i < n; i++) sum += fabs(k->c.A[a * n + i]);
         const double size = are_known ? 0.0 : sqrt(fabs(G)) * sqrt(kinetic);
         k->x[a] = isfinite(size) ? size : sum * dal_max_norm(k->v, n);
         if (scales && isfinite(scales[a])) k->x[a] += scales[a];
@@ -127,7 +120,7 @@ void dal__constraint_sizes(dal__linearised *k, const double *scales)
 static int list_dependence(const dal__linearised *k, int a, char *list, size_t size)
 {
     static const double part = 1e-6;
-    const int rows = k->rows;
+    const int rows = k->c.rows;
     int count = 0;
     size_t length = 0;
     for (int b = a - 1; b >= 0; b--) {
@@ -136,24 +129,24 @@ static int list_dependence(const dal__linearised *k, int a, char *list, size_t s
         k->x[b] /= k->G[b * rows + b];
     }
     for (int b = 0; b < a; b++) {
-        const double share = fabs(k->x[b]) * sqrt(k->out[b]);
-        if (!(share > part * sqrt(k->out[a])) || length >= size) continue;
+        const double share = fabs(k->x[b]) * sqrt(k->c.out[b]);
+        if (!(share > part * sqrt(k->c.out[a])) || length >= size) continue;
         length += (size_t)snprintf(list + length, size - length, ", %s",
-                                   DAL__CONSTRAINT_NAME(k->system, k->first + b));
+                                   DAL__CONSTRAINT_NAME(k->c.system, k->c.first + b));
         count++;
     }
     return count;
 }
 
-/* The error that row a of G has no pivot; k->out[a] was its entry on the diagonal. */
+/* The error that row a of G has no pivot; k->c.out[a] was its entry on the diagonal. */
 static dal_status dependent(const dal__linearised *k, int a, double pivot, dal_error *error)
 {
-    const dal_system *system = k->system;
-    const double size = dal__max_abs(k->A + a * system->n, (size_t)system->n);
-    const char *const name = DAL__CONSTRAINT_NAME(system, k->first + a);
+    const dal_system *system = k->c.system;
+    const double size = dal__max_abs(k->c.A + a * system->n, (size_t)system->n);
+    const char *const name = DAL__CONSTRAINT_NAME(system, k->c.first + a);
     char list[256] = ", earlier ones";
     DAL_TRY(dal__check_mass(k, error));
-    if (a == k->constraints)
+    if (a == k->c.count)
         return dal__fail(error, DAL_STATUS_RANK,
                          "%s changes no velocity that the constraints leave free (pivot %g of G)",
                          k->place, pivot);
@@ -175,25 +168,25 @@ static dal_status dependent(const dal__linearised *k, int a, double pivot, dal_e
             "%s is badly scaled: its derivatives by the velocities reach %g at %s, and "
             "G = A W^-1 A^T has their squares; multiply it by a number",
             name, size, k->place);
-    if (!(k->out[a] > 0.0) || a == 0)
+    if (!(k->c.out[a] > 0.0) || a == 0)
         return dal__fail(error, DAL_STATUS_RANK,
-                         "%s has %g on the diagonal of G = A W^-1 A^T at %s", name, k->out[a],
+                         "%s has %g on the diagonal of G = A W^-1 A^T at %s", name, k->c.out[a],
                          k->place);
     const bool is_one = list_dependence(k, a, list, sizeof list) == 1;
     return dal__fail(
         error, DAL_STATUS_RANK,
         "%s restricts, except for rounding, only velocities that %s restrict%s at %s: of its %g on "
         "the diagonal of G %s %.2g",
-        name, list + 2, is_one ? "s" : "", k->place, k->out[a], is_one ? "it leaves" : "they leave",
-        pivot);
+        name, list + 2, is_one ? "s" : "", k->place, k->c.out[a],
+        is_one ? "it leaves" : "they leave", pivot);
 }
 
 /* Solves G x = x without exchanges of rows. */
 static dal_status solve(dal__linearised *k, dal_error *error)
 {
-    const int rows = k->rows;
-    double *G = k->G, *x = k->x, *diagonal = k->out;
-    dal_gram(k->A, k->B, rows, k->system->n, G);
+    const int rows = k->c.rows;
+    double *G = k->G, *x = k->x, *diagonal = k->c.out;
+    dal_gram(k->c.A, k->c.B, rows, k->c.system->n, G);
     for (int a = 0; a < rows; a++) diagonal[a] = fabs(G[a * rows + a]);
     for (int a = 0; a < rows; a++) {
         const double pivot = G[a * rows + a];
@@ -211,25 +204,25 @@ static dal_status solve(dal__linearised *k, dal_error *error)
 
 dal_status dal__linearised_check_rank(dal__linearised *k, dal_error *error)
 {
-    memset(k->x, 0, (size_t)k->rows * sizeof *k->x);
+    memset(k->x, 0, (size_t)k->c.rows * sizeof *k->x);
     return solve(k, error);
 }
 
 /* Moves v by the given part of v' - v; *change is max |v' - v|, in units. */
 static dal_status move(dal__linearised *k, double part, double *change, dal_error *error)
 {
-    const int n = k->system->n, rows = k->rows;
+    const int n = k->c.system->n, rows = k->c.rows;
     double *v = k->v, *x = k->x;
-    dal__velocity_units(n, rows, k->A, k->B, k->unit);
+    dal__velocity_units(n, rows, k->c.A, k->c.B, k->unit);
     for (int a = 0; a < rows; a++) {
-        x[a] = -k->D[a];
-        for (int i = 0; i < n; i++) x[a] -= k->A[a * n + i] * (k->given[i] - v[i]);
+        x[a] = -k->c.D[a];
+        for (int i = 0; i < n; i++) x[a] -= k->c.A[a * n + i] * (k->given[i] - v[i]);
     }
     DAL_TRY(solve(k, error));
     *change = 0.0;
     for (int i = 0; i < n; i++) {
         double moved = k->given[i];
-        for (int a = 0; a < rows; a++) moved += k->B[i * rows + a] * x[a];
+        for (int a = 0; a < rows; a++) moved += k->c.B[i * rows + a] * x[a];
         if (k->unit[i] > 0.0) *change = fmax(*change, fabs(moved - v[i]) / k->unit[i]);
         if (part < 1.0) moved = v[i] + part * (moved - v[i]);
         v[i] = moved + 0.0; /* no -0: see lib/kernel/step.h */
@@ -239,29 +232,29 @@ static dal_status move(dal__linearised *k, double part, double *change, dal_erro
 
 dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
 {
-    const int n = k->system->n, m = k->constraints;
-    const char *const moved = k->of_coordinates ? "coordinates" : "velocities";
-    const char letter = k->of_coordinates ? 'C' : 'D';
+    const int n = k->c.system->n, m = k->c.count;
+    const char *const moved = k->c.of_coordinates ? "coordinates" : "velocities";
+    const char letter = k->c.of_coordinates ? 'C' : 'D';
     double change = INFINITY, before, part = 1.0;
     int max = 0;
-    if (k->rows == 0) return DAL_STATUS_OK;
-    if (m > 0 && !k->system->call.constraint)
+    if (k->c.rows == 0) return DAL_STATUS_OK;
+    if (m > 0 && !k->c.system->call.constraint)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "%s cannot be moved to %s = 0: the mass matrix has no inverse", moved,
-                         k->of_coordinates ? "g" : "D");
+                         k->c.of_coordinates ? "g" : "D");
     memcpy(k->given, k->v, (size_t)n * sizeof *k->v);
     for (int i = 0; i < MAX_MOVES; i++) {
         DAL_TRY(dal__linearise(k, k->given, error));
-        max = dal__find_max_abs(k->D, m);
-        if (m > 0 && !isfinite(k->D[max])) break;
+        max = dal__find_max_abs(k->c.D, m);
+        if (m > 0 && !isfinite(k->c.D[max])) break;
         before = change;
         DAL_TRY(move(k, part, &change, error));
         if (dal__is_converged(change, before, dal__max_in_units(n, k->v, k->unit)))
             return DAL_STATUS_OK;
         if (change > before) part = fmax(0.5 * part, min_damping);
     }
-    return dal__fail(error, isfinite(k->D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
+    return dal__fail(error, isfinite(k->c.D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
                      "no %s near the %s of %s were found that satisfy %s: %c%d = %.6g", moved,
-                     moved, k->place, DAL__CONSTRAINT_NAME(k->system, k->first + max), letter,
-                     max + 1, k->D[max]);
+                     moved, k->place, DAL__CONSTRAINT_NAME(k->c.system, k->c.first + max), letter,
+                     max + 1, k->c.D[max]);
 }

@@ -3,6 +3,7 @@
 #ifndef DAL_RUN_CONSISTENT_H
 #define DAL_RUN_CONSISTENT_H
 
+#include "core/constraint_rows.h"
 #include "run/run.h"
 
 /* An equation normal.v = value for the velocities, beside D = 0. */
@@ -15,17 +16,12 @@ typedef struct dal__condition {
  * the last row where there is one; or g + g_q (q' - q).  The numbers lie in the scratch of a run.
  */
 typedef struct dal__linearised {
-    const dal_system *system;
-    dal_point at;
+    dal__constraint_rows c;          /* and a row of the condition after the constraints */
     double *v;                       /* [n] velocities of the state; or q */
-    bool of_coordinates;             /* g and g_q in place of D and A */
     const dal__condition *condition; /* or NULL */
     const char *place;               /* the state in messages: "the start" */
-    int first, constraints;          /* the rows are of these of the m constraints, */
-    int rows;                        /* and 1 of a condition */
-    double *D, *A, *B;               /* [rows], [rows*n], [n*rows]: W^-1 A^T */
     double *G, *x;                   /* [rows*rows], [rows] */
-    double *given, *out;             /* [n], [m + 2*m*n + 1] */
+    double *given;                   /* [n] */
     double *unit;                    /* [n] see dal__velocity_units */
 } dal__linearised;
 

@@ -56,7 +56,7 @@ static dal_status change(const dal__event_search *w, int k)
         char place[128];
         snprintf(place, sizeof place, "%.80s at t = %.17g", dal__event_name(w->system, k), at.t);
         dal__linearised g = dal__linearised_coordinates(run, place);
-        const bool is_set = actions & DAL_EVENT_SETS && g.rows > 0;
+        const bool is_set = actions & DAL_EVENT_SETS && g.c.rows > 0;
         dal_status status = is_set ? dal__make_consistent(&g, w->error) : DAL_STATUS_OK;
         dal__linearised D = dal__linearised_of(run, is_impact ? &condition : NULL, place);
         if (status == DAL_STATUS_OK) status = dal__make_consistent(&D, w->error);

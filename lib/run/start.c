@@ -93,16 +93,16 @@ static dal_status check_finite(dal_run *run, dal_error *error)
 static const char *suggest(const dal__linearised *k, const dal_run *run, int a, char *hint,
                            size_t size)
 {
-    const dal_system *s = k->system;
-    const bool of_q = k->of_coordinates;
+    const dal_system *s = k->c.system;
+    const bool of_q = k->c.of_coordinates;
     const int n = s->n, count = of_q ? s->solved_coordinates : s->solved_velocities;
     const dal_solved *solved = s->solved && !of_q ? s->solved + s->solved_coordinates : s->solved;
     char name[DAL__NAME_SIZE];
     double max = 0.0;
     int best = -1;
     for (int i = 0; i < n; i++) {
-        if (dal__is_solved(solved, count, i) || !(fabs(k->A[a * n + i]) > max)) continue;
-        max = fabs(k->A[a * n + i]);
+        if (dal__is_solved(solved, count, i) || !(fabs(k->c.A[a * n + i]) > max)) continue;
+        max = fabs(k->c.A[a * n + i]);
         best = i;
     }
     *hint = 0;
@@ -124,22 +124,22 @@ static dal_status check_consistent(dal_run *run, dal__linearised *k, const doubl
                                    dal_error *error)
 {
     char hint[256] = "";
-    const int n = k->system->n;
+    const int n = k->c.system->n;
     const double *scales = dal__constraint_scales(run);
-    const int positions = k->system->m + 1 + k->system->invariants;
-    dal__constraint_sizes(k, scales && k->of_coordinates ? scales + positions : scales);
-    for (int i = 0; i < k->rows; i++) {
+    const int positions = k->c.system->m + 1 + k->c.system->invariants;
+    dal__constraint_sizes(k, scales && k->c.of_coordinates ? scales + positions : scales);
+    for (int i = 0; i < k->c.rows; i++) {
         const double small = CONSISTENT * k->x[i];
-        const bool is_regular = isfinite(dal__max_abs(k->A + i * n, (size_t)n));
-        if (fabs(k->D[i]) <= small) continue;
-        if (isfinite(k->D[i]) && !is_regular) continue; /* dal__linearised_check_rank says so */
-        if (before && fabs(k->D[i] - before[i]) <= small) continue; /* the drift of a run */
-        if (!isfinite(k->D[i])) DAL_TRY(dal__check_mass(k, error));
-        return dal__fail(error, isfinite(k->D[i]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
-                         "%s violates %s: %c%d = %.6g%s", k->place,
-                         DAL__CONSTRAINT_NAME(k->system, k->first + i),
-                         k->of_coordinates ? 'C' : 'D', i + 1, k->D[i],
-                         before ? hint : suggest(k, run, i, hint, sizeof hint));
+        const bool is_regular = isfinite(dal__max_abs(k->c.A + i * n, (size_t)n));
+        if (fabs(k->c.D[i]) <= small) continue;
+        if (isfinite(k->c.D[i]) && !is_regular) continue; /* dal__linearised_check_rank says so */
+        if (before && fabs(k->c.D[i] - before[i]) <= small) continue; /* the drift of a run */
+        if (!isfinite(k->c.D[i])) DAL_TRY(dal__check_mass(k, error));
+        return dal__fail(
+            error, isfinite(k->c.D[i]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
+            "%s violates %s: %c%d = %.6g%s", k->place,
+            DAL__CONSTRAINT_NAME(k->c.system, k->c.first + i), k->c.of_coordinates ? 'C' : 'D',
+            i + 1, k->c.D[i], before ? hint : suggest(k, run, i, hint, sizeof hint));
     }
     return DAL_STATUS_OK;
 }
@@ -175,7 +175,8 @@ static dal_status check_coordinates(dal_run *run, dal_error *error)
 {
     dal__linearised k = dal__linearised_coordinates(run, "the start");
     DAL_TRY(check_momenta(run, error));
-    DAL_TRY(dal__solve_coordinates(k.system, k.at.t, k.v, k.at.v, run->work, run->scratch, error));
+    DAL_TRY(dal__solve_coordinates(k.c.system, k.c.at.t, k.v, k.c.at.v, run->work, run->scratch,
+                                   error));
     if (run->layout.options.consistent) DAL_TRY(dal__make_consistent(&k, error));
     DAL_TRY(dal__linearise(&k, NULL, error));
     return check_consistent(run, &k, NULL, error);
@@ -187,8 +188,8 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
     const bool is_solved_for = run->layout.system->solved_velocities != 0;
     if (!has_constraints(run) && !is_solved_for) return DAL_STATUS_OK;
     if (DAL__HOLONOMIC_COUNT(run->layout.system) > 0) DAL_TRY(check_coordinates(run, error));
-    DAL_TRY(dal__solve_velocities(run->layout.system, k.at.t, k.at.q, k.v, run->work, run->scratch,
-                                  error));
+    DAL_TRY(dal__solve_velocities(run->layout.system, k.c.at.t, k.c.at.q, k.v, run->work,
+                                  run->scratch, error));
     if (run->layout.options.consistent) DAL_TRY(dal__make_consistent(&k, error));
     DAL_TRY(dal__linearise(&k, NULL, error));
     DAL_TRY(check_consistent(run, &k, NULL, error));
@@ -267,11 +268,11 @@ static void note_constraints(dal_run *run, double *D)
 {
     dal__linearised k = dal__linearised_of(run, NULL, "the present state");
     const bool known = has_constraints(run) && dal__linearise(&k, NULL, NULL) == DAL_STATUS_OK;
-    for (int i = 0; i < run->layout.m; i++) D[i] = known ? k.D[i] : NAN;
+    for (int i = 0; i < run->layout.m; i++) D[i] = known ? k.c.D[i] : NAN;
     if (DAL__HOLONOMIC_COUNT(run->layout.system) == 0) return;
     k = dal__linearised_coordinates(run, "the present state");
     const bool has = has_constraints(run) && dal__linearise(&k, NULL, NULL) == DAL_STATUS_OK;
-    for (int j = 0; j < k.rows; j++) D[run->layout.m + j] = has ? k.D[j] : NAN;
+    for (int j = 0; j < k.c.rows; j++) D[run->layout.m + j] = has ? k.c.D[j] : NAN;
 }
 
 /* DAL_STATUS_INCONSISTENT: the parameters can be used, but D, which was `before`, is not 0 with
@@ -285,7 +286,7 @@ static dal_status check_parameters(dal_run *run, const double *before, dal_error
     DAL_TRY(dal__linearise(&k, NULL, error));
     DAL_TRY(dal__linearised_check_rank(&k, error));
     DAL_TRY(check_consistent(run, &k, before, error));
-    if (DAL__HOLONOMIC_COUNT(k.system) == 0) return DAL_STATUS_OK;
+    if (DAL__HOLONOMIC_COUNT(k.c.system) == 0) return DAL_STATUS_OK;
     k = dal__linearised_coordinates(run, "the present state");
     DAL_TRY(dal__linearise(&k, NULL, error));
     return check_consistent(run, &k, before + run->layout.m, error);
