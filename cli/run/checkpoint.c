@@ -102,48 +102,67 @@ int checkpoint_save(const run_directory *dir, const run_position *position, cons
 
 /* ---- loading ------------------------------------------------------------------------------- */
 
+/* A file of a checkpoint in memory: the header, the state, statistics, the record of steps and the
+ * check sum. */
+typedef struct checkpoint_file {
+    const char *path;
+    unsigned char *bytes;
+    size_t words; /* before the check sum */
+    checkpoint_header header;
+    size_t record_words;
+} checkpoint_file;
+
 static int damaged(const char *path, const char *reason)
 {
     return cli_fail(CLI_USAGE, "%s: the checkpoint is damaged: %s", path, reason);
 }
 
-/* Words of the record; false: the sizes in the header do not add up to the body. */
-static bool find_record(const checkpoint_header *h, size_t body, const observed_steps *observed,
-                        size_t *words)
+/* Copies the header; false: the file is too short, or has no whole words. */
+static bool copy_header(checkpoint_file *f, size_t length)
+{
+    f->words = length / WORD - 1;
+    if (length % WORD || length < (HEADER_WORDS + 1) * WORD) return false;
+    copy_words(&f->header, f->bytes, HEADER_WORDS);
+    return true;
+}
+
+static bool has_sum(const checkpoint_file *f)
+{
+    uint64_t sum;
+    copy_words(&sum, f->bytes + f->words * WORD, 1);
+    return sum == dal__hash(DAL__HASH_START, f->bytes, f->words * WORD);
+}
+
+/* The words of the record; false: the sizes in the header do not add up to the body. */
+static bool find_record(checkpoint_file *f, const observed_steps *observed)
 {
     const uint64_t too_many = UINT64_C(1) << 32;
-    *words = 0;
+    const checkpoint_header *h = &f->header;
+    const size_t body = f->words - HEADER_WORDS;
     if (h->state > body || h->words >= too_many || h->statistics != (uint64_t)observed->count ||
         body - h->state < h->statistics * h->words)
         return false;
-    *words = body - h->state - h->statistics * h->words;
-    return *words == 0 || *words == observed->record->count;
+    f->record_words = body - h->state - h->statistics * h->words;
+    return f->record_words == 0 || f->record_words == observed->record->count;
 }
 
 /* Reads and checks the header.  Statistics of another layout are refused: statistics of half a
  * run would pass for statistics of the whole. */
-static int check_bytes(const char *path, const unsigned char *bytes, size_t length,
-                       const run_directory *dir, const observed_steps *observed,
-                       checkpoint_header *h)
+static int check_bytes(checkpoint_file *f, size_t length, const run_directory *dir,
+                       const observed_steps *observed)
 {
-    uint64_t sum;
-    size_t record_words;
-    const size_t words = length / WORD - 1, body = words - HEADER_WORDS;
-    if (length % WORD || length < (HEADER_WORDS + 1) * WORD)
-        return damaged(path, "it is too short");
-    copy_words(h, bytes, HEADER_WORDS);
-    copy_words(&sum, bytes + words * WORD, 1);
+    const char *path = f->path;
+    const checkpoint_header *h = &f->header;
+    if (!copy_header(f, length)) return damaged(path, "it is too short");
     if (h->magic != magic && h->magic != magic_04 && h->magic != magic_03)
         return damaged(path, "it does not begin as one");
-    if (sum != dal__hash(DAL__HASH_START, bytes, words * WORD))
-        return damaged(path, "its check sum is wrong");
+    if (!has_sum(f)) return damaged(path, "its check sum is wrong");
     if (h->fingerprint != dir->fingerprint && h->fingerprint != dir->earlier_fingerprint)
         return cli_fail(CLI_USAGE,
                         "%s: belongs to another run: its description or the system was changed",
                         path);
     if (!(h->seconds >= 0.0 && isfinite(h->seconds))) return damaged(path, "its time is wrong");
-    if (h->row < 0 || !find_record(h, body, observed, &record_words))
-        return damaged(path, "its size is wrong");
+    if (h->row < 0 || !find_record(f, observed)) return damaged(path, "its size is wrong");
     if (h->layout == DAL_STATISTICS_LAYOUT && h->words == STATISTICS_WORDS) return CLI_DONE;
     if (h->layout == STATISTICS_LAYOUT_3 && h->words == STATISTICS_WORDS_3) return CLI_DONE;
     return cli_fail(
@@ -188,19 +207,19 @@ static bool can_be_statistics(const dal_statistics *s)
     return true;
 }
 
-static int read_statistics(const char *path, const checkpoint_header *header,
-                           const unsigned char *bytes, dal_statistics *statistics)
+static int read_statistics(const checkpoint_file *f, dal_statistics *statistics)
 {
-    for (uint64_t i = 0; i < header->statistics; i++) {
+    const unsigned char *bytes = f->bytes + (HEADER_WORDS + f->header.state) * WORD;
+    for (uint64_t i = 0; i < f->header.statistics; i++) {
         dal_statistics s;
         uint64_t earlier[STATISTICS_WORDS_3];
-        if (header->layout == DAL_STATISTICS_LAYOUT) {
+        if (f->header.layout == DAL_STATISTICS_LAYOUT) {
             copy_words(&s, bytes + i * sizeof s, STATISTICS_WORDS);
         } else {
             copy_words(earlier, bytes + i * sizeof earlier, STATISTICS_WORDS_3);
             statistics_from_layout_3(&s, earlier);
         }
-        if (!can_be_statistics(&s)) return damaged(path, "its statistics cannot be");
+        if (!can_be_statistics(&s)) return damaged(f->path, "its statistics cannot be");
         statistics[i] = s;
     }
     return CLI_DONE;
@@ -208,19 +227,20 @@ static int read_statistics(const char *path, const checkpoint_header *header,
 
 /* Copies the record, or frees the one that would lack the steps before the checkpoint; false: it
  * cannot be one. */
-static bool read_record(step_record *record, const unsigned char *bytes, size_t words)
+static bool read_record(step_record *record, const checkpoint_file *f)
 {
-    if (words == 0) record_free(record);
+    if (f->record_words == 0) record_free(record);
     if (!record->number) return true;
-    copy_words(record->number, bytes, words);
+    copy_words(record->number, f->bytes + (f->words - f->record_words) * WORD, f->record_words);
     return record_is_sound(record);
 }
 
-static int restore(const char *path, const checkpoint_header *header, const unsigned char *body,
-                   run_position *position, dal_run *run)
+static int restore(const checkpoint_file *f, run_position *position, dal_run *run)
 {
     dal_error error = {0};
     size_t count;
+    const checkpoint_header *header = &f->header;
+    const unsigned char *body = f->bytes + HEADER_WORDS * WORD;
     const double *begun = dal_run_save(run, &count);
     const bool earlier = header->magic != magic;
     double *state = cli_malloc((header->state + count) * sizeof *state);
@@ -231,11 +251,11 @@ static int restore(const char *path, const checkpoint_header *header, const unsi
         return cli_fail(CLI_USAGE,
                         "%s: has an earlier format, which lacks numbers that this system needs "
                         "now; resume with the version that manifest.json names",
-                        path);
+                        f->path);
     }
     const dal_status loaded = dal_run_restore(run, state, earlier ? count : header->state, &error);
     free(state);
-    if (loaded != DAL_STATUS_OK) return damaged(path, error.message);
+    if (loaded != DAL_STATUS_OK) return damaged(f->path, error.message);
     *position = (run_position){header->row, header->sum, header->seconds};
     return CLI_DONE;
 }
@@ -243,24 +263,16 @@ static int restore(const char *path, const checkpoint_header *header, const unsi
 static int load_file(const run_directory *dir, const char *path, const trajectory_writer *writer,
                      run_position *position, dal_run *run, const observed_steps *observed)
 {
-    size_t length, record_words;
-    checkpoint_header header;
-    unsigned char *bytes = (unsigned char *)file_read(path, &length);
-    if (!bytes) return CLI_IO;
-    int status = check_bytes(path, bytes, length, dir, observed, &header);
-    if (status == CLI_DONE) status = writer_verify(writer, header.row, &header.sum);
-    if (status == CLI_DONE)
-        status = read_statistics(path, &header, bytes + (HEADER_WORDS + header.state) * WORD,
-                                 observed->statistics);
-    if (status == CLI_DONE) {
-        const size_t words = length / WORD - 1;
-        find_record(&header, words - HEADER_WORDS, observed, &record_words);
-        if (!read_record(observed->record, bytes + (words - record_words) * WORD, record_words))
-            status = damaged(path, "the record of its steps cannot be");
-    }
-    if (status == CLI_DONE)
-        status = restore(path, &header, bytes + HEADER_WORDS * WORD, position, run);
-    free(bytes);
+    size_t length;
+    checkpoint_file f = {.path = path, .bytes = (unsigned char *)file_read(path, &length)};
+    if (!f.bytes) return CLI_IO;
+    int status = check_bytes(&f, length, dir, observed);
+    if (status == CLI_DONE) status = writer_verify(writer, f.header.row, &f.header.sum);
+    if (status == CLI_DONE) status = read_statistics(&f, observed->statistics);
+    if (status == CLI_DONE && !read_record(observed->record, &f))
+        status = damaged(path, "the record of its steps cannot be");
+    if (status == CLI_DONE) status = restore(&f, position, run);
+    free(f.bytes);
     return status;
 }
 
@@ -279,37 +291,36 @@ int checkpoint_load(const run_directory *dir, const trajectory_writer *writer,
     return load_file(dir, dir->before, writer, position, run, observed);
 }
 
+/* Whether this version wrote the file for the run, and it is whole. */
+static bool is_of_run(checkpoint_file *f, size_t length, const run_directory *dir,
+                      const observed_steps *observed)
+{
+    const checkpoint_header *h = &f->header;
+    return copy_header(f, length) && h->magic == magic && has_sum(f) &&
+           h->fingerprint == dir->fingerprint && h->layout == DAL_STATISTICS_LAYOUT &&
+           h->words == STATISTICS_WORDS && find_record(f, observed);
+}
+
 int checkpoint_read_observed(const run_directory *dir, const observed_steps *observed, bool *found)
 {
-    size_t length, record_words;
-    uint64_t sum;
-    checkpoint_header h;
+    size_t length;
     *found = false;
     if (!exists(dir->checkpoint)) return CLI_DONE;
-    unsigned char *bytes = (unsigned char *)file_read(dir->checkpoint, &length);
-    if (!bytes) return CLI_IO;
-    const size_t words = length / WORD - 1;
-    bool is_good = length % WORD == 0 && length >= (HEADER_WORDS + 1) * WORD;
-    if (is_good) {
-        copy_words(&h, bytes, HEADER_WORDS);
-        copy_words(&sum, bytes + words * WORD, 1);
-        is_good = h.magic == magic && sum == dal__hash(DAL__HASH_START, bytes, words * WORD) &&
-                  h.fingerprint == dir->fingerprint && h.layout == DAL_STATISTICS_LAYOUT &&
-                  h.words == STATISTICS_WORDS &&
-                  find_record(&h, words - HEADER_WORDS, observed, &record_words);
-    }
+    checkpoint_file f = {.path = dir->checkpoint,
+                         .bytes = (unsigned char *)file_read(dir->checkpoint, &length)};
+    if (!f.bytes) return CLI_IO;
+    bool is_good = is_of_run(&f, length, dir, observed);
     for (int i = 0; i < observed->count && is_good; i++) {
         copy_words(&observed->statistics[i],
-                   bytes + (HEADER_WORDS + h.state + (size_t)i * STATISTICS_WORDS) * WORD,
+                   f.bytes + (HEADER_WORDS + f.header.state + (size_t)i * STATISTICS_WORDS) * WORD,
                    STATISTICS_WORDS);
         is_good = can_be_statistics(&observed->statistics[i]);
     }
-    if (is_good && record_words > 0) {
+    if (is_good && f.record_words > 0) {
         record_allocate(observed->record);
-        is_good =
-            read_record(observed->record, bytes + (words - record_words) * WORD, record_words);
+        is_good = read_record(observed->record, &f);
     }
-    free(bytes);
+    free(f.bytes);
     *found = is_good;
     return CLI_DONE;
 }
