@@ -95,9 +95,11 @@ cli_group simulation_group(run_simulation *s, const cli_option *options, uint64_
 int simulation_make_spec(run_simulation *s, dal_run_spec *spec)
 {
     run_request *request = &s->request;
-    const int status = s->system ? CLI_DONE : load_system(s);
-    if (status != CLI_DONE) return status;
-    dal_method_complete(&request->method, s->system, &request->options, NULL, NULL);
+    if (!s->system) { /* else the method is complete: see take_defaults */
+        const int status = load_system(s);
+        if (status != CLI_DONE) return status;
+        dal_method_complete(&request->method, s->system, &request->options, NULL, NULL);
+    }
     const double min = dal_min_tolerance(&request->options);
     if (request->options.tolerance > 0.0 && request->options.tolerance < min)
         return cli_fail(CLI_USAGE, "--tolerance: %g is below %.2g, the smallest in this precision",

@@ -13,7 +13,8 @@ cli_group simulation_group(run_simulation *simulation, const cli_option *options
 
 /* All below return CLI_DONE, or print and return an exit status. */
 
-/* Loads the system, chooses the space and makes the spec of the run. */
+/* Chooses the space and makes the spec of the run; where the system is not loaded yet, loads it and
+ * adds the modifier that holonomic constraints need. */
 int simulation_make_spec(run_simulation *simulation, dal_run_spec *spec);
 /* After the last option: checks that none is missing, chooses a step that need not be given, and
  * makes the spec; and the run as well. */

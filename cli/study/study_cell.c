@@ -182,8 +182,10 @@ static int give_options(run_request *request, const study_cell *c)
 
 static int make_request(cell_run *r)
 {
+    run_request *request = &r->simulation.request;
     r->simulation.system = r->cell->of_case->system;
-    const int status = give_options(&r->simulation.request, r->cell);
+    const int status = give_options(request, r->cell);
+    dal_method_complete(&request->method, r->simulation.system, &request->options, NULL, NULL);
     if (status == CLI_DONE && r->cell->start == STUDY_DISPLACED) add_displacement(r);
     return status;
 }
