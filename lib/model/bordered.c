@@ -4,13 +4,14 @@
  *     ( A    0  ) (h) = (-c )         B = A by Chetaev's rule, or as given under reactions
  *
  * A constraint that holds a coordinate d which no other constraint contains, with a number alpha as
- * its coefficient, may be solved for it first (the coordinates left are f):
+ * its coefficient, may be solved for it first (f: the free coordinates):
  *
  *     F_d = s + S F_f,   S = -A_f / alpha,   s = -c / alpha
  *     W' = W_ff + W_fd S + S^T W_df + S^T W_dd S,   b' = b_f - W_fd s + S^T (b_d - W_dd s)
  *
  * W' is positive definite where W is, so this brings no singularity of its own; where S is bounded
- * it does not spoil the conditioning either.  The constraints left have no entry at d, and
+ * it does not spoil the conditioning either.  The other constraints are retained; they have no
+ * entry at d, and
  *
  *     G = A W'^-1 B^T,   G h = -(c + A W'^-1 b'),   F_f = W'^-1 (b' + B^T h)        (nh3)-(nh5)
  *
@@ -40,17 +41,17 @@ typedef struct vectors {
     dal__node *force; /* [m] */
 } vectors;
 
-/* Coordinates and constraints are numbered as they are left; their numbers in the model are in free
- * and rest. */
+/* Free coordinates and retained constraints are numbered among themselves; free and retained hold
+ * their numbers in the model. */
 struct dal__bordered {
     int way;
     vectors scratch;
-    int solved, frees, rests;
+    int solved, frees, retained_count;
     int *dependent, *by;       /* [solved] the coordinate and its constraint */
     dal__node *alpha;          /* [solved] */
-    int *free, *rest;          /* [frees], [rests] */
-    int *partner;              /* [rests] with which a constraint is paired; itself: with none */
-    sparse S, A, R;            /* [solved] by frees; [rests] by frees; R = W'^-1 B^T */
+    int *free, *retained;      /* [frees], [retained_count] */
+    int *partner;              /* [retained_count] of a pair of constraints; itself: of none */
+    sparse S, A, R;            /* [solved] by frees; [retained_count] by frees; R = W'^-1 B^T */
     dal__factors mass, forces; /* W', G */
     dal__factors whole;        /* of the bordered matrix, of x and -h, where the way is WHOLE */
 };
@@ -149,13 +150,13 @@ static bool choose_dependent(dal_model *model, dal__bordered *s)
     s->by = dal__model_allocate(model, m, sizeof *s->by);
     s->alpha = dal__model_nodes(model, e->m, 0);
     s->free = dal__model_allocate(model, n, sizeof *s->free);
-    s->rest = dal__model_allocate(model, m, sizeof *s->rest);
+    s->retained = dal__model_allocate(model, m, sizeof *s->retained);
     s->partner = dal__model_allocate(model, m, sizeof *s->partner);
     if (model->out_of_memory) return false;
     for (int a = 0; a < e->m; a++) {
         const int d = s->way & DAL__SOLVED && !e->servo ? find_dependent(e, a) : -1;
         if (d < 0) {
-            s->rest[s->rests++] = a;
+            s->retained[s->retained_count++] = a;
             continue;
         }
         dependent[d] = true;
@@ -193,10 +194,10 @@ static void add_outer(const dal__equations *e, const dal__bordered *s, int k, in
 {
     const sparse *S = &s->S;
     for (int x = S->first[k]; x < S->first[k + 1]; x++) {
-        const dal__node left = dal__node_mul(e->graph, S->value[x], weight);
+        const dal__node scaled = dal__node_mul(e->graph, S->value[x], weight);
         for (int y = S->first[l]; y < S->first[l + 1]; y++)
             if (S->column[x] <= S->column[y])
-                add_product(e, &out[S->column[x] * s->frees + S->column[y]], left, S->value[y]);
+                add_product(e, &out[S->column[x] * s->frees + S->column[y]], scaled, S->value[y]);
     }
 }
 
@@ -240,10 +241,10 @@ static void combine(const dal__equations *e, dal__node *a, dal__node *b)
     *b = dal__node_mul(e->graph, half, dal__node_sub(e->graph, x, y));
 }
 
-/* The same of all pairs of a vector of the constraints left. */
+/* The same of all pairs of a vector of the retained constraints. */
 static void combine_pairs(const dal__equations *e, const dal__bordered *s, dal__node *x)
 {
-    for (int a = 0; a < s->rests; a++)
+    for (int a = 0; a < s->retained_count; a++)
         if (s->partner[a] > a) combine(e, &x[a], &x[s->partner[a]]);
 }
 
@@ -253,8 +254,8 @@ static bool pair_constraints(dal_model *model, dal__bordered *s, dal__node *A)
     const dal__equations *e = &model->equations;
     const int f = s->frees;
     dal__node *row = dal__model_nodes(model, 2 * f, 0), *both = dal__model_nodes(model, 2 * f, 0);
-    for (int a = 0; row && both && a < s->rests; a++)
-        for (int b = a + 1; b < s->rests && s->partner[a] == a; b++) {
+    for (int a = 0; row && both && a < s->retained_count; a++)
+        for (int b = a + 1; b < s->retained_count && s->partner[a] == a; b++) {
             if (s->partner[b] != b) continue;
             for (int i = 0; i < f; i++) {
                 row[i] = both[i] = A[a * f + i];
@@ -277,7 +278,7 @@ static bool pair_constraints(dal_model *model, dal__bordered *s, dal__node *A)
 static dal_status factor_forces(dal_model *model, dal__bordered *s)
 {
     dal__equations *e = &model->equations;
-    const int f = s->frees, m = s->rests;
+    const int f = s->frees, m = s->retained_count;
     dal__node *A = dal__model_nodes(model, m * f, 0), *B = dal__model_nodes(model, m * f, 0);
     dal__node *R = dal__model_nodes(model, m * f, 0);
     int *whose = dal__model_allocate(model, (size_t)m, sizeof *whose); /* a pair's: the later */
@@ -285,13 +286,13 @@ static dal_status factor_forces(dal_model *model, dal__bordered *s)
     for (int a = 0; a < m; a++) {
         s->partner[a] = a;
         for (int i = 0; i < f; i++) {
-            A[a * f + i] = e->A[s->rest[a] * e->n + s->free[i]];
-            B[a * f + i] = e->B[s->rest[a] * e->n + s->free[i]];
+            A[a * f + i] = e->A[s->retained[a] * e->n + s->free[i]];
+            B[a * f + i] = e->B[s->retained[a] * e->n + s->free[i]];
         }
     }
     if (s->way & DAL__PAIRED && !e->servo && !pair_constraints(model, s, A))
         return DAL_STATUS_MEMORY;
-    for (int a = 0; a < m; a++) whose[a] = s->rest[s->partner[a] > a ? s->partner[a] : a];
+    for (int a = 0; a < m; a++) whose[a] = s->retained[s->partner[a] > a ? s->partner[a] : a];
     if (!dal__factors_allocate(model, &s->forces, m, whose)) return DAL_STATUS_MEMORY;
     DAL_TRY(dal__factors_solve(model, &s->mass, DAL__SUMS_UNCHANGED, m, e->servo ? B : A, R));
     if (!compress(model, &s->A, m, f, A) || !compress(model, &s->R, m, f, R))
@@ -329,32 +330,32 @@ static void reduce_rhs(const dal__equations *e, const dal__bordered *s, const da
             add_product(e, &w->t[s->S.column[x]], s->S.value[x], w->u[k]);
 }
 
-/* The free coordinates and the forces left, from b' in t. */
+/* The free coordinates and the forces of the retained constraints, from b' in t. */
 static dal_status solve_free(dal_model *model, const dal__bordered *s, dal__sum_form sums,
                              const dal__node *bottom, vectors *w)
 {
     const dal__equations *e = &model->equations;
     DAL_TRY(dal__factors_solve(model, &s->mass, sums, 1, w->t, w->y));
-    for (int a = 0; a < s->rests; a++) w->pull[a] = bottom[s->rest[a]];
+    for (int a = 0; a < s->retained_count; a++) w->pull[a] = bottom[s->retained[a]];
     combine_pairs(e, s, w->pull);
-    for (int a = 0; a < s->rests; a++) {
+    for (int a = 0; a < s->retained_count; a++) {
         if (s->partner[a] != a) w->pull[a] = collect(e, s, w->pull[a]);
         w->pull[a] = dal__node_sub(e->graph, w->pull[a], row_product(e, &s->A, a, w->y));
     }
     DAL_TRY(dal__factors_solve(model, &s->forces, sums, 1, w->pull, w->force));
-    for (int a = 0; a < s->rests; a++)
+    for (int a = 0; a < s->retained_count; a++)
         for (int x = s->R.first[a]; x < s->R.first[a + 1]; x++)
             add_product(e, &w->y[s->R.column[x]], s->R.value[x], w->force[a]);
     return DAL_STATUS_OK;
 }
 
-/* All multipliers: of the constraints that remain and, from row d of W x - A^T h, of the
- * constraints that were solved for a coordinate. */
+/* All multipliers: of the retained constraints and, from row d of W x - A^T h, of the constraints
+ * that were solved for a coordinate. */
 static void find_forces(const dal__equations *e, const dal__bordered *s, const vectors *w,
                         const dal__node *top, const dal__node *x, dal__node *h)
 {
     combine_pairs(e, s, w->force);
-    for (int a = 0; a < s->rests; a++) h[s->rest[a]] = w->force[a];
+    for (int a = 0; a < s->retained_count; a++) h[s->retained[a]] = w->force[a];
     for (int k = 0; k < s->solved; k++) {
         const int d = s->dependent[k];
         dal__node sum = dal__node_neg(e->graph, top[d]);
@@ -415,7 +416,7 @@ dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sum_form
 
 bool dal__bordered_is_reduced(const dal__bordered *s) { return s->solved > 0; }
 
-bool dal__bordered_keeps_rank(const dal__bordered *s) { return s->rests == 0; }
+bool dal__bordered_keeps_rank(const dal__bordered *s) { return s->retained_count == 0; }
 
 dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int way,
                                 dal__bordered **bordered, int *singular)
