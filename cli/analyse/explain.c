@@ -98,29 +98,46 @@ static const char *ratio_text(double ratio, char *buffer)
     return buffer;
 }
 
+/* A sentence that lists items after its head. */
+typedef struct sentence {
+    char *text;
+    bool has_items;
+} sentence;
+
+/* Adds an item, and frees it. */
+static void add_item(sentence *s, char *item)
+{
+    char *longer = cli_format("%s%s %s", s->text, s->has_items ? "," : "", item);
+    free(item);
+    free(s->text);
+    *s = (sentence){longer, true};
+}
+
+/* Prints a sentence that has items, and frees it. */
+static void end_sentence(sentence *s, const char *end)
+{
+    char *text = cli_format("%s%s", s->text, end);
+    if (s->has_items) cli_wrap(stdout, text, 0, 4);
+    free(text);
+    free(s->text);
+}
+
 /* What +project makes of the drifts that it removes. */
 static void print_projection(const dal_error_budget *e, const int *list, int count)
 {
-    char *text = cli_strdup("With +project: ");
-    int found = 0;
+    sentence s = {cli_strdup("With +project:"), false};
     if (!e->ran[DAL_COMPARISON_PROJECTION] || e->has_projection) count = 0;
     for (int k = 0; k < count; k++) {
         const dal_shares *a = &e->shares[list[k]];
         char cell[CELL_SIZE];
         if (a->whole.size != DAL_SIZE_LARGER || !(a->share[DAL_SOURCE_PROJECTION] >= 0.5)) continue;
-        const bool is_rounding =
-            a->is_conserved && a->comparison[DAL_COMPARISON_PROJECTION].size != DAL_SIZE_LARGER;
-        char *longer = cli_format("%s%s%s at %s%s%s", text, found++ > 0 ? ", " : "", a->name,
-                                  is_rounding ? "rounding" : "",
-                                  is_rounding ? "" : ratio_text(projected_ratio(a), cell),
-                                  is_rounding ? "" : " of this");
-        free(text);
-        text = longer;
+        if (a->is_conserved && a->comparison[DAL_COMPARISON_PROJECTION].size != DAL_SIZE_LARGER)
+            add_item(&s, cli_format("%s at rounding", a->name));
+        else
+            add_item(&s,
+                     cli_format("%s at %s of this", a->name, ratio_text(projected_ratio(a), cell)));
     }
-    char *sentence = cli_format("%s.", text);
-    if (found > 0) cli_wrap(stdout, sentence, 0, 4);
-    free(sentence);
-    free(text);
+    end_sentence(&s, ".");
 }
 
 /* What `predict` says of a quantity; NULL: nothing. */
@@ -136,21 +153,15 @@ static const dal_predicted *find_predicted(const dal_prediction *from, const cha
 static void print_predicted(const dal_error_budget *e, const dal_prediction *from, const int *list,
                             int count)
 {
-    char *text = cli_strdup("Predicted by single steps: ");
-    int found = 0;
+    sentence s = {cli_strdup("Predicted by single steps:"), false};
     for (int k = 0; k < count; k++) {
         const dal_shares *a = &e->shares[list[k]];
         const dal_predicted *q = find_predicted(from, a->name);
-        if (!q || a->whole.size != DAL_SIZE_LARGER) continue;
-        char *longer = cli_format("%s%s%s %.3g (run %.3g)", text, found++ > 0 ? ", " : "", a->name,
-                                  q->change, a->whole.last - a->whole.first);
-        free(text);
-        text = longer;
+        if (q && a->whole.size == DAL_SIZE_LARGER)
+            add_item(&s, cli_format("%s %.3g (run %.3g)", a->name, q->change,
+                                    a->whole.last - a->whole.first));
     }
-    char *sentence = cli_format("%s.", text);
-    if (found > 0) cli_wrap(stdout, sentence, 0, 4);
-    free(sentence);
-    free(text);
+    end_sentence(&s, ".");
 }
 
 /* Whether a source has a column: truncation and rounding always, others where they have a part. */
@@ -208,16 +219,10 @@ static void print_shares(const dal_error_budget *e, const int *list, int count)
 /* The names of what never changed. */
 static void print_exact(const dal_error_budget *e)
 {
-    char *text = cli_strdup("exact: ");
-    int count = 0;
-    for (int i = 0; i < e->observables; i++) {
-        if (is_changed(e, i)) continue;
-        char *longer = cli_format("%s%s%s", text, count++ > 0 ? ", " : "", e->shares[i].name);
-        free(text);
-        text = longer;
-    }
-    if (count > 0) cli_wrap(stdout, text, 0, 4);
-    free(text);
+    sentence s = {cli_strdup("exact:"), false};
+    for (int i = 0; i < e->observables; i++)
+        if (!is_changed(e, i)) add_item(&s, cli_strdup(e->shares[i].name));
+    end_sentence(&s, "");
 }
 
 /* ---- the details ---- */
