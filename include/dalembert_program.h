@@ -5,7 +5,7 @@
 #ifndef DALEMBERT_PROGRAM_H
 #define DALEMBERT_PROGRAM_H
 
-#include "dalembert_system.h"
+#include "dalembert_run.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -56,6 +56,25 @@ static inline uint64_t dal__hash(uint64_t hash, const void *bytes, size_t length
     for (size_t i = 0; i < length; i++) hash = (hash ^ byte[i]) * UINT64_C(0x100000001b3);
     return hash;
 }
+
+/* ---- observables --------------------------------------------------------------------------- */
+
+/* The groups of observables in their order; LIFT: H, |p|, |pi|, |pi_e|; ERROR: where the exact
+ * solution is known to start as the run does; REACTIONS, of F, and MULTIPLIERS, of the method,
+ * where they are observed; HOLONOMIC: g. */
+typedef enum dal__observable_group {
+    DAL__OBSERVE_D,
+    DAL__OBSERVE_E,
+    DAL__OBSERVE_LIFT,
+    DAL__OBSERVE_INVARIANTS,
+    DAL__OBSERVE_REACTIONS,
+    DAL__OBSERVE_MULTIPLIERS,
+    DAL__OBSERVE_HOLONOMIC,
+    DAL__OBSERVE_ERROR,
+    DAL__OBSERVABLE_GROUPS
+} dal__observable_group;
+/* The group of observable i of a run, and its number there; DAL__OBSERVABLE_GROUPS: it has none. */
+dal__observable_group dal__run_observable_group(const dal_run *run, int i, int *number);
 
 /* ---- ensembles ----------------------------------------------------------------------------- */
 

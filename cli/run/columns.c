@@ -38,37 +38,40 @@ static const char *const group_words[COLUMN_GROUPS] = {
 #undef GROUP_WORD
 };
 
-enum { NAME_SIZE = 256, LIFT_OBSERVABLES = 4 };
+enum { NAME_SIZE = 256 };
 
 static bool is_hidden(const char *name) { return name[0] == '|'; }
 
-/* Value i is t, q, v, g or the lift, then D1.., E, H and the norms, the invariants, h1.., R_x..,
- * lambda1.., C1.., error.  Formulas that are observed are the last of the invariants.  An
- * invariant may be called E or H. */
-static column_group group_of(const run_columns *c, const run_simulation *s, int i)
+/* Value i is t, q, v, g or the lift, then the observables.  Formulas that are observed are the last
+ * of the invariants, and h1.. are before R_x... */
+static column_group group_of(const run_simulation *s, int i)
 {
     const dal_system *system = s->system;
     const int n = system->n, observable = i - 1 - dal_run_dimension(s->run);
     const bool is_lifted = s->request.options.space == DAL_LIFTED;
+    int number;
     if (i == 0) return COLUMN_GROUPS;
     if (i <= 2 * n) return i <= n ? COLUMNS_Q : COLUMNS_V;
     if (observable < 0) return is_lifted ? COLUMNS_LIFT : COLUMN_GROUPS;
-    const struct {
-        column_group group;
-        int count;
-    } groups[] = {
-        {COLUMNS_D, system->constraints ? system->m : 0},
-        {COLUMNS_E, system->energy != NULL},
-        {COLUMNS_LIFT, is_lifted ? LIFT_OBSERVABLES : 0},
-        {COLUMNS_INVARIANTS, system->invariant_values ? system->invariants - system->observed : 0},
-        {COLUMNS_OBSERVED, system->observed},
-        {COLUMNS_H, s->request.options.reactions ? system->m : 0},
-        {COLUMNS_R, s->request.options.reactions ? system->n : 0}};
-    int end = 0;
-    for (size_t k = 0; k < sizeof groups / sizeof *groups; k++)
-        if (observable < (end += groups[k].count)) return groups[k].group;
-    if (strcmp(c->name[i], "error") == 0) return COLUMN_GROUPS;
-    return c->name[i][0] == 'C' ? COLUMNS_C : COLUMNS_LAMBDA;
+    switch (dal__run_observable_group(s->run, observable, &number)) {
+    case DAL__OBSERVE_D:
+        return COLUMNS_D;
+    case DAL__OBSERVE_E:
+        return COLUMNS_E;
+    case DAL__OBSERVE_LIFT:
+        return COLUMNS_LIFT;
+    case DAL__OBSERVE_INVARIANTS:
+        return number < system->invariants - system->observed ? COLUMNS_INVARIANTS
+                                                              : COLUMNS_OBSERVED;
+    case DAL__OBSERVE_REACTIONS:
+        return number < system->m ? COLUMNS_H : COLUMNS_R;
+    case DAL__OBSERVE_MULTIPLIERS:
+        return COLUMNS_LAMBDA;
+    case DAL__OBSERVE_HOLONOMIC:
+        return COLUMNS_C;
+    default:
+        return COLUMN_GROUPS;
+    }
 }
 
 static void name_values(run_columns *c, const dal_run *run)
@@ -93,7 +96,7 @@ typedef enum match { BY_NAME, BY_GROUP, BY_PATTERN, MATCHES } match;
 static bool is_match(const run_columns *c, const run_simulation *s, int i, const char *item,
                      match how)
 {
-    const column_group group = group_of(c, s, i);
+    const column_group group = group_of(s, i);
     if (how == BY_NAME) return strcmp(item, c->name[i]) == 0;
     if (how == BY_PATTERN) return fnmatch(item, c->name[i], 0) == 0;
     return group < COLUMN_GROUPS && strcmp(item, group_words[group]) == 0;
@@ -212,7 +215,7 @@ bool columns_is_velocity(const run_request *request, const char *name, const cha
 static int rename_all(run_columns *c, const run_simulation *s)
 {
     for (int i = 0; i < c->values; i++) {
-        if (group_of(c, s, i) == COLUMNS_OBSERVED) continue;
+        if (group_of(s, i) == COLUMNS_OBSERVED) continue;
         const bool is_velocity = strchr(c->name[i], '\'') != NULL;
         columns_rename(&s->request, c->name[i]);
         for (int k = 0; is_velocity && k < c->values; k++)

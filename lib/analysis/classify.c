@@ -5,6 +5,7 @@
  * H changes at the rate pi.F_t, and nothing conserves reactions.  A quantity that the motion need
  * not conserve has no drift that is due to the method. */
 #include "core/words.h"
+#include "dalembert_program.h"
 #include "dalembert_statistics.h"
 #include <float.h>
 #include <math.h>
@@ -44,46 +45,40 @@ const char *dal_conservation_text(dal_conservation conservation)
     DAL__RETURN_WORD(DAL_CONSERVATION_LIST, DAL__SECOND, conservation, "?");
 }
 
-enum { LIFT_OBSERVABLES = 4 };
-
-/* Reactions are the observables between the invariants and the error, without C1, C2, ..: the
- * motion conserves g. */
-static void mark_reactions(const dal_run *run, int invariants, dal_trend *trend)
+static places find_places(const dal_run *run)
 {
-    const dal_system *s = dal_run_system(run);
-    char name[16];
-    int i = invariants + (s->invariant_values ? s->invariants : 0);
-    for (; i < dal_run_observables(run); i++)
-        if (strcmp(dal_run_observable_name(run, i, name, sizeof name), "error") != 0 &&
-            name[0] != 'C')
-            trend[i].conservation = DAL_NOT_CONSERVED;
+    places at = {.energy = -1, .hamiltonian = -1, .pi = -1};
+    int number;
+    for (int i = 0; i < dal_run_observables(run); i++) {
+        const dal__observable_group group = dal__run_observable_group(run, i, &number);
+        if (group == DAL__OBSERVE_D) at.constraints++;
+        if (group == DAL__OBSERVE_E) at.energy = i;
+        if (group == DAL__OBSERVE_LIFT && number == 0) at.hamiltonian = i, at.pi = i + 2;
+    }
+    return at;
 }
 
 void dal_run_classify(dal_run *run, const dal_statistics *statistics, bool aborted,
                       dal_trend *trend)
 {
     if (!run || !statistics || !trend) return;
-    const dal_system *s = dal_run_system(run);
-    const int m = s->constraints ? s->m : 0, has_energy = s->energy != NULL;
-    const int is_lifted = dal_run_dimension(run) == 4 * s->n + 2;
     const int count = dal_run_observables(run);
-    const places at = {.constraints = m,
-                       .energy = has_energy ? m : -1,
-                       .hamiltonian = is_lifted ? m + has_energy : -1,
-                       .pi = is_lifted ? m + has_energy + 2 : -1};
+    const places at = find_places(run);
     bool has_scales = false;
     for (int i = 0; i < count; i++) has_scales = has_scales || statistics[i].scale > 0.0;
     const double *present = has_scales ? NULL : dal_run_scales(run);
     for (int i = 0; i < count; i++) {
-        const bool is_norm =
-            is_lifted && i > at.hamiltonian && i < at.hamiltonian + LIFT_OBSERVABLES;
+        int number;
+        const dal__observable_group group = dal__run_observable_group(run, i, &number);
+        const bool is_norm = group == DAL__OBSERVE_LIFT && i != at.hamiltonian;
         const double scale = is_norm   ? dal_statistics_max_abs(&statistics[i])
                              : present ? present[i]
                                        : statistics[i].scale;
         dal_statistics_classify(&statistics[i], scale, aborted, &trend[i]);
+        if (group == DAL__OBSERVE_REACTIONS || group == DAL__OBSERVE_MULTIPLIERS)
+            trend[i].conservation = DAL_NOT_CONSERVED;
     }
-    mark_reactions(run, m + has_energy + (is_lifted ? LIFT_OBSERVABLES : 0), trend);
     if (at.energy >= 0) trend[at.energy].conservation = conservation_of_energy(run, &at, trend);
-    if (max_pi(&at, trend) > 0.0 && !(s->properties & DAL_AUTONOMOUS))
+    if (max_pi(&at, trend) > 0.0 && !(dal_run_system(run)->properties & DAL_AUTONOMOUS))
         trend[at.hamiltonian].conservation = DAL_NOT_CONSERVED;
 }

@@ -18,6 +18,7 @@
 #include "analysis/scaled.h"
 #include "core/error.h"
 #include "core/vectors.h"
+#include "dalembert_program.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -110,7 +111,7 @@ dal_status dal__reference_advance(dal__reference *r, long long steps, dal_error 
 
 /* ---- what it conserves ---- */
 
-enum { POINTS = 8, LIFT_OBSERVABLES = 4 };
+enum { POINTS = 8 };
 /* Points are this far from the start, in units of the system; a rate that is 0, in such units. */
 static const double neighbourhood = 0.1, no_rate = 1e-9;
 
@@ -169,16 +170,21 @@ dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int
                                dal_error *error)
 {
     const dal_system *s = spec->system;
-    const int count = dal_run_observables(run), m = s->constraints ? s->m : 0;
-    const int has_energy = s->energy != NULL, is_lifted = dal_run_dimension(run) == 4 * s->n + 2;
-    const int invariants = m + has_energy + (is_lifted ? LIFT_OBSERVABLES : 0);
+    const bool is_autonomous = s->properties & DAL_AUTONOMOUS;
+    int number, invariants = 0;
     start w = {.system = s};
     dal_status status = DAL_STATUS_OK;
     const bool is_pushed = !is_on_motion(run);
     const bool moves = is_pushed && isfinite(dal_run_state(run)[2 * s->n]); /* q, by pi/e */
-    for (int i = 0; i < count; i++) conserved[i] = i < m || (i < invariants && !is_pushed);
-    if (has_energy) conserved[m] = !moves && (s->properties & (DAL_E_EXACT | DAL_E_ON_D));
-    if (is_lifted && s->properties & DAL_AUTONOMOUS) conserved[m + has_energy] = 1;
+    for (int i = 0; i < dal_run_observables(run); i++) {
+        const dal__observable_group group = dal__run_observable_group(run, i, &number);
+        const bool is_hamiltonian = group == DAL__OBSERVE_LIFT && number == 0;
+        conserved[i] = group == DAL__OBSERVE_D || (group == DAL__OBSERVE_LIFT && !is_pushed) ||
+                       (is_hamiltonian && is_autonomous);
+        if (group == DAL__OBSERVE_E)
+            conserved[i] = !moves && (s->properties & (DAL_E_EXACT | DAL_E_ON_D));
+        if (group == DAL__OBSERVE_INVARIANTS && number == 0) invariants = i;
+    }
     if (s->invariant_values && s->invariants > 0 && !moves) {
         status = find_invariants(&w, spec, run, conserved + invariants);
         if (status != DAL_STATUS_OK)

@@ -3,6 +3,7 @@
 #define DAL_LAYOUT_H
 
 #include "core/error.h"
+#include "dalembert_program.h"
 #include "dalembert_run.h"
 #include "kernel/persistent.h"
 #include <math.h>
@@ -86,21 +87,6 @@ const double *dal__units(const dal__layout *layout, dal__unit_list list);
 
 /* Checks a spec and computes its layout; errors as dal_run_init. */
 dal_status dal__layout_init(dal__layout *layout, const dal_run_spec *spec, dal_error *error);
-
-/* The groups of observables in their order; LIFT: H, |p|, |pi|, |pi_e|; ERROR: where the exact
- * solution is known to start as the run does; REACTIONS, of F, and MULTIPLIERS, of the method,
- * where they are observed; HOLONOMIC: g. */
-typedef enum dal__observable_group {
-    DAL__OBSERVE_D,
-    DAL__OBSERVE_E,
-    DAL__OBSERVE_LIFT,
-    DAL__OBSERVE_INVARIANTS,
-    DAL__OBSERVE_REACTIONS,
-    DAL__OBSERVE_MULTIPLIERS,
-    DAL__OBSERVE_HOLONOMIC,
-    DAL__OBSERVE_ERROR,
-    DAL__OBSERVABLE_GROUPS
-} dal__observable_group;
 
 /* Writes the name of an observable of REACTIONS or MULTIPLIERS. */
 void dal__reaction_name(const dal_system *system, int group, int i, char *buffer, size_t size);

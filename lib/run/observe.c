@@ -67,14 +67,21 @@ int dal_run_observables(const dal_run *run)
     return count;
 }
 
+dal__observable_group dal__run_observable_group(const dal_run *run, int i, int *number)
+{
+    int group = 0;
+    for (; group < DAL__OBSERVABLE_GROUPS && i >= group_size(run, group); group++)
+        i -= group_size(run, group);
+    *number = i;
+    return (dal__observable_group)group;
+}
+
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size)
 {
     static const char *const lift[] = {"H", "|p|", "|pi|", "|pi_e|"};
     if (!run || !buffer || i < 0) return NULL;
     const dal_system *system = run->layout.system;
-    int group = 0;
-    for (; group < DAL__OBSERVABLE_GROUPS && i >= group_size(run, group); group++)
-        i -= group_size(run, group);
+    const dal__observable_group group = dal__run_observable_group(run, i, &i);
     if (group == DAL__OBSERVABLE_GROUPS) return NULL;
     if (group == DAL__OBSERVE_D)
         snprintf(buffer, size, "D%d", i + 1);
