@@ -91,32 +91,8 @@ forces: {x: -pull*x'}
 invariants: {c: phi'}
 start: {x: k, x': 1, phi: 0.5, solve: [s']}
 END_OF_SYSTEM
-cat >falls.yaml <<'END_OF_SYSTEM'
-coordinates: [x, y]
-parameters: {g: 9.81, c: 0.8, u: 0.5}
-lagrangian: (x'^2 + y'^2)/2 - g*y
-start: {y: 1, x': u}
-events:
-  - {when: y, direction: down, restitution: c}
-  - {when: x - 0.3, set: {x': 2*u}}
-  - {when: x - 0.7}
-  - {when: x - 1.25, stop: true}
-END_OF_SYSTEM
-cat >methods.yaml <<'END_OF_STUDY'
-title: Three & more
-integrators: [rk4, gauss4, gauss4+project, dop853]
-step: [0.1, 0.05]
-tolerance: [1e-6, 1e-8]
-time: 2
-systems:
-  - {system: chaplygin-sleigh, label: "a <b> \"c\" 'd'"}
-  - line.yaml
-  - {system: chaplygin-sleigh-vakonomic, label: refused, starts: surface}
-  - {system: pursuit, label: "ends early", time: 10}
-expect:
-  line.yaml: {rk4: {state: done, E: {at most: 1e-30}}, gauss4: {state: done}}
-  ends early: {rk4: {D: {at most: 1}}}
-END_OF_STUDY
+ball falls.yaml "when: x - 0.3, set: {x': 2*u}" 'when: x - 0.7' 'when: x - 1.25, stop: true'
+study_of_states methods.yaml "\"a <b> \\\"c\\\" 'd'\"" ''
 cat >families.yaml <<'END_OF_STUDY'
 integrators: [symplectic-euler-10, stormer-verlet, dop853, rk4, gauss6, gauss4, spark2, dla, gni,
               discrete-gradient, gauss4+project, gauss4+yoshida6]

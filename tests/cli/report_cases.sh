@@ -272,16 +272,7 @@ expect "formulas are conserved" [ ! -e swing/report/drift.gp -a ! -e swing/repor
 
 # Bounces at t_1 (1 + 2 c (1 - c^k)/(1 - c)), t_1 = sqrt(2/g), of a ball that moves along x with u.
 case_is "events on the page of a run"
-cat >bounces.yaml <<'END_OF_SYSTEM'
-coordinates: [x, y]
-parameters: {g: 9.81, c: 0.8, u: 0.5}
-lagrangian: (x'^2 + y'^2)/2 - g*y
-start: {y: 1, x': u}
-events:
-  - {when: y, direction: down, restitution: c}
-  - {when: x - 1.25, stop: true}
-  - {when: x - 9, direction: up, set: {x: 0}}
-END_OF_SYSTEM
+ball bounces.yaml 'when: x - 1.25, stop: true' 'when: x - 9, direction: up, set: {x: 0}'
 times='function bounce(k) { return sqrt(2/9.81)*(1 + 2*0.8*(1 - 0.8^k)/0.2) }'
 for sign in "" -; do
     rm -rf bounces

@@ -245,6 +245,34 @@ constraints: [x' - y']
 start: {x': 1, y': 1}
 END
 
+# ball FILE EVENT...: a ball that falls, moves along x with u and bounces, and further events.
+ball() {
+    file=$1
+    shift
+    printf '%s\n' 'coordinates: [x, y]' 'parameters: {g: 9.81, c: 0.8, u: 0.5}' \
+        "lagrangian: (x'^2 + y'^2)/2 - g*y" "start: {y: 1, x': u}" 'events:' >"$file"
+    for event in 'when: y, direction: down, restitution: c' "$@"; do echo "  - {$event}"; done >>"$file"
+}
+# study_of_states FILE LABEL METHODS: a study whose cells end in each way there is, with further methods, as
+# ', rk4', and a system of this label.
+study_of_states() {
+    cat >"$1" <<END
+title: Three & more
+integrators: [rk4, gauss4, gauss4+project, dop853$3]
+step: [0.1, 0.05]
+tolerance: [1e-6, 1e-8]
+time: 2
+systems:
+  - {system: chaplygin-sleigh, label: $2}
+  - line.yaml
+  - {system: chaplygin-sleigh-vakonomic, label: refused, starts: surface}
+  - {system: pursuit, label: "ends early", time: 10}
+expect:
+  line.yaml: {rk4: {state: done, E: {at most: 1e-30}}, gauss4: {state: done}}
+  ends early: {rk4: {D: {at most: 1}}}
+END
+}
+
 # Signals at given places, where the program can be given them.
 shared_object raise_signal && signalled 9 1 run line.yaml --integrator rk4 --step 1 --time 1 --output signalled
 signalling=$?

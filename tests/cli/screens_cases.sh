@@ -2,33 +2,10 @@
 # outputs and its exit status where that is not 0.  Numbers are #, and blanks are single ones.  Where an output is
 # changed on purpose that file changes with it: SCREENS=FILE writes it.
 
-cat >methods.yaml <<'END_OF_STUDY'
-title: Three & more
-integrators: [rk4, gauss4, gauss4+project, dop853, isokinetic-splitting]
-step: [0.1, 0.05]
-tolerance: [1e-6, 1e-8]
-time: 2
-systems:
-  - {system: chaplygin-sleigh, label: sleigh}
-  - line.yaml
-  - {system: chaplygin-sleigh-vakonomic, label: refused, starts: surface}
-  - {system: pursuit, label: "ends early", time: 10}
-expect:
-  line.yaml: {rk4: {state: done, E: {at most: 1e-30}}, gauss4: {state: done}}
-  ends early: {rk4: {D: {at most: 1}}}
-END_OF_STUDY
+study_of_states methods.yaml sleigh ', isokinetic-splitting'
 printf '%s\n' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 2' 'starts: physical' \
     'systems: [line.yaml, plane.yaml]' >small.yaml
-cat >falls.yaml <<'END_OF_SYSTEM'
-coordinates: [x, y]
-parameters: {g: 9.81, c: 0.8, u: 0.5}
-lagrangian: (x'^2 + y'^2)/2 - g*y
-start: {y: 1, x': u}
-events:
-  - {when: y, direction: down, restitution: c}
-  - {when: x - 0.3, set: {x': 2*u}}
-  - {when: x - 1.25, stop: true}
-END_OF_SYSTEM
+ball falls.yaml "when: x - 0.3, set: {x': 2*u}" 'when: x - 1.25, stop: true'
 printf '%s\n' 'coordinates: [x, y]' "lagrangian: (x'^2 + y'^2)/2" "constraints: [x' - y', 2*x' - 2*y']" >twice.yaml
 printf '%s\n' 'coordinates: [x]' "lagrangian: (x'^2 - x^2)/2" 'start: {x: 1}' 'invariants: {wrong: x}' >wrong.yaml
 
