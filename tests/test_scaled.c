@@ -75,6 +75,52 @@ static void test_motions(void)
         distance_after(fixture_system("chaplygin-sleigh-vakonomic"), "rk4", DAL_PHYSICAL), 0.0);
 }
 
+static double observed(dal_run *run, const char *name)
+{
+    double values[64];
+    char other[64];
+    CU_ASSERT_FATAL(dal_run_observables(run) <= 64);
+    CU_ASSERT_EQUAL(dal_run_observe(run, values), DAL_STATUS_OK);
+    for (int i = 0; dal_run_observable_name(run, i, other, sizeof other); i++)
+        if (strcmp(name, other) == 0) return values[i];
+    CU_FAIL("no such observable");
+    return NAN;
+}
+
+/* A pendulum of a kilometre, nonholonomic too: positions that are projected move alike, and
+ * R = B^T h is an energy over a length. */
+static void test_holonomic(void)
+{
+    static const char text[] = "coordinates: [x, y, z, u]\n"
+                               "parameters: {l: 1000, g: 10, M: 1e-6}\n"
+                               "lagrangian: (x'^2 + y'^2 + z'^2)/2 + M*u'^2/2 - g*z\n"
+                               "constraints: [u' - 1e3*x' - y'*x]\n"
+                               "holonomic: [x^2 + y^2 + z^2 - (l + 50*sin(t/10))^2]\n"
+                               "start: {x: 600, z: -800, x': 40, y': 30, solve: [u', z']}\n";
+    static const char *const forces[] = {"R_x", "R_y", "R_z", "R_u"};
+    const dal_system *system = fixture_system(text);
+    CU_ASSERT(distance_after(system, "rk4+project", DAL_PHYSICAL) <= 1e-13);
+    CU_ASSERT(distance_after(system, "rk4+project", DAL_LIFTED) <= 1e-13);
+    dal_scaled *scaled = scale(system);
+    const double *units = dal_scaled_units(scaled);
+    dal_run *runs[2];
+    for (int i = 0; i < 2; i++) {
+        dal_run_spec spec = fixture_spec(i ? dal_scaled_system(scaled) : system, "rk4+project",
+                                         DAL_PHYSICAL, i ? 0.125 / units[0] : 0.125);
+        spec.options.reactions = true;
+        runs[i] = fixture_stepped(&spec, 10);
+    }
+    const double energy = observed(runs[0], "E") / observed(runs[1], "E");
+    for (int i = 0; i < 4; i++) {
+        const double plain = observed(runs[0], forces[i]);
+        CU_ASSERT(fabs(plain) > 1e-9);
+        CU_ASSERT_DOUBLE_EQUAL(observed(runs[1], forces[i]) * energy / units[1 + i], plain,
+                               1e-10 * fabs(plain));
+    }
+    for (int i = 0; i < 2; i++) dal_run_free(runs[i]);
+    dal_scaled_free(scaled);
+}
+
 /* All derivatives are derivatives of the scaled values, by differences. */
 static void test_derivatives(void)
 {
@@ -306,6 +352,7 @@ void suite_scaled(void)
 {
     CU_pSuite suite = CU_add_suite("scaled systems", NULL, NULL);
     CU_add_test(suite, "the same motions", test_motions);
+    CU_add_test(suite, "positions that are projected, and reactions", test_holonomic);
     CU_add_test(suite, "derivatives of scaled callbacks", test_derivatives);
     CU_add_test(suite, "what the mass matrix solves", test_mass);
     CU_add_test(suite, "the potential", test_potential);
