@@ -347,7 +347,7 @@ trends: $(BUILD)/tests/suite
 # waits for one of them at the end.
 VALGRIND_SUITES  ?= 8
 VALGRIND_LONGEST = integrators error_budget rank_check phase_volume trend batch conformance model_errors event_branches \
-                   adaptive generate_native example_systems phase_composition functions formula
+                   adaptive generate_native example_systems phase_composition functions formula chains coefficients parameters
 check-valgrind: CHOSEN = $(or $(filter-out --%,$(SUITE)),$(SUITES))
 check-valgrind: $(BUILD)/tests/suite
 	@BUILD="$(BUILD)" RUN_SUITE="sh tests/valgrind.sh" SUITE_OPTIONS=--quick sh tests/run.sh "$(MAKE)" \
