@@ -91,7 +91,7 @@ int mpi_study_begin(mpi_request *request, int argc, char **argv)
 /* On rank 0: reads what all have done, and makes the tables. */
 static int finish(study_plan *plan, const study_directory *dir)
 {
-    int status = study_directory_open_results(dir, plan, &plan->results);
+    int status = study_directory_open_results(dir, plan, plan->results);
     for (int i = 0; i < plan->cell_count; i++) study_cell_free(&plan->cells[i]);
     if (status != CLI_DONE) return status;
     const int threads = pool_threads();
@@ -102,8 +102,8 @@ static int run_cells(study_plan *plan)
 {
     cli_catch_signals();
     const int status = study_pool_run(plan, mpi_run_list, 1);
-    if (!plan->results || status == CLI_IO) return status;
-    const int saved = study_results_save(plan->results);
+    if (status == CLI_IO) return status;
+    const int saved = study_directory_save_results(plan);
     return status == CLI_DONE ? saved : status;
 }
 

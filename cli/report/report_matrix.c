@@ -1,9 +1,11 @@
-/* report_matrix.c - the tables of sizes and trends of a study: methods against systems. */
+/* report_matrix.c - the tables of a study: sizes and trends, methods against systems; and predicted
+ * sizes beside measured ones, with their figure. */
 #include "report_matrix.h"
 #include "dalembert_method.h"
 #include "ui/memory.h"
 
 #include "report_family.h"
+#include "report_plot.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -136,4 +138,100 @@ void report_matrices(const study_page *s)
                 add_column(all, s->labels.word[i], get_cell(s, row, "step"));
     for (int k = 0; k < REPORT_QUANTITIES; k++) write_matrix(s, all, &quantities[k]);
     free(all);
+}
+
+/* ---- predicted sizes ----------------------------------------------------------------------- */
+
+/* The columns of a size that is predicted and measured. */
+typedef struct compared_size {
+    const char *predicted, *measured, *size, *title, *head;
+} compared_size;
+enum { COMPARED = 3 };
+static const compared_size compared[COMPARED] = {
+    {"predicted_D_max", "D_max", "D_size", "max |D|", "D"},
+    {"predicted_E_deviation", "E_deviation", "E_size", "max |E - E(0)|", "E"},
+    {"predicted_invariant_deviation", "invariant_deviation", "invariant_size", "max |I - I(0)|",
+     "I"},
+};
+
+/* Whether a cell is on p = pi = 0, and not another one has the same run. */
+static bool is_chosen(const study_page *s, int row)
+{
+    return find_cell(s, get_cell(s, row, "label"), get_cell(s, row, "integrator"),
+                     get_cell(s, row, "step"), false) == row;
+}
+
+/* Whether a run was predicted to its end, and has a size above rounding there. */
+static bool is_compared(const study_page *s, int row, const compared_size *of)
+{
+    const bool is_above = is_cell(s, row, of->size, "larger") || is_cell(s, row, of->size, "");
+    return is_above && is_cell(s, row, "state", "done") && is_cell(s, row, "predicted_message", "");
+}
+
+static int draw_predicted(const study_page *s)
+{
+    double low = INFINITY, high = 0.0;
+    report_plot plot = {.name = "predicted",
+                        .title = "Predicted and measured",
+                        .xlabel = "predicted",
+                        .ylabel = "measured",
+                        .caption = "Sizes of runs above rounding; on the line both are equal.",
+                        .log_x = true,
+                        .log_y = true};
+    for (const compared_size *of = compared; of < compared + COMPARED; of++) {
+        plot_curve *curve = report_curve(&plot, of->title);
+        curve->has_rings = true;
+        for (int row = 1; row < s->cells.rows; row++) {
+            if (!is_chosen(s, row) || !is_compared(s, row, of)) continue;
+            const double x = csv_table_number(&s->cells, row, of->predicted);
+            const double y = csv_table_number(&s->cells, row, of->measured);
+            report_point(&plot, curve, x, y);
+            if (!(x > 0.0 && y > 0.0)) continue;
+            low = fmin(low, fmin(x, y));
+            high = fmax(high, fmax(x, y));
+        }
+    }
+    plot_curve *equal = report_curve(&plot, "equal");
+    equal->is_black = true;
+    report_point(&plot, equal, low, low);
+    report_point(&plot, equal, high, high);
+    return report_draw(s->r, &plot);
+}
+
+static void write_predicted_row(const study_page *s, int row)
+{
+    FILE *page = s->r->page;
+    char title[STEP_TITLE];
+    report_row(page, get_cell(s, row, "label"));
+    report_element(page, "td", get_cell(s, row, "integrator"));
+    report_element(page, "td", step_title(title, get_cell(s, row, "step")) + 4);
+    for (int k = 0; k < 2 * COMPARED; k++) {
+        const compared_size *of = &compared[k / 2];
+        report_number(page, "%.3g",
+                      csv_table_number(&s->cells, row, k % 2 ? of->measured : of->predicted));
+    }
+    report_number(page, "%.6g", csv_table_number(&s->cells, row, "predicted_until"));
+    report_element(page, "td", get_cell(s, row, "predicted_message"));
+    fputs("</tr>\n", page);
+}
+
+int report_predicted(const study_page *s)
+{
+    FILE *page = s->r->page;
+    if (!is_cell(s, 0, "predicted_until", "predicted_until")) return CLI_DONE;
+    report_heading(s->r, "predicted", "Predicted and measured");
+    fputs("<div class=\"figures\">\n", page);
+    const int status = draw_predicted(s);
+    fputs("</div>\n<details><summary>all of them</summary>\n" REPORT_TABLE
+          "<th>system</th><th>integrator</th><th>h</th>",
+          page);
+    for (int k = 0; k < 2 * COMPARED; k++)
+        fprintf(page, "<th>%s %s</th>", compared[k / 2].head, k % 2 ? "measured" : "predicted");
+    fputs("<th>until t</th><th></th>" REPORT_ROWS, page);
+    for (int row = 1; row < s->cells.rows; row++)
+        if (is_chosen(s, row) &&
+            (!is_cell(s, row, "predicted_until", "") || !is_cell(s, row, "predicted_message", "")))
+            write_predicted_row(s, row);
+    fputs(REPORT_TABLE_END "</details>\n", page);
+    return status;
 }

@@ -1,4 +1,4 @@
-/* report_matrix.h - the tables of sizes and trends on the page of a study. */
+/* report_matrix.h - the tables on the page of a study. */
 #ifndef DAL_CLI_REPORT_MATRIX_H
 #define DAL_CLI_REPORT_MATRIX_H
 
@@ -6,5 +6,8 @@
 
 /* A table for each quantity that has one. */
 void report_matrices(const study_page *s);
+/* Predicted sizes beside measured ones, where the study predicts: a figure and a table.  Returns
+ * CLI_DONE, or prints and returns an exit status. */
+int report_predicted(const study_page *s);
 
 #endif

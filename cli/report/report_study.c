@@ -499,6 +499,7 @@ static int write_study(study_page *s, const report_overview *overview)
         is_lifted |= !is_cell(s, row, "start", "physical");
     if (is_lifted) fputs(about_lift, r->page);
     report_matrices(s);
+    if (status == CLI_DONE) status = report_predicted(s);
     report_heading(r, "systems", "Systems");
     for (int i = 0; i < s->labels.count && status != CLI_IO; i++) {
         if (cli_interrupted())

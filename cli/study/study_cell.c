@@ -13,6 +13,7 @@
 #include "run/manifest.h"
 #include "run/recorder.h"
 #include "run/simulation.h"
+#include "study_predict.h"
 #include "study_results.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
@@ -56,6 +57,7 @@ typedef struct cell_run {
     const study_plan *plan;
     study_cell *cell;
     run_simulation simulation;
+    dal_run_spec spec; /* of its run */
     run_directory dir;
     run_recorder recorder;
     tracked_column *column; /* [columns of the recorder] */
@@ -217,11 +219,10 @@ static void set_failure(study_cell *c, study_state state, dal_status status)
 /* A cell whose run cannot be created has that as its result, and no run. */
 static int create_run(cell_run *r)
 {
-    dal_run_spec spec;
     int status = make_request(r);
-    if (status == CLI_DONE) status = simulation_complete(&r->simulation, &spec);
+    if (status == CLI_DONE) status = simulation_complete(&r->simulation, &r->spec);
     if (status != CLI_DONE) return status;
-    const dal_status created = dal_run_create(&r->simulation.run, &spec, &r->cell->error);
+    const dal_status created = dal_run_create(&r->simulation.run, &r->spec, &r->cell->error);
     if (cli_is_ok(created)) return CLI_DONE;
     r->simulation.run = NULL;
     set_failure(r->cell, created == DAL_STATUS_UNSUPPORTED ? STUDY_REFUSED : STUDY_FAILED, created);
@@ -487,14 +488,15 @@ static int run_without_rows(cell_run *r, const work_stop *stop)
     const int number = (int)(c - r->plan->cells);
     dal_error error = {0};
     begin_results(c, r->simulation.run);
-    if (study_results_get(r->plan->results, number, c)) return CLI_DONE;
+    study_results *results = r->plan->results[STUDY_STORED_RUNS];
+    if (study_results_get(results, number, c)) return CLI_DONE;
     short_run s = {.of_cell = r, .stop = stop};
     run_results_begin(&s.results, r->simulation.run);
     const dal_status status = integrate(r, &s, &error);
     run_results_free(&s.results);
     if (status == DAL_STATUS_INTERRUPTED) return CLI_SIGNAL;
     take_end(r, &error, status != DAL_STATUS_OK);
-    return study_results_add(r->plan->results, number, c, r->plan->interval);
+    return study_results_add(results, number, c, r->plan->interval);
 }
 
 int study_cell_run(const study_plan *plan, study_cell *cell, const work_stop *stop)
@@ -513,6 +515,8 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const work_stop *st
         run_directory_close(&r.dir);
         free(directory);
     }
+    if (status == CLI_DONE && r.simulation.run && cell->of_case->predict)
+        status = study_predict_cell(plan, cell, &r.spec, r.simulation.end, stop);
     if (status != CLI_DONE) study_cell_free(cell);
     simulation_free(&r.simulation);
     return status;

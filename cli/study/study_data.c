@@ -16,6 +16,8 @@ void study_cell_free(study_cell *cell)
     free(cell->trend);
     free(cell->names);
     free(cell->windows);
+    if (cell->predicted) free(cell->predicted->trend);
+    free(cell->predicted);
     *cell = (study_cell){.of_case = cell->of_case,
                          .method = cell->method,
                          .step = cell->step,

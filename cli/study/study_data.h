@@ -60,6 +60,10 @@ typedef enum study_state {
 } study_state;
 extern const char *const study_state_words[STUDY_STATES];
 
+/* A cell and its results.  What single steps predict has the same form: trends in the order of the
+ * observables, without values where nothing is predicted; time: where the curves end; error: the
+ * reason that they end before the run, or that there are none, and then the state is
+ * STUDY_FAILED. */
 typedef struct study_cell {
     const struct study_case *of_case;
     const dal_method *method;
@@ -78,6 +82,7 @@ typedef struct study_cell {
     char (*names)[STUDY_NAME];       /* [observables] */
     double (*windows)[STUDY_TRACKS]; /* maxima; NaN: no rows, or no such column */
     int window_count;
+    struct study_cell *predicted; /* with the names of this one; NULL: the study does not predict */
 } study_cell;
 
 /* One of some words, or a number within bounds. */
@@ -97,6 +102,13 @@ enum { STUDY_STEPS = 16, STUDY_TOLERANCES = 16, STUDY_REPRESENTATIVES = 16 };
 /* What is kept of runs: a directory with rows for each, or the results alone, for many short runs.
  */
 typedef enum study_rows { STUDY_ROWS_KEPT, STUDY_ROWS_NONE } study_rows;
+
+/* What of cells is in files of results: of those without rows all, and what is predicted. */
+typedef enum study_stored {
+    STUDY_STORED_RUNS,
+    STUDY_STORED_PREDICTIONS,
+    STUDY_STORED
+} study_stored;
 
 /* One system of a study, with one value for each of its settings.  Cases that differ in these
  * values alone are of one group: they stand together and share the model, the copy and the methods,
@@ -118,6 +130,7 @@ typedef struct study_case {
     double tolerance[STUDY_TOLERANCES]; /* positive; of the methods that control their error */
     long long run_steps;                /* steps of each run; 0: not given, but time */
     int rows;                           /* a study_rows */
+    int predict;                        /* 1: cells have predictions, too */
     int steps, tolerances, starts;      /* tolerances: 0: the options; starts: bit STUDY_x set */
     long long samples, statistics;
     dal_options options;                   /* but step and space, and as they were given: */
@@ -130,9 +143,9 @@ typedef struct study_case {
 } study_case;
 
 typedef struct study_plan {
-    const char *copies;            /* directory with copies of system files, or NULL */
-    const char *runs;              /* where the directories of the runs are */
-    struct study_results *results; /* of the cells that keep no rows; NULL where all do */
+    const char *copies; /* directory with copies of system files, or NULL */
+    const char *runs;   /* where the directories of the runs are */
+    struct study_results *results[STUDY_STORED]; /* NULL where no cell has any there */
     uint64_t *key;   /* [cells] by which results name them; NULL until results are read */
     double interval; /* seconds between checkpoints of a run */
     native_mode native;
@@ -146,8 +159,9 @@ typedef struct study_plan {
     int expectation_count;
     dal_method representative[STUDY_REPRESENTATIVES];
     int representatives;
-    double seconds;      /* that the runs have taken */
-    bool has_tolerances; /* a case has the key tolerance: files have that column */
+    double seconds;       /* that the runs have taken */
+    bool has_tolerances;  /* a case has the key tolerance: files have that column */
+    bool has_predictions; /* likewise of `predict: on` */
     bool shows_tables, shows_matrices;
     screen_format format;
 } study_plan;

@@ -91,7 +91,13 @@ static int write_manifest(const study_directory *dir, const study_plan *plan, st
     return status;
 }
 
-/* ---- the results of cells without rows ---------------------------------------------------- */
+/* ---- files of results --------------------------------------------------------------------- */
+
+/* Whether cells of a case have something there. */
+static bool is_stored(const study_case *e, study_stored what)
+{
+    return what == STUDY_STORED_RUNS ? e->rows == STUDY_ROWS_NONE : e->predict != 0;
+}
 
 /* The keys of the cells, once for all directories of the plan. */
 static int find_keys(study_plan *plan)
@@ -102,7 +108,7 @@ static int find_keys(study_plan *plan)
     int status = CLI_DONE;
     for (int i = 0; i < plan->case_count && status == CLI_DONE; i++) {
         const study_case *e = &plan->cases[i];
-        if (e->rows != STUDY_ROWS_NONE) continue;
+        if (!is_stored(e, STUDY_STORED_RUNS) && !is_stored(e, STUDY_STORED_PREDICTIONS)) continue;
         if (e->is_first) {
             system = DAL__HASH_START;
             status =
@@ -119,21 +125,35 @@ static int find_keys(study_plan *plan)
 }
 
 int study_directory_open_results(const study_directory *dir, study_plan *plan,
-                                 study_results **results)
+                                 study_results *results[STUDY_STORED])
 {
-    bool has_any = false;
-    for (int i = 0; i < plan->case_count; i++) has_any |= plan->cases[i].rows == STUDY_ROWS_NONE;
-    study_results_free(*results);
-    *results = NULL;
-    if (!has_any) return CLI_DONE;
+    const char *const path[] = {dir->results, dir->predictions};
     char *writer = dir->shard.count > 0
                        ? cli_format("%lld-of-%lld", dir->shard.number, dir->shard.count)
                    : dir->writer > 0 ? cli_format("writer-%d", dir->writer)
                                      : cli_strdup("all");
     int status = find_keys(plan);
-    if (status == CLI_DONE)
-        status = study_results_open(results, dir->results, writer, plan->key, plan->cell_count);
+    for (int what = 0; what < STUDY_STORED; what++) {
+        bool has_any = false;
+        for (int i = 0; i < plan->case_count; i++)
+            has_any |= is_stored(&plan->cases[i], (study_stored)what);
+        study_results_free(results[what]);
+        results[what] = NULL;
+        if (has_any && status == CLI_DONE)
+            status =
+                study_results_open(&results[what], path[what], writer, plan->key, plan->cell_count);
+    }
     free(writer);
+    return status;
+}
+
+int study_directory_save_results(const study_plan *plan)
+{
+    int status = CLI_DONE;
+    for (int what = 0; what < STUDY_STORED; what++) {
+        const int saved = plan->results[what] ? study_results_save(plan->results[what]) : CLI_DONE;
+        if (status == CLI_DONE) status = saved;
+    }
     return status;
 }
 
@@ -230,7 +250,7 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
     if (status == CLI_DONE) status = copy_systems(dir, plan);
     if (status == CLI_DONE) status = write_manifest(dir, plan, STORE_RUNNING);
     if (status == CLI_DONE) status = file_replace(dir->study, text, length, 1);
-    if (status == CLI_DONE) status = study_directory_open_results(dir, plan, &plan->results);
+    if (status == CLI_DONE) status = study_directory_open_results(dir, plan, plan->results);
     close(descriptor);
     return status;
 }
@@ -259,7 +279,7 @@ int study_directory_read(study_directory *dir, study_plan *plan)
     if (!dir->text) return CLI_IO;
     int status = study_plan_read(plan, dir->study, dir->text, dir->length, dir->systems);
     plan->runs = dir->runs;
-    if (status == CLI_DONE) status = study_directory_open_results(dir, plan, &plan->results);
+    if (status == CLI_DONE) status = study_directory_open_results(dir, plan, plan->results);
     if (status != CLI_DONE || file_exists(dir->manifest)) return status;
     dir->shard = STORE_ALL_SHARDS;
     bool *has = cli_calloc((size_t)plan->cell_count + 1, sizeof *has);
@@ -348,10 +368,8 @@ static int result_status(const study_plan *plan)
 
 int study_directory_finish(const study_directory *dir, const study_plan *plan, int status)
 {
-    if (plan->results) {
-        const int saved = study_results_save(plan->results);
-        if (status == CLI_DONE) status = saved;
-    }
+    const int saved = study_directory_save_results(plan);
+    if (status == CLI_DONE) status = saved;
     const int result = status == CLI_DONE ? result_status(plan) : status;
     const int is_whole = dir->shard.count == 0;
     const store_state state = result == CLI_FAILED ? STORE_DONE : store_end_state(result);

@@ -4,6 +4,7 @@
  *     DIR/systems/LABEL.yaml copies of system files
  *     DIR/runs/NAME/         a run each, as 'dalembert run --output' makes them
  *     DIR/results/           the results of cells that keep no rows, see study_results.c
+ *     DIR/predictions/       what is predicted of cells, in the same form
  *     DIR/manifest.json      what ran the study and how far it is; or, of shards,
  *     DIR/shard-K-of-N.json  the same of each of them
  *     DIR/tables.txt, cells.csv, quantities.csv, expectations.csv, series/LABEL.csv
@@ -24,6 +25,7 @@
     PATH(systems, "systems")                                                                       \
     PATH(runs, "runs")                                                                             \
     PATH(results, "results")                                                                       \
+    PATH(predictions, "predictions")                                                               \
     PATH(report, "report")                                                                         \
     PATH(series, "series")                                                                         \
     PATH(manifest, "manifest.json")                                                                \
@@ -70,10 +72,11 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
 int study_directory_find_cells(const study_directory *dir, int cells, bool *has);
 /* Reads the plan of the study, or of the shards of it that exist. */
 int study_directory_read(study_directory *dir, study_plan *plan);
-/* Reads the results of cells without rows in place of those before, *results being NULL where all
- * cells keep some. */
+/* Reads the files of results in place of those before; NULL where no cell has any there. */
 int study_directory_open_results(const study_directory *dir, study_plan *plan,
-                                 struct study_results **results);
+                                 struct study_results *results[STUDY_STORED]);
+/* Brings what was added to them to the disk. */
+int study_directory_save_results(const study_plan *plan);
 /* Runs the cells, then finishes; and reads the study before. */
 int study_directory_run(const study_directory *dir, study_plan *plan,
                         const study_run_options *options);

@@ -26,9 +26,9 @@ typedef struct merge {
     int sources;
     study_directory target;
     study_plan plan;
-    int *from;               /* [cells] which source has the run, -1: none */
-    bool **has;              /* [sources][cells] whether the cell is of its shards */
-    study_results **results; /* [sources] of cells that keep no rows; NULL: all keep some */
+    int *from;  /* [cells] which source has the run, -1: none */
+    bool **has; /* [sources][cells] whether the cell is of its shards */
+    study_results *(*results)[STUDY_STORED]; /* [sources] */
 } merge;
 
 /* ---- the sources ---- */
@@ -102,7 +102,7 @@ static int find_run(merge *m, int cell)
             continue;
         else if (c->of_case->rows == STUDY_ROWS_KEPT)
             status = find_in_source(m, cell, i, c->name);
-        else if (study_results_has(m->results[i], cell))
+        else if (study_results_has(m->results[i][STUDY_STORED_RUNS], cell))
             status = note_source(m, cell, i, c->name);
     if (status == CLI_DONE && m->from[cell] < 0 && study_cell_is_runnable(c))
         status =
@@ -144,17 +144,12 @@ static int copy_runs(const merge *m)
         const study_cell *c = &m->plan.cells[i];
         const int from = m->from[i];
         if (from < 0 || file_is_same(m->source[from].path, m->target.path)) continue;
-        status = c->of_case->rows == STUDY_ROWS_KEPT
-                     ? copy_directory(m, from, c->name)
-                     : study_results_copy(m->plan.results, m->results[from], i);
+        if (c->of_case->rows == STUDY_ROWS_KEPT) status = copy_directory(m, from, c->name);
+        for (int what = 0; what < STUDY_STORED && status == CLI_DONE; what++)
+            if (m->results[from][what] && study_results_has(m->results[from][what], i))
+                status = study_results_copy(m->plan.results[what], m->results[from][what], i);
     }
     return status;
-}
-
-/* Reads the results that are in all directories of the plan now. */
-static int read_results(merge *m, const study_directory *dir, study_results **results)
-{
-    return study_directory_open_results(dir, &m->plan, results);
 }
 
 /* ---- all ---- */
@@ -166,7 +161,7 @@ static int begin_target(merge *m, bool force)
     for (int i = 0; i < m->sources; i++) {
         if (!file_is_same(m->source[i].path, m->target.path)) continue;
         m->plan.runs = m->target.runs;
-        return read_results(m, &m->target, &m->plan.results);
+        return study_directory_open_results(&m->target, &m->plan, m->plan.results);
     }
     return study_directory_begin(&m->target, &m->plan, m->source[0].text, m->source[0].length,
                                  whole, force);
@@ -187,14 +182,16 @@ int study_merge(const char *const *sources, int count, const char *output, int t
     for (int i = 0; i < count && status == CLI_DONE; i++) {
         m.has[i] = cli_calloc((size_t)m.plan.cell_count + 1, sizeof *m.has[i]);
         status = study_directory_find_cells(&m.source[i], m.plan.cell_count, m.has[i]);
-        if (status == CLI_DONE) status = read_results(&m, &m.source[i], &m.results[i]);
+        if (status == CLI_DONE)
+            status = study_directory_open_results(&m.source[i], &m.plan, m.results[i]);
     }
     for (int i = 0; i < m.plan.cell_count; i++) m.plan.cells[i].other_shard = 0;
     for (int i = 0; i < m.plan.cell_count && status == CLI_DONE; i++) status = find_run(&m, i);
     if (status == CLI_DONE) status = begin_target(&m, force);
     if (status == CLI_DONE) status = copy_runs(&m);
-    if (status == CLI_DONE && m.plan.results) status = study_results_save(m.plan.results);
-    if (status == CLI_DONE) status = read_results(&m, &m.target, &m.plan.results);
+    if (status == CLI_DONE) status = study_directory_save_results(&m.plan);
+    if (status == CLI_DONE)
+        status = study_directory_open_results(&m.target, &m.plan, m.plan.results);
     if (status == CLI_DONE) {
         cli_catch_signals();
         status = study_directory_finish(&m.target, &m.plan,
@@ -203,7 +200,7 @@ int study_merge(const char *const *sources, int count, const char *output, int t
     study_directory_close(&m.target);
     study_plan_free(&m.plan);
     for (int i = 0; i < count; i++) {
-        study_results_free(m.results[i]);
+        for (int what = 0; what < STUDY_STORED; what++) study_results_free(m.results[i][what]);
         free(m.has[i]);
         study_directory_close(&m.source[i]);
     }

@@ -5,6 +5,7 @@
 #include "study_overview.h"
 
 #include "study_matrix.h"
+#include "study_predict.h"
 #include "study_sentences.h"
 #include "ui/memory.h"
 #include "ui/screen.h"
@@ -138,6 +139,9 @@ int study_print_overview(FILE *to, const study_plan *plan, const char *tables, s
     free(range);
     say_runs(&o);
     study_say_expectations(&o.screen, plan);
+    char *predicted = study_describe_predictions(plan);
+    if (predicted) screen_say(&o.screen, 2, "%s", predicted);
+    free(predicted);
     const int room = LINES - screen_count_lines(&o.screen) -
                      (o.screen.width < SCREEN_COLUMNS ? BELOW_NARROW : BELOW);
     const int shown = o.matrix.rows <= room ? o.matrix.rows : room > 1 ? room - 1 : 1;

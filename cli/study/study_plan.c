@@ -158,12 +158,14 @@ static int read_starts(void *user, const document *doc, yaml_node_t *value, cons
     return e->starts ? CLI_DONE : document_fail(doc, value, "starts: the list is empty");
 }
 
-static int read_rows(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+/* One of two words, as 0 or 1. */
+static int read_switch(void *user, const document *doc, yaml_node_t *value, const document_key *key)
 {
-    static const char *const words[] = {"kept", "none"};
-    const int rows = document_word(doc, value, key->name, words, 2);
-    ((parsed_study *)user)->item.rows = rows;
-    return rows < 0 ? CLI_USAGE : CLI_DONE;
+    static const char *const rows[] = {"kept", "none"}, *const flags[] = {"off", "on"};
+    const bool is_rows = key->offset == offsetof(parsed_study, item.rows);
+    const int word = document_word(doc, value, key->name, is_rows ? rows : flags, 2);
+    *(int *)((char *)user + key->offset) = word;
+    return word < 0 ? CLI_USAGE : CLI_DONE;
 }
 
 #define KEY(name, scope, read, member, help) {#name, read, offsetof(parsed_study, member)},
@@ -487,6 +489,7 @@ static int add_cells(study_plan *plan, study_case *e)
     plan->cells = cli_realloc(plan->cells, capacity * sizeof *plan->cells);
     e->first_cell = plan->cell_count;
     plan->has_tolerances |= e->tolerances > 0;
+    plan->has_predictions |= e->predict;
     for (int i = 0; i < max; i++) {
         study_cell cell = {.of_case = e,
                            .method = &e->methods[i / per_method],
@@ -584,7 +587,7 @@ void study_plan_free(study_plan *plan)
         request_free_settings(&e->start);
         request_free_settings(&e->displace);
     }
-    study_results_free(plan->results);
+    for (int i = 0; i < STUDY_STORED; i++) study_results_free(plan->results[i]);
     free(plan->key);
     if (plan->doc) yaml_document_delete(&plan->doc->yaml);
     free(plan->doc);

@@ -8,6 +8,7 @@
 #include "study_compare.h"
 #include "study_fate.h"
 #include "study_matrix.h"
+#include "study_predict.h"
 #include "ui/memory.h"
 #include "ui/wrap.h"
 
@@ -296,12 +297,23 @@ static void say_speed(FILE *out, const study_matrix *s)
     free(line);
 }
 
+static void say_predictions(FILE *out, const study_matrix *s)
+{
+    char *text = study_describe_predictions(s->plan);
+    if (text) {
+        put_wrapped(out, text);
+        fputc('\n', out);
+    }
+    free(text);
+}
+
 static void print_sentences(FILE *out, const study_matrix *s)
 {
     say_fates(out, s, CONSTRAINT);
     say_methods(out, s, CONSTRAINT, "keep D at rounding in every run");
     say_fates(out, s, ENERGY);
     say_methods(out, s, ENERGY, "keep E within 1 % on D = 0");
+    say_predictions(out, s);
     if (!say_lift(out, s)) say_speed(out, s);
 }
 

@@ -7,6 +7,7 @@
 #include "io/file.h"
 #include "io/file_output.h"
 #include "io/trend.h"
+#include "study_predict.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/wrap.h"
@@ -225,7 +226,7 @@ typedef struct csv_row {
     const study_plan *plan;
     const study_cell *cell;
     const study_case *of_case;
-    study_quantities q;
+    study_quantities q, predicted;
     char method[STUDY_NAME];
 } csv_row;
 
@@ -304,6 +305,26 @@ static void put_step(FILE *out, const csv_row *r)
     COLUMN(message, cli_put_text(out, r->cell->error.message))                                     \
     COLUMN(seconds, RUN(cli_put(out, r->cell->seconds)))
 
+/* Studies that predict have these columns, too. */
+#define PREDICTED(quantity, value)                                                                 \
+    (r->predicted.quantity && r->predicted.quantity->count > 0                                     \
+         ? cli_put_known(out, r->predicted.quantity->value)                                        \
+         : (void)0)
+#define PREDICTION(how) (r->cell->predicted ? (void)(how) : (void)0)
+#define PREDICTED_LIST(COLUMN)                                                                     \
+    COLUMN(predicted_D_max, PREDICTED(D, max_abs))                                                 \
+    COLUMN(predicted_D_rate, PREDICTED(D, rate))                                                   \
+    COLUMN(predicted_E_deviation, PREDICTED(E, deviation))                                         \
+    COLUMN(predicted_E_rate, PREDICTED(E, rate))                                                   \
+    COLUMN(predicted_E_rate_low, PREDICTED(E, rate_low))                                           \
+    COLUMN(predicted_E_rate_high, PREDICTED(E, rate_high))                                         \
+    COLUMN(predicted_invariant_deviation, PREDICTED(invariant, deviation))                         \
+    COLUMN(predicted_invariant_rate, PREDICTED(invariant, rate))                                   \
+    COLUMN(predicted_invariant_rate_low, PREDICTED(invariant, rate_low))                           \
+    COLUMN(predicted_invariant_rate_high, PREDICTED(invariant, rate_high))                         \
+    COLUMN(predicted_until, PREDICTION(cli_put_known(out, r->cell->predicted->time)))              \
+    COLUMN(predicted_message, PREDICTION(cli_put_text(out, r->cell->predicted->error.message)))
+
 static void put_cell(FILE *out, const csv_row *r)
 {
     const char *comma = "";
@@ -313,6 +334,9 @@ static void put_cell(FILE *out, const csv_row *r)
     comma = ",";
     CELL_LIST(COLUMN_CELL)
     RESULT_LIST(COLUMN_CELL)
+    if (r->plan->has_predictions) {
+        PREDICTED_LIST(COLUMN_CELL)
+    }
 #undef COLUMN_CELL
     fputc('\n', out);
 }
@@ -374,7 +398,8 @@ static int write_file(const study_plan *plan, const study_case *of_case, const c
     for (; next < end && status == CLI_DONE; next++) {
         const study_cell *c = &plan->cells[next];
         if (c->state == STUDY_WAITING) continue;
-        csv_row r = {plan, c, c->of_case, study_cell_quantities(c), ""};
+        csv_row r = {plan, c, c->of_case, study_cell_quantities(c), study_predicted_quantities(c),
+                     ""};
         dal_method_name(c->method, r.method, sizeof r.method);
         put(output.stream, &r);
     }
@@ -391,7 +416,9 @@ int study_write_csv(const study_plan *plan, const char *directory)
     static const char result_heads[] = RESULT_LIST(COLUMN_HEAD);
     static const char key_heads[] = "label,integrator,start,step";
     const char *tolerance = plan->has_tolerances ? ",tolerance" : "";
-    char *cells = cli_format("%s%s%s", cell_heads + 1, tolerance, result_heads);
+    static const char predicted_heads[] = PREDICTED_LIST(COLUMN_HEAD);
+    char *cells = cli_format("%s%s%s%s", cell_heads + 1, tolerance, result_heads,
+                             plan->has_predictions ? predicted_heads : "");
     char *quantities = cli_format("%s%s,quantity,first,last,max,deviation,%s", key_heads, tolerance,
                                   cli_trend_heads);
     char *windows = cli_format("%s%s,until%s", key_heads, tolerance, STUDY_TRACK_LIST(TRACK_HEAD));

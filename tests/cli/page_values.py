@@ -420,6 +420,30 @@ def errors(cells, label, number_of, steps):
             same(f"there is {number_of}-{name}", figure is not None, not zero)
 
 
+def predicted(cells):
+    """The figure and the table of what was predicted of a study."""
+    shown = [c for c in cells if find_cell(cells, c["label"], c["integrator"], c["step"], False) is c]
+    drawn = curves(FIGURES["predicted"])
+    ends = []
+    for title, value, size in (("max |D|", "D_max", "D_size"), ("max |E - E(0)|", "E_deviation", "E_size"),
+                               ("max |I - I(0)|", "invariant_deviation", "invariant_size")):
+        points = [(number(c[f"predicted_{value}"]), number(c[value])) for c in shown
+                  if c["state"] == "done" and not c["predicted_message"] and c[size] in ("", "larger")]
+        points = [p for p in points if p[0] > 0 and p[1] > 0]
+        ends += [x for p in points for x in p]
+        if points:
+            compare_points(f"predicted: {title}", drawn[title], points)
+    compare_points("predicted: equal", drawn["equal"], [(min(ends),) * 2, (max(ends),) * 2])
+    heads, *rows = table_after('id="predicted"')
+    same("predicted: rows", [texts(row)[:3] for row in rows],
+         [[c["label"], c["integrator"], step_title(c["step"])] for c in shown if c["predicted_until"] or c["predicted_message"]])
+    same("predicted: values", [texts(row)[3:] for row in rows],
+         [[printed("%.3g", number(c[k])) for value in ("D_max", "E_deviation", "invariant_deviation")
+           for k in (f"predicted_{value}", value)] +
+          [printed("%.6g", number(c["predicted_until"])), c["predicted_message"]]
+          for c in shown if c["predicted_until"] or c["predicted_message"]])
+
+
 def study():
     """A page of a study of few methods."""
     cells = with_steps(read_csv("cells.csv"))
@@ -428,6 +452,8 @@ def study():
     same("counts", f"<p>{counts[0]} methods × {counts[1]} systems, {len(cells)} runs: {states}; " in PAGE, True)
     expectations()
     matrices(cells)
+    if "predicted_until" in cells[0]:
+        predicted(cells)
     for part in map(json.loads, re.findall(r'class="data">(.*?)</script>', PAGE, re.DOTALL)):
         label = part["label"]
         begin = re.search(fr'<h3 id="s(\d+)">(?:(?!</h3>).)*{re.escape(html.escape(label, quote=True).replace("&#x27;", chr(39)))}', PAGE)

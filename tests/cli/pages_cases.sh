@@ -102,7 +102,7 @@ starts: physical
 systems: [nonholonomic-particle]
 END_OF_STUDY
 
-if needs 115 "no python3" there python3; then
+if needs 122 "no python3" there python3; then
     case_is "pages of runs"
     try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6 --samples 40 --output sleigh
     page sleigh
@@ -126,6 +126,9 @@ if needs 115 "no python3" there python3; then
     page methods
     try 0 study families.yaml --no-page --output families
     page families scripts
+    sed 's/^time: 2/time: 2\nrows: none\npredict: on/; s/^step: .*/step: [0.5, 0.25]/; s/^tolerance.*//; /expect/,$d' methods.yaml >predicted.yaml
+    "$program" study predicted.yaml --no-page --output predicted >out 2>err
+    page predicted
 
     case_is "pages of other commands"
     try 0 order line.yaml --integrators rk4,gauss4,isokinetic-splitting --levels 3 --time 1 --output orders
@@ -144,7 +147,7 @@ if needs 115 "no python3" there python3; then
     page ensemble
 
     case_is "pages without what they are made from, and on a full device"
-    for name in sleigh falls failed methods families orders section exponents volume ensemble; do
+    for name in sleigh falls failed methods predicted families orders section exponents volume ensemble; do
         unreadable $name
         full $name
     done
