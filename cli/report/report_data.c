@@ -40,14 +40,15 @@ void data_write_motions(json_writer *data, const motion *motions, int count)
 
 int data_write_run(report *r)
 {
-    motion m;
-    const int status = motion_read(&m, r->directory, MOTION_RUN_FRAMES);
-    if (m.frames > 1) {
+    motion pair[2];
+    const int status = motion_read(&pair[0], &pair[1], r->directory, MOTION_RUN_FRAMES);
+    if (pair[0].frames > 1) {
         json_writer data = data_begin(r->page);
-        data_write_motions(&data, &m, 1);
+        data_write_motions(&data, pair, 2);
         data_end(&data);
     }
-    motion_free(&m);
+    motion_free(&pair[0]);
+    motion_free(&pair[1]);
     return status;
 }
 

@@ -19,8 +19,8 @@ void data_write_motions(json_writer *data, const motion *motions, int count);
 void data_write_envelopes(json_writer *data, const study_page *s, const char *label,
                           const csv_words *steps, const csv_table *series);
 
-/* The element of the page of a run, with its motion; nothing where there is none.  Returns
- * CLI_DONE, or prints and returns an exit status. */
+/* The element of the page of a run, with its motion and the exact one; nothing where there is none.
+ * Returns CLI_DONE, or prints and returns an exit status. */
 int data_write_run(report *r);
 
 #endif

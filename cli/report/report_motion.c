@@ -5,14 +5,18 @@
  *     x(t0 + s d) = x0 (1 + 2s)(1 - s)^2 + x0' d s (1 - s)^2 + x1 s^2 (3 - 2s) - x1' d s^2 (1 - s),
  *
  * (an angular velocity is linear, as its rate is not known)
- * unless the rows are so far apart that they do not show the path: then the rows are the frames. */
+ * unless the rows are so far apart that they do not show the motion: then the frames are between
+ * the last steps, of which a run with many more steps than rows keeps some, or else the rows. */
 #include "report_motion.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
+#include "io/csv_table.h"
+#include "io/file.h"
 #include "report_body.h"
 #include "report_page.h"
 #include "report_pose.h"
+#include "report_rows.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -20,9 +24,13 @@
 #include <string.h>
 
 /* Of more rows than these every k-th is read; frames between two rows; what is far off, as
- * a part of the extent of the path. */
+ * a part of the extent of the path, and in radians; between rows a body makes less than a quarter
+ * of a turn. */
 enum { MAX_ROWS = 20000, FRAMES_A_ROW = 8 };
-static const double far_part = 0.1;
+static const double far_part = 0.1, far_turn = 0.5, quarter = 1.5707963267948966;
+
+/* Of the mean time between steps: what a difference of poses is taken over. */
+static const double small_part = 1e-4;
 
 typedef struct pose_row {
     double t, pose[DAL_PICTURE_COUNT], rate[DAL_PICTURE_COUNT];
@@ -37,25 +45,67 @@ static bool is_finite(const pose_reader *p)
     return isfinite(sum);
 }
 
-/* Reads the rows up to the first that has no pose; their number, or -1. */
-static int read_rows(pose_reader *p, pose_row *row)
+typedef struct motion_rows {
+    pose_row *row;    /* [MAX_ROWS + 1] */
+    int count, steps; /* the last steps, 0: rows */
+} motion_rows;
+
+static void keep_row(motion_rows *m, const pose_reader *p)
+{
+    pose_row *row = &m->row[m->count++];
+    row->t = p->t;
+    memcpy(row->pose, p->pose, sizeof p->pose);
+    memcpy(row->rate, p->rate, sizeof p->rate);
+}
+
+/* Reads the rows up to the first that has no pose. */
+static int read_rows(pose_reader *p, motion_rows *m)
 {
     const long long stride = 1 + p->rows.count / MAX_ROWS;
-    int more, count = 0;
+    int more;
     for (long long k = 0; (more = pose_next(p)) > 0 && is_finite(p); k++) {
-        if (k % stride && k != p->rows.count - 1) continue;
-        row[count].t = p->t;
-        memcpy(row[count].pose, p->pose, sizeof p->pose);
-        memcpy(row[count++].rate, p->rate, sizeof p->rate);
+        if (k % stride == 0 || k == p->rows.count - 1) keep_row(m, p);
     }
-    return more < 0 ? -1 : count;
+    return more < 0 ? CLI_IO : CLI_DONE;
+}
+
+/* Takes the last steps in place of the rows, where the run keeps some. */
+static int read_last_steps(pose_reader *p, motion_rows *m, const char *run)
+{
+    const int n = p->simulation.system->n;
+    csv_table summary = {.text = NULL};
+    row_steps steps = {.statistics = NULL};
+    char *path = cli_join(run, "summary.csv");
+    int status = file_exists(path) ? csv_table_read(&summary, path) : CLI_DONE;
+    if (status == CLI_DONE) status = row_steps_read(&steps, &p->dir, n, summary.rows - 1);
+    const step_record *record = &steps.record;
+    const int count = record->number ? record_last_steps(record) : 0;
+    double *state = cli_calloc(2 * (size_t)n, sizeof *state);
+    if (count > 1) {
+        const double passed = record_value(record, 0, count - 1) - record_value(record, 0, 0);
+        p->small_time = small_part * passed / (count - 1);
+        m->count = 0;
+        m->steps = count;
+    }
+    for (int k = 0; k < count && count > 1; k++) {
+        for (int i = 0; i < 2 * n; i++) state[i] = record_value(record, 1 + i, k);
+        pose_set(p, record_value(record, 0, k), state, state + n);
+        if (!is_finite(p)) break;
+        keep_row(m, p);
+    }
+    free(state);
+    row_steps_free(&steps);
+    csv_table_free(&summary);
+    free(path);
+    return status;
 }
 
 /* Frames follow each other in t, whatever the direction of the run. */
-static void order_in_time(pose_row *row, int count)
+static void order_in_time(motion_rows *m)
 {
-    if (row[0].t < row[count - 1].t) return;
-    for (int i = 0, k = count - 1; i < k; i++, k--) {
+    pose_row *row = m->row;
+    if (row[0].t < row[m->count - 1].t) return;
+    for (int i = 0, k = m->count - 1; i < k; i++, k--) {
         const pose_row swapped = row[i];
         row[i] = row[k];
         row[k] = swapped;
@@ -91,60 +141,104 @@ static void interpolate(const pose_row *a, const pose_row *b, double t, double *
  * neighbours, at twice the distance and with some sixteen times the error, is not far off. */
 static bool is_dense(const pose_row *row, int count)
 {
+    if (count < 2) return false;
     const double far = far_part * find_extent(row->pose, sizeof *row / sizeof(double), count);
     int gaps = 0;
     for (int i = 1; i + 1 < count; i++) {
         double pose[DAL_PICTURE_COUNT];
+        const double *at = row[i].pose, passed = fabs(row[i + 1].t - row[i].t);
         interpolate(&row[i - 1], &row[i + 1], row[i].t, pose);
-        gaps += hypot(pose[0] - row[i].pose[0], pose[1] - row[i].pose[1]) > far;
+        const double turned =
+            hypot(hypot(at[DAL_PICTURE_WX], at[DAL_PICTURE_WY]), at[DAL_PICTURE_WZ]) * passed;
+        gaps += hypot(pose[0] - at[0], pose[1] - at[1]) > far || turned > quarter ||
+                fabs(pose[DAL_PICTURE_ANGLE] - at[DAL_PICTURE_ANGLE]) > far_turn;
     }
     return 10 * gaps <= count;
 }
 
-static void make_frames(motion *m, const pose_row *row, int count, int max_frames)
+static void allocate_frames(motion *m, int frames)
 {
+    m->frames = frames;
+    m->t = cli_calloc((size_t)frames, sizeof *m->t);
+    m->pose = cli_calloc((size_t)frames, sizeof *m->pose);
+}
+
+static void make_frames(motion *m, const motion_rows *rows, int max_frames)
+{
+    const pose_row *row = rows->row;
+    const int count = rows->count;
     m->is_smooth = is_dense(row, count);
-    m->frames = m->is_smooth ? FRAMES_A_ROW * (count - 1) + 1 : count;
-    if (m->frames > max_frames) m->frames = max_frames;
+    const int frames = m->is_smooth ? FRAMES_A_ROW * (count - 1) + 1 : count;
+    allocate_frames(m, frames < max_frames ? frames : max_frames);
     m->start = row[0].t;
     m->end = row[count - 1].t;
-    m->pose = cli_calloc((size_t)m->frames, sizeof *m->pose);
     for (int f = 0, i = 0; f < m->frames; f++) {
-        const double t = m->start + (m->end - m->start) * f / (m->frames - 1);
-        while (i + 2 < count && row[i + 1].t <= t) i++;
+        const pose_row *at = &row[(long long)f * (count - 1) / (m->frames - 1)];
+        m->t[f] = m->is_smooth ? m->start + (m->end - m->start) * f / (m->frames - 1) : at->t;
+        while (i + 2 < count && row[i + 1].t <= m->t[f]) i++;
         if (m->is_smooth)
-            interpolate(&row[i], &row[i + 1], t, m->pose[f]);
+            interpolate(&row[i], &row[i + 1], m->t[f], m->pose[f]);
         else
-            memcpy(m->pose[f], row[(long long)f * (count - 1) / (m->frames - 1)].pose,
-                   sizeof m->pose[f]);
+            memcpy(m->pose[f], at->pose, sizeof m->pose[f]);
     }
 }
 
-int motion_read(motion *m, const char *run, int max_frames)
+/* The exact solution at the same times, from the first on at which it has a pose and as long as it
+ * has. */
+static void make_exact(motion *exact, pose_reader *p, const motion *m)
+{
+    int count = 0;
+    *exact = *m;
+    snprintf(exact->method, sizeof exact->method, "exact");
+    exact->step = 0.0;
+    allocate_frames(exact, m->frames);
+    for (int f = 0; f < m->frames; f++) {
+        if (pose_of_exact(p, m->t[f], exact->pose[count]))
+            exact->t[count++] = m->t[f];
+        else if (count > 0)
+            break;
+    }
+    exact->frames = count;
+    exact->start = exact->t[0];
+    exact->end = exact->t[count > 0 ? count - 1 : 0];
+}
+
+static void name_motion(motion *m, const pose_reader *p, int steps)
+{
+    m->body = p->body;
+    m->is_plane = p->is_plane;
+    for (int k = 0; k < 2; k++) snprintf(m->axis[k], sizeof m->axis[k], "%s", p->axis[k]);
+    const char *method = p->simulation.request.text[REQUEST_integrator];
+    snprintf(m->method, sizeof m->method, "%s", method ? method : "");
+    m->step = p->simulation.request.options.step;
+    if (steps > 0) snprintf(m->part, sizeof m->part, "the last %d steps", steps);
+}
+
+int motion_read(motion *m, motion *exact, const char *run, int max_frames)
 {
     pose_reader p;
+    motion_rows rows = {.count = 0};
     *m = (motion){.frames = 0};
+    if (exact) *exact = (motion){.frames = 0};
     int status = pose_open(&p, run);
-    if (status == CLI_DONE && p.has_poses) {
-        pose_row *row = cli_calloc(MAX_ROWS + 1, sizeof *row);
-        const int count = read_rows(&p, row);
-        if (count < 0) status = CLI_IO;
-        m->body = p.body;
-        m->is_plane = p.is_plane;
-        for (int k = 0; k < 2; k++) snprintf(m->axis[k], sizeof m->axis[k], "%s", p.axis[k]);
-        const char *method = p.simulation.request.text[REQUEST_integrator];
-        snprintf(m->method, sizeof m->method, "%s", method ? method : "");
-        m->step = p.simulation.request.options.step;
-        if (count > 1) order_in_time(row, count);
-        if (count > 1) make_frames(m, row, count, max_frames);
-        free(row);
+    rows.row = cli_calloc(MAX_ROWS + 1, sizeof *rows.row);
+    if (status == CLI_DONE && p.has_poses) status = read_rows(&p, &rows);
+    if (status == CLI_DONE && p.is_open && !is_dense(rows.row, rows.count))
+        status = read_last_steps(&p, &rows, run);
+    if (rows.count > 1) {
+        name_motion(m, &p, rows.steps);
+        order_in_time(&rows);
+        make_frames(m, &rows, max_frames);
+        if (exact && p.has_exact) make_exact(exact, &p, m);
     }
+    free(rows.row);
     pose_close(&p);
     return status;
 }
 
 void motion_free(motion *m)
 {
+    free(m->t);
     free(m->pose);
     *m = (motion){.frames = 0};
 }
@@ -208,6 +302,7 @@ void motion_write(json_writer *data, const motion *m)
     json_open(data, NULL, JSON_ON_ONE_LINE);
     json_put_text(data, "method", m->method);
     json_put_rounded(data, "step", m->step);
+    if (m->part[0]) json_put_text(data, "part", m->part);
     json_put_rounded(data, "start", m->start);
     json_put_rounded(data, "end", m->end);
     json_put_integer(data, "frames", m->frames);

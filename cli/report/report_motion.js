@@ -7,7 +7,8 @@ const BODY_SIZE = 5.5; // half the length of a body; a path is 100 wide
 // The numbers of the poses as functions of time.
 class Motion {
     constructor(data) {
-        Object.assign(this, data);
+        Object.assign(this, {part: ''}, data);
+        this.name = this.step ? `${this.method}, h = ${this.step}` : 'exact solution';
         for (const name of ['x', 'y', 'angle', 'steer', 'width', 'spin', 'wx', 'wy', 'wz']) {
             const [low, high, text] = data[name];
             this[name] = text ? levels(text).map(level => low + (high - low) * level / 65535)
@@ -106,6 +107,8 @@ class Actor {
         this.shapes = motion.parts.map(() => svg('path', isAlone ? {} : {style: `stroke: ${colour}`}));
         this.marks = svg('path', isAlone ? {class: 'marks'} : {class: 'marks', style: `stroke: ${colour}`});
         this.body = svg('g', {class: 'body'}, ...this.shapes, this.marks);
+        // What is beside the run itself lets it be seen where both are the same.
+        if (!motion.step) [this.path, this.trail, this.body].forEach(part => part.classList.add('dashed'));
     }
     place(f) {
         return this.view.place(this.motion.at('x', f), this.motion.at('y', f));
@@ -182,7 +185,7 @@ class Stage {
         this.view = view;
         this.actors = motions.map((motion, i) => new Actor(motion, view, colours[i], motions.length === 1));
         this.scale = svg('path', {class: 'scale'});
-        const names = motions.map(m => m.method).join(' and '), {body, axes} = motions[0];
+        const names = motions.map(m => m.step ? m.method : m.name).join(' and '), {body, axes} = motions[0];
         this.picture = svg('svg', {role: 'img', class: 'stage', tabindex: 0,
             'aria-label': `Motion of a ${body} by ${names} over ${axes.join(' and ')}`,
             keydown: event => this.press(event, redraw), pointerdown: event => view.is3D && this.picture.setPointerCapture(event.pointerId),
@@ -193,9 +196,12 @@ class Stage {
             }},
             ...this.actors.map(a => a.path), ...this.actors.map(a => a.trail), ...this.actors.map(a => a.body), this.scale);
         const samples = motions.flatMap((m, i) => [html('span', {class: 'control'},
-            html('span', {class: 'sample', style: `border-top: 3px solid ${colours[i]}`}), ` ${m.method}, h = ${m.step}`), ' ']);
+            html('span', {class: 'sample', style: `border-top: 3px ${m.step ? 'solid' : 'dashed'} ${colours[i]}`}), ` ${m.name}${i < motions.length - 1 ? ',' : '.'}`), ' ']);
+        const {part, smooth, start, end} = motions[0], times = `t = ${short(start)} to ${short(end)}`;
+        const rows = part ? ` The rows are too far apart to show the motion: these are ${part}, ${times}.`
+            : smooth ? '' : ' Dots are rows, too far apart for a path between them.';
         this.figure = html('figure', {}, this.picture, html('figcaption', {}, ...samples,
-            !view.isPath ? 'It turns in its place.' : view.isPlane ? `The bar is ${view.bar} long.` : `${axes[1]} over ${axes[0]}, not to scale.`));
+            !view.isPath ? 'It turns in its place.' : view.isPlane ? `The bar is ${view.bar} long.` : `${axes[1]} over ${axes[0]}, not to scale.`, rows));
     }
     press(event, redraw) {
         const azimuth = {ArrowLeft: -10, ArrowRight: 10}[event.key], elevation = {ArrowUp: 10, ArrowDown: -10}[event.key];

@@ -57,6 +57,14 @@ static bool has_state(const pose_reader *p)
     return true;
 }
 
+/* Whether a row has the error, the last of that name. */
+static bool has_error(const trajectory_reader *rows)
+{
+    int i = rows->columns - 1;
+    while (i > 0 && strcmp(rows->name[i], "error") != 0) i--;
+    return i > 0;
+}
+
 /* The directory of a run may be gone: a study does not need it. */
 int pose_open(pose_reader *p, const char *run)
 {
@@ -84,6 +92,8 @@ int pose_open(pose_reader *p, const char *run)
     if (status != CLI_DONE) return status;
     p->is_open = true;
     p->q = cli_calloc((size_t)system->n, sizeof *p->q);
+    p->exact = cli_calloc(2 * (size_t)system->n, sizeof *p->exact);
+    p->has_exact = system->exact && has_error(&p->rows);
     p->has_poses = p->rows.count > 0 && has_state(p);
     const run_request *request = &p->simulation.request;
     p->small_time = small_part * (request->time - request->from) / (double)(p->rows.count + 1);
@@ -100,26 +110,42 @@ void pose_of(pose_reader *p, double t, const double *q, const double *v, double 
         pose[DAL_PICTURE_X] = NAN;
 }
 
-/* The pose a while after the present row, while q changes by v alone. */
-static void find_pose(pose_reader *p, double after, double *pose)
+bool pose_of_exact(pose_reader *p, double t, double *pose)
 {
-    const int n = p->simulation.system->n;
-    const double *q = p->rows.row + 1, *v = q + n;
-    for (int i = 0; i < n; i++) p->q[i] = q[i] + after * v[i];
+    const dal_system *system = p->simulation.system;
+    const double *none = p->q; /* it depends on t alone */
+    if (dal_evaluator_call(p->evaluator, system->exact, t, none, none, NULL, p->exact))
+        return false;
+    pose_of(p, t, p->exact, p->exact + system->n, pose);
+    double sum = 0.0;
+    for (int i = 0; i < DAL_PICTURE_COUNT; i++) sum += pose[i];
+    return isfinite(sum);
+}
+
+/* The pose a while after a state, while q changes by v alone. */
+static void find_pose(pose_reader *p, const double *q, const double *v, double after, double *pose)
+{
+    for (int i = 0; i < p->simulation.system->n; i++) p->q[i] = q[i] + after * v[i];
     pose_of(p, p->t + after, p->q, v, pose);
+}
+
+void pose_set(pose_reader *p, double t, const double *q, const double *v)
+{
+    double before[DAL_PICTURE_COUNT], after[DAL_PICTURE_COUNT];
+    p->t = t;
+    find_pose(p, q, v, 0.0, p->pose);
+    find_pose(p, q, v, -p->small_time, before);
+    find_pose(p, q, v, p->small_time, after);
+    for (int i = 0; i < DAL_PICTURE_COUNT; i++)
+        p->rate[i] = (after[i] - before[i]) / (2.0 * p->small_time);
 }
 
 int pose_next(pose_reader *p)
 {
-    double before[DAL_PICTURE_COUNT], after[DAL_PICTURE_COUNT];
     const int more = reader_next(&p->rows);
     if (more <= 0) return more;
-    p->t = p->rows.row[0];
-    find_pose(p, 0.0, p->pose);
-    find_pose(p, -p->small_time, before);
-    find_pose(p, p->small_time, after);
-    for (int i = 0; i < DAL_PICTURE_COUNT; i++)
-        p->rate[i] = (after[i] - before[i]) / (2.0 * p->small_time);
+    const double *row = p->rows.row, *q = row + 1;
+    pose_set(p, row[0], q, q + p->simulation.system->n);
     return 1;
 }
 
@@ -128,6 +154,7 @@ void pose_close(pose_reader *p)
     if (p->is_open) reader_close(&p->rows);
     dal_evaluator_free(p->evaluator);
     free(p->q);
+    free(p->exact);
     simulation_free(&p->simulation);
     run_directory_close(&p->dir);
 }

@@ -19,7 +19,7 @@ typedef struct pose_reader {
     run_simulation simulation;
     trajectory_reader rows;
     dal_evaluator *evaluator;
-    double *q;           /* [n] */
+    double *q, *exact;   /* [n]; [2n] */
     bool is_open;        /* rows */
     bool has_poses;      /* there are rows, and they have q and v */
     dal_body body;       /* what is shown, */
@@ -28,6 +28,7 @@ typedef struct pose_reader {
     bool is_plane;     /* and whether they have one scale */
     double small_time; /* for differences */
     double t, pose[DAL_PICTURE_COUNT], rate[DAL_PICTURE_COUNT]; /* rate: the change of the pose */
+    bool has_exact; /* the run has an error: the exact solution begins at its start */
 } pose_reader;
 
 /* Opens the run in a directory.  Without has_poses there is nothing to show, which is no error.
@@ -38,6 +39,10 @@ int pose_open(pose_reader *p, const char *run);
 int pose_next(pose_reader *p);
 /* The pose of another state q, v, which need not be a row's. */
 void pose_of(pose_reader *p, double t, const double *q, const double *v, double *pose);
+/* Takes another state in place of a row: t, the pose and its rate. */
+void pose_set(pose_reader *p, double t, const double *q, const double *v);
+/* The pose of the exact solution; false where it has none. */
+bool pose_of_exact(pose_reader *p, double t, double *pose);
 void pose_close(pose_reader *p);
 
 #endif

@@ -1,6 +1,6 @@
-/* report_run.c - the page of a run: what moves and how, sizes and trends, its path, its
- * coordinates, and what should not change, over t and as envelopes over log t; then the command
- * that makes the run. */
+/* report_run.c - the page of a run: its end in words, its motion, what moves and how, sizes and
+ * trends, its path, its coordinates, and what should not change, over t and as envelopes over
+ * log t; then the command that makes the run. */
 #include "report_run.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -486,18 +486,13 @@ static void write_verdicts(const run_page *run, const dal_system *system)
 
 /* ---- the page ------------------------------------------------------------------------------ */
 
-/* What moves and how, and why the run ended where it did not reach its end. */
-static void write_head(const run_page *run, const document *manifest)
+/* Why the run ended where it did not reach its end. */
+static void write_end(const run_page *run, const document *manifest)
 {
-    const run_request *request = run->request;
     FILE *page = run->r->page;
     const char *message;
+    if (!run->model) return;
     const store_state state = store_stated(manifest, &message);
-    fputs(REPORT_FACTS, page);
-    report_fact(page, "system", request->system_name);
-    report_system(page, run->model, request);
-    report_method(page, request);
-    fputs(REPORT_FACTS_END, page);
     if (state == STORE_DONE && message) {
         report_element(page, "p", message);
         fputc('\n', page);
@@ -512,6 +507,18 @@ static void write_head(const run_page *run, const document *manifest)
     }
 }
 
+/* What moves and how. */
+static void write_facts(const run_page *run)
+{
+    FILE *page = run->r->page;
+    if (!run->model) return;
+    fputs(REPORT_FACTS, page);
+    report_fact(page, "system", run->request->system_name);
+    report_system(page, run->model, run->request);
+    report_method(page, run->request);
+    fputs(REPORT_FACTS_END, page);
+}
+
 int report_run(report *r)
 {
     run_directory dir = {.descriptor = -1};
@@ -519,7 +526,7 @@ int report_run(report *r)
     run_request *request = &simulation.request;
     run_page *run = cli_calloc(1, sizeof *run);
     char *summary = cli_join(r->directory, "summary.csv"); /* written when the run is over */
-    run->r = r;
+    *run = (run_page){.r = r, .request = request};
     int status = reader_open(&run->reader, r->directory);
     const bool is_open = status == CLI_DONE;
     if (is_open && run->reader.count == 0)
@@ -535,7 +542,6 @@ int report_run(report *r)
     if (status == CLI_DONE)
         status = report_events_read(&run->events, dir.events, has_events ? simulation.system : NULL,
                                     request->from);
-    run->request = request;
     run->model = simulation.model;
     if (status == CLI_DONE && access(summary, F_OK) == 0)
         status = csv_table_read(&run->summary, summary);
@@ -551,9 +557,10 @@ int report_run(report *r)
         place_columns(run);
         write_state(run);
         write_verdicts(run, simulation.system);
-        if (simulation.model) write_head(run, dir.doc);
-        write_summary(run, fabs(last - request->from));
+        write_end(run, dir.doc);
         if (request->system_name) status = data_write_run(r);
+        write_facts(run);
+        write_summary(run, fabs(last - request->from));
         report_events_write(r, &run->events);
         if (status == CLI_DONE) status = draw_figures(run);
         if (request->system_name) report_command(r, request);

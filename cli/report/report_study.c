@@ -291,7 +291,7 @@ enum { MAX_TRIES = 12 };
 static int read_motion(const label_figures *f, int row, motion *m)
 {
     char *run = cli_join(f->s->r->directory, get_cell(f->s, row, "run"));
-    const int status = motion_read(m, run, MOTION_STUDY_FRAMES);
+    const int status = motion_read(m, NULL, run, MOTION_STUDY_FRAMES);
     free(run);
     return status;
 }
@@ -323,7 +323,9 @@ static int write_motions(const label_figures *f, json_writer *data)
         row = find_worst(f, bound, step_of(f, best));
         if (row == 0 || row == best) break;
         status = read_motion(f, row, &pair[1]);
-        if (motion_extent(&pair[1]) <= max_extent * motion_extent(&pair[0])) break;
+        if (pair[1].start == pair[0].start && pair[1].frames > 1 &&
+            motion_extent(&pair[1]) <= max_extent * motion_extent(&pair[0]))
+            break;
         motion_free(&pair[1]);
         bound = error_of(f, row);
     }

@@ -60,6 +60,8 @@ END_OF_SYSTEM
     "$program" report box
     "$program" run pendulum-cvt --integrator gni --step 0.1 --time 2000 --samples 50 --output few
     "$program" report few
+    "$program" run chaplygin-sleigh --integrator rk4 --step 0.2 --time 5 --output sleigh
+    "$program" report sleigh
     "$program" run "$here/../../examples/ball-on-incline.yaml" --output bounces
     "$program" report bounces
     "${program%/*}/bench/page" bench "$here/bench.jsonl"

@@ -1,6 +1,6 @@
 """script.py BROWSER DIRECTORY GALLERY - the pages of reports as they are used, in headless Chromium.
 
-DIRECTORY has the reports study, run, orders, disk, single, box and few, GALLERY moving pictures.  Keys, clicks and the pointer are the browser's own
+DIRECTORY has the reports study, run, orders, disk, single, box, few and sleigh, GALLERY moving pictures.  Keys, clicks and the pointer are the browser's own
 input.  Every fault is a line "fault: ..."; nothing depends on how fast the machine is.
 """
 import glob
@@ -417,6 +417,28 @@ def check_last(browser):
     times = [browser.run(read.replace("FIGURE", figure)).split(":")[0] for figure in (one, other, whole)]
     expect(times[0] == times[1] == "t = 1948.9", f"last: the first of the last steps are at {times[:2]}")
     expect(times[2] != times[0], f"last: the chart of the whole run shows {times[2]}")
+    motion = "document.querySelector('.motion')"
+    bring(browser, motion, "svg")
+    caption = browser.run(f"{motion}.querySelector('figcaption').textContent")
+    expect("these are the last 512 steps, t = 1948.9 to 2000." in caption, f"last: the caption is '{caption}'")
+    focus(browser, f"{motion}.querySelector('input[type=range]')")
+    for key, wanted in [("Home", "t = 1948.90"), ("End", "t = 2000.00")]:
+        browser.press(key)
+        shown = browser.run(f"{motion}.querySelector('.readout').textContent")
+        expect(shown == wanted, f"last: at {key} the motion is at {shown}")
+
+
+def check_exact(browser):
+    """The exact solution is beside the run, x = sin t, y = 1 - cos t, each with its name, and readable where both meet."""
+    caption = browser.run("document.querySelector('.motion figcaption').textContent")
+    expect(caption.startswith(" rk4, h = 0.2,  exact solution."), f"exact: the caption is '{caption}'")
+    name = browser.run("document.querySelector('.motion svg').getAttribute('aria-label')")
+    expect(name.startswith("Motion of a sleigh by rk4 and exact solution"), f"exact: the picture is '{name}'")
+    dashes = browser.run("[...document.querySelectorAll('.motion .body path')].map(p => getComputedStyle(p).strokeDasharray)")
+    expect(dashes.count("none") * 2 == len(dashes), f"exact: both bodies have the lines {dashes}")
+    place = "document.querySelectorAll('.motion .path')[1]"
+    width, height = browser.run(f"(b => [b.width, b.height])({place}.getBBox())")
+    expect(abs(width - 100) < 0.05 and abs(height - 100) < 0.6, f"exact: its path is {width} times {height}, no circle")
 
 
 def check_single(browser):
@@ -457,7 +479,7 @@ def check_gallery(browser, gallery):
 def main(program, directory, gallery):
     """All checks, in a wide and a narrow window, light and dark."""
     browser = Chromium(program, f"{directory}/profile-script")
-    page = {name: f"file://{directory}/{name}/report/index.html" for name in ("study", "run", "orders", "disk", "single", "box", "few")}
+    page = {name: f"file://{directory}/{name}/report/index.html" for name in ("study", "run", "orders", "disk", "single", "box", "few", "sleigh")}
     for width, dark in [(1280, False), (1280, True), (400, False), (400, True)]:
         browser.open(page["study"], width, dark)
         controls = check_names(browser, "study")
@@ -482,6 +504,11 @@ def main(program, directory, gallery):
         controls += check_names(browser, "disk")
         check_turn(browser)
         check_layout(browser, "disk")
+        browser.open(page["sleigh"], width, dark)
+        controls += check_names(browser, "sleigh")
+        check_play(browser, "sleigh", 2)
+        check_exact(browser)
+        check_layout(browser, "sleigh")
         browser.open(page["single"], width, dark)
         check_single(browser)
         browser.open(page["box"], width, dark)

@@ -79,7 +79,7 @@ try 0 report parts
 expect "other figures than of the whole run" sh -c 'for d in stepped parts; do
     grep -o "class=.figure.>.*</script>" $d/report/index.html >$d.figures; done; cmp stepped.figures parts.figures'
 
-if needs 28 "no python3" there python3; then
+if needs 45 "no python3" there python3; then
     case_is "the envelopes of a page are the maxima of series/"
     # Of three methods with two steps: D, E, I, H and the error of the sleigh, D, E and I of the
     # vakonomic one, all but D of the line.
@@ -108,16 +108,62 @@ END2
     try 0 report ran
     python3 "$here/page_data.py" motions ran/report/index.html >motion
     expect "it is no motion round the circle" awk 'function off(x, y) { return (x > y ? x - y : y - x) > 2e-6 }
-        { n++; wrong += $1 != "gauss4" || off($3, 0.1*sin($2)) || off($4, 0.1 - 0.1*cos($2)) ||
-              ($5 - $2)^2 > 1e-8 || $6 != 0 }
-        END { exit n != 641 || wrong }' motion
+        { n[$1]++; wrong += off($3, 0.1*sin($2)) || off($4, 0.1 - 0.1*cos($2)) || ($5 - $2)^2 > 1e-8 || $6 != 0 }
+        END { exit n["gauss4"] != 641 || n["exact"] != 641 || wrong }' motion
 
-    case_is "rows that are far apart are the frames"
-    try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 300 --samples 50 --output far
+    # rk4 leaves the circle of radius 1 by as much as the error of its last row; the exact motion does not.
+    case_is "the exact motion beside an inaccurate one"
+    try 0 run chaplygin-sleigh --integrator rk4 --step 0.2 --time 60 --samples 300 --output parted
+    try 0 report parted
+    error=$("$program" run chaplygin-sleigh --integrator rk4 --step 0.2 --time 60 --samples 1 --columns error | sed -n '$s/.*,//p')
+    python3 "$here/page_data.py" motions parted/report/index.html >motion
+    expect "not both motions" awk -v e="$error" 'function far(x, y) { return x > y ? x - y : y - x }
+        { d = far($3, sin($2)); s = far($4, 1 - cos($2)); if (s > d) d = s; n[$1]++; last[$1] = d
+          if (d > most[$1]) most[$1] = d }
+        END { exit n["rk4"] != 2401 || n["exact"] != 2401 || most["exact"] > 2e-5 || e < 0.01 || far(last["rk4"], e) > 4e-5 }' motion
+
+    # An exact solution without a value from t = 0.95 to 1.5 is shown up to there, with eight frames a row.
+    case_is "an exact motion ends where it is not known"
+    cat >known.yaml <<'END2'
+coordinates: [x]
+lagrangian: x'^2/2
+start: {x': 1}
+exact: {x: "if((t - 0.95)*(t - 1.5) > 0, t, sqrt(0.9 - t))"}
+END2
+    try 0 run known.yaml --integrator gauss4 --step 0.1 --time 2.5 --samples 25 --output known
+    try 0 report known
+    python3 "$here/page_data.py" motions known/report/index.html >motion
+    expect "another end" awk '{ end[$1] = $2; wrong += $1 == "exact" && ($4 - $2)^2 > 1e-8 }
+        END { exit wrong || end["gauss4"] != 2.5 || !(end["exact"] > 0.93 && end["exact"] < 0.95) }' motion
+
+    # 3000 steps and 51 rows, a turn apart: the last 512 steps, from t = 300 - 51.1 on, with cubics between them.
+    case_is "of rows that are far apart the last steps are shown"
+    try 0 run chaplygin-sleigh --integrator gauss8 --step 0.1 --time 300 --samples 50 --output far
     try 0 report far
     python3 "$here/page_data.py" motions far/report/index.html >motion
-    expect "$(wc -l <motion) frames" test "$(wc -l <motion)" -eq 51
-    expect "no word of it" grep -q '"smooth":false' far/report/index.html
+    expect "not the last steps" awk 'function off(x, y, e) { return (x > y ? x - y : y - x) > e }
+        { n[$1]++; if (n[$1] == 1) first[$1] = $2; wrong += off($3, sin($2), 2e-5) || off($4, 1 - cos($2), 2e-5) || off($5, $2, 1e-3) }
+        END { exit wrong || n["gauss8"] != 4089 || n["exact"] != 4089 || off(first["gauss8"], 248.9, 1e-9) || off($2, 300, 1e-9) }' motion
+    expect "no word of it" grep -q '"step":0.1,"part":"the last 512 steps".*"smooth":true' far/report/index.html
+    # A box that turns in its place, by 6 radians from row to row, has no path; it, too, is shown at its steps.
+    printf "coordinates: [a]\nlagrangian: a'^2/2\nstart: {a': 1}\npicture: {x: 0, y: 0, wz: a', body: box}\n" >turns.yaml
+    try 0 run turns.yaml --integrator gauss4 --step 0.1 --time 300 --samples 50 --output turns
+    try 0 report turns
+    expect "rows of a body that turns" grep -q '"step":0.1,"part":"the last 512 steps"' turns/report/index.html
+    # Without a picture, and with columns that are no state, the state is in the steps.
+    try 0 run chaplygin-sleigh --integrator gauss8 --step 0.1 --time 300 --samples 50 --columns E --output columns
+    try 0 report columns
+    python3 "$here/page_data.py" motions columns/report/index.html | grep gauss8 >shown
+    grep gauss8 motion >wanted
+    expect "another motion than with all columns" cmp wanted shown
+
+    case_is "rows that are far apart are the frames where no steps are kept"
+    try 0 run chaplygin-sleigh --integrator gauss4 --step 1.5 --time 300 --samples 50 --output kept
+    try 0 report kept
+    python3 "$here/page_data.py" motions kept/report/index.html >motion
+    expect "$(wc -l <motion) frames" test "$(grep -c gauss4 motion)" -eq 51
+    expect "exact frames at other times than the rows" awk '$1 == "exact" { n++; wrong += ($3 - sin($2))^2 > 1e-9 } END { exit wrong || n != 51 }' motion
+    expect "no word of it" grep -q '"smooth":false' kept/report/index.html
 
     case_is "a system without a picture: its first pair of coordinates"
     printf 'coordinates: [x, x2, x1]\naccelerations: {x: 0, x2: 0, x1: 0}
