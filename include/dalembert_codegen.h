@@ -34,8 +34,9 @@ dal_status dal_generate(const dal_run_spec *spec, const dal_generate_options *op
 /* ---- equations typeset --------------------------------------------------------------------- */
 
 /* Writes the equations of a model as LaTeX, one align* of amsmath: the Lagrangian L, forces Q, the
- * constraints D = 0, the accelerations F derived from them, what several of these share as s_1,
- * s_2, .., and the Hamiltonian H of the lift; *text, to be freed with free().  Names as theta1
+ * holonomic constraints C = 0 and all constraints D = 0, the accelerations F derived from them and
+ * the multipliers h of C, what several of these share as s_1, s_2, .., and the Hamiltonian H of the
+ * lift; *text, to be freed with free().  Names as theta1
  * become Greek letters with subscripts. [alloc]  Errors: as dal_model_system;
  * DAL_STATUS_TOO_LARGE where a formula is longer than a megabyte. */
 dal_status dal_model_latex(dal_model *model, char **text, dal_error *error);

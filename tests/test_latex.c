@@ -316,7 +316,34 @@ static void compare(double found, double expected, const char *what)
     CU_ASSERT(is_equal);
 }
 
-/* F and D of the rows at a point about the start are what the callbacks return. */
+/* C, D and h of holonomic constraints: what the callbacks return at the point of a page. */
+static void check_constraints(sheet *page, dal_evaluator *e, double *out)
+{
+    const dal_system *s = page->system;
+    const int velocities = s->m - s->holonomic;
+    char left[NAME];
+    if (s->constraints) dal_evaluator_call(e, s->constraints, page->t, page->q, page->v, NULL, out);
+    for (int a = 0; a < s->m; a++) {
+        const int n = snprintf(left, sizeof left, "D_{%d}", a + 1);
+        if (a >= velocities)
+            snprintf(left + n, sizeof left - (size_t)n, " = \\tfrac{d}{dt}\\,C_{%d}",
+                     a - velocities + 1);
+        compare(row_value(page, find_row(page, left)), out[a], s->name);
+    }
+    if (s->holonomic == 0) return;
+    dal_evaluator_call(e, s->call.holonomic, page->t, page->q, page->v, NULL, out);
+    for (int k = 0; k < s->holonomic; k++) {
+        snprintf(left, sizeof left, "C_{%d}", k + 1);
+        compare(row_value(page, find_row(page, left)), out[k], s->name);
+    }
+    dal_evaluator_call(e, s->reactions, page->t, page->q, page->v, NULL, out);
+    for (int a = velocities; a < s->m; a++) {
+        snprintf(left, sizeof left, "h_{%d}", a + 1);
+        compare(row_value(page, find_row(page, left)), out[a], s->name);
+    }
+}
+
+/* F, C, D and h of the rows at a point about the start are what the callbacks return. */
 static void check_system(dal_model *model)
 {
     const dal_system *s;
@@ -328,7 +355,8 @@ static void check_system(dal_model *model)
     open_page(&page, text, s);
     dal_evaluator *e = fixture_evaluator(s);
     const int n = s->n, nw = n + s->multipliers;
-    double *x = calloc((size_t)(2 * (n + nw) + s->m + 1), sizeof *x), *out = x + n + nw + 1;
+    double *x = calloc((size_t)(2 * (n + nw) + s->m * (1 + n) + n + 1), sizeof *x),
+           *out = x + n + nw + 1; /* h, R too */
     dal_evaluator_start(e, NULL, 0, x, &error);
     for (int i = 0; i < n + nw; i++) x[i] += 0.01 * (i + 1);
     page.q = x, page.v = x + n, page.parameters = s->value;
@@ -342,11 +370,7 @@ static void check_system(dal_model *model)
         snprintf(name, sizeof name, "%.60s: %.50s", s->name, left);
         compare(row_value(&page, find_row(&page, left)), out[i], name);
     }
-    if (s->constraints) dal_evaluator_call(e, s->constraints, page.t, page.q, page.v, NULL, out);
-    for (int a = 0; a < s->m; a++) {
-        snprintf(left, sizeof left, "D_{%d}", a + 1);
-        compare(row_value(&page, find_row(&page, left)), out[a], s->name);
-    }
+    check_constraints(&page, e, out);
     free(x);
     dal_evaluator_free(e);
     free(text);
@@ -358,6 +382,26 @@ static void latex_builtins(void)
     for (int i = 0; (name = dal_builtin_name(i)); i++) {
         dal_model *model;
         CU_ASSERT_EQUAL_FATAL(dal_model_builtin(&model, name, NULL), DAL_STATUS_OK);
+        check_system(model);
+        dal_model_free(model);
+    }
+}
+
+static dal_model *model_of(const char *yaml);
+
+/* Alone, and two with t beside a constraint of velocities. */
+static void latex_holonomic(void)
+{
+    static const char *const files[] = {
+        "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - 9.81*y\nholonomic: [x^2 + y^2 - 4]\n"
+        "start: {y: -2, x': 0.3}\n",
+        "coordinates: [x, y, z, u]\nparameters: {m: 2}\nlagrangian: m/2*(x'^2 + y'^2 + z'^2 + "
+        "u'^2) - 9.81*z\n"
+        "holonomic: [x^2 + y^2 - z - 0.1*sin(t), x - y]\nconstraints: [u' - x*y']\nstart: {x: 0, "
+        "z: 0}\n",
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        dal_model *model = model_of(files[i]);
         check_system(model);
         dal_model_free(model);
     }
@@ -496,6 +540,7 @@ void suite_latex(void)
     CU_pSuite suite = CU_add_suite("latex", NULL, NULL);
     CU_add_test(suite, "F and D of every system, read again", latex_builtins);
     CU_add_test(suite, "every function and bracket", latex_functions);
+    CU_add_test(suite, "holonomic constraints", latex_holonomic);
     CU_add_test(suite, "texts written by hand", latex_texts);
     CU_add_test(suite, "long formulas, no lift, no memory", latex_limits);
     CU_add_test(suite, "deep formulas as MathML", latex_depth);

@@ -111,6 +111,7 @@ static void write_equations(FILE *page, dal_model *model)
     write_formulas(page, model, DAL_SECTION_LAGRANGIAN, "Lagrangian", "L", "");
     write_formulas(page, model, DAL_SECTION_ACCELERATIONS, "accelerations", "", "");
     write_formulas(page, model, DAL_SECTION_CONSTRAINTS, "constraints", "", " = 0");
+    write_formulas(page, model, DAL_SECTION_HOLONOMIC, "holonomic", "", " = 0");
     write_formulas(page, model, DAL_SECTION_FORCES, "forces", "Q_", "");
 }
 

@@ -1,4 +1,4 @@
-/* latex.c - the equations of a model, typeset: L, Q, D, F, and H of the lift. */
+/* latex.c - the equations of a model, typeset: L, Q, C, D, F, h of C, and H of the lift. */
 #include "codegen/typeset.h"
 #include "dalembert_codegen.h"
 #include "expr/traversal.h"
@@ -114,7 +114,14 @@ static void put_shared(dal__buffer *text, const dal__typesetter *t)
     }
 }
 
-/* L, Q and D = 0 as they are given, with what they name. */
+/* "prefix_{a}" of constraint a, from 0. */
+static void put_numbered(dal__buffer *text, const dal__equations *e, const char *prefix, int a)
+{
+    put_letter(text, e, prefix);
+    dal__buffer_print(text, "_{%d}", a + 1);
+}
+
+/* L, Q, the holonomic constraints C = 0 and D = 0 as they are given, with what they name. */
 static void put_given(dal__buffer *text, const dal__equations *e, const dal__typesetter *t)
 {
     if (e->lagrangian && !(e->accelerations && dal__is_number(e->graph, e->lagrangian, 0.0))) {
@@ -128,16 +135,24 @@ static void put_given(dal__buffer *text, const dal__equations *e, const dal__typ
         put_indexed(text, "Q", e, i);
         put_row(text, t, e->force[i], "");
     }
+    for (int k = 0; k < e->holonomic; k++) {
+        begin_row(text);
+        put_numbered(text, e, "C", k);
+        put_row(text, t, e->position[k], " = 0");
+    }
     for (int a = 0; a < e->m; a++) {
         begin_row(text);
-        put_letter(text, e, "D");
-        dal__buffer_print(text, "_{%d}", a + 1);
+        put_numbered(text, e, "D", a);
+        if (a >= e->m - e->holonomic) {
+            dal__buffer_append(text, " = \\tfrac{d}{dt}\\,");
+            put_numbered(text, e, "C", a - (e->m - e->holonomic));
+        }
         put_row(text, t, e->constraint[a], " = 0");
     }
     put_shared(text, t);
 }
 
-/* F, and the rates of vakonomic multipliers, with what these share. */
+/* F, the rates of vakonomic multipliers, and the multipliers of C, with what these share. */
 static void put_motion(dal__buffer *text, const dal__equations *e, const dal__typesetter *t)
 {
     for (int i = 0; i < e->n + e->multipliers; i++) {
@@ -151,6 +166,11 @@ static void put_motion(dal__buffer *text, const dal__equations *e, const dal__ty
             put_indexed(text, "F", e, i);
         }
         put_row(text, t, e->F[i], "");
+    }
+    for (int a = e->m - e->holonomic; a < e->m; a++) {
+        begin_row(text);
+        put_numbered(text, e, "h", a);
+        put_row(text, t, e->h[a], "");
     }
     put_shared(text, t);
 }
@@ -226,18 +246,41 @@ static void put_all(dal__buffer *text, const dal__equations *e, const dal__types
     dal__buffer_append(text, "\n\\end{align*}\n");
 }
 
-/* L, mu_e, Q and D; count receives how many they are. */
+/* L, mu_e, Q, C and D; count receives how many they are. */
 static dal__node *list_given(const dal__equations *e, int *count)
 {
-    dal__node *nodes = calloc((size_t)(2 + e->n + e->m), sizeof *nodes);
+    dal__node *nodes = calloc((size_t)(2 + e->n + e->m + e->holonomic), sizeof *nodes);
     if (!nodes) return NULL;
     int k = 0;
     nodes[k++] = e->lagrangian;
     nodes[k++] = e->mu;
     for (int i = 0; i < e->n && !e->accelerations; i++) nodes[k++] = e->force[i];
     for (int a = 0; a < e->m; a++) nodes[k++] = e->constraint[a];
+    for (int i = 0; i < e->holonomic; i++) nodes[k++] = e->position[i];
     *count = k;
     return nodes;
+}
+
+/* F, and the multipliers of C. */
+static dal__node *list_motion(const dal__equations *e, int *count)
+{
+    const int rates = e->n + e->multipliers;
+    dal__node *nodes = calloc((size_t)(rates + e->holonomic), sizeof *nodes);
+    if (!nodes) return NULL;
+    for (int i = 0; i < rates; i++) nodes[i] = e->F[i];
+    for (int k = 0; k < e->holonomic; k++) nodes[rates + k] = e->h[e->m - e->holonomic + k];
+    *count = rates + e->holonomic;
+    return nodes;
+}
+
+/* Typesets nodes, which it frees; NULL: there was no memory for them. */
+static dal_status typeset_list(dal__typesetter **typesetter, dal__graph *graph, dal__node *nodes,
+                               int count, const dal__typeset_options *options)
+{
+    if (!nodes) return DAL_STATUS_MEMORY;
+    const dal_status status = dal__typesetter_create(typesetter, graph, nodes, count, options);
+    free(nodes);
+    return status;
 }
 
 dal_status dal_model_latex(dal_model *model, char **text, dal_error *error)
@@ -255,13 +298,12 @@ dal_status dal_model_latex(dal_model *model, char **text, dal_error *error)
     dal__buffer all = {0};
     int count = 0;
     dal__node *nodes = list_given(e, &count);
-    dal_status status = nodes ? dal__typesetter_create(&given, e->graph, nodes, count, &options)
-                              : DAL_STATUS_MEMORY;
-    free(nodes);
+    dal_status status = typeset_list(&given, e->graph, nodes, count, &options);
     if (status == DAL_STATUS_OK) {
         options.shared_length = MOTION_LENGTH;
         options.shared_before = dal__typeset_numbered(given);
-        status = dal__typesetter_create(&motion, e->graph, e->F, e->n + e->multipliers, &options);
+        nodes = list_motion(e, &count);
+        status = typeset_list(&motion, e->graph, nodes, count, &options);
     }
     if (status == DAL_STATUS_OK) put_all(&all, e, given, motion, model->effort);
     dal__typesetter_free(given);

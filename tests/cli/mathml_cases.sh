@@ -44,7 +44,7 @@ accelerated() {
     equation "ddot(x)=F_x =$2"
 }
 
-if needs 31 "no python3" there python3; then
+if needs 35 "no python3" there python3; then
     case_is "every system is XML"
     expect "not well-formed" python3 "$here/read_mathml.py" systems.mathml/*
 
@@ -63,6 +63,21 @@ END
     equation 'Q_φ =-k_1*dot(φ)'
     equation 'D_1 =dot(φ)*sin^2@(x_12)-dot(x)_12=0'
     expect "no H" grep -q '^H =frac({π_φ^2+π_x_12^2}; {2\*e})+π_φ\*F_φ+' rows
+
+    # g is the parameter; C and h are the columns C1 and h1.  h = (2 g y - 2 (x'^2 + y'^2))/(4 l^2) on C = 0.
+    case_is "a holonomic constraint and its multiplier"
+    cat >swing.yaml <<'END'
+coordinates: [x, y]
+parameters: {l: 2, g: 9.81}
+lagrangian: (x'^2 + y'^2)/2 - g*y
+holonomic: [x^2 + y^2 - l^2]
+start: {y: -2}
+END
+    try 0 check swing.yaml --mathml
+    python3 "$here/read_mathml.py" out >rows
+    equation 'C_1 =x^2+y^2-l^2=0'
+    equation 'D_1=frac(d; {dt})*C_1 =2*(dot(x)*x+dot(y)*y)=0'
+    expect "no multiplier" grep -q '^h_1 =frac(' rows
 
     case_is "formulas that are known"
     accelerated "x/(y + 1)" 'frac(x; {1+y})'
