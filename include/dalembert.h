@@ -27,7 +27,8 @@
  * The library of `make MINIMAL=1` has no quad precision and takes no holonomic constraints
  * (DAL_STATUS_UNSUPPORTED), and lacks the functions of dalembert_batch.h, dalembert_analysis.h and
  * dalembert_codegen.h; of dalembert_model.h it lacks what reads YAML, built-in systems,
- * dal_model_growth and dal_model_ranks.  To call one of these is an error of the linker.
+ * dal_model_tangent, dal_model_tangent_by, dal_model_growth and dal_model_ranks.  To call one of
+ * these is an error of the linker.
  *
  * Nothing here prints, reads the environment or has global state.  Different objects may be used in
  * different threads. */

@@ -153,8 +153,21 @@ const char *dal_builtin_text(const char *name);
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error);
 /* Gives the tangent system, owned by the model: 2n coordinates (q, dq), accelerations F and
  * F_q dq + F_v dv, no constraints.  A Runge-Kutta or partitioned method applied to it is that
- * method's exact tangent map. [alloc]  Errors: as for dal_model_system. */
+ * method's exact tangent map.
+ *
+ * Its lifted space is the tangent of the lifted space: the momenta of (q, dq) are (dp, p) and
+ * (dpi, pi), pi_e is dpi_e, and with K = [[0, K], [K, dK]] as its effort, dK = K_q dq + K_v dv,
+ *     H = dp.v + p.dv + dpi.F + pi.(F_q dq + F_v dv) + (2 dpi.K pi + pi.dK pi)/(2e)
+ * is the derivative of H of the system along (dq, dv, dp, dpi), with de = 0. [alloc]  Errors: as
+ * for dal_model_system; DAL_STATUS_UNSUPPORTED: vakonomic motion has none. */
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error);
+/* The same with the derivatives by a parameter added, F_q dq + F_v dv + F_k, and to dK likewise; it
+ * starts from the derivative of the start of the system.  Steps of a Runge-Kutta or partitioned
+ * method then move (dq, dv) as the derivative of the steps of a run by that parameter. [alloc]
+ * Errors: also DAL_STATUS_NAME; DAL_STATUS_UNSUPPORTED: the gauge depends on the parameter, or the
+ * start is solved. */
+dal_status dal_model_tangent_by(dal_model *model, const char *parameter, const dal_system **system,
+                                dal_error *error);
 
 enum { DAL_GROWTH_LEVELS = 64 /* max ranks of dal_growth */ };
 /* The growth vector of the velocities that D = 0 allows, a distribution V_1 on the space of q:

@@ -544,7 +544,13 @@ static void null_dal_model_tangent(void)
     REFUSED(dal_model_tangent(NULL, &system, error));
     CU_ASSERT_PTR_NULL(system);
 }
-
+static void null_dal_model_tangent_by(void)
+{
+    const dal_system *system;
+    REFUSED(dal_model_tangent_by(model, "m", NULL, error));
+    REFUSED(dal_model_tangent_by(model, NULL, &system, error));
+    REFUSED(dal_model_tangent_by(NULL, "m", &system, error));
+}
 static void null_dal_model_growth(void)
 {
     dal_growth growth;

@@ -65,6 +65,13 @@ typedef struct dal__warning {
     struct dal__warning *next;
 } dal__warning;
 
+/* A tangent system: of the model, or by a parameter. */
+typedef struct dal__tangent_system {
+    dal__programs programs;
+    dal_system system;
+    bool made;
+} dal__tangent_system;
+
 struct dal_model {
     char *name;
     dal__pool memory;   /* all of it */
@@ -85,11 +92,12 @@ struct dal_model {
     size_t source_length;
     dal__warning *warning; /* of the last attempt to make the system */
     dal__equations equations;
-    bool made, tangent_made;
-    dal__programs programs, tangent_programs, extended_programs;
+    bool made;
+    dal__programs programs, extended_programs;
+    dal__tangent_system **tangent;      /* [1 + parameters] those that were made; or NULL */
     dal__terms *terms, *reaction_terms; /* of D, E, invariants; of h, R; NULL: not made */
     double *units;                      /* of the system, see dal_system */
-    dal_system system, tangent, extended;
+    dal_system system, extended;
 };
 
 /* count*size bytes of zeros that are freed with the model; NULL, and out_of_memory is set, when

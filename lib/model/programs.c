@@ -86,6 +86,46 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
     return dal__programs_add_lists(model, programs, code, &(dal__nodes){outputs, count}, 1);
 }
 
+/* ---- where the motion fails ---- */
+
+/* The nodes that read tables, each after its argument, into out[2*lookups] where not NULL. */
+static int list_lookups(dal__equations *e, dal__node *out)
+{
+    int count = 0;
+    for (dal__node i = 1; i <= e->graph->count; i++) {
+        const dal__record r = dal__inspect(e->graph, i);
+        if (r.op != DAL__TABLE || r.symbol % DAL__TABLE_ORDERS) continue;
+        if (out) {
+            out[2 * count] = r.a;
+            out[2 * count + 1] = i;
+            e->lookup[count] = r.symbol / DAL__TABLE_ORDERS;
+        }
+        count++;
+    }
+    return count;
+}
+
+dal_status dal__programs_add_diagnosis(dal_model *model, dal__programs *programs)
+{
+    dal__equations *e = &model->equations;
+    const int lookups = list_lookups(e, NULL), first = 2 * e->pivots + e->m;
+    dal__node *out = dal__model_nodes(model, first + 2 * lookups, 0);
+    e->lookup = dal__model_allocate(model, (size_t)lookups + 1, sizeof *e->lookup);
+    e->lookups = lookups;
+    if (!out || !e->lookup) return DAL_STATUS_MEMORY;
+    list_lookups(e, out + first);
+    for (int k = 0; k < e->pivots; k++) {
+        out[2 * k] = e->pivot[k].pivot;
+        out[2 * k + 1] = e->pivot[k].size;
+    }
+    for (int a = 0; a < e->m; a++) {
+        dal__node sum = dal__node_add(e->graph, e->constraint[a], e->c[a]);
+        for (int i = 0; i < e->n; i++) sum = dal__node_add(e->graph, sum, e->A[a * e->n + i]);
+        out[2 * e->pivots + a] = sum;
+    }
+    return dal__programs_add(model, programs, DAL__PROGRAM_DIAGNOSE, out, first + 2 * lookups);
+}
+
 /* ---- derivatives of the motion ---- */
 
 /* Derivatives of e->F follow from its equations; derivatives of another F, by sweeps over F.  Where

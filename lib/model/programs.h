@@ -23,6 +23,8 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
                              const dal__node *outputs, int count);
 /* Adds field, adjoint and jacobian of dx/dt = F: nw nodes, the first n of them accelerations. */
 dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F);
+/* Adds what names the pivot, the constraint or the table where a motion fails. */
+dal_status dal__programs_add_diagnosis(dal_model *model, dal__programs *programs);
 /* The programs of a model's system; NULL for another. */
 const dal__programs *dal__programs_of(const dal_system *system);
 /* Finishes the tapes and points the system to its callbacks, and to itself in quad precision. */

@@ -1,4 +1,4 @@
-/* system.c - the dal_system of a model, and of its tangent map. */
+/* system.c - the dal_system of a model. */
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
@@ -63,44 +63,6 @@ static dal_status add_blocks(dal_model *model, dal__programs *programs)
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_BLOCKS, lists, 5);
 }
 
-/* The nodes that read tables, each after its argument, into out[2*lookups] where not NULL. */
-static int list_lookups(dal__equations *e, dal__node *out)
-{
-    int count = 0;
-    for (dal__node i = 1; i <= e->graph->count; i++) {
-        const dal__record r = dal__inspect(e->graph, i);
-        if (r.op != DAL__TABLE || r.symbol % DAL__TABLE_ORDERS) continue;
-        if (out) {
-            out[2 * count] = r.a;
-            out[2 * count + 1] = i;
-            e->lookup[count] = r.symbol / DAL__TABLE_ORDERS;
-        }
-        count++;
-    }
-    return count;
-}
-
-static dal_status add_diagnosis(dal_model *model, dal__programs *programs)
-{
-    dal__equations *e = &model->equations;
-    const int lookups = list_lookups(e, NULL), first = 2 * e->pivots + e->m;
-    dal__node *out = dal__model_nodes(model, first + 2 * lookups, 0);
-    e->lookup = dal__model_allocate(model, (size_t)lookups + 1, sizeof *e->lookup);
-    e->lookups = lookups;
-    if (!out || !e->lookup) return DAL_STATUS_MEMORY;
-    list_lookups(e, out + first);
-    for (int k = 0; k < e->pivots; k++) {
-        out[2 * k] = e->pivot[k].pivot;
-        out[2 * k + 1] = e->pivot[k].size;
-    }
-    for (int a = 0; a < e->m; a++) {
-        dal__node sum = dal__node_add(e->graph, e->constraint[a], e->c[a]);
-        for (int i = 0; i < e->n; i++) sum = dal__node_add(e->graph, sum, e->A[a * e->n + i]);
-        out[2 * e->pivots + a] = sum;
-    }
-    return dal__programs_add(model, programs, DAL__PROGRAM_DIAGNOSE, out, first + 2 * lookups);
-}
-
 static dal_status add_if(dal_model *model, dal__programs *programs, bool present,
                          dal__program_code code, const dal__node *outputs, int count)
 {
@@ -120,7 +82,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     DAL_TRY(add_blocks(model, p));
     DAL_TRY(add_if(model, p, e->holonomic, DAL__PROGRAM_HOLONOMIC, e->position, e->holonomic));
     DAL_TRY(add_if(model, p, e->potential, DAL__PROGRAM_POTENTIAL, e->potential, 3 * e->n));
-    DAL_TRY(add_diagnosis(model, p));
+    DAL_TRY(dal__programs_add_diagnosis(model, p));
     DAL_TRY(add_if(model, p, e->normal, DAL__PROGRAM_ENERGY_NORMAL, e->normal, 1 + 3 * e->n));
     DAL_TRY(add_if(model, p, e->mu, DAL__PROGRAM_GAUGE, &e->mu, 1));
     DAL_TRY(add_if(model, p, e->mu_gradient, DAL__PROGRAM_GAUGE_GRADIENT, e->mu_gradient,
@@ -358,78 +320,12 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     return DAL_STATUS_OK;
 }
 
-/* ---- the tangent system ---- */
-
-/* F and F_q dq + F_v dv, as one motion of 2n coordinates. */
-static dal_status add_tangent_programs(dal_model *model)
-{
-    const dal__equations *e = &model->equations;
-    int n = e->n;
-    dal__node *F = dal__model_nodes(model, 2 * n, 0), *seed = dal__model_nodes(model, 2 * n, 0);
-    int *along = dal__model_allocate(model, 2 * (size_t)n, sizeof *along);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    for (int i = 0; i < n; i++) {
-        along[i] = e->q + i;
-        along[n + i] = e->v + i;
-        seed[i] = dal__symbol(e->graph, e->q + n + i);
-        seed[n + i] = dal__symbol(e->graph, e->v + n + i);
-    }
-    for (int i = 0; i < n; i++) {
-        F[i] = e->F[i];
-        F[n + i] = dal__tangent(e->graph, e->F[i], along, 2 * n, seed);
-    }
-    DAL_TRY(dal__programs_begin(e, &model->tangent_programs, 2 * n, 0));
-    DAL_TRY(dal__programs_add_motion(model, &model->tangent_programs, F));
-    DAL_TRY(add_diagnosis(model, &model->tangent_programs));
-    return e->graph->status;
-}
-
-static dal_status make_tangent(dal_model *model)
-{
-    const dal__equations *e = &model->equations;
-    const char **names = dal__model_allocate(model, 2 * (size_t)e->n, sizeof *names);
-    char *name = dal__model_print(model, "%s, tangent", model->name);
-    for (int i = 0; names && i < e->n; i++) {
-        names[i] = e->coordinate[i];
-        names[e->n + i] = dal__model_print(model, "dq_%s", e->coordinate[i]);
-    }
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    model->tangent = (dal_system){.name = name,
-                                  .title = model->system.title,
-                                  .reference = model->system.reference,
-                                  .n = 2 * e->n,
-                                  .parameters = e->parameters,
-                                  .properties = e->properties & DAL_AUTONOMOUS,
-                                  .coordinate = names,
-                                  .parameter = e->parameter,
-                                  .value = e->value};
-    DAL_TRY(add_tangent_programs(model));
-    return finish_programs(model, &model->tangent_programs, &model->tangent);
-}
-
-dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error)
-{
-    DAL_REQUIRE(system, error);
-    *system = NULL;
-    DAL_REQUIRE(model, error);
-    const dal_system *plain;
-    if (model->tangent_made) return *system = &model->tangent, DAL_STATUS_OK;
-    DAL_TRY(dal_model_system(model, &plain, error));
-    if (model->equations.multipliers)
-        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
-                         "'%.80s' has multipliers: there is no tangent system for it", model->name);
-    dal_status status = make_tangent(model);
-    if (status != DAL_STATUS_OK) return dal__size_error(status, error);
-    model->tangent_made = true;
-    *system = &model->tangent;
-    return DAL_STATUS_OK;
-}
-
 void dal_model_free(dal_model *model)
 {
     if (!model) return;
     dal__programs_free(&model->programs);
-    dal__programs_free(&model->tangent_programs);
+    for (int k = 0; model->tangent && k <= model->equations.parameters; k++)
+        if (model->tangent[k]) dal__programs_free(&model->tangent[k]->programs);
     dal__programs_free(&model->extended_programs);
     dal__terms_free(model->terms);
     dal__terms_free(model->reaction_terms);
