@@ -14,6 +14,7 @@
 #include "dalembert_invariants.h"
 #include "dalembert_order.h"
 #include "dalembert_predict.h"
+#include "dalembert_sensitivity.h"
 #include "dalembert_statistics.h"
 
 #endif

@@ -20,6 +20,7 @@
 #include "core/settings.h"
 #include "core/vectors.h"
 #include "dalembert_dynamics.h"
+#include "dynamics/tangent_map.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,21 +65,13 @@ struct dal_lyapunov {
 /* (dq, dv) by a step of the tangent system from (q, dq, v, dv). */
 static dal_status move_exactly(dal_lyapunov *s, double *vector)
 {
-    const size_t n = (size_t)s->n, bytes = n * sizeof(double);
     double *x = s->scratch;
-    memcpy(x, s->z, bytes);
-    memcpy(x + 2 * n, s->z + n, bytes);
-    for (size_t i = 0; i < n; i++) {
-        x[n + i] = vector[i] * s->unit[i];
-        x[3 * n + i] = vector[n + i] * s->unit[n + i];
-    }
+    for (int i = 0; i < s->dimension; i++) vector[i] *= s->unit[i];
+    dal__tangent_scatter(s->n, false, s->z, vector, x);
     DAL_TRY(dal_run_set_state(s->auxiliary, s->t, x, s->error));
     DAL_TRY(dal_run_step(s->auxiliary, s->error));
-    const double *y = dal_run_state(s->auxiliary);
-    for (size_t i = 0; i < n; i++) {
-        vector[i] = y[n + i] / s->unit[i];
-        vector[n + i] = y[3 * n + i] / s->unit[n + i];
-    }
+    dal__tangent_gather(s->n, false, dal_run_state(s->auxiliary), vector);
+    for (int i = 0; i < s->dimension; i++) vector[i] /= s->unit[i];
     return DAL_STATUS_OK;
 }
 
@@ -342,12 +335,7 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
     DAL_TRY(dal__refuse_events(spec.system, "tangent vectors", error));
     DAL_TRY(dal_run_create(&s->run, &spec, error));
     const dal_system *system = dal_run_system(s->run);
-    /* A step that is made of values, or Taylor coefficients, of F alone moves a tangent vector by
-     * its own derivative. */
-    const unsigned of_field =
-        DAL_NEEDS_FIELD | DAL_NEEDS_SERIES | DAL_NEEDS_SYMMETRIC | DAL_NEEDS_ORDER_2;
-    s->exact = tangent != NULL && !spec.options.extend_energy &&
-               !(dal_method_needs(&spec.method) & ~of_field);
+    s->exact = tangent != NULL && dal__tangent_fault(&spec, DAL_PHYSICAL) == NULL;
     if (s->exact) spec.system = tangent, spec.start_count = 0;
     DAL_TRY(dal_run_create(&s->auxiliary, &spec, error));
     s->n = system->n;

@@ -1,0 +1,19 @@
+/* tangent_map.h - tangent vectors and the steps of a method that move them exactly.
+ *
+ * A state of a tangent system has the state of a run and a tangent vector (dal_model_tangent). */
+#ifndef DAL_DYNAMICS_TANGENT_MAP_H
+#define DAL_DYNAMICS_TANGENT_MAP_H
+
+#include "core/error.h"
+#include "dalembert_run.h"
+
+/* The reason why steps of this method move no tangent vector of a space by their own derivative;
+ * NULL: they do. */
+const char *dal__tangent_fault(const dal_run_spec *spec, dal_space space);
+/* Writes state and vector, [2n] or [4n + 2] with de = 0, into a state of the tangent system; and
+ * the vector from it. */
+void dal__tangent_scatter(int n, bool is_lifted, const double *state, const double *vector,
+                          double *tangent);
+void dal__tangent_gather(int n, bool is_lifted, const double *tangent, double *vector);
+
+#endif
