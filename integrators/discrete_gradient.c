@@ -24,7 +24,7 @@
 typedef struct gradient {
     dal_elimination elimination; /* first */
     num *q, *vb;                 /* [n] */
-    num *blocks;                 /* at (qb, vb) */
+    num *blocks;                 /* at (qb, vb), of few constraints */
     num *U0, *mid, *end;         /* [3n] U, U_q.v, v.Wv at q0, qb, q1, with vb */
 } gradient;
 
@@ -38,23 +38,38 @@ DAL_INLINE num gradient_factor(const dal_step *s, const gradient *k, int i)
     return dal_select(moves, excess / square, dal_num(0.0));
 }
 
+/* The equation of vb, and D at (qb, vb), where k->q is qb. */
+DAL_INLINE void enforce_at_middle(dal_step *s, dal_equation *eq, gradient *k)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    const double half = 0.5 * s->h, t = s->t + half;
+    num *const free = k->elimination.free;
+    if (DAL_MANY_CONSTRAINTS(s)) {
+        DAL_EACH(i, n) free[i] = -(0.5 * gradient_factor(s, k, i) * k->vb[i]);
+        dal_constraint_value(s, t, k->q, k->vb, k->elimination.in + n);
+        k->elimination.in[n + m] = dal_num(1.0);
+        dal_eliminate_by_factors(s, eq, half, t, k->q, k->vb);
+        return;
+    }
+    dal_eval_blocks(s, t, k->q, k->vb, k->blocks);
+    DAL_EACH(i, n)
+        free[i] = half * k->blocks[dal_blocks_a(s) + i] - 0.5 * gradient_factor(s, k, i) * k->vb[i];
+    DAL_EACH(i, n * m) k->elimination.directions[i] = half * k->blocks[dal_blocks_B(s) + i];
+    dal_eliminate_multipliers(s, eq, k->blocks);
+}
+
 /* w = vb - v0 */
 DAL_INLINE void gradient_map(dal_step *s, dal_equation *eq)
 {
     gradient *k = (gradient *)eq->context;
-    const int n = DAL_N(s), m = DAL_M(s);
+    const int n = DAL_N(s);
     const double half = 0.5 * s->h, t = s->t + half;
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
-    DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, half * k->vb[i]);
-    dal_eval_blocks(s, t, k->q, k->vb, k->blocks);
-    dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->mid);
     DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, s->h * k->vb[i]);
     dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->end);
-    DAL_EACH(i, n)
-        k->elimination.free[i] =
-            half * k->blocks[dal_blocks_a(s) + i] - 0.5 * gradient_factor(s, k, i) * k->vb[i];
-    DAL_EACH(i, n * m) k->elimination.directions[i] = half * k->blocks[dal_blocks_B(s) + i];
-    dal_eliminate_multipliers(s, eq, k->blocks);
+    DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, half * k->vb[i]);
+    dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->mid);
+    enforce_at_middle(s, eq, k);
 }
 
 DAL_INLINE dal_status step(dal_step *s)
@@ -62,7 +77,7 @@ DAL_INLINE dal_status step(dal_step *s)
     const int n = DAL_N(s);
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, vb, DAL_N(s));
-    DAL_VECTOR(s, blocks, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, blocks, DAL_OF_FEW(s, DAL_BLOCKS_SIZE(s)));
     DAL_VECTOR(s, U0, 3 * DAL_N(s));
     DAL_VECTOR(s, mid, 3 * DAL_N(s));
     DAL_VECTOR(s, end, 3 * DAL_N(s));
@@ -94,4 +109,4 @@ DAL_INTEGRATOR(discrete_gradient, step, .name = "discrete-gradient",
                .documentation = ABOUT_DISCRETE_GRADIENT, .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_ENERGY | DAL_PRESERVES_D_MIDPOINT,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS | DAL_NEEDS_POTENTIAL,
-               .kernel = DAL_KERNEL_ENFORCE | DAL_KERNEL_POTENTIAL);
+               .kernel = DAL_KERNEL_ENFORCE | DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_POTENTIAL);

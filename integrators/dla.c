@@ -19,16 +19,31 @@
 typedef struct midpoint {
     dal_elimination elimination; /* first */
     num *qb, *vb;                /* [n] */
-    num *blocks;                 /* at (qb, vb); then at the end */
+    num *blocks;                 /* at (qb, vb); then at the end; of few constraints */
+    num *none;                   /* [m + 1] multipliers 0, and 1: of a alone */
 } midpoint;
 
-/* w = vb - v0; the directions do not change. */
+/* h/2 a(qb, vb). */
+DAL_INLINE void find_force(dal_step *s, const midpoint *k, num *force)
+{
+    s->evaluations++;
+    dal_eval(s, DAL_EVAL_REACTION, s->t + 0.5 * s->h, k->qb, k->vb, k->none, force);
+    DAL_EACH(i, DAL_N(s)) force[i] *= dal_num(0.5 * s->h);
+}
+
+/* w = vb - v0; the directions do not change, and their A is taken of the beginning, too. */
 DAL_INLINE void map_midpoint(dal_step *s, dal_equation *eq)
 {
     midpoint *k = (midpoint *)eq->context;
     const double half = 0.5 * s->h;
     DAL_EACH(i, DAL_N(s)) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     DAL_EACH(i, DAL_N(s)) k->qb[i] = dal_moved_q(s, i, half * k->vb[i]);
+    if (DAL_MANY_CONSTRAINTS(s)) {
+        find_force(s, k, k->elimination.free);
+        dal_constraint_value(s, s->t + half, k->qb, k->vb, k->elimination.in + DAL_N(s));
+        dal_eliminate_by_factors(s, eq, half, s->t, s->y, s->y + DAL_N(s));
+        return;
+    }
     dal_eval_blocks(s, s->t + half, k->qb, k->vb, k->blocks);
     DAL_EACH(i, DAL_N(s)) k->elimination.free[i] = half * k->blocks[dal_blocks_a(s) + i];
     dal_eliminate_multipliers(s, eq, k->blocks);
@@ -40,6 +55,11 @@ DAL_INLINE void map_end(dal_step *s, dal_equation *eq)
     midpoint *k = (midpoint *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
+    if (DAL_MANY_CONSTRAINTS(s)) {
+        dal_constraint_value(s, s->t + s->h, k->qb, k->vb, k->elimination.in + DAL_N(s));
+        dal_eliminate_by_factors(s, eq, 0.5 * s->h, s->t + s->h, k->qb, k->vb);
+        return;
+    }
     dal_eval_blocks(s, s->t + s->h, k->qb, k->vb, k->blocks);
     DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->blocks[dal_blocks_B(s) + i];
     dal_eliminate_multipliers(s, eq, k->blocks);
@@ -50,15 +70,23 @@ DAL_INLINE dal_status step_to_midpoint(dal_step *s, midpoint *k)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
+    const double half = 0.5 * s->h;
     dal_equation eq = dal_velocity_equation(s, block, k);
-    dal_eval_blocks(s, s->t, s->y, s->y + n, k->blocks);
-    DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->blocks[dal_blocks_B(s) + i];
+    if (!DAL_MANY_CONSTRAINTS(s)) {
+        dal_eval_blocks(s, s->t, s->y, s->y + n, k->blocks);
+        DAL_EACH(i, n * m) k->elimination.directions[i] = half * k->blocks[dal_blocks_B(s) + i];
+    }
     if (dal_failed(dal_enforce(s, &eq, map_midpoint))) return DAL_STATUS_NOT_CONVERGED;
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq.block[0].u[i]);
-    DAL_EACH(i, n) k->qb[i] = dal_moved_q(s, i, 0.5 * s->h * k->vb[i]);
-    dal_eval_blocks(s, s->t + 0.5 * s->h, k->qb, k->vb, k->blocks);
-    DAL_EACH(i, n)
-        k->elimination.free[i] = eq.block[0].u[i] + 0.5 * s->h * k->blocks[dal_blocks_a(s) + i];
+    DAL_EACH(i, n) k->qb[i] = dal_moved_q(s, i, half * k->vb[i]);
+    num *const free = k->elimination.free;
+    if (DAL_MANY_CONSTRAINTS(s)) {
+        find_force(s, k, free);
+        DAL_EACH(i, n) free[i] += eq.block[0].u[i];
+        return DAL_STATUS_OK;
+    }
+    dal_eval_blocks(s, s->t + half, k->qb, k->vb, k->blocks);
+    DAL_EACH(i, n) free[i] = eq.block[0].u[i] + half * k->blocks[dal_blocks_a(s) + i];
     return DAL_STATUS_OK;
 }
 
@@ -67,11 +95,15 @@ DAL_INLINE dal_status step(dal_step *s)
     const int n = DAL_N(s);
     DAL_VECTOR(s, qb, DAL_N(s));
     DAL_VECTOR(s, vb, DAL_N(s));
-    DAL_VECTOR(s, blocks, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, blocks, DAL_OF_FEW(s, DAL_BLOCKS_SIZE(s)));
+    DAL_VECTOR(s, none, DAL_M(s) + 1);
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), 0);
     DAL_ELIMINATION(s, elimination, 0.5 * s->h, 1.0);
-    midpoint k = {elimination, qb, vb, blocks};
+    midpoint k = {elimination, qb, vb, blocks, none};
+    DAL_EACH(i, DAL_M(s)) none[i] = dal_num(0.0);
+    none[DAL_M(s)] = dal_num(1.0);
+    elimination.in[n + DAL_M(s)] = dal_num(0.0); /* no forces with the impulses */
     if (dal_failed(step_to_midpoint(s, &k))) return DAL_STATUS_NOT_CONVERGED;
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_EACH(i, n) d[i] = s->h * vb[i];
@@ -95,4 +127,5 @@ DAL_INTEGRATOR(dla, step, .name = "dla", .summary = "discrete Lagrange-d'Alember
                .reference = "Cortes, Martinez 2001", .documentation = ABOUT_DLA, .order = 2,
                .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PRESERVES_D_MIDPOINT,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_ENFORCE);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS,
+               .kernel = DAL_KERNEL_ENFORCE | DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_REACTION);

@@ -13,11 +13,9 @@
 #include <dalembert_kernel.h>
 
 typedef struct rattle {
-    dal_stage_matrix newton; /* first, for dal_constrained_matrix */
-    num *kick;               /* [n] h/2 (a0 + B0 lambda0) */
-    num *q1, *v1;            /* [n] */
-    num *in, *out;           /* of DAL_EVAL_ENFORCEMENT */
-    num *pull, *lambda;      /* [n] a1 + B1 lambda1, [m] lambda1: of a lane's last iteration */
+    dal_elimination elimination; /* first; free: kick = h/2 (a0 + B0 lambda0) */
+    num *q1, *v1;                /* [n] */
+    num *pull, *lambda;          /* [n] a1 + B1 lambda1, [m] lambda1: of a lane's last iteration */
 } rattle;
 
 /* With W y = b + B^T l, A y = 2/h (A (w - kick) - D) at (q1, v0 + w),
@@ -29,16 +27,10 @@ DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
 {
     rattle *r = (rattle *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
-    const num half = dal_num(0.5 * s->h), per_half = dal_num(2.0 / s->h), *w = eq->block[0].u;
-    num *const c = r->in + n;
-    const num *y = r->out, *l = r->out + n;
+    const num *w = eq->block[0].u, *y = r->elimination.out, *l = y + n;
     DAL_EACH(i, n) r->v1[i] = dal_moved_v(s, i, w[i]);
-    DAL_EACH(i, n) r->in[i] = per_half * (w[i] - r->kick[i]);
-    dal_constraint_value(s, s->t + s->h, r->q1, r->v1, c);
-    DAL_EACH(i, m) c[i] = -(per_half * c[i]);
-    c[m] = dal_num(1.0);
-    dal_eval_enforcement(s, s->t + s->h, r->q1, r->v1, r->in, r->out);
-    DAL_EACH(i, n) eq->block[0].image[i] = dal_fma(half, y[i], r->kick[i]);
+    dal_constraint_value(s, s->t + s->h, r->q1, r->v1, r->elimination.in + n);
+    dal_eliminate_by_factors(s, eq, 0.5 * s->h, s->t + s->h, r->q1, r->v1);
     DAL_EACH(i, n) r->pull[i] = DAL_IF_ACTIVE(eq->active, y[i], r->pull[i]);
     DAL_EACH(i, m) r->lambda[i] = DAL_IF_ACTIVE(eq->active, l[i], r->lambda[i]);
 }
@@ -100,8 +92,10 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, lambda, DAL_M(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
-    rattle r = {{1, 0.5 * h, &one, &a2, 0, NULL}, kick, q1, v1, in, out, pull, lambda};
+    rattle r = {
+        {{1, 0.5 * h, &one, &a2, 0, NULL}, kick, in, out, NULL, NULL}, q1, v1, pull, lambda};
     dal_equation eq = dal_velocity_equation(s, block, &r);
+    in[n + DAL_M(s)] = dal_num(1.0);
     rattle_begin(s, kick);
     DAL_EACH(i, n) pull[i] = dal_num(0.0);
     DAL_EACH(i, DAL_M(s)) lambda[i] = dal_num(0.0);

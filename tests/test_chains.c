@@ -210,9 +210,9 @@ static void test_equations(void)
 
 static void test_steps(void)
 {
-    static const char *const methods[] = {"rk4+project", "gni"};
+    static const char *const methods[] = {"rk4+project", "gni", "mclachlan-perlmutter", "dla"};
     const chain chains[] = {sized(disjoint[0]), sized(coupled[0]), sized(coupled[2])};
-    for (int k = 0; k < 2; k++)
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
         for (int i = 0; i < 3; i++) check_steps(&chains[i], methods[k]);
 }
 
@@ -249,7 +249,8 @@ static void test_workspace(void)
     }
 }
 
-/* The numbers of Newton's method, 6 (stages n)^2, are reserved where it may be used. */
+/* The numbers of Newton's method, 6 (stages n)^2, are reserved where it may be used; else, with m
+ * constraints, 4 m (n + m/2) for the rank check, and others in proportion to n. */
 static void test_size(void)
 {
     const chain c = {256, WIDTH, 0.0};
@@ -259,11 +260,16 @@ static void test_size(void)
     dal_run_spec spec = fixture_spec(system, "gauss4", DAL_PHYSICAL, 0.1);
     CU_ASSERT(dal_run_size(&spec) > 24 * square);
     spec.options.solver = DAL_FIXED_POINT;
-    CU_ASSERT(dal_run_size(&spec) < 4 * square);
-    spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
-    CU_ASSERT(dal_run_size(&spec) < 4 * square);
+    CU_ASSERT(dal_run_size(&spec) < 3 * square);
+    static const char *const methods[] = {"rk4", "rk4+project", "gni", "mclachlan-perlmutter",
+                                          "dla"};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        spec = fixture_spec(system, methods[i], DAL_PHYSICAL, 0.1);
+        spec.options.solver = DAL_FIXED_POINT;
+        CU_ASSERT(dal_run_size(&spec) < 3 * square);
+    }
     spec = fixture_spec(system, "rk4", DAL_LIFTED, 0.1);
-    CU_ASSERT(dal_run_size(&spec) < 6 * square);
+    CU_ASSERT(dal_run_size(&spec) < 4 * square);
     spec = fixture_spec(system, "symplectic-euler", DAL_LIFTED, 0.1);
     CU_ASSERT(dal_run_size(&spec) > 6 * square);
     dal_model_free(model);

@@ -234,6 +234,63 @@ static void test_lanes(void)
     fixture_lanes(spec, 11, 20, spec.system->coordinate[0], 0.1, 0.05);
 }
 
+/* ---- many constraints ---- */
+
+/* A particle under a potential, with D linear or homogeneous in v, and copies of it that do not
+ * see each other. */
+typedef struct particle {
+    const char *constraint, *potential; /* of copy i */
+    bool is_linear;
+} particle;
+
+static const particle particles[] = {
+    {"z[i]' - y[i]*x[i]'", "x[i]^2 + z[i]^2*y[i]^2", true},
+    {"z[i]'^2*(1 + x[i]^2) - x[i]'^2 - y[i]'^2", "x[i]^2 + z[i]*y[i]^2", false}};
+
+/* Copies first to last, stepped; y[6] gets q and v of the last one. */
+static void step_copies(const particle *p, const char *method, int first, int last, double *y)
+{
+    enum { STEPS = 10, MAX_COPIES = 16, EACH = 6 };
+    static char text[1024], name[EACH * MAX_COPIES][8];
+    dal_setting start[EACH * MAX_COPIES];
+    const int count = last - first + 1, end = count - 1;
+    snprintf(text, sizeof text,
+             "coordinates: ['x[0..%d]', 'y[0..%d]', 'z[0..%d]']\n"
+             "lagrangian: sum(i, 0, %d, x[i]'^2 + 2*y[i]'^2 + z[i]'^2 - (%s))/2\n"
+             "constraints: [{for: i = 0..%d, is: \"%s\"}]\n",
+             end, end, end, end, p->potential, end, p->constraint);
+    for (int k = 0; k < EACH * count; k++) {
+        const int i = k / EACH, j = k % EACH;
+        const double a = 0.3 + 0.05 * (first + i), u = 0.8, w = 0.4 - 0.02 * (first + i);
+        const double speed = p->is_linear ? a * u : sqrt((u * u + w * w) / (1.0 + a * a));
+        const double value[EACH] = {a, a, 0.5 * a, u, w, speed};
+        snprintf(name[k], sizeof name[k], "%c%d%s", "xyz"[j % 3], i, j < 3 ? "" : "'");
+        start[k] = (dal_setting){name[k], value[j]};
+    }
+    dal_run_spec spec = fixture_spec(fixture_system(text), method, DAL_PHYSICAL, 0.05);
+    spec.start = start;
+    spec.start_count = EACH * count;
+    dal_run *run = fixture_stepped(&spec, STEPS);
+    for (int j = 0; j < EACH; j++)
+        y[j] = dal_run_state(run)[j / 3 * 3 * count + j % 3 * count + end];
+    dal_run_free(run);
+}
+
+/* Sixteen constraints are enforced by the factors of F, one by a matrix. */
+static void test_many(void)
+{
+    static const char *const methods[] = {"mclachlan-perlmutter", "dla", "discrete-gradient"};
+    enum { METHODS = sizeof methods / sizeof *methods, LAST = 15 };
+    for (int j = 0; j < 2 * METHODS; j++) {
+        double all[6], one[6], error = 0.0;
+        step_copies(&particles[j % 2], methods[j / 2], 0, LAST, all);
+        step_copies(&particles[j % 2], methods[j / 2], LAST, LAST, one);
+        for (int i = 0; i < 6; i++) error = fmax(error, fabs(all[i] - one[i]));
+        if (!(error <= SAME)) printf("\n  %s, %d: %.2g\n", methods[j / 2], j % 2, error);
+        CU_ASSERT(error <= SAME);
+    }
+}
+
 /* ---- large systems ---- */
 
 /* A chain of n springs with n/4 constraints whose Jacobian varies, as in bench/dal.c. */
@@ -274,5 +331,6 @@ void suite_enforcement(void)
     CU_add_test(suite, "evaluations of gni", test_evaluations);
     CU_add_test(suite, "gni where the force jumps", test_jump);
     CU_add_test(suite, "lanes", test_lanes);
+    CU_add_test(suite, "many constraints as one", test_many);
     CU_add_test(suite, "operations of a chain", test_growth);
 }

@@ -11,6 +11,8 @@
  *
  *     (A N) mu = A (w - free) - D,     image = free + N mu
  *
+ * Few constraints are a matrix A N of all of them; many are solved by the factors of F.
+ *
  * D may be nonlinear, W may depend on q, v, t.  The iteration contracts like h.  Where that is too
  * slow, Newton's matrix is 1 - z P F_v - z^2 P F_q with P = 1 - B G^-1 A at the beginning of the
  * step: the large part of the derivative of an iteration, since P B = 0 and the motion along the
@@ -20,25 +22,6 @@
 
 #include "blocks.h"
 #include "solve.h"
-
-#ifndef DAL_LINKED
-/* x = g^-1 rhs; g[size*size], which has rows of all D again and again, is destroyed.  inverse is
- * scratch.  Large systems are sparse, and their inverses are not. */
-DAL_INLINE void dal_solve_small(const dal_step *s, num *g, num *inverse, int size, const num *rhs,
-                                num *x)
-{
-    if (size >= DAL__SPARSE) {
-        DAL_EACH(i, size) x[i] = rhs[i];
-        dal_eliminate_in_units(g, x, size, DAL_LEVELS(s), DAL_M(s));
-        return;
-    }
-    if (size == 1)
-        inverse[0] = 1.0 / g[0];
-    else
-        dal_invert_in_units(g, inverse, size, DAL_LEVELS(s), DAL_M(s));
-    dal_multiply(inverse, size, size, rhs, x);
-}
-#endif
 
 /* Lanes that have multipliers of the last step; saves multipliers for the next one. */
 DAL_INLINE dal_mask dal_known_multipliers(const dal_step *s)
@@ -56,39 +39,55 @@ DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)
 
 /* Context of an equation for one velocity, as its first member. */
 typedef struct dal_elimination {
-    dal_stage_matrix newton;        /* Newton's matrix from P F_q and P F_v */
-    num *free, *directions;         /* [n], [n*m] free and N above; the map sets them */
-    num *mu;                        /* [m] multipliers of a lane's last iteration */
-    num *g, *inverse, *rhs, *fresh; /* [m*m], [m*m], [m], [m] */
+    dal_stage_matrix newton; /* Newton's matrix from P F_q and P F_v */
+    num *free;               /* [n] free above; the map sets it */
+    num *in, *out;   /* of DAL_EVAL_ENFORCEMENT, at in + n first D; at out + n the multipliers */
+    num *directions; /* [n*m] N above; the map sets it, of few constraints */
+    num *g;          /* 2[m*m], likewise */
 } dal_elimination;
+
+/* Whether DAL_EVAL_ENFORCEMENT solves for the multipliers; with fewer constraints it takes longer
+ * than a matrix. */
+#define DAL_MANY_CONSTRAINTS(s) (DAL_M(s) >= DAL__SPARSE)
+/* count where they are few, else 0. */
+#define DAL_OF_FEW(s, count) (DAL_MANY_CONSTRAINTS(s) ? 0 : (count))
 
 /* Declares an elimination with its memory; z, a2 as in dal_stage_matrix. */
 #define DAL_ELIMINATION(step, name, z, a2)                                                         \
     static const double name##_one = 1.0, name##_a2 = (a2);                                        \
     DAL_VECTOR(step, name##_free, DAL_N(step));                                                    \
-    DAL_VECTOR(step, name##_directions, DAL_N(step) * DAL_M(step));                                \
-    DAL_VECTOR(step, name##_mu, DAL_M(step));                                                      \
-    DAL_VECTOR(step, name##_g, DAL_SQUARE_M(step));                                                \
-    DAL_VECTOR(step, name##_inverse, DAL_SQUARE_M(step));                                          \
-    DAL_VECTOR(step, name##_rhs, DAL_M(step));                                                     \
-    DAL_VECTOR(step, name##_fresh, DAL_M(step));                                                   \
-    DAL_EACH(i, DAL_M(step)) name##_mu[i] = dal_num(0.0);                                          \
+    DAL_VECTOR(step, name##_in, DAL_N(step) + DAL_M(step) + 1);                                    \
+    DAL_VECTOR(step, name##_out, DAL_N(step) + DAL_M(step));                                       \
+    DAL_VECTOR(step, name##_directions, DAL_OF_FEW(step, DAL_N(step) * DAL_M(step)));              \
+    DAL_VECTOR(step, name##_g, DAL_OF_FEW(step, 2 * DAL_SQUARE_M(step)));                          \
     dal_elimination name = {{1, (z), &name##_one, &name##_a2, 0, NULL},                            \
                             name##_free,                                                           \
+                            name##_in,                                                             \
+                            name##_out,                                                            \
                             name##_directions,                                                     \
-                            name##_mu,                                                             \
-                            name##_g,                                                              \
-                            name##_inverse,                                                        \
-                            name##_rhs,                                                            \
-                            name##_fresh}
+                            name##_g}
 
 #define dal_eliminate_multipliers DAL_WIDE(dal_eliminate_multipliers)
 DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
                                           const num *constraint);
+#define dal_eliminate_by_factors DAL_WIDE(dal_eliminate_by_factors)
+DAL_SHARED void dal_eliminate_by_factors(dal_step *s, dal_equation *eq, double share, double t,
+                                         const num *q, const num *v);
 #define dal_constrained_matrix DAL_WIDE(dal_constrained_matrix)
 DAL_SHARED void dal_constrained_matrix(dal_step *s, dal_equation *eq);
 
 #ifndef DAL_LINKED
+/* x = g^-1 rhs; g[m*m], which is destroyed, has m*m numbers of scratch after it. */
+DAL_INLINE void dal__solve_few(const dal_step *s, num *g, int m, const num *rhs, num *x)
+{
+    num *const inverse = g + m * m;
+    if (m == 1)
+        inverse[0] = 1.0 / g[0];
+    else
+        dal_invert_in_units(g, inverse, m, DAL_LEVELS(s), m);
+    dal_multiply(inverse, m, m, rhs, x);
+}
+
 /* image = free + N mu with the mu for which D + A (image - w) = 0; D and A begin `constraint`. */
 DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
                                           const num *constraint)
@@ -96,19 +95,32 @@ DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
     const dal_elimination *k = (const dal_elimination *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
     const num *A = constraint + dal_blocks_A(s), *w = eq->block[0].u;
-    num *const image = eq->block[0].image;
+    num *const image = eq->block[0].image, *const rhs = k->in + n, *const mu = k->out + n;
     DAL_EACH(i, n) image[i] = k->free[i];
     if (m == 0) return;
     DAL_EACH(i, m) {
         num sum = -constraint[i];
         DAL_EACH(j, n) sum += A[i * n + j] * (w[j] - k->free[j]);
-        k->rhs[i] = sum;
+        rhs[i] = sum;
     }
     dal_gram(A, k->directions, m, n, k->g);
-    dal_solve_small(s, k->g, k->inverse, m, k->rhs, k->fresh);
-    DAL_EACH(i, m) k->mu[i] = DAL_IF_ACTIVE(eq->active, k->fresh[i], k->mu[i]);
+    dal__solve_few(s, k->g, m, rhs, mu);
     DAL_EACH(i, n)
-        DAL_EACH(j, m) image[i] += k->directions[i * m + j] * k->fresh[j];
+        DAL_EACH(j, m) image[i] += k->directions[i * m + j] * mu[j];
+}
+
+/* image = free + share y, W y = beta b + B^T l, A y = (A (w - free) - D)/share, all of (q, v, t)
+ * but D, which is at in + n; beta is after it, and l is left at out + n. */
+DAL_SHARED void dal_eliminate_by_factors(dal_step *s, dal_equation *eq, double share, double t,
+                                         const num *q, const num *v)
+{
+    const dal_elimination *k = (const dal_elimination *)eq->context;
+    const int n = DAL_N(s);
+    const num per_share = dal_num(1.0 / share), *w = eq->block[0].u;
+    DAL_EACH(i, n) k->in[i] = per_share * (w[i] - k->free[i]);
+    DAL_EACH(i, DAL_M(s)) k->in[n + i] = -(per_share * k->in[n + i]);
+    dal_eval_enforcement(s, t, q, v, k->in, k->out);
+    DAL_EACH(i, n) eq->block[0].image[i] = dal_fma(dal_num(share), k->out[i], k->free[i]);
 }
 
 /* J <- P J for the n*columns matrix J. */

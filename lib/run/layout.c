@@ -373,14 +373,33 @@ static bool may_solve_by_newton(const dal__layout *k)
            !(properties & DAL_EXPLICIT && (runge_kutta || !k->lifted));
 }
 
-/* Whether a layer of the method has blocks of each stage; others evaluate what enforces D. */
-static bool has_blocks_of_stages(const dal__layout *k)
+/* Whether a layer evaluates one of some callbacks, rather than the parts of the kernel that use the
+ * factors of F where constraints are many. */
+static bool has_matrices(const dal__layout *k, unsigned needs, unsigned by_factors)
 {
     bool has = false;
     for (int i = 0; i < k->depth; i++)
-        has |= k->method.layer[i]->needs & DAL_NEEDS_BLOCKS &&
-               !(k->method.layer[i]->kernel & (DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_SPARK));
+        has |= k->method.layer[i]->needs & needs &&
+               !(k->m >= DAL__SPARSE && k->method.layer[i]->kernel & by_factors);
     return has;
+}
+
+/* Numbers of matrices of all constraints: of methods, of the start or of the rank check at both
+ * ends of a step, of Newton's matrix, and of what the engine makes where the system lacks it. */
+static double matrices(const dal__layout *k, bool inverts)
+{
+    const unsigned needs = DAL_NEEDS_BLOCKS | DAL_NEEDS_CONSTRAINT,
+                   parts = DAL_KERNEL_CORRECTION | DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_SPARK;
+    const double n = k->n, m = k->m, point = m + 2 * m * n, blocks = point + n + m;
+    const dal_callbacks *call = &k->system->call;
+    if (m < DAL__SPARSE || k->system->holonomic > 0 || has_matrices(k, needs, parts))
+        return 4 * point + 8 * m * m;
+    double count = 2 * point + 2 * m * (m + 2);
+    if (inverts && dal_method_needs(&k->method) & DAL_NEEDS_BLOCKS)
+        count += blocks + 4 * m * (m + 1);
+    if (!call->correction || !call->enforcement || !call->reaction || !call->constraint_value)
+        count += blocks + 2 * m * (m + 1);
+    return count;
 }
 
 /* Sizes, in floating point first so that nothing overflows. */
@@ -389,11 +408,13 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const double dim = k->dim, n = k->n, nw = k->nw, m = k->m, stages = k->stages;
     const bool inverts = k->system->call.jacobian && may_solve_by_newton(k);
     const double matrix = inverts ? 6 * (stages * nw) * (stages * nw) + 2 * nw * (n + nw) : 0;
-    const double constraint = 4 * (m + 2 * m * n) + 8 * m * m;
+    const double constraint = matrices(k, inverts);
+    const unsigned by_factors = DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_SPARK;
     const double equations = (stages + 1) * m;
-    const double parts = has_blocks_of_stages(k) ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) +
-                                                       4 * equations * equations
-                                                 : 0;
+    const double parts =
+        has_matrices(k, DAL_NEEDS_BLOCKS, by_factors)
+            ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) + 4 * equations * equations
+            : 0;
     const bool expands = dal_method_needs(&k->method) & DAL_NEEDS_SERIES;
     k->taylor_order = dal_taylor_order(k->options.tolerance);
     k->tolerance_root = pow(k->options.tolerance, 1.0 / k->taylor_order);
