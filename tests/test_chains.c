@@ -3,7 +3,11 @@
  *     L = sum x_i'^2/2 + gamma x_i' x_(i+1)' - (x_(i+1) - x_i)^2/2
  *     D_a = x_s' + cos(x_(s+1)) x_(s+1)' + (2 + sin(x_(s+3))) x_(s+2)' + x_(s+2)/2 x_(s+3)'
  *
- * with s = stride a.  Their equations are checked coordinate by coordinate, by formulas. */
+ * with s = stride a; or, where any coefficient may vanish,
+ *
+ *     D_a = cos(x_(s+1)) x_s' + cos(x_(s+2)) x_(s+1)' + cos(x_(s+3)) x_(s+2)' + cos(x_s) x_(s+3)'
+ *
+ * Their equations are checked coordinate by coordinate, by formulas. */
 #include "fixtures.h"
 #include "model/model.h"
 #include "quick.h"
@@ -21,14 +25,19 @@ enum { WIDTH = 4, MAX_N = 1024 };
 typedef struct chain {
     int n, stride;
     double gamma;
+    bool may_vanish; /* the second form of D_a */
 } chain;
 
 /* Constraints of disjoint neighbours. */
-static const chain disjoint[] = {{256, WIDTH, 0.0}, {512, WIDTH, 0.0}, {1024, WIDTH, 0.0}};
+static const chain disjoint[] = {
+    {256, WIDTH, 0.0, false}, {512, WIDTH, 0.0, false}, {1024, WIDTH, 0.0, false}};
 
 /* Constraints that share coordinates, a mass matrix that couples neighbours, and both. */
-static const chain coupled[] = {
-    {256, 2, 0.0}, {512, 2, 0.0}, {256, WIDTH, 0.2}, {512, WIDTH, 0.2}, {128, 2, 0.2}};
+static const chain coupled[] = {{256, 2, 0.0, false},
+                                {512, 2, 0.0, false},
+                                {256, WIDTH, 0.2, false},
+                                {512, WIDTH, 0.2, false},
+                                {128, 2, 0.2, false}};
 
 static chain sized(chain c)
 {
@@ -47,11 +56,18 @@ static dal_model *make(const chain *c, const dal_system **system)
     static const char rows[] = "constraints: [{for: i = 0..%d, is: \"x[%d*i]' + cos(x[%d*i+1])*"
                                "x[%d*i+1]' + (2 + sin(x[%d*i+3]))*x[%d*i+2]' + "
                                "x[%d*i+2]/2*x[%d*i+3]'\"}]\n";
+    static const char vanishing[] =
+        "constraints: [{for: i = 0..%d, is: \"cos(x[%d*i+1])*x[%d*i]' + "
+        "cos(x[%d*i+2])*x[%d*i+1]' + cos(x[%d*i+3])*x[%d*i+2]' + "
+        "cos(x[%d*i])*x[%d*i+3]'\"}]\n";
     char text[1024];
     const int last = c->n - 1, k = c->stride;
     int length = snprintf(text, sizeof text, coordinates, last, last, c->gamma, last - 1, last - 1);
-    length += snprintf(text + length, sizeof text - (size_t)length, rows, constraints(c) - 1, k, k,
-                       k, k, k, k, k);
+    const size_t left = sizeof text - (size_t)length;
+    length +=
+        c->may_vanish
+            ? snprintf(text + length, left, vanishing, constraints(c) - 1, k, k, k, k, k, k, k, k)
+            : snprintf(text + length, left, rows, constraints(c) - 1, k, k, k, k, k, k, k);
     dal_model *model = NULL;
     dal_error error;
     CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, "chain", text, (size_t)length, &error),
@@ -69,6 +85,8 @@ static dal_model *make(const chain *c, const dal_system **system)
 static void coefficients(const chain *c, int a, const double *x, double A[WIDTH])
 {
     const double *y = x + a * c->stride;
+    for (int k = 0; k < WIDTH && c->may_vanish; k++) A[k] = cos(y[(k + 1) % WIDTH]);
+    if (c->may_vanish) return;
     A[0] = 1.0;
     A[1] = cos(y[1]);
     A[2] = 2.0 + sin(y[3]);
@@ -79,6 +97,9 @@ static void coefficients(const chain *c, int a, const double *x, double A[WIDTH]
 static double curvature(const chain *c, int a, const double *x, const double *v)
 {
     const double *y = x + a * c->stride, *u = v + a * c->stride;
+    double sum = 0.0;
+    for (int k = 0; k < WIDTH; k++) sum -= sin(y[(k + 1) % WIDTH]) * u[(k + 1) % WIDTH] * u[k];
+    if (c->may_vanish) return sum;
     return -sin(y[1]) * u[1] * u[1] + cos(y[3]) * u[3] * u[2] + u[2] * u[3] / 2.0;
 }
 
@@ -150,16 +171,13 @@ static void choose_point(int n, bool is_regular, double *x, double *v)
     }
 }
 
-static void check_equations(const chain *c, bool is_regular)
+static void check_point(const chain *c, const dal_system *system, const double *x, const double *v)
 {
-    static double x[MAX_N], v[MAX_N], F[MAX_N];
-    const dal_system *system;
-    dal_model *model = make(c, &system);
+    static double F[MAX_N];
     const int m = constraints(c);
     double *h = calloc((size_t)m * (1 + (size_t)c->n), sizeof *h);
     CU_ASSERT_PTR_NOT_NULL_FATAL(h);
     dal_evaluator *evaluator = fixture_evaluator(system);
-    choose_point(c->n, is_regular, x, v);
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.field, 0.0, x, v, NULL, F),
                     DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->reactions, 0.0, x, v, NULL, h),
@@ -169,6 +187,15 @@ static void check_equations(const chain *c, bool is_regular)
     CU_ASSERT(error <= SAME);
     dal_evaluator_free(evaluator);
     free(h);
+}
+
+static void check_equations(const chain *c, bool is_regular)
+{
+    static double x[MAX_N], v[MAX_N];
+    const dal_system *system;
+    dal_model *model = make(c, &system);
+    choose_point(c->n, is_regular, x, v);
+    check_point(c, system, x, v);
     dal_model_free(model);
 }
 
@@ -208,6 +235,23 @@ static void test_equations(void)
     }
 }
 
+/* Where W couples coordinates, the pivot of a constraint comes after all coordinates that it holds:
+ * at points where but one of its coefficients is not 0, whichever that is, none vanishes. */
+static void test_vanishing(void)
+{
+    static double x[MAX_N], v[MAX_N];
+    const chain c = sized((chain){256, WIDTH, 0.2, true});
+    const dal_system *system;
+    dal_model *model = make(&c, &system);
+    for (int k = 0; k < WIDTH; k++) {
+        choose_point(c.n, true, x, v);
+        for (int i = 0; i < c.n; i++)
+            if (i % WIDTH != k) x[i] = acos(0.0);
+        check_point(&c, system, x, v);
+    }
+    dal_model_free(model);
+}
+
 static void test_steps(void)
 {
     static const char *const methods[] = {"rk4+project", "gni", "mclachlan-perlmutter", "dla"};
@@ -220,7 +264,7 @@ static void test_steps(void)
 
 static int nodes(int n)
 {
-    const chain c = {n, WIDTH, 0.0};
+    const chain c = {n, WIDTH, 0.0, false};
     const dal_system *system;
     dal_model *model = make(&c, &system);
     const int count = model->equations.graph->count;
@@ -253,7 +297,7 @@ static void test_workspace(void)
  * constraints, 4 m (n + m/2) for the rank check, and others in proportion to n. */
 static void test_size(void)
 {
-    const chain c = {256, WIDTH, 0.0};
+    const chain c = {256, WIDTH, 0.0, false};
     const size_t square = (size_t)c.n * (size_t)c.n * sizeof(double);
     const dal_system *system;
     dal_model *model = make(&c, &system);
@@ -279,6 +323,7 @@ void suite_chains(void)
 {
     CU_pSuite suite = CU_add_suite("large chains with constraints", NULL, NULL);
     CU_add_test(suite, "accelerations and multipliers by their equations", test_equations);
+    CU_add_test(suite, "all coefficients but one vanish", test_vanishing);
     CU_add_test(suite, "steps that enforce D end on D = 0", test_steps);
     CU_add_test(suite, "expressions in proportion to n", test_nodes);
     CU_add_test(suite, "workspaces in proportion to n", test_workspace);
