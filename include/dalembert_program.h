@@ -59,10 +59,10 @@ static inline uint64_t dal__hash(uint64_t hash, const void *bytes, size_t length
 
 /* ---- observables --------------------------------------------------------------------------- */
 
-/* The groups of observables in their order; LIFT: H, |p|, |pi|, |pi_e|; ERROR: where the exact
+/* The kinds of observables in their order; LIFT: H, |p|, |pi|, |pi_e|; ERROR: where the exact
  * solution is known to start as the run does; REACTIONS, of F, and MULTIPLIERS, of the method,
  * where they are observed; HOLONOMIC: g. */
-typedef enum dal__observable_group {
+typedef enum dal__observable_kind {
     DAL__OBSERVE_D,
     DAL__OBSERVE_E,
     DAL__OBSERVE_LIFT,
@@ -71,10 +71,10 @@ typedef enum dal__observable_group {
     DAL__OBSERVE_MULTIPLIERS,
     DAL__OBSERVE_HOLONOMIC,
     DAL__OBSERVE_ERROR,
-    DAL__OBSERVABLE_GROUPS
-} dal__observable_group;
-/* The group of observable i of a run, and its number there; DAL__OBSERVABLE_GROUPS: it has none. */
-dal__observable_group dal__run_observable_group(const dal_run *run, int i, int *number);
+    DAL__OBSERVABLE_KINDS
+} dal__observable_kind;
+/* The kind of observable i of a run, and its number among these; DAL__OBSERVABLE_KINDS: none. */
+dal__observable_kind dal__run_observable_kind(const dal_run *run, int i, int *number);
 
 /* ---- ensembles ----------------------------------------------------------------------------- */
 

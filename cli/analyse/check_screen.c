@@ -2,7 +2,7 @@
 #include "check_screen.h"
 #include "check_invariants.h"
 #include "ui/memory.h"
-#include "ui/name_groups.h"
+#include "ui/name_patterns.h"
 #include "ui/screen.h"
 
 #include <stdio.h>
@@ -61,7 +61,7 @@ static void say_result(screen *s, const check *c)
                    checks);
 }
 
-/* The methods that are accepted and preserve all of this, in groups with their number. */
+/* The methods that are accepted and preserve all of this, by patterns, with their number. */
 static void add_methods(screen_table *t, const screen *s, const check *c, const char *head,
                         unsigned preserved)
 {
@@ -73,7 +73,7 @@ static void add_methods(screen_table *t, const screen *s, const check *c, const 
         is_in[i] = !c->method[i].reason && (c->method[i].preserved & preserved) == preserved;
         count += is_in[i];
     }
-    char *text = name_groups(names, is_in, c->methods, 2 * (s->width - HEAD - 2) - 6);
+    char *text = name_patterns(names, is_in, c->methods, 2 * (s->width - HEAD - 2) - 6);
     screen_add_cell(t, SCREEN_PLAIN, "%s", head);
     screen_add_cell(t, SCREEN_PLAIN, count > 0 ? "%s  (%d)" : "%s", text, count);
     free(text);

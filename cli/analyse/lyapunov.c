@@ -261,13 +261,13 @@ static int measure_means(lyapunov_settings *settings)
 static int run_measurement(lyapunov_settings *s, const cli_command *command, int argc, char **argv)
 {
     s->simulation = simulation_default();
-    cli_group groups[] = {
-        CLI_GROUP(options, s),
-        simulation_group(&s->simulation, request_options, LYAPUNOV_WITHOUT),
+    cli_option_set sets[] = {
+        CLI_OPTION_SET(options, s),
+        simulation_options(&s->simulation, request_options, LYAPUNOV_WITHOUT),
     };
-    groups[0].owner = "lyapunov";
-    groups[0].count -= s->is_volume; /* the last one is of lyapunov alone */
-    int status = cli_read_arguments(command, argc, argv, groups, 2);
+    sets[0].owner = "lyapunov";
+    sets[0].count -= s->is_volume; /* the last one is of lyapunov alone */
+    int status = cli_read_arguments(command, argc, argv, sets, 2);
     if (status == CLI_GO_ON) status = measure_means(s);
     simulation_free(&s->simulation);
     return status;

@@ -121,9 +121,9 @@ static int complete_from(run_request *request, const char *directory, uint64_t w
     return status;
 }
 
-static int take_run(const cli_group *group, int status)
+static int take_run(const cli_option_set *set, int status)
 {
-    run_simulation *s = group->settings; /* of which the request is the first member */
+    run_simulation *s = set->settings; /* of which the request is the first member */
     run_request *request = &s->request;
     struct stat info;
     char *line = NULL;
@@ -131,17 +131,17 @@ static int take_run(const cli_group *group, int status)
     const bool is_directory = system && (strchr(system, '/') || !dal_builtin_text(system)) &&
                               stat(system, &info) == 0 && S_ISDIR(info.st_mode);
     if (is_directory) {
-        const int taken = complete_from(request, system, group->without, &line);
+        const int taken = complete_from(request, system, set->without, &line);
         if (line && taken == CLI_DONE && status == CLI_DONE) cli_note("%s", line);
         free(line);
         if (taken != CLI_DONE) return taken;
     }
-    return simulation_group(s, group->options, group->without).complete(group, status);
+    return simulation_options(s, set->options, set->without).complete(set, status);
 }
 
-cli_group rerun_group(run_simulation *s, const cli_option *options, uint64_t without)
+cli_option_set rerun_options(run_simulation *s, const cli_option *options, uint64_t without)
 {
-    cli_group group = simulation_group(s, options, without);
-    group.complete = take_run;
-    return group;
+    cli_option_set set = simulation_options(s, options, without);
+    set.complete = take_run;
+    return set;
 }

@@ -4,9 +4,10 @@
 
 #include "run/simulation.h"
 
-/* simulation_group for a command whose SYSTEM may be the directory of a run: that gives the system
- * and the options that were not given, except without, and a line says which.  A command without
- * --steps, or with another step, gets the end of the run as --time. */
-cli_group rerun_group(run_simulation *simulation, const cli_option *options, uint64_t without);
+/* simulation_options for a command whose SYSTEM may be the directory of a run: that gives the
+ * system and the options that were not given, except without, and a line says which.  A command
+ * without --steps, or with another step, gets the end of the run as --time. */
+cli_option_set rerun_options(run_simulation *simulation, const cli_option *options,
+                             uint64_t without);
 
 #endif

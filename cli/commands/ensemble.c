@@ -48,12 +48,12 @@ static int run_command(int argc, char **argv)
 {
     settings s = {.common = {.ensemble = ensemble_default()}, .threads = pool_threads()};
     run_simulation *simulation = &s.common.ensemble.simulation;
-    const cli_group groups[] = {
-        ensemble_group(&s.common),
-        CLI_GROUP(options, &s),
-        simulation_group(simulation, request_options, ENSEMBLE_WITHOUT),
+    const cli_option_set sets[] = {
+        ensemble_option_set(&s.common),
+        CLI_OPTION_SET(options, &s),
+        simulation_options(simulation, request_options, ENSEMBLE_WITHOUT),
     };
-    int status = cli_read_arguments(&command_ensemble, argc, argv, groups, 3);
+    int status = cli_read_arguments(&command_ensemble, argc, argv, sets, 3);
     if (status == CLI_GO_ON) status = run_ensemble(&s);
     ensemble_free(&s.common.ensemble);
     return status;

@@ -62,11 +62,11 @@ static int generate_text(settings *s)
 static int generate(int argc, char **argv)
 {
     settings s = {.simulation = simulation_default()};
-    const cli_group groups[] = {
-        CLI_GROUP(options, &s),
-        simulation_group(&s.simulation, request_options, ~taken),
+    const cli_option_set sets[] = {
+        CLI_OPTION_SET(options, &s),
+        simulation_options(&s.simulation, request_options, ~taken),
     };
-    int status = cli_read_arguments(&command_generate, argc, argv, groups, 2);
+    int status = cli_read_arguments(&command_generate, argc, argv, sets, 2);
     if (status == CLI_GO_ON) status = generate_text(&s);
     simulation_free(&s.simulation);
     return status;

@@ -67,8 +67,8 @@ static int print_reference(void)
 static int help(int argc, char **argv)
 {
     settings s = {0};
-    const cli_group group = CLI_GROUP(options, &s);
-    const int status = cli_read_arguments(&command_help, argc, argv, &group, 1);
+    const cli_option_set set = CLI_OPTION_SET(options, &s);
+    const int status = cli_read_arguments(&command_help, argc, argv, &set, 1);
     if (status != CLI_GO_ON) return status;
     if (!s.command) return s.markdown ? print_reference() : print_usage();
     const char *names[COMMANDS];

@@ -452,8 +452,8 @@ static int list(int argc, char **argv)
 {
     settings s = {.preserves = -1, .width = cli_output_width()};
     selection selected = {.systems = 0};
-    const cli_group group = CLI_GROUP(options, &s);
-    int status = cli_read_arguments(&command_list, argc, argv, &group, 1);
+    const cli_option_set set = CLI_OPTION_SET(options, &s);
+    int status = cli_read_arguments(&command_list, argc, argv, &set, 1);
     if (status != CLI_GO_ON) return status;
     if (s.json && s.markdown) return cli_fail(CLI_USAGE, "list: --json excludes --markdown");
     status = select_tables(&selected, &s);

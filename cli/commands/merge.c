@@ -44,8 +44,8 @@ static const cli_option options[] = {
 static int merge(int argc, char **argv)
 {
     settings s = {.threads = pool_threads()};
-    const cli_group group = CLI_GROUP(options, &s);
-    int status = cli_read_arguments(&command_merge, argc, argv, &group, 1);
+    const cli_option_set set = CLI_OPTION_SET(options, &s);
+    int status = cli_read_arguments(&command_merge, argc, argv, &set, 1);
     if (status != CLI_GO_ON) return status;
     bool is_ensemble;
     status = ensemble_directory_find(s.source[0], &is_ensemble);

@@ -22,8 +22,8 @@ static const cli_option options[] = {
 static int new_system(int argc, char **argv)
 {
     settings s = {0};
-    const cli_group group = CLI_GROUP(options, &s);
-    int status = cli_read_arguments(&command_new, argc, argv, &group, 1);
+    const cli_option_set set = CLI_OPTION_SET(options, &s);
+    int status = cli_read_arguments(&command_new, argc, argv, &set, 1);
     if (status != CLI_GO_ON) return status;
     char *path = cli_format("%s%s", s.name, cli_ends_in(s.name, ".yaml") ? "" : ".yaml");
     status = file_create(path, system_template, strlen(system_template));

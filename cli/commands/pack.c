@@ -270,8 +270,8 @@ static int write_archive(const settings *s, const char *output, const char *name
 static int pack_command(int argc, char **argv)
 {
     settings s = {0};
-    const cli_group group = CLI_GROUP(options, &s);
-    int status = cli_read_arguments(&command_pack, argc, argv, &group, 1);
+    const cli_option_set set = CLI_OPTION_SET(options, &s);
+    int status = cli_read_arguments(&command_pack, argc, argv, &set, 1);
     if (status != CLI_GO_ON) return status;
     status = check_input(&s);
     if (status != CLI_DONE) return status;

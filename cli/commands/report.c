@@ -76,8 +76,8 @@ static int write_report(report *r)
 static int run_report(int argc, char **argv)
 {
     report_settings s = {0};
-    const cli_group group = CLI_GROUP(options, &s);
-    const int status = cli_read_arguments(&command_report, argc, argv, &group, 1);
+    const cli_option_set set = CLI_OPTION_SET(options, &s);
+    const int status = cli_read_arguments(&command_report, argc, argv, &set, 1);
     if (status != CLI_GO_ON) return status;
     if (s.svg && s.pdf)
         return cli_fail(CLI_USAGE, "--svg and --pdf exclude each other: a figure has one script");

@@ -50,11 +50,11 @@ static const cli_option options[] = {
 static int resume(int argc, char **argv)
 {
     settings s = {.threads = pool_threads()};
-    const cli_group groups[] = {
-        run_group(&s.run, RUN_OPTION(output) | RUN_OPTION(force)),
-        CLI_GROUP(options, &s),
+    const cli_option_set sets[] = {
+        run_option_set(&s.run, RUN_OPTION(output) | RUN_OPTION(force)),
+        CLI_OPTION_SET(options, &s),
     };
-    int status = cli_read_arguments(&command_resume, argc, argv, groups, 2);
+    int status = cli_read_arguments(&command_resume, argc, argv, sets, 2);
     if (status != CLI_GO_ON) return status;
     if (file_find_directory(s.directory) != CLI_DONE) return CLI_USAGE;
     const char *end = s.growth.later.time ? "time" : s.growth.later.steps ? "steps" : NULL;

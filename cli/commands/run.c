@@ -61,9 +61,10 @@ static int run(int argc, char **argv)
     run_simulation simulation = simulation_default();
     run_settings settings = {0};
     simulation.request.step_rule = REQUEST_STEP_CHOSEN;
-    const cli_group groups[] = {simulation_group(&simulation, request_options, 0),
-                                run_group(&settings, 0), CLI_GROUP(options, &invariants)};
-    int status = cli_read_arguments(&command_run, argc, argv, groups, 3);
+    const cli_option_set sets[] = {simulation_options(&simulation, request_options, 0),
+                                   run_option_set(&settings, 0),
+                                   CLI_OPTION_SET(options, &invariants)};
+    int status = cli_read_arguments(&command_run, argc, argv, sets, 3);
     if (status == CLI_GO_ON && check_format(&settings) != CLI_DONE) status = CLI_USAGE;
     if (status == CLI_GO_ON) {
         status = invariants.of == INVARIANTS_AUTO ? invariants_observe(&simulation) : CLI_DONE;

@@ -21,8 +21,8 @@ static const cli_option options[] = {
 static int show(int argc, char **argv)
 {
     settings s = {0};
-    const cli_group group = CLI_GROUP(options, &s);
-    const int status = cli_read_arguments(&command_show, argc, argv, &group, 1);
+    const cli_option_set set = CLI_OPTION_SET(options, &s);
+    const int status = cli_read_arguments(&command_show, argc, argv, &set, 1);
     if (status != CLI_GO_ON) return status;
     const char *text = dal_builtin_text(s.system), *names[CLI_MAX_BUILTINS];
     if (!text) return cli_unknown("system", s.system, names, cli_builtins(names));

@@ -132,12 +132,12 @@ static int run_study(const settings *s, const char *text, size_t length)
 static int study(int argc, char **argv)
 {
     settings s = {.threads = pool_threads()};
-    const cli_group groups[] = {
-        CLI_GROUP(options, &s),
-        run_group(&s.run, RUN_OPTION(output) | RUN_OPTION(events) | RUN_OPTION(summary) |
-                              RUN_OPTION(details) | RUN_OPTION(format) | RUN_OPTION(progress)),
+    const cli_option_set sets[] = {
+        CLI_OPTION_SET(options, &s),
+        run_option_set(&s.run, RUN_OPTION(output) | RUN_OPTION(events) | RUN_OPTION(summary) |
+                                   RUN_OPTION(details) | RUN_OPTION(format) | RUN_OPTION(progress)),
     };
-    int status = cli_read_arguments(&command_study, argc, argv, groups, 2);
+    int status = cli_read_arguments(&command_study, argc, argv, sets, 2);
     if (status != CLI_GO_ON) return status;
     size_t length = strlen(study_builtin_text);
     char *own = s.study ? file_read(s.study, &length) : NULL;

@@ -94,7 +94,10 @@ static const cli_option options[] = {
      CLI_FLAG(ensemble_settings, force)},
 };
 
-cli_group ensemble_group(ensemble_settings *settings) { return CLI_GROUP(options, settings); }
+cli_option_set ensemble_option_set(ensemble_settings *settings)
+{
+    return CLI_OPTION_SET(options, settings);
+}
 
 int ensemble_chunks(const ensemble *e)
 {

@@ -45,7 +45,7 @@ typedef struct ensemble_settings {
 } ensemble_settings;
 
 /* Its options, except the options of the request. */
-cli_group ensemble_group(ensemble_settings *settings);
+cli_option_set ensemble_option_set(ensemble_settings *settings);
 
 /* An empty ensemble. */
 ensemble ensemble_default(void);

@@ -37,11 +37,11 @@ static int begin_directory(mpi_request *request, ensemble_settings *s)
 int mpi_ensemble_begin(mpi_request *request, int argc, char **argv)
 {
     ensemble_settings s = {.ensemble = ensemble_default()};
-    const cli_group groups[] = {
-        ensemble_group(&s),
-        simulation_group(&s.ensemble.simulation, request_options, ENSEMBLE_WITHOUT),
+    const cli_option_set sets[] = {
+        ensemble_option_set(&s),
+        simulation_options(&s.ensemble.simulation, request_options, ENSEMBLE_WITHOUT),
     };
-    int status = cli_read_arguments(&command, argc, argv, groups, 2);
+    int status = cli_read_arguments(&command, argc, argv, sets, 2);
     if (status == CLI_GO_ON) status = begin_directory(request, &s);
     ensemble_free(&s.ensemble);
     return status;

@@ -41,12 +41,12 @@ static const cli_command command = {
 
 static int parse_arguments(settings *s, int argc, char **argv)
 {
-    const cli_group groups[] = {
-        CLI_GROUP(options, s),
-        run_group(&s->run, RUN_OPTION(output) | RUN_OPTION(events) | RUN_OPTION(summary) |
-                               RUN_OPTION(details) | RUN_OPTION(progress)),
+    const cli_option_set sets[] = {
+        CLI_OPTION_SET(options, s),
+        run_option_set(&s->run, RUN_OPTION(output) | RUN_OPTION(events) | RUN_OPTION(summary) |
+                                    RUN_OPTION(details) | RUN_OPTION(progress)),
     };
-    const int status = cli_read_arguments(&command, argc, argv, groups, 2);
+    const int status = cli_read_arguments(&command, argc, argv, sets, 2);
     if (status != CLI_GO_ON) return status;
     if (s->resume && s->study)
         return cli_fail(CLI_USAGE, "--resume: what is continued is in '%s'", s->output);

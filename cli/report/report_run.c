@@ -39,28 +39,28 @@ static const char event_drift_caption[] =
 /* The figures over t; columns of those before the invariants are known by their names alone.
  * code, file name, title, label of the axis, what the page says instead when all values at all rows
  * are 0 */
-#define GROUP_LIST(GROUP)                                                                          \
-    GROUP(COORDINATES, "coordinates", "Coordinates", "q", NULL)                                    \
-    GROUP(ANGLES, "angles", "Angles", "q in radians", NULL)                                        \
-    GROUP(D, "D", "Constraints", "D", "D is 0 at all rows.")                                       \
-    GROUP(E, "E", "Energy", "E - E(0)", "E is the same at all rows.")                              \
-    GROUP(H, "H", "H of the lift", "H - H(0)", "H is the same at all rows.")                       \
-    GROUP(OBSERVED, "observed", "Observed formulas", "value",                                      \
+#define PANEL_LIST(PANEL)                                                                          \
+    PANEL(COORDINATES, "coordinates", "Coordinates", "q", NULL)                                    \
+    PANEL(ANGLES, "angles", "Angles", "q in radians", NULL)                                        \
+    PANEL(D, "D", "Constraints", "D", "D is 0 at all rows.")                                       \
+    PANEL(E, "E", "Energy", "E - E(0)", "E is the same at all rows.")                              \
+    PANEL(H, "H", "H of the lift", "H - H(0)", "H is the same at all rows.")                       \
+    PANEL(OBSERVED, "observed", "Observed formulas", "value",                                      \
           "The observed formulas are 0 at all rows.")                                              \
-    GROUP(INVARIANTS, "I", "Invariants", "I - I(0)", "The invariants are the same at all rows.")   \
-    GROUP(REACTIONS, "R", "Reactions", "h, R", "The reactions are 0 at all rows.")                 \
-    GROUP(ERROR, "error", "Error", "max |q - exact|", "The error is 0 at all rows.")
+    PANEL(INVARIANTS, "I", "Invariants", "I - I(0)", "The invariants are the same at all rows.")   \
+    PANEL(REACTIONS, "R", "Reactions", "h, R", "The reactions are 0 at all rows.")                 \
+    PANEL(ERROR, "error", "Error", "max |q - exact|", "The error is 0 at all rows.")
 
 enum {
-#define GROUP_CODE(code, name, title, ylabel, zero_text) GROUP_##code,
-    GROUP_LIST(GROUP_CODE)
-#undef GROUP_CODE
-        GROUPS,
-    NO_GROUP = -1
+#define PANEL_CODE(code, name, title, ylabel, zero_text) PANEL_##code,
+    PANEL_LIST(PANEL_CODE)
+#undef PANEL_CODE
+        PANELS,
+    NO_PANEL = -1
 };
 
 typedef struct run_column {
-    int group;                    /* or NO_GROUP */
+    int panel;                    /* or NO_PANEL */
     plot_curve *curve, *envelope; /* NULL: it has none, or there are too many */
     row_series *series;           /* of the curve */
     int velocity;                 /* the column of a coordinate's velocity, 0: there is none */
@@ -84,7 +84,7 @@ typedef struct run_page {
     report_events events;
     int passed_events;    /* those up to the present row */
     double envelope_time; /* since the start, of the last point of the envelopes */
-    report_plot plot[GROUPS], drift;
+    report_plot plot[PANELS], drift;
     char *drift_caption;
 } run_page;
 
@@ -95,17 +95,17 @@ static bool is_angle(const run_page *run, const char *name)
     return run->model && report_is_angle(run->model, name);
 }
 
-static int observable_group(const run_page *run, const char *name)
+static int observable_panel(const run_page *run, const char *name)
 {
-    if (request_observes(run->request, name)) return GROUP_OBSERVED;
+    if (request_observes(run->request, name)) return PANEL_OBSERVED;
     if (run->system && run->request->columns && columns_need_reactions(run->system, name))
-        return GROUP_REACTIONS;
+        return PANEL_REACTIONS;
     if (name[0] == 'D' && name[1] && name[1 + strspn(name + 1, "0123456789")] == '\0')
-        return GROUP_D;
-    return strcmp(name, "E") == 0       ? GROUP_E
-           : strcmp(name, "H") == 0     ? GROUP_H
-           : strcmp(name, "error") == 0 ? GROUP_ERROR
-                                        : GROUP_INVARIANTS;
+        return PANEL_D;
+    return strcmp(name, "E") == 0       ? PANEL_E
+           : strcmp(name, "H") == 0     ? PANEL_H
+           : strcmp(name, "error") == 0 ? PANEL_ERROR
+                                        : PANEL_INVARIANTS;
 }
 
 static plot_curve *add_curve(report_plot *plot, const char *title)
@@ -152,7 +152,7 @@ static void place_columns(run_page *run)
             n++;
         observables = 1 + 2 * n;
         while (observables < t->columns &&
-               observable_group(run, t->name[observables]) >= GROUP_INVARIANTS)
+               observable_panel(run, t->name[observables]) >= PANEL_INVARIANTS)
             observables++;
     } else if (!run->request->columns) {
         n = system->n;
@@ -169,19 +169,19 @@ static void place_columns(run_page *run)
     for (int i = 1; i < t->columns; i++) {
         run_column *c = &run->column[i];
         const char *name = t->name[i];
-        c->group = i >= observables      ? observable_group(run, name)
-                   : i > n               ? NO_GROUP
-                   : is_angle(run, name) ? GROUP_ANGLES
-                                         : GROUP_COORDINATES;
+        c->panel = i >= observables      ? observable_panel(run, name)
+                   : i > n               ? NO_PANEL
+                   : is_angle(run, name) ? PANEL_ANGLES
+                                         : PANEL_COORDINATES;
         if (i <= n) c->velocity = find_velocity(run, name);
         /* Of E and H the summary knows: it gives a trend to what should not change. */
-        bool has_trend = c->group != GROUP_E && c->group != GROUP_H;
+        bool has_trend = c->panel != PANEL_E && c->panel != PANEL_H;
         for (int row = 1; row < run->summary.rows; row++)
             has_trend |= csv_table_is(&run->summary, row, "observable", name) &&
                          !csv_table_is(&run->summary, row, "trend", "");
-        c->is_conserved = i >= observables && has_trend && c->group != GROUP_OBSERVED &&
-                          c->group != GROUP_REACTIONS;
-        if (c->group != NO_GROUP) c->curve = add_curve(&run->plot[c->group], name);
+        c->is_conserved = i >= observables && has_trend && c->panel != PANEL_OBSERVED &&
+                          c->panel != PANEL_REACTIONS;
+        if (c->panel != NO_PANEL) c->curve = add_curve(&run->plot[c->panel], name);
         if (c->curve) c->series = cli_calloc(1, sizeof *c->series);
         if (c->is_conserved) c->envelope = add_curve(&run->drift, name);
     }
@@ -195,7 +195,7 @@ static void name_plots(run_page *run)
     const bool has_events = run->events.count > 0;
     const char *caption = has_events ? event_caption : "";
 #define NAME_PLOT(code, file, text, label, zero)                                                   \
-    run->plot[GROUP_##code] = (report_plot){file,                                                  \
+    run->plot[PANEL_##code] = (report_plot){file,                                                  \
                                             text,                                                  \
                                             "t",                                                   \
                                             label,                                                 \
@@ -203,7 +203,7 @@ static void name_plots(run_page *run)
                                             .zero_text = zero,                                     \
                                             .mark = run->events.t,                                 \
                                             .marks = run->events.count};
-    GROUP_LIST(NAME_PLOT)
+    PANEL_LIST(NAME_PLOT)
 #undef NAME_PLOT
     run->drift_caption = cli_format("%s%s%s", report_envelope_caption, has_events ? " " : "",
                                     has_events ? event_drift_caption : "");
@@ -234,13 +234,13 @@ static void add_row(run_page *run, long long k)
         run->passed_events++;
     for (int i = 1; i < reader->columns; i++) {
         run_column *c = &run->column[i];
-        const bool jumps = c->group == GROUP_E || c->group == GROUP_INVARIANTS;
+        const bool jumps = c->panel == PANEL_E || c->panel == PANEL_INVARIANTS;
         double x = reader->row[i];
         if (k == 0) c->first = c->last = x;
-        if (c->group == NO_GROUP) continue;
+        if (c->panel == NO_PANEL) continue;
         if (jumps && run->passed_events > before) c->jumped += x - c->last;
         c->last = x;
-        if (jumps || c->group == GROUP_H) x -= c->first;
+        if (jumps || c->panel == PANEL_H) x -= c->first;
         if (c->series) row_series_add(c->series, t, x);
         if (c->velocity > 0) row_distance_add(&c->distance, t, x, reader->row[c->velocity]);
         if (!(fabs(x) <= c->max_abs)) c->max_abs = fabs(x);
@@ -261,22 +261,22 @@ static int find_observable(const run_page *run, const char *name)
 /* What a figure takes from an observable. */
 static double subtracted(const run_column *c)
 {
-    return c->group == GROUP_E || c->group == GROUP_H || c->group == GROUP_INVARIANTS ? c->first
+    return c->panel == PANEL_E || c->panel == PANEL_H || c->panel == PANEL_INVARIANTS ? c->first
                                                                                       : 0.0;
 }
 
 /* Draws a column from all steps; false: its rows show it. */
 static bool draw_steps(const run_page *run, run_column *c, const char *name, bool is_sparse)
 {
-    const report_plot *plot = &run->plot[c->group];
+    const report_plot *plot = &run->plot[c->panel];
     const int row = find_observable(run, name);
-    const bool is_coordinate = c->group < GROUP_D;
+    const bool is_coordinate = c->panel < PANEL_D;
     if (is_coordinate && (!run->system || !(is_sparse || row_series_is_aliased(c->series))))
         return false;
     if (is_coordinate)
         return row_steps_draw_coordinate(&run->steps, find_coordinate(run->system, name), plot,
                                          c->curve);
-    if (row == 0 || c->group == GROUP_REACTIONS || c->group == GROUP_OBSERVED ||
+    if (row == 0 || c->panel == PANEL_REACTIONS || c->panel == PANEL_OBSERVED ||
         !row_steps_draw_observable(&run->steps, row - 1, subtracted(c), run->reader.count, plot,
                                    c->curve))
         return false;
@@ -288,15 +288,15 @@ static bool draw_steps(const run_page *run, run_column *c, const char *name, boo
 static int draw_last_steps(run_page *run)
 {
     const step_record *record = &run->steps.record;
-    char title[GROUPS][PLOT_NAME], name[GROUPS][PLOT_NAME], part[PLOT_NOTE];
-    report_plot *last = cli_calloc(GROUPS, sizeof *last);
+    char title[PANELS][PLOT_NAME], name[PANELS][PLOT_NAME], part[PLOT_NOTE];
+    report_plot *last = cli_calloc(PANELS, sizeof *last);
     int status = CLI_DONE;
     if (!record->number || !run->system) {
         free(last);
         return status;
     }
     snprintf(part, sizeof part, "the last %d steps", record_last_steps(record));
-    for (int g = 0; g < GROUPS; g++) {
+    for (int g = 0; g < PANELS; g++) {
         last[g] = run->plot[g];
         snprintf(title[g], sizeof title[g], "%s, %s", last[g].title, part);
         snprintf(name[g], sizeof name[g], "%s-last", last[g].name);
@@ -308,15 +308,15 @@ static int draw_last_steps(run_page *run)
     }
     for (int i = 1; i < run->reader.columns; i++) {
         const run_column *c = &run->column[i];
-        const bool is_coordinate = c->group == GROUP_COORDINATES || c->group == GROUP_ANGLES;
+        const bool is_coordinate = c->panel == PANEL_COORDINATES || c->panel == PANEL_ANGLES;
         const int row = find_observable(run, run->reader.name[i]);
-        if (c->group == NO_GROUP || (!is_coordinate && row == 0)) continue;
+        if (c->panel == NO_PANEL || (!is_coordinate && row == 0)) continue;
         const int column = is_coordinate ? 1 + find_coordinate(run->system, run->reader.name[i])
                                          : record->state + row;
-        plot_curve *curve = add_curve(&last[c->group], run->reader.name[i]);
-        if (curve) row_steps_draw_last(&run->steps, column, subtracted(c), &last[c->group], curve);
+        plot_curve *curve = add_curve(&last[c->panel], run->reader.name[i]);
+        if (curve) row_steps_draw_last(&run->steps, column, subtracted(c), &last[c->panel], curve);
     }
-    for (int g = 0; g < GROUPS; g++) {
+    for (int g = 0; g < PANELS; g++) {
         const int drawn = report_draw(run->r, &last[g]);
         if (status == CLI_DONE) status = drawn;
     }
@@ -346,14 +346,14 @@ static int draw_figures(run_page *run)
     for (int i = 1; i < run->reader.columns; i++) {
         run_column *c = &run->column[i];
         if (c->series && !draw_steps(run, c, run->reader.name[i], is_sparse))
-            row_series_draw(c->series, &run->plot[c->group], c->curve, is_sparse);
+            row_series_draw(c->series, &run->plot[c->panel], c->curve, is_sparse);
         if (c->envelope) report_title_envelope(c->envelope);
         /* A sentence about all values needs all columns and all rows; figures leave some out. */
-        if (c->group != NO_GROUP && c->max_abs != 0.0) run->plot[c->group].zero_text = NULL;
+        if (c->panel != NO_PANEL && c->max_abs != 0.0) run->plot[c->panel].zero_text = NULL;
         if (c->is_conserved && c->drift != 0.0) run->drift.zero_text = NULL;
     }
     int drawn = report_draw(run->r, &run->drift);
-    for (int g = 0; g < GROUPS; g++) {
+    for (int g = 0; g < PANELS; g++) {
         if (status == CLI_DONE) status = drawn;
         drawn = report_draw(run->r, &run->plot[g]);
     }
@@ -431,7 +431,7 @@ static void write_state(const run_page *run)
     fputs("<p class=\"numbers\">", run->r->page);
     write_value(run, 0);
     for (int i = 1; i < run->reader.columns; i++)
-        if (run->column[i].group == GROUP_COORDINATES || run->column[i].group == GROUP_ANGLES)
+        if (run->column[i].panel == PANEL_COORDINATES || run->column[i].panel == PANEL_ANGLES)
             write_value(run, i);
     for (int i = 1; i < run->reader.columns; i++)
         if (run->column[i].velocity > 0) write_value(run, run->column[i].velocity);

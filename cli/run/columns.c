@@ -9,33 +9,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The groups of --columns; what belongs to none has a name only. */
+/* The kinds of --columns; what belongs to none has a name only. */
 /* clang-format off */
-#define COLUMN_GROUP_LIST(GROUP) \
-    GROUP(Q, "q") \
-    GROUP(V, "v") \
-    GROUP(LIFT, "lift") \
-    GROUP(D, "D") \
-    GROUP(C, "C") \
-    GROUP(E, "E") \
-    GROUP(INVARIANTS, "invariants") \
-    GROUP(OBSERVED, "observed") \
-    GROUP(H, "h") \
-    GROUP(R, "R") \
-    GROUP(LAMBDA, "lambda")
+#define COLUMN_KIND_LIST(KIND) \
+    KIND(Q, "q") \
+    KIND(V, "v") \
+    KIND(LIFT, "lift") \
+    KIND(D, "D") \
+    KIND(C, "C") \
+    KIND(E, "E") \
+    KIND(INVARIANTS, "invariants") \
+    KIND(OBSERVED, "observed") \
+    KIND(H, "h") \
+    KIND(R, "R") \
+    KIND(LAMBDA, "lambda")
 /* clang-format on */
 
-typedef enum column_group {
-#define GROUP_CODE(code, word) COLUMNS_##code,
-    COLUMN_GROUP_LIST(GROUP_CODE)
-#undef GROUP_CODE
-        COLUMN_GROUPS
-} column_group;
+typedef enum column_kind {
+#define KIND_CODE(code, word) COLUMNS_##code,
+    COLUMN_KIND_LIST(KIND_CODE)
+#undef KIND_CODE
+        COLUMN_KINDS
+} column_kind;
 
-static const char *const group_words[COLUMN_GROUPS] = {
-#define GROUP_WORD(code, word) word,
-    COLUMN_GROUP_LIST(GROUP_WORD)
-#undef GROUP_WORD
+static const char *const kind_words[COLUMN_KINDS] = {
+#define KIND_WORD(code, word) word,
+    COLUMN_KIND_LIST(KIND_WORD)
+#undef KIND_WORD
 };
 
 enum { NAME_SIZE = 256 };
@@ -44,16 +44,16 @@ static bool is_hidden(const char *name) { return name[0] == '|'; }
 
 /* Value i is t, q, v, g or the lift, then the observables.  Formulas that are observed are the last
  * of the invariants, and h1.. are before R_x... */
-static column_group group_of(const run_simulation *s, int i)
+static column_kind kind_of(const run_simulation *s, int i)
 {
     const dal_system *system = s->system;
     const int n = system->n, observable = i - 1 - dal_run_dimension(s->run);
     const bool is_lifted = s->request.options.space == DAL_LIFTED;
     int number;
-    if (i == 0) return COLUMN_GROUPS;
+    if (i == 0) return COLUMN_KINDS;
     if (i <= 2 * n) return i <= n ? COLUMNS_Q : COLUMNS_V;
-    if (observable < 0) return is_lifted ? COLUMNS_LIFT : COLUMN_GROUPS;
-    switch (dal__run_observable_group(s->run, observable, &number)) {
+    if (observable < 0) return is_lifted ? COLUMNS_LIFT : COLUMN_KINDS;
+    switch (dal__run_observable_kind(s->run, observable, &number)) {
     case DAL__OBSERVE_D:
         return COLUMNS_D;
     case DAL__OBSERVE_E:
@@ -70,7 +70,7 @@ static column_group group_of(const run_simulation *s, int i)
     case DAL__OBSERVE_HOLONOMIC:
         return COLUMNS_C;
     default:
-        return COLUMN_GROUPS;
+        return COLUMN_KINDS;
     }
 }
 
@@ -91,15 +91,15 @@ static void name_values(run_columns *c, const dal_run *run)
 }
 
 /* How an item selects: by the first of these that any column satisfies. */
-typedef enum match { BY_NAME, BY_GROUP, BY_PATTERN, MATCHES } match;
+typedef enum match { BY_NAME, BY_KIND, BY_PATTERN, MATCHES } match;
 
 static bool is_match(const run_columns *c, const run_simulation *s, int i, const char *item,
                      match how)
 {
-    const column_group group = group_of(s, i);
+    const column_kind kind = kind_of(s, i);
     if (how == BY_NAME) return strcmp(item, c->name[i]) == 0;
     if (how == BY_PATTERN) return fnmatch(item, c->name[i], 0) == 0;
-    return group < COLUMN_GROUPS && strcmp(item, group_words[group]) == 0;
+    return kind < COLUMN_KINDS && strcmp(item, kind_words[kind]) == 0;
 }
 
 /* lambda, lambda1, .. of a method that has none. */
@@ -121,11 +121,11 @@ static int unknown_item(const run_columns *c, const run_simulation *s, const cha
 {
     if (s->request.options.reactions && strncmp(item, "lambda", 6) == 0)
         return without_multipliers(s, item);
-    const char **names = cli_calloc((size_t)c->values + COLUMN_GROUPS, sizeof *names);
+    const char **names = cli_calloc((size_t)c->values + COLUMN_KINDS, sizeof *names);
     int count = 0;
     for (int i = 0; i < c->values; i++)
         if (!is_hidden(c->name[i])) names[count++] = c->name[i];
-    for (int k = 0; k < COLUMN_GROUPS; k++) names[count++] = group_words[k];
+    for (int k = 0; k < COLUMN_KINDS; k++) names[count++] = kind_words[k];
     const char *nearest = dal__nearest_name(item, names, count);
     const bool is_other = nearest && strcmp(nearest, item) != 0;
     cli_fail(CLI_USAGE, "--columns: the run has no column '%s'%s%s%s", item,
@@ -153,8 +153,8 @@ static bool is_of_reactions(const dal_system *system, const char *item)
 {
     char name[NAME_SIZE];
     for (int k = COLUMNS_H; k <= COLUMNS_LAMBDA; k++) {
-        if (strcmp(item, group_words[k]) == 0) return true;
-        const char *begin = k == COLUMNS_R ? "R_" : group_words[k];
+        if (strcmp(item, kind_words[k]) == 0) return true;
+        const char *begin = k == COLUMNS_R ? "R_" : kind_words[k];
         if (strncmp(item, begin, strlen(begin)) != 0) continue;
         for (int i = 0; i < (k == COLUMNS_R ? system->n : system->m); i++) {
             snprintf(name, sizeof name, k == COLUMNS_R ? "R_%s" : "%s%d",
@@ -215,7 +215,7 @@ bool columns_is_velocity(const run_request *request, const char *name, const cha
 static int rename_all(run_columns *c, const run_simulation *s)
 {
     for (int i = 0; i < c->values; i++) {
-        if (group_of(s, i) == COLUMNS_OBSERVED) continue;
+        if (kind_of(s, i) == COLUMNS_OBSERVED) continue;
         const bool is_velocity = strchr(c->name[i], '\'') != NULL;
         columns_rename(&s->request, c->name[i]);
         for (int k = 0; is_velocity && k < c->values; k++)

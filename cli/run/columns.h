@@ -2,7 +2,7 @@
  *
  * The values of a row are t, the state and all observables; the norms |p|, |pi|, |pi_e| follow from
  * other columns and are for the summary alone.  An item of --columns is the name of a column, a
- * group or a pattern with * and ?, in this order, so that a coordinate named q is that coordinate.
+ * kind or a pattern with * and ?, in this order, so that a coordinate named q is that coordinate.
  * Columns keep the order of the whole row, and t is always the first. */
 #ifndef DAL_CLI_COLUMNS_H
 #define DAL_CLI_COLUMNS_H
@@ -20,7 +20,7 @@ typedef struct run_columns {
  * where an item of --columns matches none, or a plain name is another column's; free them in
  * any case. */
 int columns_make(run_columns *columns, const run_simulation *simulation);
-/* Whether a list of --columns has names, groups or patterns of h1.., R_x.. or lambda1.. that are
+/* Whether a list of --columns has names, kinds or patterns of h1.., R_x.. or lambda1.. that are
  * not names of the system. */
 bool columns_need_reactions(const dal_system *system, const char *list);
 /* Replaces a name by the name of its column: with --names plain "x'" becomes "vx". */

@@ -42,9 +42,9 @@ static const cli_option options[RUN_OPTIONS] = {
                    .parse = cli_parse_flag, .offset = offsetof(run_settings, force)},
 };
 
-cli_group run_group(run_settings *settings, uint64_t without)
+cli_option_set run_option_set(run_settings *settings, uint64_t without)
 {
-    return (cli_group){options, RUN_OPTIONS, settings, settings->text, without, "run", NULL};
+    return (cli_option_set){options, RUN_OPTIONS, settings, settings->text, without, "run", NULL};
 }
 
 static void print_end(const run_recorder *r, int status, const dal_error *error)

@@ -33,9 +33,9 @@ typedef struct run_settings {
     const char *text[RUN_OPTIONS]; /* as given; NULL: not given */
 } run_settings;
 
-/* As a group for a command, which does not take some: a set of RUN_OPTION(name). */
+/* As a set for a command, which does not take some: a set of RUN_OPTION(name). */
 #define RUN_OPTION(name) (UINT64_C(1) << RUN_##name)
-cli_group run_group(run_settings *settings, uint64_t without);
+cli_option_set run_option_set(run_settings *settings, uint64_t without);
 /* Integrates a run, in its directory unless dir is NULL; returns the exit status. */
 int run_integrate(const run_simulation *simulation, run_directory *dir,
                   const run_settings *settings);

@@ -56,9 +56,9 @@ static void complete_method(run_simulation *s)
 }
 
 /* Takes those that the command needs and does not have; a line says which. */
-static int take_defaults(const cli_group *group, int status)
+static int take_defaults(const cli_option_set *set, int status)
 {
-    run_simulation *s = group->settings; /* of which the request is the first member */
+    run_simulation *s = set->settings; /* of which the request is the first member */
     run_request *request = &s->request;
     char taken[512] = "";
     if (!request->system_name) return CLI_DONE;
@@ -66,10 +66,10 @@ static int take_defaults(const cli_group *group, int status)
     if (found != CLI_DONE) return found;
     for (int i = 0; i < DEFAULTS; i++) {
         const int k = default_options[i];
-        const cli_option *option = &group->options[k];
+        const cli_option *option = &set->options[k];
         const char *text = cli_default(s->model, option->name, NULL, NULL);
         const size_t length = strlen(taken);
-        if (group->without >> k & 1 || !request_lacks(request, k)) continue;
+        if (set->without >> k & 1 || !request_lacks(request, k)) continue;
         if (!text && !option->initial)
             found = cli_fail(CLI_USAGE, "--%s is missing, and %s has no default for it",
                              option->name, request->system_name);
@@ -82,14 +82,15 @@ static int take_defaults(const cli_group *group, int status)
         cli_note("%s gives%s", request->system_name, taken);
     if (found == CLI_DONE && status == CLI_DONE) complete_method(s);
     /* A command that does not take --from goes from t = 0 forwards. */
-    const bool is_forward = group->without & REQUEST_OPTION(from);
+    const bool is_forward = set->without & REQUEST_OPTION(from);
     const int forward = is_forward ? request_check_forward(request) : CLI_DONE;
     return found == CLI_DONE ? forward : found;
 }
 
-cli_group simulation_group(run_simulation *s, const cli_option *options, uint64_t without)
+cli_option_set simulation_options(run_simulation *s, const cli_option *options, uint64_t without)
 {
-    return (cli_group){options, REQUEST_OPTIONS, s, s->request.text, without, "run", take_defaults};
+    return (cli_option_set){options, REQUEST_OPTIONS, s, s->request.text, without,
+                            "run",   take_defaults};
 }
 
 int simulation_make_spec(run_simulation *s, dal_run_spec *spec)

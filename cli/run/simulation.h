@@ -7,9 +7,10 @@
 /* Of an empty request; release it with simulation_free. */
 run_simulation simulation_default(void);
 void simulation_free(run_simulation *simulation);
-/* The options of its request as a group for a command, which may change their defaults and help in
+/* The options of its request as a set for a command, which may change their defaults and help in
  * options, and does not take some.  A command that has read its arguments has loaded the system. */
-cli_group simulation_group(run_simulation *simulation, const cli_option *options, uint64_t without);
+cli_option_set simulation_options(run_simulation *simulation, const cli_option *options,
+                                  uint64_t without);
 
 /* All below return CLI_DONE, or print and return an exit status. */
 

@@ -111,18 +111,18 @@ typedef enum study_stored {
 } study_stored;
 
 /* One system of a study, with one value for each of its settings.  Cases that differ in these
- * values alone are of one group: they stand together and share the model, the copy and the methods,
+ * values alone are of one item: they stand together and share the model, the copy and the methods,
  * which belong to the first of them. */
 typedef struct study_case {
-    const char *name;  /* a built-in name or a path */
-    const char *group; /* the label in the file, or the last part of the name */
-    char *label;       /* name in tables and files; no two cases share one */
-    int is_first;      /* of its group */
+    const char *name;       /* a built-in name or a path */
+    const char *item_label; /* the label in the file, or the last part of the name */
+    char *label;            /* name in tables and files; no two cases share one */
+    int is_first;           /* of its item */
     dal_model *model;
     const dal_system *system;
-    cli_choices choices; /* of the group */
-    char *variant;       /* GROUP_WORD, of the group; NULL: it has one mechanics */
-    char *observe; /* formulas that the runs of the group observe, as in --observe; NULL: none */
+    cli_choices choices; /* of the item */
+    char *variant;       /* LABEL_WORD, of the item; NULL: it has one mechanics */
+    char *observe; /* formulas that the runs of the item observe, as in --observe; NULL: none */
     char *path;    /* of the system file, from the working directory; NULL: there is a copy, or the
                       system is built in */
     char *copy;    /* of the system file, in the directory of the study; NULL: a built-in system */
@@ -138,7 +138,7 @@ typedef struct study_case {
     request_settings set, start, displace; /* displace: in units of displacement */
     dal_method *methods;
     int method_count;
-    double (*method_steps)[2]; /* [method_count] that the cells of the group take, on each space */
+    double (*method_steps)[2]; /* [method_count] that the cells of the item take, on each space */
     int first_cell, cells;     /* its cells are consecutive */
 } study_case;
 

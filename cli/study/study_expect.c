@@ -1,7 +1,7 @@
 /* study_expect.c - the expectations of a study, read from its file.
  *
  *     expect:
- *       LABEL:                              the label of a start, group or system, or all
+ *       LABEL:                              the label of a start, item or system, or all
  *         INTEGRATOR:                       as in the study, or all, or all+project and the like
  *           QUANTITY: rounding              a size, or a trend
  *           QUANTITY: [exact, none]         one of several
@@ -50,7 +50,7 @@ static int add(expect_reader *r, const yaml_node_t *node)
 
 bool study_label_means(const study_case *e, const char *label)
 {
-    return strcmp(label, e->label) == 0 || strcmp(label, e->group) == 0 ||
+    return strcmp(label, e->label) == 0 || strcmp(label, e->item_label) == 0 ||
            strcmp(label, e->name) == 0 || strcmp(label, "all") == 0 ||
            (e->variant && strcmp(label, e->variant) == 0);
 }

@@ -28,7 +28,7 @@ enum {
 /* Reads `expect` into a plan with its cells; node may be NULL.  Returns CLI_DONE, or prints and
  * returns CLI_USAGE. */
 int study_expect_read(study_plan *plan, yaml_node_t *node);
-/* Whether a label means a case: its own, its group's, its system's, or all. */
+/* Whether a label means a case: its own, its item's, its system's, or all. */
 bool study_label_means(const study_case *item, const char *label);
 /* Whether the runs of a case have a quantity of this name. */
 bool study_has_quantity(const study_case *item, const char *name);

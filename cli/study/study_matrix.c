@@ -2,7 +2,7 @@
 #include "study_matrix.h"
 
 #include "ui/memory.h"
-#include "ui/name_groups.h"
+#include "ui/name_patterns.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -57,7 +57,7 @@ static void choose_rows(study_matrix *s, study_scope scope)
             s->row[s->rows++] = &s->methods[i];
 }
 
-/* Systems with constraints come first; where these are too many, one of each group. */
+/* Systems with constraints come first; where these are too many, one of each item. */
 static void choose_columns(study_matrix *s, study_scope scope)
 {
     const int limit = scope == STUDY_SOME ? STUDY_COLUMNS : s->plan->case_count;

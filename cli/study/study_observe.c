@@ -3,7 +3,7 @@
  *     expect: {sleigh: {rk4: {"abs(h1) - 0.3*m": {final: {at most: 0}}}}}
  *
  * What is given where a quantity is named and is no name is a formula, unless the system has a
- * quantity of this name.  Cases of a group share their model, so all their runs observe it, as
+ * quantity of this name.  Cases of an item share their model, so all their runs observe it, as
  * `run --observe` does, and the quantity has the text of the formula as its name. */
 #include "study_observe.h"
 
@@ -15,13 +15,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The formulas of a group, which begins with its first case. */
-typedef struct observed_group {
+/* The formulas of an item, which begins with its first case. */
+typedef struct observed_item {
     const study_plan *plan;
     int first, cases;
     cli_formula *formula;
     int count;
-} observed_group;
+} observed_item;
 
 static bool is_formula(const char *text)
 {
@@ -30,7 +30,7 @@ static bool is_formula(const char *text)
     return text[0] != '|' && text[strspn(text, of_names)] != '\0';
 }
 
-static void add_formula(observed_group *g, const document_pair *quantity)
+static void add_formula(observed_item *g, const document_pair *quantity)
 {
     const yaml_node_t *key = quantity->key;
     const yaml_scalar_style_t style = key->data.scalar.style;
@@ -46,7 +46,7 @@ static void add_formula(observed_group *g, const document_pair *quantity)
 }
 
 /* The formulas under a label, for any of its integrators. */
-static int add_formulas(observed_group *g, const document_pair *label)
+static int add_formulas(observed_item *g, const document_pair *label)
 {
     const document *doc = g->plan->doc;
     document_pair method, quantity;
@@ -64,8 +64,8 @@ static int add_formulas(observed_group *g, const document_pair *label)
     return status;
 }
 
-/* Makes the system of a group again, with its formulas. */
-static int make_group(study_plan *plan, const observed_group *g)
+/* Makes the system of an item again, with its formulas. */
+static int make_item(study_plan *plan, const observed_item *g)
 {
     size_t length;
     char *text;
@@ -89,10 +89,10 @@ int study_observe(study_plan *plan, yaml_node_t *node)
     int status = node ? document_check_mapping(plan->doc, node, "expect", "labels") : CLI_DONE;
     for (int first = 0, end; node && first < plan->case_count && status == CLI_DONE; first = end) {
         for (end = first + 1; end < plan->case_count && !plan->cases[end].is_first;) end++;
-        observed_group g = {.plan = plan, .first = first, .cases = end - first};
+        observed_item g = {.plan = plan, .first = first, .cases = end - first};
         for (int i = 0; status == CLI_DONE && document_get_pair(plan->doc, node, i, &label); i++)
             status = add_formulas(&g, &label);
-        if (status == CLI_DONE && g.count > 0) status = make_group(plan, &g);
+        if (status == CLI_DONE && g.count > 0) status = make_item(plan, &g);
         free(g.formula);
     }
     return status;

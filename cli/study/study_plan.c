@@ -30,7 +30,7 @@ static int read_label(void *user, const document *doc, yaml_node_t *value, const
     parsed_study *p = user;
     const int status = document_read_text(user, doc, value, key);
     if (status != CLI_DONE) return status;
-    const char *label = p->item.group;
+    const char *label = p->item.item_label;
     if (text_is_file_name(label)) return CLI_DONE;
     return document_fail(doc, value, "label: '%s' cannot name a file", label);
 }
@@ -203,8 +203,8 @@ static int read_system(parsed_study *parsed, const document *doc, yaml_node_t *n
 
 /* ---- settings and methods ---- */
 
-/* What is read of one system: a group of cases. */
-typedef struct group_reader {
+/* What is read of one item of 'systems': some cases. */
+typedef struct item_reader {
     study_plan *plan;
     const document *doc;
     yaml_node_t *node; /* of the system */
@@ -212,7 +212,7 @@ typedef struct group_reader {
     bool chooses_step; /* none is given: it is chosen */
     study_variants *variants;
     study_case *item; /* the present case */
-} group_reader;
+} item_reader;
 
 /* Momenta in units of the displacement: one value each. */
 static int read_displacement(study_case *e, const document *doc, const yaml_node_t *node)
@@ -236,7 +236,7 @@ char *study_plan_copy_path(const char *directory, const study_case *e)
 
 /* A relative path begins at the study file.  In the directory of a study a system with a copy was a
  * file, wherever the program is started. */
-static int load_system(const group_reader *g, study_case *e)
+static int load_system(const item_reader *g, study_case *e)
 {
     const char *names[CLI_MAX_BUILTINS], *copies = g->plan->copies;
     char *copy = copies ? study_plan_copy_path(copies, e) : NULL;
@@ -260,7 +260,7 @@ static int load_system(const group_reader *g, study_case *e)
 }
 
 /* Checks that the system knows the names; what else may be wrong with values is for the cells. */
-static int check_names(const group_reader *g, const yaml_node_t *node, const char *what,
+static int check_names(const item_reader *g, const yaml_node_t *node, const char *what,
                        const request_settings *start)
 {
     dal_run *run;
@@ -287,7 +287,7 @@ static bool is_adaptive(const dal_method *method)
 }
 
 /* Under a tolerance a step may be missing, as in a run, where all methods have one. */
-static int check_chosen_step(const group_reader *g, const study_case *e)
+static int check_chosen_step(const item_reader *g, const study_case *e)
 {
     char name[STUDY_NAME];
     for (int i = 0; g->chooses_step && i < e->method_count; i++)
@@ -298,8 +298,8 @@ static int check_chosen_step(const group_reader *g, const study_case *e)
     return CLI_DONE;
 }
 
-/* The first case of a group reads what the others share. */
-static int read_first_case(const group_reader *g, study_case *e)
+/* The first case of an item reads what the others share. */
+static int read_first_case(const item_reader *g, study_case *e)
 {
     const parsed_study *p = &g->parsed;
     int status = study_read_methods(e, g->doc, p->integrators);
@@ -314,7 +314,7 @@ static int read_first_case(const group_reader *g, study_case *e)
 
 /* ---- cases ---- */
 
-static void choose_step(group_reader *g)
+static void choose_step(item_reader *g)
 {
     study_case *e = &g->parsed.item;
     g->chooses_step =
@@ -324,7 +324,7 @@ static void choose_step(group_reader *g)
     e->steps = 1;
 }
 
-static int check_case(const group_reader *g)
+static int check_case(const item_reader *g)
 {
     const document *doc = g->doc;
     const yaml_node_t *node = g->node;
@@ -358,7 +358,7 @@ static int check_case(const group_reader *g)
     return CLI_DONE;
 }
 
-static int add_case(group_reader *g, int i, const study_case *first)
+static int add_case(item_reader *g, int i, const study_case *first)
 {
     study_plan *plan = g->plan;
     study_case *e = g->item = &plan->cases[plan->case_count];
@@ -389,7 +389,7 @@ static int add_case(group_reader *g, int i, const study_case *first)
 }
 
 /* The cases of one mechanics, number i of a list, or of the system file's. */
-static int add_cases(group_reader *g, int i)
+static int add_cases(item_reader *g, int i)
 {
 #define WORD(code, name) name,
     static const char *const words[] = {DAL_MECHANICS_LIST(WORD)};
@@ -405,7 +405,7 @@ static int add_cases(group_reader *g, int i)
         if (k < 0) return CLI_USAGE;
         e->choices.mechanics = (dal_mechanics)k;
         e->option[REQUEST_mechanics] = words[k];
-        if (document_count(list) > 1) e->variant = cli_format("%s_%s", e->group, words[k]);
+        if (document_count(list) > 1) e->variant = cli_format("%s_%s", e->item_label, words[k]);
     }
     int status = study_variants_read(&g->variants, g->doc, &g->parsed, &count);
     const int first = plan->case_count;
@@ -419,19 +419,19 @@ static int add_cases(group_reader *g, int i)
 }
 
 /* A path labels its case by the file's name without folders. */
-static int add_group(study_plan *plan, yaml_node_t *node, const parsed_study *base)
+static int add_item(study_plan *plan, yaml_node_t *node, const parsed_study *base)
 {
-    group_reader g = {.plan = plan, .doc = plan->doc, .node = node, .parsed = *base};
+    item_reader g = {.plan = plan, .doc = plan->doc, .node = node, .parsed = *base};
     study_case *e = &g.parsed.item;
     int status = read_system(&g.parsed, g.doc, node);
     choose_step(&g);
     if (status == CLI_DONE) status = check_case(&g);
     if (status != CLI_DONE) return status;
     const char *slash = strrchr(e->name, '/');
-    if (!e->group) e->group = slash ? slash + 1 : e->name;
+    if (!e->item_label) e->item_label = slash ? slash + 1 : e->name;
     if (text_find_control(e->name, "") >= 0)
         return document_fail(plan->doc, node, "system: '%s' has control characters", e->name);
-    if (e->group[0] == '.')
+    if (e->item_label[0] == '.')
         return document_fail(plan->doc, node, "system: '%s' cannot name a file: give it a label",
                              e->name);
     yaml_node_t *mechanics = g.parsed.mechanics;
@@ -446,7 +446,7 @@ static int read_systems(study_plan *plan, const yaml_node_t *root, const parsed_
     int count = base->systems ? document_count(base->systems) : 0, status = CLI_DONE;
     if (count == 0) return document_fail(plan->doc, root, "the systems are missing");
     for (int i = 0; i < count && status == CLI_DONE; i++)
-        status = add_group(plan, document_item(plan->doc, base->systems, i), base);
+        status = add_item(plan, document_item(plan->doc, base->systems, i), base);
     return status;
 }
 
@@ -524,7 +524,7 @@ void study_plan_say_projected(const study_plan *plan)
         if (added)
             cli_note("%s: holonomic constraints drift with methods of F: +project is added to "
                      "them; 'options: {bare: on}' leaves it out",
-                     e->group);
+                     e->item_label);
     }
 }
 

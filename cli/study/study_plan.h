@@ -52,7 +52,7 @@ char *study_plan_copy_path(const char *directory, const study_case *item);
     KEY(displacement, "both", document_read_positive, item.displacement,                           \
         "size d of p, pi where displaced (1e-8)")                                                  \
     KEY(system, "system", document_read_text, item.name, "a built-in name or a path")              \
-    KEY(label, "system", read_label, item.group, "another name for tables and files")              \
+    KEY(label, "system", read_label, item.item_label, "another name for tables and files")         \
     KEY(set, "system", document_read_node, set, "parameter: values")                               \
     KEY(start, "system", document_read_node, start, "name: values")                                \
     KEY(displace, "system", document_read_node, displace,                                          \

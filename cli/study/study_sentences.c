@@ -3,7 +3,7 @@
 
 #include "study_compare.h"
 #include "ui/memory.h"
-#include "ui/name_groups.h"
+#include "ui/name_patterns.h"
 #include "ui/wrap.h"
 
 #include <math.h>
@@ -117,7 +117,7 @@ char *study_list_keepers(const study_matrix *m, study_aim aim, int columns, int 
         keepers += is_in[count++];
         applies = true;
     }
-    char *text = applies ? name_groups(names, is_in, count, columns) : NULL;
+    char *text = applies ? name_patterns(names, is_in, count, columns) : NULL;
     if (kept) *kept = keepers;
     if (all) *all = count;
     free(names);

@@ -23,7 +23,7 @@ void study_add_size(screen_table *t, const study_cell *c, int quantity);
 void study_add_count(screen_table *t, const study_method *m, int quantity);
 /* What integrators are to keep in all of their runs: D, E, or both. */
 typedef enum study_aim { STUDY_AIM_D, STUDY_AIM_E, STUDY_AIM_BOTH, STUDY_AIMS } study_aim;
-/* Those that do, in groups, in a text of some columns; NULL where none has it to keep.  *kept and
+/* Those that do, by patterns, in a text of some columns; NULL where none has it to keep.  *kept and
  * *all, unless NULL: how many do, of how many.  Allocated. */
 char *study_list_keepers(const study_matrix *m, study_aim aim, int columns, int *kept, int *all);
 /* The command that explains the first drift of D in some columns of the matrix; NULL: none drifts.

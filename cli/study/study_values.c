@@ -278,7 +278,7 @@ void study_variants_apply(const study_variants *v, int i, study_case *e)
     for (int k = 0; k < v->count; k++)
         request_add_setting(k < v->of_set ? &e->set : &e->start, v->setting[k].name, value[k]);
     FILE *out = cli_memstream_open(&e->label, &length);
-    fputs(e->variant ? e->variant : e->group, out);
+    fputs(e->variant ? e->variant : e->item_label, out);
     for (int k = 0; k < v->count; k++)
         if (v->setting[k].values.count > 1) put_label(out, &v->setting[k], value[k]);
     if (v->drawn) put_label(out, &v->seed, seed);

@@ -34,12 +34,12 @@ static void describe_option(const cli_option *option, option_printer *print)
     print(name, help);
 }
 
-/* Describes the options of a kind in a group. */
-static void describe_group(const cli_group *group, option_kind kind, option_printer *print)
+/* Describes the options of a kind in a set. */
+static void describe_set(const cli_option_set *set, option_kind kind, option_printer *print)
 {
-    for (int k = 0; k < group->count; k++)
-        if (!(group->without >> k & 1) && kind_of(&group->options[k]) == kind)
-            describe_option(&group->options[k], print);
+    for (int k = 0; k < set->count; k++)
+        if (!(set->without >> k & 1) && kind_of(&set->options[k]) == kind)
+            describe_option(&set->options[k], print);
 }
 
 /* ---- for a terminal ------------------------------------------------------------------------ */
@@ -57,8 +57,8 @@ static void print_text(const char *name, const char *help)
     cli_wrap(stdout, help, HELP_COLUMN, HELP_COLUMN);
 }
 
-/* Prints the options of a kind in a group below their headings; present is the last, or NULL. */
-static void print_group(const cli_group *g, option_kind kind, const char **present)
+/* Prints the options of a kind in a set below their headings; present is the last, or NULL. */
+static void print_set(const cli_option_set *g, option_kind kind, const char **present)
 {
     const bool is_first = !*present || strcmp(*present, "options") == 0;
     const char *heading = is_first ? "options" : "other options";
@@ -72,16 +72,16 @@ static void print_group(const cli_group *g, option_kind kind, const char **prese
     }
 }
 
-int cli_print_help(const cli_command *command, const cli_group *groups, int count)
+int cli_print_help(const cli_command *command, const cli_option_set *sets, int count)
 {
     static const cli_option help = {.name = "help", .help = "print this"};
     const char *heading = NULL;
     cli_wrap(stdout, command->synopsis, printf("usage: "), 17);
     puts(command->about);
     puts("\narguments:");
-    for (int g = 0; g < count; g++) describe_group(&groups[g], ARGUMENT, print_text);
+    for (int g = 0; g < count; g++) describe_set(&sets[g], ARGUMENT, print_text);
     for (option_kind kind = REQUIRED; kind <= OPTIONAL; kind++)
-        for (int g = 0; g < count; g++) print_group(&groups[g], kind, &heading);
+        for (int g = 0; g < count; g++) print_set(&sets[g], kind, &heading);
     if (!heading) puts("\noptions:");
     describe_option(&help, print_text);
     if (command->notes) {
@@ -129,33 +129,33 @@ static void print_notes(const char *notes)
     }
 }
 
-static bool is_own(const cli_command *command, const cli_group *group)
+static bool is_own(const cli_command *command, const cli_option_set *set)
 {
-    return !group->owner || strcmp(group->owner, command->name) == 0;
+    return !set->owner || strcmp(set->owner, command->name) == 0;
 }
 
-static void refer_to_owner(const cli_group *group)
+static void refer_to_owner(const cli_option_set *set)
 {
     const char *separator = ": ";
-    printf("\nAs for [%s](#%s)", group->owner, group->owner);
-    for (int k = 0; k < group->count; k++) {
-        if (group->without >> k & 1 || !group->options[k].name) continue;
-        printf("%s`--%s`", separator, group->options[k].name);
+    printf("\nAs for [%s](#%s)", set->owner, set->owner);
+    for (int k = 0; k < set->count; k++) {
+        if (set->without >> k & 1 || !set->options[k].name) continue;
+        printf("%s`--%s`", separator, set->options[k].name);
         separator = ", ";
     }
     puts(".");
 }
 
-int cli_print_reference(const cli_command *command, const cli_group *groups, int count)
+int cli_print_reference(const cli_command *command, const cli_option_set *sets, int count)
 {
     printf("## %s\n\n    %s\n\n", command->name, command->synopsis);
     /* "lists the commands" becomes "Lists the commands." */
     printf("%c%s.\n\n", command->about[0] - 'a' + 'A', command->about + 1);
     for (option_kind kind = ARGUMENT; kind <= OPTIONAL; kind++)
         for (int g = 0; g < count; g++)
-            if (is_own(command, &groups[g])) describe_group(&groups[g], kind, print_item);
+            if (is_own(command, &sets[g])) describe_set(&sets[g], kind, print_item);
     for (int g = 0; g < count; g++)
-        if (!is_own(command, &groups[g])) refer_to_owner(&groups[g]);
+        if (!is_own(command, &sets[g])) refer_to_owner(&sets[g]);
     if (command->notes) print_notes(command->notes);
     putchar('\n');
     return cli_close(stdout, "standard output");

@@ -10,7 +10,7 @@
 /* Both print the synopsis, the options and the notes of a command and return the exit status: for a
  * terminal of 80 columns; and in Markdown, where it refers to the owner of options that are not its
  * own. */
-int cli_print_help(const cli_command *command, const cli_group *groups, int count);
-int cli_print_reference(const cli_command *command, const cli_group *groups, int count);
+int cli_print_help(const cli_command *command, const cli_option_set *sets, int count);
+int cli_print_reference(const cli_command *command, const cli_option_set *sets, int count);
 
 #endif

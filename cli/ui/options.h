@@ -45,8 +45,8 @@ cli_parser cli_parse_text, cli_parse_flag, cli_parse_number, cli_parse_integer, 
     CLI_ROW(cli_parse_integer, settings, member), .min = least, .max = greatest
 
 /* Options that fill one struct. */
-typedef struct cli_group cli_group;
-struct cli_group {
+typedef struct cli_option_set cli_option_set;
+struct cli_option_set {
     const cli_option *options;
     int count;
     void *settings;
@@ -55,12 +55,12 @@ struct cli_group {
     const char *owner;  /* the command whose reference describes them; NULL: each one's own */
     /* Completes the settings when all arguments have been read, with that exit status; or NULL.
      * Returns CLI_DONE, or prints and returns an exit status. */
-    int (*complete)(const cli_group *group, int status);
+    int (*complete)(const cli_option_set *set, int status);
 };
 
 /* The rows of a command that fill its settings. */
-#define CLI_GROUP(rows, target)                                                                    \
-    (cli_group) { .options = rows, .count = sizeof rows / sizeof *rows, .settings = target }
+#define CLI_OPTION_SET(rows, target)                                                               \
+    (cli_option_set) { .options = rows, .count = sizeof rows / sizeof *rows, .settings = target }
 
 typedef struct cli_command {
     const char *name, *synopsis, *about;

@@ -50,10 +50,10 @@ static places find_places(const dal_run *run)
     places at = {.energy = -1, .hamiltonian = -1, .pi = -1};
     int number;
     for (int i = 0; i < dal_run_observables(run); i++) {
-        const dal__observable_group group = dal__run_observable_group(run, i, &number);
-        if (group == DAL__OBSERVE_D) at.constraints++;
-        if (group == DAL__OBSERVE_E) at.energy = i;
-        if (group == DAL__OBSERVE_LIFT && number == 0) at.hamiltonian = i, at.pi = i + 2;
+        const dal__observable_kind kind = dal__run_observable_kind(run, i, &number);
+        if (kind == DAL__OBSERVE_D) at.constraints++;
+        if (kind == DAL__OBSERVE_E) at.energy = i;
+        if (kind == DAL__OBSERVE_LIFT && number == 0) at.hamiltonian = i, at.pi = i + 2;
     }
     return at;
 }
@@ -69,13 +69,13 @@ void dal_run_classify(dal_run *run, const dal_statistics *statistics, bool abort
     const double *present = has_scales ? NULL : dal_run_scales(run);
     for (int i = 0; i < count; i++) {
         int number;
-        const dal__observable_group group = dal__run_observable_group(run, i, &number);
-        const bool is_norm = group == DAL__OBSERVE_LIFT && i != at.hamiltonian;
+        const dal__observable_kind kind = dal__run_observable_kind(run, i, &number);
+        const bool is_norm = kind == DAL__OBSERVE_LIFT && i != at.hamiltonian;
         const double scale = is_norm   ? dal_statistics_max_abs(&statistics[i])
                              : present ? present[i]
                                        : statistics[i].scale;
         dal_statistics_classify(&statistics[i], scale, aborted, &trend[i]);
-        if (group == DAL__OBSERVE_REACTIONS || group == DAL__OBSERVE_MULTIPLIERS)
+        if (kind == DAL__OBSERVE_REACTIONS || kind == DAL__OBSERVE_MULTIPLIERS)
             trend[i].conservation = DAL_NOT_CONSERVED;
     }
     if (at.energy >= 0) trend[at.energy].conservation = conservation_of_energy(run, &at, trend);

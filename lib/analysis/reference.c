@@ -177,13 +177,13 @@ dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int
     const bool is_pushed = !is_on_motion(run);
     const bool moves = is_pushed && isfinite(dal_run_state(run)[2 * s->n]); /* q, by pi/e */
     for (int i = 0; i < dal_run_observables(run); i++) {
-        const dal__observable_group group = dal__run_observable_group(run, i, &number);
-        const bool is_hamiltonian = group == DAL__OBSERVE_LIFT && number == 0;
-        conserved[i] = group == DAL__OBSERVE_D || (group == DAL__OBSERVE_LIFT && !is_pushed) ||
+        const dal__observable_kind kind = dal__run_observable_kind(run, i, &number);
+        const bool is_hamiltonian = kind == DAL__OBSERVE_LIFT && number == 0;
+        conserved[i] = kind == DAL__OBSERVE_D || (kind == DAL__OBSERVE_LIFT && !is_pushed) ||
                        (is_hamiltonian && is_autonomous);
-        if (group == DAL__OBSERVE_E)
+        if (kind == DAL__OBSERVE_E)
             conserved[i] = !moves && (s->properties & (DAL_E_EXACT | DAL_E_ON_D));
-        if (group == DAL__OBSERVE_INVARIANTS && number == 0) invariants = i;
+        if (kind == DAL__OBSERVE_INVARIANTS && number == 0) invariants = i;
     }
     if (s->invariant_values && s->invariants > 0 && !moves) {
         status = find_invariants(&w, spec, run, conserved + invariants);

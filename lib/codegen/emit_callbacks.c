@@ -309,8 +309,8 @@ void dal__emit_callbacks(dal__generation *g)
 
 /* ---- observables ---- */
 
-/* What writes a group of observables; %d is the number of its first. */
-static const char *const observed[DAL__OBSERVABLE_GROUPS] = {
+/* What writes a kind of observables; %d is the number of its first. */
+static const char *const observed[DAL__OBSERVABLE_KINDS] = {
     [DAL__OBSERVE_D] = "    dal__constraints(w, t, q, v, NULL, out + %d);\n",
     [DAL__OBSERVE_E] = "    dal__energy(w, t, q, v, NULL, out + %d);\n",
     [DAL__OBSERVE_LIFT] =
@@ -346,9 +346,9 @@ void dal__write_observe(dal__generation *g)
                       "K_pi, NULL);\n");
     else if (g->layout.lifted)
         dal__buffer_append(&g->text, "    const num *const K_pi = y + 3 * DAL_FIXED_N + 1;\n");
-    for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
-        const int count = dal__observable_count(&g->layout, group, g->run->exact);
-        if (count > 0 && observed[group]) dal__buffer_print(&g->text, observed[group], next);
+    for (int kind = 0; kind < DAL__OBSERVABLE_KINDS; kind++) {
+        const int count = dal__observable_count(&g->layout, kind, g->run->exact);
+        if (count > 0 && observed[kind]) dal__buffer_print(&g->text, observed[kind], next);
         next += count;
     }
     dal__buffer_append(&g->text, "}\n");

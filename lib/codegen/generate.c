@@ -84,7 +84,7 @@ static dal_status check_steps(dal__generation *g, dal_error *error)
 static dal_status check_multipliers(const dal__generation *g, dal_error *error)
 {
     const bool observes = g->product == DAL__PRODUCT_FILE || g->product == DAL__PRODUCT_OBSERVE;
-    const bool is_exact_known = false; /* of this group no part */
+    const bool is_exact_known = false; /* there is none of this kind */
     char name[128];
     if (!observes ||
         dal__observable_count(&g->layout, DAL__OBSERVE_MULTIPLIERS, is_exact_known) == 0)

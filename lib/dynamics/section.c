@@ -82,8 +82,8 @@ static dal_status rounding_of(void *user, dal_run *run, double *value, double *r
     *value = touching * w->max_g;
     *rate = 0.0;
     if (!scales) return DAL_STATUS_OK;
-    for (int group = 0; group < DAL__OBSERVE_INVARIANTS; group++)
-        scales += dal__observable_count(&run->layout, group, run->exact);
+    for (int kind = 0; kind < DAL__OBSERVE_INVARIANTS; kind++)
+        scales += dal__observable_count(&run->layout, kind, run->exact);
     *value = fmax(*value, roundings * DBL_EPSILON * scales[p->index]);
     return DAL_STATUS_OK;
 }

@@ -24,12 +24,12 @@ static const double aligned = 1e-9;
 /* Roundings of a step and of its equations, which are solved to a few of them. */
 #define ROUNDING (64 * DBL_EPSILON)
 
-enum { GROUPS = 6 }; /* q, v, e, p, pi, pi_e */
+enum { VARIABLES = 6 }; /* q, v, e, p, pi, pi_e */
 
-/* The largest |a - b| of each group; b may be NULL. */
-static void enlarge(double max[GROUPS], int n, const double *a, const double *b)
+/* The largest |a - b| of each variable; b may be NULL. */
+static void enlarge(double max[VARIABLES], int n, const double *a, const double *b)
 {
-    for (int g = 0, i = 0; g < GROUPS; g++)
+    for (int g = 0, i = 0; g < VARIABLES; g++)
         for (int j = 0, width = g % 3 == 2 ? 1 : n; j < width; j++, i++) {
             const double distance = fabs(a[i] - (b ? b[i] : 0.0));
             if (!(distance <= max[g])) max[g] = distance;
@@ -77,9 +77,9 @@ dal_status dal_check_discrete_action(const dal_run_spec *spec, const dal_curve *
     DAL_TRY(check_rows(spec, curve, error));
     const int n = spec->system->n, pi_e = 4 * n + 1;
     const double h = spec->options.step;
-    const double *const list[GROUPS] = {curve->q, curve->v,  curve->e,
-                                        curve->p, curve->pi, curve->pi_e};
-    double size[GROUPS] = {0.0}, distance[GROUPS] = {0.0}, sum = 0.0;
+    const double *const list[VARIABLES] = {curve->q, curve->v,  curve->e,
+                                           curve->p, curve->pi, curve->pi_e};
+    double size[VARIABLES] = {0.0}, distance[VARIABLES] = {0.0}, sum = 0.0;
     dal_system smooth = *spec->system;
     dal_run_spec own = *spec;
     dal_run *run = NULL;
@@ -91,7 +91,7 @@ dal_status dal_check_discrete_action(const dal_run_spec *spec, const dal_curve *
     double *row = dal__numbers(2, (size_t)pi_e + 1), *next = row ? row + pi_e + 1 : NULL;
     dal_status status = row ? DAL_STATUS_OK : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
     for (int k = 0; k < curve->rows && status == DAL_STATUS_OK; k++) {
-        for (int g = 0, i = 0; g < GROUPS; g++)
+        for (int g = 0, i = 0; g < VARIABLES; g++)
             for (int j = 0, width = g % 3 == 2 ? 1 : n; j < width; j++)
                 next[i++] = list[g] ? list[g][k * width + j] : g == 2 ? 1.0 : 0.0;
         enlarge(size, n, next, NULL);
@@ -109,7 +109,7 @@ dal_status dal_check_discrete_action(const dal_run_spec *spec, const dal_curve *
     if (status != DAL_STATUS_OK) return status;
     *action = (dal_discrete_action){.value = sum, .is_stationary = true};
     size[0] += fabs(h) * size[1];
-    for (int g = 0; g < GROUPS; g++) {
+    for (int g = 0; g < VARIABLES; g++) {
         if (!(distance[g] <= ROUNDING * size[g])) action->is_stationary = false;
         if (!(distance[g] / fabs(h) <= action->defect)) action->defect = distance[g] / fabs(h);
     }

@@ -427,22 +427,22 @@ static dal_status observe_engine(void *engine_, bool exact_known, double *out)
                                       [DAL__OBSERVE_MULTIPLIERS] = system->reactions,
                                       [DAL__OBSERVE_HOLONOMIC] = system->call.holonomic,
                                       [DAL__OBSERVE_ERROR] = system->exact};
-    for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
-        const int count = dal__observable_count(&e->layout, group, exact_known);
+    for (int kind = 0; kind < DAL__OBSERVABLE_KINDS; kind++) {
+        const int count = dal__observable_count(&e->layout, kind, exact_known);
         if (count == 0) continue;
         num *values = scratch;
         dal_status status = DAL_STATUS_OK;
-        if (group == DAL__OBSERVE_LIFT)
+        if (kind == DAL__OBSERVE_LIFT)
             observe_lift(e, at.t, values);
         else
-            status = formulas[group](system, &at, (double *)values);
+            status = formulas[kind](system, &at, (double *)values);
         if (status != DAL_STATUS_OK) return status;
-        if (group == DAL__OBSERVE_REACTIONS) {
+        if (kind == DAL__OBSERVE_REACTIONS) {
             values += e->layout.m * (1 + e->layout.n);
             dal_reaction_observables(scratch, e->layout.m, e->layout.n, values);
         }
-        if (group == DAL__OBSERVE_MULTIPLIERS) observe_multipliers(e, values);
-        if (group == DAL__OBSERVE_ERROR)
+        if (kind == DAL__OBSERVE_MULTIPLIERS) observe_multipliers(e, values);
+        if (kind == DAL__OBSERVE_ERROR)
             values[0] = changed ? dal_num(NAN) : dal_max_distance(values, q, e->layout.n);
         for (int i = 0; i < count; i++) *out++ = (double)values[i] + 0.0; /* no -0 */
     }

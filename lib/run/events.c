@@ -165,11 +165,11 @@ static dal_status add_jump(const dal__event_search *w, double factor)
         return dal__fail(w->error, status,
                          "the observables have no values at the event at t = %.17g",
                          dal_run_time(w->run));
-    for (int group = 0, i = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
-        const bool jumps = group == DAL__OBSERVE_E || group == DAL__OBSERVE_INVARIANTS;
-        const int end = i + dal__observable_count(k, group, w->run->exact);
+    for (int kind = 0, i = 0; kind < DAL__OBSERVABLE_KINDS; kind++) {
+        const bool jumps = kind == DAL__OBSERVE_E || kind == DAL__OBSERVE_INVARIANTS;
+        const int end = i + dal__observable_count(k, kind, w->run->exact);
         for (; i < end; i++)
-            if (jumps && !(group == DAL__OBSERVE_INVARIANTS && i >= end - k->system->observed))
+            if (jumps && !(kind == DAL__OBSERVE_INVARIANTS && i >= end - k->system->observed))
                 w->m.jump[i] += factor * values[i];
     }
     return DAL_STATUS_OK;

@@ -221,10 +221,10 @@ int dal__eval_size(const dal__layout *k, int code)
     }
 }
 
-int dal__observable_count(const dal__layout *k, int group, bool exact_known)
+int dal__observable_count(const dal__layout *k, int kind, bool exact_known)
 {
     const dal_system *system = k->system;
-    switch (group) {
+    switch (kind) {
     case DAL__OBSERVE_D:
         return system->constraints ? system->m : 0;
     case DAL__OBSERVE_E:
@@ -249,9 +249,9 @@ int dal__observable_count(const dal__layout *k, int group, bool exact_known)
 }
 
 /* h1, .., hm, R_x, ..; lambda1, .. */
-void dal__reaction_name(const dal_system *system, int group, int i, char *buffer, size_t size)
+void dal__reaction_name(const dal_system *system, int kind, int i, char *buffer, size_t size)
 {
-    const bool is_of_F = group == DAL__OBSERVE_REACTIONS;
+    const bool is_of_F = kind == DAL__OBSERVE_REACTIONS;
     const int k = i - system->m;
     if (!is_of_F || k < 0)
         snprintf(buffer, size, "%s%d", is_of_F ? "h" : "lambda", i + 1);
@@ -264,9 +264,9 @@ void dal__reaction_name(const dal_system *system, int group, int i, char *buffer
 static bool is_reaction(const dal_system *system, const char *name)
 {
     char other[128];
-    for (int group = DAL__OBSERVE_REACTIONS; group <= DAL__OBSERVE_MULTIPLIERS; group++)
+    for (int kind = DAL__OBSERVE_REACTIONS; kind <= DAL__OBSERVE_MULTIPLIERS; kind++)
         for (int i = 0; i < system->m + system->n; i++) {
-            dal__reaction_name(system, group, i, other, sizeof other);
+            dal__reaction_name(system, kind, i, other, sizeof other);
             if (strcmp(other, name) == 0) return true;
         }
     return false;
@@ -304,8 +304,8 @@ int dal__max_observables(const dal__layout *k)
 {
     const bool is_exact_known = true;
     int count = 0;
-    for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++)
-        count += dal__observable_count(k, group, is_exact_known);
+    for (int kind = 0; kind < DAL__OBSERVABLE_KINDS; kind++)
+        count += dal__observable_count(k, kind, is_exact_known);
     return count;
 }
 

@@ -54,26 +54,25 @@ int dal_run_component_index(const dal_run *run, const char *name)
 
 /* ---- observables ---- */
 
-static int group_size(const dal_run *run, int group)
+static int kind_size(const dal_run *run, int kind)
 {
-    return dal__observable_count(&run->layout, group, run->exact);
+    return dal__observable_count(&run->layout, kind, run->exact);
 }
 
 int dal_run_observables(const dal_run *run)
 {
     int count = 0;
-    for (int group = 0; run && group < DAL__OBSERVABLE_GROUPS; group++)
-        count += group_size(run, group);
+    for (int kind = 0; run && kind < DAL__OBSERVABLE_KINDS; kind++) count += kind_size(run, kind);
     return count;
 }
 
-dal__observable_group dal__run_observable_group(const dal_run *run, int i, int *number)
+dal__observable_kind dal__run_observable_kind(const dal_run *run, int i, int *number)
 {
-    int group = 0;
-    for (; group < DAL__OBSERVABLE_GROUPS && i >= group_size(run, group); group++)
-        i -= group_size(run, group);
+    int kind = 0;
+    for (; kind < DAL__OBSERVABLE_KINDS && i >= kind_size(run, kind); kind++)
+        i -= kind_size(run, kind);
     *number = i;
-    return (dal__observable_group)group;
+    return (dal__observable_kind)kind;
 }
 
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size)
@@ -81,20 +80,20 @@ char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t si
     static const char *const lift[] = {"H", "|p|", "|pi|", "|pi_e|"};
     if (!run || !buffer || i < 0) return NULL;
     const dal_system *system = run->layout.system;
-    const dal__observable_group group = dal__run_observable_group(run, i, &i);
-    if (group == DAL__OBSERVABLE_GROUPS) return NULL;
-    if (group == DAL__OBSERVE_D)
+    const dal__observable_kind kind = dal__run_observable_kind(run, i, &i);
+    if (kind == DAL__OBSERVABLE_KINDS) return NULL;
+    if (kind == DAL__OBSERVE_D)
         snprintf(buffer, size, "D%d", i + 1);
-    else if (group == DAL__OBSERVE_LIFT)
+    else if (kind == DAL__OBSERVE_LIFT)
         snprintf(buffer, size, "%s", lift[i]);
-    else if (group == DAL__OBSERVE_HOLONOMIC)
+    else if (kind == DAL__OBSERVE_HOLONOMIC)
         snprintf(buffer, size, "C%d", i + 1);
-    else if (group == DAL__OBSERVE_INVARIANTS)
+    else if (kind == DAL__OBSERVE_INVARIANTS)
         snprintf(buffer, size, "%s", system->invariant ? system->invariant[i] : "invariant");
-    else if (group == DAL__OBSERVE_REACTIONS || group == DAL__OBSERVE_MULTIPLIERS)
-        dal__reaction_name(system, group, i, buffer, size);
+    else if (kind == DAL__OBSERVE_REACTIONS || kind == DAL__OBSERVE_MULTIPLIERS)
+        dal__reaction_name(system, kind, i, buffer, size);
     else
-        snprintf(buffer, size, "%s", group == DAL__OBSERVE_E ? "E" : "error");
+        snprintf(buffer, size, "%s", kind == DAL__OBSERVE_E ? "E" : "error");
     return buffer;
 }
 

@@ -105,10 +105,10 @@ static dal_status check_jumps(saved *s, bool any)
 {
     const dal__layout *k = &s->run->layout;
     const size_t first = s->at;
-    for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
-        const int count = dal__observable_count(k, group, s->run->exact);
-        const int observed = group == DAL__OBSERVE_INVARIANTS ? k->system->observed : 0;
-        const bool jumps = group == DAL__OBSERVE_E || group == DAL__OBSERVE_INVARIANTS;
+    for (int which = 0; which < DAL__OBSERVABLE_KINDS; which++) {
+        const int count = dal__observable_count(k, which, s->run->exact);
+        const int observed = which == DAL__OBSERVE_INVARIANTS ? k->system->observed : 0;
+        const bool jumps = which == DAL__OBSERVE_E || which == DAL__OBSERVE_INVARIANTS;
         for (int i = 0; i < count; i++) {
             const double x = next(s);
             if (x != 0.0 && !(any && jumps && i < count - observed))

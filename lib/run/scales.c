@@ -106,7 +106,7 @@ static dal_status estimate_reactions(const dal_run *run, const dal_point *at, do
     return DAL_STATUS_OK;
 }
 
-/* ---- one group of observables ---- */
+/* ---- one kind of observables ---- */
 
 /* H, |p|, |pi|, |pi_e|, out[4]; vector[3n] is scratch. */
 static dal_status scale_lift(const dal_run *run, const dal_point *at, double *vector, double *out)
@@ -135,13 +135,13 @@ static dal_status scale_lift(const dal_run *run, const dal_point *at, double *ve
 
 /* ---- all of them ---- */
 
-/* Where the scales of a group are, after the scales of the formulas were made. */
-static const double *group_scales(const dal_run *run, const places *p, const dal_point *at,
-                                  int group, dal_status *status)
+/* Where the scales of a kind are, after the scales of the formulas were made. */
+static const double *kind_scales(const dal_run *run, const places *p, const dal_point *at, int kind,
+                                 dal_status *status)
 {
     const dal_system *s = run->layout.system;
     int largest = 0;
-    switch (group) {
+    switch (kind) {
     case DAL__OBSERVE_D:
         return p->formulas;
     case DAL__OBSERVE_E:
@@ -175,9 +175,9 @@ static const double *scales_at(const dal_run *run, const places *p, double t, co
     if (*status == DAL_STATUS_OK && run->layout.options.reactions)
         *status = s->reaction_scales ? s->reaction_scales(s, &at, p->memory, p->reactions)
                                      : estimate_reactions(run, &at, p->reactions);
-    for (int group = 0; group < DAL__OBSERVABLE_GROUPS && *status == DAL_STATUS_OK; group++) {
-        const int count = dal__observable_count(&run->layout, group, run->exact);
-        const double *scales = count > 0 ? group_scales(run, p, &at, group, status) : NULL;
+    for (int kind = 0; kind < DAL__OBSERVABLE_KINDS && *status == DAL_STATUS_OK; kind++) {
+        const int count = dal__observable_count(&run->layout, kind, run->exact);
+        const double *scales = count > 0 ? kind_scales(run, p, &at, kind, status) : NULL;
         for (int i = 0; i < count; i++) *out++ = fabs(scales[i]);
     }
     return *status == DAL_STATUS_OK ? p->out : NULL;

@@ -24,9 +24,10 @@ static const cli_option options[] = {
 static int action(int argc, char **argv)
 {
     action_settings s = {.simulation = simulation_default()};
-    const cli_group groups[] = {simulation_group(&s.simulation, request_options, ~ACTION_OPTIONS),
-                                CLI_GROUP(options, &s)};
-    int status = cli_read_arguments(&command_action, argc, argv, groups, 2);
+    const cli_option_set sets[] = {
+        simulation_options(&s.simulation, request_options, ~ACTION_OPTIONS),
+        CLI_OPTION_SET(options, &s)};
+    int status = cli_read_arguments(&command_action, argc, argv, sets, 2);
     if (status == CLI_GO_ON) status = action_evaluate(&s);
     simulation_free(&s.simulation);
     return status;

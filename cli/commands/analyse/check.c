@@ -24,9 +24,9 @@ static int check_command(int argc, char **argv)
     cli_option of_request[REQUEST_OPTIONS];
     memcpy(of_request, request_options, sizeof of_request);
     of_request[REQUEST_start].help = "sets a start value: x, x', e or g1; may be repeated";
-    const cli_group groups[] = {CLI_GROUP(options, &s),
-                                simulation_group(&s.simulation, of_request, ~taken)};
-    int status = cli_read_arguments(&command_check, argc, argv, groups, 2);
+    const cli_option_set sets[] = {CLI_OPTION_SET(options, &s),
+                                   simulation_options(&s.simulation, of_request, ~taken)};
+    int status = cli_read_arguments(&command_check, argc, argv, sets, 2);
     if (status == CLI_GO_ON) status = check_system(&s);
     simulation_free(&s.simulation);
     return status;

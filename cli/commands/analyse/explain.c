@@ -21,10 +21,10 @@ static const cli_option options[] = {
 static int explain(int argc, char **argv)
 {
     explain_settings s = {.simulation = simulation_default()};
-    const cli_group groups[] = {CLI_GROUP(options, &s),
-                                rerun_group(&s.simulation, request_options, EXPLAIN_WITHOUT)};
+    const cli_option_set sets[] = {CLI_OPTION_SET(options, &s),
+                                   rerun_options(&s.simulation, request_options, EXPLAIN_WITHOUT)};
     s.simulation.request.step_rule = REQUEST_STEP_CHOSEN;
-    int status = cli_read_arguments(&command_explain, argc, argv, groups, 2);
+    int status = cli_read_arguments(&command_explain, argc, argv, sets, 2);
     if (status == CLI_GO_ON) status = explain_run(&s);
     simulation_free(&s.simulation);
     return status;

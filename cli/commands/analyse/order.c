@@ -47,9 +47,9 @@ static int order(int argc, char **argv)
     memcpy(of_request, request_options, sizeof of_request);
     of_request[REQUEST_step].initial = "0.1";
     of_request[REQUEST_time].initial = "10";
-    const cli_group groups[] = {CLI_GROUP(options, &s),
-                                simulation_group(&s.simulation, of_request, ORDER_WITHOUT)};
-    int status = cli_read_arguments(&command_order, argc, argv, groups, 2);
+    const cli_option_set sets[] = {CLI_OPTION_SET(options, &s),
+                                   simulation_options(&s.simulation, of_request, ORDER_WITHOUT)};
+    int status = cli_read_arguments(&command_order, argc, argv, sets, 2);
     if (status == CLI_GO_ON) status = order_measure(&s);
     if (s.is_written && status != CLI_IO && cli_is_directory(s.output))
         status = report_after(s.output, status, report_order);

@@ -56,9 +56,9 @@ static int predict(int argc, char **argv)
     of_request[REQUEST_step].value = "H1,H2,..";
     of_request[REQUEST_step].help = "the step sizes h";
     of_request[REQUEST_step].parse = parse_steps;
-    const cli_group groups[] = {CLI_GROUP(options, &s),
-                                simulation_group(&s.simulation, of_request, PREDICT_WITHOUT)};
-    int status = cli_read_arguments(&command_predict, argc, argv, groups, 2);
+    const cli_option_set sets[] = {CLI_OPTION_SET(options, &s),
+                                   simulation_options(&s.simulation, of_request, PREDICT_WITHOUT)};
+    int status = cli_read_arguments(&command_predict, argc, argv, sets, 2);
     if (status == CLI_GO_ON) status = predict_run(&s);
     simulation_free(&s.simulation);
     return status;

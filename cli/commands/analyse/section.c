@@ -33,9 +33,9 @@ static int section(int argc, char **argv)
 {
     section_settings s = {.simulation = simulation_default()};
     s.simulation.request.step_rule = REQUEST_STEP_CHOSEN;
-    const cli_group groups[] = {CLI_GROUP(options, &s),
-                                rerun_group(&s.simulation, request_options, SECTION_WITHOUT)};
-    int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
+    const cli_option_set sets[] = {CLI_OPTION_SET(options, &s),
+                                   rerun_options(&s.simulation, request_options, SECTION_WITHOUT)};
+    int status = cli_read_arguments(&command_section, argc, argv, sets, 2);
     s.direction--; /* -1, 0 or 1 */
     s.is_screen = screen_has_reader() && !s.json && !s.details;
     if (status == CLI_GO_ON) status = section_find(&s);

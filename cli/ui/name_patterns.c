@@ -1,5 +1,5 @@
-/* name_groups.c - names of methods in groups. */
-#include "name_groups.h"
+/* name_patterns.c - names of methods in patterns. */
+#include "name_patterns.h"
 #include "memory.h"
 #include "screen.h"
 
@@ -17,7 +17,7 @@ bool name_is_of_family(const char *a, const char *b)
     }
 }
 
-bool name_is_of_group(const char *a, const char *b)
+bool name_is_like(const char *a, const char *b)
 {
     const char *modifiers_a = strchr(a, '+'), *modifiers_b = strchr(b, '+');
     if (!modifiers_a || !modifiers_b)
@@ -25,31 +25,31 @@ bool name_is_of_group(const char *a, const char *b)
     return modifiers_a > a && modifiers_b > b && strcmp(modifiers_a, modifiers_b) == 0;
 }
 
-char *name_groups(const char *const *names, const bool *is_in, int count, int columns)
+char *name_patterns(const char *const *names, const bool *is_in, int count, int columns)
 {
     enum { FEW = 2, MANY = 6, PASSES = 3 };
-    char **groups = cli_calloc((size_t)count + 1, sizeof *groups), *text;
+    char **patterns = cli_calloc((size_t)count + 1, sizeof *patterns), *text;
     int found = 0, out[FEW] = {0}, outside = 0;
-    /* Groups of modifiers come first, single names last. */
+    /* Patterns of modifiers come first, single names last. */
     for (int j = 0; j < PASSES * count; j++) {
         const int i = j % count;
         if (j < count && !is_in[i] && outside++ < FEW) out[outside - 1] = i;
         int size = 0, inside = 0, first = i;
         for (int k = count - 1; k >= 0; k--) {
-            if (k != i && !name_is_of_group(names[i], names[k])) continue;
+            if (k != i && !name_is_like(names[i], names[k])) continue;
             size++;
             inside += is_in[k];
             first = k;
         }
-        const bool is_group = size > 1 && inside == size;
+        const bool is_pattern = size > 1 && inside == size;
         const char *modifiers = strchr(names[i], '+');
         int length = (int)strlen(names[i]);
         while (length > 1 && strchr("0123456789", names[i][length - 1])) length--;
-        const int pass = !is_group ? 2 : !modifiers;
-        if (is_in[i] && pass == j / count && (!is_group || first == i))
-            groups[found++] = !is_group   ? cli_strdup(names[i])
-                              : modifiers ? cli_format("any %s", modifiers)
-                                          : cli_format("%.*s*", length, names[i]);
+        const int pass = !is_pattern ? 2 : !modifiers;
+        if (is_in[i] && pass == j / count && (!is_pattern || first == i))
+            patterns[found++] = !is_pattern ? cli_strdup(names[i])
+                                : modifiers ? cli_format("any %s", modifiers)
+                                            : cli_format("%.*s*", length, names[i]);
     }
     if (outside == count)
         text = cli_strdup("none");
@@ -59,8 +59,8 @@ char *name_groups(const char *const *names, const bool *is_in, int count, int co
         text = cli_format("all but %s%s%s", names[out[0]], outside > 1 ? " and " : "",
                           outside > 1 ? names[out[1]] : "");
     else
-        text = screen_list_names((const char *const *)groups, found, columns);
-    for (int i = 0; i < found; i++) free(groups[i]);
-    free(groups);
+        text = screen_list_names((const char *const *)patterns, found, columns);
+    for (int i = 0; i < found; i++) free(patterns[i]);
+    free(patterns);
     return text;
 }
