@@ -136,18 +136,14 @@ try 2 explain line.yaml --integrator rk4 --time 1
 says "^dalembert: --step is missing"
 
 case_is "explain: bad input"
-try 2 explain line.yaml --integrator rk4 --step 0.1
-says "--time is missing"
-try 2 explain chaplygin-sleigh --integrator rk5 --step 0.1 --time 1
-says "did you mean 'rk4'"
-try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --samples 5
-says "unknown option '--samples'"
-try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --output why.txt
-says "does not end in .csv"
-try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --quad-steps -1
-says "not in 0"
-try 4 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --output /nowhere/why.csv
-says "cannot write"
+table <<'END'
+2 | explain line.yaml --integrator rk4 --step 0.1 | says --time is missing
+2 | explain chaplygin-sleigh --integrator rk5 --step 0.1 --time 1 | says did you mean 'rk4'
+2 | explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --samples 5 | says unknown option '--samples'
+2 | explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --output why.txt | says does not end in .csv
+2 | explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --quad-steps -1 | says not in 0
+4 | explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --output /nowhere/why.csv | says cannot write
+END
 
 case_is "explain: a run that fails"
 try 3 explain chaplygin-sleigh --integrator implicit-midpoint --step 0.1 --time 1 --iterations 1

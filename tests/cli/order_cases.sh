@@ -122,18 +122,14 @@ try 0 order oscillator.yaml --integrators dop853 --time 31415 --tolerances 1e-8,
 expect "a failure of what succeeded" test "$(column message periods.csv | tr -d '\n')" = ""
 expect "T in parts" test "$(column steps periods.csv | sort -u)" = 1
 expect "no error of T" awk -F, 'NR > 1 && !($8 < 31415*1e-8 && $10 > 1e5) { exit 1 }' periods.csv
-try 3 order oscillator.yaml --integrators dop853 --time 31415 --tolerances 1e-8,1e-12 --step 31415
-prints '^dop853: failed: too many substeps'
-try 2 order knife-edge --tolerances 1e-4
-says 'tolerances: a slope needs two tolerances'
-try 2 order knife-edge --tolerances 1e-4,1e-3
-says 'tolerances: 1e-3 is not positive and below the one before'
-try 2 order knife-edge --tolerances 1e-4,1e-6 --steps 0.1,0.05
-says 'tolerances excludes --steps and --tolerance'
-try 2 order knife-edge --tolerances 10,1e-6
-says 'tolerances: 10 is larger than 1'
-try 2 order line.yaml --tolerances 1e-1,1e-2,1e-3,1e-4,1e-5,1e-6,1e-7,1e-8,1e-9 --time 1
-says 'tolerances: more than 8'
+table <<'END'
+3 | order oscillator.yaml --integrators dop853 --time 31415 --tolerances 1e-8,1e-12 --step 31415 | prints ^dop853: failed: too many substeps
+2 | order knife-edge --tolerances 1e-4 | says tolerances: a slope needs two tolerances
+2 | order knife-edge --tolerances 1e-4,1e-3 | says tolerances: 1e-3 is not positive and below the one before
+2 | order knife-edge --tolerances 1e-4,1e-6 --steps 0.1,0.05 | says tolerances excludes --steps and --tolerance
+2 | order knife-edge --tolerances 10,1e-6 | says tolerances: 10 is larger than 1
+2 | order line.yaml --tolerances 1e-1,1e-2,1e-3,1e-4,1e-5,1e-6,1e-7,1e-8,1e-9 --time 1 | says tolerances: more than 8
+END
 
 case_is "diagrams"
 try 0 order line.yaml --integrators rk4,gauss4 --time 1 --output orders
@@ -148,26 +144,18 @@ expect "no tolerances" grep -q '<th>h = 10, tolerance 1e-08</th>' by-tolerance/r
 expect "diagrams that are drawn twice" test -z "$(find orders -maxdepth 1 -name '*.gp')"
 
 case_is "orders: bad input"
-try 2 order
-says 'the SYSTEM is missing'
-try 2 order line.yaml --integrators rk5
-says "unknown integrator 'rk5'; did you mean 'rk4'"
-try 2 order line.yaml --integrators rk4,,gauss4
-says "is not a list between commas"
-try 2 order line.yaml --steps 0.3,0.1
-says 'the time 10 is not a whole number of steps of 0.3'
-try 2 order line.yaml --step 1e-300 --time 1
-says 'is not a whole number of steps of 1e-300'
-try 2 order line.yaml --steps 0.1,0.2
-says 'steps: 0.2 is not positive and below the one before'
-try 2 order line.yaml --steps 0.1
-says 'a slope needs two steps'
-try 2 order line.yaml --levels 9
-says '9 is not in 2\.\.8'
-try 2 order line.yaml --samples 3
-says 'unknown option'
-try 2 order line.yaml plane.yaml
-says 'only one SYSTEM'
+table <<'END'
+2 | order | says the SYSTEM is missing
+2 | order line.yaml --integrators rk5 | says unknown integrator 'rk5'; did you mean 'rk4'
+2 | order line.yaml --integrators rk4,,gauss4 | says is not a list between commas
+2 | order line.yaml --steps 0.3,0.1 | says the time 10 is not a whole number of steps of 0.3
+2 | order line.yaml --step 1e-300 --time 1 | says is not a whole number of steps of 1e-300
+2 | order line.yaml --steps 0.1,0.2 | says steps: 0.2 is not positive and below the one before
+2 | order line.yaml --steps 0.1 | says a slope needs two steps
+2 | order line.yaml --levels 9 | says 9 is not in 2\.\.8
+2 | order line.yaml --samples 3 | says unknown option
+2 | order line.yaml plane.yaml | says only one SYSTEM
+END
 if needs 1 "no /dev/full" test -e /dev/full; then
     try 4 order line.yaml --integrators rk4 --time 1 --output /dev/full
     counted

@@ -225,12 +225,11 @@ try 2 resume --checkpont 1 there
 says "unknown option '--checkpont'; did you mean '--checkpoint'\?"
 
 case_is "renamed options name their new names"
-try 2 run chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --solve-to 1e-9
-says "run: the option '--solve-to' is called '--solver-tolerance' now"
-try 2 run chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --extra-sweeps=1
-says "run: the option '--extra-sweeps' is called '--extra-iterations' now"
-try 2 explain chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --long-steps 1
-says "explain: the option '--long-steps' is called '--quad-steps' now"
+table <<'END'
+2 | run chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --solve-to 1e-9 | says run: the option '--solve-to' is called '--solver-tolerance' now
+2 | run chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --extra-sweeps=1 | says run: the option '--extra-sweeps' is called '--extra-iterations' now
+2 | explain chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --long-steps 1 | says explain: the option '--long-steps' is called '--quad-steps' now
+END
 try 2 run chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --precision long
 says "^dalembert: --precision: 'long' is called 'quad' now$"
 empty
