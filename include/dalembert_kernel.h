@@ -51,6 +51,7 @@
 #include "../lib/kernel/constrained.h"
 #include "../lib/kernel/eigensystem.h"
 #include "../lib/kernel/elementary.h"
+#include "../lib/kernel/gauge.h"
 #include "../lib/kernel/lanes.h"
 #include "../lib/kernel/num.h"
 #include "../lib/kernel/parts.h"

@@ -4,7 +4,8 @@
  *
  * is symplectic for every Phi with invertible DPhi, and on P = 0 has the bits of NAME.  The columns
  * of DPhi come from Phi itself: a Runge-Kutta step of  x' = f, dx' = Df dx  is (Phi, DPhi dx)
- * exactly.  With columns c_j = DPhi u_j - u_j of the unit vectors,
+ * exactly.  Where mu_e is not of t alone, x is (q, v, e) and P (p, pi, pi_e).  With columns
+ * c_j = DPhi u_j - u_j of the unit vectors,
  *
  *     (1 + C)^T d = -C^T P,   P1 = P + d
  *
@@ -47,10 +48,13 @@ DAL_INLINE void put(dal_step *s, int first, int count, const num *y, const num *
     }
 }
 
-/* column = DPhi u - u, u the unit vector number j; unit and zero are scratch, [2n]. */
+/* Numbers of x: with a mu_e(q, v, e, t) there is a column of e, too, and a row. */
+#define SIZE(s) (2 * DAL_N(s) + DAL_GAUGE(s))
+
+/* column = DPhi u - u, u the unit vector number j; unit and zero are scratch, [SIZE]. */
 DAL_INLINE dal_status differentiate(dal_step *s, int j, num *unit, num *zero, num *column)
 {
-    const int p = dal_at_p(s), size = 2 * DAL_N(s);
+    const int p = dal_at_p(s), size = SIZE(s);
     for (int i = 0; i < size; i++) unit[i] = dal_num(i == j);
     for (int i = 0; i < size; i++) zero[i] = dal_num(0.0);
     put(s, p, size, unit, zero);
@@ -64,9 +68,9 @@ DAL_INLINE dal_status differentiate(dal_step *s, int j, num *unit, num *zero, nu
 /* d = -(1 + C)^-T C^T P; the columns are the rows of C^T and become the columns of (1 + C)^T. */
 DAL_INLINE void pull(dal_step *s, num *columns, const num *momenta, num *d)
 {
-    const int size = 2 * DAL_N(s);
-    DAL_VECTOR(s, inverse, 4 * DAL_N(s) * DAL_N(s));
-    DAL_VECTOR(s, image, 2 * DAL_N(s));
+    const int size = SIZE(s);
+    DAL_VECTOR(s, inverse, SIZE(s) * SIZE(s));
+    DAL_VECTOR(s, image, SIZE(s));
     dal_multiply(columns, size, size, momenta, image);
     for (int i = 0; i < size; i++) columns[i * size + i] += 1.0;
     dal_invert(columns, inverse, size);
@@ -77,13 +81,13 @@ DAL_INLINE void pull(dal_step *s, num *columns, const num *momenta, num *d)
 /* (x, e, P) -> (Phi(x), e1, DPhi^-T P) */
 DAL_INLINE dal_status flow(dal_step *s)
 {
-    const int p = dal_at_p(s), size = 2 * DAL_N(s);
+    const int p = dal_at_p(s), size = SIZE(s);
     const double t = s->t;
-    DAL_VECTOR(s, y, 4 * DAL_N(s) + 1);
-    DAL_VECTOR(s, r, 4 * DAL_N(s) + 1);
-    DAL_VECTOR(s, columns, 4 * DAL_N(s) * DAL_N(s));
-    DAL_VECTOR(s, unit, 2 * DAL_N(s));
-    DAL_VECTOR(s, d, 2 * DAL_N(s));
+    DAL_VECTOR(s, y, DAL_DIM(s));
+    DAL_VECTOR(s, r, DAL_DIM(s));
+    DAL_VECTOR(s, columns, SIZE(s) * SIZE(s));
+    DAL_VECTOR(s, unit, SIZE(s));
+    DAL_VECTOR(s, d, SIZE(s));
     for (int i = 0; i < p + size; i++) y[i] = s->y[i];
     for (int i = 0; i < p + size; i++) r[i] = s->r[i];
     for (int j = 0; j < size; j++) {

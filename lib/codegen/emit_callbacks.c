@@ -212,10 +212,7 @@ static void write_series(dal__generation *g)
                       "    else dal__series_next(s->work, k, c, packed, all);\n"
                       "    DAL_EACH(i, %d) out[i] = all[i];\n",
                       taylor->slots, taylor->outputs, taylor->inputs, outputs);
-    const dal__program *const program = g->programs->program;
-    const int gauge =
-        program[DAL__PROGRAM_GAUGE].present && !program[DAL__PROGRAM_GAUGE_GRADIENT].present;
-    const int after = end + gauge;
+    const int gauge = g->programs->program[DAL__PROGRAM_GAUGE].present, after = end + gauge;
     if (lifted && gauge)
         dal__buffer_print(text, "    out[%d] = all[%d];\n", outputs, end);
     else if (lifted)

@@ -147,8 +147,8 @@ void dal__decide_conditions(dal__generation *g)
 {
     const unsigned calls = calls_of_programs(g);
     const bool rank = dal__checks_rank(g->layout.system), guards = g->layout.system->guards > 0;
-    if (calls) g->kernel |= DAL_KERNEL_FUNCTIONS;
-    if (rank) g->kernel |= DAL_KERNEL_ALGEBRA;
+    const bool gauge = dal__wants(g, DAL__PROGRAM_GAUGE_GRADIENT);
+    g->kernel |= (calls ? DAL_KERNEL_FUNCTIONS : 0) | (rank ? DAL_KERNEL_ALGEBRA : 0);
     const unsigned kernel = g->kernel;
     const dal__condition list[] = {
         {"DAL_SPECIALISED", true},
@@ -168,12 +168,13 @@ void dal__decide_conditions(dal__generation *g)
         /* the canonical variables, K that is not 1, e that changes, tangent vectors for p, pi */
         {"DAL_WITH(LIFT)", dal__has_lift(g)},
         {"DAL_WITH(EFFORT)", dal__wants(g, DAL__PROGRAM_EFFORT)},
-        {"DAL_WITH(GAUGE_GRADIENT)", dal__wants(g, DAL__PROGRAM_GAUGE_GRADIENT)},
+        {"DAL_WITH(GAUGE_GRADIENT)", gauge},
         {"DAL_WITH(GAUGE)", g->layout.lifted && dal__wants(g, DAL__PROGRAM_GAUGE)},
         {"DAL_WITH(TANGENT)", kernel & DAL_KERNEL_TANGENT},
-        /* implicit equations, Taylor coefficients of F, substeps under a tolerance, numbers in
-         * units of the system, a state of the method that is saved within a step */
+        /* implicit equations, their tableaus, Taylor coefficients of F, substeps under a tolerance,
+         * numbers in units of the system, a state of the method that is saved within a step */
         {"DAL_WITH(SOLVE)", kernel & DAL_KERNEL_SOLVE},
+        {"DAL_WITH(TABLEAU)", kernel & DAL_KERNEL_COLLOCATION || gauge},
         {"DAL_WITH(SERIES)", kernel & DAL_KERNEL_SERIES},
         {"DAL_WITH(CONTROL)", dal__is_controlled(g)},
         {"DAL_WITH(UNITS)", has_units(g)},
@@ -189,11 +190,10 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH(RANK)", rank},
         {"DAL_WITH(PIVOTS)", g->layout.pivots > 0},
         {"DAL_WITH(REGULAR)", guards || rank},
-        /* the error to an exact solution, observed reactions, a trace of the states */
+        /* the error to an exact solution, reactions, a trace of the states, functions of a point */
         {"DAL_WITH(EXACT)", g->run && g->run->exact},
         {"DAL_WITH(REACTIONS)", g->layout.options.reactions},
         {"DAL_WITH(TRACE)", g->product == DAL__PRODUCT_TRACE},
-        /* functions of a point */
         {"DAL_WITH(POINTS)", g->with_field},
         {"DAL_WITH(POINT_JACOBIAN)", dal__has_function(g, DAL__PROGRAM_JACOBIAN)},
         {"DAL_WITH(POINT_CONSTRAINT)", dal__has_function(g, DAL__PROGRAM_CONSTRAINT)},

@@ -8,12 +8,12 @@
  *     K_i  = F(Q_i, V_i, t_i) + Pi_i/E_i    L_i = -P_i - F_v^T Pi |_i
  *
  * where an effort K replaces pi/e by K pi/e and adds the derivatives of pi.K pi/(2e) to the other
- * two, and y1 = y + h sum b_i (derivative)_i.  A partitioned method has other coefficients for w
- * and p than for q, e and pi, each the partner of the other: symplectic where
- * b_i p_ij + b_j a_ji = b_i b_j.  For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008)
- * 231): each coefficient is head + tail, the head a multiple of 1/1024, summed apart; stages start
- * from y + r; the iteration runs to stagnation; the step ends with the stage values of the last
- * derivatives.
+ * two, to which a mu_e(q, v, e, t) adds its own (gauge.h); y1 = y + h sum b_i (derivative)_i.  A
+ * partitioned method has other coefficients for w, p and pi_e than for q, e and pi, which are each
+ * the partner of the other: symplectic where b_i p_ij + b_j a_ji = b_i b_j.  For long runs (Hairer,
+ * McLachlan, Razakarivony, BIT 48 (2008) 231): each coefficient is head + tail, the head a multiple
+ * of 1/1024, summed apart; stages start from y + r; the iteration runs to stagnation; the step ends
+ * with the stage values of the last derivatives.
  *
  * The predictor extrapolates (E) the polynomial through the derivatives K of the last step and
  * corrects it by its earlier errors e_k = K_k - E K_(k-1):
@@ -25,6 +25,7 @@
 #ifndef DAL_KERNEL_COLLOCATION_H
 #define DAL_KERNEL_COLLOCATION_H
 
+#include "gauge.h"
 #include "solve.h"
 #include "tableau.h"
 
@@ -43,6 +44,11 @@ typedef struct dal_stages {
     num *w;          /* [s] 1/E_i */
     num *mu;         /* [s] */
     int stride;      /* of f */
+#if DAL_WITH(GAUGE_GRADIENT)
+    dal_gauge gauge;   /* of the present iterate; in it mu of its own */
+    num *rate;         /* [s] of pi_e, of a lane's own last iteration as mu and force */
+    dal_mask unsolved; /* lanes in which mu was not solved there */
+#endif
 } dal_stages;
 
 /* The eigensystem that splits Newton's matrix, NULL: it stays whole, as with a single stage. */
@@ -127,17 +133,37 @@ DAL_INLINE void dal__eval_stages(dal_step *s, const dal_stages *k, num *image)
     }
 }
 
+#if DAL_WITH(GAUGE_GRADIENT)
+/* Adds the part of mu_e to the adjoint of the stages, and saves what the end of the step needs. */
+DAL_INLINE void dal__add_gauge_stages(dal_step *s, dal_stages *k, dal_mask active)
+{
+    (void)active; /* one lane is always active here */
+    dal_gauge_rates(s, &k->gauge, k->pi, k->f, k->stride);
+    DAL_EACH(i, DAL_STAGES(k->method)) {
+        k->mu[i] = DAL_IF_ACTIVE(active, k->gauge.mu[i], k->mu[i]);
+        k->rate[i] = DAL_IF_ACTIVE(active, k->gauge.rate[i], k->rate[i]);
+    }
+}
+#endif
+
 DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
 {
-    const dal_stages *k = (const dal_stages *)eq->context;
+    dal_stages *k = (dal_stages *)eq->context;
     const int n = DAL_N(s), nw = DAL_NW(s);
     num *const image = eq->block[0].image;
     dal__stage_values(s, k, DAL__OF_PARTNER, n, nw, eq->block[0].u, nw, k->v);
     dal__stage_values(s, k, DAL__OF_METHOD, 0, n, k->v, nw, k->q);
     if (DAL_LIFTED(s))
         dal__stage_values(s, k, DAL__OF_METHOD, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
+#if DAL_WITH(GAUGE_GRADIENT)
+    if (DAL_GAUGE(s))
+        k->unsolved = dal_gauge_solve(s, &k->gauge, eq->active) | (k->unsolved & ~eq->active);
+#endif
     dal__eval_stages(s, k, image);
     if (!DAL_LIFTED(s)) return;
+#if DAL_WITH(GAUGE_GRADIENT)
+    if (DAL_GAUGE(s)) dal__add_gauge_stages(s, k, eq->active);
+#endif
     dal__save_forces(s, k, DAL_LANES_AT(eq->active, 0));
     DAL_EACH(i, DAL_STAGES(k->method))
         DAL_EACH(j, n)
@@ -368,9 +394,10 @@ DAL_INLINE void dal__save_derivatives(dal_step *s, const dal_stages *k, const da
             dal_select(DAL_LANES_AT(s->alive, j), dal_num(k->h), s->derivatives_h[j]);
 }
 
-/* Stage values of the gauge variable, which is a function of time alone. */
+/* Stage values of the gauge variable, where it is a function of time alone. */
 DAL_INLINE void dal__gauge_stages(dal_step *s, dal_stages *k)
 {
+    if (DAL_GAUGE(s)) return;
     const dal_tableau *m = k->method;
     DAL_EACH(i, DAL_STAGES(m)) k->mu[i] = dal_mu_e(s, s->t + m->c[i] * k->h);
     const int stages = DAL_STAGES(m);
@@ -390,6 +417,9 @@ DAL_INLINE void dal__collocation_momenta(dal_step *s, const dal_stages *k, const
     const num *K_pi = DAL_EFFORT(s) ? k->force + DAL_STAGES(k->method) * n : k->pi;
     DAL_EACH(i, DAL_STAGES(k->method))
         rate[i] = dal_gauge_rate(k->pi + i * n, K_pi + i * n, n, k->w[i]);
+#if DAL_WITH(GAUGE_GRADIENT)
+    DAL_EACH(i, DAL_GAUGE(s) * DAL_STAGES(k->method)) rate[i] = k->rate[i];
+#endif
     num *const p = d + dal_at_p(s);
     dal__end(k, k->force, n, n, p);
     DAL_EACH(j, n) p[j] = -p[j];
@@ -424,10 +454,29 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, dal
     DAL_VECTOR(s, force, DAL_STAGES(method) * (1 + DAL_EFFORT(s)) * DAL_N(s));
     DAL_VECTOR(s, w, DAL_STAGES(method));
     DAL_VECTOR(s, mu, DAL_STAGES(method));
+#if DAL_WITH(GAUGE_GRADIENT)
+    DAL_VECTOR(s, of_gauge, DAL_GAUGE(s) * DAL_STAGES(method) * (2 * DAL_N(s) + 4));
+#endif
     DAL_BLOCK(s, derivatives, DAL_STAGES(method) * DAL_NW(s), DAL_MAY_NEWTON(s));
     DAL_BLOCK(s, momenta, DAL_LIFTED(s) * DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
-    dal_stages k = {method, s->h,  v, q,  pi,
-                    f,      force, w, mu, DAL_LIFTED(s) ? DAL_ADJOINT_SIZE(s) : DAL_NW(s)};
+    dal_stages k = {
+        method,
+        s->h,
+        v,
+        q,
+        pi,
+        f,
+        force,
+        w,
+        mu,
+        DAL_LIFTED(s) ? DAL_ADJOINT_SIZE(s) : DAL_NW(s),
+#if DAL_WITH(GAUGE_GRADIENT)
+        {method, s->h, q, v, of_gauge, w, of_gauge + DAL_STAGES(method),
+         of_gauge + 3 * DAL_STAGES(method)},
+        of_gauge + 2 * DAL_STAGES(method),
+        dal_all() & 0
+#endif
+    };
     DAL_EQUATION(s, eq, 1 + DAL_LIFTED(s), &k, derivatives, momenta);
     eq.cost = dal_cost_of_newton(s, DAL_STAGES(method), DAL_PER_GROUP(DAL_NW(s)),
                                  dal__eigensystem_of(method));
@@ -442,6 +491,12 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, dal
     if (dal_failed(guess == DAL__FROM_PREDICTOR ? dal__solve_predicted(s, &k, &eq)
                                                 : dal__solve_stages(s, &k, &eq)))
         return DAL_STATUS_NOT_CONVERGED;
+#if DAL_WITH(GAUGE_GRADIENT)
+    if (DAL_GAUGE(s)) {
+        s->unconverged |= s->alive & k.unsolved;
+        s->alive &= ~k.unsolved;
+    }
+#endif
     dal__save_derivatives(s, &k, &eq);
     return dal__collocation_end(s, &k, &eq);
 }

@@ -23,8 +23,13 @@
 #ifndef DAL_LANES
 #define DAL_LANES 1
 #endif
-#define DAL_SCALAR     (DAL_LANES == 1)
+#define DAL_SCALAR (DAL_LANES == 1)
+#ifdef DAL_MINIMAL
+#define DAL__LACKS_GAUGE_GRADIENT 1
+#define DAL_WITH(name)            !DAL__LACKS_##name
+#else
 #define DAL_WITH(name) 1
+#endif
 #define DAL_HAS_GROUPS 0           /* of lanes, stepped as one larger system */
 #define DAL_HAS_TIMES  !DAL_SCALAR /* lanes with times of their own */
 #if defined DAL_NUM_QUAD || defined DAL_MINIMAL

@@ -94,13 +94,14 @@ typedef enum dal_callback_code {
 #define DAL_M(s)  ((s)->m)  /* constraints */
 #ifdef DAL_MINIMAL
 #define DAL_HOLONOMIC(s) 0
+#define DAL_GAUGE(s)     0
 #else
 #define DAL_HOLONOMIC(s) ((s)->holonomic) /* of these, the last */
+#define DAL_GAUGE(s)     ((s)->gauge)     /* 1: mu_e is not of t alone */
 #endif
 #define DAL_DIM(s)                    ((s)->dim) /* numbers in the state */
 #define DAL_LIFTED(s)                 ((s)->lifted)
 #define DAL_EFFORT(s)                 ((s)->effort) /* 1: K of the effort is not 1 */
-#define DAL_GAUGE(s)                  ((s)->gauge)  /* 1: mu_e is not of t alone */
 #define DAL_SOLVER(s)                 ((s)->solver)
 #define DAL_ITERATIONS(s)             ((s)->iterations)
 #define DAL_SOLVER_TOLERANCE(s)       ((s)->solver_tolerance)
@@ -435,6 +436,19 @@ DAL_INLINE num dal_gauge_rate(const num *pi, const num *K_pi, int n, num w)
 #endif
 
 #if DAL_WITH(TANGENT)
+#if DAL_WITH(GAUGE_GRADIENT)
+/* de' for a tangent vector (dq, dv, de), stored in p, pi and pi_e. */
+DAL_INLINE void dal__tangent_gauge(dal_step *s, double t, const num *y, num *dy)
+{
+    const int n = DAL_N(s);
+    num sum = dal_num(0.0);
+    DAL_VECTOR(s, gradient, 2 * DAL_N(s) + 1);
+    dal_eval(s, DAL_EVAL_GAUGE_GRADIENT, t, y, y + n, y + dal_at_e(s), gradient);
+    DAL_EACH(i, 2 * n + 1) sum = dal_fma(gradient[i], y[dal_at_p(s) + i], sum);
+    dy[dal_at_pi_e(s)] = sum;
+}
+#endif
+
 /* The field of x' = f, dx' = Df dx, with the tangent vector dx stored in p and pi. */
 DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
@@ -450,8 +464,11 @@ DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL
         dy[dq + i] = y[dv + i];
         dy[dv + i] = sum;
     }
-    dy[dal_at_e(s)] = dal_mu_e(s, t);
+    dy[dal_at_e(s)] = dal_mu_e_at(s, t, y);
     dy[dal_at_pi_e(s)] = dal_num(0.0);
+#if DAL_WITH(GAUGE_GRADIENT)
+    if (DAL_GAUGE(s)) dal__tangent_gauge(s, t, y, dy);
+#endif
     DAL__RELEASE(s);
 }
 #endif

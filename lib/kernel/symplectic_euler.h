@@ -13,7 +13,8 @@
  *     s_v = 1: pi* = pi known, v* = v1 solves
  *              u = v + h (F(q*, u, t*) + pi / e*),   q* = q + [s_q=1] h u
  *
- * With an effort K(q*, v*, t*) the term pi*.K pi* of H replaces |pi*|^2, with its derivatives.
+ * With an effort K(q*, v*, t*) the term pi*.K pi* of H replaces |pi*|^2, with its derivatives; with
+ * mu_e(q*, v*, e*, t*) the equation of e1, or of pi_e1, is implicit as well (gauge.h).
  *
  * Symplectic for every choice, as sum dX1 dP1 - dX dP = h d(dH) = 0; order 1.  The adjoint of
  * (s_q, s_v) is (1-s_q, 1-s_v).  The physical space has the first line only, and v
@@ -24,6 +25,7 @@
 #ifndef DAL_KERNEL_SYMPLECTIC_EULER_H
 #define DAL_KERNEL_SYMPLECTIC_EULER_H
 
+#include "gauge.h"
 #include "solve.h"
 
 /* The choice (s_q, s_v) of partitioned symplectic Euler. */
@@ -49,7 +51,43 @@ typedef struct dal_euler {
     num *q, *v, *p, *pi; /* [n], [nw], [n], [n] */
     num *f;              /* the field or adjoint of the last evaluation */
     num w;               /* 1/e* */
+    num mu, rate;        /* of e, and where mu_e is not of t alone, of pi_e */
+    num *gradient;       /* [2n+1] of mu_e there */
 } dal_euler;
+
+#if DAL_WITH(GAUGE_GRADIENT)
+/* (e, pi_e) as the one stage of a method, for the present q* and v*. */
+DAL_INLINE dal_gauge dal__euler_gauge(dal_euler *k)
+{
+    static const double zero = 0.0, one = 1.0;
+    static const dal_tableau old_e = {1, &zero, &one, NULL, &zero, NULL, NULL, &one, NULL, NULL};
+    static const dal_tableau new_e = {1, &one, &one, NULL, &one, NULL, NULL, &zero, NULL, NULL};
+    const dal_gauge gauge = {
+        k->at.q ? &new_e : &old_e, k->h, k->q, k->v, &k->mu, &k->w, &k->rate, k->gradient};
+    return gauge;
+}
+/* e*; returns the lanes in which it is not solved. */
+DAL_INLINE dal_mask dal__euler_e(dal_step *s, dal_euler *k)
+{
+    const dal_gauge gauge = dal__euler_gauge(k);
+    return dal_gauge_solve(s, &gauge, s->alive);
+}
+/* The rate of pi_e, and its part in the last adjoint. */
+DAL_INLINE void dal__euler_pi_e(dal_step *s, dal_euler *k)
+{
+    const dal_gauge gauge = dal__euler_gauge(k);
+    dal_gauge_rates(s, &gauge, k->pi, k->f, 0);
+}
+#endif
+
+/* The adjoint at the starred arguments, with the part of mu_e. */
+DAL_INLINE void dal__euler_adjoint(dal_step *s, dal_euler *k)
+{
+    dal_adjoint(s, k->t, k->q, k->v, k->pi, k->w, k->f);
+#if DAL_WITH(GAUGE_GRADIENT)
+    if (DAL_GAUGE(s)) dal__euler_pi_e(s, k);
+#endif
+}
 
 /* Whether F, and K, depend on q and t alone. */
 DAL_INLINE int dal__force_is_positional(const dal_step *s)
@@ -84,6 +122,9 @@ DAL_INLINE void dal__euler_map_v(dal_step *s, dal_equation *eq)
     DAL_EACH(i, DAL_NW(s))
         k->v[i] = DAL_IF_ACTIVE(DAL_LANES_AT(eq->active, 0), eq->block[0].u[i], k->v[i]);
     dal__euler_q(s, k);
+#if DAL_WITH(GAUGE_GRADIENT)
+    if (DAL_GAUGE(s) && k->at.q) dal__euler_e(s, k);
+#endif
     if (DAL_EFFORT(s))
         dal_adjoint(s, k->t, k->q, k->v, k->pi, k->w, k->f);
     else
@@ -107,7 +148,7 @@ DAL_INLINE void dal__euler_map_pi(dal_step *s, dal_equation *eq)
     dal_euler *k = (dal_euler *)eq->context;
     const int n = DAL_N(s), pi = dal_at_pi(s);
     DAL_EACH(i, n) k->pi[i] = eq->block[0].u[i];
-    dal_adjoint(s, k->t, k->q, k->v, k->pi, k->w, k->f);
+    dal__euler_adjoint(s, k);
     dal__euler_p(s, k);
     DAL_EACH(i, n)
         eq->block[0].image[i] =
@@ -129,11 +170,16 @@ DAL_INLINE void dal__euler_matrix(dal_step *s, dal_equation *eq)
 }
 
 /* pi1 for p* = p and F_v = 0. */
-DAL_INLINE void dal__euler_explicit_pi(const dal_step *s, dal_euler *k)
+DAL_INLINE void dal__euler_explicit_pi(dal_step *s, dal_euler *k)
 {
-    const int p = dal_at_p(s), pi = dal_at_pi(s);
-    DAL_EACH(i, DAL_N(s))
-        k->pi[i] = s->y[pi + i] + dal_fma(dal_num(-k->h), s->y[p + i], s->r[pi + i]);
+    const int n = DAL_N(s), pi = dal_at_pi(s);
+    DAL_EACH(i, n) k->p[i] = s->y[dal_at_p(s) + i];
+#if DAL_WITH(GAUGE_GRADIENT)
+    DAL_EACH(i, DAL_GAUGE(s) * DAL_ADJOINT_SIZE(s)) k->f[i] = dal_num(0.0);
+    if (DAL_GAUGE(s)) dal__euler_pi_e(s, k);
+    DAL_EACH(i, DAL_GAUGE(s) * n) k->p[i] += k->f[2 * n + i];
+#endif
+    DAL_EACH(i, n) k->pi[i] = s->y[pi + i] + dal_fma(dal_num(-k->h), k->p[i], s->r[pi + i]);
 }
 
 /* Solves for v1 (s_v = 1) or pi1 (s_v = 0). */
@@ -163,27 +209,57 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
 }
 
 /* The rates d of the momenta. */
-DAL_INLINE void dal__euler_momenta(dal_step *s, const dal_euler *k, num mu, num *d)
+DAL_INLINE void dal__euler_momenta(dal_step *s, const dal_euler *k, num *d)
 {
     const int n = DAL_N(s);
     DAL_EACH(i, n) {
         d[dal_at_p(s) + i] = -k->f[n + i];
         d[dal_at_pi(s) + i] = -(k->p[i] + k->f[2 * n + i]);
     }
-    d[dal_at_e(s)] = mu;
-    d[dal_at_pi_e(s)] = dal_gauge_rate(k->pi, dal_push(s, k->f, k->pi), n, k->w);
+    d[dal_at_e(s)] = k->mu;
+    d[dal_at_pi_e(s)] =
+        DAL_GAUGE(s) ? k->rate : dal_gauge_rate(k->pi, dal_push(s, k->f, k->pi), n, k->w);
 }
 
+#if DAL_WITH(GAUGE_GRADIENT)
+/* e*, the rates of e and pi_e and their part in the adjoint at v*, which is v[n]; lanes in which
+ * e* is not solved have failed. */
+DAL_INLINE void dal__euler_end_gauge(dal_step *s, dal_euler *k, const num *v)
+{
+    DAL_EACH(i, DAL_N(s)) k->v[i] = v[i];
+    const dal_mask unsolved = dal__euler_e(s, k);
+    s->unconverged |= unsolved;
+    s->alive &= ~unsolved;
+    dal__euler_pi_e(s, k);
+}
+#endif
+
 /* The field at the starred arguments, unless it is known, and the rates of all components. */
-DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, int known, num mu, num *d)
+DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, int known, num *d)
 {
     const int n = DAL_N(s);
     if (DAL_LIFTED(s) && !known) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->w, k->f);
     if (!DAL_LIFTED(s) && !known) dal_force(s, k->t, k->q, k->v, k->f);
-    if (DAL_LIFTED(s)) dal__euler_p(s, k);
     DAL_EACH(i, DAL_NW(s)) d[n + i] = dal__euler_rate_v(s, k, i);
     DAL_EACH(i, n) d[i] = k->at.v ? dal__euler_v1(s, k, i, d[n + i]) : k->v[i];
-    if (DAL_LIFTED(s)) dal__euler_momenta(s, k, mu, d);
+#if DAL_WITH(GAUGE_GRADIENT)
+    if (DAL_GAUGE(s)) dal__euler_end_gauge(s, k, d);
+#endif
+    if (DAL_LIFTED(s)) dal__euler_p(s, k);
+    if (DAL_LIFTED(s)) dal__euler_momenta(s, k, d);
+}
+
+/* mu_e and e*, as far as v* is known, and pi. */
+DAL_INLINE void dal__euler_begin_lift(dal_step *s, dal_euler *k)
+{
+    const num e = s->y[dal_at_e(s)];
+    DAL_EACH(i, DAL_N(s)) k->pi[i] = s->y[dal_at_pi(s) + i];
+#if DAL_WITH(GAUGE_GRADIENT)
+    if (DAL_GAUGE(s)) dal__euler_e(s, k);
+#endif
+    if (DAL_GAUGE(s)) return;
+    k->mu = dal_mu_e(s, k->t);
+    k->w = 1.0 / dal_choose(k->at.q, e + k->h * k->mu, e);
 }
 
 /* The numbers of a field or an adjoint. */
@@ -200,21 +276,17 @@ DAL_INLINE dal_status dal__euler_step(dal_step *s, dal_polarisation at, double h
     DAL_VECTOR(s, p, DAL_N(s));
     DAL_VECTOR(s, pi, DAL_N(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
-    dal_euler k = {at, h, at.q ? s->t + h : s->t, q, v, p, pi, f, dal_num(0.0)};
-    num mu = dal_num(0.0);
+    DAL_VECTOR(s, gradient, DAL_GAUGE(s) * (2 * DAL_N(s) + 1));
+    const num zero = dal_num(0.0);
+    dal_euler k = {at, h, at.q ? s->t + h : s->t, q, v, p, pi, f, zero, zero, zero, gradient};
     DAL_EACH(i, DAL_NW(s)) v[i] = s->y[n + i];
-    if (DAL_LIFTED(s)) {
-        const num e = s->y[dal_at_e(s)];
-        mu = dal_mu_e(s, k.t);
-        k.w = 1.0 / dal_choose(at.q, e + h * mu, e);
-        DAL_EACH(i, n) pi[i] = s->y[dal_at_pi(s) + i];
-    }
     dal__euler_q(s, &k);
+    if (DAL_LIFTED(s)) dal__euler_begin_lift(s, &k);
     if (is_explicit && DAL_LIFTED(s) && !at.v) dal__euler_explicit_pi(s, &k);
     if (!is_explicit && (at.v || DAL_LIFTED(s)) && dal_failed(dal__euler_solve(s, &k)))
         return DAL_STATUS_NOT_CONVERGED;
     if (!is_explicit) dal__euler_q(s, &k);
-    dal__euler_rates(s, &k, known, mu, d);
+    dal__euler_rates(s, &k, known, d);
     DAL__RELEASE(s);
     return dal_update_multiple(s, h, h, d);
 }
@@ -236,7 +308,7 @@ DAL_SHARED dal_status dal_symplectic_euler_pair(dal_step *s, double h, double ad
     DAL_VECTOR(s, f, DAL__EULER_FIELD(s));
     if (dal_failed(dal__euler_step(s, DAL_POLARISATION(1, 0), h, f, 0)))
         return DAL_STATUS_NOT_CONVERGED;
-    const int known = dal__force_is_positional(s);
+    const int known = dal__force_is_positional(s) && !DAL_GAUGE(s);
     const dal_status status = dal__euler_step(s, DAL_POLARISATION(0, 1), adjoint_h, f, known);
     DAL__RELEASE(s);
     return status;

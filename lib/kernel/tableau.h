@@ -8,6 +8,7 @@
 
 #include "eigensystem.h"
 
+#if DAL_WITH(TABLEAU)
 /* The coefficients of a method with s stages; tails may be NULL. */
 typedef struct dal_tableau {
     int stages;                           /* s */
@@ -71,4 +72,5 @@ DAL_INLINE void dal__rounded(int count, const double *head, const double *tail, 
 {
     for (int i = 0; i < count; i++) a[i] = head[i] + (tail ? tail[i] : 0.0);
 }
+#endif
 #endif

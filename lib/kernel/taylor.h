@@ -10,7 +10,8 @@
  *     q' = v   v' = F + pi w   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi
  *     pi_e' = (pi pi)(w w)/2,   w_k = -w_0 sum_(j=1..k) e_j w_(k-j)
  *
- * or with K pi w for pi w and the like, where there is an effort K.
+ * or with K pi w for pi w and the like, where there is an effort K; the momenta less pi_e times the
+ * derivatives of mu_e, where it is not of t alone.
  *
  * Order for a tolerance: the error of a step of size h is about (h/R)^p where R is the radius of
  * convergence, the work about p^2 for a length h; it is least for h = R/e^2 and
@@ -41,6 +42,7 @@ typedef struct dal_expansion {
     num *memory;          /* [DAL_SERIES][order + 1] series of the system */
     num *w, *ww, *square; /* [order + 1] coefficients of w = 1/e, w^2 and pi.K pi */
     num *effort;          /* [3n][order + 1] of K pi, (pi.K pi)_q/2, (pi.K pi)_v/2 */
+    num *gradient;        /* [2n + 1][order + 1] of the derivatives of mu_e by q, v, e */
 } dal_expansion;
 
 /* Declares an expansion `name` in the scratch of a step. */
@@ -48,8 +50,10 @@ typedef struct dal_expansion {
     DAL_VECTOR(s, memory, DAL_SERIES(s) * (DAL_TAYLOR_ORDER(s) + 1));                              \
     DAL_VECTOR(s, gauge, 3 * (DAL_TAYLOR_ORDER(s) + 1));                                           \
     DAL_VECTOR(s, effort, 3 * DAL_EFFORT(s) * DAL_N(s) * (DAL_TAYLOR_ORDER(s) + 1));               \
-    const dal_expansion name = {memory, gauge, gauge + DAL_TAYLOR_ORDER(s) + 1,                    \
-                                gauge + 2 * (DAL_TAYLOR_ORDER(s) + 1), effort}
+    DAL_VECTOR(s, gradient, DAL_GAUGE(s) * (2 * DAL_N(s) + 1) * (DAL_TAYLOR_ORDER(s) + 1));        \
+    const dal_expansion name = {                                                                   \
+        memory, gauge,   gauge + DAL_TAYLOR_ORDER(s) + 1, gauge + 2 * (DAL_TAYLOR_ORDER(s) + 1),   \
+        effort, gradient}
 
 #if DAL_WITH(LIFT)
 /* sum a_j b_(k-j) over j = first..k; coefficients of a, of b, are `a_stride`, `b_stride` apart. */
@@ -78,8 +82,22 @@ DAL_INLINE void dal__effort_series(const dal_step *s, int k, const num *x, const
     }
 }
 
+#if DAL_WITH(GAUGE_GRADIENT)
+/* Adds the part of mu_e; gradient: as f, of its derivatives. */
+DAL_INLINE void dal__gauge_series(const dal_step *s, int k, const num *x, const num *gradient,
+                                  const dal_expansion *g, num *dx)
+{
+    const int order = DAL_TAYLOR_ORDER(s);
+    DAL_EACH(i, 2 * DAL_N(s) + 1) {
+        num *const series = g->gradient + i * (order + 1);
+        series[k] = gradient[i];
+        dx[dal_at_p(s) + i] -= dal__convolve(x + dal_at_pi_e(s), DAL_DIM(s), series, 1, 0, k);
+    }
+}
+#endif
+
 /* Coefficient k of the canonical variables' field, from x_0 .. x_k; f holds the one of F,
- * F_q^T pi, F_v^T pi, mu_e, and of the callback effort. */
+ * F_q^T pi, F_v^T pi, mu_e, of the derivatives of mu_e, and of the callback effort. */
 DAL_INLINE void dal__lifted_series(const dal_step *s, int k, const num *x, const num *f,
                                    const dal_expansion *g, num *dx)
 {
@@ -98,9 +116,13 @@ DAL_INLINE void dal__lifted_series(const dal_step *s, int k, const num *x, const
         dx[p + i] = -f[n + i];
         dx[dal_at_pi(s) + i] = -x[k * dim + p + i] - f[2 * n + i];
     }
-    if (DAL_EFFORT(s)) dal__effort_series(s, k, x, f + 3 * n + 1, g, dx);
+    const num *gradient = f + 3 * n + 1, *effort = gradient + DAL_GAUGE(s) * (2 * n + 1);
+    if (DAL_EFFORT(s)) dal__effort_series(s, k, x, effort, g, dx);
     dx[dal_at_e(s)] = f[3 * n];
     dx[dal_at_pi_e(s)] = 0.5 * dal__convolve(g->square, 1, g->ww, 1, 0, k);
+#if DAL_WITH(GAUGE_GRADIENT)
+    if (DAL_GAUGE(s)) dal__gauge_series(s, k, x, gradient, g, dx);
+#endif
 }
 #endif
 
@@ -145,12 +167,13 @@ DAL_INLINE void dal__expand_order(dal_step *s, num t, int k, num *x, const dal_e
     const num *now = x + k * dim;
     num *next = x + (k + 1) * dim;
     DAL__MARK(s);
-    DAL_VECTOR(s, in, 1 + 2 * DAL_N(s) + DAL_NW(s));
-    DAL_VECTOR(s, f, 3 * (1 + DAL_EFFORT(s)) * DAL_N(s) + 1);
+    DAL_VECTOR(s, in, 1 + 2 * DAL_N(s) + DAL_NW(s) + DAL_GAUGE(s));
+    DAL_VECTOR(s, f, 3 * (1 + DAL_EFFORT(s)) * DAL_N(s) + 1 + DAL_GAUGE(s) * (2 * DAL_N(s) + 1));
     in[0] = t;
     DAL_EACH(i, n + nw) in[1 + i] = now[i];
     if (DAL_LIFTED(s))
         DAL_EACH(i, n) in[1 + n + nw + i] = now[dal_at_pi(s) + i];
+    if (DAL_GAUGE(s)) in[1 + 3 * n] = now[dal_at_e(s)];
     dal_eval_series(s, k, DAL_TAYLOR_ORDER(s) + 1, in, e->memory, f);
     DAL_EACH(i, n) next[i] = dal__divide(s, now[n + i], &inverse);
     if (!DAL_LIFTED(s))

@@ -176,6 +176,9 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
     const bool is_of_state = e->mu && (dal__depends(e->graph, e->mu, e->q, e->v + n) ||
                                        dal__depends(e->graph, e->mu, e->e, e->e + 1));
     if (!is_of_state) return DAL_STATUS_OK;
+    if (!DAL__TAKES_GAUGE_OF_STATE)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "a small library takes a mu_e of t alone, not '%.80s'", e->gauge);
     e->mu_gradient = dal__model_nodes(model, 2 * n + 1, 0);
     if (!e->mu_gradient) return dal__memory_error(error);
     dal__gradient(e->graph, e->mu, e->symbol + e->q, n, e->mu_gradient);

@@ -359,11 +359,13 @@ static dal_status add_series(dal__programs *programs, int lifted, dal__program_c
                            program->outputs, places);
 }
 
-/* Series of F, and of its lift where there is one; inputs are t, q, v, g, pi. */
+/* Series of F, and of its lift where there is one; inputs are t, q, v, g, pi, and e where mu_e is
+ * not of t alone. */
 static dal_status make_series(dal_model *model, dal__programs *programs)
 {
     const int n = programs->n, inputs = 1 + 2 * n + programs->multipliers;
-    uint32_t *places = dal__model_allocate(model, (size_t)(inputs + n), sizeof *places);
+    const int has_e = programs->program[DAL__PROGRAM_GAUGE_GRADIENT].present;
+    uint32_t *places = dal__model_allocate(model, (size_t)(inputs + n + 1), sizeof *places);
     if (!places) return DAL_STATUS_MEMORY;
     places[0] = (uint32_t)programs->t;
     for (int i = 0; i < n; i++) {
@@ -373,14 +375,15 @@ static dal_status make_series(dal_model *model, dal__programs *programs)
     }
     for (int i = 0; i < programs->multipliers; i++)
         places[1 + 2 * n + i] = (uint32_t)(programs->g + i);
+    places[inputs + n] = (uint32_t)programs->e;
     for (int lifted = 0; lifted < 2; lifted++) {
-        programs->taylor[lifted] = dal__taylor_create(inputs + lifted * n, n);
+        programs->taylor[lifted] = dal__taylor_create(inputs + lifted * (n + has_e), n);
         if (!programs->taylor[lifted]) return DAL_STATUS_MEMORY;
     }
     DAL_TRY(add_series(programs, 0, DAL__PROGRAM_FIELD, places));
     DAL_TRY(add_series(programs, 1, DAL__PROGRAM_ADJOINT, places));
-    if (!programs->program[DAL__PROGRAM_GAUGE_GRADIENT].present)
-        DAL_TRY(add_series(programs, 1, DAL__PROGRAM_GAUGE, places));
+    DAL_TRY(add_series(programs, 1, DAL__PROGRAM_GAUGE, places));
+    DAL_TRY(add_series(programs, 1, DAL__PROGRAM_GAUGE_GRADIENT, places));
     return add_series(programs, 1, DAL__PROGRAM_EFFORT, places);
 }
 

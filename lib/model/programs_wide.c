@@ -84,9 +84,7 @@ dal_status DAL_WIDE(dal__call_series)(const dal_system *system, int lifted, int 
     num *to = (num *)out;
     DAL_WIDE(dal__taylor_run)(taylor, dal__unit_of_time(system), k, stride, in, work, memory);
     DAL_WIDE(dal__taylor_read)(taylor, 0, outputs, k, stride, work, memory, out);
-    const int gauge =
-        p->program[DAL__PROGRAM_GAUGE].present && !p->program[DAL__PROGRAM_GAUGE_GRADIENT].present;
-    const int after = further + gauge;
+    const int gauge = p->program[DAL__PROGRAM_GAUGE].present, after = further + gauge;
     if (lifted && gauge) DAL_WIDE(dal__taylor_read)
     (taylor, further, 1, k, stride, work, memory, (double *)(to + outputs));
     if (lifted && !gauge) to[outputs] = dal_num(0.0);

@@ -59,11 +59,8 @@ static const char *misfit(const dal__layout *k)
         return "the system has no jacobian";
     if (needs & DAL_NEEDS_JACOBIAN && k->lifted && s->properties & DAL_EFFORT_OF_V)
         return "K of the effort depends on v, and pi.K pi/(2e) has no flow in closed form";
-    const unsigned properties = dal_method_properties(&k->method);
-    const unsigned runge_kutta = DAL_EXPLICIT | DAL_COMPONENTWISE;
-    if (k->lifted && call->gauge_gradient &&
-        (properties & (runge_kutta | DAL_SYMPLECTIC)) != runge_kutta)
-        return "mu_e of the gauge is not of t alone, which explicit Runge-Kutta methods follow";
+    if (!DAL__TAKES_GAUGE_OF_STATE && k->lifted && call->gauge_gradient)
+        return "a small library takes a mu_e of t alone";
     if (k->options.solver == DAL_NEWTON && !call->jacobian)
         return "the system has no jacobian, which the solver newton needs";
     if (needs & DAL_NEEDS_BLOCKS && k->lifted)
@@ -419,7 +416,7 @@ static dal_status measure(dal__layout *k, dal_error *error)
     k->taylor_order = dal_taylor_order(k->options.tolerance);
     k->tolerance_root = pow(k->options.tolerance, 1.0 / k->taylor_order);
     const double series =
-        expands ? (1 + k->taylor_order) * ((double)k->system->series->size[k->lifted] + 2 * dim + 4)
+        expands ? (1 + k->taylor_order) * ((double)k->system->series->size[k->lifted] + 3 * dim + 4)
                 : 0;
     const double scratch = (20 * stages + 16) * dim + matrix + constraint + parts +
                            2.0 * k->system->guards + k->system->invariants + 16 * n + 64 + series;
