@@ -143,6 +143,10 @@ endef
 $(foreach variant,$(VARIANTS),$(eval $(call COMPILE_VARIANT,$(variant))))
 $(BUILD)/%.o: %.c ; $(COMPILE)
 $(LIB_OBJ) $(TEST_OBJ) $(FUZZERS:%=$(BUILD)/tests/%.o): | $(BUILD)/generated/variants.h
+# Where the operations of the interpreter begin decides how fast it is, and moves with the code before it.
+ALIGNED = $(if $(MINIMAL),,$(shell $(CC) -Werror -falign-labels=32 -S -x c /dev/null -o /dev/null 2>/dev/null && \
+            echo -falign-labels=32))
+$(BUILD)/lib/expr/tape_wide_%.o: ALL += $(ALIGNED)
 $(BUILD)/lib/run/registry.o: $(METHOD_DEF)
 $(LIB_OBJ) $(CLI_OBJ) $(TEST_OBJ): | $(START)
 
