@@ -279,6 +279,23 @@ static void test_nodes(void)
     CU_ASSERT((at_512 - at_256) / 2 < 1.05 * (at_256 - at_128));
 }
 
+/* So do operations of F, also where they begin to be made in one way alone. */
+static int operations(int n)
+{
+    const chain c = {n, WIDTH, 0.0, false};
+    const dal_system *system;
+    dal_model *model = make(&c, &system);
+    const int count = system->field_operations;
+    dal_model_free(model);
+    return count;
+}
+
+static void test_operations(void)
+{
+    const int at_8 = operations(8), at_16 = operations(16), at_32 = operations(32);
+    CU_ASSERT(at_32 - at_16 <= 2 * (at_16 - at_8));
+}
+
 /* Numbers of a workspace, and the bound of what the rank check compares, grow with n. */
 static void test_workspace(void)
 {
@@ -326,6 +343,7 @@ void suite_chains(void)
     CU_add_test(suite, "all coefficients but one vanish", test_vanishing);
     CU_add_test(suite, "steps that enforce D end on D = 0", test_steps);
     CU_add_test(suite, "expressions in proportion to n", test_nodes);
+    CU_add_test(suite, "operations in proportion to n", test_operations);
     CU_add_test(suite, "workspaces in proportion to n", test_workspace);
     CU_add_test(suite, "memory of Newton's method where it may be used", test_size);
 }

@@ -222,7 +222,7 @@ static dal_status derive_by(dal_model *model, const dal__factors *mass, int way,
     return dal__bordered_solve(model, e->bordered, DAL__SUMS_COLLECTED, e->b, bottom, e->F, e->h);
 }
 
-/* The cheapest way; of many coordinates, WHOLE or SOLVED without a comparison. */
+/* The cheapest way; of many coordinates, WHOLE or REDUCED without a comparison. */
 static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, int *singular)
 {
     enum { MAX_COMPARED = 16, REDUCED = DAL__SOLVED | DAL__COLLECTED };
@@ -235,7 +235,7 @@ static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, in
         for (int i = 0; i < e->n * e->n && !coupled; i++)
             coupled = i % (e->n + 1) && !dal__is_number(e->graph, e->W[i], 0.0);
         const bool whole = coupled && e->mass_positive && !e->servo;
-        const int way = whole ? DAL__SOLVED | DAL__WHOLE : DAL__SOLVED;
+        const int way = whole ? DAL__SOLVED | DAL__WHOLE : REDUCED;
         const dal_status status = derive_by(model, mass, way, singular);
         return status == DAL_STATUS_SINGULAR ? derive_by(model, mass, 0, singular) : status;
     }
