@@ -102,7 +102,7 @@ int row_steps_read(row_steps *s, const run_directory *dir, int coordinates, int 
     *s = (row_steps){.record = record_of(coordinates, 2 * coordinates, observables)};
     if (observables < 1) return CLI_DONE;
     s->statistics = cli_calloc((size_t)observables, sizeof *s->statistics);
-    const observed_steps observed = {s->statistics, observables, &s->record};
+    const observed_steps observed = {s->statistics, observables, &s->record, NULL};
     const int status = checkpoint_read_observed(dir, &observed, &found);
     if (!found) row_steps_free(s);
     return status;

@@ -3,7 +3,8 @@
  * Little-endian words of 64 bits, doubles by their bits:
  *
  *     header      the word DALCHK05, then as in the struct below
- *     state       [state] all that the run carries from step to step, and its parameters
+ *     state       [state] all that the run carries from step to step, and its parameters, then
+ *                 what derivatives of --sensitivities carry
  *     statistics  [statistics * words] of each observable, in a layout that has a number
  *     record      of the steps of a run with many more of them than rows: see step_record.h
  *     sum         FNV-1a of all before
@@ -66,10 +67,12 @@ static void copy_words(void *to, const void *from, size_t count)
 int checkpoint_save(const run_directory *dir, const run_position *position, const dal_run *run,
                     const observed_steps *observed)
 {
-    size_t state_words;
+    size_t run_words, added_words = 0;
     const size_t statistics_words = (size_t)observed->count * STATISTICS_WORDS;
     const size_t record_words = observed->record->number ? observed->record->count : 0;
-    const double *state = dal_run_save(run, &state_words);
+    const double *state = dal_run_save(run, &run_words);
+    const double *added = dal_sensitivity_save(observed->sensitivity, &added_words);
+    const size_t state_words = run_words + added_words;
     const checkpoint_header header = {.magic = magic,
                                       .fingerprint = dir->fingerprint,
                                       .row = position->row,
@@ -83,7 +86,8 @@ int checkpoint_save(const run_directory *dir, const run_position *position, cons
     unsigned char *bytes = cli_malloc((words + 1) * WORD);
     unsigned char *body = bytes + HEADER_WORDS * WORD;
     copy_words(bytes, &header, HEADER_WORDS);
-    copy_words(body, state, state_words);
+    copy_words(body, state, run_words);
+    copy_words(body + run_words * WORD, added, added_words);
     copy_words(body + state_words * WORD, observed->statistics, statistics_words);
     copy_words(body + (state_words + statistics_words) * WORD, observed->record->number,
                record_words);
@@ -235,10 +239,11 @@ static bool read_record(step_record *record, const checkpoint_file *f)
     return record_is_sound(record);
 }
 
-static int restore(const checkpoint_file *f, run_position *position, dal_run *run)
+static int restore(const checkpoint_file *f, run_position *position, dal_run *run,
+                   dal_sensitivity *sensitivity)
 {
     dal_error error = {0};
-    size_t count;
+    size_t count, added = 0;
     const checkpoint_header *header = &f->header;
     const unsigned char *body = f->bytes + HEADER_WORDS * WORD;
     const double *begun = dal_run_save(run, &count);
@@ -253,7 +258,11 @@ static int restore(const checkpoint_file *f, run_position *position, dal_run *ru
                         "now; resume with the version that manifest.json names",
                         f->path);
     }
-    const dal_status loaded = dal_run_restore(run, state, earlier ? count : header->state, &error);
+    dal_sensitivity_save(sensitivity, &added);
+    const size_t stored = earlier || header->state < added ? count : header->state - added;
+    dal_status loaded = dal_run_restore(run, state, stored, &error);
+    if (loaded == DAL_STATUS_OK && sensitivity)
+        loaded = dal_sensitivity_restore(sensitivity, state + stored, added, &error);
     free(state);
     if (loaded != DAL_STATUS_OK) return damaged(f->path, error.message);
     *position = (run_position){header->row, header->sum, header->seconds};
@@ -271,7 +280,7 @@ static int load_file(const run_directory *dir, const char *path, const trajector
     if (status == CLI_DONE) status = read_statistics(&f, observed->statistics);
     if (status == CLI_DONE && !read_record(observed->record, &f))
         status = damaged(path, "the record of its steps cannot be");
-    if (status == CLI_DONE) status = restore(&f, position, run);
+    if (status == CLI_DONE) status = restore(&f, position, run, observed->sensitivity);
     free(f.bytes);
     return status;
 }

@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_CHECKPOINT_H
 #define DAL_CLI_CHECKPOINT_H
 
+#include "dalembert_sensitivity.h"
 #include "dalembert_statistics.h"
 #include "io/step_record.h"
 #include "run_directory.h"
@@ -12,7 +13,8 @@
 typedef struct observed_steps {
     dal_statistics *statistics; /* [count] of the observables */
     int count;
-    step_record *record; /* what is kept of the steps themselves, allocated or not */
+    step_record *record;          /* what is kept of the steps themselves, allocated or not */
+    dal_sensitivity *sensitivity; /* what goes beside the run; NULL: nothing */
 } observed_steps;
 
 /* All return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */

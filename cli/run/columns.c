@@ -22,7 +22,8 @@
     KIND(OBSERVED, "observed") \
     KIND(H, "h") \
     KIND(R, "R") \
-    KIND(LAMBDA, "lambda")
+    KIND(LAMBDA, "lambda") \
+    KIND(SENSITIVITIES, "sensitivities")
 /* clang-format on */
 
 typedef enum column_kind {
@@ -51,6 +52,7 @@ static column_kind kind_of(const run_simulation *s, int i)
     const bool is_lifted = s->request.options.space == DAL_LIFTED;
     int number;
     if (i == 0) return COLUMN_KINDS;
+    if (observable >= dal_run_observables(s->run)) return COLUMNS_SENSITIVITIES;
     if (i <= 2 * n) return i <= n ? COLUMNS_Q : COLUMNS_V;
     if (observable < 0) return is_lifted ? COLUMNS_LIFT : COLUMN_KINDS;
     switch (dal__run_observable_kind(s->run, observable, &number)) {
@@ -74,13 +76,35 @@ static column_kind kind_of(const run_simulation *s, int i)
     }
 }
 
-static void name_values(run_columns *c, const dal_run *run)
+/* dx/dk, dx'/dx'. */
+static void name_derivatives(run_columns *c, const run_simulation *s, int first)
 {
-    const int dimension = dal_run_dimension(run);
+    char x[NAME_SIZE], by[NAME_SIZE], name[2 * NAME_SIZE + 4];
+    const char *item = s->request.sensitivities;
+    for (int k = 0; k < dal_sensitivity_count(s->sensitivity); k++) {
+        item += strspn(item, ",");
+        snprintf(by, sizeof by, "%.*s", (int)strcspn(item, ","), item);
+        item += strcspn(item, ",");
+        columns_rename(&s->request, by);
+        for (int i = 0; i < c->derivatives; i++) {
+            dal_run_component_name(s->run, i, x, sizeof x);
+            columns_rename(&s->request, x);
+            snprintf(name, sizeof name, "d%s/d%s", x, by);
+            c->name[first + k * c->derivatives + i] = cli_strdup(name);
+        }
+    }
+}
+
+static void name_values(run_columns *c, const run_simulation *s)
+{
+    const dal_run *run = s->run;
+    const int dimension = dal_run_dimension(run), values = 1 + dimension + dal_run_observables(run);
     char buffer[NAME_SIZE];
-    c->values = 1 + dimension + dal_run_observables(run);
+    c->derivatives = dal_sensitivity_is_lifted(s->sensitivity) ? dimension : 2 * s->system->n;
+    c->values = values + dal_sensitivity_count(s->sensitivity) * c->derivatives;
     c->name = cli_calloc((size_t)c->values, sizeof *c->name);
-    for (int i = 0; i < c->values; i++) {
+    name_derivatives(c, s, values);
+    for (int i = 0; i < values; i++) {
         const int k = i - 1, observable = k - dimension;
         const char *name = i == 0 ? "t"
                            : observable < 0
@@ -229,7 +253,7 @@ static int rename_all(run_columns *c, const run_simulation *s)
 int columns_make(run_columns *columns, const run_simulation *s)
 {
     *columns = (run_columns){0};
-    name_values(columns, s->run);
+    name_values(columns, s);
     const size_t values = (size_t)columns->values;
     bool *selected = cli_calloc(values, sizeof *selected);
     columns->index = cli_calloc(values, sizeof *columns->index);

@@ -1,17 +1,19 @@
 /* columns.h - the columns of a run: their names, and which of them --columns selects.
  *
- * The values of a row are t, the state and all observables; the norms |p|, |pi|, |pi_e| follow from
- * other columns and are for the summary alone.  An item of --columns is the name of a column, a
- * kind or a pattern with * and ?, in this order, so that a coordinate named q is that coordinate.
- * Columns keep the order of the whole row, and t is always the first. */
+ * The values of a row are t, the state, all observables and the derivatives of q and v, or off
+ * p = pi = 0 of the whole state, by each name of --sensitivities; the norms |p|, |pi|, |pi_e|
+ * follow from other columns and are for the summary alone.  An item of --columns is the name of a
+ * column, a kind or a pattern with * and ?, in this order, so that a coordinate named q is that
+ * coordinate.  Columns keep the order of the whole row, and t is always the first. */
 #ifndef DAL_CLI_COLUMNS_H
 #define DAL_CLI_COLUMNS_H
 
 #include "request_data.h"
 
 typedef struct run_columns {
-    int values;  /* 1 + the dimension + the number of observables */
-    char **name; /* [values] */
+    int values;      /* 1 + the dimension + the number of observables + derivatives */
+    int derivatives; /* by each name of --sensitivities, the first of its column */
+    char **name;     /* [values] */
     int count;
     int *index; /* [count] which of the values a column is */
 } run_columns;

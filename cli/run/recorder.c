@@ -62,7 +62,8 @@ void run_results_observe(dal_observer *observer)
 
 observed_steps recorder_observed(run_recorder *r)
 {
-    return (observed_steps){r->results.statistics, r->results.observables, &r->results.record};
+    return (observed_steps){r->results.statistics, r->results.observables, &r->results.record,
+                            r->simulation->sensitivity};
 }
 
 /* ---- opening -------------------------------------------------------------------------------- */
@@ -286,6 +287,17 @@ static dal_status add_event(void *user, dal_run *run, const dal_occurrence *even
     return library_status(r, event_log_add(&r->events, event));
 }
 
+/* The derivatives at time t, after the observables. */
+static dal_status add_derivatives(run_recorder *r, double t)
+{
+    dal_sensitivity *s = r->simulation->sensitivity;
+    double *out = r->values + 1 + r->dimension + r->results.observables;
+    const dal_status status = dal_sensitivity_advance(s, t, NULL);
+    for (int k = 0; k < dal_sensitivity_count(s); k++, out += r->columns.derivatives)
+        memcpy(out, dal_sensitivity_column(s, k), (size_t)r->columns.derivatives * sizeof *out);
+    return status;
+}
+
 static dal_status add_row(void *user, dal_run *run, long long row, double t)
 {
     run_recorder *r = user;
@@ -294,6 +306,7 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
     r->values[0] = t;
     memcpy(state, dal_run_state(run), (size_t)r->dimension * sizeof *state);
     dal_status status = dal_run_observe(run, state + r->dimension);
+    if (status == DAL_STATUS_OK && r->simulation->sensitivity) status = add_derivatives(r, t);
     if (status != DAL_STATUS_OK) return status;
     for (int i = 0; i < r->columns.count; i++) r->row[i] = r->values[r->columns.index[i]];
     r->results.position.row++;

@@ -94,9 +94,13 @@ const cli_option request_options[REQUEST_OPTIONS] = {
     {"statistics", "K", "1", "the summary observes every K-th step", .parse = cli_parse_integer,
      .offset = FIELD(statistics), .min = 1, .max = max_count},
     {"columns", "LIST", NULL,
-     "columns beside t: names, q, v, lift, D, E, invariants, observed, h, R, lambda, patterns: "
-     "x,x',D,p_*",
+     "columns beside t: names, q, v, lift, D, E, invariants, observed, h, R, lambda, "
+     "sensitivities, "
+     "patterns: x,x',D,p_*",
      .parse = cli_parse_text, .offset = FIELD(columns)},
+    {"sensitivities", "LIST", NULL,
+     "adds columns of derivatives of q and v by these parameters and start values: k,m,x'",
+     .parse = cli_parse_text, .offset = FIELD(sensitivities)},
     {"names", "system|plain", "system", "names of columns; plain: vx for x', for pandas and Julia",
      .parse = cli_parse_word, .offset = FIELD(names)},
     {"observe", "FORMULAS", NULL,

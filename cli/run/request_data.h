@@ -6,6 +6,7 @@
 #include "dalembert_model.h"
 #include "dalembert_program.h"
 #include "dalembert_run.h"
+#include "dalembert_sensitivity.h"
 #include "system.h"
 
 #include <stdbool.h>
@@ -23,6 +24,7 @@
     OPTION(times)                                                                                  \
     OPTION(statistics)                                                                             \
     OPTION(columns)                                                                                \
+    OPTION(sensitivities)                                                                          \
     OPTION(names)                                                                                  \
     OPTION(observe)                                                                                \
     OPTION(mechanics)                                                                              \
@@ -66,10 +68,11 @@ typedef enum request_step {
 enum { REQUEST_CHOSEN_STEPS = 100 }; /* a chosen step is this part of the time */
 
 typedef struct run_request {
-    const char *system_name; /* a built-in name or a path; the caller's, as all texts here */
-    const char *columns;     /* --columns; NULL: all */
-    const char *observe;     /* --observe, formulas between semicolons; NULL: none */
-    cli_choices choices;     /* --mechanics, --effort, --gauge */
+    const char *system_name;   /* a built-in name or a path; the caller's, as all texts here */
+    const char *columns;       /* --columns; NULL: all */
+    const char *sensitivities; /* --sensitivities, names between commas; NULL: none */
+    const char *observe;       /* --observe, formulas between semicolons; NULL: none */
+    cli_choices choices;       /* --mechanics, --effort, --gauge */
     const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given */
     char *made[REQUEST_OPTIONS];       /* of these texts those that the request owns, or NULL */
     request_step step_rule;            /* set beforehand */
@@ -89,10 +92,11 @@ typedef struct run_simulation {
     dal_model *model;
     const dal_system *system; /* may be set beforehand; nothing is loaded then */
     dal_run *run;
-    double end;          /* where the run ends, and */
-    dal__decimal length; /* which is as far from the start, */
-    long long samples;   /* its rows after the first, */
-    double *row_time;    /* [samples + 1]; NULL: at equal distances */
+    dal_sensitivity *sensitivity; /* beside the run; NULL: none */
+    double end;                   /* where the run ends, and */
+    dal__decimal length;          /* which is as far from the start, */
+    long long samples;            /* its rows after the first, */
+    double *row_time;             /* [samples + 1]; NULL: at equal distances */
 } run_simulation;
 
 /* A set of options; those that concern rows only; those without which time begins at 0, is given
@@ -101,7 +105,7 @@ typedef struct run_simulation {
 #define REQUEST_ROW_OPTIONS                                                                        \
     (REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) | REQUEST_OPTION(times) |                  \
      REQUEST_OPTION(statistics) | REQUEST_OPTION(columns) | REQUEST_OPTION(names) |                \
-     REQUEST_OPTION(observe) | REQUEST_OPTION(reactions))
+     REQUEST_OPTION(observe) | REQUEST_OPTION(sensitivities) | REQUEST_OPTION(reactions))
 /* Whether an option was given. */
 bool request_has(const run_request *request, int option);
 /* Whether a column is a formula of --observe. */

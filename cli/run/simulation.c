@@ -18,6 +18,7 @@ run_simulation simulation_default(void) { return (run_simulation){.request = req
 void simulation_free(run_simulation *s)
 {
     dal_run_free(s->run);
+    dal_sensitivity_free(s->sensitivity);
     dal_model_free(s->model);
     free(s->row_time);
     request_free(&s->request);
@@ -142,6 +143,30 @@ int simulation_complete(run_simulation *s, dal_run_spec *spec)
     return status == CLI_DONE ? simulation_make_spec(s, spec) : status;
 }
 
+/* The columns of --sensitivities. */
+static int create_sensitivity(run_simulation *s, const dal_run_spec *spec)
+{
+    const char *list = s->request.sensitivities;
+    char *text = cli_strdup(list), *end = NULL;
+    const char **names = NULL;
+    dal_error error = {0};
+    int count = 0;
+    for (char *item = strtok_r(text, ",", &end); item; item = strtok_r(NULL, ",", &end)) {
+        names = cli_realloc(names, ((size_t)count + 1) * sizeof *names);
+        names[count++] = item;
+    }
+    int status = count > 0 ? CLI_DONE : cli_fail(CLI_USAGE, "--sensitivities: the list is empty");
+    if (status == CLI_DONE) {
+        const dal_status made =
+            dal_sensitivity_create(&s->sensitivity, s->model, spec, names, count, &error);
+        if (made != DAL_STATUS_OK)
+            status = cli_fail(cli_input_exit(made), "--sensitivities: %s", error.message);
+    }
+    free(names);
+    free(text);
+    return status;
+}
+
 int simulation_create(run_simulation *s)
 {
     dal_run_spec spec;
@@ -153,6 +178,10 @@ int simulation_create(run_simulation *s)
     if (made != DAL_STATUS_OK) {
         s->run = NULL;
         return cli_error(cli_input_exit(made), s->request.system_name, &error);
+    }
+    if (s->request.sensitivities) {
+        const int created = create_sensitivity(s, &spec);
+        if (created != CLI_DONE) return created;
     }
     /* --columns is checked before any file is made. */
     const int selected = columns_make(&columns, s);
