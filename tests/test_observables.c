@@ -152,6 +152,21 @@ static void test_bits(void)
     }
 }
 
+/* H has K of the effort, and mu_e of the state. */
+static void test_effort(void)
+{
+    const subject lifted = {fixture_full, "rk4", DAL_LIFTED, 3};
+    const dal_system *system;
+    dal_model *model;
+    CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, "test", fixture_full, strlen(fixture_full), NULL),
+                          DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_set_effort(model, DAL_EFFORT_CONSTRAINT, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_set_gauge(model, "mu_e = 0.1*e*sin(x)", NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+    for (int way = 0; way < 4; way++) same_series(&lifted, system, way);
+    dal_model_free(model);
+}
+
 /* Interrupted after every row, and continued by another run, compiled or not. */
 static void test_pieces(void)
 {
@@ -252,6 +267,7 @@ void suite_observables(void)
     CU_pSuite suite =
         CU_add_suite("observables of many steps", compiler_set_up, compiler_tear_down);
     CU_add_test(suite, "the same bits", test_bits);
+    CU_add_test(suite, "with an effort and a gauge", test_effort);
     CU_add_test(suite, "in pieces", test_pieces);
     CU_add_test(suite, "a step fails", test_failure);
     CU_add_test(suite, "an observer ends it", test_refusal);

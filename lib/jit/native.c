@@ -46,8 +46,8 @@ static const char lanes_text[] =
     "#elif defined __AVX__\n#define DAL_LANES 4\n"
     "#else\n#define DAL_LANES 2\n#endif\n"
     "#define DAL_WORK(place) dal_num(((const double *)w)[place])\n"
-    "typedef enum dal_callback_code { DAL_EVAL_FIELD, DAL_EVAL_GAUGE, DAL_EVAL_HOLONOMIC } "
-    "dal_callback_code;\n";
+    "typedef enum dal_callback_code { DAL_EVAL_FIELD, DAL_EVAL_GAUGE, DAL_EVAL_HOLONOMIC, "
+    "DAL_EVAL_EFFORT } dal_callback_code;\n";
 
 static void write_sizes(dal__generation *g)
 {
