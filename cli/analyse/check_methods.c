@@ -96,7 +96,7 @@ static void examine_methods(check *c)
     dal_constraint_class d;
     const dal_integrator *k;
     if (!cli_is_ok(dal_evaluator_classify_constraints(c->evaluator, &c->origin, &d, NULL)))
-        d = (dal_constraint_class){.linear = 0};
+        d = (dal_constraint_class){.linear = false};
     while ((k = dal_integrator_at(c->methods))) {
         dal_error error = {.message = ""};
         const bool is_accepted_here = is_integrator_accepted(c, k, &error);

@@ -167,7 +167,7 @@ int ensemble_complete(ensemble *e)
     dal_error error = {0};
     if (e->variations == 0) return cli_fail(CLI_USAGE, "--vary is missing: nothing would vary");
     run_request *request = &e->simulation.request;
-    if (!request_has(request, REQUEST_consistent)) request->options.consistent = 1;
+    if (!request_has(request, REQUEST_consistent)) request->options.consistent = true;
     int status = simulation_create(&e->simulation);
     if (status == CLI_DONE) status = simulation_make_spec(&e->simulation, &e->spec);
     if (status == CLI_DONE) status = fill_times(e);

@@ -328,7 +328,7 @@ bool cli_is_directory(const char *output)
 {
     struct stat status;
     if (strcmp(output, "-") == 0 || cli_ends_in(output, ".csv") || cli_ends_in(output, ".npy"))
-        return 0;
+        return false;
     return stat(output, &status) != 0 || S_ISDIR(status.st_mode) || S_ISREG(status.st_mode);
 }
 

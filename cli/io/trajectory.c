@@ -183,7 +183,7 @@ static int read_header(trajectory_reader *r)
     if (fstat(fileno(r->file), &status) != 0) return cli_io("read", r->path);
     const size_t size = (size_t)status.st_size;
     char *text = read_header_text(r->file, size, &r->offset);
-    const int is_header = text && parse_header(r, text);
+    const bool is_header = text && parse_header(r, text);
     if (r->columns == 0) free(text);
     if (ferror(r->file)) return cli_io("read", r->path);
     if (!is_header) return cli_fail(CLI_USAGE, "'%s' is no .npy file of named doubles", r->path);
@@ -307,7 +307,7 @@ static void encode(unsigned char *bytes, double value)
 
 int writer_create(trajectory_writer *writer, const char *path, char *const *names, int columns)
 {
-    const int is_stdout = strcmp(path, "-") == 0;
+    const bool is_stdout = strcmp(path, "-") == 0;
     *writer = (trajectory_writer){.columns = columns};
     if (cli_ends_in(path, ".npy")) {
         int descriptor;
@@ -361,7 +361,7 @@ int writer_close(trajectory_writer *writer)
     if (file && file != stdout) fclose(file);
     if (file) return CLI_IO;
     if (!writer->buffer) return CLI_DONE;
-    const int has_begun = writer->rows >= 0 && !writer->failed;
+    const bool has_begun = writer->rows >= 0 && !writer->failed;
     if (has_begun && flush(writer) == CLI_DONE && !write_rows_number(writer)) failed(writer);
     if (close(writer->descriptor) != 0 && !writer->failed) failed(writer);
     free(writer->header);

@@ -291,7 +291,7 @@ int checkpoint_load(const run_directory *dir, const trajectory_writer *writer,
                     run_position *position, dal_run *run, const observed_steps *observed)
 {
     *position = (run_position){0};
-    const int has_newer = exists(dir->checkpoint), has_older = exists(dir->before);
+    const bool has_newer = exists(dir->checkpoint), has_older = exists(dir->before);
     if (!has_newer && !has_older) return CLI_DONE;
     int status = CLI_USAGE;
     if (has_newer) status = load_file(dir, dir->checkpoint, writer, position, run, observed);

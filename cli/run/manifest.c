@@ -138,7 +138,7 @@ static int find_fingerprint(run_directory *dir, const char *builtin)
 
 int manifest_begin(run_directory *dir, const run_simulation *s)
 {
-    const int is_path = cli_is_path(s->request.system_name);
+    const bool is_path = cli_is_path(s->request.system_name);
     int status = CLI_DONE;
     /* The writer begins the rows again, and the run may be made from the copy of the system. */
     for (int i = 0; i < RUN_FILES && status == CLI_DONE; i++)
@@ -169,7 +169,7 @@ int manifest_extend(run_directory *dir, const run_simulation *simulation,
 int manifest_compare(const run_directory *dir, const run_request *held, const run_request *request)
 {
     char *one = manifest_input(held), *other = manifest_input(request);
-    const int is_same = strcmp(one, other) == 0;
+    const bool is_same = strcmp(one, other) == 0;
     free(one);
     free(other);
     if (is_same) return CLI_DONE;
@@ -220,7 +220,7 @@ static int read_member(run_request *request, const document *doc, const document
                        const char *copy)
 {
     const int option = request_find_option(member->name);
-    const int is_system = strcmp(member->name, "system") == 0;
+    const bool is_system = strcmp(member->name, "system") == 0;
     if (option == REQUEST_set) return read_settings(&request->set, doc, member);
     if (option == REQUEST_start) return read_settings(&request->start, doc, member);
     if (option < 0 && !is_system)

@@ -68,9 +68,9 @@ typedef struct run_recorder {
     void *row_user;
     bool (*stop)(void *user); /* whether to end the run; cli_interrupted by default */
     void *stop_user;
-    int no_line;    /* no line of progress: no terminal */
-    int shows_rows; /* on a terminal, where they would follow a line of progress */
-    int failure;    /* exit status of a failure of the program's own, already printed */
+    bool no_line;    /* no line of progress: no terminal */
+    bool shows_rows; /* on a terminal, where they would follow a line of progress */
+    int failure;     /* exit status of a failure of the program's own, already printed */
 } run_recorder;
 
 /* Opens the writer: output is a file or "-"; in a directory trajectory.npy, with the run standing

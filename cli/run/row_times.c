@@ -106,7 +106,7 @@ int row_times_parse(void *user, const cli_option *option, const char *given)
     (void)option;
     size_t length;
     struct stat info;
-    const int is_file = stat(given, &info) == 0 && S_ISREG(info.st_mode);
+    const bool is_file = stat(given, &info) == 0 && S_ISREG(info.st_mode);
     char *text = is_file ? file_read(given, &length) : cli_strdup(given);
     if (!text) return CLI_IO;
     free(request->listed);

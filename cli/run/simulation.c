@@ -108,10 +108,10 @@ int simulation_make_spec(run_simulation *s, dal_run_spec *spec)
                         request->options.tolerance, min);
     /* Where the system or the method has no lift there is one space alone; only an explicit
      * --space=lifted is an error. */
-    const int has_lift =
+    const bool has_lift =
         s->system->call.adjoint && !(dal_method_needs(&request->method) & DAL_NEEDS_BLOCKS);
     if (!request_has(request, REQUEST_space) && !has_lift) request->options.space = DAL_PHYSICAL;
-    if (columns_need_reactions(s->system, request->columns)) request->options.reactions = 1;
+    if (columns_need_reactions(s->system, request->columns)) request->options.reactions = true;
     *spec = (dal_run_spec){.system = s->system,
                            .method = request->method,
                            .options = request->options,

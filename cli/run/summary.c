@@ -22,7 +22,7 @@ void summary_print(FILE *out, const run_simulation *simulation, const run_result
     for (int i = 0; i < r->observables; i++) {
         char text[128], exponent[32] = "-";
         const dal_trend *f = &r->trend[i];
-        const int is_stated = f->conservation == DAL_CONSERVED;
+        const bool is_stated = f->conservation == DAL_CONSERVED;
         if (is_stated && !isnan(f->exponent))
             snprintf(exponent, sizeof exponent, "%.2f", f->exponent);
         fprintf(out, "%-12s %14.7g %10.3g %10.3g %+10.2e (%+.1e %+.1e) %8s %9s  %s\n", r->names[i],

@@ -16,7 +16,7 @@ bool cli_is_path(const char *system)
 {
     struct stat status;
     if (strchr(system, '/') || cli_ends_in(system, ".yaml") || cli_ends_in(system, ".yml"))
-        return 1;
+        return true;
     return !dal_builtin_text(system) && stat(system, &status) == 0;
 }
 

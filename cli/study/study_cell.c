@@ -379,7 +379,7 @@ static bool lasts_longer(const run_request *request, const run_request *held)
 static int open_recorder(cell_run *r)
 {
     run_directory *dir = &r->dir;
-    const int has_run = run_directory_has_run(dir);
+    const bool has_run = run_directory_has_run(dir);
     dir->sync = 0;
     bool is_longer = false;
     int status = cli_directory(dir->path);
@@ -525,7 +525,7 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const work_stop *st
 bool study_cell_is_runnable(study_cell *cell)
 {
     cell_run r = {.cell = cell, .simulation = simulation_default()};
-    const int can = create_run(&r) == CLI_DONE && r.simulation.run;
+    const bool can = create_run(&r) == CLI_DONE && r.simulation.run;
     simulation_free(&r.simulation);
     study_cell_free(cell);
     return can;

@@ -20,7 +20,7 @@ static const dal_trend *find_trend(const study_expectation *x, const study_cell 
 /* A quantity that the motion need not conserve has numbers, but neither size nor trend. */
 static bool is_stated(const study_expectation *x, const dal_trend *trend)
 {
-    const int is_number =
+    const bool is_number =
         x->field >= 0 && x->field != STUDY_FIELD_exponent && x->field != STUDY_FIELD_confidence;
     return is_number || trend->conservation == DAL_CONSERVED;
 }
@@ -40,9 +40,10 @@ static bool has_no_run(const study_expectation *x, const study_cell *c)
  * passed over, and so are those that refuse the method. */
 static bool is_compared(const study_expectation *x, const study_cell *c)
 {
-    if (!study_expectation_covers(x, c) || c->other_shard || c->state == STUDY_WAITING) return 0;
-    if (study_expects_state(x)) return 1;
-    if (c->state == STUDY_REFUSED) return 0;
+    if (!study_expectation_covers(x, c) || c->other_shard || c->state == STUDY_WAITING)
+        return false;
+    if (study_expects_state(x)) return true;
+    if (c->state == STUDY_REFUSED) return false;
     const dal_trend *trend = find_trend(x, c);
     if (!trend) return has_no_run(x, c);
     return is_stated(x, trend) || trend->conservation != DAL_NOT_CONSERVED;
@@ -73,7 +74,7 @@ static bool is_met(const study_expectation *x, const study_cell *c)
 {
     if (study_expects_state(x)) return x->words >> c->state & 1;
     const dal_trend *trend = find_trend(x, c);
-    if (!trend || !is_stated(x, trend)) return 0;
+    if (!trend || !is_stated(x, trend)) return false;
     if (!is_complete(x, c)) return expects_aborted(x);
     if (x->field < 0)
         return (x->words >> trend->size | x->words >> (DAL_SIZE_COUNT + trend->trend)) & 1;
@@ -108,7 +109,7 @@ static void put_expected(FILE *out, const study_expectation *x)
 static void put_found(FILE *out, const study_expectation *x, const study_cell *c)
 {
     const unsigned sizes = (1u << DAL_SIZE_COUNT) - 1u;
-    const int has_size = (x->words & sizes) != 0, has_trend = (x->words & ~sizes) != 0;
+    const bool has_size = (x->words & sizes) != 0, has_trend = (x->words & ~sizes) != 0;
     const dal_trend *trend = c ? find_trend(x, c) : NULL;
     if (!trend)
         fputs(c ? study_state_words[c->state] : "no run that has it", out);
@@ -225,9 +226,9 @@ bool study_failure_is_expected(const study_plan *plan, const study_cell *cell)
         const study_expectation *x = &plan->expectations[i];
         if (!is_compared(x, cell)) continue;
         if (study_expects_state(x) ? is_met(x, cell) : expects_aborted(x) && find_trend(x, cell))
-            return 1;
+            return true;
     }
-    return 0;
+    return false;
 }
 
 void study_print_met(FILE *out, const study_comparisons *all)

@@ -117,7 +117,7 @@ typedef struct study_case {
     const char *name;       /* a built-in name or a path */
     const char *item_label; /* the label in the file, or the last part of the name */
     char *label;            /* name in tables and files; no two cases share one */
-    int is_first;           /* of its item */
+    bool is_first;          /* of its item */
     dal_model *model;
     const dal_system *system;
     cli_choices choices; /* of the item */

@@ -321,7 +321,7 @@ static void print_tables(FILE *out, const study_plan *plan)
     fprintf(out, "%s\n", plan->title);
     for (int i = 0; i < plan->case_count; i++) {
         const study_case *e = &plan->cases[i];
-        int has_cells = 0;
+        bool has_cells = false;
         for (int k = e->first_cell; k < e->first_cell + e->cells; k++)
             has_cells |= !plan->cells[k].other_shard;
         if (has_cells) study_print_case(out, plan, e);
@@ -371,7 +371,7 @@ int study_directory_finish(const study_directory *dir, const study_plan *plan, i
     const int saved = study_directory_save_results(plan);
     if (status == CLI_DONE) status = saved;
     const int result = status == CLI_DONE ? result_status(plan) : status;
-    const int is_whole = dir->shard.count == 0;
+    const bool is_whole = dir->shard.count == 0;
     const store_state state = result == CLI_FAILED ? STORE_DONE : store_end_state(result);
     int written = is_whole ? write_files(dir, plan) : CLI_DONE;
     if (written == CLI_DONE) written = write_manifest(dir, plan, state);

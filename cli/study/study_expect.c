@@ -66,9 +66,9 @@ static bool is_method(const dal_method *method, const char *name)
 
 bool study_expectation_covers(const study_expectation *x, const study_cell *c)
 {
-    if (x->step > 0.0 && x->step != c->step) return 0;
-    if (x->tolerance > 0.0 && x->tolerance != c->tolerance) return 0;
-    if (x->start >= 0 && x->start != c->start) return 0;
+    if (x->step > 0.0 && x->step != c->step) return false;
+    if (x->tolerance > 0.0 && x->tolerance != c->tolerance) return false;
+    if (x->start >= 0 && x->start != c->start) return false;
     return study_label_means(c->of_case, x->label) && is_method(c->method, x->method);
 }
 
@@ -120,9 +120,9 @@ static bool is_energy_conserved(const expect_reader *r)
         const study_case *e = &r->plan->cases[i];
         if (study_label_means(e, r->expectation.label) &&
             e->system->properties & (DAL_E_EXACT | DAL_E_ON_D))
-            return 1;
+            return true;
     }
-    return 0;
+    return false;
 }
 
 static int add_words(expect_reader *r, yaml_node_t *node, const word_list *known)
@@ -225,7 +225,7 @@ static int add_mapping(expect_reader *r, yaml_node_t *node)
     if (!document_value(r->doc, node, "at most") && !document_value(r->doc, node, "at least"))
         return document_read_mapping(r->doc, node, "expect", keys, sizeof keys / sizeof keys[0], r);
     /* Bounds beside the cells are of the size that the tables show. */
-    const int is_max =
+    const bool is_max =
         quantity[0] == '|' || strcmp(quantity, "error") == 0 || is_constraint(quantity);
     return add_bounds(r, is_max ? STUDY_FIELD_max : STUDY_FIELD_deviation, node, 5);
 }
@@ -243,14 +243,14 @@ bool study_is_of_lift(const char *name)
 bool study_has_quantity(const study_case *e, const char *name)
 {
     const dal_system *s = e->system;
-    const int is_lifted = s->call.adjoint && e->starts & ~(1 << STUDY_PHYSICAL);
-    if (strcmp(name, "state") == 0) return 1;
+    const bool is_lifted = s->call.adjoint && e->starts & ~(1 << STUDY_PHYSICAL);
+    if (strcmp(name, "state") == 0) return true;
     if (strcmp(name, "E") == 0) return s->energy != NULL;
     if (strcmp(name, "error") == 0) return s->exact != NULL;
     if (is_constraint(name)) return s->constraints && atoi(name + 1) <= s->m && s->m > 0;
-    if (is_lifted && study_is_of_lift(name)) return 1;
+    if (is_lifted && study_is_of_lift(name)) return true;
     for (int i = 0; i < s->invariants; i++)
-        if (strcmp(s->invariant[i], name) == 0) return 1;
+        if (strcmp(s->invariant[i], name) == 0) return true;
     return e->options.reactions && columns_need_reactions(s, name);
 }
 
@@ -293,8 +293,8 @@ static int read_quantity(expect_reader *r, const document_pair *pair)
     yaml_node_t *value = pair->value;
     study_expectation *x = &r->expectation;
     const int count = document_count(value);
-    const int is_list = value->type == YAML_SEQUENCE_NODE && count > 0 &&
-                        document_item(r->doc, value, 0)->type == YAML_MAPPING_NODE;
+    const bool is_list = value->type == YAML_SEQUENCE_NODE && count > 0 &&
+                         document_item(r->doc, value, 0)->type == YAML_MAPPING_NODE;
     int status = CLI_DONE;
     if (!is_in_study(r, NULL, pair->name))
         return document_fail(r->doc, pair->key, "expect: '%s' has no quantity '%s' in this study",

@@ -10,8 +10,8 @@ bool study_has_method(const study_case *e, const dal_method *method)
     char name[STUDY_NAME], other[STUDY_NAME];
     dal_method_name(method, name, sizeof name);
     for (int i = 0; i < e->method_count; i++)
-        if (strcmp(name, dal_method_name(&e->methods[i], other, sizeof other)) == 0) return 1;
-    return 0;
+        if (strcmp(name, dal_method_name(&e->methods[i], other, sizeof other)) == 0) return true;
+    return false;
 }
 
 static int add_method(study_case *e, const document *doc, const yaml_node_t *node, const char *name)

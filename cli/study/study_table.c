@@ -45,7 +45,7 @@ static void say_trend(char *text, const dal_trend *trend)
         snprintf(text, CELL, "%s", dal_trend_text(trend->trend));
         return;
     }
-    const int is_exact = trend->size == DAL_SIZE_EXACT;
+    const bool is_exact = trend->size == DAL_SIZE_EXACT;
     snprintf(text, CELL, "%s%s%s", dal_size_text(trend->size), is_exact ? "" : ", ",
              is_exact ? "" : dal_trend_text(trend->trend));
 }
@@ -213,7 +213,7 @@ void study_print_note(FILE *out, const study_plan *plan)
         "conserve it: never, or off D = 0 where it does so on D = 0 only.  Rates are slopes of\n"
         "fitted lines.  All values are of every step.  I is the invariant that moved farthest; ns\n"
         "are of the clock, observing included.\n";
-    int has_lift = 0;
+    bool has_lift = false;
     for (int i = 0; i < plan->case_count; i++)
         has_lift |= (plan->cases[i].starts & ~(1 << STUDY_PHYSICAL)) != 0;
     if (has_lift) cli_wrap_notes(out, lift);

@@ -42,7 +42,7 @@ static int read_between(void *user, const document *doc, yaml_node_t *value,
         status = document_number(doc, document_item(doc, value, 1), key->name, &v->high);
     if (status == CLI_DONE && !(v->low < v->high))
         return document_fail(doc, value, "between: %g is not below %g", v->low, v->high);
-    v->is_drawn = 1;
+    v->is_drawn = true;
     return status;
 }
 
@@ -62,7 +62,7 @@ static int fill_range(const range *r, const document *doc, const yaml_node_t *no
                       const char *what)
 {
     study_values *v = r->values;
-    const int has_by = !isnan(r->by);
+    const bool has_by = !isnan(r->by);
     const double a = r->from, b = r->to, distance = b - a;
     if (isnan(distance) || has_by == !isnan(r->count))
         return document_fail(doc, node, "%s: a range is {from:, to:, count:} or {from:, to:, by:}",
@@ -248,7 +248,7 @@ void study_variants_free(study_variants *v)
 static void put_label(FILE *out, const variant_setting *s, double value)
 {
     const size_t length = strlen(s->name);
-    const int is_velocity = length > 1 && s->name[length - 1] == '\'';
+    const bool is_velocity = length > 1 && s->name[length - 1] == '\'';
     fprintf(out, "_%s%.*s=", is_velocity ? "v_" : "", (int)(length - (size_t)is_velocity), s->name);
     fprintf(out, s->format, value);
 }
@@ -300,7 +300,7 @@ static dal_status find_velocities(const study_case *e, double *v, dal_error *err
                          .start = start,
                          .start_time = e->from};
     spec.options.space = DAL_PHYSICAL;
-    spec.options.consistent = 1;
+    spec.options.consistent = true;
     for (int i = 0; i < e->start.count; i++) {
         const char *name = e->start.item[i].name;
         if (strncmp(name, "p_", 2) != 0 && strncmp(name, "pi_", 3) != 0 && strcmp(name, "e") != 0)

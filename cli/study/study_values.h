@@ -12,7 +12,7 @@
 typedef struct study_values {
     double *value; /* [count] */
     int count;
-    int is_drawn;
+    bool is_drawn;
     double low, high; /* drawn from there */
 } study_values;
 

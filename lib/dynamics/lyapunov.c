@@ -53,7 +53,7 @@ struct dal_lyapunov {
     double t, *z;      /* [dimension] where the step began */
     double *memory, *displaced; /* [memory_count] all of the run there, and beside it */
     size_t memory_count;
-    int has_remainder;          /* memory is y, r, ..: not in quad precision */
+    bool has_remainder;         /* memory is y, r, ..: not in quad precision */
     double from, log_from;      /* where the means began: t, and log of the size of the gradients */
     const double *direction;    /* the vector along which is differentiated */
     dal_statistics *statistics; /* [count + 4] of growth */

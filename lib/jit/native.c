@@ -303,7 +303,7 @@ static bool has_same_observables(const dal_native *native, const dal_run *run)
 
 bool dal_native_fits(const dal_native *native, const dal_run *run)
 {
-    if (!native || !run || native->product == DAL__PRODUCT_LANES) return 0;
+    if (!native || !run || native->product == DAL__PRODUCT_LANES) return false;
     return native->product == DAL__PRODUCT_OBSERVE ? has_same_observables(native, run)
                                                    : has_same_steps(&native->layout, &run->layout);
 }
