@@ -51,7 +51,7 @@ typedef struct dal_invariants {
     int independent;          /* how many of them are functionally independent */
     dal_invariant *invariant; /* [count] simple ones, of low degree first */
     double least_change; /* the smallest singular value of the rates of those functions that is not
-                            counted as 0, relative to the largest; NaN: none is left */
+                            counted as 0, relative to the largest; NaN: none remains */
     double largest_zero; /* the largest one that is; NaN: there is none */
     int measures;        /* found; 0 or 1 */
     dal_invariant_measure *measure; /* [measures] */

@@ -5,7 +5,7 @@
  * Dormand, Prince; Hairer, Norsett, Wanner, Solving ODEs I (1993), II.5, II.10.  Digits as in
  * Hairer's dop853.f and Williams' dop853 (BSD).  Order 8, explicit, twelve evaluations; preserves D
  * with constant coefficients, no other.  With a tolerance the sizes of substeps follow the two
- * estimates of the error in dop853.f; below LOW_BELOW_853 only the rounding of F is left. */
+ * estimates of the error in dop853.f; below LOW_BELOW_853 only the rounding of F remains. */
 #include <dalembert_kernel.h>
 
 /* clang-format off */
@@ -75,7 +75,7 @@ enum { STAGES_853 = 12 };
 #define K_853(k, dim, i) ((k) + ((i)-1) * (dim))
 
 /* Below this tolerance the rounding of coefficients and of y counts: stages begin from y + r, and
- * coefficients have the digits of two doubles.  What is left then is the rounding of F. */
+ * coefficients have the digits of two doubles.  What remains then is the rounding of F. */
 #if DAL_WITH(CONTROL)
 #define LOW_BELOW_853   1e-14
 #define USES_LOW_853(s) (DAL_CONTROLLED(s) && DAL_TOLERANCE(s) < LOW_BELOW_853)

@@ -363,7 +363,7 @@ int section_find(section_settings *settings)
     status = simulation_create(s.simulation);
     if (status != CLI_DONE) return status;
     if (settings->transient >= s.simulation->end && s.simulation->request.options.step > 0.0)
-        return cli_fail(CLI_USAGE, "--transient %g: no crossing is left, the run ends at t = %g",
+        return cli_fail(CLI_USAGE, "--transient %g: no crossing remains, the run ends at t = %g",
                         settings->transient, s.simulation->end);
     name_row(&s);
     status = find_axes(&s);

@@ -333,7 +333,7 @@ int ensemble_end(const ensemble *e, ensemble_directory *dir, int status, int thr
     return CLI_DONE;
 }
 
-/* Runs what is left of a shard. */
+/* Runs what remains of a shard. */
 static int resume_shard(ensemble *e, ensemble_directory *dir, store_shard shard,
                         const ensemble_run_options *options)
 {

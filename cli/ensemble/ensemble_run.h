@@ -18,7 +18,7 @@ typedef struct ensemble_run_options {
  * interruption, or the exit status of a failure, after a message. */
 int ensemble_run(ensemble *e, ensemble_directory *dir, const ensemble_run_options *options);
 /* Finishes the ensemble after a run with this status, when the members of all shards are done; else
- * says what is left.  Returns CLI_FAILED where every member failed, or the exit status. */
+ * says what remains.  Returns CLI_FAILED where every member failed, or the exit status. */
 int ensemble_end(const ensemble *e, ensemble_directory *dir, int status, int threads);
 /* Continues what was begun in a directory. */
 int ensemble_resume(const char *path, const ensemble_run_options *options);

@@ -16,7 +16,7 @@
 #include "ensemble_directory.h"
 
 /* Writes all of it, prints a table of the last time, and marks the ensemble as done.  Returns
- * CLI_DONE, CLI_FAILED where no member is left at the end, or prints and returns an exit status. */
+ * CLI_DONE, CLI_FAILED where no member remains at the end, or prints and returns an exit status. */
 int ensemble_finish(const ensemble *e, const ensemble_directory *dir, int threads);
 
 #endif

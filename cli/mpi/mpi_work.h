@@ -20,7 +20,7 @@ int mpi_set_output(mpi_request *request, const char *path);
 /* The largest exit status of all processes. */
 int mpi_max_status(int status);
 /* Runs a list, of which all processes know the same, on one thread each.  After a failure of one of
- * them the others run what is left. */
+ * them the others run what remains. */
 work_runner mpi_run_list;
 
 #endif

@@ -20,22 +20,22 @@
 #include <time.h>
 
 /* Seconds of the processor: a run is measured for the first, which estimates the rest to a tenth,
- * since caches are warm by then; a compiler is started where more than the second are left, or, of
+ * since caches are warm by then; a compiler is started where more than the second remain, or, of
  * the cells of a study, which keep all processors busy, than the third.  Compiling takes as long as
  * 200,000 to 750,000 interpreted steps, of small systems a quarter of a second to two: where less
- * is left nothing is to be gained by it. */
+ * remains nothing is to be gained by it. */
 static const double measured = 0.002, min_alone = 0.5, min_together = 10.0;
 
 /* Seconds that it takes to search the cache, where it has code for such a system, measured: a text
  * is written and hashed, at a microsecond an operation of F and its Jacobian, an object read and
  * loaded.  Where the cache has none it takes some 10 microseconds. */
 static const double search = 0.001, search_operation = 1e-6;
-/* Twice that must be left: compiled steps take a third and less of the time. */
+/* Twice that must remain: compiled steps take a third and less of the time. */
 #define SEARCH_WORTH 2.0
 
 /* A compiler beside a run has more time than one that is waited for.  It has a lower priority where
  * the run may end before it pays: at a lower one it may not run at all between other processes.
- * Where more than URGENT interpreted steps are left, several times what it takes, it has the same,
+ * Where more than URGENT interpreted steps remain, several times what it takes, it has the same,
  * since each second that it waits the run is interpreted. */
 enum { NICE = 10, PATIENCE = 600 /* seconds */ };
 #define URGENT 2e6
@@ -190,7 +190,7 @@ static bool use_code(native_run *n)
     return true;
 }
 
-/* What of the run is left, and of those that take such steps, if it stays as fast as it was. */
+/* What remains of the run, and of those that take such steps, if it stays as fast as it was. */
 typedef struct rest {
     double seconds, steps; /* 0 where that is not known yet */
 } rest;
@@ -203,7 +203,7 @@ static rest estimate_rest(const native_run *n)
     return (rest){times * seconds, times * (double)(dal_run_steps(n->run) - n->steps)};
 }
 
-/* Takes the next code from the cache, once, where more of the run is left than that takes. */
+/* Takes the next code from the cache, once, where more of the run remains than that takes. */
 static native_code *search_cache(native_run *n, const rest *ahead)
 {
     const dal_system *s = dal_run_system(n->run);
@@ -214,7 +214,7 @@ static native_code *search_cache(native_run *n, const rest *ahead)
     return get_code(n, CACHE);
 }
 
-/* Starts a compiler beside the run where it is worth it: so much is left.  Code that cannot be
+/* Starts a compiler beside the run where it is worth it: so much remains.  Code that cannot be
  * compiled is left out. */
 static native_code *compile_beside(native_run *n, const rest *ahead)
 {

@@ -1,6 +1,6 @@
 /* study_pool.c - the cells of a study, run.
  *
- * The costliest cells are taken first, so that none is left for the end; a cell depends on nothing
+ * The costliest cells are taken first, so that none remains for the end; a cell depends on nothing
  * but itself, so results do not depend on the number of threads. */
 #include "study_pool.h"
 
@@ -37,7 +37,7 @@ static int compare_costs(const void *a, const void *b)
     return x->cell < y->cell ? -1 : x->cell > y->cell;
 }
 
-/* By falling cost, so that none is left for the end; allocated. */
+/* By falling cost, so that none remains for the end; allocated. */
 static int *sort_cells(const study_plan *plan)
 {
     const size_t count = (size_t)plan->cell_count;

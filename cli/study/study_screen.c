@@ -33,7 +33,7 @@ static const struct {
 
 /* ---- the matrix ---------------------------------------------------------------------------- */
 
-/* The text as far as it fits, with a ~ where it ends early; returns what is left of the width. */
+/* The text as far as it fits, with a ~ where it ends early; returns what remains of the width. */
 static int put_cut(FILE *out, const char *text, int width)
 {
     const int spaces = width - cli_columns(text);

@@ -125,11 +125,11 @@ static long long all_steps(const work *w) { return w->steps * (w->pieces > 0 ? w
 /* A block of steps from number k on; *done of them. */
 static dal_status take_block(work *w, long long k, int *done)
 {
-    const long long left = all_steps(w) - k;
+    const long long rest = all_steps(w) - k;
     int gathered = 0;
     *done = 0;
     const dal_status gathering =
-        gather_states(w, k, left < DAL__LOCAL_STEPS ? (int)left : DAL__LOCAL_STEPS, &gathered);
+        gather_states(w, k, rest < DAL__LOCAL_STEPS ? (int)rest : DAL__LOCAL_STEPS, &gathered);
     dal_status status = DAL_STATUS_OK;
     if (gathered > 0)
         status = dal__local_steps(&w->local, gathered, w->t, w->x, w->local_change, done, w->error);

@@ -15,7 +15,7 @@ dal_status dal__reversals_create(dal__reversals **made, dal__local *local, const
 /* Frees it; NULL is allowed. */
 void dal__reversals_free(dal__reversals *reversals);
 /* Searches near step k of the exact motion, which is at x at the time t, and sets even[count] of
- * the observables whose mean rate is 0 by a reversal.  true: nothing is left to search. */
+ * the observables whose mean rate is 0 by a reversal.  true: nothing remains to search. */
 bool dal__reversals_meet(dal__reversals *reversals, dal__orbit *orbit, long long k, double t,
                          const double *x, bool *even);
 

@@ -181,7 +181,7 @@ static bool write_rows(const basis *b, const double *vector, int sought, dal__nu
 {
     static const double least = 1e-8, most = 1e-4, roundings = 1024.0;
     const int width = b->samples->functions, zeros = out->count;
-    const double part = roundings * DBL_EPSILON / out->least_change; /* NaN: no others are left */
+    const double part = roundings * DBL_EPSILON / out->least_change; /* NaN: no others remain */
     out->coefficient = dal__numbers((size_t)zeros + 1, (size_t)width);
     if (!out->coefficient) return false;
     for (int i = 0; i < zeros; i++) {

@@ -110,7 +110,7 @@ DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
 }
 
 /* image = free + share y, W y = beta b + B^T l, A y = (A (w - free) - D)/share, all of (q, v, t)
- * but D, which is at in + n; beta is after it, and l is left at out + n. */
+ * but D, which is at in + n; beta is after it, and l stays at out + n. */
 DAL_SHARED void dal_eliminate_by_factors(dal_step *s, dal_equation *eq, double share, double t,
                                          const num *q, const num *v)
 {

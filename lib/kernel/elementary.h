@@ -9,7 +9,7 @@
  * and for what is not finite, the lane concerned is libm's.
  *
  * Reduction (Cody and Waite 1980, chapter 8) with fused products: pi/2 = P1 + P2 + P3, each the
- * double nearest to what is left, up to 2^-161.  For |x| <= 1e7, n < 2^23:  a = x - n P1 is exact,
+ * double nearest to what remains, up to 2^-161.  For |x| <= 1e7, n < 2^23:  a = x - n P1 is exact,
  * a multiple of 2^-53 below 1.  n P2 = b + rest exactly, |b| < 2^-30, so that a is a multiple of
  * the last place of b and r = a - b with its rounding error (a - r) - b is exact too (Dekker 1971).
  * No double up to 1e7 but 0 comes nearer to a multiple of pi/2 than 2^-61 (the nearest is at

@@ -37,7 +37,7 @@ typedef struct plan {
     int *entry;          /* [n*n] the columns of the entries of each row, entries[n] of them */
     int *entries;
     int *given;   /* [n] of these, those that are not filled in */
-    int *counts;  /* [2n] of the entries that are left in rows, and in columns */
+    int *counts;  /* [2n] of the entries that remain in rows, and in columns */
     long updates; /* of entries that vary along a run */
 } plan;
 
@@ -60,7 +60,7 @@ static void swap(int *a, int *b)
     *b = c;
 }
 
-/* The best score of all entries that are left; counts these in each row and in each column. */
+/* The best score of all entries that remain; counts these in each row and in each column. */
 static double survey_entries(plan *p, int k)
 {
     double max = 0.0;
@@ -88,7 +88,7 @@ static bool is_ready(const plan *p, int row, int column, int k)
     return true;
 }
 
-/* Brings the best pivot to place k, of equal ones the first; false when none is left.  In large
+/* Brings the best pivot to place k, of equal ones the first; false when none remains.  In large
  * matrices the best ones are those that fill few entries (Markowitz). */
 static bool choose(plan *p, int k)
 {
@@ -158,7 +158,7 @@ static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, 
     dal__jacobi_sizes(p->n, p->value, p->size);
 }
 
-/* -1, or the row that is left without a pivot.  Ends early where the elimination, whose every
+/* -1, or the row that has no pivot.  Ends early where the elimination, whose every
  * update makes a node or more, would exceed the limit of a graph. */
 static int order(plan *p, int limit)
 {

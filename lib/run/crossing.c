@@ -382,7 +382,7 @@ dal_status dal__crossing_begin(dal__zero_search *c, double h, dal_error *error)
     return DAL_STATUS_OK;
 }
 
-/* Leaves the part that was searched, and adds the next one of those at first where none is left. */
+/* Leaves the part that was searched, and adds the next one of those at first where none remains. */
 static dal_status next_part(dal__zero_search *c)
 {
     if (c->is_searched) leave_part(c);

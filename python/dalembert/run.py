@@ -480,7 +480,7 @@ class Batch(Fixed):
         Raises
         ------
         StepError
-            When no lane is left.
+            When no lane remains.
         """
         for count in chunks(whole('steps', steps, 0), max(100, CHUNK // self.count)):
             if lib.dal_batch_advance(self._batch, count) != lib.DAL_STATUS_OK:

@@ -49,7 +49,7 @@ if needs 4 "no python3" there python3; then
 fi
 for transient in 6.3 7; do
     try 2 section even.yaml --on x-1 $coarse --transient $transient
-    says "^dalembert: --transient $transient: no crossing is left, the run ends at t = 6.3$"
+    says "^dalembert: --transient $transient: no crossing remains, the run ends at t = 6.3$"
 done
 try 0 section even.yaml --on x-6 $coarse --transient 5.9
 expect "not the crossing after the transient" test "$(wc -l <out)" -eq 2
