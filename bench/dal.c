@@ -79,16 +79,23 @@ static const dal_system sleigh_by_hand = {.name = "sleigh",
                                           .start = sleigh_start,
                                           .constraints = sleigh_constraints};
 
-/* A chain of n springs, four velocities of which each constraint couples. */
-static dal_status make_chain(dal_model **model, int n, dal_error *error)
+/* Writes a chain of n springs up to its constraints; returns the end. */
+static char *write_springs(char *text, int n)
 {
-    static char text[1 << 18];
     char *end = text;
     end += sprintf(end, "coordinates: [x0");
     for (int i = 1; i < n; i++) end += sprintf(end, ", x%d", i);
     end += sprintf(end, "]\nlagrangian: (x0'^2");
     for (int i = 1; i < n; i++) end += sprintf(end, " + x%d'^2 - (x%d - x%d)^2", i, i, i - 1);
     end += sprintf(end, ")/2\nconstraints:\n");
+    return end;
+}
+
+/* A chain of n springs, four velocities of which each constraint couples. */
+static dal_status make_chain(dal_model **model, int n, dal_error *error)
+{
+    static char text[1 << 18];
+    char *end = write_springs(text, n);
     for (int i = 0; i < n; i += 4)
         end += sprintf(end, "  - x%d'*cos(x%d) + x%d'*sin(x%d) - x%d'*x%d\n", i, i + 2, i + 1,
                        i + 2, (i + 4) % n, i + 3);
@@ -102,12 +109,7 @@ static dal_status make_chain(dal_model **model, int n, dal_error *error)
 static dal_status make_links(dal_model **model, int n, dal_error *error)
 {
     static char text[1 << 18];
-    char *end = text;
-    end += sprintf(end, "coordinates: [x0");
-    for (int i = 1; i < n; i++) end += sprintf(end, ", x%d", i);
-    end += sprintf(end, "]\nlagrangian: (x0'^2");
-    for (int i = 1; i < n; i++) end += sprintf(end, " + x%d'^2 - (x%d - x%d)^2", i, i, i - 1);
-    end += sprintf(end, ")/2\nconstraints:\n");
+    char *end = write_springs(text, n);
     for (int k = 0; k < n; k += 2)
         end += sprintf(end, "  - x%d' - x%d*x%d'\n", k, (k + 2) % n, k + 1);
     end += sprintf(end, "start: {x0: 0.1");
