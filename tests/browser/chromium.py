@@ -54,7 +54,8 @@ class Chromium:
         message, self._buffer = self._buffer.split(b"\0", 1)
         found = json.loads(message)
         if found.get("method") == "Runtime.exceptionThrown":
-            self.exceptions.append(found["params"]["exceptionDetails"]["exception"]["description"])
+            details = found["params"]["exceptionDetails"]  # of a script from elsewhere the text alone
+            self.exceptions.append(details.get("exception", {}).get("description", details["text"]))
         return found
 
     def call(self, method, **params):

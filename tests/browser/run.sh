@@ -2,7 +2,7 @@
 # run.sh PROGRAM - the pages of `dalembert report` and of the bench in headless Chromium: in light
 # and dark, 1280 and 400 pixels wide, nothing is cut off, covered or too faint; page.js examines each
 # page from inside.
-# script.py then uses them: keys, clicks and the pointer.
+# script.py then uses them: keys, clicks and the pointer; versions.py uses the choice of versions of the site.
 # A program that has sanitizers makes the same pages; cli/report_cases.sh makes some with it.
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
 case $CFLAGS in *-fsanitize*) echo "browser: 32 pages and the script are skipped: their program has sanitizers" && exit ;; esac
@@ -102,6 +102,7 @@ for scheme in light dark; do
 done
 if command -v python3 >/dev/null 2>&1; then
     timeout --foreground ${PATIENCE:-600} python3 "$here/script.py" $browser "$work" "$here/../../docs/gallery" || failed=1
+    timeout --foreground ${PATIENCE:-600} python3 "$here/versions.py" $browser "$work/versions" || failed=1
 else
     echo "browser: the script is skipped: no python3"
     [ "${CI:-}" != true ] || failed=1
