@@ -24,7 +24,7 @@ awk -f "$top/tools/yaml_blocks.awk" "$top/docs/tutorial.md"
 "$program" study mine.yaml --no-page --output skate-study >/dev/null
 "$program" run skate.yaml --integrator spark4 --step 0.05 --time 60 --samples 1200 --output skate
 cd "$top"
-for directory in study disk board sleigh skate skate-study; do
+for directory in study disk board sleigh section skate skate-study; do
     "$program" report "$work/$directory" --svg >/dev/null
 done
 # picture DIRECTORY FIGURE NAME: what is black on paper is light where the reader likes the dark.
