@@ -12,6 +12,7 @@
 #include "run/system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/screen.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -173,13 +174,59 @@ static int write_member(FILE *page, const document *doc, const char *name, const
     return status;
 }
 
-/* What moves and how, how many members there are, and in what they differ. */
-static int write_facts(const ensemble_page *p, const run_simulation *simulation,
-                       const document *doc)
+static void write_statistics(const ensemble_page *p)
+{
+    const csv_table *csv = &p->statistics;
+    FILE *page = p->r->page;
+    char *title =
+        cli_format("Statistics at t = %.6g", strtod(p->times.word[p->times.count - 1], NULL));
+    report_heading(p->r, "statistics", title);
+    free(title);
+    fputs(REPORT_TABLE, page);
+    for (int k = 1; k < csv->columns; k++) report_element(page, "th", csv->cell[k]);
+    fputs(REPORT_ROWS, page);
+    for (int row = csv->rows - p->columns.count; row < csv->rows; row++) {
+        report_row(page, csv_table_get(csv, row, "column"));
+        for (int k = 2; k < csv->columns; k++)
+            report_number(page, "%.6g", csv_table_number(csv, row, csv->cell[k]));
+        fputs("</tr>\n", page);
+    }
+    fputs(REPORT_TABLE_END, page);
+}
+
+/* "2,000 members at t = 5, mean ± standard deviation: x = 0.02665 ± 0.094, ...", of what is not
+ * the same for all. */
+static void write_means(const ensemble_page *p)
+{
+    const csv_table *csv = &p->statistics;
+    const int first = csv->rows - p->columns.count;
+    FILE *page = p->r->page;
+    char mean[SCREEN_NUMBER], deviation[SCREEN_NUMBER];
+    char members[SCREEN_NUMBER];
+    fprintf(page, "<p class=\"lead\">%s members at t = %.6g, mean ± standard deviation:</p>\n",
+            screen_count(members, (long long)csv_table_number(csv, first, "count")),
+            csv_table_number(csv, first, "t"));
+    fputs("<p class=\"numbers\">", page);
+    for (int row = first; row < csv->rows; row++) {
+        const double size = csv_table_number(csv, row, "deviation");
+        if (!(size > 0.0)) continue;
+        fputs("<span>", page);
+        report_text(page, csv_table_get(csv, row, "column"));
+        fprintf(page, " = %s ± %s</span> ",
+                screen_number(mean, csv_table_number(csv, row, "mean"), 4),
+                screen_number(deviation, size, 2));
+    }
+    fputs("</p>\n", page);
+}
+
+/* What came out, what moves and how, how many members there are, and in what they differ. */
+static int write_head(const ensemble_page *p, const run_simulation *simulation, const document *doc)
 {
     const run_request *request = &simulation->request;
     FILE *page = p->r->page;
     report_title(p->r, report_model_title(simulation->model, "An ensemble"));
+    write_means(p);
+    write_statistics(p);
     fputs(REPORT_FACTS, page);
     report_fact(page, "system", request->system_name);
     report_system(page, simulation->model, request);
@@ -201,7 +248,7 @@ static int describe_ensemble(const ensemble_page *p)
     free(bytes);
     if (status == CLI_DONE) status = manifest_read_input(&simulation.request, doc, copy);
     if (status == CLI_DONE) status = cli_read(simulation.request.system_name, &simulation.model);
-    if (status == CLI_DONE) status = write_facts(p, &simulation, doc);
+    if (status == CLI_DONE) status = write_head(p, &simulation, doc);
     simulation_free(&simulation);
     store_free_manifest(doc);
     free(copy);
@@ -209,31 +256,10 @@ static int describe_ensemble(const ensemble_page *p)
     return status;
 }
 
-static void write_statistics(const ensemble_page *p)
-{
-    const csv_table *csv = &p->statistics;
-    FILE *page = p->r->page;
-    char *title =
-        cli_format("Statistics at t = %.6g", strtod(p->times.word[p->times.count - 1], NULL));
-    report_heading(p->r, "statistics", title);
-    free(title);
-    fputs(REPORT_TABLE, page);
-    for (int k = 1; k < csv->columns; k++) report_element(page, "th", csv->cell[k]);
-    fputs(REPORT_ROWS, page);
-    for (int row = csv->rows - p->columns.count; row < csv->rows; row++) {
-        report_row(page, csv_table_get(csv, row, "column"));
-        for (int k = 2; k < csv->columns; k++)
-            report_number(page, "%.6g", csv_table_number(csv, row, csv->cell[k]));
-        fputs("</tr>\n", page);
-    }
-    fputs(REPORT_TABLE_END, page);
-}
-
 static int write_page(ensemble_page *p)
 {
     int status = describe_ensemble(p);
     if (status != CLI_DONE) return status;
-    write_statistics(p);
     status = draw_clouds(p);
     if (status == CLI_DONE)
         status = draw_components(p, "histograms", "Histograms",

@@ -34,7 +34,7 @@ static int find_row(const order_page *o, const char *method, const char *step)
 }
 
 /* T, the space and the reference are in order.json. */
-static void write_head(const order_page *o)
+static void write_facts(const order_page *o)
 {
     FILE *page = o->r->page;
     const char *method = results_text(&o->results, "reference", "integrator");
@@ -212,12 +212,12 @@ int report_order(report *r)
                                  results_title(&o->results, csv_table_get(&o->csv, 1, "label")));
         report_title(r, title);
         free(title);
-        write_head(o);
         if (o->methods.count > 0)
             write_orders_table(o);
         else
             fputs("<p>No method has errors to show.</p>\n", r->page);
         write_failures(o);
+        write_facts(o);
         if (o->methods.count > 0) status = draw_figures(o);
         report_file(r, "order.json", "what it was made with: order.json");
     }

@@ -67,7 +67,7 @@ static void write_counts(report *r, const csv_table *csv)
 {
     int up = 0;
     for (int row = 1; row < csv->rows; row++) up += csv_table_is(csv, row, "direction", "1");
-    fprintf(r->page, "<p>%d crossings: %d upwards, %d downwards", csv->rows - 1, up,
+    fprintf(r->page, "<p class=\"lead\">%d crossings: %d upwards, %d downwards", csv->rows - 1, up,
             csv->rows - 1 - up);
     if (csv->rows > 1)
         fprintf(r->page, ", from t = %.6g to t = %.6g", csv_table_number(csv, 1, "t"),
@@ -89,11 +89,11 @@ int report_section(report *r)
         char *title = cli_format("%s: section", results_title(&results, "A motion"));
         report_title(r, title);
         free(title);
+        write_counts(r, &csv);
+        if (csv.rows > 1) status = draw_crossings(r, &csv, &results);
         results_begin_facts(r->page, &results);
         if (on[0]) report_fact(r->page, "section", on);
         fputs(REPORT_FACTS_END, r->page);
-        write_counts(r, &csv);
-        if (csv.rows > 1) status = draw_crossings(r, &csv, &results);
         report_file(r, "section.json", "what it was made with: section.json");
     }
     csv_table_free(&csv);
@@ -155,12 +155,12 @@ static int write_means_page(report *r, const char *name, const char *what)
         char *title = cli_format("%s: %s", results_title(&results, "A motion"), what);
         char *json = cli_format("%s.json", name);
         report_title(r, title);
-        results_begin_facts(r->page, &results);
-        fputs(REPORT_FACTS_END, r->page);
         if (csv.rows > 1) {
             write_means(r, &csv);
             status = draw_means(r, name, &csv);
         }
+        results_begin_facts(r->page, &results);
+        fputs(REPORT_FACTS_END, r->page);
         report_file(r, json, "what it was made with");
         free(json);
         free(title);

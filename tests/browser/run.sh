@@ -48,6 +48,8 @@ END_OF_SYSTEM
     "$program" report run
     "$program" order chaplygin-sleigh --levels 3 --time 2 --output orders
     "$program" section pendulum-cvt --on "sin(xi)" --integrator gni --step 0.1 --time 200 --output cut
+    "$program" ensemble knife-edge --members 50 --seed 1 --vary "x'=normal(0,0.1)" --integrator rk4 --step 0.1 --times 1,2 \
+        --output members
     "$program" run pursuit --integrator rk4 --step 0.01 --time 10 --output failed || [ $? -eq 3 ]
     "$program" report failed
     "$program" run pendulum-cvt --integrator gni --step 0.1 --time 2000 --samples 5000 --output bands

@@ -1,6 +1,6 @@
 """script.py BROWSER DIRECTORY GALLERY - the pages of reports as they are used, in headless Chromium.
 
-DIRECTORY has the reports study, run, orders, disk, single, box, few and sleigh, GALLERY moving pictures.  Keys, clicks and the pointer are the browser's own
+DIRECTORY has the reports study, run, orders, disk, single, box, few, sleigh, cut and members, GALLERY moving pictures.  Keys, clicks and the pointer are the browser's own
 input.  Every fault is a line "fault: ..."; nothing depends on how fast the machine is.
 """
 import glob
@@ -170,6 +170,14 @@ def check_first_screen(browser, where):
         document.querySelector('main').getBoundingClientRect().left]""")
     expect(0 <= top < 100 and right <= left, f"{where}: the contents are at {top}, {right}, not left of {left}")
     browser.run("scrollTo(0, 0)")
+
+
+def check_result_first(browser, where, result):
+    """What came out is on the first screen, before the equations, on pages of other commands too."""
+    end, begin = browser.run(f"[{result}.getBoundingClientRect().bottom, "
+                             "document.querySelector('.equations').getBoundingClientRect().top]")
+    expect(end <= begin, f"{where}: the result ends at {end:.0f} pixels, after the equations at {begin:.0f}")
+    expect(end <= 800 or browser.run("innerWidth") < 800, f"{where}: the result ends {end:.0f} pixels below the top")
 
 
 def check_heads(browser):
@@ -479,7 +487,8 @@ def check_gallery(browser, gallery):
 def main(program, directory, gallery):
     """All checks, in a wide and a narrow window, light and dark."""
     browser = Chromium(program, f"{directory}/profile-script")
-    page = {name: f"file://{directory}/{name}/report/index.html" for name in ("study", "run", "orders", "disk", "single", "box", "few", "sleigh")}
+    page = {name: f"file://{directory}/{name}/report/index.html" for name in ("study", "run", "orders", "disk", "single", "box", "few", "sleigh", "cut",
+                                                                        "members")}
     for width, dark in [(1280, False), (1280, True), (400, False), (400, True)]:
         browser.open(page["study"], width, dark)
         controls = check_names(browser, "study")
@@ -518,7 +527,12 @@ def main(program, directory, gallery):
         check_layout(browser, "few")
         browser.open(page["orders"], width, dark)
         controls += check_names(browser, "orders")
+        check_result_first(browser, "orders", "document.querySelector('.wide table tbody tr')")
         check_chart(browser, "orders", "Order")
+        for name, result in [("cut", "document.querySelector('.lead')"), ("members", "document.querySelector('.numbers')")]:
+            browser.open(page[name], width, dark)
+            check_result_first(browser, name, result)
+            check_layout(browser, name)
         for address in page.values():
             check_without(browser, address, width)
         expect(not browser.exceptions, f"the script fails: {browser.exceptions[:1]}")

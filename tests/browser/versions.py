@@ -26,7 +26,7 @@ def expect(condition, text):
         print(f"fault: {text}")
 
 
-class Quiet(http.server.SimpleHTTPRequestHandler):
+class Files(http.server.SimpleHTTPRequestHandler):
     """Serves files and prints nothing."""
 
     def log_message(self, *_):
@@ -110,7 +110,7 @@ def main(program, directory):
     make_site(f"{directory}/many", "0.6.0", ["index.html", "guide/page.html", "new.html"])
     write(f"{directory}/many/versions-list.js", 'showVersions(["0.6.0", "0.5.0"]);\n')
     write(f"{directory}/one/versions-list.js", f"showVersions({json.dumps(check_list()[:1])});\n")
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=directory))
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Files, directory=directory))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     browser = Chromium(program, f"{directory}/profile")
     root = f"http://127.0.0.1:{server.server_port}"

@@ -477,6 +477,13 @@ def ensemble():
     same("statistics: heads", texts(heads), keys[1:])
     same("statistics", [texts(row) for row in rows],
          [[r["column"]] + [printed("%.6g", number(r[k])) for k in keys[2:]] for r in statistics if r["t"] == times[-1]])
+    last = {r["column"]: r for r in statistics if r["t"] == times[-1]}
+    means = {html.unescape(name): (float(mean), float(size)) for name, mean, size in
+             re.findall(r"<span>([^<=]*) = (\S+) ± (\S+)</span>", PAGE)}
+    same("means: names", list(means), [n for n in last if number(last[n]["deviation"]) > 0])
+    for name, (mean, size) in means.items():
+        same(f"means: {name}", math.isclose(mean, number(last[name]["mean"]), rel_tol=6e-4) and
+             math.isclose(size, number(last[name]["deviation"]), rel_tol=0.06), True)
     varying = [n for n in names if any(number(r["min"]) < number(r["max"]) for r in statistics if r["column"] == n)]
     same("histograms", [n for n in FIGURES if n.startswith("histogram")],
          [f"histogram-{names.index(n) + 1}" for n in varying])
@@ -538,7 +545,7 @@ def section():
     """A page of a section of few crossings."""
     rows = read_csv("section.csv")
     up = sum(r["direction"] == "1" for r in rows)
-    same("crossings", f"<p>{len(rows)} crossings: {up} upwards, {len(rows) - up} downwards, from t = "
+    same("crossings", f"<p class=\"lead\">{len(rows)} crossings: {up} upwards, {len(rows) - up} downwards, from t = "
          f"{number(rows[0]['t']):.6g} to t = {number(rows[-1]['t']):.6g}.</p>" in PAGE, True)
     figure = FIGURES["section"]
     for title, direction in (("upwards", "1"), ("downwards", "-1")):

@@ -482,7 +482,7 @@ try 0 report cut
 silent
 prints '^cut/report/index.html$'
 for fact in '<dt>section</dt><dd>x</dd>' '<dd>gauss8, order 8' '<dt>step h</dt><dd>0.1</dd>' \
-    '<p>5 crossings: 3 upwards, 2 downwards, from t = 4.71239 to t = 17.2788.</p>'; do
+    '<p class="lead">5 crossings: 3 upwards, 2 downwards, from t = 4.71239 to t = 17.2788.</p>'; do
     expect "it lacks $fact" grep -q "$fact" cut/report/index.html
 done
 expect "other crossings" sh -c "sed -n '/curve1 <</,/^END/p' cut/report/section.gp |
@@ -521,7 +521,7 @@ outline() {
         case "|$heads" in *"|$piece|"*) pass ;; *) fail "$directory: no $piece in $heads" ;; esac
     done
 }
-if needs 35 "no python3" there python3; then
+if needs 37 "no python3" there python3; then
     case_is "pages are HTML with the headings of their kind"
     try 0 order line.yaml --integrators rk4,gauss4 --levels 2 --time 1 --output outline-orders
     try 0 section chaplygin-sleigh-full-turn --on phi=1 --integrator rk4 --step 0.05 --time 20 --output outline-section
@@ -539,8 +539,9 @@ if needs 35 "no python3" there python3; then
     outline outline-orders 'h1 friction on a line: order, work and precision' 'dt space|dt error' \
         'th order, stated|th order, found' 'th evaluations of F a step|th µs a step|th rk4|th gauss4' \
         'h2 Figures|summary what it was made with: order.json'
-    outline outline-section 'dt section|h2 Figure|summary what it was made with: section.json'
-    outline outline-ensemble 'dt members|dt seed|dt added to each|h2 Statistics at t = 2|th column|th count|th mean' \
+    outline outline-section 'h2 Figure|dt system' 'dt section|summary what it was made with: section.json'
+    outline outline-ensemble 'h1 Knife edge on an inclined plane|h2 Statistics at t = 2|th column|th count|th mean' \
+        'dt members|dt seed|dt added to each' \
         'th deviation|th min|th q0.05|th q0.25|th q0.5|th q0.75|th q0.95|th max' 'h2 Clouds|h2 Histograms' \
         'summary members that failed: failures.csv|summary what it was made with: manifest.json'
     outline outline-study 'h3 Constraints: max |D|' 'h3 Energy: max |E − E(0)|' \
