@@ -74,7 +74,6 @@ typedef struct dal__equations {
     dal__node *potential;               /* [3n], see energy.c; or NULL */
     dal__node *extended;                /* [n]: F continued off D = 0 with E exact; or NULL */
     dal__node *guard;                   /* [guards] */
-    int lookups, *lookup;               /* [lookups] the tables that are read in the diagnosis */
     int mass_guard;                     /* which of them is det W, from 1; 0: none */
     dal__pivot *pivot;                  /* [pivots], of at most 2 (n + m) */
     struct dal__factors *mass;          /* of W */

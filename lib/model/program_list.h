@@ -85,6 +85,7 @@ typedef struct dal__programs {
     dal_series series;
     const dal__terms *terms;          /* of D, E, invariants; the model's, as the next */
     const dal__terms *reaction_terms; /* of h, R; NULL: not made */
+    int lookups, *lookup;             /* [lookups] the tables that are read in the diagnosis */
     dal_picture picture;
     dal__switch_point *branch; /* [branches.count] those that may be held; the model's */
     dal_branches branches;

@@ -88,17 +88,18 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
 
 /* ---- where the motion fails ---- */
 
-/* The nodes that read tables, each after its argument, into out[2*lookups] where not NULL. */
-static int list_lookups(dal__equations *e, dal__node *out)
+/* The nodes that read tables, each after its argument, into out[2*lookups], and the tables, where
+ * not NULL. */
+static int list_lookups(const dal__graph *graph, dal__node *out, int *table)
 {
     int count = 0;
-    for (dal__node i = 1; i <= e->graph->count; i++) {
-        const dal__record r = dal__inspect(e->graph, i);
+    for (dal__node i = 1; i <= graph->count; i++) {
+        const dal__record r = dal__inspect(graph, i);
         if (r.op != DAL__TABLE || r.symbol % DAL__TABLE_ORDERS) continue;
         if (out) {
             out[2 * count] = r.a;
             out[2 * count + 1] = i;
-            e->lookup[count] = r.symbol / DAL__TABLE_ORDERS;
+            table[count] = r.symbol / DAL__TABLE_ORDERS;
         }
         count++;
     }
@@ -108,12 +109,12 @@ static int list_lookups(dal__equations *e, dal__node *out)
 dal_status dal__programs_add_diagnosis(dal_model *model, dal__programs *programs)
 {
     dal__equations *e = &model->equations;
-    const int lookups = list_lookups(e, NULL), first = 2 * e->pivots + e->m;
+    const int lookups = list_lookups(e->graph, NULL, NULL), first = 2 * e->pivots + e->m;
     dal__node *out = dal__model_nodes(model, first + 2 * lookups, 0);
-    e->lookup = dal__model_allocate(model, (size_t)lookups + 1, sizeof *e->lookup);
-    e->lookups = lookups;
-    if (!out || !e->lookup) return DAL_STATUS_MEMORY;
-    list_lookups(e, out + first);
+    programs->lookup = dal__model_allocate(model, (size_t)lookups + 1, sizeof *programs->lookup);
+    programs->lookups = lookups;
+    if (!out || !programs->lookup) return DAL_STATUS_MEMORY;
+    list_lookups(e->graph, out + first, programs->lookup);
     for (int k = 0; k < e->pivots; k++) {
         out[2 * k] = e->pivot[k].pivot;
         out[2 * k + 1] = e->pivot[k].size;
@@ -339,8 +340,8 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
     for (int k = 0; k < e->pivots && e->restricted; k++) /* whose other pivots need A's */
         if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_STATUS_SINGULAR_MASS;
     const double *lookup = value + 2 * e->pivots + e->m; /* argument, value */
-    for (int k = 0; k < e->lookups; k++) {
-        out[0] = e->lookup[k] + 1;
+    for (int k = 0; k < p->lookups; k++) {
+        out[0] = p->lookup[k] + 1;
         if (isfinite(lookup[2 * k]) && !isfinite(lookup[2 * k + 1])) return DAL_STATUS_NOT_FINITE;
     }
     out[0] = 0.0;
