@@ -276,6 +276,34 @@ static void test_consistent(void)
     dal_run_free(run);
 }
 
+/* Beside a constraint of velocities, whose row is the first: (3, 4) moves along the radius, and y is
+ * solved for. */
+static void test_rows_of_g(void)
+{
+    static const char text[] = "coordinates: [x, y, z]\n"
+                               "lagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                               "constraints: [z' - 2*x']\n"
+                               "holonomic: [x^2 + y^2 - 1]\n"
+                               "start: {x: 0.6, y: 2, solve: [y]}\n";
+    const dal_setting start[] = {{"x", 3.0}, {"y", 4.0}, {"z", 5.0}};
+    dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[1], 0.8, 1e-15);
+    dal_run_free(run);
+    static const char moved[] = "coordinates: [x, y, z]\n"
+                                "lagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                                "constraints: [z' - 2*x']\n"
+                                "holonomic: [x^2 + y^2 - 1]\n";
+    spec = fixture_spec(fixture_system(moved), "rk4", DAL_PHYSICAL, 0.1);
+    spec.start = start;
+    spec.start_count = 3;
+    spec.options.consistent = true;
+    run = fixture_run(&spec);
+    const double *q = dal_run_state(run), expected[] = {0.6, 0.8, 5.0};
+    for (int i = 0; i < 3; i++) CU_ASSERT_DOUBLE_EQUAL(q[i], expected[i], 1e-15);
+    dal_run_free(run);
+}
+
 /* An event that sets q off g = 0 leaves the nearest q on it. */
 static void test_event(void)
 {
@@ -442,6 +470,7 @@ void suite_holonomic(void)
     CU_add_test(suite, "symmetry", test_symmetry);
     CU_add_test(suite, "coordinates and velocities that a start solves", test_solved);
     CU_add_test(suite, "the option consistent", test_consistent);
+    CU_add_test(suite, "rows of g beside those of D", test_rows_of_g);
     CU_add_test(suite, "an event sets q", test_event);
     CU_add_test(suite, "methods that are refused", test_methods_refused);
     CU_add_test(suite, "methods that are completed", test_completed);
