@@ -276,8 +276,8 @@ static void test_consistent(void)
     dal_run_free(run);
 }
 
-/* Beside a constraint of velocities, whose row is the first: (3, 4) moves along the radius, and y is
- * solved for. */
+/* Beside a constraint of velocities, whose row is the first: (3, 4) moves along the radius, and y
+ * is solved for. */
 static void test_rows_of_g(void)
 {
     static const char text[] = "coordinates: [x, y, z]\n"
