@@ -12,8 +12,9 @@
  *     lambda.D = d/ds w(q, v + s U D) at s = 0,     w = I_q v + I_v F + I_t
  *
  * for any U, since w = 0 on D = 0; here U = A^T (A A^T)^-1 in the units of the velocities.  w is a
- * difference of order 4 along (v, F, 1), and so is d/ds, of order 2: lambda is right to some 1e-6,
- * which no other error of a prediction is. */
+ * difference of order 4 along (v, F, 1).  That w = 0 on D = 0 makes one w enough for d/ds: its error
+ * is of the first order in s, and lambda is right to some 1e-5, which no other error of a prediction
+ * is.  These differences are what a prediction off D = 0 costs beside its orbit. */
 #include "dynamics/local_change.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
@@ -26,7 +27,7 @@
 #include <string.h>
 
 /* Sizes of differences, of v and of t in units. */
-static const double displaced = 1e-3, ahead = 1e-3;
+static const double displaced = 1e-3, ahead = 1e-3, off_surface = 1e-5;
 
 void dal__local_free(dal__local *k)
 {
@@ -65,15 +66,24 @@ dal_status dal__local_create(dal__local *k, const dal_run_spec *spec, const dal_
     return dal_run_create(&k->quad, &own, error);
 }
 
+/* E and the invariants at (q, v), out[m] to out[count - 1]. */
+static dal_status observe_conserved(dal__local *k, double t, const double *x, double *out)
+{
+    const dal_system *s = k->system;
+    const double *v = x + k->n;
+    dal_evaluator *e = k->evaluator;
+    if (k->has_energy) DAL_TRY(dal_evaluator_call(e, s->energy, t, x, v, NULL, out + k->m));
+    if (k->invariants == 0) return DAL_STATUS_OK;
+    return dal_evaluator_call(e, s->invariant_values, t, x, v, NULL, out + k->m + k->has_energy);
+}
+
 dal_status dal__local_observe(dal__local *k, double t, const double *x, double *out)
 {
     const dal_system *s = k->system;
     const double *v = x + k->n;
     dal_evaluator *e = k->evaluator;
     if (k->m > 0) DAL_TRY(dal_evaluator_call(e, s->constraints, t, x, v, NULL, out));
-    if (k->has_energy) DAL_TRY(dal_evaluator_call(e, s->energy, t, x, v, NULL, out + k->m));
-    if (k->invariants == 0) return DAL_STATUS_OK;
-    return dal_evaluator_call(e, s->invariant_values, t, x, v, NULL, out + k->m + k->has_energy);
+    return observe_conserved(k, t, x, out);
 }
 
 dal_status dal__local_scales(dal__local *k, double t, const double *x, double *out)
@@ -153,7 +163,7 @@ static dal_status add_rates(dal__local *k, double t, const double *x, double fac
             at[i] = x[i] + side * s * x[n + i];
             at[n + i] = x[n + i] + side * s * F[i];
         }
-        DAL_TRY(dal__local_observe(k, t + side * s, at, value));
+        DAL_TRY(observe_conserved(k, t + side * s, at, value));
         const double w = (side > 0 ? 1.0 : -1.0) * weight[abs(side) - 1] / (12.0 * s);
         for (int i = k->m; i < k->count; i++) out[i] += factor * w * value[i];
     }
@@ -183,13 +193,10 @@ dal_status dal__local_pull(dal__local *k, double t, const double *x, const doubl
     }
     const double size = dal__max_in_units(n, u, unit);
     if (!(size > 0.0)) return DAL_STATUS_OK;
-    const double s = displaced / size;
-    for (int side = -1; side <= 1; side += 2) {
-        for (int i = 0; i < n; i++) {
-            at[i] = x[i];
-            at[n + i] = x[n + i] + side * s * u[i];
-        }
-        DAL_TRY(add_rates(k, t, at, 0.5 * side / s, out, scratch));
+    const double s = off_surface / size;
+    for (int i = 0; i < n; i++) {
+        at[i] = x[i];
+        at[n + i] = x[n + i] + s * u[i];
     }
-    return DAL_STATUS_OK;
+    return add_rates(k, t, at, 1.0 / s, out, scratch);
 }
