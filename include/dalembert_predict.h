@@ -60,7 +60,8 @@ typedef struct dal_predicted {
     double max_change;   /* max |change| up to there */
     double rate, margin; /* the mean rate per unit of t, and half its interval */
     double walk;         /* s^2 of the random walk: its variance per unit of t */
-    double walk_margin;  /* half the interval of s^2 of 68 %, s^2 sqrt(5/pieces) */
+    double walk_margin;  /* half the interval of s^2 of 68 %: s^2 sqrt(5/pieces), or more where
+                            the pieces are short */
     double rounding;     /* what rounding of one step may do in double precision */
 } dal_predicted;
 

@@ -194,7 +194,7 @@ static void say_prediction(screen *out, const prediction *item)
         screen_say(out, 2, "The curve ends at t = %s: %s%s%s", screen_number(x[1], of->end, 4),
                    dal_prediction_end_text(of->reason), of->message[0] ? ": " : "", of->message);
     if (of->pieces > 1)
-        screen_say(out, 2, "Rates and walks are of %s pieces, walks within %s %%",
+        screen_say(out, 2, "Rates and walks are of %s pieces, walks within %s %% or more",
                    screen_count(x[2], of->pieces),
                    screen_number(x[3], 100.0 * sqrt(5.0 / (double)of->pieces), 2));
     add_quantities(out, of);

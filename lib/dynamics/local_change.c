@@ -12,8 +12,8 @@
  *     lambda.D = d/ds w(q, v + s U D) at s = 0,     w = I_q v + I_v F + I_t
  *
  * for any U, since w = 0 on D = 0; here U = A^T (A A^T)^-1 in the units of the velocities.  w is a
- * difference of order 4 along (v, F, 1).  That w = 0 on D = 0 makes one w enough for d/ds: its error
- * is of the first order in s, and lambda is right to some 1e-5, which no other error of a prediction
+ * difference of order 4 along (v, F, 1).  Since w = 0 on D = 0 one w is enough for d/ds: its error
+ * is of the first order in s, and lambda is right to some 1e-5, as no other part of a prediction
  * is.  These differences are what a prediction off D = 0 costs beside its orbit. */
 #include "dynamics/local_change.h"
 #include "analysis/scaled.h"

@@ -6,7 +6,10 @@
  * half, and what rounding may do.
  *
  * Of chaotic motion the sums S over M pieces have E[S]/T, the drift, and var S = s^2 T + b with a
- * bounded b: s^2 = 2 (var S(T) - var S(T/2))/T, with a relative error of sqrt(5/M). */
+ * bounded b: s^2 = 2 (V - W)/T with V = var S(T), and W = var S(T/2) of both halves of all pieces.
+ * The sums are Gaussian.  S(T) has the covariance V/2 with each half, and the halves C = V/2 - W
+ * with each other, so that the error of s^2 is 2/T sqrt((V^2 + W^2 + C^2)/M): sqrt(5/M) of it where
+ * b is small, and more where pieces are not long beside b/s^2. */
 #include "dynamics/predict_rates.h"
 #include <math.h>
 
@@ -40,11 +43,13 @@ static void find_rate(const work *w, int observable, dal_predicted *p)
     p->rate = p->margin = p->walk = p->walk_margin = NAN;
     if (of->pieces > 1) {
         const double whole = fmax(S[1] - S[0] * S[0] / M, 0.0) / (M - 1.0);
-        const double half = fmax(S[3] - S[2] * S[2] / M, 0.0) / (M - 1.0);
+        const double half = fmax(S[3] - 0.5 * S[2] * S[2] / M, 0.0) / (2.0 * M - 1.0);
+        const double between = 0.5 * whole - half;
         p->rate = S[0] / (M * T);
         p->margin = 2.0 * sqrt(whole / M) / fabs(T);
         p->walk = 2.0 * (whole - half) / fabs(T);
-        p->walk_margin = fabs(p->walk) * sqrt(5.0 / M);
+        p->walk_margin =
+            2.0 * sqrt((whole * whole + half * half + between * between) / M) / fabs(T);
     } else if (bins >= MIN_BINS) {
         const double first = weighted_mean(w, observable, 0, bins / 2) / h;
         const double second = weighted_mean(w, observable, bins / 2, bins) / h;

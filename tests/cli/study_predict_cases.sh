@@ -53,6 +53,7 @@ if needs 10 "no python3" there python3; then
     expect "an interval" cells "all(float(r['predicted_E_rate_low']) < float(r['predicted_E_rate']) < float(r['predicted_E_rate_high'])
         for r in [of('pendulum-cvt', 'rk4')])"
     expect "where the key is off" cells "all(not v for k, v in of('knife-edge', 'rk4').items() if k.startswith('predicted'))"
+    counted
 fi
 
 case_is "predictions of a study: the same as of predict"
