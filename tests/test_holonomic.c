@@ -470,7 +470,7 @@ void suite_holonomic(void)
     CU_add_test(suite, "symmetry", test_symmetry);
     CU_add_test(suite, "coordinates and velocities that a start solves", test_solved);
     CU_add_test(suite, "the option consistent", test_consistent);
-    CU_add_test(suite, "rows of g beside those of D", test_rows_of_g);
+    CU_add_test(suite, "rows of g beside rows of D", test_rows_of_g);
     CU_add_test(suite, "an event sets q", test_event);
     CU_add_test(suite, "methods that are refused", test_methods_refused);
     CU_add_test(suite, "methods that are completed", test_completed);
