@@ -40,7 +40,8 @@ typedef struct dal_point {
     const double *q;     /* [n] coordinates */
     const double *v;     /* [n] velocities, then [multipliers] vakonomic multipliers g */
     const double *pi;    /* [n] momenta of the velocities, of adjoint; of projection, velocities; of
-                            enforcement pi[n], c[m] and beta, of reaction l[m] and beta */
+                            enforcement pi[n], c[m] and beta, of reaction and position l[m] and
+                            beta */
     double *work;        /* [workspace] */
     const double *times; /* [lanes] the times in a wide set, where they differ; else NULL */
 } dal_point;
@@ -85,7 +86,9 @@ typedef dal_status dal_scale_callback(const dal_system *system, const dal_point 
         /* A y = A pi + c; NULL: by blocks, or by constraint with beta = 0 */ \
     CALLBACK(REACTION, reaction, tqv_l, n) /* y, W y = beta b + B^T l; NULL: likewise */ \
     CALLBACK(CONSTRAINT_VALUE, constraint_value, tqv, m) /* D; NULL: by constraint */ \
-    CALLBACK(HOLONOMIC, holonomic, tqv, holonomic) /* g(q,t); NULL: there are none */
+    CALLBACK(HOLONOMIC, holonomic, tqv, holonomic) /* g(q,t); NULL: there are none */ \
+    CALLBACK(POSITION, position, tqv_l, n + holonomic) /* y, l: W y = G^T l, G y = c, G = g_q, */ \
+        /* with c where reaction has its last l; NULL: by constraint */
 /* clang-format on */
 typedef struct dal_callbacks {
 #define MEMBER(code, member, ...) dal_callback *member;

@@ -59,52 +59,32 @@ DAL_INLINE dal_status project_velocity(dal_step *s)
 
 #if DAL_WITH(HOLONOMIC)
 typedef struct nearest {
-    num *q;          /* [n] */
-    num *B;          /* [n*holonomic] W^-1 G^T */
-    num *inverse;    /* [holonomic^2] of G W^-1 G^T */
-    num *g, *change; /* [holonomic] */
+    num *q, *g; /* [n], [m] the last ones */
+    num *out;   /* of DAL_EVAL_POSITION */
 } nearest;
 
 /* The unknown is the change of q over h, a velocity. */
 DAL_INLINE void nearest_map(dal_step *s, dal_equation *eq)
 {
     const nearest *k = (const nearest *)eq->context;
-    const int n = DAL_N(s), holonomic = DAL_HOLONOMIC(s);
+    const int n = DAL_N(s), first = DAL_M(s) - DAL_HOLONOMIC(s);
     const num *u = eq->block[0].u;
-    num *const image = eq->block[0].image;
     DAL_EACH(i, n) k->q[i] = s->y[i] + s->h * u[i];
-    dal_eval(s, DAL_EVAL_HOLONOMIC, s->t, k->q, s->y + n, NULL, k->g);
-    dal_multiply(k->inverse, holonomic, holonomic, k->g, k->change);
-    dal_multiply(k->B, n, holonomic, k->change, image);
-    DAL_EACH(i, n) image[i] = u[i] - image[i] / s->h;
-}
-
-/* B and (G B)^-1 at the present state. */
-DAL_INLINE void freeze_directions(dal_step *s, const nearest *k)
-{
-    const int n = DAL_N(s), m = DAL_M(s), holonomic = DAL_HOLONOMIC(s), first = m - holonomic;
-    DAL_VECTOR(s, out, DAL_CONSTRAINT_SIZE(s));
-    DAL_VECTOR(s, gram, DAL_HOLONOMIC(s) * DAL_HOLONOMIC(s));
-    dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, s->y + n, NULL, out);
-    const num *G = out + m + first * n, *all = out + m + m * n;
-    DAL_EACH(i, n)
-        DAL_EACH(j, holonomic) k->B[i * holonomic + j] = all[i * m + first + j];
-    dal_gram(G, k->B, holonomic, n, gram);
-    dal_invert(gram, k->inverse, holonomic);
+    dal_eval(s, DAL_EVAL_HOLONOMIC, s->t, k->q, s->y + n, NULL, k->g + first);
+    dal_eval(s, DAL_EVAL_POSITION, s->t, s->y, s->y + n, k->g, k->out);
+    DAL_EACH(i, n) eq->block[0].image[i] = u[i] - k->out[i] / s->h;
 }
 
 DAL_INLINE dal_status project_position(dal_step *s)
 {
     const int n = DAL_N(s);
     DAL_VECTOR(s, q, DAL_N(s));
-    DAL_VECTOR(s, B, DAL_N(s) * DAL_HOLONOMIC(s));
-    DAL_VECTOR(s, inverse, DAL_HOLONOMIC(s) * DAL_HOLONOMIC(s));
-    DAL_VECTOR(s, g, DAL_HOLONOMIC(s));
-    DAL_VECTOR(s, multiplier, DAL_HOLONOMIC(s));
+    DAL_VECTOR(s, g, DAL_M(s) + 1);
+    DAL_VECTOR(s, out, DAL_N(s) + DAL_HOLONOMIC(s));
     DAL_BLOCK(s, change, DAL_N(s), 0);
-    nearest k = {q, B, inverse, g, multiplier};
+    nearest k = {q, g, out};
     DAL_EQUATION(s, eq, 1, &k, change);
-    freeze_directions(s, &k);
+    DAL_EACH(i, DAL_M(s) + 1) g[i] = dal_num(0.0);
     dal_set_speeds(s, &eq.block[0], n);
     eq.block[0].progress->scale = dal_velocity_scale(s, s->h, 0);
     DAL_EACH(i, n) eq.block[0].u[i] = dal_num(0.0);

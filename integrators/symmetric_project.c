@@ -23,8 +23,8 @@ typedef struct reflection {
     num *mu;                      /* [m + 1] of a lane's last iteration, and 0 */
     num *in, *out;                /* of DAL_EVAL_ENFORCEMENT */
     num *nu;                      /* [m + 1] 0, and [holonomic] before the last 0: likewise */
-    num *inverse;                 /* [holonomic^2] of 2 h G0 B^0 */
-    num *q1, *g, *change;         /* [n] of the last iteration, [holonomic] there, [n] */
+    num *q1, *g;                  /* [n] of the last iteration, [m + 1] 0, and g there likewise */
+    num *place;                   /* of DAL_EVAL_POSITION */
     dal_mask failed;              /* lanes that NAME could not step */
     dal_status status;
 } reflection;
@@ -50,36 +50,22 @@ DAL_INLINE void step_inside(dal_step *s, reflection *k, const num *push, dal_mas
 }
 
 #if DAL_WITH(HOLONOMIC)
-/* Moves q by h B^1 nu, and gives the images of B^0 nu and of the change of q over h. */
+/* Moves q by h B^1 nu, and gives the images of B^0 nu and of the change of q over h; the next nu by
+ * the derivative 2 h G B^ of g at the start. */
 DAL_INLINE void reflect_position(dal_step *s, reflection *k, dal_equation *eq)
 {
-    const int n = DAL_N(s), holonomic = DAL_HOLONOMIC(s);
-    num *const push = eq->block[0].image + n, *const nu = k->nu + DAL_M(s) - holonomic;
-    const num *v1 = eq->block[1].u;
+    const int n = DAL_N(s), holonomic = DAL_HOLONOMIC(s), first = DAL_M(s) - holonomic;
+    num *const push = eq->block[0].image + n, *const nu = k->nu + first;
+    const num *v1 = eq->block[1].u, *l = k->place + n;
     DAL_EACH(i, n) k->q1[i] = k->y0[i] + s->h * v1[n + i];
-    dal_eval(s, DAL_EVAL_REACTION, s->t, k->q1, v1, k->nu, k->change);
-    dal_add_multiple(s, 0, n, s->h, k->change);
-    dal_eval(s, DAL_EVAL_HOLONOMIC, s->t, s->y, v1, NULL, k->g);
-    dal_multiply(k->inverse, holonomic, holonomic, k->g, k->change);
-    DAL_EACH(j, holonomic) nu[j] = DAL_IF_ACTIVE(eq->active, nu[j] - k->change[j], nu[j]);
+    dal_eval(s, DAL_EVAL_REACTION, s->t, k->q1, v1, k->nu, k->place);
+    dal_add_multiple(s, 0, n, s->h, k->place);
+    dal_eval(s, DAL_EVAL_HOLONOMIC, s->t, s->y, v1, NULL, k->g + first);
+    dal_eval(s, DAL_EVAL_POSITION, k->t0, k->y0, k->y0 + n, k->g, k->place);
+    DAL_EACH(j, holonomic) nu[j] = DAL_IF_ACTIVE(eq->active, nu[j] - l[j] / (2.0 * s->h), nu[j]);
     dal_eval(s, DAL_EVAL_REACTION, k->t0, k->y0, k->y0 + n, k->nu, push);
     DAL_EACH(i, n) push[i] = dal_select(k->failed, dal_num(NAN), push[i]);
     DAL_EACH(i, n) eq->block[1].image[n + i] = (s->y[i] - k->y0[i]) / s->h;
-}
-
-/* The inverse of 2 h G B^ at the start. */
-DAL_INLINE void invert_positions(dal_step *s, reflection *k)
-{
-    const int n = DAL_N(s), m = DAL_M(s), holonomic = DAL_HOLONOMIC(s), first = m - holonomic;
-    DAL_VECTOR(s, out, DAL_M(s) + 2 * DAL_M(s) * DAL_N(s));
-    DAL_VECTOR(s, gram, DAL_M(s) * DAL_M(s));
-    DAL_VECTOR(s, own, DAL_HOLONOMIC(s) * DAL_HOLONOMIC(s));
-    dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, s->y + n, NULL, out);
-    dal_gram(out + m, out + m + m * n, m, n, gram);
-    DAL_EACH(i, holonomic)
-        DAL_EACH(j, holonomic)
-            own[i * holonomic + j] = 2.0 * s->h * gram[(first + i) * m + first + j];
-    dal_invert(own, k->inverse, holonomic);
 }
 #endif
 
@@ -116,16 +102,13 @@ DAL_INLINE void begin_reflection(dal_step *s, reflection *k, dal_equation *eq)
     DAL_EACH(i, DAL_DIM(s)) k->y0[i] = s->y[i];
     DAL_EACH(i, DAL_DIM(s)) k->r0[i] = s->r[i];
     dal_save_method_state(s, k->method_state0);
-    DAL_EACH(a, DAL_M(s) + 1) k->mu[a] = k->nu[a] = dal_num(0.0);
+    DAL_EACH(a, DAL_M(s) + 1) k->mu[a] = k->nu[a] = k->g[a] = dal_num(0.0);
     for (int b = 0; b < 2; b++) {
         dal_set_speeds(s, &eq->block[b], n);
         eq->block[b].progress->scale = dal_velocity_scale(s, s->h, 0);
     }
     DAL_EACH(i, eq->block[0].size) eq->block[0].u[i] = dal_num(0.0);
     DAL_EACH(i, eq->block[1].size) eq->block[1].u[i] = s->y[n + i % n];
-#if DAL_WITH(HOLONOMIC)
-    if (DAL_HOLONOMIC(s) > 0) invert_positions(s, k);
-#endif
 }
 
 DAL_INLINE dal_status reflect(dal_step *s)
@@ -137,14 +120,13 @@ DAL_INLINE dal_status reflect(dal_step *s)
     DAL_VECTOR(s, in, DAL_N(s) + DAL_M(s) + 1);
     DAL_VECTOR(s, out, DAL_N(s) + DAL_M(s));
     DAL_VECTOR(s, nu, DAL_M(s) + 1);
-    DAL_VECTOR(s, inverse, DAL_HOLONOMIC(s) * DAL_HOLONOMIC(s));
     DAL_VECTOR(s, q1, DAL_N(s));
-    DAL_VECTOR(s, g, DAL_HOLONOMIC(s));
-    DAL_VECTOR(s, change, DAL_N(s));
+    DAL_VECTOR(s, g, DAL_M(s) + 1);
+    DAL_VECTOR(s, place, DAL_N(s) + DAL_HOLONOMIC(s));
     DAL_BLOCK(s, push, DAL_HOLONOMIC(s) > 0 ? 2 * DAL_N(s) : DAL_N(s), 0);
     DAL_BLOCK(s, v1, DAL_HOLONOMIC(s) > 0 ? 2 * DAL_N(s) : DAL_N(s), 0);
-    reflection k = {s->t,    y0, r0, method_state0, mu,         in,           out, nu,
-                    inverse, q1, g,  change,        ~dal_all(), DAL_STATUS_OK};
+    reflection k = {s->t, y0, r0, method_state0, mu,         in,           out,
+                    nu,   q1, g,  place,         ~dal_all(), DAL_STATUS_OK};
     DAL_EQUATION(s, eq, 2, &k, push, v1);
     begin_reflection(s, &k, &eq);
     const dal_status status = dal_solve(s, &eq, reflection_map, NULL);

@@ -185,6 +185,14 @@ static void scale_holonomic(const dal_scaled *s, double *out)
     multiply(out, 1.0 / s->time, 1, NULL, s->system.holonomic, unit);
 }
 
+/* As of enforcement, of g alone. */
+static void scale_position(const dal_scaled *s, double *out)
+{
+    const int first = s->m - s->system.holonomic;
+    out = multiply(out, 1.0, 1, NULL, s->n, s->field);
+    multiply(out, s->time / s->energy, 1, NULL, s->system.holonomic, s->constraint + first);
+}
+
 static void scale_exact(const dal_scaled *s, double *out)
 {
     out = multiply(out, 1.0, 1, NULL, s->n, s->per_length);
@@ -213,6 +221,7 @@ static void keep(const dal_scaled *s, double *out) { (void)s, (void)out; }
     SCALED(reaction, call.reaction, s->enforced + s->n + s->m + 1, s->m + 1, scale_reaction)       \
     SCALED(constraint_value, call.constraint_value, NULL, 0, scale_constraints)                    \
     SCALED(holonomic, call.holonomic, NULL, 0, scale_holonomic)                                    \
+    SCALED(position, call.position, s->enforced + s->n, s->m + 1, scale_position)                  \
     SCALED(constraints, constraints, NULL, 0, scale_constraints)                                   \
     SCALED(energy, energy, NULL, 0, scale_energy)                                                  \
     SCALED(invariant_values, invariant_values, NULL, 0, scale_invariants)                          \

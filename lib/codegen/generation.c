@@ -70,10 +70,11 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_JACOBIAN:
         return kernel & (DAL_KERNEL_SOLVE | DAL_KERNEL_TANGENT);
     case DAL__PROGRAM_CONSTRAINT:
-        return kernel & DAL_KERNEL_CONSTRAINT || dal__checks_rank(g->layout.system) ||
-               (kernel & (DAL_KERNEL_CORRECTION | DAL_KERNEL_REACTION) && dal__has_holonomic(g));
+        return kernel & DAL_KERNEL_CONSTRAINT || dal__checks_rank(g->layout.system);
     case DAL__PROGRAM_HOLONOMIC:
         return g->layout.system->holonomic > 0;
+    case DAL__PROGRAM_POSITION:
+        return dal__has_holonomic(g);
     case DAL__PROGRAM_CORRECTION:
         return kernel & DAL_KERNEL_CORRECTION;
     case DAL__PROGRAM_ENFORCEMENT:

@@ -347,20 +347,22 @@ static dal_status solve_motion(dal_model *model, const dal__node *top, const dal
                : dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, top, bottom, x, h);
 }
 
-/* The same of top = 0 where no such factors are: by the factors of A W^-1 A^T; l [m]. */
-static dal_status solve_by_directions(dal_model *model, const dal__node *bottom, dal__node *x,
-                                      dal__node *l)
+/* The same of top = 0, for the rows of A from `first` on, by the factors of their A W^-1 A^T, which
+ * has a band where constraints couple neighbours; bottom and l are of these rows. */
+static dal_status solve_by_directions(dal_model *model, int first, const dal__node *bottom,
+                                      dal__node *x, dal__node *l)
 {
     const dal__equations *e = &model->equations;
-    const int n = e->n, m = e->m;
-    dal__node *G = dal__model_nodes(model, m * m, dal__number(e->graph, 0.0));
+    const int n = e->n, m = e->m, rows = m - first;
+    dal__node *G = dal__model_nodes(model, rows * rows, dal__number(e->graph, 0.0));
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    for (int k = 0; k < m * m; k++)
+    for (int k = 0; k < rows * rows; k++) {
+        const dal__node *A = e->A + (first + k / rows) * n, *U = e->U + first + k % rows;
         for (int i = 0; i < n; i++)
-            G[k] = dal__node_add(e->graph, G[k],
-                                 dal__node_mul(e->graph, e->A[k / m * n + i], e->U[i * m + k % m]));
-    DAL_TRY(dal__solve_vector(model, m, G, bottom, l));
-    for (int i = 0; i < n; i++) x[i] = dal__dot(e->graph, m, e->U + i * m, l);
+            G[k] = dal__node_add(e->graph, G[k], dal__node_mul(e->graph, A[i], U[i * m]));
+    }
+    DAL_TRY(dal__solve_vector(model, rows, G, bottom, l));
+    for (int i = 0; i < n; i++) x[i] = dal__dot(e->graph, rows, e->U + i * m + first, l);
     return e->graph->status;
 }
 
@@ -372,7 +374,7 @@ dal_status dal__motion_correct(dal_model *model, dal__node *x)
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int a = 0; a < e->m; a++) D[a] = dal__node_neg(e->graph, e->constraint[a]);
     return dal__motion_is_symmetric(e) ? solve_motion(model, top, D, x, NULL)
-                                       : solve_by_directions(model, D, x, D + e->m);
+                                       : solve_by_directions(model, 0, D, x, D + e->m);
 }
 
 /* y = beta a + U l, of restricted motion, where A U = 1, and of vakonomic motion, without a. */
@@ -394,7 +396,7 @@ dal_status dal__motion_enforce(dal_model *model, dal__node *out)
     for (int i = 0; i < n; i++) top[i] = dal__node_mul(e->graph, pi[n + m], e->b[i]);
     for (int a = 0; a < m; a++)
         bottom[a] = dal__node_add(e->graph, dal__dot(e->graph, n, e->A + a * n, pi), pi[n + a]);
-    if (e->vakonomic) return solve_by_directions(model, bottom, out, out + n);
+    if (e->vakonomic) return solve_by_directions(model, 0, bottom, out, out + n);
     if (!e->restricted)
         return dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, top, bottom, out,
                                    out + n);
@@ -421,6 +423,15 @@ dal_status dal__motion_react(dal_model *model, dal__node *y)
                 dal__node_add(e->graph, top[i], dal__node_mul(e->graph, e->B[a * n + i], l[a]));
     }
     return dal__factors_solve(model, e->mass, DAL__SUMS_UNCHANGED, 1, top, y);
+}
+
+dal_status dal__motion_place(dal_model *model, dal__node *out)
+{
+    const dal__equations *e = &model->equations;
+    const int first = e->m - e->holonomic;
+    const dal__node *c = name(model, e->pi + first, e->holonomic);
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    return solve_by_directions(model, first, c, out, out + e->n);
 }
 
 /* What is differentiated: b - W F + A^T h [n] and -c - A F [m], F and h being symbols. */

@@ -47,6 +47,10 @@ dal_status dal__motion_enforce(dal_model *model, dal__node *out);
  * beta.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_react(dal_model *model, dal__node *y);
 
+/* y [n], l [holonomic] of DAL_EVAL_POSITION, where W y = G^T l and G y = c with the rows G = g_q of
+ * A alone; the last of the symbols l of DAL_EVAL_REACTION are c.  Errors: likewise. */
+dal_status dal__motion_place(dal_model *model, dal__node *out);
+
 /* The error of a mass matrix, or of constraints, without a pivot in this row (from 0). */
 dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error);
 dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *error);

@@ -60,7 +60,8 @@ dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
                         code == DAL__PROGRAM_ENFORCEMENT;
     const bool motion = leaves || code == DAL__PROGRAM_JACOBIAN;
     const bool inverts_mass = code == DAL__PROGRAM_CONSTRAINT || code == DAL__PROGRAM_BLOCKS ||
-                              code == DAL__PROGRAM_ENERGY_NORMAL || code == DAL__PROGRAM_REACTION;
+                              code == DAL__PROGRAM_ENERGY_NORMAL || code == DAL__PROGRAM_REACTION ||
+                              code == DAL__PROGRAM_POSITION;
     for (int k = 0; k < e->pivots; k++) {
         const dal__pivot *p = &e->pivot[k];
         const bool divides = (motion && p->divides & DAL__DIVIDES_MOTION) ||

@@ -1,4 +1,5 @@
 /* system.c - the dal_system of a model. */
+#include "core/settings.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
@@ -210,6 +211,20 @@ static dal_status add_motion_equations(dal_model *model, dal_error *error)
     return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
 }
 
+/* What enforces g alone; where W need not have an inverse it is made of the constraint. */
+static dal_status add_position(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    const int count = e->n + e->holonomic;
+    if (DAL__HOLONOMIC_COUNT(e) == 0 || e->restricted) return DAL_STATUS_OK;
+    dal__node *out = dal__model_nodes(model, count, 0);
+    if (!out) return DAL_STATUS_MEMORY;
+    const dal_status status = dal__motion_place(model, out);
+    if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
+    if (status == DAL_STATUS_OK) DAL_TRY(add_to_both(model, DAL__PROGRAM_POSITION, out, count));
+    return status;
+}
+
 /* What enforces D at a velocity; of vakonomic systems nothing where A W^-1 A^T has no inverse. */
 static dal_status add_enforcement(dal_model *model)
 {
@@ -308,6 +323,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
                              model->equations.invariants);
     if (status == DAL_STATUS_OK) status = add_correction(model);
     if (status == DAL_STATUS_OK) status = add_enforcement(model);
+    if (status == DAL_STATUS_OK) status = add_position(model);
     if (status == DAL_STATUS_OK) DAL_TRY(add_effort(model, error));
     if (status == DAL_STATUS_OK) DAL_TRY(add_motion_equations(model, error));
     if (status == DAL_STATUS_OK) status = add_terms(model);

@@ -87,21 +87,31 @@ static void keep_pivots(engine *e)
     s->pivots_known[0] = 1;
 }
 
-/* x with W x = A^T l and A x = -D, by D, A and W^-1 A^T. */
-static void correct_by_constraint(dal_step *s, double t, const num *q, const num *v, num *x)
+/* y = R l with A R l = l of before, for the rows of A from `first` on; D, A, R begin blocks. */
+static void solve_by_blocks(dal_step *s, const num *blocks, int first, num *l, num *y)
 {
-    const int n = DAL_N(s), m = DAL_M(s);
+    const int n = DAL_N(s), m = DAL_M(s), rows = m - first;
+    DAL__MARK(s);
+    DAL_VECTOR(s, R, n * rows);
+    DAL_VECTOR(s, g, DAL_SQUARE_M(s));
+    for (int k = 0; k < n * rows; k++) R[k] = blocks[m + m * n + k / rows * m + first + k % rows];
+    dal_gram(blocks + m + first * n, R, rows, n, g);
+    dal_eliminate_in_units(g, l, rows, DAL_LEVELS(s) ? DAL_LEVELS(s) + first : NULL, rows);
+    dal_multiply(R, n, rows, l, y);
+    DAL__RELEASE(s);
+}
+
+/* What DAL_EVAL_POSITION gives for c; without c, what DAL_EVAL_CORRECTION gives, of all D. */
+static void by_constraint(dal_step *s, double t, const num *q, const num *v, const num *c, num *y)
+{
+    const int first = c ? DAL_M(s) - DAL_HOLONOMIC(s) : 0, rows = DAL_M(s) - first;
     DAL__MARK(s);
     DAL_VECTOR(s, out, DAL_CONSTRAINT_SIZE(s));
-    DAL_VECTOR(s, g, DAL_SQUARE_M(s));
-    DAL_VECTOR(s, inverse, DAL_SQUARE_M(s));
-    DAL_VECTOR(s, shift, DAL_M(s));
+    DAL_VECTOR(s, l, DAL_M(s));
     dal_eval(s, DAL_EVAL_CONSTRAINT, t, q, v, NULL, out);
-    dal_gram(out + m, out + m + m * n, m, n, g);
-    dal_invert_in_units(g, inverse, m, DAL_LEVELS(s), m);
-    dal_multiply(inverse, m, m, out, shift);
-    dal_multiply(out + m + m * n, n, m, shift, x);
-    DAL_EACH(i, n) x[i] = -x[i];
+    for (int i = 0; i < rows; i++) l[i] = c ? c[first + i] : -out[i];
+    solve_by_blocks(s, out, first, l, y);
+    for (int i = 0; c && i < rows; i++) y[DAL_N(s) + i] = l[i];
     DAL__RELEASE(s);
 }
 
@@ -141,15 +151,11 @@ static void enforce_by_blocks(dal_step *s, double t, const num *q, const num *v,
     num *const l = y + n;
     DAL__MARK(s);
     DAL_VECTOR(s, blocks, DAL_BLOCKS_SIZE(s));
-    DAL_VECTOR(s, g, DAL_SQUARE_M(s));
     const num *a = find_blocks(s, t, q, v, pi[n + m], blocks);
-    const num *A = blocks + dal_blocks_A(s), *R = blocks + dal_blocks_B(s);
     DAL_EACH(i, n) y[i] = pi[i] - a[i];
-    dal_multiply(A, m, n, y, l);
+    dal_multiply(blocks + dal_blocks_A(s), m, n, y, l);
     DAL_EACH(i, m) l[i] += pi[n + i];
-    dal_gram(A, R, m, n, g);
-    dal_eliminate_in_units(g, l, m, DAL_LEVELS(s), m);
-    dal_multiply(R, n, m, l, y);
+    solve_by_blocks(s, blocks, 0, l, y);
     DAL_EACH(i, n) y[i] += a[i];
     DAL__RELEASE(s);
 }
@@ -170,7 +176,7 @@ static void eval_missing(dal_step *s, dal_callback_code code, double t, const nu
 {
     switch (code) {
     case DAL_EVAL_CORRECTION:
-        correct_by_constraint(s, t, q, v, out);
+        by_constraint(s, t, q, v, NULL, out);
         break;
     case DAL_EVAL_ENFORCEMENT:
         enforce_by_blocks(s, t, q, v, pi, out);
@@ -180,6 +186,9 @@ static void eval_missing(dal_step *s, dal_callback_code code, double t, const nu
         break;
     case DAL_EVAL_CONSTRAINT_VALUE:
         value_by_constraint(s, t, q, v, out);
+        break;
+    case DAL_EVAL_POSITION:
+        by_constraint(s, t, q, v, pi, out);
         break;
     default: /* the gauge, which is 0 */
         fill(s->owner, code, 0.0, out);
