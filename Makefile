@@ -77,7 +77,7 @@ ifdef MINIMAL
 LEFT_OUT = $(filter-out lib/core/% lib/expr/% lib/model/% lib/run/%,$(wildcard lib/*/*.c)) lib/core/buffer.c lib/core/svd.c \
            lib/expr/emit.c lib/expr/taylor_emit.c lib/model/branches.c lib/model/ranks.c lib/run/batch.c \
            lib/run/ensemble.c lib/run/quad.c
-SMALL    = -fPIE -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables -DDAL_MINIMAL -DDAL_LINKED \
+SMALL    = -fPIE -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables -fno-caller-saves -DDAL_MINIMAL -DDAL_LINKED \
            -Wno-override-init -Wno-missing-prototypes
 else
 EMBEDDED_IN_LIBRARY = systems sources trend_tables

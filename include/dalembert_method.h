@@ -44,7 +44,9 @@ enum {
     DAL_NEEDS_ENERGY = 1 << 7,      /* an energy that is conserved, and its gradient */
     DAL_NEEDS_JACOBIAN = 1 << 8,    /* F_q and F_v, on the lifted space */
     DAL_NEEDS_RUNGE_KUTTA = 1 << 9, /* an explicit method that calls dal_field alone */
-    DAL_NEEDS_SERIES = 1 << 10      /* Taylor coefficients of F, of a model with smooth formulas */
+    DAL_NEEDS_SERIES = 1 << 10,     /* Taylor coefficients of F, of a model with smooth formulas */
+    DAL_NEEDS_CONSTANT_MASS = 1 << 11, /* W depends on parameters alone and has an inverse */
+    DAL_NEEDS_MASS_OF_Q = 1 << 12 /* with holonomic constraints: W does not depend on v, likewise */
 };
 
 struct dal_step;

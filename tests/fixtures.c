@@ -132,6 +132,9 @@ bool fixture_accepts(const dal_method *method, const dal_system *system, dal_spa
     if (needs & DAL_NEEDS_ENERGY && !(system->properties & (DAL_E_EXACT | DAL_E_ON_D)))
         return false;
     if (needs & DAL_NEEDS_SERIES && (!system->series || system->series->refused)) return false;
+    if (needs & DAL_NEEDS_CONSTANT_MASS &&
+        (system->properties & (DAL_MASS_CONSTANT | DAL_MASS_ON_KERNEL)) != DAL_MASS_CONSTANT)
+        return false;
     return !(needs & DAL_NEEDS_ISOKINETIC) || system->properties & DAL_D_ISOKINETIC;
 }
 

@@ -1,17 +1,13 @@
 /* test_holonomic.c - holonomic constraints g(q,t) = 0: their rows of D, starts, projections, and
  * what is refused. */
 #include "fixtures.h"
+#include "holonomic.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const char pendulum[] = "coordinates: [x, y, z]\n"
-                               "parameters: {l: 1.25, g: 2}\n"
-                               "lagrangian: (x'^2 + y'^2 + z'^2)/2 - g*z\n"
-                               "holonomic: [x^2 + y^2 + z^2 - l^2]\n"
-                               "start: {x: 0.75, z: -1, y': 1.5}\n";
 /* The same in angles: x = l sin(a) cos(b), z = -l cos(a). */
 static const char in_angles[] = "coordinates: [a, b]\n"
                                 "parameters: {l: 1.25, g: 2}\n"
@@ -27,23 +23,6 @@ static const char hoop_angle[] = "coordinates: [a]\n"
                                  "parameters: {w: 1.5, g: 1}\n"
                                  "lagrangian: (a'^2 + w^2*sin(a)^2)/2 + g*cos(a)\n"
                                  "start: {a: atan(0.75), a': 0.5}\n";
-/* A skate at r on a unit sphere, its blade along the unit tangent u: no velocity along r x u. */
-static const char skate[] =
-    "coordinates: [x, y, z, a, b, c]\n"
-    "parameters: {J: 0.4, g: 0.7}\n"
-    "lagrangian: (x'^2 + y'^2 + z'^2)/2 + J/2*(a'^2 + b'^2 + c'^2) - g*z\n"
-    "constraints: [x'*(y*c - z*b) + y'*(z*a - x*c) + z'*(x*b - y*a)]\n"
-    "holonomic: [x^2 + y^2 + z^2 - 1, a^2 + b^2 + c^2 - 1, x*a + y*b + z*c]\n"
-    "start: {x: 1, b: 1, y': 0.8, a': -0.8, c': 0.9}\n";
-/* Gyroscopic and velocity-dependent forces, a mass matrix of q, D nonlinear in v, g of t. */
-static const char general[] =
-    "coordinates: [x, y, z, u]\n"
-    "lagrangian: (1 + x^2/4)/2*x'^2 + y'^2/2 + z'^2/2 + u'^2/2 + 0.3*(x*y' - y*x') - z - u^2/2\n"
-    "forces: {u: -0.1*u' + 0.2*cos(t)}\n"
-    "constraints: [u' - 0.5*x' - 0.1*y'^2]\n"
-    "holonomic: [x^2 + y^2 + z^2 - (1 + 0.1*sin(t))^2]\n"
-    "start: {x: 0.6, z: -0.8, x': 0.5, y': 0.4, z': 0.1, solve: [z', u']}\n";
-
 /* The largest observable whose name has a letter and a number. */
 static double largest(dal_run *run, char letter)
 {
@@ -109,7 +88,7 @@ static void test_reaction(void)
 
 /* ---- what methods preserve ---- */
 
-static const char *const methods[] = {"rk4",
+static const char *const keeping[] = {"rk4",
                                       "symplectic-euler-10",
                                       "dop853",
                                       "taylor",
@@ -117,21 +96,28 @@ static const char *const methods[] = {"rk4",
                                       "gauss4+symmetric-project",
                                       "implicit-midpoint+symmetric-project+suzuki4",
                                       "implicit-midpoint+suzuki4",
-                                      "rk4+lift"};
-enum { METHODS = sizeof methods / sizeof *methods };
+                                      "rk4+lift",
+                                      "rattle",
+                                      "rattle+suzuki4",
+                                      "gauss-spark2",
+                                      "gauss-spark4",
+                                      "gauss-spark6"};
+enum { METHODS = sizeof keeping / sizeof *keeping };
 
 /* |g|, |D| of all rows: some roundings of terms of size 1, of the hoop of size w t. */
 static void test_levels(void)
 {
-    static const char *const systems[] = {pendulum, hoop, skate, general};
+    static const char *const systems[] = {pendulum, hoop, skate, general, steady};
     enum { SYSTEMS = sizeof systems / sizeof *systems };
     for (int k = 0; k < METHODS * SYSTEMS; k += case_stride(5)) {
-        const char *const method = methods[k % METHODS], *const system = systems[k / METHODS];
+        const char *const method = keeping[k % METHODS], *const system = systems[k / METHODS];
         const bool is_lift = strstr(method, "+lift") != NULL;
+        const bool enforces = strstr(method, "rattle") || strstr(method, "spark");
         const double rounding = system == hoop ? 40.0 * 1.5 * 2e-16 : 2e-15;
         if (is_lift && system == general) continue; /* it needs K that does not depend on v */
-        dal_run *run = run_to(system, method, k % 2 || is_lift ? DAL_LIFTED : DAL_PHYSICAL, 0.02,
-                              long_run(2000));
+        if (strstr(method, "rattle") && system == general) continue; /* W must be constant */
+        const dal_space space = !enforces && (k % 2 || is_lift) ? DAL_LIFTED : DAL_PHYSICAL;
+        dal_run *run = run_to(system, method, space, 0.02, long_run(2000));
         const double g = largest(run, 'C'), D = largest(run, 'D');
         if (!(g <= rounding && D <= rounding)) printf("\n  %s: %.2g, %.2g\n", method, g, D);
         CU_ASSERT(g <= rounding);
@@ -191,6 +177,10 @@ static void test_bits(void)
     fixture_lanes(
         fixture_spec(fixture_system(skate), "gauss4+symmetric-project", DAL_PHYSICAL, 0.05), 5, 20,
         "c'", 0.5, 0.1);
+    fixture_lanes(fixture_spec(fixture_system(skate), "rattle+suzuki4", DAL_PHYSICAL, 0.05), 5, 20,
+                  "c'", 0.5, 0.1);
+    fixture_lanes(fixture_spec(fixture_system(skate), "gauss-spark6", DAL_PHYSICAL, 0.05), 5, 20,
+                  "c'", 0.5, 0.1);
 }
 
 /* ---- order and symmetry ---- */
@@ -204,16 +194,21 @@ static void test_order(void)
                  {"gauss4+symmetric-project", 4.0},
                  {"implicit-midpoint+symmetric-project", 2.0},
                  {"implicit-midpoint+symmetric-project+suzuki4", 4.0},
-                 {"rk4", 4.0}};
+                 {"rk4", 4.0},
+                 {"rattle", 2.0},
+                 {"rattle+suzuki4", 4.0},
+                 {"gauss-spark2", 2.0},
+                 {"gauss-spark4", 4.0}};
     enum { CASES = sizeof cases / sizeof *cases };
-    static const char *const systems[] = {skate, general};
-    for (int k = 0; k < 2 * CASES; k += case_stride(3)) {
-        const dal_run_spec spec =
-            fixture_spec(fixture_system(systems[k % 2]), cases[k / 2].method, DAL_PHYSICAL, 0.1);
+    static const char *const systems[] = {skate, general, steady};
+    for (int k = 0; k < 3 * CASES; k += case_stride(3)) {
+        const char *const method = cases[k / 3].method, *const system = systems[k % 3];
+        if (strstr(method, "rattle") && system == general) continue;
+        const dal_run_spec spec = fixture_spec(fixture_system(system), method, DAL_PHYSICAL, 0.1);
         const double order = fixture_order(spec, 1.0, 20, 40, 0.0);
-        if (!(fabs(order - cases[k / 2].order) < 0.15))
-            printf("\n  %s: order %.2f\n", cases[k / 2].method, order);
-        CU_ASSERT(fabs(order - cases[k / 2].order) < 0.15);
+        if (!(fabs(order - cases[k / 3].order) < 0.15))
+            printf("\n  %s: order %.2f\n", method, order);
+        CU_ASSERT(fabs(order - cases[k / 3].order) < 0.15);
     }
 }
 
@@ -241,6 +236,15 @@ static void test_symmetry(void)
     CU_ASSERT(reversal_defect(skate, "gauss4+symmetric-project") < 4e-15);
     CU_ASSERT(reversal_defect(general, "gauss4+symmetric-project") < 4e-15);
     CU_ASSERT(reversal_defect(skate, "gauss4+project") > 1e-11); /* the projection costs it */
+    CU_ASSERT(reversal_defect(skate, "rattle") < 4e-15);
+    CU_ASSERT(reversal_defect(steady, "rattle") < 4e-15);
+    for (int order = 2; order <= 6; order += 2) {
+        char method[16];
+        snprintf(method, sizeof method, "gauss-spark%d", order);
+        CU_ASSERT(reversal_defect(skate, method) < 4e-15);
+        CU_ASSERT(reversal_defect(general, method) < 4e-15);
+        CU_ASSERT(reversal_defect(steady, method) < 4e-15);
+    }
 }
 
 /* ---- starts ---- */
@@ -323,6 +327,20 @@ static void test_event(void)
 }
 
 /* ---- what is refused ---- */
+
+/* rattle wants a constant W, gauss-spark one that does not depend on v. */
+static void test_masses_refused(void)
+{
+    static const char of_v[] = "coordinates: [x, y]\n"
+                               "lagrangian: (x'^2 + y'^2)/2 + x'^4/12\n"
+                               "holonomic: [x^2 + y^2 - 1]\n"
+                               "start: {x: 1, y': 1}\n";
+    dal_run_spec spec = fixture_spec(fixture_system(general), "rattle", DAL_PHYSICAL, 0.1);
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, "the mass matrix is not constant");
+    spec = fixture_spec(fixture_system(of_v), "gauss-spark4", DAL_PHYSICAL, 0.1);
+    fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, "the mass matrix depends on velocities beside");
+    dal_run_free(run_to(of_v, "gauss4", DAL_PHYSICAL, 0.1, 10));
+}
 
 static void test_methods_refused(void)
 {
@@ -473,6 +491,7 @@ void suite_holonomic(void)
     CU_add_test(suite, "rows of g beside rows of D", test_rows_of_g);
     CU_add_test(suite, "an event sets q", test_event);
     CU_add_test(suite, "methods that are refused", test_methods_refused);
+    CU_add_test(suite, "mass matrices that are refused", test_masses_refused);
     CU_add_test(suite, "methods that are completed", test_completed);
     CU_add_test(suite, "momenta that are refused", test_momenta);
     CU_add_test(suite, "effort constraint", test_effort);

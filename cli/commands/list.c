@@ -173,13 +173,14 @@ static const property qualities[] = {{DAL_EXPLICIT, "explicit", 0, NULL},
                                      {DAL_ADAPTIVE, "adaptive", 0, NULL},
                                      {0, NULL, 0, NULL}};
 static const char PRESERVED[] =
-    "bilinear|quadratic|every|midpoints|energy"; /* words for the rows */
+    "bilinear|quadratic|every|midpoints|energy|holonomic"; /* words for the rows */
 static const property invariants[] = {
     {DAL_PRESERVES_BILINEAR, "bilinear D", DAL_PRESERVES_QUADRATIC | DAL_PRESERVES_D, "bilinear"},
     {DAL_PRESERVES_QUADRATIC, "quadratic D", DAL_PRESERVES_D, "quadratic"},
     {DAL_PRESERVES_D, "every D", 0, "every"},
     {DAL_PRESERVES_D_MIDPOINT, "D at midpoints", 0, "midpoints"},
     {DAL_PRESERVES_ENERGY, "energy", 0, "energy"},
+    {DAL_PRESERVES_HOLONOMIC, "g", 0, "holonomic"},
     {0, NULL, 0, NULL}};
 
 enum { LINE = 160 };

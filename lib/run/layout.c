@@ -67,8 +67,8 @@ static const char *misfit(const dal__layout *k)
         return "the method enforces D on (q,v) and has no lifted form; take the physical space";
     if (needs & DAL_NEEDS_BLOCKS && (!call->blocks || s->multipliers))
         return "the system has no blocks a, B of F = a + B h";
-    if (needs & DAL_NEEDS_POTENTIAL && !(s->properties & DAL_MASS_CONSTANT))
-        return "the system has no constant mass matrix";
+    const char *const mass = dal__mass_fault(s, needs);
+    if (mass) return mass;
     if (needs & DAL_NEEDS_POTENTIAL && !call->potential)
         return "the system has no potential (its accelerations are given, not a Lagrangian)";
     if (needs & DAL_NEEDS_SERIES && !s->series)

@@ -116,6 +116,23 @@ int dal_method_order(const dal_method *method)
     return order;
 }
 
+const char *dal__mass_fault(const dal_system *s, unsigned needs)
+{
+    const bool inverts = !(s->properties & DAL_MASS_ON_KERNEL);
+    if (needs & DAL_NEEDS_CONSTANT_MASS && !(inverts && s->properties & DAL_MASS_CONSTANT))
+        return inverts ? "the mass matrix is not constant; take gauss-spark2"
+                       : "the mass matrix need not have an inverse; take gauss-spark2";
+    if (needs & DAL_NEEDS_POTENTIAL && !(s->properties & DAL_MASS_CONSTANT))
+        return "the system has no constant mass matrix";
+    if (DAL__HOLONOMIC_COUNT(s) == 0 || !(needs & DAL_NEEDS_MASS_OF_Q)) return NULL;
+    if (s->projection)
+        return "the mass matrix depends on velocities beside holonomic constraints; take "
+               "gauss4+project";
+    return inverts ? NULL
+                   : "the mass matrix need not have an inverse beside holonomic constraints; take "
+                     "gauss4+project";
+}
+
 /* The reason why holonomic constraints would drift with a method, projected or not; NULL: none. */
 static const char *holonomic_fault(const dal_method *method)
 {
@@ -140,7 +157,7 @@ dal_status dal_method_complete(dal_method *method, const dal_system *system,
     const char *const fault = holonomic_fault(method);
     if (fault)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
-                         "%s cannot act on %s: %s; take gauss4+project or another method of F",
+                         "%s cannot act on %s: %s; take rattle, gauss-spark4 or gauss4+project",
                          dal_method_name(method, name, sizeof name),
                          system->name ? system->name : "this system", fault);
     while (layers < DAL_LAYERS && method->layer[layers]) layers++;

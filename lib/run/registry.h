@@ -17,4 +17,7 @@ typedef enum dal__variant {
 /* The descriptor of an integrator of the library for a variant; NULL: none. */
 const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, dal__variant variant);
 
+/* The reason why methods with these needs cannot act with the mass matrix of a system; or NULL. */
+const char *dal__mass_fault(const dal_system *system, unsigned needs);
+
 #endif

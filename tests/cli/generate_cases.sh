@@ -90,6 +90,19 @@ same chaplygin-sleigh lobatto-nonholonomic6 physical 2 clang -std=c11 -O1
 same contact-oscillator gauss-spark4 physical 1 g++ -x c++ -std=c++17 -O1
 same damped-oscillator spark2 physical 1 gcc -std=c11 -O1
 
+cat >bead.yaml <<'END'
+coordinates: [x, y, z, u]
+parameters: {w: 1.5}
+lagrangian: (x'^2 + y'^2 + z'^2 + u'^2)/2 - z
+constraints: [u' - 0.5*x' - 0.1*y'^2]
+holonomic: [x^2 + y^2 + z^2 - 1, y*cos(w*t) - x*sin(w*t)]
+start: {x: 0.6, z: -0.8, x': 0.4, y': 0.9, solve: [z', u']}
+END
+same bead.yaml rattle+suzuki4 physical 4 gcc -std=c11 -O1 -march=native
+same bead.yaml gauss-spark2 physical 1 g++ -x c++ -std=c++17 -O2
+same bead.yaml gauss-spark6 physical 2 clang -std=c11 -O1
+same bead.yaml gauss4+symmetric-project physical 1 gcc -std=c11 -O1
+
 # Every function with branches, and a start where each takes both of its branches along the motion.
 cat >branches.yaml <<'END'
 coordinates: [x, y]

@@ -52,11 +52,22 @@ try 0 resume short --time 4
 try 0 run pendulum.yaml $motion --time 4 --samples 8 --output long
 expect "other rows" cmp -s short/trajectory.npy long/trajectory.npy
 
+case_is "holonomic: methods that enforce g by themselves"
+for method in rattle gauss-spark4; do
+    try 0 run pendulum.yaml $motion --integrator $method --time 2 --output $method
+    expect "$method: is projected" [ "$(grep -c 'is added' err)" = 0 ]
+    try 0 resume $method --time 4
+    try 0 run pendulum.yaml $motion --integrator $method --time 4 --samples 8 --output $method-long
+    expect "$method: other rows" cmp -s $method/trajectory.npy $method-long/trajectory.npy
+    try 0 run pendulum.yaml $motion --integrator $method --precision quad --columns C,D --output quad.csv
+    expect "$method: g in quad precision" [ "$(awk -F, 'NR > 1 && ($2 * $2 > 1e-60 || $3 * $3 > 1e-60)' quad.csv | wc -l)" = 0 ]
+done
+
 case_is "holonomic: native and generated, same bits"
-if needs 10 "no compiler" there cc; then
-    for method in gauss4 gauss4+symmetric-project; do
+if needs 18 "no compiler" there cc; then
+    for method in gauss4 gauss4+symmetric-project rattle gauss-spark6; do
         for native in off on; do
-            try 0 run pendulum.yaml $motion --integrator $method --native $native \
+            try 0 run pendulum.yaml $motion --integrator $method --native $native --space physical \
                 --statistics 3 --output "$method-$native"
         done
         for file in trajectory.npy summary.csv; do

@@ -188,7 +188,7 @@ table <<'END'
 2 | list integrators --tag chaotic | says ^dalembert: list integrators: --tag selects systems$
 END
 try 2 list --preserves D
-says "^dalembert: --preserves: 'D' is not one of bilinear\|quadratic\|every\|midpoints\|energy$"
+says "^dalembert: --preserves: 'D' is not one of bilinear\|quadratic\|every\|midpoints\|energy\|holonomic$"
 empty
 
 case_is "every option of a run is listed"
