@@ -48,7 +48,7 @@ typedef struct dal_elimination {
 
 /* Whether DAL_EVAL_ENFORCEMENT solves for the multipliers; with fewer constraints it takes longer
  * than a matrix. */
-#define DAL_MANY_CONSTRAINTS(s) (DAL_M(s) >= DAL__SPARSE)
+#define DAL_MANY_CONSTRAINTS(s) (DAL_M(s) >= (int)DAL__SPARSE)
 /* count where they are few, else 0. */
 #define DAL_OF_FEW(s, count) (DAL_MANY_CONSTRAINTS(s) ? 0 : (count))
 
