@@ -52,6 +52,8 @@ EXACT = -ffp-contract=off -fno-math-errno
 ALL   = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(EXACT) -fPIC -pthread -Iinclude $(PLACE) \
         -I$(BUILD)/generated $(SMALL) $(CPPFLAGS) $(CFLAGS)
 PLACE = -Ilib
+# An option, where the compiler has it.
+KNOWN = $(shell $(CC) -Werror $1 -S -x c /dev/null -o /dev/null 2>/dev/null && echo '$1')
 LIBS  = -lyaml -lm -pthread
 
 VERSION := $(shell awk '/define DAL_VERSION_(MAJOR|MINOR|PATCH) / { printf "%s%s", dot, $$3; dot = "." }' include/dalembert.h)
@@ -77,8 +79,8 @@ ifdef MINIMAL
 LEFT_OUT = $(filter-out lib/core/% lib/expr/% lib/model/% lib/run/%,$(wildcard lib/*/*.c)) lib/core/buffer.c lib/core/svd.c \
            lib/expr/emit.c lib/expr/taylor_emit.c lib/model/branches.c lib/model/ranks.c lib/run/batch.c \
            lib/run/ensemble.c lib/run/quad.c
-SMALL    = -fPIE -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables -fno-caller-saves -DDAL_MINIMAL -DDAL_LINKED \
-           -Wno-override-init -Wno-missing-prototypes
+SMALL   := -fPIE -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables $(call KNOWN,-fno-caller-saves) \
+           -DDAL_MINIMAL -DDAL_LINKED -Wno-override-init -Wno-missing-prototypes
 else
 EMBEDDED_IN_LIBRARY = systems sources trend_tables
 endif
@@ -144,8 +146,7 @@ $(foreach variant,$(VARIANTS),$(eval $(call COMPILE_VARIANT,$(variant))))
 $(BUILD)/%.o: %.c ; $(COMPILE)
 $(LIB_OBJ) $(TEST_OBJ) $(FUZZERS:%=$(BUILD)/tests/%.o): | $(BUILD)/generated/variants.h
 # Where the operations of the interpreter begin decides how fast it is, and moves with the code before it.
-ALIGNED = $(if $(MINIMAL),,$(shell $(CC) -Werror -falign-labels=32 -S -x c /dev/null -o /dev/null 2>/dev/null && \
-            echo -falign-labels=32))
+ALIGNED := $(if $(MINIMAL),,$(call KNOWN,-falign-labels=32))
 $(BUILD)/lib/expr/tape_wide_%.o: ALL += $(ALIGNED)
 $(BUILD)/lib/run/registry.o: $(METHOD_DEF)
 $(LIB_OBJ) $(CLI_OBJ) $(TEST_OBJ): | $(START)
