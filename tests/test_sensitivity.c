@@ -146,7 +146,7 @@ static double compare(const sample *of, double step, long long steps)
     return distance / max;
 }
 
-/* The steps and the time of the comparison, and what may be left: the 1e-10. */
+/* The steps of the comparison, and what rounding and the differences may leave. */
 enum { STEPS = 12 };
 static const double step_size = 0.03125, allowed = 1e-10;
 
