@@ -24,11 +24,12 @@
  * multipliers are members of dal_system, dimension is dal_run_dimension.  Quantities have the units
  * of the system, which are the user's own; angles in formulas are in radians.
  *
- * The library of `make MINIMAL=1` has no quad precision and takes neither holonomic constraints nor
- * a mu_e of q, v or e (DAL_STATUS_UNSUPPORTED).  It lacks the functions of dalembert_batch.h,
- * dalembert_analysis.h and dalembert_codegen.h; of dalembert_model.h it lacks what reads YAML,
- * built-in systems, dal_model_tangent, dal_model_tangent_by, dal_model_growth and dal_model_ranks.
- * To call one of these is an error of the linker.
+ * The library of `make MINIMAL=1` has no quad precision, takes neither holonomic constraints nor a
+ * mu_e of q, v or e (DAL_STATUS_UNSUPPORTED), and solves no section equations for q''
+ * (DAL_STATUS_MODEL).  It lacks the functions of dalembert_batch.h, dalembert_analysis.h and
+ * dalembert_codegen.h; of dalembert_model.h it lacks what reads YAML, built-in systems,
+ * dal_model_tangent, dal_model_tangent_by, dal_model_growth and dal_model_ranks.  To call one of
+ * these is an error of the linker.
  *
  * Nothing here prints, reads the environment or has global state.  Different objects may be used in
  * different threads. */

@@ -67,12 +67,16 @@ static void test_equations(void)
     static const char text[] = "coordinates: [x, y]\nparameters: {c: 1.5}\n"
                                "accelerations: {x: c/2, y: 0}\n"
                                "equations: [2*x'' - c, x'*y'' - y - t]\n";
+    static const char alone[] = "coordinates: [x, y]\nparameters: {c: 1.5}\n"
+                                "equations: [2*x'' - c, x'*y'' - y - t]\nstart: {x': 1}\n";
     const double T = 1.2;
     double t[ROWS], q[2 * ROWS];
     times(t, T);
     for (int k = 0; k < ROWS; k++) q[2 * k] = t[k] * t[k], q[2 * k + 1] = 3.0 * t[k];
     const dal_curve curve = {.rows = ROWS, .t = t, .q = q};
-    const dal_action got = action_of(text, &curve, DAL_ACTION_EQUATIONS);
+    dal_action got = action_of(text, &curve, DAL_ACTION_EQUATIONS);
+    CU_ASSERT_DOUBLE_EQUAL(got.value, 0.5 * 2.5 * 2.5 * T + 8.0 / 3.0 * T * T * T, 1e-11);
+    got = action_of(alone, &curve, DAL_ACTION_EQUATIONS);
     CU_ASSERT_DOUBLE_EQUAL(got.value, 0.5 * 2.5 * 2.5 * T + 8.0 / 3.0 * T * T * T, 1e-11);
     CU_ASSERT_EQUAL(fixture_system(text)->equations, 2);
     dal_evaluator *evaluator = fixture_evaluator(fixture_system(free_particle));

@@ -125,6 +125,33 @@ static void test_accelerations(void)
     reference_free(&b);
 }
 
+/* Equations that are solved for q'': by Cramer's rule where their matrix is not symmetric, and with
+ * a constraint where it is. */
+static void test_equations(void)
+{
+    reference b = reference_of_text("coordinates: [x, y]\n"
+                                    "equations: [2*x'' + (1 + y^2)*y'' + x*cos(t),\n"
+                                    "            x'' - 3*y'' + y*x']\n"
+                                    "forces: {y: x}\n");
+    double F[3], c = 1.0 + q0[1] * q0[1];
+    double s[] = {-q0[0] * cos(t0), q0[0] - q0[1] * v0[0]};
+    double expected[] = {(3.0 * s[0] + c * s[1]) / (6.0 + c), (s[0] - 2.0 * s[1]) / (6.0 + c), 0.0};
+    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_STATUS_OK);
+    CU_ASSERT(reference_distance(2, F, expected) < 1e-14);
+    reference_free(&b);
+    b = reference_of_text("coordinates: [x, y, phi]\nparameters: {m: 2, I: 0.5, k: 0.1}\n"
+                          "equations: [m*x'' + k*x', m*(y'' + 1), I*phi'' + k*phi'*x]\n"
+                          "constraints: [x'*sin(phi) - y'*cos(phi)]\nstart: {x': 1}\n");
+    double sine = sin(q0[2]), cosine = cos(q0[2]), x = -0.05 * v0[0], y = -1.0;
+    double h = cosine * y - sine * x - v0[2] * (v0[0] * cosine + v0[1] * sine);
+    expected[0] = x + sine * h;
+    expected[1] = y - cosine * h;
+    expected[2] = -0.2 * v0[2] * q0[0];
+    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_STATUS_OK);
+    CU_ASSERT(reference_distance(3, F, expected) < 1e-14);
+    reference_free(&b);
+}
+
 /* W^-1 A^T of column a, by elimination of differences. */
 static void expected_normal(const reference_formulas *f, int a, double *out)
 {
@@ -484,6 +511,7 @@ void suite_mechanics(void)
     CU_pSuite suite = CU_add_suite("mechanics", NULL, NULL);
     CU_add_test(suite, "field against differences", test_field);
     CU_add_test(suite, "given accelerations", test_accelerations);
+    CU_add_test(suite, "given equations", test_equations);
     CU_add_test(suite, "D, A, W^-1 A^T", test_constraint);
     CU_add_test(suite, "energy", test_energy);
     CU_add_test(suite, "Jacobian and adjoint", test_derivatives);

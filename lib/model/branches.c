@@ -304,6 +304,7 @@ static dal__node formula_of(const dal_model *model, const dal__entry *entry)
     if (entry->section == DAL_SECTION_LAGRANGIAN) return e->lagrangian;
     if (entry->section == DAL_SECTION_CONSTRAINTS) return e->constraint[number];
     if (entry->section == DAL_SECTION_HOLONOMIC) return e->position[number];
+    if (entry->section == DAL_SECTION_EQUATIONS && e->implicit) return e->equation[number];
     if (entry->section == DAL_SECTION_FORCES || entry->section == DAL_SECTION_ACCELERATIONS)
         for (int i = 0; i < e->n; i++)
             if (strcmp(e->coordinate[i], entry->name) == 0) return e->force[i];

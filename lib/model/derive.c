@@ -5,8 +5,9 @@
  *
  * with B = A by Chetaev's rule, or as given under reactions.  A holonomic constraint g(q,t) = 0 is
  * the row D = g_q v + g_t: D = const is an integral of F, and g = 0 where D = 0.  Given
- * accelerations mean W = 1.  Vakonomic motion follows from L' = L - g.D with the multipliers g as
- * further variables: (nh6), (nh35)
+ * accelerations mean W = 1; given equations S(q, v, t, q'') = Q + B^T h with S = M q'' + s mean
+ * W = M, b = Q - s, or both multiplied by M^T where M is not symmetric.  Vakonomic motion follows
+ * from L' = L - g.D with the multipliers g as further variables: (nh6), (nh35)
  *
  *     ( L'_vv  -A^T ) (dv/dt)   ( L'_q - L'_vq v - L'_vt + Q )
  *     (   A      0  ) (dg/dt) = (       - D_q v - D_t        )  */
@@ -17,6 +18,7 @@
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/elimination.h"
+#include "model/formulas.h"
 #include "model/motion.h"
 
 static dal_status exhausted(const dal_model *model, dal_error *error)
@@ -39,6 +41,72 @@ static void derive_lagrangian(dal__equations *e, dal__node L)
     }
     dal__node twice = dal__dot(graph, e->n, e->flow + 1, e->momentum);
     e->energy = dal__node_sub(graph, twice, L);
+}
+
+/* W = 1, and b as given. */
+static void derive_accelerations(dal__equations *e)
+{
+    for (int i = 0; i < e->n; i++) {
+        e->W[i * e->n + i] = dal__number(e->graph, 1.0);
+        e->b[i] = e->force[i];
+    }
+}
+
+static bool is_symmetric(const dal__node *W, int n)
+{
+    for (int i = 0; i < n * n; i++)
+        if (W[i] != W[i % n * n + i / n]) return false;
+    return true;
+}
+
+/* W^T W, and W^T b in place of b. */
+static dal_status make_symmetric(dal_model *model)
+{
+    dal__equations *e = &model->equations;
+    const int n = e->n;
+    dal__node *columns = dal__model_nodes(model, n * n, 0), *b = dal__model_nodes(model, n, 0);
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    for (int i = 0; i < n; i++) {
+        b[i] = e->b[i];
+        for (int j = 0; j < n; j++) columns[i * n + j] = e->W[j * n + i];
+    }
+    for (int i = 0; i < n; i++) {
+        e->b[i] = dal__dot(e->graph, n, columns + i * n, b);
+        for (int j = 0; j < n; j++)
+            e->W[i * n + j] = dal__dot(e->graph, n, columns + i * n, columns + j * n);
+    }
+    return e->graph->status;
+}
+
+/* W and b of the section equations, where q'' has the places of pi. */
+static dal_status derive_equations(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    const int n = e->n;
+    const int *second = e->symbol + e->pi;
+    dal__node *S = e->equation = dal__model_nodes(model, n, 0);
+    dal__node *zero = dal__model_nodes(model, n, dal__number(e->graph, 0.0));
+    if (model->out_of_memory) return exhausted(model, error);
+    DAL_TRY(dal__parse_motion_equations(model, S, error));
+    for (int i = 0; i < n; i++) {
+        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_EQUATIONS, i);
+        dal__gradient(e->graph, S[i], second, n, e->W + i * n);
+        for (int j = 0; j < n; j++)
+            if (dal__depends(e->graph, e->W[i * n + j], e->pi, e->pi + n))
+                return dal__fail_at(error, DAL_STATUS_UNSUPPORTED, DAL__AT_TEXT(entry),
+                                    "equation %d is not linear in %.80s'', and there is no "
+                                    "lagrangian",
+                                    i + 1, e->coordinate[j]);
+        e->b[i] =
+            dal__node_sub(e->graph, e->force[i], dal__substitute(e->graph, S[i], second, n, zero));
+    }
+    if (is_symmetric(e->W, n)) return DAL_STATUS_OK;
+    if (e->m > 0)
+        return dal__fail_at(error, DAL_STATUS_UNSUPPORTED,
+                            DAL__AT_TEXT(dal__constraint_entry(model, 0)),
+                            "constraints need equations with a symmetric matrix of the second "
+                            "derivatives, as m*x'' + f and m*y'' + g");
+    return make_symmetric(model) == DAL_STATUS_OK ? DAL_STATUS_OK : exhausted(model, error);
 }
 
 static dal_status derive_constraints(dal_model *model, dal_error *error)
@@ -185,10 +253,8 @@ dal_status dal__equations_derive(dal_model *model, dal_error *error)
         DAL_TRY(solve_vakonomic(model, error));
     } else {
         if (!e->accelerations) derive_lagrangian(e, e->lagrangian);
-        for (int i = 0; i < e->n && e->accelerations; i++) {
-            e->W[i * e->n + i] = dal__number(e->graph, 1.0);
-            e->b[i] = e->force[i];
-        }
+        if (e->accelerations && !e->implicit) derive_accelerations(e);
+        if (DAL__SOLVES_EQUATIONS && e->implicit) DAL_TRY(derive_equations(model, error));
         if (expand_angles(model) != DAL_STATUS_OK) return exhausted(model, error);
         DAL_TRY(dal__motion_derive(model, error));
     }

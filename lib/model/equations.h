@@ -24,7 +24,9 @@ typedef struct dal__equations {
     int observed; /* of the invariants, the last: formulas that come after all equations */
     int parameters, n, m, multipliers, invariants, lets, functions, guards, pivots;
     int holonomic; /* of the m constraints, the last */
-    bool vakonomic, accelerations, servo, pictured;
+    bool vakonomic, servo, pictured;
+    bool accelerations; /* there is no lagrangian */
+    bool implicit;      /* nor accelerations: these follow from the section equations */
     bool mass_positive; /* W is positive definite at the default start */
     unsigned properties;
     /* First symbols of the inputs.  Twice the numbers of q, v and pi: the tangent system has 2n,
@@ -39,6 +41,7 @@ typedef struct dal__equations {
     struct dal__function *function; /* [functions] */
     dal__node lagrangian;
     dal__node *force;      /* [n]: Q, or the accelerations */
+    dal__node *equation;   /* [n] implicit: S, where q'' has the places of pi */
     dal__node *constraint; /* [m]: D */
     dal__node *position;   /* [holonomic]: g, of which the last D are the time derivatives */
     dal__node *start;      /* [2n + multipliers + 1] */

@@ -405,6 +405,8 @@ static dal_status check_equations(dal_model *model, dal_error *error)
     dal__equations *e = &model->equations;
     const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
     const dal__entry *F = dal__model_entry(model, DAL_SECTION_ACCELERATIONS, 0);
+    const dal__entry *S = dal__model_entry(model, DAL_SECTION_EQUATIONS, 0);
+    const int equations = dal__model_count(model, DAL_SECTION_EQUATIONS);
     const dal__entry *excess = dal__constraint_entry(model, e->n);
     const dal__entry *holonomic = dal__model_entry(model, DAL_SECTION_HOLONOMIC, 0);
     if (e->n == 0) return dal__fail(error, DAL_STATUS_MODEL, "the system has no coordinates");
@@ -414,18 +416,23 @@ static dal_status check_equations(dal_model *model, dal_error *error)
     if (excess)
         return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(excess),
                             "%d constraints on %d coordinates", e->m, e->n);
-    if (!L && !F)
+    if (!L && !F && !(S && DAL__SOLVES_EQUATIONS))
         return dal__fail(error, DAL_STATUS_MODEL,
                          "the system has neither a lagrangian nor accelerations%s",
-                         dal__model_count(model, DAL_SECTION_EQUATIONS) > 0
-                             ? ", which a motion needs: equations S^i = 0 are not solved for q''"
-                             : "");
+                         DAL__SOLVES_EQUATIONS ? " nor equations" : "");
+    if (!L && !F && equations != e->n)
+        return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(S),
+                            "equations has %d of %d formulas, and there is no lagrangian",
+                            equations, e->n);
     if (L && F)
         return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(F),
                             "the system has both a lagrangian and accelerations");
     if (F && e->vakonomic)
         return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(F),
                             "vakonomic mechanics needs a lagrangian, not accelerations");
+    if (!L && e->vakonomic)
+        return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(S),
+                            "vakonomic mechanics needs a lagrangian, not equations");
     if (e->holonomic != DAL__HOLONOMIC_COUNT(e))
         return dal__fail_at(error, DAL_STATUS_UNSUPPORTED, DAL__AT_TEXT(holonomic),
                             "a small library takes no holonomic constraints");
@@ -433,7 +440,8 @@ static dal_status check_equations(dal_model *model, dal_error *error)
         return dal__fail_at(error, DAL_STATUS_UNSUPPORTED, DAL__AT_TEXT(holonomic),
                             "vakonomic mechanics takes no holonomic constraints: write the time "
                             "derivative of each under constraints");
-    e->accelerations = F != NULL;
+    e->accelerations = !L;
+    e->implicit = !L && !F;
     return DAL_STATUS_OK;
 }
 
