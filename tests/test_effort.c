@@ -124,6 +124,22 @@ static void test_restricted(void)
     dal_model_free(model);
 }
 
+/* Equations S = M q'' + s: K of mass is M^-1 M^-T, with which the action is that of (nh8). */
+static void test_equations(void)
+{
+    static const char text[] =
+        "coordinates: [x, y]\n"
+        "equations: [2*x'' + (1 + y^2)*y'' + x, x'' - 3*y'' + y*x']\nstart: {x: 1}\n";
+    const double q[] = {0.3, 0.2}, v[] = {0.1, 0.4}, pi[] = {0.5, -0.8};
+    const double c = 1.0 + q[1] * q[1], determinant = -6.0 - c;
+    const double w[] = {(-3.0 * pi[0] - pi[1]) / determinant,
+                        (-c * pi[0] + 2.0 * pi[1]) / determinant};
+    double out[6];
+    evaluate(text, DAL_EFFORT_MASS, q, v, pi, out);
+    CU_ASSERT_DOUBLE_EQUAL(out[0], (-3.0 * w[0] - c * w[1]) / determinant, 1e-15);
+    CU_ASSERT_DOUBLE_EQUAL(out[1], (-w[0] + 2.0 * w[1]) / determinant, 1e-15);
+}
+
 /* ---- runs ---- */
 
 static dal_run *perturbed(const dal_system *system, const char *method, double step)
@@ -542,6 +558,7 @@ void suite_effort(void)
     CU_ADD_TEST(suite, test_closed_forms);
     CU_ADD_TEST(suite, test_reactions);
     CU_ADD_TEST(suite, test_restricted);
+    CU_add_test(suite, "K of equations", test_equations);
     CU_ADD_TEST(suite, test_constraints_kept);
     CU_ADD_TEST(suite, test_rest_to_rest);
     CU_ADD_TEST(suite, test_hamiltonian);
