@@ -486,6 +486,9 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, dal
     if (DAL_LIFTED(s)) {
         dal__gauge_stages(s, &k);
         DAL_EACH(i, DAL_STAGES(method) * (1 + DAL_EFFORT(s)) * DAL_N(s)) force[i] = dal_num(0.0);
+#if DAL_WITH(GAUGE_GRADIENT)
+        DAL_EACH(i, DAL_GAUGE(s) * DAL_STAGES(method)) k.mu[i] = k.rate[i] = dal_num(0.0);
+#endif
         eq.block[1].progress->scale = dal_momentum_scale(s, s->h, 0);
     }
     if (dal_failed(guess == DAL__FROM_PREDICTOR ? dal__solve_predicted(s, &k, &eq)
