@@ -82,7 +82,7 @@ expect "methods" json out "
     [(i['order'], i['is_modifier'], i['properties'], i['preserves'])
      for i in d['integrators'] if i['integrator'] in ('gauss4', 'project')]
         == [(4, False, ['symmetric', 'symplectic lift'], ['quadratic']),
-            (None, True, [], ['every'])]"
+            (None, True, [], ['every', 'holonomic'])]"
 mv out all.json
 try 0 list --markdown
 expect "other names than in the tables" json all.json "

@@ -191,7 +191,7 @@ if needs 15 "no terminal (script, stty)" terminal; then
     prints '^\.\.\. and [0-9] more columns \(--details\)$'
     shown 80 order chaplygin-sleigh
     fits 80
-    prints '^\.\.\. and 21 more methods \(--details\)$'
+    prints '^\.\.\. and 23 more methods \(--details\)$'
     shown 80 order chaplygin-sleigh --integrators rk4 --details
     prints '^integrator +stated  found '
     counted
