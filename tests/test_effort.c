@@ -124,7 +124,7 @@ static void test_restricted(void)
     dal_model_free(model);
 }
 
-/* Equations S = M q'' + s: K of mass is M^-1 M^-T, with which the action is that of (nh8). */
+/* Equations S = M q'' + s: K of mass is M^-1 M^-T, with which the lift has the action (nh8). */
 static void test_equations(void)
 {
     static const char text[] =
