@@ -68,10 +68,13 @@ def landing(program, version):
     commands = re.findall(r'^    build/(dalembert run skate\.yaml .*)$', readme, re.M)
     output = ''
     if program:
+        methods = [member for family in families(program) for member in family if not member['is_modifier']]
+        text = text.replace('{integrators}', str(len(methods)))
         with open(os.path.join(program.place.name, 'skate.yaml'), 'w', encoding='utf-8') as file:
             file.write(skate.group(1))
         output = '\n\n'.join(f'```text\n$ {line}\n{program.screen(*line.split()[1:])}\n```' for line in commands)
     else: # what the program makes is not there
+        text = text.replace('one of\n{integrators} integrators', 'an integrator')
         text = re.sub(r'^- \[[^]]*\]\((gallery|families)\.md\).*\n', '', text, flags=re.M)
     return (text.replace('{skate}', skate.group(0)).replace('{output}', output)
             .replace('{commands}', '\n'.join('    ' + line for line in commands)).replace('{version}', version))
