@@ -71,17 +71,24 @@ static void require(dal_status status, const dal_error *error)
     CU_ASSERT_EQUAL_FATAL(status, DAL_STATUS_OK);
 }
 
+dal_model *fixture_model(const char *text)
+{
+    dal_model *model = NULL;
+    dal_error error = {0};
+    require(strchr(text, '\n') ? dal_model_read(&model, "fixture", text, strlen(text), &error)
+                               : dal_model_builtin(&model, text, &error),
+            &error);
+    return model;
+}
+
 static dal_model *model_of(const char *text)
 {
     for (const fixture *f = fixtures; f; f = f->next)
         if (strcmp(f->text, text) == 0) return f->model;
     const size_t length = strlen(text);
     fixture *made = calloc(1, sizeof *made + length + 1);
-    dal_error error = {0};
     CU_ASSERT_PTR_NOT_NULL_FATAL(made);
-    require(strchr(text, '\n') ? dal_model_read(&made->model, "fixture", text, length, &error)
-                               : dal_model_builtin(&made->model, text, &error),
-            &error);
+    made->model = fixture_model(text);
     memcpy(made->text, text, length);
     made->next = fixtures;
     fixtures = made;

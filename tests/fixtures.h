@@ -15,6 +15,9 @@ extern const char fixture_gentle[];
 /* D with constant coefficients; D bilinear in (q,v); D quadratic in v; all conservative. */
 extern const char fixture_constant[], fixture_bilinear[], fixture_quadratic[];
 
+/* A model from YAML text or (no newline in it) a built-in name, which the caller frees; fails the
+ * test when there is none. */
+dal_model *fixture_model(const char *text);
 /* The system of a model from YAML text or (no newline in it) a built-in name, and the system of its
  * tangent map; fails the test when there is none.  Equal texts have the same. */
 const dal_system *fixture_system(const char *text);

@@ -263,13 +263,10 @@ static void test_wrong_hamiltonians(void)
 
 static dal_status dirac_of(const char *text, dal_effort effort, dal_dirac **d, int *n)
 {
-    dal_model *model = NULL;
+    dal_model *model = fixture_model(text);
     const dal_system *system = NULL;
-    dal_status status = strchr(text, '\n')
-                            ? dal_model_read(&model, "test", text, strlen(text), NULL)
-                            : dal_model_builtin(&model, text, NULL);
+    dal_status status = dal_model_set_effort(model, effort, NULL);
     *d = NULL;
-    if (status == DAL_STATUS_OK) status = dal_model_set_effort(model, effort, NULL);
     if (status == DAL_STATUS_OK) status = dal_model_system(model, &system, NULL);
     if (status == DAL_STATUS_OK) {
         const dal_run_spec spec = {.system = system, .options = dal_options_default()};

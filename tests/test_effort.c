@@ -17,20 +17,10 @@ static const char sleigh[] =
     SLEIGH "controls: [{x: cos(phi), y: sin(phi)}, {phi: 5, x: sin(phi), y: -cos(phi)}]\n"
            "start: {x': 0.5, phi': 0.3}\n";
 
-static dal_model *model_of(const char *text)
-{
-    dal_model *model = NULL;
-    const dal_status status = strchr(text, '\n')
-                                  ? dal_model_read(&model, "test", text, strlen(text), NULL)
-                                  : dal_model_builtin(&model, text, NULL);
-    CU_ASSERT_EQUAL_FATAL(status, DAL_STATUS_OK);
-    return model;
-}
-
 static const dal_system *system_of(dal_model **model, const char *text, dal_effort effort)
 {
     const dal_system *system = NULL;
-    *model = model_of(text);
+    *model = fixture_model(text);
     CU_ASSERT_EQUAL(dal_model_set_effort(*model, effort, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(dal_model_system(*model, &system, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(system->effort, effort);
@@ -117,7 +107,7 @@ static void test_restricted(void)
     double out[6];
     evaluate(text, DAL_EFFORT_CONSTRAINT, q, v, pi, out);
     for (int i = 0; i < 2; i++) CU_ASSERT_DOUBLE_EQUAL(out[i], u[i] * along, 1e-14);
-    dal_model *model = model_of(text);
+    dal_model *model = fixture_model(text);
     CU_ASSERT_EQUAL(dal_model_set_effort(model, DAL_EFFORT_MASS, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_STATUS_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "effort mass: the mass matrix is singular"));
@@ -307,7 +297,7 @@ static void test_forms(void)
 
 static void refused(const char *text, dal_effort effort, dal_status status, const char *fragment)
 {
-    dal_model *model = model_of(text);
+    dal_model *model = fixture_model(text);
     const dal_system *system;
     dal_error error = {0};
     CU_ASSERT_EQUAL(dal_model_set_effort(model, effort, NULL), DAL_STATUS_OK);
@@ -322,10 +312,10 @@ static void test_refused(void)
     dal_error error = {0};
     const dal_system *system = system_of(&model, sleigh, DAL_EFFORT_MASS);
     CU_ASSERT_EQUAL(dal_model_set_effort(model, DAL_EFFORT_IDENTITY, &error), DAL_STATUS_ARGUMENT);
-    CU_ASSERT_STRING_EQUAL(error.message, "'test' already has its system: its effort is mass");
+    CU_ASSERT_STRING_EQUAL(error.message, "'fixture' already has its system: its effort is mass");
     CU_ASSERT_PTR_NOT_NULL(system);
     dal_model_free(model);
-    model = model_of(sleigh);
+    model = fixture_model(sleigh);
     CU_ASSERT_EQUAL(dal_model_set_effort(model, DAL_EFFORT_COUNT, &error), DAL_STATUS_ARGUMENT);
     dal_model_free(model);
     refused(SLEIGH, DAL_EFFORT_CONTROLS, DAL_STATUS_MODEL, "effort controls: the system has none");
@@ -357,7 +347,7 @@ static void test_gauge(void)
         double states[3][14];
         for (int i = 0; i < 3; i++) {
             const dal_system *system;
-            dal_model *model = model_of(i < 2 ? in_file : sleigh);
+            dal_model *model = fixture_model(i < 2 ? in_file : sleigh);
             if (i != 1)
                 CU_ASSERT_EQUAL(dal_model_set_gauge(model, i == 0 ? "mu_e = -0.01" : gauge, NULL),
                                 DAL_STATUS_OK);
@@ -394,7 +384,7 @@ static void test_gauge_refused(void)
                {"e = -1", DAL_STATUS_MODEL, 5, "gauge e: -1 is not above 0"},
                {"e = exp(I*1000)", DAL_STATUS_MODEL, 5, "gauge e: "}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        dal_model *model = model_of(sleigh);
+        dal_model *model = fixture_model(sleigh);
         const dal_system *system;
         dal_error error = {0};
         dal_status status = dal_model_set_gauge(model, bad[i].text, &error);
@@ -423,7 +413,7 @@ static void test_gauge_of_state(void)
                                "parameters: {c: 0.7, d: 0.3}\n";
     const char *const methods[] = {"rk4", "dop853"};
     for (int k = 0; k < 2; k++) {
-        dal_model *model = model_of(text);
+        dal_model *model = fixture_model(text);
         const dal_system *system;
         CU_ASSERT_EQUAL(dal_model_set_gauge(model, "mu_e = c*e + d*x'", NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
@@ -456,7 +446,7 @@ static void test_gauge_of_all(void)
     dal_model *models[2];
     const dal_system *systems[2];
     for (int i = 0; i < 2; i++) {
-        models[i] = model_of(sleigh);
+        models[i] = fixture_model(sleigh);
         dal_model_set_effort(models[i], DAL_EFFORT_CONSTRAINT, NULL);
         if (i == 1) CU_ASSERT_EQUAL(dal_model_set_gauge(models[i], gauge, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL_FATAL(dal_model_system(models[i], &systems[i], NULL), DAL_STATUS_OK);
@@ -524,7 +514,7 @@ static void test_restored(void)
         dal_run *runs[LIFTS];
         for (int i = 0; i < LIFTS; i++) {
             const dal_system *system;
-            models[i] = model_of(sleigh);
+            models[i] = fixture_model(sleigh);
             dal_model_set_effort(models[i], lifts[i].effort, NULL);
             if (lifts[i].gauge) dal_model_set_gauge(models[i], lifts[i].gauge, NULL);
             CU_ASSERT_EQUAL_FATAL(dal_model_system(models[i], &system, NULL), DAL_STATUS_OK);

@@ -49,13 +49,10 @@ static void test_nearly_dependent(void)
 /* A model with its system, from YAML text or a built-in name. */
 static dal_model *open_model(const char *text, dal_run_spec *spec)
 {
-    dal_model *model = NULL;
+    dal_model *model = fixture_model(text);
     dal_error error = {0};
     *spec = (dal_run_spec){.options = dal_options_default()};
-    dal_status status = strchr(text, '\n')
-                            ? dal_model_read(&model, "test", text, strlen(text), &error)
-                            : dal_model_builtin(&model, text, &error);
-    if (status == DAL_STATUS_OK) status = dal_model_system(model, &spec->system, &error);
+    const dal_status status = dal_model_system(model, &spec->system, &error);
     if (status != DAL_STATUS_OK) printf("\n  %s\n", error.message);
     CU_ASSERT_EQUAL_FATAL(status, DAL_STATUS_OK);
     return model;

@@ -80,23 +80,13 @@ static void differentiate(const displaced *d, int dimension, double *out)
     for (int i = 0; i < dimension; i++) out[i] = (double)(sum[i] / increment);
 }
 
-static dal_model *model_of(const char *text)
-{
-    dal_model *model = NULL;
-    const dal_status status = strchr(text, '\n')
-                                  ? dal_model_read(&model, "test", text, strlen(text), NULL)
-                                  : dal_model_builtin(&model, text, NULL);
-    CU_ASSERT_EQUAL_FATAL(status, DAL_STATUS_OK);
-    return model;
-}
-
 /* Makes the model, the spec and the start of a sample. */
 static void open_sample(displaced *d, const sample *of, dal_space space, double step)
 {
     const dal_system *system;
     dal_error record = {0};
     *d = (displaced){.of = of};
-    d->model = model_of(of->system);
+    d->model = fixture_model(of->system);
     CU_ASSERT_EQUAL_FATAL(dal_model_set_effort(d->model, of->effort, &record), DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(dal_model_system(d->model, &system, &record), DAL_STATUS_OK);
     d->spec = fixture_spec(system, of->method, space, step);
