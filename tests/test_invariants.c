@@ -101,6 +101,21 @@ static void has_size(const dal_invariants *found, int count, int independent)
     CU_ASSERT(isnan(found->least_change) || found->least_change > 1e-7);
 }
 
+/* On g = 0 the square of the length is no invariant, and r.r' = 0 is another relation. */
+static void test_holonomic(void)
+{
+    dal_invariants *found = find("coordinates: [x, y, z]\nparameters: {l: 1.25, g: 2}\n"
+                                 "lagrangian: (x'^2 + y'^2 + z'^2)/2 - g*z\n"
+                                 "holonomic: [x^2 + y^2 + z^2 - l^2]\n"
+                                 "start: {x: 0.75, z: -1, y': 1.5}\n",
+                                 NULL, NULL);
+    has_size(found, 2, 2);
+    has(found, "x*y' - y*x'");
+    has(found, "2*g*z + x'^2 + y'^2 + z'^2");
+    CU_ASSERT_EQUAL(found->products - found->functions, 2);
+    dal_invariants_free(found);
+}
+
 /* f, f^2 and cos f are nearly dependent near the start; g'' = -sin g whatever f does. */
 static void test_nearly_dependent_factors(void)
 {
@@ -386,6 +401,7 @@ void suite_invariants(void)
     CU_add_test(suite, "singular values: Hilbert's matrix", test_hilbert);
     CU_add_test(suite, "singular values: nearly dependent columns", test_nearly_dependent);
     CU_add_test(suite, "published invariants", test_published);
+    CU_add_test(suite, "invariants on g = 0", test_holonomic);
     CU_add_test(suite, "factors that are nearly dependent", test_nearly_dependent_factors);
     CU_add_test(suite, "degree 4", test_degree);
     CU_add_test(suite, "equal frequencies", test_resonance);

@@ -1,10 +1,10 @@
-/* points.c - formulas of a model at random points of D = 0, in quad precision.
+/* points.c - formulas of a model at random points of g = 0 and D = 0, in quad precision.
  *
- * Newton's iteration moves v to D = 0 by the least change in units u of v,
+ * Newton's iteration moves q to g = 0, then v to D = 0 by the least change in units u of v,
  *
  *     v <- v - u B^T (B B^T)^-1 D,    B = A u,    A = D_v
  *
- * where it does not converge, or an output is not finite, another point is drawn. */
+ * and likewise q.  Another point is drawn where it does not converge or an output is not finite. */
 #define DAL_NUM_QUAD
 #include "invariants/points.h"
 #include "core/vectors.h"
@@ -21,7 +21,7 @@ struct dal__points {
     dal__tapes *tapes;
     dal__random random;
     num *work;    /* of the tapes */
-    num *surface; /* [m + m*n] D, A */
+    num *surface; /* [m + m*n + holonomic] D, A, g */
     num *matrix;  /* [m*(m+1)] B B^T and D beside it */
     num *out;     /* [count] */
     int count;
@@ -38,12 +38,13 @@ void dal__points_free(dal__points *points)
 dal_status dal__points_create(dal__points **points, const dal__equations *e,
                               const dal__region *region, const dal__node *output, int count)
 {
-    const size_t m = (size_t)e->m, values = m + m * (size_t)e->n, matrix = m * (m + 1);
+    const size_t m = (size_t)e->m, rows = m + m * (size_t)e->n, matrix = m * (m + 1);
+    const size_t values = rows + (size_t)e->holonomic;
     dal__node *surface = malloc((values + 1) * sizeof *surface);
     dal__points *p = *points = calloc(1, sizeof *p);
     dal_status status = DAL_STATUS_MEMORY;
     for (size_t i = 0; surface && i < values; i++)
-        surface[i] = i < m ? e->constraint[i] : e->A[i - m];
+        surface[i] = i < m ? e->constraint[i] : i < rows ? e->A[i - m] : e->position[i - rows];
     if (surface && p)
         p->tapes = dal__tapes_create(e->graph, e->parameters, e->symbols - e->parameters);
     if (surface && p && p->tapes && dal__tapes_add(p->tapes, surface, (int)values) == TO_SURFACE &&
@@ -105,12 +106,20 @@ static bool solve_gram(num *matrix, int m)
     return true;
 }
 
-/* One iteration: the largest change of a velocity, relative to its unit; NaN where it fails. */
-static double iterate(dal__points *p)
+/* Constraints that one kind of variable is moved to: rows first to first + m of A, their values,
+ * and the first symbol of the variables. */
+typedef struct target {
+    int first, m;
+    const num *value;
+    int symbol;
+} target;
+
+/* One iteration: the largest change of a variable, relative to its unit; NaN where it fails. */
+static double iterate(dal__points *p, const target *to)
 {
-    const int n = p->e->n, m = p->e->m, width = m + 1;
-    const double *u = p->region->reach + p->e->v;
-    const num *D = p->surface, *A = D + m;
+    const int n = p->e->n, m = to->m, width = m + 1;
+    const double *u = p->region->reach + to->symbol;
+    const num *A = p->surface + p->e->m + to->first * n;
     double max = 0.0;
     dal__tape_run_x1_QUAD(p->tapes, TO_SURFACE, (double *)p->work, (double *)p->surface);
     for (int a = 0; a < m; a++) {
@@ -119,29 +128,39 @@ static double iterate(dal__points *p)
             for (int i = 0; i < n; i++) sum += A[a * n + i] * u[i] * u[i] * A[b * n + i];
             p->matrix[a * width + b] = sum;
         }
-        p->matrix[a * width + m] = D[a];
+        p->matrix[a * width + m] = to->value[a];
     }
     if (!solve_gram(p->matrix, m)) return NAN;
     for (int i = 0; i < n; i++) {
         num change = 0.0;
         for (int a = 0; a < m; a++)
             change += A[a * n + i] * p->matrix[a * width + m] / p->matrix[a * width + a];
-        *input(p, p->e->v + i) -= u[i] * u[i] * change;
+        *input(p, to->symbol + i) -= u[i] * u[i] * change;
         const double size = (double)dal_abs(u[i] * change);
         if (!(size <= max)) max = size;
     }
     return max;
 }
 
-dal_status dal__points_next(dal__points *p, double *out)
+/* Whether the variables could be moved to their constraints. */
+static bool move_to(dal__points *p, const target *to)
 {
     const double rounding = 4096.0 * DBL_EPSILON * DAL_QUAD_ULP_RATIO;
+    double change = to->m > 0 ? INFINITY : 0.0;
+    for (int i = 0; i < MAX_ITERATIONS && change > rounding; i++) change = iterate(p, to);
+    return change <= rounding;
+}
+
+dal_status dal__points_next(dal__points *p, double *out)
+{
+    const dal__equations *e = p->e;
+    const target positions = {e->m - e->holonomic, e->holonomic, p->surface + e->m + e->m * e->n,
+                              e->q};
+    const target velocities = {0, e->m, p->surface, e->v};
     for (int k = 0; k < MAX_ATTEMPTS; k++) {
-        double change = p->e->m > 0 ? INFINITY : 0.0;
         for (int i = p->e->parameters; i < p->e->symbols; i++)
             *input(p, i) = p->region->centre[i] + p->region->reach[i] * dal__uniform(&p->random);
-        for (int i = 0; i < MAX_ITERATIONS && change > rounding; i++) change = iterate(p);
-        if (!(change <= rounding)) continue;
+        if (!move_to(p, &positions) || !move_to(p, &velocities)) continue;
         dal__tape_run_x1_QUAD(p->tapes, OUTPUTS, (double *)p->work, (double *)p->out);
         bool is_finite = true;
         for (int i = 0; i < p->count; i++) {
