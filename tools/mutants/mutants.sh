@@ -194,6 +194,9 @@ build build/tests/suite build/dalembert ||
 cp "$tree/build/tests/suite" "$place/suite"
 cp "$tree/build/dalembert" "$place/program"
 "$place/suite" --list >"$place/suites"
+while read -r suite; do
+    grep -qw "$suite" "$here/suites.txt" || { echo "mutants: suites.txt lacks the suite $suite" >&2; exit 2; }
+done <"$place/suites"
 cksum "$place/suite" "$place/program" >"$place/now"
 find "$tree/tests/cli" -type f | sort | xargs cat | cksum >>"$place/now"
 cmp -s "$place/now" "$place/known" || { : >"$place/times"; cp "$place/now" "$place/known"; }
