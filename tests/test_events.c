@@ -311,6 +311,13 @@ static void test_order_in_the_file(void)
     CU_ASSERT(r.event[0] == 0 && r.event[1] == 1 && r.t[0] == r.t[1]);
     CU_ASSERT_DOUBLE_EQUAL(r.after[1][0], 0.6, 1e-15);
     CU_ASSERT_DOUBLE_EQUAL(r.after[1][1], 0.9, 1e-15);
+    /* The same where nobody listens: from (0.6, 0.9) at t = 0.3 with velocity (1, 1). */
+    dal_run *run = run_of(set, "rk4", DAL_PHYSICAL, 0.25);
+    CU_ASSERT_EQUAL(fixture_events(run, 1.0, NULL, NULL, NULL), DAL_STATUS_OK);
+    CU_ASSERT(dal_run_event_count(run, 0) == 1 && dal_run_event_count(run, 1) == 1);
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], 0.3 + dal_run_time(run), 1e-14);
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[1], 0.6 + dal_run_time(run), 1e-14);
+    dal_run_free(run);
     const char *corner = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                          "start: {x': 1, y': 1}\n"
                          "events: [{when: 0.3 - x, direction: down, restitution: 1},"

@@ -68,6 +68,22 @@ static void test_evaluator(void)
     dal_evaluator_free(evaluator);
 }
 
+static void test_evaluator_pi(void)
+{
+    const dal_system *system =
+        fixture_system("coordinates: [x]\nparameters: {turn: 2*pi}\n"
+                       "lagrangian: x'^2/2 - pi*x\nstart: {x': turn}\n");
+    dal_evaluator *evaluator = fixture_evaluator(system);
+    double x[3], force;
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(x[1], 2.0 * acos(-1.0));
+    CU_ASSERT_EQUAL(
+        dal_evaluator_call(evaluator, system->call.field, 0.0, x, x + 1, NULL, &force),
+        DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(force, -acos(-1.0));
+    dal_evaluator_free(evaluator);
+}
+
 static void test_evaluator_names(void)
 {
     const dal_setting set[] = {{"omge", 3.0}}, start[] = {{"phy", 2.0}}, inf = {"m", INFINITY};
@@ -409,6 +425,12 @@ static void test_unmeasured(void)
                     DAL_STATUS_OK);
     CU_ASSERT(isnan(class.force_defect) && !class.reversible);
     dal_evaluator_free(evaluator);
+    dal_system unknown = *fixture_system("knife-edge");
+    unknown.constraints = NULL;
+    evaluator = fixture_evaluator(&unknown);
+    CU_ASSERT_EQUAL(dal_evaluator_classify_constraints(evaluator, &at, &class, NULL),
+                    DAL_STATUS_UNSUPPORTED);
+    dal_evaluator_free(evaluator);
 }
 
 /* ---- far away and near by ---- */
@@ -467,6 +489,7 @@ void suite_measure(void)
 {
     CU_pSuite suite = CU_add_suite("measures of a system", NULL, NULL);
     CU_add_test(suite, "an evaluator", test_evaluator);
+    CU_add_test(suite, "the number pi", test_evaluator_pi);
     CU_add_test(suite, "unknown names", test_evaluator_names);
     CU_add_test(suite, "rate along the motion", test_rate);
     CU_add_test(suite, "wrong derivatives are found", test_derivatives_find_faults);

@@ -77,6 +77,7 @@ tests_of() {
         FILENAME == ARGV[1] { known[$1]; next }
         /^#/ || NF == 0 { next }
         $1 == "quick" { for (i = 2; i <= NF; i++) quick[++quicks] = $i; next }
+        $1 == "broad" { for (i = 2; i <= NF; i++) broad[++broads] = $i; next }
         index(file, $1) == 1 && length($1) >= best { best = length($1); line = $0 }
         END {
             n = split(line, word, " ")
@@ -87,6 +88,7 @@ tests_of() {
                 else if (word[i] in known) add(kind, word[i])
             if (file ~ /^cli[/]/) exit
             for (i = 1; i <= quicks; i++) if (quick[i] in known) add("suite", quick[i])
+            for (i = 1; i <= broads; i++) add("cli", broad[i])
         }' "$place/suites" "$here/suites.txt"
 }
 # cheapest_first FILE: the same by what a noticed fault should cost.  A line of the history is FOLDER, the test,
