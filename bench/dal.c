@@ -10,7 +10,7 @@
  *     SYSTEM   a built-in one, or A, B3, ... (bench/systems), B101, C (examples); C0: the fluid
  *              without pair forces, all that is left of C being the integrator and the thermostat;
  *              RN: N coordinates, N/4 constraints whose Jacobian varies; LN: N coordinates, N/2
- *              constraints (links.inc) */
+ *              constraints (links.inc); rods: 100 rods, 200 coordinates (examples) */
 #define _POSIX_C_SOURCE 200809L
 #include "../examples/contact_chain.h"
 #include "../examples/isokinetic_fluid.h"
@@ -23,6 +23,8 @@
 #include "fields.inc"
 
 #define FLUID_STEP 0.002
+#define RODS       "examples/chain-of-100-links.yaml"
+#define RODS_STEP  0.0005
 #define CACHE      "build/bench/cache"
 
 enum { MAX_COMPILE_SECONDS = 120 };
@@ -126,6 +128,7 @@ static dal_status make_model(dal_model **model, const char *name, dal_error *err
 {
     if (name[0] == 'R') return make_chain(model, atoi(name + 1), error);
     if (name[0] == 'L') return make_links(model, atoi(name + 1), error);
+    if (strcmp(name, "rods") == 0) return dal_model_read_file(model, RODS, error);
     return bench_model(model, name, error);
 }
 
@@ -198,13 +201,19 @@ static int fail(const dal_error *error)
     return 1;
 }
 
+static double step_of(const char *system)
+{
+    if (strcmp(system, "rods") == 0) return RODS_STEP;
+    return system[0] == 'C' ? FLUID_STEP : BENCH_H_STEP;
+}
+
 static int make(contender *j, char **argv, dal_error *error)
 {
     dal_options *o = &j->spec.options;
     j->spec.system = find_system(argv[1], argv[4], error);
     if (!j->spec.system) return 1;
     *o = dal_options_default();
-    o->step = argv[4][0] == 'C' ? FLUID_STEP : BENCH_H_STEP;
+    o->step = step_of(argv[4]);
     j->steps = argv[4][0] == 'C' ? 20 : j->spec.system->n > 3 ? 200 : 1000;
     j->shown = 2 * j->spec.system->n;
     if (dal_options_set(o, "space", argv[3], error)) return 1;

@@ -92,6 +92,11 @@ dal_status dal_evaluator_check_derivatives(dal_evaluator *evaluator, const dal_p
 dal_status dal_evaluator_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank,
                                       double *pivot);
 
+/* Moves q[n] along W^-1 g_q^T until g = 0 of holonomic constraints (Newton, to stagnation), v[n]
+ * being where W is taken. [alloc]  Errors: as of dal_evaluator_project_velocity. */
+dal_status dal_evaluator_project_position(dal_evaluator *evaluator, double t, double *q,
+                                          const double *v);
+
 /* Moves v[n] along W^-1 A^T until D = 0 (Newton, to stagnation). [alloc]  Errors:
  * DAL_STATUS_NOT_CONVERGED, or DAL_STATUS_SINGULAR where G is singular, v being as before; errors
  * of the callbacks. */

@@ -58,16 +58,35 @@ static bool moves_with_time(const reference *b)
     return reference_distance(b->system->m, D[0], D[1]) > 0.0;
 }
 
+/* Whether D is a polynomial of q of degree 6 at most: its seventh differences along lines vanish,
+ * to rounding; sines have some 1e-3. */
+static bool is_polynomial(const reference *b)
+{
+    static const double weight[] = {1, -7, 21, -35, 35, -21, 7, -1};
+    double q[REFERENCE_MAX], D[REFERENCE_MAX], sum[REFERENCE_MAX] = {0.0};
+    double v[2 * REFERENCE_MAX] = {0.5, 0.9, -0.3, 0.6, 0.4, -0.7, 0.2, 1.1};
+    for (int k = 0; k < 8; k++) {
+        for (int i = 0; i < REFERENCE_MAX; i++) q[i] = 0.3 + (0.5 - 0.03 * i) * (k - 3.5);
+        reference_call(b, b->system->constraints, 0.0, q, v, D);
+        for (int a = 0; a < b->system->m; a++) sum[a] += weight[k] * D[a];
+    }
+    for (int a = 0; a < b->system->m; a++)
+        if (fabs(sum[a]) > 1e-11) return false;
+    return true;
+}
+
 static void check_constraint(const reference *b)
 {
     const dal_system *s = b->system;
     unsigned p = s->properties;
     bool some = s->m > 0, moving = moves_with_time(b);
-    bool polynomial = p & (DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC);
+    bool low = p & (DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC);
+    bool higher = some && (p & DAL_D_LINEAR) && !low && !moving;
     expect_tag(s, "linear", p & DAL_D_CONSTANT);
     expect_tag(s, "bilinear", (p & DAL_D_BILINEAR) && !(p & DAL_D_CONSTANT));
     expect_tag(s, "quadratic", (p & DAL_D_QUADRATIC) && !(p & DAL_D_BILINEAR));
-    expect_tag(s, "trigonometric", some && (p & DAL_D_LINEAR) && !polynomial && !moving);
+    expect_tag(s, "polynomial", higher && is_polynomial(b));
+    expect_tag(s, "trigonometric", higher && !is_polynomial(b));
     expect_tag(s, "nonlinear", some && !(p & DAL_D_LINEAR));
     expect_tag(s, "time-dependent", moving || !(p & DAL_AUTONOMOUS));
     expect_tag(s, "servo", p & DAL_SERVO);
@@ -80,7 +99,7 @@ static void check_words(const reference *b)
         "reversible", "non-reversible", "integrable",    "chaotic",   "measure-preserving",
         "attractor",  "energy-exact",   "energy-weak",   "linear",    "energy-not-conserved",
         "bilinear",   "quadratic",      "trigonometric", "nonlinear", "time-dependent",
-        "servo",      "singular",       "dissipative",   "paper"};
+        "servo",      "singular",       "dissipative",   "paper",     "polynomial"};
     const dal_system *s = b->system;
     expect(s, tagged(s, words[0]) != tagged(s, words[1]), "reversible or not");
     expect(s, !tagged(s, words[2]) || !tagged(s, words[3]), "integrable or chaotic");

@@ -1,10 +1,11 @@
-/* test_null_action.c - NULL and missing rows, given to actions and predictions. */
+/* test_null_action.c - NULL and missing rows, given to actions, invariants and predictions. */
 #include "dalembert_analysis.h"
 #include "null.h"
 
 FUNCTIONS_dalembert_action(DECLARE_NULL_TEST) FUNCTIONS_dalembert_predict(DECLARE_NULL_TEST)
+    FUNCTIONS_dalembert_invariants(DECLARE_NULL_TEST)
 
-    static dal_model *model;
+        static dal_model *model;
 static dal_run_spec spec;
 static dal_evaluator *evaluator;
 static double numbers[64];
@@ -96,8 +97,37 @@ static void null_dal_predict_create(void)
 
 static void null_dal_prediction_free(void) { dal_prediction_free(NULL); }
 
+/* ---- invariants ---- */
+
+static void null_dal_invariants_settings_default(void)
+{
+    const dal_invariants_settings settings = dal_invariants_settings_default();
+    CU_ASSERT(settings.degree == 2 && settings.with_count == 0 && !settings.measures);
+}
+
+static void null_dal_find_invariants(void)
+{
+    dal_invariants *found = NULL;
+    dal_invariants_settings settings = dal_invariants_settings_default();
+    dal_run_spec bad_count = spec;
+    bad_count.parameter_count = -1;
+    REFUSED(dal_find_invariants(&found, model, &bad_count, NULL, error));
+    REFUSED(dal_find_invariants(&found, model, NULL, NULL, error));
+    REFUSED(dal_find_invariants(&found, model, &(dal_run_spec){.system = NULL}, NULL, error));
+    REFUSED(dal_find_invariants(NULL, model, &spec, NULL, error));
+    REFUSED(dal_find_invariants(&found, NULL, &spec, NULL, error));
+    settings.with_count = -1;
+    REFUSED(dal_find_invariants(&found, model, &spec, &settings, error));
+    settings.with_count = 1;
+    REFUSED(dal_find_invariants(&found, model, &spec, &settings, error));
+    CU_ASSERT_PTR_NULL(found);
+}
+
+static void null_dal_invariants_free(void) { dal_invariants_free(NULL); }
+
 void suite_null_action(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and missing rows: actions", open_objects, close_objects);
     FUNCTIONS_dalembert_action(ADD_NULL_TEST) FUNCTIONS_dalembert_predict(ADD_NULL_TEST)
+        FUNCTIONS_dalembert_invariants(ADD_NULL_TEST)
 }

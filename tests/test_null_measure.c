@@ -2,11 +2,10 @@
 #include "dalembert_analysis.h"
 #include "null.h"
 
-/* What dalembert_analysis.h includes. */
+/* What dalembert_analysis.h includes, without invariants (test_null_action.c). */
 #define FUNCTIONS_OF_MEASURES(X)                                                                   \
     FUNCTIONS_dalembert_statistics(X) FUNCTIONS_dalembert_evaluator(X)                             \
-        FUNCTIONS_dalembert_order(X) FUNCTIONS_dalembert_budget(X) FUNCTIONS_dalembert_dynamics(X) \
-            FUNCTIONS_dalembert_invariants(X)
+        FUNCTIONS_dalembert_order(X) FUNCTIONS_dalembert_budget(X) FUNCTIONS_dalembert_dynamics(X)
 FUNCTIONS_OF_MEASURES(DECLARE_NULL_TEST)
 
 /* ---- what the functions are given where they are given anything ---- */
@@ -176,6 +175,13 @@ static void null_dal_evaluator_measure_rank(void)
     REFUSED_POINTS(bad, dal_evaluator_measure_rank(evaluator, bad, &rank, &pivot));
     REFUSED_STATUS(dal_evaluator_measure_rank(evaluator, &at, NULL, &pivot));
     REFUSED_STATUS(dal_evaluator_measure_rank(evaluator, &at, &rank, NULL));
+}
+
+static void null_dal_evaluator_project_position(void)
+{
+    REFUSED_STATUS(dal_evaluator_project_position(NULL, 0.0, numbers, numbers + 8));
+    REFUSED_STATUS(dal_evaluator_project_position(evaluator, 0.0, NULL, numbers + 8));
+    REFUSED_STATUS(dal_evaluator_project_position(evaluator, 0.0, numbers, NULL));
 }
 
 static void null_dal_evaluator_project_velocity(void)
@@ -567,30 +573,6 @@ static void null_dal_run_crossings(void)
     section = (dal_poincare){.count = 1};
     REFUSED(dal_run_crossings(run, 1.0, &section, &found, error));
 }
-
-/* ---- invariants ---- */
-
-static void null_dal_invariants_settings_default(void)
-{
-    const dal_invariants_settings settings = dal_invariants_settings_default();
-    CU_ASSERT(settings.degree == 2 && settings.with_count == 0 && !settings.measures);
-}
-
-static void null_dal_find_invariants(void)
-{
-    dal_invariants *found = NULL;
-    dal_invariants_settings settings = dal_invariants_settings_default();
-    REFUSED_SPECS(bad, dal_find_invariants(&found, model, bad, NULL, error));
-    REFUSED(dal_find_invariants(NULL, model, &spec, NULL, error));
-    REFUSED(dal_find_invariants(&found, NULL, &spec, NULL, error));
-    settings.with_count = -1;
-    REFUSED(dal_find_invariants(&found, model, &spec, &settings, error));
-    settings.with_count = 1;
-    REFUSED(dal_find_invariants(&found, model, &spec, &settings, error));
-    CU_ASSERT_PTR_NULL(found);
-}
-
-static void null_dal_invariants_free(void) { dal_invariants_free(NULL); }
 
 void suite_null_measure(void)
 {

@@ -65,7 +65,9 @@ static void choose_points(check *c, double *memory)
     for (int k = 0; k < c->near_count; k++) {
         double *x = memory + c->surface_count * c->size, t = c->near[k].t;
         memcpy(x, c->near[k].q, (size_t)c->size * sizeof *x);
-        if (!cli_is_ok(dal_evaluator_project_velocity(c->evaluator, t, x, x + c->n))) continue;
+        if (!cli_is_ok(dal_evaluator_project_position(c->evaluator, t, x, x + c->n)) ||
+            !cli_is_ok(dal_evaluator_project_velocity(c->evaluator, t, x, x + c->n)))
+            continue;
         c->surface[c->surface_count] = (dal_point){.t = t, .q = x, .v = x + c->n};
         c->surface_count += is_field_finite(c, &c->surface[c->surface_count]);
     }

@@ -161,8 +161,8 @@ static void check_start(check *c)
                        dal_status_text(status));
     }
     check_ranks(c);
-    check_number(c, found, points, c->near_count, 1, INFINITY, "%d; %d projected to D = 0",
-                 c->near_count, c->surface_count);
+    check_number(c, found, points, c->near_count, 1, INFINITY, "%d; %d projected to %sD = 0",
+                 c->near_count, c->surface_count, c->system->holonomic > 0 ? "g = 0 and " : "");
 }
 
 /* ---- constraints ---- */
