@@ -112,9 +112,9 @@ typedef struct dal_crossings {
 
 /* Advances the run to time T, a whole number of its steps, and reports the crossings that its steps
  * show: the state, found by dal_run_intermediate, with g = 0 to rounding; the trajectory does not
- * change.  A part h of a step is halved, up to 10 times, where |g'| h > pi max |g| or g changes by
- * more than its rates g' at both ends explain.  A start with g = 0 is no crossing. [alloc]
- * Errors: as for the steps and of the callback; DAL_STATUS_ARGUMENT. */
+ * change.  An interval h of a step is halved, up to 10 times, where |g'| h > pi max |g| or g
+ * changes by more than its rates g' at both ends explain.  A start with g = 0 is no crossing.
+ * [alloc]  Errors: as for the steps and of the callback; DAL_STATUS_ARGUMENT. */
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error);
 

@@ -188,9 +188,9 @@ dal_status dal_run_intermediate(dal_run *run, double h,
 long long dal_run_event_count(const dal_run *run, int event);
 /* The number of the event that stopped the run, from 1; 0: none did. */
 int dal_run_stopped(const dal_run *run);
-/* How many steps may hide events, since the run was made: steps h whose parts, 1024 of them, still
- * have |d(when)/dt| h > pi max |when|.  The first begins at *from, NaN: there is none; from may be
- * NULL. */
+/* How many steps may hide events, since the run was made: steps whose intervals h, 1024 of them,
+ * still have |d(when)/dt| h > pi max |when|.  The first begins at *from, NaN: there is none; from
+ * may be NULL. */
 long long dal_run_unresolved(const dal_run *run, double *from);
 /* What events have added to an observable that is E or an invariant, all together; 0 for others. */
 double dal_run_event_jump(const dal_run *run, int observable);

@@ -156,7 +156,7 @@ static void test_near_touch(void)
     find("(x - 1)^2 - 1e-8", "(x + 1)^2 - 1e-8", t, 2, &m);
 }
 
-/* cos 1e5 x has more zeros than 1024 parts of a step show: every step says so, from the first. */
+/* cos 1e5 x has more zeros than 1024 intervals of a step show: each step says so. */
 static void test_unresolved(void)
 {
     static const motion m = {"rk4", 0.7, 2.1, 0.0};
@@ -255,7 +255,7 @@ void suite_crossing(void)
     CU_add_test(suite, "pairs about kinks and jumps", test_kinks_and_jumps);
     CU_add_test(suite, "touches", test_touches);
     CU_add_test(suite, "a close pair", test_near_touch);
-    CU_add_test(suite, "more than the parts show", test_unresolved);
+    CU_add_test(suite, "more than the intervals show", test_unresolved);
     CU_add_test(suite, "rows between steps", test_rows_between_steps);
     CU_add_test(suite, "changes between steps", test_changed_between);
 }

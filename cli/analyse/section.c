@@ -233,7 +233,7 @@ static int run_section(section *s, const char *path)
     const int closed = has_table ? writer_close(&s->table) : CLI_DONE;
     if (s->found.unresolved > 0)
         cli_note("%lld steps may hide crossings, the first from t = %g: |dg/dt| h > pi max |g| in "
-                 "their parts",
+                 "their intervals",
                  s->found.unresolved, s->found.first_unresolved);
     FILE *out = is_stdout ? stderr : stdout;
     if (s->set->is_screen && status != CLI_USAGE)

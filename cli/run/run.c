@@ -82,7 +82,7 @@ static void print_unresolved(const dal_run *run)
     if (steps > 0)
         cli_note(
             "%lld steps may hide events, the first from t = %g: |d(when)/dt| h > pi max |when| "
-            "in their parts",
+            "in their intervals",
             steps, from);
 }
 

@@ -115,8 +115,9 @@ static dal_status cross(search *w, double distance)
     w->crossing.direction = to;
     w->crossing.number++;
     if (!w->section->cross) return DAL_STATUS_OK;
-    return distance > 0.0 ? dal__observe_part(c->run, c->h, distance, report_crossing, w, w->error)
-                          : report_crossing(w, c->run);
+    return distance > 0.0
+               ? dal__observe_intermediate(c->run, c->h, distance, report_crossing, w, w->error)
+               : report_crossing(w, c->run);
 }
 
 static dal_status search_step(search *w)

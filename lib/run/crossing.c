@@ -9,21 +9,21 @@
  * 10.1016/0167-2789(82)90034-3, turns the equations round to the same end); under a tolerance
  * step(z, s) is the dense output of step(z, h).
  *
- * A step is searched in parts, at whose ends f and its rate f' along the motion are known.  S being
- * max |f| at the ends known so far, a part from a to b is halved where
+ * A step is searched in intervals, at whose ends f and its rate f' along the motion are known.  S
+ * being max |f| at the ends known so far, an interval from a to b is halved where
  *
  *     max |f'| (b - a) > pi S   or   |f(b) - f(a) - (b - a) (f'(a) + f'(b))/2| > S/4:
  *
  * what oscillates as sin(w s) has no two extrema closer than pi/w, and a value that the rates do
  * not explain has jumped.  Else f has a root where its sign at b is not that at a; and where |f|
- * falls at a and rises at b, the root of f' between them divides the part if f has the other sign
- * there: two parts with a root each.
+ * falls at a and rises at b, the root of f' between them divides the interval if f has the other
+ * sign there: two intervals with a root each.
  *
- * Where f has just left 0, f(0) is only rounding; the part is halved then until f has the sign of
- * the side that it left to.
+ * Where f has just left 0, f(0) is only rounding; the interval is halved then until f has the sign
+ * of the side that it left to.
  *
- * A step that was divided under a tolerance may be long beside the motion: it is searched in parts
- * from the beginning, some for each substep. */
+ * A step that was divided under a tolerance may be long beside the motion: it is searched in
+ * intervals from the beginning, some for each substep. */
 #include "run/crossing.h"
 #include "core/root.h"
 #include "run/failure.h"
@@ -38,9 +38,9 @@ static const double max_jump = 0.25;
 /* Of rounding, what a value must exceed to be no rounding. */
 static const double certain = 4.0;
 
-/* An upper bound of the parts at first, and the evaluations of F in each: a substep has 12 with
+/* An upper bound of the intervals at first, and the evaluations of F in each: a substep has 12 with
  * dop853, with taylor as many as its order. */
-enum { MAX_PARTS = 10000, PART_EVALUATIONS = 4 };
+enum { MAX_INTERVALS = 10000, INTERVAL_EVALUATIONS = 4 };
 
 /* ---- memory ---- */
 
@@ -54,12 +54,12 @@ static size_t zero_numbers(size_t count)
 
 size_t dal__crossing_numbers(size_t count, size_t stored)
 {
-    return zero_numbers(count) + (ARRAYS * (1 + DAL__PART_ENDS) + OTHERS) * count + 2 * stored;
+    return zero_numbers(count) + (ARRAYS * (1 + DAL__INTERVAL_ENDS) + OTHERS) * count + 2 * stored;
 }
 
-static double *place_end(dal__part_end *end, double *at, size_t count)
+static double *place_end(dal__interval_end *end, double *at, size_t count)
 {
-    *end = (dal__part_end){.f = at, .rate = at + count, .slack = at + 2 * count};
+    *end = (dal__interval_end){.f = at, .rate = at + count, .slack = at + 2 * count};
     return at + ARRAYS * count;
 }
 
@@ -73,7 +73,7 @@ void dal__crossing_init(dal__zero_search *c, dal_run *run, const dal__functions 
                             .first_unresolved = NAN};
     for (size_t k = 0; k < count; k++) c->zero[k] = (dal__zero){DAL__SIDE_UNKNOWN, INFINITY, 0.0};
     double *at = place_end(&c->begin, memory + zero_numbers(count), count);
-    for (int i = 0; i < DAL__PART_ENDS; i++) at = place_end(&c->end[i], at, count);
+    for (int i = 0; i < DAL__INTERVAL_ENDS; i++) at = place_end(&c->end[i], at, count);
     c->there = at;
     c->value_rounding = at + count;
     c->rate_rounding = at + 2 * count;
@@ -94,7 +94,7 @@ bool dal__counts_from(const dal__zero_search *c, int k, dal__side side)
     return direction == 0 || direction == -dal__side_sign(side);
 }
 
-static dal_status evaluate_end(const dal__zero_search *c, dal__part_end *end)
+static dal_status evaluate_end(const dal__zero_search *c, dal__interval_end *end)
 {
     const dal__functions *f = &c->functions;
     DAL_TRY(f->values(f->user, c->run, end->f, c->error));
@@ -106,7 +106,7 @@ static dal_status evaluate_top(void *user, dal_run *run)
 {
     dal__zero_search *c = user;
     const dal__functions *f = &c->functions;
-    dal__part_end *top = &c->end[c->ends - 1];
+    dal__interval_end *top = &c->end[c->ends - 1];
     const double size = fabs(top->s - c->begin.s);
     bool has_just_left = false;
     DAL_TRY(evaluate_end(c, top));
@@ -123,12 +123,12 @@ static dal_status evaluate_top(void *user, dal_run *run)
 }
 
 /* Puts an end, the next one, before those that are known. */
-static dal_status add_part_end(dal__zero_search *c, double s, int halvings)
+static dal_status add_interval_end(dal__zero_search *c, double s, int halvings)
 {
-    dal__part_end *end = &c->end[c->ends++];
+    dal__interval_end *end = &c->end[c->ends++];
     end->s = s;
     end->halvings = halvings;
-    return dal__observe_part(c->run, c->h, s, evaluate_top, c, c->error);
+    return dal__observe_intermediate(c->run, c->h, s, evaluate_top, c, c->error);
 }
 
 static dal_status evaluate_there(void *user, dal_run *run)
@@ -145,7 +145,7 @@ static dal_status value_at(void *user, double s, double *value)
     if (s == 0.0)
         DAL_TRY(evaluate_there(c, c->run));
     else
-        DAL_TRY(dal__observe_part(c->run, c->h, s, evaluate_there, c, c->error));
+        DAL_TRY(dal__observe_intermediate(c->run, c->h, s, evaluate_there, c, c->error));
     *value = c->there[c->k];
     return DAL_STATUS_OK;
 }
@@ -161,13 +161,13 @@ static dal_status rounding_of(dal__zero_search *c, int k, double *rounding)
     return DAL_STATUS_OK;
 }
 
-/* ---- parts ---- */
+/* ---- intervals ---- */
 
-/* Whether function k has a rate with which it may turn more than once in the part, or changes by
- * more than its rates explain; neither counts where it is only rounding. */
+/* Whether function k has a rate with which it may turn more than once in the interval, or changes
+ * by more than its rates explain; neither counts where it is only rounding. */
 static dal_status examine(dal__zero_search *c, int k, bool *is_fast, bool *jumps)
 {
-    const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
+    const dal__interval_end *a = &c->begin, *b = &c->end[c->ends - 1];
     const double s = b->s - a->s, change = b->f[k] - a->f[k], size = c->zero[k].size;
     const double most = fabs(s) * fmax(fabs(a->rate[k]), fabs(b->rate[k]));
     const double unexplained = fabs(change - 0.5 * s * (a->rate[k] + b->rate[k]));
@@ -183,10 +183,10 @@ static dal_status examine(dal__zero_search *c, int k, bool *is_fast, bool *jumps
     return DAL_STATUS_OK;
 }
 
-/* Halves the part where a function is not resolved in it. */
+/* Halves the interval where a function is not resolved in it. */
 static dal_status halve(dal__zero_search *c, bool *is_divided)
 {
-    dal__part_end *end = &c->end[c->ends - 1];
+    dal__interval_end *end = &c->end[c->ends - 1];
     const double middle = c->begin.s + 0.5 * (end->s - c->begin.s);
     bool any_fast = false, any_jump = false;
     *is_divided = false;
@@ -197,28 +197,28 @@ static dal_status halve(dal__zero_search *c, bool *is_divided)
         any_jump = any_jump || jumps;
     }
     if (!any_fast && !any_jump) return DAL_STATUS_OK;
-    *is_divided = end->halvings > 0 && c->ends < DAL__PART_ENDS &&
+    *is_divided = end->halvings > 0 && c->ends < DAL__INTERVAL_ENDS &&
                   fabs(middle - c->begin.s) > dal__crossing_resolution(c);
-    if (*is_divided) return add_part_end(c, middle, --end->halvings);
+    if (*is_divided) return add_interval_end(c, middle, --end->halvings);
     if (any_fast && !c->is_unresolved && c->unresolved++ == 0)
         c->first_unresolved = dal_run_time(c->run);
     c->is_unresolved = c->is_unresolved || any_fast;
     return DAL_STATUS_OK;
 }
 
-/* Whether |f| falls at the begin of the part and does not at its end, f having one sign there. */
+/* Whether |f| falls at the begin of the interval and not at its end, f having one sign there. */
 static bool turns(const dal__zero_search *c, int k)
 {
-    const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
+    const dal__interval_end *a = &c->begin, *b = &c->end[c->ends - 1];
     const int side = dal__side_sign(c->zero[k].side), toward = side * dal__sign_of(c->h);
     return side != 0 && !dal__is_just(c->zero[k].side) && side * a->f[k] >= 0.0 &&
            side * b->f[k] >= 0.0 && toward * a->rate[k] < 0.0 && toward * b->rate[k] >= 0.0;
 }
 
-/* The extremum of function k, which turns in the part, and whether that is beyond 0. */
+/* The extremum of function k, which turns in the interval, and whether that is beyond 0. */
 static dal_status find_extremum(dal__zero_search *c, int k, double *s, bool *is_beyond)
 {
-    const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
+    const dal__interval_end *a = &c->begin, *b = &c->end[c->ends - 1];
     double f, rounding;
     dal__root root;
     c->k = k;
@@ -235,10 +235,10 @@ static dal_status find_extremum(dal__zero_search *c, int k, double *s, bool *is_
     return DAL_STATUS_OK;
 }
 
-/* Divides the part at the first extremum that is beyond 0. */
+/* Divides the interval at the first extremum that is beyond 0. */
 static dal_status divide(dal__zero_search *c, bool *is_divided)
 {
-    const dal__part_end *end = &c->end[c->ends - 1];
+    const dal__interval_end *end = &c->end[c->ends - 1];
     double first = INFINITY, s;
     bool is_beyond;
     for (int k = 0; k < c->functions.count; k++) {
@@ -247,14 +247,14 @@ static dal_status divide(dal__zero_search *c, bool *is_divided)
         if (is_beyond && fabs(s) < fabs(first)) first = s;
     }
     *is_divided =
-        isfinite(first) && first != c->begin.s && first != end->s && c->ends < DAL__PART_ENDS;
-    return *is_divided ? add_part_end(c, first, end->halvings) : DAL_STATUS_OK;
+        isfinite(first) && first != c->begin.s && first != end->s && c->ends < DAL__INTERVAL_ENDS;
+    return *is_divided ? add_interval_end(c, first, end->halvings) : DAL_STATUS_OK;
 }
 
 dal_status dal__zero_accuracy(dal__zero_search *c, int k, double *accuracy, dal_error *error)
 {
     c->error = error; /* the search may have had another, which is gone */
-    const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
+    const dal__interval_end *a = &c->begin, *b = &c->end[c->ends - 1];
     DAL_TRY(rounding_of(c, k, accuracy));
     *accuracy += fmax(fabs(a->rate[k]), fabs(b->rate[k])) * dal__crossing_resolution(c);
     *accuracy *= certain;
@@ -274,10 +274,10 @@ static dal_status locate_between(dal__zero_search *c, int k, dal__value_at begin
     return DAL_STATUS_OK;
 }
 
-/* The zero of function k in the part, if one counts. */
+/* The zero of function k in the interval, if one counts. */
 static dal_status locate(dal__zero_search *c, int k)
 {
-    const dal__part_end *a = &c->begin, *b = &c->end[c->ends - 1];
+    const dal__interval_end *a = &c->begin, *b = &c->end[c->ends - 1];
     dal__zero *zero = &c->zero[k];
     const int side = dal__side_sign(zero->side);
     const bool has_just_left = dal__is_just(zero->side);
@@ -308,11 +308,11 @@ dal__side dal__side_at(const dal__zero_search *c, int k, double f, double slack)
     return (dal__side)to;
 }
 
-/* Goes to the end of the part, which has been searched. */
-static void leave_part(dal__zero_search *c)
+/* Goes to the end of the interval, which has been searched. */
+static void leave_interval(dal__zero_search *c)
 {
-    dal__part_end *end = &c->end[--c->ends];
-    const dal__part_end begin = c->begin;
+    dal__interval_end *end = &c->end[--c->ends];
+    const dal__interval_end begin = c->begin;
     for (int k = 0; k < c->functions.count; k++) {
         dal__zero *zero = &c->zero[k];
         const dal__side across = (dal__side)-dal__side_sign(zero->side);
@@ -359,8 +359,8 @@ dal_status dal__crossing_begin(dal__zero_search *c, double h, dal_error *error)
     c->h = h;
     c->error = error;
     c->is_kept = c->has_roundings = c->is_searched = c->is_unresolved = false;
-    c->ends = c->part = 0;
-    c->parts = 1;
+    c->ends = c->interval = 0;
+    c->intervals = 1;
     c->begin.s = 0.0;
     if (!c->is_begun) DAL_TRY(evaluate_end(c, &c->begin));
     c->is_begun = false;
@@ -376,19 +376,20 @@ dal_status dal__crossing_begin(dal__zero_search *c, double h, dal_error *error)
     const long long evaluated = dal_run_evaluations(c->run) - evaluations;
     dal__run_load(c->run, c->before);
     DAL_TRY(status);
-    if (c->run->layout.options.tolerance > 0.0 && evaluated > PART_EVALUATIONS)
-        c->parts = evaluated / PART_EVALUATIONS;
-    if (c->parts > MAX_PARTS) c->parts = MAX_PARTS;
+    if (c->run->layout.options.tolerance > 0.0 && evaluated > INTERVAL_EVALUATIONS)
+        c->intervals = evaluated / INTERVAL_EVALUATIONS;
+    if (c->intervals > MAX_INTERVALS) c->intervals = MAX_INTERVALS;
     return DAL_STATUS_OK;
 }
 
-/* Leaves the part that was searched, and adds the next one of those at first where none remains. */
-static dal_status next_part(dal__zero_search *c)
+/* Leaves the interval that was searched, and adds the next one of those at first where none
+ * remains. */
+static dal_status next_interval(dal__zero_search *c)
 {
-    if (c->is_searched) leave_part(c);
-    if (c->ends != 1 || c->part + 1 >= c->parts) return DAL_STATUS_OK;
-    c->part++;
-    return add_part_end(c, c->h * ((double)c->part / (double)c->parts), DAL__HALVINGS);
+    if (c->is_searched) leave_interval(c);
+    if (c->ends != 1 || c->interval + 1 >= c->intervals) return DAL_STATUS_OK;
+    c->interval++;
+    return add_interval_end(c, c->h * ((double)c->interval / (double)c->intervals), DAL__HALVINGS);
 }
 
 dal_status dal__crossing_next(dal__zero_search *c, double *distance)
@@ -396,7 +397,7 @@ dal_status dal__crossing_next(dal__zero_search *c, double *distance)
     *distance = INFINITY;
     for (;;) {
         bool is_divided;
-        DAL_TRY(next_part(c));
+        DAL_TRY(next_interval(c));
         if (c->ends == 0) break;
         DAL_TRY(halve(c, &is_divided));
         if (!is_divided) DAL_TRY(divide(c, &is_divided));

@@ -36,20 +36,20 @@ typedef struct dal__functions {
 } dal__functions;
 
 enum {
-    DAL__HALVINGS = 10,                /* of a part of a step, at most: 1024 parts */
-    DAL__PART_ENDS = DAL__HALVINGS + 8 /* that wait to be searched */
+    DAL__HALVINGS = 10,                    /* of an interval of a step, at most: 1024 intervals */
+    DAL__INTERVAL_ENDS = DAL__HALVINGS + 8 /* that wait to be searched */
 };
 
-/* An end of a part: the size of the step to it, and the functions there. */
-typedef struct dal__part_end {
+/* An end of an interval: the size of the step to it, and the functions there. */
+typedef struct dal__interval_end {
     double s;
-    int halvings;             /* that the part before it may still have */
+    int halvings;             /* that the interval before it may still have */
     double *f, *rate, *slack; /* [count]; slack: what may be only rounding where f was just left */
-} dal__part_end;
+} dal__interval_end;
 
-/* A function in the part that was searched last. */
+/* A function in the interval that was searched last. */
 typedef struct dal__zero {
-    dal__side side; /* at the begin of the part */
+    dal__side side; /* at the begin of the interval */
     double s;       /* |size| of the step to the zero that counts; infinite: none */
     double size;    /* max |f| at the ends so far */
 } dal__zero;
@@ -59,24 +59,24 @@ typedef struct dal__zero_search {
     dal_run *run;
     dal_error *error;
     dal__functions functions;
-    dal__zero *zero;                        /* [count] */
-    double h;                               /* the step */
-    dal__part_end begin;                    /* of the part */
-    dal__part_end end[DAL__PART_ENDS];      /* those ahead, the nearest last */
-    int ends;                               /* how many there are */
-    long long part, parts;                  /* into which the step was divided at first */
-    double *before, *after;                 /* what the run saves at the ends of the step */
-    double *there;                          /* [count] the functions at an intermediate step */
-    double *value_rounding, *rate_rounding; /* [count] at the begin of the step */
+    dal__zero *zero;                           /* [count] */
+    double h;                                  /* the step */
+    dal__interval_end begin;                   /* of the interval */
+    dal__interval_end end[DAL__INTERVAL_ENDS]; /* those ahead, the nearest last */
+    int ends;                                  /* how many there are */
+    long long interval, intervals;             /* into which the step was divided at first */
+    double *before, *after;                    /* what the run saves at the ends of the step */
+    double *there;                             /* [count] the functions at an intermediate step */
+    double *value_rounding, *rate_rounding;    /* [count] at the begin of the step */
     bool has_roundings;
     bool is_begun;    /* begin is already evaluated */
-    bool is_searched; /* the part has been searched, but not been left */
+    bool is_searched; /* the interval has been searched, but not been left */
     bool is_kept;     /* `distance` is the result of the search from `before` */
     double distance;
     int k;                   /* the function whose root is sought, */
     bool by_rate;            /* or the root of its rate */
     long long touches;       /* extrema that are 0 up to rounding */
-    long long unresolved;    /* steps in which |f'| times a part is more than pi max |f| */
+    long long unresolved;    /* steps in which |f'| times an interval is more than pi max |f| */
     double first_unresolved; /* begin of the first of them; NaN: there is none */
     bool is_unresolved;      /* whether the present step is one */
 } dal__zero_search;
@@ -91,7 +91,7 @@ void dal__crossing_init(dal__zero_search *c, dal_run *run, const dal__functions 
  * in zero[].  Errors: as for a step, and of the functions. */
 dal_status dal__crossing_begin(dal__zero_search *c, double h, dal_error *error);
 /* The distance of the next zero that counts, the first of all functions; infinite: none in the rest
- * of the step.  zero[].s has the zeros of the same part. */
+ * of the step.  zero[].s has the zeros of the same interval. */
 dal_status dal__crossing_next(dal__zero_search *c, double *distance);
 /* Keeps a distance as the result of the search until the run changes; and whether one is kept. */
 void dal__crossing_keep(dal__zero_search *c, double distance);

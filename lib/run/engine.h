@@ -38,10 +38,10 @@ typedef struct dal__engine {
     /* Advances the alive lanes by h.  Returns those that failed, which are unchanged, and sets
      * their reason[lane]. */
     dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *reason);
-    /* Advances a single run by `part` of its step of size h: to the state that the polynomial of
-     * the substep there gives.  Without a tolerance, or where the method leaves no polynomial, it
-     * is a step of size `part`.  NULL for several lanes. */
-    dal__lanes (*step_part)(void *engine, double h, double part, dal_status *reason);
+    /* Advances a single run by `size`, within its step of size h: to the state that the polynomial
+     * of the substep there gives.  Without a tolerance, or where the method leaves no polynomial,
+     * it is a step of that size.  NULL for several lanes. */
+    dal__lanes (*step_intermediate)(void *engine, double h, double size, dal_status *reason);
     /* Holds the branches of the system at points, or no longer, as dal_branches.hold.  NULL for
      * several lanes. */
     void (*hold)(void *engine, const double *point);

@@ -533,16 +533,16 @@ static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_sta
 }
 
 #if DAL_LANES == 1
-/* Divides a step of size h up to the substep that contains `part`, for its polynomial; continues
+/* Divides a step of size h up to the substep that contains `size`, for its polynomial; continues
  * from the substep found last where that belongs to the same step and is not past. */
-static dal_status find_substep(engine *e, double h, double part)
+static dal_status find_substep(engine *e, double h, double size)
 {
     dal_step *s = &e->step;
     dal_dense *d = &e->dense;
     const size_t bytes = dal__saved_count(&e->layout) * sizeof(num);
     const size_t half = (size_t)s->dim * sizeof(num);
     dal_status status = DAL_STATUS_OK;
-    if (e->dense_h != h || !(part > d->from) || memcmp(e->dense_from, e->persistent, bytes) != 0) {
+    if (e->dense_h != h || !(size > d->from) || memcmp(e->dense_from, e->persistent, bytes) != 0) {
         memcpy(e->dense_from, e->persistent, bytes);
         memcpy(e->dense_to, e->persistent, bytes);
         e->dense_h = h;
@@ -552,7 +552,7 @@ static dal_status find_substep(engine *e, double h, double part)
     memcpy(e->persistent, e->dense_to, bytes);
     s->depth = 0;
     s->dense = d;
-    while (status == DAL_STATUS_OK && part > d->from + d->size) {
+    while (status == DAL_STATUS_OK && size > d->from + d->size) {
         memcpy(d->y, s->y, half);
         memcpy(d->r, s->r, half);
         d->terms = 0;
@@ -567,13 +567,13 @@ static dal_status find_substep(engine *e, double h, double part)
     return status;
 }
 
-static dal__lanes part_engine(void *engine_, double h, double part, dal_status *reason)
+static dal__lanes intermediate_engine(void *engine_, double h, double size, dal_status *reason)
 {
     engine *e = engine_;
-    if (has_dense(&e->layout) && part / h > 0.0 && part / h < 1.0 &&
-        find_substep(e, h, fabs(part)) == DAL_STATUS_OK)
+    if (has_dense(&e->layout) && size / h > 0.0 && size / h < 1.0 &&
+        find_substep(e, h, fabs(size)) == DAL_STATUS_OK)
         e->step.layer = e->dense_layer;
-    const dal__lanes failed = step_engine(e, part, 1u, reason);
+    const dal__lanes failed = step_engine(e, size, 1u, reason);
     e->step.layer = e->layer;
     return failed;
 }
@@ -586,14 +586,14 @@ static void hold_engine(void *engine_, const double *point)
     e->dense_h = 0.0; /* the substeps found last had other formulas */
 }
 #else
-#define part_engine NULL
-#define hold_engine NULL
+#define intermediate_engine NULL
+#define hold_engine         NULL
 #endif
 
 const dal__engine DAL_WIDE(dal__engine) = {.bytes = engine_bytes,
                                            .place = place_engine,
                                            .step = step_engine,
-                                           .step_part = part_engine,
+                                           .step_intermediate = intermediate_engine,
                                            .hold = hold_engine,
                                            .eval = eval_engine,
                                            .observe = observe_engine,

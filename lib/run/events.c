@@ -231,7 +231,7 @@ static dal_status take_events(const dal__event_search *w, double distance,
     dal__run_back_up(w->run);
     if (distance > 0.0) {
         dal__hold_as_searched(w);
-        dal_status status = dal__step_part(w->run, c->h, s);
+        dal_status status = dal__step_intermediate(w->run, c->h, s);
         if (status != DAL_STATUS_OK) status = dal__failure_reason(w->run, s, status, w->error);
         dal__let_go_as_searched(w);
         DAL_TRY(status);

@@ -105,13 +105,13 @@ dal_status dal_run_observe(dal_run *run, double *out)
     return run->kind->engine->observe(run->engine, run->exact, out);
 }
 
-dal_status dal__observe_part(dal_run *run, double h, double part,
-                             dal_status (*observe)(void *user, dal_run *run), void *user,
-                             dal_error *error)
+dal_status dal__observe_intermediate(dal_run *run, double h, double size,
+                                     dal_status (*observe)(void *user, dal_run *run), void *user,
+                                     dal_error *error)
 {
     dal__run_back_up(run);
-    dal_status status = dal__step_part(run, h, part);
-    if (status != DAL_STATUS_OK) return dal__failure_reason(run, part, status, error);
+    dal_status status = dal__step_intermediate(run, h, size);
+    if (status != DAL_STATUS_OK) return dal__failure_reason(run, size, status, error);
     status = observe(user, run);
     dal__run_revert(run);
     return status;

@@ -4,10 +4,10 @@
 
 #include "run/run.h"
 
-/* Advances a run by a part of a step of size h, calls an observer and goes back; the same as
+/* Advances a run by `size` within a step h, calls an observer and goes back; the same as
  * dal_run_intermediate does. */
-dal_status dal__observe_part(dal_run *run, double h, double part,
-                             dal_status (*observe)(void *user, dal_run *run), void *user,
-                             dal_error *error);
+dal_status dal__observe_intermediate(dal_run *run, double h, double size,
+                                     dal_status (*observe)(void *user, dal_run *run), void *user,
+                                     dal_error *error);
 
 #endif

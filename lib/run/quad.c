@@ -84,10 +84,11 @@ dal_status dal__quad_step(const dal__quad_run *run, double h)
     return kind()->engine->step(run->engine, h, 1u, &reason) ? reason : DAL_STATUS_OK;
 }
 
-dal_status dal__quad_step_part(const dal__quad_run *run, double h, double part)
+dal_status dal__quad_step_intermediate(const dal__quad_run *run, double h, double size)
 {
     dal_status reason = DAL_STATUS_OK;
-    return kind()->engine->step_part(run->engine, h, part, &reason) ? reason : DAL_STATUS_OK;
+    return kind()->engine->step_intermediate(run->engine, h, size, &reason) ? reason
+                                                                            : DAL_STATUS_OK;
 }
 
 dal_status dal__quad_observe(const dal__quad_run *run, bool exact_known, double *out)

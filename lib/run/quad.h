@@ -26,7 +26,7 @@ void dal__quad_pull(const dal__quad_run *run, double *persistent);
 dal_status dal__quad_prepare(const dal__quad_run *run, double t);
 void dal__quad_hold(const dal__quad_run *run, const double *point);
 dal_status dal__quad_step(const dal__quad_run *run, double h);
-dal_status dal__quad_step_part(const dal__quad_run *run, double h, double part);
+dal_status dal__quad_step_intermediate(const dal__quad_run *run, double h, double size);
 /* As dal_run_observe; exact_known as in dal__observable_count. */
 dal_status dal__quad_observe(const dal__quad_run *run, bool exact_known, double *out);
 /* Takes a step of size h and finds what it changes of D, E where there is one, and the invariants,

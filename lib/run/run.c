@@ -30,15 +30,15 @@ dal_status dal__step_run(dal_run *run, double h, long long count)
     return DAL_STATUS_OK;
 }
 
-dal_status dal__step_part(dal_run *run, double h, double part)
+dal_status dal__step_intermediate(dal_run *run, double h, double size)
 {
     dal_status status = DAL_STATUS_OK;
-    if (run->layout.options.tolerance == 0.0 || part == h) return dal__step_run(run, part, 1);
+    if (run->layout.options.tolerance == 0.0 || size == h) return dal__step_run(run, size, 1);
     if (!DAL__IS_QUAD(run)) {
-        run->kind->engine->step_part(run->engine, h, part, &status);
+        run->kind->engine->step_intermediate(run->engine, h, size, &status);
         return status;
     }
-    status = dal__quad_step_part(&run->quad, h, part);
+    status = dal__quad_step_intermediate(&run->quad, h, size);
     dal__quad_pull(&run->quad, run->persistent);
     return status;
 }

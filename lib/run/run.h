@@ -64,8 +64,8 @@ struct dal_run {
 void dal__run_hold(dal_run *run, const double *point);
 /* Takes count steps of size h, until one fails; does not explain a failure. */
 dal_status dal__step_run(dal_run *run, double h, long long count);
-/* Advances an interpreted run by a part of a step of size h, see dal__engine.step_part. */
-dal_status dal__step_part(dal_run *run, double h, double part);
+/* Advances an interpreted run by `size` within its step h, see dal__engine.step_intermediate. */
+dal_status dal__step_intermediate(dal_run *run, double h, double size);
 
 enum { DAL__NAME_SIZE = 128 /* bytes of the name of a state component */ };
 

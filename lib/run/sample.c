@@ -205,10 +205,10 @@ dal_status dal_run_intermediate(dal_run *run, double h,
     if (!isfinite(h))
         return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "an intermediate step must be finite; it is %g", h);
-    const double step = run->layout.options.step, part = h / step;
-    const double whole = part > 0.0 && part < 1.0 ? step : h;
+    const double step = run->layout.options.step, fraction = h / step;
+    const double whole = fraction > 0.0 && fraction < 1.0 ? step : h;
     dal__hold_as_kept(run);
-    const dal_status status = dal__observe_part(run, whole, h, observe, user, error);
+    const dal_status status = dal__observe_intermediate(run, whole, h, observe, user, error);
     if (run->is_held) dal__run_hold(run, NULL);
     return status;
 }

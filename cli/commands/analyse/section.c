@@ -56,7 +56,7 @@ const cli_command command_section = {
         "A crossing lies where the formula changes its sign within a step.  A step of another "
         "size of the same method, from the beginning of that step, or under a tolerance a "
         "polynomial, meets it to rounding, so that 'dalembert run' has the same trajectory.  "
-        "A step is searched in up to 1024 parts, shorter ones where the formula varies faster; "
+        "A step is searched in up to 1024 intervals, shorter ones where the formula varies faster; "
         "where that is not enough, the command says how many steps may hide crossings.  "
         "A touch is no crossing and is counted apart; a start on the surface is none.  "
         "With --tolerance, --step may be left out: it is a hundredth of the time.\n"
