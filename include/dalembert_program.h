@@ -42,9 +42,9 @@ dal__decimal dal__as_decimal(double x);
 dal__decimal dal__decimal_difference(double a, double b);
 /* factor x, x as such a decimal. */
 dal__decimal dal__decimal_multiple(double x, double factor);
-/* The double nearest to from + length part/whole, to 2^-98, with from as a decimal.  That is 0.3
- * for 3 parts of 10 in 1, of 30 in 3, and of 300 in 30. */
-double dal__add_share(double from, dal__decimal length, double part, double whole);
+/* The double nearest to from + length count/whole, to 2^-98, with from as a decimal.  That is 0.3
+ * for 3 of 10 in 1, of 30 in 3, and of 300 in 30. */
+double dal__add_share(double from, dal__decimal length, double count, double whole);
 
 /* ---- hashes -------------------------------------------------------------------------------- */
 

@@ -17,7 +17,7 @@
  * the nodes D errs by O(h^2), bounded. */
 #include <dalembert_kernel.h>
 
-/* Where v.Wv is below this part of U, kappa d is omitted: it is of third order in v and changes
+/* Where v.Wv is below this fraction of U, kappa d is omitted: it is of third order in v and changes
  * the energy by less than rounding, while the rounding of U would be divided by v. */
 #define STILL 0x1p-30
 

@@ -46,16 +46,16 @@ typedef struct python_request {
 dal_status python_sample(dal_run *run, double T, long long count, python_request *request, dal_error *error);
 void python_evaluate(dal_evaluator *evaluator, dal_callback *callback, long long count, const double *t,
                      const double *q, const double *v, int width, int size, double *out);
-typedef struct body_part {
+typedef struct body_shape {
     double pivot[2], turn;
     bool is_narrowed;
     double radius;
     int count;
     double at[6][2];
     ...;
-} body_part;
+} body_shape;
 dal_callback *python_picture(const dal_system *system);
-const body_part *python_part(const dal_system *system, const body_part *part);
+const body_shape *python_shape(const dal_system *system, const body_shape *shape);
 #define DAL_PICTURE_COUNT ...
 void free(void *text);
 #define DAL_VERSION_MAJOR ...

@@ -102,8 +102,8 @@ static dal_callback *python_picture(const dal_system *system)
     return system->picture ? system->picture->evaluate : NULL;
 }
 
-/* The part of a system's body after another one, the first one for NULL; NULL after the last. */
-static const body_part *python_part(const dal_system *system, const body_part *part)
+/* The shape of a system's body after another one, the first one for NULL; NULL after the last. */
+static const body_shape *python_shape(const dal_system *system, const body_shape *shape)
 {
-    return body_next(system->picture ? system->picture->body : DAL_BODY_POINT, part);
+    return body_next(system->picture ? system->picture->body : DAL_BODY_POINT, shape);
 }

@@ -25,12 +25,12 @@
  * signals. */
 static const double short_time = 0.01;
 enum { MAX_REPEATS = 3, CHUNK = 1000 };
-/* A step to T that takes more substeps than a step may have is divided into 16 parts, then into 16
- * times as many, up to MAX_PARTS. */
-enum { DIVISION = 16, MAX_PARTS = 1 << 20 };
+/* A step to T that takes more substeps than a step may have is divided into 16 steps, then into 16
+ * times as many, up to MAX_STEPS. */
+enum { DIVISION = 16, MAX_STEPS = 1 << 20 };
 /* The smallest error that is claimed of a reference. */
 static const double rounding = 1e-16;
-/* The tolerances of the two references, as parts of the smallest one. */
+/* The tolerances of the two references, as fractions of the smallest one. */
 static const double first_reference = 0.1, second_reference = 0.01;
 
 static const char *const state_words[] = {
@@ -169,18 +169,18 @@ static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, dou
     return status;
 }
 
-/* The same; where the step is the whole time, in as few parts as the number of substeps in a part
+/* The same; where the step is the whole time, in as few steps as the number of substeps in one
  * allows. */
 static dal_status run_divided(const order_study *s, const dal_run_spec *spec, double *end,
                               run_cost *cost, dal_error *error)
 {
-    dal_run_spec part = *spec;
+    dal_run_spec shorter = *spec;
     dal_status status;
-    for (int parts = 1;; parts *= DIVISION) {
+    for (int steps = 1;; steps *= DIVISION) {
         *error = (dal_error){.status = DAL_STATUS_OK};
-        part.options.step = spec->options.step / parts;
-        status = run_to_end(s, &part, end, cost, error);
-        if (!s->divides || status != DAL_STATUS_NOT_CONVERGED || parts == MAX_PARTS) return status;
+        shorter.options.step = spec->options.step / steps;
+        status = run_to_end(s, &shorter, end, cost, error);
+        if (!s->divides || status != DAL_STATUS_NOT_CONVERGED || steps == MAX_STEPS) return status;
     }
 }
 

@@ -52,7 +52,7 @@ typedef struct order_study {
     order_method *methods;
     int method_count;
     int numbers;         /* that are compared: q, v and vakonomic g */
-    const double *units; /* [numbers] of theirs: errors are parts of these, or of a number */
+    const double *units; /* [numbers] of theirs: errors are fractions of these, or of a number */
     dal_scaled *scaled;  /* has them */
     double *reference;   /* [numbers] at T, and room for as many */
     const char *reference_method; /* NULL: the exact solution */

@@ -39,7 +39,7 @@ static char *find_below(const char *base, const char *data)
 
 /* ---- what it is ---------------------------------------------------------------------------- */
 
-static int read_part(const char *directory, const char *name, char **text)
+static int read_library_file(const char *directory, const char *name, char **text)
 {
     size_t length;
     char *path = cli_join(directory, name);
@@ -67,9 +67,9 @@ int chart_library_read(chart_library *library)
     if (!has_own && !directory) directory = find_below("/usr/local/share", "");
     if (!has_own && !directory) directory = find_below("/usr/share", "");
     if (!directory) return CLI_DONE;
-    int status = read_part(directory, script_name, &library->script);
-    if (status == CLI_DONE) status = read_part(directory, style_name, &library->style);
-    if (status == CLI_DONE) status = read_part(directory, licence_name, &library->licence);
+    int status = read_library_file(directory, script_name, &library->script);
+    if (status == CLI_DONE) status = read_library_file(directory, style_name, &library->style);
+    if (status == CLI_DONE) status = read_library_file(directory, licence_name, &library->licence);
     free(directory);
     return status;
 }

@@ -87,7 +87,7 @@ static void widen(double *low, double *high, const double *x, int count)
 /* ---- steps --------------------------------------------------------------------------------- */
 
 /* Adds steps that lie in one block and do not pass the end of the columns. */
-static void add_part(const step_record *r, const record_steps *s, int first, int count)
+static void add_within(const step_record *r, const record_steps *s, int first, int count)
 {
     const int n = r->coordinates;
     const long long before = record_steps_added(r), length = (long long)r->number[LENGTH];
@@ -121,7 +121,7 @@ void record_add(step_record *r, const record_steps *s)
         const long long of_columns = RECORD_STEPS - before % RECORD_STEPS;
         count = of_block < of_columns ? of_block : of_columns;
         if (s->count - first < count) count = s->count - first;
-        add_part(r, s, (int)first, (int)count);
+        add_within(r, s, (int)first, (int)count);
     }
 }
 

@@ -28,7 +28,7 @@ const char *const body_name[DAL_BODY_COUNT] = {
         }                                                                                          \
     }
 
-static const body_part parts[] = {
+static const body_shape shapes[] = {
     {DAL_BODY_POINT, .radius = 0.3},
     {DAL_BODY_SLEIGH, .count = 6,
      .at = {{1.2, 0}, {0.4, 0.55}, {-0.9, 0.55}, {-0.9, -0.55}, {0.4, -0.55}, {1.2, 0}}},
@@ -50,10 +50,10 @@ static const body_part parts[] = {
     AXLE(DAL_BODY_RACER, 1.2, 0, 1, 0.7),
 };
 
-const body_part *body_next(dal_body body, const body_part *part)
+const body_shape *body_next(dal_body body, const body_shape *shape)
 {
-    const body_part *const end = parts + sizeof parts / sizeof parts[0];
-    for (part = part ? part + 1 : parts; part < end; part++)
-        if (part->body == body) return part;
+    const body_shape *const end = shapes + sizeof shapes / sizeof shapes[0];
+    for (shape = shape ? shape + 1 : shapes; shape < end; shape++)
+        if (shape->body == body) return shape;
     return NULL;
 }

@@ -23,14 +23,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of more rows than these every k-th is read; frames between two rows; what is far off, as
- * a part of the extent of the path, and in radians; between rows a body makes less than a quarter
+/* Of more rows than these every k-th is read; frames between two rows; what is far off, as a
+ * fraction of the extent of the path, and in radians; between rows a body makes less than a quarter
  * of a turn. */
 enum { MAX_ROWS = 20000, FRAMES_A_ROW = 8 };
-static const double far_part = 0.1, far_turn = 0.5, quarter = 1.5707963267948966;
+static const double far_fraction = 0.1, far_turn = 0.5, quarter = 1.5707963267948966;
 
 /* Of the mean time between steps: what a difference of poses is taken over. */
-static const double small_part = 1e-4;
+static const double small_fraction = 1e-4;
 
 typedef struct pose_row {
     double t, pose[DAL_PICTURE_COUNT], rate[DAL_PICTURE_COUNT];
@@ -83,7 +83,7 @@ static int read_last_steps(pose_reader *p, motion_rows *m, const char *run)
     double *state = cli_calloc(2 * (size_t)n, sizeof *state);
     if (count > 1) {
         const double passed = record_value(record, 0, count - 1) - record_value(record, 0, 0);
-        p->small_time = small_part * passed / (count - 1);
+        p->small_time = small_fraction * passed / (count - 1);
         m->count = 0;
         m->steps = count;
     }
@@ -142,7 +142,7 @@ static void interpolate(const pose_row *a, const pose_row *b, double t, double *
 static bool is_dense(const pose_row *row, int count)
 {
     if (count < 2) return false;
-    const double far = far_part * find_extent(row->pose, sizeof *row / sizeof(double), count);
+    const double far = far_fraction * find_extent(row->pose, sizeof *row / sizeof(double), count);
     int gaps = 0;
     for (int i = 1; i + 1 < count; i++) {
         double pose[DAL_PICTURE_COUNT];
@@ -279,15 +279,15 @@ static void write_pair(json_writer *data, const char *name, const double pair[2]
     json_close(data);
 }
 
-static void write_part(json_writer *data, const body_part *part)
+static void write_shape(json_writer *data, const body_shape *shape)
 {
     json_open(data, NULL, JSON_ON_ONE_LINE);
-    write_pair(data, "pivot", part->pivot);
-    json_put_rounded(data, "turn", part->turn);
-    json_put_flag(data, "narrowed", part->is_narrowed);
-    json_put_rounded(data, "radius", part->radius);
+    write_pair(data, "pivot", shape->pivot);
+    json_put_rounded(data, "turn", shape->turn);
+    json_put_flag(data, "narrowed", shape->is_narrowed);
+    json_put_rounded(data, "radius", shape->radius);
     json_open_list(data, "line", JSON_ON_ONE_LINE);
-    for (int i = 0; i < part->count; i++) write_pair(data, NULL, part->at[i]);
+    for (int i = 0; i < shape->count; i++) write_pair(data, NULL, shape->at[i]);
     json_close(data);
     json_close(data);
 }
@@ -313,7 +313,8 @@ void motion_write(json_writer *data, const motion *m)
     json_close(data);
     json_put_text(data, "body", body_name[m->body]);
     json_open_list(data, "parts", JSON_ON_ONE_LINE);
-    for (const body_part *part = NULL; (part = body_next(m->body, part));) write_part(data, part);
+    for (const body_shape *shape = NULL; (shape = body_next(m->body, shape));)
+        write_shape(data, shape);
     json_close(data);
     for (int i = 0; i < DAL_PICTURE_COUNT; i++) write_numbers(data, m, i, names[i]);
     json_close(data);

@@ -160,7 +160,7 @@ static int draw_methods(const order_page *o, const csv_words *methods, const cha
 static int draw_family(const order_page *o, method_family family)
 {
     csv_words some = {.count = 0};
-    int status = CLI_DONE, parts = 0, found = 0;
+    int status = CLI_DONE, figures = 0, found = 0;
     for (int m = 0; m < o->methods.count && status == CLI_DONE; m++) {
         char suffix[32];
         if (method_family_of(o->methods.word[m]) != family) continue;
@@ -168,12 +168,12 @@ static int draw_family(const order_page *o, method_family family)
             fprintf(o->r->page, "<details><summary>%s</summary>\n", method_family_name[family]);
         csv_add_word(&some, o->methods.word[m]);
         if (some.count < PLOT_METHODS) continue;
-        snprintf(suffix, sizeof suffix, "-%d-%d", (int)family + 1, ++parts);
+        snprintf(suffix, sizeof suffix, "-%d-%d", (int)family + 1, ++figures);
         status = draw_methods(o, &some, suffix);
         some.count = 0;
     }
     char suffix[32];
-    snprintf(suffix, sizeof suffix, "-%d-%d", (int)family + 1, parts + 1);
+    snprintf(suffix, sizeof suffix, "-%d-%d", (int)family + 1, figures + 1);
     if (status == CLI_DONE && some.count > 0) status = draw_methods(o, &some, suffix);
     if (found > 0) fputs("</details>\n", o->r->page);
     return status;

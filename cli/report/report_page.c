@@ -258,7 +258,7 @@ int report_close(report *r)
     cli_memstream_close(page);
     const int status = r->read == CLI_DONE ? file_replace(r->page_path, text, length, 0) : r->read;
     free(text);
-    for (int i = 0; i < REPORT_PARTS; i++) free(r->text[i]);
+    for (int i = 0; i < REPORT_TEXTS; i++) free(r->text[i]);
     chart_library_free(&r->charts);
     return status;
 }

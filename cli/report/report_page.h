@@ -19,7 +19,7 @@
 
 extern const char report_style[], report_script[]; /* *.css and *.js, embedded */
 
-enum { REPORT_HEAD, REPORT_CONTENTS, REPORT_PAGE, REPORT_PARTS };
+enum { REPORT_HEAD, REPORT_CONTENTS, REPORT_PAGE, REPORT_TEXTS };
 
 typedef struct report {
     const char *directory; /* of the study or run */
@@ -28,8 +28,8 @@ typedef struct report {
     chart_library charts;
     FILE *page;               /* what is below the title, in memory until it is closed */
     FILE *head, *contents;    /* what is above it; the items of the contents */
-    char *text[REPORT_PARTS]; /* of those three when they are closed */
-    size_t length[REPORT_PARTS];
+    char *text[REPORT_TEXTS]; /* of those three when they are closed */
+    size_t length[REPORT_TEXTS];
     char *page_path;
     int read;    /* the exit status of reading the files that are on the page */
     int figures; /* so far, on the page where there is the library of charts */
@@ -45,8 +45,8 @@ int report_make(report *r, int (*write)(report *r));
 int report_after(const char *directory, int status, int (*write)(report *r));
 /* Ends the head and begins the body with the title as its heading. */
 void report_title(report *r, const char *title);
-/* A part of the page under a heading, to which the contents lead by its id; the same for a part of
- * the last such part, whose heading is the caller's. */
+/* A section of the page under a heading, to which the contents lead by its id; the same for a
+ * section of the last one, whose heading is the caller's. */
 void report_heading(report *r, const char *id, const char *heading);
 void report_subheading(report *r, const char *id, const char *heading);
 /* A text with &, <, > and quotes escaped, and blanks for its control characters except tabs and

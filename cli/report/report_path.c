@@ -16,7 +16,8 @@
 #include <string.h>
 
 /* Of more rows than MAX_POINTS every k-th is drawn, and of more dots than MAX_DOTS every k-th;
- * instants of the body; its half length as a part of the extent of the path; points of a circle. */
+ * instants of the body; its half length as a fraction of the extent of the path; points of a
+ * circle. */
 enum { MAX_POINTS = 2000, MAX_DOTS = 500, INSTANTS = 9, ROUND = 32 };
 static const double half_length = 0.055;
 static const double pi = 3.14159265358979323846;
@@ -38,24 +39,24 @@ typedef struct pen {
     double scale;
 } pen;
 
-/* A point of a part: narrowed, turned about its pivot, with the body in the plane. */
-static void draw_to(const pen *p, const body_part *part, double x, double y)
+/* A point of a shape: narrowed, turned about its pivot, with the body in the plane. */
+static void draw_to(const pen *p, const body_shape *shape, double x, double y)
 {
-    const double turn = part->turn * p->pose[DAL_PICTURE_STEER];
+    const double turn = shape->turn * p->pose[DAL_PICTURE_STEER];
     const double c = cos(p->pose[DAL_PICTURE_ANGLE]), s = sin(p->pose[DAL_PICTURE_ANGLE]);
-    if (part->is_narrowed) y *= p->pose[DAL_PICTURE_WIDTH];
-    const double u = part->pivot[0] + cos(turn) * x - sin(turn) * y;
-    const double v = part->pivot[1] + sin(turn) * x + cos(turn) * y;
+    if (shape->is_narrowed) y *= p->pose[DAL_PICTURE_WIDTH];
+    const double u = shape->pivot[0] + cos(turn) * x - sin(turn) * y;
+    const double v = shape->pivot[1] + sin(turn) * x + cos(turn) * y;
     report_point(p->plot, p->curve, p->pose[DAL_PICTURE_X] + p->scale * (c * u - s * v),
                  p->pose[DAL_PICTURE_Y] + p->scale * (s * u + c * v));
 }
 
-static void draw_part(const pen *p, const body_part *part)
+static void draw_shape(const pen *p, const body_shape *shape)
 {
-    const double r = part->radius;
-    for (int i = 0; i < part->count; i++) draw_to(p, part, part->at[i][0], part->at[i][1]);
+    const double r = shape->radius;
+    for (int i = 0; i < shape->count; i++) draw_to(p, shape, shape->at[i][0], shape->at[i][1]);
     for (int i = 0; r > 0.0 && i <= ROUND; i++)
-        draw_to(p, part, r * cos(2.0 * pi * i / ROUND), r * sin(2.0 * pi * i / ROUND));
+        draw_to(p, shape, r * cos(2.0 * pi * i / ROUND), r * sin(2.0 * pi * i / ROUND));
     report_lift(p->curve);
 }
 
@@ -66,8 +67,8 @@ static void draw_bodies(const body_path *p, report_plot *plot)
     curve->is_black = true;
     for (int k = 0; k < p->instants; k++) {
         const pen ink = {plot, curve, p->pose[k], extent > 0.0 ? half_length * extent : 1.0};
-        for (const body_part *part = NULL; (part = body_next(p->poses.body, part));)
-            draw_part(&ink, part);
+        for (const body_shape *shape = NULL; (shape = body_next(p->poses.body, shape));)
+            draw_shape(&ink, shape);
     }
 }
 

@@ -17,7 +17,7 @@
 enum { WIDTH = GNUPLOT_WIDTH, HEIGHT = 245, KEY_ROW = 17, KEY_SAMPLE = 50, NAME_ROW = 20 };
 static const double letter = 7.0;
 /* Above and below the axes, and the range of the height between them; left and right ends of the
- * axes as parts of the width. */
+ * axes as fractions of the width. */
 enum { ABOVE = 32, BELOW = 54, FRAME = ABOVE + BELOW, MIN_HEIGHT = 100, MAX_HEIGHT = 340 };
 #define LEFT  0.23
 #define NAMES 0.42 /* with names in rows */

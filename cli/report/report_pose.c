@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 /* Of the mean time between rows: what a difference of poses is taken over. */
-static const double small_part = 1e-4;
+static const double small_fraction = 1e-4;
 
 /* Number of a coordinate, or -1. */
 static int find_coordinate(const dal_system *system, const char *name)
@@ -96,7 +96,7 @@ int pose_open(pose_reader *p, const char *run)
     p->has_exact = system->exact && has_error(&p->rows);
     p->has_poses = p->rows.count > 0 && has_state(p);
     const run_request *request = &p->simulation.request;
-    p->small_time = small_part * (request->time - request->from) / (double)(p->rows.count + 1);
+    p->small_time = small_fraction * (request->time - request->from) / (double)(p->rows.count + 1);
     return CLI_DONE;
 }
 

@@ -14,7 +14,7 @@
 #include <string.h>
 
 /* A curve that turns oftener than this is a block, and drawn as a band.  A line shows a turn with
- * that many rows at least, and a band has that many turns in each of its parts. */
+ * that many rows at least, and a band has that many turns in each of its pieces. */
 enum { MAX_TURNS = 80, TURN_ROWS = 4, BAND_TURNS = 4 };
 
 /* ---- bins ---------------------------------------------------------------------------------- */
@@ -59,19 +59,19 @@ void row_series_add(row_series *s, double t, double x)
 
 /* ---- curves -------------------------------------------------------------------------------- */
 
-/* The parts of a band hold several turns each; it ends where the rows end. */
+/* The pieces of a band hold several turns each; it ends where the rows end. */
 static void draw_band(const row_series *s, const report_plot *plot, plot_curve *curve)
 {
-    const int parts = (int)fmax(1.0, fmin(s->bins, (double)s->turns / BAND_TURNS));
+    const int pieces = (int)fmax(1.0, fmin(s->bins, (double)s->turns / BAND_TURNS));
     curve->is_band = true;
-    for (int i = 0; i < parts; i++) {
-        const int first = i * s->bins / parts, next = (i + 1) * s->bins / parts;
+    for (int i = 0; i < pieces; i++) {
+        const int first = i * s->bins / pieces, next = (i + 1) * s->bins / pieces;
         const double end = next < s->bins ? s->bin[next].begin : s->end;
-        row_bin part = s->bin[first];
-        for (int k = first + 1; k < next; k++) join_bins(&part, &s->bin[k]);
-        if (i == 0) report_band(plot, curve, part.begin, part.low[1], part.high[1]);
-        report_band(plot, curve, 0.5 * (part.begin + end), part.low[1], part.high[1]);
-        if (i == parts - 1) report_band(plot, curve, end, part.low[1], part.high[1]);
+        row_bin piece = s->bin[first];
+        for (int k = first + 1; k < next; k++) join_bins(&piece, &s->bin[k]);
+        if (i == 0) report_band(plot, curve, piece.begin, piece.low[1], piece.high[1]);
+        report_band(plot, curve, 0.5 * (piece.begin + end), piece.low[1], piece.high[1]);
+        if (i == pieces - 1) report_band(plot, curve, end, piece.low[1], piece.high[1]);
     }
 }
 

@@ -46,7 +46,7 @@ typedef struct row_steps {
 int row_steps_read(row_steps *steps, const run_directory *dir, int coordinates, int observables);
 void row_steps_free(row_steps *steps);
 /* Draw a coordinate, or an observable less a number, as the band from the least to the greatest
- * value of all steps in parts of the time; false: there is none, or the rows are no fewer. */
+ * value of all steps in pieces of the time; false: there is none, or the rows are no fewer. */
 bool row_steps_draw_coordinate(const row_steps *steps, int coordinate, const report_plot *plot,
                                plot_curve *curve);
 bool row_steps_draw_observable(const row_steps *steps, int observable, double less, long long rows,

@@ -283,7 +283,7 @@ static int draw_best_path(const label_figures *f)
 
 /* ---- the motions of a label ---------------------------------------------------------------- */
 
-/* A run whose motion parts from the best one is no longer seen beside it where its path is more
+/* A run whose motion leaves the best one is no longer seen beside it where its path is more
  * than this many times as large; runs that are tried for one. */
 static const double max_extent = 2.0;
 enum { MAX_TRIES = 12 };

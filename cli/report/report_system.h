@@ -25,7 +25,7 @@ void report_fact(FILE *page, const char *name, const char *text);
 /* Whether a coordinate is an angle: it has the name of one, theta or phi1, or is in a sine,
  * cosine or tangent. */
 bool report_is_angle(const dal_model *model, const char *coordinate);
-/* A part of the page with the command that makes a run. */
+/* A section of the page with the command that makes a run. */
 void report_command(report *r, const run_request *request);
 
 #endif

@@ -181,9 +181,9 @@ int manifest_compare(const run_directory *dir, const run_request *held, const ru
 /* 1002003 for 1.2.3. */
 static int version_number(const char *version)
 {
-    int part[3] = {0};
-    sscanf(version, "%d.%d.%d", &part[0], &part[1], &part[2]);
-    return (part[0] * 1000 + part[1]) * 1000 + part[2];
+    int number[3] = {0};
+    sscanf(version, "%d.%d.%d", &number[0], &number[1], &number[2]);
+    return (number[0] * 1000 + number[1]) * 1000 + number[2];
 }
 
 static int check_version(const document *doc, const yaml_node_t *root)

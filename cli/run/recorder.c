@@ -213,9 +213,9 @@ static void show_line(const run_recorder *r, double t)
     const int width = cli_width() - 1;
     progress_line line = {.capacity = width < LINE ? width : LINE - 1};
     const long long steps = dal_run_steps(r->simulation->run) - r->start_step;
-    const double part =
+    const double fraction =
         (t - r->simulation->request.from) / (r->simulation->end - r->simulation->request.from);
-    append_piece(&line, "t = %.6g (%.0f %%)", t, floor(100.0 * part));
+    append_piece(&line, "t = %.6g (%.0f %%)", t, floor(100.0 * fraction));
     append_remaining(&line, remaining(r, t));
     if (r->seconds > 0.0) append_piece(&line, ", %.2e steps/s", (double)steps / r->seconds);
     const char *before = ", moved: ";

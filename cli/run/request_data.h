@@ -65,7 +65,7 @@ typedef enum request_step {
     REQUEST_STEP_CHOSEN,
     REQUEST_STEP_UNUSED
 } request_step;
-enum { REQUEST_CHOSEN_STEPS = 100 }; /* a chosen step is this part of the time */
+enum { REQUEST_CHOSEN_STEPS = 100 }; /* a chosen step is this fraction of the time */
 
 typedef struct run_request {
     const char *system_name;   /* a built-in name or a path; the caller's, as all texts here */

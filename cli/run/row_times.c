@@ -41,8 +41,8 @@ static int fill_log(run_simulation *s)
     s->samples = 0;
     s->row_time[0] = request->from;
     for (long long k = 1; k <= rows; k++) {
-        const double part = rows > 1 ? (double)(k - 1) / (double)(rows - 1) : 1.0;
-        const double step = fmin(floor(exp(part * log(steps)) + 0.5), steps);
+        const double fraction = rows > 1 ? (double)(k - 1) / (double)(rows - 1) : 1.0;
+        const double step = fmin(floor(exp(fraction * log(steps)) + 0.5), steps);
         if (step > before && step < whole / h) s->row_time[++s->samples] = request->from + step * h;
         before = fmax(before, step);
     }

@@ -289,8 +289,8 @@ static void choose_tracks(cell_run *r)
 static void track_row(void *user, const double *row)
 {
     cell_run *r = user;
-    const double part = (double)r->rows / ((double)r->simulation.samples + 1.0);
-    const int window = (int)(part * STUDY_WINDOWS);
+    const double fraction = (double)r->rows / ((double)r->simulation.samples + 1.0);
+    const int window = (int)(fraction * STUDY_WINDOWS);
     for (int i = 0; i < r->recorder.columns.count; i++) {
         tracked_column *c = &r->column[i];
         if (r->rows == 0 && c->measure == CHANGE) c->first = row[i];

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* E is kept to this part of max |E|. */
-static const double kept_part = 0.01;
+/* E is kept to this fraction of max |E|. */
+static const double kept_fraction = 0.01;
 
 /* ---- integrators and systems --------------------------------------------------------------- */
 
@@ -87,7 +87,7 @@ static void count_runs(const study_matrix *s)
             method->count[k][of_run]++;
             method->kept[k] +=
                 of_run == AT_ROUNDING ||
-                (of_run == BOUNDED && trend->deviation <= kept_part * trend->max_abs);
+                (of_run == BOUNDED && trend->deviation <= kept_fraction * trend->max_abs);
         }
     }
 }

@@ -9,7 +9,7 @@
 enum { STUDY_COLUMNS = 12 };
 
 /* An integrator, its name, and how many of its runs have which fate; in how many a quantity is at
- * rounding, or bounded and kept to that part. */
+ * rounding, or bounded and kept to that fraction. */
 typedef struct study_method {
     char name[STUDY_NAME];
     int count[QUANTITIES][FATES], kept[QUANTITIES];

@@ -360,24 +360,24 @@ static void print_runs(FILE *out, const study_plan *plan)
 
 /* ---- the screen ---------------------------------------------------------------------------- */
 
-/* The parts from top to bottom: a matrix for each quantity is between the legend and the key. */
-enum { LEGEND, MATRIX, KEY = MATRIX + QUANTITIES, SENTENCES, END, PARTS };
+/* The pieces from top to bottom: a matrix for each quantity is between the legend and the key. */
+enum { LEGEND, MATRIX, KEY = MATRIX + QUANTITIES, SENTENCES, END, PIECES };
 
-static void print_part(FILE *out, const study_matrix *s, int part, const char *tables,
-                       bool in_colour)
+static void print_piece(FILE *out, const study_matrix *s, int piece, const char *tables,
+                        bool in_colour)
 {
-    if (part == LEGEND) {
+    if (piece == LEGEND) {
         print_systems(out, s);
-    } else if (part == KEY) {
+    } else if (piece == KEY) {
         print_key(out, s);
-    } else if (part == SENTENCES) {
+    } else if (piece == SENTENCES) {
         print_sentences(out, s);
-    } else if (part == END) {
+    } else if (piece == END) {
         print_expectations(out, s->plan);
         print_runs(out, s->plan);
         fprintf(out, "Tables: %s\n", tables ? tables : "'dalembert merge' makes them");
     } else {
-        print_matrix(out, s, part - MATRIX, in_colour);
+        print_matrix(out, s, piece - MATRIX, in_colour);
     }
 }
 
@@ -396,20 +396,20 @@ void study_print_screen(FILE *out, const study_plan *plan, const char *tables, b
 {
     study_matrix s;
     study_matrix_make(&s, plan, STUDY_SOME);
-    char *text[PARTS];
+    char *text[PIECES];
     size_t length;
     int lines = 0;
-    for (int i = 0; i < PARTS; i++) {
-        FILE *part = cli_memstream_open(&text[i], &length);
-        print_part(part, &s, i, tables, in_colour);
-        cli_memstream_close(part);
+    for (int i = 0; i < PIECES; i++) {
+        FILE *piece = cli_memstream_open(&text[i], &length);
+        print_piece(piece, &s, i, tables, in_colour);
+        cli_memstream_close(piece);
         lines += count_lines(text[i]);
     }
     for (int i = KEY - 1; i > MATRIX && lines > LINES; i--) {
         lines -= count_lines(text[i]);
         text[i][0] = '\0';
     }
-    for (int i = 0; i < PARTS; i++) {
+    for (int i = 0; i < PIECES; i++) {
         if (i > 0 && i != KEY && text[i][0] && lines < LINES) {
             fputc('\n', out);
             lines++;

@@ -13,19 +13,19 @@
 /* Expectations that are not met and are shown. */
 enum { MAX_UNMET = 2 };
 
-/* Whether a part of the label of a column between hyphens and underscores, of the longest length at
- * most, is in no other label; the first such part, cut, becomes the name, or else the last one. */
+/* Whether a piece of the label of a column between hyphens and underscores, of the longest length
+ * at most, is in no other label; the first such piece, cut, or else the last is the name. */
 static bool find_name(const study_matrix *m, int column, int letters, size_t longest,
                       char name[STUDY_SHORT_NAME])
 {
     bool found = false;
-    const char *part = m->column[column]->label;
-    for (size_t length; !found && *part; part += length + (part[length] != '\0')) {
-        length = strcspn(part, "-_");
-        if (strcmp(part + strcspn(part, "."), ".yaml") == 0) length = strcspn(part, ".");
+    const char *piece = m->column[column]->label;
+    for (size_t length; !found && *piece; piece += length + (piece[length] != '\0')) {
+        length = strcspn(piece, "-_");
+        if (strcmp(piece + strcspn(piece, "."), ".yaml") == 0) length = strcspn(piece, ".");
         if (length > longest) continue;
-        const int fits = cli_fit(part, letters);
-        snprintf(name, STUDY_SHORT_NAME, "%.*s", length < (size_t)fits ? (int)length : fits, part);
+        const int fits = cli_fit(piece, letters);
+        snprintf(name, STUDY_SHORT_NAME, "%.*s", length < (size_t)fits ? (int)length : fits, piece);
         int k = 0;
         while (k < m->columns && (k == column || !strstr(m->column[k]->label, name))) k++;
         found = k == m->columns;

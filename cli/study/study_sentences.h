@@ -8,8 +8,8 @@
 /* The most letters of a short name; its bytes, as many of UTF-8 as they may take, and a zero. */
 enum { STUDY_SHORT_LETTERS = 12, STUDY_SHORT_NAME = 4 * STUDY_SHORT_LETTERS + 1 };
 
-/* A short name for each column, of some letters at most: the first part of its label that no other
- * label has, one that need not be cut if there is any; else the last part, with a number where
+/* A short name for each column, of some letters at most: the first piece of its label that no other
+ * label has, one that need not be cut if there is any; else the last piece, with a number where
  * another column has that. */
 void study_name_columns(const study_matrix *m, int letters, char (*name)[STUDY_SHORT_NAME]);
 /* A mark of growth: "/" like t, "^" faster, "~" slower, "?" undecided, "x" aborted, or none. */

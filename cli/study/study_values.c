@@ -21,7 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double beyond = 1e-9; /* parts of a step by which a range may miss its end */
+static const double beyond = 1e-9; /* fractions of a step by which a range may miss its end */
 
 /* ---- ranges ---- */
 

@@ -81,13 +81,13 @@ static bool has_motion(const dal_error_budget *e, dal_shares *a)
 
 /* ---- with quad precision ---- */
 
-static void set_share(dal_shares *a, dal_error_source source, const dal_trend *part)
+static void set_share(dal_shares *a, dal_error_source source, const dal_trend *change)
 {
-    a->share[source] = size_of(part, a->by_rate);
-    a->margin[source] = a->by_rate ? half_width(part) : NAN;
+    a->share[source] = size_of(change, a->by_rate);
+    a->margin[source] = a->by_rate ? half_width(change) : NAN;
 }
 
-/* Sizes of parts become shares of their sum. */
+/* Sizes become shares of their sum. */
 static void divide_by_sum(dal_shares *a)
 {
     double sum = 0.0;
@@ -186,8 +186,8 @@ static void share_by_halving(const dal_error_budget *e, dal_shares *a, bool move
     a->order = order_of(error, half);
     if (falls_as_stated(e, a->order)) {
         const double divisor = exp2(fmax(nearbyint(a->order), dal_method_order(&e->spec.method)));
-        const double part = (error - half) / sum * divisor / (divisor - 1.0);
-        a->share[DAL_SOURCE_TRUNCATION] = fmin(part, error / sum);
+        const double share = (error - half) / sum * divisor / (divisor - 1.0);
+        a->share[DAL_SOURCE_TRUNCATION] = fmin(share, error / sum);
     } else if (a->order >= half_an_order && dal__has_branches(e->spec.system)) {
         a->share[DAL_SOURCE_BRANCHES] = error / sum;
     }

@@ -72,8 +72,8 @@ static double distance_in_units(const stepmap *m, const double *a, const double 
 {
     double max = 0.0;
     for (int i = 0; i < m->dimension; i++) {
-        const double part = fabs(a[i] - b[i]) / fmax(unit_of(m, i), fabs(a[i]));
-        max = part <= max ? max : isnan(part) ? INFINITY : part;
+        const double share = fabs(a[i] - b[i]) / fmax(unit_of(m, i), fabs(a[i]));
+        max = share <= max ? max : isnan(share) ? INFINITY : share;
     }
     return max;
 }

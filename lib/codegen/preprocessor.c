@@ -110,7 +110,7 @@ static bool passes(const dal__generation *g, const char *line, branch *open, int
 /* ---- text ---- */
 
 /* Writes text up to end, with the prefix for the word PREFIX. */
-static void write_part(dal__generation *g, const char *text, const char *end)
+static void write_piece(dal__generation *g, const char *text, const char *end)
 {
     static const char word[] = "PREFIX";
     for (const char *next; (next = strstr(text, word)) && next < end; text = next + strlen(word)) {
@@ -122,7 +122,7 @@ static void write_part(dal__generation *g, const char *text, const char *end)
 
 void dal__write_template(dal__generation *g, const char *text)
 {
-    write_part(g, text, text + strlen(text));
+    write_piece(g, text, text + strlen(text));
 }
 
 void dal__preprocess(dal__generation *g, const char *text)
@@ -139,7 +139,7 @@ void dal__preprocess(dal__generation *g, const char *text)
             begins(text, "#if") || begins(text, "#el") || begins(text, "#endif");
         if (!(conditional ? passes(g, text, open, &depth) : open[depth].on)) continue;
         if (begins_chain) dal__buffer_append(&g->text, "#");
-        write_part(g, begins_chain ? text + strlen("#el") : text, text + length);
+        write_piece(g, begins_chain ? text + strlen("#el") : text, text + length);
     }
 }
 

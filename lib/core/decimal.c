@@ -412,8 +412,8 @@ dal__decimal dal__as_decimal(double x)
 /* The sum, with its rest below the last digit of its value. */
 static dal__decimal add_decimals(dal__decimal a, dal__decimal b)
 {
-    const double sum = a.value + b.value, part = sum - a.value;
-    const double rest = (a.value - (sum - part)) + (b.value - part) + (a.rest + b.rest);
+    const double sum = a.value + b.value, added = sum - a.value;
+    const double rest = (a.value - (sum - added)) + (b.value - added) + (a.rest + b.rest);
     return (dal__decimal){sum + rest, rest - ((sum + rest) - sum)};
 }
 
@@ -431,10 +431,10 @@ dal__decimal dal__decimal_multiple(double x, double factor)
                         (dal__decimal){one.rest * factor, 0.0});
 }
 
-double dal__add_share(double from, dal__decimal length, double part, double whole)
+double dal__add_share(double from, dal__decimal length, double count, double whole)
 {
-    const double high = length.value * part,
-                 low = fma(length.value, part, -high) + length.rest * part;
+    const double high = length.value * count,
+                 low = fma(length.value, count, -high) + length.rest * count;
     const double share = high / whole, rest = (fma(-share, whole, high) + low) / whole;
     return add_decimals(dal__as_decimal(from), (dal__decimal){share, rest}).value;
 }

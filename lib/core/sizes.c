@@ -162,9 +162,9 @@ static double time_unit(const dal__sizes *w, double radius)
  * midpoint rule; where F fails it ends. */
 static void follow_motion(dal__sizes *w)
 {
-    enum { STEPS = 4, PARTS = 16 }; /* a quarter: it may become singular soon */
+    enum { STEPS = 4, DIVISION = 16 }; /* a quarter: it may become singular soon */
     const int n = w->system->n, nw = velocities(w->system);
-    const double tau = w->time, h = copysign(tau / PARTS, w->step);
+    const double tau = w->time, h = copysign(tau / DIVISION, w->step);
     double *x = w->scratch, *middle = x + n + nw, *f = middle + n + nw, *length = w->length;
     memcpy(x, w->x, (size_t)(n + nw) * sizeof *x);
     for (int k = 0; k < STEPS && field_at(w, w->t + k * h, x, f); k++) {
@@ -180,7 +180,7 @@ static void follow_motion(dal__sizes *w)
 
 static void find_lengths(dal__sizes *w)
 {
-    static const double rounding = 1e-10; /* parts of a length of equal energy */
+    static const double rounding = 1e-10; /* fractions of a length of equal energy */
     const int n = w->system->n;
     double energy = 0.0, *length = w->length;
     for (int i = 0; i < n; i++)

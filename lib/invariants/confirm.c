@@ -20,7 +20,7 @@
 #include <string.h>
 
 enum { POINTS = 8, OF_INDEPENDENCE = 3 };
-/* Parts of the terms of a rate that are roundings of doubles; of a gradient, that count as 0. */
+/* Fractions of the terms of a rate that are roundings of doubles; of a gradient, counted as 0. */
 static const double rounding = 1e-10, dependent = 1e-7;
 
 /* Likewise of quad precision, with the digits that terms lose in F. */

@@ -19,7 +19,7 @@
 
 /* Factors by which parameters differ; instead of one that is 0. */
 static const double scale = 1.25, instead_of_zero = 0.375;
-/* Parts of |c| that are roundings; and where parameters differ. */
+/* Fractions of |c| that are roundings; and where parameters differ. */
 static const double fraction_tolerance = 1e-10, fit_tolerance = 1e-9;
 enum {
     MAX_DENOMINATOR = 1000,
@@ -28,15 +28,15 @@ enum {
     MAX_EXPONENT = 2, /* of a parameter in a coefficient */
     MAX_FITTED = 4,   /* parameters in a sum, */
     MAX_SINGLE = 6,   /* or in one product */
-    PARTS = 2         /* products in a coefficient */
+    SUMMANDS = 2      /* in a coefficient */
 };
 
-/* A coefficient: one or two products of a number with powers of parameters. */
+/* A coefficient: a sum of one or two numbers times powers of parameters. */
 typedef struct coefficient {
-    int parts;
-    double number[PARTS];
-    long long part[PARTS], divisor[PARTS]; /* fractions; divisor 0: the number is none */
-    int *exponent[PARTS];                  /* [parameters] */
+    int summands;
+    double number[SUMMANDS];
+    long long numerator[SUMMANDS], divisor[SUMMANDS]; /* fractions; divisor 0: the number is none */
+    int *exponent[SUMMANDS];                          /* [parameters] */
 } coefficient;
 
 /* The terms of a form. */
@@ -49,7 +49,7 @@ typedef struct terms {
     double *parameter;  /* [SETS*parameters] and these sets */
     int *relevant;      /* [fitted] parameters that change a coefficient */
     int fitted;         /* how many */
-    int *exponents;     /* [PARTS*count*parameters] of the coefficients */
+    int *exponents;     /* [SUMMANDS*count*parameters] of the coefficients */
     coefficient *whole; /* [count] */
 } terms;
 
@@ -62,7 +62,7 @@ static dal_status make_terms(terms *t, const double *row)
     t->product = calloc(n, sizeof *t->product);
     t->value = dal__numbers(SETS, n + p);
     t->relevant = calloc(p, sizeof *t->relevant);
-    t->exponents = calloc(PARTS * n * p, sizeof *t->exponents);
+    t->exponents = calloc(SUMMANDS * n * p, sizeof *t->exponents);
     t->whole = calloc(n, sizeof *t->whole);
     if (!t->product || !t->value || !t->relevant || !t->exponents || !t->whole)
         return DAL_STATUS_MEMORY;
@@ -70,8 +70,8 @@ static dal_status make_terms(terms *t, const double *row)
     for (int k = 0, i = 0; k < products; k++)
         if (row[k] != 0.0) t->product[i++] = k;
     for (int k = 0; k < t->count; k++)
-        for (int i = 0; i < PARTS; i++)
-            t->whole[k].exponent[i] = t->exponents + (PARTS * k + i) * t->parameters;
+        for (int i = 0; i < SUMMANDS; i++)
+            t->whole[k].exponent[i] = t->exponents + (SUMMANDS * k + i) * t->parameters;
     return DAL_STATUS_OK;
 }
 
@@ -150,12 +150,12 @@ static dal_status find_relevant(terms *t, bool *found)
 
 /* ---- fractions ----------------------------------------------------------------------------- */
 
-/* x as part/divisor; divisor 0 where it is no fraction of small numbers. */
-static void find_fraction(double x, long long *part, long long *divisor)
+/* x as numerator/divisor; divisor 0 where it is no fraction of small numbers. */
+static void find_fraction(double x, long long *numerator, long long *divisor)
 {
     long long p[2] = {0, 1}, q[2] = {1, 0};
     double rest = fabs(x);
-    *part = *divisor = 0;
+    *numerator = *divisor = 0;
     for (int k = 0; k < 20 && rest < 1e9; k++) {
         const long long whole = (long long)floor(rest);
         const long long next[2] = {whole * p[1] + p[0], whole * q[1] + q[0]};
@@ -163,7 +163,7 @@ static void find_fraction(double x, long long *part, long long *divisor)
         q[0] = q[1], q[1] = next[1];
         if (q[1] > MAX_DENOMINATOR) return;
         if (fabs((double)p[1] / (double)q[1] - fabs(x)) <= fraction_tolerance * fabs(x)) {
-            *part = x < 0.0 ? -p[1] : p[1];
+            *numerator = x < 0.0 ? -p[1] : p[1];
             *divisor = q[1];
             return;
         }
@@ -181,11 +181,11 @@ static long long common_divisor(long long a, long long b)
     return llabs(a);
 }
 
-static void set_part(coefficient *c, int i, double number)
+static void set_summand(coefficient *c, int i, double number)
 {
     c->number[i] = number;
-    find_fraction(number, &c->part[i], &c->divisor[i]);
-    c->parts = i + 1;
+    find_fraction(number, &c->numerator[i], &c->divisor[i]);
+    c->summands = i + 1;
 }
 
 /* ---- powers of parameters ------------------------------------------------------------------ */
@@ -232,7 +232,7 @@ static bool fit_product(const terms *t, const powers *p, const double *x, coeffi
         int set = 1;
         while (set < SETS && fabs(r * a[set] - x[set]) <= fit_tolerance * fabs(x[set])) set++;
         if (set < SETS) continue;
-        set_part(c, 0, r);
+        set_summand(c, 0, r);
         set_exponents(t, c->exponent[0], m);
         return true;
     }
@@ -253,8 +253,8 @@ static bool fit_sum(const terms *t, const powers *p, const double *x, coefficien
                    fabs(r * a[set] + s * b[set] - x[set]) <= fit_tolerance * fabs(x[set]))
                 set++;
             if (set < SETS) continue;
-            set_part(c, 0, r);
-            set_part(c, 1, s);
+            set_summand(c, 0, r);
+            set_summand(c, 1, s);
             if (c->divisor[0] == 0 || c->divisor[1] == 0) continue;
             set_exponents(t, c->exponent[0], m);
             set_exponents(t, c->exponent[1], n);
@@ -300,8 +300,8 @@ static dal_status find_powers(terms *t, bool *known)
     if (fitted) return DAL_STATUS_OK;
     *known = *known && t->fitted == 0;
     memset(t->exponents, 0,
-           PARTS * (size_t)t->count * (size_t)t->parameters * sizeof *t->exponents);
-    for (int k = 0; k < t->count; k++) set_part(&t->whole[k], 0, t->value[k]);
+           SUMMANDS * (size_t)t->count * (size_t)t->parameters * sizeof *t->exponents);
+    for (int k = 0; k < t->count; k++) set_summand(&t->whole[k], 0, t->value[k]);
     return DAL_STATUS_OK;
 }
 
@@ -309,32 +309,32 @@ static dal_status find_powers(terms *t, bool *known)
 static void clear_denominators(terms *t)
 {
     long long common = 1, factor = 0;
-    for (int k = 0; k < PARTS * t->count; k++) {
-        const coefficient *c = &t->whole[k / PARTS];
-        const int i = k % PARTS;
-        if (i < c->parts && c->divisor[i] > 0 && common <= MAX_COMMON)
+    for (int k = 0; k < SUMMANDS * t->count; k++) {
+        const coefficient *c = &t->whole[k / SUMMANDS];
+        const int i = k % SUMMANDS;
+        if (i < c->summands && c->divisor[i] > 0 && common <= MAX_COMMON)
             common *= c->divisor[i] / common_divisor(common, c->divisor[i]);
     }
     if (common > MAX_COMMON) common = 1;
-    for (int k = 0; k < PARTS * t->count; k++) {
-        coefficient *c = &t->whole[k / PARTS];
-        const int i = k % PARTS;
-        if (i >= c->parts) continue;
+    for (int k = 0; k < SUMMANDS * t->count; k++) {
+        coefficient *c = &t->whole[k / SUMMANDS];
+        const int i = k % SUMMANDS;
+        if (i >= c->summands) continue;
         const bool is_whole = c->divisor[i] > 0 && common % c->divisor[i] == 0;
         c->number[i] *= (double)common;
-        c->part[i] = is_whole ? c->part[i] * (common / c->divisor[i]) : 0;
+        c->numerator[i] = is_whole ? c->numerator[i] * (common / c->divisor[i]) : 0;
         c->divisor[i] = is_whole;
-        factor = is_whole ? common_divisor(factor, c->part[i]) : 1;
+        factor = is_whole ? common_divisor(factor, c->numerator[i]) : 1;
     }
     for (int k = 0; k < t->count && factor > 1; k++)
-        for (int i = 0; i < t->whole[k].parts; i++) t->whole[k].part[i] /= factor;
+        for (int i = 0; i < t->whole[k].summands; i++) t->whole[k].numerator[i] /= factor;
     for (int j = 0; j < t->parameters; j++) {
         int least = t->whole[0].exponent[0][j];
         for (int k = 0; k < t->count; k++)
-            for (int i = 0; i < t->whole[k].parts; i++)
+            for (int i = 0; i < t->whole[k].summands; i++)
                 least = t->whole[k].exponent[i][j] < least ? t->whole[k].exponent[i][j] : least;
         for (int k = 0; k < t->count; k++)
-            for (int i = 0; i < t->whole[k].parts; i++) t->whole[k].exponent[i][j] -= least;
+            for (int i = 0; i < t->whole[k].summands; i++) t->whole[k].exponent[i][j] -= least;
     }
 }
 
@@ -362,12 +362,12 @@ static void put_product(dal__buffer *out, const dal__search *s, int product, boo
 
 static bool is_part_negative(const coefficient *c, int i)
 {
-    return c->divisor[i] == 1 ? c->part[i] < 0 : c->number[i] < 0.0;
+    return c->divisor[i] == 1 ? c->numerator[i] < 0 : c->number[i] < 0.0;
 }
 
-/* One product of a coefficient without its sign; 1 is left out where a factor follows. */
-static void put_part(dal__buffer *out, const terms *t, const coefficient *c, int i, bool follows,
-                     bool *is_first)
+/* A summand of a coefficient without its sign; 1 is left out where a factor follows. */
+static void put_summand(dal__buffer *out, const terms *t, const coefficient *c, int i, bool follows,
+                        bool *is_first)
 {
     bool has_factor = follows;
     for (int j = 0; j < t->parameters; j++) has_factor = has_factor || c->exponent[i][j] > 0;
@@ -375,8 +375,8 @@ static void put_part(dal__buffer *out, const terms *t, const coefficient *c, int
         char number[DAL__NUMBER_SIZE];
         dal__format_number(number, fabs(c->number[i]));
         put_factor(out, is_first, number, 1);
-    } else if (llabs(c->part[i]) != 1 || !has_factor) {
-        dal__buffer_print(out, "%lld", llabs(c->part[i]));
+    } else if (llabs(c->numerator[i]) != 1 || !has_factor) {
+        dal__buffer_print(out, "%lld", llabs(c->numerator[i]));
         *is_first = false;
     }
     for (int j = 0; j < t->parameters; j++)
@@ -389,15 +389,15 @@ static void put_term(dal__buffer *out, const terms *t, int k)
     const bool is_negative = is_part_negative(c, 0);
     bool is_first = true;
     dal__buffer_append(out, k == 0 ? (is_negative ? "-" : "") : is_negative ? " - " : " + ");
-    if (c->parts == 1) {
-        put_part(out, t, c, 0, t->product[k] > 0, &is_first);
+    if (c->summands == 1) {
+        put_summand(out, t, c, 0, t->product[k] > 0, &is_first);
     } else {
         bool is_first_there = true;
         dal__buffer_append(out, "(");
-        put_part(out, t, c, 0, false, &is_first_there);
+        put_summand(out, t, c, 0, false, &is_first_there);
         is_first_there = true;
         dal__buffer_append(out, is_part_negative(c, 1) == is_negative ? " + " : " - ");
-        put_part(out, t, c, 1, false, &is_first_there);
+        put_summand(out, t, c, 1, false, &is_first_there);
         dal__buffer_append(out, ")");
         is_first = false;
     }

@@ -17,8 +17,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A function that keeps less than this part of its length depends on those before it; singular
- * values below this part of the largest are 0. */
+/* A function that keeps less than this fraction of its length depends on those before it; singular
+ * values below this fraction of the largest are 0. */
 static const double dependent = 1e-8, vanishing = 1e-10;
 
 /* ---- samples ---- */
@@ -116,10 +116,10 @@ static void add_function(basis *b, int k)
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < b->count; i++) {
             const double *q = column(b->samples->value, points, b->kept[i]);
-            const double part = dal__dot_product(points, q, f);
-            subtract(points, part, q, f);
-            subtract(points, part, column(b->samples->rate, points, b->kept[i]), w);
-            subtract(functions, part, column(b->made_of, functions, i), made_of);
+            const double component = dal__dot_product(points, q, f);
+            subtract(points, component, q, f);
+            subtract(points, component, column(b->samples->rate, points, b->kept[i]), w);
+            subtract(functions, component, column(b->made_of, functions, i), made_of);
         }
     const double length = length_of(points, f);
     if (!(length > dependent * b->size[k])) return;
@@ -145,7 +145,7 @@ static void clear_column(double *rows, int count, int width, int row, int at)
         }
 }
 
-/* Coefficients below the part `absent` of a row are 0. */
+/* Coefficients below the fraction `absent` of a row are 0. */
 static void reduce(double *rows, int count, int width, double absent)
 {
     const double pivot = fmax(1e-6, absent);
@@ -176,12 +176,12 @@ static void reduce(double *rows, int count, int width, double absent)
 /* The last columns of V as rows of coefficients of functions of length 1, reduced, and then of the
  * functions themselves.  Roundings of the rates turn a vector of the null space towards the others
  * by eps over the least singular value of these, which a coefficient that is 0 may then have; the
- * formulas are confirmed later, so that too large a part makes none of them wrong. */
+ * formulas are confirmed later, so that too large a fraction makes none of them wrong. */
 static bool write_rows(const basis *b, const double *vector, int sought, dal__null_space *out)
 {
     static const double least = 1e-8, most = 1e-4, roundings = 1024.0;
     const int width = b->samples->functions, zeros = out->count;
-    const double part = roundings * DBL_EPSILON / out->least_change; /* NaN: no others remain */
+    const double fraction = roundings * DBL_EPSILON / out->least_change; /* NaN: no others remain */
     out->coefficient = dal__numbers((size_t)zeros + 1, (size_t)width);
     if (!out->coefficient) return false;
     for (int i = 0; i < zeros; i++) {
@@ -192,7 +192,7 @@ static bool write_rows(const basis *b, const double *vector, int sought, dal__nu
         for (int k = 0; k < b->first; k++) row[k] = 0.0;
         for (int k = 0; k < width; k++) row[k] *= b->size[k];
     }
-    reduce(out->coefficient, zeros, width, part > least ? fmin(part, most) : least);
+    reduce(out->coefficient, zeros, width, fraction > least ? fmin(fraction, most) : least);
     for (int i = 0; i < zeros; i++)
         for (int k = 0; k < width; k++)
             if (b->size[k] > 0.0) column(out->coefficient, width, i)[k] /= b->size[k];
@@ -211,11 +211,11 @@ static bool find_zeros(const basis *b, dal__null_space *out)
                rows * sizeof *a);
     bool made = dal__singular_values(points, sought, a, value, vector);
     for (int i = 0; made && i < sought; i++) {
-        const double part = value[0] > 0.0 ? value[i] / value[0] : 0.0;
-        if (part > vanishing)
-            out->least_change = part;
+        const double fraction = value[0] > 0.0 ? value[i] / value[0] : 0.0;
+        if (fraction > vanishing)
+            out->least_change = fraction;
         else if (out->count++ == 0)
-            out->largest_zero = part;
+            out->largest_zero = fraction;
     }
     made = made && write_rows(b, vector, sought, out);
     free(a);

@@ -184,8 +184,8 @@ static void find_points(surface *f)
 
 /* ---- jumps ---- */
 
-/* g at a point of the surface, moved along the normal so that s changes by a part of its size. */
-static double beside(const surface *f, dal__node g, const double *point, double part)
+/* g at a point of the surface, moved along the normal: s changes by a fraction of its size. */
+static double beside(const surface *f, dal__node g, const double *point, double fraction)
 {
     const dal__equations *e = &f->model->equations;
     const int symbols = e->pi - e->t;
@@ -194,7 +194,7 @@ static double beside(const surface *f, dal__node g, const double *point, double 
     const double size = find_normal(f, point, normal);
     const double square = dal__dot_product(symbols, normal, normal);
     for (int i = 0; i < symbols; i++)
-        x[e->t + i] += part * size / square * normal[i] * f->unit[e->t + i];
+        x[e->t + i] += fraction * size / square * normal[i] * f->unit[e->t + i];
     return dal__evaluate(e->graph, g, x);
 }
 

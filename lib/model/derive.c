@@ -186,15 +186,15 @@ dal_status dal__insert_reactions(dal_model *model)
     const struct {
         dal__node *list;
         int count;
-    } parts[] = {{e->invariant, e->invariants},
+    } lists[] = {{e->invariant, e->invariants},
                  {e->event_value, e->events},
                  {e->event_state, 2 * n * e->events},
                  {e->event_normal, (1 + 2 * n) * e->events}};
-    enum { PARTS = sizeof parts / sizeof *parts };
+    enum { LISTS = sizeof lists / sizeof *lists };
     bool used = false;
-    for (int k = 0; k < PARTS; k++)
-        for (int i = 0; i < parts[k].count; i++)
-            used |= dal__depends(e->graph, parts[k].list[i], e->reaction, e->reaction + count);
+    for (int k = 0; k < LISTS; k++)
+        for (int i = 0; i < lists[k].count; i++)
+            used |= dal__depends(e->graph, lists[k].list[i], e->reaction, e->reaction + count);
     if (!used) return e->graph->status;
     dal__node *by = dal__model_nodes(model, count, dal__number(e->graph, 0.0));
     int *symbol = dal__model_allocate(model, (size_t)count, sizeof *symbol);
@@ -206,9 +206,9 @@ dal_status dal__insert_reactions(dal_model *model)
             by[m + i] = dal__node_add(e->graph, by[m + i],
                                       dal__node_mul(e->graph, e->B[a * n + i], e->h[a]));
     }
-    for (int k = 0; k < PARTS; k++)
-        if (parts[k].count > 0)
-            dal__substitute_all(e->graph, parts[k].count, parts[k].list, symbol, count, by);
+    for (int k = 0; k < LISTS; k++)
+        if (lists[k].count > 0)
+            dal__substitute_all(e->graph, lists[k].count, lists[k].list, symbol, count, by);
     return e->graph->status;
 }
 
@@ -223,7 +223,7 @@ static dal_status expand_angles(dal_model *model)
     const struct {
         dal__node *list;
         int count;
-    } parts[] = {{e->W, n * n},
+    } lists[] = {{e->W, n * n},
                  {e->b, n},
                  {e->A, m * n},
                  {e->c, m},
@@ -231,17 +231,17 @@ static dal_status expand_angles(dal_model *model)
                  {e->constraint, m},
                  {e->position, DAL__HOLONOMIC_COUNT(e)},
                  {e->B, e->servo ? m * n : 0}};
-    enum { PARTS = sizeof parts / sizeof *parts };
+    enum { LISTS = sizeof lists / sizeof *lists };
     int total = 0, at = 0;
-    for (int k = 0; k < PARTS; k++) total += parts[k].count;
+    for (int k = 0; k < LISTS; k++) total += lists[k].count;
     dal__node *all = dal__model_nodes(model, total, 0);
     if (!all) return DAL_STATUS_MEMORY;
-    for (int k = 0; k < PARTS; k++)
-        for (int i = 0; i < parts[k].count; i++) all[at++] = parts[k].list[i];
+    for (int k = 0; k < LISTS; k++)
+        for (int i = 0; i < lists[k].count; i++) all[at++] = lists[k].list[i];
     dal__expand_angles(e->graph, all, total);
     at = 0;
-    for (int k = 0; k < PARTS; k++)
-        for (int i = 0; i < parts[k].count; i++) parts[k].list[i] = all[at++];
+    for (int k = 0; k < LISTS; k++)
+        for (int i = 0; i < lists[k].count; i++) lists[k].list[i] = all[at++];
     return e->graph->status;
 }
 

@@ -192,7 +192,7 @@ static bool is_homogeneous(identity *id, int a)
     return vanishes(id);
 }
 
-static unsigned by_parts(identity *id)
+static unsigned by_sources(identity *id)
 {
     const dal__equations *e = id->e;
     bool exact = !e->multipliers, weak = true;
@@ -224,7 +224,7 @@ dal_status dal__energy_properties(dal_model *model)
     dal__node *E_v = dal__model_nodes(model, e->n, 0);
     double *scratch = dal__model_allocate(model, (size_t)((e->m + 1) * e->n), sizeof *scratch);
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    unsigned found = by_parts(&id);
+    unsigned found = by_sources(&id);
     if (!found && e->m > 0 && !e->vakonomic) {
         id.terms = 0; /* dE/dt = E_q v + E_t + E_v F */
         add_term(&id, dal__time_derivative(e, e->energy));
@@ -361,8 +361,8 @@ static void fill_block(const blocks *b, int block, dal__node *out)
             const bool inside = b->block[i] == block;
             b->other[i] = inside ? dal__symbol(e->graph, e->q + i) : e->start[i];
             if (!inside) continue;
-            dal__node part = dal__node_mul(e->graph, b->U_q[i], e->flow[1 + i]);
-            power = dal__node_add(e->graph, power, part);
+            dal__node term = dal__node_mul(e->graph, b->U_q[i], e->flow[1 + i]);
+            power = dal__node_add(e->graph, power, term);
         }
         U = dal__substitute(e->graph, b->U, e->symbol + e->q, n, b->other);
     }

@@ -122,8 +122,8 @@ static dal__node argument_size(const dal__equations *e, dal__node s, dal__node *
     dal__gradient(e->graph, s, e->symbol + e->t, count, slope);
     for (int i = 0; i < count; i++) {
         const dal__node x = dal__symbol(e->graph, e->t + i);
-        const dal__node part = dal__node_mul(e->graph, slope[i], x);
-        sum = dal__node_add(e->graph, sum, dal__node_mul(e->graph, part, part));
+        const dal__node term = dal__node_mul(e->graph, slope[i], x);
+        sum = dal__node_add(e->graph, sum, dal__node_mul(e->graph, term, term));
     }
     return dal__apply(e->graph, DAL__SQRT, sum, 0);
 }

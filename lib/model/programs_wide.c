@@ -14,7 +14,7 @@ static void load_lanes(double *work, int place, const double *from, int count)
     for (int i = 0; i < count; i++) to[i] = lanes[i];
 }
 
-/* Lanes where every pivot exceeds its part of the size; a NaN exceeds nothing. */
+/* Lanes where every pivot exceeds its fraction of the size; a NaN exceeds nothing. */
 static dal_mask pivots_hold(const num *checked, int pivots)
 {
     dal_mask ok = dal_all();

@@ -95,7 +95,7 @@ static bool is_isokinetic(const dal__equations *e, dal__node *row)
     return true;
 }
 
-static unsigned parts_properties(const dal__equations *e, dal__node *row)
+static unsigned blocks_properties(const dal__equations *e, dal__node *row)
 {
     const int n = e->n, mn = e->m * e->n;
     if (e->vakonomic || depends_on_v(e, e->a, n)) return 0;
@@ -133,7 +133,7 @@ dal_status dal__properties(dal_model *model)
                      (e->vakonomic ? DAL_VAKONOMIC : 0u) | (e->servo ? DAL_SERVO : 0u) |
                      (e->restricted ? DAL_MASS_ON_KERNEL : 0u);
     DAL_TRY(dal__energy_properties(model));
-    e->properties |= parts_properties(e, first);
+    e->properties |= blocks_properties(e, first);
     if (!e->vakonomic && !depends_on_v(e, e->F, e->n)) e->properties |= DAL_F_POSITIONAL;
     return e->graph->status;
 }

@@ -29,7 +29,7 @@
 
 /* ---- of A, and of W on ker A ---- */
 
-/* Pivots below this part of the largest leave F less than six digits. */
+/* Pivots below this fraction of the largest leave F less than six digits. */
 static const double rank_tolerance = 1e-10;
 
 /* The matrices at a point, in the units. */

@@ -3,7 +3,7 @@
  * For points at which formulas are compared:
  *
  *     v_i   |v_i|, or the one of equal energy: W_ii v_i^2 = max_j W_jj v_j^2, or S(L) at rest
- *     q_i   |q_i|, or the smallest at which S of L, a D or a force grows by a part
+ *     q_i   |q_i|, or the smallest at which S of L, a D or a force grows by a quarter
  *     t     |t|, or likewise              g_a   S(L)/S(D_a)
  *
  * S(f) is the size of the terms of f (expr/terms.h).  What begins at 0 and changes nothing has the
@@ -56,17 +56,17 @@ static void find_speeds(const survey *s)
     }
 }
 
-/* Whether the scale of a formula grows from s->scale by a part of it, with one symbol moved. */
+/* Whether the scale of a formula grows from s->scale by that fraction, with one symbol moved. */
 static bool changes(const survey *s, int symbol, double by)
 {
-    static const double part = 0.25;
+    static const double fraction = 0.25;
     const double held = s->x[symbol];
     bool found = false;
     s->x[symbol] += by;
     dal__terms_scales(s->terms, s->x, s->memory, s->moved);
     s->x[symbol] = held;
     for (int k = 0; k < s->formulas && !found; k++)
-        found = s->scale[k] > 0.0 && s->moved[k] > (1.0 + part) * s->scale[k];
+        found = s->scale[k] > 0.0 && s->moved[k] > (1.0 + fraction) * s->scale[k];
     return found;
 }
 

@@ -17,9 +17,9 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A pivot of G below this part of its diagonal entry means that rows are dependent. */
+/* A pivot of G below this fraction of its diagonal entry means that rows are dependent. */
 static const double independent = 1e-12;
-/* The least part of a step that is taken. */
+/* The least fraction of a step that is taken. */
 static const double min_damping = 1.0 / 16.0;
 
 enum { MAX_MOVES = 1000 };
@@ -119,7 +119,7 @@ void dal__constraint_sizes(dal__linearised *k, const double *scales)
  * returns how many they are; where there are none the list is left alone.  x is scratch. */
 static int list_dependence(const dal__linearised *k, int a, char *list, size_t size)
 {
-    static const double part = 1e-6;
+    static const double fraction = 1e-6;
     const int rows = k->c.rows;
     int count = 0;
     size_t length = 0;
@@ -130,7 +130,7 @@ static int list_dependence(const dal__linearised *k, int a, char *list, size_t s
     }
     for (int b = 0; b < a; b++) {
         const double share = fabs(k->x[b]) * sqrt(k->c.out[b]);
-        if (!(share > part * sqrt(k->c.out[a])) || length >= size) continue;
+        if (!(share > fraction * sqrt(k->c.out[a])) || length >= size) continue;
         length += (size_t)snprintf(list + length, size - length, ", %s",
                                    DAL__CONSTRAINT_NAME(k->c.system, k->c.first + b));
         count++;
@@ -208,8 +208,8 @@ dal_status dal__linearised_check_rank(dal__linearised *k, dal_error *error)
     return solve(k, error);
 }
 
-/* Moves v by the given part of v' - v; *change is max |v' - v|, in units. */
-static dal_status move(dal__linearised *k, double part, double *change, dal_error *error)
+/* Moves v by the given fraction of v' - v; *change is max |v' - v|, in units. */
+static dal_status move(dal__linearised *k, double fraction, double *change, dal_error *error)
 {
     const int n = k->c.system->n, rows = k->c.rows;
     double *v = k->v, *x = k->x;
@@ -224,7 +224,7 @@ static dal_status move(dal__linearised *k, double part, double *change, dal_erro
         double moved = k->given[i];
         for (int a = 0; a < rows; a++) moved += k->c.B[i * rows + a] * x[a];
         if (k->unit[i] > 0.0) *change = fmax(*change, fabs(moved - v[i]) / k->unit[i]);
-        if (part < 1.0) moved = v[i] + part * (moved - v[i]);
+        if (fraction < 1.0) moved = v[i] + fraction * (moved - v[i]);
         v[i] = moved + 0.0; /* no -0: see lib/kernel/step.h */
     }
     return DAL_STATUS_OK;
@@ -235,7 +235,7 @@ dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
     const int n = k->c.system->n, m = k->c.count;
     const char *const moved = k->c.of_coordinates ? "coordinates" : "velocities";
     const char letter = k->c.of_coordinates ? 'C' : 'D';
-    double change = INFINITY, before, part = 1.0;
+    double change = INFINITY, before, fraction = 1.0;
     int max = 0;
     if (k->c.rows == 0) return DAL_STATUS_OK;
     if (m > 0 && !k->c.system->call.constraint)
@@ -248,10 +248,10 @@ dal_status dal__make_consistent(dal__linearised *k, dal_error *error)
         max = dal__find_max_abs(k->c.D, m);
         if (m > 0 && !isfinite(k->c.D[max])) break;
         before = change;
-        DAL_TRY(move(k, part, &change, error));
+        DAL_TRY(move(k, fraction, &change, error));
         if (dal__is_converged(change, before, dal__max_in_units(n, k->v, k->unit)))
             return DAL_STATUS_OK;
-        if (change > before) part = fmax(0.5 * part, min_damping);
+        if (change > before) fraction = fmax(0.5 * fraction, min_damping);
     }
     return dal__fail(error, isfinite(k->c.D[max]) ? DAL_STATUS_INCONSISTENT : DAL_STATUS_NOT_FINITE,
                      "no %s near the %s of %s were found that satisfy %s: %c%d = %.6g", moved,

@@ -74,18 +74,18 @@ static double pivot_of(dal_run *run, int constraint, double t)
 /* Whether small steps pass where one of h fails, and G keeps its size: where it vanishes at an even
  * pace its pivot, the square of a distance, is below 1/64^2 of the largest in one of them, and
  * small from the beginning where errors of D lead past the singular place. */
-static bool passes_in_parts(dal_run *run, int constraint, double t, double h)
+static bool passes_in_intervals(dal_run *run, int constraint, double t, double h)
 {
-    enum { PARTS = 64 };
+    enum { INTERVALS = 64 };
     const double least = 0.1;
     const size_t bytes = run->layout.persistent * sizeof *run->persistent;
     dal_status reason = DAL_STATUS_OK;
     double min = pivot_of(run, constraint, t), max = min;
     bool passes = true;
     memcpy(run->shadow, run->persistent, bytes);
-    for (int i = 0; i < PARTS && passes; i++) {
-        passes = run->kind->engine->step(run->engine, h / PARTS, 1u, &reason) == 0;
-        const double pivot = pivot_of(run, constraint, t + (i + 1) * h / PARTS);
+    for (int i = 0; i < INTERVALS && passes; i++) {
+        passes = run->kind->engine->step(run->engine, h / INTERVALS, 1u, &reason) == 0;
+        const double pivot = pivot_of(run, constraint, t + (i + 1) * h / INTERVALS);
         min = fmin(min, pivot);
         max = fmax(max, pivot);
     }
@@ -104,7 +104,7 @@ static dal_status turned(dal_run *run, const dal__failure *failure, double t, do
                          "%s goes to zero between t = %.17g and %.17g: singular there",
                          system->guard ? system->guard[failure->guard - 1] : "a guard", t, t + h);
     const char *const name = DAL__CONSTRAINT_NAME(system, failure->constraint - 1);
-    if (passes_in_parts(run, failure->constraint, t, h))
+    if (passes_in_intervals(run, failure->constraint, t, h))
         return dal__fail(error, DAL_STATUS_NOT_CONVERGED,
                          "the gradient of %s by the velocities turns by more than a "
                          "right angle in the step of %g from t = %.17g, though G = A W^-1 A^T is "

@@ -386,10 +386,10 @@ static bool has_matrices(const dal__layout *k, unsigned needs, unsigned by_facto
 static double matrices(const dal__layout *k, bool inverts)
 {
     const unsigned needs = DAL_NEEDS_BLOCKS | DAL_NEEDS_CONSTRAINT,
-                   parts = DAL_KERNEL_CORRECTION | DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_SPARK;
+                   kernel = DAL_KERNEL_CORRECTION | DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_SPARK;
     const double n = k->n, m = k->m, point = m + 2 * m * n, blocks = point + n + m;
     const dal_callbacks *call = &k->system->call;
-    if (m < DAL__SPARSE || k->system->holonomic > 0 || has_matrices(k, needs, parts))
+    if (m < DAL__SPARSE || k->system->holonomic > 0 || has_matrices(k, needs, kernel))
         return 4 * point + 8 * m * m;
     double count = 2 * point + 2 * m * (m + 2);
     if (inverts && dal_method_needs(&k->method) & DAL_NEEDS_BLOCKS)
@@ -408,7 +408,7 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const double constraint = matrices(k, inverts);
     const unsigned by_factors = DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_SPARK;
     const double equations = (stages + 1) * m;
-    const double parts =
+    const double blocks =
         has_matrices(k, DAL_NEEDS_BLOCKS, by_factors)
             ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) + 4 * equations * equations
             : 0;
@@ -418,7 +418,7 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const double series =
         expands ? (1 + k->taylor_order) * ((double)k->system->series->size[k->lifted] + 3 * dim + 4)
                 : 0;
-    const double scratch = (20 * stages + 16) * dim + matrix + constraint + parts +
+    const double scratch = (20 * stages + 16) * dim + matrix + constraint + blocks +
                            2.0 * k->system->guards + k->system->invariants + 16 * n + 64 + series;
     if (scratch > MAX_NUMBERS || k->stages > 1000)
         return dal__fail(error, DAL_STATUS_TOO_LARGE, "a run with n = %d, m = %d needs %g numbers",

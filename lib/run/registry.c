@@ -56,13 +56,14 @@ static dal_status find(const char *name, bool modifier, const dal_integrator **f
 
 enum { NAME_SIZE = 64 };
 
-/* Copies the part of *name up to the next '+' and moves past it; false: it is too long. */
-static bool next_part(const char **name, char *part)
+/* Copies the name of a layer from *name up to the next '+' and moves past it; false: it is too
+ * long. */
+static bool next_layer(const char **name, char *word)
 {
     const size_t length = strcspn(*name, "+");
     if (length >= NAME_SIZE) return false;
-    memcpy(part, *name, length);
-    part[length] = '\0';
+    memcpy(word, *name, length);
+    word[length] = '\0';
     *name += length;
     return true;
 }
@@ -71,17 +72,17 @@ dal_status dal_method_parse(dal_method *method, const char *name, dal_error *err
 {
     DAL_REQUIRE(method, error);
     DAL_REQUIRE(name, error);
-    char part[NAME_SIZE];
+    char word[NAME_SIZE];
     const char *rest = name;
     *method = (dal_method){{NULL}};
     for (int i = 0;; i++) {
         if (i == DAL_LAYERS)
             return dal__fail(error, DAL_STATUS_ARGUMENT, "integrator '%.60s': at most %d modifiers",
                              name, DAL_LAYERS - 1);
-        if (!next_part(&rest, part))
+        if (!next_layer(&rest, word))
             return dal__fail(error, DAL_STATUS_NAME, "integrator name '%.60s...' is too long",
                              name);
-        DAL_TRY(find(part, i > 0, &method->layer[i], error));
+        DAL_TRY(find(word, i > 0, &method->layer[i], error));
         for (int k = 1; k < i; k++)
             if (method->layer[k] == method->layer[i])
                 return dal__fail(error, DAL_STATUS_ARGUMENT, "integrator '%.60s': +%s comes twice",
@@ -97,11 +98,12 @@ char *dal_method_name(const dal_method *method, char *buffer, size_t size)
     if (!method || !buffer) return NULL;
     if (size > 0) buffer[0] = '\0';
     for (int i = 0; i < DAL_LAYERS && method->layer[i]; i++) {
-        const char *parts[] = {i ? "+" : "", method->layer[i]->name ? method->layer[i]->name : "?"};
+        const char *pieces[] = {i ? "+" : "",
+                                method->layer[i]->name ? method->layer[i]->name : "?"};
         for (int j = 0; j < 2; j++) {
-            const size_t length = strlen(parts[j]);
+            const size_t length = strlen(pieces[j]);
             if (used + length + 1 > size) return buffer;
-            memcpy(buffer + used, parts[j], length + 1);
+            memcpy(buffer + used, pieces[j], length + 1);
             used += length;
         }
     }

@@ -107,21 +107,21 @@ class Trajectory:
         at = np.linspace(times[0], times[-1], frames)
         return at, {name: np.interp(at, times, values[order]) for name, values in pose.items()}
 
-    def parts(self) -> list[dict[str, Any]]:
+    def shapes(self) -> list[dict[str, Any]]:
         """Lines and circles of the body, as the page of a run has them."""
-        found, part = [], ffi.NULL
-        while (part := lib.python_part(self.system._system, part)) != ffi.NULL:
-            found.append({'pivot': tuple(part.pivot), 'turn': part.turn, 'narrowed': part.is_narrowed,
-                          'radius': part.radius, 'line': [tuple(part.at[i]) for i in range(part.count)]})
+        found, shape = [], ffi.NULL
+        while (shape := lib.python_shape(self.system._system, shape)) != ffi.NULL:
+            found.append({'pivot': tuple(shape.pivot), 'turn': shape.turn, 'narrowed': shape.is_narrowed,
+                          'radius': shape.radius, 'line': [tuple(shape.at[i]) for i in range(shape.count)]})
         return found
 
     def outlines(self, pose: dict[str, float], size: float) -> list[Array]:
         """The lines of the body at a pose, [points, 2] each, with half its length as the size."""
         lines, circle = [], np.exp(1j * np.linspace(0, 2 * np.pi, 49))
-        for part in self.parts():
-            z = part['radius'] * circle if part['radius'] else np.array([complex(*at) for at in part['line']])
-            z = z.real + 1j * z.imag * (pose['width'] if part['narrowed'] else 1)
-            z = complex(*part['pivot']) + z * np.exp(1j * part['turn'] * pose['steer'])
+        for shape in self.shapes():
+            z = shape['radius'] * circle if shape['radius'] else np.array([complex(*at) for at in shape['line']])
+            z = z.real + 1j * z.imag * (pose['width'] if shape['narrowed'] else 1)
+            z = complex(*shape['pivot']) + z * np.exp(1j * shape['turn'] * pose['steer'])
             z = complex(pose['x'], pose['y']) + size * z * np.exp(1j * pose['angle'])
             lines.append(np.stack([z.real, z.imag], axis=-1))
         return lines
@@ -216,7 +216,7 @@ class Trajectory:
         size = extent(pose) / 20
         axes.plot(pose['x'], pose['y'], color='0.85')
         trail, = axes.plot([], [], color='C0')
-        bodies = [axes.plot([], [], color='0.15')[0] for _ in self.parts()]
+        bodies = [axes.plot([], [], color='0.15')[0] for _ in self.shapes()]
         axes.set_aspect('equal', adjustable='datalim')
 
         def draw(i: int) -> list[Any]:
@@ -233,7 +233,7 @@ class Trajectory:
         if at is None:
             return None
         pose = {name: values.tolist() for name, values in at[1].items()}
-        return moving_svg.draw(pose, self.parts(), self.system.title or self.system.name,
+        return moving_svg.draw(pose, self.shapes(), self.system.title or self.system.name,
                                whole('frames', frames, 2))
 
     def _repr_html_(self) -> str:
