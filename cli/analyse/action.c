@@ -380,7 +380,7 @@ int action_evaluate(action_settings *settings)
 {
     results r = {.settings = settings, .system = settings->simulation.system};
     int status = evaluate_curve(&r);
-    const bool is_screen = screen_is_wanted(SCREEN_TEXT, settings->json, settings->details);
+    const bool is_screen = screen_is_wanted(SCREEN_TEXT, settings->json || settings->details);
     if (status == CLI_DONE)
         status = settings->json ? put_json(&r)
                  : is_screen    ? print_action_screen(&r)

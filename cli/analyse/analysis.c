@@ -47,10 +47,11 @@ int analysis_describe(const analysis_output *output, const char *name,
     put(&w, results);
     json_end_results(&w);
     cli_memstream_close(w.out);
-    int status = file_replace(json, text, length, 0);
+    int status = file_replace(json, text, length, FILE_UNSYNCED);
     if (status == CLI_DONE)
         status = cli_is_path(simulation->request.system_name)
-                     ? cli_copy_system(simulation->request.system_name, simulation->model, copy, 0)
+                     ? cli_copy_system(simulation->request.system_name, simulation->model, copy,
+                                       FILE_UNSYNCED)
                      : file_remove(copy);
     free(text);
     free(json);

@@ -95,24 +95,27 @@ static void say_step(printer *p, const dal_dirac *d, const dal_dirac_step *s)
     free(added);
 }
 
-static void say_class(printer *p, const dal_dirac *d, bool first, int count)
+typedef enum constraint_kind { FIRST_CLASS, SECOND_CLASS } constraint_kind;
+
+static void say_class(printer *p, const dal_dirac *d, constraint_kind kind, int count)
 {
     char *list = NULL;
     for (int a = 0; a < d->constraints; a++) {
-        if (d->constraint[a].first_class != first) continue;
+        if (d->constraint[a].first_class != (kind == FIRST_CLASS)) continue;
         char *formula = formula_of(p, &d->constraint[a].form);
         list = add_item(list, formula);
         free(formula);
     }
-    say(p, "%s class, %d: %s", first ? "First" : "Second", count, list ? list : "none");
+    say(p, "%s class, %d: %s", kind == FIRST_CLASS ? "First" : "Second", count,
+        list ? list : "none");
     free(list);
 }
 
 static void say_results(printer *p, const dal_dirac *d)
 {
     char *fixed = NULL, *is_free = NULL;
-    say_class(p, d, true, d->first_class);
-    say_class(p, d, false, d->second_class);
+    say_class(p, d, FIRST_CLASS, d->first_class);
+    say_class(p, d, SECOND_CLASS, d->second_class);
     for (int b = 0; b < d->primaries; b++) {
         const dal_dirac_multiplier *mu = &d->multiplier[b];
         if (mu->is_free) {

@@ -210,7 +210,7 @@ static const cli_option options[] = {
 
 static int print_results(const lyapunov_results *r, const lyapunov_settings *set)
 {
-    if (screen_is_wanted(set->format, set->json, set->details))
+    if (screen_is_wanted(set->format, set->json || set->details))
         return lyapunov_print_screen(r, set->format);
     (set->json ? lyapunov_put : lyapunov_print)(r);
     return cli_close(stdout, "standard output");
@@ -241,8 +241,8 @@ static int measure_means(lyapunov_settings *settings)
 {
     tangent_study s = {.set = settings, .simulation = &settings->simulation};
     int status = analysis_check_output(settings->output, settings->json);
-    if (status == CLI_DONE)
-        status = screen_check_format(settings->format, settings->json, settings->details);
+    if (status == CLI_DONE) status = screen_check_json(settings->format, settings->json);
+    if (status == CLI_DONE) status = screen_check_details(settings->format, settings->details);
     if (status == CLI_DONE && !settings->force) status = analysis_check_directory(settings->output);
     if (status == CLI_DONE) status = create_spectrum(&s);
     if (status == CLI_DONE) {

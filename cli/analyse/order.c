@@ -509,8 +509,8 @@ static int write_orders(const order_study *s, const char *path)
 static int measure(order_study *s)
 {
     int status = analysis_check_output(s->set->output, s->set->json);
-    if (status == CLI_DONE)
-        status = screen_check_format(s->set->format, s->set->json, s->set->details);
+    if (status == CLI_DONE) status = screen_check_json(s->set->format, s->set->json);
+    if (status == CLI_DONE) status = screen_check_details(s->set->format, s->set->details);
     if (status == CLI_DONE && !s->set->force) status = analysis_check_directory(s->set->output);
     if (status == CLI_DONE) status = list_steps(s);
     if (status == CLI_DONE)
@@ -525,7 +525,7 @@ static int measure(order_study *s)
     status = make_reference(s);
     if (status == CLI_DONE) status = run_methods(s, (int)s->set->threads);
     if (status == CLI_DONE) {
-        if (screen_is_wanted(s->set->format, s->set->json, s->set->details)) {
+        if (screen_is_wanted(s->set->format, s->set->json || s->set->details)) {
             status = order_print_screen(s);
         } else {
             (s->set->json ? put_orders : print_orders)(s);

@@ -50,7 +50,7 @@ static int generate_text(settings *s)
     if (made != DAL_STATUS_OK)
         return cli_error(cli_input_exit(made), s->simulation.request.system_name, &error);
     if (strcmp(s->output, "-") != 0) {
-        status = file_replace(s->output, text, strlen(text), 1);
+        status = file_replace(s->output, text, strlen(text), FILE_SYNCED);
     } else {
         fputs(text, stdout);
         status = cli_close(stdout, "standard output");

@@ -86,7 +86,7 @@ int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensem
                   dal_method_name(&e->simulation.request.method, method, sizeof method));
     json_put_text(&m.json, "status", store_state_words[state]);
     free(input);
-    return store_end_manifest(&m, dir->manifest, 1);
+    return store_end_manifest(&m, dir->manifest, FILE_SYNCED);
 }
 
 int ensemble_directory_find(const char *path, bool *is_there)
@@ -192,7 +192,7 @@ int ensemble_directory_write_messages(const ensemble_directory *dir, int chunk, 
 {
     char *path = cli_format("%s/%d", dir->messages, chunk);
     int status = cli_directory(dir->messages);
-    if (status == CLI_DONE) status = file_replace(path, text, strlen(text), 1);
+    if (status == CLI_DONE) status = file_replace(path, text, strlen(text), FILE_SYNCED);
     free(path);
     return status;
 }
@@ -347,7 +347,7 @@ int ensemble_directory_commit_growth(ensemble_directory *dir, const ensemble *e,
     int status = npy_table_sync(&dir->members);
     if (status == CLI_DONE) status = npy_table_sync(&dir->final);
     if (status == CLI_DONE && dir->has_rows) status = npy_table_sync(&dir->rows);
-    if (status == CLI_DONE) status = file_replace(path, bytes, WORD + count, 1);
+    if (status == CLI_DONE) status = file_replace(path, bytes, WORD + count, FILE_SYNCED);
     if (status == CLI_DONE) status = ensemble_directory_write_manifest(dir, e, STORE_RUNNING);
     free(bytes);
     free(path);
@@ -360,7 +360,7 @@ static int replace_tables(const ensemble_directory *dir)
     for (int i = 0; i < TABLES && status == CLI_DONE; i++) {
         char *from = cli_format(grown, dir->path, table_names[i]);
         char *to = cli_format(in_place, dir->path, table_names[i]);
-        if (file_exists(from)) status = file_rename(from, to, 1);
+        if (file_exists(from)) status = file_rename(from, to, FILE_SYNCED);
         free(from);
         free(to);
     }
@@ -390,7 +390,8 @@ int ensemble_directory_end_growth(ensemble_directory *dir, const ensemble *e)
     int status = find_fingerprint(dir, e);
     if (status == CLI_DONE) status = is_committed(dir, chunks, &committed);
     if (status == CLI_DONE && committed) status = replace_tables(dir);
-    if (status == CLI_DONE) status = committed ? file_rename(chunks, marks, 1) : remove_grown(dir);
+    if (status == CLI_DONE)
+        status = committed ? file_rename(chunks, marks, FILE_SYNCED) : remove_grown(dir);
     free(chunks);
     free(marks);
     return status;
@@ -410,8 +411,9 @@ static int begin_new(ensemble_directory *dir, const ensemble *e)
     free(rows);
     const char *system = e->simulation.request.system_name;
     if (status == CLI_DONE)
-        status = cli_is_path(system) ? cli_copy_system(system, e->simulation.model, dir->system, 1)
-                                     : file_remove(dir->system);
+        status = cli_is_path(system)
+                     ? cli_copy_system(system, e->simulation.model, dir->system, FILE_SYNCED)
+                     : file_remove(dir->system);
     if (status == CLI_DONE) status = open_tables(dir, e, NPY_NEW, in_place);
     detach(dir);
     return status == CLI_DONE ? ensemble_directory_write_manifest(dir, e, STORE_RUNNING) : status;

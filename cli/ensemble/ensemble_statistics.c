@@ -142,7 +142,7 @@ static int write_table(const statistics *s, const char *path,
     FILE *out = cli_memstream_open(&text, &length);
     const int status = put(out, s);
     cli_memstream_close(out);
-    const int written = file_replace(path, text, length, 0);
+    const int written = file_replace(path, text, length, FILE_UNSYNCED);
     free(text);
     return status == CLI_DONE ? written : status;
 }

@@ -91,7 +91,7 @@ size_t file_transfer(int descriptor, void *bytes, size_t length, off_t place, fi
     return done;
 }
 
-static int write_all(int descriptor, const void *bytes, size_t length, int sync)
+static int write_all(int descriptor, const void *bytes, size_t length, file_sync sync)
 {
     const char *from = bytes;
     while (length) {
@@ -101,7 +101,7 @@ static int write_all(int descriptor, const void *bytes, size_t length, int sync)
         from += n;
         length -= (size_t)n;
     }
-    return !sync || fsync(descriptor) == 0;
+    return sync == FILE_UNSYNCED || fsync(descriptor) == 0;
 }
 
 /* A rename is on the disk when the directory is; where a directory cannot be synchronised
@@ -119,7 +119,7 @@ void file_sync_directory(const char *path)
 }
 
 int file_write_and_close(int descriptor, const char *path, const void *bytes, size_t length,
-                         int sync)
+                         file_sync sync)
 {
     int written = write_all(descriptor, bytes, length, sync);
     int reason = errno;
@@ -131,17 +131,17 @@ int file_write_and_close(int descriptor, const char *path, const void *bytes, si
     return written ? CLI_DONE : cli_io("write", path);
 }
 
-int file_write(const char *path, const void *bytes, size_t length, int sync)
+int file_write(const char *path, const void *bytes, size_t length, file_sync sync)
 {
     const int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (descriptor < 0) return cli_io("write", path);
     return file_write_and_close(descriptor, path, bytes, length, sync);
 }
 
-int file_rename(const char *from, const char *to, int sync)
+int file_rename(const char *from, const char *to, file_sync sync)
 {
     if (rename(from, to) != 0) return cli_io("write", to);
-    if (sync) file_sync_directory(to);
+    if (sync == FILE_SYNCED) file_sync_directory(to);
     return CLI_DONE;
 }
 

@@ -17,13 +17,15 @@ int file_equals(const char *path, const void *bytes, size_t length, bool *is_sam
 int file_is_copy(const char *path, const char *other, bool *is_same);
 /* Whether two paths lead to one file or directory. */
 bool file_is_same(const char *path, const char *other);
-/* Writes a file; renames one.  With sync they wait until that is on the disk, so that it outlives
- * a power cut and not only the process. */
-int file_write(const char *path, const void *bytes, size_t length, int sync);
-int file_rename(const char *from, const char *to, int sync);
+/* Whether a function waits until what it wrote is on the disk, so that it outlives a power cut and
+ * not only the process. */
+typedef enum file_sync { FILE_UNSYNCED, FILE_SYNCED } file_sync;
+/* Writes a file; renames one. */
+int file_write(const char *path, const void *bytes, size_t length, file_sync sync);
+int file_rename(const char *from, const char *to, file_sync sync);
 /* The two halves: writes and closes a descriptor of the file `path`; waits for what was renamed. */
 int file_write_and_close(int descriptor, const char *path, const void *bytes, size_t length,
-                         int sync);
+                         file_sync sync);
 void file_sync_directory(const char *path);
 
 /* Reads or writes at a place of a file; returns how many bytes were transferred for sure, fewer

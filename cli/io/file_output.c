@@ -164,12 +164,12 @@ static int begin_output(file_output *o, const char *name, int *descriptor)
 }
 
 /* Gives the file its name, or removes it where status is not CLI_DONE. */
-static int end_output(file_output *o, int status, int sync)
+static int end_output(file_output *o, int status, file_sync sync)
 {
     if (o->fresh && status == CLI_DONE && rename(o->fresh, o->path) != 0)
         status = cli_io("write", o->name);
     if (o->fresh && status != CLI_DONE) unlink(o->fresh);
-    if (o->fresh && status == CLI_DONE && sync) file_sync_directory(o->path);
+    if (o->fresh && status == CLI_DONE && sync == FILE_SYNCED) file_sync_directory(o->path);
     if (o->fresh) forget_unfinished(o->fresh);
     free(o->fresh);
     free(o->path);
@@ -177,13 +177,14 @@ static int end_output(file_output *o, int status, int sync)
     return status;
 }
 
-int file_replace(const char *path, const void *bytes, size_t length, int sync)
+int file_replace(const char *path, const void *bytes, size_t length, file_sync sync)
 {
     file_output o;
     cli_hold_exit();
     int descriptor, status = begin_output(&o, path, &descriptor);
     if (status == CLI_DONE)
-        status = file_write_and_close(descriptor, path, bytes, length, sync && o.fresh);
+        status =
+            file_write_and_close(descriptor, path, bytes, length, o.fresh ? sync : FILE_UNSYNCED);
     status = end_output(&o, status, sync);
     cli_release_exit();
     return status;
@@ -197,15 +198,16 @@ int file_output_open(file_output *o, const char *path)
     int descriptor, status = begin_output(o, path, &descriptor);
     if (status == CLI_DONE && !(o->stream = fdopen(descriptor, "wb")))
         status = cli_io("write", path);
-    if (status != CLI_DONE) status = end_output(o, status, 0);
+    if (status != CLI_DONE) status = end_output(o, status, FILE_UNSYNCED);
     cli_release_exit();
     return status;
 }
 
-static int close_output(file_output *o, int status, int sync)
+static int close_output(file_output *o, int status, file_sync sync)
 {
     cli_hold_exit();
-    if (status == CLI_DONE && sync && (fflush(o->stream) != 0 || fsync(fileno(o->stream)) != 0))
+    if (status == CLI_DONE && sync == FILE_SYNCED &&
+        (fflush(o->stream) != 0 || fsync(fileno(o->stream)) != 0))
         status = cli_io("write", o->name);
     if (status == CLI_DONE)
         status = cli_close(o->stream, o->name);
@@ -216,13 +218,14 @@ static int close_output(file_output *o, int status, int sync)
     return status;
 }
 
-int file_output_close(file_output *o, int status) { return close_output(o, status, 0); }
+int file_output_close(file_output *o, int status) { return close_output(o, status, FILE_UNSYNCED); }
 
 int file_open_output(const char *path, int *descriptor)
 {
     file_output o;
     cli_hold_exit();
-    const int begun = begin_output(&o, path, descriptor), status = end_output(&o, begun, 0);
+    const int begun = begin_output(&o, path, descriptor),
+              status = end_output(&o, begun, FILE_UNSYNCED);
     if (begun == CLI_DONE && status != CLI_DONE) close(*descriptor);
     cli_release_exit();
     return status;
@@ -247,17 +250,17 @@ int file_create(const char *path, const void *bytes, size_t length)
         descriptor_number(target) >= 0 ||
         (stat(path, &held) == 0 && !S_ISREG(held.st_mode) && !S_ISDIR(held.st_mode));
     free(target);
-    if (is_special) return file_replace(path, bytes, length, 0);
+    if (is_special) return file_replace(path, bytes, length, FILE_UNSYNCED);
     const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
     if (descriptor < 0 && errno == EEXIST)
         return cli_fail(CLI_USAGE, "'%s' exists; it is not overwritten", path);
     if (descriptor < 0) return cli_io("write", path);
-    const int status = file_write_and_close(descriptor, path, bytes, length, 1);
+    const int status = file_write_and_close(descriptor, path, bytes, length, FILE_SYNCED);
     if (status != CLI_DONE) unlink(path);
     return status;
 }
 
-int file_copy(const char *from, const char *to, int sync)
+int file_copy(const char *from, const char *to, file_sync sync)
 {
     char block[1 << 16];
     file_output output;
@@ -268,7 +271,7 @@ int file_copy(const char *from, const char *to, int sync)
         for (size_t n; (n = fread(block, 1, sizeof block, source)) > 0;)
             if (fwrite(block, 1, n, output.stream) != n) break;
         status = close_output(&output, ferror(source) ? cli_io("read", from) : CLI_DONE,
-                              sync && output.fresh);
+                              output.fresh ? sync : FILE_UNSYNCED);
     }
     fclose(source);
     return status;

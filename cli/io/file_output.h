@@ -6,13 +6,15 @@
 #ifndef DAL_CLI_FILE_OUTPUT_H
 #define DAL_CLI_FILE_OUTPUT_H
 
+#include "file.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
 /* Writes all at once: a file is old or new and never half of either.  Return CLI_DONE or CLI_IO. */
-int file_replace(const char *path, const void *bytes, size_t length, int sync);
-int file_copy(const char *from, const char *to, int sync);
+int file_replace(const char *path, const void *bytes, size_t length, file_sync sync);
+int file_copy(const char *from, const char *to, file_sync sync);
 /* The same piece by piece, "-" being standard output. */
 typedef struct file_output {
     FILE *stream;

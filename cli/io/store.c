@@ -225,7 +225,7 @@ void store_begin_manifest(store_manifest *manifest)
     json_put_text(&manifest->json, "dalembert", DAL_VERSION);
 }
 
-int store_end_manifest(store_manifest *manifest, const char *path, int sync)
+int store_end_manifest(store_manifest *manifest, const char *path, file_sync sync)
 {
     json_end_results(&manifest->json);
     cli_memstream_close(manifest->json.out);

@@ -3,6 +3,7 @@
 #ifndef DAL_CLI_STORE_H
 #define DAL_CLI_STORE_H
 
+#include "file.h"
 #include "json.h"
 #include "ui/options.h"
 
@@ -115,7 +116,7 @@ typedef struct store_manifest {
 /* Ends and frees what it began, and replaces the file as a whole.  Returns CLI_DONE, or prints and
  * returns CLI_IO. */
 void store_begin_manifest(store_manifest *manifest);
-int store_end_manifest(store_manifest *manifest, const char *path, int sync);
+int store_end_manifest(store_manifest *manifest, const char *path, file_sync sync);
 /* Reads one, *bytes being its text; both are to be freed after a failure, too.  Returns CLI_DONE,
  * or prints and returns an exit status. */
 int store_read_manifest(const char *path, document **manifest, char **bytes);

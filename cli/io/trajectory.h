@@ -2,6 +2,8 @@
 #ifndef DAL_CLI_TRAJECTORY_H
 #define DAL_CLI_TRAJECTORY_H
 
+#include "file.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -41,7 +43,7 @@ int writer_verify(const trajectory_writer *writer, long long rows, const row_sum
 int writer_continue(trajectory_writer *writer, long long rows, const row_sum *sum);
 int writer_append(trajectory_writer *writer, const double *values);
 /* Writes all rows so far and then their number; with sync the rows are on the disk before. */
-int writer_sync(trajectory_writer *writer, int sync);
+int writer_sync(trajectory_writer *writer, file_sync sync);
 /* Closes the file; its header has the number of all whole rows, also after a failure. */
 int writer_close(trajectory_writer *writer);
 

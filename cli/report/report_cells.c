@@ -45,15 +45,15 @@ bool is_cell(const study_page *s, int row, const char *head, const char *text)
 
 const quantity quantities[REPORT_QUANTITIES] = {
     {"D", "D_max", "D_size", "D_trend", "D", "Constraints", "max |D|", "Constraints: max |D|",
-     false},
+     ON_SURFACE},
     {"E", "E_deviation", "E_size", "E_trend", "E", "Energy", "max |E - E(0)|",
-     "Energy: max |E − E(0)|", false},
+     "Energy: max |E − E(0)|", ON_SURFACE},
     {"invariants", "invariant_deviation", "invariant_size", "invariant_trend", "I", "Invariants",
      "max |I - I(0)| / max(1, |I(0)|)",
-     "Invariants of the systems: max |I − I(0)|, the largest of each", false},
+     "Invariants of the systems: max |I − I(0)|, the largest of each", ON_SURFACE},
     {"H", "H_deviation", "H_size", "H_trend", "H", "H, started off p = pi = 0", "max |H - H(0)|",
-     "Hamiltonian of the lift: max |H − H(0)|, started off p = π = 0", true},
-    {"error", "error_max", NULL, NULL, "error", "Error", "max |q - exact|", NULL, false},
+     "Hamiltonian of the lift: max |H − H(0)|, started off p = π = 0", DISPLACED},
+    {"error", "error_max", NULL, NULL, "error", "Error", "max |q - exact|", NULL, ON_SURFACE},
 };
 
 /* On p = pi = 0 the lifted run has the bits of the physical one: where there is no physical run,
@@ -62,20 +62,20 @@ static const char *const starts[][2] = {{"physical", "surface"}, {"displaced", "
 
 bool is_shown(const study_page *s, int row, const quantity *t)
 {
-    const char *const *start = starts[t->is_displaced];
+    const char *const *start = starts[t->start];
     return is_cell(s, row, "start", start[0]) || is_cell(s, row, "start", start[1]);
 }
 
 int find_cell(const study_page *s, const char *label, const char *method, const char *step,
-              bool is_displaced)
+              cell_start start)
 {
     int found = 0;
     for (int row = 1; row < s->cells.rows; row++) {
         if (!is_cell(s, row, "label", label) || !is_cell(s, row, "step", step) ||
             !is_cell(s, row, "integrator", method) || is_cell(s, row, "state", "refused"))
             continue;
-        if (is_cell(s, row, "start", starts[is_displaced][0])) return row;
-        if (is_cell(s, row, "start", starts[is_displaced][1])) found = row;
+        if (is_cell(s, row, "start", starts[start][0])) return row;
+        if (is_cell(s, row, "start", starts[start][1])) found = row;
     }
     return found;
 }

@@ -37,9 +37,10 @@ int read_label_model(const study_page *s, const char *label, dal_model **model);
 /* What tables and figures are about: its column in series/LABEL.csv, those in cells.csv, of which
  * the first is empty where a system lacks it; the texts of its figures; and the title of its table,
  * NULL where there is none. */
+typedef enum cell_start { ON_SURFACE, DISPLACED } cell_start; /* p = pi = 0 */
 typedef struct quantity {
     const char *column, *value, *size, *trend, *name, *title, *ylabel, *heading;
-    bool is_displaced; /* shown of runs that start off p = pi = 0 */
+    cell_start start; /* of the runs that it is shown of */
 } quantity;
 
 enum { REPORT_QUANTITIES = 5 };
@@ -50,6 +51,6 @@ bool is_shown(const study_page *s, int row, const quantity *t);
 /* The row of a cell that starts so, without p and pi rather than on p = pi = 0; 0: none has
  * numbers. */
 int find_cell(const study_page *s, const char *label, const char *method, const char *step,
-              bool is_displaced);
+              cell_start start);
 
 #endif

@@ -104,7 +104,7 @@ static void write_cell(json_writer *data, const study_page *s, int row, int step
                        const csv_table *series, cell_rows rows)
 {
     const char *run = get_cell(s, row, "run");
-    const bool is_displaced = is_cell(s, row, "start", "displaced");
+    const cell_start start = is_cell(s, row, "start", "displaced") ? DISPLACED : ON_SURFACE;
     char *path = cli_format("%s/%s/report/index.html", s->r->directory, run);
     json_open(data, NULL, JSON_ON_ONE_LINE);
     json_put_text(data, "method", get_cell(s, row, "integrator"));
@@ -113,7 +113,7 @@ static void write_cell(json_writer *data, const study_page *s, int row, int step
     if (file_exists(path)) json_put_flag(data, "page", true);
     for (int k = 0; k < REPORT_QUANTITIES; k++) {
         const quantity *t = &quantities[k];
-        if (t->is_displaced == is_displaced && !is_cell(s, row, t->value, ""))
+        if (t->start == start && !is_cell(s, row, t->value, ""))
             write_envelope(data, t->name, series, rows, t->column);
     }
     json_close(data);
@@ -164,7 +164,7 @@ void data_write_envelopes(json_writer *data, const study_page *s, const char *la
         const char *step = csv_table_get(series, first, "step");
         const int h = find_word(steps, step);
         const int row = find_cell(s, label, csv_table_get(series, first, "integrator"), step,
-                                  strcmp(start, "displaced") == 0);
+                                  strcmp(start, "displaced") == 0 ? DISPLACED : ON_SURFACE);
         if (h == steps->count || row == 0 || !is_cell(s, row, "start", start)) continue;
         if (rows.count > longest[h].count) longest[h] = rows;
         write_cell(data, s, row, h, series, rows);

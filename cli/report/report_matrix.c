@@ -117,8 +117,8 @@ static void write_matrix(const study_page *s, const table_columns *all, const qu
         int rows[CSV_WORDS];
         bool is_found = false;
         for (int i = 0; i < shown.count; i++) {
-            rows[i] = find_cell(s, shown.at[i].label, s->methods.word[m], shown.at[i].step,
-                                t->is_displaced);
+            rows[i] =
+                find_cell(s, shown.at[i].label, s->methods.word[m], shown.at[i].step, t->start);
             is_found |= rows[i] > 0;
         }
         if (!is_found) continue;
@@ -158,7 +158,7 @@ static const compared_size compared[COMPARED] = {
 static bool is_chosen(const study_page *s, int row)
 {
     return find_cell(s, get_cell(s, row, "label"), get_cell(s, row, "integrator"),
-                     get_cell(s, row, "step"), false) == row;
+                     get_cell(s, row, "step"), ON_SURFACE) == row;
 }
 
 /* Whether a run was predicted to its end, and has a size above rounding there. */

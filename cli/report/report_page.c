@@ -256,7 +256,8 @@ int report_close(report *r)
                 r->charts.script);
     fprintf(page, "<script type=\"module\">\n%s</script>\n</body></html>\n", report_script);
     cli_memstream_close(page);
-    const int status = r->read == CLI_DONE ? file_replace(r->page_path, text, length, 0) : r->read;
+    const int status =
+        r->read == CLI_DONE ? file_replace(r->page_path, text, length, FILE_UNSYNCED) : r->read;
     free(text);
     for (int i = 0; i < REPORT_TEXTS; i++) free(r->text[i]);
     chart_library_free(&r->charts);

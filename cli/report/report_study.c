@@ -151,7 +151,7 @@ static plot_curve *add_method(const label_figures *f, report_plot *plot, const c
 static void add_envelope(const label_figures *f, report_plot *plot, const char *method,
                          const char *step, const quantity *t)
 {
-    const int cell = find_cell(f->s, f->label, method, step, t->is_displaced);
+    const int cell = find_cell(f->s, f->label, method, step, t->start);
     if (cell == 0 || is_cell(f->s, cell, t->value, "")) return;
     const char *start = get_cell(f->s, cell, "start");
     plot_curve *curve = NULL;
@@ -212,7 +212,6 @@ static int draw_errors(const label_figures *f, error_axis axis)
                    {"tolerance", "Tolerance", "tolerance",
                     "An error that follows the tolerance is a line of slope 1."}};
     const csv_table *cells = &f->s->cells;
-    const bool is_displaced = false;
     char name[PLOT_NAME];
     report_plot plot = {.name = name_plot(name, f, figures[axis].name, 0),
                         .title = figures[axis].title,
@@ -229,7 +228,7 @@ static int draw_errors(const label_figures *f, error_axis axis)
         plot_curve *curve = add_method(f, &plot, method);
         for (int h = 0; h < f->steps.count; h++) {
             const char *step = f->steps.word[h];
-            const int row = find_cell(f->s, f->label, method, step, is_displaced);
+            const int row = find_cell(f->s, f->label, method, step, ON_SURFACE);
             if (row == 0 || !is_cell(f->s, row, "state", "done")) continue;
             const double size = fabs(strtod(step, NULL)), tolerance = step_tolerance(step);
             if (axis != OVER_WORK && (tolerance > 0.0) != (axis == OVER_TOLERANCE)) continue;

@@ -90,10 +90,10 @@ int event_log_add(event_log *log, const dal_occurrence *event)
     return ferror(log->file) ? cli_io("write", log->path) : CLI_DONE;
 }
 
-int event_log_flush(event_log *log, int sync)
+int event_log_flush(event_log *log, file_sync sync)
 {
     if (!log->file) return CLI_DONE;
-    if (fflush(log->file) != 0 || (sync && fsync(fileno(log->file)) != 0))
+    if (fflush(log->file) != 0 || (sync == FILE_SYNCED && fsync(fileno(log->file)) != 0))
         return cli_io("write", log->path);
     return CLI_DONE;
 }

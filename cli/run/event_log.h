@@ -3,6 +3,7 @@
 #ifndef DAL_CLI_EVENT_LOG_H
 #define DAL_CLI_EVENT_LOG_H
 
+#include "io/file.h"
 #include "request_data.h"
 
 #include <stdbool.h>
@@ -20,7 +21,7 @@ int event_log_open(event_log *log, const run_simulation *simulation, const char 
 /* Writes an event that has just happened. */
 int event_log_add(event_log *log, const dal_occurrence *event);
 /* Brings what is written to the file; with sync to the disk. */
-int event_log_flush(event_log *log, int sync);
+int event_log_flush(event_log *log, file_sync sync);
 int event_log_close(event_log *log);
 
 /* The events of a file, one after the other. */

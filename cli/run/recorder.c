@@ -356,9 +356,9 @@ static int save(run_recorder *r)
 static int save_and_sync(run_recorder *r)
 {
     int status = CLI_DONE;
-    if (!r->dir->sync) {
-        status = writer_sync(&r->writer, 0);
-        r->dir->sync = 1;
+    if (r->dir->sync == FILE_UNSYNCED) {
+        status = writer_sync(&r->writer, FILE_UNSYNCED);
+        r->dir->sync = FILE_SYNCED;
         if (status == CLI_DONE) status = write_state(r, STORE_RUNNING, "");
     }
     return status == CLI_DONE ? save(r) : status;
@@ -423,7 +423,7 @@ static int write_end(run_recorder *r, int status, const char *message)
 {
     int written = CLI_DONE;
     if (r->dir && (status == CLI_DONE || status == CLI_FAILED)) {
-        written = writer_sync(&r->writer, 0);
+        written = writer_sync(&r->writer, FILE_UNSYNCED);
         if (written == CLI_DONE) written = write_summary(r);
         if (written == CLI_DONE) written = save(r);
     }

@@ -88,7 +88,8 @@ static void print_unresolved(const dal_run *run)
 
 static int copy_events(const run_directory *dir, const run_settings *settings)
 {
-    return dir && settings->events ? file_copy(dir->events, settings->events, 0) : CLI_DONE;
+    return dir && settings->events ? file_copy(dir->events, settings->events, FILE_UNSYNCED)
+                                   : CLI_DONE;
 }
 
 int run_integrate(const run_simulation *simulation, run_directory *dir,

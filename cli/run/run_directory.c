@@ -12,7 +12,7 @@
 
 void run_directory_open(run_directory *dir, const char *path)
 {
-    *dir = (run_directory){.path = path, .descriptor = -1, .sync = 1};
+    *dir = (run_directory){.path = path, .descriptor = -1, .sync = FILE_SYNCED};
     STORE_MAKE_PATHS(dir, RUN_FILE_LIST);
 }
 

@@ -39,7 +39,7 @@ typedef struct run_directory {
     char *earlier; /* the request before it was extended, or NULL */
     uint64_t fingerprint, earlier_fingerprint; /* of either and of the system */
     bool extends;   /* the request is to replace the one of manifest.json: see extension.h */
-    int sync;       /* whether to wait until what is written is on the disk */
+    file_sync sync; /* whether to wait until what is written is on the disk */
     int descriptor; /* of trajectory.npy, locked; -1 before, and after a writer has taken it */
 } run_directory;
 

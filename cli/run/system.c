@@ -71,7 +71,7 @@ int cli_read(const char *system, dal_model **model)
     return cli_is_path(system) ? read_path(system, model) : read_builtin(system, model);
 }
 
-int cli_copy_system(const char *system, const dal_model *model, const char *to, int sync)
+int cli_copy_system(const char *system, const dal_model *model, const char *to, file_sync sync)
 {
     size_t length;
     const char *source = dal_model_source(model, &length);

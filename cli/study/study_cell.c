@@ -380,7 +380,7 @@ static int open_recorder(cell_run *r)
 {
     run_directory *dir = &r->dir;
     const bool has_run = run_directory_has_run(dir);
-    dir->sync = 0;
+    dir->sync = FILE_UNSYNCED;
     bool is_longer = false;
     int status = cli_directory(dir->path);
     if (status == CLI_DONE) status = run_directory_lock(dir, has_run ? RUN_EXISTING : RUN_NEW);

@@ -272,7 +272,7 @@ int study_write_expectations(const study_plan *plan, const char *path)
             plan->has_tolerances ? ",tolerance" : "");
     for (int i = 0; i < all.count; i++) write_row(out, plan, &all.item[i]);
     cli_memstream_close(out);
-    const int status = file_replace(path, text, length, 1);
+    const int status = file_replace(path, text, length, FILE_SYNCED);
     free(text);
     free(all.item);
     return status;

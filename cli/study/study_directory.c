@@ -74,7 +74,7 @@ static int write_shard_manifest(const study_directory *dir, store_shard shard,
         json_put_integer(&m.json, study_state_words[i], count[i]);
     json_close(&m.json);
     json_put_number(&m.json, "seconds", seconds);
-    const int status = store_end_manifest(&m, path, 1);
+    const int status = store_end_manifest(&m, path, FILE_SYNCED);
     free(path);
     return status;
 }
@@ -178,7 +178,7 @@ static int copy_system(const study_directory *dir, study_case *e)
     bool is_same;
     int status = CLI_DONE;
     if (!file_exists(path))
-        status = cli_copy_system(e->path, e->model, path, 1);
+        status = cli_copy_system(e->path, e->model, path, FILE_SYNCED);
     else if ((status = file_equals(path, source, length, &is_same)) == CLI_DONE && !is_same)
         status = cli_fail(CLI_USAGE, "'%s' is of another study: '%s' differs", dir->path, path);
     free(e->copy);
@@ -249,7 +249,7 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
     if (status == CLI_DONE) status = cli_directory(dir->runs);
     if (status == CLI_DONE) status = copy_systems(dir, plan);
     if (status == CLI_DONE) status = write_manifest(dir, plan, STORE_RUNNING);
-    if (status == CLI_DONE) status = file_replace(dir->study, text, length, 1);
+    if (status == CLI_DONE) status = file_replace(dir->study, text, length, FILE_SYNCED);
     if (status == CLI_DONE) status = study_directory_open_results(dir, plan, plan->results);
     close(descriptor);
     return status;
@@ -346,7 +346,7 @@ static int write_files(const study_directory *dir, const study_plan *plan)
 static int print_results(const study_directory *dir, const study_plan *plan)
 {
     const char *tables = dir->shard.count == 0 ? dir->tables : NULL;
-    if (screen_is_wanted(plan->format, false, plan->shows_tables || plan->shows_matrices))
+    if (screen_is_wanted(plan->format, plan->shows_tables || plan->shows_matrices))
         return study_print_overview(stdout, plan, tables, plan->format);
     if (plan->shows_tables)
         print_tables(stdout, plan);

@@ -120,8 +120,8 @@ static int copy_run(const char *source, const char *target)
     int status = cli_directory(target);
     for (int i = 0; i < RUN_FILES && status == CLI_DONE; i++)
         if (from.file[i] != from.manifest && file_exists(from.file[i]))
-            status = file_copy(from.file[i], to.file[i], 0);
-    if (status == CLI_DONE) status = file_copy(from.manifest, to.manifest, 0);
+            status = file_copy(from.file[i], to.file[i], FILE_UNSYNCED);
+    if (status == CLI_DONE) status = file_copy(from.manifest, to.manifest, FILE_UNSYNCED);
     run_directory_close(&from);
     run_directory_close(&to);
     return status;

@@ -169,14 +169,17 @@ static bool is_multiplier(const char *name)
     return name[0] == 'g' && name[1] != '\0' && strspn(name + 1, "0123456789") == strlen(name + 1);
 }
 
+/* Of a system with several mechanics only the vakonomic ones have multipliers to start. */
+typedef enum multiplier_use { READ_MULTIPLIERS, SKIP_MULTIPLIERS } multiplier_use;
+
 static int read_settings(study_variants *v, yaml_node_t *node, const char *what,
-                         bool skips_multipliers)
+                         multiplier_use multipliers)
 {
     document_pair pair;
     v->of_set = v->count;
     int status = node ? document_check_mapping(v->doc, node, what, "names and values") : CLI_DONE;
     for (int i = 0; node && status == CLI_DONE && document_get_pair(v->doc, node, i, &pair); i++) {
-        if (skips_multipliers && is_multiplier(pair.name)) continue;
+        if (multipliers == SKIP_MULTIPLIERS && is_multiplier(pair.name)) continue;
         v->setting = cli_realloc(v->setting, ((size_t)v->count + 1) * sizeof *v->setting);
         variant_setting *s = &v->setting[v->count++];
         *s = (variant_setting){.name = pair.name};
@@ -212,13 +215,14 @@ int study_variants_read(study_variants **variants, const document *doc, const pa
     study_variants *v = *variants = cli_calloc(1, sizeof *v);
     v->doc = doc;
     v->start_node = p->start;
-    int status = read_settings(v, p->set, "set", false);
+    int status = read_settings(v, p->set, "set", READ_MULTIPLIERS);
     const int set_drawn = v->drawn;
-    /* Of a system with several mechanics only the vakonomic ones have multipliers to start. */
     const study_case *e = &p->item;
     const bool lacks_multipliers =
         e->variant && e->choices.mechanics == DAL_MECHANICS_LAGRANGE_DALEMBERT;
-    if (status == CLI_DONE) status = read_settings(v, p->start, "start", lacks_multipliers);
+    if (status == CLI_DONE)
+        status = read_settings(v, p->start, "start",
+                               lacks_multipliers ? SKIP_MULTIPLIERS : READ_MULTIPLIERS);
     v->start_drawn = v->drawn - set_drawn;
     if (status == CLI_DONE) status = read_seeds(v, doc, p);
     if (status != CLI_DONE) return status;

@@ -32,15 +32,21 @@ bool screen_is_in_colour(FILE *to)
            !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
-int screen_check_format(screen_format format, bool has_json, bool has_details)
+int screen_check_json(screen_format format, bool has_json)
 {
-    if (format == SCREEN_TEXT || !(has_json || has_details)) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "--format excludes %s", has_json ? "--json" : "--details");
+    if (format == SCREEN_TEXT || !has_json) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "--format excludes --json");
 }
 
-bool screen_is_wanted(screen_format format, bool has_json, bool has_details)
+int screen_check_details(screen_format format, bool has_details)
 {
-    return format != SCREEN_TEXT || (!has_json && !has_details && screen_has_reader());
+    if (format == SCREEN_TEXT || !has_details) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "--format excludes --details");
+}
+
+bool screen_is_wanted(screen_format format, bool has_other_form)
+{
+    return format != SCREEN_TEXT || (!has_other_form && screen_has_reader());
 }
 
 /* ---- a screen ------------------------------------------------------------------------------ */

@@ -24,10 +24,11 @@ bool screen_is_in_colour(FILE *to);
             CLI_FLAG(settings, details)                                                            \
     }
 
-/* Returns CLI_DONE, or prints that a format excludes other forms and returns CLI_USAGE. */
-int screen_check_format(screen_format format, bool has_json, bool has_details);
-/* Whether results are printed as a screen, or its table, and not as data or in detail. */
-bool screen_is_wanted(screen_format format, bool has_json, bool has_details);
+/* Return CLI_DONE, or print that a format excludes --json, or --details, and return CLI_USAGE. */
+int screen_check_json(screen_format format, bool has_json);
+int screen_check_details(screen_format format, bool has_details);
+/* Whether results are printed as a screen, or its table, where no option chooses another form. */
+bool screen_is_wanted(screen_format format, bool has_other_form);
 
 /* The row of --format in a table of options. */
 #define SCREEN_FORMAT_OPTION(settings)                                                             \

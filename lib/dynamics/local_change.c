@@ -41,7 +41,7 @@ void dal__local_free(dal__local *k)
 }
 
 dal_status dal__local_create(dal__local *k, const dal_run_spec *spec, const dal_run *run,
-                             bool is_quad, dal_error *error)
+                             dal_precision precision, dal_error *error)
 {
     const dal_system *s = dal_run_system(run);
     *k = (dal__local){.system = s,
@@ -60,7 +60,8 @@ dal_status dal__local_create(dal__local *k, const dal_run_spec *spec, const dal_
     DAL_TRY(dal__evaluator_of_run(&k->evaluator, NULL, run, error));
     DAL_TRY(dal_scaled_create_at(&k->scaled, run, error));
     k->unit = dal_scaled_units(k->scaled);
-    if (!is_quad) return dal_batch_create(&k->batch, spec, DAL__LOCAL_STEPS, 0, error);
+    if (precision == DAL_DOUBLE)
+        return dal_batch_create(&k->batch, spec, DAL__LOCAL_STEPS, 0, error);
     dal_run_spec own = *spec;
     own.options.precision = DAL_QUAD;
     return dal_run_create(&k->quad, &own, error);

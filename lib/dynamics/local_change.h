@@ -22,10 +22,10 @@ typedef struct dal__local {
     double *values, *scales; /* scratch; as of dal_evaluator_scales */
 } dal__local;
 
-/* Makes it for a run of spec in double precision and on the physical space; for quad precision
- * where is_quad. [alloc]  Errors: as of batches and runs. */
+/* Makes it for a run of spec on the physical space, in a precision. [alloc]  Errors: as of batches
+ * and runs. */
 dal_status dal__local_create(dal__local *local, const dal_run_spec *spec, const dal_run *run,
-                             bool is_quad, dal_error *error);
+                             dal_precision precision, dal_error *error);
 /* Frees what it holds. */
 void dal__local_free(dal__local *local);
 /* The observables at (q, v), out[count]. */

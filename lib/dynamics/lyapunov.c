@@ -67,10 +67,10 @@ static dal_status move_exactly(dal_lyapunov *s, double *vector)
 {
     double *x = s->scratch;
     for (int i = 0; i < s->dimension; i++) vector[i] *= s->unit[i];
-    dal__tangent_scatter(s->n, false, s->z, vector, x);
+    dal__tangent_scatter(s->n, DAL_PHYSICAL, s->z, vector, x);
     DAL_TRY(dal_run_set_state(s->auxiliary, s->t, x, s->error));
     DAL_TRY(dal_run_step(s->auxiliary, s->error));
-    dal__tangent_gather(s->n, false, dal_run_state(s->auxiliary), vector);
+    dal__tangent_gather(s->n, DAL_PHYSICAL, dal_run_state(s->auxiliary), vector);
     for (int i = 0; i < s->dimension; i++) vector[i] /= s->unit[i];
     return DAL_STATUS_OK;
 }

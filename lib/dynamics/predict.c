@@ -130,7 +130,7 @@ static dal_status begin_prediction(work *w, const dal_run_spec *spec, double T,
         return dal__fail(w->error, DAL_STATUS_ARGUMENT,
                          "pieces of %lld steps have no middle: the number must be even", w->whole);
     DAL_TRY(create_run(w, spec));
-    DAL_TRY(dal__local_create(&w->local, &w->spec, w->run, false, w->error));
+    DAL_TRY(dal__local_create(&w->local, &w->spec, w->run, DAL_DOUBLE, w->error));
     w->n = w->local.n;
     w->count = w->local.count;
     w->has_points = w->local.m > 0 && !w->local.enforces_D;

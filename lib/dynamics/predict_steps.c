@@ -76,7 +76,7 @@ static dal_status try_quad(work *w, int steps)
     int made = 0;
     if (!kept) return dal__fail(w->error, DAL_STATUS_MEMORY, "out of memory");
     memcpy(kept, w->local_change, numbers * sizeof *kept);
-    dal_status status = dal__local_create(&quad, &w->spec, w->run, true, NULL);
+    dal_status status = dal__local_create(&quad, &w->spec, w->run, DAL_QUAD, NULL);
     if (status == DAL_STATUS_OK)
         status = dal__local_steps(&quad, steps, w->t, w->x, w->local_change, &made, NULL);
     for (int j = w->local.m; j < w->count && status == DAL_STATUS_OK; j++)

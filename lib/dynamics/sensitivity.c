@@ -37,6 +37,11 @@ static dal_status out_of_memory(dal_error *error)
     return dal__fail(error, DAL_STATUS_MEMORY, "sensitivities: out of memory");
 }
 
+static dal_space space_of(const dal_sensitivity *s)
+{
+    return s->is_lifted ? DAL_LIFTED : DAL_PHYSICAL;
+}
+
 static double *column_at(const dal_sensitivity *s, int k)
 {
     return s->column + (size_t)k * (size_t)s->dimension;
@@ -96,7 +101,7 @@ static dal_status start_column(dal_sensitivity *s, dal_model *model, const colum
 {
     dal_run_spec spec = *c->spec;
     spec.start_count = 0;
-    spec.options.space = s->is_lifted ? DAL_LIFTED : DAL_PHYSICAL;
+    spec.options.space = space_of(s);
     spec.options.precision = DAL_DOUBLE;
     spec.options.reactions = false;
     if (c->component < 0)
@@ -107,13 +112,13 @@ static dal_status start_column(dal_sensitivity *s, dal_model *model, const colum
     double *vector = column_at(s, k);
     double *state = dal__numbers(1, (size_t)dal_run_dimension(s->run[k]));
     if (!state) return out_of_memory(error);
-    dal__tangent_gather(s->n, s->is_lifted, dal_run_state(s->run[k]), vector);
+    dal__tangent_gather(s->n, space_of(s), dal_run_state(s->run[k]), vector);
     for (int i = 0; i < c->spec->start_count; i++) { /* what the run sets depends on nothing */
         const int given = dal_run_component_index(c->run, c->spec->start[i].name);
         if (given >= 0) vector[given] = 0.0;
     }
     if (c->component >= 0) vector[c->component] = 1.0;
-    dal__tangent_scatter(s->n, s->is_lifted, dal_run_state(c->run), vector, state);
+    dal__tangent_scatter(s->n, space_of(s), dal_run_state(c->run), vector, state);
     const dal_status status = dal_run_set_state(s->run[k], dal_run_time(c->run), state, error);
     free(state);
     return status;
@@ -189,7 +194,7 @@ static dal_status read_column(void *user, dal_run *run)
 {
     const target *at = user;
     const dal_sensitivity *s = at->sensitivity;
-    dal__tangent_gather(s->n, s->is_lifted, dal_run_state(run), at->column);
+    dal__tangent_gather(s->n, space_of(s), dal_run_state(run), at->column);
     return DAL_STATUS_OK;
 }
 

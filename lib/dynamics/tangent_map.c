@@ -41,27 +41,27 @@ static void find_halves(int n, half *out)
     memcpy(out, all, sizeof all);
 }
 
-void dal__tangent_scatter(int n, bool is_lifted, const double *state, const double *vector,
+void dal__tangent_scatter(int n, dal_space space, const double *state, const double *vector,
                           double *tangent)
 {
     half part[LIFTED];
     find_halves(n, part);
-    for (int k = 0; k < (is_lifted ? LIFTED : PHYSICAL); k++)
+    for (int k = 0; k < (space == DAL_LIFTED ? LIFTED : PHYSICAL); k++)
         memcpy(tangent + part[k].place, (part[k].is_vector ? vector : state) + part[k].at,
                (size_t)n * sizeof *tangent);
-    if (!is_lifted) return;
+    if (space != DAL_LIFTED) return;
     tangent[4 * n] = state[2 * n];
     tangent[8 * n + 1] = vector[4 * n + 1];
 }
 
-void dal__tangent_gather(int n, bool is_lifted, const double *tangent, double *vector)
+void dal__tangent_gather(int n, dal_space space, const double *tangent, double *vector)
 {
     half part[LIFTED];
     find_halves(n, part);
-    for (int k = 0; k < (is_lifted ? LIFTED : PHYSICAL); k++)
+    for (int k = 0; k < (space == DAL_LIFTED ? LIFTED : PHYSICAL); k++)
         if (part[k].is_vector)
             memcpy(vector + part[k].at, tangent + part[k].place, (size_t)n * sizeof *vector);
-    if (!is_lifted) return;
+    if (space != DAL_LIFTED) return;
     vector[2 * n] = 0.0;
     vector[4 * n + 1] = tangent[8 * n + 1];
 }

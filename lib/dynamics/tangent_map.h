@@ -12,8 +12,8 @@
 const char *dal__tangent_fault(const dal_run_spec *spec, dal_space space);
 /* Writes state and vector, [2n] or [4n + 2] with de = 0, into a state of the tangent system; and
  * the vector from it. */
-void dal__tangent_scatter(int n, bool is_lifted, const double *state, const double *vector,
+void dal__tangent_scatter(int n, dal_space space, const double *state, const double *vector,
                           double *tangent);
-void dal__tangent_gather(int n, bool is_lifted, const double *tangent, double *vector);
+void dal__tangent_gather(int n, dal_space space, const double *tangent, double *vector);
 
 #endif

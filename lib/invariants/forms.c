@@ -360,16 +360,17 @@ static void put_product(dal__buffer *out, const dal__search *s, int product, boo
     while (factors-- > 0) put_factor(out, is_first, s->atom[factor[factors]].text, power[factors]);
 }
 
-static bool is_part_negative(const coefficient *c, int i)
+static bool is_summand_negative(const coefficient *c, int i)
 {
     return c->divisor[i] == 1 ? c->numerator[i] < 0 : c->number[i] < 0.0;
 }
 
-/* A summand of a coefficient without its sign; 1 is left out where a factor follows. */
-static void put_summand(dal__buffer *out, const terms *t, const coefficient *c, int i, bool follows,
+/* A summand of a coefficient without its sign, before a product (0: before nothing); 1 is left out
+ * where a factor follows. */
+static void put_summand(dal__buffer *out, const terms *t, const coefficient *c, int i, int product,
                         bool *is_first)
 {
-    bool has_factor = follows;
+    bool has_factor = product > 0;
     for (int j = 0; j < t->parameters; j++) has_factor = has_factor || c->exponent[i][j] > 0;
     if (c->divisor[i] != 1) {
         char number[DAL__NUMBER_SIZE];
@@ -386,18 +387,18 @@ static void put_summand(dal__buffer *out, const terms *t, const coefficient *c, 
 static void put_term(dal__buffer *out, const terms *t, int k)
 {
     const coefficient *c = &t->whole[k];
-    const bool is_negative = is_part_negative(c, 0);
+    const bool is_negative = is_summand_negative(c, 0);
     bool is_first = true;
     dal__buffer_append(out, k == 0 ? (is_negative ? "-" : "") : is_negative ? " - " : " + ");
     if (c->summands == 1) {
-        put_summand(out, t, c, 0, t->product[k] > 0, &is_first);
+        put_summand(out, t, c, 0, t->product[k], &is_first);
     } else {
         bool is_first_there = true;
         dal__buffer_append(out, "(");
-        put_summand(out, t, c, 0, false, &is_first_there);
+        put_summand(out, t, c, 0, 0, &is_first_there);
         is_first_there = true;
-        dal__buffer_append(out, is_part_negative(c, 1) == is_negative ? " + " : " - ");
-        put_summand(out, t, c, 1, false, &is_first_there);
+        dal__buffer_append(out, is_summand_negative(c, 1) == is_negative ? " + " : " - ");
+        put_summand(out, t, c, 1, 0, &is_first_there);
         dal__buffer_append(out, ")");
         is_first = false;
     }

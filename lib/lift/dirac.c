@@ -26,12 +26,14 @@ typedef struct slot {
     struct slot *next;
 } slot;
 
+typedef enum text_form { PLAIN, LATEX } text_form;
+
 typedef struct writer {
     const dal__theory *theory;
     dal__pool *pool;
     slot *slots;
     int count;
-    bool is_plain;
+    text_form form;
 } writer;
 
 static void write_later(writer *w, dal_formula *to, dal__node node)
@@ -46,14 +48,14 @@ static void write_later(writer *w, dal_formula *to, dal__node node)
 static void put_symbol(const void *user, int symbol, dal__buffer *text)
 {
     const writer *w = user;
-    const char *name = (w->is_plain ? w->theory->text : w->theory->latex)[symbol];
+    const char *name = (w->form == PLAIN ? w->theory->text : w->theory->latex)[symbol];
     dal__buffer_append(text, name ? name : "?");
 }
 
 static void put_table(const void *user, int table, dal__buffer *text)
 {
     const writer *w = user;
-    if (w->is_plain)
+    if (w->form == PLAIN)
         dal__buffer_append(text, w->theory->table[table]);
     else
         dal__typeset_name(w->theory->table[table], NULL, text);
@@ -68,7 +70,7 @@ static dal_status write_slots(const writer *w, slot *first, const slot *end, dal
                                           .user = w,
                                           .letter = "s",
                                           .shared_length = SIZE_MAX,
-                                          .is_plain = w->is_plain};
+                                          .is_plain = w->form == PLAIN};
     dal__typesetter *typesetter = NULL;
     int count = 0;
     for (const slot *s = first; s != end; s = s->next) nodes[count++] = s->node;
@@ -76,7 +78,7 @@ static dal_status write_slots(const writer *w, slot *first, const slot *end, dal
         dal__typesetter_create(&typesetter, w->theory->graph, nodes, count, &options);
     if (status != DAL_STATUS_OK && (status != DAL_STATUS_TOO_LARGE || count > 1)) return status;
     for (slot *s = first; s != end; s = s->next) {
-        const char **to = w->is_plain ? &s->to->text : &s->to->latex;
+        const char **to = w->form == PLAIN ? &s->to->text : &s->to->latex;
         const char *text = typesetter ? dal__typeset(typesetter, s->node) : "...";
         if (!*to) *to = dal__pool_text(w->pool, text, strlen(text));
     }
@@ -85,11 +87,11 @@ static dal_status write_slots(const writer *w, slot *first, const slot *end, dal
 }
 
 /* Writes all formulas together, or one by one where a part of them is too long. */
-static dal_status write_all(writer *w, bool is_plain)
+static dal_status write_all(writer *w, text_form form)
 {
     dal__node *nodes = dal__pool_nodes(w->pool, w->theory->graph, (size_t)w->count);
     if (!nodes) return DAL_STATUS_MEMORY;
-    w->is_plain = is_plain;
+    w->form = form;
     dal_status status = write_slots(w, w->slots, NULL, nodes);
     if (status != DAL_STATUS_TOO_LARGE) return status;
     status = DAL_STATUS_OK;
@@ -201,8 +203,8 @@ dal_status dal__dirac_run(dal_dirac **dirac, const dal__theory *theory, dal__poo
     if (status == DAL_STATUS_OK && chain.is_complete)
         status = put_classes(&made->dirac, &w, &chain, &classes);
     if (status == DAL_STATUS_OK) status = theory->graph->status;
-    if (status == DAL_STATUS_OK) status = write_all(&w, true);
-    if (status == DAL_STATUS_OK) status = write_all(&w, false);
+    if (status == DAL_STATUS_OK) status = write_all(&w, PLAIN);
+    if (status == DAL_STATUS_OK) status = write_all(&w, LATEX);
     if (status == DAL_STATUS_OK) {
         made->pool = *pool;
         *pool = (dal__pool){.blocks = NULL};

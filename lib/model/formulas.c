@@ -189,9 +189,13 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
 
 /* Adds what an entry of a start names to the coordinates or velocities that are solved, unless it
  * names none; the first and second half of names[2n].  All coordinates are added before. */
+/* Of what the start is solved for. */
+typedef enum solved_kind { COORDINATES, VELOCITIES } solved_kind;
+
 static dal_status add_solved(dal_model *model, const dal__entry *entry, const char *const *names,
-                             bool velocities, dal_error *error)
+                             solved_kind kind, dal_error *error)
 {
+    const bool velocities = kind == VELOCITIES;
     dal__equations *e = &model->equations;
     const char *name = dal__solved_name(entry);
     const int first = DAL__HOLONOMIC_COUNT(e) > 0 ? 0 : e->n,
@@ -223,9 +227,9 @@ static dal_status add_all_solved(dal_model *model, const char *const *names, dal
         dal__model_allocate(model, (size_t)(DAL__HOLONOMIC_COUNT(e) + e->m), sizeof *e->solved);
     if (!e->solved) return dal__memory_error(error);
     for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++)
-        DAL_TRY(add_solved(model, entry, names, false, error));
+        DAL_TRY(add_solved(model, entry, names, COORDINATES, error));
     for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++)
-        DAL_TRY(add_solved(model, entry, names, true, error));
+        DAL_TRY(add_solved(model, entry, names, VELOCITIES, error));
     return DAL_STATUS_OK;
 }
 

@@ -36,13 +36,15 @@ const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, dal
 }
 
 /* Finds an integrator, or a modifier, by name or alias. */
-static dal_status find(const char *name, bool modifier, const dal_integrator **found,
+typedef enum layer_kind { INNERMOST, MODIFIER } layer_kind;
+
+static dal_status find(const char *name, layer_kind kind, const dal_integrator **found,
                        dal_error *error)
 {
     const char *names[2 * COUNT];
     for (int i = 0; i < COUNT; i++) {
         const dal_integrator *k = entries[i][DAL__VARIANT_x1];
-        const bool fits = !(k->properties & DAL_MODIFIER) == !modifier;
+        const bool fits = !(k->properties & DAL_MODIFIER) == (kind == INNERMOST);
         names[2 * i] = fits ? k->name : NULL;
         names[2 * i + 1] = fits ? k->alias : NULL;
         for (int j = 2 * i; j < 2 * i + 2; j++) {
@@ -51,7 +53,8 @@ static dal_status find(const char *name, bool modifier, const dal_integrator **f
             return DAL_STATUS_OK;
         }
     }
-    return dal__unknown(error, modifier ? "modifier" : "integrator", name, names, 2 * COUNT);
+    return dal__unknown(error, kind == MODIFIER ? "modifier" : "integrator", name, names,
+                        2 * COUNT);
 }
 
 enum { NAME_SIZE = 64 };
@@ -82,7 +85,7 @@ dal_status dal_method_parse(dal_method *method, const char *name, dal_error *err
         if (!next_layer(&rest, word))
             return dal__fail(error, DAL_STATUS_NAME, "integrator name '%.60s...' is too long",
                              name);
-        DAL_TRY(find(word, i > 0, &method->layer[i], error));
+        DAL_TRY(find(word, i > 0 ? MODIFIER : INNERMOST, &method->layer[i], error));
         for (int k = 1; k < i; k++)
             if (method->layer[k] == method->layer[i])
                 return dal__fail(error, DAL_STATUS_ARGUMENT, "integrator '%.60s': +%s comes twice",
@@ -171,7 +174,7 @@ dal_status dal_method_complete(dal_method *method, const dal_system *system,
                          "no place after them",
                          dal_method_name(method, name, sizeof name), layers - 1);
     if (added) *added = true;
-    return find("project", true, &method->layer[layers], error);
+    return find("project", MODIFIER, &method->layer[layers], error);
 }
 
 unsigned dal_method_needs(const dal_method *method)
