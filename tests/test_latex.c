@@ -292,6 +292,7 @@ static void open_page(sheet *page, char *text, const dal_system *system)
         char *sign = strstr(row, " &= ");
         CU_ASSERT_FATAL(sign && page->rows < MAX_ROWS);
         *sign = '\0';
+        for (int i = 0; i < page->rows; i++) CU_ASSERT(strcmp(page->left[i], row) != 0);
         page->left[page->rows] = row;
         page->right[page->rows++] = sign + strlen(" &= ");
         row = next;
@@ -388,6 +389,27 @@ static void latex_builtins(void)
 }
 
 static dal_model *model_of(const char *yaml);
+
+/* Each name has one row: a let of L, Q, D and F, and long terms that F shares with L and Q. */
+static void latex_names(void)
+{
+    char yaml[2048], sum[1024] = "x";
+    for (int i = 2; i < 30; i++)
+        snprintf(sum + strlen(sum), sizeof sum - strlen(sum), " + sin(%d*x)/%d", i, i);
+    dal_model *model =
+        model_of("coordinates: [x, y]\nlet: {w: 2 + sin(x), k: w*(1 + x^2)}\n"
+                 "lagrangian: (x'^2 + y'^2)/2 - k*y\nforces: {x: -k*x'}\n"
+                 "constraints: [x' - k*y']\nstart: {x: 0.4, y': 0.3, solve: [x']}\n");
+    check_system(model);
+    dal_model_free(model);
+    snprintf(yaml, sizeof yaml,
+             "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (%s)*y\n"
+             "forces: {x: -y'*(%s), y: x'*(%s)}\nstart: {x: 0.4, y: 0.7, x': 0.3, y': 0.2}\n",
+             sum, sum, sum);
+    model = model_of(yaml);
+    check_system(model);
+    dal_model_free(model);
+}
 
 /* Alone, and two with t beside a constraint of velocities. */
 static void latex_holonomic(void)
@@ -541,6 +563,7 @@ void suite_latex(void)
     CU_add_test(suite, "F and D of every system, read again", latex_builtins);
     CU_add_test(suite, "every function and bracket", latex_functions);
     CU_add_test(suite, "holonomic constraints", latex_holonomic);
+    CU_add_test(suite, "each name once", latex_names);
     CU_add_test(suite, "texts written by hand", latex_texts);
     CU_add_test(suite, "long formulas, no lift, no memory", latex_limits);
     CU_add_test(suite, "deep formulas as MathML", latex_depth);

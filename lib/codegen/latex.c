@@ -291,9 +291,12 @@ dal_status dal_model_latex(dal_model *model, char **text, dal_error *error)
     const dal_system *system;
     DAL_TRY(dal_model_system(model, &system, error));
     const dal__equations *e = &model->equations;
-    dal__typeset_options options = {
-        put_symbol,   put_table, put_let, e, is_taken(e, "s") ? "\\mathcal{S}" : "s",
-        GIVEN_LENGTH, 0,         false};
+    dal__typeset_options options = {.symbol = put_symbol,
+                                    .table = put_table,
+                                    .name = put_let,
+                                    .user = e,
+                                    .letter = is_taken(e, "s") ? "\\mathcal{S}" : "s",
+                                    .shared_length = GIVEN_LENGTH};
     dal__typesetter *given = NULL, *motion = NULL;
     dal__buffer all = {0};
     int count = 0;
@@ -301,7 +304,7 @@ dal_status dal_model_latex(dal_model *model, char **text, dal_error *error)
     dal_status status = typeset_list(&given, e->graph, nodes, count, &options);
     if (status == DAL_STATUS_OK) {
         options.shared_length = MOTION_LENGTH;
-        options.shared_before = dal__typeset_numbered(given);
+        options.before = given;
         nodes = list_motion(e, &count);
         status = typeset_list(&motion, e->graph, nodes, count, &options);
     }

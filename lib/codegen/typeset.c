@@ -420,6 +420,14 @@ static void typeset_node(const dal__typesetter *t, dal__node i, formula *f, dal_
 
 /* ---- all nodes ----------------------------------------------------------------------------- */
 
+/* The name that a node had before; NULL: none. */
+static const char *name_before(const dal__typesetter *t, dal__node i)
+{
+    const dal__typesetter *before = t->options.before;
+    return before && i <= before->last && before->formula[i].is_named ? before->formula[i].text
+                                                                      : NULL;
+}
+
 /* The text becomes the meaning of a name. */
 static void share(dal__typesetter *t, formula *f, dal__buffer *name)
 {
@@ -435,6 +443,13 @@ static void typeset_all(dal__typesetter *t, const uint8_t *reached, const int *u
         if (!reached[i]) continue;
         dal__buffer text = {0}, name = {0};
         formula *f = &t->formula[i];
+        const char *before = name_before(t, i);
+        if (before) {
+            dal__buffer_append(&text, before);
+            if (text.out_of_memory) t->status = DAL_STATUS_MEMORY;
+            *f = (formula){text.bytes, LEVEL_ATOM, true};
+            continue;
+        }
         typeset_node(t, i, f, &text);
         f->text = text.bytes;
         if (text.length > MAX_LENGTH) t->status = DAL_STATUS_TOO_LARGE;
@@ -451,7 +466,7 @@ static void count_uses(dal__typesetter *t, const dal__node *nodes, int count,
                        const uint8_t *reached, int *uses)
 {
     for (dal__node i = 1; i <= t->last; i++) {
-        if (!reached[i]) continue;
+        if (!reached[i] || name_before(t, i)) continue;
         const dal__record r = dal__inspect(t->graph, i);
         uses[r.a]++;
         if (r.b != r.a) uses[r.b]++;
@@ -472,8 +487,10 @@ dal_status dal__typesetter_create(dal__typesetter **typesetter, dal__graph *grap
     int *uses = calloc((size_t)last + 1, sizeof *uses);
     dal_status status = DAL_STATUS_MEMORY;
     if (t) {
-        *t = (dal__typesetter){
-            .graph = graph, .last = last, .numbered = options->shared_before, .options = *options};
+        *t = (dal__typesetter){.graph = graph,
+                               .last = last,
+                               .numbered = options->before ? options->before->numbered : 0,
+                               .options = *options};
         t->formula = calloc((size_t)last + 1, sizeof *t->formula);
         t->shared = calloc((size_t)last + 1, sizeof *t->shared);
         if (reached && uses && t->formula && t->shared) {
@@ -513,5 +530,3 @@ const char *dal__typeset_shared(const dal__typesetter *t, int i, const char **na
     *name = t->shared[i].name->text;
     return t->shared[i].text;
 }
-
-int dal__typeset_numbered(const dal__typesetter *t) { return t->numbered; }

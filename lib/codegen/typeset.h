@@ -16,8 +16,9 @@ typedef struct dal__typeset_options {
     const void *user;
     const char *letter;   /* of what gets a name: letter_k */
     size_t shared_length; /* that is what occurs several times and is longer */
-    int shared_before;    /* the last k that is taken already */
-    bool is_plain;        /* in the language of formulas of a system file instead of LaTeX */
+    /* What was typeset of the graph before, whose names keep their meaning; NULL: nothing. */
+    const struct dal__typesetter *before;
+    bool is_plain; /* in the language of formulas of a system file instead of LaTeX */
 } dal__typeset_options;
 
 typedef struct dal__typesetter dal__typesetter;
@@ -30,10 +31,8 @@ dal_status dal__typesetter_create(dal__typesetter **typesetter, dal__graph *grap
 void dal__typesetter_free(dal__typesetter *typesetter);
 /* One of those nodes as a formula. */
 const char *dal__typeset(const dal__typesetter *typesetter, dal__node node);
-/* What its name i means, from 0, and the name; NULL past the last. */
+/* What its name i means, from 0, and the name, of those that it adds; NULL past the last. */
 const char *dal__typeset_shared(const dal__typesetter *typesetter, int i, const char **name);
-/* The last k of the names letter_k. */
-int dal__typeset_numbered(const dal__typesetter *typesetter);
 /* A number. */
 void dal__typeset_number(double x, dal__buffer *text);
 /* A name as letters with a subscript: theta1 as \theta_{1}, x_ball as x_{ball}; accent, as \dot, is
