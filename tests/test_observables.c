@@ -4,6 +4,7 @@
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -262,6 +263,36 @@ static void test_lift(void)
     }
 }
 
+/* A formula of the exact solution has no value after t = 3.5: nor has the error, whichever
+ * coordinate it is of. */
+static void test_exact_ends(void)
+{
+    static const char *const models[] = {"coordinates: [x, y]\naccelerations: {x: 0, y: 0}\nstart: "
+                                         "{x': 1, y: sqrt(3.5), y': -0.5/sqrt(3.5)}\n"
+                                         "exact: {x: t, y: sqrt(3.5 - t)}\n",
+                                         "coordinates: [x, y]\naccelerations: {x: 0, y: 0}\nstart: "
+                                         "{x: sqrt(3.5), x': -0.5/sqrt(3.5), y': 1}\n"
+                                         "exact: {x: sqrt(3.5 - t), y: t}\n"};
+    static series s;
+    const subject of = {NULL, "rk4", DAL_PHYSICAL, 0};
+    const double root = sqrt(3.5);
+    for (int way = 0; way < 8; way++) {
+        dal_run *run = run_of(&of, fixture_system(models[way % 2]));
+        begin(&s, run);
+        compile(run, way & 2, way & 2);
+        CU_ASSERT_EQUAL(sample(run, &s, way & 4, 1, 1, 0, 1), DAL_STATUS_OK);
+        const double *error = s.x[s.observables - 1];
+        for (int k = 0; k < s.samples; k++)
+            if (s.t[k] <= 3.5) {
+                CU_ASSERT_DOUBLE_EQUAL(error[k], root - 0.5 * s.t[k] / root - sqrt(3.5 - s.t[k]),
+                                       1e-13);
+            } else {
+                CU_ASSERT(isnan(error[k]));
+            }
+        dal_run_free(run);
+    }
+}
+
 void suite_observables(void)
 {
     CU_pSuite suite =
@@ -272,4 +303,5 @@ void suite_observables(void)
     CU_add_test(suite, "a step fails", test_failure);
     CU_add_test(suite, "an observer ends it", test_refusal);
     CU_add_test(suite, "H and the norms", test_lift);
+    CU_add_test(suite, "an exact solution ends", test_exact_ends);
 }

@@ -39,12 +39,16 @@ DAL_INLINE void dal_reaction_observables(const num *h, int m, int n, num *out)
 #endif
 
 #if DAL_WITH(EXACT)
-/* max |a_i - b_i| */
+/* max |a_i - b_i|; NaN where one of them is. */
 DAL_INLINE num dal_max_distance(const num *a, const num *b, int count)
 {
-    num max = dal_num(0.0);
-    DAL_EACH(i, count) max = dal_max(max, dal_abs(a[i] - b[i]));
-    return max;
+    num max = dal_num(0.0), nan = dal_num(0.0);
+    DAL_EACH(i, count) {
+        const num distance = dal_abs(a[i] - b[i]);
+        max = dal_max(max, distance);
+        nan = dal_select(dal_equal(distance, distance), nan, distance);
+    }
+    return dal_select(dal_equal(nan, nan), max, nan);
 }
 #endif
 
