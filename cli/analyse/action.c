@@ -135,6 +135,8 @@ static int read_curve(results *r)
         if (!(c->t[k] > c->t[k - 1]))
             status = cli_fail(CLI_USAGE, "%s:%d: t = %.15g does not come after %.15g", path, k + 2,
                               c->t[k], c->t[k - 1]);
+    if (status == CLI_DONE && !c->e && (c->pi || c->pi_e))
+        cli_note("%s: there is no column e: e = 1", path);
     return status;
 }
 

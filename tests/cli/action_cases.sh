@@ -73,6 +73,15 @@ if needs 2 "no python3" there python3; then
     counted
 fi
 
+case_is "no column e"
+try 0 action chaplygin-sleigh lifted.csv
+refute "a note on e, which is there" grep -q "column e" err
+sed "1s/,e,/,mass,/" lifted.csv >bad.csv
+try 0 action chaplygin-sleigh bad.csv
+says "^dalembert: bad\.csv: there is no column e: e = 1$"
+try 0 action chaplygin-sleigh run.csv
+refute "a note on e of a curve on p = pi = 0" grep -q "column e" err
+
 case_is "files that are no curve"
 edit() { sed "$1" run.csv >bad.csv; }
 edit 's/^t,/u,/'
