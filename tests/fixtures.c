@@ -220,6 +220,18 @@ double fixture_symplectic_defect(const dal_run_spec *spec)
     return defect;
 }
 
+void fixture_keeps_H(dal_run *run, long long steps)
+{
+    enum { H = 2, MAX = 64 }; /* after D1 and E */
+    double first[MAX], last[MAX];
+    CU_ASSERT_FATAL(dal_run_observables(run) <= MAX);
+    CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(run, last), DAL_STATUS_OK);
+    CU_ASSERT_DOUBLE_EQUAL(first[H], last[H], 1e-13);
+    CU_ASSERT(fabs(first[H]) > 0.01);
+}
+
 dal_evaluator *fixture_evaluator(const dal_system *system)
 {
     dal_evaluator *evaluator = NULL;

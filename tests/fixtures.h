@@ -47,6 +47,9 @@ void fixture_lanes(dal_run_spec spec, int lanes, long long steps, const char *na
 dal_status fixture_failed_step(const dal_run_spec *spec, dal_error *error);
 /* How far a step from a perturbed lifted state is from symplectic. */
 double fixture_symplectic_defect(const dal_run_spec *spec);
+/* H of the sleigh's lift is an integral of a run, and not 0: it stays over these steps, up to
+ * rounding. */
+void fixture_keeps_H(dal_run *run, long long steps);
 /* An evaluator with the system's own parameters. */
 dal_evaluator *fixture_evaluator(const dal_system *system);
 /* The field of x'' = -x, for systems made by hand. */

@@ -200,15 +200,11 @@ static void test_hamiltonian(void)
         model_with(sleigh, "mu_e = 0.3*sin(x)*y' - 0.2*e*phi' + 0.1*e^2/(1 + x^2)", &system);
     for (int k = 0; k < 3; k++) {
         const dal_run_spec spec = fixture_spec(system, exact[k], DAL_LIFTED, 1.0 / 64.0);
-        double first[MAX], last[MAX], state[MAX];
+        double state[MAX];
         end_state(spec, 4, 0.3, state);
         dal_run *run = fixture_run(&spec);
         CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, state, NULL), DAL_STATUS_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_STATUS_OK);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 64, NULL), DAL_STATUS_OK);
-        CU_ASSERT_EQUAL(dal_run_observe(run, last), DAL_STATUS_OK);
-        CU_ASSERT_DOUBLE_EQUAL(first[2], last[2], 1e-13); /* D1, E, H */
-        CU_ASSERT(fabs(first[2]) > 0.01);
+        fixture_keeps_H(run, 64);
         dal_run_free(run);
     }
     dal_model_free(model);
