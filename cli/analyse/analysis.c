@@ -49,10 +49,8 @@ int analysis_describe(const analysis_output *output, const char *name,
     cli_memstream_close(w.out);
     int status = file_replace(json, text, length, FILE_UNSYNCED);
     if (status == CLI_DONE)
-        status = cli_is_path(simulation->request.system_name)
-                     ? cli_copy_system(simulation->request.system_name, simulation->model, copy,
-                                       FILE_UNSYNCED)
-                     : file_remove(copy);
+        status = cli_keep_system(simulation->request.system_name, simulation->model, copy,
+                                 FILE_UNSYNCED);
     free(text);
     free(json);
     free(copy);

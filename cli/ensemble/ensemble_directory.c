@@ -216,11 +216,17 @@ int ensemble_directory_shards(const ensemble_directory *dir, store_shard **shard
     return store_find_shards(dir->path, marks_file, shards, count);
 }
 
-int ensemble_directory_save(const ensemble_directory *dir)
+static int sync_tables(const ensemble_directory *dir)
 {
     int status = npy_table_sync(&dir->members);
     if (status == CLI_DONE) status = npy_table_sync(&dir->final);
     if (status == CLI_DONE && dir->has_rows) status = npy_table_sync(&dir->rows);
+    return status;
+}
+
+int ensemble_directory_save(const ensemble_directory *dir)
+{
+    const int status = sync_tables(dir);
     return status == CLI_DONE ? store_save_marks(&dir->marks) : status;
 }
 
@@ -344,9 +350,7 @@ int ensemble_directory_commit_growth(ensemble_directory *dir, const ensemble *e,
     unsigned char *bytes = cli_malloc(WORD + count);
     write_le64(bytes, dir->marks.fingerprint);
     memcpy(bytes + WORD, done, count);
-    int status = npy_table_sync(&dir->members);
-    if (status == CLI_DONE) status = npy_table_sync(&dir->final);
-    if (status == CLI_DONE && dir->has_rows) status = npy_table_sync(&dir->rows);
+    int status = sync_tables(dir);
     if (status == CLI_DONE) status = file_replace(path, bytes, WORD + count, FILE_SYNCED);
     if (status == CLI_DONE) status = ensemble_directory_write_manifest(dir, e, STORE_RUNNING);
     free(bytes);
@@ -409,11 +413,9 @@ static int begin_new(ensemble_directory *dir, const ensemble *e)
     if (status == CLI_DONE) status = file_remove(rows);
     if (status == CLI_DONE) status = remove_grown(dir);
     free(rows);
-    const char *system = e->simulation.request.system_name;
     if (status == CLI_DONE)
-        status = cli_is_path(system)
-                     ? cli_copy_system(system, e->simulation.model, dir->system, FILE_SYNCED)
-                     : file_remove(dir->system);
+        status = cli_keep_system(e->simulation.request.system_name, e->simulation.model,
+                                 dir->system, FILE_SYNCED);
     if (status == CLI_DONE) status = open_tables(dir, e, NPY_NEW, in_place);
     detach(dir);
     return status == CLI_DONE ? ensemble_directory_write_manifest(dir, e, STORE_RUNNING) : status;

@@ -145,8 +145,7 @@ int manifest_begin(run_directory *dir, const run_simulation *s)
         if (dir->file[i] != dir->rows && dir->file[i] != dir->system)
             status = file_remove(dir->file[i]);
     if (status == CLI_DONE)
-        status = is_path ? cli_copy_system(s->request.system_name, s->model, dir->system, dir->sync)
-                         : file_remove(dir->system);
+        status = cli_keep_system(s->request.system_name, s->model, dir->system, dir->sync);
     if (status != CLI_DONE) return status;
     dir->input = manifest_input(&s->request);
     status = find_fingerprint(dir, is_path ? NULL : dal_builtin_text(s->request.system_name));

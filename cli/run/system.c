@@ -78,6 +78,11 @@ int cli_copy_system(const char *system, const dal_model *model, const char *to, 
     return source ? file_replace(to, source, length, sync) : file_copy(system, to, sync);
 }
 
+int cli_keep_system(const char *system, const dal_model *model, const char *to, file_sync sync)
+{
+    return cli_is_path(system) ? cli_copy_system(system, model, to, sync) : file_remove(to);
+}
+
 const char *cli_default(const dal_model *model, const char *name, int *line, int *column)
 {
     const char *text, *key;

@@ -37,6 +37,9 @@ int cli_observe(const char *system, const cli_choices *choices, const char *plac
 /* Writes a copy of a system file, with the files of its tables in it; where model is not NULL, as
  * it was read.  Returns CLI_DONE, or prints and returns CLI_IO. */
 int cli_copy_system(const char *system, const dal_model *model, const char *to, file_sync sync);
+/* The same for a directory of results: of a built-in system there is no copy, and an earlier one is
+ * removed. */
+int cli_keep_system(const char *system, const dal_model *model, const char *to, file_sync sync);
 /* The default for a run that a system file gives under a name, and where; NULL: none. */
 const char *cli_default(const dal_model *model, const char *name, int *line, int *column);
 /* The names of the built-in systems; returns how many. */
