@@ -166,12 +166,12 @@ static void compare_batches(motion *m)
 
 /* ---- generated files ---- */
 
-/* The struct of a generated file, part by part. */
-typedef struct parts {
+/* The struct of a generated file, number by number. */
+typedef struct copies {
     int lanes;
     double *y, *work;
     int *status;
-} parts;
+} copies;
 
 typedef struct object {
     int (*start)(void *state, const void *parameters);
@@ -179,7 +179,7 @@ typedef struct object {
 } object;
 
 /* Lanes that go together share the count of evaluations of their system. */
-static bool same_lane(const motion *m, const parts *p, int lane, const double *memory)
+static bool same_lane(const motion *m, const copies *p, int lane, const double *memory)
 {
     const size_t evaluations = dal__at(&m->run[0]->layout, DAL__EVALUATIONS);
     for (size_t i = 0; i < m->persistent; i++)
@@ -189,7 +189,7 @@ static bool same_lane(const motion *m, const parts *p, int lane, const double *m
     return true;
 }
 
-static bool same_start(const motion *m, const parts *p)
+static bool same_start(const motion *m, const copies *p)
 {
     for (int lane = 0; lane < p->lanes; lane++) {
         if (!same_lane(m, p, lane, m->begin[0])) return false;
@@ -199,7 +199,7 @@ static bool same_start(const motion *m, const parts *p)
     return true;
 }
 
-static void compare_steps(motion *m, const object *o, parts *p, const char *way)
+static void compare_steps(motion *m, const object *o, copies *p, const char *way)
 {
     const double h = m->spec.options.step;
     size_t count;
@@ -223,7 +223,7 @@ static void compare_loaded(motion *m, int lanes, void *handle, const char *way)
 {
     const size_t wide = (size_t)lanes, inputs = m->inputs ? (size_t)m->inputs : 1;
     double *memory = calloc((m->persistent + inputs + 1) * wide, sizeof *memory);
-    parts p = {lanes, memory, memory + m->persistent * wide, NULL};
+    copies p = {lanes, memory, memory + m->persistent * wide, NULL};
     object o;
     void *start = dlsym(handle, "bits_start"), *advance = dlsym(handle, "bits_advance");
     p.status = (int *)(void *)(p.work + inputs * wide);

@@ -25,11 +25,11 @@ static void test_sums(void)
     CU_ASSERT_EQUAL(dal_run_advance(plain, STEPS, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_state(plain)[0], x);
     /* Right to all digits of x and of what x has no room for, which comes after x and x': the
-     * product h v is part + rest, STEPS times that is right + lost. */
+     * product h v is high + rest, STEPS times that is right + lost. */
     size_t count;
     const double *carried = dal_run_save(exact, &count);
-    const double part = h * v, rest = fma(h, v, -part);
-    const double right = STEPS * part, lost = fma(STEPS, part, -right) + STEPS * rest;
+    const double high = h * v, rest = fma(h, v, -high);
+    const double right = STEPS * high, lost = fma(STEPS, high, -right) + STEPS * rest;
     CU_ASSERT_FATAL(count >= 4);
     CU_ASSERT(fabs(rest) > 1e-20);
     CU_ASSERT(fabs((carried[0] - right) + (carried[2] - lost)) <= 1e-28 * STEPS);

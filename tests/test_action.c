@@ -286,10 +286,10 @@ static void test_step(void)
 {
     double t[5];
     const dal_curve curve = {.rows = 5, .t = t};
-    for (int part = 0; part < 3; part++) {
+    for (int which = 0; which < 3; which++) {
         for (int k = 0; k < 5; k++) t[k] = -3.0 + 0.1 * k;
-        t[2] += 0.1 * (part == 0 ? 0.0 : part == 1 ? 0.5e-9 : 2e-9);
-        CU_ASSERT_DOUBLE_EQUAL(dal_curve_step(&curve), part < 2 ? 0.1 : 0.0, 1e-15);
+        t[2] += 0.1 * (which == 0 ? 0.0 : which == 1 ? 0.5e-9 : 2e-9);
+        CU_ASSERT_DOUBLE_EQUAL(dal_curve_step(&curve), which < 2 ? 0.1 : 0.0, 1e-15);
     }
     for (int k = 0; k < 5; k++) t[k] = 1.0;
     CU_ASSERT_EQUAL(dal_curve_step(&curve), 0.0);

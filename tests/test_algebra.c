@@ -15,11 +15,11 @@ static double uniform(void)
     return (double)(state >> 11) * 0x1p-52 - 1.0;
 }
 
-/* Of the entries, one in `part` is not 0. */
-static void fill(double *x, int count, int part)
+/* Of the entries, one in `every` is not 0. */
+static void fill(double *x, int count, int every)
 {
     for (int i = 0; i < count; i++)
-        x[i] = (int)(state % 97) % part == 0 ? uniform() : (uniform(), 0.0);
+        x[i] = (int)(state % 97) % every == 0 ? uniform() : (uniform(), 0.0);
 }
 
 static void plain_gram(const double *a, const double *b, int m, int n, double *g)
@@ -49,13 +49,13 @@ static int same(const double *a, const double *b, int count)
 
 static void test_gram(void)
 {
-    static const int parts[] = {1, 3, 30, 1000};
+    static const int every[] = {1, 3, 30, 1000};
     double a[M * N], b[N * M], g[M * M], plain[M * M];
     state = 1;
     for (int i = 0; i < 4; i++)
         for (int n = 1; n <= N; n += 13) {
-            fill(a, M * n, parts[i]);
-            fill(b, n * M, parts[i]);
+            fill(a, M * n, every[i]);
+            fill(b, n * M, every[i]);
             dal_gram(a, b, M, n, g);
             plain_gram(a, b, M, n, plain);
             CU_ASSERT(same(g, plain, M * M));

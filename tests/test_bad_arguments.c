@@ -195,12 +195,12 @@ static void test_names_of_methods(void)
     for (size_t size = 0; size <= sizeof name; size++) {
         memset(name, '?', sizeof name);
         CU_ASSERT_PTR_EQUAL(dal_method_name(&method, name, size), name);
-        static const char *const parts[] = {
+        static const char *const cut[] = {
             "", "rk4", "rk4+", "rk4+project", "rk4+project+", "rk4+project+project-energy"};
         int longest = 0;
         for (int i = 0; i < 6; i++)
-            if (strlen(parts[i]) < size) longest = i;
-        if (size > 0) CU_ASSERT_STRING_EQUAL(name, parts[longest]);
+            if (strlen(cut[i]) < size) longest = i;
+        if (size > 0) CU_ASSERT_STRING_EQUAL(name, cut[longest]);
         for (size_t i = size; i < sizeof name; i++) CU_ASSERT_EQUAL(name[i], '?');
     }
 }

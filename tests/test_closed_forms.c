@@ -279,14 +279,14 @@ static void canonical(const double *x, double *out)
 
 static void canonical_step(double h, double *x)
 {
-    static const double part[] = {0.5, 0.5, 1.0, 0.0}, weight[] = {1, 2, 2, 1};
+    static const double node[] = {0.5, 0.5, 1.0, 0.0}, weight[] = {1, 2, 2, 1};
     double k[12], y[12], sum[12] = {0.0};
     memcpy(y, x, sizeof y);
     for (int s = 0; s < 4; s++) {
         canonical(y, k);
         for (int i = 0; i < 12; i++) {
             sum[i] += weight[s] * k[i];
-            y[i] = x[i] + h * part[s] * k[i];
+            y[i] = x[i] + h * node[s] * k[i];
         }
     }
     for (int i = 0; i < 12; i++) x[i] += h / 6 * sum[i];

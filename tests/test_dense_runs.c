@@ -80,10 +80,10 @@ static dal_status copy_state(void *user, dal_run *run)
     return DAL_STATUS_OK;
 }
 
-/* The bits of the state a part of a step away. */
-static void state_at(dal_run *run, double part, double *state)
+/* The bits of the state a fraction of a step away. */
+static void state_at(dal_run *run, double size, double *state)
 {
-    CU_ASSERT_EQUAL(dal_run_intermediate(run, part, copy_state, state, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, size, copy_state, state, NULL), DAL_STATUS_OK);
 }
 
 /* The trajectory has the same bits without rows; a row has the same bits whatever was evaluated
@@ -117,10 +117,10 @@ static void test_bits(void)
 
         run = fixture_run(&spec);
         for (int row = 8; row >= 1; row -= 2) {
-            const double part = 10.0 * row / 33.0; /* rounded once */
+            const double size = 10.0 * row / 33.0; /* rounded once */
             double state[NUMBERS] = {0};
-            if (part >= 2.5) continue;
-            state_at(run, part, state);
+            if (size >= 2.5) continue;
+            state_at(run, size, state);
             CU_ASSERT_EQUAL(memcmp(state, r.state[row], sizeof state), 0);
         }
         dal_run_free(run);

@@ -182,9 +182,9 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
 static void check_rows(double h, double T)
 {
     size_t count;
-    rows whole = {.end = -1}, parts = {.end = 4};
+    rows whole = {.end = -1}, half = {.end = 4};
     const dal_observer all = {.user = &whole, .sample = add_row},
-                       some = {.user = &parts, .sample = add_row};
+                       some = {.user = &half, .sample = add_row};
     dal_run_spec spec = fixture_spec(fixture_system(forced), "gauss8", DAL_PHYSICAL, h);
     spec.start_time = 2.5;
     dal_run *run = fixture_run(&spec), *first = fixture_run(&spec), *second = fixture_run(&spec);
@@ -199,7 +199,7 @@ static void check_rows(double h, double T)
     const double *saved = dal_run_save(first, &count);
     CU_ASSERT_EQUAL(dal_run_restore(second, saved, count, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_sample(second, T, ROWS, 4, &some, NULL), DAL_STATUS_OK);
-    CU_ASSERT_EQUAL(memcmp(whole.x, parts.x, sizeof whole.x), 0);
+    CU_ASSERT_EQUAL(memcmp(whole.x, half.x, sizeof whole.x), 0);
     dal_run_free(run);
     dal_run_free(first);
     dal_run_free(second);

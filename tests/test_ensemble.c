@@ -129,7 +129,7 @@ static void test_members(void)
     spec.options.consistent = 1;
     const dal_variation v[] = {parsed("x'=normal(0,0.1)"), parsed("k=uniform(1,2)"),
                                parsed("x=uniform(-1,1)")};
-    double whole[COUNT][DIMENSION], part[COUNT][DIMENSION], draws[COUNT][3];
+    double whole[COUNT][DIMENSION], piece[COUNT][DIMENSION], draws[COUNT][3];
     dal_ensemble *a = make(&spec, v, 3, COUNT), *b = make(&spec, v, 3, 5);
     CU_ASSERT_EQUAL(dal_ensemble_start(a, 0, COUNT), DAL_STATUS_OK);
     dal_batch_advance(dal_ensemble_batch(a), 60);
@@ -140,9 +140,9 @@ static void test_members(void)
         CU_ASSERT_EQUAL(dal_ensemble_start(b, (unsigned long long)first, count), DAL_STATUS_OK);
         dal_batch_advance(dal_ensemble_batch(b), 20);
         dal_batch_advance(dal_ensemble_batch(b), 40);
-        dal_ensemble_states(b, part[first]);
+        dal_ensemble_states(b, piece[first]);
     }
-    CU_ASSERT_EQUAL(memcmp(whole, part, sizeof whole), 0);
+    CU_ASSERT_EQUAL(memcmp(whole, piece, sizeof whole), 0);
     for (int i = 0; i < COUNT; i++) {
         for (int k = 0; k < 3; k++)
             CU_ASSERT_EQUAL(draws[i][k], dal_variation_draw(&v[k], SEED, (unsigned long long)i));

@@ -144,12 +144,13 @@ static void test_solver(void)
 /* The same in units in which the quantity is 2^40 times larger. */
 static void make_larger(made_up *m)
 {
-    dal_trend *const parts[] = {&m->a.beginning, &m->a.solver_and_rounding,
-                                &m->a.comparison[DAL_COMPARISON_QUAD],
-                                &m->a.comparison[DAL_COMPARISON_QUAD_HALVED]};
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-        double *const numbers[] = {&parts[i]->rate,      &parts[i]->rate_low, &parts[i]->rate_high,
-                                   &parts[i]->deviation, &parts[i]->max_abs,  &parts[i]->scale};
+    dal_trend *const trends[] = {&m->a.beginning, &m->a.solver_and_rounding,
+                                 &m->a.comparison[DAL_COMPARISON_QUAD],
+                                 &m->a.comparison[DAL_COMPARISON_QUAD_HALVED]};
+    for (size_t i = 0; i < sizeof trends / sizeof *trends; i++) {
+        double *const numbers[] = {&trends[i]->rate,      &trends[i]->rate_low,
+                                   &trends[i]->rate_high, &trends[i]->deviation,
+                                   &trends[i]->max_abs,   &trends[i]->scale};
         for (int k = 0; k < 6; k++) *numbers[k] *= 0x1p40;
     }
 }
@@ -332,13 +333,13 @@ static void test_halving(void)
     CU_ASSERT(isnan(m.a.share[DAL_SOURCE_PROJECTION]));
 }
 
-static int says(made_up *m, dal_error_source source, const char *part)
+static int says(made_up *m, dal_error_source source, const char *fragment)
 {
     char words[DAL_MESSAGE_SIZE];
     shares_of(m);
     m->e.shares = &m->a;
     dal_error_budget_describe(&m->e, 0, source, words, sizeof words);
-    return strstr(words, part) != NULL;
+    return strstr(words, fragment) != NULL;
 }
 
 static void test_words(void)

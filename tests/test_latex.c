@@ -65,9 +65,9 @@ static const char *end_of_name(const char *at)
         for (at++; (*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z');) at++;
     else
         at++;
-    for (int part = 0; part < 2; part++) {
-        if (part == 1 && *at != '_') break;
-        at += part;
+    for (int suffix = 0; suffix < 2; suffix++) {
+        if (suffix == 1 && *at != '_') break;
+        at += suffix;
         if (*at != '{') continue;
         int depth = 0;
         do depth += (*at == '{') - (*at == '}');

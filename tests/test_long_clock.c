@@ -146,9 +146,9 @@ static void test_rows_near_steps(void)
 /* Early in a run the tolerance is 1e-9 of a step. */
 static double near_step_one(void *user, long long row)
 {
-    static const double part[] = {0.0, 1.0 - 1.1e-9, 1.0 - 0.9e-9, 1.0 + 0.9e-9, 1.0 + 1.1e-9};
+    static const double fraction[] = {0.0, 1.0 - 1.1e-9, 1.0 - 0.9e-9, 1.0 + 0.9e-9, 1.0 + 1.1e-9};
     (void)user;
-    return part[row] * h;
+    return fraction[row] * h;
 }
 
 static void test_rows_near_early_steps(void)

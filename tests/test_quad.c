@@ -17,9 +17,9 @@ static void set_long(mpfr_t to, num x)
 {
     mpfr_set_zero(to, 1);
     for (int i = 0; i < 4; i++) {
-        const double part = (double)x;
-        mpfr_add_d(to, to, part, MPFR_RNDN);
-        x -= part;
+        const double digits = (double)x;
+        mpfr_add_d(to, to, digits, MPFR_RNDN);
+        x -= digits;
     }
 }
 

@@ -255,10 +255,10 @@ static dal_status turn(const dal_run_spec *spec, dal_error *error)
 }
 
 /* The velocity of a particle of constant kinetic energy turns in a long step; G = |v|^2 is 1.  That
- * G keeps its size is seen at the ends of 64 parts of the step, one value less shows it too. */
+ * G keeps its size is seen at the ends of 64 intervals of the step, one value less shows it too. */
 static void test_turn(void)
 {
-    enum { PARTS = 64 };
+    enum { INTERVALS = 64 };
     turning = fixture_system("isokinetic");
     dal_system system = *turning;
     system.call.constraint = failing_constraint;
@@ -270,7 +270,7 @@ static void test_turn(void)
     CU_ASSERT_EQUAL(turn(&spec, &error), DAL_STATUS_NOT_CONVERGED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "turns by more than a right angle"));
     const long total = calls;
-    for (failing = total - PARTS + 2; failing <= total; failing++) {
+    for (failing = total - INTERVALS + 2; failing <= total; failing++) {
         CU_ASSERT_EQUAL(turn(&spec, &error), DAL_STATUS_NOT_CONVERGED);
         CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "turns by more than a right angle"));
     }

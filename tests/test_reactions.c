@@ -162,11 +162,11 @@ typedef struct pendulum {
 static void swing(const pendulum *p, double h, double *x)
 {
     double k[4][2], y[2] = {x[0], x[1]};
-    static const double part[] = {0.5, 0.5, 1.0, 0.0};
+    static const double node[] = {0.5, 0.5, 1.0, 0.0};
     for (int s = 0; s < 4; s++) {
         k[s][0] = y[1];
         k[s][1] = -p->g * sin(y[0]) / (p->l + p->k * cos(y[0]));
-        for (int i = 0; i < 2; i++) y[i] = x[i] + h * part[s] * k[s][i];
+        for (int i = 0; i < 2; i++) y[i] = x[i] + h * node[s] * k[s][i];
     }
     for (int i = 0; i < 2; i++) x[i] += h / 6 * (k[0][i] + 2 * k[1][i] + 2 * k[2][i] + k[3][i]);
 }

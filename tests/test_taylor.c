@@ -150,10 +150,13 @@ static void test_gauge(void)
     dal_run *run = fixture_stepped(&spec, 1);
     const double *z = dal_run_state(run);
     double v = 0.3, pi_e = 0.0, x = 1.0;
-    enum { PARTS = 20000 };
-    for (int i = 0; i <= PARTS; i++) { /* Simpson's rule; x by parts */
-        const double t = 2.0 * i / PARTS, w = (0.7 - 0.1 * t) / (2.0 + sin(t));
-        const double weight = (i == 0 || i == PARTS ? 1.0 : i % 2 ? 4.0 : 2.0) * 2.0 / PARTS / 3.0;
+    enum { INTERVALS = 20000 };
+    for (int i = 0; i <= INTERVALS; i++) { /* Simpson's rule; x by parts */
+        const double t = 2.0 * i / INTERVALS, w = (0.7 - 0.1 * t) / (2.0 + sin(t));
+        const double weight = (i == 0 || i == INTERVALS ? 1.0
+                               : i % 2                  ? 4.0
+                                                        : 2.0) *
+                              2.0 / INTERVALS / 3.0;
         v += weight * w;
         pi_e += weight * w * w / 2.0;
         x += weight * (2.0 - t) * w;

@@ -123,7 +123,7 @@ static int has_noise(const series_kind *kind, int noise)
 }
 
 /* Every jobs-th kind. */
-static void fill_part(trend_cell (*cell)[CELLS], int job, int jobs, int count, const char *name)
+static void fill_share(trend_cell (*cell)[CELLS], int job, int jobs, int count, const char *name)
 {
     static double x[SERIES_CAPACITY], t[SERIES_CAPACITY];
     for (int k = 0; k < SERIES_CAPACITY; k++) t[k] = 0.01 * k;
@@ -200,7 +200,7 @@ int trend_matrix_print(int argc, char **argv)
     if (cell == MAP_FAILED || count < 1) return 2;
     for (int job = 0; job < (int)jobs; job++)
         if (fork() == 0) {
-            fill_part(cell, job, (int)jobs, count, name);
+            fill_share(cell, job, (int)jobs, count, name);
             _exit(0);
         }
     int status, failed = 0;

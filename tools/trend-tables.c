@@ -1,7 +1,7 @@
 /* trend-tables.c - writes the tables of lib/analysis/trend_tables.h as C.
  *
  * Shapes, as functions of s = t/T, averaged over each bin (by Gauss's rule, four points on each of
- * 64 parts) and scaled to a range of 1:
+ * 64 intervals) and scaled to a range of 1:
  *
  *     linear        s
  *     power         s^p; log(1 + M s), which counts as power 0
@@ -35,7 +35,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { BINS = DAL__BINS, WAVES = DAL__WAVES, PARTS = 64 };
+enum { BINS = DAL__BINS, WAVES = DAL__WAVES, INTERVALS = 64 };
 
 static const double pi = 3.14159265358979323846;
 
@@ -67,10 +67,10 @@ static double bin_mean(shape_function *f, int bin, double a, double b)
     static const double weight[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
                                     0.17392742256872693};
     double sum = 0.0;
-    for (int i = 0; i < PARTS; i++)
+    for (int i = 0; i < INTERVALS; i++)
         for (int k = 0; k < 4; k++)
-            sum += weight[k] * f((bin + (i + node[k]) / PARTS) / BINS, a, b);
-    return sum / PARTS;
+            sum += weight[k] * f((bin + (i + node[k]) / INTERVALS) / BINS, a, b);
+    return sum / INTERVALS;
 }
 
 static void add_shape(dal__meaning meaning, double weight, shape_function *f, double a, double b)
@@ -182,9 +182,9 @@ static double jump(double s, double c, double b) { return (void)b, s > c ? 1.0 :
 static double bin_square(shape_function *f, int bin, double a, double b)
 {
     double sum = 0.0;
-    for (int i = 0; i < PARTS; i++) {
-        const double x = f((bin + (i + 0.5) / PARTS) / BINS, a, b);
-        sum += x * x / PARTS;
+    for (int i = 0; i < INTERVALS; i++) {
+        const double x = f((bin + (i + 0.5) / INTERVALS) / BINS, a, b);
+        sum += x * x / INTERVALS;
     }
     return sum;
 }
