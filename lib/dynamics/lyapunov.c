@@ -84,9 +84,9 @@ static dal_status displace(dal_lyapunov *s, double size)
     memcpy(z, s->memory, s->memory_count * sizeof(double));
     for (int i = 0; i < d; i++) {
         const double change = size * s->direction[i] * s->unit[i];
-        const double y = s->z[i] + change, part = y - s->z[i];
+        const double y = s->z[i] + change, added = y - s->z[i];
         z[i] = y;
-        if (s->has_remainder) z[d + i] += (s->z[i] - (y - part)) + (change - part);
+        if (s->has_remainder) z[d + i] += (s->z[i] - (y - added)) + (change - added);
     }
     if (s->has_remainder) return dal_run_restore(s->auxiliary, z, s->memory_count, s->error);
     return dal_run_set_state(s->auxiliary, s->t, z, s->error);

@@ -11,7 +11,7 @@
 #include <float.h>
 #include <stdlib.h>
 
-/* A minimum of |g| below this part of max |g| is a touch; rounding errors are far smaller. */
+/* A minimum of |g| below this fraction of max |g| is a touch; rounding errors are far smaller. */
 static const double touching = 1e-12;
 /* Roundings of its terms that |g| may consist of, where they cancel. */
 static const double roundings = 64.0;

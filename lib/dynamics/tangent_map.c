@@ -44,10 +44,10 @@ static void find_halves(int n, half *out)
 void dal__tangent_scatter(int n, dal_space space, const double *state, const double *vector,
                           double *tangent)
 {
-    half part[LIFTED];
-    find_halves(n, part);
+    half halves[LIFTED];
+    find_halves(n, halves);
     for (int k = 0; k < (space == DAL_LIFTED ? LIFTED : PHYSICAL); k++)
-        memcpy(tangent + part[k].place, (part[k].is_vector ? vector : state) + part[k].at,
+        memcpy(tangent + halves[k].place, (halves[k].is_vector ? vector : state) + halves[k].at,
                (size_t)n * sizeof *tangent);
     if (space != DAL_LIFTED) return;
     tangent[4 * n] = state[2 * n];
@@ -56,11 +56,11 @@ void dal__tangent_scatter(int n, dal_space space, const double *state, const dou
 
 void dal__tangent_gather(int n, dal_space space, const double *tangent, double *vector)
 {
-    half part[LIFTED];
-    find_halves(n, part);
+    half halves[LIFTED];
+    find_halves(n, halves);
     for (int k = 0; k < (space == DAL_LIFTED ? LIFTED : PHYSICAL); k++)
-        if (part[k].is_vector)
-            memcpy(vector + part[k].at, tangent + part[k].place, (size_t)n * sizeof *vector);
+        if (halves[k].is_vector)
+            memcpy(vector + halves[k].at, tangent + halves[k].place, (size_t)n * sizeof *vector);
     if (space != DAL_LIFTED) return;
     vector[2 * n] = 0.0;
     vector[4 * n + 1] = tangent[8 * n + 1];

@@ -113,30 +113,30 @@ static dal_status require(dal__chain *c, dal__node f, int source, dal_dirac_outc
 {
     const dal__theory *w = c->theory;
     dal__graph *graph = w->graph;
-    int parts = 0, i = 0;
+    int count = 0, i = 0;
     bool ended = false;
     while (i < 2 * w->pairs && !dal__depends(graph, f, w->variable[i], w->variable[i] + 1)) i++;
     if (i == 2 * w->pairs) {
         *outcome = DAL_DIRAC_CONTRADICTS;
         return DAL_STATUS_OK;
     }
-    dal__node *part = dal__pool_nodes(c->pool, graph, 2 * (size_t)c->theory->pairs);
-    if (!part) return DAL_STATUS_MEMORY;
+    dal__node *regular = dal__pool_nodes(c->pool, graph, 2 * (size_t)c->theory->pairs);
+    if (!regular) return DAL_STATUS_MEMORY;
     f = strip_factors(graph, f);
     DAL_TRY(drop_zeros(c, &f));
-    DAL_TRY(dal__irregular_parts(&c->surface, f, part, &parts));
-    if (parts == 0) {
+    DAL_TRY(dal__regular_functions(&c->surface, f, regular, &count));
+    if (count == 0) {
         f = dal__collect(graph, f);
         DAL_TRY(drop_zeros(c, &f));
-        DAL_TRY(dal__irregular_parts(&c->surface, f, part, &parts));
+        DAL_TRY(dal__regular_functions(&c->surface, f, regular, &count));
     }
-    *outcome = parts > 0 ? DAL_DIRAC_IRREGULAR : DAL_DIRAC_ADDS;
-    if (parts == 0) part[parts++] = f;
-    for (i = 0; i < parts && !ended; i++) {
-        DAL_TRY(dal__surface_clean(&c->surface, 1, &part[i]));
-        part[i] = dal__collect(graph, part[i]);
-        if (!dal__node_is_zero(graph, part[i]))
-            DAL_TRY(append_constraint(c, strip_factors(graph, part[i]), source, &ended));
+    *outcome = count > 0 ? DAL_DIRAC_IRREGULAR : DAL_DIRAC_ADDS;
+    if (count == 0) regular[count++] = f;
+    for (i = 0; i < count && !ended; i++) {
+        DAL_TRY(dal__surface_clean(&c->surface, 1, &regular[i]));
+        regular[i] = dal__collect(graph, regular[i]);
+        if (!dal__node_is_zero(graph, regular[i]))
+            DAL_TRY(append_constraint(c, strip_factors(graph, regular[i]), source, &ended));
     }
     if (ended) *outcome = DAL_DIRAC_STOPS;
     return graph->status;

@@ -86,7 +86,7 @@ static dal_status write_slots(const writer *w, slot *first, const slot *end, dal
     return w->pool->out_of_memory ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
 }
 
-/* Writes all formulas together, or one by one where a part of them is too long. */
+/* Writes all formulas together, or one by one where one of them is too long. */
 static dal_status write_all(writer *w, text_form form)
 {
     dal__node *nodes = dal__pool_nodes(w->pool, w->theory->graph, (size_t)w->count);

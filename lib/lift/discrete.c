@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Parts of h by which a row may miss the time of its step, as rows of a run may. */
+/* Fractions of h by which a row may miss the time of its step, as rows of a run may. */
 static const double aligned = 1e-9;
 /* Roundings of a step and of its equations, which are solved to a few of them. */
 #define ROUNDING (64 * DBL_EPSILON)

@@ -80,7 +80,8 @@ static int factorise(int size, double *a, int *row)
     return dal__max_abs(a, (size_t)(size * size)) <= sqrt(rank_tolerance) * largest ? rank : -1;
 }
 
-dal_status dal__irregular_parts(const dal__surface *s, dal__node f, dal__node *part, int *count)
+dal_status dal__regular_functions(const dal__surface *s, dal__node f, dal__node *regular,
+                                  int *count)
 {
     const size_t pairs = (size_t)s->theory->pairs;
     dal__graph *graph = s->theory->graph;
@@ -104,8 +105,8 @@ dal_status dal__irregular_parts(const dal__surface *s, dal__node f, dal__node *p
         DAL_TRY(status);
     }
     for (int i = 0; i < w.rank; i++)
-        part[(*count)++] =
+        regular[(*count)++] =
             w.rank == w.size ? dal__symbol(graph, w.symbol[i]) : w.gradient[w.row[i]];
     if (w.rank > 0) return graph->status;
-    return dal__square_parts(s, f, part, count);
+    return dal__squared_functions(s, f, regular, count);
 }

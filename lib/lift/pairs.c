@@ -2,7 +2,7 @@
 #include "lift/pairs.h"
 #include <math.h>
 
-/* Entries below this part of what they are a sum of are 0. */
+/* Entries below this fraction of what they are a sum of are 0. */
 static const double rank_tolerance = 1e-9;
 
 void dal__choose_pairs(int n, double *entry, double *terms, const bool *is_favoured,

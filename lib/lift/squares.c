@@ -2,13 +2,14 @@
 #include "lift/squares.h"
 #include "core/error.h"
 
-/* A part of f that is to be a sum of squares, with its sign. */
+/* A term of f that is to be a sum of squares, with its sign. */
 typedef struct term {
     dal__node node;
     int sign;
 } term;
 
-dal_status dal__square_parts(const dal__surface *s, dal__node f, dal__node *part, int *count)
+dal_status dal__squared_functions(const dal__surface *s, dal__node f, dal__node *squared,
+                                  int *count)
 {
     enum { MAX_TERMS = 256 };
     const dal__graph *graph = s->theory->graph;
@@ -25,7 +26,7 @@ dal_status dal__square_parts(const dal__surface *s, dal__node f, dal__node *part
         if (is_square) {
             fits = (sign == 0 || sign == t.sign) && *count < 2 * s->theory->pairs;
             sign = t.sign;
-            if (fits) part[(*count)++] = r.a;
+            if (fits) squared[(*count)++] = r.a;
         } else if (r.op == DAL__ADD || r.op == DAL__SUB) {
             waiting[terms++] = (term){r.a, t.sign};
             waiting[terms++] = (term){r.b, r.op == DAL__ADD ? t.sign : -t.sign};

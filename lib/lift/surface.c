@@ -7,7 +7,7 @@
  *     J dz = -c,    J = c_z in units of z
  *
  * whose convergence says whether the constraint is regular: where c = 0 implies c_z = 0 (as for
- * c = x^2) it is linear and ends with a gradient that is a tiny part of the gradient at the
+ * c = x^2) it is linear and ends with a gradient that is a tiny fraction of the gradient at the
  * beginning, or depends on the gradients of the other constraints. */
 #include "lift/surface.h"
 #include "core/error.h"
@@ -26,9 +26,9 @@ enum {
     MAX_ATTEMPTS = 20,
     MAX_OPERATIONS = 20 /* of what a variable is replaced by */
 };
-/* Parts of the terms, of the first gradient, and of a unit of a variable that count as 0. */
+/* Fractions of the terms, of the first gradient, and of a unit of a variable that count as 0. */
 static const double of_observables = 1e-2;
-static const double zero_part = 1e-9, gradient_part = 1e-4, converged_part = 1e-13;
+static const double zero_fraction = 1e-9, gradient_fraction = 1e-4, converged_fraction = 1e-13;
 
 static void draw(dal__surface *s, int k)
 {
@@ -154,7 +154,7 @@ dal_status dal__surface_clean(const dal__surface *s, int count, dal__node *nodes
             if (!isfinite(value[point * n + k])) status = DAL_STATUS_NOT_FINITE;
             max = fmax(max, fabs(value[point * n + k]));
         }
-        if (max <= zero_part * scale[k++]) nodes[i] = dal__number(graph, 0.0);
+        if (max <= zero_fraction * scale[k++]) nodes[i] = dal__number(graph, 0.0);
     }
     free(some);
     free(scale);
@@ -193,7 +193,7 @@ static dal__surface_state move_to_surface(const newton *w, double *point)
 {
     const dal__theory *theory = w->surface->theory;
     double change = INFINITY;
-    for (int k = 0; k < MAX_ITERATIONS && change > converged_part; k++) {
+    for (int k = 0; k < MAX_ITERATIONS && change > converged_fraction; k++) {
         run_program(theory, &w->program, point, w->out);
         if (!scale_gradients(w, k == 0 ? w->first : w->right)) return DAL__SURFACE_EMPTY;
         for (int a = 0; a < w->rows; a++) w->right[a] = -w->out[a];
@@ -203,18 +203,18 @@ static dal__surface_state move_to_surface(const newton *w, double *point)
         for (int i = 0; i < w->columns; i++) point[w->symbol[i]] += w->unit[i] * w->step[i];
     }
     run_program(theory, &w->program, point, w->out);
-    if (!scale_gradients(w, w->right) || !(change <= 1e3 * converged_part))
+    if (!scale_gradients(w, w->right) || !(change <= 1e3 * converged_fraction))
         return DAL__SURFACE_EMPTY;
     const double rest = dal__max_abs(w->out, (size_t)w->rows);
     for (int a = 0; a < w->rows; a++) {
-        if (w->right[a] < gradient_part * w->first[a]) return DAL__SURFACE_IRREGULAR;
+        if (w->right[a] < gradient_fraction * w->first[a]) return DAL__SURFACE_IRREGULAR;
         for (int i = 0; i < w->columns; i++) w->out[w->rows + a * w->columns + i] /= w->right[a];
     }
-    if (dal__least_squares(w->rows, w->columns, w->out + w->rows, NULL, NULL, gradient_part, NULL,
-                           w->work) < w->rows)
+    if (dal__least_squares(w->rows, w->columns, w->out + w->rows, NULL, NULL, gradient_fraction,
+                           NULL, w->work) < w->rows)
         return DAL__SURFACE_IRREGULAR;
-    return rest <= zero_part * dal__max_abs(w->first, (size_t)w->rows) ? DAL__SURFACE_REGULAR
-                                                                       : DAL__SURFACE_EMPTY;
+    return rest <= zero_fraction * dal__max_abs(w->first, (size_t)w->rows) ? DAL__SURFACE_REGULAR
+                                                                           : DAL__SURFACE_EMPTY;
 }
 
 /* Moves the points to the implicit constraints.  Free are the variables that no constraint gives.
