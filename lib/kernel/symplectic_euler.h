@@ -21,7 +21,8 @@
  * means (v, g) there.
  *
  * Where F depends on q and t alone, F_v = 0 and (1,0) and (0,1) are explicit, with one evaluation
- * each; (1,0) and then (0,1) have q* and t* in common, and evaluate F once. */
+ * each; (1,0) and then (0,1) have q* and t* in common, and evaluate F once, or twice where mu_e is
+ * not of t alone, whose derivatives are added to F's. */
 #ifndef DAL_KERNEL_SYMPLECTIC_EULER_H
 #define DAL_KERNEL_SYMPLECTIC_EULER_H
 
