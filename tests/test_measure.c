@@ -70,16 +70,14 @@ static void test_evaluator(void)
 
 static void test_evaluator_pi(void)
 {
-    const dal_system *system =
-        fixture_system("coordinates: [x]\nparameters: {turn: 2*pi}\n"
-                       "lagrangian: x'^2/2 - pi*x\nstart: {x': turn}\n");
+    const dal_system *system = fixture_system("coordinates: [x]\nparameters: {turn: 2*pi}\n"
+                                              "lagrangian: x'^2/2 - pi*x\nstart: {x': turn}\n");
     dal_evaluator *evaluator = fixture_evaluator(system);
     double x[3], force;
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(x[1], 2.0 * acos(-1.0));
-    CU_ASSERT_EQUAL(
-        dal_evaluator_call(evaluator, system->call.field, 0.0, x, x + 1, NULL, &force),
-        DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.field, 0.0, x, x + 1, NULL, &force),
+                    DAL_STATUS_OK);
     CU_ASSERT_EQUAL(force, -acos(-1.0));
     dal_evaluator_free(evaluator);
 }
