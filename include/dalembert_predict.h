@@ -40,11 +40,18 @@ const char *dal_prediction_end_name(dal_prediction_end end);
 /* Its text, "the end of the run"; "?" likewise. */
 const char *dal_prediction_end_text(dal_prediction_end end);
 
+/* The exact motion from a start, which predictions by several methods and steps share. */
+typedef struct dal_exact_motion dal_exact_motion;
+
 /* How a drift is predicted: dal_predict_settings_default has the values. */
 typedef struct dal_predict_settings {
-    long long pieces; /* pieces of that length of the exact motion, one after the other, for the
+    long long pieces;     /* pieces of that length of the exact motion, one after the other, for the
                          random walk of chaotic motion; 500 say its s^2 to 10 %.  0: none */
-    long long rows;   /* of the curve, beside the start, at equal distances; 200 */
+    long long rows;       /* of the curve, beside the start, at equal distances; 200 */
+    long long quad_steps; /* where rounding hides what steps change, all are in quad precision if
+                             there are no more than these, 200000; each takes tens of times as
+                             long.  0: none */
+    dal_exact_motion *motion; /* from the same start; NULL: one that the prediction makes */
 } dal_predict_settings;
 /* The default settings. */
 dal_predict_settings dal_predict_settings_default(void);
@@ -92,10 +99,27 @@ typedef struct dal_predict_observer {
     dal_status (*step)(void *user, double done);
 } dal_predict_observer;
 
+/* Makes the exact motion from the start of a run of spec, for dal_predict_settings.motion.  It is
+ * extended when a prediction needs more of it, and keeps polynomials for as many bytes (0: 256 MB);
+ * after these each prediction has its own.  Where F has no Taylor series each has its own from its
+ * start.  Of the step of spec the sign alone is used, and of its method nothing; the system must
+ * outlive the motion. [alloc]
+ * Errors: errors of the start; DAL_STATUS_UNSUPPORTED, p or pi are not 0. */
+dal_status dal_exact_motion_create(dal_exact_motion **motion, const dal_run_spec *spec,
+                                   size_t bytes, dal_error *error);
+/* Extends it for predictions to the time T.  These do not change it any more, and several threads
+ * may read it; otherwise it is for one prediction at a time.  Where the motion fails before T
+ * predictions say so.  Errors: DAL_STATUS_ARGUMENT (T), DAL_STATUS_INTERRUPTED by the observer. */
+dal_status dal_exact_motion_extend(dal_exact_motion *motion, double T,
+                                   const dal_predict_observer *observer, dal_error *error);
+/* Frees it; NULL is allowed. */
+void dal_exact_motion_free(dal_exact_motion *motion);
+
 /* Predicts the drift of a run of spec to the time T: a whole number of steps.  settings and
  * observer may be NULL.  A method that leaves D = 0 is followed while C (h/tau)^p t/tau, about the
  * relative error of the prediction, is small (docs/predict.md says where C is from).  [alloc]
- * Errors: errors of the start; DAL_STATUS_ARGUMENT (T, settings); DAL_STATUS_UNSUPPORTED, and the
+ * Errors: errors of the start; DAL_STATUS_ARGUMENT (T, settings, the
+ * start of the motion); DAL_STATUS_UNSUPPORTED, and the
  * message says the reason: a tolerance, multipliers or accelerations that pass from step to step,
  * p or pi that are not 0, events, vakonomic motion, quad precision, motion on an attractor. */
 dal_status dal_predict_create(dal_prediction **prediction, const dal_run_spec *spec, double T,

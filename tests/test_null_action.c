@@ -92,8 +92,30 @@ static void null_dal_predict_create(void)
     REFUSED(dal_predict_create(&p, &spec, T, &settings, NULL, error));
     settings = (dal_predict_settings){.pieces = -1, .rows = 1};
     REFUSED(dal_predict_create(&p, &spec, T, &settings, NULL, error));
+    settings = (dal_predict_settings){.quad_steps = -1, .rows = 1};
+    REFUSED(dal_predict_create(&p, &spec, T, &settings, NULL, error));
     CU_ASSERT_PTR_NULL(p);
 }
+
+static void null_dal_exact_motion_create(void)
+{
+    dal_exact_motion *motion = NULL;
+    REFUSED(dal_exact_motion_create(NULL, &spec, 0, error));
+    REFUSED(dal_exact_motion_create(&motion, NULL, 0, error));
+    REFUSED(dal_exact_motion_create(&motion, &(dal_run_spec){.system = NULL}, 0, error));
+    CU_ASSERT_PTR_NULL(motion);
+}
+
+static void null_dal_exact_motion_extend(void)
+{
+    dal_exact_motion *motion = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_exact_motion_create(&motion, &spec, 0, NULL), DAL_STATUS_OK);
+    REFUSED(dal_exact_motion_extend(NULL, 1.0, NULL, error));
+    REFUSED(dal_exact_motion_extend(motion, NAN, NULL, error));
+    dal_exact_motion_free(motion);
+}
+
+static void null_dal_exact_motion_free(void) { dal_exact_motion_free(NULL); }
 
 static void null_dal_prediction_free(void) { dal_prediction_free(NULL); }
 

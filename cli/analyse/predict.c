@@ -103,9 +103,15 @@ static dal_status report_done(void *user, double done)
 /* Makes all; the exit status is 2 where none can be made, 130 where a signal ends them. */
 static int predict_all(predictions *p)
 {
-    const dal_predict_settings settings = {.pieces = p->set->pieces, .rows = p->set->samples};
+    dal_predict_settings settings = {
+        .pieces = p->set->pieces, .rows = p->set->samples, .quad_steps = p->set->quad_steps};
     const dal_predict_observer observer = {p, report_done};
     int made = 0;
+    if (p->count > 1) { /* without it, predictions say the reason */
+        dal_run_spec spec = p->spec;
+        spec.options.step = p->item[0].step;
+        dal_exact_motion_create(&settings.motion, &spec, 0, NULL);
+    }
     for (p->now = 0; p->now < p->count && !cli_interrupted(); p->now++) {
         prediction *item = &p->item[p->now];
         dal_run_spec spec = p->spec;
@@ -116,6 +122,7 @@ static int predict_all(predictions *p)
         if (status == DAL_STATUS_MEMORY) cli_out_of_memory();
         made += status == DAL_STATUS_OK;
     }
+    dal_exact_motion_free(settings.motion);
     cli_progress_end();
     p->interrupted = cli_interrupted();
     p->count = p->now;
@@ -189,7 +196,7 @@ static void say_prediction(screen *out, const prediction *item)
     }
     screen_say(out, 2, "%s, h = %s: %s%s", method, screen_number(x[0], item->step, 4),
                of->leaves_D ? "leaves D = 0" : "steps end on D = 0",
-               of->is_quad ? "; single steps in quad precision" : "");
+               of->is_quad ? "; single steps in quad precision, each tens of times as long" : "");
     if (of->reason != DAL_PREDICTION_TIME)
         screen_say(out, 2, "The curve ends at t = %s: %s%s%s", screen_number(x[1], of->end, 4),
                    dal_prediction_end_text(of->reason), of->message[0] ? ": " : "", of->message);
@@ -273,6 +280,7 @@ static int print_json(const predictions *p)
     json_writer w = json_begin_results("predict");
     request_open_json(&w, &p->set->simulation, PREDICT_WITHOUT);
     json_put_integer(&w, "pieces", p->set->pieces);
+    json_put_integer(&w, "quad_steps", p->set->quad_steps);
     json_close(&w);
     json_put_number(&w, "from", p->set->simulation.request.from);
     json_put_number(&w, "to", p->set->simulation.end);

@@ -13,7 +13,7 @@
 typedef struct predict_settings {
     run_simulation simulation;       /* whose options it has lists of, */
     const char *integrators, *steps; /* as they were given; NULL: there is one */
-    long long pieces, samples;
+    long long pieces, samples, quad_steps;
     const char *output;
     bool json, details;
     screen_format format;

@@ -146,6 +146,7 @@ typedef struct study_plan {
     const char *copies; /* directory with copies of system files, or NULL */
     const char *runs;   /* where the directories of the runs are */
     struct study_results *results[STUDY_STORED]; /* NULL where no cell has any there */
+    struct study_motion *motions;                /* [cases] while cells are run, for predictions */
     uint64_t *key;   /* [cells] by which results name them; NULL until results are read */
     double interval; /* seconds between checkpoints of a run */
     native_mode native;

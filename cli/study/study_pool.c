@@ -5,6 +5,7 @@
 #include "study_pool.h"
 
 #include "study_cell.h"
+#include "study_predict.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -101,8 +102,11 @@ int study_pool_run(study_plan *plan, work_runner *runner, int threads)
                             .end = end_cell,
                             .show = show_progress};
     study_plan_add_steps(plan);
+    plan->motions = study_motions_create(plan->case_count);
     for (int i = 0; i < plan->cell_count; i++) p.count += is_due(&p, i);
     const int status = runner(&list, threads);
+    study_motions_free(plan->motions, plan->case_count);
+    plan->motions = NULL;
     native_end();
     plan->seconds = cli_seconds() - p.start;
     cli_progress_end();

@@ -10,6 +10,7 @@
 #include "ui/message.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -59,10 +60,60 @@ static void take_prediction(study_cell *to, const dal_prediction *of, const dal_
     if (of) take_trends(to, of);
 }
 
+/* ---- the exact motion of a case ---- */
+
+/* Numbers that the motions of all cases may keep. */
+static const size_t motion_bytes = (size_t)1 << 28;
+
+struct study_motion {
+    pthread_mutex_t mutex;
+    bool is_made;
+    dal_exact_motion *motion; /* NULL: each prediction has its own */
+};
+
+struct study_motion *study_motions_create(int cases)
+{
+    struct study_motion *all = cli_calloc((size_t)cases + 1, sizeof *all);
+    for (int i = 0; i < cases; i++) pthread_mutex_init(&all[i].mutex, NULL);
+    return all;
+}
+
+void study_motions_free(struct study_motion *all, int cases)
+{
+    for (int i = 0; all && i < cases; i++) {
+        pthread_mutex_destroy(&all[i].mutex);
+        dal_exact_motion_free(all[i].motion);
+    }
+    free(all);
+}
+
+/* The exact motion of the case of a cell, to the end of its run: the first cell makes it, and the
+ * others read it. */
+static dal_exact_motion *find_motion(const study_plan *plan, const study_cell *cell,
+                                     const dal_run_spec *spec, double end,
+                                     const dal_predict_observer *observer)
+{
+    const study_case *e = cell->of_case;
+    struct study_motion *m = &plan->motions[e - plan->cases];
+    if (cell->start == STUDY_DISPLACED || e->cells < 2) return NULL;
+    pthread_mutex_lock(&m->mutex);
+    if (!m->is_made) {
+        const size_t bytes = motion_bytes / (size_t)plan->case_count;
+        dal_exact_motion_create(&m->motion, spec, bytes, NULL);
+        if (m->motion && dal_exact_motion_extend(m->motion, end, observer, NULL) != DAL_STATUS_OK) {
+            dal_exact_motion_free(m->motion);
+            m->motion = NULL;
+        }
+        m->is_made = true;
+    }
+    pthread_mutex_unlock(&m->mutex);
+    return m->motion;
+}
+
 int study_predict_cell(const study_plan *plan, study_cell *cell, const dal_run_spec *spec,
                        double end, const work_stop *stop)
 {
-    const dal_predict_settings settings = {.rows = 1};
+    dal_predict_settings settings = {.rows = 1}; /* what rounding hides, it hides in runs, too */
     const dal_predict_observer observer = {(void *)stop, poll_stop};
     study_results *results = plan->results[STUDY_STORED_PREDICTIONS];
     const int number = (int)(cell - plan->cells);
@@ -74,6 +125,7 @@ int study_predict_cell(const study_plan *plan, study_cell *cell, const dal_run_s
                        .names = cell->names,
                        .trend = cli_calloc((size_t)cell->observables + 1, sizeof *to->trend)};
     if (study_results_get(results, number, to)) return CLI_DONE;
+    settings.motion = find_motion(plan, cell, spec, end, &observer);
     const dal_status status = dal_predict_create(&of, spec, end, &settings, &observer, &error);
     if (status == DAL_STATUS_MEMORY) cli_out_of_memory();
     if (of && of->reason == DAL_PREDICTION_INTERRUPTED) {

@@ -8,6 +8,9 @@
 
 #include <stdbool.h>
 
+/* The exact motions of the cases, each of which its cells share. */
+struct study_motion *study_motions_create(int cases);
+void study_motions_free(struct study_motion *motions, int cases);
 /* Predicts a cell that has the results of its run, up to the end of that; or reads what was
  * predicted before.  spec is the run's.  Returns CLI_DONE, CLI_SIGNAL when it was stopped, or
  * prints and returns an exit status.  Different cells may be predicted by different threads. */

@@ -2,15 +2,15 @@
 #ifndef DAL_ORBIT_H
 #define DAL_ORBIT_H
 
-#include "dalembert_run.h"
+#include "dalembert_predict.h"
 
 /* The exact motion on D = 0, (q, v), at times that ascend. */
 typedef struct dal__orbit dal__orbit;
 
-/* Makes the exact motion from the state of a run of spec. [alloc]
- * Errors: as of runs. */
+/* Makes the exact motion from the state of a run of spec; from a motion that others read, too, or
+ * NULL. [alloc]  Errors: as of runs. */
 dal_status dal__orbit_create(dal__orbit **orbit, const dal_run_spec *spec, const dal_run *run,
-                             dal_error *error);
+                             dal_exact_motion *motion, dal_error *error);
 /* Frees it; NULL is allowed. */
 void dal__orbit_free(dal__orbit *orbit);
 /* Whether it is by Taylor series, in steps of its own. */

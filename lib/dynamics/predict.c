@@ -9,6 +9,7 @@
 #include "core/words.h"
 #include "dalembert_order.h"
 #include "dalembert_predict.h"
+#include "dynamics/exact_motion.h"
 #include "dynamics/predict_rates.h"
 #include "dynamics/predict_steps.h"
 #include <limits.h>
@@ -16,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BINS = 1 << 20, CURVE_ROWS = 200, MAX_ROWS = 1 << 24 };
+enum { BINS = 1 << 20, CURVE_ROWS = 200, MAX_ROWS = 1 << 24, QUAD_STEPS = 200000 };
 
 typedef dal__prediction_work work;
 
@@ -32,7 +33,7 @@ const char *dal_prediction_end_text(dal_prediction_end end)
 
 dal_predict_settings dal_predict_settings_default(void)
 {
-    return (dal_predict_settings){.pieces = 0, .rows = CURVE_ROWS};
+    return (dal_predict_settings){.rows = CURVE_ROWS, .quad_steps = QUAD_STEPS};
 }
 
 void dal_prediction_free(dal_prediction *p)
@@ -45,29 +46,18 @@ void dal_prediction_free(dal_prediction *p)
 }
 
 /* The run that is predicted, on the physical space, where (q, v) have the same bits. */
-static dal_status create_run(work *w, const dal_run_spec *spec)
+static dal_status create_run(work *w, const dal_run_spec *spec, const dal_exact_motion *motion)
 {
-    dal_run *lifted;
-    double *state = dal__numbers(1, 2 * (size_t)spec->system->n);
-    if (!state) return dal__fail(w->error, DAL_STATUS_MEMORY, "out of memory");
-    dal_status status = dal_run_create(&lifted, spec, w->error);
-    if (status == DAL_STATUS_OK) {
-        const int n = spec->system->n;
-        const double *y = dal_run_state(lifted), t = dal_run_time(lifted);
-        memcpy(state, y, 2 * (size_t)n * sizeof *state);
-        if (dal_run_dimension(lifted) == 4 * n + 2 &&
-            dal__max_abs(y + 2 * n + 1, 2 * (size_t)n) > 0.0)
-            status = dal__predict_refuse(w, "p and pi are not 0, and move the motion off D = 0");
-        w->spec.options.space = DAL_PHYSICAL;
-        w->spec.start = NULL;
-        w->spec.start_count = 0;
-        w->spec.options.consistent = true;
-        if (status == DAL_STATUS_OK) status = dal_run_create(&w->run, &w->spec, w->error);
-        if (status == DAL_STATUS_OK) status = dal_run_set_state(w->run, t, state, w->error);
-        dal_run_free(lifted);
-    }
-    free(state);
-    return status;
+    bool on_D;
+    w->spec.options.space = DAL_PHYSICAL;
+    w->spec.start = NULL;
+    w->spec.start_count = 0;
+    w->spec.options.consistent = true;
+    DAL_TRY(dal__create_physical(spec, &w->run, &on_D, w->error));
+    if (!on_D) return dal__predict_refuse(w, "p and pi are not 0, and move the motion off D = 0");
+    if (!motion || dal__exact_motion_begins(motion, w->run)) return DAL_STATUS_OK;
+    return dal__fail(w->error, DAL_STATUS_ARGUMENT,
+                     "the exact motion has another start, direction or parameters");
 }
 
 /* ---- memory ---- */
@@ -80,10 +70,10 @@ static dal_status allocate_work(work *w, long long rows)
     w->steps_of_bin = (all + BINS - 1) / BINS;
     w->bin_count = (all + w->steps_of_bin - 1) / w->steps_of_bin;
     w->apart = all / DAL__DIVERGENCES + 1;
-    w->t = dal__numbers(1, block * (1 + size * (1 + DAL__GAUSS_POINTS) + count) + 10 * count +
+    w->t = dal__numbers(1, block * (1 + size * (1 + DAL__GAUSS_POINTS) + count) + 9 * count +
                                DAL__DIVERGENCES + 1);
     w->bins = dal__numbers((size_t)w->bin_count, count);
-    w->even = calloc(2 * count + 1, sizeof *w->even);
+    w->even = calloc(2 * count + size + 1, sizeof *w->even);
     w->conserved = calloc(count + 1, sizeof *w->conserved);
     p->predicted = calloc(count + 1, sizeof *p->predicted);
     p->t = dal__numbers(1, (size_t)rows + 1);
@@ -91,6 +81,7 @@ static dal_status allocate_work(work *w, long long rows)
     if (!w->t || !w->bins || !w->even || !w->conserved || !p->predicted || !p->t || !p->change)
         return dal__fail(w->error, DAL_STATUS_MEMORY, "out of memory");
     w->hidden = w->even + count;
+    w->general = w->hidden + count;
     w->x = w->t + block;
     w->points = w->x + block * size;
     w->local_change = w->points + block * size * DAL__GAUSS_POINTS;
@@ -100,7 +91,7 @@ static dal_status allocate_work(work *w, long long rows)
     w->pull = w->half + count;
     w->scale = w->pull + count;
     w->moments = w->scale + count;
-    w->increment = w->moments + 4 * count;
+    w->increment = w->moments + 3 * count;
     w->divergence = w->increment + count;
     return DAL_STATUS_OK;
 }
@@ -118,9 +109,13 @@ static dal_status begin_prediction(work *w, const dal_run_spec *spec, double T,
     if (settings->rows < 1 || settings->rows > MAX_ROWS)
         return dal__fail(w->error, DAL_STATUS_ARGUMENT, "%lld rows are not 1 to %d", settings->rows,
                          MAX_ROWS);
+    if (settings->quad_steps < 0)
+        return dal__fail(w->error, DAL_STATUS_ARGUMENT, "%lld steps in quad precision",
+                         settings->quad_steps);
     w->of->from = w->spec.start_time;
     w->whole = w->steps = dal_whole_steps(w->of->from, T, h);
     w->pieces = settings->pieces;
+    w->quad_steps = settings->quad_steps;
     w->rows = settings->rows < w->whole ? settings->rows : w->whole;
     if (w->whole == 0 || w->whole > LLONG_MAX / (w->pieces + 1))
         return dal__fail(w->error, DAL_STATUS_ARGUMENT,
@@ -129,7 +124,7 @@ static dal_status begin_prediction(work *w, const dal_run_spec *spec, double T,
     if (w->pieces > 0 && w->whole % 2 != 0)
         return dal__fail(w->error, DAL_STATUS_ARGUMENT,
                          "pieces of %lld steps have no middle: the number must be even", w->whole);
-    DAL_TRY(create_run(w, spec));
+    DAL_TRY(create_run(w, spec, settings->motion));
     DAL_TRY(dal__local_create(&w->local, &w->spec, w->run, DAL_DOUBLE, w->error));
     w->n = w->local.n;
     w->count = w->local.count;
@@ -140,10 +135,15 @@ static dal_status begin_prediction(work *w, const dal_run_spec *spec, double T,
     w->of->unit_of_time = w->local.unit[0];
     DAL_TRY(allocate_work(w, w->rows));
     DAL_TRY(dal__find_conserved(&w->spec, w->run, w->conserved, w->error));
-    DAL_TRY(dal__orbit_create(&w->orbit, &w->spec, w->run, w->error));
+    DAL_TRY(dal__orbit_create(&w->orbit, &w->spec, w->run, settings->motion, w->error));
     w->of->has_series = dal__orbit_has_series(w->orbit);
-    return dal__reversals_create(&w->reversals, &w->local, &w->spec, dal_run_time(w->run),
-                                 dal_run_state(w->run), w->error);
+    DAL_TRY(dal__reversals_create(&w->reversals, &w->local, &w->spec, dal_run_time(w->run),
+                                  dal_run_state(w->run), w->error));
+    for (int i = 0; i < w->n; i++) {
+        w->general[i] = w->reversals && dal__reversals_depend(w->reversals, i);
+        w->general[w->n + i] = true;
+    }
+    return DAL_STATUS_OK;
 }
 
 dal_status dal_predict_create(dal_prediction **prediction, const dal_run_spec *spec, double T,

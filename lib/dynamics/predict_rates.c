@@ -16,6 +16,8 @@
 enum { MIN_BINS = 4 };
 /* Volumes that shrink by exp(-contraction) approach an attractor. */
 static const double contraction = 2.0;
+/* Motion that is as much farther away in its second half may not come back. */
+static const double escape = 1.25;
 
 typedef dal__prediction_work work;
 
@@ -39,11 +41,11 @@ static void find_rate(const work *w, int observable, dal_predicted *p)
     const long long made = of->steps / w->steps_of_bin;
     const long long bins = made < w->bin_count ? made : w->bin_count;
     const double M = (double)of->pieces, T = (double)w->steps * of->step, h = of->step;
-    const double *S = w->moments + 4 * observable;
+    const double *S = w->moments + 3 * observable;
     p->rate = p->margin = p->walk = p->walk_margin = NAN;
     if (of->pieces > 1) {
         const double whole = fmax(S[1] - S[0] * S[0] / M, 0.0) / (M - 1.0);
-        const double half = fmax(S[3] - 0.5 * S[2] * S[2] / M, 0.0) / (2.0 * M - 1.0);
+        const double half = fmax(S[2] - 0.5 * S[0] * S[0] / M, 0.0) / (2.0 * M - 1.0);
         const double between = 0.5 * whole - half;
         p->rate = S[0] / (M * T);
         p->margin = 2.0 * sqrt(whole / M) / fabs(T);
@@ -76,13 +78,14 @@ dal_status dal__predict_results(work *w)
     if (steady && mean * T < -contraction)
         return dal__predict_refuse(
             w, "the motion approaches an attractor, on which it forgets changes");
+    const bool returns = w->reach[1] <= escape * w->reach[0];
     w->of->rows = w->row;
     w->of->observables = w->count;
     for (int j = 0; j < w->count; j++) {
         dal_predicted *p = &w->of->predicted[j];
         dal_run_observable_name(w->run, j, p->name, sizeof p->name);
         p->is_conserved = w->conserved[j];
-        p->is_zero = p->is_conserved && w->even[j] && !w->of->leaves_D;
+        p->is_zero = p->is_conserved && w->even[j] && !w->of->leaves_D && returns;
         find_rate(w, j, p);
         if (p->is_conserved) continue;
         p->change = p->max_change = p->rate = p->margin = p->walk = p->walk_margin = NAN;

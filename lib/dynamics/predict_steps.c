@@ -16,14 +16,23 @@ static const double defect_constant = 0.4, defect_allowed = 0.02;
 static const double roundings = 64.0;
 /* Steps change so little, in the mean of a block, that doubles do not resolve it to a percent. */
 static const double resolved = 1e3;
-/* Less than this, in roundings of doubles, is nothing; not more steps than these are in quad. */
+/* Less than this, in roundings of doubles, is nothing. */
 static const double negligible = 1e-6;
-static const long long max_quad = 200000;
 
 typedef dal__prediction_work work;
 enum { GAUSS = DAL__GAUSS_POINTS };
 
+static long long all_steps(const work *w) { return w->steps * (w->pieces > 0 ? w->pieces : 1); }
+
 /* ---- a block of steps ---- */
+
+/* Notes how far the motion goes in either half. */
+static void note_reach(work *w, long long k, const double *x)
+{
+    double *reach = &w->reach[2 * k >= all_steps(w)];
+    for (int i = 0; i < 2 * w->n; i++)
+        if (w->general[i]) *reach = fmax(*reach, fabs(x[i]) / w->local.unit[1 + i]);
+}
 
 /* Gathers exact states of steps first .. first + count - 1, as many as there are. */
 static dal_status gather_states(work *w, long long first, int count, int *made)
@@ -37,6 +46,7 @@ static dal_status gather_states(work *w, long long first, int count, int *made)
         for (int g = 0; g < GAUSS && w->has_points; g++)
             DAL_TRY(
                 dal__orbit_state(w->orbit, k, dal__gauss_points[g], points + g * size, w->error));
+        note_reach(w, k, x);
         if (k % w->apart == 0 && w->divergences <= DAL__DIVERGENCES)
             w->divergence[w->divergences++] = dal__local_divergence(&w->local, t, x);
         if (w->reversals && dal__reversals_meet(w->reversals, w->orbit, k, t, x, w->even)) {
@@ -108,7 +118,7 @@ static dal_status begin_blocks(work *w, int steps)
         w->hidden[j] = w->conserved[j] && mean_change(w, steps, j) < resolved;
         is_hidden |= w->hidden[j];
     }
-    if (is_hidden && w->whole * (1 + w->pieces) <= max_quad) DAL_TRY(try_quad(w, steps));
+    if (is_hidden && all_steps(w) <= w->quad_steps) DAL_TRY(try_quad(w, steps));
     find_defect(w, steps);
     const double tau = p->unit_of_time, h = fabs(p->step);
     const double ratio = pow(h / tau, dal_method_order(&w->spec.method));
@@ -119,8 +129,6 @@ static dal_status begin_blocks(work *w, int steps)
     p->reason = DAL_PREDICTION_DEFECT;
     return DAL_STATUS_OK;
 }
-
-static long long all_steps(const work *w) { return w->steps * (w->pieces > 0 ? w->pieces : 1); }
 
 /* A block of steps from number k on; *done of them. */
 static dal_status take_block(work *w, long long k, int *done)

@@ -55,12 +55,11 @@ dal_status dal__predict_add_step(work *w, long long k, int i)
     if (2 * in_piece == w->steps) memcpy(w->half, w->total, bytes);
     if (in_piece < w->steps) return DAL_STATUS_OK;
     for (int j = 0; j < w->count; j++) {
-        double *of = w->moments + 4 * j;
+        double *of = w->moments + 3 * j;
         const double first = w->half[j], second = w->total[j] - first;
         of[0] += w->total[j];
         of[1] += w->total[j] * w->total[j];
-        of[2] += first + second;
-        of[3] += first * first + second * second;
+        of[2] += first * first + second * second;
     }
     p->pieces++;
     memset(w->total, 0, 2 * bytes); /* and rest */

@@ -22,7 +22,7 @@ typedef struct dal__prediction_work {
     dal__reversals *reversals;
     int n, count;
     long long whole, steps; /* of a piece; up to the end of the curve */
-    long long pieces;
+    long long pieces, quad_steps;
     double *t, *x, *points; /* of a block: [STEPS], [STEPS*2n], [STEPS*GAUSS*2n] of Gauss points */
     double *local_change;   /* [STEPS*count] */
     bool has_points;        /* lambda is needed */
@@ -33,10 +33,12 @@ typedef struct dal__prediction_work {
     double *increment;      /* [count] of a step of the run */
     double *bins;           /* [count*bin_count] of increments */
     long long bin_count, steps_of_bin;
-    double *moments;    /* [count*4] sums of S and S^2 over T, over T/2 */
+    double *moments;    /* [count*3] sums of S and S^2 over T, of S^2 over T/2 */
     double *divergence; /* [divergences] of F, at equal distances */
     int divergences;
     long long apart;     /* steps between two of them */
+    double reach[2];     /* max |q_i|, |v_i| in units in either half, of what F depends on */
+    bool *general;       /* [2n] which these are */
     bool *even, *hidden; /* [count] zero by reversibility; by rounding */
     int *conserved;
     dal_error *error;

@@ -8,8 +8,10 @@
  *
  * is mapped to itself.  If also R S_h R = S_(-h) = S_h^-1 of a step, S_h R S_h = R, the local
  * changes of an I with I(R x) = I(x) at x and at the state that R S_h maps x to are opposite, and
- * their mean along the motion is 0 (Hairer, Lubich, Wanner 2006, XI).  The meeting is a root in t,
- * found to MEETS; F, I and the step are compared at points of the motion. */
+ * their means along the motion for t > 0 and t < 0 are opposite, too (Hairer, Lubich, Wanner 2006,
+ * XI).  Motion that comes back has one mean, and it is 0; of motion that goes away for ever, as
+ * bodies that fall, neither need be (predict_steps.c).  The meeting is a root in t, found to MEETS;
+ * F, I and the step are compared at points of the motion. */
 #include "dynamics/reversal.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
@@ -51,6 +53,8 @@ void dal__reversals_free(dal__reversals *r)
 }
 
 static bool is_turned(unsigned sign, int i) { return sign >> i & 1; }
+
+bool dal__reversals_depend(const dal__reversals *r, int i) { return r->depends[i] == GENERAL; }
 
 /* R x for the centres of r. */
 static void apply_reversal(const dal__reversals *r, unsigned sign, const double *x, double *out)

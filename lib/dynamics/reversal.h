@@ -14,6 +14,8 @@ dal_status dal__reversals_create(dal__reversals **made, dal__local *local, const
                                  double t, const double *x, dal_error *error);
 /* Frees it; NULL is allowed. */
 void dal__reversals_free(dal__reversals *reversals);
+/* Whether F depends on q_i, and not as on an angle. */
+bool dal__reversals_depend(const dal__reversals *reversals, int i);
 /* Searches near step k of the exact motion, which is at x at the time t, and sets even[count] of
  * the observables whose mean rate is 0 by a reversal.  true: nothing remains to search. */
 bool dal__reversals_meet(dal__reversals *reversals, dal__orbit *orbit, long long k, double t,

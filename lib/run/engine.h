@@ -21,6 +21,14 @@ typedef struct dal__failure {
         constraint; /* the first guard or constraint that failed its check, from 1; 0: none */
 } dal__failure;
 
+/* The motion within a substep, as kernel/adaptive.h has it; from and size are of the step. */
+typedef struct dal__polynomial {
+    const double *y, *r; /* [dim] where the substep begins, as numbers of the engine */
+    const double *rate;  /* [terms*dim] */
+    int terms;
+    double from, size;
+} dal__polynomial;
+
 /* A set of lanes: bit i is lane i. */
 typedef uint64_t dal__lanes;
 
@@ -42,6 +50,9 @@ typedef struct dal__engine {
      * of the substep there gives.  Without a tolerance, or where the method leaves no polynomial,
      * it is a step of that size.  NULL for several lanes. */
     dal__lanes (*step_intermediate)(void *engine, double h, double size, dal_status *reason);
+    /* Gives the polynomial that step_intermediate has found last; false: there is none.  NULL for
+     * several lanes. */
+    bool (*polynomial)(const void *engine, dal__polynomial *out);
     /* Holds the branches of the system at points, or no longer, as dal_branches.hold.  NULL for
      * several lanes. */
     void (*hold)(void *engine, const double *point);

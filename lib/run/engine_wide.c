@@ -6,26 +6,8 @@
 #include "kernel/acceptance.h"
 #include "kernel/observables.h"
 #include "run/engine.h"
+#include "run/lane_bits.h"
 #include <dalembert_kernel.h>
-
-/* ---- lanes, as bits and as masks ---- */
-
-static inline dal_mask mask_of(dal__lanes lanes)
-{
-    int64_t all[DAL_LANES];
-    dal_mask mask;
-    for (int i = 0; i < DAL_LANES; i++) all[i] = -(int64_t)(lanes >> i & 1);
-    memcpy(&mask, all, sizeof mask);
-    return mask;
-}
-
-static inline dal__lanes lanes_of(dal_mask mask)
-{
-    dal__lanes lanes = 0;
-    for (int i = 0; dal_any(mask) && i < DAL_LANES; i++)
-        lanes |= (dal__lanes)dal_mask_lane(mask, i) << i;
-    return lanes;
-}
 
 /* ---- memory and callbacks ---- */
 
@@ -478,7 +460,7 @@ static dal__lanes check_step(engine *e, dal_mask *alive, dal_status status, dal_
         c.regular = dal_check_regular(s, 0, e->backup, failure ? &failure->guard : NULL,
                                       failure ? &failure->constraint : NULL);
     *alive &= c.regular;
-    const dal__lanes failed = lanes_of(before & ~*alive);
+    const dal__lanes failed = dal__lanes_of(before & ~*alive);
     for (int i = 0; failed && i < DAL_LANES; i++)
         if (failed >> i & 1) reason[i] = dal_rejection(&c, status, i);
     return failed;
@@ -517,7 +499,7 @@ static void begin_step(engine *e, double h, dal__lanes alive, dal_mask lanes)
 static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_status *reason)
 {
     engine *e = engine_;
-    dal_mask moved = mask_of(alive);
+    dal_mask moved = dal__mask_of(alive);
     begin_step(e, h, alive, moved);
     dal_status status = e->step.layer[e->step.depth]->step(&e->step);
     if (e->step.exhausted) status = DAL_STATUS_MEMORY;
@@ -578,6 +560,15 @@ static dal__lanes intermediate_engine(void *engine_, double h, double size, dal_
     return failed;
 }
 
+static bool give_polynomial(const void *engine_, dal__polynomial *out)
+{
+    const engine *e = engine_;
+    const dal_dense *d = &e->dense;
+    *out =
+        (dal__polynomial){(void *)d->y, (void *)d->r, (void *)d->rate, d->terms, d->from, d->size};
+    return has_dense(&e->layout) && e->dense_h != 0.0;
+}
+
 static void hold_engine(void *engine_, const double *point)
 {
     engine *e = engine_;
@@ -588,12 +579,14 @@ static void hold_engine(void *engine_, const double *point)
 #else
 #define intermediate_engine NULL
 #define hold_engine         NULL
+#define give_polynomial     NULL
 #endif
 
 const dal__engine DAL_WIDE(dal__engine) = {.bytes = engine_bytes,
                                            .place = place_engine,
                                            .step = step_engine,
                                            .step_intermediate = intermediate_engine,
+                                           .polynomial = give_polynomial,
                                            .hold = hold_engine,
                                            .eval = eval_engine,
                                            .observe = observe_engine,

@@ -82,7 +82,7 @@ class Prediction:
 
 @takes_run_options
 def predict(system: SystemLike, integrator: str | None = None, time: float | None = None, *,
-            pieces: int = 0, samples: int = 200, **settings: Any) -> Prediction:
+            pieces: int = 0, samples: int = 200, quad_steps: int = 200000, **settings: Any) -> Prediction:
     """Predicts the drift of D, E and the invariants along a run.
 
     Parameters
@@ -95,6 +95,8 @@ def predict(system: SystemLike, integrator: str | None = None, time: float | Non
         Pieces of that length of the exact motion, for the random walk of chaotic motion; 500 say it to 10 %.
     samples : int
         Rows of the curves after the first.
+    quad_steps : int
+        Single steps in quad precision, at most, where rounding hides what they change; 0 takes none.
 
     Returns
     -------
@@ -106,7 +108,8 @@ def predict(system: SystemLike, integrator: str | None = None, time: float | Non
     made = ffi.new('dal_prediction **')
     observer = ffi.new('dal_predict_observer *', {'step': lib.python_progress})
     chosen = ffi.new('dal_predict_settings *', {'pieces': whole('pieces', pieces, 0),
-                                                'rows': whole('samples', samples, 1)})
+                                                'rows': whole('samples', samples, 1),
+                                                'quad_steps': whole('quad_steps', quad_steps, 0)})
     call_steps(lib.dal_predict_create, made, spec.c, spec.time(time), chosen, observer)
     p = ffi.gc(made[0], lib.dal_prediction_free)
     if p.reason == lib.DAL_PREDICTION_INTERRUPTED:

@@ -89,6 +89,16 @@ try 0 merge half other-half --output merged
 expect "a merge changes bytes" same_cells merged
 expect "a merge loses some" test "$(wc -c <merged/predictions/all)" -eq "$size"
 
+case_is "predictions of a study: by MPI"
+if needs 4 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
+    by_mpi 0 -n 3 "$mpi_program" ahead.yaml --output by-mpi
+    expect "processes change bytes" same_cells by-mpi
+    rm by-mpi/cells.csv by-mpi/predictions/writer-1
+    by_mpi 0 -n 2 "$mpi_program" --resume --output by-mpi
+    expect "processes change bytes, resumed" same_cells by-mpi
+    counted
+fi
+
 case_is "predictions of a study: the key"
 sed 's/^predict: on/predict: yes/' ahead.yaml >bad.yaml
 try 2 study bad.yaml --output bad

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-enum { MAX_ROWS = 1000000, MAX_PIECES = 1000000 };
+enum { MAX_ROWS = 1000000, MAX_PIECES = 1000000, MAX_QUAD = 1000000000 };
 
 static const cli_option options[] = {
     {"pieces", "M", "0",
@@ -16,6 +16,10 @@ static const cli_option options[] = {
      CLI_INTEGER(predict_settings, pieces, 0, MAX_PIECES)},
     {"samples", "N", "200", "rows of the curve after the first, at equal distances in t",
      CLI_INTEGER(predict_settings, samples, 1, MAX_ROWS)},
+    {"quad-steps", "N", "200000",
+     "takes single steps in quad precision, up to N of them, where rounding hides what they "
+     "change; each takes tens of times as long",
+     CLI_INTEGER(predict_settings, quad_steps, 0, MAX_QUAD)},
     {"output", "FILE.csv|-", NULL, "writes the curves as CSV",
      CLI_ROW(cli_parse_output, predict_settings, output)},
     SCREEN_FORMAT_OPTION(predict_settings),
@@ -81,6 +85,10 @@ const cli_command command_predict = {
         "reason: multipliers or accelerations that pass from step to step, a tolerance, p or pi "
         "that are not 0, events, vakonomic motion, attractors.  The exit status is 2 where nothing "
         "can be predicted.  After an interruption the curves so far are printed.\n"
+        "\n"
+        "All methods and steps share one exact motion; its polynomials are kept in 256 MB, and "
+        "after these each has its own.  A prediction takes at most as long as the exact motion and "
+        "twice the run, if its steps are not in quad precision.\n"
         "\n"
         "With --pieces the exact motion goes on for M times the time.  Rates are means over the "
         "pieces, and s^2 of the random walk, the growth of the variance of a change per unit of "
