@@ -1,7 +1,8 @@
 /* run.h - the inside of a dal_run.
  *
- * One block of memory:   dal_run | shadow, point, observations | engine | quad engine
- */
+ * One block of memory:
+ *
+ *     dal_run | shadow, point, event_scratch, scales, observations | engine | quad engine */
 #ifndef DAL_RUN_H
 #define DAL_RUN_H
 
