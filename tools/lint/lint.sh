@@ -22,11 +22,7 @@ check() { # TITLE COMMAND...: a violation is a line of output, or a command that
 sources() { find include lib integrators cli python tests examples bench -name '*.[ch]' -o -name '*.inc' | sort; }
 objects() { find "$BUILD/lib" "$BUILD/integrators" -name '*.o' | sort; }
 
-format() {
-    for file in $(sources); do
-        clang-format --dry-run -Werror "$file" >/dev/null 2>&1 || echo "$file: run clang-format -i"
-    done
-}
+format() { sources | xargs clang-format --dry-run -Werror --ferror-limit=1; }
 includes() {
     sources | xargs awk -f $here/includes.awk $here/includes.txt
     grep -lr '#include "dalembert.h"' lib cli | xargs grep -L DAL_VERSION |
@@ -45,9 +41,11 @@ nesting() {
 }
 # The first line of a file has its name and what it is for.
 heads() {
-    sources | while read -r file; do
-        head -n 1 "$file" | grep -q "^/\* ${file##*/} - " || echo "$file: does not begin with /* ${file##*/} - what it is for"
-    done
+    sources | xargs awk 'FNR == 1 {
+        name = FILENAME
+        sub(/.*\//, "", name)
+        if (index($0, "/* " name " - ") != 1) print FILENAME ": does not begin with /* " name " - what it is for"
+    }'
 }
 # Names that differ by an underscore only.
 underscores() {
