@@ -25,7 +25,8 @@ typedef struct allocation_trial {
     bool passed;
 } allocation_trial;
 
-/* Whether another allocation is to fail: until none did.  Checks that all blocks are free again. */
+/* Whether another allocation is to fail: until none did; in a quick run every second one.  Checks
+ * that all blocks are free again. */
 bool allocation_next(allocation_trial *trial);
 void allocation_start(const allocation_trial *trial);
 /* Whether an allocation failed: checks that then, and only then, the status is DAL_STATUS_MEMORY,

@@ -97,7 +97,7 @@ static void test_same_bits(void)
     const dal_system *system = fixture_system(fixture_full);
     for (int i = 0; dal_integrator_at(i); i++) {
         const int kinds = dal_integrator_at(i)->properties & DAL_MODIFIER ? 2 : 4;
-        for (int kind = i % case_stride(2); kind < kinds; kind += case_stride(2)) {
+        for (int kind = i % case_stride(kinds); kind < kinds; kind += case_stride(kinds)) {
             char name[80];
             fixture_method(i, name, 64);
             if (kind & 2) strcat(name, "+project");

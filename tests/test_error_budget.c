@@ -133,11 +133,12 @@ static void test_rounding(void)
  * part is as large as when they are solved. */
 static void test_solver(void)
 {
+    const int steps = 400 / case_stride(2);
     dal_run_spec spec =
         fixture_spec(fixture_system("chaplygin-sleigh"), "gauss8", DAL_PHYSICAL, 0.1);
-    dal_error_budget *solved = explained(&spec, 400, 400);
+    dal_error_budget *solved = explained(&spec, steps, steps);
     spec.options.solver_tolerance = 1e-8;
-    dal_error_budget *e = explained(&spec, 400, 400);
+    dal_error_budget *e = explained(&spec, steps, steps);
     const dal_shares *d = of(e, "D1");
     CU_ASSERT(d->solver_is_significant);
     CU_ASSERT(d->share[DAL_SOURCE_SOLVER] > 0.99);
@@ -158,9 +159,10 @@ static void test_solver(void)
  * D in a unit of time is proportional to h (h^2 in a step), and far below rounding. */
 static void test_coefficients(void)
 {
+    const int steps = 600 / case_stride(3);
     const dal_run_spec spec =
         fixture_spec(fixture_system("contact-oscillator"), "gauss8", DAL_PHYSICAL, 0.1);
-    dal_error_budget *e = explained(&spec, 600, 600);
+    dal_error_budget *e = explained(&spec, steps, steps);
     const dal_shares *d = of(e, "D1");
     CU_ASSERT(fabs(d->order - 1.0) < 0.1);
     CU_ASSERT_EQUAL(d->share[DAL_SOURCE_TRUNCATION], 0.0);

@@ -91,10 +91,10 @@ static void check_order(const char *name, const dal_method *method, void *user)
 }
 
 /* In a quick run some: that every method takes steps without a fault the other tests see. */
-static void test_order(void) { for_each_of(case_stride(8), false, check_order, NULL); }
+static void test_order(void) { for_each_of(case_stride(12), false, check_order, NULL); }
 static void test_order_projected(void)
 {
-    for_each_of(case_stride(9), true, check_order, (void *)windows);
+    for_each_of(case_stride(13), true, check_order, (void *)windows);
 }
 
 /* ---- symplecticity and reversibility of the step map ---- */

@@ -3,6 +3,7 @@
 #include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
+#include "quick.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdlib.h>
@@ -148,7 +149,7 @@ static void same_series(const subject *of, const dal_system *system, int way)
 static void test_bits(void)
 {
     for (size_t i = 0; i < sizeof subjects / sizeof subjects[0]; i++) {
-        for (int way = 0; way < 16; way++)
+        for (int way = 0; way < 16; way += case_stride(3))
             same_series(&subjects[i], fixture_system(subjects[i].system), way);
     }
 }
