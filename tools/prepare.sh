@@ -48,7 +48,7 @@ packages="$packages python3 python3-cffi python3-dev python3-numpy python3-pytes
 if [ "$1" = lint ]; then
     packages="$packages binutils clang clang-format shellcheck libclang-rt-14-dev universal-ctags valgrind openmpi-bin libopenmpi-dev chromium"
     packages="$packages python3-ipykernel python3-matplotlib python3-nbclient" # for the notebooks
-    packages="$packages doxygen graphviz katex linkchecker mkdocs mkdocs-material"
+    packages="$packages doxygen graphviz katex mkdocs mkdocs-material"
     packages="$packages texlive-latex-base" # for the labels of figures
 fi
 if [ "$1" = bench ]; then

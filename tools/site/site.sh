@@ -37,13 +37,5 @@ logged mkdocs build --config-file "$pages.yml" --site-dir "$(realpath "$pages/..
 
 python3 tools/site/mathematics.py "$pages.formulas" "$site" || exit 1
 
-if command -v linkchecker >/dev/null; then
-    # As root the checker becomes nobody, who may not read here.
-    copy=$(mktemp -d) || exit 1
-    trap 'rm -rf "$copy"' EXIT
-    cp -r "$site" "$copy" && chmod -R a+rX "$copy"
-    logged linkchecker --config tools/site/linkchecker.ini "$copy/site/index.html"
-else
-    left_out "the links are not checked" linkchecker
-fi
+logged python3 tools/site/links.py "$site"
 echo "$site/index.html"
