@@ -9,7 +9,8 @@ Systems come from YAML text (`System`), files and the library; `simulate` runs o
 steps one motion, a `Batch` many, `ensemble` many with drawn starts; `trend`, `order`, `lyapunov`,
 `section` and `explain` measure them, `check` a system, `study` many methods; `load` reads what the
 program left; `invariants` finds what a motion conserves, `dirac` the constraints of its action,
-`action` its value on a curve; `predict` says what a run will do to D, E and invariants; `generate`
+`action` its value on a curve; `predict` says what a run will do to D, E and invariants; `sensitivities` are
+derivatives of a run; `generate`
 writes C.
 """
 from ._library import lib
@@ -23,6 +24,7 @@ from .members import Ensemble, ensemble
 from .predict import Predicted, Prediction, predict
 from .program import Check, check, study
 from .run import Batch, Event, Run
+from .sensitivities import Sensitivities, sensitivities
 from .simulate import Trajectory, simulate
 from .spec import integrators, modifiers
 from .system import System, builtin_systems
@@ -31,6 +33,6 @@ __version__ = f'{lib.DAL_VERSION_MAJOR}.{lib.DAL_VERSION_MINOR}.{lib.DAL_VERSION
 
 __all__ = ['Actions', 'Average', 'Batch', 'Check', 'Dirac', 'DiracConstraint', 'DiscreteAction', 'Ensemble',
            'Error', 'Event', 'InputError', 'Invariant', 'Invariants', 'Lyapunov', 'Measure', 'Order', 'Predicted', 'Prediction',
-           'Run', 'Section', 'Shares', 'StepError', 'Study', 'System', 'Trajectory', 'Trend', 'action', 'builtin_systems', 'check',
+           'Run', 'Section', 'Sensitivities', 'Shares', 'StepError', 'Study', 'System', 'Trajectory', 'Trend', 'action', 'builtin_systems', 'check',
            'dirac', 'ensemble', 'explain', 'generate', 'integrators', 'invariants', 'load', 'lyapunov', 'modifiers',
-           'order', 'predict', 'section', 'simulate', 'study', 'trend']
+           'order', 'predict', 'section', 'sensitivities', 'simulate', 'study', 'trend']

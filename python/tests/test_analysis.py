@@ -215,3 +215,24 @@ def test_predict():
         dalembert.predict('heisenberg', 'gni', 1, step=0.05)
     with pytest.raises(dalembert.InputError, match='samples'):
         dalembert.predict(oscillator, 'rk4', 1, step=0.25, samples=0)
+
+
+def test_sensitivities():
+    """Of x'' = k from x = a^2: x = a^2 + x' t + k t^2/2."""
+    fall = dalembert.System('''coordinates: [x]
+parameters: {k: 2, a: 1}
+accelerations: {x: k}
+start: {x: a^2}
+''')
+    found = dalembert.sensitivities(fall, ['k', 'a', "x'"], 'rk4', 2, step=0.125, samples=5)
+    t = found.t
+    assert found.components[:2] == ('x', "x'") and np.allclose(t, np.linspace(0, 2, 6))
+    assert np.allclose(found.columns['k'][:, :2], np.stack([t ** 2 / 2, t], axis=1))
+    assert np.allclose(found.columns['a'][:, :2], [2, 0])
+    assert np.allclose(found.columns["x'"][:, :2], np.stack([t, np.ones(6)], axis=1))
+    lifted = dalembert.sensitivities(fall, ['pi_x'], 'rk4', 2, step=0.125, space='lifted', start={'e': 2})
+    assert abs(lifted.columns['pi_x'][-1, 0] - 1) < 1e-12
+    with pytest.raises(dalembert.InputError, match='a tolerance divides its step'):
+        dalembert.sensitivities(fall, ['k'], 'taylor', 1, step=0.1, tolerance=1e-9)
+    with pytest.raises(dalembert.InputError, match='names'):
+        dalembert.sensitivities(fall, 'k', 'rk4', 1, step=0.1)

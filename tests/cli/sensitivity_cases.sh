@@ -25,6 +25,12 @@ try 0 $fall --sensitivities pi_x --columns sensitivities --start e=2
 expect "header" [ "$(header)" = "t,dx/dpi_x,dx'/dpi_x,de/dpi_x,dp_x/dpi_x,dpi_x/dpi_x,dpi_e/dpi_x" ]
 expect "dx/dpi_x is not t^2/(2e)" holds '$2 - $1^2/4'
 
+# e = 1 + t, pi = 1: x' ' = k + 1/e, and dx'/dpi is the integral of 1/e.
+case_is "sensitivities: e that changes with t"
+try 0 run fall.yaml --integrator gauss8 --step 0.125 --time 2 --samples 7 --output - --sensitivities pi_x \
+    --columns sensitivities --gauge mu_e=1 --start e=1
+expect "dx'/dpi_x is not ln(1 + t)" holds '($3 - log(1 + $1)) / 100'
+
 case_is "sensitivities: the run keeps its bits"
 try 0 $fall
 mv out plain
@@ -39,12 +45,26 @@ sleigh --time 1.8 --samples 60 --output long
 expect "other rows" cmp short/trajectory.npy long/trajectory.npy
 expect "the manifest names them" grep -q '"sensitivities": "a,phi'"'" long/manifest.json
 
+case_is "sensitivities: killed and resumed"
+if needs 12 "no compiler for signals at given places" raises; then
+    for call in 2 4 6; do
+        cut_off 137 9 $call run chaplygin-sleigh-offset --integrator gauss4 --step 0.03 \
+            --sensitivities "a,phi'" --time 1.8 --samples 60 --output killed --checkpoint 0
+        refute "call $call: it was not cut off" cmp -s killed/trajectory.npy long/trajectory.npy
+        try 0 resume killed
+        expect "call $call: other rows" cmp killed/trajectory.npy long/trajectory.npy
+        rm -r killed
+    done
+    counted
+fi
+
 case_is "sensitivities: what is refused"
 table <<'END'
 2 | run fall.yaml --integrator rk4 --step 0.1 --time 1 --sensitivities y | says --sensitivities: unknown parameter 'y'
 2 | run fall.yaml --integrator rk4 --step 0.1 --time 1 --sensitivities , | says --sensitivities: the list is empty
 2 | run fall.yaml --integrator rk4 --step 0.1 --time 1 --sensitivities e | says constant e
 2 | run fall.yaml --integrator taylor --tolerance 1e-9 --time 1 --sensitivities k | says a tolerance divides its step
+2 | run fall.yaml --integrator rk4 --step 0.1 --time 1 --sensitivities pi_x --gauge mu_e=0.1*x | says mu_e of the gauge is not of t alone
 2 | run chaplygin-sleigh --integrator rk4+project --step 0.1 --time 1 --sensitivities m | says no exact tangent
 2 | run chaplygin-sleigh-vakonomic --integrator rk4 --step 0.1 --time 1 --sensitivities m | says multipliers
 END
