@@ -1,5 +1,5 @@
 /* dalembert_analysis.h - statistics, trends, checks, order, error budgets, predictions, Lyapunov
- * exponents, sections, invariants and actions, each in a header of its own.
+ * exponents, sections, invariants, actions and steering, each in a header of its own.
  *
  * The conventions of dalembert.h hold here.  All of it is made of the public functions of
  * dalembert.h. */
@@ -16,5 +16,6 @@
 #include "dalembert_predict.h"
 #include "dalembert_sensitivity.h"
 #include "dalembert_statistics.h"
+#include "dalembert_steer.h"
 
 #endif

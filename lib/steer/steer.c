@@ -1,0 +1,295 @@
+/* steer.c - finds extremals between two ends.
+ *
+ * From the straight line in q, or a bent one, Gauss-Newton on a coarse grid comes near an extremal,
+ * Newton's method on multiple shooting finds the one of the coarse grid, and once more the one of
+ * the steps of the run. */
+#include "core/error.h"
+#include "core/vectors.h"
+#include "steer/direct.h"
+#include "steer/newton.h"
+#include "steer/reach.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PIECES = 24, BENDS = 3, DIRECT_BEFORE_NEWTON = 8 };
+
+/* ---- first guesses ---- */
+
+/* Points on a line from start to target, bent by sines of random sizes. */
+static dal_status guess_points(dal__shooting *s)
+{
+    const double pi = 3.14159265358979323846;
+    dal__problem *p = s->problem;
+    const int n = p->n;
+    dal__random random = {p->settings->seed + (unsigned long long)p->guess};
+    double bend[BENDS];
+    memset(s->point, 0, (size_t)((s->pieces + 1) * p->dimension) * sizeof *s->point);
+    for (int i = 0; i < n; i++) {
+        const double length = p->target[i] - p->start[i], T = p->T - p->from;
+        for (int j = 0; j < BENDS; j++)
+            bend[j] = p->guess > 0 ? dal__uniform(&random) * fmax(fabs(length), p->unit[i]) : 0.0;
+        for (int k = 0; k <= s->pieces; k++) {
+            const double part = (dal__shooting_time(s, k) - p->from) / T;
+            double *z = s->point + k * p->dimension;
+            z[i] = p->start[i] + part * length;
+            z[n + i] = length / T;
+            for (int j = 0; j < BENDS; j++) {
+                z[i] += bend[j] * sin((j + 1) * pi * part);
+                z[n + i] += bend[j] * (j + 1) * pi / T * cos((j + 1) * pi * part);
+            }
+        }
+    }
+    for (int k = 0; k <= s->pieces; k++) {
+        double *z = s->point + k * p->dimension;
+        if (p->is_lifted) z[2 * n] = p->e;
+        if (k > 0 && k < s->pieces && p->constraints > 0 &&
+            dal_evaluator_project_velocity(p->evaluator, dal__shooting_time(s, k), z, z + n) ==
+                DAL_STATUS_MEMORY)
+            return DAL_STATUS_MEMORY;
+        for (int i = 0; i < 2 * n; i++) {
+            if (k == 0 && (!p->is_free[0][i] || i < n)) z[i] = p->start[i];
+            if (k == s->pieces && !p->is_free[1][i]) z[i] = p->target[i];
+        }
+    }
+    return DAL_STATUS_OK;
+}
+
+/* Points of another grid, by lines between them. */
+static void interpolate_points(const dal__shooting *from, dal__shooting *to)
+{
+    const int dimension = from->problem->dimension;
+    for (int k = 0, j = 0; k <= to->pieces; k++) {
+        const double t = dal__shooting_time(to, k);
+        while (j < from->pieces - 1 && fabs(dal__shooting_time(from, j + 1) - from->problem->from) <
+                                           fabs(t - from->problem->from))
+            j++;
+        const double begin = dal__shooting_time(from, j), end = dal__shooting_time(from, j + 1);
+        const double part = k == to->pieces ? 1.0 : (t - begin) / (end - begin);
+        const double *z = from->point + j * dimension;
+        for (int i = 0; i < dimension; i++)
+            to->point[k * dimension + i] = z[i] + part * (z[dimension + i] - z[i]);
+    }
+}
+
+/* ---- one guess ---- */
+
+/* Errors that end the search for a motion. */
+static bool is_final(const dal__problem *p, dal_status status)
+{
+    return status == DAL_STATUS_MEMORY || status == DAL_STATUS_INTERRUPTED ||
+           p->iterations >= p->settings->iterations;
+}
+
+/* By Gauss-Newton until Newton's method converges. */
+static dal_status solve_directly(dal__shooting *s, dal__newton_result *result)
+{
+    dal__problem *p = s->problem;
+    dal__direct d;
+    const size_t bytes = (size_t)((s->pieces + 1) * p->dimension) * sizeof(double);
+    double *saved = malloc(bytes);
+    dal_status status = saved ? dal__direct_open(&d, s) : DAL_STATUS_MEMORY;
+    for (int i = 0; status == DAL_STATUS_OK; i++) {
+        status = dal__direct_iterate(&d);
+        const bool is_near = d.jump < 0.02 && d.change < 0.3;
+        if (status != DAL_STATUS_OK || !(is_near || (i + 1) % DIRECT_BEFORE_NEWTON == 0)) continue;
+        memcpy(saved, s->point, bytes);
+        dal__direct_extremal(&d, s->point);
+        status = dal__newton(s, result);
+        if (status == DAL_STATUS_OK || is_final(p, status)) break;
+        memcpy(s->point, saved, bytes);
+        status = DAL_STATUS_OK;
+    }
+    if (saved) dal__direct_close(&d);
+    free(saved);
+    return status;
+}
+
+/* From the guess p->guess to a motion in s, by a coarse grid where there are enough steps. */
+static dal_status solve_guess(dal__shooting *s, dal__newton_result *result)
+{
+    dal__problem *p = s->problem;
+    dal__shooting coarse;
+    dal_status status;
+    p->iterations = 0;
+    DAL_TRY(guess_points(s));
+    if (!p->is_lifted) return dal__newton(s, result);
+    if (s->steps < 2 * PIECES) return solve_directly(s, result);
+    status = dal__shooting_open(&coarse, p, PIECES, PIECES);
+    if (status == DAL_STATUS_OK) {
+        status = guess_points(&coarse);
+        if (status == DAL_STATUS_OK) status = solve_directly(&coarse, result);
+        interpolate_points(&coarse, s);
+    }
+    dal__shooting_close(&coarse);
+    if (status != DAL_STATUS_OK && is_final(p, status)) {
+        if (status != DAL_STATUS_MEMORY) dal__shooting_move(s, s->point, s->end);
+        return status;
+    }
+    if (status == DAL_STATUS_OK) status = dal__newton(s, result);
+    if (status == DAL_STATUS_OK || is_final(p, status)) return status;
+    DAL_TRY(guess_points(s));
+    return solve_directly(s, result);
+}
+
+/* ---- results ---- */
+
+/* Rows of a motion, which begins again at each point; pi_e is added up. */
+static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
+{
+    dal__problem *p = s->problem;
+    const int d = p->dimension;
+    double *z = s->scratch, values[64];
+    double action = 0.0;
+    out->max_D = 0.0;
+    for (int k = 0; k < s->pieces; k++) {
+        memcpy(z, s->point + k * d, (size_t)d * sizeof *z);
+        if (p->is_lifted) z[d - 1] = action;
+        DAL_TRY(dal_run_set_state(p->run, dal__shooting_time(s, k), z, p->error));
+        for (long long row = s->first[k]; row <= s->first[k + 1]; row++) {
+            const double *y = dal_run_state(p->run);
+            if (row < s->first[k + 1] || k == s->pieces - 1)
+                memcpy(out->z + (size_t)row * (size_t)d, y, (size_t)d * sizeof *z);
+            if (p->is_lifted) action = y[d - 1];
+            if (p->constraints + p->holonomic <= 64) {
+                DAL_TRY(dal__problem_constraints(p, dal_run_time(p->run), y, values));
+                out->max_D = fmax(out->max_D, dal__max_abs(values, (size_t)p->constraints));
+            }
+            if (row < s->first[k + 1]) DAL_TRY(dal_run_step(p->run, p->error));
+        }
+    }
+    out->S = p->is_lifted ? p->e * action : 0.0;
+    return DAL_STATUS_OK;
+}
+
+static void explain(const dal__problem *p, const dal_steering *steering, dal_extremal *out)
+{
+    dal_error record = {.status = out->status};
+    if (out->status == DAL_STATUS_OK) return;
+    if (out->status == DAL_STATUS_NOT_CONVERGED && steering->allowed >= 0 &&
+        steering->allowed < 2 * p->n - p->integrals)
+        dal__fail(&record, out->status,
+                  "no motion was found in %d iterations; the nearest is off by %.3g: only %d of "
+                  "%d numbers of the end can be reached; is the target on another leaf?",
+                  out->iterations, out->distance, steering->allowed, 2 * p->n);
+    else if (out->status == DAL_STATUS_NOT_CONVERGED)
+        dal__fail(&record, out->status,
+                  "no motion was found in %d iterations: jumps of %.3g remain; more starts or a "
+                  "nearer target may help",
+                  out->iterations, out->residual);
+    else
+        dal__fail(&record, out->status, "%s after %d iterations", dal_status_text(out->status),
+                  out->iterations);
+    memcpy(out->message, record.message, sizeof out->message);
+}
+
+/* Whether two motions have the same coordinates. */
+static bool is_same(const dal__problem *p, const dal_steering *s, const double *a, const double *b)
+{
+    const double same = 1e-6;
+    for (long long row = 0; row < s->rows; row++)
+        for (int i = 0; i < s->n; i++) {
+            const long long at = row * s->dimension + i;
+            if (fabs(a[at] - b[at]) > same * (p->unit[i] + fabs(a[at]))) return false;
+        }
+    return true;
+}
+
+static bool is_before(const dal_extremal *x, const dal_extremal *other)
+{
+    const bool is_found = x->status == DAL_STATUS_OK;
+    if (is_found != (other->status == DAL_STATUS_OK)) return is_found;
+    return is_found ? x->S < other->S : x->residual < other->residual;
+}
+
+/* Adds a motion, or frees it where it is there. */
+static void add_extremal(const dal__problem *p, dal_steering *steering, dal_extremal *x)
+{
+    for (int i = 0; i < steering->count; i++)
+        if (x->status == DAL_STATUS_OK && steering->extremal[i].status == DAL_STATUS_OK &&
+            is_same(p, steering, x->z, steering->extremal[i].z)) {
+            free(x->z);
+            return;
+        }
+    int at = 0;
+    for (; at < steering->count; at++) {
+        const dal_extremal *other = &steering->extremal[at];
+        if (is_before(x, other)) break;
+    }
+    memmove(steering->extremal + at + 1, steering->extremal + at,
+            (size_t)(steering->count - at) * sizeof *x);
+    steering->extremal[at] = *x;
+    steering->count++;
+}
+
+static dal_status add_guess(dal__problem *p, dal__shooting *s, dal_steering *steering)
+{
+    dal_extremal x = {.status = DAL_STATUS_OK};
+    dal__newton_result result = {.residual = INFINITY};
+    x.z = dal__numbers((size_t)steering->rows, (size_t)p->dimension);
+    if (!x.z) return DAL_STATUS_MEMORY;
+    x.status = solve_guess(s, &result);
+    dal_status status = x.status == DAL_STATUS_MEMORY ? x.status : dal__reach_measure(s, &x);
+    if (status == DAL_STATUS_MEMORY) {
+        free(x.z);
+        return status;
+    }
+    x.iterations = p->iterations;
+    x.residual = result.residual;
+    x.distance = result.distance;
+    x.condition = result.condition;
+    status = fill_rows(s, &x);
+    if (x.status == DAL_STATUS_OK) x.status = status;
+    explain(p, steering, &x);
+    add_extremal(p, steering, &x);
+    return x.status == DAL_STATUS_INTERRUPTED ? x.status : DAL_STATUS_OK;
+}
+
+static dal_status fill_steering(dal__problem *p, dal_steering *steering)
+{
+    dal__shooting s = {.problem = p};
+    steering->n = p->n;
+    steering->dimension = p->dimension;
+    steering->rows = p->steps + 1;
+    steering->t = dal__numbers(1, (size_t)steering->rows);
+    steering->extremal = calloc((size_t)p->settings->starts, sizeof *steering->extremal);
+    if (!steering->t || !steering->extremal) return DAL_STATUS_MEMORY;
+    for (long long k = 0; k <= p->steps; k++)
+        steering->t[k] = k == p->steps ? p->T : p->from + (double)k * p->h;
+    DAL_TRY(dal__reach_find(p, steering));
+    dal_status status = dal__shooting_open(&s, p, p->steps, PIECES);
+    for (p->guess = 0; status == DAL_STATUS_OK && p->guess < p->settings->starts; p->guess++)
+        status = add_guess(p, &s, steering);
+    dal__shooting_close(&s);
+    return status == DAL_STATUS_INTERRUPTED ? DAL_STATUS_OK : status;
+}
+
+dal_status dal_steer_create(dal_steering **steering, dal_model *model, const dal_run_spec *spec,
+                            double T, const dal_steer_settings *settings,
+                            const dal_steer_observer *observer, dal_error *error)
+{
+    dal__problem problem;
+    DAL_REQUIRE(steering, error);
+    *steering = NULL;
+    dal_status status = dal__problem_open(&problem, model, spec, T, settings, observer, error);
+    if (status == DAL_STATUS_OK) {
+        dal_steering *made = calloc(1, sizeof *made);
+        status = made ? fill_steering(&problem, made) : DAL_STATUS_MEMORY;
+        if (status == DAL_STATUS_MEMORY) dal__fail(error, status, "steering: out of memory");
+        if (status == DAL_STATUS_OK)
+            *steering = made;
+        else
+            dal_steer_free(made);
+    }
+    dal__problem_close(&problem);
+    return status;
+}
+
+void dal_steer_free(dal_steering *steering)
+{
+    if (!steering) return;
+    for (int i = 0; i < steering->count; i++) free(steering->extremal[i].z);
+    free(steering->extremal);
+    free(steering->t);
+    free(steering);
+}

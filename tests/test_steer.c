@@ -1,0 +1,402 @@
+/* test_steer.c - boundary values of the lift, against closed forms of optimal control and against
+ * runs from the start that is found. */
+#include "allocation.h"
+#include "fixtures.h"
+#include "null.h"
+#include "quick.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A steering problem, and what came out. */
+typedef struct steered {
+    dal_model *model;
+    dal_run_spec spec;
+    dal_steer_settings settings;
+    dal_steering *steering;
+    const dal_extremal *best;
+    dal_error record;
+} steered;
+
+static void open_steered(steered *s, const char *text, dal_effort effort, const char *method,
+                         double step)
+{
+    const dal_system *system;
+    *s = (steered){.model = fixture_model(text), .settings = dal_steer_settings_default()};
+    CU_ASSERT_EQUAL_FATAL(dal_model_set_effort(s->model, effort, &s->record), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(s->model, &system, &s->record), DAL_STATUS_OK);
+    s->spec = fixture_spec(system, method, DAL_LIFTED, step);
+    s->settings.rest = true;
+}
+
+static void close_steered(steered *s)
+{
+    dal_steer_free(s->steering);
+    dal_model_free(s->model);
+}
+
+static dal_status steer(steered *s, double T, const dal_setting *target, int targets)
+{
+    dal_steer_free(s->steering);
+    s->settings.target = target;
+    s->settings.targets = targets;
+    const dal_status status =
+        dal_steer_create(&s->steering, s->model, &s->spec, T, &s->settings, NULL, &s->record);
+    s->best = s->steering ? s->steering->extremal : NULL;
+    return status;
+}
+
+/* Steers and expects a motion that ends at the target. */
+static void find(steered *s, double T, const dal_setting *target, int targets)
+{
+    const dal_status status = steer(s, T, target, targets);
+    if (status != DAL_STATUS_OK) printf("\n  %s\n", s->record.message);
+    CU_ASSERT_EQUAL_FATAL(status, DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(s->steering->count > 0, true);
+    CU_ASSERT_EQUAL(s->best->status, DAL_STATUS_OK);
+    CU_ASSERT_STRING_EQUAL(s->best->message, "");
+    CU_ASSERT(s->best->residual <= s->settings.tolerance);
+    const double *z = s->best->z + (s->steering->rows - 1) * s->steering->dimension;
+    for (int i = 0; i < targets; i++)
+        for (int k = 0; k < s->steering->n; k++)
+            if (strcmp(s->spec.system->coordinate[k], target[i].name) == 0)
+                CU_ASSERT_DOUBLE_EQUAL(z[k], target[i].value, 1e-10);
+}
+
+static double *row_of(const steered *s, long long row)
+{
+    return s->best->z + row * s->steering->dimension;
+}
+
+/* x'' = w^2 x - k^2 x' + u from (1, 0) to (0, 0) with w = k = 1, T = 1.5: S = d.G^-1 d/2 with the
+ * Gramian G of (e^(tJ) b), d = e^(TJ)(1, 0); in closed form by a computer algebra. */
+static const char unstable[] = "coordinates: [x]\naccelerations: {x: x - x'}\nstart: {x: 1}\n";
+static const double unstable_action = 3.744703461964342;
+
+static void test_gramian(void)
+{
+    const dal_setting target = {"x", 0.0};
+    double deviation[2];
+    steered s;
+    open_steered(&s, unstable, DAL_EFFORT_IDENTITY, "gauss8", 0.015);
+    find(&s, 1.5, &target, 1);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, unstable_action, 1e-12);
+    CU_ASSERT_EQUAL(s.best->rank, 2);
+    CU_ASSERT_EQUAL(s.steering->allowed, 2);
+    CU_ASSERT_EQUAL(s.best->conjugate_times, 0); /* a linear problem is convex */
+    CU_ASSERT_EQUAL(s.steering->rows, 101);
+    CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 100)[5], s.best->S, 1e-14); /* pi_e, e = 1 */
+    /* S has the order of the method */
+    for (int k = 0; k < 2; k++) {
+        s.spec = fixture_spec(s.spec.system, "gauss4", DAL_LIFTED, k == 0 ? 0.05 : 0.025);
+        find(&s, 1.5, &target, 1);
+        deviation[k] = s.best->S - unstable_action;
+    }
+    CU_ASSERT_DOUBLE_EQUAL(log2(deviation[0] / deviation[1]), 4.0, 0.05);
+    close_steered(&s);
+}
+
+/* x'' = u, e = 2: with a free velocity at the end S = 3 e d^2/(2 T^3), at rest four times as much;
+ * with free velocities at both ends nothing is to be paid. */
+static void test_free_ends(void)
+{
+    static const char cart[] =
+        "coordinates: [x]\nlagrangian: x'^2/2\ngauge: {e: 2}\nstart: {x: 0.5}\n";
+    static const char *const frees[] = {"x'"};
+    const dal_setting target = {"x", 1.2};
+    const double T = 2.0, unit = 2.0 * 0.7 * 0.7 / (T * T * T);
+    steered s;
+    open_steered(&s, cart, DAL_EFFORT_IDENTITY, "gauss4", 0.125);
+    find(&s, T, &target, 1);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 6.0 * unit, 1e-13);
+    s.settings.rest = false;
+    find(&s, T, &target, 1);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 1.5 * unit, 1e-13);
+    CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 16)[4], 0.0, 1e-13); /* pi at the end */
+    CU_ASSERT_EQUAL(s.best->conjugate_times, -1);
+    s.settings.free_starts = frees;
+    s.settings.frees = 1;
+    find(&s, T, &target, 1);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 0.0, 1e-25);
+    CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 0)[1], 0.35, 1e-13);
+    close_steered(&s);
+}
+
+static const char sleigh[] =
+    "coordinates: [x, y, phi]\nparameters: {m: 1.3, I: 0.7}\n"
+    "lagrangian: m/2*(x'^2 + y'^2) + I/2*phi'^2\nconstraints: [x'*sin(phi) - y'*cos(phi)]\n";
+
+/* Straight by d: 6 m d^2/T^3.  A turn by theta: 6 I theta^2/T^3.  Both start where to first order
+ * the sleigh cannot move sideways. */
+static void test_sleigh(void)
+{
+    const double T = 1.5, d = 0.7, theta = 1.1;
+    const dal_setting straight[] = {{"x", d}, {"y", 0.0}, {"phi", 0.0}};
+    const dal_setting turn[] = {{"x", 0.0}, {"y", 0.0}, {"phi", theta}};
+    steered s;
+    open_steered(&s, sleigh, DAL_EFFORT_CONSTRAINT, "gauss8", 0.015);
+    find(&s, T, straight, 3);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 6.0 * 1.3 * d * d / (T * T * T), 1e-12);
+    CU_ASSERT(s.steering->has_growth && s.steering->growth.rank[1] == 3);
+    CU_ASSERT_EQUAL(s.steering->allowed, 5);
+    find(&s, T, turn, 3);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 6.0 * 0.7 * theta * theta / (T * T * T), 1e-12);
+    close_steered(&s);
+}
+
+/* A motion to the side: a run from its start, alone, ends at the target; D is kept by Gauss's
+ * method, momenta at the start are orthogonal to the gradients of D. */
+static void test_parking(void)
+{
+    const dal_setting target[] = {{"x", 0.4}, {"y", 1.0}, {"phi", 0.5}};
+    steered s;
+    open_steered(&s, sleigh, DAL_EFFORT_CONSTRAINT, "gauss8", 0.02);
+    find(&s, 2.0, target, 3);
+    const double *z = row_of(&s, 0);
+    CU_ASSERT_EQUAL(s.best->rank, 5);
+    CU_ASSERT(s.best->max_D <= 1e-13);
+    CU_ASSERT(s.best->condition > 1.0 && s.best->condition < 1e8);
+    /* D = x' sin phi - y' cos phi at rest, phi = 0: its gradient is along y' */
+    CU_ASSERT_DOUBLE_EQUAL(z[11], 0.0, 1e-9);
+    s.spec.start_count = 0;
+    dal_run *run = fixture_run(&s.spec);
+    CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, z, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_STATUS_OK);
+    for (int i = 0; i < 3; i++) {
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[i], target[i].value, 1e-10);
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[3 + i], 0.0, 1e-10);
+    }
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[13], s.best->S, 1e-9 * s.best->S);
+    CU_ASSERT_DOUBLE_EQUAL(s.steering->t[100], 2.0, 0.0);
+    dal_run_free(run);
+    close_steered(&s);
+}
+
+/* Straight to the side: the line is no guess to first order, since it is symmetric; of the motions
+ * that bent ones lead to two are mirror images, and the others cost more. */
+static void test_starts(void)
+{
+    const dal_setting target[] = {{"x", 0.0}, {"y", 1.0}, {"phi", 0.0}};
+    steered s;
+    if (case_stride(2) > 1) return; /* as many steps as all other tests */
+    open_steered(&s, sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.08);
+    s.settings.starts = 6;
+    find(&s, 2.0, target, 3);
+    CU_ASSERT(s.steering->count > 1 && s.steering->count <= 6);
+    const dal_extremal *other = s.best + 1;
+    CU_ASSERT_EQUAL(other->status, DAL_STATUS_OK);
+    CU_ASSERT_DOUBLE_EQUAL(other->S, s.best->S, 1e-9 * s.best->S);
+    double side = 0.0;
+    for (int row = 0; row < s.steering->rows; row++) {
+        const double x = row_of(&s, row)[0];
+        side = fmax(side, fabs(x));
+        CU_ASSERT_DOUBLE_EQUAL(other->z[row * 14], -x, 1e-7);
+    }
+    CU_ASSERT(side > 0.01);
+    for (int i = 0; i < 2; i++) {
+        CU_ASSERT_EQUAL(s.best[i].conjugate_times, 0);
+        CU_ASSERT(isnan(s.best[i].first_conjugate));
+    }
+    for (int i = 1; i < s.steering->count; i++)
+        if (s.best[i].status == DAL_STATUS_OK) CU_ASSERT(s.best[i].S >= s.best[i - 1].S);
+    close_steered(&s);
+}
+
+/* Aiming: a ball's velocity in closed form; a sleigh goes on a circle, whose chord has half the
+ * angle. */
+static void test_aim(void)
+{
+    static const char ball[] = "coordinates: [x, y]\nparameters: {g: 9}\n"
+                               "lagrangian: (x'^2 + y'^2)/2 - g*y\n";
+    const dal_setting target[] = {{"x", 3.0}, {"y", 1.0}};
+    const double T = 1.5;
+    steered s;
+    open_steered(&s, ball, DAL_EFFORT_IDENTITY, "gauss4", 0.015);
+    s.settings.rest = false;
+    s.settings.aim = true;
+    find(&s, T, target, 2);
+    CU_ASSERT_EQUAL(s.steering->dimension, 4);
+    CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 0)[2], 2.0, 1e-12);
+    CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 0)[3], (1.0 + 4.5 * T * T) / T, 1e-11);
+    CU_ASSERT_EQUAL(s.best->S, 0.0);
+    close_steered(&s);
+    open_steered(&s, sleigh, DAL_EFFORT_CONSTRAINT, "gauss8", 0.015);
+    s.settings.rest = false;
+    s.settings.aim = true;
+    find(&s, T, target, 2);
+    const double turn = 2.0 * atan2(1.0, 3.0), radius = sqrt(10.0) / 2.0 / sin(turn / 2.0);
+    CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 0)[5], turn / T, 1e-10);
+    CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 0)[3], radius * turn / T, 1e-10);
+    CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 0)[4], 0.0, 1e-12);
+    close_steered(&s);
+}
+
+static dal_status stop_at_third(void *user, int guess, int iteration, double residual)
+{
+    int *calls = user;
+    CU_ASSERT(guess == 0 && iteration == *calls && residual >= 0.0);
+    return (*calls)++ == 3 ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
+}
+
+/* A target that is not reached leaves the nearest motion and says so. */
+static void test_unreached(void)
+{
+    const dal_setting target[] = {{"x", 0.0}, {"y", 1.0}, {"phi", 0.0}};
+    int calls = 0;
+    const dal_steer_observer observer = {&calls, stop_at_third};
+    steered s;
+    open_steered(&s, sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.04);
+    s.settings.target = target;
+    s.settings.targets = 3;
+    CU_ASSERT_EQUAL_FATAL(
+        dal_steer_create(&s.steering, s.model, &s.spec, 2.0, &s.settings, &observer, NULL),
+        DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(s.steering->count, 1);
+    CU_ASSERT_EQUAL(s.steering->extremal->status, DAL_STATUS_INTERRUPTED);
+    CU_ASSERT(s.steering->extremal->message[0] != '\0');
+    CU_ASSERT_EQUAL(calls, 4);
+    /* y = 0 is the leaf of x dy - y dx = 0 through (1, 0): what is off it cannot be reached */
+    static const char radial[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                 "constraints: [x*y' - y*x']\nstart: {x: 1}\n";
+    close_steered(&s);
+    open_steered(&s, radial, DAL_EFFORT_CONSTRAINT, "gauss4", 0.05);
+    s.settings.iterations = 30;
+    const dal_setting side[] = {{"x", 1.0}, {"y", 0.5}};
+    CU_ASSERT_EQUAL(steer(&s, 1.0, side, 2), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(s.steering->allowed, 2);
+    CU_ASSERT_EQUAL(s.best->status, DAL_STATUS_NOT_CONVERGED);
+    CU_ASSERT(strstr(s.best->message, "only 2 of 4") != NULL);
+    const dal_setting along[] = {{"x", 1.5}, {"y", 0.0}};
+    find(&s, 1.0, along, 2);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 6.0 * 0.25, 1e-11);
+    CU_ASSERT_EQUAL(s.best->rank, 2);
+    close_steered(&s);
+}
+
+static void is_refused(steered *s, double T, const dal_setting *target, int targets,
+                       dal_status status, const char *fragment)
+{
+    CU_ASSERT_EQUAL(steer(s, T, target, targets), status);
+    CU_ASSERT_PTR_NULL(s->steering);
+    if (!strstr(s->record.message, fragment)) printf("\n  %s\n", s->record.message);
+    CU_ASSERT(strstr(s->record.message, fragment) != NULL);
+}
+
+static void test_refuses(void)
+{
+    const dal_setting target[] = {{"x", 1.0}, {"y", 0.0}, {"phi", 0.0}, {"y'", 0.5}};
+    const dal_setting other = {"z", 1.0}, momentum = {"p_x", 1.0}, none = {"x", NAN};
+    steered s;
+    open_steered(&s, sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 4, DAL_STATUS_INCONSISTENT, "the target is off D");
+    is_refused(&s, 1.03, target, 3, DAL_STATUS_ARGUMENT, "no whole number of steps");
+    is_refused(&s, 0.0, target, 3, DAL_STATUS_ARGUMENT, "no whole number of steps");
+    is_refused(&s, 1.0, &other, 1, DAL_STATUS_NAME, "no coordinate or velocity");
+    is_refused(&s, 1.0, &momentum, 1, DAL_STATUS_NAME, "no coordinate or velocity");
+    is_refused(&s, 1.0, &none, 1, DAL_STATUS_ARGUMENT, "not finite");
+    s.settings.rest = false;
+    is_refused(&s, 1.0, NULL, 0, DAL_STATUS_ARGUMENT, "no target");
+    s.settings.rest = true;
+    s.spec = fixture_spec(s.spec.system, "gauss4+project", DAL_LIFTED, 0.1);
+    is_refused(&s, 1.0, target, 3, DAL_STATUS_UNSUPPORTED, "no steering by gauss4+project");
+    s.spec = fixture_spec(fixture_system("chaplygin-sleigh"), "gauss4", DAL_LIFTED, 0.1);
+    is_refused(&s, 1.0, target, 3, DAL_STATUS_ARGUMENT, "not the model's");
+    close_steered(&s);
+    open_steered(&s, "chaplygin-sleigh-vakonomic", DAL_EFFORT_IDENTITY, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 3, DAL_STATUS_UNSUPPORTED, "no lift");
+    close_steered(&s);
+    open_steered(&s, "coordinates: [x]\nlagrangian: x'^2/2\ngauge: {mu_e: 1}\n",
+                 DAL_EFFORT_IDENTITY, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 1, DAL_STATUS_UNSUPPORTED, "constant e");
+    const dal_setting infinite = {"e", INFINITY};
+    close_steered(&s);
+    open_steered(&s, unstable, DAL_EFFORT_IDENTITY, "gauss4", 0.1);
+    s.spec.start = &infinite;
+    s.spec.start_count = 1;
+    is_refused(&s, 1.0, target, 1, DAL_STATUS_UNSUPPORTED, "1/e = 0");
+    close_steered(&s);
+}
+
+/* Each allocation fails once; a model whose memory has failed is not used again. */
+static void test_out_of_memory(void)
+{
+    const dal_setting target[] = {{"x", 0.2}, {"y", 0.0}, {"phi", 0.0}};
+    allocation_trial trial = {0};
+    while (allocation_next(&trial)) {
+        steered s;
+        open_steered(&s, sleigh, DAL_EFFORT_CONSTRAINT, "rk4", 0.5);
+        s.settings.target = target;
+        s.settings.targets = 3;
+        allocation_start(&trial);
+        allocation_end(
+            &trial, dal_steer_create(&s.steering, s.model, &s.spec, 1.0, &s.settings, NULL, NULL));
+        close_steered(&s);
+        if (!trial.passed) trial.failures += case_stride(9) - 1;
+    }
+    CU_ASSERT(trial.failures >= 20);
+}
+
+/* ---- arguments ---- */
+
+FUNCTIONS_dalembert_steer(DECLARE_NULL_TEST)
+
+    static dal_model *model;
+static dal_run_spec spec;
+
+static int open_model(void) { return open_spec(&model, &spec) != DAL_STATUS_OK; }
+static int close_model(void)
+{
+    dal_model_free(model);
+    return 0;
+}
+
+static void null_dal_steer_create(void)
+{
+    static const dal_setting target = {"y1", 0.1};
+    static const char *const free_names[] = {NULL};
+    dal_steering *s = NULL;
+    dal_steer_settings settings = dal_steer_settings_default(), bad;
+    settings.target = &target;
+    settings.targets = 1;
+    REFUSED(dal_steer_create(NULL, model, &spec, 1.0, &settings, NULL, error));
+    REFUSED(dal_steer_create(&s, NULL, &spec, 1.0, &settings, NULL, error));
+    REFUSED(dal_steer_create(&s, model, &spec, 1.0, NULL, NULL, error));
+    REFUSED(dal_steer_create(&s, model, &spec, NAN, &settings, NULL, error));
+    for (int i = 0; i < BAD_SPECS; i++)
+        REFUSED(dal_steer_create(&s, model, spoil_spec(&spec, i), 1.0, &settings, NULL, error));
+    for (int i = 0; i < 8; i++) {
+        bad = settings;
+        if (i == 0) bad.target = NULL;
+        if (i == 1) bad.targets = -1;
+        if (i == 2) bad.target = nameless;
+        if (i == 3) bad.frees = 1;
+        if (i == 4) bad.frees = 1, bad.free_starts = free_names;
+        if (i == 5) bad.starts = 0;
+        if (i == 6) bad.iterations = 0;
+        if (i == 7) bad.tolerance = 0.0;
+        REFUSED(dal_steer_create(&s, model, &spec, 1.0, &bad, NULL, error));
+    }
+    CU_ASSERT_PTR_NULL(s);
+}
+
+static void null_dal_steer_free(void) { dal_steer_free(NULL); }
+static void null_dal_steer_settings_default(void)
+{
+    CU_ASSERT_EQUAL(dal_steer_settings_default().starts, 1);
+}
+
+void suite_steer(void)
+{
+    CU_pSuite suite = CU_add_suite("boundary values of the lift", open_model, close_model);
+    CU_add_test(suite, "a linear problem, closed form", test_gramian);
+    CU_add_test(suite, "free ends, closed form", test_free_ends);
+    CU_add_test(suite, "a sleigh straight and turned, closed form", test_sleigh);
+    CU_add_test(suite, "a sleigh to the side", test_parking);
+    CU_add_test(suite, "several first guesses", test_starts);
+    CU_add_test(suite, "aiming, closed form", test_aim);
+    CU_add_test(suite, "targets that are not reached", test_unreached);
+    CU_add_test(suite, "what is refused", test_refuses);
+    CU_add_test(suite, "out of memory", test_out_of_memory);
+    FUNCTIONS_dalembert_steer(ADD_NULL_TEST)
+}
