@@ -4,6 +4,7 @@
 #include "run/pool.h"
 #include "run/run.h"
 #include "study/study_directory.h"
+#include "study/study_methods.h"
 #include "study/study_plan.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
@@ -120,7 +121,7 @@ static int run_study(const settings *s, const char *text, size_t length)
     const bool force = s->run.force || has_ended;
     if (status == CLI_DONE)
         status = study_directory_begin(&dir, &plan, text, length, s->shard, force);
-    if (status == CLI_DONE) study_plan_say_projected(&plan);
+    if (status == CLI_DONE) study_say_projected(&plan);
     if (status == CLI_DONE) status = study_directory_run(&dir, &plan, &how);
     study_plan_free(&plan);
     if (!s->no_page)

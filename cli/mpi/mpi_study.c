@@ -7,6 +7,7 @@
 #include "run/run.h"
 #include "study/study_cell.h"
 #include "study/study_directory.h"
+#include "study/study_methods.h"
 #include "study/study_pool.h"
 #include "study/study_results.h"
 #include "ui/arguments.h"
@@ -67,7 +68,7 @@ static int begin_directory(const settings *s)
     study_directory_open(&dir, s->output);
     if (status == CLI_DONE)
         status = study_directory_begin(&dir, &plan, text, length, whole, s->run.force);
-    if (status == CLI_DONE) study_plan_say_projected(&plan);
+    if (status == CLI_DONE) study_say_projected(&plan);
     study_plan_free(&plan);
     study_directory_close(&dir);
     free(text);

@@ -138,6 +138,7 @@ typedef struct study_case {
     request_settings set, start, displace; /* displace: in units of displacement */
     dal_method *methods;
     int method_count;
+    bool is_projected;         /* +project was added to some, for holonomic constraints */
     double (*method_steps)[2]; /* [method_count] that the cells of the item take, on each space */
     int first_cell, cells;     /* its cells are consecutive */
 } study_case;

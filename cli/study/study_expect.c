@@ -16,6 +16,7 @@
  * and so is a size or a trend of E where no system of the label conserves it. */
 #include "study_expect.h"
 #include "dalembert_program.h"
+#include "study_methods.h"
 
 #include "io/file.h"
 #include "run/columns.h"
@@ -55,13 +56,14 @@ bool study_label_means(const study_case *e, const char *label)
            (e->variant && strcmp(label, e->variant) == 0);
 }
 
-/* Whether a name means a method: its own, all, or all with exactly its modifiers. */
-static bool is_method(const dal_method *method, const char *name)
+/* Whether a name means a method of a case: its own, without the +project that the case adds or
+ * with it, all, or all with exactly its modifiers. */
+static bool is_method(const study_case *e, const dal_method *method, const char *name)
 {
     char own[STUDY_NAME];
     dal_method_name(method, own, sizeof own);
     if (strncmp(name, "all+", 4) == 0) return strcmp(own + strcspn(own, "+"), name + 3) == 0;
-    return strcmp(name, "all") == 0 || strcmp(name, own) == 0;
+    return strcmp(name, "all") == 0 || study_completes_to(e, name, method);
 }
 
 bool study_expectation_covers(const study_expectation *x, const study_cell *c)
@@ -69,7 +71,7 @@ bool study_expectation_covers(const study_expectation *x, const study_cell *c)
     if (x->step > 0.0 && x->step != c->step) return false;
     if (x->tolerance > 0.0 && x->tolerance != c->tolerance) return false;
     if (x->start >= 0 && x->start != c->start) return false;
-    return study_label_means(c->of_case, x->label) && is_method(c->method, x->method);
+    return study_label_means(c->of_case, x->label) && is_method(c->of_case, c->method, x->method);
 }
 
 bool study_expects_state(const study_expectation *x) { return strcmp(x->quantity, "state") == 0; }
@@ -262,7 +264,7 @@ static bool is_in_study(const expect_reader *r, const char *method, const char *
         if (!study_label_means(e, r->expectation.label)) continue;
         if (quantity && !study_has_quantity(e, quantity)) continue;
         for (int k = 0; k < e->method_count; k++)
-            if (!method || is_method(&e->methods[k], method)) return true;
+            if (!method || is_method(e, &e->methods[k], method)) return true;
     }
     return false;
 }

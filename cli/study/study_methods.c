@@ -1,6 +1,7 @@
 /* study_methods.c - the integrators of a case, by their names in a study file. */
 #include "study_methods.h"
 #include "ui/memory.h"
+#include "ui/message.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,53 @@ bool study_has_method(const study_case *e, const dal_method *method)
     for (int i = 0; i < e->method_count; i++)
         if (strcmp(name, dal_method_name(&e->methods[i], other, sizeof other)) == 0) return true;
     return false;
+}
+
+bool study_completes_to(const study_case *e, const char *name, const dal_method *method)
+{
+    char own[STUDY_NAME], other[STUDY_NAME];
+    dal_method named;
+    if (strcmp(name, dal_method_name(method, own, sizeof own)) == 0) return true;
+    if (e->system->holonomic == 0 || dal_method_parse(&named, name, NULL) != DAL_STATUS_OK)
+        return false;
+    dal_method_complete(&named, e->system, &e->options, NULL, NULL);
+    return strcmp(own, dal_method_name(&named, other, sizeof other)) == 0;
+}
+
+bool study_find_method(const study_plan *plan, const char *name, dal_method *method)
+{
+    const study_case *const end = plan->cases + plan->case_count;
+    for (const study_case *e = plan->cases; e < end; e++)
+        if (study_has_method(e, method)) return true;
+    for (const study_case *e = plan->cases; e < end; e++)
+        for (int k = 0; k < e->method_count; k++) {
+            if (!study_completes_to(e, name, &e->methods[k])) continue;
+            *method = e->methods[k];
+            return true;
+        }
+    return false;
+}
+
+void study_complete_methods(study_case *e)
+{
+    const int count = e->method_count;
+    e->method_count = 0;
+    for (int i = 0; i < count; i++) {
+        dal_method method = e->methods[i];
+        bool added = false;
+        dal_method_complete(&method, e->system, &e->options, &added, NULL);
+        e->is_projected |= added;
+        if (!study_has_method(e, &method)) e->methods[e->method_count++] = method;
+    }
+}
+
+void study_say_projected(const study_plan *plan)
+{
+    for (const study_case *e = plan->cases; e < plan->cases + plan->case_count; e++)
+        if (e->is_projected && e->is_first)
+            cli_note("%s: holonomic constraints drift with methods of F: +project is added to "
+                     "them; 'options: {bare: on}' leaves it out",
+                     e->item_label);
 }
 
 static int add_method(study_case *e, const document *doc, const yaml_node_t *node, const char *name)

@@ -306,6 +306,7 @@ static int read_first_case(const item_reader *g, study_case *e)
     e->method_steps = cli_calloc((size_t)e->method_count + 1, sizeof *e->method_steps);
     if (status == CLI_DONE) status = check_chosen_step(g, e);
     if (status == CLI_DONE) status = load_system(g, e);
+    if (status == CLI_DONE) study_complete_methods(e);
     if (status == CLI_DONE) status = check_names(g, p->set, "set", &(request_settings){0});
     if (status == CLI_DONE) status = check_names(g, p->start, "start", &e->start);
     if (status == CLI_DONE) status = check_names(g, p->displace, "displace", &e->displace);
@@ -463,13 +464,10 @@ static int read_representatives(study_plan *plan, yaml_node_t *node)
         const char *name = document_scalar(doc, item, "representatives");
         dal_method *method = &plan->representative[plan->representatives++];
         dal_error error = {0};
-        bool is_run = false;
         if (!name) return CLI_USAGE;
         if (dal_method_parse(method, name, &error) != DAL_STATUS_OK)
             return document_fail(doc, item, "%s", error.message);
-        for (int k = 0; k < plan->case_count; k++)
-            is_run |= study_has_method(&plan->cases[k], method);
-        if (!is_run)
+        if (!study_find_method(plan, name, method))
             return document_fail(doc, item, "representatives: '%s' is not run in this study", name);
     }
     return CLI_DONE;
@@ -511,21 +509,6 @@ static int add_cells(study_plan *plan, study_case *e)
     }
     e->cells = plan->cell_count - e->first_cell;
     return CLI_DONE;
-}
-
-void study_plan_say_projected(const study_plan *plan)
-{
-    for (const study_case *e = plan->cases; e < plan->cases + plan->case_count; e++) {
-        bool added = false;
-        for (int k = 0; k < e->method_count && e->is_first && !added; k++) {
-            dal_method method = e->methods[k];
-            dal_method_complete(&method, e->system, &e->options, &added, NULL);
-        }
-        if (added)
-            cli_note("%s: holonomic constraints drift with methods of F: +project is added to "
-                     "them; 'options: {bare: on}' leaves it out",
-                     e->item_label);
-    }
 }
 
 void study_plan_add_steps(study_plan *plan)

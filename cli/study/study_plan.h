@@ -12,8 +12,6 @@ int study_plan_read(study_plan *plan, const char *place, const char *text, size_
 void study_plan_free(study_plan *plan);
 /* Adds up the steps of the methods, of the cells that are not of another shard. */
 void study_plan_add_steps(study_plan *plan);
-/* Notes the systems whose holonomic constraints some methods are taken with +project for. */
-void study_plan_say_projected(const study_plan *plan);
 /* DIRECTORY/LABEL.yaml, the copy of a system file; allocated. */
 char *study_plan_copy_path(const char *directory, const study_case *item);
 

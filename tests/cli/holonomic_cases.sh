@@ -46,6 +46,37 @@ echo 'options: {bare: on}' >>grid.yaml
 try 0 study grid.yaml --output bare-grid
 refute "said of bare methods" grep -q 'is added' err
 
+case_is "holonomic: studies name methods as they run"
+cat >named.yaml <<'END'
+integrators: [rk4, gauss4, gauss4+project, rattle]
+representatives: [gauss4, rattle]
+step: 0.1
+time: 2
+starts: physical
+systems: [pendulum.yaml, {system: chaplygin-sleigh, integrators: [gauss4]}]
+expect:
+  pendulum.yaml:
+    gauss4: {D: rounding}
+    rk4+project: {D: rounding}
+    all+project: {D: rounding}
+END
+try 0 study named.yaml --output by-name
+says "^dalembert: pendulum.yaml: holonomic constraints drift with methods of F: .project is added to them"
+cut -d, -f1,3 by-name/cells.csv | sort >out
+expect "$(cat out)" [ "$(grep -c pendulum out)" = 3 ]
+prints "^pendulum.yaml,gauss4\+project$"
+prints "^pendulum.yaml,rattle$"
+prints "^pendulum.yaml,rk4\+project$"
+prints "^chaplygin-sleigh,gauss4$"
+sed "s#^step#options: {bare: on}\nstep#; /^expect/,\$d" named.yaml >unnamed.yaml
+try 0 study unnamed.yaml --output by-bare-name
+cut -d, -f1,3 by-bare-name/cells.csv | sort >out
+expect "$(cat out)" [ "$(grep -c pendulum out)" = 4 ]
+prints "^pendulum.yaml,rk4$"
+sed 's/representatives: .*/representatives: [gauss6]/' named.yaml >other.yaml
+try 2 study other.yaml --output other-name
+says "'gauss6' is not run in this study"
+
 case_is "holonomic: resumed and extended"
 try 0 run pendulum.yaml $motion --output short
 try 0 resume short --time 4
