@@ -21,6 +21,9 @@ typedef struct dal_invariant {
     bool is_new;            /* likewise of E and of the invariants of the system, too */
     bool exact;             /* dI/dt of the formula is 0 in quad precision; else in doubles */
     bool at_any_parameters; /* it is so with other values of the parameters, too */
+    int constraint;         /* with of_coordinates: dI/dt is a multiple of this constraint of
+                               velocities alone, from 0; -1: of none */
+    double value;           /* at the start */
 } dal_invariant;
 
 /* An invariant measure rho dq dv delta(D): rho' + rho tr F_v = 0 on D = 0. */
@@ -36,6 +39,8 @@ typedef struct dal_invariants_settings {
     const char *const *with; /* [with_count] further atoms, formulas as of invariants */
     int with_count;          /* 0 */
     bool measures;           /* whether measures are sought, too; false */
+    bool of_coordinates;     /* whether only functions of coordinates and t are sought: what
+                                integrable constraints conserve whatever the forces; false */
 } dal_invariants_settings;
 
 /* Invariants among the sums of products of atoms: the coordinates that the equations of motion

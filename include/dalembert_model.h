@@ -186,6 +186,11 @@ typedef struct dal_growth {
  * DAL_STATUS_SINGULAR, DAL_STATUS_NOT_FINITE, DAL_STATUS_TOO_LARGE. */
 dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,
                             const double *units, dal_growth *out, dal_error *error);
+/* The same of one constraint by itself, from 0: with one rank it is integrable, a multiple of the
+ * derivative of some g(q,t).  Errors: likewise; DAL_STATUS_ARGUMENT. */
+dal_status dal_model_growth_of(dal_model *model, int constraint, const dal_setting *parameters,
+                               int parameter_count, const double *units, dal_growth *out,
+                               dal_error *error);
 
 /* Numerical ranks at a point.  The motion is determined there where constraints is m and mass is
  * n - m: W = L_vv alone may be singular. */

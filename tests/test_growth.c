@@ -132,6 +132,39 @@ static void test_refused(void)
     reference_free(&b);
 }
 
+/* Constraints by themselves: which are integrable, alone or with a factor; which only look so. */
+static void test_rows(void)
+{
+    static const struct {
+        const char *text;
+        bool integrable[2];
+    } systems[] = {
+        {PLANE "constraints: [x*x' + y*y', z' - y*x']\nstart: {x: 1}\n", {true, false}},
+        {PLANE "constraints: [z' - y*x', y']\n", {false, true}}, /* together they are */
+        {PLANE "constraints: [exp(x)*(y*x' + x*y'), y*x' - x*y' + z']\nstart: {y: 1}\n",
+         {true, false}},
+        {PLANE "constraints: [y' - t*x' - x, z' - t*x']\n", {true, false}},
+        {PLANE "holonomic: [x^2 + y^2 - 1]\nconstraints: [z' - y*x']\nstart: {x: 1}\n",
+         {false, true}},
+        {PLANE "constraints: [z'^2 + 1 - 2*y', x*y' + y*x' - z']\nstart: {z': 1, y': 1}\n",
+         {false, true}},
+    };
+    for (size_t k = 0; k < sizeof systems / sizeof *systems; k++) {
+        reference b = reference_of_text(systems[k].text);
+        dal_growth found;
+        for (int a = 0; a < 2; a++) {
+            const bool is_linear =
+                dal_model_growth_of(b.model, a, NULL, 0, NULL, &found, NULL) == DAL_STATUS_OK;
+            CU_ASSERT_EQUAL(is_linear && found.is_complete && found.levels == 1,
+                            systems[k].integrable[a]);
+            CU_ASSERT_EQUAL(is_linear, k < 5 || a == 1);
+        }
+        CU_ASSERT_EQUAL(dal_model_growth_of(b.model, 2, NULL, 0, NULL, &found, NULL),
+                        DAL_STATUS_ARGUMENT);
+        reference_free(&b);
+    }
+}
+
 void suite_growth(void)
 {
     CU_pSuite suite = CU_add_suite("growth vectors", NULL, NULL);
@@ -139,5 +172,6 @@ void suite_growth(void)
     CU_add_test(suite, "built-in systems", test_builtins);
     CU_add_test(suite, "a car with trailers", test_trailers);
     CU_add_test(suite, "parameters", test_parameters);
+    CU_add_test(suite, "constraints by themselves", test_rows);
     CU_add_test(suite, "refusals", test_refused);
 }

@@ -205,6 +205,44 @@ static void test_without_damping(void)
     dal_invariants_free(found);
 }
 
+/* What constraints conserve whatever the forces, and which of them does. */
+static void test_of_coordinates(void)
+{
+#define MASSES "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - z\n"
+    static const struct {
+        const char *text, *formula;
+        int constraint;
+        double value;
+    } cases[] = {
+        {MASSES "constraints: [x*x' + y*y' + z*z']\nstart: {x: 1, z: 2}\n", "x^2 + y^2 + z^2", 0,
+         5.0},
+        {MASSES "constraints: [z' - y*x', exp(x)*(x*x' + y*y')]\nstart: {x: 1, y: 2}\n",
+         "x^2 + y^2", 1, 5.0},
+        {MASSES "constraints: [y' - t*x' - x]\nstart: {y: 3}\n", "y - x*t", 0, 3.0},
+        {MASSES "constraints: [z' - cos(x)*x']\nstart: {z: -1}\n", "z - sin(x)", 0, -1.0},
+        {MASSES "constraints: [z' - 2*x' - y', y' - z*x' - x*z']\nstart: {z: -1}\n", "y - x*z", 1,
+         0.0},
+        {MASSES "constraints: [z' - y*x', y' - z*x']\nstart: {y: 2}\n", "y^2 - z^2", -1, 4.0},
+        {MASSES "holonomic: [x^2 + y^2 - 1]\nconstraints: [z' - 2*x']\nstart: {x: 1}\n", "2*x - z",
+         0, 2.0},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const dal_invariants_settings settings = {
+            .degree = 1 + (strchr(cases[k].formula, '*') || strchr(cases[k].formula, '^')),
+            .of_coordinates = true};
+        dal_invariants *found = find(cases[k].text, &settings, NULL);
+        const dal_invariant *i = with_formula(found, cases[k].formula);
+        CU_ASSERT(i && i->constraint == cases[k].constraint);
+        if (i) CU_ASSERT_DOUBLE_EQUAL(i->value, cases[k].value, 1e-15);
+        dal_invariants_free(found);
+    }
+    const dal_invariants_settings all = {.degree = 4, .of_coordinates = true};
+    dal_invariants *found = find(MASSES "constraints: [z' - y*x']\n", &all, NULL);
+    has_size(found, 0, 0);
+    dal_invariants_free(found);
+#undef MASSES
+}
+
 /* Kepler's problem: E needs 1/r, which is no coordinate. */
 static void test_further_atoms(void)
 {
@@ -407,6 +445,7 @@ void suite_invariants(void)
     CU_add_test(suite, "equal frequencies", test_resonance);
     CU_add_test(suite, "a parameter that is 0", test_without_damping);
     CU_add_test(suite, "further atoms", test_further_atoms);
+    CU_add_test(suite, "functions of coordinates", test_of_coordinates);
     CU_add_test(suite, "invariants of time", test_of_time);
     CU_add_test(suite, "atomic units", test_units);
     CU_add_test(suite, "none of 100 random systems", test_random_systems);

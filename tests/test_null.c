@@ -561,6 +561,15 @@ static void null_dal_model_growth(void)
     REFUSED(dal_model_growth(model, &(dal_setting){NULL, 1.0}, 1, NULL, &growth, error));
 }
 
+static void null_dal_model_growth_of(void)
+{
+    dal_growth growth;
+    REFUSED(dal_model_growth_of(NULL, 0, NULL, 0, NULL, &growth, error));
+    REFUSED(dal_model_growth_of(model, 0, NULL, 0, NULL, NULL, error));
+    REFUSED(dal_model_growth_of(model, 0, NULL, 1, NULL, &growth, error));
+    REFUSED(dal_model_growth_of(model, -1, NULL, 0, NULL, &growth, error));
+}
+
 static void null_dal_model_ranks(void)
 {
     const double x[8] = {0};
@@ -574,27 +583,8 @@ static void null_dal_model_ranks(void)
     REFUSED(dal_model_ranks(model, &(dal_setting){NULL, 1.0}, 1, &at, NULL, &ranks, error));
 }
 
-/* What the program alone uses. */
-static void test_program(void)
-{
-    const char *const names[] = {"a", NULL};
-    CU_ASSERT_PTR_NULL(dal__nearest_name(NULL, names, 2));
-    CU_ASSERT_PTR_NULL(dal__nearest_name("a", NULL, 2));
-    CU_ASSERT_PTR_NULL(dal__nearest_name("a", names, -1));
-    CU_ASSERT_PTR_EQUAL(dal__nearest_name("a", names, 2), names[0]);
-    REFUSED_STATUS(dal__parse_number(NULL, 1, numbers));
-    REFUSED_STATUS(dal__parse_number("1", 1, NULL));
-    CU_ASSERT_EQUAL(dal__format_number(NULL, 1.0), 0);
-    CU_ASSERT_EQUAL(dal__random_key(NULL, 3), dal__random_key("", 3));
-    CU_ASSERT_EQUAL(dal__add_products(1, NULL, numbers, 1, numbers), 0);
-    CU_ASSERT_EQUAL(dal__add_products(1, numbers, NULL, 1, numbers), 0);
-    CU_ASSERT_EQUAL(dal__add_products(1, numbers, numbers, 1, NULL), 0);
-    CU_ASSERT_EQUAL(dal__add_products(1, numbers, numbers, -1, numbers), 0);
-}
-
 void suite_null(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and negative counts", open_objects, close_objects);
     FUNCTIONS_OF_RUNS(ADD_NULL_TEST)
-    CU_add_test(suite, "what the program alone uses", test_program);
 }

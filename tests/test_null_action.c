@@ -1,5 +1,7 @@
-/* test_null_action.c - NULL and missing rows, given to actions, invariants and predictions. */
+/* test_null_action.c - NULL and missing rows, given to actions, invariants and
+ * predictions, and to what the program alone uses. */
 #include "dalembert_analysis.h"
+#include "dalembert_program.h"
 #include "null.h"
 
 FUNCTIONS_dalembert_action(DECLARE_NULL_TEST) FUNCTIONS_dalembert_predict(DECLARE_NULL_TEST)
@@ -147,9 +149,28 @@ static void null_dal_find_invariants(void)
 
 static void null_dal_invariants_free(void) { dal_invariants_free(NULL); }
 
+/* What the program alone uses. */
+static void test_program(void)
+{
+    const char *const names[] = {"a", NULL};
+    CU_ASSERT_PTR_NULL(dal__nearest_name(NULL, names, 2));
+    CU_ASSERT_PTR_NULL(dal__nearest_name("a", NULL, 2));
+    CU_ASSERT_PTR_NULL(dal__nearest_name("a", names, -1));
+    CU_ASSERT_PTR_EQUAL(dal__nearest_name("a", names, 2), names[0]);
+    REFUSED_STATUS(dal__parse_number(NULL, 1, numbers));
+    REFUSED_STATUS(dal__parse_number("1", 1, NULL));
+    CU_ASSERT_EQUAL(dal__format_number(NULL, 1.0), 0);
+    CU_ASSERT_EQUAL(dal__random_key(NULL, 3), dal__random_key("", 3));
+    CU_ASSERT_EQUAL(dal__add_products(1, NULL, numbers, 1, numbers), 0);
+    CU_ASSERT_EQUAL(dal__add_products(1, numbers, NULL, 1, numbers), 0);
+    CU_ASSERT_EQUAL(dal__add_products(1, numbers, numbers, 1, NULL), 0);
+    CU_ASSERT_EQUAL(dal__add_products(1, numbers, numbers, -1, numbers), 0);
+}
+
 void suite_null_action(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and missing rows: actions", open_objects, close_objects);
     FUNCTIONS_dalembert_action(ADD_NULL_TEST) FUNCTIONS_dalembert_predict(ADD_NULL_TEST)
         FUNCTIONS_dalembert_invariants(ADD_NULL_TEST)
+            CU_add_test(suite, "what the program alone uses", test_program);
 }

@@ -4,7 +4,9 @@
 #include "invariants.h"
 #include "ui/memory.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* With more coordinates only sums of the factors themselves are tried, so that it takes no time. */
 enum { MAX_COORDINATES = 7 };
@@ -38,6 +40,75 @@ void check_further_invariants(check *c)
         snprintf(item, sizeof item, CHECK_PROPOSED_INVARIANT "%s", name);
         check_item(c, CHECK_INFO, item, "%s%s", found->invariant[i].formula,
                    found->invariant[i].at_any_parameters ? "" : "  (with these parameters)");
+    }
+    dal_invariants_free(found);
+}
+
+/* ---- integrable constraints ---- */
+
+enum { MAX_DEGREE = 4, MAX_TRIED = 24 };
+
+/* The functions of coordinates and t, products of up to `degree` factors, that D = 0 conserves;
+ * NULL: none are known. */
+static dal_invariants *find_integrals(const check *c, int degree)
+{
+    const dal_run_spec spec = invariants_spec(c->simulation);
+    const dal_invariants_settings settings = {.degree = degree, .of_coordinates = true};
+    dal_invariants *found = NULL;
+    dal_find_invariants(&found, c->simulation->model, &spec, &settings, NULL);
+    return found;
+}
+
+static const dal_invariant *integral_of(const dal_invariants *found, int constraint)
+{
+    for (int i = 0; found && i < found->count; i++)
+        if (found->invariant[i].constraint == constraint) return &found->invariant[i];
+    return NULL;
+}
+
+static void propose_holonomic(check *c, int a, const dal_invariant *integral)
+{
+    char item[48], value[32];
+    int digits = 1; /* as few as give the value again */
+    snprintf(item, sizeof item, CHECK_INTEGRABLE "%d", a + 1);
+    if (!integral) {
+        check_item(c, CHECK_INFO, item,
+                   "integrable, the derivative of a g(q, t) up to a factor: 'holonomic: [g]' in "
+                   "its place keeps g = 0, too");
+        return;
+    }
+    const double size = fabs(integral->value);
+    do snprintf(value, sizeof value, " %c %.*g", integral->value < 0.0 ? '+' : '-', digits, size);
+    while (strtod(value + 3, NULL) != size && ++digits <= 17);
+    check_item(c, CHECK_INFO, item, "integrable: 'holonomic: [%s%s]' in its place keeps this 0",
+               integral->formula, size == 0.0 ? "" : value);
+}
+
+void check_integrable_constraints(check *c)
+{
+    const request_settings *set = &c->simulation->request.set;
+    const double *units = dal_scaled_units(c->scaled);
+    const int rows = c->m - c->system->holonomic;
+    const dal_growth *g = &c->growth;
+    int last = 0; /* the degree of what is in found */
+    dal_invariants *found = NULL;
+    const bool is_other = c->nw > c->n || c->system->properties & DAL_SERVO;
+    if (is_other || (g->is_complete && g->dimension - g->rank[g->levels - 1] <= c->m - rows))
+        return;
+    for (int a = 0; a < rows && a < MAX_TRIED; a++) {
+        dal_growth alone;
+        const dal_status status = dal_model_growth_of(c->simulation->model, a, set->item,
+                                                      set->count, units, &alone, NULL);
+        if (!cli_is_ok(status) || !alone.is_complete || alone.levels > 1) continue;
+        for (int degree = 1; degree <= MAX_DEGREE && c->is_regular; degree++) {
+            if (degree != last) {
+                dal_invariants_free(found);
+                found = find_integrals(c, degree);
+                last = degree;
+            }
+            if (integral_of(found, a)) break;
+        }
+        propose_holonomic(c, a, integral_of(found, a));
     }
     dal_invariants_free(found);
 }

@@ -11,4 +11,10 @@
  * name for its `invariants:` block, and one that says how many there are. */
 void check_further_invariants(check *c);
 
+/* How items about an integrable constraint begin; its number follows. */
+#define CHECK_INTEGRABLE "constraint "
+/* Adds an item for each constraint of velocities that is integrable, which proposes `holonomic:`,
+ * with its integral where that is found. */
+void check_integrable_constraints(check *c);
+
 #endif

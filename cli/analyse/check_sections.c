@@ -240,6 +240,7 @@ static void check_constraints(check *c)
     check_motion_rate(c, "dD/dt along F, on D = 0", &on, zero);
     check_motion_rate(c, "dD/dt along F, off D = 0", &off, zero);
     check_growth(c);
+    check_integrable_constraints(c);
     double *degree = cli_calloc((size_t)c->m + 1, sizeof *degree);
     const dal_status status =
         dal_evaluator_classify_constraints(c->evaluator, &c->origin, &d, degree);

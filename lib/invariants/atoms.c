@@ -28,9 +28,7 @@ static dal_status add_atom(dal__search *s, const char *text, dal__node node)
         s->atom = atom;
         s->capacity = capacity;
     }
-    const bool is_of_q = !dal__depends(e->graph, node, e->t, e->t + 1) &&
-                         !dal__depends(e->graph, node, e->v, e->symbols);
-    s->atom[s->atoms++] = (dal__atom){text, node, is_of_q};
+    s->atom[s->atoms++] = (dal__atom){text, node};
     return e->graph->status;
 }
 
@@ -160,11 +158,12 @@ dal_status dal__search_atoms(dal__search *s, const dal_invariants_settings *sett
     const dal__node last = e->graph->count;
     uint8_t *mark = mark_equations(e);
     if (!mark) return dal__memory_error(error);
-    dal_status status = add_symbols(s, e->q, e->n, mark);
+    dal_status status = add_symbols(s, e->q, e->n, settings->of_coordinates ? NULL : mark);
     for (dal__node i = 1; i <= last && status == DAL_STATUS_OK; i++)
         if (mark[i] & 2) status = add_angle(s, i);
     if (status == DAL_STATUS_OK) status = add_symbols(s, e->v, e->n, NULL);
     if (status == DAL_STATUS_OK) status = add_symbols(s, e->g, e->multipliers, NULL);
+    if (status == DAL_STATUS_OK && settings->of_coordinates) status = add_symbols(s, e->t, 1, mark);
     free(mark);
     if (status != DAL_STATUS_OK) return dal__size_error(status, error);
     for (int i = 0; i < settings->with_count; i++) {
@@ -178,11 +177,15 @@ dal_status dal__search_atoms(dal__search *s, const dal_invariants_settings *sett
     return DAL_STATUS_OK;
 }
 
-void dal__search_keep_coordinates(dal__search *s)
+void dal__search_keep_coordinates(dal__search *s, bool and_t)
 {
+    const dal__equations *e = &s->model->equations;
     int kept = 0;
-    for (int i = 0; i < s->atoms; i++)
-        if (s->atom[i].is_of_q) s->atom[kept++] = s->atom[i];
+    for (int i = 0; i < s->atoms; i++) {
+        const dal__node node = s->atom[i].node;
+        if (dal__depends(e->graph, node, e->v, e->symbols)) continue;
+        if (and_t || !dal__depends(e->graph, node, e->t, e->t + 1)) s->atom[kept++] = s->atom[i];
+    }
     s->atoms = kept;
 }
 

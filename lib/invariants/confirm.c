@@ -10,6 +10,7 @@
 #include "core/vectors.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
+#include "expr/traversal.h"
 #include "invariants/atoms.h"
 #include "invariants/forms.h"
 #include "invariants/points.h"
@@ -233,4 +234,59 @@ dal_status dal__find_independent(const dal__search *s, dal__candidate *candidate
     free(g.symbol);
     free(g.value);
     return status;
+}
+
+/* ---- integrable constraints ---- */
+
+/* D of a constraint at a point as a row of (t, q): out[1 + n], in units. */
+static void row_of_constraint(const dal__equations *e, int a, double *value, const double *reach,
+                              double *out)
+{
+    memset(value + e->v, 0, (size_t)e->n * sizeof *value);
+    out[0] = dal__evaluate(e->graph, e->constraint[a], value) * reach[e->t];
+    for (int i = 0; i < e->n; i++)
+        out[1 + i] = dal__evaluate(e->graph, e->A[a * e->n + i], value) * reach[e->q + i];
+}
+
+static bool are_parallel(int count, const double *a, const double *b)
+{
+    const double aa = dal__dot_product(count, a, a), bb = dal__dot_product(count, b, b);
+    const double ab = dal__dot_product(count, a, b);
+    return aa > 0.0 && bb > 0.0 && aa * bb - ab * ab <= dependent * dependent * aa * bb;
+}
+
+/* Whether gradients by (t, q) are multiples of the row of constraint a at a point about the start,
+ * number k from 1; memory[symbols + 2 (1 + n)]. */
+static bool is_multiple(const dal__search *s, const dal__node *gradient, int a, int k,
+                        double *memory)
+{
+    static const double golden = 0.6180339887498949;
+    const dal__equations *e = &s->model->equations;
+    const dal__region *r = &s->region;
+    double *value = memory, *of_f = value + e->symbols, *row = of_f + 1 + e->n;
+    for (int i = 0; i < e->symbols; i++)
+        value[i] = r->centre[i] + r->reach[i] * (fmod((i + 1) * k * golden, 1.0) - 0.5);
+    for (int i = 0; i < e->parameters; i++) value[i] = s->parameter[i];
+    for (int i = 0; i <= e->n; i++)
+        of_f[i] = dal__evaluate(e->graph, gradient[i], value) * r->reach[i ? e->q + i - 1 : e->t];
+    row_of_constraint(e, a, value, r->reach, row);
+    return are_parallel(1 + e->n, of_f, row);
+}
+
+int dal__find_constraint(const dal__search *s, dal__node f)
+{
+    const dal__equations *e = &s->model->equations;
+    const int rows = e->m - e->holonomic;
+    double *memory = dal__numbers(1, (size_t)(e->symbols + 2 * (1 + e->n)));
+    dal__node *gradient = calloc((size_t)e->n + 1, sizeof *gradient);
+    int found = -1;
+    if (memory && gradient) dal__gradient(e->graph, f, e->symbol + e->t, 1 + e->n, gradient);
+    for (int a = 0; memory && gradient && a < rows && found < 0; a++) {
+        int k = 1;
+        while (k <= OF_INDEPENDENCE && is_multiple(s, gradient, a, k, memory)) k++;
+        if (k > OF_INDEPENDENCE) found = a;
+    }
+    free(gradient);
+    free(memory);
+    return found;
 }

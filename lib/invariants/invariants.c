@@ -125,7 +125,8 @@ static dal_status solve_condition(const dal__search *search, const dal__conditio
 /* ---- results ---- */
 
 /* The results own all texts and lists. */
-static dal_status put_invariants(dal_invariants *out, const dal__search *search, solutions *s)
+static dal_status put_invariants(dal_invariants *out, const dal__search *search, solutions *s,
+                                 bool of_coordinates)
 {
     const size_t n = (size_t)s->count + 1;
     dal_invariant *invariant = calloc(n, sizeof *invariant);
@@ -146,12 +147,15 @@ static dal_status put_invariants(dal_invariants *out, const dal__search *search,
     }
     for (int i = 0; i < s->count; i++) {
         const dal__candidate *k = &s->candidate[i];
-        invariant[i] = (dal_invariant){.formula = s->form[i].text,
-                                       .terms = s->form[i].terms,
-                                       .independent = k->independent,
-                                       .is_new = k->is_new,
-                                       .exact = k->exact,
-                                       .at_any_parameters = k->at_any_parameters};
+        invariant[i] = (dal_invariant){
+            .formula = s->form[i].text,
+            .terms = s->form[i].terms,
+            .independent = k->independent,
+            .is_new = k->is_new,
+            .exact = k->exact,
+            .at_any_parameters = k->at_any_parameters,
+            .constraint = of_coordinates ? dal__find_constraint(search, k->node) : -1,
+            .value = dal__evaluate(search->model->equations.graph, k->node, search->region.centre)};
         s->form[i].text = NULL;
         out->independent += k->independent;
         out->count++;
@@ -202,7 +206,7 @@ static dal_status find_measure(dal_invariants *out, const dal__search *search,
                         .parameter = search->parameter,
                         .degree = search->degree};
     DAL_TRY(dal__search_atoms(&of_q, settings, error));
-    dal__search_keep_coordinates(&of_q);
+    dal__search_keep_coordinates(&of_q, false);
     DAL_TRY(dal__search_products(&of_q, error));
     for (size_t k = 0; k < sizeof powers / sizeof *powers && out->measures == 0; k++) {
         const dal__condition condition = {.power = powers[k], .has_constants = true};
@@ -225,6 +229,7 @@ static dal_status search_all(dal_invariants *out, dal__search *search, const dal
     search->region = (dal__region){centre, reach};
     search->parameter = centre; /* the symbols of parameters are the first */
     dal_status status = dal__search_atoms(search, settings, error);
+    if (settings->of_coordinates) dal__search_keep_coordinates(search, true);
     if (status == DAL_STATUS_OK) status = dal__search_products(search, error);
     if (status == DAL_STATUS_OK)
         status = dal__region_find(e, spec, neighbourhood, centre, reach, error);
@@ -235,7 +240,8 @@ static dal_status search_all(dal_invariants *out, dal__search *search, const dal
         solutions s;
         status = solve_condition(search, &condition, &s, error);
         if (status == DAL_STATUS_OK) status = dal__find_independent(search, s.candidate, s.count);
-        if (status == DAL_STATUS_OK) status = put_invariants(out, search, &s);
+        if (status == DAL_STATUS_OK)
+            status = put_invariants(out, search, &s, settings->of_coordinates);
         free_solutions(&s);
         if (status == DAL_STATUS_OK && settings->measures)
             status = find_measure(out, search, settings, error);

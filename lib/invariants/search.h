@@ -11,7 +11,6 @@ enum { DAL__MAX_PRODUCTS = 800, DAL__MAX_DEGREE = 8 };
 typedef struct dal__atom {
     const char *text; /* the model's */
     dal__node node;
-    bool is_of_q; /* a function of coordinates alone */
 } dal__atom;
 
 /* Product k is product parent times atom last; product 0 is 1. */

@@ -173,6 +173,7 @@ enum { POINTS = 3, MAX_NODES = 400000 };
 
 typedef struct distribution {
     dal_model *model;
+    int row, rows;      /* the first of D that restrict it, and how many */
     int dim, fixed;     /* coordinates: of q, or of t and q; fixed: 1 where the first one is t */
     const int *symbol;  /* [dim] of them */
     const double *unit; /* [dim] of them */
@@ -249,7 +250,7 @@ static dal__node times(dal__graph *graph, dal__node f, double factor)
 static dal_status make_fields(distribution *d, const dal__node *A, double *x)
 {
     dal__equations *e = &d->model->equations;
-    const int m = e->m, dim = d->dim;
+    const int m = d->rows, dim = d->dim;
     bool *pivot = dal__model_allocate(d->model, (size_t)dim, sizeof *pivot);
     double *per_row = dal__model_allocate(d->model, (size_t)m, sizeof *per_row);
     dal__node *matrix = dal__model_nodes(d->model, m * m, 0);
@@ -332,41 +333,81 @@ static dal__node at_rest(const dal__equations *e, dal__node D, const dal__node *
     return dal__substitute(e->graph, D, e->symbol + e->v, e->n, zeros);
 }
 
-/* A[m*dim] of a distribution, after it n zeros, the first column for t; and irregular points about
- * the start, value[symbols], at which it is finite. */
+/* A[rows*dim] of a distribution, after it n zeros, the first column for t; and irregular points
+ * about the start, value[symbols], at which it is finite. */
 static dal_status make_matrix(distribution *d, dal__node *A, const double *value,
                               const double *units, dal_error *error)
 {
     const double golden = 0.6180339887498949;
     const dal__equations *e = &d->model->equations;
-    const dal__node *zeros = A + e->m * (1 + e->n);
+    const dal__node *zeros = A + d->rows * (1 + e->n), *of_v = e->A + d->row * e->n;
+    const dal__node *D = e->constraint + d->row;
     bool has_t = false;
-    for (int i = 0; i < e->m * e->n; i++) {
-        if (dal__depends(e->graph, e->A[i], e->v, e->v + e->n))
+    for (int i = 0; i < d->rows * e->n; i++) {
+        if (dal__depends(e->graph, of_v[i], e->v, e->v + e->n))
             return dal__fail(error, DAL_STATUS_UNSUPPORTED, "%s is not linear in v",
-                             DAL__CONSTRAINT_NAME(e, i / e->n));
-        has_t |= dal__depends(e->graph, e->A[i], e->t, e->t + 1);
+                             DAL__CONSTRAINT_NAME(e, d->row + i / e->n));
+        has_t |= dal__depends(e->graph, of_v[i], e->t, e->t + 1);
     }
-    for (int a = 0; a < e->m; a++)
-        has_t |= !dal__is_number(e->graph, at_rest(e, e->constraint[a], zeros), 0.0);
+    for (int a = 0; a < d->rows; a++)
+        has_t |= !dal__is_number(e->graph, at_rest(e, D[a], zeros), 0.0);
     d->fixed = has_t;
     d->dim = e->n + has_t;
     d->symbol = e->symbol + (has_t ? e->t : e->q);
     d->unit = units + !has_t;
-    for (int a = 0; a < e->m; a++) {
-        if (has_t) A[a * d->dim] = at_rest(e, e->constraint[a], zeros);
-        memcpy(A + a * d->dim + has_t, e->A + a * e->n, (size_t)e->n * sizeof *A);
+    for (int a = 0; a < d->rows; a++) {
+        if (has_t) A[a * d->dim] = at_rest(e, D[a], zeros);
+        memcpy(A + a * d->dim + has_t, of_v + a * e->n, (size_t)e->n * sizeof *A);
     }
     for (int try = 0; try < 8 * POINTS && d->points < POINTS; try++) {
         double *x = d->point + d->points * e->symbols, sum = 0.0;
         memcpy(x, value, (size_t)e->symbols * sizeof *x);
         for (int i = 0; i <= e->n; i++)
             x[e->t + i] += units[i] * (fmod((try * e->symbols + e->t + i + 1) * golden, 1.0) - 0.5);
-        for (int i = 0; i < e->m * d->dim; i++) sum += dal__evaluate(e->graph, A[i], x);
+        for (int i = 0; i < d->rows * d->dim; i++) sum += dal__evaluate(e->graph, A[i], x);
         d->points += isfinite(sum);
     }
     if (d->points == 0)
         return dal__fail(error, DAL_STATUS_NOT_FINITE, "A has no finite values about the start");
+    return e->graph->status;
+}
+
+/* Finds the ranks of the distribution of its rows. */
+static dal_status find_growth(distribution *d, const dal_setting *parameters, int parameter_count,
+                              const double *units, dal_growth *out, dal_error *error)
+{
+    dal_model *const model = d->model;
+    const dal__equations *e = &model->equations;
+    const size_t dim = 1 + (size_t)e->n, symbols = (size_t)e->symbols, rows = (size_t)d->rows;
+    dal__node *A = dal__model_nodes(model, (int)(rows * dim) + e->n, dal__number(e->graph, 0.0));
+    double *value = dal__model_allocate(model, symbols, sizeof *value);
+    double *x = dal__model_allocate(model, rows * dim, sizeof *x);
+    double *ones = dal__model_allocate(model, dim, sizeof *ones);
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    for (size_t i = 0; i < dim; i++) ones[i] = 1.0;
+    memcpy(value, e->value, symbols * sizeof *value);
+    DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
+                                value, error));
+    d->field = dal__model_nodes(model, (int)((POINTS * dim + 1) * dim), 0);
+    d->weight = dal__model_allocate(model, POINTS * dim + 1, sizeof *d->weight);
+    d->basis = dal__model_allocate(model, POINTS * dim * dim, sizeof *d->basis);
+    d->point = dal__model_allocate(model, POINTS * symbols, sizeof *d->point);
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    dal_status status = make_matrix(d, A, value, units ? units : ones, error);
+    if (status == DAL_STATUS_OK) status = make_fields(d, A, x);
+    if (e->graph->status == DAL_STATUS_MEMORY) return dal__memory_error(error);
+    if (status == DAL_STATUS_SINGULAR)
+        return dal__fail(error, status, "the constraints are dependent about the start");
+    DAL_TRY(status);
+    out->dimension = d->dim;
+    out->rank[out->levels++] = max_rank(d);
+    for (int begin = 0; out->levels < DAL_GROWTH_LEVELS && !out->is_complete;) {
+        const int end = d->fields, last = out->rank[out->levels - 1];
+        if (!add_level(d, begin, x)) break;
+        begin = end;
+        if (max_rank(d) > last) out->rank[out->levels++] = max_rank(d);
+        out->is_complete = max_rank(d) == last || max_rank(d) == d->dim;
+    }
     return e->graph->status;
 }
 
@@ -377,40 +418,25 @@ dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int
     DAL_REQUIRE(out, error);
     DAL_REQUIRE(model->made, error);
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
-    const dal__equations *e = &model->equations;
-    distribution d = {.model = model};
     *out = (dal_growth){.levels = 0};
-    if (e->m == 0) return dal__fail(error, DAL_STATUS_UNSUPPORTED, "the system has no constraints");
-    const size_t dim = 1 + (size_t)e->n, symbols = (size_t)e->symbols;
-    dal__node *A =
-        dal__model_nodes(model, (int)((size_t)e->m * dim) + e->n, dal__number(e->graph, 0.0));
-    double *value = dal__model_allocate(model, symbols, sizeof *value);
-    double *x = dal__model_allocate(model, (size_t)e->m * dim, sizeof *x);
-    double *ones = dal__model_allocate(model, dim, sizeof *ones);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    for (size_t i = 0; i < dim; i++) ones[i] = 1.0;
-    memcpy(value, e->value, symbols * sizeof *value);
-    DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
-                                value, error));
-    d.field = dal__model_nodes(model, (int)((POINTS * dim + 1) * dim), 0);
-    d.weight = dal__model_allocate(model, POINTS * dim + 1, sizeof *d.weight);
-    d.basis = dal__model_allocate(model, POINTS * dim * dim, sizeof *d.basis);
-    d.point = dal__model_allocate(model, POINTS * symbols, sizeof *d.point);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    dal_status status = make_matrix(&d, A, value, units ? units : ones, error);
-    if (status == DAL_STATUS_OK) status = make_fields(&d, A, x);
-    if (e->graph->status == DAL_STATUS_MEMORY) return dal__memory_error(error);
-    if (status == DAL_STATUS_SINGULAR)
-        return dal__fail(error, status, "the constraints are dependent about the start");
-    DAL_TRY(status);
-    out->dimension = d.dim;
-    out->rank[out->levels++] = max_rank(&d);
-    for (int begin = 0; out->levels < DAL_GROWTH_LEVELS && !out->is_complete;) {
-        const int end = d.fields, last = out->rank[out->levels - 1];
-        if (!add_level(&d, begin, x)) break;
-        begin = end;
-        if (max_rank(&d) > last) out->rank[out->levels++] = max_rank(&d);
-        out->is_complete = max_rank(&d) == last || max_rank(&d) == d.dim;
-    }
-    return e->graph->status;
+    distribution d = {.model = model, .rows = model->equations.m};
+    if (d.rows == 0)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED, "the system has no constraints");
+    return find_growth(&d, parameters, parameter_count, units, out, error);
+}
+
+dal_status dal_model_growth_of(dal_model *model, int constraint, const dal_setting *parameters,
+                               int parameter_count, const double *units, dal_growth *out,
+                               dal_error *error)
+{
+    DAL_REQUIRE(model, error);
+    DAL_REQUIRE(out, error);
+    DAL_REQUIRE(model->made, error);
+    DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
+    *out = (dal_growth){.levels = 0};
+    distribution d = {.model = model, .row = constraint, .rows = 1};
+    if (constraint < 0 || constraint >= model->equations.m)
+        return dal__fail(error, DAL_STATUS_ARGUMENT, "constraint %d: the system has %d", constraint,
+                         model->equations.m);
+    return find_growth(&d, parameters, parameter_count, units, out, error);
 }

@@ -60,6 +60,35 @@ try 0 check plane.yaml
 prints '^  growth vector of D = 0 +info +\([0-9]\) on q: integrable, D is holonomic$'
 prints '^  D is preserved by +info +every method that applies$'
 
+case_is "integrable constraints: holonomic is proposed, with the integral where it is found"
+rows_of() { # CONSTRAINTS VELOCITIES
+    printf '%s\n' 'coordinates: [x, y, z]' "lagrangian: (x'^2 + y'^2 + z'^2)/2 - z" "constraints: $1" \
+        "start: {x: 3, y: 4, z: -1${2:-}}" >rows.yaml
+    try 0 check rows.yaml --json
+}
+proposal="in its place keeps this 0"
+rows_of "[x*x' + y*y']"
+prints "constraint 1.*integrable: 'holonomic: .x\^2 \+ y\^2 - 25.' $proposal"
+rows_of "[z' - y*x', exp(y)*(z' + 2*y')]"
+prints "constraint 2.*integrable: 'holonomic: .2\*y \+ z - 7.' $proposal"
+refute "a contact form" grep -q '"constraint 1"' out
+rows_of "[y' - t*x' - x]" ", y': 3"
+prints "constraint 1.*integrable: 'holonomic: .y - x\*t - 4.' $proposal"
+rows_of "[z' - exp(x)*x']"
+prints "constraint 1.*integrable, the derivative of a g.q, t. up to a factor: 'holonomic: .g.' in its"
+for row in "y' - t*x'" "z' - y*x'" "z' - y" "x*y' - y*x' + z'"; do
+    rows_of "[$row]" ", z': $([ "$row" = "z' - y" ] && echo 4 || echo 0)"
+    refute "$row" grep -q '"constraint 1"' out
+done
+sed -i "s/^constraints.*/constraints: [x*x' + y*y']/" rows.yaml
+try 0 check rows.yaml
+sed "s/^constraints.*/holonomic: [x^2 + y^2 - 25]/" rows.yaml >place.yaml
+try 0 run place.yaml --integrator rk4 --step 0.1 --time 1 # it begins on g = 0
+try 0 check place.yaml
+refute "a row of holonomic" grep -q '^  constraint 1' out
+try 0 check servo-pendulum # it pushes along other directions than holonomic does
+refute "a servo constraint" grep -q '^  constraint 1' out
+
 # The names after "D is preserved by", a modifier around gauss4, symmetric and not of order 2.
 preserving() {
     sed -n '/^  D is preserved by/,/^$/p' out | sed 's/D is preserved by *info//' | tr -s ' ' '\n' |

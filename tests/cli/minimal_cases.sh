@@ -53,7 +53,7 @@ compare_libraries() {
         declared >declared.txt
         nm all.a 2>/dev/null | awk '$2 == "T" { print $3 }' | sort >defined.txt
         comm -23 declared.txt defined.txt >lacking.txt
-        printf 'dal_%s\n' builtin_name builtin_text model_builtin model_growth model_ranks model_read model_read_file \
+        printf 'dal_%s\n' builtin_name builtin_text model_builtin model_growth model_growth_of model_ranks model_read model_read_file \
             model_source model_tangent model_tangent_by >expected.txt
         expect "$(tr '\n' ' ' <lacking.txt)" cmp lacking.txt expected.txt
         counted
