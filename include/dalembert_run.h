@@ -38,10 +38,11 @@ dal_status dal_method_complete(dal_method *method, const dal_system *system,
 /* Bytes that a run needs; 0 when the spec cannot be used. */
 size_t dal_run_size(const dal_run_spec *spec);
 /* Places a run in memory[bytes] of the caller, dal_run_size bytes at least, of any alignment; it
- * need not be freed, unless dal_run_native is used.  Errors: DAL_STATUS_ARGUMENT, DAL_STATUS_NAME
- * with the nearest name, DAL_STATUS_UNSUPPORTED, DAL_STATUS_INCONSISTENT (|D| or |g| beyond 1e-10
- * relative), DAL_STATUS_RANK, DAL_STATUS_SINGULAR_MASS, DAL_STATUS_GAUGE, DAL_STATUS_NOT_FINITE,
- * DAL_STATUS_MEMORY (too few bytes). */
+ * need not be freed, unless dal_run_native is used.  With 16 constraints and more its start
+ * allocates memory, as dal_run_set_parameter does, and frees it.  Errors: DAL_STATUS_ARGUMENT,
+ * DAL_STATUS_NAME with the nearest name, DAL_STATUS_UNSUPPORTED, DAL_STATUS_INCONSISTENT (|D| or
+ * |g| beyond 1e-10 relative), DAL_STATUS_RANK, DAL_STATUS_SINGULAR_MASS, DAL_STATUS_GAUGE,
+ * DAL_STATUS_NOT_FINITE, DAL_STATUS_MEMORY (too few bytes, or none for a start). */
 dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
                         dal_error *error);
 /* Makes a run in memory of its own. [alloc]  Errors: as for dal_run_init. */

@@ -77,6 +77,7 @@ static dal_status check_steps(dal__generation *g, dal_error *error)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "steps in quad precision are not generated");
     g->kernel = dal__kernel_of(&g->layout.method);
+    if (dal__checks_rank_by_factors(&g->layout)) g->kernel |= DAL_KERNEL_ENFORCEMENT;
     return check_method(g, error);
 }
 
@@ -120,6 +121,7 @@ static bool steps_together(const dal__generation *g)
     const dal_integrator *method = g->layout.method.layer[0];
     const bool few_stages = method->properties & DAL_EXTRAPOLATES_STAGES && method->stages <= 2;
     return g->lanes > 1 && g->layout.depth == 1 && !g->layout.lifted && !dal__is_controlled(g) &&
+           !dal__checks_rank_by_factors(&g->layout) &&
            (method->properties & DAL_COMPONENTWISE || few_stages);
 }
 
@@ -158,8 +160,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_SCALAR", g->lanes == 1},
         {"DAL_HAS_GROUPS", steps_together(g)},
         {"DAL_HAS_TIMES", dal__has_times(g)},
-        /* sine and cosine together, one of them, the functions of libm, sign, floor, comparisons
-         * and the like, functions given by points */
+        /* sine and cosine, one of them, functions of libm, sign and the like, tables */
         {"DAL_WITH(SINCOS)", calls & (DAL__CALLS_SIN | DAL__CALLS_SINCOS)},
         {"DAL_WITH(SIN)", calls & DAL__CALLS_SIN},
         {"DAL_WITH(LIBM)", calls & DAL__CALLS_LIBM},
@@ -171,8 +172,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH(GAUGE_GRADIENT)", gauge},
         {"DAL_WITH(GAUGE)", g->layout.lifted && dal__wants(g, DAL__PROGRAM_GAUGE)},
         {"DAL_WITH(TANGENT)", kernel & DAL_KERNEL_TANGENT},
-        /* implicit equations, their tableaus, Taylor coefficients of F, substeps under a tolerance,
-         * numbers in units of the system, a state of the method that is saved within a step */
+        /* implicit equations, their tableaus, series, substeps, units, a state of the method */
         {"DAL_WITH(SOLVE)", kernel & DAL_KERNEL_SOLVE},
         {"DAL_WITH(TABLEAU)", kernel & DAL_KERNEL_COLLOCATION || gauge},
         {"DAL_WITH(SERIES)", kernel & DAL_KERNEL_SERIES},
@@ -188,6 +188,8 @@ void dal__decide_conditions(dal__generation *g)
         /* guards, the rank check, which compares pivots first, and one of these */
         {"DAL_WITH(GUARDS)", guards},
         {"DAL_WITH(RANK)", rank},
+        {"DAL_WITH(RANK_BY_FACTORS)", dal__checks_rank_by_factors(&g->layout)},
+        {"DAL_WITH(RANK_BY_MINORS)", rank && !dal__checks_rank_by_factors(&g->layout)},
         {"DAL_WITH(PIVOTS)", g->layout.pivots > 0},
         {"DAL_WITH(REGULAR)", guards || rank},
         /* the error to an exact solution, reactions, a trace of the states, functions of a point */

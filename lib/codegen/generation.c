@@ -70,7 +70,8 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_JACOBIAN:
         return kernel & (DAL_KERNEL_SOLVE | DAL_KERNEL_TANGENT);
     case DAL__PROGRAM_CONSTRAINT:
-        return kernel & DAL_KERNEL_CONSTRAINT || dal__checks_rank(g->layout.system);
+        return kernel & DAL_KERNEL_CONSTRAINT ||
+               (dal__checks_rank(g->layout.system) && !dal__checks_rank_by_factors(&g->layout));
     case DAL__PROGRAM_HOLONOMIC:
         return g->layout.system->holonomic > 0;
     case DAL__PROGRAM_POSITION:

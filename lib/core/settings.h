@@ -18,13 +18,14 @@ dal_status dal__find_parameter(const dal_system *system, const char *name, int *
  * constraints: "constraint 2", "holonomic constraint 1"; returns name[size]. */
 const char *dal__name_constraint(int m, int holonomic, int a, char *name, size_t size);
 /* How many constraints of a system, or of equations, are holonomic: a small library takes none.
- * Whether mu_e may be of q, v and e, there of t alone, and whether equations are solved for q''. */
+ * Whether mu_e may be of q, v and e, there of t alone, and whether equations are solved for q''.
+ * Whether a run reserves the matrices of all constraints that its start needs, as a small one. */
 #ifdef DAL_MINIMAL
 #define DAL__HOLONOMIC_COUNT(of) 0
-enum { DAL__TAKES_GAUGE_OF_STATE = 0, DAL__SOLVES_EQUATIONS = 0 };
+enum { DAL__TAKES_GAUGE_OF_STATE = 0, DAL__SOLVES_EQUATIONS = 0, DAL__STARTS_IN_SCRATCH = 1 };
 #else
 #define DAL__HOLONOMIC_COUNT(of) ((of)->holonomic)
-enum { DAL__TAKES_GAUGE_OF_STATE = 1, DAL__SOLVES_EQUATIONS = 1 };
+enum { DAL__TAKES_GAUGE_OF_STATE = 1, DAL__SOLVES_EQUATIONS = 1, DAL__STARTS_IN_SCRATCH = 0 };
 #endif
 /* The name of row a of D of a system or of equations, in memory of the block where it is called. */
 #define DAL__CONSTRAINT_NAME(of, a)                                                                \

@@ -14,6 +14,15 @@
  * DAL__PIVOT_CHANGE, of s by 1/8, in this step or in the last; it fails only where s moves at least
  * 8 times as far in a step as in the one before.
  *
+ * Many constraints are checked without matrices, by the factors of F.  The change of velocity of
+ * least energy that constraint k alone feels, C_k = W^-1 A^T G^-1 e_k, is along the component of
+ * its gradient that is orthogonal to the others.  This component turns by a right angle where
+ *
+ *     C1_k . W1 C0_k = (G^-1 A)_1 C0_k
+ *
+ * has component k = 0: it must be positive for each k.  (Where G has a null vector, this
+ * is so of all constraints in it.)
+ *
  * The engine (lib/run) and generated files (lib/codegen) drive these checks, each by a loop of its
  * own.  y0 is the state before the step.  Its number i of a group of lanes is
  * y0[i*DAL_STEP_GROUPS + group], as in the state of the step. */
@@ -126,15 +135,39 @@ DAL_INLINE dal_mask dal_pivots_warn(dal_step *s, int group)
 }
 #endif
 
-#if DAL_WITH(RANK)
-/* Lanes where the rank check holds. */
-DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *first)
-{
-    dal_mask warned = dal_all();
-#if DAL_WITH(PIVOTS)
-    if (DAL_PIVOTS(s) > 0) warned = dal_pivots_warn(s, group);
-    if (!DAL_RARELY(dal_any(warned))) return dal_all();
+/* 1: the rank check uses the factors of F. */
+#if DAL_WITH(RANK_BY_FACTORS) && DAL_WITH(RANK_BY_MINORS)
+#define DAL_RANK_BY_FACTORS(s) ((s)->rank_checked == 2)
+#elif DAL_WITH(RANK_BY_FACTORS)
+#define DAL_RANK_BY_FACTORS(s) 1
+#else
+#define DAL_RANK_BY_FACTORS(s) 0
 #endif
+
+#if DAL_WITH(RANK_BY_FACTORS)
+/* Lanes where no gradient, as far as it is orthogonal to the others, turns by a right angle. */
+DAL_INLINE dal_mask dal__rank_by_factors(dal_step *s, const num *y0, int *first)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    dal_mask good = dal_all();
+    DAL_VECTOR(s, in, DAL_N(s) + DAL_M(s) + 1); /* pi, c, beta */
+    DAL_VECTOR(s, out, DAL_N(s) + DAL_M(s));
+    for (int k = 0; k < m; k++) {
+        DAL_EACH(i, n + m + 1) in[i] = dal_num(i == n + k);
+        dal_eval(s, DAL_EVAL_ENFORCEMENT, s->t - s->h, y0, y0 + n, in, out);
+        DAL_EACH(i, n) in[i] = out[i];
+        in[n + k] = dal_num(0.0);
+        dal_eval(s, DAL_EVAL_ENFORCEMENT, s->t, s->y, s->y + n, in, out);
+        dal_keep_positive(out[n + k], k + 1, &good, first);
+    }
+    return good;
+}
+#endif
+
+#if DAL_WITH(RANK_BY_MINORS)
+/* Lanes where the leading minors of A1 B0 and A0 B0 have the same signs. */
+DAL_INLINE dal_mask dal__rank_by_minors(dal_step *s, int group, const num *y0, int *first)
+{
     const int m = DAL_M(s), n = DAL_PER_GROUP(DAL_N(s));
     DAL_VECTOR(s, c0, DAL_CONSTRAINT_SIZE(s));
     DAL_VECTOR(s, c1, DAL_CONSTRAINT_SIZE(s));
@@ -146,6 +179,25 @@ DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *f
     dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
     DAL_EACH(k, m)
         dal_keep_positive(dal_eliminate(g0, m, k) / dal_eliminate(g1, m, k), k + 1, &good, first);
+    return good;
+}
+#endif
+
+#if DAL_WITH(RANK)
+/* Lanes where the rank check holds. */
+DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *first)
+{
+    dal_mask warned = dal_all(), good = dal_all();
+#if DAL_WITH(PIVOTS)
+    if (DAL_PIVOTS(s) > 0) warned = dal_pivots_warn(s, group);
+    if (!DAL_RARELY(dal_any(warned))) return dal_all();
+#endif
+#if DAL_WITH(RANK_BY_FACTORS)
+    if (DAL_RANK_BY_FACTORS(s)) good = dal__rank_by_factors(s, y0, first);
+#endif
+#if DAL_WITH(RANK_BY_MINORS)
+    if (!DAL_RANK_BY_FACTORS(s)) good = dal__rank_by_minors(s, group, y0, first);
+#endif
     return good | ~warned;
 }
 #endif

@@ -25,8 +25,9 @@
 #endif
 #define DAL_SCALAR (DAL_LANES == 1)
 #ifdef DAL_MINIMAL
-#define DAL__LACKS_GAUGE_GRADIENT 1
-#define DAL_WITH(name)            !DAL__LACKS_##name
+#define DAL__LACKS_GAUGE_GRADIENT  1
+#define DAL__LACKS_RANK_BY_FACTORS 1
+#define DAL_WITH(name)             !DAL__LACKS_##name
 #else
 #define DAL_WITH(name) 1
 #endif

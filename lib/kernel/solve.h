@@ -361,7 +361,11 @@ DAL_INLINE_EARLY void dal__solve_again(dal_step *s, dal_equation *eq, dal_iterat
 {
     dal__restore_block(&eq->block[0], *lanes);
     if (eq->blocks > 1) dal__restore_block(&eq->block[1], *lanes);
-    if (matrix) matrix(s, eq);
+    if (matrix) {
+        DAL__MARK(s);
+        matrix(s, eq);
+        DAL__RELEASE(s);
+    }
     dal__iterate(s, eq, map, matrix ? DAL__ITERATE_NEWTON : DAL__ITERATE_FIXED_POINT, lanes);
 }
 

@@ -175,9 +175,9 @@ struct dal_step {
     int field_operations, jacobian_operations; /* of the callbacks */
     unsigned properties;                       /* of the system */
     int guards;                                /* of the system */
-    int rank_checked;                          /* 1: steps are subject to the rank check */
-    double tolerance;                          /* of substeps, 0: no substeps */
-    const double *units, *speeds, *levels;     /* of the system; NULL as in the macros */
+    int rank_checked; /* 1: steps are subject to the rank check, 2: by factors */
+    double tolerance; /* of substeps, 0: no substeps */
+    const double *units, *speeds, *levels; /* of the system; NULL as in the macros */
 
     num *scratch; /* bump allocator, see dal_scratch */
     size_t used, capacity;

@@ -16,6 +16,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* A pivot of G below this fraction of its diagonal entry means that rows are dependent. */
 static const double independent = 1e-12;
@@ -37,6 +38,24 @@ static void place_numbers(dal__linearised *k, double *memory)
     k->unit = k->c.out + m + 2 * m * n + 1;
 }
 
+#ifndef DAL_MINIMAL
+dal_status dal__reserve_matrices(dal_run *run, dal_error *error)
+{
+    const size_t bytes = run->layout.matrices * sizeof *run->matrices;
+    if (run->layout.matrices <= run->layout.scratch) return DAL_STATUS_OK;
+    double *const matrices = malloc(bytes);
+    if (!matrices) return dal__fail(error, DAL_STATUS_MEMORY, "no %zu bytes for a start", bytes);
+    run->matrices = matrices;
+    return DAL_STATUS_OK;
+}
+
+void dal__release_matrices(dal_run *run)
+{
+    if (run->matrices != run->scratch) free(run->matrices);
+    run->matrices = run->scratch;
+}
+#endif
+
 dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition, const char *place)
 {
     const dal_system *system = run->layout.system;
@@ -47,7 +66,7 @@ dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition
                          .v = run->persistent + system->n,
                          .condition = condition,
                          .place = place};
-    place_numbers(&k, run->scratch);
+    place_numbers(&k, run->matrices);
     return k;
 }
 
@@ -62,7 +81,7 @@ dal__linearised dal__linearised_coordinates(dal_run *run, const char *place)
                                .rows = DAL__HOLONOMIC_COUNT(system)},
                          .v = run->persistent,
                          .place = place};
-    place_numbers(&k, run->scratch);
+    place_numbers(&k, run->matrices);
     return k;
 }
 

@@ -13,8 +13,7 @@ typedef struct dal__condition {
 } dal__condition;
 
 /* A state, and its constraints linearised in the velocities, D + A (v' - v), with a condition as
- * the last row where there is one; or g + g_q (q' - q).  The numbers lie in the scratch of a run.
- */
+ * the last row where there is one; or g + g_q (q' - q).  The numbers lie in run->matrices. */
 typedef struct dal__linearised {
     dal__constraint_rows c;          /* and a row of the condition after the constraints */
     double *v;                       /* [n] velocities of the state; or q */
@@ -24,6 +23,16 @@ typedef struct dal__linearised {
     double *given;                   /* [n] */
     double *unit;                    /* [n] see dal__velocity_units */
 } dal__linearised;
+
+/* The memory of these numbers: scratch where it is large enough, or allocated until it is released,
+ * which has no effect where it is not.  Errors: DAL_STATUS_MEMORY. */
+#ifdef DAL_MINIMAL
+#define dal__reserve_matrices(run, error) DAL_STATUS_OK
+#define dal__release_matrices(run)        ((void)0)
+#else
+dal_status dal__reserve_matrices(dal_run *run, dal_error *error);
+void dal__release_matrices(dal_run *run);
+#endif
 
 /* The present state of a run, its constraints not yet evaluated. */
 dal__linearised dal__linearised_of(dal_run *run, const dal__condition *condition,

@@ -54,6 +54,7 @@ static dal_run *place(const dal__layout *layout, void *memory)
     at += dal__align(own_numbers(layout) * sizeof(double));
     run->kind = dal__engine_best(layout, 1);
     run->engine = run->kind->engine->place(layout, at, &run->persistent, &run->work, &run->scratch);
+    run->matrices = run->scratch;
     run->storage = run->persistent;
     run->stored = stored_count(layout);
     at += dal__align(run->kind->engine->bytes(layout));

@@ -281,7 +281,7 @@ static void prepare_step(engine *e)
     s->jacobian_operations = k->jacobian_operations;
     s->properties = k->system->properties;
     s->guards = k->system->guards;
-    s->rank_checked = dal__checks_rank(k->system);
+    s->rank_checked = dal__checks_rank(k->system) + dal__checks_rank_by_factors(k);
     s->pivot_count = k->pivots;
     s->tolerance = k->options.tolerance;
     s->units = dal__units(k, DAL__UNITS_OF_STATE);

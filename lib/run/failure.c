@@ -58,11 +58,29 @@ static bool gauge_crosses(dal_run *run, double t, double h)
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
 
+#ifdef DAL_MINIMAL
+#define inverse_entry(run, k, t, state) NAN
+#else
+/* Entry (k, k) of G^-1 by the factors of F: one over the square of the distance of gradient k from
+ * the span of the others. */
+static double inverse_entry(dal_run *run, int k, double t, const double *state)
+{
+    const dal_system *system = run->layout.system;
+    const int n = system->n, m = system->m;
+    double *in = run->scratch, *out = in + n + m + 1;
+    const dal_point at = {.t = t, .q = state, .v = state + n, .pi = in, .work = run->work};
+    for (int i = 0; i <= n + m; i++) in[i] = i == n + k;
+    return system->call.enforcement(system, &at, out) == DAL_STATUS_OK ? out[n + k] : NAN;
+}
+#endif
+
 /* The pivot of a constraint, from 1, in G at the present state; NaN: it has none. */
 static double pivot_of(dal_run *run, int constraint, double t)
 {
     const int m = run->layout.m, n = run->layout.n;
     double *c = run->scratch, *g = c + m + 2 * m * n, pivot = NAN;
+    if (dal__checks_rank_by_factors(&run->layout))
+        return fabs(1.0 / inverse_entry(run, constraint - 1, t, run->persistent));
     if (run->kind->engine->eval(run->engine, DAL_EVAL_CONSTRAINT, t, run->persistent, c) !=
         DAL_STATUS_OK)
         return NAN;
@@ -157,10 +175,25 @@ static int vanishing_guard(dal_run *run, double t, double dt)
     return 0;
 }
 
+#ifdef DAL_MINIMAL
+#define vanishing_distance(run, t, dt) 0
+#else
+/* The same of a distance of inverse_entry, in place of a pivot of G. */
+static int vanishing_distance(dal_run *run, double t, double dt)
+{
+    for (int k = 0; k < run->layout.m; k++) {
+        const double now = inverse_entry(run, k, t, run->persistent);
+        if (would_vanish(1.0 / now, 1.0 / inverse_entry(run, k, t + dt, run->shadow))) return k + 1;
+    }
+    return 0;
+}
+#endif
+
 static int vanishing_normal(dal_run *run, double t, double dt)
 {
     const int m = run->layout.m, n = run->layout.n, size = m + 2 * m * n;
     if (!(run->layout.system->properties & DAL_D_RANK_CHECKED)) return 0;
+    if (dal__checks_rank_by_factors(&run->layout)) return vanishing_distance(run, t, dt);
     const double *c0 = run->scratch, *c1 = eval_both_ends(run, DAL_EVAL_CONSTRAINT, size, t, dt);
     double *g0 = run->scratch + 2 * size, *g1 = g0 + m * m;
     if (!c1) return 0;

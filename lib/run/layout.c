@@ -2,6 +2,7 @@
 #include "run/layout.h"
 #include "core/error.h"
 #include "core/settings.h"
+#include "core/solved.h"
 #include "dalembert_program.h"
 #include "kernel/quad.h"
 #include "run/registry.h"
@@ -370,6 +371,15 @@ static bool may_solve_by_newton(const dal__layout *k)
            !(properties & DAL_EXPLICIT && (runge_kutta || !k->lifted));
 }
 
+/* Matrices of all stages, Newton's and its inverse: one of these for v and in the lifted space one
+ * for pi; or the two of a lift, with 2n columns, and what the method inside it needs. */
+static int newton_matrices(const dal__layout *k)
+{
+    unsigned kernel = 0;
+    for (int i = 0; i < k->depth; i++) kernel |= k->method.layer[i]->kernel;
+    return kernel & DAL_KERNEL_TANGENT ? 6 : k->lifted ? 3 : 2;
+}
+
 /* Whether a layer evaluates one of some callbacks, rather than the parts of the kernel that use the
  * factors of F where constraints are many. */
 static bool has_matrices(const dal__layout *k, unsigned needs, unsigned by_factors)
@@ -381,17 +391,48 @@ static bool has_matrices(const dal__layout *k, unsigned needs, unsigned by_facto
     return has;
 }
 
-/* Numbers of matrices of all constraints: of methods, of the start or of the rank check at both
- * ends of a step, of Newton's matrix, and of what the engine makes where the system lacks it. */
+#ifndef DAL_MINIMAL
+bool dal__checks_rank_by_factors(const dal__layout *k)
+{
+    const dal_system *system = k->system;
+    const dal_callbacks *further[] = {system->wide4, system->wide8,
+                                      system->quad ? &system->quad->call : NULL};
+    const unsigned others = DAL_SERVO | DAL_VAKONOMIC;
+    bool has_factors = system->call.enforcement != NULL;
+    for (int i = 0; i < 3; i++) has_factors &= !further[i] || further[i]->enforcement;
+    return has_factors && dal__checks_rank(system) && system->m >= DAL__SPARSE &&
+           system->pivots > 0 && DAL__HOLONOMIC_COUNT(system) == 0 &&
+           !(system->properties & others) && !(k->options.tolerance > 0.0);
+}
+#endif
+
+/* Numbers of a start: D, A, B of all constraints and a condition, G, what the callback writes, and
+ * vectors; or of the equations of velocities that it solves. */
+static size_t start_matrices(const dal_system *system)
+{
+    const size_t n = (size_t)system->n, m = (size_t)system->m, rows = m + 1;
+    const size_t numbers = rows * (2 * n + rows + 2) + 2 * n + m + 2 * m * n + 1;
+    const size_t solved = dal__solve_size(system);
+    return numbers > solved ? numbers : solved;
+}
+
+/* Numbers of matrices of all constraints: of methods, of the rank check at both ends of a step, of
+ * events, of what has no sizes of its terms, of Newton's matrix, and of what the engine makes where
+ * the system lacks it. */
 static double matrices(const dal__layout *k, bool inverts)
 {
     const unsigned needs = DAL_NEEDS_BLOCKS | DAL_NEEDS_CONSTRAINT,
                    kernel = DAL_KERNEL_CORRECTION | DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_SPARK;
     const double n = k->n, m = k->m, point = m + 2 * m * n, blocks = point + n + m;
-    const dal_callbacks *call = &k->system->call;
-    if (m < DAL__SPARSE || k->system->holonomic > 0 || has_matrices(k, needs, kernel))
+    const dal_system *system = k->system;
+    const dal_callbacks *call = &system->call;
+    const bool compares_minors = dal__checks_rank(system) && !dal__checks_rank_by_factors(k);
+    if (m < DAL__SPARSE || system->holonomic > 0 || has_matrices(k, needs, kernel))
         return 4 * point + 8 * m * m;
-    double count = 2 * point + 2 * m * (m + 2);
+    double count = 2 * (n + m) + 1;
+    if (DAL__STARTS_IN_SCRATCH || compares_minors || system->events > 0 || !system->scales)
+        count = 2 * point + 2 * m * (m + 2);
+    if (!DAL__STARTS_IN_SCRATCH && k->options.reactions) count += (m + 1) * (n + 1) + 2 * m;
     if (inverts && dal_method_needs(&k->method) & DAL_NEEDS_BLOCKS)
         count += blocks + 4 * m * (m + 1);
     if (!call->correction || !call->enforcement || !call->reaction || !call->constraint_value)
@@ -399,12 +440,13 @@ static double matrices(const dal__layout *k, bool inverts)
     return count;
 }
 
-/* Sizes, in floating point first so that nothing overflows. */
+/* In floating point first, so that nothing overflows. */
 static dal_status measure(dal__layout *k, dal_error *error)
 {
     const double dim = k->dim, n = k->n, nw = k->nw, m = k->m, stages = k->stages;
     const bool inverts = k->system->call.jacobian && may_solve_by_newton(k);
-    const double matrix = inverts ? 6 * (stages * nw) * (stages * nw) + 2 * nw * (n + nw) : 0;
+    const double square = (stages * nw) * (stages * nw);
+    const double matrix = inverts ? newton_matrices(k) * square + 2 * nw * (n + nw) : 0;
     const double constraint = matrices(k, inverts);
     const unsigned by_factors = DAL_KERNEL_ENFORCEMENT | DAL_KERNEL_SPARK;
     const double equations = (stages + 1) * m;
@@ -424,6 +466,7 @@ static dal_status measure(dal__layout *k, dal_error *error)
         return dal__fail(error, DAL_STATUS_TOO_LARGE, "a run with n = %d, m = %d needs %g numbers",
                          k->n, k->m, scratch);
     k->scratch = (size_t)scratch;
+    k->matrices = DAL__STARTS_IN_SCRATCH ? 0 : start_matrices(k->system);
     k->workspace = k->system->workspace ? k->system->workspace : (size_t)k->system->parameters;
     if (k->workspace > MAX_NUMBERS)
         return dal__fail(error, DAL_STATUS_TOO_LARGE, "a workspace of %zu numbers", k->workspace);
@@ -499,99 +542,9 @@ dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error 
     return measure(k, error);
 }
 
-/* ---- options ---- */
-
-dal_options dal_options_default(void)
-{
-    return (dal_options){
-#define OPTION(type, name, word, initial, min, max, value, help) .name = initial,
-        DAL_OPTION_LIST(OPTION)
-#undef OPTION
-    };
-}
-
 double dal_min_tolerance(const dal_options *options)
 {
     const double ulps = 0x1p-12;
     if (!options) return NAN;
     return ulps * DBL_EPSILON * (options->precision == DAL_QUAD ? DAL_QUAD_ULP_RATIO : 1.0);
-}
-
-/* The place of text among words separated by '|', -1: not there. */
-static int choice(const char *words, const char *text)
-{
-    const size_t length = strlen(text);
-    for (int i = 0;; i++) {
-        const size_t word = strcspn(words, "|");
-        if (word == length && memcmp(words, text, length) == 0) return i;
-        if (words[word] == '\0') return -1;
-        words += word + 1;
-    }
-}
-
-typedef struct option {
-    const char *name, *value;
-    double min, max;
-    bool is_whole, is_choice;
-} option;
-
-static dal_status parse(const option *k, const char *text, double *value, dal_error *error)
-{
-    if (k->is_choice) {
-        *value = choice(k->value, text);
-        if (*value >= 0) return DAL_STATUS_OK;
-        return dal__fail(error, DAL_STATUS_ARGUMENT, "option %s: '%.60s' is not one of %s", k->name,
-                         text, k->value);
-    }
-    if (dal__parse_number(text, strlen(text), value) != DAL_STATUS_OK)
-        return dal__fail(error, DAL_STATUS_SYNTAX, "option %s: '%.60s' is not a number", k->name,
-                         text);
-    const bool is_in_range = *value >= k->min && *value <= k->max;
-    if (is_in_range && (!k->is_whole || *value == floor(*value))) return DAL_STATUS_OK;
-    return dal__fail(error, DAL_STATUS_ARGUMENT, "option %s: %.60s is not %s from %g to %g",
-                     k->name, text, k->is_whole ? "a whole number" : "a number", k->min, k->max);
-}
-
-/* of each type of options: is_whole, is_choice */
-#define DAL__TYPE_double        false, false
-#define DAL__TYPE_int           true, false
-#define DAL__TYPE_bool          true, true
-#define DAL__TYPE_dal_space     true, true
-#define DAL__TYPE_dal_solver    true, true
-#define DAL__TYPE_dal_sums      true, true
-#define DAL__TYPE_dal_precision true, true
-
-/* Sets option number i to a value in its range. */
-static void set_option(dal_options *options, int i, double value)
-{
-    int number = 0;
-#define OPTION(type, field, ...)                                                                   \
-    if (number++ == i) options->field = (type)value;
-    DAL_OPTION_LIST(OPTION)
-#undef OPTION
-}
-
-dal_status dal_options_set(dal_options *options, const char *name, const char *text,
-                           dal_error *error)
-{
-    static const option table[] = {
-#define OPTION(type, field, word, initial, min, max, value, help)                                  \
-    {word, value, min, max, DAL__TYPE_##type},
-        DAL_OPTION_LIST(OPTION)
-#undef OPTION
-    };
-    enum { COUNT = sizeof table / sizeof *table };
-    const char *names[COUNT];
-    DAL_REQUIRE(options, error);
-    DAL_REQUIRE(name, error);
-    DAL_REQUIRE(text, error);
-    for (int i = 0; i < COUNT; i++) {
-        double value = 0.0;
-        names[i] = table[i].name;
-        if (strcmp(name, names[i]) != 0) continue;
-        DAL_TRY(parse(&table[i], text, &value, error));
-        set_option(options, i, value);
-        return DAL_STATUS_OK;
-    }
-    return dal__unknown(error, "option", name, names, COUNT);
 }

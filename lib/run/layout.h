@@ -20,6 +20,7 @@ typedef struct dal__layout {
     int taylor_order;                          /* of Taylor series, for the tolerance */
     double tolerance_root;                     /* tolerance^(1/taylor_order) */
     size_t workspace, persistent, scratch;     /* numbers */
+    size_t matrices;     /* numbers of a start, in scratch where it has as many */
     size_t event_memory; /* numbers of the persistent state that events need, see events.h */
     size_t lift_memory;  /* numbers of the persistent state that name the lift, see saved.c */
 } dal__layout;
@@ -63,6 +64,14 @@ static inline bool dal__checks_rank(const dal_system *system)
 {
     return system->m > 0 && system->properties & DAL_D_RANK_CHECKED && system->call.constraint;
 }
+
+/* Whether that uses the factors of F in place of matrices of all constraints.  These are some ten
+ * times faster where pivots warn, as they often do in the large steps that a tolerance divides. */
+#ifdef DAL_MINIMAL
+#define dal__checks_rank_by_factors(layout) false
+#else
+bool dal__checks_rank_by_factors(const dal__layout *layout);
+#endif
 
 /* Numbers that a checkpoint holds: the persistent state and the parameters. */
 static inline size_t dal__saved_count(const dal__layout *layout)

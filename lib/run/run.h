@@ -46,6 +46,7 @@ struct dal_run {
     double *work;          /* [layout.workspace] parameters, and numbers of the system */
     double *shadow;        /* [stored] the state before an intermediate step */
     double *scratch;       /* of the engine, for outputs of callbacks */
+    double *matrices;      /* of all constraints: scratch, or see dal__reserve_matrices */
     double *point;         /* [n + nw] where a step failed; D and g before a change of parameters */
     double *event_scratch; /* see event_search.c */
     double *scales;        /* see scales.c */

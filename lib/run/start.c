@@ -175,25 +175,33 @@ static dal_status check_coordinates(dal_run *run, dal_error *error)
 {
     dal__linearised k = dal__linearised_coordinates(run, "the start");
     DAL_TRY(check_momenta(run, error));
-    DAL_TRY(dal__solve_coordinates(k.c.system, k.c.at.t, k.v, k.c.at.v, run->work, run->scratch,
+    DAL_TRY(dal__solve_coordinates(k.c.system, k.c.at.t, k.v, k.c.at.v, run->work, run->matrices,
                                    error));
     if (run->layout.options.consistent) DAL_TRY(dal__make_consistent(&k, error));
     DAL_TRY(dal__linearise(&k, NULL, error));
     return check_consistent(run, &k, NULL, error);
 }
 
-static dal_status check_constraints(dal_run *run, dal_error *error)
+static dal_status check_velocities(dal_run *run, dal_error *error)
 {
     dal__linearised k = dal__linearised_of(run, NULL, "the start");
-    const bool is_solved_for = run->layout.system->solved_velocities != 0;
-    if (!has_constraints(run) && !is_solved_for) return DAL_STATUS_OK;
     if (DAL__HOLONOMIC_COUNT(run->layout.system) > 0) DAL_TRY(check_coordinates(run, error));
     DAL_TRY(dal__solve_velocities(run->layout.system, k.c.at.t, k.c.at.q, k.v, run->work,
-                                  run->scratch, error));
+                                  run->matrices, error));
     if (run->layout.options.consistent) DAL_TRY(dal__make_consistent(&k, error));
     DAL_TRY(dal__linearise(&k, NULL, error));
     DAL_TRY(check_consistent(run, &k, NULL, error));
     return dal__linearised_check_rank(&k, error);
+}
+
+static dal_status check_constraints(dal_run *run, dal_error *error)
+{
+    const bool is_solved_for = run->layout.system->solved_velocities != 0;
+    if (!has_constraints(run) && !is_solved_for) return DAL_STATUS_OK;
+    DAL_TRY(dal__reserve_matrices(run, error));
+    const dal_status status = check_velocities(run, error);
+    dal__release_matrices(run);
+    return status;
 }
 
 /* Whether the exact solution has the start of this run, each number relative to its largest value
@@ -316,9 +324,11 @@ dal_status dal__change_parameter(dal_run *run, const char *name, double value, d
         return dal__fail(error, DAL_STATUS_NOT_FINITE, "parameter %s: %g is not a finite number",
                          name, value);
     const double before = run->work[i];
+    DAL_TRY(dal__reserve_matrices(run, error));
     note_constraints(run, run->point);
     run->work[i] = value;
     const dal_status status = check_parameters(run, run->point, &reason);
+    dal__release_matrices(run);
     if (status == DAL_STATUS_OK || status == DAL_STATUS_INCONSISTENT) {
         begin_again(run);
     } else {
