@@ -50,7 +50,7 @@ typedef struct dal_extremal {
     double max_D;     /* max |D_a| along it */
     double condition; /* of the bordered matrix of Newton's method: max over min singular value */
     int iterations;   /* that were taken */
-    int rank;         /* of d(q, v)(T)/d(p, pi)(0); with aim, of d(q, v)(T)/dv(0) on D = 0 */
+    int rank;         /* of d(q, v)(T)/d(p, pi)(0); with aim -1 */
     int conjugate_times;    /* how many there are before T: with none S is a local minimum;
                             -1: not known, where an end has free components, or with aim */
     double first_conjugate; /* near the first of them; NaN: none */
