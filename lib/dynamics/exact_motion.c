@@ -326,6 +326,7 @@ static void drop_before(dal_exact_motion *m, double time)
     size_t old = 0;
     while (old < m->count && m->substep[old].from + m->substep[old].size < time)
         free(m->substep[old++].numbers);
+    if (old == 0) return;
     m->count -= old;
     memmove(m->substep, m->substep + old, m->count * sizeof *m->substep);
 }

@@ -47,7 +47,8 @@ outputs() {
         cat fifo.csv >received &
         $as "$program" "$@" >out 2>err
         status=$?
-        [ -p fifo.csv ] || kill $!
+        # After a crash before it was opened this gives cat its end.
+        if [ -p fifo.csv ]; then : 1<>fifo.csv; else kill $!; fi
         wait $!
         return $status
     }
