@@ -211,25 +211,27 @@ static void test_of_coordinates(void)
 #define MASSES "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - z\n"
     static const struct {
         const char *text, *formula;
-        int constraint;
+        int degree, constraint;
         double value;
     } cases[] = {
-        {MASSES "constraints: [x*x' + y*y' + z*z']\nstart: {x: 1, z: 2}\n", "x^2 + y^2 + z^2", 0,
+        {MASSES "constraints: [x*x' + y*y' + z*z']\nstart: {x: 1, z: 2}\n", "x^2 + y^2 + z^2", 2, 0,
          5.0},
         {MASSES "constraints: [z' - y*x', exp(x)*(x*x' + y*y')]\nstart: {x: 1, y: 2}\n",
-         "x^2 + y^2", 1, 5.0},
-        {MASSES "constraints: [y' - t*x' - x]\nstart: {y: 3}\n", "y - x*t", 0, 3.0},
-        {MASSES "constraints: [z' - cos(x)*x']\nstart: {z: -1}\n", "z - sin(x)", 0, -1.0},
-        {MASSES "constraints: [z' - 2*x' - y', y' - z*x' - x*z']\nstart: {z: -1}\n", "y - x*z", 1,
-         0.0},
-        {MASSES "constraints: [z' - y*x', y' - z*x']\nstart: {y: 2}\n", "y^2 - z^2", -1, 4.0},
+         "x^2 + y^2", 2, 1, 5.0},
+        {MASSES "constraints: [y' - t*x' - x]\nstart: {y: 3}\n", "y - x*t", 2, 0, 3.0},
+        {MASSES "constraints: [z' - cos(x)*x']\nstart: {z: -1}\n", "z - sin(x)", 1, 0, -1.0},
+        {MASSES "constraints: [z' - 2*x' - y', y' - z*x' - x*z']\nstart: {z: -1}\n", "y - x*z", 2,
+         1, 0.0},
+        {MASSES "constraints: [z' - y*x', y' - z*x']\nstart: {y: 2}\n", "y^2 - z^2", 2, -1, 4.0},
         {MASSES "holonomic: [x^2 + y^2 - 1]\nconstraints: [z' - 2*x']\nstart: {x: 1}\n", "2*x - z",
-         0, 2.0},
+         2, 0, 2.0},
+        /* One product, whose rate is rounding alone. */
+        {MASSES "constraints: [2*y*z*x' + x*z*y' + x*y*z']\nstart: {x: 1, y: 2, z: 1}\n", "x^2*y*z",
+         4, 0, 2.0},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        const dal_invariants_settings settings = {
-            .degree = 1 + (strchr(cases[k].formula, '*') || strchr(cases[k].formula, '^')),
-            .of_coordinates = true};
+        const dal_invariants_settings settings = {.degree = cases[k].degree,
+                                                  .of_coordinates = true};
         dal_invariants *found = find(cases[k].text, &settings, NULL);
         const dal_invariant *i = with_formula(found, cases[k].formula);
         CU_ASSERT(i && i->constraint == cases[k].constraint);

@@ -96,6 +96,21 @@ static void fill_equations(const terms *t, const dal__samples *samples, double *
     }
 }
 
+/* Whether a product alone is constant: its rate is a rounding beside how fast products change. */
+static bool is_constant(const dal__samples *samples, int product, double residue)
+{
+    const size_t points = (size_t)samples->points;
+    double fastest = 0.0;
+    for (int k = 1; k < samples->functions; k++) {
+        const double value = dal__max_abs(samples->value + (size_t)k * points, points);
+        const double rate = dal__max_abs(samples->rate + (size_t)k * points, points);
+        if (value > 0.0) fastest = fmax(fastest, rate / value);
+    }
+    const double value = dal__max_abs(samples->value + (size_t)product * points, points);
+    const double rate = dal__max_abs(samples->rate + (size_t)product * points, points);
+    return rate <= residue * fastest * value;
+}
+
 /* Solves for the coefficients with a set of parameters, the first being 1; *found: they exist. */
 static dal_status solve_terms(const terms *t, const double *parameter, double *out, bool *found)
 {
@@ -110,9 +125,12 @@ static dal_status solve_terms(const terms *t, const double *parameter, double *o
         double *right = a + rows * n, *size = right + rows, *work = size + n;
         fill_equations(t, &samples, a, right, size);
         out[0] = 1.0;
-        *found = unknown == 0 || dal__least_squares(points, unknown, a, right, out + 1, rank, NULL,
-                                                    work) == unknown;
-        *found = *found && dal__max_abs(right, rows) <= residue;
+        if (unknown == 0)
+            *found = is_constant(&samples, t->product[0], residue);
+        else
+            *found = dal__least_squares(points, unknown, a, right, out + 1, rank, NULL, work) ==
+                         unknown &&
+                     dal__max_abs(right, rows) <= residue;
         for (int k = 1; k < t->count; k++) out[k] *= size[0] / size[k];
     }
     dal__samples_free(&samples);

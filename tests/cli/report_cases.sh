@@ -488,6 +488,10 @@ done
 expect "other crossings" sh -c "sed -n '/curve1 <</,/^END/p' cut/report/section.gp |
     awk -F, 'NF == 2 { n++; if ((\$1 + 1)^2 + (\$2 - 1)^2 > 1e-12) bad++ } END { exit bad || n != 3 }'"
 rm cut/section.json
+mkdir cut/section.json
+try 4 report cut
+says "cannot read 'cut/section.json': Is a directory"
+rmdir cut/section.json
 try 0 report cut
 expect "no figure of a table alone" grep -q '<figure' cut/report/index.html
 
