@@ -56,6 +56,46 @@ sed '2s/rk4/rk4\r/' one/cells.csv >cut && damaged cut ":2: column 3 \('integrato
 tr '4' '\0' <one/cells.csv >cut && damaged cut ': byte [0-9]+ is a NUL$'
 : >cut && damaged cut ' has no rows$'
 
+# Whatever file of a directory is empty, has only its first line or is a directory, the page says so.
+case_is "files that are not whole"
+try 0 run line.yaml --integrator rk4 --step 0.5 --time 2 --output of-run
+try 0 order line.yaml --integrators rk4 --levels 2 --time 1 --output of-order
+try 0 section plane.yaml --on y --integrator rk4 --step 0.1 --time 7 --output of-section
+try 0 ensemble line.yaml --members 4 --seed 1 --vary 'x=normal(1,0.1)' --integrator rk4 --step 0.5 --time 2 --output of-ensemble
+sed '/starts/d; s/line/plane/' one.yaml >all.yaml
+try 0 study all.yaml --no-page --output of-study
+# not_whole STATUS DIR/FILE MESSAGE: after "empty", "heads" or "folder" in $change.
+not_whole() {
+    rm -rf other && cp -r "${2%%/*}" other
+    damaged=other/${2#*/}
+    case $change in
+    empty) : >"$damaged" ;;
+    heads) sed -n 1p "$2" >"$damaged" ;;
+    folder) rm "$damaged" && mkdir "$damaged" ;;
+    esac
+    try $1 report other
+    says "^dalembert: $3$"
+}
+tables="of-run/summary.csv of-order/order.csv of-section/section.csv of-ensemble/statistics.csv of-ensemble/histograms.csv
+    of-ensemble/cloud.csv of-study/cells.csv of-study/quantities.csv of-study/series/plane.yaml.csv"
+for file in $tables; do
+    change=empty && not_whole 2 $file "'other/${file#*/}' has no rows"
+    change=folder && not_whole 4 $file "cannot read 'other/${file#*/}': Is a directory"
+done
+for file in of-order/order.csv of-study/cells.csv; do
+    change=heads && not_whole 2 $file "'other/${file#*/}' has no rows"
+done
+change=heads && not_whole 2 of-ensemble/statistics.csv "'other' has no statistics of an ensemble"
+for file in of-run/manifest.json of-order/order.json of-section/section.json of-ensemble/manifest.json; do
+    change=empty && not_whole 2 $file "other/${file#*/}:1:1: no JSON: a value is expected"
+    change=heads && not_whole 2 $file "other/${file#*/}:2:1: no JSON: a name in quotes is expected"
+done
+change=empty && not_whole 2 of-run/trajectory.npy "'other/trajectory.npy' is no .npy file of named doubles"
+change=heads && not_whole 4 of-run/trajectory.npy "'other/trajectory.npy' has fewer rows than its header states"
+change=folder && not_whole 4 of-run/trajectory.npy "cannot read 'other/trajectory.npy': Is a directory"
+change=empty && not_whole 2 of-study/study.yaml "other/study.yaml: it is empty"
+change=folder && not_whole 4 of-study/study.yaml "cannot read 'other/study.yaml': Is a directory"
+
 # A fault of a picture is a fault of the command.
 case_is "a picture that fails"
 mkdir -p fails draws stops dies
