@@ -34,6 +34,7 @@ extern "Python" dal_status python_poll(void *user, dal_run *run);
 extern "Python" dal_status python_event(void *user, dal_run *run, const dal_occurrence *event);
 extern "Python" dal_status python_cross(void *user, dal_run *run, const dal_crossing *crossing);
 extern "Python" dal_status python_progress(void *user, double done);
+extern "Python" dal_status python_iterate(void *user, int guess, int iteration, double residual);
 extern "Python" bool python_stop(void *user);
 typedef struct python_request {
     void *user;

@@ -1,4 +1,6 @@
 """Measurements against closed forms and theory."""
+import signal
+
 import numpy as np
 import pytest
 
@@ -236,3 +238,51 @@ start: {x: a^2}
         dalembert.sensitivities(fall, ['k'], 'taylor', 1, step=0.1, tolerance=1e-9)
     with pytest.raises(dalembert.InputError, match='names'):
         dalembert.sensitivities(fall, 'k', 'rk4', 1, step=0.1)
+
+
+def test_steer():
+    """x'' = u, e = 2, from rest to rest by d in T: S = 6 e d^2/T^3, x = d (3 s^2 - 2 s^3)."""
+    cart = dalembert.System("coordinates: [x]\nlagrangian: x'^2/2\ngauge: {e: 2}\nstart: {x: 0.5}\n")
+    found = cart.steer({'x': 1.2}, 'gauss4', 2, step=0.125, rest=True)
+    best, motion = found.best, found.best.motion
+    assert best.S == pytest.approx(12 * 0.7 ** 2 / 8, abs=1e-13) and best.message == '' and found.extremals == (best,)
+    s = motion['t'] / 2
+    assert np.allclose(motion['t'], np.linspace(0, 2, 17))
+    assert np.allclose(motion['x'], 0.5 + 0.7 * (3 * s ** 2 - 2 * s ** 3), rtol=0, atol=1e-13)
+    assert motion['pi_e'][-1] * 2 == pytest.approx(best.S) and (best.rank, found.allowed) == (2, 2)
+    assert best.conjugate_times == 0 and np.isnan(best.first_conjugate) and found.growth == ()
+    freed = cart.steer({'x': 1.2}, 'gauss4', 2, step=0.125, free=["x'"])
+    assert freed.best.motion["x'"] == pytest.approx(0.35) and freed.best.conjugate_times is None
+    ball = dalembert.System("coordinates: [x]\nparameters: {g: 9}\nlagrangian: x'^2/2 - g*x\n")
+    aimed = ball.steer({'x': 3}, 'gauss4', 1, step=0.125, aim=True, parameters={'g': 4}, start_time=-1)
+    assert aimed.best.motion["x'"][0] == pytest.approx(5.5) and aimed.best.motion.parameters == {'g': 4}
+    assert aimed.best.S == 0 and aimed.best.rank is None and aimed.best.motion['t'][0] == -1
+    with pytest.raises(dalembert.InputError, match="'z' is no coordinate"):
+        cart.steer({'z': 1}, 'gauss4', 1, step=0.125)
+    with pytest.raises(dalembert.InputError, match='free'):
+        cart.steer({'x': 1}, 'gauss4', 1, step=0.125, free="x'")
+
+
+def test_steer_not_found():
+    """The nearest motion is kept; a signal keeps those that are found."""
+    sleigh = dalembert.System('''coordinates: [x, y, phi]
+lagrangian: (x'^2 + y'^2 + phi'^2)/2
+constraints: [x'*sin(phi) - y'*cos(phi)]
+''').with_effort('constraint')
+    target = {'x': 0, 'y': 1, 'phi': 0}
+    with pytest.raises(dalembert.StepError, match='no motion was found in 2 iterations') as caught:
+        sleigh.steer(target, 'gauss4', 2, step=0.1, rest=True, max_iterations=2)
+    nearest = caught.value.partial
+    assert nearest.growth == (2, 3) and nearest.best.residual > 1e-3 and len(nearest.best.motion) == 21
+
+    def handler(number, frame):
+        raise KeyboardInterrupt
+    before = signal.signal(signal.SIGALRM, handler)
+    try:
+        with pytest.raises(KeyboardInterrupt) as ended:
+            signal.setitimer(signal.ITIMER_REAL, 0.5)
+            sleigh.steer({'x': 1, 'y': 0, 'phi': 0}, 'gauss4', 2, step=0.1, rest=True, starts=10000)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert ended.value.partial.best.S == pytest.approx(6 / 8)
