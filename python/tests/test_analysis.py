@@ -215,6 +215,15 @@ def test_predict():
     assert pieces.pieces == 6 and abs(pieces.observables['E'].walk) < 1e-20
     with pytest.raises(dalembert.Error, match='multipliers pass from step to step'):
         dalembert.predict('heisenberg', 'gni', 1, step=0.05)
+    both = dalembert.predict(oscillator, ['rk4', 'gni'], 50, step=[0.25, 0.125], samples=10)
+    assert list(both) == [('rk4', 0.25), ('rk4', 0.125), ('gni', 0.25), ('gni', 0.125)]
+    assert np.array_equal(both['rk4', 0.25].observables['E'].curve, energy.curve)
+    half = 0.5 * (-0.125 ** 6 / 72 + 0.125 ** 8 / 576)
+    assert abs(both['rk4', 0.125].observables['E'].change / (400 * half) - 1) < 1e-8
+    assert 'multipliers' in both['gni', 0.25].message
+    assert list(dalembert.predict(oscillator, 'rk4', 1, step=[0.5])) == [('rk4', 0.5)]
+    with pytest.raises(dalembert.InputError, match='step: the list is empty'):
+        dalembert.predict(oscillator, 'rk4', 1, step=[])
     with pytest.raises(dalembert.InputError, match='samples'):
         dalembert.predict(oscillator, 'rk4', 1, step=0.25, samples=0)
 
