@@ -62,7 +62,8 @@ typedef struct dal_predicted {
     char name[64];       /* "D1", "E", or of the invariant */
     bool is_conserved;   /* by the exact motion from this start */
     bool is_zero;        /* the mean rate is 0 by reversibility: the method preserves a reversal
-                               that maps the exact motion to itself, and the observable, too */
+                               that maps the exact motion to itself, and the observable, too; and
+                               the motion goes on and comes back */
     double change;       /* at the end of the curve */
     double max_change;   /* max |change| up to there */
     double rate, margin; /* the mean rate per unit of t, and half its interval */
@@ -121,7 +122,8 @@ void dal_exact_motion_free(dal_exact_motion *motion);
  * Errors: errors of the start; DAL_STATUS_ARGUMENT (T, settings, the
  * start of the motion); DAL_STATUS_UNSUPPORTED, and the
  * message says the reason: a tolerance, multipliers or accelerations that pass from step to step,
- * p or pi that are not 0, events, vakonomic motion, quad precision, motion on an attractor. */
+ * p or pi that are not 0, events, vakonomic motion, holonomic constraints, quad precision, motion
+ * on an attractor. */
 dal_status dal_predict_create(dal_prediction **prediction, const dal_run_spec *spec, double T,
                               const dal_predict_settings *settings,
                               const dal_predict_observer *observer, dal_error *error);

@@ -258,6 +258,10 @@ static void test_zeros(void)
     dal_prediction *p = predicted("benenti", "gauss4", 0.1, 40.0, 0);
     CU_ASSERT_FALSE(find(p, "E")->is_zero);
     dal_prediction_free(p);
+    /* Nor does motion that ends where a constraint is singular. */
+    p = predicted("chaplygin-sleigh-nonlinear", "mclachlan-perlmutter", 0.02, 20.0, 0);
+    CU_ASSERT(p->reason == DAL_PREDICTION_FAILED && !find(p, "E")->is_zero);
+    dal_prediction_free(p);
 }
 
 /* Pieces: their mean is the rate, and where all change the same there is no walk. */

@@ -16,7 +16,8 @@
 enum { MIN_BINS = 4 };
 /* Volumes that shrink by exp(-contraction) approach an attractor. */
 static const double contraction = 2.0;
-/* Motion that is as much farther away in its second half may not come back. */
+/* Motion that is as much farther away in its second half may not come back, and motion that ends
+ * does not. */
 static const double escape = 1.25;
 
 typedef dal__prediction_work work;
@@ -78,7 +79,8 @@ dal_status dal__predict_results(work *w)
     if (steady && mean * T < -contraction)
         return dal__predict_refuse(
             w, "the motion approaches an attractor, on which it forgets changes");
-    const bool returns = w->reach[1] <= escape * w->reach[0];
+    const bool is_whole = w->of->steps == w->steps * (w->pieces > 0 ? w->pieces : 1);
+    const bool returns = is_whole && w->reach[1] <= escape * w->reach[0];
     w->of->rows = w->row;
     w->of->observables = w->count;
     for (int j = 0; j < w->count; j++) {

@@ -59,6 +59,8 @@ case_is "refused"
 table <<'END'
 2 | predict heisenberg --integrator gni --step 0.05 --time 1 | says no drift of gni can be predicted: its multipliers
 2 | predict heisenberg --integrator rk4 --step 0.05 --time 1 --start p_x=1 | says p and pi are not 0
+2 | predict spherical-pendulum --integrator gauss4 --step 0.05 --time 1 | says the system has holonomic constraints
+2 | predict chaplygin-sleigh-vakonomic --integrator gauss4 --step 0.05 --time 1 | says the motion is vakonomic
 2 | predict heisenberg --integrator rk4 --step 0.05 --time 0.97 | says no whole number of steps
 2 | predict heisenberg --integrator dop853 --step 0.05 --time 1 --tolerance 1e-9 | says a tolerance
 2 | predict heisenberg --integrator rk4,rk5 --step 0.05 --time 1 | says rk5
