@@ -3,11 +3,11 @@
 
     predicted.py PROGRAM walks [PIECES]   s^2 of the random walk of E of chaotic oscillators, predicted from PIECES
                                           (100) pieces of the exact motion and measured on a run as long
-    predicted.py PROGRAM zeros [STEPS]    mean rates that are "0 by reversibility", in runs of STEPS (1000000) steps:
-                                          the largest change in the last tenth over that in the first
-
+    predicted.py PROGRAM zeros [STEPS]    mean rates that are "0 by reversibility", of all systems and symmetric
+                                          methods, in runs of STEPS (1000000) steps: the largest change in the last
+                                          tenth over the largest in the first
     predicted.py PROGRAM curves [TIME]    predicted curves to TIME (200), or as far as they go, and runs: the largest
-                                          difference over the largest change, of methods that leave D = 0
+                                          difference over the largest change, cell by cell; and a table of the systems
 
 docs/predict.md has what they found.
 """
@@ -22,18 +22,17 @@ COUNT = int(float(sys.argv[3])) if len(sys.argv) > 3 else {"walks": 100, "zeros"
 # Method, step, length of a piece, angle of the start.
 WALKS = (("mclachlan-perlmutter", 0.1, 2000, None), ("spark2", 0.1, 2000, None), ("dla", 0.1, 2000, None),
          ("mclachlan-perlmutter", 0.1, 2000, 1.1), ("mclachlan-perlmutter", 0.05, 2000, None))
-# Systems whose motion some reversal maps to itself, and methods.
-ZEROS = ("contact-oscillator", "nonholonomic-particle", "nonholonomic-particle-free", "heisenberg", "pendulum-cvt",
-         "benenti", "unequal-springs", "knife-edge", "vertical-disk", "falling-disk", "turntable-ball", "suslov",
-         "chaplygin-sleigh", "snakeboard", "servo-pendulum", "mobile-robot")
-METHODS = "implicit-midpoint,gauss4,mclachlan-perlmutter,spark2,spark4,lobatto4,gauss6,dla"
-
+METHODS = ("implicit-midpoint,stormer-verlet,gauss4,gauss6,lobatto4,lobatto6,mclachlan-perlmutter,rattle,dla,spark2,"
+           "spark4,spark6,gauss-spark2,gauss-spark4,gauss-spark6,implicit-midpoint+yoshida4,bm4,"
+           "gauss4+symmetric-project,lobatto4+symmetric-project")
 
 REGULAR = ("appell-hamel-harmonic", "benenti", "chaplygin-sleigh", "contact-oscillator", "falling-disk",
            "falling-disk-reduced", "heisenberg", "knife-edge", "knife-edge-reaction", "mobile-robot",
            "nonholonomic-particle", "nonholonomic-particle-free", "pendulum-cvt", "rocket", "servo-pendulum",
            "snakeboard", "turntable-ball", "turntable-ball-tilted", "unequal-springs", "vertical-disk")
-LEAVING = "implicit-midpoint,stormer-verlet,dla,rk4,gauss4,lobatto4"
+FOURTH = "rk4,gauss4,lobatto4,rk4+project,gauss4+project,spark4,gauss-spark4"
+SECOND = ("mclachlan-perlmutter,spark2,gauss-spark2,dla,implicit-midpoint+project,stormer-verlet+project,"
+          "implicit-midpoint,stormer-verlet")
 
 
 def call(*arguments):
@@ -79,8 +78,8 @@ def walks():
 def zeros():
     """Zeros that are said, and what runs do."""
     print("| system | method | quantity | first tenth | last tenth | ratio |\n|---|---|---|---|---|---|")
-    for system in ZEROS:
-        found = call("predict", system, "--integrator", METHODS, "--time", 200)
+    for system in (item["system"] for item in call("list", "systems")["systems"]):
+        found = call("predict", system, "--integrator", METHODS, "--time", 200, "--quad-steps", 0)
         for p in found["predictions"] if found else ():
             said = [o for o in p.get("observables", ()) if o["zero_by_reversibility"] and o["max_change"] > 1e-11]
             if p["refused"] or not said:
@@ -90,20 +89,23 @@ def zeros():
             done = subprocess.run([PROGRAM, "run", system, "--integrator", p["integrator"], "--step", str(p["step"]),
                                    "--steps", str(COUNT), "--samples", str(rows), "--columns", names, "--output", "-"],
                                   capture_output=True, text=True, check=False)
-            table = [list(map(float, line.split(",")[1:])) for line in done.stdout.splitlines()[1:]]
+            table = [list(map(float, line.split(",")[-len(said):])) for line in done.stdout.splitlines()[1:]]
+            if len(table) < 20:
+                print(f"| `{system}` | `{p['integrator']}` | {names} | {done.stderr.strip()} |", flush=True)
+                continue
             for o, column in zip(said, zip(*table)):
                 change = [abs(x - column[0]) for x in column]
-                first, last = max(change[:rows // 10]), max(change[-rows // 10:])
+                first, last = max(change[:len(change) // 10]), max(change[-(len(change) // 10):])
                 print(f"| `{system}` | `{p['integrator']}` | {o['name']} | {first:.3g} | {last:.3g} | "
-                      f"{last / first:.3f}{'' if done.returncode == 0 else ' (failed)'} |", flush=True)
+                      f"{last / first if first else math.inf:.3f}{'' if done.returncode == 0 else ' (failed)'} |", flush=True)
 
 
 def compare(system, p):
-    """A curve that ends where p does, beside the run."""
+    """The differences of a curve that ends where p does from the run: quantity, t, of the curve, of its size."""
     name, step, end = p["integrator"], str(p["step"]), p["end"]
     steps = round(end / p["step"])
     end = end if steps <= 200 else p["step"] * 200 * (steps // 200)
-    again = call("predict", system, "--integrator", name, "--step", step, "--time", end)["predictions"][0]
+    again = call("predict", system, "--integrator", name, "--step", step, "--time", end, "--quad-steps", 0)["predictions"][0]
     shown = [o for o in again["observables"] if o["conserved"] and o["name"][:1] + o["name"][1:].strip("0123456789") != "D"]
     rows = len(again["t"]) - 1
     done = subprocess.run([PROGRAM, "run", system, "--integrator", name, "--step", step, "--time", str(end), "--sampling",
@@ -115,20 +117,41 @@ def compare(system, p):
         print(f"| `{system}` | `{name}` | other rows |")
         return
     for o, column in zip(shown, zip(*table)):
-        size = max(abs(x - column[0]) for x in column)
+        change = [x - column[0] for x in column]
+        size = max(map(abs, change))
         if size > 1e-11:
-            worst = max(abs(x - column[0] - y) for x, y in zip(column, o["curve"]))
-            print(f"| `{system}` | `{name}` | {o['name']} | {end:.6g} | {100 * worst / size:.2g} % |", flush=True)
+            curve = max(abs(x - y) for x, y in zip(change, o["curve"])) / size
+            yield o["name"], end, curve, abs(max(map(abs, o["curve"])) / size - 1)
 
 
 def curves():
-    """Predicted curves and runs."""
-    print("| system | method | quantity | to t | difference |\n|---|---|---|---|---|")
+    """Predicted curves and runs, and a table of the systems."""
+    table = []
+    print("| system | method | leaves D = 0 | quantity | to t | curve | size |\n|---|---|---|---|---|---|---|")
     for system in REGULAR:
-        found = call("predict", system, "--integrator", LEAVING, "--time", COUNT)
-        for p in found["predictions"] if found else ():
-            if not p["refused"] and p["leaves_D"]:
-                compare(system, p)
+        row = []
+        for order, methods in ((4, FOURTH), (2, SECOND)):
+            found = call("predict", system, "--integrator", methods, "--time", COUNT, "--quad-steps", 0)
+            for p in found["predictions"] if found else ():
+                for name, end, curve, size in compare(system, p) if not p["refused"] else ():
+                    row.append((order, p["leaves_D"], curve))
+                    print(f"| `{system}` | `{p['integrator']}` | {'yes' if p['leaves_D'] else 'no'} | {name} | {end:.6g} | "
+                          f"{100 * curve:.2g} % | {100 * size:.2g} % |", flush=True)
+        table.append((system, found["predictions"][0]["step"] if found else math.nan, row))
+    print("\n| system | h | order 4: cells | leaves D = 0 | does not | order 2: cells | leaves D = 0 | does not |\n"
+          "|---|---|---|---|---|---|---|---|")
+    for system, step, row in table:
+        text = f"| `{system}` | {step} |"
+        for order in (4, 2):
+            text += f" {sum(r[0] == order for r in row)} |"
+            for leaves in (True, False):
+                cells = [r[2] for r in row if r[:2] == (order, leaves)]
+                text += f" {100 * max(cells):.2g} % |" if cells else " - |"
+        print(text)
+    for order, leaves, limit in ((4, False, 0.01), (4, True, 0.02), (2, False, 0.01), (2, True, 0.02)):
+        cells = [r[2] for s in table for r in s[2] if r[:2] == (order, leaves)]
+        print(f"Order {order}, {'leaves' if leaves else 'does not leave'} D = 0: {sum(c <= limit for c in cells)} of "
+              f"{len(cells)} cells within {100 * limit:.0f} %.")
 
 
 {"walks": walks, "zeros": zeros, "curves": curves}[WHAT]()
