@@ -445,6 +445,11 @@ static void test_refused(void)
     refused(&spec, 1.0, DAL_STATUS_UNSUPPORTED, "at midpoints alone");
     spec = fixture_spec(fixture_system("chaplygin-sleigh-vakonomic"), "rk4", DAL_PHYSICAL, 0.05);
     refused(&spec, 1.0, DAL_STATUS_UNSUPPORTED, "vakonomic");
+    spec = fixture_spec(fixture_system("bead-on-hoop"), "rk4", DAL_PHYSICAL, 0.05);
+    refused(&spec, 1.0, DAL_STATUS_UNSUPPORTED, "holonomic constraints");
+    spec = fixture_spec(fixture_system(oscillator), "rk4", DAL_PHYSICAL, 0.25);
+    spec.options.precision = DAL_QUAD;
+    refused(&spec, 1.0, DAL_STATUS_UNSUPPORTED, "quad precision");
     spec = fixture_spec(fixture_system("chaplygin-sleigh-friction"), "rk4", DAL_PHYSICAL, 0.02);
     refused(&spec, 20.0, DAL_STATUS_UNSUPPORTED, "attractor");
     spec = fixture_spec(fixture_system("coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\n"
