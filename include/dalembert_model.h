@@ -158,8 +158,9 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
  * Its lifted space is the tangent of the lifted space: the momenta of (q, dq) are (dp, p) and
  * (dpi, pi), pi_e is dpi_e, and with K = [[0, K], [K, dK]] as its effort, dK = K_q dq + K_v dv,
  *     H = dp.v + p.dv + dpi.F + pi.(F_q dq + F_v dv) + (2 dpi.K pi + pi.dK pi)/(2e)
- * is the derivative of H of the system along (dq, dv, dp, dpi), with de = 0. [alloc]  Errors: as
- * for dal_model_system; DAL_STATUS_UNSUPPORTED: vakonomic motion has none. */
+ * is the derivative of H of the system along (dq, dv, dp, dpi), with de = 0.  Vakonomic motion has
+ * no lift; its tangent system has the 2m multipliers (g, dg). [alloc]  Errors: as for
+ * dal_model_system. */
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error);
 /* The same with the derivatives by a parameter added, F_q dq + F_v dv + F_k, and to dK likewise; it
  * starts from the derivative of the start of the system.  Steps of a Runge-Kutta or partitioned

@@ -184,7 +184,7 @@ struct dal_system {
     int n;                         /* coordinates, >= 1 */
     int m;                         /* constraints D */
     int holonomic;   /* of these, the last: D = g_q v + g_t of holonomic constraints g(q,t) = 0 */
-    int multipliers; /* first-order variables beside v (vakonomic g); 0 or m */
+    int multipliers; /* first-order variables beside v (vakonomic g); 0 or m, any where m = 0 */
     int parameters, invariants, guards, tags, tables; /* how many there are */
     int observed; /* of the invariants, the last: formulas that dal_model_observe has added */
     unsigned properties;           /* DAL_D_LINEAR | ...: what is known of D and E */

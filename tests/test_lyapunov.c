@@ -259,14 +259,21 @@ static void test_full_turn(void)
 
 static void test_vakonomic(void)
 {
-    dal_lyapunov *s = NULL;
-    const dal_run_spec spec =
-        fixture_spec(fixture_system("chaplygin-sleigh-vakonomic"), "gauss6", DAL_PHYSICAL, 0.05);
-    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_STATUS_OK);
-    CU_ASSERT_EQUAL(dal_lyapunov_count(s), 7);
-    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 100, NULL), DAL_STATUS_OK);
-    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), fixture_divergence(s), 1e-5);
-    dal_lyapunov_free(s);
+    const char *const name = "chaplygin-sleigh-vakonomic";
+    const dal_run_spec spec = fixture_spec(fixture_system(name), "gauss6", DAL_PHYSICAL, 0.05);
+    double first[2];
+    for (int exact = 0; exact < 2; exact++) {
+        dal_lyapunov *s = NULL;
+        const dal_system *tangent = exact ? fixture_tangent(name) : NULL;
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent, 0, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_count(s), 7);
+        CU_ASSERT_EQUAL(dal_lyapunov_is_exact(s), exact);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 100, NULL), DAL_STATUS_OK);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), fixture_divergence(s), 1e-5);
+        first[exact] = fixture_exponent(s, 0);
+        dal_lyapunov_free(s);
+    }
+    CU_ASSERT_DOUBLE_EQUAL(first[1], first[0], 1e-8); /* of differences */
 }
 
 static void test_same_bits(void)

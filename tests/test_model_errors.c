@@ -549,8 +549,7 @@ static dal_status whole_life(const char *name, dal_error *error)
     const dal_system *system;
     dal_status status = dal_model_builtin(&model, name, error);
     if (status == DAL_STATUS_OK) status = dal_model_system(model, &system, error);
-    if (status == DAL_STATUS_OK && system->multipliers == 0)
-        status = dal_model_tangent(model, &system, error);
+    if (status == DAL_STATUS_OK) status = dal_model_tangent(model, &system, error);
     dal_model_free(model);
     return status;
 }

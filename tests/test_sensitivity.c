@@ -161,7 +161,9 @@ static const sample subjects[] = {
     {NULL, "rocket", "burn", DAL_EFFORT_IDENTITY, 0.0},
     {NULL, "falling-disk", "r", DAL_EFFORT_IDENTITY, 0.0},
     {NULL, "relativistic-em", "u0", DAL_EFFORT_IDENTITY, 0.1},
-    {NULL, "servo-pendulum", "l", DAL_EFFORT_IDENTITY, 0.0}};
+    {NULL, "servo-pendulum", "l", DAL_EFFORT_IDENTITY, 0.0},
+    {NULL, "chaplygin-sleigh-vakonomic", "g1", DAL_EFFORT_IDENTITY, 0.0},
+    {NULL, "chaplygin-sleigh-vakonomic", "m", DAL_EFFORT_IDENTITY, 0.0}};
 static const char *const methods[] = {
     "rk4", "gauss4", "gauss8", "implicit-midpoint+yoshida4", "stormer-verlet", "taylor"};
 

@@ -69,11 +69,10 @@ static int create_spectrum(tangent_study *s)
         status =
             row_times_check_step(request, request->from, s->set->transient + s->simulation->end);
     if (status != CLI_DONE) return status;
-    /* A vakonomic system has no tangent system; its derivatives are differences. */
     if (dal_jumps_create(&s->jumps, s->simulation->model) != DAL_STATUS_OK)
         return cli_fail(CLI_IO, "%s: out of memory", request->system_name);
     dal_status made = dal_model_tangent(s->simulation->model, &tangent, &error);
-    if (made == DAL_STATUS_OK || made == DAL_STATUS_UNSUPPORTED)
+    if (made == DAL_STATUS_OK)
         made = dal_lyapunov_create(&s->spectrum, &spec, tangent, (int)s->set->exponents, &error);
     return made == DAL_STATUS_OK ? CLI_DONE
                                  : cli_error(cli_input_exit(made), request->system_name, &error);

@@ -62,15 +62,16 @@ struct dal_lyapunov {
 
 /* ---- J times a vector ---- */
 
-/* (dq, dv) by a step of the tangent system from (q, dq, v, dv). */
+/* (dq, dv, dg) by a step of the tangent system from (q, dq, v, dv, g, dg). */
 static dal_status move_exactly(dal_lyapunov *s, double *vector)
 {
+    const dal_system *system = dal_run_system(s->run);
     double *x = s->scratch;
     for (int i = 0; i < s->dimension; i++) vector[i] *= s->unit[i];
-    dal__tangent_scatter(s->n, DAL_PHYSICAL, s->z, vector, x);
+    dal__tangent_scatter(system, DAL_PHYSICAL, s->z, vector, x);
     DAL_TRY(dal_run_set_state(s->auxiliary, s->t, x, s->error));
     DAL_TRY(dal_run_step(s->auxiliary, s->error));
-    dal__tangent_gather(s->n, DAL_PHYSICAL, dal_run_state(s->auxiliary), vector);
+    dal__tangent_gather(system, DAL_PHYSICAL, dal_run_state(s->auxiliary), vector);
     for (int i = 0; i < s->dimension; i++) vector[i] /= s->unit[i];
     return DAL_STATUS_OK;
 }

@@ -15,6 +15,7 @@
 #include <string.h>
 
 struct dal_sensitivity {
+    const dal_system *system;
     int n, dimension, count;
     bool is_lifted;     /* momenta are integrated */
     dal_run **run;      /* [count] of the tangent systems */
@@ -87,7 +88,7 @@ static dal_status check_names(dal_sensitivity *s, const dal_run *run, const dal_
         if (has_momenta && component == 2 * s->n)
             return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                              "sensitivities are at constant e: there is none by the start of e");
-        s->is_lifted = s->is_lifted || component > 2 * s->n;
+        s->is_lifted = s->is_lifted || (has_momenta && component > 2 * s->n);
     }
     const char *fault = s->is_lifted ? dal__tangent_fault(spec, DAL_LIFTED) : NULL;
     if (!fault) return DAL_STATUS_OK;
@@ -112,13 +113,13 @@ static dal_status start_column(dal_sensitivity *s, dal_model *model, const colum
     double *vector = column_at(s, k);
     double *state = dal__numbers(1, (size_t)dal_run_dimension(s->run[k]));
     if (!state) return out_of_memory(error);
-    dal__tangent_gather(s->n, space_of(s), dal_run_state(s->run[k]), vector);
+    dal__tangent_gather(s->system, space_of(s), dal_run_state(s->run[k]), vector);
     for (int i = 0; i < c->spec->start_count; i++) { /* what the run sets depends on nothing */
         const int given = dal_run_component_index(c->run, c->spec->start[i].name);
         if (given >= 0) vector[given] = 0.0;
     }
     if (c->component >= 0) vector[c->component] = 1.0;
-    dal__tangent_scatter(s->n, space_of(s), dal_run_state(c->run), vector, state);
+    dal__tangent_scatter(s->system, space_of(s), dal_run_state(c->run), vector, state);
     const dal_status status = dal_run_set_state(s->run[k], dal_run_time(c->run), state, error);
     free(state);
     return status;
@@ -162,7 +163,7 @@ dal_status dal_sensitivity_create(dal_sensitivity **sensitivity, dal_model *mode
     DAL_TRY(check_spec(spec, error));
     DAL_TRY(dal_run_create(&run, spec, error));
     dal_sensitivity *s = calloc(1, sizeof *s);
-    if (s) s->count = count;
+    if (s) *s = (dal_sensitivity){.system = system, .count = count};
     const dal_status status =
         s ? start_columns(s, model, spec, names, run, error) : out_of_memory(error);
     dal_run_free(run);
@@ -194,7 +195,7 @@ static dal_status read_column(void *user, dal_run *run)
 {
     const target *at = user;
     const dal_sensitivity *s = at->sensitivity;
-    dal__tangent_gather(s->n, space_of(s), dal_run_state(run), at->column);
+    dal__tangent_gather(s->system, space_of(s), dal_run_state(run), at->column);
     return DAL_STATUS_OK;
 }
 

@@ -21,46 +21,55 @@ const char *dal__tangent_fault(const dal_run_spec *spec, dal_space space)
     return NULL;
 }
 
-/* The halves of a state of the tangent system: at[k] is where the state of the run has the first of
- * n numbers of half k of (q, dq, v, dv) and, after e, of (dp, p, dpi, pi); is_vector, whether they
- * are of the vector. */
+/* The halves of a state of the tangent system, (q, dq, v, dv), then (g, dg) of vakonomic motion or,
+ * after e, (dp, p, dpi, pi). */
 typedef struct half {
     int place; /* in the tangent system */
     int at;    /* in a state, or a vector */
+    int count;
     bool is_vector;
 } half;
 
-enum { PHYSICAL = 4, LIFTED = 8 };
+enum { MAX_HALVES = 8 };
 
-static void find_halves(int n, half *out)
+static int find_halves(int n, int multipliers, dal_space space, half *out)
 {
-    const int p = 2 * n + 1, pi = 3 * n + 1, P = 4 * n + 1, Pi = 6 * n + 1;
-    const half all[LIFTED] = {{0, 0, false},    {n, 0, true},       {2 * n, n, false},
-                              {3 * n, n, true}, {P, p, true},       {P + n, p, false},
-                              {Pi, pi, true},   {Pi + n, pi, false}};
-    memcpy(out, all, sizeof all);
+    const int m = multipliers, p = 2 * n + 1, pi = 3 * n + 1, P = 4 * n + 1, Pi = 6 * n + 1;
+    const half physical[] = {{0, 0, n, false},         {n, 0, n, true},
+                             {2 * n, n, n, false},     {3 * n, n, n, true},
+                             {4 * n, 2 * n, m, false}, {4 * n + m, 2 * n, m, true}};
+    const half momenta[] = {
+        {P, p, n, true}, {P + n, p, n, false}, {Pi, pi, n, true}, {Pi + n, pi, n, false}};
+    memcpy(out, physical, sizeof physical);
+    if (space != DAL_LIFTED) return 6;
+    memcpy(out + 4, momenta, sizeof momenta);
+    return MAX_HALVES;
 }
 
-void dal__tangent_scatter(int n, dal_space space, const double *state, const double *vector,
-                          double *tangent)
+void dal__tangent_scatter(const dal_system *system, dal_space space, const double *state,
+                          const double *vector, double *tangent)
 {
-    half halves[LIFTED];
-    find_halves(n, halves);
-    for (int k = 0; k < (space == DAL_LIFTED ? LIFTED : PHYSICAL); k++)
+    const int n = system->n;
+    half halves[MAX_HALVES];
+    const int count = find_halves(n, system->multipliers, space, halves);
+    for (int k = 0; k < count; k++)
         memcpy(tangent + halves[k].place, (halves[k].is_vector ? vector : state) + halves[k].at,
-               (size_t)n * sizeof *tangent);
+               (size_t)halves[k].count * sizeof *tangent);
     if (space != DAL_LIFTED) return;
     tangent[4 * n] = state[2 * n];
     tangent[8 * n + 1] = vector[4 * n + 1];
 }
 
-void dal__tangent_gather(int n, dal_space space, const double *tangent, double *vector)
+void dal__tangent_gather(const dal_system *system, dal_space space, const double *tangent,
+                         double *vector)
 {
-    half halves[LIFTED];
-    find_halves(n, halves);
-    for (int k = 0; k < (space == DAL_LIFTED ? LIFTED : PHYSICAL); k++)
+    const int n = system->n;
+    half halves[MAX_HALVES];
+    const int count = find_halves(n, system->multipliers, space, halves);
+    for (int k = 0; k < count; k++)
         if (halves[k].is_vector)
-            memcpy(vector + halves[k].at, tangent + halves[k].place, (size_t)n * sizeof *vector);
+            memcpy(vector + halves[k].at, tangent + halves[k].place,
+                   (size_t)halves[k].count * sizeof *vector);
     if (space != DAL_LIFTED) return;
     vector[2 * n] = 0.0;
     vector[4 * n + 1] = tangent[8 * n + 1];

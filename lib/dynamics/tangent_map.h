@@ -10,10 +10,11 @@
 /* The reason why steps of this method move no tangent vector of a space by their own derivative;
  * NULL: they do. */
 const char *dal__tangent_fault(const dal_run_spec *spec, dal_space space);
-/* Writes state and vector, [2n] or [4n + 2] with de = 0, into a state of the tangent system; and
- * the vector from it. */
-void dal__tangent_scatter(int n, dal_space space, const double *state, const double *vector,
-                          double *tangent);
-void dal__tangent_gather(int n, dal_space space, const double *tangent, double *vector);
+/* Writes state and vector, [2n + multipliers] or [4n + 2] with de = 0, of the system of a run into
+ * a state of its tangent system; and the vector from it. */
+void dal__tangent_scatter(const dal_system *system, dal_space space, const double *state,
+                          const double *vector, double *tangent);
+void dal__tangent_gather(const dal_system *system, dal_space space, const double *tangent,
+                         double *vector);
 
 #endif

@@ -2,7 +2,8 @@
  *
  *     q'' = F(q, v, t, k)      dq'' = dF = F_q dq + F_v dv + F_k      (F_k: by one parameter, or 0)
  *
- * as one system of the coordinates Q = (q, dq).  Its canonical lift, with the momenta named
+ * as one system of the coordinates Q = (q, dq); of vakonomic motion also g' = G, dg' = dG with the
+ * derivatives F_g dg of both, and no lift.  Its canonical lift, with the momenta named
  * P = (dp, p), Pi = (dpi, pi) and the effort Pi.K~ Pi = 2 dpi.K pi + pi.dK pi, has
  *
  *     H~ = P.V + Pi.(F, dF) + Pi.K~ Pi/(2e) = dH,    H = p.v + pi.F + pi.K pi/(2e)
@@ -24,8 +25,8 @@
 typedef struct direction {
     dal__equations *e;
     int count;        /* of these */
-    int *symbol;      /* q, v, and the parameter where there is one */
-    dal__node *along; /* dq, dv, 1 */
+    int *symbol;      /* q, v, g, and the parameter where there is one */
+    dal__node *along; /* dq, dv, dg, 1 */
 } direction;
 
 static dal__node differentiate(const direction *d, dal__node f)
@@ -73,33 +74,37 @@ static dal_status add_effort(dal_model *model, const direction *d, dal__tangent_
 static dal_status add_programs(dal_model *model, int parameter, dal__tangent_system *t)
 {
     dal__equations *e = &model->equations;
-    const int n = e->n;
-    dal__node *F = dal__model_nodes(model, 2 * n, 0),
-              *start = dal__model_nodes(model, 4 * n + 1, 0);
-    direction d = {.e = e, .count = 2 * n + (parameter >= 0)};
-    d.symbol = dal__model_allocate(model, 2 * (size_t)n + 1, sizeof *d.symbol);
-    d.along = dal__model_nodes(model, 2 * n + 1, dal__number(e->graph, 1.0));
+    const int n = e->n, m = e->multipliers, count = 2 * n + m;
+    const struct {
+        int symbol, count;
+    } parts[] = {{e->q, n}, {e->v, n}, {e->g, m}};
+    dal__node *F = dal__model_nodes(model, 2 * (n + m), 0),
+              *start = dal__model_nodes(model, 2 * count + 1, 0);
+    direction d = {.e = e, .count = count + (parameter >= 0)};
+    d.symbol = dal__model_allocate(model, (size_t)count + 1, sizeof *d.symbol);
+    d.along = dal__model_nodes(model, count + 1, dal__number(e->graph, 1.0));
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    d.symbol[2 * n] = parameter; /* the symbols of parameters are the first */
-    for (int i = 0; i < n; i++) {
-        d.symbol[i] = e->q + i;
-        d.symbol[n + i] = e->v + i;
-        d.along[i] = dal__symbol(e->graph, e->q + n + i);
-        d.along[n + i] = dal__symbol(e->graph, e->v + n + i);
-    }
-    start[4 * n] = e->start[2 * n];
-    for (int i = 0; i < n; i++) {
-        F[i] = e->F[i];
-        F[n + i] = differentiate(&d, e->F[i]);
-        start[i] = e->start[i];
-        start[n + i] = differentiate(&d, e->start[i]);
-        start[2 * n + i] = e->start[n + i];
-        start[3 * n + i] = differentiate(&d, e->start[n + i]);
-    }
-    DAL_TRY(dal__programs_begin(e, &t->programs, 2 * n, 0));
+    d.symbol[count] = parameter; /* the symbols of parameters are the first */
+    for (int k = 0, at = 0; k < 3; k++)
+        for (int i = 0; i < parts[k].count; i++, at++) {
+            d.symbol[at] = parts[k].symbol + i;
+            d.along[at] = dal__symbol(e->graph, parts[k].symbol + parts[k].count + i);
+        }
+    start[2 * count] = e->start[count];
+    for (int k = 0, at = 0; k < 3; at += parts[k++].count)
+        for (int i = 0; i < parts[k].count; i++) {
+            const int place = 2 * at + i;
+            start[place] = e->start[at + i];
+            start[place + parts[k].count] = differentiate(&d, e->start[at + i]);
+            if (k == 0) continue;
+            F[place - 2 * n] = e->F[at - n + i];
+            F[place - 2 * n + parts[k].count] = differentiate(&d, e->F[at - n + i]);
+        }
+    DAL_TRY(dal__programs_begin(e, &t->programs, 2 * n, 2 * m));
     DAL_TRY(dal__programs_add_motion(model, &t->programs, F));
     DAL_TRY(dal__programs_add_diagnosis(model, &t->programs));
-    DAL_TRY(dal__programs_add(model, &t->programs, DAL__PROGRAM_START, start, 4 * n + 1));
+    DAL_TRY(dal__programs_add(model, &t->programs, DAL__PROGRAM_START, start, 2 * count + 1));
+    if (m > 0) return e->graph->status;
     if (e->mu && !e->mu_gradient)
         DAL_TRY(dal__programs_add(model, &t->programs, DAL__PROGRAM_GAUGE, &e->mu, 1));
     DAL_TRY(add_effort(model, &d, t));
@@ -122,6 +127,7 @@ static dal_status make_tangent(dal_model *model, int parameter, dal__tangent_sys
                              .title = model->system.title,
                              .reference = model->system.reference,
                              .n = 2 * e->n,
+                             .multipliers = 2 * e->multipliers,
                              .parameters = e->parameters,
                              .properties = e->properties & (DAL_AUTONOMOUS | DAL_F_POSITIONAL),
                              .coordinate = names,
@@ -137,7 +143,7 @@ static dal_status make_tangent(dal_model *model, int parameter, dal__tangent_sys
 static dal_status check_parameter(dal_model *model, int parameter, dal_error *error)
 {
     const dal__equations *e = &model->equations;
-    const dal__node fixed[] = {e->mu, e->start[2 * e->n]};
+    const dal__node fixed[] = {e->mu, e->start[2 * e->n + e->multipliers]};
     bool depends = false;
     if (parameter < 0) return DAL_STATUS_OK;
     for (int i = 0; i < 2; i++)
@@ -178,21 +184,13 @@ static dal_status find_tangent(dal_model *model, int parameter, const dal_system
     return DAL_STATUS_OK;
 }
 
-static dal_status derive_system(dal_model *model, dal_error *error)
-{
-    const dal_system *plain;
-    DAL_TRY(dal_model_system(model, &plain, error));
-    if (model->equations.multipliers == 0) return DAL_STATUS_OK;
-    return dal__fail(error, DAL_STATUS_UNSUPPORTED,
-                     "'%.80s' has multipliers: there is no tangent system for it", model->name);
-}
-
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error)
 {
+    const dal_system *plain;
     DAL_REQUIRE(system, error);
     *system = NULL;
     DAL_REQUIRE(model, error);
-    DAL_TRY(derive_system(model, error));
+    DAL_TRY(dal_model_system(model, &plain, error));
     return find_tangent(model, -1, system, error);
 }
 
@@ -203,8 +201,9 @@ dal_status dal_model_tangent_by(dal_model *model, const char *parameter, const d
     *system = NULL;
     DAL_REQUIRE(model, error);
     DAL_REQUIRE(parameter, error);
+    const dal_system *plain;
     int k;
-    DAL_TRY(derive_system(model, error));
-    DAL_TRY(dal__find_parameter(&model->system, parameter, &k, error));
+    DAL_TRY(dal_model_system(model, &plain, error));
+    DAL_TRY(dal__find_parameter(plain, parameter, &k, error));
     return find_tangent(model, k, system, error);
 }

@@ -29,7 +29,7 @@ typedef struct dal__equations {
     bool implicit;      /* nor accelerations: these follow from the section equations */
     bool mass_positive; /* W is positive definite at the default start */
     unsigned properties;
-    /* First symbols of the inputs.  Twice the numbers of q, v and pi: the tangent system has 2n,
+    /* First symbols of the inputs.  Twice the numbers of q, v, pi and g: the tangent system has 2n,
      * and what enforces D reads more than pi from there (motion.h). */
     int t, q, v, pi, g, e, symbols;
     int reaction; /* first symbol of h, R_x in invariants and events: they stand for formulas */

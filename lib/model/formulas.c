@@ -459,7 +459,7 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     e->v = e->q + 2 * n;
     e->pi = e->v + 2 * n;
     e->g = e->pi + 2 * n + 1;
-    e->e = e->g + m;
+    e->e = e->g + 2 * m;
     e->symbols = e->reaction = e->e + 1;
     dal__graph_free(e->graph);
     e->graph = dal__graph_create(e->parameters);

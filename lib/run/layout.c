@@ -107,7 +107,7 @@ static dal_status check_system_sizes(const dal_system *system, dal_error *error)
     if (system->holonomic != DAL__HOLONOMIC_COUNT(system))
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "a small library takes no holonomic constraints");
-    if (system->multipliers != 0 && system->multipliers != system->m)
+    if (system->m != 0 && system->multipliers != 0 && system->multipliers != system->m)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "%d multipliers for %d constraints",
                          system->multipliers, system->m);
     if (system->workspace && system->workspace < (size_t)system->parameters)

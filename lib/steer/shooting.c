@@ -97,7 +97,7 @@ dal_status dal__shooting_differentiate(dal__shooting *s, bool without_p)
             if (is_skipped(p, j, without_p)) continue;
             memset(vector, 0, (size_t)p->dimension * sizeof *vector);
             vector[dal__place_of(p, j)] = p->unit[j];
-            dal__tangent_scatter(n, p->spec.options.space, point, vector, state);
+            dal__tangent_scatter(p->system, p->spec.options.space, point, vector, state);
             DAL_TRY(dal_batch_set_state(s->tangent, j, t, state, p->error));
         }
         dal_batch_advance(s->tangent, s->first[k + 1] - s->first[k]);
@@ -105,7 +105,7 @@ dal_status dal__shooting_differentiate(dal__shooting *s, bool without_p)
             if (is_skipped(p, j, without_p)) continue;
             DAL_TRY(dal_batch_status(s->tangent, j, p->error));
             dal_batch_state(s->tangent, j, state);
-            dal__tangent_gather(n, p->spec.options.space, state, vector);
+            dal__tangent_gather(p->system, p->spec.options.space, state, vector);
             for (int i = 0; i < d; i++) out[i * d + j] = vector[dal__place_of(p, i)] / p->unit[i];
             if (p->is_lifted) s->cost[k * d + j] = vector[4 * n + 1];
         }

@@ -379,13 +379,9 @@ class System(Fixed):
         return found
 
     def _tangent(self) -> Any:
-        """The tangent system; NULL for a vakonomic one."""
+        """The tangent system."""
         system = ffi.new('dal_system **')
-        try:
-            call(lib.dal_model_tangent, self._model, system)
-        except InputError as error:
-            if error.status != 'DAL_UNSUPPORTED':
-                raise
+        call(lib.dal_model_tangent, self._model, system)
         return system[0]
 
     def _with_invariant(self, formula: str) -> System:

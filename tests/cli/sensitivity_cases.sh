@@ -66,5 +66,4 @@ table <<'END'
 2 | run fall.yaml --integrator taylor --tolerance 1e-9 --time 1 --sensitivities k | says a tolerance divides its step
 2 | run fall.yaml --integrator rk4 --step 0.1 --time 1 --sensitivities pi_x --gauge mu_e=0.1*x | says mu_e of the gauge is not of t alone
 2 | run chaplygin-sleigh --integrator rk4+project --step 0.1 --time 1 --sensitivities m | says no exact tangent
-2 | run chaplygin-sleigh-vakonomic --integrator rk4 --step 0.1 --time 1 --sensitivities m | says multipliers
 END
