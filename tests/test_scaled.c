@@ -236,6 +236,36 @@ static void test_coordinate_at_rest(void)
     dal_scaled_free(scaled);
 }
 
+/* Forces balance along z, which rounding moves, or the error of a step.  z has the length of equal
+ * energy, of x or y of a conical pendulum; where no energy is known, |z|. */
+static void test_balanced_coordinate(void)
+{
+    static const char *const conical =
+        "coordinates: [x, y, z]\n"
+        "parameters: {s: %g, h: 0.7, g: 9.81}\n"
+        "lagrangian: 0.3*s^2*(x'^2 + y'^2 + z'^2)/2 - 0.3*g*s*z\n"
+        "holonomic: [(s^2*(x^2 + y^2 + z^2) - 1.3^2)/2]\n"
+        "start: {x: sqrt(1.3^2 - h^2)/s, z: -h/s, y': sqrt((1.3^2 - h^2)*g/h)/s}\n";
+    static const char *const given = "coordinates: [x, z]\n"
+                                     "parameters: {s: %g}\n"
+                                     "accelerations: {x: -7*x*(1 + s*z), z: -9.81/s - 21*z}\n"
+                                     "start: {x: 1/s, z: -9.81/21/s, x': 1/s}\n";
+    static const double scales[] = {1.0, 1e-9, 1e9};
+    for (int k = 0; k < 3; k++) {
+        char text[512];
+        snprintf(text, sizeof text, conical, scales[k]);
+        dal_scaled *scaled = scale(fixture_system(text));
+        const double *units = dal_scaled_units(scaled);
+        CU_ASSERT_EQUAL(units[3], fmax(units[1], units[2]));
+        dal_scaled_free(scaled);
+        snprintf(text, sizeof text, given, scales[k]);
+        scaled = scale(fixture_system(text));
+        const double length = dal_scaled_units(scaled)[2] * scales[k];
+        CU_ASSERT(length > 0.5 * 9.81 / 21 && length < 2.0 * 9.81 / 21);
+        dal_scaled_free(scaled);
+    }
+}
+
 /* The units of a run at its start, and of its velocities. */
 static void test_run(void)
 {
@@ -358,6 +388,7 @@ void suite_scaled(void)
     CU_add_test(suite, "the potential", test_potential);
     CU_add_test(suite, "units of an oscillator", test_units);
     CU_add_test(suite, "a coordinate that rests", test_coordinate_at_rest);
+    CU_add_test(suite, "a coordinate whose forces balance", test_balanced_coordinate);
     CU_add_test(suite, "units at the state of a run", test_run);
     CU_add_test(suite, "an energy that is conserved in all units", test_energy);
     CU_add_test(suite, "an energy whose terms cancel", test_cancelling_energy);

@@ -84,8 +84,10 @@ static void balance(double *J, int size)
         off_diagonal_sums(J, size, i, &row, &column);
         const double factor = sqrt(column / row);
         if (!(row > 0.0 && column > 0.0) || !isfinite(factor)) continue;
-        for (int j = 0; j < size; j++) J[i * size + j] *= factor;
-        for (int j = 0; j < size; j++) J[j * size + i] /= factor;
+        for (int j = 0; j < size; j++) {
+            J[i * size + j] *= factor;
+            J[j * size + i] /= factor;
+        }
     }
 }
 
@@ -129,8 +131,7 @@ static double rate_of_jacobian(const dal__sizes *w)
     double *F_q = w->jacobian, *F_v = F_q + nw * n, *J = F_v + nw * nw, *x = J + size * size;
     if (!has_jacobian(s) || !call(w, s->call.jacobian, w->t, w->x, w->x + n, F_q)) return 0.0;
     for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) J[i * size + j] = 0.0;
-        for (int j = 0; j < n; j++) J[i * size + n + j] = i == j;
+        for (int j = 0; j < size; j++) J[i * size + j] = j == n + i;
         memcpy(J + (n + i) * size, F_q + i * n, (size_t)n * sizeof *J);
         memcpy(J + (n + i) * size + n, F_v + i * nw, (size_t)n * sizeof *J);
     }
@@ -153,29 +154,44 @@ static double time_unit(const dal__sizes *w, double radius)
     const double motion = v > 0.0 ? sqrt(F / v) : 0.0;
     const double rate =
         radius > negligible * motion ? fmax(radius, fmin(motion, near_rest * radius)) : motion;
-    if (rate > 0.0) return dal__near_power_of_two(1.0 / rate);
-    const double step = fabs(w->step);
-    return step > 0.0 && isfinite(step) ? dal__near_power_of_two(10.0 * step) : 1.0;
+    const double time = rate > 0.0 ? 1.0 / rate : 10.0 * fabs(w->step);
+    return time > 0.0 ? dal__near_power_of_two(time) : 1.0;
 }
 
-/* Raises the lengths to what the beginning of the motion shows, by the explicit
- * midpoint rule; where F fails it ends. */
-static void follow_motion(dal__sizes *w)
+/* length[n]: the largest tau |v_i| and tau^2 |F_i| in the beginning of the motion, by the explicit
+ * midpoint rule, at the same times for every division of its steps; where F fails it ends.  With a
+ * division the motion begins some roundings beside x. */
+static void follow_motion(const dal__sizes *w, int division, double *length)
 {
-    enum { STEPS = 4, DIVISION = 16 }; /* a quarter: it may become singular soon */
+    enum { STEPS = 4, TO_UNIT = 16 }; /* a quarter: it may become singular soon */
+    static const double roundings = 0x1p-44;
     const int n = w->system->n, nw = velocities(w->system);
-    const double tau = w->time, h = copysign(tau / DIVISION, w->step);
-    double *x = w->scratch, *middle = x + n + nw, *f = middle + n + nw, *length = w->length;
-    memcpy(x, w->x, (size_t)(n + nw) * sizeof *x);
-    for (int k = 0; k < STEPS && field_at(w, w->t + k * h, x, f); k++) {
-        for (int i = 0; i < n; i++)
-            length[i] = fmax(length[i], fmax(tau * fabs(x[n + i]), tau * tau * fabs(f[i])));
-        for (int i = 0; i < n; i++) middle[i] = x[i] + 0.5 * h * x[n + i];
+    const double tau = w->time, h = copysign(tau / (TO_UNIT * division), w->step);
+    double *x = w->scratch, *middle = x + n + nw, *f = middle + n + nw;
+    for (int i = 0; i < n; i++) length[i] = 0.0;
+    for (int i = 0; i < n + nw; i++) x[i] = w->x[i] * (1.0 + (division - 1) * (i + 1) * roundings);
+    for (int k = 0; k < STEPS * division && field_at(w, w->t + k * h, x, f); k++) {
+        for (int i = 0; i < n; i++) {
+            const double size = tau * fmax(fabs(x[n + i]), tau * fabs(f[i]));
+            if (k % division == 0) length[i] = fmax(length[i], size);
+            middle[i] = x[i] + 0.5 * h * x[n + i];
+        }
         for (int i = 0; i < nw; i++) middle[n + i] = x[n + i] + 0.5 * h * f[i];
         if (!field_at(w, w->t + (k + 0.5) * h, middle, f)) break;
         for (int i = 0; i < n; i++) x[i] += h * middle[n + i];
         for (int i = 0; i < nw; i++) x[n + i] += h * f[i];
     }
+}
+
+/* What differs by half between two divisions is an error of the rule or of F: such a coordinate
+ * does not move. */
+static void find_motion(dal__sizes *w)
+{
+    double *length = w->length, *other = w->other;
+    follow_motion(w, 1, length);
+    follow_motion(w, 2, other);
+    for (int i = 0; i < w->system->n; i++)
+        if (fabs(length[i] - other[i]) > 0.5 * length[i]) length[i] = 0.0;
 }
 
 static void find_lengths(dal__sizes *w)
@@ -187,18 +203,18 @@ static void find_lengths(dal__sizes *w)
         if (isfinite(length[i])) energy = fmax(energy, w->mass[i] * length[i] * length[i]);
     for (int i = 0; i < n; i++) {
         const double likewise = w->mass[i] > 0.0 ? sqrt(energy / w->mass[i]) : 0.0;
-        if (length[i] < rounding * likewise) length[i] = 0.0; /* forces that cancel */
-        length[i] = dal__near_power_of_two(length[i]);
-        if (length[i] == 0.0) length[i] = dal__near_power_of_two(likewise);
-        if (length[i] == 0.0) length[i] = dal__near_power_of_two(fabs(w->x[i]));
-        if (length[i] == 0.0) length[i] = 1.0;
+        double size = length[i];
+        if (size <= rounding * likewise) size = likewise; /* forces that cancel */
+        if (size == 0.0) size = fabs(w->x[i]);
+        if (size == 0.0) size = 1.0;
+        length[i] = dal__near_power_of_two(size);
     }
 }
 
 size_t dal__sizes_memory(const dal_system *system)
 {
     const size_t n = (size_t)system->n, nw = (size_t)velocities(system);
-    return 2 * n + nw + 2 * (n + nw) + nw + jacobian_memory(system);
+    return 3 * n + nw + 2 * (n + nw) + nw + jacobian_memory(system);
 }
 
 void dal__find_sizes(dal__sizes *w, double *memory)
@@ -208,11 +224,11 @@ void dal__find_sizes(dal__sizes *w, double *memory)
     w->length = memory;
     w->mass = w->length + n;
     w->field = w->mass + n;
-    w->scratch = w->field + nw;
+    w->other = w->field + nw;
+    w->scratch = w->other + n;
     w->jacobian = w->scratch + 2 * (n + nw) + nw;
-    for (int i = 0; i < n; i++) w->length[i] = 0.0;
     for (int i = 0; i < n; i++) w->mass[i] = kinetic_mass(w, i, &u);
     w->time = field_at(w, w->t, w->x, w->field) ? time_unit(w, rate_of_jacobian(w)) : 1.0;
-    follow_motion(w);
+    find_motion(w);
     find_lengths(w);
 }

@@ -12,7 +12,7 @@ typedef struct dal__sizes {
     double t, step;  /* step: the unit of time, divided by 10, where nothing else says it; or 0 */
     const double *x; /* [n + nw] (q, v, g) */
     double time, *length, *mass, *field; /* found: [n], [n]; [nw] F at x */
-    double *scratch, *jacobian;
+    double *other, *scratch, *jacobian;
 } dal__sizes;
 
 /* Numbers of memory that dal__find_sizes needs. */
@@ -21,9 +21,10 @@ size_t dal__sizes_memory(const dal_system *system);
 /* Finds time, length, mass and field, which then lie in memory.  1/time is the spectral radius of
  * J = (0 1; F_q F_v) there, by power iteration after balancing (Osborne 1960, DOI
  * 10.1145/321043.321048), or the rate of the motion; length_i the largest time |v_i| or time^2
- * |F_i| at the beginning of the motion, or the length of equal kinetic energy, |q_i|, 1, the first
- * that is not 0; mass_i is W_ii, or 0 where it is not known.  Time and lengths are powers of two,
- * which change with the units of the user as t and q do. */
+ * |F_i| at the beginning of the motion, 0 where that is no more than roundings or the error of a
+ * step; or the length of equal kinetic energy, |q_i|, 1, the first that is not 0; mass_i is W_ii,
+ * or 0 where it is not known.  Time and lengths are powers of two, which change with the units of
+ * the user as t and q do. */
 void dal__find_sizes(dal__sizes *sizes, double *memory);
 
 /* The unit of time of a system, a power of two: the unit of a coordinate over its velocity's. */

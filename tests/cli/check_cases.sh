@@ -234,6 +234,36 @@ case_is "e = 0"
 try 1 check chaplygin-sleigh --start e=0
 prints '^  gauge variable e +FAIL'
 
+# In metres times 1/$s.  The motion is right, so nothing may FAIL: a wheel on its circle, a pendulum on a cone,
+# given accelerations, of which one is 0, and an orbit in a plane that no coordinate has.
+case_is "a coordinate that does not move"
+turn=$(awk 'BEGIN { place = 0.9; lean = 0.5; circle = 1.5*sin(place) - 0.4*cos(lean)
+    printf "%.17g", sqrt(9.81*0.4^2*cos(lean)/sin(lean)/((0.4^2 + 0.08)*circle + 0.04*0.4*cos(lean))) }')
+try 0 check wheel-in-sphere --set turn="$turn"
+for s in 1e-9 1 1e9; do
+    cat >cone.yaml <<END
+coordinates: [x, y, z]
+parameters: {s: $s, l: 1.3, h: 0.7, g: 9.81}
+lagrangian: 0.3*s^2*(x'^2 + y'^2 + z'^2)/2 - 0.3*g*s*z
+holonomic: [(s^2*(x^2 + y^2 + z^2) - l^2)/2]
+start: {x: sqrt(l^2 - h^2)/s, z: -h/s, y': sqrt((l^2 - h^2)*g/h)/s}
+END
+    cat >balance.yaml <<END
+coordinates: [x, z]
+parameters: {s: $s, k: 21, g: 9.81}
+accelerations: {x: -7*x*(1 + s*z), z: -g/s - k*z}
+start: {x: 1/s, z: -g/k/s, x': 1/s}
+END
+    cat >orbit.yaml <<END
+coordinates: [x, y, z]
+parameters: {s: $s, c: cos(0.3), d: sin(0.3)}
+let: {u: c*x - d*z, w: d*x + c*z, r: s*sqrt(u^2 + y^2 + w^2)}
+lagrangian: s^2*(x'^2 + y'^2 + z'^2)/2 + 1/r
+start: {x: 1/s, y': 1.1/s}
+END
+    for system in cone balance orbit; do try 0 check $system.yaml; done
+done
+
 case_is "energy and degrees of D"
 # The mass shell is not homogeneous in v, so D = 0 at midpoints does work: E moves by O(h^2), every other step.
 try 0 check relativistic-em
