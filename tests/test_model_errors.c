@@ -293,6 +293,10 @@ static const bad_file functions[] = {
      XY "functions: {V(r): r}\nlagrangian: x'^2 + @V\n"},
     {DAL_STATUS_SYNTAX, "lagrangian: f takes 2 arguments, not 1",
      XY "functions: {\"f(r, s)\": r}\nlagrangian: x'^2 + @f(x)\n"},
+    {DAL_STATUS_SYNTAX, "lagrangian: max is not a function: write max*(...) for a product",
+     XY "parameters: {max: 1}\nlagrangian: x'^2 + @max(x, y)\n"},
+    {DAL_STATUS_SYNTAX, "lagrangian: sum is not a function: write sum*(...) for a product",
+     XY "parameters: {sum: 1}\nlagrangian: x'^2 + @sum(i, 1, 2, i)\n"},
 };
 
 /* ---- sizes and indices ---- */
