@@ -297,6 +297,21 @@ static void test_rest(void)
     dal_run_free(run);
 }
 
+/* Where the argument is 1 and not 0: v = 3/2 - t/4, and both sides lead back to v = 1. */
+static void test_rest_beside_zero(void)
+{
+    dal_error error = {0};
+    const dal_run_spec spec = fixture_spec(
+        fixture_system("coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: 0.25 - 0.5*floor(x')}\n"
+                       "start: {x': 1.5}\nevents: [{when: x' - 1}]\n"),
+        "gauss4", DAL_PHYSICAL, 0.15);
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, &error), DAL_STATUS_EVENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "event 1 (x' - 1) at t = 2:"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "F leads back"));
+    dal_run_free(run);
+}
+
 /* ---- along a run ---- */
 
 static const char up_and_down[] =
@@ -400,6 +415,7 @@ void suite_event_branches(void)
     CU_add_test(suite, "kinks", test_kink);
     CU_add_test(suite, "a piece of a table", test_piece);
     CU_add_test(suite, "rest", test_rest);
+    CU_add_test(suite, "rest where the argument is not 0", test_rest_beside_zero);
     CU_add_test(suite, "rows", test_rows);
     CU_add_test(suite, "resumed", test_resume);
     CU_add_test(suite, "bits", test_bits);
