@@ -4,6 +4,7 @@
 #include "ui/message.h"
 
 #include "row_times.h"
+#include "system.h"
 #include "ui/options.h"
 
 #include <float.h>
@@ -48,12 +49,11 @@ static int parse_run_option(void *user, const cli_option *option, const char *te
     return cli_fail(CLI_USAGE, "--%s", error.message + sizeof begin - 1);
 }
 
-static int parse_setting(void *user, const cli_option *option, const char *text)
+int request_parse_named(request_settings *settings, const cli_option *option, const char *text)
 {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text)
         return cli_fail(CLI_USAGE, "--%s: '%s' is not NAME=VALUE", option->name, text);
-    request_settings *settings = (void *)((char *)user + option->offset);
     char *name = cli_strndup(text, (size_t)(equals - text));
     int before = 0;
     while (before < settings->count && strcmp(settings->item[before].name, name) != 0) before++;
@@ -62,6 +62,11 @@ static int parse_setting(void *user, const cli_option *option, const char *text)
                            : request_parse_setting(settings, text, name, equals + 1);
     free(name);
     return status;
+}
+
+static int parse_setting(void *user, const cli_option *option, const char *text)
+{
+    return request_parse_named((void *)((char *)user + option->offset), option, text);
 }
 
 #define FIELD(name) offsetof(run_request, name)
@@ -213,7 +218,7 @@ int request_parse_setting(request_settings *settings, const char *what, const ch
     double value = 0.0;
     for (size_t i = 0; strcmp(name, "e") == 0 && i < sizeof infinities / sizeof *infinities; i++)
         if (strcmp(text, infinities[i]) == 0) value = INFINITY;
-    const int status = isinf(value) ? CLI_DONE : cli_number(what, text, &value);
+    const int status = isinf(value) ? CLI_DONE : cli_constant(what, text, &value);
     if (status == CLI_DONE) request_add_setting(settings, name, value);
     return status;
 }

@@ -27,8 +27,10 @@ int request_find_option(const char *name);
 int request_parse_option(run_request *request, int option, const char *text);
 /* The same of an allocated text, which the request then owns. */
 int request_give(run_request *request, int option, char *text);
-/* Parses the value of a setting, e = inf being the one infinite value, and adds it; what names it
- * in a message. */
+/* Parses NAME=VALUE, given for an option, and adds it; a name that is there already is an error. */
+int request_parse_named(request_settings *settings, const cli_option *option, const char *text);
+/* Parses the value of a setting, a number or a formula of numbers, e = inf being the one infinite
+ * value, and adds it; what names it in a message. */
 int request_parse_setting(request_settings *settings, const char *what, const char *name,
                           const char *text);
 

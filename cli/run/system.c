@@ -8,6 +8,7 @@
 #include "ui/message.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -90,6 +91,25 @@ const char *cli_default(const dal_model *model, const char *name, int *line, int
          (text = dal_model_text(model, DAL_SECTION_DEFAULTS, i, &key, line, column)) != NULL; i++)
         if (strcmp(key, name) == 0) return text;
     return NULL;
+}
+
+int cli_constant(const char *what, const char *text, double *value)
+{
+    const dal_system *system;
+    if (dal__parse_number(text, strlen(text), value) != DAL_STATUS_SYNTAX)
+        return cli_number(what, text, value);
+    dal_model *model = dal_model_create(NULL); /* whose parameters are formulas of numbers */
+    if (!model) cli_out_of_memory();
+    dal_status status = dal_model_add(model, DAL_SECTION_PARAMETERS, "value", text, 0, 0, NULL);
+    if (status == DAL_STATUS_OK)
+        status = dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "q", 0, 0, NULL);
+    if (status == DAL_STATUS_OK)
+        status = dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "q'^2/2", 0, 0, NULL);
+    if (status == DAL_STATUS_OK) status = dal_model_system(model, &system, NULL);
+    if (status == DAL_STATUS_OK) *value = system->value[0];
+    dal_model_free(model);
+    if (status == DAL_STATUS_MEMORY) cli_out_of_memory();
+    return status == DAL_STATUS_OK && isfinite(*value) ? CLI_DONE : cli_number(what, text, value);
 }
 
 static void print_warnings(const char *place, const dal_model *model)

@@ -40,6 +40,9 @@ int cli_copy_system(const char *system, const dal_model *model, const char *to, 
 /* The same for a directory of results: of a built-in system there is no copy, and an earlier one is
  * removed. */
 int cli_keep_system(const char *system, const dal_model *model, const char *to, file_sync sync);
+/* The value of a formula of numbers and functions, as pi/2; what names it in a message.  Returns
+ * CLI_DONE or CLI_USAGE. */
+int cli_constant(const char *what, const char *text, double *value);
 /* The default for a run that a system file gives under a name, and where; NULL: none. */
 const char *cli_default(const dal_model *model, const char *name, int *line, int *column);
 /* The names of the built-in systems; returns how many. */
