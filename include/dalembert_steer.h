@@ -46,7 +46,7 @@ typedef struct dal_extremal {
     double S;                       /* the action, e (pi_e(T) - pi_e(0)) */
     double residual;  /* the largest jump between its pieces and distance from the ends, relative
                             to how large the components are */
-    double distance;  /* of its end from the target: max over the components, in their units */
+    double distance;  /* of its end from the target: max over the given components */
     double max_D;     /* max |D_a| along it */
     double condition; /* of the bordered matrix of Newton's method: max over min singular value */
     int iterations;   /* that were taken */
@@ -72,11 +72,15 @@ typedef struct dal_steering {
     dal_extremal *extremal; /* [count] */
 } dal_steering;
 
-/* Callbacks of dal_steer_create; both may be NULL. */
+/* Callbacks of dal_steer_create; each may be NULL.  Any status but DAL_STATUS_OK ends the search,
+ * with what it has. */
 typedef struct dal_steer_observer {
-    void *user; /* the first argument of the callback */
+    void *user; /* the first argument of the callbacks */
+    /* Called once before the search, with what can be reached: allowed and growth; there are no
+     * motions yet. */
+    dal_status (*reach)(void *user, const dal_steering *steering);
     /* Called before each iteration with the first guess, from 0, that it is of, and the residual of
-     * the last one; any status but DAL_STATUS_OK ends the search, with what it has. */
+     * the last one. */
     dal_status (*step)(void *user, int guess, int iteration, double residual);
 } dal_steer_observer;
 

@@ -239,12 +239,21 @@ static dal_status stop_at_third(void *user, int guess, int iteration, double res
     return (*calls)++ == 3 ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
+static dal_status note_reach(void *user, const dal_steering *steering)
+{
+    const int *calls = user;
+    CU_ASSERT_EQUAL(*calls, 0);
+    CU_ASSERT_EQUAL(steering->count, 0);
+    CU_ASSERT_EQUAL(steering->allowed, 5);
+    return DAL_STATUS_OK;
+}
+
 /* A target that is not reached leaves the nearest motion and says so. */
 static void test_unreached(void)
 {
     const dal_setting target[] = {{"x", 0.0}, {"y", 1.0}, {"phi", 0.0}};
     int calls = 0;
-    const dal_steer_observer observer = {&calls, stop_at_third};
+    const dal_steer_observer observer = {&calls, note_reach, stop_at_third};
     steered s;
     open_steered(&s, sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.04);
     s.settings.target = target;
@@ -256,6 +265,10 @@ static void test_unreached(void)
     CU_ASSERT_EQUAL(s.steering->extremal->status, DAL_STATUS_INTERRUPTED);
     CU_ASSERT(s.steering->extremal->message[0] != '\0');
     CU_ASSERT_EQUAL(calls, 4);
+    const dal_extremal *nearest = s.steering->extremal;
+    const double *end = nearest->z + (s.steering->rows - 1) * s.steering->dimension;
+    CU_ASSERT(nearest->residual > 1e-6 && nearest->residual < 10.0);
+    CU_ASSERT(nearest->distance >= fabs(end[1] - 1.0) && nearest->distance < 10.0);
     /* y = 0 is the leaf of x dy - y dx = 0 through (1, 0): what is off it cannot be reached */
     static const char radial[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                                  "constraints: [x*y' - y*x']\nstart: {x: 1}\n";

@@ -246,7 +246,7 @@ double dal__border_distance(const dal__border *b, const double *point, const dal
                            (end == 0 ? p->start[i] : p->target[i])) /
                           p->unit[i];
             if (p->is_free[end][i]) continue;
-            if (slack) rest += dal__dot_product(at->extra, row, slack);
+            rest += dal__dot_product(at->extra, row, slack);
             max = fmax(max, fabs(rest));
         }
     return max;

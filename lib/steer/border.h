@@ -30,7 +30,7 @@ dal_status dal__border_fill(dal__border *border, const double *point, int pieces
 /* Sets the right side alone, at other points. */
 dal_status dal__border_right(dal__border *border, const double *point, int pieces,
                              dal__two_point *out);
-/* max |distance| of the ends from what is given, in units, with slack[extra]; NULL: without it. */
+/* max |distance| of the ends from what is given, in units, with slack[extra]. */
 double dal__border_distance(const dal__border *border, const double *point,
                             const dal__two_point *at, const double *slack);
 

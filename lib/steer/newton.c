@@ -142,18 +142,35 @@ static dal_status iterate_newton(newton *k)
     return k->p->residual <= k->p->settings->tolerance ? DAL_STATUS_OK : DAL_STATUS_NOT_CONVERGED;
 }
 
-dal_status dal__newton(dal__shooting *s, dal__newton_result *result)
+static dal_status measure_points(newton *k)
+{
+    DAL_TRY(dal__shooting_move(k->s, k->s->point, k->s->end));
+    k->p->residual = find_residual(k);
+    return DAL_STATUS_OK;
+}
+
+/* Opens Newton's method, does something with it, and measures how far the points are. */
+static dal_status run_newton(dal__shooting *s, dal_status (*run)(newton *),
+                             dal__newton_result *result)
 {
     newton k;
     dal_status status = open_newton(&k, s);
-    if (status == DAL_STATUS_OK) status = iterate_newton(&k);
+    if (status == DAL_STATUS_OK) status = run(&k);
     result->residual = s->problem->residual;
     result->condition = k.linear.condition;
-    if (status != DAL_STATUS_MEMORY)
-        result->distance = dal__border_distance(&k.border, s->point, &k.linear, NULL);
     dal__border_close(&k.border);
     dal__two_point_close(&k.linear);
     free(k.step);
     free(k.point);
     return status;
+}
+
+dal_status dal__newton(dal__shooting *s, dal__newton_result *result)
+{
+    return run_newton(s, iterate_newton, result);
+}
+
+dal_status dal__newton_measure(dal__shooting *s, dal__newton_result *result)
+{
+    return run_newton(s, measure_points, result);
 }

@@ -7,7 +7,6 @@
 /* What the last iteration was like. */
 typedef struct dal__newton_result {
     double residual; /* the largest jump, or distance from the ends, relative */
-    double distance; /* of the ends alone, in units */
     double condition;
 } dal__newton_result;
 
@@ -16,5 +15,7 @@ typedef struct dal__newton_result {
  * Errors: DAL_STATUS_NOT_CONVERGED, what the observer returns, DAL_STATUS_MEMORY; the points are
  * then the last ones. */
 dal_status dal__newton(dal__shooting *s, dal__newton_result *result);
+/* The residual of the points as they are.  Errors: likewise. */
+dal_status dal__newton_measure(dal__shooting *s, dal__newton_result *result);
 
 #endif

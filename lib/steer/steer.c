@@ -142,8 +142,11 @@ static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
     double *z = s->scratch, values[64];
     double action = 0.0;
     out->max_D = 0.0;
+    out->distance = INFINITY;
     for (int k = 0; k < s->pieces; k++) {
         memcpy(z, s->point + k * d, (size_t)d * sizeof *z);
+        for (int i = 0; i < 2 * p->n && k == 0; i++)
+            if (!p->is_free[0][i]) z[i] = p->start[i];
         if (p->is_lifted) z[d - 1] = action;
         DAL_TRY(dal_run_set_state(p->run, dal__shooting_time(s, k), z, p->error));
         for (long long row = s->first[k]; row <= s->first[k + 1]; row++) {
@@ -159,6 +162,10 @@ static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
         }
     }
     out->S = p->is_lifted ? p->e * action : 0.0;
+    out->distance = 0.0;
+    for (int i = 0; i < 2 * p->n; i++)
+        if (!p->is_free[1][i])
+            out->distance = fmax(out->distance, fabs(dal_run_state(p->run)[i] - p->target[i]));
     return DAL_STATUS_OK;
 }
 
@@ -230,13 +237,14 @@ static dal_status add_guess(dal__problem *p, dal__shooting *s, dal_steering *ste
     if (!x.z) return DAL_STATUS_MEMORY;
     x.status = solve_guess(s, &result);
     dal_status status = x.status == DAL_STATUS_MEMORY ? x.status : dal__reach_measure(s, &x);
+    if (x.status != DAL_STATUS_OK && status != DAL_STATUS_MEMORY)
+        status = dal__newton_measure(s, &result);
     if (status == DAL_STATUS_MEMORY) {
         free(x.z);
         return status;
     }
     x.iterations = p->iterations;
     x.residual = result.residual;
-    x.distance = result.distance;
     x.condition = result.condition;
     status = fill_rows(s, &x);
     if (x.status == DAL_STATUS_OK) x.status = status;
@@ -257,7 +265,10 @@ static dal_status fill_steering(dal__problem *p, dal_steering *steering)
     for (long long k = 0; k <= p->steps; k++)
         steering->t[k] = k == p->steps ? p->T : p->from + (double)k * p->h;
     DAL_TRY(dal__reach_find(p, steering));
-    dal_status status = dal__shooting_open(&s, p, p->steps, PIECES);
+    dal_status status = p->observer && p->observer->reach
+                            ? p->observer->reach(p->observer->user, steering)
+                            : DAL_STATUS_OK;
+    if (status == DAL_STATUS_OK) status = dal__shooting_open(&s, p, p->steps, PIECES);
     for (p->guess = 0; status == DAL_STATUS_OK && p->guess < p->settings->starts; p->guess++)
         status = add_guess(p, &s, steering);
     dal__shooting_close(&s);
