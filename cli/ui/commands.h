@@ -27,6 +27,7 @@
     COMMAND(invariants)                                                                            \
     COMMAND(action)                                                                                \
     COMMAND(dirac)                                                                                 \
+    COMMAND(steer)                                                                                 \
     COMMAND(predict)                                                                               \
     COMMAND(explain)                                                                               \
     COMMAND(generate)                                                                              \

@@ -1,0 +1,116 @@
+/* steer.c - the search for the cheapest motion from one state to another. */
+#include "steer.h"
+#include "steer_results.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/signals.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- options ------------------------------------------------------------------------------- */
+
+/* Commas within parentheses are of a formula. */
+int steer_parse_target(void *user, const cli_option *option, const char *text)
+{
+    steer_settings *s = user;
+    int status = CLI_DONE;
+    for (const char *end; text && status == CLI_DONE; text = *end ? end + 1 : NULL) {
+        int depth = 0;
+        for (end = text; *end && (depth > 0 || *end != ','); end++)
+            depth += (*end == '(') - (*end == ')');
+        char *item = cli_strndup(text, (size_t)(end - text));
+        status = request_parse_named(&s->target, option, item);
+        free(item);
+    }
+    return status;
+}
+
+/* Splits a list of names, *text being a copy with NULs, into names; returns how many. */
+static int split_names(const char *list, char **text, const char ***names)
+{
+    int count = 0;
+    *names = NULL;
+    *text = cli_strdup(list ? list : "");
+    char *end = NULL;
+    for (char *name = strtok_r(*text, ",", &end); name; name = strtok_r(NULL, ",", &end)) {
+        *names = cli_realloc(*names, ((size_t)count + 1) * sizeof **names);
+        (*names)[count++] = name;
+    }
+    return count;
+}
+
+/* ---- the search ---------------------------------------------------------------------------- */
+
+static dal_status report_reach(void *user, const dal_steering *steering)
+{
+    const steer_settings *s = user;
+    char text[STEER_REACH];
+    if (!s->aim) cli_note("%s", steer_format_reach(text, s, steering));
+    return cli_interrupted() ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
+}
+
+static dal_status report_iteration(void *user, int guess, int iteration, double residual)
+{
+    const steer_settings *s = user;
+    char size[SCREEN_NUMBER];
+    const bool is_known = isfinite(residual) && residual > 0.0;
+    cli_progress("guess %d of %lld, iteration %d%s%s", guess + 1, s->starts, iteration,
+                 is_known ? ": residual " : "", is_known ? screen_number(size, residual, 2) : "");
+    return cli_interrupted() ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
+}
+
+/* Searches; what was found is there after an interruption, too. */
+static int search_motions(const steer_settings *s, dal_steering **steering)
+{
+    const dal_steer_observer observer = {(void *)s, report_reach, report_iteration};
+    dal_steer_settings settings = dal_steer_settings_default();
+    dal_run_spec spec;
+    dal_error error = {0};
+    char *text;
+    const char **names;
+    run_simulation simulation = s->simulation;
+    const int status = simulation_make_spec(&simulation, &spec);
+    if (status != CLI_DONE) return status;
+    settings.target = s->target.item;
+    settings.targets = s->target.count;
+    settings.rest = s->rest;
+    settings.aim = s->aim;
+    settings.starts = (int)s->starts;
+    settings.seed = (unsigned long long)s->seed;
+    settings.iterations = (int)s->iterations;
+    settings.frees = split_names(s->free_starts, &text, &names);
+    settings.free_starts = names;
+    const dal_status made = dal_steer_create(steering, simulation.model, &spec, simulation.end,
+                                             &settings, &observer, &error);
+    cli_progress_end();
+    free(names);
+    free(text);
+    if (made != DAL_STATUS_OK)
+        return cli_error(cli_input_exit(made), simulation.request.system_name, &error);
+    if (cli_interrupted()) return CLI_SIGNAL;
+    return (*steering)->extremal->status == DAL_STATUS_OK ? CLI_DONE : CLI_FAILED;
+}
+
+int steer_run(steer_settings *settings)
+{
+    run_simulation *s = &settings->simulation;
+    dal_steering *steering = NULL;
+    int status = screen_check_json(settings->format, settings->json);
+    if (status == CLI_DONE && settings->aim)
+        status = request_give(&s->request, REQUEST_space, cli_strdup("physical"));
+    if (status == CLI_DONE) status = simulation_create(s);
+    if (status != CLI_DONE) return status;
+    cli_catch_signals();
+    status = search_motions(settings, &steering);
+    if (!steering) return status;
+    const steer_results r = {settings, steering, status};
+    const int printed = (settings->json ? steer_print_json : steer_print_screen)(&r);
+    if (status == CLI_FAILED)
+        cli_fail(status, "%s: %s", s->request.system_name, steering->extremal->message);
+    if (status == CLI_SIGNAL)
+        cli_fail(status, "interrupted; the motions so far, or the nearest one, are printed");
+    dal_steer_free(steering);
+    return printed == CLI_DONE ? status : printed;
+}
