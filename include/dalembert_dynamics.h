@@ -22,7 +22,8 @@ extern "C" {
 typedef struct dal_lyapunov dal_lyapunov;
 
 /* Makes count tangent vectors; 0: one for each direction of the step map, that is 2n + multipliers,
- * less m where the method enforces D = 0, less one where it enforces E.  tangent is
+ * less m where the method enforces D = 0, less one for each holonomic constraint and for E where
+ * it enforces these.  tangent is
  * dal_model_tangent of the same model, or NULL.  With it and a Runge-Kutta method, partitioned
  * symplectic Euler, or a composition, J is the derivative of the formulas of the step, to rounding
  * and to the error of its solver; otherwise it is found by differences of the step, of order 8,
@@ -32,6 +33,13 @@ typedef struct dal_lyapunov dal_lyapunov;
  * persistent state, or a tolerance. */
 dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
                                const dal_system *tangent, int count, dal_error *error);
+/* The same on the lift (q, v, p, pi) at constant e, 4n vectors, for methods with an exact J, which
+ * needs the tangent.  The lift is Hamiltonian: the divergence is 0, and exponents are in pairs,
+ * lambda and -lambda; on p = pi = 0 they are the exponents of (q, v) and their negatives.  The unit
+ * of p_i q_i and of pi_i v_i is e u^2/tau of the largest velocity u. [alloc]  Errors: also
+ * DAL_STATUS_UNSUPPORTED: no exact J; the gauge's mu_e is not of t alone. */
+dal_status dal_lyapunov_create_lifted(dal_lyapunov **lyapunov, const dal_run_spec *spec,
+                                      const dal_system *tangent, int count, dal_error *error);
 /* Frees the vectors and their run. */
 void dal_lyapunov_free(dal_lyapunov *lyapunov);
 /* Takes steps of the run and its vectors; the run has the bits of dal_run_advance.  Errors: as

@@ -291,6 +291,102 @@ static void test_same_bits(void)
     dal_run_free(run);
 }
 
+/* ---- the lift ---- */
+
+/* log R(z) of gauss4. */
+static double log_gauss4(double z)
+{
+    return log((1.0 + z / 2.0 + z * z / 12.0) / (1.0 - z / 2.0 + z * z / 12.0));
+}
+
+/* The exponents of the lift from a start, after a transient. */
+static dal_lyapunov *lifted_of(const char *model, const char *method, double step,
+                               const dal_setting *start, int count)
+{
+    dal_lyapunov *s = NULL;
+    dal_error error = {0};
+    dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_LIFTED, step);
+    spec.start = start;
+    spec.start_count = count;
+    const dal_system *tangent = fixture_tangent(model);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create_lifted(&s, &spec, tangent, 0, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 1200, &error), DAL_STATUS_OK);
+    dal_lyapunov_discard_transient(s);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 100, &error), DAL_STATUS_OK);
+    CU_ASSERT(dal_lyapunov_is_exact(s) && dal_lyapunov_is_whole(s));
+    return s;
+}
+
+/* Ends what lifted_of began: the exponents are these, and their sum agrees with div = 0. */
+static void check_lifted(dal_lyapunov *s, const double *expected)
+{
+    dal_balance balance;
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 4);
+    for (int i = 0; i < 4; i++) CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, i), expected[i], 1e-11);
+    CU_ASSERT_EQUAL(fixture_divergence(s), 0.0);
+    CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &balance, NULL), DAL_STATUS_OK);
+    CU_ASSERT_TRUE(balance.holds);
+    dal_lyapunov_free(s);
+}
+
+/* x'' = 2 x - x': the eigenvalues 1 and -2 of (x, x'), and -1 and 2 of (p, pi), on p = pi = 0. */
+static void test_lift(void)
+{
+    static const char model[] = "coordinates: [x]\naccelerations: {x: 2*x - x'}\nstart: {x: 0}\n";
+    static const double eigenvalue[] = {2.0, 1.0, -1.0, -2.0};
+    const double h = 0.1;
+    double by_rk4[4], by_gauss4[4];
+    for (int i = 0; i < 4; i++) {
+        by_rk4[i] = log_rk4(h * eigenvalue[i], 0.0) / h;
+        by_gauss4[i] = log_gauss4(h * eigenvalue[i]) / h;
+    }
+    check_lifted(lifted_of(model, "rk4", h, NULL, 0), by_rk4);
+    check_lifted(lifted_of(model, "gauss4", h, NULL, 0), by_gauss4);
+}
+
+/* x'' = 1 + a x^2 - x' + pi, p' = -2 a x pi, pi' = -p + pi rest at x = 0, p = pi = -1; with
+ * a = 0.105 the eigenvalues have lambda^4 - lambda^2 + 2 a = 0: lambda^2 = 0.7 and 0.3. */
+static void test_pairs_of_lift(void)
+{
+    static const char model[] =
+        "coordinates: [x]\naccelerations: {x: 1 + 0.105*x^2 - x'}\nstart: {x: 0}\n";
+    const dal_setting start[] = {{"p_x", -1.0}, {"pi_x", -1.0}};
+    const double h = 0.1, a = log_gauss4(h * sqrt(0.7)) / h, b = log_gauss4(h * sqrt(0.3)) / h;
+    check_lifted(lifted_of(model, "gauss4", h, start, 2), (double[]){a, b, -b, -a});
+}
+
+/* Sums of pairs, and of all: J is symplectic, wherever p and pi are. */
+static void test_symplectic_lift(void)
+{
+    static const char *const methods[] = {"gauss4", "stormer-verlet", "implicit-midpoint+yoshida4"};
+    const dal_setting start[] = {{"p_x", 0.1}, {"pi_y", 0.2}};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        dal_lyapunov *s = lifted_of("heisenberg", methods[i], 0.02, start, 2);
+        CU_ASSERT_EQUAL(dal_lyapunov_count(s), 12);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), 0.0, 1e-11);
+        dal_lyapunov_free(s);
+    }
+}
+
+/* ---- holonomic constraints ---- */
+
+/* A pendulum at rest upside down: 1 and -1, on the tangent space of g = 0. */
+static void test_holonomic(void)
+{
+    static const char model[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
+                                "holonomic: [x^2 + y^2 - 1]\nstart: {y: 1}\n";
+    const double h = 0.1;
+    dal_balance balance;
+    dal_lyapunov *s = lyapunov_of(model, "gauss4", h, 100, 100);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 2);
+    CU_ASSERT(dal_lyapunov_is_whole(s) && !dal_lyapunov_is_exact(s));
+    CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 0), log_gauss4(h) / h, 1e-9);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 1), log_gauss4(-h) / h, 1e-9);
+    CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &balance, NULL), DAL_STATUS_OK);
+    CU_ASSERT_TRUE(balance.holds);
+    dal_lyapunov_free(s);
+}
+
 /* ---- what is refused ---- */
 
 static void test_refuses(void)
@@ -307,6 +403,13 @@ static void test_refuses(void)
     CU_ASSERT(strstr(error.message, "tolerance") != NULL);
     CU_ASSERT(error.line == 0 && error.column == 0);
     spec.options.tolerance = 0.0;
+    CU_ASSERT_EQUAL(dal_lyapunov_create_lifted(&s, &spec, NULL, 0, &error), DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT(strstr(error.message, "no tangent system") != NULL);
+    const dal_system *tangent = fixture_tangent("chaplygin-sleigh");
+    spec = fixture_spec(spec.system, "spark2", DAL_LIFTED, 0.05);
+    CU_ASSERT_EQUAL(dal_lyapunov_create_lifted(&s, &spec, tangent, 0, &error),
+                    DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT(strstr(error.message, "spark2: its step uses more") != NULL);
     CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, -1, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_PTR_NULL(s);
 }
@@ -369,6 +472,10 @@ void suite_lyapunov(void)
     CU_add_test(suite, "the measures of the shipped systems", test_tags);
     CU_add_test(suite, "vakonomic motion", test_vakonomic);
     CU_add_test(suite, "the trajectory is a run's", test_same_bits);
+    CU_add_test(suite, "the lift, on p = pi = 0", test_lift);
+    CU_add_test(suite, "the lift, off p = pi = 0", test_pairs_of_lift);
+    CU_add_test(suite, "sums of the lift", test_symplectic_lift);
+    CU_add_test(suite, "holonomic constraints", test_holonomic);
     CU_add_test(suite, "what is refused", test_refuses);
     CU_add_test(suite, "increments of differences", test_increments);
     CU_add_test(suite, "out of memory", test_out_of_memory);

@@ -506,6 +506,16 @@ static void null_dal_lyapunov_create(void)
     REFUSED(dal_lyapunov_create(&made, &spec, system, 0, error)); /* not of 2n coordinates */
 }
 
+static void null_dal_lyapunov_create_lifted(void)
+{
+    dal_lyapunov *made = lyapunov;
+    REFUSED_SPECS(bad, dal_lyapunov_create_lifted(&made, bad, NULL, 0, error));
+    CU_ASSERT_PTR_NULL(made);
+    REFUSED(dal_lyapunov_create_lifted(NULL, &spec, NULL, 0, error));
+    REFUSED(dal_lyapunov_create_lifted(&made, &spec, NULL, -1, error));
+    REFUSED(dal_lyapunov_create_lifted(&made, &spec, system, 0, error)); /* not of 2n */
+}
+
 static void null_dal_lyapunov_free(void) { dal_lyapunov_free(NULL); }
 
 static void null_dal_lyapunov_advance(void)

@@ -23,6 +23,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct lyapunov_settings {
     bool is_volume, json, details, force;
@@ -60,7 +61,6 @@ static int create_spectrum(tangent_study *s)
     const dal_system *tangent = NULL;
     dal_error error = {0};
     dal_run_spec spec;
-    request->options.space = DAL_PHYSICAL;
     /* Creating a run of its own finds what is wrong with the options. */
     int status = request_check_forward(request);
     if (status == CLI_DONE) status = simulation_create(s->simulation);
@@ -73,7 +73,9 @@ static int create_spectrum(tangent_study *s)
         return cli_fail(CLI_IO, "%s: out of memory", request->system_name);
     dal_status made = dal_model_tangent(s->simulation->model, &tangent, &error);
     if (made == DAL_STATUS_OK)
-        made = dal_lyapunov_create(&s->spectrum, &spec, tangent, (int)s->set->exponents, &error);
+        made =
+            (spec.options.space == DAL_LIFTED ? dal_lyapunov_create_lifted : dal_lyapunov_create)(
+                &s->spectrum, &spec, tangent, (int)s->set->exponents, &error);
     return made == DAL_STATUS_OK ? CLI_DONE
                                  : cli_error(cli_input_exit(made), request->system_name, &error);
 }
@@ -260,9 +262,12 @@ static int measure_means(lyapunov_settings *settings)
 static int run_measurement(lyapunov_settings *s, const cli_command *command, int argc, char **argv)
 {
     s->simulation = simulation_default();
+    cli_option of_request[REQUEST_OPTIONS];
+    memcpy(of_request, request_options, sizeof of_request);
+    of_request[REQUEST_space].initial = "physical";
     cli_option_set sets[] = {
         CLI_OPTION_SET(options, s),
-        simulation_options(&s->simulation, request_options, LYAPUNOV_WITHOUT),
+        simulation_options(&s->simulation, of_request, LYAPUNOV_WITHOUT),
     };
     sets[0].owner = "lyapunov";
     sets[0].count -= s->is_volume; /* the last one is of lyapunov alone */

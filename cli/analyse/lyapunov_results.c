@@ -37,6 +37,24 @@ static const char *volume_word(const lyapunov_results *r, const dal_average *a)
     return a->high < 0.0 ? "shrinks" : "may be 0";
 }
 
+static bool is_lifted(const lyapunov_results *r)
+{
+    return r->simulation->request.options.space == DAL_LIFTED;
+}
+
+static const char *space_word(const lyapunov_results *r) { return is_lifted(r) ? ", lifted" : ""; }
+
+/* The directions of the space, on which e and pi_e are not varied. */
+static int dimension_of(const lyapunov_results *r)
+{
+    return dal_run_dimension(dal_lyapunov_run(r->spectrum)) - (is_lifted(r) ? 2 : 0);
+}
+
+static const char *divergence_head(const lyapunov_results *r)
+{
+    return is_lifted(r) ? "divergence" : "divergence of F";
+}
+
 /* ---- all of them ----------------------------------------------------------------------------- */
 
 static void print_mean(const char *name, const dal_average *a, const char *word)
@@ -56,7 +74,7 @@ static void print_exponents(const lyapunov_results *r)
     dal_lyapunov_sum(r->spectrum, &a);
     print_mean("their sum", &a, dal_lyapunov_is_whole(r->spectrum) ? "all" : "not all");
     dal_lyapunov_divergence(r->spectrum, &a);
-    print_mean("divergence of F", &a, "exact, at every step");
+    print_mean(divergence_head(r), &a, "exact, at every step");
     printf("\nexponents of regular motion may reach about log(1 + T/tau)/T = %.2g\n",
            resolution(r));
 }
@@ -66,10 +84,10 @@ static void print_volume(const lyapunov_results *r)
     dal_average motion, step;
     dal_lyapunov_divergence(r->spectrum, &motion);
     dal_lyapunov_sum(r->spectrum, &step);
-    print_mean("divergence of F", &motion, volume_word(r, &motion));
+    print_mean(divergence_head(r), &motion, volume_word(r, &motion));
     print_mean("log|det J|/h", &step, volume_word(r, &step));
     printf("\n%d of %d directions; step less motion: %.2g\n", dal_lyapunov_count(r->spectrum),
-           dal_run_dimension(dal_lyapunov_run(r->spectrum)), step.mean - motion.mean);
+           dimension_of(r), step.mean - motion.mean);
 }
 
 static void print_balance(const lyapunov_results *r)
@@ -90,8 +108,8 @@ void lyapunov_print(const lyapunov_results *r)
     char method[128];
     const dal_run *run = dal_lyapunov_run(r->spectrum);
     dal_method_name(&r->simulation->request.method, method, sizeof method);
-    printf("%s, %s, h = %g: means over t = %g .. %g\n", r->simulation->request.system_name, method,
-           r->simulation->request.options.step, r->begin, dal_run_time(run));
+    printf("%s, %s%s, h = %g: means over t = %g .. %g\n", r->simulation->request.system_name,
+           method, space_word(r), r->simulation->request.options.step, r->begin, dal_run_time(run));
     printf("the derivative of the step %s\n\n", dal_lyapunov_is_exact(r->spectrum)
                                                     ? "exact, by the tangent system"
                                                     : "by differences of order 8");
@@ -136,7 +154,7 @@ static void put_volume(json_writer *w, const lyapunov_results *r)
     put_mean(w, "divergence", &motion, volume_word(r, &motion));
     put_mean(w, "step", &step, volume_word(r, &step));
     json_put_integer(w, "directions", dal_lyapunov_count(r->spectrum));
-    json_put_integer(w, "dimension", dal_run_dimension(dal_lyapunov_run(r->spectrum)));
+    json_put_integer(w, "dimension", dimension_of(r));
 }
 
 static void put_balance(json_writer *w, const lyapunov_results *r)
@@ -226,7 +244,7 @@ static void add_exponents(screen *out, const lyapunov_results *r)
     dal_lyapunov_sum(r->spectrum, &a);
     add_mean(&t, "their sum", &a, dal_lyapunov_is_whole(r->spectrum) ? "all" : "not all");
     dal_lyapunov_divergence(r->spectrum, &a);
-    add_mean(&t, "divergence of F", &a, "");
+    add_mean(&t, divergence_head(r), &a, "");
     screen_add_table(out, &t, "lrrrl", 0);
     screen_free_table(&t);
     if (count > shown) screen_say(out, 2, "... and %d more (--details)", count - shown);
@@ -237,8 +255,9 @@ static void say_volume(screen *out, const lyapunov_results *r)
     dal_average motion, step;
     dal_lyapunov_divergence(r->spectrum, &motion);
     dal_lyapunov_sum(r->spectrum, &step);
-    screen_say(out, 2, "The volume of (q, v) in the motion: %s; in the method's steps: %s",
-               volume_word(r, &motion), volume_word(r, &step));
+    screen_say(out, 2, "The volume of (%s) in the motion: %s; in the method's steps: %s",
+               is_lifted(r) ? "q, v, p, pi" : "q, v", volume_word(r, &motion),
+               volume_word(r, &step));
 }
 
 static void add_volume(screen *out, const lyapunov_results *r)
@@ -247,7 +266,7 @@ static void add_volume(screen *out, const lyapunov_results *r)
     dal_average a;
     add_heads(&t);
     dal_lyapunov_divergence(r->spectrum, &a);
-    add_mean(&t, "divergence of F", &a, volume_word(r, &a));
+    add_mean(&t, divergence_head(r), &a, volume_word(r, &a));
     dal_lyapunov_sum(r->spectrum, &a);
     add_mean(&t, "log|det J|/h", &a, volume_word(r, &a));
     screen_add_table(out, &t, "lrrrl", 0);
@@ -276,8 +295,8 @@ int lyapunov_print_screen(const lyapunov_results *r, screen_format format)
     screen out;
     screen_open(&out, stdout, format);
     dal_method_name(&r->simulation->request.method, method, sizeof method);
-    screen_say(&out, 2, "%s by %s, h = %s, t = %s .. %s", r->simulation->request.system_name,
-               method, screen_number(x[0], r->simulation->request.options.step, 4),
+    screen_say(&out, 2, "%s by %s%s, h = %s, t = %s .. %s", r->simulation->request.system_name,
+               method, space_word(r), screen_number(x[0], r->simulation->request.options.step, 4),
                screen_number(x[1], r->begin, 4), screen_number(x[2], dal_run_time(run), 4));
     (r->is_volume ? say_volume : say_exponents)(&out, r);
     screen_skip(&out);

@@ -7,9 +7,7 @@
 #include "ui/screen.h"
 
 /* The options of a run that the commands do not take. */
-#define LYAPUNOV_WITHOUT                                                                           \
-    (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(space) |                         \
-     REQUEST_OPTION(effort) | REQUEST_OPTION(gauge))
+#define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps))
 
 typedef struct lyapunov_results {
     bool is_volume;

@@ -13,7 +13,13 @@
  *
  * V is a frame of (q/l, v/u, g/u) in the system's own units, see lib/analysis/scaled.c: what is
  * orthonormal, which direction is lost and how far the means are from their limits do not depend on
- * the units of the user. */
+ * the units of the user.
+ *
+ * Of the lift it is a frame of (q/l, v/u, p l/s, pi u/s) at constant e, with one action
+ * s = e u^2/tau of the largest u, so that the symplectic form is the same for every pair.  The lift
+ * is Hamiltonian: its divergence is 0 and its exponents are in pairs, lambda and -lambda.  On
+ * p = pi = 0 J is [[A, B], [0, A^-T]], A being the derivative of the step on (q, v): they are then
+ * the exponents of (q, v) and their negatives. */
 #include "analysis/derivatives.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
@@ -36,21 +42,25 @@ struct dal_lyapunov {
     dal_run *run;       /* the trajectory */
     dal_run *auxiliary; /* steps tangent vectors, or displaced states, from the state of the run */
     dal_scaled *scaled; /* the system in its own units */
-    dal_evaluator *evaluator; /* of that */
-    const double *unit;       /* [dimension] of the state */
-    double time;              /* the unit of time */
-    int n, nw, dimension, count, rank, exact;
-    int order;                  /* of the method */
-    int enforced;               /* functions that the method enforces: D, then E; 0, m or m+1 */
+    dal_evaluator *evaluator;                 /* of that */
+    double *unit;                             /* [dimension] of the vectors */
+    dal_space space;                          /* lifted: vectors are (dq, dv, dp, dpi) */
+    double time;                              /* the unit of time */
+    int n, nw, dimension, count, rank, exact; /* dimension: of the vectors */
+    int size;                                 /* of the state */
+    int order;                                /* of the method */
+    int enforced;               /* functions that the method enforces: D, then g, then E */
+    bool is_symplectic;         /* J is, of the lift */
     int turns_D;                /* the method turns D into -D: off D = 0 it is not near the flow */
     double h, divergence, rate; /* at the present state; rate: see find_divergence */
+    double change;              /* max |J V - V| of a vector in the present step */
     double *vectors;            /* [dimension*dimension] the first count of them are in use */
     double *growth;    /* [dimension + 4] log R_ii / h of a step, their sum, div F, what the
                         error of the step may be, and by how much div F has changed */
-    double *scratch;   /* [5*dimension], or the jacobian's [nw*n + nw*nw] */
-    double *gradients; /* [(m + 1)*dimension] of what is enforced */
+    double *scratch;   /* [5*dimension], the jacobian's [nw*n + nw*nw], or [3*size] */
+    double *gradients; /* [(m + holonomic + 1)*dimension] of what is enforced */
     double *place;     /* [dimension] the state of the run in units */
-    double t, *z;      /* [dimension] where the step began */
+    double t, *z;      /* [size] where the step began */
     double *memory, *displaced; /* [memory_count] all of the run there, and beside it */
     size_t memory_count;
     bool has_remainder;         /* memory is y, r, ..: not in quad precision */
@@ -62,17 +72,29 @@ struct dal_lyapunov {
 
 /* ---- J times a vector ---- */
 
-/* (dq, dv, dg) by a step of the tangent system from (q, dq, v, dv, g, dg). */
+/* Where component i of a vector is in the state: e is not varied. */
+static int place_of(const dal_lyapunov *s, int i)
+{
+    return i + (s->space == DAL_LIFTED && i >= 2 * s->n);
+}
+
+/* A vector by a step of the tangent system. */
 static dal_status move_exactly(dal_lyapunov *s, double *vector)
 {
     const dal_system *system = dal_run_system(s->run);
-    double *x = s->scratch;
-    for (int i = 0; i < s->dimension; i++) vector[i] *= s->unit[i];
-    dal__tangent_scatter(system, DAL_PHYSICAL, s->z, vector, x);
+    double *of_state = s->scratch, *x = of_state + s->size, change = 0.0;
+    for (int i = 0; i < s->dimension; i++) of_state[place_of(s, i)] = vector[i] * s->unit[i];
+    if (s->space == DAL_LIFTED) of_state[s->size - 1] = 0.0; /* dpi_e moves nothing */
+    dal__tangent_scatter(system, s->space, s->z, of_state, x);
     DAL_TRY(dal_run_set_state(s->auxiliary, s->t, x, s->error));
     DAL_TRY(dal_run_step(s->auxiliary, s->error));
-    dal__tangent_gather(system, DAL_PHYSICAL, dal_run_state(s->auxiliary), vector);
-    for (int i = 0; i < s->dimension; i++) vector[i] /= s->unit[i];
+    dal__tangent_gather(system, s->space, dal_run_state(s->auxiliary), of_state);
+    for (int i = 0; i < s->dimension; i++) {
+        const double moved = of_state[place_of(s, i)] / s->unit[i];
+        change = hypot(change, moved - vector[i]);
+        vector[i] = moved;
+    }
+    s->change = fmax(s->change, change);
     return DAL_STATUS_OK;
 }
 
@@ -173,11 +195,11 @@ static double row_norm(const double *matrix, int rows, int columns)
 static dal_point scale_point(const dal_lyapunov *s)
 {
     const double *z = dal_run_state(s->run);
-    for (int i = 0; i < s->dimension; i++) s->place[i] = z[i] / s->unit[i];
+    for (int i = 0; i < s->n + s->nw; i++) s->place[i] = z[i] / s->unit[i];
     return (dal_point){.t = dal_run_time(s->run) / s->time, .q = s->place, .v = s->place + s->n};
 }
 
-/* The trace of F_(v,g), and a rate at which motions near this one come and go. */
+/* The trace of F_(v,g), or 0 of the lift, and a rate at which motions near this one come and go. */
 static dal_status find_divergence(dal_lyapunov *s)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
@@ -191,7 +213,8 @@ static dal_status find_divergence(dal_lyapunov *s)
         return dal__fail(s->error, status, "t = %g: no jacobian: %s", dal_run_time(s->run),
                          dal_status_text(status));
     s->divergence = 0.0;
-    for (int i = 0; i < s->nw; i++) s->divergence += by_v[i * s->nw + i] / s->time;
+    for (int i = 0; i < s->nw && s->space == DAL_PHYSICAL; i++)
+        s->divergence += by_v[i * s->nw + i] / s->time;
     s->rate = fmax(sqrt(row_norm(s->scratch, s->nw, s->n)), row_norm(by_v, s->nw, s->nw)) / s->time;
     return DAL_STATUS_OK;
 }
@@ -201,7 +224,7 @@ static void hold_state(dal_lyapunov *s, const dal_run *run)
 {
     const double *memory = dal_run_save(run, &s->memory_count);
     s->t = dal_run_time(run);
-    memcpy(s->z, dal_run_state(run), (size_t)s->dimension * sizeof(double));
+    memcpy(s->z, dal_run_state(run), (size_t)s->size * sizeof(double));
     memcpy(s->memory, memory, s->memory_count * sizeof(double));
 }
 
@@ -210,17 +233,22 @@ static dal_status step_vectors(dal_lyapunov *s)
     const double before = s->divergence;
     double *sum = s->growth + s->count;
     hold_state(s, s->run);
+    s->change = 0.0;
     DAL_TRY(move_vectors(s, s->count));
     DAL_TRY(orthonormalise(s, s->count));
     DAL_TRY(dal_run_step(s->run, s->error));
     DAL_TRY(find_divergence(s));
+    /* Off p = pi = 0 the lift has rates that F_q and F_v do not have. */
+    if (s->space == DAL_LIFTED) s->rate = fmax(s->rate, s->change / s->h);
     *sum = 0.0;
     for (int j = 0; j < s->count; j++) *sum += s->growth[j] = log(s->growth[j]) / s->h;
     sum[1] = 0.5 * (before + s->divergence);
     /* An error bound: a power series in h r without its terms up to the order of the method; there
-     * is none where it does not converge. */
+     * is none where it does not converge, and none is needed where det J = 1. */
     const double x = s->h * s->rate;
-    sum[2] = x < 1.0 ? s->dimension * s->rate * pow(x, s->order) / (1.0 - x) : INFINITY;
+    sum[2] = s->is_symplectic ? 0.0
+             : x < 1.0        ? s->dimension * s->rate * pow(x, s->order) / (1.0 - x)
+                              : INFINITY;
     sum[3] = s->divergence - before;
     dal_statistics_add(s->statistics, s->count + EXTRA_MEANS, dal_run_time(s->run), s->growth);
     return DAL_STATUS_OK;
@@ -245,16 +273,31 @@ static double find_gradients(dal_lyapunov *s)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
     const dal_point at = scale_point(s);
+    const struct {
+        dal_callback *values;
+        int count;
+    } parts[] = {{system->constraints, system->m},
+                 {system->call.holonomic, system->holonomic},
+                 {system->energy, 1}};
     double size = 0.0;
+    int found = 0;
     dal_status status = DAL_STATUS_OK;
-    if (s->enforced > 0)
-        status = dal__gradients(s->evaluator, system->constraints, system->m, &at, s->gradients);
-    if (status == DAL_STATUS_OK && s->enforced > system->m)
-        status = dal__gradients(s->evaluator, system->energy, 1, &at,
-                                s->gradients + system->m * s->dimension);
+    for (int k = 0; found < s->enforced && status == DAL_STATUS_OK; found += parts[k++].count)
+        if (parts[k].count > 0)
+            status = dal__gradients(s->evaluator, parts[k].values, parts[k].count, &at,
+                                    s->gradients + found * s->dimension);
     for (int j = 0; j < s->enforced && status == DAL_STATUS_OK; j++)
         size += log(dal__orthonormalise_row(s->gradients, j, s->dimension));
     return status == DAL_STATUS_OK ? size : NAN;
+}
+
+/* The functions whose directions are lost: D, then g, then E; 0: others are. */
+static int find_enforced(const dal_lyapunov *s, unsigned properties)
+{
+    const dal_system *system = dal_evaluator_system(s->evaluator);
+    const int lost = s->dimension - s->rank, D = system->m, g = D + system->holonomic;
+    const int E = g + ((properties & DAL_PRESERVES_ENERGY) != 0);
+    return lost == D || lost == g || lost == E ? lost : 0;
 }
 
 void dal_lyapunov_discard_transient(dal_lyapunov *s)
@@ -303,7 +346,8 @@ dal_status dal_lyapunov_balance(dal_lyapunov *s, dal_balance *balance, dal_error
 
 /* ---- making one ---- */
 
-static dal_status check_map(const dal_run_spec *spec, const dal_system *tangent, dal_error *error)
+static dal_status check_map(const dal_run_spec *spec, dal_space space, const dal_system *tangent,
+                            dal_error *error)
 {
     char name[128];
     dal_method_name(&spec->method, name, sizeof name);
@@ -311,10 +355,10 @@ static dal_status check_map(const dal_run_spec *spec, const dal_system *tangent,
         return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "a tangent system of %d coordinates for a system of %d", tangent->n,
                          spec->system->n);
-    if (spec->system->holonomic > 0)
-        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
-                         "the exponents of a system with holonomic constraints are not computed: "
-                         "its steps return to g = 0, and tangent vectors do not");
+    const char *fault = tangent ? dal__tangent_fault(spec, space) : "it has no tangent system";
+    if (space == DAL_LIFTED && fault)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED, "no exponents of the lift by %s: %s", name,
+                         fault);
     if (dal_method_properties(&spec->method) & DAL_PERSISTENT_MULTIPLIER)
         return dal__fail(
             error, DAL_STATUS_UNSUPPORTED,
@@ -329,48 +373,70 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
                             dal_error *error)
 {
     dal_run_spec spec = *given;
-    spec.options.space = DAL_PHYSICAL;
+    spec.options.space = s->space;
     if (spec.options.step < 0.0)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "exponents need a positive step; it is %g",
                          spec.options.step);
     DAL_TRY(dal__refuse_events(spec.system, "tangent vectors", error));
     DAL_TRY(dal_run_create(&s->run, &spec, error));
     const dal_system *system = dal_run_system(s->run);
-    s->exact = tangent != NULL && dal__tangent_fault(&spec, DAL_PHYSICAL) == NULL;
+    dal_method method = spec.method;
+    bool is_projected; /* to g = 0, which no tangent vector is */
+    DAL_TRY(dal_method_complete(&method, system, &spec.options, &is_projected, error));
+    s->exact = tangent && !is_projected && dal__tangent_fault(&spec, s->space) == NULL;
+    if (s->space == DAL_LIFTED && !s->exact)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "no exponents of the lift: steps are projected to holonomic constraints, "
+                         "and tangent vectors are not: take the option bare");
     if (s->exact) spec.system = tangent, spec.start_count = 0;
     DAL_TRY(dal_run_create(&s->auxiliary, &spec, error));
     s->n = system->n;
     s->nw = system->n + system->multipliers;
-    s->dimension = s->n + s->nw;
+    s->size = dal_run_dimension(s->run);
+    s->dimension = s->space == DAL_LIFTED ? 4 * s->n : s->n + s->nw;
     s->h = spec.options.step;
     s->order = dal_method_order(&spec.method);
     s->has_remainder = spec.options.precision == DAL_DOUBLE;
     DAL_TRY(dal_scaled_create_at(&s->scaled, s->run, error));
     DAL_TRY(dal__evaluator_of_run(&s->evaluator, s->scaled, s->run, error));
     s->time = dal_scaled_units(s->scaled)[0];
-    s->unit = dal_scaled_units(s->scaled) + 1;
     return DAL_STATUS_OK;
+}
+
+static void fill_units(dal_lyapunov *s)
+{
+    const double *unit = dal_scaled_units(s->scaled) + 1;
+    const int n = s->n;
+    memcpy(s->unit, unit, (size_t)(n + s->nw) * sizeof *unit);
+    if (s->space == DAL_PHYSICAL) return;
+    const double e = fabs(dal_run_state(s->run)[2 * n]), u = dal__max_abs(unit + n, (size_t)n);
+    const double action = (isfinite(e) ? e : 1.0) * u * u / s->time;
+    for (int i = 0; i < 2 * n; i++) s->unit[2 * n + i] = action / unit[i];
 }
 
 static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
 {
-    const size_t d = (size_t)s->dimension, jacobian = (size_t)s->nw * d;
-    const size_t scratch = jacobian > 5 * d ? jacobian : 5 * d;
-    const size_t gradients = ((size_t)dal_evaluator_system(s->evaluator)->m + 1) * d;
+    const size_t d = (size_t)s->dimension, size = (size_t)s->size;
+    const size_t scratch = (size_t)s->nw * (size_t)(s->n + s->nw) + 5 * d + 3 * size;
+    const dal_system *system = dal_run_system(s->run);
+    const size_t gradients = (size_t)(system->m + system->holonomic + 1) * d;
     dal_run_save(s->run, &s->memory_count);
     const size_t memory = s->memory_count > d ? s->memory_count : d;
-    double *block = dal__numbers(1, d * d + 3 * d + EXTRA_MEANS + scratch + gradients + 2 * memory);
+    double *block =
+        dal__numbers(1, d * d + 3 * d + size + EXTRA_MEANS + scratch + gradients + 2 * memory);
     s->vectors = block;
     s->statistics = calloc(d + EXTRA_MEANS, sizeof *s->statistics);
     if (block == NULL || s->statistics == NULL)
         return dal__fail(error, DAL_STATUS_MEMORY, "Lyapunov exponents: out of memory");
     s->z = block + d * d;
-    s->growth = s->z + d;
+    s->growth = s->z + size;
     s->scratch = s->growth + d + EXTRA_MEANS;
     s->gradients = s->scratch + scratch;
     s->place = s->gradients + gradients;
     s->memory = s->place + d;
     s->displaced = s->memory + memory;
+    s->unit = s->displaced + memory;
+    fill_units(s);
     return DAL_STATUS_OK;
 }
 
@@ -404,11 +470,9 @@ static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
     DAL_TRY(allocate_vectors(s, error));
     s->error = error;
     DAL_TRY(find_rank(s, properties));
-    /* The functions whose directions are lost: D, then E. */
-    const int lost = s->dimension - s->rank, m = dal_evaluator_system(s->evaluator)->m;
-    const int max = m + ((properties & DAL_PRESERVES_ENERGY) != 0);
-    s->enforced = lost == m || lost == max ? lost : 0;
-    s->turns_D = m > 0 && lost == 0 && properties & DAL_PRESERVES_D_MIDPOINT;
+    s->enforced = find_enforced(s, properties);
+    s->turns_D =
+        spec->system->m > 0 && s->rank == s->dimension && properties & DAL_PRESERVES_D_MIDPOINT;
     DAL_TRY(find_divergence(s));
     if (count < 0 || count > s->rank)
         return dal__fail(error, DAL_STATUS_ARGUMENT,
@@ -420,26 +484,41 @@ static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
         for (int k = 0; k < s->enforced; k++)
             dal__remove_component(s->vectors + j * s->dimension, s->gradients + k * s->dimension,
                                   s->dimension);
+    s->is_symplectic = s->space == DAL_LIFTED && properties & DAL_SYMPLECTIC;
     const dal_status status = orthonormalise(s, s->rank);
     s->error = NULL;
     return status;
 }
 
-dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
-                               const dal_system *tangent, int count, dal_error *error)
+static dal_status create_lyapunov(dal_lyapunov **lyapunov, const dal_run_spec *spec,
+                                  dal_space space, const dal_system *tangent, int count,
+                                  dal_error *error)
 {
     DAL_REQUIRE(lyapunov, error);
     *lyapunov = NULL;
     DAL_TRY(dal__check_spec(spec, error));
-    DAL_TRY(check_map(spec, tangent, error));
+    DAL_TRY(check_map(spec, space, tangent, error));
     dal_lyapunov *s = calloc(1, sizeof *s);
     if (s == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "Lyapunov exponents: out of memory");
+    s->space = space;
     const dal_status status = start_vectors(s, spec, tangent, count, error);
     if (status == DAL_STATUS_OK)
         *lyapunov = s;
     else
         dal_lyapunov_free(s);
     return status;
+}
+
+dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
+                               const dal_system *tangent, int count, dal_error *error)
+{
+    return create_lyapunov(lyapunov, spec, DAL_PHYSICAL, tangent, count, error);
+}
+
+dal_status dal_lyapunov_create_lifted(dal_lyapunov **lyapunov, const dal_run_spec *spec,
+                                      const dal_system *tangent, int count, dal_error *error)
+{
+    return create_lyapunov(lyapunov, spec, DAL_LIFTED, tangent, count, error);
 }
 
 void dal_lyapunov_free(dal_lyapunov *s)

@@ -244,15 +244,18 @@ def lyapunov(system: SystemLike, integrator: str | None = None, time: float | No
     Parameters
     ----------
     system, integrator, **settings
-        As of a `Run`, on the physical space.
+        As of a `Run`; the space is the physical one where it is not given.  On ``'lifted'`` the exponents are of
+        (q, v, p, pi), in pairs.
     time, transient : float
         What the means cover, and what goes before; whole numbers of steps.
     count : int
         Exponents; 0: all.
     """
+    settings.setdefault('space', 'physical')
     spec = Spec(system, integrator, **settings)
     made = ffi.new('dal_lyapunov **')
-    call(lib.dal_lyapunov_create, made, spec.c, spec.system._tangent(), whole('count', count, 0, MAX_INT))
+    create = lib.dal_lyapunov_create_lifted if settings['space'] == 'lifted' else lib.dal_lyapunov_create
+    call(create, made, spec.c, spec.system._tangent(), whole('count', count, 0, MAX_INT))
     study = ffi.gc(made[0], lib.dal_lyapunov_free)
     before = spec.steps(number('transient', transient)) if transient else 0
     for steps in chunks(before, TANGENT_CHUNK):

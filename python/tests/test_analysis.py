@@ -77,6 +77,10 @@ def test_lyapunov():
     assert first.exponents[0].mean == pytest.approx((17 ** 0.5 - 1) / 4, abs=1e-8)
     assert len(first.exponents) == 1 and first.holds is None
     assert first.divergence.mean == pytest.approx(-0.5)
+    lift = dalembert.lyapunov(damped, 'gauss8', 40, step=0.1, transient=80, space='lifted')
+    pair = [(17 ** 0.5 - 1) / 4, (17 ** 0.5 + 1) / 4]
+    assert [e.mean for e in lift.exponents] == pytest.approx([pair[1], pair[0], -pair[0], -pair[1]], abs=1e-8)
+    assert lift.holds and lift.sum.mean == pytest.approx(0, abs=1e-10)
 
 
 def test_section(oscillator):

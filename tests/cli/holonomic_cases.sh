@@ -119,7 +119,8 @@ table <<'END'
 2 | run pendulum.yaml --integrator rk4 --step 0.1 --time 1 --start pi_x=1 | says take the option bare, with effort constraint
 2 | run pendulum.yaml --integrator rk4 --step 0.1 --time 1 --mechanics vakonomic | says vakonomic mechanics takes no holonomic constraints
 2 | predict pendulum.yaml --integrator rk4 --step 0.1 --time 1 | says no drift of rk4.* can be predicted: the system has holonomic constraints
-2 | lyapunov pendulum.yaml --integrator rk4 --step 0.1 --time 1 | says the exponents of a system with holonomic constraints are not computed
+2 | lyapunov pendulum.yaml --integrator rk4 --step 0.1 --time 1 --space lifted | says no exponents of the lift by rk4.project
+0 | lyapunov pendulum.yaml --integrator rk4 --step 0.1 --time 1 | prints ^exponent 4 
 0 | run pendulum.yaml --integrator rk4 --step 0.1 --time 1 --start z=-1.1 --consistent on | says is added
 END
 

@@ -171,6 +171,23 @@ try 0 lyapunov chaplygin-sleigh --integrator gauss4+project --step 0.1 --time 5 
 prints 'by differences of order 8$'
 prints '^their sum .* not all$'
 
+# x'' = 2 x - x' has 1 and -2, on p = pi = 0 the lift their negatives, too; gauss4 keeps its volume.
+case_is "exponents of the lift"
+printf '%s\n' 'coordinates: [x]' "accelerations: {x: 2*x - x'}" >two.yaml
+try 0 lyapunov two.yaml --integrator gauss4 --step 0.1 --time 20 --transient 60 --space lifted --effort identity
+prints '^two.yaml, gauss4, lifted, h = 0.1: means over'
+prints '^exponent 1 +2 .* positive$'
+prints '^exponent 2 +1 .* positive$'
+prints '^exponent 3 +-1 .* negative$'
+prints '^exponent 4 +-2 .* negative$'
+prints '^divergence +0 '
+try 0 lyapunov saddle.yaml --integrator gauss4 --step 0.1 --time 2 --space lifted --start pi_x=0.1 --json
+expect "the request" json out "d['request']['space'] == 'lifted' and d['request']['start'] == {'pi_x': 0.1}
+    and len(d['exponents']) == 4 and abs(d['sum']['mean']) < 1e-12 and d['balance']['margin'] < 1e-10"
+try 0 volume saddle.yaml --integrator gauss4 --step 0.1 --time 2 --space lifted
+prints '^4 of 4 directions'
+prints '^log.det J./h .* preserved at every step$'
+
 case_is "a motion that ends early keeps its means"
 cat >ending.yaml <<'END'
 coordinates: [x]
@@ -187,7 +204,8 @@ case_is "exponents: bad input"
 table <<'END'
 2 | lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --exponents 3 | says 3 exponents are requested; the step map has 2
 2 | lyapunov chaplygin-sleigh --integrator gni --step 0.1 --time 5 | says gni has a multiplier
-2 | lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --space lifted | says unknown option
+2 | lyapunov chaplygin-sleigh --integrator dla --step 0.1 --time 5 --space lifted | says has no lifted form
+2 | lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --space lifted --gauge "e = 1, mu_e = x" | says mu_e of the gauge is not of t alone
 2 | lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --transient -1 | says transient: -1 is not from 0 to inf
 2 | lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --transient 1e30 | says more than can be counted
 2 | lyapunov saddle.yaml --integrator rk4 --step 0.1 | says time is missing

@@ -87,7 +87,7 @@ if needs 21 "no bash" there bash; then
     expect "commands" test "$(completes re)" = "resume report"
     expect "options" test "$(completes run --sam)" = "--samples --sampling"
     expect "options of run in section" test "$(completes section --sp)" = "--space"
-    expect "an option that it does not take" test -z "$(completes lyapunov --sp)"
+    expect "an option that it does not take" test -z "$(completes lyapunov --stat)"
     expect "words" test "$(completes run --sampling l)" = "linear log"
     expect "systems" test "$(completes check snake)" = "snakeboard"
     expect "systems to show" test "$(completes show snake)" = "snakeboard"
