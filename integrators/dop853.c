@@ -5,7 +5,8 @@
  * Dormand, Prince; Hairer, Norsett, Wanner, Solving ODEs I (1993), II.5, II.10.  Digits as in
  * Hairer's dop853.f and Williams' dop853 (BSD).  Order 8, explicit, twelve evaluations; preserves D
  * with constant coefficients, no other.  With a tolerance the sizes of substeps follow the two
- * estimates of the error in dop853.f; below LOW_BELOW_853 only the rounding of F remains. */
+ * estimates of the error in dop853.f, and a comparison with the substep before; below LOW_BELOW_853
+ * only the rounding of F remains. */
 #include <dalembert_kernel.h>
 
 /* clang-format off */
@@ -133,11 +134,19 @@ static const double fifth853[] = {0.1312004499419488073250102996e-1, 0.0, 0.0, 0
     -0.2235530786388629525884427845e-1};
 /* clang-format on */
 
-/* error / tolerance over count components from first on:
- *     |h| |e5|^2 / sqrt(count (|e5|^2 + |e3|^2/100))
- * where the components l of e3 and e5 are in units of tolerance (unit_l + |y_l|). */
-DAL_INLINE dal_times error853(const dal_step *s, dal_times h, const num *derivative, const num *e3,
-                              const num *e5, int first, int count)
+/* Estimates of a trial over count components from first on, whose units are tolerance
+ * (unit_l + |y_l|):
+ *
+ *     error = |h| |e5|^2 / sqrt(count (|e5|^2 + |e3|^2/100)),     scale = |h e5|^(3/2)
+ *
+ * The error is h^9 times a derivative and e5 h^5 times one, so that error / scale changes slowly
+ * where the series of the motion converge within h. */
+typedef struct estimate853 {
+    dal_times error, scale;
+} estimate853;
+
+DAL_INLINE estimate853 estimate_error(const dal_step *s, dal_times h, const num *derivative,
+                                      const num *e3, const num *e5, int first, int count)
 {
     const double tolerance = DAL_TOLERANCE(s);
     const double *units = first == 0 ? DAL_UNITS(s) : NULL; /* p and pi have none */
@@ -152,12 +161,35 @@ DAL_INLINE dal_times error853(const dal_step *s, dal_times h, const num *derivat
     }
     const num both = square5 + 0.01 * square3, zero = dal_num(0.0);
     const num error = dal_abs(h) * square5 / dal_sqrt(count * both);
-    return (dal_times)dal_select(dal_equal(both, zero), zero, error);
+    const num fifth = dal_abs(h) * dal_sqrt(square5);
+    const estimate853 found = {(dal_times)dal_select(dal_equal(both, zero), zero, error),
+                               (dal_times)(fifth * dal_sqrt(fifth))};
+    return found;
 }
 
-/* r of a trial of size h: the errors of (q,v) and of (p,pi) each by itself, and none of e and
- * pi_e, so that the substeps of (q,v) on the surface know neither the space nor the gauge. */
-DAL_INLINE dal_times ratio853(dal_step *s, dal_times h, const num *k, const num *derivative)
+/* The error of a trial: where a near singularity passes between two stages, e3 hides the rise of
+ * e5, and the error is `last`, error / scale of the substep accepted last, times the scale. */
+DAL_INLINE num guarded(const estimate853 *e, dal_times last)
+{
+    const num expected = last * e->scale, error = e->error;
+    return dal_select(dal_less(error, expected), expected, error);
+}
+
+/* Below this error a substep says nothing about the next one: it may be of rounding, where the
+ * substep is short. */
+#define KEPT_853 1e-5
+
+/* error / scale of accepted lanes; 0 expects nothing. */
+DAL_INLINE void keep_estimate(const estimate853 *e, dal_mask accepted, dal_times *last)
+{
+    const dal_mask known = dal_less(dal_num(KEPT_853), e->error);
+    const num kept = dal_select(known, e->error / e->scale, dal_num(0.0));
+    *last = (dal_times)dal_select(accepted, kept, *last);
+}
+
+/* r of a trial: the errors of (q,v) and of (p,pi) each by itself, and none of e and pi_e, so that
+ * the substeps of (q,v) on the surface know neither the space nor the gauge. */
+DAL_INLINE dal_times ratio853(dal_step *s, dal_control *c, const num *k, const num *derivative)
 {
     const int dim = DAL_DIM(s), n = DAL_N(s);
     DAL__MARK(s);
@@ -167,12 +199,18 @@ DAL_INLINE dal_times ratio853(dal_step *s, dal_times h, const num *k, const num 
     DAL_EACH(l, dim) e5[l] = dal_num(0.0);
     add_derivatives(dim, STAGES_853, third853, k, e3);
     add_derivatives(dim, STAGES_853, fifth853, k, e5);
-    num error = error853(s, h, derivative, e3, e5, 0, n + DAL_NW(s));
+    const estimate853 motion = estimate_error(s, c->h, derivative, e3, e5, 0, n + DAL_NW(s));
+    estimate853 momenta = motion;
+    num error = guarded(&motion, c->last[0]);
     if (DAL_LIFTED(s)) {
-        const num momenta = error853(s, h, derivative, e3, e5, dal_at_p(s), 2 * n);
-        const dal_mask larger = dal_less(error, momenta) | ~dal_equal(momenta, momenta);
-        error = dal_select(larger, momenta, error);
+        momenta = estimate_error(s, c->h, derivative, e3, e5, dal_at_p(s), 2 * n);
+        const num other = guarded(&momenta, c->last[1]);
+        const dal_mask larger = dal_less(error, other) | ~dal_equal(other, other);
+        error = dal_select(larger, other, error);
     }
+    const dal_mask accepted = c->active & dal_less_equal(error, dal_num(1.0));
+    keep_estimate(&motion, accepted, &c->last[0]);
+    if (DAL_LIFTED(s)) keep_estimate(&momenta, accepted, &c->last[1]);
     DAL__RELEASE(s);
     return (dal_times)dal_sqrt(dal_sqrt(dal_sqrt(error)));
 }
@@ -314,7 +352,7 @@ DAL_INLINE dal_status divided(dal_step *s, num *k, num *sum)
         /* A trial that is repeated begins with the same k_1. */
         const int known = dal_any(c.active & ~c.again) ? 0 : 1;
         derivatives(s, c.t, c.h, known, k, sum);
-        const dal_times ratio = ratio853(s, c.h, k, sum);
+        const dal_times ratio = ratio853(s, &c, k, sum);
 #ifndef DAL_SPECIALISED
         if (DAL_RARELY(s->dense != NULL)) extend(s, &c, k, sum);
 #endif

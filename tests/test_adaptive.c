@@ -119,6 +119,30 @@ static double error_at(const char *text, double T, double tolerance, const doubl
     return error / size;
 }
 
+/* A force of t alone with a peak of width w at t = c passes between the stages of long substeps:
+ * x' = w (atan((t - c)/w) + atan(c/w)).  Without the comparison with the substep before, the error
+ * is 76 times either tolerance at one c in a hundred. */
+static void test_peak(void)
+{
+    static const char peak[] = "coordinates: [x]\nparameters: {c: 1, w: 0.1}\n"
+                               "lagrangian: x'^2/2 + x*w^2/((t - c)^2 + w^2)\n";
+    static const double tolerances[] = {1e-4, 1e-6}, w = 0.003, T = 8.0;
+    const dal_system *system = fixture_system(peak);
+    for (int i = 0; i < 400; i += case_stride(7)) {
+        const double c = 3.0 + 0.01 * (i / 2);
+        const dal_setting parameters[] = {{"c", c}, {"w", w}};
+        const double exact = w * (atan((T - c) / w) + atan(c / w));
+        dal_run_spec spec = spec_of(system, DAL_PHYSICAL, T, tolerances[i % 2]);
+        spec.parameters = parameters;
+        spec.parameter_count = 2;
+        dal_run *run = fixture_stepped(&spec, 1);
+        const double error = fabs(dal_run_state(run)[1] - exact);
+        if (!(error <= spec.options.tolerance)) printf("\n  c = %.2f: %.2g\n", c, error);
+        CU_ASSERT(error <= spec.options.tolerance);
+        dal_run_free(run);
+    }
+}
+
 /* With a small tolerance nothing grows but the rounding of F: not the phase of an
  * oscillator, which the doubles nearest to the coefficients shift by 7e-17 in a unit of time.  The
  * end of the sleigh is from Gragg's extrapolation of order 28 in quad precision, with 1000
@@ -419,6 +443,7 @@ void suite_adaptive(void)
 {
     CU_pSuite suite = CU_add_suite("adaptive", compiler_set_up, compiler_tear_down);
     CU_add_test(suite, "the error follows the tolerance", test_error);
+    CU_add_test(suite, "a peak between stages", test_peak);
     CU_add_test(suite, "down to rounding", test_fine);
     CU_add_test(suite, "the work follows the motion", test_work);
     CU_add_test(suite, "an undivided step is the fixed one", test_whole);

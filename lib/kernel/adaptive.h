@@ -58,6 +58,7 @@ typedef struct dal_control {
     dal_mask active;   /* lanes that have not reached the end */
     dal_mask alive;    /* lanes that began */
     dal_times rest;    /* of the step */
+    dal_times last[2]; /* of the method, from substep to substep of a step; 0 at first */
     double start;      /* t of the step */
     double whole;      /* its size, positive */
     double direction;  /* 1, or -1 backwards in t */
@@ -101,6 +102,7 @@ DAL_INLINE dal_control dal_control_begin(const dal_step *s)
     c.planned = (dal_times)dal_select(dal_less(dal_num(0.0), before), before, whole);
     c.rest = (dal_times)whole;
     c.t = c.h = c.rest;
+    c.last[0] = c.last[1] = c.rest - c.rest;
     c.trials = 0;
     c.again = ~dal_all();
     c.active = c.alive = s->alive;
