@@ -282,15 +282,26 @@ enum {
 /* c_13, .., c_16 */
 static const double c853_extension[] = {1.0, 0.1, 0.2, 0.777777777777777777777777777778};
 
+/* a_ij of row i, i = 14..16, and d_dj of row d, d = 4..7. */
+#define PLACE_853(first, row, j, weight)                                                           \
+    [((row) - (first)) * EXTENSION_LAST_853 + (j)-1] = (weight),
+#define STAGE_853(row, j, weight) PLACE_853(END_853 + 1, row, j, weight)
+#define TERM_853(row, j, weight)  PLACE_853(4, row, j, weight)
+static const double stages853[3 * EXTENSION_LAST_853] = {EXTENSION_STAGES_853(STAGE_853)};
+static const double terms853[4 * EXTENSION_LAST_853] = {EXTENSION_WEIGHTS_853(TERM_853)};
+
+/* out += the weights of a row times k_1, .., k_count */
+DAL_NOINLINE void add_row(int dim, int count, const double *row, const num *k,
+                          num *DAL_RESTRICT out)
+{
+    add_derivatives(dim, count, row, k, out);
+}
+
 /* sum[dim] = sum_(j<i) a_ij k_j, i = 14..16. */
 DAL_INLINE void extension_stage(int dim, int i, const num *k, num *DAL_RESTRICT sum)
 {
     DAL_EACH(l, dim) sum[l] = dal_num(0.0);
-#define ADD_STAGE(row, j, weight)                                                                  \
-    if (i == (row))                                                                                \
-        DAL_EACH(l, dim) sum[l] = dal_fma(dal_num(weight), K_853(k, dim, j)[l], sum[l]);
-    EXTENSION_STAGES_853(ADD_STAGE)
-#undef ADD_STAGE
+    add_row(dim, i - 1, stages853 + (i - END_853 - 1) * EXTENSION_LAST_853, k, sum);
 }
 
 /* r[7*dim] = r2/h, .., r8/h from the mean rate (y1 - y0)/h and k[16*dim]. */
@@ -302,11 +313,8 @@ DAL_INLINE void extension_terms(int dim, const num *mean, const num *k, num *DAL
         r[2 * dim + l] = mean[l] - K_853(k, dim, END_853)[l] - r[dim + l];
     }
     DAL_EACH(l, 4 * dim) r[3 * dim + l] = dal_num(0.0);
-#define ADD_TERM(d, j, weight)                                                                     \
-    DAL_EACH(l, dim)                                                                               \
-        r[((d)-1) * dim + l] = dal_fma(dal_num(weight), K_853(k, dim, j)[l], r[((d)-1) * dim + l]);
-    EXTENSION_WEIGHTS_853(ADD_TERM)
-#undef ADD_TERM
+    DAL_EACH(d, 4)
+        add_row(dim, EXTENSION_LAST_853, terms853 + d * EXTENSION_LAST_853, k, r + (3 + d) * dim);
 }
 
 /* Replaces r2, .., r8 by the coefficients of s^0, .., s^6 in r2 + z (r3 + s (r4 + z ..)), from the
