@@ -1,4 +1,4 @@
-/* dalembert_steer.h - boundary values of the lift: the cheapest way from a state to another.
+/* dalembert_steer.h - boundary values: the cheapest way from a state to another.
  *
  * The conventions of dalembert.h hold here. */
 #ifndef DALEMBERT_STEER_H
@@ -19,7 +19,11 @@ extern "C" {
  * components of (q, v) at both ends; where a component is not given its momentum is 0, and the cost
  * is least with respect to it.  With K of the efforts constraint and controls, A K = 0 and D is an
  * integral of the lift for all p and pi: a target must lie on D = 0, and momenta are determined up
- * to the gradients of D, at both ends; those orthogonal to them at the start are chosen. */
+ * to the gradients of D, at both ends; those orthogonal to them at the start are chosen.
+ *
+ * Vakonomic motion has no lift: its motions (q, v, g) are the extremals of S = int L dt with D = 0
+ * and q given at the ends; where a coordinate is free, its momentum L_v - g.A is 0.  Multipliers g
+ * of the start are a first guess. */
 
 /* What is to be found: dal_steer_settings_default has the values. */
 typedef struct dal_steer_settings {
@@ -43,16 +47,17 @@ dal_steer_settings dal_steer_settings_default(void);
 typedef struct dal_extremal {
     dal_status status;              /* DAL_STATUS_OK: it is an extremal, and ends at the target */
     char message[DAL_MESSAGE_SIZE]; /* why not; else "" */
-    double S;                       /* the action, e (pi_e(T) - pi_e(0)) */
+    double S;         /* the action, e (pi_e(T) - pi_e(0)); int L dt of vakonomic motion */
     double residual;  /* the largest jump between its pieces and distance from the ends, relative
                             to how large the components are */
     double distance;  /* of its end from the target: max over the given components */
     double max_D;     /* max |D_a| along it */
     double condition; /* of the bordered matrix of Newton's method: max over min singular value */
     int iterations;   /* that were taken */
-    int rank;         /* of d(q, v)(T)/d(p, pi)(0); with aim -1 */
+    int rank;         /* of d(q, v)(T)/d(p, pi)(0); with aim, and of vakonomic motion, -1 */
     int conjugate_times;    /* how many there are before T: with none S is a local minimum;
-                            -1: not known, where an end has free components, or with aim */
+                            -1: not known, where an end has free components, with aim, and of
+                            vakonomic motion */
     double first_conjugate; /* near the first of them; NaN: none */
     double *z;              /* [rows*dimension] states, as dal_run_state orders them */
 } dal_extremal;
@@ -60,7 +65,8 @@ typedef struct dal_extremal {
 /* What came out.  Motions that could not be completed come after those that were, these in the
  * order of S. */
 typedef struct dal_steering {
-    int n, dimension;  /* coordinates; numbers of a state, 4n + 2, and 2n with aim */
+    int n, dimension;  /* coordinates; numbers of a state, 4n + 2; 2n with aim; 2n + m of
+                              vakonomic motion */
     long long rows;    /* of a motion: the start and each step */
     double *t;         /* [rows] */
     int allowed;       /* the rank that d(q, v)(T)/d(p, pi)(0) can have: r + n - m - k, where r is
@@ -92,7 +98,7 @@ typedef struct dal_steer_observer {
  * so.  [alloc]  Errors: errors of the start; DAL_STATUS_NAME (of a component), DAL_STATUS_ARGUMENT
  * (T, settings, a system of another model), DAL_STATUS_INCONSISTENT (a target off D = 0 or g = 0);
  * DAL_STATUS_UNSUPPORTED, and the message says the reason: as for dal_sensitivity_create off
- * p = pi = 0, mu_e that is not 0, 1/e = 0, vakonomic motion. */
+ * p = pi = 0, mu_e that is not 0, 1/e = 0; rest, aim and velocities of vakonomic motion. */
 dal_status dal_steer_create(dal_steering **steering, dal_model *model, const dal_run_spec *spec,
                             double T, const dal_steer_settings *settings,
                             const dal_steer_observer *observer, dal_error *error);

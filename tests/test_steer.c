@@ -232,6 +232,63 @@ static void test_aim(void)
     close_steered(&s);
 }
 
+/* ---- vakonomic motion ---- */
+
+static const char plane[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2)/2\n"
+                            "constraints: [z' - (x*y' - y*x')/2]\nmechanics: vakonomic\n";
+
+/* A loop from the origin to itself around an area A is a circle, S = 2 pi A/T (Dido). */
+static void test_loop(void)
+{
+    const dal_setting target[] = {{"x", 0.0}, {"y", 0.0}, {"z", 0.3}};
+    const double T = 1.5, pi = acos(-1.0), radius = sqrt(0.3 / pi);
+    steered s;
+    open_steered(&s, plane, DAL_EFFORT_IDENTITY, "gauss8", 0.03);
+    s.settings.rest = false;
+    s.settings.starts = 3; /* to first order the straight line, a point, encloses nothing */
+    find(&s, T, target, 3);
+    CU_ASSERT_EQUAL(s.steering->dimension, 7);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 2.0 * pi * 0.3 / T, 1e-11);
+    CU_ASSERT(s.best->max_D <= 1e-13 && s.best->rank == -1 && s.best->conjugate_times == -1);
+    CU_ASSERT_DOUBLE_EQUAL(fabs(row_of(&s, 50)[6]), 2.0 * pi / T, 1e-10); /* |x'| = |g| radius */
+    CU_ASSERT_DOUBLE_EQUAL(hypot(row_of(&s, 0)[3], row_of(&s, 0)[4]), 2.0 * pi * radius / T, 1e-10);
+    const double *opposite = row_of(&s, 25);
+    CU_ASSERT_DOUBLE_EQUAL(hypot(opposite[0], opposite[1]), 2.0 * radius, 1e-10);
+    close_steered(&s);
+}
+
+/* An elastic rod of length T between pins, its angles being free there: phi moves as a pendulum
+ * from k = sin(phi(0)/2) to the other side; with omega T = 2 K and the complete integrals K, E of
+ * modulus k the chord is (2 E/K - 1) T and S = 4 omega (E - (1 - k^2) K). */
+static void test_elastica(void)
+{
+    enum { POINTS = 64 };
+    static const char rod[] = "coordinates: [x, y, phi]\nlagrangian: phi'^2/2\n"
+                              "constraints: [x' - cos(phi), y' - sin(phi)]\n"
+                              "mechanics: vakonomic\n";
+    static const char *const frees[] = {"phi"};
+    const double T = 1.5, angle = 1.2, k = sin(angle / 2.0), pi = acos(-1.0);
+    double K = 0.0, E = 0.0;
+    for (int i = 0; i < POINTS; i++) { /* exact to rounding, being periodic */
+        const double w = sqrt(1.0 - pow(k * sin(pi * (i + 0.5) / POINTS), 2.0));
+        K += pi / 2.0 / POINTS / w;
+        E += pi / 2.0 / POINTS * w;
+    }
+    const dal_setting target[] = {{"x", (2.0 * E / K - 1.0) * T}, {"y", 0.0}};
+    steered s;
+    open_steered(&s, rod, DAL_EFFORT_IDENTITY, "gauss8", 0.03);
+    s.settings.rest = false;
+    s.settings.free_starts = frees;
+    s.settings.frees = 1;
+    s.settings.starts = 4; /* the straight rod buckles to both sides */
+    find(&s, T, target, 2);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 8.0 * K / T * (E - (1.0 - k * k) * K), 1e-10);
+    CU_ASSERT_DOUBLE_EQUAL(fabs(row_of(&s, 0)[2]), angle, 1e-10);
+    CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 0)[5], 0.0, 1e-12); /* the momentum of phi */
+    CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 50)[5], 0.0, 1e-12);
+    close_steered(&s);
+}
+
 static dal_status stop_at_third(void *user, int guess, int iteration, double residual)
 {
     int *calls = user;
@@ -317,7 +374,14 @@ static void test_refuses(void)
     is_refused(&s, 1.0, target, 3, DAL_STATUS_ARGUMENT, "not the model's");
     close_steered(&s);
     open_steered(&s, "chaplygin-sleigh-vakonomic", DAL_EFFORT_IDENTITY, "gauss4", 0.1);
-    is_refused(&s, 1.0, target, 3, DAL_STATUS_UNSUPPORTED, "no lift");
+    const dal_setting speed = {"y1'", 1.0}, multiplier = {"g1", 1.0};
+    is_refused(&s, 1.0, &speed, 1, DAL_STATUS_UNSUPPORTED, "there is no rest");
+    s.settings.rest = false;
+    s.settings.aim = true;
+    is_refused(&s, 1.0, &speed, 1, DAL_STATUS_UNSUPPORTED, "there is no aim");
+    s.settings.aim = false;
+    is_refused(&s, 1.0, &speed, 1, DAL_STATUS_UNSUPPORTED, "'y1'' cannot be given");
+    is_refused(&s, 1.0, &multiplier, 1, DAL_STATUS_UNSUPPORTED, "'g1' cannot be given");
     close_steered(&s);
     open_steered(&s, "coordinates: [x]\nlagrangian: x'^2/2\ngauge: {mu_e: 1}\n",
                  DAL_EFFORT_IDENTITY, "gauss4", 0.1);
@@ -332,13 +396,13 @@ static void test_refuses(void)
 }
 
 /* Each allocation fails once; a model whose memory has failed is not used again. */
-static void test_out_of_memory(void)
+static void fail_allocations(const char *system, dal_effort effort, const dal_setting *target)
 {
-    const dal_setting target[] = {{"x", 0.2}, {"y", 0.0}, {"phi", 0.0}};
     allocation_trial trial = {0};
     while (allocation_next(&trial)) {
         steered s;
-        open_steered(&s, sleigh, DAL_EFFORT_CONSTRAINT, "rk4", 0.5);
+        open_steered(&s, system, effort, "rk4", 0.5);
+        s.settings.rest = effort != DAL_EFFORT_IDENTITY;
         s.settings.target = target;
         s.settings.targets = 3;
         allocation_start(&trial);
@@ -348,6 +412,14 @@ static void test_out_of_memory(void)
         if (!trial.passed) trial.failures += case_stride(9) - 1;
     }
     CU_ASSERT(trial.failures >= 20);
+}
+
+static void test_out_of_memory(void)
+{
+    const dal_setting target[] = {{"x", 0.2}, {"y", 0.0}, {"phi", 0.0}};
+    const dal_setting area[] = {{"x", 0.2}, {"y", 0.3}, {"z", 0.1}};
+    fail_allocations(sleigh, DAL_EFFORT_CONSTRAINT, target);
+    fail_allocations(plane, DAL_EFFORT_IDENTITY, area);
 }
 
 /* ---- arguments ---- */
@@ -408,6 +480,8 @@ void suite_steer(void)
     CU_add_test(suite, "a sleigh to the side", test_parking);
     CU_add_test(suite, "several first guesses", test_starts);
     CU_add_test(suite, "aiming, closed form", test_aim);
+    CU_add_test(suite, "a vakonomic loop, closed form", test_loop);
+    CU_add_test(suite, "an elastic rod, closed form", test_elastica);
     CU_add_test(suite, "targets that are not reached", test_unreached);
     CU_add_test(suite, "what is refused", test_refuses);
     CU_add_test(suite, "out of memory", test_out_of_memory);

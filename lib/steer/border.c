@@ -9,11 +9,13 @@
  *
  *     x(T) + N_T s = target,   N_0^T (p, pi)(0) = 0
  *
- * and is 0 where the target lies on I = const.  With aim, of (q, v) alone, D(0) = 0 is added. */
+ * and is 0 where the target lies on I = const.  With aim, of (q, v) alone, and of vakonomic motion,
+ * of (q, v, g), D(0) = 0 is added. */
 #include "steer/border.h"
 #include "core/error.h"
 #include "core/svd.h"
 #include "core/vectors.h"
+#include "steer/vakonomic.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -109,7 +111,8 @@ dal_status dal__border_open(dal__border *b, const dal__shooting *s)
     b->gradient = dal__numbers(2 * count + 1, width);
     b->combination = dal__numbers(2 * count + 1, count);
     b->constraint = dal__numbers(1, count + 1);
-    if (!b->gradient || !b->combination || !b->constraint) return DAL_STATUS_MEMORY;
+    b->momentum = dal__numbers(1, width);
+    if (!b->gradient || !b->combination || !b->constraint || !b->momentum) return DAL_STATUS_MEMORY;
     DAL_TRY(find_gradients(b, s->point, s->point + s->pieces * p->dimension));
     return find_combinations(b);
 }
@@ -119,6 +122,7 @@ void dal__border_close(dal__border *b)
     free(b->gradient);
     free(b->combination);
     free(b->constraint);
+    free(b->momentum);
 }
 
 int dal__border_rows(const dal__border *b)
@@ -174,17 +178,36 @@ static void fill_integrals(const dal__border *b, double *normals, dal__two_point
     }
 }
 
+/* Rows of the momenta of vakonomic motion whose coordinates are free. */
+static dal_status fill_momenta(const dal__border *b, const double *point, int pieces,
+                               dal__two_point *out)
+{
+    dal__problem *p = b->problem;
+    const int n = p->n, d = out->d, columns = 2 * d + out->extra;
+    if (p->multipliers == 0) return DAL_STATUS_OK;
+    double *rows = dal__numbers((size_t)n, (size_t)d);
+    dal_status status = rows ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
+    for (int end = 0; end < 2 && status == DAL_STATUS_OK; end++) {
+        status = dal__vakonomic_gradients(p, end == 0 ? p->from : p->T,
+                                          point + end * pieces * p->dimension, rows);
+        for (int i = 0; i < n; i++)
+            if (p->is_free[end][i])
+                memcpy(out->border + (end * 2 * n + i) * columns + end * d, rows + i * d,
+                       (size_t)d * sizeof *rows);
+    }
+    free(rows);
+    return status;
+}
+
 dal_status dal__border_fill(dal__border *b, const double *point, int pieces, dal__two_point *out)
 {
     const dal__problem *p = b->problem;
     const int width = 2 * p->n, columns = 2 * out->d + out->extra;
-    double *normals = dal__numbers((size_t)out->extra + 1, (size_t)width);
-    const dal_status status = find_gradients(b, point, point + pieces * p->dimension);
-    if (!normals || status != DAL_STATUS_OK) {
-        free(normals);
-        return DAL_STATUS_MEMORY;
-    }
+    DAL_TRY(find_gradients(b, point, point + pieces * p->dimension));
     memset(out->border, 0, (size_t)(out->rows * columns) * sizeof *out->border);
+    DAL_TRY(fill_momenta(b, point, pieces, out));
+    double *normals = dal__numbers((size_t)out->extra + 1, (size_t)width);
+    if (!normals) return DAL_STATUS_MEMORY;
     for (int i = 0; i < 2 * width; i++) { /* x_i, or its momentum, at an end */
         const int end = i / width, column = end * out->d + i % width;
         if (!p->is_free[end][i % width])
@@ -207,12 +230,16 @@ dal_status dal__border_right(dal__border *b, const double *point, int pieces, da
     for (int end = 0; end < 2; end++) {
         const double *z = point + end * pieces * p->dimension;
         const double *given = end == 0 ? p->start : p->target;
+        if (p->multipliers > 0)
+            DAL_TRY(dal__vakonomic_momenta(p, end == 0 ? p->from : p->T, z, b->momentum));
         for (int i = 0; i < width; i++) {
             double *right = out->right + end * width + i;
             if (!p->is_free[end][i])
                 *right = (given[i] - z[i]) / p->unit[i];
+            else if (p->is_lifted)
+                *right = -z[width + 1 + i] / p->unit[width + i];
             else
-                *right = p->is_lifted ? -z[width + 1 + i] / p->unit[width + i] : 0.0;
+                *right = p->multipliers > 0 && i < p->n ? -b->momentum[i] : 0.0;
         }
     }
     DAL_TRY(dal__problem_constraints(p, p->from, point, b->constraint));

@@ -15,6 +15,7 @@ typedef struct dal__border {
     double *combination; /* [(twice + never)*integrals] orthonormal rows: of these integrals */
     double *gradient;    /* [2*integrals*2n] at the start, at the end; in units */
     double *constraint;  /* [m + holonomic] D and g at the start */
+    double *momentum;    /* [n] of vakonomic motion, at an end */
 } dal__border;
 
 /* [alloc] */

@@ -92,23 +92,26 @@ static void accept_points(newton *k)
     memcpy(k->s->end, k->end, (numbers - (size_t)k->p->dimension) * sizeof *k->end);
 }
 
-/* Finds a damping with which the next step is shorter, and goes there; 0: there is none. */
-static double damp(newton *k, double length, double damping)
+/* Finds a damping, at most *out, with which the next step is shorter, and goes there.  Errors:
+ * DAL_STATUS_NOT_CONVERGED: there is none; DAL_STATUS_MEMORY. */
+static dal_status damp(newton *k, double length, double *out)
 {
     dal__shooting *s = k->s;
-    for (; damping >= min_damping; damping /= 2.0) {
+    for (double damping = *out; damping >= min_damping; damping /= 2.0) {
         try_points(k, damping);
         if (dal__shooting_move(s, k->point, k->end) != DAL_STATUS_OK) continue;
         dal__shooting_jumps(s, k->point, k->end, k->p->unknowns, k->jump);
-        if (dal__border_right(&k->border, k->point, s->pieces, &k->linear) != DAL_STATUS_OK)
-            continue;
+        const dal_status status = dal__border_right(&k->border, k->point, s->pieces, &k->linear);
+        if (status == DAL_STATUS_MEMORY) return status;
+        if (status != DAL_STATUS_OK) continue;
         dal__two_point_solve(&k->linear, k->jump, k->simplified);
         const double next = length_of_step(k, k->simplified);
         if (!(next <= (1.0 - damping / 4.0) * length) && !(next < 1e-13)) continue;
         accept_points(k);
-        return damping;
+        *out = damping;
+        return DAL_STATUS_OK;
     }
-    return 0.0;
+    return DAL_STATUS_NOT_CONVERGED;
 }
 
 static dal_status iterate_newton(newton *k)
@@ -135,8 +138,8 @@ static dal_status iterate_newton(newton *k)
             accept_points(k);
             continue;
         }
-        damping = damp(k, length, fmin(1.0, 4.0 * damping));
-        if (damping == 0.0) return DAL_STATUS_NOT_CONVERGED;
+        damping = fmin(1.0, 4.0 * damping);
+        DAL_TRY(damp(k, length, &damping));
     }
     k->p->residual = find_residual(k);
     return k->p->residual <= k->p->settings->tolerance ? DAL_STATUS_OK : DAL_STATUS_NOT_CONVERGED;

@@ -1,4 +1,4 @@
-/* problem.c - opens a boundary value problem of the lift: checks it, and finds its ends, its units
+/* problem.c - opens a boundary value problem: checks it, and finds its ends, its units
  * and the integrals that the momenta cannot move. */
 #include "steer/problem.h"
 #include "core/error.h"
@@ -52,8 +52,10 @@ static dal_status check_request(dal__problem *p, double T, dal_error *error)
                          "the time %.17g is no whole number of steps of %.17g after %.17g", T,
                          length, p->from);
     p->steps = (long long)steps;
-    if (system->multipliers > 0)
-        return dal__fail(error, DAL_STATUS_UNSUPPORTED, "vakonomic motion has no lift to steer by");
+    if (p->multipliers > 0 && (p->settings->rest || p->settings->aim))
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
+                         "the ends of vakonomic motion are in q alone: there is no %s",
+                         p->settings->rest ? "rest" : "aim");
     DAL_TRY(dal__refuse_events(system, "steering", error));
     if (p->is_lifted && system->call.gauge)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
@@ -73,6 +75,10 @@ static dal_status check_request(dal__problem *p, double T, dal_error *error)
 static dal_status find_component(const dal__problem *p, const char *name, int *out)
 {
     *out = dal_run_component_index(p->run, name);
+    if (*out >= p->n && p->multipliers > 0)
+        return dal__fail(p->error, DAL_STATUS_UNSUPPORTED,
+                         "the ends of vakonomic motion are in q alone: '%.63s' cannot be given",
+                         name);
     if (*out >= 0 && *out < 2 * p->n) return DAL_STATUS_OK;
     return dal__fail(p->error, DAL_STATUS_NAME,
                      "'%.63s' is no coordinate or velocity of the system", name);
@@ -110,7 +116,7 @@ static dal_status find_ends(dal__problem *p)
     int i;
     for (int k = 0; k < 2 * p->n; k++) {
         p->start[k] = z[k];
-        p->is_free[0][k] = s->aim && k >= p->n;
+        p->is_free[0][k] = !p->is_lifted && k >= p->n;
         p->is_free[1][k] = !(s->rest && k >= p->n);
     }
     for (int k = 0; k < s->frees; k++) {
@@ -221,7 +227,10 @@ static dal_status find_units_of_ends(dal__problem *p)
     if (p->is_lifted) status = dal__problem_effort(p, p->from, p->start, K);
     const double size = dal__max_abs(K, (size_t)(n * n));
     const double scale = size > 0.0 && isfinite(size) ? p->e / (T * size) : 1.0;
-    for (int i = 2 * n; i < p->unknowns; i++) p->unit[i] = scale / p->unit[i - 2 * n];
+    for (int i = 2 * n; i < p->unknowns; i++)
+        p->unit[i] = p->is_lifted       ? scale / p->unit[i - 2 * n]
+                     : p->system->units ? p->system->units[i]
+                                        : 1.0;
     free(K);
     return status;
 }
@@ -233,14 +242,14 @@ static dal_status open_run(dal__problem *p)
     DAL_TRY(dal_run_create(&p->run, &p->spec, p->error));
     p->e = p->is_lifted ? dal_run_state(p->run)[2 * p->n] : 1.0;
     p->dimension = dal_run_dimension(p->run);
-    p->unknowns = p->is_lifted ? 4 * p->n : 2 * p->n;
+    p->unknowns = p->is_lifted ? 4 * p->n : 2 * p->n + p->multipliers;
     if (isinf(p->e))
         return dal__fail(p->error, DAL_STATUS_UNSUPPORTED, "where 1/e = 0 nothing can be steered");
     DAL_TRY(dal_evaluator_create(&p->evaluator, p->system, p->spec.parameters,
                                  p->spec.parameter_count, p->error));
     const size_t n = (size_t)p->n, rows = (size_t)(p->constraints + p->holonomic);
     p->start = dal__numbers(2, 2 * n);
-    p->unit = dal__numbers(1, 4 * n);
+    p->unit = dal__numbers(1, 4 * n + (size_t)p->multipliers);
     p->is_free[0] = calloc(4 * n, sizeof *p->is_free[0]);
     p->gradient = calloc(rows * 2 * n + 1, sizeof *p->gradient);
     p->value = dal__numbers(1, (size_t)p->model->equations.symbols + 1);
@@ -276,7 +285,8 @@ dal_status dal__problem_open(dal__problem *p, dal_model *model, const dal_run_sp
     p->system = system;
     p->spec = *spec;
     p->n = system->n;
-    p->is_lifted = !settings->aim;
+    p->multipliers = system->multipliers;
+    p->is_lifted = !settings->aim && p->multipliers == 0;
     p->from = spec->start_time;
     p->constraints = system->m;
     p->holonomic = system->holonomic;
@@ -291,7 +301,7 @@ dal_status dal__problem_open(dal__problem *p, dal_model *model, const dal_run_sp
     DAL_TRY(open_run(p));
     DAL_TRY(find_ends(p));
     DAL_TRY(find_units_of_ends(p));
-    if (!p->is_lifted || p->integrals > 0) DAL_TRY(check_end(p, true));
+    if (settings->aim || p->integrals > 0) DAL_TRY(check_end(p, true));
     return DAL_STATUS_OK;
 }
 

@@ -1,12 +1,12 @@
-/* problem.h - a boundary value problem of the lift: its ends, units and integrals. */
+/* problem.h - a boundary value problem: its ends, units and integrals. */
 #ifndef DAL_STEER_PROBLEM_H
 #define DAL_STEER_PROBLEM_H
 
 #include "dalembert_evaluator.h"
 #include "dalembert_steer.h"
 
-/* Points are states of a run: q, v, e, p, pi, pi_e, or q and v with aim.  Numbers of a point that
- * are unknown are numbered without e and pi_e: q, v, p, pi. */
+/* Points are states of a run: q, v, e, p, pi, pi_e; q and v with aim; q, v, g of vakonomic motion.
+ * Numbers of a point that are unknown are numbered without e and pi_e: q, v, p, pi. */
 typedef struct dal__problem {
     dal_model *model;
     const dal_system *system;
@@ -19,7 +19,8 @@ typedef struct dal__problem {
     dal_run *run;
     dal_evaluator *evaluator;
     int n, dimension; /* of a point */
-    int unknowns;     /* of a point: 4n, or 2n */
+    int unknowns;     /* of a point: 4n, 2n, or 2n + multipliers */
+    int multipliers;  /* of vakonomic motion, or 0 */
     bool is_lifted;
     double e, from, T, h;
     long long steps;
@@ -30,6 +31,8 @@ typedef struct dal__problem {
                                    momenta: D, then g - (t - from) D; 0 of other efforts */
     int constraints, holonomic; /* m, and how many g */
     int *gradient;              /* [(m + holonomic)*2n] nodes: gradients of D and g by q, v */
+    int *momentum;              /* [n + n*unknowns] nodes: momenta of vakonomic motion, and their
+                                   gradients by q, v, g; else NULL */
     double *value;              /* [symbols] of the nodes */
     int guess;                  /* that is tried, from 0 */
     int iterations;             /* of it */
@@ -39,7 +42,7 @@ typedef struct dal__problem {
 /* The place of an unknown in a point. */
 static inline int dal__place_of(const dal__problem *p, int unknown)
 {
-    return unknown < 2 * p->n ? unknown : unknown + 1;
+    return p->is_lifted && unknown >= 2 * p->n ? unknown + 1 : unknown;
 }
 
 /* Opens a problem; what it points to must outlive it.  [alloc]  Errors: see dal_steer_create. */

@@ -8,6 +8,7 @@
 #include "steer/direct.h"
 #include "steer/newton.h"
 #include "steer/reach.h"
+#include "steer/vakonomic.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +17,8 @@ enum { PIECES = 24, BENDS = 3, DIRECT_BEFORE_NEWTON = 8 };
 
 /* ---- first guesses ---- */
 
-/* Points on a line from start to target, bent by sines of random sizes. */
+/* Points on a line from start to target, bent by sines of random sizes; multipliers of vakonomic
+ * motion are the start's, and random ones are added. */
 static dal_status guess_points(dal__shooting *s)
 {
     const double pi = 3.14159265358979323846;
@@ -39,6 +41,12 @@ static dal_status guess_points(dal__shooting *s)
                 z[n + i] += bend[j] * (j + 1) * pi / T * cos((j + 1) * pi * part);
             }
         }
+    }
+    for (int a = 2 * n; a < 2 * n + p->multipliers; a++) {
+        const double g = dal_run_state(p->run)[a];
+        const double change =
+            p->guess > 0 ? dal__uniform(&random) * fmax(fabs(g), p->unit[a]) : 0.0;
+        for (int k = 0; k <= s->pieces; k++) s->point[k * p->dimension + a] = g + change;
     }
     for (int k = 0; k <= s->pieces; k++) {
         double *z = s->point + k * p->dimension;
@@ -158,10 +166,12 @@ static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
                 DAL_TRY(dal__problem_constraints(p, dal_run_time(p->run), y, values));
                 out->max_D = fmax(out->max_D, dal__max_abs(values, (size_t)p->constraints));
             }
-            if (row < s->first[k + 1]) DAL_TRY(dal_run_step(p->run, p->error));
+            if (row == s->first[k + 1]) break;
+            if (p->multipliers > 0) DAL_TRY(dal__vakonomic_add_action(p, &out->S));
+            DAL_TRY(dal_run_step(p->run, p->error));
         }
     }
-    out->S = p->is_lifted ? p->e * action : 0.0;
+    if (p->is_lifted) out->S = p->e * action;
     out->distance = 0.0;
     for (int i = 0; i < 2 * p->n; i++)
         if (!p->is_free[1][i])
@@ -239,6 +249,7 @@ static dal_status add_guess(dal__problem *p, dal__shooting *s, dal_steering *ste
     dal_status status = x.status == DAL_STATUS_MEMORY ? x.status : dal__reach_measure(s, &x);
     if (x.status != DAL_STATUS_OK && status != DAL_STATUS_MEMORY)
         status = dal__newton_measure(s, &result);
+    if (status != DAL_STATUS_MEMORY) status = fill_rows(s, &x);
     if (status == DAL_STATUS_MEMORY) {
         free(x.z);
         return status;
@@ -246,7 +257,6 @@ static dal_status add_guess(dal__problem *p, dal__shooting *s, dal_steering *ste
     x.iterations = p->iterations;
     x.residual = result.residual;
     x.condition = result.condition;
-    status = fill_rows(s, &x);
     if (x.status == DAL_STATUS_OK) x.status = status;
     explain(p, steering, &x);
     add_extremal(p, steering, &x);
@@ -283,6 +293,7 @@ dal_status dal_steer_create(dal_steering **steering, dal_model *model, const dal
     DAL_REQUIRE(steering, error);
     *steering = NULL;
     dal_status status = dal__problem_open(&problem, model, spec, T, settings, observer, error);
+    if (status == DAL_STATUS_OK) status = dal__vakonomic_open(&problem);
     if (status == DAL_STATUS_OK) {
         dal_steering *made = calloc(1, sizeof *made);
         status = made ? fill_steering(&problem, made) : DAL_STATUS_MEMORY;
@@ -292,6 +303,7 @@ dal_status dal_steer_create(dal_steering **steering, dal_model *model, const dal
         else
             dal_steer_free(made);
     }
+    dal__vakonomic_close(&problem);
     dal__problem_close(&problem);
     return status;
 }

@@ -25,9 +25,10 @@ class Extremal:
     Attributes
     ----------
     S : float
-        The action, e (pi_e(T) - pi_e(0)).
+        The action, e (pi_e(T) - pi_e(0)); int L dt of vakonomic motion.
     motion : Trajectory
-        A row for each step, with the columns ``'t'``, ``'x'``, ``"x'"``, ``'p_x'``, ``'pi_x'``, ``'pi_e'``.
+        A row for each step, with the columns ``'t'``, ``'x'``, ``"x'"``, ``'p_x'``, ``'pi_x'``, ``'pi_e'``;
+        of vakonomic motion with ``'g1'``.
     message : str
         Why it does not end at the target; '' where it does.
     residual : float
@@ -144,7 +145,7 @@ def steer(system: SystemLike, target: Settings, integrator: str | None = None, t
     """
     if isinstance(free, str):
         raise refuse('free', 'give a list of components of the start')
-    settings['space'] = 'physical' if aim else 'lifted'
+    settings['space'] = 'physical'
     spec = Spec(system, integrator, **settings)
     names = [ffi.new('char[]', encode(text('free', name))) for name in free]
     frees = ffi.new('const char *[]', names)
@@ -158,7 +159,8 @@ def steer(system: SystemLike, target: Settings, integrator: str | None = None, t
     made = ffi.new('dal_steering **')
     call_steps(lib.dal_steer_create, made, spec.system._model, spec.c, spec.time(time), chosen, observer)
     c = owned(made[0], lib.dal_steer_free)
-    t, run = np.array(ffi.unpack(c.t, c.rows)), Run(system, integrator, **{**settings, 'start': None})
+    t, run = np.array(ffi.unpack(c.t, c.rows)), Run(system, integrator, **{
+        **settings, 'start': None, 'space': 'lifted' if c.dimension > 3 * c.n else 'physical'})
     extremals = tuple(read_extremal(c.extremal[i], run, t) for i in range(c.count))
     growth = tuple(c.growth.rank[i] for i in range(c.growth.levels)) if c.has_growth else ()
     found = Steering(extremals, growth, known(c.allowed))

@@ -270,6 +270,10 @@ def test_steer():
     aimed = ball.steer({'x': 3}, 'gauss4', 1, step=0.125, aim=True, parameters={'g': 4}, start_time=-1)
     assert aimed.best.motion["x'"][0] == pytest.approx(5.5) and aimed.best.motion.parameters == {'g': 4}
     assert aimed.best.S == 0 and aimed.best.rank is None and aimed.best.motion['t'][0] == -1
+    rod = dalembert.System("coordinates: [x, y, phi]\nlagrangian: phi'^2/2\n"
+                           "constraints: [x' - cos(phi), y' - sin(phi)]\nmechanics: vakonomic\n")
+    ring = rod.steer({'x': 0, 'y': 0, 'phi': 2 * np.pi}, 'gauss8', 1, step=0.02)
+    assert ring.best.S == pytest.approx(2 * np.pi ** 2) and abs(ring.best.motion['g1']).max() < 1e-9
     with pytest.raises(dalembert.InputError, match="'z' is no coordinate"):
         cart.steer({'z': 1}, 'gauss4', 1, step=0.125)
     with pytest.raises(dalembert.InputError, match='free'):
