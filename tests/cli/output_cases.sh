@@ -20,6 +20,11 @@ mkdir held.d
 try 0 run $circle --output held.d
 says "^dalembert: wrote the directory 'held.d'$"
 
+case_is "numbers that are none"
+printf '%s\n' 'coordinates: [x]' "lagrangian: x'^2/2" "start: {x: 1, x': -1}" 'exact: {x: "if(t < 1.25, 1 - t, log(-t))"}' >gone.yaml
+try 0 run gone.yaml --integrator rk4 --step 0.5 --time 1.5 --samples 3 --columns error --output -
+expect "$(tail -n 1 out)" test "$(tail -n 1 out)" = 1.5,nan
+
 case_is "a directory is announced"
 for output in h0.1 ./plain; do
     try 0 run $circle -o $output

@@ -1,6 +1,6 @@
 # A run in a directory: described, interrupted, killed, resumed.
 
-needs 196 "no compiler for signals at given places" raises || return 0
+needs 198 "no compiler for signals at given places" raises || return 0
 # more rows than steps: each checkpoint has rows that the one before it lacks
 long="chaplygin-sleigh --integrator gauss8+project --step 0.001 --time 20 --samples 20011
       --set omega=1.5 --start pi_phi=1e-8"
@@ -176,6 +176,9 @@ says 'damaged/checkpoint: belongs to another run'
 sed 's/"step"/"stepp"/' whole/manifest.json >damaged/manifest.json
 try 2 resume damaged
 says "damaged/manifest.json:[0-9]+:[0-9]+: unknown option 'stepp' of a run"
+sed '/"system": "chaplygin-sleigh"/d' whole/manifest.json >damaged/manifest.json
+try 2 resume damaged
+says '^dalembert: damaged/manifest.json:3:12: the system is missing$'
 for text in '' '{' '[1]' '{"input": 1}' '{"dalembert": [1], "input": {}}' '{"input": {}}' \
     '{"input": {"system": ["x"]}}' '{"input": {"set": "x"}}' '{"input": {"set": {"x": []}}}'; do
     echo "$text" >damaged/manifest.json
