@@ -161,6 +161,21 @@ bool row_steps_draw_observable(const row_steps *s, int observable, double less, 
     return true;
 }
 
+double row_steps_draw_drift(const row_steps *s, int observable, const report_plot *plot,
+                            plot_curve *curve)
+{
+    const dal_statistics *x = s->statistics ? &s->statistics[observable] : NULL;
+    const double end = x ? dal_statistics_deviation(x) : 0.0;
+    double drift = 0.0;
+    for (long long k = 0; x && curve && k < x->blocks; k++) {
+        const dal_statistics_block *b = &x->block[k];
+        drift = fmax(drift, fmax(fabs(b->min - x->first), fabs(b->max - x->first)));
+        report_point(plot, curve, fabs(b->t - x->from), drift);
+    }
+    if (x && curve) report_point(plot, curve, fabs(x->to - x->from), end);
+    return end;
+}
+
 void row_steps_draw_last(const row_steps *s, int column, double less, const report_plot *plot,
                          plot_curve *curve)
 {

@@ -51,6 +51,10 @@ bool row_steps_draw_coordinate(const row_steps *steps, int coordinate, const rep
                                plot_curve *curve);
 bool row_steps_draw_observable(const row_steps *steps, int observable, double less, long long rows,
                                const report_plot *plot, plot_curve *curve);
+/* Draws max |x - first| of all steps so far over the time since the first; returns it at the end.
+ * curve: or NULL. */
+double row_steps_draw_drift(const row_steps *steps, int observable, const report_plot *plot,
+                            plot_curve *curve);
 /* Draws a column of the last steps, less a number. */
 void row_steps_draw_last(const row_steps *steps, int column, double less, const report_plot *plot,
                          plot_curve *curve);

@@ -68,8 +68,6 @@ typedef struct run_column {
     bool is_conserved;            /* it should not change */
     double first, max_abs;        /* at the first row; of all rows so far; for E, H and the
                                      invariants less first */
-    double last, jumped, drift;   /* at the last row; what events have added; max |x - first| of
-                                     all rows so far without that */
 } run_column;
 
 typedef struct run_page {
@@ -82,7 +80,6 @@ typedef struct run_page {
     const dal_system *system; /* NULL: it is not known */
     run_column *column;       /* [columns of the reader] */
     report_events events;
-    int passed_events;    /* those up to the present row */
     double envelope_time; /* since the start, of the last point of the envelopes */
     report_plot plot[PANELS], drift;
     char *drift_caption;
@@ -219,8 +216,20 @@ static void name_plots(run_page *run)
                                .marks = run->events.count};
 }
 
-/* The present row, number k.  Between two rows with an event between them, E and the invariants
- * change by what it adds. */
+/* Whether events add to a column: its rows have that, the statistics of all steps do not. */
+static bool jumps(const run_page *run, const run_column *c)
+{
+    return run->events.count > 0 && (c->panel == PANEL_E || c->panel == PANEL_INVARIANTS);
+}
+
+/* What a figure takes from an observable. */
+static double subtracted(const run_column *c)
+{
+    return c->panel == PANEL_E || c->panel == PANEL_H || c->panel == PANEL_INVARIANTS ? c->first
+                                                                                      : 0.0;
+}
+
+/* The present row, number k. */
 static void add_row(run_page *run, long long k)
 {
     const trajectory_reader *reader = &run->reader;
@@ -228,24 +237,16 @@ static void add_row(run_page *run, long long k)
     const bool is_last = k == reader->count - 1;
     const double passed = fabs(t - run->request->from);
     const bool has_envelope = passed >= envelope_factor * run->envelope_time || is_last;
-    const int before = run->passed_events;
-    while (run->passed_events < run->events.count &&
-           run->events.passed[run->passed_events] <= passed)
-        run->passed_events++;
     for (int i = 1; i < reader->columns; i++) {
         run_column *c = &run->column[i];
-        const bool jumps = c->panel == PANEL_E || c->panel == PANEL_INVARIANTS;
-        double x = reader->row[i];
-        if (k == 0) c->first = c->last = x;
+        if (k == 0) c->first = reader->row[i];
         if (c->panel == NO_PANEL) continue;
-        if (jumps && run->passed_events > before) c->jumped += x - c->last;
-        c->last = x;
-        if (jumps || c->panel == PANEL_H) x -= c->first;
+        const double x = reader->row[i] - subtracted(c);
         if (c->series) row_series_add(c->series, t, x);
         if (c->velocity > 0) row_distance_add(&c->distance, t, x, reader->row[c->velocity]);
         if (!(fabs(x) <= c->max_abs)) c->max_abs = fabs(x);
-        if (!(fabs(x - c->jumped) <= c->drift)) c->drift = fabs(x - c->jumped);
-        if (has_envelope && c->envelope) report_point(&run->drift, c->envelope, passed, c->drift);
+        if (has_envelope && c->envelope && !jumps(run, c))
+            report_point(&run->drift, c->envelope, passed, c->max_abs);
     }
     if (has_envelope) run->envelope_time = passed;
 }
@@ -256,13 +257,6 @@ static int find_observable(const run_page *run, const char *name)
     int row = run->summary.rows - 1;
     while (row > 0 && !csv_table_is(&run->summary, row, "observable", name)) row--;
     return row > 0 ? row : 0;
-}
-
-/* What a figure takes from an observable. */
-static double subtracted(const run_column *c)
-{
-    return c->panel == PANEL_E || c->panel == PANEL_H || c->panel == PANEL_INVARIANTS ? c->first
-                                                                                      : 0.0;
 }
 
 /* Draws a column from all steps; false: its rows show it. */
@@ -276,12 +270,20 @@ static bool draw_steps(const run_page *run, run_column *c, const char *name, boo
     if (is_coordinate)
         return row_steps_draw_coordinate(&run->steps, find_coordinate(run->system, name), plot,
                                          c->curve);
-    if (row == 0 || c->panel == PANEL_REACTIONS || c->panel == PANEL_OBSERVED ||
+    if (row == 0 || c->panel == PANEL_REACTIONS || c->panel == PANEL_OBSERVED || jumps(run, c) ||
         !row_steps_draw_observable(&run->steps, row - 1, subtracted(c), run->reader.count, plot,
                                    c->curve))
         return false;
     c->max_abs = fmax(c->max_abs, c->curve->max_abs);
     return true;
+}
+
+/* Completes the curve of what should not change; max |x - x(0)|. */
+static double draw_drift(const run_page *run, const run_column *c, const char *name)
+{
+    const int row = find_observable(run, name);
+    if (!jumps(run, c)) return c->max_abs;
+    return row > 0 ? row_steps_draw_drift(&run->steps, row - 1, &run->drift, c->envelope) : 0.0;
 }
 
 /* Figures of the last steps, where there are many more than rows. */
@@ -345,12 +347,13 @@ static int draw_figures(run_page *run)
         is_sparse |= row_distance_is_sparse(&run->column[i].distance);
     for (int i = 1; i < run->reader.columns; i++) {
         run_column *c = &run->column[i];
+        if (c->is_conserved && draw_drift(run, c, run->reader.name[i]) != 0.0)
+            run->drift.zero_text = NULL;
         if (c->series && !draw_steps(run, c, run->reader.name[i], is_sparse))
             row_series_draw(c->series, &run->plot[c->panel], c->curve, is_sparse);
         if (c->envelope) report_title_envelope(c->envelope);
         /* A sentence about all values needs all columns and all rows; figures leave some out. */
         if (c->panel != NO_PANEL && c->max_abs != 0.0) run->plot[c->panel].zero_text = NULL;
-        if (c->is_conserved && c->drift != 0.0) run->drift.zero_text = NULL;
     }
     int drawn = report_draw(run->r, &run->drift);
     for (int g = 0; g < PANELS; g++) {

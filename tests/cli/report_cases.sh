@@ -337,6 +337,20 @@ for sign in "" -; do
     expect "E does not jump${sign:+, backwards}" sh -c "sed -n '/curve1 <</,/^END/p' bounces/report/E.gp |
         awk -F, 'NF == 2 { E = \$2 } END { exit (E - 9.81*(0.8^8 - 1))^2 > 1e-16 }'"
 done
+# With events between all rows.  A step of rk4 multiplies E by 1 - h^6/72 + h^8/576 and an impact by 0.9^2, the first
+# after a quarter of a period; the last steps before impacts are shorter.
+cat >kicked.yaml <<'END'
+coordinates: [x]
+lagrangian: (x'^2 - x^2)/2
+start: {x: 1}
+events: [{when: x, restitution: 0.9}]
+END
+try 0 run kicked.yaml --integrator rk4 --step 0.1 --time 40 --samples 8 --output kicked
+try 0 report kicked
+expect "another drift between events" sh -c "sed -n '/curve1 <</,/^END/p' kicked/report/drift.gp |
+    awk -F, '\$1 + 0 > 39.9 { drift = \$2 } END { pi = atan2(0, -1); sum = pi/2; E = 1
+        for (k = 1; k <= 13; k++) { E *= 0.81; sum += E*(k < 13 ? pi : 40 - 12.5*pi) }
+        expected = (0.1^5/72 - 0.1^7/576)*sum/2; exit !(drift > 0.96*expected && drift < expected) }'"
 for fact in '<th scope="row">event 1 (y)</th><td>impact</td><td>4</td>' \
     '<th scope="row">event 2 (x - 1.25)</th><td>stops the run</td><td>1</td><td>-2.5</td><td>-2.5</td>' \
     '<th scope="row">event 3 (x - 9)</th><td>sets values</td><td>0</td><td>–</td><td>–</td>' \
