@@ -573,8 +573,8 @@ static void check_memory(const char *name, bool is_single)
 static void test_memory(void)
 {
     static const char *const systems[] = {"vertical-disk", "chaplygin-sleigh-vakonomic",
-                                          "servo-pendulum"};
-    for (int i = 0; i < 6; i += case_stride(5)) check_memory(systems[i % 3], i % 2 != 0);
+                                          "servo-pendulum", "isokinetic-cluster"};
+    for (int i = 0; i < 8; i += case_stride(3)) check_memory(systems[i % 4], i % 2 != i / 4);
 }
 
 void suite_model_errors(void)
