@@ -44,6 +44,25 @@ expect "a page, rows or a lock" test -z "$(find unpacked/pair -name '*.npy' -o -
 (cd unpacked/pair && "$program" study study.yaml -o again --no-page >/dev/null 2>&1)
 expect "other tables" cmp -s pair/tables.txt unpacked/pair/again/tables.txt
 
+case_is "pack: the README of what is neither a run nor a study"
+try 0 order damped-oscillator --integrators rk4 --levels 2 --time 1 --output orders
+try 0 pack orders --output orders.tar
+expect "tar" tar xf orders.tar -C unpacked
+sed 's/by dalembert [0-9.]*\.$/by dalembert VERSION./; s/^ *[0-9][0-9]* /N /' unpacked/orders/README.txt >readme
+cat >expected <<'END'
+orders, packed by dalembert VERSION.
+
+The request is in a file of this directory that ends in .json.
+
+The version that made it, the compiler and the machine are in manifest.json, where there is one.
+
+Bytes and names of the files:
+
+N  order.csv
+N  order.json
+END
+expect "another README" diff expected readme
+
 case_is "pack: equal files make equal archives, and --all everything but locks"
 cp -r disk copied
 touch -d "2001-02-03" copied/summary.csv
