@@ -98,6 +98,6 @@ table <<'ROWS'
 2 | steer sleigh.yaml --to x=1 --integrator gauss8+project --step 0.02 --time 2 | says no steering by gauss8\+project
 2 | steer sleigh.yaml --to x=1 --integrator gauss8 --step 0.03 --time 2 | says no whole number of steps
 2 | steer sleigh.yaml --to x=1 --integrator gauss8 --step 0.02 --time 2 --effort controls | says the system has none
-2 | steer chaplygin-sleigh-vakonomic --to y1=1 --integrator gauss8 --step 0.02 --time 2 | says vakonomic
+2 | steer chaplygin-sleigh-vakonomic --to y1=1 --rest --integrator gauss8 --step 0.02 --time 2 | says the ends of vakonomic motion are in q alone: there is no rest
 2 | steer | says SYSTEM
 ROWS
