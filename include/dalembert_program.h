@@ -5,6 +5,7 @@
 #ifndef DALEMBERT_PROGRAM_H
 #define DALEMBERT_PROGRAM_H
 
+#include "dalembert_model.h"
 #include "dalembert_run.h"
 
 #include <stddef.h>
@@ -45,6 +46,11 @@ dal__decimal dal__decimal_multiple(double x, double factor);
 /* The double nearest to from + length count/whole, to 2^-98, with from as a decimal.  That is 0.3
  * for 3 of 10 in 1, of 30 in 3, and of 300 in 30. */
 double dal__add_share(double from, dal__decimal length, double count, double whole);
+
+/* ---- models -------------------------------------------------------------------------------- */
+
+/* Which item of a list of mappings, from 1, text number i of a section is of; 0: of none. */
+int dal__model_item(const dal_model *model, dal_section section, int i);
 
 /* ---- hashes -------------------------------------------------------------------------------- */
 

@@ -60,6 +60,7 @@ typedef struct dal_extremal {
                             vakonomic motion */
     double first_conjugate; /* near the first of them; NaN: none */
     double *z;              /* [rows*dimension] states, as dal_run_state orders them */
+    double *u;              /* [rows*inputs] the inputs along it */
 } dal_extremal;
 
 /* What came out.  Motions that could not be completed come after those that were, these in the
@@ -67,6 +68,8 @@ typedef struct dal_extremal {
 typedef struct dal_steering {
     int n, dimension;  /* coordinates; numbers of a state, 4n + 2; 2n with aim; 2n + m of
                               vakonomic motion */
+    int inputs;        /* numbers of u: with the effort controls its columns; none with aim and of
+                              vakonomic motion; else n, and u is the acceleration K pi/e */
     long long rows;    /* of a motion: the start and each step */
     double *t;         /* [rows] */
     int allowed;       /* the rank that d(q, v)(T)/d(p, pi)(0) can have: r + n - m - k, where r is

@@ -110,6 +110,9 @@ static void test_free_ends(void)
     open_steered(&s, cart, DAL_EFFORT_IDENTITY, "gauss4", 0.125);
     find(&s, T, &target, 1);
     CU_ASSERT_DOUBLE_EQUAL(s.best->S, 6.0 * unit, 1e-13);
+    CU_ASSERT_EQUAL(s.steering->inputs, 1);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->u[0], 6.0 * 0.7 / (T * T), 1e-12); /* whatever e is */
+    CU_ASSERT_DOUBLE_EQUAL(s.best->u[16], -s.best->u[0], 1e-12);
     s.settings.rest = false;
     find(&s, T, &target, 1);
     CU_ASSERT_DOUBLE_EQUAL(s.best->S, 1.5 * unit, 1e-13);
@@ -217,6 +220,7 @@ static void test_aim(void)
     s.settings.aim = true;
     find(&s, T, target, 2);
     CU_ASSERT_EQUAL(s.steering->dimension, 4);
+    CU_ASSERT_EQUAL(s.steering->inputs, 0);
     CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 0)[2], 2.0, 1e-12);
     CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 0)[3], (1.0 + 4.5 * T * T) / T, 1e-11);
     CU_ASSERT_EQUAL(s.best->S, 0.0);

@@ -2,7 +2,6 @@
 #include "run/run.h"
 #include "analyse/invariants.h"
 #include "io/file.h"
-#include "run/manifest.h"
 #include "run/simulation.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
@@ -10,37 +9,12 @@
 
 #include <string.h>
 
-/* Whether nothing is in the directory that a new run would overwrite, or that is not of a run. */
-static int check_directory(const run_directory *dir)
-{
-    const char *file = run_directory_find_file(dir);
-    if (!file) return file_check_directory(dir->path);
-    return cli_fail(CLI_USAGE,
-                    "'%s' exists already: 'dalembert resume' continues a run, --force overwrites "
-                    "it",
-                    file);
-}
-
 static int check_format(const run_settings *s)
 {
     const char *output = s->text[RUN_output];
     if (s->format != SCREEN_TEXT && output && strcmp(output, "-") == 0)
         return cli_fail(CLI_USAGE, "--format: standard output has the rows");
     return screen_check_details(s->format, s->details);
-}
-
-static int run_in_directory(const run_simulation *simulation, const run_settings *settings)
-{
-    run_directory dir;
-    run_directory_open(&dir, settings->output);
-    int status = settings->force ? CLI_DONE : check_directory(&dir);
-    if (status == CLI_DONE) status = cli_directory(dir.path);
-    if (status == CLI_DONE) status = run_directory_lock(&dir, RUN_NEW);
-    if (status == CLI_DONE) status = manifest_begin(&dir, simulation);
-    if (status == CLI_DONE) status = run_integrate(simulation, &dir, settings);
-    file_report_directory(dir.path, status);
-    run_directory_close(&dir);
-    return status;
 }
 
 /* Which invariants a run observes. */

@@ -1,5 +1,6 @@
 /* steer.c - `dalembert steer`: the cheapest motion from one state to another. */
 #include "steer/steer.h"
+#include "io/file.h"
 #include "io/json.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
@@ -27,6 +28,9 @@ static const cli_option options[] = {
     {"seed", "S", "1", "draws the bent lines", CLI_INTEGER(steer_settings, seed, 0, max_seed)},
     {"max-iterations", "N", "200", "ends the search from a first guess after N iterations",
      CLI_INTEGER(steer_settings, iterations, 1, MAX_ITERATIONS)},
+    {"output", "DIR", NULL, "writes a run of each motion, its inputs, and steer.json",
+     CLI_ROW(cli_parse_output, steer_settings, output), .heading = "output"},
+    {"force", NULL, NULL, "overwrites what the directory holds", CLI_FLAG(steer_settings, force)},
     SCREEN_FORMAT_OPTION(steer_settings),
     JSON_OPTION(steer_settings),
 };
@@ -60,6 +64,10 @@ const cli_command command_steer = {
         "At first it says what can be reached: the growth vector of D, and how many of the 2n "
         "numbers of an end momenta can change.  A target off D = 0, which every motion keeps with "
         "the efforts constraint and controls, is refused with status 2.\n"
+        "\n"
+        "With --output DIR each motion becomes the directory of a run; inputs.csv has u at each "
+        "step, and with controls controlled.yaml is the system with these forces, whose plain run "
+        "repeats the motion.  Of vakonomic motion S is int L dt, and ends are in q.\n"
         "\n"
         "The motions are listed by S, the cheapest first.  distance is how far the end is from the "
         "target, in its units; residual is the largest jump within the motion, relative to the "

@@ -238,6 +238,7 @@ static const struct {
     {"order.csv", "label,integrator,stated_order,"},
     {"lyapunov.csv", "t,lambda1"},
     {"volume.csv", "t,divergence,"},
+    {"steer.json", "{\n  \"schema\": \"dalembert/steer/"},
 };
 
 static bool is_mark(const char *directory, const char *name)

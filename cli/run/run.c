@@ -6,6 +6,7 @@
 #include "ui/signals.h"
 
 #include "extension.h"
+#include "manifest.h"
 #include "run_screen.h"
 #include "summary.h"
 #include "ui/options.h"
@@ -123,7 +124,7 @@ int run_integrate(const run_simulation *simulation, run_directory *dir,
         print_unresolved(run);
         /* A terminal gets a screen; what is no terminal, the table of all numbers on request. */
         FILE *reader = has_format ? stdout : screen_terminal();
-        if (reader && !settings->details)
+        if (reader && !settings->details && !settings->has_no_screen)
             run_screen_print(reader, &recorder, is_screen_alone ? NULL : output, settings->format);
         if (settings->details || (settings->summary && !isatty(STDERR_FILENO)))
             summary_print(stderr, simulation, &recorder.results);
@@ -132,4 +133,34 @@ int run_integrate(const run_simulation *simulation, run_directory *dir,
     const int closed = recorder_close(&recorder), copied = copy_events(dir, settings);
     if (status != CLI_DONE) return status;
     return closed != CLI_DONE ? closed : copied;
+}
+
+int run_check_directory(const char *path)
+{
+    run_directory dir;
+    run_directory_open(&dir, path);
+    const char *file = run_directory_find_file(&dir);
+    const int status =
+        !file ? file_check_directory(path)
+              : cli_fail(
+                    CLI_USAGE,
+                    "'%s' exists already: 'dalembert resume' continues a run, --force overwrites "
+                    "it",
+                    file);
+    run_directory_close(&dir);
+    return status;
+}
+
+int run_in_directory(const run_simulation *simulation, const run_settings *settings)
+{
+    run_directory dir;
+    run_directory_open(&dir, settings->output);
+    int status = settings->force ? CLI_DONE : run_check_directory(dir.path);
+    if (status == CLI_DONE) status = cli_directory(dir.path);
+    if (status == CLI_DONE) status = run_directory_lock(&dir, RUN_NEW);
+    if (status == CLI_DONE) status = manifest_begin(&dir, simulation);
+    if (status == CLI_DONE) status = run_integrate(simulation, &dir, settings);
+    file_report_directory(dir.path, status);
+    run_directory_close(&dir);
+    return status;
 }

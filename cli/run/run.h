@@ -27,6 +27,7 @@ typedef struct run_settings {
     const char *output, *events; /* events: a file, or NULL */
     double interval;             /* between checkpoints, in seconds */
     bool summary, details, force;
+    bool has_no_screen;   /* a terminal gets what the command prints of the run by itself */
     screen_format format; /* of the summary, on standard output; text: on a terminal */
     native_mode native;
     progress_mode progress;
@@ -39,5 +40,10 @@ cli_option_set run_option_set(run_settings *settings, uint64_t without);
 /* Integrates a run, in its directory unless dir is NULL; returns the exit status. */
 int run_integrate(const run_simulation *simulation, run_directory *dir,
                   const run_settings *settings);
+/* Whether nothing is in a directory that a new run would overwrite, or that is not of a run.
+ * Returns CLI_DONE, or prints and returns CLI_USAGE. */
+int run_check_directory(const char *path);
+/* Integrates a new run in the directory settings->output; returns the exit status. */
+int run_in_directory(const run_simulation *simulation, const run_settings *settings);
 
 #endif

@@ -1,5 +1,7 @@
 /* steer.c - the search for the cheapest motion from one state to another. */
 #include "steer.h"
+#include "run/run.h"
+#include "steer_output.h"
 #include "steer_results.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -47,7 +49,7 @@ static dal_status report_reach(void *user, const dal_steering *steering)
 {
     const steer_settings *s = user;
     char text[STEER_REACH];
-    if (!s->aim) cli_note("%s", steer_format_reach(text, s, steering));
+    if (steering->inputs > 0) cli_note("%s", steer_format_reach(text, s, steering));
     return cli_interrupted() ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
@@ -98,6 +100,8 @@ int steer_run(steer_settings *settings)
     run_simulation *s = &settings->simulation;
     dal_steering *steering = NULL;
     int status = screen_check_json(settings->format, settings->json);
+    if (status == CLI_DONE && settings->output && !settings->force)
+        status = run_check_directory(settings->output);
     if (status == CLI_DONE && settings->aim)
         status = request_give(&s->request, REQUEST_space, cli_strdup("physical"));
     if (status == CLI_DONE) status = simulation_create(s);
@@ -106,11 +110,15 @@ int steer_run(steer_settings *settings)
     status = search_motions(settings, &steering);
     if (!steering) return status;
     const steer_results r = {settings, steering, status};
-    const int printed = (settings->json ? steer_print_json : steer_print_screen)(&r);
+    char *again = NULL;
+    const int written = settings->output ? steer_write(&r, &again) : CLI_DONE;
+    const int printed = settings->json ? steer_print_json(&r) : steer_print_screen(&r, again);
+    free(again);
     if (status == CLI_FAILED)
         cli_fail(status, "%s: %s", s->request.system_name, steering->extremal->message);
     if (status == CLI_SIGNAL)
         cli_fail(status, "interrupted; the motions so far, or the nearest one, are printed");
     dal_steer_free(steering);
+    if (status == CLI_DONE) status = written;
     return printed == CLI_DONE ? status : printed;
 }

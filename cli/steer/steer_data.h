@@ -8,14 +8,15 @@
 
 /* The options of a run that it does not take: the state is the lift's, in double precision. */
 #define STEER_WITHOUT                                                                              \
-    (REQUEST_ROW_OPTIONS | REQUEST_OPTION(space) | REQUEST_OPTION(tolerance) |                     \
-     REQUEST_OPTION(precision))
+    ((REQUEST_ROW_OPTIONS & ~REQUEST_OPTION(samples)) | REQUEST_OPTION(space) |                    \
+     REQUEST_OPTION(tolerance) | REQUEST_OPTION(precision))
 
 typedef struct steer_settings {
     run_simulation simulation;
     request_settings target;
     const char *free_starts; /* names between commas; NULL: none */
-    bool rest, aim, json;
+    const char *output;      /* a directory, or NULL */
+    bool rest, aim, json, force;
     long long starts, seed, iterations;
     screen_format format;
 } steer_settings;

@@ -67,8 +67,9 @@ static void say_best(screen *out, const steer_results *r)
     else
         screen_say(out, 2, "%s is %s from the target at t = %s; jumps of %s remain", name, x[1],
                    x[2], screen_number(x[3], best->residual, 2));
-    screen_say(out, 2, "By %s, h = %s, effort %s", method,
-               screen_number(x[0], s->request.options.step, 4), dal_effort_name(s->system->effort));
+    screen_say(out, 2, "By %s, h = %s%s%s", method, screen_number(x[0], s->request.options.step, 4),
+               steering->inputs > 0 ? ", effort " : "",
+               steering->inputs > 0 ? dal_effort_name(s->system->effort) : "");
     if (best->rank >= 0 && best->status == DAL_STATUS_OK)
         screen_say(out, 2, "Momenta change %d of the %d numbers of the end", best->rank,
                    2 * steering->n);
@@ -129,7 +130,8 @@ static void add_ends(screen *out, const steer_results *r)
     char name[NAME];
     screen_table t = {.columns = 4, .heads = 1};
     add_heads(&t, heads);
-    for (int i = 0; i < steering->dimension; i++) {
+    const int shown = screen_limit(out, 2 * steering->n); /* without momenta */
+    for (int i = 0; i < steering->dimension && i < shown; i++) {
         dal_run_component_name(r->set->simulation.run, i, name, sizeof name);
         screen_add_cell(&t, SCREEN_PLAIN, "%s", name);
         add_number(&t, start[i], DIGITS);
@@ -140,7 +142,7 @@ static void add_ends(screen *out, const steer_results *r)
     screen_free_table(&t);
 }
 
-int steer_print_screen(const steer_results *r)
+int steer_print_screen(const steer_results *r, const char *again)
 {
     screen out;
     screen_open(&out, stdout, r->set->format);
@@ -151,6 +153,10 @@ int steer_print_screen(const steer_results *r)
         screen_skip(&out);
         add_ends(&out, r);
     }
+    if (r->set->output || again) screen_skip(&out);
+    if (r->set->output && r->status == CLI_DONE)
+        screen_say(&out, 2, "Page:  dalembert report %s", r->set->output);
+    if (again) screen_say_command(&out, "Again: ", again);
     return screen_close(&out, NULL);
 }
 
@@ -191,12 +197,12 @@ static void put_extremal(json_writer *w, const dal_steering *s, const dal_extrem
     json_close(w);
 }
 
-int steer_print_json(const steer_results *r)
+void steer_put_json(FILE *out, const steer_results *r)
 {
     const dal_steering *s = r->steering;
     const run_simulation *simulation = &r->set->simulation;
     char name[NAME];
-    json_writer w = json_begin_results("steer");
+    json_writer w = json_begin_results_in(out, "steer");
     request_open_json(&w, simulation, STEER_WITHOUT);
     request_put_settings(&w, "target", &r->set->target);
     json_put_text(&w, "free", r->set->free_starts);
@@ -222,5 +228,10 @@ int steer_print_json(const steer_results *r)
     for (int k = 0; k < s->count; k++) put_extremal(&w, s, &s->extremal[k]);
     json_close(&w);
     json_end_results(&w);
+}
+
+int steer_print_json(const steer_results *r)
+{
+    steer_put_json(stdout, r);
     return cli_close(stdout, "standard output");
 }

@@ -8,8 +8,11 @@
 enum { STEER_REACH = 256 };
 const char *steer_format_reach(char text[STEER_REACH], const steer_settings *settings,
                                const dal_steering *steering);
-/* Print what came out.  Return CLI_DONE, or print and return CLI_IO. */
-int steer_print_screen(const steer_results *results);
+/* Print what came out; again: a command for the same motion, or NULL.  Return CLI_DONE, or print
+ * and return CLI_IO. */
+int steer_print_screen(const steer_results *results, const char *again);
 int steer_print_json(const steer_results *results);
+/* The same to a file. */
+void steer_put_json(FILE *out, const steer_results *results);
 
 #endif

@@ -52,6 +52,7 @@ typedef struct dal__equations {
     dal__node mu;                              /* mu_e, or 0 */
     int controls;                              /* columns of effort controls, and these: */
     dal__node *control;                        /* [controls*n] */
+    dal__node *control_cost;                   /* [controls]: N^T pi of effort controls, or NULL */
     dal__node *picture;                        /* [DAL_PICTURE_COUNT], or NULL */
     dal_body body;
     int events;

@@ -179,6 +179,13 @@ const char *dal_model_text(const dal_model *model, dal_section section, int i, c
     return entry->text;
 }
 
+int dal__model_item(const dal_model *model, dal_section section, int i)
+{
+    for (int k = 0; i >= 0 && k < model->given_count; k++)
+        if (model->given[k].section == section && i-- == 0) return model->given[k].item;
+    return 0;
+}
+
 /* The name of a column of its own, which is one line of a table. */
 static dal_status check_observed(const dal__entry *entry, dal_error *error)
 {

@@ -560,6 +560,7 @@ dal_status dal__motion_effort(dal_model *model, dal_effort effort, dal__node *ou
     } else {
         DAL_TRY(push_columns(model, count, is_constraint ? unit : e->control, x));
         for (int k = 0; k < count; k++) g[k] = dal__dot(e->graph, n, x + k * n, pi);
+        if (!is_constraint) model->equations.control_cost = g;
         for (int k = 0; k < count; k++) { /* K pi = sum_k x_k g_k, of unit columns x_k (W g)_k */
             const dal__node by = is_constraint ? dal__dot(e->graph, n, e->W + k * n, g) : g[k];
             for (int i = 0; i < n; i++)

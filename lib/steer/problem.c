@@ -212,6 +212,34 @@ dal_status dal__problem_effort(dal__problem *p, double t, const double *x, doubl
     return status;
 }
 
+dal_status dal__problem_inputs(dal__problem *p, double t, const double *z, double *out)
+{
+    dal__equations *e = &p->model->equations;
+    const size_t n = (size_t)p->n, inputs = (size_t)p->inputs;
+    const double *pi = z + 3 * n + 1;
+    dal_status status = DAL_STATUS_OK;
+    if (inputs == 0) return status;
+    if (p->system->effort == DAL_EFFORT_CONTROLS) {
+        p->value[e->t] = t;
+        memcpy(p->value + e->q, z, n * sizeof *z);
+        memcpy(p->value + e->v, z + n, n * sizeof *z);
+        memcpy(p->value + e->pi, pi, n * sizeof *z);
+        if (!dal__evaluate_all(e->graph, e->control_cost, p->inputs, p->value, out))
+            status = DAL_STATUS_MEMORY;
+    } else if (p->system->call.effort) {
+        double *K_pi = dal__numbers(3, n);
+        status =
+            K_pi ? dal_evaluator_call(p->evaluator, p->system->call.effort, t, z, z + n, pi, K_pi)
+                 : DAL_STATUS_MEMORY;
+        if (status == DAL_STATUS_OK) memcpy(out, K_pi, n * sizeof *out);
+        free(K_pi);
+    } else {
+        memcpy(out, pi, n * sizeof *out);
+    }
+    for (size_t i = 0; i < inputs && status == DAL_STATUS_OK; i++) out[i] /= p->e;
+    return status;
+}
+
 /* Units of momenta are such that both ends change each other by about 1. */
 static dal_status find_units_of_ends(dal__problem *p)
 {
@@ -296,6 +324,8 @@ dal_status dal__problem_open(dal__problem *p, dal_model *model, const dal_run_sp
     const dal_effort effort = system->effort;
     if (p->is_lifted && (effort == DAL_EFFORT_CONSTRAINT || effort == DAL_EFFORT_CONTROLS))
         p->integrals = p->constraints + p->holonomic;
+    const int controls = model->equations.controls;
+    p->inputs = !p->is_lifted ? 0 : effort == DAL_EFFORT_CONTROLS ? controls : p->n;
     DAL_TRY(check_request(p, T, error));
     if (settings->rest) DAL_TRY(rest_at_start(p));
     DAL_TRY(open_run(p));

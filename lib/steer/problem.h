@@ -30,6 +30,7 @@ typedef struct dal__problem {
     int integrals;              /* functions of (q, v) that are integrals of the lift, whatever its
                                    momenta: D, then g - (t - from) D; 0 of other efforts */
     int constraints, holonomic; /* m, and how many g */
+    int inputs;                 /* numbers of u */
     int *gradient;              /* [(m + holonomic)*2n] nodes: gradients of D and g by q, v */
     int *momentum;              /* [n + n*unknowns] nodes: momenta of vakonomic motion, and their
                                    gradients by q, v, g; else NULL */
@@ -58,6 +59,9 @@ dal_status dal__problem_constraints(dal__problem *p, double t, const double *x, 
 dal_status dal__problem_gradients(dal__problem *p, double t, const double *x, double *out);
 /* K at a point, in units of v: out[n*n].  Errors: errors of the callback. */
 dal_status dal__problem_effort(dal__problem *p, double t, const double *x, double *out);
+/* The inputs at z, a state of the lift: N^T pi/e of the effort controls, else K pi/e: out[inputs].
+ * Errors: errors of the callback. */
+dal_status dal__problem_inputs(dal__problem *p, double t, const double *z, double *out);
 /* Counts an iteration.  Errors: what the observer returns; DAL_STATUS_NOT_CONVERGED where there are
  * too many. */
 dal_status dal__problem_iterate(dal__problem *p);

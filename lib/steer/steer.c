@@ -159,8 +159,11 @@ static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
         DAL_TRY(dal_run_set_state(p->run, dal__shooting_time(s, k), z, p->error));
         for (long long row = s->first[k]; row <= s->first[k + 1]; row++) {
             const double *y = dal_run_state(p->run);
-            if (row < s->first[k + 1] || k == s->pieces - 1)
+            if (row < s->first[k + 1] || k == s->pieces - 1) {
                 memcpy(out->z + (size_t)row * (size_t)d, y, (size_t)d * sizeof *z);
+                DAL_TRY(dal__problem_inputs(p, dal_run_time(p->run), y,
+                                            out->u + row * (long long)p->inputs));
+            }
             if (p->is_lifted) action = y[d - 1];
             if (p->constraints + p->holonomic <= 64) {
                 DAL_TRY(dal__problem_constraints(p, dal_run_time(p->run), y, values));
@@ -226,6 +229,7 @@ static void add_extremal(const dal__problem *p, dal_steering *steering, dal_extr
         if (x->status == DAL_STATUS_OK && steering->extremal[i].status == DAL_STATUS_OK &&
             is_same(p, steering, x->z, steering->extremal[i].z)) {
             free(x->z);
+            free(x->u);
             return;
         }
     int at = 0;
@@ -244,19 +248,20 @@ static dal_status add_guess(dal__problem *p, dal__shooting *s, dal_steering *ste
     dal_extremal x = {.status = DAL_STATUS_OK};
     dal__newton_result result = {.residual = INFINITY};
     x.z = dal__numbers((size_t)steering->rows, (size_t)p->dimension);
-    if (!x.z) return DAL_STATUS_MEMORY;
-    x.status = solve_guess(s, &result);
+    x.u = dal__numbers((size_t)steering->rows, (size_t)p->inputs + 1);
+    x.status = x.z && x.u ? solve_guess(s, &result) : DAL_STATUS_MEMORY;
     dal_status status = x.status == DAL_STATUS_MEMORY ? x.status : dal__reach_measure(s, &x);
     if (x.status != DAL_STATUS_OK && status != DAL_STATUS_MEMORY)
         status = dal__newton_measure(s, &result);
-    if (status != DAL_STATUS_MEMORY) status = fill_rows(s, &x);
-    if (status == DAL_STATUS_MEMORY) {
-        free(x.z);
-        return status;
-    }
     x.iterations = p->iterations;
     x.residual = result.residual;
     x.condition = result.condition;
+    if (status != DAL_STATUS_MEMORY) status = fill_rows(s, &x);
+    if (status == DAL_STATUS_MEMORY) {
+        free(x.z);
+        free(x.u);
+        return status;
+    }
     if (x.status == DAL_STATUS_OK) x.status = status;
     explain(p, steering, &x);
     add_extremal(p, steering, &x);
@@ -268,6 +273,7 @@ static dal_status fill_steering(dal__problem *p, dal_steering *steering)
     dal__shooting s = {.problem = p};
     steering->n = p->n;
     steering->dimension = p->dimension;
+    steering->inputs = p->inputs;
     steering->rows = p->steps + 1;
     steering->t = dal__numbers(1, (size_t)steering->rows);
     steering->extremal = calloc((size_t)p->settings->starts, sizeof *steering->extremal);
@@ -311,7 +317,10 @@ dal_status dal_steer_create(dal_steering **steering, dal_model *model, const dal
 void dal_steer_free(dal_steering *steering)
 {
     if (!steering) return;
-    for (int i = 0; i < steering->count; i++) free(steering->extremal[i].z);
+    for (int i = 0; i < steering->count; i++) {
+        free(steering->extremal[i].z);
+        free(steering->extremal[i].u);
+    }
     free(steering->extremal);
     free(steering->t);
     free(steering);

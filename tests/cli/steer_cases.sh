@@ -51,6 +51,19 @@ expect "a circle whose tangent is along x: twice the angle of the chord" json ou
     and d['allowed_rank'] is None and d['motions'][0]['rank'] is None and len(d['names']) == 6"
 refute "a note on momenta" grep -q 'can be reached' err
 
+case_is "vakonomic motion"
+cat >dido.yaml <<'YAML'
+coordinates: [x, y, z]
+lagrangian: (x'^2 + y'^2)/2
+constraints: [z' - (x*y' - y*x')/2]
+mechanics: vakonomic
+YAML
+try 0 steer dido.yaml --to x=0,y=0,z=1 --integrator gauss8 --step 0.02 --time 2 --starts 4 --output dido
+prints '^dido.yaml reaches the target at t = 2 for S = 3.14159$'
+refute "a note on momenta" grep -q 'can be reached' err
+expect "a circle around the area 1: 2 pi/T" json dido/steer.json "
+    abs(d['motions'][0]['S'] - 3.141592653589793) < 1e-10 and len(d['names']) == 7"
+
 case_is "several motions, the cheapest first"
 try 0 steer sleigh.yaml --rest --effort constraint --integrator gauss4 --step 0.08 --time 2 --to x=0,y=1,phi=0 \
     --starts 6 --json
@@ -59,6 +72,68 @@ expect "an order of S" json out "
     and [m['S'] for m in d['motions'] if m['status'] == 'DAL_OK'] == sorted(
         m['S'] for m in d['motions'] if m['status'] == 'DAL_OK')
     and d['request']['starts'] == 6 and d['request']['seed'] == 1"
+
+case_is "a directory"
+cat >cart.yaml <<'YAML'
+coordinates: [x]
+parameters: {m: 2}
+lagrangian: m/2*x'^2
+controls: [{x: 1}]
+YAML
+# x'' = u/m from 0 to 1 at rest in T = 1: u = 6 m (1 - 2 t), S = 6 m^2
+cart="cart.yaml --to x=1 --rest --effort controls --integrator gauss4 --step 0.125 --time 1"
+try 0 steer $cart --samples 8 --output cart --json
+says "^dalembert: wrote the directory 'cart'$"
+expect "steer.json is what is printed" cmp out cart/steer.json
+expect "the cost of forces" json out "abs(d['motions'][0]['S'] - 24) < 1e-11"
+expect "a run of 9 rows" has_rows cart/trajectory.npy 9
+expect "the momenta at its start" json cart/manifest.json "
+    abs(d['input']['start']['pi_x'] - 24) < 1e-10 and d['input']['start']['x'] == 0
+    and d['input']['effort'] == 'controls' and d['status'] == 'done'"
+expect "u = 12 - 24 t at each step" awk -F, 'NR == 1 { if ($0 != "t,u1") exit 1; next }
+    { d = $2 - 12 + 24*$1; if (d*d > 1e-20) exit 1 } END { if (NR != 10) exit 1 }' cart/inputs.csv
+try 0 resume cart
+says "^dalembert: 'cart' is finished: 9 rows$"
+try 2 steer $cart --output cart
+says "^dalembert: 'cart/manifest.json' exists already: "
+try 0 steer $cart --output cart --force
+prints '^Page: +dalembert report cart$'
+eval "try 0 $(sed '1,/^Again:/d; s/^ *dalembert//' out | tr -d '\\\\\n') --output again.csv --columns q,v"
+expect "the controlled system ends at the target" awk -F, 'END { exit !(($2 - 1)^2 + $3^2 < 1e-24) }' again.csv
+
+case_is "a controlled system that turns"
+cat >robot.yaml <<'YAML'
+coordinates: [x, y, theta, psi]
+lagrangian: (x'^2 + y'^2 + theta'^2 + 3*psi'^2)/2 - 10*sin(psi)
+constraints: [x' - cos(theta)*psi', y' - sin(theta)*psi']
+controls: [{theta: 1}, {psi: 1}]
+YAML
+for step in 0.1 0.05; do
+    try 0 steer robot.yaml --to x=1,y=0.5,theta=0.5 --rest --effort controls --integrator gauss8 --step $step --time 2 \
+        --output robot --force
+    eval "try 0 run robot/controlled.yaml --integrator gauss8 --step $step --time 2 --columns q,v --output again.csv"
+    awk -F, 'END { printf "%.17g %.17g\n", $2 - 1, $3 - 0.5 }' again.csv >>ends
+done
+expect "the error of the splines of u falls like h^4: $(tr '\n' ' ' <ends)" awk '
+    { d[NR] = sqrt($1^2 + $2^2) } END { exit !(d[1] < 1e-4 && d[2] < d[1]/12) }' ends
+cat >>robot.yaml <<'YAML'
+forces: {psi: 0.1}
+YAML
+try 0 steer robot.yaml --to x=1,theta=0 --rest --effort controls --integrator gauss8 --step 0.1 --time 2 --output robot --force
+says "^dalembert: no controlled.yaml: .*'forces'"
+refute "a file of the last search" test -e robot/controlled.yaml
+
+case_is "accelerations, and several motions"
+try 0 steer $sleigh --to x=0.5,y=0,phi=0 --step 0.1 --output straight --samples 20
+expect "Kpi/e along x, 6 d/T^2 (1 - 2 t/T)" awk -F, 'NR == 1 { if ($0 != "t,a_x,a_y,a_phi") exit 1; next }
+    { d = $2 - 0.75*(1 - $1); if (d*d + $3*$3 + $4*$4 > 1e-20) exit 1 }' straight/inputs.csv
+refute "a controlled system without controls" test -e straight/controlled.yaml
+try 0 steer sleigh.yaml --rest --effort constraint --integrator gauss4 --step 0.08 --time 2 --to x=0,y=1,phi=0 \
+    --starts 6 --output many
+expect "a run of the second motion" has_rows many/motion-2/trajectory.npy 101
+try 0 steer sleigh.yaml --to "x=cos(pi/6),y=sin(pi/6)" --aim --time 2 --integrator gauss8 --step 0.02 --output aimed
+expect "a run on (q, v)" json aimed/manifest.json "d['input']['space'] == 'physical' and len(d['input']['start']) == 6"
+refute "inputs of a natural motion" test -e aimed/inputs.csv
 
 case_is "what is not reached"
 try 3 steer $sleigh --to x=0,y=1,phi=0 --max-iterations 3
@@ -70,6 +145,13 @@ expect "how far it is" json out "
     d['state'] == 'failed' and d['motions'][0]['status'] == 'DAL_NOT_CONVERGED' and d['motions'][0]['iterations'] == 3
     and 1e-6 < d['motions'][0]['distance'] <= 1 and d['motions'][0]['residual'] < 10
     and d['motions'][0]['message'].startswith('no motion')"
+
+try 3 steer $sleigh --to x=0,y=1,phi=0 --max-iterations 3 --output straight --force
+expect "the nearest motion" test "$(wc -l <straight/best.csv)" = 102
+refute "the run before" test -e straight/trajectory.npy
+expect "how far it is" json straight/steer.json "d['state'] == 'failed'"
+try 0 steer $sleigh --to x=0.5,y=0,phi=0 --output straight
+refute "the failure before" test -e straight/best.csv
 
 case_is "an interruption"
 if needs 5 "no python3" there python3; then
@@ -98,6 +180,6 @@ table <<'ROWS'
 2 | steer sleigh.yaml --to x=1 --integrator gauss8+project --step 0.02 --time 2 | says no steering by gauss8\+project
 2 | steer sleigh.yaml --to x=1 --integrator gauss8 --step 0.03 --time 2 | says no whole number of steps
 2 | steer sleigh.yaml --to x=1 --integrator gauss8 --step 0.02 --time 2 --effort controls | says the system has none
-2 | steer chaplygin-sleigh-vakonomic --to y1=1 --rest --integrator gauss8 --step 0.02 --time 2 | says the ends of vakonomic motion are in q alone: there is no rest
+2 | steer dido.yaml --to x=1,z=0 --rest --integrator gauss8 --step 0.02 --time 2 | says there is no rest
 2 | steer | says SYSTEM
 ROWS
