@@ -101,45 +101,50 @@ def zeros():
 
 
 def compare(system, p):
-    """The differences of a curve that ends where p does from the run: quantity, t, of the curve, of its size."""
+    """The differences of a curve that ends where p does from the run, over the largest change of the run.
+
+    Gives the quantity, the end, where the phase is lost, and the differences of the curve, as far as there, of its size.
+    """
     name, step, end = p["integrator"], str(p["step"]), p["end"]
     steps = round(end / p["step"])
     end = end if steps <= 200 else p["step"] * 200 * (steps // 200)
-    again = call("predict", system, "--integrator", name, "--step", step, "--time", end, "--quad-steps", 0)["predictions"][0]
+    again = call("predict", system, "--integrator", name, "--step", step, "--time", end)["predictions"][0]
     shown = [o for o in again["observables"] if o["conserved"] and o["name"][:1] + o["name"][1:].strip("0123456789") != "D"]
-    rows = len(again["t"]) - 1
+    rows, phase = len(again["t"]) - 1, again["in_phase"] or end
     done = subprocess.run([PROGRAM, "run", system, "--integrator", name, "--step", step, "--time", str(end), "--sampling",
                            "steps", "--samples", str(rows), "--columns", ",".join(["t"] + [o["name"] for o in shown]),
                            "--output", "-"], capture_output=True, text=True, check=False)
     table = [list(map(float, line.split(",")[-len(shown):])) for line in done.stdout.splitlines()[1:]]
     times = [float(line.split(",")[0]) for line in done.stdout.splitlines()[1:]]
     if len(table) != rows + 1 or any(abs(a - b) > 0.01 * p["step"] for a, b in zip(times, again["t"])):
-        print(f"| `{system}` | `{name}` | other rows |")
+        print(f"| `{system}` | `{name}` | the run ends before the prediction |")
         return
     for o, column in zip(shown, zip(*table)):
         change = [x - column[0] for x in column]
         size = max(map(abs, change))
         if size > 1e-11:
-            curve = max(abs(x - y) for x, y in zip(change, o["curve"])) / size
-            yield o["name"], end, curve, abs(max(map(abs, o["curve"])) / size - 1)
+            off = [abs(x - y) / size for x, y in zip(change, o["curve"])]
+            before = max(x for x, t in zip(off, times) if t <= phase)
+            yield o["name"], end, phase, max(off), before, abs(max(map(abs, o["curve"])) / size - 1)
 
 
 def curves():
     """Predicted curves and runs, and a table of the systems."""
     table = []
-    print("| system | method | leaves D = 0 | quantity | to t | curve | size |\n|---|---|---|---|---|---|---|")
+    print("| system | method | leaves D = 0 | quantity | to t | in phase to | curve | in phase | size |\n"
+          "|---|---|---|---|---|---|---|---|---|")
     for system in REGULAR:
         row = []
         for order, methods in ((4, FOURTH), (2, SECOND)):
-            found = call("predict", system, "--integrator", methods, "--time", COUNT, "--quad-steps", 0)
+            found = call("predict", system, "--integrator", methods, "--time", COUNT)
             for p in found["predictions"] if found else ():
-                for name, end, curve, size in compare(system, p) if not p["refused"] else ():
-                    row.append((order, p["leaves_D"], curve))
+                for name, end, phase, curve, before, size in compare(system, p) if not p["refused"] else ():
+                    row.append((order, p["leaves_D"], curve, before))
                     print(f"| `{system}` | `{p['integrator']}` | {'yes' if p['leaves_D'] else 'no'} | {name} | {end:.6g} | "
-                          f"{100 * curve:.2g} % | {100 * size:.2g} % |", flush=True)
+                          f"{phase:.4g} | {100 * curve:.2g} % | {100 * before:.2g} % | {100 * size:.2g} % |", flush=True)
         table.append((system, found["predictions"][0]["step"] if found else math.nan, row))
-    print("\n| system | h | order 4: cells | leaves D = 0 | does not | order 2: cells | leaves D = 0 | does not |\n"
-          "|---|---|---|---|---|---|---|---|")
+    print("\n| system | h | order 4: cells | leaves D = 0 | does not | order 2: cells | leaves D = 0 | does not | in phase |\n"
+          "|---|---|---|---|---|---|---|---|---|")
     for system, step, row in table:
         text = f"| `{system}` | {step} |"
         for order in (4, 2):
@@ -147,11 +152,12 @@ def curves():
             for leaves in (True, False):
                 cells = [r[2] for r in row if r[:2] == (order, leaves)]
                 text += f" {100 * max(cells):.2g} % |" if cells else " - |"
-        print(text)
+        cells = [r[3] for r in row if r[:2] == (2, False)]
+        print(text + (f" {100 * max(cells):.2g} % |" if cells else " - |"))
     for order, leaves, limit in ((4, False, 0.01), (4, True, 0.02), (2, False, 0.01), (2, True, 0.02)):
-        cells = [r[2] for s in table for r in s[2] if r[:2] == (order, leaves)]
-        print(f"Order {order}, {'leaves' if leaves else 'does not leave'} D = 0: {sum(c <= limit for c in cells)} of "
-              f"{len(cells)} cells within {100 * limit:.0f} %.")
+        cells = [r[2:] for s in table for r in s[2] if r[:2] == (order, leaves)]
+        print(f"Order {order}, {'leaves' if leaves else 'does not leave'} D = 0: {sum(c[0] <= limit for c in cells)} of "
+              f"{len(cells)} cells within {100 * limit:.0f} %, {sum(c[1] <= limit for c in cells)} as far as in phase.")
 
 
 {"walks": walks, "zeros": zeros, "curves": curves}[WHAT]()

@@ -75,9 +75,13 @@ typedef struct dal_predicted {
 
 /* A prediction.  Over pieces rates and walks are of all of them, the curve is of the first. */
 typedef struct dal_prediction {
-    double from, to;                /* of the curve that was to be predicted */
-    double step, unit_of_time;      /* h, and tau of the motion near the start */
-    double end;                     /* t where the curve ends */
+    double from, to;           /* of the curve that was to be predicted */
+    double step, unit_of_time; /* h, and tau of the motion near the start */
+    double end;                /* t where the curve ends */
+    double in_phase; /* t from which a run is so far from the exact motion that what oscillates is
+                        at another place of its oscillation, by about 1 % of its size; rates and
+                        sizes are not meant.  NaN: not before the end, or steps are in quad
+                        precision */
     dal_prediction_end reason;      /* and why */
     char message[DAL_MESSAGE_SIZE]; /* of a step that failed; else "" */
     bool leaves_D;                  /* whether steps leave D = 0, above rounding */

@@ -264,6 +264,27 @@ static void test_zeros(void)
     dal_prediction_free(p);
 }
 
+/* x'' = -x by the midpoint rule turns by 2 atan(h/2) in a step: the run is (1 - that/h) t away from
+ * the exact motion, of size 1, and reaches some part of its units there within half a turn. */
+static void test_phase(void)
+{
+    static const char model[] = "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\n";
+    const double h = 0.02, rate = 1.0 - 2.0 * atan(h / 2.0) / h;
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, h);
+    dal_scaled *scaled = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_scaled_create(&scaled, &spec, NULL), DAL_STATUS_OK);
+    const double *unit = dal_scaled_units(scaled), part = 0.005 * fmin(unit[1], unit[2]);
+    dal_prediction *p =
+        predicted(model, "implicit-midpoint", h, h * ceil(2.0 * part / rate / h), 0);
+    CU_ASSERT(p->in_phase > part / rate - 0.1 && p->in_phase < part / rate + 3.3);
+    dal_prediction_free(p);
+    p = predicted(model, "implicit-midpoint", h, h * ceil(0.5 * part / rate / h), 0);
+    CU_ASSERT(isnan(p->in_phase));
+    dal_prediction_free(p);
+    dal_scaled_free(scaled);
+}
+
 /* Pieces: their mean is the rate, and where all change the same there is no walk. */
 static void test_pieces(void)
 {
@@ -489,6 +510,7 @@ void suite_predict(void)
     CU_add_test(suite, "the rate of the pendulum", test_rate_of_pendulum);
     CU_add_test(suite, "against runs", test_against_runs);
     CU_add_test(suite, "0 by reversibility", test_reversibility);
+    CU_add_test(suite, "in phase, closed form", test_phase);
     CU_add_test(suite, "zeros in runs", test_zeros);
     CU_add_test(suite, "pieces", test_pieces);
     CU_add_test(suite, "ends", test_ends);

@@ -200,6 +200,9 @@ static void say_prediction(screen *out, const prediction *item)
     if (of->reason != DAL_PREDICTION_TIME)
         screen_say(out, 2, "The curve ends at t = %s: %s%s%s", screen_number(x[1], of->end, 4),
                    dal_prediction_end_text(of->reason), of->message[0] ? ": " : "", of->message);
+    if (!isnan(of->in_phase))
+        screen_say(out, 2, "What oscillates is in phase with the run, within 1 %%, to t = %s",
+                   screen_number(x[1], of->in_phase, 4));
     if (of->pieces > 1)
         screen_say(out, 2, "Rates and walks are of %s pieces, walks within %s %% or more",
                    screen_count(x[2], of->pieces),
@@ -259,6 +262,7 @@ static void put_prediction(json_writer *w, const prediction *item)
         json_put_number(w, "end", of->end);
         json_put_text(w, "end_reason", dal_prediction_end_name(of->reason));
         json_put_text(w, "message", of->message[0] ? of->message : NULL);
+        json_put_number(w, "in_phase", of->in_phase);
         json_put_flag(w, "leaves_D", of->leaves_D);
         json_put_text(w, "precision", of->is_quad ? "quad" : "double");
         json_put_text(w, "exact_motion", of->has_series ? "taylor" : "dop853");

@@ -37,6 +37,7 @@ void dal__local_free(dal__local *k)
     dal_scaled_free(k->scaled);
     free(k->values);
     free(k->scales);
+    free(k->ends);
     *k = (dal__local){0};
 }
 
@@ -56,7 +57,9 @@ dal_status dal__local_create(dal__local *k, const dal_run_spec *spec, const dal_
     const size_t n = (size_t)k->n, m = (size_t)k->m;
     k->values = dal__numbers(1, 4 * (size_t)k->count + 12 * n + 2 * m * n + m * (2 * m + 8) + 64);
     k->scales = dal__numbers(1, (size_t)(s->m + 1 + s->invariants + s->holonomic));
-    if (!k->values || !k->scales) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    k->ends = dal__numbers(DAL__LOCAL_STEPS, 2 * n);
+    if (!k->values || !k->scales || !k->ends)
+        return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
     DAL_TRY(dal__evaluator_of_run(&k->evaluator, NULL, run, error));
     DAL_TRY(dal_scaled_create_at(&k->scaled, run, error));
     k->unit = dal_scaled_units(k->scaled);
@@ -102,7 +105,7 @@ dal_status dal__local_steps(dal__local *k, int steps, const double *t, const dou
                             double *change, int *made, dal_error *error)
 {
     const size_t size = 2 * (size_t)k->n, count = (size_t)k->count;
-    double *after = k->values, *end = k->values + count;
+    double *after = k->values;
     for (*made = 0; k->quad && *made < steps; ++*made) {
         DAL_TRY(dal_run_set_state(k->quad, t[*made], x + (size_t)*made * size, error));
         const dal_status status =
@@ -116,7 +119,7 @@ dal_status dal__local_steps(dal__local *k, int steps, const double *t, const dou
     dal_batch_advance(k->batch, 1);
     for (; *made < steps; ++*made) {
         const double *from = x + (size_t)*made * size;
-        double *out = change + (size_t)*made * count;
+        double *out = change + (size_t)*made * count, *end = k->ends + (size_t)*made * size;
         DAL_TRY(dal_batch_status(k->batch, *made, error));
         dal_batch_state(k->batch, *made, end);
         DAL_TRY(dal__local_observe(k, t[*made], from, out));

@@ -20,6 +20,7 @@ typedef struct dal__local {
     bool enforces_D; /* a step ends on D = 0 wherever it begins; its d is D there */
     int n, m, has_energy, invariants, count;
     double *values, *scales; /* scratch; as of dal_evaluator_scales */
+    double *ends;            /* [STEPS*2n] where the last steps in double precision ended */
 } dal__local;
 
 /* Makes it for a run of spec on the physical space, in a precision. [alloc]  Errors: as of batches

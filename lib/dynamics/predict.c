@@ -131,6 +131,7 @@ static dal_status begin_prediction(work *w, const dal_run_spec *spec, double T,
     w->has_points = w->local.m > 0 && !w->local.enforces_D;
     w->of->to = T;
     w->of->end = w->of->from;
+    w->of->in_phase = NAN;
     w->of->step = w->spec.options.step;
     w->of->unit_of_time = w->local.unit[0];
     DAL_TRY(allocate_work(w, w->rows));
@@ -139,6 +140,7 @@ static dal_status begin_prediction(work *w, const dal_run_spec *spec, double T,
     w->of->has_series = dal__orbit_has_series(w->orbit);
     DAL_TRY(dal__reversals_create(&w->reversals, &w->local, &w->spec, dal_run_time(w->run),
                                   dal_run_state(w->run), w->error));
+    DAL_TRY(dal__displacement_create(&w->displacement, &w->local, w->local.unit[0], w->error));
     for (int i = 0; i < w->n; i++) {
         w->general[i] = w->reversals && dal__reversals_depend(w->reversals, i);
         w->general[w->n + i] = true;
@@ -160,6 +162,7 @@ dal_status dal_predict_create(dal_prediction **prediction, const dal_run_spec *s
     if (status == DAL_STATUS_OK) status = dal__predict_steps(&w);
     if (status == DAL_STATUS_OK) status = dal__predict_results(&w);
     dal__reversals_free(w.reversals);
+    dal__displacement_free(w.displacement);
     dal__orbit_free(w.orbit);
     dal__local_free(&w.local);
     dal_run_free(w.run);

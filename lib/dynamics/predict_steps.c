@@ -12,6 +12,8 @@
 /* The prediction of a method that leaves D = 0 is wrong by about defect_constant (h/tau)^p t/tau,
  * relative to the change; its curve ends where that passes defect_allowed. */
 static const double defect_constant = 0.4, defect_allowed = 0.02;
+/* A displacement, in units, that leaves oscillations in phase to about twice as much. */
+static const double in_phase = 0.005;
 /* What counts as rounding, in roundings of one step. */
 static const double roundings = 64.0;
 /* Steps change so little, in the mean of a block, that doubles do not resolve it to a percent. */
@@ -130,6 +132,22 @@ static dal_status begin_blocks(work *w, int steps)
     return DAL_STATUS_OK;
 }
 
+/* Notes when step k, number i of a block, begins too far from the exact motion for oscillations to
+ * be in phase.  Quad precision is for changes that are small beside roundings: it does not matter
+ * there. */
+static void note_displacement(work *w, long long k, int i)
+{
+    const size_t size = 2 * (size_t)w->n;
+    if (!w->displacement) return;
+    if (!w->of->is_quad && k < w->steps &&
+        dal__displacement_add(w->displacement, k, w->t[i], w->x + (size_t)i * size,
+                              w->local.ends + (size_t)i * size, w->general) <= in_phase)
+        return;
+    w->of->in_phase = w->of->is_quad || k >= w->steps ? NAN : w->t[i];
+    dal__displacement_free(w->displacement);
+    w->displacement = NULL;
+}
+
 /* A block of steps from number k on; *done of them. */
 static dal_status take_block(work *w, long long k, int *done)
 {
@@ -144,6 +162,7 @@ static dal_status take_block(work *w, long long k, int *done)
     if (k == 0 && *done > 0) DAL_TRY(begin_blocks(w, *done));
     find_defect(w, *done);
     for (int i = 0; i < *done && k + i < all_steps(w); i++) {
+        note_displacement(w, k + i, i);
         if (dal__predict_add_step(w, k + i, i) != DAL_STATUS_OK)
             return dal__predict_refuse(
                 w, "it leaves D = 0, and the system has no constraint Jacobian");

@@ -3,6 +3,7 @@
 #define DAL_PREDICTION_H
 
 #include "dalembert_predict.h"
+#include "dynamics/displacement.h"
 #include "dynamics/local_change.h"
 #include "dynamics/orbit.h"
 #include "dynamics/reversal.h"
@@ -20,6 +21,7 @@ typedef struct dal__prediction_work {
     dal__local local;
     dal__orbit *orbit;
     dal__reversals *reversals;
+    dal__displacement *displacement; /* NULL: it need not be known any more */
     int n, count;
     long long whole, steps; /* of a piece; up to the end of the curve */
     long long pieces, quad_steps;

@@ -62,6 +62,8 @@ class Prediction:
         Why: ``'time'``; ``'defect'``, D may have moved the motion too far; ``'failed'``.
     message : str
         Of a step that failed, or empty.
+    in_phase : float
+        t to which what oscillates is in phase with a run, within about 1 %; NaN: to the end, or not known.
     leaves_D : bool
         Whether steps leave D = 0, above rounding.
     is_quad : bool
@@ -75,6 +77,7 @@ class Prediction:
     end: float
     reason: str
     message: str
+    in_phase: float
     leaves_D: bool
     is_quad: bool
     pieces: int
@@ -98,7 +101,7 @@ def predict_one(spec: Spec, time: float | None, settings: Any) -> Prediction:
         found[text_of(q.name)] = Predicted(bool(q.is_conserved), bool(q.is_zero), changes[:, i].copy(), q.change,
                                            q.max_change, q.rate, q.margin, q.walk, q.walk_margin)
     return Prediction(np.array(ffi.unpack(p.t, rows)), found, p.end, text_of(lib.dal_prediction_end_name(p.reason)),
-                      text_of(p.message), bool(p.leaves_D), bool(p.is_quad), p.pieces)
+                      text_of(p.message), p.in_phase, bool(p.leaves_D), bool(p.is_quad), p.pieces)
 
 
 def predict_all(specs: Sequence[Spec], time: float | None, settings: Any) -> Predictions:

@@ -28,6 +28,13 @@ case_is "zero by reversibility"
 try 0 predict nonholonomic-particle --integrator implicit-midpoint --step 0.05 --time 20
 prints '^  E .* 0 by reversibility$'
 
+case_is "in phase"
+try 0 predict pendulum-cvt --integrator mclachlan-perlmutter,gauss4+project --step 0.05 --time 40
+prints '^What oscillates is in phase with the run, within 1 %, to t = '
+try 0 predict pendulum-cvt --integrator mclachlan-perlmutter,gauss4+project --step 0.05 --time 40 --json
+expect "a time, and none" json out "
+    1 < d['predictions'][0]['in_phase'] < 40 and d['predictions'][1]['in_phase'] is None"
+
 case_is "pieces"
 try 0 predict chaotic-oscillators --integrator mclachlan-perlmutter --step 0.1 --time 2 --pieces 8 --json
 expect "a walk" json out "
