@@ -98,7 +98,7 @@ DAL_INLINE dal_status step(dal_step *s)
         lambda[DAL_M(s)] = elimination.in[n + DAL_M(s)] = dal_num(1.0);
     } else {
         dal_eval_blocks(s, s->t + 0.5 * h, qh, s->y + n, before);
-        set_mean_directions(s, &k);
+        if (dal_positional(s)) set_mean_directions(s, &k);
     }
     if (dal_failed(DAL_M(s) == 0 && dal_positional(s) ? dal_enforce_once(s, &eq, leap_map)
                                                       : dal_enforce(s, &eq, leap_map)))
