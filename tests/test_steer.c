@@ -4,6 +4,7 @@
 #include "fixtures.h"
 #include "null.h"
 #include "quick.h"
+#include "steer/direct.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdlib.h>
@@ -123,6 +124,84 @@ static void test_free_ends(void)
     find(&s, T, &target, 1);
     CU_ASSERT_DOUBLE_EQUAL(s.best->S, 0.0, 1e-25);
     CU_ASSERT_DOUBLE_EQUAL(row_of(&s, 0)[1], 0.35, 1e-13);
+    close_steered(&s);
+}
+
+/* ---- Gauss-Newton alone ---- */
+
+enum { GRID = 24 };
+
+/* Its cost after some iterations on a grid of one step a piece, from rest on a straight line; the
+ * multipliers are in d. */
+static double iterate_directly(steered *s, double T, dal__problem *p, dal__shooting *grid,
+                               dal__direct *d, int iterations)
+{
+    double S = 0.0;
+    CU_ASSERT_EQUAL_FATAL(
+        dal__problem_open(p, s->model, &s->spec, T, &s->settings, NULL, &s->record), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal__shooting_open(grid, p, GRID, GRID), DAL_STATUS_OK);
+    for (int k = 0; k <= GRID; k++) {
+        double *z = grid->point + k * p->dimension;
+        z[0] = p->start[0] + k * (p->target[0] - p->start[0]) / GRID;
+        z[1] = k > 0 && k < GRID ? (p->target[0] - p->start[0]) / T : 0.0;
+        z[2] = 1.0;
+    }
+    CU_ASSERT_EQUAL_FATAL(dal__direct_open(d, grid), DAL_STATUS_OK);
+    for (int i = 0; i < iterations; i++) CU_ASSERT_EQUAL(dal__direct_iterate(d), DAL_STATUS_OK);
+    for (int k = 0; k < GRID; k++) S += grid->end[k * p->dimension + 5];
+    return S;
+}
+
+static void close_directly(dal__problem *p, dal__shooting *grid, dal__direct *d)
+{
+    dal__direct_close(d);
+    dal__shooting_close(grid);
+    dal__problem_close(p);
+}
+
+/* x'' = u by constant u in each of N pieces, rest to rest: S = 6 d^2/T^3 N^2/(N^2 - 1), which the
+ * first iteration finds and the others keep.  Newton's method would repair what is wrong here. */
+static void test_direct(void)
+{
+    const dal_setting target = {"x", 0.7};
+    const double T = 1.5, least = 6.0 * 0.49 / (T * T * T) * GRID * GRID / (GRID * GRID - 1.0);
+    for (int iterations = 2; iterations <= 5; iterations += 3) {
+        dal__problem p;
+        dal__shooting grid;
+        dal__direct d;
+        steered s;
+        open_steered(&s, "coordinates: [x]\nlagrangian: x'^2/2\n", DAL_EFFORT_IDENTITY, "gauss4",
+                     T / GRID);
+        s.settings.target = &target;
+        s.settings.targets = 1;
+        CU_ASSERT_DOUBLE_EQUAL(iterate_directly(&s, T, &p, &grid, &d, iterations), least,
+                               1e-5 * least);
+        close_directly(&p, &grid, &d);
+        close_steered(&s);
+    }
+}
+
+/* The same cart by y = e^x, whose cost depends on x: effort mass does not depend on coordinates, so
+ * that S and the momentum of x at the start, (6 d/T^2) e^x, are as with y, to 1/N^2. */
+static void test_direct_of_state(void)
+{
+    const dal_setting target = {"x", 1.0};
+    const double T = 1.5, d_y = exp(1.0) - 1.0;
+    dal__problem p;
+    dal__shooting grid;
+    dal__direct d;
+    steered s;
+    open_steered(&s, "coordinates: [x]\nlagrangian: exp(2*x)*x'^2/2\n", DAL_EFFORT_MASS, "gauss4",
+                 T / GRID);
+    s.settings.target = &target;
+    s.settings.targets = 1;
+    const double S = iterate_directly(&s, T, &p, &grid, &d, 12);
+    const double S_y = 6.0 * d_y * d_y / (T * T * T), pi_y = 6.0 * d_y / (T * T);
+    const double grid_error = 3.0 / (GRID * GRID); /* u is constant in each piece */
+    CU_ASSERT_DOUBLE_EQUAL(S, S_y, grid_error * S_y);
+    CU_ASSERT_DOUBLE_EQUAL(d.costate[1] / p.unit[1], pi_y, grid_error * pi_y);
+    CU_ASSERT(d.change < 1e-9);
+    close_directly(&p, &grid, &d);
     close_steered(&s);
 }
 
@@ -430,24 +509,17 @@ static void test_out_of_memory(void)
 
 FUNCTIONS_dalembert_steer(DECLARE_NULL_TEST)
 
-    static dal_model *model;
-static dal_run_spec spec;
-
-static int open_model(void) { return open_spec(&model, &spec) != DAL_STATUS_OK; }
-static int close_model(void)
+    static void null_dal_steer_create(void)
 {
-    dal_model_free(model);
-    return 0;
-}
-
-static void null_dal_steer_create(void)
-{
+    dal_model *model;
+    dal_run_spec spec;
     static const dal_setting target = {"y1", 0.1};
     static const char *const free_names[] = {NULL};
     dal_steering *s = NULL;
     dal_steer_settings settings = dal_steer_settings_default(), bad;
     settings.target = &target;
     settings.targets = 1;
+    CU_ASSERT_EQUAL_FATAL(open_spec(&model, &spec), DAL_STATUS_OK);
     REFUSED(dal_steer_create(NULL, model, &spec, 1.0, &settings, NULL, error));
     REFUSED(dal_steer_create(&s, NULL, &spec, 1.0, &settings, NULL, error));
     REFUSED(dal_steer_create(&s, model, &spec, 1.0, NULL, NULL, error));
@@ -467,6 +539,7 @@ static void null_dal_steer_create(void)
         REFUSED(dal_steer_create(&s, model, &spec, 1.0, &bad, NULL, error));
     }
     CU_ASSERT_PTR_NULL(s);
+    dal_model_free(model);
 }
 
 static void null_dal_steer_free(void) { dal_steer_free(NULL); }
@@ -477,9 +550,11 @@ static void null_dal_steer_settings_default(void)
 
 void suite_steer(void)
 {
-    CU_pSuite suite = CU_add_suite("boundary values of the lift", open_model, close_model);
+    CU_pSuite suite = CU_add_suite("boundary values of the lift", NULL, NULL);
     CU_add_test(suite, "a linear problem, closed form", test_gramian);
     CU_add_test(suite, "free ends, closed form", test_free_ends);
+    CU_add_test(suite, "Gauss-Newton alone", test_direct);
+    CU_add_test(suite, "Gauss-Newton where the cost depends on q", test_direct_of_state);
     CU_add_test(suite, "a sleigh straight and turned, closed form", test_sleigh);
     CU_add_test(suite, "a sleigh to the side", test_parking);
     CU_add_test(suite, "several first guesses", test_starts);

@@ -160,13 +160,6 @@ typedef struct matrix {
     double *norm;  /* [columns] */
 } matrix;
 
-static void swap(double *a, double *b)
-{
-    double c = *a;
-    *a = *b;
-    *b = c;
-}
-
 /* Moves the longest column from i on to place i; its length. */
 static double pivot_column(matrix *m, int i)
 {
@@ -181,9 +174,10 @@ static double pivot_column(matrix *m, int i)
         if (m->norm[j] > m->norm[longest]) longest = j;
     }
     for (int k = 0; k < m->rows; k++)
-        swap(&m->a[k * m->columns + i], &m->a[k * m->columns + longest]);
-    for (int k = 0; k < i; k++) swap(&m->r[k * m->columns + i], &m->r[k * m->columns + longest]);
-    swap(&m->place[i], &m->place[longest]);
+        dal__swap(1, &m->a[k * m->columns + i], &m->a[k * m->columns + longest]);
+    for (int k = 0; k < i; k++)
+        dal__swap(1, &m->r[k * m->columns + i], &m->r[k * m->columns + longest]);
+    dal__swap(1, &m->place[i], &m->place[longest]);
     return m->norm[longest];
 }
 

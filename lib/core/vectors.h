@@ -20,6 +20,15 @@ static inline double dal__dot_product(int n, const double *a, const double *b)
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
+static inline void dal__swap(int n, double *a, double *b)
+{
+    for (int i = 0; i < n; i++) {
+        const double x = a[i];
+        a[i] = b[i];
+        b[i] = x;
+    }
+}
+
 double dal__max_abs(const double *x, size_t count); /* max |x|; infinite if one is NaN */
 int dal__find_max_abs(const double *x, int count);  /* where that is, the first of NaNs */
 /* max_i |a - b| / max(1, |a|); infinite if one is NaN. */

@@ -54,11 +54,7 @@ static int sign_of_determinant(int n, double *a)
         int row = j;
         for (int i = j + 1; i < n; i++)
             if (fabs(a[i * n + j]) > fabs(a[row * n + j])) row = i;
-        for (int l = 0; l < n && row != j; l++) {
-            const double x = a[j * n + l];
-            a[j * n + l] = a[row * n + l];
-            a[row * n + l] = x;
-        }
+        if (row != j) dal__swap(n, a + j * n, a + row * n);
         const double pivot = a[j * n + j];
         sign *= (row != j ? -1 : 1) * (pivot < 0.0 ? -1 : 1);
         max = fmax(max, fabs(pivot));

@@ -55,15 +55,6 @@ void dal__two_point_close(dal__two_point *b)
     free(b->scratch);
 }
 
-static void exchange(double *a, double *b, int count)
-{
-    for (int i = 0; i < count; i++) {
-        const double x = a[i];
-        a[i] = b[i];
-        b[i] = x;
-    }
-}
-
 /* panel[2d*d] of w_k is factored, and the columns of w_0 and w_(k+1), other[2d*2d], with it. */
 static void factor_panel(int d, double *panel, double *other, int *pivot)
 {
@@ -73,8 +64,8 @@ static void factor_panel(int d, double *panel, double *other, int *pivot)
             if (fabs(panel[i * d + j]) > fabs(panel[max * d + j])) max = i;
         pivot[j] = max;
         if (max != j) {
-            exchange(panel + j * d, panel + max * d, d);
-            exchange(other + j * 2 * d, other + max * 2 * d, 2 * d);
+            dal__swap(d, panel + j * d, panel + max * d);
+            dal__swap(2 * d, other + j * 2 * d, other + max * 2 * d);
         }
         const double inverse = panel[j * d + j] != 0.0 ? 1.0 / panel[j * d + j] : 0.0;
         for (int i = j + 1; i < 2 * d; i++) {
@@ -143,7 +134,7 @@ void dal__two_point_solve(dal__two_point *b, const double *r, double *w)
     for (int k = 1; k < last; k++) {
         const double *panel = b->panel + 2 * (size_t)k * (size_t)(d * d);
         memcpy(both + d, r + k * d, bytes);
-        for (int j = 0; j < d; j++) exchange(both + j, both + b->pivot[k * d + j], 1);
+        for (int j = 0; j < d; j++) dal__swap(1, both + j, both + b->pivot[k * d + j]);
         for (int j = 0; j < d; j++)
             for (int i = j + 1; i < 2 * d; i++) both[i] -= panel[i * d + j] * both[j];
         memcpy(saved + k * d, both, bytes);
