@@ -547,14 +547,13 @@ static void test_many(void)
 
 /* ---- memory ---- */
 
-/* Of a built-in system, or of a file. */
 static dal_status whole_life(const char *text, dal_error *error)
 {
     dal_model *model;
     const dal_system *system;
-    dal_status status = strchr(text, '\n')
-                            ? dal_model_read(&model, "test", text, strlen(text), error)
-                            : dal_model_builtin(&model, text, error);
+    const bool is_file = strchr(text, '\n') != NULL;
+    dal_status status = is_file ? dal_model_read(&model, "test", text, strlen(text), error)
+                                : dal_model_builtin(&model, text, error);
     CU_ASSERT_EQUAL(status, allocation_failed() ? DAL_STATUS_MEMORY : DAL_STATUS_OK);
     if (status == DAL_STATUS_OK) status = dal_model_system(model, &system, error);
     if (status == DAL_STATUS_OK) status = dal_model_tangent(model, &system, error);
