@@ -128,7 +128,7 @@ static void test_peak(void)
                                "lagrangian: x'^2/2 + x*w^2/((t - c)^2 + w^2)\n";
     static const double tolerances[] = {1e-4, 1e-6}, w = 0.003, T = 8.0;
     const dal_system *system = fixture_system(peak);
-    for (int i = 0; i < 400; i += case_stride(7)) {
+    for (int i = 0; i < 400; i += case_stride(29)) {
         const double c = 3.0 + 0.01 * (i / 2);
         const dal_setting parameters[] = {{"c", c}, {"w", w}};
         const double exact = w * (atan((T - c) / w) + atan(c / w));
@@ -431,8 +431,9 @@ static void fails(const char *text, double step, const char *reason, double reac
  * turns are too many. */
 static void test_failures(void)
 {
-    fails("coordinates: [x]\naccelerations: {x: 2*x^3}\nstart: {x: 1, x': 1}\n", 2.0,
-          "too many substeps", 1.0);
+    if (case_stride(2) == 1) /* both ways to too many substeps take 100000 */
+        fails("coordinates: [x]\naccelerations: {x: 2*x^3}\nstart: {x: 1, x': 1}\n", 2.0,
+              "too many substeps", 1.0);
     fails("coordinates: [x]\naccelerations: {x: sqrt(1 - t)}\n", 2.0,
           "the step size went to zero at t = ", 1.0);
     fails("coordinates: [x]\naccelerations: {x: -x}\nstart: {x: 1}\n", 1e6,

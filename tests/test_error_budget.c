@@ -133,7 +133,7 @@ static void test_rounding(void)
  * part is as large as when they are solved. */
 static void test_solver(void)
 {
-    const int steps = 400 / case_stride(2);
+    const int steps = 400 / case_stride(4);
     dal_run_spec spec =
         fixture_spec(fixture_system("chaplygin-sleigh"), "gauss8", DAL_PHYSICAL, 0.1);
     dal_error_budget *solved = explained(&spec, steps, steps);
@@ -159,7 +159,7 @@ static void test_solver(void)
  * D in a unit of time is proportional to h (h^2 in a step), and far below rounding. */
 static void test_coefficients(void)
 {
-    const int steps = 600 / case_stride(3);
+    const int steps = 600 / case_stride(6);
     const dal_run_spec spec =
         fixture_spec(fixture_system("contact-oscillator"), "gauss8", DAL_PHYSICAL, 0.1);
     dal_error_budget *e = explained(&spec, steps, steps);
@@ -181,7 +181,8 @@ static void test_sums(void)
                                     "exact: {x: 0.1*t}\n"),
                      "symplectic-euler-10", DAL_PHYSICAL, 0.01);
     spec.options.sums = DAL_SUMS_PLAIN;
-    dal_error_budget *e = explained(&spec, 20000, 20000);
+    const int steps = 20000 / case_stride(4);
+    dal_error_budget *e = explained(&spec, steps, steps);
     const dal_shares *error = of(e, "error");
     CU_ASSERT(fabs(error->share[DAL_SOURCE_ROUNDING] - 1.0) < 0.05);
     CU_ASSERT(error->comparison[DAL_COMPARISON_SUMS].deviation < 0.05 * error->whole.deviation);

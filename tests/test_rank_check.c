@@ -104,7 +104,7 @@ static void test_singularities(void)
 static void test_builtins(void)
 {
     int checked = 0;
-    for (int i = 0; dal_builtin_name(i); i++) {
+    for (int i = 0; dal_builtin_name(i); i += case_stride(2)) {
         const dal_system *system = fixture_system(dal_builtin_name(i));
         if (!(system->properties & DAL_D_RANK_CHECKED)) continue;
         compare_all(system, case_stride(5), 3);
