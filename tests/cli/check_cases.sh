@@ -7,6 +7,7 @@ while read -r system; do
     try 0 check "$system"
     prints '^[0-9]+ items, 0 failed$'
     refute "$system: a FAIL" grep -q FAIL out
+    expect "$system: a line of more than 80 columns" awk 'NR > 2 && length($0) > 80 { exit 1 }' out
     silent
 done <systems
 
@@ -306,9 +307,3 @@ case_is "no constraint, no word of D = 0"
 try 0 check damped-oscillator
 prints '^  points about the start +ok +8$'
 expect "D = 0" test "$(grep -c 'projected' out)" -eq 0
-
-case_is "no line is wider than 80 columns"
-while read -r system; do
-    try 0 check "$system"
-    expect "$system" awk 'NR > 2 && length($0) > 80 { exit 1 }' out
-done <systems

@@ -524,6 +524,9 @@ END_OF_SYSTEM
 try 0 run burst.yaml --integrator rk4 --step 0.1 --time 1 --output burst
 try 0 report burst
 expect "no figure of the others" grep -q '^plot' burst/report/coordinates.gp
+# In the key: never has no value, E and H are 0.
+expect "a slope of what has no value" grep -q "title 'never (not finite)'" burst/report/drift.gp
+expect "a slope of 0" grep -q "title 'E (0)'" burst/report/drift.gp
 
 # outline DIR EXPECTED...: the page of a directory is HTML, every element closed and known; EXPECTED are
 # pieces of the list of its headings, terms and heads of columns, in their order.
