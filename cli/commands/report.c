@@ -5,6 +5,7 @@
 #include "report/report_run.h"
 #include "report/report_section.h"
 #include "report/report_study.h"
+#include "steer/steer_page.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
 #include "ui/message.h"
@@ -18,10 +19,10 @@
 static const struct {
     const char *file;
     int (*write)(report *r);
-} kinds[] = {{"cells.csv", report_study},         {"trajectory.npy", report_run},
-             {"statistics.csv", report_ensemble}, {"order.csv", report_order},
-             {"section.csv", report_section},     {"lyapunov.csv", report_lyapunov},
-             {"volume.csv", report_volume}};
+} kinds[] = {{"cells.csv", report_study},       {"steer.json", steer_write_page},
+             {"trajectory.npy", report_run},    {"statistics.csv", report_ensemble},
+             {"order.csv", report_order},       {"section.csv", report_section},
+             {"lyapunov.csv", report_lyapunov}, {"volume.csv", report_volume}};
 
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
@@ -44,7 +45,8 @@ static const cli_option options[] = {
     {"pdf", NULL, NULL, "the same as PDF, with labels in a file NAME.tex for TeX",
      CLI_FLAG(report_settings, pdf)},
     {NULL, "DIR", CLI_REQUIRED,
-     "what 'run', 'study', 'ensemble', 'order', 'section', 'lyapunov' or 'volume' wrote with "
+     "what 'run', 'study', 'ensemble', 'order', 'section', 'lyapunov', 'volume' or 'steer' wrote "
+     "with "
      "--output DIR",
      CLI_TEXT(report_settings, directory)},
 };

@@ -21,7 +21,8 @@ extern const char report_style[], report_script[]; /* *.css and *.js, embedded *
 
 enum { REPORT_HEAD, REPORT_CONTENTS, REPORT_PAGE, REPORT_TEXTS };
 
-typedef struct report {
+typedef struct report report;
+struct report {
     const char *directory; /* of the study or run */
     char *place;           /* DIR/report */
     const char *paper;     /* "svg" or "pdf": what gnuplot draws of each figure; or NULL */
@@ -33,7 +34,11 @@ typedef struct report {
     char *page_path;
     int read;    /* the exit status of reading the files that are on the page */
     int figures; /* so far, on the page where there is the library of charts */
-} report;
+    /* What the page of a run says first, and its first figures, of another command; or NULL. */
+    void (*begin)(report *r);
+    int (*draw)(report *r);
+    void *user; /* for these two */
+};
 
 /* All that return an int return CLI_DONE, or print and return an exit status. */
 int report_open(report *r);

@@ -336,6 +336,7 @@ static int draw_figures(run_page *run)
         fputs("<p>The run has one row, too few for figures.</p>\n", r->page);
     else if (run->request->system_name)
         status = report_path(r, r->directory, "path", "");
+    if (status == CLI_DONE && r->draw) status = r->draw(r);
     if (status != CLI_DONE || run->reader.count < 2) {
         fputs("</div>\n", r->page);
         return status;
@@ -422,6 +423,7 @@ static void write_state(const run_page *run)
 {
     const run_request *request = run->request;
     char number[SCREEN_NUMBER];
+    if (run->r->begin) run->r->begin(run->r);
     if (request->system_name) {
         fputs("<p class=\"lead\">", run->r->page);
         report_text(run->r->page, request->system_name);

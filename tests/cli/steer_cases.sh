@@ -101,6 +101,25 @@ prints '^Page: +dalembert report cart$'
 eval "try 0 $(sed '1,/^Again:/d; s/^ *dalembert//' out | tr -d '\\\\\n') --output again.csv --columns q,v"
 expect "the controlled system ends at the target" awk -F, 'END { exit !(($2 - 1)^2 + $3^2 < 1e-24) }' again.csv
 
+case_is "a page"
+try 0 report cart
+prints '^cart/report/index.html$'
+page=cart/report/index.html
+expect "it begins with what was found" awk '/<h1/ { seen = 1; next } seen && /<p>/ { print; exit }' $page
+expect "S, the target and how far" grep -Eq \
+    '<p><strong>Reaches the target at t = 1 for S = (24|23.999999[0-9]*|24.0000000), within [0-9.e-]+\.</strong>' $page
+expect "a row of the motion" grep -q '<td>motion</td><th>S</th><th>distance</th>' $page
+expect "the curve of u in its figure" awk -F, '$1 == 0.25 && ($2 - 6)^2 < 1e-12 { found = 1 }
+    END { exit !found }' cart/report/inputs.gp
+expect "the state of the run" grep -q 'cart.yaml by gauss4\|system.yaml by gauss4' $page
+mkdir torn
+echo '{"schema": "dalembert/steer/1", "request": {}}' >torn/steer.json
+try 0 report torn
+expect "no motion" grep -q 'from the target' torn/report/index.html
+printf '{' >torn/steer.json
+try 2 report torn
+says 'torn/steer.json'
+
 case_is "a controlled system that turns"
 cat >robot.yaml <<'YAML'
 coordinates: [x, y, theta, psi]
@@ -150,6 +169,9 @@ try 3 steer $sleigh --to x=0,y=1,phi=0 --max-iterations 3 --output straight --fo
 expect "the nearest motion" test "$(wc -l <straight/best.csv)" = 102
 refute "the run before" test -e straight/trajectory.npy
 expect "how far it is" json straight/steer.json "d['state'] == 'failed'"
+try 0 report straight
+expect "the same on a page" grep -q '<strong>Ends [0-9.e-]* from the target\.</strong> no motion was found in 3 iter' \
+    straight/report/index.html
 try 0 steer $sleigh --to x=0.5,y=0,phi=0 --output straight
 refute "the failure before" test -e straight/best.csv
 
