@@ -35,7 +35,8 @@ typedef struct dal_steer_settings {
     bool rest;  /* velocities that neither the spec nor the target names are 0, at both ends */
     bool aim;   /* p = pi = 0 and S = 0: natural motions whose velocities on D = 0 at the start are
                    free and hit the target */
-    int starts; /* first guesses: the straight line and randomly bent ones; 1 */
+    int starts; /* first guesses: the straight line and randomly bent ones; 1.  Where none of
+                            them leads to the target up to 8 more are made. */
     unsigned long long seed; /* of these; 1 */
     int iterations;          /* max for each guess; 200 */
     double tolerance;        /* max residual, relative to how large the components are; 1e-11 */

@@ -340,6 +340,22 @@ static void test_loop(void)
     close_steered(&s);
 }
 
+/* Where the straight line leads nowhere further guesses are made; a circle that is gone through k
+ * times has k times the action. */
+static void test_further_guesses(void)
+{
+    const dal_setting target[] = {{"x", 0.0}, {"y", 0.0}, {"z", 0.3}};
+    steered s;
+    open_steered(&s, plane, DAL_EFFORT_IDENTITY, "gauss8", 0.03);
+    s.settings.rest = false;
+    find(&s, 1.5, target, 3);
+    CU_ASSERT_EQUAL(s.steering->count, 1);
+    const double times = s.best->S / (2.0 * acos(-1.0) * 0.3 / 1.5);
+    CU_ASSERT(times > 0.5);
+    CU_ASSERT_DOUBLE_EQUAL(times, nearbyint(times), 1e-10);
+    close_steered(&s);
+}
+
 /* An elastic rod of length T between pins, its angles being free there: phi moves as a pendulum
  * from k = sin(phi(0)/2) to the other side; with omega T = 2 K and the complete integrals K, E of
  * modulus k the chord is (2 E/K - 1) T and S = 4 omega (E - (1 - k^2) K). */
@@ -560,6 +576,7 @@ void suite_steer(void)
     CU_add_test(suite, "several first guesses", test_starts);
     CU_add_test(suite, "aiming, closed form", test_aim);
     CU_add_test(suite, "a vakonomic loop, closed form", test_loop);
+    CU_add_test(suite, "further guesses", test_further_guesses);
     CU_add_test(suite, "an elastic rod, closed form", test_elastica);
     CU_add_test(suite, "targets that are not reached", test_unreached);
     CU_add_test(suite, "what is refused", test_refuses);

@@ -23,7 +23,8 @@ static const cli_option options[] = {
      "no force is used: finds velocities on D = 0 at the start that hit the target",
      CLI_FLAG(steer_settings, aim)},
     {"starts", "N", "1",
-     "first guesses, each of which may lead to another motion: the straight line, then bent ones",
+     "first guesses, each of which may lead to another motion: the straight line, then bent ones; "
+     "8 more where none leads to the target",
      CLI_INTEGER(steer_settings, starts, 1, MAX_STARTS), .heading = "search"},
     {"seed", "S", "1", "draws the bent lines", CLI_INTEGER(steer_settings, seed, 0, max_seed)},
     {"max-iterations", "N", "200", "ends the search from a first guess after N iterations",

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PIECES = 24, BENDS = 3, DIRECT_BEFORE_NEWTON = 8 };
+enum { PIECES = 24, BENDS = 3, DIRECT_BEFORE_NEWTON = 8, MORE_GUESSES = 8 };
 
 /* ---- first guesses ---- */
 
@@ -222,25 +222,30 @@ static bool is_before(const dal_extremal *x, const dal_extremal *other)
     return is_found ? x->S < other->S : x->residual < other->residual;
 }
 
-/* Adds a motion, or frees it where it is there. */
+static void free_motion(dal_extremal *x)
+{
+    free(x->z);
+    free(x->u);
+}
+
+/* Adds a motion, unless it is there; of more than settings->starts the last is left out. */
 static void add_extremal(const dal__problem *p, dal_steering *steering, dal_extremal *x)
 {
+    dal_extremal *const all = steering->extremal;
+    int at = 0;
     for (int i = 0; i < steering->count; i++)
-        if (x->status == DAL_STATUS_OK && steering->extremal[i].status == DAL_STATUS_OK &&
-            is_same(p, steering, x->z, steering->extremal[i].z)) {
-            free(x->z);
-            free(x->u);
+        if (x->status == DAL_STATUS_OK && all[i].status == DAL_STATUS_OK &&
+            is_same(p, steering, x->z, all[i].z)) {
+            free_motion(x);
             return;
         }
-    int at = 0;
-    for (; at < steering->count; at++) {
-        const dal_extremal *other = &steering->extremal[at];
-        if (is_before(x, other)) break;
-    }
-    memmove(steering->extremal + at + 1, steering->extremal + at,
-            (size_t)(steering->count - at) * sizeof *x);
-    steering->extremal[at] = *x;
-    steering->count++;
+    while (at < steering->count && !is_before(x, &all[at])) at++;
+    memmove(all + at + 1, all + at, (size_t)(steering->count - at) * sizeof *x);
+    all[at] = *x;
+    if (steering->count == p->settings->starts)
+        free_motion(&all[steering->count]);
+    else
+        steering->count++;
 }
 
 static dal_status add_guess(dal__problem *p, dal__shooting *s, dal_steering *steering)
@@ -258,14 +263,22 @@ static dal_status add_guess(dal__problem *p, dal__shooting *s, dal_steering *ste
     x.condition = result.condition;
     if (status != DAL_STATUS_MEMORY) status = fill_rows(s, &x);
     if (status == DAL_STATUS_MEMORY) {
-        free(x.z);
-        free(x.u);
+        free_motion(&x);
         return status;
     }
     if (x.status == DAL_STATUS_OK) x.status = status;
     explain(p, steering, &x);
     add_extremal(p, steering, &x);
     return x.status == DAL_STATUS_INTERRUPTED ? x.status : DAL_STATUS_OK;
+}
+
+/* Whether one more guess is made: the straight line alone may be singular, as of a loop, which has
+ * no way back to first order. */
+static bool is_wanted(const dal__problem *p, const dal_steering *steering)
+{
+    const int starts = p->settings->starts;
+    const bool is_found = steering->count > 0 && steering->extremal[0].status == DAL_STATUS_OK;
+    return p->guess < starts || (!is_found && p->guess < starts + MORE_GUESSES);
 }
 
 static dal_status fill_steering(dal__problem *p, dal_steering *steering)
@@ -276,7 +289,7 @@ static dal_status fill_steering(dal__problem *p, dal_steering *steering)
     steering->inputs = p->inputs;
     steering->rows = p->steps + 1;
     steering->t = dal__numbers(1, (size_t)steering->rows);
-    steering->extremal = calloc((size_t)p->settings->starts, sizeof *steering->extremal);
+    steering->extremal = calloc((size_t)p->settings->starts + 1, sizeof *steering->extremal);
     if (!steering->t || !steering->extremal) return DAL_STATUS_MEMORY;
     for (long long k = 0; k <= p->steps; k++)
         steering->t[k] = k == p->steps ? p->T : p->from + (double)k * p->h;
@@ -285,7 +298,7 @@ static dal_status fill_steering(dal__problem *p, dal_steering *steering)
                             ? p->observer->reach(p->observer->user, steering)
                             : DAL_STATUS_OK;
     if (status == DAL_STATUS_OK) status = dal__shooting_open(&s, p, p->steps, PIECES);
-    for (p->guess = 0; status == DAL_STATUS_OK && p->guess < p->settings->starts; p->guess++)
+    for (p->guess = 0; status == DAL_STATUS_OK && is_wanted(p, steering); p->guess++)
         status = add_guess(p, &s, steering);
     dal__shooting_close(&s);
     return status == DAL_STATUS_INTERRUPTED ? DAL_STATUS_OK : status;
@@ -317,10 +330,7 @@ dal_status dal_steer_create(dal_steering **steering, dal_model *model, const dal
 void dal_steer_free(dal_steering *steering)
 {
     if (!steering) return;
-    for (int i = 0; i < steering->count; i++) {
-        free(steering->extremal[i].z);
-        free(steering->extremal[i].u);
-    }
+    for (int i = 0; i < steering->count; i++) free_motion(&steering->extremal[i]);
     free(steering->extremal);
     free(steering->t);
     free(steering);
