@@ -495,6 +495,38 @@ static void latex_texts(void)
     dal_model_free(model);
 }
 
+/* K of each effort, and pi.K pi of H, in both forms; the transpose is U+1D5B3. */
+static void latex_efforts(void)
+{
+#define POWER_T "<mi>&#x1D5B3;</mi>"
+    static const struct {
+        dal_effort effort;
+        const char *latex;
+        int transposes; /* with the one of H */
+    } wanted[] = {{DAL_EFFORT_MASS, "K &= W^{-1}", 1},
+                  {DAL_EFFORT_CONSTRAINT, "K &= P\\,W^{-1} P^{\\mathsf{T}}", 2},
+                  {DAL_EFFORT_CONTROLS,
+                   "K &= P\\,W^{-1} C\\,C^{\\mathsf{T}} W^{-1} P^{\\mathsf{T}}", 3}};
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        dal_model *model = model_of("coordinates: [x, y]\nlagrangian: (x'^2 + 2*y'^2)/2\n"
+                                    "constraints: [x' - 2*y']\ncontrols: [{x: 1}]\n");
+        char *text = NULL;
+        int transposes = 0;
+        CU_ASSERT_EQUAL(dal_model_set_effort(model, wanted[i].effort, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_model_latex(model, &text, NULL), DAL_STATUS_OK);
+        CU_ASSERT_PTR_NOT_NULL(strstr(text, wanted[i].latex));
+        CU_ASSERT_PTR_NOT_NULL(strstr(text, "\\pi^{\\mathsf{T}} K\\,\\pi"));
+        free(text);
+        CU_ASSERT_EQUAL_FATAL(dal_model_mathml(model, &text, NULL), DAL_STATUS_OK);
+        for (const char *at = text; (at = strstr(at, POWER_T)); at++) transposes++;
+        CU_ASSERT_EQUAL(transposes, wanted[i].transposes);
+        CU_ASSERT_PTR_NULL(strstr(text, "mathsf"));
+        free(text);
+        dal_model_free(model);
+    }
+#undef POWER_T
+}
+
 /* The size of a text does not double with each let; what vakonomic motion has no lift for is left
  * out; no memory is a status. */
 static void latex_limits(void)
@@ -565,6 +597,7 @@ void suite_latex(void)
     CU_add_test(suite, "holonomic constraints", latex_holonomic);
     CU_add_test(suite, "each name once", latex_names);
     CU_add_test(suite, "texts written by hand", latex_texts);
+    CU_add_test(suite, "efforts", latex_efforts);
     CU_add_test(suite, "long formulas, no lift, no memory", latex_limits);
     CU_add_test(suite, "deep formulas as MathML", latex_depth);
 }

@@ -181,12 +181,12 @@ static void put_hamiltonian(dal__buffer *text, const dal__equations *e, const da
 {
     static const char *const K[DAL_EFFORT_COUNT] = {
         [DAL_EFFORT_MASS] = "K &= W^{-1}",
-        [DAL_EFFORT_CONSTRAINT] = "K &= P\\,W^{-1} P^{\\mathsf T}",
-        [DAL_EFFORT_CONTROLS] = "K &= P\\,W^{-1} C\\,C^{\\mathsf T} W^{-1} P^{\\mathsf T}"};
+        [DAL_EFFORT_CONSTRAINT] = "K &= P\\,W^{-1} P^{\\mathsf{T}}",
+        [DAL_EFFORT_CONTROLS] = "K &= P\\,W^{-1} C\\,C^{\\mathsf{T}} W^{-1} P^{\\mathsf{T}}"};
     dal__buffer sum = {0};
     if (e->vakonomic) return;
     dal__buffer_append(&sum, "\\frac{");
-    if (effort != DAL_EFFORT_IDENTITY) dal__buffer_append(&sum, "\\pi^{\\mathsf T} K\\,\\pi");
+    if (effort != DAL_EFFORT_IDENTITY) dal__buffer_append(&sum, "\\pi^{\\mathsf{T}} K\\,\\pi");
     for (int i = 0; effort == DAL_EFFORT_IDENTITY && i < e->n; i++) {
         if (i > 0) dal__buffer_append(&sum, " + ");
         put_indexed(&sum, "\\pi", e, i);

@@ -269,6 +269,10 @@ static void read_item(reader *r)
     if (is_name && accept(r, "\\mathcal{")) {
         put_calligraphic(r, *r->at++);
         accept(r, "}");
+    } else if (is_name && accept(r, "\\mathsf{")) {
+        enum { SANS_SERIF_A = 0x1D5A0 };
+        dal__buffer_print(r->out, "<mi>&#x%X;</mi>", (unsigned)(SANS_SERIF_A + *r->at++ - 'A'));
+        accept(r, "}");
     } else if (is_name && *r->at == '{') {
         read_group(r);
     } else if (is_name && !read_word(r)) {
