@@ -258,6 +258,30 @@ static void test_abandoned(void)
     folder_remove(kept);
 }
 
+/* A folder with a link for a source is of no compilation, and is left. */
+static void test_linked_source(void)
+{
+    enum { HASH = 48 };
+    char folder[64], link[80];
+    struct stat status;
+    snprintf(folder, sizeof folder, "%s/%0*d.so.linked", kept, HASH, 0);
+    snprintf(link, sizeof link, "%s/code.c", folder);
+    CU_ASSERT_EQUAL(mkdir(kept, 0700), 0);
+    CU_ASSERT_EQUAL(mkdir(folder, 0700), 0);
+    put_content("elsewhere.c", "int x;", 6);
+    CU_ASSERT_EQUAL(symlink("../../elsewhere.c", link), 0);
+    dal_run *run = new_run(falling);
+    CU_ASSERT_EQUAL(
+        dal_run_native(run, &(dal_native_options){.cache = kept, .patience = 3600}, NULL),
+        DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(lstat(link, &status), 0);
+    CU_ASSERT_EQUAL(access("elsewhere.c", F_OK), 0);
+    dal_run_free(run);
+    unlink(link);
+    unlink("elsewhere.c");
+    folder_remove(kept);
+}
+
 /* Another text, and another command, has an object of its own. */
 static void test_objects_apart(void)
 {
@@ -289,4 +313,5 @@ void suite_cache(void)
     CU_add_test(suite, "objects of other texts and commands", test_objects_apart);
     CU_add_test(suite, "objects that others may write", test_object_of_others);
     CU_add_test(suite, "folders of compilers that were killed", test_abandoned);
+    CU_add_test(suite, "a folder with a link for a source", test_linked_source);
 }
