@@ -474,7 +474,7 @@ static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
     s->turns_D =
         spec->system->m > 0 && s->rank == s->dimension && properties & DAL_PRESERVES_D_MIDPOINT;
     DAL_TRY(find_divergence(s));
-    if (count < 0 || count > s->rank)
+    if (count > s->rank)
         return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "%d exponents are requested; the step map has %d directions", count,
                          s->rank);
@@ -496,6 +496,7 @@ static dal_status create_lyapunov(dal_lyapunov **lyapunov, const dal_run_spec *s
 {
     DAL_REQUIRE(lyapunov, error);
     *lyapunov = NULL;
+    DAL_REQUIRE_COUNT(count, error);
     DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(check_map(spec, space, tangent, error));
     dal_lyapunov *s = calloc(1, sizeof *s);
