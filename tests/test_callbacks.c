@@ -3,6 +3,7 @@
  * unless its result is NaN or the one without a failure.  Likewise allocations: DAL_STATUS_MEMORY,
  * nothing else, and no block is left. */
 #include "allocation.h"
+#include "failing.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -12,78 +13,6 @@
 enum { NUMBERS = 300, MAX_TRIALS = 600 };
 #define STEP        0.1
 #define DIFFERENCES 1e-6 /* the error of differences is smaller */
-#define MISLEADING  1e6  /* what a callback that fails leaves, which nothing may use */
-
-/* A system of which one call fails: all but exact, since no error is observed without it. */
-static const dal_system *original;
-static long calls, failing; /* the call that fails, from 1; 0: none */
-static const char *failed;  /* the callback that failed */
-static dal_branches branches;
-
-static bool fails(void) { return ++calls == failing; }
-
-#define MEMBERS(MEMBER)                                                                            \
-    MEMBER(call.field, field)                                                                      \
-    MEMBER(call.adjoint, adjoint)                                                                  \
-    MEMBER(call.jacobian, jacobian)                                                                \
-    MEMBER(call.constraint, constraint)                                                            \
-    MEMBER(call.energy_normal, energy_normal)                                                      \
-    MEMBER(call.gauge, gauge)                                                                      \
-    MEMBER(call.guards, guards)                                                                    \
-    MEMBER(call.blocks, blocks)                                                                    \
-    MEMBER(call.potential, potential)                                                              \
-    MEMBER(call.correction, correction)                                                            \
-    MEMBER(call.enforcement, enforcement)                                                          \
-    MEMBER(call.reaction, reaction)                                                                \
-    MEMBER(call.constraint_value, constraint_value)                                                \
-    MEMBER(prepare, prepare)                                                                       \
-    MEMBER(start, start)                                                                           \
-    MEMBER(constraints, constraints)                                                               \
-    MEMBER(energy, energy)                                                                         \
-    MEMBER(invariant_values, invariant_values)                                                     \
-    MEMBER(reactions, reactions)                                                                   \
-    MEMBER(projection, projection)                                                                 \
-    MEMBER(event_values, event_values)                                                             \
-    MEMBER(event_rates, event_rates)                                                               \
-    MEMBER(event_states, event_states)                                                             \
-    MEMBER(event_normals, event_normals)
-#define FAIL(member, name)                                                                         \
-    static dal_status fail_##name(const dal_system *system, const dal_point *at, double *out)      \
-    {                                                                                              \
-        (void)system;                                                                              \
-        if (fails()) {                                                                             \
-            failed = #name;                                                                        \
-            if (out) out[0] = MISLEADING;                                                          \
-            return DAL_STATUS_IO;                                                                  \
-        }                                                                                          \
-        return original->member(original, at, out);                                                \
-    }
-MEMBERS(FAIL)
-FAIL(branches->values, branch_values)
-FAIL(branches->rates, branch_rates)
-#undef FAIL
-
-static dal_system failing_system(const dal_system *system)
-{
-    dal_system copy = *system;
-    original = system;
-    copy.wide4 = copy.wide8 = NULL;
-    copy.extended = copy.quad = NULL;
-    copy.series = NULL;
-    copy.scales = copy.reaction_scales = NULL;
-    copy.diagnose = NULL;
-#define WRAP(member, name)                                                                         \
-    if (system->member) copy.member = fail_##name;
-    MEMBERS(WRAP)
-#undef WRAP
-    if (system->branches) {
-        branches = *system->branches;
-        branches.values = fail_branch_values;
-        branches.rates = fail_branch_rates;
-        copy.branches = &branches;
-    }
-    return copy;
-}
 
 /* ---- what is tried ---- */
 
@@ -122,19 +51,18 @@ static bool are_close(const trial *a, const trial *b)
 static void each_call_fails(const char *text, const char *method, dal_space space, double tolerance,
                             trial_work *work)
 {
-    const dal_system system = failing_system(fixture_system(text));
+    const dal_system system = failing_system(fixture_system(text), NULL);
     trial well = {.spec = fixture_spec(&system, method, space, STEP), .tolerance = tolerance};
-    calls = failing = 0;
+    failing_begin(0);
     const dal_status status = work(&well);
-    const long total = calls;
+    const long total = failing_calls();
     CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
     CU_ASSERT(total > 0);
     if (status != DAL_STATUS_OK) printf("\n%.20s, %s: %s\n", text, method, dal_status_name(status));
     const long by = total / MAX_TRIALS + 1;
     for (long k = 1; k <= total; k += by) {
         trial other = {.spec = well.spec};
-        calls = 0;
-        failing = k;
+        failing_begin(k);
         const dal_status seen = work(&other);
         const bool is_seen = seen == DAL_STATUS_IO || seen == DAL_STATUS_NOT_FINITE ||
                              seen == DAL_STATUS_NOT_CONVERGED || seen == DAL_STATUS_EVENT;
@@ -145,7 +73,8 @@ static void each_call_fails(const char *text, const char *method, dal_space spac
         for (int i = 0; i < well.count; i++)
             if (well.out[i] != other.out[i])
                 printf("   [%d] %g %g\n", i, well.out[i], other.out[i]);
-        printf("%.20s, %s: call %ld of %ld, %s, fails unseen\n", text, method, k, total, failed);
+        printf("%.20s, %s: call %ld of %ld, %s, fails unseen\n", text, method, k, total,
+               failing_name());
     }
 }
 

@@ -1,0 +1,16 @@
+/* failing.h - a system of which one call fails, as callbacks of a caller may. */
+#ifndef FAILING_H
+#define FAILING_H
+
+#include <dalembert.h>
+
+/* A copy without programs of lanes, series and other precisions, of which each callback but `exact`
+ * may fail, or each of these names, the last of which is NULL; one at a time.  It leaves a
+ * misleading number and returns DAL_STATUS_IO. */
+dal_system failing_system(const dal_system *system, const char *const *names);
+/* Their calls are counted from 0 on; the one with this number, from 1, fails; 0: none. */
+void failing_begin(long call);
+long failing_calls(void);       /* since then */
+const char *failing_name(void); /* the callback that failed */
+
+#endif
