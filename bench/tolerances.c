@@ -1,12 +1,16 @@
 /* tolerances.c - the time in which the methods with error control reach an error.
  *
  *     tolerances reference SYSTEM                     the reference of a motion, see tolerances.h
- *     tolerances find METHOD SYSTEM LANES ERROR       the largest tolerance that reaches the error
+ *     tolerances find METHOD SYSTEM LANES ERROR       the largest tolerance that reaches the error,
+ *                                                     as all smaller ones do
+ *     tolerances errors METHOD SYSTEM LANES           the largest error of tolerances 10^(-k/4),
+ *                                                     from 1e-3 to 1e-13, and their neighbours,
+ *                                                     1e-6 away, in units of the tolerance
  *     tolerances time METHOD SYSTEM LANES ERROR TOLERANCE
  *                                                     nanoseconds of a trajectory, compiled, which
  *                                                     must reach the error
  *
- *     METHOD   dop853, taylor      SYSTEM   A, chaotic-oscillators, falling-disk      LANES   1, 8
+ *     METHOD   dop853, taylor      SYSTEM   of `motions`      LANES   1, 8
  *
  * The reference is made by taylor in quad precision, which rounds nothing that counts and has no
  * coefficients.  It must agree with gauss12 in quad precision, a method that shares nothing with
@@ -33,7 +37,10 @@ typedef struct motion {
 static const motion motions[] = {
     {"A", 100.0, 0.05, {"phi'", 1.0}, 1},
     {"chaotic-oscillators", 20.0, 0.05, {"angle", 0.34906585039886592}, 0},
-    {"falling-disk", 20.0, 0.05, {"p0", 0.2}, 0}};
+    {"falling-disk", 20.0, 0.05, {"p0", 0.2}, 0},
+    {"knife-edge-pendulum", 10.0, 0.01, {"c'", 1.1}, 1},
+    {"turntable-ball", 40.0, 0.1, {"x0", 0.5}, 0},
+    {"four_bodies", 20.0, 0.02, {"x1", 0.267499}, 1}};
 static const double LANE_DIFFERENCE = 1e-2;
 
 /* One lane of a motion. */
@@ -144,6 +151,18 @@ static double error_of(void *self, double tolerance)
     return bench_error(&j->reference, j->end, j->lanes);
 }
 
+static void print_errors(contender *j)
+{
+    double max = 0.0;
+    for (int k = 12; k <= 52; k++) {
+        for (int side = -1; side <= 1; side++) {
+            const double tolerance = pow(10.0, -k / 4.0) * (1.0 + side * 1e-6);
+            max = fmax(max, error_of(j, tolerance) / tolerance);
+        }
+    }
+    printf("%.3g\n", max);
+}
+
 static int start_again(void *self)
 {
     contender *j = self;
@@ -204,20 +223,20 @@ int main(int argc, char **argv)
     dal_error error = {0};
     const int is_reference = argc == 3 && strcmp(argv[1], "reference") == 0;
     const int finds = argc == 6 && strcmp(argv[1], "find") == 0;
+    const int lists = argc == 5 && strcmp(argv[1], "errors") == 0;
     const int times = argc == 7 && strcmp(argv[1], "time") == 0;
-    if (is_reference || finds || times) j.motion = find_motion(argv[is_reference ? 2 : 3]);
+    if (is_reference || finds || lists || times) j.motion = find_motion(argv[is_reference ? 2 : 3]);
     if (!j.motion) return bench_unknown(argc, argv);
     j.method = is_reference ? "taylor" : argv[2];
     if (make_members(&j, &error)) return fail(&error);
     if (is_reference) return print_reference(&j, &error) ? fail(&error) : 0;
     j.lanes = atoi(argv[4]);
-    j.error = atof(argv[5]);
+    j.error = lists ? 0.0 : atof(argv[5]);
     if (j.lanes < 1 || j.lanes > BENCH_LANES) return bench_unknown(argc, argv);
     if (bench_read_reference(&j.reference, j.motion->name)) return 1;
-    if (finds) {
-        bench_find(error_of, &j, j.error);
-        return 0;
-    }
+    if (finds) bench_find(error_of, &j, j.error);
+    if (lists) print_errors(&j);
+    if (finds || lists) return 0;
     j.tolerance = atof(argv[6]);
     return time_steps(&j, &error) ? fail(&error) : 0;
 }

@@ -10,7 +10,7 @@
 
 #include "bench.h"
 
-enum { BENCH_LANES = 8, BENCH_MAX_MOTION = 16 };
+enum { BENCH_LANES = 8, BENCH_MAX_MOTION = 24 };
 
 typedef double bench_states[BENCH_LANES][BENCH_MAX_MOTION];
 
@@ -59,39 +59,25 @@ static inline double bench_error(const bench_reference *r, bench_states end, int
     return error;
 }
 
-/* Tolerances to try: 10^(-k/20) to three digits. */
-static inline double bench_tolerance(int k)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%.3g", pow(10.0, -k / 20.0));
-    return strtod(text, NULL);
-}
-
-/* Prints the largest tolerance whose error is at most `error`, by decades and then by bisection,
- * and the error reached; or "-" and the smallest error.  error_of(self, tolerance): of a run, not
+/* Prints the largest tolerance 10^(-k/4) that reaches an error, as all smaller ones down to 1e-16
+ * do, and its error; or "-" and the smallest error.  error_of(self, tolerance): of a run, not
  * finite where one fails. */
 static inline void bench_find(double (*error_of)(void *self, double tolerance), void *self,
                               double error)
 {
-    enum { DECADE = 20, FIRST = 2 * DECADE, LAST = 18 * DECADE };
-    double reached = INFINITY, min = INFINITY;
-    int fails = FIRST - DECADE, holds = FIRST;
-    for (; holds <= LAST; fails = holds, holds += DECADE) {
-        reached = error_of(self, bench_tolerance(holds));
-        if (reached < min) min = reached;
-        if (reached <= error) break;
+    enum { DECADE = 4, FIRST = 2 * DECADE, LAST = 16 * DECADE };
+    double reached = INFINITY, min = INFINITY, tolerance = 0.0;
+    for (int k = LAST; k >= FIRST; k--) {
+        const double tried = pow(10.0, -k / (double)DECADE), e = error_of(self, tried);
+        if (e < min) min = e;
+        if (!(e <= error)) break;
+        reached = e;
+        tolerance = tried;
     }
-    if (holds > LAST) {
+    if (tolerance > 0.0)
+        printf("%.6g %.2g\n", tolerance, reached);
+    else
         printf("- %.2g\n", min);
-        return;
-    }
-    while (holds - fails > 1) {
-        const int middle = (holds + fails) / 2;
-        const double e = error_of(self, bench_tolerance(middle));
-        if (e <= error) reached = e;
-        *(e <= error ? &holds : &fails) = middle;
-    }
-    printf("%.3g %.2g\n", bench_tolerance(holds), reached);
 }
 
 #endif
