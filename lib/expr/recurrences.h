@@ -52,6 +52,7 @@ enum {
     DAL__POW_MOVING,               /* a power whose exponent moves: a^b = exp(c), c = b log a */
     DAL__LOG_CONSTANT,             /* of what is constant along a run */
     DAL__DIV_CONSTANT,             /* by what is */
+    DAL__OVER_ROOT_CUBED,          /* a constant over b = c sqrt c */
     DAL__SIN_TURN,                 /* sine of a coordinate a, whose cosine times a' is b, and */
     DAL__COS_TURN,                 /* sine times a' is c; so the next two */
     DAL__SINCOS_TURN,
@@ -77,6 +78,8 @@ enum { DAL__TAYLOR_SUMS = 5 };
     QUOTIENT(LOG, SUMS({SLOPE_U, A}), a_0, (a - inverse * INNER(0)) * reciprocal)                  \
     QUOTIENT(DIV_CONSTANT, NO_SUMS, b_0, a * reciprocal)                                           \
     QUOTIENT(DIV, SUMS({B, U}), b_0, (a - dal_fma(b, u_0, INNER(0))) * reciprocal)                 \
+    QUOTIENT(OVER_ROOT_CUBED, SUMS({SLOPE_C, U}, {SLOPE_U, C}), c_0,                               \
+             (-1.5 * dal_fma((double)k * c, u_0, INNER(0)) - INNER(1)) * inverse * reciprocal)     \
     QUOTIENT(SQRT, SUMS({U, U}), (2.0 * u_0), (a - INNER(0)) * reciprocal)                         \
     QUOTIENT(HYPOT, SUMS({U, U}, {A, A}, {B, B}), (2.0 * u_0),                                     \
              (PRODUCT(a, a, 1) + PRODUCT(b, b, 2) - INNER(0)) * reciprocal)                        \

@@ -202,6 +202,31 @@ static dal__taylor_operation make_moving_power(const conversion *c, dal__taylor_
     return own;
 }
 
+/* The operation whose result is a slot; NULL: it is an input, or of another tape. */
+static const dal__taylor_operation *operation_of(const conversion *c, uint32_t slot)
+{
+    const dal__taylor_operation *code = c->taylor->code;
+    for (int k = c->taylor->length - 1; k >= c->first && !dal__is_constant(slot); k--)
+        if (code[k].u == slot) return &code[k];
+    return NULL;
+}
+
+/* Makes a/(x sqrt x) with a constant a, in order 0 as it is, the power -3/2 of x in others: one
+ * recurrence of two sums for three. */
+static void make_power(const conversion *c, dal__taylor_operation *own)
+{
+    if (!dal__is_constant(own->a)) return;
+    const dal__taylor_operation *product = operation_of(c, own->b);
+    if (!product || product->op != DAL__MUL) return;
+    const uint32_t factor[] = {product->a, product->b};
+    for (int i = 0; i < 2; i++) {
+        const dal__taylor_operation *root = operation_of(c, factor[i]);
+        if (!root || root->op != DAL__SQRT || root->a != factor[1 - i]) continue;
+        own->recurrence = DAL__OVER_ROOT_CUBED;
+        own->c = factor[1 - i];
+    }
+}
+
 /* Converts one instruction.  That operand of a product which is known later becomes the second,
  * whose coefficient k the recurrence uses last. */
 static void convert(const conversion *c, const dal__instruction *i)
@@ -221,6 +246,7 @@ static void convert(const conversion *c, const dal__instruction *i)
     if (product && !dal__is_constant(a) && !dal__is_constant(b) && c->depth[a] > c->depth[b])
         own.a = b, own.b = a;
     if (i->op == DAL__POW && !dal__is_constant(b)) own = make_moving_power(c, own);
+    if (i->op == DAL__DIV) make_power(c, &own);
     if (i->op == DAL__SINCOS) own.b = a; /* where the tape has the place of the cosine */
     const bool turns = angle && a >= 1 && a <= (uint32_t)c->taylor->coordinates;
     const dal__taylor_operation *last = turns ? append_turn(c, own) : append_recurrence(c, own);
@@ -232,7 +258,8 @@ static void convert(const conversion *c, const dal__instruction *i)
  * needed[slots]. */
 static void find_orders(dal__taylor *taylor, dal__taylor_operation *i, bool *needed)
 {
-    const uint32_t operand[] = {i->a, i->b, i->c};
+    const bool cubed = i->recurrence == DAL__OVER_ROOT_CUBED; /* of which b is of order 0 alone */
+    const uint32_t operand[] = {i->a, cubed ? i->c : i->b, i->c};
     i->once = !needed[i->u] && !needed[i->w];
     if (i->once) return;
     const char *name = refused_name(i);

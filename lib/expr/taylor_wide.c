@@ -49,8 +49,9 @@ static num value(const expansion *x, const dal__taylor_operation *i)
 static void begin(const expansion *x, const dal__taylor_operation *i)
 {
     const num a_0 = coefficient(x, i->a, 0), b_0 = coefficient(x, i->b, 0), u_0 = *series(x, i->u);
+    const num c_0 = coefficient(x, i->c, 0);
     num *const w = series(x, i->w), *const reciprocal = series(x, i->reciprocal);
-    (void)b_0;
+    (void)b_0, (void)c_0;
     switch (i->recurrence) {
 #define PLAIN(code, sums, u_k)
 #define QUOTIENT(code, sums, divisor, u_k)                                                         \
@@ -121,11 +122,12 @@ static num convolve(const expansion *x, dal__convolution form, uint32_t first, u
     const num a = coefficient(x, i->a, k), b = coefficient(x, i->b, k);                            \
     const num c = coefficient(x, i->c, k), a_0 = coefficient(x, i->a, 0);                          \
     const num b_0 = coefficient(x, i->b, 0), u_0 = *series(x, i->u);                               \
+    const num c_0 = coefficient(x, i->c, 0);                                                       \
     const num b_before = coefficient(x, i->b, k - 1), c_before = coefficient(x, i->c, k - 1);      \
     const num reciprocal = *series(x, i->reciprocal), inverse = x->inverse;                        \
     const num unit_inverse = x->unit_inverse;                                                      \
-    (void)a, (void)b, (void)c, (void)a_0, (void)b_0, (void)u_0, (void)b_before, (void)c_before;    \
-    (void)reciprocal, (void)inverse, (void)unit_inverse
+    (void)a, (void)b, (void)c, (void)a_0, (void)b_0, (void)c_0, (void)u_0, (void)b_before;         \
+    (void)c_before, (void)reciprocal, (void)inverse, (void)unit_inverse
 
 static void compute_next(const expansion *x, const dal__taylor_operation *i)
 {
