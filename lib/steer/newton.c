@@ -114,6 +114,16 @@ static dal_status damp(newton *k, double length, double *out)
     return DAL_STATUS_NOT_CONVERGED;
 }
 
+/* Factors the derivative at the points. */
+static dal_status linearise(newton *k)
+{
+    dal__shooting *s = k->s;
+    DAL_TRY(dal__shooting_differentiate(s, false));
+    DAL_TRY(dal__border_fill(&k->border, s->point, s->pieces, &k->linear));
+    return dal__two_point_factor(&k->linear, s->derivative, rank_tolerance) ? DAL_STATUS_OK
+                                                                            : DAL_STATUS_MEMORY;
+}
+
 static dal_status iterate_newton(newton *k)
 {
     dal__shooting *s = k->s;
@@ -122,10 +132,10 @@ static dal_status iterate_newton(newton *k)
     for (;;) {
         k->p->residual = find_residual(k);
         DAL_TRY(dal__problem_iterate(k->p));
-        DAL_TRY(dal__shooting_differentiate(s, false));
-        DAL_TRY(dal__border_fill(&k->border, s->point, s->pieces, &k->linear));
-        if (!dal__two_point_factor(&k->linear, s->derivative, rank_tolerance))
-            return DAL_STATUS_MEMORY;
+        if (before >= converged) /* below, the last derivative is the one here to rounding */
+            DAL_TRY(linearise(k));
+        else
+            DAL_TRY(dal__border_right(&k->border, s->point, s->pieces, &k->linear));
         dal__shooting_jumps(s, s->point, s->end, k->p->unknowns, k->jump);
         dal__two_point_solve(&k->linear, k->jump, k->step);
         const double length = length_of_step(k, k->step);
