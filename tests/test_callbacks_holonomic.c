@@ -46,9 +46,8 @@ static bool survives(const dal_run_spec *spec, long failing, const double *expec
 static void each_call_fails(const char *text, const char *method)
 {
     const dal_run_spec plain = fixture_spec(fixture_system(text), method, DAL_PHYSICAL, 0.1);
-    static const char *const names[] = {"holonomic",   "position", "constraint",
-                                        "enforcement", "reaction", "constraint_value",
-                                        NULL};
+    static const char *const names[] = {
+        "holonomic", "position", "constraint", "enforcement", "reaction", "constraint_value", NULL};
     const dal_system copy = failing_system(plain.system, names);
     dal_run_spec spec = plain;
     double expected[32];
