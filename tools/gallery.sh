@@ -16,6 +16,11 @@ mkdir -p "$gallery"
 "$program" run snakeboard --integrator gauss8 --step 0.01 --time 12 --samples 240 --output "$work/board"
 "$program" run chaplygin-sleigh-incline --integrator gauss8 --step 0.01 --time 13 --samples 400 \
     --output "$work/sleigh"
+"$program" steer chaplygin-sleigh --to y1=0,y2=1,phi=0 --rest --time 2 --integrator gauss8 --step 0.02 \
+    --effort constraint --output "$work/parking" >/dev/null
+"$program" steer examples/actuated-snakeboard.yaml --to x=2,y=0.5,theta=0,phi=0.6 --rest --effort controls \
+    --output "$work/steered" >/dev/null
+"$program" steer examples/elastica.yaml --to x=0.5,y=0,theta=0 --starts 6 --output "$work/rod" >/dev/null
 "$program" section pendulum-cvt --on "sin(xi)" --direction up --integrator gni --step 0.1 \
     --time 1000 --axes "x,x'" --output "$work/section" 2>/dev/null
 top=$PWD
@@ -24,7 +29,7 @@ awk -f "$top/tools/yaml_blocks.awk" "$top/docs/tutorial.md"
 "$program" study mine.yaml --no-page --output skate-study >/dev/null
 "$program" run skate.yaml --integrator spark4 --step 0.05 --time 60 --samples 1200 --output skate
 cd "$top"
-for directory in study disk board sleigh section skate skate-study; do
+for directory in study disk board sleigh parking steered rod section skate skate-study; do
     "$program" report "$work/$directory" --svg >/dev/null
 done
 # picture DIRECTORY FIGURE NAME: what is black on paper is light where the reader likes the dark.
@@ -46,6 +51,9 @@ moves() { python3 tools/motion-svg.py "$work/$1/report/index.html" "$2" >"$3"; }
 moves disk "A disk rolls along a ring and leans to and fro" "$2/disk_motion.svg"
 moves board "A snakeboard glides and turns its axles" "$2/board_motion.svg"
 moves sleigh "A sleigh slides down a slope, turns in a cusp and goes on" "$2/sleigh_motion.svg"
+moves parking "A sleigh parks a length beside where it stood, with two cusps" "$2/parking_motion.svg"
+moves steered "A snakeboard turns its rotor and its axles, and so moves from rest to rest" "$2/steered_board_motion.svg"
+moves rod "A point runs along a bent rod, whose ends point in one direction" "$2/elastica_motion.svg"
 # The action of the sleigh's motion against a perturbation.
 for h in 0.1 0.05 0.025; do
     "$program" run chaplygin-sleigh --integrator gauss8 --step $h --time 5 --samples "$(awk "BEGIN { print 5 / $h }")" \

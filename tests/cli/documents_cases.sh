@@ -1,5 +1,5 @@
 # The command lines of README.md and docs/ do what they say: those that begin with build/dalembert,
-# in their order, in a directory of each document that holds the files it shows.  A description
+# in their order, in a directory of each document that holds the files it shows, and examples/.  A description
 # follows two blanks.  Without what follows it, `study` runs the built-in study, which takes
 # too long here.  Each indented line between the marks of `printed` is a line that they print.
 
@@ -16,6 +16,7 @@ for document in "$here/../../README.md" "$here"/../../docs/*.md; do
     awk -f "$here/../../tools/yaml_blocks.awk" "$document"
     sed -n 's/^    build\/dalembert \(.*\)/\1/p' "$document" | sed 's/   *.*//; s/ >.*//' |
         grep -v '^study$' >commands
+    ! grep -q ' examples/' commands || ln -s "$(cd "$here/../.." && pwd)/examples" examples
     case $document in
     */README.md | */tutorial.md | */program.md)
         expect "there are commands" test "$(wc -l <commands)" -ge 2 ;;
