@@ -12,7 +12,7 @@
 
 enum { MAX_CALLS = 2000 };
 
-/* The state after a step whose call number `failing` fails, or that makes fewer calls: then true. */
+/* The state after a step whose call number `failing` fails; true: it makes fewer calls. */
 static bool survives(const dal_run_spec *spec, long failing, const double *expected)
 {
     dal_run *run = NULL;
