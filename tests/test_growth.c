@@ -3,6 +3,8 @@
  * Contact, Engel and Martinet distributions and rolling balls: R. Montgomery, A Tour of
  * Subriemannian Geometries, AMS 2002.  A car with trailers: F. Jean, ESAIM: COCV 1 (1996) 241,
  * DOI 10.1051/cocv:1996108: (2, 3, 4, .., n) at generic points. */
+#include "fixtures.h"
+#include "model/ranks.h"
 #include "reference.h"
 
 #include <CUnit/Basic.h>
@@ -165,6 +167,64 @@ static void test_rows(void)
     }
 }
 
+#define TWO "coordinates: [x, y]\nlagrangian: "
+#define ROBOT                                                                                      \
+    "coordinates: [x, y, theta, psi]\n"                                                            \
+    "lagrangian: (x'^2 + y'^2 + theta'^2 + 3*psi'^2)/2 - 10*sin(psi)\n"                            \
+    "constraints: [x' - cos(theta)*psi', y' - sin(theta)*psi']\n"
+
+/* What controls change with the drift: of linear systems by Kalman's rank of (B, AB, ..), otherwise
+ * by hand. */
+static void test_controls(void)
+{
+    static const struct {
+        const char *what, *text;
+        int rank;
+    } systems[] = {
+        {"two masses and a spring", TWO "(x'^2 + 2*y'^2 - 3*(x - y)^2)/2\ncontrols: [{x: 1}]\n", 4},
+        {"a weak push of one, a heavy other",
+         TWO "(x'^2 + 2e6*y'^2 - 3*(x - y)^2)/2\ncontrols: [{x: 1e-9}]\n", 4},
+        {"without the spring", TWO "(x'^2 + 2*y'^2 - 3*x^2 - y^2)/2\ncontrols: [{x: 1}]\n", 2},
+        {"equal ones, pushed equally",
+         TWO "(x'^2 + y'^2 - x^2 - y^2 - (x - y)^2)/2\ncontrols: [{x: 1, y: 1}]\n", 2},
+        {"a spring that stiffens",
+         TWO "(x'^2 + 2*y'^2 - (1 + t)*(x - y)^2)/2\ncontrols: [{x: 1}]\n", 4},
+        {"no force at all", TWO "(x'^2 + y'^2)/2\ncontrols: [{x: 0}]\n", 0},
+        {"a pendulum in the plane",
+         TWO "(x'^2 + y'^2)/2 - y\nholonomic: [x^2 + y^2 - 1]\nstart: {x: 1}\n"
+             "controls: [{x: 1}]\n",
+         2},
+        /* linearised at rest a chain of springs, whose rank is full */
+        {"a chain of 40",
+         "sizes: {N: 40}\ncoordinates: [\"x[1..N]\"]\n"
+         "lagrangian: sum(i, 1, N, x[i]'^2)/2 + sum(i, 1, N - 1, cos(x[i + 1] - x[i]))\n"
+         "controls: [{\"x[1]\": 1}]\n",
+         80},
+        {"mobile robot", ROBOT "controls: [{theta: 1}, {psi: 1}]\n", 6},
+        {"that turns by itself", ROBOT "controls: [{psi: 1}]\n", 4}, /* theta' stays */
+        /* the speed along the blade stays */
+        {"sleigh with a torque",
+         "coordinates: [x, y, phi]\nlagrangian: (x'^2 + y'^2 + phi'^2)/2\n"
+         "constraints: [x'*sin(phi) - y'*cos(phi)]\ncontrols: [{phi: 1}]\n",
+         4},
+        {"a force that is 0 on D = 0 alone",
+         PLANE "forces: {y: x'*z}\nconstraints: [x']\ncontrols: [{z: 1}]\n", 2},
+    };
+    double units[1 + 80];
+    for (int i = 0; i < 81; i++) units[i] = 1.0;
+    for (size_t k = 0; k < sizeof systems / sizeof *systems; k++) {
+        const dal_system *system;
+        dal_model *model = fixture_model(systems[k].text);
+        int rank = -2;
+        CU_ASSERT_EQUAL(dal_model_set_effort(model, DAL_EFFORT_CONTROLS, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal__model_controlled(model, NULL, 0, units, &rank, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(rank, systems[k].rank);
+        if (rank != systems[k].rank) printf("\n  %s: %d", systems[k].what, rank);
+        dal_model_free(model);
+    }
+}
+
 void suite_growth(void)
 {
     CU_pSuite suite = CU_add_suite("growth vectors", NULL, NULL);
@@ -173,5 +233,6 @@ void suite_growth(void)
     CU_add_test(suite, "a car with trailers", test_trailers);
     CU_add_test(suite, "parameters", test_parameters);
     CU_add_test(suite, "constraints by themselves", test_rows);
+    CU_add_test(suite, "controls with drift", test_controls);
     CU_add_test(suite, "refusals", test_refused);
 }

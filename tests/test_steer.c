@@ -443,6 +443,20 @@ static void test_unreached(void)
     close_steered(&s);
 }
 
+/* Two masses and a spring, of which one is pushed: by Kalman's rank all four numbers change. */
+static void test_controlled(void)
+{
+    static const char pair[] = "coordinates: [x, y]\ncontrols: [{x: 1}]\n"
+                               "lagrangian: (x'^2 + 2*y'^2 - 3*(x - y)^2)/2\n";
+    const dal_setting target[] = {{"x", 0.4}, {"y", 0.3}};
+    steered s;
+    open_steered(&s, pair, DAL_EFFORT_CONTROLS, "gauss4", 0.1);
+    find(&s, 2.0, target, 2);
+    CU_ASSERT_EQUAL(s.steering->allowed, 4);
+    CU_ASSERT_EQUAL(s.best->rank, 4);
+    close_steered(&s);
+}
+
 static void is_refused(steered *s, double T, const dal_setting *target, int targets,
                        dal_status status, const char *fragment)
 {
@@ -579,6 +593,7 @@ void suite_steer(void)
     CU_add_test(suite, "further guesses", test_further_guesses);
     CU_add_test(suite, "an elastic rod, closed form", test_elastica);
     CU_add_test(suite, "targets that are not reached", test_unreached);
+    CU_add_test(suite, "two masses, one pushed", test_controlled);
     CU_add_test(suite, "what is refused", test_refuses);
     CU_add_test(suite, "out of memory", test_out_of_memory);
     FUNCTIONS_dalembert_steer(ADD_NULL_TEST)

@@ -17,6 +17,7 @@ const char *steer_format_reach(char text[STEER_REACH], const steer_settings *set
 {
     const dal_system *system = settings->simulation.system;
     const int numbers = 2 * steering->n, on_D = numbers - system->m - system->holonomic;
+    const bool is_controlled = system->effort == DAL_EFFORT_CONTROLS;
     size_t length = 0;
     text[0] = '\0';
     for (int i = 0; steering->has_growth && i < steering->growth.levels; i++)
@@ -29,10 +30,14 @@ const char *steer_format_reach(char text[STEER_REACH], const steer_settings *set
                  "how many of the %d numbers of an end can be reached is not known", numbers);
     else
         snprintf(text + length, STEER_REACH - length,
-                 "%d of the %d numbers of an end can be reached%s", steering->allowed, numbers,
+                 is_controlled ? "controls change %d of the %d numbers of an end, about generic "
+                                 "motions%s"
+                               : "%d of the %d numbers of an end can be reached%s",
+                 steering->allowed, numbers,
                  steering->allowed == numbers ? ""
-                 : steering->allowed < on_D   ? ", on the leaf of the start alone"
-                                              : ", all that D = 0 leaves");
+                 : steering->allowed == on_D  ? ", all that D = 0 leaves"
+                 : is_controlled              ? ", on one leaf alone"
+                                              : ", on the leaf of the start alone");
     return text;
 }
 

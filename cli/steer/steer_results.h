@@ -5,7 +5,7 @@
 #include "steer_data.h"
 
 /* What can be reached, in words; returns text. */
-enum { STEER_REACH = 256 };
+enum { STEER_REACH = 640 }; /* with the longest growth vector */
 const char *steer_format_reach(char text[STEER_REACH], const steer_settings *settings,
                                const dal_steering *steering);
 /* Print what came out; again: a command for the same motion, or NULL.  Return CLI_DONE, or print

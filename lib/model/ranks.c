@@ -16,7 +16,17 @@
  * D = A v + a and D of t are the same on (t, q), with the column a.  Brackets are exact, as
  * formulas; ranks are numerical, at points about the start.
  *
- * R. Montgomery, A Tour of Subriemannian Geometries, AMS 2002, ch. 2. */
+ * Controls u in dv/dt = F + N u move (q, v) at a given time in as many directions as
+ *
+ *     V_1 = span (0, N_k),    V_(k+1) = V_k + span [(v, F), V_k] + span [V_1, V_k]
+ *
+ * has in the end, the smallest distribution that holds them and is closed under brackets with the
+ * drift (v, F) too (strong accessibility); of t and (q, v) with the drift (1, v, F).  D is an
+ * integral of all of them: ranks are taken on D = 0.
+ *
+ * R. Montgomery, A Tour of Subriemannian Geometries, AMS 2002, ch. 2.  H. J. Sussmann and
+ * V. Jurdjevic, J. Differential Equations 12 (1972) 95, doi:10.1016/0022-0396(72)90007-1. */
+#include "model/ranks.h"
 #include "core/settings.h"
 #include "core/vectors.h"
 #include "expr/derivative.h"
@@ -174,12 +184,16 @@ enum { POINTS = 3, MAX_NODES = 400000 };
 typedef struct distribution {
     dal_model *model;
     int row, rows;      /* the first of D that restrict it, and how many */
-    int dim, fixed;     /* coordinates: of q, or of t and q; fixed: 1 where the first one is t */
+    int dim, fixed;     /* coordinates: of q, or of t and q; fixed: 1 where the first one is t;
+                           with a drift of q and v, or of t, q and v */
+    int full;           /* the largest rank that there can be */
     const int *symbol;  /* [dim] of them */
     const double *unit; /* [dim] of them */
-    dal__node *field;   /* [POINTS*dim*dim] the fields so far, [dim] each */
-    double *weight;     /* [POINTS*dim + 1] by which they are multiplied */
-    int fields, first;  /* how many; how many of them are X_i */
+    int *pivot;         /* [2*dim] with a drift: fields that are independent at the first point, and
+                           their components that are 1; else NULL */
+    dal__node *field;   /* [(POINTS*dim + 2)*dim] the fields so far, [dim] each */
+    double *weight;     /* [POINTS*dim + 2] by which they are multiplied */
+    int fields, first;  /* how many; how many of them are X_i, or the drift and N_k */
     double *point;      /* [POINTS*symbols] */
     int points;
     double *basis; /* [POINTS*dim*dim] orthonormal, of the fields at each point */
@@ -210,11 +224,39 @@ static bool extend_basis(distribution *d, int point, double *x)
     return true;
 }
 
+/* With a drift the fields become unit vectors in the components of their pivots at the first point:
+ * the new one loses its parts along those before, and is divided by its largest component. */
+static void eliminate_field(distribution *d)
+{
+    dal__graph *graph = d->model->equations.graph;
+    dal__node *field = d->field + d->fields * d->dim;
+    const int last = d->rank[0] - 1;
+    double max = -1.0;
+    int best = 0;
+    for (int k = 0; k < last; k++) {
+        const dal__node *other = d->field + d->pivot[2 * k] * d->dim;
+        const dal__node part = field[d->pivot[2 * k + 1]];
+        for (int j = 0; j < d->dim; j++)
+            field[j] = dal__node_sub(graph, field[j], dal__node_mul(graph, part, other[j]));
+    }
+    for (int j = 0; j < d->dim; j++) {
+        const double size = fabs(dal__evaluate(graph, field[j], d->point)) / d->unit[j];
+        if (size > max) max = size, best = j;
+    }
+    for (int j = 0; j < d->dim; j++)
+        if (j != best) field[j] = dal__node_div(graph, field[j], field[best]);
+    field[best] = dal__number(graph, 1.0);
+    d->pivot[2 * last] = d->fields;
+    d->pivot[2 * last + 1] = best;
+    d->weight[d->fields] = d->unit[best];
+}
+
 /* Adds the field after the others where it is independent of them at a point. */
 static void add_field(distribution *d, double weight, double *x)
 {
     dal__graph *graph = d->model->equations.graph;
     const dal__node *field = d->field + d->fields * d->dim;
+    const int rank = d->rank[0];
     bool is_new = false, is_zero = true;
     for (int j = 0; j < d->dim; j++) is_zero &= dal__is_number(graph, field[j], 0.0);
     for (int k = 0; k < d->points && !is_zero; k++) {
@@ -226,6 +268,7 @@ static void add_field(distribution *d, double weight, double *x)
         is_new |= extend_basis(d, k, x);
     }
     d->weight[d->fields] = weight;
+    if (d->pivot && d->rank[0] > rank) eliminate_field(d);
     d->fields += is_new;
 }
 
@@ -316,7 +359,7 @@ static bool add_level(distribution *d, int begin, double *x)
         for (int i = 0; i < (begin == 0 ? k : d->first); i++) {
             const dal__node *X = d->field + i * d->dim, *Y = d->field + k * d->dim;
             dal__node *out = d->field + d->fields * d->dim;
-            if (max_rank(d) == d->dim) return true;
+            if (max_rank(d) == d->full) return true;
             if (graph->count > MAX_NODES || d->work > MAX_WORK) return false;
             for (int j = 0; j < d->dim; j++)
                 out[j] = dal__node_sub(graph, along(d, Y[j], X), along(d, X[j], Y));
@@ -333,12 +376,19 @@ static dal__node at_rest(const dal__equations *e, dal__node D, const dal__node *
     return dal__substitute(e->graph, D, e->symbol + e->v, e->n, zeros);
 }
 
+/* Moves count numbers of a point irregularly about where they are, by the try-th of many ways. */
+static void displace(double *x, int from, int count, const double *unit, int way)
+{
+    const double golden = 0.6180339887498949;
+    for (int i = 0; i < count; i++)
+        x[from + i] += unit[i] * (fmod((way + from + i + 1) * golden, 1.0) - 0.5);
+}
+
 /* A[rows*dim] of a distribution, after it n zeros, the first column for t; and irregular points
  * about the start, value[symbols], at which it is finite. */
 static dal_status make_matrix(distribution *d, dal__node *A, const double *value,
                               const double *units, dal_error *error)
 {
-    const double golden = 0.6180339887498949;
     const dal__equations *e = &d->model->equations;
     const dal__node *zeros = A + d->rows * (1 + e->n), *of_v = e->A + d->row * e->n;
     const dal__node *D = e->constraint + d->row;
@@ -352,7 +402,7 @@ static dal_status make_matrix(distribution *d, dal__node *A, const double *value
     for (int a = 0; a < d->rows; a++)
         has_t |= !dal__is_number(e->graph, at_rest(e, D[a], zeros), 0.0);
     d->fixed = has_t;
-    d->dim = e->n + has_t;
+    d->dim = d->full = e->n + has_t;
     d->symbol = e->symbol + (has_t ? e->t : e->q);
     d->unit = units + !has_t;
     for (int a = 0; a < d->rows; a++) {
@@ -362,8 +412,7 @@ static dal_status make_matrix(distribution *d, dal__node *A, const double *value
     for (int try = 0; try < 8 * POINTS && d->points < POINTS; try++) {
         double *x = d->point + d->points * e->symbols, sum = 0.0;
         memcpy(x, value, (size_t)e->symbols * sizeof *x);
-        for (int i = 0; i <= e->n; i++)
-            x[e->t + i] += units[i] * (fmod((try * e->symbols + e->t + i + 1) * golden, 1.0) - 0.5);
+        displace(x, e->t, 1 + e->n, units, try * e->symbols);
         for (int i = 0; i < d->rows * d->dim; i++) sum += dal__evaluate(e->graph, A[i], x);
         d->points += isfinite(sum);
     }
@@ -372,27 +421,37 @@ static dal_status make_matrix(distribution *d, dal__node *A, const double *value
     return e->graph->status;
 }
 
+/* Memory for as many fields on up to dim coordinates as points can need; and value[symbols]. */
+static dal_status allocate_fields(distribution *d, size_t dim, const dal_setting *parameters,
+                                  int parameter_count, double **value, dal_error *error)
+{
+    dal_model *const model = d->model;
+    const dal__equations *e = &model->equations;
+    const size_t symbols = (size_t)e->symbols;
+    *value = dal__model_allocate(model, symbols, sizeof **value);
+    d->field = dal__model_nodes(model, (int)((POINTS * dim + 2) * dim), 0);
+    d->weight = dal__model_allocate(model, POINTS * dim + 2, sizeof *d->weight);
+    d->basis = dal__model_allocate(model, POINTS * dim * dim, sizeof *d->basis);
+    d->point = dal__model_allocate(model, POINTS * symbols, sizeof *d->point);
+    if (model->out_of_memory) return dal__memory_error(error);
+    memcpy(*value, e->value, symbols * sizeof **value);
+    return dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
+                               *value, error);
+}
+
 /* Finds the ranks of the distribution of its rows. */
 static dal_status find_growth(distribution *d, const dal_setting *parameters, int parameter_count,
                               const double *units, dal_growth *out, dal_error *error)
 {
     dal_model *const model = d->model;
     const dal__equations *e = &model->equations;
-    const size_t dim = 1 + (size_t)e->n, symbols = (size_t)e->symbols, rows = (size_t)d->rows;
+    const size_t dim = 1 + (size_t)e->n, rows = (size_t)d->rows;
     dal__node *A = dal__model_nodes(model, (int)(rows * dim) + e->n, dal__number(e->graph, 0.0));
-    double *value = dal__model_allocate(model, symbols, sizeof *value);
-    double *x = dal__model_allocate(model, rows * dim, sizeof *x);
+    double *value, *x = dal__model_allocate(model, rows * dim, sizeof *x);
     double *ones = dal__model_allocate(model, dim, sizeof *ones);
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (size_t i = 0; i < dim; i++) ones[i] = 1.0;
-    memcpy(value, e->value, symbols * sizeof *value);
-    DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
-                                value, error));
-    d->field = dal__model_nodes(model, (int)((POINTS * dim + 1) * dim), 0);
-    d->weight = dal__model_allocate(model, POINTS * dim + 1, sizeof *d->weight);
-    d->basis = dal__model_allocate(model, POINTS * dim * dim, sizeof *d->basis);
-    d->point = dal__model_allocate(model, POINTS * symbols, sizeof *d->point);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    DAL_TRY(allocate_fields(d, dim, parameters, parameter_count, &value, error));
     dal_status status = make_matrix(d, A, value, units ? units : ones, error);
     if (status == DAL_STATUS_OK) status = make_fields(d, A, x);
     if (e->graph->status == DAL_STATUS_MEMORY) return dal__memory_error(error);
@@ -406,7 +465,7 @@ static dal_status find_growth(distribution *d, const dal_setting *parameters, in
         if (!add_level(d, begin, x)) break;
         begin = end;
         if (max_rank(d) > last) out->rank[out->levels++] = max_rank(d);
-        out->is_complete = max_rank(d) == last || max_rank(d) == d->dim;
+        out->is_complete = max_rank(d) == last || max_rank(d) == d->full;
     }
     return e->graph->status;
 }
@@ -439,4 +498,100 @@ dal_status dal_model_growth_of(dal_model *model, int constraint, const dal_setti
         return dal__fail(error, DAL_STATUS_ARGUMENT, "constraint %d: the system has %d", constraint,
                          model->equations.m);
     return find_growth(&d, parameters, parameter_count, units, out, error);
+}
+
+/* ---- controls with drift ---- */
+
+/* The drift, which is no part of the distribution, multiplied by a time; and columns (0, N_k). */
+static dal_status make_controls(distribution *d, double time, double *x)
+{
+    const dal__equations *e = &d->model->equations;
+    const int n = e->n, at_v = d->fixed + n;
+    dal__node *field = d->field;
+    if (d->fixed) field[0] = dal__number(e->graph, 1.0);
+    for (int i = 0; i < n; i++) {
+        field[d->fixed + i] = dal__symbol(e->graph, e->v + i);
+        field[at_v + i] = e->F[i];
+    }
+    d->weight[0] = time;
+    d->fields = 1;
+    for (int k = 0; k < e->controls; k++) {
+        double size = 0.0;
+        field = d->field + d->fields * d->dim;
+        for (int j = 0; j < at_v; j++) field[j] = dal__number(e->graph, 0.0);
+        dal__gradient(e->graph, e->control_cost[k], e->symbol + e->pi, n, field + at_v);
+        for (int i = at_v; i < d->dim; i++)
+            size = fmax(size, fabs(dal__evaluate(e->graph, field[i], d->point)) / d->unit[i]);
+        add_field(d, size > 0.0 ? 1.0 / size : 1.0, x);
+    }
+    d->first = d->fields;
+    return e->graph->status;
+}
+
+/* Irregular points about the start, value[symbols], with velocities moved to D = 0, at which F is
+ * finite. */
+static dal_status make_states(distribution *d, const double *value, const double *units)
+{
+    enum { CORRECTIONS = 20 };
+    const dal__equations *e = &d->model->equations;
+    const int n = e->n;
+    dal__node *change = dal__model_nodes(d->model, n, 0);
+    if (!change) return DAL_STATUS_MEMORY;
+    if (e->m > 0) DAL_TRY(dal__motion_correct(d->model, change));
+    for (int try = 0; try < 8 * POINTS && d->points < POINTS; try++) {
+        double *x = d->point + d->points * e->symbols, sum = 0.0;
+        memcpy(x, value, (size_t)e->symbols * sizeof *x);
+        displace(x, e->t, 1 + n, units, try * e->symbols);
+        displace(x, e->v, n, units + 1 + n, try * e->symbols);
+        for (int k = 0; k < CORRECTIONS && e->m > 0; k++) {
+            for (int i = 0; i < n; i++) x[e->pi + i] = dal__evaluate(e->graph, change[i], x);
+            for (int i = 0; i < n; i++) x[e->v + i] += x[e->pi + i];
+        }
+        for (int i = 0; i < n; i++) sum += dal__evaluate(e->graph, e->F[i], x);
+        d->points += isfinite(sum);
+    }
+    return d->points > 0 ? e->graph->status : DAL_STATUS_NOT_FINITE;
+}
+
+/* Adds levels until none has a further field; what has become too large leaves the rank unknown. */
+static int close_under_brackets(distribution *d, double *x)
+{
+    for (int begin = 0, last = -1; max_rank(d) > last && max_rank(d) < d->full;) {
+        const int end = d->fields;
+        last = max_rank(d);
+        if (!add_level(d, begin, x)) return -1;
+        begin = end;
+    }
+    return max_rank(d);
+}
+
+dal_status dal__model_controlled(dal_model *model, const dal_setting *parameters,
+                                 int parameter_count, const double *units, int *rank,
+                                 dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n;
+    const size_t dim = 1 + 2 * (size_t)n;
+    distribution d = {.model = model, .pivot = dal__model_allocate(model, 2 * dim, sizeof(int))};
+    double *value, *x = dal__model_allocate(model, dim, sizeof *x);
+    int *symbol = dal__model_allocate(model, dim, sizeof *symbol);
+    *rank = -1;
+    if (model->out_of_memory) return dal__memory_error(error);
+    DAL_TRY(allocate_fields(&d, dim, parameters, parameter_count, &value, error));
+    for (int i = 0; i <= n; i++) symbol[i] = e->t + i;
+    for (int i = 0; i < n; i++) {
+        symbol[1 + n + i] = e->v + i;
+        d.fixed |= dal__depends(e->graph, e->F[i], e->t, e->t + 1);
+    }
+    for (int k = 0; k < e->controls; k++)
+        d.fixed |= dal__depends(e->graph, e->control_cost[k], e->t, e->t + 1);
+    d.symbol = symbol + !d.fixed;
+    d.unit = units + !d.fixed;
+    d.dim = 2 * n + d.fixed;
+    d.full = 2 * n - e->m - e->holonomic;
+    dal_status status = make_states(&d, value, units);
+    if (status == DAL_STATUS_OK) status = make_controls(&d, units[0], x);
+    if (status == DAL_STATUS_OK) *rank = close_under_brackets(&d, x);
+    if (status == DAL_STATUS_OK) status = e->graph->status;
+    return status == DAL_STATUS_MEMORY ? dal__memory_error(error) : status;
 }

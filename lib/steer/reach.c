@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/svd.h"
 #include "core/vectors.h"
+#include "model/ranks.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,26 +23,27 @@ static const double reach_tolerance = 1e-9;
 dal_status dal__reach_find(dal__problem *p, dal_steering *out)
 {
     const dal_system *system = p->system;
-    const int n = p->n;
+    const int n = p->n, parameters = p->spec.parameter_count;
     dal_error error = {.status = DAL_STATUS_OK};
     out->allowed = p->is_lifted && p->integrals == 0 ? 2 * n : -1;
-    double *unit = dal__numbers(1, 1 + (size_t)n);
+    double *unit = dal__numbers(1, 1 + 2 * (size_t)n);
     if (!unit) return DAL_STATUS_MEMORY;
     unit[0] = fabs(p->T - p->from);
-    memcpy(unit + 1, p->unit, (size_t)n * sizeof *unit);
-    const dal_status status =
-        system->m == 0 ? DAL_STATUS_UNSUPPORTED
-                       : dal_model_growth(p->model, p->spec.parameters, p->spec.parameter_count,
-                                          unit, &out->growth, &error);
-    free(unit);
-    if (status == DAL_STATUS_MEMORY) return status;
+    memcpy(unit + 1, p->unit, 2 * (size_t)n * sizeof *unit);
+    dal_status status = system->m == 0 ? DAL_STATUS_UNSUPPORTED
+                                       : dal_model_growth(p->model, p->spec.parameters, parameters,
+                                                          unit, &out->growth, &error);
     out->has_growth = status == DAL_STATUS_OK && out->growth.is_complete;
     if (out->has_growth && system->effort == DAL_EFFORT_CONSTRAINT && p->is_lifted) {
         const int last = out->growth.rank[out->growth.levels - 1];
         const int r = last - (out->growth.dimension - n);
         out->allowed = r + n - system->m - system->holonomic;
     }
-    return DAL_STATUS_OK;
+    if (status != DAL_STATUS_MEMORY && system->effort == DAL_EFFORT_CONTROLS && p->is_lifted)
+        status = dal__model_controlled(p->model, p->spec.parameters, parameters, unit,
+                                       &out->allowed, &error);
+    free(unit);
+    return status == DAL_STATUS_MEMORY ? status : DAL_STATUS_OK;
 }
 
 /* The sign of the determinant of a[n*n], which is destroyed; 0: it is singular to rounding. */

@@ -127,6 +127,12 @@ lagrangian: (x'^2 + y'^2 + theta'^2 + 3*psi'^2)/2 - 10*sin(psi)
 constraints: [x' - cos(theta)*psi', y' - sin(theta)*psi']
 controls: [{theta: 1}, {psi: 1}]
 YAML
+try 3 steer "$(cd "$here/../.." && pwd)/examples/actuated-snakeboard.yaml" --to x=2 --rest --effort controls --max-iterations 1
+says '^dalembert: D has the growth vector \(3, 4, 5\): controls change 8 of the 10 numbers of an end, about generic motions, all that D = 0 leaves$'
+sed 's/theta: 1}, {//' robot.yaml >straight.yaml
+try 3 steer straight.yaml --to x=1,y=1,theta=1 --rest --effort controls --integrator gauss4 --step 0.1 --time 2 --max-iterations 2
+says ': controls change 4 of the 8 numbers of an end, about generic motions, on one leaf alone$'
+says ': only 4 of 8 numbers of the end can be reached; '
 for step in 0.1 0.05; do
     try 0 steer robot.yaml --to x=1,y=0.5,theta=0.5 --rest --effort controls --integrator gauss8 --step $step --time 2 \
         --output robot --force
