@@ -5,7 +5,8 @@
  *     ENGINE   tape: formulas, interpreted; unchecked: without the rank check; native: compiled, in
  *              the cache build/bench/cache; callback: the field as a C callback, written by hand;
  *              batchN: formulas, N trajectories at once; compiledN: the same, compiled
- *              made: no steps, but the system is made from its formulas
+ *              made: no steps, but the system is made from its formulas; steer: no steps, but
+ *              100 of them from rest to rest elsewhere are found, n = 3
  *     METHOD   as dal_method_parse reads it          SPACE   physical, lifted
  *     SYSTEM   a built-in one, or A, B3, ... (bench/systems), B101, C (examples); C0: the fluid
  *              without pair forces, all that is left of C being the integrator and the thermostat;
@@ -17,6 +18,7 @@
 #include "bench.h"
 #include "model.h"
 #include <dalembert_codegen.h>
+#include <dalembert_steer.h>
 
 #include "real.inc"
 
@@ -181,6 +183,42 @@ static int work_make(void *name, double *end)
     return !system;
 }
 
+typedef struct steered {
+    dal_model *model;
+    dal_run_spec spec;
+} steered;
+
+/* Finds the cheapest motion, within D = 0, from rest at 0 to rest elsewhere. */
+static int work_steer(void *self, double *end)
+{
+    const steered *j = self;
+    const double place[] = {1.0, 0.5, 0.7};
+    dal_setting target[3];
+    dal_steer_settings settings = dal_steer_settings_default();
+    dal_steering *found = NULL;
+    for (int i = 0; i < 3; i++) target[i] = (dal_setting){j->spec.system->coordinate[i], place[i]};
+    settings.target = target;
+    settings.targets = 3;
+    settings.rest = true;
+    if (dal_steer_create(&found, j->model, &j->spec, 100 * BENCH_H_STEP, &settings, NULL, NULL))
+        return 1;
+    const int failed = found->extremal[0].status != DAL_STATUS_OK;
+    end[0] = found->extremal[0].S;
+    dal_steer_free(found);
+    return failed;
+}
+
+static int make_steered(steered *j, char **argv, dal_error *error)
+{
+    j->spec.options = dal_options_default();
+    j->spec.options.step = BENCH_H_STEP;
+    return make_model(&j->model, argv[4], error) ||
+           dal_model_set_effort(j->model, DAL_EFFORT_CONSTRAINT, error) ||
+           dal_model_system(j->model, &j->spec.system, error) || j->spec.system->n != 3 ||
+           dal_options_set(&j->spec.options, "space", argv[3], error) ||
+           dal_method_parse(&j->spec.method, argv[2], error);
+}
+
 /* Lanes have states of their own, as in gen.c. */
 static int make_batch(contender *j, int lanes, dal_error *error)
 {
@@ -235,6 +273,11 @@ int main(int argc, char **argv)
     if (argc != 5) return bench_unknown(argc, argv);
     if (strcmp(argv[1], "made") == 0)
         return bench_measure(&(bench_contender){1.0, 1, work_make, argv[4]});
+    if (strcmp(argv[1], "steer") == 0) {
+        static steered found;
+        if (make_steered(&found, argv, &error)) return fail(&error);
+        return bench_measure(&(bench_contender){1.0, 1, work_steer, &found});
+    }
     if (make(&j, argv, &error)) return fail(&error);
     const int lanes = j.batch ? dal_batch_count(j.batch) : 1;
     const bench_contender measured = {(double)j.steps * lanes, j.shown,

@@ -10,6 +10,8 @@
 static const double rank_tolerance = 1e-11;
 static const double min_damping = 1.0 / 256.0;
 static const double converged = 1e-9; /* a step below this: the rest is rounding */
+static const double coarse = 1e-3;    /* the same where the motion is a guess for more steps */
+static const double kept_rate = 0.1;  /* steps that shrink by this keep their derivative */
 
 typedef struct newton {
     dal__shooting *s;
@@ -20,6 +22,7 @@ typedef struct newton {
     double *jump;              /* [pieces*unknowns] */
     double *point, *end;       /* tried ones, as in s */
     double weight[2];          /* size of (q, v), of momenta, in units; at least 1 */
+    double rate;               /* of the last step, undamped: what the next one is of it */
 } newton;
 
 static dal_status open_newton(newton *k, dal__shooting *s)
@@ -92,12 +95,12 @@ static void accept_points(newton *k)
     memcpy(k->s->end, k->end, (numbers - (size_t)k->p->dimension) * sizeof *k->end);
 }
 
-/* Finds a damping, at most *out, with which the next step is shorter, and goes there.  Errors:
- * DAL_STATUS_NOT_CONVERGED: there is none; DAL_STATUS_MEMORY. */
-static dal_status damp(newton *k, double length, double *out)
+/* Finds a damping, from *out down to min, with which the next step is shorter, and goes there.
+ * Errors: DAL_STATUS_NOT_CONVERGED: there is none; DAL_STATUS_MEMORY. */
+static dal_status damp(newton *k, double length, double min, double *out)
 {
     dal__shooting *s = k->s;
-    for (double damping = *out; damping >= min_damping; damping /= 2.0) {
+    for (double damping = *out; damping >= min; damping /= 2.0) {
         try_points(k, damping);
         if (dal__shooting_move(s, k->point, k->end) != DAL_STATUS_OK) continue;
         dal__shooting_jumps(s, k->point, k->end, k->p->unknowns, k->jump);
@@ -108,6 +111,7 @@ static dal_status damp(newton *k, double length, double *out)
         const double next = length_of_step(k, k->simplified);
         if (!(next <= (1.0 - damping / 4.0) * length) && !(next < 1e-13)) continue;
         accept_points(k);
+        k->rate = damping < 1.0 ? 1.0 : next / length;
         *out = damping;
         return DAL_STATUS_OK;
     }
@@ -127,19 +131,22 @@ static dal_status linearise(newton *k)
 static dal_status iterate_newton(newton *k)
 {
     dal__shooting *s = k->s;
-    double damping = 1.0, before = INFINITY;
+    double damping = 1.0, before = INFINITY, linearised = INFINITY; /* the step when it was */
     DAL_TRY(dal__shooting_move(s, s->point, s->end));
-    for (;;) {
+    for (k->rate = 1.0;;) {
         k->p->residual = find_residual(k);
         DAL_TRY(dal__problem_iterate(k->p));
-        if (before >= converged) /* below, the last derivative is the one here to rounding */
-            DAL_TRY(linearise(k));
-        else
+        const bool is_kept = before < converged || k->rate < kept_rate;
+        if (is_kept)
             DAL_TRY(dal__border_right(&k->border, s->point, s->pieces, &k->linear));
+        else
+            DAL_TRY(linearise(k));
         dal__shooting_jumps(s, s->point, s->end, k->p->unknowns, k->jump);
         dal__two_point_solve(&k->linear, k->jump, k->step);
         const double length = length_of_step(k, k->step);
         if (!isfinite(length)) return DAL_STATUS_NOT_CONVERGED;
+        if (length < coarse && s->steps < k->p->steps) return DAL_STATUS_OK;
+        if (!is_kept) linearised = length;
         if (length < converged && (length > before / 4.0 || length < 1e-15)) break;
         before = length;
         if (length < converged) { /* rounding would fail the test */
@@ -149,10 +156,15 @@ static dal_status iterate_newton(newton *k)
             continue;
         }
         damping = fmin(1.0, 4.0 * damping);
-        DAL_TRY(damp(k, length, &damping));
+        const dal_status status = damp(k, length, is_kept ? 1.0 : min_damping, &damping);
+        if (status == DAL_STATUS_NOT_CONVERGED && is_kept)
+            k->rate = 1.0; /* the next step has a derivative of its own */
+        else
+            DAL_TRY(status);
     }
     k->p->residual = find_residual(k);
-    return k->p->residual <= k->p->settings->tolerance ? DAL_STATUS_OK : DAL_STATUS_NOT_CONVERGED;
+    if (!(k->p->residual <= k->p->settings->tolerance)) return DAL_STATUS_NOT_CONVERGED;
+    return linearised < converged ? DAL_STATUS_OK : linearise(k); /* for ranks along the motion */
 }
 
 static dal_status measure_points(newton *k)

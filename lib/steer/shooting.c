@@ -4,8 +4,13 @@
 #include "core/error.h"
 #include "core/vectors.h"
 #include "dynamics/tangent_map.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Of the implicit equations of tangent lanes: Newton's method needs few digits, ranks along the
+ * motion (reach.c) need nine. */
+static const double coarse_tolerance = 1e-6, tangent_tolerance = 1e-12;
 
 dal_status dal__shooting_open(dal__shooting *s, dal__problem *p, long long steps, int pieces)
 {
@@ -29,6 +34,8 @@ dal_status dal__shooting_open(dal__shooting *s, dal__problem *p, long long steps
     spec.options.step = s->h;
     DAL_TRY(dal_batch_create(&s->plain, &spec, s->pieces, 0, p->error));
     spec.start_count = 0;
+    spec.options.solver_tolerance = fmax(spec.options.solver_tolerance,
+                                         steps < p->steps ? coarse_tolerance : tangent_tolerance);
     DAL_TRY(dal_model_tangent(p->model, &spec.system, p->error));
     return dal_batch_create(&s->tangent, &spec, p->unknowns, 0, p->error);
 }

@@ -183,13 +183,13 @@ refute "the failure before" test -e straight/best.csv
 
 case_is "an interruption"
 if needs 5 "no python3" there python3; then
-    # Shorter steps than any machine takes in the time until the signal.
-    "$program" steer $sleigh --to x=0,y=1,phi=0 --step 1e-6 --json >out 2>err &
+    # More first guesses than any machine tries in the time until the signal.
+    "$program" steer $sleigh --to x=0,y=1,phi=0 --starts 10000 --json >out 2>err &
     searching=$!
     expect "it does not catch signals" ready $searching
     ends_by INT 130 $searching
     says '^dalembert: interrupted; '
-    expect "what there is" json out "d['state'] == 'interrupted' and d['request']['step'] == 1e-6"
+    expect "what there is" json out "d['state'] == 'interrupted' and d['request']['starts'] == 10000"
     counted
 fi
 
