@@ -11,6 +11,8 @@
 #     make bench-solvers    the solver auto against the better of the two, 60 cases: some 10 s
 #     make bench-versions   an observed step against one of version 0.4, in instructions: a minute
 #     make bench-long       1e9 steps of the sleigh with statistics at every step: some 40 s
+#     make bench-targets    how many of 200 drawn targets steering reaches, three systems: two hours;
+#                           TARGETS=60 draws fewer
 #     make bench-native     --native auto against off and on, 40 cases: half an hour of two processors
 #
 # Every program is built with the flags that made it fastest here: full optimisation for this
@@ -173,6 +175,15 @@ $(BENCH)/solvers: bench/solvers.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 bench-solvers: $(BENCH)/solvers
 	@$< tape
 .PHONY: bench-solvers
+
+$(BENCH)/targets: bench/targets.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
+	$(call SAY,cc)$(CC) -std=c11 $(WARN) -O2 -Iinclude -Ilib $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
+TARGETS = 200
+bench-targets: $(BENCH)/targets
+	@$< $(TARGETS) chaplygin-sleigh constraint
+	@$< $(TARGETS) bench/systems/robot-with-motors.yaml controls
+	@$< $(TARGETS) examples/actuated-snakeboard.yaml controls psi phi
+.PHONY: bench-targets
 
 bench-versions: $(PROGRAM)
 	@sh bench/versions.sh $(PROGRAM) $(BENCH)/versions
