@@ -52,7 +52,7 @@ expect "one line" [ "$(wc -l <err)" -eq 1 ]
 case_is "settings"
 refuse "--set: 'omega' is not NAME=VALUE" chaplygin-sleigh $run --set omega
 refuse "--set: '=1' is not NAME=VALUE" chaplygin-sleigh $run --set =1
-refuse "omega=1\+1: '1\+1' is not a number" chaplygin-sleigh $run --set omega=1+1
+refuse "omega=1\+: '1\+' is not a number" chaplygin-sleigh $run --set omega=1+
 refuse "omega=nan: 'nan' is not a number" chaplygin-sleigh $run --set omega=nan
 refuse "phi=inf: 'inf' is not a number" chaplygin-sleigh $run --start phi=inf
 

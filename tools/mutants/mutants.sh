@@ -14,8 +14,8 @@
 #
 # Each is built below BUILD/mutants by JOBS processes, at -O1 and with few variants, since a source of
 # several widths must be changed in all of them; one is for AVX2, so that code for it runs as well.
-# The suites of the module (suites.txt) and the parts of the command line run one by one until one
-# fails, for a file in cli/ only these.  Those come first that should notice a fault for the least
+# The suites of the module (suites.txt), in quick runs and then whole, and the parts of the command line run one
+# by one until one fails, for a file in cli/ only these.  Those come first that should notice a fault for the least
 # processor time: by their own, over how often they noticed one in the folder of the file; both are
 # kept for later calls.  What fails must pass with the sources themselves.  A process that takes
 # LIMIT times the longest processor time of its test that passed, and ten seconds, is ended, and a
@@ -70,7 +70,7 @@ build() {
     make -s -C "$tree" -j"${JOBS:-$(nproc)}" BUILD=build CC="$CC" CFLAGS="$flags" VARIANTS="$variants" "$@" \
         >"$place/make.log" 2>&1
 }
-# tests_of FILE: the tests of a file, "suite NAME" and "cli PART", in the order of suites.txt.
+# tests_of FILE: the tests of a file, "suite NAME", "whole NAME" and "cli PART", in the order of suites.txt.
 tests_of() {
     awk -v file="$1" '
         function add(kind, name) { if (!seen[kind, name]++) print kind, name }
@@ -85,7 +85,10 @@ tests_of() {
             for (i = 2; i <= n; i++)
                 if (word[i] == "cli") kind = "cli"
                 else if (kind == "cli") add(kind, word[i])
-                else if (word[i] in known) add(kind, word[i])
+                else if (word[i] in known) {
+                    add(kind, word[i])
+                    add("whole", word[i])
+                }
             if (file ~ /^cli[/]/) exit
             for (i = 1; i <= quicks; i++) if (quick[i] in known) add("suite", quick[i])
             for (i = 1; i <= broads; i++) add("cli", broad[i])
@@ -97,7 +100,7 @@ cheapest_first() {
     tests_of "$1" | awk -v folder="$(dirname "$1")" '
         FILENAME == "-" {
             test = $1 " " $2
-            cost = 0.05 + (test in time ? time[test] : $1 == "cli" ? 5 : 1) + 0.001 * ++count
+            cost = 0.05 + (test in time ? time[test] : $1 == "suite" ? 1 : 5) + 0.001 * ++count
             print cost * (tried[test] + 2) / (noticed[test] + 1), test
             next
         }
@@ -121,11 +124,11 @@ limited() {
 }
 # run_test SECONDS KIND NAME BINARY
 run_test() {
-    if [ "$2" = suite ]; then
-        limited "$1" "$4" --quick "$3"
-    else
-        limited "$1" env PATIENCE="$PATIENCE" FIRST_FAILURE=1 sh tests/cli/run.sh "$4" "$3"
-    fi
+    case $2 in
+    suite) limited "$1" "$4" --quick "$3" ;;
+    whole) limited "$1" "$4" "$3" ;;
+    cli) limited "$1" env PATIENCE="$PATIENCE" FIRST_FAILURE=1 sh tests/cli/run.sh "$4" "$3" ;;
+    esac
 }
 # record FOLDER KIND NAME RESULT: a line of the history, with the processor time of the test that ran.
 record() {
