@@ -160,8 +160,9 @@ reaches() {
     [ -n "$reached" ]
 }
 reached_or_gone() { if "$@"; then reached=yes; else gone $pid; fi; }
-# catches PID: the program has begun to catch SIGTERM, number 15, and SIGINT.
-catches() { grep -q '^SigCgt:.*[4-7c-f]...$' "/proc/$1/status"; }
+# catches PID: the program has begun to catch SIGALRM, number 14, the last that it catches.  Of SIGINT and SIGTERM
+# nothing follows: the shell, which becomes the program, catches them itself until then.
+catches() { grep -q '^SigCgt:.*[2367abef]...$' "/proc/$1/status"; }
 # ready PID: can be given signals.
 ready() { if grep -q '^SigCgt' /proc/self/status; then reaches "$1" catches "$1"; else sleep 5; fi; }
 # ends_by SIGNAL STATUS PID: the signal ends the process, with that status.
