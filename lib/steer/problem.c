@@ -169,15 +169,23 @@ static dal_status check_end(dal__problem *p, bool at_end)
 
 /* ---- integrals and units ---- */
 
+dal_status dal__problem_evaluate(dal__problem *p, const int *node, int count, double t,
+                                 const double *x, double *out)
+{
+    const dal__equations *e = &p->model->equations;
+    const size_t n = (size_t)p->n;
+    p->value[e->t] = t;
+    memcpy(p->value + e->q, x, n * sizeof *x);
+    memcpy(p->value + e->v, x + n, n * sizeof *x);
+    return dal__evaluate_all(e->graph, node, count, p->value, out) ? DAL_STATUS_OK
+                                                                   : DAL_STATUS_MEMORY;
+}
+
 dal_status dal__problem_gradients(dal__problem *p, double t, const double *x, double *out)
 {
-    dal__equations *e = &p->model->equations;
     const int n = p->n, count = (p->constraints + p->holonomic) * 2 * n;
     if (count == 0) return DAL_STATUS_OK;
-    p->value[e->t] = t;
-    memcpy(p->value + e->q, x, (size_t)n * sizeof *x);
-    memcpy(p->value + e->v, x + n, (size_t)n * sizeof *x);
-    if (!dal__evaluate_all(e->graph, p->gradient, count, p->value, out)) return DAL_STATUS_MEMORY;
+    DAL_TRY(dal__problem_evaluate(p, p->gradient, count, t, x, out));
     for (int i = 0; i < count; i++) out[i] *= p->unit[i % (2 * n)];
     return DAL_STATUS_OK;
 }
@@ -214,18 +222,14 @@ dal_status dal__problem_effort(dal__problem *p, double t, const double *x, doubl
 
 dal_status dal__problem_inputs(dal__problem *p, double t, const double *z, double *out)
 {
-    dal__equations *e = &p->model->equations;
+    const dal__equations *e = &p->model->equations;
     const size_t n = (size_t)p->n, inputs = (size_t)p->inputs;
     const double *pi = z + 3 * n + 1;
     dal_status status = DAL_STATUS_OK;
     if (inputs == 0) return status;
     if (p->system->effort == DAL_EFFORT_CONTROLS) {
-        p->value[e->t] = t;
-        memcpy(p->value + e->q, z, n * sizeof *z);
-        memcpy(p->value + e->v, z + n, n * sizeof *z);
         memcpy(p->value + e->pi, pi, n * sizeof *z);
-        if (!dal__evaluate_all(e->graph, e->control_cost, p->inputs, p->value, out))
-            status = DAL_STATUS_MEMORY;
+        status = dal__problem_evaluate(p, e->control_cost, p->inputs, t, z, out);
     } else if (p->system->call.effort) {
         double *K_pi = dal__numbers(3, n);
         status =

@@ -54,6 +54,10 @@ void dal__problem_close(dal__problem *p);
 
 /* D and g at a point: out[m + holonomic].  Errors: errors of the callbacks. */
 dal_status dal__problem_constraints(dal__problem *p, double t, const double *x, double *out);
+/* Values of nodes of t, q, v at a point, with what other symbols have in p->value: out[count].
+ * Errors: DAL_STATUS_MEMORY. */
+dal_status dal__problem_evaluate(dal__problem *p, const int *node, int count, double t,
+                                 const double *x, double *out);
 /* Gradients of D and g at a point by q, v, in units: out[(m + holonomic)*2n].  Errors:
  * DAL_STATUS_MEMORY. */
 dal_status dal__problem_gradients(dal__problem *p, double t, const double *x, double *out);

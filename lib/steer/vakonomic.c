@@ -8,7 +8,6 @@
  * is 0 there.  S is found by Gauss's formula with 5 nodes in each step, of order 10. */
 #include "steer/vakonomic.h"
 #include "core/error.h"
-#include "expr/traversal.h"
 #include "model/model.h"
 #include <stdlib.h>
 #include <string.h>
@@ -40,22 +39,17 @@ dal_status dal__vakonomic_open(dal__problem *p)
 
 void dal__vakonomic_close(dal__problem *p) { free(p->momentum); }
 
-static dal_status evaluate_nodes(dal__problem *p, const int *node, int count, double t,
-                                 const double *z, double *out)
+/* Values of nodes of t, q, v, g. */
+static dal_status evaluate_at(dal__problem *p, const int *node, int count, double t,
+                              const double *z, double *out)
 {
-    const dal__equations *e = &p->model->equations;
-    const size_t n = (size_t)p->n;
-    p->value[e->t] = t;
-    memcpy(p->value + e->q, z, n * sizeof *z);
-    memcpy(p->value + e->v, z + n, n * sizeof *z);
-    memcpy(p->value + e->g, z + 2 * n, (size_t)p->multipliers * sizeof *z);
-    return dal__evaluate_all(e->graph, node, count, p->value, out) ? DAL_STATUS_OK
-                                                                   : DAL_STATUS_MEMORY;
+    memcpy(p->value + p->model->equations.g, z + 2 * p->n, (size_t)p->multipliers * sizeof *z);
+    return dal__problem_evaluate(p, node, count, t, z, out);
 }
 
 dal_status dal__vakonomic_momenta(dal__problem *p, double t, const double *z, double *out)
 {
-    DAL_TRY(evaluate_nodes(p, p->momentum, p->n, t, z, out));
+    DAL_TRY(evaluate_at(p, p->momentum, p->n, t, z, out));
     for (int i = 0; i < p->n; i++) out[i] *= p->unit[i];
     return DAL_STATUS_OK;
 }
@@ -63,7 +57,7 @@ dal_status dal__vakonomic_momenta(dal__problem *p, double t, const double *z, do
 dal_status dal__vakonomic_gradients(dal__problem *p, double t, const double *z, double *out)
 {
     const int d = p->unknowns;
-    DAL_TRY(evaluate_nodes(p, p->momentum + p->n, p->n * d, t, z, out));
+    DAL_TRY(evaluate_at(p, p->momentum + p->n, p->n * d, t, z, out));
     for (int i = 0; i < p->n * d; i++) out[i] *= p->unit[i / d] * p->unit[i % d];
     return DAL_STATUS_OK;
 }
@@ -78,7 +72,7 @@ static dal_status read_lagrangian(void *user, dal_run *run)
 {
     sample *s = user;
     const int node = s->problem->model->equations.lagrangian;
-    return evaluate_nodes(s->problem, &node, 1, dal_run_time(run), dal_run_state(run), &s->L);
+    return evaluate_at(s->problem, &node, 1, dal_run_time(run), dal_run_state(run), &s->L);
 }
 
 dal_status dal__vakonomic_add_action(dal__problem *p, double *sum)
