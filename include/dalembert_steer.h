@@ -73,11 +73,10 @@ typedef struct dal_steering {
                               vakonomic motion; else n, and u is the acceleration K pi/e */
     long long rows;    /* of a motion: the start and each step */
     double *t;         /* [rows] */
-    int allowed;       /* the rank that d(q, v)(T)/d(p, pi)(0) can have: r + n - m - k, where r is
-                              the rank of the brackets of what D allows, k of the m constraints are
-                              holonomic; with the effort controls the rank of the brackets of
-                              controls and drift (v, F), at generic points near the start on D = 0;
-                              -1: not known */
+    int allowed;       /* the rank that d(q, v)(T)/d(p, pi)(0) can have: r + n - m, where r is the
+                              rank of the brackets of what D allows; with the effort controls the
+                              rank of the brackets of controls and drift (v, F), at generic points
+                              near the start on D = 0; -1: not known */
     bool has_growth;   /* whether D has a growth vector */
     dal_growth growth; /* of the velocities that D allows, on the space of q */
     int count;         /* motions: distinct ones, at most one for each first guess */

@@ -443,6 +443,23 @@ static void test_unreached(void)
     close_steered(&s);
 }
 
+/* On a circle of radius 1 a turn by theta costs 6 theta^2/T^3; the angle and its rate can be moved. */
+static void test_circle(void)
+{
+    static const char circle[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                 "holonomic: [x^2 + y^2 - 1]\nstart: {x: 1}\n";
+    const double T = 1.5, theta = 1.1;
+    const dal_setting target[] = {{"x", cos(theta)}, {"y", sin(theta)}};
+    steered s;
+    open_steered(&s, circle, DAL_EFFORT_CONSTRAINT, "gauss8", 0.015);
+    s.spec.options.bare = true;
+    find(&s, T, target, 2);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 6.0 * theta * theta / (T * T * T), 1e-12);
+    CU_ASSERT_EQUAL(s.best->rank, 2);
+    CU_ASSERT_EQUAL(s.steering->allowed, 2);
+    close_steered(&s);
+}
+
 /* Two masses and a spring, of which one is pushed: by Kalman's rank all four numbers change. */
 static void test_controlled(void)
 {
@@ -593,6 +610,7 @@ void suite_steer(void)
     CU_add_test(suite, "further guesses", test_further_guesses);
     CU_add_test(suite, "an elastic rod, closed form", test_elastica);
     CU_add_test(suite, "targets that are not reached", test_unreached);
+    CU_add_test(suite, "a holonomic constraint, closed form", test_circle);
     CU_add_test(suite, "two masses, one pushed", test_controlled);
     CU_add_test(suite, "what is refused", test_refuses);
     CU_add_test(suite, "out of memory", test_out_of_memory);

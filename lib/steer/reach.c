@@ -37,7 +37,7 @@ dal_status dal__reach_find(dal__problem *p, dal_steering *out)
     if (out->has_growth && system->effort == DAL_EFFORT_CONSTRAINT && p->is_lifted) {
         const int last = out->growth.rank[out->growth.levels - 1];
         const int r = last - (out->growth.dimension - n);
-        out->allowed = r + n - system->m - system->holonomic;
+        out->allowed = r + n - system->m;
     }
     if (status != DAL_STATUS_MEMORY && system->effort == DAL_EFFORT_CONTROLS && p->is_lifted)
         status = dal__model_controlled(p->model, p->spec.parameters, parameters, unit,
