@@ -101,7 +101,8 @@ typedef struct dal_steer_observer {
  * pieces are at rounding and S has the order of the method.  settings->target must be given;
  * observer may be NULL.  The result is there, too, where no motion hits the target: its status says
  * so.  [alloc]  Errors: errors of the start; DAL_STATUS_NAME (of a component), DAL_STATUS_ARGUMENT
- * (T, settings, a system of another model), DAL_STATUS_INCONSISTENT (a target off D = 0 or g = 0);
+ * (T, settings, a system of another model), DAL_STATUS_INCONSISTENT (a target off D = 0 or g = 0,
+ * or off the leaf of the start where D is integrable and what it conserves is found);
  * DAL_STATUS_UNSUPPORTED, and the message says the reason: as for dal_sensitivity_create off
  * p = pi = 0, mu_e that is not 0, 1/e = 0; rest, aim and velocities of vakonomic motion. */
 dal_status dal_steer_create(dal_steering **steering, dal_model *model, const dal_run_spec *spec,

@@ -1,6 +1,7 @@
 /* test_steer.c - boundary values of the lift, against closed forms of optimal control and against
  * runs from the start that is found. */
 #include "allocation.h"
+#include "core/vectors.h"
 #include "fixtures.h"
 #include "null.h"
 #include "quick.h"
@@ -483,6 +484,90 @@ static void is_refused(steered *s, double T, const dal_setting *target, int targ
     CU_ASSERT(strstr(s->record.message, fragment) != NULL);
 }
 
+static dal_status stop_at_once(void *user, int guess, int iteration, double residual)
+{
+    CU_ASSERT(guess == 0 && iteration == 0 && residual >= 0.0);
+    ++*(int *)user;
+    return DAL_STATUS_INTERRUPTED;
+}
+
+/* Whether a search for a target begins. */
+static bool begins(steered *s, const dal_setting *target, int targets)
+{
+    int calls = 0;
+    const dal_steer_observer observer = {&calls, NULL, stop_at_once};
+    dal_steer_free(s->steering);
+    s->settings.target = target;
+    s->settings.targets = targets;
+    CU_ASSERT_EQUAL_FATAL(dal_steer_create(&s->steering, s->model, &s->spec, 1.0, &s->settings,
+                                           &observer, &s->record),
+                          DAL_STATUS_OK);
+    return calls == 1;
+}
+
+/* What an integrable D conserves whatever the effort's inputs are: x - y, x^2 + y^2, of time
+ * x - sin t, and a part of a D that is not integrable. */
+static void test_leaves(void)
+{
+    static const char line[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                               "constraints: [x' - y']\nstart: {x: 1}\n";
+    static const char circle[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                                 "constraints: [x*x' + y*y']\nstart: {x: 1}\n";
+    static const char moved[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                "constraints: [x' - cos(t)]\nstart: {x': 1}\n";
+    static const char carried[] = "coordinates: [x, y, phi, z]\n"
+                                  "lagrangian: (x'^2 + y'^2 + phi'^2 + z'^2)/2\n"
+                                  "constraints: [x'*sin(phi) - y'*cos(phi), z' - 2*phi*phi']\n";
+    dal_setting target[] = {{"x", 2.0}, {"y", 0.5}, {"phi", 0.5}, {"z", 0.3}};
+    steered s;
+    open_steered(&s, line, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 2, DAL_STATUS_INCONSISTENT,
+               "every motion keeps x - y, which is 1 at the start and 1.5 at the target");
+    CU_ASSERT(begins(&s, target, 1)); /* y is free */
+    target[1].value = 1.0;
+    CU_ASSERT(begins(&s, target, 2));
+    close_steered(&s);
+    open_steered(&s, line, DAL_EFFORT_MASS, "gauss4", 0.1); /* it pushes across D = 0 */
+    target[1].value = 0.5;
+    CU_ASSERT(begins(&s, target, 2));
+    s.settings.rest = false;
+    s.settings.aim = true;
+    is_refused(&s, 1.0, target, 2, DAL_STATUS_INCONSISTENT, "keeps x - y");
+    close_steered(&s);
+    open_steered(&s, circle, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 2, DAL_STATUS_INCONSISTENT,
+               "keeps x^2 + y^2, which is 1 at the start and 4.25 at the target");
+    target[0].value = -0.6, target[1].value = 0.8;
+    CU_ASSERT(begins(&s, target, 2));
+    close_steered(&s);
+    open_steered(&s, moved, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    s.settings.rest = false;
+    is_refused(&s, 1.0, target, 1, DAL_STATUS_INCONSISTENT, "every motion keeps x - sin(t)");
+    target[0].value = sin(1.0);
+    CU_ASSERT(begins(&s, target, 1));
+    close_steered(&s);
+    open_steered(&s, carried, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 4, DAL_STATUS_INCONSISTENT, "z");
+    target[3].value = 0.25;
+    CU_ASSERT(begins(&s, target, 4));
+    close_steered(&s);
+}
+
+/* Every place and heading of a sleigh is on its one leaf. */
+static void test_one_leaf(void)
+{
+    steered s;
+    dal__random random = {1};
+    open_steered(&s, sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    for (int i = 0; i < 20; i++) {
+        const dal_setting target[] = {{"x", 2.0 * dal__uniform(&random)},
+                                      {"y", 2.0 * dal__uniform(&random)},
+                                      {"phi", 3.0 * dal__uniform(&random)}};
+        CU_ASSERT(begins(&s, target, 3));
+    }
+    close_steered(&s);
+}
+
 static void test_refuses(void)
 {
     const dal_setting target[] = {{"x", 1.0}, {"y", 0.0}, {"phi", 0.0}, {"y'", 0.5}};
@@ -548,8 +633,12 @@ static void test_out_of_memory(void)
 {
     const dal_setting target[] = {{"x", 0.2}, {"y", 0.0}, {"phi", 0.0}};
     const dal_setting area[] = {{"x", 0.2}, {"y", 0.3}, {"z", 0.1}};
+    const dal_setting along[] = {{"x", 0.2}, {"y", 0.2}, {"z", 0.1}};
+    static const char integrable[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                                     "constraints: [x' - y']\n";
     fail_allocations(sleigh, DAL_EFFORT_CONSTRAINT, target);
     fail_allocations(plane, DAL_EFFORT_IDENTITY, area);
+    fail_allocations(integrable, DAL_EFFORT_CONSTRAINT, along);
 }
 
 /* ---- arguments ---- */
@@ -612,6 +701,8 @@ void suite_steer(void)
     CU_add_test(suite, "targets that are not reached", test_unreached);
     CU_add_test(suite, "a holonomic constraint, closed form", test_circle);
     CU_add_test(suite, "two masses, one pushed", test_controlled);
+    CU_add_test(suite, "targets on other leaves", test_leaves);
+    CU_add_test(suite, "a sleigh has one leaf", test_one_leaf);
     CU_add_test(suite, "what is refused", test_refuses);
     CU_add_test(suite, "out of memory", test_out_of_memory);
     FUNCTIONS_dalembert_steer(ADD_NULL_TEST)

@@ -31,6 +31,7 @@ typedef struct dal__problem {
                                    momenta: D, then g - (t - from) D; 0 of other efforts */
     int constraints, holonomic; /* m, and how many g */
     int inputs;                 /* numbers of u */
+    bool knows_leaf;            /* the target is on the leaf of the start, which D alone makes */
     int *gradient;              /* [(m + holonomic)*2n] nodes: gradients of D and g by q, v */
     int *momentum;              /* [n + n*unknowns] nodes: momenta of vakonomic motion, and their
                                    gradients by q, v, g; else NULL */

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/vectors.h"
 #include "steer/direct.h"
+#include "steer/leaf.h"
 #include "steer/newton.h"
 #include "steer/reach.h"
 #include "steer/vakonomic.h"
@@ -190,8 +191,9 @@ static void explain(const dal__problem *p, const dal_steering *steering, dal_ext
         steering->allowed < 2 * p->n - p->integrals)
         dal__fail(&record, out->status,
                   "no motion was found in %d iterations; the nearest is off by %.3g: only %d of "
-                  "%d numbers of the end can be reached; is the target on another leaf?",
-                  out->iterations, out->distance, steering->allowed, 2 * p->n);
+                  "%d numbers of the end can be reached%s",
+                  out->iterations, out->distance, steering->allowed, 2 * p->n,
+                  p->knows_leaf ? "" : "; is the target on another leaf?");
     else if (out->status == DAL_STATUS_NOT_CONVERGED)
         dal__fail(&record, out->status,
                   "no motion was found in %d iterations: jumps of %.3g remain; more starts or a "
@@ -297,6 +299,7 @@ static dal_status fill_steering(dal__problem *p, dal_steering *steering)
     dal_status status = p->observer && p->observer->reach
                             ? p->observer->reach(p->observer->user, steering)
                             : DAL_STATUS_OK;
+    if (status == DAL_STATUS_OK) status = dal__leaf_check(p, steering);
     if (status == DAL_STATUS_OK) status = dal__shooting_open(&s, p, p->steps, PIECES);
     for (p->guess = 0; status == DAL_STATUS_OK && is_wanted(p, steering); p->guess++)
         status = add_guess(p, &s, steering);

@@ -194,8 +194,14 @@ if needs 5 "no python3" there python3; then
 fi
 
 case_is "refused"
+cat >leaves.yaml <<'YAML'
+coordinates: [x, y]
+lagrangian: (x'^2 + y'^2)/2
+constraints: [x' - y']
+YAML
 table <<'ROWS'
 2 | steer $sleigh --to "x=1,y'=0.4" | says the target is off D = 0 by -0.4: every motion keeps constraint 1, so that it cannot
+2 | steer leaves.yaml --to x=1,y=2 --rest --effort constraint --integrator gauss4 --step 0.1 --time 1 | says leaves.yaml: the target is on another leaf of D = 0: every motion keeps x - y, which is 0 at the start and -1 at the target
 2 | steer $sleigh --to x=1,z=2 | says 'z' is no coordinate or velocity
 2 | steer $sleigh --to x=1,x=2 | says --to: x is given twice
 2 | steer $sleigh --to x | says --to: 'x' is not NAME=VALUE
