@@ -1,0 +1,239 @@
+/* test_steer_ends.c - targets that are not reached, that cannot be, and what is refused. */
+#include "core/vectors.h"
+#include "fixtures.h"
+#include "steered.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <string.h>
+
+static dal_status stop_at_third(void *user, int guess, int iteration, double residual)
+{
+    int *calls = user;
+    CU_ASSERT(guess == 0 && iteration == *calls && residual >= 0.0);
+    return (*calls)++ == 3 ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
+}
+
+static dal_status note_reach(void *user, const dal_steering *steering)
+{
+    const int *calls = user;
+    CU_ASSERT_EQUAL(*calls, 0);
+    CU_ASSERT_EQUAL(steering->count, 0);
+    CU_ASSERT_EQUAL(steering->allowed, 5);
+    return DAL_STATUS_OK;
+}
+
+/* A target that is not reached leaves the nearest motion and says so. */
+static void test_unreached(void)
+{
+    const dal_setting target[] = {{"x", 0.0}, {"y", 1.0}, {"phi", 0.0}};
+    int calls = 0;
+    const dal_steer_observer observer = {&calls, note_reach, stop_at_third};
+    steered s;
+    steered_open(&s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.04);
+    s.settings.target = target;
+    s.settings.targets = 3;
+    CU_ASSERT_EQUAL_FATAL(
+        dal_steer_create(&s.steering, s.model, &s.spec, 2.0, &s.settings, &observer, NULL),
+        DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(s.steering->count, 1);
+    CU_ASSERT_EQUAL(s.steering->extremal->status, DAL_STATUS_INTERRUPTED);
+    CU_ASSERT(s.steering->extremal->message[0] != '\0');
+    CU_ASSERT_EQUAL(calls, 4);
+    const dal_extremal *nearest = s.steering->extremal;
+    const double *end = nearest->z + (s.steering->rows - 1) * s.steering->dimension;
+    CU_ASSERT(nearest->residual > 1e-6 && nearest->residual < 10.0);
+    CU_ASSERT(nearest->distance >= fabs(end[1] - 1.0) && nearest->distance < 10.0);
+    /* y = 0 is the leaf of x dy - y dx = 0 through (1, 0): what is off it cannot be reached */
+    static const char radial[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                 "constraints: [x*y' - y*x']\nstart: {x: 1}\n";
+    steered_close(&s);
+    steered_open(&s, radial, DAL_EFFORT_CONSTRAINT, "gauss4", 0.05);
+    s.settings.iterations = 30;
+    const dal_setting side[] = {{"x", 1.0}, {"y", 0.5}};
+    CU_ASSERT_EQUAL(steered_try(&s, 1.0, side, 2), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(s.steering->allowed, 2);
+    CU_ASSERT_EQUAL(s.best->status, DAL_STATUS_NOT_CONVERGED);
+    CU_ASSERT(strstr(s.best->message, "only 2 of 4") != NULL);
+    const dal_setting along[] = {{"x", 1.5}, {"y", 0.0}};
+    steered_find(&s, 1.0, along, 2);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 6.0 * 0.25, 1e-11);
+    CU_ASSERT_EQUAL(s.best->rank, 2);
+    steered_close(&s);
+}
+
+/* On a circle of radius 1 a turn by theta costs 6 theta^2/T^3; the angle and its rate change. */
+static void test_circle(void)
+{
+    static const char circle[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                 "holonomic: [x^2 + y^2 - 1]\nstart: {x: 1}\n";
+    const double T = 1.5, theta = 1.1;
+    const dal_setting target[] = {{"x", cos(theta)}, {"y", sin(theta)}};
+    steered s;
+    steered_open(&s, circle, DAL_EFFORT_CONSTRAINT, "gauss8", 0.015);
+    s.spec.options.bare = true;
+    steered_find(&s, T, target, 2);
+    CU_ASSERT_DOUBLE_EQUAL(s.best->S, 6.0 * theta * theta / (T * T * T), 1e-12);
+    CU_ASSERT_EQUAL(s.best->rank, 2);
+    CU_ASSERT_EQUAL(s.steering->allowed, 2);
+    steered_close(&s);
+}
+
+/* Two masses and a spring, of which one is pushed: by Kalman's rank all four numbers change. */
+static void test_controlled(void)
+{
+    static const char pair[] = "coordinates: [x, y]\ncontrols: [{x: 1}]\n"
+                               "lagrangian: (x'^2 + 2*y'^2 - 3*(x - y)^2)/2\n";
+    const dal_setting target[] = {{"x", 0.4}, {"y", 0.3}};
+    steered s;
+    steered_open(&s, pair, DAL_EFFORT_CONTROLS, "gauss4", 0.1);
+    steered_find(&s, 2.0, target, 2);
+    CU_ASSERT_EQUAL(s.steering->allowed, 4);
+    CU_ASSERT_EQUAL(s.best->rank, 4);
+    steered_close(&s);
+}
+
+static void is_refused(steered *s, double T, const dal_setting *target, int targets,
+                       dal_status status, const char *fragment)
+{
+    CU_ASSERT_EQUAL(steered_try(s, T, target, targets), status);
+    CU_ASSERT_PTR_NULL(s->steering);
+    if (!strstr(s->record.message, fragment)) printf("\n  %s\n", s->record.message);
+    CU_ASSERT(strstr(s->record.message, fragment) != NULL);
+}
+
+static dal_status stop_at_once(void *user, int guess, int iteration, double residual)
+{
+    CU_ASSERT(guess == 0 && iteration == 0 && residual >= 0.0);
+    ++*(int *)user;
+    return DAL_STATUS_INTERRUPTED;
+}
+
+/* Whether a search for a target begins. */
+static bool begins(steered *s, const dal_setting *target, int targets)
+{
+    int calls = 0;
+    const dal_steer_observer observer = {&calls, NULL, stop_at_once};
+    dal_steer_free(s->steering);
+    s->settings.target = target;
+    s->settings.targets = targets;
+    CU_ASSERT_EQUAL_FATAL(dal_steer_create(&s->steering, s->model, &s->spec, 1.0, &s->settings,
+                                           &observer, &s->record),
+                          DAL_STATUS_OK);
+    return calls == 1;
+}
+
+/* What an integrable D conserves whatever the effort's inputs are: x - y, x^2 + y^2, of time
+ * x - sin t, and a part of a D that is not integrable. */
+static void test_leaves(void)
+{
+    static const char line[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                               "constraints: [x' - y']\nstart: {x: 1}\n";
+    static const char circle[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                                 "constraints: [x*x' + y*y']\nstart: {x: 1}\n";
+    static const char moved[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                "constraints: [x' - cos(t)]\nstart: {x': 1}\n";
+    static const char carried[] = "coordinates: [x, y, phi, z]\n"
+                                  "lagrangian: (x'^2 + y'^2 + phi'^2 + z'^2)/2\n"
+                                  "constraints: [x'*sin(phi) - y'*cos(phi), z' - 2*phi*phi']\n";
+    dal_setting target[] = {{"x", 2.0}, {"y", 0.5}, {"phi", 0.5}, {"z", 0.3}};
+    steered s;
+    steered_open(&s, line, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 2, DAL_STATUS_INCONSISTENT,
+               "every motion keeps x - y, which is 1 at the start and 1.5 at the target");
+    CU_ASSERT(begins(&s, target, 1)); /* y is free */
+    target[1].value = 1.0;
+    CU_ASSERT(begins(&s, target, 2));
+    steered_close(&s);
+    steered_open(&s, line, DAL_EFFORT_MASS, "gauss4", 0.1); /* it pushes across D = 0 */
+    target[1].value = 0.5;
+    CU_ASSERT(begins(&s, target, 2));
+    s.settings.rest = false;
+    s.settings.aim = true;
+    is_refused(&s, 1.0, target, 2, DAL_STATUS_INCONSISTENT, "keeps x - y");
+    steered_close(&s);
+    steered_open(&s, circle, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 2, DAL_STATUS_INCONSISTENT,
+               "keeps x^2 + y^2, which is 1 at the start and 4.25 at the target");
+    target[0].value = -0.6, target[1].value = 0.8;
+    CU_ASSERT(begins(&s, target, 2));
+    steered_close(&s);
+    steered_open(&s, moved, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    s.settings.rest = false;
+    is_refused(&s, 1.0, target, 1, DAL_STATUS_INCONSISTENT, "every motion keeps x - sin(t)");
+    target[0].value = sin(1.0);
+    CU_ASSERT(begins(&s, target, 1));
+    steered_close(&s);
+    steered_open(&s, carried, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 4, DAL_STATUS_INCONSISTENT, "z");
+    target[3].value = 0.25;
+    CU_ASSERT(begins(&s, target, 4));
+    steered_close(&s);
+}
+
+/* Every place and heading of a sleigh is on its one leaf. */
+static void test_one_leaf(void)
+{
+    steered s;
+    dal__random random = {1};
+    steered_open(&s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    for (int i = 0; i < 20; i++) {
+        const dal_setting target[] = {{"x", 2.0 * dal__uniform(&random)},
+                                      {"y", 2.0 * dal__uniform(&random)},
+                                      {"phi", 3.0 * dal__uniform(&random)}};
+        CU_ASSERT(begins(&s, target, 3));
+    }
+    steered_close(&s);
+}
+
+static void test_refuses(void)
+{
+    const dal_setting target[] = {{"x", 1.0}, {"y", 0.0}, {"phi", 0.0}, {"y'", 0.5}};
+    const dal_setting other = {"z", 1.0}, momentum = {"p_x", 1.0}, none = {"x", NAN};
+    steered s;
+    steered_open(&s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 4, DAL_STATUS_INCONSISTENT, "the target is off D");
+    is_refused(&s, 1.03, target, 3, DAL_STATUS_ARGUMENT, "no whole number of steps");
+    is_refused(&s, 0.0, target, 3, DAL_STATUS_ARGUMENT, "no whole number of steps");
+    is_refused(&s, 1.0, &other, 1, DAL_STATUS_NAME, "no coordinate or velocity");
+    is_refused(&s, 1.0, &momentum, 1, DAL_STATUS_NAME, "no coordinate or velocity");
+    is_refused(&s, 1.0, &none, 1, DAL_STATUS_ARGUMENT, "not finite");
+    s.settings.rest = false;
+    is_refused(&s, 1.0, NULL, 0, DAL_STATUS_ARGUMENT, "no target");
+    s.settings.rest = true;
+    s.spec = fixture_spec(s.spec.system, "gauss4+project", DAL_LIFTED, 0.1);
+    is_refused(&s, 1.0, target, 3, DAL_STATUS_UNSUPPORTED, "no steering by gauss4+project");
+    s.spec = fixture_spec(fixture_system("chaplygin-sleigh"), "gauss4", DAL_LIFTED, 0.1);
+    is_refused(&s, 1.0, target, 3, DAL_STATUS_ARGUMENT, "not the model's");
+    steered_close(&s);
+    steered_open(&s, "chaplygin-sleigh-vakonomic", DAL_EFFORT_IDENTITY, "gauss4", 0.1);
+    const dal_setting speed = {"y1'", 1.0}, multiplier = {"g1", 1.0};
+    is_refused(&s, 1.0, &speed, 1, DAL_STATUS_UNSUPPORTED, "there is no rest");
+    s.settings.rest = false;
+    s.settings.aim = true;
+    is_refused(&s, 1.0, &speed, 1, DAL_STATUS_UNSUPPORTED, "there is no aim");
+    s.settings.aim = false;
+    is_refused(&s, 1.0, &speed, 1, DAL_STATUS_UNSUPPORTED, "'y1'' cannot be given");
+    is_refused(&s, 1.0, &multiplier, 1, DAL_STATUS_UNSUPPORTED, "'g1' cannot be given");
+    steered_close(&s);
+    steered_open(&s, "coordinates: [x]\nlagrangian: x'^2/2\ngauge: {mu_e: 1}\n",
+                 DAL_EFFORT_IDENTITY, "gauss4", 0.1);
+    is_refused(&s, 1.0, target, 1, DAL_STATUS_UNSUPPORTED, "constant e");
+    const dal_setting infinite = {"e", INFINITY};
+    steered_close(&s);
+    steered_open(&s, steered_unstable, DAL_EFFORT_IDENTITY, "gauss4", 0.1);
+    s.spec.start = &infinite;
+    s.spec.start_count = 1;
+    is_refused(&s, 1.0, target, 1, DAL_STATUS_UNSUPPORTED, "1/e = 0");
+    steered_close(&s);
+}
+
+void suite_steer_ends(void)
+{
+    CU_pSuite suite = CU_add_suite("what steering can reach", NULL, NULL);
+    CU_add_test(suite, "targets that are not reached", test_unreached);
+    CU_add_test(suite, "a holonomic constraint, closed form", test_circle);
+    CU_add_test(suite, "two masses, one pushed", test_controlled);
+    CU_add_test(suite, "targets on other leaves", test_leaves);
+    CU_add_test(suite, "a sleigh has one leaf", test_one_leaf);
+    CU_add_test(suite, "what is refused", test_refuses);
+}
