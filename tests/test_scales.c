@@ -12,26 +12,39 @@
 
 /* ---- one formula ---- */
 
-static double scale_of(const char *text, const double *symbol)
+/* The scales of count formulas that are evaluated together; returns the doubles that takes. */
+static size_t scale_together(const char *const *text, int count, const double *symbol, double *out)
 {
+    enum { MAX_COUNT = 32 };
     dal__graph *graph = formula_graph();
-    const dal__node f = formula_node(graph, text);
-    dal__terms *terms = dal__terms_create(graph, &f, 1);
-    double out = NAN;
+    dal__node f[MAX_COUNT];
+    CU_ASSERT_FATAL(count <= MAX_COUNT);
+    for (int k = 0; k < count; k++) f[k] = formula_node(graph, text[k]);
+    dal__terms *terms = dal__terms_create(graph, f, count);
     CU_ASSERT_PTR_NOT_NULL_FATAL(terms);
-    double *memory = calloc(dal__terms_memory(terms), sizeof *memory);
-    dal__terms_scales(terms, symbol, memory, &out);
+    const size_t size = dal__terms_memory(terms);
+    double *memory = calloc(size, sizeof *memory);
+    for (size_t i = 0; i < size; i++) memory[i] = NAN; /* as it comes */
+    dal__terms_scales(terms, symbol, memory, out);
     free(memory);
     dal__terms_free(terms);
     dal__graph_free(graph);
+    return size;
+}
+
+static double scale_of(const char *text, const double *symbol)
+{
+    double out = NAN;
+    scale_together(&text, 1, symbol, &out);
     return out;
 }
 
-/* The largest |df/dn n| over the nodes of each formula, by hand, at a = 2, b = 3, x = 5, y = -7,
- * z = 0, x' = 11, y' = 13, z' = 0. */
+/* a = 2, b = 3, x = 5, y = -7, z = 0, x' = 11, y' = 13, z' = 0 */
+static const double symbols[SYMBOLS] = {2, 3, 5, -7, 0, 11, 13, 0};
+
+/* The largest |df/dn n| over the nodes of each formula, by hand. */
 static void test_by_hand(void)
 {
-    static const double at[SYMBOLS] = {2, 3, 5, -7, 0, 11, 13, 0};
     static const struct {
         const char *formula;
         double scale;
@@ -61,12 +74,46 @@ static void test_by_hand(void)
         if (strcmp(cases[k].formula, "exp(x)") == 0) right = 5.0 * exp(5.0);
         if (strcmp(cases[k].formula, "x^(b + 0.5)") == 0) right = 3.5 * pow(5.0, 3.5);
         if (strcmp(cases[k].formula, "log(x)") == 0) right = log(5.0);
-        const double scale = scale_of(cases[k].formula, at);
+        const double scale = scale_of(cases[k].formula, symbols);
         const bool is_right =
             isinf(right) ? scale == right : fabs(scale - right) <= 8.0 * DBL_EPSILON * right;
         if (!is_right) printf("\n  S(%s) = %.17g, not %.17g", cases[k].formula, scale, right);
         CU_ASSERT(is_right);
     }
+}
+
+/* Formulas that share parts have their own scales, in any order. */
+static void test_together(void)
+{
+    static const char *const texts[] = {
+        "x*y' - y*x'", "x*y'", "y*x'", "(x + y)^2", "x + y", "1/z", "x", "x*y' - y*x' + x", "a*b"};
+    static const double scales[] = {142, 65, 77, 28, 7, INFINITY, 5, 147, 6};
+    enum { COUNT = sizeof texts / sizeof *texts };
+    double out[COUNT];
+    for (int first = 0; first < COUNT; first++) {
+        const char *turned[COUNT];
+        for (int k = 0; k < COUNT; k++) turned[k] = texts[(first + k) % COUNT];
+        scale_together(turned, COUNT, symbols, out);
+        for (int k = 0; k < COUNT; k++) CU_ASSERT_EQUAL(out[k], scales[(first + k) % COUNT]);
+    }
+}
+
+/* Ten multiples of one long sum take memory for it once: beside it for two products and a number
+ * each, twice and a mark. */
+static void test_shared(void)
+{
+    static const char sum[] = "(x + exp(x) + sin(y) + cos(y) + x*y + x*y^2 + x^2*y + exp(x*y))";
+    enum { COUNT = 10 };
+    char multiple[COUNT][128];
+    const char *text[COUNT];
+    double out[COUNT];
+    for (int k = 0; k < COUNT; k++) {
+        snprintf(multiple[k], sizeof multiple[k], "%s*%d*z", sum, k + 2);
+        text[k] = multiple[k];
+    }
+    const size_t one = scale_together(text, 1, symbols, out);
+    const size_t all = scale_together(text, COUNT, symbols, out);
+    CU_ASSERT(all <= one + (COUNT - 1) * 7);
 }
 
 /* A constant counts with its size: (x + 1e10) - 1e10 cannot be better than eps of it. */
@@ -327,6 +374,8 @@ void suite_scales(void)
 {
     CU_pSuite suite = CU_add_suite("scales", NULL, NULL);
     CU_add_test(suite, "the largest term of formulas, by hand", test_by_hand);
+    CU_add_test(suite, "formulas that share parts", test_together);
+    CU_add_test(suite, "memory for parts once", test_shared);
     CU_add_test(suite, "a constant counts with its size", test_offset);
     CU_add_test(suite, "scales in other units", test_units);
     CU_add_test(suite, "an atom that loses its energy", test_atom);

@@ -18,57 +18,60 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The nodes of one formula, itself the last: the operands of each are places before it, and place 0
- * is no node. */
-typedef struct terms_formula {
-    dal__record *place; /* [places] */
-    int places;
-} terms_formula;
-
+/* The nodes of all formulas, each once: the operands of each are places before it, and place 0 is
+ * no node. */
 struct dal__terms {
     const struct dal__tape_table *tables;
-    terms_formula *formula; /* [formulas] */
-    int formulas, max_places;
+    dal__record *place; /* [places] */
+    int *root;          /* [formulas] places of the formulas themselves */
+    int places, formulas;
 };
 
 void dal__terms_free(dal__terms *t)
 {
-    for (int k = 0; t && k < t->formulas; k++) free(t->formula[k].place);
-    if (t) free(t->formula);
+    if (t) free(t->place);
+    if (t) free(t->root);
     free(t);
 }
 
 void dal__terms_count_fixed(dal__terms *t)
 {
-    for (int k = 0; k < t->formulas; k++)
-        for (int i = 0; i < t->formula[k].places; i++) t->formula[k].place[i].fixed = false;
+    for (int i = 0; i < t->places; i++) t->place[i].fixed = false;
 }
 
 /* Copies the marked nodes in their order; image[node] is where each went. */
-static void copy_nodes(terms_formula *f, const dal__graph *graph, dal__node last,
-                       const uint8_t *mark, int *image)
+static void copy_nodes(dal__terms *t, const dal__graph *graph, dal__node last, const uint8_t *mark,
+                       int *image)
 {
-    f->places = 1;
+    t->places = 1;
     for (dal__node i = dal__first_marked(mark, 1, last); i > 0;
          i = dal__first_marked(mark, i + 1, last)) {
         dal__record r = dal__inspect(graph, i);
         r.a = image[r.a];
         r.b = image[r.b];
         r.c = image[r.c];
-        image[i] = f->places;
-        f->place[f->places++] = r;
+        image[i] = t->places;
+        t->place[t->places++] = r;
     }
 }
 
-static bool copy_formula(terms_formula *f, dal__graph *graph, dal__node node)
+/* False: out of memory. */
+static bool copy_formulas(dal__terms *t, dal__graph *graph, const dal__node *formula, int count)
 {
-    uint8_t *mark = dal__reach(graph, node);
-    int *image = dal__per_node(graph, node, sizeof *image);
-    size_t count = 1;
-    for (dal__node i = mark ? node : 0; i > 0; i = dal__last_marked(mark, i - 1)) count++;
-    f->place = calloc(count, sizeof *f->place);
-    const bool made = mark && image && f->place;
-    if (made) copy_nodes(f, graph, node, mark, image);
+    dal__node last = 0;
+    for (int k = 0; k < count; k++) last = formula[k] > last ? formula[k] : last;
+    uint8_t *mark = dal__reach_all(graph, formula, count);
+    int *image = dal__per_node(graph, last, sizeof *image);
+    size_t places = 1;
+    for (dal__node i = mark ? dal__last_marked(mark, last) : 0; i > 0;
+         i = dal__last_marked(mark, i - 1))
+        places++;
+    t->place = calloc(places, sizeof *t->place);
+    t->root = calloc((size_t)count + 1, sizeof *t->root);
+    const bool made = mark && image && t->place && t->root;
+    if (made) copy_nodes(t, graph, last, mark, image);
+    for (int k = 0; k < count && made; k++) t->root[k] = image[formula[k]];
+    t->formulas = count;
     free(mark);
     free(image);
     return made;
@@ -77,21 +80,18 @@ static bool copy_formula(terms_formula *f, dal__graph *graph, dal__node node)
 dal__terms *dal__terms_create(dal__graph *graph, const dal__node *formula, int count)
 {
     dal__terms *t = calloc(1, sizeof *t);
-    if (t) t->formula = calloc(count > 0 ? (size_t)count : 1, sizeof *t->formula);
-    bool made = t && t->formula;
-    if (made) t->tables = graph->tables;
-    for (int k = 0; k < count && made; k++) {
-        made = copy_formula(&t->formula[k], graph, formula[k]);
-        t->formulas++;
-        const int places = t->formula[k].places;
-        t->max_places = places > t->max_places ? places : t->max_places;
-    }
-    if (made) return t;
+    if (t) t->tables = graph->tables;
+    if (t && copy_formulas(t, graph, formula, count)) return t;
     dal__terms_free(t);
     return NULL;
 }
 
-size_t dal__terms_memory(const dal__terms *t) { return 2 * (size_t)t->max_places; }
+/* Values, adjoints, and a mark for each. */
+size_t dal__terms_memory(const dal__terms *t)
+{
+    const size_t places = (size_t)t->places;
+    return 2 * places + (places + sizeof(double) - 1) / sizeof(double);
+}
 
 /* ---- the derivatives of one operation ---- */
 
@@ -143,16 +143,15 @@ static void add_partials(const struct dal__tape_table *tables, const dal__record
 
 /* ---- both sweeps ---- */
 
-static void forward(const struct dal__tape_table *tables, const terms_formula *f,
-                    const double *symbol, double *value)
+static void forward(const dal__terms *t, const double *symbol, double *value)
 {
     value[0] = NAN;
-    for (int i = 1; i < f->places; i++) {
-        const dal__record *r = &f->place[i];
+    for (int i = 1; i < t->places; i++) {
+        const dal__record *r = &t->place[i];
         value[i] = r->op == DAL__NUMBER   ? r->value
                    : r->op == DAL__SYMBOL ? symbol[r->symbol]
                    : r->op == DAL__TABLE
-                       ? dal__table_value(tables, r->symbol, value[r->a])
+                       ? dal__table_value(t->tables, r->symbol, value[r->a])
                        : dal__operate(r->op, value[r->a], value[r->b], value[r->c]);
     }
 }
@@ -164,27 +163,36 @@ static bool counts(double adjoint, double x)
     return adjoint != 0.0 && (x != 0.0 || isfinite(adjoint));
 }
 
-static double reverse(const struct dal__tape_table *tables, const terms_formula *f,
-                      const double *value, double *adjoint)
+/* adjoint and mark, which says where an adjoint need not be 0, are 0 before and after: a formula
+ * has few of the nodes. */
+static double reverse(const dal__terms *t, int root, const double *value, double *adjoint,
+                      uint8_t *mark)
 {
-    const int last = f->places - 1;
-    double scale = fabs(value[last]);
-    memset(adjoint, 0, (size_t)f->places * sizeof *adjoint);
-    adjoint[last] = 1.0;
-    for (int i = last; i > 0; i--) {
-        if (f->place[i].fixed || !counts(adjoint[i], value[i])) continue;
-        const double term = fabs(adjoint[i] * value[i]);
+    double scale = fabs(value[root]);
+    adjoint[root] = 1.0;
+    mark[root] = 1;
+    for (int i = root; i > 0; i = dal__last_marked(mark, i - 1)) {
+        const dal__record *r = &t->place[i];
+        const double k = adjoint[i];
+        adjoint[i] = 0.0;
+        mark[i] = 0;
+        if (r->fixed || !counts(k, value[i])) continue;
+        const double term = fabs(k * value[i]);
         if (!(term <= scale)) scale = term;
-        add_partials(tables, &f->place[i], value[i], adjoint[i], value, adjoint);
+        add_partials(t->tables, r, value[i], k, value, adjoint);
+        mark[r->a] = mark[r->b] = mark[r->c] = 1;
     }
+    adjoint[0] = 0.0;
+    mark[0] = 0;
     return isnan(scale) ? INFINITY : scale;
 }
 
 void dal__terms_scales(const dal__terms *t, const double *symbol, double *memory, double *out)
 {
-    double *const value = memory, *const adjoint = memory + t->max_places;
-    for (int k = 0; k < t->formulas; k++) {
-        forward(t->tables, &t->formula[k], symbol, value);
-        out[k] = reverse(t->tables, &t->formula[k], value, adjoint);
-    }
+    double *const value = memory, *const adjoint = value + t->places;
+    uint8_t *const mark = (uint8_t *)(adjoint + t->places);
+    forward(t, symbol, value);
+    memset(adjoint, 0, (size_t)t->places * sizeof *adjoint);
+    memset(mark, 0, (size_t)t->places);
+    for (int k = 0; k < t->formulas; k++) out[k] = reverse(t, t->root[k], value, adjoint, mark);
 }
