@@ -5,6 +5,7 @@
 #include "quick.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* x = cos t, E = 1/2. */
@@ -79,6 +80,24 @@ static void test_mean_rate(void)
     CU_ASSERT(fabs(E->rate - pow(h, 3) / 4.0) <= E->margin);
     CU_ASSERT(E->max_change > 100.0 * fabs(E->rate));
     dal_prediction_free(p);
+}
+
+/* Motion down a hill, or up one, is free at one of its ends: the mean of its whole change, hardly seen
+ * by the bump, is in the interval, which is not much longer. */
+static void test_transient(void)
+{
+    static const char *const starts[] = {"x: 0, x': 2", "x: -200, x': 2"};
+    for (int i = 0; i < 2; i++) {
+        char system[128];
+        snprintf(system, sizeof system,
+                 "coordinates: [x]\nlagrangian: x'^2/2 - exp(-x^2)\nstart: {%s}\n", starts[i]);
+        dal_prediction *p = predicted(system, "rk4", 0.125, 100.0, 0);
+        const dal_predicted *E = find(p, "E");
+        CU_ASSERT(p->reason == DAL_PREDICTION_TIME && fabs(E->change) > 1e-6);
+        CU_ASSERT(fabs(E->change / 100.0 - E->rate) <= E->margin);
+        CU_ASSERT(E->margin <= 2.0 * fabs(E->change) / 100.0);
+        dal_prediction_free(p);
+    }
 }
 
 /* A step of taylor multiplies E by |R|^2, R the sum of (ih)^k/k! up to 10: 1 + 22 h^12/12! + ..;
@@ -505,6 +524,7 @@ void suite_predict(void)
     CU_pSuite suite = CU_add_suite("predicted drift", NULL, NULL);
     CU_add_test(suite, "closed form", test_closed_form);
     CU_add_test(suite, "mean rate", test_mean_rate);
+    CU_add_test(suite, "the mean rate of motion that ends otherwise", test_transient);
     CU_add_test(suite, "quad precision", test_quad);
     CU_add_test(suite, "a method that leaves D = 0", test_leaves_D);
     CU_add_test(suite, "the rate of the pendulum", test_rate_of_pendulum);

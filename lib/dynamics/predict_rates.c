@@ -3,7 +3,9 @@
  * Mean rates are weighted with a bump function, exp(-1/(s (1 - s))), s = t/T: of quasi-periodic
  * motion they converge faster than any power of 1/T (Das, Saiki, Sander, Yorke 2017, DOI
  * 10.1088/1361-6544/aa84c2).  Their interval is the larger difference to the means over either
- * half, and what rounding may do.
+ * half, and what rounding may do.  A bump hardly sees the ends, where motion may begin or end
+ * otherwise than it goes on: what is left of the sums at either end, beyond where it is in between,
+ * belongs to the interval, too.
  *
  * Of chaotic motion the sums S over M pieces have E[S]/T, the drift, and var S = s^2 T + b with a
  * bounded b: s^2 = 2 (V - W)/T with V = var S(T), and W = var S(T/2) of both halves of all pieces.
@@ -35,6 +37,28 @@ static double weighted_mean(const work *w, int observable, long long from, long 
     return sum / (weights * (double)w->steps_of_bin);
 }
 
+/* How far x is outside of low .. high, with a margin of that length at either side. */
+static double outside(double x, double low, double high)
+{
+    return fmax(fmax(low - x, x - high) - (high - low), 0.0);
+}
+
+/* The sum of the increments less `mean` a step is 0 at the start.  How much more of it there is at
+ * either end than in the middle half, in which it goes to and fro. */
+static double excess_at_ends(const work *w, int observable, long long bins, double mean)
+{
+    double rest = 0.0, low = INFINITY, high = -INFINITY;
+    for (long long b = 0; b < bins; b++) {
+        if (b >= bins / 4 && b <= bins - bins / 4) {
+            low = fmin(low, rest);
+            high = fmax(high, rest);
+        }
+        rest += w->bins[(size_t)b * (size_t)w->count + (size_t)observable] -
+                mean * (double)w->steps_of_bin;
+    }
+    return fmax(outside(0.0, low, high), outside(rest, low, high));
+}
+
 /* Rates of the moments over pieces, or else of the curve. */
 static void find_rate(const work *w, int observable, dal_predicted *p)
 {
@@ -58,8 +82,10 @@ static void find_rate(const work *w, int observable, dal_predicted *p)
         const double second = weighted_mean(w, observable, bins / 2, bins) / h;
         const double steps = (double)bins * (double)w->steps_of_bin;
         const double noise = of->is_quad ? 0.0 : p->rounding / (sqrt(steps) * fabs(h));
-        p->rate = weighted_mean(w, observable, 0, bins) / h;
-        p->margin = fmax(fabs(first - p->rate), fabs(second - p->rate)) + noise;
+        const double mean = weighted_mean(w, observable, 0, bins);
+        p->rate = mean / h;
+        p->margin = fmax(fabs(first - p->rate), fabs(second - p->rate)) + noise +
+                    excess_at_ends(w, observable, bins, mean) / (steps * fabs(h));
     }
 }
 
