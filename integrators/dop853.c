@@ -94,31 +94,33 @@ DAL_INLINE void add_derivatives(int dim, int count, const double *weight, const 
     }
 }
 
-/* sum = weight_1 k_1 + .. + weight_count k_count, the digits after the doubles first. */
-DAL_INLINE void combine(int dim, int count, const double *weight, const double *low, int uses_low,
-                        const num *k, num *DAL_RESTRICT sum)
+/* sum = weight_1 k_1 + .. + weight_count k_count, the digits after the doubles first (NULL: none).
+ */
+DAL_INLINE void combine(int dim, int count, const double *weight, const double *low, const num *k,
+                        num *DAL_RESTRICT sum)
 {
     DAL_EACH(l, dim) sum[l] = dal_num(0.0);
-    if (uses_low) add_derivatives(dim, count, low, k, sum);
+    if (low) add_derivatives(dim, count, low, k, sum);
     add_derivatives(dim, count, weight, k, sum);
 }
 
 /* All k_i of a step from t but the first ones that are `known`, and the sum of b_i k_i. */
 DAL_INLINE void derivatives(dal_step *s, dal_times t, dal_times size, int known, num *k, num *sum)
 {
-    const int dim = DAL_DIM(s), uses_low = USES_LOW_853(s);
+    const int dim = DAL_DIM(s);
+    const bool uses_low = USES_LOW_853(s);
     const num h = size;
     DAL_EACH(before, STAGES_853) {
         if (before < known) continue;
         const int i = before + 1;
-        combine(dim, before, a853 + ROW_853(i), a853_low + ROW_853(i), uses_low, k, sum);
+        combine(dim, before, a853 + ROW_853(i), uses_low ? a853_low + ROW_853(i) : NULL, k, sum);
         if (uses_low)
             DAL_EACH(l, dim) sum[l] = s->y[l] + dal_fma(h, sum[l], s->r[l]);
         else
             DAL_EACH(l, dim) sum[l] = dal_fma(h, sum[l], s->y[l]);
         dal_field_at(s, t + c853[i - 1] * size, sum, K_853(k, dim, i));
     }
-    combine(dim, STAGES_853, b853, b853_low, uses_low, k, sum);
+    combine(dim, STAGES_853, b853, uses_low ? b853_low : NULL, k, sum);
 }
 
 #if DAL_WITH(CONTROL)

@@ -46,7 +46,8 @@ DAL_INLINE void find_first_half(dal_step *s, const dal_equation *eq, const leap 
  * that both halves have the same in the end.  A is of qh in place of q1, which differs like h. */
 DAL_INLINE void leap_by_factors(dal_step *s, dal_equation *eq, const leap *k)
 {
-    const int n = DAL_N(s), is_same = dal_positional(s);
+    const int n = DAL_N(s);
+    const bool is_same = dal_positional(s);
     const double h = s->h;
     const num *l = k->elimination.out + n;
     if (!is_same) find_first_half(s, eq, k);

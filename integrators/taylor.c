@@ -161,7 +161,7 @@ DAL_INLINE dal_status divided(dal_step *s, num *x, num *rate, const dal_expansio
     DAL_VECTOR(s, derivative, DAL_DIM(s) + DAL__PACK);
     DAL_VECTOR(s, z, 2 * DAL_DIM(s));
     dal_control c = dal_control_begin(s);
-    int is_trial = 0; /* whether z is the end of a trial: else the state */
+    bool is_trial = false; /* whether z is the end of a trial: else the state */
     dal_times rest = c.rest;
     DAL_EACH(i, dim) z[i] = s->y[i];
     for (;;) {
@@ -177,7 +177,7 @@ DAL_INLINE dal_status divided(dal_step *s, num *x, num *rate, const dal_expansio
             if (differ && dal_any(c.active & ~c.again)) {
                 DAL_EACH(i, dim) z[i] = s->y[i];
                 rest = c.rest;
-                is_trial = 0;
+                is_trial = false;
                 continue;
             }
         }
@@ -194,7 +194,7 @@ DAL_INLINE dal_status divided(dal_step *s, num *x, num *rate, const dal_expansio
         rest = c.rest - c.direction * c.h;
         dal_evaluate_polynomial(s, c.h, x, rate, derivative);
         DAL_EACH(i, dim) z[i] = s->y[i] + dal_fma(c.h, rate[i], s->r[i]);
-        is_trial = 1;
+        is_trial = true;
     }
 }
 #endif

@@ -27,7 +27,8 @@ static bool accepts(const char *text)
                            "-x c - 2>/dev/null",
                            "w");
     CU_ASSERT_PTR_NOT_NULL_FATAL(compiler);
-    fputs("#include <math.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <string.h>\n",
+    fputs("#include <math.h>\n#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n"
+          "#include <string.h>\n",
           compiler);
     fputs(text, compiler);
     return pclose(compiler) == 0;

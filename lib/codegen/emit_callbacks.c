@@ -227,7 +227,7 @@ static void write_series(dal__generation *g)
         dal__buffer_print(text,
                           "    if (k == 0 && !s->pivots_known[0]) {\n"
                           "        DAL_EACH(i, %d) s->pivots[i] = all[%d + i];\n"
-                          "        s->pivots_known[0] = 1;\n    }\n",
+                          "        s->pivots_known[0] = true;\n    }\n",
                           p->saved, pivots);
     dal__buffer_append(text, "}\n");
 }

@@ -475,8 +475,8 @@ void dal__write_steps(dal__generation *g)
 static void write_file(dal__generation *g)
 {
     dal__write_interface(g);
-    dal__write_template(g, "#ifndef PREFIX_HEADER\n#include <math.h>\n#include <stddef.h>\n"
-                           "#include <stdint.h>\n#include <string.h>\n\n");
+    dal__write_template(g, "#ifndef PREFIX_HEADER\n#include <math.h>\n#include <stdbool.h>\n"
+                           "#include <stddef.h>\n#include <stdint.h>\n#include <string.h>\n\n");
     dal__write_steps(g);
     dal__write_start(g);
     dal__write_source(g, "observables.h");

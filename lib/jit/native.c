@@ -30,6 +30,7 @@ static void write_declarations(dal__generation *g)
         &g->text, "typedef __INT64_TYPE__ int64_t;\ntypedef __UINT64_TYPE__ uint64_t;\ntypedef "
                   "__SIZE_TYPE__ size_t;\n"
                   "#define INT64_MAX __INT64_MAX__\n#define INT64_MIN (-__INT64_MAX__ - 1)\n"
+                  "#define bool _Bool\n#define true 1\n#define false 0\n"
                   "#define NULL ((void *)0)\n#define INFINITY __builtin_inf()\n"
                   "#define NAN __builtin_nan(\"\")\n"
                   "void *memcpy(void *, const void *, size_t);\n"

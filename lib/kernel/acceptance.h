@@ -118,7 +118,7 @@ DAL_INLINE dal_mask dal_check_guards(dal_step *s, int group, const num *y0, int 
  * last, or where one of them is not known.  Saves the pivots of this step. */
 DAL_INLINE dal_mask dal_pivots_warn(dal_step *s, int group)
 {
-    const int known = s->pivots_known[group];
+    const bool known = s->pivots_known[group];
     const dal_mask alive = DAL_LANES_AT(s->alive, group);
     num *const unsteady = s->last_pivots + group;
     dal_mask steady = dal_all();
@@ -135,9 +135,9 @@ DAL_INLINE dal_mask dal_pivots_warn(dal_step *s, int group)
 }
 #endif
 
-/* 1: the rank check uses the factors of F. */
+/* Whether the rank check uses the factors of F. */
 #if DAL_WITH(RANK_BY_FACTORS) && DAL_WITH(RANK_BY_MINORS)
-#define DAL_RANK_BY_FACTORS(s) ((s)->rank_checked == 2)
+#define DAL_RANK_BY_FACTORS(s) ((s)->rank_by_factors)
 #elif DAL_WITH(RANK_BY_FACTORS)
 #define DAL_RANK_BY_FACTORS(s) 1
 #else

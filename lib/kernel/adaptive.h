@@ -33,9 +33,9 @@ DAL_INLINE void dal_field_at(dal_step *s, dal_times t, const num *y, num *DAL_RE
 {
 #if DAL_HAS_TIMES
     s->times = t;
-    s->has_times = 1;
+    s->has_times = true;
     dal_field(s, s->t, y, dy);
-    s->has_times = 0;
+    s->has_times = false;
 #else
     dal_field(s, dal_lane(t, 0), y, dy);
 #endif
@@ -116,8 +116,8 @@ DAL_INLINE void dal__control_fail(dal_step *s, dal_control *c, dal_mask lanes)
     c->active &= ~lanes;
 }
 
-/* Sets time and size of the next trial; 0: no lane needs one. */
-DAL_INLINE int dal_control_next(dal_step *s, dal_control *c)
+/* Sets time and size of the next trial; false: no lane needs one. */
+DAL_INLINE bool dal_control_next(dal_step *s, dal_control *c)
 {
     const double coarse = 4.0 * c->whole;
     const num rest = c->rest, planned = c->planned, rounded = (c->planned + coarse) - coarse;

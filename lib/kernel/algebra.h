@@ -27,7 +27,7 @@ DAL_INLINE void dal_multiply(const num *m, int rows, int columns, const num *x, 
 enum { DAL__SPARSE = 16 };
 
 /* Whether x is 0 in all lanes. */
-DAL_INLINE int dal__is_zero(num x) { return !dal_any(~dal_equal(x, dal_num(0.0))); }
+DAL_INLINE bool dal__is_zero(num x) { return !dal_any(~dal_equal(x, dal_num(0.0))); }
 
 /* Numbers of G. */
 #define DAL_SQUARE_M(s) (DAL_M(s) * DAL_M(s))
@@ -46,7 +46,7 @@ DAL_INLINE void dal_gram(const num *a, const num *b, int m, int n, num *DAL_REST
 }
 
 /* Whether in all lanes a pivot is not 0, and count numbers from it on are finite. */
-DAL_INLINE int dal__divides(const num *pivot, int count)
+DAL_INLINE bool dal__divides(const num *pivot, int count)
 {
     const dal_mask good = dal_less(dal_num(0.0), dal_abs(*pivot));
     return !dal_any(~(good & dal_equal(dal_nonfinite(pivot, count), dal_num(0.0))));
@@ -56,7 +56,7 @@ DAL_INLINE int dal__divides(const num *pivot, int count)
  * leading minors k + 1 and k. */
 DAL_INLINE num dal_eliminate(num *g, int m, int k)
 {
-    const int sparse = m >= DAL__SPARSE && dal__divides(g + k * m + k, m - k);
+    const bool sparse = m >= DAL__SPARSE && dal__divides(g + k * m + k, m - k);
     for (int i = k + 1; i < m; i++) {
         if (sparse && dal__is_zero(g[i * m + k])) continue;
         const num factor = g[i * m + k] / g[k * m + k];

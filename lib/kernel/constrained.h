@@ -60,7 +60,7 @@ typedef struct dal_elimination {
     DAL_VECTOR(step, name##_out, DAL_N(step) + DAL_M(step));                                       \
     DAL_VECTOR(step, name##_directions, DAL_OF_FEW(step, DAL_N(step) * DAL_M(step)));              \
     DAL_VECTOR(step, name##_g, DAL_OF_FEW(step, 2 * DAL_SQUARE_M(step)));                          \
-    dal_elimination name = {{1, (z), &name##_one, &name##_a2, 0, NULL},                            \
+    dal_elimination name = {{1, (z), &name##_one, &name##_a2, false, NULL},                        \
                             name##_free,                                                           \
                             name##_in,                                                             \
                             name##_out,                                                            \
@@ -176,7 +176,7 @@ DAL_INLINE_EARLY dal_status dal_enforce_once(dal_step *s, dal_equation *eq, dal_
 }
 
 /* Whether a and B do not depend on v, and D is linear in v. */
-DAL_INLINE int dal_positional(const dal_step *s)
+DAL_INLINE bool dal_positional(const dal_step *s)
 {
     return (DAL_PROPERTIES(s) & DAL_BLOCKS_POSITIONAL) != 0;
 }

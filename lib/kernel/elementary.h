@@ -107,10 +107,11 @@ DAL_INLINE num dal__cos_kernel(num r, num tail, num z, num zz)
 }
 
 /* near, but libm's sin x, or cos x, in the lanes beyond. */
-DAL_COLD num dal__beyond(int sine, num x, dal_mask beyond, num near)
+typedef enum dal__circular { DAL__SINE, DAL__COSINE } dal__circular;
+DAL_COLD num dal__beyond(dal__circular f, num x, dal_mask beyond, num near)
 {
     for (int lane = 0; lane < DAL_LANES; lane++) {
-        const double angle = dal_lane(x, lane), value = sine ? sin(angle) : cos(angle);
+        const double angle = dal_lane(x, lane), value = f == DAL__SINE ? sin(angle) : cos(angle);
         if (dal_mask_lane(beyond, lane)) near = dal_with_lane(near, lane, value);
     }
     return near;
@@ -127,8 +128,8 @@ DAL_INLINE void dal_sincos(num x, num *s, num *c)
     *c = dal__flip(dal_select(odd, sine, cosine), angle.quadrant + 1);
     dal_mask beyond = ~dal_less_equal(dal_abs(x), dal_num(1e7));
     if (dal_any(beyond)) {
-        *s = dal__beyond(1, x, beyond, *s);
-        *c = dal__beyond(0, x, beyond, *c);
+        *s = dal__beyond(DAL__SINE, x, beyond, *s);
+        *c = dal__beyond(DAL__COSINE, x, beyond, *c);
     }
 }
 
@@ -222,7 +223,8 @@ DAL_INLINE num dal_piece_at(num point, num x, const double *data, int knots, int
         const double at = dal_lane(point, lane);
         int k = 0;
         for (int rest = knots; rest > 0;) {
-            const int half = rest / 2, right = knot[k + half] <= at;
+            const int half = rest / 2;
+            const bool right = knot[k + half] <= at;
             k += right ? half + 1 : 0;
             rest = right ? rest - half - 1 : half;
         }

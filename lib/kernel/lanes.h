@@ -46,7 +46,7 @@ DAL_INLINE dal_lane_set dal_lanes_without(dal_lane_set a, dal_lane_set b)
     DAL_EACH_GROUP(j) DAL_LANES_AT(a, j) &= ~DAL_LANES_AT(b, j);
     return a;
 }
-DAL_INLINE int dal_any_lanes(dal_lane_set lanes)
+DAL_INLINE bool dal_any_lanes(dal_lane_set lanes)
 {
     dal_mask some = DAL_LANES_AT(lanes, 0);
     DAL_EACH(j, DAL_STEP_GROUPS - 1) some |= DAL_LANES_AT(lanes, j + 1);

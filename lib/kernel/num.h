@@ -10,6 +10,7 @@
 #define DAL_KERNEL_NUM_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -122,11 +123,11 @@ typedef int64_t dal_mask;
 DAL_INLINE num dal_num(double x) { return x; }
 DAL_INLINE dal_mask dal_all(void) { return -1; }
 DAL_INLINE num dal_select(dal_mask m, num a, num b) { return m ? a : b; }
-DAL_INLINE int dal_any(dal_mask m) { return m != 0; }
+DAL_INLINE bool dal_any(dal_mask m) { return m != 0; }
 DAL_INLINE double dal_lane(num x, int lane) { return (void)lane, x; }
 DAL_INLINE num dal_with_lane(num x, int lane, double value) { return (void)lane, (void)x, value; }
 DAL_INLINE dal_mask dal_lane_mask(int lane) { return (void)lane, -1; }
-DAL_INLINE int dal_mask_lane(dal_mask m, int lane) { return (void)lane, m != 0; }
+DAL_INLINE bool dal_mask_lane(dal_mask m, int lane) { return (void)lane, m != 0; }
 #define DAL__COMPARE(a, op, b) (-(int64_t)((a)op(b)))
 
 #else
@@ -153,16 +154,16 @@ DAL_INLINE num dal_select(dal_mask m, num a, num b)
     return (num)(((dal_mask)a & m) | ((dal_mask)b & ~m));
 }
 #if defined __AVX512F__ && DAL_LANES == 8
-DAL_INLINE int dal_any(dal_mask m)
+DAL_INLINE bool dal_any(dal_mask m)
 {
     typedef long long bits __attribute__((vector_size(64)));
     const bits none = {0};
     return __builtin_ia32_cmpq512_mask((bits)m, none, 4, (unsigned char)-1) != 0; /* 4: differs */
 }
 #elif defined __AVX__ && DAL_LANES == 4
-DAL_INLINE int dal_any(dal_mask m) { return __builtin_ia32_movmskpd256((num)m) != 0; }
+DAL_INLINE bool dal_any(dal_mask m) { return __builtin_ia32_movmskpd256((num)m) != 0; }
 #else
-DAL_INLINE int dal_any(dal_mask m)
+DAL_INLINE bool dal_any(dal_mask m)
 {
     int64_t any = 0;
     for (int lane = 0; lane < DAL_LANES; lane++) any |= m[lane];
@@ -177,7 +178,7 @@ DAL_INLINE dal_mask dal_lane_mask(int lane)
     m[lane] = -1;
     return m;
 }
-DAL_INLINE int dal_mask_lane(dal_mask m, int lane) { return m[lane] != 0; }
+DAL_INLINE bool dal_mask_lane(dal_mask m, int lane) { return m[lane] != 0; }
 #define DAL__COMPARE(a, op, b) ((dal_mask)((a)op(b)))
 
 #endif
@@ -204,7 +205,7 @@ DAL_INLINE num dal_max(num a, num b) { return dal_select(dal_less(a, b), b, a); 
 DAL_INLINE num dal_min(num a, num b) { return dal_select(dal_less(b, a), b, a); }
 #endif
 /* a or b, the same in every lane. */
-DAL_INLINE num dal_choose(int condition, num a, num b) { return condition ? a : b; }
+DAL_INLINE num dal_choose(bool condition, num a, num b) { return condition ? a : b; }
 /* Lanes where x is neither infinite nor NaN. */
 DAL_INLINE dal_mask dal_finite(num x) { return dal_equal(x - x, dal_num(0.0)); }
 

@@ -70,7 +70,7 @@ typedef struct dal_equation {
     num DAL_OF_GROUPS(taken); /* with the solver auto: iterations of each lane, */
     num DAL_OF_GROUPS(limit); /* and how many the fixed point may take; */
     dal_newton_cost cost;     /* and of Newton's method */
-    int follows;              /* 1: takes the method that other equations of the step chose */
+    bool follows;             /* takes the method that other equations of the step chose */
 } dal_equation;
 
 /* A map may store values for the end of the step: of a lane's own last iteration, which
@@ -128,7 +128,7 @@ typedef void dal_matrix(dal_step *step, dal_equation *equation);
  * its cost is set. */
 #define DAL_EQUATION(step, name, count, context, ...)                                              \
     dal_equation name = {{__VA_ARGS__},  (count),        (context),  (step)->alive,                \
-                         {dal_num(0.0)}, {dal_num(0.0)}, {0.0, 0.0}, 0}
+                         {dal_num(0.0)}, {dal_num(0.0)}, {0.0, 0.0}, false}
 
 /* The units of a block.  Compilers see in files without units that there are none. */
 #ifdef DAL_SPECIALISED
@@ -210,7 +210,7 @@ DAL_INLINE void dal__apply_inverse(const dal_step *s, dal_block *b, int j)
 DAL_INLINE void dal__advance(const dal_step *s, dal_block *b, dal_lane_set active,
                              dal__iteration method)
 {
-    const int newton = method == DAL__ITERATE_NEWTON;
+    const bool newton = method == DAL__ITERATE_NEWTON;
     num DAL_OF_GROUPS(norm), DAL_OF_GROUPS(nonfinite);
     DAL_EACH_GROUP(j) norm[j] = nonfinite[j] = dal_num(0.0);
     const int seen = newton ? 0 : dal__advance_packs(b->u, b->image, DAL_SIZE(b), norm, nonfinite);
@@ -411,7 +411,7 @@ DAL_INLINE_EARLY void dal__solve_rest(dal_step *s, dal_equation *eq, dal_iterati
 DAL_SHARED_EARLY dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
                                       dal_matrix *matrix)
 {
-    const int may_newton = matrix && DAL_MAY_NEWTON(s);
+    const bool may_newton = matrix && DAL_MAY_NEWTON(s);
     dal_lane_set solved = s->alive;
     if (may_newton) {
         solved = dal_lanes_without(solved, dal__begins_with_newton(s, eq));
@@ -436,7 +436,7 @@ typedef struct dal_stage_matrix {
     int stages;
     double z;
     const double *a, *a2; /* [stages*stages] */
-    int transposed;
+    bool transposed;
     const dal_eigensystem *eigensystem; /* NULL: none */
 } dal_stage_matrix;
 
@@ -464,7 +464,8 @@ DAL_INLINE void dal__eigen_inverse(dal_step *s, const dal_stage_matrix *k, const
     for (int e = 0; e < (DAL_STAGES(k) + 1) / 2; e++) {
         const double *value = k->eigensystem->value + 2 * e;
         const double re = k->z * value[0], im = k->z * value[1];
-        const int real = value[1] == 0.0, row = real ? width : 4 * width;
+        const bool real = value[1] == 0.0;
+        const int row = real ? width : 4 * width;
         num *const from = inverse + 2 * e * width * width;
         for (int place = 0; place < width * width; place++) {
             const int i = place / width, j = place % width;

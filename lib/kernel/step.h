@@ -97,11 +97,11 @@ typedef enum dal_callback_code {
 #define DAL_GAUGE(s)     0
 #else
 #define DAL_HOLONOMIC(s) ((s)->holonomic) /* of these, the last */
-#define DAL_GAUGE(s)     ((s)->gauge)     /* 1: mu_e is not of t alone */
+#define DAL_GAUGE(s)     ((s)->gauge)     /* mu_e is not of t alone */
 #endif
 #define DAL_DIM(s)                    ((s)->dim) /* numbers in the state */
 #define DAL_LIFTED(s)                 ((s)->lifted)
-#define DAL_EFFORT(s)                 ((s)->effort) /* 1: K of the effort is not 1 */
+#define DAL_EFFORT(s)                 ((s)->effort) /* K of the effort is not 1 */
 #define DAL_SOLVER(s)                 ((s)->solver)
 #define DAL_ITERATIONS(s)             ((s)->iterations)
 #define DAL_SOLVER_TOLERANCE(s)       ((s)->solver_tolerance)
@@ -145,22 +145,22 @@ struct dal_step {
 
     dal_lane_set alive, unconverged; /* not failed; not solved */
 #if DAL_HAS_TIMES
-    int has_times; /* 1: callbacks are evaluated at these times, not at a common one */
+    bool has_times; /* callbacks are evaluated at these times, not at a common one */
     dal_times times;
 #endif
 #if DAL_WITH(PIVOTS)
     num DAL__NUMBERS(pivots, DAL__COUNT_PIVOTS - 1); /* of the first evaluation of F in the step */
-    int DAL_OF_GROUPS(pivots_known); /* 1: there was one, or they are not compared */
+    bool DAL_OF_GROUPS(pivots_known);                /* there was one, or they are not compared */
 #endif
 #ifdef DAL_SPECIALISED
     const dal_stored *work; /* parameters, and values that depend on them alone */
 #else
     int n, nw, m, dim;
     int holonomic;     /* of the m constraints, the last: derivatives of g */
-    int lifted;        /* 1 on the canonical space */
-    int effort;        /* 1 there with the callback effort */
-    int gauge;         /* 1 there with the callback gauge_gradient */
-    int tangent;       /* 1 while p, pi hold a tangent vector (dq, dv) */
+    bool lifted;       /* on the canonical space, */
+    bool effort;       /* with the callback effort, */
+    bool gauge;        /* and with gauge_gradient, there */
+    bool tangent;      /* while p, pi hold a tangent vector (dq, dv) */
     num *method_state; /* [method_state_count] the numbers of the method, one after the other */
     int method_state_count;
     int derivatives_kept;
@@ -170,18 +170,18 @@ struct dal_step {
     int iterations;          /* max iterations */
     double solver_tolerance; /* relative change; 0: rounding level */
     int extra_iterations;    /* after convergence */
-    int plain;               /* 1: sums without compensation, r stays 0 */
-    int has_jacobian;
+    bool plain;              /* sums without compensation, r stays 0 */
+    bool has_jacobian;
     int field_operations, jacobian_operations; /* of the callbacks */
     unsigned properties;                       /* of the system */
     int guards;                                /* of the system */
-    int rank_checked; /* 1: steps are subject to the rank check, 2: by factors */
-    double tolerance; /* of substeps, 0: no substeps */
-    const double *units, *speeds, *levels; /* of the system; NULL as in the macros */
+    bool rank_checked, rank_by_factors;        /* whether steps are, see acceptance.h; and how */
+    double tolerance;                          /* of substeps, 0: no substeps */
+    const double *units, *speeds, *levels;     /* of the system; NULL as in the macros */
 
     num *scratch; /* bump allocator, see dal_scratch */
     size_t used, capacity;
-    int exhausted; /* 1: more was requested, and the step fails */
+    bool exhausted; /* more was requested, and the step fails */
 
     const dal_integrator *const *layer; /* innermost first */
     int depth;                          /* which of the chain is at work */
@@ -247,7 +247,7 @@ DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num *in, n
 DAL_NOINLINE __attribute__((cold)) num *dal__exhausted(dal_step *s, int count)
 {
     s->used -= (size_t)count;
-    s->exhausted = 1;
+    s->exhausted = true;
     return (size_t)count <= s->capacity ? s->scratch : NULL;
 }
 
@@ -301,13 +301,13 @@ DAL_INLINE void dal_eval_series(dal_step *s, int k, int stride, const num *in, n
 
 #if DAL_WITH(PIVOTS)
 /* Whether a callback solves the equations of F, and leaves their pivots. */
-DAL_INLINE int dal_leaves_pivots(dal_callback_code code)
+DAL_INLINE bool dal_leaves_pivots(dal_callback_code code)
 {
 #if DAL_WITH(LIFT)
-    if (code == DAL_EVAL_ADJOINT) return 1;
+    if (code == DAL_EVAL_ADJOINT) return true;
 #endif
 #if DAL_WITH(ENFORCEMENT)
-    if (code == DAL_EVAL_ENFORCEMENT) return 1;
+    if (code == DAL_EVAL_ENFORCEMENT) return true;
 #endif
     return code == DAL_EVAL_FIELD;
 }
@@ -315,21 +315,21 @@ DAL_INLINE int dal_leaves_pivots(dal_callback_code code)
 
 /* Whether a step, or a part of it, has failed in all lanes.  Without the hint a compiler takes the
  * code after several returns for cold and leaves it slow. */
-DAL_INLINE int dal_failed(dal_status status) { return DAL_RARELY(status != DAL_STATUS_OK); }
+DAL_INLINE bool dal_failed(dal_status status) { return DAL_RARELY(status != DAL_STATUS_OK); }
 
 #if DAL_WITH(TANGENT)
 /* Between the two dal_field moves a tangent vector stored in p and pi. */
 DAL_INLINE void dal_begin_tangent(dal_step *s)
 {
 #ifndef DAL_SPECIALISED
-    s->tangent = 1;
+    s->tangent = true;
 #endif
     (void)s;
 }
 DAL_INLINE void dal_end_tangent(dal_step *s)
 {
 #ifndef DAL_SPECIALISED
-    s->tangent = 0;
+    s->tangent = false;
 #endif
     (void)s;
 }

@@ -91,7 +91,7 @@ DAL_INLINE void dal__euler_adjoint(dal_step *s, dal_euler *k)
 }
 
 /* Whether F, and K, depend on q and t alone. */
-DAL_INLINE int dal__force_is_positional(const dal_step *s)
+DAL_INLINE bool dal__force_is_positional(const dal_step *s)
 {
     return (DAL_PROPERTIES(s) & DAL_F_POSITIONAL) != 0;
 }
@@ -164,7 +164,7 @@ DAL_INLINE void dal__euler_matrix(dal_step *s, dal_equation *eq)
     DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)));
     DAL_VECTOR(s, m, DAL_NW(s) * DAL_NW(s));
     dal_jacobian(s, 0, k->t, k->q, k->v, jacobian);
-    const int q_moves = k->at.v == k->at.q;
+    const bool q_moves = k->at.v == k->at.q;
     const dal_stage_matrix matrix = {
         1, k->at.v ? k->h : -k->h, &one, q_moves ? &one : &zero, !k->at.v, NULL};
     dal_stage_inverse(s, &matrix, jacobian, m, &eq->block[0], 0);
@@ -198,7 +198,7 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
             return DAL_STATUS_NOT_CONVERGED;
         DAL_EACH(i, nw) k->v[i] = eq.block[0].u[i];
     } else {
-        eq.follows = 1; /* there is no such equation on the physical space */
+        eq.follows = true; /* there is no such equation on the physical space */
         eq.block[0].size = n;
         eq.block[0].progress->scale = dal_momentum_scale(s, k->h, 0);
         DAL_EACH(i, n) eq.block[0].u[i] = s->y[pi + i];
@@ -235,10 +235,14 @@ DAL_INLINE void dal__euler_end_gauge(dal_step *s, dal_euler *k, const num *v)
 }
 #endif
 
+/* Whether a field at the starred arguments is there already. */
+typedef enum dal__euler_field { DAL__FIELD_UNKNOWN, DAL__FIELD_KNOWN } dal__euler_field;
+
 /* The field at the starred arguments, unless it is known, and the rates of all components. */
-DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, int known, num *d)
+DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, dal__euler_field field, num *d)
 {
     const int n = DAL_N(s);
+    const bool known = field == DAL__FIELD_KNOWN;
     if (DAL_LIFTED(s) && !known) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->w, k->f);
     if (!DAL_LIFTED(s) && !known) dal_force(s, k->t, k->q, k->v, k->f);
     DAL_EACH(i, DAL_NW(s)) d[n + i] = dal__euler_rate_v(s, k, i);
@@ -268,10 +272,12 @@ DAL_INLINE void dal__euler_begin_lift(dal_step *s, dal_euler *k)
 
 /* One step of size h from the present state and time; f, DAL__EULER_FIELD numbers, is the field at
  * the starred arguments where it is known, and else becomes it. */
-DAL_INLINE dal_status dal__euler_step(dal_step *s, dal_polarisation at, double h, num *f, int known)
+DAL_INLINE dal_status dal__euler_step(dal_step *s, dal_polarisation at, double h, num *f,
+                                      dal__euler_field field)
 {
     DAL__MARK(s);
-    const int n = DAL_N(s), is_explicit = dal__force_is_positional(s) && at.q != at.v;
+    const int n = DAL_N(s);
+    const bool is_explicit = dal__force_is_positional(s) && at.q != at.v;
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, v, DAL_NW(s));
     DAL_VECTOR(s, p, DAL_N(s));
@@ -287,7 +293,7 @@ DAL_INLINE dal_status dal__euler_step(dal_step *s, dal_polarisation at, double h
     if (!is_explicit && (at.v || DAL_LIFTED(s)) && dal_failed(dal__euler_solve(s, &k)))
         return DAL_STATUS_NOT_CONVERGED;
     if (!is_explicit) dal__euler_q(s, &k);
-    dal__euler_rates(s, &k, known, d);
+    dal__euler_rates(s, &k, field, d);
     DAL__RELEASE(s);
     return dal_update_multiple(s, h, h, d);
 }
@@ -297,7 +303,7 @@ DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, dou
 {
     DAL__MARK(s);
     DAL_VECTOR(s, f, DAL__EULER_FIELD(s));
-    const dal_status status = dal__euler_step(s, at, h, f, 0);
+    const dal_status status = dal__euler_step(s, at, h, f, DAL__FIELD_UNKNOWN);
     DAL__RELEASE(s);
     return status;
 }
@@ -307,10 +313,11 @@ DAL_SHARED dal_status dal_symplectic_euler_pair(dal_step *s, double h, double ad
 {
     DAL__MARK(s);
     DAL_VECTOR(s, f, DAL__EULER_FIELD(s));
-    if (dal_failed(dal__euler_step(s, DAL_POLARISATION(1, 0), h, f, 0)))
+    if (dal_failed(dal__euler_step(s, DAL_POLARISATION(1, 0), h, f, DAL__FIELD_UNKNOWN)))
         return DAL_STATUS_NOT_CONVERGED;
-    const int known = dal__force_is_positional(s) && !DAL_GAUGE(s);
-    const dal_status status = dal__euler_step(s, DAL_POLARISATION(0, 1), adjoint_h, f, known);
+    const dal__euler_field field =
+        dal__force_is_positional(s) && !DAL_GAUGE(s) ? DAL__FIELD_KNOWN : DAL__FIELD_UNKNOWN;
+    const dal_status status = dal__euler_step(s, DAL_POLARISATION(0, 1), adjoint_h, f, field);
     DAL__RELEASE(s);
     return status;
 }

@@ -66,7 +66,7 @@ static void keep_pivots(engine *e)
 {
     dal_step *s = &e->step;
     memcpy(s->pivots, e->saved_pivots, (size_t)s->pivot_count * sizeof(num));
-    s->pivots_known[0] = 1;
+    s->pivots_known[0] = true;
 }
 
 /* y = R l with A R l = l of before, for the rows of A from `first` on; D, A, R begin blocks. */
@@ -281,7 +281,8 @@ static void prepare_step(engine *e)
     s->jacobian_operations = k->jacobian_operations;
     s->properties = k->system->properties;
     s->guards = k->system->guards;
-    s->rank_checked = dal__checks_rank(k->system) + dal__checks_rank_by_factors(k);
+    s->rank_checked = dal__checks_rank(k->system);
+    s->rank_by_factors = dal__checks_rank_by_factors(k);
     s->pivot_count = k->pivots;
     s->tolerance = k->options.tolerance;
     s->units = dal__units(k, DAL__UNITS_OF_STATE);
@@ -490,7 +491,7 @@ static void begin_step(engine *e, double h, dal__lanes alive, dal_mask lanes)
     s->alive = lanes;
     s->unconverged = ~dal_all();
     s->used = 0;
-    s->exhausted = 0;
+    s->exhausted = false;
     s->evaluations = 0;
     s->depth = e->layout.depth - 1;
     s->pivots_known[0] = s->pivot_count == 0;
