@@ -46,16 +46,25 @@ void check_further_invariants(check *c)
 
 /* ---- integrable constraints ---- */
 
-enum { MAX_DEGREE = 4, MAX_TRIED = 24 };
+/* Sums of products of up to MAX_DEGREE factors are tried; then quotients as y/x, of two. */
+enum { MAX_DEGREE = 4, QUOTIENTS = MAX_DEGREE + 1, TRIALS = QUOTIENTS, MAX_TRIED = 24 };
 
-/* The functions of coordinates and t, products of up to `degree` factors, that D = 0 conserves;
- * NULL: none are known. */
-static dal_invariants *find_integrals(const check *c, int degree)
+/* The functions of coordinates and t of a trial, from 1, that D = 0 conserves; NULL: none are
+ * known. */
+static dal_invariants *find_integrals(const check *c, int trial)
 {
     const dal_run_spec spec = invariants_spec(c->simulation);
-    const dal_invariants_settings settings = {.degree = degree, .of_coordinates = true};
+    const int with_count = trial == QUOTIENTS ? c->n : 0;
+    char **with = cli_calloc((size_t)with_count + 1, sizeof *with);
+    for (int i = 0; i < with_count; i++) with[i] = cli_format("1/%s", c->system->coordinate[i]);
+    const dal_invariants_settings settings = {.degree = trial == QUOTIENTS ? 2 : trial,
+                                              .with = (const char *const *)with,
+                                              .with_count = with_count,
+                                              .of_coordinates = true};
     dal_invariants *found = NULL;
     dal_find_invariants(&found, c->simulation->model, &spec, &settings, NULL);
+    for (int i = 0; i < with_count; i++) free(with[i]);
+    free(with);
     return found;
 }
 
@@ -90,7 +99,7 @@ void check_integrable_constraints(check *c)
     const double *units = dal_scaled_units(c->scaled);
     const int rows = c->m - c->system->holonomic;
     const dal_growth *g = &c->growth;
-    int last = 0; /* the degree of what is in found */
+    int last = 0; /* the trial that is in found */
     dal_invariants *found = NULL;
     const bool is_other = c->nw > c->n || c->system->properties & DAL_SERVO;
     if (is_other || (g->is_complete && g->dimension - g->rank[g->levels - 1] <= c->m - rows))
@@ -100,11 +109,11 @@ void check_integrable_constraints(check *c)
         const dal_status status = dal_model_growth_of(c->simulation->model, a, set->item,
                                                       set->count, units, &alone, NULL);
         if (!cli_is_ok(status) || !alone.is_complete || alone.levels > 1) continue;
-        for (int degree = 1; degree <= MAX_DEGREE && c->is_regular; degree++) {
-            if (degree != last) {
+        for (int trial = 1; trial <= TRIALS && c->is_regular; trial++) {
+            if (trial != last) {
                 dal_invariants_free(found);
-                found = find_integrals(c, degree);
-                last = degree;
+                found = find_integrals(c, trial);
+                last = trial;
             }
             if (integral_of(found, a)) break;
         }

@@ -75,6 +75,8 @@ prints "constraint 2.*integrable: 'holonomic: .2\*y \+ z - 7.' $proposal"
 refute "a contact form" grep -q '"constraint 1"' out
 rows_of "[y' - t*x' - x]" ", y': 3"
 prints "constraint 1.*integrable: 'holonomic: .y - x\*t - 4.' $proposal"
+rows_of "[x*y' - y*x']"
+prints "constraint 1.*integrable: 'holonomic: .x\*.1/y. - 0.75.' $proposal"
 rows_of "[z' - exp(x)*x']"
 prints "constraint 1.*integrable, the derivative of a g.q, t. up to a factor: 'holonomic: .g.' in its"
 for row in "y' - t*x'" "z' - y*x'" "z' - y" "x*y' - y*x' + z'"; do
