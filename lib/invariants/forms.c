@@ -96,41 +96,25 @@ static void fill_equations(const terms *t, const dal__samples *samples, double *
     }
 }
 
-/* Whether a product alone is constant: its rate is a rounding beside how fast products change. */
-static bool is_constant(const dal__samples *samples, int product, double residue)
-{
-    const size_t points = (size_t)samples->points;
-    double fastest = 0.0;
-    for (int k = 1; k < samples->functions; k++) {
-        const double value = dal__max_abs(samples->value + (size_t)k * points, points);
-        const double rate = dal__max_abs(samples->rate + (size_t)k * points, points);
-        if (value > 0.0) fastest = fmax(fastest, rate / value);
-    }
-    const double value = dal__max_abs(samples->value + (size_t)product * points, points);
-    const double rate = dal__max_abs(samples->rate + (size_t)product * points, points);
-    return rate <= residue * fastest * value;
-}
-
-/* Solves for the coefficients with a set of parameters, the first being 1; *found: they exist. */
+/* Solves for the coefficients with a set of parameters, the first being 1; *found: they exist.  A
+ * product alone has no other; whether it is constant dal__confirm decides. */
 static dal_status solve_terms(const terms *t, const double *parameter, double *out, bool *found)
 {
     static const double residue = 1e-9, rank = 1e-9;
     const int unknown = t->count - 1, points = 3 * t->count + 8;
     const size_t n = (size_t)t->count, rows = (size_t)points;
     dal__samples samples;
-    *found = false;
+    out[0] = 1.0;
+    *found = unknown == 0;
+    if (*found) return DAL_STATUS_OK;
     DAL_TRY(dal__search_sample(t->search, t->condition, parameter, points, &samples));
     double *a = dal__numbers(1, rows * n + rows + n + n * (n + 2));
     if (a) {
         double *right = a + rows * n, *size = right + rows, *work = size + n;
         fill_equations(t, &samples, a, right, size);
-        out[0] = 1.0;
-        if (unknown == 0)
-            *found = is_constant(&samples, t->product[0], residue);
-        else
-            *found = dal__least_squares(points, unknown, a, right, out + 1, rank, NULL, work) ==
-                         unknown &&
-                     dal__max_abs(right, rows) <= residue;
+        *found =
+            dal__least_squares(points, unknown, a, right, out + 1, rank, NULL, work) == unknown &&
+            dal__max_abs(right, rows) <= residue;
         for (int k = 1; k < t->count; k++) out[k] *= size[0] / size[k];
     }
     dal__samples_free(&samples);
