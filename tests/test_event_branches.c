@@ -264,6 +264,20 @@ static void test_piece(void)
 
 /* ---- rest ---- */
 
+/* A run ends at an event from which both sides lead back to it. */
+static void expect_leads_back(const char *system, const char *method, double step, record *r,
+                              const char *event)
+{
+    dal_error error = {0};
+    const dal_run_spec spec = fixture_spec(fixture_system(system), method, DAL_PHYSICAL, step);
+    dal_run *run = fixture_run(&spec);
+    *r = (record){0};
+    CU_ASSERT_EQUAL(fixture_events(run, 30.0, note, r, &error), DAL_STATUS_EVENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, event));
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "F leads back"));
+    dal_run_free(run);
+}
+
 /* Where the event does not stop the run, the block stays at rest.  Where F leads back to v = 0 from
  * both sides and is not 0 there, the run ends: turning points of a spring at |x| = 1.05 - 0.2 k. */
 static void test_rest(void)
@@ -282,34 +296,21 @@ static void test_rest(void)
         CU_ASSERT_EQUAL(dal_run_unresolved(run, NULL), 0);
         dal_run_free(run);
     }
-    record r = {0};
-    dal_error error = {0};
-    const dal_run_spec spec = fixture_spec(
-        fixture_system("coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\n"
-                       "forces: {x: -0.1*sign(x')}\nstart: {x: 1.05}\nevents: [{when: x'}]\n"),
-        "gauss12", DAL_PHYSICAL, 0.1);
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(fixture_events(run, 30.0, note, &r, &error), DAL_STATUS_EVENT);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "event 1 (x') at t = 15.70796326794"));
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "F leads back"));
+    record r;
+    expect_leads_back("coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\n"
+                      "forces: {x: -0.1*sign(x')}\nstart: {x: 1.05}\nevents: [{when: x'}]\n",
+                      "gauss12", 0.1, &r, "event 1 (x') at t = 15.70796326794");
     CU_ASSERT_EQUAL(r.count, 5);
     for (int k = 0; k < r.count; k++) CU_ASSERT_DOUBLE_EQUAL(r.time[k], pi * (k + 1), 1e-11);
-    dal_run_free(run);
 }
 
 /* Where the argument is 1 and not 0: v = 3/2 - t/4, and both sides lead back to v = 1. */
 static void test_rest_beside_zero(void)
 {
-    dal_error error = {0};
-    const dal_run_spec spec = fixture_spec(
-        fixture_system("coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: 0.25 - 0.5*floor(x')}\n"
-                       "start: {x': 1.5}\nevents: [{when: x' - 1}]\n"),
-        "gauss4", DAL_PHYSICAL, 0.15);
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(fixture_events(run, 3.0, NULL, NULL, &error), DAL_STATUS_EVENT);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "event 1 (x' - 1) at t = 2:"));
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "F leads back"));
-    dal_run_free(run);
+    record r;
+    expect_leads_back("coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: 0.25 - 0.5*floor(x')}\n"
+                      "start: {x': 1.5}\nevents: [{when: x' - 1}]\n",
+                      "gauss4", 0.15, &r, "event 1 (x' - 1) at t = 2:");
 }
 
 /* ---- along a run ---- */

@@ -2,6 +2,7 @@
  * without holonomic constraints, a quadrature, and a steady motion in closed form. */
 #include "dalembert.h"
 #include "fixtures.h"
+#include "holonomic.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,17 +29,9 @@ static dal_run *run_to(const char *system, setting_list start, double T, int ste
 
 static void test_pendulum(void)
 {
-    static const char in_angles[] =
-        "coordinates: [f, b]\nparameters: {l: 1.25, g: 9.81}\n"
-        "lagrangian: l^2/2*(f'^2 + sin(f)^2*b'^2) + g*l*cos(f)\nstart: {f: 0.8, b': 2}\n";
     dal_run *run = run_to("spherical-pendulum", (setting_list){0}, 2.0, 200);
-    dal_run *angles = run_to(in_angles, (setting_list){0}, 2.0, 200);
-    const double *q = dal_run_state(run), *a = dal_run_state(angles), l = 1.25;
-    CU_ASSERT_DOUBLE_EQUAL(q[0], l * sin(a[0]) * cos(a[1]), 1e-12);
-    CU_ASSERT_DOUBLE_EQUAL(q[1], l * sin(a[0]) * sin(a[1]), 1e-12);
-    CU_ASSERT_DOUBLE_EQUAL(q[2], -l * cos(a[0]), 1e-12);
-    dal_run_free(run);
-    dal_run_free(angles);
+    dal_run *angles = run_to(PENDULUM_IN_ANGLES("g: 9.81", "a: 0.8"), (setting_list){0}, 2.0, 200);
+    compare_pendulums(run, angles);
 }
 
 /* ---- frames on the inside of a sphere ---- */

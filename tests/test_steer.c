@@ -71,12 +71,28 @@ static void test_free_ends(void)
 
 enum { GRID = 24 };
 
-/* Its cost after some iterations on a grid of one step a piece, from rest on a straight line; the
- * multipliers are in d. */
-static double iterate_directly(steered *s, double T, dal__problem *p, dal__shooting *grid,
-                               dal__direct *d, int iterations)
+typedef struct directly {
+    dal_setting target;
+    steered s;
+    dal__problem p;
+    dal__shooting grid;
+    dal__direct d;
+} directly;
+
+/* Its cost after some iterations on a grid of one step a piece, from rest on a straight line to x;
+ * the multipliers are in d. */
+static double iterate_directly(directly *w, const char *system, dal_effort effort, double T,
+                               double x, int iterations)
 {
     double S = 0.0;
+    steered *const s = &w->s;
+    dal__problem *const p = &w->p;
+    dal__shooting *const grid = &w->grid;
+    dal__direct *const d = &w->d;
+    steered_open(s, system, effort, "gauss4", T / GRID);
+    w->target = (dal_setting){"x", x};
+    s->settings.target = &w->target;
+    s->settings.targets = 1;
     CU_ASSERT_EQUAL_FATAL(
         dal__problem_open(p, s->model, &s->spec, T, &s->settings, NULL, &s->record), DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(dal__shooting_open(grid, p, GRID, GRID), DAL_STATUS_OK);
@@ -92,32 +108,25 @@ static double iterate_directly(steered *s, double T, dal__problem *p, dal__shoot
     return S;
 }
 
-static void close_directly(dal__problem *p, dal__shooting *grid, dal__direct *d)
+static void close_directly(directly *w)
 {
-    dal__direct_close(d);
-    dal__shooting_close(grid);
-    dal__problem_close(p);
+    dal__direct_close(&w->d);
+    dal__shooting_close(&w->grid);
+    dal__problem_close(&w->p);
+    steered_close(&w->s);
 }
 
 /* x'' = u by constant u in each of N pieces, rest to rest: S = 6 d^2/T^3 N^2/(N^2 - 1), which the
  * first iteration finds and the others keep.  Newton's method would repair what is wrong here. */
 static void test_direct(void)
 {
-    const dal_setting target = {"x", 0.7};
     const double T = 1.5, least = 6.0 * 0.49 / (T * T * T) * GRID * GRID / (GRID * GRID - 1.0);
     for (int iterations = 2; iterations <= 5; iterations += 3) {
-        dal__problem p;
-        dal__shooting grid;
-        dal__direct d;
-        steered s;
-        steered_open(&s, "coordinates: [x]\nlagrangian: x'^2/2\n", DAL_EFFORT_IDENTITY, "gauss4",
-                     T / GRID);
-        s.settings.target = &target;
-        s.settings.targets = 1;
-        CU_ASSERT_DOUBLE_EQUAL(iterate_directly(&s, T, &p, &grid, &d, iterations), least,
-                               1e-5 * least);
-        close_directly(&p, &grid, &d);
-        steered_close(&s);
+        directly w;
+        const double S = iterate_directly(&w, "coordinates: [x]\nlagrangian: x'^2/2\n",
+                                          DAL_EFFORT_IDENTITY, T, 0.7, iterations);
+        CU_ASSERT_DOUBLE_EQUAL(S, least, 1e-5 * least);
+        close_directly(&w);
     }
 }
 
@@ -125,24 +134,16 @@ static void test_direct(void)
  * that S and the momentum of x at the start, (6 d/T^2) e^x, are as with y, to 1/N^2. */
 static void test_direct_of_state(void)
 {
-    const dal_setting target = {"x", 1.0};
     const double T = 1.5, d_y = exp(1.0) - 1.0;
-    dal__problem p;
-    dal__shooting grid;
-    dal__direct d;
-    steered s;
-    steered_open(&s, "coordinates: [x]\nlagrangian: exp(2*x)*x'^2/2\n", DAL_EFFORT_MASS, "gauss4",
-                 T / GRID);
-    s.settings.target = &target;
-    s.settings.targets = 1;
-    const double S = iterate_directly(&s, T, &p, &grid, &d, 12);
+    directly w;
+    const double S = iterate_directly(&w, "coordinates: [x]\nlagrangian: exp(2*x)*x'^2/2\n",
+                                      DAL_EFFORT_MASS, T, 1.0, 12);
     const double S_y = 6.0 * d_y * d_y / (T * T * T), pi_y = 6.0 * d_y / (T * T);
     const double grid_error = 3.0 / (GRID * GRID); /* u is constant in each piece */
     CU_ASSERT_DOUBLE_EQUAL(S, S_y, grid_error * S_y);
-    CU_ASSERT_DOUBLE_EQUAL(d.costate[1] / p.unit[1], pi_y, grid_error * pi_y);
-    CU_ASSERT(d.change < 1e-9);
-    close_directly(&p, &grid, &d);
-    steered_close(&s);
+    CU_ASSERT_DOUBLE_EQUAL(w.d.costate[1] / w.p.unit[1], pi_y, grid_error * pi_y);
+    CU_ASSERT(w.d.change < 1e-9);
+    close_directly(&w);
 }
 
 /* Straight by d: 6 m d^2/T^3.  A turn by theta: 6 I theta^2/T^3.  Both start where to first order
