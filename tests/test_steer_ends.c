@@ -201,7 +201,10 @@ static void test_refuses(void)
     is_refused(&s, 1.0, NULL, 0, DAL_STATUS_ARGUMENT, "no target");
     s.settings.rest = true;
     s.spec = fixture_spec(s.spec.system, "gauss4+project", DAL_LIFTED, 0.1);
-    is_refused(&s, 1.0, target, 3, DAL_STATUS_UNSUPPORTED, "no steering by gauss4+project");
+    is_refused(&s, 1.0, target, 3, DAL_STATUS_UNSUPPORTED, "; take gauss4");
+    s.spec = fixture_spec(s.spec.system, "dop853", DAL_LIFTED, 0.1);
+    s.spec.options.tolerance = 1e-9;
+    is_refused(&s, 1.0, target, 3, DAL_STATUS_UNSUPPORTED, "; take dop853 without a tolerance");
     s.spec = fixture_spec(fixture_system("chaplygin-sleigh"), "gauss4", DAL_LIFTED, 0.1);
     is_refused(&s, 1.0, target, 3, DAL_STATUS_ARGUMENT, "not the model's");
     steered_close(&s);

@@ -194,6 +194,12 @@ if needs 5 "no python3" there python3; then
 fi
 
 case_is "refused"
+cat >circle.yaml <<'YAML'
+coordinates: [x, y]
+lagrangian: (x'^2 + y'^2)/2
+holonomic: [x^2 + y^2 - 1]
+start: {y: 1}
+YAML
 cat >leaves.yaml <<'YAML'
 coordinates: [x, y]
 lagrangian: (x'^2 + y'^2)/2
@@ -211,7 +217,9 @@ table <<'ROWS'
 2 | steer $sleigh --to x=1 --starts 0 | says --starts: 0 is not in 1..10000
 2 | steer $sleigh --to x=1 --tolerance 1e-9 | says unknown option '--tolerance'
 2 | steer $sleigh --to x=1 --json --format csv | says --format
-2 | steer sleigh.yaml --to x=1 --integrator gauss8+project --step 0.02 --time 2 | says no steering by gauss8\+project
+2 | steer sleigh.yaml --to x=1 --integrator gauss8+project --step 0.02 --time 2 | says no steering by gauss8\+project: .*; take gauss8$
+2 | steer circle.yaml --to x=0 --rest --integrator gauss4 --step 0.1 --time 1 | says no steering by gauss4\+project: .*; take gauss4 with the option bare$
+2 | steer sleigh.yaml --to x=1 --integrator dla --step 0.02 --time 2 | says no steering by dla: .*; take gauss8$
 2 | steer sleigh.yaml --to x=1 --integrator gauss8 --step 0.03 --time 2 | says no whole number of steps
 2 | steer sleigh.yaml --to x=1 --integrator gauss8 --step 0.02 --time 2 --effort controls | says the system has none
 2 | steer dido.yaml --to x=1,z=0 --rest --integrator gauss8 --step 0.02 --time 2 | says there is no rest
