@@ -58,8 +58,13 @@ static dal_status report_iteration(void *user, int guess, int iteration, double 
     const steer_settings *s = user;
     char size[SCREEN_NUMBER];
     const bool is_known = isfinite(residual) && residual > 0.0;
-    cli_progress("guess %d of %lld, iteration %d%s%s", guess + 1, s->starts, iteration,
-                 is_known ? ": residual " : "", is_known ? screen_number(size, residual, 2) : "");
+    char name[64];
+    if (guess < s->starts)
+        snprintf(name, sizeof name, "guess %d of %lld", guess + 1, s->starts);
+    else /* none of these leads to the target */
+        snprintf(name, sizeof name, "further guess %lld", guess + 1 - s->starts);
+    cli_progress("%s, iteration %d%s%s", name, iteration, is_known ? ": residual " : "",
+                 is_known ? screen_number(size, residual, 2) : "");
     return cli_interrupted() ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 

@@ -126,7 +126,8 @@ def steer(system: SystemLike, target: Settings, integrator: str | None = None, t
     free : sequence of str
         Components of the start that are free, too.
     starts : int
-        First guesses: the straight line, and bent ones that are drawn by the seed.
+        First guesses: the straight line, and bent ones that are drawn by the seed. Where none of them leads to the
+        target up to 8 more are made.
     seed : int
     max_iterations : int
         For each guess.
