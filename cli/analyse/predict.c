@@ -269,9 +269,7 @@ static void put_prediction(json_writer *w, const prediction *item)
         json_put_number(w, "unit_of_time", of->unit_of_time);
         json_put_integer(w, "steps", of->steps);
         json_put_integer(w, "pieces", of->pieces);
-        json_open_list(w, "t", JSON_ON_ONE_LINE);
-        for (long long r = 0; r < of->rows; r++) json_put_number(w, NULL, of->t[r]);
-        json_close(w);
+        json_put_numbers(w, "t", of->t, of->rows);
         json_open_list(w, "observables", JSON_LINES);
         for (int i = 0; i < of->observables; i++) put_observable(w, of, i);
         json_close(w);

@@ -66,9 +66,7 @@ static void put_ensemble(json_writer *w, const ensemble *e)
     json_open_list(w, "vary", JSON_ON_ONE_LINE);
     for (int i = 0; i < e->variations; i++) json_put_text(w, NULL, e->vary_text[i]);
     json_close(w);
-    json_open_list(w, "quantiles", JSON_ON_ONE_LINE);
-    for (int i = 0; i < e->quantiles; i++) json_put_number(w, NULL, e->quantile[i]);
-    json_close(w);
+    json_put_numbers(w, "quantiles", e->quantile, e->quantiles);
     json_put_text(w, "axes", e->axes);
     json_close(w);
 }

@@ -140,6 +140,13 @@ void json_put_rounded(json_writer *w, const char *name, double x)
         fputs("null", out);
 }
 
+void json_put_numbers(json_writer *w, const char *name, const double *x, long long count)
+{
+    json_open_list(w, name, JSON_ON_ONE_LINE);
+    for (long long i = 0; i < count; i++) json_put_number(w, NULL, x[i]);
+    json_close(w);
+}
+
 void json_put_integer(json_writer *w, const char *name, long long x)
 {
     fprintf(json_put_name(w, name), "%lld", x);

@@ -39,6 +39,7 @@ enum { JSON_NUMBER = 32 };
 const char *json_format_number(char text[JSON_NUMBER], double x);
 void json_put_number(json_writer *writer, const char *name, double x);
 void json_put_integer(json_writer *writer, const char *name, long long x);
+void json_put_numbers(json_writer *writer, const char *name, const double *x, long long count);
 /* A number of nine digits, where more would only make a page longer. */
 void json_put_rounded(json_writer *writer, const char *name, double x);
 /* A number that was given as a text: digit for digit where JSON writes it so. */

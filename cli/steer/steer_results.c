@@ -167,13 +167,6 @@ int steer_print_screen(const steer_results *r, const char *again)
 
 /* ---- as JSON ------------------------------------------------------------------------------- */
 
-static void put_numbers(json_writer *w, const char *name, const double *x, int count)
-{
-    json_open_list(w, name, JSON_ON_ONE_LINE);
-    for (int i = 0; i < count; i++) json_put_number(w, NULL, x[i]);
-    json_close(w);
-}
-
 /* A count that is not known is null. */
 static void put_count(json_writer *w, const char *name, int count)
 {
@@ -197,8 +190,8 @@ static void put_extremal(json_writer *w, const dal_steering *s, const dal_extrem
     put_count(w, "rank", e->rank);
     put_count(w, "conjugate_times", e->conjugate_times);
     json_put_number(w, "first_conjugate", e->first_conjugate);
-    put_numbers(w, "start", e->z, s->dimension);
-    put_numbers(w, "end", e->z + (s->rows - 1) * s->dimension, s->dimension);
+    json_put_numbers(w, "start", e->z, s->dimension);
+    json_put_numbers(w, "end", e->z + (s->rows - 1) * s->dimension, s->dimension);
     json_close(w);
 }
 
