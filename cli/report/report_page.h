@@ -34,7 +34,8 @@ struct report {
     char *page_path;
     int read;    /* the exit status of reading the files that are on the page */
     int figures; /* so far, on the page where there is the library of charts */
-    /* What the page of a run says first, and its first figures, of another command; or NULL. */
+    /* What the page of a run says first, in place of sizes and trends, and its first figures, of
+     * another command; or NULL. */
     void (*begin)(report *r);
     int (*draw)(report *r);
     void *user; /* for these two */

@@ -561,11 +561,11 @@ int report_run(report *r)
         name_plots(run);
         place_columns(run);
         write_state(run);
-        write_verdicts(run, simulation.system);
+        if (!r->begin) write_verdicts(run, simulation.system);
         write_end(run, dir.doc);
         if (request->system_name) status = data_write_run(r);
         write_facts(run);
-        write_summary(run, fabs(last - request->from));
+        if (!r->begin) write_summary(run, fabs(last - request->from));
         report_events_write(r, &run->events);
         if (status == CLI_DONE) status = draw_figures(run);
         if (request->system_name) report_command(r, request);

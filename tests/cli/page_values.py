@@ -247,14 +247,15 @@ def trends(time):
         rate = max(abs(number(wanted["rate_low"])), abs(number(wanted["rate_high"])))
         has_drift = wanted["trend"] == "none" and wanted["size"] != "exact"
         same(f"trends: drift of {name}", drift and drift[1], f"{rate * time:.1e}" if has_drift else None)
-    return summary
 
 
-def run():
+def run(has_trends=True):
     """A page of a run of few rows, none of which oscillates between them."""
     columns = read_npy(f"{ROOT}/trajectory.npy")
     t = columns["t"]
-    summary = trends(abs(t[-1] - t[0]))
+    if has_trends:
+        trends(abs(t[-1] - t[0]))
+    same("trends", 'id="trends"' in PAGE or 'class="verdicts"' in PAGE, has_trends)
     shown = dict(re.findall(r"<span>(.*?) = (.*?)</span>", html.unescape(PAGE)))
     for name, text in shown.items():
         close = math.isclose(float(text), columns[name][-1], rel_tol=6e-4, abs_tol=1e-300)
@@ -286,7 +287,26 @@ def run():
             compare_curve(f"drift: {name}", curve, points)
             same(f"drift: slope of {name}", curve[3], slope_note(list(zip(*curve[:2])), [largest]))
     events()
-    return summary
+
+
+def steer():
+    """A page of motions to a target, which begins with them: inputs drive E and momenta, whatever the method."""
+    names = ("S", "distance", "residual", "max_D", "iterations", "rank", "conjugate_times", "condition")
+    with open(f"{ROOT}/steer.json", encoding="utf-8") as file:
+        found = json.load(file)
+    best = found["motions"][0]
+    same("what was found", f"<p><strong>Reaches the target at t = {found['to']:.6g} for S = {best['S']:.9g}, within "
+         f"{best['distance']:.2g}.</strong> </p>" in PAGE, True)
+    rows = [texts(row) for row in table_after("Reaches the target")]
+    values = [[math.nan if m[k] is None else float(m[k]) for k in names] for m in found["motions"]]
+    same("motions", rows, [["motion", *names]] +
+         [[str(i + 1), *(printed("%.6g", x) for x in row)] for i, row in enumerate(values)])
+    inputs = read_csv("inputs.csv")
+    drawn = curves(FIGURES["inputs"])
+    same("inputs", list(drawn), [name for name in inputs[0] if name != "t"])
+    for name, curve in drawn.items():
+        compare_curve(f"inputs: {name}", curve, [(number(r["t"]), number(r[name])) for r in inputs])
+    run(False)
 
 
 # ---- studies -------------------------------------------------------------------------------
@@ -568,7 +588,7 @@ def means(name):
 
 def files():
     """Files that a page shows whole."""
-    for name in ("manifest.json", "study.yaml", "tables.txt", "order.json", "section.json", "failures.csv"):
+    for name in ("manifest.json", "study.yaml", "tables.txt", "order.json", "section.json", "steer.json", "failures.csv"):
         shown = re.search(fr"<summary>[^<]*{re.escape(name)}</summary>\n<pre[^>]*>(.*?)</pre></details>", PAGE, re.DOTALL)
         path = f"{ROOT}/{name}"
         if os.path.exists(path):
@@ -576,7 +596,7 @@ def files():
                 same(name, shown and html.unescape(shown[1]), file.read())
 
 
-KINDS = (("cells.csv", study), ("statistics.csv", ensemble), ("order.csv", orders), ("section.csv", section),
+KINDS = (("steer.json", steer), ("cells.csv", study), ("statistics.csv", ensemble), ("order.csv", orders), ("section.csv", section),
          ("lyapunov.csv", lambda: means("lyapunov")), ("volume.csv", lambda: means("volume")), ("trajectory.npy", run))
 if sys.argv[2:] != ["scripts"]:
     next(kind for name, kind in KINDS if os.path.exists(f"{ROOT}/{name}"))()

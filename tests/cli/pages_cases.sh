@@ -93,6 +93,11 @@ start: {x: k, x': 1, phi: 0.5, solve: [s']}
 END_OF_SYSTEM
 ball falls.yaml "when: x - 0.3, set: {x': 2*u}" 'when: x - 0.7' 'when: x - 1.25, stop: true'
 study_of_states methods.yaml "\"a <b> \\\"c\\\" 'd'\"" ''
+cat >sleigh.yaml <<'END_OF_SYSTEM'
+coordinates: [x, y, phi]
+lagrangian: (x'^2 + y'^2 + phi'^2)/2
+constraints: [x'*sin(phi) - y'*cos(phi)]
+END_OF_SYSTEM
 cat >families.yaml <<'END_OF_STUDY'
 integrators: [symplectic-euler-10, stormer-verlet, dop853, rk4, gauss6, gauss4, spark2, dla, gni,
               discrete-gradient, gauss4+project, gauss4+yoshida6]
@@ -102,7 +107,7 @@ starts: physical
 systems: [nonholonomic-particle]
 END_OF_STUDY
 
-if needs 122 "no python3" there python3; then
+if needs 131 "no python3" there python3; then
     case_is "pages of runs"
     try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6 --samples 40 --output sleigh
     page sleigh
@@ -146,13 +151,17 @@ if needs 122 "no python3" there python3; then
         --step 0.1 --times 0.5,1,2 --output ensemble
     page ensemble
 
+    try 0 steer sleigh.yaml --to x=0.5,y=0.2,phi=0.3 --rest --effort constraint --integrator gauss8 --step 0.1 --time 2 \
+        --output steered --json
+    page steered
+
     case_is "pages without what they are made from, and on a full device"
-    for name in sleigh falls failed methods predicted families orders section exponents volume ensemble; do
+    for name in sleigh falls failed methods predicted families orders section exponents volume ensemble steered; do
         unreadable $name
         full $name
     done
     for file in many/manifest.json falls/manifest.json ensemble/manifest.json orders/order.json section/section.json \
-        exponents/lyapunov.json; do
+        exponents/lyapunov.json steered/steer.json; do
         renamed $file
     done
     counted
