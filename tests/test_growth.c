@@ -4,8 +4,8 @@
  * Subriemannian Geometries, AMS 2002.  A car with trailers: F. Jean, ESAIM: COCV 1 (1996) 241,
  * DOI 10.1051/cocv:1996108: (2, 3, 4, .., n) at generic points. */
 #include "fixtures.h"
-#include "model/ranks.h"
 #include "reference.h"
+#include "steer/controlled.h"
 
 #include <CUnit/Basic.h>
 #include <stdbool.h>
@@ -218,7 +218,7 @@ static void test_controls(void)
         int rank = -2;
         CU_ASSERT_EQUAL(dal_model_set_effort(model, DAL_EFFORT_CONTROLS, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
-        CU_ASSERT_EQUAL(dal__model_controlled(model, NULL, 0, units, &rank, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal__controlled_rank(model, NULL, 0, units, &rank, NULL), DAL_STATUS_OK);
         CU_ASSERT_EQUAL(rank, systems[k].rank);
         if (rank != systems[k].rank) printf("\n  %s: %d", systems[k].what, rank);
         dal_model_free(model);

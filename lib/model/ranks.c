@@ -16,23 +16,13 @@
  * D = A v + a and D of t are the same on (t, q), with the column a.  Brackets are exact, as
  * formulas; ranks are numerical, at points about the start.
  *
- * Controls u in dv/dt = F + N u move (q, v) at a given time in as many directions as
- *
- *     V_1 = span (0, N_k),    V_(k+1) = V_k + span [(v, F), V_k] + span [V_1, V_k]
- *
- * has in the end, the smallest distribution that holds them and is closed under brackets with the
- * drift (v, F) too (strong accessibility); of t and (q, v) with the drift (1, v, F).  D is an
- * integral of all of them: ranks are taken on D = 0.
- *
- * R. Montgomery, A Tour of Subriemannian Geometries, AMS 2002, ch. 2.  H. J. Sussmann and
- * V. Jurdjevic, J. Differential Equations 12 (1972) 95, doi:10.1016/0022-0396(72)90007-1. */
+ * R. Montgomery, A Tour of Subriemannian Geometries, AMS 2002, ch. 2. */
 #include "model/ranks.h"
 #include "core/settings.h"
 #include "core/vectors.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
-#include "model/model.h"
 #include "model/motion.h"
 #include <math.h>
 #include <string.h>
@@ -120,19 +110,6 @@ static bool fill_matrices(const matrices *k, const dal__equations *e, const doub
            isfinite(dal__max_abs(k->W, (size_t)(n * n)));
 }
 
-static void find_ranks(const matrices *k, dal_ranks *out)
-{
-    const int n = k->n, m = k->m;
-    for (int a = 0; a < m; a++)
-        for (int i = 0; i < n; i++) k->matrix[i * m + a] = k->A[a * n + i];
-    out->constraints = m > 0 ? rank_of(k, n, m, &out->constraints_pivot) : 0;
-    if (out->constraints < m) return;
-    memcpy(k->basis, k->A, (size_t)(m * n) * sizeof *k->basis);
-    for (int a = 0; a < m; a++) dal__orthonormalise_row(k->basis, a, n);
-    complete_basis(k);
-    out->mass = n > m ? rank_on_kernel(k, &out->mass_pivot) : 0;
-}
-
 dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int parameter_count,
                            const dal_point *at, const double *units, dal_ranks *out,
                            dal_error *error)
@@ -169,42 +146,51 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
     if (e->graph->status == DAL_STATUS_MEMORY) return dal__memory_error(error);
     if (!is_finite)
         return dal__fail(error, DAL_STATUS_NOT_FINITE, "A or W is not finite at t = %.17g", at->t);
-    find_ranks(&k, out);
+    for (int a = 0; a < k.m; a++)
+        for (int i = 0; i < k.n; i++) k.matrix[i * k.m + a] = k.A[a * k.n + i];
+    out->constraints = k.m > 0 ? rank_of(&k, k.n, k.m, &out->constraints_pivot) : 0;
+    if (out->constraints < k.m) return DAL_STATUS_OK;
+    memcpy(k.basis, k.A, m * n * sizeof *k.basis);
+    for (int a = 0; a < k.m; a++) dal__orthonormalise_row(k.basis, a, k.n);
+    complete_basis(&k);
+    out->mass = n > m ? rank_on_kernel(&k, &out->mass_pivot) : 0;
     return DAL_STATUS_OK;
 }
 
-/* ---- the growth vector ---- */
+/* ---- distributions ---- */
 
-enum { POINTS = 3, MAX_NODES = 400000 };
+enum { MAX_NODES = 400000 };
 /* Nodes passed over by derivatives: the brackets of a large system are not all followed. */
 #define MAX_WORK 4e9
-/* Components of fields below this are rounding; every X_i has a component 1 in the units given. */
-#define ROUNDING 1e-9
 
-typedef struct distribution {
-    dal_model *model;
-    int row, rows;      /* the first of D that restrict it, and how many */
-    int dim, fixed;     /* coordinates: of q, or of t and q; fixed: 1 where the first one is t;
-                           with a drift of q and v, or of t, q and v */
-    int full;           /* the largest rank that there can be */
-    const int *symbol;  /* [dim] of them */
-    const double *unit; /* [dim] of them */
-    int *pivot;         /* [2*dim] with a drift: fields that are independent at the first point, and
-                           their components that are 1; else NULL */
-    dal__node *field;   /* [(POINTS*dim + 2)*dim] the fields so far, [dim] each */
-    double *weight;     /* [POINTS*dim + 2] by which they are multiplied */
-    int fields, first;  /* how many; how many of them are X_i, or the drift and N_k */
-    double *point;      /* [POINTS*symbols] */
-    int points;
-    double *basis; /* [POINTS*dim*dim] orthonormal, of the fields at each point */
-    int rank[POINTS];
-    double work;
-} distribution;
+dal_status dal__fields_allocate(dal__fields *d, size_t dim, const dal_setting *parameters,
+                                int parameter_count, double **value, dal_error *error)
+{
+    dal_model *const model = d->model;
+    const dal__equations *e = &model->equations;
+    const size_t symbols = (size_t)e->symbols;
+    *value = dal__model_allocate(model, symbols, sizeof **value);
+    d->field = dal__model_nodes(model, (int)((DAL__GENERIC_POINTS * dim + 2) * dim), 0);
+    d->weight = dal__model_allocate(model, DAL__GENERIC_POINTS * dim + 2, sizeof *d->weight);
+    d->basis = dal__model_allocate(model, DAL__GENERIC_POINTS * dim * dim, sizeof *d->basis);
+    d->point = dal__model_allocate(model, DAL__GENERIC_POINTS * symbols, sizeof *d->point);
+    if (model->out_of_memory) return dal__memory_error(error);
+    memcpy(*value, e->value, symbols * sizeof **value);
+    return dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
+                               *value, error);
+}
 
-/* ---- the fields at the points ---- */
+void dal__displace_point(double *x, int from, int count, const double *unit, int way)
+{
+    const double golden = 0.6180339887498949;
+    for (int i = 0; i < count; i++)
+        x[from + i] += unit[i] * (fmod((way + from + i + 1) * golden, 1.0) - 0.5);
+}
+
+/* ---- fields at the points ---- */
 
 /* Adds what of x[dim] is orthogonal to the basis at a point; false: nothing is. */
-static bool extend_basis(distribution *d, int point, double *x)
+static bool extend_basis(dal__fields *d, int point, double *x)
 {
     double *basis = d->basis + (size_t)(point * d->dim) * (size_t)d->dim;
     double size = 1.0, rest = 0.0;
@@ -218,7 +204,7 @@ static bool extend_basis(distribution *d, int point, double *x)
     }
     for (int j = 0; j < d->dim; j++) rest += x[j] * x[j];
     rest = sqrt(rest);
-    if (!(rest > ROUNDING * size) || isinf(rest)) return false;
+    if (!(rest > DAL__FIELD_ROUNDING * size) || isinf(rest)) return false;
     for (int j = 0; j < d->dim; j++) basis[d->rank[point] * d->dim + j] = x[j] / rest;
     d->rank[point]++;
     return true;
@@ -226,7 +212,7 @@ static bool extend_basis(distribution *d, int point, double *x)
 
 /* With a drift the fields become unit vectors in the components of their pivots at the first point:
  * the new one loses its parts along those before, and is divided by its largest component. */
-static void eliminate_field(distribution *d)
+static void eliminate_field(dal__fields *d)
 {
     dal__graph *graph = d->model->equations.graph;
     dal__node *field = d->field + d->fields * d->dim;
@@ -251,8 +237,7 @@ static void eliminate_field(distribution *d)
     d->weight[d->fields] = d->unit[best];
 }
 
-/* Adds the field after the others where it is independent of them at a point. */
-static void add_field(distribution *d, double weight, double *x)
+void dal__fields_add(dal__fields *d, double weight, double *x)
 {
     dal__graph *graph = d->model->equations.graph;
     const dal__node *field = d->field + d->fields * d->dim;
@@ -272,12 +257,40 @@ static void add_field(distribution *d, double weight, double *x)
     d->fields += is_new;
 }
 
-static int max_rank(const distribution *d)
+int dal__fields_rank(const dal__fields *d)
 {
     int max = 0;
     for (int k = 0; k < d->points; k++)
         if (d->rank[k] > max) max = d->rank[k];
     return max;
+}
+
+/* ---- brackets ---- */
+
+/* The derivative of f along a field. */
+static dal__node along(dal__fields *d, dal__node f, const dal__node *field)
+{
+    dal__graph *graph = d->model->equations.graph;
+    if (dal__inspect(graph, f).op == DAL__NUMBER) return dal__number(graph, 0.0);
+    d->work += graph->count;
+    return dal__tangent(graph, f, d->symbol, d->dim, field);
+}
+
+bool dal__fields_bracket(dal__fields *d, int begin, double *x)
+{
+    dal__graph *graph = d->model->equations.graph;
+    const int end = d->fields;
+    for (int k = begin; k < end; k++)
+        for (int i = 0; i < (begin == 0 ? k : d->first); i++) {
+            const dal__node *X = d->field + i * d->dim, *Y = d->field + k * d->dim;
+            dal__node *out = d->field + d->fields * d->dim;
+            if (dal__fields_rank(d) == d->full) return true;
+            if (graph->count > MAX_NODES || d->work > MAX_WORK) return false;
+            for (int j = 0; j < d->dim; j++)
+                out[j] = dal__node_sub(graph, along(d, Y[j], X), along(d, X[j], Y));
+            dal__fields_add(d, d->weight[i] * d->weight[k], x);
+        }
+    return true;
 }
 
 /* ---- the fields X_i ---- */
@@ -290,7 +303,7 @@ static dal__node times(dal__graph *graph, dal__node f, double factor)
 /* X_c for each column c that is no pivot: 1 there, and -A_p^-1 A_c in the pivots p.  Pivots are
  * chosen by elimination at the first point; t is none.  A_p is solved in units in which the largest
  * entry of each row is about 1, since its rows and columns have units of their own. */
-static dal_status make_fields(distribution *d, const dal__node *A, double *x)
+static dal_status make_fields(dal__fields *d, const dal__node *A, double *x)
 {
     dal__equations *e = &d->model->equations;
     const int m = d->rows, dim = d->dim;
@@ -311,7 +324,7 @@ static dal_status make_fields(distribution *d, const dal__node *A, double *x)
         int best = d->fixed;
         for (int j = d->fixed; j < dim; j++)
             if (fabs(row[j]) > fabs(row[best])) best = j;
-        if (!(fabs(row[best]) > ROUNDING)) return DAL_STATUS_SINGULAR;
+        if (!(fabs(row[best]) > DAL__FIELD_ROUNDING)) return DAL_STATUS_SINGULAR;
         pivot[best] = true;
         for (int b = a + 1; b < m; b++) {
             const double factor = x[b * dim + best] / row[best];
@@ -332,43 +345,11 @@ static dal_status make_fields(distribution *d, const dal__node *A, double *x)
         for (int j = 0, p = 0; j < dim; j++)
             field[j] = pivot[j] ? times(e->graph, solution[p++], d->unit[j])
                                 : dal__number(e->graph, j == c ? 1.0 : 0.0);
-        add_field(d, d->unit[c], x);
+        dal__fields_add(d, d->unit[c], x);
     }
     d->first = d->fields;
     return e->graph->status;
 }
-
-/* ---- brackets ---- */
-
-/* The derivative of f along a field. */
-static dal__node along(distribution *d, dal__node f, const dal__node *field)
-{
-    dal__graph *graph = d->model->equations.graph;
-    if (dal__inspect(graph, f).op == DAL__NUMBER) return dal__number(graph, 0.0);
-    d->work += graph->count;
-    return dal__tangent(graph, f, d->symbol, d->dim, field);
-}
-
-/* Adds the brackets of the X_i with the fields from begin on; false: formulas have become too
- * large. */
-static bool add_level(distribution *d, int begin, double *x)
-{
-    dal__graph *graph = d->model->equations.graph;
-    const int end = d->fields;
-    for (int k = begin; k < end; k++)
-        for (int i = 0; i < (begin == 0 ? k : d->first); i++) {
-            const dal__node *X = d->field + i * d->dim, *Y = d->field + k * d->dim;
-            dal__node *out = d->field + d->fields * d->dim;
-            if (max_rank(d) == d->full) return true;
-            if (graph->count > MAX_NODES || d->work > MAX_WORK) return false;
-            for (int j = 0; j < d->dim; j++)
-                out[j] = dal__node_sub(graph, along(d, Y[j], X), along(d, X[j], Y));
-            add_field(d, d->weight[i] * d->weight[k], x);
-        }
-    return true;
-}
-
-/* ---- the whole ---- */
 
 /* D at v = 0. */
 static dal__node at_rest(const dal__equations *e, dal__node D, const dal__node *zeros)
@@ -376,17 +357,9 @@ static dal__node at_rest(const dal__equations *e, dal__node D, const dal__node *
     return dal__substitute(e->graph, D, e->symbol + e->v, e->n, zeros);
 }
 
-/* Moves count numbers of a point irregularly about where they are, by the try-th of many ways. */
-static void displace(double *x, int from, int count, const double *unit, int way)
-{
-    const double golden = 0.6180339887498949;
-    for (int i = 0; i < count; i++)
-        x[from + i] += unit[i] * (fmod((way + from + i + 1) * golden, 1.0) - 0.5);
-}
-
 /* A[rows*dim] of a distribution, after it n zeros, the first column for t; and irregular points
  * about the start, value[symbols], at which it is finite. */
-static dal_status make_matrix(distribution *d, dal__node *A, const double *value,
+static dal_status make_matrix(dal__fields *d, dal__node *A, const double *value,
                               const double *units, dal_error *error)
 {
     const dal__equations *e = &d->model->equations;
@@ -409,10 +382,10 @@ static dal_status make_matrix(distribution *d, dal__node *A, const double *value
         if (has_t) A[a * d->dim] = at_rest(e, D[a], zeros);
         memcpy(A + a * d->dim + has_t, of_v + a * e->n, (size_t)e->n * sizeof *A);
     }
-    for (int try = 0; try < 8 * POINTS && d->points < POINTS; try++) {
+    for (int try = 0; try < 8 * DAL__GENERIC_POINTS && d->points < DAL__GENERIC_POINTS; try++) {
         double *x = d->point + d->points * e->symbols, sum = 0.0;
         memcpy(x, value, (size_t)e->symbols * sizeof *x);
-        displace(x, e->t, 1 + e->n, units, try * e->symbols);
+        dal__displace_point(x, e->t, 1 + e->n, units, try * e->symbols);
         for (int i = 0; i < d->rows * d->dim; i++) sum += dal__evaluate(e->graph, A[i], x);
         d->points += isfinite(sum);
     }
@@ -421,26 +394,10 @@ static dal_status make_matrix(distribution *d, dal__node *A, const double *value
     return e->graph->status;
 }
 
-/* Memory for as many fields on up to dim coordinates as points can need; and value[symbols]. */
-static dal_status allocate_fields(distribution *d, size_t dim, const dal_setting *parameters,
-                                  int parameter_count, double **value, dal_error *error)
-{
-    dal_model *const model = d->model;
-    const dal__equations *e = &model->equations;
-    const size_t symbols = (size_t)e->symbols;
-    *value = dal__model_allocate(model, symbols, sizeof **value);
-    d->field = dal__model_nodes(model, (int)((POINTS * dim + 2) * dim), 0);
-    d->weight = dal__model_allocate(model, POINTS * dim + 2, sizeof *d->weight);
-    d->basis = dal__model_allocate(model, POINTS * dim * dim, sizeof *d->basis);
-    d->point = dal__model_allocate(model, POINTS * symbols, sizeof *d->point);
-    if (model->out_of_memory) return dal__memory_error(error);
-    memcpy(*value, e->value, symbols * sizeof **value);
-    return dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
-                               *value, error);
-}
+/* ---- the whole ---- */
 
 /* Finds the ranks of the distribution of its rows. */
-static dal_status find_growth(distribution *d, const dal_setting *parameters, int parameter_count,
+static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int parameter_count,
                               const double *units, dal_growth *out, dal_error *error)
 {
     dal_model *const model = d->model;
@@ -451,7 +408,7 @@ static dal_status find_growth(distribution *d, const dal_setting *parameters, in
     double *ones = dal__model_allocate(model, dim, sizeof *ones);
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (size_t i = 0; i < dim; i++) ones[i] = 1.0;
-    DAL_TRY(allocate_fields(d, dim, parameters, parameter_count, &value, error));
+    DAL_TRY(dal__fields_allocate(d, dim, parameters, parameter_count, &value, error));
     dal_status status = make_matrix(d, A, value, units ? units : ones, error);
     if (status == DAL_STATUS_OK) status = make_fields(d, A, x);
     if (e->graph->status == DAL_STATUS_MEMORY) return dal__memory_error(error);
@@ -459,13 +416,13 @@ static dal_status find_growth(distribution *d, const dal_setting *parameters, in
         return dal__fail(error, status, "the constraints are dependent about the start");
     DAL_TRY(status);
     out->dimension = d->dim;
-    out->rank[out->levels++] = max_rank(d);
+    out->rank[out->levels++] = dal__fields_rank(d);
     for (int begin = 0; out->levels < DAL_GROWTH_LEVELS && !out->is_complete;) {
         const int end = d->fields, last = out->rank[out->levels - 1];
-        if (!add_level(d, begin, x)) break;
+        if (!dal__fields_bracket(d, begin, x)) break;
         begin = end;
-        if (max_rank(d) > last) out->rank[out->levels++] = max_rank(d);
-        out->is_complete = max_rank(d) == last || max_rank(d) == d->full;
+        if (dal__fields_rank(d) > last) out->rank[out->levels++] = dal__fields_rank(d);
+        out->is_complete = dal__fields_rank(d) == last || dal__fields_rank(d) == d->full;
     }
     return e->graph->status;
 }
@@ -478,7 +435,7 @@ dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int
     DAL_REQUIRE(model->made, error);
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
     *out = (dal_growth){.levels = 0};
-    distribution d = {.model = model, .rows = model->equations.m};
+    dal__fields d = {.model = model, .rows = model->equations.m};
     if (d.rows == 0)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED, "the system has no constraints");
     return find_growth(&d, parameters, parameter_count, units, out, error);
@@ -493,105 +450,9 @@ dal_status dal_model_growth_of(dal_model *model, int constraint, const dal_setti
     DAL_REQUIRE(model->made, error);
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
     *out = (dal_growth){.levels = 0};
-    distribution d = {.model = model, .row = constraint, .rows = 1};
+    dal__fields d = {.model = model, .row = constraint, .rows = 1};
     if (constraint < 0 || constraint >= model->equations.m)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "constraint %d: the system has %d", constraint,
                          model->equations.m);
     return find_growth(&d, parameters, parameter_count, units, out, error);
-}
-
-/* ---- controls with drift ---- */
-
-/* The drift, which is no part of the distribution, multiplied by a time; and columns (0, N_k). */
-static dal_status make_controls(distribution *d, double time, double *x)
-{
-    const dal__equations *e = &d->model->equations;
-    const int n = e->n, at_v = d->fixed + n;
-    dal__node *field = d->field;
-    if (d->fixed) field[0] = dal__number(e->graph, 1.0);
-    for (int i = 0; i < n; i++) {
-        field[d->fixed + i] = dal__symbol(e->graph, e->v + i);
-        field[at_v + i] = e->F[i];
-    }
-    d->weight[0] = time;
-    d->fields = 1;
-    for (int k = 0; k < e->controls; k++) {
-        double size = 0.0;
-        field = d->field + d->fields * d->dim;
-        for (int j = 0; j < at_v; j++) field[j] = dal__number(e->graph, 0.0);
-        dal__gradient(e->graph, e->control_cost[k], e->symbol + e->pi, n, field + at_v);
-        for (int i = at_v; i < d->dim; i++)
-            size = fmax(size, fabs(dal__evaluate(e->graph, field[i], d->point)) / d->unit[i]);
-        add_field(d, size > 0.0 ? 1.0 / size : 1.0, x);
-    }
-    d->first = d->fields;
-    return e->graph->status;
-}
-
-/* Irregular points about the start, value[symbols], with velocities moved to D = 0, at which F is
- * finite. */
-static dal_status make_states(distribution *d, const double *value, const double *units)
-{
-    enum { CORRECTIONS = 20 };
-    const dal__equations *e = &d->model->equations;
-    const int n = e->n;
-    dal__node *change = dal__model_nodes(d->model, n, 0);
-    if (!change) return DAL_STATUS_MEMORY;
-    if (e->m > 0) DAL_TRY(dal__motion_correct(d->model, change));
-    for (int try = 0; try < 8 * POINTS && d->points < POINTS; try++) {
-        double *x = d->point + d->points * e->symbols, sum = 0.0;
-        memcpy(x, value, (size_t)e->symbols * sizeof *x);
-        displace(x, e->t, 1 + n, units, try * e->symbols);
-        displace(x, e->v, n, units + 1 + n, try * e->symbols);
-        for (int k = 0; k < CORRECTIONS && e->m > 0; k++) {
-            for (int i = 0; i < n; i++) x[e->pi + i] = dal__evaluate(e->graph, change[i], x);
-            for (int i = 0; i < n; i++) x[e->v + i] += x[e->pi + i];
-        }
-        for (int i = 0; i < n; i++) sum += dal__evaluate(e->graph, e->F[i], x);
-        d->points += isfinite(sum);
-    }
-    return d->points > 0 ? e->graph->status : DAL_STATUS_NOT_FINITE;
-}
-
-/* Adds levels until none has a further field; what has become too large leaves the rank unknown. */
-static int close_under_brackets(distribution *d, double *x)
-{
-    for (int begin = 0, last = -1; max_rank(d) > last && max_rank(d) < d->full;) {
-        const int end = d->fields;
-        last = max_rank(d);
-        if (!add_level(d, begin, x)) return -1;
-        begin = end;
-    }
-    return max_rank(d);
-}
-
-dal_status dal__model_controlled(dal_model *model, const dal_setting *parameters,
-                                 int parameter_count, const double *units, int *rank,
-                                 dal_error *error)
-{
-    const dal__equations *e = &model->equations;
-    const int n = e->n;
-    const size_t dim = 1 + 2 * (size_t)n;
-    distribution d = {.model = model, .pivot = dal__model_allocate(model, 2 * dim, sizeof(int))};
-    double *value, *x = dal__model_allocate(model, dim, sizeof *x);
-    int *symbol = dal__model_allocate(model, dim, sizeof *symbol);
-    *rank = -1;
-    if (model->out_of_memory) return dal__memory_error(error);
-    DAL_TRY(allocate_fields(&d, dim, parameters, parameter_count, &value, error));
-    for (int i = 0; i <= n; i++) symbol[i] = e->t + i;
-    for (int i = 0; i < n; i++) {
-        symbol[1 + n + i] = e->v + i;
-        d.fixed |= dal__depends(e->graph, e->F[i], e->t, e->t + 1);
-    }
-    for (int k = 0; k < e->controls; k++)
-        d.fixed |= dal__depends(e->graph, e->control_cost[k], e->t, e->t + 1);
-    d.symbol = symbol + !d.fixed;
-    d.unit = units + !d.fixed;
-    d.dim = 2 * n + d.fixed;
-    d.full = 2 * n - e->m - e->holonomic;
-    dal_status status = make_states(&d, value, units);
-    if (status == DAL_STATUS_OK) status = make_controls(&d, units[0], x);
-    if (status == DAL_STATUS_OK) *rank = close_under_brackets(&d, x);
-    if (status == DAL_STATUS_OK) status = e->graph->status;
-    return status == DAL_STATUS_MEMORY ? dal__memory_error(error) : status;
 }

@@ -18,19 +18,8 @@
 
 enum { MAX_DEGREE = 4 };
 
-/* Whether a function depends on a coordinate that is free at an end. */
-static bool has_free(const dal__problem *p, int node)
-{
-    const dal__equations *e = &p->model->equations;
-    bool found = false;
-    for (int end = 0; end < 2; end++)
-        for (int i = 0; i < p->n; i++)
-            if (p->is_free[end][i])
-                found = found || dal__depends(e->graph, node, e->q + i, e->q + i + 1);
-    return found;
-}
-
-/* Compares an invariant at both ends, by how much the components change it. */
+/* Compares an invariant at both ends, unless it depends on a coordinate that is free there, by how
+ * much the components change it. */
 static dal_status compare_ends(dal__problem *p, const dal_invariant *invariant)
 {
     const double rounding = 1e-10; /* as of targets off D = 0 */
@@ -39,7 +28,10 @@ static dal_status compare_ends(dal__problem *p, const dal_invariant *invariant)
     dal__node node;
     double value[2], size = 0.0;
     DAL_TRY(dal__search_parse(p->model, invariant->formula, 1, &node, p->error));
-    if (has_free(p, node)) return DAL_STATUS_OK;
+    for (int i = 0; i < n; i++)
+        if ((p->is_free[0][i] || p->is_free[1][i]) &&
+            dal__depends(e->graph, node, e->q + i, e->q + i + 1))
+            return DAL_STATUS_OK;
     int *gradient = calloc((size_t)n, sizeof *gradient);
     double *rate = dal__numbers(1, (size_t)n);
     dal_status status = gradient && rate ? DAL_STATUS_OK : dal__memory_error(p->error);

@@ -38,33 +38,6 @@ static dal_status check_steer_settings(const dal_steer_settings *s, dal_error *e
     return DAL_STATUS_OK;
 }
 
-/* Refuses methods without an exact tangent, and names one that has it. */
-static dal_status check_steered_method(const dal__problem *p, dal_error *error)
-{
-    const dal_system *system = p->system;
-    char name[128], other[128];
-    dal_method method = p->spec.method;
-    dal_run_spec bare = p->spec;
-    bool added = false;
-    DAL_TRY(dal_method_complete(&method, system, &p->spec.options, &added, error));
-    const char *fault = added ? "it is projected to holonomic constraints"
-                              : dal__tangent_fault(&p->spec, p->spec.options.space);
-    if (!fault) return DAL_STATUS_OK;
-    bare.method = (dal_method){.layer = {method.layer[0]}};
-    bare.options.tolerance = 0.0;
-    if (dal__tangent_fault(&bare, bare.options.space))
-        DAL_TRY(dal_method_parse(&bare.method, "gauss8", error));
-    const bool has_other = !dal__tangent_fault(&bare, bare.options.space);
-    return dal__fail(error, DAL_STATUS_UNSUPPORTED, "no steering by %s: %s%s%s%s",
-                     dal_method_name(&p->spec.method, name, sizeof name), fault,
-                     has_other ? "; take " : "",
-                     has_other ? dal_method_name(&bare.method, other, sizeof other) : "",
-                     !has_other                        ? ""
-                     : p->spec.options.tolerance > 0.0 ? " without a tolerance"
-                     : system->holonomic > 0           ? " with the option bare"
-                                                       : "");
-}
-
 static dal_status check_request(dal__problem *p, double T, dal_error *error)
 {
     const dal_system *system = p->system;
@@ -86,7 +59,27 @@ static dal_status check_request(dal__problem *p, double T, dal_error *error)
     if (p->is_lifted && system->call.gauge)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "steering is at constant e, and mu_e of the gauge is not 0");
-    return check_steered_method(p, error);
+    char name[128], other[128];
+    dal_method method = p->spec.method;
+    dal_run_spec bare = p->spec;
+    bool added = false;
+    DAL_TRY(dal_method_complete(&method, system, &p->spec.options, &added, error));
+    const char *fault = added ? "it is projected to holonomic constraints"
+                              : dal__tangent_fault(&p->spec, p->spec.options.space);
+    if (!fault) return DAL_STATUS_OK;
+    bare.method = (dal_method){.layer = {method.layer[0]}};
+    bare.options.tolerance = 0.0;
+    if (dal__tangent_fault(&bare, bare.options.space))
+        DAL_TRY(dal_method_parse(&bare.method, "gauss8", error));
+    const bool has_other = !dal__tangent_fault(&bare, bare.options.space);
+    return dal__fail(error, DAL_STATUS_UNSUPPORTED, "no steering by %s: %s%s%s%s",
+                     dal_method_name(&p->spec.method, name, sizeof name), fault,
+                     has_other ? "; take " : "",
+                     has_other ? dal_method_name(&bare.method, other, sizeof other) : "",
+                     !has_other                        ? ""
+                     : p->spec.options.tolerance > 0.0 ? " without a tolerance"
+                     : system->holonomic > 0           ? " with the option bare"
+                                                       : "");
 }
 
 /* ---- the ends ---- */

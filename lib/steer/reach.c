@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/svd.h"
 #include "core/vectors.h"
-#include "model/ranks.h"
+#include "steer/controlled.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,8 +40,8 @@ dal_status dal__reach_find(dal__problem *p, dal_steering *out)
         out->allowed = r + n - system->m;
     }
     if (status != DAL_STATUS_MEMORY && system->effort == DAL_EFFORT_CONTROLS && p->is_lifted)
-        status = dal__model_controlled(p->model, p->spec.parameters, parameters, unit,
-                                       &out->allowed, &error);
+        status = dal__controlled_rank(p->model, p->spec.parameters, parameters, unit, &out->allowed,
+                                      &error);
     free(unit);
     return status == DAL_STATUS_MEMORY ? status : DAL_STATUS_OK;
 }

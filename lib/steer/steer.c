@@ -217,13 +217,6 @@ static bool is_same(const dal__problem *p, const dal_steering *s, const double *
     return true;
 }
 
-static bool is_before(const dal_extremal *x, const dal_extremal *other)
-{
-    const bool is_found = x->status == DAL_STATUS_OK;
-    if (is_found != (other->status == DAL_STATUS_OK)) return is_found;
-    return is_found ? x->S < other->S : x->residual < other->residual;
-}
-
 static void free_motion(dal_extremal *x)
 {
     free(x->z);
@@ -234,14 +227,20 @@ static void free_motion(dal_extremal *x)
 static void add_extremal(const dal__problem *p, dal_steering *steering, dal_extremal *x)
 {
     dal_extremal *const all = steering->extremal;
+    const bool is_found = x->status == DAL_STATUS_OK;
     int at = 0;
     for (int i = 0; i < steering->count; i++)
-        if (x->status == DAL_STATUS_OK && all[i].status == DAL_STATUS_OK &&
-            is_same(p, steering, x->z, all[i].z)) {
+        if (is_found && all[i].status == DAL_STATUS_OK && is_same(p, steering, x->z, all[i].z)) {
             free_motion(x);
             return;
         }
-    while (at < steering->count && !is_before(x, &all[at])) at++;
+    for (; at < steering->count; at++) {
+        const bool is_other = all[at].status == DAL_STATUS_OK;
+        if (is_found != is_other ? is_found
+            : is_found           ? x->S < all[at].S
+                                 : x->residual < all[at].residual)
+            break;
+    }
     memmove(all + at + 1, all + at, (size_t)(steering->count - at) * sizeof *x);
     all[at] = *x;
     if (steering->count == p->settings->starts)
@@ -274,17 +273,11 @@ static dal_status add_guess(dal__problem *p, dal__shooting *s, dal_steering *ste
     return x.status == DAL_STATUS_INTERRUPTED ? x.status : DAL_STATUS_OK;
 }
 
-/* Whether one more guess is made: the straight line alone may be singular, as of a loop, which has
- * no way back to first order. */
-static bool is_wanted(const dal__problem *p, const dal_steering *steering)
-{
-    const int starts = p->settings->starts;
-    const bool is_found = steering->count > 0 && steering->extremal[0].status == DAL_STATUS_OK;
-    return p->guess < starts || (!is_found && p->guess < starts + MORE_GUESSES);
-}
-
+/* Where no guess leads to the target more are made: the straight line alone may be singular, as of
+ * a loop, which has no way back to first order. */
 static dal_status fill_steering(dal__problem *p, dal_steering *steering)
 {
+    const int starts = p->settings->starts;
     dal__shooting s = {.problem = p};
     steering->n = p->n;
     steering->dimension = p->dimension;
@@ -301,8 +294,12 @@ static dal_status fill_steering(dal__problem *p, dal_steering *steering)
                             : DAL_STATUS_OK;
     if (status == DAL_STATUS_OK) status = dal__leaf_check(p, steering);
     if (status == DAL_STATUS_OK) status = dal__shooting_open(&s, p, p->steps, PIECES);
-    for (p->guess = 0; status == DAL_STATUS_OK && is_wanted(p, steering); p->guess++)
+    bool is_found = false;
+    for (p->guess = 0; status == DAL_STATUS_OK && p->guess < starts + (is_found ? 0 : MORE_GUESSES);
+         p->guess++) {
         status = add_guess(p, &s, steering);
+        is_found = steering->count > 0 && steering->extremal->status == DAL_STATUS_OK;
+    }
     dal__shooting_close(&s);
     return status == DAL_STATUS_INTERRUPTED ? DAL_STATUS_OK : status;
 }
