@@ -316,7 +316,7 @@ static void print_runs(const explain_settings *s, const dal_error_budget *e)
 }
 
 /* The sentences and the shares for a document. */
-static void print_document(const explain_settings *s, const dal_error_budget *e)
+static int print_document(const explain_settings *s, const dal_error_budget *e)
 {
     screen out;
     screen_table t = {.columns = 1, .heads = 1};
@@ -343,7 +343,7 @@ static void print_document(const explain_settings *s, const dal_error_budget *e)
     screen_add_table(&out, &t, "lr", 0);
     screen_free_table(&t);
     free(list);
-    screen_close(&out, NULL);
+    return screen_close(&out, NULL);
 }
 
 static void print_budget(const explain_settings *s, const dal_error_budget *e)
@@ -508,6 +508,13 @@ static void put_budget(const explain_settings *s, const dal_error_budget *e)
     json_end_results(&w);
 }
 
+static int print_result(const explain_settings *s, const dal_error_budget *e)
+{
+    if (s->format != SCREEN_TEXT) return print_document(s, e);
+    (s->json ? put_budget : print_budget)(s, e);
+    return cli_close(stdout, "standard output");
+}
+
 /* ---- all ---- */
 
 int explain_run(explain_settings *s)
@@ -544,10 +551,8 @@ int explain_run(explain_settings *s)
     if (done != DAL_STATUS_OK)
         return cli_error(cli_exit(done), s->simulation.request.system_name, &error);
     status = s->output ? write_budget(s->output, e) : CLI_DONE;
-    if (status == CLI_DONE && (s->json || s->format != SCREEN_TEXT || !s->output)) {
-        (s->json ? put_budget : s->format != SCREEN_TEXT ? print_document : print_budget)(s, e);
-        status = cli_close(stdout, "standard output");
-    }
+    if (status == CLI_DONE && (s->json || s->format != SCREEN_TEXT || !s->output))
+        status = print_result(s, e);
     dal_prediction_free(s->predicted);
     s->predicted = NULL;
     dal_error_budget_free(e);

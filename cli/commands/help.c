@@ -58,10 +58,10 @@ static int print_reference(void)
     int status = CLI_DONE;
     for (int i = 0; i < COMMANDS && status == CLI_DONE; i++)
         status = print_command(commands[i], markdown_help);
+    if (status != CLI_DONE) return status;
     puts("## Exit status\n");
     print_exits("- `%d`: %s\n");
-    const int closed = cli_close(stdout, "standard output");
-    return status == CLI_DONE ? closed : status;
+    return cli_close(stdout, "standard output");
 }
 
 static int help(int argc, char **argv)

@@ -108,6 +108,7 @@ int run_integrate(const run_simulation *simulation, run_directory *dir,
     recorder.interval = settings->interval;
     recorder.progress = settings->progress;
     const long long row = recorder.results.position.row;
+    int printed = CLI_DONE;
     if (status == CLI_DONE && recorder_is_finished(&recorder)) {
         cli_note("'%s' is finished: %lld rows", dir->path, row);
     } else if (status == CLI_DONE) {
@@ -125,14 +126,17 @@ int run_integrate(const run_simulation *simulation, run_directory *dir,
         /* A terminal gets a screen; what is no terminal, the table of all numbers on request. */
         FILE *reader = has_format ? stdout : screen_terminal();
         if (reader && !settings->details && !settings->has_no_screen)
-            run_screen_print(reader, &recorder, is_screen_alone ? NULL : output, settings->format);
+            printed = run_screen_print(reader, &recorder, is_screen_alone ? NULL : output,
+                                       settings->format);
         if (settings->details || (settings->summary && !isatty(STDERR_FILENO)))
             summary_print(stderr, simulation, &recorder.results);
         if (settings->details) summary_print_details(stderr, &recorder.results);
     }
     const int closed = recorder_close(&recorder), copied = copy_events(dir, settings);
-    if (status != CLI_DONE) return status;
-    return closed != CLI_DONE ? closed : copied;
+    const int all[] = {status, closed, copied, printed};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i] != CLI_DONE) return all[i];
+    return CLI_DONE;
 }
 
 int run_check_directory(const char *path)

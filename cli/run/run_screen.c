@@ -66,7 +66,7 @@ static int say_verdicts(screen *s, const run_results *r)
     return moving;
 }
 
-void run_screen_print(FILE *to, const run_recorder *r, const char *output, screen_format format)
+int run_screen_print(FILE *to, const run_recorder *r, const char *output, screen_format format)
 {
     const run_request *request = &r->simulation->request;
     const dal_run *run = r->simulation->run;
@@ -99,10 +99,7 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output, scree
     screen_skip(&s);
     const int moving = say_verdicts(&s, &r->results);
     screen_skip(&s);
-    if (format != SCREEN_TEXT) {
-        screen_close(&s, NULL);
-        return;
-    }
+    if (format != SCREEN_TEXT) return screen_close(&s, NULL);
     if (!path)
         screen_say(&s, 7, "Rows:  -o FILE.csv, or a pipe");
     else if (strcmp(path, "-") != 0)
@@ -119,5 +116,5 @@ void run_screen_print(FILE *to, const run_recorder *r, const char *output, scree
         free(command);
         free(head);
     }
-    screen_close(&s, NULL);
+    return screen_close(&s, NULL);
 }

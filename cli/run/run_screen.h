@@ -21,8 +21,8 @@ typedef struct run_quantities {
 int run_add_verdicts(screen_table *table, const run_quantities *quantities, int *left_out);
 
 /* Prints what was run, the state at the end, a line for each quantity, and what to try next.
- * output: where the rows are; NULL: nowhere. */
-void run_screen_print(FILE *to, const run_recorder *recorder, const char *output,
-                      screen_format format);
+ * output: where the rows are; NULL: nowhere.  Returns an exit status. */
+int run_screen_print(FILE *to, const run_recorder *recorder, const char *output,
+                     screen_format format);
 
 #endif

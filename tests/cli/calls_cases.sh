@@ -51,7 +51,7 @@ fails_openly() {
 }
 
 fails_calls() { shared_object fail_call && without_call 0 --version && [ ! -s err ]; }
-if needs 38 "no compiler for calls that fail" fails_calls; then
+if needs 64 "no compiler for calls that fail" fails_calls; then
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
     cat >ball.yaml <<'EOF'
 coordinates: [x, y]
@@ -66,6 +66,20 @@ EOF
         'accelerations: {x: f(t)}' >push.yaml
     printf '%s\n' 'integrators: rk4' 'step: 0.1' 'time: 1' 'starts: physical' 'systems:' \
         '  - {system: line.yaml, set: {k: [1, 2]}}' >short.yaml
+
+    case_is "a terminal that is full"
+    awk 'BEGIN { print "t,x"; for (t = 0; t <= 1; t += 0.125) print t "," t * t }' >curve.csv
+    few="ensemble line.yaml --integrator rk4 --step 0.5 --times 0.5,1 --members 300 --seed 1 --vary k=uniform(1,2)"
+    for arguments in list "check line.yaml" "run $motion" "section line.yaml --on x-0.1 ${motion#* }" \
+        "lyapunov $motion" "invariants line.yaml" "dirac line.yaml" "action line.yaml curve.csv" "volume $motion" \
+        "order line.yaml --integrators rk4 --time 1" "study short.yaml --output full-study" \
+        "$few --output full-ensemble --no-page" "steer line.yaml --to x=1 ${motion#* }"; do
+        timeout $patience env FAIL_TERMINAL=1 LD_PRELOAD="$shim" "$program" $arguments >/dev/full 2>err
+        status=$?
+        expect "exit $status, not 4: $arguments" [ $status -eq 4 ]
+        says "^dalembert: cannot write 'standard output': "
+    done
+    rm -rf full-*
 
     case_is "calls that fail: one file"
     prepare() { mkdir place; }
@@ -87,7 +101,6 @@ EOF
     fails_openly study short.yaml --output place --threads 1 --no-page
     sed 's/^time/rows: none\ntime/' short.yaml >bare.yaml
     fails_openly study bare.yaml --output place --threads 1 --no-page
-    few="ensemble line.yaml --integrator rk4 --step 0.5 --times 0.5,1 --members 300 --seed 1 --vary k=uniform(1,2)"
     fails_openly $few --threads 1 --no-page --output place
 
     case_is "calls that fail: directories that were begun"

@@ -3,7 +3,7 @@
  * Call FAIL_AT (the first is 1) of those below fails with EIO; how many there were is written to
  * FAIL_LOG.  A stream that is opened counts twice: at the second number it is opened, but cannot be
  * read, or holds no bytes that are written to it.  Programs that this one starts have a working
- * system. */
+ * system.  With FAIL_TERMINAL standard output is a terminal, as far as the program knows. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* RTLD_NEXT, fopencookie */
 #endif
@@ -80,6 +80,8 @@ int open(const char *path, int flags, ...)
     va_end(arguments);
     return fails() ? -1 : REAL(open)(path, flags, mode);
 }
+
+int isatty(int d) { return d == STDOUT_FILENO && getenv("FAIL_TERMINAL") ? 1 : REAL(isatty)(d); }
 
 /* The file is closed all the same. */
 int close(int d)

@@ -133,12 +133,22 @@ status=$?
 expect "exit $status, not 4: a long run" [ $status -eq 4 ]
 # A stream that is full before its end no longer knows why.
 motion="--integrator rk4 --step 0.1 --time 1"
+awk 'BEGIN { print "t,x"; for (t = 0; t <= 1; t += 0.125) print t "," t * t }' >curve.csv
 for arguments in "check line.yaml" "show benenti" "generate line.yaml --integrator rk4" "explain line.yaml $motion" \
     "order line.yaml --integrators rk4 --time 1" "lyapunov line.yaml $motion" "section line.yaml --on x-0.1 $motion" \
     "explain line.yaml $motion --json" "order line.yaml --integrators rk4 --time 1 --output -" "list --json" \
-    "help --markdown"; do
+    "help --markdown" "run line.yaml $motion --format markdown" "explain line.yaml $motion --format csv" \
+    "order line.yaml --integrators rk4 --time 1 --json" "predict line.yaml $motion" "predict line.yaml $motion --json" \
+    "predict line.yaml $motion --output -" "predict line.yaml $motion --format latex" "lyapunov line.yaml $motion --json" \
+    "lyapunov line.yaml $motion --format csv" "steer line.yaml --to x=1 $motion" \
+    "steer line.yaml --to x=1 $motion --json" "steer line.yaml --to x=1 $motion --format csv" "check line.yaml --json" \
+    "check line.yaml --latex" "check line.yaml --mathml" "dirac line.yaml" "dirac line.yaml --latex" \
+    "dirac line.yaml --json" "invariants line.yaml" "invariants line.yaml --json" "volume line.yaml $motion" \
+    "action line.yaml curve.csv" "action line.yaml curve.csv --json" "section line.yaml --on x-0.1 $motion --json" \
+    "list systems --json" "list integrators --markdown" "help run"; do
     "$program" $arguments >/dev/full 2>err
     status=$?
     expect "exit $status, not 4: $arguments" [ $status -eq 4 ]
     says "^dalembert: cannot write 'standard output': "
+    expect "more than one reason: $arguments" test "$(grep -c 'cannot write' err)" -eq 1
 done
