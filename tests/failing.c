@@ -6,16 +6,24 @@
 
 #define MISLEADING 1e6 /* what a callback that fails leaves, which nothing may use */
 
-static const dal_system *original;
-static long calls, failing;
+static dal_system original; /* its callbacks */
+static long calls, failing, last_failing;
 static const char *failed;
 static const char *const *counted;
 static dal_branches branches;
 
-void failing_begin(long call)
+void failing_begin(long call, long last)
 {
     calls = 0;
     failing = call;
+    last_failing = last;
+}
+
+/* Counts a call. */
+static bool fails(void)
+{
+    calls++;
+    return failing <= calls && calls <= last_failing;
 }
 
 static bool counts(const char *name)
@@ -59,13 +67,12 @@ const char *failing_name(void) { return failed; }
 #define FAIL(member, name)                                                                         \
     static dal_status fail_##name(const dal_system *system, const dal_point *at, double *out)      \
     {                                                                                              \
-        (void)system;                                                                              \
-        if (counts(#name) && ++calls == failing) {                                                 \
+        if (counts(#name) && fails()) {                                                            \
             failed = #name;                                                                        \
             if (out) out[0] = MISLEADING;                                                          \
             return DAL_STATUS_IO;                                                                  \
         }                                                                                          \
-        return original->member(original, at, out);                                                \
+        return original.member(system, at, out);                                                   \
     }
 MEMBERS(FAIL)
 FAIL(branches->values, branch_values)
@@ -75,7 +82,7 @@ FAIL(branches->rates, branch_rates)
 dal_system failing_system(const dal_system *system, const char *const *names)
 {
     dal_system copy = *system;
-    original = system;
+    original = *system;
     counted = names;
     copy.wide4 = copy.wide8 = NULL;
     copy.extended = copy.quad = NULL;

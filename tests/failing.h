@@ -8,8 +8,8 @@
  * may fail, or each of these names, the last of which is NULL; one at a time.  It leaves a
  * misleading number and returns DAL_STATUS_IO. */
 dal_system failing_system(const dal_system *system, const char *const *names);
-/* Their calls are counted from 0 on; the one with this number, from 1, fails; 0: none. */
-void failing_begin(long call);
+/* Their calls are counted from now on, and those with the numbers call to last, from 1, fail. */
+void failing_begin(long call, long last);
 long failing_calls(void);       /* since then */
 const char *failing_name(void); /* the callback that failed */
 

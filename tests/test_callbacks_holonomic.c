@@ -17,7 +17,7 @@ static bool survives(const dal_run_spec *spec, long failing, const double *expec
 {
     dal_run *run = NULL;
     dal_error error = {0};
-    failing_begin(failing);
+    failing_begin(failing, failing);
     if (dal_run_create(&run, spec, &error) != DAL_STATUS_OK) {
         CU_ASSERT_EQUAL(error.status, DAL_STATUS_IO);
         CU_ASSERT(failing_calls() >= failing && error.message[0] != '\0');

@@ -101,6 +101,14 @@ dal_status dal__local_scales(dal__local *k, double t, const double *x, double *o
 
 /* ---- steps ---- */
 
+/* The observables, or a message. */
+static dal_status observe(dal__local *k, double t, const double *x, double *out, dal_error *error)
+{
+    const dal_status status = dal__local_observe(k, t, x, out);
+    if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
+    return dal__fail(error, status, "the observables at t = %.17g: %s", t, dal_status_text(status));
+}
+
 dal_status dal__local_steps(dal__local *k, int steps, const double *t, const double *x,
                             double *change, int *made, dal_error *error)
 {
@@ -122,8 +130,8 @@ dal_status dal__local_steps(dal__local *k, int steps, const double *t, const dou
         double *out = change + (size_t)*made * count, *end = k->ends + (size_t)*made * size;
         DAL_TRY(dal_batch_status(k->batch, *made, error));
         dal_batch_state(k->batch, *made, end);
-        DAL_TRY(dal__local_observe(k, t[*made], from, out));
-        DAL_TRY(dal__local_observe(k, t[*made] + k->step, end, after));
+        DAL_TRY(observe(k, t[*made], from, out, error));
+        DAL_TRY(observe(k, t[*made] + k->step, end, after, error));
         const size_t first = k->enforces_D ? (size_t)k->m : 0;
         for (size_t i = 0; i < first; i++) out[i] = after[i];
         for (size_t i = first; i < count; i++) out[i] = after[i] - out[i];

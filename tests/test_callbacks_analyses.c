@@ -1,0 +1,202 @@
+/* test_callbacks_analyses.c - callbacks of a system that fail in analyses: Lyapunov exponents,
+ * predictions, pairings, error budgets, sensitivities and steering; and allocations
+ * that do (trial.h). */
+#include "fixtures.h"
+#include "trial.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+
+#define DIFFERENCES 1e-6 /* the error of differences is smaller */
+
+/* What a result says instead of a status is one here. */
+static dal_status without_value(trial *t) { return t->error.status = DAL_STATUS_NOT_FINITE; }
+
+/* The system of a tangent map, whose callbacks do not fail. */
+static const dal_system *tangent;
+
+/* The sum of the exponents; each of them depends on which vectors the first step moves most. */
+static dal_status finish_lyapunov(trial *t, dal_lyapunov *l, dal_status status)
+{
+    dal_average average = {0};
+    dal_balance balance = {0};
+    if (status == DAL_STATUS_OK) status = dal_lyapunov_advance(l, 2, &t->error);
+    if (status == DAL_STATUS_OK) dal_lyapunov_divergence(l, &average);
+    if (status == DAL_STATUS_OK && t->spec.options.space == DAL_PHYSICAL)
+        status = dal_lyapunov_balance(l, &balance, &t->error);
+    if (status == DAL_STATUS_UNSUPPORTED) status = without_value(t);
+    trial_add_number(t, (double)average.mean);
+    trial_add_number(t, balance.difference);
+    dal_lyapunov_free(l);
+    return status;
+}
+
+static dal_status measure_exponents(trial *t)
+{
+    dal_lyapunov *l = NULL;
+    const dal_status status = dal_lyapunov_create(&l, &t->spec, tangent, 0, &t->error);
+    return finish_lyapunov(t, l, status);
+}
+
+static dal_status measure_lifted_exponents(trial *t)
+{
+    dal_lyapunov *l = NULL;
+    const dal_status status = dal_lyapunov_create_lifted(&l, &t->spec, tangent, 0, &t->error);
+    return finish_lyapunov(t, l, status);
+}
+
+static dal_status measure_pairing(trial *t)
+{
+    const double direction[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    dal_statistics statistics;
+    const dal_status status =
+        dal_adjoint_pairing(&t->spec, tangent, direction, 3, &statistics, &t->error);
+    if (status == DAL_STATUS_OK) trial_add_number(t, dal_statistics_max_abs(&statistics));
+    return status;
+}
+
+static dal_status predict(trial *t)
+{
+    dal_prediction *p = NULL;
+    dal_predict_settings settings = dal_predict_settings_default();
+    settings.rows = 4;
+    dal_status status =
+        dal_predict_create(&p, &t->spec, 8.0 * TRIAL_STEP, &settings, NULL, &t->error);
+    /* What cannot be evaluated is not known to be conserved. */
+    if (status == DAL_STATUS_UNSUPPORTED) status = without_value(t);
+    if (status == DAL_STATUS_OK && p->reason != DAL_PREDICTION_TIME) status = without_value(t);
+    if (status == DAL_STATUS_OK) trial_add(t, p->change, (int)p->rows * p->observables);
+    dal_prediction_free(p);
+    return status;
+}
+
+static dal_status predict_pieces(trial *t)
+{
+    dal_prediction *p = NULL;
+    dal_predict_settings settings = dal_predict_settings_default();
+    settings.pieces = 2;
+    settings.rows = 2;
+    dal_status status =
+        dal_predict_create(&p, &t->spec, 8.0 * TRIAL_STEP, &settings, NULL, &t->error);
+    if (status == DAL_STATUS_OK && (p->reason != DAL_PREDICTION_TIME || p->pieces < 2))
+        status = without_value(t);
+    for (int i = 0; status == DAL_STATUS_OK && i < p->observables; i++)
+        trial_add_number(t, p->predicted[i].walk);
+    dal_prediction_free(p);
+    return status;
+}
+
+static dal_status budget(trial *t)
+{
+    dal_error_budget *e = NULL;
+    const dal_status status = dal_error_budget_create(&e, &t->spec, 4, 2, NULL, &t->error);
+    for (int i = 0; e && i < e->observables; i++) {
+        trial_add_number(t, e->shares[i].whole.deviation);
+        for (int k = 0; k < DAL_ERROR_SOURCES; k++) trial_add_number(t, e->shares[i].share[k]);
+    }
+    dal_error_budget_free(e);
+    return status;
+}
+
+/* By a start and by a parameter. */
+static dal_status differentiate(trial *t)
+{
+    const dal_system *s = t->spec.system;
+    const char *const names[] = {s->parameter[0], s->coordinate[0]};
+    dal_sensitivity *x = NULL, *y = NULL;
+    size_t count = 0;
+    dal_status status = dal_sensitivity_create(&x, t->model, &t->spec, names, 2, &t->error);
+    if (status == DAL_STATUS_OK) status = dal_sensitivity_advance(x, 2.5 * TRIAL_STEP, &t->error);
+    if (status == DAL_STATUS_OK)
+        status = dal_sensitivity_create(&y, t->model, &t->spec, names, 2, &t->error);
+    const double *saved = status == DAL_STATUS_OK ? dal_sensitivity_save(x, &count) : NULL;
+    if (saved) status = dal_sensitivity_restore(y, saved, count, &t->error);
+    if (status == DAL_STATUS_OK) status = dal_sensitivity_advance(y, 3.0 * TRIAL_STEP, &t->error);
+    for (int k = 0; k < 2 && status == DAL_STATUS_OK; k++)
+        trial_add(t, dal_sensitivity_column(y, k), dal_sensitivity_dimension(y));
+    dal_sensitivity_free(x);
+    dal_sensitivity_free(y);
+    return status;
+}
+
+static dal_status steer(trial *t)
+{
+    const dal_setting target = {t->spec.system->coordinate[0], 0.1};
+    dal_steer_settings settings = dal_steer_settings_default();
+    dal_steering *s = NULL;
+    settings.target = &target;
+    settings.targets = 1;
+    dal_status status =
+        dal_steer_create(&s, t->model, &t->spec, 8.0 * TRIAL_STEP, &settings, NULL, &t->error);
+    if (status == DAL_STATUS_OK && s->extremal[0].status != DAL_STATUS_OK)
+        status = without_value(t);
+    if (status == DAL_STATUS_OK) trial_add_number(t, s->extremal[0].S);
+    dal_steer_free(s);
+    return status;
+}
+
+/* ---- the suite ---- */
+
+static const char sleigh[] = "chaplygin-sleigh";
+/* A field without constraints, with an energy and an invariant. */
+static const char pendulum[] = "coordinates: [x]\nparameters: {k: 1}\n"
+                               "lagrangian: x'^2/2 + k*cos(x)\nstart: {x: 1}\n"
+                               "invariants: {g: x'^2 - 2*k*cos(x)}\n";
+static const char pursuit[] =
+    "coordinates: [x, y]\nparameters: {k: 1}\n"
+    "lagrangian: (x'^2 + y'^2)/2 - k*x^2/2\n"
+    "constraints: [\"x' - y' - 0.1*x\"]\nstart: {x: 0.5, x': 0.5, y': 0.45}\n";
+
+static void test_exponents(void)
+{
+    tangent = NULL;
+    trial_each_call(pendulum, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_exponents);
+    trial_each_call(pursuit, "gauss4+project", DAL_PHYSICAL, DIFFERENCES, measure_exponents);
+    tangent = fixture_tangent(sleigh);
+    trial_each_call(sleigh, "gauss4", DAL_PHYSICAL, 0.0, measure_exponents);
+    trial_each_call(sleigh, "gauss4", DAL_LIFTED, 0.0, measure_lifted_exponents);
+}
+
+static void test_pairings(void)
+{
+    tangent = fixture_tangent(sleigh);
+    trial_each_call(sleigh, "gauss4", DAL_PHYSICAL, 0.0, measure_pairing);
+}
+
+static void test_predictions(void)
+{
+    trial_each_call(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, predict);
+    trial_each_call(pendulum, "rk4", DAL_PHYSICAL, DIFFERENCES, predict);
+    trial_each_call(pendulum, "gauss4", DAL_PHYSICAL, DIFFERENCES, predict_pieces);
+    trial_each_call(sleigh, "rk4", DAL_PHYSICAL, 0.0, budget);
+}
+
+static void test_models(void)
+{
+    trial_each_model_call(sleigh, "rk4", DAL_PHYSICAL, 0.0, differentiate);
+    trial_each_model_call(pendulum, "gauss4", DAL_LIFTED, 0.0, differentiate);
+    trial_each_model_call(pendulum, "rk4", DAL_LIFTED, DIFFERENCES, steer);
+    trial_each_model_call(pursuit, "rk4", DAL_LIFTED, DIFFERENCES, steer);
+}
+
+static void test_memory(void)
+{
+    tangent = fixture_tangent(sleigh);
+    for (int once = 0; once < 2; once++) {
+        trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, once, predict);
+        trial_each_allocation(pendulum, "gauss4", DAL_PHYSICAL, once, predict_pieces);
+        trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, once, measure_exponents);
+        trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, once, measure_lifted_exponents);
+        trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, once, measure_pairing);
+        trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, once, budget);
+    }
+}
+
+void suite_callbacks_analyses(void)
+{
+    CU_pSuite suite = CU_add_suite("callbacks that fail in analyses", NULL, NULL);
+    CU_add_test(suite, "exponents", test_exponents);
+    CU_add_test(suite, "pairings", test_pairings);
+    CU_add_test(suite, "predictions and budgets", test_predictions);
+    CU_add_test(suite, "sensitivities and steering", test_models);
+    CU_add_test(suite, "out of memory", test_memory);
+}

@@ -1,0 +1,105 @@
+/* trial.c - a function of the library on a system whose callbacks fail, or without memory. */
+#include "trial.h"
+#include "allocation.h"
+#include "failing.h"
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+
+enum { MAX_TRIALS = 600 };
+
+void trial_add(trial *t, const double *numbers, int count)
+{
+    for (int i = 0; i < count && t->count < TRIAL_NUMBERS; i++) t->out[t->count++] = numbers[i];
+}
+
+void trial_add_number(trial *t, double number) { trial_add(t, &number, 1); }
+
+void trial_add_run(trial *t, const dal_run *run)
+{
+    trial_add(t, dal_run_state(run), dal_run_dimension(run));
+}
+
+static bool are_close(const trial *a, const trial *b)
+{
+    if (isinf(a->tolerance)) return true;
+    bool is_close = a->count == b->count;
+    for (int i = 0; is_close && i < a->count; i++) {
+        const double x = a->out[i], y = b->out[i], size = fmax(fabs(x), 1.0);
+        is_close = x == y || isnan(y) || fabs(x - y) <= a->tolerance * size;
+    }
+    return is_close;
+}
+
+/* Whether the failure of calls number k to last is seen, or does not matter. */
+static bool is_noticed(const trial *well, long k, long last, trial_work *work)
+{
+    trial other = {.spec = well->spec, .model = well->model};
+    failing_begin(k, last);
+    const dal_status seen = work(&other);
+    const bool is_seen = seen == DAL_STATUS_IO || seen == DAL_STATUS_NOT_FINITE ||
+                         seen == DAL_STATUS_NOT_CONVERGED || seen == DAL_STATUS_EVENT;
+    CU_ASSERT(!is_seen || other.error.status == seen);
+    if (is_seen || (seen == DAL_STATUS_OK && are_close(well, &other))) return true;
+    for (int i = 0; i < well->count; i++)
+        if (well->out[i] != other.out[i]) printf("   [%d] %g %g\n", i, well->out[i], other.out[i]);
+    printf("%s: ", dal_status_name(seen));
+    return false;
+}
+
+static void each_call(const char *text, const char *method, trial *well, trial_work *work)
+{
+    failing_begin(0, 0);
+    const dal_status status = work(well);
+    const long total = failing_calls(), by = total / MAX_TRIALS + 1;
+    CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
+    CU_ASSERT(total > 0);
+    if (status != DAL_STATUS_OK)
+        printf("\n%.20s, %s: %s: %s\n", text, method, dal_status_name(status), well->error.message);
+    for (long k = 1; k <= total; k += by) {
+        const bool one = is_noticed(well, k, k, work), all = is_noticed(well, k, LONG_MAX, work);
+        CU_ASSERT(one && all);
+        if (!one || !all)
+            printf("%.20s, %s: call %ld of %ld, %s, fails unseen%s\n", text, method, k, total,
+                   failing_name(), one ? ", with all after it" : "");
+    }
+    failing_begin(0, 0);
+}
+
+void trial_each_call(const char *text, const char *method, dal_space space, double tolerance,
+                     trial_work *work)
+{
+    const dal_system system = failing_system(fixture_system(text), NULL);
+    trial well = {.spec = fixture_spec(&system, method, space, TRIAL_STEP), .tolerance = tolerance};
+    each_call(text, method, &well, work);
+}
+
+void trial_each_model_call(const char *text, const char *method, dal_space space, double tolerance,
+                           trial_work *work)
+{
+    dal_model *model = fixture_model(text);
+    const dal_system *system;
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+    trial well = {.spec = fixture_spec(system, method, space, TRIAL_STEP),
+                  .model = model,
+                  .tolerance = tolerance};
+    /* It is the model's, which a caller cannot change. */
+    *(dal_system *)(void *)(size_t)(const void *)system = failing_system(system, NULL);
+    each_call(text, method, &well, work);
+    dal_model_free(model);
+}
+
+void trial_each_allocation(const char *text, const char *method, dal_space space, bool is_single,
+                           trial_work *work)
+{
+    const dal_system *system = fixture_system(text);
+    allocation_trial allocations = {.is_single = is_single};
+    while (allocation_next(&allocations)) {
+        trial t = {.spec = fixture_spec(system, method, space, TRIAL_STEP)};
+        allocation_start(&allocations);
+        allocation_end(&allocations, work(&t));
+    }
+    CU_ASSERT(allocations.failures > 0);
+}

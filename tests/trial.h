@@ -1,0 +1,38 @@
+/* trial.h - a function of the library on a system whose callbacks fail: whichever call does, its
+ * status is DAL_STATUS_IO, or one that says what became of it, with a message; unless its result is
+ * NaN or the one without a failure.  Once that call alone fails, once all from it on. */
+#ifndef TRIAL_H
+#define TRIAL_H
+
+#include <dalembert.h>
+
+enum { TRIAL_NUMBERS = 300 };
+#define TRIAL_STEP 0.1
+
+typedef struct trial {
+    dal_run_spec spec;
+    dal_model *model; /* of the system, for a function that wants one; else NULL */
+    double tolerance; /* of a result that differences with another increment may have; INFINITY:
+                       * of what the library only tries, as to hold a branch, any */
+    dal_error error;
+    double out[TRIAL_NUMBERS];
+    int count;
+} trial;
+typedef dal_status trial_work(trial *t);
+
+void trial_add(trial *t, const double *numbers, int count);
+void trial_add_number(trial *t, double number);
+void trial_add_run(trial *t, const dal_run *run); /* its state */
+
+/* Every call of the work on a system fails, or 600 of them. */
+void trial_each_call(const char *text, const char *method, dal_space space, double tolerance,
+                     trial_work *work);
+/* Likewise of work that makes runs of its own of a model, whose system is changed. */
+void trial_each_model_call(const char *text, const char *method, dal_space space, double tolerance,
+                           trial_work *work);
+/* Every allocation of the work fails, with all after it or, is_single, alone: its status is
+ * DAL_STATUS_MEMORY.  In a quick run every second one. */
+void trial_each_allocation(const char *text, const char *method, dal_space space, bool is_single,
+                           trial_work *work);
+
+#endif
