@@ -292,11 +292,9 @@ void dal__record_pivots(dal__equations *e, const dal__factors *f, unsigned divid
     }
 }
 
-double dal__pivot_product(const dal__equations *e, const dal__factors *f, const double *values)
+void dal__list_pivots(const dal__factors *f, dal__node *pivot)
 {
-    double product = 1.0;
-    for (int k = 0; k < f->n; k++) product *= dal__evaluate(e->graph, *at(f, k, k), values);
-    return product;
+    for (int k = 0; k < f->n; k++) pivot[k] = *at(f, k, k);
 }
 
 /* ---- the whole ---- */

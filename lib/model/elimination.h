@@ -27,9 +27,8 @@ bool dal__factors_allocate(dal_model *model, dal__factors *factors, int n, const
 dal_status dal__factor(dal_model *model, dal__factors *factors);
 /* Appends the pivots to the equations' own; divides: a set of DAL__DIVIDES_... */
 void dal__record_pivots(dal__equations *equations, const dal__factors *factors, unsigned divides);
-/* The product of the pivots at values of the symbols: the determinant, except for its sign. */
-double dal__pivot_product(const dal__equations *equations, const dal__factors *factors,
-                          const double *values);
+/* The pivots [n]; their product is the determinant, except for its sign. */
+void dal__list_pivots(const dal__factors *factors, dal__node *pivot);
 /* How sums are written: as they arise, or in few operations (collect.h). */
 typedef enum dal__sum_form { DAL__SUMS_UNCHANGED, DAL__SUMS_COLLECTED } dal__sum_form;
 /* Solves for right-hand sides [columns*n], one after the other, into x[columns*n].  Errors:
