@@ -251,43 +251,6 @@ static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, in
     return best == last ? e->graph->status : derive_by(model, mass, best, singular);
 }
 
-/* ---- W on ker A alone ---- */
-
-/* Whether det W has both signs, or vanishes beyond a jump, at irregular points at distances of 1/16
- * to 2^60 from the default start: then W is singular between them, where the motion may well be
- * determined.  No node is made, so that F does not depend on it. */
-static bool may_turn_singular(dal_model *model)
-{
-    enum { POINTS = 256, MIN_EXPONENT = -4, MAX_EXPONENT = 60 };
-    const dal__equations *e = &model->equations;
-    const int n = e->n;
-    double *point = dal__model_allocate(model, (size_t)(e->symbols + n), sizeof *point);
-    double *const value = point + e->symbols;
-    dal__node *pivot = dal__model_nodes(model, n, 0);
-    dal__random random = {1};
-    bool positive = false, negative = false, zero = false, varies = false, jumps = false;
-    if (model->out_of_memory) return false;
-    dal__list_pivots(e->mass, pivot);
-    for (int i = 0; i < n * n; i++) {
-        varies |= dal__depends(e->graph, e->W[i], e->parameters, e->symbols);
-        jumps |= dal__reaches(e->graph, e->W[i], DAL__JUMPING);
-    }
-    for (int k = 0; k < POINTS && varies; k++) {
-        for (int i = 0; i < e->symbols; i++) {
-            const double u = dal__uniform(&random), range = MAX_EXPONENT - MIN_EXPONENT;
-            const double far = exp2(MIN_EXPONENT + range * fabs(dal__uniform(&random)));
-            point[i] = e->value[i] + (i < e->parameters || k == 0 ? 0.0 : copysign(far, u));
-        }
-        double det = 1.0;
-        if (!dal__evaluate_all(e->graph, pivot, n, point, value)) return false;
-        for (int i = 0; i < n; i++) det *= value[i];
-        positive |= isfinite(det) && det > 0.0;
-        negative |= isfinite(det) && det < 0.0;
-        zero |= det == 0.0 && k > 0;
-    }
-    return (positive && negative) || (jumps && zero);
-}
-
 static dal_status derive_restricted(dal_model *model)
 {
     dal__equations *e = &model->equations;
@@ -312,7 +275,7 @@ dal_status dal__motion_derive(dal_model *model, dal_error *error)
     const bool fails = status == DAL_STATUS_SINGULAR, may_restrict = e->m > 0 && !e->servo;
     if (fails && !may_restrict) return dal__singular_mass(model, e->mass->singular, error);
     if (status != DAL_STATUS_OK && !fails) return unsolved(model, status, "the mass matrix", error);
-    if (may_restrict && (fails || may_turn_singular(model))) {
+    if (may_restrict && (fails || dal__mass_may_turn_singular(model))) {
         status = derive_restricted(model);
         if (status == DAL_STATUS_SINGULAR)
             return e->restricted->singular < 0

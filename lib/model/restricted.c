@@ -30,6 +30,40 @@ static void add_product(const dal__equations *e, dal__node *sum, dal__node a, da
     if (!is_zero) *sum = dal__node_add(e->graph, *sum, dal__node_mul(e->graph, a, b));
 }
 
+/* ---- whether it is needed ---- */
+
+bool dal__mass_may_turn_singular(dal_model *model)
+{
+    enum { POINTS = 256, MIN_EXPONENT = -4, MAX_EXPONENT = 60 };
+    const dal__equations *e = &model->equations;
+    const int n = e->n;
+    double *point = dal__model_allocate(model, (size_t)(e->symbols + n), sizeof *point);
+    double *const value = point + e->symbols;
+    dal__node *pivot = dal__model_nodes(model, n, 0);
+    dal__random random = {1};
+    bool positive = false, negative = false, zero = false, varies = false, jumps = false;
+    if (model->out_of_memory) return false;
+    dal__list_pivots(e->mass, pivot);
+    for (int i = 0; i < n * n; i++) {
+        varies |= dal__depends(e->graph, e->W[i], e->parameters, e->symbols);
+        jumps |= dal__reaches(e->graph, e->W[i], DAL__JUMPING);
+    }
+    for (int k = 0; k < POINTS && varies; k++) {
+        for (int i = 0; i < e->symbols; i++) {
+            const double u = dal__uniform(&random), range = MAX_EXPONENT - MIN_EXPONENT;
+            const double far = exp2(MIN_EXPONENT + range * fabs(dal__uniform(&random)));
+            point[i] = e->value[i] + (i < e->parameters || k == 0 ? 0.0 : copysign(far, u));
+        }
+        double det = 1.0;
+        if (!dal__evaluate_all(e->graph, pivot, n, point, value)) return false;
+        for (int i = 0; i < n; i++) det *= value[i];
+        positive |= isfinite(det) && det > 0.0;
+        negative |= isfinite(det) && det < 0.0;
+        zero |= det == 0.0 && k > 0;
+    }
+    return (positive && negative) || (jumps && zero);
+}
+
 /* ---- weights ---- */
 
 static double magnitude(const dal__equations *e, dal__node node)

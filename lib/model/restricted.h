@@ -26,4 +26,9 @@ dal_status dal__restricted_directions(dal_model *model, const dal__restricted *r
 /* Replaces the pivots of the equations. */
 void dal__restricted_record_pivots(dal__equations *equations, const dal__restricted *r);
 
+/* Whether det W has both signs, or vanishes beyond a jump, at irregular points at distances of 1/16
+ * to 2^60 from the default start: then W is singular between them, where the motion may well be
+ * determined.  No node is made, so that F does not depend on it. */
+bool dal__mass_may_turn_singular(dal_model *model);
+
 #endif
