@@ -1,6 +1,7 @@
 /* test_chains.c - large chains of springs with constraints that couple neighbours.
  *
- *     L = sum x_i'^2/2 + gamma x_i' x_(i+1)' - (x_(i+1) - x_i)^2/2
+ *     L = sum x_i'^2/2 + gamma_i x_i' x_(i+1)' - (x_(i+1) - x_i)^2/2,   gamma_i = gamma or
+ *                                                                    gamma cos(x_i)
  *     D_a = x_s' + cos(x_(s+1)) x_(s+1)' + (2 + sin(x_(s+3))) x_(s+2)' + x_(s+2)/2 x_(s+3)'
  *
  * with s = stride a; or, where any coefficient may vanish,
@@ -8,6 +9,7 @@
  *     D_a = cos(x_(s+1)) x_s' + cos(x_(s+2)) x_(s+1)' + cos(x_(s+3)) x_(s+2)' + cos(x_s) x_(s+3)'
  *
  * Their equations are checked coordinate by coordinate, by formulas. */
+#include "core/vectors.h"
 #include "fixtures.h"
 #include "model/model.h"
 #include "quick.h"
@@ -26,18 +28,19 @@ typedef struct chain {
     int n, stride;
     double gamma;
     bool may_vanish; /* the second form of D_a */
+    bool varies;     /* the second form of gamma_i */
 } chain;
 
 /* Constraints of disjoint neighbours. */
-static const chain disjoint[] = {
-    {256, WIDTH, 0.0, false}, {512, WIDTH, 0.0, false}, {1024, WIDTH, 0.0, false}};
+static const chain disjoint[] = {{256, WIDTH, 0.0, false, false},
+                                 {512, WIDTH, 0.0, false, false},
+                                 {1024, WIDTH, 0.0, false, false}};
 
 /* Constraints that share coordinates, a mass matrix that couples neighbours, and both. */
-static const chain coupled[] = {{256, 2, 0.0, false},
-                                {512, 2, 0.0, false},
-                                {256, WIDTH, 0.2, false},
-                                {512, WIDTH, 0.2, false},
-                                {128, 2, 0.2, false}};
+static const chain coupled[] = {{256, 2, 0.0, false, false},     {512, 2, 0.0, false, false},
+                                {256, WIDTH, 0.2, false, false}, {512, WIDTH, 0.2, false, false},
+                                {128, 2, 0.2, false, false},     {256, 2, 0.2, false, true},
+                                {1024, 2, 0.2, false, true}};
 
 static chain sized(chain c)
 {
@@ -52,7 +55,7 @@ static dal_model *make(const chain *c, const dal_system **system)
 {
     static const char coordinates[] = "coordinates: ['x[0..%d]']\n"
                                       "lagrangian: sum(i, 0, %d, x[i]'^2)/2 + %g*sum(i, 0, %d, "
-                                      "x[i]'*x[i+1]') - sum(i, 0, %d, (x[i+1] - x[i])^2)/2\n";
+                                      "%sx[i]'*x[i+1]') - sum(i, 0, %d, (x[i+1] - x[i])^2)/2\n";
     static const char rows[] = "constraints: [{for: i = 0..%d, is: \"x[%d*i]' + cos(x[%d*i+1])*"
                                "x[%d*i+1]' + (2 + sin(x[%d*i+3]))*x[%d*i+2]' + "
                                "x[%d*i+2]/2*x[%d*i+3]'\"}]\n";
@@ -62,7 +65,8 @@ static dal_model *make(const chain *c, const dal_system **system)
         "cos(x[%d*i])*x[%d*i+3]'\"}]\n";
     char text[1024];
     const int last = c->n - 1, k = c->stride;
-    int length = snprintf(text, sizeof text, coordinates, last, last, c->gamma, last - 1, last - 1);
+    int length = snprintf(text, sizeof text, coordinates, last, last, c->gamma, last - 1,
+                          c->varies ? "cos(x[i])*" : "", last - 1);
     const size_t left = sizeof text - (size_t)length;
     length +=
         c->may_vanish
@@ -103,17 +107,34 @@ static double curvature(const chain *c, int a, const double *x, const double *v)
     return -sin(y[1]) * u[1] * u[1] + cos(y[3]) * u[3] * u[2] + u[2] * u[3] / 2.0;
 }
 
-/* Row i of W F - b, and the size of its terms. */
-static double newton(const chain *c, int i, const double *x, const double *F, double *size)
+/* gamma_i. */
+static double coupling(const chain *c, const double *x, int i)
 {
-    double sum = F[i];
-    *size = fabs(F[i]);
+    return c->varies ? c->gamma * cos(x[i]) : c->gamma;
+}
+
+/* Row i of W y; adds the size of its terms. */
+static double mass_row(const chain *c, int i, const double *x, const double *y, double *size)
+{
+    const double below = i > 0 ? coupling(c, x, i - 1) * y[i - 1] : 0.0;
+    const double above = i + 1 < c->n ? coupling(c, x, i) * y[i + 1] : 0.0;
+    *size += fabs(y[i]) + fabs(below) + fabs(above);
+    return y[i] + below + above;
+}
+
+/* b_i; adds the size of its terms. */
+static double force(const chain *c, int i, const double *x, const double *v, double *size)
+{
+    double sum = 0.0;
     for (int j = i - 1; j <= i + 1; j += 2) {
         if (j < 0 || j >= c->n) continue;
-        sum += c->gamma * F[j] + (x[i] - x[j]);
-        *size += fabs(c->gamma * F[j]) + fabs(x[i]) + fabs(x[j]);
+        sum -= x[i] - x[j];
+        *size += fabs(x[i]) + fabs(x[j]);
     }
-    return sum;
+    if (!c->varies || i == 0) return sum;
+    const double term = c->gamma * sin(x[i - 1]) * v[i - 1] * v[i - 1];
+    *size += fabs(term);
+    return sum + term;
 }
 
 /* The largest residual of W F - A^T h = b and A F = -c, over the largest size of their terms. */
@@ -123,7 +144,8 @@ static double residual(const chain *c, const double *x, const double *v, const d
     static double row[MAX_N];
     double A[WIDTH], size, largest = 0.0, worst = 0.0;
     for (int i = 0; i < c->n; i++) {
-        row[i] = newton(c, i, x, F, &size);
+        size = 0.0;
+        row[i] = mass_row(c, i, x, F, &size) - force(c, i, x, v, &size);
         largest = fmax(largest, size);
     }
     for (int a = 0; a < constraints(c); a++) {
@@ -171,6 +193,41 @@ static void choose_point(int n, bool is_regular, double *x, double *v)
     }
 }
 
+/* D, A, W^-1 A^T, W^-1 b and c of the blocks by W times each column; also of the constraint, which
+ * has the first three. */
+static void check_blocks(const chain *c, const dal_system *system, const double *x, const double *v)
+{
+    static double column[MAX_N];
+    const int n = c->n, m = constraints(c), width = m + 2 * m * n;
+    double *out = calloc((size_t)(2 * width + n + m), sizeof *out),
+           *constraint = out + width + n + m;
+    double worst = 0.0, size = 1.0, A[WIDTH];
+    CU_ASSERT_PTR_NOT_NULL_FATAL(out);
+    dal_evaluator *evaluator = fixture_evaluator(system);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.blocks, 0.0, x, v, NULL, out),
+                    DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(
+        dal_evaluator_call(evaluator, system->call.constraint, 0.0, x, v, NULL, constraint),
+        DAL_STATUS_OK);
+    CU_ASSERT(memcmp(out, constraint, (size_t)width * sizeof *out) == 0);
+    for (int a = 0; a < m; a++) {
+        double *const row = out + m + a * n, *const first = row + a * c->stride;
+        coefficients(c, a, x, A);
+        for (int i = 0; i < n; i++) column[i] = out[m + m * n + i * m + a];
+        for (int i = 0; i < n; i++)
+            worst = fmax(worst, fabs(mass_row(c, i, x, column, &size) - row[i]));
+        for (int k = 0; k < WIDTH; k++) worst = fmax(worst, fabs(first[k] - A[k]));
+        for (int k = 0; k < WIDTH; k++) first[k] = 0.0;
+        CU_ASSERT_EQUAL(dal__max_abs(row, (size_t)n), 0.0);
+        worst = fmax(worst, fabs(out[width + n + a] - curvature(c, a, x, v)));
+    }
+    for (int i = 0; i < n; i++)
+        worst = fmax(worst, fabs(mass_row(c, i, x, out + width, &size) - force(c, i, x, v, &size)));
+    CU_ASSERT(worst <= 1e-14);
+    dal_evaluator_free(evaluator);
+    free(out);
+}
+
 static void check_point(const chain *c, const dal_system *system, const double *x, const double *v)
 {
     static double F[MAX_N];
@@ -196,6 +253,7 @@ static void check_equations(const chain *c, bool is_regular)
     dal_model *model = make(c, &system);
     choose_point(c->n, is_regular, x, v);
     check_point(c, system, x, v);
+    if (is_regular) check_blocks(c, system, x, v);
     dal_model_free(model);
 }
 
@@ -240,7 +298,7 @@ static void test_equations(void)
 static void test_vanishing(void)
 {
     static double x[MAX_N], v[MAX_N];
-    const chain c = sized((chain){256, WIDTH, 0.2, true});
+    const chain c = sized((chain){256, WIDTH, 0.2, true, false});
     const dal_system *system;
     dal_model *model = make(&c, &system);
     for (int k = 0; k < WIDTH; k++) {
@@ -255,16 +313,17 @@ static void test_vanishing(void)
 static void test_steps(void)
 {
     static const char *const methods[] = {"rk4+project", "gni", "mclachlan-perlmutter", "dla"};
-    const chain chains[] = {sized(disjoint[0]), sized(coupled[0]), sized(coupled[2])};
+    const chain chains[] = {sized(disjoint[0]), sized(coupled[0]), sized(coupled[2]),
+                            sized(coupled[5])};
     for (size_t k = 0; k < sizeof methods / sizeof *methods; k += (size_t)case_stride(2))
-        for (int i = 0; i < 3; i++) check_steps(&chains[i], methods[k]);
+        for (int i = 0; i < 4; i++) check_steps(&chains[i], methods[k]);
 }
 
 /* ---- growth ---- */
 
 static int nodes(int n)
 {
-    const chain c = {n, WIDTH, 0.0, false};
+    const chain c = {n, WIDTH, 0.0, false, false};
     const dal_system *system;
     dal_model *model = make(&c, &system);
     const int count = model->equations.graph->count;
@@ -283,7 +342,7 @@ static void test_nodes(void)
 /* So do operations of F, also where they begin to be made in one way alone. */
 static int operations(int n)
 {
-    const chain c = {n, WIDTH, 0.0, false};
+    const chain c = {n, WIDTH, 0.0, false, false};
     const dal_system *system;
     dal_model *model = make(&c, &system);
     const int count = system->field_operations;
@@ -314,7 +373,7 @@ static void test_workspace(void)
 /* Two matrices of Newton's method, (stages n)^2 numbers each, are reserved where it may be used. */
 static void test_size(void)
 {
-    const chain c = {256 / case_stride(2), WIDTH, 0.0, false};
+    const chain c = {256 / case_stride(2), WIDTH, 0.0, false, false};
     const size_t square = (size_t)c.n * (size_t)c.n * sizeof(double);
     const dal_system *system;
     dal_model *model = make(&c, &system);
@@ -349,7 +408,7 @@ static void measure_runs(chain c, size_t bytes[METHODS])
  * share coordinates this is so where the Jacobian of F, which is full, is no longer made. */
 static void test_growth(void)
 {
-    static const chain halves[] = {{128, WIDTH, 0.0, false}, {256, 2, 0.0, false}};
+    static const chain halves[] = {{128, WIDTH, 0.0, false, false}, {256, 2, 0.0, false, false}};
     size_t small[METHODS], large[METHODS];
     for (int k = 0; k < 2; k += case_stride(2)) {
         chain c = halves[k];
@@ -385,7 +444,7 @@ static void check_reserved(const dal_system *system, const char *method, dal_spa
 
 static void test_reserved(void)
 {
-    static const chain chains[] = {{10, WIDTH, 0.0, false}, {36, 2, 0.0, false}};
+    static const chain chains[] = {{10, WIDTH, 0.0, false, false}, {36, 2, 0.0, false, false}};
     char name[64];
     for (int k = 0; k < 2; k++) {
         const dal_system *system;

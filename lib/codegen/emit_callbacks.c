@@ -83,7 +83,7 @@ static void write_program(dal__generation *g, dal__program_code code, const char
 static bool is_direct(const dal__generation *g, dal__program_code code)
 {
     const dal__program *p = &g->programs->program[code];
-    return is_inlined(g, code) && p->checked + p->saved == 0;
+    return is_inlined(g, code) && p->checked + p->saved == 0 && !p->is_by_columns;
 }
 
 /* The case of one callback.  A function that is not inlined gets copies, so that the state itself
@@ -122,7 +122,35 @@ static void write_case(dal__generation *g, dal__program_code code, int reads, co
                           "        if (pivots)\n            DAL_EACH(i, %d) "
                           "pivots[i * DAL_STEP_GROUPS] = all[%d + i];\n",
                           p->saved, pivots);
+    if (p->is_by_columns)
+        dal__buffer_print(&g->text, "        dal__insert_columns(w, t, q, v, %d, out);\n", outputs);
     dal__buffer_append(&g->text, "        break;\n    }\n");
+}
+
+/* What insert_columns in model/programs_wide.c does. */
+static void write_columns(dal__generation *g)
+{
+    const dal__program *p = &g->programs->program[DAL__PROGRAM_REACTION];
+    const int n = g->layout.n, m = g->layout.m, first = m + m * n;
+    if (!dal__inserts_columns(g)) return;
+    dal__buffer_append(
+        &g->text,
+        "/* Inserts W^-1 B^T after D and A: column a is the reaction of a unit multiplier. */\n"
+        "static DAL_UNUSED __attribute__((noinline)) void dal__insert_columns(const dal_stored "
+        "*w,\n"
+        "    dal_time t, const num *q, const num *v, int outputs, num *out)\n{\n");
+    dal__buffer_print(
+        &g->text,
+        "    num l[%d], all[%d], column[%d];\n"
+        "    for (int i = outputs; i-- > %d;) out[%d + i] = out[i];\n"
+        "    DAL_EACH(a, %d) l[a] = dal_num(0.0);\n    for (int a = 0; a < %d; a++) {\n",
+        m + 1, n + 2 * p->checked + p->saved, n, first, m * n, m + 1, m);
+    dal__buffer_print(&g->text,
+                      "        l[a] = dal_num(1.0);\n        dal__reaction(w, t, q, v, l, all);\n"
+                      "        dal__mask_singular(all, %d, %d, column);\n"
+                      "        DAL_EACH(i, %d) out[%d + i * %d + a] = column[i];\n"
+                      "        l[a] = dal_num(0.0);\n    }\n}\n",
+                      n, p->checked, n, first, m);
 }
 
 static void write_mask(dal__generation *g)
@@ -149,6 +177,7 @@ static void write_dispatch(dal__generation *g)
     DAL_CALLBACK_LIST(PROGRAM)
 #undef PROGRAM
     if (!direct) write_mask(g);
+    write_columns(g);
     dal__buffer_append(
         &g->text, "/* Evaluates a callback for one group of lanes; leaves the pivots of F. */\n"
                   "DAL_INLINE void dal__eval_program(const dal_stored *w, dal_callback_code "

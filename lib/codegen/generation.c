@@ -55,6 +55,15 @@ bool dal__has_holonomic(const dal__generation *g)
     return g->layout.system->holonomic > 0 && g->kernel & enforce;
 }
 
+bool dal__inserts_columns(const dal__generation *g)
+{
+    static const dal__program_code codes[] = {DAL__PROGRAM_CONSTRAINT, DAL__PROGRAM_BLOCKS};
+    bool inserts = false;
+    for (int i = 0; i < 2; i++)
+        inserts |= g->programs->program[codes[i]].is_by_columns && dal__wants(g, codes[i]);
+    return inserts;
+}
+
 bool dal__evaluates(const dal__generation *g, dal__program_code code)
 {
     const unsigned kernel = g->kernel;
@@ -82,7 +91,7 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_CONSTRAINT_VALUE:
         return kernel & DAL_KERNEL_ENFORCEMENT;
     case DAL__PROGRAM_REACTION:
-        return kernel & DAL_KERNEL_REACTION;
+        return kernel & DAL_KERNEL_REACTION || dal__inserts_columns(g);
     case DAL__PROGRAM_BLOCKS:
         return kernel & DAL_KERNEL_BLOCKS;
     case DAL__PROGRAM_POTENTIAL:

@@ -62,6 +62,8 @@ bool dal__follows_tangents(const dal__generation *g);
 bool dal__evaluates(const dal__generation *g, dal__program_code code);
 /* Whether a program goes into the file. */
 bool dal__wants(const dal__generation *g, dal__program_code code);
+/* Whether a program that it gets is by columns (program_list.h). */
+bool dal__inserts_columns(const dal__generation *g);
 /* Whether the file has the function of a point that evaluates a program. */
 bool dal__has_function(const dal__generation *g, dal__program_code code);
 /* Whether a generated function may return a status. */

@@ -68,7 +68,7 @@ typedef struct dal__equations {
     dal__node *A;        /* [m*n] */
     dal__node *B;      /* [m*n]: directions of the constraint forces; A itself by Chetaev's rule */
     dal__node *c;      /* [m] */
-    dal__node *U;      /* [n*m]: W^-1 A^T, or 0s */
+    dal__node *U;      /* [n*m]: W^-1 A^T; 0s where no formulas are made of it */
     dal__node *R;      /* [n*m]: W^-1 B^T; U itself by Chetaev's rule */
     dal__node *h;      /* [m]: multipliers of the constraints, not of vakonomic motion */
     dal__node *a;      /* [n]: W^-1 b, or 0s */

@@ -131,20 +131,53 @@ dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, c
     return dal__factors_solve(model, &f, DAL__SUMS_UNCHANGED, 1, rhs, x);
 }
 
+/* Whether W^-1 A^T has many more entries than A: the factors of W then give its columns when a
+ * run needs them (program_list.h).  It is made in any case where formulas are made of it. */
+static bool fills_directions(dal_model *model)
+{
+    enum { MAX_COUPLED = 16 };
+    const dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m;
+    bool is_of_v = false;
+    long filled = 0;
+    if (e->vakonomic || e->servo || !e->mass_positive || (e->holonomic && e->holonomic < m))
+        return false;
+    int *block = dal__model_allocate(model, 3 * (size_t)n, sizeof *block); /* that W couples */
+    if (!block) return false;
+    int *const size = block + n, *const counted = size + n; /* of a block; by which constraint */
+    for (int i = 0; i < n; i++) block[i] = i;
+    for (int k = 0; k < n * n; k++) {
+        const int i = k / n, from = block[i], to = block[k % n];
+        is_of_v |= dal__depends(e->graph, e->W[k], e->v, e->v + n);
+        if (k % n >= i || from == to || dal__is_number(e->graph, e->W[k], 0.0)) continue;
+        for (int l = 0; l <= i; l++) block[l] = block[l] == from ? to : block[l];
+    }
+    for (int i = 0; i < n; i++) size[block[i]]++;
+    for (int k = 0; k < m * n; k++) {
+        const int a = k / n, of = block[k % n];
+        if (dal__is_number(e->graph, e->A[k], 0.0)) continue;
+        filled += (counted[of] > a ? 0 : size[of]) - 1;
+        counted[of] = a + 1;
+    }
+    return !is_of_v && filled > (long)MAX_COUPLED * (n + m);
+}
+
 dal_status dal__solve_mass(dal_model *model)
 {
     dal__equations *e = &model->equations;
-    const int n = e->n, m = e->m, columns = 1 + m + (e->servo ? m : 0);
+    const int n = e->n;
     dal__factors *mass = e->mass = dal__model_allocate(model, 1, sizeof *mass);
-    dal__node *rhs = dal__model_nodes(model, columns * n, 0);
-    dal__node *x = dal__model_nodes(model, columns * n, 0);
     if (!mass || !dal__factors_allocate(model, mass, n, NULL)) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n * n; i++) mass->matrix[i] = e->W[i];
+    DAL_TRY(dal__factor(model, mass));
+    e->mass_positive = mass->positive;
+    const int m = fills_directions(model) ? 0 : e->m, columns = 1 + m + (e->servo ? m : 0);
+    dal__node *rhs = dal__model_nodes(model, columns * n, 0);
+    dal__node *x = dal__model_nodes(model, columns * n, 0);
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n; i++) rhs[i] = e->b[i];
     for (int i = 0; i < m * n; i++) rhs[n + i] = e->A[i];
     for (int i = 0; i < m * n && e->servo; i++) rhs[n + m * n + i] = e->B[i];
-    DAL_TRY(dal__factor(model, mass));
-    e->mass_positive = mass->positive;
     DAL_TRY(dal__factors_solve(model, mass, DAL__SUMS_UNCHANGED, columns, rhs, x));
     for (int i = 0; i < n; i++) {
         e->a[i] = x[i];
@@ -400,7 +433,9 @@ dal_status dal__motion_place(dal_model *model, dal__node *out)
     const dal__equations *e = &model->equations;
     const int first = e->m - e->holonomic;
     const dal__node *c = name(model, e->pi + first, e->holonomic);
+    dal__node *top = dal__model_nodes(model, e->n, dal__number(e->graph, 0.0));
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (!e->U[0]) return solve_motion(model, top, c, out, out + e->n); /* first is 0 */
     return solve_by_directions(model, first, c, out, out + e->n);
 }
 

@@ -9,7 +9,8 @@
  * DAL_STATUS_SINGULAR_MASS, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__motion_derive(dal_model *model, dal_error *error);
 
-/* The first part of it: mass, the factors of W, a = W^-1 b, U = W^-1 A^T, R = W^-1 B^T.  Errors:
+/* The first part of it: mass, the factors of W, a = W^-1 b, and U = W^-1 A^T, R = W^-1 B^T, which
+ * remain 0s where they have many more entries than A and W does not depend on v.  Errors:
  * DAL_STATUS_SINGULAR, DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__solve_mass(dal_model *model);
 /* W^-1 force [n]; where W is restricted to ker A, the x of ker A with W x - A^T h = force for some

@@ -52,10 +52,12 @@ typedef enum dal__program_code {
 
 typedef struct dal__program {
     bool present;
-    int tape;    /* number in the tapes */
-    int outputs; /* for the caller */
-    int checked; /* pivots, each with its size, that follow the outputs */
-    int saved;   /* pivots for the rank check, after these */
+    int tape;           /* number in the tapes */
+    int outputs;        /* for the caller */
+    int checked;        /* pivots, each with its size, that follow the outputs */
+    int saved;          /* pivots for the rank check, after these */
+    bool is_by_columns; /* R = W^-1 B^T [n*m] is no output: it is inserted after D and A, column by
+                           column from DAL__PROGRAM_REACTION, in CONSTRAINT and BLOCKS */
 } dal__program;
 
 /* A branch: the argument of nodes that switch, and the table at whose points they do, or one of
@@ -78,6 +80,7 @@ typedef struct dal__programs {
     int t, q, v, pi, g, e; /* places of the inputs in work */
     size_t scratch;        /* place in work for outputs and pivots together */
     size_t saved_pivots;   /* place in work for the pivots of the rank check */
+    size_t column;         /* place in work for a column of R, where a program is by columns */
     int pivots;            /* how many these are */
     dal__program program[DAL__PROGRAM_COUNT];
     dal_callbacks wide1, wide4, wide8;

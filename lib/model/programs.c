@@ -490,6 +490,7 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     DAL_TRY(dal__tapes_finish(programs->tapes));
     const dal__equations *e = programs->equations;
     const int inputs = (int)programs->tapes->first_input - e->parameters;
+    const bool is_by_columns = programs->program[DAL__PROGRAM_BLOCKS].is_by_columns;
     programs->t = inputs + e->t;
     programs->q = inputs + e->q;
     programs->v = inputs + e->v;
@@ -500,7 +501,8 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     system->data = programs;
     programs->saved_pivots = programs->scratch + scratch_size(programs);
     system->pivots = programs->pivots;
-    system->workspace = programs->saved_pivots + (size_t)programs->pivots;
+    programs->column = programs->saved_pivots + (size_t)programs->pivots;
+    system->workspace = programs->column + (is_by_columns ? (size_t)programs->n : 0);
     system->prepare = prepare;
     programs->run = dal__fill_callbacks_x1(programs, &programs->wide1);
 #define CALLBACKS(name, variant, lanes, set)                                                       \

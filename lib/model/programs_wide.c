@@ -35,6 +35,38 @@ static void save_pivots(const dal__programs *p, const dal__program *program, con
 }
 
 /* Leaves NaN in the lanes where a pivot has vanished, and pivots for the rank check. */
+static void run_tape(const dal__programs *p, const dal__program *program, double *work, double *out)
+{
+    if (program->checked + program->saved == 0) {
+        DAL_WIDE(dal__tape_run)(p->tapes, program->tape, work, out);
+        return;
+    }
+    double *scratch = work + p->scratch * WIDTH;
+    DAL_WIDE(dal__tape_run)(p->tapes, program->tape, work, scratch);
+    const num *all = (const num *)scratch;
+    num *to = (num *)out;
+    const dal_mask ok = pivots_hold(all + program->outputs, program->checked);
+    for (int i = 0; i < program->outputs; i++) to[i] = dal_select(ok, all[i], dal_num(NAN));
+    save_pivots(p, program, all + program->outputs, work);
+}
+
+/* Inserts R = W^-1 B^T after D and A: column a is the reaction of a unit multiplier. */
+static void insert_columns(const dal__programs *p, const dal__program *program, double *work,
+                           num *out)
+{
+    const int n = p->n, m = p->equations->m, first = m + m * n;
+    num *const l = (num *)(work + (size_t)p->pi * WIDTH);
+    num *const column = (num *)(work + p->column * WIDTH);
+    for (int i = program->outputs; i-- > first;) out[m * n + i] = out[i];
+    for (int a = 0; a <= m; a++) l[a] = dal_num(0.0);
+    for (int a = 0; a < m; a++) {
+        l[a] = dal_num(1.0);
+        run_tape(p, &p->program[DAL__PROGRAM_REACTION], work, (double *)column);
+        for (int i = 0; i < n; i++) out[first + i * m + a] = column[i];
+        l[a] = dal_num(0.0);
+    }
+}
+
 static dal_status run_program(const dal_system *system, const dal_point *at, double *out,
                               dal__program_code code, int reads)
 {
@@ -49,17 +81,8 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     }
     load_lanes(at->work, p->pi, at->pi, dal__momenta_read(reads, p->n, p->equations->m));
     if (reads == DAL__READS_tqve && at->pi) load_lanes(at->work, p->e, at->pi, 1);
-    if (program->checked + program->saved == 0) {
-        DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);
-        return DAL_STATUS_OK;
-    }
-    double *scratch = at->work + p->scratch * WIDTH;
-    DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, scratch);
-    const num *all = (const num *)scratch;
-    num *to = (num *)out;
-    const dal_mask ok = pivots_hold(all + program->outputs, program->checked);
-    for (int i = 0; i < program->outputs; i++) to[i] = dal_select(ok, all[i], dal_num(NAN));
-    save_pivots(p, program, all + program->outputs, at->work);
+    run_tape(p, program, at->work, out);
+    if (program->is_by_columns) insert_columns(p, program, at->work, (num *)out);
     return DAL_STATUS_OK;
 }
 

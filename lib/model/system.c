@@ -16,15 +16,23 @@
 
 /* ---- programs ---- */
 
+/* Whether there is W^-1 B^T, but not as formulas. */
+static bool is_by_columns(const dal__equations *e)
+{
+    return e->m > 0 && !e->U[0] && !e->vakonomic && !e->restricted;
+}
+
 /* D, A, W^-1 A^T; nothing when W has no inverse. */
 static dal_status add_constraint(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
     const int m = e->m, mn = m * e->n;
-    const dal__nodes lists[] = {{e->constraint, m}, {e->A, mn}, {e->U, mn}};
+    const bool by_columns = is_by_columns(e);
+    const dal__nodes lists[] = {{e->constraint, m}, {e->A, mn}, {e->U, by_columns ? 0 : mn}};
     if (m == 0) return DAL_STATUS_OK;
     DAL_TRY(dal__programs_add(model, programs, DAL__PROGRAM_CONSTRAINTS, e->constraint, m));
-    if (!e->U[0]) return DAL_STATUS_OK;
+    if (!e->U[0] && !by_columns) return DAL_STATUS_OK;
+    programs->program[DAL__PROGRAM_CONSTRAINT].is_by_columns = by_columns;
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_CONSTRAINT, lists, 3);
 }
 
@@ -59,8 +67,11 @@ static dal_status add_blocks(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m, mn = m * n;
-    const dal__nodes lists[] = {{e->constraint, m}, {e->A, mn}, {e->R, mn}, {e->a, n}, {e->c, m}};
+    const bool by_columns = is_by_columns(e);
+    const dal__nodes lists[] = {
+        {e->constraint, m}, {e->A, mn}, {e->R, by_columns ? 0 : mn}, {e->a, n}, {e->c, m}};
     if (e->vakonomic) return DAL_STATUS_OK;
+    programs->program[DAL__PROGRAM_BLOCKS].is_by_columns = by_columns;
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_BLOCKS, lists, 5);
 }
 
@@ -168,7 +179,7 @@ static dal_status add_correction(dal_model *model)
     const dal__equations *e = &model->equations;
     dal__node *x = dal__model_nodes(model, e->n, 0);
     if (!x) return DAL_STATUS_MEMORY;
-    if (e->m == 0 || !e->U[0]) return DAL_STATUS_OK;
+    if (e->m == 0 || (!e->U[0] && !is_by_columns(e))) return DAL_STATUS_OK;
     const dal_status status = dal__motion_correct(model, x);
     if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
     return status == DAL_STATUS_OK ? add_to_both(model, DAL__PROGRAM_CORRECTION, x, e->n) : status;

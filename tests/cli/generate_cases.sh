@@ -265,6 +265,44 @@ for way in "rk4 physical 1" "gauss4+project lifted 1" "gauss4 physical 4" "rk4 l
     expect "other numbers" ./points
     counted
 done
+# W U = A^T for the columns U that a file finds by solutions, where U has far more numbers than A
+cat >mesh.yaml <<'END'
+sizes: {N: 36}
+coordinates: ["x[1..N]"]
+lagrangian: sum(i, 1, N, x[i]'^2)/2 + sum(i, 1, N-1, cos(x[i])*x[i]'*x[i+1]')/4
+constraints: [{for: i = 1..N-2, is: "x[i+1]' - sin(x[i])*x[i+2]'/2"}]
+END
+cat >columns.c <<'END'
+#include "g.c"
+enum { L = g_LANES, N = 36, M = N - 2 };
+int main(void)
+{
+    static g_state s;
+    static double q[N * L], v[N * L], C[(M + 2 * M * N) * L];
+    g_parameters p = g_defaults();
+    double worst = 0;
+    for (int i = 0; i < N * L; i++) q[i] = sin(1 + i), v[i] = cos(2 + i);
+    if (g_start(&s, &p) || g_constraint(&s, 0, q, v, C)) return 2;
+    for (int l = 0; l < L; l++)
+        for (int a = 0; a < M; a++)
+            for (int i = 0; i < N; i++) {
+                const double *U = C + (M + M * N + a) * L + l, *A = C + (M + a * N) * L + l;
+                const double left = i > 0 ? cos(q[(i - 1) * L + l]) / 4 * U[(i - 1) * M * L] : 0;
+                const double right = i + 1 < N ? cos(q[i * L + l]) / 4 * U[(i + 1) * M * L] : 0;
+                const double expected = i == a + 1 ? 1 : i == a + 2 ? -sin(q[a * L + l]) / 2 : 0;
+                worst = fmax(worst, fabs(left + U[i * M * L] + right - expected));
+                worst = fmax(worst, fabs(A[i * L] - expected));
+            }
+    return !(worst < 1e-14);
+}
+END
+case_is "directions by columns"
+if needs 3 "no gcc" there gcc; then
+    try 0 generate mesh.yaml --integrator rk4+project --space physical --lanes 2 --prefix g --with field -o g.c
+    expect "it does not compile: $(cat cc.log)" sh -c "gcc -std=c11 -O0 $strict columns.c -o columns -lm >cc.log 2>&1"
+    expect "other numbers" ./columns
+    counted
+fi
 case_is "functions of a point in C++, and where the system has no constraints and no energy"
 if needs 6 "no g++" there g++; then
     try 0 generate blade.yaml --integrator dop853 --tolerance 1e-9 --space physical --lanes 2 --prefix g --with field -o g.c
