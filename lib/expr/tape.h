@@ -80,10 +80,20 @@ void dal__tapes_prepare_x1_QUAD(const dal__tapes *tapes, double *work);
 /* Holds nodes at points from the next program on; NULL: no longer, as after preparing. */
 void dal__tapes_hold_x1(const dal__tapes *tapes, const double *point, double *work);
 void dal__tapes_hold_x1_QUAD(const dal__tapes *tapes, const double *point, double *work);
-/* Runs a program on the inputs in work and writes its outputs; work and out are interleaved by
- * lanes and aligned to them. */
+/* Runs a program on the inputs in work; reads count of its outputs from number `first` on, where it
+ * was the last program that ran; both, with all outputs.  work and out are interleaved by lanes and
+ * aligned to them. */
+#define DAL__TAPE_EXECUTE(name, variant, lanes, set)                                               \
+    void name##_##variant(const dal__tapes *tapes, int program, double *work);
+#define DAL__TAPE_READ(name, variant, lanes, set)                                                  \
+    void name##_##variant(const dal__tapes *tapes, int program, int first, int count,              \
+                          const double *work, double *out);
 #define DAL__TAPE_RUN(name, variant, lanes, set)                                                   \
     void name##_##variant(const dal__tapes *tapes, int program, double *work, double *out);
+DAL__TAPE_EXECUTE(dal__tape_execute, x1, 1, BASE)
+DAL__VARIANT_LIST(DAL__TAPE_EXECUTE, dal__tape_execute)
+DAL__TAPE_READ(dal__tape_read, x1, 1, BASE)
+DAL__VARIANT_LIST(DAL__TAPE_READ, dal__tape_read)
 DAL__TAPE_RUN(dal__tape_run, x1, 1, BASE)
 DAL__VARIANT_LIST(DAL__TAPE_RUN, dal__tape_run)
 

@@ -35,14 +35,26 @@ static __attribute__((flatten, noinline)) void execute(const dal__instruction *c
     }
 }
 
-void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work, double *out)
+void DAL_WIDE(dal__tape_execute)(const dal__tapes *tapes, int program, double *work)
 {
     const dal__tape *tape = &tapes->tape[program];
-    const num *w = (const num *)work;
-    const bool is_held = tape->held && dal_lane(w[tapes->held], 0) != 0.0;
+    const bool is_held = tape->held && dal_lane(((const num *)work)[tapes->held], 0) != 0.0;
     execute(is_held ? tape->held : tape->code, tape->length, tapes->tables, work);
+}
+
+void DAL_WIDE(dal__tape_read)(const dal__tapes *tapes, int program, int first, int count,
+                              const double *work, double *out)
+{
+    const uint32_t *place = tapes->tape[program].place + first;
+    const num *w = (const num *)work;
     num *o = (num *)out;
-    for (int k = 0; k < tape->outputs; k++) o[k] = w[tape->place[k]];
+    for (int k = 0; k < count; k++) o[k] = w[place[k]];
+}
+
+void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work, double *out)
+{
+    DAL_WIDE(dal__tape_execute)(tapes, program, work);
+    DAL_WIDE(dal__tape_read)(tapes, program, 0, tapes->tape[program].outputs, work, out);
 }
 
 #if defined DAL_NUM_QUAD || !defined DAL_VARIANT_NAME /* x1 */

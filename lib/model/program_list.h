@@ -78,7 +78,7 @@ typedef struct dal__programs {
     const dal__equations *equations;
     int n, multipliers;    /* of this system: 2n, 0 for the tangent one */
     int t, q, v, pi, g, e; /* places of the inputs in work */
-    size_t scratch;        /* place in work for outputs and pivots together */
+    size_t scratch;        /* place in work for pivots, and for the diagnosis */
     size_t saved_pivots;   /* place in work for the pivots of the rank check */
     size_t column;         /* place in work for a column of R, where a program is by columns */
     int pivots;            /* how many these are */

@@ -408,16 +408,14 @@ static void point_to_series(dal__programs *programs)
 
 /* ---- the whole ---- */
 
-/* Numbers after scratch: the most that a program with pivots, or the diagnosis, writes. */
+/* Numbers after scratch: the most pivots of a program, or what the diagnosis writes. */
 static size_t scratch_size(const dal__programs *programs)
 {
-    size_t max = 0;
+    size_t max = (size_t)programs->program[DAL__PROGRAM_DIAGNOSE].outputs;
     for (int code = 0; code < DAL__PROGRAM_COUNT; code++) {
         const dal__program *program = &programs->program[code];
         const size_t pivots = 2 * (size_t)program->checked + (size_t)program->saved;
-        const size_t size = (size_t)program->outputs + pivots;
-        const bool direct = pivots == 0 && code != DAL__PROGRAM_DIAGNOSE;
-        if (!direct && size > max) max = size;
+        if (pivots > max) max = pivots;
     }
     return max;
 }

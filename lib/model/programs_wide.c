@@ -37,17 +37,16 @@ static void save_pivots(const dal__programs *p, const dal__program *program, con
 /* Leaves NaN in the lanes where a pivot has vanished, and pivots for the rank check. */
 static void run_tape(const dal__programs *p, const dal__program *program, double *work, double *out)
 {
-    if (program->checked + program->saved == 0) {
-        DAL_WIDE(dal__tape_run)(p->tapes, program->tape, work, out);
-        return;
-    }
-    double *scratch = work + p->scratch * WIDTH;
-    DAL_WIDE(dal__tape_run)(p->tapes, program->tape, work, scratch);
-    const num *all = (const num *)scratch;
-    num *to = (num *)out;
-    const dal_mask ok = pivots_hold(all + program->outputs, program->checked);
-    for (int i = 0; i < program->outputs; i++) to[i] = dal_select(ok, all[i], dal_num(NAN));
-    save_pivots(p, program, all + program->outputs, work);
+    const int outputs = program->outputs, pivots = 2 * program->checked + program->saved;
+    num *const checked = (num *)(work + p->scratch * WIDTH), *const to = (num *)out;
+    DAL_WIDE(dal__tape_execute)(p->tapes, program->tape, work);
+    DAL_WIDE(dal__tape_read)(p->tapes, program->tape, 0, outputs, work, out);
+    if (pivots == 0) return;
+    DAL_WIDE(dal__tape_read)
+    (p->tapes, program->tape, outputs, pivots, work, (double *)checked);
+    const dal_mask ok = pivots_hold(checked, program->checked);
+    for (int i = 0; i < outputs; i++) to[i] = dal_select(ok, to[i], dal_num(NAN));
+    save_pivots(p, program, checked, work);
 }
 
 /* Inserts R = W^-1 B^T after D and A: column a is the reaction of a unit multiplier. */
