@@ -44,18 +44,15 @@ DAL_INLINE void enforce_at_middle(dal_step *s, dal_equation *eq, gradient *k)
     const int n = DAL_N(s), m = DAL_M(s);
     const double half = 0.5 * s->h, t = s->t + half;
     num *const free = k->elimination.free;
-    if (DAL_MANY_CONSTRAINTS(s)) {
-        DAL_EACH(i, n) free[i] = -(0.5 * gradient_factor(s, k, i) * k->vb[i]);
-        dal_constraint_value(s, t, k->q, k->vb, k->elimination.in + n);
+    if (DAL_MANY_CONSTRAINTS(s)) { /* the factors of F add h/2 a by themselves */
         k->elimination.in[n + m] = dal_num(1.0);
-        dal_eliminate_by_factors(s, eq, half, t, k->q, k->vb);
-        return;
+        DAL_EACH(i, n) free[i] = -(0.5 * gradient_factor(s, k, i) * k->vb[i]);
+    } else {
+        dal_eval_blocks(s, t, k->q, k->vb, k->blocks);
+        const num *a = k->blocks + dal_blocks_a(s);
+        DAL_EACH(i, n) free[i] = half * a[i] - 0.5 * gradient_factor(s, k, i) * k->vb[i];
     }
-    dal_eval_blocks(s, t, k->q, k->vb, k->blocks);
-    DAL_EACH(i, n)
-        free[i] = half * k->blocks[dal_blocks_a(s) + i] - 0.5 * gradient_factor(s, k, i) * k->vb[i];
-    DAL_EACH(i, n * m) k->elimination.directions[i] = half * k->blocks[dal_blocks_B(s) + i];
-    dal_eliminate_multipliers(s, eq, k->blocks);
+    dal_eliminate_at(s, eq, half, t, k->q, k->vb, k->blocks);
 }
 
 /* w = vb - v0 */

@@ -23,12 +23,21 @@ typedef struct midpoint {
     num *none;                   /* [m + 1] multipliers 0, and 1: of a alone */
 } midpoint;
 
-/* h/2 a(qb, vb). */
-DAL_INLINE void find_force(dal_step *s, const midpoint *k, num *force)
+/* free = h/2 a(qb, vb) for the increment w of v; of few constraints with the blocks there. */
+DAL_INLINE void find_force(dal_step *s, const midpoint *k, const num *w)
 {
-    s->evaluations++;
-    dal_eval(s, DAL_EVAL_REACTION, s->t + 0.5 * s->h, k->qb, k->vb, k->none, force);
-    DAL_EACH(i, DAL_N(s)) force[i] *= dal_num(0.5 * s->h);
+    const double half = 0.5 * s->h, t = s->t + half;
+    num *const force = k->elimination.free;
+    DAL_EACH(i, DAL_N(s)) k->vb[i] = dal_moved_v(s, i, w[i]);
+    DAL_EACH(i, DAL_N(s)) k->qb[i] = dal_moved_q(s, i, half * k->vb[i]);
+    if (DAL_MANY_CONSTRAINTS(s)) {
+        s->evaluations++;
+        dal_eval(s, DAL_EVAL_REACTION, t, k->qb, k->vb, k->none, force);
+        DAL_EACH(i, DAL_N(s)) force[i] *= dal_num(half);
+        return;
+    }
+    dal_eval_blocks(s, t, k->qb, k->vb, k->blocks);
+    DAL_EACH(i, DAL_N(s)) force[i] = half * k->blocks[dal_blocks_a(s) + i];
 }
 
 /* w = vb - v0; the directions do not change, and their A is taken of the beginning, too. */
@@ -36,16 +45,12 @@ DAL_INLINE void map_midpoint(dal_step *s, dal_equation *eq)
 {
     midpoint *k = (midpoint *)eq->context;
     const double half = 0.5 * s->h;
-    DAL_EACH(i, DAL_N(s)) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
-    DAL_EACH(i, DAL_N(s)) k->qb[i] = dal_moved_q(s, i, half * k->vb[i]);
+    find_force(s, k, eq->block[0].u);
     if (DAL_MANY_CONSTRAINTS(s)) {
-        find_force(s, k, k->elimination.free);
         dal_constraint_value(s, s->t + half, k->qb, k->vb, k->elimination.in + DAL_N(s));
         dal_eliminate_by_factors(s, eq, half, s->t, s->y, s->y + DAL_N(s));
         return;
     }
-    dal_eval_blocks(s, s->t + half, k->qb, k->vb, k->blocks);
-    DAL_EACH(i, DAL_N(s)) k->elimination.free[i] = half * k->blocks[dal_blocks_a(s) + i];
     dal_eliminate_multipliers(s, eq, k->blocks);
 }
 
@@ -53,16 +58,10 @@ DAL_INLINE void map_midpoint(dal_step *s, dal_equation *eq)
 DAL_INLINE void map_end(dal_step *s, dal_equation *eq)
 {
     midpoint *k = (midpoint *)eq->context;
-    const int n = DAL_N(s), m = DAL_M(s);
-    DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
-    if (DAL_MANY_CONSTRAINTS(s)) {
-        dal_constraint_value(s, s->t + s->h, k->qb, k->vb, k->elimination.in + DAL_N(s));
-        dal_eliminate_by_factors(s, eq, 0.5 * s->h, s->t + s->h, k->qb, k->vb);
-        return;
-    }
-    dal_eval_blocks(s, s->t + s->h, k->qb, k->vb, k->blocks);
-    DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->blocks[dal_blocks_B(s) + i];
-    dal_eliminate_multipliers(s, eq, k->blocks);
+    const double end = s->t + s->h;
+    DAL_EACH(i, DAL_N(s)) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
+    if (!DAL_MANY_CONSTRAINTS(s)) dal_eval_blocks(s, end, k->qb, k->vb, k->blocks);
+    dal_eliminate_at(s, eq, 0.5 * s->h, end, k->qb, k->vb, k->blocks);
 }
 
 /* Steps to the midpoint; leaves vb, and v0 moved by all but the last impulse in `free`. */
@@ -77,16 +76,8 @@ DAL_INLINE dal_status step_to_midpoint(dal_step *s, midpoint *k)
         DAL_EACH(i, n * m) k->elimination.directions[i] = half * k->blocks[dal_blocks_B(s) + i];
     }
     if (dal_failed(dal_enforce(s, &eq, map_midpoint))) return DAL_STATUS_NOT_CONVERGED;
-    DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq.block[0].u[i]);
-    DAL_EACH(i, n) k->qb[i] = dal_moved_q(s, i, half * k->vb[i]);
-    num *const free = k->elimination.free;
-    if (DAL_MANY_CONSTRAINTS(s)) {
-        find_force(s, k, free);
-        DAL_EACH(i, n) free[i] += eq.block[0].u[i];
-        return DAL_STATUS_OK;
-    }
-    dal_eval_blocks(s, s->t + half, k->qb, k->vb, k->blocks);
-    DAL_EACH(i, n) free[i] = eq.block[0].u[i] + half * k->blocks[dal_blocks_a(s) + i];
+    find_force(s, k, eq.block[0].u);
+    DAL_EACH(i, n) k->elimination.free[i] += eq.block[0].u[i];
     return DAL_STATUS_OK;
 }
 

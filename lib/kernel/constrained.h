@@ -161,6 +161,22 @@ DAL_SHARED void dal_constrained_matrix(dal_step *s, dal_equation *eq)
 }
 #endif
 
+/* Eliminates multipliers with D and A of (q, v, t) and N = share B; blocks: of few constraints,
+ * those there. */
+DAL_INLINE void dal_eliminate_at(dal_step *s, dal_equation *eq, double share, double t,
+                                 const num *q, const num *v, const num *blocks)
+{
+    const dal_elimination *k = (const dal_elimination *)eq->context;
+    const int n = DAL_N(s), m = DAL_M(s);
+    if (DAL_MANY_CONSTRAINTS(s)) {
+        dal_constraint_value(s, t, q, v, k->in + n);
+        dal_eliminate_by_factors(s, eq, share, t, q, v);
+        return;
+    }
+    DAL_EACH(i, n * m) k->directions[i] = share * blocks[dal_blocks_B(s) + i];
+    dal_eliminate_multipliers(s, eq, blocks);
+}
+
 /* Solves an equation for a velocity w, as dal_velocity_equation makes it. */
 DAL_INLINE_EARLY dal_status dal_enforce(dal_step *s, dal_equation *eq, dal_iteration_map *map)
 {
