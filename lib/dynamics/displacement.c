@@ -69,13 +69,13 @@ static void find_rate(const dal__displacement *s, double t, const double *x, con
     for (int i = 0; i < s->size; i++) size = fmax(size, fabs(d[i]) / k->unit[1 + i]);
     if (size == 0.0) return;
     for (int side = -1; side <= 1; side += 2) {
-        const double part = side * displaced / size;
+        const double distance = side * displaced / size;
         double *F = k->values;
-        for (int i = 0; i < s->size; i++) s->at[i] = x[i] + part * d[i];
+        for (int i = 0; i < s->size; i++) s->at[i] = x[i] + distance * d[i];
         if (dal_evaluator_call(k->evaluator, k->system->call.field, t, s->at, s->at + n, NULL, F) !=
             DAL_STATUS_OK)
             F[0] = NAN;
-        for (int i = 0; i < n; i++) rate[n + i] += F[i] / (2.0 * part);
+        for (int i = 0; i < n; i++) rate[n + i] += F[i] / (2.0 * distance);
     }
 }
 
@@ -103,17 +103,17 @@ double dal__displacement_add(dal__displacement *s, long long k, double t, const 
                              const double *end, const bool *counts)
 {
     const size_t bytes = (size_t)s->size * sizeof *x;
-    const int part = (int)(k % s->span);
+    const int within = (int)(k % s->span);
     for (int i = 0; i < s->size && k > 0; i++) s->errors[i] += s->end[i] - x[i];
-    if (part == 0 && k > 0) {
+    if (within == 0 && k > 0) {
         move(s, t, x);
         for (int i = 0; i < s->size; i++)
             if (counts[i] && !(fabs(s->d[i]) / s->local->unit[1 + i] <= s->max))
                 s->max = fabs(s->d[i]) / s->local->unit[1 + i];
     }
-    if (part == 0 || 2 * part == s->span) {
-        memcpy(part == 0 ? s->first : s->middle, x, bytes);
-        s->t[part != 0] = t;
+    if (within == 0 || 2 * within == s->span) {
+        memcpy(within == 0 ? s->first : s->middle, x, bytes);
+        s->t[within != 0] = t;
     }
     memcpy(s->end, end, bytes);
     return s->max;

@@ -262,8 +262,8 @@ static dal_status no_observation(void *user, dal_run *run)
 static dal_status find_substep(dal_exact_motion *m, dal__polynomial *p, dal_error *error)
 {
     const double step = 2.0 * m->stretch;
-    const double part = fmax(m->done * (1.0 + 8.0 * DBL_EPSILON), step * DBL_EPSILON);
-    DAL_TRY(dal_run_intermediate(m->run, m->sign * part, no_observation, NULL, error));
+    const double past = fmax(m->done * (1.0 + 8.0 * DBL_EPSILON), step * DBL_EPSILON);
+    DAL_TRY(dal_run_intermediate(m->run, m->sign * past, no_observation, NULL, error));
     if (m->run->kind->engine->polynomial(m->run->engine, p) && p->from + p->size > m->done)
         return DAL_STATUS_OK;
     DAL_TRY(dal_run_step(m->run, error)); /* which says why there is none */

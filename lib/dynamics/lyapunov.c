@@ -276,15 +276,15 @@ static double find_gradients(dal_lyapunov *s)
     const struct {
         dal_callback *values;
         int count;
-    } parts[] = {{system->constraints, system->m},
+    } kinds[] = {{system->constraints, system->m},
                  {system->call.holonomic, system->holonomic},
                  {system->energy, 1}};
     double size = 0.0;
     int found = 0;
     dal_status status = DAL_STATUS_OK;
-    for (int k = 0; found < s->enforced && status == DAL_STATUS_OK; found += parts[k++].count)
-        if (parts[k].count > 0)
-            status = dal__gradients(s->evaluator, parts[k].values, parts[k].count, &at,
+    for (int k = 0; found < s->enforced && status == DAL_STATUS_OK; found += kinds[k++].count)
+        if (kinds[k].count > 0)
+            status = dal__gradients(s->evaluator, kinds[k].values, kinds[k].count, &at,
                                     s->gradients + found * s->dimension);
     for (int j = 0; j < s->enforced && status == DAL_STATUS_OK; j++)
         size += log(dal__orthonormalise_row(s->gradients, j, s->dimension));

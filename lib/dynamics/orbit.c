@@ -87,15 +87,16 @@ static dal_status begin_again(dal__orbit *o, dal_error *error)
     return dal_run_set_state(o->run, t, o->state, error);
 }
 
-static dal_status find_state(dal__orbit *o, long long k, double part, double *out, dal_error *error)
+static dal_status find_state(dal__orbit *o, long long k, double fraction, double *out,
+                             dal_error *error)
 {
     while (o->last < k) {
         DAL_TRY(dal_run_advance(o->run, 1, error));
         if (++o->last % LONG == 0) DAL_TRY(begin_again(o, error));
     }
     o->out = out;
-    if (part == 0.0) return copy_state(o, o->run);
-    return dal_run_intermediate(o->run, part * o->step, copy_state, o, error);
+    if (fraction == 0.0) return copy_state(o, o->run);
+    return dal_run_intermediate(o->run, fraction * o->step, copy_state, o, error);
 }
 
 /* ---- all ---- */
@@ -123,10 +124,12 @@ dal_status dal__orbit_create(dal__orbit **orbit, const dal_run_spec *spec, const
     return status;
 }
 
-dal_status dal__orbit_state(dal__orbit *o, long long k, double part, double *out, dal_error *error)
+dal_status dal__orbit_state(dal__orbit *o, long long k, double fraction, double *out,
+                            dal_error *error)
 {
-    if (o->scaled) return find_state(o, k, part, out, error);
-    const double step = fabs(o->step), from = (double)k * step, time = ((double)k + part) * step;
+    if (o->scaled) return find_state(o, k, fraction, out, error);
+    const double step = fabs(o->step), from = (double)k * step,
+                 time = ((double)k + fraction) * step;
     DAL_TRY(dal__exact_motion_reach(o->motion, from, time, error));
     if (dal__exact_motion_ends_before(o->motion, time)) {
         DAL_TRY(dal__exact_motion_continue(o->motion, &o->own, error));

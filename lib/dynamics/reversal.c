@@ -184,15 +184,15 @@ static bool find_meeting(dal__reversals *r, unsigned sign, dal__orbit *orbit, lo
                          double *x)
 {
     const int n = r->n;
-    double *F = r->scratch + 2 * n, *w = F + n, *rate = w + n, part = 0.0;
+    double *F = r->scratch + 2 * n, *w = F + n, *rate = w + n, fraction = 0.0;
     for (int trial = 0; trial < TRIALS; trial++) {
-        if (field(r, t + part * r->local->step, x, F) != DAL_STATUS_OK) return false;
+        if (field(r, t + fraction * r->local->step, x, F) != DAL_STATUS_OK) return false;
         find_distances(r, sign, x, F, w, rate);
         if (dal__max_abs(w, (size_t)n) <= meets) return true;
         const double square = dal__dot_product(n, rate, rate);
-        part -= dal__dot_product(n, w, rate) / (square * r->local->step);
-        if (!(part >= 0.0 && part <= 1.0)) return false;
-        if (dal__orbit_state(orbit, k, part, x, NULL) != DAL_STATUS_OK) return false;
+        fraction -= dal__dot_product(n, w, rate) / (square * r->local->step);
+        if (!(fraction >= 0.0 && fraction <= 1.0)) return false;
+        if (dal__orbit_state(orbit, k, fraction, x, NULL) != DAL_STATUS_OK) return false;
     }
     return false;
 }
@@ -232,8 +232,9 @@ static void try_reversal(dal__reversals *r, int which, dal__orbit *orbit, long l
     }
     for (int i = 0; i < count; i++) r->same[i] = true;
     for (int p = 0; p < POINTS && !r->refused[which]; p++) {
-        const double part = (double)p / (double)(POINTS - 1), at = t + part * r->local->step;
-        r->refused[which] = dal__orbit_state(orbit, k, part, x, NULL) != DAL_STATUS_OK ||
+        const double fraction = (double)p / (double)(POINTS - 1),
+                     at = t + fraction * r->local->step;
+        r->refused[which] = dal__orbit_state(orbit, k, fraction, x, NULL) != DAL_STATUS_OK ||
                             !preserves_reversal(r, sign, at, x);
         apply_reversal(r, sign, x, turned);
         const bool is_known = dal__local_observe(r->local, at, x, a) == DAL_STATUS_OK &&

@@ -240,10 +240,10 @@ DAL_INLINE num dal_fma(num a, num b, num c)
 {
     union {
         num all;
-        dal__register part[DAL_LANES / DAL__REGISTER];
+        dal__register piece[DAL_LANES / DAL__REGISTER];
     } x = {a}, y = {b}, z = {c};
     for (int i = 0; i < DAL_LANES / DAL__REGISTER; i++)
-        x.part[i] = DAL__FUSE(x.part[i], y.part[i], z.part[i]);
+        x.piece[i] = DAL__FUSE(x.piece[i], y.piece[i], z.piece[i]);
     return x.all;
 }
 #else
@@ -274,42 +274,42 @@ enum { DAL__PACK = 8, DAL__MIN_PACKED = 16 };
 typedef double dal__pack __attribute__((vector_size(64), aligned(8), may_alias));
 typedef int64_t dal__pack_mask __attribute__((vector_size(64)));
 
-/* part = max(part, |x|) */
-DAL_INLINE void dal__pack_max(dal__pack *part, const dal__pack *x)
+/* partial = max(partial, |x|) */
+DAL_INLINE void dal__pack_max(dal__pack *partial, const dal__pack *x)
 {
-    const dal__pack_mask size = (dal__pack_mask)*x & INT64_MAX, less = *part < (dal__pack)size;
-    *part = (dal__pack)((size & less) | ((dal__pack_mask)*part & ~less));
+    const dal__pack_mask size = (dal__pack_mask)*x & INT64_MAX, less = *partial < (dal__pack)size;
+    *partial = (dal__pack)((size & less) | ((dal__pack_mask)*partial & ~less));
 }
 DAL_INLINE int dal__norm_packs(const num *x, int count, num *norm)
 {
     if (count < DAL__PACK) return 0; /* packs cost more than a few numbers */
-    dal__pack part[4] = {{0}};       /* four independent chains */
+    dal__pack partial[4] = {{0}};    /* four independent chains */
     int i = 0;
     for (; i + 4 * DAL__PACK <= count; i += 4 * DAL__PACK)
         for (int k = 0; k < 4; k++)
-            dal__pack_max(&part[k], (const dal__pack *)(x + i + k * DAL__PACK));
+            dal__pack_max(&partial[k], (const dal__pack *)(x + i + k * DAL__PACK));
     for (; i + DAL__PACK <= count; i += DAL__PACK)
-        dal__pack_max(&part[0], (const dal__pack *)(x + i));
-    for (int k = 1; k < 4; k++) dal__pack_max(&part[0], &part[k]);
-    for (int j = 0; j < DAL__PACK; j++) *norm = dal_max(*norm, part[0][j]);
+        dal__pack_max(&partial[0], (const dal__pack *)(x + i));
+    for (int k = 1; k < 4; k++) dal__pack_max(&partial[0], &partial[k]);
+    for (int j = 0; j < DAL__PACK; j++) *norm = dal_max(*norm, partial[0][j]);
     return i;
 }
 DAL_INLINE int dal__nonfinite_packs(const num *x, int count, num *nonfinite)
 {
-    dal__pack part = {0};
+    dal__pack partial = {0};
     int i = 0;
     for (; i + DAL__PACK <= count; i += DAL__PACK)
-        part += *(const dal__pack *)(x + i) - *(const dal__pack *)(x + i);
-    for (int j = 0; j < DAL__PACK; j++) *nonfinite += part[j];
+        partial += *(const dal__pack *)(x + i) - *(const dal__pack *)(x + i);
+    for (int j = 0; j < DAL__PACK; j++) *nonfinite += partial[j];
     return i;
 }
 /* part_j = sum of u_i^2, i = j modulo the size of a pack; count is a multiple of it. */
-DAL_INLINE void dal__square_packs(const num *u, int count, num *part)
+DAL_INLINE void dal__square_packs(const num *u, int count, num *partial)
 {
     dal__pack sum = {0};
     for (int i = 0; i < count; i += DAL__PACK)
         sum += *(const dal__pack *)(u + i) * *(const dal__pack *)(u + i);
-    for (int j = 0; j < DAL__PACK; j++) part[j] = sum[j];
+    for (int j = 0; j < DAL__PACK; j++) partial[j] = sum[j];
 }
 #else
 #define dal__norm_packs(x, count, norm)           0
@@ -349,18 +349,18 @@ DAL_INLINE num dal_nonfinite(const num *x, int count)
 /* |u|^2 */
 DAL_INLINE num dal_square(const num *u, int count)
 {
-    num part[DAL__PACK], sum = dal_num(0.0);
-    DAL_EACH(j, DAL__PACK) part[j] = dal_num(0.0);
+    num partial[DAL__PACK], sum = dal_num(0.0);
+    DAL_EACH(j, DAL__PACK) partial[j] = dal_num(0.0);
     const int seen = count < DAL__MIN_PACKED ? 0 : count / DAL__PACK * DAL__PACK;
 #if DAL_PACKS
-    if (seen > 0) dal__square_packs(u, seen, part);
+    if (seen > 0) dal__square_packs(u, seen, partial);
 #else
-    DAL_EACH(i, seen) part[i % DAL__PACK] += u[i] * u[i];
+    DAL_EACH(i, seen) partial[i % DAL__PACK] += u[i] * u[i];
 #endif
     DAL_EACH(i, count - seen) sum += u[seen + i] * u[seen + i];
     if (seen == 0) return sum;
-    return (((part[0] + part[4]) + (part[2] + part[6])) +
-            ((part[1] + part[5]) + (part[3] + part[7]))) +
+    return (((partial[0] + partial[4]) + (partial[2] + partial[6])) +
+            ((partial[1] + partial[5]) + (partial[3] + partial[7]))) +
            sum;
 }
 #endif

@@ -77,7 +77,7 @@ static dal_status add_programs(dal_model *model, int parameter, dal__tangent_sys
     const int n = e->n, m = e->multipliers, count = 2 * n + m;
     const struct {
         int symbol, count;
-    } parts[] = {{e->q, n}, {e->v, n}, {e->g, m}};
+    } kinds[] = {{e->q, n}, {e->v, n}, {e->g, m}};
     dal__node *F = dal__model_nodes(model, 2 * (n + m), 0),
               *start = dal__model_nodes(model, 2 * count + 1, 0);
     direction d = {.e = e, .count = count + (parameter >= 0)};
@@ -86,19 +86,19 @@ static dal_status add_programs(dal_model *model, int parameter, dal__tangent_sys
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
     d.symbol[count] = parameter; /* the symbols of parameters are the first */
     for (int k = 0, at = 0; k < 3; k++)
-        for (int i = 0; i < parts[k].count; i++, at++) {
-            d.symbol[at] = parts[k].symbol + i;
-            d.along[at] = dal__symbol(e->graph, parts[k].symbol + parts[k].count + i);
+        for (int i = 0; i < kinds[k].count; i++, at++) {
+            d.symbol[at] = kinds[k].symbol + i;
+            d.along[at] = dal__symbol(e->graph, kinds[k].symbol + kinds[k].count + i);
         }
     start[2 * count] = e->start[count];
-    for (int k = 0, at = 0; k < 3; at += parts[k++].count)
-        for (int i = 0; i < parts[k].count; i++) {
+    for (int k = 0, at = 0; k < 3; at += kinds[k++].count)
+        for (int i = 0; i < kinds[k].count; i++) {
             const int place = 2 * at + i;
             start[place] = e->start[at + i];
-            start[place + parts[k].count] = differentiate(&d, e->start[at + i]);
+            start[place + kinds[k].count] = differentiate(&d, e->start[at + i]);
             if (k == 0) continue;
             F[place - 2 * n] = e->F[at - n + i];
-            F[place - 2 * n + parts[k].count] = differentiate(&d, e->F[at - n + i]);
+            F[place - 2 * n + kinds[k].count] = differentiate(&d, e->F[at - n + i]);
         }
     DAL_TRY(dal__programs_begin(e, &t->programs, 2 * n, 2 * m));
     DAL_TRY(dal__programs_add_motion(model, &t->programs, F));
