@@ -9,6 +9,7 @@
  *
  * A tone is taken when it lowers N/2 log of the sum of squares by tone_worth. */
 #include "analysis/trend_series.h"
+#include "core/pi.h"
 #include "core/vectors.h"
 #include <float.h>
 #include <math.h>
@@ -21,7 +22,6 @@ enum {
     NEWTON_STEPS = 4
 };
 
-static const double pi = 3.14159265358979323846;
 static const double slowest_tone = 3.0;
 static const double tone_worth = 12.0;
 static const double steady_range = 0.05; /* deviation of the ranges of blocks, of their mean */
@@ -145,7 +145,7 @@ static double loudest(const tone_fit *f)
     double best = -1.0, place = 0.0;
     for (double v = slowest_tone; v < 0.5 * f->n; v += 4.0 / GRID) {
         double c[4], a[4] = {0}, b[4] = {0};
-        for (int k = 0; k < 4; k++) c[k] = 2.0 * cos(2.0 * pi * (v + (double)k / GRID) / f->n);
+        for (int k = 0; k < 4; k++) c[k] = 2.0 * cos(2.0 * DAL__PI * (v + (double)k / GRID) / f->n);
         for (int i = 0; i < f->n; i++)
             for (int k = 0; k < 4; k++) {
                 const double next = f->residue[i] + c[k] * a[k] - b[k];
@@ -161,7 +161,7 @@ static double loudest(const tone_fit *f)
             }
         }
     }
-    return 2.0 * pi * place / f->n;
+    return 2.0 * DAL__PI * place / f->n;
 }
 
 /* Least squares by the normal equations: columns of length near one. */
@@ -219,7 +219,7 @@ static void newton_step(tone_fit *f, const double *x)
     f->square = dal__dot_product(n, f->residue, f->residue);
     for (int l = 0; l < f->tones; l++) {
         const double *const tone = c + POLYNOMIALS + 3 * l;
-        const double limit = 0.5 * 2.0 * pi / n; /* half a period at a time */
+        const double limit = 0.5 * 2.0 * DAL__PI / n; /* half a period at a time */
         /* The phase turns about the middle. */
         const double d = fmin(fmax(tone[2] / n, -limit), limit), middle = 0.5 * n * d;
         const double a = tone[0], b = tone[1];

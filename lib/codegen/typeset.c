@@ -5,6 +5,7 @@
  * brackets. */
 #include "codegen/typeset.h"
 #include "core/error.h"
+#include "core/pi.h"
 #include "dalembert_program.h"
 #include "expr/table.h"
 #include "expr/traversal.h"
@@ -14,7 +15,6 @@
 #include <string.h>
 
 enum { MAX_LENGTH = 1 << 20 };
-#define PI 3.14159265358979323846
 
 typedef enum level {
     LEVEL_ANY,
@@ -117,7 +117,7 @@ static void put_number(double x, bool is_plain, dal__buffer *text)
         return;
     }
     if (!is_plain &&
-        (typeset_fraction(fabs(x), "", text) || typeset_fraction(fabs(x) / PI, "\\pi", text)))
+        (typeset_fraction(fabs(x), "", text) || typeset_fraction(fabs(x) / DAL__PI, "\\pi", text)))
         return;
     const int count = find_digits(fabs(x), digit, &exponent);
     const bool is_short = exponent > -MAX_ZEROS && exponent <= MAX_WHOLE;

@@ -15,8 +15,8 @@ dal_status dal__orbit_create(dal__orbit **orbit, const dal_run_spec *spec, const
 void dal__orbit_free(dal__orbit *orbit);
 /* Whether it is by Taylor series, in steps of its own. */
 bool dal__orbit_has_series(const dal__orbit *orbit);
-/* Gives (q, v) at the time of step k + fraction, 0 <= fraction <= 1, in out[2n]; k must not descend, fraction
- * may within a step, and is 0 at first.  Errors: as of a step. */
+/* Gives (q, v) at the time of step k + fraction, 0 <= fraction <= 1, in out[2n]; k must not
+ * descend, the fraction may within a step, and is 0 at first.  Errors: as of a step. */
 dal_status dal__orbit_state(dal__orbit *orbit, long long k, double fraction, double *out,
                             dal_error *error);
 

@@ -15,6 +15,7 @@
 #include "dynamics/reversal.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
+#include "core/pi.h"
 #include "core/vectors.h"
 #include <float.h>
 #include <math.h>
@@ -92,7 +93,6 @@ static dependence find_dependence(dal__reversals *r, int i, double t, const doub
 {
     double *at = r->scratch, *F = at + 2 * r->n, *other = F + r->n;
     dal__random random = {7};
-    const double pi = 3.141592653589793238;
     bool is_cyclic = true, is_periodic = true;
     for (int k = 0; k < POINTS; k++) {
         for (int j = 0; j < 2 * r->n; j++)
@@ -102,7 +102,7 @@ static dependence find_dependence(dal__reversals *r, int i, double t, const doub
         at[i] = q + unit_of(r, i) * dal__uniform(&random);
         is_cyclic &=
             field(r, t, at, other) == DAL_STATUS_OK && difference(r, F, other, 0) <= agrees;
-        at[i] = q + 2.0 * pi;
+        at[i] = q + 2.0 * DAL__PI;
         is_periodic &=
             field(r, t, at, other) == DAL_STATUS_OK && difference(r, F, other, 0) <= agrees;
     }
@@ -219,7 +219,6 @@ static bool preserves_reversal(dal__reversals *r, unsigned sign, double t, const
 static void try_reversal(dal__reversals *r, int which, dal__orbit *orbit, long long k, double t,
                          const double *meeting, bool *even)
 {
-    const double pi = 3.141592653589793238;
     const unsigned sign = r->sign[which];
     const int n = r->n, count = r->local->count;
     double *x = r->scratch + 8 * n, *turned = x + 2 * n, *a = turned + 2 * n, *b = a + count;
@@ -228,7 +227,7 @@ static void try_reversal(dal__reversals *r, int which, dal__orbit *orbit, long l
         const bool moves = is_turned(sign, i) && r->depends[i] != GENERAL;
         r->centre[i] = !moves                    ? 0.0
                        : r->depends[i] == CYCLIC ? meeting[i]
-                                                 : pi * nearbyint(meeting[i] / pi);
+                                                 : DAL__PI * nearbyint(meeting[i] / DAL__PI);
     }
     for (int i = 0; i < count; i++) r->same[i] = true;
     for (int p = 0; p < POINTS && !r->refused[which]; p++) {

@@ -6,6 +6,7 @@
  * on an explicit stack, so memory alone limits how deep a formula is nested. */
 #include "expr/parser.h"
 #include "core/error.h"
+#include "core/pi.h"
 #include "expr/lexer.h"
 #include "expr/operations.h"
 #include "expr/simplify.h"
@@ -379,7 +380,7 @@ static dal_status symbol(parser *p, dal__node *value)
         return *value ? DAL_STATUS_OK : graph_fault(p);
     }
     if (t->length == 2 && memcmp(t->text, "pi", 2) == 0 && !t->prime) {
-        *value = dal__number(p->graph, 3.14159265358979323846);
+        *value = dal__number(p->graph, DAL__PI);
         return *value ? DAL_STATUS_OK : graph_fault(p);
     }
     const dal__op function = t->prime ? (dal__op)0 : dal__function_named(t->text, t->length);

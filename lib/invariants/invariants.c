@@ -10,6 +10,7 @@
  * and Nonintegrability of Dynamical Systems, World Scientific 2001, 2.5).  D needs no correction:
  * it is constant along F on every level. */
 #include "core/error.h"
+#include "core/pi.h"
 #include "core/vectors.h"
 #include "expr/traversal.h"
 #include "invariants/atoms.h"
@@ -24,7 +25,7 @@
 
 enum { MIN_POINTS = 24 };
 /* How far from the start points are drawn, in units of the motion; an angle takes any value. */
-static const double neighbourhood = 2.0, half_turn = 3.14159265358979323846;
+static const double neighbourhood = 2.0;
 
 dal_invariants_settings dal_invariants_settings_default(void)
 {
@@ -235,7 +236,7 @@ static dal_status search_all(dal_invariants *out, dal__search *search, const dal
         status = dal__region_find(e, spec, neighbourhood, centre, reach, error);
     if (status == DAL_STATUS_OK) {
         for (int i = 0; i < e->n; i++)
-            if (is_angle(search, e->q + i)) reach[e->q + i] = half_turn;
+            if (is_angle(search, e->q + i)) reach[e->q + i] = DAL__PI;
         const dal__condition condition = {.power = 0.0};
         solutions s;
         status = solve_condition(search, &condition, &s, error);

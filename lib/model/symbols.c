@@ -9,8 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 int dal__index_of(const char *name, size_t length, const char *const *names, int count)
 {
     for (int i = 0; i < count; i++)
@@ -238,7 +236,6 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
     if (scope->index && strcmp(name, scope->index) == 0) return dal__number(e->graph, scope->at);
     if ((i = dal__index_of(name, length, e->size_name, e->sizes)) >= 0)
         return dal__number(e->graph, e->size[i]);
-    if (strcmp(name, "pi") == 0) return dal__number(e->graph, PI);
     if (strcmp(name, "t") == 0)
         return scope->may & DAL__MAY_T ? dal__symbol(e->graph, e->t)
                                        : misplaced(scope, "the time", name, error);

@@ -25,6 +25,7 @@
  * A step that was divided under a tolerance may be long beside the motion: it is searched in
  * intervals from the beginning, some for each substep. */
 #include "run/crossing.h"
+#include "core/pi.h"
 #include "core/root.h"
 #include "run/failure.h"
 #include "run/observe.h"
@@ -32,7 +33,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double pi = 3.14159265358979323846;
 /* In units of S, what the rates may not explain. */
 static const double max_jump = 0.25;
 /* Of rounding, what a value must exceed to be no rounding. */
@@ -172,7 +172,7 @@ static dal_status examine(dal__zero_search *c, int k, bool *is_fast, bool *jumps
     const double most = fabs(s) * fmax(fabs(a->rate[k]), fabs(b->rate[k]));
     const double unexplained = fabs(change - 0.5 * s * (a->rate[k] + b->rate[k]));
     double rounding;
-    *is_fast = most > pi * size;
+    *is_fast = most > DAL__PI * size;
     *jumps = unexplained > max_jump * size;
     if (!*is_fast && !*jumps) return DAL_STATUS_OK;
     DAL_TRY(rounding_of(c, k, &rounding));
