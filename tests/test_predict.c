@@ -82,8 +82,8 @@ static void test_mean_rate(void)
     dal_prediction_free(p);
 }
 
-/* Motion down a hill, or up one, is free at one of its ends: the mean of its whole change, hardly seen
- * by the bump, is in the interval, which is not much longer. */
+/* Motion down a hill, or up one, is free at one of its ends: the mean of its whole change, hardly
+ * seen by the bump, is in the interval, which is not much longer. */
 static void test_transient(void)
 {
     static const char *const starts[] = {"x: 0, x': 2", "x: -200, x': 2"};
