@@ -375,12 +375,9 @@ static dal_status symbol(parser *p, dal__node *value)
 {
     const dal__token *t = &p->token;
     const loop *l = loop_of(p);
-    if (l) {
-        *value = dal__number(p->graph, l->at);
-        return *value ? DAL_STATUS_OK : graph_fault(p);
-    }
-    if (t->length == 2 && memcmp(t->text, "pi", 2) == 0 && !t->prime) {
-        *value = dal__number(p->graph, DAL__PI);
+    const bool is_pi = t->length == 2 && memcmp(t->text, "pi", 2) == 0 && !t->prime;
+    if (l || is_pi) {
+        *value = dal__number(p->graph, l ? l->at : DAL__PI);
         return *value ? DAL_STATUS_OK : graph_fault(p);
     }
     const dal__op function = t->prime ? (dal__op)0 : dal__function_named(t->text, t->length);
