@@ -177,15 +177,12 @@ dal_status dal__search_atoms(dal__search *s, const dal_invariants_settings *sett
     return DAL_STATUS_OK;
 }
 
-void dal__search_keep_coordinates(dal__search *s, bool and_t)
+void dal__search_remove(dal__search *s, int first, int end)
 {
-    const dal__equations *e = &s->model->equations;
     int kept = 0;
-    for (int i = 0; i < s->atoms; i++) {
-        const dal__node node = s->atom[i].node;
-        if (dal__depends(e->graph, node, e->v, e->symbols)) continue;
-        if (and_t || !dal__depends(e->graph, node, e->t, e->t + 1)) s->atom[kept++] = s->atom[i];
-    }
+    for (int i = 0; i < s->atoms; i++)
+        if (!dal__depends(s->model->equations.graph, s->atom[i].node, first, end))
+            s->atom[kept++] = s->atom[i];
     s->atoms = kept;
 }
 

@@ -8,8 +8,8 @@
  * Memory is the model's.  Errors: as of dal_find_invariants. */
 dal_status dal__search_atoms(dal__search *search, const dal_invariants_settings *settings,
                              dal_error *error);
-/* Removes the atoms that depend on more than coordinates, and t where it may be. */
-void dal__search_keep_coordinates(dal__search *search, bool and_t);
+/* Removes the atoms that depend on one of the symbols from first to end - 1. */
+void dal__search_remove(dal__search *search, int first, int end);
 /* Makes their products.  Errors: DAL_STATUS_TOO_LARGE, DAL_STATUS_MEMORY. */
 dal_status dal__search_products(dal__search *search, dal_error *error);
 /* df/dt along the motion; f is a node of the model. */

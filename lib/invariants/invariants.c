@@ -103,7 +103,7 @@ static dal_status solve_condition(const dal__search *search, const dal__conditio
     *s = (solutions){.count = 0};
     DAL_TRY(dal__search_sample(search, condition, search->parameter,
                                3 * search->products + MIN_POINTS, &samples));
-    const dal_status found = dal__find_null_space(&samples, condition->has_constants, &s->space);
+    const dal_status found = dal__find_null_space(&samples, condition, &s->space);
     dal__samples_free(&samples);
     DAL_TRY(found);
     const size_t n = (size_t)s->space.count + 1;
@@ -127,7 +127,7 @@ static dal_status solve_condition(const dal__search *search, const dal__conditio
 
 /* The results own all texts and lists. */
 static dal_status put_invariants(dal_invariants *out, const dal__search *search, solutions *s,
-                                 bool of_coordinates)
+                                 const dal_invariants_settings *settings)
 {
     const size_t n = (size_t)s->count + 1;
     dal_invariant *invariant = calloc(n, sizeof *invariant);
@@ -155,7 +155,7 @@ static dal_status put_invariants(dal_invariants *out, const dal__search *search,
             .is_new = k->is_new,
             .exact = k->exact,
             .at_any_parameters = k->at_any_parameters,
-            .constraint = of_coordinates ? dal__find_constraint(search, k->node) : -1,
+            .constraint = settings->of_coordinates ? dal__find_constraint(search, k->node) : -1,
             .value = dal__evaluate(search->model->equations.graph, k->node, search->region.centre)};
         s->form[i].text = NULL;
         out->independent += k->independent;
@@ -201,13 +201,15 @@ void dal_invariants_free(dal_invariants *found)
 static dal_status find_measure(dal_invariants *out, const dal__search *search,
                                const dal_invariants_settings *settings, dal_error *error)
 {
+    const dal__equations *e = &search->model->equations;
     static const double powers[] = {1.0, -1.0, 2.0, -2.0, 0.5, 4.0};
     dal__search of_q = {.model = search->model,
                         .region = search->region,
                         .parameter = search->parameter,
                         .degree = search->degree};
     DAL_TRY(dal__search_atoms(&of_q, settings, error));
-    dal__search_keep_coordinates(&of_q, false);
+    dal__search_remove(&of_q, e->v, e->symbols);
+    dal__search_remove(&of_q, e->t, e->t + 1);
     DAL_TRY(dal__search_products(&of_q, error));
     for (size_t k = 0; k < sizeof powers / sizeof *powers && out->measures == 0; k++) {
         const dal__condition condition = {.power = powers[k], .has_constants = true};
@@ -230,7 +232,7 @@ static dal_status search_all(dal_invariants *out, dal__search *search, const dal
     search->region = (dal__region){centre, reach};
     search->parameter = centre; /* the symbols of parameters are the first */
     dal_status status = dal__search_atoms(search, settings, error);
-    if (settings->of_coordinates) dal__search_keep_coordinates(search, true);
+    if (settings->of_coordinates) dal__search_remove(search, e->v, e->symbols);
     if (status == DAL_STATUS_OK) status = dal__search_products(search, error);
     if (status == DAL_STATUS_OK)
         status = dal__region_find(e, spec, neighbourhood, centre, reach, error);
@@ -241,8 +243,7 @@ static dal_status search_all(dal_invariants *out, dal__search *search, const dal
         solutions s;
         status = solve_condition(search, &condition, &s, error);
         if (status == DAL_STATUS_OK) status = dal__find_independent(search, s.candidate, s.count);
-        if (status == DAL_STATUS_OK)
-            status = put_invariants(out, search, &s, settings->of_coordinates);
+        if (status == DAL_STATUS_OK) status = put_invariants(out, search, &s, settings);
         free_solutions(&s);
         if (status == DAL_STATUS_OK && settings->measures)
             status = find_measure(out, search, settings, error);

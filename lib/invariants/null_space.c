@@ -222,11 +222,11 @@ static bool find_zeros(const basis *b, dal__null_space *out)
     return made;
 }
 
-dal_status dal__find_null_space(const dal__samples *samples, bool has_constants,
+dal_status dal__find_null_space(const dal__samples *samples, const dal__condition *condition,
                                 dal__null_space *out)
 {
     const size_t n = (size_t)samples->functions;
-    basis b = {.samples = samples, .first = has_constants ? 0 : 1};
+    basis b = {.samples = samples, .first = condition->has_constants ? 0 : 1};
     *out = (dal__null_space){.least_change = NAN, .largest_zero = NAN};
     b.kept = calloc(n, sizeof *b.kept);
     b.made_of = dal__numbers(n + 1, n);

@@ -26,7 +26,7 @@ typedef struct dal__null_space {
 
 /* Finds it; the samples, of more points than functions, are destroyed.  [alloc]  Errors:
  * DAL_STATUS_MEMORY. */
-dal_status dal__find_null_space(const dal__samples *samples, bool has_constants,
+dal_status dal__find_null_space(const dal__samples *samples, const dal__condition *condition,
                                 dal__null_space *out);
 void dal__null_space_free(dal__null_space *space);
 

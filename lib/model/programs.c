@@ -366,7 +366,7 @@ static dal_status add_series(dal__programs *programs, int lifted, dal__program_c
 static dal_status make_series(dal_model *model, dal__programs *programs)
 {
     const int n = programs->n, inputs = 1 + 2 * n + programs->multipliers;
-    const int has_e = programs->program[DAL__PROGRAM_GAUGE_GRADIENT].present;
+    const bool has_e = programs->program[DAL__PROGRAM_GAUGE_GRADIENT].present;
     uint32_t *places = dal__model_allocate(model, (size_t)(inputs + n + 1), sizeof *places);
     if (!places) return DAL_STATUS_MEMORY;
     places[0] = (uint32_t)programs->t;

@@ -175,7 +175,7 @@ static dal_status check_layers(dal__layout *k, dal_error *error)
     const dal_method *method = &k->method;
     while (k->depth < DAL_LAYERS && method->layer[k->depth]) {
         const dal_integrator *layer = method->layer[k->depth];
-        const int modifier = (layer->properties & DAL_MODIFIER) != 0;
+        const bool modifier = layer->properties & DAL_MODIFIER;
         if (!layer->step || layer->stages < 0 || modifier != (k->depth > 0))
             return dal__fail(error, DAL_STATUS_ARGUMENT,
                              "'%s' is not usable as layer %d of a method",
