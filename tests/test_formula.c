@@ -250,7 +250,37 @@ static const struct {
     {"x \xc2\xb7 y", DAL_STATUS_SYNTAX, 1, 3, "unexpected byte 0xc2"},
     {"x +\n\ty +\n \x01", DAL_STATUS_SYNTAX, 3, 2, "unexpected byte 0x01"},
     {"x**2", DAL_STATUS_SYNTAX, 1, 2, "a power is written ^, not **"},
+    {"x + sum(i, 2, 1, (x", DAL_STATUS_SYNTAX, 1, 5, "a '(' is never closed"},
+    {"(x[1)", DAL_STATUS_SYNTAX, 1, 2, "a '[' is never closed"},
+    {"sum(i, 1, 2, x, y)", DAL_STATUS_SYNTAX, 1, 1, "a sum is written sum(i, 1, N, formula in i)"},
 };
+
+/* The formula with a character that none has at one of its marks, |. */
+static void test_each_token(void)
+{
+    static const char marked[] = "|a|*|x|+|sum(|i|,|1|,|3|,|i|*|y|)|-|max(|x|,|y'|)|^|-|2|<"
+                                 "|(|z|)|+|sum(|k|,|2|,|1|,|(|x|)|*|k|)|+|x|[|1|+|1|]";
+    for (int k = 0;; k++) {
+        dal__graph *graph = formula_graph();
+        dal__node node = 1;
+        dal_error error = {.status = DAL_STATUS_OK};
+        char text[sizeof marked + 1];
+        int length = 0, column = 0, mark = 0;
+        for (const char *c = marked; *c; c++) {
+            if (*c != '|') text[length++] = *c;
+            if (*c == '|' && mark++ == k)
+                text[length++] = ' ', text[length++] = '$', column = length;
+        }
+        text[length] = '\0';
+        const dal_status status = formula_parse(graph, text, &node, &error);
+        dal__graph_free(graph);
+        if (!column) break;
+        const bool is_right = status == DAL_STATUS_SYNTAX && error.column == column &&
+                              strcmp(error.message, "unexpected '$'") == 0;
+        CU_ASSERT(is_right);
+        if (!is_right) printf("\n%s: %d: %s\n", text, error.column, error.message);
+    }
+}
 
 static void test_faults(void)
 {
@@ -539,6 +569,7 @@ void suite_formula(void)
     CU_add_test(suite, "numbers of a thousand digits", test_long_number);
     CU_add_test(suite, "a decimal comma in the locale", test_locale);
     CU_add_test(suite, "faults: line, column, message", test_faults);
+    CU_add_test(suite, "a wrong character at each token", test_each_token);
     CU_add_test(suite, "the byte 0, and the end", test_zero_byte);
     CU_add_test(suite, "names of functions", test_function_names);
     CU_add_test(suite, "deep nesting", test_deep_nesting);
