@@ -500,6 +500,13 @@ static void test_out_of_memory(void)
 {
     char *deep = repeated("", "(sin(x)+", "y", ")", 500);
     char *wide = repeated("max(", "x, ", "y)", "", 16);
+    /* What is opened when the list of these grows. */
+    static const char *const last[] = {"(x)", "-x", "sin(x)", "sum(i, 1, 1, x)", "x + x"};
+    for (size_t i = 0; i < sizeof last / sizeof *last; i++) {
+        char *full = repeated("", "(", last[i], ")", 31);
+        check_memory(full, true);
+        free(full);
+    }
     check_memory(deep, false);
     check_memory("atan2(x, y)", true);
     check_memory(wide, true);
