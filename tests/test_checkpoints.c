@@ -132,6 +132,38 @@ static void test_impossible(void)
     free(bad);
 }
 
+/* A number of a run that is neither 0 nor 1, at a place after the clock. */
+static void refuse_half(dal_run *run, size_t place, const char *name)
+{
+    size_t count;
+    dal_error error = {0};
+    double *bad = saved_copy(run, &count);
+    bad[dal__at(&run->layout, DAL__TIME) + DAL__CLOCK_SIZE + place] = 0.5;
+    CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, &error), DAL_STATUS_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, name));
+    free(bad);
+}
+
+/* What few methods and systems have: accelerations, and pivots that are compared. */
+static void test_impossible_flags(void)
+{
+    const dal_run_spec gni = spec_of("chaplygin-sleigh", "gni", DAL_PHYSICAL, 0.0),
+                       full = spec_of(fixture_full, "gauss4", DAL_PHYSICAL, 0.0);
+    dal_run *run = fixture_stepped(&gni, 2);
+    const dal__layout *k = &run->layout;
+    const size_t multipliers = 3 + (size_t)DAL__COUNT_MULTIPLIER(k);
+    CU_ASSERT(k->acceleration > 0);
+    refuse_half(run, multipliers, "whether an acceleration is known");
+    refuse_half(run, multipliers + (size_t)k->acceleration + 2, "whether that is known");
+    dal_run_free(run);
+    run = fixture_stepped(&full, 2);
+    k = &run->layout;
+    CU_ASSERT(k->pivots > 0);
+    refuse_half(run, 6 + (size_t)DAL__COUNT_MULTIPLIER(k) + (size_t)k->acceleration,
+                "whether pivots are unsteady");
+    dal_run_free(run);
+}
+
 /* Only what events change has a jump, and only after one. */
 static void test_impossible_jumps(void)
 {
@@ -228,6 +260,7 @@ void suite_checkpoints(void)
     CU_add_test(suite, "checkpoint", test_checkpoint);
     CU_add_test(suite, "the caller's memory", test_own_memory);
     CU_add_test(suite, "impossible numbers", test_impossible);
+    CU_add_test(suite, "impossible flags", test_impossible_flags);
     CU_add_test(suite, "impossible jumps", test_impossible_jumps);
     CU_add_test(suite, "every number and byte changed", test_changed);
 }
