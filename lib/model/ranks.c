@@ -406,12 +406,12 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
     dal__node *A = dal__model_nodes(model, (int)(rows * dim) + e->n, dal__number(e->graph, 0.0));
     double *value, *x = dal__model_allocate(model, rows * dim, sizeof *x);
     double *ones = dal__model_allocate(model, dim, sizeof *ones);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return dal__memory_error(error);
     for (size_t i = 0; i < dim; i++) ones[i] = 1.0;
     DAL_TRY(dal__fields_allocate(d, dim, parameters, parameter_count, &value, error));
     dal_status status = make_matrix(d, A, value, units ? units : ones, error);
     if (status == DAL_STATUS_OK) status = make_fields(d, A, x);
-    if (e->graph->status == DAL_STATUS_MEMORY) return dal__memory_error(error);
+    if (e->graph->status != DAL_STATUS_OK) return dal__size_error(e->graph->status, error);
     if (status == DAL_STATUS_SINGULAR)
         return dal__fail(error, status, "the constraints are dependent about the start");
     DAL_TRY(status);
@@ -424,7 +424,8 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
         if (dal__fields_rank(d) > last) out->rank[out->levels++] = dal__fields_rank(d);
         out->is_complete = dal__fields_rank(d) == last || dal__fields_rank(d) == d->full;
     }
-    return e->graph->status;
+    return e->graph->status == DAL_STATUS_OK ? DAL_STATUS_OK
+                                             : dal__size_error(e->graph->status, error);
 }
 
 dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,
