@@ -22,6 +22,8 @@ END
 expected() { printf 'integrators: [rk4]\nstep: 0.1\ntime: 1\nsystems: [skate.yaml]\nexpect: {%s: {rk4: {D: exact}}}\n' "$1"; }
 expected skate >nearly.yaml
 expected knife >nowhere.yaml
+mkdir -p folder/manifest.json more
+printf '{} x' >more/manifest.json
 run="--integrator rk4 --step 0.1 --time 1"
 table <<'END'
 case: a file beside its name
@@ -37,6 +39,16 @@ case: options of other programs
 2 | study --progress json | says ^dalembert: study: unknown option '--progress'$
 2 | check skate.yaml --dt 1 | says unknown option '--dt'; did you mean '--set'
 2 | simulate | says ^dalembert: unknown command 'simulate'; 'dalembert help' lists the commands$
+case: values that no option has
+2 | order skate.yaml --integrators rk4 --steps 0.1,x --time 1 | says ^dalembert: --steps: 'x' is not a number$
+2 | order skate.yaml --integrators rk4 --step 0 --time 1 | says ^dalembert: --step: it must be positive$
+2 | predict skate.yaml --integrator rk4 --step $(seq -s, 65) --time 1 | says ^dalembert: more than 64 methods and steps$
+2 | explain skate.yaml --integrator rk4 --step 1e-10 --time 1 | says ^dalembert: 1e\+10 steps: explain takes at most 20+$
+2 | study --shard 1 | says ^dalembert: --shard: '1' is not K/N$
+2 | study --shard 1/2x | says ^dalembert: --shard: '1/2x' is not K/N$
+2 | merge $(seq 1025) --output there | says ^dalembert: merge: more than 1024 directories$
+2 | merge folder --output there | says ^dalembert: 'folder/manifest.json' is a directory$
+2 | resume more | says ^dalembert: more/manifest.json:1:4: no JSON: there is more after it$
 case: velocities
 2 | run skate.yaml $run --columns vy | says no column 'vy'; did you mean 'y''\?$
 2 | run skate.yaml $run --start vx=2 | says unknown start name 'vx'; did you mean 'x''\?$

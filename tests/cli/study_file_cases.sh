@@ -326,6 +326,13 @@ bad "${common}samples: 0.5\nsystems: [line.yaml]\n" 'bad.yaml:5:10: samples: 0.5
 bad "${common}statistics: 0\nsystems: [line.yaml]\n" 'bad.yaml:5:13: statistics: 0 is not in 1'
 
 case_is "a system that is missing, a range that is a draw, and too many values"
+bad "${common}systems: [line.yaml]\nexpect: {line.yaml: {rk4: {state: {a: 1}}}}\n" ':35: state: words are required$'
+bad "${common}systems: [{system: line.yaml, mechanics: []}]\n" ': mechanics: the list is empty$'
+bad 'integrators: rk4\nstep: {between: [0.1, 0.2]}\nseeds: 1\ntime: 1\nsystems: [line.yaml]\n' \
+    'bad.yaml:2:7: step: it must not be random$'
+bad "\"a\\\\0b\": 1\n${common}systems: [line.yaml]\n" '^dalembert: bad\.yaml:1:1: a study: a NUL in the text$'
+bad "${common}systems: [{system: line.yaml, set: {k: [$(seq -s, 10001)]}}]\n" 'set: 10001 values, not 1\.\.10000$'
+bad "${common}displacement: -1\nsystems: [line.yaml]\n" 'displacement: -1 is not positive$'
 bad "${common}systems: [{label: a}]\n" '^dalembert: bad\.yaml:5:11: the system is missing$'
 bad "${common}systems: [{system: line.yaml, start: {x: {between: [0, 1], from: 1}}}]\n" \
     ': start: between excludes all other keys$'
