@@ -6,6 +6,7 @@
 
 #include <CUnit/Basic.h>
 #include <locale.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -312,6 +313,9 @@ static void test_zero_byte(void)
     CU_ASSERT_EQUAL(status, DAL_STATUS_SYNTAX);
     CU_ASSERT_EQUAL(error.column, 5);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "unexpected byte 0x00"));
+    /* A length that no int can hold is refused before a byte is read. */
+    CU_ASSERT_EQUAL(dal__parse(graph, "x", INT_MAX, &names, &node, &error), DAL_STATUS_TOO_LARGE);
+    CU_ASSERT_STRING_EQUAL(error.message, "the formula is too long");
     /* What lies after the end is not read. */
     CU_ASSERT_EQUAL(dal__parse(graph, "x + y'", 5, &names, &node, &error), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal__inspect(graph, node).op, DAL__ADD);
