@@ -5,8 +5,8 @@
 #include "skip.h"
 
 #include <CUnit/Basic.h>
-#include <locale.h>
 #include <limits.h>
+#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
