@@ -34,6 +34,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- identities ---- */
 
@@ -48,44 +49,51 @@ typedef struct identity {
     dal_model *model;
     const dal__equations *e;
     double *point, *unit; /* [symbols]; unit: NULL until it is used */
+    double *moved;        /* [POINTS*symbols] the irregular points, from then on */
     dal__node *term;      /* [max_terms] */
     int terms, max_terms;
-    double *scale; /* [max_terms] of the terms */
+    double *scale, *value; /* [max_terms] of the terms */
 } identity;
 
+/* The units, and points off the start by multiples of the golden ratio, each at another place. */
 static bool find_units(identity *id)
-{
-    if (id->unit) return true;
-    id->unit = dal__model_allocate(id->model, (size_t)id->e->symbols, sizeof *id->unit);
-    return id->unit && dal__model_units(id->model, id->unit) == DAL_STATUS_OK;
-}
-
-/* Moves the point off the start by multiples of the golden ratio, each number to another place. */
-static void move(const identity *id, int number)
 {
     const double golden = 0.6180339887498949;
     const dal__equations *e = id->e;
-    for (int i = 0; i < e->symbols; i++) {
-        id->point[i] = e->value[i];
-        if (i >= e->parameters)
-            id->point[i] += id->unit[i] * (0.1 + fmod((number * e->symbols + i) * golden, 1.0));
+    const size_t symbols = (size_t)e->symbols;
+    if (id->unit) return true;
+    id->unit = dal__model_allocate(id->model, symbols, sizeof *id->unit);
+    id->moved = dal__model_allocate(id->model, POINTS * symbols, sizeof *id->moved);
+    if (!id->unit || !id->moved || dal__model_units(id->model, id->unit) != DAL_STATUS_OK)
+        return false;
+    for (int k = 0; k < POINTS * e->symbols; k++) {
+        const int i = k % e->symbols;
+        id->moved[k] = e->value[i];
+        if (i >= e->parameters) id->moved[k] += id->unit[i] * (0.1 + fmod(k * golden, 1.0));
     }
+    return true;
+}
+
+static void move(const identity *id, int number)
+{
+    const size_t symbols = (size_t)id->e->symbols;
+    memcpy(id->point, id->moved + (size_t)number * symbols, symbols * sizeof *id->point);
 }
 
 /* The sum of the terms at the point and the size of what they are made of; NaN without memory. */
-static void sum_terms(const identity *id, double *sum, double *size)
+static void sum_terms(const identity *id, const dal__terms *terms, double *sum, double *size)
 {
-    dal__terms *terms = dal__terms_create(id->e->graph, id->term, id->terms);
     double *memory = terms ? dal__numbers(1, dal__terms_memory(terms)) : NULL;
-    *sum = *size = memory ? 0.0 : NAN;
-    id->model->out_of_memory |= !memory;
-    if (memory) dal__terms_scales(terms, id->point, memory, id->scale);
-    for (int i = 0; i < id->terms && memory; i++) {
-        *sum += dal__evaluate(id->e->graph, id->term[i], id->point);
+    const bool known =
+        memory && dal__evaluate_all(id->e->graph, id->term, id->terms, id->point, id->value);
+    *sum = *size = known ? 0.0 : NAN;
+    id->model->out_of_memory |= !known;
+    if (known) dal__terms_scales(terms, id->point, memory, id->scale);
+    for (int i = 0; i < id->terms && known; i++) {
+        *sum += id->value[i];
         *size += id->scale[i];
     }
     free(memory);
-    dal__terms_free(terms);
 }
 
 /* Makes scratch[a*n ...] the unit vector along the part of A_a orthogonal to the rows before it,
@@ -132,16 +140,19 @@ static bool vanishes_at_points(identity *id, double *scratch)
     for (int i = 0; i < id->terms; i++) /* the points may all lie in one branch */
         if (dal__reaches(id->e->graph, id->term[i], DAL__ROUGH)) return false;
     if (!find_units(id)) return false;
-    for (int number = 0; number < POINTS; number++) {
+    dal__terms *terms = dal__terms_create(id->e->graph, id->term, id->terms);
+    bool differs = false;
+    for (int number = 0; number < POINTS && !differs; number++) {
         double sum, size;
         move(id, number);
         if (scratch && !reach_surface(id, scratch)) continue;
-        sum_terms(id, &sum, &size);
+        sum_terms(id, terms, &sum, &size);
         if (!isfinite(sum)) continue;
-        if (fabs(sum) > ROUNDING * size) return false;
+        differs = fabs(sum) > ROUNDING * size;
         defined++;
     }
-    return defined > POINTS / 2;
+    dal__terms_free(terms);
+    return !differs && defined > POINTS / 2;
 }
 
 /* Whether the terms add up to zero wherever they are defined. */
@@ -183,7 +194,9 @@ static bool is_homogeneous(identity *id, int a)
     virtual_power(id, a);
     if (!find_units(id)) return false;
     move(id, 0);
-    sum_terms(id, &power, &size);
+    dal__terms *terms = dal__terms_create(e->graph, id->term, id->terms);
+    sum_terms(id, terms, &power, &size);
+    dal__terms_free(terms);
     const double D = dal__evaluate(e->graph, e->constraint[a], id->point);
     double k = power / D;
     if (!isfinite(k)) return false;
@@ -220,7 +233,8 @@ dal_status dal__energy_properties(dal_model *model)
     if (e->accelerations) return DAL_STATUS_OK;
     id.point = dal__model_allocate(model, (size_t)e->symbols, sizeof *id.point);
     id.term = dal__model_nodes(model, id.max_terms, 0);
-    id.scale = dal__model_allocate(model, (size_t)id.max_terms, sizeof *id.scale);
+    id.scale = dal__model_allocate(model, 2 * (size_t)id.max_terms, sizeof *id.scale);
+    id.value = id.scale + id.max_terms;
     dal__node *E_v = dal__model_nodes(model, e->n, 0);
     double *scratch = dal__model_allocate(model, (size_t)((e->m + 1) * e->n), sizeof *scratch);
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
