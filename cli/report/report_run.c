@@ -139,6 +139,15 @@ static bool is_rest_of_state(const run_page *run, const char *name)
  * invariants, observed formulas, error.  A coordinate may have the name D1 or E; only after the
  * state is a column an observable.  Without a system and its names the state ends at the first D1,
  * E or H. */
+/* Whether the inputs of a steered motion change what the panel shows: all but H, and D where they
+ * are along the constraints. */
+static bool inputs_move(const run_page *run, int panel)
+{
+    const dal_effort effort = run->system ? run->system->effort : DAL_EFFORT_IDENTITY;
+    const bool keep_D = effort == DAL_EFFORT_CONSTRAINT || effort == DAL_EFFORT_CONTROLS;
+    return run->r->begin && panel != PANEL_H && !(panel == PANEL_D && keep_D);
+}
+
 static void place_columns(run_page *run)
 {
     const trajectory_reader *t = &run->reader;
@@ -177,7 +186,7 @@ static void place_columns(run_page *run)
             has_trend |= csv_table_is(&run->summary, row, "observable", name) &&
                          !csv_table_is(&run->summary, row, "trend", "");
         c->is_conserved = i >= observables && has_trend && c->panel != PANEL_OBSERVED &&
-                          c->panel != PANEL_REACTIONS;
+                          c->panel != PANEL_REACTIONS && !inputs_move(run, c->panel);
         if (c->panel != NO_PANEL) c->curve = add_curve(&run->plot[c->panel], name);
         if (c->curve) c->series = cli_calloc(1, sizeof *c->series);
         if (c->is_conserved) c->envelope = add_curve(&run->drift, name);

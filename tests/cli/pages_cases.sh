@@ -107,7 +107,7 @@ starts: physical
 systems: [nonholonomic-particle]
 END_OF_STUDY
 
-if needs 131 "no python3" there python3; then
+if needs 132 "no python3" there python3; then
     case_is "pages of runs"
     try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6 --samples 40 --output sleigh
     page sleigh
@@ -151,9 +151,13 @@ if needs 131 "no python3" there python3; then
         --step 0.1 --times 0.5,1,2 --output ensemble
     page ensemble
 
-    try 0 steer sleigh.yaml --to x=0.5,y=0.2,phi=0.3 --rest --effort constraint --integrator gauss8 --step 0.1 --time 2 \
+    { cat sleigh.yaml && echo "invariants: {spin: phi'}"; } >spins.yaml
+    try 0 steer spins.yaml --to x=0.5,y=0.2,phi=0.3 --rest --effort constraint --integrator gauss8 --step 0.1 --time 2 \
         --output steered --json
     page steered
+    # Inputs along the constraint move E and p, and neither D nor H.
+    titles() { grep -o "title '[A-Za-z0-9]* " steered/report/drift.gp | tr -d '\n'; }
+    expect "drifts: $(titles)" test "$(titles)" = "title 'D1 title 'H "
 
     case_is "pages without what they are made from, and on a full device"
     for name in sleigh falls failed methods predicted families orders section exponents volume ensemble steered; do
