@@ -206,22 +206,26 @@ static void test_identities(void)
 
 /* ---- written as C ---- */
 
-/* Bodies of lanes, and of a single run. */
-static const char *const body_names[2][2] = {{"next", "first"}, {"next_packed", "first_packed"}};
+enum { LANES = 8, CACHE_LINE = 64 };
 
-static bool write_file(const expansion *e, const char *path)
+/* Bodies of a single run, or of lanes. */
+static bool write_file(const expansion *e, int order, int lanes, const char *path)
 {
     dal__buffer text = {0};
     dal__buffer_print(&text,
+                      "#define DAL_LANES %d\n"
                       "#include \"kernel/elementary.h\"\n#include \"kernel/series.h\"\n"
-                      "#define DAL_WORK(place) w[place]\nenum { DAL_FIXED_TAYLOR_ORDER = %d };\n"
+                      "#define DAL_WORK(place) dal_num(w[place])\n"
+                      "enum { DAL_FIXED_TAYLOR_ORDER = %d };\n"
                       "#define DAL_FIXED_UNIT_OF_TIME %g\n",
-                      STRIDE, e->unit);
-    for (int body = 0; body < 4; body++) {
-        dal__buffer_print(&text, "void %s(const double *w, int k, double (*c)[%d], double *l)\n{\n",
-                          body_names[body / 2][body % 2], STRIDE + 1);
-        dal__buffer_append(&text, "    (void)w, (void)k, (void)l;\n");
-        dal__taylor_write(e->taylor, e->tapes, body % 2 ? DAL__FIRST : DAL__NEXT, body / 2, &text);
+                      lanes, order, e->unit);
+    for (int first = 0; first < 2; first++) {
+        dal__buffer_print(&text,
+                          "void %s(const double *w, int k, num *memory, num *l)\n{\n"
+                          "    num (*const c)[%d] = (num (*)[%d])memory;\n"
+                          "    (void)w, (void)k, (void)l;\n",
+                          first ? "first" : "next", order + 1, order + 1);
+        dal__taylor_write(e->taylor, e->tapes, first ? DAL__FIRST : DAL__NEXT, lanes == 1, &text);
         dal__buffer_append(&text, "}\n");
     }
     FILE *file = fopen(path, "w");
@@ -231,41 +235,95 @@ static bool write_file(const expansion *e, const char *path)
     return good;
 }
 
-typedef void body(const double *w, int k, double (*c)[STRIDE + 1], double *l);
+typedef void body(const double *w, int k, double *memory, double *l);
 
-/* All coefficients of all series by compiled bodies; whether they are e's. */
-static bool run_compiled(const expansion *e, void *handle, const char *const *name,
-                         const double *in)
+/* Memory of as many numbers, which are NaN. */
+static double *numbers(size_t count)
 {
-    void *at[] = {dlsym(handle, name[0]), dlsym(handle, name[1])};
+    const size_t bytes = (count * sizeof(double) / CACHE_LINE + 1) * CACHE_LINE;
+    double *x = aligned_alloc(CACHE_LINE, bytes);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(x);
+    memset(x, -1, bytes);
+    return x;
+}
+
+/* The coefficients below an order of all series by compiled bodies, from the same inputs in all
+ * lanes; whether they are e's, where these have a value. */
+static bool run_compiled(const expansion *e, int order, int lanes, void *handle, const double *in)
+{
+    void *at[] = {dlsym(handle, "next"), dlsym(handle, "first")};
     body *bodies[2];
     CU_ASSERT_FATAL(at[0] && at[1]);
     memcpy(bodies, at, sizeof bodies);
-    const size_t slots = (size_t)e->taylor->slots;
-    double *memory = formula_work(slots * (STRIDE + 1));
-    double *packed = formula_work((size_t)dal__taylor_packed(e->taylor) * (STRIDE + 1));
-    double(*c)[STRIDE + 1] = (double(*)[STRIDE + 1]) memory;
-    memset(memory, 0, slots * (STRIDE + 1) * sizeof *memory);
+    const size_t slots = (size_t)e->taylor->slots, stride = (size_t)order + 1;
+    const size_t extra = (size_t)dal__taylor_extra(e->taylor, lanes == 1, order);
+    const size_t width = (size_t)lanes;
+    double *memory = numbers(slots * stride * width), *l = numbers(extra * stride * width);
     bool same = true;
-    for (int k = 0; k < STRIDE; k++) {
-        for (int i = 0; i < INPUTS; i++) c[i][k] = in[k * INPUTS + i];
-        bodies[k == 0](e->work, k, c, packed);
+    for (size_t k = 0; k < (size_t)order; k++) {
+        for (size_t i = 0; i < INPUTS * width; i++)
+            memory[(i / width * stride + k) * width + i % width] = in[k * INPUTS + i / width];
+        bodies[k == 0](e->work, (int)k, memory, l);
     }
     for (size_t i = 0; i < slots; i++)
-        same &= memcmp(c[i], e->memory + i * STRIDE, STRIDE * sizeof(double)) == 0;
+        for (size_t k = 0; k < (size_t)order && !isnan(e->memory[i * STRIDE + k]); k++)
+            for (size_t lane = 0; lane < width; lane++)
+                same &= memcmp(memory + (i * stride + k) * width + lane, e->memory + i * STRIDE + k,
+                               sizeof *memory) == 0;
     free(memory);
-    free(packed);
+    free(l);
     return same;
 }
 
+/* Compiles bodies with options of the compiler, and compares them with the interpreted ones. */
+static void check_compiled(const expansion *e, int order, int lanes, const char *options,
+                           const double *in)
+{
+    char folder[] = "/tmp/dal-taylor-XXXXXX", source[64], path[64], command[512];
+    CU_ASSERT_PTR_NOT_NULL_FATAL(mkdtemp(folder));
+    snprintf(source, sizeof source, "%s/series.c", folder);
+    snprintf(path, sizeof path, "%s/series.so", folder);
+    snprintf(command, sizeof command,
+             "cc -std=gnu11 -w -Wno-psabi %s -ffp-contract=off -shared -fPIC -Ilib -o %s %s -lm",
+             options, path, source);
+    CU_ASSERT_FATAL(write_file(e, order, lanes, source));
+    CU_ASSERT_EQUAL_FATAL(system(command), 0);
+    void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(handle);
+    CU_ASSERT(run_compiled(e, order, lanes, handle, in));
+    dlclose(handle);
+    unlink(path);
+    unlink(source);
+    rmdir(folder);
+}
+
 /* Written bodies have the bits of the interpreted ones, whatever the compiler does. */
+static void check_written(const char *const *formulas, int count, int order, const double *in)
+{
+    double out[MAX_FORMULAS];
+    char machine[128];
+    expansion e = expand_some(formulas, count, count, 2);
+    snprintf(machine, sizeof machine, "-O2%s", compiler_machine());
+    e.unit = 0.25;
+    memset(e.memory, -1, (size_t)e.taylor->slots * STRIDE * sizeof *e.memory);
+    for (int k = 0; k < STRIDE; k++)
+        dal__taylor_run_x1(e.taylor, e.unit, k, STRIDE, in + k * INPUTS, e.work, e.memory);
+    dal__taylor_read_x1(e.taylor, 0, count, ORDER, STRIDE, e.work, e.memory, out);
+    for (int i = 0; i < count; i++) CU_ASSERT(isfinite(out[i]));
+    check_compiled(&e, order, 1, "-O0", in);
+    check_compiled(&e, order, 1, machine, in);
+    check_compiled(&e, order, LANES, machine, in);
+    expand_free(&e);
+}
+
+/* Of programs with few sums and with many, whose pairs of orders begin with even orders or odd
+ * ones. */
 static void test_written(void)
 {
-    const char *const levels[][2] = {{"-O0", ""}, {"-O2", ""}, {"-O3", compiler_machine()}};
-    const char *formulas[MAX_FORMULAS] = {"if(a < b, x, y)", "x/a", "b - x"};
-    double in[STRIDE * INPUTS], out[MAX_FORMULAS];
-    char folder[] = "/tmp/dal-taylor-XXXXXX", source[64], path[64], command[512];
-    int count = 3;
+    const char *formulas[MAX_FORMULAS] = {"if(a < b, x, y)", "x/a", "b - x", "x*y*z", "x^2/y"};
+    double in[STRIDE * INPUTS];
+    const int few = 5;
+    int count = few;
     for (size_t i = 0; i < sizeof closed / sizeof *closed; i++)
         formulas[count++] = closed[i].formula;
     for (size_t i = 0; i < 2 * sizeof equal / sizeof *equal; i++)
@@ -273,32 +331,9 @@ static void test_written(void)
     if (!compiler_there()) return;
     general(in);
     in[0] = 0.8; /* where asin has a value */
-    expansion e = expand_some(formulas, count, count, 2);
-    e.unit = 0.25;
-    memset(e.memory, 0, (size_t)e.taylor->slots * STRIDE * sizeof *e.memory);
-    for (int k = 0; k < STRIDE; k++)
-        dal__taylor_run_x1(e.taylor, e.unit, k, STRIDE, in + k * INPUTS, e.work, e.memory);
-    dal__taylor_read_x1(e.taylor, 0, count, ORDER, STRIDE, e.work, e.memory, out);
-    CU_ASSERT(isfinite(out[0]) && isfinite(out[count - 1]));
-    CU_ASSERT_PTR_NOT_NULL_FATAL(mkdtemp(folder));
-    snprintf(source, sizeof source, "%s/series.c", folder);
-    CU_ASSERT_FATAL(write_file(&e, source));
-    for (int i = 0; i < 3; i++) {
-        snprintf(path, sizeof path, "%s/series%d.so", folder, i);
-        snprintf(command, sizeof command,
-                 "cc -std=gnu11 %s%s -ffp-contract=off -shared -fPIC -Ilib -o %s %s -lm",
-                 levels[i][0], levels[i][1], path, source);
-        CU_ASSERT_EQUAL_FATAL(system(command), 0);
-        void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-        CU_ASSERT_PTR_NOT_NULL_FATAL(handle);
-        CU_ASSERT(run_compiled(&e, handle, body_names[0], in));
-        CU_ASSERT(run_compiled(&e, handle, body_names[1], in));
-        dlclose(handle);
-        unlink(path);
-    }
-    unlink(source);
-    rmdir(folder);
-    expand_free(&e);
+    check_written(formulas, few, STRIDE, in);
+    check_written(formulas, count, STRIDE, in);
+    check_written(formulas, count, STRIDE - 1, in);
 }
 
 /* What has a jump or a kink is named, but where it is constant. */

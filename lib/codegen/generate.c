@@ -38,13 +38,12 @@ static dal_status check_method(dal__generation *g, dal_error *error)
     return DAL_STATUS_OK;
 }
 
-/* Series in the memory of a step; packed ones come after the others, and one more is for their
- * alignment. */
+/* Series in the memory of a step; one more is for the alignment of those after the slots. */
 static int count_series(const dal__generation *g)
 {
     const dal__taylor *taylor = g->programs->taylor[g->layout.lifted];
     if (g->product == DAL__PRODUCT_OBSERVE || !(g->kernel & DAL_KERNEL_SERIES)) return 0;
-    return taylor->slots + (g->lanes == 1 ? dal__taylor_packed(taylor) + 1 : 0);
+    return taylor->slots + dal__taylor_extra(taylor, g->lanes == 1, g->layout.taylor_order) + 1;
 }
 
 static dal_status check_size(const dal__generation *g, dal_error *error)

@@ -166,13 +166,24 @@ static int count_packed(const dal__taylor *taylor, sum_kind kind)
     return (count_sums(taylor, kind) + DAL__PACK - 1) / DAL__PACK * DAL__PACK;
 }
 
-int dal__taylor_packed(const dal__taylor *taylor)
+/* Steps with more sums form interiors in pairs of orders (kernel/series.h). */
+enum { FEW_SUMS = 8 };
+
+static bool has_few_sums(const dal__taylor *taylor)
 {
-    return 2 * count_packed(taylor, PRODUCTS) + count_packed(taylor, SQUARES);
+    return count_sums(taylor, PRODUCTS) + count_sums(taylor, SQUARES) <= FEW_SUMS;
 }
 
-/* Sums of lanes, each by itself. */
-static void write_sums(const writer *w)
+int dal__taylor_extra(const dal__taylor *taylor, bool packed, int order)
+{
+    const int products = packed ? count_packed(taylor, PRODUCTS) : count_sums(taylor, PRODUCTS);
+    const int squares = packed ? count_packed(taylor, SQUARES) : count_sums(taylor, SQUARES);
+    const int kept = has_few_sums(taylor) ? 0 : (2 * (products + squares) + order) / (order + 1);
+    return (packed ? 2 * products + squares : 0) + kept;
+}
+
+/* Few sums of lanes, each by itself. */
+static void write_few_sums(const writer *w)
 {
     for (int k = 0; k < w->taylor->sums; k++) {
         const dal__taylor_sum *sum = &w->taylor->sum[k];
@@ -184,25 +195,62 @@ static void write_sums(const writer *w)
     }
 }
 
-/* Sums of a single run, all interiors together.  To these the terms with order p = k - 1 are added;
- * for k <= 2 there are none, and p is the column of zeros. */
-static void write_packed_sums(const writer *w)
+/* The slots of the operands of sums of a kind. */
+static void write_slots(const writer *w, sum_kind kind)
 {
-    const int products = count_packed(w->taylor, PRODUCTS),
-              squares = count_packed(w->taylor, SQUARES);
-    int next[2] = {0, products};
-    dal__buffer_print(w->text,
-                      "    enum { products = %d, squares = %d };\n"
-                      "    num sum[products + squares + 1];\n"
-                      "    num *const r = l + products * (DAL_FIXED_TAYLOR_ORDER + 1),\n"
-                      "        *const q = r + products * (DAL_FIXED_TAYLOR_ORDER + 1);\n"
-                      "    const int p = k > 2 ? k - 1 : DAL_FIXED_TAYLOR_ORDER;\n"
-                      "    (void)r, (void)q, (void)p;\n"
-                      "    dal_product_interiors(l, r, products, k, sum);\n"
-                      "    dal_square_interiors(q, squares, k, sum + products);\n",
-                      products, squares);
     for (int k = 0; k < w->taylor->sums; k++) {
         const dal__taylor_sum *sum = &w->taylor->sum[k];
+        if (!sum->needed || is_square(sum) != (kind == SQUARES)) continue;
+        dal__buffer_print(w->text, kind == SQUARES ? "%u, " : "%u, %u, ", sum->a, sum->b);
+    }
+}
+
+/* sum[products + squares]: the interiors of all sums. */
+static void write_interiors(const writer *w, bool packed)
+{
+    if (packed)
+        dal__buffer_append(w->text,
+                           "    num *const r = l + products * (DAL_FIXED_TAYLOR_ORDER + 1),\n"
+                           "        *const q = r + products * (DAL_FIXED_TAYLOR_ORDER + 1);\n");
+    if (packed && has_few_sums(w->taylor)) {
+        dal__buffer_append(w->text, "    num sum[products + squares + 1];\n"
+                                    "    (void)r, (void)q;\n"
+                                    "    dal_product_interiors(l, r, products, k, sum);\n"
+                                    "    dal_square_interiors(q, squares, k, sum + products);\n");
+        return;
+    }
+    if (packed) {
+        dal__buffer_append(w->text,
+                           "    num *const kept = q + squares * (DAL_FIXED_TAYLOR_ORDER + 1);\n"
+                           "    dal_pair_packs(l, r, products, q, squares, k, "
+                           "DAL_FIXED_TAYLOR_ORDER, kept);\n");
+    } else {
+        dal__buffer_append(w->text, "    num *const kept = l;\n"
+                                    "    static const int slot[] = {");
+        write_slots(w, PRODUCTS);
+        write_slots(w, SQUARES);
+        dal__buffer_append(w->text, "0};\n"
+                                    "    dal_pair_lanes(c[0], slot, products, squares, k, "
+                                    "DAL_FIXED_TAYLOR_ORDER, kept);\n");
+    }
+    dal__buffer_append(w->text,
+                       "    const num *const sum = kept + k % 2 * (products + squares);\n");
+}
+
+/* To the interiors the terms with order p = k - 1 are added; for k <= 2 there are none, and p is
+ * the column of zeros. */
+static void write_sums(const writer *w, bool packed)
+{
+    const dal__taylor *taylor = w->taylor;
+    const int products = packed ? count_packed(taylor, PRODUCTS) : count_sums(taylor, PRODUCTS);
+    const int squares = packed ? count_packed(taylor, SQUARES) : count_sums(taylor, SQUARES);
+    int next[2] = {0, products};
+    dal__buffer_print(w->text, "    enum { products = %d, squares = %d };\n", products, squares);
+    write_interiors(w, packed);
+    dal__buffer_append(w->text, "    const int p = k > 2 ? k - 1 : DAL_FIXED_TAYLOR_ORDER;\n"
+                                "    (void)sum, (void)p;\n");
+    for (int k = 0; k < taylor->sums; k++) {
+        const dal__taylor_sum *sum = &taylor->sum[k];
         const uint32_t a = sum->a, b = sum->b;
         if (!sum->needed) continue;
         if (is_square(sum))
@@ -249,10 +297,10 @@ void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, dal__
         dal__buffer_append(text, "    const num inverse = dal_inverse(k);\n"
                                  "    const num unit_inverse = DAL_FIXED_UNIT_OF_TIME * inverse;\n"
                                  "    (void)inverse, (void)unit_inverse;\n");
-        if (packed)
-            write_packed_sums(&w);
+        if (packed || !has_few_sums(taylor))
+            write_sums(&w, packed);
         else
-            write_sums(&w);
+            write_few_sums(&w);
     }
     for (int n = 0; n < taylor->length; n++) {
         w.operation = &taylor->code[n];
@@ -261,7 +309,7 @@ void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, dal__
         else
             write_next(&w);
     }
-    if (packed && which == DAL__FIRST)
+    if ((packed || !has_few_sums(taylor)) && which == DAL__FIRST)
         dal__buffer_print(text,
                           "    for (int i = 0; i < %d; i++)\n"
                           "        c[i][1] = c[i][DAL_FIXED_TAYLOR_ORDER] = dal_num(0.0);\n",
