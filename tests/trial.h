@@ -24,7 +24,7 @@ void trial_add(trial *t, const double *numbers, int count);
 void trial_add_number(trial *t, double number);
 void trial_add_run(trial *t, const dal_run *run); /* its state */
 
-/* Every call of the work on a system fails, or 600 of them. */
+/* Every call of the work on a system fails, or 600 of them, a third in a quick run. */
 void trial_each_call(const char *text, const char *method, dal_space space, double tolerance,
                      trial_work *work);
 /* Likewise of work that makes runs of its own of a model, whose system is changed. */

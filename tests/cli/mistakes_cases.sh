@@ -44,6 +44,7 @@ case: values that no option has
 2 | order skate.yaml --integrators rk4 --step 0 --time 1 | says ^dalembert: --step: it must be positive$
 2 | predict skate.yaml --integrator rk4 --step $(seq -s, 65) --time 1 | says ^dalembert: more than 64 methods and steps$
 2 | explain skate.yaml --integrator rk4 --step 1e-10 --time 1 | says ^dalembert: 1e\+10 steps: explain takes at most 20+$
+2 | list --json --markdown | says ^dalembert: list: --json excludes --markdown$
 2 | study --shard 1 | says ^dalembert: --shard: '1' is not K/N$
 2 | study --shard 1/2x | says ^dalembert: --shard: '1/2x' is not K/N$
 2 | merge $(seq 1025) --output there | says ^dalembert: merge: more than 1024 directories$
