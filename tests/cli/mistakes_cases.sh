@@ -24,6 +24,11 @@ expected skate >nearly.yaml
 expected knife >nowhere.yaml
 mkdir -p folder/manifest.json more
 printf '{} x' >more/manifest.json
+mkdir colon comma name value
+printf '{"a" 1}' >colon/manifest.json
+printf '{"a": 1 "b": 2}' >comma/manifest.json
+printf '{"a": 1,}' >name/manifest.json
+printf '{"a": nul}' >value/manifest.json
 run="--integrator rk4 --step 0.1 --time 1"
 table <<'END'
 case: a file beside its name
@@ -50,6 +55,10 @@ case: values that no option has
 2 | merge $(seq 1025) --output there | says ^dalembert: merge: more than 1024 directories$
 2 | merge folder --output there | says ^dalembert: 'folder/manifest.json' is a directory$
 2 | resume more | says ^dalembert: more/manifest.json:1:4: no JSON: there is more after it$
+2 | resume colon | says ^dalembert: colon/manifest.json:1:6: no JSON: a colon is expected$
+2 | resume comma | says ^dalembert: comma/manifest.json:1:9: no JSON: a comma or an end is expected$
+2 | resume name | says ^dalembert: name/manifest.json:1:9: no JSON: a name in quotes is expected$
+2 | resume value | says ^dalembert: value/manifest.json:1:7: no JSON: a value is expected$
 case: velocities
 2 | run skate.yaml $run --columns vy | says no column 'vy'; did you mean 'y''\?$
 2 | run skate.yaml $run --start vx=2 | says unknown start name 'vx'; did you mean 'x''\?$
