@@ -60,8 +60,8 @@ class Matrix {
         const link = cell.page
             ? html('a', {href: `../${encodeURI(cell.run)}/report/index.html`}, 'page of this run')
             : html('code', {}, `dalembert report DIR/${cell.run}`);
-        place.append(html('section', {class: 'unfolded', 'aria-label': `${cell.method}, ${system.label}`},
-            html('strong', {}, `${cell.method}, ${system.label}, h = ${h}`), ' ',
+        place.append(html('section', {class: 'unfolded', 'aria-label': `${cell.integrator}, ${system.label}`},
+            html('strong', {}, `${cell.integrator}, ${system.label}, h = ${h}`), ' ',
             html('button', {type: 'button', click: () => {
                 this.unfold(row, button, system, cell);
                 button.focus();
@@ -69,7 +69,7 @@ class Matrix {
             holder, html('p', {}, cell.page ? 'The ' : 'Its page is made by ', link)));
         button.setAttribute('aria-expanded', 'true');
         const names = Object.keys(QUANTITIES).filter(q => cell[q]);
-        plot(holder, names.map(q => system.curve(cell, q, QUANTITIES[q])), 'Maxima up to t', `${cell.method}, ${system.label}`);
+        plot(holder, names.map(q => system.curve(cell, q, QUANTITIES[q])), 'Maxima up to t', `${cell.integrator}, ${system.label}`);
     }
 
     sort(order) {
@@ -134,7 +134,7 @@ function addChooser(system) {
     const cells = [...system.found.values()];
     const quantities = Object.keys(QUANTITIES).filter(q => cells.some(cell => cell[q]));
     if (!quantities.length) return;
-    const methods = [...new Set(cells.map(cell => cell.method))];
+    const methods = [...new Set(cells.map(cell => cell.integrator))];
     const usual = ['rk4', 'gauss4', 'spark4', 'rk4+project'].filter(method => methods.includes(method));
     const chosen = new Set(usual.length ? usual : methods.slice(0, 2));
     const holder = html('div', {class: 'plot-holder'});
@@ -142,7 +142,7 @@ function addChooser(system) {
     const draw = () => {
         const {quantity, step} = wanted;
         const found = [...chosen].map(method => system.find(method, step)).filter(c => c && c[quantity]);
-        plot(holder, found.map(cell => system.curve(cell, quantity, cell.method)), QUANTITIES[quantity], system.label);
+        plot(holder, found.map(cell => system.curve(cell, quantity, cell.integrator)), QUANTITIES[quantity], system.label);
     };
     const choose = name => value => {
         wanted[name] = value;

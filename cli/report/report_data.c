@@ -107,7 +107,7 @@ static void write_cell(json_writer *data, const study_page *s, int row, int step
     const cell_start start = is_cell(s, row, "start", "displaced") ? DISPLACED : ON_SURFACE;
     char *path = cli_format("%s/%s/report/index.html", s->r->directory, run);
     json_open(data, NULL, JSON_ON_ONE_LINE);
-    json_put_text(data, "method", get_cell(s, row, "integrator"));
+    json_put_text(data, "integrator", get_cell(s, row, "integrator"));
     json_put_integer(data, "step", step);
     json_put_text(data, "run", run);
     if (file_exists(path)) json_put_flag(data, "page", true);

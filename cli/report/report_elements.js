@@ -64,7 +64,7 @@ class System {
         this.place = place;
         this.found = new Map();
         for (const part of this.cells || [])
-            this.found.set(`${part.method} ${part.step}`, {...part, ...this.find(part.method, part.step)});
+            this.found.set(`${part.integrator} ${part.step}`, {...part, ...this.find(part.integrator, part.step)});
     }
     find(method, step) {
         return this.found.get(`${method} ${step}`);

@@ -300,7 +300,7 @@ void motion_write(json_writer *data, const motion *m)
 #undef NUMBER_NAME
     };
     json_open(data, NULL, JSON_ON_ONE_LINE);
-    json_put_text(data, "method", m->method);
+    json_put_text(data, "integrator", m->method);
     json_put_rounded(data, "step", m->step);
     if (m->part[0]) json_put_text(data, "part", m->part);
     json_put_rounded(data, "start", m->start);

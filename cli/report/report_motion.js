@@ -8,7 +8,7 @@ const BODY_SIZE = 5.5; // half the length of a body; a path is 100 wide
 class Motion {
     constructor(data) {
         Object.assign(this, {part: ''}, data);
-        this.name = this.step ? `${this.method}, h = ${this.step}` : 'exact solution';
+        this.name = this.step ? `${this.integrator}, h = ${this.step}` : 'exact solution';
         for (const name of ['x', 'y', 'angle', 'steer', 'width', 'spin', 'wx', 'wy', 'wz']) {
             const [low, high, text] = data[name];
             this[name] = text ? levels(text).map(level => low + (high - low) * level / 65535)
@@ -185,7 +185,7 @@ class Stage {
         this.view = view;
         this.actors = motions.map((motion, i) => new Actor(motion, view, colours[i], motions.length === 1));
         this.scale = svg('path', {class: 'scale'});
-        const names = motions.map(m => m.step ? m.method : m.name).join(' and '), {body, axes} = motions[0];
+        const names = motions.map(m => m.step ? m.integrator : m.name).join(' and '), {body, axes} = motions[0];
         this.picture = svg('svg', {role: 'img', class: 'stage', tabindex: 0,
             'aria-label': `Motion of a ${body} by ${names} over ${axes.join(' and ')}`,
             keydown: event => this.press(event, redraw), pointerdown: event => view.is3D && this.picture.setPointerCapture(event.pointerId),

@@ -34,7 +34,7 @@ def print_motions(parts):
         poses = [numbers(motion[name], frames) for name in ("x", "y", "angle", "steer", "width")]
         for i, pose in enumerate(zip(*poses, strict=True)):
             time = motion["start"] + (motion["end"] - motion["start"]) * i / (frames - 1)
-            print(motion["method"], time, *pose)
+            print(motion["integrator"], time, *pose)
 
 
 def print_curves(figure):
@@ -74,19 +74,19 @@ def compare_envelopes(parts, directory):
             series = list(csv.DictReader(file))
         for cell in part["cells"]:
             if cell["step"] not in range(len(part["steps"])):
-                print(f"{part['label']}, {cell['method']}: step {cell['step']}")
+                print(f"{part['label']}, {cell['integrator']}: step {cell['step']}")
                 continue
             step = part["steps"][cell["step"]]
             starts = ("displaced",) if "H" in cell else ("physical", "surface")
             for name in columns.keys() & cell.keys():
-                rows = [r for r in series if r["integrator"] == cell["method"] and
+                rows = [r for r in series if r["integrator"] == cell["integrator"] and
                         math.isclose(float(r["step"]), step["h"]) and r["start"] in starts]
                 first = rows[0]["start"]
                 rows = [r for r in rows if r["start"] == first]
                 fault = compare_envelope(levels(cell[name]), step["t"], rows, columns[name])
                 count += 1
                 if fault:
-                    print(f"{part['label']}, {cell['method']}: {fault}")
+                    print(f"{part['label']}, {cell['integrator']}: {fault}")
     print(f"{count} envelopes")
 
 
