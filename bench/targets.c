@@ -5,8 +5,9 @@
  * Targets of the first two coordinates and of the third, an angle, are uniform in |x|, |y| <= 2 and
  * |phi| <= pi (seed 1), T = 2, by gauss8 with h = 0.02.  These and the coordinates NAME start at 0,
  * NAME end there; others are free at the end.  A target is reached from the straight line where the
- * first guess leads to it, in all where a further one does.  Prints the targets that need further
- * ones, progress after ten, and the counts; docs/steering.md has what came out. */
+ * first guess leads to it, in all where a further one does or the end of another motion is moved to
+ * it.  Prints the targets that need these, progress after ten, and the counts; docs/steering.md has
+ * what came out. */
 #define _POSIX_C_SOURCE 200809L
 #include "bench.h"
 #include "core/vectors.h"
@@ -65,9 +66,9 @@ static int steer_all(dal_model *model, const dal_run_spec *spec, int count, dal_
         const bool is_reached = steering->extremal->status == DAL_STATUS_OK;
         reached += is_reached;
         straight += is_reached && guesses == 1;
-        if (guesses > 1)
-            printf("%d (%.3g, %.3g, %.3g): %s, %d guesses\n", k + 1, to[0].value, to[1].value,
-                   to[2].value, is_reached ? "reached" : "not reached", guesses);
+        if (guesses != 1)
+            printf("%d (%.3g, %.3g, %.3g): %sreached, %s\n", k + 1, to[0].value, to[1].value,
+                   to[2].value, is_reached ? "" : "not ", guesses ? "guesses" : "an end moved");
         if ((k + 1) % PROGRESS == 0 || k + 1 == count)
             printf("%d targets: %d from the straight line, %d in all, %.0f ms each\n", k + 1,
                    straight, reached, 1e3 * (double)(clock() - begin) / CLOCKS_PER_SEC / (k + 1));

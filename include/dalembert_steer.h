@@ -36,7 +36,8 @@ typedef struct dal_steer_settings {
     bool aim;   /* p = pi = 0 and S = 0: natural motions whose velocities on D = 0 at the start are
                    free and hit the target */
     int starts; /* first guesses: the straight line and randomly bent ones; 1.  Where none of
-                            them leads to the target up to 8 more are made. */
+                   them leads to the target up to 8 more are made, and then the end of a motion to
+                   another one is moved to it. */
     unsigned long long seed; /* of these; 1 */
     int iterations;          /* max for each guess; 200 */
     double tolerance;        /* max residual, relative to how large the components are; 1e-11 */
@@ -91,7 +92,7 @@ typedef struct dal_steer_observer {
      * motions yet. */
     dal_status (*reach)(void *user, const dal_steering *steering);
     /* Called before each iteration with the first guess, from 0, that it is of, and the residual of
-     * the last one. */
+     * the last one; -1 in its place where the end of a motion is moved to the target. */
     dal_status (*step)(void *user, int guess, int iteration, double residual);
 } dal_steer_observer;
 

@@ -1,6 +1,9 @@
 /* test_steer_ends.c - targets that are not reached, that cannot be, and what is refused. */
 #include "core/vectors.h"
 #include "fixtures.h"
+#include "quick.h"
+#include "steer/continuation.h"
+#include "steer/guess.h"
 #include "steered.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -58,6 +61,103 @@ static void test_unreached(void)
     steered_find(&s, 1.0, along, 2);
     CU_ASSERT_DOUBLE_EQUAL(s.best->S, 6.0 * 0.25, 1e-11);
     CU_ASSERT_EQUAL(s.best->rank, 2);
+    steered_close(&s);
+}
+
+/* ---- targets to which no guess leads ---- */
+
+static dal_status note_guess(void *user, int guess, int iteration, double residual)
+{
+    int *last = user;
+    CU_ASSERT(iteration >= 0 && !(residual < 0.0));
+    CU_ASSERT(*last >= 0 || guess == -1); /* it comes last */
+    *last = guess;
+    return DAL_STATUS_OK;
+}
+
+/* The end of an elastic rod by its own equation phi'' = p1 sin phi - p2 cos phi, p = v - g being
+ * constant, which is integrated by rk4 in small steps from the start that was found. */
+static void bend_rod(const double *z, double T, double out[3])
+{
+    enum { STEPS = 4000 };
+    const double h = T / STEPS, p1 = z[3] - z[6], p2 = z[4] - z[7];
+    double y[4] = {z[0], z[1], z[2], z[5]};
+    for (int k = 0; k < STEPS; k++) {
+        double rate[4] = {0}, sum[4] = {0};
+        for (int stage = 0; stage < 4; stage++) {
+            const double part = stage == 0 ? 0.0 : stage == 3 ? h : h / 2.0;
+            const double phi = y[2] + part * rate[2], turn = y[3] + part * rate[3];
+            rate[0] = cos(phi);
+            rate[1] = sin(phi);
+            rate[2] = turn;
+            rate[3] = p1 * sin(phi) - p2 * cos(phi);
+            for (int i = 0; i < 4; i++) sum[i] += (stage % 3 == 0 ? h / 6.0 : h / 3.0) * rate[i];
+        }
+        for (int i = 0; i < 4; i++) y[i] += sum[i];
+    }
+    memcpy(out, y, 3 * sizeof *out);
+}
+
+/* A rod clamped at both ends, to which no line or bent line leads. */
+static void test_continuation(void)
+{
+    static const char rod[] = "coordinates: [x, y, phi]\nlagrangian: (x'^2 + y'^2 + phi'^2)/2\n"
+                              "constraints: [x' - cos(phi), y' - sin(phi)]\n"
+                              "mechanics: vakonomic\nstart: {x': 1}\n";
+    const dal_setting target[] = {{"x", 0.776}, {"y", -0.434}, {"phi", 1.763}};
+    int last = 0;
+    const dal_steer_observer observer = {&last, NULL, note_guess};
+    double end[3];
+    steered s;
+    if (case_stride(2) > 1) return; /* as many steps as all other tests */
+    steered_open(&s, rod, DAL_EFFORT_IDENTITY, "gauss8", 0.02);
+    s.settings.rest = false;
+    s.settings.target = target;
+    s.settings.targets = 3;
+    s.settings.iterations = 40;
+    CU_ASSERT_EQUAL_FATAL(
+        dal_steer_create(&s.steering, s.model, &s.spec, 1.0, &s.settings, &observer, &s.record),
+        DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(last, -1);
+    CU_ASSERT_EQUAL(s.steering->count, 1);
+    s.best = s.steering->extremal;
+    CU_ASSERT_EQUAL(s.best->status, DAL_STATUS_OK);
+    CU_ASSERT(s.best->residual <= s.settings.tolerance && s.best->distance < 1e-10);
+    bend_rod(steered_row(&s, 0), 1.0, end);
+    for (int i = 0; i < 3; i++) CU_ASSERT_DOUBLE_EQUAL(end[i], target[i].value, 1e-8);
+    steered_close(&s);
+}
+
+/* Straight to the side of a sleigh, where the straight line is singular: from a target near it. */
+static void test_continuation_of_lift(void)
+{
+    const dal_setting target[] = {{"x", 0.0}, {"y", 1.0}, {"phi", 0.0}};
+    dal__newton_result result;
+    dal__problem p;
+    dal__shooting shooting;
+    steered s;
+    if (case_stride(2) > 1) return;
+    steered_open(&s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.08);
+    s.settings.target = target;
+    s.settings.targets = 3;
+    CU_ASSERT_EQUAL_FATAL(
+        dal__problem_open(&p, s.model, &s.spec, 2.0, &s.settings, NULL, &s.record), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal__shooting_open(&shooting, &p, p.steps, DAL__STEER_PIECES),
+                          DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal__continuation_solve(&shooting, &result), DAL_STATUS_OK);
+    CU_ASSERT(result.residual <= s.settings.tolerance);
+    for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(p.target[i], target[i].value);
+    s.spec.start_count = 0;
+    dal_run *run = fixture_run(&s.spec);
+    CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, shooting.point, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 25, NULL), DAL_STATUS_OK);
+    for (int i = 0; i < 3; i++) {
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[i], target[i].value, 1e-7);
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[3 + i], 0.0, 1e-7);
+    }
+    dal_run_free(run);
+    dal__shooting_close(&shooting);
+    dal__problem_close(&p);
     steered_close(&s);
 }
 
@@ -234,6 +334,8 @@ void suite_steer_ends(void)
 {
     CU_pSuite suite = CU_add_suite("what steering can reach", NULL, NULL);
     CU_add_test(suite, "targets that are not reached", test_unreached);
+    CU_add_test(suite, "an end that is moved", test_continuation);
+    CU_add_test(suite, "an end that is moved, on the lift", test_continuation_of_lift);
     CU_add_test(suite, "a holonomic constraint, closed form", test_circle);
     CU_add_test(suite, "two masses, one pushed", test_controlled);
     CU_add_test(suite, "targets on other leaves", test_leaves);

@@ -59,7 +59,9 @@ static dal_status report_iteration(void *user, int guess, int iteration, double 
     char size[SCREEN_NUMBER];
     const bool is_known = isfinite(residual) && residual > 0.0;
     char name[64];
-    if (guess < s->starts)
+    if (guess < 0)
+        snprintf(name, sizeof name, "moving the end of a motion to the target");
+    else if (guess < s->starts)
         snprintf(name, sizeof name, "guess %d of %lld", guess + 1, s->starts);
     else /* none of these leads to the target */
         snprintf(name, sizeof name, "further guess %lld", guess + 1 - s->starts);

@@ -332,6 +332,7 @@ dal_status dal__problem_open(dal__problem *p, dal_model *model, const dal_run_sp
     p->multipliers = system->multipliers;
     p->is_lifted = !settings->aim && p->multipliers == 0;
     p->from = spec->start_time;
+    p->limit = settings->iterations;
     p->constraints = system->m;
     p->holonomic = system->holonomic;
     p->spec.options.space = p->is_lifted ? DAL_LIFTED : DAL_PHYSICAL;
@@ -368,7 +369,7 @@ dal_status dal__problem_iterate(dal__problem *p)
 {
     if (p->observer && p->observer->step)
         DAL_TRY(p->observer->step(p->observer->user, p->guess, p->iterations, p->residual));
-    if (p->iterations >= p->settings->iterations) return DAL_STATUS_NOT_CONVERGED;
+    if (p->iterations >= p->limit) return DAL_STATUS_NOT_CONVERGED;
     p->iterations++;
     return DAL_STATUS_OK;
 }

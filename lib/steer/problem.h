@@ -36,8 +36,9 @@ typedef struct dal__problem {
     int *momentum;              /* [n + n*unknowns] nodes: momenta of vakonomic motion, and their
                                    gradients by q, v, g; else NULL */
     double *value;              /* [symbols] of the nodes */
-    int guess;                  /* that is tried, from 0 */
+    int guess;                  /* that is tried, from 0; -1: the end of a motion is moved */
     int iterations;             /* of it */
+    int limit;                  /* max iterations of what is being solved */
     double residual;            /* the last one */
 } dal__problem;
 

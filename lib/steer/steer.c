@@ -1,145 +1,17 @@
-/* steer.c - finds extremals between two ends.
- *
- * From the straight line in q, or a bent one, Gauss-Newton on a coarse grid comes near an extremal,
- * Newton's method on multiple shooting finds the one of the coarse grid, and once more the one of
- * the steps of the run. */
+/* steer.c - finds extremals between two ends: from first guesses (guess.c) and, where none of them
+ * leads to the target, from a motion that is known, by moving its end (continuation.c). */
 #include "core/error.h"
 #include "core/vectors.h"
-#include "steer/direct.h"
+#include "steer/continuation.h"
+#include "steer/guess.h"
 #include "steer/leaf.h"
-#include "steer/newton.h"
 #include "steer/reach.h"
 #include "steer/vakonomic.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PIECES = 24, BENDS = 3, DIRECT_BEFORE_NEWTON = 8, MORE_GUESSES = 8 };
-
-/* ---- first guesses ---- */
-
-/* Points on a line from start to target, bent by sines of random sizes; multipliers of vakonomic
- * motion are the start's, and random ones are added. */
-static dal_status guess_points(dal__shooting *s)
-{
-    const double pi = 3.14159265358979323846;
-    dal__problem *p = s->problem;
-    const int n = p->n;
-    dal__random random = {p->settings->seed + (unsigned long long)p->guess};
-    double bend[BENDS];
-    memset(s->point, 0, (size_t)((s->pieces + 1) * p->dimension) * sizeof *s->point);
-    for (int i = 0; i < n; i++) {
-        const double length = p->target[i] - p->start[i], T = p->T - p->from;
-        for (int j = 0; j < BENDS; j++)
-            bend[j] = p->guess > 0 ? dal__uniform(&random) * fmax(fabs(length), p->unit[i]) : 0.0;
-        for (int k = 0; k <= s->pieces; k++) {
-            const double part = (dal__shooting_time(s, k) - p->from) / T;
-            double *z = s->point + k * p->dimension;
-            z[i] = p->start[i] + part * length;
-            z[n + i] = length / T;
-            for (int j = 0; j < BENDS; j++) {
-                z[i] += bend[j] * sin((j + 1) * pi * part);
-                z[n + i] += bend[j] * (j + 1) * pi / T * cos((j + 1) * pi * part);
-            }
-        }
-    }
-    for (int a = 2 * n; a < 2 * n + p->multipliers; a++) {
-        const double g = dal_run_state(p->run)[a];
-        const double change =
-            p->guess > 0 ? dal__uniform(&random) * fmax(fabs(g), p->unit[a]) : 0.0;
-        for (int k = 0; k <= s->pieces; k++) s->point[k * p->dimension + a] = g + change;
-    }
-    for (int k = 0; k <= s->pieces; k++) {
-        double *z = s->point + k * p->dimension;
-        if (p->is_lifted) z[2 * n] = p->e;
-        if (k > 0 && k < s->pieces && p->constraints > 0 &&
-            dal_evaluator_project_velocity(p->evaluator, dal__shooting_time(s, k), z, z + n) ==
-                DAL_STATUS_MEMORY)
-            return DAL_STATUS_MEMORY;
-        for (int i = 0; i < 2 * n; i++) {
-            if (k == 0 && (!p->is_free[0][i] || i < n)) z[i] = p->start[i];
-            if (k == s->pieces && !p->is_free[1][i]) z[i] = p->target[i];
-        }
-    }
-    return DAL_STATUS_OK;
-}
-
-/* Points of another grid, by lines between them. */
-static void interpolate_points(const dal__shooting *from, dal__shooting *to)
-{
-    const int dimension = from->problem->dimension;
-    for (int k = 0, j = 0; k <= to->pieces; k++) {
-        const double t = dal__shooting_time(to, k);
-        while (j < from->pieces - 1 && fabs(dal__shooting_time(from, j + 1) - from->problem->from) <
-                                           fabs(t - from->problem->from))
-            j++;
-        const double begin = dal__shooting_time(from, j), end = dal__shooting_time(from, j + 1);
-        const double part = k == to->pieces ? 1.0 : (t - begin) / (end - begin);
-        const double *z = from->point + j * dimension;
-        for (int i = 0; i < dimension; i++)
-            to->point[k * dimension + i] = z[i] + part * (z[dimension + i] - z[i]);
-    }
-}
-
-/* ---- one guess ---- */
-
-/* Errors that end the search for a motion. */
-static bool is_final(const dal__problem *p, dal_status status)
-{
-    return status == DAL_STATUS_MEMORY || status == DAL_STATUS_INTERRUPTED ||
-           p->iterations >= p->settings->iterations;
-}
-
-/* By Gauss-Newton until Newton's method converges. */
-static dal_status solve_directly(dal__shooting *s, dal__newton_result *result)
-{
-    dal__problem *p = s->problem;
-    dal__direct d;
-    const size_t bytes = (size_t)((s->pieces + 1) * p->dimension) * sizeof(double);
-    double *saved = malloc(bytes);
-    dal_status status = saved ? dal__direct_open(&d, s) : DAL_STATUS_MEMORY;
-    for (int i = 0; status == DAL_STATUS_OK; i++) {
-        status = dal__direct_iterate(&d);
-        const bool is_near = d.jump < 0.02 && d.change < 0.3;
-        if (status != DAL_STATUS_OK || !(is_near || (i + 1) % DIRECT_BEFORE_NEWTON == 0)) continue;
-        memcpy(saved, s->point, bytes);
-        dal__direct_extremal(&d, s->point);
-        status = dal__newton(s, result);
-        if (status == DAL_STATUS_OK || is_final(p, status)) break;
-        memcpy(s->point, saved, bytes);
-        status = DAL_STATUS_OK;
-    }
-    if (saved) dal__direct_close(&d);
-    free(saved);
-    return status;
-}
-
-/* From the guess p->guess to a motion in s, by a coarse grid where there are enough steps. */
-static dal_status solve_guess(dal__shooting *s, dal__newton_result *result)
-{
-    dal__problem *p = s->problem;
-    dal__shooting coarse;
-    dal_status status;
-    p->iterations = 0;
-    DAL_TRY(guess_points(s));
-    if (!p->is_lifted) return dal__newton(s, result);
-    if (s->steps < 2 * PIECES) return solve_directly(s, result);
-    status = dal__shooting_open(&coarse, p, PIECES, PIECES);
-    if (status == DAL_STATUS_OK) {
-        status = guess_points(&coarse);
-        if (status == DAL_STATUS_OK) status = solve_directly(&coarse, result);
-        interpolate_points(&coarse, s);
-    }
-    dal__shooting_close(&coarse);
-    if (status != DAL_STATUS_OK && is_final(p, status)) {
-        if (status != DAL_STATUS_MEMORY) dal__shooting_move(s, s->point, s->end);
-        return status;
-    }
-    if (status == DAL_STATUS_OK) status = dal__newton(s, result);
-    if (status == DAL_STATUS_OK || is_final(p, status)) return status;
-    DAL_TRY(guess_points(s));
-    return solve_directly(s, result);
-}
+enum { MORE_GUESSES = 8 };
 
 /* ---- results ---- */
 
@@ -249,13 +121,17 @@ static void add_extremal(const dal__problem *p, dal_steering *steering, dal_extr
         steering->count++;
 }
 
-static dal_status add_guess(dal__problem *p, dal__shooting *s, dal_steering *steering)
+/* Solves from a guess, or by continuation, and adds what comes out. */
+static dal_status add_solution(dal__shooting *s, dal_steering *steering,
+                               dal_status (*solve)(dal__shooting *, dal__newton_result *))
 {
+    dal__problem *p = s->problem;
     dal_extremal x = {.status = DAL_STATUS_OK};
     dal__newton_result result = {.residual = INFINITY};
     x.z = dal__numbers((size_t)steering->rows, (size_t)p->dimension);
     x.u = dal__numbers((size_t)steering->rows, (size_t)p->inputs + 1);
-    x.status = x.z && x.u ? solve_guess(s, &result) : DAL_STATUS_MEMORY;
+    p->iterations = 0;
+    x.status = x.z && x.u ? solve(s, &result) : DAL_STATUS_MEMORY;
     dal_status status = x.status == DAL_STATUS_MEMORY ? x.status : dal__reach_measure(s, &x);
     if (x.status != DAL_STATUS_OK && status != DAL_STATUS_MEMORY)
         status = dal__newton_measure(s, &result);
@@ -293,13 +169,16 @@ static dal_status fill_steering(dal__problem *p, dal_steering *steering)
                             ? p->observer->reach(p->observer->user, steering)
                             : DAL_STATUS_OK;
     if (status == DAL_STATUS_OK) status = dal__leaf_check(p, steering);
-    if (status == DAL_STATUS_OK) status = dal__shooting_open(&s, p, p->steps, PIECES);
+    if (status == DAL_STATUS_OK) status = dal__shooting_open(&s, p, p->steps, DAL__STEER_PIECES);
     bool is_found = false;
     for (p->guess = 0; status == DAL_STATUS_OK && p->guess < starts + (is_found ? 0 : MORE_GUESSES);
          p->guess++) {
-        status = add_guess(p, &s, steering);
+        p->limit = p->settings->iterations;
+        status = add_solution(&s, steering, dal__guess_solve);
         is_found = steering->count > 0 && steering->extremal->status == DAL_STATUS_OK;
     }
+    if (status == DAL_STATUS_OK && !is_found)
+        status = add_solution(&s, steering, dal__continuation_solve);
     dal__shooting_close(&s);
     return status == DAL_STATUS_INTERRUPTED ? DAL_STATUS_OK : status;
 }

@@ -127,7 +127,7 @@ def steer(system: SystemLike, target: Settings, integrator: str | None = None, t
         Components of the start that are free, too.
     starts : int
         First guesses: the straight line, and bent ones that are drawn by the seed. Where none of them leads to the
-        target up to 8 more are made.
+        target up to 8 more are made, and then the end of a motion to another one is moved to it.
     seed : int
     max_iterations : int
         For each guess.
