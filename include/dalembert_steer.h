@@ -52,7 +52,8 @@ typedef struct dal_extremal {
     double S;         /* the action, e (pi_e(T) - pi_e(0)); int L dt of vakonomic motion */
     double residual;  /* the largest jump between its pieces and distance from the ends, relative
                             to how large the components are */
-    double distance;  /* of its end from the target: max over the given components */
+    double distance;  /* of its end from the target: max over the given components; where a step
+                            fails before it infinite, as residual is, with S and max_D NaN */
     double max_D;     /* max |D_a| along it */
     double condition; /* of the bordered matrix of Newton's method: max over min singular value */
     int iterations;   /* that were taken */
@@ -61,7 +62,8 @@ typedef struct dal_extremal {
                             -1: not known, where an end has free components, with aim, and of
                             vakonomic motion */
     double first_conjugate; /* near the first of them; NaN: none */
-    double *z;              /* [rows*dimension] states, as dal_run_state orders them */
+    double *z;              /* [rows*dimension] states, as dal_run_state orders them; NaN after
+                               a step that fails, and u */
     double *u;              /* [rows*inputs] the inputs along it */
 } dal_extremal;
 

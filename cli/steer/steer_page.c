@@ -52,8 +52,10 @@ static void write_motions(report *r)
         fprintf(r->page, "Reaches the target at t = %.6g for S = %.9g, within %.2g.",
                 member_number(doc, root, "to"), member_number(doc, best, "S"),
                 member_number(doc, best, "distance"));
-    else
+    else if (isfinite(member_number(doc, best, "distance")))
         fprintf(r->page, "Ends %.3g from the target.", member_number(doc, best, "distance"));
+    else
+        fputs("Is not led to the target.", r->page);
     fputs("</strong> ", r->page);
     if (!is_found && count > 0) report_text(r->page, member_text(doc, best, "message"));
     fputs("</p>\n" REPORT_TABLE "<td>motion</td>", r->page);

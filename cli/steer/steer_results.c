@@ -69,9 +69,12 @@ static void say_best(screen *out, const steer_results *r)
     screen_number(x[2], s->end, DIGITS);
     if (best->status == DAL_STATUS_OK)
         screen_say(out, 2, "%s reaches the target at t = %s for S = %s", name, x[2], x[0]);
-    else
+    else if (isfinite(best->distance))
         screen_say(out, 2, "%s is %s from the target at t = %s; jumps of %s remain", name, x[1],
                    x[2], screen_number(x[3], best->residual, 2));
+    else
+        screen_say(out, 2, "%s is not led to t = %s: along the nearest motion a step fails", name,
+                   x[2]);
     screen_say(out, 2, "By %s, h = %s%s%s", method, screen_number(x[0], s->request.options.step, 4),
                steering->inputs > 0 ? ", effort " : "",
                steering->inputs > 0 ? dal_effort_name(s->system->effort) : "");
@@ -89,7 +92,7 @@ static void say_best(screen *out, const steer_results *r)
 static void add_number(screen_table *t, double x, int digits)
 {
     char text[SCREEN_NUMBER];
-    if (isnan(x))
+    if (!isfinite(x))
         screen_add_cell(t, SCREEN_FAINT, "-");
     else
         screen_add_cell(t, SCREEN_PLAIN, "%s", screen_number(text, x, digits));

@@ -15,15 +15,18 @@ enum { MORE_GUESSES = 8 };
 
 /* ---- results ---- */
 
-/* Rows of a motion, which begins again at each point; pi_e is added up. */
+/* Rows of a motion, which begins again at each point; pi_e is added up.  Where a step fails rows
+ * after it are NaN, and so is what the whole motion has. */
 static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
 {
     dal__problem *p = s->problem;
     const int d = p->dimension;
     double *z = s->scratch, values[64];
-    double action = 0.0;
-    out->max_D = 0.0;
+    double action = 0.0, max_D = 0.0;
+    out->S = out->max_D = NAN;
     out->distance = INFINITY;
+    for (long long i = 0; i < (p->steps + 1) * d; i++) out->z[i] = NAN;
+    for (long long i = 0; i < (p->steps + 1) * p->inputs; i++) out->u[i] = NAN;
     for (int k = 0; k < s->pieces; k++) {
         memcpy(z, s->point + k * d, (size_t)d * sizeof *z);
         for (int i = 0; i < 2 * p->n && k == 0; i++)
@@ -40,14 +43,15 @@ static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
             if (p->is_lifted) action = y[d - 1];
             if (p->constraints + p->holonomic <= 64) {
                 DAL_TRY(dal__problem_constraints(p, dal_run_time(p->run), y, values));
-                out->max_D = fmax(out->max_D, dal__max_abs(values, (size_t)p->constraints));
+                max_D = fmax(max_D, dal__max_abs(values, (size_t)p->constraints));
             }
             if (row == s->first[k + 1]) break;
-            if (p->multipliers > 0) DAL_TRY(dal__vakonomic_add_action(p, &out->S));
+            if (p->multipliers > 0) DAL_TRY(dal__vakonomic_add_action(p, &action));
             DAL_TRY(dal_run_step(p->run, p->error));
         }
     }
-    if (p->is_lifted) out->S = p->e * action;
+    out->S = p->is_lifted ? p->e * action : action;
+    out->max_D = max_D;
     out->distance = 0.0;
     for (int i = 0; i < 2 * p->n; i++)
         if (!p->is_free[1][i])
@@ -59,8 +63,13 @@ static void explain(const dal__problem *p, const dal_steering *steering, dal_ext
 {
     dal_error record = {.status = out->status};
     if (out->status == DAL_STATUS_OK) return;
-    if (out->status == DAL_STATUS_NOT_CONVERGED && steering->allowed >= 0 &&
-        steering->allowed < 2 * p->n - p->integrals)
+    if (out->status == DAL_STATUS_NOT_CONVERGED && !isfinite(out->distance))
+        dal__fail(&record, out->status,
+                  "no motion was found in %d iterations: along the nearest a step fails; a shorter "
+                  "time, smaller steps or a nearer target may help",
+                  out->iterations);
+    else if (out->status == DAL_STATUS_NOT_CONVERGED && steering->allowed >= 0 &&
+             steering->allowed < 2 * p->n - p->integrals)
         dal__fail(&record, out->status,
                   "no motion was found in %d iterations; the nearest is off by %.3g: only %d of "
                   "%d numbers of the end can be reached%s",
@@ -136,9 +145,9 @@ static dal_status add_solution(dal__shooting *s, dal_steering *steering,
     if (x.status != DAL_STATUS_OK && status != DAL_STATUS_MEMORY)
         status = dal__newton_measure(s, &result);
     x.iterations = p->iterations;
-    x.residual = result.residual;
     x.condition = result.condition;
     if (status != DAL_STATUS_MEMORY) status = fill_rows(s, &x);
+    x.residual = isfinite(x.distance) ? result.residual : INFINITY;
     if (status == DAL_STATUS_MEMORY) {
         free_motion(&x);
         return status;

@@ -115,7 +115,7 @@ expect "the state of the run" grep -q 'cart.yaml by gauss4\|system.yaml by gauss
 mkdir torn
 echo '{"schema": "dalembert/steer/1", "request": {}}' >torn/steer.json
 try 0 report torn
-expect "no motion" grep -q 'from the target' torn/report/index.html
+expect "no motion" grep -q '<strong>Is not led to the target' torn/report/index.html
 printf '{' >torn/steer.json
 try 2 report torn
 says 'torn/steer.json'
@@ -159,6 +159,21 @@ expect "a run of the second motion" has_rows many/motion-2/trajectory.npy 101
 try 0 steer sleigh.yaml --to "x=cos(pi/6),y=sin(pi/6)" --aim --time 2 --integrator gauss8 --step 0.02 --output aimed
 expect "a run on (q, v)" json aimed/manifest.json "d['input']['space'] == 'physical' and len(d['input']['start']) == 6"
 refute "inputs of a natural motion" test -e aimed/inputs.csv
+
+# x'' = 4x^3 is infinite before t = 1 of whatever is at rest at x = 1.
+case_is "a motion that no step follows to the end"
+printf "coordinates: [x]\nlagrangian: x'^2/2 + x^4\nstart: {x: 1}\n" >falls.yaml
+falls="steer falls.yaml --to x=2 --rest --time 30 --step 0.1 --integrator gauss8"
+try 3 $falls --output nowhere
+says 'falls.yaml: no motion was found in [0-9]+ iterations: along the nearest a step fails; a shorter time, '
+prints '^falls.yaml is not led to t = 30: along the nearest motion a step fails$'
+prints "^  x' +0 +- +0\$"
+expect "numbers after the failure" awk -F, 'NR == 2 && $2 != 1 { exit 1 } END { exit !($2 == "nan" && NR == 302) }' nowhere/best.csv
+try 0 report nowhere
+expect "no distance on its page" grep -q '<strong>Is not led to the target\.</strong> no motion was found in ' \
+    nowhere/report/index.html
+try 3 $falls --json
+expect "nor in JSON" json out "[d['motions'][0][x] for x in ('S', 'distance', 'residual', 'max_D')] == [None]*4"
 
 case_is "what is not reached"
 try 3 steer $sleigh --to x=0,y=1,phi=0 --max-iterations 3
