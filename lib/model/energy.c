@@ -48,8 +48,8 @@ enum { POINTS = 8, MAX_EXTENDED = 256 };
 typedef struct identity {
     dal_model *model;
     const dal__equations *e;
-    double *point, *unit; /* [symbols]; unit: NULL until it is used */
-    double *moved;        /* [POINTS*symbols] the irregular points, from then on */
+    double *point, *unit; /* [symbols] */
+    double *moved;        /* [POINTS*symbols] the irregular points; NULL until they are used */
     dal__node *term;      /* [max_terms] */
     int terms, max_terms;
     double *scale, *value; /* [max_terms] of the terms */
@@ -61,16 +61,16 @@ static bool find_units(identity *id)
     const double golden = 0.6180339887498949;
     const dal__equations *e = id->e;
     const size_t symbols = (size_t)e->symbols;
-    if (id->unit) return true;
+    if (id->moved) return true;
     id->unit = dal__model_allocate(id->model, symbols, sizeof *id->unit);
-    id->moved = dal__model_allocate(id->model, POINTS * symbols, sizeof *id->moved);
-    if (!id->unit || !id->moved || dal__model_units(id->model, id->unit) != DAL_STATUS_OK)
-        return false;
+    double *moved = dal__model_allocate(id->model, POINTS * symbols, sizeof *moved);
+    if (!id->unit || !moved || dal__model_units(id->model, id->unit) != DAL_STATUS_OK) return false;
     for (int k = 0; k < POINTS * e->symbols; k++) {
         const int i = k % e->symbols;
-        id->moved[k] = e->value[i];
-        if (i >= e->parameters) id->moved[k] += id->unit[i] * (0.1 + fmod(k * golden, 1.0));
+        moved[k] = e->value[i];
+        if (i >= e->parameters) moved[k] += id->unit[i] * (0.1 + fmod(k * golden, 1.0));
     }
+    id->moved = moved;
     return true;
 }
 
