@@ -100,7 +100,8 @@ static unsigned blocks_properties(const dal__equations *e, dal__node *row)
     const int n = e->n, mn = e->m * e->n;
     if (e->vakonomic || depends_on_v(e, e->a, n)) return 0;
     const bool steady = e->properties & DAL_MASS_CONSTANT;
-    const dal__node *directions = steady || !e->R[0] ? e->B : e->R; /* W^-1 B^T may be full */
+    const bool has_R = mn > 0 && e->R[0]; /* W^-1 B^T may be full, and is not made then */
+    const dal__node *directions = steady || !has_R ? e->B : e->R;
     if (!depends_on_v(e, e->A, mn) && !depends_on_v(e, directions, mn))
         return DAL_BLOCKS_POSITIONAL;
     return steady && is_isokinetic(e, row) ? DAL_D_ISOKINETIC : 0;

@@ -526,7 +526,7 @@ static bool repeat_held(const dal__event_search *w, double *distance)
     dal_error ignored = {0};
     bool slides = false;
     dal_status status = choose_branches(w);
-    for (int j = 0; j < w->system->branches->count; j++)
+    for (int j = 0; j < w->system->branches->count && status == DAL_STATUS_OK; j++)
         slides = slides || w->held.branch[j].is_sliding;
     if (status == DAL_STATUS_OK && !slides)
         status = search_next(w, search_held, distance, &ignored);
