@@ -135,10 +135,6 @@ static bool is_rest_of_state(const run_page *run, const char *name)
            (name[0] == 'g' && name[1] && !name[1 + strspn(name + 1, "0123456789")]);
 }
 
-/* Gives each column its curves.  The columns are t, q, q', the rest of the state, then D1.., E, H,
- * invariants, observed formulas, error.  A coordinate may have the name D1 or E; only after the
- * state is a column an observable.  Without a system and its names the state ends at the first D1,
- * E or H. */
 /* Whether the inputs of a steered motion change what the panel shows: all but H, and D where they
  * are along the constraints. */
 static bool inputs_move(const run_page *run, int panel)
@@ -148,6 +144,10 @@ static bool inputs_move(const run_page *run, int panel)
     return run->r->begin && panel != PANEL_H && !(panel == PANEL_D && keep_D);
 }
 
+/* Gives each column its curves.  The columns are t, q, q', the rest of the state, then D1.., E, H,
+ * invariants, observed formulas, error.  A coordinate may have the name D1 or E; only after the
+ * state is a column an observable.  Without a system and its names the state ends at the first D1,
+ * E or H. */
 static void place_columns(run_page *run)
 {
     const trajectory_reader *t = &run->reader;
