@@ -2,8 +2,8 @@
  *
  *     allocation_trial trial = {0};
  *     while (allocation_next(&trial)) {
- *         allocation_start(&trial);           trial.failures allocations succeed, no later one,
- *                                             or with is_single all but the next one
+ *         allocation_start(&trial);           trial.failures allocations succeed, no later one;
+ *                                             next time all but the next one do
  *         status = ...;
  *         allocation_end(&trial, status);     back to normal
  *         ... frees what there is ...
@@ -21,12 +21,12 @@ int allocation_failed(void); /* has one been refused since? */
 
 typedef struct allocation_trial {
     long failures, blocks; /* so far; before the first */
-    bool is_single;        /* set by the caller: later allocations succeed again */
+    bool is_single;        /* later allocations succeed again */
     bool passed;
 } allocation_trial;
 
-/* Whether another allocation is to fail: until none did; in a quick run every second one.  Checks
- * that all blocks are free again. */
+/* Whether another allocation is to fail: until none did; in a quick run every second one.  Each
+ * fails with all after it, then alone.  Checks that all blocks are free again. */
 bool allocation_next(allocation_trial *trial);
 void allocation_start(const allocation_trial *trial);
 /* Whether an allocation failed: checks that then, and only then, the status is DAL_STATUS_MEMORY,

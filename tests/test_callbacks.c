@@ -381,19 +381,16 @@ static void test_memory(void)
     trial_work *const others[] = {project_velocity, scale, measure_action, measure_order};
     trial_work *const last[] = {make_ensemble, observe_reactions, classify_constraints,
                                 measure_lyapunov};
-    for (int once = 0; once < 2; once++) {
-        for (int i = 0; i < 7; i++)
-            trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, once, runs[i]);
-        for (int i = 0; i < 4; i++) {
-            trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, once, rates[i]);
-            trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, once, others[i]);
-            trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, once, last[i]);
-        }
-        trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, once, check_maps);
-        trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, once, budget);
-        trial_each_allocation(swing, "rk4", DAL_PHYSICAL, once, cross);
-        trial_each_allocation(ball, "rk4", DAL_PHYSICAL, once, pass_events);
+    for (int i = 0; i < 7; i++) trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, runs[i]);
+    for (int i = 0; i < 4; i++) {
+        trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, rates[i]);
+        trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, others[i]);
+        trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, last[i]);
     }
+    trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, check_maps);
+    trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, budget);
+    trial_each_allocation(swing, "rk4", DAL_PHYSICAL, cross);
+    trial_each_allocation(ball, "rk4", DAL_PHYSICAL, pass_events);
 }
 
 static void each_work_fails(const char *text, const char *method, dal_space space, double tolerance,

@@ -181,14 +181,12 @@ static void test_models(void)
 static void test_memory(void)
 {
     tangent = fixture_tangent(sleigh);
-    for (int once = 0; once < 2; once++) {
-        trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, once, predict);
-        trial_each_allocation(pendulum, "gauss4", DAL_PHYSICAL, once, predict_pieces);
-        trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, once, measure_exponents);
-        trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, once, measure_lifted_exponents);
-        trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, once, measure_pairing);
-        trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, once, budget);
-    }
+    trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, predict);
+    trial_each_allocation(pendulum, "gauss4", DAL_PHYSICAL, predict_pieces);
+    trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, measure_exponents);
+    trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, measure_lifted_exponents);
+    trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, measure_pairing);
+    trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, budget);
 }
 
 void suite_callbacks_analyses(void)

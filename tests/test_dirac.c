@@ -404,7 +404,7 @@ static void test_refusals(void)
 
 static void test_no_memory(void)
 {
-    allocation_trial trial = {.is_single = true};
+    allocation_trial trial = {0};
     dal_model *model = NULL;
     const dal_system *system = NULL;
     CU_ASSERT_EQUAL_FATAL(dal_model_builtin(&model, "damped-oscillator", NULL), DAL_STATUS_OK);

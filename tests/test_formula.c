@@ -484,9 +484,9 @@ static void test_many_terms(void)
     CU_ASSERT(many < 8.0 * few);
 }
 
-static void check_memory(const char *text, bool is_single)
+static void check_memory(const char *text)
 {
-    allocation_trial trial = {.is_single = is_single};
+    allocation_trial trial = {0};
     while (allocation_next(&trial)) {
         dal__node node = 0;
         dal_error error;
@@ -508,12 +508,12 @@ static void test_out_of_memory(void)
     static const char *const last[] = {"(x)", "-x", "sin(x)", "sum(i, 1, 1, x)", "x + x"};
     for (size_t i = 0; i < sizeof last / sizeof *last; i++) {
         char *full = repeated("", "(", last[i], ")", 31);
-        check_memory(full, true);
+        check_memory(full);
         free(full);
     }
-    check_memory(deep, false);
-    check_memory("atan2(x, y)", true);
-    check_memory(wide, true);
+    check_memory(deep);
+    check_memory("atan2(x, y)");
+    check_memory(wide);
     free(deep);
     free(wide);
 }

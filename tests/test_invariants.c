@@ -416,10 +416,10 @@ static void test_too_large(void)
     dal_model_free(model);
 }
 
-static void test_out_of_memory(void)
+static void fail_allocations(const dal_invariants_settings *settings, int least)
 {
     allocation_trial trial = {0};
-    dal_invariants_settings settings = {.degree = 1, .measures = true};
+    int found_last = 0;
     while (allocation_next(&trial)) {
         dal_run_spec spec;
         dal_model *model = open_model("coordinates: [x, y]\nparameters: {k: 2}\n"
@@ -428,11 +428,21 @@ static void test_out_of_memory(void)
                                       &spec);
         dal_invariants *found = NULL;
         allocation_start(&trial);
-        allocation_end(&trial, dal_find_invariants(&found, model, &spec, &settings, NULL));
+        allocation_end(&trial, dal_find_invariants(&found, model, &spec, settings, NULL));
+        found_last = found ? found->count : 0;
         dal_invariants_free(found);
         dal_model_free(model);
     }
     CU_ASSERT(trial.failures >= 30);
+    CU_ASSERT(found_last >= least);
+}
+
+/* With nothing found, with y - k x, and with its constraint. */
+static void test_out_of_memory(void)
+{
+    fail_allocations(&(dal_invariants_settings){.degree = 1, .measures = true}, 0);
+    fail_allocations(&(dal_invariants_settings){.degree = 2}, 1);
+    fail_allocations(&(dal_invariants_settings){.degree = 1, .of_coordinates = true}, 1);
 }
 
 void suite_invariants(void)

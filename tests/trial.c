@@ -92,11 +92,10 @@ void trial_each_model_call(const char *text, const char *method, dal_space space
     dal_model_free(model);
 }
 
-void trial_each_allocation(const char *text, const char *method, dal_space space, bool is_single,
-                           trial_work *work)
+void trial_each_allocation(const char *text, const char *method, dal_space space, trial_work *work)
 {
     const dal_system *system = fixture_system(text);
-    allocation_trial allocations = {.is_single = is_single};
+    allocation_trial allocations = {0};
     while (allocation_next(&allocations)) {
         trial t = {.spec = fixture_spec(system, method, space, TRIAL_STEP)};
         allocation_start(&allocations);

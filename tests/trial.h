@@ -30,9 +30,8 @@ void trial_each_call(const char *text, const char *method, dal_space space, doub
 /* Likewise of work that makes runs of its own of a model, whose system is changed. */
 void trial_each_model_call(const char *text, const char *method, dal_space space, double tolerance,
                            trial_work *work);
-/* Every allocation of the work fails, with all after it or, is_single, alone: its status is
- * DAL_STATUS_MEMORY.  In a quick run every second one. */
-void trial_each_allocation(const char *text, const char *method, dal_space space, bool is_single,
-                           trial_work *work);
+/* Every allocation of the work fails, with all after it and alone: its status is DAL_STATUS_MEMORY.
+ * In a quick run every second one. */
+void trial_each_allocation(const char *text, const char *method, dal_space space, trial_work *work);
 
 #endif

@@ -273,20 +273,21 @@ static bool is_multiple(const dal__search *s, const dal__node *gradient, int a, 
     return are_parallel(1 + e->n, of_f, row);
 }
 
-int dal__find_constraint(const dal__search *s, dal__node f)
+dal_status dal__find_constraint(const dal__search *s, dal__node f, int *constraint)
 {
     const dal__equations *e = &s->model->equations;
     const int rows = e->m - e->holonomic;
     double *memory = dal__numbers(1, (size_t)(e->symbols + 2 * (1 + e->n)));
     dal__node *gradient = calloc((size_t)e->n + 1, sizeof *gradient);
-    int found = -1;
-    if (memory && gradient) dal__gradient(e->graph, f, e->symbol + e->t, 1 + e->n, gradient);
-    for (int a = 0; memory && gradient && a < rows && found < 0; a++) {
+    const bool has_memory = memory && gradient;
+    *constraint = -1;
+    if (has_memory) dal__gradient(e->graph, f, e->symbol + e->t, 1 + e->n, gradient);
+    for (int a = 0; has_memory && a < rows && *constraint < 0; a++) {
         int k = 1;
         while (k <= OF_INDEPENDENCE && is_multiple(s, gradient, a, k, memory)) k++;
-        if (k > OF_INDEPENDENCE) found = a;
+        if (k > OF_INDEPENDENCE) *constraint = a;
     }
     free(gradient);
     free(memory);
-    return found;
+    return has_memory ? e->graph->status : DAL_STATUS_MEMORY;
 }

@@ -155,11 +155,13 @@ static dal_status put_invariants(dal_invariants *out, const dal__search *search,
             .is_new = k->is_new,
             .exact = k->exact,
             .at_any_parameters = k->at_any_parameters,
-            .constraint = settings->of_coordinates ? dal__find_constraint(search, k->node) : -1,
+            .constraint = -1,
             .value = dal__evaluate(search->model->equations.graph, k->node, search->region.centre)};
         s->form[i].text = NULL;
         out->independent += k->independent;
         out->count++;
+        if (settings->of_coordinates)
+            DAL_TRY(dal__find_constraint(search, k->node, &invariant[i].constraint));
     }
     return DAL_STATUS_OK;
 }
