@@ -130,6 +130,20 @@ static void test_direct(void)
     }
 }
 
+/* A piece that cannot begin has no end, not the one that it had before. */
+static void test_pieces(void)
+{
+    directly w;
+    iterate_directly(&w, "coordinates: [x]\nlagrangian: x'^2/2\n", DAL_EFFORT_IDENTITY, 1.5, 0.7,
+                     1);
+    dal__shooting *const grid = &w.grid;
+    double *const x = grid->point + 3 * w.p.dimension;
+    CU_ASSERT_EQUAL(dal__shooting_move(grid, grid->point, grid->end), DAL_STATUS_OK);
+    *x = NAN;
+    CU_ASSERT_EQUAL(dal__shooting_move(grid, grid->point, grid->end), DAL_STATUS_NOT_FINITE);
+    close_directly(&w);
+}
+
 /* The same cart by y = e^x, whose cost depends on x: effort mass does not depend on coordinates, so
  * that S and the momentum of x at the start, (6 d/T^2) e^x, are as with y, to 1/N^2. */
 static void test_direct_of_state(void)
@@ -407,6 +421,7 @@ void suite_steer(void)
     CU_add_test(suite, "a linear problem, closed form", test_gramian);
     CU_add_test(suite, "free ends, closed form", test_free_ends);
     CU_add_test(suite, "Gauss-Newton alone", test_direct);
+    CU_add_test(suite, "pieces of a motion", test_pieces);
     CU_add_test(suite, "Gauss-Newton where the cost depends on q", test_direct_of_state);
     CU_add_test(suite, "a sleigh straight and turned, closed form", test_sleigh);
     CU_add_test(suite, "a sleigh to the side", test_parking);

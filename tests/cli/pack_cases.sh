@@ -105,3 +105,10 @@ if needs 1 "no /dev/full" test -c /dev/full; then
     try 4 pack pair -o /dev/full
     counted
 fi
+
+case_is "pack: a manifest with an option that nobody knows"
+cp -r elsewhere/disk unknown
+sed 's/"step"/"stride"/' elsewhere/disk/manifest.json >unknown/manifest.json
+try 2 pack unknown
+says "unknown/manifest\.json:.*'stride'"
+refute "an archive" test -e unknown.tar
