@@ -406,7 +406,7 @@ static dal_status allocate(comparisons *w, const dal_run *run)
     w->values = dal__numbers(rows, TOGETHER + 1);
     w->conserved = calloc(rows, sizeof *w->conserved);
     if (!w->of->shares || !w->series || !w->trends || !w->values || !w->conserved)
-        return dal__fail(w->error, DAL_STATUS_MEMORY, "out of memory");
+        return dal__memory_error(w->error);
     for (int i = 0; i < count; i++)
         dal_run_observable_name(run, i, w->of->shares[i].name, sizeof w->of->shares[i].name);
     dal_statistics_start(w->series, count * DAL__COMPARED_SERIES);
@@ -447,7 +447,7 @@ dal_status dal_error_budget_create(dal_error_budget **budget, const dal_run_spec
                          "an error budget needs a run in doubles; quad precision is one of "
                          "its comparisons");
     dal_error_budget *made = calloc(1, sizeof *made);
-    if (!made) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!made) return dal__memory_error(error);
     made->spec = *spec;
     made->steps = steps / stride_of(steps) * stride_of(steps);
     quad_steps = quad_steps < made->steps ? quad_steps : made->steps;

@@ -26,7 +26,7 @@ dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *sys
     const size_t size = system->workspace > values ? system->workspace : values;
     dal_evaluator *made =
         calloc(1, sizeof *made + (size + system->scale_memory) * sizeof *made->work);
-    if (made == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "%s: out of memory", system->name);
+    if (made == NULL) return dal__memory_error(error);
     made->system = system;
     made->scale_memory = made->work + size;
     dal_status status = dal__set_parameters(system, parameters, parameter_count,
@@ -151,7 +151,7 @@ dal_status dal_evaluator_start_at(dal_evaluator *evaluator, double t, const dal_
     }
     for (int i = 0; i < start_count; i++) DAL_TRY(set_start(s, &start[i], out, error));
     double *memory = calloc(dal__solve_size(s) + 1, sizeof *memory);
-    if (memory == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "%s: out of memory", s->name);
+    if (memory == NULL) return dal__memory_error(error);
     const dal_status solved = dal__solve_start(s, t, out, evaluator->work, memory, error);
     free(memory);
     return solved;

@@ -151,9 +151,7 @@ dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double 
     double *block = status == DAL_STATUS_OK ? dal__numbers(2, count) : NULL;
     if (block == NULL) {
         dal_scaled_free(scaled);
-        return status != DAL_STATUS_OK
-                   ? status
-                   : dal__fail(error, DAL_STATUS_MEMORY, "order: out of memory");
+        return status != DAL_STATUS_OK ? status : dal__memory_error(error);
     }
     m.units = dal_scaled_units(scaled) + 1;
     m.numbers = 2 * spec->system->n + spec->system->multipliers;

@@ -81,10 +81,10 @@ dal_status dal__reference_create(dal__reference **reference, const dal_run_spec 
     const dal_system *s = spec->system;
     dal__reference *r = calloc(1, sizeof *r);
     *reference = NULL;
-    if (!r) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!r) return dal__memory_error(error);
     r->state = dal__numbers(1, (size_t)(4 * s->n + 2 + s->multipliers));
-    dal_status status = r->state ? dal_run_create(&r->observed, spec, error)
-                                 : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    dal_status status =
+        r->state ? dal_run_create(&r->observed, spec, error) : dal__memory_error(error);
     if (status == DAL_STATUS_OK && !is_on_motion(r->observed))
         status = dal__fail(error, DAL_STATUS_UNSUPPORTED, "p and pi are not 0");
     if (status == DAL_STATUS_OK) status = dal_scaled_create(&r->scaled, spec, error);
@@ -193,6 +193,5 @@ dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int
     free(w.state);
     dal_evaluator_free(w.evaluator);
     dal_scaled_free(w.scaled);
-    return status == DAL_STATUS_MEMORY ? dal__fail(error, DAL_STATUS_MEMORY, "out of memory")
-                                       : DAL_STATUS_OK;
+    return status == DAL_STATUS_MEMORY ? dal__memory_error(error) : DAL_STATUS_OK;
 }

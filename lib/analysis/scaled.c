@@ -357,7 +357,7 @@ static dal_status make_scaled(dal_scaled **scaled, const dal_system *p, survey *
     if (!s || !block) {
         free(block);
         free(s);
-        return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+        return dal__memory_error(error);
     }
     s->plain = p;
     s->n = p->n, s->nw = (int)nw, s->m = p->m;
@@ -396,7 +396,7 @@ dal_status dal_scaled_create(dal_scaled **scaled, const dal_run_spec *spec, dal_
     survey w = {.sizes.step = spec->options.step, .t = spec->start_time};
     DAL_TRY(dal_evaluator_create(&w.evaluator, p, spec->parameters, spec->parameter_count, error));
     w.x = dal__numbers(1, (size_t)(2 * p->n + p->multipliers + 1));
-    dal_status status = w.x ? DAL_STATUS_OK : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    dal_status status = w.x ? DAL_STATUS_OK : dal__memory_error(error);
     if (status == DAL_STATUS_OK)
         status =
             dal_evaluator_start_at(w.evaluator, w.t, spec->start, spec->start_count, w.x, error);
@@ -413,7 +413,7 @@ static dal_status evaluator_of_run(dal_evaluator **evaluator, const dal_system *
 {
     const double *value = dal_run_parameters(run);
     dal_setting *settings = calloc((size_t)system->parameters + 1, sizeof *settings);
-    if (!settings) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!settings) return dal__memory_error(error);
     for (int i = 0; i < system->parameters; i++)
         settings[i] = (dal_setting){system->parameter[i], value[i]};
     const dal_status status =
@@ -438,7 +438,7 @@ dal_status dal_scaled_create_at(dal_scaled **scaled, const dal_run *run, dal_err
     survey w = {.sizes.step = dal_run_step_size(run), .t = dal_run_time(run)};
     DAL_TRY(evaluator_of_run(&w.evaluator, p, run, error));
     w.x = dal__numbers(1, (size_t)(2 * p->n + p->multipliers + 1));
-    dal_status status = w.x ? DAL_STATUS_OK : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    dal_status status = w.x ? DAL_STATUS_OK : dal__memory_error(error);
     if (status == DAL_STATUS_OK) {
         memcpy(w.x, dal_run_state(run), x * sizeof *w.x);
         status = make_scaled(scaled, p, &w, error);

@@ -49,7 +49,7 @@ static dal_status open_map(stepmap *m, const dal_run_spec *spec, double t, const
     m->z = dal__numbers(rows + 1, (size_t)m->dimension);
     if (m->z == NULL) {
         dal_run_free(m->run);
-        return dal__fail(error, DAL_STATUS_MEMORY, "step map: out of memory");
+        return dal__memory_error(error);
     }
     if (state == NULL) state = dal_run_state(m->run);
     memcpy(m->z, state, (size_t)m->dimension * sizeof(double));
@@ -228,7 +228,7 @@ static dal_status start_tangent(pairing *w, const double *direction, dal_error *
     size_t n = (size_t)w->n, bytes = n * sizeof(double);
     const double *z = dal_run_state(w->lifted);
     double *x = dal__numbers(4, n);
-    if (x == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "pairing: out of memory");
+    if (x == NULL) return dal__memory_error(error);
     memcpy(x, z, bytes);
     memcpy(x + n, direction, bytes);
     memcpy(x + 2 * n, z + n, bytes);
@@ -242,7 +242,7 @@ static dal_status open_pairing(pairing *w, const dal_run_spec *spec, const dal_s
                                dal_error *error)
 {
     dal_setting *start = calloc((size_t)spec->start_count + 1, sizeof *start);
-    if (start == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "pairing: out of memory");
+    if (start == NULL) return dal__memory_error(error);
     dal_run_spec adjoint = *spec, physical = *spec;
     /* e = infinity instead of any other e. */
     int count = 0;

@@ -41,6 +41,11 @@ dal_status dal__fail_at(dal_error *error, dal_status status, int line, int colum
     return status;
 }
 
+dal_status dal__memory_error(dal_error *error)
+{
+    return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+}
+
 enum { CASE = 1, EDIT = 4, MIN_LIMIT = 2 * EDIT };
 
 static int min_of(int a, int b) { return a < b ? a : b; }

@@ -28,6 +28,8 @@ enum { DAL__MAX_SHOWN = 63 /* letters of a name in a message; others are cut */ 
 /* The same for an error at a place of the user's text, where lines and columns begin with 1. */
 dal_status dal__fail_at(dal_error *error, dal_status status, int line, int column,
                         const char *format, ...) DAL__PRINTF(5, 6);
+/* The error DAL_STATUS_MEMORY. */
+dal_status dal__memory_error(dal_error *error);
 
 /* "unknown WHAT 'NAME'; did you mean 'NEAREST'?" with the status DAL_STATUS_NAME; see
  * dal__nearest_name. */

@@ -42,7 +42,7 @@ dal_status dal__displacement_create(dal__displacement **made, dal__local *local,
     const size_t size = 2 * (size_t)local->n;
     dal__displacement *s = *made = calloc(1, sizeof *s);
     if (s) s->d = dal__numbers(10, size);
-    if (!s || !s->d) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!s || !s->d) return dal__memory_error(error);
     s->local = local;
     s->size = (int)size;
     s->span = 2;

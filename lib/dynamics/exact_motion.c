@@ -106,7 +106,7 @@ static dal_status create_series(dal_exact_motion *m, dal_run_spec own, const dal
     const size_t size = (size_t)m->size;
     dal_setting *start = calloc(size, sizeof *start + NAME);
     char *names = (char *)(start + size);
-    if (!start) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!start) return dal__memory_error(error);
     for (size_t i = 0; i < size; i++)
         start[i] =
             (dal_setting){dal_run_component_name(run, (int)i, names + i * NAME, NAME), m->first[i]};
@@ -129,7 +129,7 @@ static dal_status fill_motion(dal_exact_motion *m, const dal_run_spec *spec, con
     const size_t size = (size_t)m->size, parameters = (size_t)system->parameters;
     dal_scaled *scaled;
     m->first = dal__numbers(1, 2 * size + parameters + 1);
-    if (!m->first) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!m->first) return dal__memory_error(error);
     m->state = m->first + size;
     m->parameters = m->state + size;
     memcpy(m->first, dal_run_state(run), size * sizeof *m->first);
@@ -153,7 +153,7 @@ dal_status dal__exact_motion_of_run(dal_exact_motion **motion, const dal_run_spe
 {
     *motion = NULL;
     dal_exact_motion *m = calloc(1, sizeof *m);
-    if (!m) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!m) return dal__memory_error(error);
     m->size = 2 * dal_run_system(run)->n;
     m->limit = limit;
     m->start = dal_run_time(run);
@@ -201,7 +201,7 @@ dal_status dal__exact_motion_continue(const dal_exact_motion *from, dal_exact_mo
     dal_setting *parameter = calloc((size_t)system->parameters + 1, sizeof *parameter);
     dal_run *at = NULL;
     *motion = NULL;
-    if (!parameter) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!parameter) return dal__memory_error(error);
     for (int i = 0; i < system->parameters; i++)
         parameter[i] = (dal_setting){system->parameter[i], from->parameters[i]};
     dal_run_spec spec = {.system = system,
@@ -244,7 +244,7 @@ static dal_status begin_step(dal_exact_motion *m, dal_error *error)
     if (m->evaluator && m->end > 0.0 &&
         dal_evaluator_project_velocity(m->evaluator, t, m->state, m->state + m->size / 2) ==
             DAL_STATUS_MEMORY)
-        return dal__fail(error, DAL_STATUS_MEMORY, "out of memory"); /* else v stays as it is */
+        return dal__memory_error(error); /* else v stays as it is */
     m->begin = m->end;
     m->done = 0.0;
     m->has_begun = true;
@@ -278,12 +278,12 @@ static dal_status append_substep(dal_exact_motion *m, const dal__polynomial *p, 
     if (m->count == m->capacity) {
         const size_t capacity = 2 * m->capacity + 64;
         substep *more = realloc(m->substep, capacity * sizeof *more);
-        if (!more) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+        if (!more) return dal__memory_error(error);
         m->substep = more;
         m->capacity = capacity;
     }
     double *to = dal__numbers(1, numbers);
-    if (!to) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!to) return dal__memory_error(error);
     m->substep[m->count] = (substep){m->end, p->size, p->terms, to};
     memcpy(to, p->y, size * sizeof *to);
     memcpy(to + size, p->r, size * sizeof *to);

@@ -58,8 +58,7 @@ dal_status dal__local_create(dal__local *k, const dal_run_spec *spec, const dal_
     k->values = dal__numbers(1, 4 * (size_t)k->count + 12 * n + 2 * m * n + m * (2 * m + 8) + 64);
     k->scales = dal__numbers(1, (size_t)(s->m + 1 + s->invariants + s->holonomic));
     k->ends = dal__numbers(DAL__LOCAL_STEPS, 2 * n);
-    if (!k->values || !k->scales || !k->ends)
-        return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!k->values || !k->scales || !k->ends) return dal__memory_error(error);
     DAL_TRY(dal__evaluator_of_run(&k->evaluator, NULL, run, error));
     DAL_TRY(dal_scaled_create_at(&k->scaled, run, error));
     k->unit = dal_scaled_units(k->scaled);

@@ -426,8 +426,7 @@ static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
         dal__numbers(1, d * d + 3 * d + size + EXTRA_MEANS + scratch + gradients + 2 * memory);
     s->vectors = block;
     s->statistics = calloc(d + EXTRA_MEANS, sizeof *s->statistics);
-    if (block == NULL || s->statistics == NULL)
-        return dal__fail(error, DAL_STATUS_MEMORY, "Lyapunov exponents: out of memory");
+    if (block == NULL || s->statistics == NULL) return dal__memory_error(error);
     s->z = block + d * d;
     s->growth = s->z + size;
     s->scratch = s->growth + d + EXTRA_MEANS;
@@ -500,7 +499,7 @@ static dal_status create_lyapunov(dal_lyapunov **lyapunov, const dal_run_spec *s
     DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(check_map(spec, space, tangent, error));
     dal_lyapunov *s = calloc(1, sizeof *s);
-    if (s == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "Lyapunov exponents: out of memory");
+    if (s == NULL) return dal__memory_error(error);
     s->space = space;
     const dal_status status = start_vectors(s, spec, tangent, count, error);
     if (status == DAL_STATUS_OK)

@@ -55,7 +55,7 @@ static dal_status create_reference(dal__orbit *o, const dal_run_spec *spec, cons
     own.options.space = DAL_PHYSICAL;
     own.options.tolerance = DAL__REFERENCE_TOLERANCE;
     o->state = dal__numbers(1, (size_t)o->size);
-    if (!o->state) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!o->state) return dal__memory_error(error);
     DAL_TRY(dal_scaled_create_at(&o->scaled, run, error));
     const double tau = dal_scaled_units(o->scaled)[0];
     own.system = dal_scaled_system(o->scaled);
@@ -83,7 +83,7 @@ static dal_status begin_again(dal__orbit *o, dal_error *error)
     memcpy(o->state, dal_run_state(o->run), (size_t)o->size * sizeof *o->state);
     if (o->evaluator && dal_evaluator_project_velocity(o->evaluator, t, o->state,
                                                        o->state + o->size / 2) == DAL_STATUS_MEMORY)
-        return dal__fail(error, DAL_STATUS_MEMORY, "out of memory"); /* else v stays as it is */
+        return dal__memory_error(error); /* else v stays as it is */
     return dal_run_set_state(o->run, t, o->state, error);
 }
 
@@ -107,7 +107,7 @@ dal_status dal__orbit_create(dal__orbit **orbit, const dal_run_spec *spec, const
     dal_status status = DAL_STATUS_OK;
     dal__orbit *o = calloc(1, sizeof *o);
     *orbit = NULL;
-    if (!o) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!o) return dal__memory_error(error);
     o->size = 2 * dal_run_system(run)->n;
     o->step = dal_run_step_size(run);
     o->motion = motion;

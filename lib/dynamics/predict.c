@@ -79,7 +79,7 @@ static dal_status allocate_work(work *w, long long rows)
     p->t = dal__numbers(1, (size_t)rows + 1);
     p->change = dal__numbers((size_t)rows + 1, count + 1);
     if (!w->t || !w->bins || !w->even || !w->conserved || !p->predicted || !p->t || !p->change)
-        return dal__fail(w->error, DAL_STATUS_MEMORY, "out of memory");
+        return dal__memory_error(w->error);
     w->hidden = w->even + count;
     w->general = w->hidden + count;
     w->x = w->t + block;
@@ -157,7 +157,7 @@ dal_status dal_predict_create(dal_prediction **prediction, const dal_run_spec *s
     DAL_TRY(dal__check_spec(spec, error));
     const dal_predict_settings usual = dal_predict_settings_default();
     work w = {.of = calloc(1, sizeof *w.of), .observer = observer, .spec = *spec, .error = error};
-    if (!w.of) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!w.of) return dal__memory_error(error);
     dal_status status = begin_prediction(&w, spec, T, settings ? settings : &usual);
     if (status == DAL_STATUS_OK) status = dal__predict_steps(&w);
     if (status == DAL_STATUS_OK) status = dal__predict_results(&w);

@@ -86,7 +86,7 @@ static dal_status try_quad(work *w, int steps)
     const size_t numbers = (size_t)steps * (size_t)w->count;
     double *kept = dal__numbers(1, numbers + 1);
     int made = 0;
-    if (!kept) return dal__fail(w->error, DAL_STATUS_MEMORY, "out of memory");
+    if (!kept) return dal__memory_error(w->error);
     memcpy(kept, w->local_change, numbers * sizeof *kept);
     dal_status status = dal__local_create(&quad, &w->spec, w->run, DAL_QUAD, NULL);
     if (status == DAL_STATUS_OK)
@@ -101,8 +101,7 @@ static dal_status try_quad(work *w, int steps)
     }
     dal__local_free(&quad);
     free(kept);
-    return status == DAL_STATUS_MEMORY ? dal__fail(w->error, status, "out of memory")
-                                       : DAL_STATUS_OK;
+    return status == DAL_STATUS_MEMORY ? dal__memory_error(w->error) : DAL_STATUS_OK;
 }
 
 /* Decides by the first block whether quad precision is needed and where the curve ends. */

@@ -134,7 +134,7 @@ dal_status dal__reversals_create(dal__reversals **made, dal__local *local, const
         !(dal_method_properties(&spec->method) & DAL_SYMMETRIC))
         return DAL_STATUS_OK;
     dal__reversals *r = calloc(1, sizeof *r);
-    if (!r) return dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    if (!r) return dal__memory_error(error);
     *r = (dal__reversals){.local = local, .n = local->n};
     r->depends = calloc(n, sizeof *r->depends);
     r->sign = calloc(MAX_KNOWN, sizeof *r->sign);
@@ -143,7 +143,7 @@ dal_status dal__reversals_create(dal__reversals **made, dal__local *local, const
     r->scratch = dal__numbers(1, 17 * n + 4 * (size_t)local->count);
     dal_status status = r->depends && r->sign && r->refused && r->same && r->scratch
                             ? dal_run_create(&r->run, spec, error)
-                            : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+                            : dal__memory_error(error);
     if (status != DAL_STATUS_OK) {
         dal__reversals_free(r);
         return status;

@@ -187,7 +187,7 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
     dal_run_save(run, &stored);
     const size_t numbers = dal__crossing_numbers(1, stored);
     double *block = dal__numbers(1, numbers + (size_t)section->count);
-    if (block == NULL) return dal__fail(error, DAL_STATUS_MEMORY, "section: out of memory");
+    if (block == NULL) return dal__memory_error(error);
     w.values = block + numbers;
     dal__crossing_init(&w.zeros, run, &functions, block);
     dal_status status = dal__evaluator_of_run(&w.evaluator, NULL, run, error);

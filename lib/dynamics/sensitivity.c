@@ -33,11 +33,6 @@ typedef struct column_start {
     int component; /* of the state; -1: the name is a parameter's */
 } column_start;
 
-static dal_status out_of_memory(dal_error *error)
-{
-    return dal__fail(error, DAL_STATUS_MEMORY, "sensitivities: out of memory");
-}
-
 static dal_space space_of(const dal_sensitivity *s)
 {
     return s->is_lifted ? DAL_LIFTED : DAL_PHYSICAL;
@@ -112,7 +107,7 @@ static dal_status start_column(dal_sensitivity *s, dal_model *model, const colum
     DAL_TRY(dal_run_create(&s->run[k], &spec, error));
     double *vector = column_at(s, k);
     double *state = dal__numbers(1, (size_t)dal_run_dimension(s->run[k]));
-    if (!state) return out_of_memory(error);
+    if (!state) return dal__memory_error(error);
     dal__tangent_gather(s->system, space_of(s), dal_run_state(s->run[k]), vector);
     for (int i = 0; i < c->spec->start_count; i++) { /* what the run sets depends on nothing */
         const int given = dal_run_component_index(c->run, c->spec->start[i].name);
@@ -134,7 +129,7 @@ static dal_status start_columns(dal_sensitivity *s, dal_model *model, const dal_
     DAL_TRY(check_names(s, run, spec, names, error));
     s->run = calloc(count + 1, sizeof(dal_run *));
     s->column = dal__numbers(count + 1, (size_t)s->dimension);
-    if (!s->run || !s->column) return out_of_memory(error);
+    if (!s->run || !s->column) return dal__memory_error(error);
     for (int k = 0; k < s->count; k++) {
         const column_start c = {spec, run, names[k], dal_run_component_index(run, names[k])};
         DAL_TRY(start_column(s, model, &c, k, error));
@@ -142,7 +137,7 @@ static dal_status start_columns(dal_sensitivity *s, dal_model *model, const dal_
         s->saved_count += s->run_count;
     }
     s->saved = dal__numbers(1, s->saved_count + 1);
-    return s->saved ? DAL_STATUS_OK : out_of_memory(error);
+    return s->saved ? DAL_STATUS_OK : dal__memory_error(error);
 }
 
 dal_status dal_sensitivity_create(dal_sensitivity **sensitivity, dal_model *model,
@@ -165,7 +160,7 @@ dal_status dal_sensitivity_create(dal_sensitivity **sensitivity, dal_model *mode
     dal_sensitivity *s = calloc(1, sizeof *s);
     if (s) *s = (dal_sensitivity){.system = system, .count = count};
     const dal_status status =
-        s ? start_columns(s, model, spec, names, run, error) : out_of_memory(error);
+        s ? start_columns(s, model, spec, names, run, error) : dal__memory_error(error);
     dal_run_free(run);
     if (status == DAL_STATUS_OK)
         *sensitivity = s;

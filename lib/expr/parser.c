@@ -165,7 +165,7 @@ static dal_status push(parser *p, char kind, dal__node left)
     if (p->depth == p->capacity) {
         size_t capacity = p->capacity ? 2 * p->capacity : 32;
         frame *stack = realloc(p->stack, capacity * sizeof *stack);
-        if (!stack) return dal__fail(p->error, DAL_STATUS_MEMORY, "out of memory");
+        if (!stack) return dal__memory_error(p->error);
         p->stack = stack;
         p->capacity = capacity;
     }
@@ -182,7 +182,7 @@ static dal_status push_argument(parser *p, dal__node value)
     if (p->arguments == p->argument_capacity) {
         size_t capacity = p->argument_capacity ? 2 * p->argument_capacity : 16;
         dal__node *argument = realloc(p->argument, capacity * sizeof *argument);
-        if (!argument) return dal__fail(p->error, DAL_STATUS_MEMORY, "out of memory");
+        if (!argument) return dal__memory_error(p->error);
         p->argument = argument;
         p->argument_capacity = capacity;
     }

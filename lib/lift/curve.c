@@ -89,7 +89,7 @@ static dal_status make_splines(splines *s, const dal_curve *c, int stride)
     }
     const size_t knots = (size_t)s->knots, vectors = 9 * (size_t)s->n + (size_t)system->equations;
     s->data = dal__numbers(1, s->size * (size_t)count + 2 * knots + vectors);
-    if (!s->data) return dal__fail(s->error, DAL_STATUS_MEMORY, "out of memory");
+    if (!s->data) return dal__memory_error(s->error);
     double *t = s->t = s->data + s->size * (size_t)count, *column = t + knots;
     s->x = column + knots, s->rate = s->x + 3 * s->n, s->field = s->rate + 3 * s->n;
     for (int k = 0; k <= last; k++) t[k] = c->t[k == last ? c->rows - 1 : k * stride];
@@ -166,7 +166,7 @@ static dal_status integrate(const splines *s, dal_action_form form, double *sum)
         for (int i = 0; i < 4; i++) {
             const double at = t[k] + 0.5 * h * (1.0 + (i % 2 ? 1.0 : -1.0) * c[i / 2]);
             const dal_status status = integrand(s, form, at, &value);
-            if (status == DAL_STATUS_MEMORY) return dal__fail(s->error, status, "out of memory");
+            if (status == DAL_STATUS_MEMORY) return dal__memory_error(s->error);
             if (status != DAL_STATUS_OK || !isfinite(value))
                 return dal__fail(
                     s->error, status == DAL_STATUS_OK ? DAL_STATUS_NOT_FINITE : status,
@@ -211,8 +211,7 @@ dal_status dal_evaluator_measure_curve(dal_evaluator *evaluator, const dal_curve
     *max_constraint = 0.0;
     if (system->m == 0) return DAL_STATUS_OK;
     double *D = dal__numbers(1, (size_t)system->m);
-    dal_status status =
-        D ? make_splines(&s, curve, 1) : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    dal_status status = D ? make_splines(&s, curve, 1) : dal__memory_error(error);
     for (int k = 0; k < curve->rows && status == DAL_STATUS_OK; k++) {
         for (int i = 0; i < s.n; i++) {
             s.x[i] = spline_at(&s, Q, i, VALUE, curve->t[k]);

@@ -89,7 +89,7 @@ dal_status dal_check_discrete_action(const dal_run_spec *spec, const dal_curve *
     own.options.bare = true; /* steps of the method alone */
     DAL_TRY(dal_run_create(&run, &own, error));
     double *row = dal__numbers(2, (size_t)pi_e + 1), *next = row ? row + pi_e + 1 : NULL;
-    dal_status status = row ? DAL_STATUS_OK : dal__fail(error, DAL_STATUS_MEMORY, "out of memory");
+    dal_status status = row ? DAL_STATUS_OK : dal__memory_error(error);
     for (int k = 0; k < curve->rows && status == DAL_STATUS_OK; k++) {
         for (int g = 0, i = 0; g < VARIABLES; g++)
             for (int j = 0, width = g % 3 == 2 ? 1 : n; j < width; j++)

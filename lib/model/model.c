@@ -115,11 +115,6 @@ const char *dal_model_warning(const dal_model *model, int i, int *line, int *col
     return warning->text;
 }
 
-dal_status dal__memory_error(dal_error *error)
-{
-    return dal__fail(error, DAL_STATUS_MEMORY, "out of memory while the model was made");
-}
-
 dal_status dal__size_error(dal_status status, dal_error *error)
 {
     if (status != DAL_STATUS_TOO_LARGE) return dal__memory_error(error);

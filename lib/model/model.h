@@ -109,8 +109,7 @@ char *dal__model_print(dal_model *model, const char *format, ...) DAL__PRINTF(2,
 void dal__model_discard(dal_model *model);
 /* Adds a warning at the name of an entry; text lives as long as the model. */
 void dal__model_warn(dal_model *model, const dal__entry *entry, const char *text);
-/* The errors DAL_STATUS_MEMORY, and DAL_STATUS_MEMORY or DAL_STATUS_TOO_LARGE of a graph. */
-dal_status dal__memory_error(dal_error *error);
+/* The error DAL_STATUS_MEMORY or DAL_STATUS_TOO_LARGE of a graph. */
 dal_status dal__size_error(dal_status status, dal_error *error);
 /* The error that an entry is given twice. */
 dal_status dal__duplicate(const dal__entry *entry, dal_error *error);

@@ -34,7 +34,7 @@ static dal_status compare_ends(dal__problem *p, const dal_invariant *invariant)
             return DAL_STATUS_OK;
     int *gradient = calloc((size_t)n, sizeof *gradient);
     double *rate = dal__numbers(1, (size_t)n);
-    dal_status status = gradient && rate ? DAL_STATUS_OK : dal__memory_error(p->error);
+    dal_status status = gradient && rate ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
     if (status == DAL_STATUS_OK) dal__gradient(e->graph, node, e->symbol + e->q, n, gradient);
     for (int end = 0; end < 2 && status == DAL_STATUS_OK; end++) {
         const double t = end ? p->T : p->from, *x = end ? p->target : p->start;
@@ -66,7 +66,7 @@ dal_status dal__leaf_check(dal__problem *p, const dal_steering *steering)
         dal_invariants *found = NULL;
         status = dal_find_invariants(&found, p->model, &spec, &set, NULL);
         if (status != DAL_STATUS_OK) /* it is not known */
-            return status == DAL_STATUS_MEMORY ? dal__memory_error(p->error) : DAL_STATUS_OK;
+            return status == DAL_STATUS_MEMORY ? status : DAL_STATUS_OK;
         for (int i = 0; i < found->count && status == DAL_STATUS_OK; i++)
             status = compare_ends(p, &found->invariant[i]);
         is_complete = found->independent >= functions;

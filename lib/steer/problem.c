@@ -16,11 +16,6 @@ dal_steer_settings dal_steer_settings_default(void)
     return (dal_steer_settings){.starts = 1, .seed = 1, .iterations = 200, .tolerance = 1e-11};
 }
 
-static dal_status no_memory(dal_error *error)
-{
-    return dal__fail(error, DAL_STATUS_MEMORY, "steering: out of memory");
-}
-
 /* ---- what is refused ---- */
 
 static dal_status check_steer_settings(const dal_steer_settings *s, dal_error *error)
@@ -106,7 +101,7 @@ static dal_status rest_at_start(dal__problem *p)
     char *name = malloc(length);
     p->setting = made;
     p->names = name;
-    if (!made || !name) return no_memory(p->error);
+    if (!made || !name) return DAL_STATUS_MEMORY;
     if (count > 0) memcpy(made, p->spec.start, count * sizeof *made);
     p->spec.start = made;
     for (size_t i = 0; i < n; i++) {
@@ -157,7 +152,7 @@ static dal_status check_end(dal__problem *p, bool at_end)
     double *values = dal__numbers(1, (size_t)count + 1);
     double *rows = dal__numbers((size_t)count + 1, 2 * (size_t)p->n);
     const double t = at_end ? p->T : p->from, *x = at_end ? p->target : p->start;
-    dal_status status = values && rows ? DAL_STATUS_OK : no_memory(p->error);
+    dal_status status = values && rows ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
     if (status == DAL_STATUS_OK) status = dal__problem_constraints(p, t, x, values);
     if (status == DAL_STATUS_OK) status = dal__problem_gradients(p, t, x, rows);
     for (int a = 0; a < count && status == DAL_STATUS_OK; a++) {
@@ -217,7 +212,7 @@ dal_status dal__problem_effort(dal__problem *p, double t, const double *x, doubl
 {
     const int n = p->n;
     double *pi = dal__numbers(4, (size_t)n), *column = pi + n;
-    dal_status status = pi ? DAL_STATUS_OK : no_memory(p->error);
+    dal_status status = pi ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
     for (int j = 0; j < n && status == DAL_STATUS_OK; j++) {
         memset(pi, 0, 4 * (size_t)n * sizeof *pi);
         pi[j] = 1.0;
@@ -262,7 +257,7 @@ static dal_status find_units_of_ends(dal__problem *p)
     const int n = p->n;
     const double T = fabs(p->T - p->from);
     double *K = dal__numbers((size_t)n, (size_t)n);
-    if (!K) return no_memory(p->error);
+    if (!K) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n; i++) {
         p->unit[i] = p->system->units ? p->system->units[i] : 1.0;
         p->unit[n + i] = p->unit[i] / T;
@@ -298,7 +293,7 @@ static dal_status open_run(dal__problem *p)
     p->gradient = calloc(rows * 2 * n + 1, sizeof *p->gradient);
     p->value = dal__numbers(1, (size_t)p->model->equations.symbols + 1);
     if (!p->start || !p->unit || !p->is_free[0] || !p->gradient || !p->value)
-        return no_memory(p->error);
+        return DAL_STATUS_MEMORY;
     p->target = p->start + 2 * n;
     p->is_free[1] = p->is_free[0] + 2 * n;
     dal__equations *e = &p->model->equations;

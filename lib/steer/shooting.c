@@ -25,7 +25,7 @@ dal_status dal__shooting_open(dal__shooting *s, dal__problem *p, long long steps
     s->cost = dal__numbers(count, unknowns);
     s->scratch = dal__numbers(4, 2 * dimension);
     if (!s->first || !s->point || !s->derivative || !s->cost || !s->scratch)
-        return dal__fail(p->error, DAL_STATUS_MEMORY, "steering: out of memory");
+        return DAL_STATUS_MEMORY;
     s->end = s->point + (count + 1) * dimension;
     for (size_t k = 0; k <= count; k++)
         s->first[k] = steps / (long long)count * (long long)k +

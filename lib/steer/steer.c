@@ -204,7 +204,6 @@ dal_status dal_steer_create(dal_steering **steering, dal_model *model, const dal
     if (status == DAL_STATUS_OK) {
         dal_steering *made = calloc(1, sizeof *made);
         status = made ? fill_steering(&problem, made) : DAL_STATUS_MEMORY;
-        if (status == DAL_STATUS_MEMORY) dal__fail(error, status, "steering: out of memory");
         if (status == DAL_STATUS_OK)
             *steering = made;
         else
@@ -212,7 +211,7 @@ dal_status dal_steer_create(dal_steering **steering, dal_model *model, const dal
     }
     dal__vakonomic_close(&problem);
     dal__problem_close(&problem);
-    return status;
+    return status == DAL_STATUS_MEMORY ? dal__memory_error(error) : status;
 }
 
 void dal_steer_free(dal_steering *steering)

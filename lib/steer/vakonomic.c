@@ -25,7 +25,7 @@ dal_status dal__vakonomic_open(dal__problem *p)
     const int n = p->n, m = p->multipliers, count = p->unknowns;
     if (m == 0) return DAL_STATUS_OK;
     p->momentum = calloc((size_t)n * (size_t)(count + 1), sizeof *p->momentum);
-    if (!p->momentum) return dal__fail(p->error, DAL_STATUS_MEMORY, "steering: out of memory");
+    if (!p->momentum) return DAL_STATUS_MEMORY;
     memcpy(p->momentum, e->momentum, (size_t)n * sizeof *p->momentum);
     for (int i = 0; i < n; i++) {
         int *row = p->momentum + n + i * count;
