@@ -26,6 +26,8 @@ static const char controlled[] = "coordinates: [x, y, phi]\n"
                                  "lagrangian: (x'^2 + y'^2 + phi'^2)/2\n"
                                  "constraints: [x'*sin(phi) - y'*cos(phi)]\n"
                                  "controls:\n  - {x: cos(phi), y: sin(phi)}\n  - {phi: 1}\n";
+static const char integrable[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                 "constraints: [2*x*x' + y']\n";
 
 /* The linker gives the library this one for dal__graph_create. */
 static int limit_of_graphs; /* 0: their own */
@@ -71,6 +73,20 @@ static dal_status make_dirac(dal_model *model, dal_error *error)
     dal_dirac *dirac = NULL;
     const dal_status status = dal_dirac_create(&dirac, model, &spec, error);
     dal_dirac_free(dirac);
+    return status;
+}
+
+static dal_status find_invariants(dal_model *model, dal_error *error)
+{
+    const dal_run_spec spec = spec_of(model);
+    const dal_invariants_settings set[] = {{.degree = 2, .measures = true},
+                                           {.degree = 2, .of_coordinates = true}};
+    dal_status status = DAL_STATUS_OK;
+    for (int i = 0; i < 2 && status == DAL_STATUS_OK; i++) {
+        dal_invariants *found = NULL;
+        status = dal_find_invariants(&found, model, &spec, &set[i], error);
+        dal_invariants_free(found);
+    }
     return status;
 }
 
@@ -131,6 +147,8 @@ static void test_analyses(void)
     fill("chaplygin-sleigh", DAL_EFFORT_IDENTITY, make_growth);
     fill("chaplygin-sleigh", DAL_EFFORT_IDENTITY, make_dirac);
     fill("chaplygin-sleigh-vakonomic", DAL_EFFORT_IDENTITY, make_dirac);
+    fill("chaplygin-sleigh", DAL_EFFORT_IDENTITY, find_invariants);
+    fill(integrable, DAL_EFFORT_IDENTITY, find_invariants);
 }
 
 void suite_full_graph(void)

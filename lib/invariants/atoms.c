@@ -17,7 +17,8 @@
 static dal_status add_atom(dal__search *s, const char *text, dal__node node)
 {
     const dal__equations *e = &s->model->equations;
-    if (!text || !node) return DAL_STATUS_MEMORY;
+    if (e->graph->status != DAL_STATUS_OK) return e->graph->status;
+    if (!text) return DAL_STATUS_MEMORY;
     for (int i = 0; i < s->atoms; i++)
         if (s->atom[i].node == node) return DAL_STATUS_OK;
     if (s->atoms == s->capacity) {

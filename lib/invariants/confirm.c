@@ -60,12 +60,12 @@ static void rate_terms(const dal__search *s, const dal__condition *condition, da
 /* Outputs of one candidate: its value, then the terms of its rate, the rate the last. */
 static int outputs_of(const dal__equations *e) { return 2 * e->n + e->multipliers + 4; }
 
-static dal__points *make_points(const dal__search *s, const dal__condition *condition,
-                                const dal__candidate *candidate, int count)
+static dal_status make_points(const dal__search *s, const dal__condition *condition,
+                              const dal__candidate *candidate, int count, dal__points **points)
 {
     const dal__equations *e = &s->model->equations;
     const int outputs = outputs_of(e);
-    dal__points *points = NULL;
+    dal_status status = DAL_STATUS_MEMORY;
     int *symbol = calloc((size_t)outputs, sizeof *symbol);
     dal__node *node = calloc((size_t)outputs * (size_t)count + 1, sizeof *node);
     if (symbol && node) {
@@ -74,12 +74,13 @@ static dal__points *make_points(const dal__search *s, const dal__condition *cond
             node[k * outputs] = candidate[k].node;
             rate_terms(s, condition, candidate[k].node, symbol, moving, node + k * outputs + 1);
         }
-        if (e->graph->status == DAL_STATUS_OK)
-            dal__points_create(&points, e, &s->region, node, count * outputs);
+        status = e->graph->status;
+        if (status == DAL_STATUS_OK)
+            status = dal__points_create(points, e, &s->region, node, count * outputs);
     }
     free(symbol);
     free(node);
-    return points;
+    return status;
 }
 
 /* The largest rate of each candidate at some points over the sum of its terms, max[count], and its
@@ -111,9 +112,10 @@ dal_status dal__confirm(const dal__search *s, const dal__condition *condition,
     const int outputs = outputs_of(e);
     const size_t n = (size_t)count, values = n * (size_t)outputs;
     if (count == 0) return DAL_STATUS_OK;
-    dal__points *points = make_points(s, condition, candidate, count);
+    dal__points *points = NULL;
     double *block = dal__numbers(1, values + 2 * n + (size_t)e->parameters);
-    dal_status status = points && block ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
+    dal_status status =
+        block ? make_points(s, condition, candidate, count, &points) : DAL_STATUS_MEMORY;
     if (status == DAL_STATUS_OK) {
         double *max = block + values, *max_there = max + n, *other = max_there + n;
         dal__other_parameters(e, s->parameter, other);
@@ -139,7 +141,6 @@ typedef struct gradients {
     int *symbol;   /* [moving] by which they are taken */
     double *value; /* [(constraints + known + count)*moving] at a point, in units */
     double *rows;  /* [as many*moving] orthonormal */
-    double *row;   /* [moving] */
 } gradients;
 
 /* Whether a row adds a direction to rows[*held]; then it is added. */

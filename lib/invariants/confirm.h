@@ -16,11 +16,12 @@ typedef struct dal__candidate {
 } dal__candidate;
 
 /* Tries formulas at points of D = 0 of their own.  [alloc]  Errors: DAL_STATUS_MEMORY,
- * DAL_STATUS_NOT_FINITE. */
+ * DAL_STATUS_TOO_LARGE (the graph), DAL_STATUS_NOT_FINITE. */
 dal_status dal__confirm(const dal__search *search, const dal__condition *condition,
                         dal__candidate *candidate, int count);
 /* *constraint: that of velocities, from 0, of whose D the derivative of f(q,t) is a multiple, at
- * points about the start; -1: it is one of none.  [alloc]  Errors: DAL_STATUS_MEMORY. */
+ * points about the start; -1: it is one of none.  [alloc]  Errors: DAL_STATUS_MEMORY,
+ * DAL_STATUS_TOO_LARGE. */
 dal_status dal__find_constraint(const dal__search *search, dal__node f, int *constraint);
 /* Finds which of them are functionally independent on D = 0.  [alloc]  Errors: likewise. */
 dal_status dal__find_independent(const dal__search *search, dal__candidate *candidate, int count);

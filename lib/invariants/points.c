@@ -13,7 +13,7 @@
 #include <float.h>
 #include <stdlib.h>
 
-enum { TO_SURFACE, OUTPUTS, PROGRAMS, MAX_ATTEMPTS = 200, MAX_ITERATIONS = 40 };
+enum { TO_SURFACE, OUTPUTS, MAX_ATTEMPTS = 200, MAX_ITERATIONS = 40 };
 
 struct dal__points {
     const dal__equations *e;
