@@ -274,7 +274,7 @@ static dal_status find_changes(dal__direct *d)
     for (int k = 0; k < s->pieces; k++) DAL_TRY(find_control(d, k));
     DAL_TRY(dal__shooting_move(s, s->point, s->end));
     dal__shooting_jumps(s, s->point, s->end, w, d->jumps);
-    DAL_TRY(dal__shooting_differentiate(s, true));
+    DAL_TRY(dal__shooting_differentiate(s, DAL__COLUMNS_WITHOUT_P));
     memset(d->costate + last, 0, (size_t)w * sizeof *u);
     sweep_back(d);
     sweep_forward(d, u);

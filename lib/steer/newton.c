@@ -122,7 +122,7 @@ static dal_status damp(newton *k, double length, double min, double *out)
 static dal_status linearise(newton *k)
 {
     dal__shooting *s = k->s;
-    DAL_TRY(dal__shooting_differentiate(s, false));
+    DAL_TRY(dal__shooting_differentiate(s, DAL__COLUMNS_OF_ALL));
     DAL_TRY(dal__border_fill(&k->border, s->point, s->pieces, &k->linear));
     return dal__two_point_factor(&k->linear, s->derivative, rank_tolerance) ? DAL_STATUS_OK
                                                                             : DAL_STATUS_MEMORY;

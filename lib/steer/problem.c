@@ -145,28 +145,28 @@ static dal_status find_ends(dal__problem *p)
     return DAL_STATUS_OK;
 }
 
-/* Refuses an end at which D or g is not 0 by given components alone. */
-static dal_status check_end(dal__problem *p, bool at_end)
+/* Refuses a target at which D or g is not 0 by given components alone. */
+static dal_status check_target(dal__problem *p)
 {
     const int m = p->constraints, count = m + p->holonomic;
     double *values = dal__numbers(1, (size_t)count + 1);
     double *rows = dal__numbers((size_t)count + 1, 2 * (size_t)p->n);
-    const double t = at_end ? p->T : p->from, *x = at_end ? p->target : p->start;
+    const double *x = p->target;
     dal_status status = values && rows ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
-    if (status == DAL_STATUS_OK) status = dal__problem_constraints(p, t, x, values);
-    if (status == DAL_STATUS_OK) status = dal__problem_gradients(p, t, x, rows);
+    if (status == DAL_STATUS_OK) status = dal__problem_constraints(p, p->T, x, values);
+    if (status == DAL_STATUS_OK) status = dal__problem_gradients(p, p->T, x, rows);
     for (int a = 0; a < count && status == DAL_STATUS_OK; a++) {
         double size = 0.0, free_size = 0.0;
         for (int i = 0; i < 2 * p->n; i++) {
             const double entry = fabs(rows[a * 2 * p->n + i]);
             size += entry * (1.0 + fabs(x[i]) / p->unit[i]);
-            if (p->is_free[at_end][i]) free_size += entry;
+            if (p->is_free[1][i]) free_size += entry;
         }
         if (free_size > 0.0 || fabs(values[a]) <= 1e-10 * size) continue;
         status = dal__fail(p->error, DAL_STATUS_INCONSISTENT,
-                           "the %s is off %s = 0 by %.3g: every motion keeps %s, so that it cannot "
-                           "be reached",
-                           at_end ? "target" : "start", a < m ? "D" : "g", values[a],
+                           "the target is off %s = 0 by %.3g: every motion keeps %s, so that it "
+                           "cannot be reached",
+                           a < m ? "D" : "g", values[a],
                            a < m ? DAL__CONSTRAINT_NAME(p->system, a) : "g");
     }
     free(values);
@@ -343,7 +343,7 @@ dal_status dal__problem_open(dal__problem *p, dal_model *model, const dal_run_sp
     DAL_TRY(open_run(p));
     DAL_TRY(find_ends(p));
     DAL_TRY(find_units_of_ends(p));
-    if (settings->aim || p->integrals > 0) DAL_TRY(check_end(p, true));
+    if (settings->aim || p->integrals > 0) DAL_TRY(check_target(p));
     return DAL_STATUS_OK;
 }
 

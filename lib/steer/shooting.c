@@ -86,12 +86,12 @@ dal_status dal__shooting_move(dal__shooting *s, const double *point, double *end
 }
 
 /* Whether a column is left out. */
-static bool is_skipped(const dal__problem *p, int unknown, bool without_p)
+static bool is_skipped(const dal__problem *p, int unknown, dal__columns columns)
 {
-    return without_p && unknown >= 2 * p->n && unknown < 3 * p->n;
+    return columns == DAL__COLUMNS_WITHOUT_P && unknown >= 2 * p->n && unknown < 3 * p->n;
 }
 
-dal_status dal__shooting_differentiate(dal__shooting *s, bool without_p)
+dal_status dal__shooting_differentiate(dal__shooting *s, dal__columns columns)
 {
     const dal__problem *p = s->problem;
     const int n = p->n, d = p->unknowns;
@@ -101,7 +101,7 @@ dal_status dal__shooting_differentiate(dal__shooting *s, bool without_p)
         double *out = s->derivative + (size_t)k * (size_t)(d * d);
         dal_batch_clear(s->tangent);
         for (int j = 0; j < d; j++) {
-            if (is_skipped(p, j, without_p)) continue;
+            if (is_skipped(p, j, columns)) continue;
             memset(vector, 0, (size_t)p->dimension * sizeof *vector);
             vector[dal__place_of(p, j)] = p->unit[j];
             dal__tangent_scatter(p->system, p->spec.options.space, point, vector, state);
@@ -109,7 +109,7 @@ dal_status dal__shooting_differentiate(dal__shooting *s, bool without_p)
         }
         dal_batch_advance(s->tangent, s->first[k + 1] - s->first[k]);
         for (int j = 0; j < d; j++) {
-            if (is_skipped(p, j, without_p)) continue;
+            if (is_skipped(p, j, columns)) continue;
             DAL_TRY(dal_batch_status(s->tangent, j, p->error));
             dal_batch_state(s->tangent, j, state);
             dal__tangent_gather(p->system, p->spec.options.space, state, vector);
