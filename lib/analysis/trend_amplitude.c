@@ -55,16 +55,16 @@ static double residue_of_means(const dal__trend_series *s, int i)
 }
 
 /* z in bins; false where nothing oscillates. */
-static int fill_logarithms(const dal__trend_series *s, double *z /* [DAL__BINS] */)
+static bool fill_logarithms(const dal__trend_series *s, double *z /* [DAL__BINS] */)
 {
     double logarithm[DAL_STATISTICS_BLOCKS];
     for (int i = 0; i < s->count; i++) {
         const double v = hypot(s->own[i], residue_of_means(s, i));
-        if (!(v > 0.0)) return 0;
+        if (!(v > 0.0)) return false;
         logarithm[i] = log(v);
     }
     dal__trend_fill_bins(logarithm, s->count, z);
-    return 1;
+    return true;
 }
 
 static double mean_of(const double *z, int from, int count)
@@ -74,11 +74,12 @@ static double mean_of(const double *z, int from, int count)
     return sum;
 }
 
-static double deviation_of(const double *z, int from, int count)
+/* Of the first ones. */
+static double deviation_of(const double *z, int count)
 {
-    const double mean = mean_of(z, from, count);
+    const double mean = mean_of(z, 0, count);
     double square = 0.0;
-    for (int m = from; m < from + count; m++) square += (z[m] - mean) * (z[m] - mean);
+    for (int m = 0; m < count; m++) square += (z[m] - mean) * (z[m] - mean);
     return sqrt(square / (count - 1));
 }
 
@@ -145,9 +146,9 @@ static void weigh_noise(const double *wave, int k, double unit, weights *w)
 static double limited(const double *z, double probability)
 {
     const double beginning = mean_of(z, 0, 2 * EIGHTH), late = mean_of(z, LATE, LATE_BINS);
-    const double noise = 2.0 * deviation_of(z, 0, 2 * EIGHTH) / sqrt(LATE_BINS);
+    const double noise = 2.0 * deviation_of(z, 2 * EIGHTH) / sqrt(LATE_BINS);
     const double last = mean_of(z, DAL__BINS - 2, 2), all = mean_of(z, 0, DAL__BINS - 2);
-    double top = all + 4.0 * deviation_of(z, 0, DAL__BINS - 2);
+    double top = all + 4.0 * deviation_of(z, DAL__BINS - 2);
     for (int m = 0; m < DAL__BINS - 2; m++) top = fmax(top, z[m]);
     if (late - beginning < min_rise + noise) probability = fmin(probability, without_rise);
     return last > top + min_jump ? fmax(probability, with_jump) : probability;

@@ -119,16 +119,17 @@ static fit fit_line(const double *y, int from, int to)
     return fit_columns(y, c, 2, from, to);
 }
 
-static fit fit_parabola(const double *y, int from, int to)
+/* From a bin to the last. */
+static fit fit_parabola(const double *y, int from)
 {
     column c[3];
     fill_powers(c, 3);
-    return fit_columns(y, c, 3, from, to);
+    return fit_columns(y, c, 3, from, BINS);
 }
 
 dal__interval dal__trend_bend(const dal__bins *b)
 {
-    const fit f = fit_parabola(b->mean, 0, BINS);
+    const fit f = fit_parabola(b->mean, 0);
     const double bend = 2.0 * f.last,
                  margin = 2.0 * margin_of(&f, fmax(b->error, b->rounding), inflation_of(&f));
     return (dal__interval){bend - margin, bend, bend + margin};
@@ -191,15 +192,15 @@ static void refine(const double *y, change_shape *s, int which, double low, doub
     double a = high - golden * (high - low), b = low + golden * (high - low);
     double at_a = (*p = a, square_of(y, s)), at_b = (*p = b, square_of(y, s));
     for (int i = 0; i < GOLDEN; i++) {
-        const int left = at_a < at_b;
-        if (left) {
+        const bool is_lower = at_a < at_b;
+        if (is_lower) {
             high = b, b = a, at_b = at_a;
             a = *p = high - golden * (high - low);
         } else {
             low = a, a = b, at_a = at_b;
             b = *p = low + golden * (high - low);
         }
-        *(left ? &at_a : &at_b) = square_of(y, s);
+        *(is_lower ? &at_a : &at_b) = square_of(y, s);
     }
     *p = 0.5 * (low + high);
 }
@@ -358,7 +359,7 @@ static bool is_beside_line(const outcome *o)
     const double r = fabs(o->rate);
     if (late < LONG_LATE || o->margin > line_margin * r || r < line_share * fabs(o->size))
         return false;
-    const fit parabola = fit_parabola(o->y, o->late, BINS), line = fit_line(o->y, o->late, BINS);
+    const fit parabola = fit_parabola(o->y, o->late), line = fit_line(o->y, o->late, BINS);
     const double bend = 2.0 * fabs(parabola.last) * late / BINS;
     if (bend > line_bend * r || sqrt(line.square / late) > line_residue * r) return false;
     if (o->size * o->rate < 0.0 && fabs(o->size) > line_opposite * r) return false;

@@ -165,7 +165,7 @@ static double loudest(const tone_fit *f)
 }
 
 /* Least squares by the normal equations: columns of length near one. */
-static int solve(double m[COLUMNS][COLUMNS], double *x, int n)
+static void solve(double m[COLUMNS][COLUMNS], double *x, int n)
 {
     for (int i = 0; i < n; i++) {
         const double whole = m[i][i];
@@ -189,7 +189,6 @@ static int solve(double m[COLUMNS][COLUMNS], double *x, int n)
         for (int k = i + 1; k < n; k++) x[i] -= m[k][i] * x[k];
         x[i] = m[i][i] < INFINITY ? x[i] / m[i][i] : 0.0;
     }
-    return n;
 }
 
 /* One step of Gauss and Newton; leaves the residue of the columns it solved for. */

@@ -21,7 +21,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-enum { VALUE, FIRST, SECOND };
+enum { VALUE, FIRST };
 enum { Q, V, LAMBDA, P, PI, E, PI_E, KINDS };
 
 typedef struct splines {

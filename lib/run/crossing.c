@@ -88,7 +88,8 @@ double dal__crossing_resolution(const dal__zero_search *c)
     return 4.0 * DBL_EPSILON * fmax(fabs(dal_run_time(c->run)), fabs(c->h));
 }
 
-bool dal__counts_from(const dal__zero_search *c, int k, dal__side side)
+/* Whether a zero that leaves this side counts. */
+static bool counts_from(const dal__zero_search *c, int k, dal__side side)
 {
     const int direction = c->functions.direction(c->functions.user, c->run, k);
     return direction == 0 || direction == -dal__side_sign(side);
@@ -283,7 +284,7 @@ static dal_status locate(dal__zero_search *c, int k)
     const bool has_just_left = dal__is_just(zero->side);
     dal__value_at begin = {a->s, a->f[k]}, end = {b->s, b->f[k]}, middle = end;
     zero->s = INFINITY;
-    if (!(side * end.f < 0.0) || !dal__counts_from(c, k, zero->side)) return DAL_STATUS_OK;
+    if (!(side * end.f < 0.0) || !counts_from(c, k, zero->side)) return DAL_STATUS_OK;
     if (has_just_left && -side * end.f <= b->slack[k]) return DAL_STATUS_OK;
     c->k = k;
     while (has_just_left && side * middle.f <= 0.0) {
@@ -302,9 +303,9 @@ dal__side dal__side_at(const dal__zero_search *c, int k, double f, double slack)
 {
     const dal__side side = c->zero[k].side;
     const int from = dal__side_sign(side), to = dal__sign_of(f);
-    if (dal__is_just(side) && (fabs(f) <= slack || (to == -from && dal__counts_from(c, k, side))))
+    if (dal__is_just(side) && (fabs(f) <= slack || (to == -from && counts_from(c, k, side))))
         return side;
-    if (to == 0 || to == from || dal__counts_from(c, k, side)) return (dal__side)from;
+    if (to == 0 || to == from || counts_from(c, k, side)) return (dal__side)from;
     return (dal__side)to;
 }
 

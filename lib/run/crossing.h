@@ -99,8 +99,6 @@ bool dal__crossing_is_kept(const dal__zero_search *c, double *distance);
 /* Takes the step, which has been searched to its end. */
 void dal__crossing_take(dal__zero_search *c);
 
-/* Whether a zero that leaves this side counts. */
-bool dal__counts_from(const dal__zero_search *c, int k, dal__side side);
 /* The side at a value f of function k that has not passed a zero that counts, slack being rounding
  * there. */
 dal__side dal__side_at(const dal__zero_search *c, int k, double f, double slack);

@@ -7,13 +7,12 @@
 /* Gauss-Newton iterations on a lifted motion in pieces. */
 typedef struct dal__direct {
     dal__shooting *s;
-    int range;      /* max rank of K */
     double damping; /* added to the Gramian, relative to its trace */
     double jump;    /* the largest jump, in units */
     double change;  /* of (q, v) by the last iteration, if it was whole: the largest, in units */
     bool is_stuck;  /* the last iteration found nothing better */
     double *memory;
-    double *control;     /* [pieces*n*range] pi by u, in units: pi = control u, |u|^2/2 the cost */
+    double *control;     /* [pieces*n*n] pi by u, in units: pi = control u, |u|^2/2 the cost */
     double *jumps;       /* [pieces*unknowns] */
     double *costate;     /* [(pieces + 1)*2n] multipliers of the jumps, in units: p, pi */
     double *change_x;    /* [(pieces + 1)*2n] */
