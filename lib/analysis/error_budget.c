@@ -27,7 +27,7 @@ typedef struct comparisons {
     dal_statistics *series; /* [DAL__COMPARED_SERIES][observables] */
     dal_trend *trends;      /* [DAL__COMPARED_SERIES][observables] */
     double *values;         /* [TOGETHER + 1][observables] */
-    int *conserved;         /* [observables] */
+    bool *conserved;        /* [observables] */
     double work, done;
     dal_error *error;
 } comparisons;
@@ -332,7 +332,7 @@ static dal_status run_beginning(comparisons *w)
     if (status == DAL_STATUS_OK) status = sample_beginning(w, &b, &error);
     for (int k = 0; k < TOGETHER; k++) dal_run_free(b.run[k]);
     dal__reference_free(b.exact);
-    const int ran = status == DAL_STATUS_OK;
+    const bool ran = status == DAL_STATUS_OK;
     w->of->ran[DAL_COMPARISON_QUAD] = w->of->ran[DAL_COMPARISON_QUAD_HALVED] = ran;
     if (ends_all(w, status, &error)) return status;
     if (ran) return DAL_STATUS_OK;
@@ -384,7 +384,7 @@ static void find_shares(comparisons *w, dal_run *run)
 {
     for (int which = 0; which < DAL__COMPARED_SERIES; which++)
         if (w->of->observables > 0 && series(w, which)->count > 0)
-            dal_run_classify(run, series(w, which), 0, trends(w, which));
+            dal_run_classify(run, series(w, which), false, trends(w, which));
     make_rates_linear(w);
     for (int i = 0; i < w->of->observables; i++) {
         double rate[1 + DAL_COMPARISONS];

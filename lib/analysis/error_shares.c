@@ -29,19 +29,19 @@ const char *dal_error_source_name(dal_error_source source)
     DAL__RETURN_WORD(DAL_ERROR_SOURCE_LIST, DAL__SECOND, source, "?");
 }
 
-int dal__has_branches(const dal_system *system)
+bool dal__has_branches(const dal_system *system)
 {
     return system->series && system->series->refused;
 }
 
 static double half_width(const dal_trend *f) { return 0.5 * (f->rate_high - f->rate_low); }
 
-static int drifts(const dal_trend *f, double time)
+static bool drifts(const dal_trend *f, double time)
 {
     return fabs(f->rate) > half_width(f) && fabs(f->rate) * time >= 0.5 * f->deviation;
 }
 
-static double size_of(const dal_trend *f, int by_rate)
+static double size_of(const dal_trend *f, bool by_rate)
 {
     return by_rate ? fabs(f->rate) : f->deviation;
 }
@@ -146,7 +146,7 @@ static void share_beginning(const dal_error_budget *e, dal_shares *a)
     }
     if (!(size_of(&a->beginning, a->by_rate) > 0.0)) return;
     weigh_quad(e, a, moves);
-    const int solver_drifts = a->by_rate && fabs(a->solver.rate) > clear * half_width(&a->solver);
+    const bool solver_drifts = a->by_rate && fabs(a->solver.rate) > clear * half_width(&a->solver);
     a->solver_is_significant =
         a->solver.deviation > significant * a->rounding.deviation || solver_drifts;
     set_share(a, DAL_SOURCE_ROUNDING,
@@ -244,7 +244,7 @@ static double projection_ratio(const description *s)
 
 static void describe_order(const description *s, const char *before)
 {
-    const int by_rate = s->e->quad_steps > 0 ? s->a->by_rate : s->a->whole_by_rate;
+    const bool by_rate = s->e->quad_steps > 0 ? s->a->by_rate : s->a->whole_by_rate;
     if (s->e->quad_steps == 0 && !s->e->ran[DAL_COMPARISON_HALVED])
         snprintf(s->text, s->size, "neither quad precision nor a run with half the step: %s",
                  s->e->reason[DAL_COMPARISON_HALVED]);
@@ -326,7 +326,7 @@ static void describe_coefficients(const description *s)
 
 static void describe_solver(const description *s)
 {
-    if (s->e->ran[DAL_COMPARISON_TIGHTER] == 0)
+    if (!s->e->ran[DAL_COMPARISON_TIGHTER])
         snprintf(s->text, s->size, "%s", s->e->reason[DAL_COMPARISON_TIGHTER]);
     else if (s->e->quad_steps == 0)
         snprintf(s->text, s->size, "solved further the drift is %.3g times this",
@@ -423,7 +423,7 @@ static void append_percent(description *s, double share)
         append_words(s, "%s%.2g %%", "", 100.0 * share);
 }
 
-/* The largest share after `before`, of sources that are named; DAL_ERROR_SOURCES: none. */
+/* The largest share of a source that is named and not done; DAL_ERROR_SOURCES: none. */
 static int next_source(const dal_shares *a, const bool *done)
 {
     int next = DAL_ERROR_SOURCES;

@@ -22,6 +22,6 @@ typedef enum dal__series_of_run {
 void dal__find_shares(const dal_error_budget *budget, dal_shares *shares, const double *rate);
 
 /* Whether F has branches (if, abs, min, ...). */
-int dal__has_branches(const dal_system *system);
+bool dal__has_branches(const dal_system *system);
 
 #endif

@@ -124,7 +124,7 @@ typedef struct start {
 } start;
 
 /* Where their rates are known at a point, those that are not 0 are not conserved. */
-static dal_status try_point(start *w, dal__random *random, int *conserved)
+static dal_status try_point(start *w, dal__random *random, bool *conserved)
 {
     const dal_system *s = dal_scaled_system(w->scaled);
     for (int i = 0; i < w->size; i++)
@@ -136,12 +136,12 @@ static dal_status try_point(start *w, dal__random *random, int *conserved)
     DAL_TRY(
         dal_evaluator_measure_rate(w->evaluator, s->invariant_values, s->invariants, &at, w->rate));
     for (int i = 0; i < s->invariants; i++)
-        if (!(fabs(w->rate[i]) <= no_rate)) conserved[i] = 0;
+        if (!(fabs(w->rate[i]) <= no_rate)) conserved[i] = false;
     return DAL_STATUS_OK;
 }
 
 static dal_status find_invariants(start *w, const dal_run_spec *spec, const dal_run *run,
-                                  int *conserved)
+                                  bool *conserved)
 {
     const dal_system *s = w->system;
     dal__random random = {42};
@@ -156,17 +156,17 @@ static dal_status find_invariants(start *w, const dal_run_spec *spec, const dal_
     w->rate = w->point + w->size;
     w->t = dal_run_time(run) / dal_scaled_units(w->scaled)[0];
     dal__scaled_from_user(w->scaled, dal_run_state(run), w->state);
-    for (int i = 0; i < s->invariants; i++) conserved[i] = 1;
+    for (int i = 0; i < s->invariants; i++) conserved[i] = true;
     for (int k = 0; k < POINTS; k++) {
         const dal_status status = try_point(w, &random, conserved);
         if (status == DAL_STATUS_MEMORY) return status;
         known += status == DAL_STATUS_OK;
     }
-    for (int i = 0; i < s->invariants && known <= POINTS / 2; i++) conserved[i] = 0;
+    for (int i = 0; i < s->invariants && known <= POINTS / 2; i++) conserved[i] = false;
     return DAL_STATUS_OK;
 }
 
-dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int *conserved,
+dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, bool *conserved,
                                dal_error *error)
 {
     const dal_system *s = spec->system;
@@ -188,7 +188,7 @@ dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int
     if (s->invariant_values && s->invariants > 0 && !moves) {
         status = find_invariants(&w, spec, run, conserved + invariants);
         if (status != DAL_STATUS_OK)
-            for (int i = 0; i < s->invariants; i++) conserved[invariants + i] = 0;
+            for (int i = 0; i < s->invariants; i++) conserved[invariants + i] = false;
     }
     free(w.state);
     dal_evaluator_free(w.evaluator);

@@ -25,7 +25,7 @@ dal_run *dal__reference_run(dal__reference *reference);
 
 /* Finds which observables of a run of the spec the exact motion from its start is known to
  * conserve, conserved[observables]. [alloc]  Errors: DAL_STATUS_MEMORY. */
-dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, int *conserved,
+dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, bool *conserved,
                                dal_error *error);
 
 #endif

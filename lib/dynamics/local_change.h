@@ -18,7 +18,8 @@ typedef struct dal__local {
     dal_run *quad;
     double step;
     bool enforces_D; /* a step ends on D = 0 wherever it begins; its d is D there */
-    int n, m, has_energy, invariants, count;
+    bool has_energy;
+    int n, m, invariants, count;
     double *values, *scales; /* scratch; as of dal_evaluator_scales */
     double *ends;            /* [STEPS*2n] where the last steps in double precision ended */
 } dal__local;

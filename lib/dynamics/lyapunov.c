@@ -42,16 +42,17 @@ struct dal_lyapunov {
     dal_run *run;       /* the trajectory */
     dal_run *auxiliary; /* steps tangent vectors, or displaced states, from the state of the run */
     dal_scaled *scaled; /* the system in its own units */
-    dal_evaluator *evaluator;                 /* of that */
-    double *unit;                             /* [dimension] of the vectors */
-    dal_space space;                          /* lifted: vectors are (dq, dv, dp, dpi) */
-    double time;                              /* the unit of time */
-    int n, nw, dimension, count, rank, exact; /* dimension: of the vectors */
-    int size;                                 /* of the state */
-    int order;                                /* of the method */
-    int enforced;               /* functions that the method enforces: D, then g, then E */
-    bool is_symplectic;         /* J is, of the lift */
-    int turns_D;                /* the method turns D into -D: off D = 0 it is not near the flow */
+    dal_evaluator *evaluator;          /* of that */
+    double *unit;                      /* [dimension] of the vectors */
+    dal_space space;                   /* lifted: vectors are (dq, dv, dp, dpi) */
+    double time;                       /* the unit of time */
+    int n, nw, dimension, count, rank; /* dimension: of the vectors */
+    int size;                          /* of the state */
+    int order;                         /* of the method */
+    int enforced;                      /* functions that the method enforces: D, then g, then E */
+    bool is_symplectic;                /* J is, of the lift */
+    bool is_exact;                     /* J is by the tangent system */
+    bool turns_D;               /* the method turns D into -D: off D = 0 it is not near the flow */
     double h, divergence, rate; /* at the present state; rate: see find_divergence */
     double change;              /* max |J V - V| of a vector in the present step */
     double *vectors;            /* [dimension*dimension] the first count of them are in use */
@@ -173,7 +174,7 @@ static dal_status move_vectors(dal_lyapunov *s, int count)
 {
     for (int j = 0; j < count; j++) {
         double *vector = s->vectors + j * s->dimension;
-        DAL_TRY(s->exact ? move_exactly(s, vector) : move_by_differences(s, vector));
+        DAL_TRY(s->is_exact ? move_exactly(s, vector) : move_by_differences(s, vector));
     }
     return DAL_STATUS_OK;
 }
@@ -333,7 +334,7 @@ dal_status dal_lyapunov_balance(dal_lyapunov *s, dal_balance *balance, dal_error
     if (isnan(step.mean))
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "the step is too long: h max(|F_q|^(1/2), |F_v|) reaches 1");
-    const double noise = s->exact ? 1e-13 : 1e-7;
+    const double noise = s->is_exact ? 1e-13 : 1e-7;
     const double jump = dal_statistics_max_abs(&s->statistics[s->count + 3]);
     balance->surface = (find_gradients(s) - s->log_from) / T;
     if (isnan(balance->surface))
@@ -383,12 +384,12 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
     dal_method method = spec.method;
     bool is_projected; /* to g = 0, which no tangent vector is */
     DAL_TRY(dal_method_complete(&method, system, &spec.options, &is_projected, error));
-    s->exact = tangent && !is_projected && dal__tangent_fault(&spec, s->space) == NULL;
-    if (s->space == DAL_LIFTED && !s->exact)
+    s->is_exact = tangent && !is_projected && dal__tangent_fault(&spec, s->space) == NULL;
+    if (s->space == DAL_LIFTED && !s->is_exact)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "no exponents of the lift: steps are projected to holonomic constraints, "
                          "and tangent vectors are not: take the option bare");
-    if (s->exact) spec.system = tangent, spec.start_count = 0;
+    if (s->is_exact) spec.system = tangent, spec.start_count = 0;
     DAL_TRY(dal_run_create(&s->auxiliary, &spec, error));
     s->n = system->n;
     s->nw = system->n + system->multipliers;
@@ -537,7 +538,7 @@ void dal_lyapunov_free(dal_lyapunov *s)
 
 const dal_run *dal_lyapunov_run(const dal_lyapunov *s) { return s ? s->run : NULL; }
 int dal_lyapunov_count(const dal_lyapunov *s) { return s ? s->count : 0; }
-bool dal_lyapunov_is_exact(const dal_lyapunov *s) { return s && s->exact; }
+bool dal_lyapunov_is_exact(const dal_lyapunov *s) { return s && s->is_exact; }
 bool dal_lyapunov_is_whole(const dal_lyapunov *s) { return s && s->count == s->rank; }
 
 double dal_lyapunov_time_unit(const dal_lyapunov *s) { return s ? s->time : NAN; }

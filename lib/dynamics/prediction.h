@@ -42,7 +42,7 @@ typedef struct dal__prediction_work {
     double reach[2];     /* max |q_i|, |v_i| in units in either half, of what F depends on */
     bool *general;       /* [2n] which these are */
     bool *even, *hidden; /* [count] zero by reversibility; by rounding */
-    int *conserved;
+    bool *conserved;     /* [count] by the exact motion */
     dal_error *error;
 } dal__prediction_work;
 

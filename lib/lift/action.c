@@ -89,7 +89,7 @@ static double hamiltonian(void *user, const double *z)
 }
 
 /* before holds P - h/2 H_X of the interval before, a term of dS/dX at the node between. */
-static double variation(path *w, const double *row, int inner)
+static double variation(path *w, const double *row, bool inner)
 {
     double max = 0.0;
     int half = w->half;

@@ -376,7 +376,7 @@ dal_status dal_batch_set_parameter(dal_batch *batch, int lane, const char *name,
     return status;
 }
 
-/* The scalar run repeats the failing step, to say reason. */
+/* The scalar run repeats the failing step, to say why. */
 static void record_failures(dal_batch *batch, group *b, dal__lanes failed, const dal_status *reason)
 {
     for (int lane = 0; lane < b->kind->width; lane++) {

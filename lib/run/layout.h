@@ -15,7 +15,8 @@ typedef struct dal__layout {
     dal_method method;
     dal_options options;
     double start_time;
-    int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier, acceleration, pivots;
+    bool lifted;
+    int n, nw, m, dim, depth, stages, derivatives, multiplier, acceleration, pivots;
     int field_operations, jacobian_operations; /* as of the system, or guessed */
     int taylor_order;                          /* of Taylor series, for the tolerance */
     double tolerance_root;                     /* tolerance^(1/taylor_order) */
