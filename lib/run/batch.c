@@ -301,6 +301,13 @@ bool dal_batch_is_native(const dal_batch *batch) { return batch && batch->native
 
 /* ---- use ---- */
 
+static dal_status check_lane(const dal_batch *batch, int lane, dal_error *error)
+{
+    if (lane >= 0 && lane < batch->count) return DAL_STATUS_OK;
+    return dal__fail(error, DAL_STATUS_ARGUMENT, "lane %d of %d does not exist", lane,
+                     batch->count);
+}
+
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
                            dal_error *error)
@@ -316,9 +323,7 @@ dal_status dal__batch_start_varied(dal_batch *batch, int lane, const dal_setting
                                    int parameter_count, const dal_setting *start, int start_count,
                                    const double *added, dal_error *error)
 {
-    if (lane < 0 || lane >= batch->count)
-        return dal__fail(error, DAL_STATUS_ARGUMENT, "lane %d of %d does not exist", lane,
-                         batch->count);
+    DAL_TRY(check_lane(batch, lane, error));
     if (batch->stepped)
         return dal__fail(error, DAL_STATUS_ARGUMENT,
                          "lane %d cannot be started again: its batch has been stepped", lane);
@@ -335,9 +340,7 @@ dal_status dal_batch_set_state(dal_batch *batch, int lane, double t, const doubl
 {
     DAL_REQUIRE(batch, error);
     DAL_REQUIRE(state, error);
-    if (lane < 0 || lane >= batch->count)
-        return dal__fail(error, DAL_STATUS_ARGUMENT, "lane %d of %d does not exist", lane,
-                         batch->count);
+    DAL_TRY(check_lane(batch, lane, error));
     DAL_TRY(dal_run_set_state(batch->scalar, t, state, error));
     group *b = group_of(batch, lane);
     scatter(b->persistent, batch->scalar->persistent, batch->scalar->layout.persistent,
@@ -466,9 +469,7 @@ int dal_batch_count(const dal_batch *batch) { return batch ? batch->count : 0; }
 dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error)
 {
     DAL_REQUIRE(batch, error);
-    if (lane < 0 || lane >= batch->count)
-        return dal__fail(error, DAL_STATUS_ARGUMENT, "lane %d of %d does not exist", lane,
-                         batch->count);
+    DAL_TRY(check_lane(batch, lane, error));
     if (error) *error = batch->error[lane];
     return batch->error[lane].status;
 }

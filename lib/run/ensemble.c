@@ -15,6 +15,7 @@
  *
  * so that it depends neither on other members nor on other names. */
 #include "core/error.h"
+#include "core/pi.h"
 #include "core/settings.h"
 #include "dalembert_program.h"
 #include "run/batch.h"
@@ -48,10 +49,9 @@ static double uniform(uint64_t key, uint64_t k)
 
 static double draw(const dal_variation *v, uint64_t key, uint64_t member)
 {
-    static const double whole_turn = 6.28318530717958647693; /* 2 pi */
     const double u = uniform(key, 2 * member);
     if (v->distribution == DAL_UNIFORM) return v->first + (v->second - v->first) * u;
-    const double z = sqrt(-2.0 * log(u)) * cos(whole_turn * uniform(key, 2 * member + 1));
+    const double z = sqrt(-2.0 * log(u)) * cos(2.0 * DAL__PI * uniform(key, 2 * member + 1));
     const double x = v->first + v->second * z;
     return v->distribution == DAL_NORMAL ? x : exp(x);
 }
