@@ -23,12 +23,14 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+/* Of its substeps, in units of the system's own. */
+static const double tolerance = 1e-16;
+
 struct dal__reference {
     dal_scaled *scaled;
     dal_run *motion;   /* of the scaled system, (q, v, g) */
     dal_run *observed; /* of the spec */
-    double start_time;
-    double *state; /* [dimension of observed, or of motion] */
+    double *state;     /* [dimension of observed, or of motion] */
 };
 
 void dal__reference_free(dal__reference *r)
@@ -49,8 +51,7 @@ long long dal__reference_steps(const dal__reference *r)
     return dal_run_evaluations(r->motion) / EVALUATIONS;
 }
 
-/* Whether p and pi, after e on the lifted space, are 0. */
-static bool is_on_motion(const dal_run *run)
+bool dal__is_on_motion(const dal_run *run)
 {
     const int n = dal_run_system(run)->n;
     const double *state = dal_run_state(run);
@@ -58,21 +59,23 @@ static bool is_on_motion(const dal_run *run)
     return dal__max_abs(state + 2 * n + 1, (size_t)(2 * n)) == 0.0;
 }
 
-static dal_status create_motion(dal__reference *r, const dal_run_spec *spec, dal_error *error)
+dal_status dal__create_reference_run(dal_run **reference, const dal_scaled *scaled,
+                                     const dal_run_spec *spec, const dal_run *run, double *state,
+                                     dal_error *error)
 {
-    const double tau = dal_scaled_units(r->scaled)[0];
-    dal_run_spec own = {.system = dal_scaled_system(r->scaled),
+    const double tau = dal_scaled_units(scaled)[0];
+    dal_run_spec own = {.system = dal_scaled_system(scaled),
                         .parameters = spec->parameters,
                         .parameter_count = spec->parameter_count,
-                        .start_time = r->start_time / tau,
+                        .start_time = dal_run_time(run) / tau,
                         .options = dal_options_default()};
     DAL_TRY(dal_method_parse(&own.method, "dop853", error));
     own.options.space = DAL_PHYSICAL;
-    own.options.step = spec->options.step / tau;
-    own.options.tolerance = DAL__REFERENCE_TOLERANCE;
-    DAL_TRY(dal_run_create(&r->motion, &own, error));
-    dal__scaled_from_user(r->scaled, dal_run_state(r->observed), r->state);
-    return dal_run_set_state(r->motion, own.start_time, r->state, error);
+    own.options.step = dal_run_step_size(run) / tau;
+    own.options.tolerance = tolerance;
+    DAL_TRY(dal_run_create(reference, &own, error));
+    dal__scaled_from_user(scaled, dal_run_state(run), state);
+    return dal_run_set_state(*reference, own.start_time, state, error);
 }
 
 dal_status dal__reference_create(dal__reference **reference, const dal_run_spec *spec,
@@ -85,13 +88,12 @@ dal_status dal__reference_create(dal__reference **reference, const dal_run_spec 
     r->state = dal__numbers(1, (size_t)(4 * s->n + 2 + s->multipliers));
     dal_status status =
         r->state ? dal_run_create(&r->observed, spec, error) : dal__memory_error(error);
-    if (status == DAL_STATUS_OK && !is_on_motion(r->observed))
+    if (status == DAL_STATUS_OK && !dal__is_on_motion(r->observed))
         status = dal__fail(error, DAL_STATUS_UNSUPPORTED, "p and pi are not 0");
     if (status == DAL_STATUS_OK) status = dal_scaled_create(&r->scaled, spec, error);
-    if (status == DAL_STATUS_OK) {
-        r->start_time = dal_run_time(r->observed);
-        status = create_motion(r, spec, error);
-    }
+    if (status == DAL_STATUS_OK)
+        status =
+            dal__create_reference_run(&r->motion, r->scaled, spec, r->observed, r->state, error);
     if (status == DAL_STATUS_OK)
         *reference = r;
     else
@@ -174,7 +176,7 @@ dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, boo
     int number, invariants = 0;
     start w = {.system = s};
     dal_status status = DAL_STATUS_OK;
-    const bool is_pushed = !is_on_motion(run);
+    const bool is_pushed = !dal__is_on_motion(run);
     const bool moves = is_pushed && isfinite(dal_run_state(run)[2 * s->n]); /* q, by pi/e */
     for (int i = 0; i < dal_run_observables(run); i++) {
         const dal__observable_kind kind = dal__run_observable_kind(run, i, &number);

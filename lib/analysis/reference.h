@@ -2,14 +2,17 @@
 #ifndef DAL_REFERENCE_H
 #define DAL_REFERENCE_H
 
-#include "dalembert_run.h"
+#include "dalembert_evaluator.h"
 
 /* The exact motion from the start of a run, beside that run. */
 typedef struct dal__reference dal__reference;
 
-/* The tolerance of its substeps, in units of the system's own. */
-#define DAL__REFERENCE_TOLERANCE 1e-16
-
+/* Makes a run of dop853 on (q, v, g) in the units of scaled, from the state of a run of spec and by
+ * steps of its size; state, [its dimension], is the start in these units. [alloc]  Errors: as of
+ * runs. */
+dal_status dal__create_reference_run(dal_run **reference, const dal_scaled *scaled,
+                                     const dal_run_spec *spec, const dal_run *run, double *state,
+                                     dal_error *error);
 /* Makes the motion of a spec, at its start. [alloc]  Errors: as of runs; DAL_STATUS_UNSUPPORTED: p
  * and pi are not 0, so that they move (q, v), too. */
 dal_status dal__reference_create(dal__reference **reference, const dal_run_spec *spec,
@@ -23,6 +26,8 @@ long long dal__reference_steps(const dal__reference *reference);
 /* A run of the spec that is at the present state of the exact motion, for its observables. */
 dal_run *dal__reference_run(dal__reference *reference);
 
+/* Whether p and pi of a run are 0, so that (q, v) is the motion; without them it is. */
+bool dal__is_on_motion(const dal_run *run);
 /* Finds which observables of a run of the spec the exact motion from its start is known to
  * conserve, conserved[observables]. [alloc]  Errors: DAL_STATUS_MEMORY. */
 dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, bool *conserved,

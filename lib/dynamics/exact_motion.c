@@ -11,6 +11,7 @@
  * time the velocities go back to D = 0, and taylor begins again; so it does where a constraint has
  * turned too far since it began. */
 #include "dynamics/exact_motion.h"
+#include "analysis/reference.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
 #include "core/settings.h"
@@ -47,9 +48,9 @@ struct dal_exact_motion {
     size_t numbers, limit; /* that are kept, and may be; limit 0: the present ones alone */
     double begin, done;    /* where the run's step begins, since the start; what of it is known */
     double end;            /* of the polynomials, since the start */
-    bool has_begun, has_failed;
-    dal_error failure;
-    dal_status failed;
+    bool has_begun;
+    dal_status failed; /* DAL_STATUS_OK: it has not, */
+    dal_error failure; /* or this says why */
 };
 
 bool dal__exact_motion_has_series(const dal_exact_motion *m) { return m->run != NULL; }
@@ -78,23 +79,21 @@ void dal_exact_motion_free(dal_exact_motion *m)
 
 /* ---- making one ---- */
 
-dal_status dal__create_physical(const dal_run_spec *spec, dal_run **run, bool *on_D,
-                                dal_error *error)
+dal_status dal__create_physical(const dal_run_spec *spec, dal_run_spec *own, dal_run **run,
+                                bool *on_D, dal_error *error)
 {
-    const int n = spec->system->n;
-    dal_run_spec own = *spec;
     dal_run *lifted;
     *run = NULL;
+    *own = *spec;
+    own->options.space = DAL_PHYSICAL;
+    own->start = NULL;
+    own->start_count = 0;
+    own->options.consistent = true;
     DAL_TRY(dal_run_create(&lifted, spec, error));
-    const double *y = dal_run_state(lifted), t = dal_run_time(lifted);
-    *on_D =
-        dal_run_dimension(lifted) != 4 * n + 2 || dal__max_abs(y + 2 * n + 1, 2 * (size_t)n) == 0.0;
-    own.options.space = DAL_PHYSICAL;
-    own.start = NULL;
-    own.start_count = 0;
-    own.options.consistent = true;
-    dal_status status = dal_run_create(run, &own, error);
-    if (status == DAL_STATUS_OK) status = dal_run_set_state(*run, t, y, error);
+    *on_D = dal__is_on_motion(lifted);
+    dal_status status = dal_run_create(run, own, error);
+    if (status == DAL_STATUS_OK)
+        status = dal_run_set_state(*run, dal_run_time(lifted), dal_run_state(lifted), error);
     dal_run_free(lifted);
     return status;
 }
@@ -170,11 +169,12 @@ dal_status dal_exact_motion_create(dal_exact_motion **motion, const dal_run_spec
                                    size_t bytes, dal_error *error)
 {
     dal_run *run;
+    dal_run_spec own;
     bool on_D;
     DAL_REQUIRE(motion, error);
     *motion = NULL;
     DAL_TRY(dal__check_spec(spec, error));
-    DAL_TRY(dal__create_physical(spec, &run, &on_D, error));
+    DAL_TRY(dal__create_physical(spec, &own, &run, &on_D, error));
     const size_t limit = bytes > 0 ? bytes / sizeof(double) + 1 : LIMIT;
     const dal_status status = on_D ? dal__exact_motion_of_run(motion, spec, run, limit, error)
                                    : dal__fail(error, DAL_STATUS_UNSUPPORTED,
@@ -312,10 +312,8 @@ static dal_status add_substep(dal_exact_motion *m, dal_error *error)
 /* Adds substeps up to a time, or until it is full; a failure is the same whenever it is met. */
 static dal_status extend(dal_exact_motion *m, double time, dal_error *error)
 {
-    while (!m->has_failed && !(m->end > time) && !is_full(m)) {
+    while (m->failed == DAL_STATUS_OK && !(m->end > time) && !is_full(m))
         m->failed = add_substep(m, &m->failure);
-        m->has_failed = m->failed != DAL_STATUS_OK;
-    }
     if (m->count > 0 && (m->end >= time || is_full(m))) return DAL_STATUS_OK;
     return dal__fail(error, m->failed, "%s", m->failure.message);
 }
@@ -363,7 +361,8 @@ dal_status dal_exact_motion_extend(dal_exact_motion *m, double T,
     for (int i = 1; i <= 256 && m->run && !dal__exact_motion_ends_before(m, all); i++) {
         const dal_status status = extend(m, i * by, error);
         if (status == DAL_STATUS_MEMORY) return status;
-        if (m->has_failed) return DAL_STATUS_OK; /* predictions end there, and say why */
+        if (m->failed != DAL_STATUS_OK)
+            return DAL_STATUS_OK; /* predictions end there, and say why */
         if (observer && observer->step &&
             observer->step(observer->user, i / 256.0) != DAL_STATUS_OK)
             return dal__fail(error, DAL_STATUS_INTERRUPTED, "interrupted");

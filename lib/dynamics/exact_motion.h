@@ -4,10 +4,10 @@
 
 #include "dalembert_predict.h"
 
-/* A run of spec on the physical space, where (q, v) have the bits of the run of spec, at its start.
- * *on_D: p and pi are 0. [alloc]  Errors: as of runs. */
-dal_status dal__create_physical(const dal_run_spec *spec, dal_run **run, bool *on_D,
-                                dal_error *error);
+/* A run of spec on the physical space, where (q, v) have the bits of the run of spec, at its start,
+ * and the spec *own of that.  *on_D: p and pi are 0. [alloc]  Errors: as of runs. */
+dal_status dal__create_physical(const dal_run_spec *spec, dal_run_spec *own, dal_run **run,
+                                bool *on_D, dal_error *error);
 /* Makes the exact motion from the state of a run of spec on the physical space; it has no
  * polynomials where F has no Taylor series.  limit: how many numbers it keeps; 0: what is before
  * the time it is read at is dropped. [alloc]  Errors: as of runs. */

@@ -48,24 +48,13 @@ bool dal__orbit_has_series(const dal__orbit *o) { return o->scaled == NULL; }
 static dal_status create_reference(dal__orbit *o, const dal_run_spec *spec, const dal_run *run,
                                    dal_error *error)
 {
-    const dal_system *system = dal_run_system(run);
-    dal_run_spec own = {.parameters = spec->parameters,
-                        .parameter_count = spec->parameter_count,
-                        .options = dal_options_default()};
-    own.options.space = DAL_PHYSICAL;
-    own.options.tolerance = DAL__REFERENCE_TOLERANCE;
     o->state = dal__numbers(1, (size_t)o->size);
     if (!o->state) return dal__memory_error(error);
     DAL_TRY(dal_scaled_create_at(&o->scaled, run, error));
-    const double tau = dal_scaled_units(o->scaled)[0];
-    own.system = dal_scaled_system(o->scaled);
-    own.start_time = o->start = dal_run_time(run) / tau;
-    own.options.step = o->step /= tau;
-    dal__scaled_from_user(o->scaled, dal_run_state(run), o->state);
-    DAL_TRY(dal_method_parse(&own.method, "dop853", error));
-    DAL_TRY(dal_run_create(&o->run, &own, error));
-    DAL_TRY(dal_run_set_state(o->run, own.start_time, o->state, error));
-    if (system->m == 0) return DAL_STATUS_OK;
+    DAL_TRY(dal__create_reference_run(&o->run, o->scaled, spec, run, o->state, error));
+    o->start = dal_run_time(o->run);
+    o->step = dal_run_step_size(o->run);
+    if (dal_run_system(run)->m == 0) return DAL_STATUS_OK;
     return dal__evaluator_of_run(&o->evaluator, o->scaled, run, error);
 }
 

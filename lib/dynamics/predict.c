@@ -49,11 +49,7 @@ void dal_prediction_free(dal_prediction *p)
 static dal_status create_run(work *w, const dal_run_spec *spec, const dal_exact_motion *motion)
 {
     bool on_D;
-    w->spec.options.space = DAL_PHYSICAL;
-    w->spec.start = NULL;
-    w->spec.start_count = 0;
-    w->spec.options.consistent = true;
-    DAL_TRY(dal__create_physical(spec, &w->run, &on_D, w->error));
+    DAL_TRY(dal__create_physical(spec, &w->spec, &w->run, &on_D, w->error));
     if (!on_D) return dal__predict_refuse(w, "p and pi are not 0, and move the motion off D = 0");
     if (!motion || dal__exact_motion_begins(motion, w->run)) return DAL_STATUS_OK;
     return dal__fail(w->error, DAL_STATUS_ARGUMENT,
