@@ -174,12 +174,16 @@ static void add_values(comparisons *w, int which, double t, const double *values
     dal_statistics_add_scales(series(w, which), w->of->observables, scales);
 }
 
-/* Samples a run that takes `per` steps for each step of the first one. */
-static dal_status sample_run(comparisons *w, dal_run *run, int which, int per, dal_error *error)
+/* Samples a run that takes `per` steps for each step of the first one; where there is a reference,
+ * it moves the run. */
+static dal_status sample_run(comparisons *w, dal_run *run, dal__reference *reference, int which,
+                             int per, dal_error *error)
 {
     const long long steps = w->of->steps, stride = stride_of(steps);
     for (long long at = 0; at <= steps; at += stride) {
-        if (at > 0) DAL_TRY(dal_run_advance(run, stride * per, error));
+        if (at > 0)
+            DAL_TRY(reference ? dal__reference_advance(reference, stride, error)
+                              : dal_run_advance(run, stride * per, error));
         DAL_TRY(observe(run, w->values, error));
         add_values(w, which, (double)at * w->of->spec.options.step, w->values, dal_run_scales(run));
         if (report_progress(w, (double)(stride * per)) != DAL_STATUS_OK)
@@ -200,6 +204,16 @@ static bool ends_all(const comparisons *w, dal_status status, const dal_error *e
     return status == DAL_STATUS_INTERRUPTED || status == DAL_STATUS_MEMORY;
 }
 
+/* Notes whether a comparison ran to its end. */
+static dal_status end_comparison(comparisons *w, dal_comparison_run comparison, dal_status status,
+                                 const dal_error *error)
+{
+    w->of->ran[comparison] = status == DAL_STATUS_OK;
+    if (ends_all(w, status, error)) return status;
+    if (status != DAL_STATUS_OK) leave_out(w, comparison, error->message);
+    return DAL_STATUS_OK;
+}
+
 static dal_status run_comparison(comparisons *w, dal_comparison_run comparison)
 {
     dal_run_spec spec = w->of->spec;
@@ -213,26 +227,10 @@ static dal_status run_comparison(comparisons *w, dal_comparison_run comparison)
         leave_out(w, comparison, "it has other observables");
         return dal_run_free(run), DAL_STATUS_OK;
     }
-    if (status == DAL_STATUS_OK) status = sample_run(w, run, 1 + (int)comparison, per, &error);
+    if (status == DAL_STATUS_OK)
+        status = sample_run(w, run, NULL, 1 + (int)comparison, per, &error);
     dal_run_free(run);
-    w->of->ran[comparison] = status == DAL_STATUS_OK;
-    if (ends_all(w, status, &error)) return status;
-    if (status != DAL_STATUS_OK) leave_out(w, comparison, error.message);
-    return DAL_STATUS_OK;
-}
-
-static dal_status sample_reference(comparisons *w, dal__reference *reference, dal_error *error)
-{
-    const long long steps = w->of->steps, stride = stride_of(steps);
-    dal_run *run = dal__reference_run(reference);
-    for (long long at = 0; at <= steps; at += stride) {
-        if (at > 0) DAL_TRY(dal__reference_advance(reference, stride, error));
-        DAL_TRY(observe(run, w->values, error));
-        add_values(w, 1 + DAL_COMPARISON_EXACT, (double)at * w->of->spec.options.step, w->values,
-                   dal_run_scales(run));
-        if (report_progress(w, (double)stride) != DAL_STATUS_OK) return DAL_STATUS_INTERRUPTED;
-    }
-    return DAL_STATUS_OK;
+    return end_comparison(w, comparison, status, &error);
 }
 
 static dal_status run_reference(comparisons *w)
@@ -240,13 +238,12 @@ static dal_status run_reference(comparisons *w)
     dal__reference *reference = NULL;
     dal_error error = {0};
     dal_status status = dal__reference_create(&reference, &w->of->spec, &error);
-    if (status == DAL_STATUS_OK) status = sample_reference(w, reference, &error);
+    if (status == DAL_STATUS_OK)
+        status = sample_run(w, dal__reference_run(reference), reference, 1 + DAL_COMPARISON_EXACT,
+                            1, &error);
     if (status == DAL_STATUS_OK) w->of->exact_steps = dal__reference_steps(reference);
     dal__reference_free(reference);
-    w->of->ran[DAL_COMPARISON_EXACT] = status == DAL_STATUS_OK;
-    if (ends_all(w, status, &error)) return status;
-    if (status != DAL_STATUS_OK) leave_out(w, DAL_COMPARISON_EXACT, error.message);
-    return DAL_STATUS_OK;
+    return end_comparison(w, DAL_COMPARISON_EXACT, status, &error);
 }
 
 /* ---- the beginning ---- */
@@ -420,7 +417,7 @@ static dal_status run_all(comparisons *w)
     dal_status status = allocate(w, run);
     if (status == DAL_STATUS_OK)
         status = dal__find_conserved(&w->of->spec, run, w->conserved, w->error);
-    if (status == DAL_STATUS_OK) status = sample_run(w, run, DAL__WHOLE_RUN, 1, w->error);
+    if (status == DAL_STATUS_OK) status = sample_run(w, run, NULL, DAL__WHOLE_RUN, 1, w->error);
     /* The observer may use the run that was begun last: here `run`. */
     if (status == DAL_STATUS_OK) status = run_reference(w);
     for (int k = 0; k < DAL_COMPARISON_EXACT && status == DAL_STATUS_OK; k++)
