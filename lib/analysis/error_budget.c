@@ -3,6 +3,7 @@
  * All are sampled at the same times, at most SAMPLES of them, so that their series can be
  * subtracted.  Quad precision is slow and covers the first steps alone; there the run, the same
  * solved further, and both step sizes in quad precision advance together. */
+#include "analysis/conserved.h"
 #include "analysis/error_shares.h"
 #include "analysis/reference.h"
 #include "analysis/statistics.h"

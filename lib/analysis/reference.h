@@ -1,4 +1,4 @@
-/* reference.h - the exact motion of a run, to rounding, and what it conserves. */
+/* reference.h - the exact motion of a run, to rounding. */
 #ifndef DAL_REFERENCE_H
 #define DAL_REFERENCE_H
 
@@ -28,9 +28,5 @@ dal_run *dal__reference_run(dal__reference *reference);
 
 /* Whether p and pi of a run are 0, so that (q, v) is the motion; without them it is. */
 bool dal__is_on_motion(const dal_run *run);
-/* Finds which observables of a run of the spec the exact motion from its start is known to
- * conserve, conserved[observables]. [alloc]  Errors: DAL_STATUS_MEMORY. */
-dal_status dal__find_conserved(const dal_run_spec *spec, const dal_run *run, bool *conserved,
-                               dal_error *error);
 
 #endif

@@ -2,7 +2,7 @@
  *
  * The sums are in predict_sums.c, the single steps in predict_steps.c, mean rates and walks in
  * predict_rates.c; this file says what cannot be predicted, and prepares the rest. */
-#include "analysis/reference.h"
+#include "analysis/conserved.h"
 #include "core/error.h"
 #include "core/settings.h"
 #include "core/vectors.h"
