@@ -34,6 +34,7 @@
  *                         dal_evaluate_polynomial
  *     blocks.h            dal_eval_blocks
  *     constrained.h       dal_positional dal_velocity_equation dal_enforce dal_enforce_once
+ *                         dal_motion_multipliers
  *     spark.h             dal_spark dal_spark_advance
  *
  * A file ends with one DAL_INTEGRATOR for each method in it, whose member kernel names what the

@@ -320,10 +320,7 @@ DAL_INLINE void rows_map(dal_step *s, dal_equation *eq)
 DAL_INLINE void rows_begin(dal_step *s, const rows_step *k, dal_block *block)
 {
     const int n = DAL_N(s), m = DAL_M(s), stages = DAL_STAGES(k->method);
-    DAL_EACH(a, m) k->in[n + a] = dal_num(0.0);
-    k->in[n + m] = dal_num(1.0);
-    dal_force(s, s->t, s->y, s->y + n, k->in);
-    dal_eval_enforcement(s, s->t, s->y, s->y + n, k->in, k->out);
+    dal_motion_multipliers(s, k->in, k->out);
     for (int i = 0; i < stages * m; i++) k->L[i] = k->out[n + i % m];
     for (int i = 0; i < (stages + 1) * n; i++)
         block->u[i] = s->h * (i < stages * n ? k->method->c[i / n] : 1.0) * k->in[i % n];

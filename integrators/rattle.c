@@ -98,10 +98,7 @@ DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
 DAL_INLINE void rattle_begin(dal_step *s, const rattle_step *k, dal_block *block)
 {
     const int n = DAL_N(s), m = DAL_M(s);
-    DAL_EACH(i, m) k->in[n + i] = dal_num(0.0);
-    k->in[n + m] = dal_num(1.0);
-    dal_force(s, s->t, s->y, s->y + n, k->in);
-    dal_eval_enforcement(s, s->t, s->y, s->y + n, k->in, k->out);
+    dal_motion_multipliers(s, k->in, k->out);
     DAL_EACH(i, m) k->first[i] = k->second[i] = k->out[n + i];
     k->first[m] = k->second[m] = dal_num(1.0);
     DAL_EACH(i, n) {

@@ -35,6 +35,17 @@ DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)
     *s->has_multiplier = dal_select(s->alive, dal_num(1.0), *s->has_multiplier);
 }
 
+/* F at the state, in[n], and its multipliers, l of out = y[n], l[m]: A F = -c, so that A y = A F
+ * leads to them.  in[n + m + 1]. */
+DAL_INLINE void dal_motion_multipliers(dal_step *s, num *in, num *out)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    dal_force(s, s->t, s->y, s->y + n, in);
+    DAL_EACH(i, m) in[n + i] = dal_num(0.0);
+    in[n + m] = dal_num(1.0);
+    dal_eval_enforcement(s, s->t, s->y, s->y + n, in, out);
+}
+
 /* ---- one velocity ---- */
 
 /* Context of an equation for one velocity, as its first member. */

@@ -150,8 +150,7 @@ DAL_INLINE void dal__spark_weights(dal_step *s, const dal_spark *method, num *we
     DAL__RELEASE(s);
 }
 
-/* The multipliers of the last step, or the continuous ones at the present state where there are
- * none: A F = -c, so that A y = A F leads to them. */
+/* The multipliers of the last step, or F's at the present state where there are none. */
 DAL_INLINE void dal__restore_multipliers(dal_step *s, num *h)
 {
     const int n = DAL_N(s), m = DAL_M(s);
@@ -160,10 +159,7 @@ DAL_INLINE void dal__restore_multipliers(dal_step *s, num *h)
     if (dal_any(~known)) {
         DAL_VECTOR(s, in, DAL_N(s) + DAL_M(s) + 1);
         DAL_VECTOR(s, out, DAL_N(s) + DAL_M(s));
-        dal_force(s, s->t, s->y, s->y + n, in);
-        DAL_EACH(i, m) in[n + i] = dal_num(0.0);
-        in[n + m] = dal_num(1.0);
-        dal_eval_enforcement(s, s->t, s->y, s->y + n, in, out);
+        dal_motion_multipliers(s, in, out);
         DAL_EACH(i, m) h[i] = out[n + i];
     }
     DAL_EACH(i, DAL_PERSISTENT_MULTIPLIERS(s)) h[i] = dal_select(known, s->multiplier[i], h[i]);
