@@ -1,4 +1,5 @@
-/* dalembert_action.h - the actions of the theory on a curve given by rows, and discrete actions.
+/* dalembert_action.h - the actions of the theory on a curve given by rows, and discrete actions;
+ * Poisson brackets of functions.
  *
  * A part of dalembert_analysis.h; the conventions of dalembert.h hold here. */
 #ifndef DALEMBERT_ACTION_H
@@ -77,6 +78,36 @@ typedef struct dal_discrete_action {
  * that is not symplectic, or has no lift), as for dal_run_create and dal_run_step. */
 dal_status dal_check_discrete_action(const dal_run_spec *spec, const dal_curve *curve,
                                      dal_discrete_action *action, dal_error *error);
+
+/* ---- on rows at equal distances ------------------------------------------------------------- */
+
+/* S = int e/2 |q'' - F(q,q',t)|^2 dt (nh10) with constant e on the curve q[count*n] given at t0,
+ * t0 + h, ...: derivatives by differences of order 8, so the four points at either end serve for
+ * differences only; count >= 10. [alloc]  0 on solutions up to discretisation and rounding (about
+ * (2e-15/h^2)^2 and h^16), positive off them. */
+dal_status dal_evaluator_measure_action(dal_evaluator *evaluator, double t0, double h,
+                                        long long count, const double *q, double e, double *action);
+
+/* How far the discrete first-order action (nh23) is from stationary on a path.
+ *     S = sum_k P_k.(X_(k+1) - X_k) - h H((X_k + X_(k+1))/2, P_k)
+ * with X_k [2n+1] = q, v, e at the count >= 3 nodes, P_k [2n+1] = p, pi, pi_e the mean over each of
+ * the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.  The maximum of |dS/dX_k|
+ * over inner nodes and |dS/dP_k|, divided by h: zero to rounding for implicit-midpoint, of the
+ * order of the error for others. [alloc]  Errors: DAL_STATUS_ARGUMENT, errors of the callbacks. */
+dal_status dal_evaluator_check_stationarity(dal_evaluator *evaluator, double t0, double h,
+                                            long long count, const double *states, double *defect);
+
+/* ---- brackets ------------------------------------------------------------------------------- */
+
+/* A function on a phase space of 2N numbers z = (X, P). */
+typedef double dal_observable_function(void *user, const double *z);
+
+/* gradient[count] of f at z by differences with increments of 2e-3, or less where f changes faster.
+ * z is changed meanwhile and restored. */
+void dal_measure_gradient(dal_observable_function *f, void *user, int count, double *z,
+                          double *gradient);
+/* {f,g} = sum f_X g_P - f_P g_X from two gradients [2*pairs]. */
+double dal_poisson(const double *f, const double *g, int pairs);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,6 @@
 /* dalembert_analysis.h - statistics, trends, checks, order, error budgets, predictions, Lyapunov
- * exponents, sections, invariants, actions and steering, each in a header of its own.
+ * exponents, sections, invariants, actions, Dirac's procedure and steering, each in a header of its
+ * own.
  *
  * The conventions of dalembert.h hold here.  All of it is made of the public functions of
  * dalembert.h. */
@@ -9,6 +10,7 @@
 #include "dalembert.h"
 #include "dalembert_action.h"
 #include "dalembert_budget.h"
+#include "dalembert_dirac.h"
 #include "dalembert_dynamics.h"
 #include "dalembert_evaluator.h"
 #include "dalembert_invariants.h"

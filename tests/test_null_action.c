@@ -66,6 +66,42 @@ static void null_dal_check_discrete_action(void)
     REFUSED(dal_check_discrete_action(&spec, &curve, NULL, error));
 }
 
+static void null_dal_evaluator_measure_action(void)
+{
+    double action;
+    REFUSED_STATUS(dal_evaluator_measure_action(NULL, 0.0, 0.1, 10, numbers, 1.0, &action));
+    REFUSED_STATUS(dal_evaluator_measure_action(evaluator, 0.0, 0.1, -1, numbers, 1.0, &action));
+    REFUSED_STATUS(dal_evaluator_measure_action(evaluator, 0.0, 0.1, 10, NULL, 1.0, &action));
+    REFUSED_STATUS(dal_evaluator_measure_action(evaluator, 0.0, 0.1, 10, numbers, 1.0, NULL));
+}
+
+static void null_dal_evaluator_check_stationarity(void)
+{
+    double defect;
+    REFUSED_STATUS(dal_evaluator_check_stationarity(NULL, 0.0, 0.1, 10, numbers, &defect));
+    REFUSED_STATUS(dal_evaluator_check_stationarity(evaluator, 0.0, 0.1, -1, numbers, &defect));
+    REFUSED_STATUS(dal_evaluator_check_stationarity(evaluator, 0.0, 0.1, 10, NULL, &defect));
+    REFUSED_STATUS(dal_evaluator_check_stationarity(evaluator, 0.0, 0.1, 10, numbers, NULL));
+}
+
+static double first(void *user, const double *z) { return user ? NAN : z[0]; }
+
+static void null_dal_measure_gradient(void)
+{
+    double z = 1.0, gradient = 7.0;
+    dal_measure_gradient(NULL, NULL, 1, &z, &gradient);
+    dal_measure_gradient(first, NULL, 1, NULL, &gradient);
+    dal_measure_gradient(first, NULL, 1, &z, NULL);
+    dal_measure_gradient(first, NULL, -1, &z, &gradient);
+    CU_ASSERT(z == 1.0 && gradient == 7.0);
+}
+
+static void null_dal_poisson(void)
+{
+    CU_ASSERT(isnan(dal_poisson(NULL, numbers, 1)) && isnan(dal_poisson(numbers, NULL, 1)));
+    CU_ASSERT(isnan(dal_poisson(numbers, numbers, -1)));
+}
+
 static void null_dal_prediction_end_name(void)
 {
     CU_ASSERT_STRING_EQUAL(dal_prediction_end_name((dal_prediction_end)-1), "?");

@@ -5,7 +5,8 @@
 /* What dalembert_analysis.h includes, without invariants (test_null_action.c). */
 #define FUNCTIONS_OF_MEASURES(X)                                                                   \
     FUNCTIONS_dalembert_statistics(X) FUNCTIONS_dalembert_evaluator(X)                             \
-        FUNCTIONS_dalembert_order(X) FUNCTIONS_dalembert_budget(X) FUNCTIONS_dalembert_dynamics(X)
+        FUNCTIONS_dalembert_order(X) FUNCTIONS_dalembert_dirac(X) FUNCTIONS_dalembert_budget(X)    \
+            FUNCTIONS_dalembert_dynamics(X)
 FUNCTIONS_OF_MEASURES(DECLARE_NULL_TEST)
 
 /* ---- what the functions are given where they are given anything ---- */
@@ -258,43 +259,8 @@ static void null_dal_adjoint_pairing(void)
     REFUSED(dal_adjoint_pairing(&spec, tangent, numbers, 1, NULL, error));
 }
 
-/* ---- the action and Dirac's algebra ---- */
+/* ---- Dirac's procedure ---- */
 
-static void null_dal_evaluator_measure_action(void)
-{
-    double action;
-    REFUSED_STATUS(dal_evaluator_measure_action(NULL, 0.0, 0.1, 10, numbers, 1.0, &action));
-    REFUSED_STATUS(dal_evaluator_measure_action(evaluator, 0.0, 0.1, -1, numbers, 1.0, &action));
-    REFUSED_STATUS(dal_evaluator_measure_action(evaluator, 0.0, 0.1, 10, NULL, 1.0, &action));
-    REFUSED_STATUS(dal_evaluator_measure_action(evaluator, 0.0, 0.1, 10, numbers, 1.0, NULL));
-}
-
-static void null_dal_evaluator_check_stationarity(void)
-{
-    double defect;
-    REFUSED_STATUS(dal_evaluator_check_stationarity(NULL, 0.0, 0.1, 10, numbers, &defect));
-    REFUSED_STATUS(dal_evaluator_check_stationarity(evaluator, 0.0, 0.1, -1, numbers, &defect));
-    REFUSED_STATUS(dal_evaluator_check_stationarity(evaluator, 0.0, 0.1, 10, NULL, &defect));
-    REFUSED_STATUS(dal_evaluator_check_stationarity(evaluator, 0.0, 0.1, 10, numbers, NULL));
-}
-
-static double first(void *user, const double *z) { return user ? NAN : z[0]; }
-
-static void null_dal_measure_gradient(void)
-{
-    double z = 1.0, gradient = 7.0;
-    dal_measure_gradient(NULL, NULL, 1, &z, &gradient);
-    dal_measure_gradient(first, NULL, 1, NULL, &gradient);
-    dal_measure_gradient(first, NULL, 1, &z, NULL);
-    dal_measure_gradient(first, NULL, -1, &z, &gradient);
-    CU_ASSERT(z == 1.0 && gradient == 7.0);
-}
-
-static void null_dal_poisson(void)
-{
-    CU_ASSERT(isnan(dal_poisson(NULL, numbers, 1)) && isnan(dal_poisson(numbers, NULL, 1)));
-    CU_ASSERT(isnan(dal_poisson(numbers, numbers, -1)));
-}
 static void null_dal_dirac_free(void) { dal_dirac_free(NULL); }
 static void null_dal_dirac_outcome_name(void) { CU_ASSERT(*dal_dirac_outcome_name(-1) == '?'); }
 static void null_dal_dirac_create(void)

@@ -1,6 +1,6 @@
 /* check_dirac.c - what Dirac's procedure finds for the lift of a system. */
 #include "check_dirac.h"
-#include "dalembert_order.h"
+#include "dalembert_dirac.h"
 #include "invariants.h"
 #include "ui/memory.h"
 #include "ui/message.h"

@@ -12,6 +12,7 @@
 #include "check_dirac.h"
 #include "check_invariants.h"
 #include "check_methods.h"
+#include "dalembert_action.h"
 #include "dalembert_order.h"
 #include "ui/memory.h"
 #include "ui/message.h"

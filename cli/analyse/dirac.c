@@ -1,6 +1,6 @@
 /* dirac.c - Dirac's procedure for the action of a system, printed. */
 #include "dirac.h"
-#include "dalembert_order.h"
+#include "dalembert_dirac.h"
 #include "invariants.h"
 #include "io/json.h"
 #include "run/request.h"

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/settings.h"
 #include "core/vectors.h"
+#include "dalembert_action.h"
 #include "dalembert_order.h"
 #include <math.h>
 #include <stdlib.h>

@@ -9,7 +9,7 @@
 #include "analysis/evaluator.h"
 #include "core/error.h"
 #include "core/vectors.h"
-#include "dalembert_order.h"
+#include "dalembert_action.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

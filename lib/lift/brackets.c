@@ -1,6 +1,6 @@
 /* brackets.c - Poisson brackets of functions, by differences. */
 #include "analysis/derivatives.h"
-#include "dalembert_order.h"
+#include "dalembert_action.h"
 #include <math.h>
 #include <stddef.h>
 

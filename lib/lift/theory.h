@@ -3,7 +3,7 @@
 #define DAL_LIFT_THEORY_H
 
 #include "core/pool.h"
-#include "dalembert_order.h"
+#include "dalembert_dirac.h"
 #include "model/model.h"
 
 enum { DAL__GENERATOR_ORDERS = 4 /* of alpha, alpha', .. in a gauge generator */ };
