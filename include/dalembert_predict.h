@@ -96,7 +96,7 @@ typedef struct dal_prediction {
     double *change;                 /* [rows*observables] */
 } dal_prediction;
 
-/* Callbacks of dal_predict_create; both may be NULL. */
+/* A callback of dal_predict_create; it may be NULL. */
 typedef struct dal_predict_observer {
     void *user; /* the first argument of the callback */
     /* Called now and then with the share of the work that is done, 0..1; any status but
