@@ -1,7 +1,7 @@
 # includes.awk - reads includes.txt, then sources, and names every include that is not allowed.
 BEGIN {
     libc = "<(errno|float|inttypes|limits|math|stdarg|stdbool|stddef|stdint|stdio|stdlib|string)\\.h>"
-    public = "\"dalembert(_(status|system|model|method|run|batch|statistics|evaluator|order|budget|dynamics|invariants|predict|sensitivity|steer|action|codegen|program))?\\.h\""
+    public = "\"dalembert(_(status|system|model|method|run|batch|statistics|evaluator|order|budget|dynamics|invariants|predict|sensitivity|steer|action|dirac|codegen|program))?\\.h\""
     posix = "<(fcntl|fnmatch|pthread|signal|stdatomic|strings|termios|time|unistd|sys/[a-z]+)\\.h>"
 }
 FILENAME ~ /includes\.txt$/ {
