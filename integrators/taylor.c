@@ -11,10 +11,10 @@
  *
  *     h = tau tolerance^(1/p) min (max(1, |x|)/|x_m|)^(1/m),   m = p-3 .. p,
  *
- * in the units of x and t that the system has, x_m in t/tau: four of them, since odd or even motions
- * lack every other one, and some motions more.  Last coefficients may vanish all the same, as they
- * do for x'' = t^50 at t = 0; so the polynomial must satisfy the equations at the end of the
- * substep, else h is halved. */
+ * in the units of x and t that the system has, x_m in t/tau: four of them, since odd or even
+ * motions lack every other one, and some motions more.  Last coefficients may vanish all the same,
+ * as they do for x'' = t^50 at t = 0; so the polynomial must satisfy the equations at the end of
+ * the substep, else h is halved. */
 #include <dalembert_kernel.h>
 
 #if DAL_WITH(CONTROL)

@@ -19,7 +19,7 @@ typedef struct dal__candidate {
  * DAL_STATUS_TOO_LARGE (the graph), DAL_STATUS_NOT_FINITE. */
 dal_status dal__confirm(const dal__search *search, const dal__condition *condition,
                         dal__candidate *candidate, int count);
-/* *constraint: that of velocities, from 0, of whose D the derivative of f(q,t) is a multiple, at
+/* The constraint of velocities, from 0, of whose D the derivative of f(q,t) is a multiple, at
  * points about the start; -1: it is one of none.  [alloc]  Errors: DAL_STATUS_MEMORY,
  * DAL_STATUS_TOO_LARGE. */
 dal_status dal__find_constraint(const dal__search *search, dal__node f, int *constraint);
