@@ -479,9 +479,7 @@ dal_status dal__typesetter_create(dal__typesetter **typesetter, dal__graph *grap
                                   const dal__node *nodes, int count,
                                   const dal__typeset_options *options)
 {
-    dal__node last = 0;
-    for (int k = 0; k < count; k++)
-        if (nodes[k] > last) last = nodes[k];
+    const dal__node last = dal__last_of(nodes, count);
     dal__typesetter *t = calloc(1, sizeof *t);
     uint8_t *reached = dal__reach_all(graph, nodes, count);
     int *uses = calloc((size_t)last + 1, sizeof *uses);

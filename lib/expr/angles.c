@@ -33,8 +33,7 @@ static void expand(dal__graph *graph, dal__node x, const dal__node *image, int d
 void dal__expand_angles(dal__graph *graph, dal__node *nodes, int count)
 {
     enum { MAX_DEPTH = 8 };
-    dal__node last = 0;
-    for (int k = 0; k < count; k++) last = nodes[k] > last ? nodes[k] : last;
+    const dal__node last = dal__last_of(nodes, count);
     uint8_t *mark = dal__reach_all(graph, nodes, count);
     dal__node *image = dal__per_node(graph, last, sizeof *image);
     dal__node *out = malloc(((size_t)count + 1) * sizeof *out);

@@ -212,9 +212,8 @@ static dal__node write_sum(dal__graph *graph, term *terms, int count)
 int dal__cost(dal__graph *graph, const dal__node *nodes, int count)
 {
     enum { DIVISION = 4, FUNCTION = 15 };
+    const dal__node last = dal__last_of(nodes, count);
     int cost = 0;
-    dal__node last = 0;
-    for (int k = 0; k < count; k++) last = nodes[k] > last ? nodes[k] : last;
     uint8_t *mark = dal__per_node(graph, last, 1);
     if (!mark) return INT_MAX;
     for (int k = 0; k < count; k++) mark[nodes[k]] = 1;

@@ -232,9 +232,7 @@ static void emit(schedule *s, dal__tapes *tapes, dal__tape *tape, dal__node i, d
  * hold them. */
 static dal_status schedule_tape(schedule *s, dal__tapes *tapes, dal__tape *tape)
 {
-    dal__node top = 0;
-    for (int k = 0; k < tape->outputs; k++)
-        if (tape->output[k] > top) top = tape->output[k];
+    const dal__node top = dal__last_of(tape->output, tape->outputs);
     const size_t computed = (size_t)find_lives(s, tape, top) + 1;
     const bool may_hold = tape->may_hold && tapes->points > 0;
     tape->code = malloc(computed * sizeof *tape->code);

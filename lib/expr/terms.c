@@ -58,8 +58,7 @@ static void copy_nodes(dal__terms *t, const dal__graph *graph, dal__node last, c
 /* False: out of memory. */
 static bool copy_formulas(dal__terms *t, dal__graph *graph, const dal__node *formula, int count)
 {
-    dal__node last = 0;
-    for (int k = 0; k < count; k++) last = formula[k] > last ? formula[k] : last;
+    const dal__node last = dal__last_of(formula, count);
     uint8_t *mark = dal__reach_all(graph, formula, count);
     int *image = dal__per_node(graph, last, sizeof *image);
     size_t places = 1;

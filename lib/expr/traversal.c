@@ -9,6 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+dal__node dal__last_of(const dal__node *nodes, int count)
+{
+    dal__node last = 0;
+    for (int k = 0; k < count; k++)
+        if (nodes[k] > last) last = nodes[k];
+    return last;
+}
+
 /* Whether 8 nodes from i on are all unmarked. */
 static bool are_unmarked(const uint8_t *mark, dal__node i)
 {
@@ -33,8 +41,7 @@ dal__node dal__first_marked(const uint8_t *mark, dal__node i, dal__node last)
 
 uint8_t *dal__reach_all(dal__graph *graph, const dal__node *nodes, int count)
 {
-    dal__node last = 0;
-    for (int k = 0; k < count; k++) last = nodes[k] > last ? nodes[k] : last;
+    const dal__node last = dal__last_of(nodes, count);
     uint8_t *mark = dal__per_node(graph, last, 1);
     if (!mark) return NULL;
     for (int k = 0; k < count; k++) mark[nodes[k]] = 1;
@@ -92,8 +99,7 @@ dal__lowered dal__lower(const dal__graph *graph, dal__node node)
 bool dal__evaluate_all(dal__graph *graph, const dal__node *nodes, int count, const double *values,
                        double *out)
 {
-    dal__node last = 0;
-    for (int k = 0; k < count; k++) last = nodes[k] > last ? nodes[k] : last;
+    const dal__node last = dal__last_of(nodes, count);
     uint8_t *mark = dal__reach_all(graph, nodes, count);
     double *x = dal__per_node(graph, last, sizeof *x);
     const bool in_memory = mark && x;
@@ -141,8 +147,7 @@ static dal__node replaced(dal__graph *graph, dal__node i, const dal__node *image
 void dal__substitute_all(dal__graph *graph, int nodes, dal__node *node, const int *symbols,
                          int count, const dal__node *by)
 {
-    dal__node last = 0;
-    for (int k = 0; k < nodes; k++) last = node[k] > last ? node[k] : last;
+    const dal__node last = dal__last_of(node, nodes);
     uint8_t *mark = dal__reach_all(graph, node, nodes);
     dal__node *image = dal__per_node(graph, last, sizeof *image);
     for (dal__node i = 1; mark && image && i <= last; i++)

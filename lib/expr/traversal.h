@@ -4,6 +4,8 @@
 
 #include "expr/operations.h"
 
+/* The largest of some nodes; 0 of none. */
+dal__node dal__last_of(const dal__node *nodes, int count);
 /* Marks node and all nodes it depends on, [node + 1]; NULL, and the status of the graph is
  * DAL_STATUS_MEMORY, when memory is out. [alloc] */
 uint8_t *dal__reach(dal__graph *graph, dal__node node);

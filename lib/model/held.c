@@ -71,14 +71,12 @@ static uint8_t *mark_nodes(dal_model *model, const dal__programs *p, dal__node *
     dal__node *outputs = dal__model_nodes(model, count + 1, 0);
     if (!outputs) return NULL;
     count = 0;
-    *last = 0;
     for (int i = 0; i < p->tapes->count; i++) {
         const dal__tape *tape = &p->tapes->tape[i];
-        for (int k = 0; tape->may_hold && k < tape->outputs; k++) {
+        for (int k = 0; tape->may_hold && k < tape->outputs; k++)
             outputs[count++] = tape->output[k];
-            if (tape->output[k] > *last) *last = tape->output[k];
-        }
     }
+    *last = dal__last_of(outputs, count);
     return dal__reach_all(model->equations.graph, outputs, count);
 }
 
