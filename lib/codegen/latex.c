@@ -124,13 +124,13 @@ static void put_numbered(dal__buffer *text, const dal__equations *e, const char 
 /* L, Q, the holonomic constraints C = 0 and D = 0 as they are given, with what they name. */
 static void put_given(dal__buffer *text, const dal__equations *e, const dal__typesetter *t)
 {
-    if (e->lagrangian && !(e->accelerations && dal__is_number(e->graph, e->lagrangian, 0.0))) {
+    if (e->lagrangian && !(e->accelerations && dal__node_is_zero(e->graph, e->lagrangian))) {
         begin_row(text);
         put_letter(text, e, "L");
         put_row(text, t, e->lagrangian, "");
     }
     for (int i = 0; i < e->n && !e->accelerations; i++) {
-        if (dal__is_number(e->graph, e->force[i], 0.0)) continue;
+        if (dal__node_is_zero(e->graph, e->force[i])) continue;
         begin_row(text);
         put_indexed(text, "Q", e, i);
         put_row(text, t, e->force[i], "");

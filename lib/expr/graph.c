@@ -147,3 +147,8 @@ bool dal__is_number(const dal__graph *graph, dal__node node, double value)
 {
     return graph->node[node].op == DAL__NUMBER && graph->node[node].value == value;
 }
+
+bool dal__node_is_zero(const dal__graph *graph, dal__node node)
+{
+    return dal__is_number(graph, node, 0.0);
+}

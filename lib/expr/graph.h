@@ -104,9 +104,10 @@ dal__node dal__intern_table(dal__graph *graph, int symbol, dal__node a);
 dal__node dal__find(const dal__graph *graph, dal__op op, dal__node a, dal__node b);
 dal__node dal__find_symbol(const dal__graph *graph, int symbol);
 
-/* What a node is; whether it is this number. */
+/* What a node is; whether it is this number; whether it is 0. */
 dal__record dal__inspect(const dal__graph *graph, dal__node node);
 bool dal__is_number(const dal__graph *graph, dal__node node, double value);
+bool dal__node_is_zero(const dal__graph *graph, dal__node node);
 
 /* Zeros for each node up to this one, [node + 1] of size bytes; NULL, and the status is
  * DAL_STATUS_MEMORY, when there are none. [alloc] */

@@ -196,8 +196,8 @@ static dal_status next(parser *p) { return dal__next_token(&p->lexer, &p->token)
 static bool divides_by_zero(const dal__graph *graph, const frame *f, dal__node right)
 {
     dal__record r = dal__inspect(graph, right);
-    if (f->kind == '/') return dal__is_number(graph, right, 0.0);
-    return f->kind == '^' && dal__is_number(graph, f->left, 0.0) && r.op == DAL__NUMBER &&
+    if (f->kind == '/') return dal__node_is_zero(graph, right);
+    return f->kind == '^' && dal__node_is_zero(graph, f->left) && r.op == DAL__NUMBER &&
            r.value < 0.0;
 }
 

@@ -32,7 +32,6 @@ static dal__op op_of(const dal__graph *graph, dal__node node)
 
 static dal__node one(dal__graph *graph) { return dal__number(graph, 1.0); }
 static bool is_one(const dal__graph *graph, dal__node n) { return dal__is_number(graph, n, 1.0); }
-static bool is_zero(const dal__graph *graph, dal__node n) { return dal__is_number(graph, n, 0.0); }
 
 /* The node of an ADD or MUL with ordered operands. */
 static dal__node commute(dal__graph *graph, dal__op op, dal__node a, dal__node b)
@@ -170,8 +169,8 @@ static dal__node coefficients(dal__graph *graph, dal__node c, dal__node d)
 dal__node dal__node_mul(dal__graph *graph, dal__node a, dal__node b)
 {
     if (!a || !b) return 0;
-    if (is_zero(graph, a)) return a;
-    if (is_zero(graph, b)) return b;
+    if (dal__node_is_zero(graph, a)) return a;
+    if (dal__node_is_zero(graph, b)) return b;
     if (a == b && op_of(graph, a) == DAL__SQRT) return graph->node[a].a;
     term x = split(graph, a), y = split(graph, b);
     if (graph->status) return 0;
@@ -245,8 +244,8 @@ static dal__node divide_fixed(dal__graph *graph, term x, dal__node c)
 dal__node dal__node_div(dal__graph *graph, dal__node a, dal__node b)
 {
     if (!a || !b) return 0;
-    if (is_zero(graph, b)) return dal__intern(graph, DAL__DIV, a, b);
-    if (is_zero(graph, a)) return a;
+    if (dal__node_is_zero(graph, b)) return dal__intern(graph, DAL__DIV, a, b);
+    if (dal__node_is_zero(graph, a)) return a;
     term x = split(graph, a), y = split(graph, b);
     if (graph->status) return 0;
     x.negative = x.negative != y.negative;
@@ -399,8 +398,8 @@ static dal__node absorb(dal__graph *graph, term x, term y)
 static dal__node signed_sum(dal__graph *graph, term x, term y)
 {
     if (graph->status) return 0;
-    if (is_zero(graph, x.coefficient)) return attach(graph, y);
-    if (is_zero(graph, y.coefficient)) return attach(graph, x);
+    if (dal__node_is_zero(graph, x.coefficient)) return attach(graph, y);
+    if (dal__node_is_zero(graph, y.coefficient)) return attach(graph, x);
     if (graph->depth >= MAX_DEPTH) return join(graph, x, y);
     graph->depth++;
     dal__node sum = combine(graph, x, y);
@@ -510,7 +509,7 @@ static dal__node function2(dal__graph *graph, dal__op op, dal__node a, dal__node
 dal__node dal__node_if(dal__graph *graph, dal__node a, dal__node b, dal__node c)
 {
     if (!a || !b || !c) return 0;
-    if (op_of(graph, a) == DAL__NUMBER) return is_zero(graph, a) ? c : b;
+    if (op_of(graph, a) == DAL__NUMBER) return dal__node_is_zero(graph, a) ? c : b;
     return b == c ? b : dal__intern_if(graph, a, b, c);
 }
 
@@ -558,7 +557,21 @@ dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__
 {
     dal__node sum = dal__number(graph, 0.0);
     for (int i = 0; i < count; i++)
-        if (!dal__is_number(graph, a[i], 0.0))
+        if (!dal__node_is_zero(graph, a[i]))
             sum = dal__node_add(graph, sum, dal__node_mul(graph, a[i], b[i]));
     return sum;
+}
+
+dal__node dal__add_strided_dot(dal__graph *graph, dal__node sum, int count, const dal__node *a,
+                               int a_stride, const dal__node *b, int b_stride)
+{
+    for (int i = 0; i < count; i++)
+        sum = dal__node_add(graph, sum, dal__node_mul(graph, a[i * a_stride], b[i * b_stride]));
+    return sum;
+}
+
+void dal__add_product(dal__graph *graph, dal__node *sum, dal__node a, dal__node b)
+{
+    if (!dal__node_is_zero(graph, a) && !dal__node_is_zero(graph, b))
+        *sum = dal__node_add(graph, *sum, dal__node_mul(graph, a, b));
 }

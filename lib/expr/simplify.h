@@ -20,5 +20,10 @@ dal__node dal__node_table(dal__graph *graph, int symbol, dal__node a);
 dal__node dal__node_neg(dal__graph *graph, dal__node a);
 /* sum_i a[i] b[i] of count nodes. */
 dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b);
+/* sum + sum_i a[i*a_stride] b[i*b_stride] of count nodes: rows or columns of matrices. */
+dal__node dal__add_strided_dot(dal__graph *graph, dal__node sum, int count, const dal__node *a,
+                               int a_stride, const dal__node *b, int b_stride);
+/* *sum += a b, which changes nothing where one of them is 0. */
+void dal__add_product(dal__graph *graph, dal__node *sum, dal__node a, dal__node b);
 
 #endif

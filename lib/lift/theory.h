@@ -33,10 +33,6 @@ dal_status dal__theory_create(dal__theory *theory, dal_model *model, const dal_r
 /* Memory for the symbols and variables of a theory whose counts are set.  Errors:
  * DAL_STATUS_MEMORY. */
 dal_status dal__theory_allocate(dal__theory *theory, dal__pool *pool);
-static inline bool dal__node_is_zero(const dal__graph *graph, dal__node node)
-{
-    return dal__is_number(graph, node, 0.0);
-}
 
 /* Nodes that a pool owns, each the number 0; NULL: out of memory. */
 static inline dal__node *dal__pool_nodes(dal__pool *pool, dal__graph *graph, size_t count)

@@ -56,25 +56,14 @@ struct dal__bordered {
     dal__factors whole;        /* of the bordered matrix, of x and -h, where the way is WHOLE */
 };
 
-static bool is_zero(const dal__equations *e, dal__node node)
-{
-    return dal__is_number(e->graph, node, 0.0);
-}
-
 static dal__node collect(const dal__equations *e, const dal__bordered *s, dal__node node)
 {
     return s->way & DAL__COLLECTED ? dal__collect(e->graph, node) : node;
 }
 
-static void add_product(const dal__equations *e, dal__node *sum, dal__node a, dal__node b)
-{
-    if (!is_zero(e, a) && !is_zero(e, b))
-        *sum = dal__node_add(e->graph, *sum, dal__node_mul(e->graph, a, b));
-}
-
 static void subtract_product(const dal__equations *e, dal__node *sum, dal__node a, dal__node b)
 {
-    if (!is_zero(e, a) && !is_zero(e, b))
+    if (!dal__node_is_zero(e->graph, a) && !dal__node_is_zero(e->graph, b))
         *sum = dal__node_sub(e->graph, *sum, dal__node_mul(e->graph, a, b));
 }
 
@@ -83,7 +72,7 @@ static dal__node row_product(const dal__equations *e, const sparse *s, int i, co
 {
     dal__node sum = dal__number(e->graph, 0.0);
     for (int k = s->first[i]; k < s->first[i + 1]; k++)
-        add_product(e, &sum, s->value[k], x[s->column[k]]);
+        dal__add_product(e->graph, &sum, s->value[k], x[s->column[k]]);
     return sum;
 }
 
@@ -91,7 +80,7 @@ static bool compress(dal_model *model, sparse *s, int rows, int columns, const d
 {
     const dal__equations *e = &model->equations;
     int count = 0;
-    for (int i = 0; i < rows * columns; i++) count += !is_zero(e, matrix[i]);
+    for (int i = 0; i < rows * columns; i++) count += !dal__node_is_zero(e->graph, matrix[i]);
     s->first = dal__model_allocate(model, (size_t)rows + 1, sizeof *s->first);
     s->column = dal__model_allocate(model, (size_t)count, sizeof *s->column);
     s->value = dal__model_nodes(model, count, 0);
@@ -99,7 +88,7 @@ static bool compress(dal_model *model, sparse *s, int rows, int columns, const d
     count = 0;
     for (int i = 0; i < rows; i++) {
         for (int j = 0; j < columns; j++) {
-            if (is_zero(e, matrix[i * columns + j])) continue;
+            if (dal__node_is_zero(e->graph, matrix[i * columns + j])) continue;
             s->column[count] = j;
             s->value[count++] = matrix[i * columns + j];
         }
@@ -131,10 +120,12 @@ static int find_dependent(const dal__equations *e, int a)
     for (int d = 0; d < e->n; d++) {
         const dal__node alpha = e->A[a * e->n + d];
         int coupled = 0, others = 0;
-        if (is_zero(e, alpha) || dal__inspect(e->graph, alpha).op != DAL__NUMBER) continue;
-        for (int b = 0; b < e->m; b++) others += b != a && !is_zero(e, e->A[b * e->n + d]);
+        if (dal__node_is_zero(e->graph, alpha) || dal__inspect(e->graph, alpha).op != DAL__NUMBER)
+            continue;
+        for (int b = 0; b < e->m; b++)
+            others += b != a && !dal__node_is_zero(e->graph, e->A[b * e->n + d]);
         if (others > 0) continue;
-        for (int i = 0; i < e->n; i++) coupled += !is_zero(e, e->W[d * e->n + i]);
+        for (int i = 0; i < e->n; i++) coupled += !dal__node_is_zero(e->graph, e->W[d * e->n + i]);
         if (coupled < least) least = coupled, best = d;
     }
     return best;
@@ -183,8 +174,8 @@ static void add_scaled_row(const dal__equations *e, const dal__bordered *s, int 
 {
     for (int x = s->S.first[k]; x < s->S.first[k + 1]; x++) {
         const int i = s->S.column[x], high = i < j ? i * s->frees + j : j * s->frees + i;
-        add_product(e, &out[high], s->S.value[x], weight);
-        if (i == j) add_product(e, &out[high], s->S.value[x], weight);
+        dal__add_product(e->graph, &out[high], s->S.value[x], weight);
+        if (i == j) dal__add_product(e->graph, &out[high], s->S.value[x], weight);
     }
 }
 
@@ -197,7 +188,8 @@ static void add_outer(const dal__equations *e, const dal__bordered *s, int k, in
         const dal__node scaled = dal__node_mul(e->graph, S->value[x], weight);
         for (int y = S->first[l]; y < S->first[l + 1]; y++)
             if (S->column[x] <= S->column[y])
-                add_product(e, &out[S->column[x] * s->frees + S->column[y]], scaled, S->value[y]);
+                dal__add_product(e->graph, &out[S->column[x] * s->frees + S->column[y]], scaled,
+                                 S->value[y]);
     }
 }
 
@@ -209,9 +201,11 @@ static void reduce_mass(const dal__equations *e, const dal__bordered *s, dal__no
     for (int k = 0; k < s->solved; k++) {
         const dal__node *row = e->W + s->dependent[k] * n;
         for (int j = 0; j < f; j++)
-            if (!is_zero(e, row[s->free[j]])) add_scaled_row(e, s, k, row[s->free[j]], j, out);
+            if (!dal__node_is_zero(e->graph, row[s->free[j]]))
+                add_scaled_row(e, s, k, row[s->free[j]], j, out);
         for (int l = 0; l < s->solved; l++)
-            if (!is_zero(e, row[s->dependent[l]])) add_outer(e, s, k, l, row[s->dependent[l]], out);
+            if (!dal__node_is_zero(e->graph, row[s->dependent[l]]))
+                add_outer(e, s, k, l, row[s->dependent[l]], out);
     }
     for (int i = 0; i < f; i++)
         for (int j = i; j < f; j++) out[i * f + j] = out[j * f + i] = collect(e, s, out[i * f + j]);
@@ -320,14 +314,14 @@ static void reduce_rhs(const dal__equations *e, const dal__bordered *s, const da
     for (int k = 0; k < s->solved; k++) w->u[k] = top[s->dependent[k]];
     for (int l = 0; l < s->solved; l++) {
         const dal__node *row = e->W + s->dependent[l] * n;
-        if (is_zero(e, w->s[l])) continue;
+        if (dal__node_is_zero(e->graph, w->s[l])) continue;
         for (int k = 0; k < s->solved; k++)
             subtract_product(e, &w->u[k], row[s->dependent[k]], w->s[l]);
         for (int i = 0; i < s->frees; i++) subtract_product(e, &w->t[i], row[s->free[i]], w->s[l]);
     }
     for (int k = 0; k < s->solved; k++)
         for (int x = s->S.first[k]; x < s->S.first[k + 1]; x++)
-            add_product(e, &w->t[s->S.column[x]], s->S.value[x], w->u[k]);
+            dal__add_product(e->graph, &w->t[s->S.column[x]], s->S.value[x], w->u[k]);
 }
 
 /* The free coordinates and the forces of the retained constraints, from b' in t. */
@@ -345,7 +339,7 @@ static dal_status solve_free(dal_model *model, const dal__bordered *s, dal__sum_
     DAL_TRY(dal__factors_solve(model, &s->forces, sums, 1, w->pull, w->force));
     for (int a = 0; a < s->retained_count; a++)
         for (int x = s->R.first[a]; x < s->R.first[a + 1]; x++)
-            add_product(e, &w->y[s->R.column[x]], s->R.value[x], w->force[a]);
+            dal__add_product(e->graph, &w->y[s->R.column[x]], s->R.value[x], w->force[a]);
     return DAL_STATUS_OK;
 }
 
@@ -359,7 +353,7 @@ static void find_forces(const dal__equations *e, const dal__bordered *s, const v
     for (int k = 0; k < s->solved; k++) {
         const int d = s->dependent[k];
         dal__node sum = dal__node_neg(e->graph, top[d]);
-        for (int i = 0; i < e->n; i++) add_product(e, &sum, e->W[d * e->n + i], x[i]);
+        for (int i = 0; i < e->n; i++) dal__add_product(e->graph, &sum, e->W[d * e->n + i], x[i]);
         h[s->by[k]] = dal__node_div(e->graph, sum, s->alpha[k]);
     }
 }

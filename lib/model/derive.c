@@ -120,8 +120,7 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
         bool depends = false;
         dal__gradient(e->graph, e->constraint[a], e->symbol + e->v, e->n, e->A + a * e->n);
         e->c[a] = dal__time_derivative(e, e->constraint[a]);
-        for (int i = 0; i < e->n; i++)
-            depends |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0);
+        for (int i = 0; i < e->n; i++) depends |= !dal__node_is_zero(e->graph, e->A[a * e->n + i]);
         if (!depends && e->graph->status == DAL_STATUS_OK)
             return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
                                 is_holonomic ? "%s does not depend on the coordinates"
@@ -179,6 +178,18 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
 
 /* ---- the reactions in invariants and events ---- */
 
+void dal__list_reactions(const dal__equations *e, dal__node *out)
+{
+    const int n = e->n, m = e->m;
+    for (int a = 0; a < m; a++) {
+        const dal__node *B = e->B + a * n;
+        out[a] = e->h[a];
+        for (int i = 0; i < n; i++)
+            out[m + i] =
+                dal__node_add(e->graph, out[m + i], dal__node_mul(e->graph, B[i], e->h[a]));
+    }
+}
+
 dal_status dal__insert_reactions(dal_model *model)
 {
     dal__equations *e = &model->equations;
@@ -200,12 +211,7 @@ dal_status dal__insert_reactions(dal_model *model)
     int *symbol = dal__model_allocate(model, (size_t)count, sizeof *symbol);
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < count; i++) symbol[i] = e->reaction + i;
-    for (int a = 0; a < m; a++) {
-        by[a] = e->h[a];
-        for (int i = 0; i < n; i++)
-            by[m + i] = dal__node_add(e->graph, by[m + i],
-                                      dal__node_mul(e->graph, e->B[a * n + i], e->h[a]));
-    }
+    dal__list_reactions(e, by);
     for (int k = 0; k < LISTS; k++)
         if (lists[k].count > 0)
             dal__substitute_all(e->graph, lists[k].count, lists[k].list, symbol, count, by);

@@ -148,7 +148,7 @@ static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, 
         p->entries[i] = 0;
     }
     for (int i = 0; i < p->n * p->n; i++) {
-        bool present = !dal__is_number(e->graph, matrix[i], 0.0);
+        bool present = !dal__node_is_zero(e->graph, matrix[i]);
         bool varying = dal__depends(e->graph, matrix[i], e->parameters, e->symbols);
         p->flag[i] = (unsigned char)((present ? PRESENT : 0) | (varying ? VARYING : 0));
         if (present) p->entry[i / p->n * p->n + p->entries[i / p->n]++] = i % p->n;
@@ -212,11 +212,6 @@ static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
 
 /* ---- the elimination ---- */
 
-static bool is_zero(const dal__graph *graph, dal__node node)
-{
-    return dal__is_number(graph, node, 0.0);
-}
-
 /* Entry of the row and the column of pivots i and j. */
 static dal__node *at(const dal__factors *f, int i, int j)
 {
@@ -229,7 +224,7 @@ static void eliminate(dal__graph *graph, dal__factors *f, int k, bool symmetric,
     const int n = f->n;
     int rows = 0;
     for (int i = k + 1; i < n; i++)
-        if (!is_zero(graph, *at(f, i, k))) below[rows++] = i;
+        if (!dal__node_is_zero(graph, *at(f, i, k))) below[rows++] = i;
     const dal__node pivot = *at(f, k, k);
     const dal__node inverse = dal__node_div(graph, dal__number(graph, 1.0), pivot);
     for (int r = rows; r-- > 0;) {
@@ -239,7 +234,7 @@ static void eliminate(dal__graph *graph, dal__factors *f, int k, bool symmetric,
             rows > 1 ? dal__node_mul(graph, first, inverse) : dal__node_div(graph, first, pivot);
         for (int j = symmetric ? i : k + 1; j < n; j++) {
             const dal__node beside = *at(f, k, j);
-            if (is_zero(graph, beside)) continue;
+            if (dal__node_is_zero(graph, beside)) continue;
             *at(f, i, j) = dal__node_sub(graph, *at(f, i, j), dal__node_mul(graph, factor, beside));
         }
         *at(f, i, k) = factor;
@@ -269,7 +264,7 @@ static dal__node pivot_size(dal__graph *graph, const dal__factors *f, dal__node 
     dal__node size = dal__apply(graph, DAL__ABS, entry, 0), last = 0;
     for (int l = 0; l < k; l++) {
         const dal__node left = *at(f, k, l), right = *at(f, l, k);
-        if (is_zero(graph, left) || is_zero(graph, right)) continue;
+        if (dal__node_is_zero(graph, left) || dal__node_is_zero(graph, right)) continue;
         if (last) size = dal__node_add(graph, size, dal__apply(graph, DAL__ABS, last, 0));
         last = dal__node_mul(graph, left, right);
     }
@@ -315,17 +310,17 @@ static bool list_entries(dal_model *model, dal__factors *f)
     const int n = f->n;
     int count = 0;
     f->first = dal__model_allocate(model, 2 * (size_t)n + 1, sizeof *f->first);
-    for (int i = 0; i < n * n; i++) count += !is_zero(graph, f->matrix[i]);
+    for (int i = 0; i < n * n; i++) count += !dal__node_is_zero(graph, f->matrix[i]);
     f->other = dal__model_allocate(model, (size_t)count, sizeof *f->other);
     if (model->out_of_memory) return false;
     count = 0;
     for (int i = 0; i < n; i++) {
         f->first[2 * i] = count;
         for (int j = 0; j < i; j++)
-            if (!is_zero(graph, *at(f, i, j))) f->other[count++] = j;
+            if (!dal__node_is_zero(graph, *at(f, i, j))) f->other[count++] = j;
         f->first[2 * i + 1] = count;
         for (int j = i + 1; j < n; j++)
-            if (!is_zero(graph, *at(f, i, j))) f->other[count++] = j;
+            if (!dal__node_is_zero(graph, *at(f, i, j))) f->other[count++] = j;
     }
     f->first[2 * n] = count;
     return true;
@@ -343,7 +338,7 @@ dal_status dal__factor(dal_model *model, dal__factors *f)
     long entries = 0;
     bool symmetric = true;
     plan p;
-    for (size_t i = 0; i < n * n; i++) entries += !is_zero(e->graph, f->matrix[i]);
+    for (size_t i = 0; i < n * n; i++) entries += !dal__node_is_zero(e->graph, f->matrix[i]);
     if (f->n > MAX_FULL && entries > coupled) return DAL_STATUS_TOO_LARGE;
     f->given = dal__model_nodes(model, f->n * f->n, 0);
     int *below = dal__model_allocate(model, n, sizeof *below);
@@ -372,7 +367,7 @@ static void solve_one(dal__graph *graph, const dal__factors *f, dal__sum_form su
         y[k] = rhs[f->row[k]];
         for (int l = f->first[2 * k]; l < f->first[2 * k + 1]; l++) {
             const int j = f->other[l];
-            if (!is_zero(graph, y[j]))
+            if (!dal__node_is_zero(graph, y[j]))
                 y[k] = dal__node_sub(graph, y[k], dal__node_mul(graph, *at(f, k, j), y[j]));
         }
         if (sums == DAL__SUMS_COLLECTED && f->first[2 * k] < f->first[2 * k + 1])
@@ -382,7 +377,7 @@ static void solve_one(dal__graph *graph, const dal__factors *f, dal__sum_form su
         for (int l = f->first[2 * k + 1]; l < f->first[2 * k + 2]; l++) {
             const int j = f->other[l];
             const dal__node known = x[f->column[j]];
-            if (!is_zero(graph, known))
+            if (!dal__node_is_zero(graph, known))
                 y[k] = dal__node_sub(graph, y[k], dal__node_mul(graph, *at(f, k, j), known));
         }
         x[f->column[k]] = dal__node_div(graph, y[k], *at(f, k, k));

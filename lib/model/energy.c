@@ -161,14 +161,14 @@ static bool vanishes(identity *id)
     dal__graph *graph = id->e->graph;
     dal__node whole = dal__number(graph, 0.0);
     for (int i = 0; i < id->terms; i++) whole = dal__node_add(graph, whole, id->term[i]);
-    return dal__is_number(graph, whole, 0.0) || vanishes_at_points(id, NULL);
+    return dal__node_is_zero(graph, whole) || vanishes_at_points(id, NULL);
 }
 
 /* ---- energy ---- */
 
 static void add_term(identity *id, dal__node term)
 {
-    if (!dal__is_number(id->e->graph, term, 0.0)) id->term[id->terms++] = term;
+    if (!dal__node_is_zero(id->e->graph, term)) id->term[id->terms++] = term;
 }
 
 static dal__node partial_t(const dal__equations *e, dal__node f)
@@ -269,11 +269,9 @@ static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta,
     for (int a = 0; a < m; a++) {
         along[a] = dal__dot(e->graph, n, e->A + a * n, e->flow + 1);
         for (int b = a; b < m; b++) {
-            dal__node sum = dal__number(e->graph, 0.0);
-            for (int i = 0; i < n; i++)
-                sum = dal__node_add(e->graph, sum,
-                                    dal__node_mul(e->graph, e->A[a * n + i], e->U[i * m + b]));
-            G[a * m + b] = G[b * m + a] = sum;
+            const dal__node zero = dal__number(e->graph, 0.0);
+            G[a * m + b] = G[b * m + a] =
+                dal__add_strided_dot(e->graph, zero, n, e->A + a * n, 1, e->U + b, m);
         }
     }
     return dal__solve_vector(model, m, G, along, beta);
@@ -403,11 +401,10 @@ static void couple(const blocks *b, int i)
         const dal__node q = dal__find_symbol(e->graph, e->q + j);
         bool contains = !mark || (q && q <= b->U_q[i] && mark[q]);
         for (int a = 0; a < e->m && e->restricted; a++)
-            contains |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0) &&
-                        !dal__is_number(e->graph, e->A[a * e->n + j], 0.0);
+            contains |= !dal__node_is_zero(e->graph, e->A[a * e->n + i]) &&
+                        !dal__node_is_zero(e->graph, e->A[a * e->n + j]);
         const int from = b->block[j], to = b->block[i];
-        if (from == to || (!contains && dal__is_number(e->graph, e->W[i * e->n + j], 0.0)))
-            continue;
+        if (from == to || (!contains && dal__node_is_zero(e->graph, e->W[i * e->n + j]))) continue;
         for (int k = 0; k < e->n; k++) b->block[k] = b->block[k] == from ? to : b->block[k];
     }
     free(mark);

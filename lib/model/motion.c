@@ -149,13 +149,13 @@ static bool fills_directions(dal_model *model)
     for (int k = 0; k < n * n; k++) {
         const int i = k / n, from = block[i], to = block[k % n];
         is_of_v |= dal__depends(e->graph, e->W[k], e->v, e->v + n);
-        if (k % n >= i || from == to || dal__is_number(e->graph, e->W[k], 0.0)) continue;
+        if (k % n >= i || from == to || dal__node_is_zero(e->graph, e->W[k])) continue;
         for (int l = 0; l <= i; l++) block[l] = block[l] == from ? to : block[l];
     }
     for (int i = 0; i < n; i++) size[block[i]]++;
     for (int k = 0; k < m * n; k++) {
         const int a = k / n, of = block[k % n];
-        if (dal__is_number(e->graph, e->A[k], 0.0)) continue;
+        if (dal__node_is_zero(e->graph, e->A[k])) continue;
         filled += (counted[of] > a ? 0 : size[of]) - 1;
         counted[of] = a + 1;
     }
@@ -266,7 +266,7 @@ static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, in
     if (e->n > MAX_COMPARED) {
         bool coupled = false; /* coordinates by W */
         for (int i = 0; i < e->n * e->n && !coupled; i++)
-            coupled = i % (e->n + 1) && !dal__is_number(e->graph, e->W[i], 0.0);
+            coupled = i % (e->n + 1) && !dal__node_is_zero(e->graph, e->W[i]);
         const bool whole = coupled && e->mass_positive && !e->servo;
         const int way = whole ? DAL__SOLVED | DAL__WHOLE : REDUCED;
         const dal_status status = derive_by(model, mass, way, singular);
@@ -361,8 +361,7 @@ static dal_status solve_by_directions(dal_model *model, int first, const dal__no
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int k = 0; k < rows * rows; k++) {
         const dal__node *A = e->A + (first + k / rows) * n, *U = e->U + first + k % rows;
-        for (int i = 0; i < n; i++)
-            G[k] = dal__node_add(e->graph, G[k], dal__node_mul(e->graph, A[i], U[i * m]));
+        G[k] = dal__add_strided_dot(e->graph, G[k], n, A, 1, U, m);
     }
     DAL_TRY(dal__solve_vector(model, rows, G, bottom, l));
     for (int i = 0; i < n; i++) x[i] = dal__dot(e->graph, rows, e->U + i * m + first, l);
@@ -421,9 +420,7 @@ dal_status dal__motion_react(dal_model *model, dal__node *y)
     }
     for (int i = 0; i < n; i++) {
         top[i] = dal__node_mul(e->graph, l[m], e->b[i]);
-        for (int a = 0; a < m; a++)
-            top[i] =
-                dal__node_add(e->graph, top[i], dal__node_mul(e->graph, e->B[a * n + i], l[a]));
+        top[i] = dal__add_strided_dot(e->graph, top[i], m, e->B + i, n, l, 1);
     }
     return dal__factors_solve(model, e->mass, DAL__SUMS_UNCHANGED, 1, top, y);
 }
@@ -449,9 +446,7 @@ static dal__node *residuals(dal_model *model)
     if (model->out_of_memory) return NULL;
     for (int i = 0; i < n; i++) {
         out[i] = dal__node_sub(e->graph, e->b[i], dal__dot(e->graph, n, e->W + i * n, F));
-        for (int a = 0; a < m; a++)
-            out[i] =
-                dal__node_add(e->graph, out[i], dal__node_mul(e->graph, e->A[a * n + i], h[a]));
+        out[i] = dal__add_strided_dot(e->graph, out[i], m, e->A + i, n, h, 1);
     }
     for (int a = 0; a < m; a++) {
         dal__node sum = dal__node_add(e->graph, e->c[a], dal__dot(e->graph, n, e->A + a * n, F));

@@ -54,7 +54,7 @@ static unsigned constraint_class(const dal__equations *e, dal__node D, dal__node
         state_gradient(e, first[i], second);
         all &= ~(unsigned)DAL_D_CONSTANT;
         for (int j = 0; j < 2 * n; j++) {
-            if (dal__is_number(e->graph, second[j], 0.0)) continue;
+            if (dal__node_is_zero(e->graph, second[j])) continue;
             if (i >= n && j >= n) all &= ~(unsigned)(DAL_D_LINEAR | DAL_D_BILINEAR);
             if (i < n && j < n) all &= ~(unsigned)DAL_D_BILINEAR;
             if (varies(e, second[j])) all &= ~(unsigned)(DAL_D_BILINEAR | DAL_D_QUADRATIC);
@@ -77,8 +77,8 @@ static bool is_isokinetic(const dal__equations *e, dal__node *row)
 {
     dal__graph *graph = e->graph;
     const dal__node *v = e->flow + 1;
-    if (e->m != 1 || e->servo || !dal__is_number(graph, e->c[0], 0.0)) return false;
-    if (dal__is_number(graph, e->W[0], 0.0)) return false;
+    if (e->m != 1 || e->servo || !dal__node_is_zero(graph, e->c[0])) return false;
+    if (dal__node_is_zero(graph, e->W[0])) return false;
     dal__gradient(graph, e->A[0], e->symbol + e->v, e->n, row);
     const dal__node first = row[0];
     for (int i = 0; i < e->n; i++) {
@@ -87,10 +87,10 @@ static bool is_isokinetic(const dal__equations *e, dal__node *row)
             dal__node expected = dal__node_mul(graph, first, e->W[i * e->n + j]);
             dal__node defect =
                 dal__node_sub(graph, dal__node_mul(graph, row[j], e->W[0]), expected);
-            if (!dal__is_number(graph, defect, 0.0)) return false;
+            if (!dal__node_is_zero(graph, defect)) return false;
         }
         dal__node rest = dal__node_sub(graph, e->A[i], dal__dot(graph, e->n, row, v));
-        if (!dal__is_number(graph, rest, 0.0)) return false;
+        if (!dal__node_is_zero(graph, rest)) return false;
     }
     return true;
 }

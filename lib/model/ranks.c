@@ -243,11 +243,11 @@ void dal__fields_add(dal__fields *d, double weight, double *x)
     const dal__node *field = d->field + d->fields * d->dim;
     const int rank = d->rank[0];
     bool is_new = false, is_zero = true;
-    for (int j = 0; j < d->dim; j++) is_zero &= dal__is_number(graph, field[j], 0.0);
+    for (int j = 0; j < d->dim; j++) is_zero &= dal__node_is_zero(graph, field[j]);
     for (int k = 0; k < d->points && !is_zero; k++) {
         const double *at = d->point + k * d->model->equations.symbols;
         for (int j = 0; j < d->dim; j++)
-            x[j] = dal__is_number(graph, field[j], 0.0)
+            x[j] = dal__node_is_zero(graph, field[j])
                        ? 0.0
                        : dal__evaluate(graph, field[j], at) * weight / d->unit[j];
         is_new |= extend_basis(d, k, x);
@@ -373,7 +373,7 @@ static dal_status make_matrix(dal__fields *d, dal__node *A, const double *value,
         has_t |= dal__depends(e->graph, of_v[i], e->t, e->t + 1);
     }
     for (int a = 0; a < d->rows; a++)
-        has_t |= !dal__is_number(e->graph, at_rest(e, D[a], zeros), 0.0);
+        has_t |= !dal__node_is_zero(e->graph, at_rest(e, D[a], zeros));
     d->fixed = has_t;
     d->dim = d->full = e->n + has_t;
     d->symbol = e->symbol + (has_t ? e->t : e->q);

@@ -24,12 +24,6 @@
 #include "model/model.h"
 #include <math.h>
 
-static void add_product(const dal__equations *e, dal__node *sum, dal__node a, dal__node b)
-{
-    const bool is_zero = dal__is_number(e->graph, a, 0.0) || dal__is_number(e->graph, b, 0.0);
-    if (!is_zero) *sum = dal__node_add(e->graph, *sum, dal__node_mul(e->graph, a, b));
-}
-
 /* ---- whether it is needed ---- */
 
 bool dal__mass_may_turn_singular(dal_model *model)
@@ -120,7 +114,7 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
             dal__node *sum = &r->S.matrix[a * m + b];
             *sum = dal__number(e->graph, 0.0);
             for (int i = 0; i < n && b >= a; i++)
-                add_product(e, sum, e->A[a * n + i], lifted[i * m + b]);
+                dal__add_product(e->graph, sum, e->A[a * n + i], lifted[i * m + b]);
             if (b < a) *sum = r->S.matrix[b * m + a];
         }
     const dal_status status = dal__factor(model, &r->S);
@@ -130,7 +124,8 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             dal__node sum = dal__number(e->graph, 0.0);
-            for (int a = 0; a < m; a++) add_product(e, &sum, r->N[i * m + a], e->A[a * n + j]);
+            for (int a = 0; a < m; a++)
+                dal__add_product(e->graph, &sum, r->N[i * m + a], e->A[a * n + j]);
             r->P[i * n + j] = dal__node_sub(e->graph, dal__number(e->graph, i == j), sum);
         }
     return e->graph->status;
@@ -153,16 +148,18 @@ dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__res
         for (int j = 0; j < n; j++) {
             WP[i * n + j] = dal__number(e->graph, 0.0);
             for (int k = 0; k < n; k++)
-                add_product(e, &WP[i * n + j], r->W[i * n + k], r->P[k * n + j]);
+                dal__add_product(e->graph, &WP[i * n + j], r->W[i * n + k], r->P[k * n + j]);
         }
     for (int i = 0; i < n; i++)
         for (int j = i; j < n; j++) {
             dal__node sum = dal__number(e->graph, 0.0);
-            for (int k = 0; k < n; k++) add_product(e, &sum, r->P[k * n + i], WP[k * n + j]);
+            for (int k = 0; k < n; k++)
+                dal__add_product(e->graph, &sum, r->P[k * n + i], WP[k * n + j]);
             for (int a = 0; a < m; a++) {
                 const double size = magnitude(e, r->S.given[a * m + a]);
                 const dal__node C = dal__number(e->graph, size > 0.0 ? 1.0 / size : 1.0);
-                add_product(e, &sum, dal__node_mul(e->graph, C, e->A[a * n + i]), e->A[a * n + j]);
+                dal__add_product(e->graph, &sum, dal__node_mul(e->graph, C, e->A[a * n + i]),
+                                 e->A[a * n + j]);
             }
             V[i * n + j] = V[j * n + i] = sum;
         }
@@ -183,7 +180,7 @@ static void add_lift(const dal__equations *e, const dal__restricted *r, const da
                      dal__node *x)
 {
     for (int i = 0; i < e->n; i++)
-        for (int a = 0; a < e->m; a++) add_product(e, &x[i], r->N[i * e->m + a], u[a]);
+        for (int a = 0; a < e->m; a++) dal__add_product(e->graph, &x[i], r->N[i * e->m + a], u[a]);
 }
 
 /* out = W x - top */
@@ -192,7 +189,8 @@ static void apply_mass(const dal__equations *e, const dal__restricted *r, const 
 {
     for (int i = 0; i < e->n; i++) {
         out[i] = dal__number(e->graph, 0.0);
-        for (int j = 0; j < e->n; j++) add_product(e, &out[i], r->W[i * e->n + j], x[j]);
+        for (int j = 0; j < e->n; j++)
+            dal__add_product(e->graph, &out[i], r->W[i * e->n + j], x[j]);
         out[i] = dal__node_sub(e->graph, out[i], top[i]);
     }
 }
@@ -210,12 +208,12 @@ dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, con
     add_lift(e, r, bottom, x);
     apply_mass(e, r, x, top, rest);
     for (int i = 0; i < n; i++) {
-        for (int k = 0; k < n; k++) add_product(e, &rhs[i], r->P[k * n + i], rest[k]);
+        for (int k = 0; k < n; k++) dal__add_product(e->graph, &rhs[i], r->P[k * n + i], rest[k]);
         rhs[i] = dal__node_neg(e->graph, rhs[i]);
     }
     DAL_TRY(dal__factors_solve(model, &r->V, DAL__SUMS_UNCHANGED, 1, rhs, y));
     for (int a = 0; a < m; a++) {
-        for (int i = 0; i < n; i++) add_product(e, &out[a], e->A[a * n + i], y[i]);
+        for (int i = 0; i < n; i++) dal__add_product(e->graph, &out[a], e->A[a * n + i], y[i]);
         out[a] = dal__node_neg(e->graph, out[a]);
     }
     add_lift(e, r, out, y);
@@ -224,7 +222,7 @@ dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, con
     apply_mass(e, r, x, top, rest);
     for (int a = 0; a < m; a++) {
         h[a] = zero;
-        for (int i = 0; i < n; i++) add_product(e, &h[a], r->N[i * m + a], rest[i]);
+        for (int i = 0; i < n; i++) dal__add_product(e->graph, &h[a], r->N[i * m + a], rest[i]);
     }
     return e->graph->status;
 }

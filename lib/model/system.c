@@ -274,11 +274,7 @@ static dal_status add_terms(dal_model *model)
     model->terms = dal__terms_create(e->graph, formula, count);
     if (!model->terms) return DAL_STATUS_MEMORY;
     if (m > 0 && !e->vakonomic) {
-        for (int a = 0; a < m; a++) reaction[a] = e->h[a];
-        for (int i = 0; i < n; i++)
-            for (int a = 0; a < m; a++)
-                reaction[m + i] = dal__node_add(e->graph, reaction[m + i],
-                                                dal__node_mul(e->graph, e->B[a * n + i], e->h[a]));
+        dal__list_reactions(e, reaction);
         model->reaction_terms = dal__terms_create(e->graph, reaction, m + n);
         if (!model->reaction_terms) return DAL_STATUS_MEMORY;
     }
