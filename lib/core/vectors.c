@@ -124,6 +124,12 @@ double dal__power_of_two(double x)
     return x != 0.0 && isfinite(x) ? ldexp(0.5, exponent) : 0.0;
 }
 
+double dal__golden_fraction(int k)
+{
+    const double golden = 0.6180339887498949;
+    return fmod(k * golden, 1.0);
+}
+
 double dal__uniform(dal__random *random)
 {
     random->state = random->state * 6364136223846793005u + 1442695040888963407u;

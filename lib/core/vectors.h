@@ -67,6 +67,10 @@ int dal__least_squares(int rows, int columns, double *a, double *right, double *
 /* The power of two at or below |x|; 0 where x is 0 or not finite. */
 double dal__power_of_two(double x);
 
+/* The k-th of a sequence that fills [0, 1) evenly, without a pattern: multiples of the golden ratio
+ * modulo 1. */
+double dal__golden_fraction(int k);
+
 /* A small deterministic generator, uniform on [-1, 1). */
 typedef struct dal__random {
     uint64_t state;

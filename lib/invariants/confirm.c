@@ -261,12 +261,11 @@ static bool are_parallel(int count, const double *a, const double *b)
 static bool is_multiple(const dal__search *s, const dal__node *gradient, int a, int k,
                         double *memory)
 {
-    static const double golden = 0.6180339887498949;
     const dal__equations *e = &s->model->equations;
     const dal__region *r = &s->region;
     double *value = memory, *of_f = value + e->symbols, *row = of_f + 1 + e->n;
     for (int i = 0; i < e->symbols; i++)
-        value[i] = r->centre[i] + r->reach[i] * (fmod((i + 1) * k * golden, 1.0) - 0.5);
+        value[i] = r->centre[i] + r->reach[i] * (dal__golden_fraction((i + 1) * k) - 0.5);
     for (int i = 0; i < e->parameters; i++) value[i] = s->parameter[i];
     for (int i = 0; i <= e->n; i++)
         of_f[i] = dal__evaluate(e->graph, gradient[i], value) * r->reach[i ? e->q + i - 1 : e->t];

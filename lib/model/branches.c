@@ -150,16 +150,15 @@ static double find_normal(const surface *f, const double *x, double *normal)
     return size;
 }
 
-/* Newton's method along the normal, from the start moved by multiples of the golden ratio. */
+/* Newton's method along the normal, from the start moved irregularly. */
 static bool find_point(const surface *f, int number, double *x)
 {
-    const double golden = 0.6180339887498949;
     const dal__equations *e = &f->model->equations;
     const int symbols = e->pi - e->t;
     double *const normal = f->moved;
     for (int i = 0; i < e->symbols; i++) {
         x[i] = e->value[i];
-        const double off = fmod((number * e->symbols + i + 1) * golden, 1.0) - 0.5;
+        const double off = dal__golden_fraction(number * e->symbols + i + 1) - 0.5;
         if (i >= e->parameters) x[i] += f->unit[i] * off;
     }
     for (int k = 0; k < MAX_ITERATIONS; k++) {

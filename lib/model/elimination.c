@@ -171,8 +171,7 @@ static int order(plan *p, int limit)
 }
 
 /* Chooses the pivots at the start or, where the matrix is singular there, at a point moved off it
- * by irregular amounts between 1/8 and 5/8, multiples of the golden ratio modulo 1/2: what is
- * singular there too is singular everywhere. */
+ * by irregular amounts between 1/8 and 5/8: what is singular there too is singular everywhere. */
 static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
 {
     const dal__equations *e = &model->equations;
@@ -197,10 +196,9 @@ static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
     f->singular = order(p, e->graph->limit);
     if (p->updates > e->graph->limit) return DAL_STATUS_TOO_LARGE;
     if (f->singular < 0) return DAL_STATUS_OK;
-    const double golden = 0.6180339887498949;
     DAL_TRY(dal__model_units(model, point));
     for (int i = 0; i < e->symbols; i++) {
-        const double moved = point[i] * (0.125 + 0.5 * fmod((i + 1) * golden, 1.0));
+        const double moved = point[i] * (0.125 + 0.5 * dal__golden_fraction(i + 1));
         point[i] = e->value[i] + (i >= e->parameters ? moved : 0.0);
     }
     evaluate(p, e, f->matrix, point);

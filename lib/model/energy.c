@@ -55,10 +55,9 @@ typedef struct identity {
     double *scale, *value; /* [max_terms] of the terms */
 } identity;
 
-/* The units, and points off the start by multiples of the golden ratio, each at another place. */
+/* The units, and irregular points off the start. */
 static bool find_units(identity *id)
 {
-    const double golden = 0.6180339887498949;
     const dal__equations *e = id->e;
     const size_t symbols = (size_t)e->symbols;
     if (id->moved) return true;
@@ -68,7 +67,7 @@ static bool find_units(identity *id)
     for (int k = 0; k < POINTS * e->symbols; k++) {
         const int i = k % e->symbols;
         moved[k] = e->value[i];
-        if (i >= e->parameters) moved[k] += id->unit[i] * (0.1 + fmod(k * golden, 1.0));
+        if (i >= e->parameters) moved[k] += id->unit[i] * (0.1 + dal__golden_fraction(k));
     }
     id->moved = moved;
     return true;

@@ -45,12 +45,12 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
 static double list_dependence(const dal__equations *e, int row, double *rows, char *list,
                               size_t size)
 {
-    const double golden = 0.6180339887498949, rounding = 1e-9;
+    const double rounding = 1e-9;
     const int n = e->n, m = e->m, width = n + m;
     double *point = rows + m * width;
     const double *unit = point + e->symbols;
     for (int i = 0; i < e->symbols; i++) {
-        const double off = fmod((i + 1) * golden, 1.0) - 0.5;
+        const double off = dal__golden_fraction(i + 1) - 0.5;
         point[i] = e->value[i] + (i < e->parameters ? 0.0 : unit[i] * off);
     }
     for (int a = 0; a < m; a++) {

@@ -182,9 +182,8 @@ dal_status dal__fields_allocate(dal__fields *d, size_t dim, const dal_setting *p
 
 void dal__displace_point(double *x, int from, int count, const double *unit, int way)
 {
-    const double golden = 0.6180339887498949;
     for (int i = 0; i < count; i++)
-        x[from + i] += unit[i] * (fmod((way + from + i + 1) * golden, 1.0) - 0.5);
+        x[from + i] += unit[i] * (dal__golden_fraction(way + from + i + 1) - 0.5);
 }
 
 /* ---- fields at the points ---- */
