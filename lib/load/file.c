@@ -1,4 +1,4 @@
-/* file.c - files on disk. */
+/* file.c - reads files on disk. */
 #include "load/file.h"
 #include "model/model.h"
 #include <errno.h>
@@ -27,4 +27,10 @@ char *dal__read_file(const char *path, size_t *length, dal_error *error)
     if (status == DAL_STATUS_OK) return text;
     free(text);
     return NULL;
+}
+
+size_t dal__mark_length(const char *text, size_t length)
+{
+    static const char mark[] = "\xEF\xBB\xBF";
+    return length >= 3 && memcmp(text, mark, 3) == 0 ? 3 : 0;
 }

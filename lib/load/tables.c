@@ -14,11 +14,12 @@
 #include "core/buffer.h"
 #include "load/file.h"
 #include "model/functions.h"
+#include "model/symbols.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const keys[] = {
+const char *const dal__table_keys[DAL__TABLE_KEYS] = {
 #define NAME(code, name) name,
     DAL__TABLE_KEY_LIST(NAME)
 #undef NAME
@@ -56,17 +57,14 @@ static dal_status read_from_disk(loader *l, const dal__entry *name, csv_file *fi
         return dal__fail_at(l->error,
                             reason.status == DAL_STATUS_IO ? DAL_STATUS_MODEL : reason.status,
                             DAL__AT_TEXT(name), "cannot read '%.160s': %s", path, reason.message);
-    char *text = dal__model_allocate(l->model, file->length + 1, 1);
-    if (text) memcpy(text, bytes, file->length);
+    file->text = dal__model_copy(l->model, bytes, file->length);
     free(bytes);
-    file->text = text;
-    return text ? DAL_STATUS_OK : dal__memory_error(l->error);
+    return file->text ? DAL_STATUS_OK : dal__memory_error(l->error);
 }
 
 /* The file that a table names, read once. */
 static dal_status find_file(loader *l, const dal__entry *name, const csv_file **found)
 {
-    static const char mark[] = "\xEF\xBB\xBF"; /* a byte order mark is no text */
     for (*found = l->files; *found; *found = (*found)->next)
         if (strcmp((*found)->name, name->text) == 0) return DAL_STATUS_OK;
     csv_file *file = dal__model_allocate(l->model, 1, sizeof *file);
@@ -84,7 +82,8 @@ static dal_status find_file(loader *l, const dal__entry *name, const csv_file **
     } else {
         DAL_TRY(read_from_disk(l, name, file));
     }
-    if (file->length >= 3 && memcmp(file->text, mark, 3) == 0) file->text += 3, file->length -= 3;
+    const size_t mark = dal__mark_length(file->text, file->length);
+    file->text += mark, file->length -= mark;
     file->next = l->files;
     l->files = file;
     *found = file;
@@ -252,13 +251,12 @@ static dal_status read_csv(loader *l, const dal__table_request *request, const c
 
 /* ---- one table ---- */
 
-static dal_status read_word(loader *l, const dal__entry *key, const char *what,
+/* The number of the word that a key has, which stays what it is where the key is not given. */
+static dal_status read_word(const loader *l, const dal__entry *key, const char *what,
                             const char *const *words, int count, int *i)
 {
     if (!key->text) return DAL_STATUS_OK;
-    for (*i = 0; *i < count; ++*i)
-        if (strcmp(words[*i], key->text) == 0) return DAL_STATUS_OK;
-    return dal__unknown_at(l->error, DAL__AT_TEXT(key), what, key->text, words, count);
+    return dal__find_word(key->text, DAL__AT_TEXT(key), what, words, count, i, l->error);
 }
 
 static dal_status load_table(loader *l, const dal__table_request *request)
@@ -273,7 +271,7 @@ static dal_status load_table(loader *l, const dal__table_request *request)
         if (!key[i].text)
             return dal__fail_at(l->error, DAL_STATUS_MODEL, DAL__AT_TEXT(&entry),
                                 "table %.80s has no '%s'; it needs file, at and value", entry.name,
-                                keys[i]);
+                                dal__table_keys[i]);
     DAL_TRY(read_word(l, &key[DAL__TABLE_INTERPOLATION], "interpolation", forms, 3, &form));
     DAL_TRY(read_word(l, &key[DAL__TABLE_EXTEND], "extension", extensions, 3, &extend));
     DAL_TRY(find_file(l, &key[DAL__TABLE_FILE], &file));
@@ -324,10 +322,8 @@ static dal_status make_source(loader *l, size_t offset)
         if (!is_flow) dal__buffer_append_bytes(&source, text + offset - indent, indent);
     }
     dal__buffer_append_bytes(&source, text + offset, l->system->length - offset);
-    char *copy = dal__model_allocate(model, source.length + 1, 1);
-    const bool good = copy && !source.out_of_memory;
-    if (good && source.length) memcpy(copy, source.bytes, source.length);
-    model->source = copy;
+    model->source = dal__model_copy(model, source.bytes, source.length);
+    const bool good = model->source && !source.out_of_memory;
     model->source_length = source.length;
     dal__buffer_free(&source);
     if (!good) return dal__memory_error(l->error);

@@ -25,6 +25,7 @@ enum {
 #undef CODE
         DAL__TABLE_KEYS
 };
+extern const char *const dal__table_keys[DAL__TABLE_KEYS];
 
 /* A table as its file gives it: the place of the whole, and the texts of its keys, with places. */
 typedef struct dal__table_request {

@@ -95,13 +95,6 @@ static size_t offset_of(reader *r, yaml_mark_t mark)
     return r->byte;
 }
 
-static char *copy(dal_model *model, const char *from, size_t length)
-{
-    char *to = dal__model_allocate(model, length + 1, 1);
-    if (to) memcpy(to, from, length);
-    return to;
-}
-
 /* Controls but line ends and tabs, U+0000..001F, 007F..009F, which change the state of a terminal:
  * formulas have no use for them, and texts are shown. */
 static dal_status check_characters(reader *r)
@@ -134,7 +127,7 @@ static dal_status read_scalar(reader *r, dal__entry *entry)
     DAL_TRY(check_characters(r));
     bool escaped = quoted && !single && memchr(r->text + begin, '\\', end - begin);
     if (prose || escaped || end < begin + 2 * (size_t)quoted) {
-        entry->text = copy(r->model, value, length);
+        entry->text = dal__model_copy(r->model, value, length);
     } else {
         if (style == YAML_LITERAL_SCALAR_STYLE || style == YAML_FOLDED_SCALAR_STYLE) {
             /* A block scalar begins below its indicator, at the first column. */
@@ -143,7 +136,8 @@ static dal_status read_scalar(reader *r, dal__entry *entry)
             entry->line++;
             entry->column = 1;
         }
-        char *text = copy(r->model, r->text + begin + quoted, end - begin - 2 * (size_t)quoted);
+        const size_t inside = end - begin - 2 * (size_t)quoted;
+        char *text = dal__model_copy(r->model, r->text + begin + quoted, inside);
         for (char *c = text; c && single && (c = strstr(c, "''")) != NULL; c += 2) c[1] = ' ';
         entry->text = text;
     }
@@ -157,7 +151,7 @@ static dal_status read_key(reader *r, dal__entry *entry)
     if (r->event.type != YAML_SCALAR_EVENT)
         return HERE(r, DAL_STATUS_SYNTAX, "a name is expected here");
     DAL_TRY(check_characters(r));
-    entry->name = copy(r->model, value, length);
+    entry->name = dal__model_copy(r->model, value, length);
     entry->name_line = line_of(r->event.start_mark);
     entry->name_column = column_of(r->event.start_mark);
     return entry->name ? DAL_STATUS_OK : dal__memory_error(r->error);
@@ -212,9 +206,6 @@ static dal_status read_range(reader *r, dal__entry entry)
 /* A mapping {file: data.csv, at: t, value: M}. */
 static dal_status read_table(reader *r, dal__entry entry)
 {
-#define NAME(code, name) name,
-    static const char *const keys[] = {DAL__TABLE_KEY_LIST(NAME)};
-#undef NAME
     dal__table_request *table = dal__model_allocate(r->model, 1, sizeof *table);
     if (!table) return dal__memory_error(r->error);
     entry.line = line_of(r->event.start_mark);
@@ -227,16 +218,16 @@ static dal_status read_table(reader *r, dal__entry entry)
         DAL_TRY(next(r));
         if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_STATUS_OK;
         DAL_TRY(read_key(r, &key));
-        const int i = dal__index_of(key.name, strlen(key.name), keys, DAL__TABLE_KEYS);
-        if (i < 0)
-            return dal__unknown_at(r->error, DAL__AT_NAME(&key), "key of a table", key.name, keys,
-                                   DAL__TABLE_KEYS);
+        int i;
+        DAL_TRY(dal__find_word(key.name, DAL__AT_NAME(&key), "key of a table", dal__table_keys,
+                               DAL__TABLE_KEYS, &i, r->error));
         if (table->key[i].text)
             return dal__fail_at(r->error, DAL_STATUS_MODEL, DAL__AT_NAME(&key),
                                 "duplicate key '%s'", key.name);
         DAL_TRY(next(r));
         if (r->event.type != YAML_SCALAR_EVENT)
-            return HERE(r, DAL_STATUS_SYNTAX, "a text is expected for '%s' of a table", keys[i]);
+            return HERE(r, DAL_STATUS_SYNTAX, "a text is expected for '%s' of a table",
+                        dal__table_keys[i]);
         DAL_TRY(read_scalar(r, &key));
         table->key[i] = key;
     }
@@ -344,13 +335,12 @@ static dal_status find_section(reader *r, const dal__entry *key, dal_section *se
 {
     const char *names[DAL_SECTION_COUNT];
     for (int i = 0; i < DAL_SECTION_COUNT; i++) names[i] = dal__section_name((dal_section)i);
-    int i = dal__index_of(key->name, strlen(key->name), names, DAL_SECTION_COUNT);
-    if (i < 0)
-        return dal__unknown_at(r->error, key->name_line, key->name_column, "key", key->name, names,
-                               DAL_SECTION_COUNT);
+    int i;
+    DAL_TRY(dal__find_word(key->name, DAL__AT_NAME(key), "key", names, DAL_SECTION_COUNT, &i,
+                           r->error));
     if (r->seen & 1u << i)
-        return dal__fail_at(r->error, DAL_STATUS_MODEL, key->name_line, key->name_column,
-                            "duplicate key '%s'", key->name);
+        return dal__fail_at(r->error, DAL_STATUS_MODEL, DAL__AT_NAME(key), "duplicate key '%s'",
+                            key->name);
     r->seen |= 1u << i;
     *section = (dal_section)i;
     return DAL_STATUS_OK;
@@ -423,8 +413,7 @@ static dal_status read_text(dal_model *model, const dal__system_text *system, si
 /* dal_model_read with a directory. */
 static dal_status read_system(dal_model **model, const dal__system_text *system, dal_error *error)
 {
-    static const char mark[] = "\xEF\xBB\xBF"; /* a byte order mark is no text */
-    const size_t skip = system->length >= 3 && memcmp(system->text, mark, 3) == 0 ? 3 : 0;
+    const size_t skip = dal__mark_length(system->text, system->length);
     DAL_TRY(check_text(system->text + skip, system->length - skip, error));
     dal_model *made = dal_model_create(system->name);
     if (!made) return dal__memory_error(error);

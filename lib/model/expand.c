@@ -116,7 +116,7 @@ static dal_status read_for(dal_model *model, const dal__entry *entry, range *r, 
     const char *at = entry->text + strspn(entry->text, " \t\r\n") + 3;
     at += strspn(at, " \t\r\n");
     const size_t length = dal__name_length(at, strlen(at));
-    r->index = dal__model_print(model, "%.*s", (int)length, at);
+    r->index = dal__model_copy(model, at, length);
     if (!r->index) return dal__memory_error(error);
     at += length + strspn(at + length, " \t\r\n");
     if (*at != '=')

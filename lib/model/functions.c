@@ -14,7 +14,7 @@ static const char *skip_blanks(const char *text) { return text + strspn(text, " 
 static const char *read_word(dal_model *model, const char **text)
 {
     const size_t length = dal__name_length(*text, strlen(*text));
-    const char *word = length ? dal__model_print(model, "%.*s", (int)length, *text) : NULL;
+    const char *word = length ? dal__model_copy(model, *text, length) : NULL;
     *text = skip_blanks(*text + length);
     return word;
 }

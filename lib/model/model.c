@@ -61,7 +61,8 @@ const char *dal__solved_name(const dal__entry *entry)
     return text_after(dal__solve_prefix, entry, DAL_SECTION_START);
 }
 
-bool dal__section_named(dal_section section)
+/* Whether a section has mappings. */
+static bool has_names(dal_section section)
 {
     return dal__sections[section].form >= DAL__FORM_MAPPING;
 }
@@ -94,6 +95,13 @@ char *dal__model_print(dal_model *model, const char *format, ...)
     vsnprintf(text, (size_t)length + 1, format, arguments);
     va_end(arguments);
     return text;
+}
+
+char *dal__model_copy(dal_model *model, const char *text, size_t length)
+{
+    char *copy = dal__pool_text(&model->memory, text, length);
+    model->out_of_memory |= !copy;
+    return copy;
 }
 
 void dal__model_warn(dal_model *model, const dal__entry *entry, const char *text)
@@ -132,7 +140,8 @@ dal_model *dal_model_create(const char *name)
 {
     dal_model *model = calloc(1, sizeof *model);
     if (!model) return NULL;
-    model->name = dal__model_print(model, "%s", name ? name : "");
+    if (!name) name = "";
+    model->name = dal__model_copy(model, name, strlen(name));
     if (model->name) return model;
     dal__model_discard(model);
     return NULL;
@@ -251,7 +260,7 @@ dal_status dal__duplicate(const dal__entry *entry, dal_error *error)
 
 static dal_status check_duplicate(const dal_model *model, const dal__entry *entry, dal_error *error)
 {
-    bool named = dal__section_named(entry->section);
+    bool named = has_names(entry->section);
     const char *name = named ? entry->name : entry->text;
     if (entry->section == DAL_SECTION_CONSTRAINTS || entry->section == DAL_SECTION_HOLONOMIC ||
         entry->section == DAL_SECTION_EQUATIONS)
@@ -281,15 +290,15 @@ dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *erro
     if (model->given_count == DAL__MAX_ENTRIES)
         return dal__fail_at(error, DAL_STATUS_TOO_LARGE, line, column, "more than %d entries",
                             (int)DAL__MAX_ENTRIES);
-    const bool named = dal__section_named(entry.section);
+    const bool named = has_names(entry.section);
     if (!entry.text || named != (entry.name != NULL))
         return dal__fail_at(error, DAL_STATUS_ARGUMENT, line, column, "an entry of %s has %s",
                             dal__section_name(entry.section),
                             named ? "a name and a text" : "a text and no name");
     DAL_TRY(check_name(&entry, error));
     DAL_TRY(check_duplicate(model, &entry, error));
-    entry.text = dal__model_print(model, "%s", entry.text);
-    if (named) entry.name = dal__model_print(model, "%s", entry.name);
+    entry.text = dal__model_copy(model, entry.text, strlen(entry.text));
+    if (named) entry.name = dal__model_copy(model, entry.name, strlen(entry.name));
     if (model->given_count == model->given_capacity) {
         const int capacity = model->given_capacity ? 2 * model->given_capacity : 32;
         dal__entry *given = realloc(model->given, (size_t)capacity * sizeof *given);
@@ -375,8 +384,8 @@ dal_status dal_model_set_gauge(dal_model *model, const char *text, dal_error *er
                             .column = 1 + (int)(formula - text),
                             .name_line = 1,
                             .name_column = column};
-        entry.name = dal__model_print(model, "%.*s", (int)strcspn(name, " \t="), name);
-        entry.text = dal__model_print(model, "%.*s", (int)(end - formula), formula);
+        entry.name = dal__model_copy(model, name, strcspn(name, " \t="));
+        entry.text = dal__model_copy(model, formula, (size_t)(end - formula));
         if (!entry.name || !entry.text) return dal__memory_error(error);
         if (strcmp(entry.name, "e") != 0 && strcmp(entry.name, "mu_e") != 0)
             return dal__fail_at(error, DAL_STATUS_NAME, 1, column,

@@ -35,7 +35,6 @@ typedef struct dal__model_section {
 } dal__model_section;
 extern const dal__model_section dal__sections[DAL_SECTION_COUNT];
 const char *dal__section_name(dal_section section);
-bool dal__section_named(dal_section section); /* whether it has mappings */
 
 /* One text of a model, and where it and its name stood. */
 typedef struct dal__entry {
@@ -105,6 +104,7 @@ struct dal_model {
 void *dal__model_allocate(dal_model *model, size_t count, size_t size);
 dal__node *dal__model_nodes(dal_model *model, int count, dal__node initial);
 char *dal__model_print(dal_model *model, const char *format, ...) DAL__PRINTF(2, 3);
+char *dal__model_copy(dal_model *model, const char *text, size_t length); /* with a NUL after it */
 /* Frees the entries, all that was allocated, and the model. */
 void dal__model_discard(dal_model *model);
 /* Adds a warning at the name of an entry; text lives as long as the model. */
