@@ -84,7 +84,7 @@ static dal_status make_private(const char *directory, dal_error *error)
     struct stat s;
     if (mkdir(directory, 0700) != 0 && errno != EEXIST)
         return failed(error, "make the directory", directory);
-    if (lstat(directory, &s) != 0) return failed(error, "record at", directory);
+    if (lstat(directory, &s) != 0) return failed(error, "examine", directory);
     if (!S_ISDIR(s.st_mode) || s.st_uid != geteuid() || (s.st_mode & 077) != 0)
         return dal__fail(error, DAL_STATUS_IO,
                          "'%.200s' is not a directory of this user alone (mode 0700)", directory);
@@ -249,7 +249,7 @@ static dal_status seal(const char *path, dal_error *error)
 
 enum { KEY_DIGITS = 16, NAME_DIGITS = 48 }; /* of names, the key included */
 
-/* A path that no compiler takes for an option, and no loader for a name to record for. */
+/* A path that no compiler takes for an option, and no loader for a name to search for. */
 static dal_status name_object(const command *c, const char *directory, uint64_t key,
                               const char *text, char *path, dal_error *error)
 {
@@ -361,11 +361,6 @@ static dal_status start(dal__compilation *c, const char *text, dal_error *error)
     if (status == DAL_STATUS_OK) status = start_compiler(c, error);
     if (status != DAL_STATUS_OK) clean_up(c);
     return status;
-}
-
-uint64_t dal__compilation_key(uint64_t key, const void *bytes, size_t length)
-{
-    return dal__hash(key, bytes, length);
 }
 
 bool dal__compilation_is_likely(const dal_native_options *options, uint64_t key)

@@ -21,9 +21,8 @@ typedef struct dal__compilation {
     long process; /* the compiler; 0: none runs */
 } dal__compilation;
 
-/* A key with more bytes; 0 at first.  Texts that are likely the same have one in common. */
-uint64_t dal__compilation_key(uint64_t key, const void *bytes, size_t length);
-/* Whether the cache has objects of a key.  Takes less time than making a text. */
+/* Whether the cache has objects of a key, which texts that are likely the same have in common.
+ * Takes less time than making a text. */
 bool dal__compilation_is_likely(const dal_native_options *options, uint64_t key);
 /* Finds the object in the cache, or else starts a compiler.  Errors: DAL_STATUS_ARGUMENT,
  * DAL_STATUS_IO (cache), DAL_STATUS_UNSUPPORTED (no compiler, or only_cached). */

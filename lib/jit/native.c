@@ -199,7 +199,7 @@ static dal_status write_observables(dal_native *native, const dal_run *run, dal_
 
 static uint64_t add_name(uint64_t key, const char *name)
 {
-    return name ? dal__compilation_key(key, name, strlen(name) + 1) : key;
+    return name ? dal__hash(key, name, strlen(name) + 1) : key;
 }
 
 /* A number that differs where texts differ in most cases, at once: the text of a large system takes
@@ -218,7 +218,7 @@ static uint64_t key_of(const dal_native *native)
                            s->parameters,
                            s->field_operations,
                            s->jacobian_operations};
-    uint64_t key = dal__compilation_key(0, numbers, sizeof numbers);
+    uint64_t key = dal__hash(0, numbers, sizeof numbers);
     for (int i = 0; native->product != DAL__PRODUCT_OBSERVE && i < k->depth; i++)
         key = add_name(key, k->method.layer[i]->name);
     for (int i = 0; s->coordinate && i < k->n; i++) key = add_name(key, s->coordinate[i]);
