@@ -131,8 +131,6 @@ static void put_number(double x, bool is_plain, dal__buffer *text)
     if (!is_short) dal__buffer_print(text, is_plain ? "e%d" : " \\cdot 10^{%d}", exponent - 1);
 }
 
-void dal__typeset_number(double x, dal__buffer *text) { put_number(x, false, text); }
-
 int dal__greek_letter(const char *name, size_t length)
 {
     static const struct {

@@ -33,8 +33,6 @@ void dal__typesetter_free(dal__typesetter *typesetter);
 const char *dal__typeset(const dal__typesetter *typesetter, dal__node node);
 /* What its name i means, from 0, and the name, of those that it adds; NULL past the last. */
 const char *dal__typeset_shared(const dal__typesetter *typesetter, int i, const char **name);
-/* A number. */
-void dal__typeset_number(double x, dal__buffer *text);
 /* A name as letters with a subscript: theta1 as \theta_{1}, x_ball as x_{ball}; accent, as \dot, is
  * put on the letters; NULL: none. */
 void dal__typeset_name(const char *name, const char *accent, dal__buffer *text);
