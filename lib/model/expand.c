@@ -22,6 +22,15 @@ typedef struct scope {
     int at;
 } scope;
 
+/* How many letters of a text messages show. */
+static int shown(size_t length) { return length < 60 ? (int)length : 60; }
+
+/* The name of a coordinate, or of an entry; NULL: it has none. */
+static const char *name_of(const dal__entry *entry)
+{
+    return entry->section == DAL_SECTION_COORDINATES ? entry->text : entry->name;
+}
+
 /* ---- whole numbers ---- */
 
 static dal__node resolve_size(void *user, const char *name, size_t length, bool prime,
@@ -34,7 +43,7 @@ static dal__node resolve_size(void *user, const char *name, size_t length, bool 
     for (int i = 0; i < e->sizes && !prime; i++)
         if (strlen(e->size_name[i]) == length && memcmp(e->size_name[i], name, length) == 0)
             return dal__number(s->graph, e->size[i]);
-    dal__fail(error, DAL_STATUS_NAME, "'%.*s' is no size%s", (int)(length < 60 ? length : 60), name,
+    dal__fail(error, DAL_STATUS_NAME, "'%.*s' is no size%s", shown(length), name,
               s->index ? " and no index" : "");
     return 0;
 }
@@ -53,13 +62,13 @@ static dal_status whole_number(dal_model *model, const dal__entry *entry, const 
     const dal__record r = dal__inspect(s.graph, node);
     dal__graph_free(s.graph);
     if (status != DAL_STATUS_OK)
-        return dal__fail_at(error, status, DAL__AT_NAME(entry), "%.*s: %s",
-                            (int)(length < 60 ? length : 60), text, inner.message);
+        return dal__fail_at(error, status, DAL__AT_NAME(entry), "%.*s: %s", shown(length), text,
+                            inner.message);
     const bool whole = r.op == DAL__NUMBER && r.value == floor(r.value) && r.value >= 0.0;
     if (!whole || r.value > MAX_SIZE)
         return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_NAME(entry),
-                            "'%.*s' is not a whole number from 0 to %d",
-                            (int)(length < 60 ? length : 60), text, (int)MAX_SIZE);
+                            "'%.*s' is not a whole number from 0 to %d", shown(length), text,
+                            (int)MAX_SIZE);
     *n = (int)r.value;
     return DAL_STATUS_OK;
 }
@@ -89,14 +98,14 @@ static dal_status read_range(dal_model *model, const dal__entry *entry, const ch
     const char *dots = strstr(text, "..");
     if (!dots || dots >= text + length)
         return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_NAME(entry),
-                            "'%.*s' is not a range, as 1..N", (int)(length < 60 ? length : 60),
-                            text);
+                            "'%.*s' is not a range, as 1..N", shown(length), text);
     const size_t left = (size_t)(dots - text);
     DAL_TRY(whole_number(model, entry, NULL, 0, text, left, &r->first, error));
     return whole_number(model, entry, NULL, 0, dots + 2, length - left - 2, &r->last, error);
 }
 
-size_t dal__range_length(const char *text)
+/* The length of "for i = 1..N:" and the blanks after it, with which a text begins; or 0. */
+static size_t range_length(const char *text)
 {
     static const char word[] = "for";
     const char *at = text + strspn(text, " \t\r\n");
@@ -164,9 +173,8 @@ static dal_status put_name(dal_model *model, dal__entry *entry, const char *brac
 /* All entries that one means: of a range in its name, and of its index. */
 static dal_status expand_entry(dal_model *model, const dal__entry *given, dal_error *error)
 {
-    const bool is_name = given->section == DAL_SECTION_COORDINATES;
-    const char *name = is_name ? given->text : given->name, *open = name ? strchr(name, '[') : NULL;
-    const size_t skip = dal__sections[given->section].label ? dal__range_length(given->text) : 0;
+    const char *name = name_of(given), *open = name ? strchr(name, '[') : NULL;
+    const size_t skip = dal__sections[given->section].label ? range_length(given->text) : 0;
     const size_t length = open ? strcspn(open, "]") + 1 : 0;
     range r = {.last = 0};
     dal__entry entry = *given;
@@ -220,7 +228,7 @@ static dal_status read_event_ranges(dal_model *model, event_range *events, int i
         if (!is_event_range(&entry)) continue;
         entry.text = dal__model_print(model, "for %s:", entry.text);
         if (!entry.text) return dal__memory_error(error);
-        if (!dal__range_length(entry.text))
+        if (!range_length(entry.text))
             return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(&entry),
                                 "the range of an event is written i = 1..N");
         DAL_TRY(read_for(model, &entry, &event->r, error));
@@ -243,7 +251,7 @@ static dal_status expand_event(dal_model *model, const dal__entry *given, const 
                                dal_error *error)
 {
     if (is_event_range(given)) return DAL_STATUS_OK;
-    if (event->is_many && dal__range_length(given->text) > 0)
+    if (event->is_many && range_length(given->text) > 0)
         return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_NAME(given),
                             "the event has a range, and '%.80s' another one", given->name);
     for (int i = 0; i < event->count; i++) {
@@ -267,13 +275,11 @@ static dal_status check_duplicates(const dal_model *model, dal_error *error)
 {
     for (int i = 0; i < model->expanded_count; i++) {
         const dal__entry *entry = &model->expanded[i];
-        const bool is_name = entry->section == DAL_SECTION_COORDINATES;
-        const char *name = is_name ? entry->text : entry->name;
+        const char *name = name_of(entry);
         for (int k = 0; name && k < i; k++) {
             const dal__entry *other = &model->expanded[k];
             if (other->section != entry->section || other->item != entry->item) continue;
-            if (strcmp(is_name ? other->text : other->name, name) == 0)
-                return dal__duplicate(entry, error);
+            if (strcmp(name_of(other), name) == 0) return dal__duplicate(entry, error);
         }
     }
     return DAL_STATUS_OK;
@@ -282,10 +288,10 @@ static dal_status check_duplicates(const dal_model *model, dal_error *error)
 /* Whether an entry means others. */
 static bool is_compact(const dal__entry *entry)
 {
-    const bool formula = dal__sections[entry->section].label != NULL;
-    const bool is_name = entry->section == DAL_SECTION_COORDINATES;
-    const char *name = is_name ? entry->text : formula ? entry->name : NULL;
-    return (name && strchr(name, '[')) || (formula && dal__range_length(entry->text) > 0) ||
+    const bool is_formula = dal__sections[entry->section].label != NULL;
+    const bool may_index = is_formula || entry->section == DAL_SECTION_COORDINATES;
+    const char *name = may_index ? name_of(entry) : NULL;
+    return (name && strchr(name, '[')) || (is_formula && range_length(entry->text) > 0) ||
            is_event_range(entry);
 }
 

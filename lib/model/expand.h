@@ -15,7 +15,5 @@
  * Errors: DAL_STATUS_SYNTAX and DAL_STATUS_NAME with place, DAL_STATUS_MODEL, DAL_STATUS_TOO_LARGE,
  * DAL_STATUS_MEMORY. */
 dal_status dal__expand(dal_model *model, dal_error *error);
-/* The length of "for i = 1..N:" and the blanks after it, with which a text begins; or 0. */
-size_t dal__range_length(const char *text);
 
 #endif
