@@ -202,8 +202,8 @@ DAL_INLINE void dal__collocation_matrix(dal_step *s, dal_equation *eq)
         dal__product(stages, a, b, ab);
         dal__product(stages, b, a, ba);
     }
-    const dal_stage_matrix x = {stages, k->h, b, ab, 0, eigensystem};
-    const dal_stage_matrix p = {stages, -k->h, a, ba, 1, eigensystem};
+    const dal_stage_matrix x = {stages, k->h, b, ab, false, eigensystem};
+    const dal_stage_matrix p = {stages, -k->h, a, ba, true, eigensystem};
     dal__guess_middle(s, k, q, v);
     DAL_EACH_GROUP(j) {
         dal_jacobian(s, j, s->t + 0.5 * k->h, q, v, jacobian);

@@ -2,7 +2,7 @@
  *
  * A source over num compiled with DAL_NUM_QUAD computes in binary128 (113 binary digits): long
  * double where that is binary128 (AArch64 and others), else __float128 with the functions of glibc
- * (x86-64). Where neither exists it uses long double, and runs in quad precision are
+ * (x86-64).  Where neither exists it uses long double, and runs in quad precision are
  * refused.  The arithmetic is done by software, about a hundred times slower than in double.
  *
  * Coefficients, step sizes, times, constants of formulas and parameters stay doubles.  So a run in

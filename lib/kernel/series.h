@@ -128,10 +128,10 @@ DAL_INLINE void dal_square_interiors(const num *l, int count, int k, num *DAL_RE
  * coefficients: the sums of a_j b_(k-j) and of a_j b_(k+1-j) read each factor once.  With a few the
  * processor waits for the recurrences, and needs work in each order.
  *
- * a, b: numbers a_2 and b_(k-2), the coefficients `step` apart; terms: of order k; further: how
- * many more order k + 1 has, 0 or 1. */
+ * a, b: numbers a_2 and b_(k-2), the coefficients `step` apart; terms: of order k; further:
+ * whether order k + 1 has one more. */
 static inline DAL_UNUSED __attribute__((always_inline)) void
-dal__two_interiors(const num *a, const num *b, int step, int terms, int further, dal__terms *now,
+dal__two_interiors(const num *a, const num *b, int step, int terms, bool further, dal__terms *now,
                    dal__terms *next)
 {
     dal__terms s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0}, t0 = {0}, t1 = {0}, t2 = {0}, t3 = {0};
@@ -179,7 +179,7 @@ dal__two_interiors(const num *a, const num *b, int step, int terms, int further,
 /* The interiors of orders k and k + 1, k >= 3, of the product of a and b. */
 DAL_INLINE void dal__two_products(const num *a, const num *b, int step, int k, num *now, num *next)
 {
-    dal__two_interiors(a + 2 * step, b + (k - 2) * step, step, k - 3, 1, (dal__terms *)now,
+    dal__two_interiors(a + 2 * step, b + (k - 2) * step, step, k - 3, true, (dal__terms *)now,
                        (dal__terms *)next);
 }
 
@@ -208,8 +208,8 @@ DAL_INLINE num dal__no_interior(const num *a, const num *b, int k)
 
 /* Whether order k begins or ends a pair; the last pair is order - 2 and order - 1.  The interiors
  * of order 3 are 0, as in order 1. */
-DAL_INLINE int dal__begins_pair(int k, int order) { return k > 2 && (order - k) % 2 == 0; }
-DAL_INLINE int dal__ends_pair(int k, int order) { return k > 2 && (order - k) % 2 != 0; }
+DAL_INLINE bool dal__begins_pair(int k, int order) { return k > 2 && (order - k) % 2 == 0; }
+DAL_INLINE bool dal__ends_pair(int k, int order) { return k > 2 && (order - k) % 2 != 0; }
 
 /* The interiors of order k of many products and squares, in kept[2][products + squares] from number
  * k % 2 * (products + squares) on; of order k + 1, too, where k begins a pair. */

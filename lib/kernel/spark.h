@@ -31,7 +31,7 @@ typedef struct dal_spark {
     const double *c, *b, *a, *ahat;      /* [s], [s], [s*s], [s*s] */
     int points;                          /* at most s + 1 */
     const double *point_c, *to_q, *to_v; /* [points] c_p, [points*s] x, [points*s] y */
-    const double *omega;                 /* [(s - persistent)*points] */
+    const double *omega;                 /* [(s - L1_known)*points] */
 } dal_spark;
 
 #define dal_spark_advance DAL_WIDE(dal_spark_advance)
@@ -207,7 +207,7 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
     DAL_VECTOR(s, in, DAL_N(s) + DAL_M(s) + 1);
     DAL_VECTOR(s, out, DAL_N(s) + DAL_M(s));
     DAL_BLOCK(s, block, DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
-    dal_spark_step k = {{DAL_STAGES(method), s->h, method->ahat, product, 0, NULL},
+    dal_spark_step k = {{DAL_STAGES(method), s->h, method->ahat, product, false, NULL},
                         method,
                         V,
                         q,

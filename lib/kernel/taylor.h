@@ -65,7 +65,7 @@ DAL_INLINE num dal__convolve(const num *a, int a_stride, const num *b, int b_str
     return sum;
 }
 
-/* The same with pi.K pi/(2e) for pi.pi/(2e); effort: as f, of the callback. */
+/* Adds the part of pi.K pi/(2e); effort: coefficient k of the callback's outputs. */
 DAL_INLINE void dal__effort_series(const dal_step *s, int k, const num *x, const num *effort,
                                    const dal_expansion *g, num *dx)
 {
@@ -83,7 +83,7 @@ DAL_INLINE void dal__effort_series(const dal_step *s, int k, const num *x, const
 }
 
 #if DAL_WITH(GAUGE_GRADIENT)
-/* Adds the part of mu_e; gradient: as f, of its derivatives. */
+/* Adds the part of mu_e; gradient: coefficient k of its derivatives. */
 DAL_INLINE void dal__gauge_series(const dal_step *s, int k, const num *x, const num *gradient,
                                   const dal_expansion *g, num *dx)
 {
