@@ -30,6 +30,7 @@
  *
  * with C scaled to a mean variance of 1 about its mean. */
 #include "analysis/trend_tables.h"
+#include "core/pi.h"
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
@@ -37,7 +38,7 @@
 
 enum { BINS = DAL__BINS, WAVES = DAL__WAVES, INTERVALS = 64 };
 
-static const double pi = 3.14159265358979323846;
+static const double pi = DAL__PI;
 
 typedef double shape_function(double s, double a, double b);
 
@@ -189,7 +190,7 @@ static double bin_square(shape_function *f, int bin, double a, double b)
     return sum;
 }
 
-/* z = log(floor + R f^2)/2. */
+/* z = log(1 + R f^2)/2. */
 static void add_amplitude(double weight, shape_function *f, double a, double b, double ratio)
 {
     assert(amplitude_count < DAL__AMPLITUDES);
