@@ -128,11 +128,7 @@ static dal_status eliminate(const newton *k, dal_error *error)
     for (int j = 0; j < k->columns; j++) {
         const int pivot = find_pivot(k, j);
         if (pivot < 0) return undetermined(k, j, error);
-        for (int i = 0; i < width; i++) {
-            const double other = M[j * width + i];
-            M[j * width + i] = M[pivot * width + i];
-            M[pivot * width + i] = other;
-        }
+        dal__swap(width, M + j * width, M + pivot * width);
         for (int a = j + 1; a < m; a++) {
             const double factor = M[a * width + j] / M[j * width + j];
             for (int i = j; i <= k->columns; i++) M[a * width + i] -= factor * M[j * width + i];

@@ -7,7 +7,7 @@
 
 /* Whether a number is among the ones of a list. */
 bool dal__is_solved(const dal_solved *solved, int count, int number);
-/* Numbers of memory that these two need. */
+/* Numbers of memory that the functions below need. */
 size_t dal__solve_size(const dal_system *system);
 
 /* Replaces those velocities in v[n], and after them multipliers, that the start of the system

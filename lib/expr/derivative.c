@@ -17,8 +17,6 @@
 #include "expr/traversal.h"
 #include <stdlib.h>
 
-static dal__node number(dal__graph *graph, double value) { return dal__number(graph, value); }
-
 /* ---- the derivatives of one operation ---- */
 
 #define SUM(x, y)        dal__node_add(g, x, y)
@@ -27,7 +25,7 @@ static dal__node number(dal__graph *graph, double value) { return dal__number(gr
 #define RATIO(x, y)      dal__node_div(g, x, y)
 #define MINUS(x)         dal__node_neg(g, x)
 #define SQUARE(x)        dal__node_mul(g, x, x)
-#define NUMBER(x)        number(g, x)
+#define NUMBER(x)        dal__number(g, x)
 #define POWER(x, y)      dal__apply(g, DAL__POW, x, y)
 #define DIRECTION(x, r)  direction(g, x, r)
 #define ROOT(c, sign, x) root(g, c, sign, x)
@@ -37,14 +35,14 @@ static dal__node number(dal__graph *graph, double value) { return dal__number(gr
 /* sqrt(c + sign x^2) */
 static dal__node root(dal__graph *g, double c, double sign, dal__node x)
 {
-    dal__node x2 = PRODUCT(number(g, sign), SQUARE(x));
-    return OF(SQRT, SUM(number(g, c), x2));
+    dal__node x2 = PRODUCT(dal__number(g, sign), SQUARE(x));
+    return OF(SQRT, SUM(dal__number(g, c), x2));
 }
 
 /* x/r, or 0 where r is 0. */
 static dal__node direction(dal__graph *g, dal__node x, dal__node r)
 {
-    dal__node zero = number(g, 0.0);
+    dal__node zero = dal__number(g, 0.0);
     return dal__node_if(g, dal__apply(g, DAL__EQUAL, r, zero), zero, RATIO(x, r));
 }
 
@@ -63,7 +61,7 @@ static dal__node partial(dal__graph *g, dal__node y, int operand, dal__node k)
 #undef OF_BOTH
 #undef OF_ONE
     default:
-        return number(g, 0.0);
+        return dal__number(g, 0.0);
     }
 }
 
@@ -80,7 +78,7 @@ static dal__node branch_derivative(dal__graph *g, dal__node y, const dal__node d
 {
     const dal__record r = g->node[y];
     dal__node d[3];
-    for (int k = 0; k < 3; k++) d[k] = derivative[k] ? derivative[k] : number(g, 0.0);
+    for (int k = 0; k < 3; k++) d[k] = derivative[k] ? derivative[k] : dal__number(g, 0.0);
     if (r.op == DAL__IF) return dal__node_if(g, r.a, d[1], d[2]);
     dal__node second =
         r.op == DAL__MIN ? dal__apply(g, DAL__LESS, r.b, r.a) : dal__apply(g, DAL__LESS, r.a, r.b);
@@ -125,7 +123,7 @@ static uint8_t *between(dal__graph *graph, dal__node f, const int *symbols, int 
 /* Adjoints of the symbols and branches that f reaches without passing a branch. */
 static void reverse(dal__graph *graph, dal__node f, const uint8_t *active, dal__node *adjoint)
 {
-    adjoint[f] = number(graph, 1.0);
+    adjoint[f] = dal__number(graph, 1.0);
     for (dal__node i = dal__last_marked(active, f); i > 0; i = dal__last_marked(active, i - 1)) {
         if (!adjoint[i] || graph->node[i].op == DAL__SYMBOL) continue;
         if (is_branch(&graph->node[i])) continue;
@@ -206,7 +204,7 @@ void dal__gradient(dal__graph *graph, dal__node f, const int *symbols, int count
     }
     for (int k = 0; k < count; k++) out[k] = 0;
     if (active && graph->status == DAL_STATUS_OK) gradient_of(graph, &s, f, out);
-    const dal__node zero = number(graph, 0.0);
+    const dal__node zero = dal__number(graph, 0.0);
     for (int k = 0; k < count; k++)
         if (!out[k]) out[k] = zero;
     free(active);
@@ -219,7 +217,7 @@ static dal__node forward(dal__graph *graph, dal__node i, const uint8_t *active,
     const dal__record r = graph->node[i];
     const dal__node along[3] = {tangent[r.a], tangent[r.b], tangent[r.c]};
     if (is_branch(&r)) return branch_derivative(graph, i, along);
-    dal__node operand[2] = {r.a, r.b}, sum = number(graph, 0.0);
+    dal__node operand[2] = {r.a, r.b}, sum = dal__number(graph, 0.0);
     for (int k = 0; k < 2; k++) {
         dal__node x = operand[k];
         if (active[x]) sum = dal__node_add(graph, sum, partial(graph, i, k, tangent[x]));
@@ -231,7 +229,7 @@ dal__node dal__tangent(dal__graph *graph, dal__node f, const int *symbols, int c
                        const dal__node *seeds)
 {
     uint8_t *active = between(graph, f, symbols, count);
-    dal__node *tangent = dal__per_node(graph, f, sizeof *tangent), result = number(graph, 0.0);
+    dal__node *tangent = dal__per_node(graph, f, sizeof *tangent), result = dal__number(graph, 0.0);
     for (dal__node i = 1; active && tangent && i <= f; i++) {
         dal__record r = graph->node[i];
         if (!active[i]) continue;

@@ -187,11 +187,11 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
     return DAL_STATUS_OK;
 }
 
-/* Adds what an entry of a start names to the coordinates or velocities that are solved, unless it
- * names none; the first and second half of names[2n].  All coordinates are added before. */
-/* Of what the start is solved for. */
+/* What the start is solved for. */
 typedef enum solved_kind { COORDINATES, VELOCITIES } solved_kind;
 
+/* Adds what an entry of a start names to the coordinates or velocities that are solved, unless it
+ * names none; the first and second half of names[2n].  All coordinates are added before. */
 static dal_status add_solved(dal_model *model, const dal__entry *entry, const char *const *names,
                              solved_kind kind, dal_error *error)
 {

@@ -195,12 +195,8 @@ static bool extend_basis(dal__fields *d, int point, double *x)
     double size = 1.0, rest = 0.0;
     if (d->rank[point] == d->dim) return false;
     for (int j = 0; j < d->dim; j++) size = fmax(size, fabs(x[j]));
-    for (int k = 0; k < 2 * d->rank[point]; k++) { /* twice, against rounding */
-        const double *b = basis + k % d->rank[point] * d->dim;
-        double product = 0.0;
-        for (int j = 0; j < d->dim; j++) product += b[j] * x[j];
-        for (int j = 0; j < d->dim; j++) x[j] -= product * b[j];
-    }
+    for (int k = 0; k < 2 * d->rank[point]; k++) /* twice, against rounding */
+        dal__remove_component(x, basis + k % d->rank[point] * d->dim, d->dim);
     for (int j = 0; j < d->dim; j++) rest += x[j] * x[j];
     rest = sqrt(rest);
     if (!(rest > DAL__FIELD_ROUNDING * size) || isinf(rest)) return false;
