@@ -378,6 +378,21 @@ static dal_status collect_dependent(dal_model *model, const dal__bordered *s, co
     return e->graph->status;
 }
 
+/* By the factors of the bordered matrix. */
+static dal_status solve_whole(dal_model *model, const dal__bordered *s, const dal__node *top,
+                              const dal__node *bottom, dal__node *x, dal__node *h)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m;
+    dal__node *const rhs = dal__model_nodes(model, 2 * (n + m), 0), *const all = rhs + n + m;
+    if (!rhs) return DAL_STATUS_MEMORY;
+    for (int k = 0; k < n + m; k++) rhs[k] = k < n ? top[k] : bottom[k - n];
+    DAL_TRY(dal__factors_solve(model, &s->whole, DAL__SUMS_UNCHANGED, 1, rhs, all));
+    for (int i = 0; i < n; i++) x[i] = all[i];
+    for (int a = 0; a < m && h; a++) h[a] = dal__node_neg(e->graph, all[n + a]);
+    return e->graph->status;
+}
+
 dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sum_form sums,
                                const dal__node *top, const dal__node *bottom, dal__node *x,
                                dal__node *h)
@@ -385,16 +400,7 @@ dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sum_form
     const dal__equations *e = &model->equations;
     const bool collected = sums == DAL__SUMS_COLLECTED;
     vectors *w = &s->scratch;
-    if (s->way & DAL__WHOLE) {
-        const int n = e->n, m = e->m;
-        dal__node *const rhs = dal__model_nodes(model, 2 * (n + m), 0), *const all = rhs + n + m;
-        if (!rhs) return DAL_STATUS_MEMORY;
-        for (int k = 0; k < n + m; k++) rhs[k] = k < n ? top[k] : bottom[k - n];
-        DAL_TRY(dal__factors_solve(model, &s->whole, DAL__SUMS_UNCHANGED, 1, rhs, all));
-        for (int i = 0; i < n; i++) x[i] = all[i];
-        for (int a = 0; a < m && h; a++) h[a] = dal__node_neg(e->graph, all[n + a]);
-        return e->graph->status;
-    }
+    if (s->way & DAL__WHOLE) return solve_whole(model, s, top, bottom, x, h);
     reduce_rhs(e, s, top, bottom, w);
     for (int i = 0; collected && i < s->frees; i++) w->t[i] = collect(e, s, w->t[i]);
     DAL_TRY(solve_free(model, s, s->way & DAL__FORWARD ? sums : DAL__SUMS_UNCHANGED, bottom, w));
@@ -412,6 +418,25 @@ bool dal__bordered_is_reduced(const dal__bordered *s) { return s->solved > 0; }
 
 bool dal__bordered_keeps_rank(const dal__bordered *s) { return s->retained_count == 0; }
 
+/* Factors the bordered matrix of x and -h. */
+static dal_status factor_whole(dal_model *model, dal__factors *f)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, size = n + e->m;
+    int *whose = dal__model_allocate(model, (size_t)size, sizeof *whose);
+    for (int k = 0; whose && k < size; k++) whose[k] = k < n ? -1 : k - n;
+    if (!whose || !dal__factors_allocate(model, f, size, whose)) return DAL_STATUS_MEMORY;
+    for (int k = 0; k < size * size; k++) {
+        const int i = k / size, j = k % size;
+        f->matrix[k] = i < n && j < n ? e->W[i * n + j]
+                       : i < n        ? e->A[(j - n) * n + i]
+                       : j < n        ? e->A[(i - n) * n + j]
+                                      : dal__number(e->graph, 0.0);
+    }
+    f->saddle = n;
+    return dal__factor(model, f);
+}
+
 dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int way,
                                 dal__bordered **bordered, int *singular)
 {
@@ -428,21 +453,7 @@ dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int 
                            .force = dal__model_nodes(model, m, 0)};
     if (model->out_of_memory || !choose_dependent(model, s)) return DAL_STATUS_MEMORY;
     if (way & DAL__WHOLE) {
-        const dal__equations *e = &model->equations;
-        const int size = n + m;
-        int *whose = dal__model_allocate(model, (size_t)size, sizeof *whose);
-        for (int k = 0; whose && k < size; k++) whose[k] = k < n ? -1 : k - n;
-        if (!whose || !dal__factors_allocate(model, &s->whole, size, whose))
-            return DAL_STATUS_MEMORY;
-        for (int k = 0; k < size * size; k++) {
-            const int i = k / size, j = k % size;
-            s->whole.matrix[k] = i < n && j < n ? e->W[i * n + j]
-                                 : i < n        ? e->A[(j - n) * n + i]
-                                 : j < n        ? e->A[(i - n) * n + j]
-                                                : dal__number(e->graph, 0.0);
-        }
-        s->whole.saddle = n;
-        const dal_status status = dal__factor(model, &s->whole);
+        const dal_status status = factor_whole(model, &s->whole);
         if (status == DAL_STATUS_SINGULAR) *singular = s->whole.constraint[s->whole.singular] - 1;
         return status;
     }

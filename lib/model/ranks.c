@@ -110,6 +110,34 @@ static bool fill_matrices(const matrices *k, const dal__equations *e, const doub
            isfinite(dal__max_abs(k->W, (size_t)(n * n)));
 }
 
+/* False: out of memory. */
+static bool allocate_matrices(dal_model *model, matrices *k)
+{
+    const size_t n = (size_t)model->equations.n, m = (size_t)model->equations.m;
+    *k = (matrices){.n = model->equations.n,
+                    .m = model->equations.m,
+                    .A = dal__model_allocate(model, m * n + 1, sizeof(double)),
+                    .W = dal__model_allocate(model, n * n, sizeof(double)),
+                    .basis = dal__model_allocate(model, n * n, sizeof(double)),
+                    .matrix = dal__model_allocate(model, n * n, sizeof(double)),
+                    .work = dal__model_allocate(model, n * (n + 2), sizeof(double))};
+    return !model->out_of_memory;
+}
+
+/* The rank of A and, where it is m, of W on ker A. */
+static void find_ranks(const matrices *k, dal_ranks *out)
+{
+    const int n = k->n, m = k->m;
+    for (int a = 0; a < m; a++)
+        for (int i = 0; i < n; i++) k->matrix[i * m + a] = k->A[a * n + i];
+    out->constraints = m > 0 ? rank_of(k, n, m, &out->constraints_pivot) : 0;
+    if (out->constraints < m) return;
+    memcpy(k->basis, k->A, (size_t)(m * n) * sizeof *k->basis);
+    for (int a = 0; a < m; a++) dal__orthonormalise_row(k->basis, a, n);
+    complete_basis(k);
+    out->mass = n > m ? rank_on_kernel(k, &out->mass_pivot) : 0;
+}
+
 dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int parameter_count,
                            const dal_point *at, const double *units, dal_ranks *out,
                            dal_error *error)
@@ -120,21 +148,15 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
     DAL_REQUIRE(model->made, error);
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
     const dal__equations *e = &model->equations;
-    const size_t n = (size_t)e->n, m = (size_t)e->m, symbols = (size_t)e->symbols;
+    const size_t n = (size_t)e->n, symbols = (size_t)e->symbols;
+    matrices k;
     *out = (dal_ranks){.mass = -1};
     if (e->vakonomic || e->servo)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "the motion does not follow Chetaev's rule");
-    matrices k = {.n = e->n,
-                  .m = e->m,
-                  .A = dal__model_allocate(model, m * n + 1, sizeof(double)),
-                  .W = dal__model_allocate(model, n * n, sizeof(double)),
-                  .basis = dal__model_allocate(model, n * n, sizeof(double)),
-                  .matrix = dal__model_allocate(model, n * n, sizeof(double)),
-                  .work = dal__model_allocate(model, n * (n + 2), sizeof(double))};
     double *value = dal__model_allocate(model, symbols, sizeof *value);
     double *ones = dal__model_allocate(model, 1 + n, sizeof *ones);
-    if (model->out_of_memory) return dal__memory_error(error);
+    if (!allocate_matrices(model, &k)) return dal__memory_error(error);
     for (size_t i = 0; i <= n; i++) ones[i] = 1.0;
     memcpy(value, e->value, symbols * sizeof *value);
     DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
@@ -146,14 +168,7 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
     if (e->graph->status == DAL_STATUS_MEMORY) return dal__memory_error(error);
     if (!is_finite)
         return dal__fail(error, DAL_STATUS_NOT_FINITE, "A or W is not finite at t = %.17g", at->t);
-    for (int a = 0; a < k.m; a++)
-        for (int i = 0; i < k.n; i++) k.matrix[i * k.m + a] = k.A[a * k.n + i];
-    out->constraints = k.m > 0 ? rank_of(&k, k.n, k.m, &out->constraints_pivot) : 0;
-    if (out->constraints < k.m) return DAL_STATUS_OK;
-    memcpy(k.basis, k.A, m * n * sizeof *k.basis);
-    for (int a = 0; a < k.m; a++) dal__orthonormalise_row(k.basis, a, k.n);
-    complete_basis(&k);
-    out->mass = n > m ? rank_on_kernel(&k, &out->mass_pivot) : 0;
+    find_ranks(&k, out);
     return DAL_STATUS_OK;
 }
 
