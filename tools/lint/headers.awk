@@ -17,4 +17,4 @@ FNR == 1 { is_static = 0 }
     if (!((base, name) in declared) && !(("public", name) in declared))
         print FILENAME ":" FNR ": " name " is not declared in " base ".h"
 }
-/[{;]$/ { is_static = 0 }
+/[{;}]$/ { is_static = 0 }
