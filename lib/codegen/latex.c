@@ -236,16 +236,6 @@ static bool put_let(const void *user, dal__node node, dal__buffer *text)
     return true;
 }
 
-static void put_all(dal__buffer *text, const dal__equations *e, const dal__typesetter *given,
-                    const dal__typesetter *motion, dal_effort effort)
-{
-    dal__buffer_append(text, "\\begin{align*}");
-    put_given(text, e, given);
-    put_motion(text, e, motion);
-    put_hamiltonian(text, e, given, effort);
-    dal__buffer_append(text, "\n\\end{align*}\n");
-}
-
 /* L, mu_e, Q, C and D; count receives how many they are. */
 static dal__node *list_given(const dal__equations *e, int *count)
 {
@@ -308,7 +298,13 @@ dal_status dal_model_latex(dal_model *model, char **text, dal_error *error)
         nodes = list_motion(e, &count);
         status = typeset_list(&motion, e->graph, nodes, count, &options);
     }
-    if (status == DAL_STATUS_OK) put_all(&all, e, given, motion, model->effort);
+    if (status == DAL_STATUS_OK) {
+        dal__buffer_append(&all, "\\begin{align*}");
+        put_given(&all, e, given);
+        put_motion(&all, e, motion);
+        put_hamiltonian(&all, e, given, model->effort);
+        dal__buffer_append(&all, "\n\\end{align*}\n");
+    }
     dal__typesetter_free(given);
     dal__typesetter_free(motion);
     if (status == DAL_STATUS_OK && all.out_of_memory) status = DAL_STATUS_MEMORY;

@@ -63,17 +63,12 @@ static void write_operand(const writer *w, uint32_t place, dal__number_form form
 
 const char *dal__operation_expression(uint32_t op) { return expressions[op]; }
 
-/* Of the name or number that begins there; 0: none does. */
-static size_t name_length(const char *at)
-{
-    return strspn(at, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789");
-}
-
 void dal__expression_write(const char *expression, dal__name_writer *write, const void *user,
                            dal__buffer *text)
 {
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
     for (const char *at = expression; *at;) {
-        const size_t name = name_length(at), length = name ? name : 1;
+        const size_t name = strspn(at, letters), length = name ? name : 1; /* a name or number */
         const char *end = name ? write(user, at, name) : NULL;
         if (!end) dal__buffer_append_bytes(text, at, length);
         if (*at == '*' && at[1] != ' ') dal__buffer_append(text, " ");

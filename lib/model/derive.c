@@ -43,15 +43,6 @@ static void derive_lagrangian(dal__equations *e, dal__node L)
     e->energy = dal__node_sub(graph, twice, L);
 }
 
-/* W = 1, and b as given. */
-static void derive_accelerations(dal__equations *e)
-{
-    for (int i = 0; i < e->n; i++) {
-        e->W[i * e->n + i] = dal__number(e->graph, 1.0);
-        e->b[i] = e->force[i];
-    }
-}
-
 static bool is_symmetric(const dal__node *W, int n)
 {
     for (int i = 0; i < n * n; i++)
@@ -259,7 +250,10 @@ dal_status dal__equations_derive(dal_model *model, dal_error *error)
         DAL_TRY(solve_vakonomic(model, error));
     } else {
         if (!e->accelerations) derive_lagrangian(e, e->lagrangian);
-        if (e->accelerations && !e->implicit) derive_accelerations(e);
+        for (int i = 0; i < e->n && e->accelerations && !e->implicit; i++) {
+            e->W[i * e->n + i] = dal__number(e->graph, 1.0);
+            e->b[i] = e->force[i];
+        }
         if (DAL__SOLVES_EQUATIONS && e->implicit) DAL_TRY(derive_equations(model, error));
         if (expand_angles(model) != DAL_STATUS_OK) return exhausted(model, error);
         DAL_TRY(dal__motion_derive(model, error));

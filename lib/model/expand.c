@@ -26,7 +26,7 @@ typedef struct scope {
 static int shown(size_t length) { return length < 60 ? (int)length : 60; }
 
 /* The name of a coordinate, or of an entry; NULL: it has none. */
-static const char *name_of(const dal__entry *entry)
+static const char *indexed_name(const dal__entry *entry)
 {
     return entry->section == DAL_SECTION_COORDINATES ? entry->text : entry->name;
 }
@@ -173,7 +173,7 @@ static dal_status put_name(dal_model *model, dal__entry *entry, const char *brac
 /* All entries that one means: of a range in its name, and of its index. */
 static dal_status expand_entry(dal_model *model, const dal__entry *given, dal_error *error)
 {
-    const char *name = name_of(given), *open = name ? strchr(name, '[') : NULL;
+    const char *name = indexed_name(given), *open = name ? strchr(name, '[') : NULL;
     const size_t skip = dal__sections[given->section].label ? range_length(given->text) : 0;
     const size_t length = open ? strcspn(open, "]") + 1 : 0;
     range r = {.last = 0};
@@ -275,11 +275,11 @@ static dal_status check_duplicates(const dal_model *model, dal_error *error)
 {
     for (int i = 0; i < model->expanded_count; i++) {
         const dal__entry *entry = &model->expanded[i];
-        const char *name = name_of(entry);
+        const char *name = indexed_name(entry);
         for (int k = 0; name && k < i; k++) {
             const dal__entry *other = &model->expanded[k];
             if (other->section != entry->section || other->item != entry->item) continue;
-            if (strcmp(name_of(other), name) == 0) return dal__duplicate(entry, error);
+            if (strcmp(indexed_name(other), name) == 0) return dal__duplicate(entry, error);
         }
     }
     return DAL_STATUS_OK;
@@ -290,7 +290,7 @@ static bool is_compact(const dal__entry *entry)
 {
     const bool is_formula = dal__sections[entry->section].label != NULL;
     const bool may_index = is_formula || entry->section == DAL_SECTION_COORDINATES;
-    const char *name = may_index ? name_of(entry) : NULL;
+    const char *name = may_index ? indexed_name(entry) : NULL;
     return (name && strchr(name, '[')) || (is_formula && range_length(entry->text) > 0) ||
            is_event_range(entry);
 }

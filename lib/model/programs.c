@@ -225,10 +225,11 @@ CALLBACK(BRANCH_RATES, branch_rates, tqv)
 
 /* ---- branches ---- */
 
-/* The values between which a branch at a point stays. */
-static void branch_bounds(const dal__switch_point *branch, const dal__tapes *tapes, double point,
-                          double *lower, double *upper)
+/* The values between which branch k at a point stays. */
+static void bounds(const dal_system *system, int k, double point, double *lower, double *upper)
 {
+    const dal__programs *p = system->data;
+    const dal__switch_point *branch = &p->branch[k];
     if (branch->table == DAL__BRANCH_AT_ZERO) {
         *lower = point < 0.0 ? -INFINITY : 0.0;
         *upper = point < 0.0 ? 0.0 : INFINITY;
@@ -236,7 +237,7 @@ static void branch_bounds(const dal__switch_point *branch, const dal__tapes *tap
         *lower = floor(point);
         *upper = *lower + 1.0;
     } else {
-        const dal__tape_table *table = &tapes->tables[branch->table];
+        const dal__tape_table *table = &p->tapes->tables[branch->table];
         int first = 0, last = table->knots; /* of the knots from which the next one is chosen */
         while (first < last) {
             const int middle = first + (last - first) / 2;
@@ -250,23 +251,10 @@ static void branch_bounds(const dal__switch_point *branch, const dal__tapes *tap
     }
 }
 
-static void bounds(const dal_system *system, int k, double point, double *lower, double *upper)
-{
-    const dal__programs *p = system->data;
-    branch_bounds(&p->branch[k], p->tapes, point, lower, upper);
-}
-
 static void hold(const dal_system *system, const double *point, double *work)
 {
     const dal__programs *p = system->data;
     dal__tapes_hold_x1(p->tapes, point, work);
-}
-
-static void point_to_branches(dal__programs *programs, dal_system *system)
-{
-    const int count = programs->branches.count;
-    programs->branches = (dal_branches){count, branch_values, branch_rates, bounds, hold};
-    system->branches = count > 0 ? &programs->branches : NULL;
 }
 
 /* ---- sizes of terms ---- */
@@ -521,7 +509,9 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     system->picture = programs->program[DAL__PROGRAM_PICTURE].present ? &programs->picture : NULL;
     system->diagnose = programs->program[DAL__PROGRAM_DIAGNOSE].present ? diagnose : NULL;
     point_to_scales(programs, system);
-    point_to_branches(programs, system);
+    const int branches = programs->branches.count;
+    programs->branches = (dal_branches){branches, branch_values, branch_rates, bounds, hold};
+    system->branches = branches > 0 ? &programs->branches : NULL;
     system->properties |= DAL_WIDE_TIMES;
     DAL_TRY(make_series(model, programs));
     point_to_series(programs);
