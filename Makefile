@@ -183,9 +183,9 @@ $(CLI_OBJ) $(MPI_OBJ): PLACE = -Icli
 # ---- generated texts -------------------------------------------------------------------------
 
 # The library contains the systems.
-$(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
+$(SYSTEMS): tools/embed-systems.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
-	$(call SAY,sh)sh tools/embed.sh $(addsuffix .yaml,$(sort $(basename $(wildcard systems/*.yaml)))) >$@.tmp && mv $@.tmp $@
+	$(call SAY,sh)sh tools/embed-systems.sh $(addsuffix .yaml,$(sort $(basename $(wildcard systems/*.yaml)))) >$@.tmp && mv $@.tmp $@
 # So do the kernel and the integrators, for generated files.
 SOURCES = $(wildcard lib/kernel/*.h) $(addprefix lib/codegen/,dispatch.inc stepper.inc interface.inc observables.inc) \
           $(wildcard integrators/*.c)
@@ -256,9 +256,9 @@ $(TEST_OBJ): $(BUILD)/generated/suites.h
 $(TEST_OBJ): ALL += -include suites.h -Icli
 
 # The public functions, as lists FUNCTIONS_dalembert(X): each has a test of its arguments.
-$(BUILD)/generated/functions.h: tools/functions.awk $(wildcard include/*.h)
+$(BUILD)/generated/functions.h: tools/header-functions.awk $(wildcard include/*.h)
 	@mkdir -p $(@D)
-	@awk -f tools/functions.awk include/dalembert.h include/dalembert_[!k]*.h >$@.tmp && mv $@.tmp $@
+	@awk -f tools/header-functions.awk include/dalembert.h include/dalembert_[!k]*.h >$@.tmp && mv $@.tmp $@
 $(BUILD)/tests/test_null.o $(BUILD)/tests/test_null_measure.o: $(BUILD)/generated/functions.h
 
 # ---- tests -----------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 /* null.h - the rule for NULL, NULL names and negative counts: see dalembert.h, conventions.
  *
- * A suite has a test null_NAME for every function of the lists that tools/functions.awk makes of
- * the headers: without one it is not linked. */
+ * A suite has a test null_NAME for every function of the lists that tools/header-functions.awk
+ * makes of the headers: without one it is not linked. */
 #ifndef NULL_H
 #define NULL_H
 

@@ -3,13 +3,13 @@
 function roff(text) { # without the marks of Markdown
     gsub(/\]\([^)]*\)/, "", text)
     gsub(/As for \[/, "As for ", text)
-    text = gensub_escapes(text)
+    text = unescaped(text)
     gsub(/`/, "", text)
     gsub(/-/, "\\-", text)
     gsub(/'/, "\\(aq", text)
     return text ~ /^\./ ? "\\\\&" text : text
 }
-function gensub_escapes(text,    out, i) { # a backslash that escapes is none of roff
+function unescaped(text,    out, i) { # a backslash that escapes is none of roff
     while ((i = index(text, "\\")) > 0) {
         out = out substr(text, 1, i - 1) substr(text, i + 1, 1)
         text = substr(text, i + 2)

@@ -1,4 +1,4 @@
-# functions.awk - lists the functions that each public header declares: FUNCTIONS_HEADER(X).
+# header-functions.awk - lists the functions that each public header declares: FUNCTIONS_HEADER(X).
 FNR == 1 {
     name = FILENAME
     gsub("^.*/|[.]h$", "", name)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# embed.sh FILE.yaml... - writes the C table of the systems that are embedded in the library.
+# embed-systems.sh FILE.yaml... - writes the C table of the systems that are embedded in the library.
 set -e
 echo '#include "load/builtin.h"'
 echo 'const dal__builtin dal__builtins[] = {'
