@@ -149,8 +149,8 @@ static void find_readers(writer *w)
     }
 }
 
-/* Takes the operands that earlier chunks have passed. */
-static void write_taken(writer *w, const dal__instruction *i)
+/* Reads the operands that earlier chunks have passed. */
+static void write_passed_in(writer *w, const dal__instruction *i)
 {
     uint32_t place[3];
     for (int k = find_operands(i, place); k-- > 0;) {
@@ -162,7 +162,7 @@ static void write_taken(writer *w, const dal__instruction *i)
 }
 
 /* Passes a result on where a later chunk reads it. */
-static void write_given(const writer *w, int result, uint32_t place)
+static void write_passed_out(const writer *w, int result, uint32_t place)
 {
     if (w->last[result] >= w->end)
         dal__buffer_print(w->text, "    passed[%zu] = x%u;\n", place - w->tapes->temporaries,
@@ -217,10 +217,10 @@ bool dal__tape_write_chunk(writer *w, int instructions)
                           tape->outputs);
     for (; w->next < w->end; w->next++) {
         const dal__instruction *code = &tape->code[w->next];
-        write_taken(w, code);
+        write_passed_in(w, code);
         write_instruction(w, code);
-        write_given(w, 2 * w->next, code->d);
-        if (code->op == DAL__SINCOS) write_given(w, 2 * w->next + 1, code->b);
+        write_passed_out(w, 2 * w->next, code->d);
+        if (code->op == DAL__SINCOS) write_passed_out(w, 2 * w->next + 1, code->b);
     }
     const bool is_last = w->end == tape->length;
     for (int k = 0; k < tape->outputs; k++) {
