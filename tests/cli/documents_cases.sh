@@ -21,14 +21,12 @@ for document in "$here/../../README.md" "$here"/../../docs/*.md; do
     */README.md | */tutorial.md | */program.md)
         expect "there are commands" test "$(wc -l <commands)" -ge 2 ;;
     esac
+    : >printed
     while read -r command <&3; do
         eval "try 0 $command"
         cat out err >>printed
     done 3<commands
-    sed -n '/^<!-- printed -->$/,/^<!-- end of printed -->$/s/^    //p' "$document" |
-        while IFS= read -r line; do
-            grep -Fqx -- "$line" printed || echo "$line"
-        done >missing
+    sed -n '/^<!-- printed -->$/,/^<!-- end of printed -->$/s/^    //p' "$document" | grep -Fvx -f printed >missing
     expect "a command prints: $(head -1 missing)" test ! -s missing
     cd .. || exit 1
 done
@@ -36,9 +34,9 @@ done
 # The page of formats names every column of the tables that its commands wrote.
 case_is "the columns of formats.md"
 for table in formats/*.csv formats/*/*.csv formats/*/series/*.csv; do
-    head -1 "$table" | tr ',' '\n' | while read -r column; do
-        grep -Fq "\`$column\`" "$here/../../docs/formats.md" || echo "$column"
-    done >columns
+    awk 'NR == FNR { text = text $0 "\n"; next }
+        FNR == 1 { for (n = split($0, head, ","); n > 0; n--) if (!index(text, "`" head[n] "`")) print head[n] }' \
+        "$here/../../docs/formats.md" "$table" >columns
     case $table in # the coordinates of the systems
     *rows.csv) sed -i "/y[12]\|phi\|speed\|spin/d" columns ;;
     *section.csv) sed -i "/^[xy]'*$\|xi/d" columns ;;
