@@ -50,7 +50,7 @@ fails_openly() {
     expect "status $well, $total calls, at$fault: $*" [ -z "$fault" -a "$total" -gt 0 -a "$well" -eq 0 ]
 }
 
-fails_calls() { shared_object fail_call && without_call 0 --version && [ ! -s err ]; }
+fails_calls() { raises && shared_object fail_call && without_call 0 --version && [ ! -s err ]; }
 if needs 64 "no compiler for calls that fail" fails_calls; then
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
     cat >ball.yaml <<'EOF'

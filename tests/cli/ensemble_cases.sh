@@ -169,7 +169,7 @@ mpi_ensemble() {
     shift 3
     by_mpi $status -n $ranks $options "$mpi_program" "$@"
 }
-if needs 33 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
+if needs 33 "no mpirun, or no dalembert-mpi (make mpi)" eval 'has_mpi && raises'; then
     words=${begin%--no-page}
     mpi_ensemble 0 3 "" $words --output by-mpi
     prints "^t = 2, $members members$"

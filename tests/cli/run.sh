@@ -194,6 +194,15 @@ signalled() {
     timeout --foreground $patience env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
         LD_PRELOAD="$top/raise_signal.so" RAISE="$number" RAISE_AT="$call" "$program" "$@"
 } >out 2>err
+# raises: the program can be given such signals; begins what cut_off needs.
+raises() {
+    [ -n "${signalling:-}" ] || {
+        shared_object raise_signal &&
+            (cd "$top" && signalled 9 1 run line.yaml --integrator rk4 --step 1 --time 1 --output signalled)
+        signalling=$?
+    }
+    [ "$signalling" -eq 137 ]
+}
 # cut_off STATUS NUMBER CALL ARGUMENT...: like try, with that signal.
 cut_off() {
     expected=$1
@@ -273,11 +282,6 @@ expect:
   ends early: {rk4: {D: {at most: 1}}}
 END
 }
-
-# Signals at given places, where the program can be given them.
-shared_object raise_signal && signalled 9 1 run line.yaml --integrator rk4 --step 1 --time 1 --output signalled
-signalling=$?
-raises() { [ $signalling -eq 137 ]; }
 
 # Each part has a directory of its own, so that none meets what another left.
 for part in "$here"/[a-z]*_cases.sh; do
