@@ -8,7 +8,7 @@ shim=$top/fail_call.so
 without_call() {
     k=$1
     shift
-    timeout $patience env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
+    ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
         LD_PRELOAD="$shim" FAIL_AT=$k FAIL_LOG="$work/calls" "$program" "$@" >out 2>err
 }
 # What a command has printed and written, in the directory $1 and the file $1.out, without times.

@@ -8,8 +8,7 @@ shim=$top/fail_allocation.so
 without_memory() {
     k=$1 count=$2
     shift 2
-    timeout --foreground $patience env LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" \
-        "$program" "$@" >out 2>err
+    LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" "$program" "$@" >out 2>err
 }
 # fails_cleanly ARGUMENT...: begins with what `prepare` makes, in the directory `place`.
 fails_cleanly() {

@@ -17,6 +17,7 @@ memory=
 # An interrupt leaves no process and no file.
 leave() {
     jobs -p >"$top/jobs" 2>/dev/null && kill -KILL $(cat "$top/jobs") 2>/dev/null
+    kill "${watcher:-}" 2>/dev/null
     rm -rf "$top" ${memory:+"$memory"}
 }
 trap leave EXIT
@@ -37,6 +38,26 @@ unset COLUMNS NO_COLOR OMP_NUM_THREADS
 
 # No case expects a speed: after these seconds what hangs is ended, and what does not come is given up.
 patience=${PATIENCE:-600}
+# One process beside the part does that, as `timeout` takes as much processor time as a short run of the program:
+# what of the program runs now, and did $patience seconds before, is ended.
+end_what_hangs() {
+    exec </dev/null >/dev/null 2>&1
+    trap 'kill $!; exit' TERM
+    before='' binary=$(readlink -f "$program")
+    while kill -0 $$; do
+        now=
+        for process in $(grep -alsFxz "DALEMBERT_UPLOT=$DALEMBERT_UPLOT" /proc/[0-9]*/environ | cut -d/ -f3); do
+            [ "$(readlink "/proc/$process/exe")" = "$binary" ] || continue
+            case "$before " in *" $process "*) kill "$process" ;; esac
+            now="$now $process"
+        done
+        before=$now
+        sleep "$patience" &
+        wait $!
+    done
+}
+# No child of this shell, which waits for its children.
+watcher=$(end_what_hangs & echo $!)
 passed=0
 failed=0
 skipped=0
@@ -94,7 +115,7 @@ refute() {
 try() {
     expected=$1
     shift
-    timeout --foreground $patience "$program" "$@" >out 2>err
+    "$program" "$@" >out 2>err
     ended $? "$@"
 }
 # ended STATUS ARGUMENT...: the program must have ended with the status $expected.
