@@ -126,6 +126,13 @@ ended() {
 }
 says() { if grep -Eq -- "$1" err; then pass; else fail "stderr lacks /$1/"; fi; }
 prints() { if grep -Eq -- "$1" out; then pass; else fail "stdout lacks /$1/"; fi; }
+# wrote TEXT: a line of stderr begins with it.  It takes no process: loops use it.
+wrote() {
+    while IFS= read -r line; do
+        case $line in "$1"*) return 0 ;; esac
+    done <err
+    return 1
+}
 silent() { if [ -s err ]; then fail "stderr is not empty"; else pass; fi; }
 empty() { if [ -s out ]; then fail "stdout is not empty"; else pass; fi; }
 
