@@ -221,11 +221,16 @@ static bool write_file(const expansion *e, int order, int lanes, const char *pat
                       lanes, order, e->unit);
     for (int first = 0; first < 2; first++) {
         dal__buffer_print(&text,
-                          "void %s(const double *w, int k, num *memory, num *l)\n{\n"
+                          "void %s(const double *w, int k, num *memory, num *l, num *out)\n{\n"
                           "    num (*const c)[%d] = (num (*)[%d])memory;\n"
                           "    (void)w, (void)k, (void)l;\n",
                           first ? "first" : "next", order + 1, order + 1);
         dal__taylor_write(e->taylor, e->tapes, first ? DAL__FIRST : DAL__NEXT, lanes == 1, &text);
+        for (int i = 0; i < e->taylor->outputs; i++) {
+            dal__buffer_print(&text, "    out[%d] = ", i);
+            dal__taylor_write_output(e->taylor, e->tapes, i, first ? DAL__FIRST : DAL__NEXT, &text);
+            dal__buffer_append(&text, ";\n");
+        }
         dal__buffer_append(&text, "}\n");
     }
     FILE *file = fopen(path, "w");
@@ -235,7 +240,7 @@ static bool write_file(const expansion *e, int order, int lanes, const char *pat
     return good;
 }
 
-typedef void body(const double *w, int k, double *memory, double *l);
+typedef void body(const double *w, int k, double *memory, double *l, double *out);
 
 /* Memory of as many numbers, which are NaN. */
 static double *numbers(size_t count)
@@ -247,8 +252,16 @@ static double *numbers(size_t count)
     return x;
 }
 
-/* The coefficients below an order of all series by compiled bodies, from the same inputs in all
- * lanes; whether they are e's, where these have a value. */
+/* Whether lanes of coefficients have the bits of a number. */
+static bool all_are(const double *x, int lanes, const double *expected)
+{
+    bool same = true;
+    for (int i = 0; i < lanes; i++) same &= memcmp(x + i, expected, sizeof *x) == 0;
+    return same;
+}
+
+/* The coefficients below an order by compiled bodies, from the same inputs in all lanes; whether
+ * outputs and series that later orders need are e's, where these have a value. */
 static bool run_compiled(const expansion *e, int order, int lanes, void *handle, const double *in)
 {
     void *at[] = {dlsym(handle, "next"), dlsym(handle, "first")};
@@ -257,21 +270,26 @@ static bool run_compiled(const expansion *e, int order, int lanes, void *handle,
     memcpy(bodies, at, sizeof bodies);
     const size_t slots = (size_t)e->taylor->slots, stride = (size_t)order + 1;
     const size_t extra = (size_t)dal__taylor_extra(e->taylor, lanes == 1, order);
-    const size_t width = (size_t)lanes;
+    const size_t width = (size_t)lanes, outputs = (size_t)e->taylor->outputs;
     double *memory = numbers(slots * stride * width), *l = numbers(extra * stride * width);
+    double *out = numbers(outputs * width), expected[MAX_FORMULAS];
     bool same = true;
-    for (size_t k = 0; k < (size_t)order; k++) {
+    for (int k = 0; k < order; k++) {
         for (size_t i = 0; i < INPUTS * width; i++)
-            memory[(i / width * stride + k) * width + i % width] = in[k * INPUTS + i / width];
-        bodies[k == 0](e->work, (int)k, memory, l);
+            memory[(i / width * stride + (size_t)k) * width + i % width] =
+                in[(size_t)k * INPUTS + i / width];
+        bodies[k == 0](e->work, k, memory, l, out);
+        dal__taylor_read_x1(e->taylor, 0, (int)outputs, k, STRIDE, e->work, e->memory, expected);
+        for (size_t i = 0; i < outputs; i++) same &= all_are(out + i * width, lanes, expected + i);
     }
-    for (size_t i = 0; i < slots; i++)
-        for (size_t k = 0; k < (size_t)order && !isnan(e->memory[i * STRIDE + k]); k++)
-            for (size_t lane = 0; lane < width; lane++)
-                same &= memcmp(memory + (i * stride + k) * width + lane, e->memory + i * STRIDE + k,
-                               sizeof *memory) == 0;
+    for (size_t i = 0; i < slots; i++) {
+        const double *x = e->memory + i * STRIDE;
+        for (size_t k = 0; k < (e->taylor->kept[i] ? (size_t)order : 1) && !isnan(x[k]); k++)
+            same &= all_are(memory + (i * stride + k) * width, lanes, x + k);
+    }
     free(memory);
     free(l);
+    free(out);
     return same;
 }
 

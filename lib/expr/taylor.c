@@ -14,6 +14,12 @@ dal__taylor *dal__taylor_create(int inputs, int coordinates)
     if (!taylor) return NULL;
     taylor->inputs = taylor->slots = inputs;
     taylor->coordinates = coordinates;
+    taylor->kept = malloc((size_t)inputs * sizeof *taylor->kept);
+    if (!taylor->kept) {
+        free(taylor);
+        return NULL;
+    }
+    for (int i = 0; i < inputs; i++) taylor->kept[i] = true;
     return taylor;
 }
 
@@ -23,6 +29,7 @@ void dal__taylor_free(dal__taylor *taylor)
     free(taylor->code);
     free(taylor->sum);
     free(taylor->output);
+    free(taylor->kept);
     free(taylor);
 }
 
@@ -270,10 +277,13 @@ static void find_orders(dal__taylor *taylor, dal__taylor_operation *i, bool *nee
         if (dal__is_constant(i->sum[j])) continue;
         dal__taylor_sum *sum = &taylor->sum[i->sum[j]];
         sum->needed = needed[sum->a] = needed[sum->b] = true;
+        taylor->kept[sum->a] = taylor->kept[sum->b] = true;
     }
+    if (i->recurrence >= DAL__SIN_TURN) taylor->kept[i->b] = taylor->kept[i->c] = true;
 }
 
-static bool reserve(dal__taylor *taylor, const dal__tape *tape)
+/* slots: as many as there may be. */
+static bool reserve(dal__taylor *taylor, const dal__tape *tape, size_t slots)
 {
     const size_t operations = MAX_OPERATIONS * (size_t)tape->length + 1;
     const size_t outputs = (size_t)taylor->outputs + (size_t)tape->outputs + 1;
@@ -285,7 +295,10 @@ static bool reserve(dal__taylor *taylor, const dal__tape *tape)
     if (sum) taylor->sum = sum;
     uint32_t *output = realloc(taylor->output, outputs * sizeof *output);
     if (output) taylor->output = output;
-    return code && sum && output;
+    bool *kept = realloc(taylor->kept, slots * sizeof *kept);
+    if (kept) taylor->kept = kept;
+    if (kept) memset(kept + taylor->slots, 0, (slots - (size_t)taylor->slots) * sizeof *kept);
+    return code && sum && output && kept;
 }
 
 /* Converts a tape; needed[slots] is false everywhere. */
@@ -316,7 +329,8 @@ dal_status dal__taylor_add(dal__taylor *taylor, const dal__tapes *tapes, int pro
                           .latest = calloc(slots, sizeof *c.latest),
                           .turn = calloc(slots, sizeof *c.turn)};
     bool *needed = calloc(slots, sizeof *needed);
-    const bool good = c.slot && c.depth && c.latest && c.turn && needed && reserve(taylor, tape);
+    const bool good =
+        c.slot && c.depth && c.latest && c.turn && needed && reserve(taylor, tape, slots);
     if (good) {
         for (size_t i = 0; i < tapes->first_input; i++)
             c.slot[i] = DAL__TAYLOR_CONSTANT | (uint32_t)i;

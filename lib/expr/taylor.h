@@ -49,6 +49,7 @@ typedef struct dal__taylor {
     dal__taylor_operation *code; /* [length] */
     dal__taylor_sum *sum;        /* [sums] */
     uint32_t *output;            /* [outputs] operands */
+    bool *kept;                  /* [slots] whether later orders need its coefficients beyond 0 */
     int length, sums, outputs, slots, inputs, coordinates;
     const char *refused; /* what has no Taylor series: "abs"; NULL: nothing */
 } dal__taylor;

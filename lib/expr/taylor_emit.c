@@ -14,12 +14,21 @@ typedef struct writer {
     const dal__taylor_operation *operation;
     const char *order; /* "0" or "k" */
     dal__buffer *text;
+    bool has_interiors; /* the sums of an order */
+    int interior[2];    /* number of the next one of products, of squares */
+    int sums;           /* written so far */
 } writer;
+
+/* Whether coefficient k of a slot is a variable c<i>, since no later order needs it. */
+static bool is_variable(const writer *w, uint32_t slot, const char *order)
+{
+    return strcmp(order, "k") == 0 && !w->taylor->kept[slot];
+}
 
 static void write_coefficient(const writer *w, uint32_t a, const char *order)
 {
     if (!dal__is_constant(a))
-        dal__buffer_print(w->text, "c[%u][%s]", a, order);
+        dal__buffer_print(w->text, is_variable(w, a, order) ? "c%u" : "c[%u][%s]", a, order);
     else if (*order == '0')
         dal__constant_write(w->tapes, a & ~DAL__TAYLOR_CONSTANT, DAL__AS_NUM, w->text);
     else
@@ -115,7 +124,9 @@ static void write_formula(const writer *w, const char *formula)
 static void write_statement(const writer *w, uint32_t slot, const char *order, const char *before,
                             const char *formula)
 {
-    dal__buffer_print(w->text, "    c[%u][%s] = %s", slot, order, before);
+    dal__buffer_append(w->text, is_variable(w, slot, order) ? "    const num " : "    ");
+    write_coefficient(w, slot, order);
+    dal__buffer_print(w->text, " = %s", before);
     write_formula(w, formula);
     dal__buffer_append(w->text, ";\n");
 }
@@ -182,19 +193,6 @@ int dal__taylor_extra(const dal__taylor *taylor, bool packed, int order)
     return (packed ? 2 * products + squares : 0) + kept;
 }
 
-/* Few sums of lanes, each by itself. */
-static void write_few_sums(const writer *w)
-{
-    for (int k = 0; k < w->taylor->sums; k++) {
-        const dal__taylor_sum *sum = &w->taylor->sum[k];
-        if (!sum->needed) continue;
-        dal__buffer_print(w->text, "    const num s%d = dal_sum_%s(c[%u], ", k,
-                          is_square(sum) ? "squares" : "products", sum->a);
-        if (!is_square(sum)) dal__buffer_print(w->text, "c[%u], ", sum->b);
-        dal__buffer_append(w->text, "k);\n");
-    }
-}
-
 /* The slots of the operands of sums of a kind. */
 static void write_slots(const writer *w, sum_kind kind)
 {
@@ -237,33 +235,53 @@ static void write_interiors(const writer *w, bool packed)
                        "    const num *const sum = kept + k % 2 * (products + squares);\n");
 }
 
-/* To the interiors the terms with order p = k - 1 are added; for k <= 2 there are none, and p is
- * the column of zeros. */
-static void write_sums(const writer *w, bool packed)
+/* What precedes the sums of an order.  Packs, and many sums, have interiors; for k <= 2 there are
+ * none of the terms with order p = k - 1 that are added to them, and p is the column of zeros. */
+static void begin_sums(writer *w, bool packed)
 {
     const dal__taylor *taylor = w->taylor;
     const int products = packed ? count_packed(taylor, PRODUCTS) : count_sums(taylor, PRODUCTS);
     const int squares = packed ? count_packed(taylor, SQUARES) : count_sums(taylor, SQUARES);
-    int next[2] = {0, products};
+    w->has_interiors = packed || !has_few_sums(taylor);
+    w->interior[SQUARES] = products;
+    if (!w->has_interiors) return;
     dal__buffer_print(w->text, "    enum { products = %d, squares = %d };\n", products, squares);
     write_interiors(w, packed);
     dal__buffer_append(w->text, "    const int p = k > 2 ? k - 1 : DAL_FIXED_TAYLOR_ORDER;\n"
                                 "    (void)sum, (void)p;\n");
-    for (int k = 0; k < taylor->sums; k++) {
-        const dal__taylor_sum *sum = &taylor->sum[k];
-        const uint32_t a = sum->a, b = sum->b;
-        if (!sum->needed) continue;
-        if (is_square(sum))
-            dal__buffer_print(w->text,
-                              "    const num s%d = dal_fma(c[%u][1] + c[%u][1], c[%u][p], "
-                              "sum[%d]);\n",
-                              k, a, a, a, next[1]++);
-        else
-            dal__buffer_print(w->text,
-                              "    const num s%d = dal_fma(c[%u][p], c[%u][1], dal_fma(c[%u][1], "
-                              "c[%u][p], sum[%d]));\n",
-                              k, a, b, a, b, next[0]++);
-    }
+}
+
+static void write_sum(writer *w, int k)
+{
+    const dal__taylor_sum *sum = &w->taylor->sum[k];
+    const sum_kind kind = is_square(sum) ? SQUARES : PRODUCTS;
+    const uint32_t a = sum->a, b = sum->b;
+    dal__buffer_print(w->text, "    const num s%d = ", k);
+    if (!w->has_interiors && kind == SQUARES)
+        dal__buffer_print(w->text, "dal_sum_squares(c[%u], k);\n", a);
+    else if (!w->has_interiors)
+        dal__buffer_print(w->text, "dal_sum_products(c[%u], c[%u], k);\n", a, b);
+    else if (kind == SQUARES)
+        dal__buffer_print(w->text, "dal_fma(c[%u][1] + c[%u][1], c[%u][p], sum[%d]);\n", a, a, a,
+                          w->interior[kind]++);
+    else
+        dal__buffer_print(w->text,
+                          "dal_fma(c[%u][p], c[%u][1], dal_fma(c[%u][1], c[%u][p], sum[%d]));\n", a,
+                          b, a, b, w->interior[kind]++);
+}
+
+/* The sums before number `end` that are not yet written. */
+static void write_sums_before(writer *w, int end)
+{
+    for (; w->sums < end; w->sums++)
+        if (w->taylor->sum[w->sums].needed) write_sum(w, w->sums);
+}
+
+/* The sums that an operation is the first to use; the list has them in the order of operations. */
+static void write_sums_of(writer *w, const dal__taylor_operation *i)
+{
+    for (int j = 0; j < i->sums; j++)
+        if (!dal__is_constant(i->sum[j])) write_sums_before(w, (int)i->sum[j] + 1);
 }
 
 /* Stores the operands of sums side by side, and fills the last pack with 0, since memory may hold
@@ -288,6 +306,19 @@ static void write_operands(const writer *w)
                       next[0], next[1]);
 }
 
+/* The terms of orders 1 and 2 that are not there. */
+static void clear_columns(const writer *w)
+{
+    dal__buffer_append(w->text, "    static const int operand[] = {");
+    write_slots(w, PRODUCTS);
+    write_slots(w, SQUARES);
+    dal__buffer_print(
+        w->text,
+        "0};\n    for (int i = 0; i < %d; i++)\n"
+        "        c[operand[i]][1] = c[operand[i]][DAL_FIXED_TAYLOR_ORDER] = dal_num(0.0);\n",
+        2 * count_sums(w->taylor, PRODUCTS) + count_sums(w->taylor, SQUARES));
+}
+
 void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, dal__coefficient which,
                        bool packed, dal__buffer *text)
 {
@@ -297,23 +328,21 @@ void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, dal__
         dal__buffer_append(text, "    const num inverse = dal_inverse(k);\n"
                                  "    const num unit_inverse = DAL_FIXED_UNIT_OF_TIME * inverse;\n"
                                  "    (void)inverse, (void)unit_inverse;\n");
-        if (packed || !has_few_sums(taylor))
-            write_sums(&w, packed);
-        else
-            write_few_sums(&w);
+        begin_sums(&w, packed);
+        /* Many of lanes are each where it is used: there are not as many registers. */
+        if (packed || has_few_sums(taylor)) write_sums_before(&w, taylor->sums);
     }
     for (int n = 0; n < taylor->length; n++) {
         w.operation = &taylor->code[n];
-        if (which == DAL__FIRST)
+        if (which == DAL__FIRST) {
             write_first(&w);
-        else
+        } else {
+            write_sums_of(&w, w.operation);
             write_next(&w);
+        }
     }
     if ((packed || !has_few_sums(taylor)) && which == DAL__FIRST)
-        dal__buffer_print(text,
-                          "    for (int i = 0; i < %d; i++)\n"
-                          "        c[i][1] = c[i][DAL_FIXED_TAYLOR_ORDER] = dal_num(0.0);\n",
-                          taylor->slots);
+        clear_columns(&w);
     else if (packed)
         write_operands(&w);
 }
@@ -321,6 +350,7 @@ void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, dal__
 void dal__taylor_write_output(const dal__taylor *taylor, const dal__tapes *tapes, int output,
                               dal__coefficient which, dal__buffer *text)
 {
-    const writer w = {.tapes = tapes, .order = which == DAL__FIRST ? "0" : "k", .text = text};
+    const writer w = {
+        .taylor = taylor, .tapes = tapes, .order = which == DAL__FIRST ? "0" : "k", .text = text};
     write_coefficient(&w, taylor->output[output], w.order);
 }

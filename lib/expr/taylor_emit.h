@@ -14,7 +14,8 @@ typedef enum dal__coefficient { DAL__FIRST, DAL__NEXT } dal__coefficient;
  * number; tau is DAL_FIXED_UNIT_OF_TIME; the functions that are called are in kernel/series.h.
  * packed: for one lane, whose inner sums are formed in packs, for which their operands are stored
  * a second time, from l on.  Steps with many sums keep interiors there, too.  l has the numbers of
- * dal__taylor_extra series.  The last column of c is for 0. */
+ * dal__taylor_extra series.  The last column of c is for 0.  Coefficients beyond order 0 that no
+ * later order needs are variables, and not in c. */
 void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, dal__coefficient which,
                        bool packed, dal__buffer *text);
 /* How many series l has room for, each of order + 1 coefficients. */
