@@ -263,7 +263,7 @@ static int put_json(const results *r)
     json_open_list(&w, "discrete_actions", JSON_LINES);
     for (int k = 0; k < r->methods; k++) {
         json_open(&w, NULL, JSON_ON_ONE_LINE);
-        json_put_text(&w, "method", r->method[k]);
+        json_put_text(&w, "integrator", r->method[k]);
         json_put_number(&w, "value", r->discrete[k].value);
         json_put_number(&w, "defect", r->discrete[k].defect);
         json_put_flag(&w, "stationary", r->discrete[k].is_stationary);

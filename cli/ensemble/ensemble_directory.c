@@ -80,7 +80,7 @@ int ensemble_directory_write_manifest(const ensemble_directory *dir, const ensem
     json_put_source(&m.json, "input", input);
     put_ensemble(&m.json, e);
     manifest_put_machine(&m.json);
-    json_put_text(&m.json, "method",
+    json_put_text(&m.json, "integrator",
                   dal_method_name(&e->simulation.request.method, method, sizeof method));
     json_put_text(&m.json, "status", store_state_words[state]);
     free(input);

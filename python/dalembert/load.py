@@ -51,7 +51,8 @@ def load_run(directory: Path, manifest: dict[str, Any]) -> Trajectory:
     system = read_system(directory, given['system'])
     rows = np.load(os.path.join(directory, 'trajectory.npy'), max_header_size=1 << 20)
     trends = read_table(summary) if os.path.exists(summary) else []
-    return Trajectory(system, manifest['method'], float(given['step']), {**system.parameters, **given['set']}, rows,
+    integrator = manifest.get('integrator', manifest.get('method'))  # `method` until 0.4
+    return Trajectory(system, integrator, float(given['step']), {**system.parameters, **given['set']}, rows,
                       {row['observable']: read_trend(row) for row in trends})
 
 

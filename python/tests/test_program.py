@@ -1,4 +1,6 @@
 """Studies, checks, and directories of the program."""
+import json
+
 import numpy as np
 import pytest
 
@@ -20,6 +22,10 @@ def test_load_run(program, tmp_path):
     for name in ('first', 'last', 'deviation', 'size', 'trend'):
         assert getattr(loaded.trends['D1'], name) == getattr(made.trends['D1'], name)
     assert 'svg' in loaded._repr_html_()
+    manifest = tmp_path / 'run' / 'manifest.json'
+    manifest.write_text(manifest.read_text().replace('"integrator": "rk4",\n  "status"', '"method": "rk4",\n  "status"'))
+    assert 'method' in json.loads(manifest.read_text())
+    assert dalembert.load(tmp_path / 'run').integrator == 'rk4'
 
 
 def test_load_ensemble(program, tmp_path):

@@ -11,7 +11,7 @@ if needs 52 "no python3" there python3; then
     expect "no numbers" json described/manifest.json \
         "number(d['t']) and d['t'] == 10 and d['rows'] == 3 and d['steps'] == 100
          and number(d['seconds']) and d['evaluations'] == 400 and d['native'] is False"
-    expect "no words" json described/manifest.json "d['status'] == 'done' and d['method'] == 'rk4'
+    expect "no words" json described/manifest.json "d['status'] == 'done' and d['integrator'] == 'rk4'
          and d['machine']['compiler'] and d['machine']['libyaml']"
     try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --start e=inf --output infinite
     expect "e" json infinite/manifest.json "d['input']['start'] == {'e': 'inf'}"
