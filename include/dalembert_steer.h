@@ -94,7 +94,9 @@ typedef struct dal_steer_observer {
      * motions yet. */
     dal_status (*reach)(void *user, const dal_steering *steering);
     /* Called before each iteration with the first guess, from 0, that it is of, and the residual of
-     * the last one; -1 in its place where the end of a motion is moved to the target. */
+     * the last one; -1 in its place where the end of a motion is moved to the target.  While a
+     * motion of many steps is moved it is called again and again with the same numbers; where it
+     * ends the search there this motion is left out. */
     dal_status (*step)(void *user, int guess, int iteration, double residual);
 } dal_steer_observer;
 

@@ -124,7 +124,9 @@ int steer_run(steer_settings *settings)
     if (status == CLI_FAILED)
         cli_fail(status, "%s: %s", s->request.system_name, steering->extremal->message);
     if (status == CLI_SIGNAL)
-        cli_fail(status, "interrupted; the motions so far, or the nearest one, are printed");
+        cli_fail(status, "interrupted; %s",
+                 steering->count > 0 ? "the motions so far, or the nearest one, are printed"
+                                     : "there is no motion yet");
     dal_steer_free(steering);
     if (status == CLI_DONE) status = written;
     return printed == CLI_DONE ? status : printed;

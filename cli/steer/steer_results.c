@@ -60,7 +60,7 @@ static void say_best(screen *out, const steer_results *r)
     const char *name = s->request.system_name;
     dal_method_name(&s->request.method, method, sizeof method);
     if (steering->count == 0) {
-        screen_say(out, 2, "%s: interrupted before the first iteration", name);
+        screen_say(out, 2, "%s: interrupted before there was a motion", name);
         return;
     }
     const dal_extremal *best = steering->extremal;

@@ -50,7 +50,9 @@ static dal_status draw_motion(dal__shooting *s, dal__random *random, double size
     DAL_TRY(dal_run_set_state(p->run, p->from, z, NULL));
     for (int k = 0; k <= s->pieces; k++) {
         memcpy(s->point + k * d, dal_run_state(p->run), (size_t)d * sizeof *z);
-        if (k < s->pieces) DAL_TRY(dal_run_advance(p->run, s->first[k + 1] - s->first[k], NULL));
+        if (k == s->pieces) break;
+        DAL_TRY(dal__problem_ask(p));
+        DAL_TRY(dal_run_advance(p->run, s->first[k + 1] - s->first[k], NULL));
     }
     memcpy(p->target, s->point + s->pieces * d, 2 * (size_t)n * sizeof *z);
     return DAL_STATUS_OK;
@@ -85,7 +87,7 @@ static dal_status walk(dal__shooting *s, const double *to, double *from, double 
             p->target[i] = next < 1.0 ? from[i] + next * (to[i] - from[i]) : to[i];
         allow(p, PER_SOLVE);
         status = dal__newton(s, result);
-        if (status == DAL_STATUS_MEMORY || status == DAL_STATUS_INTERRUPTED) return status;
+        if (status == DAL_STATUS_MEMORY || p->stopped != DAL_STATUS_OK) return status;
         const bool good = status == DAL_STATUS_OK;
         memcpy(good ? saved : s->point, good ? s->point : saved, numbers * sizeof *saved);
         part = good ? next : part;
@@ -108,8 +110,7 @@ dal_status dal__continuation_solve(dal__shooting *s, dal__newton_result *result)
         memcpy(p->target, wanted, width * sizeof *wanted);
         status = find_first_motion(s, &random, k, result);
         if (status == DAL_STATUS_OK) status = walk(s, wanted, wanted + width, saved, result);
-        if (status != DAL_STATUS_OK && status != DAL_STATUS_MEMORY &&
-            status != DAL_STATUS_INTERRUPTED)
+        if (status != DAL_STATUS_OK && status != DAL_STATUS_MEMORY && p->stopped == DAL_STATUS_OK)
             status = DAL_STATUS_NOT_CONVERGED;
     }
     if (wanted) memcpy(p->target, wanted, width * sizeof *wanted);

@@ -303,7 +303,10 @@ dal_status dal__direct_iterate(dal__direct *d)
     d->is_stuck = true;
     for (double part = 1.0; part > 1e-3 && d->is_stuck; part /= 2.0) {
         try_change(d, part);
-        if (dal__shooting_move(s, d->point, d->end) != DAL_STATUS_OK) continue;
+        if (dal__shooting_move(s, d->point, d->end) != DAL_STATUS_OK) {
+            DAL_TRY(p->stopped);
+            continue;
+        }
         const double after = find_merit(d, d->point, d->end, weight, &jump);
         if (!(after < before)) continue;
         const size_t numbers = (size_t)(s->pieces * p->dimension);

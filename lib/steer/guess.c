@@ -83,8 +83,7 @@ static void interpolate_points(const dal__shooting *from, dal__shooting *to)
 /* Errors that end the search for a motion. */
 static bool is_final(const dal__problem *p, dal_status status)
 {
-    return status == DAL_STATUS_MEMORY || status == DAL_STATUS_INTERRUPTED ||
-           p->iterations >= p->limit;
+    return status == DAL_STATUS_MEMORY || p->stopped != DAL_STATUS_OK || p->iterations >= p->limit;
 }
 
 /* By Gauss-Newton until Newton's method converges. */

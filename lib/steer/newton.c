@@ -96,13 +96,16 @@ static void accept_points(newton *k)
 }
 
 /* Finds a damping, from *out down to min, with which the next step is shorter, and goes there.
- * Errors: DAL_STATUS_NOT_CONVERGED: there is none; DAL_STATUS_MEMORY. */
+ * Errors: DAL_STATUS_NOT_CONVERGED: there is none; DAL_STATUS_MEMORY; what the observer returned. */
 static dal_status damp(newton *k, double length, double min, double *out)
 {
     dal__shooting *s = k->s;
     for (double damping = *out; damping >= min; damping /= 2.0) {
         try_points(k, damping);
-        if (dal__shooting_move(s, k->point, k->end) != DAL_STATUS_OK) continue;
+        if (dal__shooting_move(s, k->point, k->end) != DAL_STATUS_OK) {
+            DAL_TRY(k->p->stopped);
+            continue;
+        }
         dal__shooting_jumps(s, k->point, k->end, k->p->unknowns, k->jump);
         const dal_status status = dal__border_right(&k->border, k->point, s->pieces, &k->linear);
         if (status == DAL_STATUS_MEMORY) return status;

@@ -12,6 +12,8 @@
  * motion (reach.c) need nine. */
 static const double coarse_tolerance = 1e-6, tangent_tolerance = 1e-12;
 
+enum { STEPS_PER_QUESTION = 64 };
+
 dal_status dal__shooting_open(dal__shooting *s, dal__problem *p, long long steps, int pieces)
 {
     const size_t count = (size_t)(steps < pieces ? steps : pieces);
@@ -68,9 +70,19 @@ static dal_status read_ends(dal__shooting *s, long long steps, double *end)
     return DAL_STATUS_OK;
 }
 
+/* Takes steps, between which the observer is asked.  Errors: what it returned. */
+static dal_status advance(dal__problem *p, dal_batch *batch, long long steps)
+{
+    for (long long rest = steps; rest > 0; rest -= STEPS_PER_QUESTION) {
+        if (rest < steps) DAL_TRY(dal__problem_ask(p));
+        dal_batch_advance(batch, rest < STEPS_PER_QUESTION ? rest : STEPS_PER_QUESTION);
+    }
+    return DAL_STATUS_OK;
+}
+
 dal_status dal__shooting_move(dal__shooting *s, const double *point, double *end)
 {
-    const dal__problem *p = s->problem;
+    dal__problem *p = s->problem;
     const size_t dimension = (size_t)p->dimension;
     const long long steps = s->steps / s->pieces;
     for (int k = 0; k < s->pieces; k++) {
@@ -78,7 +90,7 @@ dal_status dal__shooting_move(dal__shooting *s, const double *point, double *end
         if (p->is_lifted) s->scratch[dimension - 1] = 0.0;
         DAL_TRY(dal_batch_set_state(s->plain, k, dal__shooting_time(s, k), s->scratch, p->error));
     }
-    dal_batch_advance(s->plain, steps);
+    DAL_TRY(advance(p, s->plain, steps));
     DAL_TRY(read_ends(s, steps, end));
     if (s->steps % s->pieces == 0) return DAL_STATUS_OK;
     dal_batch_advance(s->plain, 1);
@@ -93,7 +105,7 @@ static bool is_skipped(const dal__problem *p, int unknown, dal__columns columns)
 
 dal_status dal__shooting_differentiate(dal__shooting *s, dal__columns columns)
 {
-    const dal__problem *p = s->problem;
+    dal__problem *p = s->problem;
     const int n = p->n, d = p->unknowns;
     double *vector = s->scratch, *state = s->scratch + 2 * p->dimension;
     for (int k = 0; k < s->pieces; k++) {
@@ -107,7 +119,7 @@ dal_status dal__shooting_differentiate(dal__shooting *s, dal__columns columns)
             dal__tangent_scatter(p->system, p->spec.options.space, point, vector, state);
             DAL_TRY(dal_batch_set_state(s->tangent, j, t, state, p->error));
         }
-        dal_batch_advance(s->tangent, s->first[k + 1] - s->first[k]);
+        DAL_TRY(advance(p, s->tangent, s->first[k + 1] - s->first[k]));
         for (int j = 0; j < d; j++) {
             if (is_skipped(p, j, columns)) continue;
             DAL_TRY(dal_batch_status(s->tangent, j, p->error));

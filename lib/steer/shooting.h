@@ -26,11 +26,12 @@ dal_status dal__shooting_open(dal__shooting *s, dal__problem *p, long long steps
 void dal__shooting_close(dal__shooting *s);
 /* t of point k. */
 double dal__shooting_time(const dal__shooting *s, int k);
-/* Finds the ends of all pieces that begin at these points.  Errors: of a step. */
+/* Finds the ends of all pieces that begin at these points.  Errors: of a step, and what the
+ * observer returned, which is asked between many steps. */
 dal_status dal__shooting_move(dal__shooting *s, const double *point, double *end);
 /* By which unknowns ends are differentiated. */
 typedef enum dal__columns { DAL__COLUMNS_OF_ALL, DAL__COLUMNS_WITHOUT_P } dal__columns;
-/* Finds their derivatives at s->point.  Errors: of a step. */
+/* Finds their derivatives at s->point.  Errors: likewise. */
 dal_status dal__shooting_differentiate(dal__shooting *s, dal__columns columns);
 /* Jumps in units from ends to points, out[pieces*unknowns], of which count in each are set. */
 void dal__shooting_jumps(const dal__shooting *s, const double *point, const double *end, int count,

@@ -11,12 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MORE_GUESSES = 8 };
+enum { MORE_GUESSES = 8, ROWS_PER_QUESTION = 8192 };
 
 /* ---- results ---- */
 
 /* Rows of a motion, which begins again at each point; pi_e is added up.  Where a step fails rows
- * after it are NaN, and so is what the whole motion has. */
+ * after it are NaN, and so is what the whole motion has.  The observer is asked between many rows. */
 static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
 {
     dal__problem *p = s->problem;
@@ -46,6 +46,7 @@ static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
                 max_D = fmax(max_D, dal__max_abs(values, (size_t)p->constraints));
             }
             if (row == s->first[k + 1]) break;
+            if ((row + 1) % ROWS_PER_QUESTION == 0) DAL_TRY(dal__problem_ask(p));
             if (p->multipliers > 0) DAL_TRY(dal__vakonomic_add_action(p, &action));
             DAL_TRY(dal_run_step(p->run, p->error));
         }
@@ -130,7 +131,13 @@ static void add_extremal(const dal__problem *p, dal_steering *steering, dal_extr
         steering->count++;
 }
 
-/* Solves from a guess, or by continuation, and adds what comes out. */
+static bool ends_search(const dal__problem *p, dal_status status)
+{
+    return status == DAL_STATUS_MEMORY || (status != DAL_STATUS_OK && status == p->stopped);
+}
+
+/* Solves from a guess, or by continuation, and adds what comes out, unless the search ends before
+ * it is measured.  Errors: DAL_STATUS_MEMORY, what the observer returned. */
 static dal_status add_solution(dal__shooting *s, dal_steering *steering,
                                dal_status (*solve)(dal__shooting *, dal__newton_result *))
 {
@@ -146,16 +153,16 @@ static dal_status add_solution(dal__shooting *s, dal_steering *steering,
         status = dal__newton_measure(s, &result);
     x.iterations = p->iterations;
     x.condition = result.condition;
-    if (status != DAL_STATUS_MEMORY) status = fill_rows(s, &x);
+    if (!ends_search(p, status)) status = fill_rows(s, &x);
     x.residual = isfinite(x.distance) ? result.residual : INFINITY;
-    if (status == DAL_STATUS_MEMORY) {
+    if (ends_search(p, status)) {
         free_motion(&x);
         return status;
     }
     if (x.status == DAL_STATUS_OK) x.status = status;
     explain(p, steering, &x);
     add_extremal(p, steering, &x);
-    return x.status == DAL_STATUS_INTERRUPTED ? x.status : DAL_STATUS_OK;
+    return p->stopped;
 }
 
 /* Where no guess leads to the target more are made: the straight line alone may be singular, as of
@@ -174,9 +181,9 @@ static dal_status fill_steering(dal__problem *p, dal_steering *steering)
     for (long long k = 0; k <= p->steps; k++)
         steering->t[k] = k == p->steps ? p->T : p->from + (double)k * p->h;
     DAL_TRY(dal__reach_find(p, steering));
-    dal_status status = p->observer && p->observer->reach
-                            ? p->observer->reach(p->observer->user, steering)
-                            : DAL_STATUS_OK;
+    if (p->observer && p->observer->reach)
+        p->stopped = p->observer->reach(p->observer->user, steering);
+    dal_status status = p->stopped;
     if (status == DAL_STATUS_OK) status = dal__leaf_check(p, steering);
     if (status == DAL_STATUS_OK) status = dal__shooting_open(&s, p, p->steps, DAL__STEER_PIECES);
     bool is_found = false;
@@ -189,7 +196,7 @@ static dal_status fill_steering(dal__problem *p, dal_steering *steering)
     if (status == DAL_STATUS_OK && !is_found)
         status = add_solution(&s, steering, dal__continuation_solve);
     dal__shooting_close(&s);
-    return status == DAL_STATUS_INTERRUPTED ? DAL_STATUS_OK : status;
+    return status == p->stopped ? DAL_STATUS_OK : status;
 }
 
 dal_status dal_steer_create(dal_steering **steering, dal_model *model, const dal_run_spec *spec,

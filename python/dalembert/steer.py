@@ -172,10 +172,10 @@ def steer(system: SystemLike, target: Settings, integrator: str | None = None, t
 def raise_unless_found(c: Any, found: Steering) -> None:
     """Raises what has ended the search, or the reason why no motion ends at the target."""
     statuses = [c.extremal[i].status for i in range(c.count)]
-    interrupted = lib.DAL_STATUS_INTERRUPTED in statuses
+    interrupted = not statuses or lib.DAL_STATUS_INTERRUPTED in statuses
     if not interrupted and statuses[0] == lib.DAL_STATUS_OK:
         return
-    record = ffi.new('dal_error *', {'message': found.best.message.encode()})
+    record = ffi.new('dal_error *', {'message': (found.best.message if statuses else '').encode()})
     try:
         check(lib.DAL_STATUS_INTERRUPTED if interrupted else statuses[0], record, stepping=True)
     except BaseException as error:
