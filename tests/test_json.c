@@ -276,8 +276,8 @@ static void test_lists(void)
     json_put_text(&w, NULL, NULL);
     json_close(&w);
     json_open(&w, NULL, JSON_ON_ONE_LINE);
-    json_put_flag(&w, "yes", true);
-    json_put_flag(&w, "no", false);
+    json_put_bool(&w, "yes", true);
+    json_put_bool(&w, "no", false);
     json_close(&w);
     json_close(&w);
     json_close(&w);

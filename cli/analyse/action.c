@@ -266,7 +266,7 @@ static int put_json(const results *r)
         json_put_text(&w, "integrator", r->method[k]);
         json_put_number(&w, "value", r->discrete[k].value);
         json_put_number(&w, "defect", r->discrete[k].defect);
-        json_put_flag(&w, "stationary", r->discrete[k].is_stationary);
+        json_put_bool(&w, "stationary", r->discrete[k].is_stationary);
         json_close(&w);
     }
     json_close(&w);

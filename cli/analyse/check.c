@@ -174,7 +174,7 @@ static void put_method(json_writer *w, const check_method *k)
     };
     json_open(w, NULL, JSON_ON_ONE_LINE);
     json_put_text(w, "integrator", k->name);
-    json_put_flag(w, "accepted", !k->reason);
+    json_put_bool(w, "accepted", !k->reason);
     json_put_text(w, "reason", k->reason);
     json_open_list(w, "preserves", JSON_ON_ONE_LINE);
     for (int i = 0; i < CHECK_PRESERVED; i++)
@@ -207,7 +207,7 @@ static void put_check(const check *c)
     for (int k = 0; k < c->growth.levels; k++) json_put_integer(&w, NULL, c->growth.rank[k]);
     if (c->growth.levels > 0) json_close(&w);
     json_put_integer(&w, "growth_dimension", c->growth.dimension);
-    json_put_flag(&w, "growth_complete", c->growth.is_complete);
+    json_put_bool(&w, "growth_complete", c->growth.is_complete);
     json_open_list(&w, "methods", JSON_LINES);
     for (int i = 0; i < c->methods; i++) put_method(&w, &c->method[i]);
     json_close(&w);

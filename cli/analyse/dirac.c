@@ -230,7 +230,7 @@ static void put_gauge(json_writer *w, const dal_dirac *d)
         const dal_dirac_multiplier *mu = &d->multiplier[b];
         json_open(w, NULL, JSON_ON_ONE_LINE);
         json_put_text(w, "name", mu->name.text);
-        json_put_flag(w, "free", mu->is_free);
+        json_put_bool(w, "free", mu->is_free);
         json_put_text(w, "value", mu->is_free || !d->is_complete ? NULL : mu->value.text);
         json_close(w);
     }
@@ -267,7 +267,7 @@ static int print_json(const dirac_settings *settings, const dal_dirac *d)
     request_open_json(&w, s, ~UINT64_C(0));
     json_close(&w);
     json_put_text(&w, "effort", dal_effort_name(s->request.choices.effort));
-    json_put_flag(&w, "complete", d->is_complete);
+    json_put_bool(&w, "complete", d->is_complete);
     json_put_integer(&w, "phase_space", 2 * d->pairs);
     json_put_integer(&w, "stages", d->stages);
     json_put_integer(&w, "primary", d->primaries);

@@ -468,7 +468,7 @@ static void put_observable(json_writer *w, const dal_error_budget *e, int i,
     char words[512];
     json_put_text(w, "name", a->name);
     json_put_text(w, "sentence", dal_error_budget_summarise(e, i, words, sizeof words));
-    json_put_flag(w, "is_conserved", a->is_conserved != 0);
+    json_put_bool(w, "is_conserved", a->is_conserved != 0);
     json_put_number(w, "order", a->order);
     json_open_list(w, "runs", JSON_LINES);
     put_run(w, "all", e->steps, &a->whole);

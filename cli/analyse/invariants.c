@@ -204,8 +204,8 @@ static int print_screen(const invariants_settings *settings, const dal_invariant
 
 static void put_confirmation(json_writer *w, bool exact, bool any)
 {
-    json_put_flag(w, "exact", exact);
-    json_put_flag(w, "any_parameters", any);
+    json_put_bool(w, "exact", exact);
+    json_put_bool(w, "any_parameters", any);
     json_close(w);
 }
 
@@ -228,8 +228,8 @@ static int put_invariants(const invariants_settings *settings, const dal_invaria
         json_open(&w, NULL, JSON_ON_ONE_LINE);
         json_put_text(&w, "formula", i->formula);
         json_put_integer(&w, "terms", i->terms);
-        json_put_flag(&w, "independent", i->independent);
-        json_put_flag(&w, "new", i->is_new);
+        json_put_bool(&w, "independent", i->independent);
+        json_put_bool(&w, "new", i->is_new);
         put_confirmation(&w, i->exact, i->at_any_parameters);
     }
     json_close(&w);

@@ -141,7 +141,7 @@ static void put_exponents(json_writer *w, const lyapunov_results *r)
     json_close(w);
     dal_lyapunov_sum(r->spectrum, &a);
     put_mean(w, "sum", &a, NULL);
-    json_put_flag(w, "sum_is_of_all", dal_lyapunov_is_whole(r->spectrum));
+    json_put_bool(w, "sum_is_of_all", dal_lyapunov_is_whole(r->spectrum));
     dal_lyapunov_divergence(r->spectrum, &a);
     put_mean(w, "divergence", &a, NULL);
 }

@@ -235,8 +235,8 @@ static void put_observable(json_writer *w, const dal_prediction *of, int i)
     const dal_predicted *q = &of->predicted[i];
     json_open(w, NULL, JSON_ON_ONE_LINE);
     json_put_text(w, "name", q->name);
-    json_put_flag(w, "conserved", q->is_conserved);
-    json_put_flag(w, "zero_by_reversibility", q->is_zero);
+    json_put_bool(w, "conserved", q->is_conserved);
+    json_put_bool(w, "zero_by_reversibility", q->is_zero);
     json_put_number(w, "change", q->change);
     json_put_number(w, "max_change", q->max_change);
     json_put_number(w, "rate", q->rate);
@@ -263,7 +263,7 @@ static void put_prediction(json_writer *w, const prediction *item)
         json_put_text(w, "end_reason", dal_prediction_end_name(of->reason));
         json_put_text(w, "message", of->message[0] ? of->message : NULL);
         json_put_number(w, "in_phase", of->in_phase);
-        json_put_flag(w, "leaves_D", of->leaves_D);
+        json_put_bool(w, "leaves_D", of->leaves_D);
         json_put_text(w, "precision", of->is_quad ? "quad" : "double");
         json_put_text(w, "exact_motion", of->has_series ? "taylor" : "dop853");
         json_put_number(w, "unit_of_time", of->unit_of_time);

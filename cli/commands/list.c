@@ -142,7 +142,7 @@ static void put_system(json_writer *w, const char *name, const dal_system *syste
     json_put_integer(w, "constraints", system->m);
     json_put_text(w, "constraint_class", kind(system));
     json_put_text(w, "energy", energy(system));
-    json_put_flag(w, "exact", system->exact != NULL);
+    json_put_bool(w, "exact", system->exact != NULL);
     json_open(w, "parameters", JSON_ON_ONE_LINE);
     for (int i = 0; i < system->parameters; i++)
         json_put_number(w, system->parameter[i], system->value[i]);
@@ -251,7 +251,7 @@ static void put_integrators(json_writer *w, const selection *list)
         json_open(w, NULL, JSON_LINES);
         json_put_text(w, "integrator", k->name);
         json_put_text(w, "alias", k->alias);
-        json_put_flag(w, "is_modifier", (k->properties & DAL_MODIFIER) != 0);
+        json_put_bool(w, "is_modifier", (k->properties & DAL_MODIFIER) != 0);
         json_put_number(w, "order", k->order ? k->order : NAN);
         json_open_list(w, "properties", JSON_ON_ONE_LINE);
         put_properties(w, k->properties, qualities);

@@ -108,7 +108,7 @@ void json_put_text(json_writer *w, const char *name, const char *text)
     put_text(w, text);
 }
 
-void json_put_flag(json_writer *w, const char *name, bool flag)
+void json_put_bool(json_writer *w, const char *name, bool flag)
 {
     fputs(flag ? "true" : "false", json_put_name(w, name));
 }

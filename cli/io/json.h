@@ -33,7 +33,7 @@ void json_open_list(json_writer *writer, const char *name, json_layout layout);
 void json_close(json_writer *writer);
 /* Members of the present object or list. */
 void json_put_text(json_writer *writer, const char *name, const char *text); /* NULL: null */
-void json_put_flag(json_writer *writer, const char *name, bool flag);
+void json_put_bool(json_writer *writer, const char *name, bool flag);
 /* The fewest digits, 15 or more, that are read back as x; "null" where it is not finite. */
 enum { JSON_NUMBER = 32 };
 const char *json_format_number(char text[JSON_NUMBER], double x);

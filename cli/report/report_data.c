@@ -110,7 +110,7 @@ static void write_cell(json_writer *data, const study_page *s, int row, int step
     json_put_text(data, "integrator", get_cell(s, row, "integrator"));
     json_put_integer(data, "step", step);
     json_put_text(data, "run", run);
-    if (file_exists(path)) json_put_flag(data, "page", true);
+    if (file_exists(path)) json_put_bool(data, "page", true);
     for (int k = 0; k < REPORT_QUANTITIES; k++) {
         const quantity *t = &quantities[k];
         if (t->start == start && !is_cell(s, row, t->value, ""))

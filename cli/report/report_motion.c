@@ -284,7 +284,7 @@ static void write_shape(json_writer *data, const body_shape *shape)
     json_open(data, NULL, JSON_ON_ONE_LINE);
     write_pair(data, "pivot", shape->pivot);
     json_put_rounded(data, "turn", shape->turn);
-    json_put_flag(data, "narrowed", shape->is_narrowed);
+    json_put_bool(data, "narrowed", shape->is_narrowed);
     json_put_rounded(data, "radius", shape->radius);
     json_open_list(data, "line", JSON_ON_ONE_LINE);
     for (int i = 0; i < shape->count; i++) write_pair(data, NULL, shape->at[i]);
@@ -306,8 +306,8 @@ void motion_write(json_writer *data, const motion *m)
     json_put_rounded(data, "start", m->start);
     json_put_rounded(data, "end", m->end);
     json_put_integer(data, "frames", m->frames);
-    json_put_flag(data, "smooth", m->is_smooth);
-    json_put_flag(data, "plane", m->is_plane);
+    json_put_bool(data, "smooth", m->is_smooth);
+    json_put_bool(data, "plane", m->is_plane);
     json_open_list(data, "axes", JSON_ON_ONE_LINE);
     for (int i = 0; i < 2; i++) json_put_text(data, NULL, m->axis[i]);
     json_close(data);

@@ -388,7 +388,7 @@ static void put_curve(json_writer *data, const report_plot *plot, int i)
                   : curve->has_rings ? "rings"
                                      : "line");
     if (curve->is_black)
-        json_put_flag(data, "black", true);
+        json_put_bool(data, "black", true);
     else
         json_put_integer(data, "colour", curve->colour);
     if (same < i)
@@ -412,11 +412,11 @@ static int make_figure(report *r, const report_plot *plot)
     json_put_text(&data, "x", plot->xlabel);
     json_put_text(&data, "y", plot->ylabel);
     if (plot->part) json_put_text(&data, "part", plot->part);
-    if (plot->log_x) json_put_flag(&data, "logX", true);
-    if (plot->log_y) json_put_flag(&data, "logY", true);
-    if (plot->has_marks) json_put_flag(&data, "marks", true);
-    if (plot->is_to_scale) json_put_flag(&data, "toScale", true);
-    if (plot->from_zero) json_put_flag(&data, "fromZero", true);
+    if (plot->log_x) json_put_bool(&data, "logX", true);
+    if (plot->log_y) json_put_bool(&data, "logY", true);
+    if (plot->has_marks) json_put_bool(&data, "marks", true);
+    if (plot->is_to_scale) json_put_bool(&data, "toScale", true);
+    if (plot->from_zero) json_put_bool(&data, "fromZero", true);
     if (plot->rows > 0) {
         json_open_list(&data, "rows", JSON_ON_ONE_LINE);
         for (int i = 0; i < plot->rows; i++) json_put_text(&data, NULL, plot->row[i]);

@@ -80,7 +80,7 @@ int manifest_write(const run_directory *dir, const run_simulation *s, const run_
     json_put_integer(&m.json, "rows", position->row);
     json_put_integer(&m.json, "steps", dal_run_steps(run));
     json_put_integer(&m.json, "evaluations", dal_run_evaluations(run));
-    json_put_source(&m.json, "native", dal_run_is_native(run) ? "true" : "false");
+    json_put_bool(&m.json, "native", dal_run_is_native(run));
     json_put_number(&m.json, "seconds", position->seconds);
     if (message[0]) json_put_text(&m.json, "message", message);
     return store_end_manifest(&m, dir->manifest, dir->sync);

@@ -207,8 +207,8 @@ void steer_put_json(FILE *out, const steer_results *r)
     request_open_json(&w, simulation, STEER_WITHOUT);
     request_put_settings(&w, "target", &r->set->target);
     json_put_text(&w, "free", r->set->free_starts);
-    json_put_flag(&w, "rest", r->set->rest);
-    json_put_flag(&w, "aim", r->set->aim);
+    json_put_bool(&w, "rest", r->set->rest);
+    json_put_bool(&w, "aim", r->set->aim);
     json_put_integer(&w, "starts", r->set->starts);
     json_put_integer(&w, "seed", r->set->seed);
     json_put_integer(&w, "max_iterations", r->set->iterations);
