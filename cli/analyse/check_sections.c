@@ -174,7 +174,7 @@ static void check_classes(check *c, const dal_constraint_class *d)
     const struct {
         unsigned property;
         const char *what;
-        int found;
+        bool found;
     } classes[] = {
         {DAL_D_LINEAR, "D affine in v", d->linear},
         {DAL_D_CONSTANT, "D linear, constant coefficients", d->constant},
@@ -182,8 +182,8 @@ static void check_classes(check *c, const dal_constraint_class *d)
         {DAL_D_QUADRATIC, "D quadratic in (q,v)", d->quadratic},
     };
     for (size_t k = 0; k < sizeof classes / sizeof classes[0]; k++) {
-        const int claimed = (c->system->properties & classes[k].property) != 0;
-        const int found = classes[k].found;
+        const bool claimed = (c->system->properties & classes[k].property) != 0;
+        const bool found = classes[k].found;
         const check_result result = !claimed ? CHECK_INFO : found ? CHECK_OK : CHECK_FAIL;
         check_item(c, result, classes[k].what, "%s%s", found ? "yes" : "no",
                    claimed == found ? ""

@@ -91,13 +91,13 @@ size_t file_transfer(int descriptor, void *bytes, size_t length, off_t place, fi
     return done;
 }
 
-static int write_all(int descriptor, const void *bytes, size_t length, file_sync sync)
+static bool write_all(int descriptor, const void *bytes, size_t length, file_sync sync)
 {
     const char *from = bytes;
     while (length) {
         ssize_t n = write(descriptor, from, length);
         if (n < 0 && errno == EINTR) continue;
-        if (n < 0) return 0;
+        if (n < 0) return false;
         from += n;
         length -= (size_t)n;
     }
@@ -121,10 +121,10 @@ void file_sync_directory(const char *path)
 int file_write_and_close(int descriptor, const char *path, const void *bytes, size_t length,
                          file_sync sync)
 {
-    int written = write_all(descriptor, bytes, length, sync);
+    bool written = write_all(descriptor, bytes, length, sync);
     int reason = errno;
     if (close(descriptor) != 0 && written) {
-        written = 0;
+        written = false;
         reason = errno;
     }
     errno = reason;
@@ -176,7 +176,7 @@ void cli_put_text(FILE *out, const char *text)
         fputs(text, out);
 }
 
-int cli_ends_in(const char *text, const char *ending)
+bool cli_ends_in(const char *text, const char *ending)
 {
     size_t n = strlen(text), m = strlen(ending);
     return n >= m && strcmp(text + n - m, ending) == 0;

@@ -43,7 +43,7 @@ void cli_put_known(FILE *out, double x);
 /* Writes a cell of a CSV file; one with a comma or a quote in it is quoted, as RFC 4180 has it.
  * Control characters become blanks, so that a row is a line. */
 void cli_put_text(FILE *out, const char *text);
-int cli_ends_in(const char *text, const char *ending);
+bool cli_ends_in(const char *text, const char *ending);
 /* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
 int cli_directory(const char *path);
 /* Returns CLI_DONE where a directory is there, else prints and returns CLI_USAGE. */

@@ -157,22 +157,22 @@ static char *parse_name(char **at)
 }
 
 /* The names are moved to the beginning of the text, for name[0] to own it. */
-static int parse_header(trajectory_reader *r, char *text)
+static bool parse_header(trajectory_reader *r, char *text)
 {
     static const char begin[] = "{'descr': [", end[] = "], 'fortran_order': False,";
     size_t max = 1;
-    if (strncmp(text, begin, sizeof begin - 1) != 0) return 0;
+    if (strncmp(text, begin, sizeof begin - 1) != 0) return false;
     for (const char *p = text; *p; p++) max += *p == '(';
     r->name = cli_calloc(max, sizeof *r->name);
     char *at = text + sizeof begin - 1, *to = text;
     while (*at != ']') {
         char *name = parse_name(&at);
-        if (!name) return 0;
+        if (!name) return false;
         r->name[r->columns++] = memmove(to, name, strlen(name) + 1);
         to += strlen(to) + 1;
         if (*at == ',') at++;
     }
-    if (!r->columns || strncmp(at, end, sizeof end - 1) != 0) return 0;
+    if (!r->columns || strncmp(at, end, sizeof end - 1) != 0) return false;
     at = strstr(at, "'shape': (");
     return at && sscanf(at, "'shape': (%lld,)", &r->count) == 1 && r->count >= 0;
 }
@@ -200,7 +200,7 @@ static int read_header(trajectory_reader *r)
 
 static int failed(trajectory_writer *writer)
 {
-    writer->failed = 1;
+    writer->failed = true;
     return cli_io("write", writer->path);
 }
 
@@ -214,7 +214,7 @@ static off_t place_of(const trajectory_writer *writer, long long row)
 }
 
 /* Writes the number of rows into the last line of the header, which alone changes. */
-static int write_rows_number(trajectory_writer *writer)
+static bool write_rows_number(trajectory_writer *writer)
 {
     const size_t place = writer->header_length - NPY_LINE;
     set_rows(writer, writer->rows);
@@ -274,10 +274,10 @@ int writer_verify(const trajectory_writer *writer, long long rows, const row_sum
     if (rows == 0) return CLI_DONE;
     const size_t length = writer->header_length - NPY_LINE;
     char *text = cli_malloc(length);
-    const int same = pread(writer->descriptor, text, length, 0) == (ssize_t)length &&
-                     memcmp(text, writer->header, length) == 0;
+    const bool is_same = pread(writer->descriptor, text, length, 0) == (ssize_t)length &&
+                         memcmp(text, writer->header, length) == 0;
     free(text);
-    if (!same) return cli_fail(CLI_USAGE, "'%s': its columns are not the run's", writer->path);
+    if (!is_same) return cli_fail(CLI_USAGE, "'%s': its columns are not the run's", writer->path);
     const int status = sum_rows(writer, rows, &found);
     if (status != CLI_DONE || memcmp(&found, sum, sizeof found) == 0) return status;
     return cli_fail(CLI_USAGE, "'%s': its first %lld rows were changed since the checkpoint",

@@ -16,7 +16,8 @@ typedef struct row_sum {
 
 typedef struct trajectory_writer {
     const char *path; /* the caller's */
-    int columns, failed;
+    int columns;
+    bool failed;
     FILE *file; /* of CSV; NULL for .npy, of which the rest is */
     int descriptor;
     char *header; /* its last 64 bytes have the number of rows; the rows begin after it */

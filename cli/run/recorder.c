@@ -176,17 +176,17 @@ typedef struct progress_line {
     int length, capacity;
 } progress_line;
 
-static CLI_PRINTF(2, 3) int append_piece(progress_line *line, const char *format, ...)
+static CLI_PRINTF(2, 3) bool append_piece(progress_line *line, const char *format, ...)
 {
     char piece[LINE];
     va_list list;
     va_start(list, format);
     const int n = vsnprintf(piece, sizeof piece, format, list);
     va_end(list);
-    if (n < 0 || line->length + n > line->capacity) return 0;
+    if (n < 0 || line->length + n > line->capacity) return false;
     memcpy(line->text + line->length, piece, (size_t)n + 1);
     line->length += n;
-    return 1;
+    return true;
 }
 
 /* Seconds to the end, if the steps take as long as the steps of this process took so far. */
@@ -249,15 +249,15 @@ static void show_json(const run_recorder *r, double t)
     fputc('\n', w.out);
 }
 
-/* Shows the time that the run has reached, not too often; JSON always has the end. */
-static void show_progress(run_recorder *r, double t, int at_the_end)
+/* Shows the time that the run has reached, not too often. */
+static void show_progress(run_recorder *r, double t)
 {
-    const int json = r->progress == PROGRESS_JSON;
+    const bool is_json = r->progress == PROGRESS_JSON;
     const double now = cli_seconds();
-    if (r->progress == PROGRESS_OFF || (!json && (r->no_line || at_the_end))) return;
-    if (!at_the_end && now - r->shown < (json ? json_interval : line_interval)) return;
+    if (r->progress == PROGRESS_OFF || (!is_json && r->no_line)) return;
+    if (now - r->shown < (is_json ? json_interval : line_interval)) return;
     r->shown = now;
-    if (json)
+    if (is_json)
         show_json(r, t);
     else
         show_line(r, t);
@@ -370,7 +370,7 @@ static dal_status poll(void *user, dal_run *run)
     enum { MAX_POLLING = 1024 };
     const double too_soon = 0.01, too_late = 0.1;
     run_recorder *r = user;
-    const int stop = r->stop(r->stop_user);
+    const bool stop = r->stop(r->stop_user);
     dal_status status = DAL_STATUS_OK;
     const double seconds = stop_clock(r);
     if (seconds < too_soon && r->observer.polling < MAX_POLLING) r->observer.polling *= 2;
@@ -379,7 +379,7 @@ static dal_status poll(void *user, dal_run *run)
         status = library_status(r, save_and_sync(r));
     else if (r->dir && stop)
         status = library_status(r, save(r));
-    show_progress(r, dal_run_time(run), 0);
+    show_progress(r, dal_run_time(run));
     native_poll(&r->native);
     r->clock = cli_seconds();
     return status == DAL_STATUS_OK && stop ? DAL_STATUS_INTERRUPTED : status;
@@ -468,7 +468,7 @@ int recorder_run(run_recorder *r, dal_error *error)
         dal_run_sample(run, s->end, s->samples, r->results.position.row, &r->observer, error);
     stop_clock(r);
     if (r->progress != PROGRESS_OFF) cli_progress_end();
-    show_progress(r, dal_run_time(run), 1);
+    if (r->progress == PROGRESS_JSON) show_json(r, dal_run_time(run));
     dal_run_classify(run, r->results.statistics,
                      status != DAL_STATUS_OK && status != DAL_STATUS_STOPPED, r->results.trend);
     return write_end(r, end_status(r, status, error), error->message);

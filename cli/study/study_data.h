@@ -69,8 +69,8 @@ typedef struct study_cell {
     const dal_method *method;
     double step, tolerance; /* tolerance: of the key; 0: as the options say */
     int start;
-    char *name;      /* also of its directory */
-    int other_shard; /* it belongs to another shard */
+    char *name;       /* also of its directory */
+    bool other_shard; /* it belongs to another shard */
     study_state state;
     dal_error error;
     double time; /* reached */
@@ -129,9 +129,9 @@ typedef struct study_case {
     double step[STUDY_STEPS], from, time, displacement; /* time: NaN: not given, but: */
     double tolerance[STUDY_TOLERANCES]; /* positive; of the methods that control their error */
     long long run_steps;                /* steps of each run; 0: not given, but time */
-    int rows;                           /* a study_rows */
-    int predict;                        /* 1: cells have predictions, too */
-    int steps, tolerances, starts;      /* tolerances: 0: the options; starts: bit STUDY_x set */
+    study_rows rows;
+    bool predict;                  /* cells have predictions, too */
+    int steps, tolerances, starts; /* tolerances: 0: the options; starts: bit STUDY_x set */
     long long samples, statistics;
     dal_options options;                   /* but step and space, and as they were given: */
     const char *option[REQUEST_OPTIONS];   /* NULL: not given */

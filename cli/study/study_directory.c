@@ -96,7 +96,7 @@ static int write_manifest(const study_directory *dir, const study_plan *plan, st
 /* Whether cells of a case have something there. */
 static bool is_stored(const study_case *e, study_stored what)
 {
-    return what == STUDY_STORED_RUNS ? e->rows == STUDY_ROWS_NONE : e->predict != 0;
+    return what == STUDY_STORED_RUNS ? e->rows == STUDY_ROWS_NONE : e->predict;
 }
 
 /* The keys of the cells, once for all directories of the plan. */

@@ -185,7 +185,7 @@ int study_merge(const char *const *sources, int count, const char *output, int t
         if (status == CLI_DONE)
             status = study_directory_open_results(&m.source[i], &m.plan, m.results[i]);
     }
-    for (int i = 0; i < m.plan.cell_count; i++) m.plan.cells[i].other_shard = 0;
+    for (int i = 0; i < m.plan.cell_count; i++) m.plan.cells[i].other_shard = false;
     for (int i = 0; i < m.plan.cell_count && status == CLI_DONE; i++) status = find_run(&m, i);
     if (status == CLI_DONE) status = begin_target(&m, force);
     if (status == CLI_DONE) status = copy_runs(&m);

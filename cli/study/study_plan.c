@@ -158,13 +158,19 @@ static int read_starts(void *user, const document *doc, yaml_node_t *value, cons
     return e->starts ? CLI_DONE : document_fail(doc, value, "starts: the list is empty");
 }
 
-/* One of two words, as 0 or 1. */
-static int read_switch(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+static int read_rows(void *user, const document *doc, yaml_node_t *value, const document_key *key)
 {
-    static const char *const rows[] = {"kept", "none"}, *const flags[] = {"off", "on"};
-    const bool is_rows = key->offset == offsetof(parsed_study, item.rows);
-    const int word = document_word(doc, value, key->name, is_rows ? rows : flags, 2);
-    *(int *)((char *)user + key->offset) = word;
+    static const char *const words[] = {"kept", "none"};
+    const int word = document_word(doc, value, key->name, words, 2);
+    *(study_rows *)((char *)user + key->offset) = word == 1 ? STUDY_ROWS_NONE : STUDY_ROWS_KEPT;
+    return word < 0 ? CLI_USAGE : CLI_DONE;
+}
+
+static int read_flag(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+{
+    static const char *const words[] = {"off", "on"};
+    const int word = document_word(doc, value, key->name, words, 2);
+    *(bool *)((char *)user + key->offset) = word == 1;
     return word < 0 ? CLI_USAGE : CLI_DONE;
 }
 

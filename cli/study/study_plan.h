@@ -35,9 +35,9 @@ char *study_plan_copy_path(const char *directory, const study_case *item);
     KEY(steps, "both", read_end, item.run_steps, "or take this number of steps; excludes time")    \
     KEY(from, "both", document_read_number, item.from, "the time of the start (0)")                \
     KEY(samples, "both", document_read_count, item.samples, "rows kept of each run (400)")         \
-    KEY(rows, "both", read_switch, item.rows,                                                      \
+    KEY(rows, "both", read_rows, item.rows,                                                        \
         "kept (default), or none: many short runs leave their results, and no files each")         \
-    KEY(predict, "both", read_switch, item.predict, "on: single steps predict each run (off)")     \
+    KEY(predict, "both", read_flag, item.predict, "on: single steps predict each run (off)")       \
     KEY(statistics, "both", document_read_count, item.statistics,                                  \
         "observe the quantities after every K-th step (1)")                                        \
     KEY(seeds, "both", document_read_node, seeds,                                                  \

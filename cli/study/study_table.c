@@ -22,7 +22,7 @@ typedef struct table_row {
     const study_plan *plan;
     const study_cell *cell;
     study_quantities q;
-    int only; /* there is no lifted form of the method */
+    bool only; /* there is no lifted form of the method */
 } table_row;
 
 /* ---- columns ------------------------------------------------------------------------------- */
@@ -182,7 +182,7 @@ void study_print_case(FILE *out, const study_plan *plan, const study_case *e)
     for (int h = 0; h < e->steps; h++)
         for (int start = 0; start < STUDY_STARTS; start++) {
             /* The numbers on the surface describe (q,v); the files hold both. */
-            int repeats = start == STUDY_PHYSICAL && e->starts & 1 << STUDY_SURFACE;
+            const bool repeats = start == STUDY_PHYSICAL && e->starts & 1 << STUDY_SURFACE;
             if (e->starts & 1 << start && !repeats) print_tables(out, plan, e, e->step[h], start);
         }
 }

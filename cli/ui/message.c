@@ -160,12 +160,12 @@ int cli_io(const char *verb, const char *path)
 int cli_close(FILE *out, const char *path)
 {
     /* A full disk may show only when the buffer is flushed, and a network one only at close. */
-    int failed = ferror(out);
+    bool failed = ferror(out) != 0;
     errno = failed ? EIO : 0;
-    if (fflush(out) != 0) failed = 1;
+    if (fflush(out) != 0) failed = true;
     int reason = errno;
     if (out != stdout && fclose(out) != 0 && !failed) {
-        failed = 1;
+        failed = true;
         reason = errno;
     }
     errno = reason;
