@@ -121,7 +121,7 @@ void report_file(report *r, const char *name, const char *summary)
 /* ---- figures ------------------------------------------------------------------------------- */
 
 /* Three bytes are four letters (RFC 4648). */
-void report_base64(FILE *page, const char *bytes, size_t length)
+static void write_base64(FILE *page, const char *bytes, size_t length)
 {
     static const char letters[] =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -143,7 +143,7 @@ void report_put_levels(json_writer *data, const char *name, const uint16_t *leve
         bytes[2 * i + 1] = (char)(level[i] >> 8);
     }
     fputc('"', page);
-    report_base64(page, bytes, 2 * (size_t)count);
+    write_base64(page, bytes, 2 * (size_t)count);
     fputc('"', page);
     free(bytes);
 }
@@ -174,7 +174,7 @@ bool report_begin_figure(report *r, const char *title, const char *caption)
 
 /* ---- the page ------------------------------------------------------------------------------ */
 
-int report_open(report *r)
+static int open_page(report *r)
 {
     r->place = cli_join(r->directory, "report");
     int status = cli_directory(r->place);
@@ -222,7 +222,7 @@ void report_subheading(report *r, const char *id, const char *heading)
     add_contents(r, id, heading, " class=\"part\"");
 }
 
-int report_close(report *r)
+static int close_page(report *r)
 {
     const bool has_charts = r->figures > 0 && r->charts.script;
     if (!r->page) return CLI_DONE;
@@ -266,9 +266,9 @@ int report_close(report *r)
 
 int report_make(report *r, int (*write)(report *r))
 {
-    int status = report_open(r);
+    int status = open_page(r);
     if (status == CLI_DONE) status = write(r);
-    const int closed = report_close(r);
+    const int closed = close_page(r);
     cli_progress_end();
     return status == CLI_DONE ? closed : status;
 }

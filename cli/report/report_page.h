@@ -42,8 +42,6 @@ struct report {
 };
 
 /* All that return an int return CLI_DONE, or print and return an exit status. */
-int report_open(report *r);
-int report_close(report *r);
 /* Makes the page of r->directory, opened and closed; the caller frees r->place and r->page_path. */
 int report_make(report *r, int (*write)(report *r));
 /* The page of a directory after a command that wrote it and ended with this exit status.  Returns
@@ -59,8 +57,7 @@ void report_subheading(report *r, const char *id, const char *heading);
  * line ends; the same in an element. */
 void report_text(FILE *page, const char *text);
 void report_element(FILE *page, const char *element, const char *text);
-/* Bytes as base64; integers of 16 bits, little-endian, as a text of JSON in base64. */
-void report_base64(FILE *page, const char *bytes, size_t length);
+/* Integers of 16 bits, little-endian, as a text of JSON in base64. */
 void report_put_levels(json_writer *data, const char *name, const uint16_t *level, int count);
 /* A table has its heads between REPORT_TABLE and REPORT_ROWS, then rows that begin with a name. */
 #define REPORT_TABLE     "<div class=\"wide\" tabindex=\"0\"><table><thead><tr>"
@@ -75,7 +72,7 @@ const char *report_colour(screen_colour colour);
  * of it.  Without both it holds the number alone; without x (NaN) the words; note: beside them. */
 void report_trend(FILE *page, const char *size, const char *trend, double x, const char *note);
 /* A file of the directory, word for word, folded; nothing where there is none.  Without one that
- * cannot be read report_close fails. */
+ * cannot be read report_make fails. */
 void report_file(report *r, const char *name, const char *summary);
 /* Begins a figure, whose data the caller writes; false: the library of charts is not installed, and
  * the page says so once. */

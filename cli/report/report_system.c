@@ -23,7 +23,8 @@ void report_fact(FILE *page, const char *name, const char *text)
     fputc('\n', page);
 }
 
-bool report_equations(FILE *page, dal_model *model)
+/* The equations of a model as MathML; false: they cannot be typeset, and nothing is written. */
+static bool typeset_equations(FILE *page, dal_model *model)
 {
     char *equations;
     if (dal_model_mathml(model, &equations, NULL) != DAL_STATUS_OK) return false;
@@ -35,7 +36,7 @@ bool report_equations(FILE *page, dal_model *model)
 void report_folded_equations(FILE *page, dal_model *model)
 {
     fputs("<details><summary>Equations</summary>\n", page);
-    if (!report_equations(page, model)) report_element(page, "p", "They cannot be typeset.");
+    if (!typeset_equations(page, model)) report_element(page, "p", "They cannot be typeset.");
     fputs("</details>\n", page);
 }
 
@@ -105,7 +106,7 @@ static void write_equations(FILE *page, dal_model *model)
 {
     report_element(page, "dt", "equations");
     fputs("<dd>", page);
-    const bool are_typeset = report_equations(page, model);
+    const bool are_typeset = typeset_equations(page, model);
     fputs("</dd>\n", page);
     if (are_typeset) return;
     write_formulas(page, model, DAL_SECTION_LAGRANGIAN, "Lagrangian", "L", "");

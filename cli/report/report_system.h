@@ -10,9 +10,7 @@
 
 /* The title of a model, or another text where it has none. */
 const char *report_model_title(const dal_model *model, const char *otherwise);
-/* The equations of a model as MathML; false: they cannot be typeset, and nothing is written. */
-bool report_equations(FILE *page, dal_model *model);
-/* The same below a summary that shows them. */
+/* The equations of a model as MathML, below a summary that shows them. */
 void report_folded_equations(FILE *page, dal_model *model);
 /* A list between REPORT_FACTS and REPORT_FACTS_END: the equations of a model, other formulas as
  * they were given, parameters and start as a request changes them, its method and its options. */

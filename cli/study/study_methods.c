@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool study_has_method(const study_case *e, const dal_method *method)
+static bool has_method(const study_case *e, const dal_method *method)
 {
     char name[STUDY_NAME], other[STUDY_NAME];
     dal_method_name(method, name, sizeof name);
@@ -30,7 +30,7 @@ bool study_find_method(const study_plan *plan, const char *name, dal_method *met
 {
     const study_case *const end = plan->cases + plan->case_count;
     for (const study_case *e = plan->cases; e < end; e++)
-        if (study_has_method(e, method)) return true;
+        if (has_method(e, method)) return true;
     for (const study_case *e = plan->cases; e < end; e++)
         for (int k = 0; k < e->method_count; k++) {
             if (!study_completes_to(e, name, &e->methods[k])) continue;
@@ -49,7 +49,7 @@ void study_complete_methods(study_case *e)
         bool added = false;
         dal_method_complete(&method, e->system, &e->options, &added, NULL);
         e->is_projected |= added;
-        if (!study_has_method(e, &method)) e->methods[e->method_count++] = method;
+        if (!has_method(e, &method)) e->methods[e->method_count++] = method;
     }
 }
 
@@ -69,7 +69,7 @@ static int add_method(study_case *e, const document *doc, const yaml_node_t *nod
     e->methods = cli_realloc(e->methods, count * sizeof *e->methods);
     if (dal_method_parse(&e->methods[e->method_count], name, &error) != DAL_STATUS_OK)
         return document_fail(doc, node, "%s", error.message);
-    if (!study_has_method(e, &e->methods[e->method_count])) e->method_count++;
+    if (!has_method(e, &e->methods[e->method_count])) e->method_count++;
     return CLI_DONE;
 }
 

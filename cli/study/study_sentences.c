@@ -45,7 +45,7 @@ void study_name_columns(const study_matrix *m, int letters, char (*name)[STUDY_S
     }
 }
 
-const char *study_mark(const dal_trend *trend)
+static const char *mark_of_growth(const dal_trend *trend)
 {
     static const char *const marks[DAL_TREND_COUNT] = {
         [DAL_TREND_NONE] = "",     [DAL_TREND_SETTLES] = "",    [DAL_TREND_RANDOM_WALK] = "~",
@@ -76,7 +76,7 @@ screen_colour study_describe_size(const study_cell *c, int quantity, char text[S
         snprintf(text, STUDY_SIZE_TEXT, "ok");
         return SCREEN_ROUNDING;
     }
-    snprintf(text, STUDY_SIZE_TEXT, "%s%s", size, study_mark(trend));
+    snprintf(text, STUDY_SIZE_TEXT, "%s%s", size, mark_of_growth(trend));
     return screen_colour_of(x);
 }
 

@@ -17,7 +17,8 @@ bool name_is_of_family(const char *a, const char *b)
     }
 }
 
-bool name_is_like(const char *a, const char *b)
+/* Whether two names have the same modifiers, or, without any, are of one family. */
+static bool is_like(const char *a, const char *b)
 {
     const char *modifiers_a = strchr(a, '+'), *modifiers_b = strchr(b, '+');
     if (!modifiers_a || !modifiers_b)
@@ -36,7 +37,7 @@ char *name_patterns(const char *const *names, const bool *is_in, int count, int 
         if (j < count && !is_in[i] && outside++ < FEW) out[outside - 1] = i;
         int size = 0, inside = 0, first = i;
         for (int k = count - 1; k >= 0; k--) {
-            if (k != i && !name_is_like(names[i], names[k])) continue;
+            if (k != i && !is_like(names[i], names[k])) continue;
             size++;
             inside += is_in[k];
             first = k;
