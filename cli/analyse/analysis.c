@@ -27,7 +27,7 @@ int analysis_open(analysis_output *output, const char *path, const char *name)
     char *file = cli_format("%s.csv", name);
     output->table = cli_join(path, file);
     free(file);
-    return cli_directory(path);
+    return file_make_directory(path);
 }
 
 void analysis_close(analysis_output *output, int exit_status)
@@ -99,12 +99,4 @@ double analysis_distance(const double *a, const double *b, const double *units, 
         max = gap <= max ? max : isnan(gap) ? INFINITY : gap;
     }
     return max;
-}
-
-void analysis_put_cells(FILE *out, const double *numbers, int count)
-{
-    for (int i = 0; i < count; i++) {
-        fputc(',', out);
-        cli_put_known(out, numbers[i]);
-    }
 }

@@ -52,7 +52,4 @@ void analysis_list_branches(dal_model *model,
  * number. */
 double analysis_distance(const double *a, const double *b, const double *units, int count);
 
-/* Writes cells of a CSV file, each after a comma; those that are not a number stay empty. */
-void analysis_put_cells(FILE *out, const double *numbers, int count);
-
 #endif

@@ -3,7 +3,7 @@
 #include "analysis.h"
 #include "dalembert_budget.h"
 #include "dalembert_predict.h"
-#include "io/file.h"
+#include "io/csv_cells.h"
 #include "io/file_output.h"
 #include "io/trend.h"
 #include "run/request_json.h"
@@ -390,11 +390,11 @@ static void write_run(FILE *out, const char *observable, const char *name, long 
                       const dal_trend *f)
 {
     const double numbers[] = {f->rate, f->rate_low, f->rate_high, f->deviation};
-    cli_put_text(out, observable);
+    csv_put_text(out, observable);
     fprintf(out, ",run,%s,%lld,,", name, steps);
-    analysis_put_cells(out, numbers, 4);
+    csv_put_cells(out, numbers, 4);
     fprintf(out, ",%s,%s,", cli_size_word(f), cli_trend_word(f));
-    if (f->conservation == DAL_CONSERVED) cli_put_known(out, f->confidence);
+    if (f->conservation == DAL_CONSERVED) csv_put_known(out, f->confidence);
     fputs(",\n", out);
 }
 
@@ -410,12 +410,12 @@ static void write_observable(FILE *out, const dal_error_budget *e, int i)
                       &a->comparison[k]);
     for (int k = 0; k < DAL_ERROR_SOURCES; k++) {
         const double numbers[] = {a->share[k], a->margin[k]};
-        cli_put_text(out, a->name);
+        csv_put_text(out, a->name);
         fprintf(out, ",source,%s,%lld", dal_error_source_name((dal_error_source)k),
                 steps_of_share(e, k));
-        analysis_put_cells(out, numbers, 2);
+        csv_put_cells(out, numbers, 2);
         fputs(",,,,,,,,", out);
-        cli_put_text(out,
+        csv_put_text(out,
                      dal_error_budget_describe(e, i, (dal_error_source)k, words, sizeof words));
         fputc('\n', out);
     }

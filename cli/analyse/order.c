@@ -4,7 +4,7 @@
  * and two diagrams. */
 #include "order.h"
 #include "analysis.h"
-#include "io/file.h"
+#include "io/csv_cells.h"
 #include "io/file_output.h"
 #include "order_screen.h"
 #include "run/pool.h"
@@ -476,14 +476,14 @@ static void write_level(FILE *out, const order_study *s, const order_method *m, 
         has_run ? (double)order_count_steps(s, h) : NAN, has_run ? m->order.error[level] : NAN,
         has_run ? m->order.slope[level] : NAN,
         succeeded ? (double)m->order.evaluations[level] : NAN, succeeded ? m->seconds[level] : NAN};
-    cli_put_text(out, s->simulation->request.system_name);
+    csv_put_text(out, s->simulation->request.system_name);
     fputc(',', out);
-    cli_put_text(out, m->name);
+    csv_put_text(out, m->name);
     fprintf(out, ",%d", dal_method_order(&m->method));
-    analysis_put_cells(out, first, s->set->tolerances ? 3 : 2);
-    analysis_put_cells(out, cells, sizeof cells / sizeof *cells);
+    csv_put_cells(out, first, s->set->tolerances ? 3 : 2);
+    csv_put_cells(out, cells, sizeof cells / sizeof *cells);
     fprintf(out, ",%s,", state_words[succeeded ? ORDER_DONE : has_run ? ORDER_FAILED : m->state]);
-    cli_put_text(out, has_run ? m->failure[level].message : order_failure_message(s, m));
+    csv_put_text(out, has_run ? m->failure[level].message : order_failure_message(s, m));
     fputc('\n', out);
 }
 

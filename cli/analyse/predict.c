@@ -2,6 +2,7 @@
 #include "predict.h"
 #include "analysis.h"
 #include "dalembert_predict.h"
+#include "io/csv_cells.h"
 #include "io/file_output.h"
 #include "run/request_json.h"
 #include "ui/memory.h"
@@ -312,7 +313,7 @@ static int write_curves(const predictions *p)
         has_head = true;
         for (long long r = 0; r < of->rows; r++) {
             fprintf(output.stream, "%s,%.15g,%.15g", method, p->item[i].step, of->t[r]);
-            analysis_put_cells(output.stream, of->change + r * of->observables, of->observables);
+            csv_put_cells(output.stream, of->change + r * of->observables, of->observables);
             fputc('\n', output.stream);
         }
     }

@@ -189,7 +189,7 @@ static int find_fingerprint(ensemble_directory *dir, const ensemble *e)
 int ensemble_directory_write_messages(const ensemble_directory *dir, int chunk, const char *text)
 {
     char *path = cli_format("%s/%d", dir->messages, chunk);
-    int status = cli_directory(dir->messages);
+    int status = file_make_directory(dir->messages);
     if (status == CLI_DONE) status = file_replace(path, text, strlen(text), FILE_SYNCED);
     free(path);
     return status;

@@ -4,6 +4,7 @@
  * One column at one time is read at once: 8 bytes for each member and thread. */
 #include "ensemble_statistics.h"
 #include "dalembert_program.h"
+#include "io/csv_cells.h"
 #include "io/file.h"
 #include "io/file_output.h"
 #include "run/pool.h"
@@ -150,14 +151,8 @@ static int write_table(const statistics *s, const char *path,
 /* Time and column of component i. */
 static void put_place(FILE *out, const ensemble *e, int i)
 {
-    cli_put(out, e->time[i / e->columns]);
+    csv_put(out, e->time[i / e->columns]);
     fprintf(out, ",%s", e->column[i % e->columns]);
-}
-
-static void put_further(FILE *out, double value)
-{
-    fputc(',', out);
-    cli_put_known(out, value);
 }
 
 static int put_statistics(FILE *out, const statistics *s)
@@ -170,11 +165,10 @@ static int put_statistics(FILE *out, const statistics *s)
         const component *c = &s->component[i];
         put_place(out, e, i);
         fprintf(out, ",%lld", c->spread.count);
-        put_further(out, c->spread.mean);
-        put_further(out, c->spread.deviation);
-        put_further(out, c->spread.min);
-        for (int k = 0; k < e->quantiles; k++) put_further(out, c->quantile[k]);
-        put_further(out, c->spread.max);
+        const double spread[] = {c->spread.mean, c->spread.deviation, c->spread.min};
+        csv_put_cells(out, spread, 3);
+        csv_put_cells(out, c->quantile, e->quantiles);
+        csv_put_cells(out, &c->spread.max, 1);
         fputc('\n', out);
     }
     return CLI_DONE;
@@ -188,7 +182,7 @@ static int put_covariance(FILE *out, const statistics *s)
     fputc('\n', out);
     for (int i = 0; i < e->times * e->columns; i++) {
         put_place(out, e, i);
-        for (int k = 0; k < e->columns; k++) put_further(out, s->covariance[i * e->columns + k]);
+        csv_put_cells(out, s->covariance + i * e->columns, e->columns);
         fputc('\n', out);
     }
     return CLI_DONE;
@@ -204,8 +198,7 @@ static int put_histograms(FILE *out, const statistics *s)
         for (int k = 0; k < BINS && c->spread.count > 0; k++) {
             if (width == 0.0 && k > 0) break;
             put_place(out, e, i);
-            put_further(out, min + k * width);
-            put_further(out, min + (k + 1) * width);
+            csv_put_cells(out, (double[]){min + k * width, min + (k + 1) * width}, 2);
             fprintf(out, ",%lld\n", c->bin[k]);
         }
     }
@@ -225,11 +218,11 @@ static int put_cloud(FILE *out, const statistics *s)
         for (long long i = 0; i < count && status == CLI_DONE; i++) {
             const double *row = rows + i * e->columns;
             if (!isfinite(row[e->axis[0]])) continue;
-            cli_put(out, e->time[t]);
+            csv_put(out, e->time[t]);
             fprintf(out, ",%lld", i);
             for (int k = 0; k < 2; k++) {
                 fputc(',', out);
-                cli_put(out, row[e->axis[k]]);
+                csv_put(out, row[e->axis[k]]);
             }
             fputc('\n', out);
         }
@@ -245,15 +238,15 @@ static void put_failure(FILE *out, const ensemble *e, long long member, const do
                         const char *message)
 {
     fprintf(out, "%lld,", member);
-    cli_put(out, row[MEMBER_TIME]);
+    csv_put(out, row[MEMBER_TIME]);
     fputc(',', out);
-    cli_put_text(out, dal_status_text((dal_status)row[MEMBER_STATUS]));
+    csv_put_text(out, dal_status_text((dal_status)row[MEMBER_STATUS]));
     for (int k = MEMBER_DRAWN; k < ensemble_member_columns(e); k++) {
         fputc(',', out);
-        cli_put(out, row[k]);
+        csv_put(out, row[k]);
     }
     fputc(',', out);
-    cli_put_text(out, message);
+    csv_put_text(out, message);
     fputc('\n', out);
 }
 

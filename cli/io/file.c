@@ -1,18 +1,14 @@
-/* file.c - files and directories, and the numbers and texts of CSV. */
+/* file.c - files and directories. */
 #include "file.h"
-#include "dalembert_program.h"
 
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/signals.h"
 
-#include "text.h"
-
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <fnmatch.h>
-#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -150,39 +146,13 @@ int file_remove(const char *path)
     return unlink(path) == 0 || errno == ENOENT ? CLI_DONE : cli_io("remove", path);
 }
 
-void cli_put(FILE *out, double x)
-{
-    /* Zero of either sign is common (p = pi = 0 on the surface) and quick to write. */
-    if (x == 0.0) {
-        fputc('0', out);
-    } else if (isnan(x)) {
-        fputs("nan", out);
-    } else {
-        char text[DAL__NUMBER_SIZE];
-        fwrite(text, 1, (size_t)dal__format_number(text, x), out);
-    }
-}
-
-void cli_put_known(FILE *out, double x)
-{
-    if (!isnan(x)) cli_put(out, x);
-}
-
-void cli_put_text(FILE *out, const char *text)
-{
-    if (strpbrk(text, ",\"") || text_find_control(text, "") >= 0)
-        text_write_quoted(out, '"', text);
-    else
-        fputs(text, out);
-}
-
 bool cli_ends_in(const char *text, const char *ending)
 {
     size_t n = strlen(text), m = strlen(ending);
     return n >= m && strcmp(text + n - m, ending) == 0;
 }
 
-int cli_directory(const char *path)
+int file_make_directory(const char *path)
 {
     struct stat status;
     if (mkdir(path, 0777) == 0) return CLI_DONE;

@@ -1,4 +1,4 @@
-/* file.h - files and directories, and the numbers and texts of CSV. */
+/* file.h - files and directories. */
 #ifndef DAL_CLI_FILE_H
 #define DAL_CLI_FILE_H
 
@@ -36,16 +36,9 @@ size_t file_transfer(int descriptor, void *bytes, size_t length, off_t place, fi
 /* Removes a file that may be absent. */
 int file_remove(const char *path);
 
-/* Writes x with 17 digits, as a double reads it back; minus zero as 0. */
-void cli_put(FILE *out, double x);
-/* The same, and nothing where x is NaN: a cell of a CSV file is empty where there is no value. */
-void cli_put_known(FILE *out, double x);
-/* Writes a cell of a CSV file; one with a comma or a quote in it is quoted, as RFC 4180 has it.
- * Control characters become blanks, so that a row is a line. */
-void cli_put_text(FILE *out, const char *text);
 bool cli_ends_in(const char *text, const char *ending);
 /* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
-int cli_directory(const char *path);
+int file_make_directory(const char *path);
 /* Returns CLI_DONE where a directory is there, else prints and returns CLI_USAGE. */
 int file_find_directory(const char *path);
 /* What is in a directory, by name.  Returns CLI_DONE, or prints and returns an exit status; to be

@@ -79,7 +79,7 @@ int store_wait(const char *directory, int *descriptor)
 int store_begin(const char *directory, bool force, int *descriptor)
 {
     int status = force ? CLI_DONE : file_check_directory(directory);
-    if (status == CLI_DONE) status = cli_directory(directory);
+    if (status == CLI_DONE) status = file_make_directory(directory);
     return status == CLI_DONE ? store_wait(directory, descriptor) : status;
 }
 

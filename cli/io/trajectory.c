@@ -18,6 +18,7 @@
  *
  * with K odd, so that a change of any one word changes it; the four lanes are independent. */
 #include "trajectory.h"
+#include "csv_cells.h"
 #include "endian.h"
 #include "file.h"
 #include "file_output.h"
@@ -321,7 +322,7 @@ int writer_create(trajectory_writer *writer, const char *path, char *const *name
     if (status != CLI_DONE) return status;
     for (int i = 0; i < columns; i++) {
         if (i) fputc(',', writer->file);
-        cli_put_text(writer->file, names[i]);
+        csv_put_text(writer->file, names[i]);
     }
     fputc('\n', writer->file);
     return ferror(writer->file) ? failed(writer) : CLI_DONE;
@@ -336,7 +337,7 @@ int writer_append(trajectory_writer *writer, const double *values)
     }
     for (int i = 0; i < writer->columns; i++) {
         if (i) fputc(',', writer->file);
-        cli_put(writer->file, values[i]);
+        csv_put(writer->file, values[i]);
     }
     fputc('\n', writer->file);
     if (ferror(writer->file)) return failed(writer);

@@ -1,7 +1,7 @@
 /* trend.c - the columns of a trend, the same for runs and studies. */
 #include "trend.h"
 
-#include "file.h"
+#include "csv_cells.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -20,10 +20,10 @@ void cli_put_values(FILE *out, const dal_trend *t)
                             t->rate_low,  t->rate_high, is_stated(t) ? t->exponent : NAN};
     for (int i = 0; i < (int)(sizeof cells / sizeof cells[0]); i++) {
         fputc(',', out);
-        (i < ALWAYS ? cli_put : cli_put_known)(out, cells[i]);
+        (i < ALWAYS ? csv_put : csv_put_known)(out, cells[i]);
     }
     fprintf(out, ",%s,%s,", cli_size_word(t), cli_trend_word(t));
-    if (is_stated(t)) cli_put_known(out, t->confidence);
+    if (is_stated(t)) csv_put_known(out, t->confidence);
 }
 
 dal_trend cli_get_trend(const csv_table *t, int row)

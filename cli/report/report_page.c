@@ -177,7 +177,7 @@ bool report_begin_figure(report *r, const char *title, const char *caption)
 static int open_page(report *r)
 {
     r->place = cli_join(r->directory, "report");
-    int status = cli_directory(r->place);
+    int status = file_make_directory(r->place);
     if (status == CLI_DONE) status = chart_library_read(&r->charts);
     if (status != CLI_DONE) {
         chart_library_free(&r->charts);

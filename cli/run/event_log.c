@@ -4,6 +4,7 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
+#include "io/csv_cells.h"
 #include "io/file.h"
 #include "io/file_output.h"
 
@@ -32,7 +33,7 @@ static void write_event_head(const event_log *log)
         dal_run_component_name(run, i, name, sizeof name);
         columns_rename(&log->simulation->request, name);
         fputc(',', log->file);
-        cli_put_text(log->file, name);
+        csv_put_text(log->file, name);
     }
     fputc('\n', log->file);
 }
@@ -80,11 +81,11 @@ int event_log_add(event_log *log, const dal_occurrence *event)
     if (!log->file) return CLI_DONE;
     const dal_run *run = log->simulation->run;
     const double *state = dal_run_state(run);
-    cli_put(log->file, event->t);
+    csv_put(log->file, event->t);
     fprintf(log->file, ",%d", event->event + 1);
     for (int i = 0; i < dal_run_dimension(run); i++) {
         fputc(',', log->file);
-        cli_put(log->file, state[i]);
+        csv_put(log->file, state[i]);
     }
     fputc('\n', log->file);
     return ferror(log->file) ? cli_io("write", log->path) : CLI_DONE;

@@ -1,6 +1,7 @@
 /* recorder.c - observes a run: rows, statistics, progress and checkpoints. */
 #include "recorder.h"
 
+#include "io/csv_cells.h"
 #include "io/file.h"
 #include "io/file_output.h"
 #include "io/json.h"
@@ -407,7 +408,7 @@ static int write_summary(const run_recorder *r)
     FILE *out = cli_memstream_open(&text, &length);
     fprintf(out, "observable,first,final,maximum,deviation,%s\n", cli_trend_heads);
     for (int i = 0; i < r->results.observables; i++) {
-        cli_put_text(out, r->results.names[i]);
+        csv_put_text(out, r->results.names[i]);
         cli_put_values(out, &r->results.trend[i]);
         fputc('\n', out);
     }

@@ -10,6 +10,7 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
+#include "io/csv_cells.h"
 #include "io/file.h"
 #include "ui/options.h"
 
@@ -121,7 +122,7 @@ int row_times_parse(void *user, const cli_option *option, const char *given)
     FILE *out = cli_memstream_open(&request->made[REQUEST_times], &length);
     for (long long i = 0; i < request->times; i++) {
         if (i) fputc(',', out);
-        cli_put(out, request->listed[i]);
+        csv_put(out, request->listed[i]);
     }
     cli_memstream_close(out);
     request->text[REQUEST_times] = request->made[REQUEST_times];

@@ -160,7 +160,7 @@ int run_in_directory(const run_simulation *simulation, const run_settings *setti
     run_directory dir;
     run_directory_open(&dir, settings->output);
     int status = settings->force ? CLI_DONE : run_check_directory(dir.path);
-    if (status == CLI_DONE) status = cli_directory(dir.path);
+    if (status == CLI_DONE) status = file_make_directory(dir.path);
     if (status == CLI_DONE) status = run_directory_lock(&dir, RUN_NEW);
     if (status == CLI_DONE) status = manifest_begin(&dir, simulation);
     if (status == CLI_DONE) status = run_integrate(simulation, &dir, settings);

@@ -127,7 +127,7 @@ static int open_directory(const char *path)
 {
     static const char *const files[] = {inputs_file, system_file, best_file};
     run_directory dir;
-    int status = cli_directory(path);
+    int status = file_make_directory(path);
     run_directory_open(&dir, path);
     for (int i = 0; i < RUN_FILES && status == CLI_DONE; i++) status = file_remove(dir.file[i]);
     run_directory_close(&dir);

@@ -382,7 +382,7 @@ static int open_recorder(cell_run *r)
     const bool has_run = run_directory_has_run(dir);
     dir->sync = FILE_UNSYNCED;
     bool is_longer = false;
-    int status = cli_directory(dir->path);
+    int status = file_make_directory(dir->path);
     if (status == CLI_DONE) status = run_directory_lock(dir, has_run ? RUN_EXISTING : RUN_NEW);
     if (status == CLI_DONE && has_run) {
         run_request held = request_default();

@@ -1,6 +1,7 @@
 /* study_compare.c - the expectations of a study compared with its results. */
 #include "study_compare.h"
 
+#include "io/csv_cells.h"
 #include "io/file.h"
 #include "io/file_output.h"
 #include "study_expect.h"
@@ -165,15 +166,15 @@ static void write_row(FILE *out, const study_plan *plan, const study_comparison 
     char name[STUDY_NAME];
     const study_expectation *x = comparison->expectation;
     const study_cell *c = comparison->cell;
-    cli_put_text(out, c ? c->of_case->label : x->label);
+    csv_put_text(out, c ? c->of_case->label : x->label);
     fputc(',', out);
-    cli_put_text(out, c ? dal_method_name(c->method, name, sizeof name) : x->method);
+    csv_put_text(out, c ? dal_method_name(c->method, name, sizeof name) : x->method);
     fprintf(out, ",%s,", c ? study_start_words[c->start] : "");
-    if (c) cli_put(out, c->step);
+    if (c) csv_put(out, c->step);
     if (plan->has_tolerances) fputc(',', out);
-    if (plan->has_tolerances && c) cli_put(out, c->tolerance);
+    if (plan->has_tolerances && c) csv_put(out, c->tolerance);
     fputc(',', out);
-    cli_put_text(out, x->quantity);
+    csv_put_text(out, x->quantity);
     fputs(",\"", out);
     put_expected(out, x);
     fputs("\",\"", out);

@@ -188,7 +188,7 @@ static int copy_system(const study_directory *dir, study_case *e)
 
 static int copy_systems(const study_directory *dir, study_plan *plan)
 {
-    int status = cli_directory(dir->systems);
+    int status = file_make_directory(dir->systems);
     for (int i = 0; i < plan->case_count && status == CLI_DONE; i++)
         if (plan->cases[i].is_first)
             status = copy_system(dir, &plan->cases[i]);
@@ -246,7 +246,7 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
         status = clear(dir);
     else if (status == CLI_DONE && !force)
         status = shard.count > 0 ? check_shares(dir, text, length) : check_is_free(dir);
-    if (status == CLI_DONE) status = cli_directory(dir->runs);
+    if (status == CLI_DONE) status = file_make_directory(dir->runs);
     if (status == CLI_DONE) status = copy_systems(dir, plan);
     if (status == CLI_DONE) status = write_manifest(dir, plan, STORE_RUNNING);
     if (status == CLI_DONE) status = file_replace(dir->study, text, length, FILE_SYNCED);

@@ -117,7 +117,7 @@ static int copy_run(const char *source, const char *target)
     run_directory from, to;
     run_directory_open(&from, source);
     run_directory_open(&to, target);
-    int status = cli_directory(target);
+    int status = file_make_directory(target);
     for (int i = 0; i < RUN_FILES && status == CLI_DONE; i++)
         if (from.file[i] != from.manifest && file_exists(from.file[i]))
             status = file_copy(from.file[i], to.file[i], FILE_UNSYNCED);

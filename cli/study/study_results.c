@@ -308,7 +308,7 @@ static int open_file(study_results *r)
 {
     const results_file *f = &r->file[0];
     unsigned char header[WORD];
-    int status = cli_directory(r->directory);
+    int status = file_make_directory(r->directory);
     if (status != CLI_DONE) return status;
     const int descriptor = open(f->path, O_WRONLY | O_CREAT | O_APPEND, 0666);
     if (descriptor < 0) return cli_io("write", f->path);

@@ -4,6 +4,7 @@
  * describe (q,v) alone; and, off p = pi = 0, what only the lift can show (H, p, pi). */
 #include "study_table.h"
 
+#include "io/csv_cells.h"
 #include "io/file.h"
 #include "io/file_output.h"
 #include "io/trend.h"
@@ -242,38 +243,38 @@ static void put_run(FILE *out, const csv_row *r)
 {
     if (r->cell->observables == 0 || r->of_case->rows == STUDY_ROWS_NONE) return;
     char *run = cli_join("runs", r->cell->name);
-    cli_put_text(out, run);
+    csv_put_text(out, run);
     free(run);
 }
 
 /* Studies that have the key tolerance have a column of it after the step's. */
 static void put_step(FILE *out, const csv_row *r)
 {
-    cli_put(out, r->cell->step);
+    csv_put(out, r->cell->step);
     if (!r->plan->has_tolerances) return;
     fputc(',', out);
-    cli_put(out, r->cell->tolerance);
+    csv_put(out, r->cell->tolerance);
 }
 
 /* A cell is empty where there is no such quantity, or no run. */
 #define NUMBER(quantity, member)                                                                   \
-    (r->q.quantity && r->q.quantity->count > 0 ? cli_put(out, r->q.quantity->member) : (void)0)
+    (r->q.quantity && r->q.quantity->count > 0 ? csv_put(out, r->q.quantity->member) : (void)0)
 #define RUN(how) (r->cell->observables > 0 ? (void)(how) : (void)0)
 #define WORD(quantity, word)                                                                       \
     (r->q.quantity && r->q.quantity->count > 0 ? (void)fputs(word(r->q.quantity), out) : (void)0)
 
 /* column, how it is written */
 #define CELL_LIST(COLUMN)                                                                          \
-    COLUMN(label, cli_put_text(out, r->of_case->label))                                            \
-    COLUMN(system, cli_put_text(out, r->of_case->name))                                            \
-    COLUMN(integrator, cli_put_text(out, r->method))                                               \
+    COLUMN(label, csv_put_text(out, r->of_case->label))                                            \
+    COLUMN(system, csv_put_text(out, r->of_case->name))                                            \
+    COLUMN(integrator, csv_put_text(out, r->method))                                               \
     COLUMN(start, fputs(study_start_words[r->cell->start], out))                                   \
     COLUMN(step, put_step(out, r))
 #define RESULT_LIST(COLUMN)                                                                        \
-    COLUMN(time, cli_put(out, study_case_end(r->of_case, r->cell->step)))                          \
+    COLUMN(time, csv_put(out, study_case_end(r->of_case, r->cell->step)))                          \
     COLUMN(state, fputs(study_state_words[r->cell->state], out))                                   \
     COLUMN(status, fputs(dal_status_name(r->cell->error.status), out))                             \
-    COLUMN(reached, RUN(cli_put(out, r->cell->time)))                                              \
+    COLUMN(reached, RUN(csv_put(out, r->cell->time)))                                              \
     COLUMN(steps, RUN(fprintf(out, "%lld", r->cell->steps)))                                       \
     COLUMN(evaluations, RUN(fprintf(out, "%lld", r->cell->evaluations)))                           \
     COLUMN(D_max, NUMBER(D, max_abs))                                                              \
@@ -293,7 +294,7 @@ static void put_step(FILE *out, const csv_row *r)
     COLUMN(p_max, NUMBER(p, max_abs))                                                              \
     COLUMN(pi_max, NUMBER(pi, max_abs))                                                            \
     COLUMN(pi_e_max, NUMBER(pi_e, max_abs))                                                        \
-    COLUMN(invariant, cli_put_text(out, r->q.invariant_name))                                      \
+    COLUMN(invariant, csv_put_text(out, r->q.invariant_name))                                      \
     COLUMN(invariant_deviation, NUMBER(invariant, deviation))                                      \
     COLUMN(invariant_rate, NUMBER(invariant, rate))                                                \
     COLUMN(invariant_size, WORD(invariant, cli_size_word))                                         \
@@ -302,13 +303,13 @@ static void put_step(FILE *out, const csv_row *r)
     COLUMN(same_as_physical, put_same(out, r))                                                     \
     COLUMN(bits, RUN(fprintf(out, "%016llx", (unsigned long long)r->cell->bits)))                  \
     COLUMN(run, put_run(out, r))                                                                   \
-    COLUMN(message, cli_put_text(out, r->cell->error.message))                                     \
-    COLUMN(seconds, RUN(cli_put(out, r->cell->seconds)))
+    COLUMN(message, csv_put_text(out, r->cell->error.message))                                     \
+    COLUMN(seconds, RUN(csv_put(out, r->cell->seconds)))
 
 /* Studies that predict have these columns, too. */
 #define PREDICTED(quantity, value)                                                                 \
     (r->predicted.quantity && r->predicted.quantity->count > 0                                     \
-         ? cli_put_known(out, r->predicted.quantity->value)                                        \
+         ? csv_put_known(out, r->predicted.quantity->value)                                        \
          : (void)0)
 #define PREDICTION(how) (r->cell->predicted ? (void)(how) : (void)0)
 #define PREDICTED_LIST(COLUMN)                                                                     \
@@ -322,8 +323,8 @@ static void put_step(FILE *out, const csv_row *r)
     COLUMN(predicted_invariant_rate, PREDICTED(invariant, rate))                                   \
     COLUMN(predicted_invariant_rate_low, PREDICTED(invariant, rate_low))                           \
     COLUMN(predicted_invariant_rate_high, PREDICTED(invariant, rate_high))                         \
-    COLUMN(predicted_until, PREDICTION(cli_put_known(out, r->cell->predicted->time)))              \
-    COLUMN(predicted_message, PREDICTION(cli_put_text(out, r->cell->predicted->error.message)))
+    COLUMN(predicted_until, PREDICTION(csv_put_known(out, r->cell->predicted->time)))              \
+    COLUMN(predicted_message, PREDICTION(csv_put_text(out, r->cell->predicted->error.message)))
 
 static void put_cell(FILE *out, const csv_row *r)
 {
@@ -345,9 +346,9 @@ static void put_cell(FILE *out, const csv_row *r)
 
 static void put_key(FILE *out, const csv_row *r)
 {
-    cli_put_text(out, r->of_case->label);
+    csv_put_text(out, r->of_case->label);
     fputc(',', out);
-    cli_put_text(out, r->method);
+    csv_put_text(out, r->method);
     fprintf(out, ",%s,", study_start_words[r->cell->start]);
     put_step(out, r);
     fputc(',', out);
@@ -357,7 +358,7 @@ static void put_quantities(FILE *out, const csv_row *r)
 {
     for (int i = 0; i < r->cell->observables; i++) {
         put_key(out, r);
-        cli_put_text(out, r->cell->names[i]);
+        csv_put_text(out, r->cell->names[i]);
         cli_put_values(out, &r->cell->trend[i]);
         fputc('\n', out);
     }
@@ -368,10 +369,10 @@ static void put_series(FILE *out, const csv_row *r)
     const double end = study_case_end(r->of_case, r->cell->step) - r->of_case->from;
     for (int k = 0; k < r->cell->window_count; k++) {
         put_key(out, r);
-        cli_put(out, fabs(end) * (k + 1) / STUDY_WINDOWS);
+        csv_put(out, fabs(end) * (k + 1) / STUDY_WINDOWS);
         for (int track = 0; track < STUDY_TRACKS; track++) {
             fputc(',', out);
-            cli_put_known(out, r->cell->windows[k][track]);
+            csv_put_known(out, r->cell->windows[k][track]);
         }
         fputc('\n', out);
     }
@@ -423,7 +424,7 @@ int study_write_csv(const study_plan *plan, const char *directory)
                                   cli_trend_heads);
     char *windows = cli_format("%s%s,until%s", key_heads, tolerance, STUDY_TRACK_LIST(TRACK_HEAD));
     char *series = cli_join(directory, "series");
-    int status = cli_directory(series);
+    int status = file_make_directory(series);
     if (status == CLI_DONE)
         status = write_file(plan, NULL, directory, "cells.csv", cells, put_cell);
     if (status == CLI_DONE)
