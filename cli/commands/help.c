@@ -7,14 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const cli_command *const commands[] = {
-#define ADDRESS(name) &command_##name,
-    COMMAND_LIST(ADDRESS)
-#undef ADDRESS
-};
-
-enum { COMMANDS = sizeof commands / sizeof *commands };
-
 typedef struct settings {
     const char *command;
     bool markdown;
@@ -38,7 +30,8 @@ static int print_usage(void)
 {
     puts("usage: dalembert COMMAND [ARGUMENT]...\n"
          "Geometric integrators for nonholonomic mechanics.\n\ncommands:");
-    for (int i = 0; i < COMMANDS; i++) printf("  %-8s %s\n", commands[i]->name, commands[i]->about);
+    for (int i = 0; i < COMMANDS; i++)
+        printf("  %-8s %s\n", cli_commands[i]->name, cli_commands[i]->about);
     puts("\n'dalembert COMMAND --help' describes a command.\n\nexit status:");
     print_exits("  %-4d %s\n");
     return cli_close(stdout, "standard output");
@@ -57,7 +50,7 @@ static int print_reference(void)
 {
     int status = CLI_DONE;
     for (int i = 0; i < COMMANDS && status == CLI_DONE; i++)
-        status = print_command(commands[i], markdown_help);
+        status = print_command(cli_commands[i], markdown_help);
     if (status != CLI_DONE) return status;
     puts("## Exit status\n");
     print_exits("- `%d`: %s\n");
@@ -73,9 +66,9 @@ static int help(int argc, char **argv)
     if (!s.command) return s.markdown ? print_reference() : print_usage();
     const char *names[COMMANDS];
     for (int i = 0; i < COMMANDS; i++) {
-        names[i] = commands[i]->name;
+        names[i] = cli_commands[i]->name;
         if (strcmp(names[i], s.command) == 0)
-            return print_command(commands[i], s.markdown ? markdown_help : text_help);
+            return print_command(cli_commands[i], s.markdown ? markdown_help : text_help);
     }
     return cli_unknown("command", s.command, names, COMMANDS);
 }

@@ -11,13 +11,11 @@
 #include <string.h>
 #include <unistd.h>
 
-static const cli_command *const commands[] = {
+const cli_command *const cli_commands[COMMANDS] = {
 #define ADDRESS(name) &command_##name,
     COMMAND_LIST(ADDRESS)
 #undef ADDRESS
 };
-
-enum { COMMANDS = sizeof commands / sizeof *commands };
 
 /* A file opened while a standard stream is closed would take its number, and messages would mix
  * with rows.  The descriptors opened here are read-only: a write to a closed standard output still
@@ -47,8 +45,8 @@ int main(int argc, char **argv)
     if (first[0] == '-') return cli_unknown("option", first, options, 2);
     const char *names[COMMANDS];
     for (int i = 0; i < COMMANDS; i++) {
-        names[i] = commands[i]->name;
-        if (strcmp(names[i], first) == 0) return commands[i]->run(argc - 1, argv + 1);
+        names[i] = cli_commands[i]->name;
+        if (strcmp(names[i], first) == 0) return cli_commands[i]->run(argc - 1, argv + 1);
     }
     if (dal__nearest_name(first, names, COMMANDS))
         return cli_unknown("command", first, names, COMMANDS);

@@ -38,5 +38,9 @@
 #define DECLARE_COMMAND(name) extern const cli_command command_##name;
 COMMAND_LIST(DECLARE_COMMAND)
 #undef DECLARE_COMMAND
+#define COUNT_COMMAND(name) +1
+enum { COMMANDS = COMMAND_LIST(COUNT_COMMAND) };
+#undef COUNT_COMMAND
+extern const cli_command *const cli_commands[COMMANDS];
 
 #endif
