@@ -2,6 +2,7 @@
 #include "report_system.h"
 #include "dalembert_codegen.h"
 #include "dalembert_program.h"
+#include "run/request_command.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -225,47 +226,13 @@ bool report_is_angle(const dal_model *model, const char *coordinate)
 
 /* ---- the command --------------------------------------------------------------------------- */
 
-/* A word of a shell's command. */
-static void write_word(FILE *page, const char *word)
-{
-    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
-                                "_-+./,:=@%";
-    if (word[0] && word[strspn(word, plain)] == '\0') {
-        report_text(page, word);
-        return;
-    }
-    fputc('\'', page);
-    for (; *word; word++) report_text(page, *word == '\'' ? "'\\''" : (char[]){*word, '\0'});
-    fputc('\'', page);
-}
-
-/* The shortest digits that are read back as the same number. */
-static void write_given(FILE *page, const char *option, const request_settings *settings)
-{
-    char text[256];
-    for (int i = 0; i < settings->count; i++) {
-        const dal_setting *s = &settings->item[i];
-        for (int digits = 6; digits <= 17; digits++) {
-            snprintf(text, sizeof text, "%.120s=%.*g", s->name, digits, s->value);
-            if (strtod(strchr(text, '=') + 1, NULL) == s->value) break;
-        }
-        fprintf(page, " --%s ", option);
-        write_word(page, text);
-    }
-}
-
 void report_command(report *r, const run_request *request)
 {
     FILE *page = r->page;
     report_heading(r, "again", "How to make it again");
-    fputs("<pre tabindex=\"0\">dalembert run ", page);
-    write_word(page, request->system_name);
-    for (int i = 0; i < REQUEST_system; i++) {
-        if (!request->text[i] || i == REQUEST_set || i == REQUEST_start) continue;
-        fprintf(page, " --%s ", request_options[i].name);
-        write_word(page, request->text[i]);
-    }
-    write_given(page, "set", &request->set);
-    write_given(page, "start", &request->start);
+    char *command = request_format_command(request, "run", request->system_name, 0);
+    fputs("<pre tabindex=\"0\">", page);
+    report_text(page, command);
+    free(command);
     fputs(" --output DIR</pre>\n", page);
 }

@@ -1,7 +1,7 @@
 # dalembert pack: what is unpacked makes the same results again.
 
 case_is "pack: a run, made again from its archive"
-try 0 run falling-disk --integrator gauss4+project --time 1 --step 0.05 --set m=1.25 --samples 7 --observe "theta^2" -o disk
+try 0 run falling-disk --integrator gauss4+project --time 1 --step 0.05 --set m=1.2345678901234567 --samples 7 --observe "theta^2" -o disk
 try 0 pack disk
 says "packed 2 files into 'disk\.tar'"
 mkdir unpacked
