@@ -46,8 +46,8 @@ void check_further_invariants(check *c)
 
 /* ---- integrable constraints ---- */
 
-/* Sums of products of up to MAX_DEGREE factors are tried; then quotients as y/x, of two. */
-enum { MAX_DEGREE = 4, QUOTIENTS = MAX_DEGREE + 1, TRIALS = QUOTIENTS, MAX_TRIED = 24 };
+/* Sums of products of up to MAX_DEGREE factors are tried; then, last, quotients as y/x, of two. */
+enum { MAX_DEGREE = 4, QUOTIENTS = MAX_DEGREE + 1, MAX_TRIED = 24 };
 
 /* The functions of coordinates and t of a trial, from 1, that D = 0 conserves; NULL: none are
  * known. */
@@ -109,7 +109,7 @@ void check_integrable_constraints(check *c)
         const dal_status status = dal_model_growth_of(c->simulation->model, a, set->item,
                                                       set->count, units, &alone, NULL);
         if (!cli_is_ok(status) || !alone.is_complete || alone.levels > 1) continue;
-        for (int trial = 1; trial <= TRIALS && c->is_regular; trial++) {
+        for (int trial = 1; trial <= QUOTIENTS && c->is_regular; trial++) {
             if (trial != last) {
                 dal_invariants_free(found);
                 found = find_integrals(c, trial);
