@@ -78,12 +78,7 @@ static void choose_points(check *c, double *memory)
 static int scale_system(check *c)
 {
     const run_request *request = &c->simulation->request;
-    const dal_run_spec spec = {.system = c->simulation->system,
-                               .parameters = request->set.item,
-                               .parameter_count = request->set.count,
-                               .start = request->start.item,
-                               .start_count = request->start.count,
-                               .start_time = request->from};
+    const dal_run_spec spec = simulation_spec(c->simulation);
     dal_error error = {0};
     const dal_status status = dal_scaled_create(&c->scaled, &spec, &error);
     c->system = dal_scaled_system(c->scaled);

@@ -1,7 +1,7 @@
 /* check_dirac.c - what Dirac's procedure finds for the lift of a system. */
 #include "check_dirac.h"
 #include "dalembert_dirac.h"
-#include "invariants.h"
+#include "run/simulation.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -15,7 +15,7 @@ void check_dirac(check *c)
     const int n = c->n;
     const double e = c->start[c->size];
     if (e == 0.0 || isinf(e) || c->system->multipliers > 0) return;
-    const dal_run_spec spec = invariants_spec(c->simulation);
+    const dal_run_spec spec = simulation_spec(c->simulation);
     const dal_status status = dal_dirac_create(&d, c->simulation->model, &spec, &error);
     if (!cli_is_ok(status) || !d->is_complete) {
         const bool stops = cli_is_ok(status);

@@ -15,7 +15,7 @@ void check_further_invariants(check *c)
 {
     static const char what[] = "further invariants";
     const run_simulation *s = c->simulation;
-    const dal_run_spec spec = invariants_spec(s);
+    const dal_run_spec spec = simulation_spec(s);
     dal_invariants_settings settings = dal_invariants_settings_default();
     dal_invariants *found = NULL;
     dal_error error = {.message = ""};
@@ -53,7 +53,7 @@ enum { MAX_DEGREE = 4, QUOTIENTS = MAX_DEGREE + 1, MAX_TRIED = 24 };
  * known. */
 static dal_invariants *find_integrals(const check *c, int trial)
 {
-    const dal_run_spec spec = invariants_spec(c->simulation);
+    const dal_run_spec spec = simulation_spec(c->simulation);
     const int with_count = trial == QUOTIENTS ? c->n : 0;
     char **with = cli_calloc((size_t)with_count + 1, sizeof *with);
     for (int i = 0; i < with_count; i++) with[i] = cli_format("1/%s", c->system->coordinate[i]);

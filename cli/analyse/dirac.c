@@ -1,7 +1,6 @@
 /* dirac.c - Dirac's procedure for the action of a system, printed. */
 #include "dirac.h"
 #include "dalembert_dirac.h"
-#include "invariants.h"
 #include "io/json.h"
 #include "run/request.h"
 #include "run/request_json.h"
@@ -318,7 +317,7 @@ int dirac_analyse(const dirac_settings *settings)
     const run_simulation *s = &settings->simulation;
     if (settings->latex && (settings->json || settings->details))
         return cli_fail(CLI_USAGE, "dirac: --latex excludes --json and --details");
-    const dal_run_spec spec = invariants_spec(s);
+    const dal_run_spec spec = simulation_spec(s);
     dal_dirac *d = NULL;
     dal_error error = {0};
     const dal_status found = dal_dirac_create(&d, s->model, &spec, &error);

@@ -57,21 +57,10 @@ static int refuse(const run_simulation *s, dal_status status, dal_error *error)
     return exit_status;
 }
 
-dal_run_spec invariants_spec(const run_simulation *simulation)
-{
-    const run_request *request = &simulation->request;
-    return (dal_run_spec){.system = simulation->system,
-                          .parameters = request->set.item,
-                          .parameter_count = request->set.count,
-                          .start = request->start.item,
-                          .start_count = request->start.count,
-                          .start_time = request->from};
-}
-
 static int search(const invariants_settings *settings, dal_invariants **found)
 {
     const run_simulation *s = &settings->simulation;
-    const dal_run_spec spec = invariants_spec(s);
+    const dal_run_spec spec = simulation_spec(s);
     formulas with = split_list(settings->with);
     dal_invariants_settings set = dal_invariants_settings_default();
     dal_error error = {0};
@@ -260,7 +249,7 @@ int invariants_observe(run_simulation *simulation)
 {
     enum { MAX_OBSERVED = 100 /* characters of a formula, as of dal_model_observe */ };
     run_request *request = &simulation->request;
-    const dal_run_spec spec = invariants_spec(simulation);
+    const dal_run_spec spec = simulation_spec(simulation);
     dal_invariants *found = NULL;
     dal_error error = {0};
     const dal_status status = dal_find_invariants(&found, simulation->model, &spec, NULL, &error);

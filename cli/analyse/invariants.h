@@ -14,8 +14,6 @@ typedef struct invariants_settings {
     bool measure, json, details;
 } invariants_settings;
 
-/* The system, parameters and start of a request, for dal_find_invariants. */
-dal_run_spec invariants_spec(const run_simulation *simulation);
 /* The next name I1, I2, .. that the system does not use, after the one of *number. */
 enum { INVARIANTS_NAME = 16 };
 void invariants_next_name(const dal_system *system, int *number, char name[INVARIANTS_NAME]);

@@ -94,6 +94,17 @@ cli_option_set simulation_options(run_simulation *s, const cli_option *options, 
                             "run",   take_defaults};
 }
 
+dal_run_spec simulation_spec(const run_simulation *s)
+{
+    const run_request *request = &s->request;
+    return (dal_run_spec){.system = s->system,
+                          .parameters = request->set.item,
+                          .parameter_count = request->set.count,
+                          .start = request->start.item,
+                          .start_count = request->start.count,
+                          .start_time = request->from};
+}
+
 int simulation_make_spec(run_simulation *s, dal_run_spec *spec)
 {
     run_request *request = &s->request;
@@ -112,14 +123,9 @@ int simulation_make_spec(run_simulation *s, dal_run_spec *spec)
         s->system->call.adjoint && !(dal_method_needs(&request->method) & DAL_NEEDS_BLOCKS);
     if (!request_has(request, REQUEST_space) && !has_lift) request->options.space = DAL_PHYSICAL;
     if (columns_need_reactions(s->system, request->columns)) request->options.reactions = true;
-    *spec = (dal_run_spec){.system = s->system,
-                           .method = request->method,
-                           .options = request->options,
-                           .parameters = request->set.item,
-                           .parameter_count = request->set.count,
-                           .start = request->start.item,
-                           .start_count = request->start.count,
-                           .start_time = request->from};
+    *spec = simulation_spec(s);
+    spec->method = request->method;
+    spec->options = request->options;
     return CLI_DONE;
 }
 
