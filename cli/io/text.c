@@ -1,5 +1,6 @@
-/* text.c - characters of UTF-8, and what a text of a file may hold. */
+/* text.c - characters of UTF-8, lists between commas, and what a text of a file may hold. */
 #include "text.h"
+#include "ui/memory.h"
 
 #include <string.h>
 
@@ -56,4 +57,16 @@ void text_write_quoted(FILE *out, char quote, const char *text)
 bool text_is_file_name(const char *text)
 {
     return text[0] && text[0] != '.' && !strchr(text, '/') && text_find_control(text, "") < 0;
+}
+
+int text_split(char *list, const char ***items)
+{
+    int count = 0;
+    char *end = NULL;
+    *items = NULL;
+    for (char *item = strtok_r(list, ",", &end); item; item = strtok_r(NULL, ",", &end)) {
+        *items = cli_realloc(*items, ((size_t)count + 1) * sizeof **items);
+        (*items)[count++] = item;
+    }
+    return count;
 }

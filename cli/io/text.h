@@ -1,4 +1,4 @@
-/* text.h - characters of UTF-8, and what a text of a file may hold.
+/* text.h - characters of UTF-8, lists between commas, and what a text of a file may hold.
  *
  * A text that another program reads, a terminal, a browser, gnuplot or a shell, has no control
  * characters: U+0000..001F and 007F..009F. */
@@ -21,5 +21,7 @@ void text_write_quoted(FILE *out, char quote, const char *text);
 /* Whether a text can name a file in a directory: it is not empty, does not begin with a dot, and
  * has no slash and no control characters. */
 bool text_is_file_name(const char *text);
+/* Cuts a list at its commas into items that are not empty, in *items, allocated; how many. */
+int text_split(char *list, const char ***items);
 
 #endif

@@ -1,6 +1,7 @@
 /* simulation.c - the system, the run and the rows of a request. */
 #include "simulation.h"
 #include "columns.h"
+#include "io/text.h"
 #include "row_times.h"
 #include "system.h"
 #include "ui/memory.h"
@@ -152,15 +153,10 @@ int simulation_complete(run_simulation *s, dal_run_spec *spec)
 /* The columns of --sensitivities. */
 static int create_sensitivity(run_simulation *s, const dal_run_spec *spec)
 {
-    const char *list = s->request.sensitivities;
-    char *text = cli_strdup(list), *end = NULL;
-    const char **names = NULL;
+    char *text = cli_strdup(s->request.sensitivities);
+    const char **names;
     dal_error error = {0};
-    int count = 0;
-    for (char *item = strtok_r(text, ",", &end); item; item = strtok_r(NULL, ",", &end)) {
-        names = cli_realloc(names, ((size_t)count + 1) * sizeof *names);
-        names[count++] = item;
-    }
+    const int count = text_split(text, &names);
     int status = count > 0 ? CLI_DONE : cli_fail(CLI_USAGE, "--sensitivities: the list is empty");
     if (status == CLI_DONE) {
         const dal_status made =

@@ -1,5 +1,6 @@
 /* steer.c - the search for the cheapest motion from one state to another. */
 #include "steer.h"
+#include "io/text.h"
 #include "run/run.h"
 #include "steer_output.h"
 #include "steer_results.h"
@@ -27,20 +28,6 @@ int steer_parse_target(void *user, const cli_option *option, const char *text)
         free(item);
     }
     return status;
-}
-
-/* Splits a list of names, *text being a copy with NULs, into names; returns how many. */
-static int split_names(const char *list, char **text, const char ***names)
-{
-    int count = 0;
-    *names = NULL;
-    *text = cli_strdup(list ? list : "");
-    char *end = NULL;
-    for (char *name = strtok_r(*text, ",", &end); name; name = strtok_r(NULL, ",", &end)) {
-        *names = cli_realloc(*names, ((size_t)count + 1) * sizeof **names);
-        (*names)[count++] = name;
-    }
-    return count;
 }
 
 /* ---- the search ---------------------------------------------------------------------------- */
@@ -77,7 +64,6 @@ static int search_motions(const steer_settings *s, dal_steering **steering)
     dal_steer_settings settings = dal_steer_settings_default();
     dal_run_spec spec;
     dal_error error = {0};
-    char *text;
     const char **names;
     run_simulation simulation = s->simulation;
     const int status = simulation_make_spec(&simulation, &spec);
@@ -89,7 +75,8 @@ static int search_motions(const steer_settings *s, dal_steering **steering)
     settings.starts = (int)s->starts;
     settings.seed = (unsigned long long)s->seed;
     settings.iterations = (int)s->iterations;
-    settings.frees = split_names(s->free_starts, &text, &names);
+    char *text = cli_strdup(s->free_starts ? s->free_starts : "");
+    settings.frees = text_split(text, &names);
     settings.free_starts = names;
     const dal_status made = dal_steer_create(steering, simulation.model, &spec, simulation.end,
                                              &settings, &observer, &error);
