@@ -74,7 +74,8 @@ int manifest_write(const run_directory *dir, const run_simulation *s, const run_
     json_put_source(&m.json, "input", dir->input);
     if (dir->earlier) json_put_source(&m.json, "extends", dir->earlier);
     manifest_put_machine(&m.json);
-    json_put_text(&m.json, "integrator", dal_method_name(&s->request.method, method, sizeof method));
+    json_put_text(&m.json, "integrator",
+                  dal_method_name(&s->request.method, method, sizeof method));
     json_put_text(&m.json, "status", store_state_words[state]);
     json_put_number(&m.json, "t", dal_run_time(run));
     json_put_integer(&m.json, "rows", position->row);

@@ -12,7 +12,8 @@ void simulation_free(run_simulation *simulation);
 cli_option_set simulation_options(run_simulation *simulation, const cli_option *options,
                                   uint64_t without);
 
-/* The system, parameters and start of a simulation whose system is loaded; no method and options. */
+/* The system, parameters and start of a simulation whose system is loaded, without a
+ * method. */
 dal_run_spec simulation_spec(const run_simulation *simulation);
 
 /* All below return CLI_DONE, or print and return an exit status. */

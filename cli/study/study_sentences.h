@@ -12,8 +12,9 @@ enum { STUDY_SHORT_LETTERS = 12, STUDY_SHORT_NAME = 4 * STUDY_SHORT_LETTERS + 1 
  * label has, one that need not be cut if there is any; else the last piece, with a number where
  * another column has that. */
 void study_name_columns(const study_matrix *m, int letters, char (*name)[STUDY_SHORT_NAME]);
-/* "ok" at rounding, or a size with a mark of its growth, or a state; cell may be NULL.  The mark is
- * "/" like t, "^" faster, "~" slower, "?" undecided, "x" aborted, or none.  Returns its colour.  The same as a cell of a table. */
+/* "ok" at rounding, or a size with a mark of its growth, or a state; cell may be NULL.  The mark:
+ * "/" like t, "^" faster, "~" slower, "?" undecided, "x" aborted, or none.  Returns its
+ * colour.  The same as a cell of a table. */
 enum { STUDY_SIZE_TEXT = SCREEN_NUMBER + 4 };
 screen_colour study_describe_size(const study_cell *c, int quantity, char text[STUDY_SIZE_TEXT]);
 void study_add_size(screen_table *t, const study_cell *c, int quantity);

@@ -96,7 +96,8 @@ static void accept_points(newton *k)
 }
 
 /* Finds a damping, from *out down to min, with which the next step is shorter, and goes there.
- * Errors: DAL_STATUS_NOT_CONVERGED: there is none; DAL_STATUS_MEMORY; what the observer returned. */
+ * Errors: DAL_STATUS_NOT_CONVERGED: there is none; DAL_STATUS_MEMORY; what the observer
+ * returned. */
 static dal_status damp(newton *k, double length, double min, double *out)
 {
     dal__shooting *s = k->s;

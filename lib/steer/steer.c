@@ -16,7 +16,8 @@ enum { MORE_GUESSES = 8, ROWS_PER_QUESTION = 8192 };
 /* ---- results ---- */
 
 /* Rows of a motion, which begins again at each point; pi_e is added up.  Where a step fails rows
- * after it are NaN, and so is what the whole motion has.  The observer is asked between many rows. */
+ * after it are NaN, and so is what the whole motion has.  The observer is
+ * asked between many rows. */
 static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
 {
     dal__problem *p = s->problem;
