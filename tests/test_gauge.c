@@ -286,6 +286,41 @@ static void test_resumed(void)
     dal_model_free(model);
 }
 
+/* Where F depends on q and t alone a step of stormer-verlet evaluates it once, and has the bits of
+ * two steps of symplectic Euler, which evaluate it once each; sums are plain, so that these have no
+ * more than their state. */
+static void test_leapfrog(void)
+{
+    static const char *const names[] = {"stormer-verlet", "symplectic-euler-10",
+                                        "symplectic-euler-01"};
+    enum { STEPS = 20, DIM = 10 };
+    const double h = 0.0625;
+    const dal_system *system;
+    dal_model *model = model_with(positional, gauges[1], &system);
+    dal_run *run[3];
+    double state[DIM], t = 0.0;
+    for (int k = 0; k < 3; k++) {
+        dal_run_spec spec = fixture_spec(system, names[k], DAL_LIFTED, k == 0 ? h : 0.5 * h);
+        spec.options.sums = DAL_SUMS_PLAIN;
+        run[k] = fixture_run(&spec);
+    }
+    fixture_perturb(run[0], 0.3);
+    memcpy(state, dal_run_state(run[0]), sizeof state);
+    const long long before = dal_run_evaluations(run[0]);
+    CU_ASSERT_EQUAL(dal_run_advance(run[0], STEPS, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_evaluations(run[0]) - before, STEPS);
+    for (int half = 0; half < 2 * STEPS; half++) {
+        dal_run *const euler = run[1 + half % 2];
+        CU_ASSERT_EQUAL(dal_run_set_state(euler, t, state, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_run_advance(euler, 1, NULL), DAL_STATUS_OK);
+        memcpy(state, dal_run_state(euler), sizeof state);
+        t += 0.5 * h;
+    }
+    CU_ASSERT(memcmp(state, dal_run_state(run[0]), sizeof state) == 0);
+    for (int k = 0; k < 3; k++) dal_run_free(run[k]);
+    dal_model_free(model);
+}
+
 /* ---- failures ---- */
 
 /* e1 = e + h (5 e1^2 + 5) has no real solution from e = 1 for h = 1/2, nor have the stages: the
@@ -322,5 +357,6 @@ void suite_gauge(void)
     CU_ADD_TEST(suite, test_surface);
     CU_ADD_TEST(suite, test_forms);
     CU_ADD_TEST(suite, test_resumed);
+    CU_ADD_TEST(suite, test_leapfrog);
     CU_ADD_TEST(suite, test_unsolved);
 }

@@ -21,8 +21,7 @@
  * means (v, g) there.
  *
  * Where F depends on q and t alone, F_v = 0 and (1,0) and (0,1) are explicit, with one evaluation
- * each; (1,0) and then (0,1) have q* and t* in common, and evaluate F once, or twice where mu_e is
- * not of t alone, whose derivatives are added to F's. */
+ * each; (1,0) and then (0,1) have q*, pi*, e* and t* in common, and evaluate F once. */
 #ifndef DAL_KERNEL_SYMPLECTIC_EULER_H
 #define DAL_KERNEL_SYMPLECTIC_EULER_H
 
@@ -50,7 +49,7 @@ typedef struct dal_euler {
     dal_polarisation at;
     double h, t;
     num *q, *v, *p, *pi; /* [n], [nw], [n], [n] */
-    num *f;              /* the field or adjoint of the last evaluation */
+    num *f;              /* the field or adjoint of the last evaluation, with the part of mu_e */
     num w;               /* 1/e* */
     num mu, rate;        /* of e, and where mu_e is not of t alone, of pi_e */
     num *gradient;       /* [2n+1] of mu_e there */
@@ -238,13 +237,14 @@ DAL_INLINE void dal__euler_end_gauge(dal_step *s, dal_euler *k, const num *v)
 /* Whether a field at the starred arguments is there already. */
 typedef enum dal__euler_field { DAL__FIELD_UNKNOWN, DAL__FIELD_KNOWN } dal__euler_field;
 
-/* The field at the starred arguments, unless it is known, and the rates of all components. */
-DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, dal__euler_field field, num *d)
+/* The field f at the starred arguments, unless it is known, and the rates of all components. */
+DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, num *f, dal__euler_field field, num *d)
 {
     const int n = DAL_N(s);
     const bool known = field == DAL__FIELD_KNOWN;
-    if (DAL_LIFTED(s) && !known) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->w, k->f);
-    if (!DAL_LIFTED(s) && !known) dal_force(s, k->t, k->q, k->v, k->f);
+    if (DAL_LIFTED(s) && !known) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->w, f);
+    if (!DAL_LIFTED(s) && !known) dal_force(s, k->t, k->q, k->v, f);
+    DAL_EACH(i, DAL_GAUGE(s) * DAL_ADJOINT_SIZE(s)) k->f[i] = f[i];
     DAL_EACH(i, DAL_NW(s)) d[n + i] = dal__euler_rate_v(s, k, i);
     DAL_EACH(i, n) d[i] = k->at.v ? dal__euler_v1(s, k, i, d[n + i]) : k->v[i];
 #if DAL_WITH(GAUGE_GRADIENT)
@@ -271,7 +271,7 @@ DAL_INLINE void dal__euler_begin_lift(dal_step *s, dal_euler *k)
 #define DAL__EULER_FIELD(s) ((2 + DAL_EFFORT(s)) * DAL_N(s) + DAL_NW(s))
 
 /* One step of size h from the present state and time; f, DAL__EULER_FIELD numbers, is the field at
- * the starred arguments where it is known, and else becomes it. */
+ * the starred arguments, without mu_e, where it is known, and else becomes it. */
 DAL_INLINE dal_status dal__euler_step(dal_step *s, dal_polarisation at, double h, num *f,
                                       dal__euler_field field)
 {
@@ -284,8 +284,10 @@ DAL_INLINE dal_status dal__euler_step(dal_step *s, dal_polarisation at, double h
     DAL_VECTOR(s, pi, DAL_N(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_VECTOR(s, gradient, DAL_GAUGE(s) * (2 * DAL_N(s) + 1));
+    DAL_VECTOR(s, with_mu, DAL_GAUGE(s) * DAL__EULER_FIELD(s));
     const num zero = dal_num(0.0);
     dal_euler k = {at, h, at.q ? s->t + h : s->t, q, v, p, pi, f, zero, zero, zero, gradient};
+    if (DAL_GAUGE(s)) k.f = with_mu;
     DAL_EACH(i, DAL_NW(s)) v[i] = s->y[n + i];
     dal__euler_q(s, &k);
     if (DAL_LIFTED(s)) dal__euler_begin_lift(s, &k);
@@ -293,7 +295,7 @@ DAL_INLINE dal_status dal__euler_step(dal_step *s, dal_polarisation at, double h
     if (!is_explicit && (at.v || DAL_LIFTED(s)) && dal_failed(dal__euler_solve(s, &k)))
         return DAL_STATUS_NOT_CONVERGED;
     if (!is_explicit) dal__euler_q(s, &k);
-    dal__euler_rates(s, &k, field, d);
+    dal__euler_rates(s, &k, f, field, d);
     DAL__RELEASE(s);
     return dal_update_multiple(s, h, h, d);
 }
@@ -316,7 +318,7 @@ DAL_SHARED dal_status dal_symplectic_euler_pair(dal_step *s, double h, double ad
     if (dal_failed(dal__euler_step(s, DAL_POLARISATION(1, 0), h, f, DAL__FIELD_UNKNOWN)))
         return DAL_STATUS_NOT_CONVERGED;
     const dal__euler_field field =
-        dal__force_is_positional(s) && !DAL_GAUGE(s) ? DAL__FIELD_KNOWN : DAL__FIELD_UNKNOWN;
+        dal__force_is_positional(s) ? DAL__FIELD_KNOWN : DAL__FIELD_UNKNOWN;
     const dal_status status = dal__euler_step(s, DAL_POLARISATION(0, 1), adjoint_h, f, field);
     DAL__RELEASE(s);
     return status;
