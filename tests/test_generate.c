@@ -102,6 +102,28 @@ static void test_length(void)
     free(text);
 }
 
+/* Single lanes take norms of many stages and components in packs, of few in loops. */
+static void test_packs(void)
+{
+    static const struct {
+        const char *system, *method;
+        int lanes;
+        bool packs;
+    } cases[] = {{"chaplygin-sleigh", "gauss4", 1, false},
+                 {"chaplygin-sleigh", "gauss12", 1, true},
+                 {"chaplygin-sleigh", "gauss12", 8, false},
+                 {"chaplygin-sleigh", "rk4", 1, false}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const dal_run_spec other =
+            fixture_spec(fixture_system(cases[k].system), cases[k].method, DAL_PHYSICAL, 0.01);
+        const dal_generate_options options = {.lanes = cases[k].lanes};
+        char *text = NULL;
+        CU_ASSERT_EQUAL_FATAL(dal_generate(&other, &options, &text, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(strstr(text, "dal__pack_max(dal__pack") != NULL, cases[k].packs);
+        free(text);
+    }
+}
+
 /* A Jacobian of 700 coordinates does not fit on the stack; without functions of a point the file is
  * made. */
 static void test_large_jacobian(void)
@@ -184,6 +206,7 @@ void suite_generate(void)
     CU_add_test(suite, "what cannot be generated is refused", test_refusals);
     CU_add_test(suite, "every integrator", test_every_method);
     CU_add_test(suite, "a file has what it needs", test_length);
+    CU_add_test(suite, "norms in packs", test_packs);
     CU_add_test(suite, "a Jacobian that is too large", test_large_jacobian);
     CU_add_test(suite, "systems with unusual names", test_unusual_names);
     CU_add_test(suite, "memory runs out", test_memory);
