@@ -6,12 +6,15 @@
  *              the cache build/bench/cache; callback: the field as a C callback, written by hand;
  *              batchN: formulas, N trajectories at once; compiledN: the same, compiled
  *              made: no steps, but the system is made from its formulas; steer: no steps, but
- *              100 of them from rest to rest elsewhere are found, n = 3
+ *              100 of them from rest to rest elsewhere are found, n = 3; memory: no steps, but the
+ *              bytes that a run of them has allocated
  *     METHOD   as dal_method_parse reads it          SPACE   physical, lifted
  *     SYSTEM   a built-in one, or A, B3, ... (bench/systems), B101, C (examples); C0: the fluid
  *              without pair forces, all that is left of C being the integrator and the thermostat;
  *              RN: N coordinates, N/4 constraints whose Jacobian varies; LN: N coordinates, N/2
- *              constraints (links.inc); rods: 100 rods, 200 coordinates (examples) */
+ *              constraints (links.inc); TN: N coordinates, a tridiagonal mass matrix of q,
+ *              N/2 - 1 constraints, each of which shares coordinates with the next; rods: 100
+ *              rods, 200 coordinates (examples) */
 #define _POSIX_C_SOURCE 200809L
 #include "../examples/contact_chain.h"
 #include "../examples/isokinetic_fluid.h"
@@ -19,6 +22,7 @@
 #include "model.h"
 #include <dalembert_codegen.h>
 #include <dalembert_steer.h>
+#include <malloc.h>
 
 #include "real.inc"
 
@@ -125,11 +129,33 @@ static dal_status make_links(dal_model **model, int n, dal_error *error)
     return dal_model_read(model, "links", text, (size_t)(end - text), error);
 }
 
+/* A chain whose mass matrix and constraints couple each coordinate with the next ones. */
+static dal_status make_coupled(dal_model **model, int n, dal_error *error)
+{
+    static char text[1 << 18];
+    char *end = text;
+    end += sprintf(end, "coordinates: [x0");
+    for (int i = 1; i < n; i++) end += sprintf(end, ", x%d", i);
+    end += sprintf(end, "]\nlagrangian: (x0'^2 - x0^2");
+    for (int i = 1; i < n; i++)
+        end += sprintf(end, " + x%d'^2 + x%d'*x%d'*cos(x%d)/4 - (x%d - x%d)^2", i, i - 1, i, i, i,
+                       i - 1);
+    end += sprintf(end, ")/2\nconstraints:\n");
+    for (int i = 0; i + 2 < n; i += 2)
+        end += sprintf(end, "  - x%d'*cos(x%d) + x%d' + x%d'*sin(x%d)/2\n", i, i + 2, i + 1, i + 2,
+                       i + 1);
+    end += sprintf(end, "start: {x0: 0.1");
+    for (int i = 1; i < n; i++) end += sprintf(end, ", x%d: %g", i, 0.1 * cos(i));
+    end += sprintf(end, "}\n");
+    return dal_model_read(model, "coupled", text, (size_t)(end - text), error);
+}
+
 /* A model by its formulas: of a chain, or by its name. */
 static dal_status make_model(dal_model **model, const char *name, dal_error *error)
 {
     if (name[0] == 'R') return make_chain(model, atoi(name + 1), error);
     if (name[0] == 'L') return make_links(model, atoi(name + 1), error);
+    if (name[0] == 'T') return make_coupled(model, atoi(name + 1), error);
     if (strcmp(name, "rods") == 0) return dal_model_read_file(model, RODS, error);
     return bench_model(model, name, error);
 }
@@ -233,6 +259,25 @@ static int make_batch(contender *j, int lanes, dal_error *error)
     return 0;
 }
 
+/* Prints the bytes that a run has allocated, and n. */
+static int measure_memory(char **argv, dal_error *error)
+{
+    dal_run_spec spec = {.options = dal_options_default()};
+    dal_run *run = NULL;
+    spec.system = find_system(argv[1], argv[4], error);
+    if (!spec.system || dal_options_set(&spec.options, "space", argv[3], error) ||
+        dal_method_parse(&spec.method, argv[2], error))
+        return 1;
+    struct mallinfo2 before = mallinfo2(), after;
+    if (dal_run_create(&run, &spec, error)) return 1;
+    after = mallinfo2();
+    printf("%.5g %d\n",
+           (double)(after.uordblks + after.hblkhd) - (double)(before.uordblks + before.hblkhd),
+           spec.system->n);
+    dal_run_free(run);
+    return 0;
+}
+
 static int fail(const dal_error *error)
 {
     fprintf(stderr, "dal: %s\n", error->message);
@@ -278,6 +323,7 @@ int main(int argc, char **argv)
         if (make_steered(&found, argv, &error)) return fail(&error);
         return bench_measure(&(bench_contender){1.0, 1, work_steer, &found});
     }
+    if (strcmp(argv[1], "memory") == 0) return measure_memory(argv, &error) ? fail(&error) : 0;
     if (make(&j, argv, &error)) return fail(&error);
     const int lanes = j.batch ? dal_batch_count(j.batch) : 1;
     const bench_contender measured = {(double)j.steps * lanes, j.shown,
