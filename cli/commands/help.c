@@ -7,6 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 
+const cli_command *const cli_commands[COMMANDS] = {
+#define ADDRESS(name) &command_##name,
+    COMMAND_LIST(ADDRESS)
+#undef ADDRESS
+};
+
 typedef struct settings {
     const char *command;
     bool markdown;

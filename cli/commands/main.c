@@ -11,12 +11,6 @@
 #include <string.h>
 #include <unistd.h>
 
-const cli_command *const cli_commands[COMMANDS] = {
-#define ADDRESS(name) &command_##name,
-    COMMAND_LIST(ADDRESS)
-#undef ADDRESS
-};
-
 /* A file opened while a standard stream is closed would take its number, and messages would mix
  * with rows.  The descriptors opened here are read-only: a write to a closed standard output still
  * fails. */
