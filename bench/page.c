@@ -375,10 +375,10 @@ static int write_section(report *r, const results *all, int *i)
     return status;
 }
 
-static int write_page(report *r, const results *all)
+static int write_page(report *r)
 {
-    int status = report_open(r);
-    if (status != CLI_DONE) return status;
+    const results *all = r->user;
+    int status = CLI_DONE;
     report_title(r, "The bench of dalembert");
     fputs(
         "<p>What a step costs, compared side by side: each side is a program with its best flags, "
@@ -396,18 +396,17 @@ static int write_page(report *r, const results *all)
         else
             status = cli_fail(CLI_USAGE, "%s: it is no result of a section", all->place[i]);
     }
-    const int closed = report_close(r);
-    return status == CLI_DONE ? closed : status;
+    return status;
 }
 
 int main(int argc, char **argv)
 {
     static results all;
-    report r = {.directory = argv[1]};
+    report r = {.directory = argv[1], .user = &all};
     if (argc < 3) return cli_fail(CLI_USAGE, "page: DIR and RESULTS are required");
-    int status = cli_directory(argv[1]);
+    int status = file_make_directory(argv[1]);
     for (int i = 2; i < argc && status == CLI_DONE; i++) status = read_results(&all, argv[i]);
-    if (status == CLI_DONE) status = write_page(&r, &all);
+    if (status == CLI_DONE) status = report_make(&r, write_page);
     if (status == CLI_DONE) printf("%s\n", r.page_path);
     for (int i = 0; i < all.count; i++) {
         yaml_document_delete(&all.line[i].yaml);

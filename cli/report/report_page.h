@@ -38,7 +38,7 @@ struct report {
      * another command; or NULL. */
     void (*begin)(report *r);
     int (*draw)(report *r);
-    void *user; /* for these two */
+    void *user; /* for these two, or for what writes the page */
 };
 
 /* All that return an int return CLI_DONE, or print and return an exit status. */
