@@ -413,13 +413,14 @@ int reader_next(trajectory_reader *reader)
     return -1;
 }
 
-bool reader_peek_last(trajectory_reader *reader)
+int reader_peek_last(trajectory_reader *reader)
 {
     const off_t place = ftello(reader->file),
                 last = (off_t)reader->offset + (off_t)(reader->count - 1) * reader->columns * WORD;
-    if (place < 0 || fseeko(reader->file, last, SEEK_SET) != 0) return false;
-    const bool is_read = read_row(reader);
-    return fseeko(reader->file, place, SEEK_SET) == 0 && is_read;
+    errno = EIO; /* of a file that was cut */
+    const bool is_read = place >= 0 && fseeko(reader->file, last, SEEK_SET) == 0 &&
+                         read_row(reader) && fseeko(reader->file, place, SEEK_SET) == 0;
+    return is_read ? CLI_DONE : cli_io("read", reader->path);
 }
 
 void reader_close(trajectory_reader *reader)

@@ -65,8 +65,9 @@ typedef struct trajectory_reader {
 int reader_open(trajectory_reader *reader, const char *directory);
 /* Returns 1 with the next row in row, 0 after the last row, -1 after a failure and its message. */
 int reader_next(trajectory_reader *reader);
-/* The last of count > 0 rows in row, without moving to it; false where it cannot be read. */
-bool reader_peek_last(trajectory_reader *reader);
+/* The last of count > 0 rows in row, without moving to it.  Returns CLI_DONE, or prints and returns
+ * an exit status. */
+int reader_peek_last(trajectory_reader *reader);
 void reader_close(trajectory_reader *reader);
 
 #endif

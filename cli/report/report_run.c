@@ -564,9 +564,9 @@ int report_run(report *r)
     if (status == CLI_DONE)
         status = row_steps_read(&run->steps, &dir, simulation.system ? simulation.system->n : 0,
                                 run->summary.rows - 1);
+    if (status == CLI_DONE) status = reader_peek_last(&run->reader);
     if (status == CLI_DONE) {
         report_title(r, report_model_title(simulation.model, "A run"));
-        const double last = reader_peek_last(&run->reader) ? run->reader.row[0] : NAN;
         name_plots(run);
         place_columns(run);
         write_state(run);
@@ -574,7 +574,7 @@ int report_run(report *r)
         write_end(run, dir.doc);
         if (request->system_name) status = data_write_run(r);
         write_facts(run);
-        if (!r->begin) write_summary(run, fabs(last - request->from));
+        if (!r->begin) write_summary(run, fabs(run->reader.row[0] - request->from));
         report_events_write(r, &run->events);
         if (status == CLI_DONE) status = draw_figures(run);
         if (request->system_name) report_command(r, request);
