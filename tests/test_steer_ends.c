@@ -64,31 +64,29 @@ static void test_unreached(void)
     steered_close(&s);
 }
 
-/* ---- targets to which no guess leads ---- */
-
 /* ---- motions of many steps ---- */
 
-/* Where an iteration is, and how often it was asked between its steps. */
-typedef struct questions {
+/* The iteration, and how often the observer was called again in it. */
+typedef struct repetition {
     int iteration, repeated;
-} questions;
+} repetition;
 
 static dal_status stop_between_steps(void *user, int guess, int iteration, double residual)
 {
-    questions *q = user;
+    repetition *c = user;
     CU_ASSERT(guess == 0 && residual >= 0.0);
-    CU_ASSERT(q->repeated < 3); /* it has ended the search */
-    q->repeated = iteration == q->iteration ? q->repeated + 1 : 0;
-    q->iteration = iteration;
-    return q->repeated == 3 ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
+    CU_ASSERT(c->repeated < 3); /* it has ended the search */
+    c->repeated = iteration == c->iteration ? c->repeated + 1 : 0;
+    c->iteration = iteration;
+    return c->repeated == 3 ? DAL_STATUS_INTERRUPTED : DAL_STATUS_OK;
 }
 
 /* A motion of many steps is given up between them. */
 static void test_many_steps(void)
 {
     const dal_setting target[] = {{"x", 0.0}, {"y", 1.0}, {"phi", 0.0}};
-    questions q = {.iteration = -1};
-    const dal_steer_observer observer = {&q, NULL, stop_between_steps};
+    repetition c = {.iteration = -1};
+    const dal_steer_observer observer = {&c, NULL, stop_between_steps};
     steered s;
     steered_open(&s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 2.0 / 24000.0);
     s.settings.target = target;
@@ -96,10 +94,12 @@ static void test_many_steps(void)
     CU_ASSERT_EQUAL_FATAL(
         dal_steer_create(&s.steering, s.model, &s.spec, 2.0, &s.settings, &observer, NULL),
         DAL_STATUS_OK);
-    CU_ASSERT_EQUAL(q.repeated, 3);
+    CU_ASSERT_EQUAL(c.repeated, 3);
     CU_ASSERT_EQUAL(s.steering->count, 0);
     steered_close(&s);
 }
+
+/* ---- targets to which no guess leads ---- */
 
 static dal_status note_guess(void *user, int guess, int iteration, double residual)
 {

@@ -51,7 +51,7 @@ static dal_status draw_motion(dal__shooting *s, dal__random *random, double size
     for (int k = 0; k <= s->pieces; k++) {
         memcpy(s->point + k * d, dal_run_state(p->run), (size_t)d * sizeof *z);
         if (k == s->pieces) break;
-        DAL_TRY(dal__problem_ask(p));
+        DAL_TRY(dal__problem_poll(p));
         DAL_TRY(dal_run_advance(p->run, s->first[k + 1] - s->first[k], NULL));
     }
     memcpy(p->target, s->point + s->pieces * d, 2 * (size_t)n * sizeof *z);

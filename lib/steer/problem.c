@@ -360,7 +360,7 @@ void dal__problem_close(dal__problem *p)
     free(p->value);
 }
 
-dal_status dal__problem_ask(dal__problem *p)
+dal_status dal__problem_poll(dal__problem *p)
 {
     if (p->stopped == DAL_STATUS_OK && p->observer && p->observer->step)
         p->stopped = p->observer->step(p->observer->user, p->guess, p->iterations, p->residual);
@@ -369,7 +369,7 @@ dal_status dal__problem_ask(dal__problem *p)
 
 dal_status dal__problem_iterate(dal__problem *p)
 {
-    DAL_TRY(dal__problem_ask(p));
+    DAL_TRY(dal__problem_poll(p));
     if (p->iterations >= p->limit) return DAL_STATUS_NOT_CONVERGED;
     p->iterations++;
     return DAL_STATUS_OK;

@@ -69,10 +69,10 @@ dal_status dal__problem_effort(dal__problem *p, double t, const double *x, doubl
 /* The inputs at z, a state of the lift: N^T pi/e of the effort controls, else K pi/e: out[inputs].
  * Errors: errors of the callback. */
 dal_status dal__problem_inputs(dal__problem *p, double t, const double *z, double *out);
-/* Asks the observer whether the search goes on, unless it has ended it.  Errors: what it
+/* Learns from the observer whether the search goes on, unless it has ended it.  Errors: what it
  * returned. */
-dal_status dal__problem_ask(dal__problem *p);
-/* Asks, and counts an iteration.  Errors: what the observer returned; DAL_STATUS_NOT_CONVERGED
+dal_status dal__problem_poll(dal__problem *p);
+/* Likewise, and counts an iteration.  Errors: what the observer returned; DAL_STATUS_NOT_CONVERGED
  * where there are too many. */
 dal_status dal__problem_iterate(dal__problem *p);
 

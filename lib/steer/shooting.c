@@ -12,7 +12,7 @@
  * motion (reach.c) need nine. */
 static const double coarse_tolerance = 1e-6, tangent_tolerance = 1e-12;
 
-enum { STEPS_PER_QUESTION = 64 };
+enum { STEPS_PER_CALL = 64 };
 
 dal_status dal__shooting_open(dal__shooting *s, dal__problem *p, long long steps, int pieces)
 {
@@ -70,12 +70,12 @@ static dal_status read_ends(dal__shooting *s, long long steps, double *end)
     return DAL_STATUS_OK;
 }
 
-/* Takes steps, between which the observer is asked.  Errors: what it returned. */
-static dal_status advance(dal__problem *p, dal_batch *batch, long long steps)
+/* Takes steps, between which the observer is called.  Errors: what it returned. */
+static dal_status advance_observed(dal__problem *p, dal_batch *batch, long long steps)
 {
-    for (long long rest = steps; rest > 0; rest -= STEPS_PER_QUESTION) {
-        if (rest < steps) DAL_TRY(dal__problem_ask(p));
-        dal_batch_advance(batch, rest < STEPS_PER_QUESTION ? rest : STEPS_PER_QUESTION);
+    for (long long rest = steps; rest > 0; rest -= STEPS_PER_CALL) {
+        if (rest < steps) DAL_TRY(dal__problem_poll(p));
+        dal_batch_advance(batch, rest < STEPS_PER_CALL ? rest : STEPS_PER_CALL);
     }
     return DAL_STATUS_OK;
 }
@@ -90,7 +90,7 @@ dal_status dal__shooting_move(dal__shooting *s, const double *point, double *end
         if (p->is_lifted) s->scratch[dimension - 1] = 0.0;
         DAL_TRY(dal_batch_set_state(s->plain, k, dal__shooting_time(s, k), s->scratch, p->error));
     }
-    DAL_TRY(advance(p, s->plain, steps));
+    DAL_TRY(advance_observed(p, s->plain, steps));
     DAL_TRY(read_ends(s, steps, end));
     if (s->steps % s->pieces == 0) return DAL_STATUS_OK;
     dal_batch_advance(s->plain, 1);
@@ -119,7 +119,7 @@ dal_status dal__shooting_differentiate(dal__shooting *s, dal__columns columns)
             dal__tangent_scatter(p->system, p->spec.options.space, point, vector, state);
             DAL_TRY(dal_batch_set_state(s->tangent, j, t, state, p->error));
         }
-        DAL_TRY(advance(p, s->tangent, s->first[k + 1] - s->first[k]));
+        DAL_TRY(advance_observed(p, s->tangent, s->first[k + 1] - s->first[k]));
         for (int j = 0; j < d; j++) {
             if (is_skipped(p, j, columns)) continue;
             DAL_TRY(dal_batch_status(s->tangent, j, p->error));

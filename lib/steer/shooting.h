@@ -27,7 +27,7 @@ void dal__shooting_close(dal__shooting *s);
 /* t of point k. */
 double dal__shooting_time(const dal__shooting *s, int k);
 /* Finds the ends of all pieces that begin at these points.  Errors: of a step, and what the
- * observer returned, which is asked between many steps. */
+ * observer returned, which is called between many steps. */
 dal_status dal__shooting_move(dal__shooting *s, const double *point, double *end);
 /* By which unknowns ends are differentiated. */
 typedef enum dal__columns { DAL__COLUMNS_OF_ALL, DAL__COLUMNS_WITHOUT_P } dal__columns;

@@ -11,13 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MORE_GUESSES = 8, ROWS_PER_QUESTION = 8192 };
+enum { MORE_GUESSES = 8, ROWS_PER_CALL = 8192 };
 
 /* ---- results ---- */
 
 /* Rows of a motion, which begins again at each point; pi_e is added up.  Where a step fails rows
  * after it are NaN, and so is what the whole motion has.  The observer is
- * asked between many rows. */
+ * called between many rows. */
 static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
 {
     dal__problem *p = s->problem;
@@ -47,7 +47,7 @@ static dal_status fill_rows(const dal__shooting *s, dal_extremal *out)
                 max_D = fmax(max_D, dal__max_abs(values, (size_t)p->constraints));
             }
             if (row == s->first[k + 1]) break;
-            if ((row + 1) % ROWS_PER_QUESTION == 0) DAL_TRY(dal__problem_ask(p));
+            if ((row + 1) % ROWS_PER_CALL == 0) DAL_TRY(dal__problem_poll(p));
             if (p->multipliers > 0) DAL_TRY(dal__vakonomic_add_action(p, &action));
             DAL_TRY(dal_run_step(p->run, p->error));
         }
