@@ -174,7 +174,7 @@ passes() {
 # was_ended STATUS: of a test that was noticed, by its time: SIGXCPU is 24.
 was_ended() {
     case $1 in 124 | 137 | 152) return ;; esac
-    grep -qE 'exit (124|137|152), not' "$place/test.log"
+    grep -qE 'exit (124|137|143|152), not' "$place/test.log"
 }
 # What a file is compiled into.
 target_of() { case $1 in cli/*) echo dalembert ;; *) echo tests/suite ;; esac; }
