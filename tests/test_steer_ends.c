@@ -163,37 +163,89 @@ static void test_continuation(void)
     steered_close(&s);
 }
 
-/* Straight to the side of a sleigh, where the straight line is singular: from a target near it. */
+/* A search that has begun: straight to the side of a sleigh, where the straight line is singular. */
+typedef struct sideways {
+    steered s;
+    dal__problem problem;
+    dal__shooting shooting;
+} sideways;
+
+static const dal_setting aside[] = {{"x", 0.0}, {"y", 1.0}, {"phi", 0.0}};
+
+static void open_sideways(sideways *w, const dal_steer_observer *observer)
+{
+    steered *s = &w->s;
+    steered_open(s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.08);
+    s->settings.target = aside;
+    s->settings.targets = 3;
+    CU_ASSERT_EQUAL_FATAL(
+        dal__problem_open(&w->problem, s->model, &s->spec, 2.0, &s->settings, observer, &s->record),
+        DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        dal__shooting_open(&w->shooting, &w->problem, w->problem.steps, DAL__STEER_PIECES),
+        DAL_STATUS_OK);
+}
+
+static void close_sideways(sideways *w)
+{
+    dal__shooting_close(&w->shooting);
+    dal__problem_close(&w->problem);
+    steered_close(&w->s);
+}
+
+/* From a target near it. */
 static void test_continuation_of_lift(void)
 {
-    const dal_setting target[] = {{"x", 0.0}, {"y", 1.0}, {"phi", 0.0}};
     dal__newton_result result;
-    dal__problem p;
-    dal__shooting shooting;
-    steered s;
+    sideways w;
     if (case_stride(2) > 1) return;
-    steered_open(&s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.08);
-    s.settings.target = target;
-    s.settings.targets = 3;
-    CU_ASSERT_EQUAL_FATAL(
-        dal__problem_open(&p, s.model, &s.spec, 2.0, &s.settings, NULL, &s.record), DAL_STATUS_OK);
-    CU_ASSERT_EQUAL_FATAL(dal__shooting_open(&shooting, &p, p.steps, DAL__STEER_PIECES),
-                          DAL_STATUS_OK);
-    CU_ASSERT_EQUAL(dal__continuation_solve(&shooting, &result), DAL_STATUS_OK);
-    CU_ASSERT(result.residual <= s.settings.tolerance);
-    for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(p.target[i], target[i].value);
-    s.spec.start_count = 0;
-    dal_run *run = fixture_run(&s.spec);
-    CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, shooting.point, NULL), DAL_STATUS_OK);
+    open_sideways(&w, NULL);
+    CU_ASSERT_EQUAL(dal__continuation_solve(&w.shooting, &result), DAL_STATUS_OK);
+    CU_ASSERT(result.residual <= w.s.settings.tolerance);
+    for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(w.problem.target[i], aside[i].value);
+    w.s.spec.start_count = 0;
+    dal_run *run = fixture_run(&w.s.spec);
+    CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, w.shooting.point, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_advance(run, 25, NULL), DAL_STATUS_OK);
     for (int i = 0; i < 3; i++) {
-        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[i], target[i].value, 1e-7);
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[i], aside[i].value, 1e-7);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[3 + i], 0.0, 1e-7);
     }
     dal_run_free(run);
-    dal__shooting_close(&shooting);
-    dal__problem_close(&p);
-    steered_close(&s);
+    close_sideways(&w);
+}
+
+typedef struct calls {
+    int made, last;
+} calls;
+
+/* Ends a search at its last call. */
+static dal_status stop_at_last(void *user, int guess, int iteration, double residual)
+{
+    calls *c = user;
+    (void)guess;
+    (void)iteration;
+    (void)residual;
+    return ++c->made == c->last ? DAL_STATUS_STOPPED : DAL_STATUS_OK;
+}
+
+/* Where the search is ended, be it before the last iteration, there is no motion to the target. */
+static void test_stopped_continuation(void)
+{
+    calls c = {0};
+    const dal_steer_observer observer = {&c, NULL, stop_at_last};
+    dal__newton_result result;
+    if (case_stride(2) > 1) return;
+    for (int k = 0; k < 3; k++) {
+        sideways w;
+        c.last = k == 1 ? c.made : k == 2 ? 1 : 0;
+        c.made = 0;
+        open_sideways(&w, &observer);
+        CU_ASSERT_EQUAL(dal__continuation_solve(&w.shooting, &result),
+                        k == 0 ? DAL_STATUS_OK : DAL_STATUS_STOPPED);
+        for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(w.problem.target[i], aside[i].value);
+        close_sideways(&w);
+    }
 }
 
 /* On a circle of radius 1 a turn by theta costs 6 theta^2/T^3; the angle and its rate change. */
@@ -372,6 +424,7 @@ void suite_steer_ends(void)
     CU_add_test(suite, "an interruption between many steps", test_many_steps);
     CU_add_test(suite, "an end that is moved", test_continuation);
     CU_add_test(suite, "an end that is moved, on the lift", test_continuation_of_lift);
+    CU_add_test(suite, "an end whose move is stopped", test_stopped_continuation);
     CU_add_test(suite, "a holonomic constraint, closed form", test_circle);
     CU_add_test(suite, "two masses, one pushed", test_controlled);
     CU_add_test(suite, "targets on other leaves", test_leaves);
