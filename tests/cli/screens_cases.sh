@@ -14,50 +14,56 @@ awk 'BEGIN { print "t,x,y,x\047,y\047"
     for (t = 0; t <= 1; t += 0.125) print t "," 2*t "," 2*t ",2,2" }' >curve.csv
 printf '%s\n' t,x,y 0,0,0 1,1,1 >short.csv
 
-# Single blanks, # for a number that is no part of a name, and for units of measured times.
+# Of printed lines: single blanks, # for a number that is no part of a name, and for units of measured times.  Lines that
+# begin with \x02 are no output, lines that begin with \x01 were printed to stderr.
 masked() {
-    sed -E -e ':again' -e 's/(^|[^A-Za-z_0-9.#])[-+]?[0-9]+(\.[0-9]+)*(e[-+]?[0-9]+)?/\1#/; tagain' -e 's/  +/ /g; s/ $//' \
-        -e 's/A step takes .*/A step takes/' -e 's/# ([num]|µ)?s( a step|:|,|$)/# s\2/'
-}
-# screen COMMAND: its block of the list.
-screen() {
-    echo "$ $1"
-    eval "timeout --foreground $patience \"\$program\" $1" </dev/null >out 2>err
-    status=$?
-    masked <out | awk '!seen[$0]++'
-    masked <err | awk '!seen[$0]++' | sed 's/^/2> /'
-    [ $status -eq 0 ] || echo "exit $status"
+    sed -E -e '/^\x02/b' "$@" -e ':again' -e 's/(^|[^A-Za-z_0-9.#])[-+]?[0-9]+(\.[0-9]+)*(e[-+]?[0-9]+)?/\1#/; tagain' \
+        -e 's/  +/ /g; s/ $//' -e 's/A step takes .*/A step takes/' -e 's/# ([num]|µ)?s( a step|:|,|$)/# s\2/'
 }
 escape=$(printf "\033\\[")
-# on_terminal COMMAND: the same, both outputs as a terminal shows them, lines of progress left out.
-on_terminal() {
-    echo "$ $1"
-    script -qec "stty cols 80 rows 50; TERM=xterm '$program' $1" /dev/null </dev/null >out
-    status=$?
-    sed "s/\r$//; s/.*\r//; s/${escape}[0-9;]*m//g" out | masked | awk '!seen[$0]++'
-    [ $status -eq 0 ] || echo "exit $status"
-}
-# compare_screens FILE BLOCK: each command of the list with its lines as one line.
+# screen COMMAND: to pipes; on_terminal COMMAND: both outputs as a terminal of 80 columns gets them.
+screen() { eval "\"\$program\" $1"; }
+on_terminal() { script -qec "stty cols 80 rows 50; TERM=xterm '$program' $1" /dev/null; }
+# compare_screens FILE BY OPTION...: each command of the list by that function, with options of sed that come first.
+# The commands are run one by one, then one pass over all that they print writes `found`, a list as FILE is one.
 compare_screens() {
-    awk 'NR > 1 && /^\$ / { print "" } { printf "%s\001", $0 }' "$here/data/$1" >wanted
-    echo >>wanted
-    : >found
-    while IFS= read -r line; do
-        printf '%s' "$line" | tr '\001' '\n' >wanted.block
-        command=$(sed -n '1s/^\$ //p' wanted.block)
-        $2 "$command" >found.block
-        cat found.block >>found
-        diff wanted.block found.block >differences
-        expect "$command: $(head -4 differences)" test ! -s differences
-    done <wanted
-    expect "no commands" test "$(wc -l <wanted)" -gt 25
+    wanted=$here/data/$1 by=$2
+    shift 2
+    rm -rf printed && mkdir printed
+    count=0
+    sed -n 's/^\$ //p' "$wanted" >commands
+    while IFS= read -r command; do
+        count=$((count + 1))
+        $by "$command" </dev/null >printed/$count.out 2>printed/$count.err
+        echo "$? $command"
+    done <commands >ended
+    awk 'function copy(file, begin) { while ((getline line <file) > 0) print begin line; close(file) }
+        { status = $1; sub(/^[0-9]+ /, ""); print "\002$ " $0 }
+        { copy("printed/" NR ".out", ""); copy("printed/" NR ".err", "\001") }
+        status != 0 { print "\002exit " status }' ended |
+        masked "$@" |
+        awk '/^\002/ { split("", seen); print substr($0, 2); next } !seen[$0]++ { sub(/^\001/, "2> "); print }' >found
+    awk 'FNR == 1 { list++ } /^\$ / { block[list]++; k = 0 }
+        { lines[list, block[list], ++k] = $0; count[list, block[list]] = k }
+        END { for (i = 1; i <= block[1]; i++) {
+            difference = ""
+            for (k = 1; difference == "" && (k <= count[1, i] || k <= count[2, i]); k++)
+                if (lines[1, i, k] "" != lines[2, i, k] "")
+                    difference = lines[1, i, 1] ": line " k ": \"" lines[2, i, k] "\", not \"" lines[1, i, k] "\""
+            print difference } }' "$wanted" found >differences
+    : >err
+    while IFS= read -r difference; do
+        expect "$difference" test -z "$difference"
+    done <differences
+    expect "no commands" test "$count" -gt 25
 }
 case_is "what commands print"
 compare_screens screens.txt screen
 [ -z "${SCREENS:-}" ] || cp found "$SCREENS"
 case_is "what a terminal shows"
 if needs 37 "no terminal (script, stty)" terminal; then
-    compare_screens terminal.txt on_terminal
+    # lines of progress are left out
+    compare_screens terminal.txt on_terminal -e "s/\r$//; s/.*\r//; s/${escape}[0-9;]*m//g"
     [ -z "${TERMINAL:-}" ] || cp found "$TERMINAL"
     counted
 fi
