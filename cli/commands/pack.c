@@ -118,14 +118,6 @@ static int add_text(pack *p, const char *inside, const char *text, size_t length
     return status;
 }
 
-static bool has_file(const pack *p, const char *name)
-{
-    char *path = cli_join(p->set->directory, name);
-    const bool found = file_exists(path);
-    free(path);
-    return found;
-}
-
 /* The file of a built-in system. */
 static int add_builtin(pack *p, const char *name)
 {
@@ -192,11 +184,12 @@ static int describe_study(pack *p, FILE *readme)
 
 static int describe(pack *p, FILE *readme)
 {
+    const char *directory = p->set->directory;
     int status = CLI_DONE;
     fprintf(readme, "%s, packed by dalembert %s.\n\n", p->name, DAL_VERSION);
-    if (has_file(p, "study.yaml"))
+    if (file_is_in(directory, "study.yaml"))
         status = describe_study(p, readme);
-    else if (has_file(p, "manifest.json") && has_file(p, "trajectory.npy"))
+    else if (file_is_in(directory, "manifest.json") && file_is_in(directory, "trajectory.npy"))
         status = describe_run(p, readme);
     else
         fputs("The request is in a file of this directory that ends in .json.\n\n", readme);

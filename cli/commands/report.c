@@ -13,7 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* The file by which a directory is recognised, and what writes its page. */
 static const struct {
@@ -25,14 +24,6 @@ static const struct {
              {"lyapunov.csv", report_lyapunov}, {"volume.csv", report_volume}};
 
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
-
-static bool has_file(const char *directory, const char *name)
-{
-    char *path = cli_join(directory, name);
-    const bool found = access(path, F_OK) == 0;
-    free(path);
-    return found;
-}
 
 typedef struct report_settings {
     const char *directory;
@@ -54,8 +45,8 @@ static const cli_option options[] = {
 static int write_report(report *r)
 {
     int kind = 0;
-    while (kind < KINDS && !has_file(r->directory, kinds[kind].file)) kind++;
-    if (kind == KINDS && has_file(r->directory, "study.yaml"))
+    while (kind < KINDS && !file_is_in(r->directory, kinds[kind].file)) kind++;
+    if (kind == KINDS && file_is_in(r->directory, "study.yaml"))
         return cli_fail(CLI_USAGE,
                         "'%s' holds a study that is not finished: 'dalembert resume' continues it, "
                         "'dalembert merge' merges shards",

@@ -17,14 +17,8 @@ static const char script_name[] = "uPlot.iife.min.js", style_name[] = "uPlot.min
 
 static bool holds_library(const char *directory)
 {
-    const char *const names[] = {script_name, style_name, licence_name};
-    bool found = true;
-    for (int i = 0; i < 3; i++) {
-        char *path = cli_join(directory, names[i]);
-        found &= file_exists(path);
-        free(path);
-    }
-    return found;
+    return file_is_in(directory, script_name) && file_is_in(directory, style_name) &&
+           file_is_in(directory, licence_name);
 }
 
 /* A directory of the library below one of data, or NULL; base may be NULL or empty. */

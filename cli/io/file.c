@@ -46,6 +46,14 @@ char *file_read(const char *path, size_t *length)
 
 bool file_exists(const char *path) { return access(path, F_OK) == 0; }
 
+bool file_is_in(const char *directory, const char *name)
+{
+    char *path = cli_join(directory, name);
+    const bool is_found = file_exists(path);
+    free(path);
+    return is_found;
+}
+
 int file_equals(const char *path, const void *bytes, size_t length, bool *is_same)
 {
     size_t n;

@@ -12,6 +12,8 @@
 /* The bytes of a file and a NUL, allocated; NULL after a message. */
 char *file_read(const char *path, size_t *length);
 bool file_exists(const char *path);
+/* Whether a directory holds something of that name. */
+bool file_is_in(const char *directory, const char *name);
 /* Whether a file has exactly these bytes, or the same as another. */
 int file_equals(const char *path, const void *bytes, size_t length, bool *is_same);
 int file_is_copy(const char *path, const char *other, bool *is_same);

@@ -3,13 +3,13 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
+#include "io/file.h"
 #include "run/columns.h"
 #include "run/manifest.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Of the mean time between rows: what a difference of poses is taken over. */
 static const double small_fraction = 1e-4;
@@ -72,7 +72,7 @@ int pose_open(pose_reader *p, const char *run)
     dal_error error;
     *p = (pose_reader){.simulation = simulation_default(), .dir = {.descriptor = -1}};
     run_directory_open(&p->dir, run);
-    if (access(p->dir.manifest, F_OK) != 0) return CLI_DONE;
+    if (!file_exists(p->dir.manifest)) return CLI_DONE;
     int status = manifest_read(&p->dir, &p->simulation.request);
     if (status == CLI_DONE) status = simulation_make_spec(&p->simulation, &spec);
     if (status != CLI_DONE) return status;

@@ -27,7 +27,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* An envelope has a point wherever t has grown by a factor. */
 static const double envelope_factor = 1.05;
@@ -546,7 +545,7 @@ int report_run(report *r)
     if (is_open && run->reader.count == 0)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", run->reader.path);
     run_directory_open(&dir, r->directory);
-    if (status == CLI_DONE && access(dir.manifest, F_OK) == 0)
+    if (status == CLI_DONE && file_exists(dir.manifest))
         status = manifest_read(&dir, request);
     if (status == CLI_DONE && request->system_name)
         status = cli_load(request->system_name, &request->choices, &simulation.model,
@@ -557,7 +556,7 @@ int report_run(report *r)
         status = report_events_read(&run->events, dir.events, has_events ? simulation.system : NULL,
                                     request->from);
     run->model = simulation.model;
-    if (status == CLI_DONE && access(summary, F_OK) == 0)
+    if (status == CLI_DONE && file_exists(summary))
         status = csv_table_read(&run->summary, summary);
     if (status == CLI_DONE && run->summary.rows > 0)
         status = csv_table_require(&run->summary, summary, "trend");

@@ -27,7 +27,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* ---- expectations -------------------------------------------------------------------------- */
 
@@ -81,7 +80,7 @@ static int report_expectations(report *r)
 {
     csv_table csv = {.text = NULL};
     char *path = cli_join(r->directory, "expectations.csv");
-    const int status = access(path, F_OK) == 0 ? read_steps(&csv, path) : CLI_DONE;
+    const int status = file_exists(path) ? read_steps(&csv, path) : CLI_DONE;
     int met = 0;
     for (int row = 1; row < csv.rows; row++) met += csv_table_is(&csv, row, "met", "yes");
     if (csv.rows > 1) {
@@ -393,7 +392,7 @@ static int report_label(const study_page *s, int i)
     int status = CLI_DONE;
     if (f->methods.count == 0) {
         fputs("<p>No run has numbers to show.</p>\n", s->r->page);
-    } else if (access(path, F_OK) != 0) {
+    } else if (!file_exists(path)) {
         fputs("<p>The runs keep no rows, so there is nothing to draw over time.</p>\n", s->r->page);
     } else {
         status = read_steps(&f->series, path);
