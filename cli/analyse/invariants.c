@@ -4,6 +4,7 @@
 #include "io/json.h"
 #include "run/request.h"
 #include "run/request_json.h"
+#include "run/system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/screen.h"
@@ -87,21 +88,10 @@ static const char *parameters_of(bool any) { return any ? "any parameters" : "th
 
 /* ---- as a block of a system file ----------------------------------------------------------- */
 
-static bool is_name_used(const dal_system *system, const char *name)
-{
-    for (int i = 0; i < system->invariants; i++)
-        if (strcmp(system->invariant[i], name) == 0) return true;
-    for (int i = 0; i < system->parameters; i++)
-        if (strcmp(system->parameter[i], name) == 0) return true;
-    for (int i = 0; i < system->n; i++)
-        if (strcmp(system->coordinate[i], name) == 0) return true;
-    return false;
-}
-
 void invariants_next_name(const dal_system *system, int *number, char name[INVARIANTS_NAME])
 {
     do snprintf(name, INVARIANTS_NAME, "I%d", ++*number);
-    while (is_name_used(system, name));
+    while (cli_has_name(system, name));
 }
 
 static void print_search(const run_simulation *s, const dal_invariants *found)

@@ -45,15 +45,6 @@ typedef struct section {
 
 /* ---- the model with the section among its invariants --------------------------------------- */
 
-static bool is_name_used(const dal_system *system, const char *name)
-{
-    for (int i = 0; i < system->invariants; i++)
-        if (strcmp(system->invariant[i], name) == 0) return true;
-    for (int i = 0; i < system->n; i++)
-        if (strcmp(system->coordinate[i], name) == 0) return true;
-    return false;
-}
-
 /* Reads the model and makes it with one more invariant, whose text begins in a column of --on. */
 static int load_with_invariant(run_simulation *simulation, const char *name, const char *formula,
                                int column)
@@ -85,7 +76,7 @@ static int load_section(section *s)
         return cli_fail(CLI_USAGE, "%s: %s has events: sections would pass over them",
                         simulation->request.system_name, simulation->system->name);
     /* The system has been loaded without the section: any error is one of the section. */
-    for (int k = 2; is_name_used(simulation->system, name); k++)
+    for (int k = 2; cli_has_name(simulation->system, name); k++)
         snprintf(name, sizeof name, "section_%d", k);
     if (!equals) return load_with_invariant(simulation, name, s->set->on, 1);
     /* "A = B" means (A) - (B).  Each side is made alone first, so that an error names its column in

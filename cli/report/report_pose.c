@@ -6,6 +6,7 @@
 #include "io/file.h"
 #include "run/columns.h"
 #include "run/manifest.h"
+#include "run/system.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,14 +14,6 @@
 
 /* Of the mean time between rows: what a difference of poses is taken over. */
 static const double small_fraction = 1e-4;
-
-/* Number of a coordinate, or -1. */
-static int find_coordinate(const dal_system *system, const char *name)
-{
-    int i = system->n - 1;
-    while (i >= 0 && strcmp(system->coordinate[i], name) != 0) i--;
-    return i;
-}
 
 /* The first pair of which a system has both: a plane, with one scale.  Otherwise the first two
  * coordinates, or a single one over t, whose number is -1. */
@@ -30,7 +23,7 @@ static bool find_pair(const dal_system *system, const char *axis[2], int pair[2]
     for (size_t k = 0; k < sizeof pairs / sizeof pairs[0]; k++) {
         for (int side = 0; side < 2; side++) {
             axis[side] = pairs[k][side];
-            pair[side] = find_coordinate(system, axis[side]);
+            pair[side] = cli_find_coordinate(system, axis[side]);
         }
         if (pair[0] >= 0 && pair[1] >= 0) return true;
     }

@@ -117,14 +117,6 @@ static int find_velocity(const run_page *run, const char *coordinate)
     return 0;
 }
 
-/* The number of a coordinate, or -1. */
-static int find_coordinate(const dal_system *system, const char *name)
-{
-    int i = system->n - 1;
-    while (i >= 0 && strcmp(name, system->coordinate[i]) != 0) i--;
-    return i;
-}
-
 /* Of a velocity, a multiplier or the lift. */
 static bool is_rest_of_state(const run_page *run, const char *name)
 {
@@ -165,7 +157,7 @@ static void place_columns(run_page *run)
                                strncmp(t->name[2 + 2 * n], "p_", 2) == 0;
         observables = 1 + (is_lifted ? 4 * n + 2 : 2 * n + system->multipliers);
     } else {
-        while (1 + n < t->columns && find_coordinate(system, t->name[1 + n]) >= 0) n++;
+        while (1 + n < t->columns && cli_find_coordinate(system, t->name[1 + n]) >= 0) n++;
         observables = 1 + n;
         while (observables < t->columns && is_rest_of_state(run, t->name[observables]))
             observables++;
@@ -276,7 +268,7 @@ static bool draw_steps(const run_page *run, run_column *c, const char *name, boo
     if (is_coordinate && (!run->system || !(is_sparse || row_series_is_aliased(c->series))))
         return false;
     if (is_coordinate)
-        return row_steps_draw_coordinate(&run->steps, find_coordinate(run->system, name), plot,
+        return row_steps_draw_coordinate(&run->steps, cli_find_coordinate(run->system, name), plot,
                                          c->curve);
     if (row == 0 || c->panel == PANEL_REACTIONS || c->panel == PANEL_OBSERVED || jumps(run, c) ||
         !row_steps_draw_observable(&run->steps, row - 1, subtracted(c), run->reader.count, plot,
@@ -321,7 +313,7 @@ static int draw_last_steps(run_page *run)
         const bool is_coordinate = c->panel == PANEL_COORDINATES || c->panel == PANEL_ANGLES;
         const int row = find_observable(run, run->reader.name[i]);
         if (c->panel == NO_PANEL || (!is_coordinate && row == 0)) continue;
-        const int column = is_coordinate ? 1 + find_coordinate(run->system, run->reader.name[i])
+        const int column = is_coordinate ? 1 + cli_find_coordinate(run->system, run->reader.name[i])
                                          : record->state + row;
         plot_curve *curve = add_curve(&last[c->panel], run->reader.name[i]);
         if (curve) row_steps_draw_last(&run->steps, column, subtracted(c), &last[c->panel], curve);
@@ -545,8 +537,7 @@ int report_run(report *r)
     if (is_open && run->reader.count == 0)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", run->reader.path);
     run_directory_open(&dir, r->directory);
-    if (status == CLI_DONE && file_exists(dir.manifest))
-        status = manifest_read(&dir, request);
+    if (status == CLI_DONE && file_exists(dir.manifest)) status = manifest_read(&dir, request);
     if (status == CLI_DONE && request->system_name)
         status = cli_load(request->system_name, &request->choices, &simulation.model,
                           &simulation.system);
@@ -556,8 +547,7 @@ int report_run(report *r)
         status = report_events_read(&run->events, dir.events, has_events ? simulation.system : NULL,
                                     request->from);
     run->model = simulation.model;
-    if (status == CLI_DONE && file_exists(summary))
-        status = csv_table_read(&run->summary, summary);
+    if (status == CLI_DONE && file_exists(summary)) status = csv_table_read(&run->summary, summary);
     if (status == CLI_DONE && run->summary.rows > 0)
         status = csv_table_require(&run->summary, summary, "trend");
     if (status == CLI_DONE)

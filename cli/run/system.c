@@ -93,6 +93,27 @@ const char *cli_default(const dal_model *model, const char *name, int *line, int
     return NULL;
 }
 
+static bool is_one_of(const char *const *names, int count, const char *name)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(names[i], name) == 0) return true;
+    return false;
+}
+
+int cli_find_coordinate(const dal_system *system, const char *name)
+{
+    int i = system->n - 1;
+    while (i >= 0 && strcmp(system->coordinate[i], name) != 0) i--;
+    return i;
+}
+
+bool cli_has_name(const dal_system *system, const char *name)
+{
+    return cli_find_coordinate(system, name) >= 0 ||
+           is_one_of(system->parameter, system->parameters, name) ||
+           is_one_of(system->invariant, system->invariants, name);
+}
+
 int cli_constant(const char *what, const char *text, double *value)
 {
     const dal_system *system;

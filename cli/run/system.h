@@ -45,6 +45,9 @@ int cli_keep_system(const char *system, const dal_model *model, const char *to, 
 int cli_constant(const char *what, const char *text, double *value);
 /* The default for a run that a system file gives under a name, and where; NULL: none. */
 const char *cli_default(const dal_model *model, const char *name, int *line, int *column);
+/* The number of a coordinate, or -1; whether a coordinate, parameter or invariant has that name. */
+int cli_find_coordinate(const dal_system *system, const char *name);
+bool cli_has_name(const dal_system *system, const char *name);
 /* The names of the built-in systems; returns how many. */
 enum { CLI_MAX_BUILTINS = 256 };
 int cli_builtins(const char *names[CLI_MAX_BUILTINS]);
