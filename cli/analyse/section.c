@@ -274,28 +274,16 @@ static int put_section(const section *s)
 
 /* ---- the figure ---------------------------------------------------------------------------- */
 
-static int find_column(const section *s, const char *name)
-{
-    for (int i = 1; i < s->columns; i++)
-        if (strcmp(s->names[i], name) == 0) return i;
-    cli_unknown("column of --axes", name, (const char *const *)s->names, s->columns);
-    return -1;
-}
-
-/* The columns given by --axes, or -1 and -1. */
+/* The columns given by --axes, or -1 and -1; the number of a crossing is none of them. */
 static int find_axes(section *s)
 {
     int *axis = s->axis;
     axis[0] = axis[1] = -1;
-    const char *comma = s->set->axes ? strchr(s->set->axes, ',') : NULL;
-    if (s->set->axes && !comma)
-        return cli_fail(CLI_USAGE, "--axes: '%s' is not two columns, X,Y", s->set->axes);
     if (!s->set->axes) return CLI_DONE;
-    char *first = cli_strndup(s->set->axes, (size_t)(comma - s->set->axes));
-    axis[0] = find_column(s, first);
-    axis[1] = axis[0] < 0 ? -1 : find_column(s, comma + 1);
-    free(first);
-    return axis[1] < 0 ? CLI_USAGE : CLI_DONE;
+    const int status = columns_find_axes(s->set->axes, (const char *const *)s->names + COLUMN_T,
+                                         s->columns - COLUMN_T, axis);
+    for (int i = 0; i < 2; i++) axis[i] += COLUMN_T;
+    return status;
 }
 
 /* Visibly, and by more than an error of the method: relative to the column itself, and to the unit

@@ -3,6 +3,7 @@
 #include "ensemble.h"
 #include "dalembert_order.h"
 #include "io/file.h"
+#include "run/columns.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -130,29 +131,6 @@ static int fill_times(ensemble *e)
     return CLI_DONE;
 }
 
-static int find_column(const ensemble *e, const char *name)
-{
-    for (int i = 0; i < e->columns; i++)
-        if (strcmp(e->column[i], name) == 0) return i;
-    cli_unknown("column of --axes", name, (const char *const *)e->column, e->columns);
-    return -1;
-}
-
-/* By default the first two coordinates, or the only one and its velocity. */
-static int find_axes(ensemble *e)
-{
-    e->axis[0] = 0;
-    e->axis[1] = 1;
-    if (!e->axes) return CLI_DONE;
-    const char *comma = strchr(e->axes, ',');
-    if (!comma) return cli_fail(CLI_USAGE, "--axes: '%s' is not two columns, X,Y", e->axes);
-    char *first = cli_strndup(e->axes, (size_t)(comma - e->axes));
-    e->axis[0] = find_column(e, first);
-    e->axis[1] = e->axis[0] < 0 ? -1 : find_column(e, comma + 1);
-    free(first);
-    return e->axis[1] < 0 ? CLI_USAGE : CLI_DONE;
-}
-
 static void name_columns(ensemble *e)
 {
     char name[MAX_NAME];
@@ -173,7 +151,10 @@ int ensemble_complete(ensemble *e)
     if (status == CLI_DONE) status = fill_times(e);
     if (status != CLI_DONE) return status;
     name_columns(e);
-    status = find_axes(e);
+    e->axis[0] = 0; /* by default the first two coordinates, or the only one and its velocity */
+    e->axis[1] = 1;
+    if (e->axes)
+        status = columns_find_axes(e->axes, (const char *const *)e->column, e->columns, e->axis);
     if (status != CLI_DONE) return status;
     const dal_status made =
         dal_ensemble_create(&e->first, &e->spec, e->vary, e->variations,

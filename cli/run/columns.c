@@ -273,3 +273,21 @@ void columns_free(run_columns *columns)
     free(columns->index);
     *columns = (run_columns){0};
 }
+
+static int find_axis(const char *name, const char *const *names, int count, int *axis)
+{
+    for (*axis = 0; *axis < count; ++*axis)
+        if (strcmp(names[*axis], name) == 0) return CLI_DONE;
+    return cli_unknown("column of --axes", name, names, count);
+}
+
+int columns_find_axes(const char *axes, const char *const *names, int count, int axis[2])
+{
+    const char *comma = strchr(axes, ',');
+    if (!comma) return cli_fail(CLI_USAGE, "--axes: '%s' is not two columns, X,Y", axes);
+    char *first = cli_strndup(axes, (size_t)(comma - axes));
+    int status = find_axis(first, names, count, &axis[0]);
+    if (status == CLI_DONE) status = find_axis(comma + 1, names, count, &axis[1]);
+    free(first);
+    return status;
+}

@@ -30,5 +30,8 @@ void columns_rename(const run_request *request, char *name);
 /* Whether a column is the velocity of a coordinate. */
 bool columns_is_velocity(const run_request *request, const char *name, const char *coordinate);
 void columns_free(run_columns *columns);
+/* The two of names[count] that --axes X,Y means.  Returns CLI_DONE, or prints and returns
+ * CLI_USAGE. */
+int columns_find_axes(const char *axes, const char *const *names, int count, int axis[2]);
 
 #endif
