@@ -2,6 +2,7 @@
 #include "dirac.h"
 #include "dalembert_dirac.h"
 #include "io/json.h"
+#include "io/text.h"
 #include "run/request.h"
 #include "run/request_json.h"
 #include "ui/memory.h"
@@ -52,20 +53,12 @@ static char *formula_of(const printer *p, const dal_formula *f)
     return cli_format("%.*s...", MAX_LENGTH, f->text);
 }
 
-/* Appends an item to a list with commas; allocated. */
-static char *add_item(char *list, const char *item)
-{
-    char *longer = list ? cli_format("%s, %s", list, item) : cli_strdup(item);
-    free(list);
-    return longer;
-}
-
 static void say_step(printer *p, const dal_dirac *d, const dal_dirac_step *s)
 {
     char *condition = formula_of(p, &s->condition), *added = NULL;
     for (int i = s->first; i < s->first + s->count; i++) {
         char *formula = formula_of(p, &d->constraint[i].phi);
-        added = add_item(added, formula);
+        added = text_append_item(added, ", ", formula);
         free(formula);
     }
     char *name = formula_of(p, &d->constraint[s->constraint].phi);
@@ -102,7 +95,7 @@ static void say_class(printer *p, const dal_dirac *d, constraint_kind kind, int 
     for (int a = 0; a < d->constraints; a++) {
         if (d->constraint[a].first_class != (kind == FIRST_CLASS)) continue;
         char *formula = formula_of(p, &d->constraint[a].form);
-        list = add_item(list, formula);
+        list = text_append_item(list, ", ", formula);
         free(formula);
     }
     say(p, "%s class, %d: %s", kind == FIRST_CLASS ? "First" : "Second", count,
@@ -118,12 +111,12 @@ static void say_results(printer *p, const dal_dirac *d)
     for (int b = 0; b < d->primaries; b++) {
         const dal_dirac_multiplier *mu = &d->multiplier[b];
         if (mu->is_free) {
-            is_free = add_item(is_free, mu->name.text);
+            is_free = text_append_item(is_free, ", ", mu->name.text);
             continue;
         }
         char *value = formula_of(p, &mu->value);
         char *item = cli_format("%s = %s", mu->name.text, value);
-        fixed = add_item(fixed, item);
+        fixed = text_append_item(fixed, ", ", item);
         free(item);
         free(value);
     }

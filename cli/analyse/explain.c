@@ -5,6 +5,7 @@
 #include "dalembert_predict.h"
 #include "io/csv_cells.h"
 #include "io/file_output.h"
+#include "io/text.h"
 #include "io/trend.h"
 #include "run/request_json.h"
 #include "ui/memory.h"
@@ -98,46 +99,33 @@ static const char *ratio_text(double ratio, char *buffer)
     return buffer;
 }
 
-/* A sentence that lists items after its head. */
-typedef struct sentence {
-    char *text;
-    bool has_items;
-} sentence;
-
-/* Adds an item, and frees it. */
-static void add_item(sentence *s, char *item)
+/* Prints a sentence that lists items, and frees them; nothing without items. */
+static void print_items(const char *head, char *items, const char *end)
 {
-    char *longer = cli_format("%s%s %s", s->text, s->has_items ? "," : "", item);
-    free(item);
-    free(s->text);
-    *s = (sentence){longer, true};
-}
-
-/* Prints a sentence that has items, and frees it. */
-static void end_sentence(sentence *s, const char *end)
-{
-    char *text = cli_format("%s%s", s->text, end);
-    if (s->has_items) cli_wrap(stdout, text, 0, 4);
+    char *text = cli_format("%s %s%s", head, items ? items : "", end);
+    if (items) cli_wrap(stdout, text, 0, 4);
     free(text);
-    free(s->text);
+    free(items);
 }
 
 /* What +project makes of the drifts that it removes. */
 static void print_projection(const dal_error_budget *e, const int *list, int count)
 {
-    sentence s = {cli_strdup("With +project:"), false};
+    char *items = NULL;
     if (!e->ran[DAL_COMPARISON_PROJECTION] || e->has_projection) count = 0;
     for (int k = 0; k < count; k++) {
         const dal_shares *a = &e->shares[list[k]];
         char cell[CELL_SIZE];
         if (a->whole.size != DAL_SIZE_LARGER || !(a->share[DAL_SOURCE_PROJECTION] >= 0.5)) continue;
-        if (a->is_conserved && a->comparison[DAL_COMPARISON_PROJECTION].size != DAL_SIZE_LARGER)
-            add_item(&s, cli_format("%s at rounding", a->name));
-        else
-            add_item(&s,
-                     cli_format("%s at %s of this", a->name, ratio_text(projected_ratio(a), cell)));
+        const bool is_rounding =
+            a->is_conserved && a->comparison[DAL_COMPARISON_PROJECTION].size != DAL_SIZE_LARGER;
+        char *item = is_rounding ? cli_format("%s at rounding", a->name)
+                                 : cli_format("%s at %s of this", a->name,
+                                              ratio_text(projected_ratio(a), cell));
+        items = text_append_item(items, ", ", item);
+        free(item);
     }
-    end_sentence(&s, ".");
+    print_items("With +project:", items, ".");
 }
 
 /* What `predict` says of a quantity; NULL: nothing. */
@@ -153,15 +141,17 @@ static const dal_predicted *find_predicted(const dal_prediction *from, const cha
 static void print_predicted(const dal_error_budget *e, const dal_prediction *from, const int *list,
                             int count)
 {
-    sentence s = {cli_strdup("Predicted by single steps:"), false};
+    char *items = NULL;
     for (int k = 0; k < count; k++) {
         const dal_shares *a = &e->shares[list[k]];
         const dal_predicted *q = find_predicted(from, a->name);
-        if (q && a->whole.size == DAL_SIZE_LARGER)
-            add_item(&s, cli_format("%s %.3g (run %.3g)", a->name, q->change,
-                                    a->whole.last - a->whole.first));
+        if (!q || a->whole.size != DAL_SIZE_LARGER) continue;
+        char *item =
+            cli_format("%s %.3g (run %.3g)", a->name, q->change, a->whole.last - a->whole.first);
+        items = text_append_item(items, ", ", item);
+        free(item);
     }
-    end_sentence(&s, ".");
+    print_items("Predicted by single steps:", items, ".");
 }
 
 /* Whether a source has a column: truncation and rounding always, others where they have a part. */
@@ -219,10 +209,10 @@ static void print_shares(const dal_error_budget *e, const int *list, int count)
 /* The names of what never changed. */
 static void print_exact(const dal_error_budget *e)
 {
-    sentence s = {cli_strdup("exact:"), false};
+    char *items = NULL;
     for (int i = 0; i < e->observables; i++)
-        if (!is_changed(e, i)) add_item(&s, cli_strdup(e->shares[i].name));
-    end_sentence(&s, "");
+        if (!is_changed(e, i)) items = text_append_item(items, ", ", e->shares[i].name);
+    print_items("exact:", items, "");
 }
 
 /* ---- the details ---- */

@@ -2,6 +2,7 @@
 #include "invariants.h"
 #include "dalembert_invariants.h"
 #include "io/json.h"
+#include "io/text.h"
 #include "run/request.h"
 #include "run/request_json.h"
 #include "run/system.h"
@@ -28,9 +29,7 @@ static formulas split_list(const char *list)
 {
     formulas f = {.text = NULL};
     while (list) {
-        const char *end = list;
-        for (int depth = 0; *end && (*end != ',' || depth > 0); end++)
-            depth += (*end == '(') - (*end == ')');
+        const char *end = text_find_comma(list);
         list += strspn(list, " ");
         size_t length = end > list ? (size_t)(end - list) : 0;
         while (length > 0 && list[length - 1] == ' ') length--;
@@ -230,9 +229,7 @@ static int put_invariants(const invariants_settings *settings, const dal_invaria
 /* A formula as one of --observe, where a name alone is in parentheses; allocated. */
 static char *observed_formula(const char *formula)
 {
-    static const char letters[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_'";
-    return cli_format(strspn(formula, letters) == strlen(formula) ? "(%s)" : "%s", formula);
+    return cli_format(text_is_name(formula) ? "(%s)" : "%s", formula);
 }
 
 int invariants_observe(run_simulation *simulation)
@@ -244,25 +241,21 @@ int invariants_observe(run_simulation *simulation)
     dal_error error = {0};
     const dal_status status = dal_find_invariants(&found, simulation->model, &spec, NULL, &error);
     if (!cli_is_ok(status)) return cli_error(cli_input_exit(status), request->system_name, &error);
-    char *list = cli_strdup(request->observe ? request->observe : ""), *added = cli_strdup("");
+    char *list = request->observe && request->observe[0] ? cli_strdup(request->observe) : NULL,
+         *added = NULL;
     for (const dal_invariant *i = found->invariant; i < found->invariant + found->count; i++) {
         char *formula = observed_formula(i->formula);
         if (i->is_new && strlen(formula) <= MAX_OBSERVED && !request_observes(request, formula)) {
-            char *longer = cli_format("%s%s%s", list, list[0] ? "; " : "", formula);
-            char *more = cli_format("%s%s%s", added, added[0] ? "; " : "", formula);
-            free(list);
-            free(added);
-            list = longer;
-            added = more;
+            list = text_append_item(list, "; ", formula);
+            added = text_append_item(added, "; ", formula);
         }
         free(formula);
     }
     dal_invariants_free(found);
-    cli_note("%s %s %s", request->system_name, added[0] ? "conserves" : "has no further invariants",
-             added[0] ? added : "of degree 2");
-    if (added[0]) simulation->system = NULL; /* it is made again, with these formulas */
-    const int given =
-        added[0] ? request_give(request, REQUEST_observe, cli_strdup(list)) : CLI_DONE;
+    cli_note("%s %s %s", request->system_name, added ? "conserves" : "has no further invariants",
+             added ? added : "of degree 2");
+    if (added) simulation->system = NULL; /* it is made again, with these formulas */
+    const int given = added ? request_give(request, REQUEST_observe, cli_strdup(list)) : CLI_DONE;
     free(list);
     free(added);
     return given;

@@ -4,6 +4,7 @@
 #include "dalembert_evaluator.h"
 #include "dalembert_method.h"
 #include "io/json.h"
+#include "io/text.h"
 #include "run/system.h"
 #include "ui/arguments.h"
 #include "ui/commands.h"
@@ -105,15 +106,13 @@ static const char *or_none(const char *text) { return text ? text : "-"; }
 static void add_system(cli_table *t, const char *name, const dal_system *system, const settings *s)
 {
     const char *tick = s->markdown ? "`" : "", *title = system->title ? system->title : "";
-    char *tags = cli_strdup("");
-    for (int i = 0; s->is_long && i < system->tags; i++) {
-        char *longer = cli_format("%s%s%s", tags, i > 0 ? ", " : "\t", system->tag[i]);
-        free(tags);
-        tags = longer;
-    }
-    cli_table_append(t, "%s%s%s\t%d\t%d\t%s\t%s\t%s\t%s%s", tick, name, tick, system->n, system->m,
-                     or_none(kind(system)), or_none(energy(system)), system->exact ? "yes" : "-",
-                     title, s->is_long && !*tags ? "\t-" : tags);
+    char *tags = NULL;
+    for (int i = 0; s->is_long && i < system->tags; i++)
+        tags = text_append_item(tags, ", ", system->tag[i]);
+    cli_table_append(t, "%s%s%s\t%d\t%d\t%s\t%s\t%s\t%s%s%s", tick, name, tick, system->n,
+                     system->m, or_none(kind(system)), or_none(energy(system)),
+                     system->exact ? "yes" : "-", title, s->is_long ? "\t" : "",
+                     s->is_long ? or_none(tags) : "");
     free(tags);
 }
 
@@ -294,12 +293,11 @@ static void print_units(const selection *list, const settings *s)
         const dal_system *system = list->system[i];
         const char *tick = s->markdown ? "`" : "";
         double *units = find_units(system);
-        char *lengths = cli_strdup("");
+        char *lengths = NULL;
         for (int k = 0; k < system->n; k++) {
-            char *longer = cli_format("%s%s%s %.10g", lengths, k > 0 ? ", " : "",
-                                      system->coordinate[k], units[1 + k]);
-            free(lengths);
-            lengths = longer;
+            char *length = cli_format("%s %.10g", system->coordinate[k], units[1 + k]);
+            lengths = text_append_item(lengths, ", ", length);
+            free(length);
         }
         cli_table_append(&table, "%s%s%s\t%.10g\t%s", tick, list->name[i], tick, units[0], lengths);
         free(lengths);

@@ -1,7 +1,8 @@
-/* text.c - characters of UTF-8, lists between commas, and what a text of a file may hold. */
+/* text.c - characters of UTF-8, lists and their items, and what a text of a file may hold. */
 #include "text.h"
 #include "ui/memory.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Overlong forms, surrogates and codes beyond U+10FFFF are no characters (The Unicode Standard,
@@ -57,6 +58,27 @@ void text_write_quoted(FILE *out, char quote, const char *text)
 bool text_is_file_name(const char *text)
 {
     return text[0] && text[0] != '.' && !strchr(text, '/') && text_find_control(text, "") < 0;
+}
+
+char *text_append_item(char *list, const char *separator, const char *item)
+{
+    char *longer = list ? cli_format("%s%s%s", list, separator, item) : cli_strdup(item);
+    free(list);
+    return longer;
+}
+
+const char *text_find_comma(const char *item)
+{
+    for (int depth = 0; *item && (*item != ',' || depth > 0); item++)
+        depth += (*item == '(') - (*item == ')');
+    return item;
+}
+
+bool text_is_name(const char *formula)
+{
+    static const char letters[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_'";
+    return formula[strspn(formula, letters)] == '\0';
 }
 
 int text_split(char *list, const char ***items)

@@ -14,15 +14,12 @@
 
 /* ---- options ------------------------------------------------------------------------------- */
 
-/* Commas within parentheses are of a formula. */
 int steer_parse_target(void *user, const cli_option *option, const char *text)
 {
     steer_settings *s = user;
     int status = CLI_DONE;
     for (const char *end; text && status == CLI_DONE; text = *end ? end + 1 : NULL) {
-        int depth = 0;
-        for (end = text; *end && (depth > 0 || *end != ','); end++)
-            depth += (*end == '(') - (*end == ')');
+        end = text_find_comma(text);
         char *item = cli_strndup(text, (size_t)(end - text));
         status = request_parse_named(&s->target, option, item);
         free(item);

@@ -7,6 +7,7 @@
  * `run --observe` does, and the quantity has the text of the formula as its name. */
 #include "study_observe.h"
 
+#include "io/text.h"
 #include "run/system.h"
 #include "study_expect.h"
 #include "ui/memory.h"
@@ -23,20 +24,13 @@ typedef struct observed_item {
     int count;
 } observed_item;
 
-static bool is_formula(const char *text)
-{
-    static const char of_names[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_'";
-    return text[0] != '|' && text[strspn(text, of_names)] != '\0';
-}
-
 static void add_formula(observed_item *g, const document_pair *quantity)
 {
     const yaml_node_t *key = quantity->key;
     const yaml_scalar_style_t style = key->data.scalar.style;
     const bool is_quoted =
         style == YAML_SINGLE_QUOTED_SCALAR_STYLE || style == YAML_DOUBLE_QUOTED_SCALAR_STYLE;
-    if (!is_formula(quantity->name)) return;
+    if (quantity->name[0] == '|' || text_is_name(quantity->name)) return;
     if (study_has_quantity(&g->plan->cases[g->first], quantity->name)) return;
     for (int i = 0; i < g->count; i++)
         if (strcmp(g->formula[i].text, quantity->name) == 0) return;
