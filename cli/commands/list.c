@@ -420,10 +420,8 @@ enum { MAX_NAMES = 100 };
 /* The names alone, on a terminal. */
 static int print_names(const selection *list)
 {
-    const char *system[CLI_MAX_BUILTINS], *integrator[2][MAX_NAMES];
-    int systems = 0, count[2] = {0};
-    for (; systems < list->systems && systems < CLI_MAX_BUILTINS; systems++)
-        system[systems] = dal_builtin_name(systems);
+    const char *integrator[2][MAX_NAMES];
+    int count[2] = {0};
     for (int i = 0; i < list->integrators; i++) {
         const dal_integrator *k = list->integrator[i];
         const int kind = (k->properties & DAL_MODIFIER) != 0;
@@ -433,7 +431,7 @@ static int print_names(const selection *list)
         const char *head, *more;
         const char *const *names;
         int count;
-    } lists[] = {{"Systems", "list systems", system, systems},
+    } lists[] = {{"Systems", "list systems", list->name, list->systems},
                  {"Integrators", "list integrators", integrator[0], count[0]},
                  {"Modifiers, as in rk4+project", "list modifiers", integrator[1], count[1]}};
     screen s;

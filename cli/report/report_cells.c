@@ -24,13 +24,9 @@ double step_tolerance(const char *step)
     return strtod(end, NULL);
 }
 
-const char *step_title(char title[STEP_TITLE], const char *step)
+const char *step_title(char title[STUDY_DIVISION], const char *step)
 {
-    const double tolerance = step_tolerance(step);
-    const int length = snprintf(title, STEP_TITLE, "h = %g", strtod(step, NULL));
-    if (tolerance > 0.0)
-        snprintf(title + length, STEP_TITLE - (size_t)length, ", tolerance %g", tolerance);
-    return title;
+    return study_division(title, strtod(step, NULL), step_tolerance(step));
 }
 
 const char *get_cell(const study_page *s, int row, const char *head)

@@ -5,6 +5,7 @@
 #include "dalembert_model.h"
 #include "io/csv_table.h"
 #include "report_page.h"
+#include "study/study_data.h"
 
 #include <stdbool.h>
 
@@ -20,8 +21,7 @@ typedef struct study_page {
  * "0.1 1e-6"; otherwise as csv_table_read. */
 int read_steps(csv_table *csv, const char *path);
 /* Such a text on the page: "h = 0.1", or "h = 0.1, tolerance 1e-06"; its tolerance, 0 for none. */
-enum { STEP_TITLE = 80 };
-const char *step_title(char title[STEP_TITLE], const char *step);
+const char *step_title(char title[STUDY_DIVISION], const char *step);
 double step_tolerance(const char *step);
 
 /* The text of a cell under a head of cells.csv; whether it is another one. */

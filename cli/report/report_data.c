@@ -132,7 +132,7 @@ static void write_times(json_writer *data, const csv_table *series, const cell_r
                         const csv_words *steps)
 {
     int chosen[MAX_TIMES];
-    char title[STEP_TITLE];
+    char title[STUDY_DIVISION];
     json_open_list(data, "steps", JSON_ON_ONE_LINE);
     for (int h = 0; h < steps->count; h++) {
         const int count = choose_times(longest[h].count, chosen);

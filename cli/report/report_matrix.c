@@ -86,7 +86,7 @@ static void write_names(const study_page *s, const char *label)
 static void write_matrix(const study_page *s, const table_columns *all, const quantity *t)
 {
     FILE *page = s->r->page;
-    char title[STEP_TITLE];
+    char title[STUDY_DIVISION];
     table_columns shown = {.count = 0};
     if (!t->heading) return;
     for (int i = 0; i < all->count; i++)
@@ -201,7 +201,7 @@ static int draw_predicted(const study_page *s)
 static void write_predicted_row(const study_page *s, int row)
 {
     FILE *page = s->r->page;
-    char title[STEP_TITLE];
+    char title[STUDY_DIVISION];
     report_row(page, get_cell(s, row, "label"));
     report_element(page, "td", get_cell(s, row, "integrator"));
     report_element(page, "td", step_title(title, get_cell(s, row, "step")) + 4);

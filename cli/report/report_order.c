@@ -65,7 +65,7 @@ static void write_facts(const order_page *o)
 static void write_orders_table(const order_page *o)
 {
     FILE *page = o->r->page;
-    char title[STEP_TITLE];
+    char title[STUDY_DIVISION];
     fputs(REPORT_TABLE "<td></td><th>order, stated</th><th>order, found</th>", page);
     for (int h = 0; h < o->steps.count; h++)
         report_element(page, "th", step_title(title, o->steps.word[h]));

@@ -42,7 +42,7 @@ static void write_expectations(FILE *page, const csv_table *csv, which_expectati
     for (int row = 1; row < csv->rows; row++) {
         const bool is_met = csv_table_is(csv, row, "met", "yes");
         if (which == UNMET_EXPECTATIONS && is_met) continue;
-        char title[STEP_TITLE];
+        char title[STUDY_DIVISION];
         const char *step = csv_table_get(csv, row, "step");
         report_row(page, csv_table_get(csv, row, "label"));
         for (size_t k = 0; k < sizeof heads / sizeof heads[0]; k++)
@@ -174,7 +174,8 @@ static void add_envelope(const label_figures *f, report_plot *plot, const char *
 static int draw_quantity(const label_figures *f, const quantity *t, int step)
 {
     const char *h = f->steps.word[step];
-    char name[PLOT_NAME], heading[PLOT_NAME], division[STEP_TITLE], text[PLOT_METHODS * PLOT_TITLE];
+    char name[PLOT_NAME], heading[PLOT_NAME], division[STUDY_DIVISION],
+        text[PLOT_METHODS * PLOT_TITLE];
     report_plot plot = {.name = name_plot(name, f, t->name, step),
                         .title = heading,
                         .xlabel = "time since the start",
@@ -270,7 +271,7 @@ static int draw_best_path(const label_figures *f)
     const study_page *s = f->s;
     const int best = find_best(f);
     if (best == 0) return CLI_DONE;
-    char name[PLOT_NAME], caption[2 * PLOT_NAME], division[STEP_TITLE];
+    char name[PLOT_NAME], caption[2 * PLOT_NAME], division[STUDY_DIVISION];
     snprintf(caption, sizeof caption, "The path by %.80s with %s.", get_cell(s, best, "integrator"),
              step_title(division, get_cell(s, best, "step")));
     char *run = cli_join(s->r->directory, get_cell(s, best, "run"));
