@@ -97,3 +97,9 @@ an-ensemble statistics.csv t deviation
 an-ensemble histograms.csv t count
 an-ensemble cloud.csv t member
 EOF
+
+case_is "expectations that are no table"
+cp -r a-study no-table
+printf 'label,met\nline\n' >no-table/expectations.csv
+try 2 report no-table
+says '^dalembert: no-table/expectations.csv:2: 1 columns, but the file has 2 heads$'

@@ -89,6 +89,19 @@ try 0 merge half other-half --output merged
 expect "a merge changes bytes" same_cells merged
 expect "a merge loses some" test "$(wc -c <merged/predictions/all)" -eq "$size"
 
+case_is "predictions of a study: interrupted"
+if needs 6 "no compiler for signals at given places" raises; then
+    sed 's/^\(integrators:\).*/\1 rk4/; s/^\(step:\).*/\1 0.05/; /^  - /{ /pendulum-cvt/!d }' ahead.yaml >single.yaml
+    # The signal comes when the run is done: its prediction is the first to see it.
+    cut_off 130 2 4 study single.yaml --output single --threads 1 --no-page --checkpoint 1e6
+    expect "the run is not done" grep -q '"status": "done"' single/runs/pendulum-cvt_rk4_physical_0.05/manifest.json
+    prints '^1 runs in .*: 1 not run\.$'
+    expect "a cell without its prediction" test "$(wc -l <single/cells.csv)" -eq 1
+    try 0 resume single
+    expect "no prediction" test "$(column predicted_until single/cells.csv)" = 20
+    counted
+fi
+
 case_is "predictions of a study: by MPI"
 if needs 4 "no mpirun, or no dalembert-mpi (make mpi)" has_mpi; then
     by_mpi 0 -n 3 "$mpi_program" ahead.yaml --output by-mpi
