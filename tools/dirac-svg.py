@@ -7,9 +7,6 @@ import json
 import subprocess
 import sys
 
-DARK = ('<style>@media (prefers-color-scheme: dark) { [stroke="black"] { stroke: #e4e4e4; } '
-        '[fill="black"], text { fill: #e4e4e4; } }</style>')
-
 
 def group(name):
     """A name without its coordinate: pi_lambda_x and pi_lambda_y are one box."""
@@ -46,11 +43,7 @@ def main():
         lines.append(f'"{name}" [label="{values.get(name, name)}", shape=plaintext];')
     lines += [f'"{a}" -> "{b}" [style=dashed];' for a, b in fixed]
     lines.append('"mu_e" [label="mu_e is free", shape=plaintext]; "pi_e" -> "mu_e" [style=dotted]; }')
-    drawn = subprocess.run(['dot', '-Tsvg', '-Gbgcolor=transparent'], input='\n'.join(lines), text=True,
-                           capture_output=True, check=True).stdout
-    head, tail = drawn.split('xmlns:xlink', 1)
-    opening, rest = tail.split('>', 1)
-    sys.stdout.write(head + 'xmlns:xlink' + opening + '>\n' + DARK + rest)
+    subprocess.run(['dot', '-Tsvg', '-Gbgcolor=transparent'], input='\n'.join(lines), text=True, check=True)
 
 
 if __name__ == '__main__':

@@ -32,13 +32,8 @@ cd "$top"
 for directory in study disk board sleigh parking steered rod section skate skate-study; do
     "$program" report "$work/$directory" --svg >/dev/null
 done
-# picture DIRECTORY FIGURE NAME: what is black on paper is light where the reader likes the dark.
-picture() {
-    sed "s|<title>Gnuplot</title>|<style>@media (prefers-color-scheme: dark) {\
-[stroke='black'], [stroke='rgb(  0,   0,   0)'] { stroke: #e4e4e4; }\
-[fill='black'], [fill='rgb(  0,   0,   0)'] { fill: #e4e4e4; }\
-[color='black'] { color: #e4e4e4; } }</style>|; /^<desc>/d" "$work/$1/report/$2.svg" >"$gallery/$3.svg"
-}
+# picture DIRECTORY FIGURE NAME
+picture() { awk -f tools/dark_svg.awk "$work/$1/report/$2.svg" >"$gallery/$3.svg"; }
 picture study 1-E drift
 picture study 2-work work
 picture disk path disk
@@ -91,12 +86,8 @@ plot for [h in '0.1 0.05'] '$work/predicted-'.h using 1:2 with lines title 'h = 
      for [h in '0.1 0.05'] '$work/run-'.h using 1:2 with points pt 6 ps 0.5 title 'run'
 END
 for name in action predict; do
-    awk '{ print } /^>$/ { print "<style>@media (prefers-color-scheme: dark) {"
-        print "[stroke=\047black\047], [stroke=\047rgb(  0,   0,   0)\047] { stroke: #e4e4e4; }"
-        print "[fill=\047black\047], [fill=\047rgb(  0,   0,   0)\047], text { fill: #e4e4e4; }"
-        print "[color=\047black\047], [color=\047rgb(  0,   0,   0)\047] { color: #e4e4e4; } }</style>" }
-        ' "$work/$name.svg" >"$2/$name.svg"
+    awk -f tools/dark_svg.awk "$work/$name.svg" >"$2/$name.svg"
 done
 "$program" dirac chaplygin-sleigh --json >"$work/dirac.json"
-python3 tools/dirac-svg.py "$work/dirac.json" >"$2/dirac.svg"
+python3 tools/dirac-svg.py "$work/dirac.json" | awk -f tools/dark_svg.awk >"$2/dirac.svg"
 ls -l "$2"/*.svg | awk '{ print "gallery: " $9 ", " $5 " bytes" }'

@@ -30,11 +30,7 @@ replace() {
 { echo '```c'; cat examples/heun.c; echo '```'; } | replace heun design.md
 sh tools/lint/dependencies.sh >docs/dependencies.dot
 if command -v dot >/dev/null; then
-    dot -Tsvg -Gbgcolor=transparent docs/dependencies.dot | awk '
-        { print }
-        /xmlns:xlink/ { print "<style>@media (prefers-color-scheme: dark) {"
-                        print "[stroke=\"black\"] { stroke: #e4e4e4; } [fill=\"black\"], text { fill: #e4e4e4; } }</style>" }
-        ' >docs/gallery/dependencies.svg
+    dot -Tsvg -Gbgcolor=transparent docs/dependencies.dot | awk -f tools/dark_svg.awk >docs/gallery/dependencies.svg
 fi
 [ "$2" ] || exit 0
 top=$PWD
