@@ -404,19 +404,34 @@ char *json_source(const char *bytes, const yaml_node_t *value)
                        value->end_mark.index - value->start_mark.index);
 }
 
-/* place: for messages, as in json_parse.  The document is to be deleted in any case. */
-static int parse_file(document *doc, const char *path, const char *place, bool *is_parsed)
+int json_read(document *doc, const char *path, const char *place)
 {
     size_t length;
-    *is_parsed = false;
+    *doc = (document){.place = place};
+    char *bytes = file_read(path, &length);
+    const int status = bytes ? json_parse(doc, place, bytes, length) : CLI_IO;
+    free(bytes);
+    return status;
+}
+
+/* A file that may be absent.  The document is to be deleted in any case. */
+static int parse_file(document *doc, const char *path, const char *place, bool *is_parsed)
+{
     struct stat info;
+    *is_parsed = false;
     if (stat(path, &info) != 0) return CLI_DONE;
     if (S_ISDIR(info.st_mode)) return cli_fail(CLI_USAGE, "'%s' is a directory", path);
-    char *bytes = file_read(path, &length);
-    if (!bytes) return CLI_IO;
-    *is_parsed = json_parse(doc, place, bytes, length) == CLI_DONE;
-    free(bytes);
-    return CLI_DONE;
+    const int status = json_read(doc, path, place);
+    *is_parsed = status == CLI_DONE;
+    return status == CLI_IO ? CLI_IO : CLI_DONE;
+}
+
+const char *json_scalar(const document *doc, const yaml_node_t *object, const char *name)
+{
+    const yaml_node_t *node = document_value(doc, object, name);
+    if (!node || node->type != YAML_SCALAR_NODE) return "";
+    const char *text = (const char *)node->data.scalar.value;
+    return strcmp(text, "null") == 0 ? "" : text;
 }
 
 const char *json_text(const document *doc, const char *name)

@@ -67,6 +67,11 @@ void json_end_results(json_writer *writer);
  * Half of a surrogate pair is U+FFFD.  Returns CLI_DONE, or prints, unless place is NULL, and
  * returns CLI_USAGE; the document is to be deleted either way. */
 int json_parse(document *doc, const char *place, const char *bytes, size_t length);
+/* The same of a file; CLI_IO where it cannot be read. */
+int json_read(document *doc, const char *path, const char *place);
+/* A scalar of an object as it is written, a text without its quotes; "" where there is none, or
+ * null. */
+const char *json_scalar(const document *doc, const yaml_node_t *object, const char *name);
 /* The text of a value in the bytes that were parsed, allocated. */
 char *json_source(const char *bytes, const yaml_node_t *value);
 /* A text of the object; NULL where it is not there, or after a message where it is no text. */

@@ -60,19 +60,12 @@ static int read_model(report_results *results)
 
 int results_read(report_results *results, const char *directory, const char *name)
 {
-    size_t length;
     *results = (report_results){.place = cli_format("%s/%s.json", directory, name),
                                 .copy = cli_format("%s/%s.yaml", directory, name),
                                 .simulation = simulation_default()};
     if (!file_exists(results->place)) return CLI_DONE;
-    char *bytes = file_read(results->place, &length);
-    if (!bytes) return CLI_IO;
-    int status = json_parse(&results->doc, results->place, bytes, length);
-    free(bytes);
-    if (status != CLI_DONE) {
-        yaml_document_delete(&results->doc.yaml);
-        return status;
-    }
+    int status = json_read(&results->doc, results->place, results->place);
+    if (status != CLI_DONE) return status;
     results->root = document_node(&results->doc, 1);
     const yaml_node_t *request = document_value(&results->doc, results->root, "request");
     if (!request || request->type != YAML_MAPPING_NODE)
@@ -87,7 +80,7 @@ int results_read(report_results *results, const char *directory, const char *nam
 void results_free(report_results *results)
 {
     simulation_free(&results->simulation);
-    if (results->root) yaml_document_delete(&results->doc.yaml);
+    yaml_document_delete(&results->doc.yaml);
     free(results->place);
     free(results->copy);
 }
@@ -95,11 +88,8 @@ void results_free(report_results *results)
 const char *results_text(const report_results *results, const char *mapping, const char *name)
 {
     const yaml_node_t *node = results->root;
-    if (node && mapping) node = document_value(&results->doc, node, mapping);
-    if (node && node->type == YAML_MAPPING_NODE) node = document_value(&results->doc, node, name);
-    if (!node || node->type != YAML_SCALAR_NODE) return "";
-    const char *text = (const char *)node->data.scalar.value;
-    return strcmp(text, "null") == 0 ? "" : text;
+    if (mapping) node = document_value(&results->doc, node, mapping);
+    return json_scalar(&results->doc, node, name);
 }
 
 const char *results_title(const report_results *results, const char *otherwise)

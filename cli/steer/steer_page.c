@@ -15,17 +15,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The text of a member of an object; "" where there is none. */
-static const char *member_text(const document *doc, const yaml_node_t *node, const char *name)
-{
-    const yaml_node_t *value = node ? document_value(doc, node, name) : NULL;
-    return value && value->type == YAML_SCALAR_NODE ? (const char *)value->data.scalar.value : "";
-}
-
 /* A number of an object, NaN where there is none. */
 static double member_number(const document *doc, const yaml_node_t *node, const char *name)
 {
-    const char *text = member_text(doc, node, name);
+    const char *text = json_scalar(doc, node, name);
     double x;
     return dal__parse_number(text, strlen(text), &x) == DAL_STATUS_OK ? x : NAN;
 }
@@ -46,7 +39,8 @@ static void write_motions(report *r)
     const int count = motions ? document_count(motions) : 0;
     const yaml_node_t *root = document_node(doc, 1),
                       *best = count > 0 ? document_item(doc, motions, 0) : NULL;
-    const bool is_found = count > 0 && strcmp(member_text(doc, best, "status"), "DAL_OK") == 0;
+    const bool is_found =
+        count > 0 && strcmp(json_scalar(doc, best, "status"), dal_status_name(DAL_STATUS_OK)) == 0;
     fputs("<p><strong>", r->page);
     if (is_found)
         fprintf(r->page, "Reaches the target at t = %.6g for S = %.9g, within %.2g.",
@@ -57,7 +51,7 @@ static void write_motions(report *r)
     else
         fputs("Is not led to the target.", r->page);
     fputs("</strong> ", r->page);
-    if (!is_found && count > 0) report_text(r->page, member_text(doc, best, "message"));
+    if (!is_found && count > 0) report_text(r->page, json_scalar(doc, best, "message"));
     fputs("</p>\n" REPORT_TABLE "<td>motion</td>", r->page);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         report_element(r->page, "th", names[i]);
@@ -108,10 +102,9 @@ static int draw_inputs(report *r)
 int steer_write_page(report *r)
 {
     document doc;
-    size_t length;
-    char *path = cli_join(r->directory, "steer.json"), *bytes = file_read(path, &length);
+    char *path = cli_join(r->directory, "steer.json");
     char *rows = cli_join(r->directory, "trajectory.npy");
-    int status = bytes ? json_parse(&doc, path, bytes, length) : CLI_IO;
+    int status = json_read(&doc, path, path);
     if (status == CLI_DONE) {
         r->user = &doc;
         r->begin = write_motions;
@@ -124,8 +117,7 @@ int steer_write_page(report *r)
         }
         report_file(r, "steer.json", "what was found: steer.json");
     }
-    if (bytes) yaml_document_delete(&doc.yaml);
-    free(bytes);
+    yaml_document_delete(&doc.yaml);
     free(rows);
     free(path);
     return status;
