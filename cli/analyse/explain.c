@@ -155,7 +155,8 @@ static void print_predicted(const dal_error_budget *e, const dal_prediction *fro
 }
 
 /* Whether a source has a column: truncation and rounding always, others where they have a part. */
-static bool has_column(const dal_error_budget *e, const int *list, int count, int source)
+static bool has_column(const dal_error_budget *e, const int *list, int count,
+                       dal_error_source source)
 {
     bool found = source == DAL_SOURCE_TRUNCATION || source == DAL_SOURCE_ROUNDING;
     for (int k = 0; k < count && !found; k++) {
@@ -165,19 +166,19 @@ static bool has_column(const dal_error_budget *e, const int *list, int count, in
     return found && !(source == DAL_SOURCE_PROJECTION && !e->ran[DAL_COMPARISON_PROJECTION]);
 }
 
-static const char *head_of(const dal_error_budget *e, int source)
+static const char *head_of(const dal_error_budget *e, dal_error_source source)
 {
-    if (source != DAL_SOURCE_PROJECTION) return dal_error_source_name((dal_error_source)source);
+    if (source != DAL_SOURCE_PROJECTION) return dal_error_source_name(source);
     return e->has_projection ? "unprojected" : "+project";
 }
 
-static int width_of(const dal_error_budget *e, int source)
+static int width_of(const dal_error_budget *e, dal_error_source source)
 {
     const int width = (int)strlen(head_of(e, source));
     return width > MIN_COLUMN ? width : MIN_COLUMN;
 }
 
-static const char *cell_text(const dal_shares *a, int source, char cell[CELL_SIZE])
+static const char *cell_text(const dal_shares *a, dal_error_source source, char cell[CELL_SIZE])
 {
     return source == DAL_SOURCE_PROJECTION ? ratio_text(projected_ratio(a), cell)
                                            : share_text(a->share[source], cell);
@@ -185,8 +186,9 @@ static const char *cell_text(const dal_shares *a, int source, char cell[CELL_SIZ
 
 static void print_shares(const dal_error_budget *e, const int *list, int count)
 {
-    int shown[DAL_ERROR_SOURCES], columns = 0, rest = LINE - 2;
-    for (int s = 0; s < DAL_ERROR_SOURCES; s++) {
+    dal_error_source shown[DAL_ERROR_SOURCES];
+    int columns = 0, rest = LINE - 2;
+    for (dal_error_source s = 0; s < DAL_ERROR_SOURCES; s++) {
         if (!has_column(e, list, count, s)) continue;
         shown[columns++] = s;
         rest -= 2 + width_of(e, s);
@@ -233,14 +235,13 @@ static void print_run(const char *label, const dal_trend *f, double whole)
     putchar('\n');
 }
 
-static const char *comparison_text(const dal_error_budget *e, int comparison)
+static const char *comparison_text(const dal_error_budget *e, dal_comparison_run comparison)
 {
     if (comparison == DAL_COMPARISON_HALVED && e->spec.options.tolerance > 0.0)
         return "substeps half as long";
     if (comparison == DAL_COMPARISON_PROJECTION)
         return e->has_projection ? "without projection" : "with +project";
-    if (comparison != DAL_COMPARISON_SUMS)
-        return dal_comparison_text((dal_comparison_run)comparison);
+    if (comparison != DAL_COMPARISON_SUMS) return dal_comparison_text(comparison);
     return e->spec.options.sums == DAL_SUMS_PLAIN ? "compensated sums" : "plain sums";
 }
 
@@ -256,7 +257,7 @@ static void print_observable(const dal_error_budget *e, int i)
     putchar('\n');
     cli_wrap(stdout, head, 0, 4);
     free(head);
-    for (int k = 0; k < DAL_ERROR_SOURCES; k++) {
+    for (dal_error_source k = 0; k < DAL_ERROR_SOURCES; k++) {
         char words[512], number[64] = "?";
         int length = 0;
         if (!isnan(a->share[k]))
@@ -264,15 +265,14 @@ static void print_observable(const dal_error_budget *e, int i)
         if (length > 0 && !isnan(a->margin[k]))
             snprintf(number + length, sizeof number - (size_t)length, " +- %.1g",
                      100.0 * a->margin[k]);
-        const int column =
-            printf("  %-13s %-17s  ", dal_error_source_name((dal_error_source)k), number);
-        cli_wrap(stdout, dal_error_budget_describe(e, i, (dal_error_source)k, words, sizeof words),
-                 column, WORDS_COLUMN);
+        const int column = printf("  %-13s %-17s  ", dal_error_source_name(k), number);
+        cli_wrap(stdout, dal_error_budget_describe(e, i, k, words, sizeof words), column,
+                 WORDS_COLUMN);
     }
     printf("%*s %-29s %9s\n", RATE_COLUMN, "", "rate, 95 % interval", "deviation");
     snprintf(text, sizeof text, "  all %lld", e->steps);
     print_run(text, &a->whole, 0.0);
-    for (int k = 0; k < DAL_COMPARISONS; k++) {
+    for (dal_comparison_run k = 0; k < DAL_COMPARISONS; k++) {
         if (k == DAL_COMPARISON_QUAD && e->quad_steps > 0) {
             snprintf(text, sizeof text, "  the first %lld", e->quad_steps);
             print_run(text, &a->beginning, 0.0);
@@ -315,7 +315,7 @@ static int print_document(const explain_settings *s, const dal_error_budget *e)
         if (is_changed(e, i)) list[count++] = i;
     screen_open(&out, stdout, s->format);
     screen_add_cell(&t, SCREEN_PLAIN, "quantity");
-    for (int k = 0; k < DAL_ERROR_SOURCES; k++) {
+    for (dal_error_source k = 0; k < DAL_ERROR_SOURCES; k++) {
         if (!has_column(e, list, count, k)) continue;
         screen_add_cell(&t, SCREEN_PLAIN, "%s", head_of(e, k));
         t.columns++;
@@ -326,7 +326,7 @@ static int print_document(const explain_settings *s, const dal_error_budget *e)
         screen_say(&out, 0, "%s %s.", a->name,
                    dal_error_budget_summarise(e, list[i], words, sizeof words));
         screen_add_cell(&t, SCREEN_PLAIN, "%s", a->name);
-        for (int k = 0; k < DAL_ERROR_SOURCES; k++)
+        for (dal_error_source k = 0; k < DAL_ERROR_SOURCES; k++)
             if (has_column(e, list, count, k))
                 screen_add_cell(&t, SCREEN_PLAIN, "%s", cell_text(a, k, cell));
     }
@@ -354,7 +354,7 @@ static void print_budget(const explain_settings *s, const dal_error_budget *e)
     print_exact(e);
     print_runs(s, e);
     for (int k = 0; s->details && k < all; k++) print_observable(e, list[k]);
-    for (int k = 0; s->details && k < DAL_COMPARISONS; k++) {
+    for (dal_comparison_run k = 0; s->details && k < DAL_COMPARISONS; k++) {
         if (e->ran[k] || !*e->reason[k]) continue;
         char *text = cli_format("not run: %s: %s", comparison_text(e, k), e->reason[k]);
         cli_wrap(stdout, text, 0, 4);
@@ -366,12 +366,12 @@ static void print_budget(const explain_settings *s, const dal_error_budget *e)
 /* ---- as CSV ---- */
 
 /* The steps that a comparison and a share are about. */
-static long long steps_of_run(const dal_error_budget *e, int comparison)
+static long long steps_of_run(const dal_error_budget *e, dal_comparison_run comparison)
 {
     return comparison < DAL_COMPARISON_QUAD ? e->steps : e->quad_steps;
 }
 
-static long long steps_of_share(const dal_error_budget *e, int source)
+static long long steps_of_share(const dal_error_budget *e, dal_error_source source)
 {
     return source == DAL_SOURCE_PROJECTION || e->quad_steps == 0 ? e->steps : e->quad_steps;
 }
@@ -394,19 +394,16 @@ static void write_observable(FILE *out, const dal_error_budget *e, int i)
     char words[512];
     write_run(out, a->name, "all", e->steps, &a->whole);
     if (e->quad_steps > 0) write_run(out, a->name, "first-steps", e->quad_steps, &a->beginning);
-    for (int k = 0; k < DAL_COMPARISONS; k++)
+    for (dal_comparison_run k = 0; k < DAL_COMPARISONS; k++)
         if (e->ran[k])
-            write_run(out, a->name, dal_comparison_name((dal_comparison_run)k), steps_of_run(e, k),
-                      &a->comparison[k]);
-    for (int k = 0; k < DAL_ERROR_SOURCES; k++) {
+            write_run(out, a->name, dal_comparison_name(k), steps_of_run(e, k), &a->comparison[k]);
+    for (dal_error_source k = 0; k < DAL_ERROR_SOURCES; k++) {
         const double numbers[] = {a->share[k], a->margin[k]};
         csv_put_text(out, a->name);
-        fprintf(out, ",source,%s,%lld", dal_error_source_name((dal_error_source)k),
-                steps_of_share(e, k));
+        fprintf(out, ",source,%s,%lld", dal_error_source_name(k), steps_of_share(e, k));
         csv_put_cells(out, numbers, 2);
         fputs(",,,,,,,,", out);
-        csv_put_text(out,
-                     dal_error_budget_describe(e, i, (dal_error_source)k, words, sizeof words));
+        csv_put_text(out, dal_error_budget_describe(e, i, k, words, sizeof words));
         fputc('\n', out);
     }
 }
@@ -436,17 +433,16 @@ static void put_run(json_writer *w, const char *name, long long steps, const dal
     json_close(w);
 }
 
-static void put_source(json_writer *w, const dal_error_budget *e, int i, int source)
+static void put_source(json_writer *w, const dal_error_budget *e, int i, dal_error_source source)
 {
     char words[512];
     const dal_shares *a = &e->shares[i];
     json_open(w, NULL, JSON_ON_ONE_LINE);
-    json_put_text(w, "name", dal_error_source_name((dal_error_source)source));
+    json_put_text(w, "name", dal_error_source_name(source));
     json_put_integer(w, "steps", steps_of_share(e, source));
     json_put_number(w, "share", a->share[source]);
     json_put_number(w, "margin", a->margin[source]);
-    json_put_text(w, "words",
-                  dal_error_budget_describe(e, i, (dal_error_source)source, words, sizeof words));
+    json_put_text(w, "words", dal_error_budget_describe(e, i, source, words, sizeof words));
     json_close(w);
 }
 
@@ -463,13 +459,11 @@ static void put_observable(json_writer *w, const dal_error_budget *e, int i,
     json_open_list(w, "runs", JSON_LINES);
     put_run(w, "all", e->steps, &a->whole);
     if (e->quad_steps > 0) put_run(w, "first-steps", e->quad_steps, &a->beginning);
-    for (int k = 0; k < DAL_COMPARISONS; k++)
-        if (e->ran[k])
-            put_run(w, dal_comparison_name((dal_comparison_run)k), steps_of_run(e, k),
-                    &a->comparison[k]);
+    for (dal_comparison_run k = 0; k < DAL_COMPARISONS; k++)
+        if (e->ran[k]) put_run(w, dal_comparison_name(k), steps_of_run(e, k), &a->comparison[k]);
     json_close(w);
     json_open_list(w, "sources", JSON_LINES);
-    for (int k = 0; k < DAL_ERROR_SOURCES; k++) put_source(w, e, i, k);
+    for (dal_error_source k = 0; k < DAL_ERROR_SOURCES; k++) put_source(w, e, i, k);
     json_close(w);
     json_put_number(w, "predicted", predicted ? predicted->change : NAN);
     json_close(w);
@@ -487,10 +481,10 @@ static void put_budget(const explain_settings *s, const dal_error_budget *e)
         put_observable(&w, e, i, find_predicted(s->predicted, e->shares[i].name));
     json_close(&w);
     json_open_list(&w, "not_run", JSON_LINES);
-    for (int k = 0; k < DAL_COMPARISONS; k++) {
+    for (dal_comparison_run k = 0; k < DAL_COMPARISONS; k++) {
         if (e->ran[k] || !*e->reason[k]) continue;
         json_open(&w, NULL, JSON_ON_ONE_LINE);
-        json_put_text(&w, "name", dal_comparison_name((dal_comparison_run)k));
+        json_put_text(&w, "name", dal_comparison_name(k));
         json_put_text(&w, "reason", e->reason[k]);
         json_close(&w);
     }

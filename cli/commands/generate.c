@@ -14,10 +14,8 @@ typedef struct settings {
     run_simulation simulation;
     const char *output, *prefix;
     long long lanes;
-    int with;
+    enum { WITH_NONE, WITH_FIELD } with;
 } settings;
-
-enum { WITH_NONE, WITH_FIELD };
 
 static const cli_option options[] = {
     {"output", "FILE|-", "-", "writes there, or to standard output", CLI_TEXT(settings, output)},

@@ -93,7 +93,7 @@ static void write_sentences(FILE *page, const report_overview *a)
 /* How much a cell says against its family; what is larger among equals is worse. */
 typedef enum blame { NOTHING, IS_REFUSED, NOT_STATED, IS_KEPT, IS_LARGER, HAS_FAILED } blame;
 
-static blame find_blame(const study_cell *c, int quantity, double *size)
+static blame find_blame(const study_cell *c, study_quantity quantity, double *size)
 {
     *size = 0.0;
     if (!c || c->state == STUDY_WAITING) return NOTHING;
@@ -107,7 +107,7 @@ static blame find_blame(const study_cell *c, int quantity, double *size)
 }
 
 /* The worst cell of a family on a system, whose cells have no other. */
-static const study_cell *find_worst(const study_matrix *m, int column, int quantity,
+static const study_cell *find_worst(const study_matrix *m, int column, study_quantity quantity,
                                     method_family family)
 {
     const study_cell *worst = NULL;
@@ -126,8 +126,8 @@ static const study_cell *find_worst(const study_matrix *m, int column, int quant
 }
 
 /* The row of a family that has members, with the systems that have the quantity. */
-static void write_family(FILE *page, const study_matrix *m, method_family family, int quantity,
-                         const bool *has)
+static void write_family(FILE *page, const study_matrix *m, method_family family,
+                         study_quantity quantity, const bool *has)
 {
     int members = 0;
     for (int row = 0; row < m->rows; row++)
@@ -151,8 +151,8 @@ static void write_family(FILE *page, const study_matrix *m, method_family family
     fputs("</tr>\n", page);
 }
 
-static void write_families(report *r, const report_overview *a, int quantity, const char *id,
-                           const char *heading)
+static void write_families(report *r, const report_overview *a, study_quantity quantity,
+                           const char *id, const char *heading)
 {
     const study_matrix *m = &a->matrix;
     FILE *page = r->page;

@@ -18,12 +18,12 @@
     START(SURFACE, "surface", DAL_LIFTED, "lifted, on p = pi = 0")                                 \
     START(DISPLACED, "displaced", DAL_LIFTED, "lifted, p and pi displaced")
 
-enum {
+typedef enum study_start {
 #define START_CODE(code, word, space, about) STUDY_##code,
     STUDY_START_LIST(START_CODE)
 #undef START_CODE
         STUDY_STARTS
-};
+} study_start;
 extern const char *const study_start_words[STUDY_STARTS];
 
 /* What the figures show over time, window by window.  code, column */
@@ -68,7 +68,7 @@ typedef struct study_cell {
     const struct study_case *of_case;
     const dal_method *method;
     double step, tolerance; /* tolerance: of the key; 0: as the options say */
-    int start;
+    study_start start;
     char *name;       /* also of its directory */
     bool other_shard; /* it belongs to another shard */
     study_state state;
@@ -89,7 +89,7 @@ typedef struct study_cell {
 typedef struct study_expectation {
     const char *label, *method, *quantity; /* as they are written */
     double step, tolerance;                /* of these cells alone; 0: of all */
-    int start;                             /* of these cells alone; -1: of all */
+    study_start start;                     /* the same; STUDY_STARTS: of all */
     size_t line;
     unsigned words;  /* bit k: size k, bit DAL_SIZE_COUNT + k: trend k, any of which will do; of
                         the quantity "state" bit k: state k; 0: bounds */

@@ -70,7 +70,7 @@ bool study_expectation_covers(const study_expectation *x, const study_cell *c)
 {
     if (x->step > 0.0 && x->step != c->step) return false;
     if (x->tolerance > 0.0 && x->tolerance != c->tolerance) return false;
-    if (x->start >= 0 && x->start != c->start) return false;
+    if (x->start != STUDY_STARTS && x->start != c->start) return false;
     return study_label_means(c->of_case, x->label) && is_method(c->of_case, c->method, x->method);
 }
 
@@ -200,8 +200,11 @@ static int read_cells(expect_reader *r, yaml_node_t *node)
         if (number && document_read_number(r, r->doc, number, &number_keys[i]) != CLI_DONE)
             return CLI_USAGE;
     }
-    if (start) x->start = document_word(r->doc, start, "start", study_start_words, STUDY_STARTS);
-    if (start && x->start < 0) return CLI_USAGE;
+    if (start) {
+        const int word = document_word(r->doc, start, "start", study_start_words, STUDY_STARTS);
+        if (word < 0) return CLI_USAGE;
+        x->start = (study_start)word;
+    }
     for (int i = 0; i < r->plan->cell_count; i++)
         if (study_expectation_covers(x, &r->plan->cells[i])) return CLI_DONE;
     return document_fail(r->doc, node, "expect: the study has no such step%s and start",
@@ -304,7 +307,7 @@ static int read_quantity(expect_reader *r, const document_pair *pair)
     for (int i = 0; i < (is_list ? count : 1) && status == CLI_DONE; i++) {
         yaml_node_t *item = is_list ? document_item(r->doc, value, i) : value;
         *x = (study_expectation){
-            .label = x->label, .method = x->method, .quantity = pair->name, .start = -1};
+            .label = x->label, .method = x->method, .quantity = pair->name, .start = STUDY_STARTS};
         if (item->type == YAML_MAPPING_NODE)
             status = add_mapping(r, item);
         else

@@ -1,14 +1,14 @@
 /* study_fate.c - what becomes of D and E in the runs of a study, as the screen shows it. */
 #include "study_fate.h"
 
-int study_first_start(const study_case *e)
+study_start study_first_start(const study_case *e)
 {
-    int start = 0;
+    study_start start = 0;
     while (!(e->starts >> start & 1)) start++;
     return start;
 }
 
-const dal_trend *study_get_trend(const study_cell *c, int quantity)
+const dal_trend *study_get_trend(const study_cell *c, study_quantity quantity)
 {
     const dal_trend *trend = quantity == CONSTRAINT ? study_cell_constraint(c)
                              : quantity == ENERGY   ? study_cell_trend(c, "E")
@@ -35,7 +35,7 @@ bool study_is_drifting(const dal_trend *trend)
            trend->trend != DAL_TREND_ABORTED;
 }
 
-fate study_find_fate(const study_cell *c, int quantity)
+fate study_find_fate(const study_cell *c, study_quantity quantity)
 {
     const dal_system *s = c->of_case->system;
     const bool is_conserved = /* at least on D = 0 */

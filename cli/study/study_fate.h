@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 /* The quantities of the screen. */
-enum { CONSTRAINT, ENERGY, ERROR, QUANTITIES };
+typedef enum study_quantity { CONSTRAINT, ENERGY, ERROR, QUANTITIES } study_quantity;
 
 /* What becomes of a quantity in a run that ought to keep it, and how sentences name it. */
 #define FATE_LIST(FATE)                                                                            \
@@ -28,9 +28,9 @@ typedef enum fate {
 } fate;
 
 /* The first start of a case. */
-int study_first_start(const study_case *item);
+study_start study_first_start(const study_case *item);
 /* NULL where the run has no such quantity, or the motion does not conserve it. */
-const dal_trend *study_get_trend(const study_cell *cell, int quantity);
+const dal_trend *study_get_trend(const study_cell *cell, study_quantity quantity);
 /* Off D = 0 a number is known of E, but neither size nor trend. */
 bool study_is_stated(const dal_trend *trend);
 bool study_is_at_rounding(const dal_trend *trend);
@@ -38,6 +38,6 @@ bool study_is_at_rounding(const dal_trend *trend);
 bool study_is_bounded(const dal_trend *trend);
 bool study_is_drifting(const dal_trend *trend);
 /* FATES where there is nothing to keep, or the run is not finished. */
-fate study_find_fate(const study_cell *cell, int quantity);
+fate study_find_fate(const study_cell *cell, study_quantity quantity);
 
 #endif

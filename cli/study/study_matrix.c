@@ -133,7 +133,7 @@ void study_matrix_free(study_matrix *s)
 
 /* ---- integrators --------------------------------------------------------------------------- */
 
-fate study_method_fate(const study_method *m, int quantity)
+fate study_method_fate(const study_method *m, study_quantity quantity)
 {
     const int *count = m->count[quantity], *of_D = m->count[CONSTRAINT];
     int runs = 0, on_D = of_D[AT_ROUNDING];

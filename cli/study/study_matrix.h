@@ -39,6 +39,6 @@ static inline const study_cell *study_matrix_cell(const study_matrix *m, int row
 }
 /* What becomes of a quantity in all runs of an integrator: AT_ROUNDING where each keeps it, else
  * what is first said against that; FATES where it has no run.  E is to be kept on D = 0 alone. */
-fate study_method_fate(const study_method *m, int quantity);
+fate study_method_fate(const study_method *m, study_quantity quantity);
 
 #endif

@@ -57,7 +57,7 @@ static int get_colour(const dal_trend *trend)
     return study_is_at_rounding(trend) ? CYAN : RED;
 }
 
-static void put_cell(FILE *out, bool in_colour, const study_cell *c, int quantity)
+static void put_cell(FILE *out, bool in_colour, const study_cell *c, study_quantity quantity)
 {
     static const char *const states[STUDY_STATES] = {
         [STUDY_WAITING] = "..", [STUDY_FAILED] = "fail", [STUDY_REFUSED] = "ref."};
@@ -81,7 +81,7 @@ static void put_cell(FILE *out, bool in_colour, const study_cell *c, int quantit
 }
 
 /* A system has a column where something can be stated of it. */
-static bool has_column(const study_matrix *s, int column, int quantity)
+static bool has_column(const study_matrix *s, int column, study_quantity quantity)
 {
     bool has = quantity == CONSTRAINT && s->column[column]->system->m > 0;
     for (int i = 0; i < s->rows && !has; i++) {
@@ -91,7 +91,7 @@ static bool has_column(const study_matrix *s, int column, int quantity)
     return has;
 }
 
-static void print_matrix(FILE *out, const study_matrix *s, int quantity, bool in_colour)
+static void print_matrix(FILE *out, const study_matrix *s, study_quantity quantity, bool in_colour)
 {
     bool is_shown[STUDY_COLUMNS];
     int shown = 0, width = (int)strlen(quantities[quantity].heading);
@@ -190,7 +190,7 @@ static int put_wrapped(FILE *out, const char *text)
     return column;
 }
 
-static void say_fates(FILE *out, const study_matrix *s, int quantity)
+static void say_fates(FILE *out, const study_matrix *s, study_quantity quantity)
 {
     int sum[FATES] = {0}, runs = 0;
     char *text;
@@ -215,7 +215,7 @@ static void say_fates(FILE *out, const study_matrix *s, int quantity)
 }
 
 /* The integrators that keep a quantity in all of their runs, as many as fit a line. */
-static void say_methods(FILE *out, const study_matrix *s, int quantity, const char *what)
+static void say_methods(FILE *out, const study_matrix *s, study_quantity quantity, const char *what)
 {
     static const char more[] = ", ...";
     int count[FATES] = {0}, all = 0, listed = 0;

@@ -55,7 +55,8 @@ static const char *mark_of_growth(const dal_trend *trend)
     return is_slow ? "~" : marks[trend->trend];
 }
 
-screen_colour study_describe_size(const study_cell *c, int quantity, char text[STUDY_SIZE_TEXT])
+screen_colour study_describe_size(const study_cell *c, study_quantity quantity,
+                                  char text[STUDY_SIZE_TEXT])
 {
     static const char *const states[STUDY_STATES] = {
         [STUDY_WAITING] = "...", [STUDY_FAILED] = "x", [STUDY_REFUSED] = "n/a"};
@@ -80,14 +81,14 @@ screen_colour study_describe_size(const study_cell *c, int quantity, char text[S
     return screen_colour_of(x);
 }
 
-void study_add_size(screen_table *t, const study_cell *c, int quantity)
+void study_add_size(screen_table *t, const study_cell *c, study_quantity quantity)
 {
     char text[STUDY_SIZE_TEXT];
     const screen_colour colour = study_describe_size(c, quantity, text);
     screen_add_cell(t, colour, "%s", text);
 }
 
-void study_add_count(screen_table *t, const study_method *m, int quantity)
+void study_add_count(screen_table *t, const study_method *m, study_quantity quantity)
 {
     int runs = 0;
     for (int k = 0; k < REFUSED; k++) runs += m->count[quantity][k];

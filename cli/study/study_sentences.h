@@ -16,10 +16,11 @@ void study_name_columns(const study_matrix *m, int letters, char (*name)[STUDY_S
  * "/" like t, "^" faster, "~" slower, "?" undecided, "x" aborted, or none.  Returns its
  * colour.  The same as a cell of a table. */
 enum { STUDY_SIZE_TEXT = SCREEN_NUMBER + 4 };
-screen_colour study_describe_size(const study_cell *c, int quantity, char text[STUDY_SIZE_TEXT]);
-void study_add_size(screen_table *t, const study_cell *c, int quantity);
+screen_colour study_describe_size(const study_cell *c, study_quantity quantity,
+                                  char text[STUDY_SIZE_TEXT]);
+void study_add_size(screen_table *t, const study_cell *c, study_quantity quantity);
 /* In how many of its runs a method keeps a quantity at rounding: "8/9". */
-void study_add_count(screen_table *t, const study_method *m, int quantity);
+void study_add_count(screen_table *t, const study_method *m, study_quantity quantity);
 /* What integrators are to keep in all of their runs: D, E, or both. */
 typedef enum study_aim { STUDY_AIM_D, STUDY_AIM_E, STUDY_AIM_BOTH, STUDY_AIMS } study_aim;
 /* Those that do, by patterns, in a text of some columns; NULL where none has it to keep.  *kept and

@@ -122,13 +122,13 @@ static void put_state(FILE *out, const study_cell *c)
 
 /* ---- tables -------------------------------------------------------------------------------- */
 
-static bool is_in_table(const study_cell *c, double step, double tolerance, int start)
+static bool is_in_table(const study_cell *c, double step, double tolerance, study_start start)
 {
     return c->step == step && c->tolerance == tolerance && c->start == start;
 }
 
 static void print_table(FILE *out, const study_plan *plan, const study_case *e, double step,
-                        double tolerance, int start)
+                        double tolerance, study_start start)
 {
 #define START_TITLE(code, word, space, about) about,
     static const char *const titles[] = {STUDY_START_LIST(START_TITLE)};
@@ -164,7 +164,7 @@ static void print_table(FILE *out, const study_plan *plan, const study_case *e, 
 
 /* One of the methods without a tolerance, and one for each tolerance. */
 static void print_tables(FILE *out, const study_plan *plan, const study_case *e, double step,
-                         int start)
+                         study_start start)
 {
     for (int k = -1; k < e->tolerances; k++) {
         const double tolerance = k < 0 ? 0.0 : e->tolerance[k];
@@ -181,7 +181,7 @@ void study_print_case(FILE *out, const study_plan *plan, const study_case *e)
     fprintf(out, "\n%s%s%s\n", e->label, e->system->title ? ": " : "",
             e->system->title ? e->system->title : "");
     for (int h = 0; h < e->steps; h++)
-        for (int start = 0; start < STUDY_STARTS; start++) {
+        for (study_start start = 0; start < STUDY_STARTS; start++) {
             /* The numbers on the surface describe (q,v); the files hold both. */
             const bool repeats = start == STUDY_PHYSICAL && e->starts & 1 << STUDY_SURFACE;
             if (e->starts & 1 << start && !repeats) print_tables(out, plan, e, e->step[h], start);
