@@ -104,3 +104,16 @@ if needs 31 "no make" there make; then
     fi
     counted
 fi
+
+case_is "a part that is killed: what watches it ends"
+if needs 3 "no tail of GNU" sh -c "tail --help | grep -q pid"; then
+    mkdir killed
+    cp "$here/run.sh" killed
+    echo 'echo "$watcher" >"$TMPDIR/watcher"; kill -KILL $$' >killed/killed_cases.sh
+    { TMPDIR=$PWD/killed PATIENCE=36000 sh killed/run.sh "$program" killed; } >out 2>err
+    killed=$?
+    expect "exit $killed, not 137" test $killed -eq 137
+    expect "it was not watched" test -s killed/watcher
+    expect "it is watched on" awaits gone "$(cat killed/watcher)"
+    counted
+fi

@@ -39,7 +39,8 @@ unset COLUMNS NO_COLOR OMP_NUM_THREADS
 # No case expects a speed: after these seconds what hangs is ended, and what does not come is given up.
 patience=${PATIENCE:-600}
 # One process beside the part does that, as `timeout` takes as much processor time as a short run of the program:
-# what of the program runs now, and did $patience seconds before, is ended.
+# what of the program runs now, and did $patience seconds before, is ended.  It ends soon after this shell, even one
+# that is killed.
 end_what_hangs() {
     exec </dev/null >/dev/null 2>&1
     trap 'kill $!; exit' TERM
@@ -52,7 +53,7 @@ end_what_hangs() {
             now="$now $process"
         done
         before=$now
-        sleep "$patience" &
+        timeout --foreground "$patience" tail -f -s 5 --pid=$$ /dev/null &
         wait $!
     done
 }
