@@ -226,12 +226,6 @@ static int put_invariants(const invariants_settings *settings, const dal_invaria
 
 /* ---- of a run ------------------------------------------------------------------------------ */
 
-/* A formula as one of --observe, where a name alone is in parentheses; allocated. */
-static char *observed_formula(const char *formula)
-{
-    return cli_format(text_is_name(formula) ? "(%s)" : "%s", formula);
-}
-
 int invariants_observe(run_simulation *simulation)
 {
     enum { MAX_OBSERVED = 100 /* characters of a formula, as of dal_model_observe */ };
@@ -244,7 +238,8 @@ int invariants_observe(run_simulation *simulation)
     char *list = request->observe && request->observe[0] ? cli_strdup(request->observe) : NULL,
          *added = NULL;
     for (const dal_invariant *i = found->invariant; i < found->invariant + found->count; i++) {
-        char *formula = observed_formula(i->formula);
+        /* As one of --observe, where a name alone is in parentheses. */
+        char *formula = cli_format(text_is_name(i->formula) ? "(%s)" : "%s", i->formula);
         if (i->is_new && strlen(formula) <= MAX_OBSERVED && !request_observes(request, formula)) {
             list = text_append_item(list, "; ", formula);
             added = text_append_item(added, "; ", formula);

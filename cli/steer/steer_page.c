@@ -23,22 +23,17 @@ static double member_number(const document *doc, const yaml_node_t *node, const 
     return dal__parse_number(text, strlen(text), &x) == DAL_STATUS_OK ? x : NAN;
 }
 
-static yaml_node_t *find_motions(const document *doc)
-{
-    yaml_node_t *motions = document_value(doc, document_node(doc, 1), "motions");
-    return motions && motions->type == YAML_SEQUENCE_NODE ? motions : NULL;
-}
-
 /* Whether the target is reached, then a table of the motions. */
 static void write_motions(report *r)
 {
     static const char *const names[] = {"S",          "distance", "residual",        "max_D",
                                         "iterations", "rank",     "conjugate_times", "condition"};
     const document *doc = r->user;
-    yaml_node_t *motions = find_motions(doc);
-    const int count = motions ? document_count(motions) : 0;
-    const yaml_node_t *root = document_node(doc, 1),
-                      *best = count > 0 ? document_item(doc, motions, 0) : NULL;
+    const yaml_node_t *root = document_node(doc, 1);
+    yaml_node_t *motions = document_value(doc, root, "motions");
+    const bool is_list = motions && motions->type == YAML_SEQUENCE_NODE;
+    const int count = is_list ? document_count(motions) : 0;
+    const yaml_node_t *best = count > 0 ? document_item(doc, motions, 0) : NULL;
     const bool is_found =
         count > 0 && strcmp(json_scalar(doc, best, "status"), dal_status_name(DAL_STATUS_OK)) == 0;
     fputs("<p><strong>", r->page);
