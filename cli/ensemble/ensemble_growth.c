@@ -4,7 +4,6 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 typedef struct larger_ensemble {
@@ -34,16 +33,11 @@ static int read_before(larger_ensemble *g)
 
 static int extend_time(larger_ensemble *g, const run_extension *later)
 {
-    const char *option = later->time ? "time" : "steps";
     const run_simulation *before = &g->before.simulation;
     run_request *request = &g->after.simulation.request;
     double end;
-    const int status = extension_replace_end(request, later, &end);
+    const int status = extension_replace_end(request, later, g->from.path, before->end, &end);
     if (status != CLI_DONE) return status;
-    if (!(copysign(1.0, request->options.step) * (end - before->end) >= 0.0))
-        return cli_fail(CLI_USAGE,
-                        "--%s: '%s' goes to t = %.15g already, and t = %.15g is not later", option,
-                        g->from.path, before->end, end);
     return request->times > 0 && end != before->end ? extension_extend_list(request, before)
                                                     : CLI_DONE;
 }

@@ -47,14 +47,18 @@ static int replace(run_request *request, int option, const char *text)
     return text ? request_give(request, option, cli_strdup(text)) : CLI_DONE;
 }
 
-int extension_replace_end(run_request *request, const run_extension *e, double *end)
+int extension_replace_end(run_request *request, const run_extension *e, const char *directory,
+                          double before, double *end)
 {
     if (e->time && e->steps) return cli_fail(CLI_USAGE, "--steps excludes --time");
     int status = replace(request, REQUEST_steps, e->steps);
     if (status == CLI_DONE) status = replace(request, REQUEST_time, e->time);
     *end = request->steps > 0 ? step_end(request->from, request->options.step, request->steps)
                               : request->time;
-    return status;
+    if (status != CLI_DONE || copysign(1.0, request->options.step) * (*end - before) >= 0.0)
+        return status;
+    return cli_fail(CLI_USAGE, "--%s: '%s' goes to t = %.15g already, and t = %.15g is not later",
+                    e->time ? "time" : "steps", directory, before, *end);
 }
 
 /* How many rows there are after the first at the distance of the run until a later end; where that
@@ -120,16 +124,11 @@ static int compare_rows(const run_simulation *before, const run_simulation *afte
 static int extend(run_directory *dir, run_request *request, const run_simulation *before,
                   const run_extension *e)
 {
-    const char *option = e->time ? "time" : "steps";
     double end;
-    const int status = extension_replace_end(request, e, &end);
+    const int status = extension_replace_end(request, e, dir->path, before->end, &end);
     if (status != CLI_DONE) return status;
-    if (!(copysign(1.0, request->options.step) * (end - before->end) >= 0.0))
-        return cli_fail(CLI_USAGE,
-                        "--%s: '%s' goes to t = %.15g already, and t = %.15g is not later", option,
-                        dir->path, before->end, end);
     dir->extends = end != before->end;
-    return dir->extends ? extend_rows(request, before, end, option) : CLI_DONE;
+    return dir->extends ? extend_rows(request, before, end, e->time ? "time" : "steps") : CLI_DONE;
 }
 
 /* When the rows of the run are that was read.  A step that was chosen for its time stays. */

@@ -32,9 +32,11 @@ int extension_create(run_directory *dir, run_simulation *simulation,
 /* Replaces the input of the manifest, once the run is where its checkpoint says. */
 int extension_commit(run_recorder *recorder);
 
-/* For what has no rows at equal distances: gives a request the new end, *end being where it is; and
- * its list of times the end of the run before, where that was after the last one. */
-int extension_replace_end(run_request *request, const run_extension *extension, double *end);
+/* For what has no rows at equal distances: gives a request the new end, *end being where it is,
+ * unless what ends at `before` in a directory goes further already; and its list of times the end
+ * of the run before, where that was after the last one. */
+int extension_replace_end(run_request *request, const run_extension *extension,
+                          const char *directory, double before, double *end);
 int extension_extend_list(run_request *request, const run_simulation *before);
 
 #endif
