@@ -21,7 +21,7 @@
  *     step.h              dal_step dal_failed dal_field dal_force dal_eval
  *                         dal_add dal_add_multiple dal_update dal_update_multiple
  *                         dal_update_lanes dal_inner dal_clear_momenta
- *     algebra.h           dal_multiply dal_gram dal_invert dal_invert_in_units
+ *     algebra.h           dal_scalar_product dal_multiply dal_gram dal_invert dal_invert_in_units
  *     eigensystem.h       dal_eigensystem
  *     solve.h             dal_block DAL_BLOCK dal_equation dal_iteration_map dal_matrix dal_solve
  *     symplectic_euler.h  dal_polarisation dal_symplectic_euler

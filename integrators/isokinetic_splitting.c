@@ -34,13 +34,6 @@ DAL_INLINE growth grow(num xx)
     return out;
 }
 
-DAL_INLINE num dot(const num *a, const num *b, int n)
-{
-    num sum = dal_num(0.0);
-    DAL_EACH(i, n) sum += a[i] * b[i];
-    return sum;
-}
-
 /* dv = v1 - v0 of the second piece, at q. */
 DAL_INLINE void turn(dal_step *s, const num *q, num *dv)
 {
@@ -52,8 +45,8 @@ DAL_INLINE void turn(dal_step *s, const num *q, num *dv)
     dal_eval_blocks(s, t, q, v, blocks);
     const num *a = blocks + dal_blocks_a(s), *A = blocks + at_A;
     dal_constraint(s, t, q, a, along);
-    const num twice = dot(v, A, n), alpha = dot(a, A, n) / twice;
-    const num xx = 0.25 * (h * h) * (dot(a, along + at_A, n) / twice);
+    const num twice = dal_scalar_product(v, A, n), alpha = dal_scalar_product(a, A, n) / twice;
+    const num xx = 0.25 * (h * h) * (dal_scalar_product(a, along + at_A, n) / twice);
     const growth k = grow(xx);
     const num push = h * (0.5 * h * alpha * (k.g * k.g) + k.g2);
     const num stretch = h * alpha * k.g2 + 2.0 * xx * (k.g * k.g);
@@ -88,4 +81,5 @@ DAL_INTEGRATOR(isokinetic_splitting, step, .name = "isokinetic-splitting",
                .documentation = ABOUT_ISOKINETIC_SPLITTING, .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_EXPLICIT,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS | DAL_NEEDS_ISOKINETIC,
-               .kernel = DAL_KERNEL_FUNCTIONS | DAL_KERNEL_BLOCKS | DAL_KERNEL_CONSTRAINT);
+               .kernel = DAL_KERNEL_FUNCTIONS | DAL_KERNEL_ALGEBRA | DAL_KERNEL_BLOCKS |
+                         DAL_KERNEL_CONSTRAINT);

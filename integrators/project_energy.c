@@ -30,13 +30,6 @@ typedef struct level {
     num *rate;    /* [1] what k is divided by */
 } level;
 
-DAL_INLINE num dot(const num *a, const num *b, int count)
-{
-    num sum = dal_num(0.0);
-    DAL_EACH(i, count) sum += a[i] * b[i];
-    return sum;
-}
-
 DAL_INLINE void level_map(dal_step *s, dal_equation *eq)
 {
     level *k = (level *)eq->context;
@@ -47,7 +40,7 @@ DAL_INLINE void level_map(dal_step *s, dal_equation *eq)
     DAL_EACH(i, n) k->q[i] = k->q0[i] + s->h * u[n + i];
     dal_eval(s, DAL_EVAL_ENERGY_NORMAL, s->t, k->q, k->v, NULL, k->energy);
     if (DAL_M(s) > 0) dal_eval(s, DAL_EVAL_CORRECTION, s->t, k->q, k->v, NULL, k->x);
-    const num excess = k->energy[0] - s->level[0] + dot(k->energy + 1 + n, k->x, n);
+    const num excess = k->energy[0] - s->level[0] + dal_scalar_product(k->energy + 1 + n, k->x, n);
     const num share = excess / *k->rate;
     DAL_EACH(i, n) image[i] = u[i] + (k->x[i] - share * k->along[i]);
     DAL_EACH(i, n) image[n + i] = u[n + i] - share * k->normal[i];
@@ -89,9 +82,9 @@ DAL_INLINE void freeze_directions(dal_step *s, level *k, dal_equation *eq)
     dal_eval(s, DAL_EVAL_ENERGY_NORMAL, s->t, k->q0, k->v0, NULL, k->energy);
     find_direction(s, k);
     DAL_EACH(i, n) k->normal[i] = s->h * N[i];
-    const num of_q = s->h * dot(Eq, k->normal, n);
-    *k->rate = dot(Ev, k->along, n) + of_q;
-    eq->block[0].progress->scale = level_scale(s, k, dot(Ev, k->v0, n) + of_q);
+    const num of_q = s->h * dal_scalar_product(Eq, k->normal, n);
+    *k->rate = dal_scalar_product(Ev, k->along, n) + of_q;
+    eq->block[0].progress->scale = level_scale(s, k, dal_scalar_product(Ev, k->v0, n) + of_q);
 }
 
 DAL_INLINE dal_status to_level(dal_step *s)

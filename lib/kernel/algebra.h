@@ -1,4 +1,4 @@
-/* algebra.h - small dense matrices over num, row-major. */
+/* algebra.h - vectors and small dense matrices over num, row-major. */
 #ifndef DAL_KERNEL_ALGEBRA_H
 #define DAL_KERNEL_ALGEBRA_H
 
@@ -11,6 +11,14 @@
 #else
 #define DAL_SEPARATE DAL_INLINE
 #endif
+
+/* a.b */
+DAL_INLINE num dal_scalar_product(const num *a, const num *b, int count)
+{
+    num sum = dal_num(0.0);
+    DAL_EACH(i, count) sum += a[i] * b[i];
+    return sum;
+}
 
 /* y[rows] = M x, M[rows*columns] */
 DAL_INLINE void dal_multiply(const num *m, int rows, int columns, const num *x, num *y)
