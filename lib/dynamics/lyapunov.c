@@ -73,25 +73,20 @@ struct dal_lyapunov {
 
 /* ---- J times a vector ---- */
 
-/* Where component i of a vector is in the state: e is not varied. */
-static int place_of(const dal_lyapunov *s, int i)
-{
-    return i + (s->space == DAL_LIFTED && i >= 2 * s->n);
-}
-
 /* A vector by a step of the tangent system. */
 static dal_status move_exactly(dal_lyapunov *s, double *vector)
 {
     const dal_system *system = dal_run_system(s->run);
     double *of_state = s->scratch, *x = of_state + s->size, change = 0.0;
-    for (int i = 0; i < s->dimension; i++) of_state[place_of(s, i)] = vector[i] * s->unit[i];
+    for (int i = 0; i < s->dimension; i++)
+        of_state[dal__varied_place(s->space, s->n, i)] = vector[i] * s->unit[i];
     if (s->space == DAL_LIFTED) of_state[s->size - 1] = 0.0; /* dpi_e moves nothing */
     dal__tangent_scatter(system, s->space, s->z, of_state, x);
     DAL_TRY(dal_run_set_state(s->auxiliary, s->t, x, s->error));
     DAL_TRY(dal_run_step(s->auxiliary, s->error));
     dal__tangent_gather(system, s->space, dal_run_state(s->auxiliary), of_state);
     for (int i = 0; i < s->dimension; i++) {
-        const double moved = of_state[place_of(s, i)] / s->unit[i];
+        const double moved = of_state[dal__varied_place(s->space, s->n, i)] / s->unit[i];
         change = hypot(change, moved - vector[i]);
         vector[i] = moved;
     }

@@ -17,4 +17,11 @@ void dal__tangent_scatter(const dal_system *system, dal_space space, const doubl
 void dal__tangent_gather(const dal_system *system, dal_space space, const double *tangent,
                          double *vector);
 
+/* The place in a state, or a vector, of number i of what varies at constant e: q, v, then g or
+ * p, pi. */
+static inline int dal__varied_place(dal_space space, int n, int i)
+{
+    return space == DAL_LIFTED && i >= 2 * n ? i + 1 : i;
+}
+
 #endif

@@ -4,6 +4,7 @@
 
 #include "dalembert_evaluator.h"
 #include "dalembert_steer.h"
+#include "dynamics/tangent_map.h"
 
 /* Points are states of a run: q, v, e, p, pi, pi_e; q and v with aim; q, v, g of vakonomic motion.
  * Numbers of a point that are unknown are numbered without e and pi_e: q, v, p, pi. */
@@ -46,7 +47,7 @@ typedef struct dal__problem {
 /* The place of an unknown in a point. */
 static inline int dal__place_of(const dal__problem *p, int unknown)
 {
-    return p->is_lifted && unknown >= 2 * p->n ? unknown + 1 : unknown;
+    return dal__varied_place(p->spec.options.space, p->n, unknown);
 }
 
 /* Opens a problem; what it points to must outlive it.  [alloc]  Errors: see dal_steer_create. */
