@@ -135,7 +135,7 @@ static double force_defect(survey *w)
         /* dg/dt of a multiplier that changes its sign with v keeps its own, and the reverse. */
         for (int a = 0; a < w->s->multipliers; a++) w->value[1][w->n + a] *= -w->sign[a];
         if (!isfinite(dal__max_abs(w->value[0], (size_t)w->nw))) continue;
-        max = fmax(max, dal__distance(w->value[0], w->value[1], (size_t)w->nw));
+        max = fmax(max, dal__distance(w->value[0], w->value[1], NULL, (size_t)w->nw));
         decided = true;
     }
     return decided ? max : NAN;

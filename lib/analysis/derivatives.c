@@ -38,7 +38,7 @@ static dal_status difference(dal__vector_function *curve, void *user, double d, 
             size = fmax(size, dal__max_abs(scratch, (size_t)count));
         }
     }
-    *gap = dal__distance(out, lower, (size_t)count);
+    *gap = dal__distance(out, lower, NULL, (size_t)count);
     *noise = isfinite(size) ? rounding * size / d : 0.0;
     return DAL_STATUS_OK;
 }
@@ -55,7 +55,7 @@ dal_status dal__differentiate(dal__vector_function *curve, void *user, double d,
         if (status != DAL_STATUS_OK && failure == DAL_STATUS_OK) failure = status;
         if (status != DAL_STATUS_OK) continue;
         good = gap <= fmax(close_agreement, noise) ||
-               fmax(fmax(gap, min), dal__distance(best, out, (size_t)count)) <= agreement;
+               fmax(fmax(gap, min), dal__distance(best, out, NULL, (size_t)count)) <= agreement;
         if (!(gap < min)) continue;
         min = gap;
         memcpy(best, out, (size_t)count * sizeof(double));
@@ -251,7 +251,7 @@ static double compare(const comparison *d, const double *given, int rows, int fi
     double max = 0.0;
     for (int i = 0; i < rows; i++) {
         const double *difference = d->differences + i * (d->n + d->nw) + first;
-        max = fmax(max, dal__distance(given + i * columns, difference, (size_t)columns));
+        max = fmax(max, dal__distance(given + i * columns, difference, NULL, (size_t)columns));
     }
     return max;
 }
@@ -276,8 +276,8 @@ static dal_status compare_adjoint(comparison *d, double *defect)
         products[j] = 0.0;
         for (int i = 0; i < n; i++) products[j] += d->pi[i] * d->differences[i * columns + j];
     }
-    *defect = fmax(dal__distance(d->given, field, (size_t)n),
-                   dal__distance(d->given + n, products, (size_t)(2 * n)));
+    *defect = fmax(dal__distance(d->given, field, NULL, (size_t)n),
+                   dal__distance(d->given + n, products, NULL, (size_t)(2 * n)));
     return DAL_STATUS_OK;
 }
 
@@ -294,7 +294,7 @@ static dal_status compare_effort(comparison *d, dal_derivatives *out)
         products[j] = 0.0;
         for (int i = 0; i < n; i++) products[j] += 0.5 * d->pi[i] * d->differences[i * columns + j];
     }
-    out->effort = dal__distance(d->given + n, products, (size_t)(2 * n));
+    out->effort = dal__distance(d->given + n, products, NULL, (size_t)(2 * n));
     if (d->s->effort < DAL_EFFORT_CONSTRAINT || m == 0 || !d->s->call.constraint)
         return DAL_STATUS_OK;
     const double *A = d->differences + m;

@@ -46,7 +46,7 @@ long long dal_whole_steps(double from, double to, double step)
 typedef struct measurement {
     double T;
     const double *units; /* [numbers] */
-    int numbers;
+    size_t numbers;
     const dal_observer *observer;
     dal_error *error;
 } measurement;
@@ -87,17 +87,6 @@ static dal_status state_at(const measurement *m, const dal_run_spec *spec, doubl
     *evaluations = dal_run_evaluations(run);
     dal_run_free(run);
     return status;
-}
-
-static double max_error(const measurement *m, const double *reference, const double *x)
-{
-    double max = 0.0;
-    for (int k = 0; k < m->numbers; k++) {
-        const double size = fmax(m->units[k], fabs(reference[k]));
-        const double error = fabs(x[k] - reference[k]) / size;
-        max = error <= max ? max : isnan(error) ? INFINITY : error;
-    }
-    return max;
 }
 
 static double mean_step(const dal_order *o, int i)
@@ -154,7 +143,7 @@ dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double 
         return status != DAL_STATUS_OK ? status : dal__memory_error(error);
     }
     m.units = dal_scaled_units(scaled) + 1;
-    m.numbers = 2 * spec->system->n + spec->system->multipliers;
+    m.numbers = 2 * (size_t)spec->system->n + (size_t)spec->system->multipliers;
     *order = (dal_order){.levels = levels};
     if (reference == NULL) {
         dal_run_spec accurate = *spec;
@@ -171,7 +160,8 @@ dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double 
         dal_run_spec level = *spec;
         order->step[i] = level.options.step = ldexp(spec->options.step, -i);
         status = state_at(&m, &level, block + count, &order->evaluations[i]);
-        if (status == DAL_STATUS_OK) order->error[i] = max_error(&m, reference, block + count);
+        if (status == DAL_STATUS_OK)
+            order->error[i] = dal__distance(reference, block + count, m.units, m.numbers);
     }
     if (status == DAL_STATUS_OK) dal_order_slopes(order, 0.0);
     free(block);

@@ -23,7 +23,8 @@
 typedef struct stepmap {
     dal_run *run;
     double t;
-    double *z; /* [dimension] */
+    double *z;    /* [dimension] */
+    double *unit; /* [dimension] of the state */
     int dimension;
     dal_error *error;
 } stepmap;
@@ -33,27 +34,6 @@ static dal_status step_from(stepmap *m, double t, const double *z, double *out)
     DAL_TRY(dal_run_set_state(m->run, t, z, m->error));
     DAL_TRY(dal_run_step(m->run, m->error));
     memcpy(out, dal_run_state(m->run), (size_t)m->dimension * sizeof(double));
-    return DAL_STATUS_OK;
-}
-
-/* A run of the spec; z is a copy of state, or of the run's start, with rows further vectors of the
- * dimension after it. */
-static dal_status open_map(stepmap *m, const dal_run_spec *spec, double t, const double *state,
-                           size_t rows, dal_error *error)
-{
-    *m = (stepmap){.error = error};
-    DAL_TRY(dal__check_spec(spec, error));
-    DAL_TRY(dal__refuse_events(spec->system, "maps of a step", error));
-    DAL_TRY(dal_run_create(&m->run, spec, error));
-    m->dimension = dal_run_dimension(m->run);
-    m->t = state != NULL ? t : dal_run_time(m->run);
-    m->z = dal__numbers(rows + 1, (size_t)m->dimension);
-    if (m->z == NULL) {
-        dal_run_free(m->run);
-        return dal__memory_error(error);
-    }
-    if (state == NULL) state = dal_run_state(m->run);
-    memcpy(m->z, state, (size_t)m->dimension * sizeof(double));
     return DAL_STATUS_OK;
 }
 
@@ -68,15 +48,27 @@ static double unit_of(const stepmap *m, int i)
     return i == e || i == pi_e ? 1.0 : 1.0 / s->units[i - first_momentum];
 }
 
-/* max_i |a_i - b_i| / max(unit_i, |a_i|); infinite if one is NaN. */
-static double distance_in_units(const stepmap *m, const double *a, const double *b)
+/* A run of the spec; z is a copy of state, or of the run's start, with rows further vectors of the
+ * dimension after it. */
+static dal_status open_map(stepmap *m, const dal_run_spec *spec, double t, const double *state,
+                           size_t rows, dal_error *error)
 {
-    double max = 0.0;
-    for (int i = 0; i < m->dimension; i++) {
-        const double share = fabs(a[i] - b[i]) / fmax(unit_of(m, i), fabs(a[i]));
-        max = share <= max ? max : isnan(share) ? INFINITY : share;
+    *m = (stepmap){.error = error};
+    DAL_TRY(dal__check_spec(spec, error));
+    DAL_TRY(dal__refuse_events(spec->system, "maps of a step", error));
+    DAL_TRY(dal_run_create(&m->run, spec, error));
+    m->dimension = dal_run_dimension(m->run);
+    m->t = state != NULL ? t : dal_run_time(m->run);
+    m->z = dal__numbers(rows + 2, (size_t)m->dimension);
+    if (m->z == NULL) {
+        dal_run_free(m->run);
+        return dal__memory_error(error);
     }
-    return max;
+    if (state == NULL) state = dal_run_state(m->run);
+    memcpy(m->z, state, (size_t)m->dimension * sizeof(double));
+    m->unit = m->z + (rows + 1) * (size_t)m->dimension;
+    for (int i = 0; i < m->dimension; i++) m->unit[i] = unit_of(m, i);
+    return DAL_STATUS_OK;
 }
 
 static void close_map(stepmap *m)
@@ -100,10 +92,10 @@ static dal_status differentiate_step(stepmap *m, double increment, double *colum
     for (int j = 0; j < m->dimension; j++) {
         /* The scale of a coordinate is the way of a step. */
         const double way = j < n ? dal_run_step_size(m->run) * m->z[n + j] : m->z[j];
-        const double unit = unit_of(m, j), d = increment * fmax(unit, fabs(way));
+        const double unit = m->unit[j], d = increment * fmax(unit, fabs(way));
         double *out = columns + (size_t)j * (size_t)m->dimension;
         DAL_TRY(dal__differentiate_by(&m->z[j], step_of, m, d, m->dimension, scratch, out));
-        for (int i = 0; i < m->dimension; i++) out[i] *= unit / unit_of(m, i);
+        for (int i = 0; i < m->dimension; i++) out[i] *= unit / m->unit[i];
     }
     return DAL_STATUS_OK;
 }
@@ -188,7 +180,7 @@ dal_status dal_check_reversibility(const dal_run_spec *spec, double t, const dou
     reverse_time(spec->system->n, m.dimension, sign, z);
     if (status == DAL_STATUS_OK) status = step_from(&m, -dal_run_time(m.run), z, z);
     reverse_time(spec->system->n, m.dimension, sign, z);
-    if (status == DAL_STATUS_OK) *defect = distance_in_units(&m, m.z, z);
+    if (status == DAL_STATUS_OK) *defect = dal__distance(m.z, z, m.unit, (size_t)m.dimension);
     close_map(&m);
     return status;
 }

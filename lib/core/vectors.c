@@ -28,11 +28,11 @@ int dal__find_max_abs(const double *x, int count)
     return max;
 }
 
-double dal__distance(const double *a, const double *b, size_t count)
+double dal__distance(const double *a, const double *b, const double *unit, size_t count)
 {
     double max = 0.0;
     for (size_t i = 0; i < count; i++) {
-        double d = fabs(a[i] - b[i]) / fmax(1.0, fabs(a[i]));
+        const double d = fabs(a[i] - b[i]) / fmax(unit ? unit[i] : 1.0, fabs(a[i]));
         if (!(d <= max)) max = isnan(d) ? INFINITY : d;
     }
     return max;

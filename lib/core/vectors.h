@@ -31,8 +31,8 @@ static inline void dal__swap(int n, double *a, double *b)
 
 double dal__max_abs(const double *x, size_t count); /* max |x|; infinite if one is NaN */
 int dal__find_max_abs(const double *x, int count);  /* where that is, the first of NaNs */
-/* max_i |a - b| / max(1, |a|); infinite if one is NaN. */
-double dal__distance(const double *a, const double *b, size_t count);
+/* max_i |a_i - b_i| / max(unit_i, |a_i|), units NULL: 1; infinite if one is NaN. */
+double dal__distance(const double *a, const double *b, const double *unit, size_t count);
 
 /* Whether an iteration for numbers of this size has converged, by its last change and the one
  * before: it is within rounding, or within 64 times that and no longer falls. */
