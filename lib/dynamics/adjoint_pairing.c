@@ -7,6 +7,7 @@
 #include "core/settings.h"
 #include "core/vectors.h"
 #include "dalembert_order.h"
+#include "dynamics/tangent_map.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,14 +43,10 @@ static dal_status add_pairings(pairing *w, long long steps, dal_statistics *stat
 /* The tangent run starts where the lifted one does, with direction as (dq, dv). */
 static dal_status start_tangent(pairing *w, const double *direction, dal_error *error)
 {
-    size_t n = (size_t)w->n, bytes = n * sizeof(double);
-    const double *z = dal_run_state(w->lifted);
-    double *x = dal__numbers(4, n);
+    double *x = dal__numbers(4, (size_t)w->n);
     if (x == NULL) return dal__memory_error(error);
-    memcpy(x, z, bytes);
-    memcpy(x + n, direction, bytes);
-    memcpy(x + 2 * n, z + n, bytes);
-    memcpy(x + 3 * n, direction + n, bytes);
+    dal__tangent_scatter(dal_run_system(w->lifted), DAL_PHYSICAL, dal_run_state(w->lifted),
+                         direction, x);
     dal_status status = dal_run_set_state(w->tangent, dal_run_time(w->lifted), x, error);
     free(x);
     return status;
