@@ -166,14 +166,13 @@ dal_status dal__search_atoms(dal__search *s, const dal_invariants_settings *sett
     if (status == DAL_STATUS_OK) status = add_symbols(s, e->g, e->multipliers, NULL);
     if (status == DAL_STATUS_OK && settings->of_coordinates) status = add_symbols(s, e->t, 1, mark);
     free(mark);
-    if (status != DAL_STATUS_OK) return dal__size_error(status, error);
+    DAL_TRY(dal__check_size(status, error));
     for (int i = 0; i < settings->with_count; i++) {
         dal__node node;
         const char *text = settings->with[i];
         DAL_TRY(dal__search_parse(s->model, text, i + 1, &node, error));
-        const dal_status added =
-            add_atom(s, dal__model_print(s->model, is_primary(text) ? "%s" : "(%s)", text), node);
-        if (added != DAL_STATUS_OK) return dal__size_error(added, error);
+        const char *name = dal__model_print(s->model, is_primary(text) ? "%s" : "(%s)", text);
+        DAL_TRY(dal__check_size(add_atom(s, name, node), error));
     }
     return DAL_STATUS_OK;
 }

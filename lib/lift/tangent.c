@@ -149,7 +149,7 @@ static dal_status check_parameter(dal_model *model, int parameter, dal_error *er
     for (int i = 0; i < 2; i++)
         depends =
             depends || (fixed[i] && dal__depends(e->graph, fixed[i], parameter, parameter + 1));
-    if (e->graph->status != DAL_STATUS_OK) return dal__size_error(e->graph->status, error);
+    DAL_TRY(dal__check_size(e->graph->status, error));
     if (depends)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "the gauge depends on parameter %.80s, and derivatives by it are at "
@@ -176,8 +176,7 @@ static dal_status find_tangent(dal_model *model, int parameter, const dal_system
     if (!*made) return dal__memory_error(error);
     if (!(*made)->made) {
         DAL_TRY(check_parameter(model, parameter, error));
-        const dal_status status = make_tangent(model, parameter, *made);
-        if (status != DAL_STATUS_OK) return dal__size_error(status, error);
+        DAL_TRY(dal__check_size(make_tangent(model, parameter, *made), error));
     }
     (*made)->made = true;
     *system = &(*made)->system;

@@ -186,8 +186,7 @@ dal_status dal__derive_events(dal_model *model, dal_error *error)
         if (c < 0.0)
             return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(entry),
                                 "event %d: the restitution %g is negative", k + 1, c);
-        const dal_status status = dal__solve_force(model, normal, normal + e->n);
-        if (status != DAL_STATUS_OK) return dal__size_error(status, error);
+        DAL_TRY(dal__check_size(dal__solve_force(model, normal, normal + e->n), error));
     }
     return DAL_STATUS_OK;
 }

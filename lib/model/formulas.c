@@ -544,6 +544,5 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
             dal__evaluate(e->graph, e->start[i], e->value);
     for (int a = 0; a < e->multipliers; a++)
         e->value[e->g + a] = dal__evaluate(e->graph, e->start[2 * e->n + a], e->value);
-    dal_status status = e->graph->status;
-    return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
+    return dal__check_size(e->graph->status, error);
 }

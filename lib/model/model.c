@@ -129,6 +129,11 @@ dal_status dal__size_error(dal_status status, dal_error *error)
     return dal__fail(error, status, "the equations of the system are too large");
 }
 
+dal_status dal__check_size(dal_status status, dal_error *error)
+{
+    return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
+}
+
 void dal__model_discard(dal_model *model)
 {
     dal__pool_free(&model->memory);

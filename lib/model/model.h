@@ -111,6 +111,8 @@ void dal__model_discard(dal_model *model);
 void dal__model_warn(dal_model *model, const dal__entry *entry, const char *text);
 /* The error DAL_STATUS_MEMORY or DAL_STATUS_TOO_LARGE of a graph. */
 dal_status dal__size_error(dal_status status, dal_error *error);
+/* The same unless status is DAL_STATUS_OK. */
+dal_status dal__check_size(dal_status status, dal_error *error);
 /* The error that an entry is given twice. */
 dal_status dal__duplicate(const dal__entry *entry, dal_error *error);
 /* Adds a copy of the entry. */

@@ -421,7 +421,7 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
     DAL_TRY(dal__fields_allocate(d, dim, parameters, parameter_count, &value, error));
     dal_status status = make_matrix(d, A, value, units ? units : ones, error);
     if (status == DAL_STATUS_OK) status = make_fields(d, A, x);
-    if (e->graph->status != DAL_STATUS_OK) return dal__size_error(e->graph->status, error);
+    DAL_TRY(dal__check_size(e->graph->status, error));
     if (status == DAL_STATUS_SINGULAR)
         return dal__fail(error, status, "the constraints are dependent about the start");
     DAL_TRY(status);
@@ -434,8 +434,7 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
         if (dal__fields_rank(d) > last) out->rank[out->levels++] = dal__fields_rank(d);
         out->is_complete = dal__fields_rank(d) == last || dal__fields_rank(d) == d->full;
     }
-    return e->graph->status == DAL_STATUS_OK ? DAL_STATUS_OK
-                                             : dal__size_error(e->graph->status, error);
+    return dal__check_size(e->graph->status, error);
 }
 
 dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,

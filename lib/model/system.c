@@ -206,7 +206,7 @@ static dal_status add_effort(dal_model *model, dal_error *error)
     if (model->system.properties & DAL_EFFORT_OF_V)
         model->system.properties &= ~(unsigned)DAL_F_POSITIONAL;
     if (status == DAL_STATUS_OK) status = add_to_both(model, DAL__PROGRAM_EFFORT, out, 3 * n);
-    return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
+    return dal__check_size(status, error);
 }
 
 /* The section equations, where q'' has the places of pi. */
@@ -219,7 +219,7 @@ static dal_status add_motion_equations(dal_model *model, dal_error *error)
     DAL_TRY(dal__parse_motion_equations(model, out, error));
     const dal_status status =
         count > 0 ? add_to_both(model, DAL__PROGRAM_EQUATIONS, out, count) : DAL_STATUS_OK;
-    return status == DAL_STATUS_OK ? DAL_STATUS_OK : dal__size_error(status, error);
+    return dal__check_size(status, error);
 }
 
 /* What enforces g alone; where W need not have an inverse it is made of the constraint. */
@@ -337,7 +337,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_STATUS_OK) status = finish_programs(model, &model->programs, &model->system);
     if (status == DAL_STATUS_OK) status = dal__system_units(model, &model->system, model->units);
     if (status == DAL_STATUS_OK) status = make_extended(model);
-    if (status != DAL_STATUS_OK) return dal__size_error(status, error);
+    DAL_TRY(dal__check_size(status, error));
     model->made = true;
     *system = &model->system;
     return DAL_STATUS_OK;

@@ -305,8 +305,7 @@ static dal_status open_run(dal__problem *p)
     }
     memcpy(p->value, e->value, (size_t)e->symbols * sizeof *p->value);
     memcpy(p->value, dal_run_parameters(p->run), (size_t)e->parameters * sizeof *p->value);
-    return e->graph->status == DAL_STATUS_OK ? DAL_STATUS_OK
-                                             : dal__size_error(e->graph->status, p->error);
+    return dal__check_size(e->graph->status, p->error);
 }
 
 dal_status dal__problem_open(dal__problem *p, dal_model *model, const dal_run_spec *spec, double T,

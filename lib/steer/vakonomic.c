@@ -33,8 +33,7 @@ dal_status dal__vakonomic_open(dal__problem *p)
         dal__gradient(e->graph, e->momentum[i], e->symbol + e->v, n, row + n);
         dal__gradient(e->graph, e->momentum[i], e->symbol + e->g, m, row + 2 * n);
     }
-    return e->graph->status == DAL_STATUS_OK ? DAL_STATUS_OK
-                                             : dal__size_error(e->graph->status, p->error);
+    return dal__check_size(e->graph->status, p->error);
 }
 
 void dal__vakonomic_close(dal__problem *p) { free(p->momentum); }
