@@ -21,11 +21,6 @@
 #include "model/formulas.h"
 #include "model/motion.h"
 
-static dal_status exhausted(const dal_model *model, dal_error *error)
-{
-    return dal__size_error(model->equations.graph->status, error);
-}
-
 /* ---- W, b, A, c ---- */
 
 /* W, L_v and b of a Lagrangian; b holds L_q first. */
@@ -77,7 +72,7 @@ static dal_status derive_equations(dal_model *model, dal_error *error)
     const int *second = e->symbol + e->pi;
     dal__node *S = e->equation = dal__model_nodes(model, n, 0);
     dal__node *zero = dal__model_nodes(model, n, dal__number(e->graph, 0.0));
-    if (model->out_of_memory) return exhausted(model, error);
+    if (model->out_of_memory) return dal__memory_error(error);
     DAL_TRY(dal__parse_motion_equations(model, S, error));
     for (int i = 0; i < n; i++) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_EQUATIONS, i);
@@ -97,7 +92,7 @@ static dal_status derive_equations(dal_model *model, dal_error *error)
                             DAL__AT_TEXT(dal__constraint_entry(model, 0)),
                             "constraints need equations with a symmetric matrix of the second "
                             "derivatives, as m*x'' + f and m*y'' + g");
-    return make_symmetric(model) == DAL_STATUS_OK ? DAL_STATUS_OK : exhausted(model, error);
+    return dal__check_size(make_symmetric(model), error);
 }
 
 static dal_status derive_constraints(dal_model *model, dal_error *error)
@@ -133,7 +128,7 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     derive_lagrangian(e, e->lagrangian);
     /* W^-1 A^T of L alone, for projections.  A singular W means that there are none: U stays 0. */
     dal_status status = dal__solve_mass(model);
-    if (status != DAL_STATUS_OK && status != DAL_STATUS_SINGULAR) return exhausted(model, error);
+    if (status != DAL_STATUS_SINGULAR) DAL_TRY(dal__check_size(status, error));
     dal__node L = e->lagrangian;
     for (int a = 0; a < e->m; a++) {
         dal__node g = dal__symbol(e->graph, e->g + a);
@@ -145,7 +140,7 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     f = (dal__factors){.n = size, .constraint = constraint};
     f.matrix = dal__model_nodes(model, size * size, dal__number(e->graph, 0.0));
     dal__node *rhs = dal__model_nodes(model, size, 0);
-    if (model->out_of_memory) return exhausted(model, error);
+    if (model->out_of_memory) return dal__memory_error(error);
     for (int a = 0; a < e->m; a++) constraint[e->n + a] = a + 1;
     const int n = e->n;
     for (int i = 0; i < n; i++) {
@@ -161,10 +156,10 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     if (status == DAL_STATUS_SINGULAR)
         return f.singular < e->n ? dal__singular_mass(model, f.singular, error)
                                  : dal__dependent_constraints(model, f.singular - e->n, error);
-    if (status != DAL_STATUS_OK) return exhausted(model, error);
+    DAL_TRY(dal__check_size(status, error));
     dal__record_pivots(e, &f, DAL__DIVIDES_MOTION);
     status = dal__factors_solve(model, &f, DAL__SUMS_UNCHANGED, 1, rhs, e->F);
-    return status == DAL_STATUS_OK ? DAL_STATUS_OK : exhausted(model, error);
+    return dal__check_size(status, error);
 }
 
 /* ---- the reactions in invariants and events ---- */
@@ -255,8 +250,8 @@ dal_status dal__equations_derive(dal_model *model, dal_error *error)
             e->b[i] = e->force[i];
         }
         if (DAL__SOLVES_EQUATIONS && e->implicit) DAL_TRY(derive_equations(model, error));
-        if (expand_angles(model) != DAL_STATUS_OK) return exhausted(model, error);
+        DAL_TRY(dal__check_size(expand_angles(model), error));
         DAL_TRY(dal__motion_derive(model, error));
     }
-    return dal__insert_reactions(model) == DAL_STATUS_OK ? DAL_STATUS_OK : exhausted(model, error);
+    return dal__check_size(dal__insert_reactions(model), error);
 }
