@@ -27,6 +27,29 @@
 #include <math.h>
 #include <string.h>
 
+/* ---- at a point ---- */
+
+/* value[symbols] of the default start, with the parameters. */
+static dal_status copy_values(dal_model *model, const dal_setting *parameters, int parameter_count,
+                              double **value, dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    *value = dal__model_allocate(model, (size_t)e->symbols, sizeof **value);
+    if (!*value) return dal__memory_error(error);
+    memcpy(*value, e->value, (size_t)e->symbols * sizeof **value);
+    return dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
+                               *value, error);
+}
+
+/* The units, or units of 1 for t and q where there are none; NULL: out of memory. */
+static const double *complete_units(dal_model *model, const double *units)
+{
+    const size_t count = 1 + (size_t)model->equations.n;
+    double *ones = units ? NULL : dal__model_allocate(model, count, sizeof *ones);
+    for (size_t i = 0; ones && i < count; i++) ones[i] = 1.0;
+    return units ? units : ones;
+}
+
 /* ---- of A, and of W on ker A ---- */
 
 /* Pivots below this fraction of the largest leave F less than six digits. */
@@ -148,23 +171,20 @@ dal_status dal_model_ranks(dal_model *model, const dal_setting *parameters, int 
     DAL_REQUIRE(model->made, error);
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
     const dal__equations *e = &model->equations;
-    const size_t n = (size_t)e->n, symbols = (size_t)e->symbols;
+    const size_t n = (size_t)e->n;
+    double *value;
     matrices k;
     *out = (dal_ranks){.mass = -1};
     if (e->vakonomic || e->servo)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "the motion does not follow Chetaev's rule");
-    double *value = dal__model_allocate(model, symbols, sizeof *value);
-    double *ones = dal__model_allocate(model, 1 + n, sizeof *ones);
+    DAL_TRY(copy_values(model, parameters, parameter_count, &value, error));
+    units = complete_units(model, units);
     if (!allocate_matrices(model, &k)) return dal__memory_error(error);
-    for (size_t i = 0; i <= n; i++) ones[i] = 1.0;
-    memcpy(value, e->value, symbols * sizeof *value);
-    DAL_TRY(dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
-                                value, error));
     value[e->t] = at->t;
     memcpy(value + e->q, at->q, n * sizeof *value);
     memcpy(value + e->v, at->v, n * sizeof *value);
-    const bool is_finite = fill_matrices(&k, e, value, units ? units : ones);
+    const bool is_finite = fill_matrices(&k, e, value, units);
     if (e->graph->status == DAL_STATUS_MEMORY) return dal__memory_error(error);
     if (!is_finite)
         return dal__fail(error, DAL_STATUS_NOT_FINITE, "A or W is not finite at t = %.17g", at->t);
@@ -184,15 +204,12 @@ dal_status dal__fields_allocate(dal__fields *d, size_t dim, const dal_setting *p
     dal_model *const model = d->model;
     const dal__equations *e = &model->equations;
     const size_t symbols = (size_t)e->symbols;
-    *value = dal__model_allocate(model, symbols, sizeof **value);
     d->field = dal__model_nodes(model, (int)((DAL__GENERIC_POINTS * dim + 2) * dim), 0);
     d->weight = dal__model_allocate(model, DAL__GENERIC_POINTS * dim + 2, sizeof *d->weight);
     d->basis = dal__model_allocate(model, DAL__GENERIC_POINTS * dim * dim, sizeof *d->basis);
     d->point = dal__model_allocate(model, DAL__GENERIC_POINTS * symbols, sizeof *d->point);
     if (model->out_of_memory) return dal__memory_error(error);
-    memcpy(*value, e->value, symbols * sizeof **value);
-    return dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
-                               *value, error);
+    return copy_values(model, parameters, parameter_count, value, error);
 }
 
 void dal__displace_point(double *x, int from, int count, const double *unit, int way)
@@ -415,11 +432,10 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
     const size_t dim = 1 + (size_t)e->n, rows = (size_t)d->rows;
     dal__node *A = dal__model_nodes(model, (int)(rows * dim) + e->n, dal__number(e->graph, 0.0));
     double *value, *x = dal__model_allocate(model, rows * dim, sizeof *x);
-    double *ones = dal__model_allocate(model, dim, sizeof *ones);
+    units = complete_units(model, units);
     if (model->out_of_memory) return dal__memory_error(error);
-    for (size_t i = 0; i < dim; i++) ones[i] = 1.0;
     DAL_TRY(dal__fields_allocate(d, dim, parameters, parameter_count, &value, error));
-    dal_status status = make_matrix(d, A, value, units ? units : ones, error);
+    dal_status status = make_matrix(d, A, value, units, error);
     if (status == DAL_STATUS_OK) status = make_fields(d, A, x);
     DAL_TRY(dal__check_size(e->graph->status, error));
     if (status == DAL_STATUS_SINGULAR)
