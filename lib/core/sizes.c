@@ -116,6 +116,13 @@ static bool has_jacobian(const dal_system *s)
     return s->call.jacobian != NULL && s->n <= MAX_JACOBIAN;
 }
 
+/* F_q, F_(v,g), J, and two vectors. */
+static size_t jacobian_memory(const dal_system *s)
+{
+    const size_t n = (size_t)s->n, nw = (size_t)velocities(s);
+    return has_jacobian(s) ? nw * (n + nw) + 4 * n * n + 4 * n : 0;
+}
+
 /* 0 where the system has no jacobian, or J is nilpotent. */
 static double rate_of_jacobian(const dal__sizes *w)
 {
@@ -207,8 +214,7 @@ static void find_lengths(dal__sizes *w)
 size_t dal__sizes_memory(const dal_system *system)
 {
     const size_t n = (size_t)system->n, nw = (size_t)velocities(system);
-    const size_t jacobian = nw * (n + nw) + 4 * n * n + 4 * n; /* F_q, F_(v,g), J, two vectors */
-    return 3 * n + nw + 2 * (n + nw) + nw + (has_jacobian(system) ? jacobian : 0);
+    return 3 * n + nw + 2 * (n + nw) + nw + jacobian_memory(system);
 }
 
 void dal__find_sizes(dal__sizes *w, double *memory)
