@@ -106,24 +106,26 @@ static void free_motion(dal_extremal *x)
     free(x->u);
 }
 
+/* Whether a motion is listed before another: those that reach the target by S, then the rest by
+ * what remains. */
+static bool precedes(const dal_extremal *x, const dal_extremal *other)
+{
+    const bool is_found = x->status == DAL_STATUS_OK;
+    if (is_found != (other->status == DAL_STATUS_OK)) return is_found;
+    return is_found ? x->S < other->S : x->residual < other->residual;
+}
+
 /* Adds a motion, unless it is there; of more than settings->starts the last is left out. */
 static void add_extremal(const dal__problem *p, dal_steering *steering, dal_extremal *x)
 {
     dal_extremal *const all = steering->extremal;
-    const bool is_found = x->status == DAL_STATUS_OK;
     int at = 0;
-    for (int i = 0; i < steering->count; i++)
-        if (is_found && all[i].status == DAL_STATUS_OK && is_same(p, steering, x->z, all[i].z)) {
+    for (int i = 0; i < steering->count && x->status == DAL_STATUS_OK; i++)
+        if (all[i].status == DAL_STATUS_OK && is_same(p, steering, x->z, all[i].z)) {
             free_motion(x);
             return;
         }
-    for (; at < steering->count; at++) {
-        const bool is_other = all[at].status == DAL_STATUS_OK;
-        if (is_found != is_other ? is_found
-            : is_found           ? x->S < all[at].S
-                                 : x->residual < all[at].residual)
-            break;
-    }
+    while (at < steering->count && !precedes(x, &all[at])) at++;
     memmove(all + at + 1, all + at, (size_t)(steering->count - at) * sizeof *x);
     all[at] = *x;
     if (steering->count == p->settings->starts)
