@@ -33,7 +33,6 @@ typedef enum dal_prediction_end {
 #define CODE(code, word, text) DAL_PREDICTION_##code,
     DAL_PREDICTION_END_LIST(CODE)
 #undef CODE
-        DAL_PREDICTION_ENDS
 } dal_prediction_end;
 /* The word of an end, "defect"; "?" of a number that is none. */
 const char *dal_prediction_end_name(dal_prediction_end end);
