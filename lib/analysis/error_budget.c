@@ -175,20 +175,34 @@ static void add_values(comparisons *w, int which, double t, const double *values
     dal_statistics_add_scales(series(w, which), w->of->observables, scales);
 }
 
-/* Samples a run that takes `per` steps for each step of the first one; where there is a reference,
- * it moves the run. */
-static dal_status sample_run(comparisons *w, dal_run *run, dal__reference *reference, int which,
-                             int per, dal_error *error)
+/* Adds what is observed of a run after `at` steps of the first one; work: steps since the last. */
+static dal_status add_sample(comparisons *w, dal_run *run, int which, long long at, long long work,
+                             dal_error *error)
 {
-    const long long steps = w->of->steps, stride = stride_of(steps);
-    for (long long at = 0; at <= steps; at += stride) {
-        if (at > 0)
-            DAL_TRY(reference ? dal__reference_advance(reference, stride, error)
-                              : dal_run_advance(run, stride * per, error));
-        DAL_TRY(observe(run, w->values, error));
-        add_values(w, which, (double)at * w->of->spec.options.step, w->values, dal_run_scales(run));
-        if (report_progress(w, (double)(stride * per)) != DAL_STATUS_OK)
-            return DAL_STATUS_INTERRUPTED;
+    DAL_TRY(observe(run, w->values, error));
+    add_values(w, which, (double)at * w->of->spec.options.step, w->values, dal_run_scales(run));
+    const dal_status status = report_progress(w, (double)work);
+    return status == DAL_STATUS_OK ? status : DAL_STATUS_INTERRUPTED;
+}
+
+/* Samples a run that takes `per` steps for each step of the first one. */
+static dal_status sample_run(comparisons *w, dal_run *run, int which, int per, dal_error *error)
+{
+    const long long stride = stride_of(w->of->steps);
+    for (long long at = 0; at <= w->of->steps; at += stride) {
+        if (at > 0) DAL_TRY(dal_run_advance(run, stride * per, error));
+        DAL_TRY(add_sample(w, run, which, at, stride * per, error));
+    }
+    return DAL_STATUS_OK;
+}
+
+static dal_status sample_reference(comparisons *w, dal__reference *reference, dal_error *error)
+{
+    const long long stride = stride_of(w->of->steps);
+    dal_run *run = dal__reference_run(reference);
+    for (long long at = 0; at <= w->of->steps; at += stride) {
+        if (at > 0) DAL_TRY(dal__reference_advance(reference, stride, error));
+        DAL_TRY(add_sample(w, run, 1 + DAL_COMPARISON_EXACT, at, stride, error));
     }
     return DAL_STATUS_OK;
 }
@@ -228,8 +242,7 @@ static dal_status run_comparison(comparisons *w, dal_comparison_run comparison)
         leave_out(w, comparison, "it has other observables");
         return dal_run_free(run), DAL_STATUS_OK;
     }
-    if (status == DAL_STATUS_OK)
-        status = sample_run(w, run, NULL, 1 + (int)comparison, per, &error);
+    if (status == DAL_STATUS_OK) status = sample_run(w, run, 1 + (int)comparison, per, &error);
     dal_run_free(run);
     return end_comparison(w, comparison, status, &error);
 }
@@ -239,9 +252,7 @@ static dal_status run_reference(comparisons *w)
     dal__reference *reference = NULL;
     dal_error error = {0};
     dal_status status = dal__reference_create(&reference, &w->of->spec, &error);
-    if (status == DAL_STATUS_OK)
-        status = sample_run(w, dal__reference_run(reference), reference, 1 + DAL_COMPARISON_EXACT,
-                            1, &error);
+    if (status == DAL_STATUS_OK) status = sample_reference(w, reference, &error);
     if (status == DAL_STATUS_OK) w->of->exact_steps = dal__reference_steps(reference);
     dal__reference_free(reference);
     return end_comparison(w, DAL_COMPARISON_EXACT, status, &error);
@@ -418,7 +429,7 @@ static dal_status run_all(comparisons *w)
     dal_status status = allocate(w, run);
     if (status == DAL_STATUS_OK)
         status = dal__find_conserved(&w->of->spec, run, w->conserved, w->error);
-    if (status == DAL_STATUS_OK) status = sample_run(w, run, NULL, DAL__WHOLE_RUN, 1, w->error);
+    if (status == DAL_STATUS_OK) status = sample_run(w, run, DAL__WHOLE_RUN, 1, w->error);
     /* The observer may use the run that was begun last: here `run`. */
     if (status == DAL_STATUS_OK) status = run_reference(w);
     for (int k = 0; k < DAL_COMPARISON_EXACT && status == DAL_STATUS_OK; k++)
