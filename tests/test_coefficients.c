@@ -225,7 +225,7 @@ static bool write_file(const expansion *e, int order, int lanes, const char *pat
                           "    num (*const c)[%d] = (num (*)[%d])memory;\n"
                           "    (void)w, (void)k, (void)l;\n",
                           first ? "first" : "next", order + 1, order + 1);
-        dal__taylor_write(e->taylor, e->tapes, first ? DAL__FIRST : DAL__NEXT, lanes == 1, &text);
+        dal__taylor_write(e->taylor, e->tapes, first ? DAL__FIRST : DAL__NEXT, lanes, &text);
         for (int i = 0; i < e->taylor->outputs; i++) {
             dal__buffer_print(&text, "    out[%d] = ", i);
             dal__taylor_write_output(e->taylor, e->tapes, i, first ? DAL__FIRST : DAL__NEXT, &text);
@@ -269,7 +269,7 @@ static bool run_compiled(const expansion *e, int order, int lanes, void *handle,
     CU_ASSERT_FATAL(at[0] && at[1]);
     memcpy(bodies, at, sizeof bodies);
     const size_t slots = (size_t)e->taylor->slots, stride = (size_t)order + 1;
-    const size_t extra = (size_t)dal__taylor_extra(e->taylor, lanes == 1, order);
+    const size_t extra = (size_t)dal__taylor_extra(e->taylor, lanes, order);
     const size_t width = (size_t)lanes, outputs = (size_t)e->taylor->outputs;
     double *memory = numbers(slots * stride * width), *l = numbers(extra * stride * width);
     double *out = numbers(outputs * width), expected[MAX_FORMULAS];

@@ -208,7 +208,7 @@ static void write_orders(dal__generation *g, dal__coefficient which, int outputs
                       which == DAL__FIRST ? "static DAL_UNUSED __attribute__((noinline))"
                                           : "DAL_INLINE",
                       which == DAL__FIRST ? "first" : "next");
-    dal__taylor_write(taylor, g->programs->tapes, which, g->lanes == 1, text);
+    dal__taylor_write(taylor, g->programs->tapes, which, g->lanes, text);
     for (int i = 0; i < taylor->outputs; i++) {
         if (which == DAL__NEXT && i >= outputs && i < end) continue;
         dal__buffer_print(text, "    out[%d] = ", i);

@@ -43,7 +43,7 @@ static int count_series(const dal__generation *g)
 {
     const dal__taylor *taylor = g->programs->taylor[g->layout.lifted];
     if (g->product == DAL__PRODUCT_OBSERVE || !(g->kernel & DAL_KERNEL_SERIES)) return 0;
-    return taylor->slots + dal__taylor_extra(taylor, g->lanes == 1, g->layout.taylor_order) + 1;
+    return taylor->slots + dal__taylor_extra(taylor, g->lanes, g->layout.taylor_order) + 1;
 }
 
 static dal_status check_size(const dal__generation *g, dal_error *error)

@@ -14,6 +14,7 @@ typedef struct writer {
     const dal__taylor_operation *operation;
     const char *order; /* "0" or "k" */
     dal__buffer *text;
+    int lanes;
     bool has_interiors; /* the sums of an order */
     int interior[2];    /* number of the next one of products, of squares */
     int sums;           /* written so far */
@@ -171,10 +172,14 @@ static int count_sums(const dal__taylor *taylor, sum_kind kind)
     return count;
 }
 
-/* The same, rounded up to whole packs. */
-static int count_packed(const dal__taylor *taylor, sum_kind kind)
+/* One lane forms its sums in packs. */
+static bool is_packed(int lanes) { return lanes == 1; }
+
+/* The same, rounded up to whole packs where there are any. */
+static int count_places(const dal__taylor *taylor, sum_kind kind, int lanes)
 {
-    return (count_sums(taylor, kind) + DAL__PACK - 1) / DAL__PACK * DAL__PACK;
+    const int pack = is_packed(lanes) ? DAL__PACK : 1;
+    return (count_sums(taylor, kind) + pack - 1) / pack * pack;
 }
 
 /* Steps with more sums form interiors in pairs of orders (kernel/series.h). */
@@ -185,12 +190,12 @@ static bool has_few_sums(const dal__taylor *taylor)
     return count_sums(taylor, PRODUCTS) + count_sums(taylor, SQUARES) <= FEW_SUMS;
 }
 
-int dal__taylor_extra(const dal__taylor *taylor, bool packed, int order)
+int dal__taylor_extra(const dal__taylor *taylor, int lanes, int order)
 {
-    const int products = packed ? count_packed(taylor, PRODUCTS) : count_sums(taylor, PRODUCTS);
-    const int squares = packed ? count_packed(taylor, SQUARES) : count_sums(taylor, SQUARES);
+    const int products = count_places(taylor, PRODUCTS, lanes);
+    const int squares = count_places(taylor, SQUARES, lanes);
     const int kept = has_few_sums(taylor) ? 0 : (2 * (products + squares) + order) / (order + 1);
-    return (packed ? 2 * products + squares : 0) + kept;
+    return (is_packed(lanes) ? 2 * products + squares : 0) + kept;
 }
 
 /* The slots of the operands of sums of a kind. */
@@ -204,8 +209,9 @@ static void write_slots(const writer *w, sum_kind kind)
 }
 
 /* sum[products + squares]: the interiors of all sums. */
-static void write_interiors(const writer *w, bool packed)
+static void write_interiors(const writer *w)
 {
+    const bool packed = is_packed(w->lanes);
     if (packed)
         dal__buffer_append(w->text,
                            "    num *const r = l + products * (DAL_FIXED_TAYLOR_ORDER + 1),\n"
@@ -237,16 +243,16 @@ static void write_interiors(const writer *w, bool packed)
 
 /* What precedes the sums of an order.  Packs, and many sums, have interiors; for k <= 2 there are
  * none of the terms with order p = k - 1 that are added to them, and p is the column of zeros. */
-static void begin_sums(writer *w, bool packed)
+static void begin_sums(writer *w)
 {
     const dal__taylor *taylor = w->taylor;
-    const int products = packed ? count_packed(taylor, PRODUCTS) : count_sums(taylor, PRODUCTS);
-    const int squares = packed ? count_packed(taylor, SQUARES) : count_sums(taylor, SQUARES);
-    w->has_interiors = packed || !has_few_sums(taylor);
+    const int products = count_places(taylor, PRODUCTS, w->lanes);
+    const int squares = count_places(taylor, SQUARES, w->lanes);
+    w->has_interiors = is_packed(w->lanes) || !has_few_sums(taylor);
     w->interior[SQUARES] = products;
     if (!w->has_interiors) return;
     dal__buffer_print(w->text, "    enum { products = %d, squares = %d };\n", products, squares);
-    write_interiors(w, packed);
+    write_interiors(w);
     dal__buffer_append(w->text, "    const int p = k > 2 ? k - 1 : DAL_FIXED_TAYLOR_ORDER;\n"
                                 "    (void)sum, (void)p;\n");
 }
@@ -320,15 +326,19 @@ static void clear_columns(const writer *w)
 }
 
 void dal__taylor_write(const dal__taylor *taylor, const dal__tapes *tapes, dal__coefficient which,
-                       bool packed, dal__buffer *text)
+                       int lanes, dal__buffer *text)
 {
-    writer w = {
-        .taylor = taylor, .tapes = tapes, .order = which == DAL__FIRST ? "0" : "k", .text = text};
+    const bool packed = is_packed(lanes);
+    writer w = {.taylor = taylor,
+                .tapes = tapes,
+                .order = which == DAL__FIRST ? "0" : "k",
+                .text = text,
+                .lanes = lanes};
     if (which == DAL__NEXT) {
         dal__buffer_append(text, "    const num inverse = dal_inverse(k);\n"
                                  "    const num unit_inverse = DAL_FIXED_UNIT_OF_TIME * inverse;\n"
                                  "    (void)inverse, (void)unit_inverse;\n");
-        begin_sums(&w, packed);
+        begin_sums(&w);
         /* Many of lanes are each where it is used: there are not as many registers. */
         if (packed || has_few_sums(taylor)) write_sums_before(&w, taylor->sums);
     }
