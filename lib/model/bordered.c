@@ -44,7 +44,7 @@ typedef struct vectors {
 /* Free coordinates and retained constraints are numbered among themselves; free and retained hold
  * their numbers in the model. */
 struct dal__bordered {
-    int way;
+    unsigned way; /* DAL__SOLVED, .. */
     vectors scratch;
     int solved, frees, retained_count;
     int *dependent, *by;       /* [solved] the coordinate and its constraint */
@@ -437,7 +437,7 @@ static dal_status factor_whole(dal_model *model, dal__factors *f)
     return dal__factor(model, f);
 }
 
-dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int way,
+dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, unsigned way,
                                 dal__bordered **bordered, int *singular)
 {
     const int n = model->equations.n, m = model->equations.m;

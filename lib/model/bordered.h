@@ -4,10 +4,10 @@
 
 #include "model/elimination.h"
 
-/* Ways to solve it: SOLVED, with all constraints solved for a coordinate first that can be; PAIRED,
- * with constraints paired; COLLECTED, with the sums of the reduced equations in few operations;
- * FORWARD, the sums of the elimination, too; WHOLE, by the factors of the bordered matrix, sparse
- * where W^-1 is not. */
+/* A way to solve it, of flags: SOLVED, with all constraints solved for a coordinate first that can
+ * be; PAIRED, with constraints paired; COLLECTED, with the sums of the reduced equations in few
+ * operations; FORWARD, the sums of the elimination, too; WHOLE, by the factors of the bordered
+ * matrix, sparse where W^-1 is not. */
 enum { DAL__SOLVED = 1, DAL__PAIRED = 2, DAL__COLLECTED = 4, DAL__FORWARD = 8, DAL__WHOLE = 16 };
 
 /* The system of one model, solved as far as that does not depend on the right-hand side. */
@@ -16,7 +16,7 @@ typedef struct dal__bordered dal__bordered;
 /* Factors the system in one way; mass: the factors of W.  singular: on DAL_STATUS_SINGULAR the
  * constraint, from 0, that depends on others, or -1.  Errors: DAL_STATUS_MEMORY,
  * DAL_STATUS_SINGULAR, DAL_STATUS_TOO_LARGE. */
-dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int way,
+dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, unsigned way,
                                 dal__bordered **bordered, int *singular);
 /* Whether any constraint is solved for a coordinate first. */
 bool dal__bordered_is_reduced(const dal__bordered *bordered);

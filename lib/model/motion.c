@@ -244,7 +244,7 @@ static int cost_of_F(dal_model *model)
     return all ? dal__cost(e->graph, all, count) : INT_MAX;
 }
 
-static dal_status derive_by(dal_model *model, const dal__factors *mass, int way, int *singular)
+static dal_status derive_by(dal_model *model, const dal__factors *mass, unsigned way, int *singular)
 {
     dal__equations *e = &model->equations;
     dal__node *bottom = dal__model_nodes(model, e->m, 0);
@@ -259,16 +259,17 @@ static dal_status derive_by(dal_model *model, const dal__factors *mass, int way,
 static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, int *singular)
 {
     enum { MAX_COMPARED = 16, REDUCED = DAL__SOLVED | DAL__COLLECTED };
-    static const int ways[] = {0,           DAL__COLLECTED, DAL__COLLECTED | DAL__PAIRED,
-                               DAL__SOLVED, REDUCED,        REDUCED | DAL__FORWARD};
+    static const unsigned ways[] = {0,           DAL__COLLECTED, DAL__COLLECTED | DAL__PAIRED,
+                                    DAL__SOLVED, REDUCED,        REDUCED | DAL__FORWARD};
     const dal__equations *e = &model->equations;
-    int least = INT_MAX, best = 0, last = 0;
+    unsigned best = 0, last = 0;
+    int least = INT_MAX;
     if (e->n > MAX_COMPARED) {
         bool coupled = false; /* coordinates by W */
         for (int i = 0; i < e->n * e->n && !coupled; i++)
             coupled = i % (e->n + 1) && !dal__node_is_zero(e->graph, e->W[i]);
         const bool whole = coupled && e->mass_positive && !e->servo;
-        const int way = whole ? DAL__SOLVED | DAL__WHOLE : REDUCED;
+        const unsigned way = whole ? DAL__SOLVED | DAL__WHOLE : REDUCED;
         const dal_status status = derive_by(model, mass, way, singular);
         return status == DAL_STATUS_SINGULAR ? derive_by(model, mass, 0, singular) : status;
     }
