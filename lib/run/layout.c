@@ -219,7 +219,7 @@ int dal__eval_size(const dal__layout *k, int code)
     }
 }
 
-int dal__observable_count(const dal__layout *k, int kind, bool exact_known)
+int dal__observable_count(const dal__layout *k, dal__observable_kind kind, bool exact_known)
 {
     const dal_system *system = k->system;
     switch (kind) {
@@ -247,7 +247,8 @@ int dal__observable_count(const dal__layout *k, int kind, bool exact_known)
 }
 
 /* h1, .., hm, R_x, ..; lambda1, .. */
-void dal__reaction_name(const dal_system *system, int kind, int i, char *buffer, size_t size)
+void dal__reaction_name(const dal_system *system, dal__observable_kind kind, int i, char *buffer,
+                        size_t size)
 {
     const bool is_of_F = kind == DAL__OBSERVE_REACTIONS;
     const int k = i - system->m;

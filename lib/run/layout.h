@@ -99,10 +99,11 @@ const double *dal__units(const dal__layout *layout, dal__unit_list list);
 dal_status dal__layout_init(dal__layout *layout, const dal_run_spec *spec, dal_error *error);
 
 /* Writes the name of an observable of REACTIONS or MULTIPLIERS. */
-void dal__reaction_name(const dal_system *system, int kind, int i, char *buffer, size_t size);
+void dal__reaction_name(const dal_system *system, dal__observable_kind kind, int i, char *buffer,
+                        size_t size);
 
 /* Observables in a kind. */
-int dal__observable_count(const dal__layout *layout, int kind, bool exact_known);
+int dal__observable_count(const dal__layout *layout, dal__observable_kind kind, bool exact_known);
 
 /* The most observables that a run can have. */
 int dal__max_observables(const dal__layout *layout);

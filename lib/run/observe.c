@@ -54,7 +54,7 @@ int dal_run_component_index(const dal_run *run, const char *name)
 
 /* ---- observables ---- */
 
-static int kind_size(const dal_run *run, int kind)
+static int kind_size(const dal_run *run, dal__observable_kind kind)
 {
     return dal__observable_count(&run->layout, kind, run->exact);
 }

@@ -136,8 +136,8 @@ static dal_status scale_lift(const dal_run *run, const dal_point *at, double *ve
 /* ---- all of them ---- */
 
 /* Where the scales of a kind are, after the scales of the formulas were made. */
-static const double *kind_scales(const dal_run *run, const places *p, const dal_point *at, int kind,
-                                 dal_status *status)
+static const double *kind_scales(const dal_run *run, const places *p, const dal_point *at,
+                                 dal__observable_kind kind, dal_status *status)
 {
     const dal_system *s = run->layout.system;
     int largest = 0;
