@@ -169,8 +169,9 @@ typedef struct dal_trend {
 /* Classifies a quantity by the evidence for each shape (Kass, Raftery 1995, DOI
  * 10.1080/01621459.1995.10476572).  scale is the size of the terms that it is made of, in its unit,
  * by which roundings are measured; where it or a value is not finite, no change is a rounding.
- * aborted: the run ended before its time.  More values may be added afterwards. */
-void dal_statistics_classify(const dal_statistics *statistics, double scale, bool aborted,
+ * status: with which the run ended; unless it is DAL_STATUS_OK or DAL_STATUS_STOPPED the trend is
+ * DAL_TREND_ABORTED.  More values may be added afterwards. */
+void dal_statistics_classify(const dal_statistics *statistics, double scale, dal_status status,
                              dal_trend *trend);
 
 /* Classifies all observables of a run: statistics[count] and trend[count] in the order of
@@ -178,8 +179,8 @@ void dal_statistics_classify(const dal_statistics *statistics, double scale, boo
  * has added none, of the present state; of norms (|p|, |pi|, |pi_e|) the largest value.  E is
  * DAL_CONSERVED where the motion conserves it on every level of D, or on
  * D = 0 while max |D| is rounding-sized, and not where pi/e acts; H where F does not depend on t or
- * pi is 0; all else always is. */
-void dal_run_classify(dal_run *run, const dal_statistics *statistics, bool aborted,
+ * pi is 0; all else always is.  status: see dal_statistics_classify. */
+void dal_run_classify(dal_run *run, const dal_statistics *statistics, dal_status status,
                       dal_trend *trend);
 
 #ifdef __cplusplus

@@ -33,7 +33,7 @@ static int follow(const dal_run_spec *spec, followed *f)
         dal_run_observe(run, values);
         dal_statistics_add(statistics, f->count, dal_run_time(run), values);
     }
-    dal_run_classify(run, statistics, 0, f->trend);
+    dal_run_classify(run, statistics, DAL_STATUS_OK, f->trend);
     for (int i = 0; i < f->count; i++)
         dal_run_observable_name(run, i, f->names[i], sizeof f->names[i]);
     dal_run_free(run);
@@ -139,7 +139,7 @@ static void test_other_level(void)
         dal_run_observe(run, values);
         dal_statistics_add(statistics, count, dal_run_time(run), values);
     }
-    dal_run_classify(run, statistics, 0, trend);
+    dal_run_classify(run, statistics, DAL_STATUS_OK, trend);
     CU_ASSERT(fabs(trend[0].first) > 0.1 && trend[0].size != DAL_SIZE_LARGER);
     CU_ASSERT_EQUAL(trend[1].conservation, DAL_OFF_SURFACE);
     dal_run_free(run);
@@ -157,7 +157,8 @@ static dal_trend_class trend_of_exponential(double k, int both_sides)
         const double x = exp(k * s) * (both_sides ? wave : 1.0 + 0.5 * wave);
         dal_statistics_add(&statistics, 1, s, &x);
     }
-    dal_statistics_classify(&statistics, dal_statistics_max_abs(&statistics), 0, &trend);
+    dal_statistics_classify(&statistics, dal_statistics_max_abs(&statistics), DAL_STATUS_OK,
+                            &trend);
     return trend.trend;
 }
 

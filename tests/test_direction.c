@@ -222,7 +222,7 @@ static void test_trend(void)
             const double x = 1.0 + 1e-6 * i + 1e-5 * sin(i);
             dal_statistics_add(&s, 1, 5.0 + sign * 0.1 * i, &x);
         }
-        dal_statistics_classify(&s, 1.0, 0, &trend);
+        dal_statistics_classify(&s, 1.0, DAL_STATUS_OK, &trend);
         CU_ASSERT_EQUAL(trend.trend, DAL_TREND_LINEAR);
         CU_ASSERT_DOUBLE_EQUAL(trend.rate, 1e-5, 1e-8);
         CU_ASSERT(trend.rate_low <= trend.rate && trend.rate <= trend.rate_high);

@@ -351,8 +351,8 @@ static void null_dal_statistics_classify(void)
     dal_statistics s;
     dal_trend trend = {.count = -7};
     dal_statistics_start(&s, 1);
-    dal_statistics_classify(NULL, 1.0, 0, &trend);
-    dal_statistics_classify(&s, 1.0, 0, NULL);
+    dal_statistics_classify(NULL, 1.0, DAL_STATUS_OK, &trend);
+    dal_statistics_classify(&s, 1.0, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL(trend.count, -7);
 }
 
@@ -441,9 +441,9 @@ static void null_dal_run_classify(void)
     dal_statistics statistics[16];
     dal_trend trend[16] = {{.count = -7}};
     dal_statistics_start(statistics, 16);
-    dal_run_classify(NULL, statistics, 0, trend);
-    dal_run_classify(run, NULL, 0, trend);
-    dal_run_classify(run, statistics, 0, NULL);
+    dal_run_classify(NULL, statistics, DAL_STATUS_OK, trend);
+    dal_run_classify(run, NULL, DAL_STATUS_OK, trend);
+    dal_run_classify(run, statistics, DAL_STATUS_OK, NULL);
     CU_ASSERT_EQUAL(trend[0].count, -7);
 }
 

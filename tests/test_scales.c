@@ -196,7 +196,7 @@ static sizes measure(const dal_system *system, const char *method, double h, int
     sizes out = {.count = dal_run_observables(run)};
     const follower f = sample(run, h * steps, DAL_STATUS_OK);
     for (int i = 0; i < f.count; i++) out.scale[i] = f.statistics[i].scale;
-    dal_run_classify(run, f.statistics, 0, out.trend);
+    dal_run_classify(run, f.statistics, DAL_STATUS_OK, out.trend);
     dal_run_free(run);
     return out;
 }
@@ -251,17 +251,17 @@ static void test_blow_up(void)
     dal_run *run = fixture_run(&spec);
     dal_trend trend[MAX];
     follower f = sample(run, 10.0, DAL_STATUS_NOT_FINITE);
-    dal_run_classify(run, f.statistics, 1, trend);
+    dal_run_classify(run, f.statistics, DAL_STATUS_NOT_FINITE, trend);
     CU_ASSERT(trend[0].max_abs > 1e20);
     CU_ASSERT_EQUAL(trend[0].size, DAL_SIZE_LARGER);
     const double infinite[MAX] = {INFINITY};
     dal_statistics_add_scales(f.statistics, 1, infinite);
-    dal_run_classify(run, f.statistics, 1, trend);
+    dal_run_classify(run, f.statistics, DAL_STATUS_NOT_FINITE, trend);
     CU_ASSERT_EQUAL(trend[0].size, DAL_SIZE_LARGER);
     dal_statistics one;
     dal_statistics_start(&one, 1);
     for (int i = 0; i < 3; i++) dal_statistics_add(&one, 1, i, &(double){i < 2 ? 1.0 : NAN});
-    dal_statistics_classify(&one, 1.0, 0, trend);
+    dal_statistics_classify(&one, 1.0, DAL_STATUS_OK, trend);
     CU_ASSERT_EQUAL(trend[0].size, DAL_SIZE_LARGER); /* a value was lost */
     dal_run_free(run);
 }

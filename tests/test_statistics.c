@@ -26,7 +26,7 @@ static dal_trend trend_of_signal(signal *x, double T)
 {
     const dal_statistics s = statistics_of(x, T, VALUES);
     dal_trend f;
-    dal_statistics_classify(&s, 1.0, 0, &f);
+    dal_statistics_classify(&s, 1.0, DAL_STATUS_OK, &f);
     return f;
 }
 
@@ -340,7 +340,7 @@ static cover cover_of(double memory, double half_width)
             const double x = 0.001 * k + noise;
             dal_statistics_add(&s, 1, 0.001 * k, &x);
         }
-        dal_statistics_classify(&s, 1e9, 0, &f); /* roundings do not matter here */
+        dal_statistics_classify(&s, 1e9, DAL_STATUS_OK, &f); /* roundings do not matter here */
         c.hold += f.rate_low <= 1.0 && f.rate_high >= 1.0;
         c.narrow += f.rate_high - f.rate_low < 2.0 * half_width;
     }
@@ -387,7 +387,7 @@ static void test_few_values(void)
         const double x = k % 2 ? -1.0 : 1.0;
         dal_statistics_add(&s, 1, k, &x);
     }
-    dal_statistics_classify(&s, 1.0, 0, &f);
+    dal_statistics_classify(&s, 1.0, DAL_STATUS_OK, &f);
     CU_ASSERT_DOUBLE_EQUAL(f.rate, 0.0, 1e-15);
     const double margin = 2.570582 * sqrt(48.0 / 7.0 / 5.0 / 28.0);
     CU_ASSERT_DOUBLE_EQUAL(f.rate_high, margin, 0.01 * margin);
@@ -399,7 +399,7 @@ static void test_few_values(void)
 static dal_trend_class trend_of(const dal_statistics *s)
 {
     dal_trend f;
-    dal_statistics_classify(s, 1.0, 0, &f);
+    dal_statistics_classify(s, 1.0, DAL_STATUS_OK, &f);
     CU_ASSERT(f.trend < DAL_TREND_UNDECIDED ? f.confidence > 0.0 && f.confidence <= 1.0
                                             : isnan(f.confidence));
     return f.trend;
@@ -414,14 +414,16 @@ static void test_nothing_and_nonsense(void)
     const double rows[][2] = {{1.0, 1.0}, {2.0, INFINITY}, {3.0, 1.0}};
     for (int k = 0; k < 3; k++) dal_statistics_add(s, 2, 0.5 * k, rows[k]);
     CU_ASSERT_EQUAL(dal_statistics_max_abs(&s[0]), 3.0);
-    dal_statistics_classify(&s[0], 1.0, 0, &f);
+    dal_statistics_classify(&s[0], 1.0, DAL_STATUS_OK, &f);
     CU_ASSERT_DOUBLE_EQUAL(f.rate, 2.0, 1e-14);
     CU_ASSERT_EQUAL(f.trend, DAL_TREND_UNDECIDED);
     /* What is not finite is counted nowhere but in the maxima. */
     CU_ASSERT(isinf(dal_statistics_max_abs(&s[1])) && isinf(dal_statistics_deviation(&s[1])));
     CU_ASSERT_EQUAL(s[1].count, 2);
     CU_ASSERT_EQUAL(trend_of(&s[1]), DAL_TREND_ABORTED);
-    dal_statistics_classify(&s[0], 1.0, 1, &f);
+    dal_statistics_classify(&s[0], 1.0, DAL_STATUS_STOPPED, &f);
+    CU_ASSERT_EQUAL(f.trend, DAL_TREND_UNDECIDED);
+    dal_statistics_classify(&s[0], 1.0, DAL_STATUS_SINGULAR, &f);
     CU_ASSERT_EQUAL(f.trend, DAL_TREND_ABORTED);
 }
 

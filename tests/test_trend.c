@@ -54,7 +54,7 @@ static void draw_one(const series_kind *kind, uint64_t number, tally *all)
     dal_statistics_start(&statistics, 1);
     dal_statistics_add_many(&statistics, 1, s.count, t, x, (size_t)s.count);
     const clock_t before = clock();
-    dal_statistics_classify(&statistics, size, 0, &f);
+    dal_statistics_classify(&statistics, size, DAL_STATUS_OK, &f);
     all->time += clock() - before;
     CU_ASSERT(trend_is_consistent(&f));
     const int is_wrong = !series_accepts(kind, &s, &f);
@@ -222,7 +222,7 @@ static dal_trend follow(signal *of, double scale, int count)
         const double own = of(k);
         dal_statistics_add(&statistics, 1, 0.1 * k, &own);
     }
-    dal_statistics_classify(&statistics, scale, 0, &f);
+    dal_statistics_classify(&statistics, scale, DAL_STATUS_OK, &f);
     return f;
 }
 
@@ -298,7 +298,7 @@ static void count_exponents(double p, double deviation, int *stated, int *wrong)
             x[k] = pow((k + 0.5) / COUNT, p) + noise * series_normal(&random);
         dal_statistics_start(&statistics, 1);
         dal_statistics_add_many(&statistics, 1, COUNT, t, x, COUNT);
-        dal_statistics_classify(&statistics, 1.0, 0, &f);
+        dal_statistics_classify(&statistics, 1.0, DAL_STATUS_OK, &f);
         *stated += f.trend == DAL_TREND_POWER;
         *wrong += f.trend == DAL_TREND_POWER && fabs(f.exponent - p) > 0.15;
     }
@@ -333,7 +333,7 @@ static dal_trend scaled(const char *name, uint64_t number, double factor)
     for (int k = 0; k < s.count; k++) x[k] *= factor;
     dal_statistics_start(&statistics, 1);
     dal_statistics_add_many(&statistics, 1, s.count, t, x, (size_t)s.count);
-    dal_statistics_classify(&statistics, factor, 0, &f);
+    dal_statistics_classify(&statistics, factor, DAL_STATUS_OK, &f);
     return f;
 }
 
@@ -385,7 +385,7 @@ static void test_line_under_a_tone(void)
             const double value = cos(two_pi * periods * time + 0.3) + rate * time;
             dal_statistics_add(&s, 1, time, &value);
         }
-        dal_statistics_classify(&s, VALUES, 0, &f);
+        dal_statistics_classify(&s, VALUES, DAL_STATUS_OK, &f);
         CU_ASSERT_DOUBLE_EQUAL(f.rate, rate, 1e-6);
     }
 }

@@ -32,7 +32,7 @@ static int run_trends(const char *system, const char *method, double h, double T
     dal_statistics_start(statistics, OBSERVABLES);
     if (dal_run_create(&run, &spec, NULL) == DAL_STATUS_OK &&
         dal_run_sample(run, T, 1, 0, &observer, NULL) == DAL_STATUS_OK) {
-        dal_run_classify(run, statistics, 0, trend);
+        dal_run_classify(run, statistics, DAL_STATUS_OK, trend);
         for (int i = 0; i < dal_run_observables(run); i++) {
             dal_run_observable_name(run, i, name, sizeof name);
             CU_ASSERT(trend_is_consistent(&trend[i]));

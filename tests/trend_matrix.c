@@ -104,7 +104,7 @@ void trend_cell_fill(trend_cell *cell, const series_kind *kind, int count, int v
         dal_statistics_start(&statistics, 1);
         dal_statistics_add_many(&statistics, 1, s.count, t, x, (size_t)s.count);
         const clock_t before = clock();
-        dal_statistics_classify(&statistics, is_rounding ? 1.0 : 1e-9, 0, &f);
+        dal_statistics_classify(&statistics, is_rounding ? 1.0 : 1e-9, DAL_STATUS_OK, &f);
         cell->seconds += (double)(clock() - before) / CLOCKS_PER_SEC;
         count_one(cell, kind, &s, &f, t);
     }

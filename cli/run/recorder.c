@@ -136,7 +136,7 @@ int recorder_open(run_recorder *r, const run_simulation *simulation, run_directo
     if (status == CLI_DONE && dir && simulation->system->events > 0)
         status = event_log_open(&r->events, simulation, dir->events);
     if (status != CLI_DONE || !recorder_is_finished(r)) return status;
-    dal_run_classify(simulation->run, r->results.statistics, 0, r->results.trend);
+    dal_run_classify(simulation->run, r->results.statistics, DAL_STATUS_OK, r->results.trend);
     /* The run may have been killed between its last checkpoint and the manifest. */
     bool has_ended;
     status = manifest_read_end(dir->manifest, &has_ended);
@@ -470,7 +470,6 @@ int recorder_run(run_recorder *r, dal_error *error)
     stop_clock(r);
     if (r->progress != PROGRESS_OFF) cli_progress_end();
     if (r->progress == PROGRESS_JSON) show_json(r, dal_run_time(run));
-    dal_run_classify(run, r->results.statistics,
-                     status != DAL_STATUS_OK && status != DAL_STATUS_STOPPED, r->results.trend);
+    dal_run_classify(run, r->results.statistics, status, r->results.trend);
     return write_end(r, end_status(r, status, error), error->message);
 }

@@ -477,7 +477,7 @@ static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
     const dal_status status =
         dal_run_sample(simulation->run, simulation->end, 1, 0, &observer, error);
     const bool has_ended = status == DAL_STATUS_OK || status == DAL_STATUS_STOPPED;
-    dal_run_classify(simulation->run, s->results.statistics, !has_ended, c->trend);
+    dal_run_classify(simulation->run, s->results.statistics, status, c->trend);
     c->seconds = cli_thread_seconds() - start;
     return has_ended ? DAL_STATUS_OK : status;
 }

@@ -58,7 +58,7 @@ static places find_places(const dal_run *run)
     return at;
 }
 
-void dal_run_classify(dal_run *run, const dal_statistics *statistics, bool aborted,
+void dal_run_classify(dal_run *run, const dal_statistics *statistics, dal_status status,
                       dal_trend *trend)
 {
     if (!run || !statistics || !trend) return;
@@ -74,7 +74,7 @@ void dal_run_classify(dal_run *run, const dal_statistics *statistics, bool abort
         const double scale = is_norm   ? dal_statistics_max_abs(&statistics[i])
                              : present ? present[i]
                                        : statistics[i].scale;
-        dal_statistics_classify(&statistics[i], scale, aborted, &trend[i]);
+        dal_statistics_classify(&statistics[i], scale, status, &trend[i]);
         if (kind == DAL__OBSERVE_REACTIONS || kind == DAL__OBSERVE_MULTIPLIERS)
             trend[i].conservation = DAL_NOT_CONSERVED;
     }

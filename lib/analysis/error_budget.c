@@ -393,7 +393,7 @@ static void find_shares(comparisons *w, dal_run *run)
 {
     for (int which = 0; which < DAL__COMPARED_SERIES; which++)
         if (w->of->observables > 0 && series(w, which)->count > 0)
-            dal_run_classify(run, series(w, which), false, trends(w, which));
+            dal_run_classify(run, series(w, which), DAL_STATUS_OK, trends(w, which));
     make_rates_linear(w);
     for (int i = 0; i < w->of->observables; i++) {
         double rate[1 + DAL_COMPARISONS];

@@ -425,7 +425,8 @@ static decision classify(const dal_statistics *s, dal_trend *trend)
     return d;
 }
 
-void dal_statistics_classify(const dal_statistics *s, double scale, bool aborted, dal_trend *trend)
+void dal_statistics_classify(const dal_statistics *s, double scale, dal_status status,
+                             dal_trend *trend)
 {
     if (!s || !trend) return;
     *trend = (dal_trend){.count = s->count,
@@ -435,7 +436,8 @@ void dal_statistics_classify(const dal_statistics *s, double scale, bool aborted
                          .max_abs = dal_statistics_max_abs(s),
                          .deviation = dal_statistics_deviation(s)};
     decision d = classify(s, trend);
-    if (aborted || s->lost || s->count == 0)
+    const bool has_ended = status == DAL_STATUS_OK || status == DAL_STATUS_STOPPED;
+    if (!has_ended || s->lost || s->count == 0)
         d = (decision){.trend = DAL_TREND_ABORTED,
                        .confidence = NAN,
                        .exponent = NAN,

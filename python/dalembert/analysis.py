@@ -85,10 +85,10 @@ def make_trend(t: Any) -> Trend:
     return Trend(**{**values, **{name: text_of(word(values[name])) for name, word in WORDS.items()}})
 
 
-def classify(run: Any, names: tuple[str, ...], statistics: Any, has_ended: bool) -> dict[str, Trend]:
-    """The trends of the observables of a run by their statistics."""
+def classify(run: Any, names: tuple[str, ...], statistics: Any, status: int) -> dict[str, Trend]:
+    """The trends of the observables of a run by their statistics, and the status with which it ended."""
     trends = ffi.new('dal_trend[]', len(names))
-    lib.dal_run_classify(run, statistics, not has_ended, trends)
+    lib.dal_run_classify(run, statistics, status, trends)
     return {name: make_trend(trends[i]) for i, name in enumerate(names)}
 
 
@@ -125,7 +125,7 @@ def trend(system: SystemLike, integrator: str | None = None, time: float | None 
     status = lib.python_sample(run, spec.time(time), 1,
                                ffi.new('python_request *', {'statistics': statistics, 'every': every}), record)
     has_ended = status in (lib.DAL_STATUS_OK, lib.DAL_STATUS_STOPPED)
-    found = classify(run, names, statistics, has_ended)
+    found = classify(run, names, statistics, status)
     try:
         check(lib.DAL_STATUS_OK if has_ended else status, record, stepping=True)
     except Error as error:

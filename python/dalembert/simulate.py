@@ -318,12 +318,12 @@ def simulate(system: SystemLike, integrator: str | None = None, time: float | No
         request = ffi.new('python_request *', {'user': handle, 'rows': doubles(table.values),
                                                'statistics': statistics, 'every': 1})
 
-        def made(has_ended: bool) -> Trajectory:
+        def made(status: int) -> Trajectory:
             return Trajectory(run.system, run.integrator, run.step, run.parameters, table.rows(request.made).copy(),
-                              classify(run._run, run.observable_names, statistics, has_ended), watch.events)
+                              classify(run._run, run.observable_names, statistics, status), watch.events)
         try:
             run._call(lib.python_sample, run._run, time, samples, request)
         except Error as error:
-            error.partial = made(False)
+            error.partial = made(lib.DAL_STATUS_INTERRUPTED)
             raise
-    return made(True)
+    return made(lib.DAL_STATUS_OK)
