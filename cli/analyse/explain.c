@@ -492,13 +492,6 @@ static void put_budget(const explain_settings *s, const dal_error_budget *e)
     json_end_results(&w);
 }
 
-static int print_result(const explain_settings *s, const dal_error_budget *e)
-{
-    if (s->format != SCREEN_TEXT) return print_document(s, e);
-    (s->json ? put_budget : print_budget)(s, e);
-    return cli_close(stdout, "standard output");
-}
-
 /* ---- all ---- */
 
 int explain_run(explain_settings *s)
@@ -535,8 +528,12 @@ int explain_run(explain_settings *s)
     if (done != DAL_STATUS_OK)
         return cli_error(cli_exit(done), s->simulation.request.system_name, &error);
     status = s->output ? write_budget(s->output, e) : CLI_DONE;
-    if (status == CLI_DONE && (s->json || s->format != SCREEN_TEXT || !s->output))
-        status = print_result(s, e);
+    if (status == CLI_DONE && s->format != SCREEN_TEXT) {
+        status = print_document(s, e);
+    } else if (status == CLI_DONE && (s->json || !s->output)) {
+        (s->json ? put_budget : print_budget)(s, e);
+        status = cli_close(stdout, "standard output");
+    }
     dal_prediction_free(s->predicted);
     s->predicted = NULL;
     dal_error_budget_free(e);

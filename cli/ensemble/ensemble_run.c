@@ -122,12 +122,6 @@ static void show_members(void *user)
         cli_progress("ensemble: %lld of %lld members, %.0f s", p->done, p->members, now - p->start);
 }
 
-/* Scripts always get the end. */
-static void show_end(const pool_state *p)
-{
-    if (p->progress == PROGRESS_JSON) write_json_progress(p, cli_seconds() - p->start);
-}
-
 static void return_worker(void *user)
 {
     const worker_request *r = user;
@@ -308,7 +302,8 @@ int ensemble_run(ensemble *e, ensemble_directory *dir, const ensemble_run_option
         status = options->runner(&list, options->threads);
     }
     cli_progress_end();
-    show_end(&p);
+    if (p.progress == PROGRESS_JSON) /* scripts always get the end */
+        write_json_progress(&p, cli_seconds() - p.start);
     free_workers(&p);
     const int saved = ensemble_directory_save(dir);
     if (status != CLI_DONE && status != CLI_SIGNAL) return status;

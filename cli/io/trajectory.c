@@ -300,12 +300,6 @@ int writer_continue(trajectory_writer *writer, long long rows, const row_sum *su
 
 /* ---- writing either ------------------------------------------------------------------------ */
 
-/* Zero has no sign in the file and not a number one form, so that equal runs give equal files. */
-static void encode(unsigned char *bytes, double value)
-{
-    write_le_double(bytes, isnan(value) ? (double)NAN : value + 0.0);
-}
-
 int writer_create(trajectory_writer *writer, const char *path, char *const *names, int columns)
 {
     const bool is_stdout = strcmp(path, "-") == 0;
@@ -332,7 +326,9 @@ int writer_append(trajectory_writer *writer, const double *values)
 {
     if (!writer->file) {
         unsigned char *place = writer->buffer + (size_t)writer->pending * row_bytes(writer);
-        for (int i = 0; i < writer->columns; i++) encode(place + WORD * i, values[i]);
+        /* Zero has no sign in the file and not a number one form: equal runs give equal files. */
+        for (int i = 0; i < writer->columns; i++)
+            write_le_double(place + WORD * i, isnan(values[i]) ? (double)NAN : values[i] + 0.0);
         return ++writer->pending < writer->capacity ? CLI_DONE : flush(writer);
     }
     for (int i = 0; i < writer->columns; i++) {

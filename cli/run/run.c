@@ -87,12 +87,6 @@ static void print_unresolved(const dal_run *run)
             steps, from);
 }
 
-static int copy_events(const run_directory *dir, const run_settings *settings)
-{
-    return dir && settings->events ? file_copy(dir->events, settings->events, FILE_UNSYNCED)
-                                   : CLI_DONE;
-}
-
 int run_integrate(const run_simulation *simulation, run_directory *dir,
                   const run_settings *settings)
 {
@@ -132,7 +126,10 @@ int run_integrate(const run_simulation *simulation, run_directory *dir,
             summary_print(stderr, simulation, &recorder.results);
         if (settings->details) summary_print_details(stderr, &recorder.results);
     }
-    const int closed = recorder_close(&recorder), copied = copy_events(dir, settings);
+    const int closed = recorder_close(&recorder);
+    const int copied = dir && settings->events
+                           ? file_copy(dir->events, settings->events, FILE_UNSYNCED)
+                           : CLI_DONE;
     const int all[] = {status, closed, copied, printed};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] != CLI_DONE) return all[i];

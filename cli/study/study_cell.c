@@ -345,15 +345,6 @@ static void take_end(cell_run *r, const dal_error *error, bool has_failed)
     if (has_failed) set_failure(c, STUDY_FAILED, error->status);
 }
 
-static void take_results(cell_run *r, const dal_error *error, int ended)
-{
-    study_cell *c = r->cell;
-    memcpy(c->trend, r->recorder.results.trend, (size_t)c->observables * sizeof *c->trend);
-    take_tracks(r);
-    c->seconds = r->recorder.results.position.seconds;
-    take_end(r, error, ended == CLI_FAILED);
-}
-
 /* ---- the run ---- */
 
 /* Whether a run differs from the one that is held in a later end alone: the study was given more
@@ -421,7 +412,11 @@ static int run_in_directory(cell_run *r, const work_stop *stop)
         ended = recorder_run(recorder, &error);
     }
     if (ended != CLI_DONE && ended != CLI_FAILED) return ended;
-    take_results(r, &error, ended);
+    study_cell *c = r->cell;
+    memcpy(c->trend, recorder->results.trend, (size_t)c->observables * sizeof *c->trend);
+    take_tracks(r);
+    c->seconds = recorder->results.position.seconds;
+    take_end(r, &error, ended == CLI_FAILED);
     return CLI_DONE;
 }
 
