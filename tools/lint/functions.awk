@@ -23,7 +23,7 @@ sources == 0 { first[$1, $4] = $2; length_of[$1, $4] = $3 - $2 + 1; next }
         if (line ~ /^\(/) calls[file, name]++
         else pointers[file, name]++
     }
-    if (/[{;]$/) is_static = 0
+    if (/[{};]$/) is_static = 0
 }
 END {
     for (key in static) {
