@@ -163,20 +163,20 @@ static void test_continuation(void)
     steered_close(&s);
 }
 
-/* A search that has begun: straight to the side of a sleigh, where the straight line is singular. */
+/* A search that has begun: to the side of a sleigh, where the straight line is singular. */
 typedef struct sideways {
     steered s;
     dal__problem problem;
     dal__shooting shooting;
 } sideways;
 
-static const dal_setting aside[] = {{"x", 0.0}, {"y", 1.0}, {"phi", 0.0}};
+static const dal_setting side_target[] = {{"x", 0.0}, {"y", 1.0}, {"phi", 0.0}};
 
 static void open_sideways(sideways *w, const dal_steer_observer *observer)
 {
     steered *s = &w->s;
     steered_open(s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.08);
-    s->settings.target = aside;
+    s->settings.target = side_target;
     s->settings.targets = 3;
     CU_ASSERT_EQUAL_FATAL(
         dal__problem_open(&w->problem, s->model, &s->spec, 2.0, &s->settings, observer, &s->record),
@@ -202,13 +202,13 @@ static void test_continuation_of_lift(void)
     open_sideways(&w, NULL);
     CU_ASSERT_EQUAL(dal__continuation_solve(&w.shooting, &result), DAL_STATUS_OK);
     CU_ASSERT(result.residual <= w.s.settings.tolerance);
-    for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(w.problem.target[i], aside[i].value);
+    for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(w.problem.target[i], side_target[i].value);
     w.s.spec.start_count = 0;
     dal_run *run = fixture_run(&w.s.spec);
     CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, w.shooting.point, NULL), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(dal_run_advance(run, 25, NULL), DAL_STATUS_OK);
     for (int i = 0; i < 3; i++) {
-        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[i], aside[i].value, 1e-7);
+        CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[i], side_target[i].value, 1e-7);
         CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[3 + i], 0.0, 1e-7);
     }
     dal_run_free(run);
@@ -243,7 +243,7 @@ static void test_stopped_continuation(void)
         open_sideways(&w, &observer);
         CU_ASSERT_EQUAL(dal__continuation_solve(&w.shooting, &result),
                         k == 0 ? DAL_STATUS_OK : DAL_STATUS_STOPPED);
-        for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(w.problem.target[i], aside[i].value);
+        for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(w.problem.target[i], side_target[i].value);
         close_sideways(&w);
     }
 }
