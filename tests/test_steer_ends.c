@@ -215,14 +215,14 @@ static void test_continuation_of_lift(void)
     close_sideways(&w);
 }
 
-typedef struct calls {
+typedef struct call_count {
     int made, last;
-} calls;
+} call_count;
 
 /* Ends a search at its last call. */
 static dal_status stop_at_last(void *user, int guess, int iteration, double residual)
 {
-    calls *c = user;
+    call_count *c = user;
     (void)guess;
     (void)iteration;
     (void)residual;
@@ -232,7 +232,7 @@ static dal_status stop_at_last(void *user, int guess, int iteration, double resi
 /* Where the search is ended, be it before the last iteration, there is no motion to the target. */
 static void test_stopped_continuation(void)
 {
-    calls c = {0};
+    call_count c = {0};
     const dal_steer_observer observer = {&c, NULL, stop_at_last};
     dal__newton_result result;
     if (case_stride(2) > 1) return;
