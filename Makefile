@@ -194,7 +194,7 @@ $(BUILD)/generated/sources.c: tools/embed-sources.sh $(SOURCES)
 	sh tools/embed-sources.sh $(SOURCES) >$@.tmp && mv $@.tmp $@
 # Shapes and noises that trends are made of, by a program that runs here.
 HOST_CC ?= cc
-$(BUILD)/generated/trend_tables.c: tools/trend-tables.c lib/analysis/trend_tables.h
+$(BUILD)/generated/trend_tables.c: tools/trend-tables.c lib/statistics/trend_tables.h
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(HOST_CC) -std=c11 -O2 -Ilib $< -lm -o $(@D)/trend-tables
 	$(@D)/trend-tables >$@.tmp && mv $@.tmp $@

@@ -1,6 +1,6 @@
 /* test_statistics.c - what is kept of a quantity along a run, against closed forms. */
-#include "analysis/statistics.h"
 #include "quick.h"
+#include "statistics/statistics.h"
 #include <CUnit/CUnit.h>
 #include <float.h>
 #include <math.h>

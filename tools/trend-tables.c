@@ -1,4 +1,4 @@
-/* trend-tables.c - writes the tables of lib/analysis/trend_tables.h as C.
+/* trend-tables.c - writes the tables of lib/statistics/trend_tables.h as C.
  *
  * Shapes, as functions of s = t/T, averaged over each bin (by Gauss's rule, four points on each of
  * 64 intervals) and scaled to a range of 1:
@@ -29,7 +29,7 @@
  *                   C_ij = 0.3 s_i s_j + min^2 (3 max - min)/6
  *
  * with C scaled to a mean variance of 1 about its mean. */
-#include "analysis/trend_tables.h"
+#include "statistics/trend_tables.h"
 #include "core/pi.h"
 #include <assert.h>
 #include <math.h>
@@ -382,7 +382,7 @@ static void print_noise(const dal__noise *n)
 
 static void print_tables(void)
 {
-    printf("/* Made by tools/trend-tables.c. */\n#include \"analysis/trend_tables.h\"\n");
+    printf("/* Made by tools/trend-tables.c. */\n#include \"statistics/trend_tables.h\"\n");
     printf("const double dal__cosine[DAL__WAVES][DAL__BINS] = {\n");
     for (int j = 0; j < WAVES; j++) {
         putchar('{');

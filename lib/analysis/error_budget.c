@@ -6,11 +6,11 @@
 #include "analysis/conserved.h"
 #include "analysis/error_shares.h"
 #include "analysis/reference.h"
-#include "analysis/statistics.h"
 #include "core/error.h"
 #include "core/settings.h"
 #include "core/vectors.h"
 #include "core/words.h"
+#include "statistics/statistics.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>

@@ -10,7 +10,7 @@
  * are independent, E (x_(k+l) - x_k)^2 = l sigma^2: the sum of squared steps n sigma^2 sums
  * (x_(k+1) - x_k)^2, or, at a fraction of the cost, 4/8 times the sum of (x_(k+8) - x_k)^2 over one
  * k in four.  A smooth series has steps in one direction and a sum that is smaller by n. */
-#include "analysis/statistics.h"
+#include "statistics/statistics.h"
 #include <math.h>
 #include <string.h>
 

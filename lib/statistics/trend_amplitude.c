@@ -13,7 +13,7 @@
  * ones in these, beats, steps and saturations of the amplitude, and a constant amplitude.  An
  * amplitude ~ t and a beat seen from its node for less than half its period differ by sin(x)/x:
  * below that the priors of the tables decide. */
-#include "analysis/trend_amplitude.h"
+#include "statistics/trend_amplitude.h"
 #include <math.h>
 #include <string.h>
 

@@ -2,8 +2,8 @@
 #ifndef DAL_TREND_SERIES_H
 #define DAL_TREND_SERIES_H
 
-#include "analysis/trend_tables.h"
 #include "dalembert_statistics.h"
+#include "statistics/trend_tables.h"
 #include <stdbool.h>
 
 enum { DAL__TONES = 3 };

@@ -2,7 +2,7 @@
 #ifndef DAL_TREND_AMPLITUDE_H
 #define DAL_TREND_AMPLITUDE_H
 
-#include "analysis/trend_series.h"
+#include "statistics/trend_series.h"
 
 typedef struct dal__amplitude_growth {
     double probability; /* that the amplitude grows, by a power of t or exponentially */

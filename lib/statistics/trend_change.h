@@ -2,7 +2,7 @@
 #ifndef DAL_TREND_CHANGE_H
 #define DAL_TREND_CHANGE_H
 
-#include "analysis/trend_evidence.h"
+#include "statistics/trend_evidence.h"
 
 typedef enum dal__change_result {
     DAL__CHANGE_UNCLEAR,

@@ -15,7 +15,7 @@
  * which pays for noise that is not Gaussian and for shapes off the grid (a generalised posterior:
  * Bissiri, Holmes, Walker 2016, DOI 10.1111/rssb.12158).  The floor admits that no shape is
  * exact. */
-#include "analysis/trend_evidence.h"
+#include "statistics/trend_evidence.h"
 #include <math.h>
 #include <string.h>
 

@@ -8,7 +8,7 @@
  *           + d_l i (b_l cos(w_l i) - a_l sin(w_l i)),     w_l <- w_l + d_l.
  *
  * A tone is taken when it lowers N/2 log of the sum of squares by tone_worth. */
-#include "analysis/trend_series.h"
+#include "statistics/trend_series.h"
 #include "core/pi.h"
 #include "core/vectors.h"
 #include <float.h>

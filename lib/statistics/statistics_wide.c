@@ -4,8 +4,8 @@
  * is always the same.  min and max do not depend on the order.  Only a value that is not finite
  * makes a partial sum not finite, so that one test at the end is enough.  Of each cycle of four
  * packs the first is subtracted from the second. */
-#include "analysis/statistics.h"
 #include "kernel/num.h"
+#include "statistics/statistics.h"
 
 enum { NUMS = DAL_PARTIAL_SUMS / DAL_LANES }; /* to a pack */
 

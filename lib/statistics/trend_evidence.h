@@ -2,7 +2,7 @@
 #ifndef DAL_TREND_EVIDENCE_H
 #define DAL_TREND_EVIDENCE_H
 
-#include "analysis/trend_series.h"
+#include "statistics/trend_series.h"
 
 typedef struct dal__evidence {
     double log_total;

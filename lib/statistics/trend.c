@@ -28,10 +28,10 @@
  * Noise is known to be white where differences of the means of neighbouring blocks are as small as
  * white noise of the deviation within the blocks makes them; for the interval of a rate the slowest
  * waves must be as small, too. */
-#include "analysis/statistics.h"
-#include "analysis/trend_amplitude.h"
-#include "analysis/trend_change.h"
 #include "core/words.h"
+#include "statistics/statistics.h"
+#include "statistics/trend_amplitude.h"
+#include "statistics/trend_change.h"
 #include <float.h>
 #include <math.h>
 

@@ -16,8 +16,8 @@
  *                   half of b, and the change is visible beside what else the values do
  *     beside line   0 lies outside, the late segment is long and straight, and the line is there
  *                   before the change, too */
-#include "analysis/trend_change.h"
-#include "analysis/statistics.h"
+#include "statistics/trend_change.h"
+#include "statistics/statistics.h"
 #include <math.h>
 #include <string.h>
 
