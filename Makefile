@@ -77,7 +77,7 @@ instructions    = $(or $(word 2,$(subst _, ,$1)),BASE)
 # What MINIMAL leaves out, which dalembert.h states; and how it becomes small.
 ifdef MINIMAL
 LEFT_OUT = $(filter-out lib/core/% lib/expr/% lib/model/% lib/run/%,$(wildcard lib/*/*.c)) lib/core/buffer.c lib/core/svd.c \
-           lib/expr/emit.c lib/expr/taylor_emit.c lib/model/branches.c lib/model/ranks.c lib/run/batch.c \
+           lib/expr/emit.c lib/expr/taylor_emit.c lib/model/branches.c lib/run/batch.c \
            lib/run/ensemble.c lib/run/quad.c
 SMALL   := -fPIE -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables $(call KNOWN,-fno-caller-saves) \
            -DDAL_MINIMAL -DDAL_LINKED -Wno-override-init -Wno-missing-prototypes

@@ -18,6 +18,7 @@
  * So coordinates of equal inertia have equal units, whatever they do near the start; l'_i is taken
  * of coordinates without inertia, and of given accelerations. */
 #include "model/units.h"
+#include "core/settings.h"
 #include "core/sizes.h"
 #include "core/solved.h"
 #include "core/vectors.h"
@@ -227,4 +228,23 @@ dal_status dal__system_units(dal_model *model, const dal_system *system, double 
     for (int a = 0; a < e->multipliers; a++) units[2 * n + a] = unit[e->g + a];
     free(unit);
     return status == DAL_STATUS_OK ? e->graph->status : status;
+}
+
+dal_status dal__start_values(dal_model *model, const dal_setting *parameters, int parameter_count,
+                             double **value, dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    *value = dal__model_allocate(model, (size_t)e->symbols, sizeof **value);
+    if (!*value) return dal__memory_error(error);
+    memcpy(*value, e->value, (size_t)e->symbols * sizeof **value);
+    return dal__set_parameters(&model->system, parameters, parameter_count, DAL_STATUS_NOT_FINITE,
+                               *value, error);
+}
+
+const double *dal__complete_units(dal_model *model, const double *units)
+{
+    const size_t count = 1 + (size_t)model->equations.n;
+    double *ones = units ? NULL : dal__model_allocate(model, count, sizeof *ones);
+    for (size_t i = 0; ones && i < count; i++) ones[i] = 1.0;
+    return units ? units : ones;
 }

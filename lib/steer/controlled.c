@@ -15,8 +15,8 @@
 #include "core/vectors.h"
 #include "expr/derivative.h"
 #include "expr/traversal.h"
+#include "geometry/fields.h"
 #include "model/motion.h"
-#include "model/ranks.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
-/* ranks.h - fields of vectors on q, on (t, q), or on states, and their brackets. */
-#ifndef DAL_MODEL_RANKS_H
-#define DAL_MODEL_RANKS_H
+/* fields.h - fields of vectors on q, on (t, q), or on states, and their brackets. */
+#ifndef DAL_GEOMETRY_FIELDS_H
+#define DAL_GEOMETRY_FIELDS_H
 
 #include "model/model.h"
 
