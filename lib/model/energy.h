@@ -1,4 +1,4 @@
-/* energy.h - whether the energy is conserved, its normal, and the potential. */
+/* energy.h - whether the energy is conserved, and its normal. */
 #ifndef DAL_MODEL_ENERGY_H
 #define DAL_MODEL_ENERGY_H
 
@@ -9,8 +9,5 @@ dal_status dal__energy_properties(dal_model *model);
 /* After the properties: the normal of a conserved energy, and F continued off D = 0.  Errors:
  * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
 dal_status dal__conserved_energy(dal_model *model);
-/* What a discrete gradient needs of the potential, where W is constant.  Errors: DAL_STATUS_MEMORY,
- * DAL_STATUS_TOO_LARGE. */
-dal_status dal__potential(dal_model *model);
 
 #endif

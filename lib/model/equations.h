@@ -75,7 +75,7 @@ typedef struct dal__equations {
     dal__node *F;      /* [n + multipliers] */
     dal__node energy;  /* or 0 */
     dal__node *normal; /* [1 + 3n]: E, E_q, E_v, W^-1 E_q; or NULL */
-    dal__node *potential;               /* [3n], see energy.c; or NULL */
+    dal__node *potential;               /* [3n], see potential.c; or NULL */
     dal__node *extended;                /* [n]: F continued off D = 0 with E exact; or NULL */
     dal__node *guard;                   /* [guards] */
     int mass_guard;                     /* which of them is det W, from 1; 0: none */

@@ -10,6 +10,7 @@
 #include "model/held.h"
 #include "model/model.h"
 #include "model/motion.h"
+#include "model/potential.h"
 #include "model/programs.h"
 #include "model/properties.h"
 #include "model/units.h"
