@@ -1,6 +1,6 @@
 /* test_lyapunov.c - Lyapunov exponents and phase volume. */
 #include "allocation.h"
-#include "analysis/derivatives.h"
+#include "analysis/differences.h"
 #include "fixtures.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>

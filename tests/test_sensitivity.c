@@ -13,7 +13,7 @@
 
 /* ---- differences of runs in quad precision ---- */
 
-/* Order 8, as in lib/analysis/derivatives.h: increments of 2^-10 relative leave (2^-10)^8. */
+/* Order 8, as in lib/analysis/differences.h: increments of 2^-10 relative leave (2^-10)^8. */
 enum { POINTS = 4, MAX_DIMENSION = 64 };
 static const int increment_exponent = -10;
 static const double weight_over[POINTS] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};

@@ -5,7 +5,7 @@
  *
  * rho is antisymplectic, leaves H = pi.pi/(2e) + pi.F + p.v alone when F(q,-v,-t) = F(q,v,t), and
  * so reverses its flow. */
-#include "analysis/derivatives.h"
+#include "analysis/differences.h"
 #include "core/error.h"
 #include "core/settings.h"
 #include "core/vectors.h"

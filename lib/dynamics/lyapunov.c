@@ -21,6 +21,7 @@
  * p = pi = 0 J is [[A, B], [0, A^-T]], A being the derivative of the step on (q, v): they are then
  * the exponents of (q, v) and their negatives. */
 #include "analysis/derivatives.h"
+#include "analysis/differences.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
 #include "core/settings.h"

@@ -1,5 +1,5 @@
 /* section.c - Poincare sections: where a run crosses g(q,v,t) = 0, found by lib/run/crossing.c. */
-#include "analysis/derivatives.h"
+#include "analysis/differences.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
 #include "core/settings.h"

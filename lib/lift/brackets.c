@@ -1,5 +1,5 @@
 /* brackets.c - Poisson brackets of functions, by differences. */
-#include "analysis/derivatives.h"
+#include "analysis/differences.h"
 #include "dalembert_action.h"
 #include <math.h>
 #include <stddef.h>
