@@ -9,9 +9,8 @@ Systems come from YAML text (`System`), files and the library; `simulate` runs o
 steps one motion, a `Batch` many, `ensemble` many with drawn starts; `trend`, `order`, `lyapunov`,
 `section` and `explain` measure them, `check` a system, `study` many methods; `load` reads what the
 program left; `invariants` finds what a motion conserves, `dirac` the constraints of its action,
-`action` its value on a curve; `predict` says what a run will do to D, E and invariants; `sensitivities` are
-derivatives of a run; `steer`
-finds the cheapest way to a state; `generate` writes C.
+`action` its value on a curve; `predict` says what a run will do to D, E and invariants;
+`sensitivities` are derivatives of a run; `steer` finds the cheapest way to a state; `generate` writes C.
 """
 from ._library import lib
 from .action import Actions, DiscreteAction, action
@@ -33,7 +32,9 @@ from .system import System, builtin_systems
 __version__ = f'{lib.DAL_VERSION_MAJOR}.{lib.DAL_VERSION_MINOR}.{lib.DAL_VERSION_PATCH}'
 
 __all__ = ['Actions', 'Average', 'Batch', 'Check', 'Dirac', 'DiracConstraint', 'DiscreteAction', 'Ensemble',
-           'Error', 'Event', 'Extremal', 'InputError', 'Invariant', 'Invariants', 'Lyapunov', 'Measure', 'Order', 'Predicted', 'Prediction',
-           'Run', 'Section', 'Sensitivities', 'Shares', 'Steering', 'StepError', 'Study', 'System', 'Trajectory', 'Trend', 'action', 'builtin_systems', 'check',
-           'dirac', 'ensemble', 'explain', 'generate', 'integrators', 'invariants', 'load', 'lyapunov', 'modifiers',
-           'order', 'predict', 'section', 'sensitivities', 'simulate', 'steer', 'study', 'trend']
+           'Error', 'Event', 'Extremal', 'InputError', 'Invariant', 'Invariants', 'Lyapunov', 'Measure',
+           'Order', 'Predicted', 'Prediction', 'Run', 'Section', 'Sensitivities', 'Shares', 'Steering',
+           'StepError', 'Study', 'System', 'Trajectory', 'Trend', 'action', 'builtin_systems', 'check',
+           'dirac', 'ensemble', 'explain', 'generate', 'integrators', 'invariants', 'load', 'lyapunov',
+           'modifiers', 'order', 'predict', 'section', 'sensitivities', 'simulate', 'steer', 'study',
+           'trend']

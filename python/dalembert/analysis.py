@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib
-from .arguments import array, number, refuse, text, whole
+from .arguments import MAX_INT, array, number, refuse, text, whole
 from .errors import Error, call, call_steps, check, encode, keep_exception
 from .run import Array, doubles
 from .spec import Settings, Spec, SystemLike, chunks, takes_run_options
@@ -19,8 +19,6 @@ from .system import taken_text, text_of
 
 # Steps with tangent vectors between two moments in which Python handles signals.
 TANGENT_CHUNK = 200
-
-MAX_INT = (1 << 31) - 1
 
 
 # ---- trends ------------------------------------------------------------------------------------

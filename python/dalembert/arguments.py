@@ -15,6 +15,9 @@ from .errors import InputError, encode
 
 Settings = Mapping[str, float]
 
+# The largest int of C.
+MAX_INT = (1 << 31) - 1
+
 Function = TypeVar('Function', bound=Callable[..., Any])
 
 
@@ -38,7 +41,7 @@ def whole(name: str, value: Any, low: int, high: int = (1 << 53) - 1) -> int:
     except TypeError:
         raise refuse(name, f'{value!r} is not a whole number') from None
     if not low <= count <= high:
-        raise refuse(name, f'{count} is not from {low} to {high}' if high < 1 << 31 else f'{count} is below {low}'
+        raise refuse(name, f'{count} is not from {low} to {high}' if high <= MAX_INT else f'{count} is below {low}'
                      if count < low else f'{count} is too large')
     return count
 

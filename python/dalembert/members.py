@@ -94,8 +94,8 @@ def ensemble(system: SystemLike, integrator: str | None = None, *, members: int,
     variations, count = make_variations(vary)
     made = ffi.new('dal_ensemble **')
     call(lib.dal_ensemble_create, made, spec.c, variations, count, seed, min(members, LANES))
-    owned = ffi.gc(made[0], lib.dal_ensemble_free)
-    batch = lib.dal_ensemble_batch(owned)
+    c = ffi.gc(made[0], lib.dal_ensemble_free)
+    batch = lib.dal_ensemble_batch(c)
     if compile:
         native, _texts = native_options(None, 'cc')
         call(lib.dal_batch_native, batch, native)
@@ -105,14 +105,14 @@ def ensemble(system: SystemLike, integrator: str | None = None, *, members: int,
     failures: dict[int, Exception] = {}
     for first in range(0, members, LANES):
         lanes = min(LANES, members - first)
-        lib.dal_ensemble_start(owned, first, lanes)
-        lib.dal_ensemble_draws(owned, doubles(draws[first:first + lanes]))
+        lib.dal_ensemble_start(c, first, lanes)
+        lib.dal_ensemble_draws(c, doubles(draws[first:first + lanes]))
         taken = 0
         for i, until in enumerate(steps):
             for some in chunks(int(until) - taken, max(100, CHUNK // lanes)):
                 lib.dal_batch_advance(batch, some)
             taken = int(until)
-            lib.dal_ensemble_states(owned, doubles(states[i, first:first + lanes]))
+            lib.dal_ensemble_states(c, doubles(states[i, first:first + lanes]))
         record = ffi.new('dal_error *')
         for i in range(lanes):
             if lib.dal_batch_status(batch, i, record) != lib.DAL_STATUS_OK:

@@ -7,15 +7,13 @@ from typing import Any, Sequence
 import numpy as np
 
 from ._library import ffi, lib
-from .arguments import Settings, make_settings, number, refuse, text, whole
+from .arguments import MAX_INT, Settings, make_settings, number, refuse, text, whole
 from .errors import call_steps, check, encode, keep_exception
 from .fixed import owned
 from .run import Array, Run
 from .simulate import Trajectory
 from .spec import Spec, SystemLike, takes_run_options
 from .system import System, text_of
-
-INT_MAX = (1 << 31) - 1
 
 
 @dataclass(frozen=True)
@@ -153,8 +151,8 @@ def steer(system: SystemLike, target: Settings, integrator: str | None = None, t
     targets, count, _texts = make_settings('target', target)
     chosen = ffi.new('dal_steer_settings *', {
         'target': targets, 'targets': count, 'free_starts': frees, 'frees': len(names), 'rest': bool(rest),
-        'aim': bool(aim), 'starts': whole('starts', starts, 1, INT_MAX), 'seed': whole('seed', seed, 0),
-        'iterations': whole('max_iterations', max_iterations, 1, INT_MAX),
+        'aim': bool(aim), 'starts': whole('starts', starts, 1, MAX_INT), 'seed': whole('seed', seed, 0),
+        'iterations': whole('max_iterations', max_iterations, 1, MAX_INT),
         'tolerance': number('max_residual', max_residual)})
     observer = ffi.new('dal_steer_observer *', {'step': lib.python_iterate})
     made = ffi.new('dal_steering **')
