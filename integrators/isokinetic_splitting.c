@@ -81,5 +81,4 @@ DAL_INTEGRATOR(isokinetic_splitting, step, .name = "isokinetic-splitting",
                .documentation = ABOUT_ISOKINETIC_SPLITTING, .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_EXPLICIT,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS | DAL_NEEDS_ISOKINETIC,
-               .kernel = DAL_KERNEL_FUNCTIONS | DAL_KERNEL_ALGEBRA | DAL_KERNEL_BLOCKS |
-                         DAL_KERNEL_CONSTRAINT);
+               .kernel = DAL_KERNEL_FUNCTIONS | DAL_KERNEL_BLOCKS | DAL_KERNEL_CONSTRAINT);
