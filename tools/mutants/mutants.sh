@@ -17,7 +17,8 @@
 # The suites of the module (suites.txt), in quick runs and then whole, and the parts of the command line run one
 # by one until one fails, for a file in cli/ only these.  Those come first that should notice a fault for the least
 # processor time: by their own, over how often they noticed one in the folder of the file; both are
-# kept for later calls.  What fails must pass with the sources themselves.  A process that takes
+# kept for later calls.  A test is left out whose run with the sources themselves, which gcov counts,
+# does not enter the function of the line.  What fails must pass with the sources themselves.  A process that takes
 # LIMIT times the longest processor time of its test that passed, and ten seconds, is ended, and a
 # command of the command line after PATIENCE seconds: such a mutant counts as noticed, as one that
 # crashes does.
@@ -69,6 +70,10 @@ copy_sources() {
 build() {
     make -s -C "$tree" -j"${JOBS:-$(nproc)}" BUILD=build CC="$CC" CFLAGS="$flags" VARIANTS="$variants" "$@" \
         >"$place/make.log" 2>&1
+}
+# The same with counts of how often each line is executed, which each process adds to a file of its object.
+build_counted() {
+    build BUILD=counted CFLAGS="$flags --coverage" counted/tests/suite counted/dalembert
 }
 # tests_of FILE: the tests of a file, "suite NAME", "whole NAME" and "cli PART", in the order of suites.txt.
 tests_of() {
@@ -151,10 +156,11 @@ seconds_of() {
 }
 # intact_of KIND: the binary of the sources themselves.
 intact_of() { case $1 in cli) echo "$place/program" ;; *) echo "$place/suite" ;; esac; }
-# passes FILE: whether all tests of a file pass; names the test that does not.
+# passes FILE FUNCTION: whether all tests of a file pass that enter the function; names the test that does not.
 passes() {
     cheapest_first "$1" >"$place/tests"
     while read -r kind name <&4; do
+        reaches "$kind" "$name" "$1" "$2" || continue
         noticed="$kind $name"
         binary=build/tests/suite
         if [ "$kind" = cli ]; then
@@ -171,6 +177,34 @@ passes() {
         record "$(dirname "$1")" "$kind" "$name" passed >/dev/null
     done 4<"$place/tests"
 }
+# reaches KIND NAME FILE FUNCTION: whether the test enters the function; that is not known of headers and tables.
+reaches() {
+    case $3,$4 in *.c,?*) ;; *) return 0 ;; esac
+    counts=$place/reach/$1-$2
+    [ -d "$counts" ] || count_lines "$1" "$2" "$counts"
+    for object in "$counts/${3%.c}".gcda "$counts/${3%.c}"_x[0-9]*.gcda; do
+        [ -e "$object" ] || continue
+        base=${object%.gcda}
+        ln -f "$tree/counted/${base#"$counts/"}.gcno" "$base.gcno"
+        gcov -f -n "$object" 2>/dev/null
+    done | awk -v name="$4" '
+        $1 == "Function" { is_it = index($2, name) == 2 && length($2) == length(name) + 2 }
+        /^Lines executed/ && is_it && !/:0[.]00%/ { is_entered = 1 }
+        END { exit !is_entered }'
+}
+# count_lines KIND NAME FOLDER: runs a test with the sources themselves and leaves what it executes in the folder.
+count_lines() {
+    binary=counted/dalembert
+    [ "$1" = cli ] || binary=counted/tests/suite
+    (
+        GCOV_PREFIX=$3.$$
+        GCOV_PREFIX_STRIP=$(echo "$tree/counted" | tr -cd / | wc -c)
+        export GCOV_PREFIX GCOV_PREFIX_STRIP
+        mkdir -p "$3.$$"
+        run_test 3600 "$1" "$2" $binary
+    )
+    mv -T "$3.$$" "$3"
+}
 # was_ended STATUS: of a test that was noticed, by its time: SIGXCPU is 24.
 was_ended() {
     case $1 in 124 | 137 | 152) return ;; esac
@@ -181,6 +215,7 @@ target_of() { case $1 in cli/*) echo dalembert ;; *) echo tests/suite ;; esac; }
 # function_of FILE LINE: the function that the line is in.
 function_of() {
     awk -v line="$2" 'FNR > line { exit }
+        /^}/ { name = "" }
         /^[A-Za-z].*[(]/ && !/;$/ { name = $0; sub(/[(].*/, "", name); sub(/.*[ *]/, "", name) }
         END { print name }' "$1"
 }
@@ -194,7 +229,7 @@ is_listed() {
 # ---- the sources themselves ----
 
 copy_sources
-build build/tests/suite build/dalembert ||
+build build/tests/suite build/dalembert && build_counted ||
     { cat "$place/make.log"; echo "mutants: the sources do not build"; exit 2; }
 cp "$tree/build/tests/suite" "$place/suite"
 cp "$tree/build/dalembert" "$place/program"
@@ -204,7 +239,11 @@ while read -r suite; do
 done <"$place/suites"
 cksum "$place/suite" "$place/program" >"$place/now"
 find "$tree/tests/cli" -type f | sort | xargs cat | cksum >>"$place/now"
-cmp -s "$place/now" "$place/known" || { : >"$place/times"; cp "$place/now" "$place/known"; }
+if ! cmp -s "$place/now" "$place/known"; then
+    rm -rf "$place/reach"
+    : >"$place/times"
+    cp "$place/now" "$place/known"
+fi
 touch "$place/history"
 find $module -name '*.[ch]' | sort | xargs awk -v operators="$OPERATORS" -f "$here/candidates.awk" |
     awk -v seed="$seed" 'BEGIN { FS = OFS = "\t"; x = (seed * 48271 + 11) % 2147483646 + 1 }
@@ -236,7 +275,7 @@ while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
         same=$((same + 1))
     else
         count=$((count + 1))
-        passes "$file"
+        passes "$file" "$(function_of "$file" "$line")"
         ends=$?
         if [ $ends -eq 0 ]; then
             noticed="by none"
