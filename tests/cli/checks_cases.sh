@@ -13,6 +13,7 @@ killed) kill -9 $$ ;;
 ended) kill -9 $PPID ;;
 none) ;;
 zero) echo "cli: 0 passed, 0 failed, 0 skipped" ;;
+late) echo "cli: 1 passed, 0 failed, 0 skipped"; echo "a file is left" >&2 ;;
 place) echo "place: $TMPDIR, $XDG_CACHE_HOME, $(wc -c)"; touch "$TMPDIR/one"; [ "$(ls "$TMPDIR")" = one ] &&
     echo "cli: 1 passed, 0 failed, 0 skipped" ;;
 endless) sleep 3600 & echo $! $$ >pids; setsid sleep 3600 & echo $! >>pids; touch begun; wait; sleep 3600 ;;
@@ -55,7 +56,7 @@ in_order() { # TEXT...: lines of out that begin so, in this order
         END { exit k != count }' expected -
 }
 
-if needs 31 "no make" there make; then
+if needs 32 "no make" there make; then
     case_is "checks beside each other: in order, each in its place"
     driven 0 cli-slow cli-after cli-good cli-place suite-one suite-skips
     expect "the order" in_order 's cli-slow' 'slow output' 's cli-after' 'after output' \
@@ -69,6 +70,7 @@ if needs 31 "no make" there make; then
     expect "the summary is last" sh -c 'tail -n 1 out | grep -q "^Elapsed time"'
     prints '^place: (/.*)/cli-place/tmp, \1/cli-place/tmp/cache, 0$'
     expect "files are left" test ! -e "$(sed -n 's/^place: \(.*\), .*, 0$/\1/p' out)"
+    driven 0 cli-late
 
     case_is "checks beside each other: those that fail"
     jobs=1 options=--quick

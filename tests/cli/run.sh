@@ -14,11 +14,12 @@ parts=$*
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(mktemp -d) || exit 1
 memory=
-# An interrupt leaves no process and no file.
+# An interrupt leaves no process and no file.  A compiler, whose program was killed, may still write some.
 leave() {
     jobs -p >"$top/jobs" 2>/dev/null && kill -KILL $(cat "$top/jobs") 2>/dev/null
     kill "${watcher:-}" 2>/dev/null
-    rm -rf "$top" ${memory:+"$memory"}
+    set -- "$top" ${memory:+"$memory"}
+    rm -rf "$@" 2>/dev/null || { sleep 1 && rm -rf "$@"; }
 }
 trap leave EXIT
 trap 'exit 130' INT
