@@ -40,10 +40,12 @@ const char *failing_name(void) { return failed; }
 #define MEMBERS(MEMBER)                                                                            \
     MEMBER(call.field, field)                                                                      \
     MEMBER(call.adjoint, adjoint)                                                                  \
+    MEMBER(call.effort, effort)                                                                    \
     MEMBER(call.jacobian, jacobian)                                                                \
     MEMBER(call.constraint, constraint)                                                            \
     MEMBER(call.energy_normal, energy_normal)                                                      \
     MEMBER(call.gauge, gauge)                                                                      \
+    MEMBER(call.gauge_gradient, gauge_gradient)                                                    \
     MEMBER(call.guards, guards)                                                                    \
     MEMBER(call.blocks, blocks)                                                                    \
     MEMBER(call.potential, potential)                                                              \
@@ -59,6 +61,7 @@ const char *failing_name(void) { return failed; }
     MEMBER(energy, energy)                                                                         \
     MEMBER(invariant_values, invariant_values)                                                     \
     MEMBER(reactions, reactions)                                                                   \
+    MEMBER(equation_values, equation_values)                                                       \
     MEMBER(projection, projection)                                                                 \
     MEMBER(event_values, event_values)                                                             \
     MEMBER(event_rates, event_rates)                                                               \

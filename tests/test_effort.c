@@ -1,8 +1,10 @@
 /* test_effort.c - K of the lift: closed forms, D as an integral for all p and pi, symplecticity,
  * and the same bits on p = pi = 0. */
+#include "failing.h"
 #include "fixtures.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -537,10 +539,35 @@ static void test_restored(void)
     }
 }
 
+/* Whichever call of K is the first that fails, so does what compares its derivatives. */
+static void test_failures(void)
+{
+    static const char *const names[] = {"effort", NULL};
+    const double q[] = {0.2, -0.3, 0.7}, v[] = {0.5, 0.1, -0.4};
+    const dal_point at = {.q = q, .v = v};
+    dal_model *model;
+    const dal_system failing =
+        failing_system(system_of(&model, sleigh, DAL_EFFORT_CONSTRAINT), names);
+    dal_evaluator *evaluator = fixture_evaluator(&failing);
+    long calls = 0;
+    for (long call = 0; call <= calls; call++) {
+        dal_derivatives d;
+        failing_begin(call, call > 0 ? LONG_MAX : 0);
+        const dal_status status = dal_evaluator_check_derivatives(evaluator, &at, &d);
+        CU_ASSERT(call == 0 ? status == DAL_STATUS_OK : status != DAL_STATUS_OK);
+        if (call == 0) calls = failing_calls();
+    }
+    failing_begin(0, 0);
+    CU_ASSERT(calls > 12); /* a difference by each of q and v, and K itself */
+    dal_evaluator_free(evaluator);
+    dal_model_free(model);
+}
+
 void suite_effort(void)
 {
     CU_pSuite suite = CU_add_suite("effort", NULL, NULL);
     CU_ADD_TEST(suite, test_closed_forms);
+    CU_ADD_TEST(suite, test_failures);
     CU_ADD_TEST(suite, test_reactions);
     CU_ADD_TEST(suite, test_restricted);
     CU_add_test(suite, "K of equations", test_equations);

@@ -1,12 +1,14 @@
 /* test_steer.c - boundary values of the lift, against closed forms of optimal control and against
  * runs from the start that is found. */
 #include "allocation.h"
+#include "failing.h"
 #include "fixtures.h"
 #include "null.h"
 #include "quick.h"
 #include "steer/direct.h"
 #include "steered.h"
 #include <CUnit/CUnit.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,17 +81,12 @@ typedef struct directly {
     dal__direct d;
 } directly;
 
-/* Its cost after some iterations on a grid of one step a piece, from rest on a straight line to x;
- * the multipliers are in d. */
-static double iterate_directly(directly *w, const char *system, dal_effort effort, double T,
-                               double x, int iterations)
+/* On a grid of one step a piece, from rest on a straight line to x. */
+static void open_directly(directly *w, double T, double x)
 {
-    double S = 0.0;
     steered *const s = &w->s;
     dal__problem *const p = &w->p;
     dal__shooting *const grid = &w->grid;
-    dal__direct *const d = &w->d;
-    steered_open(s, system, effort, "gauss4", T / GRID);
     w->target = (dal_setting){"x", x};
     s->settings.target = &w->target;
     s->settings.targets = 1;
@@ -102,9 +99,19 @@ static double iterate_directly(directly *w, const char *system, dal_effort effor
         z[1] = k > 0 && k < GRID ? (p->target[0] - p->start[0]) / T : 0.0;
         z[2] = 1.0;
     }
-    CU_ASSERT_EQUAL_FATAL(dal__direct_open(d, grid), DAL_STATUS_OK);
-    for (int i = 0; i < iterations; i++) CU_ASSERT_EQUAL(dal__direct_iterate(d), DAL_STATUS_OK);
-    for (int k = 0; k < GRID; k++) S += grid->end[k * p->dimension + 5];
+    CU_ASSERT_EQUAL_FATAL(dal__direct_open(&w->d, grid), DAL_STATUS_OK);
+}
+
+/* Its cost after some iterations; the multipliers are in d. */
+static double iterate_directly(directly *w, const char *system, dal_effort effort, double T,
+                               double x, int iterations)
+{
+    double S = 0.0;
+    steered_open(&w->s, system, effort, "gauss4", T / GRID);
+    open_directly(w, T, x);
+    for (int i = 0; i < iterations; i++)
+        CU_ASSERT_EQUAL(dal__direct_iterate(&w->d), DAL_STATUS_OK);
+    for (int k = 0; k < GRID; k++) S += w->grid.end[k * w->p.dimension + 5];
     return S;
 }
 
@@ -141,6 +148,24 @@ static void test_pieces(void)
     CU_ASSERT_EQUAL(dal__shooting_move(grid, grid->point, grid->end), DAL_STATUS_OK);
     *x = NAN;
     CU_ASSERT_EQUAL(dal__shooting_move(grid, grid->point, grid->end), DAL_STATUS_NOT_FINITE);
+    close_directly(&w);
+}
+
+/* Nothing is found by derivatives that could not be evaluated. */
+static void test_failing_derivatives(void)
+{
+    directly w;
+    const dal_system *tangent;
+    steered_open(&w.s, "coordinates: [x]\nlagrangian: x'^2/2\n", DAL_EFFORT_IDENTITY, "gauss4",
+                 1.5 / GRID);
+    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(w.s.model, &tangent, NULL), DAL_STATUS_OK);
+    /* It is the model's, which a caller cannot change. */
+    *(dal_system *)(void *)(size_t)(const void *)tangent = failing_system(tangent, NULL);
+    open_directly(&w, 1.5, 0.7);
+    failing_begin(1, LONG_MAX);
+    CU_ASSERT_EQUAL(dal__direct_iterate(&w.d), DAL_STATUS_IO);
+    failing_begin(0, 0);
+    CU_ASSERT_EQUAL(dal__direct_iterate(&w.d), DAL_STATUS_OK);
     close_directly(&w);
 }
 
@@ -422,6 +447,7 @@ void suite_steer(void)
     CU_add_test(suite, "free ends, closed form", test_free_ends);
     CU_add_test(suite, "Gauss-Newton alone", test_direct);
     CU_add_test(suite, "pieces of a motion", test_pieces);
+    CU_add_test(suite, "derivatives that fail", test_failing_derivatives);
     CU_add_test(suite, "Gauss-Newton where the cost depends on q", test_direct_of_state);
     CU_add_test(suite, "a sleigh straight and turned, closed form", test_sleigh);
     CU_add_test(suite, "a sleigh to the side", test_parking);
