@@ -561,6 +561,20 @@ static dal_status whole_life(const char *text, dal_error *error)
     return status;
 }
 
+/* Much of what a file can say. */
+static const char rich[] =
+    "title: much\nsizes: {N: 2}\ncoordinates: ['x[1..N]', y]\n"
+    "parameters: {\"k[i]\": {for: i = 1..N, is: i/2}, c: 0.5}\n"
+    "functions: {f(u): u^2 + abs(u)}\nlet: {\"d[i]\": {for: i = 1..N, is: \"k[i]*x[i]\"}}\n"
+    "gauge: {mu_e: 0.1*cos(t)}\nlagrangian: sum(i, 1, N, x[i]'^2/2 - d[i]^2) + y'^2/2\n"
+    "forces: {\"x[i]\": \"for i = 1..N: -c*x[i]'\", y: f(x1)}\nconstraints: [\"y' - x1*x2'\"]\n"
+    "holonomic: [{for: i = 1..1, is: 'x[i] - y^2'}]\n"
+    "start: {\"x[i]\": {for: i = 1..N, is: '1'}, y: 1, x2': 0.5, solve: [y', x1']}\n"
+    "invariants: {g: x2'}\nevents:\n"
+    "  - {for: i = 1..N, when: 'x[i] - 3', direction: up, set: {\"x[i]\": '-x[i]/i'}}\n"
+    "  - {when: y - 2, set: {\"x[j]\": {for: j = 2..N, is: 10*j}, x1': 0}}\n"
+    "  - {when: y + 3, stop: true}\n  - {when: y + 2, restitution: c}\n";
+
 /* Every allocation fails; each time the outcome is a status and nothing is lost. */
 static void check_memory(const char *text)
 {
@@ -577,8 +591,8 @@ static void test_memory(void)
 {
     static const char *const systems[] = {"vertical-disk", "chaplygin-sleigh-vakonomic",
                                           "servo-pendulum",
-                                          MANY "lagrangian: \"sum(i, 1, N, x[i]'^2)\"\n"};
-    for (int i = 0; i < 4; i += case_stride(3)) check_memory(systems[i]);
+                                          MANY "lagrangian: \"sum(i, 1, N, x[i]'^2)\"\n", rich};
+    for (int i = 0; i < 5; i += case_stride(3)) check_memory(systems[i]);
 }
 
 void suite_model_errors(void)

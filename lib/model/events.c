@@ -171,6 +171,7 @@ dal_status dal__derive_events(dal_model *model, dal_error *error)
         for (int i = 0; i < e->n * e->n; i++)
             is_steady = is_steady && !dal__depends(e->graph, e->W[i], e->v, e->v + e->n);
         const bool has_v = dal__depends(e->graph, f, e->v, e->v + e->n);
+        DAL_TRY(dal__check_size(e->graph->status, error));
         const char *reason = e->vakonomic ? "vakonomic motion has no impacts"
                              : e->servo   ? "an actuator (reactions) has no impulses"
                              : has_v      ? "its 'when' contains velocities"

@@ -102,13 +102,16 @@ static dal_status parse_positions(dal_model *model, dal__scope scope, dal_error 
     const dal__equations *e = &model->equations;
     DAL_TRY(parse_each(model, DAL_SECTION_HOLONOMIC, scope, DAL__HOLONOMIC_COUNT(e), e->position,
                        error));
-    for (int j = 0; j < DAL__HOLONOMIC_COUNT(e); j++)
-        if (dal__depends(e->graph, e->position[j], e->v, e->v + e->n))
+    for (int j = 0; j < DAL__HOLONOMIC_COUNT(e); j++) {
+        const bool has_v = dal__depends(e->graph, e->position[j], e->v, e->v + e->n);
+        DAL_TRY(dal__check_size(e->graph->status, error));
+        if (has_v)
             return dal__fail_at(error, DAL_STATUS_MODEL,
                                 DAL__AT_TEXT(dal__model_entry(model, DAL_SECTION_HOLONOMIC, j)),
                                 "holonomic constraint %d depends on velocities: it belongs under "
                                 "constraints",
                                 j + 1);
+    }
     return DAL_STATUS_OK;
 }
 
