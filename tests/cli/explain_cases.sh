@@ -19,6 +19,10 @@ expect "what was run" grep -q \
 expect "a line is wider than 80 columns" is_narrow
 expect "more than 24 lines" test "$(wc -l <out)" -le 24
 
+case_is "explain: +project improves a quantity after ones that it does not"
+try 0 explain chaplygin-sleigh-offset --integrator rk4
+prints '^With \+project: D1 at rounding, (.* of this, )?turn at [0-9.]+ of this\.$'
+
 case_is "explain: --details"
 try 0 explain $sleigh --details
 silent
