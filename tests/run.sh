@@ -24,6 +24,15 @@ trap leave EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM HUP
 
+# A python3 that is a script which looks for another one, as pyenv's, does so once, not for each of hundreds of calls.
+python=$(python3 -c 'import sys; print(sys.executable)' 2>/dev/null)
+if [ -n "$python" ] && [ "$python" != "$(command -v python3)" ]; then
+    mkdir "$RESULTS/bin"
+    printf '#!/bin/sh\nexec "%s" "$@"\n' "$python" >"$RESULTS/bin/python3"
+    chmod -R 755 "$RESULTS/bin"
+    PATH=$RESULTS/bin:$PATH
+fi
+
 # What CHECK printed, without what is added up; its processor time; how it failed.
 show() {
     folder=$RESULTS/$1
