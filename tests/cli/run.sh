@@ -315,7 +315,7 @@ END
 
 # Each part has a directory of its own, so that none meets what another left.
 for part in "$here"/[a-z]*_cases.sh; do
-    name=$(basename "$part" _cases.sh)
+    name=${part##*/} name=${name%_cases.sh}
     case " ${parts:-$name} " in *" $name "*) ;; *) continue ;; esac
     work=$top/$name
     mkdir "$work" && cp "$top/line.yaml" "$top/plane.yaml" "$work" && cd "$work" || exit 1
