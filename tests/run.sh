@@ -24,7 +24,7 @@ trap leave EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM HUP
 
-# A python3 that is a script which looks for another one, as pyenv's, does so once, not for each of hundreds of calls.
+# A python3 that is a script which finds another one, as pyenv's, does so once, not for each of hundreds of calls.
 python=$(python3 -c 'import sys; print(sys.executable)' 2>/dev/null)
 if [ -n "$python" ] && [ "$python" != "$(command -v python3)" ]; then
     mkdir "$RESULTS/bin"

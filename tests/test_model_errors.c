@@ -1,6 +1,5 @@
 /* test_model_errors.c - bad system files: each with its status, its message and its place.  The
  * place is marked by @ in the text, which the test takes out. */
-#include "allocation.h"
 #include "quick.h"
 
 #include <CUnit/Basic.h>
@@ -545,56 +544,6 @@ static void test_many(void)
     dal_model_free(model);
 }
 
-/* ---- memory ---- */
-
-static dal_status whole_life(const char *text, dal_error *error)
-{
-    dal_model *model;
-    const dal_system *system;
-    const bool is_file = strchr(text, '\n') != NULL;
-    dal_status status = is_file ? dal_model_read(&model, "test", text, strlen(text), error)
-                                : dal_model_builtin(&model, text, error);
-    CU_ASSERT_EQUAL(status, allocation_failed() ? DAL_STATUS_MEMORY : DAL_STATUS_OK);
-    if (status == DAL_STATUS_OK) status = dal_model_system(model, &system, error);
-    if (status == DAL_STATUS_OK) status = dal_model_tangent(model, &system, error);
-    dal_model_free(model);
-    return status;
-}
-
-/* Much of what a file can say. */
-static const char rich[] =
-    "title: much\nsizes: {N: 2}\ncoordinates: ['x[1..N]', y]\n"
-    "parameters: {\"k[i]\": {for: i = 1..N, is: i/2}, c: 0.5}\n"
-    "functions: {f(u): u^2 + abs(u)}\nlet: {\"d[i]\": {for: i = 1..N, is: \"k[i]*x[i]\"}}\n"
-    "gauge: {mu_e: 0.1*cos(t)}\nlagrangian: sum(i, 1, N, x[i]'^2/2 - d[i]^2) + y'^2/2\n"
-    "forces: {\"x[i]\": \"for i = 1..N: -c*x[i]'\", y: f(x1)}\nconstraints: [\"y' - x1*x2'\"]\n"
-    "holonomic: [{for: i = 1..1, is: 'x[i] - y^2'}]\n"
-    "start: {\"x[i]\": {for: i = 1..N, is: '1'}, y: 1, x2': 0.5, solve: [y', x1']}\n"
-    "invariants: {g: x2'}\nevents:\n"
-    "  - {for: i = 1..N, when: 'x[i] - 3', direction: up, set: {\"x[i]\": '-x[i]/i'}}\n"
-    "  - {when: y - 2, set: {\"x[j]\": {for: j = 2..N, is: 10*j}, x1': 0}}\n"
-    "  - {when: y + 3, stop: true}\n  - {when: y + 2, restitution: c}\n";
-
-/* Every allocation fails; each time the outcome is a status and nothing is lost. */
-static void check_memory(const char *text)
-{
-    allocation_trial trial = {0};
-    while (allocation_next(&trial)) {
-        dal_error error = {.line = -1};
-        allocation_start(&trial);
-        if (allocation_end(&trial, whole_life(text, &error)))
-            CU_ASSERT_EQUAL(error.status, DAL_STATUS_MEMORY);
-    }
-}
-
-static void test_memory(void)
-{
-    static const char *const systems[] = {"vertical-disk", "chaplygin-sleigh-vakonomic",
-                                          "servo-pendulum",
-                                          MANY "lagrangian: \"sum(i, 1, N, x[i]'^2)\"\n", rich};
-    for (int i = 0; i < 5; i += case_stride(3)) check_memory(systems[i]);
-}
-
 void suite_model_errors(void)
 {
     CU_pSuite suite = CU_add_suite("model errors", NULL, NULL);
@@ -610,5 +559,4 @@ void suite_model_errors(void)
     CU_add_test(suite, "files", test_files);
     CU_add_test(suite, "built-in systems", test_builtin);
     CU_add_test(suite, "too many entries", test_many);
-    CU_add_test(suite, "out of memory", test_memory);
 }

@@ -139,6 +139,7 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
     DAL_TRY(dal__check_size(e->graph->status, error));
     if (status == DAL_STATUS_SINGULAR)
         return dal__fail(error, status, "the constraints are dependent about the start");
+    if (status == DAL_STATUS_MEMORY) return dal__memory_error(error);
     DAL_TRY(status);
     out->dimension = d->dim;
     out->rank[out->levels++] = dal__fields_rank(d);
