@@ -199,9 +199,10 @@ static dal_status check_derivatives(trial *t)
     dal_derivatives derivatives = {0};
     dal_status status = begin(t, &evaluator, x, &at);
     if (!status) status = dal_evaluator_check_derivatives(evaluator, &at, &derivatives);
-    const double numbers[] = {derivatives.jacobian, derivatives.adjoint,
-                              derivatives.constraint_jacobian, derivatives.gram};
-    trial_add(t, numbers, 4);
+    const double numbers[] = {
+        derivatives.jacobian, derivatives.adjoint, derivatives.constraint_jacobian,
+        derivatives.gram,     derivatives.effort,  derivatives.effort_constraint};
+    trial_add(t, numbers, 6);
     return finish(t, evaluator, status);
 }
 
@@ -374,6 +375,9 @@ static const char jump[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                            "forces: {x: -sign(x), y: abs(x - 0.5)}\n"
                            "start: {x: 1}\nevents: [{when: x}, {when: x - 0.5}]\n";
 
+static const char hanging[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
+                              "holonomic: [x^2 + y^2 - 1]\nstart: {x: 1}\n";
+
 static void test_memory(void)
 {
     trial_work *const runs[] = {create, step, sample, observe, change, restore, advance_batch};
@@ -427,6 +431,13 @@ static void test_measures(void)
     trial_each_call(sleigh, "gauss4", DAL_LIFTED, DIFFERENCES, check_maps);
     trial_each_call(sleigh, "gauss4", DAL_PHYSICAL, 0.0, budget);
     trial_each_call(swing, "rk4", DAL_PHYSICAL, 0.0, measure_scales);
+    each_work_fails(hanging, "gauss4+project", DAL_PHYSICAL, DIFFERENCES, both);
+    trial_each_call(hanging, "gauss4+project", DAL_PHYSICAL, 0.0, observe);
+    trial_each_call(hanging, "gauss4+project", DAL_PHYSICAL, 0.0, sample);
+    trial_each_lifted_call(sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.0, observe);
+    trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", 0.0, sample);
+    trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", DIFFERENCES, check_maps);
+    trial_each_lifted_call(sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", DIFFERENCES, check_derivatives);
 }
 
 static void test_places(void)

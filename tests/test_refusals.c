@@ -233,6 +233,57 @@ static void test_balance(void)
     dal_lyapunov_free(exponents);
 }
 
+/* What would pass over the events of a system refuses it. */
+static void test_passing_events(void)
+{
+    static const char ball[] = "coordinates: [y]\nparameters: {g: 9.8}\nlagrangian: y'^2/2 - g*y\n"
+                               "start: {y: 1}\nevents: [{when: y, restitution: 0.5}]\n";
+    static const char *const parameter[] = {"g"};
+    dal_model *model = fixture_model(ball);
+    const dal_setting target = {"y", 0.5};
+    const double direction[] = {1.0, 0.0};
+    const dal_system *system, *tangent;
+    dal_steer_settings settings = dal_steer_settings_default();
+    settings.target = &target;
+    settings.targets = 1;
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_STATUS_OK);
+    const dal_run_spec spec = fixture_spec(system, "gauss4", DAL_PHYSICAL, 0.1);
+    const dal_run_spec lifted = fixture_spec(system, "gauss4", DAL_LIFTED, 0.1);
+    dal_error error[8];
+    dal_error_budget *budget = NULL;
+    dal_order order;
+    dal_statistics statistics;
+    dal_lyapunov *lyapunov = NULL;
+    dal_sensitivity *sensitivity = NULL;
+    dal_steering *steering = NULL;
+    dal_batch *batch = NULL;
+    double defect;
+    const struct {
+        dal_status status;
+        const char *what;
+    } got[] = {
+        {dal_error_budget_create(&budget, &spec, 4, 0, NULL, &error[0]), "error budgets"},
+        {dal_order_measure(&order, &spec, 1.0, 2, NULL, NULL, NULL, &error[1]),
+         "tables of the order"},
+        {dal_check_symplecticity(&lifted, 0.0, NULL, 0.0, &defect, &error[2]), "maps of a step"},
+        {dal_adjoint_pairing(&spec, tangent, direction, 3, &statistics, &error[3]),
+         "adjoint pairings"},
+        {dal_lyapunov_create(&lyapunov, &spec, tangent, 0, &error[4]), "tangent vectors"},
+        {dal_sensitivity_create(&sensitivity, model, &spec, parameter, 1, &error[5]),
+         "sensitivities"},
+        {dal_steer_create(&steering, model, &lifted, 1.0, &settings, NULL, &error[6]), "steering"},
+        {dal_batch_create(&batch, &spec, 2, 1, &error[7]), "batches"}};
+    for (size_t i = 0; i < sizeof got / sizeof *got; i++) {
+        char message[100];
+        snprintf(message, sizeof message, "%s has events: %s would pass over them", system->name,
+                 got[i].what);
+        refused(got[i].status, DAL_STATUS_UNSUPPORTED, &error[i], message);
+    }
+    CU_ASSERT(!budget && !lyapunov && !sensitivity && !steering && !batch);
+    dal_model_free(model);
+}
+
 void suite_refusals(void)
 {
     CU_pSuite suite = CU_add_suite("refusals", NULL, NULL);
@@ -243,6 +294,7 @@ void suite_refusals(void)
     CU_add_test(suite, "systems made by hand", test_systems);
     CU_add_test(suite, "models", test_models);
     CU_add_test(suite, "events that lead out", test_events);
+    CU_add_test(suite, "events that would be passed over", test_passing_events);
     CU_add_test(suite, "names that are too long", test_lengths);
     CU_add_test(suite, "sections and exponents backwards", test_sections);
     CU_add_test(suite, "exponents without a Jacobian", test_balance);

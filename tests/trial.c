@@ -77,6 +77,20 @@ void trial_each_call(const char *text, const char *method, dal_space space, doub
     each_call(text, method, &well, work);
 }
 
+void trial_each_lifted_call(const char *text, dal_effort effort, const char *method,
+                            double tolerance, trial_work *work)
+{
+    dal_model *model = fixture_model(text);
+    const dal_system *system;
+    CU_ASSERT_EQUAL(dal_model_set_effort(model, effort, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+    const dal_system failing = failing_system(system, NULL);
+    trial well = {.spec = fixture_spec(&failing, method, DAL_LIFTED, TRIAL_STEP),
+                  .tolerance = tolerance};
+    each_call(text, method, &well, work);
+    dal_model_free(model);
+}
+
 void trial_each_model_call(const char *text, const char *method, dal_space space, double tolerance,
                            trial_work *work)
 {

@@ -27,6 +27,9 @@ void trial_add_run(trial *t, const dal_run *run); /* its state */
 /* Every call of the work on a system fails, or 600 of them, a third in a quick run. */
 void trial_each_call(const char *text, const char *method, dal_space space, double tolerance,
                      trial_work *work);
+/* Likewise on the lifted space with another K than the paper's. */
+void trial_each_lifted_call(const char *text, dal_effort effort, const char *method,
+                            double tolerance, trial_work *work);
 /* Likewise of work that makes runs of its own of a model, whose system is changed. */
 void trial_each_model_call(const char *text, const char *method, dal_space space, double tolerance,
                            trial_work *work);
