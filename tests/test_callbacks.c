@@ -257,7 +257,7 @@ static dal_status measure_scales(trial *t)
     dal_status status = begin(t, &evaluator, x, &at);
     x[t->spec.system->n] += 0.1;
     if (!status) status = dal_evaluator_scales(evaluator, 0.0, at.q, at.v, scales);
-    trial_add(t, scales, t->spec.system->m + 1 + t->spec.system->invariants);
+    trial_add(t, scales, 16);
     return finish(t, evaluator, status);
 }
 
@@ -277,6 +277,33 @@ static dal_status measure_action(trial *t)
     trial_add_number(t, (double)action);
     trial_add_number(t, (double)defect);
     return finish(t, evaluator, status);
+}
+
+/* Two actions and D of a curve. */
+static dal_status measure_curve(trial *t)
+{
+    enum { ROWS = 8, MAX_N = 4 };
+    const int n = t->spec.system->n;
+    dal_evaluator *evaluator;
+    double time[ROWS], q[ROWS * MAX_N], pi[ROWS * MAX_N], defect = 0.0;
+    dal_action second_order = {0}, hamiltonian = {0};
+    for (int i = 0; i < ROWS; i++) time[i] = TRIAL_STEP * i;
+    for (int i = 0; i < ROWS * n; i++) q[i] = sin(0.1 * i);
+    for (int i = 0; i < ROWS * n; i++) pi[i] = 0.2 + 0.01 * i;
+    const dal_curve curve = {.rows = ROWS, .t = time, .q = q, .pi = pi};
+    dal_status status = dal_evaluator_create(&evaluator, t->spec.system, NULL, 0, &t->error);
+    if (status != DAL_STATUS_OK) return status;
+    status = dal_evaluator_integrate_action(evaluator, &curve, DAL_ACTION_SECOND_ORDER,
+                                            &second_order, &t->error);
+    if (!status)
+        status = dal_evaluator_integrate_action(evaluator, &curve, DAL_ACTION_HAMILTONIAN,
+                                                &hamiltonian, &t->error);
+    if (!status) status = dal_evaluator_measure_curve(evaluator, &curve, &defect, &t->error);
+    trial_add_number(t, second_order.value);
+    trial_add_number(t, hamiltonian.value);
+    trial_add_number(t, defect);
+    dal_evaluator_free(evaluator);
+    return status;
 }
 
 static dal_status measure_order(trial *t)
@@ -393,6 +420,7 @@ static void test_memory(void)
     }
     trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, check_maps);
     trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, budget);
+    trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, measure_curve);
     trial_each_allocation(swing, "rk4", DAL_PHYSICAL, cross);
     trial_each_allocation(ball, "rk4", DAL_PHYSICAL, pass_events);
 }
@@ -438,6 +466,8 @@ static void test_measures(void)
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", 0.0, sample);
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", DIFFERENCES, check_maps);
     trial_each_lifted_call(sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", DIFFERENCES, check_derivatives);
+    trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", DIFFERENCES, measure_action);
+    trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", 0.0, measure_curve);
 }
 
 static void test_places(void)

@@ -87,6 +87,11 @@ void trial_each_lifted_call(const char *text, dal_effort effort, const char *met
     const dal_system failing = failing_system(system, NULL);
     trial well = {.spec = fixture_spec(&failing, method, DAL_LIFTED, TRIAL_STEP),
                   .tolerance = tolerance};
+    char name[64];
+    const dal_setting start = {name, 0.3}; /* K is not seen where pi = 0 */
+    snprintf(name, sizeof name, "pi_%s", system->coordinate[0]);
+    well.spec.start = &start;
+    well.spec.start_count = 1;
     each_call(text, method, &well, work);
     dal_model_free(model);
 }
