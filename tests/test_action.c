@@ -165,6 +165,12 @@ static void refused(const char *system, const dal_curve *curve, dal_status statu
         dal_evaluator_integrate_action(evaluator, curve, DAL_ACTION_SECOND_ORDER, &action, &error),
         status);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
+    if (status == DAL_STATUS_ARGUMENT) {
+        double defect;
+        error = (dal_error){0};
+        CU_ASSERT_EQUAL(dal_evaluator_measure_curve(evaluator, curve, &defect, &error), status);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
+    }
     dal_evaluator_free(evaluator);
 }
 
