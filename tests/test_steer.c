@@ -109,8 +109,7 @@ static double iterate_directly(directly *w, const char *system, dal_effort effor
     double S = 0.0;
     steered_open(&w->s, system, effort, "gauss4", T / GRID);
     open_directly(w, T, x);
-    for (int i = 0; i < iterations; i++)
-        CU_ASSERT_EQUAL(dal__direct_iterate(&w->d), DAL_STATUS_OK);
+    for (int i = 0; i < iterations; i++) CU_ASSERT_EQUAL(dal__direct_iterate(&w->d), DAL_STATUS_OK);
     for (int k = 0; k < GRID; k++) S += w->grid.end[k * w->p.dimension + 5];
     return S;
 }

@@ -58,8 +58,8 @@ static dal_status check(saved *s, const char *name, kind possible, size_t count)
     return DAL_STATUS_OK;
 }
 
-/* The clock, and the state of the method; of numbers that are passed over nothing more is known than
- * that they are finite. */
+/* The clock, and the state of the method.  Of numbers that are passed over nothing more is known
+ * than that they are finite. */
 static dal_status check_steps(saved *s)
 {
     const dal__layout *k = &s->run->layout;
