@@ -99,6 +99,10 @@ table <<'END'
 2 | lyapunov damped-oscillator --format csv --json | says --format excludes --json
 2 | explain damped-oscillator --format csv --details | says --format excludes --details
 2 | run damped-oscillator --format csv --details | says --format excludes --details
+2 | lyapunov damped-oscillator --format csv --details | says --format excludes --details
+2 | explain damped-oscillator --format csv --json | says --format excludes --json
+2 | predict damped-oscillator --format csv --json | says --format excludes --json
+2 | predict damped-oscillator --format csv --details | says --format excludes --details
 2 | run damped-oscillator --format csv -o - | says --format: standard output has the rows
 2 | run damped-oscillator --format tex | says --format: 'tex' is not one of text.latex.markdown.csv
 END

@@ -56,6 +56,23 @@ sed '2s/rk4/rk4\r/' one/cells.csv >cut && damaged cut ":2: column 3 \('integrato
 tr '4' '\0' <one/cells.csv >cut && damaged cut ': byte [0-9]+ is a NUL$'
 : >cut && damaged cut ' has no rows$'
 
+case_is "a study of two documents"
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [line.yaml]\n---\ntime: 2\n' '^dalembert: bad.yaml:6:1: a second document$'
+
+case_is "a library of charts that would end its element"
+try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --samples 3 --output charted
+for file in uPlot.iife.min.js uPlot.min.css LICENSE; do
+    rm -rf library && cp -r "$DALEMBERT_UPLOT" library
+    echo '</script>' >>library/$file
+    DALEMBERT_UPLOT=$PWD/library try 2 report charted
+    says "^dalembert: '$PWD/library/$file' is not a part of uPlot"
+done
+
+case_is "a run without rows"
+sed -i "s/'shape': ([0-9],)/'shape': (0,)/" charted/trajectory.npy
+try 2 report charted
+says "^dalembert: 'charted/trajectory.npy' has no rows$"
+
 # Whatever file of a directory is empty, has only its first line or is a directory, the page says so.
 case_is "files that are not whole"
 try 0 run line.yaml --integrator rk4 --step 0.5 --time 2 --output of-run
