@@ -247,6 +247,7 @@ static void test_errors(void)
     check_refused("x=normal(0,1)2", DAL_STATUS_SYNTAX, "is not NAME=DISTRIBUTION(A,B)");
     check_refused("=normal(0,1)", DAL_STATUS_SYNTAX, "does not begin with a name");
     check_refused("x=norml(0,1)", DAL_STATUS_NAME, "'norml', not one of uniform normal lognormal");
+    check_refused("x=normal(p,1)", DAL_STATUS_SYNTAX, "'p' is not a number");
     check_refused("x=normal(0,q)", DAL_STATUS_SYNTAX, "'q' is not a number");
     check_refused("x=normal(0,-1)", DAL_STATUS_ARGUMENT,
                   "x: the standard deviation -1 is negative");
