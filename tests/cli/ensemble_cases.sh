@@ -342,6 +342,14 @@ wrong "'wrong' is not empty and holds no results of dalembert" $one --vary "k=no
 printf '{\n  "dalembert": "0.5.0"\n}\n' >wrong/manifest.json
 wrong "'wrong' holds something else" $one --vary "k=normal(0,1)"
 
+case_is "numbers of a manifest that no ensemble has"
+for number in members:0 members:-1 members:1e99 seed:-3; do
+    rm -rf changed && cp -r whole changed
+    sed -i "s/\"${number%:*}\": [0-9]*/\"${number%:*}\": ${number#*:}/" changed/manifest.json
+    try 2 resume changed
+    says "^dalembert: changed/manifest.json:[0-9]+:[0-9]+: (${number%:*}: .* is out of range|0 members)$"
+done
+
 case_is "the page of an ensemble"
 try 0 report whole
 for figure in cloud-1 cloud-3 histogram-1 histogram-6 band-2; do

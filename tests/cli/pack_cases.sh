@@ -44,6 +44,15 @@ expect "a page, rows or a lock" test -z "$(find unpacked/pair -name '*.npy' -o -
 (cd unpacked/pair && "$program" study study.yaml -o again --no-page >/dev/null 2>&1)
 expect "other tables" cmp -s pair/tables.txt unpacked/pair/again/tables.txt
 
+case_is "pack: a study of a system elsewhere"
+mkdir below
+printf 'systems: [../line.yaml]\nintegrators: rk4\nstep: 0.1\ntime: 1\n' >below/up.yaml
+try 0 study below/up.yaml -o up --no-page
+try 0 pack up
+expect "tar" tar xf up.tar -C unpacked
+copy=$(sed -n "s/^The study names '.*line\.yaml': that is \(.*\)\.$/\1/p" unpacked/up/README.txt)
+expect "another system: $copy" cmp line.yaml "unpacked/up/$copy"
+
 case_is "pack: the README of what is neither a run nor a study"
 try 0 order damped-oscillator --integrators rk4 --levels 2 --time 1 --output orders
 try 0 pack orders --output orders.tar
