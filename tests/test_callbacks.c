@@ -18,6 +18,12 @@ static dal_status create(trial *t)
     return status;
 }
 
+static dal_status create_consistent(trial *t)
+{
+    t->spec.options.consistent = true;
+    return create(t);
+}
+
 static dal_status step(trial *t)
 {
     dal_run *run = NULL;
@@ -402,8 +408,13 @@ static const char jump[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                            "forces: {x: -sign(x), y: abs(x - 0.5)}\n"
                            "start: {x: 1}\nevents: [{when: x}, {when: x - 0.5}]\n";
 
-static const char hanging[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
+static const char hanging[] = "coordinates: [x, y]\nparameters: {g: 1}\n"
+                              "lagrangian: (x'^2 + y'^2)/2 - g*y\n"
                               "holonomic: [x^2 + y^2 - 1]\nstart: {x: 1}\n";
+
+/* The start is where consistency moves it. */
+static const char off[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
+                          "holonomic: [x^2 + y^2 - 1]\nstart: {x: 1.1, x': 0.2}\n";
 
 static void test_memory(void)
 {
@@ -412,7 +423,12 @@ static void test_memory(void)
     trial_work *const others[] = {project_velocity, scale, measure_action, measure_order};
     trial_work *const last[] = {make_ensemble, observe_reactions, classify_constraints,
                                 measure_lyapunov};
-    for (int i = 0; i < 7; i++) trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, runs[i]);
+    for (int i = 0; i < 7; i++) {
+        trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, runs[i]);
+        trial_each_allocation(hanging, "gauss4+project", DAL_PHYSICAL, runs[i]);
+    }
+    trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, restore);
+    trial_each_allocation(sleigh, "dla", DAL_PHYSICAL, create_consistent);
     for (int i = 0; i < 4; i++) {
         trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, rates[i]);
         trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, others[i]);
@@ -443,6 +459,9 @@ static void test_runs(void)
     each_work_fails(sleigh, "gauss4", DAL_PHYSICAL, 0.0, implicit);
     each_work_fails(sleigh, "rk4", DAL_PHYSICAL, 0.0, explicit);
     trial_each_call(solved, "rk4", DAL_PHYSICAL, 0.0, create);
+    trial_each_call(sleigh, "rk4", DAL_PHYSICAL, 0.0, create_consistent);
+    trial_each_call(off, "gauss4+project", DAL_PHYSICAL, 0.0, create_consistent);
+    trial_each_call(hanging, "gauss4+project", DAL_PHYSICAL, 0.0, change);
 }
 
 static void test_measures(void)
@@ -474,6 +493,7 @@ static void test_places(void)
 {
     trial_each_call(swing, "rk4", DAL_PHYSICAL, 0.0, cross);
     trial_each_call(ball, "rk4", DAL_PHYSICAL, 1e-13, pass_events);
+    trial_each_call(ball, "rk4", DAL_PHYSICAL, 1e-13, sample);
     trial_each_call(jump, "rk4", DAL_PHYSICAL, INFINITY, pass_events);
 }
 

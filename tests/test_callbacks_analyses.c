@@ -11,7 +11,7 @@
 /* What a result says instead of a status is one here. */
 static dal_status without_value(trial *t) { return t->error.status = DAL_STATUS_NOT_FINITE; }
 
-/* The system of a tangent map, whose callbacks do not fail. */
+/* The system of a tangent map: either its callbacks fail or the callbacks of the system. */
 static const dal_system *tangent;
 
 /* The sum of the exponents; each of them depends on which vectors the first step moves most. */
@@ -51,6 +51,8 @@ static dal_status measure_pairing(trial *t)
     const dal_status status =
         dal_adjoint_pairing(&t->spec, tangent, direction, 3, &statistics, &t->error);
     if (status == DAL_STATUS_OK) trial_add_number(t, dal_statistics_max_abs(&statistics));
+    if (status == DAL_STATUS_OK) trial_add_number(t, dal_statistics_deviation(&statistics));
+    if (status == DAL_STATUS_OK) trial_add_number(t, statistics.last);
     return status;
 }
 
@@ -154,12 +156,15 @@ static void test_exponents(void)
     tangent = fixture_tangent(sleigh);
     trial_each_call(sleigh, "gauss4", DAL_PHYSICAL, 0.0, measure_exponents);
     trial_each_call(sleigh, "gauss4", DAL_LIFTED, 0.0, measure_lifted_exponents);
+    trial_each_tangent_call(sleigh, "gauss4", DAL_PHYSICAL, 0.0, measure_exponents, &tangent);
+    trial_each_tangent_call(sleigh, "gauss4", DAL_LIFTED, 0.0, measure_lifted_exponents, &tangent);
 }
 
 static void test_pairings(void)
 {
     tangent = fixture_tangent(sleigh);
     trial_each_call(sleigh, "gauss4", DAL_PHYSICAL, 0.0, measure_pairing);
+    trial_each_tangent_call(sleigh, "gauss4", DAL_PHYSICAL, 0.0, measure_pairing, &tangent);
 }
 
 static void test_predictions(void)

@@ -284,6 +284,53 @@ static void test_passing_events(void)
     dal_model_free(model);
 }
 
+static void test_states(void)
+{
+    const dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "gauss4", DAL_LIFTED, 0.1);
+    dal_run *run = fixture_run(&spec);
+    double state[32] = {[1] = NAN}, defect;
+    CU_ASSERT_FATAL(dal_run_dimension(run) <= 32);
+    dal_error error;
+    refused(dal_check_symplecticity(&spec, 0.0, state, 0.0, &defect, &error), DAL_STATUS_NOT_FINITE,
+            &error, "state component 2 is not finite: nan");
+    refused(dal_check_reversibility(&spec, 0.0, state, &defect, &error), DAL_STATUS_NOT_FINITE,
+            &error, "state component 2 is not finite: nan");
+    dal_run_free(run);
+}
+
+/* What needs the system of a model says why there is none. */
+static void test_without_system(void)
+{
+    static const char text[] = "coordinates: [x]\nparameters: {k: 1}\nlagrangian: x\n";
+    static const char message[] = "the mass matrix";
+    const char *const names[] = {"k"};
+    const dal_setting target = {"x", 0.5};
+    const dal_system *system;
+    const dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "gauss4", DAL_LIFTED, 0.1);
+    dal_steer_settings settings = dal_steer_settings_default();
+    dal_sensitivity *sensitivity;
+    dal_steering *steering;
+    settings.target = &target;
+    settings.targets = 1;
+    for (int i = 0; i < 4; i++) {
+        dal_model *model = fixture_model(text);
+        dal_error error = {0};
+        const dal_status status =
+            i == 0   ? dal_model_tangent(model, &system, &error)
+            : i == 1 ? dal_model_tangent_by(model, "k", &system, &error)
+            : i == 2 ? dal_sensitivity_create(&sensitivity, model, &spec, names, 1, &error)
+                     : dal_steer_create(&steering, model, &spec, 1.0, &settings, NULL, &error);
+        CU_ASSERT_EQUAL(status, DAL_STATUS_SINGULAR_MASS);
+        CU_ASSERT(strstr(error.message, message) != NULL);
+        dal_model_free(model);
+    }
+    dal_model *model = fixture_model("coordinates: [x]\nlagrangian: x'^2/2\n");
+    dal_error error;
+    refused(dal_model_tangent_by(model, "k", &system, &error), DAL_STATUS_NAME, &error,
+            "unknown parameter 'k'");
+    dal_model_free(model);
+}
+
 void suite_refusals(void)
 {
     CU_pSuite suite = CU_add_suite("refusals", NULL, NULL);
@@ -295,6 +342,8 @@ void suite_refusals(void)
     CU_add_test(suite, "models", test_models);
     CU_add_test(suite, "events that lead out", test_events);
     CU_add_test(suite, "events that would be passed over", test_passing_events);
+    CU_add_test(suite, "models without a system", test_without_system);
+    CU_add_test(suite, "states that are not finite", test_states);
     CU_add_test(suite, "names that are too long", test_lengths);
     CU_add_test(suite, "sections and exponents backwards", test_sections);
     CU_add_test(suite, "exponents without a Jacobian", test_balance);

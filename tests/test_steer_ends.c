@@ -251,6 +251,28 @@ static void test_stopped_continuation(void)
     CU_ASSERT_EQUAL(count_calls(1, DAL_STATUS_STOPPED), 1);
 }
 
+/* Wherever a search is ended, its observer is not called again. */
+static void test_stopped_anywhere(void)
+{
+    const dal_setting target[] = {{"x", 0.5}, {"phi", 0.4}};
+    int calls = 1;
+    for (int last = 0; last <= calls; last += last > 0 ? case_stride(5) : 1) {
+        call_count c = {.last = last};
+        const dal_steer_observer observer = {&c, NULL, stop_at_last};
+        steered s;
+        steered_open(&s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+        s.settings.target = target;
+        s.settings.targets = 2;
+        CU_ASSERT_EQUAL_FATAL(
+            dal_steer_create(&s.steering, s.model, &s.spec, 2.0, &s.settings, &observer, NULL),
+            DAL_STATUS_OK);
+        if (last == 0) calls = c.made;
+        CU_ASSERT_EQUAL(c.made, last == 0 ? calls : last);
+        steered_close(&s);
+    }
+    CU_ASSERT(calls > 5);
+}
+
 /* On a circle of radius 1 a turn by theta costs 6 theta^2/T^3; the angle and its rate change. */
 static void test_circle(void)
 {
@@ -428,6 +450,7 @@ void suite_steer_ends(void)
     CU_add_test(suite, "an end that is moved", test_continuation);
     CU_add_test(suite, "an end that is moved, on the lift", test_continuation_of_lift);
     CU_add_test(suite, "an end whose move is stopped", test_stopped_continuation);
+    CU_add_test(suite, "a search that is stopped anywhere", test_stopped_anywhere);
     CU_add_test(suite, "a holonomic constraint, closed form", test_circle);
     CU_add_test(suite, "two masses, one pushed", test_controlled);
     CU_add_test(suite, "targets on other leaves", test_leaves);

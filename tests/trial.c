@@ -96,6 +96,17 @@ void trial_each_lifted_call(const char *text, dal_effort effort, const char *met
     dal_model_free(model);
 }
 
+void trial_each_tangent_call(const char *text, const char *method, dal_space space,
+                             double tolerance, trial_work *work, const dal_system **tangent)
+{
+    const dal_system failing = failing_system(fixture_tangent(text), NULL);
+    trial well = {.spec = fixture_spec(fixture_system(text), method, space, TRIAL_STEP),
+                  .tolerance = tolerance};
+    *tangent = &failing;
+    each_call(text, method, &well, work);
+    *tangent = NULL;
+}
+
 void trial_each_model_call(const char *text, const char *method, dal_space space, double tolerance,
                            trial_work *work)
 {
