@@ -183,10 +183,16 @@ static void test_models(void)
     trial_each_model_call(pursuit, "rk4", DAL_LIFTED, DIFFERENCES, steer);
 }
 
+/* Its motions have no Taylor series. */
+static const char rough[] = "coordinates: [x]\nlagrangian: x'^2/2 - abs(x)^3\nstart: {x: 1}\n";
+
 static void test_memory(void)
 {
+    tangent = NULL;
+    trial_each_allocation(pursuit, "gauss4+project", DAL_PHYSICAL, measure_exponents);
     tangent = fixture_tangent(sleigh);
     trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, predict);
+    trial_each_allocation(rough, "rk4", DAL_PHYSICAL, predict);
     trial_each_allocation(pendulum, "gauss4", DAL_PHYSICAL, predict_pieces);
     trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, measure_exponents);
     trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, measure_lifted_exponents);

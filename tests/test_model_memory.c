@@ -171,6 +171,17 @@ static void test_constraints(void)
     check_each(list, 6);
 }
 
+static dal_status add_table(const char *text, dal_error *error)
+{
+    const double at[] = {0.0, 1.0, 2.0}, value[] = {1.0, 2.0, 1.5};
+    const dal_table table = {.at = at, .value = value, .points = 3};
+    dal_model *model;
+    dal_status status = read_model(&model, text, error);
+    if (status == DAL_STATUS_OK) status = dal_model_add_table(model, "f", &table, 1, 1, error);
+    dal_model_free(model);
+    return status;
+}
+
 static void write_text(const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
@@ -190,6 +201,7 @@ static void test_files(void)
         "coordinates: [x]\nlagrangian: x'^2/2 - f(x)\ntables: {f: {file: f.csv, at: r, value: f}}\n"
         "start: {x: 1}\n");
     check(read_file, system);
+    check(add_table, "coordinates: [x]\nlagrangian: x'^2/2\n");
     remove(system);
     remove(table);
     rmdir(folder);

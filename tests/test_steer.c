@@ -391,9 +391,14 @@ static void test_out_of_memory(void)
     const dal_setting along[] = {{"x", 0.2}, {"y", 0.2}, {"z", 0.1}};
     static const char integrable[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
                                      "constraints: [x' - y']\n";
+    static const char driven[] = "coordinates: [x, y, phi]\n"
+                                 "lagrangian: (x'^2 + y'^2 + phi'^2)/2\n"
+                                 "constraints: [x'*sin(phi) - y'*cos(phi)]\n"
+                                 "controls: [{x: cos(phi), y: sin(phi)}, {phi: 1}]\n";
     fail_allocations(steered_sleigh, DAL_EFFORT_CONSTRAINT, target);
     fail_allocations(plane, DAL_EFFORT_IDENTITY, area);
     fail_allocations(integrable, DAL_EFFORT_CONSTRAINT, along);
+    fail_allocations(driven, DAL_EFFORT_CONTROLS, target);
 }
 
 /* ---- arguments ---- */

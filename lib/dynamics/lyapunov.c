@@ -67,6 +67,7 @@ struct dal_lyapunov {
     size_t memory_count;
     bool has_remainder;         /* memory is y, r, ..: not in quad precision */
     double from, log_from;      /* where the means began: t, and log of the size of the gradients */
+    dal_status from_status;     /* of the gradients there */
     const double *direction;    /* the vector along which is differentiated */
     dal_statistics *statistics; /* [count + 4] of growth */
     dal_error *error;
@@ -264,9 +265,9 @@ dal_status dal_lyapunov_advance(dal_lyapunov *s, long long steps, dal_error *err
 
 /* ---- what the method enforces ---- */
 
-/* Finds the gradients of what is enforced, orthonormalises them and returns the log of the volume
+/* Finds the gradients of what is enforced, orthonormalises them and leaves the log of the volume
  * that they spanned, NaN where they cannot be computed. */
-static double find_gradients(dal_lyapunov *s)
+static dal_status find_gradients(dal_lyapunov *s, double *log_volume)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
     const dal_point at = scale_point(s);
@@ -285,7 +286,8 @@ static double find_gradients(dal_lyapunov *s)
                                     s->gradients + found * s->dimension);
     for (int j = 0; j < s->enforced && status == DAL_STATUS_OK; j++)
         size += log(dal__orthonormalise_row(s->gradients, j, s->dimension));
-    return status == DAL_STATUS_OK ? size : NAN;
+    *log_volume = status == DAL_STATUS_OK ? size : NAN;
+    return status;
 }
 
 /* The functions whose directions are lost: D, then g, then E; 0: others are. */
@@ -302,7 +304,7 @@ void dal_lyapunov_discard_transient(dal_lyapunov *s)
     if (!s) return;
     dal_statistics_start(s->statistics, s->count + EXTRA_MEANS);
     s->from = dal_run_time(s->run);
-    s->log_from = find_gradients(s);
+    s->from_status = find_gradients(s, &s->log_from);
 }
 
 dal_status dal_lyapunov_balance(dal_lyapunov *s, dal_balance *balance, dal_error *error)
@@ -332,7 +334,10 @@ dal_status dal_lyapunov_balance(dal_lyapunov *s, dal_balance *balance, dal_error
                          "the step is too long: h max(|F_q|^(1/2), |F_v|) reaches 1");
     const double noise = s->is_exact ? 1e-13 : 1e-7;
     const double jump = dal_statistics_max_abs(&s->statistics[s->count + 3]);
-    balance->surface = (find_gradients(s) - s->log_from) / T;
+    double log_volume;
+    if (s->from_status == DAL_STATUS_MEMORY || find_gradients(s, &log_volume) == DAL_STATUS_MEMORY)
+        return dal__memory_error(error);
+    balance->surface = (log_volume - s->log_from) / T;
     if (isnan(balance->surface))
         return dal__fail(error, DAL_STATUS_UNSUPPORTED, "the gradient of D or E is not finite");
     balance->difference = sum.mean - divergence.mean - balance->surface;
@@ -476,6 +481,7 @@ static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
                          s->rank);
     s->count = count > 0 ? count : s->rank;
     dal_lyapunov_discard_transient(s);
+    if (s->from_status == DAL_STATUS_MEMORY) return dal__memory_error(error);
     for (int j = 0; j < s->rank && isfinite(s->log_from); j++) /* tangent to what is enforced */
         for (int k = 0; k < s->enforced; k++)
             dal__remove_component(s->vectors + j * s->dimension, s->gradients + k * s->dimension,
