@@ -32,8 +32,8 @@ dal_status steered_try(steered *s, double T, const dal_setting *target, int targ
     dal_steer_free(s->steering);
     s->settings.target = target;
     s->settings.targets = targets;
-    const dal_status status =
-        dal_steer_create(&s->steering, s->model, &s->spec, T, &s->settings, NULL, &s->record);
+    const dal_status status = dal_steer_create(&s->steering, s->model, &s->spec, T, &s->settings,
+                                               s->observer, &s->record);
     s->best = s->steering ? s->steering->extremal : NULL;
     return status;
 }

@@ -9,6 +9,7 @@ typedef struct steered {
     dal_model *model;
     dal_run_spec spec;
     dal_steer_settings settings;
+    const dal_steer_observer *observer; /* NULL: none */
     dal_steering *steering;
     const dal_extremal *best;
     dal_error record;

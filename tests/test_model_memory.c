@@ -62,12 +62,18 @@ static dal_status read_model(dal_model **model, const char *text, dal_error *err
     return status;
 }
 
+static dal_status read_system(dal_model **model, const char *text, const dal_system **system,
+                              dal_error *error)
+{
+    const dal_status status = read_model(model, text, error);
+    return status == DAL_STATUS_OK ? dal_model_system(*model, system, error) : status;
+}
+
 static dal_status make_tangent(const char *text, dal_error *error)
 {
     dal_model *model;
     const dal_system *system;
-    dal_status status = read_model(&model, text, error);
-    if (status == DAL_STATUS_OK) status = dal_model_system(model, &system, error);
+    dal_status status = read_system(&model, text, &system, error);
     if (status == DAL_STATUS_OK) status = dal_model_tangent(model, &system, error);
     dal_model_free(model);
     return status;
@@ -77,8 +83,7 @@ static dal_status make_tangent_by(const char *text, dal_error *error)
 {
     dal_model *model;
     const dal_system *system;
-    dal_status status = read_model(&model, text, error);
-    if (status == DAL_STATUS_OK) status = dal_model_system(model, &system, error);
+    dal_status status = read_system(&model, text, &system, error);
     if (status == DAL_STATUS_OK)
         status = dal_model_tangent_by(model, system->parameter[0], &system, error);
     dal_model_free(model);
@@ -119,8 +124,7 @@ static dal_status examine_constraints(const char *text, dal_error *error)
     const dal_point at = {.q = q, .v = v};
     dal_growth growth;
     dal_ranks ranks;
-    dal_status status = read_model(&model, text, error);
-    if (status == DAL_STATUS_OK) status = dal_model_system(model, &system, error);
+    dal_status status = read_system(&model, text, &system, error);
     if (status == DAL_STATUS_OK) status = dal_model_growth(model, NULL, 0, NULL, &growth, error);
     if (status == DAL_STATUS_OK)
         status = dal_model_growth_of(model, 0, NULL, 0, NULL, &growth, error);

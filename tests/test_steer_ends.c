@@ -33,11 +33,8 @@ static void test_unreached(void)
     const dal_steer_observer observer = {&calls, note_reach, stop_at_third};
     steered s;
     steered_open(&s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.04);
-    s.settings.target = target;
-    s.settings.targets = 3;
-    CU_ASSERT_EQUAL_FATAL(
-        dal_steer_create(&s.steering, s.model, &s.spec, 2.0, &s.settings, &observer, NULL),
-        DAL_STATUS_OK);
+    s.observer = &observer;
+    CU_ASSERT_EQUAL_FATAL(steered_try(&s, 2.0, target, 3), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(s.steering->count, 1);
     CU_ASSERT_EQUAL(s.steering->extremal->status, DAL_STATUS_INTERRUPTED);
     CU_ASSERT(s.steering->extremal->message[0] != '\0');
@@ -89,11 +86,8 @@ static void test_many_steps(void)
     const dal_steer_observer observer = {&c, NULL, stop_between_steps};
     steered s;
     steered_open(&s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 2.0 / 24000.0);
-    s.settings.target = target;
-    s.settings.targets = 3;
-    CU_ASSERT_EQUAL_FATAL(
-        dal_steer_create(&s.steering, s.model, &s.spec, 2.0, &s.settings, &observer, NULL),
-        DAL_STATUS_OK);
+    s.observer = &observer;
+    CU_ASSERT_EQUAL_FATAL(steered_try(&s, 2.0, target, 3), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(c.repeated, 3);
     CU_ASSERT_EQUAL(s.steering->count, 0);
     steered_close(&s);
@@ -147,15 +141,11 @@ static void test_continuation(void)
     if (case_stride(2) > 1) return; /* as many steps as all other tests */
     steered_open(&s, rod, DAL_EFFORT_IDENTITY, "gauss8", 0.02);
     s.settings.rest = false;
-    s.settings.target = target;
-    s.settings.targets = 3;
     s.settings.iterations = 40;
-    CU_ASSERT_EQUAL_FATAL(
-        dal_steer_create(&s.steering, s.model, &s.spec, 1.0, &s.settings, &observer, &s.record),
-        DAL_STATUS_OK);
+    s.observer = &observer;
+    CU_ASSERT_EQUAL_FATAL(steered_try(&s, 1.0, target, 3), DAL_STATUS_OK);
     CU_ASSERT_EQUAL(last, -1);
     CU_ASSERT_EQUAL(s.steering->count, 1);
-    s.best = s.steering->extremal;
     CU_ASSERT_EQUAL(s.best->status, DAL_STATUS_OK);
     CU_ASSERT(s.best->residual <= s.settings.tolerance && s.best->distance < 1e-10);
     bend_rod(steered_row(&s, 0), 1.0, end);
@@ -261,11 +251,8 @@ static void test_stopped_anywhere(void)
         const dal_steer_observer observer = {&c, NULL, stop_at_last};
         steered s;
         steered_open(&s, steered_sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
-        s.settings.target = target;
-        s.settings.targets = 2;
-        CU_ASSERT_EQUAL_FATAL(
-            dal_steer_create(&s.steering, s.model, &s.spec, 2.0, &s.settings, &observer, NULL),
-            DAL_STATUS_OK);
+        s.observer = &observer;
+        CU_ASSERT_EQUAL_FATAL(steered_try(&s, 2.0, target, 2), DAL_STATUS_OK);
         if (last == 0) calls = c.made;
         CU_ASSERT_EQUAL(c.made, last == 0 ? calls : last);
         steered_close(&s);
@@ -325,12 +312,9 @@ static bool begins(steered *s, const dal_setting *target, int targets)
 {
     int calls = 0;
     const dal_steer_observer observer = {&calls, NULL, stop_at_once};
-    dal_steer_free(s->steering);
-    s->settings.target = target;
-    s->settings.targets = targets;
-    CU_ASSERT_EQUAL_FATAL(dal_steer_create(&s->steering, s->model, &s->spec, 1.0, &s->settings,
-                                           &observer, &s->record),
-                          DAL_STATUS_OK);
+    s->observer = &observer;
+    CU_ASSERT_EQUAL_FATAL(steered_try(s, 1.0, target, targets), DAL_STATUS_OK);
+    s->observer = NULL;
     return calls == 1;
 }
 
