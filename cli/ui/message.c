@@ -143,8 +143,6 @@ int cli_error(int exit_status, const char *place, const dal_error *error)
     if (error->status == DAL_STATUS_MEMORY) exit_status = CLI_IO;
     if (!place) return cli_fail(exit_status, "%s", error->message);
     if (error->line <= 0) return cli_fail(exit_status, "%s: %s", place, error->message);
-    if (error->column <= 0)
-        return cli_fail(exit_status, "%s:%d: %s", place, error->line, error->message);
     return cli_fail(exit_status, "%s:%d:%d: %s", place, error->line, error->column, error->message);
 }
 

@@ -53,6 +53,7 @@ static dal_status read_from_disk(loader *l, const dal__entry *name, csv_file *fi
                            : dal__model_print(l->model, "%s%s", l->system->directory, name->text);
     if (!path) return dal__memory_error(l->error);
     char *bytes = dal__read_file(path, &file->length, &reason);
+    if (!bytes && reason.status == DAL_STATUS_MEMORY) return dal__memory_error(l->error);
     if (!bytes)
         return dal__fail_at(l->error,
                             reason.status == DAL_STATUS_IO ? DAL_STATUS_MODEL : reason.status,

@@ -61,6 +61,7 @@ static dal_status whole_number(dal_model *model, const dal__entry *entry, const 
     const dal_status status = dal__parse(s.graph, text, length, &names, &node, &inner);
     const dal__record r = dal__inspect(s.graph, node);
     dal__graph_free(s.graph);
+    if (status == DAL_STATUS_MEMORY) return dal__memory_error(error);
     if (status != DAL_STATUS_OK)
         return dal__fail_at(error, status, DAL__AT_NAME(entry), "%.*s: %s", shown(length), text,
                             inner.message);

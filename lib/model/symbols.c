@@ -352,6 +352,7 @@ dal_status dal__parse_entry(dal_model *model, const dal__entry *entry, dal__scop
                               (scope.may & DAL__MAY_ACCELERATIONS) != 0};
     dal_status status =
         dal__parse(model->equations.graph, entry->text, strlen(entry->text), &names, node, &inner);
+    if (status == DAL_STATUS_MEMORY) return dal__memory_error(error);
     return status == DAL_STATUS_OK ? DAL_STATUS_OK : locate(model, entry, error, &inner);
 }
 
