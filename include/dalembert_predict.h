@@ -125,8 +125,8 @@ void dal_exact_motion_free(dal_exact_motion *motion);
  * Errors: errors of the start; DAL_STATUS_ARGUMENT (T, settings, the
  * start of the motion); DAL_STATUS_UNSUPPORTED, and the
  * message says the reason: a tolerance, multipliers or accelerations that pass from step to step,
- * p or pi that are not 0, events, vakonomic motion, holonomic constraints, quad precision, motion
- * on an attractor. */
+ * p or pi that are not 0, events, vakonomic motion, holonomic constraints, no callback `constraint`
+ * for a method that leaves D = 0, quad precision, motion on an attractor. */
 dal_status dal_predict_create(dal_prediction **prediction, const dal_run_spec *spec, double T,
                               const dal_predict_settings *settings,
                               const dal_predict_observer *observer, dal_error *error);

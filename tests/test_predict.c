@@ -496,6 +496,10 @@ static void test_refused(void)
                                        "events: [{when: x - 1, stop: true}]\n"),
                         "rk4", DAL_PHYSICAL, 0.25);
     refused(&spec, 1.0, DAL_STATUS_UNSUPPORTED, "events");
+    dal_system bare = *fixture_system("chaplygin-sleigh");
+    bare.call.constraint = NULL;
+    spec = fixture_spec(&bare, "rk4", DAL_PHYSICAL, 0.05);
+    refused(&spec, 1.0, DAL_STATUS_UNSUPPORTED, "no constraint callback");
     dal_prediction *p = NULL;
     dal_error error = {0};
     CU_ASSERT_EQUAL(predict(&p, oscillator, "rk4", 0.25, 0.75, 10, &error), DAL_STATUS_ARGUMENT);

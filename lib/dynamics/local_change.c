@@ -187,7 +187,6 @@ dal_status dal__local_pull(dal__local *k, double t, const double *x, const doubl
     const double *unit = k->unit + 1 + n;
     double *u = k->values, *at = u + n, *scratch = at + 2 * n;
     double *A = scratch + m, *gram = A + 2 * m * n, *right = gram + m * m, *y = right + m;
-    if (!k->system->call.constraint) return DAL_STATUS_UNSUPPORTED;
     memset(out, 0, (size_t)k->count * sizeof *out);
     DAL_TRY(
         dal_evaluator_call(k->evaluator, k->system->call.constraint, t, x, x + n, NULL, scratch));

@@ -39,8 +39,7 @@ dal_status dal__local_scales(dal__local *local, double t, const double *x, doubl
 dal_status dal__local_steps(dal__local *local, int steps, const double *t, const double *x,
                             double *change, int *made, dal_error *error);
 /* lambda.D at (q, v) for each observable, out[count], 0 for D: the rate at which it changes where D
- * is D[m], to first order.  Errors: DAL_STATUS_UNSUPPORTED without a constraint Jacobian, errors of
- * the callbacks. */
+ * is D[m], to first order.  The system has the callback `constraint`. */
 dal_status dal__local_pull(dal__local *local, double t, const double *x, const double *D,
                            double *out);
 /* div F = trace F_v at (q, v), by differences; NaN where a callback fails. */

@@ -125,6 +125,8 @@ static dal_status begin_prediction(work *w, const dal_run_spec *spec, double T,
     w->n = w->local.n;
     w->count = w->local.count;
     w->has_points = w->local.m > 0 && !w->local.enforces_D;
+    if (w->has_points && !w->local.system->call.constraint)
+        return dal__predict_refuse(w, "it leaves D = 0 and the system has no constraint callback");
     w->of->to = T;
     w->of->end = w->of->from;
     w->of->in_phase = NAN;
