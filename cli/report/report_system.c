@@ -28,7 +28,9 @@ void report_fact(FILE *page, const char *name, const char *text)
 static bool typeset_equations(FILE *page, dal_model *model)
 {
     char *equations;
-    if (dal_model_mathml(model, &equations, NULL) != DAL_STATUS_OK) return false;
+    const dal_status status = dal_model_mathml(model, &equations, NULL);
+    if (status == DAL_STATUS_MEMORY) cli_out_of_memory();
+    if (status != DAL_STATUS_OK) return false;
     fprintf(page, "<div class=\"equations\" tabindex=\"0\">%s</div>\n", equations);
     free(equations);
     return true;

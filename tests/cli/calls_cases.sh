@@ -11,28 +11,15 @@ without_call() {
     ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
         LD_PRELOAD="$shim" FAIL_AT=$k FAIL_LOG="$work/calls" "$program" "$@" >out 2>err
 }
-# What a command has printed and written, in the directory $1 and the file $1.out, without times.
-without_times() {
-    rm -rf "$1"
-    mkdir -p place
-    mv place "$1"
-    grep -vE '^A step takes| runs in |^rk4 ' out >"$1.out"
-    find "$1" -name cells.csv -o -name order.csv >tables
-    while read -r file; do
-        awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "seconds") k = i } { $k = ""; print }' "$file" >cells
-        mv cells "$file"
-    done <tables
-}
-# The checkpoint and the results of short runs hold times, the lock nothing.
-same_files() { diff -r -I '"seconds"' -x 'checkpoint*' -x all -x lock "$1" "$2" && cmp "$1.out" "$2.out"; }
 # fails_openly ARGUMENT...: begins with what `prepare` makes, in the directory `place`.
 fails_openly() {
     rm -rf place
     prepare
     without_call 0 "$@"
-    well=$? total=$(cat calls) fault=
+    well=$? fault=
+    total=$(head -n 1 calls)
     without_times well
-    for k in $(numbers "$total" "$FAILING_CALLS"); do
+    for k in $({ numbers "$total" "$FAILING_CALLS" && new_places calls; } | sort -n -u); do
         [ ! -e place ] || rm -rf place
         prepare
         without_call "$k" "$@"

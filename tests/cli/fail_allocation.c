@@ -3,6 +3,10 @@
  * From main on, allocation FAIL_AT (the first is 1) and FAIL_COUNT - 1 after it fail, all after it
  * without FAIL_COUNT; how many there were is written to FAIL_LOG.  Programs that it starts have
  * memory again. */
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* dl_iterate_phdr */
+#endif
+#include "fail_place.h"
 #include <errno.h>
 #include <stdatomic.h>
 #include <stdint.h>
@@ -30,6 +34,7 @@ __attribute__((constructor)) static void begin(void)
     first = number("FAIL_AT", 0);
     last = first > 0 ? first + number("FAIL_COUNT", INT32_MAX) - 1 : 0;
     unsetenv("LD_PRELOAD");
+    fail_places_begin();
     is_on = 1;
 }
 
@@ -40,13 +45,15 @@ __attribute__((destructor)) static void end(void)
     FILE *log = path ? fopen(path, "w") : NULL;
     if (!log) return;
     fprintf(log, "%ld\n", (long)calls);
+    fail_places_print(log);
     fclose(log);
 }
 
 static int refuses(void)
 {
-    if (!is_on) return 0;
+    if (!is_on || is_noting) return 0;
     const long call = ++calls;
+    if (first == 0) fail_places_note(call);
     if (call < first || call > last) return 0;
     errno = ENOMEM;
     return 1;

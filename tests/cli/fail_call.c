@@ -7,6 +7,7 @@
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* RTLD_NEXT, fopencookie */
 #endif
+#include "fail_place.h"
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
@@ -32,6 +33,7 @@ __attribute__((constructor)) static void begin(void)
     const char *text = getenv("FAIL_AT");
     first = text ? strtol(text, NULL, 10) : 0;
     unsetenv("LD_PRELOAD");
+    fail_places_begin();
     is_on = 1;
 }
 
@@ -42,12 +44,16 @@ __attribute__((destructor)) static void end(void)
     FILE *log = path ? REAL(fopen)(path, "w") : NULL;
     if (!log) return;
     fprintf(log, "%ld\n", (long)calls);
+    fail_places_print(log);
     REAL(fclose)(log);
 }
 
 static int fails(void)
 {
-    if (!is_on || ++calls != first) return 0;
+    if (!is_on) return 0;
+    const long call = ++calls;
+    if (first == 0) fail_places_note(call);
+    if (call != first) return 0;
     errno = EIO;
     return 1;
 }

@@ -214,6 +214,28 @@ numbers() {
     }' | sort -n -u
 }
 
+# new_places FILE: the numbers of the calls in FILE, of fail_place.h, from places of which no call was tried.
+new_places() {
+    touch "$top/places"
+    awk -v known="$top/places" 'FILENAME == known { is_known[$1] = 1; next }
+        FNR > 1 && !is_known[$2] { print $1; print $2 >> known }' "$top/places" "$1"
+}
+
+# What a command has printed and written, in the directory $1 and the file $1.out, without times.
+without_times() {
+    rm -rf "$1"
+    mkdir -p place
+    mv place "$1"
+    grep -vE '^A step takes| runs in |^(rk4|gauss4) ' out >"$1.out"
+    find "$1" -name cells.csv -o -name order.csv >tables
+    while read -r file; do
+        awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "seconds") k = i } { $k = ""; print }' "$file" >cells
+        mv cells "$file"
+    done <tables
+}
+# The checkpoint and the results of short runs hold times, the lock nothing.
+same_files() { diff -r -I '"seconds"' -x 'checkpoint*' -x all -x lock "$1" "$2" && cmp "$1.out" "$2.out"; }
+
 # shared_object NAME: makes NAME.so, for LD_PRELOAD.
 shared_object() { there "${CC:-cc}" && ${CC:-cc} -shared -fPIC -O1 "$here/$1.c" -o "$top/$1.so" 2>/dev/null; }
 # signalled NUMBER CALL ARGUMENT...: the program raises signal NUMBER in its call CALL of rename, by which it
