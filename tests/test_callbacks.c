@@ -247,10 +247,11 @@ static dal_status classify_constraints(trial *t)
     dal_status status = begin(t, &evaluator, x, &at);
     if (!status) status = dal_evaluator_classify_constraints(evaluator, &at, &class, degree);
     if (isnan(class.force_defect)) status = DAL_STATUS_NOT_FINITE; /* F has no values */
-    const double numbers[] = {class.linear, class.constant,    class.bilinear,  class.quadratic,
-                              class.parity, class.homogeneous, class.reversible};
-    trial_add(t, numbers, 7);
-    if (class.homogeneous) trial_add(t, degree, t->spec.system->m);
+    const double numbers[] = {class.linear,    class.constant, class.bilinear,
+                              class.quadratic, class.parity,   class.reversible};
+    trial_add(t, numbers, 6);
+    for (int a = 0; a < t->spec.system->m; a++) /* rough differences do not tell a degree */
+        trial_add_number(t, class.homogeneous ? degree[a] : NAN);
     return finish(t, evaluator, status);
 }
 
