@@ -247,10 +247,12 @@ static dal_status classify_constraints(trial *t)
     dal_status status = begin(t, &evaluator, x, &at);
     if (!status) status = dal_evaluator_classify_constraints(evaluator, &at, &class, degree);
     if (isnan(class.force_defect)) status = DAL_STATUS_NOT_FINITE; /* F has no values */
+    /* Where few points have values no parity and no degree are found. */
+    const double parity = class.parity ? class.parity : NAN;
     const double numbers[] = {class.linear,    class.constant, class.bilinear,
-                              class.quadratic, class.parity,   class.reversible};
+                              class.quadratic, parity,         class.reversible};
     trial_add(t, numbers, 6);
-    for (int a = 0; a < t->spec.system->m; a++) /* rough differences do not tell a degree */
+    for (int a = 0; a < t->spec.system->m; a++)
         trial_add_number(t, class.homogeneous ? degree[a] : NAN);
     return finish(t, evaluator, status);
 }

@@ -47,9 +47,13 @@ static dal_status measure_lifted_exponents(trial *t)
 static dal_status measure_pairing(trial *t)
 {
     const double direction[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
-    dal_statistics statistics;
+    const dal_setting adjoint[] = {{"p_y1", 0.7}, {"pi_y2", 0.4}, {"pi_phi", -0.2}};
+    dal_run_spec spec = t->spec;
+    dal_statistics statistics = {0};
+    spec.start = adjoint;
+    spec.start_count = 3;
     const dal_status status =
-        dal_adjoint_pairing(&t->spec, tangent, direction, 3, &statistics, &t->error);
+        dal_adjoint_pairing(&spec, tangent, direction, 3, &statistics, &t->error);
     if (status == DAL_STATUS_OK) trial_add_number(t, dal_statistics_max_abs(&statistics));
     if (status == DAL_STATUS_OK) trial_add_number(t, dal_statistics_deviation(&statistics));
     if (status == DAL_STATUS_OK) trial_add_number(t, statistics.last);

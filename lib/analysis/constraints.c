@@ -30,6 +30,7 @@ typedef struct survey {
     double *x, *d, *y;            /* [n+nw] base, direction, point on the line */
     double *value[4];             /* [max(m, nw)] */
     double *sign, *degree, *rate; /* [m] */
+    double *points, *largest;     /* [m] those with values, and the largest |D| there */
     double t, dt;                 /* the same of time */
     bool undecided;               /* D had no values at any point tried */
 } survey;
@@ -147,10 +148,12 @@ static dal_status along_scaling(void *user, double s, double *out)
     return values_at(w, s, out);
 }
 
-/* v.D_v = k D with the same k at every point; k into w->degree. */
+/* v.D_v = k D with the same k at all points, of which a quarter has values; k into w->degree. */
 static bool is_homogeneous(survey *w)
 {
+    double *points = w->points, *largest = w->largest;
     for (int a = 0; a < w->m; a++) w->degree[a] = NAN;
+    for (int a = 0; a < w->m; a++) points[a] = largest[a] = 0.0;
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
         memset(w->d, 0, (size_t)(w->n + w->nw) * sizeof(double));
@@ -159,14 +162,18 @@ static bool is_homogeneous(survey *w)
         if (dal__differentiate(along_scaling, w, DAL__INCREMENT, w->m, w->value[1], w->rate))
             continue;
         for (int a = 0; a < w->m; a++) {
-            double k = w->rate[a] / w->value[0][a];
-            if (!(fabs(w->value[0][a]) > 1e-3)) continue;
-            if (!(isnan(w->degree[a]) || fabs(k - w->degree[a]) <= 1e-8)) return false;
-            w->degree[a] = k;
+            const double k = w->rate[a] / w->value[0][a], size = fabs(w->value[0][a]);
+            if (!(size > 1e-3)) continue;
+            /* The error of the rate is that of values of size 1. */
+            const double rounding = 1e-8 / fmin(1.0, fmin(size, largest[a]));
+            if (points[a] > 0.0 && !(fabs(k - w->degree[a]) <= rounding)) return false;
+            if (size > largest[a]) w->degree[a] = k;
+            largest[a] = fmax(largest[a], size);
+            points[a]++;
         }
     }
     for (int a = 0; a < w->m; a++)
-        if (isnan(w->degree[a])) return false;
+        if (points[a] < TRIALS / 4.0) return false;
     return true;
 }
 
@@ -182,13 +189,14 @@ dal_status dal_evaluator_classify_constraints(dal_evaluator *evaluator, const da
     if (s->m > 0 && s->constraints == NULL) return DAL_STATUS_UNSUPPORTED;
     size_t nw = (size_t)s->n + (size_t)s->multipliers, x = (size_t)s->n + nw;
     size_t rows = nw > (size_t)s->m ? nw : (size_t)s->m;
-    double *block = dal__numbers(1, 3 * x + 7 * rows);
+    double *block = dal__numbers(1, 3 * x + 9 * rows);
     if (block == NULL) return DAL_STATUS_MEMORY;
     survey w = {.evaluator = evaluator, .s = s, .n = s->n, .nw = (int)nw, .m = s->m, .at = *at};
     w.random.state = 7;
     w.x = block, w.d = block + x, w.y = block + 2 * x;
     for (size_t k = 0; k < 4; k++) w.value[k] = block + 3 * x + k * rows;
     w.sign = w.value[3] + rows, w.degree = w.sign + rows, w.rate = w.degree + rows;
+    w.points = w.rate + rows, w.largest = w.points + rows;
     *out = (dal_constraint_class){0};
     if (w.m > 0) {
         const bool steady = vanishes(&w, IN_T, 2, first);
