@@ -41,11 +41,14 @@ fails_cleanly() {
 
 fails_allocations() { shared_object fail_allocation && without_memory 0 1 --version && [ ! -s err ]; }
 if sanitized; then
-    cannot 23 "sanitizers have an allocator of their own"
-elif needs 23 "no compiler for allocations that fail" fails_allocations; then
+    cannot 35 "sanitizers have an allocator of their own"
+elif needs 35 "no compiler for allocations that fail" fails_allocations; then
     printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 1' 'systems:' \
         '  - {system: line.yaml, set: {k: [1, 2]}}' >scarce.yaml
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
+    printf '%s\n' 'coordinates: [x, y]' "lagrangian: (x'^2 + y'^2)/2 - y" "start: {x': 1, y: 1}" \
+        'events: [{when: y, direction: down, restitution: 0.5}]' >falling-ball.yaml
+    awk 'BEGIN { print "t,x"; for (t = 0; t <= 1; t += 0.125) print t "," t * t }' >curve.csv
     mkdir scarce
     try 0 run $motion --output scarce/whole
     mkdir scarce/halves
@@ -63,6 +66,18 @@ elif needs 23 "no compiler for allocations that fail" fails_allocations; then
     fails_cleanly lyapunov isokinetic --integrator rk4 --step 0.1 --time 5
     fails_cleanly explain line.yaml --integrator rk4 --step 0.1 --time 2
     fails_cleanly generate line.yaml --integrator gauss4
+    fails_cleanly check servo-pendulum
+    fails_cleanly check chaplygin-sleigh-vakonomic
+    fails_cleanly run falling-ball.yaml --integrator rk4 --step 0.1 --time 3
+    fails_cleanly run bead-on-hoop --integrator rattle --step 0.05 --time 1 --observe "x*x"
+    fails_cleanly run heisenberg --integrator gauss4 --step 0.1 --time 1 --sensitivities kx --json
+    fails_cleanly run knife-edge --integrator taylor --step 0.1 --time 1 --start pi_x=0.1
+    fails_cleanly predict heisenberg --integrator rk4,gauss4+project --step 0.1 --time 2
+    fails_cleanly predict line.yaml --integrator rk4 --step 0.1 --time 2 --pieces 2
+    fails_cleanly steer line.yaml --to x=1 --integrator gauss4 --step 0.1 --time 1
+    fails_cleanly invariants heisenberg
+    fails_cleanly dirac knife-edge
+    fails_cleanly action line.yaml curve.csv --methods rk4
     fails_cleanly order line.yaml --integrators rk4,gauss4 --time 1 --threads 2
     fails_cleanly run --integrater rk4
 
