@@ -39,7 +39,7 @@ fails_openly() {
 }
 
 fails_calls() { raises && shared_object fail_call && without_call 0 --version && [ ! -s err ]; }
-if needs 64 "no compiler for calls that fail" fails_calls; then
+if needs 69 "no compiler for calls that fail" fails_calls; then
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
     cat >ball.yaml <<'EOF'
 coordinates: [x, y]
@@ -84,10 +84,15 @@ EOF
     fails_openly section chaplygin-sleigh-full-turn --on phi=1 --integrator rk4 --step 0.1 --time 9 --output place/section.csv
     fails_openly lyapunov isokinetic --integrator rk4 --step 0.1 --time 2 --output place/means.csv
 
+    fails_openly predict line.yaml --integrator rk4 --step 0.1 --time 1 --output place/curves.csv
+    fails_openly explain line.yaml --integrator rk4 --step 0.1 --time 1 --output place/shares.csv
+
     case_is "calls that fail: directories"
     prepare() { :; }
     fails_openly run ball.yaml --integrator rk4 --step 0.1 --time 3 --output place
     fails_openly study short.yaml --output place --threads 1 --no-page
+    fails_openly steer line.yaml --to x=1 --integrator gauss4 --step 0.1 --time 1 --output place
+    fails_openly volume $motion --output place
     sed 's/^time/rows: none\ntime/' short.yaml >bare.yaml
     fails_openly study bare.yaml --output place --threads 1 --no-page
     fails_openly $few --threads 1 --no-page --output place
@@ -107,8 +112,9 @@ EOF
     fails_openly resume place --threads 1 --no-page
     prepare() { cp -R begun/ensemble-1 place && rm place/chunks*; }
     fails_openly resume place --threads 1 --no-page
-    prepare() { cp -R run place; }
     try 0 run $motion --output run
+    prepare() { cp -R run place; }
+    fails_openly pack place --output place/run.tar
     try 0 run ball.yaml --integrator rk4 --step 0.1 --time 3 --output bounces
     fails_openly run $motion --output place --force
     fails_openly resume place --time 2
