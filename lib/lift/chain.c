@@ -55,7 +55,7 @@ static dal_status append_constraint(dal__chain *c, dal__node phi, int source, bo
     DAL_TRY(dal__surface_add(&c->surface, restricted));
     *ended = c->surface.state != DAL__SURFACE_REGULAR;
     c->count++;
-    return w->graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* f without its sign, fixed factors and denominators: what vanishes where f does. */
@@ -105,7 +105,7 @@ static dal_status drop_zeros(const dal__chain *c, dal__node *f)
         kept = sign[i] ? dal__node_sub(graph, kept, term[i]) : dal__node_add(graph, kept, term[i]);
     }
     if (has_dropped) *f = kept;
-    return graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* Adds what the condition f = 0, which the surface does not have, requires. */
@@ -139,7 +139,7 @@ static dal_status require(dal__chain *c, dal__node f, int source, dal_dirac_outc
             DAL_TRY(append_constraint(c, strip_factors(graph, regular[i]), source, &ended));
     }
     if (ended) *outcome = DAL_DIRAC_STOPS;
-    return graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* What row a of the conservation requires. */
@@ -174,7 +174,7 @@ static dal_status conclude(dal__chain *c, int a)
     phi->is_known = true;
     phi->last = step.outcome;
     c->has_ended = step.outcome >= DAL_DIRAC_CONTRADICTS;
-    return w->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__chain_run(dal__chain *c, const dal__theory *w, dal__pool *pool)
@@ -208,5 +208,5 @@ dal_status dal__chain_run(dal__chain *c, const dal__theory *w, dal__pool *pool)
         for (int a = 0; a < before && !c->has_ended; a++) DAL_TRY(conclude(c, a));
         c->is_complete = !c->has_ended && c->count == before;
     }
-    return w->graph->status;
+    return DAL_STATUS_OK;
 }

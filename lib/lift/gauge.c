@@ -31,7 +31,7 @@ static dal_status find_generator(dal__classes *k, dal__chain *c, dal__node H, in
     size_t zeros = 0; /* of the gradient of the last */
     int count = 0;
     while (zeros < size) {
-        if (++count == DAL__GENERATOR_ORDERS) return w->graph->status;
+        if (++count == DAL__GENERATOR_ORDERS) return DAL_STATUS_OK;
         dal__phase_gradient(w, chi[count - 1], f);
         dal__gradient(w->graph, chi[count - 1], &w->t, 1, &by_time);
         chi[count] = dal__node_add(w->graph, dal__bracket(w, f, g), by_time);
@@ -75,5 +75,5 @@ dal_status dal__gauge_find(dal__classes *k, dal__chain *c)
     DAL_TRY(dal__surface_clean(&c->surface, 1, &k->on_surface));
     for (int f = 0; f < w->primaries; f++)
         if (c->conservation.row[f] < 0) DAL_TRY(find_generator(k, c, H, f));
-    return w->graph->status;
+    return DAL_STATUS_OK;
 }

@@ -107,6 +107,6 @@ dal_status dal__regular_functions(const dal__surface *s, dal__node f, dal__node 
     for (int i = 0; i < w.rank; i++)
         regular[(*count)++] =
             w.rank == w.size ? dal__symbol(graph, w.symbol[i]) : w.gradient[w.row[i]];
-    if (w.rank > 0) return graph->status;
+    if (w.rank > 0) return DAL_STATUS_OK;
     return dal__squared_functions(s, f, regular, count);
 }

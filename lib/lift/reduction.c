@@ -16,7 +16,7 @@ dal_status dal__reduction_begin(dal__reduction *r, const dal__surface *s, int ro
     if (s->pool->out_of_memory) return DAL_STATUS_MEMORY;
     for (int a = 0; a < rows; a++) r->pivot[a] = -1;
     for (int j = 0; j < columns; j++) r->row[j] = -1;
-    return s->theory->graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* Row a loses unknown j by row b. */
@@ -63,7 +63,7 @@ dal_status dal__reduction_solve(dal__reduction *r, const dal__surface *s)
         r->pivot[a] = pivot;
         r->row[pivot] = a;
     }
-    return s->theory->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal__node dal__reduction_value(const dal__reduction *r, dal__graph *graph, int unknown, int k,

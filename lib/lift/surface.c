@@ -299,7 +299,7 @@ static dal_status choose_variable(const dal__surface *s, dal__node constraint, l
         const double least = dal__least_size(value, 1);
         if (least > best) best = least, *out = (linear){symbol, slope};
     }
-    return w->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__surface_add(dal__surface *s, dal__node constraint)

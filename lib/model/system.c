@@ -171,7 +171,7 @@ static dal_status add_to_both(dal_model *model, dal__program_code code, const da
     dal__programs *const programs[] = {&model->programs, &model->extended_programs};
     for (int k = 0; k < (e->extended ? 2 : 1); k++)
         DAL_TRY(dal__programs_add(model, programs[k], code, outputs, count));
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 /* The correction by which v returns to D = 0; nothing where W, or A W^-1 A^T, has no inverse. */
@@ -282,7 +282,7 @@ static dal_status add_terms(dal_model *model)
     model->programs.terms = model->extended_programs.terms = model->terms;
     model->programs.reaction_terms = model->extended_programs.reaction_terms =
         model->reaction_terms;
-    return e->graph->status;
+    return DAL_STATUS_OK;
 }
 
 static dal_status finish_programs(dal_model *model, dal__programs *programs, dal_system *system)

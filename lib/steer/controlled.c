@@ -21,7 +21,7 @@
 #include <string.h>
 
 /* The drift, which is no part of the distribution, multiplied by a time; and columns (0, N_k). */
-static dal_status make_controls(dal__fields *d, double time, double *x)
+static void make_controls(dal__fields *d, double time, double *x)
 {
     const dal__equations *e = &d->model->equations;
     const int n = e->n, at_v = d->fixed + n;
@@ -43,7 +43,6 @@ static dal_status make_controls(dal__fields *d, double time, double *x)
         dal__fields_add(d, size > 0.0 ? 1.0 / size : 1.0, x);
     }
     d->first = d->fields;
-    return e->graph->status;
 }
 
 /* Irregular points about the start, value[symbols], with velocities moved to D = 0, at which F is
@@ -96,7 +95,7 @@ dal_status dal__controlled_rank(dal_model *model, const dal_setting *parameters,
     d.dim = 2 * n + d.fixed;
     d.full = 2 * n - e->m - e->holonomic;
     dal_status status = make_states(&d, value, units);
-    if (status == DAL_STATUS_OK) status = make_controls(&d, units[0], x);
+    if (status == DAL_STATUS_OK) make_controls(&d, units[0], x);
     bool is_closed = status == DAL_STATUS_OK;
     for (int begin = 0, last = -1;
          is_closed && dal__fields_rank(&d) > last && dal__fields_rank(&d) < d.full;) {
