@@ -42,8 +42,9 @@ static bool are_close(const trial *a, const trial *b, double tolerance)
 static bool is_noticed(const trial *well, long k, long count, trial_work *work)
 {
     trial other = {.spec = well->spec, .model = well->model};
-    const bool has_others = well->tolerance > 0.0 && count > 1;
-    const double tolerance = has_others ? fmax(well->tolerance, OF_OTHER_DIFFERENCES) : well->tolerance;
+    const double other_differences =
+        count > 1 && well->tolerance > 0.0 ? OF_OTHER_DIFFERENCES : 0.0;
+    const double tolerance = fmax(well->tolerance, other_differences);
     failing_begin(k, count < LONG_MAX ? k + count - 1 : LONG_MAX);
     const dal_status seen = work(&other);
     const bool is_seen = seen == DAL_STATUS_IO || seen == DAL_STATUS_NOT_FINITE ||

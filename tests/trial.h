@@ -1,6 +1,6 @@
 /* trial.h - a function of the library on a system whose callbacks fail: whichever call does, its
  * status is DAL_STATUS_IO, or one that says what became of it, with a message; unless its result is
- * NaN or the one without a failure.  That call fails alone, with a few after it, or with all after it. */
+ * NaN or the one without a failure.  It fails alone, with a few calls after it, or with all. */
 #ifndef TRIAL_H
 #define TRIAL_H
 

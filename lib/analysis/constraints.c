@@ -164,7 +164,7 @@ static bool is_homogeneous(survey *w)
         for (int a = 0; a < w->m; a++) {
             const double k = w->rate[a] / w->value[0][a], size = fabs(w->value[0][a]);
             if (!(size > 1e-3)) continue;
-            /* The error of the rate is that of values of size 1. */
+            /* The rate has the error of values of size 1. */
             const double rounding = 1e-8 / fmin(1.0, fmin(size, largest[a]));
             if (points[a] > 0.0 && !(fabs(k - w->degree[a]) <= rounding)) return false;
             if (size > largest[a]) w->degree[a] = k;

@@ -14,7 +14,7 @@
  *
  * When memory is out or the graph exceeds its limit, its status says so: nodes made from then on
  * are 0, and every function accepts node 0.  Those who make formulas for others leave it there; the
- * function that began looks at it when all are made. */
+ * function that began returns it when all are made. */
 #ifndef DAL_EXPR_GRAPH_H
 #define DAL_EXPR_GRAPH_H
 

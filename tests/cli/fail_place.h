@@ -2,6 +2,9 @@
  * place is the FAIL_DEPTH nearest returns into the program itself. */
 #ifndef DALEMBERT_FAIL_PLACE_H
 #define DALEMBERT_FAIL_PLACE_H
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* dl_iterate_phdr */
+#endif
 #include <execinfo.h>
 #include <link.h>
 #include <pthread.h>
