@@ -6,7 +6,8 @@
 
 #define MISLEADING 1e6 /* what a callback that fails leaves, which nothing may use */
 
-static dal_system original; /* its callbacks */
+static dal_system original, original_quad; /* their callbacks */
+static dal_system quad;
 static long calls, failing, last_failing;
 static const char *failed;
 static const char *const *counted;
@@ -75,12 +76,24 @@ const char *failing_name(void) { return failed; }
             if (out) out[0] = MISLEADING;                                                          \
             return DAL_STATUS_IO;                                                                  \
         }                                                                                          \
-        return original.member(system, at, out);                                                   \
+        return (system == &quad ? &original_quad : &original)->member(system, at, out);            \
     }
 MEMBERS(FAIL)
 FAIL(branches->values, branch_values)
 FAIL(branches->rates, branch_rates)
 #undef FAIL
+
+#define NAME(member, name) #name,
+const char *const failing_callbacks[] = {MEMBERS(NAME) NULL};
+#undef NAME
+
+static void wrap(dal_system *copy, const dal_system *system)
+{
+#define WRAP(member, name)                                                                         \
+    if (system->member) copy->member = fail_##name;
+    MEMBERS(WRAP)
+#undef WRAP
+}
 
 dal_system failing_system(const dal_system *system, const char *const *names)
 {
@@ -88,14 +101,16 @@ dal_system failing_system(const dal_system *system, const char *const *names)
     original = *system;
     counted = names;
     copy.wide4 = copy.wide8 = NULL;
-    copy.extended = copy.quad = NULL;
+    copy.extended = NULL;
     copy.series = NULL;
     copy.scales = copy.reaction_scales = NULL;
     copy.diagnose = NULL;
-#define WRAP(member, name)                                                                         \
-    if (system->member) copy.member = fail_##name;
-    MEMBERS(WRAP)
-#undef WRAP
+    wrap(&copy, system);
+    if (system->quad) {
+        quad = original_quad = *system->quad;
+        wrap(&quad, system->quad);
+        copy.quad = &quad;
+    }
     if (system->branches) {
         branches = *system->branches;
         branches.values = fail_branch_values;

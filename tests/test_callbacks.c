@@ -1,8 +1,10 @@
 /* test_callbacks.c - callbacks of a system that fail (trial.h), and allocations that do:
  * DAL_STATUS_MEMORY, nothing else, and no block is left. */
+#include "failing.h"
 #include "fixtures.h"
 #include "trial.h"
 #include <CUnit/CUnit.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -492,6 +494,60 @@ static void test_measures(void)
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", 0.0, measure_curve);
 }
 
+/* A callback that always fails gives its own status. */
+static void test_statuses(void)
+{
+    trial_work *const works[] = {measure_rate, check_derivatives, measure_rank, project_velocity,
+                                 measure_scales};
+    for (size_t i = 0; i < sizeof works / sizeof *works; i++) {
+        trial_each_callback(sleigh, DAL_EFFORT_IDENTITY, "rk4", DAL_PHYSICAL, works[i]);
+        trial_each_callback(hanging, DAL_EFFORT_IDENTITY, "gauss4+project", DAL_PHYSICAL, works[i]);
+        trial_each_callback(sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", DAL_LIFTED, works[i]);
+        trial_each_callback(swing, DAL_EFFORT_IDENTITY, "rk4", DAL_PHYSICAL, works[i]);
+    }
+}
+
+/* A run has no scales where a callback fails that they are made of. */
+static void no_scales(const char *text, bool is_plain, dal_space space, bool reactions)
+{
+    int made = 0;
+    for (const char *const *name = failing_callbacks; *name; name++) {
+        const char *const one[] = {*name, NULL};
+        dal_system system = failing_system(fixture_system(text), one);
+        if (is_plain) system.call.constraint = NULL, system.call.energy_normal = NULL;
+        dal_run_spec spec = fixture_spec(&system, "rk4", space, TRIAL_STEP);
+        char pi[64];
+        const dal_setting start = {pi, 0.3};
+        snprintf(pi, sizeof pi, "pi_%s", system.coordinate[0]);
+        spec.start = &start;
+        spec.start_count = space == DAL_LIFTED;
+        spec.options.reactions = reactions;
+        failing_begin(0, 0);
+        dal_run *run = fixture_run(&spec);
+        failing_begin(0, 0);
+        CU_ASSERT_PTR_NOT_NULL(dal_run_scales(run));
+        if (failing_calls() > 0) {
+            made++;
+            failing_begin(1, LONG_MAX);
+            CU_ASSERT_PTR_NULL(dal_run_scales(run));
+        }
+        dal_run_free(run);
+    }
+    CU_ASSERT(made > 0);
+    failing_begin(0, 0);
+}
+
+static void test_scales(void)
+{
+    for (int is_plain = 0; is_plain < 2; is_plain++) {
+        no_scales(sleigh, is_plain, DAL_PHYSICAL, false);
+        no_scales(swing, is_plain, DAL_PHYSICAL, false);
+        no_scales(sleigh, is_plain, DAL_LIFTED, false);
+    }
+    no_scales(sleigh, false, DAL_PHYSICAL, true);
+    no_scales(hanging, false, DAL_PHYSICAL, false);
+}
+
 static void test_places(void)
 {
     trial_each_call(swing, "rk4", DAL_PHYSICAL, 0.0, cross);
@@ -505,6 +561,8 @@ void suite_callbacks(void)
     CU_pSuite suite = CU_add_suite("callbacks that fail", NULL, NULL);
     CU_add_test(suite, "runs and batches", test_runs);
     CU_add_test(suite, "measures", test_measures);
+    CU_add_test(suite, "the status of a callback", test_statuses);
+    CU_add_test(suite, "scales", test_scales);
     CU_add_test(suite, "crossings and events", test_places);
     CU_add_test(suite, "out of memory", test_memory);
 }

@@ -104,6 +104,31 @@ void trial_each_lifted_call(const char *text, dal_effort effort, const char *met
     dal_model_free(model);
 }
 
+void trial_each_callback(const char *text, dal_effort effort, const char *method, dal_space space,
+                         trial_work *work)
+{
+    dal_model *model = fixture_model(text);
+    const dal_system *system;
+    int made = 0;
+    CU_ASSERT_EQUAL(dal_model_set_effort(model, effort, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+    for (const char *const *name = failing_callbacks; *name; name++) {
+        const char *const one[] = {*name, NULL};
+        const dal_system failing = failing_system(system, one);
+        trial t = {.spec = fixture_spec(&failing, method, space, TRIAL_STEP)};
+        failing_begin(1, LONG_MAX);
+        const dal_status status = work(&t);
+        if (failing_calls() == 0) continue;
+        made++;
+        CU_ASSERT_EQUAL(status, DAL_STATUS_IO);
+        if (status != DAL_STATUS_IO)
+            printf("\n%.20s, %s: %s: %s\n", text, method, *name, dal_status_name(status));
+    }
+    CU_ASSERT(made > 0);
+    failing_begin(0, 0);
+    dal_model_free(model);
+}
+
 void trial_each_tangent_call(const char *text, const char *method, dal_space space,
                              double tolerance, trial_work *work, const dal_system **tangent)
 {

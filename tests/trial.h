@@ -30,6 +30,9 @@ void trial_each_call(const char *text, const char *method, dal_space space, doub
 /* Likewise on the lifted space with another K than the paper's. */
 void trial_each_lifted_call(const char *text, dal_effort effort, const char *method,
                             double tolerance, trial_work *work);
+/* All calls of one callback fail, of each that the work calls: its status is DAL_STATUS_IO. */
+void trial_each_callback(const char *text, dal_effort effort, const char *method, dal_space space,
+                         trial_work *work);
 /* Likewise of work with a tangent system, *tangent meanwhile, whose calls alone fail. */
 void trial_each_tangent_call(const char *text, const char *method, dal_space space,
                              double tolerance, trial_work *work, const dal_system **tangent);
