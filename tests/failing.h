@@ -12,7 +12,7 @@ dal_system failing_system(const dal_system *system, const char *const *names);
 void failing_begin(long call, long last);
 long failing_calls(void);       /* since then */
 const char *failing_name(void); /* the callback that failed */
-/* The names of all callbacks but those of branches; NULL ends them. */
+/* The names of all callbacks, without branches; NULL ends them. */
 extern const char *const failing_callbacks[];
 
 #endif

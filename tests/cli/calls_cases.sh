@@ -1,8 +1,8 @@
 # Calls of the system that fail: wherever one does, a command ends with a message and another status, or has written
-# what it writes otherwise and does not say that it cannot.  fail_call.c lets the k-th call fail; FAILING_CALLS says
-# how many k are tried for a command.
+# what it writes otherwise and does not say that it cannot.  fail_call.c lets the k-th call fail; a command tries
+# the first from each place (fail_place.h) that no command before has tried, and FAILING_CALLS others.
 
-FAILING_CALLS=${FAILING_CALLS:-60}
+FAILING_CALLS=${FAILING_CALLS:-25}
 shim=$top/fail_call.so
 # without_call K ARGUMENT...: call K fails; 0: none.
 without_call() {
@@ -128,7 +128,7 @@ EOF
     if sanitized; then
         cannot 4 "sanitizers make calls of their own beside the page's"
     else
-        FAILING_CALLS=25
+        FAILING_CALLS=15
         prepare() { cp -R run place; }
         fails_openly report place
         prepare() { cp -R bounces place; }

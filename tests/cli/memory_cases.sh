@@ -1,6 +1,7 @@
 # Memory that runs out: every command ends with a message and status 4, wherever that happens, and
 # with what it would have written wherever that does not matter.  fail_allocation.c lets the k-th
-# allocation fail, or all from the k-th on; ALLOCATIONS says how many k are tried for a command.
+# allocation fail, the first from each place (fail_place.h) that no command before has tried, or all from
+# the k-th on, for ALLOCATIONS of them.
 
 ALLOCATIONS=${ALLOCATIONS:-16}
 shim=$top/fail_allocation.so
