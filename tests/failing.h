@@ -4,9 +4,9 @@
 
 #include <dalembert.h>
 
-/* A copy without programs of lanes, series and other precisions, of which each callback but `exact`
- * may fail, or each of these names, the last of which is NULL; one at a time.  It leaves a
- * misleading number and returns DAL_STATUS_IO. */
+/* A copy without programs of lanes, series and extended precision, of which each callback but
+ * `exact`, in double and in quad precision, may fail, or each of these names, the last of which is
+ * NULL; one at a time.  It leaves a misleading number and returns DAL_STATUS_IO. */
 dal_system failing_system(const dal_system *system, const char *const *names);
 /* Their calls are counted from now on, and those with the numbers call to last, from 1, fail. */
 void failing_begin(long call, long last);
