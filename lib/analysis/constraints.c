@@ -152,8 +152,10 @@ static dal_status along_scaling(void *user, double s, double *out)
 static bool is_homogeneous(survey *w)
 {
     double *points = w->points, *largest = w->largest;
-    for (int a = 0; a < w->m; a++) w->degree[a] = NAN;
-    for (int a = 0; a < w->m; a++) points[a] = largest[a] = 0.0;
+    for (int a = 0; a < w->m; a++) {
+        w->degree[a] = NAN;
+        points[a] = largest[a] = 0.0;
+    }
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
         memset(w->d, 0, (size_t)(w->n + w->nw) * sizeof(double));
@@ -167,9 +169,10 @@ static bool is_homogeneous(survey *w)
             /* The rate has the error of values of size 1. */
             const double rounding = 1e-8 / fmin(1.0, fmin(size, largest[a]));
             if (points[a] > 0.0 && !(fabs(k - w->degree[a]) <= rounding)) return false;
-            if (size > largest[a]) w->degree[a] = k;
-            largest[a] = fmax(largest[a], size);
             points[a]++;
+            if (size <= largest[a]) continue;
+            w->degree[a] = k;
+            largest[a] = size;
         }
     }
     for (int a = 0; a < w->m; a++)

@@ -347,7 +347,7 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
         dal__entry_title(model, entry, to->formula, sizeof to->formula);
     }
     free_surface(&f);
-    return model->out_of_memory ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
+    return model->out_of_memory ? DAL_STATUS_MEMORY : e->graph->status;
 }
 
 /* ---- motions that meet a jump ---- */
