@@ -85,7 +85,6 @@ EOF
     fails_openly order line.yaml --integrators rk4 --time 1 --threads 1 --output place/order.csv
     fails_openly section chaplygin-sleigh-full-turn --on phi=1 --integrator rk4 --step 0.1 --time 9 --output place/section.csv
     fails_openly lyapunov isokinetic --integrator rk4 --step 0.1 --time 2 --output place/means.csv
-
     fails_openly predict line.yaml --integrator rk4 --step 0.1 --time 1 --output place/curves.csv
     fails_openly explain line.yaml --integrator rk4 --step 0.1 --time 1 --output place/shares.csv
 

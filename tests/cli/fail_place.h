@@ -11,10 +11,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#ifndef FAIL_DEPTH
-enum { FAIL_DEPTH = 3 };
-#endif
-enum { FAIL_FRAMES = 24, FAIL_PLACES = 4096 };
+enum { FAIL_DEPTH = 3, FAIL_FRAMES = 24, FAIL_PLACES = 4096 };
 
 static uintptr_t program_begin, program_end; /* its code */
 static struct {
@@ -23,7 +20,7 @@ static struct {
 } fail_place[FAIL_PLACES];
 static int fail_places;
 static pthread_mutex_t fail_lock = PTHREAD_MUTEX_INITIALIZER;
-static __thread int is_noting;
+static __thread int is_noting; /* calls do not count meanwhile */
 
 static int find_code(struct dl_phdr_info *info, size_t size, void *user)
 {
@@ -50,7 +47,6 @@ static void fail_places_note(long call)
 {
     void *frame[FAIL_FRAMES];
     uint64_t place = 0;
-    if (is_noting) return;
     is_noting = 1;
     const int frames = backtrace(frame, FAIL_FRAMES);
     for (int i = 0, depth = 0; i < frames && depth < FAIL_DEPTH; i++) {
