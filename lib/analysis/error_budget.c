@@ -70,7 +70,7 @@ static int projection_in(const dal_method *method)
 /* Removes the projection of a method, or adds one; NULL, or the reason why it cannot. */
 static const char *change_projection(dal_run_spec *spec)
 {
-    dal_method *method = &spec->method, projected;
+    dal_method *method = &spec->method;
     const int place = projection_in(method), end = depth(method);
     if (place > 0) {
         for (int k = place; k < DAL_LAYERS; k++)
@@ -79,9 +79,7 @@ static const char *change_projection(dal_run_spec *spec)
     }
     if (spec->system->m == 0) return "there is no constraint";
     if (end == DAL_LAYERS) return "the method has no room for one more modifier";
-    if (dal_method_parse(&projected, "rk4+project", NULL) != DAL_STATUS_OK)
-        return "there is no +project";
-    method->layer[end] = projected.layer[1];
+    method->layer[end] = dal__library_method("rk4+project").layer[1];
     return NULL;
 }
 

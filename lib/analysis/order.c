@@ -149,11 +149,8 @@ dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double 
         dal_run_spec accurate = *spec;
         long long evaluations;
         accurate.options.step = ldexp(spec->options.step, -levels);
-        if (reference_method != NULL)
-            accurate.method = *reference_method;
-        else
-            status = dal_method_parse(&accurate.method, "gauss12", error);
-        if (status == DAL_STATUS_OK) status = state_at(&m, &accurate, block, &evaluations);
+        accurate.method = reference_method ? *reference_method : dal__library_method("gauss12");
+        status = state_at(&m, &accurate, block, &evaluations);
         reference = block;
     }
     for (int i = 0; i < levels && status == DAL_STATUS_OK; i++) {

@@ -7,6 +7,7 @@
 #include "analysis/reference.h"
 #include "analysis/scaled.h"
 #include "core/error.h"
+#include "core/settings.h"
 #include "core/vectors.h"
 #include <math.h>
 #include <stdbool.h>
@@ -57,8 +58,8 @@ dal_status dal__create_reference_run(dal_run **reference, const dal_scaled *scal
                         .parameters = spec->parameters,
                         .parameter_count = spec->parameter_count,
                         .start_time = dal_run_time(run) / tau,
+                        .method = dal__library_method("dop853"),
                         .options = dal_options_default()};
-    DAL_TRY(dal_method_parse(&own.method, "dop853", error));
     own.options.space = DAL_PHYSICAL;
     own.options.step = dal_run_step_size(run) / tau;
     own.options.tolerance = tolerance;

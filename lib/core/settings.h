@@ -1,4 +1,5 @@
-/* settings.h - checks of what callers give a run: parameters, start values and a system. */
+/* settings.h - checks of what callers give a run, parameters, start values and a system; methods by
+ * name. */
 #ifndef DAL_SETTINGS_H
 #define DAL_SETTINGS_H
 
@@ -41,5 +42,7 @@ dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error);
 /* Refuses a system with events, DAL_STATUS_UNSUPPORTED; what: that which does not know them, in the
  * plural. */
 dal_status dal__refuse_events(const dal_system *system, const char *what, dal_error *error);
+/* The method of a name that the library has. */
+dal_method dal__library_method(const char *name);
 
 #endif

@@ -140,10 +140,10 @@ static dal_status fill_motion(dal_exact_motion *m, const dal_run_spec *spec, con
     dal_run_spec own = {.system = system,
                         .parameters = spec->parameters,
                         .parameter_count = spec->parameter_count,
+                        .method = dal__library_method("taylor"),
                         .options = dal_options_default()};
     own.options.space = DAL_PHYSICAL;
-    const bool has_series = system->series && !system->series->refused &&
-                            dal_method_parse(&own.method, "taylor", NULL) == DAL_STATUS_OK;
+    const bool has_series = system->series && !system->series->refused;
     return has_series ? create_series(m, own, run, error) : DAL_STATUS_OK;
 }
 
@@ -208,12 +208,12 @@ dal_status dal__exact_motion_continue(const dal_exact_motion *from, dal_exact_mo
                          .parameters = parameter,
                          .parameter_count = system->parameters,
                          .start_time = from->start,
+                         .method = dal__library_method("taylor"),
                          .options = dal_options_default()};
     spec.options.space = DAL_PHYSICAL;
     spec.options.consistent = true;
     spec.options.step = from->sign;
-    dal_status status = dal_method_parse(&spec.method, "taylor", error);
-    if (status == DAL_STATUS_OK) status = dal_run_create(&at, &spec, error);
+    dal_status status = dal_run_create(&at, &spec, error);
     if (status == DAL_STATUS_OK) status = dal_run_set_state(at, from->start, from->first, error);
     if (status == DAL_STATUS_OK) status = dal__exact_motion_of_run(motion, &spec, at, 0, error);
     if (status == DAL_STATUS_OK) {
