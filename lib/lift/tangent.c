@@ -68,7 +68,8 @@ static dal_status add_effort(dal_model *model, const direction *d, dal__tangent_
         if (dal__depends(graph, out[i], e->v, e->v + 2 * n))
             t->system.properties |= DAL_EFFORT_OF_V;
     if (t->system.properties & DAL_EFFORT_OF_V) t->system.properties &= ~(unsigned)DAL_F_POSITIONAL;
-    return dal__programs_add(model, &t->programs, DAL__PROGRAM_EFFORT, out, 6 * n);
+    dal__programs_add(model, &t->programs, DAL__PROGRAM_EFFORT, out, 6 * n);
+    return DAL_STATUS_OK;
 }
 
 static dal_status add_programs(dal_model *model, int parameter, dal__tangent_system *t)
@@ -100,15 +101,14 @@ static dal_status add_programs(dal_model *model, int parameter, dal__tangent_sys
             F[place - 2 * n] = e->F[at - n + i];
             F[place - 2 * n + kinds[k].count] = differentiate(&d, e->F[at - n + i]);
         }
-    DAL_TRY(dal__programs_begin(e, &t->programs, 2 * n, 2 * m));
+    dal__programs_begin(model, &t->programs, 2 * n, 2 * m);
     DAL_TRY(dal__programs_add_motion(model, &t->programs, F));
-    DAL_TRY(dal__programs_add_diagnosis(model, &t->programs));
-    DAL_TRY(dal__programs_add(model, &t->programs, DAL__PROGRAM_START, start, 2 * count + 1));
+    dal__programs_add_diagnosis(model, &t->programs);
+    dal__programs_add(model, &t->programs, DAL__PROGRAM_START, start, 2 * count + 1);
     if (m > 0) return DAL_STATUS_OK;
     if (e->mu && !e->mu_gradient)
-        DAL_TRY(dal__programs_add(model, &t->programs, DAL__PROGRAM_GAUGE, &e->mu, 1));
-    DAL_TRY(add_effort(model, &d, t));
-    return DAL_STATUS_OK;
+        dal__programs_add(model, &t->programs, DAL__PROGRAM_GAUGE, &e->mu, 1);
+    return add_effort(model, &d, t);
 }
 
 static dal_status make_tangent(dal_model *model, int parameter, dal__tangent_system *t)

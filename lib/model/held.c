@@ -146,8 +146,9 @@ static dal_status add_programs(dal_model *model, dal__programs *p)
                                  dal__node_add(e->graph, by_v, by_g));
     }
     DAL_TRY(e->graph->status);
-    DAL_TRY(dal__programs_add(model, p, DAL__PROGRAM_BRANCH_VALUES, values, 2 * count));
-    return dal__programs_add(model, p, DAL__PROGRAM_BRANCH_RATES, rates, count);
+    dal__programs_add(model, p, DAL__PROGRAM_BRANCH_VALUES, values, 2 * count);
+    dal__programs_add(model, p, DAL__PROGRAM_BRANCH_RATES, rates, count);
+    return DAL_STATUS_OK;
 }
 
 /* Gives the tapes the point of each node. */

@@ -20,13 +20,13 @@ void dal__programs_free(dal__programs *programs)
     dal__taylor_free(programs->taylor[1]);
 }
 
-dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
-                               int multipliers)
+void dal__programs_begin(dal_model *model, dal__programs *programs, int n, int multipliers)
 {
+    const dal__equations *e = &model->equations;
     dal__programs_free(programs);
     *programs = (dal__programs){.equations = e, .n = n, .multipliers = multipliers};
     programs->tapes = dal__tapes_create(e->graph, e->parameters, e->symbols - e->parameters);
-    return programs->tapes ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
+    model->out_of_memory |= !programs->tapes;
 }
 
 /* Whether a pivot of A W^-1 B^T varies along a run. */
@@ -43,15 +43,15 @@ void dal__programs_save_pivots(const dal__equations *e, dal__programs *programs)
     for (int k = 0; k < e->pivots; k++) programs->pivots += is_saved(e, &e->pivot[k]);
 }
 
-dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
-                                   dal__program_code code, const dal__nodes *lists, int count)
+void dal__programs_add_lists(dal_model *model, dal__programs *programs, dal__program_code code,
+                             const dal__nodes *lists, int count)
 {
     const dal__equations *e = &model->equations;
     dal__program *program = &programs->program[code];
     int total = 3 * e->pivots;
     for (int k = 0; k < count; k++) total += lists[k].count;
     dal__node *all = dal__model_nodes(model, total, 0);
-    if (!all) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     total = 0;
     for (int k = 0; k < count; k++)
         for (int i = 0; i < lists[k].count; i++) all[total++] = lists[k].list[i];
@@ -78,13 +78,13 @@ dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
     }
     program->tape = dal__tapes_add(programs->tapes, all, total);
     program->present = program->tape >= 0;
-    return program->present ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
+    model->out_of_memory |= !program->present;
 }
 
-dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__program_code code,
-                             const dal__node *outputs, int count)
+void dal__programs_add(dal_model *model, dal__programs *programs, dal__program_code code,
+                       const dal__node *outputs, int count)
 {
-    return dal__programs_add_lists(model, programs, code, &(dal__nodes){outputs, count}, 1);
+    dal__programs_add_lists(model, programs, code, &(dal__nodes){outputs, count}, 1);
 }
 
 /* ---- where the motion fails ---- */
@@ -107,14 +107,14 @@ static int list_lookups(const dal__graph *graph, dal__node *out, int *table)
     return count;
 }
 
-dal_status dal__programs_add_diagnosis(dal_model *model, dal__programs *programs)
+void dal__programs_add_diagnosis(dal_model *model, dal__programs *programs)
 {
     dal__equations *e = &model->equations;
     const int lookups = list_lookups(e->graph, NULL, NULL), first = 2 * e->pivots + e->m;
     dal__node *out = dal__model_nodes(model, first + 2 * lookups, 0);
     programs->lookup = dal__model_allocate(model, (size_t)lookups + 1, sizeof *programs->lookup);
     programs->lookups = lookups;
-    if (!out || !programs->lookup) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     list_lookups(e->graph, out + first, programs->lookup);
     for (int k = 0; k < e->pivots; k++) {
         out[2 * k] = e->pivot[k].pivot;
@@ -125,7 +125,7 @@ dal_status dal__programs_add_diagnosis(dal_model *model, dal__programs *programs
         for (int i = 0; i < e->n; i++) sum = dal__node_add(e->graph, sum, e->A[a * e->n + i]);
         out[2 * e->pivots + a] = sum;
     }
-    return dal__programs_add(model, programs, DAL__PROGRAM_DIAGNOSE, out, first + 2 * lookups);
+    dal__programs_add(model, programs, DAL__PROGRAM_DIAGNOSE, out, first + 2 * lookups);
 }
 
 /* ---- derivatives of the motion ---- */
@@ -173,7 +173,8 @@ static dal_status add_adjoint(dal_model *model, dal__programs *programs, const d
     }
     if (solved) DAL_TRY(dal__motion_adjoint(model, solved + n, solved + 2 * n));
     const dal__node *out = cheaper(e, 3 * n, swept, solved);
-    return dal__programs_add(model, programs, DAL__PROGRAM_ADJOINT, out, 3 * n);
+    dal__programs_add(model, programs, DAL__PROGRAM_ADJOINT, out, 3 * n);
+    return DAL_STATUS_OK;
 }
 
 /* The derivatives by q of all, then those by v and the multipliers of all, row by row; not where
@@ -198,13 +199,14 @@ static dal_status add_jacobian(dal_model *model, dal__programs *programs, const 
         return DAL_STATUS_OK;
     DAL_TRY(status);
     const dal__node *out = cheaper(e, count, swept, solved);
-    return dal__programs_add(model, programs, DAL__PROGRAM_JACOBIAN, out, count);
+    dal__programs_add(model, programs, DAL__PROGRAM_JACOBIAN, out, count);
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F)
 {
     int nw = programs->n + programs->multipliers;
-    DAL_TRY(dal__programs_add(model, programs, DAL__PROGRAM_FIELD, F, nw));
+    dal__programs_add(model, programs, DAL__PROGRAM_FIELD, F, nw);
     DAL_TRY(add_jacobian(model, programs, F));
     return programs->multipliers ? DAL_STATUS_OK : add_adjoint(model, programs, F);
 }
@@ -473,6 +475,7 @@ static const dal_callbacks *if_filled(const dal_callbacks *wide)
 
 dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system)
 {
+    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     DAL_TRY(dal__tapes_finish(programs->tapes));
     const dal__equations *e = programs->equations;
     const int inputs = (int)programs->tapes->first_input - e->parameters;

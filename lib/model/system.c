@@ -24,17 +24,17 @@ static bool is_by_columns(const dal__equations *e)
 }
 
 /* D, A, W^-1 A^T; nothing when W has no inverse. */
-static dal_status add_constraint(dal_model *model, dal__programs *programs)
+static void add_constraint(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
     const int m = e->m, mn = m * e->n;
     const bool by_columns = is_by_columns(e);
     const dal__nodes lists[] = {{e->constraint, m}, {e->A, mn}, {e->U, by_columns ? 0 : mn}};
-    if (m == 0) return DAL_STATUS_OK;
-    DAL_TRY(dal__programs_add(model, programs, DAL__PROGRAM_CONSTRAINTS, e->constraint, m));
-    if (!e->U[0] && !by_columns) return DAL_STATUS_OK;
+    if (m == 0) return;
+    dal__programs_add(model, programs, DAL__PROGRAM_CONSTRAINTS, e->constraint, m);
+    if (!e->U[0] && !by_columns) return;
     programs->program[DAL__PROGRAM_CONSTRAINT].is_by_columns = by_columns;
-    return dal__programs_add_lists(model, programs, DAL__PROGRAM_CONSTRAINT, lists, 3);
+    dal__programs_add_lists(model, programs, DAL__PROGRAM_CONSTRAINT, lists, 3);
 }
 
 /* D, A, W(q,u)^-1 A^T; nothing where W does not depend on v, or has no inverse. */
@@ -51,35 +51,36 @@ static dal_status add_projection(dal_model *model, dal__programs *programs)
     const dal__nodes lists[] = {{e->constraint, m}, {e->A, m * n}, {U, m * n}};
     if (!U) return DAL_STATUS_MEMORY;
     DAL_TRY(dal__solve_mass_at_pi(model, U));
-    return dal__programs_add_lists(model, programs, DAL__PROGRAM_PROJECTION, lists, 3);
+    dal__programs_add_lists(model, programs, DAL__PROGRAM_PROJECTION, lists, 3);
+    return DAL_STATUS_OK;
 }
 
 /* h, B; nothing for vakonomic systems. */
-static dal_status add_reactions(dal_model *model, dal__programs *programs)
+static void add_reactions(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
     const dal__nodes lists[] = {{e->h, e->m}, {e->B, e->m * e->n}};
-    if (e->m == 0 || e->vakonomic) return DAL_STATUS_OK;
-    return dal__programs_add_lists(model, programs, DAL__PROGRAM_REACTIONS, lists, 2);
+    if (e->m == 0 || e->vakonomic) return;
+    dal__programs_add_lists(model, programs, DAL__PROGRAM_REACTIONS, lists, 2);
 }
 
 /* D, A, R = W^-1 B^T, W^-1 b, c; nothing for vakonomic systems. */
-static dal_status add_blocks(dal_model *model, dal__programs *programs)
+static void add_blocks(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m, mn = m * n;
     const bool by_columns = is_by_columns(e);
     const dal__nodes lists[] = {
         {e->constraint, m}, {e->A, mn}, {e->R, by_columns ? 0 : mn}, {e->a, n}, {e->c, m}};
-    if (e->vakonomic) return DAL_STATUS_OK;
+    if (e->vakonomic) return;
     programs->program[DAL__PROGRAM_BLOCKS].is_by_columns = by_columns;
-    return dal__programs_add_lists(model, programs, DAL__PROGRAM_BLOCKS, lists, 5);
+    dal__programs_add_lists(model, programs, DAL__PROGRAM_BLOCKS, lists, 5);
 }
 
-static dal_status add_if(dal_model *model, dal__programs *programs, bool present,
-                         dal__program_code code, const dal__node *outputs, int count)
+static void add_if(dal_model *model, dal__programs *programs, bool present, dal__program_code code,
+                   const dal__node *outputs, int count)
 {
-    return present ? dal__programs_add(model, programs, code, outputs, count) : DAL_STATUS_OK;
+    if (present) dal__programs_add(model, programs, code, outputs, count);
 }
 
 /* All programs of a system whose accelerations are F. */
@@ -87,32 +88,31 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
 {
     const dal__equations *e = &model->equations;
     int start = 2 * e->n + e->multipliers + 1;
-    DAL_TRY(dal__programs_begin(e, p, e->n, e->multipliers));
+    dal__programs_begin(model, p, e->n, e->multipliers);
     dal__programs_save_pivots(e, p);
     DAL_TRY(dal__programs_add_motion(model, p, F));
-    DAL_TRY(add_constraint(model, p));
+    add_constraint(model, p);
     DAL_TRY(add_projection(model, p));
-    DAL_TRY(add_blocks(model, p));
-    DAL_TRY(add_if(model, p, e->holonomic, DAL__PROGRAM_HOLONOMIC, e->position, e->holonomic));
-    DAL_TRY(add_if(model, p, e->potential, DAL__PROGRAM_POTENTIAL, e->potential, 3 * e->n));
-    DAL_TRY(dal__programs_add_diagnosis(model, p));
-    DAL_TRY(add_if(model, p, e->normal, DAL__PROGRAM_ENERGY_NORMAL, e->normal, 1 + 3 * e->n));
-    DAL_TRY(add_if(model, p, e->mu, DAL__PROGRAM_GAUGE, &e->mu, 1));
-    DAL_TRY(add_if(model, p, e->mu_gradient, DAL__PROGRAM_GAUGE_GRADIENT, e->mu_gradient,
-                   2 * e->n + 1));
-    DAL_TRY(add_if(model, p, e->guards, DAL__PROGRAM_GUARDS, e->guard, e->guards));
-    DAL_TRY(dal__programs_add(model, p, DAL__PROGRAM_START, e->start, start));
-    DAL_TRY(add_if(model, p, e->energy, DAL__PROGRAM_ENERGY, &e->energy, 1));
-    DAL_TRY(add_if(model, p, e->picture, DAL__PROGRAM_PICTURE, e->picture, DAL_PICTURE_COUNT));
+    add_blocks(model, p);
+    add_if(model, p, e->holonomic, DAL__PROGRAM_HOLONOMIC, e->position, e->holonomic);
+    add_if(model, p, e->potential, DAL__PROGRAM_POTENTIAL, e->potential, 3 * e->n);
+    dal__programs_add_diagnosis(model, p);
+    add_if(model, p, e->normal, DAL__PROGRAM_ENERGY_NORMAL, e->normal, 1 + 3 * e->n);
+    add_if(model, p, e->mu, DAL__PROGRAM_GAUGE, &e->mu, 1);
+    add_if(model, p, e->mu_gradient, DAL__PROGRAM_GAUGE_GRADIENT, e->mu_gradient, 2 * e->n + 1);
+    add_if(model, p, e->guards, DAL__PROGRAM_GUARDS, e->guard, e->guards);
+    dal__programs_add(model, p, DAL__PROGRAM_START, e->start, start);
+    add_if(model, p, e->energy, DAL__PROGRAM_ENERGY, &e->energy, 1);
+    add_if(model, p, e->picture, DAL__PROGRAM_PICTURE, e->picture, DAL_PICTURE_COUNT);
     const int events = e->events;
     bool sets = false;
     for (int k = 0; k < events; k++) sets = sets || e->event[k].actions & DAL_EVENT_SETS;
-    DAL_TRY(add_if(model, p, events, DAL__PROGRAM_EVENT_VALUES, e->event_value, events));
-    DAL_TRY(add_if(model, p, events, DAL__PROGRAM_EVENT_RATES, e->event_rate, events));
-    DAL_TRY(add_if(model, p, sets, DAL__PROGRAM_EVENT_STATES, e->event_state, 2 * e->n * events));
-    DAL_TRY(add_if(model, p, events, DAL__PROGRAM_EVENT_NORMALS, e->event_normal,
-                   (1 + 2 * e->n) * events));
-    return add_if(model, p, e->exact[0], DAL__PROGRAM_EXACT, e->exact, 2 * e->n);
+    add_if(model, p, events, DAL__PROGRAM_EVENT_VALUES, e->event_value, events);
+    add_if(model, p, events, DAL__PROGRAM_EVENT_RATES, e->event_rate, events);
+    add_if(model, p, sets, DAL__PROGRAM_EVENT_STATES, e->event_state, 2 * e->n * events);
+    add_if(model, p, events, DAL__PROGRAM_EVENT_NORMALS, e->event_normal, (1 + 2 * e->n) * events);
+    add_if(model, p, e->exact[0], DAL__PROGRAM_EXACT, e->exact, 2 * e->n);
+    return DAL_STATUS_OK;
 }
 
 /* ---- the system ---- */
@@ -164,14 +164,13 @@ static dal_status describe(dal_model *model)
 }
 
 /* Adds a program to the system and to the extended one. */
-static dal_status add_to_both(dal_model *model, dal__program_code code, const dal__node *outputs,
-                              int count)
+static void add_to_both(dal_model *model, dal__program_code code, const dal__node *outputs,
+                        int count)
 {
     const dal__equations *e = &model->equations;
     dal__programs *const programs[] = {&model->programs, &model->extended_programs};
     for (int k = 0; k < (e->extended ? 2 : 1); k++)
-        DAL_TRY(dal__programs_add(model, programs[k], code, outputs, count));
-    return DAL_STATUS_OK;
+        dal__programs_add(model, programs[k], code, outputs, count);
 }
 
 /* The correction by which v returns to D = 0; nothing where W, or A W^-1 A^T, has no inverse. */
@@ -183,7 +182,8 @@ static dal_status add_correction(dal_model *model)
     if (e->m == 0 || (!e->U[0] && !is_by_columns(e))) return DAL_STATUS_OK;
     const dal_status status = dal__motion_correct(model, x);
     if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
-    return status == DAL_STATUS_OK ? add_to_both(model, DAL__PROGRAM_CORRECTION, x, e->n) : status;
+    if (status == DAL_STATUS_OK) add_to_both(model, DAL__PROGRAM_CORRECTION, x, e->n);
+    return status;
 }
 
 /* K pi and its derivatives, of an effort that is not the identity.  Nodes are made after all
@@ -206,7 +206,7 @@ static dal_status add_effort(dal_model *model, dal_error *error)
             model->system.properties |= DAL_EFFORT_OF_V;
     if (model->system.properties & DAL_EFFORT_OF_V)
         model->system.properties &= ~(unsigned)DAL_F_POSITIONAL;
-    if (status == DAL_STATUS_OK) status = add_to_both(model, DAL__PROGRAM_EFFORT, out, 3 * n);
+    if (status == DAL_STATUS_OK) add_to_both(model, DAL__PROGRAM_EFFORT, out, 3 * n);
     return dal__check_size(status, error);
 }
 
@@ -218,9 +218,8 @@ static dal_status add_motion_equations(dal_model *model, dal_error *error)
     model->system.equations = count;
     if (!out) return dal__memory_error(error);
     DAL_TRY(dal__parse_motion_equations(model, out, error));
-    const dal_status status =
-        count > 0 ? add_to_both(model, DAL__PROGRAM_EQUATIONS, out, count) : DAL_STATUS_OK;
-    return dal__check_size(status, error);
+    if (count > 0) add_to_both(model, DAL__PROGRAM_EQUATIONS, out, count);
+    return DAL_STATUS_OK;
 }
 
 /* What enforces g alone; where W need not have an inverse it is made of the constraint. */
@@ -233,7 +232,7 @@ static dal_status add_position(dal_model *model)
     if (!out) return DAL_STATUS_MEMORY;
     const dal_status status = dal__motion_place(model, out);
     if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
-    if (status == DAL_STATUS_OK) DAL_TRY(add_to_both(model, DAL__PROGRAM_POSITION, out, count));
+    if (status == DAL_STATUS_OK) add_to_both(model, DAL__PROGRAM_POSITION, out, count);
     return status;
 }
 
@@ -247,12 +246,12 @@ static dal_status add_enforcement(dal_model *model)
     if (e->vakonomic && (m == 0 || !e->U[0])) return DAL_STATUS_OK;
     const dal_status status = dal__motion_enforce(model, out);
     if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
-    if (status == DAL_STATUS_OK) DAL_TRY(dal__motion_react(model, y));
-    if (status == DAL_STATUS_OK) DAL_TRY(add_to_both(model, DAL__PROGRAM_ENFORCEMENT, out, n + m));
-    if (status == DAL_STATUS_OK) DAL_TRY(add_to_both(model, DAL__PROGRAM_REACTION, y, n));
-    if (status == DAL_STATUS_OK && m > 0)
-        DAL_TRY(add_to_both(model, DAL__PROGRAM_CONSTRAINT_VALUE, e->constraint, m));
-    return status;
+    DAL_TRY(status);
+    DAL_TRY(dal__motion_react(model, y));
+    add_to_both(model, DAL__PROGRAM_ENFORCEMENT, out, n + m);
+    add_to_both(model, DAL__PROGRAM_REACTION, y, n);
+    if (m > 0) add_to_both(model, DAL__PROGRAM_CONSTRAINT_VALUE, e->constraint, m);
+    return DAL_STATUS_OK;
 }
 
 /* What the scales of D, E, invariants, g, h and R = B^T h are made from.  Nodes are made after all
@@ -321,14 +320,14 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_STATUS_OK) status = dal__potential(model);
     if (status == DAL_STATUS_OK) status = describe(model);
     if (status == DAL_STATUS_OK) status = add_programs(model, &model->programs, model->equations.F);
-    if (status == DAL_STATUS_OK) status = add_reactions(model, &model->programs);
+    if (status == DAL_STATUS_OK) add_reactions(model, &model->programs);
     if (status == DAL_STATUS_OK && model->equations.extended)
         status = add_programs(model, &model->extended_programs, model->equations.extended);
     if (status == DAL_STATUS_OK) DAL_TRY(dal__parse_observed(model, error));
     if (status == DAL_STATUS_OK) status = dal__insert_reactions(model);
     if (status == DAL_STATUS_OK && model->equations.invariants)
-        status = add_to_both(model, DAL__PROGRAM_INVARIANTS, model->equations.invariant,
-                             model->equations.invariants);
+        add_to_both(model, DAL__PROGRAM_INVARIANTS, model->equations.invariant,
+                    model->equations.invariants);
     if (status == DAL_STATUS_OK) status = add_correction(model);
     if (status == DAL_STATUS_OK) status = add_enforcement(model);
     if (status == DAL_STATUS_OK) status = add_position(model);
