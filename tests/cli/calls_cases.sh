@@ -41,7 +41,7 @@ fails_openly() {
 }
 
 fails_calls() { raises && shared_object fail_call && without_call 0 --version && [ ! -s err ]; }
-if needs 69 "no compiler for calls that fail" fails_calls; then
+if needs 71 "no compiler for calls that fail" fails_calls; then
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
     cat >ball.yaml <<'EOF'
 coordinates: [x, y]
@@ -120,10 +120,13 @@ EOF
     fails_openly run $motion --output place --force
     fails_openly resume place --time 2
     fails_openly section place --on x=0.3
+    prepare() { cp -R begun/study-1 place; }
+    fails_openly study short.yaml --shard 2/2 --output place --threads 1
     prepare() { cp -R whole-study place; }
     fails_openly study short.yaml --output place --threads 1 --force --no-page
     prepare() { cp -R whole-ensemble place; }
     fails_openly $few --output place --threads 1 --force --no-page
+    fails_openly resume place --members 600 --threads 1 --no-page
     if sanitized; then
         cannot 4 "sanitizers make calls of their own beside the page's"
     else
@@ -138,7 +141,7 @@ EOF
         fails_openly report place
     fi
     rm -rf run
-    cut_off 137 9 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --checkpoint 0 --output run
+    cut_off 137 9 3 run ball.yaml --integrator rk4 --step 0.1 --time 3 --checkpoint 0 --output run
     prepare() { cp -R run place; }
     fails_openly resume place
     counted

@@ -24,7 +24,11 @@ expected skate >nearly.yaml
 expected knife >nowhere.yaml
 mkdir -p folder/manifest.json more
 printf '{} x' >more/manifest.json
-mkdir colon comma name value
+mkdir colon comma name value letter code list
+printf '{"\\q": 1}' >letter/manifest.json
+printf '{"\\u12g4": 1}' >code/manifest.json
+printf '[1]' >list/manifest.json
+awk 'BEGIN { print "t,x,y,phi"; for (t = 0; t <= 1; t += 0.125) print t ",1,0,0" }' >curve.csv
 printf '{"a" 1}' >colon/manifest.json
 printf '{"a": 1 "b": 2}' >comma/manifest.json
 printf '{"a": 1,}' >name/manifest.json
@@ -59,6 +63,25 @@ case: values that no option has
 2 | resume comma | says ^dalembert: comma/manifest.json:1:9: no JSON: a comma or an end is expected$
 2 | resume name | says ^dalembert: name/manifest.json:1:9: no JSON: a name in quotes is expected$
 2 | resume value | says ^dalembert: value/manifest.json:1:7: no JSON: a value is expected$
+2 | resume letter | says ^dalembert: letter/manifest.json:1:[23]: no JSON: the text does not go on so$
+2 | resume code | says ^dalembert: code/manifest.json:1:[23]: no JSON: the text does not go on so$
+2 | resume list | says ^dalembert: list/manifest.json:1:1: an object is required$
+2 | run skate.yaml $run --samples 100000001 --sampling log | says ^dalembert: --samples: 100000001 are too many for
+2 | run skate.yaml --integrator rk4 --step 1e-5 --time 5000 --samples 100000001 --sampling steps | says 1 are too many for
+2 | explain skate.yaml $run --details --format csv | says ^dalembert: --format excludes --details$
+2 | predict skate.yaml $run --details --format csv | says ^dalembert: --format excludes --details$
+2 | predict skate.yaml --integrator rk4 --step 0.1,few --time 1 | says ^dalembert: --step: 'few' is not a number$
+case: names that the system lacks
+2 | check skate.yaml --set mass=2 | says ^dalembert: unknown parameter 'mass'; there is m, J, k$
+2 | action skate.yaml curve.csv --set mass=2 | says ^dalembert: unknown parameter 'mass'; there is m, J, k$
+2 | generate skate.yaml --integrator rk4 --start zz=1 | says ^dalembert: skate.yaml: unknown start name 'zz'
+2 | explain skate.yaml $run --start zz=1 | says ^dalembert: skate.yaml: unknown start name 'zz'
+2 | predict skate.yaml $run --start zz=1 | says ^dalembert: skate.yaml: unknown start name 'zz'
+2 | section skate.yaml --on x $run --start zz=1 | says ^dalembert: skate.yaml: unknown start name 'zz'
+2 | lyapunov skate.yaml $run --start zz=1 | says ^dalembert: skate.yaml: unknown start name (\(q, v space\) )?'zz'
+2 | order skate.yaml --integrators rk4 --time 1 --start zz=1 | says ^dalembert: reference: unknown start value 'zz'
+2 | steer skate.yaml --to x=1 $run --start zz=1 | says ^dalembert: skate.yaml: unknown start name 'zz'
+2 | ensemble skate.yaml $run --members 2 --seed 1 --vary 'x=normal(0,1)' --start zz=1 --output there | says unknown start name .*'zz'
 case: velocities
 2 | run skate.yaml $run --columns vy | says no column 'vy'; did you mean 'y''\?$
 2 | run skate.yaml $run --start vx=2 | says unknown start name 'vx'; did you mean 'x''\?$
@@ -78,3 +101,14 @@ case: files
 2 | resume skate.yaml | says ^dalembert: 'skate.yaml' is no directory$
 3 | run blow.yaml --integrator rk4 --step 0.5 --time 10 | says ^dalembert: a smaller step may help: --step 0.05$
 END
+
+case_is "characters of a manifest, by their codes"
+mkdir characters
+for text in '\u0041\ud83d\ude00=A😀' '\u00e9\u20ac=é€' '\ud83dx=�x' '\ud83d\u0041=�A' '\ude00=�' '\ud83d\ud83d=��'; do
+    printf '{"dalembert": "0.4.0", "input": {"system": "system.yaml", "%s": 1}}' "${text%=*}" >characters/manifest.json
+    try 2 resume characters
+    says "unknown option '${text#*=}' of a run\$"
+done
+printf '{"dalembert": "0.4.0", "input": {"system": "system.yaml", "step": [1]}}' >characters/manifest.json
+try 2 resume characters
+says '^dalembert: characters/manifest.json:1:67: step: a single value is required$'

@@ -119,6 +119,10 @@ expect "no motion" grep -q '<strong>Is not led to the target' torn/report/index.
 printf '{' >torn/steer.json
 try 2 report torn
 says 'torn/steer.json'
+cp -R cart nameless
+sed '1s/^t,/u,/' cart/inputs.csv >nameless/inputs.csv
+try 2 report nameless
+says "^dalembert: nameless/inputs.csv: there is no column 't'"
 
 case_is "a controlled system that turns"
 cat >robot.yaml <<'YAML'

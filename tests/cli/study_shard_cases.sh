@@ -1,6 +1,6 @@
 # Studies in pieces: interrupted and killed anywhere, in shards and merged, by several processes.
 
-needs 147 "no compiler for signals at given places" raises || return 0
+needs 149 "no compiler for signals at given places" raises || return 0
 cp plane.yaml plane
 cat >pieces.yaml <<'END2'
 title: many short runs and a long one
@@ -158,6 +158,12 @@ table <<'END'
 2 | merge --output incomplete | says the DIR... is missing
 2 | merge shard-1 | says --output is missing
 END
+cp shard-1/systems/plane.yaml shard-2/systems/plane.yaml
+manifest=$(grep -l '"status": "done"' shard-2/runs/*/manifest.json | head -n 1)
+sed 's/"status": "done"/"status": "running"/' "$manifest" >begun.json
+mv begun.json "$manifest"
+try 2 merge shard-1 shard-2 shard-3 --output incomplete
+says "^dalembert: 'shard-2/runs/.*' is not finished: dalembert resume shard-2\$"
 for shard in 0/2 3/2 2 1/x x/2 1/; do
     try 2 study pieces.yaml --output incomplete --shard $shard
     says '--shard: '
