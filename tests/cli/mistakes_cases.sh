@@ -68,8 +68,8 @@ case: values that no option has
 2 | resume list | says ^dalembert: list/manifest.json:1:1: an object is required$
 2 | run skate.yaml $run --samples 100000001 --sampling log | says ^dalembert: --samples: 100000001 are too many for
 2 | run skate.yaml --integrator rk4 --step 1e-5 --time 5000 --samples 100000001 --sampling steps | says 1 are too many for
-2 | explain skate.yaml $run --details --format csv | says ^dalembert: --format excludes --details$
-2 | predict skate.yaml $run --details --format csv | says ^dalembert: --format excludes --details$
+2 | ensemble skate.yaml $run --members 2 --seed 1 --vary 'x=normal(0,1)' --quantiles 0.1,few --output there | says ^dalembert: --quantiles: 'few' is not a number$
+2 | run skate.yaml $run --sensitivities mass | says ^dalembert: --sensitivities: unknown parameter 'mass'
 2 | predict skate.yaml --integrator rk4 --step 0.1,few --time 1 | says ^dalembert: --step: 'few' is not a number$
 case: names that the system lacks
 2 | check skate.yaml --set mass=2 | says ^dalembert: unknown parameter 'mass'; there is m, J, k$

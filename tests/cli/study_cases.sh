@@ -133,6 +133,9 @@ bad 'integrators: rk4\nstep: 2\ntime: 1\nsystems: [line.yaml]\n' 'step 2 is larg
 bad 'integrators: rk4\nstep: 1e-300\ntime: 1\nsystems: [line.yaml]\n' 'steps of 1e-300 are more than can be counted'
 bad 'integrators: rk4\nstep: -1\ntime: 1\nsystems: [line.yaml]\n' 'line.yaml: a step of -1 does not lead from t = 0 to t = 1'
 bad 'integrators: rk4\nstep: nan\ntime: 1\nsystems: [line.yaml]\n' "'nan' is not a number"
+bad 'integrators: all+zz\nstep: 0.1\ntime: 1\nsystems: [line.yaml]\n' "bad.yaml:1:14: unknown modifier 'zz'"
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: line.yaml, displace: {pi_x: few}}]\n' \
+    "bad.yaml:4:48: displace: 'few' is not a number"
 bad 'integrators: rk4\nstep: 0.1\ntime: few\nsystems: [line.yaml]\n' "bad.yaml:3:7: time: 'few' is not a number"
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nfrom: few\nsystems: [line.yaml]\n' "bad.yaml:4:7: from: 'few' is not a number"
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\noptions: {solver: [newton]}\nsystems: [line.yaml]\n' \

@@ -317,6 +317,9 @@ bad "${common}seeds: [0.5]\nsystems: [{system: line.yaml, set: {k: {between: [1,
 bad "${common}seeds: 1\nsystems: [{system: line.yaml, set: {k: {between: [2, 1]}}}]\n" \
     'bad.yaml:6:50: between: 2 is not below 1'
 bad "${common}seeds: 1\nsystems: [{system: line.yaml, set: {k: {between: [1]}}}]\n" 'two numbers'
+bad "${common}seeds: 1\nsystems: [{system: line.yaml, set: {k: {between: [1, few]}}}]\n" "between: 'few' is not a number"
+bad "${common}mechanics: [nonholonomc]\nsystems: [line.yaml]\n" "unknown mechanics 'nonholonomc'"
+bad "${common}systems: [line.yaml]\nexpect: {line.yaml: {rk4: {E: {is: none, step: few}}}}\n" "step: 'few' is not a number"
 bad "${common}systems: [{system: line.yaml, set: {k: {from: 0, to: 1, count: 20000}}}]\n" \
     'does not have 1\.\.10000 values'
 bad "integrators: rk4\nstep: [0.1, 0.1]\ntime: 1\nsystems: [line.yaml]\n" \
