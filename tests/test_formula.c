@@ -190,6 +190,9 @@ static void test_locale(void)
 
 /* ---- errors ---- */
 
+#define TEN     "xxxxxxxxxx"
+#define HUNDRED TEN TEN TEN TEN TEN TEN TEN TEN TEN TEN
+
 static const struct {
     const char *text;
     dal_status status;
@@ -233,6 +236,10 @@ static const struct {
     {"x '", DAL_STATUS_SYNTAX, 1, 3, "unexpected '"},
     {"x/0", DAL_STATUS_SYNTAX, 1, 2, "division by zero"},
     {"1 + 1/(1 - 1)", DAL_STATUS_SYNTAX, 1, 6, "division by zero"},
+    {"x/0 + y", DAL_STATUS_SYNTAX, 1, 2, "division by zero"},
+    {"(x/0)", DAL_STATUS_SYNTAX, 1, 3, "division by zero"},
+    {"max(x/0, y)", DAL_STATUS_SYNTAX, 1, 6, "division by zero"},
+    {"x[1/0]", DAL_STATUS_SYNTAX, 1, 4, "division by zero"},
     {"x/(y - y)", DAL_STATUS_SYNTAX, 1, 2, "division by zero"},
     {"0^-1", DAL_STATUS_SYNTAX, 1, 2, "division by zero"},
     {"1/(0*x)", DAL_STATUS_SYNTAX, 1, 2, "division by zero"},
@@ -253,6 +260,8 @@ static const struct {
     {"x**2", DAL_STATUS_SYNTAX, 1, 2, "a power is written ^, not **"},
     {"x + sum(i, 2, 1, (x", DAL_STATUS_SYNTAX, 1, 5, "a '(' is never closed"},
     {"(x[1)", DAL_STATUS_SYNTAX, 1, 2, "a '[' is never closed"},
+    {"(x[1", DAL_STATUS_SYNTAX, 1, 2, "a '[' is never closed"},
+    {"1 + " HUNDRED HUNDRED "[1]", DAL_STATUS_SYNTAX, 1, 5, "a name is too long"},
     {"sum(i, 1, 2, x, y)", DAL_STATUS_SYNTAX, 1, 1, "a sum is written sum(i, 1, N, formula in i)"},
 };
 
@@ -484,6 +493,14 @@ static void test_many_terms(void)
     CU_ASSERT(many < 8.0 * few);
 }
 
+/* x[1] is x. */
+static dal__node resolve_index(void *user, const char *name, size_t length, bool prime,
+                               dal_error *error)
+{
+    const bool is_index = length == 2 && name[1] == '1';
+    return formula_resolve(user, name, is_index ? 1 : length, prime, error);
+}
+
 static void check_memory(const char *text)
 {
     allocation_trial trial = {0};
@@ -492,8 +509,9 @@ static void check_memory(const char *text)
         dal_error error;
         allocation_start(&trial);
         dal__graph *graph = formula_graph();
-        allocation_end(&trial,
-                       graph ? formula_parse(graph, text, &node, &error) : DAL_STATUS_MEMORY);
+        const dal__names names = {.resolve = resolve_index, .user = graph};
+        allocation_end(&trial, graph ? dal__parse(graph, text, strlen(text), &names, &node, &error)
+                                     : DAL_STATUS_MEMORY);
         dal__graph_free(graph);
     }
 }
@@ -505,7 +523,7 @@ static void test_out_of_memory(void)
     char *deep = repeated("", "(sin(x)+", "y", ")", 500);
     char *wide = repeated("max(", "x, ", "y)", "", 16);
     /* What is opened when the list of these grows. */
-    static const char *const last[] = {"(x)", "-x", "sin(x)", "sum(i, 1, 1, x)", "x + x"};
+    static const char *const last[] = {"(x)", "-x", "x[1]", "sin(x)", "sum(i, 1, 1, x)", "x + x"};
     for (size_t i = 0; i < sizeof last / sizeof *last; i++) {
         char *full = repeated("", "(", last[i], ")", 31);
         check_memory(full);
@@ -516,14 +534,6 @@ static void test_out_of_memory(void)
     check_memory(wide);
     free(deep);
     free(wide);
-}
-
-/* x[1] is x. */
-static dal__node resolve_index(void *user, const char *name, size_t length, bool prime,
-                               dal_error *error)
-{
-    const bool is_index = length == 2 && name[1] == '1';
-    return formula_resolve(user, name, is_index ? 1 : length, prime, error);
 }
 
 /* A graph that holds no more than a given number of nodes: the status and the column belong to
