@@ -1,5 +1,6 @@
 /* test_cache.c - compiled objects in a cache: which are loaded, which are compiled again, and what
  * compilers leave that were killed. */
+#include "allocation.h"
 #include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
@@ -143,6 +144,37 @@ static void test_only_cached(void)
     unlink(only_object(path, sizeof path));
     unlink("called");
     unlink("fake");
+}
+
+/* Where no object has the key, which tells names of coordinates and methods, no text is made, which
+ * takes memory. */
+static void test_key(void)
+{
+    static const char renamed[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - 3*y^2/2\n"
+                                  "start: {x: 1, y: 1}\n";
+    static const struct {
+        const char *model, *method;
+        bool has_key;
+    } cases[] = {{cached_model, "rk4", true},
+                 {cached_rival, "rk4", true}, /* other numbers alone */
+                 {renamed, "rk4", false},
+                 {cached_model, "stormer-verlet", false}};
+    const dal_native_options only = {.cache = kept, .only_cached = true};
+    compiler_fake("exec cc \"$@\"");
+    use_cache(cached_model);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const dal_run_spec spec =
+            fixture_spec(fixture_system(cases[i].model), cases[i].method, DAL_PHYSICAL, 0.01);
+        dal_run *run = fixture_run(&spec);
+        dal_native *native;
+        allocation_fail_after(1); /* the native itself */
+        const dal_status status = dal_native_begin(&native, run, &only, NULL);
+        allocation_fail_after(-1);
+        CU_ASSERT_EQUAL(status, cases[i].has_key ? DAL_STATUS_MEMORY : DAL_STATUS_UNSUPPORTED);
+        dal_run_free(run);
+    }
+    unlink("fake");
+    folder_remove(kept);
 }
 
 /* Any byte of it, of what the loader never reads too; cut short, or longer, or empty. */
@@ -309,6 +341,7 @@ void suite_cache(void)
     CU_pSuite suite = CU_add_suite("cache", set_up, tear_down);
     if (!compiler_there()) return;
     CU_add_test(suite, "code of the cache alone", test_only_cached);
+    CU_add_test(suite, "no text without a key", test_key);
     CU_add_test(suite, "an object that was changed", test_changed_object);
     CU_add_test(suite, "objects of other texts and commands", test_objects_apart);
     CU_add_test(suite, "objects that others may write", test_object_of_others);

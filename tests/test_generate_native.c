@@ -7,10 +7,12 @@
 #include "folder.h"
 #include <CUnit/CUnit.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -239,6 +241,31 @@ static void test_batch_start(void)
 
 /* ---- what goes wrong ---- */
 
+/* The formulas of a system that is made by hand are not known. */
+static void test_hand_made(void)
+{
+    const dal_system hand = {.name = "spring", .n = 1, .call.field = fixture_oscillate};
+    const dal_run_spec spec = fixture_spec(&hand, "rk4", DAL_PHYSICAL, 0.1);
+    dal_run *run = fixture_run(&spec);
+    dal_batch *batch = NULL;
+    dal_native *native;
+    dal_error error[3] = {{0}};
+    CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 2, 0, NULL), DAL_STATUS_OK);
+    dal_native_begin(&native, run, &options, &error[0]);
+    CU_ASSERT_PTR_NULL(native);
+    dal_native_begin_observables(&native, run, &options, &error[1]);
+    CU_ASSERT_PTR_NULL(native);
+    dal_native_begin_batch(&native, batch, &options, &error[2]);
+    CU_ASSERT_PTR_NULL(native);
+    for (int i = 0; i < 3; i++) {
+        CU_ASSERT_EQUAL(error[i].status, DAL_STATUS_UNSUPPORTED);
+        CU_ASSERT_STRING_EQUAL(error[i].message,
+                               "'spring' is not made from a model: its formulas are not known");
+    }
+    dal_run_free(run);
+    dal_batch_free(batch);
+}
+
 /* Whatever cannot be allocated, all is left stepping by its tape. */
 static void test_memory(void)
 {
@@ -261,6 +288,30 @@ static void test_memory(void)
     dal_run_free(run);
     dal_batch_free(batch);
     dal_batch_free(tape);
+}
+
+/* Whatever cannot be allocated before the compiler runs, nothing is left in the cache. */
+static void test_memory_to_begin(void)
+{
+    const dal_native_options fake = {.cache = "begun", .compiler = "./fake", .patience = 600};
+    const dal_run_spec spec = fixture_spec(fixture_system(falling), "rk4", DAL_PHYSICAL, 0.001);
+    dal_run *run = fixture_run(&spec);
+    allocation_trial trial = {0};
+    compiler_fake("exit 1");
+    CU_ASSERT_EQUAL(mkdir("begun", 0700), 0);
+    while (allocation_next(&trial)) {
+        dal_native *native;
+        allocation_start(&trial);
+        const dal_status status = dal_native_begin(&native, run, &fake, NULL);
+        if (allocation_end(&trial, status)) CU_ASSERT_PTR_NULL(native);
+        dal_native_free(native);
+        CU_ASSERT_EQUAL(rmdir("begun"), 0);
+        CU_ASSERT_EQUAL(mkdir("begun", 0700), 0);
+    }
+    CU_ASSERT(trial.failures > 0);
+    dal_run_free(run);
+    unlink("fake");
+    rmdir("begun");
 }
 
 /* The same of compiled observables. */
@@ -320,8 +371,12 @@ static void test_cache_refused(void)
     refused_cache(NULL, DAL_STATUS_ARGUMENT, "no directory");
     refused_cache("", DAL_STATUS_ARGUMENT, "no directory");
     refused_cache(long_name, DAL_STATUS_ARGUMENT, "too long");
-    refused_cache("/dev/null", DAL_STATUS_IO, "/dev/null");
-    refused_cache("/nowhere/at/all", DAL_STATUS_IO, "/nowhere/at/all");
+    refused_cache("/dev/null", DAL_STATUS_IO, "'/dev/null' is not a directory of this user alone");
+    refused_cache("/nowhere/at/all", DAL_STATUS_IO,
+                  "cannot make the directory '/nowhere/at/all': ");
+    CU_ASSERT_EQUAL(symlink("nowhere", "dangling"), 0);
+    refused_cache("dangling/", DAL_STATUS_IO, "'dangling/': "); /* to be made, or examined */
+    unlink("dangling");
     CU_ASSERT_EQUAL_FATAL(mkdir("open", 0700), 0);
     for (int mode = 0701; mode < 0730; mode += 007) { /* others search; the group reads; writes */
         CU_ASSERT_EQUAL(chmod("open", (mode_t)mode), 0);
@@ -335,6 +390,35 @@ static void test_cache_refused(void)
     CU_ASSERT_EQUAL(folder_files("open"), 0);
     unlink("link");
     folder_remove("open");
+}
+
+/* Begins to compile where a process may have none of a resource. */
+static void begin_without(int resource, const char *reason)
+{
+    struct rlimit usual, none;
+    dal_run *run = new_run(falling);
+    dal_native *native;
+    dal_error error = {0};
+    CU_ASSERT_EQUAL_FATAL(getrlimit(resource, &usual), 0);
+    none = (struct rlimit){0, usual.rlim_max};
+    CU_ASSERT_EQUAL_FATAL(setrlimit(resource, &none), 0);
+    const dal_status status = dal_native_begin(&native, run, &options, &error);
+    CU_ASSERT_EQUAL_FATAL(setrlimit(resource, &usual), 0);
+    CU_ASSERT_EQUAL(status, DAL_STATUS_IO);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, reason));
+    CU_ASSERT_PTR_NULL(native);
+    CU_ASSERT_EQUAL(folder_files("cache"), 0);
+    dal_run_free(run);
+}
+
+/* The source of a compilation cannot be made, or not be written; nothing is left of it. */
+static void test_source_refused(void)
+{
+    folder_remove("cache");
+    void (*const handler)(int) = signal(SIGXFSZ, SIG_IGN);
+    begin_without(RLIMIT_NOFILE, "cannot make the directory './cache/");
+    begin_without(RLIMIT_FSIZE, "cannot write './cache/");
+    signal(SIGXFSZ, handler);
 }
 
 /* Names that a compiler could take for options, or a shell for commands. */
@@ -453,8 +537,11 @@ void suite_generate_native(void)
     CU_add_test(suite, "batches: same bits, same failures", test_batches);
     CU_add_test(suite, "batches: starts after the change", test_batch_start);
     CU_add_test(suite, "memory runs out", test_memory);
+    CU_add_test(suite, "memory to begin runs out", test_memory_to_begin);
     CU_add_test(suite, "memory for samples runs out", test_memory_for_samples);
+    CU_add_test(suite, "systems made by hand", test_hand_made);
     CU_add_test(suite, "directories that cannot be used", test_cache_refused);
+    CU_add_test(suite, "sources that cannot be written", test_source_refused);
     CU_add_test(suite, "directories with unusual names", test_cache_names);
     CU_add_test(suite, "compilers that fail", test_compilers_refused);
     CU_add_test(suite, "a compiler that hangs", test_compiler_hangs);

@@ -175,6 +175,7 @@ static dal_status start_compiler(dal__compilation *c, dal_error *error)
     pid_t process = 0;
     add_words(&full, files);
     const int refused = start_process(&full, c->folder, c->lock, &process);
+    if (refused == ENOMEM) return dal__memory_error(error);
     if (refused)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED, "no compiler '%.200s': %s", c->compiler,
                          strerror(refused));
