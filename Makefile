@@ -265,7 +265,7 @@ $(BUILD)/tests/test_null.o $(BUILD)/tests/test_null_measure.o: $(BUILD)/generate
 
 # Allocation goes through tests/allocation.c, which fails on demand and counts blocks; graphs of formulas are as small
 # as tests/test_full_graph.c wants them.
-WRAPPED = malloc calloc realloc aligned_alloc free dal__graph_create
+WRAPPED = malloc calloc realloc aligned_alloc free yaml_parser_initialize yaml_parser_parse dal__graph_create
 # Of the program the tests use what they call.
 $(BUILD)/tests/program.a: $(filter-out %/commands/main.o,$(CLI_OBJ))
 	@mkdir -p $(@D)

@@ -1,10 +1,12 @@
-/* allocation.c - malloc, calloc, realloc, aligned_alloc, free of the tests (linked with --wrap). */
+/* allocation.c - malloc, calloc, realloc, aligned_alloc, free of the tests (linked with --wrap), and
+ * the functions of libyaml that allocate: a call of these counts as one allocation. */
 #include "allocation.h"
 #include "quick.h"
 
 #include <CUnit/CUnit.h>
 #include <stdatomic.h>
 #include <stddef.h>
+#include <yaml.h>
 
 static _Thread_local long left = -1;
 static _Thread_local int failed;
@@ -68,6 +70,23 @@ void __wrap_free(void *memory)
 {
     if (memory) blocks--;
     __real_free(memory);
+}
+
+int __real_yaml_parser_initialize(yaml_parser_t *parser);
+int __real_yaml_parser_parse(yaml_parser_t *parser, yaml_event_t *event);
+int __wrap_yaml_parser_initialize(yaml_parser_t *parser);
+int __wrap_yaml_parser_parse(yaml_parser_t *parser, yaml_event_t *event);
+
+int __wrap_yaml_parser_initialize(yaml_parser_t *parser)
+{
+    return refuse() ? 0 : __real_yaml_parser_initialize(parser);
+}
+
+int __wrap_yaml_parser_parse(yaml_parser_t *parser, yaml_event_t *event)
+{
+    if (!refuse()) return __real_yaml_parser_parse(parser, event);
+    parser->error = YAML_MEMORY_ERROR; /* which stays */
+    return 0;
 }
 
 /* ---- trials ---- */

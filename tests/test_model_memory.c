@@ -138,6 +138,7 @@ static dal_status read_file(const char *path, dal_error *error)
     dal_model *model;
     const dal_system *system;
     dal_status status = dal_model_read_file(&model, path, error);
+    CU_ASSERT_EQUAL(status, allocation_failed() ? DAL_STATUS_MEMORY : DAL_STATUS_OK);
     if (status == DAL_STATUS_OK) status = dal_model_system(model, &system, error);
     dal_model_free(model);
     return status;

@@ -279,6 +279,24 @@ static void test_many_columns(void)
     free(text);
 }
 
+/* One point more than the documented 100000. */
+static void test_many_points(void)
+{
+    enum { MAX_POINTS = 100000 };
+    char *text = malloc(16 * MAX_POINTS), *end = text;
+    dal_model *model = NULL;
+    dal_error error = {0};
+    CU_ASSERT_PTR_NOT_NULL_FATAL(text);
+    end += sprintf(end, SYSTEM TABLE "files: {f.csv: \"t,M");
+    for (int i = 0; i <= MAX_POINTS; i++) end += sprintf(end, "\\n%d,0", i);
+    sprintf(end, "\"}\n");
+    CU_ASSERT_EQUAL(dal_model_read(&model, "f", text, strlen(text), &error), DAL_STATUS_SYNTAX);
+    CU_ASSERT_STRING_EQUAL(error.message, "f.csv:100002:1: more than 100000 points");
+    CU_ASSERT(error.line == 4 && error.column == 20);
+    CU_ASSERT_PTR_NULL(model);
+    free(text);
+}
+
 /* A text holds its files after it was read from a directory, in block, flow and indented form; what
  * it makes is the same. */
 static void test_source(void)
@@ -328,5 +346,6 @@ void suite_tables(void)
     CU_add_test(suite, "a robot", test_robot);
     CU_add_test(suite, "errors", test_errors);
     CU_add_test(suite, "a head of many columns", test_many_columns);
+    CU_add_test(suite, "too many points", test_many_points);
     CU_add_test(suite, "a text with its files", test_source);
 }
