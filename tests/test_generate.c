@@ -65,6 +65,13 @@ static void test_refusals(void)
     other.method.layer[2] = other.method.layer[1];
     CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_STATUS_UNSUPPORTED);
     other = spec;
+    CU_ASSERT_EQUAL(dal_method_parse(&other.method, "gni", NULL), DAL_STATUS_OK);
+    other.options.space = DAL_PHYSICAL;
+    other.options.reactions = true;
+    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT_STRING_EQUAL(error.message,
+                           "the multipliers lambda1.. of gni are not observed in generated code");
+    other = spec;
     other.parameters = &(dal_setting){"nothing", 1.0};
     other.parameter_count = 1;
     CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_STATUS_NAME);
@@ -173,6 +180,49 @@ static void test_unusual_names(void)
     }
 }
 
+/* Each function of a point has its callback: among the codes, and where these are evaluated. */
+static void test_points(void)
+{
+    static const char *const codes[] = {"FIELD", "JACOBIAN", "CONSTRAINT", "ENERGY_NORMAL"};
+    const dal_run_spec rk4 =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.1);
+    const dal_generate_options with = {.with_field = true};
+    char *text = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_generate(&rk4, &with, &text, NULL), DAL_STATUS_OK);
+    for (int i = 0; i < 4; i++) {
+        static const char *const forms[] = {" DAL_EVAL_%s,", "case DAL_EVAL_%s: ", ", %s, "};
+        for (int k = 0; k < 3; k++) {
+            char wanted[64];
+            snprintf(wanted, sizeof wanted, forms[k], codes[i]);
+            CU_ASSERT_PTR_NOT_NULL(strstr(text, wanted));
+        }
+    }
+    free(text);
+}
+
+/* Keywords of C and C++, and names that its headers may define, are no members. */
+static void test_reserved_members(void)
+{
+    static const char *const reserved[] = {"double", "template", "wchar_t", "INT_x", "M_PI"};
+    static const char *const usual[] = {"m", "M", "dal_x", "INDEX", "double_2"};
+    for (int i = 0; i < 5; i++) {
+        char yaml[256], member[64], *text = NULL;
+        snprintf(yaml, sizeof yaml,
+                 "coordinates: [x]\nparameters: {%s: 2, %s: 3}\n"
+                 "lagrangian: x'^2/2 - %s*x^2 - %s*x\n",
+                 reserved[i], usual[i], reserved[i], usual[i]);
+        const dal_run_spec named = fixture_spec(fixture_system(yaml), "rk4", DAL_PHYSICAL, 0.1);
+        CU_ASSERT_EQUAL_FATAL(dal_generate(&named, NULL, &text, NULL), DAL_STATUS_OK);
+        snprintf(member, sizeof member, "    double %s;\n", reserved[i]);
+        CU_ASSERT_PTR_NULL(strstr(text, member));
+        snprintf(member, sizeof member, "    double %s_parameter_1;\n", reserved[i]);
+        CU_ASSERT_PTR_NOT_NULL(strstr(text, member));
+        snprintf(member, sizeof member, "    double %s;\n", usual[i]);
+        CU_ASSERT_PTR_NOT_NULL(strstr(text, member));
+        free(text);
+    }
+}
+
 static void test_memory(void)
 {
     dal_error error;
@@ -209,6 +259,8 @@ void suite_generate(void)
     CU_add_test(suite, "norms in packs", test_packs);
     CU_add_test(suite, "a Jacobian that is too large", test_large_jacobian);
     CU_add_test(suite, "systems with unusual names", test_unusual_names);
+    CU_add_test(suite, "functions of a point", test_points);
+    CU_add_test(suite, "parameters with names of C", test_reserved_members);
     CU_add_test(suite, "memory runs out", test_memory);
     CU_add_test(suite, "numbers keep their bits", test_numbers);
 }
