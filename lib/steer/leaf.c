@@ -58,7 +58,7 @@ dal_status dal__leaf_check(dal__problem *p, const dal_steering *steering)
     const int functions = steering->has_growth ? g->dimension - g->rank[g->levels - 1] : 0;
     dal_status status = DAL_STATUS_OK;
     bool is_complete = functions <= p->holonomic;
-    if (!keeps_D) return status;
+    if (!keeps_D) return DAL_STATUS_OK;
     for (int degree = 1; degree <= MAX_DEGREE && !is_complete && status == DAL_STATUS_OK;
          degree++) {
         const dal_invariants_settings set = {.degree = degree, .of_coordinates = true};

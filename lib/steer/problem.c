@@ -232,7 +232,7 @@ dal_status dal__problem_inputs(dal__problem *p, double t, const double *z, doubl
     const size_t n = (size_t)p->n, inputs = (size_t)p->inputs;
     const double *pi = z + 3 * n + 1;
     dal_status status = DAL_STATUS_OK;
-    if (inputs == 0) return status;
+    if (inputs == 0) return DAL_STATUS_OK;
     if (p->system->effort == DAL_EFFORT_CONTROLS) {
         memcpy(p->value + e->pi, pi, n * sizeof *z);
         status = dal__problem_evaluate(p, e->control_cost, p->inputs, t, z, out);
