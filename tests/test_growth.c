@@ -134,6 +134,23 @@ static void test_refused(void)
     reference_free(&b);
 }
 
+/* Rows that differ by 1e-10 are dependent in units of 1, though y is so light that each holds; in
+ * units of 1e10 of y they are not, and allow a straight line. */
+static void test_dependent(void)
+{
+    reference b = reference_of_text("coordinates: [x, y, z]\n"
+                                    "lagrangian: (x'^2 + 1e-20*y'^2 + z'^2)/2\n"
+                                    "constraints: [x' - z', \"x' - z' + 1e-10*y'\"]\n");
+    const double units[] = {1.0, 1.0, 1e10, 1.0};
+    dal_error error = {0};
+    dal_growth found;
+    CU_ASSERT_EQUAL(dal_model_growth(b.model, NULL, 0, NULL, &found, &error), DAL_STATUS_SINGULAR);
+    CU_ASSERT_STRING_EQUAL(error.message, "the constraints are dependent about the start");
+    CU_ASSERT_EQUAL(dal_model_growth(b.model, NULL, 0, units, &found, NULL), DAL_STATUS_OK);
+    CU_ASSERT(found.dimension == 3 && found.levels == 1 && found.rank[0] == 1);
+    reference_free(&b);
+}
+
 /* Constraints by themselves: which are integrable, alone or with a factor; which only look so. */
 static void test_rows(void)
 {
@@ -225,6 +242,34 @@ static void test_controls(void)
     }
 }
 
+/* Neither an unknown parameter nor an F that is nowhere finite has a rank. */
+static void test_refused_controls(void)
+{
+    static const struct {
+        const char *text;
+        dal_setting parameter;
+        dal_status status;
+    } refused[] = {
+        {"coordinates: [x]\nlagrangian: x'^2/2\ncontrols: [{x: 1}]\n", {"l", 1.0}, DAL_STATUS_NAME},
+        {"coordinates: [x]\nparameters: {l: 1}\nlagrangian: x'^2/2\n"
+         "forces: {x: sqrt(-1 - x^2)}\ncontrols: [{x: 1}]\n",
+         {"l", 1.0},
+         DAL_STATUS_NOT_FINITE},
+    };
+    const double units[] = {1.0, 1.0, 1.0};
+    for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
+        const dal_system *system;
+        dal_model *model = fixture_model(refused[k].text);
+        int rank = 0;
+        CU_ASSERT_EQUAL(dal_model_set_effort(model, DAL_EFFORT_CONTROLS, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal__controlled_rank(model, &refused[k].parameter, 1, units, &rank, NULL),
+                        refused[k].status);
+        CU_ASSERT_EQUAL(rank, -1);
+        dal_model_free(model);
+    }
+}
+
 void suite_growth(void)
 {
     CU_pSuite suite = CU_add_suite("growth vectors", NULL, NULL);
@@ -235,4 +280,6 @@ void suite_growth(void)
     CU_add_test(suite, "constraints by themselves", test_rows);
     CU_add_test(suite, "controls with drift", test_controls);
     CU_add_test(suite, "refusals", test_refused);
+    CU_add_test(suite, "dependent constraints", test_dependent);
+    CU_add_test(suite, "controls that are refused", test_refused_controls);
 }
