@@ -261,10 +261,11 @@ static void test_stopped_anywhere(void)
 }
 
 /* On a circle of radius 1 a turn by theta costs 6 theta^2/T^3; the angle and its rate change. */
+static const char circle[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                             "holonomic: [x^2 + y^2 - 1]\nstart: {x: 1}\n";
+
 static void test_circle(void)
 {
-    static const char circle[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
-                                 "holonomic: [x^2 + y^2 - 1]\nstart: {x: 1}\n";
     const double T = 1.5, theta = 1.1;
     const dal_setting target[] = {{"x", cos(theta)}, {"y", sin(theta)}};
     steered s;
@@ -324,8 +325,8 @@ static void test_leaves(void)
 {
     static const char line[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                                "constraints: [x' - y']\nstart: {x: 1}\n";
-    static const char circle[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
-                                 "constraints: [x*x' + y*y']\nstart: {x: 1}\n";
+    static const char cylinder[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                                   "constraints: [x*x' + y*y']\nstart: {x: 1}\n";
     static const char moved[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                                 "constraints: [x' - cos(t)]\nstart: {x': 1}\n";
     static const char carried[] = "coordinates: [x, y, phi, z]\n"
@@ -347,7 +348,7 @@ static void test_leaves(void)
     s.settings.aim = true;
     is_refused(&s, 1.0, target, 2, DAL_STATUS_INCONSISTENT, "keeps x - y");
     steered_close(&s);
-    steered_open(&s, circle, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
+    steered_open(&s, cylinder, DAL_EFFORT_CONSTRAINT, "gauss4", 0.1);
     is_refused(&s, 1.0, target, 2, DAL_STATUS_INCONSISTENT,
                "keeps x^2 + y^2, which is 1 at the start and 4.25 at the target");
     target[0].value = -0.6, target[1].value = 0.8;
@@ -383,6 +384,7 @@ static void test_one_leaf(void)
 
 static void test_refuses(void)
 {
+    static const char *const nowhere[] = {"z"};
     const dal_setting target[] = {{"x", 1.0}, {"y", 0.0}, {"phi", 0.0}, {"y'", 0.5}};
     const dal_setting other = {"z", 1.0}, momentum = {"p_x", 1.0}, none = {"x", NAN};
     steered s;
@@ -393,6 +395,10 @@ static void test_refuses(void)
     is_refused(&s, 1.0, &other, 1, DAL_STATUS_NAME, "no coordinate or velocity");
     is_refused(&s, 1.0, &momentum, 1, DAL_STATUS_NAME, "no coordinate or velocity");
     is_refused(&s, 1.0, &none, 1, DAL_STATUS_ARGUMENT, "not finite");
+    s.settings.free_starts = nowhere;
+    s.settings.frees = 1;
+    is_refused(&s, 1.0, target, 3, DAL_STATUS_NAME, "'z' is no coordinate or velocity");
+    s.settings.frees = 0;
     s.settings.rest = false;
     is_refused(&s, 1.0, NULL, 0, DAL_STATUS_ARGUMENT, "no target");
     s.settings.rest = true;
@@ -423,6 +429,13 @@ static void test_refuses(void)
     s.spec.start = &infinite;
     s.spec.start_count = 1;
     is_refused(&s, 1.0, target, 1, DAL_STATUS_UNSUPPORTED, "1/e = 0");
+    steered_close(&s);
+    steered_open(&s, circle, DAL_EFFORT_IDENTITY, "dla", 0.1);
+    is_refused(&s, 1.0, target, 1, DAL_STATUS_UNSUPPORTED, "dla cannot act on");
+    dal_model *const made = s.model;
+    s.model = fixture_model("coordinates: [x, y]\nlagrangian: x'^2/2\n");
+    is_refused(&s, 1.0, target, 1, DAL_STATUS_SINGULAR_MASS, "mass matrix is singular");
+    dal_model_free(made);
     steered_close(&s);
 }
 
