@@ -60,9 +60,6 @@ static const char *argument_text(dal_model *model, dal__node node, int depth)
         return r.value > 0.0 && r.value < 100.0 && r.value == (int)r.value
                    ? dal__model_print(model, "%d", (int)r.value)
                    : NULL;
-    case DAL__NEG:
-        a = argument_text(model, r.a, depth - 1);
-        return a ? dal__model_print(model, "(-%s)", a) : NULL;
     case DAL__ADD:
     case DAL__SUB:
     case DAL__MUL:
