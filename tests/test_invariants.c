@@ -245,6 +245,18 @@ static void test_of_coordinates(void)
 #undef MASSES
 }
 
+/* Where F is finite nowhere with another k nothing is known of other parameters. */
+static void test_one_parameter(void)
+{
+    dal_invariants *found =
+        find("coordinates: [x, y]\nparameters: {k: 1}\nlet: {s: sqrt(1.1 - k^2)}\n"
+             "accelerations: {x: -x*s, y: -y*s}\nstart: {x: 1}\n",
+             NULL, NULL);
+    const dal_invariant *i = with_formula(found, "x*y' - y*x'");
+    CU_ASSERT(i && i->exact && !i->at_any_parameters);
+    dal_invariants_free(found);
+}
+
 /* Kepler's problem: E needs 1/r, which is no coordinate. */
 static void test_further_atoms(void)
 {
@@ -262,6 +274,13 @@ static void test_further_atoms(void)
     found = find(text, &settings, NULL);
     has_size(found, 2, 2);
     has(found, "2*mu*(1/hypot(x, y)) - x'^2 - y'^2");
+    dal_invariants_free(found);
+    const char *const names[] = {"hypot(x, y)", "1/x", "sin(x)*cos(y)", "(x + y)^3"};
+    const char *const atoms[] = {"hypot(x, y)", "(1/x)", "(sin(x)*cos(y))", "((x + y)^3)"};
+    settings = (dal_invariants_settings){.degree = 1, .with = names, .with_count = 4};
+    found = find(text, &settings, NULL);
+    CU_ASSERT_EQUAL_FATAL(found->atoms, 4 + 4);
+    for (int i = 0; i < 4; i++) CU_ASSERT_STRING_EQUAL(found->atom[4 + i], atoms[i]);
     dal_invariants_free(found);
 }
 
@@ -371,6 +390,30 @@ static void test_refused(void)
     refused("knife-edge", &settings, DAL_STATUS_ARGUMENT, "degree: 9");
 }
 
+/* F is finite, but not k x^2 + m x'^2, or what the system declares as conserved. */
+static void test_not_finite(void)
+{
+    refused("coordinates: [x]\nparameters: {m: 1e304, k: 1e304}\n"
+            "lagrangian: m/2*x'^2 - k/2*x^2\nstart: {x: 1000}\n",
+            NULL, DAL_STATUS_NOT_FINITE, "there are no points of D = 0 near the start");
+    refused("coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\n"
+            "invariants: {c: sqrt(-1 - x^2)}\n",
+            NULL, DAL_STATUS_NOT_FINITE, "there are no points of D = 0 near the start");
+}
+
+/* A model without a system: its mass matrix is singular. */
+static void test_no_system(void)
+{
+    dal_model *model = fixture_model("coordinates: [x, y]\nlagrangian: x'^2/2\n");
+    const dal_run_spec spec = {.system = fixture_system("knife-edge")};
+    dal_invariants *found = NULL;
+    dal_error error = {0};
+    CU_ASSERT_EQUAL(dal_find_invariants(&found, model, &spec, NULL, &error),
+                    DAL_STATUS_SINGULAR_MASS);
+    CU_ASSERT_PTR_NULL(found);
+    dal_model_free(model);
+}
+
 static void test_bad_atoms(void)
 {
     dal_run_spec spec;
@@ -416,16 +459,21 @@ static void test_too_large(void)
     dal_model_free(model);
 }
 
-static void fail_allocations(const dal_invariants_settings *settings, int least)
+static const char on_a_line[] = "coordinates: [x, y]\nparameters: {k: 2}\n"
+                                "lagrangian: (x'^2 + y'^2 - k*y^2)/2\n"
+                                "constraints: [\"y' - k*x'\"]\nstart: {y: 1}\n";
+/* With multipliers, and angles of a sum. */
+static const char vakonomic[] = "coordinates: [x, y]\nmechanics: vakonomic\n"
+                                "lagrangian: (x'^2 + y'^2)/2 + cos(x - y)\n"
+                                "constraints: [y' - x']\nstart: {x': 1, y': 1}\n";
+
+static void fail_allocations(const char *text, const dal_invariants_settings *settings, int least)
 {
     allocation_trial trial = {0};
     int found_last = 0;
     while (allocation_next(&trial)) {
         dal_run_spec spec;
-        dal_model *model = open_model("coordinates: [x, y]\nparameters: {k: 2}\n"
-                                      "lagrangian: (x'^2 + y'^2 - k*y^2)/2\n"
-                                      "constraints: [\"y' - k*x'\"]\nstart: {y: 1}\n",
-                                      &spec);
+        dal_model *model = open_model(text, &spec);
         dal_invariants *found = NULL;
         allocation_start(&trial);
         allocation_end(&trial, dal_find_invariants(&found, model, &spec, settings, NULL));
@@ -437,12 +485,16 @@ static void fail_allocations(const dal_invariants_settings *settings, int least)
     CU_ASSERT(found_last >= least);
 }
 
-/* With nothing found, with y - k x, and with its constraint. */
+/* With nothing found, with y - k x, and with its constraint; with multipliers, and further atoms. */
 static void test_out_of_memory(void)
 {
-    fail_allocations(&(dal_invariants_settings){.degree = 1, .measures = true}, 0);
-    fail_allocations(&(dal_invariants_settings){.degree = 2}, 1);
-    fail_allocations(&(dal_invariants_settings){.degree = 1, .of_coordinates = true}, 1);
+    fail_allocations(on_a_line, &(dal_invariants_settings){.degree = 1, .measures = true}, 0);
+    fail_allocations(on_a_line, &(dal_invariants_settings){.degree = 2}, 1);
+    fail_allocations(on_a_line, &(dal_invariants_settings){.degree = 1, .of_coordinates = true}, 1);
+    fail_allocations(vakonomic, &(dal_invariants_settings){.degree = 1}, 0);
+    static const char *const with[] = {"x*y"};
+    fail_allocations(on_a_line,
+                     &(dal_invariants_settings){.degree = 1, .with = with, .with_count = 1}, 0);
 }
 
 void suite_invariants(void)
@@ -456,6 +508,7 @@ void suite_invariants(void)
     CU_add_test(suite, "degree 4", test_degree);
     CU_add_test(suite, "equal frequencies", test_resonance);
     CU_add_test(suite, "a parameter that is 0", test_without_damping);
+    CU_add_test(suite, "parameters with no other values", test_one_parameter);
     CU_add_test(suite, "further atoms", test_further_atoms);
     CU_add_test(suite, "functions of coordinates", test_of_coordinates);
     CU_add_test(suite, "invariants of time", test_of_time);
@@ -463,6 +516,8 @@ void suite_invariants(void)
     CU_add_test(suite, "none of 100 random systems", test_random_systems);
     CU_add_test(suite, "measures", test_measures);
     CU_add_test(suite, "degrees that are refused", test_refused);
+    CU_add_test(suite, "formulas that are not finite", test_not_finite);
+    CU_add_test(suite, "a model without a system", test_no_system);
     CU_add_test(suite, "atoms that are refused", test_bad_atoms);
     CU_add_test(suite, "too large, not finite, unsupported", test_too_large);
     CU_add_test(suite, "out of memory", test_out_of_memory);
