@@ -273,15 +273,28 @@ static void test_rows(void)
     failing_begin(0, 0);
 }
 
-/* K that is not finite is no K, although the step after it has a finite one. */
+/* A line that overflows has neither rows nor a cost. */
+static void test_infinite_line(void)
+{
+    const dal_setting target = {"x", 1.7e308};
+    steered s;
+    steered_open(&s, "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x: -1.7e308}\n",
+                 DAL_EFFORT_IDENTITY, "rk4", 0.1);
+    CU_ASSERT_EQUAL_FATAL(steered_try(&s, 1.0, &target, 1), DAL_STATUS_OK);
+    CU_ASSERT_NOT_EQUAL(s.best->status, DAL_STATUS_OK);
+    CU_ASSERT(isnan(s.best->S) && isinf(s.best->residual) && isinf(s.best->distance));
+    CU_ASSERT(isnan(steered_row(&s, 1)[0]));
+    steered_close(&s);
+}
+
+/* K that overflows in the units of v is no K. */
 static void test_infinite_effort(void)
 {
     search w;
-    open_search(&w, "coordinates: [x]\nlagrangian: x^2*x'^2/2\nstart: {x: 0.5}\n", DAL_EFFORT_MASS,
-                NULL, 20, 10);
+    open_search(&w, pendulum, DAL_EFFORT_IDENTITY, NULL, 20, 10);
     CU_ASSERT_EQUAL(iterate_directly(&w), DAL_STATUS_OK);
     restart(&w);
-    w.shooting.point[2 * w.problem.dimension] = 0.0;
+    w.problem.unit[1] = 1e-200;
     CU_ASSERT_EQUAL(iterate_directly(&w), DAL_STATUS_NOT_FINITE);
     close_search(&w);
 }
@@ -537,6 +550,7 @@ void suite_steer_failures(void)
     CU_add_test(suite, "derivatives", test_derivatives);
     CU_add_test(suite, "callbacks where a problem is opened", test_opening);
     CU_add_test(suite, "callbacks of rows", test_rows);
+    CU_add_test(suite, "a line that is not finite", test_infinite_line);
     CU_add_test(suite, "an effort that is not finite", test_infinite_effort);
     CU_add_test(suite, "steps that are stopped", test_stopped_steps);
     CU_add_test(suite, "motions that are stopped", test_stopped_motions);
