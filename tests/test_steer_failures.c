@@ -194,6 +194,29 @@ static void test_all_calls(void)
     close_search(&w);
 }
 
+/* The last step of all is so short that it is not damped: where its motion cannot be made that is the
+ * status.  Some targets are reached without it. */
+static void test_last_call(void)
+{
+    int undamped = 0;
+    search w;
+    open_search(&w, pendulum, DAL_EFFORT_IDENTITY, NULL, 20, 10);
+    for (int k = 1; k <= 8; k++) {
+        w.problem.target[0] = 0.1 * k;
+        restart(&w);
+        failing_begin(0, 0);
+        CU_ASSERT_EQUAL(by_newton(&w), DAL_STATUS_OK);
+        const long total = failing_calls();
+        restart(&w);
+        failing_begin(total, LONG_MAX);
+        const dal_status status = by_newton(&w);
+        undamped += status == DAL_STATUS_IO;
+        CU_ASSERT(status == DAL_STATUS_IO || (status == DAL_STATUS_OK && is_one_motion(&w)));
+    }
+    CU_ASSERT(undamped > 0);
+    close_search(&w);
+}
+
 /* Nothing is found by derivatives that cannot be evaluated. */
 static void test_derivatives(void)
 {
@@ -547,6 +570,7 @@ void suite_steer_failures(void)
     CU_pSuite suite = CU_add_suite("steps of steering that fail", NULL, NULL);
     CU_add_test(suite, "callbacks", test_calls);
     CU_add_test(suite, "all callbacks", test_all_calls);
+    CU_add_test(suite, "a last call", test_last_call);
     CU_add_test(suite, "derivatives", test_derivatives);
     CU_add_test(suite, "callbacks where a problem is opened", test_opening);
     CU_add_test(suite, "callbacks of rows", test_rows);
