@@ -490,6 +490,8 @@ static void test_measures(void)
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", 0.0, sample);
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", DIFFERENCES, check_maps);
     trial_each_lifted_call(sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", DIFFERENCES, check_derivatives);
+    trial_each_lifted_call(fixture_bilinear, DAL_EFFORT_CONSTRAINT, "gauss4", DIFFERENCES,
+                           check_derivatives);
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", DIFFERENCES, measure_action);
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", 0.0, measure_curve);
 }

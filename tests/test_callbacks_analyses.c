@@ -1,6 +1,7 @@
 /* test_callbacks_analyses.c - callbacks of a system that fail in analyses: Lyapunov exponents,
  * predictions, pairings, error budgets, sensitivities and steering; and allocations
  * that do (trial.h). */
+#include "allocation.h"
 #include "fixtures.h"
 #include "trial.h"
 #include <CUnit/CUnit.h>
@@ -35,6 +36,24 @@ static dal_status measure_exponents(trial *t)
     dal_lyapunov *l = NULL;
     const dal_status status = dal_lyapunov_create(&l, &t->spec, tangent, 0, &t->error);
     return finish_lyapunov(t, l, status);
+}
+
+/* Each of them, along what the method enforces, whose gradients are known. */
+static dal_status measure_each_exponent(trial *t)
+{
+    dal_lyapunov *l = NULL;
+    dal_balance balance;
+    dal_status status = dal_lyapunov_create(&l, &t->spec, NULL, 0, &t->error);
+    if (status == DAL_STATUS_OK) status = dal_lyapunov_advance(l, 1, &t->error);
+    if (status == DAL_STATUS_OK) status = dal_lyapunov_balance(l, &balance, &t->error);
+    if (status == DAL_STATUS_UNSUPPORTED) status = without_value(t);
+    for (int i = 0; status == DAL_STATUS_OK && i < dal_lyapunov_count(l); i++) {
+        dal_average average;
+        dal_lyapunov_exponent(l, i, &average);
+        trial_add_number(t, (double)average.mean);
+    }
+    dal_lyapunov_free(l);
+    return status;
 }
 
 static dal_status measure_lifted_exponents(trial *t)
@@ -90,6 +109,26 @@ static dal_status predict_by_motion(trial *t)
         status = dal_predict_create(&p, &t->spec, 8.0 * TRIAL_STEP, &settings, NULL, &t->error);
     if (status == DAL_STATUS_UNSUPPORTED) status = without_value(t);
     if (status == DAL_STATUS_OK && p->reason != DAL_PREDICTION_TIME) status = without_value(t);
+    if (status == DAL_STATUS_OK) trial_add(t, p->change, (int)p->rows * p->observables);
+    dal_prediction_free(p);
+    dal_exact_motion_free(motion);
+    return status;
+}
+
+/* Along a motion of which almost nothing may be kept: a second one continues it.  It is long enough
+ * to be moved to D = 0 again. */
+static dal_status predict_by_short_motion(trial *t)
+{
+    dal_exact_motion *motion = NULL;
+    dal_prediction *p = NULL;
+    dal_run_spec spec = t->spec;
+    dal_predict_settings settings = dal_predict_settings_default();
+    spec.options.step = 50.0 * TRIAL_STEP;
+    dal_status status = dal_exact_motion_create(&motion, &spec, 1, &t->error);
+    settings.motion = motion;
+    if (status == DAL_STATUS_OK)
+        status =
+            dal_predict_create(&p, &spec, 12.0 * spec.options.step, &settings, NULL, &t->error);
     if (status == DAL_STATUS_OK) trial_add(t, p->change, (int)p->rows * p->observables);
     dal_prediction_free(p);
     dal_exact_motion_free(motion);
@@ -174,6 +213,9 @@ static const char sleigh[] = "chaplygin-sleigh";
 static const char pendulum[] = "coordinates: [x]\nparameters: {k: 1}\n"
                                "lagrangian: x'^2/2 + k*cos(x)\nstart: {x: 1}\n"
                                "invariants: {g: x'^2 - 2*k*cos(x)}\n";
+/* Its steps reduce volumes. */
+static const char damped[] = "coordinates: [x]\nlagrangian: x'^2/2 - x^2/2\nforces: {x: -x'}\n"
+                             "start: {x: 1}\n";
 static const char pursuit[] =
     "coordinates: [x, y]\nparameters: {k: 1}\n"
     "lagrangian: (x'^2 + y'^2)/2 - k*x^2/2\n"
@@ -187,7 +229,10 @@ static void test_exponents(void)
 {
     tangent = NULL;
     trial_each_call(pendulum, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_exponents);
+    trial_each_call(damped, "rk4", DAL_PHYSICAL, DIFFERENCES, measure_exponents);
     trial_each_call(pursuit, "gauss4+project", DAL_PHYSICAL, DIFFERENCES, measure_exponents);
+    trial_each_call(pendulum, "rk4+project-energy", DAL_PHYSICAL, DIFFERENCES,
+                    measure_each_exponent);
     trial_each_call("heisenberg", "dla", DAL_PHYSICAL, DIFFERENCES, measure_exponents);
     tangent = fixture_tangent(sleigh);
     trial_each_call(sleigh, "gauss4", DAL_PHYSICAL, 0.0, measure_exponents);
@@ -225,6 +270,23 @@ static void test_models(void)
 /* Its motions have no Taylor series. */
 static const char rough[] = "coordinates: [x]\nlagrangian: x'^2/2 - abs(x)^3\nstart: {x: 1}\n";
 
+/* The first sensitivities of a model find its tangent systems. */
+static void each_allocation_of_tangents(void)
+{
+    allocation_trial allocations = {0};
+    while (allocation_next(&allocations)) {
+        dal_model *model = fixture_model(pendulum);
+        const dal_system *system;
+        CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+        trial t = {.spec = fixture_spec(system, "gauss4", DAL_PHYSICAL, TRIAL_STEP),
+                   .model = model};
+        allocation_start(&allocations);
+        allocation_end(&allocations, differentiate(&t));
+        dal_model_free(model);
+    }
+    CU_ASSERT(allocations.failures > 20);
+}
+
 static void test_memory(void)
 {
     tangent = NULL;
@@ -234,11 +296,13 @@ static void test_memory(void)
     trial_each_allocation(rough, "rk4", DAL_PHYSICAL, predict);
     trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, predict_by_motion);
     trial_each_allocation(rough, "rk4", DAL_PHYSICAL, predict_by_motion);
+    trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, predict_by_short_motion);
     trial_each_allocation(pendulum, "gauss4", DAL_PHYSICAL, predict_pieces);
     trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, measure_exponents);
     trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, measure_lifted_exponents);
     trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, measure_pairing);
     trial_each_allocation(sleigh, "rk4", DAL_PHYSICAL, budget);
+    each_allocation_of_tangents();
 }
 
 void suite_callbacks_analyses(void)

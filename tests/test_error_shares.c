@@ -538,12 +538,19 @@ static void test_sentences(void)
     CU_ASSERT(sums_up(&m, "never changes"));
     m.a.whole.deviation = INFINITY;
     CU_ASSERT(sums_up(&m, "is not finite"));
+    char words[100];
+    m = make(system, "gauss4");
+    shares_of(&m);
+    for (int k = 0; k < DAL_ERROR_SOURCES; k++)
+        m.a.share[k] = k == DAL_SOURCE_COEFFICIENTS ? 1.0 : 0.0;
+    m.e.shares = &m.a;
+    dal_error_budget_summarise(&m.e, 0, words, sizeof words);
+    CU_ASSERT_STRING_EQUAL(words, "drifts by rounding of coefficients (100 %)");
     /* A buffer of any length ends in NUL. */
-    char words[16];
     m = make(system, "gauss4");
     shares_of(&m);
     m.e.shares = &m.a;
-    for (size_t size = 1; size <= sizeof words; size++) {
+    for (size_t size = 1; size <= 16; size++) {
         memset(words, 'x', sizeof words);
         dal_error_budget_summarise(&m.e, 0, words, size);
         CU_ASSERT_EQUAL(strlen(words), size - 1);

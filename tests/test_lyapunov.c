@@ -414,6 +414,33 @@ static void test_refuses(void)
     CU_ASSERT_PTR_NULL(s);
 }
 
+/* Friction by which a step of symplectic Euler takes v to 0 begins after the vectors did; a unit of
+ * momenta, an action over a length, is beyond all numbers. */
+static void test_fails(void)
+{
+    static const char stops[] = "coordinates: [x]\nstart: {x': 1}\n"
+                                "accelerations: {x: -4*(1 + sign(t - 0.45))*x'}\n";
+    static const char short_length[] = "coordinates: [x, y]\nstart: {x: 1e-200, y: 1, y': 1e150}\n"
+                                       "accelerations: {x: 0, y: 0}\n";
+    dal_lyapunov *s = NULL;
+    dal_error error = {0};
+    for (int k = 0; k < 2; k++) {
+        const dal_run_spec spec =
+            fixture_spec(fixture_system(stops), "symplectic-euler", DAL_PHYSICAL, 0.125);
+        CU_ASSERT_EQUAL_FATAL(
+            dal_lyapunov_create(&s, &spec, k ? fixture_tangent(stops) : NULL, 0, NULL),
+            DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 20, &error), DAL_STATUS_SINGULAR);
+        CU_ASSERT(strstr(error.message, "the derivative of the step takes a vector to 0") != NULL);
+        dal_lyapunov_free(s);
+    }
+    const dal_run_spec spec = fixture_spec(fixture_system(short_length), "rk4", DAL_LIFTED, 0.125);
+    CU_ASSERT_EQUAL(dal_lyapunov_create_lifted(&s, &spec, fixture_tangent(short_length), 0, &error),
+                    DAL_STATUS_NOT_FINITE);
+    CU_ASSERT(strstr(error.message, "is not finite: inf") != NULL);
+    CU_ASSERT_PTR_NULL(s);
+}
+
 /* Two springs, at rest at 0.  Every fourth call, the first stage of a step of rk4, is at the state
  * itself: it counts those whose largest component is no multiple of the increment. */
 static int calls, others;
@@ -477,6 +504,7 @@ void suite_lyapunov(void)
     CU_add_test(suite, "sums of the lift", test_symplectic_lift);
     CU_add_test(suite, "holonomic constraints", test_holonomic);
     CU_add_test(suite, "what is refused", test_refuses);
+    CU_add_test(suite, "steps that fail", test_fails);
     CU_add_test(suite, "increments of differences", test_increments);
     CU_add_test(suite, "out of memory", test_out_of_memory);
 }

@@ -126,6 +126,34 @@ static void test_quad(void)
     dal_prediction_free(p);
 }
 
+/* Where steps in quad precision fail, those in doubles are kept to the bit. */
+static dal_status fail(const dal_system *system, const dal_point *at, double *out)
+{
+    (void)system, (void)at, (void)out;
+    return DAL_STATUS_IO;
+}
+
+static bool has_bits(const dal_prediction *a, const dal_prediction *b);
+
+static void test_quad_fails(void)
+{
+    dal_system systems[] = {*fixture_system(oscillator), *fixture_system(oscillator)};
+    dal_prediction *p[2] = {NULL, NULL};
+    if (!systems[0].quad) return;
+    dal_system quad = *systems[0].quad;
+    quad.call.field = fail;
+    systems[0].quad = &quad;
+    systems[1].quad = NULL;
+    for (int i = 0; i < 2; i++) {
+        const dal_run_spec spec = fixture_spec(&systems[i], "rk4", DAL_PHYSICAL, 0.001);
+        CU_ASSERT_EQUAL_FATAL(dal_predict_create(&p[i], &spec, 1.0, NULL, NULL, NULL),
+                              DAL_STATUS_OK);
+        CU_ASSERT(!p[i]->is_quad);
+    }
+    CU_ASSERT_TRUE(has_bits(p[0], p[1]));
+    for (int i = 0; i < 2; i++) dal_prediction_free(p[i]);
+}
+
 /* max |predicted - run| of an observable at the rows of a curve, over max |change| of the run. */
 static double deviation(const dal_prediction *p, const char *system, const char *method, double h,
                         const char *name, double *last)
@@ -488,6 +516,11 @@ static void test_refused(void)
     spec = fixture_spec(fixture_system("bead-on-hoop"), "rk4", DAL_PHYSICAL, 0.05);
     refused(&spec, 1.0, DAL_STATUS_UNSUPPORTED, "holonomic constraints");
     spec = fixture_spec(fixture_system(oscillator), "rk4", DAL_PHYSICAL, 0.25);
+    dal_integrator passing = *spec.method.layer[0];
+    passing.properties |= DAL_PERSISTENT_ACCELERATION;
+    spec.method.layer[0] = &passing;
+    refused(&spec, 1.0, DAL_STATUS_UNSUPPORTED, "accelerations pass from step to step");
+    spec = fixture_spec(fixture_system(oscillator), "rk4", DAL_PHYSICAL, 0.25);
     spec.options.precision = DAL_QUAD;
     refused(&spec, 1.0, DAL_STATUS_UNSUPPORTED, "quad precision");
     spec = fixture_spec(fixture_system("chaplygin-sleigh-friction"), "rk4", DAL_PHYSICAL, 0.02);
@@ -530,6 +563,7 @@ void suite_predict(void)
     CU_add_test(suite, "mean rate", test_mean_rate);
     CU_add_test(suite, "the mean rate of motion that ends otherwise", test_transient);
     CU_add_test(suite, "quad precision", test_quad);
+    CU_add_test(suite, "quad precision that fails", test_quad_fails);
     CU_add_test(suite, "a method that leaves D = 0", test_leaves_D);
     CU_add_test(suite, "the rate of the pendulum", test_rate_of_pendulum);
     CU_add_test(suite, "against runs", test_against_runs);

@@ -1,7 +1,10 @@
 /* test_refusals.c - what functions refuse, and the message that says why. */
+#include "dynamics/local_change.h"
+#include "failing.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <dalembert_codegen.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -233,6 +236,26 @@ static void test_balance(void)
     dal_lyapunov_free(exponents);
 }
 
+/* It needs the gradients of what the method enforces at its end, too. */
+static void test_gradients(void)
+{
+    static const char *const names[] = {"constraints", NULL};
+    const dal_system system = failing_system(fixture_system(fixture_bilinear), names);
+    const dal_run_spec spec = fixture_spec(&system, "rk4+project", DAL_PHYSICAL, 0.125);
+    dal_lyapunov *exponents = NULL;
+    dal_balance balance;
+    dal_error error;
+    failing_begin(0, 0);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&exponents, &spec, NULL, 0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(exponents, 2, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_balance(exponents, &balance, NULL), DAL_STATUS_OK);
+    failing_begin(1, LONG_MAX);
+    refused(dal_lyapunov_balance(exponents, &balance, &error), DAL_STATUS_UNSUPPORTED, &error,
+            "the gradient of D or E is not finite");
+    failing_begin(0, 0);
+    dal_lyapunov_free(exponents);
+}
+
 /* What would pass over the events of a system refuses it. */
 static void test_passing_events(void)
 {
@@ -250,7 +273,10 @@ static void test_passing_events(void)
     CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_STATUS_OK);
     const dal_run_spec spec = fixture_spec(system, "gauss4", DAL_PHYSICAL, 0.1);
     const dal_run_spec lifted = fixture_spec(system, "gauss4", DAL_LIFTED, 0.1);
-    dal_error error[8];
+    dal_error error[9];
+    dal_run *run = fixture_run(&spec);
+    const dal_poincare section = {.callback = system->energy, .count = 1, .cross = no_section};
+    dal_crossings found;
     dal_error_budget *budget = NULL;
     dal_order order;
     dal_statistics statistics;
@@ -273,7 +299,8 @@ static void test_passing_events(void)
         {dal_sensitivity_create(&sensitivity, model, &spec, parameter, 1, &error[5]),
          "sensitivities"},
         {dal_steer_create(&steering, model, &lifted, 1.0, &settings, NULL, &error[6]), "steering"},
-        {dal_batch_create(&batch, &spec, 2, 1, &error[7]), "batches"}};
+        {dal_batch_create(&batch, &spec, 2, 1, &error[7]), "batches"},
+        {dal_run_crossings(run, 1.0, &section, &found, &error[8]), "sections"}};
     for (size_t i = 0; i < sizeof got / sizeof *got; i++) {
         char message[100];
         snprintf(message, sizeof message, "%s has events: %s would pass over them", system->name,
@@ -281,6 +308,7 @@ static void test_passing_events(void)
         refused(got[i].status, DAL_STATUS_UNSUPPORTED, &error[i], message);
     }
     CU_ASSERT(!budget && !lyapunov && !sensitivity && !steering && !batch);
+    dal_run_free(run);
     dal_model_free(model);
 }
 
@@ -296,6 +324,53 @@ static void test_states(void)
     refused(dal_check_reversibility(&spec, 0.0, state, &defect, &error), DAL_STATUS_NOT_FINITE,
             &error, "state component 2 is not finite: nan");
     dal_run_free(run);
+}
+
+/* The change by steps from states of the exact motion, one of whose callbacks fails. */
+static void test_local_change(void)
+{
+    static const char *const names[] = {"field", "constraint", "constraints", "energy",
+                                        "invariant_values"};
+    static const char text[] =
+        "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2\nconstraints: [\"y' - x*x'\"]\n"
+        "start: {x: 0.5, x': 1, y': 0.5}\ninvariants: {g: x}\n";
+    const double x[] = {0.5, 0.0, 1.0, 0.5}, D[] = {1e-3}, unknown[] = {0.5, 0.0, NAN, 0.5};
+    double t = 0.0, out[8];
+    int made;
+    for (int i = 0; i < 5; i++) {
+        const char *const one[] = {names[i], NULL};
+        const dal_system system = failing_system(fixture_system(text), one);
+        const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.125);
+        const bool is_observed = i >= 2, is_field = i == 0;
+        dal__local local;
+        dal_error error = {0};
+        dal_run *run = fixture_run(&spec);
+        CU_ASSERT_EQUAL_FATAL(dal__local_create(&local, &spec, run, DAL_DOUBLE, NULL),
+                              DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal__local_pull(&local, t, x, D, out), DAL_STATUS_OK);
+        CU_ASSERT(isfinite(dal__local_divergence(&local, t, x)));
+        failing_begin(1, LONG_MAX);
+        CU_ASSERT_EQUAL(dal__local_observe(&local, t, x, out),
+                        is_observed ? DAL_STATUS_IO : DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal__local_scales(&local, t, x, out),
+                        is_observed ? DAL_STATUS_IO : DAL_STATUS_OK);
+        CU_ASSERT_EQUAL(dal__local_pull(&local, t, x, D, out),
+                        i == 2 ? DAL_STATUS_OK : DAL_STATUS_IO);
+        CU_ASSERT_EQUAL(dal__local_steps(&local, 1, &t, x, out, &made, &error),
+                        is_observed || is_field ? DAL_STATUS_IO : DAL_STATUS_OK);
+        CU_ASSERT(!is_observed || strstr(error.message, "the observables at t = 0: ") != NULL);
+        CU_ASSERT_EQUAL(isnan(dal__local_divergence(&local, t, x)), is_field);
+        failing_begin(0, 0);
+        refused(dal__local_steps(&local, 1, &t, unknown, out, &made, &error), DAL_STATUS_NOT_FINITE,
+                &error, "state component 3 is not finite: nan");
+        CU_ASSERT_EQUAL(made, 0);
+        dal__local_free(&local);
+        if (dal__local_create(&local, &spec, run, DAL_QUAD, NULL) == DAL_STATUS_OK)
+            refused(dal__local_steps(&local, 1, &t, unknown, out, &made, &error),
+                    DAL_STATUS_NOT_FINITE, &error, "state component 3 is not finite: nan");
+        dal__local_free(&local);
+        dal_run_free(run);
+    }
 }
 
 /* What needs the system of a model says why there is none. */
@@ -344,7 +419,9 @@ void suite_refusals(void)
     CU_add_test(suite, "events that would be passed over", test_passing_events);
     CU_add_test(suite, "models without a system", test_without_system);
     CU_add_test(suite, "states that are not finite", test_states);
+    CU_add_test(suite, "changes by single steps", test_local_change);
     CU_add_test(suite, "names that are too long", test_lengths);
     CU_add_test(suite, "sections and exponents backwards", test_sections);
     CU_add_test(suite, "exponents without a Jacobian", test_balance);
+    CU_add_test(suite, "exponents without gradients", test_gradients);
 }

@@ -1,5 +1,6 @@
 /* test_section.c - intermediate steps, and the crossings of a Poincare section. */
 #include "allocation.h"
+#include "analysis/differences.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -432,6 +433,33 @@ static void test_out_of_memory(void)
     CU_ASSERT(trial.failures >= 4);
 }
 
+/* The rate of a callback that fails has the status of the callback; likewise where F fails. */
+static dal_status fail(const dal_system *system, const dal_point *at, double *out)
+{
+    (void)system, (void)at, (void)out;
+    return DAL_STATUS_IO;
+}
+
+static void test_rates(void)
+{
+    const dal_system systems[] = {{.name = "hand", .n = 1, .call.field = fixture_oscillate},
+                                  {.name = "failing", .n = 1, .call.field = fail}};
+    const double q[] = {1.0}, v[] = {0.5};
+    const dal_point at = {.q = q, .v = v};
+    for (int i = 0; i < 3; i++) {
+        dal_evaluator *evaluator = fixture_evaluator(&systems[i == 1]);
+        const dal__rate of = {.evaluator = evaluator,
+                              .callback = i == 0 ? fail : fixture_oscillate,
+                              .count = 1,
+                              .time = 1.0};
+        double rate = NAN;
+        CU_ASSERT_EQUAL(dal__rate_in_units(&of, &at, &rate),
+                        i == 2 ? DAL_STATUS_OK : DAL_STATUS_IO);
+        if (i == 2) CU_ASSERT_DOUBLE_EQUAL(rate, -0.5, 1e-9); /* of -x */
+        dal_evaluator_free(evaluator);
+    }
+}
+
 void suite_section(void)
 {
     CU_pSuite suite = CU_add_suite("Poincare sections", NULL, NULL);
@@ -454,4 +482,5 @@ void suite_section(void)
     CU_add_test(suite, "what is refused", test_refuses);
     CU_add_test(suite, "ends when interrupted", test_stops);
     CU_add_test(suite, "out of memory", test_out_of_memory);
+    CU_add_test(suite, "rates of callbacks that fail", test_rates);
 }

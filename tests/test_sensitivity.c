@@ -346,7 +346,49 @@ static void test_refuses(void)
             DAL_STATUS_UNSUPPORTED, "events");
     refused("chaplygin-sleigh", "rk4+project", "phi", DAL_STATUS_UNSUPPORTED, "no exact tangent");
     refused("unequal-springs", "gni", "y", DAL_STATUS_UNSUPPORTED, "pass multipliers");
+    refused("bead-on-hoop", "dla", "r", DAL_STATUS_UNSUPPORTED, "take rattle");
 #undef BEGIN
+}
+
+/* The system is another model's; F is continued off D = 0. */
+static void test_refused_specs(void)
+{
+    const char *const names[] = {"phi"};
+    const sample of = {"rk4", "chaplygin-sleigh", NULL, DAL_EFFORT_IDENTITY, 0.0};
+    for (int i = 0; i < 2; i++) {
+        dal_error record = {0};
+        dal_sensitivity *s = NULL;
+        displaced d;
+        open_sample(&d, &of, DAL_PHYSICAL, 0.125);
+        if (i == 0)
+            d.spec.system = fixture_system("chaplygin-sleigh");
+        else
+            d.spec.options.extend_energy = true;
+        CU_ASSERT_EQUAL(dal_sensitivity_create(&s, d.model, &d.spec, names, 1, &record),
+                        i == 0 ? DAL_STATUS_ARGUMENT : DAL_STATUS_UNSUPPORTED);
+        CU_ASSERT_STRING_EQUAL(record.message,
+                               i == 0 ? "the system of the spec is not the model's"
+                                      : "no sensitivities of rk4: F continued off D = 0 has no "
+                                        "tangent system");
+        CU_ASSERT_PTR_NULL(s);
+        dal_model_free(d.model);
+    }
+}
+
+/* x'' = x^3 from x = 100 leaves all numbers within t = 1; what is not finite ends the columns. */
+static void test_fails(void)
+{
+    const char *const names[] = {"x"};
+    const sample of = {"rk4", "coordinates: [x]\naccelerations: {x: x^3}\nstart: {x: 100}\n", NULL,
+                       DAL_EFFORT_IDENTITY, 0.0};
+    dal_error record = {0};
+    displaced d;
+    open_sample(&d, &of, DAL_PHYSICAL, 0.125);
+    dal_sensitivity *s = columns_of(d.model, &d.spec, names, 1);
+    CU_ASSERT_EQUAL(dal_sensitivity_advance(s, 4.0, &record), DAL_STATUS_NOT_FINITE);
+    CU_ASSERT_EQUAL(record.status, DAL_STATUS_NOT_FINITE);
+    dal_sensitivity_free(s);
+    dal_model_free(d.model);
 }
 
 static void test_out_of_memory(void)
@@ -443,6 +485,8 @@ void suite_sensitivity(void)
     CU_add_test(suite, "of a lift, closed form", test_lift);
     CU_add_test(suite, "saved and restored", test_restore);
     CU_add_test(suite, "what is refused", test_refuses);
+    CU_add_test(suite, "specs that are refused", test_refused_specs);
+    CU_add_test(suite, "columns that fail", test_fails);
     CU_add_test(suite, "out of memory", test_out_of_memory);
     FUNCTIONS_dalembert_sensitivity(ADD_NULL_TEST)
 }

@@ -143,6 +143,28 @@ static void test_order_whole_steps(void)
     }
 }
 
+/* x'' = x^3 from x = 100 leaves all numbers: a run that fails is not compared. */
+static dal_status go_on(void *user, dal_run *run)
+{
+    (void)user, (void)run;
+    return DAL_STATUS_OK;
+}
+
+static void test_order_fails(void)
+{
+    static const char text[] = "coordinates: [x]\naccelerations: {x: x^3}\nstart: {x: 100}\n";
+    const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.125);
+    const dal_observer observers[] = {{.poll = NULL}, {.poll = go_on}};
+    const double x[] = {0.0, 0.0};
+    for (int i = 0; i < 2; i++) {
+        dal_order order;
+        dal_error error = {0};
+        CU_ASSERT_EQUAL(dal_order_measure(&order, &spec, 4.0, 2, NULL, x, &observers[i], &error),
+                        DAL_STATUS_NOT_FINITE);
+        CU_ASSERT_EQUAL(error.status, DAL_STATUS_NOT_FINITE);
+    }
+}
+
 static void test_order_work(void)
 {
     const dal_run_spec spec =
@@ -396,6 +418,17 @@ static void test_out_of_memory(void)
     CU_ASSERT(trial.failures >= 8);
 }
 
+/* A system without units of its own has units of 1. */
+static void test_without_units(void)
+{
+    const dal_system hand = {.name = "hand", .n = 1, .call.field = fixture_oscillate};
+    const dal_run_spec spec = fixture_spec(&hand, "implicit-midpoint", DAL_PHYSICAL, 0.125);
+    const double state[] = {1.0, 0.5};
+    double defect = NAN;
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, state, &defect, NULL), DAL_STATUS_OK);
+    CU_ASSERT(defect <= 1e-14);
+}
+
 void suite_stepmap(void)
 {
     CU_pSuite suite = CU_add_suite("measures of a method", NULL, NULL);
@@ -405,6 +438,7 @@ void suite_stepmap(void)
     CU_add_test(suite, "order: none to be found", test_no_order);
     CU_add_test(suite, "order: the next term", test_order_and_the_next_term);
     CU_add_test(suite, "the order at whole steps", test_order_whole_steps);
+    CU_add_test(suite, "order of runs that fail", test_order_fails);
     CU_add_test(suite, "whole steps", test_whole_steps);
     CU_add_test(suite, "order: work", test_order_work);
     CU_add_test(suite, "order: what is refused", test_order_refuses);
@@ -418,4 +452,5 @@ void suite_stepmap(void)
     CU_add_test(suite, "irreversible and vakonomic motion", test_irreversible_and_vakonomic);
     CU_add_test(suite, "pairing", test_pairing);
     CU_add_test(suite, "out of memory", test_out_of_memory);
+    CU_add_test(suite, "reversibility without units", test_without_units);
 }

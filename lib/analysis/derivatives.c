@@ -48,7 +48,6 @@ dal_status dal__gradients(dal_evaluator *evaluator, dal_callback *callback, int 
     const dal_system *s = dal_evaluator_system(evaluator);
     const int nw = s->n + s->multipliers;
     const size_t width = (size_t)(s->n + nw);
-    if (callback == NULL) return DAL_STATUS_UNSUPPORTED;
     double *x = dal__numbers(1, width + 4 * (size_t)rows);
     if (x == NULL) return DAL_STATUS_MEMORY;
     memcpy(x, at->q, (size_t)s->n * sizeof(double));

@@ -128,7 +128,6 @@ dal_status dal_order_measure(dal_order *order, const dal_run_spec *spec, double 
     measurement m = {.T = T, .observer = observer, .error = error};
     dal_scaled *scaled;
     DAL_REQUIRE(order, error);
-    DAL_TRY(dal__check_spec(spec, error));
     dal_run *run;
     if (levels < 2 || levels > DAL_ORDER_LEVELS)
         return dal__fail(error, DAL_STATUS_ARGUMENT, "levels = %d is not in 2..%d", levels,
