@@ -37,7 +37,7 @@ static dal_status make_fields(dal__fields *d, const dal__node *A, double *x)
     double *per_row = dal__model_allocate(d->model, (size_t)m, sizeof *per_row);
     dal__node *matrix = dal__model_nodes(d->model, m * m, 0);
     dal__node *side = dal__model_nodes(d->model, 2 * m, 0), *solution = side + m;
-    if (d->model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (d->model->out_of_memory) return DAL_STATUS_OK;
     for (int i = 0; i < m * dim; i++)
         x[i] = dal__evaluate(e->graph, A[i], d->point) * d->unit[i % dim];
     for (int a = 0; a < m; a++) {
@@ -136,10 +136,9 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
     DAL_TRY(dal__fields_allocate(d, dim, parameters, parameter_count, &value, error));
     dal_status status = make_matrix(d, A, value, units, error);
     if (status == DAL_STATUS_OK) status = make_fields(d, A, x);
-    DAL_TRY(dal__check_size(e->graph->status, error));
+    DAL_TRY(dal__model_answer(model, DAL_STATUS_OK, error));
     if (status == DAL_STATUS_SINGULAR)
         return dal__fail(error, status, "the constraints are dependent about the start");
-    if (status == DAL_STATUS_MEMORY) return dal__memory_error(error);
     DAL_TRY(status);
     out->dimension = d->dim;
     out->rank[out->levels++] = dal__fields_rank(d);
@@ -150,7 +149,7 @@ static dal_status find_growth(dal__fields *d, const dal_setting *parameters, int
         if (dal__fields_rank(d) > last) out->rank[out->levels++] = dal__fields_rank(d);
         out->is_complete = dal__fields_rank(d) == last || dal__fields_rank(d) == d->full;
     }
-    return dal__check_size(e->graph->status, error);
+    return dal__model_answer(model, DAL_STATUS_OK, error);
 }
 
 dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,

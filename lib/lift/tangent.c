@@ -35,20 +35,19 @@ static dal__node differentiate(const direction *d, dal__node f)
 }
 
 /* K~ Pi = (K pi, K dpi + dK pi), and the derivatives of Pi.K~ Pi/2 by Q and V. */
-static dal_status add_effort(dal_model *model, const direction *d, dal__tangent_system *t)
+static void add_effort(dal_model *model, const direction *d, dal__tangent_system *t)
 {
     dal__equations *e = d->e;
     dal__graph *graph = e->graph;
     const int n = e->n;
     dal__node *out = dal__model_nodes(model, 6 * n, 0), *push = dal__model_nodes(model, 3 * n, 0);
     dal__node *pi = dal__model_nodes(model, n, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int i = 0; i < n; i++) {
         push[i] = dal__symbol(graph, e->pi + i);
         pi[i] = dal__symbol(graph, e->pi + n + i);
     }
-    if (model->effort != DAL_EFFORT_IDENTITY)
-        DAL_TRY(dal__motion_effort(model, model->effort, push));
+    if (model->effort != DAL_EFFORT_IDENTITY) dal__motion_effort(model, model->effort, push);
     dal__node sum = dal__number(graph, 0.0);
     const dal__node half = dal__number(graph, 0.5);
     for (int i = 0; i < n; i++) {
@@ -69,10 +68,9 @@ static dal_status add_effort(dal_model *model, const direction *d, dal__tangent_
             t->system.properties |= DAL_EFFORT_OF_V;
     if (t->system.properties & DAL_EFFORT_OF_V) t->system.properties &= ~(unsigned)DAL_F_POSITIONAL;
     dal__programs_add(model, &t->programs, DAL__PROGRAM_EFFORT, out, 6 * n);
-    return DAL_STATUS_OK;
 }
 
-static dal_status add_programs(dal_model *model, int parameter, dal__tangent_system *t)
+static void add_programs(dal_model *model, int parameter, dal__tangent_system *t)
 {
     dal__equations *e = &model->equations;
     const int n = e->n, m = e->multipliers, count = 2 * n + m;
@@ -84,7 +82,7 @@ static dal_status add_programs(dal_model *model, int parameter, dal__tangent_sys
     direction d = {.e = e, .count = count + (parameter >= 0)};
     d.symbol = dal__model_allocate(model, (size_t)count + 1, sizeof *d.symbol);
     d.along = dal__model_nodes(model, count + 1, dal__number(e->graph, 1.0));
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     d.symbol[count] = parameter; /* the symbols of parameters are the first */
     for (int k = 0, at = 0; k < 3; k++)
         for (int i = 0; i < kinds[k].count; i++, at++) {
@@ -102,13 +100,13 @@ static dal_status add_programs(dal_model *model, int parameter, dal__tangent_sys
             F[place - 2 * n + kinds[k].count] = differentiate(&d, e->F[at - n + i]);
         }
     dal__programs_begin(model, &t->programs, 2 * n, 2 * m);
-    DAL_TRY(dal__programs_add_motion(model, &t->programs, F));
+    dal__programs_add_motion(model, &t->programs, F);
     dal__programs_add_diagnosis(model, &t->programs);
     dal__programs_add(model, &t->programs, DAL__PROGRAM_START, start, 2 * count + 1);
-    if (m > 0) return DAL_STATUS_OK;
+    if (m > 0) return;
     if (e->mu && !e->mu_gradient)
         dal__programs_add(model, &t->programs, DAL__PROGRAM_GAUGE, &e->mu, 1);
-    return add_effort(model, &d, t);
+    add_effort(model, &d, t);
 }
 
 static dal_status make_tangent(dal_model *model, int parameter, dal__tangent_system *t)
@@ -122,7 +120,6 @@ static dal_status make_tangent(dal_model *model, int parameter, dal__tangent_sys
         names[i] = e->coordinate[i];
         names[e->n + i] = dal__model_print(model, "dq_%s", e->coordinate[i]);
     }
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
     t->system = (dal_system){.name = name,
                              .title = model->system.title,
                              .reference = model->system.reference,
@@ -135,7 +132,7 @@ static dal_status make_tangent(dal_model *model, int parameter, dal__tangent_sys
                              .value = e->value,
                              .effort = model->effort,
                              .gauge = e->mu_gradient ? NULL : e->gauge};
-    DAL_TRY(add_programs(model, parameter, t));
+    add_programs(model, parameter, t);
     return dal__programs_finish(model, &t->programs, &t->system);
 }
 
@@ -149,7 +146,6 @@ static dal_status check_parameter(dal_model *model, int parameter, dal_error *er
     for (int i = 0; i < 2; i++)
         depends =
             depends || (fixed[i] && dal__depends(e->graph, fixed[i], parameter, parameter + 1));
-    DAL_TRY(dal__check_size(e->graph->status, error));
     if (depends)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "the gauge depends on parameter %.80s, and derivatives by it are at "
@@ -170,14 +166,15 @@ static dal_status find_tangent(dal_model *model, int parameter, const dal_system
     dal__tangent_system ***list = &model->tangent;
     model->out_of_memory = false;
     if (!*list) *list = dal__model_allocate(model, count, sizeof **list);
-    if (!*list) return dal__memory_error(error);
-    dal__tangent_system **made = *list + 1 + parameter;
-    if (!*made) *made = dal__model_allocate(model, 1, sizeof **made);
-    if (!*made) return dal__memory_error(error);
-    if (!(*made)->made) {
-        DAL_TRY(check_parameter(model, parameter, error));
-        DAL_TRY(dal__check_size(make_tangent(model, parameter, *made), error));
+    dal__tangent_system **made = *list ? *list + 1 + parameter : NULL;
+    if (made && !*made) *made = dal__model_allocate(model, 1, sizeof **made);
+    dal_status status = DAL_STATUS_OK;
+    if (!model->out_of_memory && !(*made)->made) {
+        status = check_parameter(model, parameter, error);
+        if (status == DAL_STATUS_OK)
+            status = dal__check_size(make_tangent(model, parameter, *made), error);
     }
+    DAL_TRY(dal__model_answer(model, status, error));
     (*made)->made = true;
     *system = &(*made)->system;
     return DAL_STATUS_OK;

@@ -121,8 +121,7 @@ static dal_status set_lifted(dal__theory *w, dal_model *model, const places *k, 
     dal__node *K_pi = dal__pool_nodes(pool, graph, 3 * (size_t)n);
     if (!K_pi) return DAL_STATUS_MEMORY;
     for (int i = 0; i < n; i++) K_pi[i] = dal__symbol(graph, e->pi + i);
-    if (model->effort != DAL_EFFORT_IDENTITY)
-        DAL_TRY(dal__motion_effort(model, model->effort, K_pi));
+    if (model->effort != DAL_EFFORT_IDENTITY) dal__motion_effort(model, model->effort, K_pi);
     dal__node square = dal__number(graph, 0.0), sum = square, forces = square, named = square;
     for (int i = 0; i < n; i++) {
         const dal__node pi = dal__symbol(graph, e->pi + i), F = dal__symbol(graph, k->F + i);

@@ -76,7 +76,7 @@ static dal__node row_product(const dal__equations *e, const sparse *s, int i, co
     return sum;
 }
 
-static bool compress(dal_model *model, sparse *s, int rows, int columns, const dal__node *matrix)
+static void compress(dal_model *model, sparse *s, int rows, int columns, const dal__node *matrix)
 {
     const dal__equations *e = &model->equations;
     int count = 0;
@@ -84,7 +84,7 @@ static bool compress(dal_model *model, sparse *s, int rows, int columns, const d
     s->first = dal__model_allocate(model, (size_t)rows + 1, sizeof *s->first);
     s->column = dal__model_allocate(model, (size_t)count, sizeof *s->column);
     s->value = dal__model_nodes(model, count, 0);
-    if (model->out_of_memory) return false;
+    if (model->out_of_memory) return;
     count = 0;
     for (int i = 0; i < rows; i++) {
         for (int j = 0; j < columns; j++) {
@@ -94,7 +94,6 @@ static bool compress(dal_model *model, sparse *s, int rows, int columns, const d
         }
         s->first[i + 1] = count;
     }
-    return true;
 }
 
 /* ---- constraints that are solved for a coordinate ---- */
@@ -132,7 +131,7 @@ static int find_dependent(const dal__equations *e, int a)
 }
 
 /* Decides which constraints are solved for which coordinates, none or all that can be; makes S. */
-static bool choose_dependent(dal_model *model, dal__bordered *s)
+static void choose_dependent(dal_model *model, dal__bordered *s)
 {
     const dal__equations *e = &model->equations;
     const size_t n = (size_t)e->n, m = (size_t)e->m;
@@ -143,7 +142,7 @@ static bool choose_dependent(dal_model *model, dal__bordered *s)
     s->free = dal__model_allocate(model, n, sizeof *s->free);
     s->retained = dal__model_allocate(model, m, sizeof *s->retained);
     s->partner = dal__model_allocate(model, m, sizeof *s->partner);
-    if (model->out_of_memory) return false;
+    if (model->out_of_memory) return;
     for (int a = 0; a < e->m; a++) {
         const int d = s->way & DAL__SOLVED && !e->servo ? find_dependent(e, a) : -1;
         if (d < 0) {
@@ -164,7 +163,7 @@ static bool choose_dependent(dal_model *model, dal__bordered *s)
                 dal__node_div(e->graph, e->A[s->by[k] * e->n + s->free[i]], s->alpha[k]);
             S[k * s->frees + i] = dal__node_neg(e->graph, ratio);
         }
-    return S && compress(model, &s->S, s->solved, s->frees, S);
+    if (S) compress(model, &s->S, s->solved, s->frees, S);
 }
 
 /* Adds weight S_k to row and column j of a matrix of the free coordinates, of which the upper half
@@ -243,7 +242,7 @@ static void combine_pairs(const dal__equations *e, const dal__bordered *s, dal__
 }
 
 /* Pairs two constraints, and combines their rows of A, where these become cheaper. */
-static bool pair_constraints(dal_model *model, dal__bordered *s, dal__node *A)
+static void pair_constraints(dal_model *model, dal__bordered *s, dal__node *A)
 {
     const dal__equations *e = &model->equations;
     const int f = s->frees;
@@ -265,7 +264,6 @@ static bool pair_constraints(dal_model *model, dal__bordered *s, dal__node *A)
                 A[b * f + i] = both[f + i];
             }
         }
-    return !model->out_of_memory;
 }
 
 /* R = W'^-1 B^T, and G = A R. */
@@ -276,7 +274,7 @@ static dal_status factor_forces(dal_model *model, dal__bordered *s)
     dal__node *A = dal__model_nodes(model, m * f, 0), *B = dal__model_nodes(model, m * f, 0);
     dal__node *R = dal__model_nodes(model, m * f, 0);
     int *whose = dal__model_allocate(model, (size_t)m, sizeof *whose); /* a pair's: the later */
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int a = 0; a < m; a++) {
         s->partner[a] = a;
         for (int i = 0; i < f; i++) {
@@ -284,13 +282,13 @@ static dal_status factor_forces(dal_model *model, dal__bordered *s)
             B[a * f + i] = e->B[s->retained[a] * e->n + s->free[i]];
         }
     }
-    if (s->way & DAL__PAIRED && !e->servo && !pair_constraints(model, s, A))
-        return DAL_STATUS_MEMORY;
+    if (s->way & DAL__PAIRED && !e->servo) pair_constraints(model, s, A);
     for (int a = 0; a < m; a++) whose[a] = s->retained[s->partner[a] > a ? s->partner[a] : a];
-    if (!dal__factors_allocate(model, &s->forces, m, whose)) return DAL_STATUS_MEMORY;
-    DAL_TRY(dal__factors_solve(model, &s->mass, DAL__SUMS_UNCHANGED, m, e->servo ? B : A, R));
-    if (!compress(model, &s->A, m, f, A) || !compress(model, &s->R, m, f, R))
-        return DAL_STATUS_MEMORY;
+    dal__factors_allocate(model, &s->forces, m, whose);
+    dal__factors_solve(model, &s->mass, DAL__SUMS_UNCHANGED, m, e->servo ? B : A, R);
+    compress(model, &s->A, m, f, A);
+    compress(model, &s->R, m, f, R);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int a = 0; a < m; a++)
         for (int b = 0; b < m; b++) {
             const bool known = b < a && !e->servo;
@@ -325,22 +323,21 @@ static void reduce_rhs(const dal__equations *e, const dal__bordered *s, const da
 }
 
 /* The free coordinates and the forces of the retained constraints, from b' in t. */
-static dal_status solve_free(dal_model *model, const dal__bordered *s, dal__sum_form sums,
-                             const dal__node *bottom, vectors *w)
+static void solve_free(dal_model *model, const dal__bordered *s, dal__sum_form sums,
+                       const dal__node *bottom, vectors *w)
 {
     const dal__equations *e = &model->equations;
-    DAL_TRY(dal__factors_solve(model, &s->mass, sums, 1, w->t, w->y));
+    dal__factors_solve(model, &s->mass, sums, 1, w->t, w->y);
     for (int a = 0; a < s->retained_count; a++) w->pull[a] = bottom[s->retained[a]];
     combine_pairs(e, s, w->pull);
     for (int a = 0; a < s->retained_count; a++) {
         if (s->partner[a] != a) w->pull[a] = collect(e, s, w->pull[a]);
         w->pull[a] = dal__node_sub(e->graph, w->pull[a], row_product(e, &s->A, a, w->y));
     }
-    DAL_TRY(dal__factors_solve(model, &s->forces, sums, 1, w->pull, w->force));
+    dal__factors_solve(model, &s->forces, sums, 1, w->pull, w->force);
     for (int a = 0; a < s->retained_count; a++)
         for (int x = s->R.first[a]; x < s->R.first[a + 1]; x++)
             dal__add_product(e->graph, &w->y[s->R.column[x]], s->R.value[x], w->force[a]);
-    return DAL_STATUS_OK;
 }
 
 /* All multipliers: of the retained constraints and, from row d of W x - A^T h, of the constraints
@@ -359,14 +356,14 @@ static void find_forces(const dal__equations *e, const dal__bordered *s, const v
 }
 
 /* The dependent coordinates, collected while the free ones are symbols. */
-static dal_status collect_dependent(dal_model *model, const dal__bordered *s, const vectors *w,
-                                    dal__node *x)
+static void collect_dependent(dal_model *model, const dal__bordered *s, const vectors *w,
+                              dal__node *x)
 {
     const dal__equations *e = &model->equations;
     int *symbol = dal__model_allocate(model, (size_t)s->frees, sizeof *symbol);
     dal__node *out = dal__model_nodes(model, s->solved, 0);
     dal__node *y = dal__model_nodes(model, s->frees, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int i = 0; i < s->frees; i++) {
         symbol[i] = e->symbols + i;
         y[i] = dal__symbol(e->graph, symbol[i]);
@@ -375,41 +372,41 @@ static dal_status collect_dependent(dal_model *model, const dal__bordered *s, co
         out[k] = collect(e, s, dal__node_add(e->graph, w->s[k], row_product(e, &s->S, k, y)));
     dal__substitute_all(e->graph, s->solved, out, symbol, s->frees, w->y);
     for (int k = 0; k < s->solved; k++) x[s->dependent[k]] = out[k];
-    return DAL_STATUS_OK;
 }
 
 /* By the factors of the bordered matrix. */
-static dal_status solve_whole(dal_model *model, const dal__bordered *s, const dal__node *top,
-                              const dal__node *bottom, dal__node *x, dal__node *h)
+static void solve_whole(dal_model *model, const dal__bordered *s, const dal__node *top,
+                        const dal__node *bottom, dal__node *x, dal__node *h)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
     dal__node *const rhs = dal__model_nodes(model, 2 * (n + m), 0), *const all = rhs + n + m;
-    if (!rhs) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int k = 0; k < n + m; k++) rhs[k] = k < n ? top[k] : bottom[k - n];
-    DAL_TRY(dal__factors_solve(model, &s->whole, DAL__SUMS_UNCHANGED, 1, rhs, all));
+    dal__factors_solve(model, &s->whole, DAL__SUMS_UNCHANGED, 1, rhs, all);
     for (int i = 0; i < n; i++) x[i] = all[i];
     for (int a = 0; a < m && h; a++) h[a] = dal__node_neg(e->graph, all[n + a]);
-    return DAL_STATUS_OK;
 }
 
-dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sum_form sums,
-                               const dal__node *top, const dal__node *bottom, dal__node *x,
-                               dal__node *h)
+void dal__bordered_solve(dal_model *model, dal__bordered *s, dal__sum_form sums,
+                         const dal__node *top, const dal__node *bottom, dal__node *x, dal__node *h)
 {
     const dal__equations *e = &model->equations;
     const bool collected = sums == DAL__SUMS_COLLECTED;
-    vectors *w = &s->scratch;
-    if (s->way & DAL__WHOLE) return solve_whole(model, s, top, bottom, x, h);
+    if (model->out_of_memory) return; /* there may be no factors */
+    vectors *const w = &s->scratch;
+    if (s->way & DAL__WHOLE) {
+        solve_whole(model, s, top, bottom, x, h);
+        return;
+    }
     reduce_rhs(e, s, top, bottom, w);
     for (int i = 0; collected && i < s->frees; i++) w->t[i] = collect(e, s, w->t[i]);
-    DAL_TRY(solve_free(model, s, s->way & DAL__FORWARD ? sums : DAL__SUMS_UNCHANGED, bottom, w));
+    solve_free(model, s, s->way & DAL__FORWARD ? sums : DAL__SUMS_UNCHANGED, bottom, w);
     for (int i = 0; i < s->frees; i++) x[s->free[i]] = w->y[i];
     for (int k = 0; k < s->solved; k++)
         x[s->dependent[k]] = dal__node_add(e->graph, w->s[k], row_product(e, &s->S, k, w->y));
-    if (collected) DAL_TRY(collect_dependent(model, s, w, x));
+    if (collected) collect_dependent(model, s, w, x);
     if (h) find_forces(e, s, w, top, x, h);
-    return DAL_STATUS_OK;
 }
 
 /* ---- the whole ---- */
@@ -425,7 +422,8 @@ static dal_status factor_whole(dal_model *model, dal__factors *f)
     const int n = e->n, size = n + e->m;
     int *whose = dal__model_allocate(model, (size_t)size, sizeof *whose);
     for (int k = 0; whose && k < size; k++) whose[k] = k < n ? -1 : k - n;
-    if (!whose || !dal__factors_allocate(model, f, size, whose)) return DAL_STATUS_MEMORY;
+    dal__factors_allocate(model, f, size, whose);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int k = 0; k < size * size; k++) {
         const int i = k / size, j = k % size;
         f->matrix[k] = i < n && j < n ? e->W[i * n + j]
@@ -443,7 +441,7 @@ dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, unsi
     const int n = model->equations.n, m = model->equations.m;
     dal__bordered *s = *bordered = dal__model_allocate(model, 1, sizeof *s);
     *singular = -1;
-    if (!s) return DAL_STATUS_MEMORY;
+    if (!s) return DAL_STATUS_OK;
     s->way = way;
     s->scratch = (vectors){.s = dal__model_nodes(model, m, 0),
                            .u = dal__model_nodes(model, m, 0),
@@ -451,7 +449,8 @@ dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, unsi
                            .y = dal__model_nodes(model, n, 0),
                            .pull = dal__model_nodes(model, m, 0),
                            .force = dal__model_nodes(model, m, 0)};
-    if (model->out_of_memory || !choose_dependent(model, s)) return DAL_STATUS_MEMORY;
+    choose_dependent(model, s);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     if (way & DAL__WHOLE) {
         const dal_status status = factor_whole(model, &s->whole);
         if (status == DAL_STATUS_SINGULAR) *singular = s->whole.constraint[s->whole.singular] - 1;
@@ -460,7 +459,8 @@ dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, unsi
     if (s->solved == 0) {
         s->mass = *mass;
     } else {
-        if (!dal__factors_allocate(model, &s->mass, s->frees, NULL)) return DAL_STATUS_MEMORY;
+        dal__factors_allocate(model, &s->mass, s->frees, NULL);
+        if (model->out_of_memory) return DAL_STATUS_OK;
         reduce_mass(&model->equations, s, s->mass.matrix);
         DAL_TRY(dal__factor(model, &s->mass));
     }

@@ -14,8 +14,8 @@ enum { DAL__SOLVED = 1, DAL__PAIRED = 2, DAL__COLLECTED = 4, DAL__FORWARD = 8, D
 typedef struct dal__bordered dal__bordered;
 
 /* Factors the system in one way; mass: the factors of W.  singular: on DAL_STATUS_SINGULAR the
- * constraint, from 0, that depends on others, or -1.  Errors: DAL_STATUS_MEMORY,
- * DAL_STATUS_SINGULAR, DAL_STATUS_TOO_LARGE. */
+ * constraint, from 0, that depends on others, or -1.  Errors: DAL_STATUS_SINGULAR,
+ * DAL_STATUS_TOO_LARGE. */
 dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, unsigned way,
                                 dal__bordered **bordered, int *singular);
 /* Whether any constraint is solved for a coordinate first. */
@@ -27,9 +27,8 @@ bool dal__bordered_keeps_rank(const dal__bordered *bordered);
 void dal__bordered_record_pivots(dal__equations *equations, const dal__bordered *bordered,
                                  const dal__factors *mass);
 /* W x - B^T h = top [n], A x = bottom [m]; h is NULL where it is not wanted.  Sums are
- * collected as far as its way says.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
-dal_status dal__bordered_solve(dal_model *model, dal__bordered *bordered, dal__sum_form sums,
-                               const dal__node *top, const dal__node *bottom, dal__node *x,
-                               dal__node *h);
+ * collected as far as its way says. */
+void dal__bordered_solve(dal_model *model, dal__bordered *bordered, dal__sum_form sums,
+                         const dal__node *top, const dal__node *bottom, dal__node *x, dal__node *h);
 
 #endif

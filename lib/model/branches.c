@@ -310,16 +310,17 @@ static dal__node formula_of(const dal_model *model, const dal__entry *entry)
     return 0;
 }
 
-static bool place_surface(surface *f, dal_model *model)
+static void place_surface(surface *f, dal_model *model)
 {
     const int symbols = model->equations.symbols;
     *f = (surface){.model = model};
     f->normal = calloc((size_t)symbols, sizeof *f->normal);
     f->point = calloc((size_t)((POINTS + 3) * symbols), sizeof *f->point);
-    if (!f->normal || !f->point) return false;
+    model->out_of_memory |= !f->normal || !f->point;
+    if (model->out_of_memory) return;
     f->moved = f->point + POINTS * symbols;
     f->unit = f->moved + 2 * symbols;
-    return dal__model_units(model, f->unit) == DAL_STATUS_OK;
+    dal__model_units(model, f->unit);
 }
 
 static void free_surface(surface *f)
@@ -333,10 +334,10 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
     DAL_REQUIRE(model && model->made && count && (branch || capacity <= 0), NULL);
     const dal__equations *e = &model->equations;
     surface f;
-    const bool has_memory = place_surface(&f, model);
-    model->out_of_memory |= !has_memory;
+    model->out_of_memory = false;
+    place_surface(&f, model);
     *count = 0;
-    for (int k = 0; k < model->count && has_memory; k++) {
+    for (int k = 0; k < model->count && !model->out_of_memory; k++) {
         const dal__entry *entry = &model->entries[k];
         const dal__node formula = formula_of(model, entry);
         int jump = DAL_JUMP_UNKNOWN;
@@ -347,7 +348,7 @@ dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity
         dal__entry_title(model, entry, to->formula, sizeof to->formula);
     }
     free_surface(&f);
-    return model->out_of_memory ? DAL_STATUS_MEMORY : e->graph->status;
+    return dal__model_answer(model, DAL_STATUS_OK, NULL);
 }
 
 /* ---- motions that meet a jump ---- */
@@ -406,35 +407,31 @@ static double branch_of(const dal_jumps *jumps, dal__node i)
     return s > 0.0 ? 1.0 : s < 0.0 ? -1.0 : NAN;
 }
 
-static bool add_switch(dal_jumps *jumps, dal__node node, const dal__entry *entry)
+static void add_switch(dal_jumps *jumps, dal__node node, const dal__entry *entry)
 {
     if (jumps->count == jumps->capacity) {
         const int capacity = 2 * jumps->capacity + 8;
         switching *item = realloc(jumps->item, (size_t)capacity * sizeof *item);
-        if (!item) return false;
+        jumps->model->out_of_memory |= !item;
+        if (!item) return;
         jumps->item = item;
         jumps->capacity = capacity;
     }
     jumps->item[jumps->count++] = (switching){node, entry, NAN};
-    return true;
 }
 
 /* Adds the nodes of a formula that switch at a jump. */
-static dal_status add_switches(dal_jumps *jumps, surface *f, const dal__entry *entry,
-                               dal__node formula)
+static void add_switches(dal_jumps *jumps, surface *f, const dal__entry *entry, dal__node formula)
 {
     dal__graph *graph = f->model->equations.graph;
     uint8_t *mark = dal__reach(graph, formula);
-    dal_status status = mark ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
-    for (dal__node i = 1; status == DAL_STATUS_OK && i <= formula; i++) {
+    for (dal__node i = 1; mark && i <= formula; i++) {
         int sign;
         f->s = mark[i] ? switch_of(graph, i, &sign) : 0;
-        if (!f->s || !jumps_in_tangent(f, (dal__op)dal__inspect(graph, i).op)) continue;
-        if (!add_switch(jumps, i, entry)) status = DAL_STATUS_MEMORY;
+        if (f->s && jumps_in_tangent(f, (dal__op)dal__inspect(graph, i).op))
+            add_switch(jumps, i, entry);
     }
     free(mark);
-    if (f->model->out_of_memory) return DAL_STATUS_MEMORY;
-    return status == DAL_STATUS_OK ? graph->status : status;
 }
 
 dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model)
@@ -446,13 +443,15 @@ dal_status dal_jumps_create(dal_jumps **jumps, dal_model *model)
     if (!*jumps) return DAL_STATUS_MEMORY;
     (*jumps)->model = model;
     (*jumps)->x = calloc((size_t)e->symbols, sizeof(double));
-    dal_status status = place_surface(&f, model) && (*jumps)->x ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
-    for (int k = 0; k < model->count && status == DAL_STATUS_OK; k++) {
+    model->out_of_memory = !(*jumps)->x;
+    place_surface(&f, model);
+    for (int k = 0; k < model->count && !model->out_of_memory; k++) {
         const dal__node formula = formula_of(model, &model->entries[k]);
         if (formula && dal__reaches(e->graph, formula, DAL__ROUGH))
-            status = add_switches(*jumps, &f, &model->entries[k], formula);
+            add_switches(*jumps, &f, &model->entries[k], formula);
     }
     free_surface(&f);
+    const dal_status status = dal__model_answer(model, DAL_STATUS_OK, NULL);
     if (status == DAL_STATUS_OK) return DAL_STATUS_OK;
     dal_jumps_free(*jumps);
     *jumps = NULL;

@@ -46,12 +46,12 @@ static bool is_symmetric(const dal__node *W, int n)
 }
 
 /* W^T W, and W^T b in place of b. */
-static dal_status make_symmetric(dal_model *model)
+static void make_symmetric(dal_model *model)
 {
     dal__equations *e = &model->equations;
     const int n = e->n;
     dal__node *columns = dal__model_nodes(model, n * n, 0), *b = dal__model_nodes(model, n, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int i = 0; i < n; i++) {
         b[i] = e->b[i];
         for (int j = 0; j < n; j++) columns[i * n + j] = e->W[j * n + i];
@@ -61,7 +61,6 @@ static dal_status make_symmetric(dal_model *model)
         for (int j = 0; j < n; j++)
             e->W[i * n + j] = dal__dot(e->graph, n, columns + i * n, columns + j * n);
     }
-    return DAL_STATUS_OK;
 }
 
 /* W and b of the section equations, where q'' has the places of pi. */
@@ -72,7 +71,7 @@ static dal_status derive_equations(dal_model *model, dal_error *error)
     const int *second = e->symbol + e->pi;
     dal__node *S = e->equation = dal__model_nodes(model, n, 0);
     dal__node *zero = dal__model_nodes(model, n, dal__number(e->graph, 0.0));
-    if (model->out_of_memory) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     DAL_TRY(dal__parse_motion_equations(model, S, error));
     for (int i = 0; i < n; i++) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_EQUATIONS, i);
@@ -92,7 +91,8 @@ static dal_status derive_equations(dal_model *model, dal_error *error)
                             DAL__AT_TEXT(dal__constraint_entry(model, 0)),
                             "constraints need equations with a symmetric matrix of the second "
                             "derivatives, as m*x'' + f and m*y'' + g");
-    return dal__check_size(make_symmetric(model), error);
+    make_symmetric(model);
+    return DAL_STATUS_OK;
 }
 
 static dal_status derive_constraints(dal_model *model, dal_error *error)
@@ -107,7 +107,7 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
         dal__gradient(e->graph, e->constraint[a], e->symbol + e->v, e->n, e->A + a * e->n);
         e->c[a] = dal__time_derivative(e, e->constraint[a]);
         for (int i = 0; i < e->n; i++) depends |= !dal__node_is_zero(e->graph, e->A[a * e->n + i]);
-        if (!depends && e->graph->status == DAL_STATUS_OK)
+        if (!depends)
             return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
                                 is_holonomic ? "%s does not depend on the coordinates"
                                              : "%s does not depend on the velocities; f(q) = 0 "
@@ -128,7 +128,7 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     derive_lagrangian(e, e->lagrangian);
     /* W^-1 A^T of L alone, for projections.  A singular W means that there are none: U stays 0. */
     dal_status status = dal__solve_mass(model);
-    if (status != DAL_STATUS_SINGULAR) DAL_TRY(dal__check_size(status, error));
+    if (status == DAL_STATUS_TOO_LARGE) return dal__size_error(status, error);
     dal__node L = e->lagrangian;
     for (int a = 0; a < e->m; a++) {
         dal__node g = dal__symbol(e->graph, e->g + a);
@@ -140,7 +140,7 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     f = (dal__factors){.n = size, .constraint = constraint};
     f.matrix = dal__model_nodes(model, size * size, dal__number(e->graph, 0.0));
     dal__node *rhs = dal__model_nodes(model, size, 0);
-    if (model->out_of_memory) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int a = 0; a < e->m; a++) constraint[e->n + a] = a + 1;
     const int n = e->n;
     for (int i = 0; i < n; i++) {
@@ -157,9 +157,10 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
         return f.singular < e->n ? dal__singular_mass(model, f.singular, error)
                                  : dal__dependent_constraints(model, f.singular - e->n, error);
     DAL_TRY(dal__check_size(status, error));
+    if (model->out_of_memory) return DAL_STATUS_OK;
     dal__record_pivots(e, &f, DAL__DIVIDES_MOTION);
-    status = dal__factors_solve(model, &f, DAL__SUMS_UNCHANGED, 1, rhs, e->F);
-    return dal__check_size(status, error);
+    dal__factors_solve(model, &f, DAL__SUMS_UNCHANGED, 1, rhs, e->F);
+    return DAL_STATUS_OK;
 }
 
 /* ---- the reactions in invariants and events ---- */
@@ -176,7 +177,7 @@ void dal__list_reactions(const dal__equations *e, dal__node *out)
     }
 }
 
-dal_status dal__insert_reactions(dal_model *model)
+void dal__insert_reactions(dal_model *model)
 {
     dal__equations *e = &model->equations;
     const int n = e->n, m = e->m, count = m + n;
@@ -192,23 +193,22 @@ dal_status dal__insert_reactions(dal_model *model)
     for (int k = 0; k < LISTS; k++)
         for (int i = 0; i < lists[k].count; i++)
             used |= dal__depends(e->graph, lists[k].list[i], e->reaction, e->reaction + count);
-    if (!used) return e->graph->status;
+    if (!used) return;
     dal__node *by = dal__model_nodes(model, count, dal__number(e->graph, 0.0));
     int *symbol = dal__model_allocate(model, (size_t)count, sizeof *symbol);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int i = 0; i < count; i++) symbol[i] = e->reaction + i;
     dal__list_reactions(e, by);
     for (int k = 0; k < LISTS; k++)
         if (lists[k].count > 0)
             dal__substitute_all(e->graph, lists[k].count, lists[k].list, symbol, count, by);
-    return DAL_STATUS_OK;
 }
 
 /* ---- the whole ---- */
 
 /* Writes what F is derived from, D and E with few sines and cosines: after the derivatives, which
  * are shorter of a sine of a sum. */
-static dal_status expand_angles(dal_model *model)
+static void expand_angles(dal_model *model)
 {
     dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
@@ -227,14 +227,13 @@ static dal_status expand_angles(dal_model *model)
     int total = 0, at = 0;
     for (int k = 0; k < LISTS; k++) total += lists[k].count;
     dal__node *all = dal__model_nodes(model, total, 0);
-    if (!all) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int k = 0; k < LISTS; k++)
         for (int i = 0; i < lists[k].count; i++) all[at++] = lists[k].list[i];
     dal__expand_angles(e->graph, all, total);
     at = 0;
     for (int k = 0; k < LISTS; k++)
         for (int i = 0; i < lists[k].count; i++) lists[k].list[i] = all[at++];
-    return DAL_STATUS_OK;
 }
 
 dal_status dal__equations_derive(dal_model *model, dal_error *error)
@@ -250,8 +249,9 @@ dal_status dal__equations_derive(dal_model *model, dal_error *error)
             e->b[i] = e->force[i];
         }
         if (DAL__SOLVES_EQUATIONS && e->implicit) DAL_TRY(derive_equations(model, error));
-        DAL_TRY(dal__check_size(expand_angles(model), error));
+        expand_angles(model);
         DAL_TRY(dal__motion_derive(model, error));
     }
-    return dal__check_size(dal__insert_reactions(model), error);
+    dal__insert_reactions(model);
+    return DAL_STATUS_OK;
 }

@@ -36,9 +36,10 @@ typedef struct plan {
     int *place;          /* [n] of a column in column */
     int *entry;          /* [n*n] the columns of the entries of each row, entries[n] of them */
     int *entries;
-    int *given;   /* [n] of these, those that are not filled in */
-    int *counts;  /* [2n] of the entries that remain in rows, and in columns */
-    long updates; /* of entries that vary along a run */
+    int *given;              /* [n] of these, those that are not filled in */
+    int *counts;             /* [2n] of the entries that remain in rows, and in columns */
+    double *point, *scratch; /* [symbols], [n*n] */
+    long updates;            /* of entries that vary along a run */
 } plan;
 
 /* ---- the order ---- */
@@ -170,42 +171,45 @@ static int order(plan *p, int limit)
     return -1;
 }
 
+static plan allocate_plan(dal_model *model, const dal__factors *f)
+{
+    const size_t n = (size_t)f->n;
+    plan p = {.n = f->n, .saddle = f->saddle, .row = f->row, .column = f->column};
+    p.given = dal__model_allocate(model, n, sizeof *p.given);
+    p.value = dal__model_allocate(model, n * n, sizeof *p.value);
+    p.flag = dal__model_allocate(model, n * n, sizeof *p.flag);
+    p.size = dal__model_allocate(model, n, sizeof *p.size);
+    p.place = dal__model_allocate(model, n, sizeof *p.place);
+    p.entry = dal__model_allocate(model, n * n, sizeof *p.entry);
+    p.entries = dal__model_allocate(model, n, sizeof *p.entries);
+    p.counts = dal__model_allocate(model, 2 * n, sizeof *p.counts);
+    p.point = dal__model_allocate(model, (size_t)model->equations.symbols, sizeof *p.point);
+    p.scratch = dal__model_allocate(model, n * n, sizeof *p.scratch);
+    return p;
+}
+
 /* Chooses the pivots at the start or, where the matrix is singular there, at a point moved off it
  * by irregular amounts between 1/8 and 5/8: what is singular there too is singular everywhere. */
 static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
 {
     const dal__equations *e = &model->equations;
-    const size_t n = (size_t)f->n;
-    double *point = dal__model_allocate(model, (size_t)e->symbols, sizeof *point);
-    double *scratch = dal__model_allocate(model, n * n, sizeof *scratch);
-    *p = (plan){.n = f->n,
-                .saddle = f->saddle,
-                .given = dal__model_allocate(model, n, sizeof *p->given),
-                .value = dal__model_allocate(model, n * n, sizeof *p->value),
-                .flag = dal__model_allocate(model, n * n, sizeof *p->flag),
-                .size = dal__model_allocate(model, n, sizeof *p->size),
-                .place = dal__model_allocate(model, n, sizeof *p->place),
-                .entry = dal__model_allocate(model, n * n, sizeof *p->entry),
-                .entries = dal__model_allocate(model, n, sizeof *p->entries),
-                .counts = dal__model_allocate(model, 2 * n, sizeof *p->counts),
-                .row = f->row,
-                .column = f->column};
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    double *const point = p->point;
     evaluate(p, e, f->matrix, e->value);
-    f->positive = dal__is_positive_definite(f->n, p->value, DAL__PIVOT_LEAST, scratch);
+    f->positive = dal__is_positive_definite(f->n, p->value, DAL__PIVOT_LEAST, p->scratch);
     f->singular = order(p, e->graph->limit);
     if (p->updates > e->graph->limit) return DAL_STATUS_TOO_LARGE;
     if (f->singular < 0) return DAL_STATUS_OK;
-    DAL_TRY(dal__model_units(model, point));
+    dal__model_units(model, point);
     for (int i = 0; i < e->symbols; i++) {
         const double moved = point[i] * (0.125 + 0.5 * dal__golden_fraction(i + 1));
         point[i] = e->value[i] + (i >= e->parameters ? moved : 0.0);
     }
     evaluate(p, e, f->matrix, point);
     f->singular = order(p, e->graph->limit);
-    DAL_TRY(e->graph->status);
     if (p->updates > e->graph->limit) return DAL_STATUS_TOO_LARGE;
-    return f->singular < 0 ? DAL_STATUS_OK : DAL_STATUS_SINGULAR;
+    /* What a full graph lacks has no value, which does not make a matrix singular. */
+    const bool is_known = e->graph->status == DAL_STATUS_OK;
+    return f->singular >= 0 && is_known ? DAL_STATUS_SINGULAR : DAL_STATUS_OK;
 }
 
 /* ---- the elimination ---- */
@@ -292,17 +296,16 @@ void dal__list_pivots(const dal__factors *f, dal__node *pivot)
 
 /* ---- the whole ---- */
 
-bool dal__factors_allocate(dal_model *model, dal__factors *f, int n, const int *constraints)
+void dal__factors_allocate(dal_model *model, dal__factors *f, int n, const int *constraints)
 {
     int *constraint = dal__model_allocate(model, (size_t)n, sizeof *constraint);
     *f = (dal__factors){.n = n, .constraint = constraint};
     f->matrix = dal__model_nodes(model, n * n, 0);
     for (int i = 0; constraint && constraints && i < n; i++) constraint[i] = constraints[i] + 1;
-    return !model->out_of_memory;
 }
 
 /* Lists the entries of both triangles row by row, for sparse solutions. */
-static bool list_entries(dal_model *model, dal__factors *f)
+static void list_entries(dal_model *model, dal__factors *f)
 {
     const dal__graph *graph = model->equations.graph;
     const int n = f->n;
@@ -310,7 +313,7 @@ static bool list_entries(dal_model *model, dal__factors *f)
     f->first = dal__model_allocate(model, 2 * (size_t)n + 1, sizeof *f->first);
     for (int i = 0; i < n * n; i++) count += !dal__node_is_zero(graph, f->matrix[i]);
     f->other = dal__model_allocate(model, (size_t)count, sizeof *f->other);
-    if (model->out_of_memory) return false;
+    if (model->out_of_memory) return;
     count = 0;
     for (int i = 0; i < n; i++) {
         f->first[2 * i] = count;
@@ -321,7 +324,6 @@ static bool list_entries(dal_model *model, dal__factors *f)
             if (!dal__node_is_zero(graph, *at(f, i, j))) f->other[count++] = j;
     }
     f->first[2 * n] = count;
-    return true;
 }
 
 /* Eliminating n coordinates makes n^3/3 nodes of a full matrix, and few of one that couples each
@@ -335,14 +337,14 @@ dal_status dal__factor(dal_model *model, dal__factors *f)
     const long coupled = (long)MAX_COUPLED * f->n;
     long entries = 0;
     bool symmetric = true;
-    plan p;
     for (size_t i = 0; i < n * n; i++) entries += !dal__node_is_zero(e->graph, f->matrix[i]);
     if (f->n > MAX_FULL && entries > coupled) return DAL_STATUS_TOO_LARGE;
     f->given = dal__model_nodes(model, f->n * f->n, 0);
     int *below = dal__model_allocate(model, n, sizeof *below);
     f->row = dal__model_allocate(model, n, sizeof *f->row);
     f->column = dal__model_allocate(model, n, sizeof *f->column);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    plan p = allocate_plan(model, f);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (size_t i = 0; i < n * n; i++) f->given[i] = f->matrix[i];
     DAL_TRY(make_plan(model, f, &p));
     for (int i = 0; i < f->n; i++) {
@@ -351,7 +353,7 @@ dal_status dal__factor(dal_model *model, dal__factors *f)
             symmetric = f->matrix[i * f->n + j] == f->matrix[j * f->n + i];
     }
     for (int k = 0; k < f->n; k++) eliminate(e->graph, f, k, symmetric, below);
-    if (!list_entries(model, f)) return DAL_STATUS_MEMORY;
+    list_entries(model, f);
     return DAL_STATUS_OK;
 }
 
@@ -382,12 +384,11 @@ static void solve_one(dal__graph *graph, const dal__factors *f, dal__sum_form su
     }
 }
 
-dal_status dal__factors_solve(dal_model *model, const dal__factors *f, dal__sum_form sums,
-                              int columns, const dal__node *rhs, dal__node *x)
+void dal__factors_solve(dal_model *model, const dal__factors *f, dal__sum_form sums, int columns,
+                        const dal__node *rhs, dal__node *x)
 {
     dal__graph *graph = model->equations.graph;
     dal__node *y = dal__model_nodes(model, f->n, 0);
-    if (!y) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int c = 0; c < columns; c++) solve_one(graph, f, sums, rhs + c * f->n, x + c * f->n, y);
-    return DAL_STATUS_OK;
 }

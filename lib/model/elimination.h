@@ -20,10 +20,10 @@ typedef struct dal__factors {
 } dal__factors;
 
 /* Sets up to be factored a matrix of n rows that belong to the mass matrix (NULL) or to these
- * constraints; its nodes are 0.  False: out of memory. */
-bool dal__factors_allocate(dal_model *model, dal__factors *factors, int n, const int *constraints);
-/* Factors the matrix.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_SINGULAR, DAL_STATUS_TOO_LARGE (too
- * many unknowns are coupled, directly or by the elimination). */
+ * constraints; its nodes are 0. */
+void dal__factors_allocate(dal_model *model, dal__factors *factors, int n, const int *constraints);
+/* Factors the matrix.  Errors: DAL_STATUS_SINGULAR, DAL_STATUS_TOO_LARGE (too many unknowns are
+ * coupled, directly or by the elimination). */
 dal_status dal__factor(dal_model *model, dal__factors *factors);
 /* Appends the pivots to the equations' own; divides: a set of DAL__DIVIDES_... */
 void dal__record_pivots(dal__equations *equations, const dal__factors *factors, unsigned divides);
@@ -31,9 +31,8 @@ void dal__record_pivots(dal__equations *equations, const dal__factors *factors, 
 void dal__list_pivots(const dal__factors *factors, dal__node *pivot);
 /* How sums are written: as they arise, or in few operations (collect.h). */
 typedef enum dal__sum_form { DAL__SUMS_UNCHANGED, DAL__SUMS_COLLECTED } dal__sum_form;
-/* Solves for right-hand sides [columns*n], one after the other, into x[columns*n].  Errors:
- * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
-dal_status dal__factors_solve(dal_model *model, const dal__factors *factors, dal__sum_form sums,
-                              int columns, const dal__node *rhs, dal__node *x);
+/* Solves for right-hand sides [columns*n], one after the other, into x[columns*n]. */
+void dal__factors_solve(dal_model *model, const dal__factors *factors, dal__sum_form sums,
+                        int columns, const dal__node *rhs, dal__node *x);
 
 #endif

@@ -63,7 +63,8 @@ static bool find_units(identity *id)
     if (id->moved) return true;
     id->unit = dal__model_allocate(id->model, symbols, sizeof *id->unit);
     double *moved = dal__model_allocate(id->model, POINTS * symbols, sizeof *moved);
-    if (!id->unit || !moved || dal__model_units(id->model, id->unit) != DAL_STATUS_OK) return false;
+    if (!id->unit || !moved) return false;
+    dal__model_units(id->model, id->unit);
     for (int k = 0; k < POINTS * e->symbols; k++) {
         const int i = k % e->symbols;
         moved[k] = e->value[i];
@@ -225,18 +226,18 @@ static unsigned by_sources(identity *id)
     return exact ? DAL_E_EXACT : weak ? DAL_E_ON_D : 0;
 }
 
-dal_status dal__energy_properties(dal_model *model)
+void dal__energy_properties(dal_model *model)
 {
     dal__equations *e = &model->equations;
     identity id = {.model = model, .e = e, .max_terms = e->n + e->m + 2};
-    if (e->accelerations) return DAL_STATUS_OK;
+    if (e->accelerations) return;
     id.point = dal__model_allocate(model, (size_t)e->symbols, sizeof *id.point);
     id.term = dal__model_nodes(model, id.max_terms, 0);
     id.scale = dal__model_allocate(model, 2 * (size_t)id.max_terms, sizeof *id.scale);
     id.value = id.scale + id.max_terms;
     dal__node *E_v = dal__model_nodes(model, e->n, 0);
     double *scratch = dal__model_allocate(model, (size_t)((e->m + 1) * e->n), sizeof *scratch);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     unsigned found = by_sources(&id);
     if (!found && e->m > 0 && !e->vakonomic) {
         id.terms = 0; /* dE/dt = E_q v + E_t + E_v F */
@@ -246,7 +247,6 @@ dal_status dal__energy_properties(dal_model *model)
         found = vanishes(&id) ? DAL_E_EXACT : vanishes_at_points(&id, scratch) ? DAL_E_ON_D : 0;
     }
     e->properties |= found;
-    return model->out_of_memory ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
 }
 
 /* ---- a conserved energy ---- */
@@ -259,11 +259,11 @@ static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta,
     const int n = e->n, m = e->m;
     dal__node *G = dal__model_nodes(model, m * m, 0);
     dal__node *none = dal__model_nodes(model, n, dal__number(e->graph, 0.0));
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_OK;
     if (n > MAX_DENSE && e->bordered && !e->servo) {
         for (int a = 0; a < m; a++) along[a] = dal__dot(e->graph, n, e->A + a * n, e->flow + 1);
-        return dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, none, along, pushed,
-                                   beta);
+        dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, none, along, pushed, beta);
+        return DAL_STATUS_OK;
     }
     for (int a = 0; a < m; a++) {
         along[a] = dal__dot(e->graph, n, e->A + a * n, e->flow + 1);
@@ -276,17 +276,15 @@ static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta,
     return dal__solve_vector(model, m, G, along, beta);
 }
 
-static dal_status extend(dal_model *model)
+static void extend(dal_model *model)
 {
     dal__equations *e = &model->equations;
     dal__graph *graph = e->graph;
     const int n = e->n, m = e->m;
     dal__node *along = dal__model_nodes(model, m, 0), *beta = dal__model_nodes(model, m, 0);
     dal__node *extended = dal__model_nodes(model, n, 0), *push = dal__model_nodes(model, n, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    dal_status status = find_beta(model, along, beta, push);
-    if (status != DAL_STATUS_OK)
-        return status == DAL_STATUS_SINGULAR ? DAL_STATUS_OK : status; /* B is not A */
+    if (model->out_of_memory) return;
+    if (find_beta(model, along, beta, push) != DAL_STATUS_OK) return; /* B is not A */
     const dal__node *v = e->flow + 1;
     const dal__node *E_v = e->normal + 1 + n;
     dal__node free = dal__dot(graph, n, v, E_v);
@@ -310,22 +308,21 @@ static dal_status extend(dal_model *model)
         extended[i] = dal__node_add(graph, e->F[i], dal__node_mul(graph, alpha, along_free));
     }
     e->extended = extended;
-    return DAL_STATUS_OK;
 }
 
-dal_status dal__conserved_energy(dal_model *model)
+void dal__conserved_energy(dal_model *model)
 {
     dal__equations *e = &model->equations;
     e->normal = e->extended = NULL;
-    if (!(e->properties & (DAL_E_EXACT | DAL_E_ON_D)) || e->vakonomic) return DAL_STATUS_OK;
+    if (!(e->properties & (DAL_E_EXACT | DAL_E_ON_D)) || e->vakonomic) return;
     const int n = e->n;
     dal__node *normal = dal__model_nodes(model, 1 + 3 * n, 0);
-    if (!normal) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     normal[0] = e->energy;
     dal__gradient(e->graph, e->energy, e->symbol + e->q, n, normal + 1);
     dal__gradient(e->graph, e->energy, e->symbol + e->v, n, normal + 1 + n);
     e->normal = normal;
-    DAL_TRY(dal__solve_force(model, normal + 1, normal + 1 + 2 * n));
+    dal__solve_force(model, normal + 1, normal + 1 + 2 * n);
     /* F~ couples all coordinates, so its derivatives have the square of their number. */
-    return e->properties & DAL_E_ON_D && n <= MAX_EXTENDED ? extend(model) : DAL_STATUS_OK;
+    if (e->properties & DAL_E_ON_D && n <= MAX_EXTENDED) extend(model);
 }

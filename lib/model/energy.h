@@ -4,10 +4,9 @@
 
 #include "dalembert_model.h"
 
-/* Adds what is known of E to the properties.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
-dal_status dal__energy_properties(dal_model *model);
-/* After the properties: the normal of a conserved energy, and F continued off D = 0.  Errors:
- * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
-dal_status dal__conserved_energy(dal_model *model);
+/* Adds what is known of E to the properties. */
+void dal__energy_properties(dal_model *model);
+/* After the properties: the normal of a conserved energy, and F continued off D = 0. */
+void dal__conserved_energy(dal_model *model);
 
 #endif

@@ -112,7 +112,7 @@ static dal_status check_event(dal_model *model, int number, unsigned seen, dal_e
                                         (int)IN_MESSAGES, when->text, dots, when->index, when->at)
                      : dal__model_print(model, "event %d (%.*s%s)", number + 1, (int)IN_MESSAGES,
                                         when->text, dots);
-    if (!name) return dal__memory_error(error);
+    if (!name) return DAL_STATUS_OK;
     for (char *c = name; *c; c++)
         if ((unsigned char)*c < ' ') *c = ' ';
     e->event[number].name = name;
@@ -136,7 +136,7 @@ dal_status dal__parse_events(dal_model *model, dal_error *error)
     e->event_rate = dal__model_nodes(model, e->events, zero);
     e->event_state = dal__model_nodes(model, 2 * e->n * e->events, zero);
     e->event_normal = dal__model_nodes(model, (1 + 2 * e->n) * e->events, zero);
-    if (model->out_of_memory) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int i = 0; i < 2 * e->n * e->events; i++) {
         const int j = i % (2 * e->n);
         e->event_state[i] = dal__symbol(e->graph, j < e->n ? e->q + j : e->v + j - e->n);
@@ -171,7 +171,6 @@ dal_status dal__derive_events(dal_model *model, dal_error *error)
         for (int i = 0; i < e->n * e->n; i++)
             is_steady = is_steady && !dal__depends(e->graph, e->W[i], e->v, e->v + e->n);
         const bool has_v = dal__depends(e->graph, f, e->v, e->v + e->n);
-        DAL_TRY(dal__check_size(e->graph->status, error));
         const char *reason = e->vakonomic ? "vakonomic motion has no impacts"
                              : e->servo   ? "an actuator (reactions) has no impulses"
                              : has_v      ? "its 'when' contains velocities"
@@ -187,7 +186,7 @@ dal_status dal__derive_events(dal_model *model, dal_error *error)
         if (c < 0.0)
             return dal__fail_at(error, DAL_STATUS_MODEL, DAL__AT_TEXT(entry),
                                 "event %d: the restitution %g is negative", k + 1, c);
-        DAL_TRY(dal__check_size(dal__solve_force(model, normal, normal + e->n), error));
+        dal__solve_force(model, normal, normal + e->n);
     }
     return DAL_STATUS_OK;
 }

@@ -5,10 +5,10 @@
 #include "dalembert_model.h"
 
 /* Parses the section events, after all other formulas.  Errors: DAL_STATUS_SYNTAX, DAL_STATUS_NAME,
- * DAL_STATUS_MODEL, DAL_STATUS_TOO_LARGE, DAL_STATUS_MEMORY. */
+ * DAL_STATUS_MODEL, DAL_STATUS_TOO_LARGE. */
 dal_status dal__parse_events(dal_model *model, dal_error *error);
 /* After the equations: the rates and the normals of events.  Errors: DAL_STATUS_MODEL,
- * DAL_STATUS_MEMORY. */
+ * DAL_STATUS_UNSUPPORTED. */
 dal_status dal__derive_events(dal_model *model, dal_error *error);
 
 #endif

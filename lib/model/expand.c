@@ -80,7 +80,7 @@ static dal_status read_sizes(dal_model *model, dal_error *error)
     const int count = dal__model_count(model, DAL_SECTION_SIZES);
     e->size_name = dal__model_allocate(model, (size_t)count + 1, sizeof *e->size_name);
     e->size = dal__model_allocate(model, (size_t)count + 1, sizeof *e->size);
-    if (!e->size_name || !e->size) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int i = 0; i < count; i++) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_SIZES, i);
         const size_t length = strlen(entry->text);
@@ -127,7 +127,7 @@ static dal_status read_for(dal_model *model, const dal__entry *entry, range *r, 
     at += strspn(at, " \t\r\n");
     const size_t length = dal__name_length(at, strlen(at));
     r->index = dal__model_copy(model, at, length);
-    if (!r->index) return dal__memory_error(error);
+    if (!r->index) return DAL_STATUS_OK;
     at += length + strspn(at + length, " \t\r\n");
     if (*at != '=')
         return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(entry),
@@ -145,7 +145,7 @@ static dal_status append(dal_model *model, dal__entry entry, dal_error *error)
     if (model->expanded_count == model->expanded_capacity) {
         const int capacity = model->expanded_capacity ? 2 * model->expanded_capacity : 256;
         dal__entry *more = dal__model_allocate(model, (size_t)capacity, sizeof *more);
-        if (!more) return dal__memory_error(error);
+        if (!more) return DAL_STATUS_OK;
         for (int i = 0; i < model->expanded_count; i++) more[i] = model->expanded[i];
         model->expanded = more;
         model->expanded_capacity = capacity;
@@ -162,7 +162,7 @@ static dal_status put_name(dal_model *model, dal__entry *entry, const char *brac
     const char *text = named ? entry->name : entry->text;
     const char *name =
         dal__model_print(model, "%.*s%d%s", (int)(bracket - text), text, n, bracket + length);
-    if (!name) return dal__memory_error(error);
+    if (!name) return DAL_STATUS_OK;
     if (strlen(name) > DAL__MAX_LETTERS)
         return dal__fail_at(error, DAL_STATUS_TOO_LARGE, DAL__AT_NAME(entry),
                             "'%.40s...' in %s has more than %d characters", name,
@@ -228,7 +228,7 @@ static dal_status read_event_ranges(dal_model *model, event_range *events, int i
         event_range *event = entry.item > 0 ? &events[entry.item - 1] : NULL;
         if (!is_event_range(&entry)) continue;
         entry.text = dal__model_print(model, "for %s:", entry.text);
-        if (!entry.text) return dal__memory_error(error);
+        if (!entry.text) return DAL_STATUS_OK;
         if (!range_length(entry.text))
             return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_TEXT(&entry),
                                 "the range of an event is written i = 1..N");
@@ -251,7 +251,7 @@ static dal_status read_event_ranges(dal_model *model, event_range *events, int i
 static dal_status expand_event(dal_model *model, const dal__entry *given, const event_range *event,
                                dal_error *error)
 {
-    if (is_event_range(given)) return DAL_STATUS_OK;
+    if (is_event_range(given) || model->out_of_memory) return DAL_STATUS_OK;
     if (event->is_many && range_length(given->text) > 0)
         return dal__fail_at(error, DAL_STATUS_SYNTAX, DAL__AT_NAME(given),
                             "the event has a range, and '%.80s' another one", given->name);
@@ -263,7 +263,7 @@ static dal_status expand_event(dal_model *model, const dal__entry *given, const 
                                          event->r.first + i, event->r.first + i, given->text);
             made.apart = true;
         }
-        if (!made.text) return dal__memory_error(error);
+        if (!made.text) return DAL_STATUS_OK;
         DAL_TRY(expand_entry(model, &made, error));
     }
     return DAL_STATUS_OK;
@@ -309,7 +309,7 @@ dal_status dal__expand(dal_model *model, dal_error *error)
     }
     if (!compact) return DAL_STATUS_OK;
     event_range *events = dal__model_allocate(model, (size_t)items, sizeof *events);
-    if (!events) return dal__memory_error(error);
+    if (!events) return DAL_STATUS_OK;
     DAL_TRY(read_event_ranges(model, events, items, error));
     model->expanded_count = 0;
     for (int i = 0; i < model->given_count; i++) {

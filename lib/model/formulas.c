@@ -104,7 +104,6 @@ static dal_status parse_positions(dal_model *model, dal__scope scope, dal_error 
                        error));
     for (int j = 0; j < DAL__HOLONOMIC_COUNT(e); j++) {
         const bool has_v = dal__depends(e->graph, e->position[j], e->v, e->v + e->n);
-        DAL_TRY(dal__check_size(e->graph->status, error));
         if (has_v)
             return dal__fail_at(error, DAL_STATUS_MODEL,
                                 DAL__AT_TEXT(dal__model_entry(model, DAL_SECTION_HOLONOMIC, j)),
@@ -183,7 +182,7 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
         return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "a small library takes a mu_e of t alone, not '%.80s'", e->gauge);
     e->mu_gradient = dal__model_nodes(model, 2 * n + 1, 0);
-    if (!e->mu_gradient) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     dal__gradient(e->graph, e->mu, e->symbol + e->q, n, e->mu_gradient);
     dal__gradient(e->graph, e->mu, e->symbol + e->v, n, e->mu_gradient + n);
     dal__gradient(e->graph, e->mu, e->symbol + e->e, 1, e->mu_gradient + 2 * n);
@@ -228,7 +227,7 @@ static dal_status add_all_solved(dal_model *model, const char *const *names, dal
     const dal__entry *entry;
     e->solved =
         dal__model_allocate(model, (size_t)(DAL__HOLONOMIC_COUNT(e) + e->m), sizeof *e->solved);
-    if (!e->solved) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++)
         DAL_TRY(add_solved(model, entry, names, COORDINATES, error));
     for (int k = 0; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++)
@@ -246,14 +245,14 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     const dal__entry *entry;
     const bool lacks_multipliers = model->has_other_mechanics && !e->vakonomic;
     scope.given = given;
-    if (!names || !given) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int i = 0; i < e->n; i++) {
         names[i] = e->coordinate[i];
         names[e->n + i] = dal__model_print(model, "%s'", e->coordinate[i]);
     }
     for (int i = 2 * e->n; i < count; i++)
         names[i] = dal__model_print(model, "g%d", i - 2 * e->n + 1);
-    if (model->out_of_memory) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     DAL_TRY(add_all_solved(model, names, error));
     for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++) {
         if (dal__solved_name(entry)) continue;
@@ -453,7 +452,7 @@ static dal_status check_equations(dal_model *model, dal_error *error)
 }
 
 /* Numbers the symbols and allocates all nodes. */
-static dal_status begin_equations(dal_model *model, dal_error *error)
+static void begin_equations(dal_model *model)
 {
     dal__equations *e = &model->equations;
     int n = e->n, m = e->m;
@@ -464,9 +463,9 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     e->g = e->pi + 2 * n + 1;
     e->e = e->g + 2 * m;
     e->symbols = e->reaction = e->e + 1;
-    dal__graph_free(e->graph);
     e->graph = dal__graph_create(e->parameters);
-    if (!e->graph) return dal__memory_error(error);
+    model->out_of_memory |= !e->graph;
+    if (model->out_of_memory) return;
     e->graph->tables = model->table;
     e->graph->table_count = model->tables;
     dal__node zero = dal__number(e->graph, 0.0);
@@ -498,10 +497,9 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     e->value = dal__model_allocate(model, (size_t)e->symbols, sizeof *e->value);
     e->symbol = dal__model_allocate(model, (size_t)e->symbols, sizeof *e->symbol);
     e->flow = dal__model_nodes(model, 1 + n, dal__number(e->graph, 1.0));
-    if (model->out_of_memory) return dal__memory_error(error);
+    if (model->out_of_memory) return;
     for (int i = 0; i < e->symbols; i++) e->symbol[i] = i;
     for (int i = 0; i < n; i++) e->flow[1 + i] = dal__symbol(e->graph, e->v + i);
-    return DAL_STATUS_OK;
 }
 
 dal_status dal__parse_model(dal_model *model, dal_error *error)
@@ -510,7 +508,8 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     static const char *const words[] = {"lagrange-d'alembert", "vakonomic", "lagrange-dalembert"};
     int word = 0;
     model->warning = NULL;
-    *e = (dal__equations){.graph = e->graph};
+    dal__graph_free(e->graph);
+    *e = (dal__equations){.graph = NULL};
     DAL_TRY(dal__expand(model, error));
     const dal__entry *mechanics = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
     if (mechanics)
@@ -530,7 +529,8 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     DAL_TRY(check_equations(model, error));
     DAL_TRY(check_reactions(model, error));
     DAL_TRY(count_controls(model, error));
-    DAL_TRY(begin_equations(model, error));
+    begin_equations(model);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     e->start[2 * e->n + e->multipliers] = dal__number(e->graph, 1.0);
     DAL_TRY(parse_parameters(model, error));
     DAL_TRY(parse_functions(model, error));
@@ -547,5 +547,5 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
             dal__evaluate(e->graph, e->start[i], e->value);
     for (int a = 0; a < e->multipliers; a++)
         e->value[e->g + a] = dal__evaluate(e->graph, e->start[2 * e->n + a], e->value);
-    return dal__check_size(e->graph->status, error);
+    return DAL_STATUS_OK;
 }

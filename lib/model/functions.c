@@ -36,7 +36,7 @@ dal_status dal__read_signature(dal_model *model, const dal__entry *entry, dal__f
         function->argument[function->arity++] = word;
         separator = ',';
     }
-    if (model->out_of_memory) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     if (*at == ',' && function->arity == DAL__MAX_ARGUMENTS)
         return dal__fail_at(error, DAL_STATUS_TOO_LARGE, DAL__AT_NAME(entry),
                             "function %s has more than %d arguments", function->name,

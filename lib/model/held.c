@@ -91,7 +91,7 @@ static int branch_number(const dal__programs *p, const dal__switch_point *branch
 }
 
 /* Finds the branches of the programs that hold. */
-static dal_status find_branches(dal_model *model, dal__programs *p)
+static void find_branches(dal_model *model, dal__programs *p)
 {
     dal__graph *graph = model->equations.graph;
     dal__node last;
@@ -107,9 +107,7 @@ static dal_status find_branches(dal_model *model, dal__programs *p)
         p->branch[k] = branch;
         if (k == p->branches.count) p->branches.count++;
     }
-    const bool has_memory = mark && p->branch;
     free(mark);
-    return has_memory ? graph->status : DAL_STATUS_MEMORY;
 }
 
 /* sqrt(sum (ds/dx x)^2). */
@@ -126,7 +124,7 @@ static dal__node argument_size(const dal__equations *e, dal__node s, dal__node *
     return dal__apply(e->graph, DAL__SQRT, sum, 0);
 }
 
-static dal_status add_programs(dal_model *model, dal__programs *p)
+static void add_programs(dal_model *model, dal__programs *p)
 {
     const dal__equations *e = &model->equations;
     const int count = p->branches.count;
@@ -134,7 +132,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p)
     dal__node *rates = dal__model_nodes(model, count, 0);
     dal__node *slope = dal__model_nodes(model, e->pi - e->t, 0);
     const dal__node *F = p->tapes->tape[p->program[DAL__PROGRAM_FIELD].tape].output;
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int k = 0; k < count; k++) {
         const dal__node s = p->branch[k].argument;
         const dal__node by_v = dal__tangent(e->graph, s, e->symbol + e->v, e->n, F);
@@ -145,14 +143,12 @@ static dal_status add_programs(dal_model *model, dal__programs *p)
         rates[k] = dal__node_add(e->graph, dal__time_derivative(e, s),
                                  dal__node_add(e->graph, by_v, by_g));
     }
-    DAL_TRY(e->graph->status);
     dal__programs_add(model, p, DAL__PROGRAM_BRANCH_VALUES, values, 2 * count);
     dal__programs_add(model, p, DAL__PROGRAM_BRANCH_RATES, rates, count);
-    return DAL_STATUS_OK;
 }
 
 /* Gives the tapes the point of each node. */
-static dal_status place_points(dal_model *model, dal__programs *p)
+static void place_points(dal_model *model, dal__programs *p)
 {
     dal__graph *graph = model->equations.graph;
     dal__node last;
@@ -169,17 +165,16 @@ static dal_status place_points(dal_model *model, dal__programs *p)
     }
     p->tapes->points = p->branches.count;
     p->tapes->point = point;
-    const bool has_memory = mark && point;
     free(mark);
-    return has_memory ? graph->status : DAL_STATUS_MEMORY;
 }
 
-dal_status dal__programs_add_branches(dal_model *model, dal__programs *programs)
+void dal__programs_add_branches(dal_model *model, dal__programs *programs)
 {
+    if (model->out_of_memory) return; /* there may be no tapes */
     let_hold(programs);
-    DAL_TRY(find_branches(model, programs));
-    if (programs->branches.count == 0) return DAL_STATUS_OK;
-    DAL_TRY(add_programs(model, programs));
+    find_branches(model, programs);
+    if (programs->branches.count == 0) return;
+    add_programs(model, programs);
     let_hold(programs);
-    return place_points(model, programs);
+    place_points(model, programs);
 }

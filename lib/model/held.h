@@ -9,8 +9,7 @@
 dal__node dal__switch_argument(dal__graph *graph, dal__node node);
 
 /* Adds the programs of the branches of F, and lets the programs of a step hold them; after all
- * other nodes are made.  Nothing without branches.  Errors: DAL_STATUS_MEMORY,
- * DAL_STATUS_TOO_LARGE. */
-dal_status dal__programs_add_branches(dal_model *model, dal__programs *programs);
+ * other nodes are made.  Nothing without branches. */
+void dal__programs_add_branches(dal_model *model, dal__programs *programs);
 
 #endif

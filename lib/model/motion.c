@@ -96,8 +96,11 @@ dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *erro
         return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
                             "%s is not held by the reactions: A W^-1 B^T is singular",
                             DAL__CONSTRAINT_NAME(e, row));
-    const bool has_units = rows && dal__model_units(model, rows + before) == DAL_STATUS_OK;
-    const double rest = has_units ? list_dependence(e, row, rows, list, sizeof list) : 0.0;
+    double rest = 0.0;
+    if (rows) {
+        dal__model_units(model, rows + before);
+        rest = list_dependence(e, row, rows, list, sizeof list);
+    }
     if (rest > no_rest && isfinite(rest))
         return dal__fail_at(error, DAL_STATUS_RANK, DAL__AT_TEXT(entry),
                             "%s nearly depends on %s: they differ by %.1g of its "
@@ -108,15 +111,13 @@ dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *erro
                         DAL__CONSTRAINT_NAME(e, row), list + 2);
 }
 
-/* status: of dal__factor. */
-static dal_status unsolved(const dal_model *model, dal_status status, const char *matrix,
-                           dal_error *error)
+/* status: of dal__factor, where the matrix may be singular no more. */
+static dal_status check_coupling(const dal_model *model, dal_status status, const char *matrix,
+                                 dal_error *error)
 {
-    const dal__equations *e = &model->equations;
-    if (status == DAL_STATUS_TOO_LARGE && e->graph->status == DAL_STATUS_OK)
-        return dal__fail(error, status, "%s of %d coordinates couples too many of them", matrix,
-                         e->n);
-    return dal__size_error(e->graph->status, error);
+    if (status == DAL_STATUS_OK) return status;
+    return dal__fail(error, status, "%s of %d coordinates couples too many of them", matrix,
+                     model->equations.n);
 }
 
 /* ---- W alone ---- */
@@ -125,10 +126,12 @@ dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, c
                              dal__node *x)
 {
     dal__factors f;
-    if (!dal__factors_allocate(model, &f, n, NULL)) return DAL_STATUS_MEMORY;
+    dal__factors_allocate(model, &f, n, NULL);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int i = 0; i < n * n; i++) f.matrix[i] = matrix[i];
     DAL_TRY(dal__factor(model, &f));
-    return dal__factors_solve(model, &f, DAL__SUMS_UNCHANGED, 1, rhs, x);
+    dal__factors_solve(model, &f, DAL__SUMS_UNCHANGED, 1, rhs, x);
+    return DAL_STATUS_OK;
 }
 
 /* Whether W^-1 A^T has many more entries than A: the factors of W then give its columns when a
@@ -167,18 +170,19 @@ dal_status dal__solve_mass(dal_model *model)
     dal__equations *e = &model->equations;
     const int n = e->n;
     dal__factors *mass = e->mass = dal__model_allocate(model, 1, sizeof *mass);
-    if (!mass || !dal__factors_allocate(model, mass, n, NULL)) return DAL_STATUS_MEMORY;
+    if (mass) dal__factors_allocate(model, mass, n, NULL);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int i = 0; i < n * n; i++) mass->matrix[i] = e->W[i];
     DAL_TRY(dal__factor(model, mass));
     e->mass_positive = mass->positive;
     const int m = fills_directions(model) ? 0 : e->m, columns = 1 + m + (e->servo ? m : 0);
     dal__node *rhs = dal__model_nodes(model, columns * n, 0);
     dal__node *x = dal__model_nodes(model, columns * n, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int i = 0; i < n; i++) rhs[i] = e->b[i];
     for (int i = 0; i < m * n; i++) rhs[n + i] = e->A[i];
     for (int i = 0; i < m * n && e->servo; i++) rhs[n + m * n + i] = e->B[i];
-    DAL_TRY(dal__factors_solve(model, mass, DAL__SUMS_UNCHANGED, columns, rhs, x));
+    dal__factors_solve(model, mass, DAL__SUMS_UNCHANGED, columns, rhs, x);
     for (int i = 0; i < n; i++) {
         e->a[i] = x[i];
         for (int a = 0; a < m; a++) {
@@ -189,16 +193,17 @@ dal_status dal__solve_mass(dal_model *model)
     return DAL_STATUS_OK;
 }
 
-dal_status dal__solve_force(dal_model *model, const dal__node *force, dal__node *x)
+void dal__solve_force(dal_model *model, const dal__node *force, dal__node *x)
 {
     const dal__equations *e = &model->equations;
     dal__node *zero = dal__model_nodes(model, e->m, dal__number(e->graph, 0.0));
-    if (!e->restricted) return dal__solve_vector(model, e->n, e->W, force, x);
-    if (!zero) return DAL_STATUS_MEMORY;
-    return dal__restricted_solve(model, e->restricted, force, zero, x, NULL);
+    if (e->restricted)
+        dal__restricted_solve(model, e->restricted, force, zero, x, NULL);
+    else
+        dal__solve_vector(model, e->n, e->W, force, x);
 }
 
-dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
+void dal__solve_mass_at_pi(dal_model *model, dal__node *U)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
@@ -207,7 +212,7 @@ dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
     dal__node *u = dal__model_nodes(model, n, 0), *x = dal__model_nodes(model, n * m, 0);
     const dal__node *from = e->restricted ? e->W : e->mass->matrix;
     mass.matrix = dal__model_nodes(model, n * n, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int i = 0; i < n * n; i++) mass.matrix[i] = from[i];
     for (int i = 0; i < n; i++) {
         v[i] = e->v + i;
@@ -219,12 +224,12 @@ dal_status dal__solve_mass_at_pi(dal_model *model, dal__node *U)
         for (int i = 0; i < n; i++) e->value[e->pi + i] = e->value[e->v + i];
         const dal_status status = dal__restricted_factor(model, mass.matrix, &r);
         for (int i = 0; i < n; i++) e->value[e->pi + i] = 0.0;
-        return status == DAL_STATUS_OK ? dal__restricted_directions(model, &r, U) : status;
+        if (status == DAL_STATUS_OK) dal__restricted_directions(model, &r, U);
+        return;
     }
-    DAL_TRY(dal__factors_solve(model, &mass, DAL__SUMS_UNCHANGED, m, e->A, x));
+    dal__factors_solve(model, &mass, DAL__SUMS_UNCHANGED, m, e->A, x);
     for (int i = 0; i < n; i++)
         for (int a = 0; a < m; a++) U[i * m + a] = x[a * n + i];
-    return DAL_STATUS_OK;
 }
 
 /* ---- F and h ---- */
@@ -248,11 +253,12 @@ static dal_status derive_by(dal_model *model, const dal__factors *mass, unsigned
 {
     dal__equations *e = &model->equations;
     dal__node *bottom = dal__model_nodes(model, e->m, 0);
-    if (!bottom) return DAL_STATUS_MEMORY;
     DAL_TRY(dal__bordered_factor(model, mass, way, &e->bordered, singular));
+    if (model->out_of_memory) return DAL_STATUS_OK;
     dal__bordered_record_pivots(e, e->bordered, mass);
     for (int a = 0; a < e->m; a++) bottom[a] = dal__node_neg(e->graph, e->c[a]);
-    return dal__bordered_solve(model, e->bordered, DAL__SUMS_COLLECTED, e->b, bottom, e->F, e->h);
+    dal__bordered_solve(model, e->bordered, DAL__SUMS_COLLECTED, e->b, bottom, e->F, e->h);
+    return DAL_STATUS_OK;
 }
 
 /* The cheapest way; of many coordinates, WHOLE or REDUCED without a comparison. */
@@ -276,13 +282,14 @@ static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, in
     for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
         const dal_status status = derive_by(model, mass, last = ways[k], singular);
         if (status != DAL_STATUS_OK && (status != DAL_STATUS_SINGULAR || k == 0)) return status;
+        if (model->out_of_memory) return DAL_STATUS_OK;
         if (last & DAL__SOLVED && !dal__bordered_is_reduced(e->bordered)) break;
         const int cost = status == DAL_STATUS_OK ? cost_of_F(model) : INT_MAX;
         if (cost >= least) continue;
         least = cost;
         best = last;
     }
-    return best == last ? e->graph->status : derive_by(model, mass, best, singular);
+    return best == last ? DAL_STATUS_OK : derive_by(model, mass, best, singular);
 }
 
 static dal_status derive_restricted(dal_model *model)
@@ -291,14 +298,16 @@ static dal_status derive_restricted(dal_model *model)
     const dal__node none = dal__number(e->graph, 0.0);
     dal__node *bottom = dal__model_nodes(model, e->m, none);
     dal__restricted *r = e->restricted = dal__model_allocate(model, 1, sizeof *r);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_OK;
     DAL_TRY(dal__restricted_factor(model, e->W, r));
+    if (model->out_of_memory) return DAL_STATUS_OK;
     e->mass_positive = r->V.positive;
     dal__restricted_record_pivots(e, r);
-    DAL_TRY(dal__restricted_solve(model, r, e->b, bottom, e->a, NULL));
-    DAL_TRY(dal__restricted_directions(model, r, e->U));
+    dal__restricted_solve(model, r, e->b, bottom, e->a, NULL);
+    dal__restricted_directions(model, r, e->U);
     for (int a = 0; a < e->m; a++) bottom[a] = dal__node_neg(e->graph, e->c[a]);
-    return dal__restricted_solve(model, r, e->b, bottom, e->F, e->h);
+    dal__restricted_solve(model, r, e->b, bottom, e->F, e->h);
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__motion_derive(dal_model *model, dal_error *error)
@@ -308,19 +317,18 @@ dal_status dal__motion_derive(dal_model *model, dal_error *error)
     dal_status status = dal__solve_mass(model);
     const bool fails = status == DAL_STATUS_SINGULAR, may_restrict = e->m > 0 && !e->servo;
     if (fails && !may_restrict) return dal__singular_mass(model, e->mass->singular, error);
-    if (status != DAL_STATUS_OK && !fails) return unsolved(model, status, "the mass matrix", error);
+    if (!fails) DAL_TRY(check_coupling(model, status, "the mass matrix", error));
     if (may_restrict && (fails || dal__mass_may_turn_singular(model))) {
         status = derive_restricted(model);
         if (status == DAL_STATUS_SINGULAR)
             return e->restricted->singular < 0
                        ? dal__singular_mass(model, e->restricted->V.singular, error)
                        : dal__dependent_constraints(model, e->restricted->singular, error);
-        return status == DAL_STATUS_OK ? DAL_STATUS_OK
-                                       : unsolved(model, status, "W on ker A", error);
+        return check_coupling(model, status, "W on ker A", error);
     }
     status = derive_cheapest(model, e->mass, &singular);
     if (status == DAL_STATUS_SINGULAR) return dal__dependent_constraints(model, singular, error);
-    return status == DAL_STATUS_OK ? DAL_STATUS_OK : unsolved(model, status, "A W^-1 A^T", error);
+    return check_coupling(model, status, "A W^-1 A^T", error);
 }
 
 /* ---- derivatives ---- */
@@ -342,13 +350,14 @@ bool dal__motion_is_symmetric(const dal__equations *e)
 }
 
 /* W x - A^T h = top, A x = bottom by the factors of F. */
-static dal_status solve_motion(dal_model *model, const dal__node *top, const dal__node *bottom,
-                               dal__node *x, dal__node *h)
+static void solve_motion(dal_model *model, const dal__node *top, const dal__node *bottom,
+                         dal__node *x, dal__node *h)
 {
     const dal__equations *e = &model->equations;
-    return e->restricted
-               ? dal__restricted_solve(model, e->restricted, top, bottom, x, h)
-               : dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, top, bottom, x, h);
+    if (e->restricted)
+        dal__restricted_solve(model, e->restricted, top, bottom, x, h);
+    else
+        dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, top, bottom, x, h);
 }
 
 /* The same of top = 0, for the rows of A from `first` on, by the factors of their A W^-1 A^T, which
@@ -359,7 +368,7 @@ static dal_status solve_by_directions(dal_model *model, int first, const dal__no
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m, rows = m - first;
     dal__node *G = dal__model_nodes(model, rows * rows, dal__number(e->graph, 0.0));
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int k = 0; k < rows * rows; k++) {
         const dal__node *A = e->A + (first + k / rows) * n, *U = e->U + first + k % rows;
         G[k] = dal__add_strided_dot(e->graph, G[k], n, A, 1, U, m);
@@ -374,10 +383,11 @@ dal_status dal__motion_correct(dal_model *model, dal__node *x)
     const dal__equations *e = &model->equations;
     const dal__node zero = dal__number(e->graph, 0.0);
     dal__node *top = dal__model_nodes(model, e->n, zero), *D = dal__model_nodes(model, 2 * e->m, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int a = 0; a < e->m; a++) D[a] = dal__node_neg(e->graph, e->constraint[a]);
-    return dal__motion_is_symmetric(e) ? solve_motion(model, top, D, x, NULL)
-                                       : solve_by_directions(model, 0, D, x, D + e->m);
+    if (!dal__motion_is_symmetric(e)) return solve_by_directions(model, 0, D, x, D + e->m);
+    solve_motion(model, top, D, x, NULL);
+    return DAL_STATUS_OK;
 }
 
 /* y = beta a + U l, of restricted motion, where A U = 1, and of vakonomic motion, without a. */
@@ -395,35 +405,36 @@ dal_status dal__motion_enforce(dal_model *model, dal__node *out)
     const int n = e->n, m = e->m;
     const dal__node *pi = name(model, e->pi, n + m + 1);
     dal__node *top = dal__model_nodes(model, n, 0), *bottom = dal__model_nodes(model, m, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int i = 0; i < n; i++) top[i] = dal__node_mul(e->graph, pi[n + m], e->b[i]);
     for (int a = 0; a < m; a++)
         bottom[a] = dal__node_add(e->graph, dal__dot(e->graph, n, e->A + a * n, pi), pi[n + a]);
     if (e->vakonomic) return solve_by_directions(model, 0, bottom, out, out + n);
-    if (!e->restricted)
-        return dal__bordered_solve(model, e->bordered, DAL__SUMS_UNCHANGED, top, bottom, out,
-                                   out + n);
+    if (!e->restricted) {
+        solve_motion(model, top, bottom, out, out + n);
+        return DAL_STATUS_OK;
+    }
     for (int a = 0; a < m; a++) out[n + a] = bottom[a];
     react_by_directions(e, pi[n + m], bottom, out);
     return DAL_STATUS_OK;
 }
 
-dal_status dal__motion_react(dal_model *model, dal__node *y)
+void dal__motion_react(dal_model *model, dal__node *y)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
     const dal__node *l = name(model, e->pi, m + 1);
     dal__node *top = dal__model_nodes(model, n, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     if (e->restricted || e->vakonomic) {
         react_by_directions(e, l[m], l, y);
-        return DAL_STATUS_OK;
+        return;
     }
     for (int i = 0; i < n; i++) {
         top[i] = dal__node_mul(e->graph, l[m], e->b[i]);
         top[i] = dal__add_strided_dot(e->graph, top[i], m, e->B + i, n, l, 1);
     }
-    return dal__factors_solve(model, e->mass, DAL__SUMS_UNCHANGED, 1, top, y);
+    dal__factors_solve(model, e->mass, DAL__SUMS_UNCHANGED, 1, top, y);
 }
 
 dal_status dal__motion_place(dal_model *model, dal__node *out)
@@ -432,9 +443,9 @@ dal_status dal__motion_place(dal_model *model, dal__node *out)
     const int first = e->m - e->holonomic;
     const dal__node *c = name(model, e->pi + first, e->holonomic);
     dal__node *top = dal__model_nodes(model, e->n, dal__number(e->graph, 0.0));
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    if (!e->U[0]) return solve_motion(model, top, c, out, out + e->n); /* first is 0 */
-    return solve_by_directions(model, first, c, out, out + e->n);
+    if (e->U[0]) return solve_by_directions(model, first, c, out, out + e->n);
+    solve_motion(model, top, c, out, out + e->n); /* first is 0 */
+    return DAL_STATUS_OK;
 }
 
 /* What is differentiated: b - W F + A^T h [n] and -c - A F [m], F and h being symbols. */
@@ -457,19 +468,18 @@ static dal__node *residuals(dal_model *model)
 }
 
 /* Replaces the symbols of F, h and w [n + m; or NULL] by their nodes. */
-static dal_status insert(dal_model *model, int count, dal__node *nodes, const dal__node *w)
+static void insert(dal_model *model, int count, dal__node *nodes, const dal__node *w)
 {
     const dal__equations *e = &model->equations;
     const int size = e->n + e->m, symbols = w ? NAMED * size : size;
     int *symbol = dal__model_allocate(model, (size_t)symbols, sizeof *symbol);
     dal__node *by = dal__model_nodes(model, symbols, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int i = 0; i < symbols; i++) {
         symbol[i] = e->symbols + i;
         by[i] = i < e->n ? e->F[i] : i < size ? e->h[i - e->n] : w[i - size];
     }
     dal__substitute_all(e->graph, count, nodes, symbol, symbols, by);
-    return DAL_STATUS_OK;
 }
 
 /* q, then v. */
@@ -484,7 +494,7 @@ static int *state_symbols(dal_model *model)
     return symbol;
 }
 
-dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by_v)
+bool dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by_v)
 {
     enum { MAX_NODES = 250000 };
     const dal__equations *e = &model->equations;
@@ -493,22 +503,22 @@ dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by
     const dal__node *residual = residuals(model);
     dal__node *row = dal__model_nodes(model, columns, 0), *x = dal__model_nodes(model, n, 0);
     dal__node *rhs = dal__model_nodes(model, columns * size, 0); /* column by column */
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return false;
     for (int i = 0; i < size; i++) {
         dal__gradient(e->graph, residual[i], symbol, columns, row);
         for (int c = 0; c < columns; c++) rhs[c * size + i] = row[c];
     }
-    DAL_TRY(insert(model, columns * size, rhs, NULL));
+    insert(model, columns * size, rhs, NULL);
     for (int c = 0; c < columns; c++) {
         const dal__node *top = rhs + c * size;
-        DAL_TRY(solve_motion(model, top, top + n, x, NULL));
-        if (e->graph->count - first > MAX_NODES) return DAL_STATUS_TOO_LARGE;
+        solve_motion(model, top, top + n, x, NULL);
+        if (e->graph->count - first > MAX_NODES) return false;
         for (int i = 0; i < n; i++) *(c < n ? &by_q[i * n + c] : &by_v[i * n + c - n]) = x[i];
     }
-    return DAL_STATUS_OK;
+    return true;
 }
 
-dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_v)
+void dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_v)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m, size = n + m;
@@ -517,32 +527,29 @@ dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_
     const dal__node *pi = name(model, e->pi, n);
     dal__node *weight = dal__model_nodes(model, size, 0), *out = dal__model_nodes(model, 2 * n, 0);
     dal__node *zero = dal__model_nodes(model, m, dal__number(e->graph, 0.0));
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
-    DAL_TRY(solve_motion(model, pi, zero, weight, weight + n));
+    if (model->out_of_memory) return;
+    solve_motion(model, pi, zero, weight, weight + n);
     for (int a = 0; a < m; a++) weight[n + a] = dal__node_neg(e->graph, weight[n + a]);
     dal__gradient(e->graph, dal__dot(e->graph, size, w, residual), symbol, 2 * n, out);
-    DAL_TRY(insert(model, 2 * n, out, weight));
+    insert(model, 2 * n, out, weight);
     for (int i = 0; i < n; i++) {
         by_q[i] = out[i];
         by_v[i] = out[n + i];
     }
-    return DAL_STATUS_OK;
 }
 
 /* ---- efforts ---- */
 
 /* The columns M c, count of them, of M = P W^-1, which solves W x - B^T h = c, A x = 0. */
-static dal_status push_columns(dal_model *model, int count, const dal__node *column, dal__node *x)
+static void push_columns(dal_model *model, int count, const dal__node *column, dal__node *x)
 {
     const dal__equations *e = &model->equations;
     dal__node *zero = dal__model_nodes(model, e->m, dal__number(e->graph, 0.0));
-    if (!zero) return DAL_STATUS_MEMORY;
     for (int k = 0; k < count; k++)
-        DAL_TRY(solve_motion(model, column + k * e->n, zero, x + k * e->n, NULL));
-    return DAL_STATUS_OK;
+        solve_motion(model, column + k * e->n, zero, x + k * e->n, NULL);
 }
 
-dal_status dal__motion_effort(dal_model *model, dal_effort effort, dal__node *out)
+void dal__motion_effort(dal_model *model, dal_effort effort, dal__node *out)
 {
     const dal__equations *e = &model->equations;
     const bool is_constraint = effort == DAL_EFFORT_CONSTRAINT;
@@ -550,16 +557,15 @@ dal_status dal__motion_effort(dal_model *model, dal_effort effort, dal__node *ou
     const dal__node *pi = name(model, e->pi, n);
     dal__node *unit = dal__model_nodes(model, n * n, dal__number(e->graph, 0.0));
     dal__node *x = dal__model_nodes(model, count * n, 0), *g = dal__model_nodes(model, count, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int i = 0; i < n; i++) unit[i * n + i] = dal__number(e->graph, 1.0);
     for (int i = 0; i < n; i++) out[i] = dal__number(e->graph, 0.0);
-    if (effort == DAL_EFFORT_MASS && e->restricted) return DAL_STATUS_UNSUPPORTED;
     if (effort == DAL_EFFORT_MASS) {
-        DAL_TRY(dal__factors_solve(model, e->mass, DAL__SUMS_UNCHANGED, 1, pi, out));
+        dal__factors_solve(model, e->mass, DAL__SUMS_UNCHANGED, 1, pi, out);
     } else if (is_constraint && !e->servo) { /* K = P W^-1 by Chetaev's rule, else M W M^T */
-        DAL_TRY(push_columns(model, 1, pi, out));
+        push_columns(model, 1, pi, out);
     } else {
-        DAL_TRY(push_columns(model, count, is_constraint ? unit : e->control, x));
+        push_columns(model, count, is_constraint ? unit : e->control, x);
         for (int k = 0; k < count; k++) g[k] = dal__dot(e->graph, n, x + k * n, pi);
         if (!is_constraint) model->equations.control_cost = g;
         for (int k = 0; k < count; k++) { /* K pi = sum_k x_k g_k, of unit columns x_k (W g)_k */
@@ -572,5 +578,4 @@ dal_status dal__motion_effort(dal_model *model, dal_effort effort, dal__node *ou
         dal__node_mul(e->graph, dal__number(e->graph, 0.5), dal__dot(e->graph, n, pi, out));
     dal__gradient(e->graph, half, e->symbol + e->q, n, out + n);
     dal__gradient(e->graph, half, e->symbol + e->v, n, out + 2 * n);
-    return DAL_STATUS_OK;
 }

@@ -84,18 +84,18 @@ static void couple(const blocks *b, int i)
     free(mark);
 }
 
-dal_status dal__potential(dal_model *model)
+void dal__potential(dal_model *model)
 {
     dal__equations *e = &model->equations;
     e->potential = NULL;
-    if (e->vakonomic || !e->energy || !(e->properties & DAL_MASS_CONSTANT)) return DAL_STATUS_OK;
+    if (e->vakonomic || !e->energy || !(e->properties & DAL_MASS_CONSTANT)) return;
     blocks b = {.model = model};
     dal__node *out = dal__model_nodes(model, 3 * e->n, 0);
     b.block = dal__model_allocate(model, (size_t)e->n, sizeof *b.block);
     b.U_q = dal__model_nodes(model, e->n, 0);
     b.row = dal__model_nodes(model, e->n, dal__number(e->graph, 0.0));
     b.other = dal__model_nodes(model, e->n, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     /* L is a polynomial of degree 2 in v: U is what remains of -L without v. */
     b.U = dal__node_neg(e->graph,
                         dal__substitute(e->graph, e->lagrangian, e->symbol + e->v, e->n, b.row));
@@ -105,5 +105,4 @@ dal_status dal__potential(dal_model *model)
     for (int i = 0; i < e->n; i++)
         if (b.block[i] == i) fill_block(&b, i, out);
     e->potential = out;
-    return DAL_STATUS_OK;
 }

@@ -4,8 +4,7 @@
 
 #include "dalembert_model.h"
 
-/* What a discrete gradient needs of the potential, where W is constant.  Errors: DAL_STATUS_MEMORY,
- * DAL_STATUS_TOO_LARGE. */
-dal_status dal__potential(dal_model *model);
+/* What a discrete gradient needs of the potential, where W is constant. */
+void dal__potential(dal_model *model);
 
 #endif

@@ -153,13 +153,13 @@ static const dal__node *cheaper(const dal__equations *e, int count, const dal__n
 }
 
 /* F, F_q^T pi and F_v^T pi; by sweeps they are the gradient of pi.F. */
-static dal_status add_adjoint(dal_model *model, dal__programs *programs, const dal__node *F)
+static void add_adjoint(dal_model *model, dal__programs *programs, const dal__node *F)
 {
     const dal__equations *e = &model->equations;
     const int n = programs->n;
     dal__node *swept = is_swept(e, F, n) ? dal__model_nodes(model, 3 * n, 0) : NULL;
     dal__node *solved = has_equations(e, F) ? dal__model_nodes(model, 3 * n, 0) : NULL;
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     dal__node product = dal__number(e->graph, 0.0);
     for (int i = 0; i < n; i++) {
         dal__node pi = dal__symbol(e->graph, e->pi + i);
@@ -171,44 +171,38 @@ static dal_status add_adjoint(dal_model *model, dal__programs *programs, const d
         dal__gradient(e->graph, product, e->symbol + e->q, n, swept + n);
         dal__gradient(e->graph, product, e->symbol + e->v, n, swept + 2 * n);
     }
-    if (solved) DAL_TRY(dal__motion_adjoint(model, solved + n, solved + 2 * n));
+    if (solved) dal__motion_adjoint(model, solved + n, solved + 2 * n);
     const dal__node *out = cheaper(e, 3 * n, swept, solved);
     dal__programs_add(model, programs, DAL__PROGRAM_ADJOINT, out, 3 * n);
-    return DAL_STATUS_OK;
 }
 
 /* The derivatives by q of all, then those by v and the multipliers of all, row by row; not where
  * these are many and F couples them all, as one continued off D = 0 does. */
-static dal_status add_jacobian(dal_model *model, dal__programs *programs, const dal__node *F)
+static void add_jacobian(dal_model *model, dal__programs *programs, const dal__node *F)
 {
     const dal__equations *e = &model->equations;
     const int n = programs->n, nw = n + programs->multipliers, count = nw * (n + nw);
-    if (F == e->extended && n > MAX_COUPLED) return DAL_STATUS_OK;
+    if (F == e->extended && n > MAX_COUPLED) return;
     dal__node *swept = is_swept(e, F, nw) ? dal__model_nodes(model, count, 0) : NULL;
     dal__node *solved = has_equations(e, F) ? dal__model_nodes(model, count, 0) : NULL;
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int i = 0; swept && i < nw; i++) {
         dal__node *by_q = swept + i * n, *by_v = swept + nw * n + i * nw;
         dal__gradient(e->graph, F[i], e->symbol + e->q, n, by_q);
         dal__gradient(e->graph, F[i], e->symbol + e->v, n, by_v);
         dal__gradient(e->graph, F[i], e->symbol + e->g, nw - n, by_v + n);
     }
-    const dal_status status =
-        solved ? dal__motion_jacobian(model, solved, solved + n * n) : DAL_STATUS_OK;
-    if (status == DAL_STATUS_TOO_LARGE && e->graph->status == DAL_STATUS_OK && !swept)
-        return DAL_STATUS_OK;
-    DAL_TRY(status);
+    if (solved && !dal__motion_jacobian(model, solved, solved + n * n)) solved = NULL;
     const dal__node *out = cheaper(e, count, swept, solved);
-    dal__programs_add(model, programs, DAL__PROGRAM_JACOBIAN, out, count);
-    return DAL_STATUS_OK;
+    if (out) dal__programs_add(model, programs, DAL__PROGRAM_JACOBIAN, out, count);
 }
 
-dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F)
+void dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F)
 {
     int nw = programs->n + programs->multipliers;
     dal__programs_add(model, programs, DAL__PROGRAM_FIELD, F, nw);
-    DAL_TRY(add_jacobian(model, programs, F));
-    return programs->multipliers ? DAL_STATUS_OK : add_adjoint(model, programs, F);
+    add_jacobian(model, programs, F);
+    if (!programs->multipliers) add_adjoint(model, programs, F);
 }
 
 /* ---- callbacks of one lane only ---- */

@@ -21,9 +21,8 @@ void dal__programs_add_lists(dal_model *model, dal__programs *programs, dal__pro
                              const dal__nodes *lists, int count);
 void dal__programs_add(dal_model *model, dal__programs *programs, dal__program_code code,
                        const dal__node *outputs, int count);
-/* Adds field, adjoint and jacobian of dx/dt = F: nw nodes, the first n of them accelerations.
- * Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE, DAL_STATUS_SINGULAR. */
-dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F);
+/* Adds field, adjoint and jacobian of dx/dt = F: nw nodes, the first n of them accelerations. */
+void dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F);
 /* Adds what names the pivot, the constraint or the table where a motion fails. */
 void dal__programs_add_diagnosis(dal_model *model, dal__programs *programs);
 /* The programs of a model's system; NULL for another. */

@@ -109,12 +109,12 @@ static unsigned blocks_properties(const dal__equations *e, dal__node *row)
 
 /* ---- the whole ---- */
 
-dal_status dal__properties(dal_model *model)
+void dal__properties(dal_model *model)
 {
     dal__equations *e = &model->equations;
     dal__node *first = dal__model_nodes(model, 2 * e->n, 0);
     dal__node *second = dal__model_nodes(model, 2 * e->n, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     bool autonomous = true, constant = true;
     for (int i = 0; i < e->n + e->multipliers; i++)
         autonomous = autonomous && !dal__depends(e->graph, e->F[i], e->t, e->t + 1);
@@ -133,10 +133,9 @@ dal_status dal__properties(dal_model *model)
     e->properties |= (autonomous ? DAL_AUTONOMOUS : 0u) | (constant ? DAL_MASS_CONSTANT : 0u) |
                      (e->vakonomic ? DAL_VAKONOMIC : 0u) | (e->servo ? DAL_SERVO : 0u) |
                      (e->restricted ? DAL_MASS_ON_KERNEL : 0u);
-    DAL_TRY(dal__energy_properties(model));
+    dal__energy_properties(model);
     e->properties |= blocks_properties(e, first);
     if (!e->vakonomic && !depends_on_v(e, e->F, e->n)) e->properties |= DAL_F_POSITIONAL;
-    return DAL_STATUS_OK;
 }
 
 /* ---- guards ---- */
@@ -266,7 +265,7 @@ dal_status dal__guards(dal_model *model)
         for (dal__node node = e->constraint[a]; node > 0; node--)
             if (s.flag[node]) visit(&s, node);
     }
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_OK;
     if (e->servo) guard_determinant(&s, is_of_constraints, "the reactions: det A W^-1 B^T");
     const char *name =
         e->restricted ? "the mass matrix on ker A: its determinant" : "the mass matrix: det W";

@@ -4,10 +4,10 @@
 
 #include "dalembert_model.h"
 
-/* Sets the properties of the equations.  Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
-dal_status dal__properties(dal_model *model);
-/* Collects the guards of the constraints and of the mass matrix.  Errors: DAL_STATUS_MEMORY,
- * DAL_STATUS_TOO_LARGE. */
+/* Sets the properties of the equations. */
+void dal__properties(dal_model *model);
+/* Collects the guards of the constraints and of the mass matrix.  Errors: DAL_STATUS_TOO_LARGE
+ * (too many). */
 dal_status dal__guards(dal_model *model);
 
 #endif

@@ -102,9 +102,9 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
     int *whose = dal__model_allocate(model, (size_t)m, sizeof *whose);
-    if (!whose) return DAL_STATUS_MEMORY;
-    for (int a = 0; a < m; a++) whose[a] = a;
-    if (!dal__factors_allocate(model, &r->S, m, whose)) return DAL_STATUS_MEMORY;
+    for (int a = 0; whose && a < m; a++) whose[a] = a;
+    dal__factors_allocate(model, &r->S, m, whose);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int i = 0; i < n; i++)
         for (int a = 0; a < m; a++)
             lifted[i * m + a] =
@@ -120,7 +120,7 @@ static dal_status make_projector(dal_model *model, dal__restricted *r, const dou
     const dal_status status = dal__factor(model, &r->S);
     if (status == DAL_STATUS_SINGULAR) r->singular = r->S.constraint[r->S.singular] - 1;
     DAL_TRY(status);
-    DAL_TRY(dal__factors_solve(model, &r->S, DAL__SUMS_UNCHANGED, n, lifted, r->N));
+    dal__factors_solve(model, &r->S, DAL__SUMS_UNCHANGED, n, lifted, r->N);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             dal__node sum = dal__number(e->graph, 0.0);
@@ -140,9 +140,11 @@ dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__res
     r->P = dal__model_nodes(model, n * n, 0);
     dal__node *scratch = dal__model_nodes(model, n * n, 0);
     double *g = dal__model_allocate(model, (size_t)(n + m * n), sizeof *g);
-    if (!dal__factors_allocate(model, &r->V, n, NULL)) return DAL_STATUS_MEMORY;
+    dal__factors_allocate(model, &r->V, n, NULL);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     find_weights(e, W, g, g + n);
     DAL_TRY(make_projector(model, r, g, scratch));
+    if (model->out_of_memory) return DAL_STATUS_OK;
     dal__node *V = r->V.matrix, *WP = scratch;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
@@ -195,15 +197,15 @@ static void apply_mass(const dal__equations *e, const dal__restricted *r, const 
     }
 }
 
-dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, const dal__node *top,
-                                 const dal__node *bottom, dal__node *x, dal__node *h)
+void dal__restricted_solve(dal_model *model, const dal__restricted *r, const dal__node *top,
+                           const dal__node *bottom, dal__node *x, dal__node *h)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
     const dal__node zero = dal__number(e->graph, 0.0);
     dal__node *rest = dal__model_nodes(model, n, zero), *rhs = dal__model_nodes(model, n, zero);
     dal__node *y = dal__model_nodes(model, n, zero), *out = dal__model_nodes(model, m, zero);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int i = 0; i < n; i++) x[i] = zero;
     add_lift(e, r, bottom, x);
     apply_mass(e, r, x, top, rest);
@@ -211,35 +213,33 @@ dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, con
         for (int k = 0; k < n; k++) dal__add_product(e->graph, &rhs[i], r->P[k * n + i], rest[k]);
         rhs[i] = dal__node_neg(e->graph, rhs[i]);
     }
-    DAL_TRY(dal__factors_solve(model, &r->V, DAL__SUMS_UNCHANGED, 1, rhs, y));
+    dal__factors_solve(model, &r->V, DAL__SUMS_UNCHANGED, 1, rhs, y);
     for (int a = 0; a < m; a++) {
         for (int i = 0; i < n; i++) dal__add_product(e->graph, &out[a], e->A[a * n + i], y[i]);
         out[a] = dal__node_neg(e->graph, out[a]);
     }
     add_lift(e, r, out, y);
     for (int i = 0; i < n; i++) x[i] = dal__node_add(e->graph, x[i], y[i]);
-    if (!h) return e->graph->status;
+    if (!h) return;
     apply_mass(e, r, x, top, rest);
     for (int a = 0; a < m; a++) {
         h[a] = zero;
         for (int i = 0; i < n; i++) dal__add_product(e->graph, &h[a], r->N[i * m + a], rest[i]);
     }
-    return DAL_STATUS_OK;
 }
 
-dal_status dal__restricted_directions(dal_model *model, const dal__restricted *r, dal__node *x)
+void dal__restricted_directions(dal_model *model, const dal__restricted *r, dal__node *x)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
     dal__node *zeros = dal__model_nodes(model, n, dal__number(e->graph, 0.0));
     dal__node *unit = dal__model_nodes(model, m, dal__number(e->graph, 0.0));
     dal__node *column = dal__model_nodes(model, n, 0);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int a = 0; a < m; a++) {
         unit[a] = dal__number(e->graph, 1.0);
-        DAL_TRY(dal__restricted_solve(model, r, zeros, unit, column, NULL));
+        dal__restricted_solve(model, r, zeros, unit, column, NULL);
         for (int i = 0; i < n; i++) x[i * m + a] = column[i];
         unit[a] = dal__number(e->graph, 0.0);
     }
-    return DAL_STATUS_OK;
 }

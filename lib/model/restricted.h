@@ -14,15 +14,14 @@ typedef struct dal__restricted {
                    * -1: W is singular on ker A */
 } dal__restricted;
 
-/* Factors the system with this W [n*n], which must outlive it.  Errors: DAL_STATUS_MEMORY,
- * DAL_STATUS_SINGULAR, DAL_STATUS_TOO_LARGE. */
+/* Factors the system with this W [n*n], which must outlive it.  Errors: DAL_STATUS_SINGULAR,
+ * DAL_STATUS_TOO_LARGE. */
 dal_status dal__restricted_factor(dal_model *model, const dal__node *W, dal__restricted *r);
-/* W x - A^T h = top [n], A x = bottom [m]; h is NULL where it is not wanted.  Errors:
- * DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE. */
-dal_status dal__restricted_solve(dal_model *model, const dal__restricted *r, const dal__node *top,
-                                 const dal__node *bottom, dal__node *x, dal__node *h);
-/* The x [n*m] of top = 0 and A x = 1: they span the directions of W^-1 A^T.  Errors: as above. */
-dal_status dal__restricted_directions(dal_model *model, const dal__restricted *r, dal__node *x);
+/* W x - A^T h = top [n], A x = bottom [m]; h is NULL where it is not wanted. */
+void dal__restricted_solve(dal_model *model, const dal__restricted *r, const dal__node *top,
+                           const dal__node *bottom, dal__node *x, dal__node *h);
+/* The x [n*m] of top = 0 and A x = 1: they span the directions of W^-1 A^T. */
+void dal__restricted_directions(dal_model *model, const dal__restricted *r, dal__node *x);
 /* Replaces the pivots of the equations. */
 void dal__restricted_record_pivots(dal__equations *equations, const dal__restricted *r);
 

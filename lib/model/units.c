@@ -105,7 +105,7 @@ static void find_others(const survey *s)
 }
 
 /* levels[m + 1]: the units of D_a and of E, instead of the units of t and q; or NULL. */
-static dal_status find_symbols(dal_model *model, double *unit, double *levels)
+static void find_symbols(dal_model *model, double *unit, double *levels)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
@@ -114,7 +114,7 @@ static dal_status find_symbols(dal_model *model, double *unit, double *levels)
     s.x = dal__model_allocate(model, (size_t)e->symbols, sizeof *s.x);
     s.node = dal__model_nodes(model, s.formulas, e->lagrangian);
     s.scale = dal__model_allocate(model, 2 * (size_t)s.formulas, sizeof *s.scale);
-    if (model->out_of_memory) return DAL_STATUS_MEMORY;
+    if (model->out_of_memory) return;
     memcpy(s.x, e->value, (size_t)e->symbols * sizeof *s.x);
     for (int a = 0; a < m; a++) s.node[1 + a] = e->constraint[a];
     for (int i = 0; i < n; i++) s.node[1 + m + i] = e->force[i];
@@ -140,13 +140,9 @@ static dal_status find_symbols(dal_model *model, double *unit, double *levels)
     }
     dal__terms_free(s.terms);
     model->out_of_memory |= !s.memory;
-    return s.memory ? DAL_STATUS_OK : DAL_STATUS_MEMORY;
 }
 
-dal_status dal__model_units(dal_model *model, double *unit)
-{
-    return find_symbols(model, unit, NULL);
-}
+void dal__model_units(dal_model *model, double *unit) { find_symbols(model, unit, NULL); }
 
 /* ---- units of runs ---- */
 
@@ -206,7 +202,7 @@ static void find_lengths(const dal__sizes *sizes, const double *ratio, double *u
     }
 }
 
-dal_status dal__system_units(dal_model *model, const dal_system *system, double *units)
+void dal__system_units(dal_model *model, const dal_system *system, double *units)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, nw = n + e->multipliers, symbols = e->symbols;
@@ -214,20 +210,20 @@ dal_status dal__system_units(dal_model *model, const dal_system *system, double 
                            system->workspace + dal__sizes_memory(system) + dal__solve_size(system) +
                            (size_t)(n + nw);
     double *unit = calloc(numbers, sizeof *unit);
-    if (!unit) return DAL_STATUS_MEMORY;
+    model->out_of_memory |= !unit;
+    if (model->out_of_memory) return;
     double *ratio = unit + symbols, *x = ratio + n, *work = x + 2 * n + e->multipliers + 1;
     double *memory = work + system->workspace;
     memcpy(work, system->value, (size_t)system->parameters * sizeof *work);
-    const dal_status status = find_symbols(model, unit, units + n + nw);
+    find_symbols(model, unit, units + n + nw);
     find_ratios(e, ratio);
-    if (status == DAL_STATUS_OK && find_start(system, x, work, memory)) {
+    if (find_start(system, x, work, memory)) {
         dal__sizes sizes = {.system = system, .work = work, .step = default_step(model), .x = x};
         dal__find_sizes(&sizes, memory);
         find_lengths(&sizes, ratio, units);
     }
     for (int a = 0; a < e->multipliers; a++) units[2 * n + a] = unit[e->g + a];
     free(unit);
-    return status == DAL_STATUS_OK ? e->graph->status : status;
 }
 
 dal_status dal__start_values(dal_model *model, const dal_setting *parameters, int parameter_count,

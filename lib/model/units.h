@@ -5,9 +5,8 @@
 
 #include "model/model.h"
 
-/* The units of t, q, v and g, unit[symbols], about the default start; of all other symbols 1.
- * Errors: DAL_STATUS_MEMORY. */
-dal_status dal__model_units(dal_model *model, double *unit);
+/* The units of t, q, v and g, unit[symbols], about the default start; of all other symbols 1. */
+void dal__model_units(dal_model *model, double *unit);
 
 /* The values of all symbols at the default start, value[symbols], with the parameters.  Errors:
  * DAL_STATUS_MEMORY, DAL_STATUS_NAME, DAL_STATUS_NOT_FINITE. */
@@ -16,8 +15,7 @@ dal_status dal__start_values(dal_model *model, const dal_setting *parameters, in
 /* The given units[1 + n] of t and q, or where there are none units of 1; NULL: out of memory. */
 const double *dal__complete_units(dal_model *model, const double *units);
 
-/* Finds units[n + nw + m + 1] of dal_system for a system of the model, which has its programs.
- * Errors: DAL_STATUS_MEMORY. */
-dal_status dal__system_units(dal_model *model, const dal_system *system, double *units);
+/* Finds units[n + nw + m + 1] of dal_system for a system of the model, which has its programs. */
+void dal__system_units(dal_model *model, const dal_system *system, double *units);
 
 #endif

@@ -53,8 +53,8 @@ static dal_status make_states(dal__fields *d, const double *value, const double 
     const dal__equations *e = &d->model->equations;
     const int n = e->n;
     dal__node *change = dal__model_nodes(d->model, n, 0);
-    if (!change) return DAL_STATUS_MEMORY;
     if (e->m > 0) DAL_TRY(dal__motion_correct(d->model, change));
+    if (d->model->out_of_memory) return DAL_STATUS_MEMORY;
     for (int try = 0; try < 8 * DAL__GENERIC_POINTS && d->points < DAL__GENERIC_POINTS; try++) {
         double *x = d->point + d->points * e->symbols, sum = 0.0;
         memcpy(x, value, (size_t)e->symbols * sizeof *x);
