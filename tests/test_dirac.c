@@ -61,7 +61,8 @@ static dal_status make_theory(const made *m, dal__graph *graph, dal__pool *pool,
     out->t = T, out->alpha = T + 1, out->mu = T + 2 + DAL__GENERATOR_ORDERS;
     out->observables = m->pairs;
     while (m->primary[out->primaries]) out->primaries++;
-    DAL_TRY(dal__theory_allocate(out, pool));
+    dal__theory_allocate(out, pool);
+    if (pool->out_of_memory) return DAL_STATUS_MEMORY;
     for (int i = 0; i < 2 * m->pairs; i++) {
         out->variable[i] = i;
         out->text[i] = out->latex[i] = m->names[i];
@@ -149,7 +150,7 @@ static void test_circle_brackets(void)
     CU_ASSERT_EQUAL_FATAL(dal__chain_run(&chain, &theory, &pool), DAL_STATUS_OK);
     CU_ASSERT_EQUAL_FATAL(dal__classes_find(&k, &chain), DAL_STATUS_OK);
     double value[DAL__SURFACE_POINTS * 18];
-    CU_ASSERT_EQUAL_FATAL(dal__surface_values(&chain.surface, 18, k.bracket, value), DAL_STATUS_OK);
+    CU_ASSERT_FATAL(dal__surface_values(&chain.surface, 18, k.bracket, value));
     for (int i = 0; i < DAL__SURFACE_POINTS; i++) {
         const double *z = chain.surface.point + (size_t)i * MADE_SYMBOLS;
         const double *bracket = value + 18 * i; /* rows x, y, g; columns x, y, g, p, q, r */
@@ -402,25 +403,32 @@ static void test_refusals(void)
     CU_ASSERT_STRING_EQUAL(dal_dirac_outcome_name(DAL_DIRAC_OUTCOME_COUNT), "?");
 }
 
-static void test_no_memory(void)
+static void let_memory_fail(const char *text, dal_effort effort)
 {
     allocation_trial trial = {0};
-    dal_model *model = NULL;
-    const dal_system *system = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_model_builtin(&model, "damped-oscillator", NULL), DAL_STATUS_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
-    const dal_run_spec spec = {.system = system, .options = dal_options_default()};
-    dal_dirac *d = NULL;
-    CU_ASSERT_EQUAL(dal_dirac_create(&d, model, &spec, NULL), DAL_STATUS_OK);
-    dal_dirac_free(d);
-    /* The graph has all nodes now, and does not fail for good. */
     while (allocation_next(&trial)) {
+        const dal_system *system = NULL;
+        dal_error error = {.status = DAL_STATUS_OK};
+        dal_dirac *d = NULL;
+        dal_model *model = fixture_model(text);
+        CU_ASSERT_EQUAL(dal_model_set_effort(model, effort, NULL), DAL_STATUS_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_STATUS_OK);
+        const dal_run_spec spec = {.system = system, .options = dal_options_default()};
         allocation_start(&trial);
-        const dal_status status = dal_dirac_create(&d, model, &spec, NULL);
-        if (allocation_end(&trial, status)) model->equations.graph->status = DAL_STATUS_OK;
+        if (allocation_end(&trial, dal_dirac_create(&d, model, &spec, &error)))
+            CU_ASSERT(error.status == DAL_STATUS_MEMORY && d == NULL);
         dal_dirac_free(d);
+        dal_model_free(model);
     }
-    dal_model_free(model);
+    CU_ASSERT(trial.failures > 0);
+}
+
+static void test_no_memory(void)
+{
+    static const char wheel[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2\n"
+                                "constraints: [x' - y'/2]\nstart: {x: 1}\n";
+    let_memory_fail("damped-oscillator", DAL_EFFORT_IDENTITY);
+    let_memory_fail(wheel, DAL_EFFORT_CONSTRAINT);
 }
 
 /* ---- formulas as text ---------------------------------------------------------------------- */

@@ -41,21 +41,19 @@ void dal__phase_gradient(const dal__theory *w, dal__node f, dal__node *gradient)
 }
 
 /* Adds phi; *ended where it leaves no regular surface. */
-static dal_status append_constraint(dal__chain *c, dal__node phi, int source, bool *ended)
+static void append_constraint(dal__chain *c, dal__node phi, int source, bool *ended)
 {
     const dal__theory *w = c->theory;
-    if (c->count == c->capacity) return DAL_STATUS_TOO_LARGE;
     dal__chain_constraint *added = &c->constraint[c->count];
     *added = (dal__chain_constraint){.phi = phi, .stage = c->stage, .source = source};
     added->gradient = dal__pool_nodes(c->pool, w->graph, 2 * (size_t)w->pairs);
-    if (!added->gradient) return DAL_STATUS_MEMORY;
+    if (!added->gradient) return;
     dal__phase_gradient(w, phi, added->gradient);
     dal__node restricted = phi;
     dal__surface_restrict(&c->surface, 1, &restricted);
-    DAL_TRY(dal__surface_add(&c->surface, restricted));
+    dal__surface_add(&c->surface, restricted);
     *ended = c->surface.state != DAL__SURFACE_REGULAR;
     c->count++;
-    return DAL_STATUS_OK;
 }
 
 /* f without its sign, fixed factors and denominators: what vanishes where f does. */
@@ -121,14 +119,14 @@ static dal_status require(dal__chain *c, dal__node f, int source, dal_dirac_outc
         return DAL_STATUS_OK;
     }
     dal__node *regular = dal__pool_nodes(c->pool, graph, 2 * (size_t)c->theory->pairs);
-    if (!regular) return DAL_STATUS_MEMORY;
+    if (!regular) return DAL_STATUS_OK;
     f = strip_factors(graph, f);
     DAL_TRY(drop_zeros(c, &f));
-    DAL_TRY(dal__regular_functions(&c->surface, f, regular, &count));
+    dal__regular_functions(&c->surface, f, regular, &count);
     if (count == 0) {
         f = dal__collect(graph, f);
         DAL_TRY(drop_zeros(c, &f));
-        DAL_TRY(dal__regular_functions(&c->surface, f, regular, &count));
+        dal__regular_functions(&c->surface, f, regular, &count);
     }
     *outcome = count > 0 ? DAL_DIRAC_IRREGULAR : DAL_DIRAC_ADDS;
     if (count == 0) regular[count++] = f;
@@ -136,7 +134,7 @@ static dal_status require(dal__chain *c, dal__node f, int source, dal_dirac_outc
         DAL_TRY(dal__surface_clean(&c->surface, 1, &regular[i]));
         regular[i] = dal__collect(graph, regular[i]);
         if (!dal__node_is_zero(graph, regular[i]))
-            DAL_TRY(append_constraint(c, strip_factors(graph, regular[i]), source, &ended));
+            append_constraint(c, strip_factors(graph, regular[i]), source, &ended);
     }
     if (ended) *outcome = DAL_DIRAC_STOPS;
     return DAL_STATUS_OK;
@@ -154,7 +152,7 @@ static dal_status conclude(dal__chain *c, int a)
     if (step.multiplier >= 0) {
         dal__node *mu = dal__pool_nodes(c->pool, w->graph, (size_t)w->primaries);
         for (int b = 0; mu && b < w->primaries; b++) mu[b] = dal__symbol(w->graph, w->mu + b);
-        if (!mu) return DAL_STATUS_MEMORY;
+        if (!mu) return DAL_STATUS_OK;
         condition = dal__reduction_value(r, w->graph, step.multiplier, 0, mu);
     } else {
         DAL_TRY(dal__surface_clean(&c->surface, 1, &condition)); /* it has become smaller */
@@ -180,21 +178,22 @@ static dal_status conclude(dal__chain *c, int a)
 dal_status dal__chain_run(dal__chain *c, const dal__theory *w, dal__pool *pool)
 {
     *c = (dal__chain){.theory = w, .pool = pool, .capacity = 2 * w->pairs + 1};
-    DAL_TRY(dal__surface_begin(&c->surface, w, pool));
+    /* Of more constraints than variables the last one is not regular, and ends the chain. */
+    dal__surface_begin(&c->surface, w, pool);
     c->H_gradient = dal__pool_nodes(pool, w->graph, 2 * (size_t)w->pairs);
     c->constraint = dal__pool_allocate(pool, (size_t)c->capacity, sizeof *c->constraint);
     c->step_capacity = DAL_DIRAC_OUTCOME_COUNT * c->capacity;
     c->step = dal__pool_allocate(pool, (size_t)c->step_capacity, sizeof *c->step);
     c->condition = dal__pool_nodes(pool, w->graph, (size_t)c->step_capacity);
-    if (pool->out_of_memory) return DAL_STATUS_MEMORY;
+    if (pool->out_of_memory) return DAL_STATUS_OK;
     dal__phase_gradient(w, w->H, c->H_gradient);
-    for (int b = 0; b < w->primaries; b++)
-        DAL_TRY(append_constraint(c, w->primary[b], -1, &c->has_ended));
-    while (!c->is_complete && !c->has_ended) {
+    for (int b = 0; b < w->primaries; b++) append_constraint(c, w->primary[b], -1, &c->has_ended);
+    while (!c->is_complete && !c->has_ended && !dal__theory_is_lost(w, pool)) {
         const int before = c->count;
         dal__reduction *r = &c->conservation;
         c->stage++;
-        DAL_TRY(dal__reduction_begin(r, &c->surface, before, w->primaries, 1));
+        dal__reduction_begin(r, &c->surface, before, w->primaries, 1);
+        if (dal__theory_is_lost(w, pool)) return DAL_STATUS_OK;
         for (int a = 0; a < before; a++) {
             const dal__chain_constraint *phi = &c->constraint[a];
             dal__node *entry = r->entry + (size_t)a * (size_t)r->width, by_time;

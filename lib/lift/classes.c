@@ -19,7 +19,8 @@ static dal_status find_brackets(dal__classes *k, dal__chain *c)
     const dal__theory *w = c->theory;
     const int columns = 2 * k->observables;
     dal__reduction r;
-    DAL_TRY(dal__reduction_begin(&r, &c->surface, k->second, k->second, c->count + k->observables));
+    dal__reduction_begin(&r, &c->surface, k->second, k->second, c->count + k->observables);
+    if (dal__theory_is_lost(w, c->pool)) return DAL_STATUS_OK;
     for (int j = 0; j < k->second; j++) {
         const dal__node *psi = c->constraint[k->second_class[j]].gradient;
         dal__node *entry = r.entry + (size_t)j * (size_t)r.width;
@@ -32,6 +33,7 @@ static dal_status find_brackets(dal__classes *k, dal__chain *c)
             entry[k->second + c->count + i] = dal__bracket_with(w, psi, i);
     }
     DAL_TRY(dal__reduction_solve(&r, &c->surface));
+    if (dal__theory_is_lost(w, c->pool)) return DAL_STATUS_OK;
     for (int a = 0; a < c->count; a++) {
         k->form[a] = c->constraint[a].phi;
         for (int i = 0; k->is_first[a] && i < k->second; i++) {
@@ -69,23 +71,23 @@ dal_status dal__classes_find(dal__classes *k, dal__chain *c)
     bool *is_second = is_symbol + n;
     dal__node *bracket = malloc((size + 1) * sizeof *bracket);
     double *value = dal__numbers(DAL__SURFACE_POINTS + 1, size + 1);
-    dal_status status =
-        c->pool->out_of_memory || !bracket || !value ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
-    for (size_t i = 0; status == DAL_STATUS_OK && i < size; i++)
+    c->pool->out_of_memory |= !bracket || !value;
+    bool is_known = !c->pool->out_of_memory;
+    dal_status status = DAL_STATUS_OK;
+    for (size_t i = 0; is_known && i < size; i++)
         bracket[i] = dal__bracket(w, c->constraint[i / n].gradient, c->constraint[i % n].gradient);
-    if (status == DAL_STATUS_OK) status = dal__surface_clean(&c->surface, (int)size, bracket);
-    if (status == DAL_STATUS_OK)
-        status = dal__surface_values(&c->surface, (int)size, bracket, value);
-    for (size_t i = 0; status == DAL_STATUS_OK && i < n; i++)
+    if (is_known) status = dal__surface_clean(&c->surface, (int)size, bracket);
+    is_known = is_known && status == DAL_STATUS_OK &&
+               dal__surface_values(&c->surface, (int)size, bracket, value);
+    for (size_t i = 0; is_known && i < n; i++)
         is_symbol[i] = dal__inspect(w->graph, c->constraint[i].phi).op == DAL__SYMBOL;
-    if (status == DAL_STATUS_OK) /* at the first point */
+    if (is_known) /* at the first point */
         dal__choose_pairs((int)n, value, value + DAL__SURFACE_POINTS * size, is_symbol, is_second);
-    for (size_t i = 0; status == DAL_STATUS_OK && i < n; i++) {
+    for (size_t i = 0; is_known && i < n; i++) {
         k->is_first[i] = !is_second[i];
         if (is_second[i]) k->second_class[k->second++] = (int)i;
     }
     free(bracket);
     free(value);
-    DAL_TRY(status);
-    return find_brackets(k, c);
+    return is_known ? find_brackets(k, c) : status;
 }

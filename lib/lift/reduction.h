@@ -12,9 +12,9 @@ typedef struct dal__reduction {
     int *row;                 /* [columns] the row that gives an unknown; -1: it is free */
 } dal__reduction;
 
-/* Memory for equations, each entry 0.  Errors: DAL_STATUS_MEMORY. */
-dal_status dal__reduction_begin(dal__reduction *r, const dal__surface *surface, int rows,
-                                int columns, int rights);
+/* Memory for equations, each entry 0. */
+void dal__reduction_begin(dal__reduction *r, const dal__surface *surface, int rows, int columns,
+                          int rights);
 /* Brings the equations to reduced echelon form, row by row: the unknown of each pivot is in no
  * other row.  A row without a pivot has 0s, and right sides that must vanish.  Errors: as of
  * dal__surface_clean. */

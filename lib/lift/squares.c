@@ -8,8 +8,7 @@ typedef struct term {
     int sign;
 } term;
 
-dal_status dal__squared_functions(const dal__surface *s, dal__node f, dal__node *squared,
-                                  int *count)
+void dal__squared_functions(const dal__surface *s, dal__node f, dal__node *squared, int *count)
 {
     enum { MAX_TERMS = 256 };
     const dal__graph *graph = s->theory->graph;
@@ -35,7 +34,7 @@ dal_status dal__squared_functions(const dal__surface *s, dal__node f, dal__node 
         } else if (r.op == DAL__DIV || r.op == DAL__MUL) {
             const bool is_first = r.op == DAL__MUL && dal__inspect(graph, r.a).fixed;
             const dal__node factor = is_first ? r.a : r.b;
-            DAL_TRY(dal__surface_values(s, 1, &factor, value));
+            dal__surface_values(s, 1, &factor, value);
             of_factor = value[0] > 0.0 ? 1 : -1;
             for (int k = 0; k < DAL__SURFACE_POINTS; k++)
                 of_factor *= value[k] * value[0] > 0.0; /* one sign at all points, or none */
@@ -46,7 +45,6 @@ dal_status dal__squared_functions(const dal__surface *s, dal__node f, dal__node 
         }
         if (fits) continue;
         *count = 0;
-        return DAL_STATUS_OK;
+        return;
     }
-    return DAL_STATUS_OK;
 }

@@ -5,8 +5,8 @@
 #include "lift/surface.h"
 
 /* The s_i of f = sum_i c_i s_i^2, whose c_i have one sign at the points: squared[*count], of at
- * most 2*pairs; *count is 0 where f has another form.  Errors: as of dal__surface_values. */
-dal_status dal__squared_functions(const dal__surface *surface, dal__node f, dal__node *squared,
-                                  int *count);
+ * most 2*pairs; *count is 0 where f has another form. */
+void dal__squared_functions(const dal__surface *surface, dal__node f, dal__node *squared,
+                            int *count);
 
 #endif

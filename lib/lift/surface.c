@@ -40,19 +40,18 @@ static void draw(dal__surface *s, int k)
     memcpy(s->point + (size_t)k * (size_t)w->symbols, point, (size_t)w->symbols * sizeof *point);
 }
 
-dal_status dal__surface_begin(dal__surface *s, const dal__theory *theory, dal__pool *pool)
+void dal__surface_begin(dal__surface *s, const dal__theory *theory, dal__pool *pool)
 {
     const size_t variables = 2 * (size_t)theory->pairs;
     const size_t size = DAL__SURFACE_POINTS * (size_t)theory->symbols;
     *s = (dal__surface){.theory = theory, .pool = pool, .random = {2025}};
     s->symbol = dal__pool_allocate(pool, variables + 1, sizeof *s->symbol);
     s->by = dal__pool_nodes(pool, theory->graph, variables);
-    s->constraint = dal__pool_nodes(pool, theory->graph, variables);
+    s->constraint = dal__pool_nodes(pool, theory->graph, variables + 1);
     s->raw = dal__pool_allocate(pool, size, sizeof *s->raw);
     s->point = dal__pool_allocate(pool, size, sizeof *s->point);
-    if (pool->out_of_memory) return DAL_STATUS_MEMORY;
+    if (pool->out_of_memory) return;
     for (int k = 0; k < DAL__SURFACE_POINTS; k++) draw(s, k);
-    return DAL_STATUS_OK;
 }
 
 void dal__surface_restrict(const dal__surface *s, size_t count, dal__node *nodes)
@@ -76,19 +75,18 @@ static void close_program(program *p)
     *p = (program){.tapes = NULL};
 }
 
-static dal_status open_program(const dal__theory *w, int count, const dal__node *nodes, program *p)
+/* False where the graph is full or memory runs out. */
+static bool open_program(const dal__surface *s, int count, const dal__node *nodes, program *p)
 {
-    dal_status status = w->graph->status;
+    const dal__theory *w = s->theory;
     *p = (program){.tapes = NULL};
-    if (status != DAL_STATUS_OK) return status;
-    status = DAL_STATUS_MEMORY;
+    if (w->graph->status != DAL_STATUS_OK) return false;
     p->tapes = dal__tapes_create(w->graph, w->parameters, w->symbols - w->parameters);
-    if (p->tapes && dal__tapes_add(p->tapes, nodes, count) == 0)
-        status = dal__tapes_finish(p->tapes);
-    if (status == DAL_STATUS_OK && !(p->work = dal__numbers(1, p->tapes->workspace + 1)))
-        status = DAL_STATUS_MEMORY;
-    if (status != DAL_STATUS_OK) close_program(p);
-    return status;
+    if (p->tapes && dal__tapes_add(p->tapes, nodes, count) == 0 &&
+        dal__tapes_finish(p->tapes) == DAL_STATUS_OK)
+        p->work = dal__numbers(1, p->tapes->workspace + 1);
+    s->pool->out_of_memory |= !p->work;
+    return p->work != NULL;
 }
 
 static void run_program(const dal__theory *w, const program *p, const double *point, double *out)
@@ -114,15 +112,15 @@ double dal__least_size(const double *value, size_t stride)
     return least;
 }
 
-dal_status dal__surface_values(const dal__surface *s, int count, const dal__node *nodes,
-                               double *out)
+bool dal__surface_values(const dal__surface *s, int count, const dal__node *nodes, double *out)
 {
     program p;
-    DAL_TRY(open_program(s->theory, count, nodes, &p));
-    for (int k = 0; k < DAL__SURFACE_POINTS; k++)
+    const bool is_open = open_program(s, count, nodes, &p);
+    for (int i = 0; i < DAL__SURFACE_POINTS * count; i++) out[i] = NAN;
+    for (int k = 0; is_open && k < DAL__SURFACE_POINTS; k++)
         run_program(s->theory, &p, point_of(s, s->point, k), out + (size_t)k * (size_t)count);
     close_program(&p);
-    return DAL_STATUS_OK;
+    return is_open;
 }
 
 dal_status dal__surface_clean(const dal__surface *s, int count, dal__node *nodes)
@@ -138,16 +136,18 @@ dal_status dal__surface_clean(const dal__surface *s, int count, dal__node *nodes
     const size_t memory = terms ? dal__terms_memory(terms) : 0;
     double *scale = dal__numbers(1, (DAL__SURFACE_POINTS + 2) * n + memory + 1);
     double *here = scale + n, *value = here + n;
-    dal_status status = terms && scale ? graph->status : DAL_STATUS_MEMORY;
-    if (status == DAL_STATUS_OK) dal__terms_count_fixed(terms);
-    for (int k = 0; status == DAL_STATUS_OK && k < DAL__SURFACE_POINTS; k++) {
+    const bool has_memory = terms && scale;
+    dal_status status = DAL_STATUS_OK;
+    s->pool->out_of_memory |= !has_memory;
+    if (has_memory) dal__terms_count_fixed(terms);
+    for (int k = 0; has_memory && k < DAL__SURFACE_POINTS; k++) {
         /* Off the surface: on it small terms would be compared with themselves. */
         dal__terms_scales(terms, point_of(s, s->raw, k), value, here);
         for (size_t i = 0; i < n; i++)
             scale[i] = isnan(here[i]) ? INFINITY : fmax(scale[i], here[i]);
     }
-    if (status == DAL_STATUS_OK && found > 0) status = dal__surface_values(s, found, some, value);
-    for (size_t i = 0, k = 0; status == DAL_STATUS_OK && i < (size_t)count; i++) {
+    if (has_memory && found > 0) dal__surface_values(s, found, some, value);
+    for (size_t i = 0, k = 0; has_memory && i < (size_t)count; i++) {
         if (dal__inspect(graph, nodes[i]).op == DAL__NUMBER) continue;
         double max = 0.0;
         for (size_t point = 0; point < DAL__SURFACE_POINTS; point++) {
@@ -220,18 +220,19 @@ static dal__surface_state move_to_surface(const newton *w, double *point)
 /* Moves the points to the implicit constraints.  Free are the variables that no constraint gives.
  * Observables are moved less, so that what is linear in momenta is solved for momenta and not by a
  * special place. */
-static dal_status find_points(dal__surface *s)
+static void find_points(dal__surface *s)
 {
     const int rows = s->implicit, variables = 2 * s->theory->pairs;
     const size_t size = (size_t)variables * (size_t)(variables + 4) + 2 * (size_t)rows +
                         (size_t)rows * (size_t)(1 + variables);
     s->state = DAL__SURFACE_REGULAR;
-    if (rows == 0) return DAL_STATUS_OK;
+    if (rows == 0) return;
     int *symbol = malloc((size_t)variables * sizeof *symbol);
     dal__node *nodes = malloc((size_t)(rows * (1 + variables)) * sizeof *nodes);
     double *block = dal__numbers(1, size);
-    dal_status status = DAL_STATUS_MEMORY;
-    if (symbol && nodes && block) {
+    const bool has_memory = symbol && nodes && block;
+    s->pool->out_of_memory |= !has_memory;
+    if (has_memory) {
         newton w = {.surface = s, .rows = rows, .symbol = symbol, .unit = block};
         for (int i = 0; i < variables; i++) {
             const int variable = s->theory->variable[i];
@@ -249,8 +250,8 @@ static dal_status find_points(dal__surface *s)
             dal__gradient(s->theory->graph, nodes[a], symbol, w.columns,
                           nodes + rows + a * w.columns);
         }
-        status = open_program(s->theory, rows * (1 + w.columns), nodes, &w.program);
-        for (int k = 0, attempt = 0; status == DAL_STATUS_OK && k < DAL__SURFACE_POINTS;) {
+        const bool is_open = open_program(s, rows * (1 + w.columns), nodes, &w.program);
+        for (int k = 0, attempt = 0; is_open && k < DAL__SURFACE_POINTS;) {
             double *point = point_of(s, s->point, k);
             if (attempt > 0) draw(s, k);
             memcpy(point, point_of(s, s->raw, k), (size_t)s->theory->symbols * sizeof *point);
@@ -266,7 +267,6 @@ static dal_status find_points(dal__surface *s)
     free(symbol);
     free(nodes);
     free(block);
-    return status;
 }
 
 /* ---- constraints --------------------------------------------------------------------------- */
@@ -279,7 +279,7 @@ typedef struct linear {
 
 /* The best variable to solve for: with the coefficient 1 or -1, momenta first; else of those that
  * are no observables the one whose coefficient is largest at the points.  Symbol -1: none. */
-static dal_status choose_variable(const dal__surface *s, dal__node constraint, linear *out)
+static void choose_variable(const dal__surface *s, dal__node constraint, linear *out)
 {
     const dal__theory *w = s->theory;
     double best = 0.0, value[DAL__SURFACE_POINTS];
@@ -291,22 +291,21 @@ static dal_status choose_variable(const dal__surface *s, dal__node constraint, l
         dal__gradient(w->graph, constraint, &symbol, 1, &slope);
         if (dal__is_number(w->graph, slope, 1.0) || dal__is_number(w->graph, slope, -1.0)) {
             *out = (linear){symbol, slope};
-            return DAL_STATUS_OK;
+            return;
         }
         if (variable < w->observables || dal__depends(w->graph, slope, symbol, symbol + 1))
             continue;
-        DAL_TRY(dal__surface_values(s, 1, &slope, value));
+        dal__surface_values(s, 1, &slope, value);
         const double least = dal__least_size(value, 1);
         if (least > best) best = least, *out = (linear){symbol, slope};
     }
-    return DAL_STATUS_OK;
 }
 
-dal_status dal__surface_add(dal__surface *s, dal__node constraint)
+void dal__surface_add(dal__surface *s, dal__node constraint)
 {
     const dal__theory *w = s->theory;
     linear by;
-    DAL_TRY(choose_variable(s, constraint, &by));
+    choose_variable(s, constraint, &by);
     dal__node value = 0;
     if (by.symbol >= 0) {
         const dal__node zero = dal__number(w->graph, 0.0);
@@ -320,8 +319,7 @@ dal_status dal__surface_add(dal__surface *s, dal__node constraint)
         s->symbol[s->solved] = by.symbol;
         s->by[s->solved++] = value;
     } else {
-        if (s->implicit == 2 * w->pairs) return DAL_STATUS_TOO_LARGE;
-        s->constraint[s->implicit++] = constraint;
+        s->constraint[s->implicit++] = constraint; /* of more than variables none is regular */
     }
-    return w->graph->status != DAL_STATUS_OK ? w->graph->status : find_points(s);
+    find_points(s);
 }

@@ -29,21 +29,22 @@ typedef struct dal__surface {
     dal__surface_state state;
 } dal__surface;
 
-/* Begins a surface without constraints.  Errors: DAL_STATUS_MEMORY. */
-dal_status dal__surface_begin(dal__surface *surface, const dal__theory *theory, dal__pool *pool);
-/* Adds a constraint, a restricted node that is not 0 on the surface, and finds points again.
- * Errors: DAL_STATUS_MEMORY, DAL_STATUS_TOO_LARGE, DAL_STATUS_NOT_FINITE. */
-dal_status dal__surface_add(dal__surface *surface, dal__node constraint);
+/* Begins a surface without constraints.  Where memory runs out, here and below, the pool says so;
+ * no status does. */
+void dal__surface_begin(dal__surface *surface, const dal__theory *theory, dal__pool *pool);
+/* Adds a constraint, a restricted node that is not 0 on the surface, and finds points again. */
+void dal__surface_add(dal__surface *surface, dal__node constraint);
 /* Replaces nodes by what they are on the surface. */
 void dal__surface_restrict(const dal__surface *surface, size_t count, dal__node *nodes);
-/* Evaluates restricted nodes at the points, out[DAL__SURFACE_POINTS*count].  Errors: as above. */
-dal_status dal__surface_values(const dal__surface *surface, int count, const dal__node *nodes,
-                               double *out);
+/* Evaluates restricted nodes at the points, out[DAL__SURFACE_POINTS*count]: false, and
+ * NaN, where they cannot be, since the graph is full or memory ran out. */
+bool dal__surface_values(const dal__surface *surface, int count, const dal__node *nodes,
+                         double *out);
 /* The least |value| of a node at the points, which are stride numbers apart; 0 where one is not
  * finite. */
 double dal__least_size(const double *value, size_t stride);
 /* Restricts nodes, and replaces those that vanish at the points, relative to the terms they add up
- * off the surface, by the number 0.  Errors: those above. */
+ * off the surface, by the number 0.  Errors: DAL_STATUS_NOT_FINITE. */
 dal_status dal__surface_clean(const dal__surface *surface, int count, dal__node *nodes);
 
 #endif

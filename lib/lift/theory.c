@@ -20,7 +20,7 @@
 /* How far from the start points are drawn, in units of the motion; of e and momenta. */
 static const double neighbourhood = 0.5, of_e = 0.25;
 
-dal_status dal__theory_allocate(dal__theory *w, dal__pool *pool)
+void dal__theory_allocate(dal__theory *w, dal__pool *pool)
 {
     const size_t symbols = (size_t)w->symbols + 1;
     w->variable = dal__pool_allocate(pool, 2 * (size_t)w->pairs, sizeof *w->variable);
@@ -30,7 +30,6 @@ dal_status dal__theory_allocate(dal__theory *w, dal__pool *pool)
     w->text = dal__pool_allocate(pool, symbols, sizeof *w->text);
     w->latex = dal__pool_allocate(pool, symbols, sizeof *w->latex);
     for (int i = 0; w->reach && i < w->symbols; i++) w->reach[i] = 1.0;
-    return pool->out_of_memory ? DAL_STATUS_MEMORY : w->graph->status;
 }
 
 /* ---- names --------------------------------------------------------------------------------- */
@@ -113,13 +112,13 @@ static void name_all(const dal__theory *w, dal__pool *pool, const dal__equations
         w->text[w->alpha + i] = alpha_text[i], w->latex[w->alpha + i] = alpha_latex[i];
 }
 
-static dal_status set_lifted(dal__theory *w, dal_model *model, const places *k, dal__pool *pool)
+static void set_lifted(dal__theory *w, dal_model *model, const places *k, dal__pool *pool)
 {
     const dal__equations *e = &model->equations;
     dal__graph *graph = w->graph;
     const int n = e->n;
     dal__node *K_pi = dal__pool_nodes(pool, graph, 3 * (size_t)n);
-    if (!K_pi) return DAL_STATUS_MEMORY;
+    if (!K_pi) return;
     for (int i = 0; i < n; i++) K_pi[i] = dal__symbol(graph, e->pi + i);
     if (model->effort != DAL_EFFORT_IDENTITY) dal__motion_effort(model, model->effort, K_pi);
     dal__node square = dal__number(graph, 0.0), sum = square, forces = square, named = square;
@@ -139,7 +138,6 @@ static dal_status set_lifted(dal__theory *w, dal_model *model, const places *k, 
     sum = dal__node_add(graph, dal__node_div(graph, square, two_e), sum);
     w->H = dal__node_add(graph, sum, forces);
     w->shown = dal__node_add(graph, sum, named);
-    return DAL_STATUS_OK;
 }
 
 static dal_status set_vakonomic(dal__theory *w, const dal_model *model, const places *k,
@@ -188,7 +186,8 @@ dal_status dal__theory_create(dal__theory *w, dal_model *model, const dal_run_sp
     w->parameters = e->parameters;
     w->t = e->t;
     w->observables = 2 * n;
-    DAL_TRY(dal__theory_allocate(w, pool));
+    dal__theory_allocate(w, pool);
+    if (pool->out_of_memory) return DAL_STATUS_OK;
     int *X = w->variable, *P = X + w->pairs;
     for (int i = 0; i < n; i++) {
         X[i] = e->q + i, X[n + i] = e->v + i, X[2 * n + i] = k.lambda + i;
@@ -201,6 +200,7 @@ dal_status dal__theory_create(dal__theory *w, dal_model *model, const dal_run_sp
     name_all(w, pool, e, &k);
     DAL_TRY(dal__region_find(e, spec, neighbourhood, w->centre, w->reach, error));
     if (!e->vakonomic) w->centre[k.e] = 1.0, w->reach[k.e] = of_e;
-    DAL_TRY(e->vakonomic ? set_vakonomic(w, model, &k, error) : set_lifted(w, model, &k, pool));
-    return pool->out_of_memory ? DAL_STATUS_MEMORY : DAL_STATUS_OK;
+    if (e->vakonomic) return set_vakonomic(w, model, &k, error);
+    set_lifted(w, model, &k, pool);
+    return DAL_STATUS_OK;
 }

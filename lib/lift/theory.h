@@ -30,9 +30,15 @@ typedef struct dal__theory {
  * Errors: errors of the start; DAL_STATUS_UNSUPPORTED (vakonomic motion with forces). */
 dal_status dal__theory_create(dal__theory *theory, dal_model *model, const dal_run_spec *spec,
                               dal__pool *pool, dal_error *error);
-/* Memory for the symbols and variables of a theory whose counts are set.  Errors:
- * DAL_STATUS_MEMORY. */
-dal_status dal__theory_allocate(dal__theory *theory, dal__pool *pool);
+/* Memory for the symbols and variables of a theory whose counts are set; pool->out_of_memory, and
+ * the status of the graph, are for dal__dirac_run. */
+void dal__theory_allocate(dal__theory *theory, dal__pool *pool);
+
+/* Whether memory ran out or the graph is full: what is made from then on is of no use. */
+static inline bool dal__theory_is_lost(const dal__theory *theory, const dal__pool *pool)
+{
+    return pool->out_of_memory || theory->graph->status != DAL_STATUS_OK;
+}
 
 /* Nodes that a pool owns, each the number 0; NULL: out of memory. */
 static inline dal__node *dal__pool_nodes(dal__pool *pool, dal__graph *graph, size_t count)
