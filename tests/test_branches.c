@@ -62,6 +62,10 @@ static const struct {
     {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 + k*abs(y')", DAL_JUMP_IMPULSE},
     {"constraint 1", "constraints: [\"y' - if(x > 0, x', 0)\"]", DAL_JUMP_IMPULSE},
     {"constraint 1", "constraints: [\"y' - max(x, 0)*x'\"]", 0},
+    {"holonomic constraint 1", "holonomic: [\"y - x*abs(x)\"]", 0},
+    {"holonomic constraint 1", "holonomic: [y - abs(x)]", DAL_JUMP_IMPULSE},
+    {"equation 2", "equations: [\"x''\", \"y'' + abs(x)\"]", 1},
+    {"equation 1", "equations: [\"x'' + sign(y)\", \"y''\"]", 0},
 };
 
 static void check_jump(const char *formula, const char *text, int jump)
@@ -69,7 +73,7 @@ static void check_jump(const char *formula, const char *text, int jump)
     char yaml[512];
     dal_branch branch[2];
     int count = -1;
-    const bool free = strncmp(text, "lagrangian", 10) != 0;
+    const bool free = strncmp(text, "lagrangian", 10) != 0 && strncmp(text, "equations", 9) != 0;
     snprintf(yaml, sizeof yaml, FREE "%s%s\n", free ? "lagrangian: (x'^2 + y'^2)/2\n" : "", text);
     reference b = reference_of_text(yaml);
     CU_ASSERT_EQUAL(dal_model_branches(b.model, branch, 2, &count), DAL_STATUS_OK);

@@ -317,6 +317,20 @@ static dal_status measure_curve(trial *t)
     return status;
 }
 
+/* Rows beside steps of the method. */
+static dal_status check_discrete(trial *t)
+{
+    enum { ROWS = 3, MAX_N = 4 };
+    double time[ROWS], q[ROWS * MAX_N], v[ROWS * MAX_N];
+    for (int i = 0; i < ROWS; i++) time[i] = TRIAL_STEP * i;
+    for (int i = 0; i < ROWS * t->spec.system->n; i++) q[i] = sin(0.1 * i), v[i] = cos(0.1 * i);
+    const dal_curve curve = {.rows = ROWS, .t = time, .q = q, .v = v};
+    dal_discrete_action action = {0};
+    const dal_status status = dal_check_discrete_action(&t->spec, &curve, &action, &t->error);
+    trial_add_number(t, action.defect);
+    return status;
+}
+
 static dal_status measure_order(trial *t)
 {
     dal_order order = {0};
@@ -400,6 +414,8 @@ static dal_status scale(trial *t)
 /* ---- the suite ---- */
 
 static const char sleigh[] = "chaplygin-sleigh";
+static const char gauged[] = "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\n"
+                             "gauge: {e: 1, mu_e: 50*cos(t)}\n";
 static const char swing[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2\n"
                             "start: {x: 1, y': 1}\ninvariants: {g: x}\n";
 static const char solved[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
@@ -442,6 +458,7 @@ static void test_memory(void)
     trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, check_maps);
     trial_each_allocation(sleigh, "gauss4", DAL_PHYSICAL, budget);
     trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, measure_curve);
+    trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, check_discrete);
     trial_each_allocation(swing, "rk4", DAL_PHYSICAL, cross);
     trial_each_allocation(ball, "rk4", DAL_PHYSICAL, pass_events);
 }
@@ -494,6 +511,9 @@ static void test_measures(void)
                            check_derivatives);
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", DIFFERENCES, measure_action);
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", 0.0, measure_curve);
+    trial_each_call(sleigh, "gauss4", DAL_LIFTED, 0.0, check_discrete);
+    trial_each_call(gauged, "gauss4", DAL_LIFTED, 0.0, measure_curve);
+    trial_each_call(gauged, "gauss4", DAL_LIFTED, DIFFERENCES, measure_action);
 }
 
 /* A callback that always fails gives its own status. */

@@ -140,6 +140,28 @@ static void test_systems(void)
     fill("chaplygin-sleigh-vakonomic", DAL_EFFORT_IDENTITY, make_system);
 }
 
+/* 20 coordinates that W couples, at the start or beside it: their elimination alone, of 20^3/3
+ * updates, would fill the graph, though all entries of W are few nodes. */
+static void test_coupled(void)
+{
+    static const char *const factors[] = {"(1 + x1^2)", "x1^2"};
+    for (int i = 0; i < 2; i++) {
+        char text[256];
+        dal_error error = {0};
+        snprintf(text, sizeof text,
+                 "coordinates: ['x[1..20]']\n"
+                 "lagrangian: %s*(sum(i, 1, 20, x[i]')^2 + sum(i, 1, 20, x[i]'^2))/2\n",
+                 factors[i]);
+        dal_model *model = fixture_model(text);
+        limit_of_graphs = 1500;
+        CU_ASSERT_EQUAL(make_system(model, &error), DAL_STATUS_TOO_LARGE);
+        limit_of_graphs = 0;
+        CU_ASSERT_STRING_EQUAL(error.message,
+                               "the mass matrix of 20 coordinates couples too many of them");
+        dal_model_free(model);
+    }
+}
+
 static void test_tangents(void) { fill("chaplygin-sleigh", DAL_EFFORT_CONSTRAINT, make_tangent); }
 
 static void test_analyses(void)
@@ -155,6 +177,7 @@ void suite_full_graph(void)
 {
     CU_pSuite suite = CU_add_suite("a graph that is full", NULL, NULL);
     CU_add_test(suite, "systems", test_systems);
+    CU_add_test(suite, "many coupled coordinates", test_coupled);
     CU_add_test(suite, "tangent systems", test_tangents);
     CU_add_test(suite, "analyses of formulas", test_analyses);
 }

@@ -1,7 +1,9 @@
 /* test_model_hand.c - models made entry by entry, and what is refused of them. */
+#include "fixtures.h"
 #include <CUnit/Basic.h>
 #include <dalembert.h>
 #include <stdio.h>
+#include <string.h>
 
 static void test_add(void)
 {
@@ -82,6 +84,31 @@ static void test_add_reactions(void)
     dal_model_free(model);
 }
 
+/* What is observed is a formula, whose brackets are no range. */
+static void test_observed(void)
+{
+    static const char text[] = "coordinates: ['x[1..2]']\nlagrangian: (x1'^2 + x2'^2)/2\n";
+    const char *name = text;
+    int line = 0, column = 0;
+    dal_error error = {0};
+    const dal_system *system;
+    dal_model *model = fixture_model(text);
+    CU_ASSERT_STRING_EQUAL(dal_model_text(model, DAL_SECTION_COORDINATES, 0, &name, &line, &column),
+                           "x[1..2]");
+    CU_ASSERT(name == NULL && line == 1 && column == 16);
+    CU_ASSERT_PTR_NULL(dal_model_text(model, DAL_SECTION_COORDINATES, 1, NULL, NULL, NULL));
+    CU_ASSERT_EQUAL(dal_model_observe(model, "x[2]^2", 0, 0, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(system->observed, 1);
+    CU_ASSERT_STRING_EQUAL(system->invariant[0], "x[2]^2");
+    dal_model_free(model);
+    model = fixture_model(text);
+    CU_ASSERT_EQUAL(dal_model_observe(model, "x1 + u", 0, 0, &error), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_STATUS_NAME);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "unknown name 'u'"));
+    dal_model_free(model);
+}
+
 void suite_model_hand(void)
 {
     CU_pSuite suite = CU_add_suite("models by hand", NULL, NULL);
@@ -89,4 +116,5 @@ void suite_model_hand(void)
     CU_add_test(suite, "no entries after the system", test_add_after);
     CU_add_test(suite, "no tangent of vakonomic motion", test_vakonomic_tangent);
     CU_add_test(suite, "reactions", test_add_reactions);
+    CU_add_test(suite, "observed formulas", test_observed);
 }

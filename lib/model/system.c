@@ -169,16 +169,15 @@ static void add_to_both(dal_model *model, dal__program_code code, const dal__nod
         dal__programs_add(model, programs[k], code, outputs, count);
 }
 
-/* The correction by which v returns to D = 0; nothing where W, or A W^-1 A^T, has no inverse. */
-static dal_status add_correction(dal_model *model)
+/* The correction by which v returns to D = 0; nothing where W, or A W^-1 A^T, has no inverse or
+ * couples too many coordinates. */
+static void add_correction(dal_model *model)
 {
     const dal__equations *e = &model->equations;
     dal__node *x = dal__model_nodes(model, e->n, 0);
-    if (e->m == 0 || (!e->U[0] && !is_by_columns(e))) return DAL_STATUS_OK;
-    const dal_status status = dal__motion_correct(model, x);
-    if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
-    if (status == DAL_STATUS_OK) add_to_both(model, DAL__PROGRAM_CORRECTION, x, e->n);
-    return status;
+    if (e->m == 0 || (!e->U[0] && !is_by_columns(e))) return;
+    if (dal__motion_correct(model, x) == DAL_STATUS_OK)
+        add_to_both(model, DAL__PROGRAM_CORRECTION, x, e->n);
 }
 
 /* K pi and its derivatives, of an effort that is not the identity.  Nodes are made after all
@@ -219,34 +218,28 @@ static dal_status add_motion_equations(dal_model *model, dal_error *error)
 }
 
 /* What enforces g alone; where W need not have an inverse it is made of the constraint. */
-static dal_status add_position(dal_model *model)
+static void add_position(dal_model *model)
 {
     const dal__equations *e = &model->equations;
     const int count = e->n + e->holonomic;
-    if (DAL__HOLONOMIC_COUNT(e) == 0 || e->restricted) return DAL_STATUS_OK;
+    if (DAL__HOLONOMIC_COUNT(e) == 0 || e->restricted) return;
     dal__node *out = dal__model_nodes(model, count, 0);
-    const dal_status status = dal__motion_place(model, out);
-    if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
-    if (status == DAL_STATUS_OK) add_to_both(model, DAL__PROGRAM_POSITION, out, count);
-    return status;
+    if (dal__motion_place(model, out) == DAL_STATUS_OK)
+        add_to_both(model, DAL__PROGRAM_POSITION, out, count);
 }
 
 /* What enforces D at a velocity; of vakonomic systems nothing where A W^-1 A^T has no inverse. */
-static dal_status add_enforcement(dal_model *model)
+static void add_enforcement(dal_model *model)
 {
     const dal__equations *e = &model->equations;
     const int n = e->n, m = e->m;
     dal__node *out = dal__model_nodes(model, 2 * n + m, 0), *y = out + n + m;
-    if (model->out_of_memory) return DAL_STATUS_OK;
-    if (e->vakonomic && (m == 0 || !e->U[0])) return DAL_STATUS_OK;
-    const dal_status status = dal__motion_enforce(model, out);
-    if (status == DAL_STATUS_SINGULAR) return DAL_STATUS_OK;
-    DAL_TRY(status);
+    if (model->out_of_memory || (e->vakonomic && (m == 0 || !e->U[0]))) return;
+    if (dal__motion_enforce(model, out) != DAL_STATUS_OK) return;
     dal__motion_react(model, y);
     add_to_both(model, DAL__PROGRAM_ENFORCEMENT, out, n + m);
     add_to_both(model, DAL__PROGRAM_REACTION, y, n);
     if (m > 0) add_to_both(model, DAL__PROGRAM_CONSTRAINT_VALUE, e->constraint, m);
-    return DAL_STATUS_OK;
 }
 
 /* What the scales of D, E, invariants, g, h and R = B^T h are made from.  Nodes are made after all
@@ -317,9 +310,9 @@ static dal_status make_system(dal_model *model, dal_error *error)
     DAL_TRY(dal__parse_observed(model, error));
     dal__insert_reactions(model);
     if (e->invariants) add_to_both(model, DAL__PROGRAM_INVARIANTS, e->invariant, e->invariants);
-    DAL_TRY(dal__check_size(add_correction(model), error));
-    DAL_TRY(dal__check_size(add_enforcement(model), error));
-    DAL_TRY(dal__check_size(add_position(model), error));
+    add_correction(model);
+    add_enforcement(model);
+    add_position(model);
     DAL_TRY(add_effort(model, error));
     DAL_TRY(add_motion_equations(model, error));
     add_terms(model);
