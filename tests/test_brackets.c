@@ -110,6 +110,19 @@ static void test_stationarity(void)
     dal_evaluator_free(evaluator);
 }
 
+/* Vakonomic motion has no lift, whose actions these are. */
+static void test_no_lift(void)
+{
+    const dal_system *system = fixture_system("chaplygin-sleigh-vakonomic");
+    dal_evaluator *evaluator = fixture_evaluator(system);
+    double states[STATES * WIDE] = {0.0}, value;
+    CU_ASSERT_EQUAL(dal_evaluator_measure_action(evaluator, 0.0, 0.05, 10, states, 1.0, &value),
+                    DAL_STATUS_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_evaluator_check_stationarity(evaluator, 0.0, 0.05, 3, states, &value),
+                    DAL_STATUS_UNSUPPORTED);
+    dal_evaluator_free(evaluator);
+}
+
 void suite_brackets(void)
 {
     CU_pSuite suite = CU_add_suite("measures of the lift", NULL, NULL);
@@ -117,4 +130,5 @@ void suite_brackets(void)
     CU_add_test(suite, "the action, closed form", test_action_closed_form);
     CU_add_test(suite, "the action of the sleigh", test_action_of_the_sleigh);
     CU_add_test(suite, "the first-order action", test_stationarity);
+    CU_add_test(suite, "no lift", test_no_lift);
 }

@@ -512,8 +512,6 @@ static void test_measures(void)
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", DIFFERENCES, measure_action);
     trial_each_lifted_call(sleigh, DAL_EFFORT_MASS, "gauss4", 0.0, measure_curve);
     trial_each_call(sleigh, "gauss4", DAL_LIFTED, 0.0, check_discrete);
-    trial_each_call(gauged, "gauss4", DAL_LIFTED, 0.0, measure_curve);
-    trial_each_call(gauged, "gauss4", DAL_LIFTED, DIFFERENCES, measure_action);
 }
 
 /* A callback that always fails gives its own status. */
@@ -527,6 +525,9 @@ static void test_statuses(void)
         trial_each_callback(sleigh, DAL_EFFORT_CONSTRAINT, "gauss4", DAL_LIFTED, works[i]);
         trial_each_callback(swing, DAL_EFFORT_IDENTITY, "rk4", DAL_PHYSICAL, works[i]);
     }
+    trial_each_callback(gauged, DAL_EFFORT_IDENTITY, "gauss4", DAL_LIFTED, measure_action);
+    trial_each_callback(gauged, DAL_EFFORT_IDENTITY, "gauss4", DAL_LIFTED, measure_curve);
+    trial_each_callback(sleigh, DAL_EFFORT_IDENTITY, "gauss4", DAL_LIFTED, check_discrete);
 }
 
 /* A run has no scales where a callback fails that they are made of. */
