@@ -10,6 +10,7 @@
 #include <stdio.h>
 
 enum { MAX_TRIALS = 600 };
+#define CALLS case_stride(3)
 /* Calls that fail in a row: differences fail where all of their 24 attempts do; with fewer they
  * are less accurate. */
 static const long in_a_row[] = {1, 24, LONG_MAX};
@@ -30,7 +31,7 @@ void trial_add_run(trial *t, const dal_run *run)
 static bool are_close(const trial *a, const trial *b, double tolerance)
 {
     if (isinf(tolerance)) return true;
-    bool is_close = a->count == b->count;
+    bool is_close = a->count == b->count && tolerance >= 0.0;
     for (int i = 0; is_close && i < a->count; i++) {
         const double x = a->out[i], y = b->out[i], size = fmax(fabs(x), 1.0);
         is_close = x == y || isnan(y) || fabs(x - y) <= tolerance * size;
@@ -42,9 +43,9 @@ static bool are_close(const trial *a, const trial *b, double tolerance)
 static bool is_noticed(const trial *well, long k, long count, trial_work *work)
 {
     trial other = {.spec = well->spec, .model = well->model};
-    const double other_differences =
-        count > 1 && well->tolerance > 0.0 ? OF_OTHER_DIFFERENCES : 0.0;
-    const double tolerance = fmax(well->tolerance, other_differences);
+    const bool has_differences = count > 1 && well->tolerance > 0.0;
+    const double tolerance =
+        has_differences ? fmax(well->tolerance, OF_OTHER_DIFFERENCES) : well->tolerance;
     failing_begin(k, count < LONG_MAX ? k + count - 1 : LONG_MAX);
     const dal_status seen = work(&other);
     const bool is_seen = seen == DAL_STATUS_IO || seen == DAL_STATUS_NOT_FINITE ||
@@ -57,11 +58,12 @@ static bool is_noticed(const trial *well, long k, long count, trial_work *work)
     return false;
 }
 
-static void each_call(const char *text, const char *method, trial *well, trial_work *work)
+static void each_call(const char *text, const char *method, trial *well, int stride,
+                      trial_work *work)
 {
     failing_begin(0, 0);
     const dal_status status = work(well);
-    const long total = failing_calls(), by = (total / MAX_TRIALS + 1) * case_stride(3);
+    const long total = failing_calls(), by = (total / MAX_TRIALS + 1) * stride;
     CU_ASSERT_EQUAL(status, DAL_STATUS_OK);
     CU_ASSERT(total > 0);
     if (status != DAL_STATUS_OK)
@@ -82,7 +84,16 @@ void trial_each_call(const char *text, const char *method, dal_space space, doub
 {
     const dal_system system = failing_system(fixture_system(text), NULL);
     trial well = {.spec = fixture_spec(&system, method, space, TRIAL_STEP), .tolerance = tolerance};
-    each_call(text, method, &well, work);
+    each_call(text, method, &well, CALLS, work);
+}
+
+void trial_each_call_of(const char *const *names, const char *text, const char *method,
+                        double tolerance, trial_work *work)
+{
+    const dal_system system = failing_system(fixture_system(text), names);
+    trial well = {.spec = fixture_spec(&system, method, DAL_PHYSICAL, TRIAL_STEP),
+                  .tolerance = tolerance};
+    each_call(text, method, &well, 1, work);
 }
 
 void trial_each_lifted_call(const char *text, dal_effort effort, const char *method,
@@ -100,7 +111,7 @@ void trial_each_lifted_call(const char *text, dal_effort effort, const char *met
     snprintf(name, sizeof name, "pi_%s", system->coordinate[0]);
     well.spec.start = &start;
     well.spec.start_count = 1;
-    each_call(text, method, &well, work);
+    each_call(text, method, &well, CALLS, work);
     dal_model_free(model);
 }
 
@@ -136,7 +147,7 @@ void trial_each_tangent_call(const char *text, const char *method, dal_space spa
     trial well = {.spec = fixture_spec(fixture_system(text), method, space, TRIAL_STEP),
                   .tolerance = tolerance};
     *tangent = &failing;
-    each_call(text, method, &well, work);
+    each_call(text, method, &well, CALLS, work);
     *tangent = NULL;
 }
 
@@ -151,7 +162,7 @@ void trial_each_model_call(const char *text, const char *method, dal_space space
                   .tolerance = tolerance};
     /* It is the model's, which a caller cannot change. */
     *(dal_system *)(void *)(size_t)(const void *)system = failing_system(system, NULL);
-    each_call(text, method, &well, work);
+    each_call(text, method, &well, CALLS, work);
     dal_model_free(model);
 }
 

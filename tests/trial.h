@@ -7,13 +7,15 @@
 #include <dalembert.h>
 
 enum { TRIAL_NUMBERS = 300 };
-#define TRIAL_STEP 0.1
+#define TRIAL_STEP  0.1
+#define TRIAL_FAILS (-1.0)
 
 typedef struct trial {
     dal_run_spec spec;
     dal_model *model; /* of the system, for a function that wants one; else NULL */
     double tolerance; /* of a result that differences with another increment may have; INFINITY:
-                       * of what the library only tries, as to hold a branch, any */
+                       * of what the library only tries, as to hold a branch, any; TRIAL_FAILS:
+                       * no failure leaves a result */
     dal_error error;
     double out[TRIAL_NUMBERS];
     int count;
@@ -27,6 +29,9 @@ void trial_add_run(trial *t, const dal_run *run); /* its state */
 /* Every call of the work on a system fails, or 600 of them, a third in a quick run. */
 void trial_each_call(const char *text, const char *method, dal_space space, double tolerance,
                      trial_work *work);
+/* Likewise every call of some callbacks, NULL ends them, in a quick run, too. */
+void trial_each_call_of(const char *const *names, const char *text, const char *method,
+                        double tolerance, trial_work *work);
 /* Likewise on the lifted space with another K than the paper's. */
 void trial_each_lifted_call(const char *text, dal_effort effort, const char *method,
                             double tolerance, trial_work *work);
