@@ -69,6 +69,11 @@ static dal_status keep_values(void *user, dal_run *run, int count, const double 
     trial_add(user, values, count);
     return DAL_STATUS_OK;
 }
+static dal_status keep_step(void *user, dal_run *run)
+{
+    trial_add_run(user, run);
+    return DAL_STATUS_OK;
+}
 static dal_status keep_scales(void *user, dal_run *run, const double *scales)
 {
     (void)run;
@@ -383,40 +388,6 @@ static dal_status cross(trial *t)
     return status;
 }
 
-static dal_status keep_event(void *user, dal_run *run, const dal_occurrence *event)
-{
-    trial_add(user, &event->t, 1);
-    trial_add_run(user, run);
-    return DAL_STATUS_OK;
-}
-static dal_status pass_events(trial *t)
-{
-    dal_run *run = NULL;
-    dal_status status = dal_run_create(&run, &t->spec, &t->error);
-    if (status == DAL_STATUS_OK)
-        status = fixture_events(run, 30.0 * t->spec.options.step, keep_event, t, &t->error);
-    const long long unresolved = run ? dal_run_unresolved(run, NULL) : 0;
-    trial_add_number(t, (double)unresolved);
-    if (status == DAL_STATUS_OK) trial_add_run(t, run);
-    dal_run_free(run);
-    return status;
-}
-
-/* Without rows, between which an event may be. */
-static dal_status advance_past_events(trial *t)
-{
-    dal_run *run = NULL;
-    dal_status status = dal_run_create(&run, &t->spec, &t->error);
-    if (status == DAL_STATUS_OK) status = dal_run_advance(run, 8, &t->error);
-    if (status == DAL_STATUS_OK) trial_add_run(t, run);
-    const long long count = run ? dal_run_event_count(run, 0) : 0;
-    trial_add_number(t, (double)count);
-    for (int i = 0; run && i < dal_run_observables(run); i++)
-        trial_add_number(t, dal_run_event_jump(run, i));
-    dal_run_free(run);
-    return status;
-}
-
 static dal_status scale(trial *t)
 {
     dal_scaled *scaled = NULL;
@@ -439,11 +410,6 @@ static const char ball[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y
                            "start: {y: 1}\n"
                            "events:\n  - {when: y, direction: down, restitution: 0.5}\n"
                            "  - {when: y - 0.2, direction: up, set: {x: x + 1}}\n";
-/* The force on x jumps at x = 0, and the one on y has a corner at x = 0.5. */
-static const char jump[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
-                           "forces: {x: -sign(x), y: abs(x - 0.5)}\n"
-                           "start: {x: 1}\nevents: [{when: x}, {when: x - 0.5}]\n";
-
 static const char hanging[] = "coordinates: [x, y]\nparameters: {g: 1}\n"
                               "lagrangian: (x'^2 + y'^2)/2 - g*y\n"
                               "holonomic: [x^2 + y^2 - 1]\nstart: {x: 1}\n";
@@ -475,7 +441,6 @@ static void test_memory(void)
     trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, measure_curve);
     trial_each_allocation(sleigh, "gauss4", DAL_LIFTED, check_discrete);
     trial_each_allocation(swing, "rk4", DAL_PHYSICAL, cross);
-    trial_each_allocation(ball, "rk4", DAL_PHYSICAL, pass_events);
 }
 
 static void each_work_fails(const char *text, const char *method, dal_space space, double tolerance,
@@ -499,6 +464,41 @@ static void test_runs(void)
     trial_each_call(sleigh, "rk4", DAL_PHYSICAL, 0.0, create_consistent);
     trial_each_call(off, "gauss4+project", DAL_PHYSICAL, 0.0, create_consistent);
     trial_each_call(hanging, "gauss4+project", DAL_PHYSICAL, 0.0, change);
+}
+
+static dal_status step_in_quad(trial *t) { return t->spec.options.precision = DAL_QUAD, step(t); }
+
+/* With rows within a step. */
+static dal_status sample_in_quad(trial *t)
+{
+    t->spec.options.precision = DAL_QUAD;
+    t->spec.options.tolerance = 1e-6;
+    return sample(t);
+}
+
+/* Alone, without values that an observer has. */
+static dal_status sample_steps(trial *t)
+{
+    dal_run *run = NULL;
+    const dal_observer observer = {.user = t, .step = keep_step, .every = 2};
+    const double T = 6.0 * t->spec.options.step;
+    dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    if (status == DAL_STATUS_OK) status = dal_run_sample(run, T, 1, 0, &observer, &t->error);
+    dal_run_free(run);
+    return status;
+}
+
+static void test_steps(void)
+{
+    static const char *const field[] = {"field", NULL}, *const energy[] = {"energy", NULL},
+                             *const constraints[] = {"constraints", NULL};
+    trial_each_call_of(field, sleigh, "rk4", TRIAL_FAILS, step);
+    trial_each_call_of(field, sleigh, "rk4", TRIAL_FAILS, step_in_quad);
+    trial_each_call_of(field, sleigh, "dop853", 1e-5, sample_in_quad); /* substeps halve */
+    trial_each_call_of(field, sleigh, "rk4", TRIAL_FAILS, sample_steps);
+    trial_each_call_of(energy, ball, "rk4", TRIAL_FAILS, sample);
+    trial_each_call_of(energy, sleigh, "rk4", TRIAL_FAILS, observe);
+    trial_each_call_of(constraints, sleigh, "rk4", TRIAL_FAILS, observe);
 }
 
 static void test_measures(void)
@@ -586,56 +586,20 @@ static void test_scales(void)
     no_scales(hanging, false, DAL_PHYSICAL, false);
 }
 
-/* ---- where events are searched ---- */
-
-/* The event does not happen: its rate is too large for one; F jumps; it turns
- * before 0. */
-#define PASSING(when)                                                                              \
-    "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\nevents: [{when: \"" when "\"}]\n"
-static const char *const passing[] = {PASSING("cos(300*x) + 2"),
-                                      PASSING("if(x < 0.33, x + 5, x + 9)"),
-                                      PASSING("(x - 0.45)^2 + 0.001")};
-/* Both zeros of the event are in one step: where it turns, and where it has just acted. */
-static const char turning[] = PASSING("(x - 0.45)^2 - 0.0004");
-static const char low[] = "coordinates: [x]\nlagrangian: x'^2/2 - x\nstart: {x: 0.001}\n"
-                          "events: [{when: x, direction: down, restitution: 1}]\n";
-
-static const char drop[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y\n"
-                           "start: {y: 0.05}\n"
-                           "events:\n  - {when: y, direction: down, restitution: 0.5}\n"
-                           "  - {when: y - 0.01, direction: up, set: {x: x + 1}}\n";
-
-static void test_searches(void)
-{
-    static const char *const names[][2] = {
-        {"event_values"}, {"event_rates"}, {"event_normals"}, {"energy"}, {"event_states"}};
-    for (size_t i = 0; i < sizeof passing / sizeof *passing; i++)
-        for (int k = 0; k < 3; k++)
-            trial_each_call_of(names[k], passing[i], "rk4", TRIAL_FAILS, advance_past_events);
-    for (int k = 0; k < 5; k++) {
-        trial_each_call_of(names[k], drop, "rk4", 1e-13, advance_past_events);
-        if (k == 4) continue;
-        trial_each_call_of(names[k], turning, "rk4", 1e-13, advance_past_events);
-        trial_each_call_of(names[k], low, "rk4", 1e-13, advance_past_events);
-    }
-}
-
 static void test_places(void)
 {
     trial_each_call(swing, "rk4", DAL_PHYSICAL, 0.0, cross);
-    trial_each_call(ball, "rk4", DAL_PHYSICAL, 1e-13, pass_events);
     trial_each_call(ball, "rk4", DAL_PHYSICAL, 1e-13, sample);
-    trial_each_call(jump, "rk4", DAL_PHYSICAL, INFINITY, pass_events);
 }
 
 void suite_callbacks(void)
 {
     CU_pSuite suite = CU_add_suite("callbacks that fail", NULL, NULL);
     CU_add_test(suite, "runs and batches", test_runs);
+    CU_add_test(suite, "steps", test_steps);
     CU_add_test(suite, "measures", test_measures);
     CU_add_test(suite, "the status of a callback", test_statuses);
     CU_add_test(suite, "scales", test_scales);
-    CU_add_test(suite, "crossings and events", test_places);
-    CU_add_test(suite, "searches of events", test_searches);
+    CU_add_test(suite, "crossings, and rows between events", test_places);
     CU_add_test(suite, "out of memory", test_memory);
 }
