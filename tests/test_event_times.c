@@ -322,6 +322,43 @@ static void test_restart(void)
     }
 }
 
+/* ---- where they stop a run ---- */
+
+typedef struct stop_rows {
+    int count;
+    bool refuses; /* the row where the run has stopped */
+} stop_rows;
+
+static dal_status count_row(void *user, dal_run *run, long long row, double t)
+{
+    stop_rows *r = user;
+    (void)row, (void)t;
+    r->count++;
+    return r->refuses && dal_run_stopped(run) ? DAL_STATUS_IO : DAL_STATUS_OK;
+}
+
+/* An event that stops within rounding of the last row stops there, and no row is after it; what the
+ * observer refuses of that row ends the sampling with its status. */
+static void test_stops(void)
+{
+    static const char text[] = "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\n"
+                               "events: [{when: x - 1 + 1e-12, stop: true}]\n";
+    const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.125);
+    for (int refuses = 0; refuses <= 1; refuses++) {
+        stop_rows r = {.refuses = refuses};
+        const dal_observer observer = {.user = &r, .sample = count_row};
+        dal_error error;
+        dal_run *run = fixture_run(&spec);
+        CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 1, 0, &observer, &error),
+                        refuses ? DAL_STATUS_IO : DAL_STATUS_STOPPED);
+        CU_ASSERT_EQUAL(error.status, refuses ? DAL_STATUS_IO : DAL_STATUS_STOPPED);
+        CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 1, 1, &observer, &error), DAL_STATUS_STOPPED);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.message, " stopped the run at t = 0.99999999999"));
+        CU_ASSERT_EQUAL(r.count, 2);
+        dal_run_free(run);
+    }
+}
+
 void suite_event_times(void)
 {
     CU_pSuite suite = CU_add_suite("event times", NULL, NULL);
@@ -336,4 +373,5 @@ void suite_event_times(void)
     CU_add_test(suite, "with an index", test_index);
     CU_add_test(suite, "after a change of a parameter", test_parameter);
     CU_add_test(suite, "the step after an event", test_restart);
+    CU_add_test(suite, "stopped at a row", test_stops);
 }
