@@ -132,16 +132,21 @@ static void test_impossible(void)
     free(bad);
 }
 
-/* A number of a run that is neither 0 nor 1, at a place after the clock. */
-static void refuse_half(dal_run *run, size_t place, const char *name)
+static void refuse(dal_run *run, size_t at, double x, const char *name)
 {
     size_t count;
     dal_error error = {0};
     double *bad = saved_copy(run, &count);
-    bad[dal__at(&run->layout, DAL__TIME) + DAL__CLOCK_SIZE + place] = 0.5;
+    bad[at] = x;
     CU_ASSERT_EQUAL(dal_run_restore(run, bad, count, &error), DAL_STATUS_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, name));
     free(bad);
+}
+
+/* A number of a run that is neither 0 nor 1, at a place after the clock. */
+static void refuse_half(dal_run *run, size_t place, const char *name)
+{
+    refuse(run, dal__at(&run->layout, DAL__TIME) + DAL__CLOCK_SIZE + place, 0.5, name);
 }
 
 /* What few methods and systems have: accelerations, and pivots that are compared. */
@@ -161,7 +166,27 @@ static void test_impossible_flags(void)
     CU_ASSERT(k->pivots > 0);
     refuse_half(run, 6 + (size_t)DAL__COUNT_MULTIPLIER(k) + (size_t)k->acceleration,
                 "whether pivots are unsteady");
+    CU_ASSERT(DAL__COUNT_THREE(k) > 0);
+    for (size_t i = 1; i <= (size_t)DAL__COUNT_THREE(k); i++)
+        refuse(run, dal__at_changed(k) - i, -1.0, "a count of the choice of a solver");
+    refuse(run, dal__at_changed(k), 0.5, "whether a parameter was changed");
     dal_run_free(run);
+}
+
+/* A run that an event has stopped is one that there may be. */
+static void test_stopped(void)
+{
+    const dal_run_spec spec = spec_of(ball, "rk4", DAL_PHYSICAL, 0.0);
+    dal_run *run = fixture_run(&spec), *other = fixture_run(&spec);
+    size_t count;
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "c", 1.0, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 1000, NULL), DAL_STATUS_STOPPED);
+    const double *saved = dal_run_save(run, &count);
+    CU_ASSERT_EQUAL(dal_run_restore(other, saved, count, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_stopped(other), 2);
+    CU_ASSERT_EQUAL(dal_run_event_count(other, 1), 1);
+    dal_run_free(run);
+    dal_run_free(other);
 }
 
 /* Only what events change has a jump, and only after one. */
@@ -262,5 +287,6 @@ void suite_checkpoints(void)
     CU_add_test(suite, "impossible numbers", test_impossible);
     CU_add_test(suite, "impossible flags", test_impossible_flags);
     CU_add_test(suite, "impossible jumps", test_impossible_jumps);
+    CU_add_test(suite, "a run that was stopped", test_stopped);
     CU_add_test(suite, "every number and byte changed", test_changed);
 }
