@@ -136,6 +136,36 @@ static void test_systems(void)
     }
 }
 
+/* What a method, a space or an option needs, and a system lacks. */
+static void test_lacking(void)
+{
+    static const char spring[] = "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\n";
+    static const char vakonomic[] = "coordinates: [x, y]\nmechanics: vakonomic\n"
+                                    "lagrangian: (x'^2 + y'^2)/2\nconstraints: [\"y' - x*x'\"]\n";
+    const dal_system whole = *fixture_system(spring);
+    dal_system no_field = whole, no_normal = whole, no_energy = whole, no_potential = whole;
+    no_field.call.field = NULL;
+    no_normal.call.energy_normal = NULL;
+    no_energy.energy = NULL;
+    no_potential.call.potential = NULL;
+    const struct {
+        const dal_system *system;
+        const char *method, *message;
+        bool extends;
+    } cases[] = {
+        {&no_field, "rk4", ": the system has no field", false},
+        {&no_normal, "rk4+project-energy", ": the system has no energy_normal", false},
+        {&no_energy, "rk4+project-energy", ": the system has no energy", false},
+        {&no_potential, "discrete-gradient", ": the system has no potential (its", false},
+        {fixture_system(vakonomic), "rk4", ": vakonomic motion does not conserve the", true},
+        {&no_energy, "rk4", ": the system has no energy", true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        dal_run_spec spec = fixture_spec(cases[i].system, cases[i].method, DAL_PHYSICAL, 0.1);
+        spec.options.extend_energy = cases[i].extends;
+        fixture_refused(&spec, DAL_STATUS_UNSUPPORTED, cases[i].message);
+    }
+}
+
 static void test_models(void)
 {
     dal_error error;
@@ -414,6 +444,7 @@ void suite_refusals(void)
     CU_add_test(suite, "batches", test_batches);
     CU_add_test(suite, "runs", test_runs);
     CU_add_test(suite, "systems made by hand", test_systems);
+    CU_add_test(suite, "what systems lack", test_lacking);
     CU_add_test(suite, "models", test_models);
     CU_add_test(suite, "events that lead out", test_events);
     CU_add_test(suite, "events that would be passed over", test_passing_events);
