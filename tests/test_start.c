@@ -63,6 +63,46 @@ static void test_rank(void)
     CU_ASSERT_EQUAL(rank(-1.9e-6), DAL_STATUS_RANK);
 }
 
+/* D restricts no velocity at the start: no name of one can help. */
+static void test_no_hint(void)
+{
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                    "constraints: [\"x*y' - 1\"]\n"),
+                     "rk4", DAL_PHYSICAL, 0.1);
+    dal_run *run = NULL;
+    dal_error error;
+    CU_ASSERT_EQUAL(dal_run_create(&run, &spec, &error), DAL_STATUS_INCONSISTENT);
+    CU_ASSERT_STRING_EQUAL(error.message, "the start violates constraint 1: D1 = -1");
+    dal_run_free(run);
+}
+
+static dal_status rest(const dal_system *system, const dal_point *at, double *out)
+{
+    (void)at;
+    for (int i = 0; i < system->n; i++) out[i] = 0.0;
+    return DAL_STATUS_OK;
+}
+
+/* The same of a parameter that changes, where F has values all the same. */
+static void test_rank_of_parameters(void)
+{
+    dal_system system =
+        *fixture_system("coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                        "parameters: {s: 1}\nconstraints: [x' - y', x' - (1 + s)*y']\n");
+    system.call.field = rest;
+    system.diagnose = NULL;
+    const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
+    dal_run *run = fixture_run(&spec);
+    dal_error error;
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "s", 2.1e-6, NULL), DAL_STATUS_OK);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "s", 1.9e-6, &error), DAL_STATUS_RANK);
+    CU_ASSERT_PTR_NOT_NULL(
+        strstr(error.message, "parameter s = 1.9e-06: constraint 2 restricts, except for"));
+    CU_ASSERT_EQUAL(dal_run_parameters(run)[0], 2.1e-6);
+    dal_run_free(run);
+}
+
 /* x = 2 exp(-t): the error is observed where |x - 2|, |x' + 2| <= 1e-10 2. */
 static int observables(const char *name, double off)
 {
@@ -367,6 +407,8 @@ static void test_not_solved(void)
          "for both x' and y', which constraint 1 restricts", DAL_STATUS_RANK, 28},
         {SPACE "constraints: [z' - 2, x' + y' - 1]\nstart: {solve: [y', z']}\n", "", DAL_STATUS_OK,
          0},
+        {PLANE "holonomic: [x^2 + y^2 - y + 1]\nstart: {solve: [y]}\n",
+         "cannot be solved for y: no root of", DAL_STATUS_INCONSISTENT, 17},
         {SPACE "constraints: [x' - 2]\nstart: {x': 2, solve: [y']}\n",
          "for y': no constraint restricts it", DAL_STATUS_RANK, 24},
     };
@@ -542,6 +584,8 @@ void suite_start(void)
     CU_add_test(suite, "what is no list of velocities", test_solve_misspelt);
     CU_add_test(suite, "what cannot be made consistent", test_unsolvable);
     CU_add_test(suite, "pivots are 1e-12 at least", test_rank);
+    CU_add_test(suite, "pivots of a parameter that changes", test_rank_of_parameters);
+    CU_add_test(suite, "a constraint without velocities", test_no_hint);
     CU_add_test(suite, "an exact solution begins there within 1e-10", test_exact);
     CU_add_test(suite, "an exact solution that begins at 0, in all units", test_exact_zero);
     CU_add_test(suite, "an exact solution that ends", test_exact_ends);
