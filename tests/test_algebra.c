@@ -1,4 +1,7 @@
 /* test_algebra.c - products and eliminations that skip zeros: the bits of those that do not. */
+#include "core/machine.h"
+#include "core/sizes.h"
+#include "core/vectors.h"
 #include "kernel/algebra.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -111,6 +114,48 @@ static void test_solve(void)
     }
 }
 
+/* ---- sizes ---- */
+
+/* Where the largest number is: the first of equal ones, and the first that is none. */
+static void test_largest(void)
+{
+    static const struct {
+        double x[4];
+        int at;
+        double max;
+    } cases[] = {
+        {{1.0, -3.0, 2.0, 3.0}, 1, 3.0},          {{0.0, 0.0, 0.0, 0.0}, 0, 0.0},
+        {{1.0, 2.0, -4.0, 3.0}, 2, 4.0},          {{-0.0, 0.0, 0.0, 0x1p-1074}, 3, 0x1p-1074},
+        {{1.0, NAN, INFINITY, 2.0}, 1, INFINITY}, {{1.0, 2.0, -INFINITY, 3.0}, 2, INFINITY},
+        {{NAN, 2.0, 3.0, NAN}, 0, INFINITY}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        CU_ASSERT_EQUAL(dal__find_max_abs(cases[i].x, 4), cases[i].at);
+        CU_ASSERT_EQUAL(dal__max_abs(cases[i].x, 4), cases[i].max);
+    }
+}
+
+/* The power of 2 from x 1.23/2 on, of an exponent of at most 500; 1 for what is no number. */
+static void test_power_of_two(void)
+{
+    static const double cases[][2] = {{1.0, 1.0},         {1.6, 1.0},       {1.63, 2.0},
+                                      {0.8, 0.5},         {0.82, 1.0},      {3e6, 0x1p21},
+                                      {1e-300, 0x1p-501}, {1e300, 0x1p499}, {0x1p-1074, 0x1p-501},
+                                      {0.0, 0.0},         {-2.0, 0.0},      {NAN, 1.0},
+                                      {INFINITY, 1.0},    {-INFINITY, 1.0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        CU_ASSERT_EQUAL(dal__near_power_of_two(cases[i][0]), cases[i][1]);
+}
+
+/* The best instruction set is the last that the machine has; every machine has the first. */
+static void test_machine(void)
+{
+    const int best = (int)dal__machine_best();
+    CU_ASSERT(dal__machine_has(DAL__BASE));
+    CU_ASSERT(dal__machine_has((dal__instructions)best));
+    for (int set = best + 1; set < DAL__INSTRUCTION_SETS; set++)
+        CU_ASSERT_FALSE(dal__machine_has((dal__instructions)set));
+}
+
 void suite_algebra(void);
 void suite_algebra(void)
 {
@@ -118,4 +163,7 @@ void suite_algebra(void)
     CU_add_test(suite, "A B with zeros", test_gram);
     CU_add_test(suite, "eliminations with zeros", test_eliminate);
     CU_add_test(suite, "solutions with zeros", test_solve);
+    CU_add_test(suite, "the largest number", test_largest);
+    CU_add_test(suite, "powers of 2", test_power_of_two);
+    CU_add_test(suite, "instruction sets", test_machine);
 }

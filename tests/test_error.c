@@ -90,6 +90,15 @@ static void test_nearest(void)
     CU_ASSERT_STRING_EQUAL(nearest("chaplygin-sleigh"), "none");
 }
 
+/* The spellings of a velocity, which are more than a third of the name away. */
+static void test_velocities(void)
+{
+    static const char *const others[] = {"vy1", "v_y1", "dy1", "y1dot", "y1_dot"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        CU_ASSERT_STRING_EQUAL(nearest(others[i]), "y1'");
+    CU_ASSERT_STRING_EQUAL(nearest("y1_dots"), "none");
+}
+
 static void test_nearest_of_long_names(void)
 {
     char text[4096];
@@ -119,6 +128,7 @@ void suite_error(void)
     CU_add_test(suite, "an error that is about no text", test_record_without_a_place);
     CU_add_test(suite, "a long message is cut", test_record_is_cut_not_overrun);
     CU_add_test(suite, "the nearest name", test_nearest);
+    CU_add_test(suite, "other spellings of velocities", test_velocities);
     CU_add_test(suite, "the nearest of long names", test_nearest_of_long_names);
     CU_add_test(suite, "an unknown name", test_unknown);
 }
