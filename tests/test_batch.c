@@ -4,6 +4,7 @@
 #include "fixtures.h"
 #include "quick.h"
 #include "run/batch.h"
+#include "run/engine.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdio.h>
@@ -234,6 +235,22 @@ static void test_singular_lane(void)
     }
 }
 
+/* Compiled steps have as many lanes as the widest engine that few lanes fill. */
+static void test_native_lanes(void)
+{
+    const dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
+    static const int counts[] = {1, 2, 4, 5, 8, 100};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        dal_batch *batch = NULL;
+        CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, counts[i], 0, NULL), DAL_STATUS_OK);
+        const dal__layout *k = dal__batch_layout(batch);
+        const int four = dal__engine_best(k, 4) ? 4 : 1, eight = dal__engine_best(k, 8) ? 8 : four;
+        const int few = counts[i] > 1 ? four : 1;
+        CU_ASSERT_EQUAL(dal__batch_native_lanes(batch), counts[i] > 4 ? eight : few);
+        dal_batch_free(batch);
+    }
+}
+
 static void test_arguments(void)
 {
     const dal_run_spec spec =
@@ -424,6 +441,7 @@ void suite_batch(void)
     CU_add_test(suite, "a failed lane stays where it is", test_failed_lane_stays);
     CU_add_test(suite, "a lane whose constraint turns singular", test_singular_lane);
     CU_add_test(suite, "arguments", test_arguments);
+    CU_add_test(suite, "lanes of compiled steps", test_native_lanes);
     CU_add_test(suite, "lanes started again", test_cleared);
     CU_add_test(suite, "lanes with times of their own", test_own_times);
     CU_add_test(suite, "out of memory", test_out_of_memory);

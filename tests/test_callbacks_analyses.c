@@ -3,6 +3,8 @@
  * that do (trial.h). */
 #include "allocation.h"
 #include "fixtures.h"
+#include "run/quad.h"
+#include "run/run.h"
 #include "trial.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -135,6 +137,22 @@ static dal_status predict_by_short_motion(trial *t)
     return status;
 }
 
+/* What a step changes of D, E and invariants, in quad precision. */
+static dal_status change_in_quad(trial *t)
+{
+    enum { MAX = 8 };
+    _Alignas(16) double memory[4 * MAX];
+    double change[MAX] = {0};
+    dal_run *run = NULL;
+    t->spec.options.precision = DAL_QUAD;
+    dal_status status = dal_run_create(&run, &t->spec, &t->error);
+    if (status == DAL_STATUS_OK)
+        status = t->error.status = dal__quad_change(&run->quad, TRIAL_STEP, memory, change);
+    trial_add(t, change, MAX);
+    dal_run_free(run);
+    return status;
+}
+
 static dal_status predict_pieces(trial *t)
 {
     dal_prediction *p = NULL;
@@ -250,6 +268,12 @@ static void test_pairings(void)
 
 static void test_predictions(void)
 {
+    static const char *const names[][2] = {
+        {"field"}, {"constraints"}, {"energy"}, {"invariant_values"}};
+    for (int k = 0; k < 3; k++)
+        trial_each_call_of(names[k], sleigh, "rk4", TRIAL_FAILS, change_in_quad);
+    for (int k = 0; k < 4; k += 3)
+        trial_each_call_of(names[k], pendulum, "rk4", TRIAL_FAILS, change_in_quad);
     trial_each_call(sleigh, "rk4", DAL_PHYSICAL, DIFFERENCES, predict);
     trial_each_call(pendulum, "rk4", DAL_PHYSICAL, DIFFERENCES, predict);
     trial_each_call(pendulum, "gauss4", DAL_PHYSICAL, DIFFERENCES, predict_pieces);

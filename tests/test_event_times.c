@@ -337,6 +337,13 @@ static dal_status count_row(void *user, dal_run *run, long long row, double t)
     return r->refuses && dal_run_stopped(run) ? DAL_STATUS_IO : DAL_STATUS_OK;
 }
 
+static dal_status ignore_values(void *user, dal_run *run, int count, const double *t,
+                                const double *values, size_t stride)
+{
+    (void)user, (void)run, (void)count, (void)t, (void)values, (void)stride;
+    return DAL_STATUS_OK;
+}
+
 /* An event that stops within rounding of the last row stops there, and no row is after it; what the
  * observer refuses of that row ends the sampling with its status. */
 static void test_stops(void)
@@ -344,9 +351,13 @@ static void test_stops(void)
     static const char text[] = "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 1}\n"
                                "events: [{when: x - 1 + 1e-12, stop: true}]\n";
     const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.125);
-    for (int refuses = 0; refuses <= 1; refuses++) {
+    for (int k = 0; k < 4; k++) {
+        const bool refuses = k % 2;
         stop_rows r = {.refuses = refuses};
-        const dal_observer observer = {.user = &r, .sample = count_row};
+        const dal_observer observer = {.user = &r,
+                                       .sample = count_row,
+                                       .values = k / 2 ? ignore_values : NULL,
+                                       .every = k / 2};
         dal_error error;
         dal_run *run = fixture_run(&spec);
         CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 1, 0, &observer, &error),

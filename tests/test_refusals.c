@@ -140,6 +140,7 @@ static void test_systems(void)
 static void test_lacking(void)
 {
     static const char spring[] = "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\n";
+    static const char position[] = "coordinates: [x]\nlagrangian: (1 + x^2)*x'^2/2\n";
     static const char vakonomic[] = "coordinates: [x, y]\nmechanics: vakonomic\n"
                                     "lagrangian: (x'^2 + y'^2)/2\nconstraints: [\"y' - x*x'\"]\n";
     const dal_system whole = *fixture_system(spring);
@@ -157,6 +158,7 @@ static void test_lacking(void)
         {&no_normal, "rk4+project-energy", ": the system has no energy_normal", false},
         {&no_energy, "rk4+project-energy", ": the system has no energy", false},
         {&no_potential, "discrete-gradient", ": the system has no potential (its", false},
+        {fixture_system(position), "discrete-gradient", ": the system has no constant mass", false},
         {fixture_system(vakonomic), "rk4", ": vakonomic motion does not conserve the", true},
         {&no_energy, "rk4", ": the system has no energy", true}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
