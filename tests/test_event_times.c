@@ -322,6 +322,37 @@ static void test_restart(void)
     }
 }
 
+#define CORNER(slope)                                                                              \
+    "coordinates: [x, y]\nparameters: {k: " slope "}\nlagrangian: (x'^2 + y'^2)/2\n"               \
+    "start: {x: 1, y: k/2, x': -1, y': -k/2}\n"                                                    \
+    "events:\n  - {when: y, direction: down, restitution: 1}\n"                                    \
+    "  - {when: k*x - y, direction: down, restitution: 1}\n"
+
+/* A point in the corner of two walls at an angle a is turned by 2a in each round of impacts, and
+ * leaves after pi/2a of them: too many for one time where a = 0.01. */
+static void test_corner(void)
+{
+    static const struct {
+        const char *text;
+        dal_status status;
+    } cases[] = {{CORNER("0.5"), DAL_STATUS_OK}, {CORNER("0.01"), DAL_STATUS_EVENT}};
+    for (int k = 0; k < 2; k++) {
+        const dal_run_spec spec =
+            fixture_spec(fixture_system(cases[k].text), "rk4", DAL_PHYSICAL, 0.0625);
+        dal_error error = {0};
+        dal_run *run = fixture_run(&spec);
+        const dal_status status = fixture_events(run, 1.5, NULL, NULL, &error);
+        CU_ASSERT_EQUAL(status, cases[k].status);
+        if (status == DAL_STATUS_EVENT)
+            CU_ASSERT_PTR_NOT_NULL(strstr(error.message, " happens infinitely often"));
+        CU_ASSERT_EQUAL(dal_run_time(run) > 1.0, status == DAL_STATUS_OK);
+        const double *v = dal_run_state(run) + 2;
+        CU_ASSERT_DOUBLE_EQUAL(hypot(v[0], v[1]), hypot(1.0, cases[k].status ? 0.005 : 0.25),
+                               1e-12);
+        dal_run_free(run);
+    }
+}
+
 /* ---- where they stop a run ---- */
 
 typedef struct stop_rows {
@@ -384,5 +415,6 @@ void suite_event_times(void)
     CU_add_test(suite, "with an index", test_index);
     CU_add_test(suite, "after a change of a parameter", test_parameter);
     CU_add_test(suite, "the step after an event", test_restart);
+    CU_add_test(suite, "in a corner", test_corner);
     CU_add_test(suite, "stopped at a row", test_stops);
 }
