@@ -44,6 +44,8 @@ void dal__phase_gradient(const dal__theory *w, dal__node f, dal__node *gradient)
 static void append_constraint(dal__chain *c, dal__node phi, int source, bool *ended)
 {
     const dal__theory *w = c->theory;
+    *ended = c->count == c->capacity || dal__theory_is_lost(w, c->pool);
+    if (*ended) return;
     dal__chain_constraint *added = &c->constraint[c->count];
     *added = (dal__chain_constraint){.phi = phi, .stage = c->stage, .source = source};
     added->gradient = dal__pool_nodes(c->pool, w->graph, 2 * (size_t)w->pairs);
