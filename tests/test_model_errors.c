@@ -37,7 +37,7 @@ static const bad_file yaml[] = {
     {DAL_STATUS_SYNTAX, "malformed YAML: did not find expected <document start>", XY L "...\n@}\n"},
     {DAL_STATUS_SYNTAX, "a second document begins here: a system file has one", XY L "@---\n" XY},
     {DAL_STATUS_SYNTAX, "malformed YAML: found character that cannot start any token",
-     "{title: x} @`\n"},
+     "--- {title: x} @`\n"},
     {DAL_STATUS_SYNTAX, "anchors and aliases are not supported", "title: @&a x\n"},
     {DAL_STATUS_SYNTAX, "anchors and aliases are not supported", "title: @*a\n"},
     {DAL_STATUS_SYNTAX, "a text holds a NUL character", "title: @\"a\\0b\"\n"},
