@@ -119,15 +119,57 @@ static void check_source(dal__generation *g, const dal__source *source, bool *us
     }
 }
 
+/* A generation whose conditions are decided. */
+static dal__generation decided(const dal_run_spec *spec)
+{
+    dal__generation g = {.spec = spec, .lanes = 1, .product = DAL__PRODUCT_LANES};
+    CU_ASSERT_EQUAL_FATAL(dal__generation_check(&g, "steps", NULL), DAL_STATUS_OK);
+    dal__decide_conditions(&g);
+    return g;
+}
+
+/* What the grammar of conditions knows is decided, and all else is left to the compiler. */
+static void test_chains(void)
+{
+    static const struct {
+        const char *text, *left; /* NULL: the same */
+    } cases[] = {
+        {"#if DAL_NUM_QUAD\na\n#else\nb\n#endif\n", "b\n"},
+        {"#ifdef DAL_SPECIALISED\na\n#else\nb\n#endif\n", "a\n"},
+        {"#ifndef DAL_NUM_QUAD\na\n#endif\n", "a\n"},
+        {"#if DAL_SPECIALISED && !DAL_NUM_QUAD\na\n#endif\n", "a\n"},
+        {"#if DAL_SPECIALISED && DAL_NUM_QUAD\na\n#endif\nb\n", "b\n"},
+        {"#if DAL_NUM_QUAD\na\n#elif OTHER\nb\n#endif\n", "#if OTHER\nb\n#endif\n"},
+        {"#ifdef OTHER\na\n#endif\n", NULL},
+        {"#if OTHER\na\n#else\nb\n#endif\n", NULL},
+        {"#if DAL_NUM_QUAD && OTHER\na\n#endif\n", NULL},
+        {"#if OTHER && DAL_NUM_QUAD\na\n#endif\n", NULL},
+        {"#if DAL_NUM_QUAD || OTHER\na\n#endif\n", NULL},
+        {"#if DAL_NUM_QUAD > 0\na\n#endif\n", NULL},
+        {"#define PREFIX_N 1\n", "#define steps_N 1\n"},
+    };
+    char name[64];
+    const dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh"),
+                                           fixture_method(0, name, sizeof name), DAL_LIFTED, 0.01);
+    dal__generation g = decided(&spec);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        dal__buffer_free(&g.text);
+        g.text = (dal__buffer){0};
+        dal__preprocess(&g, cases[i].text);
+        const char *const left = cases[i].left ? cases[i].left : cases[i].text;
+        CU_ASSERT_FATAL(g.text.length == strlen(left));
+        CU_ASSERT(memcmp(g.text.bytes, left, g.text.length) == 0);
+    }
+    dal__buffer_free(&g.text);
+}
+
 static void test_conditions(void)
 {
     char name[64];
     dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh"),
                                      fixture_method(0, name, sizeof name), DAL_LIFTED, 0.01);
-    dal__generation g = {.spec = &spec, .lanes = 1, .product = DAL__PRODUCT_LANES};
+    dal__generation g = decided(&spec);
     bool used[DAL__MAX_CONDITIONS] = {false};
-    CU_ASSERT_EQUAL_FATAL(dal__generation_check(&g, "steps", NULL), DAL_STATUS_OK);
-    dal__decide_conditions(&g);
     for (const dal__source *source = dal__sources; source->name; source++)
         check_source(&g, source, used);
     for (int i = 0; i < g.conditions; i++) {
@@ -143,5 +185,6 @@ void suite_generate_parts(void)
 {
     CU_pSuite suite = CU_add_suite("generate parts", set_up, NULL);
     CU_add_test(suite, "integrators compile with what they declare", test_parts);
+    CU_add_test(suite, "conditions that are decided, and others", test_chains);
     CU_add_test(suite, "conditions in sources are decided, and no others", test_conditions);
 }

@@ -5,11 +5,12 @@
 
 /* ---- sources ---- */
 
+/* The text of a source, which is one of the list. */
 static const char *source_text(const char *name)
 {
-    for (const dal__source *k = dal__sources; k->name; k++)
-        if (strcmp(k->name, name) == 0) return k->text;
-    return "";
+    const dal__source *k = dal__sources;
+    while (strcmp(k->name, name) != 0) k++;
+    return k->text;
 }
 
 #define INTEGRATOR(name, file) extern const dal_integrator dal_integrator_##name;
