@@ -1,5 +1,6 @@
 /* test_motion.c - F against other ways to it: by W^-1 alone, and reduced by hand; and the passes
  * that write it in few operations. */
+#include "allocation.h"
 #include "expr/angles.h"
 #include "expr/collect.h"
 #include "formula.h"
@@ -7,6 +8,7 @@
 #include "reference.h"
 
 #include <CUnit/CUnit.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -172,6 +174,19 @@ static void test_collect(void)
     dal__graph_free(graph);
 }
 
+/* Without memory it is not known how few operations are needed. */
+static void test_cost_memory(void)
+{
+    dal__graph *graph = formula_graph();
+    const dal__node node = formula_node(graph, "x + y");
+    CU_ASSERT_EQUAL(dal__cost(graph, &node, 1), 1);
+    allocation_fail_after(0);
+    const int cost = dal__cost(graph, &node, 1);
+    allocation_fail_after(-1);
+    CU_ASSERT_EQUAL(cost, INT_MAX);
+    dal__graph_free(graph);
+}
+
 /* Sums of angles are expanded where there are more of them than angles. */
 static void test_expand_angles(void)
 {
@@ -200,5 +215,6 @@ void suite_motion(void)
     CU_add_test(suite, "coupled masses by W^-1 alone", test_coupled_by_blocks);
     CU_add_test(suite, "reduced by hand", test_by_hand);
     CU_add_test(suite, "sums in few operations", test_collect);
+    CU_add_test(suite, "operations without memory", test_cost_memory);
     CU_add_test(suite, "sines of sums", test_expand_angles);
 }
