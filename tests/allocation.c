@@ -1,5 +1,5 @@
-/* allocation.c - malloc, calloc, realloc, aligned_alloc, free of the tests (linked with --wrap), and
- * the functions of libyaml that allocate: a call of these counts as one allocation. */
+/* allocation.c - malloc, calloc, realloc, aligned_alloc and free of the tests, linked with --wrap,
+ * and the functions of libyaml that allocate: a call of these counts as one allocation. */
 #include "allocation.h"
 #include "quick.h"
 

@@ -19,6 +19,13 @@ dal__node formula_resolve(void *user, const char *name, size_t length, bool prim
     return 0;
 }
 
+dal__node formula_resolve_index(void *user, const char *name, size_t length, bool prime,
+                                dal_error *error)
+{
+    const bool is_index = length == 2 && name[1] == '1';
+    return formula_resolve(user, name, is_index ? 1 : length, prime, error);
+}
+
 dal__graph *formula_graph(void)
 {
     dal__graph *graph = dal__graph_create(PARAMETERS);

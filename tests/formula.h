@@ -16,6 +16,9 @@ enum { A, B, X, Y, Z, XP, YP, ZP };
 /* Finds the symbols; user: the graph. */
 dal__node formula_resolve(void *user, const char *name, size_t length, bool prime,
                           dal_error *error);
+/* The same, where x[1] is x. */
+dal__node formula_resolve_index(void *user, const char *name, size_t length, bool prime,
+                                dal_error *error);
 dal__graph *formula_graph(void); /* with its two parameters */
 dal_status formula_parse(dal__graph *graph, const char *text, dal__node *node, dal_error *error);
 /* A formula that must be right: its node, or a failed assertion and 0. */

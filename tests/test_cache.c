@@ -146,8 +146,8 @@ static void test_only_cached(void)
     unlink("fake");
 }
 
-/* Where no object has the key, which tells names of coordinates and methods, no text is made, which
- * takes memory. */
+/* Where no object has the key, which depends on the names of coordinates and methods, no text is
+ * made, which takes memory. */
 static void test_key(void)
 {
     static const char renamed[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - 3*y^2/2\n"
